@@ -1,0 +1,43 @@
+# Thin: each target installs what is missing, configures, builds and runs. CMake and its presets do the work.
+.DEFAULT_GOAL := help
+.PHONY: help demo test bench stress format
+jobs := $(shell nproc)
+
+help:
+	@echo 'make demo     tears a model in the middle of its animation; pictures, GLB and report in demo/'
+	@echo 'make test     builds everything and runs all tests'
+	@echo 'make bench    runs the benchmarks'
+	@echo 'make stress   all tests with many more random cases, then again under the sanitizers'
+	@echo 'make format   clang-format over all our C++'
+
+demo:
+	scripts/setup demo
+	cmake --preset release
+	cmake --build --preset release --target sunder
+	build/release/tools/sunder demo -o demo
+	@echo; echo 'Look at:'; ls demo/*.png
+
+test:
+	scripts/setup demo test
+	cmake --preset release
+	cmake --build --preset release
+	ctest --preset release -j $(jobs)
+
+bench:
+	scripts/setup
+	cmake --preset release
+	cmake --build --preset release --target bench
+
+stress:
+	scripts/setup demo test
+	cmake --preset release
+	cmake --build --preset release
+	SUNDER_STRESS=1 ctest --preset release -j $(jobs)
+	cmake --preset asan
+	cmake --build --preset asan
+	ctest --preset asan -j $(jobs)
+
+sources := core skinning weights tear io tools samples tests bench include
+format:
+	scripts/setup format
+	find $(sources) -path '*/node_modules' -prune -o \( -name '*.h' -o -name '*.cpp' \) -print0 | xargs -0 clang-format -i

@@ -1,0 +1,22 @@
+# find_package(Sunder CONFIG) gives the targets sunder::<module>.
+include(CMakePackageConfigHelpers)
+
+get_property(modules GLOBAL PROPERTY SUNDER_MODULES)
+install(TARGETS ${modules} EXPORT SunderTargets
+  LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+  RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+if(TARGET sunder)
+  install(TARGETS sunder RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endif()
+
+# A static io archive hands its private libraries on to whoever links it.
+set(SUNDER_STATIC_DEPENDENCIES "")
+if(SUNDER_IO AND NOT BUILD_SHARED_LIBS)
+  set(SUNDER_STATIC_DEPENDENCIES "find_dependency(TinyGLTF)\nfind_dependency(assimp)\nfind_dependency(nlohmann_json)")
+endif()
+
+set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/Sunder)
+install(EXPORT SunderTargets NAMESPACE sunder:: DESTINATION ${package_dir})
+configure_package_config_file(cmake/SunderConfig.cmake.in ${CMAKE_CURRENT_BINARY_DIR}/SunderConfig.cmake INSTALL_DESTINATION ${package_dir})
+write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/SunderConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/SunderConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/SunderConfigVersion.cmake DESTINATION ${package_dir})

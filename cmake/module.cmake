@@ -1,0 +1,41 @@
+# sunder_module(<name> HEADERS <public headers, relative to include/> SOURCES <files> [LINK <modules below>] [PRIVATE_LINK <third parties>])
+#
+# One static or shared library a module, `sunder::<name>`. Public headers live in include/sunder/<name>/ and are all that is
+# installed; every one of them is compiled alone (target all_verify_interface_header_sets).
+function(sunder_module name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "HEADERS;SOURCES;LINK;PRIVATE_LINK")
+  set(target sunder_${name})
+  add_library(${target} ${arg_SOURCES})
+  add_library(sunder::${name} ALIAS ${target})
+  target_sources(${target} PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR}/include FILES ${arg_HEADERS})
+  target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR})
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  target_link_libraries(${target} PUBLIC Eigen3::Eigen)
+  foreach(module IN LISTS arg_LINK)
+    target_link_libraries(${target} PUBLIC sunder::${module})
+  endforeach()
+  foreach(library IN LISTS arg_PRIVATE_LINK)
+    target_link_libraries(${target} PRIVATE ${library})
+  endforeach()
+  set_target_properties(${target} PROPERTIES
+    EXPORT_NAME ${name}
+    VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}
+    CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON
+    POSITION_INDEPENDENT_CODE ON
+    VERIFY_INTERFACE_HEADER_SETS ON)
+  if(BUILD_SHARED_LIBS)
+    target_compile_definitions(${target} PRIVATE SUNDER_BUILDING)
+  else()
+    target_compile_definitions(${target} PUBLIC SUNDER_STATIC)
+  endif()
+  sunder_compile_options(${target})
+  set_property(GLOBAL APPEND PROPERTY SUNDER_MODULES ${target})
+endfunction()
+
+# Warnings, and the same bits on every optimisation level: no fused multiply-add behind our back.
+function(sunder_compile_options target)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -ffp-contract=off)
+  if(SUNDER_WARNINGS_AS_ERRORS)
+    target_compile_options(${target} PRIVATE -Werror)
+  endif()
+endfunction()

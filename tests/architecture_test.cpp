@@ -1,0 +1,291 @@
+// Reads the `#include` lines of the tree and holds them to the arrows of docs/architecture.md.
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What each folder may include by <sunder/…>, itself included.
+const std::map<std::string, std::set<std::string>> kMayUse = {
+    {"core", {"core"}},
+    {"skinning", {"core", "skinning"}},
+    {"weights", {"core", "skinning", "weights"}},
+    {"tear", {"core", "skinning", "weights", "tear"}},
+    {"particles", {"core", "skinning", "weights", "tear", "particles"}},
+    {"scene", {"core", "skinning", "weights", "tear", "particles", "scene"}},
+    {"io", {"core", "io"}},
+    {"tools", {"core", "skinning", "weights", "tear", "particles", "scene", "io", "tools"}},
+    {"samples", {"core", "skinning", "weights", "tear", "particles", "scene", "io"}},
+};
+
+/// Folders that stand before a door to third parties; the others see the standard library and Eigen alone. Samples are programs
+/// of users, who have no more.
+const std::map<std::string, std::set<std::string>> kThirdParties = {
+    {"io", {"tiny_gltf.h", "assimp", "nlohmann"}},
+    {"tools", {"CLI", "nlohmann"}},
+};
+const std::set<std::string> kMayUseOperatingSystem = {"io", "tools"};
+
+const std::set<std::string> kStandardHeaders = {"algorithm",
+                                                "any",
+                                                "array",
+                                                "atomic",
+                                                "barrier",
+                                                "bit",
+                                                "bitset",
+                                                "cctype",
+                                                "cerrno",
+                                                "cfenv",
+                                                "cfloat",
+                                                "charconv",
+                                                "chrono",
+                                                "cinttypes",
+                                                "climits",
+                                                "clocale",
+                                                "cmath",
+                                                "compare",
+                                                "complex",
+                                                "concepts",
+                                                "condition_variable",
+                                                "coroutine",
+                                                "csetjmp",
+                                                "csignal",
+                                                "cstdarg",
+                                                "cstddef",
+                                                "cstdint",
+                                                "cstdio",
+                                                "cstdlib",
+                                                "cstring",
+                                                "ctime",
+                                                "cuchar",
+                                                "cwchar",
+                                                "cwctype",
+                                                "deque",
+                                                "exception",
+                                                "execution",
+                                                "filesystem",
+                                                "forward_list",
+                                                "fstream",
+                                                "functional",
+                                                "future",
+                                                "initializer_list",
+                                                "iomanip",
+                                                "ios",
+                                                "iosfwd",
+                                                "iostream",
+                                                "istream",
+                                                "iterator",
+                                                "latch",
+                                                "limits",
+                                                "list",
+                                                "locale",
+                                                "map",
+                                                "memory",
+                                                "memory_resource",
+                                                "mutex",
+                                                "new",
+                                                "numbers",
+                                                "numeric",
+                                                "optional",
+                                                "ostream",
+                                                "queue",
+                                                "random",
+                                                "ranges",
+                                                "ratio",
+                                                "regex",
+                                                "scoped_allocator",
+                                                "semaphore",
+                                                "set",
+                                                "shared_mutex",
+                                                "source_location",
+                                                "span",
+                                                "sstream",
+                                                "stack",
+                                                "stdexcept",
+                                                "stop_token",
+                                                "streambuf",
+                                                "string",
+                                                "string_view",
+                                                "system_error",
+                                                "thread",
+                                                "tuple",
+                                                "type_traits",
+                                                "typeindex",
+                                                "typeinfo",
+                                                "unordered_map",
+                                                "unordered_set",
+                                                "utility",
+                                                "valarray",
+                                                "variant",
+                                                "vector",
+                                                "version",
+                                                "assert.h",
+                                                "ctype.h",
+                                                "errno.h",
+                                                "float.h",
+                                                "limits.h",
+                                                "math.h",
+                                                "stdarg.h",
+                                                "stddef.h",
+                                                "stdint.h",
+                                                "stdio.h",
+                                                "stdlib.h",
+                                                "string.h",
+                                                "time.h",
+                                                "cassert"};
+
+const std::set<std::string> kOperatingSystemHeaders = {"fcntl.h", "poll.h", "signal.h", "spawn.h", "unistd.h"};
+
+struct Include {
+  std::string path;
+  bool quoted = false;
+};
+
+/// The includes of a file; those in `//` comments do not count.
+std::vector<Include> includes_of(const fs::path& file) {
+  std::vector<Include> includes;
+  std::ifstream stream(file);
+  for (std::string line; std::getline(stream, line);) {
+    line.erase(std::remove_if(line.begin(), line.end(), [](unsigned char c) { return std::isspace(c) != 0; }), line.end());
+    if (!line.starts_with("#include")) continue;
+    const std::size_t open = line.find_first_of("<\"");
+    if (open == std::string::npos) continue;
+    const bool quoted = line[open] == '"';
+    const std::size_t close = line.find(quoted ? '"' : '>', open + 1);
+    if (close != std::string::npos) includes.push_back({line.substr(open + 1, close - open - 1), quoted});
+  }
+  return includes;
+}
+
+/// Why `module` may not have this include; empty where it may.
+std::string fault(const std::string& module, bool is_public, const Include& include) {
+  const std::size_t slash = include.path.find('/');
+  const std::string first = include.path.substr(0, slash);
+  if (include.quoted) {
+    if (first == "sunder") return "public headers are included as <sunder/…>";
+    if (is_public) return "a public header includes a private one";
+    if (slash == std::string::npos || first != module)
+      return "private headers are included as \"" + module + "/…\", from " + module + "/ only";
+    return {};
+  }
+  if (first == "sunder") {
+    const std::string rest = include.path.substr(slash + 1);
+    const std::string used = rest.substr(0, rest.find('/'));
+    return kMayUse.at(module).count(used) != 0 ? std::string() : "the arrow from " + module + " to " + used + " is not allowed";
+  }
+  if (kMayUse.count(first) != 0 && slash != std::string::npos) return "a private header in angle brackets";
+  if (first == "Eigen" || kStandardHeaders.count(include.path) != 0) return {};
+  if (is_public) return "third parties other than Eigen stay out of public headers";
+  if (const auto allowed = kThirdParties.find(module); allowed != kThirdParties.end() && allowed->second.count(first) != 0)
+    return {};
+  if (kMayUseOperatingSystem.count(module) != 0 && (first == "sys" || kOperatingSystemHeaders.count(include.path) != 0)) return {};
+  return module + "/ may not use this third party";
+}
+
+/// One line for each include that breaks a rule, sorted: "weights/a.cpp: <sunder/tear/b.h>: why".
+std::vector<std::string> include_faults(const fs::path& root) {
+  std::vector<std::string> faults;
+  const auto check_folder = [&](const std::string& module, const fs::path& folder, bool is_public) {
+    if (!fs::is_directory(folder)) return;
+    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+      const std::string extension = entry.path().extension().string();
+      if (extension != ".h" && extension != ".cpp") continue;
+      for (const Include& include : includes_of(entry.path()))
+        if (const std::string why = fault(module, is_public, include); !why.empty())
+          faults.push_back(fs::relative(entry.path(), root).generic_string() + ": " + include.path + ": " + why);
+    }
+  };
+  for (const auto& [module, unused] : kMayUse) {
+    check_folder(module, root / module, false);
+    check_folder(module, root / "include" / "sunder" / module, true);
+  }
+  if (fs::is_directory(root / "include" / "sunder"))
+    for (const auto& entry : fs::directory_iterator(root / "include" / "sunder"))
+      if (kMayUse.count(entry.path().filename().string()) == 0)
+        faults.push_back("include/sunder/" + entry.path().filename().string() + ": not a module");
+  std::sort(faults.begin(), faults.end());
+  return faults;
+}
+
+/// A tree of one file, in a folder of its own.
+class FixtureTree {
+ public:
+  FixtureTree(const std::string& file, const std::string& content)
+      : root_(fs::path(testing::TempDir()) /
+              ("architecture_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()))) {
+    fs::remove_all(root_);
+    fs::create_directories((root_ / file).parent_path());
+    std::ofstream(root_ / file) << content << '\n';
+  }
+  ~FixtureTree() { fs::remove_all(root_); }
+  FixtureTree(const FixtureTree&) = delete;
+  FixtureTree& operator=(const FixtureTree&) = delete;
+  [[nodiscard]] const fs::path& root() const { return root_; }
+
+ private:
+  fs::path root_;
+};
+
+std::vector<std::string> faults_of(const std::string& file, const std::string& content) {
+  const FixtureTree tree(file, content);
+  return include_faults(tree.root());
+}
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+TEST(Architecture, our_tree_follows_the_arrows) {
+  ASSERT_TRUE(fs::exists(fs::path(SUNDER_SOURCE_DIR) / "include/sunder/core/mesh.h"));
+  EXPECT_THAT(include_faults(SUNDER_SOURCE_DIR), IsEmpty());
+}
+
+TEST(Architecture, an_upward_arrow_is_found) {
+  EXPECT_THAT(faults_of("weights/a.cpp", "#include <sunder/tear/topology.h>"), ElementsAre(HasSubstr("from weights to tear")));
+  EXPECT_THAT(faults_of("include/sunder/core/a.h", "#  include  <sunder/skinning/deform.h>"),
+              ElementsAre(HasSubstr("from core to skinning")));
+  EXPECT_THAT(faults_of("io/gltf/a.cpp", "#include <sunder/tear/topology.h>"), ElementsAre(HasSubstr("from io to tear")));
+  EXPECT_THAT(faults_of("tear/a.cpp", "#include <sunder/io/save_glb.h>"), ElementsAre(HasSubstr("from tear to io")));
+}
+
+TEST(Architecture, a_third_party_in_a_public_header_is_found) {
+  EXPECT_THAT(faults_of("include/sunder/io/a.h", "#include <nlohmann/json.hpp>"), ElementsAre(HasSubstr("third parties")));
+  EXPECT_THAT(faults_of("include/sunder/io/a.h", "#include <Eigen/Core>\n#include <vector>\n#include <sunder/core/mesh.h>"),
+              IsEmpty());
+}
+
+TEST(Architecture, a_third_party_behind_another_door_is_found) {
+  EXPECT_THAT(faults_of("tear/a.cpp", "#include <nlohmann/json.hpp>"), ElementsAre(HasSubstr("third party")));
+  EXPECT_THAT(faults_of("tools/a.cpp", "#include <assimp/scene.h>"), ElementsAre(HasSubstr("third party")));
+  EXPECT_THAT(faults_of("io/assimp/a.cpp", "#include <assimp/scene.h>\n#include <sys/wait.h>"), IsEmpty());
+}
+
+TEST(Architecture, a_private_header_of_another_module_is_found) {
+  EXPECT_THAT(faults_of("weights/a.cpp", "#include \"tear/surface.h\""), ElementsAre(HasSubstr("private headers")));
+  EXPECT_THAT(faults_of("tear/a.cpp", "#include <tear/surface.h>"), ElementsAre(HasSubstr("angle brackets")));
+  EXPECT_THAT(faults_of("include/sunder/tear/a.h", "#include \"tear/surface.h\""),
+              ElementsAre(HasSubstr("public header includes")));
+  EXPECT_THAT(faults_of("tear/a.cpp", "#include \"surface.h\""), ElementsAre(HasSubstr("private headers")));
+  EXPECT_THAT(faults_of("tear/a.cpp", "#include \"tear/surface.h\""), IsEmpty());
+}
+
+TEST(Architecture, quotes_around_a_public_header_are_found) {
+  EXPECT_THAT(faults_of("tear/a.cpp", "#include \"sunder/tear/topology.h\""), ElementsAre(HasSubstr("<sunder/")));
+}
+
+TEST(Architecture, an_unknown_public_folder_is_found) {
+  EXPECT_THAT(faults_of("include/sunder/misc/a.h", "#include <vector>"), ElementsAre(HasSubstr("not a module")));
+}
+
+}  // namespace

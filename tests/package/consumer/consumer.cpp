@@ -1,0 +1,36 @@
+#include <sunder/skinning/palette.h>
+#include <sunder/tear/topology.h>
+#include <sunder/tear/torn_model.h>
+
+#include <cstdio>
+#include <memory>
+
+#ifdef CONSUMER_IO
+#include <sunder/io/load_character.h>
+#endif
+
+int main() {
+  sunder::Character sheet;
+  sheet.skeleton.bones.push_back({"root", sunder::kNone, {}});
+  sheet.skins.push_back({"skin", {0}, {sunder::Affine3f::Identity()}});
+  sunder::Mesh mesh;
+  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  mesh.triangle_submesh = {0, 0};
+  mesh.submeshes.resize(1);
+  const sunder::Influence all_of_root{0, 1.0f};
+  for (int v = 0; v < 4; ++v) mesh.weights.append({&all_of_root, 1});
+  sheet.meshes.push_back(mesh);
+
+  const sunder::ModelPose pose = sunder::bind_pose(sheet);
+  auto torn = sunder::TornModel::create(std::make_shared<const sunder::Character>(sheet));
+  if (!torn) return std::printf("%s\n", torn.error().text().data()), 1;
+  const auto report = torn->tear(pose, sunder::Stroke{{{0.6, 0.2, 1}, {0.6, 0.2, -1}}, {{0.4, 0.8, 1}, {0.4, 0.8, -1}}});
+  if (!report) return std::printf("%s\n", report.error().text().data()), 1;
+  if (report->pieces != 1 || sunder::count_topology(torn->character()).boundary_loops != 2) return 1;
+
+#ifdef CONSUMER_IO
+  if (sunder::load_character("no such file.glb").error().code() != sunder::StatusCode::file_not_found) return 1;
+#endif
+  return 0;
+}
