@@ -1,0 +1,37 @@
+#pragma once
+
+#include <sunder/core/math.h>
+
+#include <string>
+#include <vector>
+
+namespace sunder {
+
+/// One bone's transform relative to its parent: T * R * S.
+struct BoneTransform {
+  Vec3f translation = Vec3f::Zero();
+  Quatf rotation = Quatf::Identity();  ///< Unit length.
+  Vec3f scale = Vec3f::Ones();         ///< May be negative or zero.
+
+  bool operator==(const BoneTransform& other) const {
+    return translation == other.translation && rotation.coeffs() == other.rotation.coeffs() && scale == other.scale;
+  }
+};
+
+struct Bone {
+  std::string name;              ///< Unique in its skeleton, not empty.
+  std::uint32_t parent = kNone;  ///< Smaller than the bone's own index, or kNone at a root.
+  BoneTransform rest;            ///< parent_from_bone as the file has it.
+
+  bool operator==(const Bone&) const = default;
+};
+
+/// The whole transform tree of a character, parents before children. It holds what deforms skins and also what only
+/// carries them: armature nodes, and the nodes of rigid parts, so that one palette serves every mesh.
+struct Skeleton {
+  std::vector<Bone> bones;
+
+  bool operator==(const Skeleton&) const = default;
+};
+
+}  // namespace sunder

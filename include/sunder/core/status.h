@@ -1,0 +1,83 @@
+#pragma once
+
+#include <sunder/core/api.h>
+#include <sunder/core/math.h>
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+namespace sunder {
+
+/// One enumerator a cause. What the caller can do about it differs from cause to cause.
+enum class StatusCode : std::uint8_t {
+  ok,
+  empty_input,             ///< Nothing to work on: no mesh, no stroke, no file content.
+  size_mismatch,           ///< Two arrays that must agree in length do not.
+  index_out_of_range,      ///< A bone, vertex, accessor … index beyond its array.
+  non_finite_value,        ///< NaN or infinity.
+  weights_not_normalized,  ///< Negative weights, or a sum that is not one.
+  not_a_tree,              ///< A cycle, or a node with two parents.
+  invalid_argument,        ///< An option, name or stroke outside its documented range.
+  not_found,               ///< A clip, bone or mesh of that name does not exist.
+  file_not_found,
+  file_unreadable,      ///< Exists but cannot be read or written.
+  path_not_allowed,     ///< A file refers to something outside its own folder.
+  unsupported_format,   ///< Not a format, or not a version, that this build reads.
+  unsupported_feature,  ///< The format is known; this part of it is not.
+  malformed_file,       ///< The content contradicts its own format.
+  limit_exceeded,       ///< A size, depth, memory or time limit.
+  capacity_exceeded,    ///< A buffer of fixed capacity is full; nothing was changed.
+  internal_error,       ///< A bug in Sunder or in a library behind it.
+};
+
+/// The enumerator's own name, for logs and JSON ("index_out_of_range").
+[[nodiscard]] SUNDER_API std::string_view status_name(StatusCode code);
+
+/// Outcome of a call. Fixed size: making one, even a failure, never allocates.
+class [[nodiscard]] SUNDER_API Status {
+ public:
+  Status() = default;
+
+  /// @param index  first offending element, in the array that the text names; kNone where there is none.
+  /// @param format printf format of the text: what was expected and what was found. Longer texts are cut at 255 bytes.
+  static Status failure(StatusCode code, std::uint32_t index, const char* format, ...) __attribute__((format(printf, 3, 4)));
+
+  [[nodiscard]] bool is_ok() const { return code_ == StatusCode::ok; }
+  explicit operator bool() const { return is_ok(); }
+  [[nodiscard]] StatusCode code() const { return code_; }
+  [[nodiscard]] std::uint32_t index() const { return index_; }
+  [[nodiscard]] std::string_view text() const { return text_; }
+
+ private:
+  StatusCode code_ = StatusCode::ok;
+  std::uint32_t index_ = kNone;
+  char text_[256] = {};
+};
+
+/// A value or the reason why there is none. Members are named as in std::expected (C++23).
+template <class T>
+class [[nodiscard]] Result {
+ public:
+  Result(T value) : value_(std::move(value)) {}  // NOLINT(google-explicit-constructor)
+  Result(Status error) : error_(error) {}        // NOLINT(google-explicit-constructor)
+
+  [[nodiscard]] bool has_value() const { return value_.has_value(); }
+  explicit operator bool() const { return has_value(); }
+  /// Only where has_value().
+  [[nodiscard]] T& value() { return *value_; }
+  [[nodiscard]] const T& value() const { return *value_; }
+  T& operator*() { return *value_; }
+  const T& operator*() const { return *value_; }
+  T* operator->() { return &*value_; }
+  const T* operator->() const { return &*value_; }
+  /// ok where has_value().
+  [[nodiscard]] const Status& error() const { return error_; }
+
+ private:
+  std::optional<T> value_;
+  Status error_;
+};
+
+}  // namespace sunder
