@@ -1,0 +1,25 @@
+#pragma once
+
+#include <sunder/core/character.h>
+
+#include <span>
+
+namespace sunder {
+
+/// One vertex by the definition of linear blend skinning, in double throughout. The oracle that faster code is held against, and
+/// the evaluation that tearing uses.
+///
+/// @param vertex           < mesh.vertex_count(), unchecked.
+/// @param model_from_bind  one a slot of the mesh's skin.
+/// @param morph_weights    all weights of the pose.
+/// O(influences + morph targets), no allocation.
+[[nodiscard]] SUNDER_API Vec3d deform_position_reference(const Mesh& mesh, std::uint32_t vertex,
+                                                         std::span<const Affine3d> model_from_bind,
+                                                         std::span<const float> morph_weights);
+
+/// The same for the normal: cofactor matrix of the blended linear part, unit length. Only where the mesh has normals.
+[[nodiscard]] SUNDER_API Vec3d deform_normal_reference(const Mesh& mesh, std::uint32_t vertex,
+                                                       std::span<const Affine3d> model_from_bind,
+                                                       std::span<const float> morph_weights);
+
+}  // namespace sunder

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <sunder/core/mesh.h>
+
+#include <cmath>
+#include <span>
+
+namespace sunder::skinning {
+
+/// sum_k w_k M_k of one vertex. Built from a loop of multiply-adds, so that it vectorises and its order is fixed.
+template <class Scalar, class Palette>
+Eigen::Matrix<Scalar, 3, 4> blend_matrix(std::span<const Influence> influences, const Palette& model_from_bind) {
+  Eigen::Matrix<Scalar, 3, 4> blended = Eigen::Matrix<Scalar, 3, 4>::Zero();
+  for (const Influence& influence : influences)
+    blended += static_cast<Scalar>(influence.weight) * model_from_bind[influence.slot].matrix();
+  return blended;
+}
+
+/// A bind-space attribute plus its morph deltas: `get(target)` is the array of deltas or an empty one.
+template <class Scalar, class Deltas>
+Eigen::Matrix<Scalar, 3, 1> add_morphs(const Mesh& mesh, std::uint32_t vertex, std::span<const float> morph_weights,
+                                       Eigen::Matrix<Scalar, 3, 1> value, Deltas deltas) {
+  for (std::size_t j = 0; j < mesh.morph_targets.size(); ++j) {
+    const auto& of_target = mesh.morph_targets[j].*deltas;
+    const float weight = morph_weights[mesh.first_morph_weight + j];
+    if (weight != 0.0f && !of_target.empty()) value += static_cast<Scalar>(weight) * of_target[vertex].template cast<Scalar>();
+  }
+  return value;
+}
+
+/// How a linear map turns normals, up to length: the cofactor matrix. Unlike the inverse transpose it exists for singular maps and
+/// keeps outward normals outward under mirrors.
+template <class Scalar>
+Eigen::Matrix<Scalar, 3, 3> cofactor(const Eigen::Matrix<Scalar, 3, 3>& linear) {
+  Eigen::Matrix<Scalar, 3, 3> result;
+  result.col(0) = linear.col(1).cross(linear.col(2));
+  result.col(1) = linear.col(2).cross(linear.col(0));
+  result.col(2) = linear.col(0).cross(linear.col(1));
+  return linear.determinant() < Scalar(0) ? Eigen::Matrix<Scalar, 3, 3>(-result) : result;
+}
+
+/// `direction` made unit length, or `fallback` where it has none.
+template <class Scalar>
+Eigen::Matrix<Scalar, 3, 1> unit_or(const Eigen::Matrix<Scalar, 3, 1>& direction, const Eigen::Matrix<Scalar, 3, 1>& fallback) {
+  const Scalar largest = direction.cwiseAbs().maxCoeff();
+  if (!(largest > Scalar(0)) || !std::isfinite(largest)) return fallback;
+  const Eigen::Matrix<Scalar, 3, 1> scaled = direction / largest;  // cofactors of small-scaled bones underflow when squared
+  return scaled / scaled.norm();
+}
+
+}  // namespace sunder::skinning

@@ -1,0 +1,57 @@
+#include <sunder/skinning/deform.h>
+
+#include "skinning/blend.h"
+
+namespace sunder {
+namespace {
+
+/// The palette in float, converted as it is read: palettes are small, and this keeps the call free of scratch memory.
+struct FloatPalette {
+  std::span<const Affine3d> model_from_bind;
+
+  struct Entry {
+    const Affine3d& transform;
+    [[nodiscard]] auto matrix() const { return transform.matrix().cast<float>(); }
+  };
+  Entry operator[](std::uint32_t slot) const { return {model_from_bind[slot]}; }
+};
+
+}  // namespace
+
+Status deform_mesh(const Mesh& mesh, std::span<const Affine3d> model_from_bind, std::span<const float> morph_weights,
+                   DeformedMesh& out) {
+  if (mesh.first_morph_weight + mesh.morph_targets.size() > morph_weights.size())
+    return Status::failure(StatusCode::size_mismatch, kNone, "mesh '%.80s' reads morph weights up to %zu, the pose has %zu",
+                           mesh.name.c_str(), mesh.first_morph_weight + mesh.morph_targets.size(), morph_weights.size());
+  for (const Influence& influence : mesh.weights.influences)
+    if (influence.slot >= model_from_bind.size())
+      return Status::failure(StatusCode::size_mismatch, influence.slot, "mesh '%.80s' uses bone slot %u, the palette has %zu",
+                             mesh.name.c_str(), influence.slot, model_from_bind.size());
+
+  const std::uint32_t count = mesh.vertex_count();
+  out.positions.resize(count);
+  out.normals.resize(mesh.normals.size());
+  out.tangents.resize(mesh.tangents.size());
+  const FloatPalette palette{model_from_bind};
+  for (std::uint32_t v = 0; v < count; ++v) {
+    const auto blended = skinning::blend_matrix<float>(mesh.weights.of(v), palette);
+    const Eigen::Matrix3f linear = blended.leftCols<3>();
+    const Eigen::Vector3f position =
+        skinning::add_morphs<float>(mesh, v, morph_weights, mesh.positions[v], &MorphTarget::position_deltas);
+    out.positions[v] = linear * position + blended.col(3);
+    if (!mesh.normals.empty()) {
+      const Eigen::Vector3f normal =
+          skinning::add_morphs<float>(mesh, v, morph_weights, mesh.normals[v], &MorphTarget::normal_deltas);
+      out.normals[v] = skinning::unit_or<float>(skinning::cofactor<float>(linear) * normal, normal);
+    }
+    if (!mesh.tangents.empty()) {
+      const Eigen::Vector3f tangent =
+          skinning::add_morphs<float>(mesh, v, morph_weights, mesh.tangents[v].head<3>(), &MorphTarget::tangent_deltas);
+      const Eigen::Vector3f deformed = skinning::unit_or<float>(linear * tangent, tangent);
+      out.tangents[v] = {deformed.x(), deformed.y(), deformed.z(), mesh.tangents[v].w()};
+    }
+  }
+  return {};
+}
+
+}  // namespace sunder

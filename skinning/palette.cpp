@@ -1,0 +1,83 @@
+#include <sunder/skinning/palette.h>
+
+#include <cmath>
+
+namespace sunder {
+namespace {
+
+Affine3d to_matrix(const BoneTransform& transform) {
+  Affine3d matrix;
+  matrix.linear() = transform.rotation.cast<double>().normalized().toRotationMatrix() * transform.scale.cast<double>().asDiagonal();
+  matrix.translation() = transform.translation.cast<double>();
+  return matrix;
+}
+
+/// Singular to working precision, relative to the matrix' own scale.
+bool is_invertible(const Mat3d& linear) {
+  const double scale = linear.cwiseAbs().maxCoeff();
+  return scale > 0 && std::abs(linear.determinant()) > 1e-12 * scale * scale * scale;
+}
+
+}  // namespace
+
+Status compute_model_pose(const Skeleton& skeleton, const Pose& pose, ModelPose& model_pose) {
+  const std::size_t count = skeleton.bones.size();
+  if (pose.parent_from_bone.size() != count)
+    return Status::failure(StatusCode::size_mismatch, kNone, "pose has %zu bones, skeleton %zu", pose.parent_from_bone.size(),
+                           count);
+  model_pose.model_from_bone.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Affine3d parent_from_bone = to_matrix(pose.parent_from_bone[i]);
+    const std::uint32_t parent = skeleton.bones[i].parent;
+    if (parent == kNone)
+      model_pose.model_from_bone[i] = parent_from_bone;
+    else
+      model_pose.model_from_bone[i] = model_pose.model_from_bone[parent] * parent_from_bone;
+  }
+  model_pose.morph_weights = pose.morph_weights;
+  return {};
+}
+
+ModelPose bind_pose(const Character& character) {
+  const auto& bones = character.skeleton.bones;
+  ModelPose pose;
+  pose.morph_weights = character.rest_morph_weights;
+  pose.model_from_bone.resize(bones.size());
+  std::vector<bool> is_bound(bones.size(), false);
+  for (const Mesh& mesh : character.meshes) {
+    const Skin& skin = character.skins[mesh.skin];
+    for (std::size_t slot = 0; slot < skin.bones.size(); ++slot) {
+      const std::uint32_t bone = skin.bones[slot];
+      const Affine3d bone_from_bind = skin.bone_from_bind[slot].cast<double>();
+      if (is_bound[bone] || !is_invertible(bone_from_bind.linear())) continue;
+      // A rigid part is bound to its node where the node stands: it has no bind pose of its own.
+      if (skin.bones.size() == 1 && bone_from_bind.matrix() == Affine3d::Identity().matrix()) continue;
+      pose.model_from_bone[bone] = bone_from_bind.inverse();
+      is_bound[bone] = true;
+    }
+  }
+  for (std::size_t i = 0; i < bones.size(); ++i) {
+    if (is_bound[i]) continue;
+    const Affine3d parent_from_bone = to_matrix(bones[i].rest);
+    if (bones[i].parent == kNone)
+      pose.model_from_bone[i] = parent_from_bone;
+    else
+      pose.model_from_bone[i] = pose.model_from_bone[bones[i].parent] * parent_from_bone;
+  }
+  return pose;
+}
+
+Status compute_palette(const Skin& skin, const ModelPose& pose, std::span<Affine3d> model_from_bind) {
+  if (model_from_bind.size() != skin.bones.size())
+    return Status::failure(StatusCode::size_mismatch, kNone, "palette has %zu entries, skin has %zu bones", model_from_bind.size(),
+                           skin.bones.size());
+  for (std::uint32_t slot = 0; slot < skin.bones.size(); ++slot)
+    if (skin.bones[slot] >= pose.model_from_bone.size())
+      return Status::failure(StatusCode::index_out_of_range, slot, "skin slot %u: bone %u, pose has %zu", slot, skin.bones[slot],
+                             pose.model_from_bone.size());
+  for (std::size_t slot = 0; slot < skin.bones.size(); ++slot)
+    model_from_bind[slot] = pose.model_from_bone[skin.bones[slot]] * skin.bone_from_bind[slot].cast<double>();
+  return {};
+}
+
+}  // namespace sunder

@@ -1,0 +1,23 @@
+#include <sunder/skinning/reference.h>
+
+#include "skinning/blend.h"
+
+namespace sunder {
+
+Vec3d deform_position_reference(const Mesh& mesh, std::uint32_t vertex, std::span<const Affine3d> model_from_bind,
+                                std::span<const float> morph_weights) {
+  const Eigen::Vector3d bind = skinning::add_morphs<double>(mesh, vertex, morph_weights, mesh.positions[vertex].cast<double>(),
+                                                            &MorphTarget::position_deltas);
+  const auto blended = skinning::blend_matrix<double>(mesh.weights.of(vertex), model_from_bind);
+  return blended.leftCols<3>() * bind + blended.col(3);
+}
+
+Vec3d deform_normal_reference(const Mesh& mesh, std::uint32_t vertex, std::span<const Affine3d> model_from_bind,
+                              std::span<const float> morph_weights) {
+  const Eigen::Vector3d bind =
+      skinning::add_morphs<double>(mesh, vertex, morph_weights, mesh.normals[vertex].cast<double>(), &MorphTarget::normal_deltas);
+  const Eigen::Matrix3d linear = skinning::blend_matrix<double>(mesh.weights.of(vertex), model_from_bind).leftCols<3>();
+  return skinning::unit_or<double>(skinning::cofactor<double>(linear) * bind, bind);
+}
+
+}  // namespace sunder
