@@ -1,0 +1,35 @@
+#pragma once
+
+#include <sunder/core/mesh.h>
+#include <sunder/core/status.h>
+
+#include <array>
+
+namespace sunder {
+
+/// Where a new vertex came from: a triangle of the mesh as it was loaded, and where in it. Every attribute is derived from this,
+/// so a vertex made by the hundredth tear is as exact as one made by the first.
+struct Birth {
+  std::uint32_t triangle = 0;                       ///< In the source mesh.
+  std::array<double, 3> barycentric = {1.0, 0, 0};  ///< Of its corners; >= 0, sum 1.
+};
+
+/// Appends to `mesh` the vertex that `birth` describes: position, normal, tangent, texture coordinates, colours, custom attributes,
+/// morph deltas linear in the barycentric coordinates (directions renormalised, labels from the nearest corner); the weights are
+/// the barycentric mean, all influences kept, normalised, largest first.
+///
+/// @param source  the mesh as it was loaded; `mesh` grew out of it and has the same attributes.
+/// @return the new vertex' index. O(attributes + influences); allocates only where an array of `mesh` has to grow.
+SUNDER_API std::uint32_t append_interpolated_vertex(const Mesh& source, const Birth& birth, Mesh& mesh);
+
+/// Appends a copy of `vertex`, bit for bit.
+SUNDER_API std::uint32_t append_vertex_copy(std::uint32_t vertex, Mesh& mesh);
+
+/// Gives `vertex`, the newest of `mesh`, the position, morph displacements and weights of vertex `like` of `like_mesh`, bit for
+/// bit: the two are duplicates of one surface point. Both meshes have the same skin.
+SUNDER_API void copy_surface_point(const Mesh& like_mesh, std::uint32_t like, std::uint32_t vertex, Mesh& mesh);
+
+/// Removes the newest vertices, down to `vertex_count`.
+SUNDER_API void remove_vertices_from(std::uint32_t vertex_count, Mesh& mesh);
+
+}  // namespace sunder

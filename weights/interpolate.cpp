@@ -1,0 +1,170 @@
+#include <sunder/weights/interpolate.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace sunder {
+namespace {
+
+/// The corners of a birth, and the sums over them.
+struct Corners {
+  Triangle vertices;
+  std::array<double, 3> barycentric;
+
+  Corners(const Mesh& source, const Birth& birth) : vertices(source.triangles[birth.triangle]), barycentric(birth.barycentric) {}
+
+  template <int N>
+  [[nodiscard]] Eigen::Matrix<double, N, 1> mean(const std::vector<Eigen::Matrix<float, N, 1, Eigen::DontAlign>>& values) const {
+    Eigen::Matrix<double, N, 1> sum = Eigen::Matrix<double, N, 1>::Zero();
+    for (std::size_t k = 0; k < 3; ++k)
+      if (barycentric[k] > 0.0) sum += barycentric[k] * values[vertices[k]].template cast<double>();
+    return sum;
+  }
+
+  [[nodiscard]] std::uint32_t nearest_vertex() const {
+    const auto largest = std::max_element(barycentric.begin(), barycentric.end());
+    return vertices[static_cast<std::size_t>(largest - barycentric.begin())];
+  }
+};
+
+/// Unit length; where opposite directions cancel, that of the nearest corner.
+Eigen::Vector3d unit_direction(const Eigen::Vector3d& direction, const Vec3f& nearest) {
+  const double length = direction.norm();
+  return length > 1e-12 ? Eigen::Vector3d(direction / length) : Eigen::Vector3d(nearest.cast<double>());
+}
+
+void append_mean(const std::vector<Vec3f>& source, const Corners& corners, std::vector<Vec3f>& values) {
+  if (!source.empty()) values.emplace_back(corners.mean(source).cast<float>());
+}
+
+void append_custom(const CustomAttribute& source, const Corners& corners, CustomAttribute& attribute) {
+  for (std::uint32_t c = 0; c < source.components; ++c) {
+    if (!source.interpolates) {
+      attribute.values.push_back(source.values[std::size_t{corners.nearest_vertex()} * source.components + c]);
+      continue;
+    }
+    double sum = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      if (corners.barycentric[k] > 0.0)
+        sum +=
+            corners.barycentric[k] * static_cast<double>(source.values[std::size_t{corners.vertices[k]} * source.components + c]);
+    attribute.values.push_back(static_cast<float>(sum));
+  }
+}
+
+/// The barycentric mean of the corners' weights. Appended to the pool in place, so that a warm call does not allocate.
+void append_mean_weights(const SkinWeights& source, const Corners& corners, SkinWeights& weights) {
+  auto& pool = weights.influences;
+  const std::size_t begin = pool.size();
+  double sum = 0;
+  // The mean is at most a few dozen influences: a linear search for a slot beats any map.
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (corners.barycentric[k] <= 0.0) continue;
+    for (const Influence& influence : source.of(corners.vertices[k])) {
+      const auto part = static_cast<float>(corners.barycentric[k] * static_cast<double>(influence.weight));
+      if (!(part > 0.0f)) continue;
+      const auto same_slot = std::find_if(pool.begin() + static_cast<std::ptrdiff_t>(begin), pool.end(),
+                                          [&](const Influence& other) { return other.slot == influence.slot; });
+      if (same_slot != pool.end())
+        same_slot->weight += part;
+      else
+        pool.push_back({influence.slot, part});
+    }
+  }
+  for (std::size_t i = begin; i < pool.size(); ++i) sum += static_cast<double>(pool[i].weight);
+  for (std::size_t i = begin; i < pool.size(); ++i) pool[i].weight = static_cast<float>(static_cast<double>(pool[i].weight) / sum);
+  std::sort(pool.begin() + static_cast<std::ptrdiff_t>(begin), pool.end(),
+            [](const Influence& a, const Influence& b) { return a.weight != b.weight ? a.weight > b.weight : a.slot < b.slot; });
+  weights.first.push_back(static_cast<std::uint32_t>(pool.size()));
+}
+
+/// Calls `visit(array, floats or entries a vertex)` for each per-vertex array but the weights.
+template <class Visit>
+void for_each_array(Mesh& mesh, Visit visit) {
+  visit(mesh.positions, 1u);
+  visit(mesh.normals, 1u);
+  visit(mesh.tangents, 1u);
+  for (auto& uv : mesh.uv_sets) visit(uv, 1u);
+  for (auto& colors : mesh.color_sets) visit(colors, 1u);
+  for (CustomAttribute& attribute : mesh.custom_attributes) visit(attribute.values, attribute.components);
+  for (MorphTarget& target : mesh.morph_targets) {
+    visit(target.position_deltas, 1u);
+    visit(target.normal_deltas, 1u);
+    visit(target.tangent_deltas, 1u);
+  }
+}
+
+}  // namespace
+
+std::uint32_t append_interpolated_vertex(const Mesh& source, const Birth& birth, Mesh& mesh) {
+  const Corners corners(source, birth);
+  const std::uint32_t nearest = corners.nearest_vertex();
+  const std::uint32_t vertex = mesh.vertex_count();
+  append_mean(source.positions, corners, mesh.positions);
+  if (!source.normals.empty())
+    mesh.normals.emplace_back(unit_direction(corners.mean(source.normals), source.normals[nearest]).cast<float>());
+  if (!source.tangents.empty()) {
+    const Eigen::Vector3d mean = corners.mean(source.tangents).head<3>();
+    const Eigen::Vector3f tangent = unit_direction(mean, source.tangents[nearest].head<3>()).cast<float>();
+    mesh.tangents.emplace_back(tangent.x(), tangent.y(), tangent.z(), source.tangents[nearest].w());
+  }
+  for (std::size_t i = 0; i < source.uv_sets.size(); ++i)
+    mesh.uv_sets[i].emplace_back(corners.mean(source.uv_sets[i]).cast<float>());
+  for (std::size_t i = 0; i < source.color_sets.size(); ++i)
+    mesh.color_sets[i].emplace_back(corners.mean(source.color_sets[i]).cast<float>());
+  for (std::size_t i = 0; i < source.custom_attributes.size(); ++i)
+    append_custom(source.custom_attributes[i], corners, mesh.custom_attributes[i]);
+  for (std::size_t i = source.custom_attributes.size(); i < mesh.custom_attributes.size(); ++i)
+    mesh.custom_attributes[i].values.resize(mesh.custom_attributes[i].values.size() + mesh.custom_attributes[i].components, 0.0f);
+  for (std::size_t i = 0; i < source.morph_targets.size(); ++i) {
+    append_mean(source.morph_targets[i].position_deltas, corners, mesh.morph_targets[i].position_deltas);
+    append_mean(source.morph_targets[i].normal_deltas, corners, mesh.morph_targets[i].normal_deltas);
+    append_mean(source.morph_targets[i].tangent_deltas, corners, mesh.morph_targets[i].tangent_deltas);
+  }
+  append_mean_weights(source.weights, corners, mesh.weights);
+  return vertex;
+}
+
+std::uint32_t append_vertex_copy(std::uint32_t vertex, Mesh& mesh) {
+  const std::uint32_t copy = mesh.vertex_count();
+  for_each_array(mesh, [&](auto& values, std::size_t per_vertex) {
+    if (values.empty()) return;
+    for (std::size_t c = 0; c < per_vertex; ++c) {
+      const auto value = values[vertex * per_vertex + c];  // by value: push_back may move the array
+      values.push_back(value);
+    }
+  });
+  auto& pool = mesh.weights.influences;
+  for (std::uint32_t i = mesh.weights.first[vertex]; i < mesh.weights.first[vertex + 1]; ++i) {
+    const Influence influence = pool[i];
+    pool.push_back(influence);
+  }
+  mesh.weights.first.push_back(static_cast<std::uint32_t>(pool.size()));
+  return copy;
+}
+
+void copy_surface_point(const Mesh& like_mesh, std::uint32_t like, std::uint32_t vertex, Mesh& mesh) {
+  mesh.positions[vertex] = like_mesh.positions[like];
+  const std::size_t shared_targets = std::min(mesh.morph_targets.size(), like_mesh.morph_targets.size());
+  for (std::size_t i = 0; i < shared_targets; ++i)
+    if (!mesh.morph_targets[i].position_deltas.empty() && !like_mesh.morph_targets[i].position_deltas.empty())
+      mesh.morph_targets[i].position_deltas[vertex] = like_mesh.morph_targets[i].position_deltas[like];
+  auto& weights = mesh.weights;
+  weights.influences.resize(weights.first[vertex]);
+  const std::uint32_t begin = like_mesh.weights.first[like], end = like_mesh.weights.first[like + 1];
+  for (std::uint32_t i = begin; i < end; ++i) {
+    const Influence influence = like_mesh.weights.influences[i];  // by value: `mesh` may be `like_mesh`
+    weights.influences.push_back(influence);
+  }
+  weights.first[vertex + 1] = static_cast<std::uint32_t>(weights.influences.size());
+}
+
+void remove_vertices_from(std::uint32_t vertex_count, Mesh& mesh) {
+  for_each_array(mesh, [&](auto& values, std::size_t per_vertex) {
+    if (!values.empty()) values.resize(vertex_count * per_vertex);
+  });
+  mesh.weights.first.resize(vertex_count + 1);
+  mesh.weights.influences.resize(mesh.weights.first.back());
+}
+
+}  // namespace sunder
