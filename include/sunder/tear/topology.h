@@ -1,0 +1,24 @@
+#pragma once
+
+#include <sunder/core/character.h>
+
+namespace sunder {
+
+/// Shape of a character's surface, all meshes together, counted on surface points: vertices that agree in position, weights, morph
+/// displacements and tear side are one point, so UV seams, hard edges and material borders do not count as borders.
+struct TopologyCounts {
+  std::uint32_t vertices = 0;
+  std::uint32_t points = 0;
+  std::uint32_t triangles = 0;
+  std::uint32_t edges = 0;
+  std::uint32_t boundary_edges = 0;      ///< With one face.
+  std::uint32_t non_manifold_edges = 0;  ///< With more than two faces, or with two that disagree in winding.
+  std::uint32_t boundary_loops = 0;
+  std::uint32_t components = 0;            ///< Sets of triangles connected across edges.
+  std::uint32_t degenerate_triangles = 0;  ///< A repeated point, or no area in bind space.
+};
+
+/// Counts afresh from the arrays alone. O(vertices + triangles).
+[[nodiscard]] SUNDER_API TopologyCounts count_topology(const Character& character);
+
+}  // namespace sunder

@@ -1,0 +1,86 @@
+#include "tear/blade_plane.h"
+
+#include <cmath>
+
+namespace sunder::tear {
+namespace {
+
+double cross(const Vec2d& a, const Vec2d& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+/// The half-plane beside the line through a and b that holds `inside`. A line that has no direction, or that passes through
+/// `inside`, is replaced by the one across `fallback` through a: a blade that turns about its own end reaches what lies along it.
+BladePlane::HalfPlane beside(const Vec2d& a, const Vec2d& b, const Vec2d& inside, const Vec2d& fallback) {
+  Vec2d normal{-(b - a).y(), (b - a).x()};
+  const double length = normal.norm();
+  const double side = normal.dot(inside - a);
+  if (!(length > 1e-12 * fallback.norm()) || !(std::abs(side) > 1e-12 * length * fallback.norm()))
+    normal = fallback;
+  else if (side < 0)
+    normal = -normal;
+  normal /= normal.norm();
+  return {normal, normal.dot(a)};
+}
+
+}  // namespace
+
+std::optional<BladePlane> BladePlane::through(const Vec3d& anchor, const Blade& from, const Blade& to) {
+  const Vec3d blade = to.tip - to.base;
+  BladePlane plane;
+  plane.origin_ = to.base;
+  plane.along_ = blade / blade.norm();
+  const Vec3d offset = to.base - anchor;
+  const Vec3d across = offset - plane.along_.dot(offset) * plane.along_;
+  const double distance = across.norm();
+  if (!(distance > 1e-9 * (blade.norm() + offset.norm()))) return std::nullopt;
+  plane.across_ = across / distance;
+  plane.across_ -= plane.along_.dot(plane.across_) * plane.along_;  // again: near-parallel subtraction loses the right angle
+  plane.across_ /= plane.across_.norm();
+  plane.normal_ = plane.across_.cross(plane.along_);
+
+  plane.from_base_ = plane.project(from.base);
+  plane.from_tip_ = plane.project(from.tip);
+  plane.to_base_ = plane.project(to.base);
+  plane.to_tip_ = plane.project(to.tip);
+  const Vec2d middle = (plane.from_base_ + plane.from_tip_ + plane.to_base_ + plane.to_tip_) / 4;
+  const Vec2d down = (plane.from_tip_ - plane.from_base_) + (plane.to_tip_ - plane.to_base_);
+  plane.reach_[0] = beside(plane.to_base_, plane.from_base_, middle, down);
+  plane.reach_[1] = beside(plane.to_tip_, plane.from_tip_, middle, -down);
+  plane.reach_[2] = {Vec2d(-1, 0), 0.0};
+  return plane;
+}
+
+SweepCoordinates BladePlane::sweep_coordinates(const Vec2d& point) const {
+  // The blade at progress s: base e s + from_base, direction d + g s. The point lies on its line where
+  // cross(point - base(s), direction(s)) = 0: inverse bilinear interpolation, a quadratic in s.
+  const Vec2d p = point - from_base_;
+  const Vec2d e = to_base_ - from_base_;
+  const Vec2d d = from_tip_ - from_base_;
+  const Vec2d g = (to_tip_ - to_base_) - d;
+  const double a = -cross(e, g);
+  const double b = cross(p, g) - cross(e, d);
+  const double c = cross(p, d);
+  const auto distance_from_sweep = [](double s) { return s < 0 ? -s : s > 1 ? s - 1 : 0.0; };
+  double progress = 0;
+  const double discriminant = b * b - 4 * a * c;
+  if (std::abs(a * c) <= 1e-14 * b * b || discriminant < 0) {
+    progress = b != 0 ? -c / b : 0.0;
+  } else {
+    const double q = -0.5 * (b + std::copysign(std::sqrt(discriminant), b));
+    const double one = q / a;
+    const double other = q != 0 ? c / q : one;
+    progress = distance_from_sweep(other) <= distance_from_sweep(one) ? other : one;
+  }
+  const Vec2d direction = d + progress * g;
+  const double squared = direction.squaredNorm();
+  return {progress, squared > 0 ? direction.dot(p - progress * e) / squared : 0.0};
+}
+
+BladePlane::HalfPlane BladePlane::from_progress(double progress) const {
+  const Vec2d base = from_base_ + progress * (to_base_ - from_base_);
+  const Vec2d direction = (from_tip_ - from_base_) + progress * ((to_tip_ - to_base_) - (from_tip_ - from_base_));
+  Vec2d normal{direction.y(), -direction.x()};  // to the blade's right when it points down y: towards growing x
+  normal /= normal.norm();
+  return {normal, normal.dot(base)};
+}
+
+}  // namespace sunder::tear

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <sunder/core/stroke.h>
+
+#include <array>
+#include <optional>
+
+namespace sunder::tear {
+
+/// Where a point lies in the sweep of a blade.
+struct SweepCoordinates {
+  double progress = 0;  ///< 0 under the first blade, 1 under the second.
+  double depth = 0;     ///< 0 at the blade's base, 1 at its tip.
+};
+
+/// One segment of a stroke as a plane figure: the plane through the second blade and the point where the tear stands, and in it the
+/// quadrilateral that the blade sweeps. Plane coordinates: x across the second blade, zero on it and negative before it; y along it
+/// from its base.
+class BladePlane {
+ public:
+  /// @param anchor  where the segment starts: the tip of the tear, or where the first blade meets the surface.
+  /// @return nothing where the anchor lies on the second blade: the blade did not move.
+  static std::optional<BladePlane> through(const Vec3d& anchor, const Blade& from, const Blade& to);
+
+  /// Signed distance from the plane, metres.
+  [[nodiscard]] double distance(const Vec3d& point) const { return normal_.dot(point - origin_); }
+  [[nodiscard]] Vec2d project(const Vec3d& point) const { return {across_.dot(point - origin_), along_.dot(point - origin_)}; }
+  [[nodiscard]] SweepCoordinates sweep_coordinates(const Vec2d& point) const;
+
+  /// A half-plane of the plane figure: value(p) = normal . p - offset >= 0 inside.
+  struct HalfPlane {
+    Vec2d normal = Vec2d::Zero();
+    double offset = 0;
+    [[nodiscard]] double value(const Vec2d& point) const { return normal.dot(point) - offset; }
+  };
+  /// What the blade reaches: below its base, above its tip, before the second blade.
+  [[nodiscard]] const std::array<HalfPlane, 3>& reach() const { return reach_; }
+  /// What the blade sweeps from `progress` on.
+  [[nodiscard]] HalfPlane from_progress(double progress) const;
+
+ private:
+  Vec3d origin_, across_, along_, normal_;
+  Vec2d from_base_, from_tip_, to_base_, to_tip_;
+  std::array<HalfPlane, 3> reach_;
+};
+
+}  // namespace sunder::tear

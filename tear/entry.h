@@ -1,0 +1,32 @@
+#pragma once
+
+#include <sunder/core/stroke.h>
+
+#include <array>
+#include <optional>
+
+#include "tear/blade_plane.h"
+#include "tear/posed_points.h"
+
+namespace sunder::tear {
+
+/// What two sweep coordinates may differ by and still be the same place: rounding of the inverse bilinear map.
+inline constexpr double kSamePlace = 1e-9;
+
+/// A place on the surface.
+struct SurfaceHit {
+  Index triangle = kNone;
+  std::array<double, 3> barycentric = {};
+  Vec3d position = Vec3d::Zero();  ///< Posed.
+  double progress_beyond = 0;      ///< Of a contact: where the sweep has passed that triangle.
+};
+
+/// Where a blade that stands still first meets the posed surface, from its base towards its tip.
+[[nodiscard]] std::optional<SurfaceHit> first_hit(const Blade& blade, const SurfaceEditor& editor, PosedPoints& posed);
+
+/// Where the sweep of a blade first meets the posed surface at or after `progress`; among the layers there, the one nearest to its
+/// base. A place from which the sweep does not go forward across its triangle is passed over.
+[[nodiscard]] std::optional<SurfaceHit> first_contact(const BladePlane& plane, double progress, const SurfaceEditor& editor,
+                                                      PosedPoints& posed);
+
+}  // namespace sunder::tear

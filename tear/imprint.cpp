@@ -1,0 +1,182 @@
+#include "tear/imprint.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sunder::tear {
+namespace {
+
+/// A place nearer to an end of an edge than this part of the edge is that end: the new faces would be slivers, and the path moves
+/// by less than anyone can see.
+constexpr double kSnap = 1e-3;
+
+/// Splits an edge and pins the new point where the posed edge has it.
+Index split_posed_edge(Index half_edge, double fraction, SurfaceEditor& editor, PosedPoints& posed) {
+  const auto& points = editor.surface().corner_point;
+  const Vec3d from = posed.position(editor, points[half_edge]);
+  const Vec3d to = posed.position(editor, points[Surface::next(half_edge)]);
+  const Index point = editor.split_edge(half_edge, fraction).point;
+  if (point != kNone) posed.pin(point, from + fraction * (to - from));
+  return point;
+}
+
+/// The next place of a path: on the far edge of a face at the point where it stands, or at an end of that edge.
+struct Step {
+  Index corner = kNone;  ///< Of the face, at the point where the path stands.
+  double fraction = 0;   ///< Along the far edge; 0 and 1: at its ends.
+  Vec3d position = Vec3d::Zero();
+  SweepCoordinates sweep;
+};
+
+/// The ways in which the plane leaves a point across the faces around it, of which the path takes the one that goes forward in the
+/// sweep; where several do (a fold of the surface that faces the blade), the one that bends most towards the blade's base.
+Step find_step(const BladePlane& plane, Index point, const SurfaceEditor& editor, PosedPoints& posed) {
+  const Surface& surface = editor.surface();
+  const SweepCoordinates here = plane.sweep_coordinates(plane.project(posed.position(editor, point)));
+  Step best;
+  double best_slope = 0;
+  surface.for_each_in_fan(surface.point_corner[point], [&](Index corner) {
+    const Index a = surface.corner_point[Surface::next(corner)], b = surface.corner_point[Surface::previous(corner)];
+    const Vec3d at_a = posed.position(editor, a), at_b = posed.position(editor, b);
+    const double distance_a = plane.distance(at_a), distance_b = plane.distance(at_b);
+    if ((distance_a >= 0) == (distance_b >= 0)) return;
+    Step step;
+    step.corner = corner;
+    step.fraction = distance_a / (distance_a - distance_b);
+    if (step.fraction < kSnap) step.fraction = 0;
+    if (step.fraction > 1 - kSnap) step.fraction = 1;
+    step.position = at_a + step.fraction * (at_b - at_a);
+    step.sweep = plane.sweep_coordinates(plane.project(step.position));
+    const double progress = step.sweep.progress - here.progress;
+    if (!(progress > 1e-12)) return;
+    const double slope = (step.sweep.depth - here.depth) / progress;
+    if (best.corner != kNone && slope >= best_slope) return;
+    best = step;
+    best_slope = slope;
+  });
+  return best;
+}
+
+/// How much of the way from one place to the next the blade reaches, in [0, 1].
+struct Reach {
+  double fraction = 1;
+  bool ends_at_blade = false;
+};
+
+Reach reach_between(const BladePlane& plane, const Vec3d& from, const Vec3d& to) {
+  const Vec2d a = plane.project(from), b = plane.project(to);
+  Reach reach;
+  for (std::size_t i = 0; i < plane.reach().size(); ++i) {
+    const double at_a = plane.reach()[i].value(a), at_b = plane.reach()[i].value(b);
+    if (at_b > 0 || at_b >= at_a) continue;  // inside, or coming back in
+    const double fraction = std::clamp(at_a / (at_a - at_b), 0.0, 1.0);
+    if (fraction < reach.fraction || (fraction == reach.fraction && i == 2)) reach = {fraction, i == 2};
+  }
+  return reach;
+}
+
+/// The end of the far edge that a step goes to, where it goes to one.
+Index step_corner(const Step& step) {
+  if (step.fraction == 0) return Surface::next(step.corner);
+  if (step.fraction == 1) return Surface::previous(step.corner);
+  return kNone;
+}
+
+/// Goes to the place of a step, splitting the far edge; where that cannot be split, to its nearer end.
+Index take_step(const BladePlane& plane, const Step& step, SurfaceEditor& editor, PosedPoints& posed) {
+  const auto& points = editor.surface().corner_point;
+  if (const Index corner = step_corner(step); corner != kNone) return points[corner];
+  const Index far_edge = Surface::next(step.corner);
+  const Index here = points[step.corner];
+  const Index nearer_end = points[step.fraction < 0.5 ? far_edge : Surface::next(far_edge)];
+  const Index point = split_posed_edge(far_edge, step.fraction, editor, posed);
+  if (point != kNone) return point;
+  const auto progress_at = [&](Index at) { return plane.sweep_coordinates(plane.project(posed.position(editor, at))).progress; };
+  return progress_at(nearer_end) > progress_at(here) ? nearer_end : kNone;
+}
+
+/// Ends a path within the face that a step would cross, `fraction` of the way to its place.
+Index stop_within(const Step& step, double fraction, SurfaceEditor& editor, PosedPoints& posed) {
+  SurfaceHit hit;
+  hit.triangle = step.corner / 3;
+  hit.barycentric[step.corner % 3] = 1 - fraction;
+  hit.barycentric[Surface::next(step.corner) % 3] = fraction * (1 - step.fraction);
+  hit.barycentric[Surface::previous(step.corner) % 3] = fraction * step.fraction;
+  const Vec3d here = posed.position(editor, editor.surface().corner_point[step.corner]);
+  hit.position = here + fraction * (step.position - here);
+  return imprint_point(hit, editor, posed);
+}
+
+}  // namespace
+
+Index imprint_midpoint(Index half_edge, SurfaceEditor& editor, PosedPoints& posed) {
+  return split_posed_edge(half_edge, 0.5, editor, posed);
+}
+
+Index imprint_point(const SurfaceHit& hit, SurfaceEditor& editor, PosedPoints& posed) {
+  const Index first = 3 * hit.triangle;
+  std::array<double, 3> weight = hit.barycentric;
+  double sum = 0;
+  for (double& w : weight) {
+    if (w < kSnap) w = 0;
+    sum += w;
+  }
+  for (double& w : weight) w /= sum;
+  const auto largest = static_cast<Index>(std::max_element(weight.begin(), weight.end()) - weight.begin());
+  const auto smallest = static_cast<Index>(std::min_element(weight.begin(), weight.end()) - weight.begin());
+  if (weight[largest] == 1) return editor.surface().corner_point[first + largest];
+
+  if (weight[smallest] > 0) {
+    const Index point = editor.split_triangle(hit.triangle, weight).point;
+    if (point != kNone) {
+      posed.pin(point, hit.position);
+      return point;
+    }
+  }
+  // On the edge opposite of the smallest coordinate, or as near to it as the face allows.
+  const Index edge = Surface::next(first + smallest);
+  const double along = weight[Surface::next(edge) % 3] / (weight[edge % 3] + weight[Surface::next(edge) % 3]);
+  if (along > kSnap && along < 1 - kSnap)
+    if (const Index point = split_posed_edge(edge, along, editor, posed); point != kNone) return point;
+  return editor.surface().corner_point[first + largest];
+}
+
+Path imprint_path(const BladePlane& plane, Index start, SurfaceEditor& editor, PosedPoints& posed) {
+  Path path;
+  path.points.push_back(start);
+  const auto go_to = [&](Index point, const Vec3d& from) {
+    path.length_posed += (posed.position(editor, point) - from).norm();
+    path.points.push_back(point);
+  };
+  for (;;) {
+    const Index here = path.points.back();
+    const Vec3d from = posed.position(editor, here);
+    const Step step = find_step(plane, here, editor, posed);
+    if (step.corner == kNone) return path;
+    const bool along_edge = step_corner(step) != kNone;
+    const Reach reach = reach_between(plane, from, step.position);
+    if (reach.fraction < kSnap) {
+      path.end = reach.ends_at_blade ? Path::End::blade : Path::End::surface;
+      return path;
+    }
+    if (!along_edge) ++path.faces_crossed;
+    if (reach.fraction < 1 - kSnap) {
+      const Index stop = stop_within(step, reach.fraction, editor, posed);
+      if (stop != here) go_to(stop, from);
+      path.end = reach.ends_at_blade ? Path::End::blade : Path::End::surface;
+      return path;
+    }
+    const Index next = take_step(plane, step, editor, posed);
+    if (next == kNone) {
+      path.end = Path::End::blocked;
+      return path;
+    }
+    go_to(next, from);
+    if (reach.ends_at_blade || reach.fraction < 1) {
+      path.end = reach.ends_at_blade ? Path::End::blade : Path::End::surface;
+      return path;
+    }
+  }
+}
+
+}  // namespace sunder::tear

@@ -1,0 +1,63 @@
+#include "tear/posed_points.h"
+
+#include <sunder/skinning/palette.h>
+#include <sunder/skinning/reference.h>
+
+#include <cmath>
+
+namespace sunder::tear {
+
+Status PosedPoints::begin(const Character& character, const ModelPose& pose) {
+  const std::size_t bone_count = character.skeleton.bones.size();
+  if (pose.model_from_bone.size() != bone_count)
+    return Status::failure(StatusCode::size_mismatch, kNone, "pose has %zu bones, the character %zu", pose.model_from_bone.size(),
+                           bone_count);
+  if (pose.morph_weights.size() != character.rest_morph_weights.size())
+    return Status::failure(StatusCode::size_mismatch, kNone, "pose has %zu morph weights, the character %zu",
+                           pose.morph_weights.size(), character.rest_morph_weights.size());
+  for (Index bone = 0; bone < bone_count; ++bone)
+    if (!pose.model_from_bone[bone].matrix().allFinite())
+      return Status::failure(StatusCode::non_finite_value, bone, "pose: the matrix of bone %u '%.80s' is not finite", bone,
+                             character.skeleton.bones[bone].name.c_str());
+  for (Index i = 0; i < pose.morph_weights.size(); ++i)
+    if (!std::isfinite(pose.morph_weights[i]))
+      return Status::failure(StatusCode::non_finite_value, i, "pose: morph weight %u is not finite", i);
+
+  palettes_.resize(character.skins.size());
+  for (Index skin = 0; skin < character.skins.size(); ++skin) {
+    palettes_[skin].resize(character.skins[skin].bones.size());
+    if (Status status = compute_palette(character.skins[skin], pose, palettes_[skin]); !status) return status;
+  }
+  morph_weights_ = pose.morph_weights;
+  is_known_.assign(is_known_.size(), false);
+  return {};
+}
+
+const Vec3d& PosedPoints::position(const SurfaceEditor& editor, Index point) {
+  if (point >= positions_.size()) {
+    positions_.resize(editor.surface().point_count());
+    is_known_.resize(editor.surface().point_count(), false);
+  }
+  if (!is_known_[point]) {
+    const Index corner = editor.surface().point_corner[point];
+    const Mesh& mesh = editor.character().meshes[editor.surface().triangles[corner / 3].mesh];
+    positions_[point] = deform_position_reference(mesh, editor.vertex_at(corner), palettes_[mesh.skin], morph_weights_);
+    is_known_[point] = true;
+  }
+  return positions_[point];
+}
+
+void PosedPoints::pin(Index point, const Vec3d& position) {
+  if (point >= positions_.size()) {
+    positions_.resize(point + 1);
+    is_known_.resize(point + 1, false);
+  }
+  positions_[point] = position;
+  is_known_[point] = true;
+}
+
+void PosedPoints::unpin_from(Index first_point) {
+  for (std::size_t point = first_point; point < is_known_.size(); ++point) is_known_[point] = false;
+}
+
+}  // namespace sunder::tear

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <sunder/core/character.h>
+
+#include <vector>
+
+namespace sunder::tear {
+
+using Index = std::uint32_t;
+
+/// Where a triangle of the surface stands in the character, and the source triangle that it is a part of.
+struct TriangleRef {
+  Index mesh = 0;
+  Index triangle = 0;         ///< In the mesh as it is now.
+  Index source_triangle = 0;  ///< In the mesh as it was loaded.
+};
+
+/// Connectivity of a character's surface on points, all meshes together.
+///
+/// Triangle t has corners 3t, 3t+1, 3t+2. A corner also names the half-edge that leaves it, towards the next corner. Each point has
+/// one fan: its corners are reached from one another across edges. Where a surface touches itself in a point only, that is two
+/// points.
+struct Surface {
+  std::vector<Index> corner_point;                  ///< 3 a triangle.
+  std::vector<Index> twin;                          ///< 3 a triangle: the opposite half-edge, kNone at a border.
+  std::vector<TriangleRef> triangles;               ///< Source triangles first, mesh after mesh.
+  std::vector<Index> point_corner;                  ///< One corner of each point; kNone for a point without a triangle.
+  std::vector<Index> point_side;                    ///< Value of _TEARSIDE.
+  std::vector<std::vector<bool>> is_shared_vertex;  ///< Of each mesh: source vertices that stand for several points.
+  Index non_manifold_edges = 0;                     ///< At build: with more than two faces, or two that disagree in winding.
+  Index non_manifold_half_edges = 0;                ///< At build: half-edges left unjoined for that reason.
+
+  [[nodiscard]] Index triangle_count() const { return static_cast<Index>(triangles.size()); }
+  [[nodiscard]] Index point_count() const { return static_cast<Index>(point_corner.size()); }
+
+  static Index next(Index corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
+  static Index previous(Index corner) { return corner % 3 == 0 ? corner + 2 : corner - 1; }
+
+  /// The corner of the same point in the face across its incoming edge (counter-clockwise), or across its outgoing edge
+  /// (clockwise).
+  [[nodiscard]] Index rotate_ccw(Index corner) const { return twin[previous(corner)]; }
+  [[nodiscard]] Index rotate_cw(Index corner) const { return twin[corner] == kNone ? kNone : next(twin[corner]); }
+
+  /// The corner of a fan from which rotate_ccw() reaches all others: the clockwise end of an open fan, any corner of a closed one.
+  [[nodiscard]] Index first_of_fan(Index corner) const {
+    Index first = corner;
+    for (Index c = rotate_cw(corner); c != kNone && c != corner; c = rotate_cw(c)) first = c;
+    return rotate_cw(first) == kNone ? first : corner;
+  }
+
+  /// Calls visit(corner) for every corner of the fan that holds `corner`, counter-clockwise.
+  template <class Visit>
+  void for_each_in_fan(Index corner, Visit visit) const {
+    const Index first = first_of_fan(corner);
+    Index c = first;
+    do {
+      const Index following = rotate_ccw(c);
+      visit(c);
+      c = following;
+    } while (c != kNone && c != first);
+  }
+
+  /// The half-edge from one point to another, or kNone.
+  [[nodiscard]] Index find_half_edge(Index from, Index to) const;
+  [[nodiscard]] bool has_repeated_point(Index triangle) const {
+    const Index* p = &corner_point[3 * triangle];
+    return p[0] == p[1] || p[1] == p[2] || p[2] == p[0];
+  }
+};
+
+/// Joins vertices into points and triangles across edges. Edges with more than two faces, and edges whose two faces disagree in
+/// winding, stay unjoined unless the vertices themselves tell which faces belong together. O(vertices + triangles), deterministic.
+[[nodiscard]] Surface build_surface(const Character& character);
+
+}  // namespace sunder::tear

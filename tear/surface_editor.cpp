@@ -1,0 +1,377 @@
+#include "tear/surface_editor.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace sunder::tear {
+
+SurfaceEditor::SurfaceEditor(const Character& source, Character& character)
+    : source_(source),
+      character_(character),
+      surface_(build_surface(character)),
+      births_(character.meshes.size()),
+      appended_triangles_(character.meshes.size()) {
+  Index first = 0;
+  for (const Mesh& mesh : source.meshes) {
+    first_triangle_.push_back(first);
+    first += mesh.triangle_count();
+  }
+}
+
+Triangle SurfaceEditor::vertices_of(Index triangle) const {
+  const TriangleRef& ref = surface_.triangles[triangle];
+  return character_.meshes[ref.mesh].triangles[ref.triangle];
+}
+
+void SurfaceEditor::log_triangle(Index triangle) {
+  LogEntry entry{triangle, {}, {}, {}, vertices_of(triangle)};
+  for (Index k = 0; k < 3; ++k) {
+    entry.points[k] = surface_.corner_point[3 * triangle + k];
+    entry.twins[k] = surface_.twin[3 * triangle + k];
+    entry.point_corners[k] = surface_.point_corner[entry.points[k]];
+  }
+  log_.push_back(entry);
+}
+
+void SurfaceEditor::set_corner(Index corner, Index point, Index vertex) {
+  surface_.corner_point[corner] = point;
+  const TriangleRef& ref = surface_.triangles[corner / 3];
+  character_.meshes[ref.mesh].triangles[ref.triangle][corner % 3] = vertex;
+}
+
+void SurfaceEditor::join(Index a, Index b) {
+  surface_.twin[a] = b;
+  if (b != kNone) surface_.twin[b] = a;
+}
+
+Index SurfaceEditor::append_triangle(Index like, const std::array<Index, 3>& points, const Triangle& vertices) {
+  const TriangleRef ref = surface_.triangles[like];
+  Mesh& mesh = character_.meshes[ref.mesh];
+  const Index triangle = surface_.triangle_count();
+  surface_.triangles.push_back({ref.mesh, mesh.triangle_count(), ref.source_triangle});
+  appended_triangles_[ref.mesh].push_back(triangle);
+  const Index submesh = mesh.triangle_submesh[ref.triangle];
+  mesh.triangles.push_back(vertices);
+  mesh.triangle_submesh.push_back(submesh);
+  for (const Index point : points) {
+    surface_.corner_point.push_back(point);
+    surface_.twin.push_back(kNone);
+  }
+  return triangle;
+}
+
+Index SurfaceEditor::append_point(Index side) {
+  surface_.point_corner.push_back(kNone);
+  surface_.point_side.push_back(side);
+  return surface_.point_count() - 1;
+}
+
+Index SurfaceEditor::append_vertex(Index mesh, const Birth& birth) {
+  births_[mesh].push_back(birth);
+  return append_interpolated_vertex(source_.meshes[mesh], birth, character_.meshes[mesh]);
+}
+
+void SurfaceEditor::remove_newest_vertex(Index mesh) {
+  births_[mesh].pop_back();
+  remove_vertices_from(character_.meshes[mesh].vertex_count() - 1, character_.meshes[mesh]);
+}
+
+std::array<double, 3> SurfaceEditor::source_barycentric(Index corner) const {
+  const TriangleRef& ref = surface_.triangles[corner / 3];
+  const Mesh& source = source_.meshes[ref.mesh];
+  const Triangle& in_triangle = source.triangles[ref.source_triangle];
+  const Index vertex = vertex_at(corner);
+
+  std::array<double, 3> result = {0, 0, 0};
+  const auto add = [&](Index source_vertex, double part) {
+    for (std::size_t k = 0; k < 3; ++k)
+      if (in_triangle[k] == source_vertex) {
+        result[k] += part;
+        return;
+      }
+    assert(false && "a vertex is shared only by parts of source triangles that share its parents");
+  };
+  if (vertex < source.vertex_count()) {
+    add(vertex, 1.0);
+    return result;
+  }
+  const Birth& born = birth(ref.mesh, vertex);
+  if (born.triangle == ref.source_triangle) return born.barycentric;
+  for (std::size_t k = 0; k < 3; ++k)
+    if (born.barycentric[k] > 0.0) add(source.triangles[born.triangle][k], born.barycentric[k]);
+  return result;
+}
+
+Birth SurfaceEditor::birth_between(Index triangle, const std::array<double, 3>& barycentric) const {
+  Birth birth{surface_.triangles[triangle].source_triangle, {0, 0, 0}};
+  double sum = 0;
+  for (Index k = 0; k < 3; ++k) {
+    if (barycentric[k] <= 0.0) continue;
+    const auto corner = source_barycentric(3 * triangle + k);
+    for (std::size_t i = 0; i < 3; ++i) {
+      birth.barycentric[i] += barycentric[k] * corner[i];
+      sum += barycentric[k] * corner[i];
+    }
+  }
+  for (double& coordinate : birth.barycentric) coordinate /= sum;
+  return birth;
+}
+
+bool SurfaceEditor::keeps_winding(Index corner, Index vertex) const {
+  const TriangleRef& ref = surface_.triangles[corner / 3];
+  const Mesh& mesh = character_.meshes[ref.mesh];
+  const auto normal = [&](const Triangle& of) -> Eigen::Vector3d {
+    const Eigen::Vector3d a = mesh.positions[of[0]].cast<double>();
+    return (mesh.positions[of[1]].cast<double>() - a).cross(mesh.positions[of[2]].cast<double>() - a);
+  };
+  const Triangle before = mesh.triangles[ref.triangle];
+  Triangle after = before;
+  after[corner % 3] = vertex;
+  const Eigen::Vector3d normal_before = normal(before);
+  const double squared = normal_before.squaredNorm();
+  // A face without area has no winding to lose; its parts must only keep their corners apart.
+  if (squared == 0.0)
+    return mesh.positions[vertex] != mesh.positions[before[(corner + 1) % 3]] &&
+           mesh.positions[vertex] != mesh.positions[before[(corner + 2) % 3]];
+  return normal(after).dot(normal_before) > 1e-9 * squared;
+}
+
+SplitResult SurfaceEditor::split_edge(Index half_edge, double fraction) {
+  // Face f = (a, b, c) lies left of a -> b, face g = (b, a, d) right of it. p goes between a and b:
+  // f -> (a, p, c) in place and (p, b, c); g -> (b, p, d) in place and (p, a, d).
+  const Index ab = half_edge, bc = Surface::next(ab), ca = Surface::previous(ab);
+  const Index ba = surface_.twin[ab];
+  const Index f = ab / 3;
+  const Index mesh_f = surface_.triangles[f].mesh;
+  const Triangle before_f = vertices_of(f);
+  const Index vertex_a = before_f[ab % 3], vertex_b = before_f[bc % 3], vertex_c = before_f[ca % 3];
+
+  std::array<double, 3> at = {0, 0, 0};
+  at[ab % 3] = 1.0 - fraction;
+  at[bc % 3] = fraction;
+  const Index vertex_f = append_vertex(mesh_f, birth_between(f, at));
+
+  Index vertex_g = vertex_f;
+  Index mesh_g = mesh_f;
+  Index ad = kNone, db = kNone;
+  Triangle before_g{};
+  if (ba != kNone) {
+    ad = Surface::next(ba);
+    db = Surface::previous(ba);
+    mesh_g = surface_.triangles[ba / 3].mesh;
+    before_g = vertices_of(ba / 3);
+    if (mesh_g != mesh_f || before_g[ad % 3] != vertex_a || before_g[ba % 3] != vertex_b) {
+      at = {0, 0, 0};
+      at[ad % 3] = 1.0 - fraction;
+      at[ba % 3] = fraction;
+      vertex_g = append_vertex(mesh_g, birth_between(ba / 3, at));
+      copy_surface_point(character_.meshes[mesh_f], vertex_f, vertex_g, character_.meshes[mesh_g]);
+    }
+  }
+  const bool is_sound = keeps_winding(ab, vertex_f) && keeps_winding(bc, vertex_f) &&
+                        (ba == kNone || (keeps_winding(ba, vertex_g) && keeps_winding(ad, vertex_g)));
+  if (!is_sound) {
+    if (vertex_g != vertex_f || mesh_g != mesh_f) remove_newest_vertex(mesh_g);
+    remove_newest_vertex(mesh_f);
+    return {};
+  }
+
+  const auto& points = surface_.corner_point;
+  const Index a = points[ab], b = points[bc], c = points[ca];
+  const Index p = append_point(std::max(surface_.point_side[a], surface_.point_side[b]));
+  const Index twin_bc = surface_.twin[bc];
+  log_triangle(f);
+  if (twin_bc != kNone) log_triangle(twin_bc / 3);
+  const Index new_f = append_triangle(f, {p, b, c}, {vertex_f, vertex_b, vertex_c});
+  const Index pb = 3 * new_f, new_bc = pb + 1, cp = pb + 2;
+  set_corner(bc, p, vertex_f);
+  join(new_bc, twin_bc);
+  join(bc, cp);
+  surface_.point_corner[p] = pb;
+  surface_.point_corner[b] = new_bc;
+  surface_.point_corner[c] = ca;
+  join(pb, kNone);
+  join(ab, kNone);
+  if (ba != kNone) {
+    const Index d = points[db];
+    const Index twin_ad = surface_.twin[ad];
+    log_triangle(ba / 3);
+    if (twin_ad != kNone) log_triangle(twin_ad / 3);
+    const Index new_g = append_triangle(ba / 3, {p, a, d}, {vertex_g, before_g[ad % 3], before_g[db % 3]});
+    const Index pa = 3 * new_g, new_ad = pa + 1, dp = pa + 2;
+    set_corner(ad, p, vertex_g);
+    join(new_ad, twin_ad);
+    join(ad, dp);
+    join(ab, pa);
+    join(pb, ba);
+    surface_.point_corner[d] = db;
+  }
+  surface_.point_corner[a] = ab;
+  return {p};
+}
+
+SplitResult SurfaceEditor::split_triangle(Index triangle, const std::array<double, 3>& barycentric) {
+  const Index mesh = surface_.triangles[triangle].mesh;
+  const Index vertex = append_vertex(mesh, birth_between(triangle, barycentric));
+  const Index corner = 3 * triangle;
+  if (!keeps_winding(corner, vertex) || !keeps_winding(corner + 1, vertex) || !keeps_winding(corner + 2, vertex)) {
+    remove_newest_vertex(mesh);
+    return {};
+  }
+  // (a, b, c) -> (a, b, p) in place, (b, c, p), (c, a, p).
+  const Triangle before = vertices_of(triangle);
+  const Index a = surface_.corner_point[corner], b = surface_.corner_point[corner + 1], c = surface_.corner_point[corner + 2];
+  const Index twin_bc = surface_.twin[corner + 1], twin_ca = surface_.twin[corner + 2];
+  log_triangle(triangle);
+  if (twin_bc != kNone) log_triangle(twin_bc / 3);
+  if (twin_ca != kNone) log_triangle(twin_ca / 3);
+  const Index p = append_point(std::max({surface_.point_side[a], surface_.point_side[b], surface_.point_side[c]}));
+  const Index at_bc = 3 * append_triangle(triangle, {b, c, p}, {before[1], before[2], vertex});
+  const Index at_ca = 3 * append_triangle(triangle, {c, a, p}, {before[2], before[0], vertex});
+  set_corner(corner + 2, p, vertex);
+  join(at_bc, twin_bc);
+  join(at_ca, twin_ca);
+  join(corner + 1, at_bc + 2);
+  join(at_bc + 1, at_ca + 2);
+  join(at_ca + 1, corner + 2);
+  surface_.point_corner[p] = corner + 2;
+  surface_.point_corner[a] = corner;
+  surface_.point_corner[b] = corner + 1;
+  surface_.point_corner[c] = at_ca;
+  return {p};
+}
+
+void SurfaceEditor::cut_edge(Index half_edge) {
+  const Index twin = surface_.twin[half_edge];
+  if (twin == kNone) return;
+  log_triangle(half_edge / 3);
+  log_triangle(twin / 3);
+  surface_.twin[half_edge] = kNone;
+  surface_.twin[twin] = kNone;
+}
+
+Index SurfaceEditor::separate_fan(Index corner, Index side, const std::vector<Index>& remaining) {
+  const Index old_point = surface_.corner_point[corner];
+  struct Duplicate {
+    Index mesh, vertex, copy;
+  };
+  std::vector<Duplicate> duplicates;
+  const auto is_used_elsewhere = [&](Index mesh, Index vertex) {
+    const auto& is_shared = surface_.is_shared_vertex[mesh];
+    if (vertex < is_shared.size() && is_shared[vertex]) return true;
+    bool used = false;
+    for (const Index other : remaining)
+      surface_.for_each_in_fan(other,
+                               [&](Index c) { used = used || (surface_.triangles[c / 3].mesh == mesh && vertex_at(c) == vertex); });
+    return used;
+  };
+
+  std::vector<Index> corners;
+  surface_.for_each_in_fan(corner, [&](Index c) { corners.push_back(c); });
+  for (const Index c : corners) log_triangle(c / 3);
+  const Index point = append_point(side);
+  for (const Index c : corners) {
+    const Index mesh = surface_.triangles[c / 3].mesh;
+    const Index vertex = vertex_at(c);
+    auto known = std::find_if(duplicates.begin(), duplicates.end(),
+                              [&](const Duplicate& d) { return d.mesh == mesh && d.vertex == vertex; });
+    if (known == duplicates.end()) {
+      Index copy = vertex;
+      if (is_used_elsewhere(mesh, vertex)) {
+        births_[mesh].push_back({surface_.triangles[c / 3].source_triangle, source_barycentric(c)});
+        copy = append_vertex_copy(vertex, character_.meshes[mesh]);
+      }
+      known = duplicates.insert(duplicates.end(), {mesh, vertex, copy});
+    }
+    set_corner(c, point, known->copy);
+  }
+  surface_.point_corner[point] = corner;
+  if (!remaining.empty()) surface_.point_corner[old_point] = remaining.front();
+  return point;
+}
+
+SurfaceEditor::Mark SurfaceEditor::mark() const {
+  Mark mark{surface_.point_count(), surface_.triangle_count(), log_.size(), {}};
+  for (const Mesh& mesh : character_.meshes) mark.mesh_sizes.push_back({mesh.vertex_count(), mesh.triangle_count()});
+  return mark;
+}
+
+void SurfaceEditor::roll_back(const Mark& to) {
+  for (; log_.size() > to.log_length; log_.pop_back()) {
+    const LogEntry& entry = log_.back();
+    for (Index k = 0; k < 3; ++k) {
+      set_corner(3 * entry.triangle + k, entry.points[k], entry.vertices[k]);
+      surface_.twin[3 * entry.triangle + k] = entry.twins[k];
+      surface_.point_corner[entry.points[k]] = entry.point_corners[k];
+    }
+  }
+  surface_.triangles.resize(to.triangles);
+  surface_.corner_point.resize(3 * std::size_t{to.triangles});
+  surface_.twin.resize(3 * std::size_t{to.triangles});
+  surface_.point_corner.resize(to.points);
+  surface_.point_side.resize(to.points);
+  for (Index m = 0; m < character_.meshes.size(); ++m) {
+    Mesh& mesh = character_.meshes[m];
+    remove_vertices_from(to.mesh_sizes[m][0], mesh);
+    births_[m].resize(to.mesh_sizes[m][0] - source_.meshes[m].vertex_count());
+    appended_triangles_[m].resize(to.mesh_sizes[m][1] - source_.meshes[m].triangle_count());
+    mesh.triangles.resize(to.mesh_sizes[m][1]);
+    mesh.triangle_submesh.resize(to.mesh_sizes[m][1]);
+  }
+}
+
+void SurfaceEditor::commit(const Mark& begin, ChangeRecord& change) {
+  change.first_point = begin.points;
+  change.point_count = surface_.point_count() - begin.points;
+  change.meshes.clear();
+
+  // The oldest entry of a triangle says what it was; what came after is part of the same operation.
+  std::vector<std::size_t> entries;
+  for (std::size_t i = begin.log_length; i < log_.size(); ++i)
+    if (log_[i].triangle < begin.triangles) entries.push_back(i);
+  std::stable_sort(entries.begin(), entries.end(), [&](std::size_t a, std::size_t b) {
+    const TriangleRef &ref_a = surface_.triangles[log_[a].triangle], &ref_b = surface_.triangles[log_[b].triangle];
+    return ref_a.mesh != ref_b.mesh ? ref_a.mesh < ref_b.mesh : ref_a.triangle < ref_b.triangle;
+  });
+  for (Index m = 0; m < character_.meshes.size(); ++m) {
+    const Mesh& mesh = character_.meshes[m];
+    MeshChange of_mesh;
+    of_mesh.mesh = m;
+    of_mesh.first_vertex = begin.mesh_sizes[m][0];
+    of_mesh.vertex_count = mesh.vertex_count() - of_mesh.first_vertex;
+    of_mesh.first_triangle = begin.mesh_sizes[m][1];
+    of_mesh.triangle_count = mesh.triangle_count() - of_mesh.first_triangle;
+    Index previous = kNone;
+    for (const std::size_t i : entries) {
+      const TriangleRef& ref = surface_.triangles[log_[i].triangle];
+      if (ref.mesh != m || log_[i].triangle == previous) continue;
+      previous = log_[i].triangle;
+      if (mesh.triangles[ref.triangle] != log_[i].vertices) of_mesh.rewritten.push_back({ref.triangle, log_[i].vertices});
+    }
+    if (of_mesh.vertex_count > 0 || of_mesh.triangle_count > 0 || !of_mesh.rewritten.empty())
+      change.meshes.push_back(std::move(of_mesh));
+  }
+
+  // Every changed corner carries its point's side; corners that did not change had it already.
+  const auto write_sides = [&](Index triangle) {
+    const TriangleRef& ref = surface_.triangles[triangle];
+    const bool is_changed = std::any_of(change.meshes.begin(), change.meshes.end(),
+                                        [&](const MeshChange& of_mesh) { return of_mesh.mesh == ref.mesh; });
+    if (!is_changed) return;  // logged only as the neighbour of a change
+    Mesh& mesh = character_.meshes[ref.mesh];
+    auto attribute = std::find_if(
+        mesh.custom_attributes.begin(), mesh.custom_attributes.end(),
+        [](const CustomAttribute& candidate) { return candidate.name == kTearSideAttribute && candidate.components == 1; });
+    if (attribute == mesh.custom_attributes.end())
+      attribute = mesh.custom_attributes.insert(
+          attribute, CustomAttribute{kTearSideAttribute, 1, false, std::vector<float>(mesh.vertex_count(), 0.0f)});
+    for (Index k = 0; k < 3; ++k)
+      attribute->values[mesh.triangles[ref.triangle][k]] =
+          static_cast<float>(surface_.point_side[surface_.corner_point[3 * triangle + k]]);
+  };
+  for (const std::size_t i : entries) write_sides(log_[i].triangle);
+  for (Index triangle = begin.triangles; triangle < surface_.triangle_count(); ++triangle) write_sides(triangle);
+  log_.resize(begin.log_length);
+}
+
+}  // namespace sunder::tear

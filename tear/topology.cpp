@@ -1,0 +1,89 @@
+#include <sunder/tear/topology.h>
+
+#include <algorithm>
+
+#include "tear/surface.h"
+
+namespace sunder {
+namespace {
+
+using tear::Index;
+using tear::Surface;
+
+Index count_components(const Surface& surface) {
+  std::vector<bool> is_seen(surface.triangle_count(), false);
+  std::vector<Index> open;
+  Index components = 0;
+  for (Index seed = 0; seed < surface.triangle_count(); ++seed) {
+    if (is_seen[seed] || surface.has_repeated_point(seed)) continue;
+    ++components;
+    is_seen[seed] = true;
+    open.push_back(seed);
+    while (!open.empty()) {
+      const Index triangle = open.back();
+      open.pop_back();
+      for (Index h = 3 * triangle; h < 3 * triangle + 3; ++h) {
+        if (surface.twin[h] == kNone || is_seen[surface.twin[h] / 3]) continue;
+        is_seen[surface.twin[h] / 3] = true;
+        open.push_back(surface.twin[h] / 3);
+      }
+    }
+  }
+  return components;
+}
+
+bool is_border(const Surface& surface, Index half_edge) {
+  return surface.twin[half_edge] == kNone && !surface.has_repeated_point(half_edge / 3);
+}
+
+/// A border half-edge is followed by the one that leaves its end point; each point has one fan, hence at most one of them.
+Index count_boundary_loops(const Surface& surface) {
+  std::vector<bool> is_seen(surface.twin.size(), false);
+  Index loops = 0;
+  for (Index seed = 0; seed < surface.twin.size(); ++seed) {
+    if (is_seen[seed] || !is_border(surface, seed)) continue;
+    ++loops;
+    for (Index h = seed; !is_seen[h];) {
+      is_seen[h] = true;
+      h = Surface::next(h);
+      for (Index across = surface.twin[h]; across != kNone; across = surface.twin[h]) h = Surface::next(across);
+    }
+  }
+  return loops;
+}
+
+/// Thinner than double arithmetic on float coordinates can tell from nothing.
+bool has_no_area(const Mesh& mesh, const Triangle& triangle) {
+  const Eigen::Vector3d a = mesh.positions[triangle[0]].cast<double>();
+  const Eigen::Vector3d ab = mesh.positions[triangle[1]].cast<double>() - a, ac = mesh.positions[triangle[2]].cast<double>() - a;
+  const double longest_squared = std::max({ab.squaredNorm(), ac.squaredNorm(), (ac - ab).squaredNorm()});
+  return ab.cross(ac).norm() <= 1e-12 * longest_squared;
+}
+
+}  // namespace
+
+TopologyCounts count_topology(const Character& character) {
+  const Surface surface = tear::build_surface(character);
+  TopologyCounts counts;
+  for (const Mesh& mesh : character.meshes) counts.vertices += mesh.vertex_count();
+  counts.points = surface.point_count();
+  counts.triangles = surface.triangle_count();
+  Index half_edges = 0, border = 0;
+  for (Index h = 0; h < surface.twin.size(); ++h) {
+    half_edges += surface.has_repeated_point(h / 3) ? 0 : 1;
+    border += is_border(surface, h) ? 1 : 0;
+  }
+  counts.edges = (half_edges + border) / 2;
+  counts.boundary_edges = border - surface.non_manifold_half_edges;
+  counts.non_manifold_edges = surface.non_manifold_edges;
+  counts.boundary_loops = count_boundary_loops(surface);
+  counts.components = count_components(surface);
+  for (Index t = 0; t < surface.triangle_count(); ++t) {
+    const auto& ref = surface.triangles[t];
+    const Mesh& mesh = character.meshes[ref.mesh];
+    if (surface.has_repeated_point(t) || has_no_area(mesh, mesh.triangles[ref.triangle])) ++counts.degenerate_triangles;
+  }
+  return counts;
+}
+
+}  // namespace sunder

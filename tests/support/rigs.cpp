@@ -1,0 +1,211 @@
+#include "support/rigs.h"
+
+#include <sunder/skinning/palette.h>
+#include <sunder/skinning/reference.h>
+#include <sunder/skinning/sample_clip.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace sunder::test {
+namespace {
+
+void add_chain(Character& character, std::uint32_t bone_count, const Vec3f& step) {
+  Skin skin;
+  skin.name = "skin";
+  for (std::uint32_t i = 0; i < bone_count; ++i) {
+    Bone bone;
+    bone.name = "bone" + std::to_string(i);
+    bone.parent = i == 0 ? kNone : i - 1;
+    if (i > 0) bone.rest.translation = step;
+    character.skeleton.bones.push_back(bone);
+    skin.bones.push_back(i);
+    Affine3f bone_from_bind = Affine3f::Identity();
+    bone_from_bind.translation() = -static_cast<float>(i) * step;
+    skin.bone_from_bind.push_back(bone_from_bind);
+  }
+  character.skins.push_back(skin);
+}
+
+/// Weights of a chain whose bones start at 0, 1, 2 …: smooth, up to four a vertex.
+std::vector<Influence> chain_influences(double along, std::uint32_t bone_count) {
+  std::vector<std::pair<double, std::uint32_t>> raw;
+  for (std::uint32_t i = 0; i < bone_count; ++i) {
+    const double distance = std::abs(along - (i + 0.5));
+    if (distance < 2.0) raw.emplace_back(std::pow(1.0 - distance / 2.0, 2), i);
+  }
+  std::sort(raw.rbegin(), raw.rend());
+  if (raw.size() > 4) raw.resize(4);
+  double sum = 0;
+  for (const auto& [weight, bone] : raw) sum += weight;
+  std::vector<Influence> influences;
+  for (const auto& [weight, bone] : raw)
+    if (weight > 0) influences.push_back({bone, static_cast<float>(weight / sum)});
+  return influences;
+}
+
+}  // namespace
+
+Character make_sheet(std::uint32_t cells, float size) {
+  Character character;
+  character.name = "sheet";
+  add_chain(character, 2, {size / 2, 0, 0});
+  Mesh mesh;
+  mesh.name = "sheet";
+  mesh.uv_sets.emplace_back();
+  mesh.submeshes.push_back({"cloth", kNone});
+  for (std::uint32_t j = 0; j <= cells; ++j)
+    for (std::uint32_t i = 0; i <= cells; ++i) {
+      const float u = static_cast<float>(i) / static_cast<float>(cells), v = static_cast<float>(j) / static_cast<float>(cells);
+      mesh.positions.emplace_back(size * u, size * v, 0.0f);
+      mesh.normals.emplace_back(0.0f, 0.0f, 1.0f);
+      mesh.uv_sets[0].emplace_back(u, v);
+      const auto influences = u <= 0.0f   ? std::vector<Influence>{{0, 1.0f}}
+                              : u >= 1.0f ? std::vector<Influence>{{1, 1.0f}}
+                                          : std::vector<Influence>{{0, 1.0f - u}, {1, u}};
+      mesh.weights.append(influences);
+    }
+  for (std::uint32_t j = 0; j < cells; ++j)
+    for (std::uint32_t i = 0; i < cells; ++i) {
+      const std::uint32_t a = j * (cells + 1) + i, b = a + 1, c = a + cells + 1, d = c + 1;
+      mesh.triangles.push_back({a, b, d});
+      mesh.triangles.push_back({a, d, c});
+    }
+  mesh.triangle_submesh.assign(mesh.triangles.size(), 0);
+  character.meshes.push_back(mesh);
+  return character;
+}
+
+Character make_tube(std::uint32_t rings, std::uint32_t sides, std::uint32_t bone_count) {
+  Character character;
+  character.name = "tube";
+  add_chain(character, bone_count, {0, 1, 0});
+  character.rest_morph_weights = {0.0f};
+
+  Mesh mesh;
+  mesh.name = "tube";
+  mesh.uv_sets.emplace_back();
+  mesh.submeshes = {{"side", kNone}, {"caps", kNone}};
+  MorphTarget swell{"swell", {}, {}, {}};
+  const auto add_vertex = [&](double angle, double radius, double height, const Vec3f& normal, const Vec2f& uv) {
+    const Vec3f around(static_cast<float>(std::cos(angle)), 0, static_cast<float>(-std::sin(angle)));
+    mesh.positions.push_back(static_cast<float>(radius) * around + Vec3f(0, static_cast<float>(height), 0));
+    mesh.normals.push_back(normal);
+    mesh.uv_sets[0].push_back(uv);
+    mesh.weights.append(chain_influences(height, bone_count));
+    swell.position_deltas.push_back(static_cast<float>(radius * 0.3) * around);
+    return mesh.vertex_count() - 1;
+  };
+  const auto add_triangle = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t submesh) {
+    mesh.triangles.push_back({a, b, c});
+    mesh.triangle_submesh.push_back(submesh);
+  };
+  const auto angle_at = [&](std::uint32_t side) { return 2 * std::numbers::pi * (side % sides) / sides; };
+  const auto height_at = [&](std::uint32_t ring) { return static_cast<double>(bone_count) * ring / rings; };
+  constexpr double kRadius = 0.5;
+
+  for (std::uint32_t ring = 0; ring <= rings; ++ring)
+    for (std::uint32_t side = 0; side <= sides; ++side) {  // the last column repeats the first: the seam
+      const double angle = angle_at(side);
+      add_vertex(angle, kRadius, height_at(ring), {static_cast<float>(std::cos(angle)), 0, static_cast<float>(-std::sin(angle))},
+                 {static_cast<float>(side) / static_cast<float>(sides), static_cast<float>(ring) / static_cast<float>(rings)});
+    }
+  for (std::uint32_t ring = 0; ring < rings; ++ring)
+    for (std::uint32_t side = 0; side < sides; ++side) {
+      const std::uint32_t a = ring * (sides + 1) + side, b = a + 1, c = a + sides + 1, d = c + 1;
+      add_triangle(a, b, d, 0);
+      add_triangle(a, d, c, 0);
+    }
+  for (const bool top : {false, true}) {
+    const double height = top ? height_at(rings) : 0;
+    const Vec3f normal(0, top ? 1.0f : -1.0f, 0);
+    const std::uint32_t center = add_vertex(0, 0, height, normal, {0.5f, 0.5f});
+    const std::uint32_t rim = center + 1;
+    for (std::uint32_t side = 0; side < sides; ++side)
+      add_vertex(
+          angle_at(side), kRadius, height, normal,
+          {static_cast<float>(0.5 + 0.5 * std::cos(angle_at(side))), static_cast<float>(0.5 + 0.5 * std::sin(angle_at(side)))});
+    for (std::uint32_t side = 0; side < sides; ++side) {
+      const std::uint32_t a = rim + side, b = rim + (side + 1) % sides;
+      top ? add_triangle(center, a, b, 1) : add_triangle(center, b, a, 1);
+    }
+  }
+  mesh.morph_targets.push_back(swell);
+  character.meshes.push_back(mesh);
+
+  Clip bend{"Bend", 2.0f, {}};
+  for (std::uint32_t bone = 1; bone < bone_count; ++bone) {
+    Channel channel;
+    channel.target = ChannelTarget::rotation;
+    channel.index = bone;
+    channel.width = 4;
+    channel.times = {0.0f, 1.0f, 2.0f};
+    const auto half = static_cast<float>(0.5 * 1.2 / bone_count);
+    channel.values = {0, 0, 0, 1, std::sin(half), 0, 0, std::cos(half), 0, 0, 0, 1};
+    bend.channels.push_back(channel);
+  }
+  character.clips.push_back(bend);
+  return character;
+}
+
+ModelPose random_pose(const Character& character, Random& random, double angle, double scale) {
+  Pose pose = rest_pose(character);
+  for (BoneTransform& bone : pose.parent_from_bone) {
+    const Quatd turn(Eigen::AngleAxisd(random.uniform(-angle, angle), random.direction()));
+    bone.rotation = Quatf((bone.rotation.cast<double>() * turn).normalized().cast<float>());
+    for (int axis = 0; axis < 3; ++axis) bone.scale[axis] *= static_cast<float>(std::pow(scale, random.uniform(-1, 1)));
+  }
+  for (float& weight : pose.morph_weights) weight = static_cast<float>(random.uniform(0, 1));
+  ModelPose result;
+  if (!compute_model_pose(character.skeleton, pose, result)) std::abort();
+  return result;
+}
+
+std::vector<Vec3d> posed_positions(const Character& character, std::uint32_t mesh, const ModelPose& pose) {
+  const Mesh& of = character.meshes[mesh];
+  std::vector<Affine3d> palette(character.skins[of.skin].bones.size());
+  if (!compute_palette(character.skins[of.skin], pose, palette)) std::abort();
+  std::vector<Vec3d> positions;
+  for (std::uint32_t v = 0; v < of.vertex_count(); ++v)
+    positions.push_back(deform_position_reference(of, v, palette, pose.morph_weights));
+  return positions;
+}
+
+double posed_diagonal(const Character& character, const ModelPose& pose) {
+  Eigen::AlignedBox3d box;
+  for (std::uint32_t mesh = 0; mesh < character.meshes.size(); ++mesh)
+    for (const Vec3d& position : posed_positions(character, mesh, pose)) box.extend(Eigen::Vector3d(position));
+  return box.diagonal().norm();
+}
+
+Stroke random_stroke(const Character& character, const ModelPose& pose, Random& random, double length, std::uint32_t segments) {
+  const double diagonal = posed_diagonal(character, pose);
+  for (;;) {
+    const std::uint32_t mesh = random.index(static_cast<std::uint32_t>(character.meshes.size()));
+    const Mesh& of = character.meshes[mesh];
+    if (of.triangles.empty()) continue;
+    const Triangle triangle = of.triangles[random.index(of.triangle_count())];
+    const auto positions = posed_positions(character, mesh, pose);
+    const Vec3d a = positions[triangle[0]], b = positions[triangle[1]], c = positions[triangle[2]];
+    const Vec3d cross = (b - a).cross(c - a);
+    if (!(cross.norm() > 1e-12 * diagonal * diagonal)) continue;
+    const Vec3d normal = cross / cross.norm();
+    const double u = random.uniform(0.1, 0.5), v = random.uniform(0.1, 0.4);
+    Vec3d at = (1 - u - v) * a + u * b + v * c;
+    Vec3d along = random.direction();
+    along = along - along.dot(normal) * normal;
+    if (along.norm() < 0.1) continue;
+    along /= along.norm();
+    Stroke stroke;
+    const double height = 0.1 * diagonal, depth = 0.05 * diagonal, step = length * diagonal / segments;
+    for (std::uint32_t i = 0; i <= segments; ++i) {
+      stroke.push_back({at + height * normal, at - depth * normal});
+      at += step * along;
+      along = Eigen::AngleAxisd(random.uniform(-0.4, 0.4), Eigen::Vector3d(normal)) * Eigen::Vector3d(along);
+    }
+    return stroke;
+  }
+}
+
+}  // namespace sunder::test

@@ -1,0 +1,210 @@
+#include <sunder/skinning/palette.h>
+#include <sunder/skinning/sample_clip.h>
+#include <sunder/tear/topology.h>
+#include <sunder/tear/torn_model.h>
+
+#include <cmath>
+#include <limits>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "support/rigs.h"
+#include "support/torn_invariants.h"
+
+namespace sunder {
+namespace {
+
+using test::Random;
+using testing::IsEmpty;
+
+TornModel make_model(Character character) {
+  auto model = TornModel::create(std::make_shared<const Character>(std::move(character)));
+  EXPECT_TRUE(model) << model.error().text();
+  return std::move(*model);
+}
+
+ModelPose rest(const Character& character) {
+  ModelPose pose;
+  EXPECT_TRUE(compute_model_pose(character.skeleton, rest_pose(character), pose));
+  return pose;
+}
+
+/// A blade straight down on the sheet z = 0 at (x, y).
+Blade down_at(double x, double y) { return {{x, y, 0.5}, {x, y, -0.5}}; }
+
+TEST(TornModel, tear_inside_the_sheet_opens_one_loop_of_the_strokes_length) {
+  TornModel model = make_model(test::make_sheet(10));
+  ChangeRecord change;
+  const auto report = model.tear(rest(model.source()), std::vector{down_at(0.23, 0.31), down_at(0.61, 0.52)}, &change);
+  ASSERT_TRUE(report) << report.error().text();
+  EXPECT_EQ(report->pieces, 1u);
+  EXPECT_NEAR(report->length_posed, std::hypot(0.38, 0.21), 1e-3);
+  const TopologyCounts after = count_topology(model.character());
+  EXPECT_EQ(after.boundary_loops, 2u);
+  EXPECT_EQ(after.components, 1u);
+  EXPECT_THAT(test::broken_laws(model), IsEmpty());
+  EXPECT_THAT(test::broken_lips(model, change), IsEmpty());
+  EXPECT_FALSE(change.lips.empty());
+}
+
+TEST(TornModel, tear_across_the_whole_sheet_separates_it) {
+  TornModel model = make_model(test::make_sheet(8));
+  const auto report = model.tear(rest(model.source()), std::vector{down_at(-0.2, 0.43), down_at(0.5, 0.47), down_at(1.2, 0.44)});
+  ASSERT_TRUE(report);
+  EXPECT_EQ(count_topology(model.character()).components, 2u);
+  EXPECT_THAT(test::broken_laws(model), IsEmpty());
+}
+
+TEST(TornModel, tear_along_grid_lines_and_through_vertices_makes_no_sliver) {
+  TornModel model = make_model(test::make_sheet(10));
+  const auto report = model.tear(rest(model.source()), std::vector{down_at(-0.1, 0.5), down_at(1.1, 0.5)});
+  ASSERT_TRUE(report);
+  EXPECT_EQ(report->triangles_added, 0u);
+  EXPECT_EQ(report->points_added, 11u);
+  EXPECT_EQ(count_topology(model.character()).components, 2u);
+  EXPECT_THAT(test::broken_laws(model), IsEmpty());
+}
+
+TEST(TornModel, tear_within_one_face_opens) {
+  TornModel model = make_model(test::make_sheet(1));
+  const auto report = model.tear(rest(model.source()), std::vector{down_at(0.5, 0.1), down_at(0.8, 0.3)});
+  ASSERT_TRUE(report);
+  EXPECT_EQ(report->pieces, 1u);
+  EXPECT_EQ(count_topology(model.character()).boundary_loops, 2u);
+  EXPECT_THAT(test::broken_laws(model), IsEmpty());
+}
+
+TEST(TornModel, segments_continue_from_the_stored_tip) {
+  TornModel model = make_model(test::make_sheet(7));
+  Stroke stroke;
+  for (int i = 0; i <= 20; ++i) stroke.push_back(down_at(0.2 + 0.03 * i, 0.5 + 0.2 * std::sin(0.5 * i)));
+  ChangeRecord change;
+  const auto report = model.tear(rest(model.source()), stroke, &change);
+  ASSERT_TRUE(report);
+  EXPECT_EQ(report->pieces, 20u);
+  const TopologyCounts after = count_topology(model.character());
+  EXPECT_EQ(after.boundary_loops, 2u) << "one slit";
+  EXPECT_EQ(after.components, 1u);
+  EXPECT_THAT(test::broken_laws(model), IsEmpty());
+  EXPECT_THAT(test::broken_lips(model, change), IsEmpty());
+}
+
+TEST(TornModel, tear_that_crosses_an_older_one_leaves_no_bridge) {
+  TornModel model = make_model(test::make_sheet(9));
+  ASSERT_TRUE(model.tear(rest(model.source()), std::vector{down_at(-0.1, 0.4371), down_at(1.1, 0.5213)}));
+  ASSERT_TRUE(model.tear(rest(model.source()), std::vector{down_at(0.4713, -0.1), down_at(0.5119, 1.1)}));
+  EXPECT_EQ(count_topology(model.character()).components, 4u);
+  EXPECT_THAT(test::broken_laws(model), IsEmpty());
+}
+
+TEST(TornModel, only_the_nearest_layer_within_reach_is_torn) {
+  TornModel model = make_model(test::make_tube(12, 16, 3));
+  // Through both walls: the blade is longer than the tube is wide.
+  const Stroke stroke = {{{-0.2, 1.2, 2}, {-0.2, 1.2, -2}}, {{0.25, 1.7, 2}, {0.25, 1.7, -2}}};
+  ASSERT_TRUE(model.tear(rest(model.source()), stroke));
+  const Mesh& mesh = model.character().meshes[0];
+  ASSERT_GT(mesh.vertex_count(), model.source().meshes[0].vertex_count());
+  for (std::uint32_t v = model.source().meshes[0].vertex_count(); v < mesh.vertex_count(); ++v)
+    EXPECT_GT(mesh.positions[v].z(), 0.0f);
+  EXPECT_THAT(test::broken_laws(model), IsEmpty());
+}
+
+TEST(TornModel, a_stroke_beyond_the_blades_reach_changes_nothing) {
+  TornModel model = make_model(test::make_sheet(4));
+  ChangeRecord change;
+  const Stroke stroke = {{{0.2, 0.2, 0.5}, {0.2, 0.2, 0.1}}, {{0.7, 0.2, 0.5}, {0.7, 0.2, 0.1}}};
+  const auto report = model.tear(rest(model.source()), stroke, &change);
+  ASSERT_TRUE(report);
+  EXPECT_EQ(report->pieces, 0u);
+  EXPECT_EQ(report->segments_missed, 1u);
+  EXPECT_TRUE(change.meshes.empty());
+  EXPECT_EQ(model.character(), model.source());
+}
+
+TEST(TornModel, tear_runs_over_uv_seams_and_into_the_caps) {
+  TornModel model = make_model(test::make_tube(10, 12, 3));
+  // Along the seam side (+x), over the rim, onto the cap.
+  const Stroke stroke = {
+      {{0.9, 2.2, 0.03}, {0.3, 2.2, 0.03}}, {{0.9, 3.3, -0.05}, {0.1, 2.9, -0.05}}, {{0.2, 3.4, -0.07}, {0.1, 2.8, -0.07}}};
+  ChangeRecord change;
+  const auto report = model.tear(rest(model.source()), stroke, &change);
+  ASSERT_TRUE(report) << report.error().text();
+  EXPECT_EQ(count_topology(model.character()).boundary_loops, 1u) << "one slit over side and cap";
+  EXPECT_THAT(test::broken_laws(model), IsEmpty());
+  EXPECT_THAT(test::broken_lips(model, change), IsEmpty());
+}
+
+TEST(TornModel, refuses_bad_strokes_and_poses_and_stays_as_it_was) {
+  TornModel model = make_model(test::make_sheet(4));
+  const ModelPose pose = rest(model.source());
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto code_of = [&](const ModelPose& at, const Stroke& stroke) {
+    const auto report = model.tear(at, stroke);
+    EXPECT_EQ(model.character(), model.source());
+    return report ? StatusCode::ok : report.error().code();
+  };
+  EXPECT_EQ(code_of(pose, {}), StatusCode::invalid_argument);
+  EXPECT_EQ(code_of(pose, {down_at(0.5, 0.5)}), StatusCode::invalid_argument);
+  EXPECT_EQ(code_of(pose, {down_at(0.2, 0.5), {{nan, 0, 1}, {0, 0, 0}}}), StatusCode::non_finite_value);
+  EXPECT_EQ(code_of(pose, {down_at(0.2, 0.5), {{0.4, 0.5, 0}, {0.4, 0.5, 0}}}), StatusCode::invalid_argument);
+  EXPECT_EQ(code_of(pose, {down_at(0.2, 0.5), {{0.4, 0.5, -1}, {0.4, 0.5, 1}}}), StatusCode::invalid_argument);
+  ModelPose short_pose = pose;
+  short_pose.model_from_bone.pop_back();
+  EXPECT_EQ(code_of(short_pose, {down_at(0.2, 0.5), down_at(0.6, 0.5)}), StatusCode::size_mismatch);
+  ModelPose nan_pose = pose;
+  nan_pose.model_from_bone[1].translation().x() = nan;
+  EXPECT_EQ(code_of(nan_pose, {down_at(0.2, 0.5), down_at(0.6, 0.5)}), StatusCode::non_finite_value);
+}
+
+TEST(TornModel, tears_in_a_pose_with_a_collapsed_bone_without_harm) {
+  TornModel model = make_model(test::make_tube(8, 10, 3));
+  ModelPose pose = rest(model.source());
+  pose.model_from_bone[1].linear().setZero();
+  Random random(5);
+  for (int i = 0; i < 20; ++i) {
+    ASSERT_TRUE(model.tear(pose, test::random_stroke(model.character(), rest(model.source()), random)));
+    ASSERT_THAT(test::broken_laws(model), IsEmpty());
+  }
+}
+
+TEST(TornModel, the_same_tears_give_the_same_bits) {
+  const auto tear_twice = [] {
+    TornModel model = make_model(test::make_tube(10, 12, 4));
+    Random random(3);
+    for (int i = 0; i < 5; ++i) {
+      const ModelPose pose = test::random_pose(model.source(), random);
+      EXPECT_TRUE(model.tear(pose, test::random_stroke(model.character(), pose, random)));
+    }
+    return model.character();
+  };
+  EXPECT_EQ(tear_twice(), tear_twice());
+}
+
+class RandomTears : public testing::TestWithParam<int> {};
+
+TEST_P(RandomTears, keep_every_law_in_every_pose) {
+  Random random(static_cast<std::uint64_t>(GetParam()));
+  const bool is_sheet = random.index(2) == 0;
+  TornModel model = make_model(is_sheet ? test::make_sheet(2 + random.index(12))
+                                        : test::make_tube(3 + random.index(12), 5 + random.index(12), 2 + random.index(4)));
+  for (int i = 0; i < 6; ++i) {
+    const ModelPose pose = test::random_pose(model.source(), random);
+    const Stroke stroke = test::random_stroke(model.character(), pose, random, random.uniform(0.02, 0.6), 1 + random.index(8));
+    ChangeRecord change;
+    const auto report = model.tear(pose, stroke, &change);
+    ASSERT_TRUE(report) << report.error().text();
+    ASSERT_THAT(test::broken_laws(model), IsEmpty()) << "tear " << i;
+    ASSERT_THAT(test::broken_lips(model, change), IsEmpty()) << "tear " << i;
+    if (i == 0) {
+      ASSERT_THAT(test::broken_closure(model), IsEmpty());
+    }
+  }
+  for (int i = 0; i < 5; ++i)
+    ASSERT_THAT(test::broken_closed_form(model, test::random_pose(model.source(), random, 1.5, 1.5)), IsEmpty());
+}
+
+INSTANTIATE_TEST_SUITE_P(seeds, RandomTears, testing::Range(0, 200));
+
+}  // namespace
+}  // namespace sunder
