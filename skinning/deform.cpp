@@ -3,22 +3,7 @@
 #include "skinning/blend.h"
 
 namespace sunder {
-namespace {
-
-/// The palette in float, converted as it is read: palettes are small, and this keeps the call free of scratch memory.
-struct FloatPalette {
-  std::span<const Affine3d> model_from_bind;
-
-  struct Entry {
-    const Affine3d& transform;
-    [[nodiscard]] auto matrix() const { return transform.matrix().cast<float>(); }
-  };
-  Entry operator[](std::uint32_t slot) const { return {model_from_bind[slot]}; }
-};
-
-}  // namespace
-
-Status deform_mesh(const Mesh& mesh, std::span<const Affine3d> model_from_bind, std::span<const float> morph_weights,
+Status deform_mesh(const Mesh& mesh, std::span<const Affine3f> model_from_bind, std::span<const float> morph_weights,
                    DeformedMesh& out) {
   if (mesh.first_morph_weight + mesh.morph_targets.size() > morph_weights.size())
     return Status::failure(StatusCode::size_mismatch, kNone, "mesh '%.80s' reads morph weights up to %zu, the pose has %zu",
@@ -32,9 +17,8 @@ Status deform_mesh(const Mesh& mesh, std::span<const Affine3d> model_from_bind, 
   out.positions.resize(count);
   out.normals.resize(mesh.normals.size());
   out.tangents.resize(mesh.tangents.size());
-  const FloatPalette palette{model_from_bind};
   for (std::uint32_t v = 0; v < count; ++v) {
-    const auto blended = skinning::blend_matrix<float>(mesh.weights.of(v), palette);
+    const auto blended = skinning::blend_matrix<float>(mesh.weights.of(v), model_from_bind);
     const Eigen::Matrix3f linear = blended.leftCols<3>();
     const Eigen::Vector3f position =
         skinning::add_morphs<float>(mesh, v, morph_weights, mesh.positions[v], &MorphTarget::position_deltas);

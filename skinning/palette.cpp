@@ -18,6 +18,23 @@ bool is_invertible(const Mat3d& linear) {
   return scale > 0 && std::abs(linear.determinant()) > 1e-12 * scale * scale * scale;
 }
 
+/// Both precisions of the palette; the products are double in each.
+template <class Affine>
+Status write_palette(const Skin& skin, const ModelPose& pose, std::span<Affine> model_from_bind) {
+  if (model_from_bind.size() != skin.bones.size())
+    return Status::failure(StatusCode::size_mismatch, kNone, "palette has %zu entries, skin has %zu bones", model_from_bind.size(),
+                           skin.bones.size());
+  for (std::uint32_t slot = 0; slot < skin.bones.size(); ++slot)
+    if (skin.bones[slot] >= pose.model_from_bone.size())
+      return Status::failure(StatusCode::index_out_of_range, slot, "skin slot %u: bone %u, pose has %zu", slot, skin.bones[slot],
+                             pose.model_from_bone.size());
+  for (std::size_t slot = 0; slot < skin.bones.size(); ++slot) {
+    const Affine3d product = pose.model_from_bone[skin.bones[slot]] * skin.bone_from_bind[slot].template cast<double>();
+    model_from_bind[slot] = product.cast<typename Affine::Scalar>();
+  }
+  return {};
+}
+
 }  // namespace
 
 Status compute_model_pose(const Skeleton& skeleton, const Pose& pose, ModelPose& model_pose) {
@@ -68,16 +85,11 @@ ModelPose bind_pose(const Character& character) {
 }
 
 Status compute_palette(const Skin& skin, const ModelPose& pose, std::span<Affine3d> model_from_bind) {
-  if (model_from_bind.size() != skin.bones.size())
-    return Status::failure(StatusCode::size_mismatch, kNone, "palette has %zu entries, skin has %zu bones", model_from_bind.size(),
-                           skin.bones.size());
-  for (std::uint32_t slot = 0; slot < skin.bones.size(); ++slot)
-    if (skin.bones[slot] >= pose.model_from_bone.size())
-      return Status::failure(StatusCode::index_out_of_range, slot, "skin slot %u: bone %u, pose has %zu", slot, skin.bones[slot],
-                             pose.model_from_bone.size());
-  for (std::size_t slot = 0; slot < skin.bones.size(); ++slot)
-    model_from_bind[slot] = pose.model_from_bone[skin.bones[slot]] * skin.bone_from_bind[slot].cast<double>();
-  return {};
+  return write_palette(skin, pose, model_from_bind);
+}
+
+Status compute_palette(const Skin& skin, const ModelPose& pose, std::span<Affine3f> model_from_bind) {
+  return write_palette(skin, pose, model_from_bind);
 }
 
 }  // namespace sunder

@@ -16,6 +16,12 @@ std::vector<Affine3d> palette_of(const Character& character, const ModelPose& po
   return palette;
 }
 
+std::vector<Affine3f> in_float(const std::vector<Affine3d>& palette) {
+  std::vector<Affine3f> result;
+  for (const Affine3d& matrix : palette) result.push_back(matrix.cast<float>());
+  return result;
+}
+
 void add_tangents(Mesh& mesh) {
   for (const Vec3f& normal : mesh.normals) {
     const Eigen::Vector3f tangent = Eigen::Vector3f(normal).unitOrthogonal();
@@ -32,7 +38,7 @@ TEST(Deform, agrees_with_the_double_precision_reference) {
     const auto palette = palette_of(character, pose);
     const Mesh& mesh = character.meshes[0];
     DeformedMesh deformed;
-    ASSERT_TRUE(deform_mesh(mesh, palette, pose.morph_weights, deformed));
+    ASSERT_TRUE(deform_mesh(mesh, in_float(palette), pose.morph_weights, deformed));
     const double diagonal = test::posed_diagonal(character, pose);
     for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
       ASSERT_LT((deformed.positions[v].cast<double>() - deform_position_reference(mesh, v, palette, pose.morph_weights)).norm(),
@@ -80,7 +86,7 @@ TEST(Deform, a_collapsed_bone_gives_finite_results) {
   ModelPose pose = bind_pose(character);
   for (Affine3d& bone : pose.model_from_bone) bone.linear().setZero();
   DeformedMesh deformed;
-  ASSERT_TRUE(deform_mesh(character.meshes[0], palette_of(character, pose), {}, deformed));
+  ASSERT_TRUE(deform_mesh(character.meshes[0], in_float(palette_of(character, pose)), {}, deformed));
   for (const Vec3f& normal : deformed.normals) EXPECT_EQ(normal, Vec3f(0, 0, 1));
 }
 
@@ -101,9 +107,9 @@ TEST(Deform, refuses_palettes_and_weights_that_do_not_fit) {
   const ModelPose pose = bind_pose(character);
   auto palette = palette_of(character, pose);
   DeformedMesh deformed;
-  EXPECT_EQ(deform_mesh(character.meshes[0], palette, {}, deformed).code(), StatusCode::size_mismatch);
+  EXPECT_EQ(deform_mesh(character.meshes[0], in_float(palette), {}, deformed).code(), StatusCode::size_mismatch);
   palette.pop_back();
-  EXPECT_EQ(deform_mesh(character.meshes[0], palette, pose.morph_weights, deformed).code(), StatusCode::size_mismatch);
+  EXPECT_EQ(deform_mesh(character.meshes[0], in_float(palette), pose.morph_weights, deformed).code(), StatusCode::size_mismatch);
   EXPECT_TRUE(deformed.positions.empty());
 }
 

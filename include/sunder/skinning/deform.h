@@ -24,7 +24,7 @@ struct DeformedMesh {
 ///
 /// O(V x (influences + morph targets)), reentrant. Where a blended matrix is singular a normal keeps its bind direction.
 /// Source: Magnenat-Thalmann et al. 1988 [magnenat1988joint]; normals: see docs/skinning.md.
-[[nodiscard]] SUNDER_API Status deform_mesh(const Mesh& mesh, std::span<const Affine3d> model_from_bind,
+[[nodiscard]] SUNDER_API Status deform_mesh(const Mesh& mesh, std::span<const Affine3f> model_from_bind,
                                             std::span<const float> morph_weights, DeformedMesh& out);
 
 }  // namespace sunder

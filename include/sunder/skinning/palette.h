@@ -22,4 +22,7 @@ namespace sunder {
 /// @return ok; size_mismatch or index_out_of_range (nothing written). O(slots), no allocation.
 [[nodiscard]] SUNDER_API Status compute_palette(const Skin& skin, const ModelPose& pose, std::span<Affine3d> model_from_bind);
 
+/// The same for deform_mesh(): multiplied in double, stored in float.
+[[nodiscard]] SUNDER_API Status compute_palette(const Skin& skin, const ModelPose& pose, std::span<Affine3f> model_from_bind);
+
 }  // namespace sunder
