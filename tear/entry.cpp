@@ -88,7 +88,7 @@ std::optional<SurfaceHit> first_contact(const BladePlane& plane, double progress
     double begin = 0, end = 1;
     bool is_reached = clip(not_before, a, b, begin, end);
     for (const auto& half_plane : plane.reach()) is_reached = is_reached && clip(half_plane, a, b, begin, end);
-    if (!is_reached) continue;
+    if (!is_reached || end - begin < kSnap) continue;  // what is left of a triangle after its neighbour's end was snapped
 
     const SweepCoordinates at_begin = plane.sweep_coordinates(a + begin * (b - a));
     const SweepCoordinates at_end = plane.sweep_coordinates(a + end * (b - a));

@@ -13,6 +13,10 @@ namespace sunder::tear {
 /// What two sweep coordinates may differ by and still be the same place: rounding of the inverse bilinear map.
 inline constexpr double kSamePlace = 1e-9;
 
+/// A place nearer to an end of an edge than this part of the edge is that end: the new faces would be slivers, and the path moves
+/// by less than anyone can see.
+inline constexpr double kSnap = 1e-3;
+
 /// A place on the surface.
 struct SurfaceHit {
   Index triangle = kNone;

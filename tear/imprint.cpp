@@ -6,10 +6,6 @@
 namespace sunder::tear {
 namespace {
 
-/// A place nearer to an end of an edge than this part of the edge is that end: the new faces would be slivers, and the path moves
-/// by less than anyone can see.
-constexpr double kSnap = 1e-3;
-
 /// Splits an edge and pins the new point where the posed edge has it.
 Index split_posed_edge(Index half_edge, double fraction, SurfaceEditor& editor, PosedPoints& posed) {
   const auto& points = editor.surface().corner_point;
@@ -144,6 +140,8 @@ Index imprint_point(const SurfaceHit& hit, SurfaceEditor& editor, PosedPoints& p
 Path imprint_path(const BladePlane& plane, Index start, SurfaceEditor& editor, PosedPoints& posed) {
   Path path;
   path.points.push_back(start);
+  const auto progress_at = [&](const Vec3d& at) { return plane.sweep_coordinates(plane.project(at)).progress; };
+  path.progress = progress_at(posed.position(editor, start));
   const auto go_to = [&](Index point, const Vec3d& from) {
     path.length_posed += (posed.position(editor, point) - from).norm();
     path.points.push_back(point);
@@ -155,6 +153,8 @@ Path imprint_path(const BladePlane& plane, Index start, SurfaceEditor& editor, P
     if (step.corner == kNone) return path;
     const bool along_edge = step_corner(step) != kNone;
     const Reach reach = reach_between(plane, from, step.position);
+    // Where the curve itself ends; the path may snap to a point before it.
+    path.progress = std::max(path.progress, progress_at(from + reach.fraction * (step.position - from)));
     if (reach.fraction < kSnap) {
       path.end = reach.ends_at_blade ? Path::End::blade : Path::End::surface;
       return path;

@@ -12,6 +12,7 @@ struct Path {
   std::vector<Index> points;
   Index faces_crossed = 0;
   double length_posed = 0;
+  double progress = 0;  ///< In the sweep, of the end of the curve.
   enum class End : std::uint8_t {
     blade,    ///< Reached the second blade: the next segment goes on from here.
     surface,  ///< A border, a fold away from the blade, or the end of its reach.

@@ -80,12 +80,11 @@ double TornModel::State::tear_piece(const BladePlane& plane, Index start, const 
     else
       path.points.insert(path.points.begin() + 1, middle);
   }
-  const double reached = plane.sweep_coordinates(plane.project(posed.position(editor, path.points.back()))).progress;
   if (path.points.size() < 2) {
     editor.roll_back(before);
     posed.unpin_from(before.points);
     if (path.end == Path::End::blade && start < before.points) tip = start;  // moved by less than can be told: go on from here
-    return path.end == Path::End::blade ? 1.0 : reached;
+    return path.end == Path::End::blade ? 1.0 : path.progress;
   }
   const std::size_t first_lip = lips.size();
   tear::open_path(path.points, editor, next_side, lips);
@@ -93,7 +92,7 @@ double TornModel::State::tear_piece(const BladePlane& plane, Index start, const 
   ++report.pieces;
   report.faces_crossed += path.faces_crossed;
   report.length_posed += path.length_posed;
-  if (path.end != Path::End::blade) return reached;
+  if (path.end != Path::End::blade) return path.progress;
   tip = path.points.back();
   return 1.0;
 }

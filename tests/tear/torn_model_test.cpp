@@ -4,6 +4,7 @@
 #include <sunder/tear/torn_model.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 
 #include <gmock/gmock.h>
@@ -181,10 +182,9 @@ TEST(TornModel, the_same_tears_give_the_same_bits) {
   EXPECT_EQ(tear_twice(), tear_twice());
 }
 
-class RandomTears : public testing::TestWithParam<int> {};
-
-TEST_P(RandomTears, keep_every_law_in_every_pose) {
-  Random random(static_cast<std::uint64_t>(GetParam()));
+void tear_at_random(std::uint64_t seed) {
+  SCOPED_TRACE(seed);
+  Random random(seed);
   const bool is_sheet = random.index(2) == 0;
   TornModel model = make_model(is_sheet ? test::make_sheet(2 + random.index(12))
                                         : test::make_tube(3 + random.index(12), 5 + random.index(12), 2 + random.index(4)));
@@ -202,6 +202,14 @@ TEST_P(RandomTears, keep_every_law_in_every_pose) {
   }
   for (int i = 0; i < 5; ++i)
     ASSERT_THAT(test::broken_closed_form(model, test::random_pose(model.source(), random, 1.5, 1.5)), IsEmpty());
+}
+
+class RandomTears : public testing::TestWithParam<int> {};
+
+TEST_P(RandomTears, keep_every_law_in_every_pose) {
+  const int rounds = std::getenv("SUNDER_STRESS") != nullptr ? 25 : 1;
+  for (int round = 0; round < rounds && !HasFatalFailure(); ++round)
+    tear_at_random(static_cast<std::uint64_t>(200 * round + GetParam()));
 }
 
 INSTANTIATE_TEST_SUITE_P(seeds, RandomTears, testing::Range(0, 200));
