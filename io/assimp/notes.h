@@ -1,0 +1,33 @@
+#pragma once
+
+#include <sunder/io/load_character.h>
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sunder::assimp_import {
+
+/// Collects what the report will say; equal texts about one place are counted, not repeated.
+class Notes {
+ public:
+  void inform(std::string_view place, std::string_view text, std::uint32_t count = 1);
+  /// @param fault  what a strict import fails with.
+  void repaired(StatusCode fault, std::string_view place, std::string_view text, std::uint32_t count = 1);
+  void dropped(StatusCode fault, std::string_view place, std::string_view text, std::uint32_t count = 1);
+
+  [[nodiscard]] const std::vector<LoadNote>& all() const { return notes_; }
+  /// The first repair or loss as a failure; ok where there is none.
+  [[nodiscard]] Status first_fault() const;
+
+ private:
+  void add(LoadNote::Kind kind, StatusCode fault, std::string_view place, std::string_view text, std::uint32_t count);
+
+  std::vector<LoadNote> notes_;
+  std::vector<StatusCode> faults_;  ///< One a note.
+};
+
+/// `text` with everything that is not UTF-8 replaced by U+FFFD.
+[[nodiscard]] std::string valid_utf8(std::string_view text);
+
+}  // namespace sunder::assimp_import

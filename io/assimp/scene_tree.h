@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <unordered_map>
+#include <unordered_set>
+#include <vector>
+
+#include <assimp/scene.h>
+
+#include "io/assimp/glb_builder.h"
+#include "io/assimp/model_space.h"
+#include "io/assimp/notes.h"
+
+namespace sunder::assimp_import {
+
+struct SceneNode {
+  std::string name;              ///< UTF-8, unique or empty.
+  std::uint32_t parent = kNone;  ///< Smaller than the node's own index.
+  Trs parent_from_node;
+  Mat4d model_from_node = Mat4d::Identity();  ///< In the file's rest pose.
+  const aiNode* source = nullptr;             ///< None for nodes that the import adds.
+  Json json = Json::object();                 ///< What converters add: mesh, skin, extras.
+};
+
+/// All nodes of the scene, parents first, below a root that turns the file's space into model space where that is needed.
+class SceneTree {
+ public:
+  /// Throws ImportFailure: limit_exceeded where the tree is deeper than 1024 nodes.
+  SceneTree(const aiScene& scene, const ModelSpace& space, Notes& notes);
+
+  [[nodiscard]] const std::vector<SceneNode>& nodes() const { return nodes_; }
+  SceneNode& operator[](std::uint32_t node) { return nodes_[node]; }
+  [[nodiscard]] const SceneNode& operator[](std::uint32_t node) const { return nodes_[node]; }
+
+  /// The node that assimp means by a name: the first in the file's order. kNone where there is none.
+  [[nodiscard]] std::uint32_t find(const aiString& name) const;
+  /// Adds a node; its name is made unique and, if `source_name` is given, found by it.
+  std::uint32_t add(std::uint32_t parent, const std::string& name, const Mat4d& parent_from_node,
+                    const aiString* source_name = nullptr);
+
+  void write(GlbBuilder& glb) const;
+
+ private:
+  std::uint32_t add_node(const aiNode& source, std::uint32_t parent, Notes& notes);
+  std::uint32_t push(SceneNode node);
+  std::string unique_name(const std::string& wanted);
+
+  std::vector<SceneNode> nodes_;
+  std::unordered_map<std::string, std::uint32_t> node_of_name_;  ///< By the file's own bytes.
+  std::unordered_set<std::string> names_;
+  std::unordered_map<std::string, std::uint32_t> name_uses_;
+  std::unordered_set<std::string> animated_;
+};
+
+[[nodiscard]] std::string to_string(const aiString& text);
+
+}  // namespace sunder::assimp_import

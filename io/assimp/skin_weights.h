@@ -1,0 +1,21 @@
+#pragma once
+
+#include <sunder/core/mesh.h>
+
+#include <span>
+#include <string>
+
+#include <assimp/mesh.h>
+
+#include "io/assimp/notes.h"
+
+namespace sunder::assimp_import {
+
+/// All influences of a mesh's vertices, largest first: finite, positive, no slot twice, and summing to one as floats within
+/// 2e-7 x their number. Weights that already do are kept bit for bit; vertices without any follow slot 0.
+///
+/// @param slot_of_bone  one a bone of the mesh; kNone: its weights are ignored.
+[[nodiscard]] SkinWeights read_weights(const aiMesh& mesh, std::span<const std::uint32_t> slot_of_bone, const std::string& place,
+                                       Notes& notes);
+
+}  // namespace sunder::assimp_import

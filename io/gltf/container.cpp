@@ -1,0 +1,149 @@
+#include "io/gltf/container.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "io/gltf/refusal.h"
+
+namespace sunder::gltf {
+namespace {
+
+constexpr std::size_t kHeaderBytes = 12, kChunkHeaderBytes = 8;
+constexpr std::uint32_t kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942;
+constexpr std::size_t kMaximumNesting = 256;
+// The JSON object keeps its members' order and looks them up one by one; without a limit, a hostile object makes that quadratic.
+constexpr std::size_t kMaximumMembers = 10'000;
+
+std::uint32_t read_u32(std::span<const std::byte> bytes, std::size_t offset) {
+  std::array<unsigned char, 4> b{};
+  std::memcpy(b.data(), bytes.data() + offset, 4);
+  return b[0] | static_cast<std::uint32_t>(b[1]) << 8 | static_cast<std::uint32_t>(b[2]) << 16 |
+         static_cast<std::uint32_t>(b[3]) << 24;
+}
+
+Container split_glb(std::span<const std::byte> content) {
+  if (content.size() < kHeaderBytes) refuse(StatusCode::malformed_file, kNone, "GLB: %zu bytes are no header", content.size());
+  if (const std::uint32_t version = read_u32(content, 4); version != 2)
+    refuse(StatusCode::unsupported_format, kNone, "GLB version %u; only 2 is read", version);
+  const std::size_t claimed = read_u32(content, 8);
+  if (claimed > content.size())
+    refuse(StatusCode::malformed_file, kNone, "GLB: its header claims %zu bytes, the file ends after %zu", claimed, content.size());
+
+  Container container{true, {}, {}};
+  bool has_json = false;
+  for (std::size_t offset = kHeaderBytes, chunk = 0; claimed >= offset && claimed - offset >= kChunkHeaderBytes; ++chunk) {
+    const std::size_t length = read_u32(content, offset);
+    const std::uint32_t type = read_u32(content, offset + 4);
+    offset += kChunkHeaderBytes;
+    if (length > claimed - offset)
+      refuse(StatusCode::malformed_file, kNone, "GLB: chunk %zu at byte %zu claims %zu bytes, %zu are left", chunk,
+             offset - kChunkHeaderBytes, length, claimed - offset);
+    const auto data = content.subspan(offset, length);
+    if (chunk == 0 && type == kJsonChunk) {
+      container.json = {reinterpret_cast<const char*>(data.data()), data.size()};
+      has_json = true;
+    } else if (chunk == 1 && type == kBinaryChunk) {
+      container.binary = data;
+    }
+    offset += std::min((length + 3) / 4 * 4, claimed - offset);
+  }
+  if (!has_json) refuse(StatusCode::malformed_file, kNone, "GLB: the first chunk is not JSON");
+  return container;
+}
+
+void check_nesting(std::string_view text) {
+  std::vector<std::size_t> members;  // Of each open array or object; arrays count too but have no limit.
+  std::vector<bool> is_object;
+  bool in_string = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (in_string) {
+      if (c == '\\')
+        ++i;
+      else if (c == '"')
+        in_string = false;
+      continue;
+    }
+    if (c == '"') {
+      in_string = true;
+    } else if (c == '{' || c == '[') {
+      if (members.size() == kMaximumNesting)
+        refuse(StatusCode::limit_exceeded, kNone, "JSON: nested deeper than %zu levels at byte %zu", kMaximumNesting, i);
+      members.push_back(1);
+      is_object.push_back(c == '{');
+    } else if (c == '}' || c == ']') {
+      if (members.empty()) return;  // The parser says what is wrong.
+      members.pop_back();
+      is_object.pop_back();
+    } else if (c == ',' && !members.empty() && ++members.back() > kMaximumMembers && is_object.back()) {
+      refuse(StatusCode::limit_exceeded, kNone, "JSON: an object of more than %zu members at byte %zu", kMaximumMembers, i);
+    }
+  }
+}
+
+/// Extensions that a reader of geometry, skins and animation may ignore, and the one it understands.
+bool is_harmless(std::string_view extension) {
+  if (extension == "KHR_mesh_quantization") return true;
+  constexpr std::array<std::string_view, 11> kAboutLooks = {"KHR_materials_", "KHR_texture_",  "EXT_texture_",    "MSFT_texture_",
+                                                            "KHR_lights_",    "EXT_lights_",   "KHR_xmp",         "KHR_technique",
+                                                            "EXT_materials_", "MSFT_packing_", "FB_ngon_encoding"};
+  for (const std::string_view prefix : kAboutLooks)
+    if (extension.substr(0, prefix.size()) == prefix) return true;
+  return false;
+}
+
+void check_version(const Cursor& document) {
+  const Cursor asset = document.member("asset");
+  const std::string& version = asset.member("version").to_string();
+  if (version.substr(0, 2) != "2.")
+    refuse(StatusCode::unsupported_format, kNone, "/asset/version: glTF %.20s; only 2.x is read", version.c_str());
+  if (const auto minimum = asset.find("minVersion"); minimum && minimum->to_string() != "2.0")
+    refuse(StatusCode::unsupported_format, kNone, "/asset/minVersion: %.20s; only 2.0 is read", minimum->to_string().c_str());
+}
+
+void check_required_extensions(const Cursor& document) {
+  const auto required = document.find("extensionsRequired");
+  if (!required) return;
+  for (std::size_t i = 0; i < required->size(); ++i) {
+    const Cursor extension = required->element(i);
+    if (!is_harmless(extension.to_string()))
+      refuse(StatusCode::unsupported_feature, static_cast<std::uint32_t>(i), "%s: the file cannot be read without %.100s",
+             extension.pointer().c_str(), extension.to_string().c_str());
+  }
+}
+
+}  // namespace
+
+bool has_glb_magic(std::span<const std::byte> content) {
+  return content.size() >= 4 && std::memcmp(content.data(), "glTF", 4) == 0;
+}
+
+Container split_container(std::span<const std::byte> content) {
+  if (content.empty()) refuse(StatusCode::malformed_file, kNone, "the file is empty");
+  if (has_glb_magic(content)) return split_glb(content);
+  std::string_view text{reinterpret_cast<const char*>(content.data()), content.size()};
+  if (text.substr(0, 3) == "\xEF\xBB\xBF") text.remove_prefix(3);
+  const std::size_t start = text.find_first_not_of(" \t\r\n");
+  if (start == std::string_view::npos || text[start] != '{')
+    refuse(StatusCode::unsupported_format, kNone, "neither GLB ('glTF') nor a JSON object");
+  return {false, text, {}};
+}
+
+Json parse_document(std::string_view text) {
+  check_nesting(text);
+  Json document;
+  try {
+    document = Json::parse(text.begin(), text.end());
+  } catch (const nlohmann::json::exception& error) {
+    refuse(StatusCode::malformed_file, kNone, "JSON: %.200s", error.what());
+  }
+  const Cursor root(document, "");
+  check_version(root);
+  check_required_extensions(root);
+  return document;
+}
+
+}  // namespace sunder::gltf

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <sunder/io/load_character.h>
+
+#include <cstddef>
+#include <span>
+#include <string_view>
+
+#include "io/gltf/cursor.h"
+
+namespace sunder::gltf {
+
+/// The parts of a glTF file; views into its content.
+struct Container {
+  bool is_glb = false;
+  std::string_view json;
+  std::span<const std::byte> binary;  ///< GLB's BIN chunk; empty where there is none.
+};
+
+[[nodiscard]] bool has_glb_magic(std::span<const std::byte> content);
+
+/// Finds the JSON and the BIN chunk. Every length that the file claims is checked against what is there.
+[[nodiscard]] Container split_container(std::span<const std::byte> content);
+
+/// Parses the JSON after checking its nesting, then its version and required extensions.
+[[nodiscard]] Json parse_document(std::string_view text);
+
+}  // namespace sunder::gltf

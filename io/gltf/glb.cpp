@@ -1,0 +1,166 @@
+#include "io/gltf/glb.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cstdio>
+#include <cstring>
+#include <limits>
+#include <string_view>
+#include <system_error>
+
+#include "io/gltf/refusal.h"
+#include "io/gltf/uris.h"
+
+namespace sunder::gltf {
+namespace {
+
+constexpr std::size_t kAlignment = 4;
+
+/// A list of the document, made if it is absent.
+Json& list_of(Json& document, const char* name) {
+  Json& list = document[name];
+  if (list.is_null()) list = Json::array();
+  return list;
+}
+
+void append_u32(std::vector<std::byte>& bytes, std::size_t value) {
+  for (int shift = 0; shift < 32; shift += 8) bytes.push_back(static_cast<std::byte>(value >> shift & 0xFFu));
+}
+
+/// The media type of image bytes, of those that glTF and its extensions know; null for others.
+const char* media_type(std::span<const std::byte> bytes) {
+  const std::string_view text{reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+  if (text.substr(0, 8) == "\x89PNG\r\n\x1A\n") return "image/png";
+  if (text.substr(0, 3) == "\xFF\xD8\xFF") return "image/jpeg";
+  if (text.substr(0, 4) == "RIFF" && text.size() >= 12 && text.substr(8, 4) == "WEBP") return "image/webp";
+  if (text.substr(0, 7) == "\xABKTX 20") return "image/ktx2";
+  return nullptr;
+}
+
+}  // namespace
+
+GlbDraft::GlbDraft(const SourceDocument& source) : json(source.json), source_(source) { merge_buffers(); }
+
+std::uint64_t GlbDraft::append(std::span<const std::byte> bytes) {
+  binary_.resize((binary_.size() + kAlignment - 1) / kAlignment * kAlignment);
+  const std::uint64_t offset = binary_.size();
+  binary_.insert(binary_.end(), bytes.begin(), bytes.end());
+  return offset;
+}
+
+void GlbDraft::merge_buffers() {
+  std::vector<std::uint64_t> offset_of_buffer;
+  for (const auto& buffer : source_.buffers) offset_of_buffer.push_back(append(buffer));
+  if (source_.buffers.empty()) return;
+  Json& buffers = json["buffers"];
+  Json merged = buffers.size() == 1 ? buffers[0] : Json::object();  // Keeps a lone buffer's name and extras.
+  merged.erase("uri");
+  buffers = Json::array({std::move(merged)});
+  if (offset_of_buffer.size() == 1 || !json.contains("bufferViews")) return;
+
+  const auto move = [&](Json& view) {
+    if (!view.contains("buffer") || !view["buffer"].is_number_unsigned() || view["buffer"] >= offset_of_buffer.size()) return;
+    const std::uint64_t offset = view.contains("byteOffset") ? view["byteOffset"].get<std::uint64_t>() : 0;
+    view["byteOffset"] = offset + offset_of_buffer[view["buffer"].get<std::size_t>()];
+    view["buffer"] = 0;
+  };
+  for (Json& view : json["bufferViews"]) {
+    move(view);
+    const auto packed = view.find("extensions");  // An optional, compressed form of the same bytes, in some buffer too.
+    if (packed != view.end() && packed->is_object() && packed->contains("EXT_meshopt_compression"))
+      if (Json& compressed = (*packed)["EXT_meshopt_compression"]; compressed.is_object()) move(compressed);
+  }
+}
+
+std::uint32_t GlbDraft::add_view(std::span<const std::byte> bytes, ViewTarget target, std::uint32_t stride) {
+  Json view = {{"buffer", 0}, {"byteOffset", append(bytes)}, {"byteLength", bytes.size()}};
+  if (stride != 0) view["byteStride"] = stride;
+  if (target != ViewTarget::none) view["target"] = static_cast<std::uint32_t>(target);
+  Json& views = list_of(json, "bufferViews");
+  views.push_back(std::move(view));
+  return static_cast<std::uint32_t>(views.size() - 1);
+}
+
+void GlbDraft::embed_images() {
+  std::uint64_t bytes_left = source_.maximum_bytes;
+  if (!json.contains("images") || !json["images"].is_array()) return;
+  for (Json& image : json["images"])
+    if (image.is_object() && image.contains("uri") && image["uri"].is_string()) embed_image(image, bytes_left);
+}
+
+void GlbDraft::embed_image(Json& image, std::uint64_t& bytes_left) {
+  const std::string uri = image["uri"].get<std::string>();
+  if (is_data_uri(uri)) return;
+  std::vector<std::byte> bytes;
+  try {
+    bytes = read_file(resolve_uri(uri, source_.folder, "image"), bytes_left, "image");
+  } catch (const Refusal&) {
+    return;  // The reference stays as the source has it.
+  }
+  const char* const type = media_type(bytes);
+  if (type == nullptr) return;
+  bytes_left -= bytes.size();
+  image.erase("uri");
+  image["mimeType"] = type;
+  image["bufferView"] = add_view(bytes, ViewTarget::none);
+}
+
+std::vector<std::byte> GlbDraft::finish() {
+  if (!binary_.empty()) {
+    Json& buffers = list_of(json, "buffers");
+    if (buffers.empty()) buffers.push_back(Json::object());
+    buffers[0]["byteLength"] = binary_.size();
+  }
+  binary_.resize((binary_.size() + 3) / 4 * 4);
+  std::string text = json.dump();
+  text.resize((text.size() + 3) / 4 * 4, ' ');
+  const std::size_t total = 12 + 8 + text.size() + (binary_.empty() ? 0 : 8 + binary_.size());
+  if (total > std::numeric_limits<std::uint32_t>::max())
+    refuse(StatusCode::limit_exceeded, kNone, "the GLB would have %zu bytes; its format ends at 4 GiB", total);
+
+  std::vector<std::byte> glb;
+  glb.reserve(total);
+  const auto append_text = [&](std::string_view part) {
+    const auto* const first = reinterpret_cast<const std::byte*>(part.data());
+    glb.insert(glb.end(), first, first + part.size());
+  };
+  append_text("glTF");
+  append_u32(glb, 2);
+  append_u32(glb, total);
+  append_u32(glb, text.size());
+  append_text("JSON");
+  append_text(text);
+  if (!binary_.empty()) {
+    append_u32(glb, binary_.size());
+    append_text(std::string_view("BIN\0", 4));
+    glb.insert(glb.end(), binary_.begin(), binary_.end());
+  }
+  return glb;
+}
+
+void write_atomically(const std::filesystem::path& file, std::span<const std::byte> bytes) {
+  static std::atomic<unsigned> counter{0};
+  const auto refuse_writing = [&] {
+    refuse(StatusCode::file_unreadable, kNone, "'%.150s' cannot be written", file.filename().c_str());
+  };
+  // "x": never follows or overwrites what is there, so two writers cannot meet in one file.
+  std::filesystem::path beside;
+  std::FILE* stream = nullptr;
+  for (int attempt = 0; attempt < 100 && stream == nullptr; ++attempt) {
+    beside = file;
+    beside += ".part" + std::to_string(counter++);
+    stream = std::fopen(beside.c_str(), "wbx");
+  }
+  if (stream == nullptr) refuse_writing();
+  const bool written = std::fwrite(bytes.data(), 1, bytes.size(), stream) == bytes.size();
+  const bool closed = std::fclose(stream) == 0;
+  std::error_code error;
+  if (written && closed) {
+    std::filesystem::rename(beside, file, error);
+    if (!error) return;
+  }
+  std::filesystem::remove(beside, error);
+  refuse_writing();
+}
+
+}  // namespace sunder::gltf

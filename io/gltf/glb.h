@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <vector>
+
+#include "io/gltf/source_document.h"
+
+namespace sunder::gltf {
+
+/// A document on its way to a GLB: its JSON, and one BIN chunk that only grows. Indices of what it holds already do not change.
+class GlbDraft {
+ public:
+  /// Copies the document; all its buffers become one, all that they hold stays.
+  explicit GlbDraft(const SourceDocument& source);
+
+  Json json;
+
+  enum class ViewTarget : std::uint16_t { none = 0, vertices = 34962, indices = 34963 };
+
+  /// Appends bytes as a new buffer view. @return its index.
+  /// @param stride  bytes from one element to the next where that is not the element's size; else 0.
+  std::uint32_t add_view(std::span<const std::byte> bytes, ViewTarget target, std::uint32_t stride = 0);
+
+  /// Puts images of the source's folder into the chunk. Those that cannot be read, and other kinds than glTF knows, keep their URI.
+  void embed_images();
+
+  /// The finished file.
+  [[nodiscard]] std::vector<std::byte> finish();
+
+ private:
+  std::uint64_t append(std::span<const std::byte> bytes);
+  void merge_buffers();
+  void embed_image(Json& image, std::uint64_t& bytes_left);
+
+  const SourceDocument& source_;
+  std::vector<std::byte> binary_;
+};
+
+/// Writes all of it or nothing: to a new file beside, which then takes the place of `file`.
+void write_atomically(const std::filesystem::path& file, std::span<const std::byte> bytes);
+
+}  // namespace sunder::gltf

@@ -1,0 +1,190 @@
+#include "io/gltf/mesh_writer.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "io/gltf/accessors.h"
+
+namespace sunder::gltf {
+namespace {
+
+constexpr std::array<const char*, 5> kTypes = {"", "SCALAR", "VEC2", "VEC3", "VEC4"};
+
+template <class T>
+constexpr ComponentType component_type() {
+  if constexpr (sizeof(T) == 1)
+    return ComponentType::u8;
+  else if constexpr (sizeof(T) == 2)
+    return ComponentType::u16;
+  else
+    return ComponentType::u32;
+}
+
+/// A vertex's influences as they are written: all of them in their order, or the largest, largest first.
+void choose_influences(std::span<const Influence> all, std::uint32_t maximum, std::vector<Influence>& chosen) {
+  chosen.assign(all.begin(), all.end());
+  if (maximum == 0) return;
+  std::stable_sort(chosen.begin(), chosen.end(), [](const Influence& a, const Influence& b) { return a.weight > b.weight; });
+  if (chosen.size() <= maximum) return;
+  chosen.resize(maximum);
+  double sum = 0.0;
+  for (const Influence& influence : chosen) sum += static_cast<double>(influence.weight);
+  for (Influence& influence : chosen) influence.weight = static_cast<float>(static_cast<double>(influence.weight) / sum);
+}
+
+std::uint32_t most_influences(const SkinWeights& weights) {
+  std::uint32_t most = 1;
+  for (std::uint32_t v = 0; v < weights.vertex_count(); ++v)
+    most = std::max(most, static_cast<std::uint32_t>(weights.of(v).size()));
+  return most;
+}
+
+std::string numbered(const char* name, std::size_t index) { return name + std::to_string(index); }
+
+}  // namespace
+
+std::uint32_t MeshWriter::add_accessor(Json accessor) {
+  Json& accessors = draft_.json["accessors"];
+  if (accessors.is_null()) accessors = Json::array();
+  accessors.push_back(std::move(accessor));
+  return static_cast<std::uint32_t>(accessors.size() - 1);
+}
+
+std::uint32_t MeshWriter::add_floats(std::span<const float> values, std::uint32_t components, Bounds bounds) {
+  Json accessor = {{"bufferView", draft_.add_view(std::as_bytes(values), GlbDraft::ViewTarget::vertices)},
+                   {"componentType", static_cast<std::uint32_t>(ComponentType::f32)},
+                   {"count", values.size() / components},
+                   {"type", kTypes[components]}};
+  if (bounds == Bounds::yes) {
+    Json least = Json::array(), greatest = Json::array();
+    for (std::size_t c = 0; c < components; ++c) {
+      float low = values[c], high = values[c];
+      for (std::size_t i = c; i < values.size(); i += components) {
+        low = std::min(low, values[i]);
+        high = std::max(high, values[i]);
+      }
+      least.push_back(static_cast<double>(low));
+      greatest.push_back(static_cast<double>(high));
+    }
+    accessor["min"] = std::move(least);
+    accessor["max"] = std::move(greatest);
+  }
+  return add_accessor(std::move(accessor));
+}
+
+template <class Vector>
+std::uint32_t MeshWriter::add_vectors(const std::vector<Vector>& values, Bounds bounds) {
+  constexpr std::uint32_t kComponents = Vector::RowsAtCompileTime;
+  return add_floats({values.data()->data(), values.size() * kComponents}, kComponents, bounds);
+}
+
+template <class T>
+std::uint32_t MeshWriter::add_integers(const std::vector<std::uint32_t>& values, std::uint32_t components,
+                                       GlbDraft::ViewTarget target) {
+  std::vector<T> narrow(values.size());
+  std::transform(values.begin(), values.end(), narrow.begin(), [](std::uint32_t value) { return static_cast<T>(value); });
+  return add_accessor({{"bufferView", draft_.add_view(std::as_bytes(std::span<const T>(narrow)), target)},
+                       {"componentType", static_cast<std::uint32_t>(component_type<T>())},
+                       {"count", values.size() / components},
+                       {"type", kTypes[components]}});
+}
+
+/// Labels stay 16-bit integers: by that, who reads them knows that they do not interpolate.
+std::uint32_t MeshWriter::add_labels(const CustomAttribute& attribute) {
+  const auto [least, greatest] = std::minmax_element(attribute.values.begin(), attribute.values.end());
+  const bool is_signed = *least < 0.0f;
+  const bool fits = is_signed ? *least >= -32768.0f && *greatest <= 32767.0f : *greatest <= 65535.0f;
+  if (!fits) return add_floats(attribute.values, attribute.components);
+  // Vertex data is aligned to four bytes.
+  const std::size_t components = attribute.components, stride = (components + 1) / 2 * 2,
+                    count = attribute.values.size() / components;
+  std::vector<std::uint16_t> labels(count * stride, 0);
+  for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t c = 0; c < components; ++c)
+      labels[i * stride + c] = static_cast<std::uint16_t>(static_cast<std::int32_t>(attribute.values[i * components + c]));
+  const std::uint32_t view = draft_.add_view(std::as_bytes(std::span<const std::uint16_t>(labels)), GlbDraft::ViewTarget::vertices,
+                                             static_cast<std::uint32_t>(stride * sizeof(std::uint16_t)));
+  return add_accessor({{"bufferView", view},
+                       {"componentType", static_cast<std::uint32_t>(is_signed ? ComponentType::i16 : ComponentType::u16)},
+                       {"count", count},
+                       {"type", kTypes[components]}});
+}
+
+MeshWriter::Vertices MeshWriter::add_vertices(const Mesh& mesh, const SourceDocument::MeshOrigin& origin) {
+  Vertices vertices{Json::object(), nullptr};
+  Json& attributes = vertices.attributes;
+  attributes["POSITION"] = add_vectors(mesh.positions, Bounds::yes);
+  if (!mesh.normals.empty()) attributes["NORMAL"] = add_vectors(mesh.normals);
+  if (!mesh.tangents.empty()) attributes["TANGENT"] = add_vectors(mesh.tangents);
+  for (std::size_t i = 0; i < mesh.uv_sets.size(); ++i) attributes[numbered("TEXCOORD_", i)] = add_vectors(mesh.uv_sets[i]);
+  for (std::size_t i = 0; i < mesh.color_sets.size(); ++i) {
+    const bool has_alpha = i >= origin.color_components.size() || origin.color_components[i] == 4;
+    std::vector<Vec3f> rgb;
+    if (!has_alpha)
+      for (const Vec4f& color : mesh.color_sets[i]) rgb.push_back(color.head<3>());
+    attributes[numbered("COLOR_", i)] = has_alpha ? add_vectors(mesh.color_sets[i]) : add_vectors(rgb);
+  }
+  for (const CustomAttribute& attribute : mesh.custom_attributes)
+    attributes[attribute.name] =
+        attribute.interpolates ? add_floats(attribute.values, attribute.components) : add_labels(attribute);
+  if (origin.skinned) add_influences(mesh, attributes);
+  if (!mesh.morph_targets.empty()) vertices.targets = add_targets(mesh);
+  return vertices;
+}
+
+void MeshWriter::add_influences(const Mesh& mesh, Json& attributes) {
+  std::uint32_t most = most_influences(mesh.weights);
+  if (maximum_influences_ != 0) most = std::min(most, maximum_influences_);
+  const std::size_t set_count = (most + 3) / 4;
+  const std::size_t vertex_count = mesh.vertex_count();
+  std::vector<std::vector<std::uint32_t>> slots(set_count, std::vector<std::uint32_t>(vertex_count * 4, 0));
+  std::vector<std::vector<float>> weights(set_count, std::vector<float>(vertex_count * 4, 0.0f));
+  std::vector<Influence> chosen;
+  bool fits_a_byte = true;
+  for (std::uint32_t v = 0; v < vertex_count; ++v) {
+    choose_influences(mesh.weights.of(v), maximum_influences_, chosen);
+    for (std::size_t i = 0; i < chosen.size(); ++i) {
+      slots[i / 4][std::size_t{v} * 4 + i % 4] = chosen[i].slot;
+      weights[i / 4][std::size_t{v} * 4 + i % 4] = chosen[i].weight;
+      fits_a_byte &= chosen[i].slot < 256;
+    }
+  }
+  for (std::size_t set = 0; set < set_count; ++set) {
+    attributes[numbered("JOINTS_", set)] = fits_a_byte ? add_integers<std::uint8_t>(slots[set], 4, GlbDraft::ViewTarget::vertices)
+                                                       : add_integers<std::uint16_t>(slots[set], 4, GlbDraft::ViewTarget::vertices);
+    attributes[numbered("WEIGHTS_", set)] = add_floats(weights[set], 4);
+  }
+}
+
+Json MeshWriter::add_targets(const Mesh& mesh) {
+  Json targets = Json::array();
+  for (const MorphTarget& target : mesh.morph_targets) {
+    Json deltas = Json::object();
+    if (!target.position_deltas.empty()) deltas["POSITION"] = add_vectors(target.position_deltas, Bounds::yes);
+    // Deltas of something that the mesh does not have are not valid glTF.
+    if (!target.normal_deltas.empty() && !mesh.normals.empty()) deltas["NORMAL"] = add_vectors(target.normal_deltas);
+    if (!target.tangent_deltas.empty() && !mesh.tangents.empty()) deltas["TANGENT"] = add_vectors(target.tangent_deltas);
+    if (deltas.empty())  // Neither is a target without deltas; one of zeros takes no space.
+      deltas["POSITION"] = add_accessor({{"componentType", static_cast<std::uint32_t>(ComponentType::f32)},
+                                         {"count", mesh.positions.size()},
+                                         {"type", "VEC3"},
+                                         {"min", {0.0, 0.0, 0.0}},
+                                         {"max", {0.0, 0.0, 0.0}}});
+    targets.push_back(std::move(deltas));
+  }
+  return targets;
+}
+
+std::uint32_t MeshWriter::add_indices(const Mesh& mesh, std::uint32_t submesh) {
+  std::vector<std::uint32_t> indices;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    if (mesh.triangle_submesh[t] == submesh) indices.insert(indices.end(), mesh.triangles[t].begin(), mesh.triangles[t].end());
+  if (indices.empty()) return kNone;
+  // The largest value of each width means "restart".
+  return mesh.positions.size() < std::numeric_limits<std::uint16_t>::max()
+             ? add_integers<std::uint16_t>(indices, 1, GlbDraft::ViewTarget::indices)
+             : add_integers<std::uint32_t>(indices, 1, GlbDraft::ViewTarget::indices);
+}
+
+}  // namespace sunder::gltf

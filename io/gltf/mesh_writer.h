@@ -1,0 +1,41 @@
+#pragma once
+
+#include <sunder/core/mesh.h>
+
+#include "io/gltf/glb.h"
+
+namespace sunder::gltf {
+
+/// Appends core meshes to a draft as accessors.
+class MeshWriter {
+ public:
+  /// @param maximum_influences  as SaveOptions.
+  MeshWriter(GlbDraft& draft, std::uint32_t maximum_influences) : draft_(draft), maximum_influences_(maximum_influences) {}
+
+  /// The parts of a glTF primitive that say what its vertices are; shared by all of the mesh's submeshes.
+  struct Vertices {
+    Json attributes;
+    Json targets;  ///< null where the mesh has none.
+  };
+  [[nodiscard]] Vertices add_vertices(const Mesh& mesh, const SourceDocument::MeshOrigin& origin);
+
+  /// Indices of one submesh's triangles. @return their accessor; kNone where it has no triangle.
+  [[nodiscard]] std::uint32_t add_indices(const Mesh& mesh, std::uint32_t submesh);
+
+ private:
+  enum class Bounds { no, yes };
+  std::uint32_t add_floats(std::span<const float> values, std::uint32_t components, Bounds bounds = Bounds::no);
+  template <class Vector>
+  std::uint32_t add_vectors(const std::vector<Vector>& values, Bounds bounds = Bounds::no);
+  template <class T>
+  std::uint32_t add_integers(const std::vector<std::uint32_t>& values, std::uint32_t components, GlbDraft::ViewTarget target);
+  std::uint32_t add_labels(const CustomAttribute& attribute);
+  std::uint32_t add_accessor(Json accessor);
+  void add_influences(const Mesh& mesh, Json& attributes);
+  Json add_targets(const Mesh& mesh);
+
+  GlbDraft& draft_;
+  std::uint32_t maximum_influences_;
+};
+
+}  // namespace sunder::gltf

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <sunder/core/character.h>
+
+#include <vector>
+
+#include "io/gltf/reading.h"
+#include "io/gltf/skeleton.h"
+
+namespace sunder::gltf {
+
+/// The run of Pose::morph_weights that a node's meshes share.
+struct MorphRange {
+  std::uint32_t first = 0;
+  std::uint32_t count = 0;
+};
+
+struct ReadMeshes {
+  std::vector<SourceDocument::MeshOrigin> origins;  ///< One a mesh.
+  std::vector<MorphRange> morphs_of_node;           ///< One a node of the file.
+};
+
+/// Appends the scene's meshes, their skins and rest morph weights to the character.
+[[nodiscard]] ReadMeshes read_meshes(Reading& reading, const NodeSkeleton& nodes, Character& character);
+
+}  // namespace sunder::gltf

@@ -1,0 +1,67 @@
+#include "io/gltf/read.h"
+
+#include <sunder/core/character.h>
+
+#include <memory>
+#include <system_error>
+#include <utility>
+
+#include "io/gltf/animations.h"
+#include "io/gltf/buffers.h"
+#include "io/gltf/container.h"
+#include "io/gltf/meshes.h"
+#include "io/gltf/refusal.h"
+#include "io/gltf/skeleton.h"
+
+namespace sunder::gltf {
+namespace {
+
+std::string scene_name(const Json& document) {
+  const std::size_t count = count_of(document, "scenes");
+  if (count == 0) return {};
+  const auto chosen = Cursor(document, "").find("scene");
+  return entry(document, "scenes", chosen ? chosen->to_index(count, "scene") : 0).name();
+}
+
+LoadedCharacter read(std::span<const std::byte> content, const std::filesystem::path& folder, const LoadOptions& options) {
+  if (content.size() > options.maximum_bytes)
+    refuse(StatusCode::limit_exceeded, kNone, "the file has %zu bytes, %llu are allowed", content.size(),
+           static_cast<unsigned long long>(options.maximum_bytes));
+  const auto document = std::make_shared<SourceDocument>();
+  document->content.assign(content.begin(), content.end());
+  document->maximum_bytes = options.maximum_bytes;
+  if (!folder.empty()) document->folder = std::filesystem::absolute(folder);
+  const Container container = split_container(document->content);
+  document->is_glb = container.is_glb;
+  document->json = parse_document(container.json);
+  resolve_buffers(*document, container);
+
+  LoadedCharacter loaded;
+  loaded.report.format = container.is_glb ? "glTF 2.0 binary" : "glTF 2.0 text";
+  loaded.report.space = "metres, y up, the file's scene space";
+  Reading reading{*document, AccessorReader(*document), Notes(loaded.report, options.strict)};
+  const auto character = std::make_shared<Character>();
+  character->name = scene_name(document->json);
+  NodeSkeleton nodes = read_skeleton(reading);
+  ReadMeshes meshes = read_meshes(reading, nodes, *character);
+  if (character->meshes.empty()) refuse(StatusCode::empty_input, kNone, "the scene has no triangle");
+  character->clips = read_animations(reading, nodes, meshes.morphs_of_node);
+  character->skeleton = std::move(nodes.skeleton);
+  document->mesh_origins = std::move(meshes.origins);
+  if (!document->is_glb) document->content = {};  // The text is not needed again; buffers lie in other_files.
+  if (const Status status = validate_character(*character); !status)
+    refuse(StatusCode::internal_error, status.index(), "the reader let through: %.200s", status.text().data());
+
+  loaded.character = character;
+  loaded.source = document;
+  return loaded;
+}
+
+}  // namespace
+
+Result<LoadedCharacter> read_character(std::span<const std::byte> content, const std::filesystem::path& folder,
+                                       const LoadOptions& options) {
+  return without_exceptions<LoadedCharacter>([&] { return read(content, folder, options); });
+}
+
+}  // namespace sunder::gltf

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <sunder/core/skeleton.h>
+
+#include <vector>
+
+#include "io/gltf/reading.h"
+
+namespace sunder::gltf {
+
+struct NodeSkeleton {
+  Skeleton skeleton;
+  std::vector<std::uint32_t> bone_from_node;  ///< kNone for nodes outside.
+  std::vector<std::uint32_t> scene_nodes;     ///< Nodes of the scene, parents first.
+};
+
+/// The nodes of the default scene as bones, and those trees outside it in which joints of its skins stand.
+[[nodiscard]] NodeSkeleton read_skeleton(Reading& reading);
+
+}  // namespace sunder::gltf

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <sunder/core/skin.h>
+
+#include <vector>
+
+#include "io/gltf/reading.h"
+#include "io/gltf/skeleton.h"
+
+namespace sunder::gltf {
+
+/// Makes the character's skins as meshes ask for them, one a glTF skin or rigid node.
+class SkinReader {
+ public:
+  SkinReader(Reading& reading, const NodeSkeleton& nodes, std::vector<Skin>& skins);
+
+  /// @return index in the character's skins.
+  std::uint32_t of_skin(std::uint32_t gltf_skin);
+  std::uint32_t of_node(std::uint32_t node);
+  /// The slot for a vertex that the file binds to nothing: the skin's `skeleton` node where that is a joint, else its first joint.
+  [[nodiscard]] std::uint32_t root_slot(std::uint32_t gltf_skin) const;
+
+ private:
+  Skin read_skin(const Cursor& at);
+
+  Reading& reading_;
+  const NodeSkeleton& nodes_;
+  std::vector<Skin>& skins_;
+  std::vector<std::uint32_t> from_gltf_skin_;
+  std::vector<std::uint32_t> from_node_;
+};
+
+}  // namespace sunder::gltf

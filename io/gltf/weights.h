@@ -1,0 +1,28 @@
+#pragma once
+
+#include <sunder/core/skin.h>
+
+#include <string>
+#include <vector>
+
+#include "io/gltf/reading.h"
+
+namespace sunder::gltf {
+
+/// One JOINTS_n with its WEIGHTS_n: four of each a vertex.
+struct InfluenceSet {
+  std::vector<std::uint32_t> slots;
+  std::vector<float> weights;
+};
+
+struct ReadWeights {
+  SkinWeights weights;
+  bool repaired = false;  ///< They are not what the file says.
+};
+
+/// Turns the file's fixed sets into what SkinWeights promises, and notes what had to be done for it. Weights that keep the promise
+/// already keep their bits; influences keep the file's order.
+[[nodiscard]] ReadWeights make_weights(const std::vector<InfluenceSet>& sets, std::uint32_t vertex_count, std::uint32_t slot_count,
+                                       std::uint32_t root_slot, const std::string& place, Notes& notes);
+
+}  // namespace sunder::gltf

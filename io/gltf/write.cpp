@@ -1,0 +1,200 @@
+#include "io/gltf/write.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "io/gltf/glb.h"
+#include "io/gltf/mesh_writer.h"
+#include "io/gltf/refusal.h"
+
+namespace sunder::gltf {
+namespace {
+
+using Origin = SourceDocument::MeshOrigin;
+
+void check_same_character(const Character& character, const LoadedCharacter& loaded) {
+  if (loaded.character == nullptr || loaded.source == nullptr)
+    refuse(StatusCode::invalid_argument, kNone, "save_glb: nothing was loaded");
+  const Character& source = *loaded.character;
+  if (character.meshes.size() != source.meshes.size())
+    refuse(StatusCode::size_mismatch, kNone, "save_glb: %zu meshes, the source has %zu", character.meshes.size(),
+           source.meshes.size());
+  if (&character == &source) return;
+  if (character.skeleton != source.skeleton)
+    refuse(StatusCode::invalid_argument, kNone, "save_glb: the skeleton is not the source's");
+  if (character.skins != source.skins) refuse(StatusCode::invalid_argument, kNone, "save_glb: the skins are not the source's");
+  if (character.clips != source.clips) refuse(StatusCode::invalid_argument, kNone, "save_glb: the clips are not the source's");
+  for (std::uint32_t i = 0; i < character.meshes.size(); ++i) {
+    const Mesh &mesh = character.meshes[i], &before = source.meshes[i];
+    if (mesh.skin != before.skin || mesh.first_morph_weight != before.first_morph_weight ||
+        mesh.morph_targets.size() != before.morph_targets.size())
+      refuse(StatusCode::invalid_argument, i, "save_glb: mesh %u: its skin or its morph targets are not the source's", i);
+  }
+  if (const Status status = validate_character(character); !status) throw Refusal{status};
+}
+
+/// Meshes that have to be written: the torn ones and, beside them, those whose source is not valid as it stands.
+std::vector<std::uint32_t> meshes_to_write(const Character& character, const LoadedCharacter& loaded) {
+  std::vector<std::uint32_t> torn, torn_or_repaired;
+  for (std::uint32_t i = 0; i < character.meshes.size(); ++i) {
+    const bool differs = &character != loaded.character.get() && !(character.meshes[i] == loaded.character->meshes[i]);
+    if (differs) torn.push_back(i);
+    if (differs || loaded.source->mesh_origins[i].repaired) torn_or_repaired.push_back(i);
+  }
+  return torn.empty() ? torn : torn_or_repaired;
+}
+
+class Patch {
+ public:
+  Patch(GlbDraft& draft, const Character& character, const SourceDocument& source, const SaveOptions& options)
+      : draft_(draft), character_(character), source_(source), writer_(draft, options.maximum_influences) {}
+
+  void apply(const std::vector<std::uint32_t>& meshes) {
+    std::map<std::uint32_t, std::vector<std::uint32_t>> meshes_of_node;
+    for (const std::uint32_t mesh : meshes) meshes_of_node[source_.mesh_origins[mesh].node].push_back(mesh);
+    for (const auto& [node, on_node] : meshes_of_node) patch_node(node, on_node);
+    remove_unusable_channels();
+  }
+
+ private:
+  void patch_node(std::uint32_t node_index, const std::vector<std::uint32_t>& meshes) {
+    Json& node = draft_.json["nodes"][node_index];
+    const auto mesh_index = node["mesh"].get<std::size_t>();
+    const Json& old_mesh = draft_.json["meshes"][mesh_index];
+    const Json& old_primitives = old_mesh["primitives"];
+
+    // New primitive for each old one that a written mesh came from; null: it has no triangle left.
+    std::map<std::uint32_t, Json> rewritten;
+    Json additional = Json::array();
+    for (const std::uint32_t mesh : meshes) rewrite_primitives(mesh, old_primitives, rewritten, additional);
+    Json primitives = Json::array();
+    for (std::uint32_t i = 0; i < old_primitives.size(); ++i) {
+      const auto found = rewritten.find(i);
+      const Json& primitive = found == rewritten.end() ? old_primitives[i] : found->second;
+      if (!primitive.is_null()) primitives.push_back(primitive);
+    }
+    for (Json& primitive : additional) primitives.push_back(std::move(primitive));
+
+    if (primitives.empty()) {
+      // Nothing is left of it. What remains of the node may not speak of a mesh.
+      for (const char* const key : {"mesh", "skin", "weights"}) node.erase(key);
+      without_mesh_.insert(node_index);
+      return;
+    }
+    if (use_count(mesh_index) == 1) {
+      draft_.json["meshes"][mesh_index]["primitives"] = std::move(primitives);
+      return;
+    }
+    Json copy = old_mesh;  // Others show this mesh too, and are not torn.
+    copy["primitives"] = std::move(primitives);
+    Json& all = draft_.json["meshes"];
+    all.push_back(std::move(copy));
+    node["mesh"] = all.size() - 1;
+  }
+
+  void rewrite_primitives(std::uint32_t mesh_index, const Json& old_primitives, std::map<std::uint32_t, Json>& rewritten,
+                          Json& additional) {
+    const Mesh& mesh = character_.meshes[mesh_index];
+    const Origin& origin = source_.mesh_origins[mesh_index];
+    for (const std::uint32_t primitive : origin.primitives) rewritten[primitive] = nullptr;
+    if (mesh.triangles.empty()) return;
+    const MeshWriter::Vertices vertices = writer_.add_vertices(mesh, origin);
+    for (std::uint32_t submesh = 0; submesh < mesh.submeshes.size(); ++submesh) {
+      const std::uint32_t indices = writer_.add_indices(mesh, submesh);
+      if (indices == kNone) continue;
+      const bool is_new = submesh >= origin.primitives.size();
+      Json primitive = is_new ? Json::object() : old_primitives[origin.primitives[submesh]];
+      primitive["attributes"] = vertices.attributes;
+      primitive["indices"] = indices;
+      primitive.erase("targets");
+      if (!vertices.targets.is_null()) primitive["targets"] = vertices.targets;
+      primitive.erase("mode");
+      primitive.erase("material");
+      if (mesh.submeshes[submesh].material != kNone) primitive["material"] = mesh.submeshes[submesh].material;
+      remove_stale_extensions(primitive);
+      if (is_new)
+        additional.push_back(std::move(primitive));
+      else
+        rewritten[origin.primitives[submesh]] = std::move(primitive);
+    }
+  }
+
+  /// Those that hold a second form of the data that was replaced.
+  static void remove_stale_extensions(Json& primitive) {
+    const auto extensions = primitive.find("extensions");
+    if (extensions == primitive.end() || !extensions->is_object()) return;
+    extensions->erase("KHR_draco_mesh_compression");
+    if (extensions->empty()) primitive.erase("extensions");
+  }
+
+  std::size_t use_count(std::size_t mesh) const {
+    const Json& nodes = draft_.json["nodes"];
+    return static_cast<std::size_t>(std::count_if(nodes.begin(), nodes.end(), [&](const Json& node) {
+      const auto used = node.find("mesh");
+      return used != node.end() && used->is_number() && used->get<std::size_t>() == mesh;
+    }));
+  }
+
+  /// Morph weights of a node that has lost its mesh can no longer be animated.
+  void remove_unusable_channels() {
+    if (without_mesh_.empty() || !draft_.json.contains("animations")) return;
+    Json& animations = draft_.json["animations"];
+    const auto is_unusable = [&](const Json& channel) {
+      const Json& target = channel["target"];
+      return target.contains("node") && target["node"].is_number() && target["path"] == "weights" &&
+             without_mesh_.count(target["node"].get<std::uint32_t>()) != 0;
+    };
+    Json kept_animations = Json::array();
+    for (Json& animation : animations) {
+      Json kept = Json::array();
+      const std::size_t before = animation["channels"].size();
+      for (const Json& channel : animation["channels"])
+        if (!is_unusable(channel)) kept.push_back(channel);
+      const bool lost_all = kept.empty() && before > 0;
+      if (kept.size() != before) animation["channels"] = std::move(kept);
+      if (!lost_all) kept_animations.push_back(std::move(animation));
+    }
+    if (kept_animations.empty())
+      draft_.json.erase("animations");
+    else
+      animations = std::move(kept_animations);
+  }
+
+  GlbDraft& draft_;
+  const Character& character_;
+  const SourceDocument& source_;
+  MeshWriter writer_;
+  std::set<std::uint32_t> without_mesh_;
+};
+
+Status write(const std::filesystem::path& file, const Character& character, const LoadedCharacter& loaded,
+             const SaveOptions& options) {
+  if (options.maximum_influences != 0 && options.maximum_influences != 4 && options.maximum_influences != 8)
+    refuse(StatusCode::invalid_argument, kNone, "save_glb: maximum_influences is 0, 4 or 8, not %u", options.maximum_influences);
+  check_same_character(character, loaded);
+  const SourceDocument& source = *loaded.source;
+  const std::vector<std::uint32_t> meshes = meshes_to_write(character, loaded);
+  if (meshes.empty() && source.is_glb) {
+    write_atomically(file, source.content);
+    return {};
+  }
+  GlbDraft draft(source);
+  Patch(draft, character, source, options).apply(meshes);
+  draft.embed_images();
+  write_atomically(file, draft.finish());
+  return {};
+}
+
+}  // namespace
+
+Status write_character(const std::filesystem::path& file, const Character& character, const LoadedCharacter& loaded,
+                       const SaveOptions& options) {
+  try {
+    return write(file, character, loaded, options);
+  } catch (...) {
+    return status_of_current_exception();
+  }
+}
+
+}  // namespace sunder::gltf

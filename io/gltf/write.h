@@ -1,0 +1,11 @@
+#pragma once
+
+#include <sunder/io/save_glb.h>
+
+namespace sunder::gltf {
+
+/// See save_glb().
+[[nodiscard]] Status write_character(const std::filesystem::path& file, const Character& character, const LoadedCharacter& loaded,
+                                     const SaveOptions& options);
+
+}  // namespace sunder::gltf

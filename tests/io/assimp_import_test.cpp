@@ -1,0 +1,326 @@
+#include <cstring>
+#include <dirent.h>
+#include <filesystem>
+#include <string>
+#include <sys/wait.h>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "io/assimp/import_as_glb.h"
+#include "io/assimp_text_models.h"
+#include "support/gltf_validator.h"
+#include "support/shared_models.h"
+#include "support/temporary_folder.h"
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define SUNDER_UNDER_SANITIZER 1
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define SUNDER_UNDER_SANITIZER 1
+#endif
+#endif
+
+namespace sunder {
+namespace {
+
+#if defined(SUNDER_UNDER_SANITIZER)
+constexpr bool kIsSanitized = true;
+#else
+constexpr bool kIsSanitized = false;
+#endif
+
+namespace fs = std::filesystem;
+using assimp_import::import_as_glb;
+using assimp_import::ImportedGlb;
+using nlohmann::json;
+
+/// JSON and binary buffer of an imported GLB.
+struct Glb {
+  explicit Glb(const ImportedGlb& imported) {
+    std::uint32_t json_bytes = 0;
+    std::memcpy(&json_bytes, imported.glb.data() + 12, 4);
+    const char* text = reinterpret_cast<const char*>(imported.glb.data()) + 20;
+    document = json::parse(text, text + json_bytes);
+    binary.assign(imported.glb.begin() + 28 + json_bytes, imported.glb.end());
+  }
+  template <class T>
+  [[nodiscard]] std::vector<T> accessor(std::size_t index) const {
+    const json& accessor = document["accessors"][index];
+    const json& view = document["bufferViews"][accessor["bufferView"].get<std::size_t>()];
+    std::vector<T> values(view["byteLength"].get<std::size_t>() / sizeof(T));
+    std::memcpy(values.data(), binary.data() + view["byteOffset"].get<std::size_t>(), values.size() * sizeof(T));
+    return values;
+  }
+  [[nodiscard]] const json& primitive(std::size_t mesh = 0) const { return document["meshes"][mesh]["primitives"][0]; }
+  [[nodiscard]] std::vector<float> attribute(const char* name) const {
+    return accessor<float>(primitive()["attributes"][name].get<std::size_t>());
+  }
+
+  json document;
+  std::vector<std::byte> binary;
+};
+
+bool has_note(const LoadReport& report, LoadNote::Kind kind, const char* part) {
+  for (const LoadNote& note : report.notes)
+    if (note.kind == kind && note.text.find(part) != std::string::npos) return true;
+  return false;
+}
+
+/// Children and descriptors that a call left behind.
+class LeavesNothingBehind {
+ public:
+  LeavesNothingBehind() : descriptors_(open_descriptors()) {}
+  ~LeavesNothingBehind() {
+    EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1) << "a child was not reaped";
+    EXPECT_EQ(open_descriptors(), descriptors_);
+  }
+
+ private:
+  static int open_descriptors() {
+    int count = 0;
+    DIR* const folder = opendir("/proc/self/fd");
+    while (folder != nullptr && readdir(folder) != nullptr) ++count;
+    if (folder != nullptr) closedir(folder);
+    return count;
+  }
+  int descriptors_;
+};
+
+TEST(AssimpImport, ObjWithMaterialAndTextureCoordinates) {
+  const test::TemporaryFolder folder;
+  folder.write("square.mtl", std::string_view(test::kSquareMtl));
+  const auto imported = import_as_glb(folder.write("square.obj", std::string_view(test::kSquareObj)), {});
+  ASSERT_TRUE(imported) << imported.error().text();
+  EXPECT_EQ(imported->report.format.rfind("OBJ by assimp 5.2", 0), 0u) << imported->report.format;
+  EXPECT_EQ(imported->report.space, "file units, taken as metres; axes as in the file");
+
+  const Glb glb(*imported);
+  EXPECT_EQ(glb.accessor<std::uint16_t>(glb.primitive()["indices"].get<std::size_t>()).size(), 6u);
+  EXPECT_EQ(glb.attribute("POSITION").size(), 12u);
+  const std::vector<float> uv = glb.attribute("TEXCOORD_0");
+  ASSERT_EQ(uv.size(), 8u);
+  EXPECT_EQ(uv[2 * 2 + 1], 0.25f);  // v counts downward in glTF.
+  const std::vector<float> normals = glb.attribute("NORMAL");
+  for (std::size_t i = 0; i < normals.size(); ++i) EXPECT_EQ(normals[i], i % 3 == 2 ? 1.0f : 0.0f);
+  EXPECT_TRUE(has_note(imported->report, LoadNote::Kind::information, "no normals"));
+
+  const json& material = glb.document["materials"][glb.primitive()["material"].get<std::size_t>()];
+  EXPECT_EQ(material["name"], "red");
+  EXPECT_EQ(material["pbrMetallicRoughness"]["baseColorFactor"], json({0.5, 0.25, 0.125, 1.0}));
+}
+
+TEST(AssimpImport, OffKeepsItsVertices) {
+  const test::TemporaryFolder folder;
+  const auto imported = import_as_glb(folder.write("square.off", std::string_view(test::kSquareOff)), {});
+  ASSERT_TRUE(imported) << imported.error().text();
+  EXPECT_EQ(Glb(*imported).attribute("POSITION").size(), 12u);
+}
+
+TEST(AssimpImport, LipsOfATornIndexedMeshStayApart) {
+  const test::TemporaryFolder folder;
+  const auto imported = import_as_glb(folder.write("torn.ply", std::string_view(test::kTornPly)), {});
+  ASSERT_TRUE(imported) << imported.error().text();
+  EXPECT_EQ(Glb(*imported).attribute("POSITION").size(), 21u);
+}
+
+TEST(AssimpImport, XWithSkinAndAnimation) {
+  const test::TemporaryFolder folder;
+  const auto imported = import_as_glb(folder.write("strip.x", std::string_view(test::kSkinnedX)), {});
+  ASSERT_TRUE(imported) << imported.error().text();
+  const Glb glb(*imported);
+  ASSERT_EQ(glb.document["skins"].size(), 1u);
+  const json& skin = glb.document["skins"][0];
+  ASSERT_EQ(skin["joints"].size(), 2u);
+  EXPECT_EQ(glb.document["nodes"][skin["joints"][0].get<std::size_t>()]["name"], "Lower");
+  EXPECT_EQ(glb.document["nodes"][skin["joints"][1].get<std::size_t>()]["name"], "Upper");
+
+  ASSERT_EQ(glb.document["animations"].size(), 1u);
+  const json& clip = glb.document["animations"][0];
+  EXPECT_EQ(clip["name"], "Bend");
+  for (const json& channel : clip["channels"]) {
+    if (channel["target"]["path"] != "rotation") continue;
+    const json& sampler = clip["samplers"][channel["sampler"].get<std::size_t>()];
+    EXPECT_EQ(glb.accessor<float>(sampler["input"].get<std::size_t>()),
+              (std::vector<float>{0.0f, 1.0f}));  // 10 ticks at 10 a second.
+  }
+}
+
+TEST(AssimpImport, ColladaWithSixInfluencesUnitAndUpAxis) {
+  const test::TemporaryFolder folder;
+  const auto imported = import_as_glb(folder.write("sail.dae", std::string_view(test::kSixBoneCollada)), {});
+  ASSERT_TRUE(imported) << imported.error().text();
+  const Glb glb(*imported);
+  const std::vector<float> first = glb.attribute("WEIGHTS_0"), second = glb.attribute("WEIGHTS_1");
+  ASSERT_EQ(first.size(), second.size());
+  double sum = 0.0;
+  int used = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    sum += static_cast<double>(first[i]) + static_cast<double>(second[i]);
+    used += (first[i] > 0.0f ? 1 : 0) + (second[i] > 0.0f ? 1 : 0);
+  }
+  EXPECT_EQ(used, 6);
+  EXPECT_NEAR(sum, 1.0, 6 * 2e-7);
+  EXPECT_TRUE(has_note(imported->report, LoadNote::Kind::repaired, "off by up to 0.2"));
+
+  // Centimetres and z up are on the root; the whole chain is checked with poses in assimp_pose_test.cpp.
+  EXPECT_EQ(imported->report.space, "metres, y up; unit and up axis of the file applied");
+
+  LoadOptions strict;
+  strict.strict = true;
+  EXPECT_EQ(import_as_glb(folder.path() / "sail.dae", strict).error().code(), StatusCode::weights_not_normalized);
+}
+
+TEST(AssimpImport, ContentMustBeWhatTheNameSays) {
+  const test::TemporaryFolder folder;
+  EXPECT_EQ(import_as_glb(folder.write("strip.fbx", std::string_view(test::kSkinnedX)), {}).error().code(),
+            StatusCode::malformed_file);
+  EXPECT_EQ(import_as_glb(folder.write("strip.ply", std::string_view(test::kSkinnedX)), {}).error().code(),
+            StatusCode::malformed_file);
+  EXPECT_FALSE(import_as_glb(folder.write("strip.dae", std::string_view(test::kSkinnedX)), {}));
+  EXPECT_FALSE(import_as_glb(folder.write("strip.3ds", std::string_view(test::kSkinnedX)), {}));
+}
+
+TEST(AssimpImport, RefusesWhatIsNotItsBusiness) {
+  const test::TemporaryFolder folder;
+  for (const char* name : {"a.glb", "a.gltf", "a.VRM", "a.unknown", "a", "a.txt"})
+    EXPECT_EQ(import_as_glb(folder.write(name, std::string_view("x")), {}).error().code(), StatusCode::unsupported_format) << name;
+  EXPECT_EQ(import_as_glb(folder.path() / "absent.fbx", {}).error().code(), StatusCode::file_not_found);
+  fs::create_directory(folder.path() / "folder.fbx");
+  EXPECT_EQ(import_as_glb(folder.path() / "folder.fbx", {}).error().code(), StatusCode::file_unreadable);
+  EXPECT_EQ(import_as_glb(folder.write("points.obj", std::string_view("v 0 0 0\nv 1 0 0\np 1 2\n")), {}).error().code(),
+            StatusCode::empty_input);
+}
+
+TEST(AssimpImport, ReadsNothingOutsideTheModelsFolder) {
+  const test::TemporaryFolder folder;
+  fs::create_directory(folder.path() / "inside");
+  folder.write("square.mtl", std::string_view(test::kSquareMtl));
+  std::string model = test::kSquareObj;
+  model.replace(model.find("square.mtl"), 10, "../square.mtl");
+  EXPECT_EQ(import_as_glb(folder.write("inside/square.obj", std::string_view(model)), {}).error().code(),
+            StatusCode::path_not_allowed);
+
+  // A link leads out as much as a path does.
+  fs::create_symlink(folder.path() / "square.mtl", folder.path() / "inside" / "square.mtl");
+  EXPECT_EQ(import_as_glb(folder.write("inside/link.obj", std::string_view(test::kSquareObj)), {}).error().code(),
+            StatusCode::path_not_allowed);
+}
+
+TEST(AssimpImport, LimitsHold) {
+  const LeavesNothingBehind check;
+  const test::TemporaryFolder folder;
+  const fs::path file = folder.write("square.off", std::string_view(test::kSquareOff));
+  LoadOptions options;
+  options.maximum_bytes = 10;
+  EXPECT_EQ(import_as_glb(file, options).error().code(), StatusCode::limit_exceeded);
+  options.maximum_bytes = 100;  // The file passes, the model does not.
+  EXPECT_EQ(import_as_glb(file, options).error().code(), StatusCode::limit_exceeded);
+  options = {};
+  options.import_seconds = 1e-6;
+  EXPECT_EQ(import_as_glb(file, options).error().code(), StatusCode::limit_exceeded);
+  options.import_seconds = 0.0;
+  EXPECT_EQ(import_as_glb(file, options).error().code(), StatusCode::invalid_argument);
+}
+
+TEST(AssimpImport, TheSameFileGivesTheSameBytes) {
+  const test::TemporaryFolder folder;
+  const fs::path file = folder.write("sail.dae", std::string_view(test::kSixBoneCollada));
+  EXPECT_EQ(import_as_glb(file, {})->glb, import_as_glb(file, {})->glb);
+}
+
+TEST(AssimpImport, ManyThreadsAtOnce) {
+  // Of the locks that a fork can catch, glibc frees its own in the child; a sanitizer's allocator does not.
+  if (kIsSanitized) GTEST_SKIP() << "needs an allocator that survives a fork among threads";
+  const LeavesNothingBehind check;
+  const test::TemporaryFolder folder;
+  const fs::path file = folder.write("sail.dae", std::string_view(test::kSixBoneCollada));
+  const auto expected = import_as_glb(file, {});
+  ASSERT_TRUE(expected) << expected.error().text();
+  std::vector<std::thread> threads;
+  std::vector<char> same(4, 0);
+  for (char& flag : same)
+    threads.emplace_back([&] {
+      bool all = true;
+      for (int i = 0; i < 10; ++i) {
+        const auto imported = import_as_glb(file, {});
+        all = all && imported && imported->glb == expected->glb;
+      }
+      flag = all;
+    });
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(same, std::vector<char>(4, 1));
+}
+
+struct BadFile {
+  const char* name;
+  StatusCode code;
+};
+
+TEST(AssimpImport, BadFilesEndInAStatus) {
+  SUNDER_SKIP_WITHOUT_SHARED_MODELS();
+  const LeavesNothingBehind check;
+  for (const BadFile bad :
+       {BadFile{"garbage.fbx", StatusCode::malformed_file}, BadFile{"empty.obj", StatusCode::empty_input},
+        BadFile{"face_oob.obj", StatusCode::malformed_file}, BadFile{"huge_counts.off", StatusCode::limit_exceeded},
+        BadFile{"empty_init_from.dae", StatusCode::malformed_file}, BadFile{"skinweights_oob.x", StatusCode::malformed_file}}) {
+    if (kIsSanitized && bad.code == StatusCode::limit_exceeded) continue;  // No memory limit there.
+    const auto imported = import_as_glb(test::shared_models() / "bad" / bad.name, {});
+    ASSERT_FALSE(imported) << bad.name;
+    EXPECT_EQ(imported.error().code(), bad.code) << bad.name << ": " << imported.error().text();
+    EXPECT_NE(imported.error().text().find(bad.name), std::string_view::npos) << imported.error().text();
+  }
+}
+
+std::vector<fs::path> rigged_models() {
+  return test::files_below(test::shared_models() / "rigged", {".fbx", ".dae", ".x", ".b3d"});
+}
+
+TEST(AssimpImport, SharedModelsPassTheGltfValidator) {
+  SUNDER_SKIP_WITHOUT_SHARED_MODELS();
+  SUNDER_SKIP_WITHOUT_GLTF_VALIDATOR();
+  const test::TemporaryFolder folder;
+  ASSERT_EQ(rigged_models().size(), 5u);
+  for (const fs::path& file : rigged_models()) {
+    const auto imported = import_as_glb(file, {});
+    ASSERT_TRUE(imported) << file << imported.error().text();
+    EXPECT_TRUE(has_note(imported->report, LoadNote::Kind::information, "reproduces the mesh within")) << file;
+    const auto report = test::validate_glb(folder.write("model.glb", imported->glb));
+    EXPECT_EQ(report.errors, 0) << file << report.output;
+  }
+}
+
+TEST(AssimpImport, FbxUnitAndAxesAreApplied) {
+  if (test::assimp_models().empty()) GTEST_SKIP() << "needs Debian's assimp-testmodels";
+  const auto imported = import_as_glb(test::assimp_models() / "FBX/embedded_ascii/box.FBX", {});
+  ASSERT_TRUE(imported) << imported.error().text();
+  EXPECT_EQ(imported->report.space, "metres, y up; the file: unit 100 cm, z up");
+  const json root = Glb(*imported).document["nodes"][0];
+  EXPECT_EQ(root["name"], "model_from_file");
+  EXPECT_NEAR(root["rotation"][0].get<double>(), -0.70710678, 1e-7);  // A quarter turn about x: z becomes y.
+  EXPECT_FALSE(root.contains("scale"));
+}
+
+/// Every file of assimp's own collection, broken ones included, ends in a valid GLB or in a status.
+TEST(AssimpImport, AssimpsOwnModels) {
+  if (test::assimp_models().empty()) GTEST_SKIP() << "needs Debian's assimp-testmodels";
+  const LeavesNothingBehind check;
+  LoadOptions options;
+  options.import_seconds = 30.0;
+  int imported_files = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(test::assimp_models())) {
+    if (!entry.is_regular_file()) continue;
+    const auto imported = import_as_glb(entry.path(), options);
+    if (imported) {
+      ++imported_files;
+      EXPECT_NO_THROW(Glb{*imported}) << entry.path();
+    } else {
+      EXPECT_NE(imported.error().code(), StatusCode::internal_error) << entry.path() << imported.error().text();
+    }
+  }
+  EXPECT_GT(imported_files, 250);
+}
+
+}  // namespace
+}  // namespace sunder

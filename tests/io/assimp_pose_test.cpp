@@ -1,0 +1,215 @@
+// Imported models, loaded and posed by us, against assimp's own scene evaluated by the definition: the whole chain of units, axes,
+// pivots, binds, weights, keys and welding.
+
+#include <sunder/io/load_character.h>
+#include <sunder/skinning/palette.h>
+#include <sunder/skinning/reference.h>
+#include <sunder/skinning/sample_clip.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <assimp/Importer.hpp>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#include <gtest/gtest.h>
+
+#include "io/assimp_text_models.h"
+#include "support/shared_models.h"
+#include "support/temporary_folder.h"
+
+namespace sunder {
+namespace {
+
+namespace fs = std::filesystem;
+using Corners = std::vector<Vec3d>;  ///< Three a triangle, model space.
+
+constexpr double kRest = -1.0;
+
+// ---- assimp's scene, evaluated in its own terms
+// -----------------------------------------------------------------------------------
+
+template <class Key>
+std::pair<unsigned, double> locate(const Key* keys, unsigned count, double ticks) {
+  unsigned next = 0;
+  while (next < count && keys[next].mTime <= ticks) ++next;
+  if (next == 0) return {0, 0.0};
+  if (next == count) return {count - 1, 0.0};
+  return {next - 1, (ticks - keys[next - 1].mTime) / (keys[next].mTime - keys[next - 1].mTime)};
+}
+
+aiVector3D sample(const aiVectorKey* keys, unsigned count, double ticks) {
+  const auto [at, factor] = locate(keys, count, ticks);
+  if (factor == 0.0) return keys[at].mValue;
+  return keys[at].mValue + (keys[at + 1].mValue - keys[at].mValue) * static_cast<float>(factor);
+}
+
+aiQuaternion sample(const aiQuatKey* keys, unsigned count, double ticks) {
+  const auto [at, factor] = locate(keys, count, ticks);
+  aiQuaternion result = keys[at].mValue;
+  if (factor != 0.0) aiQuaternion::Interpolate(result, keys[at].mValue, keys[at + 1].mValue, static_cast<float>(factor));
+  return result.Normalize();
+}
+
+Corners assimp_corners(const aiScene& scene, unsigned clip, double seconds) {
+  std::map<std::string, const aiNodeAnim*> channel_of;
+  double ticks = 0.0;
+  if (seconds != kRest) {
+    const aiAnimation& animation = *scene.mAnimations[clip];
+    ticks = seconds * (animation.mTicksPerSecond > 0.0 ? animation.mTicksPerSecond : 25.0);
+    for (unsigned i = 0; i < animation.mNumChannels; ++i)
+      channel_of.emplace(animation.mChannels[i]->mNodeName.C_Str(), animation.mChannels[i]);
+  }
+  std::map<std::string, aiMatrix4x4> model_from_node;
+  std::vector<std::pair<const aiNode*, aiMatrix4x4>> order;
+  const std::function<void(const aiNode*, const aiMatrix4x4&)> visit = [&](const aiNode* node,
+                                                                           const aiMatrix4x4& model_from_parent) {
+    aiMatrix4x4 local = node->mTransformation;
+    if (const auto found = channel_of.find(node->mName.C_Str()); found != channel_of.end()) {
+      const aiNodeAnim& channel = *found->second;
+      local = aiMatrix4x4(sample(channel.mScalingKeys, channel.mNumScalingKeys, ticks),
+                          sample(channel.mRotationKeys, channel.mNumRotationKeys, ticks),
+                          sample(channel.mPositionKeys, channel.mNumPositionKeys, ticks));
+    }
+    const aiMatrix4x4 model_from_this = model_from_parent * local;
+    model_from_node.emplace(node->mName.C_Str(), model_from_this);
+    order.emplace_back(node, model_from_this);
+    for (unsigned i = 0; i < node->mNumChildren; ++i) visit(node->mChildren[i], model_from_this);
+  };
+  visit(scene.mRootNode, aiMatrix4x4());
+
+  Corners corners;
+  for (const auto& [node, model_from_mesh] : order) {
+    for (unsigned m = 0; m < node->mNumMeshes; ++m) {
+      const aiMesh& mesh = *scene.mMeshes[node->mMeshes[m]];
+      std::vector<Vec3d> posed(mesh.mNumVertices, Vec3d::Zero());
+      std::vector<double> sums(mesh.mNumVertices, 0.0);
+      const auto add = [&](unsigned vertex, const aiMatrix4x4& matrix, double weight) {
+        const aiVector3D p = matrix * mesh.mVertices[vertex];
+        posed[vertex] += weight * Vec3d(static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z));
+        sums[vertex] += weight;
+      };
+      for (unsigned b = 0; b < mesh.mNumBones; ++b) {
+        const aiBone& bone = *mesh.mBones[b];
+        const aiMatrix4x4 matrix = model_from_node[bone.mName.C_Str()] * bone.mOffsetMatrix;
+        for (unsigned k = 0; k < bone.mNumWeights; ++k)
+          add(bone.mWeights[k].mVertexId, matrix, static_cast<double>(bone.mWeights[k].mWeight));
+      }
+      for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
+        if (mesh.mNumBones == 0) add(v, model_from_mesh, 1.0);
+        posed[v] /= sums[v];
+      }
+      for (unsigned f = 0; f < mesh.mNumFaces; ++f)
+        if (mesh.mFaces[f].mNumIndices == 3)
+          for (unsigned k = 0; k < 3; ++k) corners.push_back(posed[mesh.mFaces[f].mIndices[k]]);
+    }
+  }
+  return corners;
+}
+
+// ---- ours
+// -------------------------------------------------------------------------------------------------------------------------
+
+Corners our_corners(const Character& character, std::size_t clip, double seconds) {
+  Pose pose = rest_pose(character);
+  if (seconds != kRest) {
+    EXPECT_TRUE(sample_clip(character.clips[clip], seconds, pose));
+  }
+  ModelPose model_pose;
+  EXPECT_TRUE(compute_model_pose(character.skeleton, pose, model_pose));
+  Corners corners;
+  for (const Mesh& mesh : character.meshes) {
+    std::vector<Affine3d> palette(character.skins[mesh.skin].bones.size());
+    EXPECT_TRUE(compute_palette(character.skins[mesh.skin], model_pose, palette));
+    std::vector<Vec3d> posed(mesh.vertex_count());
+    for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v)
+      posed[v] = deform_position_reference(mesh, v, palette, pose.morph_weights);
+    for (const Triangle& triangle : mesh.triangles)
+      for (const std::uint32_t vertex : triangle) corners.push_back(posed[vertex]);
+  }
+  return corners;
+}
+
+/// Largest distance between corners of the two, relative to assimp's size. `model_from_scene` is what assimp itself did not apply.
+void expect_same(const Corners& ours, const Corners& theirs, const Affine3d& model_from_scene, double tolerance,
+                 const std::string& what) {
+  ASSERT_EQ(ours.size(), theirs.size()) << what;
+  Eigen::AlignedBox3d box;
+  double largest = 0.0;
+  for (std::size_t i = 0; i < ours.size(); ++i) {
+    const Vec3d expected = model_from_scene * theirs[i];
+    box.extend(Eigen::Vector3d(expected));
+    largest = std::max(largest, (ours[i] - expected).norm());
+  }
+  EXPECT_LE(largest, tolerance * box.diagonal().norm()) << what << ": size " << box.diagonal().transpose();
+}
+
+void compare(const fs::path& file, const Affine3d& model_from_scene, double tolerance) {
+  const auto loaded = load_character(file);
+  ASSERT_TRUE(loaded) << file << loaded.error().text();
+  Assimp::Importer importer;
+  const aiScene* scene = importer.ReadFile(file.string(), aiProcess_Triangulate);
+  ASSERT_NE(scene, nullptr);
+  const Character& character = *loaded->character;
+  expect_same(our_corners(character, 0, kRest), assimp_corners(*scene, 0, kRest), model_from_scene, tolerance,
+              file.filename().string() + " at rest");
+  ASSERT_EQ(character.clips.size(), scene->mNumAnimations) << file;
+  for (unsigned clip = 0; clip < scene->mNumAnimations; ++clip) {
+    const double duration = static_cast<double>(character.clips[clip].duration);
+    for (const double part : {0.0, 0.21, 0.5, 0.83, 1.0}) {
+      const std::string what =
+          file.filename().string() + ", clip " + character.clips[clip].name + " at " + std::to_string(part * duration);
+      expect_same(our_corners(character, clip, part * duration), assimp_corners(*scene, clip, part * duration), model_from_scene,
+                  tolerance, what);
+    }
+  }
+}
+
+TEST(AssimpPoses, TextModels) {
+  const test::TemporaryFolder folder;
+  compare(folder.write("strip.x", std::string_view(test::kSkinnedX)), Affine3d::Identity(), 1e-6);
+  compare(folder.write("sail.dae", std::string_view(test::kSixBoneCollada)), Affine3d::Identity(), 1e-6);
+}
+
+TEST(AssimpPoses, ColladaArrivesInMetresWithYUp) {
+  const test::TemporaryFolder folder;
+  const auto loaded = load_character(folder.write("sail.dae", std::string_view(test::kSixBoneCollada)));
+  ASSERT_TRUE(loaded) << loaded.error().text();
+  const Corners corners = our_corners(*loaded->character, 0, kRest);
+  ASSERT_EQ(corners.size(), 3u);
+  EXPECT_LT((corners[0] - Vec3d(0, 0, 0)).norm(), 1e-6);
+  EXPECT_LT((corners[1] - Vec3d(1, 0, 0)).norm(), 1e-6);
+  EXPECT_LT((corners[2] - Vec3d(0, 1, 0)).norm(), 1e-6);  // The file's z, 100 centimetres.
+}
+
+TEST(AssimpPoses, SharedModels) {
+  SUNDER_SKIP_WITHOUT_SHARED_MODELS();
+  const fs::path rigged = test::shared_models() / "rigged";
+  compare(rigged / "cesium_man.dae", Affine3d::Identity(), 2e-6);
+  compare(rigged / "wuson.x", Affine3d::Identity(), 2e-6);
+  compare(rigged / "minetest_character.b3d", Affine3d::Identity(), 2e-6);
+  // Centimetres; y up.
+  compare(rigged / "soft_tube_14bones.fbx", Affine3d(Eigen::UniformScaling<double>(0.01)), 2e-6);
+  // Metres; y up, but facing -z with -x to the right.
+  Affine3d turned = Affine3d::Identity();
+  turned.linear() = Vec3d(-1, 1, -1).asDiagonal();
+  compare(rigged / "vr_glove.fbx", turned, 2e-6);
+}
+
+TEST(AssimpPoses, AssimpsOwnModels) {
+  const fs::path models = test::assimp_models();
+  if (models.empty()) GTEST_SKIP() << "needs Debian's assimp-testmodels";
+  for (const char* name :
+       {"Collada/duck.dae", "Collada/box_nested_animation.dae", "Collada/anims_with_full_rotations_between_keys.DAE",
+        "X/BCN_Epileptic.X", "X/test.x", "B3D/WusonBlitz.b3d", "MD5/SimpleCube.md5mesh", "3DS/RotatingCube.3DS", "OBJ/spider.obj",
+        "PLY/Wuson.ply", "STL/Spider_ascii.stl"})
+    compare(models / name, Affine3d::Identity(), 5e-6);
+  compare(models / "FBX/huesitos.fbx", Affine3d(Eigen::UniformScaling<double>(0.01)), 5e-6);
+}
+
+}  // namespace
+}  // namespace sunder

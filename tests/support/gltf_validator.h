@@ -1,0 +1,23 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace sunder::test {
+
+/// Whether node and tests/npm/node_modules are there.
+bool has_gltf_validator();
+
+struct ValidatorReport {
+  int errors = -1;     ///< -1: it could not be run.
+  std::string output;  ///< JSON, with the first messages.
+};
+
+/// The Khronos validator's opinion of a GLB.
+ValidatorReport validate_glb(const std::filesystem::path& file);
+
+}  // namespace sunder::test
+
+/// Ends a test that needs the validator where it is absent.
+#define SUNDER_SKIP_WITHOUT_GLTF_VALIDATOR() \
+  if (!::sunder::test::has_gltf_validator()) GTEST_SKIP() << "needs node and gltf-validator: npm ci --prefix tests/npm"
