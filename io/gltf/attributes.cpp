@@ -171,7 +171,8 @@ void AttributeReader::read_custom(Mesh& mesh, const std::string& name, const Cur
                                "; it stays in the file but not on a torn mesh");
     return;
   }
-  CustomAttribute attribute{name, accessor.components, !accessor.is_integer() || accessor.normalized, {}};
+  const bool is_label = (accessor.is_integer() && !accessor.normalized) || name == kTearSideAttribute;
+  CustomAttribute attribute{name, accessor.components, !is_label, {}};
   attribute.values = reading_.accessors.read_floats(open(at, mesh, accessor.components));
   const auto bad =
       std::find_if(attribute.values.begin(), attribute.values.end(), [](float value) { return !std::isfinite(value); });

@@ -125,9 +125,11 @@ MeshWriter::Vertices MeshWriter::add_vertices(const Mesh& mesh, const SourceDocu
       for (const Vec4f& color : mesh.color_sets[i]) rgb.push_back(color.head<3>());
     attributes[numbered("COLOR_", i)] = has_alpha ? add_vectors(mesh.color_sets[i]) : add_vectors(rgb);
   }
-  for (const CustomAttribute& attribute : mesh.custom_attributes)
-    attributes[attribute.name] =
-        attribute.interpolates ? add_floats(attribute.values, attribute.components) : add_labels(attribute);
+  for (const CustomAttribute& attribute : mesh.custom_attributes) {
+    // Tools that merge equal vertices compare plain float attributes most reliably: tear sides are written as such.
+    const bool as_floats = attribute.interpolates || attribute.name == kTearSideAttribute;
+    attributes[attribute.name] = as_floats ? add_floats(attribute.values, attribute.components) : add_labels(attribute);
+  }
   if (origin.skinned) add_influences(mesh, attributes);
   if (!mesh.morph_targets.empty()) vertices.targets = add_targets(mesh);
   return vertices;

@@ -1,0 +1,148 @@
+// The whole path on every rigged file at hand: load, tear in two poses at three places each, check every law in twenty other poses,
+// save, validate, load again and compare in motion.
+#include <sunder/io/load_character.h>
+#include <sunder/io/save_glb.h>
+#include <sunder/skinning/palette.h>
+#include <sunder/skinning/sample_clip.h>
+#include <sunder/tear/topology.h>
+#include <sunder/tear/torn_model.h>
+
+#include <algorithm>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "support/gltf_validator.h"
+#include "support/rigs.h"
+#include "support/shared_models.h"
+#include "support/temporary_folder.h"
+#include "support/torn_invariants.h"
+
+namespace sunder {
+namespace {
+
+using test::Random;
+using testing::IsEmpty;
+
+/// A place in a random clip, or where there is none a random pose.
+ModelPose some_pose(const Character& character, Random& random) {
+  if (character.clips.empty() || random.index(4) == 0) return test::random_pose(character, random, 0.4, 1.1);
+  const Clip& clip = character.clips[random.index(static_cast<std::uint32_t>(character.clips.size()))];
+  Pose pose = rest_pose(character);
+  EXPECT_TRUE(sample_clip(clip, random.uniform(0, static_cast<double>(clip.duration)), pose));
+  ModelPose model;
+  EXPECT_TRUE(compute_model_pose(character.skeleton, pose, model));
+  return model;
+}
+
+/// Triangles grouped as a file groups them: by submesh, each in its order.
+std::vector<Triangle> in_file_order(const Mesh& mesh) {
+  std::vector<Triangle> triangles;
+  for (std::uint32_t submesh = 0; submesh < mesh.submeshes.size(); ++submesh)
+    for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t)
+      if (mesh.triangle_submesh[t] == submesh) triangles.push_back(mesh.triangles[t]);
+  return triangles;
+}
+
+void expect_same_in_motion(const Character& memory, const Character& file, Random& random) {
+  ASSERT_EQ(file.meshes.size(), memory.meshes.size());
+  ASSERT_EQ(file.skeleton, memory.skeleton);
+  for (std::uint32_t m = 0; m < memory.meshes.size(); ++m)
+    EXPECT_EQ(in_file_order(file.meshes[m]), in_file_order(memory.meshes[m]));
+  for (int i = 0; i < 3; ++i) {
+    const ModelPose pose = some_pose(memory, random);
+    const double diagonal = test::posed_diagonal(memory, pose);
+    for (std::uint32_t m = 0; m < memory.meshes.size(); ++m) {
+      const auto in_memory = test::posed_positions(memory, m, pose), in_file = test::posed_positions(file, m, pose);
+      ASSERT_EQ(in_memory.size(), in_file.size());
+      double worst = 0;
+      for (std::size_t v = 0; v < in_memory.size(); ++v) worst = std::max(worst, (in_memory[v] - in_file[v]).norm());
+      EXPECT_LE(worst, 1e-6 * diagonal) << "mesh " << m;
+    }
+  }
+}
+
+void tear_and_save(const std::filesystem::path& file, std::uint64_t seed) {
+  const auto loaded = load_character(file);
+  if (!loaded) {
+    // Some of the files at hand are broken on purpose. Refusing them is right, saying why is a must.
+    EXPECT_FALSE(loaded.error().text().empty());
+    return;
+  }
+  Random random(seed);
+  std::uint32_t pieces = 0;
+  for (int pose_number = 0; pose_number < 2; ++pose_number) {
+    auto model = TornModel::create(loaded->character);
+    ASSERT_TRUE(model) << model.error().text();
+    const ModelPose pose = some_pose(*loaded->character, random);
+    for (int place = 0; place < 3; ++place) {
+      const Stroke stroke = test::random_stroke(model->character(), pose, random);
+      ChangeRecord change;
+      const auto report = model->tear(pose, stroke, &change);
+      ASSERT_TRUE(report) << report.error().text();
+      pieces += report->pieces;
+      ASSERT_THAT(test::broken_lips(*model, change), IsEmpty());
+      const bool stayed_on_one_sheet = report->pieces + report->segments_missed <= report->segments;
+      if (place == 0 && stayed_on_one_sheet && count_topology(*loaded->character).non_manifold_edges == 0) {
+        ASSERT_THAT(test::broken_closure(*model), IsEmpty());
+      }
+    }
+    ASSERT_THAT(test::broken_laws(*model), IsEmpty());
+    for (int i = 0; i < 20; ++i) ASSERT_THAT(test::broken_closed_form(*model, some_pose(*loaded->character, random)), IsEmpty());
+
+    const test::TemporaryFolder folder;
+    const auto saved = folder.path() / "torn.glb";
+    const Status status = save_glb(saved, model->character(), *loaded);
+    ASSERT_TRUE(status) << status.text();
+    if (test::has_gltf_validator()) {
+      // What the file has besides its torn meshes stays as it is, faults included.
+      const bool is_patch = file.extension() == ".glb" || file.extension() == ".gltf";
+      const auto verdict = test::validate_glb(saved);
+      EXPECT_LE(verdict.errors, verdict.errors > 0 && is_patch ? test::validate_glb(file).errors : 0) << verdict.output;
+      EXPECT_GE(verdict.errors, 0) << "the validator did not run";
+    }
+    const auto again = load_character(saved);
+    ASSERT_TRUE(again) << again.error().text();
+    expect_same_in_motion(model->character(), *again->character, random);
+    const TopologyCounts in_memory = count_topology(model->character()), in_file = count_topology(*again->character);
+    EXPECT_EQ(in_memory.components, in_file.components);
+    EXPECT_EQ(in_memory.boundary_loops, in_file.boundary_loops);
+  }
+  EXPECT_GT(pieces, 0u) << "not one of six strokes tore anything";
+}
+
+class RiggedFile : public testing::TestWithParam<std::filesystem::path> {};
+
+TEST_P(RiggedFile, is_torn_moves_on_and_comes_back_from_disk) {
+  tear_and_save(GetParam(), std::hash<std::string>()(GetParam().filename().string()));
+}
+
+std::vector<std::filesystem::path> files() {
+  std::vector<std::filesystem::path> found;
+  if (!test::shared_models().empty())
+    for (const auto& entry : std::filesystem::directory_iterator(test::shared_models() / "rigged")) found.push_back(entry.path());
+  if (!test::assimp_models().empty()) {
+    // Formats that can carry a skin; the rigid models among them are torn too.
+    const auto more = test::files_below(
+        test::assimp_models(), {".glb", ".gltf", ".fbx", ".dae", ".x", ".b3d", ".md5mesh", ".ms3d", ".smd", ".cob", ".mdl"});
+    found.insert(found.end(), more.begin(), more.end());
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(RiggedFile);
+INSTANTIATE_TEST_SUITE_P(all, RiggedFile, testing::ValuesIn(files()), [](const auto& test_case) {
+  std::string name = std::to_string(test_case.index) + "_" + test_case.param.filename().string();
+  std::replace_if(
+      name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
+  return name;
+});
+
+TEST(RiggedFiles, are_at_hand) {
+  SUNDER_SKIP_WITHOUT_SHARED_MODELS();
+  EXPECT_GE(files().size(), 14u);
+}
+
+}  // namespace
+}  // namespace sunder
