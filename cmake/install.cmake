@@ -9,6 +9,15 @@ if(TARGET sunder)
   install(TARGETS sunder RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()
 
+# Shared libraries find one another, and the command finds them, wherever the prefix is moved.
+if(BUILD_SHARED_LIBS AND UNIX AND NOT APPLE)
+  set_target_properties(${modules} PROPERTIES INSTALL_RPATH "$ORIGIN")
+  if(TARGET sunder)
+    file(RELATIVE_PATH lib_from_bin ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})
+    set_target_properties(sunder PROPERTIES INSTALL_RPATH "$ORIGIN/${lib_from_bin}")
+  endif()
+endif()
+
 # A static io archive hands its private libraries on to whoever links it.
 set(SUNDER_STATIC_DEPENDENCIES "")
 if(SUNDER_IO AND NOT BUILD_SHARED_LIBS)

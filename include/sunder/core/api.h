@@ -10,5 +10,5 @@
 #define SUNDER_API __declspec(dllimport)
 #endif
 #else
-#define SUNDER_API __attribute__((visibility("default")))
+#define SUNDER_API [[gnu::visibility("default")]]
 #endif

@@ -1,0 +1,25 @@
+#include "tools/exit_code.h"
+
+#include <cstdio>
+
+namespace sunder::tools {
+
+ExitCode exit_code_of(StatusCode code, ExitCode otherwise) {
+  switch (code) {
+    case StatusCode::ok: return ExitCode::ok;
+    case StatusCode::file_not_found:
+    case StatusCode::file_unreadable: return ExitCode::unreadable_input;
+    case StatusCode::limit_exceeded:
+    case StatusCode::capacity_exceeded: return ExitCode::limit_exceeded;
+    case StatusCode::internal_error: return ExitCode::internal_error;
+    default: return otherwise;
+  }
+}
+
+ExitCode complain(const std::string& place, const Status& status, ExitCode otherwise) {
+  std::fprintf(stderr, "sunder: %s: %.*s (%.*s)\n", place.c_str(), static_cast<int>(status.text().size()), status.text().data(),
+               static_cast<int>(status_name(status.code()).size()), status_name(status.code()).data());
+  return exit_code_of(status.code(), otherwise);
+}
+
+}  // namespace sunder::tools

@@ -1,0 +1,87 @@
+#include <cstdio>
+#include <exception>
+#include <new>
+
+#include <CLI/CLI.hpp>
+
+#include "tools/verbs.h"
+
+namespace sunder::tools {
+namespace {
+
+constexpr const char* kExitCodes =
+    "Exit codes: 0 done, 1 done but something is worth a look, 2 usage or operations, 3 a file cannot be read or written,\n"
+    "4 a limit was exceeded, 5 a fault of sunder itself. Data goes to stdout, words go to stderr.";
+
+struct Requests {
+  InfoRequest info;
+  TearRequest tear;
+  DemoRequest demo;
+};
+
+CLI::App* add_info(CLI::App& app, InfoRequest& request) {
+  CLI::App* const verb = app.add_subcommand("info", "Say what is in a model, and what is wrong with it");
+  verb->add_option("MODEL", request.model, "glTF, GLB, FBX, COLLADA, X, B3D, OBJ, PLY, OFF ...")->required();
+  verb->add_flag("--json", request.as_json, "One JSON object instead of text");
+  verb->footer("Exit code 1 where loading had to repair or drop something.\n\nExample: sunder info fox.glb");
+  return verb;
+}
+
+CLI::App* add_tear(CLI::App& app, TearRequest& request) {
+  CLI::App* const verb = app.add_subcommand("tear", "Tear a model by a list of operations, and save it as GLB");
+  verb->add_option("MODEL", request.model, "The model")->required();
+  verb->add_option("--ops", request.operations, "Operations, JSON; see docs/operation_log.md")->required();
+  verb->add_option("-o,--output", request.output, "The torn model, GLB")->required();
+  verb->add_option("--influences", request.maximum_influences, "Most influences written a vertex; without it: all")
+      ->check(CLI::IsMember({4, 8}));
+  verb->add_option("--report", request.report, "Where the JSON report goes instead of stdout");
+  verb->footer(
+      "All operations succeed, or nothing is written. Exit code 1 where a stroke missed.\n\n"
+      "Example: sunder tear fox.glb --ops ops.json -o torn.glb --influences 4");
+  return verb;
+}
+
+CLI::App* add_demo(CLI::App& app, DemoRequest& request) {
+  CLI::App* const verb = app.add_subcommand("demo", "Tear a model in the middle of its animation, and take pictures of it");
+  verb->add_option("MODEL", request.model, "The model; without it: a cactus");
+  verb->add_option("-o,--output", request.folder, "Folder for pictures, GLB and report")->capture_default_str();
+  verb->footer(
+      "Pictures are drawn by f3d under Xvfb; where they are missing all the rest is still written, and the exit code is 1.\n\n"
+      "Example: sunder demo fox.glb -o fox_demo");
+  return verb;
+}
+
+int run(int argc, char** argv) {
+  Requests requests;
+  CLI::App app("Tears rigged models while they are animated.", "sunder");
+  app.set_version_flag("--version", "sunder " SUNDER_VERSION);
+  app.require_subcommand(1);
+  app.footer(kExitCodes);
+  const CLI::App* const info = add_info(app, requests.info);
+  const CLI::App* const tear = add_tear(app, requests.tear);
+  add_demo(app, requests.demo);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? static_cast<int>(ExitCode::ok) : static_cast<int>(ExitCode::usage);
+  }
+  if (info->parsed()) return static_cast<int>(run_info(requests.info));
+  if (tear->parsed()) return static_cast<int>(run_tear(requests.tear));
+  return static_cast<int>(run_demo(requests.demo));
+}
+
+}  // namespace
+}  // namespace sunder::tools
+
+int main(int argc, char** argv) {
+  using sunder::tools::ExitCode;
+  try {
+    return sunder::tools::run(argc, argv);
+  } catch (const std::bad_alloc&) {
+    std::fputs("sunder: out of memory\n", stderr);
+    return static_cast<int>(ExitCode::limit_exceeded);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "sunder: unexpected: %s\n", error.what());
+    return static_cast<int>(ExitCode::internal_error);
+  }
+}

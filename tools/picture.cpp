@@ -1,0 +1,207 @@
+#include "tools/picture.h"
+
+#include <sunder/io/save_glb.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <set>
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include "tools/spawn.h"
+
+namespace sunder::tools {
+namespace {
+
+using Index = std::uint32_t;
+
+const Vec4f kTissue(0.75f, 0.05f, 0.05f, 1.0f);  // Linear RGBA.
+const Vec4f kRim(1.0f, 0.16f, 0.12f, 1.0f);
+
+/// A mesh that nothing moves.
+Mesh make_mesh(const std::string& name) {
+  Mesh mesh;
+  mesh.name = name;
+  mesh.submeshes = {{name, kNone}};
+  return mesh;
+}
+
+Index append_vertex(Mesh& mesh, const Vec3f& position, const Vec3f& normal) {
+  const Influence all_of_root{0, 1.0f};
+  mesh.positions.push_back(position);
+  mesh.normals.push_back(normal);
+  mesh.weights.append({&all_of_root, 1});
+  return mesh.vertex_count() - 1;
+}
+
+void append_triangle(Mesh& mesh, const Triangle& triangle) {
+  mesh.triangles.push_back(triangle);
+  mesh.triangle_submesh.push_back(0);
+}
+
+/// Renderers light a surface by its normals and by its winding: where a file's disagree, or ours, the normals hold.
+void wind_by_normals(Mesh& mesh) {
+  for (Triangle& triangle : mesh.triangles) {
+    const Vec3f& a = mesh.positions[triangle[0]];
+    const Vec3f by_winding = (mesh.positions[triangle[1]] - a).cross(mesh.positions[triangle[2]] - a);
+    const Vec3f by_normals = mesh.normals[triangle[0]] + mesh.normals[triangle[1]] + mesh.normals[triangle[2]];
+    if (by_winding.dot(by_normals) < 0.0f) std::swap(triangle[1], triangle[2]);
+  }
+}
+
+/// One submesh in its pose.
+Mesh make_outside(const Mesh& source, const DeformedMesh& posed, Index submesh) {
+  Mesh mesh = make_mesh(source.submeshes[submesh].name.empty() ? source.name : source.submeshes[submesh].name);
+  std::vector<Index> new_from_old(posed.positions.size(), kNone);
+  for (Index t = 0; t < source.triangles.size(); ++t) {
+    if (source.triangle_submesh[t] != submesh) continue;
+    Triangle triangle = source.triangles[t];
+    for (Index& vertex : triangle) {
+      Index& copy = new_from_old[vertex];
+      if (copy == kNone) copy = append_vertex(mesh, posed.positions[vertex], posed.normals[vertex]);
+      vertex = copy;
+    }
+    append_triangle(mesh, triangle);
+  }
+  return mesh;
+}
+
+/// +1 where the mesh's normals point outwards, -1 where they point inwards, as they do in some files.
+float outward_sign(const Mesh& mesh, const DeformedMesh& posed) {
+  Vec3d centre = Vec3d::Zero();
+  for (const Vec3f& position : posed.positions) centre += position.cast<double>() / static_cast<double>(posed.positions.size());
+  double flux = 0;
+  for (const Triangle& triangle : mesh.triangles) {
+    const Vec3d a = posed.positions[triangle[0]].cast<double>(), b = posed.positions[triangle[1]].cast<double>(),
+                c = posed.positions[triangle[2]].cast<double>();
+    const Vec3f normal = posed.normals[triangle[0]] + posed.normals[triangle[1]] + posed.normals[triangle[2]];
+    flux += (b - a).cross(c - a).norm() * ((a + b + c) / 3 - centre).dot(normal.cast<double>());
+  }
+  return flux < 0 ? -1.0f : 1.0f;
+}
+
+/// The walls that are seen from within. They lie deeper by `thickness`, where the model is thin by less, so that they never come
+/// out on the side of the eye.
+Mesh make_inside(const Mesh& source, const DeformedMesh& posed, const DeformedMesh& closed, const DepthImage& image,
+                 const ViewFrame& frame, double thickness) {
+  const float outwards = outward_sign(source, closed);
+  std::vector<Vec3f> positions = posed.positions;
+  std::vector<bool> is_behind(positions.size(), false);
+  for (std::size_t v = 0; v < positions.size(); ++v) {
+    const Vec3f normal = outwards * closed.normals[v];
+    const double behind_front = image.depth_behind_front(closed.positions[v].cast<double>());
+    const double depth = std::min(thickness, 0.3 * behind_front);
+    is_behind[v] = static_cast<double>(normal.dot(frame.towards_eye.cast<float>())) < 0.1 && depth > 0.02 * thickness;
+    positions[v] -= static_cast<float>(depth) * normal;
+  }
+  Mesh mesh = make_mesh("Inside");
+  std::vector<Index> new_from_old(positions.size(), kNone);
+  for (const Triangle& triangle : source.triangles) {
+    if (!is_behind[triangle[0]] || !is_behind[triangle[1]] || !is_behind[triangle[2]]) continue;
+    Triangle inner = triangle;
+    for (Index& vertex : inner) {
+      Index& copy = new_from_old[vertex];
+      if (copy == kNone) copy = append_vertex(mesh, positions[vertex], -outwards * posed.normals[vertex]);
+      vertex = copy;
+    }
+    append_triangle(mesh, inner);
+  }
+  mesh.color_sets.assign(1, std::vector<Vec4f>(mesh.positions.size(), kTissue));
+  return mesh;
+}
+
+/// Strips from the lips down to the inside: the cut through the flesh. The right lip of a pair follows the left one in the list.
+Mesh make_rims(const Character& character, const std::vector<DeformedMesh>& posed, const std::vector<PullOpen::Lip>& lips,
+               double thickness) {
+  Mesh mesh = make_mesh("Rim");
+  std::vector<float> depth;
+  for (std::size_t i = 0; i < posed.size(); ++i)
+    depth.push_back(static_cast<float>(thickness) * outward_sign(character.meshes[i], posed[i]));
+  for (std::size_t i = 0; i < lips.size(); ++i) {
+    const PullOpen::Lip& lip = lips[i];
+    const PullOpen::Lip& other = lips[i ^ 1u];
+    for (std::size_t k = 0; k < lip.size(); ++k) {
+      const DeformedMesh& surface = posed[lip[k].mesh];
+      const Vec3f position = surface.positions[lip[k].vertex], normal = surface.normals[lip[k].vertex];
+      const Vec3f across = posed[other[k].mesh].positions[other[k].vertex] - position;
+      const Vec3f facing = across.norm() > 0.0f ? Vec3f(across.normalized()) : normal;
+      append_vertex(mesh, position, facing);
+      append_vertex(mesh, position - depth[lip[k].mesh] * normal, facing);
+      const Index last = mesh.vertex_count();
+      if (k == 0) continue;
+      append_triangle(mesh, {last - 4, last - 3, last - 2});
+      append_triangle(mesh, {last - 3, last - 1, last - 2});
+    }
+  }
+  mesh.color_sets.assign(1, std::vector<Vec4f>(mesh.positions.size(), kRim));
+  return mesh;
+}
+
+std::string numbers(const Vec3d& v) {
+  char text[128];
+  std::snprintf(text, sizeof text, "%.9g,%.9g,%.9g", v.x(), v.y(), v.z());
+  return text;
+}
+
+}  // namespace
+
+Character make_still(const Character& character, const std::vector<DeformedMesh>& posed) {
+  Character still;
+  still.name = character.name;
+  still.skeleton.bones.push_back({"Still", kNone, {}});
+  still.skins.push_back({"Still", {0}, {Affine3f::Identity()}});
+  for (Index i = 0; i < posed.size(); ++i)
+    for (Index submesh = 0; submesh < character.meshes[i].submeshes.size(); ++submesh)
+      still.meshes.push_back(make_outside(character.meshes[i], posed[i], submesh));
+  for (Mesh& mesh : still.meshes) wind_by_normals(mesh);
+  return still;
+}
+
+Character make_torn_still(const Character& character, const std::vector<DeformedMesh>& posed,
+                          const std::vector<DeformedMesh>& closed, const std::vector<PullOpen::Lip>& lips, const ViewFrame& frame,
+                          double thickness) {
+  constexpr int kImageSize = 700;
+  Character still = make_still(character, posed);
+  const DepthImage image(character, closed, frame, kImageSize);
+  std::set<Index> torn_meshes;
+  for (const PullOpen::Lip& lip : lips)
+    for (const PullOpen::LipVertex& vertex : lip) torn_meshes.insert(vertex.mesh);
+  for (const Index mesh : torn_meshes)
+    still.meshes.push_back(make_inside(character.meshes[mesh], posed[mesh], closed[mesh], image, frame, thickness));
+  still.meshes.push_back(make_rims(character, posed, lips, thickness));
+  for (Mesh& mesh : still.meshes) wind_by_normals(mesh);
+  return still;
+}
+
+bool can_draw() { return is_program_there("f3d") && is_program_there("xvfb-run"); }
+
+Status draw(const Character& still, const Camera& camera, const std::filesystem::path& png) {
+  std::filesystem::path scene = png;
+  scene.replace_extension(".scene.glb");
+  if (const Status status = save_glb(scene, still); !status) return status;
+  const std::vector<std::string> arguments = {"xvfb-run",
+                                              "-a",
+                                              "f3d",
+                                              scene.string(),
+                                              "--output=" + png.string(),
+                                              "--dry-run",
+                                              "--quiet",
+                                              "--resolution=900,900",
+                                              "--bg-color=0.93,0.94,0.95",
+                                              "--fxaa",
+                                              "--camera-position=" + numbers(camera.eye),
+                                              "--camera-focal-point=" + numbers(camera.focal_point),
+                                              "--camera-view-up=" + numbers(camera.up),
+                                              "--camera-view-angle=" + std::to_string(camera.view_angle_degrees)};
+  std::error_code ignored;
+  std::filesystem::remove(png, ignored);
+  // Two xvfb-run that start at once may choose the same display; then one of them fails, and succeeds the next time.
+  for (int attempt = 0; attempt < 3 && !std::filesystem::exists(png, ignored); ++attempt)
+    (void)run_program(arguments, std::chrono::seconds(120));
+  const bool is_drawn = std::filesystem::exists(png, ignored);
+  std::filesystem::remove(scene, ignored);
+  return is_drawn ? Status() : Status::failure(StatusCode::internal_error, kNone, "f3d drew nothing");
+}
+
+}  // namespace sunder::tools

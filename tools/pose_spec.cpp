@@ -1,0 +1,68 @@
+#include "tools/pose_spec.h"
+
+#include <sunder/skinning/palette.h>
+#include <sunder/skinning/sample_clip.h>
+
+#include <algorithm>
+
+namespace sunder::tools {
+namespace {
+
+using Index = std::uint32_t;
+
+Result<Index> find_clip(const Character& character, const std::variant<std::string, Index>& wanted) {
+  const std::size_t count = character.clips.size();
+  if (const Index* const index = std::get_if<Index>(&wanted)) {
+    if (*index < count) return *index;
+    return Status::failure(StatusCode::not_found, *index, "clip %u: the model has %zu clips", *index, count);
+  }
+  const std::string& name = std::get<std::string>(wanted);
+  for (Index i = 0; i < count; ++i)
+    if (character.clips[i].name == name) return i;
+  return Status::failure(StatusCode::not_found, kNone, "no clip is named '%.100s'; the model has %zu clips, see sunder info",
+                         name.c_str(), count);
+}
+
+/// Writes the local transforms that a spec gives over those of rest.
+class ApplyTo {
+ public:
+  ApplyTo(const Character& character, Pose& pose) : character_(character), pose_(pose) {}
+
+  Status operator()(const RestPose&) const { return {}; }
+  Status operator()(const BindPose&) const { return {}; }
+  Status operator()(const ClipPose& spec) const {
+    const Result<Index> clip = find_clip(character_, spec.clip);
+    return clip ? sample_clip(character_.clips[*clip], spec.time, pose_) : clip.error();
+  }
+  Status operator()(const BonesPose& spec) const {
+    const auto& bones = character_.skeleton.bones;
+    for (const BonesPose::Bone& given : spec.bones) {
+      const auto bone =
+          std::find_if(bones.begin(), bones.end(), [&](const Bone& candidate) { return candidate.name == given.name; });
+      if (bone == bones.end())
+        return Status::failure(StatusCode::not_found, kNone, "no bone is named '%.100s'", given.name.c_str());
+      BoneTransform& local = pose_.parent_from_bone[static_cast<std::size_t>(bone - bones.begin())];
+      if (given.translation) local.translation = *given.translation;
+      if (given.rotation) local.rotation = *given.rotation;
+      if (given.scale) local.scale = *given.scale;
+    }
+    return {};
+  }
+
+ private:
+  const Character& character_;
+  Pose& pose_;
+};
+
+}  // namespace
+
+Result<ModelPose> make_pose(const Character& character, const PoseSpec& spec) {
+  if (std::holds_alternative<BindPose>(spec)) return bind_pose(character);
+  Pose pose = rest_pose(character);
+  if (const Status status = std::visit(ApplyTo(character, pose), spec); !status) return status;
+  ModelPose model_pose;
+  if (const Status status = compute_model_pose(character.skeleton, pose, model_pose); !status) return status;
+  return model_pose;
+}
+
+}  // namespace sunder::tools

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <sunder/skinning/deform.h>
+
+#include <vector>
+
+namespace sunder::tools {
+
+/// All meshes of a character in a pose; model space. For looking at: where a mesh has no normals, or many that
+/// contradict its winding, smooth ones are made up.
+Result<std::vector<DeformedMesh>> pose_model(const Character& character, const ModelPose& pose);
+
+struct Bounds {
+  Vec3d least = Vec3d::Constant(1e300);
+  Vec3d greatest = Vec3d::Constant(-1e300);
+
+  [[nodiscard]] Vec3d centre() const { return (least + greatest) / 2; }
+  [[nodiscard]] Vec3d size() const { return greatest - least; }
+};
+
+/// Of the vertices that triangles use.
+Bounds bounds_of(const Character& character, const std::vector<DeformedMesh>& posed);
+
+}  // namespace sunder::tools

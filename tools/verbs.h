@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+
+#include "tools/exit_code.h"
+
+namespace sunder::tools {
+
+/// sunder info: says what is in a model.
+struct InfoRequest {
+  std::filesystem::path model;
+  bool as_json = false;
+};
+[[nodiscard]] ExitCode run_info(const InfoRequest& request);
+
+/// sunder tear: applies an operation log to a model.
+struct TearRequest {
+  std::filesystem::path model, operations, output;
+  std::uint32_t maximum_influences = 0;         ///< As SaveOptions.
+  std::optional<std::filesystem::path> report;  ///< Else stdout.
+};
+[[nodiscard]] ExitCode run_tear(const TearRequest& request);
+
+/// sunder demo: tears a model in the middle of its animation and takes pictures.
+struct DemoRequest {
+  std::optional<std::filesystem::path> model;  ///< Else the embedded one.
+  std::filesystem::path folder = "demo";
+};
+[[nodiscard]] ExitCode run_demo(const DemoRequest& request);
+
+}  // namespace sunder::tools
