@@ -56,7 +56,7 @@ void PosedPoints::pin(Index point, const Vec3d& position) {
   is_known_[point] = true;
 }
 
-void PosedPoints::unpin_from(Index first_point) {
+void PosedPoints::forget_from(Index first_point) {
   for (std::size_t point = first_point; point < is_known_.size(); ++point) is_known_[point] = false;
 }
 

@@ -8,7 +8,9 @@
 
 namespace sunder::tear {
 
-/// Positions of surface points in one pose, in double, computed when first asked for.
+/// Positions of surface points in one pose, in double, computed when first asked for. Points that the operation under way makes are
+/// pinned to where it found them on the posed surface, so that one stroke is torn on one surface; later operations see them where
+/// their weights put them.
 class PosedPoints {
  public:
   /// @return size_mismatch or non_finite_value where the pose does not fit the character.
@@ -18,8 +20,8 @@ class PosedPoints {
 
   /// Keeps a point where it was found on the posed surface, instead of where its own weights put it.
   void pin(Index point, const Vec3d& position);
-  /// From here on the points from `first_point` up stand where their own weights put them.
-  void unpin_from(Index first_point);
+  /// Forgets the points from `first_point` up, which were taken back.
+  void forget_from(Index first_point);
 
  private:
   std::vector<std::vector<Affine3d>> palettes_;  ///< Of each skin.

@@ -60,11 +60,13 @@ struct TornModel::State {
   // Of the operation under way.
   Index tip = kNone;  ///< Where the tear stands, while it stands on the surface.
   TearReport report;
+  std::size_t torn_edges = 0;
   std::vector<LipPair> lips;
 };
 
 double TornModel::State::tear_piece(const BladePlane& plane, Index start, const SurfaceEditor::Mark& before) {
   Path path = tear::imprint_path(plane, start, editor, posed);
+  const bool continues = start == tip;
   tip = kNone;
   if (path.end == Path::End::blocked) ++report.blocked;
 
@@ -82,14 +84,15 @@ double TornModel::State::tear_piece(const BladePlane& plane, Index start, const 
   }
   if (path.points.size() < 2) {
     editor.roll_back(before);
-    posed.unpin_from(before.points);
+    posed.forget_from(before.points);
     if (path.end == Path::End::blade && start < before.points) tip = start;  // moved by less than can be told: go on from here
     return path.end == Path::End::blade ? 1.0 : path.progress;
   }
   const std::size_t first_lip = lips.size();
   tear::open_path(path.points, editor, next_side, lips);
   for (std::size_t i = first_lip; i < lips.size(); ++i) posed.pin(lips[i].left, Vec3d(posed.position(editor, lips[i].right)));
-  ++report.pieces;
+  torn_edges += path.points.size() - 1;
+  if (!continues) ++report.pieces;
   report.faces_crossed += path.faces_crossed;
   report.length_posed += path.length_posed;
   if (path.end != Path::End::blade) return path.progress;
@@ -98,8 +101,7 @@ double TornModel::State::tear_piece(const BladePlane& plane, Index start, const 
 }
 
 void TornModel::State::tear_segment(const Blade& from, const Blade& to) {
-  const Index pieces_before = report.pieces;
-  const Index points_before = editor.surface().point_count();
+  const std::size_t edges_before = torn_edges;
   Vec3d anchor = 0.5 * (from.base + from.tip);
   if (tip != kNone)
     anchor = posed.position(editor, tip);
@@ -125,9 +127,7 @@ void TornModel::State::tear_segment(const Blade& from, const Blade& to) {
       ++futile;
     }
   }
-  // From the next segment on these points stand where skinning puts them: the surface that everyone sees.
-  posed.unpin_from(points_before);
-  if (report.pieces == pieces_before && tip == kNone) ++report.segments_missed;
+  if (torn_edges == edges_before && tip == kNone) ++report.segments_missed;
 }
 
 Result<TornModel> TornModel::create(std::shared_ptr<const Character> source) {
@@ -152,6 +152,7 @@ Result<TearReport> TornModel::tear(const ModelPose& pose, std::span<const Blade>
   if (Status status = state.posed.begin(state.character, pose); !status) return status;
 
   state.report = {};
+  state.torn_edges = 0;
   state.report.segments = static_cast<Index>(stroke.size() - 1);
   state.lips.clear();
   state.tip = kNone;

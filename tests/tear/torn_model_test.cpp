@@ -85,7 +85,7 @@ TEST(TornModel, segments_continue_from_the_stored_tip) {
   ChangeRecord change;
   const auto report = model.tear(rest(model.source()), stroke, &change);
   ASSERT_TRUE(report);
-  EXPECT_EQ(report->pieces, 20u);
+  EXPECT_EQ(report->pieces, 1u);
   const TopologyCounts after = count_topology(model.character());
   EXPECT_EQ(after.boundary_loops, 2u) << "one slit";
   EXPECT_EQ(after.components, 1u);

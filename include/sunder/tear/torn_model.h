@@ -12,7 +12,7 @@ namespace sunder {
 
 /// What one tear did, in figures.
 struct TearReport {
-  std::uint32_t pieces = 0;           ///< Connected runs of torn surface; 0: the stroke missed and nothing changed.
+  std::uint32_t pieces = 0;           ///< Connected runs of torn surface. 0: the stroke missed and nothing changed.
   std::uint32_t segments = 0;         ///< Of the stroke.
   std::uint32_t segments_missed = 0;  ///< Met no surface within the blade's reach.
   std::uint32_t faces_crossed = 0;
