@@ -57,7 +57,8 @@ class SUNDER_API TornModel {
   [[nodiscard]] std::uint32_t point_count() const;
   /// The point at a corner (0, 1, 2) of a triangle of a mesh. Unchecked.
   [[nodiscard]] std::uint32_t point_at(std::uint32_t mesh, std::uint32_t triangle, std::uint32_t corner) const;
-  /// Where a vertex came from. A source vertex, and a copy of one, lies in a corner of its birth triangle. Unchecked.
+  /// Where an appended vertex came from; vertices of the source have no birth. A copy of one lies in a corner of its birth
+  /// triangle. Unchecked.
   [[nodiscard]] Birth birth(std::uint32_t mesh, std::uint32_t vertex) const;
   /// The source triangle that a triangle is a part of. Unchecked.
   [[nodiscard]] std::uint32_t source_triangle(std::uint32_t mesh, std::uint32_t triangle) const;
