@@ -11,7 +11,7 @@ Index split_posed_edge(Index half_edge, double fraction, SurfaceEditor& editor, 
   const auto& points = editor.surface().corner_point;
   const Vec3d from = posed.position(editor, points[half_edge]);
   const Vec3d to = posed.position(editor, points[Surface::next(half_edge)]);
-  const Index point = editor.split_edge(half_edge, fraction).point;
+  const Index point = editor.split_edge(half_edge, fraction);
   if (point != kNone) posed.pin(point, from + fraction * (to - from));
   return point;
 }
@@ -123,7 +123,7 @@ Index imprint_point(const SurfaceHit& hit, SurfaceEditor& editor, PosedPoints& p
   if (weight[largest] == 1) return editor.surface().corner_point[first + largest];
 
   if (weight[smallest] > 0) {
-    const Index point = editor.split_triangle(hit.triangle, weight).point;
+    const Index point = editor.split_triangle(hit.triangle, weight);
     if (point != kNone) {
       posed.pin(point, hit.position);
       return point;

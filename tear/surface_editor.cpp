@@ -136,7 +136,7 @@ bool SurfaceEditor::keeps_winding(Index corner, Index vertex) const {
   return normal(after).dot(normal_before) > 1e-9 * squared;
 }
 
-SplitResult SurfaceEditor::split_edge(Index half_edge, double fraction) {
+Index SurfaceEditor::split_edge(Index half_edge, double fraction) {
   // Face f = (a, b, c) lies left of a -> b, face g = (b, a, d) right of it. p goes between a and b:
   // f -> (a, p, c) in place and (p, b, c); g -> (b, p, d) in place and (p, a, d).
   const Index ab = half_edge, bc = Surface::next(ab), ca = Surface::previous(ab);
@@ -173,7 +173,7 @@ SplitResult SurfaceEditor::split_edge(Index half_edge, double fraction) {
   if (!is_sound) {
     if (vertex_g != vertex_f || mesh_g != mesh_f) remove_newest_vertex(mesh_g);
     remove_newest_vertex(mesh_f);
-    return {};
+    return kNone;
   }
 
   const auto& points = surface_.corner_point;
@@ -207,16 +207,16 @@ SplitResult SurfaceEditor::split_edge(Index half_edge, double fraction) {
     surface_.point_corner[d] = db;
   }
   surface_.point_corner[a] = ab;
-  return {p};
+  return p;
 }
 
-SplitResult SurfaceEditor::split_triangle(Index triangle, const std::array<double, 3>& barycentric) {
+Index SurfaceEditor::split_triangle(Index triangle, const std::array<double, 3>& barycentric) {
   const Index mesh = surface_.triangles[triangle].mesh;
   const Index vertex = append_vertex(mesh, birth_between(triangle, barycentric));
   const Index corner = 3 * triangle;
   if (!keeps_winding(corner, vertex) || !keeps_winding(corner + 1, vertex) || !keeps_winding(corner + 2, vertex)) {
     remove_newest_vertex(mesh);
-    return {};
+    return kNone;
   }
   // (a, b, c) -> (a, b, p) in place, (b, c, p), (c, a, p).
   const Triangle before = vertices_of(triangle);
@@ -238,7 +238,7 @@ SplitResult SurfaceEditor::split_triangle(Index triangle, const std::array<doubl
   surface_.point_corner[a] = corner;
   surface_.point_corner[b] = corner + 1;
   surface_.point_corner[c] = at_ca;
-  return {p};
+  return p;
 }
 
 void SurfaceEditor::cut_edge(Index half_edge) {

@@ -11,11 +11,6 @@
 
 namespace sunder::tear {
 
-/// Where a split put its point, and whether it did.
-struct SplitResult {
-  Index point = kNone;  ///< kNone: a face would have lost its area or turned over; nothing was changed.
-};
-
 /// Refines and opens the surface, and with it the meshes: the only place that changes either. Every change is logged, so that it
 /// can be taken back to any earlier mark, bit for bit.
 class SurfaceEditor {
@@ -41,9 +36,11 @@ class SurfaceEditor {
   }
 
   /// Puts one new point on an edge, `fraction` of the way along the half-edge, and splits the faces at both sides of it.
-  [[nodiscard]] SplitResult split_edge(Index half_edge, double fraction);
+  /// @return the point; kNone where a face would have lost its area or turned over, and nothing was changed.
+  [[nodiscard]] Index split_edge(Index half_edge, double fraction);
   /// Puts a new point into a triangle and splits it in three. `barycentric`: of its corners, all > 0.
-  [[nodiscard]] SplitResult split_triangle(Index triangle, const std::array<double, 3>& barycentric);
+  /// @return as split_edge().
+  [[nodiscard]] Index split_triangle(Index triangle, const std::array<double, 3>& barycentric);
   /// Disconnects the faces at both sides of a half-edge.
   void cut_edge(Index half_edge);
   /// Gives the fan that holds `corner` a point of its own, with side `side`. Vertices that faces of other fans use are duplicated.
