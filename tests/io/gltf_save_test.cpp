@@ -40,7 +40,7 @@ std::uint32_t append_copy(Mesh& mesh, std::uint32_t vertex) {
 
 /// Gives the first triangles vertices of their own and a tear side, as a tear would.
 void fake_tear(Mesh& mesh, std::size_t triangles = 2) {
-  CustomAttribute side{kTearSideAttribute, 1, true, std::vector<float>(mesh.positions.size(), 0.0f)};
+  CustomAttribute side{kTearSideAttribute, 1, false, std::vector<float>(mesh.positions.size(), 0.0f)};
   mesh.custom_attributes.push_back(side);
   for (std::size_t t = 0; t < std::min(triangles, mesh.triangles.size()); ++t)
     for (std::uint32_t& vertex : mesh.triangles[t]) {
