@@ -56,6 +56,7 @@ std::optional<SurfaceHit> first_hit(const Blade& blade, const SurfaceEditor& edi
   std::optional<SurfaceHit> nearest;
   double nearest_depth = 1.0;
   for (Index t = 0; t < editor.surface().triangle_count(); ++t) {
+    if (editor.surface().has_repeated_point(t)) continue;
     const Corners corners = posed_corners(editor, posed, t);
     const Vec3d ab = corners[1] - corners[0], ac = corners[2] - corners[0];
     const Vec3d h = direction.cross(ac);

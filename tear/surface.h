@@ -21,11 +21,11 @@ struct TriangleRef {
 /// one fan: its corners are reached from one another across edges. Where a surface touches itself in a point only, that is two
 /// points.
 struct Surface {
-  std::vector<Index> corner_point;                  ///< 3 a triangle.
-  std::vector<Index> twin;                          ///< 3 a triangle: the opposite half-edge, kNone at a border.
-  std::vector<TriangleRef> triangles;               ///< Source triangles first, mesh after mesh.
-  std::vector<Index> point_corner;                  ///< One corner of each point; kNone for a point without a triangle.
-  std::vector<Index> point_side;                    ///< Value of _TEARSIDE.
+  std::vector<Index> corner_point;     ///< 3 a triangle.
+  std::vector<Index> twin;             ///< 3 a triangle: the opposite half-edge, kNone at a border.
+  std::vector<TriangleRef> triangles;  ///< Source triangles first, mesh after mesh.
+  std::vector<Index> point_corner;     ///< One corner of each point; kNone for a point that only degenerate triangles use.
+  std::vector<Index> point_side;       ///< Value of _TEARSIDE.
   std::vector<std::vector<bool>> is_shared_vertex;  ///< Of each mesh: source vertices that stand for several points.
   Index non_manifold_edges = 0;                     ///< At build: with more than two faces, or two that disagree in winding.
   Index non_manifold_half_edges = 0;                ///< At build: half-edges left unjoined for that reason.

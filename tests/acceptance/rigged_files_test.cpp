@@ -87,6 +87,7 @@ void tear_and_save(const std::filesystem::path& file, std::uint64_t seed) {
       }
     }
     ASSERT_THAT(test::broken_laws(*model), IsEmpty());
+    ASSERT_THAT(test::broken_surface(*model), IsEmpty());
     for (int i = 0; i < 20; ++i) ASSERT_THAT(test::broken_closed_form(*model, some_pose(*loaded->character, random)), IsEmpty());
 
     const test::TemporaryFolder folder;

@@ -11,8 +11,12 @@ namespace sunder::test {
 /// fault; empty: nothing. All are computed from the arrays alone, not from the kernel's own bookkeeping.
 
 /// Indices, weights, finite values; vertices of the source bit-identical; parts of each source triangle cover it exactly, none
-/// without area; edges no less manifold than the source's; as many points as the kernel counts.
+/// without area.
 std::vector<std::string> broken_laws(const TornModel& model);
+
+/// Edges no less manifold than the source's; as many points as the kernel counts. For sources that do not touch or overlap
+/// themselves: where two sheets lie on one another, what a tear makes on both is told apart by nothing.
+std::vector<std::string> broken_surface(const TornModel& model);
 
 /// No T-junction: with the lips closed (tear sides ignored) the surface has the borders and pieces of the source. For models whose
 /// tears do not meet one another or themselves: there one lip has a point that the other has not.

@@ -47,6 +47,7 @@ TEST(TornModel, tear_inside_the_sheet_opens_one_loop_of_the_strokes_length) {
   EXPECT_EQ(after.boundary_loops, 2u);
   EXPECT_EQ(after.components, 1u);
   EXPECT_THAT(test::broken_laws(model), IsEmpty());
+  EXPECT_THAT(test::broken_surface(model), IsEmpty());
   EXPECT_THAT(test::broken_lips(model, change), IsEmpty());
   EXPECT_FALSE(change.lips.empty());
 }
@@ -57,6 +58,7 @@ TEST(TornModel, tear_across_the_whole_sheet_separates_it) {
   ASSERT_TRUE(report);
   EXPECT_EQ(count_topology(model.character()).components, 2u);
   EXPECT_THAT(test::broken_laws(model), IsEmpty());
+  EXPECT_THAT(test::broken_surface(model), IsEmpty());
 }
 
 TEST(TornModel, tear_along_grid_lines_and_through_vertices_makes_no_sliver) {
@@ -67,6 +69,7 @@ TEST(TornModel, tear_along_grid_lines_and_through_vertices_makes_no_sliver) {
   EXPECT_EQ(report->points_added, 11u);
   EXPECT_EQ(count_topology(model.character()).components, 2u);
   EXPECT_THAT(test::broken_laws(model), IsEmpty());
+  EXPECT_THAT(test::broken_surface(model), IsEmpty());
 }
 
 TEST(TornModel, tear_within_one_face_opens) {
@@ -76,6 +79,7 @@ TEST(TornModel, tear_within_one_face_opens) {
   EXPECT_EQ(report->pieces, 1u);
   EXPECT_EQ(count_topology(model.character()).boundary_loops, 2u);
   EXPECT_THAT(test::broken_laws(model), IsEmpty());
+  EXPECT_THAT(test::broken_surface(model), IsEmpty());
 }
 
 TEST(TornModel, segments_continue_from_the_stored_tip) {
@@ -90,6 +94,7 @@ TEST(TornModel, segments_continue_from_the_stored_tip) {
   EXPECT_EQ(after.boundary_loops, 2u) << "one slit";
   EXPECT_EQ(after.components, 1u);
   EXPECT_THAT(test::broken_laws(model), IsEmpty());
+  EXPECT_THAT(test::broken_surface(model), IsEmpty());
   EXPECT_THAT(test::broken_lips(model, change), IsEmpty());
 }
 
@@ -99,6 +104,7 @@ TEST(TornModel, tear_that_crosses_an_older_one_leaves_no_bridge) {
   ASSERT_TRUE(model.tear(rest(model.source()), std::vector{down_at(0.4713, -0.1), down_at(0.5119, 1.1)}));
   EXPECT_EQ(count_topology(model.character()).components, 4u);
   EXPECT_THAT(test::broken_laws(model), IsEmpty());
+  EXPECT_THAT(test::broken_surface(model), IsEmpty());
 }
 
 TEST(TornModel, only_the_nearest_layer_within_reach_is_torn) {
@@ -111,6 +117,7 @@ TEST(TornModel, only_the_nearest_layer_within_reach_is_torn) {
   for (std::uint32_t v = model.source().meshes[0].vertex_count(); v < mesh.vertex_count(); ++v)
     EXPECT_GT(mesh.positions[v].z(), 0.0f);
   EXPECT_THAT(test::broken_laws(model), IsEmpty());
+  EXPECT_THAT(test::broken_surface(model), IsEmpty());
 }
 
 TEST(TornModel, a_stroke_beyond_the_blades_reach_changes_nothing) {
@@ -135,6 +142,7 @@ TEST(TornModel, tear_runs_over_uv_seams_and_into_the_caps) {
   ASSERT_TRUE(report) << report.error().text();
   EXPECT_EQ(count_topology(model.character()).boundary_loops, 1u) << "one slit over side and cap";
   EXPECT_THAT(test::broken_laws(model), IsEmpty());
+  EXPECT_THAT(test::broken_surface(model), IsEmpty());
   EXPECT_THAT(test::broken_lips(model, change), IsEmpty());
 }
 
@@ -168,6 +176,7 @@ TEST(TornModel, tears_in_a_pose_with_a_collapsed_bone_without_harm) {
   for (int i = 0; i < 20; ++i) {
     ASSERT_TRUE(model.tear(pose, test::random_stroke(model.character(), rest(model.source()), random)));
     ASSERT_THAT(test::broken_laws(model), IsEmpty());
+    ASSERT_THAT(test::broken_surface(model), IsEmpty());
   }
 }
 
@@ -185,6 +194,7 @@ TEST(TornModel, keeps_every_law_at_any_scale_and_far_from_the_origin) {
       ChangeRecord change;
       ASSERT_TRUE(model.tear(pose, test::random_stroke(model.character(), pose, random), &change));
       ASSERT_THAT(test::broken_laws(model), IsEmpty()) << "scale " << scale << ", offset " << offset;
+      ASSERT_THAT(test::broken_surface(model), IsEmpty()) << "scale " << scale << ", offset " << offset;
       ASSERT_THAT(test::broken_lips(model, change), IsEmpty()) << "scale " << scale << ", offset " << offset;
     }
   }
@@ -284,6 +294,7 @@ void tear_at_random(std::uint64_t seed) {
     const auto report = model.tear(pose, stroke, &change);
     ASSERT_TRUE(report) << report.error().text();
     ASSERT_THAT(test::broken_laws(model), IsEmpty()) << "tear " << i;
+    ASSERT_THAT(test::broken_surface(model), IsEmpty()) << "tear " << i;
     ASSERT_THAT(test::broken_lips(model, change), IsEmpty()) << "tear " << i;
     if (i == 0) {
       ASSERT_THAT(test::broken_closure(model), IsEmpty());

@@ -1,0 +1,80 @@
+// Surfaces that nobody would model: random triangles on a coarse grid, with edges of many faces, duplicate and flipped faces, faces
+// without area, vertices that nothing uses. Tearing them must do no harm.
+#include <sunder/tear/topology.h>
+#include <sunder/tear/torn_model.h>
+
+#include <cstdlib>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "support/rigs.h"
+#include "support/torn_invariants.h"
+
+namespace sunder {
+namespace {
+
+using test::Random;
+using testing::IsEmpty;
+
+Character make_soup(Random& random) {
+  Character character = test::make_tube(2, 3, 3);
+  Mesh mesh;
+  mesh.name = "soup";
+  mesh.submeshes = {{"one", kNone}, {"other", kNone}};
+  const std::uint32_t grid = 2 + random.index(3);
+  const std::uint32_t vertex_count = 4 + random.index(40);
+  for (std::uint32_t v = 0; v < vertex_count; ++v) {
+    mesh.positions.emplace_back(static_cast<float>(random.index(grid)), static_cast<float>(random.index(grid)),
+                                static_cast<float>(random.index(grid)));
+    const float weight = 0.25f * static_cast<float>(random.index(5));
+    const auto influences = weight == 0.0f   ? std::vector<Influence>{{0, 1.0f}}
+                            : weight == 1.0f ? std::vector<Influence>{{2, 1.0f}}
+                                             : std::vector<Influence>{{0, 1.0f - weight}, {2, weight}};
+    // Coincident vertices mostly agree, so that they weld.
+    mesh.weights.append(random.index(4) == 0 ? influences : std::vector<Influence>{{1, 1.0f}});
+  }
+  const std::uint32_t triangle_count = 1 + random.index(60);
+  for (std::uint32_t t = 0; t < triangle_count; ++t) {
+    mesh.triangles.push_back({random.index(vertex_count), random.index(vertex_count), random.index(vertex_count)});
+    mesh.triangle_submesh.push_back(random.index(2));
+  }
+  character.meshes = {mesh};
+  return character;
+}
+
+TEST(Soup, tears_do_no_harm) {
+  const int count = std::getenv("SUNDER_STRESS") != nullptr ? 20000 : 1000;
+  int torn = 0;
+  for (int seed = 0; seed < count; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(static_cast<std::uint64_t>(seed));
+    auto model = TornModel::create(std::make_shared<const Character>(make_soup(random)));
+    ASSERT_TRUE(model) << model.error().text();
+    const ModelPose pose = test::random_pose(model->source(), random, random.index(2) == 0 ? 0.0 : 0.8, 1.0);
+    for (int i = 0; i < 4; ++i) {
+      Stroke stroke;
+      const bool on_grid = random.index(2) == 0;  // through vertices, along edges, in the planes of faces
+      const auto coordinate = [&] { return on_grid ? random.index(5) * 0.5 : random.uniform(-0.5, 3); };
+      Vec3d at(coordinate(), coordinate(), coordinate());
+      const Vec3d blade = on_grid ? Vec3d(Vec3d::Unit(random.index(3))) : random.direction();
+      for (std::uint32_t b = 0; b < 2 + random.index(3); ++b) {
+        stroke.push_back({at + 3 * blade, at - random.uniform(0, 3) * blade});
+        at += on_grid ? Vec3d(Vec3d::Unit(random.index(3)) * 0.5 * random.index(4))
+                      : Vec3d(random.uniform(0, 1) * random.direction());
+      }
+      if (stroke.size() < 2) continue;
+      ChangeRecord change;
+      const auto report = model->tear(pose, stroke, &change);
+      ASSERT_TRUE(report) << report.error().text();
+      torn += report->pieces > 0 ? 1 : 0;
+      ASSERT_THAT(test::broken_lips(*model, change), IsEmpty());
+      ASSERT_THAT(test::broken_laws(*model), IsEmpty());
+    }
+    ASSERT_THAT(test::broken_closed_form(*model, test::random_pose(model->source(), random)), IsEmpty());
+  }
+  EXPECT_GT(torn, count / 4);
+}
+
+}  // namespace
+}  // namespace sunder
