@@ -215,9 +215,9 @@ void mark_shared_vertices(const Character& character, Surface& surface) {
     const TriangleRef& ref = surface.triangles[corner / 3];
     const Index vertex = character.meshes[ref.mesh].triangles[ref.triangle][corner % 3];
     Index& point = point_of_vertex[ref.mesh][vertex];
-    if (point == kNone)
-      point = surface.corner_point[corner];
-    else if (point != surface.corner_point[corner])
+    if (point == kNone) point = surface.corner_point[corner];
+    // A degenerate triangle belongs to no fan: its vertices stay where they are when a fan moves on.
+    if (point != surface.corner_point[corner] || surface.has_repeated_point(corner / 3))
       surface.is_shared_vertex[ref.mesh][vertex] = true;
   }
 }

@@ -26,7 +26,7 @@ struct Surface {
   std::vector<TriangleRef> triangles;  ///< Source triangles first, mesh after mesh.
   std::vector<Index> point_corner;     ///< One corner of each point; kNone for a point that only degenerate triangles use.
   std::vector<Index> point_side;       ///< Value of _TEARSIDE.
-  std::vector<std::vector<bool>> is_shared_vertex;  ///< Of each mesh: source vertices that stand for several points.
+  std::vector<std::vector<bool>> is_shared_vertex;  ///< Of each mesh: source vertices that not one fan alone uses.
   Index non_manifold_edges = 0;                     ///< At build: with more than two faces, or two that disagree in winding.
   Index non_manifold_half_edges = 0;                ///< At build: half-edges left unjoined for that reason.
 

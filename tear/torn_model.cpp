@@ -119,13 +119,13 @@ void TornModel::State::tear_segment(const Blade& from, const Blade& to) {
     const auto contact = tear::first_contact(*plane, progress, editor, posed);
     if (!contact) break;
     const SurfaceEditor::Mark before = editor.mark();
+    const std::size_t edges = torn_edges;
     const double reached = tear_piece(*plane, tear::imprint_point(*contact, editor, posed), before);
-    if (reached > progress + tear::kSamePlace) {
-      progress = reached;
-    } else {
-      progress = std::max(progress, contact->progress_beyond);
-      ++futile;
-    }
+    const bool has_advanced = torn_edges > edges && reached > progress + tear::kSamePlace;
+    progress = std::max(progress, reached);
+    if (has_advanced) continue;
+    progress = std::max(progress, contact->progress_beyond);
+    ++futile;
   }
   if (torn_edges == edges_before && tip == kNone) ++report.segments_missed;
 }
