@@ -22,6 +22,7 @@ struct Step {
   double fraction = 0;   ///< Along the far edge; 0 and 1: at its ends.
   Vec3d position = Vec3d::Zero();
   SweepCoordinates sweep;
+  double crossing_progress = 0;  ///< In the sweep, of the crossing before it snapped.
 };
 
 /// The ways in which the plane leaves a point across the faces around it, of which the path takes the one that goes forward in the
@@ -39,6 +40,7 @@ Step find_step(const BladePlane& plane, Index point, const SurfaceEditor& editor
     Step step;
     step.corner = corner;
     step.fraction = distance_a / (distance_a - distance_b);
+    step.crossing_progress = plane.sweep_coordinates(plane.project(at_a + step.fraction * (at_b - at_a))).progress;
     if (step.fraction < kSnap) step.fraction = 0;
     if (step.fraction > 1 - kSnap) step.fraction = 1;
     step.position = at_a + step.fraction * (at_b - at_a);
@@ -155,14 +157,21 @@ Path imprint_path(const BladePlane& plane, Index start, SurfaceEditor& editor, P
     const Reach reach = reach_between(plane, from, step.position);
     // Where the curve itself ends; the path may snap to a point before it.
     path.progress = std::max(path.progress, progress_at(from + reach.fraction * (step.position - from)));
+    if (reach.fraction == 1) path.progress = std::max(path.progress, step.crossing_progress);
     if (reach.fraction < kSnap) {
       path.end = reach.ends_at_blade ? Path::End::blade : Path::End::surface;
       return path;
     }
     if (!along_edge) ++path.faces_crossed;
     if (reach.fraction < 1 - kSnap) {
+      const SurfaceEditor::Mark before = editor.mark();
       const Index stop = stop_within(step, reach.fraction, editor, posed);
-      if (stop != here) go_to(stop, from);
+      if (progress_at(posed.position(editor, stop)) > progress_at(from)) {
+        go_to(stop, from);
+      } else {  // it snapped to what lies behind
+        editor.roll_back(before);
+        posed.forget_from(before.points);
+      }
       path.end = reach.ends_at_blade ? Path::End::blade : Path::End::surface;
       return path;
     }

@@ -58,7 +58,8 @@ struct TornModel::State {
   Index next_side = 1;
 
   // Of the operation under way.
-  Index tip = kNone;  ///< Where the tear stands, while it stands on the surface.
+  Index tip = kNone;       ///< Where the tear stands, while it stands on the surface.
+  Index last_end = kNone;  ///< Where the last piece of the segment under way ended.
   TearReport report;
   std::size_t torn_edges = 0;
   std::vector<LipPair> lips;
@@ -82,7 +83,9 @@ double TornModel::State::tear_piece(const BladePlane& plane, Index start, const 
     else
       path.points.insert(path.points.begin() + 1, middle);
   }
-  if (path.points.size() < 2) {
+  // Where the last piece of this segment snapped, something of the section may be left beside it: not a piece of its own.
+  const bool is_leftover = path.points.back() == last_end;
+  if (path.points.size() < 2 || is_leftover) {
     editor.roll_back(before);
     posed.forget_from(before.points);
     if (path.end == Path::End::blade && start < before.points) tip = start;  // moved by less than can be told: go on from here
@@ -95,13 +98,15 @@ double TornModel::State::tear_piece(const BladePlane& plane, Index start, const 
   if (!continues) ++report.pieces;
   report.faces_crossed += path.faces_crossed;
   report.length_posed += path.length_posed;
+  last_end = path.points.back();
   if (path.end != Path::End::blade) return path.progress;
-  tip = path.points.back();
+  tip = last_end;
   return 1.0;
 }
 
 void TornModel::State::tear_segment(const Blade& from, const Blade& to) {
   const std::size_t edges_before = torn_edges;
+  last_end = kNone;
   Vec3d anchor = 0.5 * (from.base + from.tip);
   if (tip != kNone)
     anchor = posed.position(editor, tip);

@@ -307,7 +307,7 @@ void tear_at_random(std::uint64_t seed) {
 class RandomTears : public testing::TestWithParam<int> {};
 
 TEST_P(RandomTears, keep_every_law_in_every_pose) {
-  const int rounds = std::getenv("SUNDER_STRESS") != nullptr ? 25 : 1;
+  const int rounds = std::getenv("SUNDER_STRESS") != nullptr ? 250 : 1;
   for (int round = 0; round < rounds && !HasFatalFailure(); ++round)
     tear_at_random(static_cast<std::uint64_t>(200 * round + GetParam()));
 }
