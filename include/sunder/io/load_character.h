@@ -28,14 +28,14 @@ struct LoadReport {
 };
 
 struct LoadOptions {
-  bool strict = false;                                ///< Refuse what would otherwise be repaired or dropped.
+  bool strict = false;                                   ///< Refuse what would otherwise be repaired or dropped.
   std::uint64_t maximum_bytes = std::uint64_t{2} << 30;  ///< Of the file and of everything that it refers to.
-  double import_seconds = 120.0;                      ///< Limit for formats that are read in a child process. > 0.
+  double import_seconds = 120.0;                         ///< Limit for formats that are read in a child process. > 0.
 };
 
 struct LoadedCharacter {
-  std::shared_ptr<const Character> character;     ///< Satisfies validate_character().
-  std::shared_ptr<const SourceDocument> source;   ///< For save_glb().
+  std::shared_ptr<const Character> character;    ///< Satisfies validate_character().
+  std::shared_ptr<const SourceDocument> source;  ///< For save_glb().
   LoadReport report;
 };
 

@@ -7,22 +7,24 @@
 namespace sunder {
 
 struct SaveOptions {
-  /// Most influences written a vertex, largest first, renormalised: 4 or 8; 0 writes all, in as many JOINTS_n / WEIGHTS_n as needed.
+  /// Most influences written a vertex, largest first, renormalised: 4 or 8; 0 writes all, in as many JOINTS_n / WEIGHTS_n as
+  /// needed.
   std::uint32_t maximum_influences = 0;
 };
 
 /// Writes `character`, which is `loaded.character` changed by tearing, as a GLB: the source document with new accessors for the
-/// meshes that differ. Everything else in it (materials, textures, extras, extensions, animations, untouched meshes) stays as it was.
-/// Skeleton, skins and clips must be those of `loaded.character`.
+/// meshes that differ. Everything else in it (materials, textures, extras, extensions, animations, untouched meshes) stays as it
+/// was. Skeleton, skins and clips must be those of `loaded.character`.
 ///
 /// Where nothing differs and the source was a GLB, the result is the source, byte for byte.
 /// @return invalid_argument, size_mismatch (not the same character), file_unreadable (cannot write). A failing call leaves no file
 ///         behind and an existing file as it was.
-[[nodiscard]] SUNDER_API Status save_glb(const std::filesystem::path& file, const Character& character, const LoadedCharacter& loaded,
-                                         const SaveOptions& options = {});
+[[nodiscard]] SUNDER_API Status save_glb(const std::filesystem::path& file, const Character& character,
+                                         const LoadedCharacter& loaded, const SaveOptions& options = {});
 
 /// Writes a character that did not come from a file: nodes, skins, meshes, clips, and a plain material a submesh.
 /// @return invalid_argument, file_unreadable (cannot write), as above; the first fault where `character` is not valid.
-[[nodiscard]] SUNDER_API Status save_glb(const std::filesystem::path& file, const Character& character, const SaveOptions& options = {});
+[[nodiscard]] SUNDER_API Status save_glb(const std::filesystem::path& file, const Character& character,
+                                         const SaveOptions& options = {});
 
 }  // namespace sunder
