@@ -36,7 +36,7 @@ TEST(Interpolate, every_attribute_is_the_barycentric_mean) {
     Mesh mesh = source;
     const std::uint32_t made = append_interpolated_vertex(source, {t, {1 - u - v, u, v}}, mesh);
     ASSERT_EQ(made, source.vertex_count());
-    const auto [a, b, c] = source.triangles[t];
+    const std::uint32_t a = source.triangles[t][0], b = source.triangles[t][1], c = source.triangles[t][2];
     const auto mean = [&](const auto& values) {
       return ((1 - u - v) * values[a].template cast<double>() + u * values[b].template cast<double>() +
               v * values[c].template cast<double>())
