@@ -71,6 +71,7 @@ void tear_and_save(const std::filesystem::path& file, std::uint64_t seed) {
   }
   Random random(seed);
   std::uint32_t pieces = 0;
+  const bool is_clear = test::is_clear_of_itself(*loaded->character);
   for (int pose_number = 0; pose_number < 2; ++pose_number) {
     auto model = TornModel::create(loaded->character);
     ASSERT_TRUE(model) << model.error().text();
@@ -82,12 +83,14 @@ void tear_and_save(const std::filesystem::path& file, std::uint64_t seed) {
       ASSERT_TRUE(report) << report.error().text();
       pieces += report->pieces;
       ASSERT_THAT(test::broken_lips(*model, change), IsEmpty());
-      if (place == 0 && report->pieces == 1 && count_topology(*loaded->character).non_manifold_edges == 0) {
+      if (place == 0 && report->pieces == 1 && is_clear) {
         ASSERT_THAT(test::broken_closure(*model), IsEmpty());
       }
     }
     ASSERT_THAT(test::broken_laws(*model), IsEmpty());
-    ASSERT_THAT(test::broken_surface(*model), IsEmpty());
+    if (is_clear) {
+      ASSERT_THAT(test::broken_surface(*model), IsEmpty());
+    }
     for (int i = 0; i < 20; ++i) ASSERT_THAT(test::broken_closed_form(*model, some_pose(*loaded->character, random)), IsEmpty());
 
     const test::TemporaryFolder folder;

@@ -16,7 +16,7 @@ class Random {
   std::uint32_t index(std::uint32_t count) { return static_cast<std::uint32_t>(engine_() % count); }
   Vec3d direction() {
     for (;;) {
-      const Vec3d v(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1));
+      const Vec3d v{uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)};  // braces: in this order with every compiler
       if (v.norm() > 0.1 && v.norm() < 1) return v / v.norm();
     }
   }

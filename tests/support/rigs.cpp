@@ -152,7 +152,7 @@ Character make_tube(std::uint32_t rings, std::uint32_t sides, std::uint32_t bone
 ModelPose random_pose(const Character& character, Random& random, double angle, double scale) {
   Pose pose = rest_pose(character);
   for (BoneTransform& bone : pose.parent_from_bone) {
-    const Quatd turn(Eigen::AngleAxisd(random.uniform(-angle, angle), random.direction()));
+    const Quatd turn(Eigen::AngleAxisd{random.uniform(-angle, angle), random.direction()});
     bone.rotation = Quatf((bone.rotation.cast<double>() * turn).normalized().cast<float>());
     for (int axis = 0; axis < 3; ++axis) bone.scale[axis] *= static_cast<float>(std::pow(scale, random.uniform(-1, 1)));
   }

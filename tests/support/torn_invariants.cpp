@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstring>
 #include <map>
+#include <set>
 #include <sstream>
 
 #include "support/rigs.h"
@@ -140,6 +141,14 @@ std::vector<std::string> broken_surface(const TornModel& model) {
   if (before.non_manifold_edges == 0 && after.points != model.point_count())
     faults.push_back(say("arrays describe ", after.points, " points, the kernel has ", model.point_count()));
   return faults;
+}
+
+bool is_clear_of_itself(const Character& source) {
+  std::set<std::array<float, 3>> places;
+  for (const Mesh& mesh : source.meshes)
+    for (const Vec3f& position : mesh.positions) places.insert({position.x() + 0.0f, position.y() + 0.0f, position.z() + 0.0f});
+  const TopologyCounts counts = count_topology(source);
+  return counts.non_manifold_edges == 0 && counts.points == places.size();
 }
 
 std::vector<std::string> broken_closure(const TornModel& model) {

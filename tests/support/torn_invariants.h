@@ -18,6 +18,9 @@ std::vector<std::string> broken_laws(const TornModel& model);
 /// themselves: where two sheets lie on one another, what a tear makes on both is told apart by nothing.
 std::vector<std::string> broken_surface(const TornModel& model);
 
+/// Whether no two surface points share a place and no edge has more than two faces: what broken_surface() asks for.
+bool is_clear_of_itself(const Character& source);
+
 /// No T-junction: with the lips closed (tear sides ignored) the surface has the borders and pieces of the source. For models whose
 /// tears do not meet one another or themselves: there one lip has a point that the other has not.
 std::vector<std::string> broken_closure(const TornModel& model);
