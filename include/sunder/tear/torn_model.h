@@ -19,7 +19,7 @@ struct TearReport {
   std::uint32_t points_added = 0;
   std::uint32_t vertices_added = 0;
   std::uint32_t triangles_added = 0;
-  std::uint32_t triangles_retired = 0;
+  std::uint32_t triangles_retired = 0;  ///< 0: a tear without width removes nothing.
   std::uint32_t blocked = 0;  ///< Places where the surface could not be torn, because its faces are too small or degenerate.
   double length_posed = 0.0;  ///< Of the tear on the posed surface, metres.
 };
@@ -28,7 +28,8 @@ struct TearReport {
 class SUNDER_API TornModel {
  public:
   /// @param source  satisfies validate_character(); kept. The model starts as a copy of it.
-  /// @return the first fault of the source. O(size of the source).
+  /// @return the first fault of the source; empty_input for none; limit_exceeded above 700 million triangles. O(size of the
+  /// source).
   static Result<TornModel> create(std::shared_ptr<const Character> source);
 
   TornModel(TornModel&&) noexcept;
@@ -45,11 +46,13 @@ class SUNDER_API TornModel {
   /// @param stroke  at least two blades, model space; each longer than zero; neighbours turned by less than 90 degrees.
   /// @param change  written where given: what an engine has to mirror.
   /// @return what was done; a stroke that misses is a success with pieces = 0. size_mismatch, non_finite_value, invalid_argument
-  ///         (index = the blade), capacity_exceeded: the model is as it was, bit for bit.
+  ///         (index = the blade), limit_exceeded (out of memory): the model is as it was, bit for bit.
+  ///
+  /// O(all faces) where the tear enters, then O(faces crossed). Allocates.
   Result<TearReport> tear(const ModelPose& pose, std::span<const Blade> stroke, ChangeRecord* change = nullptr);
 
   /// The model as it stands. Meshes have those vertices and triangles of the source first, under their numbers. A torn mesh carries
-  /// the attribute `_TEARSIDE`: coincident vertices of different points differ in it.
+  /// the attribute `_TEARSIDE`, in which the two lips of a tear differ.
   [[nodiscard]] const Character& character() const;
   [[nodiscard]] const Character& source() const;
 
