@@ -33,7 +33,7 @@ void tear_once(benchmark::State& state) {
     auto model = TornModel::create(scene.character);
     state.ResumeTiming();
     const auto torn = model->tear(scene.pose, scene.stroke);
-    if (!torn || torn->pieces == 0) state.SkipWithError("the stroke tore nothing");
+    if (!torn || torn->runs == 0) state.SkipWithError("the stroke tore nothing");
     if (torn) report = *torn;
     state.PauseTiming();
     model = Status();  // destroyed outside of what is measured

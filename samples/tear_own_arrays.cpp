@@ -81,5 +81,5 @@ int main() {
   std::printf("segments %u, faces crossed %u, length %.3f m\n", report->segments, report->faces_crossed, report->length_posed);
   std::printf("points %u -> %u, triangles %u -> %u, boundary loops %u -> %u\n", before.points, after.points, before.triangles,
               after.triangles, before.boundary_loops, after.boundary_loops);
-  return report->pieces > 0 && after.boundary_loops == before.boundary_loops + 1 ? 0 : 1;
+  return report->runs > 0 && after.boundary_loops == before.boundary_loops + 1 ? 0 : 1;
 }

@@ -95,7 +95,7 @@ double TornModel::State::tear_piece(const BladePlane& plane, Index start, const 
   tear::open_path(path.points, editor, next_side, lips);
   for (std::size_t i = first_lip; i < lips.size(); ++i) posed.pin(lips[i].left, Vec3d(posed.position(editor, lips[i].right)));
   torn_edges += path.points.size() - 1;
-  if (!continues) ++report.pieces;
+  if (!continues) ++report.runs;
   report.faces_crossed += path.faces_crossed;
   report.length_posed += path.length_posed;
   last_end = path.points.back();
@@ -151,7 +151,7 @@ TornModel::TornModel(TornModel&&) noexcept = default;
 TornModel& TornModel::operator=(TornModel&&) noexcept = default;
 TornModel::~TornModel() = default;
 
-Result<TearReport> TornModel::tear(const ModelPose& pose, std::span<const Blade> stroke, ChangeRecord* change) {
+Result<TearReport> TornModel::tear(const ModelPose& pose, std::span<const Blade> stroke, const TearOptions&, ChangeRecord* change) {
   State& state = *state_;
   if (Status status = validate_stroke(stroke); !status) return status;
   if (Status status = state.posed.begin(state.character, pose); !status) return status;

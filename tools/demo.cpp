@@ -1,5 +1,6 @@
 #include <sunder/io/load_character.h>
 #include <sunder/io/save_glb.h>
+#include <sunder/skinning/pose_spec.h>
 #include <sunder/tear/topology.h>
 #include <sunder/tear/torn_model.h>
 
@@ -15,7 +16,6 @@
 #include "tools/demo_rig.h"
 #include "tools/demo_stroke.h"
 #include "tools/picture.h"
-#include "tools/pose_spec.h"
 #include "tools/posed_model.h"
 #include "tools/progress_bar.h"
 #include "tools/pull_open.h"
@@ -156,7 +156,7 @@ Result<Demo> tear_mid_clip(std::shared_ptr<const Character> character) {
   if (!model) return model.error();
   ChangeRecord change;
   const auto begin = std::chrono::steady_clock::now();
-  const Result<TearReport> tear = model->tear(*pose, stroke, &change);
+  const Result<TearReport> tear = model->tear(*pose, stroke, {}, &change);
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
   if (!tear) return tear.error();
   const OperationOutcome outcome{*tear, elapsed.count(), count_topology(*character), count_topology(model->character())};

@@ -1,4 +1,5 @@
 #include <sunder/io/load_character.h>
+#include <sunder/skinning/pose_spec.h>
 #include <sunder/tear/topology.h>
 
 #include <algorithm>
@@ -7,7 +8,6 @@
 #include <string>
 
 #include "tools/model_check.h"
-#include "tools/pose_spec.h"
 #include "tools/posed_model.h"
 #include "tools/report.h"
 #include "tools/verbs.h"

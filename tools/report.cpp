@@ -47,7 +47,7 @@ Json to_json(const OperationOutcome& outcome) {
   return {{"op", "tear"},
           {"status", outcome.has_missed() ? "missed" : "torn"},
           {"seconds", outcome.seconds},
-          {"pieces", tear.pieces},
+          {"runs", tear.runs},
           {"segments", tear.segments},
           {"segments_missed", tear.segments_missed},
           {"faces_crossed", tear.faces_crossed},

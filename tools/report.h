@@ -18,7 +18,7 @@ struct OperationOutcome {
   double seconds = 0;  ///< Of the tear alone.
   TopologyCounts before, after;
 
-  [[nodiscard]] bool has_missed() const { return tear.pieces == 0; }
+  [[nodiscard]] bool has_missed() const { return tear.runs == 0; }
 };
 
 [[nodiscard]] Json to_json(const TopologyCounts& counts);

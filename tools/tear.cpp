@@ -1,6 +1,7 @@
 #include <sunder/io/load_character.h>
 #include <sunder/io/operation_log.h>
 #include <sunder/io/save_glb.h>
+#include <sunder/skinning/pose_spec.h>
 #include <sunder/tear/topology.h>
 #include <sunder/tear/torn_model.h>
 
@@ -10,7 +11,6 @@
 #include <string>
 #include <vector>
 
-#include "tools/pose_spec.h"
 #include "tools/progress_bar.h"
 #include "tools/report.h"
 #include "tools/verbs.h"
@@ -25,7 +25,7 @@ Result<OperationOutcome> apply(const TearOperation& operation, const TopologyCou
   const Result<TearReport> tear = model.tear(*pose, operation.stroke);
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
   if (!tear) return tear.error();
-  return OperationOutcome{*tear, elapsed.count(), before, tear->pieces == 0 ? before : count_topology(model.character())};
+  return OperationOutcome{*tear, elapsed.count(), before, tear->runs == 0 ? before : count_topology(model.character())};
 }
 
 }  // namespace

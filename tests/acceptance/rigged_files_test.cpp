@@ -79,11 +79,11 @@ void tear_and_save(const std::filesystem::path& file, std::uint64_t seed) {
     for (int place = 0; place < 3; ++place) {
       const Stroke stroke = test::random_stroke(model->character(), pose, random);
       ChangeRecord change;
-      const auto report = model->tear(pose, stroke, &change);
+      const auto report = model->tear(pose, stroke, {}, &change);
       ASSERT_TRUE(report) << report.error().text();
-      pieces += report->pieces;
+      pieces += report->runs;
       ASSERT_THAT(test::broken_lips(*model, change), IsEmpty());
-      if (place == 0 && report->pieces == 1 && is_clear) {
+      if (place == 0 && report->runs == 1 && is_clear) {
         ASSERT_THAT(test::broken_closure(*model), IsEmpty());
       }
     }

@@ -39,9 +39,9 @@ Blade down_at(double x, double y) { return {{x, y, 0.5}, {x, y, -0.5}}; }
 TEST(TornModel, tear_inside_the_sheet_opens_one_loop_of_the_strokes_length) {
   TornModel model = make_model(test::make_sheet(10));
   ChangeRecord change;
-  const auto report = model.tear(rest(model.source()), std::vector{down_at(0.23, 0.31), down_at(0.61, 0.52)}, &change);
+  const auto report = model.tear(rest(model.source()), std::vector{down_at(0.23, 0.31), down_at(0.61, 0.52)}, {}, &change);
   ASSERT_TRUE(report) << report.error().text();
-  EXPECT_EQ(report->pieces, 1u);
+  EXPECT_EQ(report->runs, 1u);
   EXPECT_NEAR(report->length_posed, std::hypot(0.38, 0.21), 1e-3);
   const TopologyCounts after = count_topology(model.character());
   EXPECT_EQ(after.boundary_loops, 2u);
@@ -76,7 +76,7 @@ TEST(TornModel, tear_within_one_face_opens) {
   TornModel model = make_model(test::make_sheet(1));
   const auto report = model.tear(rest(model.source()), std::vector{down_at(0.5, 0.1), down_at(0.8, 0.3)});
   ASSERT_TRUE(report);
-  EXPECT_EQ(report->pieces, 1u);
+  EXPECT_EQ(report->runs, 1u);
   EXPECT_EQ(count_topology(model.character()).boundary_loops, 2u);
   EXPECT_THAT(test::broken_laws(model), IsEmpty());
   EXPECT_THAT(test::broken_surface(model), IsEmpty());
@@ -87,9 +87,9 @@ TEST(TornModel, segments_continue_from_the_stored_tip) {
   Stroke stroke;
   for (int i = 0; i <= 20; ++i) stroke.push_back(down_at(0.2 + 0.03 * i, 0.5 + 0.2 * std::sin(0.5 * i)));
   ChangeRecord change;
-  const auto report = model.tear(rest(model.source()), stroke, &change);
+  const auto report = model.tear(rest(model.source()), stroke, {}, &change);
   ASSERT_TRUE(report);
-  EXPECT_EQ(report->pieces, 1u);
+  EXPECT_EQ(report->runs, 1u);
   const TopologyCounts after = count_topology(model.character());
   EXPECT_EQ(after.boundary_loops, 2u) << "one slit";
   EXPECT_EQ(after.components, 1u);
@@ -124,9 +124,9 @@ TEST(TornModel, a_stroke_beyond_the_blades_reach_changes_nothing) {
   TornModel model = make_model(test::make_sheet(4));
   ChangeRecord change;
   const Stroke stroke = {{{0.2, 0.2, 0.5}, {0.2, 0.2, 0.1}}, {{0.7, 0.2, 0.5}, {0.7, 0.2, 0.1}}};
-  const auto report = model.tear(rest(model.source()), stroke, &change);
+  const auto report = model.tear(rest(model.source()), stroke, {}, &change);
   ASSERT_TRUE(report);
-  EXPECT_EQ(report->pieces, 0u);
+  EXPECT_EQ(report->runs, 0u);
   EXPECT_EQ(report->segments_missed, 1u);
   EXPECT_TRUE(change.meshes.empty());
   EXPECT_EQ(model.character(), model.source());
@@ -138,7 +138,7 @@ TEST(TornModel, tear_runs_over_uv_seams_and_into_the_caps) {
   const Stroke stroke = {
       {{0.9, 2.2, 0.03}, {0.3, 2.2, 0.03}}, {{0.9, 3.3, -0.05}, {0.1, 2.9, -0.05}}, {{0.2, 3.4, -0.07}, {0.1, 2.8, -0.07}}};
   ChangeRecord change;
-  const auto report = model.tear(rest(model.source()), stroke, &change);
+  const auto report = model.tear(rest(model.source()), stroke, {}, &change);
   ASSERT_TRUE(report) << report.error().text();
   EXPECT_EQ(count_topology(model.character()).boundary_loops, 1u) << "one slit over side and cap";
   EXPECT_THAT(test::broken_laws(model), IsEmpty());
@@ -192,7 +192,7 @@ TEST(TornModel, keeps_every_law_at_any_scale_and_far_from_the_origin) {
     const ModelPose pose = bind_pose(model.source());
     for (int i = 0; i < 5; ++i) {
       ChangeRecord change;
-      ASSERT_TRUE(model.tear(pose, test::random_stroke(model.character(), pose, random), &change));
+      ASSERT_TRUE(model.tear(pose, test::random_stroke(model.character(), pose, random), {}, &change));
       ASSERT_THAT(test::broken_laws(model), IsEmpty()) << "scale " << scale << ", offset " << offset;
       ASSERT_THAT(test::broken_surface(model), IsEmpty()) << "scale " << scale << ", offset " << offset;
       ASSERT_THAT(test::broken_lips(model, change), IsEmpty()) << "scale " << scale << ", offset " << offset;
@@ -291,7 +291,7 @@ void tear_at_random(std::uint64_t seed) {
     const ModelPose pose = test::random_pose(model.source(), random);
     const Stroke stroke = test::random_stroke(model.character(), pose, random, random.uniform(0.02, 0.6), 1 + random.index(8));
     ChangeRecord change;
-    const auto report = model.tear(pose, stroke, &change);
+    const auto report = model.tear(pose, stroke, {}, &change);
     ASSERT_TRUE(report) << report.error().text();
     ASSERT_THAT(test::broken_laws(model), IsEmpty()) << "tear " << i;
     ASSERT_THAT(test::broken_surface(model), IsEmpty()) << "tear " << i;

@@ -11,6 +11,12 @@ namespace sunder {
 
 using Triangle = std::array<std::uint32_t, 3>;  ///< Vertices, counter-clockwise from outside.
 
+/// A triangle that an operation took away keeps its number and names one vertex three times: buffers that mirror the mesh draw
+/// nothing there. Files are written without it.
+[[nodiscard]] constexpr bool is_retired(const Triangle& triangle) {
+  return triangle[0] == triangle[1] && triangle[1] == triangle[2];
+}
+
 /// Displacements added to a mesh in bind space, scaled by the target's weight. An array is empty or has one entry a vertex.
 struct MorphTarget {
   std::string name;
@@ -67,5 +73,8 @@ struct Mesh {
 
 /// Name of the custom attribute that keeps the two lips of a tear apart: coincident vertices of one surface differ in it.
 inline constexpr const char* kTearSideAttribute = "_TEARSIDE";
+
+/// The same values once more in glTF files, under a name that tools keep which drop attributes they do not know.
+inline constexpr const char* kTearSideFeatureAttribute = "_FEATURE_ID_7353";
 
 }  // namespace sunder

@@ -1,7 +1,10 @@
 #pragma once
 
 #include <sunder/core/mesh.h>
+#include <sunder/weights/interpolate.h>
 
+#include <array>
+#include <span>
 #include <vector>
 
 namespace sunder {
@@ -10,27 +13,63 @@ namespace sunder {
 struct RewrittenTriangle {
   std::uint32_t triangle = 0;  ///< In Mesh::triangles.
   Triangle before = {};
+
+  bool operator==(const RewrittenTriangle&) const = default;
 };
 
-/// What one operation did to one mesh. Vertices and triangles are only ever appended: their numbers stay valid.
+/// Some elements of a buffer, from `first` on.
+struct Range {
+  std::uint32_t first = 0, count = 0;
+
+  bool operator==(const Range&) const = default;
+};
+
+/// What of a buffer has to be uploaded again: at most eight ranges, ascending and apart. Where there are more places than ranges, the
+/// ranges hold elements between them that did not change.
+class DirtyRanges {
+ public:
+  static constexpr std::size_t kMaximum = 8;
+
+  /// @param elements  ascending; repeated ones count once. Ranges nearer than the widest gaps are merged.
+  static DirtyRanges covering(std::span<const std::uint32_t> elements);
+
+  [[nodiscard]] const Range* begin() const { return ranges_.data(); }
+  [[nodiscard]] const Range* end() const { return ranges_.data() + count_; }
+  [[nodiscard]] std::size_t size() const { return count_; }
+  [[nodiscard]] bool empty() const { return count_ == 0; }
+  bool operator==(const DirtyRanges&) const = default;
+
+ private:
+  std::array<Range, kMaximum> ranges_ = {};
+  std::size_t count_ = 0;
+};
+
+/// What one call did to one mesh. Vertices and triangles are only ever appended, and by undo taken from the end: their numbers stay
+/// valid. The mesh has now first_vertex + vertex_count vertices and first_triangle + triangle_count triangles.
 struct MeshChange {
   std::uint32_t mesh = 0;
   std::uint32_t first_vertex = 0, vertex_count = 0;      ///< Appended.
   std::uint32_t first_triangle = 0, triangle_count = 0;  ///< Appended.
-  std::vector<RewrittenTriangle> rewritten;              ///< Ascending by triangle.
+  std::vector<Birth> births;                             ///< Of the appended vertices.
+  std::vector<RewrittenTriangle> rewritten;              ///< Ascending by triangle; the retired ones too.
+  std::vector<std::uint32_t> retired;                    ///< Ascending: is_retired() from now on.
+  DirtyRanges dirty_vertices;   ///< Appended ones, and those whose tear side changed.
+  DirtyRanges dirty_triangles;  ///< Appended and rewritten ones.
 };
 
-/// Two surface points that were one before the tear; left and right of the stroke's direction, seen from outside.
+/// Two surface points that were one before the tear; left and right of the stroke's direction, seen from outside. Of a cut, left is
+/// where the plane's normal points.
 struct LipPair {
   std::uint32_t left = 0;
   std::uint32_t right = 0;
 };
 
-/// What one operation did, for whoever mirrors the model: engine buffers, particles, bounds.
+/// What one call did, for whoever mirrors the model: engine buffers, particles, bounds.
 struct ChangeRecord {
   std::uint32_t first_point = 0, point_count = 0;  ///< Surface points appended.
   std::vector<MeshChange> meshes;                  ///< Those that changed, ascending.
-  std::vector<LipPair> lips;                       ///< In order along the tear. Tips are single points and not listed.
+  /// In order along the tear; of a gap, cut or bore no pairs but those of an opened edge. Tips are single points and not listed.
+  std::vector<LipPair> lips;
 };
 
 }  // namespace sunder

@@ -1,28 +1,15 @@
 #pragma once
 
 #include <sunder/core/character.h>
-#include <sunder/core/stroke.h>
+#include <sunder/core/operation.h>
 #include <sunder/tear/change_record.h>
-#include <sunder/weights/interpolate.h>
+#include <sunder/tear/compact.h>
+#include <sunder/tear/report.h>
 
 #include <memory>
 #include <span>
 
 namespace sunder {
-
-/// What one tear did, in figures.
-struct TearReport {
-  std::uint32_t pieces = 0;           ///< Connected runs of torn surface. 0: the stroke missed and nothing changed.
-  std::uint32_t segments = 0;         ///< Of the stroke.
-  std::uint32_t segments_missed = 0;  ///< Met no surface within the blade's reach.
-  std::uint32_t faces_crossed = 0;
-  std::uint32_t points_added = 0;
-  std::uint32_t vertices_added = 0;
-  std::uint32_t triangles_added = 0;
-  std::uint32_t triangles_retired = 0;  ///< 0: a tear without width removes nothing.
-  std::uint32_t blocked = 0;  ///< Places where the surface could not be torn, because its faces are too small or degenerate.
-  double length_posed = 0.0;  ///< Of the tear on the posed surface, metres.
-};
 
 /// A character that can be torn. It keeps the source, the torn meshes, and the topology of their surface.
 class SUNDER_API TornModel {
@@ -36,20 +23,50 @@ class SUNDER_API TornModel {
   TornModel& operator=(TornModel&&) noexcept;
   ~TornModel();
 
-  /// Tears the posed surface open along a stroke, without a gap: the two lips coincide until something pulls them apart.
+  /// Tears the posed surface along a stroke. Without width it opens and the two lips coincide until something pulls them apart; with
+  /// a width, the band of surface that a blade of that thickness passes is removed.
   ///
   /// Each two neighbouring blades sweep a segment, cut by one plane: through the tip where the tear stands (or the first blade's
   /// hit) and the second blade. The tear enters where the sweep first meets the surface, on the layer nearest to the blade's base,
-  /// and follows that layer, face to face, while the blade reaches it. Its two ends are joined. See docs/tear.md.
+  /// and follows that layer, face to face, while the blade reaches it. Its two ends are closed. See docs/tear.md.
   ///
   /// @param pose    one matrix a bone, all finite; morph weights as the character's.
   /// @param stroke  at least two blades, model space; each longer than zero; neighbours turned by less than 90 degrees.
   /// @param change  written where given: what an engine has to mirror.
-  /// @return what was done; a stroke that misses is a success with pieces = 0. size_mismatch, non_finite_value, invalid_argument
+  /// @return what was done; a stroke that misses is a success with runs = 0. size_mismatch, non_finite_value, invalid_argument
   ///         (index = the blade), limit_exceeded (out of memory): the model is as it was, bit for bit.
   ///
   /// O(all faces) where the tear enters, then O(faces crossed). Allocates.
-  Result<TearReport> tear(const ModelPose& pose, std::span<const Blade> stroke, ChangeRecord* change = nullptr);
+  Result<TearReport> tear(const ModelPose& pose, std::span<const Blade> stroke, const TearOptions& options = {},
+                          ChangeRecord* change = nullptr);
+
+  /// Cuts the posed surface by a plane, every layer of it. Lips coincide, as those of a tear.
+  /// @return as tear(). O(all faces).
+  Result<TearReport> cut(const ModelPose& pose, const Cut& cut, ChangeRecord* change = nullptr);
+
+  /// Removes the posed surface inside a bore, every layer of it.
+  /// @return as tear(). O(all faces).
+  Result<TearReport> drill(const ModelPose& pose, const Bore& bore, ChangeRecord* change = nullptr);
+
+  /// Takes back the newest operation, or does again the one that was taken back last: every array as it was then, bit for bit.
+  /// Any operation forgets what could be done again. O(what the operation changed).
+  /// @return not_found where there is none.
+  Status undo(ChangeRecord* change = nullptr);
+  Status redo(ChangeRecord* change = nullptr);
+  [[nodiscard]] std::uint32_t undo_count() const;
+  [[nodiscard]] std::uint32_t redo_count() const;
+
+  /// What was done and not taken back, oldest first, with the poses' bone matrices in full: played on the source it gives this model
+  /// again, bit for bit.
+  [[nodiscard]] std::vector<Operation> history() const;
+
+  /// Drops retired triangles and unused vertices. The model begins anew with the result as its source: births start over, and there
+  /// is nothing to undo. O(size of the model).
+  /// @return where each element came from; limit_exceeded (out of memory): the model is as it was.
+  Result<CompactMaps> compact();
+
+  /// One number for all bits of the model as it stands: equal models have equal digests on every machine. O(size of the model).
+  [[nodiscard]] std::uint64_t digest() const;
 
   /// The model as it stands. Meshes have those vertices and triangles of the source first, under their numbers. A torn mesh carries
   /// the attribute `_TEARSIDE`, in which the two lips of a tear differ.
@@ -63,10 +80,14 @@ class SUNDER_API TornModel {
   /// Where an appended vertex came from; vertices of the source have no birth. A copy of one lies in a corner of its birth
   /// triangle. Unchecked.
   [[nodiscard]] Birth birth(std::uint32_t mesh, std::uint32_t vertex) const;
-  /// The source triangle that a triangle is a part of. Unchecked.
+  /// The triangle of the source that a triangle is a part of; from the source's triangle count up: that of a wall or cap, see
+  /// filling(). Unchecked.
   [[nodiscard]] std::uint32_t source_triangle(std::uint32_t mesh, std::uint32_t triangle) const;
+  /// Triangles of walls and caps as they were made: their vertices. Births and source_triangle() number them after the source's.
+  [[nodiscard]] std::span<const Triangle> fillings(std::uint32_t mesh) const;
 
  private:
+  friend class TearStroke;
   struct State;
   explicit TornModel(std::unique_ptr<State> state);
   std::unique_ptr<State> state_;

@@ -27,7 +27,7 @@ int main() {
   if (!torn) return std::printf("%s\n", torn.error().text().data()), 1;
   const auto report = torn->tear(pose, sunder::Stroke{{{0.6, 0.2, 1}, {0.6, 0.2, -1}}, {{0.4, 0.8, 1}, {0.4, 0.8, -1}}});
   if (!report) return std::printf("%s\n", report.error().text().data()), 1;
-  if (report->pieces != 1 || sunder::count_topology(torn->character()).boundary_loops != 2) return 1;
+  if (report->runs != 1 || sunder::count_topology(torn->character()).boundary_loops != 2) return 1;
 
 #ifdef CONSUMER_IO
   if (sunder::load_character("no such file.glb").error().code() != sunder::StatusCode::file_not_found) return 1;

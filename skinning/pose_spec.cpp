@@ -1,11 +1,11 @@
-#include "tools/pose_spec.h"
+#include <sunder/skinning/pose_spec.h>
 
 #include <sunder/skinning/palette.h>
 #include <sunder/skinning/sample_clip.h>
 
 #include <algorithm>
 
-namespace sunder::tools {
+namespace sunder {
 namespace {
 
 using Index = std::uint32_t;
@@ -28,8 +28,10 @@ class ApplyTo {
  public:
   ApplyTo(const Character& character, Pose& pose) : character_(character), pose_(pose) {}
 
-  Status operator()(const RestPose&) const { return {}; }
-  Status operator()(const BindPose&) const { return {}; }
+  template <class Other>  // rest; the others are not local transforms
+  Status operator()(const Other&) const {
+    return {};
+  }
   Status operator()(const ClipPose& spec) const {
     const Result<Index> clip = find_clip(character_, spec.clip);
     return clip ? sample_clip(character_.clips[*clip], spec.time, pose_) : clip.error();
@@ -58,6 +60,15 @@ class ApplyTo {
 
 Result<ModelPose> make_pose(const Character& character, const PoseSpec& spec) {
   if (std::holds_alternative<BindPose>(spec)) return bind_pose(character);
+  if (const auto* const given = std::get_if<ModelPose>(&spec)) {
+    if (given->model_from_bone.size() != character.skeleton.bones.size())
+      return Status::failure(StatusCode::size_mismatch, kNone, "pose has %zu bones, the character %zu",
+                             given->model_from_bone.size(), character.skeleton.bones.size());
+    if (given->morph_weights.size() != character.rest_morph_weights.size())
+      return Status::failure(StatusCode::size_mismatch, kNone, "pose has %zu morph weights, the character %zu",
+                             given->morph_weights.size(), character.rest_morph_weights.size());
+    return *given;
+  }
   Pose pose = rest_pose(character);
   if (const Status status = std::visit(ApplyTo(character, pose), spec); !status) return status;
   ModelPose model_pose;
@@ -65,4 +76,4 @@ Result<ModelPose> make_pose(const Character& character, const PoseSpec& spec) {
   return model_pose;
 }
 
-}  // namespace sunder::tools
+}  // namespace sunder

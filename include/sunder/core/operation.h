@@ -1,0 +1,110 @@
+#pragma once
+
+#include <sunder/core/pose.h>
+#include <sunder/core/stroke.h>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace sunder {
+
+/// Which of the surfaces that a blade reaches are torn.
+enum class Layers : std::uint8_t {
+  nearest,  ///< The one that it meets first.
+  all,      ///< Every one that it passes.
+};
+
+struct TearOptions {
+  double width = 0.0;  ///< Of the gap, posed metres; >= 0. 0: the lips coincide and no surface is lost.
+  Layers layers = Layers::nearest;
+  double wall_depth = 0.0;  ///< Of the inner walls that the lips get, posed metres; >= 0. 0: none.
+
+  bool operator==(const TearOptions&) const = default;
+};
+
+/// A cut by a plane, in model space.
+struct Cut {
+  Vec3d point = Vec3d::Zero();        ///< On the plane.
+  Vec3d normal = Vec3d(0.0, 0.0, 1.0);  ///< Towards the left lip; any length but zero.
+  /// Corners of a convex polygon, projected onto the plane, outside of which nothing is cut. Empty: the whole plane.
+  std::vector<Vec3d> bounds;
+  bool caps = false;  ///< Close what the cut opens, where it opens closed loops.
+
+  bool operator==(const Cut&) const = default;
+};
+
+/// A round hole, in model space.
+struct Bore {
+  Vec3d origin = Vec3d::Zero();             ///< Where the axis begins, outside the surface.
+  Vec3d direction = Vec3d(0.0, 0.0, -1.0);  ///< Of the axis; any length but zero.
+  double radius = 0.0;                      ///< Metres; > 0.
+  double depth = 0.0;                       ///< From the origin along the axis, metres; > 0.
+  double chord_tolerance = 0.0;             ///< How far the rim may stray from the circle, metres. 0: one per cent of the radius.
+  bool wall = false;                        ///< Line the bore: from rim to rim, or down to a floor.
+
+  bool operator==(const Bore&) const = default;
+};
+
+/// "rest": the file's own bone transforms.
+struct RestPose {};
+/// "bind": the pose in which the skins were attached.
+struct BindPose {};
+/// A clip at a time; clip by name or by index.
+struct ClipPose {
+  std::variant<std::string, std::uint32_t> clip;
+  double time = 0.0;  ///< Seconds.
+};
+/// Bone transforms over rest. A part that the log does not give keeps its rest value.
+struct BonesPose {
+  struct Bone {
+    std::string name;
+    std::optional<Vec3f> translation;
+    std::optional<Quatf> rotation;  ///< x y z w; normalised when read.
+    std::optional<Vec3f> scale;
+  };
+  std::vector<Bone> bones;
+};
+/// How an operation names its pose. What was played is logged as a ModelPose: bone matrices in full.
+using PoseSpec = std::variant<RestPose, BindPose, ClipPose, BonesPose, ModelPose>;
+
+/// {"op": "tear"}
+struct TearOperation {
+  /// From blade `blade` on the character stands in `pose`: the segment that ends with that blade is torn in it.
+  struct PoseChange {
+    std::uint32_t blade = 0;
+    PoseSpec pose;
+  };
+  PoseSpec pose;                         ///< Of the first blade. Default: rest.
+  Stroke stroke;                         ///< Model space, metres. At least two blades.
+  std::vector<PoseChange> pose_changes;  ///< Ascending by blade, each > 0.
+  TearOptions options;
+};
+
+/// {"op": "cut"}
+struct CutOperation {
+  PoseSpec pose;
+  Cut cut;
+};
+
+/// {"op": "drill"}
+struct DrillOperation {
+  PoseSpec pose;
+  Bore bore;
+};
+
+/// {"op": "undo"}: takes back the newest operations that are not yet taken back.
+struct UndoOperation {
+  std::uint32_t count = 1;
+};
+
+/// {"op": "redo"}: does again what was taken back last.
+struct RedoOperation {
+  std::uint32_t count = 1;
+};
+
+using Operation = std::variant<TearOperation, CutOperation, DrillOperation, UndoOperation, RedoOperation>;
+
+}  // namespace sunder
