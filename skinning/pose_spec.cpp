@@ -1,6 +1,5 @@
-#include <sunder/skinning/pose_spec.h>
-
 #include <sunder/skinning/palette.h>
+#include <sunder/skinning/pose_spec.h>
 #include <sunder/skinning/sample_clip.h>
 
 #include <algorithm>

@@ -5,6 +5,8 @@
 #include <array>
 #include <optional>
 
+#include "tear/half_space.h"
+
 namespace sunder::tear {
 
 /// Where a point lies in the sweep of a blade.
@@ -37,6 +39,20 @@ class BladePlane {
   [[nodiscard]] const std::array<HalfPlane, 3>& reach() const { return reach_; }
   /// What the blade sweeps from `progress` on.
   [[nodiscard]] HalfPlane from_progress(double progress) const;
+
+  /// Towards the left of the stroke, seen from where the blade comes; across the second blade, forwards; along it, from base to
+  /// tip.
+  [[nodiscard]] const Vec3d& normal() const { return normal_; }
+  [[nodiscard]] const Vec3d& across() const { return across_; }
+  [[nodiscard]] const Vec3d& along() const { return along_; }
+  /// The half-space that stands on a half-plane of the figure, at right angles to the plane.
+  [[nodiscard]] HalfSpace standing_on(const HalfPlane& half_plane) const {
+    const Vec3d normal = half_plane.normal.x() * across_ + half_plane.normal.y() * along_;
+    return {normal, half_plane.offset + normal.dot(origin_)};
+  }
+  /// What lies left of the plane moved by `distance` to its left.
+  [[nodiscard]] HalfSpace left_of(double distance) const { return {normal_, normal_.dot(origin_) + distance}; }
+  [[nodiscard]] HalfSpace right_of(double distance) const { return {-normal_, -(normal_.dot(origin_) + distance)}; }
 
  private:
   Vec3d origin_, across_, along_, normal_;

@@ -4,9 +4,7 @@
 #include <cmath>
 
 namespace sunder::tear {
-namespace {
 
-/// Splits an edge and pins the new point where the posed edge has it.
 Index split_posed_edge(Index half_edge, double fraction, SurfaceEditor& editor, PosedPoints& posed) {
   const auto& points = editor.surface().corner_point;
   const Vec3d from = posed.position(editor, points[half_edge]);
@@ -16,17 +14,6 @@ Index split_posed_edge(Index half_edge, double fraction, SurfaceEditor& editor, 
   return point;
 }
 
-/// The next place of a path: on the far edge of a face at the point where it stands, or at an end of that edge.
-struct Step {
-  Index corner = kNone;  ///< Of the face, at the point where the path stands.
-  double fraction = 0;   ///< Along the far edge; 0 and 1: at its ends.
-  Vec3d position = Vec3d::Zero();
-  SweepCoordinates sweep;
-  double crossing_progress = 0;  ///< In the sweep, of the crossing before it snapped.
-};
-
-/// The ways in which the plane leaves a point across the faces around it, of which the path takes the one that goes forward in the
-/// sweep; where several do (a fold of the surface that faces the blade), the one that bends most towards the blade's base.
 Step find_step(const BladePlane& plane, Index point, const SurfaceEditor& editor, PosedPoints& posed) {
   const Surface& surface = editor.surface();
   const SweepCoordinates here = plane.sweep_coordinates(plane.project(posed.position(editor, point)));
@@ -55,12 +42,6 @@ Step find_step(const BladePlane& plane, Index point, const SurfaceEditor& editor
   return best;
 }
 
-/// How much of the way from one place to the next the blade reaches, in [0, 1].
-struct Reach {
-  double fraction = 1;
-  bool ends_at_blade = false;
-};
-
 Reach reach_between(const BladePlane& plane, const Vec3d& from, const Vec3d& to) {
   const Vec2d a = plane.project(from), b = plane.project(to);
   Reach reach;
@@ -72,6 +53,8 @@ Reach reach_between(const BladePlane& plane, const Vec3d& from, const Vec3d& to)
   }
   return reach;
 }
+
+namespace {
 
 /// The end of the far edge that a step goes to, where it goes to one.
 Index step_corner(const Step& step) {
@@ -102,21 +85,17 @@ Index stop_within(const Step& step, double fraction, SurfaceEditor& editor, Pose
   hit.barycentric[Surface::previous(step.corner) % 3] = fraction * step.fraction;
   const Vec3d here = posed.position(editor, editor.surface().corner_point[step.corner]);
   hit.position = here + fraction * (step.position - here);
-  return imprint_point(hit, editor, posed);
+  return imprint_point(hit, kSnap, editor, posed);
 }
 
 }  // namespace
 
-Index imprint_midpoint(Index half_edge, SurfaceEditor& editor, PosedPoints& posed) {
-  return split_posed_edge(half_edge, 0.5, editor, posed);
-}
-
-Index imprint_point(const SurfaceHit& hit, SurfaceEditor& editor, PosedPoints& posed) {
+Index imprint_point(const SurfaceHit& hit, double snap, SurfaceEditor& editor, PosedPoints& posed) {
   const Index first = 3 * hit.triangle;
   std::array<double, 3> weight = hit.barycentric;
   double sum = 0;
   for (double& w : weight) {
-    if (w < kSnap) w = 0;
+    if (w < snap) w = 0;
     sum += w;
   }
   for (double& w : weight) w /= sum;
@@ -134,7 +113,7 @@ Index imprint_point(const SurfaceHit& hit, SurfaceEditor& editor, PosedPoints& p
   // On the edge opposite of the smallest coordinate, or as near to it as the face allows.
   const Index edge = Surface::next(first + smallest);
   const double along = weight[Surface::next(edge) % 3] / (weight[edge % 3] + weight[Surface::next(edge) % 3]);
-  if (along > kSnap && along < 1 - kSnap)
+  if (along > snap && along < 1 - snap)
     if (const Index point = split_posed_edge(edge, along, editor, posed); point != kNone) return point;
   return editor.surface().corner_point[first + largest];
 }

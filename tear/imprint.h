@@ -22,14 +22,35 @@ struct Path {
 };
 
 /// Makes a place on the surface a point of it: an existing one where the place is near it, else by splitting an edge or a face.
+/// @param snap  how near, as a part of the face.
 /// @return kNone where the faces are too small or degenerate for that.
-[[nodiscard]] Index imprint_point(const SurfaceHit& hit, SurfaceEditor& editor, PosedPoints& posed);
+[[nodiscard]] Index imprint_point(const SurfaceHit& hit, double snap, SurfaceEditor& editor, PosedPoints& posed);
 
 /// Makes the curve in which the plane meets the surface a run of edges: from `start` on, face to face, while it goes forward in the
 /// sweep and the blade reaches it.
 [[nodiscard]] Path imprint_path(const BladePlane& plane, Index start, SurfaceEditor& editor, PosedPoints& posed);
 
-/// Puts a point into the middle of an edge. @return kNone where its faces cannot be split.
-[[nodiscard]] Index imprint_midpoint(Index half_edge, SurfaceEditor& editor, PosedPoints& posed);
+/// The next place of a path: on the far edge of a face at the point where it stands, or at an end of that edge.
+struct Step {
+  Index corner = kNone;  ///< Of the face, at the point where the path stands.
+  double fraction = 0;   ///< Along the far edge; 0 and 1: at its ends.
+  Vec3d position = Vec3d::Zero();
+  SweepCoordinates sweep;
+  double crossing_progress = 0;  ///< In the sweep, of the crossing before it snapped.
+};
+
+/// The ways in which the plane leaves a point across the faces around it, of which the path takes the one that goes forward in the
+/// sweep; where several do (a fold of the surface that faces the blade), the one that bends most towards the blade's base.
+[[nodiscard]] Step find_step(const BladePlane& plane, Index point, const SurfaceEditor& editor, PosedPoints& posed);
+
+/// How much of the way from one place to the next the blade reaches, in [0, 1].
+struct Reach {
+  double fraction = 1;
+  bool ends_at_blade = false;
+};
+[[nodiscard]] Reach reach_between(const BladePlane& plane, const Vec3d& from, const Vec3d& to);
+
+/// Splits an edge and pins the new point where the posed edge has it. @return kNone where its faces cannot be split.
+[[nodiscard]] Index split_posed_edge(Index half_edge, double fraction, SurfaceEditor& editor, PosedPoints& posed);
 
 }  // namespace sunder::tear

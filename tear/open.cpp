@@ -5,49 +5,56 @@
 namespace sunder::tear {
 namespace {
 
-/// The two corners that a path edge has at one of its ends, one in the face at each side of it; kNone beyond a border.
-struct CornersAtEdge {
-  Index left = kNone;
-  Index right = kNone;
+/// Corners that the edges have at one point, in the faces beside them.
+struct CornersAtPoint {
+  Index point = kNone;
+  std::vector<Index> right, left;
 };
 
-struct PathEdge {
-  CornersAtEdge at_begin, at_end;
-};
+class Corners {
+ public:
+  explicit Corners(std::size_t edge_count) { at_points_.reserve(edge_count + 1); }
 
-/// Found before anything is cut: afterwards the two sides do not know one another.
-PathEdge find_edge(const Surface& surface, Index from, Index to) {
-  PathEdge edge;
-  Index left = surface.find_half_edge(from, to);
-  Index right = left != kNone ? surface.twin[left] : surface.find_half_edge(to, from);
-  if (left != kNone) edge.at_begin.left = left, edge.at_end.left = Surface::next(left);
-  if (right != kNone) edge.at_begin.right = Surface::next(right), edge.at_end.right = right;
-  return edge;
-}
+  void add(Index point, Index right, Index left) {
+    // Edges come in runs: a point's last mention is mostly the newest or the one before it.
+    auto at = std::find_if(at_points_.rbegin(), at_points_.rend(), [&](const CornersAtPoint& c) { return c.point == point; });
+    CornersAtPoint& corners = at != at_points_.rend() ? *at : at_points_.emplace_back(CornersAtPoint{point, {}, {}});
+    if (right != kNone) corners.right.push_back(right);
+    if (left != kNone) corners.left.push_back(left);
+  }
+  [[nodiscard]] const std::vector<CornersAtPoint>& at_points() const { return at_points_; }
+
+ private:
+  std::vector<CornersAtPoint> at_points_;
+};
 
 }  // namespace
 
-void open_path(const std::vector<Index>& path, SurfaceEditor& editor, Index& side, std::vector<LipPair>& lips) {
+void open_edges(const std::vector<PointEdge>& edges, SurfaceEditor& editor, Index& side, std::vector<LipPair>& lips) {
   const Surface& surface = editor.surface();
-  std::vector<PathEdge> edges;
-  for (std::size_t i = 0; i + 1 < path.size(); ++i) edges.push_back(find_edge(surface, path[i], path[i + 1]));
-  for (const PathEdge& edge : edges)
-    if (edge.at_begin.left != kNone && edge.at_begin.right != kNone) editor.cut_edge(edge.at_begin.left);
+  // Found before anything is cut: afterwards the two sides do not know one another.
+  Corners corners(edges.size());
+  std::vector<Index> to_cut;
+  for (const auto& [from, to] : edges) {
+    const Index left = surface.find_half_edge(from, to);
+    const Index right = left != kNone ? surface.twin[left] : surface.find_half_edge(to, from);
+    corners.add(from, right == kNone ? kNone : Surface::next(right), left);
+    corners.add(to, right, left == kNone ? kNone : Surface::next(left));
+    if (left != kNone && right != kNone) to_cut.push_back(left);
+  }
+  for (const Index half_edge : to_cut) editor.cut_edge(half_edge);
 
   Index highest_side = side;
   std::vector<Index> fans, remaining;
-  for (std::size_t i = 0; i < path.size(); ++i) {
-    // Fans at this point, by their clockwise ends: those right of the path first, then left.
+  for (const CornersAtPoint& at : corners.at_points()) {
+    // Fans at this point, by their clockwise ends: those right of the edges first, then left.
     fans.clear();
     const auto add = [&](Index corner) {
-      if (corner == kNone) return;
       const Index fan = surface.first_of_fan(corner);
       if (std::find(fans.begin(), fans.end(), fan) == fans.end()) fans.push_back(fan);
     };
-    if (i < edges.size()) add(edges[i].at_begin.right);
-    if (i > 0) add(edges[i - 1].at_end.right);
-    if (i < edges.size()) add(edges[i].at_begin.left);
-    if (i > 0) add(edges[i - 1].at_end.left);
+    for (const Index corner : at.right) add(corner);
+    for (const Index corner : at.left) add(corner);
 
     Index of_place = side;
     for (std::size_t fan = 1; fan < fans.size(); ++fan) {
@@ -55,7 +62,7 @@ void open_path(const std::vector<Index>& path, SurfaceEditor& editor, Index& sid
       remaining.erase(remaining.begin() + static_cast<std::ptrdiff_t>(fan));
       const Index point = editor.separate_fan(fans[fan], of_place, remaining);
       highest_side = std::max(highest_side, of_place++);
-      lips.push_back({point, path[i]});
+      lips.push_back({point, at.point});
     }
   }
   side = highest_side + 1;

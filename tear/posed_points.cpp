@@ -7,7 +7,7 @@
 
 namespace sunder::tear {
 
-Status PosedPoints::begin(const Character& character, const ModelPose& pose) {
+Status PosedPoints::check(const Character& character, const ModelPose& pose) {
   const std::size_t bone_count = character.skeleton.bones.size();
   if (pose.model_from_bone.size() != bone_count)
     return Status::failure(StatusCode::size_mismatch, kNone, "pose has %zu bones, the character %zu", pose.model_from_bone.size(),
@@ -22,27 +22,34 @@ Status PosedPoints::begin(const Character& character, const ModelPose& pose) {
   for (Index i = 0; i < pose.morph_weights.size(); ++i)
     if (!std::isfinite(pose.morph_weights[i]))
       return Status::failure(StatusCode::non_finite_value, i, "pose: morph weight %u is not finite", i);
+  return {};
+}
 
+Status PosedPoints::begin(const Character& character, const ModelPose& pose) {
+  if (Status status = check(character, pose); !status) return status;
   palettes_.resize(character.skins.size());
   for (Index skin = 0; skin < character.skins.size(); ++skin) {
     palettes_[skin].resize(character.skins[skin].bones.size());
     if (Status status = compute_palette(character.skins[skin], pose, palettes_[skin]); !status) return status;
   }
   morph_weights_ = pose.morph_weights;
-  is_known_.assign(is_known_.size(), false);
+  if (++epoch_ == 0) {  // once in four thousand million poses
+    known_since_.assign(known_since_.size(), 0);
+    epoch_ = 1;
+  }
   return {};
 }
 
 const Vec3d& PosedPoints::position(const SurfaceEditor& editor, Index point) {
   if (point >= positions_.size()) {
     positions_.resize(editor.surface().point_count());
-    is_known_.resize(editor.surface().point_count(), false);
+    known_since_.resize(editor.surface().point_count(), 0);
   }
-  if (!is_known_[point]) {
+  if (known_since_[point] != epoch_) {
     const Index corner = editor.surface().point_corner[point];
     const Mesh& mesh = editor.character().meshes[editor.surface().triangles[corner / 3].mesh];
     positions_[point] = deform_position_reference(mesh, editor.vertex_at(corner), palettes_[mesh.skin], morph_weights_);
-    is_known_[point] = true;
+    known_since_[point] = epoch_;
   }
   return positions_[point];
 }
@@ -50,14 +57,14 @@ const Vec3d& PosedPoints::position(const SurfaceEditor& editor, Index point) {
 void PosedPoints::pin(Index point, const Vec3d& position) {
   if (point >= positions_.size()) {
     positions_.resize(point + 1);
-    is_known_.resize(point + 1, false);
+    known_since_.resize(point + 1, 0);
   }
   positions_[point] = position;
-  is_known_[point] = true;
+  known_since_[point] = epoch_;
 }
 
 void PosedPoints::forget_from(Index first_point) {
-  for (std::size_t point = first_point; point < is_known_.size(); ++point) is_known_[point] = false;
+  for (std::size_t point = first_point; point < known_since_.size(); ++point) known_since_[point] = 0;
 }
 
 }  // namespace sunder::tear

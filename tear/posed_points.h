@@ -14,12 +14,17 @@ namespace sunder::tear {
 class PosedPoints {
  public:
   /// @return size_mismatch or non_finite_value where the pose does not fit the character.
+  [[nodiscard]] static Status check(const Character& character, const ModelPose& pose);
+  /// check(), then forgets all points.
   [[nodiscard]] Status begin(const Character& character, const ModelPose& pose);
 
   [[nodiscard]] const Vec3d& position(const SurfaceEditor& editor, Index point);
 
   /// Keeps a point where it was found on the posed surface, instead of where its own weights put it.
   void pin(Index point, const Vec3d& position);
+  [[nodiscard]] const std::vector<Affine3d>& palette(Index skin) const { return palettes_[skin]; }
+  [[nodiscard]] const std::vector<float>& morph_weights() const { return morph_weights_; }
+
   /// Forgets the points from `first_point` up, which were taken back.
   void forget_from(Index first_point);
 
@@ -27,7 +32,8 @@ class PosedPoints {
   std::vector<std::vector<Affine3d>> palettes_;  ///< Of each skin.
   std::vector<float> morph_weights_;
   std::vector<Vec3d> positions_;
-  std::vector<bool> is_known_;
+  std::vector<std::uint32_t> known_since_;  ///< Epoch in which a position was computed or pinned.
+  std::uint32_t epoch_ = 0;                 ///< Of the pose: a new one forgets all positions at once.
 };
 
 }  // namespace sunder::tear

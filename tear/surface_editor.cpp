@@ -10,6 +10,7 @@ SurfaceEditor::SurfaceEditor(const Character& source, Character& character)
       character_(character),
       surface_(build_surface(character)),
       births_(character.meshes.size()),
+      fillings_(character.meshes.size()),
       appended_triangles_(character.meshes.size()) {
   Index first = 0;
   for (const Mesh& mesh : source.meshes) {
@@ -28,9 +29,17 @@ void SurfaceEditor::log_triangle(Index triangle) {
   for (Index k = 0; k < 3; ++k) {
     entry.points[k] = surface_.corner_point[3 * triangle + k];
     entry.twins[k] = surface_.twin[3 * triangle + k];
-    entry.point_corners[k] = surface_.point_corner[entry.points[k]];
+    entry.point_corners[k] = entry.points[k] == kNone ? kNone : surface_.point_corner[entry.points[k]];
   }
   log_.push_back(entry);
+}
+
+void SurfaceEditor::restore(const LogEntry& entry) {
+  for (Index k = 0; k < 3; ++k) {
+    set_corner(3 * entry.triangle + k, entry.points[k], entry.vertices[k]);
+    surface_.twin[3 * entry.triangle + k] = entry.twins[k];
+    if (entry.points[k] != kNone) surface_.point_corner[entry.points[k]] = entry.point_corners[k];
+  }
 }
 
 void SurfaceEditor::set_corner(Index corner, Index point, Index vertex) {
@@ -50,6 +59,7 @@ Index SurfaceEditor::append_triangle(Index like, const std::array<Index, 3>& poi
   const Index triangle = surface_.triangle_count();
   surface_.triangles.push_back({ref.mesh, mesh.triangle_count(), ref.source_triangle});
   appended_triangles_[ref.mesh].push_back(triangle);
+  ancestors_.push_back(ancestor(like));
   const Index submesh = mesh.triangle_submesh[ref.triangle];
   mesh.triangles.push_back(vertices);
   mesh.triangle_submesh.push_back(submesh);
@@ -68,7 +78,7 @@ Index SurfaceEditor::append_point(Index side) {
 
 Index SurfaceEditor::append_vertex(Index mesh, const Birth& birth) {
   births_[mesh].push_back(birth);
-  return append_interpolated_vertex(source_.meshes[mesh], birth, character_.meshes[mesh]);
+  return append_interpolated_vertex(origin_triangle(mesh, birth.triangle), birth.barycentric, character_.meshes[mesh]);
 }
 
 void SurfaceEditor::remove_newest_vertex(Index mesh) {
@@ -78,8 +88,7 @@ void SurfaceEditor::remove_newest_vertex(Index mesh) {
 
 std::array<double, 3> SurfaceEditor::source_barycentric(Index corner) const {
   const TriangleRef& ref = surface_.triangles[corner / 3];
-  const Mesh& source = source_.meshes[ref.mesh];
-  const Triangle& in_triangle = source.triangles[ref.source_triangle];
+  const Triangle& in_triangle = origin_triangle(ref.mesh, ref.source_triangle);
   const Index vertex = vertex_at(corner);
 
   std::array<double, 3> result = {0, 0, 0};
@@ -91,14 +100,14 @@ std::array<double, 3> SurfaceEditor::source_barycentric(Index corner) const {
       }
     assert(false && "a vertex is shared only by parts of source triangles that share its parents");
   };
-  if (vertex < source.vertex_count()) {
+  if (vertex < source_.meshes[ref.mesh].vertex_count()) {
     add(vertex, 1.0);
     return result;
   }
   const Birth& born = birth(ref.mesh, vertex);
   if (born.triangle == ref.source_triangle) return born.barycentric;
   for (std::size_t k = 0; k < 3; ++k)
-    if (born.barycentric[k] > 0.0) add(source.triangles[born.triangle][k], born.barycentric[k]);
+    if (born.barycentric[k] > 0.0) add(origin_triangle(ref.mesh, born.triangle)[k], born.barycentric[k]);
   return result;
 }
 
@@ -290,42 +299,190 @@ Index SurfaceEditor::separate_fan(Index corner, Index side, const std::vector<In
   return point;
 }
 
+void SurfaceEditor::retire_triangle(Index triangle) {
+  log_triangle(triangle);
+  const Index vertex = vertices_of(triangle)[0];
+  for (Index k = 0; k < 3; ++k) {
+    set_corner(3 * triangle + k, kNone, vertex);
+    surface_.twin[3 * triangle + k] = kNone;
+  }
+}
+
+bool SurfaceEditor::flip_edge(Index half_edge) {
+  const Index ab = half_edge, bc = Surface::next(ab), ca = Surface::previous(ab);
+  const Index ba = surface_.twin[ab];
+  if (ba == kNone) return false;
+  const Index ad = Surface::next(ba), db = Surface::previous(ba);
+  const Index f = ab / 3, g = ba / 3;
+  const TriangleRef &ref_f = surface_.triangles[f], &ref_g = surface_.triangles[g];
+  const bool is_one_triangle = ref_f.mesh == ref_g.mesh && ref_f.source_triangle == ref_g.source_triangle &&
+                               vertex_at(ab) == vertex_at(ad) && vertex_at(bc) == vertex_at(ba);
+  if (!is_one_triangle) return false;
+  const Index a = surface_.corner_point[ab], b = surface_.corner_point[bc];
+  const Index c = surface_.corner_point[ca], d = surface_.corner_point[db];
+  if (c == d || surface_.find_half_edge(c, d) != kNone || surface_.find_half_edge(d, c) != kNone) return false;
+
+  // Both new faces must cover a part of the source triangle, and of the bind surface as its rounded positions have it.
+  const auto place_a = source_barycentric(ab), place_b = source_barycentric(bc), place_c = source_barycentric(ca),
+             place_d = source_barycentric(db);
+  using Place = std::array<double, 3>;
+  const auto cover = [](const Place& p, const Place& q, const Place& r) {
+    return (q[1] - p[1]) * (r[2] - p[2]) - (q[2] - p[2]) * (r[1] - p[1]);
+  };
+  const double whole = cover(place_a, place_b, place_c) + cover(place_b, place_a, place_d);
+  if (!(cover(place_a, place_d, place_c) > 1e-9 * whole) || !(cover(place_b, place_c, place_d) > 1e-9 * whole)) return false;
+  const Mesh& mesh = character_.meshes[ref_f.mesh];
+  const Index vertex_a = vertex_at(ab), vertex_b = vertex_at(bc), vertex_c = vertex_at(ca), vertex_d = vertex_at(db);
+  const auto normal = [&](Index p, Index q, Index r) -> Eigen::Vector3d {
+    const Eigen::Vector3d at_p = mesh.positions[p].cast<double>();
+    return (mesh.positions[q].cast<double>() - at_p).cross(mesh.positions[r].cast<double>() - at_p);
+  };
+  const Triangle& origin = origin_triangle(ref_f.mesh, ref_f.source_triangle);
+  const Eigen::Vector3d before = normal(origin[0], origin[1], origin[2]);
+  const double least = 1e-9 * normal(vertex_a, vertex_b, vertex_c).norm() * before.norm();
+  if (!(normal(vertex_a, vertex_d, vertex_c).dot(before) > least) || !(normal(vertex_b, vertex_c, vertex_d).dot(before) > least))
+    return false;
+
+  const Index twin_bc = surface_.twin[bc], twin_ad = surface_.twin[ad];
+  log_triangle(f);
+  log_triangle(g);
+  if (twin_bc != kNone) log_triangle(twin_bc / 3);
+  if (twin_ad != kNone) log_triangle(twin_ad / 3);
+  set_corner(bc, d, vertex_d);
+  set_corner(ad, c, vertex_c);
+  join(ab, twin_ad);
+  join(ba, twin_bc);
+  join(bc, ad);
+  surface_.point_corner[a] = ab;
+  surface_.point_corner[b] = ba;
+  surface_.point_corner[c] = ca;
+  surface_.point_corner[d] = db;
+  return true;
+}
+
+void SurfaceEditor::begin_stage() {
+  stage_begin_ = surface_.triangle_count();
+  ancestors_.clear();
+}
+
+Index SurfaceEditor::append_submesh(Index mesh, const std::string& name, Index material) {
+  auto& submeshes = character_.meshes[mesh].submeshes;
+  submeshes.push_back({name, material});
+  return static_cast<Index>(submeshes.size() - 1);
+}
+
+Index SurfaceEditor::append_filling_vertex(Index mesh, Index like) {
+  births_[mesh].push_back({kNone, {1, 0, 0}});
+  return append_vertex_copy(like, character_.meshes[mesh]);
+}
+
+Index SurfaceEditor::append_filling(Index mesh, Index submesh, const std::array<Index, 3>& points, const Triangle& vertices) {
+  const Index origin = source_.meshes[mesh].triangle_count() + static_cast<Index>(fillings_[mesh].size());
+  fillings_[mesh].push_back(vertices);
+  const Index triangle = surface_.triangle_count();
+  Mesh& of = character_.meshes[mesh];
+  surface_.triangles.push_back({mesh, of.triangle_count(), origin});
+  appended_triangles_[mesh].push_back(triangle);
+  ancestors_.push_back(triangle);
+  of.triangles.push_back(vertices);
+  of.triangle_submesh.push_back(submesh);
+  for (Index k = 0; k < 3; ++k) {
+    surface_.corner_point.push_back(points[k]);
+    surface_.twin.push_back(kNone);
+    if (surface_.point_corner[points[k]] == kNone) surface_.point_corner[points[k]] = 3 * triangle + k;
+    Birth& birth = births_[mesh][vertices[k] - source_.meshes[mesh].vertex_count()];
+    if (birth.triangle != kNone) continue;
+    birth = {origin, {0, 0, 0}};
+    birth.barycentric[k] = 1;
+  }
+  return triangle;
+}
+
+void SurfaceEditor::connect(Index a, Index b) {
+  log_triangle(a / 3);
+  log_triangle(b / 3);
+  join(a, b);
+}
+
 SurfaceEditor::Mark SurfaceEditor::mark() const {
-  Mark mark{surface_.point_count(), surface_.triangle_count(), log_.size(), {}};
-  for (const Mesh& mesh : character_.meshes) mark.mesh_sizes.push_back({mesh.vertex_count(), mesh.triangle_count()});
+  Mark mark{surface_.point_count(), surface_.triangle_count(), log_.size(), side_log_.size(), {}};
+  for (Index m = 0; m < character_.meshes.size(); ++m) {
+    const Mesh& mesh = character_.meshes[m];
+    mark.meshes.push_back({mesh.vertex_count(), mesh.triangle_count(), static_cast<Index>(mesh.submeshes.size()),
+                           static_cast<Index>(mesh.custom_attributes.size()), static_cast<Index>(fillings_[m].size())});
+  }
   return mark;
 }
 
 void SurfaceEditor::roll_back(const Mark& to) {
-  for (; log_.size() > to.log_length; log_.pop_back()) {
-    const LogEntry& entry = log_.back();
-    for (Index k = 0; k < 3; ++k) {
-      set_corner(3 * entry.triangle + k, entry.points[k], entry.vertices[k]);
-      surface_.twin[3 * entry.triangle + k] = entry.twins[k];
-      surface_.point_corner[entry.points[k]] = entry.point_corners[k];
-    }
-  }
+  for (; log_.size() > to.log_length; log_.pop_back()) restore(log_.back());
+  for (; side_log_.size() > to.side_log_length; side_log_.pop_back())
+    tear_sides(side_log_.back().mesh)[side_log_.back().vertex] = side_log_.back().side;
   surface_.triangles.resize(to.triangles);
   surface_.corner_point.resize(3 * std::size_t{to.triangles});
   surface_.twin.resize(3 * std::size_t{to.triangles});
   surface_.point_corner.resize(to.points);
   surface_.point_side.resize(to.points);
+  if (to.triangles >= stage_begin_) {
+    ancestors_.resize(to.triangles - stage_begin_);
+  } else {
+    stage_begin_ = to.triangles;
+    ancestors_.clear();
+  }
   for (Index m = 0; m < character_.meshes.size(); ++m) {
     Mesh& mesh = character_.meshes[m];
-    remove_vertices_from(to.mesh_sizes[m][0], mesh);
-    births_[m].resize(to.mesh_sizes[m][0] - source_.meshes[m].vertex_count());
-    appended_triangles_[m].resize(to.mesh_sizes[m][1] - source_.meshes[m].triangle_count());
-    mesh.triangles.resize(to.mesh_sizes[m][1]);
-    mesh.triangle_submesh.resize(to.mesh_sizes[m][1]);
+    const Mark::MeshSizes& sizes = to.meshes[m];
+    remove_vertices_from(sizes.vertices, mesh);
+    births_[m].resize(sizes.vertices - source_.meshes[m].vertex_count());
+    appended_triangles_[m].resize(sizes.triangles - source_.meshes[m].triangle_count());
+    fillings_[m].resize(sizes.fillings);
+    mesh.triangles.resize(sizes.triangles);
+    mesh.triangle_submesh.resize(sizes.triangles);
+    mesh.submeshes.resize(sizes.submeshes);
+    mesh.custom_attributes.resize(sizes.custom_attributes);
   }
 }
 
-void SurfaceEditor::commit(const Mark& begin, ChangeRecord& change) {
+std::vector<Index> SurfaceEditor::touched_since(const Mark& mark) const {
+  std::vector<Index> touched;
+  for (std::size_t i = mark.log_length; i < log_.size(); ++i) touched.push_back(log_[i].triangle);
+  for (Index t = mark.triangles; t < surface_.triangle_count(); ++t) touched.push_back(t);
+  std::sort(touched.begin(), touched.end());
+  touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+  return touched;
+}
+
+std::vector<float>& SurfaceEditor::tear_sides(Index mesh) {
+  Mesh& of = character_.meshes[mesh];
+  auto attribute = std::find_if(of.custom_attributes.begin(), of.custom_attributes.end(), [](const CustomAttribute& candidate) {
+    return candidate.name == kTearSideAttribute && candidate.components == 1;
+  });
+  if (attribute == of.custom_attributes.end())
+    attribute = of.custom_attributes.insert(
+        attribute, CustomAttribute{kTearSideAttribute, 1, false, std::vector<float>(of.vertex_count(), 0.0f)});
+  return attribute->values;
+}
+
+void SurfaceEditor::write_sides(Index triangle) {
+  const TriangleRef& ref = surface_.triangles[triangle];
+  const Triangle vertices = vertices_of(triangle);
+  std::vector<float>& sides = tear_sides(ref.mesh);
+  for (Index k = 0; k < 3; ++k) {
+    const Index point = surface_.corner_point[3 * triangle + k];
+    if (point == kNone) return;
+    const auto side = static_cast<float>(surface_.point_side[point]);
+    if (sides[vertices[k]] == side) continue;
+    side_log_.push_back({ref.mesh, vertices[k], sides[vertices[k]]});
+    sides[vertices[k]] = side;
+  }
+}
+
+void SurfaceEditor::describe(const Mark& begin, ChangeRecord& change) {
   change.first_point = begin.points;
   change.point_count = surface_.point_count() - begin.points;
   change.meshes.clear();
 
-  // The oldest entry of a triangle says what it was; what came after is part of the same operation.
+  // The oldest entry of a triangle says what it was; what came after is part of the same change.
   std::vector<std::size_t> entries;
   for (std::size_t i = begin.log_length; i < log_.size(); ++i)
     if (log_[i].triangle < begin.triangles) entries.push_back(i);
@@ -333,45 +490,56 @@ void SurfaceEditor::commit(const Mark& begin, ChangeRecord& change) {
     const TriangleRef &ref_a = surface_.triangles[log_[a].triangle], &ref_b = surface_.triangles[log_[b].triangle];
     return ref_a.mesh != ref_b.mesh ? ref_a.mesh < ref_b.mesh : ref_a.triangle < ref_b.triangle;
   });
+  std::vector<bool> is_changed(character_.meshes.size(), false);
   for (Index m = 0; m < character_.meshes.size(); ++m) {
     const Mesh& mesh = character_.meshes[m];
+    const Mark::MeshSizes& sizes = begin.meshes[m];
     MeshChange of_mesh;
     of_mesh.mesh = m;
-    of_mesh.first_vertex = begin.mesh_sizes[m][0];
-    of_mesh.vertex_count = mesh.vertex_count() - of_mesh.first_vertex;
-    of_mesh.first_triangle = begin.mesh_sizes[m][1];
-    of_mesh.triangle_count = mesh.triangle_count() - of_mesh.first_triangle;
+    of_mesh.first_vertex = sizes.vertices;
+    of_mesh.vertex_count = mesh.vertex_count() - sizes.vertices;
+    of_mesh.first_triangle = sizes.triangles;
+    of_mesh.triangle_count = mesh.triangle_count() - sizes.triangles;
     Index previous = kNone;
     for (const std::size_t i : entries) {
       const TriangleRef& ref = surface_.triangles[log_[i].triangle];
       if (ref.mesh != m || log_[i].triangle == previous) continue;
       previous = log_[i].triangle;
-      if (mesh.triangles[ref.triangle] != log_[i].vertices) of_mesh.rewritten.push_back({ref.triangle, log_[i].vertices});
+      if (mesh.triangles[ref.triangle] == log_[i].vertices) continue;
+      of_mesh.rewritten.push_back({ref.triangle, log_[i].vertices});
+      if (is_retired(mesh.triangles[ref.triangle])) of_mesh.retired.push_back(ref.triangle);
     }
-    if (of_mesh.vertex_count > 0 || of_mesh.triangle_count > 0 || !of_mesh.rewritten.empty())
-      change.meshes.push_back(std::move(of_mesh));
+    is_changed[m] = of_mesh.vertex_count > 0 || of_mesh.triangle_count > 0 || !of_mesh.rewritten.empty();
+    if (!is_changed[m]) continue;
+    for (Index t = of_mesh.first_triangle; t < mesh.triangle_count(); ++t)
+      if (is_retired(mesh.triangles[t])) of_mesh.retired.push_back(t);
+    const auto source_vertices = static_cast<std::ptrdiff_t>(source_.meshes[m].vertex_count());
+    of_mesh.births.assign(births_[m].begin() + (static_cast<std::ptrdiff_t>(sizes.vertices) - source_vertices), births_[m].end());
+    change.meshes.push_back(std::move(of_mesh));
   }
 
-  // Every changed corner carries its point's side; corners that did not change had it already.
-  const auto write_sides = [&](Index triangle) {
-    const TriangleRef& ref = surface_.triangles[triangle];
-    const bool is_changed = std::any_of(change.meshes.begin(), change.meshes.end(),
-                                        [&](const MeshChange& of_mesh) { return of_mesh.mesh == ref.mesh; });
-    if (!is_changed) return;  // logged only as the neighbour of a change
-    Mesh& mesh = character_.meshes[ref.mesh];
-    auto attribute = std::find_if(
-        mesh.custom_attributes.begin(), mesh.custom_attributes.end(),
-        [](const CustomAttribute& candidate) { return candidate.name == kTearSideAttribute && candidate.components == 1; });
-    if (attribute == mesh.custom_attributes.end())
-      attribute = mesh.custom_attributes.insert(
-          attribute, CustomAttribute{kTearSideAttribute, 1, false, std::vector<float>(mesh.vertex_count(), 0.0f)});
-    for (Index k = 0; k < 3; ++k)
-      attribute->values[mesh.triangles[ref.triangle][k]] =
-          static_cast<float>(surface_.point_side[surface_.corner_point[3 * triangle + k]]);
-  };
-  for (const std::size_t i : entries) write_sides(log_[i].triangle);
+  // Every changed corner carries its point's side; corners that did not change had it already. Some triangles are logged only as
+  // neighbours of a change, in meshes that did not change.
+  const std::size_t first_side = side_log_.size();
+  for (const std::size_t i : entries)
+    if (is_changed[surface_.triangles[log_[i].triangle].mesh]) write_sides(log_[i].triangle);
   for (Index triangle = begin.triangles; triangle < surface_.triangle_count(); ++triangle) write_sides(triangle);
-  log_.resize(begin.log_length);
+
+  const std::span<const SideEntry> sides = std::span<const SideEntry>(side_log_).subspan(first_side);
+  for (MeshChange& of_mesh : change.meshes) fill_dirty_ranges(sides, of_mesh);
+}
+
+void SurfaceEditor::fill_dirty_ranges(std::span<const SideEntry> sides, MeshChange& change) {
+  std::vector<Index> dirty;
+  for (const SideEntry& entry : sides)
+    if (entry.mesh == change.mesh && entry.vertex < change.first_vertex) dirty.push_back(entry.vertex);
+  std::sort(dirty.begin(), dirty.end());
+  for (Index v = change.first_vertex; v < change.first_vertex + change.vertex_count; ++v) dirty.push_back(v);
+  change.dirty_vertices = DirtyRanges::covering(dirty);
+  dirty.clear();
+  for (const RewrittenTriangle& rewritten : change.rewritten) dirty.push_back(rewritten.triangle);
+  for (Index t = change.first_triangle; t < change.first_triangle + change.triangle_count; ++t) dirty.push_back(t);
+  change.dirty_triangles = DirtyRanges::covering(dirty);
 }
 
 }  // namespace sunder::tear

@@ -2,9 +2,10 @@
 
 #include <sunder/core/character.h>
 #include <sunder/tear/change_record.h>
-#include <sunder/weights/interpolate.h>
 
 #include <array>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "tear/surface.h"
@@ -27,6 +28,13 @@ class SurfaceEditor {
   [[nodiscard]] const Birth& birth(Index mesh, Index vertex) const {
     return births_[mesh][vertex - source_.meshes[mesh].vertex_count()];
   }
+  /// Triangles of walls and caps as they were made.
+  [[nodiscard]] const std::vector<Triangle>& fillings(Index mesh) const { return fillings_[mesh]; }
+  /// A triangle of the source or, beyond those, of a wall or cap: what births refer to.
+  [[nodiscard]] const Triangle& origin_triangle(Index mesh, Index triangle) const {
+    const Index source_count = source_.meshes[mesh].triangle_count();
+    return triangle < source_count ? source_.meshes[mesh].triangles[triangle] : fillings_[mesh][triangle - source_count];
+  }
 
   /// The surface's number of a mesh's triangle. Appended triangles are numbered in the order in which they were made, over all
   /// meshes.
@@ -34,6 +42,10 @@ class SurfaceEditor {
     const Index source_count = source_.meshes[mesh].triangle_count();
     return triangle < source_count ? first_triangle_[mesh] + triangle : appended_triangles_[mesh][triangle - source_count];
   }
+  /// Barycentric coordinates of a corner in the triangle's origin.
+  [[nodiscard]] std::array<double, 3> source_barycentric(Index corner) const;
+
+  // ---- Refining: the surface stays what it is.
 
   /// Puts one new point on an edge, `fraction` of the way along the half-edge, and splits the faces at both sides of it.
   /// @return the point; kNone where a face would have lost its area or turned over, and nothing was changed.
@@ -41,25 +53,81 @@ class SurfaceEditor {
   /// Puts a new point into a triangle and splits it in three. `barycentric`: of its corners, all > 0.
   /// @return as split_edge().
   [[nodiscard]] Index split_triangle(Index triangle, const std::array<double, 3>& barycentric);
+  /// Replaces the edge between two faces of one source triangle by the other diagonal of their quadrilateral: (a, b, c), (b, a, d)
+  /// become (a, d, c), (b, c, d).
+  /// @return false where they are of different triangles, or a face would lose its area or turn over; nothing was changed.
+  bool flip_edge(Index half_edge);
+
+  /// From here on ancestor() asks which triangle stood there now.
+  void begin_stage();
+  [[nodiscard]] Index ancestor(Index triangle) const {
+    return triangle < stage_begin_ ? triangle : ancestors_[triangle - stage_begin_];
+  }
+  [[nodiscard]] Index stage_begin() const { return stage_begin_; }
+
+  // ---- Opening and removing.
+
   /// Disconnects the faces at both sides of a half-edge.
   void cut_edge(Index half_edge);
   /// Gives the fan that holds `corner` a point of its own, with side `side`. Vertices that faces of other fans use are duplicated.
   /// @param remaining  a corner of each other fan that this point has.
   Index separate_fan(Index corner, Index side, const std::vector<Index>& remaining);
+  /// Takes a triangle away whose edges are all cut. Its points keep no corner of it.
+  void retire_triangle(Index triangle);
+  /// Names the corner that a point is known by.
+  void set_point_corner(Index point, Index corner) { surface_.point_corner[point] = corner; }
+
+  // ---- Walls and caps.
+
+  [[nodiscard]] Index append_submesh(Index mesh, const std::string& name, Index material);
+  /// A vertex like another one, to be changed by `edit_vertex()` before anyone sees it. It is born when a filling uses it.
+  [[nodiscard]] Index append_filling_vertex(Index mesh, Index like);
+  [[nodiscard]] Mesh& mesh_of_new_vertex(Index mesh) { return character_.meshes[mesh]; }
+  [[nodiscard]] Index append_filling_point(Index side) { return append_point(side); }
+  /// A triangle that no triangle of the source covers. Unconnected; see connect().
+  Index append_filling(Index mesh, Index submesh, const std::array<Index, 3>& points, const Triangle& vertices);
+  /// Joins two border half-edges that run between the same points in opposite directions.
+  void connect(Index a, Index b);
+
+  // ---- Operations.
 
   /// A state to come back to.
   struct Mark {
+    struct MeshSizes {
+      Index vertices = 0, triangles = 0, submeshes = 0, custom_attributes = 0, fillings = 0;
+    };
     Index points = 0;
     Index triangles = 0;
     std::size_t log_length = 0;
-    std::vector<std::array<Index, 2>> mesh_sizes;  ///< Vertices and triangles of each mesh.
+    std::size_t side_log_length = 0;
+    std::vector<MeshSizes> meshes;
   };
   [[nodiscard]] Mark mark() const;
   void roll_back(const Mark& to);
 
-  /// Ends an operation that began at `begin`: writes _TEARSIDE of what it changed, fills in `change` but for its lips, empties the
-  /// log.
-  void commit(const Mark& begin, ChangeRecord& change);
+  /// The triangles that changed since, or are new, ascending; the retired ones too.
+  [[nodiscard]] std::vector<Index> touched_since(const Mark& mark) const;
+
+  /// Calls visit(triangle, its neighbour) for triangles that were neighbours before a change since then.
+  template <class Visit>
+  void for_each_former_neighbour(const Mark& since, Visit visit) const {
+    for (std::size_t i = since.log_length; i < log_.size(); ++i)
+      for (const Index twin : log_[i].twins)
+        if (twin != kNone) visit(log_[i].triangle, twin / 3);
+  }
+
+  /// Writes _TEARSIDE of what changed since `begin` and fills in `change` but for its lips.
+  void describe(const Mark& begin, ChangeRecord& change);
+
+  /// What an operation was, to take it back later.
+  struct Step;
+  /// Ends the operation that began at `begin`.
+  [[nodiscard]] Step finish(const Mark& begin);
+  /// Takes back the newest operation. @return what does it again.
+  struct Redo;
+  [[nodiscard]] Redo undo(const Step& step, ChangeRecord& change);
+  /// @return what takes it back once more.
+  [[nodiscard]] Step redo(const Redo& redo, ChangeRecord& change);
 
  private:
   /// A triangle as it was before a change, and the corner that its points were known by.
@@ -70,17 +138,24 @@ class SurfaceEditor {
     std::array<Index, 3> point_corners;
     Triangle vertices;
   };
+  struct SideEntry {
+    Index mesh, vertex;
+    float side;
+  };
 
   void log_triangle(Index triangle);
+  void restore(const LogEntry& entry);
   void set_corner(Index corner, Index point, Index vertex);
   void join(Index a, Index b);
   Index append_triangle(Index like, const std::array<Index, 3>& points, const Triangle& vertices);
   Index append_point(Index side);
   Index append_vertex(Index mesh, const Birth& birth);
   void remove_newest_vertex(Index mesh);
+  void write_sides(Index triangle);
+  /// @param sides  what was written to _TEARSIDE.
+  static void fill_dirty_ranges(std::span<const SideEntry> sides, MeshChange& change);
+  [[nodiscard]] std::vector<float>& tear_sides(Index mesh);
   [[nodiscard]] Triangle vertices_of(Index triangle) const;
-  /// Barycentric coordinates of a corner in the source triangle.
-  [[nodiscard]] std::array<double, 3> source_barycentric(Index corner) const;
   [[nodiscard]] Birth birth_between(Index triangle, const std::array<double, 3>& barycentric) const;
   /// Whether replacing one corner of a triangle by a vertex keeps its winding.
   [[nodiscard]] bool keeps_winding(Index corner, Index vertex) const;
@@ -88,11 +163,43 @@ class SurfaceEditor {
   const Character& source_;
   Character& character_;
   Surface surface_;
-  std::vector<std::vector<Birth>> births_;  ///< Of each mesh: its vertices beyond the source's.
-  std::vector<Index> first_triangle_;       ///< Of each mesh, in the surface.
+  std::vector<std::vector<Birth>> births_;       ///< Of each mesh: its vertices beyond the source's.
+  std::vector<std::vector<Triangle>> fillings_;  ///< Of each mesh.
+  std::vector<Index> first_triangle_;            ///< Of each mesh, in the surface.
   std::vector<std::vector<Index>>
       appended_triangles_;  ///< Of each mesh: the surface's numbers of its triangles beyond the source's.
   std::vector<LogEntry> log_;
+  std::vector<SideEntry> side_log_;
+  Index stage_begin_ = 0;
+  std::vector<Index> ancestors_;  ///< Of the triangles appended since.
+};
+
+/// The log of one operation: the oldest entries win.
+struct SurfaceEditor::Step {
+  Mark begin;
+  std::vector<LogEntry> log;
+  std::vector<SideEntry> side_log;
+};
+
+/// What an operation had made when it was taken back.
+struct SurfaceEditor::Redo {
+  struct OfMesh {
+    Mesh vertices;
+    std::vector<Triangle> triangles;
+    std::vector<Index> triangle_submesh;
+    std::vector<Submesh> submeshes;
+    std::vector<CustomAttribute> custom_attributes;  ///< Added ones, without values.
+    std::vector<Birth> births;
+    std::vector<Triangle> fillings;
+    std::vector<Index> appended_triangles;
+  };
+  Step step;
+  std::vector<OfMesh> meshes;
+  std::vector<Index> corner_point, twin, point_corner, point_side;
+  std::vector<TriangleRef> triangles;
+  std::vector<LogEntry> changed;                    ///< Triangles that were there before, as the operation left them.
+  std::vector<std::array<Index, 2>> known_corners;  ///< Points that were there before, and the corners they were known by.
+  std::vector<SideEntry> sides;
 };
 
 }  // namespace sunder::tear

@@ -1,139 +1,19 @@
 #include <sunder/tear/torn_model.h>
 
-#include <algorithm>
 #include <new>
 
-#include "tear/entry.h"
-#include "tear/imprint.h"
-#include "tear/open.h"
+#include "tear/cut.h"
+#include "tear/drill.h"
+#include "tear/model_state.h"
+#include "tear/stroke_tearing.h"
 
 namespace sunder {
 namespace {
 
-using tear::BladePlane;
-using tear::Index;
-using tear::Path;
-using tear::PosedPoints;
-using tear::SurfaceEditor;
-
 /// Corners have 32-bit numbers; this leaves half of them to what tears append.
 constexpr std::size_t kMaximumTriangles = kNone / 6;
 
-Status validate_stroke(std::span<const Blade> stroke) {
-  if (stroke.size() < 2)
-    return Status::failure(StatusCode::invalid_argument, kNone, "a stroke needs at least two blades, this one has %zu",
-                           stroke.size());
-  for (Index i = 0; i < stroke.size(); ++i) {
-    const Blade& blade = stroke[i];
-    if (!blade.base.allFinite() || !blade.tip.allFinite())
-      return Status::failure(StatusCode::non_finite_value, i, "blade %u is not finite", i);
-    // Products of four coordinates must stay finite.
-    if (blade.base.cwiseAbs().maxCoeff() > 1e60 || blade.tip.cwiseAbs().maxCoeff() > 1e60)
-      return Status::failure(StatusCode::invalid_argument, i, "blade %u lies beyond 1e60", i);
-    if (!((blade.tip - blade.base).norm() > 1e-30))
-      return Status::failure(StatusCode::invalid_argument, i, "blade %u has no length", i);
-    if (i > 0 && !((blade.tip - blade.base).normalized().dot((stroke[i - 1].tip - stroke[i - 1].base).normalized()) > 0))
-      return Status::failure(StatusCode::invalid_argument, i,
-                             "blade %u is turned by 90 degrees or more against the one before it: sample the stroke more finely",
-                             i);
-  }
-  return {};
-}
-
 }  // namespace
-
-struct TornModel::State {
-  explicit State(std::shared_ptr<const Character> from) : source(std::move(from)), character(*source), editor(*source, character) {
-    for (const Index side : editor.surface().point_side) next_side = std::max(next_side, side + 1);
-  }
-
-  void tear_segment(const Blade& from, const Blade& to);
-  /// Tears on from `start`. @return the progress up to which the segment is done.
-  double tear_piece(const BladePlane& plane, Index start, const SurfaceEditor::Mark& before);
-
-  std::shared_ptr<const Character> source;
-  Character character;
-  SurfaceEditor editor;
-  PosedPoints posed;
-  Index next_side = 1;
-
-  // Of the operation under way.
-  Index tip = kNone;       ///< Where the tear stands, while it stands on the surface.
-  Index last_end = kNone;  ///< Where the last piece of the segment under way ended.
-  TearReport report;
-  std::size_t torn_edges = 0;
-  std::vector<LipPair> lips;
-};
-
-double TornModel::State::tear_piece(const BladePlane& plane, Index start, const SurfaceEditor::Mark& before) {
-  Path path = tear::imprint_path(plane, start, editor, posed);
-  const bool continues = start == tip;
-  tip = kNone;
-  if (path.end == Path::End::blocked) ++report.blocked;
-
-  // A tear of one edge between two tips would be closed at both ends of its only edge: it needs a point that can open.
-  const auto is_on_border = [&](Index point) {
-    const auto& surface = editor.surface();
-    return surface.rotate_cw(surface.first_of_fan(surface.point_corner[point])) == kNone;
-  };
-  if (path.points.size() == 2 && !is_on_border(path.points[0]) && !is_on_border(path.points[1])) {
-    const Index middle = tear::imprint_midpoint(editor.surface().find_half_edge(path.points[0], path.points[1]), editor, posed);
-    if (middle == kNone)
-      path.points.pop_back();
-    else
-      path.points.insert(path.points.begin() + 1, middle);
-  }
-  // Where the last piece of this segment snapped, something of the section may be left beside it: not a piece of its own.
-  const bool is_leftover = path.points.back() == last_end;
-  if (path.points.size() < 2 || is_leftover) {
-    editor.roll_back(before);
-    posed.forget_from(before.points);
-    if (path.end == Path::End::blade && start < before.points) tip = start;  // moved by less than can be told: go on from here
-    return path.end == Path::End::blade ? 1.0 : path.progress;
-  }
-  const std::size_t first_lip = lips.size();
-  tear::open_path(path.points, editor, next_side, lips);
-  for (std::size_t i = first_lip; i < lips.size(); ++i) posed.pin(lips[i].left, Vec3d(posed.position(editor, lips[i].right)));
-  torn_edges += path.points.size() - 1;
-  if (!continues) ++report.runs;
-  report.faces_crossed += path.faces_crossed;
-  report.length_posed += path.length_posed;
-  last_end = path.points.back();
-  if (path.end != Path::End::blade) return path.progress;
-  tip = last_end;
-  return 1.0;
-}
-
-void TornModel::State::tear_segment(const Blade& from, const Blade& to) {
-  const std::size_t edges_before = torn_edges;
-  last_end = kNone;
-  Vec3d anchor = 0.5 * (from.base + from.tip);
-  if (tip != kNone)
-    anchor = posed.position(editor, tip);
-  else if (const auto hit = tear::first_hit(from, editor, posed))
-    anchor = hit->position;
-  const auto plane = BladePlane::through(anchor, from, to);
-  if (!plane) return;  // the blade stands still; so does the tip
-
-  double progress = 0;
-  if (tip != kNone) progress = std::max(0.0, tear_piece(*plane, tip, editor.mark()));
-
-  // Where the surface ends, folds away or cannot be split, the sweep goes on to whatever it meets next. Every turn passes a
-  // triangle at least; a sweep that gets nowhere in many turns gives up.
-  for (int futile = 0; progress < 1 && futile < 64;) {
-    const auto contact = tear::first_contact(*plane, progress, editor, posed);
-    if (!contact) break;
-    const SurfaceEditor::Mark before = editor.mark();
-    const std::size_t edges = torn_edges;
-    const double reached = tear_piece(*plane, tear::imprint_point(*contact, editor, posed), before);
-    const bool has_advanced = torn_edges > edges && reached > progress + tear::kSamePlace;
-    progress = std::max(progress, reached);
-    if (has_advanced) continue;
-    progress = std::max(progress, contact->progress_beyond);
-    ++futile;
-  }
-  if (torn_edges == edges_before && tip == kNone) ++report.segments_missed;
-}
 
 Result<TornModel> TornModel::create(std::shared_ptr<const Character> source) {
   if (!source) return Status::failure(StatusCode::empty_input, kNone, "no character");
@@ -151,33 +31,127 @@ TornModel::TornModel(TornModel&&) noexcept = default;
 TornModel& TornModel::operator=(TornModel&&) noexcept = default;
 TornModel::~TornModel() = default;
 
-Result<TearReport> TornModel::tear(const ModelPose& pose, std::span<const Blade> stroke, const TearOptions&, ChangeRecord* change) {
+Result<TearReport> TornModel::tear(const ModelPose& pose, std::span<const Blade> stroke, const TearOptions& options,
+                                   ChangeRecord* change) {
   State& state = *state_;
-  if (Status status = validate_stroke(stroke); !status) return status;
-  if (Status status = state.posed.begin(state.character, pose); !status) return status;
+  if (Status status = state.may_begin(); !status) return status;
+  if (stroke.size() < 2)
+    return Status::failure(StatusCode::invalid_argument, kNone, "a stroke needs at least two blades, this one has %zu",
+                           stroke.size());
+  if (Status status = validate_options(options); !status) return status;
+  for (std::uint32_t i = 0; i < stroke.size(); ++i) {
+    if (Status status = validate_blade(stroke[i], i); !status) return status;
+    if (i == 0) continue;
+    if (Status status = validate_turn(stroke[i - 1], stroke[i], i); !status) return status;
+  }
+  if (Status status = state.stand_in(pose); !status) return status;
+  const std::uint32_t side_before = state.next_side;
+  const tear::SurfaceEditor::Mark begin = state.editor.mark();
+  auto report = state.call(
+      [&](State::Call& call) -> Status {
+        tear::StrokeTearing tearing(stroke.front(), options);
+        for (const Blade& blade : stroke.subspan(1)) tearing.extend(blade, state.workpiece());
+        tearing.finish(begin, state.workpiece());
+        call.report = tearing.report;
+        call.change.lips = tearing.lips;
+        return {};
+      },
+      change);
+  if (report) state.record(TearOperation{pose, {stroke.begin(), stroke.end()}, {}, options}, begin, side_before);
+  return report;
+}
 
-  state.report = {};
-  state.torn_edges = 0;
-  state.report.segments = static_cast<Index>(stroke.size() - 1);
-  state.lips.clear();
-  state.tip = kNone;
-  const SurfaceEditor::Mark begin = state.editor.mark();
+Result<TearReport> TornModel::cut(const ModelPose& pose, const Cut& cut, ChangeRecord* change) {
+  State& state = *state_;
+  if (Status status = state.may_begin(); !status) return status;
+  if (Status status = tear::validate_cut(cut); !status) return status;
+  if (Status status = state.stand_in(pose); !status) return status;
+  const std::uint32_t side_before = state.next_side;
+  const tear::SurfaceEditor::Mark begin = state.editor.mark();
+  auto report = state.call(
+      [&](State::Call& call) -> Status {
+        tear::cut_surface(cut, state.workpiece(), call.report, call.change.lips);
+        return {};
+      },
+      change, true);
+  if (report) state.record(CutOperation{pose, cut}, begin, side_before);
+  return report;
+}
+
+Result<TearReport> TornModel::drill(const ModelPose& pose, const Bore& bore, ChangeRecord* change) {
+  State& state = *state_;
+  if (Status status = state.may_begin(); !status) return status;
+  if (Status status = tear::validate_bore(bore); !status) return status;
+  if (Status status = state.stand_in(pose); !status) return status;
+  const std::uint32_t side_before = state.next_side;
+  const tear::SurfaceEditor::Mark begin = state.editor.mark();
+  auto report = state.call(
+      [&](State::Call& call) -> Status {
+        tear::drill_surface(bore, state.workpiece(), call.report);
+        return {};
+      },
+      change);
+  if (report) state.record(DrillOperation{pose, bore}, begin, side_before);
+  return report;
+}
+
+Status TornModel::undo(ChangeRecord* change) {
+  State& state = *state_;
+  if (Status status = state.may_begin(); !status) return status;
+  if (state.done.empty()) return Status::failure(StatusCode::not_found, kNone, "there is nothing to undo");
+  State::Done& last = state.done.back();
   ChangeRecord done;
   try {
-    for (std::size_t i = 0; i + 1 < stroke.size(); ++i) state.tear_segment(stroke[i], stroke[i + 1]);
-    state.editor.commit(begin, done);
+    state.undone.reserve(state.undone.size() + 1);
+    auto redo = state.editor.undo(last.step, done);
+    state.undone.push_back({std::move(last.operation), std::move(redo), last.side_before, state.next_side});
   } catch (const std::bad_alloc&) {
-    state.editor.roll_back(begin);
     return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
   }
-  done.lips = state.lips;
-  state.report.points_added = done.point_count;
-  for (const MeshChange& mesh : done.meshes) {
-    state.report.vertices_added += mesh.vertex_count;
-    state.report.triangles_added += mesh.triangle_count;
-  }
+  state.next_side = last.side_before;
+  state.done.pop_back();
   if (change != nullptr) *change = std::move(done);
-  return state.report;
+  return {};
+}
+
+Status TornModel::redo(ChangeRecord* change) {
+  State& state = *state_;
+  if (Status status = state.may_begin(); !status) return status;
+  if (state.undone.empty()) return Status::failure(StatusCode::not_found, kNone, "there is nothing to do again");
+  State::Undone& last = state.undone.back();
+  ChangeRecord done;
+  try {
+    state.done.reserve(state.done.size() + 1);
+    auto step = state.editor.redo(last.redo, done);
+    state.done.push_back({std::move(last.operation), std::move(step), last.side_before});
+  } catch (const std::bad_alloc&) {
+    return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
+  }
+  state.next_side = last.side_after;
+  state.undone.pop_back();
+  if (change != nullptr) *change = std::move(done);
+  return {};
+}
+
+std::uint32_t TornModel::undo_count() const { return static_cast<std::uint32_t>(state_->done.size()); }
+std::uint32_t TornModel::redo_count() const { return static_cast<std::uint32_t>(state_->undone.size()); }
+
+std::vector<Operation> TornModel::history() const {
+  std::vector<Operation> operations;
+  for (const State::Done& done : state_->done) operations.push_back(done.operation);
+  return operations;
+}
+
+Result<CompactMaps> TornModel::compact() {
+  if (Status status = state_->may_begin(); !status) return status;
+  try {
+    auto source = std::make_shared<Character>(state_->character);
+    CompactMaps maps = sunder::compact(*source);
+    state_ = std::make_unique<State>(std::move(source));
+    return maps;
+  } catch (const std::bad_alloc&) {
+    return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
+  }
 }
 
 const Character& TornModel::character() const { return state_->character; }
@@ -193,5 +167,7 @@ Birth TornModel::birth(std::uint32_t mesh, std::uint32_t vertex) const { return 
 std::uint32_t TornModel::source_triangle(std::uint32_t mesh, std::uint32_t triangle) const {
   return state_->editor.surface().triangles[state_->editor.surface_triangle(mesh, triangle)].source_triangle;
 }
+
+std::span<const Triangle> TornModel::fillings(std::uint32_t mesh) const { return state_->editor.fillings(mesh); }
 
 }  // namespace sunder

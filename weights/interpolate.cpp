@@ -6,12 +6,10 @@
 namespace sunder {
 namespace {
 
-/// The corners of a birth, and the sums over them.
+/// The corners of a new vertex, and the sums over them.
 struct Corners {
   Triangle vertices;
   std::array<double, 3> barycentric;
-
-  Corners(const Mesh& source, const Birth& birth) : vertices(source.triangles[birth.triangle]), barycentric(birth.barycentric) {}
 
   template <int N>
   [[nodiscard]] Eigen::Matrix<double, N, 1> mean(const std::vector<Eigen::Matrix<float, N, 1, Eigen::DontAlign>>& values) const {
@@ -33,34 +31,37 @@ Eigen::Vector3d unit_direction(const Eigen::Vector3d& direction, const Vec3f& ne
   return length > 1e-12 ? Eigen::Vector3d(direction / length) : Eigen::Vector3d(nearest.cast<double>());
 }
 
-void append_mean(const std::vector<Vec3f>& source, const Corners& corners, std::vector<Vec3f>& values) {
-  if (!source.empty()) values.emplace_back(corners.mean(source).cast<float>());
+template <int N>
+void append_mean(const Corners& corners, std::vector<Eigen::Matrix<float, N, 1, Eigen::DontAlign>>& values) {
+  if (!values.empty()) values.emplace_back(corners.mean(values).template cast<float>());
 }
 
-void append_custom(const CustomAttribute& source, const Corners& corners, CustomAttribute& attribute) {
-  for (std::uint32_t c = 0; c < source.components; ++c) {
-    if (!source.interpolates) {
-      attribute.values.push_back(source.values[std::size_t{corners.nearest_vertex()} * source.components + c]);
+void append_custom(const Corners& corners, CustomAttribute& attribute) {
+  const auto value_at = [&](std::uint32_t vertex, std::uint32_t c) {
+    return attribute.values[std::size_t{vertex} * attribute.components + c];
+  };
+  for (std::uint32_t c = 0; c < attribute.components; ++c) {
+    if (!attribute.interpolates) {
+      attribute.values.push_back(value_at(corners.nearest_vertex(), c));
       continue;
     }
     double sum = 0;
     for (std::size_t k = 0; k < 3; ++k)
-      if (corners.barycentric[k] > 0.0)
-        sum +=
-            corners.barycentric[k] * static_cast<double>(source.values[std::size_t{corners.vertices[k]} * source.components + c]);
+      if (corners.barycentric[k] > 0.0) sum += corners.barycentric[k] * static_cast<double>(value_at(corners.vertices[k], c));
     attribute.values.push_back(static_cast<float>(sum));
   }
 }
 
 /// The barycentric mean of the corners' weights. Appended to the pool in place, so that a warm call does not allocate.
-void append_mean_weights(const SkinWeights& source, const Corners& corners, SkinWeights& weights) {
+void append_mean_weights(const Corners& corners, SkinWeights& weights) {
   auto& pool = weights.influences;
   const std::size_t begin = pool.size();
   double sum = 0;
   // The mean is at most a few dozen influences: a linear search for a slot beats any map.
   for (std::size_t k = 0; k < 3; ++k) {
     if (corners.barycentric[k] <= 0.0) continue;
-    for (const Influence& influence : source.of(corners.vertices[k])) {
+    for (std::uint32_t i = weights.first[corners.vertices[k]]; i < weights.first[corners.vertices[k] + 1]; ++i) {
+      const Influence influence = pool[i];  // by value: the pool grows
       const auto part = static_cast<float>(corners.barycentric[k] * static_cast<double>(influence.weight));
       if (!(part > 0.0f)) continue;
       const auto same_slot = std::find_if(pool.begin() + static_cast<std::ptrdiff_t>(begin), pool.end(),
@@ -94,34 +95,49 @@ void for_each_array(Mesh& mesh, Visit visit) {
   }
 }
 
+/// The same for the arrays of two meshes that have the same attributes.
+template <class Visit>
+void for_each_array_pair(const Mesh& from, Mesh& to, Visit visit) {
+  visit(from.positions, to.positions, 1u);
+  visit(from.normals, to.normals, 1u);
+  visit(from.tangents, to.tangents, 1u);
+  for (std::size_t i = 0; i < from.uv_sets.size(); ++i) visit(from.uv_sets[i], to.uv_sets[i], 1u);
+  for (std::size_t i = 0; i < from.color_sets.size(); ++i) visit(from.color_sets[i], to.color_sets[i], 1u);
+  for (std::size_t i = 0; i < from.custom_attributes.size(); ++i)
+    visit(from.custom_attributes[i].values, to.custom_attributes[i].values, from.custom_attributes[i].components);
+  for (std::size_t i = 0; i < from.morph_targets.size(); ++i) {
+    visit(from.morph_targets[i].position_deltas, to.morph_targets[i].position_deltas, 1u);
+    visit(from.morph_targets[i].normal_deltas, to.morph_targets[i].normal_deltas, 1u);
+    visit(from.morph_targets[i].tangent_deltas, to.morph_targets[i].tangent_deltas, 1u);
+  }
+}
+
 }  // namespace
 
-std::uint32_t append_interpolated_vertex(const Mesh& source, const Birth& birth, Mesh& mesh) {
-  const Corners corners(source, birth);
+std::uint32_t append_interpolated_vertex(const Triangle& vertices, const std::array<double, 3>& barycentric, Mesh& mesh) {
+  const Corners corners{vertices, barycentric};
   const std::uint32_t nearest = corners.nearest_vertex();
   const std::uint32_t vertex = mesh.vertex_count();
-  append_mean(source.positions, corners, mesh.positions);
-  if (!source.normals.empty())
-    mesh.normals.emplace_back(unit_direction(corners.mean(source.normals), source.normals[nearest]).cast<float>());
-  if (!source.tangents.empty()) {
-    const Eigen::Vector3d mean = corners.mean(source.tangents).head<3>();
-    const Eigen::Vector3f tangent = unit_direction(mean, source.tangents[nearest].head<3>()).cast<float>();
-    mesh.tangents.emplace_back(tangent.x(), tangent.y(), tangent.z(), source.tangents[nearest].w());
+  append_mean(corners, mesh.positions);
+  if (!mesh.normals.empty()) {
+    const Vec3f of_nearest = mesh.normals[nearest];
+    mesh.normals.emplace_back(unit_direction(corners.mean(mesh.normals), of_nearest).cast<float>());
   }
-  for (std::size_t i = 0; i < source.uv_sets.size(); ++i)
-    mesh.uv_sets[i].emplace_back(corners.mean(source.uv_sets[i]).cast<float>());
-  for (std::size_t i = 0; i < source.color_sets.size(); ++i)
-    mesh.color_sets[i].emplace_back(corners.mean(source.color_sets[i]).cast<float>());
-  for (std::size_t i = 0; i < source.custom_attributes.size(); ++i)
-    append_custom(source.custom_attributes[i], corners, mesh.custom_attributes[i]);
-  for (std::size_t i = source.custom_attributes.size(); i < mesh.custom_attributes.size(); ++i)
-    mesh.custom_attributes[i].values.resize(mesh.custom_attributes[i].values.size() + mesh.custom_attributes[i].components, 0.0f);
-  for (std::size_t i = 0; i < source.morph_targets.size(); ++i) {
-    append_mean(source.morph_targets[i].position_deltas, corners, mesh.morph_targets[i].position_deltas);
-    append_mean(source.morph_targets[i].normal_deltas, corners, mesh.morph_targets[i].normal_deltas);
-    append_mean(source.morph_targets[i].tangent_deltas, corners, mesh.morph_targets[i].tangent_deltas);
+  if (!mesh.tangents.empty()) {
+    const Vec4f of_nearest = mesh.tangents[nearest];
+    const Eigen::Vector3d mean = corners.mean(mesh.tangents).head<3>();
+    const Eigen::Vector3f tangent = unit_direction(mean, of_nearest.head<3>()).cast<float>();
+    mesh.tangents.emplace_back(tangent.x(), tangent.y(), tangent.z(), of_nearest.w());
   }
-  append_mean_weights(source.weights, corners, mesh.weights);
+  for (auto& uv : mesh.uv_sets) append_mean(corners, uv);
+  for (auto& colors : mesh.color_sets) append_mean(corners, colors);
+  for (CustomAttribute& attribute : mesh.custom_attributes) append_custom(corners, attribute);
+  for (MorphTarget& target : mesh.morph_targets) {
+    append_mean(corners, target.position_deltas);
+    append_mean(corners, target.normal_deltas);
+    append_mean(corners, target.tangent_deltas);
+  }
+  append_mean_weights(corners, mesh.weights);
   return vertex;
 }
 
@@ -165,6 +181,31 @@ void remove_vertices_from(std::uint32_t vertex_count, Mesh& mesh) {
   });
   mesh.weights.first.resize(vertex_count + 1);
   mesh.weights.influences.resize(mesh.weights.first.back());
+}
+
+Mesh copy_vertices_from(std::uint32_t first_vertex, const Mesh& mesh) {
+  Mesh tail;
+  tail.uv_sets.resize(mesh.uv_sets.size());
+  tail.color_sets.resize(mesh.color_sets.size());
+  for (const CustomAttribute& attribute : mesh.custom_attributes)
+    tail.custom_attributes.push_back({attribute.name, attribute.components, attribute.interpolates, {}});
+  tail.morph_targets.resize(mesh.morph_targets.size());
+  for_each_array_pair(mesh, tail, [&](const auto& from, auto& to, std::size_t per_vertex) {
+    if (!from.empty()) to.assign(from.begin() + static_cast<std::ptrdiff_t>(first_vertex * per_vertex), from.end());
+  });
+  const std::uint32_t begin = mesh.weights.first[first_vertex];
+  tail.weights.first.clear();
+  for (std::size_t v = first_vertex; v < mesh.weights.first.size(); ++v)
+    tail.weights.first.push_back(mesh.weights.first[v] - begin);
+  tail.weights.influences.assign(mesh.weights.influences.begin() + begin, mesh.weights.influences.end());
+  return tail;
+}
+
+void append_vertices(const Mesh& tail, Mesh& mesh) {
+  for_each_array_pair(tail, mesh, [](const auto& from, auto& to, std::size_t) { to.insert(to.end(), from.begin(), from.end()); });
+  const auto begin = static_cast<std::uint32_t>(mesh.weights.influences.size());
+  for (std::size_t v = 1; v < tail.weights.first.size(); ++v) mesh.weights.first.push_back(begin + tail.weights.first[v]);
+  mesh.weights.influences.insert(mesh.weights.influences.end(), tail.weights.influences.begin(), tail.weights.influences.end());
 }
 
 }  // namespace sunder

@@ -34,7 +34,7 @@ TEST(Interpolate, every_attribute_is_the_barycentric_mean) {
     const std::uint32_t t = random.index(source.triangle_count());
     const double u = random.uniform(0, 0.5), v = random.uniform(0, 0.49);
     Mesh mesh = source;
-    const std::uint32_t made = append_interpolated_vertex(source, {t, {1 - u - v, u, v}}, mesh);
+    const std::uint32_t made = append_interpolated_vertex(source.triangles[t], {1 - u - v, u, v}, mesh);
     ASSERT_EQ(made, source.vertex_count());
     const std::uint32_t a = source.triangles[t][0], b = source.triangles[t][1], c = source.triangles[t][2];
     const auto mean = [&](const auto& values) {
@@ -71,7 +71,7 @@ TEST(Interpolate, every_attribute_is_the_barycentric_mean) {
 TEST(Interpolate, a_birth_in_a_corner_is_that_vertex) {
   const Mesh source = rich_mesh();
   Mesh mesh = source;
-  const std::uint32_t made = append_interpolated_vertex(source, {3, {0, 1, 0}}, mesh);
+  const std::uint32_t made = append_interpolated_vertex(source.triangles[3], {0, 1, 0}, mesh);
   const std::uint32_t corner = source.triangles[3][1];
   EXPECT_EQ(mesh.positions[made], source.positions[corner]);
   EXPECT_EQ(mesh.uv_sets[0][made], source.uv_sets[0][corner]);
@@ -88,7 +88,7 @@ TEST(Interpolate, copies_and_removals_are_exact) {
   EXPECT_EQ(mesh.positions[copy], mesh.positions[9]);
   EXPECT_EQ(mesh.custom_attributes[0].values[2 * copy + 1], mesh.custom_attributes[0].values[19]);
   EXPECT_TRUE(std::ranges::equal(mesh.weights.of(copy), mesh.weights.of(9)));
-  append_interpolated_vertex(source, {1, {0.2, 0.3, 0.5}}, mesh);
+  append_interpolated_vertex(source.triangles[1], {0.2, 0.3, 0.5}, mesh);
   remove_vertices_from(source.vertex_count(), mesh);
   EXPECT_EQ(mesh, source);
 }
@@ -96,8 +96,8 @@ TEST(Interpolate, copies_and_removals_are_exact) {
 TEST(Interpolate, a_surface_point_is_copied_bit_for_bit) {
   const Mesh source = rich_mesh();
   Mesh mesh = source;
-  const std::uint32_t like = append_interpolated_vertex(source, {1, {0.2, 0.3, 0.5}}, mesh);
-  const std::uint32_t made = append_interpolated_vertex(source, {8, {0.6, 0.3, 0.1}}, mesh);
+  const std::uint32_t like = append_interpolated_vertex(source.triangles[1], {0.2, 0.3, 0.5}, mesh);
+  const std::uint32_t made = append_interpolated_vertex(source.triangles[8], {0.6, 0.3, 0.1}, mesh);
   copy_surface_point(mesh, like, made, mesh);
   EXPECT_EQ(mesh.positions[made], mesh.positions[like]);
   EXPECT_EQ(mesh.morph_targets[0].position_deltas[made], mesh.morph_targets[0].position_deltas[like]);

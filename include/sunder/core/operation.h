@@ -27,7 +27,7 @@ struct TearOptions {
 
 /// A cut by a plane, in model space.
 struct Cut {
-  Vec3d point = Vec3d::Zero();        ///< On the plane.
+  Vec3d point = Vec3d::Zero();          ///< On the plane.
   Vec3d normal = Vec3d(0.0, 0.0, 1.0);  ///< Towards the left lip; any length but zero.
   /// Corners of a convex polygon, projected onto the plane, outside of which nothing is cut. Empty: the whole plane.
   std::vector<Vec3d> bounds;

@@ -24,8 +24,8 @@ struct Range {
   bool operator==(const Range&) const = default;
 };
 
-/// What of a buffer has to be uploaded again: at most eight ranges, ascending and apart. Where there are more places than ranges, the
-/// ranges hold elements between them that did not change.
+/// What of a buffer has to be uploaded again: at most eight ranges, ascending and apart. Where there are more places than ranges,
+/// the ranges hold elements between them that did not change.
 class DirtyRanges {
  public:
   static constexpr std::size_t kMaximum = 8;
@@ -53,8 +53,8 @@ struct MeshChange {
   std::vector<Birth> births;                             ///< Of the appended vertices.
   std::vector<RewrittenTriangle> rewritten;              ///< Ascending by triangle; the retired ones too.
   std::vector<std::uint32_t> retired;                    ///< Ascending: is_retired() from now on.
-  DirtyRanges dirty_vertices;   ///< Appended ones, and those whose tear side changed.
-  DirtyRanges dirty_triangles;  ///< Appended and rewritten ones.
+  DirtyRanges dirty_vertices;                            ///< Appended ones, and those whose tear side changed.
+  DirtyRanges dirty_triangles;                           ///< Appended and rewritten ones.
 };
 
 /// Two surface points that were one before the tear; left and right of the stroke's direction, seen from outside. Of a cut, left is

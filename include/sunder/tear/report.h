@@ -13,10 +13,10 @@ struct Piece {
     std::uint32_t mesh = 0;
     std::vector<std::uint32_t> triangles;  ///< Ascending.
   };
-  std::vector<Triangles> meshes;      ///< Ascending by mesh.
+  std::vector<Triangles> meshes;  ///< Ascending by mesh.
   std::uint32_t triangle_count = 0;
-  std::vector<std::uint32_t> bones;   ///< Of the skeleton, ascending: those that move a vertex of the piece.
-  double area_posed = 0.0;            ///< Square metres.
+  std::vector<std::uint32_t> bones;      ///< Of the skeleton, ascending: those that move a vertex of the piece.
+  double area_posed = 0.0;               ///< Square metres.
   Vec3d centroid_posed = Vec3d::Zero();  ///< Of the surface, by area; model space.
 };
 
@@ -30,7 +30,7 @@ struct TearReport {
   std::uint32_t vertices_added = 0;
   std::uint32_t triangles_added = 0;
   std::uint32_t triangles_retired = 0;  ///< Of those that were there before.
-  std::uint32_t blocked = 0;  ///< Places where the surface could not be torn, because its faces are too small or degenerate.
+  std::uint32_t blocked = 0;        ///< Places where the surface could not be torn, because its faces are too small or degenerate.
   double length_posed = 0.0;        ///< Of the tear on the posed surface, or of all edges of a cut, metres.
   double area_removed_posed = 0.0;  ///< Of the surface that lay in the gap or bore, square metres.
   std::uint32_t caps = 0;           ///< Faces of flat section closed, counted once for each side.

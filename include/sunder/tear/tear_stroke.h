@@ -10,8 +10,8 @@ struct StrokeSampling {
   double minimum_seconds = 0.0;   ///< That must have passed since then; >= 0.
 };
 
-/// A tear that arrives blade by blade, over many frames, while the character moves. In one pose it gives the same surface, bit for bit,
-/// as TornModel::tear() of all its blades. It is one operation to undo.
+/// A tear that arrives blade by blade, over many frames, while the character moves. In one pose it gives the same surface, bit for
+/// bit, as TornModel::tear() of all its blades. It is one operation to undo.
 ///
 /// While a stroke is under way its model refuses other operations. The model must outlive it; moving the model is allowed.
 class SUNDER_API TearStroke {
@@ -25,7 +25,8 @@ class SUNDER_API TearStroke {
   /// it is mitred depends on where the blade goes next.
   ///
   /// @param seconds  time of the blade, for the sampling; not before that of the last.
-  /// @return what this call did: a blade that is not taken up yet is no segment; one that meets nothing is a segment missed. On failure
+  /// @return what this call did: a blade that is not taken up yet is no segment; one that meets nothing is a segment missed. On
+  /// failure
   ///         the stroke and the model are as they were.
   ///
   /// O(faces crossed) while the tear stands on the surface.

@@ -23,8 +23,8 @@ class SUNDER_API TornModel {
   TornModel& operator=(TornModel&&) noexcept;
   ~TornModel();
 
-  /// Tears the posed surface along a stroke. Without width it opens and the two lips coincide until something pulls them apart; with
-  /// a width, the band of surface that a blade of that thickness passes is removed.
+  /// Tears the posed surface along a stroke. Without width it opens and the two lips coincide until something pulls them apart;
+  /// with a width, the band of surface that a blade of that thickness passes is removed.
   ///
   /// Each two neighbouring blades sweep a segment, cut by one plane: through the tip where the tear stands (or the first blade's
   /// hit) and the second blade. The tear enters where the sweep first meets the surface, on the layer nearest to the blade's base,
@@ -56,8 +56,8 @@ class SUNDER_API TornModel {
   [[nodiscard]] std::uint32_t undo_count() const;
   [[nodiscard]] std::uint32_t redo_count() const;
 
-  /// What was done and not taken back, oldest first, with the poses' bone matrices in full: played on the source it gives this model
-  /// again, bit for bit.
+  /// What was done and not taken back, oldest first, with the poses' bone matrices in full: played on the source it gives this
+  /// model again, bit for bit.
   [[nodiscard]] std::vector<Operation> history() const;
 
   /// Drops retired triangles and unused vertices. The model begins anew with the result as its source: births start over, and there

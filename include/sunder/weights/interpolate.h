@@ -10,17 +10,18 @@ namespace sunder {
 /// Where a new vertex came from: a triangle of the mesh as it was loaded, and where in it. Every attribute is derived from this,
 /// so a vertex made by the hundredth tear is as exact as one made by the first.
 struct Birth {
-  std::uint32_t triangle = 0;                       ///< In the source mesh.
+  std::uint32_t triangle = 0;                       ///< In the source mesh; beyond its last: of a wall or cap.
   std::array<double, 3> barycentric = {1.0, 0, 0};  ///< Of its corners; >= 0, sum 1.
+
+  bool operator==(const Birth&) const = default;
 };
 
-/// Appends to `mesh` the vertex that `birth` describes: position, normal, tangent, texture coordinates, colours, custom attributes,
-/// morph deltas linear in the barycentric coordinates (directions renormalised, labels from the nearest corner); the weights are
-/// the barycentric mean, all influences kept, normalised, largest first.
+/// Appends the vertex that lies at `barycentric` between three vertices of the mesh: position, normal, tangent, texture
+/// coordinates, colours, custom attributes, morph deltas linear in the coordinates (directions renormalised, labels from the
+/// nearest corner); the weights are the barycentric mean, all influences kept, normalised, largest first.
 ///
-/// @param source  the mesh as it was loaded; `mesh` grew out of it and has the same attributes.
 /// @return the new vertex' index. O(attributes + influences); allocates only where an array of `mesh` has to grow.
-SUNDER_API std::uint32_t append_interpolated_vertex(const Mesh& source, const Birth& birth, Mesh& mesh);
+SUNDER_API std::uint32_t append_interpolated_vertex(const Triangle& corners, const std::array<double, 3>& barycentric, Mesh& mesh);
 
 /// Appends a copy of `vertex`, bit for bit.
 SUNDER_API std::uint32_t append_vertex_copy(std::uint32_t vertex, Mesh& mesh);
@@ -31,5 +32,11 @@ SUNDER_API void copy_surface_point(const Mesh& like_mesh, std::uint32_t like, st
 
 /// Removes the newest vertices, down to `vertex_count`.
 SUNDER_API void remove_vertices_from(std::uint32_t vertex_count, Mesh& mesh);
+
+/// A mesh of copies of the vertices from `first_vertex` on, without triangles.
+[[nodiscard]] SUNDER_API Mesh copy_vertices_from(std::uint32_t first_vertex, const Mesh& mesh);
+
+/// Appends all vertices of `tail`, which has the same attributes.
+SUNDER_API void append_vertices(const Mesh& tail, Mesh& mesh);
 
 }  // namespace sunder

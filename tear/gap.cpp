@@ -1,0 +1,167 @@
+#include "tear/gap.h"
+
+#include <algorithm>
+#include <unordered_set>
+
+namespace sunder::tear {
+namespace {
+
+/// Less of an edge than this inside a cell does not lead from face to face.
+constexpr double kLeast = 1e-9;
+
+using Corners = std::array<Vec3d, 3>;
+
+Corners posed_corners(Index face, const SurfaceEditor& editor, PosedPoints& posed) {
+  const Index* points = &editor.surface().corner_point[3 * face];
+  return {posed.position(editor, points[0]), posed.position(editor, points[1]), posed.position(editor, points[2])};
+}
+
+bool is_edge_in_cell(const Cell& cell, const Vec3d& a, const Vec3d& b) {
+  double begin = 0, end = 1;
+  for (const HalfSpace& side : cell) {
+    const double at_a = side.value(a), at_b = side.value(b);
+    if (at_a < 0 && at_b < 0) return false;
+    if (at_a < 0) begin = std::max(begin, at_a / (at_a - at_b));
+    if (at_b < 0) end = std::min(end, at_a / (at_a - at_b));
+  }
+  return end - begin > kLeast;
+}
+
+/// Whether a triangle and a cell share more than a border: Sutherland and Hodgman 1974.
+bool is_face_in_cell(const Cell& cell, const Corners& corners, std::vector<Vec3d>& polygon, std::vector<Vec3d>& clipped) {
+  for (const HalfSpace& side : cell)
+    if (std::none_of(corners.begin(), corners.end(), [&](const Vec3d& corner) { return side.value(corner) > 0; })) return false;
+  polygon.assign(corners.begin(), corners.end());
+  for (const HalfSpace& side : cell) {
+    clipped.clear();
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+      const Vec3d &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+      const double at_a = side.value(a), at_b = side.value(b);
+      if (at_a > 0) clipped.push_back(a);
+      if ((at_a > 0) != (at_b > 0)) clipped.push_back(a + at_a / (at_a - at_b) * (b - a));
+    }
+    polygon.swap(clipped);
+    if (polygon.size() < 3) return false;
+  }
+  return true;
+}
+
+std::vector<Sheet> sheets_of(const Cell& cell) {
+  std::vector<Sheet> sheets(cell.size());
+  for (std::size_t i = 0; i < cell.size(); ++i) {
+    sheets[i].plane = cell[i];
+    for (std::size_t j = 0; j < cell.size(); ++j)
+      if (j != i) sheets[i].bounds.push_back({cell[j], static_cast<Index>(j)});
+  }
+  return sheets;
+}
+
+/// Takes faces (ascending) away and gives every fan that is left of their points a point of its own.
+void remove_faces(const std::vector<Index>& faces, SurfaceEditor& editor, PosedPoints& posed, Index& side) {
+  const Surface& surface = editor.surface();
+  const auto stays = [&](Index face) { return !std::binary_search(faces.begin(), faces.end(), face); };
+
+  // Corners that stay at the points of those that go.
+  std::vector<std::array<Index, 2>> remaining;
+  for (const Index face : faces)
+    for (Index corner = 3 * face; corner < 3 * face + 3; ++corner)
+      surface.for_each_in_fan(corner, [&](Index c) {
+        if (stays(c / 3)) remaining.push_back({surface.corner_point[c], c});
+      });
+  std::sort(remaining.begin(), remaining.end());
+  remaining.erase(std::unique(remaining.begin(), remaining.end()), remaining.end());
+
+  std::vector<Index> points;
+  for (const Index face : faces) {
+    for (Index corner = 3 * face; corner < 3 * face + 3; ++corner) {
+      points.push_back(surface.corner_point[corner]);
+      editor.cut_edge(corner);
+    }
+    editor.retire_triangle(face);
+  }
+  std::sort(points.begin(), points.end());
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  Index highest_side = side;
+  std::vector<Index> fans, others;
+  for (const Index point : points) {
+    fans.clear();
+    for (auto at = std::lower_bound(remaining.begin(), remaining.end(), std::array<Index, 2>{point, 0});
+         at != remaining.end() && (*at)[0] == point; ++at) {
+      const Index fan = surface.first_of_fan((*at)[1]);
+      if (std::find(fans.begin(), fans.end(), fan) == fans.end()) fans.push_back(fan);
+    }
+    editor.set_point_corner(point, fans.empty() ? kNone : fans.front());
+    Index of_place = side;
+    for (std::size_t fan = 1; fan < fans.size(); ++fan) {
+      others = fans;
+      others.erase(others.begin() + static_cast<std::ptrdiff_t>(fan));
+      posed.pin(editor.separate_fan(fans[fan], of_place, others), Vec3d(posed.position(editor, point)));
+      highest_side = std::max(highest_side, ++of_place);
+    }
+  }
+  side = highest_side;
+}
+
+}  // namespace
+
+std::vector<Index> faces_in_cell(const Cell& cell, const SurfaceEditor& editor, PosedPoints& posed) {
+  std::vector<Index> faces;
+  std::vector<Vec3d> polygon, clipped;
+  for (Index face = 0; face < editor.surface().triangle_count(); ++face)
+    if (!editor.surface().has_repeated_point(face) && is_face_in_cell(cell, posed_corners(face, editor, posed), polygon, clipped))
+      faces.push_back(face);
+  return faces;
+}
+
+std::vector<Index> faces_in_cell(const Cell& cell, const std::vector<Index>& seeds, const std::function<bool(Index)>& is_wanted,
+                                 const SurfaceEditor& editor, PosedPoints& posed) {
+  const Surface& surface = editor.surface();
+  std::vector<Index> faces, open;
+  std::unordered_set<Index> seen;  // only asked, never walked through: its order is nobody's
+  std::vector<Vec3d> polygon, clipped;
+  const auto visit = [&](Index face) {
+    if (seen.insert(face).second && is_wanted(face)) open.push_back(face);
+  };
+  for (const Index seed : seeds)
+    if (!surface.has_repeated_point(seed) && is_face_in_cell(cell, posed_corners(seed, editor, posed), polygon, clipped))
+      visit(seed);
+  while (!open.empty()) {
+    const Index face = open.back();
+    open.pop_back();
+    faces.push_back(face);
+    const Corners corners = posed_corners(face, editor, posed);
+    for (Index k = 0; k < 3; ++k) {
+      const Index twin = surface.twin[3 * face + k];
+      if (twin != kNone && is_edge_in_cell(cell, corners[k], corners[(k + 1) % 3])) visit(twin / 3);
+    }
+  }
+  std::sort(faces.begin(), faces.end());
+  return faces;
+}
+
+GapRemoval remove_cell(const Cell& cell, const std::vector<Index>& faces, SurfaceEditor& editor, PosedPoints& posed, Index& side) {
+  GapRemoval removal;
+  if (faces.empty()) return removal;
+  const std::vector<Sheet> sheets = sheets_of(cell);
+  const SheetImprint imprint = imprint_sheets(sheets, faces, editor, posed);
+  removal.faces_crossed = imprint.faces_crossed;
+  removal.blocked = imprint.blocked;
+
+  std::vector<Index> candidates = faces;
+  for (Index t = editor.stage_begin(); t < editor.surface().triangle_count(); ++t)
+    if (std::binary_search(faces.begin(), faces.end(), editor.ancestor(t))) candidates.push_back(t);
+  std::vector<Index> inside;
+  for (const Index face : candidates) {
+    const Corners corners = posed_corners(face, editor, posed);
+    const Vec3d middle = (corners[0] + corners[1] + corners[2]) / 3;
+    if (!std::all_of(cell.begin(), cell.end(), [&](const HalfSpace& half_space) { return half_space.value(middle) > 0; })) continue;
+    inside.push_back(face);
+    removal.area_posed += 0.5 * (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm();
+  }
+  if (inside.empty()) return removal;
+  removal.faces_removed = static_cast<Index>(inside.size());
+  remove_faces(inside, editor, posed, side);
+  return removal;
+}
+
+}  // namespace sunder::tear

@@ -1,0 +1,48 @@
+#include "tear/improve.h"
+
+#include <algorithm>
+
+namespace sunder::tear {
+namespace {
+
+/// Least height over longest side, squared: 3/4 for an equilateral triangle, 0 for one without area.
+double shape_squared(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
+  const double longest_squared = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
+  return longest_squared > 0 ? (b - a).cross(c - a).squaredNorm() / (longest_squared * longest_squared) : 0.0;
+}
+
+/// By how much turning an edge makes the worse of its two faces better; at most 1 where it does not.
+double gain(Index half_edge, const SurfaceEditor& editor) {
+  const Surface& surface = editor.surface();
+  const Index twin = surface.twin[half_edge];
+  const Mesh& mesh = editor.character().meshes[surface.triangles[half_edge / 3].mesh];
+  const auto position = [&](Index corner) -> Eigen::Vector3d { return mesh.positions[editor.vertex_at(corner)].cast<double>(); };
+  const Eigen::Vector3d a = position(half_edge), b = position(Surface::next(half_edge)), c = position(Surface::previous(half_edge)),
+                        d = position(Surface::previous(twin));
+  const double before = std::min(shape_squared(a, b, c), shape_squared(b, a, d));
+  const double after = std::min(shape_squared(a, d, c), shape_squared(b, c, d));
+  return before > 0 ? after / before : after > 0 ? 2.0 : 0.0;
+}
+
+}  // namespace
+
+void improve_faces(const std::vector<Index>& faces, SurfaceEditor& editor) {
+  const Surface& surface = editor.surface();
+  std::vector<Index> open;
+  for (const Index face : faces)
+    if (!surface.has_repeated_point(face)) open.insert(open.end(), {3 * face, 3 * face + 1, 3 * face + 2});
+  std::size_t turns_left = 16 * open.size();
+  while (!open.empty() && turns_left > 0) {
+    const Index h = open.back();
+    open.pop_back();
+    const Index twin = surface.twin[h];
+    if (twin == kNone) continue;
+    const TriangleRef &one = surface.triangles[h / 3], &other = surface.triangles[twin / 3];
+    if (one.mesh != other.mesh || one.source_triangle != other.source_triangle) continue;
+    if (!(gain(h, editor) > 1.0001) || !editor.flip_edge(h)) continue;
+    --turns_left;
+    for (const Index face : {h / 3, twin / 3}) open.insert(open.end(), {3 * face, 3 * face + 1, 3 * face + 2});
+  }
+}
+
+}  // namespace sunder::tear

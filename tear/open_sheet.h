@@ -1,0 +1,23 @@
+#pragma once
+
+#include <vector>
+
+#include "tear/half_space.h"
+#include "tear/open.h"
+#include "tear/workpiece.h"
+
+namespace sunder::tear {
+
+/// What opening the surface along a sheet came to.
+struct SheetOpening {
+  std::vector<PointEdge> edges;  ///< As they were before they opened: the left lip is at the left of each.
+  Index runs = 0;                ///< Of edges that hang together.
+  Index faces_crossed = 0;
+  Index blocked = 0;
+  double length_posed = 0;
+};
+
+/// Opens the posed surface, every layer of it, where it meets a sheet. O(all faces).
+[[nodiscard]] SheetOpening open_sheet(const Sheet& sheet, const Workpiece& work, std::vector<LipPair>& lips);
+
+}  // namespace sunder::tear

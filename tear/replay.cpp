@@ -1,0 +1,84 @@
+#include <sunder/skinning/pose_spec.h>
+#include <sunder/tear/replay.h>
+#include <sunder/tear/tear_stroke.h>
+
+namespace sunder {
+namespace {
+
+class Replay {
+ public:
+  Replay(TornModel& model, ChangeRecord* change) : model_(model), change_(change) {}
+
+  Result<TearReport> operator()(const TearOperation& operation) const {
+    const Result<ModelPose> pose = make_pose(model_.character(), operation.pose);
+    if (!pose) return pose.error();
+    if (operation.pose_changes.empty()) return model_.tear(*pose, operation.stroke, operation.options, change_);
+    return tear_while_moving(*pose, operation);
+  }
+  Result<TearReport> operator()(const CutOperation& operation) const {
+    const Result<ModelPose> pose = make_pose(model_.character(), operation.pose);
+    return pose ? model_.cut(*pose, operation.cut, change_) : pose.error();
+  }
+  Result<TearReport> operator()(const DrillOperation& operation) const {
+    const Result<ModelPose> pose = make_pose(model_.character(), operation.pose);
+    return pose ? model_.drill(*pose, operation.bore, change_) : pose.error();
+  }
+  Result<TearReport> operator()(const UndoOperation& operation) const {
+    return repeat(operation.count, model_.undo_count(), "undone", &TornModel::undo);
+  }
+  Result<TearReport> operator()(const RedoOperation& operation) const {
+    return repeat(operation.count, model_.redo_count(), "done again", &TornModel::redo);
+  }
+
+ private:
+  Result<TearReport> repeat(std::uint32_t count, std::uint32_t available, const char* what,
+                            Status (TornModel::*step)(ChangeRecord*)) const {
+    if (count > available)
+      return Status::failure(StatusCode::not_found, kNone, "%u operations are to be %s, there are %u", count, what, available);
+    for (std::uint32_t i = 0; i < count; ++i)
+      if (Status status = (model_.*step)(change_); !status) return status;
+    return TearReport{};
+  }
+
+  Result<TearReport> tear_while_moving(const ModelPose& first_pose, const TearOperation& operation) const {
+    std::vector<ModelPose> poses;
+    for (std::size_t i = 0; i < operation.pose_changes.size(); ++i) {
+      const auto& change = operation.pose_changes[i];
+      const std::uint32_t after = i == 0 ? 0 : operation.pose_changes[i - 1].blade;
+      if (change.blade <= after || change.blade >= operation.stroke.size())
+        return Status::failure(StatusCode::invalid_argument, change.blade,
+                               "pose change %zu at blade %u: they ascend from blade 1 on", i, change.blade);
+      auto pose = make_pose(model_.character(), change.pose);
+      if (!pose) return pose.error();
+      poses.push_back(std::move(*pose));
+    }
+    if (operation.stroke.size() < 2)
+      return Status::failure(StatusCode::invalid_argument, kNone, "a stroke needs at least two blades");
+    const std::uint32_t done_before = model_.undo_count();
+    auto stroke = TearStroke::begin(model_, first_pose, operation.stroke.front(), operation.options);
+    if (!stroke) return stroke.error();
+    std::size_t next_change = 0;
+    const ModelPose* pose = &first_pose;
+    Status failure;
+    for (std::uint32_t blade = 1; blade < operation.stroke.size() && failure; ++blade) {
+      if (next_change < poses.size() && operation.pose_changes[next_change].blade == blade) pose = &poses[next_change++];
+      failure = stroke->extend(*pose, operation.stroke[blade]).error();
+    }
+    auto report = stroke->end(change_);
+    if (failure && report) return report;
+    // Half a stroke is no stroke.
+    if (model_.undo_count() > done_before) (void)model_.undo();
+    return failure ? report.error() : failure;
+  }
+
+  TornModel& model_;
+  ChangeRecord* change_;
+};
+
+}  // namespace
+
+Result<TearReport> apply_operation(TornModel& model, const Operation& operation, ChangeRecord* change) {
+  return std::visit(Replay(model, change), operation);
+}
+
+}  // namespace sunder

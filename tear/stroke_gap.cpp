@@ -1,0 +1,173 @@
+// The gap of a stroke with a width: one convex cell a segment, mitred where two meet.
+#include <algorithm>
+#include <cmath>
+
+#include "tear/entry.h"
+#include "tear/gap.h"
+#include "tear/improve.h"
+#include "tear/stroke_tearing.h"
+#include "tear/trace.h"
+
+namespace sunder::tear {
+namespace {
+
+/// What is left of crossings so near to an end of an edge is less than rounding shows.
+constexpr double kTightSnap = 1e-9;
+
+/// Depth in the plane's y at which the middle of a gap lies at x.
+double depth_at(const std::vector<Vec2d>& section, double x) {
+  const auto after =
+      std::lower_bound(section.begin(), section.end(), x, [](const Vec2d& at, double value) { return at.x() < value; });
+  if (after == section.begin()) return section.front().y();
+  if (after == section.end()) return section.back().y();
+  const Vec2d &a = *(after - 1), &b = *after;
+  return b.x() > a.x() ? a.y() + (x - a.x()) / (b.x() - a.x()) * (b.y() - a.y()) : a.y();
+}
+
+}  // namespace
+
+StrokeTearing::PendingGap StrokeTearing::find_gap(const BladePlane& plane, const Workpiece& work) {
+  PendingGap gap{plane, plane.standing_on(plane.from_progress(0)), {}, {}, {}, 0};
+  const auto add = [&](Index start) {
+    const bool continues = start == tip_;
+    tip_ = kNone;
+    const Trace trace = trace_path(plane, start, work.editor, work.posed);
+    if (trace.faces.empty()) return trace.progress;
+    if (!continues) ++report.runs;
+    gap.seeds.push_back(start);
+    gap.faces.insert(gap.faces.end(), trace.faces.begin(), trace.faces.end());
+    gap.section.insert(gap.section.end(), trace.section.begin(), trace.section.end());
+    gap.length += trace.length_posed;
+    if (trace.end != Path::End::blade) return trace.progress;
+    tip_ = imprint_point(trace.end_place, kTightSnap, work.editor, work.posed);
+    return 1.0;
+  };
+  double progress = 0;
+  if (tip_ != kNone) progress = std::max(0.0, add(tip_));
+  for (int futile = 0; progress < 1 && futile < 64;) {
+    const auto contact = first_contact(plane, progress, work.editor, work.posed);
+    if (!contact) break;
+    const SurfaceEditor::Mark before = work.editor.mark();
+    const std::size_t seeds = gap.seeds.size();
+    const double reached = add(imprint_point(*contact, kTightSnap, work.editor, work.posed));
+    const bool has_advanced = gap.seeds.size() > seeds && reached > progress + kSamePlace;
+    progress = std::max(progress, reached);
+    if (has_advanced) continue;
+    if (gap.seeds.size() == seeds) {
+      work.editor.roll_back(before);
+      work.posed.forget_from(before.points);
+    }
+    progress = std::max(progress, contact->progress_beyond);
+    ++futile;
+  }
+  std::stable_sort(gap.section.begin(), gap.section.end(), [](const Vec2d& a, const Vec2d& b) { return a.x() < b.x(); });
+  return gap;
+}
+
+void StrokeTearing::remove(const Cell& cell, const PendingGap& gap, const Workpiece& work) {
+  SurfaceEditor& editor = work.editor;
+  PosedPoints& posed = work.posed;
+  std::vector<Index> faces;
+  if (options_.layers == Layers::all) {
+    faces = faces_in_cell(cell, editor, posed);
+  } else {
+    const Surface& surface = editor.surface();
+    std::vector<Index> seeds;
+    for (const Index point : gap.seeds)
+      if (surface.point_corner[point] != kNone)
+        surface.for_each_in_fan(surface.point_corner[point], [&](Index corner) { seeds.push_back(corner / 3); });
+    for (const Index face : gap.faces)
+      if (!surface.has_repeated_point(face)) seeds.push_back(face);
+    // The blade is as wide as the gap, and where the surface wrinkles it takes the wrinkle away. But what turns its back on the
+    // blade far below the tear is another layer, which the nearest one hides.
+    const auto is_same_layer = [&](Index face) {
+      std::array<Vec3d, 3> corners;
+      for (Index k = 0; k < 3; ++k) corners[k] = posed.position(editor, surface.corner_point[3 * face + k]);
+      if ((corners[1] - corners[0]).cross(corners[2] - corners[0]).dot(gap.plane.along()) <= 0) return true;
+      const Vec2d middle = gap.plane.project((corners[0] + corners[1] + corners[2]) / 3);
+      return middle.y() - depth_at(gap.section, middle.x()) < 2 * options_.width;
+    };
+    faces = faces_in_cell(cell, seeds, is_same_layer, editor, posed);
+  }
+  const GapRemoval removal = remove_cell(cell, faces, editor, posed, work.next_side);
+  report.faces_crossed += removal.faces_crossed;
+  report.blocked += removal.blocked;
+  report.area_removed_posed += removal.area_posed;
+  if (options_.layers == Layers::all && removal.faces_removed > 0) report.runs = std::max(report.runs, Index{1});
+}
+
+void StrokeTearing::remove_pending(const HalfSpace& end, const Workpiece& work) {
+  const BladePlane& plane = pending_->plane;
+  const double half = 0.5 * options_.width;
+  remove({plane.left_of(-half), plane.right_of(half), plane.standing_on(plane.reach()[0]), plane.standing_on(plane.reach()[1]),
+          pending_->start, end},
+         *pending_, work);
+}
+
+/// Ends the pending gap where the next one begins. Where the stroke turns gently they share a mitre plane; where it turns sharply,
+/// or more than the segments are long, both end square and a wedge closes the outer side: mitred up to a right angle, bevelled
+/// beyond.
+void StrokeTearing::join_gaps(PendingGap& next, const Vec3d& at, const Workpiece& work) {
+  const Vec3d before = pending_->plane.across(), after = next.start.normal;
+  const double cosine = before.dot(after), half = 0.5 * options_.width;
+  const double overlap = cosine > -1 ? half * std::sqrt(std::max(0.0, (1 - cosine) / (1 + cosine))) : 0;
+  const Vec3d normal_before = pending_->plane.normal(), normal_after = next.plane.normal();
+  const auto from = [&](const Vec3d& direction, double distance) { return HalfSpace{direction, direction.dot(at) + distance}; };
+  if (cosine >= 0 && overlap <= 0.5 * std::min(pending_->length, next.length)) {
+    const Vec3d mitre = (before + after) / (before + after).norm();
+    remove_pending(from(-mitre, 0), work);
+    next.start = from(mitre, 0);
+    return;
+  }
+  remove_pending(from(-before, 0), work);
+  next.start = from(after, 0);
+  const double outer = normal_before.dot(after) > 0 ? -1.0 : 1.0;
+  Cell wedge = {from(before, 0), from(-after, 0), next.plane.standing_on(next.plane.reach()[0]),
+                next.plane.standing_on(next.plane.reach()[1])};
+  if (cosine >= 0) {
+    wedge.push_back(from(-outer * normal_before, -half));
+    wedge.push_back(from(-outer * normal_after, -half));
+  } else {
+    const Vec3d bevel = outer * (normal_before + normal_after);
+    if (!(bevel.norm() > 1e-6)) return;  // straight back
+    wedge.push_back(from(-bevel / bevel.norm(), -half * outer * normal_before.dot(bevel) / bevel.norm()));
+  }
+  remove(wedge, next, work);
+}
+
+void StrokeTearing::sweep_gap(const BladePlane& plane, const Workpiece& work) {
+  const bool takes_all = options_.layers == Layers::all;
+  const Index begins_at = tip_;
+  const Blade from = blade_before_;
+  PendingGap next{plane, plane.standing_on(plane.from_progress(0)), {}, {}, {}, (blade_.tip - from.tip).norm()};
+  if (!takes_all) next = find_gap(plane, work);
+  const bool continues =
+      takes_all ? pending_.has_value() : begins_at != kNone && !next.seeds.empty() && next.seeds.front() == begins_at;
+  if (!takes_all && next.seeds.empty()) {
+    catch_up(work);
+    ++report.segments_missed;
+    return;
+  }
+  if (!takes_all) report.length_posed += next.length;
+  if (pending_ && continues) {
+    join_gaps(next, takes_all ? Vec3d(0.5 * (from.base + from.tip)) : Vec3d(work.posed.position(work.editor, begins_at)), work);
+  } else if (pending_) {
+    catch_up(work);
+  } else if (continues && direction_before_) {
+    // The gap before was closed square, in another pose: this one begins where that one ended.
+    next.start = {*direction_before_, direction_before_->dot(work.posed.position(work.editor, begins_at))};
+  }
+  direction_before_.reset();
+  pending_ = std::move(next);
+}
+
+void StrokeTearing::catch_up(const Workpiece& work) {
+  if (!pending_) return;
+  const SurfaceEditor::Mark before = work.editor.mark();
+  remove_pending(pending_->plane.standing_on(pending_->plane.reach()[2]), work);
+  direction_before_ = pending_->plane.across();
+  pending_.reset();
+  improve_faces(work.editor.touched_since(before), work.editor);
+}
+
+}  // namespace sunder::tear

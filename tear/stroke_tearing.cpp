@@ -1,0 +1,122 @@
+#include "tear/stroke_tearing.h"
+
+#include <algorithm>
+
+#include "tear/entry.h"
+#include "tear/imprint.h"
+#include "tear/improve.h"
+#include "tear/open_sheet.h"
+
+namespace sunder::tear {
+
+bool StrokeTearing::stands_on_surface(const Workpiece& work) const {
+  return tip_ != kNone && work.editor.surface().point_corner[tip_] != kNone;
+}
+
+void StrokeTearing::extend(const Blade& to, const Workpiece& work) {
+  ++report.segments;
+  const Blade from = blade_before_ = blade_;
+  blade_ = to;
+  last_end_ = kNone;
+  if (!stands_on_surface(work)) tip_ = kNone;
+  Vec3d anchor = 0.5 * (from.base + from.tip);
+  if (options_.layers == Layers::nearest) {
+    if (tip_ != kNone)
+      anchor = work.posed.position(work.editor, tip_);
+    else if (const auto hit = first_hit(from, work.editor, work.posed))
+      anchor = hit->position;
+  }
+  const auto plane = BladePlane::through(anchor, from, to);
+  if (!plane) return;  // the blade stands still; so does the tip
+
+  const SurfaceEditor::Mark before = work.editor.mark();
+  if (options_.width > 0)
+    sweep_gap(*plane, work);
+  else if (options_.layers == Layers::all)
+    tear_all_layers(*plane, work);
+  else
+    tear_segment(*plane, work);
+  improve_faces(work.editor.touched_since(before), work.editor);
+}
+
+void StrokeTearing::finish(const SurfaceEditor::Mark&, const Workpiece& work) { catch_up(work); }
+
+double StrokeTearing::tear_piece(const BladePlane& plane, Index start, const SurfaceEditor::Mark& before, const Workpiece& work) {
+  SurfaceEditor& editor = work.editor;
+  PosedPoints& posed = work.posed;
+  Path path = imprint_path(plane, start, editor, posed);
+  const bool continues = start == tip_;
+  tip_ = kNone;
+  if (path.end == Path::End::blocked) ++report.blocked;
+
+  // A tear of one edge between two tips would be closed at both ends of its only edge: it needs a point that can open.
+  const auto is_on_border = [&](Index point) {
+    const auto& surface = editor.surface();
+    return surface.rotate_cw(surface.first_of_fan(surface.point_corner[point])) == kNone;
+  };
+  if (path.points.size() == 2 && !is_on_border(path.points[0]) && !is_on_border(path.points[1])) {
+    const Index edge = editor.surface().find_half_edge(path.points[0], path.points[1]);
+    const Index middle = split_posed_edge(edge, 0.5, editor, posed);
+    if (middle == kNone)
+      path.points.pop_back();
+    else
+      path.points.insert(path.points.begin() + 1, middle);
+  }
+  // Where the last piece of this segment snapped, something of the section may be left beside it: not a piece of its own.
+  const bool is_leftover = path.points.back() == last_end_;
+  if (path.points.size() < 2 || is_leftover) {
+    editor.roll_back(before);
+    posed.forget_from(before.points);
+    if (path.end == Path::End::blade && start < before.points) tip_ = start;  // moved by less than can be told: go on from here
+    return path.end == Path::End::blade ? 1.0 : path.progress;
+  }
+  std::vector<PointEdge> edges;
+  for (std::size_t i = 0; i + 1 < path.points.size(); ++i) edges.push_back({path.points[i], path.points[i + 1]});
+  const std::size_t first_lip = lips.size();
+  open_edges(edges, editor, work.next_side, lips);
+  for (std::size_t i = first_lip; i < lips.size(); ++i) posed.pin(lips[i].left, Vec3d(posed.position(editor, lips[i].right)));
+  torn_edges_ += edges.size();
+  if (!continues) ++report.runs;
+  report.faces_crossed += path.faces_crossed;
+  report.length_posed += path.length_posed;
+  last_end_ = path.points.back();
+  if (path.end != Path::End::blade) return path.progress;
+  tip_ = last_end_;
+  return 1.0;
+}
+
+void StrokeTearing::tear_segment(const BladePlane& plane, const Workpiece& work) {
+  const std::size_t edges_before = torn_edges_;
+  double progress = 0;
+  if (tip_ != kNone) progress = std::max(0.0, tear_piece(plane, tip_, work.editor.mark(), work));
+
+  // Where the surface ends, folds away or cannot be split, the sweep goes on to whatever it meets next. Every turn passes a
+  // triangle at least; a sweep that gets nowhere in many turns gives up.
+  for (int futile = 0; progress < 1 && futile < 64;) {
+    const auto contact = first_contact(plane, progress, work.editor, work.posed);
+    if (!contact) break;
+    const SurfaceEditor::Mark before = work.editor.mark();
+    const std::size_t edges = torn_edges_;
+    const double reached = tear_piece(plane, imprint_point(*contact, kSnap, work.editor, work.posed), before, work);
+    const bool has_advanced = torn_edges_ > edges && reached > progress + kSamePlace;
+    progress = std::max(progress, reached);
+    if (has_advanced) continue;
+    progress = std::max(progress, contact->progress_beyond);
+    ++futile;
+  }
+  if (torn_edges_ == edges_before && tip_ == kNone) ++report.segments_missed;
+}
+
+void StrokeTearing::tear_all_layers(const BladePlane& plane, const Workpiece& work) {
+  Sheet sheet{plane.left_of(0), {}};
+  for (const auto& reach : plane.reach()) sheet.bounds.push_back({plane.standing_on(reach), kNone});
+  sheet.bounds.push_back({plane.standing_on(plane.from_progress(0)), kNone});
+  const SheetOpening opening = open_sheet(sheet, work, lips);
+  report.faces_crossed += opening.faces_crossed;
+  report.blocked += opening.blocked;
+  report.length_posed += opening.length_posed;
+  report.runs += opening.runs;
+  if (opening.edges.empty()) ++report.segments_missed;
+}
+
+}  // namespace sunder::tear

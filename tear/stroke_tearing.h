@@ -1,0 +1,66 @@
+#pragma once
+
+#include <sunder/core/operation.h>
+#include <sunder/tear/report.h>
+
+#include <optional>
+#include <vector>
+
+#include "tear/blade_plane.h"
+#include "tear/half_space.h"
+#include "tear/workpiece.h"
+
+namespace sunder::tear {
+
+/// A stroke under way: where the tear stands, and what of its gap is left to do. A plain value, so that a failing extension can go
+/// back to a copy.
+class StrokeTearing {
+ public:
+  StrokeTearing(const Blade& first, const TearOptions& options) : options_(options), blade_(first) {}
+
+  /// Tears on to the next blade, in the pose that `work.posed` stands for.
+  void extend(const Blade& to, const Workpiece& work);
+  /// Does what is left of the gap in the pose in which its last segment was swept. To be called before the pose changes, and at the
+  /// end.
+  void catch_up(const Workpiece& work);
+  /// Ends the stroke, which began at `begin`.
+  void finish(const SurfaceEditor::Mark& begin, const Workpiece& work);
+
+  [[nodiscard]] const Blade& blade() const { return blade_; }
+
+  // What was done since they were cleared.
+  TearReport report;
+  std::vector<LipPair> lips;
+
+ private:
+  /// A segment whose part of the gap is still to be removed.
+  struct PendingGap {
+    BladePlane plane;
+    HalfSpace start;
+    std::vector<Index> seeds;    ///< Points in which the tear entered the surface.
+    std::vector<Index> faces;    ///< That the middle of the gap crosses.
+    std::vector<Vec2d> section;  ///< The middle of the gap in the plane, by growing x.
+    double length = 0;
+  };
+
+  void tear_segment(const BladePlane& plane, const Workpiece& work);
+  double tear_piece(const BladePlane& plane, Index start, const SurfaceEditor::Mark& before, const Workpiece& work);
+  void tear_all_layers(const BladePlane& plane, const Workpiece& work);
+
+  void sweep_gap(const BladePlane& plane, const Workpiece& work);
+  [[nodiscard]] PendingGap find_gap(const BladePlane& plane, const Workpiece& work);
+  void join_gaps(PendingGap& next, const Vec3d& at, const Workpiece& work);
+  void remove_pending(const HalfSpace& end, const Workpiece& work);
+  void remove(const Cell& cell, const PendingGap& gap, const Workpiece& work);
+  [[nodiscard]] bool stands_on_surface(const Workpiece& work) const;
+
+  TearOptions options_;
+  Blade blade_, blade_before_;
+  Index tip_ = kNone;       ///< Where the tear stands, while it stands on the surface.
+  Index last_end_ = kNone;  ///< Where the last piece of the segment under way ended.
+  std::size_t torn_edges_ = 0;
+  std::optional<PendingGap> pending_;
+  std::optional<Vec3d> direction_before_;  ///< Of the last segment, where the gap was caught up with since.
+};
+
+}  // namespace sunder::tear

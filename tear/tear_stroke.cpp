@@ -1,0 +1,177 @@
+#include <sunder/tear/tear_stroke.h>
+
+#include <cmath>
+#include <cstring>
+
+#include "tear/model_state.h"
+#include "tear/stroke_tearing.h"
+
+namespace sunder {
+namespace {
+
+bool same_bits(const ModelPose& a, const ModelPose& b) {
+  if (a.model_from_bone.size() != b.model_from_bone.size() || a.morph_weights != b.morph_weights) return false;
+  for (std::size_t i = 0; i < a.model_from_bone.size(); ++i)
+    if (std::memcmp(a.model_from_bone[i].data(), b.model_from_bone[i].data(), 12 * sizeof(double)) != 0) return false;
+  return true;
+}
+
+Status validate_sampling(const StrokeSampling& sampling) {
+  if (!(sampling.minimum_distance >= 0 && sampling.minimum_distance <= 1e30))
+    return Status::failure(StatusCode::invalid_argument, kNone, "samples are 0 to 1e30 apart, not %g", sampling.minimum_distance);
+  if (!(sampling.minimum_seconds >= 0 && sampling.minimum_seconds <= 1e30))
+    return Status::failure(StatusCode::invalid_argument, kNone, "samples are 0 to 1e30 seconds apart, not %g",
+                           sampling.minimum_seconds);
+  return {};
+}
+
+void add_to(TearReport& sum, const TearReport& report) {
+  sum.runs += report.runs;
+  sum.segments += report.segments;
+  sum.segments_missed += report.segments_missed;
+  sum.faces_crossed += report.faces_crossed;
+  sum.points_added += report.points_added;
+  sum.vertices_added += report.vertices_added;
+  sum.triangles_added += report.triangles_added;
+  sum.triangles_retired += report.triangles_retired;
+  sum.blocked += report.blocked;
+  sum.length_posed += report.length_posed;
+  sum.area_removed_posed += report.area_removed_posed;
+  sum.pieces.insert(sum.pieces.end(), report.pieces.begin(), report.pieces.end());
+}
+
+}  // namespace
+
+struct TearStroke::State {
+  /// A blade that the sampling holds back, in the pose in which it came.
+  struct Held {
+    ModelPose pose;
+    Blade blade;
+  };
+
+  TornModel::State* model;
+  TearOptions options;
+  StrokeSampling sampling;
+  tear::StrokeTearing tearing;
+  TearOperation operation;  ///< What was taken up.
+  double last_seconds = 0;
+  std::optional<Held> held;
+  tear::SurfaceEditor::Mark begin;
+  std::uint32_t side_before;
+  TearReport total;
+
+  [[nodiscard]] bool is_due(const Blade& blade, double seconds) const {
+    const double moved = std::max((blade.base - tearing.blade().base).norm(), (blade.tip - tearing.blade().tip).norm());
+    return moved >= sampling.minimum_distance && seconds - last_seconds >= sampling.minimum_seconds;
+  }
+
+  /// Takes up a blade within a call.
+  Status take_up(const ModelPose& pose, const Blade& blade) {
+    const auto index = static_cast<std::uint32_t>(operation.stroke.size());
+    if (!same_bits(pose, model->pose)) {
+      tearing.catch_up(model->workpiece());
+      if (Status status = model->stand_in(pose); !status) return status;
+      operation.pose_changes.push_back({index, pose});
+    }
+    operation.stroke.push_back(blade);
+    tearing.extend(blade, model->workpiece());
+    return {};
+  }
+
+  /// Runs `work`; where it fails, everything is as it was, the pose too.
+  template <class Work>
+  Result<TearReport> call(Work work, ChangeRecord* change) {
+    const tear::StrokeTearing tearing_before = tearing;
+    const std::size_t blades = operation.stroke.size(), poses = operation.pose_changes.size();
+    const ModelPose pose_before = model->pose;
+    auto report = model->call(
+        [&](TornModel::State::Call& call) -> Status {
+          tearing.report = {};
+          tearing.lips.clear();
+          if (Status status = work(); !status) return status;
+          call.report = tearing.report;
+          call.change.lips = tearing.lips;
+          return {};
+        },
+        change);
+    if (report) {
+      add_to(total, *report);
+      return report;
+    }
+    tearing = tearing_before;
+    operation.stroke.resize(blades);
+    operation.pose_changes.resize(poses);
+    if (!same_bits(pose_before, model->pose)) (void)model->stand_in(pose_before);
+    return report;
+  }
+};
+
+TearStroke::TearStroke(std::unique_ptr<State> state) : state_(std::move(state)) {}
+TearStroke::TearStroke(TearStroke&&) noexcept = default;
+
+TearStroke::~TearStroke() {
+  if (state_ && state_->model->has_stroke) (void)end();
+}
+
+Result<TearStroke> TearStroke::begin(TornModel& model, const ModelPose& pose, const Blade& blade, const TearOptions& options,
+                                     const StrokeSampling& sampling) {
+  TornModel::State& of_model = *model.state_;
+  if (Status status = of_model.may_begin(); !status) return status;
+  if (Status status = validate_options(options); !status) return status;
+  if (Status status = validate_sampling(sampling); !status) return status;
+  if (Status status = validate_blade(blade, 0); !status) return status;
+  if (Status status = of_model.stand_in(pose); !status) return status;
+  of_model.has_stroke = true;
+  return TearStroke(std::unique_ptr<State>(new State{&of_model,
+                                                     options,
+                                                     sampling,
+                                                     tear::StrokeTearing(blade, options),
+                                                     TearOperation{pose, {blade}, {}, options},
+                                                     0,
+                                                     {},
+                                                     of_model.editor.mark(),
+                                                     of_model.next_side,
+                                                     {}}));
+}
+
+Result<TearReport> TearStroke::extend(const ModelPose& pose, const Blade& blade, double seconds, ChangeRecord* change) {
+  State& state = *state_;
+  if (!state.model->has_stroke) return Status::failure(StatusCode::invalid_argument, kNone, "this stroke was ended");
+  const auto index = static_cast<std::uint32_t>(state.operation.stroke.size());
+  if (Status status = validate_blade(blade, index); !status) return status;
+  if (!std::isfinite(seconds) || seconds < state.last_seconds)
+    return Status::failure(StatusCode::invalid_argument, index, "blade %u comes at %g s, after one at %g s", index, seconds,
+                           state.last_seconds);
+  if (Status status = validate_turn(state.tearing.blade(), blade, index); !status) return status;
+  if (!state.is_due(blade, seconds)) {
+    if (Status status = state.model->posed.check(state.model->character, pose); !status) return status;
+    state.held = State::Held{pose, blade};
+    if (change != nullptr) *change = {};
+    return TearReport{};
+  }
+  auto report = state.call([&] { return state.take_up(pose, blade); }, change);
+  if (!report) return report;
+  state.last_seconds = seconds;
+  state.held.reset();
+  return report;
+}
+
+Result<TearReport> TearStroke::end(ChangeRecord* change) {
+  State& state = *state_;
+  if (!state.model->has_stroke) return Status::failure(StatusCode::invalid_argument, kNone, "this stroke was ended");
+  const auto report = state.call(
+      [&]() -> Status {
+        if (state.held)
+          if (Status status = state.take_up(state.held->pose, state.held->blade); !status) return status;
+        state.tearing.finish(state.begin, state.model->workpiece());
+        return {};
+      },
+      change);
+  if (!report) return report;
+  state.model->has_stroke = false;
+  // A stroke of one blade tears nothing: there is nothing to take back.
+  if (state.operation.stroke.size() > 1) state.model->record(std::move(state.operation), state.begin, state.side_before);
+  return std::move(state.total);
+}
+
+}  // namespace sunder
