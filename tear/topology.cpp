@@ -60,14 +60,26 @@ bool has_no_area(const Mesh& mesh, const Triangle& triangle) {
   return ab.cross(ac).norm() <= 1e-12 * longest_squared;
 }
 
+void count_triangles_and_points(const Character& character, const Surface& surface, TopologyCounts& counts) {
+  std::vector<bool> is_used(surface.point_count(), false);
+  for (Index t = 0; t < surface.triangle_count(); ++t) {
+    const Mesh& mesh = character.meshes[surface.triangles[t].mesh];
+    const Triangle& triangle = mesh.triangles[surface.triangles[t].triangle];
+    if (is_retired(triangle)) continue;
+    ++counts.triangles;
+    if (surface.has_repeated_point(t) || has_no_area(mesh, triangle)) ++counts.degenerate_triangles;
+    for (Index corner = 3 * t; corner < 3 * t + 3; ++corner) is_used[surface.corner_point[corner]] = true;
+  }
+  counts.points = static_cast<Index>(std::count(is_used.begin(), is_used.end(), true));
+}
+
 }  // namespace
 
 TopologyCounts count_topology(const Character& character) {
   const Surface surface = tear::build_surface(character);
   TopologyCounts counts;
   for (const Mesh& mesh : character.meshes) counts.vertices += mesh.vertex_count();
-  counts.points = surface.point_count();
-  counts.triangles = surface.triangle_count();
+  count_triangles_and_points(character, surface, counts);
   Index half_edges = 0, border = 0;
   for (Index h = 0; h < surface.twin.size(); ++h) {
     half_edges += surface.has_repeated_point(h / 3) ? 0 : 1;
@@ -78,11 +90,6 @@ TopologyCounts count_topology(const Character& character) {
   counts.non_manifold_edges = surface.non_manifold_edges;
   counts.boundary_loops = count_boundary_loops(surface);
   counts.components = count_components(surface);
-  for (Index t = 0; t < surface.triangle_count(); ++t) {
-    const auto& ref = surface.triangles[t];
-    const Mesh& mesh = character.meshes[ref.mesh];
-    if (surface.has_repeated_point(t) || has_no_area(mesh, mesh.triangles[ref.triangle])) ++counts.degenerate_triangles;
-  }
   return counts;
 }
 

@@ -1,27 +1,17 @@
 #include "support/torn_invariants.h"
 
-#include <sunder/skinning/palette.h>
-#include <sunder/skinning/reference.h>
 #include <sunder/tear/topology.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <map>
 #include <set>
-#include <sstream>
 
-#include "support/rigs.h"
+#include "support/say.h"
+#include "support/source_cover.h"
 
 namespace sunder::test {
 namespace {
-
-template <class... Parts>
-std::string say(const Parts&... parts) {
-  std::ostringstream text;
-  (text << ... << parts);
-  return text.str();
-}
 
 template <class T>
 bool starts_with(const std::vector<T>& grown, const std::vector<T>& source) {
@@ -46,68 +36,72 @@ bool keeps_source_vertices(const Mesh& torn, const Mesh& source) {
   return same;
 }
 
-/// Where each corner of a torn triangle lies in its source triangle, or nothing where a vertex does not belong to it.
-std::optional<std::array<double, 3>> place_in_source(const TornModel& model, std::uint32_t mesh, std::uint32_t triangle,
-                                                     std::uint32_t corner) {
-  const Mesh& source = model.source().meshes[mesh];
-  const Triangle in = source.triangles[model.source_triangle(mesh, triangle)];
-  const std::uint32_t vertex = model.character().meshes[mesh].triangles[triangle][corner];
-  std::array<double, 3> place = {0, 0, 0};
-  const auto add = [&](std::uint32_t parent, double part) {
-    const auto at = std::find(in.begin(), in.end(), parent);
-    if (at == in.end()) return false;
-    place[static_cast<std::size_t>(at - in.begin())] += part;
-    return true;
-  };
-  if (vertex < source.vertex_count()) {
-    if (!add(vertex, 1.0)) return std::nullopt;
-    return place;
-  }
-  const Birth birth = model.birth(mesh, vertex);
-  for (std::size_t k = 0; k < 3; ++k)
-    if (birth.barycentric[k] > 0 && !add(source.triangles[birth.triangle][k], birth.barycentric[k])) return std::nullopt;
-  return place;
+/// Of every triangle of the source, and of every wall and cap as it was made, what was not taken away is covered.
+void check_cover(const TornModel& model, std::uint32_t m, std::vector<std::string>& faults) {
+  const Cover cover = cover_of(model, m);
+  for (const std::string& fault : cover.faults) faults.push_back(say("mesh ", m, ": ", fault));
+  for (std::size_t t = 0; t < cover.part.size(); ++t)
+    if (cover.part[t] > 1 + 1e-9 || (!cover.has_retired[t] && cover.part[t] < 1 - 1e-9))
+      faults.push_back(say("mesh ", m, ": parts of triangle ", t, " cover ", cover.part[t], " of it"));
 }
 
-void check_cover(const TornModel& model, std::uint32_t m, std::vector<std::string>& faults) {
-  const Mesh& torn = model.character().meshes[m];
-  const Mesh& source = model.source().meshes[m];
-  std::vector<double> covered(source.triangle_count(), 0.0);
+/// Triangles of the source stay what they are parts of; parts have the submesh of the whole, walls and caps submeshes of their own.
+void check_origins(const TornModel& model, std::uint32_t m, std::vector<std::string>& faults) {
+  const Mesh &torn = model.character().meshes[m], &source = model.source().meshes[m];
+  std::vector<std::uint32_t> submesh = source.triangle_submesh;
+  submesh.resize(source.triangle_count() + model.fillings(m).size(), kNone);
+  if (torn.submeshes.size() < source.submeshes.size() ||
+      !std::equal(source.submeshes.begin(), source.submeshes.end(), torn.submeshes.begin()))
+    faults.push_back(say("mesh ", m, ": a submesh of the source changed"));
   for (std::uint32_t t = 0; t < torn.triangle_count(); ++t) {
-    const std::uint32_t of = model.source_triangle(m, t);
-    if (t < source.triangle_count() && of != t) faults.push_back(say("mesh ", m, ": triangle ", t, " changed its source"));
-    if (torn.triangle_submesh[t] != source.triangle_submesh[of])
-      faults.push_back(say("mesh ", m, ": triangle ", t, " changed its submesh"));
-    if (torn.triangles[t] == source.triangles[of]) {
-      covered[of] += 1;
-      continue;
-    }
-    std::array<std::array<double, 3>, 3> place;
-    for (std::uint32_t k = 0; k < 3; ++k) {
-      const auto found = place_in_source(model, m, t, k);
-      if (!found) {
-        faults.push_back(say("mesh ", m, ": triangle ", t, " has a vertex from outside its source triangle"));
-        return;
-      }
-      place[k] = *found;
-    }
-    const double area = place[0][0] * (place[1][1] * place[2][2] - place[1][2] * place[2][1]) -
-                        place[0][1] * (place[1][0] * place[2][2] - place[1][2] * place[2][0]) +
-                        place[0][2] * (place[1][0] * place[2][1] - place[1][1] * place[2][0]);
-    if (!(area > 0)) faults.push_back(say("mesh ", m, ": triangle ", t, " covers ", area, " of its source triangle"));
-    covered[of] += area;
-
-    const auto cross = [](const Mesh& mesh, const Triangle& triangle) -> Eigen::Vector3d {
-      const Eigen::Vector3d a = mesh.positions[triangle[0]].cast<double>();
-      return (mesh.positions[triangle[1]].cast<double>() - a).cross(mesh.positions[triangle[2]].cast<double>() - a);
-    };
-    if (!cross(source, source.triangles[of]).isZero(0) &&
-        !(cross(torn, torn.triangles[t]).dot(cross(source, source.triangles[of])) > 0))
-      faults.push_back(say("mesh ", m, ": triangle ", t, " has no area, or turned over, in bind space"));
+    const std::uint32_t origin = model.source_triangle(m, t);
+    if (origin >= submesh.size()) continue;  // said by check_cover()
+    if (t < source.triangle_count() && origin != t) faults.push_back(say("mesh ", m, ": triangle ", t, " changed its source"));
+    if (submesh[origin] == kNone) submesh[origin] = torn.triangle_submesh[t];
+    if (torn.triangle_submesh[t] != submesh[origin]) faults.push_back(say("mesh ", m, ": triangle ", t, " changed its submesh"));
+    if (origin >= source.triangle_count() && torn.triangle_submesh[t] < source.submeshes.size())
+      faults.push_back(say("mesh ", m, ": triangle ", t, " of a wall or cap is in a submesh of the source"));
   }
-  for (std::uint32_t t = 0; t < source.triangle_count(); ++t)
-    if (std::abs(covered[t] - 1) > 1e-9)
-      faults.push_back(say("mesh ", m, ": parts of triangle ", t, " cover ", covered[t], " of it"));
+}
+
+/// The vertices of walls and caps were born as corners of them.
+void check_fillings(const TornModel& model, std::uint32_t m, std::vector<std::string>& faults) {
+  const Mesh &torn = model.character().meshes[m], &source = model.source().meshes[m];
+  const auto fillings = model.fillings(m);
+  const auto is_born_as_corner = [&](std::uint32_t vertex) {
+    if (vertex < source.vertex_count() || vertex >= torn.vertex_count()) return false;
+    const Birth birth = model.birth(m, vertex);
+    if (birth.triangle < source.triangle_count() || birth.triangle - source.triangle_count() >= fillings.size()) return false;
+    const Triangle& in = fillings[birth.triangle - source.triangle_count()];
+    for (std::size_t k = 0; k < 3; ++k)
+      if (birth.barycentric[k] != (in[k] == vertex ? 1.0 : 0.0)) return false;
+    return true;
+  };
+  for (std::size_t f = 0; f < fillings.size(); ++f)
+    for (const std::uint32_t vertex : fillings[f])
+      if (!is_born_as_corner(vertex)) faults.push_back(say("mesh ", m, ": vertex ", vertex, " of filling ", f, " is not its own"));
+}
+
+/// Triangles with a vertex twice, other than those that the source has.
+void check_vertices_differ(const TornModel& model, std::uint32_t m, std::vector<std::string>& faults) {
+  const Mesh &torn = model.character().meshes[m], &source = model.source().meshes[m];
+  for (std::uint32_t t = 0; t < torn.triangle_count(); ++t) {
+    const auto& [a, b, c] = torn.triangles[t];
+    if (is_retired(torn.triangles[t]) || (a != b && b != c && c != a)) continue;
+    const bool was_so = t < source.triangle_count() && torn.triangles[t] == source.triangles[t];
+    if (!was_so) faults.push_back(say("mesh ", m, ": triangle ", t, " has a vertex twice"));
+  }
+}
+
+/// Surface points that a triangle has. Points that lost all their triangles keep their numbers.
+std::size_t live_point_count(const TornModel& model) {
+  std::set<std::uint32_t> points;
+  for (std::uint32_t m = 0; m < model.character().meshes.size(); ++m) {
+    const Mesh& mesh = model.character().meshes[m];
+    for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t)
+      for (std::uint32_t k = 0; k < 3 && !is_retired(mesh.triangles[t]); ++k) points.insert(model.point_at(m, t, k));
+  }
+  return points.size();
 }
 
 Character with_lips_closed(const Character& torn) {
@@ -127,6 +121,9 @@ std::vector<std::string> broken_laws(const TornModel& model) {
   for (std::uint32_t m = 0; m < torn.meshes.size(); ++m) {
     if (!keeps_source_vertices(torn.meshes[m], source.meshes[m])) faults.push_back(say("mesh ", m, ": a source vertex changed"));
     check_cover(model, m, faults);
+    check_origins(model, m, faults);
+    check_fillings(model, m, faults);
+    check_vertices_differ(model, m, faults);
   }
   return faults;
 }
@@ -138,15 +135,19 @@ std::vector<std::string> broken_surface(const TornModel& model) {
     faults.push_back(say("non-manifold edges: ", before.non_manifold_edges, " -> ", after.non_manifold_edges));
   // The surface that the arrays describe is the one that the kernel kept. Where a source edge has many faces, splitting some of
   // them leaves others that join when looked at afresh.
-  if (before.non_manifold_edges == 0 && after.points != model.point_count())
-    faults.push_back(say("arrays describe ", after.points, " points, the kernel has ", model.point_count()));
+  if (const std::size_t live = live_point_count(model); before.non_manifold_edges == 0 && after.points != live)
+    faults.push_back(say("arrays describe ", after.points, " points, the kernel has ", live));
   return faults;
 }
 
 bool is_clear_of_itself(const Character& source) {
   std::set<std::array<float, 3>> places;
   for (const Mesh& mesh : source.meshes)
-    for (const Vec3f& position : mesh.positions) places.insert({position.x() + 0.0f, position.y() + 0.0f, position.z() + 0.0f});
+    for (const Triangle& triangle : mesh.triangles)
+      for (std::size_t k = 0; k < 3 && !is_retired(triangle); ++k) {
+        const Vec3f& position = mesh.positions[triangle[k]];
+        places.insert({position.x() + 0.0f, position.y() + 0.0f, position.z() + 0.0f});
+      }
   const TopologyCounts counts = count_topology(source);
   return counts.non_manifold_edges == 0 && counts.points == places.size();
 }
@@ -171,7 +172,7 @@ std::vector<std::string> broken_lips(const TornModel& model, const ChangeRecord&
   std::map<std::uint32_t, Place> place_of_point;
   for (std::uint32_t m = 0; m < torn.meshes.size(); ++m)
     for (std::uint32_t t = 0; t < torn.meshes[m].triangle_count(); ++t)
-      for (std::uint32_t k = 0; k < 3; ++k)
+      for (std::uint32_t k = 0; k < 3 && !is_retired(torn.meshes[m].triangles[t]); ++k)
         place_of_point.emplace(model.point_at(m, t, k), Place{m, torn.meshes[m].triangles[t][k]});
   const auto side_of = [&](const Place& place) {
     for (const CustomAttribute& attribute : torn.meshes[place.mesh].custom_attributes)
@@ -179,6 +180,10 @@ std::vector<std::string> broken_lips(const TornModel& model, const ChangeRecord&
     return 0.0f;
   };
   for (const LipPair& pair : change.lips) {
+    if (!place_of_point.contains(pair.left) || !place_of_point.contains(pair.right)) {
+      faults.push_back(say("lip points ", pair.left, ", ", pair.right, " have no triangle"));
+      continue;
+    }
     const Place left = place_of_point.at(pair.left), right = place_of_point.at(pair.right);
     const Mesh &left_mesh = torn.meshes[left.mesh], &right_mesh = torn.meshes[right.mesh];
     if (left_mesh.positions[left.vertex] != right_mesh.positions[right.vertex]) faults.push_back("lip points do not coincide");
@@ -189,59 +194,6 @@ std::vector<std::string> broken_lips(const TornModel& model, const ChangeRecord&
                       });
     if (!same) faults.push_back("lip points have different weights");
     if (side_of(left) == side_of(right)) faults.push_back(say("lip points ", pair.left, ", ", pair.right, " share a tear side"));
-  }
-  return faults;
-}
-
-std::vector<std::string> broken_closed_form(const TornModel& model, const ModelPose& pose) {
-  std::vector<std::string> faults;
-  const double diagonal = posed_diagonal(model.source(), pose);
-  for (std::uint32_t m = 0; m < model.character().meshes.size(); ++m) {
-    const Mesh& torn = model.character().meshes[m];
-    const Mesh& source = model.source().meshes[m];
-    if (torn.triangles == source.triangles) continue;
-    const Skin& skin = model.source().skins[source.skin];
-    std::vector<Affine3d> palette(skin.bones.size());
-    if (!compute_palette(skin, pose, palette)) return {"no palette"};
-    const auto position = [&](const Mesh& mesh, std::uint32_t v) {
-      return deform_position_reference(mesh, v, palette, pose.morph_weights);
-    };
-    const auto morphed = [&](std::uint32_t v) {
-      Vec3d p = source.positions[v].cast<double>();
-      for (std::size_t j = 0; j < source.morph_targets.size(); ++j)
-        if (!source.morph_targets[j].position_deltas.empty())
-          p += static_cast<double>(pose.morph_weights[source.first_morph_weight + j]) *
-               source.morph_targets[j].position_deltas[v].cast<double>();
-      return p;
-    };
-    // Rounding of the stored floats, seen through the largest matrix: positions and weights carry 2^-24 each.
-    double largest = 0;
-    for (const Affine3d& matrix : palette) largest = std::max(largest, matrix.linear().norm());
-    for (std::uint32_t v = source.vertex_count(); v < torn.vertex_count(); ++v) {
-      const Birth birth = model.birth(m, v);
-      const Triangle parents = source.triangles[birth.triangle];
-      Vec3d expected = Vec3d::Zero();
-      double reach = 0;
-      for (std::size_t k = 0; k < 3; ++k) {
-        expected += birth.barycentric[k] * position(source, parents[k]);
-        reach = std::max(reach, morphed(parents[k]).norm());
-        for (const Influence& influence : source.weights.of(parents[k]))
-          reach = std::max(reach, (palette[influence.slot] * morphed(parents[k])).norm() / std::max(largest, 1e-30));
-      }
-      for (std::size_t k = 0; k < 3; ++k)
-        for (std::size_t l = k + 1; l < 3; ++l) {
-          const Vec3d edge = morphed(parents[k]) - morphed(parents[l]);
-          const double product = birth.barycentric[k] * birth.barycentric[l];
-          for (const Influence& influence : source.weights.of(parents[k]))
-            expected -= product * static_cast<double>(influence.weight) * (palette[influence.slot].linear() * edge);
-          for (const Influence& influence : source.weights.of(parents[l]))
-            expected += product * static_cast<double>(influence.weight) * (palette[influence.slot].linear() * edge);
-        }
-      const double error = (position(torn, v) - expected).norm();
-      const double rounding = 2e-6 * std::max(diagonal, largest * reach);
-      if (!(error <= rounding))
-        faults.push_back(say("mesh ", m, " vertex ", v, ": ", error, " from the closed form, rounding explains ", rounding));
-    }
   }
   return faults;
 }

@@ -10,11 +10,12 @@ namespace sunder::test {
 /// The laws that a torn model must keep, whatever tore it (docs/architecture.md). Each returns what is broken, one sentence a
 /// fault; empty: nothing. All are computed from the arrays alone, not from the kernel's own bookkeeping.
 
-/// Indices, weights, finite values; vertices of the source bit-identical; parts of each source triangle cover it exactly, none
-/// without area.
+/// Indices, weights, finite values; vertices of the source bit-identical; parts of each source triangle cover it exactly, or at
+/// most where some of them are retired, none without area. The same for walls and caps, as they were made; they have vertices and
+/// submeshes of their own.
 std::vector<std::string> broken_laws(const TornModel& model);
 
-/// Edges no less manifold than the source's; as many points as the kernel counts. For sources that do not touch or overlap
+/// Edges no less manifold than the source's; as many points with a face as the kernel has. For sources that do not touch or overlap
 /// themselves: where two sheets lie on one another, what a tear makes on both is told apart by nothing.
 std::vector<std::string> broken_surface(const TornModel& model);
 
@@ -28,8 +29,8 @@ std::vector<std::string> broken_closure(const TornModel& model);
 /// Lips: pairs coincide in position and weights, bit for bit, differ in tear side, and no other separate points coincide unmarked.
 std::vector<std::string> broken_lips(const TornModel& model, const ChangeRecord& change);
 
-/// In `pose`, every new vertex stands where the closed form of the interpolation error says: barycentric place on the untorn posed
-/// triangle minus sum_{k<l} beta_k beta_l sum_i (w_k,i - w_l,i) R_i (v_k - v_l), within rounding.
+/// In `pose`, every new vertex of the surface stands where the closed form of the interpolation error says: barycentric place on
+/// the untorn posed triangle minus sum_{k<l} beta_k beta_l sum_i (w_k,i - w_l,i) R_i (v_k - v_l), within rounding.
 std::vector<std::string> broken_closed_form(const TornModel& model, const ModelPose& pose);
 
 }  // namespace sunder::test

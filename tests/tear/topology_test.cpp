@@ -115,5 +115,29 @@ TEST(Topology, degenerate_triangles_are_counted_and_join_nothing) {
   EXPECT_EQ(counts.degenerate_triangles, 2u);
 }
 
+TEST(Topology, retired_triangles_and_what_only_they_use_count_for_nothing) {
+  Character character = make_soup({{kA, kB, kC}, {kB, kA, kD}, {kE, 2 * kE, 3 * kD}});
+  const TopologyCounts before = count_topology(character);
+  EXPECT_EQ(before.points, 7u);
+  for (const std::uint32_t t : {1u, 2u}) character.meshes[0].triangles[t].fill(character.meshes[0].triangles[t][0]);
+  const TopologyCounts after = count_topology(character);
+  EXPECT_EQ(after.vertices, before.vertices);
+  EXPECT_EQ(after.points, 3u);
+  EXPECT_EQ(after.triangles, 1u);
+  EXPECT_EQ(after.edges, 3u);
+  EXPECT_EQ(after.boundary_edges, 3u);
+  EXPECT_EQ(after.components, 1u);
+  EXPECT_EQ(after.degenerate_triangles, 0u);
+}
+
+TEST(Topology, vertices_that_no_triangle_uses_are_no_points) {
+  Character character = make_soup({{kA, kB, kC}, {kA, kE, kE}});
+  EXPECT_EQ(count_topology(character).points, 4u) << "degenerate triangles have points";
+  character.meshes[0].triangles.pop_back();
+  character.meshes[0].triangle_submesh.pop_back();
+  EXPECT_EQ(count_topology(character).points, 3u);
+  EXPECT_EQ(count_topology(character).vertices, 6u);
+}
+
 }  // namespace
 }  // namespace sunder

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <sunder/core/api.h>
 #include <sunder/core/mesh.h>
 #include <sunder/weights/interpolate.h>
 
@@ -30,8 +31,8 @@ class DirtyRanges {
  public:
   static constexpr std::size_t kMaximum = 8;
 
-  /// @param elements  ascending; repeated ones count once. Ranges nearer than the widest gaps are merged.
-  static DirtyRanges covering(std::span<const std::uint32_t> elements);
+  /// @param elements  ascending; repeated ones count once. The seven widest gaps stay apart, of equal ones the first. O(elements).
+  static SUNDER_API DirtyRanges covering(std::span<const std::uint32_t> elements);
 
   [[nodiscard]] const Range* begin() const { return ranges_.data(); }
   [[nodiscard]] const Range* end() const { return ranges_.data() + count_; }

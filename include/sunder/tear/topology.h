@@ -5,10 +5,11 @@
 namespace sunder {
 
 /// Shape of a character's surface, all meshes together, counted on surface points: vertices that agree in position, weights, morph
-/// displacements and tear side are one point, so UV seams, hard edges and material borders do not count as borders.
+/// displacements and tear side are one point, so UV seams, hard edges and material borders do not count as borders. Retired
+/// triangles count as if they were not there, and so do points that no other triangle uses.
 struct TopologyCounts {
-  std::uint32_t vertices = 0;
-  std::uint32_t points = 0;
+  std::uint32_t vertices = 0;  ///< As in the arrays, whether or not a triangle uses them.
+  std::uint32_t points = 0;    ///< Of triangles. TornModel::point_count() counts those that lost their triangles too.
   std::uint32_t triangles = 0;
   std::uint32_t edges = 0;
   std::uint32_t boundary_edges = 0;      ///< With one face.

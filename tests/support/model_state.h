@@ -1,0 +1,31 @@
+#pragma once
+
+#include <sunder/tear/torn_model.h>
+
+#include <string>
+#include <vector>
+
+namespace sunder::test {
+
+/// All that a model tells about itself.
+struct ModelState {
+  Character character;
+  std::uint64_t digest = 0;
+  std::uint32_t point_count = 0;
+  struct OfMesh {
+    std::vector<std::uint32_t> points;  ///< Three a triangle.
+    std::vector<Birth> births;          ///< Of the vertices beyond the source's.
+    std::vector<std::uint32_t> source_triangles;
+    std::vector<Triangle> fillings;
+  };
+  std::vector<OfMesh> meshes;
+};
+
+ModelState state_of(const TornModel& model);
+
+/// What two states differ in, for a message; empty where they are the same.
+std::string difference(const ModelState& a, const ModelState& b);
+
+bool are_same(const Birth& a, const Birth& b);
+
+}  // namespace sunder::test

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <sstream>
+#include <string>
+
+namespace sunder::test {
+
+/// Its arguments, one after another.
+template <class... Parts>
+std::string say(const Parts&... parts) {
+  std::ostringstream text;
+  (text << ... << parts);
+  return text.str();
+}
+
+}  // namespace sunder::test
