@@ -17,6 +17,9 @@ inline constexpr double kSamePlace = 1e-9;
 /// by less than anyone can see.
 inline constexpr double kSnap = 1e-3;
 
+/// The same where the outline of a gap has to be true: what this leaves is less than rounding shows.
+inline constexpr double kTightSnap = 1e-9;
+
 /// A place on the surface.
 struct SurfaceHit {
   Index triangle = kNone;

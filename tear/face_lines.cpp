@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "tear/entry.h"
 #include "tear/imprint.h"
 
 namespace sunder::tear {
@@ -61,7 +62,7 @@ Index FaceLines::imprint(const Vec3d& position) {
     best_least = least;
   }
   if (best.triangle == kNone || best_least < -1e-6) return kNone;
-  return imprint_point(best, 1e-9, editor_, posed_);
+  return imprint_point(best, kTightSnap, editor_, posed_);
 }
 
 bool FaceLines::turn(Index half_edge) {

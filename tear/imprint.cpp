@@ -14,7 +14,7 @@ Index split_posed_edge(Index half_edge, double fraction, SurfaceEditor& editor, 
   return point;
 }
 
-Step find_step(const BladePlane& plane, Index point, const SurfaceEditor& editor, PosedPoints& posed) {
+Step find_step(const BladePlane& plane, Index point, double snap, const SurfaceEditor& editor, PosedPoints& posed) {
   const Surface& surface = editor.surface();
   const SweepCoordinates here = plane.sweep_coordinates(plane.project(posed.position(editor, point)));
   Step best;
@@ -28,8 +28,8 @@ Step find_step(const BladePlane& plane, Index point, const SurfaceEditor& editor
     step.corner = corner;
     step.fraction = distance_a / (distance_a - distance_b);
     step.crossing_progress = plane.sweep_coordinates(plane.project(at_a + step.fraction * (at_b - at_a))).progress;
-    if (step.fraction < kSnap) step.fraction = 0;
-    if (step.fraction > 1 - kSnap) step.fraction = 1;
+    if (step.fraction < snap) step.fraction = 0;
+    if (step.fraction > 1 - snap) step.fraction = 1;
     step.position = at_a + step.fraction * (at_b - at_a);
     step.sweep = plane.sweep_coordinates(plane.project(step.position));
     const double progress = step.sweep.progress - here.progress;
@@ -130,7 +130,7 @@ Path imprint_path(const BladePlane& plane, Index start, SurfaceEditor& editor, P
   for (;;) {
     const Index here = path.points.back();
     const Vec3d from = posed.position(editor, here);
-    const Step step = find_step(plane, here, editor, posed);
+    const Step step = find_step(plane, here, kSnap, editor, posed);
     if (step.corner == kNone) return path;
     const bool along_edge = step_corner(step) != kNone;
     const Reach reach = reach_between(plane, from, step.position);

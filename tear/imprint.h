@@ -41,7 +41,8 @@ struct Step {
 
 /// The ways in which the plane leaves a point across the faces around it, of which the path takes the one that goes forward in the
 /// sweep; where several do (a fold of the surface that faces the blade), the one that bends most towards the blade's base.
-[[nodiscard]] Step find_step(const BladePlane& plane, Index point, const SurfaceEditor& editor, PosedPoints& posed);
+/// @param snap  part of the far edge nearer than which its end is meant.
+[[nodiscard]] Step find_step(const BladePlane& plane, Index point, double snap, const SurfaceEditor& editor, PosedPoints& posed);
 
 /// How much of the way from one place to the next the blade reaches, in [0, 1].
 struct Reach {

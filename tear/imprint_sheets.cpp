@@ -4,14 +4,12 @@
 #include <array>
 #include <map>
 
+#include "tear/entry.h"
 #include "tear/face_lines.h"
 #include "tear/imprint.h"
 
 namespace sunder::tear {
 namespace {
-
-/// Nearer than this part of an edge, two places on it are one.
-constexpr double kSame = 1e-9;
 
 /// Where a sheet's plane crosses an edge. The edge is directed as its lower half-edge is, so that both faces see the same numbers.
 struct Crossing {
@@ -128,9 +126,9 @@ class Imprint {
     Index last = from;
     double last_fraction = 0;
     for (Crossing* crossing : along) {
-      if (crossing->fraction - last_fraction <= kSame) {
+      if (crossing->fraction - last_fraction <= kTightSnap) {
         crossing->point = last;
-      } else if (crossing->fraction >= 1 - kSame) {
+      } else if (crossing->fraction >= 1 - kTightSnap) {
         crossing->point = to;
       } else {
         const double fraction = (crossing->fraction - last_fraction) / (1 - last_fraction);

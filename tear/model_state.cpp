@@ -36,20 +36,26 @@ Result<TearReport> TornModel::State::call(const std::function<Status(Call&)>& wo
       return status;
     }
     editor.describe(call.begin, call.change);
-    TearReport& report = call.report;
-    report.points_added = call.change.point_count;
-    for (const MeshChange& mesh : call.change.meshes) {
-      report.vertices_added += mesh.vertex_count;
-      report.triangles_added += mesh.triangle_count;
-      for (const std::uint32_t triangle : mesh.retired) report.triangles_retired += triangle < mesh.first_triangle ? 1 : 0;
-    }
-    report.pieces = tear::find_pieces(call.begin, is_cut, editor, posed);
+    count(call.begin, is_cut, call.report);
   } catch (const std::bad_alloc&) {
     take_back();
     return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
   }
   if (change != nullptr) *change = std::move(call.change);
   return std::move(call.report);
+}
+
+void TornModel::State::count(const tear::SurfaceEditor::Mark& begin, bool is_cut, TearReport& report) {
+  const tear::SurfaceEditor::Mark now = editor.mark();
+  report.points_added = now.points - begin.points;
+  report.triangles_added = now.triangles - begin.triangles;
+  report.vertices_added = report.triangles_retired = 0;
+  for (std::size_t m = 0; m < now.meshes.size(); ++m) report.vertices_added += now.meshes[m].vertices - begin.meshes[m].vertices;
+  for (const std::uint32_t triangle : editor.touched_since(begin)) {
+    if (triangle >= begin.triangles) break;  // ascending
+    report.triangles_retired += editor.surface().corner_point[3 * triangle] == kNone ? 1 : 0;
+  }
+  report.pieces = tear::find_pieces(begin, is_cut, editor, posed);
 }
 
 void TornModel::State::record(Operation operation, const tear::SurfaceEditor::Mark& begin, std::uint32_t side_before) {

@@ -25,6 +25,9 @@ struct TornModel::State {
   /// @param is_cut  all pieces are reported, if there are several.
   Result<TearReport> call(const std::function<Status(Call&)>& work, ChangeRecord* change, bool is_cut = false);
 
+  /// Fills in what was added and retired since `begin`, and what came free.
+  void count(const tear::SurfaceEditor::Mark& begin, bool is_cut, TearReport& report);
+
   /// Refuses while a stroke is under way.
   [[nodiscard]] Status may_begin() const;
   /// Makes `pose` the one in which points are looked up. On failure the old one stays.

@@ -44,7 +44,7 @@ void open_edges(const std::vector<PointEdge>& edges, SurfaceEditor& editor, Inde
   }
   for (const Index half_edge : to_cut) editor.cut_edge(half_edge);
 
-  Index highest_side = side;
+  Index next_side = side;
   std::vector<Index> fans, remaining;
   for (const CornersAtPoint& at : corners.at_points()) {
     // Fans at this point, by their clockwise ends: those right of the edges first, then left.
@@ -61,11 +61,11 @@ void open_edges(const std::vector<PointEdge>& edges, SurfaceEditor& editor, Inde
       remaining = fans;
       remaining.erase(remaining.begin() + static_cast<std::ptrdiff_t>(fan));
       const Index point = editor.separate_fan(fans[fan], of_place, remaining);
-      highest_side = std::max(highest_side, of_place++);
+      next_side = std::max(next_side, ++of_place);
       lips.push_back({point, at.point});
     }
   }
-  side = highest_side + 1;
+  side = next_side;
 }
 
 }  // namespace sunder::tear

@@ -11,9 +11,6 @@
 namespace sunder::tear {
 namespace {
 
-/// What is left of crossings so near to an end of an edge is less than rounding shows.
-constexpr double kTightSnap = 1e-9;
-
 /// Depth in the plane's y at which the middle of a gap lies at x.
 double depth_at(const std::vector<Vec2d>& section, double x) {
   const auto after =
@@ -93,7 +90,8 @@ void StrokeTearing::remove(const Cell& cell, const PendingGap& gap, const Workpi
   report.faces_crossed += removal.faces_crossed;
   report.blocked += removal.blocked;
   report.area_removed_posed += removal.area_posed;
-  if (options_.layers == Layers::all && removal.faces_removed > 0) report.runs = std::max(report.runs, Index{1});
+  if (options_.layers == Layers::all && removal.faces_removed > 0 && !has_removed_) ++report.runs;
+  has_removed_ |= removal.faces_removed > 0;
 }
 
 void StrokeTearing::remove_pending(const HalfSpace& end, const Workpiece& work) {
@@ -144,7 +142,6 @@ void StrokeTearing::sweep_gap(const BladePlane& plane, const Workpiece& work) {
   const bool continues =
       takes_all ? pending_.has_value() : begins_at != kNone && !next.seeds.empty() && next.seeds.front() == begins_at;
   if (!takes_all && next.seeds.empty()) {
-    catch_up(work);
     ++report.segments_missed;
     return;
   }
@@ -153,19 +150,35 @@ void StrokeTearing::sweep_gap(const BladePlane& plane, const Workpiece& work) {
     join_gaps(next, takes_all ? Vec3d(0.5 * (from.base + from.tip)) : Vec3d(work.posed.position(work.editor, begins_at)), work);
   } else if (pending_) {
     catch_up(work);
-  } else if (continues && direction_before_) {
-    // The gap before was closed square, in another pose: this one begins where that one ended.
-    next.start = {*direction_before_, direction_before_->dot(work.posed.position(work.editor, begins_at))};
+  } else if (continues && is_in_new_pose_) {
+    next.start = start_from_rim(plane, begins_at, work);
   }
-  direction_before_.reset();
+  is_in_new_pose_ = false;
   pending_ = std::move(next);
+}
+
+/// Where a gap goes on from one that was closed square in another pose: from the edge that this left at both sides of the tip, wherever
+/// that stands now, and a little before it, so that nothing is left standing between the two.
+HalfSpace StrokeTearing::start_from_rim(const BladePlane& plane, Index tip, const Workpiece& work) const {
+  const Surface& surface = work.editor.surface();
+  const Index first = surface.first_of_fan(surface.point_corner[tip]);
+  Index last = first;
+  for (Index c = surface.rotate_ccw(first); c != kNone && c != first; c = surface.rotate_ccw(c)) last = c;
+  const Vec3d at = work.posed.position(work.editor, tip);
+  const Vec3d along_rim = work.posed.position(work.editor, surface.corner_point[Surface::next(first)]) -
+                          work.posed.position(work.editor, surface.corner_point[Surface::previous(last)]);
+  Vec3d forward = along_rim.cross(plane.along());
+  if (forward.dot(plane.across()) < 0) forward = -forward;
+  const double length = forward.norm();
+  // A rim that does not lie across the way says nothing.
+  forward = length > 0 && forward.dot(plane.across()) > 0.5 * length ? Vec3d(forward / length) : plane.across();
+  return {forward, forward.dot(at) - 0.1 * options_.width};
 }
 
 void StrokeTearing::catch_up(const Workpiece& work) {
   if (!pending_) return;
   const SurfaceEditor::Mark before = work.editor.mark();
   remove_pending(pending_->plane.standing_on(pending_->plane.reach()[2]), work);
-  direction_before_ = pending_->plane.across();
   pending_.reset();
   improve_faces(work.editor.touched_since(before), work.editor);
 }

@@ -13,6 +13,18 @@ bool StrokeTearing::stands_on_surface(const Workpiece& work) const {
   return tip_ != kNone && work.editor.surface().point_corner[tip_] != kNone;
 }
 
+void StrokeTearing::leave_pose(const Workpiece& work) {
+  catch_up(work);
+  if (stands_on_surface(work)) tip_before_ = work.posed.position(work.editor, tip_);
+}
+
+void StrokeTearing::enter_pose(const Workpiece& work) {
+  is_in_new_pose_ = true;
+  if (!stands_on_surface(work)) return;
+  const Vec3d moved = work.posed.position(work.editor, tip_) - tip_before_;
+  blade_ = {blade_.base + moved, blade_.tip + moved};
+}
+
 void StrokeTearing::extend(const Blade& to, const Workpiece& work) {
   ++report.segments;
   const Blade from = blade_before_ = blade_;

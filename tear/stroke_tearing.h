@@ -20,9 +20,10 @@ class StrokeTearing {
 
   /// Tears on to the next blade, in the pose that `work.posed` stands for.
   void extend(const Blade& to, const Workpiece& work);
-  /// Does what is left of the gap in the pose in which its last segment was swept. To be called before the pose changes, and at the
-  /// end.
-  void catch_up(const Workpiece& work);
+  /// To be called around each change of the pose: the gap is finished in the pose in which it was swept, and the blade goes along with
+  /// the tip.
+  void leave_pose(const Workpiece& work);
+  void enter_pose(const Workpiece& work);
   /// Ends the stroke, which began at `begin`.
   void finish(const SurfaceEditor::Mark& begin, const Workpiece& work);
 
@@ -51,6 +52,9 @@ class StrokeTearing {
   [[nodiscard]] PendingGap find_gap(const BladePlane& plane, const Workpiece& work);
   void join_gaps(PendingGap& next, const Vec3d& at, const Workpiece& work);
   void remove_pending(const HalfSpace& end, const Workpiece& work);
+  [[nodiscard]] HalfSpace start_from_rim(const BladePlane& plane, Index tip, const Workpiece& work) const;
+  /// Does what is left of the gap.
+  void catch_up(const Workpiece& work);
   void remove(const Cell& cell, const PendingGap& gap, const Workpiece& work);
   [[nodiscard]] bool stands_on_surface(const Workpiece& work) const;
 
@@ -60,7 +64,9 @@ class StrokeTearing {
   Index last_end_ = kNone;  ///< Where the last piece of the segment under way ended.
   std::size_t torn_edges_ = 0;
   std::optional<PendingGap> pending_;
-  std::optional<Vec3d> direction_before_;  ///< Of the last segment, where the gap was caught up with since.
+  Vec3d tip_before_ = Vec3d::Zero();  ///< In the pose that was left.
+  bool has_removed_ = false;
+  bool is_in_new_pose_ = false;
 };
 
 }  // namespace sunder::tear

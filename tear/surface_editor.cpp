@@ -17,6 +17,7 @@ SurfaceEditor::SurfaceEditor(const Character& source, Character& character)
     first_triangle_.push_back(first);
     first += mesh.triangle_count();
   }
+  begin_stage();
 }
 
 Triangle SurfaceEditor::vertices_of(Index triangle) const {
@@ -35,8 +36,10 @@ void SurfaceEditor::log_triangle(Index triangle) {
 }
 
 void SurfaceEditor::restore(const LogEntry& entry) {
+  const TriangleRef& ref = surface_.triangles[entry.triangle];
+  character_.meshes[ref.mesh].triangles[ref.triangle] = entry.vertices;
   for (Index k = 0; k < 3; ++k) {
-    set_corner(3 * entry.triangle + k, entry.points[k], entry.vertices[k]);
+    surface_.corner_point[3 * entry.triangle + k] = entry.points[k];
     surface_.twin[3 * entry.triangle + k] = entry.twins[k];
     if (entry.points[k] != kNone) surface_.point_corner[entry.points[k]] = entry.point_corners[k];
   }
@@ -46,6 +49,7 @@ void SurfaceEditor::set_corner(Index corner, Index point, Index vertex) {
   surface_.corner_point[corner] = point;
   const TriangleRef& ref = surface_.triangles[corner / 3];
   character_.meshes[ref.mesh].triangles[ref.triangle][corner % 3] = vertex;
+  if (point != kNone) write_side(ref.mesh, vertex, surface_.point_side[point]);
 }
 
 void SurfaceEditor::join(Index a, Index b) {
@@ -63,9 +67,10 @@ Index SurfaceEditor::append_triangle(Index like, const std::array<Index, 3>& poi
   const Index submesh = mesh.triangle_submesh[ref.triangle];
   mesh.triangles.push_back(vertices);
   mesh.triangle_submesh.push_back(submesh);
-  for (const Index point : points) {
-    surface_.corner_point.push_back(point);
+  for (Index k = 0; k < 3; ++k) {
+    surface_.corner_point.push_back(points[k]);
     surface_.twin.push_back(kNone);
+    write_side(ref.mesh, vertices[k], surface_.point_side[points[k]]);
   }
   return triangle;
 }
@@ -389,6 +394,7 @@ Index SurfaceEditor::append_filling(Index mesh, Index submesh, const std::array<
   for (Index k = 0; k < 3; ++k) {
     surface_.corner_point.push_back(points[k]);
     surface_.twin.push_back(kNone);
+    write_side(mesh, vertices[k], surface_.point_side[points[k]]);
     if (surface_.point_corner[points[k]] == kNone) surface_.point_corner[points[k]] = 3 * triangle + k;
     Birth& birth = births_[mesh][vertices[k] - source_.meshes[mesh].vertex_count()];
     if (birth.triangle != kNone) continue;
@@ -417,7 +423,7 @@ SurfaceEditor::Mark SurfaceEditor::mark() const {
 void SurfaceEditor::roll_back(const Mark& to) {
   for (; log_.size() > to.log_length; log_.pop_back()) restore(log_.back());
   for (; side_log_.size() > to.side_log_length; side_log_.pop_back())
-    tear_sides(side_log_.back().mesh)[side_log_.back().vertex] = side_log_.back().side;
+    tear_sides(side_log_.back().mesh)->values[side_log_.back().vertex] = side_log_.back().side;
   surface_.triangles.resize(to.triangles);
   surface_.corner_point.resize(3 * std::size_t{to.triangles});
   surface_.twin.resize(3 * std::size_t{to.triangles});
@@ -452,32 +458,29 @@ std::vector<Index> SurfaceEditor::touched_since(const Mark& mark) const {
   return touched;
 }
 
-std::vector<float>& SurfaceEditor::tear_sides(Index mesh) {
-  Mesh& of = character_.meshes[mesh];
-  auto attribute = std::find_if(of.custom_attributes.begin(), of.custom_attributes.end(), [](const CustomAttribute& candidate) {
+CustomAttribute* SurfaceEditor::tear_sides(Index mesh) {
+  auto& attributes = character_.meshes[mesh].custom_attributes;
+  const auto found = std::find_if(attributes.begin(), attributes.end(), [](const CustomAttribute& candidate) {
     return candidate.name == kTearSideAttribute && candidate.components == 1;
   });
-  if (attribute == of.custom_attributes.end())
-    attribute = of.custom_attributes.insert(
-        attribute, CustomAttribute{kTearSideAttribute, 1, false, std::vector<float>(of.vertex_count(), 0.0f)});
-  return attribute->values;
+  return found == attributes.end() ? nullptr : &*found;
 }
 
-void SurfaceEditor::write_sides(Index triangle) {
-  const TriangleRef& ref = surface_.triangles[triangle];
-  const Triangle vertices = vertices_of(triangle);
-  std::vector<float>& sides = tear_sides(ref.mesh);
-  for (Index k = 0; k < 3; ++k) {
-    const Index point = surface_.corner_point[3 * triangle + k];
-    if (point == kNone) return;
-    const auto side = static_cast<float>(surface_.point_side[point]);
-    if (sides[vertices[k]] == side) continue;
-    side_log_.push_back({ref.mesh, vertices[k], sides[vertices[k]]});
-    sides[vertices[k]] = side;
+void SurfaceEditor::write_side(Index mesh, Index vertex, Index side) {
+  CustomAttribute* sides = tear_sides(mesh);
+  if (sides == nullptr) {
+    if (side == 0) return;
+    Mesh& of = character_.meshes[mesh];
+    of.custom_attributes.push_back({kTearSideAttribute, 1, false, std::vector<float>(of.vertex_count(), 0.0f)});
+    sides = &of.custom_attributes.back();
   }
+  float& value = sides->values[vertex];
+  if (value == static_cast<float>(side)) return;
+  side_log_.push_back({mesh, vertex, value});
+  value = static_cast<float>(side);
 }
 
-void SurfaceEditor::describe(const Mark& begin, ChangeRecord& change) {
+void SurfaceEditor::describe(const Mark& begin, ChangeRecord& change) const {
   change.first_point = begin.points;
   change.point_count = surface_.point_count() - begin.points;
   change.meshes.clear();
@@ -490,7 +493,6 @@ void SurfaceEditor::describe(const Mark& begin, ChangeRecord& change) {
     const TriangleRef &ref_a = surface_.triangles[log_[a].triangle], &ref_b = surface_.triangles[log_[b].triangle];
     return ref_a.mesh != ref_b.mesh ? ref_a.mesh < ref_b.mesh : ref_a.triangle < ref_b.triangle;
   });
-  std::vector<bool> is_changed(character_.meshes.size(), false);
   for (Index m = 0; m < character_.meshes.size(); ++m) {
     const Mesh& mesh = character_.meshes[m];
     const Mark::MeshSizes& sizes = begin.meshes[m];
@@ -509,8 +511,7 @@ void SurfaceEditor::describe(const Mark& begin, ChangeRecord& change) {
       of_mesh.rewritten.push_back({ref.triangle, log_[i].vertices});
       if (is_retired(mesh.triangles[ref.triangle])) of_mesh.retired.push_back(ref.triangle);
     }
-    is_changed[m] = of_mesh.vertex_count > 0 || of_mesh.triangle_count > 0 || !of_mesh.rewritten.empty();
-    if (!is_changed[m]) continue;
+    if (of_mesh.vertex_count == 0 && of_mesh.triangle_count == 0 && of_mesh.rewritten.empty()) continue;
     for (Index t = of_mesh.first_triangle; t < mesh.triangle_count(); ++t)
       if (is_retired(mesh.triangles[t])) of_mesh.retired.push_back(t);
     const auto source_vertices = static_cast<std::ptrdiff_t>(source_.meshes[m].vertex_count());
@@ -518,14 +519,7 @@ void SurfaceEditor::describe(const Mark& begin, ChangeRecord& change) {
     change.meshes.push_back(std::move(of_mesh));
   }
 
-  // Every changed corner carries its point's side; corners that did not change had it already. Some triangles are logged only as
-  // neighbours of a change, in meshes that did not change.
-  const std::size_t first_side = side_log_.size();
-  for (const std::size_t i : entries)
-    if (is_changed[surface_.triangles[log_[i].triangle].mesh]) write_sides(log_[i].triangle);
-  for (Index triangle = begin.triangles; triangle < surface_.triangle_count(); ++triangle) write_sides(triangle);
-
-  const std::span<const SideEntry> sides = std::span<const SideEntry>(side_log_).subspan(first_side);
+  const std::span<const SideEntry> sides = std::span<const SideEntry>(side_log_).subspan(begin.side_log_length);
   for (MeshChange& of_mesh : change.meshes) fill_dirty_ranges(sides, of_mesh);
 }
 

@@ -116,8 +116,8 @@ class SurfaceEditor {
         if (twin != kNone) visit(log_[i].triangle, twin / 3);
   }
 
-  /// Writes _TEARSIDE of what changed since `begin` and fills in `change` but for its lips.
-  void describe(const Mark& begin, ChangeRecord& change);
+  /// Fills in what changed since `begin`, but for the lips.
+  void describe(const Mark& begin, ChangeRecord& change) const;
 
   /// What an operation was, to take it back later.
   struct Step;
@@ -151,10 +151,10 @@ class SurfaceEditor {
   Index append_point(Index side);
   Index append_vertex(Index mesh, const Birth& birth);
   void remove_newest_vertex(Index mesh);
-  void write_sides(Index triangle);
+  void write_side(Index mesh, Index vertex, Index side);
   /// @param sides  what was written to _TEARSIDE.
   static void fill_dirty_ranges(std::span<const SideEntry> sides, MeshChange& change);
-  [[nodiscard]] std::vector<float>& tear_sides(Index mesh);
+  [[nodiscard]] CustomAttribute* tear_sides(Index mesh);
   [[nodiscard]] Triangle vertices_of(Index triangle) const;
   [[nodiscard]] Birth birth_between(Index triangle, const std::array<double, 3>& barycentric) const;
   /// Whether replacing one corner of a triangle by a vertex keeps its winding.

@@ -25,19 +25,15 @@ Status validate_sampling(const StrokeSampling& sampling) {
   return {};
 }
 
+/// What a stroke did is the sum of what its calls did, but for what is counted over all of it.
 void add_to(TearReport& sum, const TearReport& report) {
   sum.runs += report.runs;
   sum.segments += report.segments;
   sum.segments_missed += report.segments_missed;
   sum.faces_crossed += report.faces_crossed;
-  sum.points_added += report.points_added;
-  sum.vertices_added += report.vertices_added;
-  sum.triangles_added += report.triangles_added;
-  sum.triangles_retired += report.triangles_retired;
   sum.blocked += report.blocked;
   sum.length_posed += report.length_posed;
   sum.area_removed_posed += report.area_removed_posed;
-  sum.pieces.insert(sum.pieces.end(), report.pieces.begin(), report.pieces.end());
 }
 
 }  // namespace
@@ -69,8 +65,9 @@ struct TearStroke::State {
   Status take_up(const ModelPose& pose, const Blade& blade) {
     const auto index = static_cast<std::uint32_t>(operation.stroke.size());
     if (!same_bits(pose, model->pose)) {
-      tearing.catch_up(model->workpiece());
+      tearing.leave_pose(model->workpiece());
       if (Status status = model->stand_in(pose); !status) return status;
+      tearing.enter_pose(model->workpiece());
       operation.pose_changes.push_back({index, pose});
     }
     operation.stroke.push_back(blade);
@@ -169,6 +166,7 @@ Result<TearReport> TearStroke::end(ChangeRecord* change) {
       change);
   if (!report) return report;
   state.model->has_stroke = false;
+  state.model->count(state.begin, false, state.total);
   // A stroke of one blade tears nothing: there is nothing to take back.
   if (state.operation.stroke.size() > 1) state.model->record(std::move(state.operation), state.begin, state.side_before);
   return std::move(state.total);

@@ -52,7 +52,7 @@ SurfaceEditor::Redo SurfaceEditor::undo(const Step& step, ChangeRecord& change) 
   redo.point_corner = tail_of(surface_.point_corner, begin.points);
   redo.point_side = tail_of(surface_.point_side, begin.points);
   for (const SideEntry& entry : step.side_log)
-    redo.sides.push_back({entry.mesh, entry.vertex, tear_sides(entry.mesh)[entry.vertex]});
+    redo.sides.push_back({entry.mesh, entry.vertex, tear_sides(entry.mesh)->values[entry.vertex]});
 
   // What the triangles are now, and the corners by which the points that they had or have are known.
   std::vector<Index> triangles;
@@ -138,7 +138,7 @@ SurfaceEditor::Step SurfaceEditor::redo(const Redo& redo, ChangeRecord& change) 
   append(surface_.point_side, redo.point_side);
   for (const LogEntry& entry : redo.changed) restore(entry);
   for (const auto& [point, corner] : redo.known_corners) surface_.point_corner[point] = corner;
-  for (const SideEntry& entry : redo.sides) tear_sides(entry.mesh)[entry.vertex] = entry.side;
+  for (const SideEntry& entry : redo.sides) tear_sides(entry.mesh)->values[entry.vertex] = entry.side;
   begin_stage();
   return redo.step;
 }
