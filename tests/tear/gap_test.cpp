@@ -74,9 +74,8 @@ TEST(Gap, of_a_turning_stroke_is_mitred) {
       stroke.push_back(down_at(x, y));
       x += 0.09 * std::cos(heading);
       y += 0.09 * std::sin(heading);
-      heading = std::clamp(heading + random.uniform(-1.5, 1.5), -1.2, 1.2);
-      if (y < 0.25) heading = std::abs(heading);
-      if (y > 0.75) heading = -std::abs(heading);
+      // Back to the middle before it leaves the sheet.
+      heading = std::clamp(heading + random.uniform(y < 0.3 ? 0.0 : -1.5, y > 0.7 ? 0.0 : 1.5), -1.2, 1.2);
     }
     const auto report = model.tear(pose, stroke, options);
     ASSERT_TRUE(report);
