@@ -15,13 +15,25 @@ bool StrokeTearing::stands_on_surface(const Workpiece& work) const {
 
 void StrokeTearing::leave_pose(const Workpiece& work) {
   catch_up(work);
-  if (stands_on_surface(work)) tip_before_ = work.posed.position(work.editor, tip_);
+  held_by_.reset();
+  if (stands_on_surface(work))
+    held_before_ = work.posed.position(work.editor, tip_);
+  else if (held_by_ = first_hit(blade_, work.editor, work.posed); held_by_)
+    held_before_ = held_by_->position;
 }
 
 void StrokeTearing::enter_pose(const Workpiece& work) {
   is_in_new_pose_ = true;
-  if (!stands_on_surface(work)) return;
-  const Vec3d moved = work.posed.position(work.editor, tip_) - tip_before_;
+  Vec3d moved = -held_before_;
+  if (stands_on_surface(work)) {
+    moved += work.posed.position(work.editor, tip_);
+  } else if (held_by_) {
+    for (Index k = 0; k < 3; ++k)
+      moved += held_by_->barycentric[k] *
+               work.posed.position(work.editor, work.editor.surface().corner_point[3 * held_by_->triangle + k]);
+  } else {
+    return;
+  }
   blade_ = {blade_.base + moved, blade_.tip + moved};
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tear/blade_plane.h"
+#include "tear/entry.h"
 #include "tear/half_space.h"
 #include "tear/workpiece.h"
 
@@ -21,7 +22,7 @@ class StrokeTearing {
   /// Tears on to the next blade, in the pose that `work.posed` stands for.
   void extend(const Blade& to, const Workpiece& work);
   /// To be called around each change of the pose: the gap is finished in the pose in which it was swept, and the blade goes along with
-  /// the tip.
+  /// the surface that it stands on.
   void leave_pose(const Workpiece& work);
   void enter_pose(const Workpiece& work);
   /// Ends the stroke, which began at `begin`.
@@ -64,7 +65,8 @@ class StrokeTearing {
   Index last_end_ = kNone;  ///< Where the last piece of the segment under way ended.
   std::size_t torn_edges_ = 0;
   std::optional<PendingGap> pending_;
-  Vec3d tip_before_ = Vec3d::Zero();  ///< In the pose that was left.
+  Vec3d held_before_ = Vec3d::Zero();  ///< Where the blade stood on the surface in the pose that was left.
+  std::optional<SurfaceHit> held_by_;  ///< And where on it, where that is not the tip.
   bool has_removed_ = false;
   bool is_in_new_pose_ = false;
 };

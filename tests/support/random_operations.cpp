@@ -15,7 +15,8 @@ CutOperation random_cut(const TornModel& model, Random& random) {
   operation.pose = pose;
   const auto positions = posed_positions(source, 0, pose);
   operation.cut.point = positions[random.index(static_cast<std::uint32_t>(positions.size()))];
-  operation.cut.normal = random.uniform(0.1, 3) * random.direction();
+  operation.cut.normal = random.direction();
+  operation.cut.normal *= random.uniform(0.1, 3);
   operation.cut.caps = random.index(2) == 0;
   if (random.index(2) == 0) {
     const Vec3d right = operation.cut.normal.unitOrthogonal(), up = operation.cut.normal.normalized().cross(right);

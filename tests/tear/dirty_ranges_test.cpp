@@ -71,7 +71,9 @@ TEST(DirtyRanges, of_equal_gaps_the_last_are_filled) {
 TEST(DirtyRanges, are_ascending_apart_and_hold_every_element) {
   Random random(1);
   for (int i = 0; i < 500; ++i) {
-    const auto elements = random_elements(random, 1 + random.index(3000), random.uniform(0, 1) * random.uniform(0, 1));
+    const std::uint32_t size = 1 + random.index(3000);
+    const double density = random.uniform(0, 1);
+    const auto elements = random_elements(random, size, density * density);
     const auto ranges = ranges_of(elements);
     ASSERT_LE(ranges.size(), DirtyRanges::kMaximum);
     for (std::size_t r = 0; r < ranges.size(); ++r) {

@@ -81,7 +81,7 @@ class SUNDER_API TornModel {
   /// triangle. Unchecked.
   [[nodiscard]] Birth birth(std::uint32_t mesh, std::uint32_t vertex) const;
   /// The triangle of the source that a triangle is a part of; from the source's triangle count up: that of a wall or cap, see
-  /// filling(). Unchecked.
+  /// fillings(). Unchecked.
   [[nodiscard]] std::uint32_t source_triangle(std::uint32_t mesh, std::uint32_t triangle) const;
   /// Triangles of walls and caps as they were made: their vertices. Births and source_triangle() number them after the source's.
   [[nodiscard]] std::span<const Triangle> fillings(std::uint32_t mesh) const;
