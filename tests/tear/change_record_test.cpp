@@ -186,14 +186,6 @@ void expect_report_agrees(const TearReport& report, const ChangeRecord& change) 
   EXPECT_EQ(report.vertices_added, vertices);
   EXPECT_EQ(report.triangles_added, triangles);
   EXPECT_EQ(report.triangles_retired, retired);
-<<<<<<< HEAD
-  // A segment that goes on with a run begins none.
-  if (report.runs == 0 && report.segments_missed == report.segments) {
-    EXPECT_TRUE(change.meshes.empty());
-    EXPECT_TRUE(change.lips.empty());
-  }
-=======
->>>>>>> h3
 }
 
 TornModel make_model(Character character) {

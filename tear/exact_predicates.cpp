@@ -1,0 +1,167 @@
+#include "tear/exact_predicates.h"
+
+#include <array>
+#include <cmath>
+
+namespace sunder::tear {
+namespace {
+
+// Expansions: Shewchuk, "Adaptive precision floating-point arithmetic and fast robust geometric predicates", 1997.
+
+struct Pair {
+  double value;  ///< The rounded result.
+  double error;  ///< What rounding took away: the exact result is value + error.
+};
+
+Pair two_sum(double a, double b) {
+  const double sum = a + b;
+  const double b_part = sum - a;
+  return {sum, (a - (sum - b_part)) + (b - b_part)};
+}
+
+Pair split(double a) {
+  const double c = 134217729.0 * a;  // 2^27 + 1
+  const double high = c - (c - a);
+  return {high, a - high};
+}
+
+Pair two_product(double a, double b) {
+  const double product = a * b;
+  const Pair x = split(a), y = split(b);
+  return {product, x.error * y.error - (((product - x.value * y.value) - x.error * y.value) - x.value * y.error)};
+}
+
+/// A number as an exact sum of at most N doubles that do not overlap, the smallest first, none zero.
+template <int N>
+struct Expansion {
+  std::array<double, N> component{};
+  int count = 0;
+
+  void append(double value) {
+    if (value != 0) component[static_cast<std::size_t>(count++)] = value;
+  }
+  void add(double value) {
+    const int before = count;
+    count = 0;
+    for (int i = 0; i < before; ++i) {
+      const Pair sum = two_sum(value, component[static_cast<std::size_t>(i)]);
+      append(sum.error);
+      value = sum.value;
+    }
+    append(value);
+  }
+  template <int M>
+  void add(const Expansion<M>& other, double sign = 1) {
+    for (int i = 0; i < other.count; ++i) add(sign * other.component[static_cast<std::size_t>(i)]);
+  }
+  [[nodiscard]] int sign() const {
+    if (count == 0) return 0;
+    return component[static_cast<std::size_t>(count - 1)] > 0 ? 1 : -1;
+  }
+};
+
+Expansion<2> difference(double a, double b) {
+  const Pair pair = two_sum(a, -b);
+  Expansion<2> result;
+  result.append(pair.error);
+  result.append(pair.value);
+  return result;
+}
+
+template <int N, int M>
+Expansion<2 * N * M> product(const Expansion<N>& a, const Expansion<M>& b) {
+  Expansion<2 * N * M> result;
+  for (int i = 0; i < a.count; ++i)
+    for (int j = 0; j < b.count; ++j) {
+      const Pair pair = two_product(a.component[static_cast<std::size_t>(i)], b.component[static_cast<std::size_t>(j)]);
+      if (pair.error != 0) result.add(pair.error);
+      result.add(pair.value);
+    }
+  return result;
+}
+
+/// ax * by - ay * bx.
+Expansion<16> cross(const Expansion<2>& ax, const Expansion<2>& ay, const Expansion<2>& bx, const Expansion<2>& by) {
+  Expansion<16> result;
+  result.add(product(ax, by));
+  result.add(product(ay, bx), -1);
+  return result;
+}
+
+Expansion<16> squared_norm(const Expansion<2>& x, const Expansion<2>& y) {
+  Expansion<16> result;
+  result.add(product(x, x));
+  result.add(product(y, y));
+  return result;
+}
+
+int exact_orientation(const Vec2d& a, const Vec2d& b, const Vec2d& c) {
+  return cross(difference(a.x(), c.x()), difference(a.y(), c.y()), difference(b.x(), c.x()), difference(b.y(), c.y())).sign();
+}
+
+int exact_in_circle(const Vec2d& a, const Vec2d& b, const Vec2d& c, const Vec2d& d) {
+  const auto ax = difference(a.x(), d.x()), ay = difference(a.y(), d.y());
+  const auto bx = difference(b.x(), d.x()), by = difference(b.y(), d.y());
+  const auto cx = difference(c.x(), d.x()), cy = difference(c.y(), d.y());
+  Expansion<3 * 512> result;
+  result.add(product(squared_norm(ax, ay), cross(bx, by, cx, cy)));
+  result.add(product(squared_norm(bx, by), cross(cx, cy, ax, ay)));
+  result.add(product(squared_norm(cx, cy), cross(ax, ay, bx, by)));
+  return result.sign();
+}
+
+constexpr double kRounding = 0x1p-53;
+
+int sign_of(double value) { return value > 0 ? 1 : value < 0 ? -1 : 0; }
+
+}  // namespace
+
+std::optional<Vec2d> exact_range(const Vec2d& point) {
+  Vec2d result = point;
+  for (int axis = 0; axis < 2; ++axis) {
+    if (!(std::abs(result[axis]) <= 0x1p200)) return std::nullopt;
+    if (std::abs(result[axis]) < 0x1p-200) result[axis] = 0;
+  }
+  return result;
+}
+
+int orientation(const Vec2d& a, const Vec2d& b, const Vec2d& c) {
+  const double left = (a.x() - c.x()) * (b.y() - c.y());
+  const double right = (a.y() - c.y()) * (b.x() - c.x());
+  const double value = left - right;
+  if (std::abs(value) > (3 + 16 * kRounding) * kRounding * (std::abs(left) + std::abs(right))) return sign_of(value);
+  if (left == 0 && right == 0) return 0;  // exact: a difference is zero only where it is, and no product underflows
+  return exact_orientation(a, b, c);
+}
+
+int in_circle(const Vec2d& a, const Vec2d& b, const Vec2d& c, const Vec2d& d) {
+  const double ax = a.x() - d.x(), ay = a.y() - d.y();
+  const double bx = b.x() - d.x(), by = b.y() - d.y();
+  const double cx = c.x() - d.x(), cy = c.y() - d.y();
+  const double a2 = ax * ax + ay * ay, b2 = bx * bx + by * by, c2 = cx * cx + cy * cy;
+  const double value = a2 * (bx * cy - by * cx) + b2 * (cx * ay - cy * ax) + c2 * (ax * by - ay * bx);
+  const double magnitude = a2 * (std::abs(bx * cy) + std::abs(by * cx)) + b2 * (std::abs(cx * ay) + std::abs(cy * ax)) +
+                           c2 * (std::abs(ax * by) + std::abs(ay * bx));
+  if (std::abs(value) > (10 + 96 * kRounding) * kRounding * magnitude) return sign_of(value);
+  return exact_in_circle(a, b, c, d);
+}
+
+int area_sign(std::span<const Vec2d> loop) {
+  if (loop.size() < 3) return 0;
+  double area = 0, magnitude = 0;
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    const Vec2d a = loop[i] - loop[0], b = loop[(i + 1) % loop.size()] - loop[0];
+    area += a.x() * b.y() - a.y() * b.x();
+    magnitude += std::abs(a.x() * b.y()) + std::abs(a.y() * b.x());
+  }
+  if (std::abs(area) > 2 * static_cast<double>(loop.size() + 8) * kRounding * magnitude) return sign_of(area);
+  Expansion<1024> exact;  // more bits than lie between the smallest and the largest product in range
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    const Vec2d &a = loop[i], &b = loop[(i + 1) % loop.size()];
+    const Pair positive = two_product(a.x(), b.y()), negative = two_product(a.y(), b.x());
+    for (const double part : {positive.error, positive.value, -negative.error, -negative.value}) exact.add(part);
+  }
+  return exact.sign();
+}
+
+}  // namespace sunder::tear

@@ -1,0 +1,530 @@
+// Flat regions of all shapes, in seeded random order of badness: what comes back is a constrained Delaunay triangulation or
+// nothing.
+#include "tear/flat_section.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <set>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "support/random.h"
+#include "tear/exact_predicates.h"
+
+namespace sunder::tear {
+namespace {
+
+using test::Random;
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+int case_count(int usual) { return std::getenv("SUNDER_STRESS") != nullptr ? 20 * usual : usual; }
+
+double area_of(std::span<const Vec2d> loop) {
+  double twice = 0;
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    const Vec2d a = loop[i] - loop[0], b = loop[(i + 1) % loop.size()] - loop[0];
+    twice += a.x() * b.y() - a.y() * b.x();
+  }
+  return 0.5 * twice;
+}
+
+Vec2d polar(double angle, double radius) { return {radius * std::cos(angle), radius * std::sin(angle)}; }
+
+/// Around `centre`, between 0.6 and 1 of `radius` away from it.
+FlatLoop star(Random& random, std::uint32_t count, const Vec2d& centre, double radius) {
+  FlatLoop loop;
+  const bool is_smooth = random.index(2) == 0;
+  for (std::uint32_t i = 0; i < count; ++i)
+    loop.push_back(centre + polar(2 * std::numbers::pi * i / count, radius * (is_smooth ? 0.8 : random.uniform(0.6, 1))));
+  if (random.index(2) == 0) std::reverse(loop.begin(), loop.end());
+  return loop;
+}
+
+void add_nested(Random& random, const Vec2d& centre, double radius, int depth, std::vector<FlatLoop>& loops) {
+  loops.push_back(star(random, 8 + random.index(40), centre, radius));
+  if (depth == 0) return;
+  const std::uint32_t children = random.index(4);
+  if (children == 1) add_nested(random, centre, 0.5 * radius, depth - 1, loops);
+  if (children > 1)  // circles of a third of the radius around the middle; a polygon of 8 is within 0.55 of the radius everywhere
+    for (std::uint32_t i = 0; i < children; ++i)
+      add_nested(random, centre + polar(2 * std::numbers::pi * i / children, 0.3 * radius), 0.2 * radius, depth - 1, loops);
+}
+
+FlatLoop spiral(int turns, int points_a_turn, double width) {
+  FlatLoop loop;
+  const int count = turns * points_a_turn;
+  for (int i = 0; i <= count; ++i) loop.push_back(polar(2 * std::numbers::pi * i / points_a_turn, 1 + double(i) / points_a_turn));
+  for (int i = count; i >= 0; --i)
+    loop.push_back(polar(2 * std::numbers::pi * i / points_a_turn, 1 + width + double(i) / points_a_turn));
+  return loop;
+}
+
+FlatLoop comb(int teeth, double depth) {
+  FlatLoop loop{{0, -1}, {2.0 * teeth - 1, -1}};
+  for (int i = teeth - 1; i >= 0; --i) {
+    loop.insert(loop.end(), {{2.0 * i + 1, depth}, {2.0 * i, depth}});
+    if (i > 0) loop.insert(loop.end(), {{2.0 * i, 0}, {2.0 * i - 1, 0}});
+  }
+  return loop;
+}
+
+/// Puts points on the edges: exactly on one line with their ends where coordinates allow it.
+FlatLoop refined(const FlatLoop& loop, int parts) {
+  FlatLoop result;
+  for (std::size_t i = 0; i < loop.size(); ++i)
+    for (int k = 0; k < parts; ++k) result.push_back(loop[i] + (loop[(i + 1) % loop.size()] - loop[i]) * (double(k) / parts));
+  return result;
+}
+
+std::vector<FlatLoop> grid_of_holes(int side, int parts) {
+  std::vector<FlatLoop> loops{refined({{0, 0}, {4.0 * side, 0}, {4.0 * side, 4.0 * side}, {0, 4.0 * side}}, parts * side)};
+  for (int y = 0; y < side; ++y)
+    for (int x = 0; x < side; ++x) {
+      const Vec2d at(4.0 * x + 1, 4.0 * y + 1);
+      loops.push_back(refined({at, at + Vec2d(0, 2), at + Vec2d(2, 2), at + Vec2d(2, 0)}, parts));
+    }
+  return loops;
+}
+
+std::vector<std::vector<FlatLoop>> letters() {
+  return {{{{0, 0}, {4, 0}, {4, 1}, {1, 1}, {1, 2}, {3, 2}, {3, 3}, {1, 3}, {1, 4}, {4, 4}, {4, 5}, {0, 5}}},          // E
+          {{{0, 0}, {1, 0}, {1, 2}, {3, 2}, {3, 0}, {4, 0}, {4, 5}, {3, 5}, {3, 3}, {1, 3}, {1, 5}, {0, 5}}},          // H
+          {{{0, 0}, {1, 0}, {1.5, 2}, {2.5, 2}, {3, 0}, {4, 0}, {2.5, 5}, {1.5, 5}}, {{1.75, 3}, {2, 4}, {2.25, 3}}},  // A
+          {{{0, 0}, {3, 0}, {4, 1}, {4, 2}, {3.5, 2.5}, {4, 3}, {4, 4}, {3, 5}, {0, 5}},
+           {{1, 1}, {1, 2}, {3, 2}, {3, 1}},
+           {{1, 3}, {1, 4}, {3, 4}, {3, 3}}},                                                       // B
+          {{{0, 0}, {4, 0}, {4, 1}, {1.5, 1}, {4, 4}, {4, 5}, {0, 5}, {0, 4}, {2.5, 4}, {0, 1}}}};  // Z
+}
+
+std::vector<Vec2d> all_points(std::span<const FlatLoop> loops, const FlatRegion& region, const FlatMesh& mesh) {
+  std::vector<Vec2d> points = loops[region.outline];
+  for (const Index hole : region.holes) points.insert(points.end(), loops[hole].begin(), loops[hole].end());
+  points.insert(points.end(), mesh.inner.begin(), mesh.inner.end());
+  return points;
+}
+
+Index rim_count(std::span<const FlatLoop> loops, const FlatRegion& region) {
+  std::size_t count = loops[region.outline].size();
+  for (const Index hole : region.holes) count += loops[hole].size();
+  return static_cast<Index>(count);
+}
+
+double distance_to_segment(const Vec2d& p, const Vec2d& a, const Vec2d& b) {
+  const double t = std::clamp((p - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
+  return (a + t * (b - a) - p).norm();
+}
+
+/// What triangulate() promises.
+void expect_constrained_delaunay(std::span<const FlatLoop> loops, const FlatRegion& region, const FlatMesh& mesh) {
+  const std::vector<Vec2d> points = all_points(loops, region, mesh);
+  const Index rim = rim_count(loops, region);
+  std::map<std::pair<Index, Index>, Index> apex;  // of half-edges
+  double area = 0, scale = 0;
+  std::vector<char> is_used(points.size(), 0);
+  for (const auto& t : mesh.triangles) {
+    for (const Index p : t) {
+      ASSERT_LT(p, points.size());
+      is_used[p] = 1;
+    }
+    ASSERT_EQ(orientation(points[t[0]], points[t[1]], points[t[2]]), 1);
+    area += 0.5 * ((points[t[1]] - points[t[0]]).x() * (points[t[2]] - points[t[0]]).y() -
+                   (points[t[1]] - points[t[0]]).y() * (points[t[2]] - points[t[0]]).x());
+    for (std::size_t i = 0; i < 3; ++i)
+      ASSERT_TRUE(apex.emplace(std::pair{t[i], t[(i + 1) % 3]}, t[(i + 2) % 3]).second) << "an edge with two faces on one side";
+  }
+  ASSERT_EQ(std::count(is_used.begin(), is_used.end(), 1), static_cast<std::ptrdiff_t>(points.size()));
+
+  double expected_area = 0;
+  std::set<std::pair<Index, Index>> loop_edges;
+  Index first = 0;
+  std::vector<Index> members{region.outline};
+  members.insert(members.end(), region.holes.begin(), region.holes.end());
+  for (const Index l : members) {
+    const auto count = static_cast<Index>(loops[l].size());
+    expected_area += (l == region.outline ? 1 : -1) * std::abs(area_of(loops[l]));
+    for (Index i = 0; i < count; ++i) {
+      const Index a = first + i, b = first + (i + 1) % count;
+      ASSERT_EQ(apex.count({a, b}) + apex.count({b, a}), 1u);
+      loop_edges.insert({a, b});
+      loop_edges.insert({b, a});
+      scale = std::max(scale, (points[a] - points[0]).squaredNorm());
+    }
+    first += count;
+  }
+  ASSERT_NEAR(area, expected_area, 1e-12 * scale);
+  for (const auto& [edge, tip] : apex) {
+    if (loop_edges.count(edge) != 0) continue;
+    const auto other = apex.find({edge.second, edge.first});
+    ASSERT_NE(other, apex.end()) << "an inner edge with one face";
+    ASSERT_LE(in_circle(points[edge.first], points[edge.second], points[tip], points[other->second]), 0);
+  }
+  ASSERT_EQ(mesh.triangles.size(), rim + 2 * region.holes.size() + 2 * mesh.inner.size() - 2);  // Euler's formula
+}
+
+void expect_inner_points_in_place(std::span<const FlatLoop> loops, const FlatRegion& region, const FlatMesh& mesh, double spacing) {
+  const Index rim = rim_count(loops, region);
+  ASSERT_LE(mesh.inner.size(), 4 * rim + 64);
+  std::vector<Index> members{region.outline};
+  members.insert(members.end(), region.holes.begin(), region.holes.end());
+  for (const Vec2d& p : mesh.inner)
+    for (const Index l : members)
+      for (std::size_t i = 0; i < loops[l].size(); ++i)
+        ASSERT_GT(distance_to_segment(p, loops[l][i], loops[l][(i + 1) % loops[l].size()]), 0.499 * spacing);
+}
+
+/// Triangulates every region, which must succeed, with and without inner points. @return inner points.
+std::size_t expect_regions_triangulate(const std::vector<FlatLoop>& loops, double spacing) {
+  std::size_t inner = 0;
+  const auto regions = find_regions(loops);
+  EXPECT_FALSE(regions.empty());
+  for (const FlatRegion& region : regions)
+    for (const double s : {0.0, spacing}) {
+      const auto mesh = triangulate(loops, region, s);
+      EXPECT_TRUE(mesh.has_value());
+      if (!mesh) continue;
+      expect_constrained_delaunay(loops, region, *mesh);
+      expect_inner_points_in_place(loops, region, *mesh, s);
+      if (s == 0) {
+        EXPECT_THAT(mesh->inner, IsEmpty());
+      }
+      inner += mesh->inner.size();
+    }
+  return inner;
+}
+
+bool is_inside(const FlatLoop& loop, const Vec2d& p) {
+  bool inside = false;
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    const Vec2d &a = loop[i], &b = loop[(i + 1) % loop.size()];
+    if ((a.y() <= p.y()) != (b.y() <= p.y()) && p.x() < a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x()))
+      inside = !inside;
+  }
+  return inside;
+}
+
+/// Random loops nested up to five deep, moved and scaled.
+std::vector<FlatLoop> random_nested(Random& random) {
+  std::vector<FlatLoop> loops;
+  const std::uint32_t roots = 1 + random.index(3);
+  for (std::uint32_t i = 0; i < roots; ++i) add_nested(random, {2.5 * i, 0}, 1, 5, loops);
+  for (std::size_t i = loops.size(); i > 1; --i) std::swap(loops[i - 1], loops[random.index(static_cast<std::uint32_t>(i))]);
+  const double scale = std::pow(10.0, static_cast<double>(random.index(4)) * 2 - 6);
+  const Vec2d offset = random.index(3) == 0 ? Vec2d(1e6 * scale, -3e5 * scale) : Vec2d(0, 0);
+  for (FlatLoop& loop : loops)
+    for (Vec2d& p : loop) p = scale * p + offset;
+  return loops;
+}
+
+TEST(FindRegions, alternates_outlines_and_holes) {
+  const auto square = [](double x, double half) {
+    return FlatLoop{{x - half, -half}, {x + half, -half}, {x + half, half}, {x - half, half}};
+  };
+  const std::vector<FlatLoop> loops{square(0, 1), square(0, 5),  square(0, 3),    square(0, 2),
+                                    square(0, 4), square(20, 1), square(4.5, 0.2)};
+  const auto regions = find_regions(loops);
+  ASSERT_EQ(regions.size(), 4u);
+  EXPECT_EQ(regions[0].outline, 0u);
+  EXPECT_THAT(regions[0].holes, IsEmpty());
+  EXPECT_EQ(regions[1].outline, 1u);
+  EXPECT_THAT(regions[1].holes, ElementsAre(4, 6));
+  EXPECT_EQ(regions[2].outline, 2u);
+  EXPECT_THAT(regions[2].holes, ElementsAre(3));
+  EXPECT_EQ(regions[3].outline, 5u);
+}
+
+TEST(FindRegions, covers_what_an_odd_number_of_loops_holds) {
+  for (int seed = 0; seed < case_count(200); ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(static_cast<std::uint64_t>(seed));
+    const auto loops = random_nested(random);
+    const auto regions = find_regions(loops);
+    std::vector<int> uses(loops.size(), 0);
+    for (const FlatRegion& region : regions) {
+      ++uses[region.outline];
+      for (const Index hole : region.holes) ++uses[hole];
+    }
+    ASSERT_THAT(uses, testing::Each(1));
+    for (int i = 0; i < 200; ++i) {
+      const FlatLoop& near = loops[random.index(static_cast<std::uint32_t>(loops.size()))];
+      const double size = (near[0] - near[near.size() / 2]).norm();
+      const Vec2d p = near[0] + size * Vec2d(random.uniform(-1.5, 1.5), random.uniform(-1.5, 1.5));
+      int parity = 0, covered = 0;
+      for (const FlatLoop& loop : loops) parity ^= is_inside(loop, p) ? 1 : 0;
+      for (const FlatRegion& region : regions)
+        covered += is_inside(loops[region.outline], p) &&
+                   std::none_of(region.holes.begin(), region.holes.end(), [&](Index hole) { return is_inside(loops[hole], p); });
+      ASSERT_EQ(covered, parity);
+    }
+  }
+}
+
+TEST(FindRegions, leaves_out_loops_without_area) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THAT(find_regions({}), IsEmpty());
+  EXPECT_THAT(find_regions(std::vector<FlatLoop>{{},
+                                                 {{1, 1}},
+                                                 {{0, 0}, {1, 1}},
+                                                 {{0, 0}, {0.1, 0.1}, {0.3, 0.3}},
+                                                 {{0, 0}, {1, 0.3}, {2, 5}, {1, 0.3}},
+                                                 {{0, 0}, {1, 0}, {nan, 1}},
+                                                 {{2, 2}, {2, 2}, {2, 2}}}),
+              IsEmpty());
+  EXPECT_EQ(find_regions(std::vector<FlatLoop>{{{0, 0}, {1, 1}, {2, 2}}, {{0, 0}, {1, 0}, {0, 1}}}).size(), 1u);
+}
+
+TEST(FindRegions, nests_loops_that_touch) {
+  const FlatLoop square{{0, 0}, {4, 0}, {4, 4}, {0, 4}};
+  const std::vector<FlatLoop> loops{square, {{0, 0}, {2, 1}, {1, 2}}, {{4, 1}, {5, 1}, {5, 2}, {4, 2}}, {{0, 2}, {2, 3}, {0, 4}}};
+  const auto regions = find_regions(loops);
+  ASSERT_EQ(regions.size(), 2u);
+  EXPECT_THAT(regions[0].holes, ElementsAre(1, 3));
+  EXPECT_EQ(regions[1].outline, 2u);
+  const auto twice = find_regions(std::vector<FlatLoop>{square, square});
+  ASSERT_EQ(twice.size(), 1u);
+  EXPECT_THAT(twice[0].holes, ElementsAre(1));
+  EXPECT_FALSE(triangulate(std::vector<FlatLoop>{square, square}, twice[0], 1));
+}
+
+TEST(Triangulate, random_nested_regions) {
+  std::size_t inner = 0;
+  for (int seed = 0; seed < case_count(150) && !testing::Test::HasFatalFailure(); ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(static_cast<std::uint64_t>(seed));
+    const auto loops = random_nested(random);
+    inner += expect_regions_triangulate(loops, 0.1 * (loops[0][0] - loops[0][loops[0].size() / 2]).norm());
+  }
+  EXPECT_GT(inner, 1000u);
+}
+
+TEST(Triangulate, spirals_combs_grids_and_letters) {
+  for (const int parts : {1, 2, 3, 7}) {
+    SCOPED_TRACE(parts);
+    for (const auto& letter : letters()) {
+      std::vector<FlatLoop> loops;
+      for (const FlatLoop& loop : letter) loops.push_back(refined(loop, parts));
+      expect_regions_triangulate(loops, 0.3);
+      for (FlatLoop& loop : loops)
+        for (Vec2d& p : loop) p = {0.8 * p.x() - 0.6 * p.y() + 1e6, 0.6 * p.x() + 0.8 * p.y()};  // lines that rounding bends
+      expect_regions_triangulate(loops, 0.3);
+    }
+    expect_regions_triangulate({refined(spiral(5, 24, 0.5), parts)}, 0.1);
+    expect_regions_triangulate({refined(spiral(3, 11, 1e-6), parts)}, 0.1);
+    expect_regions_triangulate({refined(comb(20, 30), parts)}, 0.4);
+    expect_regions_triangulate({refined(comb(50, 1e4), parts)}, 0.4);
+    expect_regions_triangulate(grid_of_holes(6, parts), 0.5);
+  }
+}
+
+TEST(Triangulate, slivers_and_points_almost_on_one_line) {
+  for (const double height : {1e-3, 1e-9, 1e-12, 1e-15, 1e-30}) {
+    SCOPED_TRACE(height);
+    expect_regions_triangulate({{{0, 0}, {1, 0}, {0.5, height}}}, 0.1);
+    expect_regions_triangulate({{{0, 0}, {0.3, 0}, {1, 0}, {0.7, height}, {0.2, height}}}, 0.1);
+    Random random(7);
+    FlatLoop wave;  // above the x axis by no more than the height
+    for (int i = 0; i <= 100; ++i) wave.emplace_back(0.01 * i, -height * random.uniform(0, 1));
+    for (int i = 100; i >= 0; --i) wave.emplace_back(0.01 * i, height * random.uniform(0.1, 1));
+    expect_regions_triangulate({wave}, 0.1);
+  }
+  FlatLoop fan;  // long edges that end next to one another
+  for (int i = 0; i < 40; ++i) fan.insert(fan.end(), {{1e-9 * i, 0}, {0.5 * i - 10, 10}, {1e-9 * i + 5e-10, 1e-6}});
+  const auto mesh = triangulate(std::vector<FlatLoop>{fan}, {0, {}}, 0.5);
+  if (mesh) expect_constrained_delaunay(std::vector<FlatLoop>{fan}, {0, {}}, *mesh);
+}
+
+TEST(Triangulate, long_edges_across_many_points) {
+  // A zigzag of fine teeth on both sides of a channel that long edges follow: forcing them in crosses hundreds of edges.
+  for (const int count : {10, 300}) {
+    std::vector<FlatLoop> loops{{{-1, -1}, {count + 1.0, -1}, {count + 1.0, 1}, {-1, 1}}};
+    FlatLoop needle{{-0.5, 0}, {count + 0.5, 1e-4}, {count + 0.5, 2e-4}};
+    loops.push_back(needle);
+    for (int i = 0; i < count; ++i) {
+      const double x = i + 0.3 * (i % 3);
+      loops.push_back({{x, -0.01}, {x + 0.1, -0.3}, {x - 0.1, -0.4}});
+      loops.push_back({{x, 0.01}, {x + 0.1, 0.3}, {x - 0.1, 0.4}});
+    }
+    expect_regions_triangulate(loops, 0.2);
+  }
+}
+
+TEST(Triangulate, self_crossing_loops_give_nothing_or_a_triangulation) {
+  int made = 0, refused = 0;
+  for (int seed = 0; seed < case_count(3000) && !testing::Test::HasFatalFailure(); ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(static_cast<std::uint64_t>(seed));
+    std::vector<FlatLoop> loops(1 + random.index(3));
+    const bool on_grid = random.index(2) == 0;  // points that repeat, edges that touch and overlap
+    for (FlatLoop& loop : loops) {
+      const std::uint32_t count = random.index(9);
+      for (std::uint32_t i = 0; i < count; ++i)
+        loop.push_back(on_grid ? Vec2d(random.index(5), random.index(5)) : Vec2d(random.uniform(0, 1), random.uniform(0, 1)));
+    }
+    std::vector<FlatRegion> regions = find_regions(loops);
+    for (Index i = 0; i < loops.size(); ++i) regions.push_back({i, {}});
+    if (loops.size() == 3) regions.push_back({2, {0, 1}});
+    for (const FlatRegion& region : regions) {
+      const double spacing = random.index(2) == 0 ? 0.0 : random.uniform(0.01, 1);
+      const auto mesh = triangulate(loops, region, spacing);
+      (mesh ? made : refused) += 1;
+      if (mesh && std::abs(area_of(loops[region.outline])) > 0) {
+        const double outline = std::abs(area_of(loops[region.outline]));
+        const bool is_nested = std::all_of(region.holes.begin(), region.holes.end(),
+                                           [&](Index hole) { return std::abs(area_of(loops[hole])) < outline; });
+        if (is_nested) expect_constrained_delaunay(loops, region, *mesh);
+      }
+    }
+  }
+  EXPECT_GT(made, 1000);
+  EXPECT_GT(refused, 1000);
+}
+
+TEST(Triangulate, refuses_what_cannot_be_triangulated) {
+  const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
+  const FlatLoop square{{0, 0}, {4, 0}, {4, 4}, {0, 4}};
+  const std::vector<std::vector<FlatLoop>> bad{
+      {{}},
+      {{{0, 0}}},
+      {{{0, 0}, {1, 0}}},
+      {{{0, 0}, {1, 0}, {2, 0}, {1.5, 0}}},
+      {{{0, 0}, {0, 0}, {0, 0}}},
+      {{{0, 0}, {1, 0}, {1, 0}, {0, 1}}},
+      {{{0, 0}, {2, 2}, {2, 0}, {0, 2}}},          // a bow tie
+      {{{0, 0}, {4, 0}, {4, 4}, {2, 0}, {0, 4}}},  // touches itself
+      {{{0, 0}, {1, 0}, {nan, 1}}},
+      {{{0, 0}, {1, 0}, {infinity, 1}}},
+      {{{0, 0}, {1e70, 0}, {0, 1e70}}},
+      {square, {{0, 0}, {2, 1}, {1, 2}}},                                        // a hole at a corner
+      {square, {{2, 0}, {3, 1}, {1, 1}}},                                        // a hole at an edge
+      {square, {{1, 1}, {3, 1}, {2, 5}}},                                        // a hole that crosses
+      {square, {{5, 5}, {6, 5}, {5, 6}}},                                        // a hole beside
+      {square, {{1, 1}, {2, 1}, {1, 2}}, {{1.1, 1.1}, {1.2, 1.1}, {1.1, 1.2}}},  // a hole in a hole
+  };
+  for (std::size_t i = 0; i < bad.size(); ++i) {
+    SCOPED_TRACE(i);
+    FlatRegion region;
+    for (Index hole = 1; hole < bad[i].size(); ++hole) region.holes.push_back(hole);
+    for (const double spacing : {0.0, 0.1, 1e-300, infinity, nan, -1.0}) EXPECT_FALSE(triangulate(bad[i], region, spacing));
+  }
+  EXPECT_FALSE(triangulate({}, {}, 1));
+  EXPECT_FALSE(triangulate(std::vector<FlatLoop>{square}, {0, {1}}, 1));
+}
+
+TEST(Triangulate, spacing_is_kept_or_enlarged) {
+  const std::vector<FlatLoop> square{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const double spacing : {10.0, 0.5, 0.2, 1e-3, 1e-9, 1e-300, infinity}) {
+    SCOPED_TRACE(spacing);
+    const auto mesh = triangulate(square, {0, {}}, spacing);
+    ASSERT_TRUE(mesh);
+    expect_constrained_delaunay(square, {0, {}}, *mesh);
+    EXPECT_LE(mesh->inner.size(), 80u);
+    if (spacing < 0.1) {
+      EXPECT_GT(mesh->inner.size(), 40u);
+    }
+    if (spacing == 0.2) {
+      EXPECT_NEAR(static_cast<double>(mesh->inner.size()), 0.8 * 0.8 / (0.2 * 0.2 * 0.866), 8);
+    }
+  }
+  const std::vector<FlatLoop> strip{{{0, 0}, {1e6, 1e6}, {1e6, 1e6 + 1}, {0, 1}}};
+  for (const double spacing : {0.3, 1e-6}) {
+    const auto mesh = triangulate(strip, {0, {}}, spacing);
+    ASSERT_TRUE(mesh);
+    expect_constrained_delaunay(strip, {0, {}}, *mesh);
+  }
+  std::vector<FlatLoop> far = square;  // where the spacing is below the distance of doubles
+  for (Vec2d& p : far[0]) p = 1e-13 * p + Vec2d(1, 1);
+  const auto mesh = triangulate(far, {0, {}}, 1e-15);
+  if (mesh) expect_constrained_delaunay(far, {0, {}}, *mesh);
+}
+
+TEST(Triangulate, thousands_of_points_take_no_time) {
+  for (const std::uint32_t count : {1000u, 10000u}) {
+    Random random(count);
+    std::vector<FlatLoop> star_loop{star(random, count, {0, 0}, 1)};
+    const std::vector<std::pair<const char*, std::vector<FlatLoop>>> cases{
+        {"star", star_loop},
+        {"spiral", {spiral(10, static_cast<int>(count) / 20, 0.5)}},
+        {"comb", {comb(static_cast<int>(count) / 4, 50)}},
+        {"square", {refined({{0, 0}, {1, 0}, {1, 1}, {0, 1}}, static_cast<int>(count) / 4)}},
+        {"grid of holes", grid_of_holes(static_cast<int>(std::sqrt(count / 4)), 1)}};
+    for (const auto& [name, loops] : cases) {
+      SCOPED_TRACE(name);
+      const auto start = std::chrono::steady_clock::now();
+      const auto regions = find_regions(loops);
+      const auto found = std::chrono::steady_clock::now();
+      ASSERT_EQ(regions.size(), 1u);
+      const auto mesh = triangulate(loops, regions[0], 0.02);
+      const auto triangulated = std::chrono::steady_clock::now();
+      ASSERT_TRUE(mesh);
+      const auto points = all_points(loops, regions[0], *mesh);
+      const Index rim = rim_count(loops, regions[0]);
+      Eigen::MatrixXd values(rim, 4);
+      for (Index i = 0; i < rim; ++i) values.row(i) << points[i].x(), points[i].y(), 1, 0;
+      const auto extended = extend_harmonically(points, rim, mesh->triangles, values);
+      const auto end = std::chrono::steady_clock::now();
+      const auto milliseconds = [](auto duration) { return std::chrono::duration<double, std::milli>(duration).count(); };
+      if (std::getenv("SUNDER_STRESS") != nullptr)
+        std::printf("%s, %u rim points, %zu inner: regions %.1f, triangles %.1f, values %.1f ms\n", name, rim, mesh->inner.size(),
+                    milliseconds(found - start), milliseconds(triangulated - found), milliseconds(end - triangulated));
+      EXPECT_LT(milliseconds(end - start), 10000);  // a guard against quadratic time, generous to sanitizers
+      expect_constrained_delaunay(loops, regions[0], *mesh);
+    }
+  }
+}
+
+TEST(ExtendHarmonically, reproduces_linear_functions_within_the_values_of_the_rim) {
+  std::size_t inner = 0;
+  for (int seed = 0; seed < case_count(100); ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(static_cast<std::uint64_t>(seed));
+    const auto loops = random_nested(random);
+    for (const FlatRegion& region : find_regions(loops)) {
+      const FlatLoop& outline = loops[region.outline];
+      const double size = (outline[0] - outline[outline.size() / 2]).norm();
+      const auto mesh = triangulate(loops, region, random.uniform(0.02, 0.2) * size);
+      ASSERT_TRUE(mesh);
+      const auto points = all_points(loops, region, *mesh);
+      const Index rim = rim_count(loops, region);
+      Eigen::MatrixXd values(rim, 5);
+      for (Index i = 0; i < rim; ++i) {
+        const Vec2d at = (points[i] - outline[0]) / size;
+        const double weight = random.uniform(0, 1);
+        values.row(i) << at.x() - 2 * at.y() + 3, 1, weight, 1 - weight, random.index(2) * 1e3;
+      }
+      const auto result = extend_harmonically(points, rim, mesh->triangles, values);
+      ASSERT_EQ(result.rows(), static_cast<Eigen::Index>(mesh->inner.size()));
+      ASSERT_EQ(result.cols(), 5);
+      inner += mesh->inner.size();
+      for (Eigen::Index i = 0; i < result.rows(); ++i) {
+        const Vec2d at = (mesh->inner[static_cast<std::size_t>(i)] - outline[0]) / size;
+        ASSERT_NEAR(result(i, 0), at.x() - 2 * at.y() + 3, 1e-9);
+        ASSERT_EQ(result(i, 1), 1);
+        ASSERT_NEAR(result(i, 2) + result(i, 3), 1, 1e-10);
+        for (Eigen::Index c = 0; c < 5; ++c) {
+          ASSERT_GE(result(i, c), values.col(c).minCoeff());
+          ASSERT_LE(result(i, c), values.col(c).maxCoeff());
+        }
+      }
+    }
+  }
+  EXPECT_GT(inner, 1000u);
+}
+
+TEST(ExtendHarmonically, gives_no_rows_without_inner_points) {
+  const std::vector<FlatLoop> loops{{{0, 0}, {1, 0}, {0, 1}}};
+  const auto mesh = triangulate(loops, {0, {}}, 0);
+  ASSERT_TRUE(mesh);
+  const auto result = extend_harmonically(loops[0], 3, mesh->triangles, Eigen::MatrixXd::Ones(3, 2));
+  EXPECT_EQ(result.rows(), 0);
+  EXPECT_EQ(result.cols(), 2);
+}
+
+}  // namespace
+}  // namespace sunder::tear
