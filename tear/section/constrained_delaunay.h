@@ -20,8 +20,7 @@ class ConstrainedDelaunay {
   /// @param points  in exact_range(); they outlive the triangulation.
   /// @return nothing where two points coincide or all lie on one line.
   ///
-  /// Bowyer and Watson's insertion in a biased random order (Amenta, Choi, Rote 2003) whose dice are the points' indices: expected
-  /// O(n log n).
+  /// Bowyer and Watson's insertion, in insertion_order(): expected O(n log n).
   static std::optional<ConstrainedDelaunay> of(std::span<const Vec2d> points);
 
   /// Makes the segment between two points an edge that stays.

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tear/exact_predicates.h"
-#include "tear/flat_section.h"
+#include "tear/section/exact_predicates.h"
+#include "tear/section/flat_section.h"
 
 namespace sunder::tear {
 namespace {

@@ -1,6 +1,6 @@
 // Flat regions of all shapes, in seeded random order of badness: what comes back is a constrained Delaunay triangulation or
 // nothing.
-#include "tear/flat_section.h"
+#include "tear/section/flat_section.h"
 
 #include <algorithm>
 #include <chrono>
@@ -15,7 +15,7 @@
 #include <gtest/gtest.h>
 
 #include "support/random.h"
-#include "tear/exact_predicates.h"
+#include "tear/section/exact_predicates.h"
 
 namespace sunder::tear {
 namespace {

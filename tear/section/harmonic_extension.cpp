@@ -3,7 +3,7 @@
 
 #include <Eigen/SparseCholesky>
 
-#include "tear/flat_section.h"
+#include "tear/section/flat_section.h"
 
 namespace sunder::tear {
 

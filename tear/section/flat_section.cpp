@@ -1,11 +1,11 @@
-#include "tear/flat_section.h"
+#include "tear/section/flat_section.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "tear/constrained_delaunay.h"
-#include "tear/exact_predicates.h"
-#include "tear/inner_points.h"
+#include "tear/section/constrained_delaunay.h"
+#include "tear/section/exact_predicates.h"
+#include "tear/section/inner_points.h"
 
 namespace sunder::tear {
 namespace {

@@ -1,4 +1,4 @@
-#include "tear/exact_predicates.h"
+#include "tear/section/exact_predicates.h"
 
 #include <array>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "tear/inner_points.h"
+#include "tear/section/inner_points.h"
 
 #include <algorithm>
 #include <cmath>

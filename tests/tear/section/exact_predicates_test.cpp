@@ -1,5 +1,5 @@
 // Signs against integer arithmetic, on points that are on one line or on one circle but for the last bit.
-#include "tear/exact_predicates.h"
+#include "tear/section/exact_predicates.h"
 
 #include <cmath>
 #include <cstdint>
