@@ -7,6 +7,7 @@
 #include "io/gltf/glb.h"
 #include "io/gltf/mesh_writer.h"
 #include "io/gltf/refusal.h"
+#include "io/write_atomically.h"
 
 namespace sunder::gltf {
 namespace {
@@ -175,15 +176,11 @@ Status write(const std::filesystem::path& file, const Character& character, cons
   check_same_character(character, loaded);
   const SourceDocument& source = *loaded.source;
   const std::vector<std::uint32_t> meshes = meshes_to_write(character, loaded);
-  if (meshes.empty() && source.is_glb) {
-    write_atomically(file, source.content);
-    return {};
-  }
+  if (meshes.empty() && source.is_glb) return write_atomically(file, source.content);
   GlbDraft draft(source);
   Patch(draft, character, source, options).apply(meshes);
   draft.embed_images();
-  write_atomically(file, draft.finish());
-  return {};
+  return write_atomically(file, draft.finish());
 }
 
 }  // namespace
