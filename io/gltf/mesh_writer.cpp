@@ -111,6 +111,8 @@ std::uint32_t MeshWriter::add_labels(const CustomAttribute& attribute) {
                        {"type", kTypes[components]}});
 }
 
+bool MeshWriter::has_triangles(const Mesh& mesh) { return !std::all_of(mesh.triangles.begin(), mesh.triangles.end(), is_retired); }
+
 MeshWriter::Vertices MeshWriter::add_vertices(const Mesh& mesh, const SourceDocument::MeshOrigin& origin) {
   Vertices vertices{Json::object(), nullptr};
   Json& attributes = vertices.attributes;
@@ -181,7 +183,8 @@ Json MeshWriter::add_targets(const Mesh& mesh) {
 std::uint32_t MeshWriter::add_indices(const Mesh& mesh, std::uint32_t submesh) {
   std::vector<std::uint32_t> indices;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    if (mesh.triangle_submesh[t] == submesh) indices.insert(indices.end(), mesh.triangles[t].begin(), mesh.triangles[t].end());
+    if (mesh.triangle_submesh[t] == submesh && !is_retired(mesh.triangles[t]))
+      indices.insert(indices.end(), mesh.triangles[t].begin(), mesh.triangles[t].end());
   if (indices.empty()) return kNone;
   // The largest value of each width means "restart".
   return mesh.positions.size() < std::numeric_limits<std::uint16_t>::max()

@@ -95,7 +95,7 @@ class NewDocument {
 
   void add_mesh(Index index) {
     const Mesh& mesh = character_.meshes[index];
-    if (mesh.triangles.empty()) return;
+    if (!MeshWriter::has_triangles(mesh)) return;
     const bool rigid = hangs_on_its_bone(mesh);
     SourceDocument::MeshOrigin form;
     form.skinned = !rigid;
