@@ -132,6 +132,10 @@ MeshWriter::Vertices MeshWriter::add_vertices(const Mesh& mesh, const SourceDocu
     const bool as_floats = attribute.interpolates || attribute.name == kTearSideAttribute;
     attributes[attribute.name] = as_floats ? add_floats(attribute.values, attribute.components) : add_labels(attribute);
   }
+  if (const auto sides = attributes.find(kTearSideAttribute); sides != attributes.end()) {
+    const Json accessor = *sides;  // The insertion moves it.
+    attributes[kTearSideFeatureAttribute] = accessor;
+  }
   if (origin.skinned) add_influences(mesh, attributes);
   if (!mesh.morph_targets.empty()) vertices.targets = add_targets(mesh);
   return vertices;

@@ -147,6 +147,21 @@ TEST(SaveGlb, a_torn_mesh_comes_back_bit_for_bit) {
   EXPECT_TRUE(primitive["attributes"].contains("_TEARSIDE"));
 }
 
+TEST(SaveGlb, tear_sides_are_written_under_two_names_and_read_under_one) {
+  const LoadedCharacter loaded = loaded_strip();
+  Character torn = *loaded.character;
+  fake_tear(torn.meshes[0]);
+  const Saved saved = save(torn, loaded);
+  ASSERT_TRUE(saved.again.has_value());
+  const Json json = json_of(saved.bytes);
+  const Json& attributes = json["meshes"][0]["primitives"][0]["attributes"];
+  EXPECT_EQ(attributes[kTearSideFeatureAttribute], attributes[kTearSideAttribute]);  // It takes no space.
+  EXPECT_EQ(json["accessors"][attributes[kTearSideAttribute].get<std::size_t>()]["componentType"], 5126);
+  EXPECT_EQ(saved.again->character->meshes[0].custom_attributes, torn.meshes[0].custom_attributes);
+  const Saved twice = save(torn, *saved.again);  // Neither name piles up.
+  EXPECT_EQ(json_of(twice.bytes)["meshes"][0]["primitives"][0]["attributes"].size(), attributes.size());
+}
+
 TEST(SaveGlb, labels_stay_labels) {
   GltfBuilder builder = skinned_strip();
   strip_attributes(builder)["_FEATURE_ID_0"] = builder.add(std::vector<std::uint16_t>(kStripVertices * 2, 300), "VEC2");
