@@ -18,7 +18,11 @@
 namespace sunder::tools {
 namespace {
 
-Result<OperationOutcome> apply(const TearOperation& operation, const TopologyCounts& before, TornModel& model) {
+Result<OperationOutcome> apply(const Operation& any, const TopologyCounts& before, TornModel& model) {
+  const auto* const simple = std::get_if<TearOperation>(&any);
+  if (simple == nullptr || simple->options != TearOptions{} || !simple->pose_changes.empty())
+    return Status::failure(StatusCode::unsupported_feature, kNone, "only tears without width, in one pose, are supported");
+  const TearOperation& operation = *simple;
   const Result<ModelPose> pose = make_pose(model.character(), operation.pose);
   if (!pose) return pose.error();
   const auto begin = std::chrono::steady_clock::now();
@@ -47,8 +51,7 @@ ExitCode run_tear(const TearRequest& request) {
   bool has_findings = false;
   for (std::size_t i = 0; i < operations->size(); ++i) {
     progress.begin_step(i + 1, "tearing");
-    const auto& operation = std::get<TearOperation>((*operations)[i]);
-    const Result<OperationOutcome> outcome = apply(operation, current, *model);
+    const Result<OperationOutcome> outcome = apply((*operations)[i], current, *model);
     if (!outcome)
       return complain(request.operations.string() + ": /operations/" + std::to_string(i), outcome.error(), ExitCode::usage);
     current = outcome->after;

@@ -82,9 +82,23 @@ void AttributeReader::read_streams(Mesh& mesh) {
   read_tangents(mesh);
   read_uv_sets(mesh);
   read_color_sets(mesh);
-  for (const auto& item : attributes_.json().items())
-    if (!item.key().empty() && item.key().front() == '_')
-      read_custom(mesh, item.key(), Cursor(item.value(), attributes_.pointer() + "/" + item.key()));
+  for (const auto& item : attributes_.json().items()) {
+    if (item.key().empty() || item.key().front() != '_') continue;
+    const Cursor at(item.value(), attributes_.pointer() + "/" + item.key());
+    if (item.key() == kTearSideFeatureAttribute)
+      read_tear_side_feature(mesh, at);
+    else
+      read_custom(mesh, item.key(), at);
+  }
+}
+
+/// What is left of the tear sides where a tool dropped the attribute itself; else a copy of it.
+void AttributeReader::read_tear_side_feature(Mesh& mesh, const Cursor& at) {
+  if (attributes_.find(kTearSideAttribute)) return;
+  const Accessor accessor = reading_.accessors.open(at);
+  if (!accessor.is_matrix && accessor.components == 1) return read_custom(mesh, kTearSideAttribute, at);
+  reading_.notes.dropped(StatusCode::malformed_file, accessor.index, place_,
+                         std::string("attribute ") + kTearSideFeatureAttribute + " is not one number a vertex");
 }
 
 void AttributeReader::read_positions(Mesh& mesh) {

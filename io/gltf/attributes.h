@@ -32,6 +32,7 @@ class AttributeReader {
   void read_tangents(Mesh& mesh);
   void read_uv_sets(Mesh& mesh);
   void read_color_sets(Mesh& mesh);
+  void read_tear_side_feature(Mesh& mesh, const Cursor& at);
   void read_custom(Mesh& mesh, const std::string& name, const Cursor& at);
   std::vector<Vec3f> read_deltas(const Cursor& target, const char* name, const Mesh& mesh);
   void note_sets_beyond(const char* prefix, std::size_t used);

@@ -1,12 +1,9 @@
 #include "io/gltf/glb.h"
 
 #include <algorithm>
-#include <atomic>
-#include <cstdio>
 #include <cstring>
 #include <limits>
 #include <string_view>
-#include <system_error>
 
 #include "io/gltf/refusal.h"
 #include "io/gltf/uris.h"
@@ -136,31 +133,6 @@ std::vector<std::byte> GlbDraft::finish() {
     glb.insert(glb.end(), binary_.begin(), binary_.end());
   }
   return glb;
-}
-
-void write_atomically(const std::filesystem::path& file, std::span<const std::byte> bytes) {
-  static std::atomic<unsigned> counter{0};
-  const auto refuse_writing = [&] {
-    refuse(StatusCode::file_unreadable, kNone, "'%.150s' cannot be written", file.filename().c_str());
-  };
-  // "x": never follows or overwrites what is there, so two writers cannot meet in one file.
-  std::filesystem::path beside;
-  std::FILE* stream = nullptr;
-  for (int attempt = 0; attempt < 100 && stream == nullptr; ++attempt) {
-    beside = file;
-    beside += ".part" + std::to_string(counter++);
-    stream = std::fopen(beside.c_str(), "wbx");
-  }
-  if (stream == nullptr) refuse_writing();
-  const bool written = std::fwrite(bytes.data(), 1, bytes.size(), stream) == bytes.size();
-  const bool closed = std::fclose(stream) == 0;
-  std::error_code error;
-  if (written && closed) {
-    std::filesystem::rename(beside, file, error);
-    if (!error) return;
-  }
-  std::filesystem::remove(beside, error);
-  refuse_writing();
 }
 
 }  // namespace sunder::gltf

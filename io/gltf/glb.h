@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <filesystem>
 #include <span>
 #include <vector>
 
@@ -37,8 +36,5 @@ class GlbDraft {
   const SourceDocument& source_;
   std::vector<std::byte> binary_;
 };
-
-/// Writes all of it or nothing: to a new file beside, which then takes the place of `file`.
-void write_atomically(const std::filesystem::path& file, std::span<const std::byte> bytes);
 
 }  // namespace sunder::gltf

@@ -111,6 +111,8 @@ std::uint32_t MeshWriter::add_labels(const CustomAttribute& attribute) {
                        {"type", kTypes[components]}});
 }
 
+bool MeshWriter::has_triangles(const Mesh& mesh) { return !std::all_of(mesh.triangles.begin(), mesh.triangles.end(), is_retired); }
+
 MeshWriter::Vertices MeshWriter::add_vertices(const Mesh& mesh, const SourceDocument::MeshOrigin& origin) {
   Vertices vertices{Json::object(), nullptr};
   Json& attributes = vertices.attributes;
@@ -129,6 +131,10 @@ MeshWriter::Vertices MeshWriter::add_vertices(const Mesh& mesh, const SourceDocu
     // Tools that merge equal vertices compare plain float attributes most reliably: tear sides are written as such.
     const bool as_floats = attribute.interpolates || attribute.name == kTearSideAttribute;
     attributes[attribute.name] = as_floats ? add_floats(attribute.values, attribute.components) : add_labels(attribute);
+  }
+  if (const auto sides = attributes.find(kTearSideAttribute); sides != attributes.end()) {
+    const Json accessor = *sides;  // The insertion moves it.
+    attributes[kTearSideFeatureAttribute] = accessor;
   }
   if (origin.skinned) add_influences(mesh, attributes);
   if (!mesh.morph_targets.empty()) vertices.targets = add_targets(mesh);
@@ -181,7 +187,8 @@ Json MeshWriter::add_targets(const Mesh& mesh) {
 std::uint32_t MeshWriter::add_indices(const Mesh& mesh, std::uint32_t submesh) {
   std::vector<std::uint32_t> indices;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    if (mesh.triangle_submesh[t] == submesh) indices.insert(indices.end(), mesh.triangles[t].begin(), mesh.triangles[t].end());
+    if (mesh.triangle_submesh[t] == submesh && !is_retired(mesh.triangles[t]))
+      indices.insert(indices.end(), mesh.triangles[t].begin(), mesh.triangles[t].end());
   if (indices.empty()) return kNone;
   // The largest value of each width means "restart".
   return mesh.positions.size() < std::numeric_limits<std::uint16_t>::max()

@@ -19,6 +19,9 @@ class MeshWriter {
   };
   [[nodiscard]] Vertices add_vertices(const Mesh& mesh, const SourceDocument::MeshOrigin& origin);
 
+  /// Whether anything of it is written: retired triangles are not.
+  [[nodiscard]] static bool has_triangles(const Mesh& mesh);
+
   /// Indices of one submesh's triangles. @return their accessor; kNone where it has no triangle.
   [[nodiscard]] std::uint32_t add_indices(const Mesh& mesh, std::uint32_t submesh);
 

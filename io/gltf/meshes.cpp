@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <numeric>
+#include <string>
+#include <utility>
 
 #include "io/gltf/attributes.h"
 #include "io/gltf/primitives.h"
@@ -19,6 +21,12 @@ std::vector<std::string> target_names(const Cursor& mesh) {
   if (!list || !list->json().is_array()) return names;
   for (const Json& name : list->json()) names.push_back(name.is_string() ? name.get<std::string>() : std::string());
   return names;
+}
+
+/// Where a primitive that saving added keeps a name that is not its material's.
+std::string name_in_extras(const Cursor& primitive) {
+  const auto extras = primitive.find("extras");
+  return extras && extras->json().is_object() ? extras->name() : std::string();
 }
 
 std::uint32_t target_count(const Cursor& mesh) {
@@ -116,6 +124,7 @@ class MeshBuilder {
         submesh.material = material->to_index(count_of(reading_.json(), "materials"), "material");
         submesh.name = entry(reading_.json(), "materials", submesh.material).name();
       }
+      if (std::string name = name_in_extras(primitive); !name.empty()) submesh.name = std::move(name);
       mesh.submeshes.push_back(std::move(submesh));
     }
     return repaired;

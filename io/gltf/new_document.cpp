@@ -11,6 +11,7 @@
 #include "io/gltf/glb.h"
 #include "io/gltf/mesh_writer.h"
 #include "io/gltf/refusal.h"
+#include "io/write_atomically.h"
 
 namespace sunder::gltf {
 namespace {
@@ -94,7 +95,7 @@ class NewDocument {
 
   void add_mesh(Index index) {
     const Mesh& mesh = character_.meshes[index];
-    if (mesh.triangles.empty()) return;
+    if (!MeshWriter::has_triangles(mesh)) return;
     const bool rigid = hangs_on_its_bone(mesh);
     SourceDocument::MeshOrigin form;
     form.skinned = !rigid;
@@ -265,8 +266,7 @@ Status write_new_document(const std::filesystem::path& file, const Character& ch
     if (options.maximum_influences != 0 && options.maximum_influences != 4 && options.maximum_influences != 8)
       refuse(StatusCode::invalid_argument, kNone, "save_glb: maximum_influences is 0, 4 or 8, not %u", options.maximum_influences);
     if (const Status status = validate_character(character); !status) return status;
-    write_atomically(file, NewDocument(character, options).write());
-    return {};
+    return write_atomically(file, NewDocument(character, options).write());
   } catch (...) {
     return status_of_current_exception();
   }

@@ -7,6 +7,7 @@
 #include "io/gltf/glb.h"
 #include "io/gltf/mesh_writer.h"
 #include "io/gltf/refusal.h"
+#include "io/write_atomically.h"
 
 namespace sunder::gltf {
 namespace {
@@ -25,11 +26,16 @@ void check_same_character(const Character& character, const LoadedCharacter& loa
     refuse(StatusCode::invalid_argument, kNone, "save_glb: the skeleton is not the source's");
   if (character.skins != source.skins) refuse(StatusCode::invalid_argument, kNone, "save_glb: the skins are not the source's");
   if (character.clips != source.clips) refuse(StatusCode::invalid_argument, kNone, "save_glb: the clips are not the source's");
+  const std::size_t material_count = count_of(loaded.source->json, "materials");
   for (std::uint32_t i = 0; i < character.meshes.size(); ++i) {
     const Mesh &mesh = character.meshes[i], &before = source.meshes[i];
     if (mesh.skin != before.skin || mesh.first_morph_weight != before.first_morph_weight ||
         mesh.morph_targets.size() != before.morph_targets.size())
       refuse(StatusCode::invalid_argument, i, "save_glb: mesh %u: its skin or its morph targets are not the source's", i);
+    for (const Submesh& submesh : mesh.submeshes)
+      if (submesh.material != kNone && submesh.material >= material_count)
+        refuse(StatusCode::index_out_of_range, i, "save_glb: mesh %u: material %u, the source has %zu", i, submesh.material,
+               material_count);
   }
   if (const Status status = validate_character(character); !status) throw Refusal{status};
 }
@@ -98,7 +104,7 @@ class Patch {
     const Mesh& mesh = character_.meshes[mesh_index];
     const Origin& origin = source_.mesh_origins[mesh_index];
     for (const std::uint32_t primitive : origin.primitives) rewritten[primitive] = nullptr;
-    if (mesh.triangles.empty()) return;
+    if (!MeshWriter::has_triangles(mesh)) return;
     const MeshWriter::Vertices vertices = writer_.add_vertices(mesh, origin);
     for (std::uint32_t submesh = 0; submesh < mesh.submeshes.size(); ++submesh) {
       const std::uint32_t indices = writer_.add_indices(mesh, submesh);
@@ -113,11 +119,19 @@ class Patch {
       primitive.erase("material");
       if (mesh.submeshes[submesh].material != kNone) primitive["material"] = mesh.submeshes[submesh].material;
       remove_stale_extensions(primitive);
+      if (is_new) write_name(mesh.submeshes[submesh], primitive);
       if (is_new)
         additional.push_back(std::move(primitive));
       else
         rewritten[origin.primitives[submesh]] = std::move(primitive);
     }
+  }
+
+  /// Primitives have no name of their own: it is that of their material, or stands in their extras.
+  void write_name(const Submesh& submesh, Json& primitive) const {
+    const bool has_material = submesh.material != kNone;
+    const std::string of_material = has_material ? entry(draft_.json, "materials", submesh.material).name() : std::string();
+    if (!submesh.name.empty() && submesh.name != of_material) primitive["extras"]["name"] = submesh.name;
   }
 
   /// Those that hold a second form of the data that was replaced.
@@ -175,15 +189,11 @@ Status write(const std::filesystem::path& file, const Character& character, cons
   check_same_character(character, loaded);
   const SourceDocument& source = *loaded.source;
   const std::vector<std::uint32_t> meshes = meshes_to_write(character, loaded);
-  if (meshes.empty() && source.is_glb) {
-    write_atomically(file, source.content);
-    return {};
-  }
+  if (meshes.empty() && source.is_glb) return write_atomically(file, source.content);
   GlbDraft draft(source);
   Patch(draft, character, source, options).apply(meshes);
   draft.embed_images();
-  write_atomically(file, draft.finish());
-  return {};
+  return write_atomically(file, draft.finish());
 }
 
 }  // namespace

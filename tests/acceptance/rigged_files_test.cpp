@@ -35,12 +35,12 @@ ModelPose some_pose(const Character& character, Random& random) {
   return model;
 }
 
-/// Triangles grouped as a file groups them: by submesh, each in its order.
+/// Triangles as a file has them: grouped by submesh, each in its order, without the retired ones.
 std::vector<Triangle> in_file_order(const Mesh& mesh) {
   std::vector<Triangle> triangles;
   for (std::uint32_t submesh = 0; submesh < mesh.submeshes.size(); ++submesh)
     for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t)
-      if (mesh.triangle_submesh[t] == submesh) triangles.push_back(mesh.triangles[t]);
+      if (mesh.triangle_submesh[t] == submesh && !is_retired(mesh.triangles[t])) triangles.push_back(mesh.triangles[t]);
   return triangles;
 }
 

@@ -174,6 +174,44 @@ TEST(LoadGltfMesh, normals_far_from_unit_length_are_normalised) {
   EXPECT_EQ(builder.load(strict()).error().code(), StatusCode::malformed_file);
 }
 
+TEST(LoadGltfMesh, tear_sides_are_found_under_the_name_that_tools_keep) {
+  std::vector<float> sides(kStripVertices, 0.0f), others(kStripVertices, 7.0f);
+  sides[3] = 2.0f;
+  for (const bool as_integers : {false, true}) {
+    GltfBuilder builder = skinned_strip();
+    const std::vector<std::uint16_t> integers(sides.begin(), sides.end());
+    strip_attributes(builder)[kTearSideFeatureAttribute] =
+        as_integers ? builder.add(integers, "SCALAR") : builder.add(sides, "SCALAR");
+    const auto loaded = builder.load(strict());
+    ASSERT_TRUE(loaded.has_value()) << loaded.error().text();
+    const CustomAttribute expected{kTearSideAttribute, 1, false, sides};
+    EXPECT_EQ(first_mesh(loaded).custom_attributes, std::vector<CustomAttribute>{expected});
+  }
+  for (const bool is_first : {false, true}) {  // Where both are there, the attribute itself holds.
+    GltfBuilder builder = skinned_strip();
+    if (is_first) strip_attributes(builder)[kTearSideFeatureAttribute] = builder.add(others, "SCALAR");
+    strip_attributes(builder)[kTearSideAttribute] = builder.add(sides, "SCALAR");
+    if (!is_first) strip_attributes(builder)[kTearSideFeatureAttribute] = builder.add(others, "SCALAR");
+    const auto loaded = builder.load(strict());
+    ASSERT_TRUE(loaded.has_value()) << loaded.error().text();
+    ASSERT_EQ(first_mesh(loaded).custom_attributes.size(), 1u);
+    EXPECT_EQ(first_mesh(loaded).custom_attributes[0].name, kTearSideAttribute);
+    EXPECT_EQ(first_mesh(loaded).custom_attributes[0].values, sides);
+    EXPECT_TRUE(loaded->report.notes.empty());
+  }
+}
+
+TEST(LoadGltfMesh, other_things_of_that_name_are_dropped) {
+  GltfBuilder builder = skinned_strip();
+  strip_attributes(builder)[kTearSideFeatureAttribute] = builder.add(std::vector<float>(kStripVertices * 2, 1.0f), "VEC2");
+  strip_attributes(builder)["_FEATURE_ID_0"] = builder.add(std::vector<float>(kStripVertices, 1.0f), "SCALAR");
+  const auto loaded = builder.load();
+  ASSERT_TRUE(loaded.has_value()) << loaded.error().text();
+  ASSERT_EQ(first_mesh(loaded).custom_attributes.size(), 1u);
+  EXPECT_EQ(first_mesh(loaded).custom_attributes[0].name, "_FEATURE_ID_0");
+  EXPECT_TRUE(has_note(loaded->report, LoadNote::Kind::dropped, "not one number a vertex"));
+}
+
 TEST(LoadGltfMesh, matrix_attributes_stay_in_the_file_only) {
   GltfBuilder builder = skinned_strip();
   strip_attributes(builder)["_FRAME"] = builder.add(std::vector<float>(kStripVertices * 16, 1.0f), "MAT4");

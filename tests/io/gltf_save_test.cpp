@@ -147,6 +147,21 @@ TEST(SaveGlb, a_torn_mesh_comes_back_bit_for_bit) {
   EXPECT_TRUE(primitive["attributes"].contains("_TEARSIDE"));
 }
 
+TEST(SaveGlb, tear_sides_are_written_under_two_names_and_read_under_one) {
+  const LoadedCharacter loaded = loaded_strip();
+  Character torn = *loaded.character;
+  fake_tear(torn.meshes[0]);
+  const Saved saved = save(torn, loaded);
+  ASSERT_TRUE(saved.again.has_value());
+  const Json json = json_of(saved.bytes);
+  const Json& attributes = json["meshes"][0]["primitives"][0]["attributes"];
+  EXPECT_EQ(attributes[kTearSideFeatureAttribute], attributes[kTearSideAttribute]);  // It takes no space.
+  EXPECT_EQ(json["accessors"][attributes[kTearSideAttribute].get<std::size_t>()]["componentType"], 5126);
+  EXPECT_EQ(saved.again->character->meshes[0].custom_attributes, torn.meshes[0].custom_attributes);
+  const Saved twice = save(torn, *saved.again);  // Neither name piles up.
+  EXPECT_EQ(json_of(twice.bytes)["meshes"][0]["primitives"][0]["attributes"].size(), attributes.size());
+}
+
 TEST(SaveGlb, labels_stay_labels) {
   GltfBuilder builder = skinned_strip();
   strip_attributes(builder)["_FEATURE_ID_0"] = builder.add(std::vector<std::uint16_t>(kStripVertices * 2, 300), "VEC2");
@@ -217,6 +232,153 @@ TEST(SaveGlb, a_node_whose_mesh_is_gone_keeps_no_trace_of_it) {
   EXPECT_FALSE(json["nodes"][3].contains("mesh"));
   EXPECT_FALSE(json["nodes"][3].contains("weights"));
   EXPECT_FALSE(json.contains("animations"));
+}
+
+/// Takes a triangle away, as a gap does.
+void retire(Mesh& mesh, std::uint32_t triangle) { mesh.triangles[triangle].fill(mesh.triangles[triangle][0]); }
+
+void retire_all(Mesh& mesh) {
+  for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t) retire(mesh, t);
+}
+
+TEST(SaveGlb, retired_triangles_are_not_written) {
+  const LoadedCharacter loaded = loaded_strip();
+  Character torn = *loaded.character;
+  Mesh expected = torn.meshes[0];
+  for (const std::uint32_t triangle : {0u, 3u, 7u}) retire(torn.meshes[0], triangle);
+  for (const std::uint32_t triangle : {7u, 3u, 0u}) {
+    expected.triangles.erase(expected.triangles.begin() + triangle);
+    expected.triangle_submesh.pop_back();
+  }
+  const Saved saved = save(torn, loaded);
+  ASSERT_TRUE(saved.again.has_value());
+  expect_same_content(saved.again->character->meshes[0], expected);
+}
+
+TEST(SaveGlb, a_primitive_whose_triangles_are_all_retired_disappears) {
+  GltfBuilder builder = skinned_strip();
+  Json& primitives = builder.json["meshes"][0]["primitives"];
+  primitives.push_back(primitives[0]);
+  primitives[1]["material"] = 1;
+  const LoadedCharacter loaded = loaded_strip(builder);
+  Character torn = *loaded.character;
+  ASSERT_EQ(torn.meshes[0].submeshes.size(), 2u);
+  for (std::uint32_t t = 0; t < torn.meshes[0].triangle_count(); ++t)
+    if (torn.meshes[0].triangle_submesh[t] == 0) retire(torn.meshes[0], t);
+  const Json json = json_of(save(torn, loaded).bytes);
+  ASSERT_EQ(json["meshes"][0]["primitives"].size(), 1u);
+  EXPECT_EQ(json["meshes"][0]["primitives"][0]["material"], 1);
+}
+
+TEST(SaveGlb, a_mesh_whose_triangles_are_all_retired_leaves_its_node) {
+  GltfBuilder builder = skinned_strip();
+  builder.json["meshes"].push_back(builder.json["meshes"][0]);
+  builder.json["nodes"].push_back({{"name", "twin"}, {"mesh", 1}, {"skin", 0}});
+  builder.json["scenes"][0]["nodes"].push_back(3);
+  const LoadedCharacter loaded = loaded_strip(builder);
+  Character torn = *loaded.character;
+  ASSERT_EQ(torn.meshes.size(), 2u);
+  retire_all(torn.meshes[1]);
+  const Saved saved = save(torn, loaded);
+  ASSERT_TRUE(saved.again.has_value());
+  EXPECT_EQ(saved.again->character->meshes.size(), 1u);
+  EXPECT_FALSE(json_of(saved.bytes)["nodes"][3].contains("mesh"));
+  EXPECT_FALSE(json_of(saved.bytes)["nodes"][3].contains("skin"));
+}
+
+TEST(SaveGlb, a_model_without_any_triangle_left_is_a_valid_file) {
+  const LoadedCharacter loaded = loaded_strip();
+  Character torn = *loaded.character;
+  retire_all(torn.meshes[0]);
+  const TemporaryFolder folder;
+  const auto patched = folder.path() / "patched.glb", anew = folder.path() / "anew.glb";
+  ASSERT_TRUE(save_glb(patched, torn, loaded));
+  ASSERT_TRUE(save_glb(anew, torn));
+  for (const auto& file : {patched, anew}) {
+    EXPECT_EQ(load_character(file).error().code(), StatusCode::empty_input) << file;
+    if (!has_gltf_validator()) continue;
+    const ValidatorReport report = validate_glb(file);
+    EXPECT_EQ(report.errors, 0) << report.output;
+  }
+}
+
+/// Closes something with two triangles of vertices of their own.
+void add_cap(Mesh& mesh, const Submesh& submesh) {
+  mesh.submeshes.push_back(submesh);
+  for (const std::uint32_t t : {1u, 2u}) {
+    Triangle triangle = mesh.triangles[t];
+    std::swap(triangle[1], triangle[2]);
+    for (std::uint32_t& vertex : triangle) vertex = append_copy(mesh, vertex);
+    mesh.triangles.push_back(triangle);
+    mesh.triangle_submesh.push_back(static_cast<std::uint32_t>(mesh.submeshes.size() - 1));
+  }
+}
+
+TEST(SaveGlb, new_submeshes_become_primitives_of_the_same_vertices) {
+  GltfBuilder builder = skinned_strip();
+  std::vector<float> deltas(kStripVertices * 3, 0.125f);
+  const std::size_t accessor = builder.add(deltas, "VEC3");
+  builder.json["accessors"][accessor]["min"] = {0.125, 0.125, 0.125};
+  builder.json["accessors"][accessor]["max"] = {0.125, 0.125, 0.125};
+  builder.json["meshes"][0]["primitives"][0]["targets"] = Json::array({{{"POSITION", accessor}}});
+  builder.json["meshes"][0]["extras"]["targetNames"] = Json::array({"puff"});
+  const LoadedCharacter loaded = loaded_strip(builder);
+  Character torn = *loaded.character;
+  fake_tear(torn.meshes[0]);
+  add_cap(torn.meshes[0], {"cap", kNone});
+  add_cap(torn.meshes[0], {"other", 1});
+  add_cap(torn.meshes[0], {"wall", 0});
+  add_cap(torn.meshes[0], {"", kNone});
+  const Saved saved = save(torn, loaded);
+  ASSERT_TRUE(saved.again.has_value());
+  ASSERT_EQ(saved.again->character->meshes.size(), 1u);
+  expect_same_content(saved.again->character->meshes[0], torn.meshes[0]);
+  const Json json = json_of(saved.bytes);
+  const Json& primitives = json["meshes"][0]["primitives"];
+  ASSERT_EQ(primitives.size(), 5u);
+  EXPECT_FALSE(primitives[1].contains("material"));
+  EXPECT_EQ(primitives[1]["extras"], (Json{{"name", "cap"}}));
+  EXPECT_EQ(primitives[2]["material"], 1);
+  EXPECT_FALSE(primitives[2].contains("extras"));  // Its material is named so.
+  EXPECT_EQ(primitives[3]["material"], 0);
+  EXPECT_EQ(primitives[3]["extras"], (Json{{"name", "wall"}}));
+  EXPECT_FALSE(primitives[4].contains("extras"));
+  for (std::size_t i = 1; i < 5; ++i) {
+    EXPECT_EQ(primitives[i]["attributes"], primitives[0]["attributes"]);
+    EXPECT_EQ(primitives[i]["targets"], primitives[0]["targets"]);
+  }
+}
+
+TEST(SaveGlb, a_file_written_anew_has_new_submeshes_and_no_retired_triangles) {
+  Character torn = *loaded_strip().character;
+  fake_tear(torn.meshes[0]);
+  add_cap(torn.meshes[0], {"cap", kNone});
+  retire(torn.meshes[0], 4);
+  retire(torn.meshes[0], 8);
+  retire(torn.meshes[0], 9);
+  add_cap(torn.meshes[0], {"wall", kNone});  // "cap" has no triangle left.
+  const TemporaryFolder folder;
+  ASSERT_TRUE(save_glb(folder.path() / "new.glb", torn));
+  const auto again = load_character(folder.path() / "new.glb");
+  ASSERT_TRUE(again.has_value()) << again.error().text();
+  const Mesh& mesh = again->character->meshes[0];
+  EXPECT_EQ(mesh.triangle_count(), 7u + 2u);
+  ASSERT_EQ(mesh.submeshes.size(), 2u);
+  EXPECT_EQ(mesh.submeshes[1].name, "wall");
+  EXPECT_EQ(mesh.custom_attributes, torn.meshes[0].custom_attributes);
+  EXPECT_EQ(mesh.positions, torn.meshes[0].positions);
+  if (!has_gltf_validator()) return;
+  const ValidatorReport report = validate_glb(folder.path() / "new.glb");
+  EXPECT_EQ(report.errors, 0) << report.output;
+}
+
+TEST(SaveGlb, refuses_a_material_that_the_source_does_not_have) {
+  const LoadedCharacter loaded = loaded_strip();
+  Character torn = *loaded.character;
+  add_cap(torn.meshes[0], {"cap", 2});
+  const TemporaryFolder folder;
+  EXPECT_EQ(save_glb(folder.path() / "torn.glb", torn, loaded).code(), StatusCode::index_out_of_range);
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
 TEST(SaveGlb, an_instance_is_torn_alone) {

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <set>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -15,6 +16,15 @@ namespace {
 constexpr const char* kBlades = R"([{"base": [0,0,1], "tip": [0,0,0]}, {"base": [0.1,0,1], "tip": [0.1,0,0]}])";
 
 std::string log_of(const std::string& operations) { return R"({"sunder_operations": 1, "operations": [)" + operations + "]}"; }
+
+std::string cut_with(const std::string& fields) {
+  return log_of(R"({"op": "cut", "plane": {"point": [0,0,0], "normal": [0,0,1]}, )" + fields + "}");
+}
+
+/// A drill with other fields behind its axis.
+std::string drill_with(const std::string& fields) {
+  return log_of(R"({"op": "drill", "axis": {"origin": [0,0,0], "direction": [0,0,1]}, )" + fields + "}");
+}
 
 /// A tear with other fields than the stroke in front of it.
 std::string tear_with(const std::string& fields) {
@@ -35,6 +45,66 @@ TEST(OperationLog, ReadsEveryField) {
   EXPECT_EQ(pose.time, 0.4);
   const Stroke expected = {{{0, 0, 1}, {0, 0, 0}}, {{0.1, 0, 1}, {0.1, 0, 0}}};
   EXPECT_EQ(tear.stroke, expected);
+}
+
+TEST(OperationLog, ReadsWidthLayersAndWalls) {
+  const TearOperation tear = parsed(tear_with(R"("width": 0.02, "layers": "all", "wall_depth": 0.01)"));
+  EXPECT_EQ(tear.options, (TearOptions{0.02, Layers::all, 0.01}));
+  EXPECT_EQ(parsed(tear_with(R"("width": 0)")).options, TearOptions{});
+}
+
+TEST(OperationLog, ABladeMayBringItsPose) {
+  const TearOperation tear = parsed(log_of(R"({"op": "tear", "stroke": [
+      {"base": [0,0,1], "tip": [0,0,0]}, {"base": [1,0,1], "tip": [1,0,0], "pose": "bind"},
+      {"base": [2,0,1], "tip": [2,0,0]}, {"base": [3,0,1], "tip": [3,0,0], "pose": {"clip": "Walk", "time": 1}}]})"));
+  ASSERT_EQ(tear.pose_changes.size(), 2u);
+  EXPECT_EQ(tear.pose_changes[0].blade, 1u);
+  EXPECT_TRUE(std::holds_alternative<BindPose>(tear.pose_changes[0].pose));
+  EXPECT_EQ(tear.pose_changes[1].blade, 3u);
+  EXPECT_EQ(std::get<ClipPose>(tear.pose_changes[1].pose).time, 1.0);
+}
+
+TEST(OperationLog, ReadsACut) {
+  const auto operations = parse_operations(log_of(R"({"op": "cut", "pose": "bind",
+      "plane": {"point": [1, 2, 3], "normal": [0, -2, 0]}, "bounds": [[0,0,0], [1,0,0], [0,0,1]], "caps": true},
+      {"op": "cut", "plane": {"point": [0,0,0], "normal": [0,0,1]}})"));
+  ASSERT_TRUE(operations) << operations.error().text();
+  const auto& cut = std::get<CutOperation>(operations->at(0));
+  EXPECT_TRUE(std::holds_alternative<BindPose>(cut.pose));
+  EXPECT_EQ(cut.cut, (Cut{{1, 2, 3}, {0, -2, 0}, {{0, 0, 0}, {1, 0, 0}, {0, 0, 1}}, true}));
+  EXPECT_EQ(std::get<CutOperation>(operations->at(1)).cut, Cut{});
+}
+
+TEST(OperationLog, ReadsABore) {
+  const auto operations = parse_operations(log_of(R"({"op": "drill", "axis": {"origin": [1, 2, 3], "direction": [0, 0, -3]},
+      "radius": 0.5, "depth": 4, "chord_tolerance": 0.001, "wall": true},
+      {"op": "drill", "axis": {"origin": [0,0,0], "direction": [0,0,-1]}, "radius": 1, "depth": 1})"));
+  ASSERT_TRUE(operations) << operations.error().text();
+  EXPECT_EQ(std::get<DrillOperation>(operations->at(0)).bore, (Bore{{1, 2, 3}, {0, 0, -3}, 0.5, 4, 0.001, true}));
+  EXPECT_EQ(std::get<DrillOperation>(operations->at(1)).bore, (Bore{{0, 0, 0}, {0, 0, -1}, 1, 1, 0, false}));
+}
+
+TEST(OperationLog, ReadsUndoAndRedo) {
+  const auto operations = parse_operations(
+      log_of(R"({"op": "undo"}, {"op": "undo", "count": 3}, {"op": "redo"}, {"op": "redo", "count": 4294967294})"));
+  ASSERT_TRUE(operations) << operations.error().text();
+  EXPECT_EQ(std::get<UndoOperation>(operations->at(0)).count, 1u);
+  EXPECT_EQ(std::get<UndoOperation>(operations->at(1)).count, 3u);
+  EXPECT_EQ(std::get<RedoOperation>(operations->at(2)).count, 1u);
+  EXPECT_EQ(std::get<RedoOperation>(operations->at(3)).count, 4294967294u);
+}
+
+TEST(OperationLog, MatricesAreRows) {
+  const ModelPose pose = std::get<ModelPose>(
+      parsed(tear_with(R"("pose": {"matrices": [[1,2,3,4, 5,6,7,8, 9,10,11,1e30]], "morph_weights": [0.5, -2]})")).pose);
+  ASSERT_EQ(pose.model_from_bone.size(), 1u);
+  Eigen::Matrix<double, 3, 4> expected;
+  expected << 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 1e30;
+  EXPECT_EQ(pose.model_from_bone[0].matrix(), expected);
+  EXPECT_EQ(pose.morph_weights, (std::vector<float>{0.5f, -2.0f}));
+  const ModelPose empty = std::get<ModelPose>(parsed(tear_with(R"("pose": {"matrices": []})")).pose);
+  EXPECT_TRUE(empty.model_from_bone.empty());
+  EXPECT_TRUE(empty.morph_weights.empty());
 }
 
 TEST(OperationLog, RestIsTheDefaultPose) {
@@ -110,7 +180,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "'operations' occurs twice"},
         Refusal{"operation no object", log_of("7"), kMalformed, "/operations/0: expected an object, found number"},
         Refusal{"operation without op", log_of("{}"), kMalformed, "/operations/0: field 'op' is missing"},
-        Refusal{"unknown operation", log_of(R"({"op": "drill"})"), kUnsupported, "/operations/0/op"},
+        Refusal{"unknown operation", log_of(R"({"op": "sew"})"), kUnsupported, "/operations/0/op"},
         Refusal{"unknown field", tear_with(R"("depth": 1)"), kMalformed, "unknown field 'depth'"},
         Refusal{"no stroke", log_of(R"({"op": "tear"})"), kMalformed, "'stroke' is missing"},
         Refusal{"one blade", log_of(R"({"op": "tear", "stroke": [{"base": [0,0,1], "tip": [0,0,0]}]})"), kMalformed,
@@ -128,9 +198,11 @@ INSTANTIATE_TEST_SUITE_P(
                 "1e999"},
         Refusal{"too large", log_of(R"({"op": "tear", "stroke": [{"base": [0,0,1e10], "tip": [0,0,1]}, {}]})"), kMalformed,
                 "/stroke/0/base/2"},
-        Refusal{"a gap", tear_with(R"("width": 0.01)"), kUnsupported, "/operations/0/width"},
+        Refusal{"negative width", tear_with(R"("width": -0.01)"), kMalformed, "/operations/0/width"},
+        Refusal{"negative depth of walls", tear_with(R"("wall_depth": -1)"), kMalformed, "/operations/0/wall_depth"},
         Refusal{"width as text", tear_with(R"("width": "0")"), kMalformed, "/operations/0/width"},
-        Refusal{"all layers", tear_with(R"("layers": "all")"), kUnsupported, "/operations/0/layers"},
+        Refusal{"unknown layers", tear_with(R"("layers": "odd")"), kUnsupported, "/operations/0/layers"},
+        Refusal{"layers as number", tear_with(R"("layers": 1)"), kMalformed, "/operations/0/layers: expected a string"},
         Refusal{"unknown pose", tear_with(R"("pose": "t-pose")"), kMalformed, "/operations/0/pose"},
         Refusal{"pose as number", tear_with(R"("pose": 3)"), kMalformed, "/operations/0/pose"},
         Refusal{"clip without time", tear_with(R"("pose": {"clip": "Walk"})"), kMalformed, "'time' is missing"},
@@ -143,6 +215,95 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"rotation of zero length", tear_with(R"("pose": {"bones": {"A": {"rotation": [0,0,0,0]}}})"), kMalformed,
                 "/A/rotation"},
         Refusal{"the same bone twice", tear_with(R"("pose": {"bones": {"A": {}, "A": {}}})"), kMalformed, "'A' occurs twice"}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Tears, OperationLogRefuses,
+    testing::Values(
+        Refusal{"pose of the first blade",
+                log_of(R"({"op": "tear", "stroke": [{"base": [0,0,1], "tip": [0,0,0], "pose": "rest"}, {}]})"), kMalformed,
+                "/operations/0/stroke/0/pose"},
+        Refusal{"unknown pose of a blade", log_of(R"({"op": "tear", "stroke": [{"base": [0,0,1], "tip": [0,0,0]},
+                                                    {"base": [0,0,1], "tip": [0,0,0], "pose": "t"}]})"),
+                kMalformed, "/operations/0/stroke/1/pose"},
+        Refusal{"unknown field of a blade", log_of(R"({"op": "tear", "stroke": [{"base": [0,0,1], "edge": 1}, {}]})"), kMalformed,
+                "/operations/0/stroke/0: unknown field 'edge'"},
+        Refusal{"stroke no array", log_of(R"({"op": "tear", "stroke": {}})"), kMalformed,
+                "/operations/0/stroke: expected an array of blades, found object"},
+        Refusal{"fields of a cut", tear_with(R"("caps": true)"), kMalformed, "unknown field 'caps'"},
+        Refusal{"matrices no array", tear_with(R"("pose": {"matrices": 1})"), kMalformed, "/pose/matrices: expected an array"},
+        Refusal{"a matrix too short", tear_with(R"("pose": {"matrices": [[1,0,0,0, 0,1,0,0, 0,0,1]]})"), kMalformed,
+                "/pose/matrices/0: expected an array of 12 numbers"},
+        Refusal{"a matrix of four rows", tear_with(R"("pose": {"matrices": [[1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]]})"), kMalformed,
+                "/pose/matrices/0: expected an array of 12 numbers"},
+        Refusal{"a matrix with text", tear_with(R"("pose": {"matrices": [[1,0,0,0, 0,"1",0,0, 0,0,1,0]]})"), kMalformed,
+                "/pose/matrices/0/5: expected a number, found string"},
+        Refusal{"a matrix without number", tear_with(R"("pose": {"matrices": [[1,0,0,0, 0,null,0,0, 0,0,1,0]]})"), kMalformed,
+                "/pose/matrices/0/5: expected a number, found null"},
+        Refusal{"a matrix too large", tear_with(R"("pose": {"matrices": [[1,0,0,0, 0,1,0,0, 0,0,1,1.1e30]]})"), kMalformed,
+                "/pose/matrices/0/11: number beyond 1e30"},
+        Refusal{"morph weights too large", tear_with(R"("pose": {"matrices": [], "morph_weights": [0, 1e10]})"), kMalformed,
+                "/pose/morph_weights/1: number beyond 1e9"},
+        Refusal{"morph weights no array", tear_with(R"("pose": {"matrices": [], "morph_weights": 0})"), kMalformed,
+                "/pose/morph_weights: expected an array"},
+        Refusal{"morph weights alone", tear_with(R"("pose": {"morph_weights": [0]})"), kMalformed, "unknown field 'morph_weights'"},
+        Refusal{"matrices and bones", tear_with(R"("pose": {"matrices": [], "bones": {}})"), kMalformed,
+                "unknown field 'matrices'"}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Cuts, OperationLogRefuses,
+    testing::Values(
+        Refusal{"no plane", log_of(R"({"op": "cut"})"), kMalformed, "/operations/0: field 'plane' is missing"},
+        Refusal{"plane no object", log_of(R"({"op": "cut", "plane": [0,0,1,0]})"), kMalformed,
+                "/operations/0/plane: expected an object"},
+        Refusal{"no point", log_of(R"({"op": "cut", "plane": {"normal": [0,0,1]}})"), kMalformed, "'point' is missing"},
+        Refusal{"no normal", log_of(R"({"op": "cut", "plane": {"point": [0,0,1]}})"), kMalformed, "'normal' is missing"},
+        Refusal{"normal of zero length", log_of(R"({"op": "cut", "plane": {"point": [0,0,1], "normal": [0,-0.0,0]}})"), kMalformed,
+                "/plane/normal: normal of zero length"},
+        Refusal{"unknown field of the plane", log_of(R"({"op": "cut", "plane": {"distance": 1}})"), kMalformed,
+                "/plane: unknown field 'distance'"},
+        Refusal{"two corners", cut_with(R"("bounds": [[0,0,0], [1,0,0]])"), kMalformed, "/bounds: bounds need at least three"},
+        Refusal{"no corners", cut_with(R"("bounds": [])"), kMalformed, "/bounds: bounds need at least three"},
+        Refusal{"bounds no array", cut_with(R"("bounds": true)"), kMalformed, "/bounds: expected an array of points"},
+        Refusal{"a corner of two numbers", cut_with(R"("bounds": [[0,0,0], [1,0], [0,0,1]])"), kMalformed,
+                "/bounds/1: expected an array of 3"},
+        Refusal{"caps as number", cut_with(R"("caps": 1)"), kMalformed, "/caps: expected true or false, found number"},
+        Refusal{"pose of a cut", cut_with(R"("pose": "t-pose")"), kMalformed, "/operations/0/pose"},
+        Refusal{"width of a cut", cut_with(R"("width": 0)"), kMalformed, "unknown field 'width'"}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Drills, OperationLogRefuses,
+    testing::Values(
+        Refusal{"no axis", log_of(R"({"op": "drill", "radius": 1, "depth": 1})"), kMalformed, "'axis' is missing"},
+        Refusal{"no origin", log_of(R"({"op": "drill", "axis": {"direction": [0,0,1]}, "radius": 1, "depth": 1})"), kMalformed,
+                "'origin' is missing"},
+        Refusal{"no direction", log_of(R"({"op": "drill", "axis": {"origin": [0,0,1]}, "radius": 1, "depth": 1})"), kMalformed,
+                "'direction' is missing"},
+        Refusal{"direction of zero length",
+                log_of(R"({"op": "drill", "axis": {"origin": [0,0,1], "direction": [0,0,0]}, "radius": 1, "depth": 1})"),
+                kMalformed, "/axis/direction: direction of zero length"},
+        Refusal{"unknown field of the axis", log_of(R"({"op": "drill", "axis": {"angle": 1}, "radius": 1, "depth": 1})"),
+                kMalformed, "/axis: unknown field 'angle'"},
+        Refusal{"no radius", drill_with(R"("depth": 1)"), kMalformed, "'radius' is missing"},
+        Refusal{"radius 0", drill_with(R"("radius": 0, "depth": 1)"), kMalformed, "/operations/0/radius: not above 0"},
+        Refusal{"negative radius", drill_with(R"("radius": -1, "depth": 1)"), kMalformed, "/operations/0/radius"},
+        Refusal{"no depth", drill_with(R"("radius": 1)"), kMalformed, "'depth' is missing"},
+        Refusal{"depth 0", drill_with(R"("radius": 1, "depth": 0)"), kMalformed, "/operations/0/depth: not above 0"},
+        Refusal{"negative chord tolerance", drill_with(R"("radius": 1, "depth": 1, "chord_tolerance": -1)"), kMalformed,
+                "/operations/0/chord_tolerance: negative"},
+        Refusal{"wall as text", drill_with(R"("radius": 1, "depth": 1, "wall": "yes")"), kMalformed,
+                "/operations/0/wall: expected true or false, found string"},
+        Refusal{"unknown field", drill_with(R"("radius": 1, "depth": 1, "walls": true)"), kMalformed, "unknown field 'walls'"}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Steps, OperationLogRefuses,
+    testing::Values(
+        Refusal{"count 0", log_of(R"({"op": "undo", "count": 0})"), kMalformed, "/operations/0/count: expected at least 1"},
+        Refusal{"negative count", log_of(R"({"op": "redo", "count": -1})"), kMalformed, "/operations/0/count: expected"},
+        Refusal{"half a count", log_of(R"({"op": "undo", "count": 1.5})"), kMalformed, "/operations/0/count: expected"},
+        Refusal{"count beyond 32 bits", log_of(R"({"op": "undo", "count": 4294967295})"), kMalformed,
+                "/operations/0/count: count too large"},
+        Refusal{"undo in a pose", log_of(R"({"op": "undo", "pose": "rest"})"), kMalformed, "unknown field 'pose'"},
+        Refusal{"redo in a pose", log_of(R"({"op": "redo", "pose": "rest"})"), kMalformed, "unknown field 'pose'"}));
 
 TEST(OperationLog, IndexIsTheOperation) {
   const std::string good = std::string(R"({"op": "tear", "stroke": )") + kBlades + "}";
@@ -175,18 +336,25 @@ TEST(OperationLog, FromAFile) {
 }
 
 /// The page and the schema are for people and other programs; what they show must be what the code takes.
-TEST(OperationLog, DocumentedExampleIsRead) {
+TEST(OperationLog, DocumentedExamplesAreRead) {
   const std::filesystem::path docs = std::filesystem::path(__FILE__).parent_path().parent_path().parent_path() / "docs";
   std::ifstream page(docs / "operation_log.md");
   if (!page) GTEST_SKIP() << "needs the source folder docs/";
   const std::string text{std::istreambuf_iterator<char>(page), {}};
-  const std::size_t start = text.find("```json\n") + 8;
-  const auto operations = parse_operations(std::string_view(text).substr(start, text.find("```", start) - start));
-  ASSERT_TRUE(operations) << operations.error().text();
+  std::set<std::size_t> kinds;
+  for (std::size_t start = text.find("```json\n"); start != std::string::npos; start = text.find("```json\n", start + 1)) {
+    std::string example = text.substr(start + 8, text.find("```", start + 8) - start - 8);
+    if (example.find("sunder_operations") == std::string::npos) example = log_of(example);
+    const auto operations = parse_operations(example);
+    ASSERT_TRUE(operations) << example << operations.error().text();
+    for (const Operation& operation : *operations) kinds.insert(operation.index());
+  }
+  EXPECT_EQ(kinds.size(), std::variant_size_v<Operation>) << "an operation without example";
 
   std::ifstream schema(docs / "operation_log.schema.json");
   const nlohmann::json parsed_schema = nlohmann::json::parse(schema);
   EXPECT_EQ(parsed_schema["properties"]["sunder_operations"]["const"], 1);
+  EXPECT_EQ(parsed_schema["properties"]["operations"]["items"]["oneOf"].size(), std::variant_size_v<Operation>);
 }
 
 }  // namespace

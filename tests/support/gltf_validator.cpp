@@ -6,8 +6,9 @@
 namespace sunder::test {
 
 bool has_gltf_validator() {
-  static const bool is_there = std::filesystem::exists(std::filesystem::path(SUNDER_TESTS_NPM) / "node_modules") &&
-                               std::system("node --version > /dev/null 2>&1") == 0;
+  static const bool is_there =
+      std::filesystem::exists(std::filesystem::path(SUNDER_TESTS_NPM) / "node_modules" / "gltf-validator") &&
+      std::system("node --version > /dev/null 2>&1") == 0;
   return is_there;
 }
 

@@ -5,7 +5,7 @@
 
 namespace sunder::test {
 
-/// Whether node and tests/npm/node_modules are there.
+/// Whether node and the package are there.
 bool has_gltf_validator();
 
 struct ValidatorReport {

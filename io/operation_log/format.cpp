@@ -1,0 +1,121 @@
+#include "io/operation_log/format.h"
+
+#include <span>
+#include <utility>
+
+#include "io/operation_log/place.h"
+
+namespace sunder::operation_log {
+namespace {
+
+// Doubles are written as the shortest text that reads back to the same bits; floats as the doubles they are.
+
+template <class Scalar>
+Json numbers(std::span<const Scalar> values) {
+  Json array = Json::array();
+  for (const Scalar value : values) array.push_back(static_cast<double>(value));
+  return array;
+}
+
+template <class Vector>
+Json vector_json(const Vector& vector) {
+  return numbers(std::span<const typename Vector::Scalar>(vector.data(), static_cast<std::size_t>(vector.size())));
+}
+
+Json pose_json(const RestPose&) { return "rest"; }
+
+Json pose_json(const BindPose&) { return "bind"; }
+
+Json pose_json(const ClipPose& pose) {
+  Json json;
+  std::visit([&](const auto& clip) { json["clip"] = clip; }, pose.clip);
+  json["time"] = pose.time;
+  return json;
+}
+
+Json pose_json(const BonesPose& pose) {
+  Json json;
+  Json& bones = json["bones"] = Json::object();
+  for (const BonesPose::Bone& bone : pose.bones) {
+    Json parts = Json::object();
+    if (bone.translation) parts["translation"] = vector_json(*bone.translation);
+    if (bone.rotation) parts["rotation"] = vector_json(bone.rotation->coeffs());
+    if (bone.scale) parts["scale"] = vector_json(*bone.scale);
+    bones[bone.name] = std::move(parts);
+  }
+  return json;
+}
+
+Json pose_json(const ModelPose& pose) {
+  Json matrices = Json::array();
+  for (const Affine3d& matrix : pose.model_from_bone) {
+    const Eigen::Matrix<double, 3, 4, Eigen::RowMajor | Eigen::DontAlign> rows = matrix.matrix();
+    matrices.push_back(vector_json(rows));
+  }
+  return {{"matrices", std::move(matrices)}, {"morph_weights", numbers(std::span<const float>(pose.morph_weights))}};
+}
+
+Json pose_json(const PoseSpec& pose) {
+  return std::visit([](const auto& kind) { return pose_json(kind); }, pose);
+}
+
+/// The fields of an operation that stand on its first line.
+Json header(const TearOperation& tear) {
+  return {{"op", "tear"},
+          {"pose", pose_json(tear.pose)},
+          {"width", tear.options.width},
+          {"layers", tear.options.layers == Layers::all ? "all" : "nearest"},
+          {"wall_depth", tear.options.wall_depth}};
+}
+
+Json header(const CutOperation& operation) {
+  const Cut& cut = operation.cut;
+  Json json = {{"op", "cut"},
+               {"pose", pose_json(operation.pose)},
+               {"plane", {{"point", vector_json(cut.point)}, {"normal", vector_json(cut.normal)}}}};
+  for (const Vec3d& corner : cut.bounds) json["bounds"].push_back(vector_json(corner));
+  json["caps"] = cut.caps;
+  return json;
+}
+
+Json header(const DrillOperation& operation) {
+  const Bore& bore = operation.bore;
+  return {{"op", "drill"},
+          {"pose", pose_json(operation.pose)},
+          {"axis", {{"origin", vector_json(bore.origin)}, {"direction", vector_json(bore.direction)}}},
+          {"radius", bore.radius},
+          {"depth", bore.depth},
+          {"chord_tolerance", bore.chord_tolerance},
+          {"wall", bore.wall}};
+}
+
+Json header(const UndoOperation& operation) { return {{"op", "undo"}, {"count", operation.count}}; }
+
+Json header(const RedoOperation& operation) { return {{"op", "redo"}, {"count", operation.count}}; }
+
+/// Names in files may be any bytes; JSON is UTF-8.
+std::string one_line(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
+
+void append_stroke(std::string& text, const TearOperation& tear) {
+  auto change = tear.pose_changes.begin();
+  for (std::uint32_t i = 0; i < tear.stroke.size(); ++i) {
+    Json blade = {{"base", vector_json(tear.stroke[i].base)}, {"tip", vector_json(tear.stroke[i].tip)}};
+    if (change != tear.pose_changes.end() && change->blade == i) blade["pose"] = pose_json((change++)->pose);
+    text += i == 0 ? "\n      " : ",\n      ";
+    text += one_line(blade);
+  }
+}
+
+}  // namespace
+
+void append_operation(std::string& text, const Operation& operation) {
+  text += one_line(std::visit([](const auto& kind) { return header(kind); }, operation));
+  const auto* const tear = std::get_if<TearOperation>(&operation);
+  if (tear == nullptr) return;
+  text.back() = ',';  // In place of the brace that closed it.
+  text += "\"stroke\":[";
+  append_stroke(text, *tear);
+  text += "]}";
+}
+
+}  // namespace sunder::operation_log

@@ -1,0 +1,137 @@
+#include "io/operation_log/read_operation.h"
+
+#include <utility>
+
+#include "io/operation_log/read_pose.h"
+
+namespace sunder::operation_log {
+namespace {
+
+template <class Read, class Value>
+void read_if_given(const Place& place, const char* key, Read read, Value& value) {
+  if (place.has(key)) value = read(place.at(key));
+}
+
+Layers read_layers(const Place& place) {
+  const std::string name = read_name(place);
+  if (name == "all") return Layers::all;
+  if (name != "nearest") place.fail(StatusCode::unsupported_feature, "layers '" + name + "'; 'nearest' and 'all' are known");
+  return Layers::nearest;
+}
+
+void read_stroke(const Place& place, TearOperation& tear) {
+  const std::size_t count = read_array(place, "an array of blades").size();
+  if (count < 2) place.malformed("a stroke needs at least two blades");
+  tear.stroke.reserve(count);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const Place blade = place.at(i);
+    blade.check_fields({"base", "tip", "pose"});
+    tear.stroke.push_back({read_vector<3>(blade.at("base")), read_vector<3>(blade.at("tip"))});
+    if (tear.stroke.back().base == tear.stroke.back().tip) blade.malformed("blade without length");
+    if (!blade.has("pose")) continue;
+    if (i == 0) blade.at("pose").malformed("the first blade's pose is that of the operation");
+    tear.pose_changes.push_back({i, read_pose(blade.at("pose"))});
+  }
+}
+
+TearOperation read_tear(const Place& place) {
+  place.check_fields({"op", "pose", "width", "layers", "wall_depth", "stroke"});
+  TearOperation tear;
+  read_if_given(place, "pose", read_pose, tear.pose);
+  read_if_given(place, "width", read_number_at_least_zero, tear.options.width);
+  read_if_given(place, "layers", read_layers, tear.options.layers);
+  read_if_given(place, "wall_depth", read_number_at_least_zero, tear.options.wall_depth);
+  read_stroke(place.at("stroke"), tear);
+  return tear;
+}
+
+std::vector<Vec3d> read_bounds(const Place& place) {
+  const std::size_t count = read_array(place, "an array of points").size();
+  if (count < 3) place.malformed("bounds need at least three corners");
+  std::vector<Vec3d> corners;
+  corners.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) corners.push_back(read_vector<3>(place.at(i)));
+  return corners;
+}
+
+CutOperation read_cut(const Place& place) {
+  place.check_fields({"op", "pose", "plane", "bounds", "caps"});
+  CutOperation operation;
+  read_if_given(place, "pose", read_pose, operation.pose);
+  const Place plane = place.at("plane");
+  plane.check_fields({"point", "normal"});
+  operation.cut.point = read_vector<3>(plane.at("point"));
+  operation.cut.normal = read_direction(plane.at("normal"), "normal");
+  read_if_given(place, "bounds", read_bounds, operation.cut.bounds);
+  read_if_given(place, "caps", read_bool, operation.cut.caps);
+  return operation;
+}
+
+DrillOperation read_drill(const Place& place) {
+  place.check_fields({"op", "pose", "axis", "radius", "depth", "chord_tolerance", "wall"});
+  DrillOperation operation;
+  Bore& bore = operation.bore;
+  read_if_given(place, "pose", read_pose, operation.pose);
+  const Place axis = place.at("axis");
+  axis.check_fields({"origin", "direction"});
+  bore.origin = read_vector<3>(axis.at("origin"));
+  bore.direction = read_direction(axis.at("direction"), "direction");
+  bore.radius = read_number_above_zero(place.at("radius"));
+  bore.depth = read_number_above_zero(place.at("depth"));
+  read_if_given(place, "chord_tolerance", read_number_at_least_zero, bore.chord_tolerance);
+  read_if_given(place, "wall", read_bool, bore.wall);
+  return operation;
+}
+
+std::uint32_t read_count(const Place& place) {
+  if (!place.value.is_number_unsigned()) place.expected("how many operations, an integer from 1");
+  const auto count = place.value.get<std::uint64_t>();
+  if (count < 1) place.malformed("expected at least 1");
+  if (count >= kNone) place.malformed("count too large");
+  return static_cast<std::uint32_t>(count);
+}
+
+template <class UndoOrRedo>
+UndoOrRedo read_steps(const Place& place) {
+  place.check_fields({"op", "count"});
+  UndoOrRedo operation;
+  read_if_given(place, "count", read_count, operation.count);
+  return operation;
+}
+
+Operation read_operation(const Place& place) {
+  if (!place.value.is_object()) place.expected("an object");
+  const Place kind = place.at("op");
+  const std::string name = read_name(kind);
+  if (name == "tear") return read_tear(place);
+  if (name == "cut") return read_cut(place);
+  if (name == "drill") return read_drill(place);
+  if (name == "undo") return read_steps<UndoOperation>(place);
+  if (name == "redo") return read_steps<RedoOperation>(place);
+  kind.fail(StatusCode::unsupported_feature, "operation '" + name + "'; known are tear, cut, drill, undo, redo");
+}
+
+}  // namespace
+
+std::vector<Operation> read_log(const Json& log) {
+  const Place root{log, ""};
+  if (!log.is_object()) root.expected("an object");
+  // Before all else: a log of another version is to be called that, not wrong.
+  const Place version = root.at("sunder_operations");
+  if (!version.value.is_number_integer()) version.expected("the version, an integer");
+  if (version.value != 1)
+    version.fail(StatusCode::unsupported_feature, "version " + version.value.dump() + "; this build reads version 1");
+  root.check_fields({"sunder_operations", "operations"});
+
+  const Place list = root.at("operations");
+  std::vector<Operation> operations;
+  operations.reserve(read_array(list, "an array").size());
+  for (std::size_t i = 0; i < list.value.size(); ++i) {
+    Place one = list.at(i);
+    one.operation = static_cast<std::uint32_t>(i);
+    operations.push_back(read_operation(one));
+  }
+  return operations;
+}
+
+}  // namespace sunder::operation_log

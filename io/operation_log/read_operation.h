@@ -1,0 +1,14 @@
+#pragma once
+
+#include <sunder/core/operation.h>
+
+#include <vector>
+
+#include "io/operation_log/place.h"
+
+namespace sunder::operation_log {
+
+/// All of a log's operations. Throws a Fault.
+std::vector<Operation> read_log(const Json& log);
+
+}  // namespace sunder::operation_log
