@@ -62,8 +62,7 @@ Status validate_bore(const Bore& bore) {
 void drill_surface(const Bore& bore, const Workpiece& work, TearReport& report) {
   const SurfaceEditor::Mark before = work.editor.mark();
   const Cell cell = cell_of(bore);
-  const GapRemoval removal =
-      remove_cell(cell, faces_in_cell(cell, work.editor, work.posed), work.editor, work.posed, work.next_side);
+  const GapRemoval removal = remove_cell(cell, faces_in_cell(cell, work.editor, work.posed), work.editor, work.posed);
   report.runs = removal.faces_removed > 0 ? 1 : 0;
   report.faces_crossed = removal.faces_crossed;
   report.blocked = removal.blocked;

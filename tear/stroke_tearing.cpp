@@ -97,7 +97,7 @@ double StrokeTearing::tear_piece(const BladePlane& plane, Index start, const Sur
   std::vector<PointEdge> edges;
   for (std::size_t i = 0; i + 1 < path.points.size(); ++i) edges.push_back({path.points[i], path.points[i + 1]});
   const std::size_t first_lip = lips.size();
-  open_edges(edges, editor, work.next_side, lips);
+  open_edges(edges, editor, lips);
   for (std::size_t i = first_lip; i < lips.size(); ++i) posed.pin(lips[i].left, Vec3d(posed.position(editor, lips[i].right)));
   torn_edges_ += edges.size();
   if (!continues) ++report.runs;
