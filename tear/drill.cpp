@@ -6,6 +6,7 @@
 
 #include "tear/gap.h"
 #include "tear/improve.h"
+#include "tear/walls.h"
 
 namespace sunder::tear {
 namespace {
@@ -68,6 +69,9 @@ void drill_surface(const Bore& bore, const Workpiece& work, TearReport& report) 
   report.blocked = removal.blocked;
   report.area_removed_posed = removal.area_posed;
   improve_faces(work.editor.touched_since(before), work.editor);
+  if (bore.wall)
+    report.open_sections =
+        add_bore_wall(work.editor.opened(), bore.origin, bore.direction / bore.direction.norm(), bore.depth, work);
 }
 
 }  // namespace sunder::tear

@@ -27,6 +27,12 @@ struct TornModel::State {
   /// Fills in what was added and retired since `begin`, and what came free.
   void count(const tear::SurfaceEditor::Mark& begin, bool is_cut, TearReport& report);
 
+  /// Where the operation that begins now begins.
+  [[nodiscard]] tear::SurfaceEditor::Mark begin_operation() {
+    editor.begin_opening();
+    return editor.mark();
+  }
+
   /// Refuses while a stroke is under way.
   [[nodiscard]] Status may_begin() const;
   /// Makes `pose` the one in which points are looked up. On failure the old one stays.

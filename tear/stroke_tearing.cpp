@@ -6,6 +6,7 @@
 #include "tear/imprint.h"
 #include "tear/improve.h"
 #include "tear/open_sheet.h"
+#include "tear/walls.h"
 
 namespace sunder::tear {
 
@@ -63,7 +64,10 @@ void StrokeTearing::extend(const Blade& to, const Workpiece& work) {
   improve_faces(work.editor.touched_since(before), work.editor);
 }
 
-void StrokeTearing::finish(const SurfaceEditor::Mark&, const Workpiece& work) { catch_up(work); }
+void StrokeTearing::finish(const Workpiece& work) {
+  catch_up(work);
+  if (options_.wall_depth > 0) add_walls(work.editor.opened(), options_.wall_depth, work);
+}
 
 double StrokeTearing::tear_piece(const BladePlane& plane, Index start, const SurfaceEditor::Mark& before, const Workpiece& work) {
   SurfaceEditor& editor = work.editor;

@@ -25,8 +25,8 @@ class StrokeTearing {
   /// with the surface that it stands on.
   void leave_pose(const Workpiece& work);
   void enter_pose(const Workpiece& work);
-  /// Ends the stroke, which began at `begin`.
-  void finish(const SurfaceEditor::Mark& begin, const Workpiece& work);
+  /// Ends the stroke: what of the gap is left to do, and the walls.
+  void finish(const Workpiece& work);
 
   [[nodiscard]] const Blade& blade() const { return blade_; }
 

@@ -205,6 +205,8 @@ Index SurfaceEditor::split_edge(Index half_edge, double fraction) {
   const Index new_f = append_triangle(f, {p, b, c}, {vertex_f, vertex_b, vertex_c});
   const Index pb = 3 * new_f, new_bc = pb + 1, cp = pb + 2;
   set_corner(bc, p, vertex_f);
+  move_opened(bc, new_bc);
+  if (opened_.count(ab) != 0) opened_.insert(pb);
   join(new_bc, twin_bc);
   join(bc, cp);
   surface_.point_corner[p] = pb;
@@ -220,6 +222,7 @@ Index SurfaceEditor::split_edge(Index half_edge, double fraction) {
     const Index new_g = append_triangle(ba / 3, {p, a, d}, {vertex_g, before_g[ad % 3], before_g[db % 3]});
     const Index pa = 3 * new_g, new_ad = pa + 1, dp = pa + 2;
     set_corner(ad, p, vertex_g);
+    move_opened(ad, new_ad);
     join(new_ad, twin_ad);
     join(ad, dp);
     join(ab, pa);
@@ -249,6 +252,8 @@ Index SurfaceEditor::split_triangle(Index triangle, const std::array<double, 3>&
   const Index at_bc = 3 * append_triangle(triangle, {b, c, p}, {before[1], before[2], vertex});
   const Index at_ca = 3 * append_triangle(triangle, {c, a, p}, {before[2], before[0], vertex});
   set_corner(corner + 2, p, vertex);
+  move_opened(corner + 1, at_bc);
+  move_opened(corner + 2, at_ca);
   join(at_bc, twin_bc);
   join(at_ca, twin_ca);
   join(corner + 1, at_bc + 2);
@@ -261,9 +266,24 @@ Index SurfaceEditor::split_triangle(Index triangle, const std::array<double, 3>&
   return p;
 }
 
+void SurfaceEditor::begin_opening() { opened_.clear(); }
+
+std::vector<Index> SurfaceEditor::opened() const {
+  std::vector<Index> borders;
+  for (const Index h : opened_)
+    if (h < surface_.twin.size() && surface_.twin[h] == kNone && surface_.corner_point[h] != kNone) borders.push_back(h);
+  std::sort(borders.begin(), borders.end());
+  return borders;
+}
+
+void SurfaceEditor::move_opened(Index from, Index to) {
+  if (opened_.erase(from) > 0) opened_.insert(to);
+}
+
 void SurfaceEditor::cut_edge(Index half_edge) {
   const Index twin = surface_.twin[half_edge];
   if (twin == kNone) return;
+  opened_.insert({half_edge, twin});
   log_triangle(half_edge / 3);
   log_triangle(twin / 3);
   surface_.twin[half_edge] = kNone;
@@ -361,6 +381,8 @@ bool SurfaceEditor::flip_edge(Index half_edge) {
   if (twin_ad != kNone) log_triangle(twin_ad / 3);
   set_corner(bc, d, vertex_d);
   set_corner(ad, c, vertex_c);
+  move_opened(bc, ba);
+  move_opened(ad, ab);
   join(ab, twin_ad);
   join(ba, twin_bc);
   join(bc, ad);

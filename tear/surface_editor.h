@@ -6,6 +6,7 @@
 #include <array>
 #include <span>
 #include <string>
+#include <unordered_set>
 #include <vector>
 
 #include "tear/surface.h"
@@ -66,6 +67,11 @@ class SurfaceEditor {
   [[nodiscard]] Index stage_begin() const { return stage_begin_; }
 
   // ---- Opening and removing.
+
+  /// From here on opened() asks for the borders that cut_edge() made since.
+  void begin_opening();
+  /// Border half-edges, ascending, wherever splitting and turning took them.
+  [[nodiscard]] std::vector<Index> opened() const;
 
   /// Disconnects the faces at both sides of a half-edge.
   void cut_edge(Index half_edge);
@@ -148,6 +154,7 @@ class SurfaceEditor {
   void restore(const LogEntry& entry);
   void set_corner(Index corner, Index point, Index vertex);
   void join(Index a, Index b);
+  void move_opened(Index from, Index to);
   Index append_triangle(Index like, const std::array<Index, 3>& points, const Triangle& vertices);
   Index append_point(Index side);
   /// Side of a point that is made between others: its own where tears are near, so that it differs from one made in the same place
@@ -177,6 +184,7 @@ class SurfaceEditor {
   /// First value of _TEARSIDE that no point has. Points that separate get one each: however tears cross, points in one place
   /// differ.
   Index next_side_ = 1;
+  std::unordered_set<Index> opened_;  // asked and sorted, never walked through as it is
   Index stage_begin_ = 0;
   std::vector<Index> ancestors_;  ///< Of the triangles appended since.
 };

@@ -125,7 +125,7 @@ Result<TearStroke> TearStroke::begin(TornModel& model, const ModelPose& pose, co
                                                      TearOperation{pose, {blade}, {}, options},
                                                      0,
                                                      {},
-                                                     of_model.editor.mark(),
+                                                     of_model.begin_operation(),
                                                      {}}));
 }
 
@@ -158,7 +158,7 @@ Result<TearReport> TearStroke::end(ChangeRecord* change) {
       [&]() -> Status {
         if (state.held)
           if (Status status = state.take_up(state.held->pose, state.held->blade); !status) return status;
-        state.tearing.finish(state.begin, state.model->workpiece());
+        state.tearing.finish(state.model->workpiece());
         return {};
       },
       change);

@@ -45,12 +45,12 @@ Result<TearReport> TornModel::tear(const ModelPose& pose, std::span<const Blade>
     if (Status status = validate_turn(stroke[i - 1], stroke[i], i); !status) return status;
   }
   if (Status status = state.stand_in(pose); !status) return status;
-  const tear::SurfaceEditor::Mark begin = state.editor.mark();
+  const tear::SurfaceEditor::Mark begin = state.begin_operation();
   auto report = state.call(
       [&](State::Call& call) -> Status {
         tear::StrokeTearing tearing(stroke.front(), options);
         for (const Blade& blade : stroke.subspan(1)) tearing.extend(blade, state.workpiece());
-        tearing.finish(begin, state.workpiece());
+        tearing.finish(state.workpiece());
         call.report = tearing.report;
         call.change.lips = tearing.lips;
         return {};
@@ -65,7 +65,7 @@ Result<TearReport> TornModel::cut(const ModelPose& pose, const Cut& cut, ChangeR
   if (Status status = state.may_begin(); !status) return status;
   if (Status status = tear::validate_cut(cut); !status) return status;
   if (Status status = state.stand_in(pose); !status) return status;
-  const tear::SurfaceEditor::Mark begin = state.editor.mark();
+  const tear::SurfaceEditor::Mark begin = state.begin_operation();
   auto report = state.call(
       [&](State::Call& call) -> Status {
         tear::cut_surface(cut, state.workpiece(), call.report, call.change.lips);
@@ -81,7 +81,7 @@ Result<TearReport> TornModel::drill(const ModelPose& pose, const Bore& bore, Cha
   if (Status status = state.may_begin(); !status) return status;
   if (Status status = tear::validate_bore(bore); !status) return status;
   if (Status status = state.stand_in(pose); !status) return status;
-  const tear::SurfaceEditor::Mark begin = state.editor.mark();
+  const tear::SurfaceEditor::Mark begin = state.begin_operation();
   auto report = state.call(
       [&](State::Call& call) -> Status {
         tear::drill_surface(bore, state.workpiece(), call.report);
