@@ -5,7 +5,6 @@
 #include <sunder/tear/torn_model.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
@@ -155,12 +154,9 @@ Result<Demo> tear_mid_clip(std::shared_ptr<const Character> character) {
   Result<TornModel> model = TornModel::create(character);
   if (!model) return model.error();
   ChangeRecord change;
-  const auto begin = std::chrono::steady_clock::now();
-  const Result<TearReport> tear = model->tear(*pose, stroke, {}, &change);
-  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
-  if (!tear) return tear.error();
-  const OperationOutcome outcome{*tear, elapsed.count(), count_topology(*character), count_topology(model->character())};
-  return Demo{std::move(*model), outcome, std::move(change), std::move(stroke), frame, bounds};
+  const Result<OperationOutcome> outcome = play(TearOperation{*pose, stroke, {}, {}}, count_topology(*character), *model, &change);
+  if (!outcome) return outcome.error();
+  return Demo{std::move(*model), *outcome, std::move(change), std::move(stroke), frame, bounds};
 }
 
 Status take_pictures(const Demo& demo, const std::filesystem::path& folder, ProgressBar& progress) {
@@ -224,13 +220,13 @@ ExitCode run_demo(const DemoRequest& request) {
                        {"model", place},
                        {"output", output.string()},
                        {"loading", to_json(model->loaded.report)},
-                       {"operations", Json::array({to_json(demo->outcome)})},
-                       {"result", result_json(demo->model.character(), demo->outcome.before, demo->outcome.after)}};
+                       {"operations", Json::array({to_json(demo->outcome, demo->model.character())})},
+                       {"result", result_json(demo->model, demo->outcome.before, demo->outcome.after)}};
   if (const Status status = write_text(request.folder / "report.json", dump(report)); !status)
     return complain((request.folder / "report.json").string(), status, ExitCode::unreadable_input);
   if (const Status status = write_text(request.folder / "ops.json", dump(operations_json(character, demo->stroke))); !status)
     return complain((request.folder / "ops.json").string(), status, ExitCode::unreadable_input);
-  if (demo->outcome.has_missed()) {
+  if (demo->outcome.has_missed) {
     std::fprintf(stderr, "sunder: %s: the stroke missed\n", place.c_str());
     return ExitCode::findings;
   }

@@ -20,6 +20,7 @@ struct TearRequest {
   std::filesystem::path model, operations, output;
   std::uint32_t maximum_influences = 0;         ///< As SaveOptions.
   std::optional<std::filesystem::path> report;  ///< Else stdout.
+  std::optional<std::filesystem::path> log;     ///< Where what was played is written, if wanted.
 };
 [[nodiscard]] ExitCode run_tear(const TearRequest& request);
 
