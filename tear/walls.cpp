@@ -187,13 +187,17 @@ void join_rings(const Ring& upper, const Ring& lower, const Axis& axis, double u
     });
     std::rotate(corners.begin(), nearest, corners.end());
     std::vector<Place> places;
+    double along = 0;
+    Vec3d before = Vec3d::Zero();
     for (std::size_t i = 0; i <= corners.size(); ++i) {
       const Index corner = corners[i % corners.size()];
       const Vec3d at = walls.position(walls.surface().corner_point[corner]);
       const double angle = i == 0 ? first_angle + turn(first_angle, angle_of(corner))
                                   : places.back().angle + turn(places.back().angle, angle_of(corner));
       const Corner made = walls.add_top(mesh, corner);
-      walls.shade(mesh, made, axis.inward(at), axis.z.cross(axis.inward(at)), {angle, axis.height(at) / unit});
+      if (i > 0) along += (at - before).norm();
+      before = at;
+      walls.shade(mesh, made, axis.inward(at), axis.z.cross(axis.inward(at)), {along / unit, axis.height(at) / unit});
       places.push_back({made, angle});
     }
     return places;
