@@ -35,6 +35,8 @@ CLI::App* add_tear(CLI::App& app, TearRequest& request) {
   verb->add_option("--influences", request.maximum_influences, "Most influences written a vertex; without it: all")
       ->check(CLI::IsMember({4, 8}));
   verb->add_option("--report", request.report, "Where the JSON report goes instead of stdout");
+  verb->add_option("--picture", request.picture,
+                   "A PNG of the torn model: lips pulled open, pieces of a cut apart; needs f3d, Xvfb");
   verb->add_option("--save-log", request.log, "Where to write what was done and not undone, with the poses in full");
   verb->footer(
       "All operations succeed, or nothing is written. Exit code 1 where an operation missed or was blocked.\n\n"

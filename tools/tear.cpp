@@ -9,8 +9,10 @@
 #include <string>
 #include <vector>
 
+#include "tools/picture.h"
 #include "tools/progress_bar.h"
 #include "tools/report.h"
+#include "tools/torn_picture.h"
 #include "tools/verbs.h"
 
 namespace sunder::tools {
@@ -30,6 +32,21 @@ class TextBesideModel {
  private:
   std::optional<StagedText> staged_;
 };
+
+/// @return false, after saying so, where there is no picture.
+bool draw_picture(const LoadedCharacter& loaded, const TornModel& model, const std::filesystem::path& png) {
+  const std::vector<Operation> history = model.history();
+  Status status;
+  if (history.empty())
+    status = Status::failure(StatusCode::empty_input, kNone, "nothing was done that could be drawn");
+  else if (!can_draw())
+    status = Status::failure(StatusCode::not_found, kNone,
+                             "f3d and xvfb-run are not both installed (Debian: apt install f3d xvfb xauth)");
+  else
+    status = draw_torn(loaded.character, history, png);
+  if (!status) (void)complain(png.string(), status, ExitCode::findings);
+  return static_cast<bool>(status);
+}
 
 }  // namespace
 
@@ -81,6 +98,7 @@ ExitCode run_tear(const TearRequest& request) {
   if (const Status status = log_file.commit(); !status) return complain(request.log->string(), status, ExitCode::unreadable_input);
   if (const Status status = report_file.commit(); !status)
     return complain(request.report->string(), status, ExitCode::unreadable_input);
+  if (request.picture) has_findings |= !draw_picture(*loaded, *model, *request.picture);
   if (!request.report) std::fputs(dump(report).c_str(), stdout);
   return has_findings ? ExitCode::findings : ExitCode::ok;
 }
