@@ -182,8 +182,8 @@ class SurfaceEditor {
       appended_triangles_;  ///< Of each mesh: the surface's numbers of its triangles beyond the source's.
   std::vector<LogEntry> log_;
   std::vector<SideEntry> side_log_;
-  /// First value of _TEARSIDE that no point has. Each point that is made gets one: however tears cross, and wherever positions round
-  /// to, no two points in one place are taken for one.
+  /// First value of _TEARSIDE that no point has. Each point that is made gets one: however tears cross, and wherever positions
+  /// round to, no two points in one place are taken for one.
   Index next_side_ = 1;
   std::unordered_set<Index> opened_;  // asked and sorted, never walked through as it is
   Index stage_begin_ = 0;

@@ -38,6 +38,12 @@ class Walls {
   [[nodiscard]] Vec3d position(Index point) const { return work_.posed.position(work_.editor, point); }
   [[nodiscard]] Index mesh_of(Index half_edge) const { return surface().triangles[half_edge / 3].mesh; }
 
+  /// Rims of different skins cannot share vertices; points of one rim have one skin.
+  [[nodiscard]] bool have_one_skin(const Rim& a, const Rim& b) const {
+    const auto& meshes = work_.editor.character().meshes;
+    return meshes[mesh_of(a.half_edges.front())].skin == meshes[mesh_of(b.half_edges.front())].skin;
+  }
+
   [[nodiscard]] Corner add_top(Index mesh, Index corner) {
     return {surface().corner_point[corner], filling_.add_rim_vertex(mesh, corner)};
   }
@@ -286,7 +292,7 @@ Index add_bore_wall(const std::vector<Index>& half_edges, const Vec3d& origin, c
     bool is_built = false;
     if (!ring.looks_to_drill) {
       // The drill began inside: there is nothing to line.
-    } else if (i + 1 < rings.size() && !rings[i + 1].looks_to_drill) {
+    } else if (i + 1 < rings.size() && !rings[i + 1].looks_to_drill && walls.have_one_skin(ring.rim, rings[i + 1].rim)) {
       const Ring& lower = rings[++i];
       std::vector<Index> both = ring.rim.half_edges;
       both.insert(both.end(), lower.rim.half_edges.begin(), lower.rim.half_edges.end());

@@ -151,10 +151,10 @@ Result<Demo> tear_mid_clip(std::shared_ptr<const Character> character) {
 
   Result<TornModel> model = TornModel::create(character);
   if (!model) return model.error();
-  ChangeRecord change;
-  const Result<OperationOutcome> outcome = play(TearOperation{*pose, stroke, {}, {}}, count_topology(*character), *model, &change);
+  std::vector<ChangeRecord> changes;  // one: a tear in one pose is one step
+  const Result<OperationOutcome> outcome = play(TearOperation{*pose, stroke, {}, {}}, count_topology(*character), *model, &changes);
   if (!outcome) return outcome.error();
-  return Demo{std::move(*model), *outcome, std::move(change), std::move(stroke), frame, bounds};
+  return Demo{std::move(*model), *outcome, std::move(changes.front()), std::move(stroke), frame, bounds};
 }
 
 Status take_pictures(const Demo& demo, const std::filesystem::path& folder, ProgressBar& progress) {

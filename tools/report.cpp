@@ -82,9 +82,10 @@ Json to_json(const LoadReport& report) {
   return {{"format", report.format}, {"space", report.space}, {"notes", std::move(notes)}};
 }
 
-Result<OperationOutcome> play(const Operation& operation, const TopologyCounts& before, TornModel& model, ChangeRecord* change) {
+Result<OperationOutcome> play(const Operation& operation, const TopologyCounts& before, TornModel& model,
+                              std::vector<ChangeRecord>* changes) {
   const auto begin = std::chrono::steady_clock::now();
-  Result<TearReport> report = apply_operation(model, operation, change);
+  Result<TearReport> report = apply_operation(model, operation, changes);
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
   if (!report) return report.error();
   const Names names = names_of(operation);

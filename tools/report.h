@@ -26,7 +26,7 @@ struct OperationOutcome {
 /// Does an operation and says what it did.
 /// @param before  the shape of the model.
 [[nodiscard]] Result<OperationOutcome> play(const Operation& operation, const TopologyCounts& before, TornModel& model,
-                                            ChangeRecord* change = nullptr);
+                                            std::vector<ChangeRecord>* changes = nullptr);
 
 [[nodiscard]] Json to_json(const TopologyCounts& counts);
 [[nodiscard]] Json to_json(const LoadReport& report);

@@ -118,14 +118,15 @@ Status draw_torn(std::shared_ptr<const Character> source, std::span<const Operat
   Result<std::vector<DeformedMesh>> closed = *untorn;
   std::vector<Piece> pieces;
   for (const Operation& operation : history) {
-    ChangeRecord change;
-    const Result<TearReport> report = apply_operation(*torn, operation, &change);
+    std::vector<ChangeRecord> changes;
+    const Result<TearReport> report = apply_operation(*torn, operation, &changes);
     if (!report) return report.error();
     closed = pose_model(character, *pose);
     if (!closed) return closed.error();
     pieces = report->pieces;
     const bool comes_apart = std::holds_alternative<CutOperation>(operation) && !pieces.empty();
-    if (!comes_apart) std::ranges::copy(chain_lips(*torn, change, *closed), std::back_inserter(pairs));
+    if (comes_apart) continue;
+    for (const ChangeRecord& change : changes) std::ranges::copy(chain_lips(*torn, change, *closed), std::back_inserter(pairs));
   }
 
   const Bounds bounds = bounds_of(character, *closed);
