@@ -1,5 +1,6 @@
 #include "tear/cut.h"
 
+#include "tear/caps.h"
 #include "tear/improve.h"
 #include "tear/open_sheet.h"
 
@@ -65,6 +66,7 @@ void cut_surface(const Cut& cut, const Workpiece& work, TearReport& report, std:
   report.faces_crossed = opening.faces_crossed;
   report.blocked = opening.blocked;
   report.length_posed = opening.length_posed;
+  if (cut.caps) add_caps(opening, normal, work, report);
   improve_faces(work.editor.touched_since(before), work.editor);
 }
 

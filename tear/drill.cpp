@@ -6,6 +6,7 @@
 
 #include "tear/gap.h"
 #include "tear/improve.h"
+#include "tear/walls.h"
 
 namespace sunder::tear {
 namespace {
@@ -62,13 +63,15 @@ Status validate_bore(const Bore& bore) {
 void drill_surface(const Bore& bore, const Workpiece& work, TearReport& report) {
   const SurfaceEditor::Mark before = work.editor.mark();
   const Cell cell = cell_of(bore);
-  const GapRemoval removal =
-      remove_cell(cell, faces_in_cell(cell, work.editor, work.posed), work.editor, work.posed, work.next_side);
+  const GapRemoval removal = remove_cell(cell, faces_in_cell(cell, work.editor, work.posed), work.editor, work.posed);
   report.runs = removal.faces_removed > 0 ? 1 : 0;
   report.faces_crossed = removal.faces_crossed;
   report.blocked = removal.blocked;
   report.area_removed_posed = removal.area_posed;
   improve_faces(work.editor.touched_since(before), work.editor);
+  if (bore.wall)
+    report.open_sections =
+        add_bore_wall(work.editor.opened(), bore.origin, bore.direction / bore.direction.norm(), bore.depth, work);
 }
 
 }  // namespace sunder::tear

@@ -57,7 +57,7 @@ std::vector<Sheet> sheets_of(const Cell& cell) {
 }
 
 /// Takes faces (ascending) away and gives every fan that is left of their points a point of its own.
-void remove_faces(const std::vector<Index>& faces, SurfaceEditor& editor, PosedPoints& posed, Index& side) {
+void remove_faces(const std::vector<Index>& faces, SurfaceEditor& editor, PosedPoints& posed) {
   const Surface& surface = editor.surface();
   const auto stays = [&](Index face) { return !std::binary_search(faces.begin(), faces.end(), face); };
 
@@ -81,7 +81,6 @@ void remove_faces(const std::vector<Index>& faces, SurfaceEditor& editor, PosedP
   }
   std::sort(points.begin(), points.end());
   points.erase(std::unique(points.begin(), points.end()), points.end());
-  Index highest_side = side;
   std::vector<Index> fans, others;
   for (const Index point : points) {
     fans.clear();
@@ -91,15 +90,12 @@ void remove_faces(const std::vector<Index>& faces, SurfaceEditor& editor, PosedP
       if (std::find(fans.begin(), fans.end(), fan) == fans.end()) fans.push_back(fan);
     }
     editor.set_point_corner(point, fans.empty() ? kNone : fans.front());
-    Index of_place = side;
     for (std::size_t fan = 1; fan < fans.size(); ++fan) {
       others = fans;
       others.erase(others.begin() + static_cast<std::ptrdiff_t>(fan));
-      posed.pin(editor.separate_fan(fans[fan], of_place, others), Vec3d(posed.position(editor, point)));
-      highest_side = std::max(highest_side, ++of_place);
+      posed.pin(editor.separate_fan(fans[fan], others), Vec3d(posed.position(editor, point)));
     }
   }
-  side = highest_side;
 }
 
 }  // namespace
@@ -139,7 +135,7 @@ std::vector<Index> faces_in_cell(const Cell& cell, const std::vector<Index>& see
   return faces;
 }
 
-GapRemoval remove_cell(const Cell& cell, const std::vector<Index>& faces, SurfaceEditor& editor, PosedPoints& posed, Index& side) {
+GapRemoval remove_cell(const Cell& cell, const std::vector<Index>& faces, SurfaceEditor& editor, PosedPoints& posed) {
   GapRemoval removal;
   if (faces.empty()) return removal;
   const std::vector<Sheet> sheets = sheets_of(cell);
@@ -160,7 +156,7 @@ GapRemoval remove_cell(const Cell& cell, const std::vector<Index>& faces, Surfac
   }
   if (inside.empty()) return removal;
   removal.faces_removed = static_cast<Index>(inside.size());
-  remove_faces(inside, editor, posed, side);
+  remove_faces(inside, editor, posed);
   return removal;
 }
 

@@ -25,7 +25,6 @@ struct GapRemoval {
 };
 
 /// Removes what lies inside a convex cell from some faces: the faces inside go, those that reach out of it are clipped.
-/// @param side  _TEARSIDE of the next point that falls into several; set to the next free value.
-GapRemoval remove_cell(const Cell& cell, const std::vector<Index>& faces, SurfaceEditor& editor, PosedPoints& posed, Index& side);
+GapRemoval remove_cell(const Cell& cell, const std::vector<Index>& faces, SurfaceEditor& editor, PosedPoints& posed);
 
 }  // namespace sunder::tear

@@ -9,9 +9,7 @@
 namespace sunder {
 
 TornModel::State::State(std::shared_ptr<const Character> from)
-    : source(std::move(from)), character(*source), editor(*source, character) {
-  for (const std::uint32_t side : editor.surface().point_side) next_side = std::max(next_side, side + 1);
-}
+    : source(std::move(from)), character(*source), editor(*source, character) {}
 
 Status TornModel::State::may_begin() const {
   return has_stroke ? Status::failure(StatusCode::invalid_argument, kNone, "a stroke is under way; end it first") : Status();
@@ -24,11 +22,10 @@ Status TornModel::State::stand_in(const ModelPose& wanted) {
 }
 
 Result<TearReport> TornModel::State::call(const std::function<Status(Call&)>& work, ChangeRecord* change, bool is_cut) {
-  Call call{editor.mark(), next_side, {}, {}};
+  Call call{editor.mark(), {}, {}};
   const auto take_back = [&] {
     editor.roll_back(call.begin);
     posed.forget_from(call.begin.points);
-    next_side = call.next_side;
   };
   try {
     if (Status status = work(call); !status) {
@@ -58,11 +55,11 @@ void TornModel::State::count(const tear::SurfaceEditor::Mark& begin, bool is_cut
   report.pieces = tear::find_pieces(begin, is_cut, editor, posed);
 }
 
-void TornModel::State::record(Operation operation, const tear::SurfaceEditor::Mark& begin, std::uint32_t side_before) {
+void TornModel::State::record(Operation operation, const tear::SurfaceEditor::Mark& begin) {
   auto step = editor.finish(begin);
   const bool did_nothing = step.log.empty() && editor.mark().points == begin.points && editor.mark().triangles == begin.triangles;
   if (did_nothing) return;
-  done.push_back({std::move(operation), std::move(step), side_before});
+  done.push_back({std::move(operation), std::move(step)});
   undone.clear();
 }
 

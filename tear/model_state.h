@@ -16,7 +16,6 @@ struct TornModel::State {
   /// What one call of an operation works on: a point to come back to, and what the call did.
   struct Call {
     tear::SurfaceEditor::Mark begin;
-    std::uint32_t next_side = 1;
     TearReport report;
     ChangeRecord change;
   };
@@ -28,24 +27,28 @@ struct TornModel::State {
   /// Fills in what was added and retired since `begin`, and what came free.
   void count(const tear::SurfaceEditor::Mark& begin, bool is_cut, TearReport& report);
 
+  /// Where the operation that begins now begins.
+  [[nodiscard]] tear::SurfaceEditor::Mark begin_operation() {
+    editor.begin_opening();
+    return editor.mark();
+  }
+
   /// Refuses while a stroke is under way.
   [[nodiscard]] Status may_begin() const;
   /// Makes `pose` the one in which points are looked up. On failure the old one stays.
   [[nodiscard]] Status stand_in(const ModelPose& pose);
   /// Ends an operation that began at `begin`: it can be taken back from now on, unless it did nothing.
-  void record(Operation operation, const tear::SurfaceEditor::Mark& begin, std::uint32_t side_before);
+  void record(Operation operation, const tear::SurfaceEditor::Mark& begin);
 
-  [[nodiscard]] tear::Workpiece workpiece() { return {editor, posed, next_side}; }
+  [[nodiscard]] tear::Workpiece workpiece() { return {editor, posed}; }
 
   struct Done {
     Operation operation;
     tear::SurfaceEditor::Step step;
-    std::uint32_t side_before = 1;
   };
   struct Undone {
     Operation operation;
     tear::SurfaceEditor::Redo redo;
-    std::uint32_t side_before = 1, side_after = 1;
   };
 
   std::shared_ptr<const Character> source;
@@ -53,7 +56,6 @@ struct TornModel::State {
   tear::SurfaceEditor editor;
   tear::PosedPoints posed;
   ModelPose pose;  ///< Of `posed`.
-  std::uint32_t next_side = 1;
   bool has_stroke = false;
   std::vector<Done> done;
   std::vector<Undone> undone;  ///< The one to do again last.

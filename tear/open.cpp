@@ -30,7 +30,7 @@ class Corners {
 
 }  // namespace
 
-void open_edges(const std::vector<PointEdge>& edges, SurfaceEditor& editor, Index& side, std::vector<LipPair>& lips) {
+void open_edges(const std::vector<PointEdge>& edges, SurfaceEditor& editor, std::vector<LipPair>& lips) {
   const Surface& surface = editor.surface();
   // Found before anything is cut: afterwards the two sides do not know one another.
   Corners corners(edges.size());
@@ -44,7 +44,6 @@ void open_edges(const std::vector<PointEdge>& edges, SurfaceEditor& editor, Inde
   }
   for (const Index half_edge : to_cut) editor.cut_edge(half_edge);
 
-  Index next_side = side;
   std::vector<Index> fans, remaining;
   for (const CornersAtPoint& at : corners.at_points()) {
     // Fans at this point, by their clockwise ends: those right of the edges first, then left.
@@ -56,16 +55,13 @@ void open_edges(const std::vector<PointEdge>& edges, SurfaceEditor& editor, Inde
     for (const Index corner : at.right) add(corner);
     for (const Index corner : at.left) add(corner);
 
-    Index of_place = side;
     for (std::size_t fan = 1; fan < fans.size(); ++fan) {
       remaining = fans;
       remaining.erase(remaining.begin() + static_cast<std::ptrdiff_t>(fan));
-      const Index point = editor.separate_fan(fans[fan], of_place, remaining);
-      next_side = std::max(next_side, ++of_place);
+      const Index point = editor.separate_fan(fans[fan], remaining);
       lips.push_back({point, at.point});
     }
   }
-  side = next_side;
 }
 
 }  // namespace sunder::tear

@@ -16,9 +16,7 @@ using PointEdge = std::array<Index, 2>;
 /// becomes several points. Faces right of the edges keep their points; a point whose faces stay together is a tip.
 ///
 /// @param edges  of the surface, directed; an edge that the surface does not have, or that is a border, has nothing to open.
-/// @param side  _TEARSIDE of the first new point of each place; higher ones where a place falls into more than two. Set to the next
-/// free value.
 /// @param lips  appended: left and right points in the order of the edges.
-void open_edges(const std::vector<PointEdge>& edges, SurfaceEditor& editor, Index& side, std::vector<LipPair>& lips);
+void open_edges(const std::vector<PointEdge>& edges, SurfaceEditor& editor, std::vector<LipPair>& lips);
 
 }  // namespace sunder::tear

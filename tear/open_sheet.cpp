@@ -102,8 +102,15 @@ SheetOpening open_sheet(const Sheet& sheet, const Workpiece& work, std::vector<L
       opening.edges.push_back(edge);
     }
   }
+  for (const auto& [from, to] : opening.edges) {
+    const Index left = editor.surface().find_half_edge(from, to);
+    const Index right = left == kNone ? kNone : editor.surface().twin[left];
+    if (right == kNone) continue;
+    opening.left.push_back(left);
+    opening.right.push_back(right);
+  }
   const std::size_t first_lip = lips.size();
-  open_edges(opening.edges, editor, work.next_side, lips);
+  open_edges(opening.edges, editor, lips);
   for (std::size_t i = first_lip; i < lips.size(); ++i) posed.pin(lips[i].left, Vec3d(posed.position(editor, lips[i].right)));
   return opening;
 }

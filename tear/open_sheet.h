@@ -10,8 +10,9 @@ namespace sunder::tear {
 
 /// What opening the surface along a sheet came to.
 struct SheetOpening {
-  std::vector<PointEdge> edges;  ///< As they were before they opened: the left lip is at the left of each.
-  Index runs = 0;                ///< Of edges that hang together.
+  std::vector<PointEdge> edges;    ///< As they were before they opened: the left lip is at the left of each.
+  std::vector<Index> left, right;  ///< Half-edges of the faces at both sides of the edges: the borders of the lips.
+  Index runs = 0;                  ///< Of edges that hang together.
   Index faces_crossed = 0;
   Index blocked = 0;
   double length_posed = 0;

@@ -8,31 +8,74 @@
 namespace sunder::tear {
 namespace {
 
+/// Sets of numbers that only ever unite.
+class DisjointSets {
+ public:
+  Index add() {
+    parent_.push_back(static_cast<Index>(parent_.size()));
+    return parent_.back();
+  }
+  Index find(Index i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  void unite(Index a, Index b) { parent_[find(a)] = find(b); }
+  /// The root of `into` stays a root.
+  void unite_into(Index into, Index from) { parent_[find(from)] = find(into); }
+  [[nodiscard]] Index count() const { return static_cast<Index>(parent_.size()); }
+
+ private:
+  std::vector<Index> parent_;
+};
+
 /// Fronts that grow over the surface and become one where they meet.
 class Fronts {
  public:
   explicit Fronts(const Surface& surface) : surface_(surface) {}
 
   void start(Index face) {
-    if (!front_of_face_.emplace(face, static_cast<Index>(parent_.size())).second) return;
-    parent_.push_back(static_cast<Index>(parent_.size()));
+    if (!front_of_face_.emplace(face, sets_.count()).second) return;
+    (void)sets_.add();
+    (void)groups_.add();
     faces_.push_back({face});
     open_.push_back({0});
   }
 
-  /// Grows until at most one set of joined fronts is not exhausted, or to the end.
+  /// Groups the fronts by what hung together before, over edges that were opened and faces that are gone. What did not hang
+  /// together need not be found to be apart.
+  void group(const SurfaceEditor& editor, const SurfaceEditor::Mark& begin) {
+    std::unordered_map<Index, Index> node_of_gone;
+    const auto node_of = [&](Index face) {
+      const auto front = front_of_face_.find(face);
+      if (front != front_of_face_.end()) return front->second;
+      if (!surface_.has_repeated_point(face)) return kNone;  // not touched: what joins it still does
+      const auto [node, is_new] = node_of_gone.emplace(face, groups_.count());
+      if (is_new) (void)groups_.add();
+      return node->second;
+    };
+    editor.for_each_former_neighbour(begin, [&](Index one, Index other) {
+      const Index a = node_of(one), b = node_of(other);
+      if (a != kNone && b != kNone) groups_.unite(a, b);
+    });
+  }
+
+  /// Grows until of each group at most one set of joined fronts is not exhausted, or to the end.
   void grow(bool to_the_end) {
-    std::vector<Index> active(parent_.size());
+    std::vector<Index> active(sets_.count()), still;
     std::iota(active.begin(), active.end(), 0);
-    std::vector<Index> still;
-    while (active.size() > (to_the_end ? 0u : 1u)) {
+    while (!active.empty()) {
+      std::unordered_map<Index, Index> sets_in_group;
+      for (const Index front : active) ++sets_in_group[groups_.find(front)];
       still.clear();
       for (const Index front : active) {
-        if (find(front) != front) continue;  // joined another, which carries on
-        for (std::size_t turn = 0, turns = kFacesATurn; turn < turns && !open_[front].empty(); ++turn) grow_once(front);
-        if (!open_[find(front)].empty() && std::find(still.begin(), still.end(), find(front)) == still.end())
-          still.push_back(find(front));
+        if (sets_.find(front) != front) continue;  // joined another, which carries on
+        if (!to_the_end && sets_in_group[groups_.find(front)] < 2) continue;
+        for (std::size_t turn = 0; turn < kFacesATurn && !open_[front].empty(); ++turn) grow_once(front);
+        still.push_back(sets_.find(front));
       }
+      std::sort(still.begin(), still.end());
+      still.erase(std::unique(still.begin(), still.end()), still.end());
+      still.erase(std::remove_if(still.begin(), still.end(), [&](Index front) { return open_[front].empty(); }), still.end());
       active = still;
     }
   }
@@ -43,32 +86,12 @@ class Fronts {
     bool is_exhausted = false;
   };
   /// Sets by what hung together before, of more than one each.
-  [[nodiscard]] std::vector<std::vector<Set>> separated(const SurfaceEditor& editor, const SurfaceEditor::Mark& begin) {
-    // Nodes: sets by their fronts; beyond those, faces that are gone.
-    std::vector<Index> group(parent_.size());
-    std::iota(group.begin(), group.end(), 0);
-    std::unordered_map<Index, Index> node_of_gone;
-    const auto find_group = [&](Index node) {
-      while (group[node] != node) node = group[node] = group[group[node]];
-      return node;
-    };
-    const auto node_of = [&](Index face) {
-      const auto front = front_of_face_.find(face);
-      if (front != front_of_face_.end()) return find(front->second);
-      if (!surface_.has_repeated_point(face)) return kNone;  // nobody came there; what joins it still does
-      const auto [node, is_new] = node_of_gone.emplace(face, static_cast<Index>(group.size()));
-      if (is_new) group.push_back(static_cast<Index>(group.size()));
-      return node->second;
-    };
-    editor.for_each_former_neighbour(begin, [&](Index one, Index other) {
-      const Index a = node_of(one), b = node_of(other);
-      if (a != kNone && b != kNone) group[find_group(a)] = find_group(b);
-    });
+  [[nodiscard]] std::vector<std::vector<Set>> separated() {
     std::map<Index, std::vector<Set>> sets_of_group;
-    for (Index front = 0; front < parent_.size(); ++front) {
-      if (find(front) != front) continue;
+    for (Index front = 0; front < sets_.count(); ++front) {
+      if (sets_.find(front) != front) continue;
       std::sort(faces_[front].begin(), faces_[front].end());
-      sets_of_group[find_group(front)].push_back({faces_[front], open_[front].empty()});
+      sets_of_group[groups_.find(front)].push_back({faces_[front], open_[front].empty()});
     }
     std::vector<std::vector<Set>> separated;
     for (auto& [unused, sets] : sets_of_group)
@@ -79,18 +102,14 @@ class Fronts {
  private:
   static constexpr std::size_t kFacesATurn = 8;
 
-  Index find(Index front) {
-    while (parent_[front] != front) front = parent_[front] = parent_[parent_[front]];
-    return front;
-  }
-
   /// Smaller into larger, so that no face is moved often.
   void join(Index a, Index b) {
-    a = find(a);
-    b = find(b);
+    a = sets_.find(a);
+    b = sets_.find(b);
     if (a == b) return;
     if (faces_[a].size() < faces_[b].size()) std::swap(a, b);
-    parent_[b] = a;
+    sets_.unite_into(a, b);
+    groups_.unite(a, b);
     const auto offset = static_cast<Index>(faces_[a].size());
     faces_[a].insert(faces_[a].end(), faces_[b].begin(), faces_[b].end());
     for (const Index at : open_[b]) open_[a].push_back(offset + at);
@@ -104,7 +123,7 @@ class Fronts {
     for (Index h = 3 * face; h < 3 * face + 3; ++h) {
       const Index twin = surface_.twin[h];
       if (twin == kNone) continue;
-      const Index owner = find(front);
+      const Index owner = sets_.find(front);
       const auto [at, is_new] = front_of_face_.emplace(twin / 3, owner);
       if (is_new) {
         open_[owner].push_back(static_cast<Index>(faces_[owner].size()));
@@ -117,8 +136,9 @@ class Fronts {
 
   const Surface& surface_;
   std::unordered_map<Index, Index> front_of_face_;  // asked, never walked through
-  std::vector<Index> parent_;
-  std::vector<std::vector<Index>> faces_, open_;  ///< Of each front; open: places in faces.
+  DisjointSets sets_;                               ///< Of fronts.
+  DisjointSets groups_;                             ///< Of fronts and, numbered after them, of faces that are gone.
+  std::vector<std::vector<Index>> faces_, open_;    ///< Of each front; open: places in faces.
 };
 
 Piece describe(const std::vector<Index>& faces, const SurfaceEditor& editor, PosedPoints& posed) {
@@ -160,9 +180,10 @@ std::vector<Piece> find_pieces(const SurfaceEditor::Mark& begin, bool all, const
   Fronts fronts(surface);
   for (const Index face : editor.touched_since(begin))
     if (!surface.has_repeated_point(face)) fronts.start(face);
+  fronts.group(editor, begin);
   fronts.grow(all);
   std::vector<std::vector<Index>> sets;
-  for (auto& of_group : fronts.separated(editor, begin)) {
+  for (auto& of_group : fronts.separated()) {
     // What is left is the part that did not run out or, where all did, the largest.
     const auto left = std::max_element(of_group.begin(), of_group.end(), [](const Fronts::Set& a, const Fronts::Set& b) {
       return a.is_exhausted != b.is_exhausted ? a.is_exhausted : a.faces.size() < b.faces.size();

@@ -86,7 +86,7 @@ void StrokeTearing::remove(const Cell& cell, const PendingGap& gap, const Workpi
     };
     faces = faces_in_cell(cell, seeds, is_same_layer, editor, posed);
   }
-  const GapRemoval removal = remove_cell(cell, faces, editor, posed, work.next_side);
+  const GapRemoval removal = remove_cell(cell, faces, editor, posed);
   report.faces_crossed += removal.faces_crossed;
   report.blocked += removal.blocked;
   report.area_removed_posed += removal.area_posed;
@@ -157,8 +157,8 @@ void StrokeTearing::sweep_gap(const BladePlane& plane, const Workpiece& work) {
   pending_ = std::move(next);
 }
 
-/// Where a gap goes on from one that was closed square in another pose: from the edge that this left at both sides of the tip, wherever
-/// that stands now, and a little before it, so that nothing is left standing between the two.
+/// Where a gap goes on from one that was closed square in another pose: from the edge that this left at both sides of the tip,
+/// wherever that stands now, and a little before it, so that nothing is left standing between the two.
 HalfSpace StrokeTearing::start_from_rim(const BladePlane& plane, Index tip, const Workpiece& work) const {
   const Surface& surface = work.editor.surface();
   const Index first = surface.first_of_fan(surface.point_corner[tip]);

@@ -6,6 +6,7 @@
 #include "tear/imprint.h"
 #include "tear/improve.h"
 #include "tear/open_sheet.h"
+#include "tear/walls.h"
 
 namespace sunder::tear {
 
@@ -63,7 +64,10 @@ void StrokeTearing::extend(const Blade& to, const Workpiece& work) {
   improve_faces(work.editor.touched_since(before), work.editor);
 }
 
-void StrokeTearing::finish(const SurfaceEditor::Mark&, const Workpiece& work) { catch_up(work); }
+void StrokeTearing::finish(const Workpiece& work) {
+  catch_up(work);
+  if (options_.wall_depth > 0) add_walls(work.editor.opened(), options_.wall_depth, work);
+}
 
 double StrokeTearing::tear_piece(const BladePlane& plane, Index start, const SurfaceEditor::Mark& before, const Workpiece& work) {
   SurfaceEditor& editor = work.editor;
@@ -97,7 +101,7 @@ double StrokeTearing::tear_piece(const BladePlane& plane, Index start, const Sur
   std::vector<PointEdge> edges;
   for (std::size_t i = 0; i + 1 < path.points.size(); ++i) edges.push_back({path.points[i], path.points[i + 1]});
   const std::size_t first_lip = lips.size();
-  open_edges(edges, editor, work.next_side, lips);
+  open_edges(edges, editor, lips);
   for (std::size_t i = first_lip; i < lips.size(); ++i) posed.pin(lips[i].left, Vec3d(posed.position(editor, lips[i].right)));
   torn_edges_ += edges.size();
   if (!continues) ++report.runs;

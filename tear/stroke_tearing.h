@@ -21,12 +21,12 @@ class StrokeTearing {
 
   /// Tears on to the next blade, in the pose that `work.posed` stands for.
   void extend(const Blade& to, const Workpiece& work);
-  /// To be called around each change of the pose: the gap is finished in the pose in which it was swept, and the blade goes along with
-  /// the surface that it stands on.
+  /// To be called around each change of the pose: the gap is finished in the pose in which it was swept, and the blade goes along
+  /// with the surface that it stands on.
   void leave_pose(const Workpiece& work);
   void enter_pose(const Workpiece& work);
-  /// Ends the stroke, which began at `begin`.
-  void finish(const SurfaceEditor::Mark& begin, const Workpiece& work);
+  /// Ends the stroke: what of the gap is left to do, and the walls.
+  void finish(const Workpiece& work);
 
   [[nodiscard]] const Blade& blade() const { return blade_; }
 

@@ -17,6 +17,7 @@ SurfaceEditor::SurfaceEditor(const Character& source, Character& character)
     first_triangle_.push_back(first);
     first += mesh.triangle_count();
   }
+  for (const Index side : surface_.point_side) next_side_ = std::max(next_side_, side + 1);
   begin_stage();
 }
 
@@ -79,6 +80,11 @@ Index SurfaceEditor::append_point(Index side) {
   surface_.point_corner.push_back(kNone);
   surface_.point_side.push_back(side);
   return surface_.point_count() - 1;
+}
+
+Index SurfaceEditor::side_between(std::initializer_list<Index> points) {
+  const bool is_near_tear = std::any_of(points.begin(), points.end(), [&](Index point) { return surface_.point_side[point] != 0; });
+  return is_near_tear ? next_side_++ : 0;
 }
 
 Index SurfaceEditor::append_vertex(Index mesh, const Birth& birth) {
@@ -192,13 +198,15 @@ Index SurfaceEditor::split_edge(Index half_edge, double fraction) {
 
   const auto& points = surface_.corner_point;
   const Index a = points[ab], b = points[bc], c = points[ca];
-  const Index p = append_point(std::max(surface_.point_side[a], surface_.point_side[b]));
+  const Index p = append_point(side_between({a, b}));
   const Index twin_bc = surface_.twin[bc];
   log_triangle(f);
   if (twin_bc != kNone) log_triangle(twin_bc / 3);
   const Index new_f = append_triangle(f, {p, b, c}, {vertex_f, vertex_b, vertex_c});
   const Index pb = 3 * new_f, new_bc = pb + 1, cp = pb + 2;
   set_corner(bc, p, vertex_f);
+  move_opened(bc, new_bc);
+  if (opened_.count(ab) != 0) opened_.insert(pb);
   join(new_bc, twin_bc);
   join(bc, cp);
   surface_.point_corner[p] = pb;
@@ -214,6 +222,7 @@ Index SurfaceEditor::split_edge(Index half_edge, double fraction) {
     const Index new_g = append_triangle(ba / 3, {p, a, d}, {vertex_g, before_g[ad % 3], before_g[db % 3]});
     const Index pa = 3 * new_g, new_ad = pa + 1, dp = pa + 2;
     set_corner(ad, p, vertex_g);
+    move_opened(ad, new_ad);
     join(new_ad, twin_ad);
     join(ad, dp);
     join(ab, pa);
@@ -239,10 +248,12 @@ Index SurfaceEditor::split_triangle(Index triangle, const std::array<double, 3>&
   log_triangle(triangle);
   if (twin_bc != kNone) log_triangle(twin_bc / 3);
   if (twin_ca != kNone) log_triangle(twin_ca / 3);
-  const Index p = append_point(std::max({surface_.point_side[a], surface_.point_side[b], surface_.point_side[c]}));
+  const Index p = append_point(side_between({a, b, c}));
   const Index at_bc = 3 * append_triangle(triangle, {b, c, p}, {before[1], before[2], vertex});
   const Index at_ca = 3 * append_triangle(triangle, {c, a, p}, {before[2], before[0], vertex});
   set_corner(corner + 2, p, vertex);
+  move_opened(corner + 1, at_bc);
+  move_opened(corner + 2, at_ca);
   join(at_bc, twin_bc);
   join(at_ca, twin_ca);
   join(corner + 1, at_bc + 2);
@@ -255,16 +266,31 @@ Index SurfaceEditor::split_triangle(Index triangle, const std::array<double, 3>&
   return p;
 }
 
+void SurfaceEditor::begin_opening() { opened_.clear(); }
+
+std::vector<Index> SurfaceEditor::opened() const {
+  std::vector<Index> borders;
+  for (const Index h : opened_)
+    if (h < surface_.twin.size() && surface_.twin[h] == kNone && surface_.corner_point[h] != kNone) borders.push_back(h);
+  std::sort(borders.begin(), borders.end());
+  return borders;
+}
+
+void SurfaceEditor::move_opened(Index from, Index to) {
+  if (opened_.erase(from) > 0) opened_.insert(to);
+}
+
 void SurfaceEditor::cut_edge(Index half_edge) {
   const Index twin = surface_.twin[half_edge];
   if (twin == kNone) return;
+  opened_.insert({half_edge, twin});
   log_triangle(half_edge / 3);
   log_triangle(twin / 3);
   surface_.twin[half_edge] = kNone;
   surface_.twin[twin] = kNone;
 }
 
-Index SurfaceEditor::separate_fan(Index corner, Index side, const std::vector<Index>& remaining) {
+Index SurfaceEditor::separate_fan(Index corner, const std::vector<Index>& remaining) {
   const Index old_point = surface_.corner_point[corner];
   struct Duplicate {
     Index mesh, vertex, copy;
@@ -283,7 +309,7 @@ Index SurfaceEditor::separate_fan(Index corner, Index side, const std::vector<In
   std::vector<Index> corners;
   surface_.for_each_in_fan(corner, [&](Index c) { corners.push_back(c); });
   for (const Index c : corners) log_triangle(c / 3);
-  const Index point = append_point(side);
+  const Index point = append_point(next_side_++);
   for (const Index c : corners) {
     const Index mesh = surface_.triangles[c / 3].mesh;
     const Index vertex = vertex_at(c);
@@ -355,6 +381,8 @@ bool SurfaceEditor::flip_edge(Index half_edge) {
   if (twin_ad != kNone) log_triangle(twin_ad / 3);
   set_corner(bc, d, vertex_d);
   set_corner(ad, c, vertex_c);
+  move_opened(bc, ba);
+  move_opened(ad, ab);
   join(ab, twin_ad);
   join(ba, twin_bc);
   join(bc, ad);
@@ -411,7 +439,7 @@ void SurfaceEditor::connect(Index a, Index b) {
 }
 
 SurfaceEditor::Mark SurfaceEditor::mark() const {
-  Mark mark{surface_.point_count(), surface_.triangle_count(), log_.size(), side_log_.size(), {}};
+  Mark mark{surface_.point_count(), surface_.triangle_count(), log_.size(), side_log_.size(), next_side_, {}};
   for (Index m = 0; m < character_.meshes.size(); ++m) {
     const Mesh& mesh = character_.meshes[m];
     mark.meshes.push_back({mesh.vertex_count(), mesh.triangle_count(), static_cast<Index>(mesh.submeshes.size()),
@@ -429,6 +457,7 @@ void SurfaceEditor::roll_back(const Mark& to) {
   surface_.twin.resize(3 * std::size_t{to.triangles});
   surface_.point_corner.resize(to.points);
   surface_.point_side.resize(to.points);
+  next_side_ = to.next_side;
   if (to.triangles >= stage_begin_) {
     ancestors_.resize(to.triangles - stage_begin_);
   } else {

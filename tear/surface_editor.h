@@ -6,6 +6,7 @@
 #include <array>
 #include <span>
 #include <string>
+#include <unordered_set>
 #include <vector>
 
 #include "tear/surface.h"
@@ -67,11 +68,16 @@ class SurfaceEditor {
 
   // ---- Opening and removing.
 
+  /// From here on opened() asks for the borders that cut_edge() made since.
+  void begin_opening();
+  /// Border half-edges, ascending, wherever splitting and turning took them.
+  [[nodiscard]] std::vector<Index> opened() const;
+
   /// Disconnects the faces at both sides of a half-edge.
   void cut_edge(Index half_edge);
-  /// Gives the fan that holds `corner` a point of its own, with side `side`. Vertices that faces of other fans use are duplicated.
+  /// Gives the fan that holds `corner` a point of its own. Vertices that faces of other fans use are duplicated.
   /// @param remaining  a corner of each other fan that this point has.
-  Index separate_fan(Index corner, Index side, const std::vector<Index>& remaining);
+  Index separate_fan(Index corner, const std::vector<Index>& remaining);
   /// Takes a triangle away whose edges are all cut. Its points keep no corner of it.
   void retire_triangle(Index triangle);
   /// Names the corner that a point is known by.
@@ -83,7 +89,7 @@ class SurfaceEditor {
   /// A vertex like another one, to be changed by `edit_vertex()` before anyone sees it. It is born when a filling uses it.
   [[nodiscard]] Index append_filling_vertex(Index mesh, Index like);
   [[nodiscard]] Mesh& mesh_of_new_vertex(Index mesh) { return character_.meshes[mesh]; }
-  [[nodiscard]] Index append_filling_point(Index side) { return append_point(side); }
+  [[nodiscard]] Index append_filling_point() { return append_point(next_side_++); }
   /// A triangle that no triangle of the source covers. Unconnected; see connect().
   Index append_filling(Index mesh, Index submesh, const std::array<Index, 3>& points, const Triangle& vertices);
   /// Joins two border half-edges that run between the same points in opposite directions.
@@ -100,6 +106,7 @@ class SurfaceEditor {
     Index triangles = 0;
     std::size_t log_length = 0;
     std::size_t side_log_length = 0;
+    Index next_side = 1;
     std::vector<MeshSizes> meshes;
   };
   [[nodiscard]] Mark mark() const;
@@ -147,8 +154,12 @@ class SurfaceEditor {
   void restore(const LogEntry& entry);
   void set_corner(Index corner, Index point, Index vertex);
   void join(Index a, Index b);
+  void move_opened(Index from, Index to);
   Index append_triangle(Index like, const std::array<Index, 3>& points, const Triangle& vertices);
   Index append_point(Index side);
+  /// Side of a point that is made between others: its own where tears are near, so that it differs from one made in the same place
+  /// between others.
+  Index side_between(std::initializer_list<Index> points);
   Index append_vertex(Index mesh, const Birth& birth);
   void remove_newest_vertex(Index mesh);
   void write_side(Index mesh, Index vertex, Index side);
@@ -170,6 +181,10 @@ class SurfaceEditor {
       appended_triangles_;  ///< Of each mesh: the surface's numbers of its triangles beyond the source's.
   std::vector<LogEntry> log_;
   std::vector<SideEntry> side_log_;
+  /// First value of _TEARSIDE that no point has. Points that separate get one each: however tears cross, points in one place
+  /// differ.
+  Index next_side_ = 1;
+  std::unordered_set<Index> opened_;  // asked and sorted, never walked through as it is
   Index stage_begin_ = 0;
   std::vector<Index> ancestors_;  ///< Of the triangles appended since.
 };
@@ -197,6 +212,7 @@ struct SurfaceEditor::Redo {
   std::vector<OfMesh> meshes;
   std::vector<Index> corner_point, twin, point_corner, point_side;
   std::vector<TriangleRef> triangles;
+  Index next_side = 1;
   std::vector<LogEntry> changed;                    ///< Triangles that were there before, as the operation left them.
   std::vector<std::array<Index, 2>> known_corners;  ///< Points that were there before, and the corners they were known by.
   std::vector<SideEntry> sides;

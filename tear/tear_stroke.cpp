@@ -53,7 +53,6 @@ struct TearStroke::State {
   double last_seconds = 0;
   std::optional<Held> held;
   tear::SurfaceEditor::Mark begin;
-  std::uint32_t side_before;
   TearReport total;
 
   [[nodiscard]] bool is_due(const Blade& blade, double seconds) const {
@@ -126,8 +125,7 @@ Result<TearStroke> TearStroke::begin(TornModel& model, const ModelPose& pose, co
                                                      TearOperation{pose, {blade}, {}, options},
                                                      0,
                                                      {},
-                                                     of_model.editor.mark(),
-                                                     of_model.next_side,
+                                                     of_model.begin_operation(),
                                                      {}}));
 }
 
@@ -160,7 +158,7 @@ Result<TearReport> TearStroke::end(ChangeRecord* change) {
       [&]() -> Status {
         if (state.held)
           if (Status status = state.take_up(state.held->pose, state.held->blade); !status) return status;
-        state.tearing.finish(state.begin, state.model->workpiece());
+        state.tearing.finish(state.model->workpiece());
         return {};
       },
       change);
@@ -168,7 +166,7 @@ Result<TearReport> TearStroke::end(ChangeRecord* change) {
   state.model->has_stroke = false;
   state.model->count(state.begin, false, state.total);
   // A stroke of one blade tears nothing: there is nothing to take back.
-  if (state.operation.stroke.size() > 1) state.model->record(std::move(state.operation), state.begin, state.side_before);
+  if (state.operation.stroke.size() > 1) state.model->record(std::move(state.operation), state.begin);
   return std::move(state.total);
 }
 

@@ -45,19 +45,18 @@ Result<TearReport> TornModel::tear(const ModelPose& pose, std::span<const Blade>
     if (Status status = validate_turn(stroke[i - 1], stroke[i], i); !status) return status;
   }
   if (Status status = state.stand_in(pose); !status) return status;
-  const std::uint32_t side_before = state.next_side;
-  const tear::SurfaceEditor::Mark begin = state.editor.mark();
+  const tear::SurfaceEditor::Mark begin = state.begin_operation();
   auto report = state.call(
       [&](State::Call& call) -> Status {
         tear::StrokeTearing tearing(stroke.front(), options);
         for (const Blade& blade : stroke.subspan(1)) tearing.extend(blade, state.workpiece());
-        tearing.finish(begin, state.workpiece());
+        tearing.finish(state.workpiece());
         call.report = tearing.report;
         call.change.lips = tearing.lips;
         return {};
       },
       change);
-  if (report) state.record(TearOperation{pose, {stroke.begin(), stroke.end()}, {}, options}, begin, side_before);
+  if (report) state.record(TearOperation{pose, {stroke.begin(), stroke.end()}, {}, options}, begin);
   return report;
 }
 
@@ -66,15 +65,14 @@ Result<TearReport> TornModel::cut(const ModelPose& pose, const Cut& cut, ChangeR
   if (Status status = state.may_begin(); !status) return status;
   if (Status status = tear::validate_cut(cut); !status) return status;
   if (Status status = state.stand_in(pose); !status) return status;
-  const std::uint32_t side_before = state.next_side;
-  const tear::SurfaceEditor::Mark begin = state.editor.mark();
+  const tear::SurfaceEditor::Mark begin = state.begin_operation();
   auto report = state.call(
       [&](State::Call& call) -> Status {
         tear::cut_surface(cut, state.workpiece(), call.report, call.change.lips);
         return {};
       },
       change, true);
-  if (report) state.record(CutOperation{pose, cut}, begin, side_before);
+  if (report) state.record(CutOperation{pose, cut}, begin);
   return report;
 }
 
@@ -83,15 +81,14 @@ Result<TearReport> TornModel::drill(const ModelPose& pose, const Bore& bore, Cha
   if (Status status = state.may_begin(); !status) return status;
   if (Status status = tear::validate_bore(bore); !status) return status;
   if (Status status = state.stand_in(pose); !status) return status;
-  const std::uint32_t side_before = state.next_side;
-  const tear::SurfaceEditor::Mark begin = state.editor.mark();
+  const tear::SurfaceEditor::Mark begin = state.begin_operation();
   auto report = state.call(
       [&](State::Call& call) -> Status {
         tear::drill_surface(bore, state.workpiece(), call.report);
         return {};
       },
       change);
-  if (report) state.record(DrillOperation{pose, bore}, begin, side_before);
+  if (report) state.record(DrillOperation{pose, bore}, begin);
   return report;
 }
 
@@ -104,11 +101,10 @@ Status TornModel::undo(ChangeRecord* change) {
   try {
     state.undone.reserve(state.undone.size() + 1);
     auto redo = state.editor.undo(last.step, done);
-    state.undone.push_back({std::move(last.operation), std::move(redo), last.side_before, state.next_side});
+    state.undone.push_back({std::move(last.operation), std::move(redo)});
   } catch (const std::bad_alloc&) {
     return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
   }
-  state.next_side = last.side_before;
   state.done.pop_back();
   if (change != nullptr) *change = std::move(done);
   return {};
@@ -123,11 +119,10 @@ Status TornModel::redo(ChangeRecord* change) {
   try {
     state.done.reserve(state.done.size() + 1);
     auto step = state.editor.redo(last.redo, done);
-    state.done.push_back({std::move(last.operation), std::move(step), last.side_before});
+    state.done.push_back({std::move(last.operation), std::move(step)});
   } catch (const std::bad_alloc&) {
     return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
   }
-  state.next_side = last.side_after;
   state.undone.pop_back();
   if (change != nullptr) *change = std::move(done);
   return {};

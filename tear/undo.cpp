@@ -51,6 +51,7 @@ SurfaceEditor::Redo SurfaceEditor::undo(const Step& step, ChangeRecord& change) 
   redo.triangles = tail_of(surface_.triangles, begin.triangles);
   redo.point_corner = tail_of(surface_.point_corner, begin.points);
   redo.point_side = tail_of(surface_.point_side, begin.points);
+  redo.next_side = next_side_;
   for (const SideEntry& entry : step.side_log)
     redo.sides.push_back({entry.mesh, entry.vertex, tear_sides(entry.mesh)->values[entry.vertex]});
 
@@ -136,6 +137,7 @@ SurfaceEditor::Step SurfaceEditor::redo(const Redo& redo, ChangeRecord& change) 
   append(surface_.triangles, redo.triangles);
   append(surface_.point_corner, redo.point_corner);
   append(surface_.point_side, redo.point_side);
+  next_side_ = redo.next_side;
   for (const LogEntry& entry : redo.changed) restore(entry);
   for (const auto& [point, corner] : redo.known_corners) surface_.point_corner[point] = corner;
   for (const SideEntry& entry : redo.sides) tear_sides(entry.mesh)->values[entry.vertex] = entry.side;

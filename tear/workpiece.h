@@ -8,7 +8,6 @@ namespace sunder::tear {
 struct Workpiece {
   SurfaceEditor& editor;
   PosedPoints& posed;
-  Index& next_side;  ///< First free value of _TEARSIDE.
 };
 
 }  // namespace sunder::tear

@@ -12,6 +12,7 @@ struct Loop {
   FlatLoop points;
   Vec2d low, high;
   double area = 0;  ///< About.
+  bool is_clockwise = false;
 };
 
 enum class Side { outside, on, inside };
@@ -35,6 +36,7 @@ std::vector<Loop> loops_with_area(std::span<const FlatLoop> loops) {
       loop.high = loop.high.cwiseMax(loop.points[k]);
     }
     loop.area = std::abs(loop.area);
+    loop.is_clockwise = area_sign(loop.points) < 0;
     result.push_back(std::move(loop));
   }
   return result;
@@ -81,15 +83,21 @@ std::vector<FlatRegion> find_regions(std::span<const FlatLoop> all_loops) {
     for (std::size_t k = 0; k < loops.size(); ++k)
       if (k != i && holds(loops[k], loops[i])) holders[i].push_back(k);
 
+  // A loop is a hole where it runs against the outermost one around it.
+  std::vector<bool> is_hole(loops.size(), false);
+  for (std::size_t i = 0; i < loops.size(); ++i)
+    for (const std::size_t k : holders[i])
+      if (holders[k].empty()) is_hole[i] = loops[i].is_clockwise != loops[k].is_clockwise;
+
   std::vector<FlatRegion> regions;
   std::vector<std::size_t> region_of(loops.size(), loops.size());
-  // A hole belongs to the innermost of the outlines that hold it. Among loops that cross there may be none: its own outline then.
+  // It belongs to the innermost of the outlines that hold it. Among loops that cross there may be none: its own outline then.
   std::vector<std::size_t> outline_of(loops.size());
   for (std::size_t i = 0; i < loops.size(); ++i) {
     std::size_t best = i;
-    if (holders[i].size() % 2 == 1)
+    if (is_hole[i])
       for (const std::size_t k : holders[i]) {
-        if (holders[k].size() % 2 == 1) continue;
+        if (is_hole[k]) continue;
         if (best == i || holders[k].size() > holders[best].size() ||
             (holders[k].size() == holders[best].size() && loops[k].area < loops[best].area))
           best = k;

@@ -14,7 +14,7 @@ namespace sunder::tear {
 // Flat regions between closed polygons: the caps of a body that a plane cuts. Nothing here knows of meshes. Whatever the input is,
 // all decisions are exact (exact_predicates.h) and the result is the same bits on every compiler.
 
-/// A closed polygon in the plane; the last point joins the first. Orientation arbitrary.
+/// A closed polygon in the plane; the last point joins the first.
 using FlatLoop = std::vector<Vec2d>;
 
 /// Loops that bound one connected flat region. Indices of loops.
@@ -23,7 +23,8 @@ struct FlatRegion {
   std::vector<Index> holes;  ///< Ascending.
 };
 
-/// Nests loops by the even-odd rule: outline, hole, island in a hole, and so on. Regions come in the order of their outlines.
+/// Nests loops: outline, hole, island in a hole, and so on. A loop is a hole where it runs against the outermost one around it, so that
+/// of two bodies one in the other each has a region of its own. Regions come in the order of their outlines.
 ///
 /// Loops that run around no area (fewer than three points, all on one line, to and fro) or are not finite are in no region. Where
 /// loops cross, touch or coincide every other loop is still in exactly one region, but triangulate() may refuse that.

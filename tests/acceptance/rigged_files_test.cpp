@@ -4,10 +4,12 @@
 #include <sunder/io/save_glb.h>
 #include <sunder/skinning/palette.h>
 #include <sunder/skinning/sample_clip.h>
+#include <sunder/tear/replay.h>
 #include <sunder/tear/topology.h>
 #include <sunder/tear/torn_model.h>
 
 #include <algorithm>
+#include <cstdlib>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -62,6 +64,15 @@ void expect_same_in_motion(const Character& memory, const Character& file, Rando
   }
 }
 
+void expect_valid_file(const std::filesystem::path& saved, const std::filesystem::path& source) {
+  if (!test::has_gltf_validator()) return;
+  // What the file has besides its torn meshes stays as it is, faults included.
+  const bool is_patch = source.extension() == ".glb" || source.extension() == ".gltf";
+  const auto verdict = test::validate_glb(saved);
+  EXPECT_LE(verdict.errors, verdict.errors > 0 && is_patch ? test::validate_glb(source).errors : 0) << verdict.output;
+  EXPECT_GE(verdict.errors, 0) << "the validator did not run";
+}
+
 void tear_and_save(const std::filesystem::path& file, std::uint64_t seed) {
   const auto loaded = load_character(file);
   if (!loaded) {
@@ -97,13 +108,7 @@ void tear_and_save(const std::filesystem::path& file, std::uint64_t seed) {
     const auto saved = folder.path() / "torn.glb";
     const Status status = save_glb(saved, model->character(), *loaded);
     ASSERT_TRUE(status) << status.text();
-    if (test::has_gltf_validator()) {
-      // What the file has besides its torn meshes stays as it is, faults included.
-      const bool is_patch = file.extension() == ".glb" || file.extension() == ".gltf";
-      const auto verdict = test::validate_glb(saved);
-      EXPECT_LE(verdict.errors, verdict.errors > 0 && is_patch ? test::validate_glb(file).errors : 0) << verdict.output;
-      EXPECT_GE(verdict.errors, 0) << "the validator did not run";
-    }
+    expect_valid_file(saved, file);
     const auto again = load_character(saved);
     ASSERT_TRUE(again) << again.error().text();
     expect_same_in_motion(model->character(), *again->character, random);
@@ -114,10 +119,96 @@ void tear_and_save(const std::filesystem::path& file, std::uint64_t seed) {
   EXPECT_GT(pieces, 0u) << "not one of six strokes tore anything";
 }
 
+Vec3d somewhere_on(const Character& character, const ModelPose& pose, Random& random) {
+  return test::random_stroke(character, pose, random)[0].tip;
+}
+
+/// One of each operation, at random places.
+std::vector<Operation> one_of_each(const Character& character, Random& random) {
+  std::vector<Operation> operations;
+  const auto add_tear = [&](double width, Layers layers, double wall_depth) {
+    const ModelPose pose = some_pose(character, random);
+    const double diagonal = test::posed_diagonal(character, pose);
+    const Stroke stroke = test::random_stroke(character, pose, random, random.uniform(0.05, 0.4), 1 + random.index(4));
+    operations.push_back(TearOperation{pose, stroke, {}, {width * diagonal, layers, wall_depth * diagonal}});
+  };
+  add_tear(0.01, Layers::nearest, 0);
+  add_tear(0, Layers::all, 0);
+  add_tear(0.02, Layers::all, 0);
+  add_tear(0.005, Layers::nearest, 0.01);
+  add_tear(0, Layers::nearest, 0.01);
+  for (const bool caps : {false, true}) {
+    const ModelPose pose = some_pose(character, random);
+    const Vec3d point = somewhere_on(character, pose, random), normal = random.direction();
+    operations.push_back(CutOperation{pose, {point, normal, {}, caps}});
+  }
+  for (const bool wall : {false, true}) {
+    const ModelPose pose = some_pose(character, random);
+    const double diagonal = test::posed_diagonal(character, pose);
+    const Blade along = test::random_stroke(character, pose, random)[0];
+    operations.push_back(DrillOperation{pose, {along.base, along.tip - along.base, 0.02 * diagonal, 0.5 * diagonal, 0.0, wall}});
+  }
+  for (std::size_t i = operations.size(); i > 1; --i)
+    std::swap(operations[i - 1], operations[random.index(static_cast<std::uint32_t>(i))]);
+  return operations;
+}
+
+void operate_and_undo(const std::filesystem::path& file, std::uint64_t seed) {
+  const auto loaded = load_character(file);
+  if (!loaded) return;
+  Random random(seed);
+  auto model = TornModel::create(loaded->character);
+  ASSERT_TRUE(model) << model.error().text();
+  const std::uint32_t non_manifold = count_topology(*loaded->character).non_manifold_edges;
+  const bool is_clear = test::is_clear_of_itself(*loaded->character);
+  std::vector<std::uint64_t> digests = {model->digest()};
+  for (const Operation& operation : one_of_each(*loaded->character, random)) {
+    SCOPED_TRACE(operation.index());
+    const std::uint32_t done = model->undo_count();
+    const auto report = apply_operation(*model, operation);
+    ASSERT_TRUE(report) << report.error().text();
+    ASSERT_THAT(test::broken_laws(*model), IsEmpty());
+    if (is_clear) {
+      ASSERT_LE(count_topology(model->character()).non_manifold_edges, non_manifold);
+    }
+    if (model->undo_count() > done) digests.push_back(model->digest());
+  }
+  const test::TemporaryFolder folder;
+  const auto saved = folder.path() / "torn.glb";
+  const Status status = save_glb(saved, model->character(), *loaded);
+  ASSERT_TRUE(status) << status.text();
+  expect_valid_file(saved, file);
+  const auto again = load_character(saved);
+  ASSERT_TRUE(again) << again.error().text();
+  if (is_clear) {
+    const TopologyCounts in_memory = count_topology(model->character()), in_file = count_topology(*again->character);
+    EXPECT_EQ(in_memory.components, in_file.components);
+    EXPECT_EQ(in_memory.boundary_edges, in_file.boundary_edges);
+  }
+
+  auto replayed = TornModel::create(loaded->character);
+  ASSERT_TRUE(replayed);
+  for (const Operation& operation : model->history()) ASSERT_TRUE(apply_operation(*replayed, operation));
+  EXPECT_EQ(replayed->digest(), digests.back());
+  for (std::size_t i = digests.size(); i-- > 0;) {
+    EXPECT_EQ(model->digest(), digests[i]);
+    if (i > 0) {
+      ASSERT_TRUE(model->undo());
+    }
+  }
+  EXPECT_EQ(model->character(), model->source());
+}
+
 class RiggedFile : public testing::TestWithParam<std::filesystem::path> {};
 
 TEST_P(RiggedFile, is_torn_moves_on_and_comes_back_from_disk) {
   tear_and_save(GetParam(), std::hash<std::string>()(GetParam().filename().string()));
+}
+
+TEST_P(RiggedFile, takes_every_operation_and_gives_it_back) {
+  const std::uint64_t rounds = std::getenv("SUNDER_STRESS") != nullptr ? 20 : 1;
+  for (std::uint64_t round = 0; round < rounds && !HasFatalFailure(); ++round)
+    operate_and_undo(GetParam(), round + std::hash<std::string>()(GetParam().filename().string()));
 }
 
 std::vector<std::filesystem::path> files() {

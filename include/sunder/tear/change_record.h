@@ -32,7 +32,7 @@ class DirtyRanges {
   static constexpr std::size_t kMaximum = 8;
 
   /// @param elements  ascending; repeated ones count once. The seven widest gaps stay apart, of equal ones the first. O(elements).
-  static SUNDER_API DirtyRanges covering(std::span<const std::uint32_t> elements);
+  SUNDER_API static DirtyRanges covering(std::span<const std::uint32_t> elements);
 
   [[nodiscard]] const Range* begin() const { return ranges_.data(); }
   [[nodiscard]] const Range* end() const { return ranges_.data() + count_; }

@@ -209,6 +209,23 @@ bool is_inside(const FlatLoop& loop, const Vec2d& p) {
   return inside;
 }
 
+/// Turns the loops so that holes run against what is around them.
+std::vector<FlatLoop> alternated(std::vector<FlatLoop> loops) {
+  std::vector<int> depths(loops.size(), 0);
+  for (std::size_t i = 0; i < loops.size(); ++i)
+    for (std::size_t k = 0; k < loops.size(); ++k)
+      if (k != i && is_inside(loops[k], 0.5 * (loops[i][0] + loops[i][1]))) ++depths[i];
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    double area = 0;
+    for (std::size_t k = 0; k < loops[i].size(); ++k) {
+      const Vec2d a = loops[i][k] - loops[i][0], b = loops[i][(k + 1) % loops[i].size()] - loops[i][0];
+      area += a.x() * b.y() - a.y() * b.x();
+    }
+    if ((area < 0) != (depths[i] % 2 == 1)) std::reverse(loops[i].begin(), loops[i].end());
+  }
+  return loops;
+}
+
 /// Random loops nested up to five deep, moved and scaled.
 std::vector<FlatLoop> random_nested(Random& random) {
   std::vector<FlatLoop> loops;
@@ -219,15 +236,15 @@ std::vector<FlatLoop> random_nested(Random& random) {
   const Vec2d offset = random.index(3) == 0 ? Vec2d(1e6 * scale, -3e5 * scale) : Vec2d(0, 0);
   for (FlatLoop& loop : loops)
     for (Vec2d& p : loop) p = scale * p + offset;
-  return loops;
+  return alternated(std::move(loops));
 }
 
 TEST(FindRegions, alternates_outlines_and_holes) {
   const auto square = [](double x, double half) {
     return FlatLoop{{x - half, -half}, {x + half, -half}, {x + half, half}, {x - half, half}};
   };
-  const std::vector<FlatLoop> loops{square(0, 1), square(0, 5),  square(0, 3),    square(0, 2),
-                                    square(0, 4), square(20, 1), square(4.5, 0.2)};
+  const auto loops =
+      alternated({square(0, 1), square(0, 5), square(0, 3), square(0, 2), square(0, 4), square(20, 1), square(4.5, 0.2)});
   const auto regions = find_regions(loops);
   ASSERT_EQ(regions.size(), 4u);
   EXPECT_EQ(regions[0].outline, 0u);
@@ -265,6 +282,14 @@ TEST(FindRegions, covers_what_an_odd_number_of_loops_holds) {
   }
 }
 
+TEST(FindRegions, keeps_bodies_in_one_another_apart) {
+  const FlatLoop outer{{0, 0}, {4, 0}, {4, 4}, {0, 4}}, inner{{1, 1}, {3, 1}, {3, 3}, {1, 3}}, hole{{2, 2}, {2, 2.5}, {2.5, 2}};
+  const auto regions = find_regions(std::vector<FlatLoop>{outer, inner, hole});
+  ASSERT_EQ(regions.size(), 2u);
+  EXPECT_THAT(regions[0].holes, IsEmpty());
+  EXPECT_THAT(regions[1].holes, ElementsAre(2));
+}
+
 TEST(FindRegions, leaves_out_loops_without_area) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THAT(find_regions({}), IsEmpty());
@@ -281,15 +306,14 @@ TEST(FindRegions, leaves_out_loops_without_area) {
 
 TEST(FindRegions, nests_loops_that_touch) {
   const FlatLoop square{{0, 0}, {4, 0}, {4, 4}, {0, 4}};
-  const std::vector<FlatLoop> loops{square, {{0, 0}, {2, 1}, {1, 2}}, {{4, 1}, {5, 1}, {5, 2}, {4, 2}}, {{0, 2}, {2, 3}, {0, 4}}};
+  const std::vector<FlatLoop> loops{square, {{0, 0}, {1, 2}, {2, 1}}, {{4, 1}, {5, 1}, {5, 2}, {4, 2}}, {{0, 2}, {0, 4}, {2, 3}}};
   const auto regions = find_regions(loops);
   ASSERT_EQ(regions.size(), 2u);
   EXPECT_THAT(regions[0].holes, ElementsAre(1, 3));
   EXPECT_EQ(regions[1].outline, 2u);
   const auto twice = find_regions(std::vector<FlatLoop>{square, square});
-  ASSERT_EQ(twice.size(), 1u);
-  EXPECT_THAT(twice[0].holes, ElementsAre(1));
-  EXPECT_FALSE(triangulate(std::vector<FlatLoop>{square, square}, twice[0], 1));
+  EXPECT_EQ(twice.size(), 2u);
+  EXPECT_FALSE(triangulate(std::vector<FlatLoop>{square, square}, FlatRegion{0, {1}}, 1));
 }
 
 TEST(Triangulate, random_nested_regions) {

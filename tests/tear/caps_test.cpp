@@ -1,0 +1,96 @@
+// Caps of cuts: what is cut stays closed.
+#include <sunder/skinning/palette.h>
+#include <sunder/tear/topology.h>
+#include <sunder/tear/torn_model.h>
+
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "support/rigs.h"
+#include "support/torn_invariants.h"
+
+namespace sunder {
+namespace {
+
+using test::Random;
+using testing::IsEmpty;
+
+TornModel make_model(Character character) {
+  auto model = TornModel::create(std::make_shared<const Character>(std::move(character)));
+  EXPECT_TRUE(model) << model.error().text();
+  return std::move(*model);
+}
+
+/// Posed volume inside some triangles, by the divergence theorem; the whole mesh's where none are given.
+double volume_of(const TornModel& model, const ModelPose& pose, const Piece* piece = nullptr) {
+  double volume = 0;
+  for (std::uint32_t m = 0; m < model.character().meshes.size(); ++m) {
+    const auto positions = test::posed_positions(model.character(), m, pose);
+    std::vector<std::uint32_t> triangles;
+    if (piece == nullptr)
+      for (std::uint32_t t = 0; t < model.character().meshes[m].triangle_count(); ++t) triangles.push_back(t);
+    else
+      for (const Piece::Triangles& of_mesh : piece->meshes)
+        if (of_mesh.mesh == m) triangles = of_mesh.triangles;
+    for (const std::uint32_t t : triangles) {
+      const Triangle& triangle = model.character().meshes[m].triangles[t];
+      volume += positions[triangle[0]].dot(Vec3d(positions[triangle[1]].cross(positions[triangle[2]]))) / 6;
+    }
+  }
+  return volume;
+}
+
+Cut cut_through(const Vec3d& point, const Vec3d& normal) {
+  Cut cut;
+  cut.point = point;
+  cut.normal = normal;
+  cut.caps = true;
+  return cut;
+}
+
+TEST(Caps, close_both_halves_of_a_tube) {
+  TornModel model = make_model(test::make_tube(10, 12, 3));
+  const ModelPose pose = bind_pose(model.source());
+  const double whole = volume_of(model, pose);
+  const auto report = model.cut(pose, cut_through({0, 1.53, 0}, {0.2, 1, 0.1}));
+  ASSERT_TRUE(report) << report.error().text();
+  EXPECT_EQ(report->caps, 2u);
+  EXPECT_EQ(report->open_sections, 0u);
+  const TopologyCounts counts = count_topology(model.character());
+  EXPECT_EQ(counts.components, 2u);
+  EXPECT_EQ(counts.boundary_edges, 0u);
+  EXPECT_EQ(counts.non_manifold_edges, 0u);
+  ASSERT_EQ(report->pieces.size(), 2u);
+  EXPECT_NEAR(volume_of(model, pose, &report->pieces[0]) + volume_of(model, pose, &report->pieces[1]), whole, 1e-6 * whole);
+  EXPECT_GT(volume_of(model, pose, &report->pieces[0]), 0);
+  EXPECT_GT(volume_of(model, pose, &report->pieces[1]), 0);
+  EXPECT_THAT(test::broken_laws(model), IsEmpty());
+}
+
+TEST(Caps, of_random_cuts_in_random_poses_leave_no_border) {
+  Random random(9);
+  for (int i = 0; i < 100; ++i) {
+    SCOPED_TRACE(i);
+    const std::uint32_t rings = 3 + random.index(12), sides = 3 + random.index(16);
+    TornModel model = make_model(test::make_tube(rings, sides, 2 + random.index(3)));
+    for (int k = 0; k < 4; ++k) {
+      const ModelPose pose = test::random_pose(model.source(), random, 0.5, 1.1);
+      const auto positions = test::posed_positions(model.source(), 0, pose);
+      Vec3d middle = Vec3d::Zero();
+      for (int n = 0; n < 3; ++n) middle += positions[random.index(static_cast<std::uint32_t>(positions.size()))] / 3;
+      const auto report = model.cut(pose, cut_through(middle, random.direction()));
+      ASSERT_TRUE(report) << report.error().text();
+      ASSERT_EQ(report->open_sections, 0u) << "cut " << k;
+      ASSERT_EQ(count_topology(model.character()).boundary_edges, 0u) << "cut " << k;
+      ASSERT_EQ(count_topology(model.character()).non_manifold_edges, 0u) << "cut " << k;
+      ASSERT_THAT(test::broken_laws(model), IsEmpty()) << "cut " << k;
+    }
+    while (model.undo_count() > 0) ASSERT_TRUE(model.undo());
+    ASSERT_EQ(model.character(), model.source());
+  }
+}
+
+}  // namespace
+}  // namespace sunder
