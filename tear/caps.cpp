@@ -91,9 +91,10 @@ class Caps {
       places.insert(places.end(), loops[member].begin(), loops[member].end());
       outlines.push_back(&loops[member]);
     }
-    const auto flat = triangulate(loops, region, 1.5 * mean_edge(outlines));
+    auto flat = triangulate(loops, region, 1.5 * mean_edge(outlines));
     if (!flat) return false;
     const auto rim_count = static_cast<Index>(places.size());
+    split_joined_edges(half_edges, places, *flat);
     places.insert(places.end(), flat->inner.begin(), flat->inner.end());
     // A body whose faces look inwards has its rims the other way round.
     const bool is_inside_out = doubled_area(loops[region.outline]) < 0;
@@ -108,6 +109,7 @@ class Caps {
     shade(mesh, places, is_inside_out, vertices);
 
     const Mesh& of = work_.editor.character().meshes[mesh];
+    turn_flat_triangles(half_edges, of, vertices, flat->triangles);
     for (std::array<Index, 3> corners : flat->triangles) {
       if (is_inside_out) std::swap(corners[1], corners[2]);
       const Triangle triangle = {vertices[corners[0]], vertices[corners[1]], vertices[corners[2]]};
@@ -117,6 +119,82 @@ class Caps {
       filling_.add_triangle(mesh, half_edges.front(), {points[corners[0]], points[corners[1]], points[corners[2]]}, triangle);
     }
     return filling_.connect(half_edges);
+  }
+
+  /// Whether two points of the rim are joined by an edge of the body that has both its faces: a fold or a face in the plane. A
+  /// cap's edge between them would make that an edge of four faces.
+  [[nodiscard]] bool is_joined(Index half_edge_a, Index half_edge_b) const {
+    const Surface& surface = work_.editor.surface();
+    const Index a = point_before(half_edge_a), b = point_before(half_edge_b);
+    const auto has_both = [&](Index h) { return h != kNone && surface.twin[h] != kNone; };
+    return has_both(surface.find_half_edge(a, b)) || has_both(surface.find_half_edge(b, a));
+  }
+
+  /// Puts a point in the middle of each edge between points that are joined.
+  void split_joined_edges(const std::vector<Index>& half_edges, const std::vector<Vec2d>& rim, FlatMesh& flat) const {
+    const auto key = [](Index a, Index b) { return std::array<Index, 2>{std::min(a, b), std::max(a, b)}; };
+    std::map<std::array<Index, 2>, Index> middles;  // kNone: of no concern
+    for (const auto& corners : flat.triangles)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Index a = corners[k], b = corners[(k + 1) % 3];
+        if (a >= rim.size() || b >= rim.size() || !middles.emplace(key(a, b), kNone).second) continue;
+        if (!is_joined(half_edges[a], half_edges[b])) continue;
+        middles[key(a, b)] = static_cast<Index>(rim.size() + flat.inner.size());
+        flat.inner.push_back(0.5 * (rim[a] + rim[b]));
+      }
+    for (std::size_t t = 0; t < flat.triangles.size(); ++t)  // parts are appended, and looked at in their turn
+      for (std::size_t k = 0; k < 3;) {
+        const Index a = flat.triangles[t][k], b = flat.triangles[t][(k + 1) % 3], c = flat.triangles[t][(k + 2) % 3];
+        const auto middle = middles.find(key(a, b));
+        if (middle == middles.end() || middle->second == kNone) {
+          ++k;
+          continue;
+        }
+        flat.triangles[t] = {a, middle->second, c};
+        flat.triangles.push_back({middle->second, b, c});
+        k = 0;
+      }
+  }
+
+  /// Rim points that lie on one line, as they do where a cut meets an older cap, do so in the pose only nearly; stored, a triangle
+  /// of three of them has no area. Its longest edge is turned.
+  void turn_flat_triangles(const std::vector<Index>& half_edges, const Mesh& mesh, const std::vector<Index>& vertices,
+                           std::vector<std::array<Index, 3>>& triangles) const {
+    const auto at = [&](Index i) -> Eigen::Vector3d { return mesh.positions[vertices[i]].cast<double>(); };
+    const auto height_of = [&](const std::array<Index, 3>& t) {
+      const double longest = std::max({(at(t[1]) - at(t[0])).norm(), (at(t[2]) - at(t[1])).norm(), (at(t[0]) - at(t[2])).norm()});
+      return longest > 0 ? (at(t[1]) - at(t[0])).cross(at(t[2]) - at(t[0])).norm() / longest : 0.0;
+    };
+    std::map<std::array<Index, 2>, std::size_t> triangle_at;  // by directed edge
+    const auto enter = [&](std::size_t t) {
+      for (std::size_t k = 0; k < 3; ++k) triangle_at[{triangles[t][k], triangles[t][(k + 1) % 3]}] = t;
+    };
+    for (std::size_t t = 0; t < triangles.size(); ++t) enter(t);
+    constexpr double kStored = 0x1p-22;  // four units in the last place
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+      const std::array<Index, 3> flat = triangles[t];
+      if (height_of(flat) > kStored * at(flat[0]).cwiseAbs().maxCoeff()) continue;
+      std::size_t k = 0;
+      for (std::size_t i = 1; i < 3; ++i)
+        if ((at(flat[(i + 1) % 3]) - at(flat[i])).norm() > (at(flat[(k + 1) % 3]) - at(flat[k])).norm()) k = i;
+      const Index a = flat[k], b = flat[(k + 1) % 3], c = flat[(k + 2) % 3];
+      const auto across = triangle_at.find({b, a});
+      if (across == triangle_at.end()) continue;
+      const std::size_t other = across->second;
+      const std::array<Index, 3> of_other = triangles[other];
+      const Index d = of_other[0] != a && of_other[0] != b   ? of_other[0]
+                      : of_other[1] != a && of_other[1] != b ? of_other[1]
+                                                             : of_other[2];
+      if (triangle_at.count({c, d}) != 0 || triangle_at.count({d, c}) != 0) continue;
+      if (std::max(c, d) < half_edges.size() && is_joined(half_edges[c], half_edges[d])) continue;
+      if (!(std::min(height_of({a, d, c}), height_of({d, b, c})) > height_of(flat))) continue;
+      triangle_at.erase({a, b});
+      triangle_at.erase({b, a});
+      triangles[t] = {a, d, c};
+      triangles[other] = {d, b, c};
+      enter(t);
+      enter(other);
+    }
   }
 
   [[nodiscard]] Index mesh_with_most(const std::vector<Index>& half_edges) const {

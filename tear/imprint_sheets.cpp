@@ -104,12 +104,14 @@ class Imprint {
     struct Edge {
       std::size_t begin, end;
       Index from, to;
+      double snap;
     };
     std::vector<Edge> edges;
     for (std::size_t begin = 0, end = 0; begin < crossings_.size(); begin = end) {
       const Index h = crossings_[begin].half_edge;
       while (end < crossings_.size() && crossings_[end].half_edge == h) ++end;
-      edges.push_back({begin, end, editor_.surface().corner_point[h], editor_.surface().corner_point[Surface::next(h)]});
+      edges.push_back(
+          {begin, end, editor_.surface().corner_point[h], editor_.surface().corner_point[Surface::next(h)], snap_of(h)});
     }
     std::vector<Crossing*> along;
     for (const Edge& edge : edges) {
@@ -118,17 +120,27 @@ class Imprint {
       std::sort(along.begin(), along.end(), [](const Crossing* a, const Crossing* b) {
         return a->fraction != b->fraction ? a->fraction < b->fraction : a->sheet < b->sheet;
       });
-      split_edge(edge.from, edge.to, along);
+      split_edge(edge.from, edge.to, edge.snap, along);
     }
   }
 
-  void split_edge(Index from, Index to, const std::vector<Crossing*>& along) {
+  /// Part of an edge nearer than which a place would be stored as one of its ends, give or take a few units in the last place.
+  [[nodiscard]] double snap_of(Index half_edge) const {
+    const auto& positions = editor_.character().meshes[editor_.surface().triangles[half_edge / 3].mesh].positions;
+    const Vec3f &from = positions[editor_.vertex_at(half_edge)], &to = positions[editor_.vertex_at(Surface::next(half_edge))];
+    const double coordinate = static_cast<double>(std::max(from.cwiseAbs().maxCoeff(), to.cwiseAbs().maxCoeff()));
+    const double length = (to.cast<double>() - from.cast<double>()).norm();
+    constexpr double kStored = 0x1p-22;  // four units in the last place
+    return length > 0 ? std::clamp(kStored * coordinate / length, kTightSnap, 0.25) : kTightSnap;
+  }
+
+  void split_edge(Index from, Index to, double snap, const std::vector<Crossing*>& along) {
     Index last = from;
     double last_fraction = 0;
     for (Crossing* crossing : along) {
-      if (crossing->fraction - last_fraction <= kTightSnap) {
+      if (crossing->fraction - last_fraction <= snap) {
         crossing->point = last;
-      } else if (crossing->fraction >= 1 - kTightSnap) {
+      } else if (crossing->fraction >= 1 - snap) {
         crossing->point = to;
       } else {
         const double fraction = (crossing->fraction - last_fraction) / (1 - last_fraction);
@@ -139,8 +151,10 @@ class Imprint {
         } else if (h = editor_.surface().find_half_edge(to, last); h != kNone) {
           point = editor_.split_edge(h, 1 - fraction);
         }
-        if (point == kNone) {  // the faces are too small for another point
-          crossing->point = fraction < 0.5 ? last : to;
+        if (point == kNone) {
+          // The faces are too small for another point: an end that is near will do. A far one is not on the line; that is blocked.
+          const double near = std::max(kSnap, 4 * snap);
+          if (fraction <= near || fraction >= 1 - near) crossing->point = fraction < 0.5 ? last : to;
           continue;
         }
         posed_.pin(point, crossing->position);

@@ -22,8 +22,8 @@ struct SheetImprint {
 /// face (SurfaceEditor::ancestor) lie on one side of each sheet.
 ///
 /// @param faces  live ones, each once.
-/// O((faces + new points) x sheets). Points go nowhere but onto the lines: a crossing nearer to an edge's end than 1e-9 of its
-/// length is that end.
+/// O((faces + new points) x sheets). Points go nowhere but onto the lines: a crossing that would be stored as an edge's end,
+/// or is nearer to it than 1e-9 of the edge's length, is that end.
 [[nodiscard]] SheetImprint imprint_sheets(std::span<const Sheet> sheets, std::span<const Index> faces, SurfaceEditor& editor,
                                           PosedPoints& posed);
 

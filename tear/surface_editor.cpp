@@ -159,7 +159,10 @@ bool SurfaceEditor::keeps_winding(Index corner, Index vertex) const {
   if (squared == 0.0)
     return mesh.positions[vertex] != mesh.positions[before[(corner + 1) % 3]] &&
            mesh.positions[vertex] != mesh.positions[before[(corner + 2) % 3]];
-  return normal(after).dot(normal_before) > 1e-9 * squared;
+  if (!(normal(after).dot(normal_before) > 1e-9 * squared)) return false;
+  // Normals of slivers are as crooked as stored positions are coarse: parts of parts must not end up facing away.
+  const Eigen::Vector3d of_origin = normal(origin_triangle(ref.mesh, ref.source_triangle));
+  return of_origin.isZero(0) || normal(after).dot(of_origin) > 0;
 }
 
 Index SurfaceEditor::split_edge(Index half_edge, double fraction) {
