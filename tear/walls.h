@@ -8,9 +8,9 @@
 
 namespace sunder::tear {
 
-/// Gives borders inner walls, so that one looks into tissue and not through the shell: a strip that hangs from each border half-edge to
-/// `depth` below it, the way the blade went. It has a submesh of its own ("wall"), texture coordinates (u along the rim, v down, both
-/// in depths), and the weights of the lips.
+/// Gives borders inner walls, so that one looks into tissue and not through the shell: a strip that hangs from each border
+/// half-edge to `depth` below it, the way the blade went. It has a submesh of its own ("wall"), texture coordinates (u along the
+/// rim, v down, both in depths), and the weights of the lips.
 /// @param half_edges  borders.
 /// @param stroke      the blades that opened them: at each point the direction of the blades near it.
 /// @return how many rims got walls.
