@@ -26,6 +26,7 @@ inline constexpr double kTightSnap = 1e-9;
 /// How far places move onto points and edges that are there.
 enum class Snapping : std::uint8_t {
   by_shape,  ///< kSnap and kSliver.
+  near,      ///< kSnap, where a path ends: its tip is where the blade was.
   tight,     ///< kTightSnap.
 };
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tear/leap.h"
+
 namespace sunder::tear {
 
 Index split_posed_edge(Index half_edge, double fraction, SurfaceEditor& editor, PosedPoints& posed) {
@@ -16,6 +18,7 @@ Index split_posed_edge(Index half_edge, double fraction, SurfaceEditor& editor, 
 
 double snapped_part(Index half_edge, Snapping snapping, const SurfaceEditor& editor, PosedPoints& posed) {
   if (snapping == Snapping::tight) return kTightSnap;
+  if (snapping == Snapping::near) return kSnap;
   if (editor.is_source_vertex(half_edge) && editor.is_source_vertex(Surface::next(half_edge))) return kSnap;
   const Surface& surface = editor.surface();
   double length_squared = 0, longest_squared = 0;
@@ -102,7 +105,7 @@ Index stop_within(const Step& step, double fraction, SurfaceEditor& editor, Pose
   hit.barycentric[Surface::previous(step.corner) % 3] = fraction * step.fraction;
   const Vec3d here = posed.position(editor, editor.surface().corner_point[step.corner]);
   hit.position = here + fraction * (step.position - here);
-  return imprint_point(hit, Snapping::by_shape, editor, posed);
+  return imprint_point(hit, Snapping::near, editor, posed);
 }
 
 }  // namespace
@@ -131,7 +134,8 @@ Index imprint_point(const SurfaceHit& hit, Snapping snapping, SurfaceEditor& edi
   // On the edge opposite of the smallest coordinate, or as near to it as the face allows.
   const Index edge = Surface::next(first + smallest);
   const double along = weight[Surface::next(edge) % 3] / (weight[edge % 3] + weight[Surface::next(edge) % 3]);
-  if (along > least && along < 1 - least)
+  const double snap = snapped_part(edge, snapping, editor, posed);
+  if (along > snap && along < 1 - snap)
     if (const Index point = split_posed_edge(edge, along, editor, posed); point != kNone) return point;
   return editor.surface().corner_point[along < 0.5 ? edge : Surface::next(edge)];
 }
@@ -160,6 +164,17 @@ Path imprint_path(const BladePlane& plane, Index start, SurfaceEditor& editor, P
       return path;
     }
     if (!along_edge) ++path.faces_crossed;
+    if (!along_edge && reach.fraction == 1 && !reach.ends_at_blade) {
+      const Leap leap = find_leap(plane, step, editor, posed);
+      if (const Index landing = take_leap(plane, here, leap, editor, posed); landing != kNone) {
+        path.faces_crossed += leap.edges;
+        path.progress = std::max(path.progress, leap.progress);
+        go_to(landing, from);
+        if (!leap.end) continue;
+        path.end = *leap.end;
+        return path;
+      }
+    }
     if (reach.fraction < 1 - kSnap) {
       const SurfaceEditor::Mark before = editor.mark();
       const Index stop = stop_within(step, reach.fraction, editor, posed);
