@@ -121,7 +121,7 @@ void StrokeTearing::tear_segment(const BladePlane& plane, const Workpiece& work)
     if (!contact) break;
     const SurfaceEditor::Mark before = work.editor.mark();
     const std::size_t edges = torn_edges_;
-    const double reached = tear_piece(plane, imprint_point(*contact, kSnap, work.editor, work.posed), before, work);
+    const double reached = tear_piece(plane, imprint_point(*contact, Snapping::by_shape, work.editor, work.posed), before, work);
     const bool has_advanced = torn_edges_ > edges && reached > progress + kSamePlace;
     progress = std::max(progress, reached);
     if (has_advanced) continue;
