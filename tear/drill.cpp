@@ -1,8 +1,6 @@
 #include "tear/drill.h"
 
-#include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "tear/gap.h"
 #include "tear/improve.h"
@@ -11,30 +9,39 @@
 namespace sunder::tear {
 namespace {
 
-constexpr int kMostSides = 1024;
+constexpr std::size_t kMostSides = 1536;
 
-/// Sides of a polygon in a circle whose middles are at most `tolerance` inside it.
-int side_count(double radius, double tolerance) {
-  const double sagitta = std::clamp(tolerance / radius, 1e-9, 0.5);
-  return std::clamp(static_cast<int>(std::ceil(std::numbers::pi / std::acos(1 - sagitta))), 6, kMostSides);
+/// Unit vectors to the corners of a regular polygon whose sides come within `tolerance` (of the radius) of the circle: a hexagon,
+/// its arcs halved until they do. Roots and sums alone, so that it is the same bits with every mathematical library.
+std::vector<Vec3d> circle_corners(const Vec3d& x, const Vec3d& y, double tolerance) {
+  const double half_root = 0.5 * std::sqrt(3.0);
+  std::vector<Vec3d> corners = {x, 0.5 * x + half_root * y, -0.5 * x + half_root * y};
+  for (std::size_t i = 0; i < 3; ++i) corners.push_back(-corners[i]);
+  while (1 - (0.5 * (corners[0] + corners[1])).norm() > tolerance && 2 * corners.size() <= kMostSides) {
+    std::vector<Vec3d> finer;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const Vec3d between = corners[i] + corners[(i + 1) % corners.size()];
+      finer.push_back(corners[i]);
+      finer.push_back(between / between.norm());
+    }
+    corners = std::move(finer);
+  }
+  return corners;
 }
 
 /// The prism, then its two ends.
 Cell cell_of(const Bore& bore) {
   const Vec3d axis = bore.direction / bore.direction.norm();
   const Vec3d away = std::abs(axis.x()) < 0.5 ? Vec3d(Vec3d::UnitX()) : Vec3d(Vec3d::UnitY());
-  const Vec3d x = axis.cross(away).normalized(), y = axis.cross(x);
-  const int count = side_count(bore.radius, bore.chord_tolerance > 0 ? bore.chord_tolerance : 0.01 * bore.radius);
-  const auto corner = [&](int i) -> Vec3d {
-    const double angle = 2 * std::numbers::pi * i / count;
-    return bore.origin + bore.radius * (std::cos(angle) * x + std::sin(angle) * y);
-  };
+  const Vec3d across = axis.cross(away);
+  const Vec3d x = across / across.norm(), y = axis.cross(x);
+  const auto corners = circle_corners(x, y, bore.chord_tolerance > 0 ? bore.chord_tolerance / bore.radius : 0.01);
   Cell cell;
-  for (int i = 0; i < count; ++i) {
-    const Vec3d a = corner(i), b = corner(i + 1);
-    Vec3d inward = bore.origin - 0.5 * (a + b);
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Vec3d &a = corners[i], &b = corners[(i + 1) % corners.size()];
+    Vec3d inward = -(a + b);
     inward /= inward.norm();
-    cell.push_back({inward, inward.dot(a)});
+    cell.push_back({inward, inward.dot(bore.origin + bore.radius * a)});
   }
   cell.push_back({axis, axis.dot(bore.origin)});
   cell.push_back({-axis, -(axis.dot(bore.origin) + bore.depth)});

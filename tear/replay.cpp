@@ -6,22 +6,34 @@ namespace sunder {
 namespace {
 
 class Replay {
+  /// Runs one call of the model and keeps its record.
+  template <class Call>
+  auto step(Call call) const {
+    ChangeRecord change;
+    auto outcome = call(changes_ != nullptr ? &change : nullptr);
+    if (outcome && changes_ != nullptr) changes_->push_back(std::move(change));
+    return outcome;
+  }
+
  public:
-  Replay(TornModel& model, ChangeRecord* change) : model_(model), change_(change) {}
+  Replay(TornModel& model, std::vector<ChangeRecord>* changes) : model_(model), changes_(changes) {}
 
   Result<TearReport> operator()(const TearOperation& operation) const {
     const Result<ModelPose> pose = make_pose(model_.character(), operation.pose);
     if (!pose) return pose.error();
-    if (operation.pose_changes.empty()) return model_.tear(*pose, operation.stroke, operation.options, change_);
+    if (operation.pose_changes.empty())
+      return step([&](ChangeRecord* change) { return model_.tear(*pose, operation.stroke, operation.options, change); });
     return tear_while_moving(*pose, operation);
   }
   Result<TearReport> operator()(const CutOperation& operation) const {
     const Result<ModelPose> pose = make_pose(model_.character(), operation.pose);
-    return pose ? model_.cut(*pose, operation.cut, change_) : pose.error();
+    if (!pose) return pose.error();
+    return step([&](ChangeRecord* change) { return model_.cut(*pose, operation.cut, change); });
   }
   Result<TearReport> operator()(const DrillOperation& operation) const {
     const Result<ModelPose> pose = make_pose(model_.character(), operation.pose);
-    return pose ? model_.drill(*pose, operation.bore, change_) : pose.error();
+    if (!pose) return pose.error();
+    return step([&](ChangeRecord* change) { return model_.drill(*pose, operation.bore, change); });
   }
   Result<TearReport> operator()(const UndoOperation& operation) const {
     return repeat(operation.count, model_.undo_count(), "undone", &TornModel::undo);
@@ -32,11 +44,11 @@ class Replay {
 
  private:
   Result<TearReport> repeat(std::uint32_t count, std::uint32_t available, const char* what,
-                            Status (TornModel::*step)(ChangeRecord*)) const {
+                            Status (TornModel::*once)(ChangeRecord*)) const {
     if (count > available)
       return Status::failure(StatusCode::not_found, kNone, "%u operations are to be %s, there are %u", count, what, available);
     for (std::uint32_t i = 0; i < count; ++i)
-      if (Status status = (model_.*step)(change_); !status) return status;
+      if (Status status = step([&](ChangeRecord* change) { return (model_.*once)(change); }); !status) return status;
     return TearReport{};
   }
 
@@ -55,6 +67,7 @@ class Replay {
     if (operation.stroke.size() < 2)
       return Status::failure(StatusCode::invalid_argument, kNone, "a stroke needs at least two blades");
     const std::uint32_t done_before = model_.undo_count();
+    const std::size_t changes_before = changes_ != nullptr ? changes_->size() : 0;
     auto stroke = TearStroke::begin(model_, first_pose, operation.stroke.front(), operation.options);
     if (!stroke) return stroke.error();
     std::size_t next_change = 0;
@@ -62,23 +75,24 @@ class Replay {
     Status failure;
     for (std::uint32_t blade = 1; blade < operation.stroke.size() && failure; ++blade) {
       if (next_change < poses.size() && operation.pose_changes[next_change].blade == blade) pose = &poses[next_change++];
-      failure = stroke->extend(*pose, operation.stroke[blade]).error();
+      failure = step([&](ChangeRecord* change) { return stroke->extend(*pose, operation.stroke[blade], 0.0, change); }).error();
     }
-    auto report = stroke->end(change_);
+    auto report = step([&](ChangeRecord* change) { return stroke->end(change); });
     if (failure && report) return report;
     // Half a stroke is no stroke.
     if (model_.undo_count() > done_before) (void)model_.undo();
+    if (changes_ != nullptr) changes_->resize(changes_before);
     return failure ? report.error() : failure;
   }
 
   TornModel& model_;
-  ChangeRecord* change_;
+  std::vector<ChangeRecord>* changes_;
 };
 
 }  // namespace
 
-Result<TearReport> apply_operation(TornModel& model, const Operation& operation, ChangeRecord* change) {
-  return std::visit(Replay(model, change), operation);
+Result<TearReport> apply_operation(TornModel& model, const Operation& operation, std::vector<ChangeRecord>* changes) {
+  return std::visit(Replay(model, changes), operation);
 }
 
 }  // namespace sunder

@@ -4,6 +4,17 @@
 #include <cassert>
 
 namespace sunder::tear {
+namespace {
+
+/// Smaller parts of a source triangle are not made: rounding of barycentric coordinates could turn them over.
+constexpr double kLeastPart = 1e-14;
+
+/// The part of a triangle that lies between three places in it, by their barycentric coordinates.
+double covered_part(const std::array<double, 3>& p, const std::array<double, 3>& q, const std::array<double, 3>& r) {
+  return (q[1] - p[1]) * (r[2] - p[2]) - (q[2] - p[2]) * (r[1] - p[1]);
+}
+
+}  // namespace
 
 SurfaceEditor::SurfaceEditor(const Character& source, Character& character)
     : source_(source),
@@ -76,15 +87,10 @@ Index SurfaceEditor::append_triangle(Index like, const std::array<Index, 3>& poi
   return triangle;
 }
 
-Index SurfaceEditor::append_point(Index side) {
+Index SurfaceEditor::append_point() {
   surface_.point_corner.push_back(kNone);
-  surface_.point_side.push_back(side);
+  surface_.point_side.push_back(next_side_++);
   return surface_.point_count() - 1;
-}
-
-Index SurfaceEditor::side_between(std::initializer_list<Index> points) {
-  const bool is_near_tear = std::any_of(points.begin(), points.end(), [&](Index point) { return surface_.point_side[point] != 0; });
-  return is_near_tear ? next_side_++ : 0;
 }
 
 Index SurfaceEditor::append_vertex(Index mesh, const Birth& birth) {
@@ -97,10 +103,8 @@ void SurfaceEditor::remove_newest_vertex(Index mesh) {
   remove_vertices_from(character_.meshes[mesh].vertex_count() - 1, character_.meshes[mesh]);
 }
 
-std::array<double, 3> SurfaceEditor::source_barycentric(Index corner) const {
-  const TriangleRef& ref = surface_.triangles[corner / 3];
+std::array<double, 3> SurfaceEditor::place_in_origin(const TriangleRef& ref, Index vertex) const {
   const Triangle& in_triangle = origin_triangle(ref.mesh, ref.source_triangle);
-  const Index vertex = vertex_at(corner);
 
   std::array<double, 3> result = {0, 0, 0};
   const auto add = [&](Index source_vertex, double part) {
@@ -147,6 +151,8 @@ bool SurfaceEditor::keeps_winding(Index corner, Index vertex) const {
   const Triangle before = mesh.triangles[ref.triangle];
   Triangle after = before;
   after[corner % 3] = vertex;
+  const double part = covered_part(place_in_origin(ref, after[0]), place_in_origin(ref, after[1]), place_in_origin(ref, after[2]));
+  if (!(part > kLeastPart)) return false;
   const Eigen::Vector3d normal_before = normal(before);
   const double squared = normal_before.squaredNorm();
   // A face without area has no winding to lose; its parts must only keep their corners apart.
@@ -201,7 +207,7 @@ Index SurfaceEditor::split_edge(Index half_edge, double fraction) {
 
   const auto& points = surface_.corner_point;
   const Index a = points[ab], b = points[bc], c = points[ca];
-  const Index p = append_point(side_between({a, b}));
+  const Index p = append_point();
   const Index twin_bc = surface_.twin[bc];
   log_triangle(f);
   if (twin_bc != kNone) log_triangle(twin_bc / 3);
@@ -251,7 +257,7 @@ Index SurfaceEditor::split_triangle(Index triangle, const std::array<double, 3>&
   log_triangle(triangle);
   if (twin_bc != kNone) log_triangle(twin_bc / 3);
   if (twin_ca != kNone) log_triangle(twin_ca / 3);
-  const Index p = append_point(side_between({a, b, c}));
+  const Index p = append_point();
   const Index at_bc = 3 * append_triangle(triangle, {b, c, p}, {before[1], before[2], vertex});
   const Index at_ca = 3 * append_triangle(triangle, {c, a, p}, {before[2], before[0], vertex});
   set_corner(corner + 2, p, vertex);
@@ -312,7 +318,7 @@ Index SurfaceEditor::separate_fan(Index corner, const std::vector<Index>& remain
   std::vector<Index> corners;
   surface_.for_each_in_fan(corner, [&](Index c) { corners.push_back(c); });
   for (const Index c : corners) log_triangle(c / 3);
-  const Index point = append_point(next_side_++);
+  const Index point = append_point();
   for (const Index c : corners) {
     const Index mesh = surface_.triangles[c / 3].mesh;
     const Index vertex = vertex_at(c);
@@ -359,12 +365,10 @@ bool SurfaceEditor::flip_edge(Index half_edge) {
   // Both new faces must cover a part of the source triangle, and of the bind surface as its rounded positions have it.
   const auto place_a = source_barycentric(ab), place_b = source_barycentric(bc), place_c = source_barycentric(ca),
              place_d = source_barycentric(db);
-  using Place = std::array<double, 3>;
-  const auto cover = [](const Place& p, const Place& q, const Place& r) {
-    return (q[1] - p[1]) * (r[2] - p[2]) - (q[2] - p[2]) * (r[1] - p[1]);
-  };
-  const double whole = cover(place_a, place_b, place_c) + cover(place_b, place_a, place_d);
-  if (!(cover(place_a, place_d, place_c) > 1e-9 * whole) || !(cover(place_b, place_c, place_d) > 1e-9 * whole)) return false;
+  const double whole = covered_part(place_a, place_b, place_c) + covered_part(place_b, place_a, place_d);
+  const double least_part = std::max(kLeastPart, 1e-9 * whole);
+  if (!(covered_part(place_a, place_d, place_c) > least_part) || !(covered_part(place_b, place_c, place_d) > least_part))
+    return false;
   const Mesh& mesh = character_.meshes[ref_f.mesh];
   const Index vertex_a = vertex_at(ab), vertex_b = vertex_at(bc), vertex_c = vertex_at(ca), vertex_d = vertex_at(db);
   const auto normal = [&](Index p, Index q, Index r) -> Eigen::Vector3d {

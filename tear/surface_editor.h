@@ -44,7 +44,9 @@ class SurfaceEditor {
     return triangle < source_count ? first_triangle_[mesh] + triangle : appended_triangles_[mesh][triangle - source_count];
   }
   /// Barycentric coordinates of a corner in the triangle's origin.
-  [[nodiscard]] std::array<double, 3> source_barycentric(Index corner) const;
+  [[nodiscard]] std::array<double, 3> source_barycentric(Index corner) const {
+    return place_in_origin(surface_.triangles[corner / 3], vertex_at(corner));
+  }
 
   // ---- Refining: the surface stays what it is.
 
@@ -89,7 +91,7 @@ class SurfaceEditor {
   /// A vertex like another one, to be changed by `edit_vertex()` before anyone sees it. It is born when a filling uses it.
   [[nodiscard]] Index append_filling_vertex(Index mesh, Index like);
   [[nodiscard]] Mesh& mesh_of_new_vertex(Index mesh) { return character_.meshes[mesh]; }
-  [[nodiscard]] Index append_filling_point() { return append_point(next_side_++); }
+  [[nodiscard]] Index append_filling_point() { return append_point(); }
   /// A triangle that no triangle of the source covers. Unconnected; see connect().
   Index append_filling(Index mesh, Index submesh, const std::array<Index, 3>& points, const Triangle& vertices);
   /// Joins two border half-edges that run between the same points in opposite directions.
@@ -156,12 +158,11 @@ class SurfaceEditor {
   void join(Index a, Index b);
   void move_opened(Index from, Index to);
   Index append_triangle(Index like, const std::array<Index, 3>& points, const Triangle& vertices);
-  Index append_point(Index side);
-  /// Side of a point that is made between others: its own where tears are near, so that it differs from one made in the same place
-  /// between others.
-  Index side_between(std::initializer_list<Index> points);
+  Index append_point();
   Index append_vertex(Index mesh, const Birth& birth);
   void remove_newest_vertex(Index mesh);
+  /// Where a vertex lies in the origin of a triangle.
+  [[nodiscard]] std::array<double, 3> place_in_origin(const TriangleRef& ref, Index vertex) const;
   void write_side(Index mesh, Index vertex, Index side);
   /// @param sides  what was written to _TEARSIDE.
   static void fill_dirty_ranges(std::span<const SideEntry> sides, MeshChange& change);
@@ -181,8 +182,8 @@ class SurfaceEditor {
       appended_triangles_;  ///< Of each mesh: the surface's numbers of its triangles beyond the source's.
   std::vector<LogEntry> log_;
   std::vector<SideEntry> side_log_;
-  /// First value of _TEARSIDE that no point has. Points that separate get one each: however tears cross, points in one place
-  /// differ.
+  /// First value of _TEARSIDE that no point has. Each point that is made gets one: however tears cross, and wherever positions
+  /// round to, no two points in one place are taken for one.
   Index next_side_ = 1;
   std::unordered_set<Index> opened_;  // asked and sorted, never walked through as it is
   Index stage_begin_ = 0;

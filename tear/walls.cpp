@@ -38,6 +38,12 @@ class Walls {
   [[nodiscard]] Vec3d position(Index point) const { return work_.posed.position(work_.editor, point); }
   [[nodiscard]] Index mesh_of(Index half_edge) const { return surface().triangles[half_edge / 3].mesh; }
 
+  /// Rims of different skins cannot share vertices; points of one rim have one skin.
+  [[nodiscard]] bool have_one_skin(const Rim& a, const Rim& b) const {
+    const auto& meshes = work_.editor.character().meshes;
+    return meshes[mesh_of(a.half_edges.front())].skin == meshes[mesh_of(b.half_edges.front())].skin;
+  }
+
   [[nodiscard]] Corner add_top(Index mesh, Index corner) {
     return {surface().corner_point[corner], filling_.add_rim_vertex(mesh, corner)};
   }
@@ -187,13 +193,17 @@ void join_rings(const Ring& upper, const Ring& lower, const Axis& axis, double u
     });
     std::rotate(corners.begin(), nearest, corners.end());
     std::vector<Place> places;
+    double along = 0;
+    Vec3d before = Vec3d::Zero();
     for (std::size_t i = 0; i <= corners.size(); ++i) {
       const Index corner = corners[i % corners.size()];
       const Vec3d at = walls.position(walls.surface().corner_point[corner]);
       const double angle = i == 0 ? first_angle + turn(first_angle, angle_of(corner))
                                   : places.back().angle + turn(places.back().angle, angle_of(corner));
       const Corner made = walls.add_top(mesh, corner);
-      walls.shade(mesh, made, axis.inward(at), axis.z.cross(axis.inward(at)), {angle, axis.height(at) / unit});
+      if (i > 0) along += (at - before).norm();
+      before = at;
+      walls.shade(mesh, made, axis.inward(at), axis.z.cross(axis.inward(at)), {along / unit, axis.height(at) / unit});
       places.push_back({made, angle});
     }
     return places;
@@ -282,7 +292,7 @@ Index add_bore_wall(const std::vector<Index>& half_edges, const Vec3d& origin, c
     bool is_built = false;
     if (!ring.looks_to_drill) {
       // The drill began inside: there is nothing to line.
-    } else if (i + 1 < rings.size() && !rings[i + 1].looks_to_drill) {
+    } else if (i + 1 < rings.size() && !rings[i + 1].looks_to_drill && walls.have_one_skin(ring.rim, rings[i + 1].rim)) {
       const Ring& lower = rings[++i];
       std::vector<Index> both = ring.rim.half_edges;
       both.insert(both.end(), lower.rim.half_edges.begin(), lower.rim.half_edges.end());

@@ -5,7 +5,6 @@
 #include <sunder/tear/torn_model.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
@@ -20,6 +19,7 @@
 #include "tools/progress_bar.h"
 #include "tools/pull_open.h"
 #include "tools/report.h"
+#include "tools/rims.h"
 #include "tools/verbs.h"
 
 namespace sunder::tools {
@@ -34,6 +34,7 @@ struct Shot {
 };
 constexpr Shot kShots[] = {
     {"before", 0.40, false, 0.0}, {"torn", 0.40, true, 0.006}, {"later_1", 0.65, true, 0.014}, {"later_2", 0.95, true, 0.020}};
+constexpr int kPixels = 900;
 constexpr double kTearFraction = 0.40;
 constexpr double kReach = 0.075;      ///< How far along the surface the pull is felt; of the diagonal.
 constexpr double kThickness = 0.006;  ///< Of the flesh; of the diagonal.
@@ -72,21 +73,17 @@ Result<std::vector<DeformedMesh>> posed_at(const Character& character, double fr
   return pose_model(character, *pose);
 }
 
-/// The lips' middle and the surface's direction there.
+/// The rims' middle and the surface's direction there.
 struct Wound {
   Vec3d middle, outwards;
 };
 
-Wound wound_of(const std::vector<PullOpen::Lip>& lips, const std::vector<DeformedMesh>& posed) {
+Wound wound_of(const std::vector<RimEdge>& rims, const std::vector<DeformedMesh>& posed) {
   Wound wound{Vec3d::Zero(), Vec3d::Zero()};
-  double count = 0;
-  for (const PullOpen::Lip& lip : lips)
-    for (const PullOpen::LipVertex& at : lip) {
-      wound.middle += posed[at.mesh].positions[at.vertex].cast<double>();
-      wound.outwards += posed[at.mesh].normals[at.vertex].cast<double>();
-      ++count;
-    }
-  wound.middle /= count;
+  for (const RimEdge& edge : rims) {
+    wound.middle += posed[edge.mesh].positions[edge.a].cast<double>() / static_cast<double>(rims.size());
+    wound.outwards += posed[edge.mesh].normals[edge.a].cast<double>();
+  }
   wound.outwards.normalize();
   return wound;
 }
@@ -154,13 +151,10 @@ Result<Demo> tear_mid_clip(std::shared_ptr<const Character> character) {
 
   Result<TornModel> model = TornModel::create(character);
   if (!model) return model.error();
-  ChangeRecord change;
-  const auto begin = std::chrono::steady_clock::now();
-  const Result<TearReport> tear = model->tear(*pose, stroke, {}, &change);
-  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
-  if (!tear) return tear.error();
-  const OperationOutcome outcome{*tear, elapsed.count(), count_topology(*character), count_topology(model->character())};
-  return Demo{std::move(*model), outcome, std::move(change), std::move(stroke), frame, bounds};
+  std::vector<ChangeRecord> changes;  // one: a tear in one pose is one step
+  const Result<OperationOutcome> outcome = play(TearOperation{*pose, stroke, {}, {}}, count_topology(*character), *model, &changes);
+  if (!outcome) return outcome.error();
+  return Demo{std::move(*model), *outcome, std::move(changes.front()), std::move(stroke), frame, bounds};
 }
 
 Status take_pictures(const Demo& demo, const std::filesystem::path& folder, ProgressBar& progress) {
@@ -168,27 +162,29 @@ Status take_pictures(const Demo& demo, const std::filesystem::path& folder, Prog
   const double diagonal = demo.bounds.size().norm();
   const Result<std::vector<DeformedMesh>> at_tear = posed_at(torn, kTearFraction);
   if (!at_tear) return at_tear.error();
-  const PullOpen pull(demo.model, demo.change, *at_tear, kReach * diagonal);
-  const Wound fresh = wound_of(pull.lips(), *at_tear);
+  const PullOpen pull(demo.model, chain_lips(demo.model, demo.change, *at_tear), *at_tear, kReach * diagonal);
+  const std::vector<RimEdge> rims = find_rims(demo.model);
+  const Wound fresh = wound_of(rims, *at_tear);
   for (std::size_t i = 0; i < std::size(kShots); ++i) {
     const Shot& shot = kShots[i];
     progress.begin_step(2 + i, std::string("drawing ") + shot.name);
     Result<std::vector<DeformedMesh>> closed = posed_at(torn, shot.clip_fraction);
     if (!closed) return closed.error();
-    const Wound wound = wound_of(pull.lips(), *closed);
+    const Wound wound = wound_of(rims, *closed);
     const ViewFrame frame = follow(demo.frame, fresh, wound);
     const Camera camera = aim(frame, wound, bounds_of(torn, *closed));
+    const Result<std::vector<DeformedMesh>> untorn = posed_at(demo.model.source(), shot.clip_fraction);
+    if (!untorn) return untorn.error();
     Character still;
     if (shot.is_torn) {
       std::vector<DeformedMesh> open = *closed;
       pull.apply(shot.opening * diagonal, open);
-      still = make_torn_still(torn, open, *closed, pull.lips(), frame, kThickness * diagonal);
+      still = make_torn_still(demo.model, open, *closed, *untorn, rims, frame, kThickness * diagonal);
     } else {
-      const Result<std::vector<DeformedMesh>> untorn = posed_at(demo.model.source(), shot.clip_fraction);
-      if (!untorn) return untorn.error();
       still = make_still(demo.model.source(), *untorn);
     }
-    if (const Status status = draw(still, camera, folder / (std::string(shot.name) + ".png")); !status) return status;
+    if (const Status status = draw(still, camera, kPixels, kPixels, folder / (std::string(shot.name) + ".png")); !status)
+      return status;
   }
   return {};
 }
@@ -224,13 +220,13 @@ ExitCode run_demo(const DemoRequest& request) {
                        {"model", place},
                        {"output", output.string()},
                        {"loading", to_json(model->loaded.report)},
-                       {"operations", Json::array({to_json(demo->outcome)})},
-                       {"result", result_json(demo->model.character(), demo->outcome.before, demo->outcome.after)}};
+                       {"operations", Json::array({to_json(demo->outcome, demo->model.character())})},
+                       {"result", result_json(demo->model, demo->outcome.before, demo->outcome.after)}};
   if (const Status status = write_text(request.folder / "report.json", dump(report)); !status)
     return complain((request.folder / "report.json").string(), status, ExitCode::unreadable_input);
   if (const Status status = write_text(request.folder / "ops.json", dump(operations_json(character, demo->stroke))); !status)
     return complain((request.folder / "ops.json").string(), status, ExitCode::unreadable_input);
-  if (demo->outcome.has_missed()) {
+  if (demo->outcome.has_missed) {
     std::fprintf(stderr, "sunder: %s: the stroke missed\n", place.c_str());
     return ExitCode::findings;
   }

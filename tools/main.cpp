@@ -28,15 +28,18 @@ CLI::App* add_info(CLI::App& app, InfoRequest& request) {
 }
 
 CLI::App* add_tear(CLI::App& app, TearRequest& request) {
-  CLI::App* const verb = app.add_subcommand("tear", "Tear a model by a list of operations, and save it as GLB");
+  CLI::App* const verb = app.add_subcommand("tear", "Tear, cut and drill a model by a list of operations, and save it as GLB");
   verb->add_option("MODEL", request.model, "The model")->required();
   verb->add_option("--ops", request.operations, "Operations, JSON; see docs/operation_log.md")->required();
   verb->add_option("-o,--output", request.output, "The torn model, GLB")->required();
   verb->add_option("--influences", request.maximum_influences, "Most influences written a vertex; without it: all")
       ->check(CLI::IsMember({4, 8}));
   verb->add_option("--report", request.report, "Where the JSON report goes instead of stdout");
+  verb->add_option("--picture", request.picture,
+                   "A PNG of the torn model: lips pulled open, pieces of a cut apart; needs f3d, Xvfb");
+  verb->add_option("--save-log", request.log, "Where to write what was done and not undone, with the poses in full");
   verb->footer(
-      "All operations succeed, or nothing is written. Exit code 1 where a stroke missed.\n\n"
+      "All operations succeed, or nothing is written. Exit code 1 where an operation missed or was blocked.\n\n"
       "Example: sunder tear fox.glb --ops ops.json -o torn.glb --influences 4");
   return verb;
 }

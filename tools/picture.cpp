@@ -3,7 +3,9 @@
 #include <sunder/io/save_glb.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
+#include <map>
 #include <set>
 #include <string>
 #include <system_error>
@@ -111,28 +113,32 @@ Mesh make_inside(const Mesh& source, const DeformedMesh& posed, const DeformedMe
   return mesh;
 }
 
-/// Strips from the lips down to the inside: the cut through the flesh. The right lip of a pair follows the left one in the list.
-Mesh make_rims(const Character& character, const std::vector<DeformedMesh>& posed, const std::vector<PullOpen::Lip>& lips,
+/// Strips from the rims down to the inside: the cut through the flesh.
+Mesh make_rims(const Character& character, const std::vector<DeformedMesh>& posed, const std::vector<RimEdge>& rims,
                double thickness) {
   Mesh mesh = make_mesh("Rim");
   std::vector<float> depth;
   for (std::size_t i = 0; i < posed.size(); ++i)
     depth.push_back(static_cast<float>(thickness) * outward_sign(character.meshes[i], posed[i]));
-  for (std::size_t i = 0; i < lips.size(); ++i) {
-    const PullOpen::Lip& lip = lips[i];
-    const PullOpen::Lip& other = lips[i ^ 1u];
-    for (std::size_t k = 0; k < lip.size(); ++k) {
-      const DeformedMesh& surface = posed[lip[k].mesh];
-      const Vec3f position = surface.positions[lip[k].vertex], normal = surface.normals[lip[k].vertex];
-      const Vec3f across = posed[other[k].mesh].positions[other[k].vertex] - position;
-      const Vec3f facing = across.norm() > 0.0f ? Vec3f(across.normalized()) : normal;
-      append_vertex(mesh, position, facing);
-      append_vertex(mesh, position - depth[lip[k].mesh] * normal, facing);
-      const Index last = mesh.vertex_count();
-      if (k == 0) continue;
-      append_triangle(mesh, {last - 4, last - 3, last - 2});
-      append_triangle(mesh, {last - 3, last - 1, last - 2});
+  // Away from the face; at a vertex the mean of its two edges.
+  std::map<std::array<Index, 2>, Vec3f> facing;
+  for (const RimEdge& edge : rims) {
+    const DeformedMesh& surface = posed[edge.mesh];
+    const Vec3f along = surface.positions[edge.b] - surface.positions[edge.a];
+    for (const Index vertex : {edge.a, edge.b})
+      facing.try_emplace({edge.mesh, vertex}, Vec3f::Zero()).first->second += along.cross(surface.normals[vertex]);
+  }
+  for (const RimEdge& edge : rims) {
+    const DeformedMesh& surface = posed[edge.mesh];
+    for (const Index vertex : {edge.a, edge.b}) {
+      const Vec3f away = facing[{edge.mesh, vertex}];
+      const Vec3f normal = away.norm() > 0.0f ? Vec3f(away.normalized()) : surface.normals[vertex];
+      append_vertex(mesh, surface.positions[vertex], normal);
+      append_vertex(mesh, surface.positions[vertex] - depth[edge.mesh] * surface.normals[vertex], normal);
     }
+    const Index last = mesh.vertex_count();
+    append_triangle(mesh, {last - 4, last - 3, last - 2});
+    append_triangle(mesh, {last - 3, last - 1, last - 2});
   }
   mesh.color_sets.assign(1, std::vector<Vec4f>(mesh.positions.size(), kRim));
   return mesh;
@@ -158,25 +164,35 @@ Character make_still(const Character& character, const std::vector<DeformedMesh>
   return still;
 }
 
-Character make_torn_still(const Character& character, const std::vector<DeformedMesh>& posed,
-                          const std::vector<DeformedMesh>& closed, const std::vector<PullOpen::Lip>& lips, const ViewFrame& frame,
+Character make_torn_still(const TornModel& torn, const std::vector<DeformedMesh>& posed, const std::vector<DeformedMesh>& closed,
+                          const std::vector<DeformedMesh>& untorn, const std::vector<RimEdge>& rims, const ViewFrame& frame,
                           double thickness) {
   constexpr int kImageSize = 700;
+  const Character& character = torn.character();
   Character still = make_still(character, posed);
-  const DepthImage image(character, closed, frame, kImageSize);
+  auto outside = still.meshes.begin();
+  for (Index i = 0; i < character.meshes.size(); ++i)
+    for (Index submesh = 0; submesh < character.meshes[i].submeshes.size(); ++submesh, ++outside)
+      if (submesh >= torn.source().meshes[i].submeshes.size())
+        outside->color_sets.assign(1, std::vector<Vec4f>(outside->positions.size(), kRim));
+  const DepthImage image(torn.source(), untorn, frame, kImageSize);
   std::set<Index> torn_meshes;
-  for (const PullOpen::Lip& lip : lips)
-    for (const PullOpen::LipVertex& vertex : lip) torn_meshes.insert(vertex.mesh);
+  for (const RimEdge& edge : rims) torn_meshes.insert(edge.mesh);
   for (const Index mesh : torn_meshes)
     still.meshes.push_back(make_inside(character.meshes[mesh], posed[mesh], closed[mesh], image, frame, thickness));
-  still.meshes.push_back(make_rims(character, posed, lips, thickness));
+  still.meshes.push_back(make_rims(character, posed, rims, thickness));
   for (Mesh& mesh : still.meshes) wind_by_normals(mesh);
   return still;
 }
 
+void paint(Character& still, const Vec4f& color) {
+  for (Mesh& mesh : still.meshes)
+    if (mesh.color_sets.empty()) mesh.color_sets.assign(1, std::vector<Vec4f>(mesh.positions.size(), color));
+}
+
 bool can_draw() { return is_program_there("f3d") && is_program_there("xvfb-run"); }
 
-Status draw(const Character& still, const Camera& camera, const std::filesystem::path& png) {
+Status draw(const Character& still, const Camera& camera, int width, int height, const std::filesystem::path& png) {
   std::filesystem::path scene = png;
   scene.replace_extension(".scene.glb");
   if (const Status status = save_glb(scene, still); !status) return status;
@@ -187,7 +203,7 @@ Status draw(const Character& still, const Camera& camera, const std::filesystem:
                                               "--output=" + png.string(),
                                               "--dry-run",
                                               "--quiet",
-                                              "--resolution=900,900",
+                                              "--resolution=" + std::to_string(width) + "," + std::to_string(height),
                                               "--bg-color=0.93,0.94,0.95",
                                               "--fxaa",
                                               "--camera-position=" + numbers(camera.eye),

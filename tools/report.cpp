@@ -1,8 +1,14 @@
 #include "tools/report.h"
 
+#include <sunder/tear/replay.h>
+
+#include <chrono>
+#include <cinttypes>
+#include <cstdio>
 #include <fstream>
 #include <system_error>
 #include <utility>
+#include <variant>
 
 #include "tools/model_check.h"
 
@@ -16,6 +22,43 @@ const char* kind_name(LoadNote::Kind kind) {
     case LoadNote::Kind::dropped: return "dropped";
   }
   return "information";
+}
+
+/// How the report names an operation.
+struct Names {
+  const char* op;
+  const char* done;
+  bool can_miss;
+};
+
+Names names_of(const Operation& operation) {
+  struct Visitor {
+    Names operator()(const TearOperation&) const { return {"tear", "torn", true}; }
+    Names operator()(const CutOperation&) const { return {"cut", "cut", true}; }
+    Names operator()(const DrillOperation&) const { return {"drill", "drilled", true}; }
+    Names operator()(const UndoOperation&) const { return {"undo", "undone", false}; }
+    Names operator()(const RedoOperation&) const { return {"redo", "redone", false}; }
+  };
+  return std::visit(Visitor(), operation);
+}
+
+Json piece_json(const Piece& piece, const Character& character) {
+  Json meshes = Json::array(), bones = Json::array();
+  for (const Piece::Triangles& part : piece.meshes)
+    meshes.push_back({{"mesh", character.meshes[part.mesh].name}, {"index", part.mesh}, {"triangle_count", part.triangles.size()}});
+  for (const std::uint32_t bone : piece.bones) bones.push_back(character.skeleton.bones[bone].name);
+  return {{"meshes", std::move(meshes)},
+          {"triangle_count", piece.triangle_count},
+          {"bones", std::move(bones)},
+          {"area_posed", piece.area_posed},
+          {"centroid_posed", vector_json(piece.centroid_posed)}};
+}
+
+/// As text: JSON readers keep 53 bits of a number.
+std::string digest_text(std::uint64_t digest) {
+  char text[17];
+  std::snprintf(text, sizeof text, "%016" PRIx64, digest);
+  return text;
 }
 
 }  // namespace
@@ -39,13 +82,27 @@ Json to_json(const LoadReport& report) {
   return {{"format", report.format}, {"space", report.space}, {"notes", std::move(notes)}};
 }
 
-Json to_json(const OperationOutcome& outcome) {
+Result<OperationOutcome> play(const Operation& operation, const TopologyCounts& before, TornModel& model,
+                              std::vector<ChangeRecord>* changes) {
+  const auto begin = std::chrono::steady_clock::now();
+  Result<TearReport> report = apply_operation(model, operation, changes);
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
+  if (!report) return report.error();
+  const Names names = names_of(operation);
+  const bool has_missed = names.can_miss && report->runs == 0;
+  return OperationOutcome{
+      names.op, names.done, has_missed, *report, elapsed.count(), before, has_missed ? before : count_topology(model.character())};
+}
+
+Json to_json(const OperationOutcome& outcome, const Character& character) {
   const TearReport& tear = outcome.tear;
   const auto before_and_after = [](std::uint32_t before, std::uint32_t after) {
     return Json{{"before", before}, {"after", after}};
   };
-  return {{"op", "tear"},
-          {"status", outcome.has_missed() ? "missed" : "torn"},
+  Json pieces = Json::array();
+  for (const Piece& piece : tear.pieces) pieces.push_back(piece_json(piece, character));
+  return {{"op", outcome.op},
+          {"status", outcome.has_missed ? "missed" : outcome.done},
           {"seconds", outcome.seconds},
           {"runs", tear.runs},
           {"segments", tear.segments},
@@ -57,12 +114,16 @@ Json to_json(const OperationOutcome& outcome) {
           {"triangles_retired", tear.triangles_retired},
           {"blocked", tear.blocked},
           {"length_posed", tear.length_posed},
+          {"area_removed_posed", tear.area_removed_posed},
+          {"caps", tear.caps},
+          {"open_sections", tear.open_sections},
+          {"pieces", std::move(pieces)},
           {"components", before_and_after(outcome.before.components, outcome.after.components)},
           {"boundary_loops", before_and_after(outcome.before.boundary_loops, outcome.after.boundary_loops)}};
 }
 
-Json result_json(const Character& torn, const TopologyCounts& source, const TopologyCounts& result) {
-  const ModelCheck check = check_model(torn);
+Json result_json(const TornModel& torn, const TopologyCounts& source, const TopologyCounts& result) {
+  const ModelCheck check = check_model(torn.character());
   return {{"weight_sum_error_max", check.greatest_weight_sum_error},
           {"weight_min", check.least_weight},
           {"influences_max", check.most_influences},
@@ -71,7 +132,8 @@ Json result_json(const Character& torn, const TopologyCounts& source, const Topo
           {"degenerate_triangles_of_source", source.degenerate_triangles},
           {"non_manifold_edges", result.non_manifold_edges},
           {"non_manifold_edges_of_source", source.non_manifold_edges},
-          {"topology", to_json(result)}};
+          {"topology", to_json(result)},
+          {"digest", digest_text(torn.digest())}};
 }
 
 std::string dump(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n'; }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <sunder/core/operation.h>
 #include <sunder/io/load_character.h>
 #include <sunder/tear/topology.h>
 #include <sunder/tear/torn_model.h>
@@ -14,19 +15,26 @@ using Json = nlohmann::ordered_json;
 
 /// What one operation did, with the surface's shape before and after it.
 struct OperationOutcome {
+  const char* op = "";    ///< As a log names it.
+  const char* done = "";  ///< What became of the surface, if it was not missed.
+  bool has_missed = false;
   TearReport tear;
-  double seconds = 0;  ///< Of the tear alone.
+  double seconds = 0;  ///< Of the operation alone.
   TopologyCounts before, after;
-
-  [[nodiscard]] bool has_missed() const { return tear.runs == 0; }
 };
+
+/// Does an operation and says what it did.
+/// @param before  the shape of the model.
+[[nodiscard]] Result<OperationOutcome> play(const Operation& operation, const TopologyCounts& before, TornModel& model,
+                                            std::vector<ChangeRecord>* changes = nullptr);
 
 [[nodiscard]] Json to_json(const TopologyCounts& counts);
 [[nodiscard]] Json to_json(const LoadReport& report);
-[[nodiscard]] Json to_json(const OperationOutcome& outcome);
+/// @param character  after the operation: pieces name its meshes and bones.
+[[nodiscard]] Json to_json(const OperationOutcome& outcome, const Character& character);
 
 /// The result of all operations: `torn` by itself, with the source's shape to compare.
-[[nodiscard]] Json result_json(const Character& torn, const TopologyCounts& source, const TopologyCounts& result);
+[[nodiscard]] Json result_json(const TornModel& torn, const TopologyCounts& source, const TopologyCounts& result);
 
 /// Numbers of a 2-, 3- or 4-vector.
 template <class Vector>

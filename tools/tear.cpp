@@ -1,35 +1,51 @@
 #include <sunder/io/load_character.h>
 #include <sunder/io/operation_log.h>
 #include <sunder/io/save_glb.h>
-#include <sunder/skinning/pose_spec.h>
 #include <sunder/tear/topology.h>
 #include <sunder/tear/torn_model.h>
 
-#include <chrono>
 #include <cstdio>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "tools/picture.h"
 #include "tools/progress_bar.h"
 #include "tools/report.h"
+#include "tools/torn_picture.h"
 #include "tools/verbs.h"
 
 namespace sunder::tools {
 namespace {
 
-Result<OperationOutcome> apply(const Operation& any, const TopologyCounts& before, TornModel& model) {
-  const auto* const simple = std::get_if<TearOperation>(&any);
-  if (simple == nullptr || simple->options != TearOptions{} || !simple->pose_changes.empty())
-    return Status::failure(StatusCode::unsupported_feature, kNone, "only tears without width, in one pose, are supported");
-  const TearOperation& operation = *simple;
-  const Result<ModelPose> pose = make_pose(model.character(), operation.pose);
-  if (!pose) return pose.error();
-  const auto begin = std::chrono::steady_clock::now();
-  const Result<TearReport> tear = model.tear(*pose, operation.stroke);
-  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
-  if (!tear) return tear.error();
-  return OperationOutcome{*tear, elapsed.count(), before, tear->runs == 0 ? before : count_topology(model.character())};
+/// A text that is on disk before the model is written, and appears under its name after it: a failure leaves neither.
+class TextBesideModel {
+ public:
+  /// Without a file nothing happens.
+  TextBesideModel(const std::optional<std::filesystem::path>& file, const std::string& text) {
+    if (file) staged_.emplace(*file, text);
+  }
+
+  [[nodiscard]] Status status() const { return staged_ ? staged_->status() : Status(); }
+  [[nodiscard]] Status commit() { return staged_ ? staged_->commit() : Status(); }
+
+ private:
+  std::optional<StagedText> staged_;
+};
+
+/// @return false, after saying so, where there is no picture.
+bool draw_picture(const LoadedCharacter& loaded, const TornModel& model, const std::filesystem::path& png) {
+  const std::vector<Operation> history = model.history();
+  Status status;
+  if (history.empty())
+    status = Status::failure(StatusCode::empty_input, kNone, "nothing was done that could be drawn");
+  else if (!can_draw())
+    status = Status::failure(StatusCode::not_found, kNone,
+                             "f3d and xvfb-run are not both installed (Debian: apt install f3d xvfb xauth)");
+  else
+    status = draw_torn(loaded.character, history, png);
+  if (!status) (void)complain(png.string(), status, ExitCode::findings);
+  return static_cast<bool>(status);
 }
 
 }  // namespace
@@ -51,39 +67,39 @@ ExitCode run_tear(const TearRequest& request) {
   bool has_findings = false;
   for (std::size_t i = 0; i < operations->size(); ++i) {
     progress.begin_step(i + 1, "tearing");
-    const Result<OperationOutcome> outcome = apply((*operations)[i], current, *model);
+    const Result<OperationOutcome> outcome = play((*operations)[i], current, *model);
     if (!outcome)
       return complain(request.operations.string() + ": /operations/" + std::to_string(i), outcome.error(), ExitCode::usage);
     current = outcome->after;
-    has_findings |= outcome->has_missed() || outcome->tear.blocked > 0;
-    reports.push_back(to_json(*outcome));
+    has_findings |= outcome->has_missed || outcome->tear.blocked > 0;
+    reports.push_back(to_json(*outcome, model->character()));
   }
 
   progress.begin_step(operations->size() + 1, "writing");
-  Json report = {{"sunder_report", 1},
-                 {"model", request.model.string()},
-                 {"output", request.output.string()},
-                 {"loading", to_json(loaded->report)},
-                 {"operations", std::move(reports)},
-                 {"influences_written_max", request.maximum_influences},
-                 {"result", result_json(model->character(), source, current)}};
+  const Json report = {{"sunder_report", 1},
+                       {"model", request.model.string()},
+                       {"output", request.output.string()},
+                       {"loading", to_json(loaded->report)},
+                       {"operations", std::move(reports)},
+                       {"influences_written_max", request.maximum_influences},
+                       {"result", result_json(*model, source, current)}};
   has_findings |=
       current.non_manifold_edges > source.non_manifold_edges || current.degenerate_triangles > source.degenerate_triangles;
 
-  // The report is on disk before the model is written, and appears after it: a failure leaves neither.
-  std::optional<StagedText> staged;
-  if (request.report) {
-    staged.emplace(*request.report, dump(report));
-    if (!staged->status()) return complain(request.report->string(), staged->status(), ExitCode::unreadable_input);
-  }
+  TextBesideModel report_file(request.report, dump(report));
+  if (const Status status = report_file.status(); !status)
+    return complain(request.report->string(), status, ExitCode::unreadable_input);
+  TextBesideModel log_file(request.log, request.log ? format_operations(model->history()) : std::string());
+  if (const Status status = log_file.status(); !status) return complain(request.log->string(), status, ExitCode::unreadable_input);
   SaveOptions options;
   options.maximum_influences = request.maximum_influences;
   if (const Status status = save_glb(request.output, model->character(), *loaded, options); !status)
     return complain(request.output.string(), status, ExitCode::internal_error);
-  if (!staged)
-    std::fputs(dump(report).c_str(), stdout);
-  else if (const Status status = staged->commit(); !status)
+  if (const Status status = log_file.commit(); !status) return complain(request.log->string(), status, ExitCode::unreadable_input);
+  if (const Status status = report_file.commit(); !status)
     return complain(request.report->string(), status, ExitCode::unreadable_input);
+  if (request.picture) has_findings |= !draw_picture(*loaded, *model, *request.picture);
+  if (!request.report) std::fputs(dump(report).c_str(), stdout);
   return has_findings ? ExitCode::findings : ExitCode::ok;
 }
 

@@ -18,8 +18,10 @@ struct InfoRequest {
 /// sunder tear: applies an operation log to a model.
 struct TearRequest {
   std::filesystem::path model, operations, output;
-  std::uint32_t maximum_influences = 0;         ///< As SaveOptions.
-  std::optional<std::filesystem::path> report;  ///< Else stdout.
+  std::uint32_t maximum_influences = 0;          ///< As SaveOptions.
+  std::optional<std::filesystem::path> report;   ///< Else stdout.
+  std::optional<std::filesystem::path> log;      ///< Where what was played is written, if wanted.
+  std::optional<std::filesystem::path> picture;  ///< Likewise a picture of what is left.
 };
 [[nodiscard]] ExitCode run_tear(const TearRequest& request);
 

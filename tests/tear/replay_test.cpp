@@ -127,11 +127,12 @@ TEST(Replay, poses_are_looked_up_by_name) {
     operation.pose = spec;
     operation.stroke = stroke;
     TornModel named = make_model(tube), given = make_model(tube);
-    ChangeRecord change;
-    const auto report = apply_operation(named, operation, &change);
+    std::vector<ChangeRecord> changes;
+    const auto report = apply_operation(named, operation, &changes);
     ASSERT_TRUE(report) << report.error().text();
     EXPECT_EQ(report->runs, 1u);
-    EXPECT_EQ(change.point_count, report->points_added);
+    ASSERT_EQ(changes.size(), 1u);
+    EXPECT_EQ(changes[0].point_count, report->points_added);
     const auto pose = make_pose(tube, spec);
     ASSERT_TRUE(pose);
     ASSERT_TRUE(given.tear(*pose, stroke));

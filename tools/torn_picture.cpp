@@ -1,0 +1,148 @@
+#include "tools/torn_picture.h"
+
+#include <sunder/skinning/pose_spec.h>
+#include <sunder/tear/replay.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numbers>
+#include <vector>
+
+#include "tools/picture.h"
+#include "tools/posed_model.h"
+#include "tools/pull_open.h"
+
+namespace sunder::tools {
+namespace {
+
+constexpr int kWidth = 480, kHeight = 360;
+const Vec4f kSurface(1.0f, 0.98f, 0.94f, 1.0f);  // Linear RGBA.
+// Of the model's diagonal.
+constexpr double kOpening = 0.012;    ///< To each side.
+constexpr double kReach = 0.06;       ///< How far along the surface the pull is felt.
+constexpr double kThickness = 0.006;  ///< Of the flesh.
+constexpr double kApart = 0.05;       ///< How far a piece of a cut is moved.
+
+PoseSpec pose_of(const Operation& operation) {
+  struct Visitor {
+    PoseSpec operator()(const TearOperation& tear) const {
+      return tear.pose_changes.empty() ? tear.pose : tear.pose_changes.back().pose;
+    }
+    PoseSpec operator()(const CutOperation& cut) const { return cut.pose; }
+    PoseSpec operator()(const DrillOperation& drill) const { return drill.pose; }
+    PoseSpec operator()(const UndoOperation&) const { return RestPose{}; }
+    PoseSpec operator()(const RedoOperation&) const { return RestPose{}; }
+  };
+  return std::visit(Visitor(), operation);
+}
+
+/// A little from above and from the right of where the operation came from; a cut is seen along its plane.
+ViewFrame view_of(const Operation& operation, const Bounds& bounds) {
+  ViewFrame frame = choose_view(bounds);
+  Vec3d from = frame.towards_eye;
+  if (const auto* tear = std::get_if<TearOperation>(&operation)) {
+    from = Vec3d::Zero();
+    for (const Blade& blade : tear->stroke) from += (blade.base - blade.tip).normalized();
+  } else if (const auto* drill = std::get_if<DrillOperation>(&operation)) {
+    from = -drill->bore.direction;
+  } else if (const auto* cut = std::get_if<CutOperation>(&operation)) {
+    const Vec3d normal = cut->cut.normal.normalized();
+    from -= 0.8 * normal.dot(from) * normal;
+  }
+  if (!(from.norm() > 0)) return frame;
+  from.normalize();
+  const Vec3d upright = std::abs(from.y()) < 0.9 ? Vec3d(Vec3d::UnitY()) : Vec3d(Vec3d::UnitZ());
+  frame.towards_eye = (from + 0.35 * upright.cross(from).normalized() + 0.2 * upright).normalized();
+  frame.right = upright.cross(frame.towards_eye).normalized();
+  frame.up = frame.towards_eye.cross(frame.right);
+  return frame;
+}
+
+/// The rims in the middle, their surroundings, and no more than the whole model.
+Camera aim(const ViewFrame& frame, const std::vector<RimEdge>& rims, const std::vector<DeformedMesh>& posed, const Bounds& bounds,
+           double surroundings) {
+  Camera camera;
+  camera.up = frame.up;
+  camera.focal_point = bounds.centre();
+  double radius = 0.5 * bounds.size().norm();
+  if (!rims.empty()) {
+    const auto place = [&](const RimEdge& edge) -> Vec3d { return posed[edge.mesh].positions[edge.a].cast<double>(); };
+    Bounds of_rims;
+    for (const RimEdge& edge : rims) {
+      of_rims.least = of_rims.least.cwiseMin(place(edge));
+      of_rims.greatest = of_rims.greatest.cwiseMax(place(edge));
+    }
+    double beside = 0;
+    for (const RimEdge& edge : rims) {
+      const Vec3d offset = place(edge) - of_rims.centre();
+      beside = std::max({beside, std::abs(offset.dot(frame.right)), std::abs(offset.dot(frame.up))});
+    }
+    camera.focal_point = of_rims.centre();
+    radius = std::min(radius, surroundings * beside);
+  }
+  camera.eye = camera.focal_point + radius / std::tan(camera.view_angle_degrees / 2 * std::numbers::pi / 180) * frame.towards_eye;
+  return camera;
+}
+
+/// Moves the pieces that a cut left to the two sides of its plane.
+void move_apart(const Character& character, const Cut& cut, const std::vector<Piece>& pieces, double distance,
+                std::vector<DeformedMesh>& posed) {
+  const Vec3d normal = cut.normal.normalized();
+  for (const Piece& piece : pieces) {
+    const double side = (piece.centroid_posed - cut.point).dot(normal) < 0 ? -1.0 : 1.0;
+    for (const Piece::Triangles& part : piece.meshes) {
+      std::vector<std::uint32_t> vertices;
+      for (const std::uint32_t t : part.triangles)
+        for (const std::uint32_t vertex : character.meshes[part.mesh].triangles[t]) vertices.push_back(vertex);
+      std::sort(vertices.begin(), vertices.end());
+      vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+      for (const std::uint32_t vertex : vertices)
+        posed[part.mesh].positions[vertex] += Vec3d(side * distance * normal).cast<float>();
+    }
+  }
+}
+
+}  // namespace
+
+Status draw_torn(std::shared_ptr<const Character> source, std::span<const Operation> history, const std::filesystem::path& png) {
+  Result<TornModel> torn = TornModel::create(std::move(source));
+  if (!torn) return torn.error();
+  const Character& character = torn->character();
+  const Result<ModelPose> pose = make_pose(character, pose_of(history.back()));
+  if (!pose) return pose.error();
+
+  std::vector<PulledPair> pairs;
+  const Result<std::vector<DeformedMesh>> untorn = pose_model(character, *pose);
+  if (!untorn) return untorn.error();
+  Result<std::vector<DeformedMesh>> closed = *untorn;
+  std::vector<Piece> pieces;
+  for (const Operation& operation : history) {
+    std::vector<ChangeRecord> changes;
+    const Result<TearReport> report = apply_operation(*torn, operation, &changes);
+    if (!report) return report.error();
+    closed = pose_model(character, *pose);
+    if (!closed) return closed.error();
+    pieces = report->pieces;
+    const bool comes_apart = std::holds_alternative<CutOperation>(operation) && !pieces.empty();
+    if (comes_apart) continue;
+    for (const ChangeRecord& change : changes) std::ranges::copy(chain_lips(*torn, change, *closed), std::back_inserter(pairs));
+  }
+
+  const Bounds bounds = bounds_of(character, *closed);
+  const double diagonal = bounds.size().norm();
+  std::vector<DeformedMesh> open = *closed;
+  PullOpen(*torn, pairs, *closed, kReach * diagonal).apply(kOpening * diagonal, open);
+  const auto* const cut = std::get_if<CutOperation>(&history.back());
+  if (cut != nullptr) move_apart(character, cut->cut, pieces, kApart * diagonal, open);
+
+  const ViewFrame frame = view_of(history.back(), bounds);
+  const std::vector<RimEdge> rims = find_rims(*torn);
+  Character still = make_torn_still(*torn, open, *closed, *untorn, rims, frame, kThickness * diagonal);
+  paint(still, kSurface);
+  // Of a cut the pieces are shown, of a bore what it goes through.
+  const double margin = cut != nullptr ? 3.1 : std::holds_alternative<DrillOperation>(history.back()) ? 2.4 : 1.45;
+  return draw(still, aim(frame, rims, open, bounds, margin), kWidth, kHeight, png);
+}
+
+}  // namespace sunder::tools
