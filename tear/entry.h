@@ -13,12 +13,21 @@ namespace sunder::tear {
 /// What two sweep coordinates may differ by and still be the same place: rounding of the inverse bilinear map.
 inline constexpr double kSamePlace = 1e-9;
 
-/// A place nearer to an end of an edge than this part of the edge is that end: the new faces would be slivers, and the path moves
-/// by less than anyone can see.
+/// A place nearer to an end of an edge than this part of the edge is that end: the path moves by less than anyone can see.
 inline constexpr double kSnap = 1e-3;
+
+/// The same on edges that tears made, as a part of the longest side of the faces beside the edge: what is nearer would leave a
+/// sliver. Tears have made these faces small, so the path still moves by little.
+inline constexpr double kSliver = 3e-2;
 
 /// The same where the outline of a gap has to be true: what this leaves is less than rounding shows.
 inline constexpr double kTightSnap = 1e-9;
+
+/// How far places move onto points and edges that are there.
+enum class Snapping : std::uint8_t {
+  by_shape,  ///< kSnap and kSliver.
+  tight,     ///< kTightSnap.
+};
 
 /// A place on the surface.
 struct SurfaceHit {

@@ -62,7 +62,7 @@ Index FaceLines::imprint(const Vec3d& position) {
     best_least = least;
   }
   if (best.triangle == kNone || best_least < -1e-6) return kNone;
-  return imprint_point(best, kTightSnap, editor_, posed_);
+  return imprint_point(best, Snapping::tight, editor_, posed_);
 }
 
 bool FaceLines::turn(Index half_edge) {

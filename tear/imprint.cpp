@@ -14,7 +14,23 @@ Index split_posed_edge(Index half_edge, double fraction, SurfaceEditor& editor, 
   return point;
 }
 
-Step find_step(const BladePlane& plane, Index point, double snap, const SurfaceEditor& editor, PosedPoints& posed) {
+double snapped_part(Index half_edge, Snapping snapping, const SurfaceEditor& editor, PosedPoints& posed) {
+  if (snapping == Snapping::tight) return kTightSnap;
+  if (editor.is_source_vertex(half_edge) && editor.is_source_vertex(Surface::next(half_edge))) return kSnap;
+  const Surface& surface = editor.surface();
+  double length_squared = 0, longest_squared = 0;
+  for (const Index side : {half_edge, surface.twin[half_edge]}) {
+    if (side == kNone) continue;
+    const Vec3d a = posed.position(editor, surface.corner_point[side]);
+    const Vec3d b = posed.position(editor, surface.corner_point[Surface::next(side)]);
+    const Vec3d c = posed.position(editor, surface.corner_point[Surface::previous(side)]);
+    length_squared = (b - a).squaredNorm();
+    longest_squared = std::max({longest_squared, length_squared, (c - a).squaredNorm(), (c - b).squaredNorm()});
+  }
+  return length_squared > 0 ? std::min(0.5, kSliver * std::sqrt(longest_squared / length_squared)) : 0.5;
+}
+
+Step find_step(const BladePlane& plane, Index point, Snapping snapping, const SurfaceEditor& editor, PosedPoints& posed) {
   const Surface& surface = editor.surface();
   const SweepCoordinates here = plane.sweep_coordinates(plane.project(posed.position(editor, point)));
   Step best;
@@ -28,6 +44,7 @@ Step find_step(const BladePlane& plane, Index point, double snap, const SurfaceE
     step.corner = corner;
     step.fraction = distance_a / (distance_a - distance_b);
     step.crossing_progress = plane.sweep_coordinates(plane.project(at_a + step.fraction * (at_b - at_a))).progress;
+    const double snap = snapped_part(Surface::next(corner), snapping, editor, posed);
     if (step.fraction < snap) step.fraction = 0;
     if (step.fraction > 1 - snap) step.fraction = 1;
     step.position = at_a + step.fraction * (at_b - at_a);
@@ -85,17 +102,18 @@ Index stop_within(const Step& step, double fraction, SurfaceEditor& editor, Pose
   hit.barycentric[Surface::previous(step.corner) % 3] = fraction * step.fraction;
   const Vec3d here = posed.position(editor, editor.surface().corner_point[step.corner]);
   hit.position = here + fraction * (step.position - here);
-  return imprint_point(hit, kSnap, editor, posed);
+  return imprint_point(hit, Snapping::by_shape, editor, posed);
 }
 
 }  // namespace
 
-Index imprint_point(const SurfaceHit& hit, double snap, SurfaceEditor& editor, PosedPoints& posed) {
+Index imprint_point(const SurfaceHit& hit, Snapping snapping, SurfaceEditor& editor, PosedPoints& posed) {
   const Index first = 3 * hit.triangle;
+  const double least = snapping == Snapping::tight ? kTightSnap : kSnap;
   std::array<double, 3> weight = hit.barycentric;
   double sum = 0;
   for (double& w : weight) {
-    if (w < snap) w = 0;
+    if (w < least) w = 0;
     sum += w;
   }
   for (double& w : weight) w /= sum;
@@ -113,9 +131,9 @@ Index imprint_point(const SurfaceHit& hit, double snap, SurfaceEditor& editor, P
   // On the edge opposite of the smallest coordinate, or as near to it as the face allows.
   const Index edge = Surface::next(first + smallest);
   const double along = weight[Surface::next(edge) % 3] / (weight[edge % 3] + weight[Surface::next(edge) % 3]);
-  if (along > snap && along < 1 - snap)
+  if (along > least && along < 1 - least)
     if (const Index point = split_posed_edge(edge, along, editor, posed); point != kNone) return point;
-  return editor.surface().corner_point[first + largest];
+  return editor.surface().corner_point[along < 0.5 ? edge : Surface::next(edge)];
 }
 
 Path imprint_path(const BladePlane& plane, Index start, SurfaceEditor& editor, PosedPoints& posed) {
@@ -130,7 +148,7 @@ Path imprint_path(const BladePlane& plane, Index start, SurfaceEditor& editor, P
   for (;;) {
     const Index here = path.points.back();
     const Vec3d from = posed.position(editor, here);
-    const Step step = find_step(plane, here, kSnap, editor, posed);
+    const Step step = find_step(plane, here, Snapping::by_shape, editor, posed);
     if (step.corner == kNone) return path;
     const bool along_edge = step_corner(step) != kNone;
     const Reach reach = reach_between(plane, from, step.position);

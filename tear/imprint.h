@@ -22,9 +22,8 @@ struct Path {
 };
 
 /// Makes a place on the surface a point of it: an existing one where the place is near it, else by splitting an edge or a face.
-/// @param snap  how near, as a part of the face.
 /// @return kNone where the faces are too small or degenerate for that.
-[[nodiscard]] Index imprint_point(const SurfaceHit& hit, double snap, SurfaceEditor& editor, PosedPoints& posed);
+[[nodiscard]] Index imprint_point(const SurfaceHit& hit, Snapping snapping, SurfaceEditor& editor, PosedPoints& posed);
 
 /// Makes the curve in which the plane meets the surface a run of edges: from `start` on, face to face, while it goes forward in the
 /// sweep and the blade reaches it.
@@ -41,8 +40,11 @@ struct Step {
 
 /// The ways in which the plane leaves a point across the faces around it, of which the path takes the one that goes forward in the
 /// sweep; where several do (a fold of the surface that faces the blade), the one that bends most towards the blade's base.
-/// @param snap  part of the far edge nearer than which its end is meant.
-[[nodiscard]] Step find_step(const BladePlane& plane, Index point, double snap, const SurfaceEditor& editor, PosedPoints& posed);
+[[nodiscard]] Step find_step(const BladePlane& plane, Index point, Snapping snapping, const SurfaceEditor& editor,
+                             PosedPoints& posed);
+
+/// The part of an edge at either end of which a place is that end.
+[[nodiscard]] double snapped_part(Index half_edge, Snapping snapping, const SurfaceEditor& editor, PosedPoints& posed);
 
 /// How much of the way from one place to the next the blade reaches, in [0, 1].
 struct Reach {

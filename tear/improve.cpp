@@ -35,10 +35,8 @@ void improve_faces(const std::vector<Index>& faces, SurfaceEditor& editor) {
   while (!open.empty() && turns_left > 0) {
     const Index h = open.back();
     open.pop_back();
+    if (!editor.is_inner_edge(h)) continue;
     const Index twin = surface.twin[h];
-    if (twin == kNone) continue;
-    const TriangleRef &one = surface.triangles[h / 3], &other = surface.triangles[twin / 3];
-    if (one.mesh != other.mesh || one.source_triangle != other.source_triangle) continue;
     if (!(gain(h, editor) > 1.0001) || !editor.flip_edge(h)) continue;
     --turns_left;
     for (const Index face : {h / 3, twin / 3}) open.insert(open.end(), {3 * face, 3 * face + 1, 3 * face + 2});

@@ -36,7 +36,7 @@ StrokeTearing::PendingGap StrokeTearing::find_gap(const BladePlane& plane, const
     gap.section.insert(gap.section.end(), trace.section.begin(), trace.section.end());
     gap.length += trace.length_posed;
     if (trace.end != Path::End::blade) return trace.progress;
-    tip_ = imprint_point(trace.end_place, kTightSnap, work.editor, work.posed);
+    tip_ = imprint_point(trace.end_place, Snapping::tight, work.editor, work.posed);
     return 1.0;
   };
   double progress = 0;
@@ -46,7 +46,7 @@ StrokeTearing::PendingGap StrokeTearing::find_gap(const BladePlane& plane, const
     if (!contact) break;
     const SurfaceEditor::Mark before = work.editor.mark();
     const std::size_t seeds = gap.seeds.size();
-    const double reached = add(imprint_point(*contact, kTightSnap, work.editor, work.posed));
+    const double reached = add(imprint_point(*contact, Snapping::tight, work.editor, work.posed));
     const bool has_advanced = gap.seeds.size() > seeds && reached > progress + kSamePlace;
     progress = std::max(progress, reached);
     if (has_advanced) continue;

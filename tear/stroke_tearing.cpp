@@ -40,6 +40,7 @@ void StrokeTearing::enter_pose(const Workpiece& work) {
 
 void StrokeTearing::extend(const Blade& to, const Workpiece& work) {
   ++report.segments;
+  if (options_.wall_depth > 0) stroke_.push_back(to);
   const Blade from = blade_before_ = blade_;
   blade_ = to;
   last_end_ = kNone;
@@ -66,7 +67,7 @@ void StrokeTearing::extend(const Blade& to, const Workpiece& work) {
 
 void StrokeTearing::finish(const Workpiece& work) {
   catch_up(work);
-  if (options_.wall_depth > 0) add_walls(work.editor.opened(), options_.wall_depth, work);
+  if (options_.wall_depth > 0) add_walls(work.editor.opened(), stroke_, options_.wall_depth, work);
 }
 
 double StrokeTearing::tear_piece(const BladePlane& plane, Index start, const SurfaceEditor::Mark& before, const Workpiece& work) {
@@ -125,7 +126,7 @@ void StrokeTearing::tear_segment(const BladePlane& plane, const Workpiece& work)
     if (!contact) break;
     const SurfaceEditor::Mark before = work.editor.mark();
     const std::size_t edges = torn_edges_;
-    const double reached = tear_piece(plane, imprint_point(*contact, kSnap, work.editor, work.posed), before, work);
+    const double reached = tear_piece(plane, imprint_point(*contact, Snapping::by_shape, work.editor, work.posed), before, work);
     const bool has_advanced = torn_edges_ > edges && reached > progress + kSamePlace;
     progress = std::max(progress, reached);
     if (has_advanced) continue;

@@ -17,7 +17,7 @@ namespace sunder::tear {
 /// back to a copy.
 class StrokeTearing {
  public:
-  StrokeTearing(const Blade& first, const TearOptions& options) : options_(options), blade_(first) {}
+  StrokeTearing(const Blade& first, const TearOptions& options) : options_(options), blade_(first), stroke_({first}) {}
 
   /// Tears on to the next blade, in the pose that `work.posed` stands for.
   void extend(const Blade& to, const Workpiece& work);
@@ -61,6 +61,7 @@ class StrokeTearing {
 
   TearOptions options_;
   Blade blade_, blade_before_;
+  Stroke stroke_;           ///< All blades, for the walls.
   Index tip_ = kNone;       ///< Where the tear stands, while it stands on the surface.
   Index last_end_ = kNone;  ///< Where the last piece of the segment under way ended.
   std::size_t torn_edges_ = 0;

@@ -25,6 +25,15 @@ class SurfaceEditor {
     const TriangleRef& ref = surface_.triangles[corner / 3];
     return character_.meshes[ref.mesh].triangles[ref.triangle][corner % 3];
   }
+  [[nodiscard]] bool is_source_vertex(Index corner) const {
+    return vertex_at(corner) < source_.meshes[surface_.triangles[corner / 3].mesh].vertex_count();
+  }
+  /// Whether the faces at both sides of an edge are parts of one source triangle.
+  [[nodiscard]] bool is_inner_edge(Index half_edge) const {
+    const Index twin = surface_.twin[half_edge];
+    return twin != kNone && surface_.triangles[half_edge / 3].mesh == surface_.triangles[twin / 3].mesh &&
+           surface_.triangles[half_edge / 3].source_triangle == surface_.triangles[twin / 3].source_triangle;
+  }
   /// Birth of a vertex that is not of the source.
   [[nodiscard]] const Birth& birth(Index mesh, Index vertex) const {
     return births_[mesh][vertex - source_.meshes[mesh].vertex_count()];

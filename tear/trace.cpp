@@ -48,7 +48,7 @@ Trace trace_path(const BladePlane& plane, Index start, const SurfaceEditor& edit
   trace.progress = progress_at(here);
   trace.section.push_back(plane.project(here));
 
-  const Step first = find_step(plane, start, kTightSnap, editor, posed);
+  const Step first = find_step(plane, start, Snapping::tight, editor, posed);
   if (first.corner == kNone) return trace;
   SurfaceHit from;  // where the curve entered the face
   from.triangle = first.corner / 3;

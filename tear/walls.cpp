@@ -83,16 +83,24 @@ Vec3d unit_or(const Vec3d& vector, const Vec3d& otherwise) {
   return length > 1e-30 ? Vec3d(vector / length) : otherwise;
 }
 
-/// Mean posed normal of the faces around a point, by area.
-Vec3d normal_at(Index point, const Walls& walls) {
+double squared_distance(const Blade& blade, const Vec3d& point) {
+  const Vec3d along = blade.tip - blade.base;
+  const double at = std::clamp(along.dot(point - blade.base) / along.squaredNorm(), 0.0, 1.0);
+  return (point - blade.base - at * along).squaredNorm();
+}
+
+/// The direction of the blades near a place: nearer ones count by the inverse fourth power of their distance, so that it turns
+/// smoothly from one blade to the next.
+Vec3d blade_direction(const Stroke& stroke, const Vec3d& at) {
+  double nearest = squared_distance(stroke.front(), at);
+  for (const Blade& blade : stroke) nearest = std::min(nearest, squared_distance(blade, at));
   Vec3d sum = Vec3d::Zero();
-  walls.surface().for_each_in_fan(walls.surface().point_corner[point], [&](Index corner) {
-    const Vec3d a = walls.position(walls.surface().corner_point[corner]);
-    const Vec3d b = walls.position(walls.surface().corner_point[Surface::next(corner)]);
-    const Vec3d c = walls.position(walls.surface().corner_point[Surface::previous(corner)]);
-    sum += (b - a).cross(c - a);
-  });
-  return unit_or(sum, Vec3d::Zero());
+  for (const Blade& blade : stroke) {
+    const double squared = squared_distance(blade, at);
+    const double ratio = squared > 0 ? nearest / squared : 1.0;  // 1 for the nearest, whatever the unit
+    sum += ratio * ratio * (blade.tip - blade.base).normalized();
+  }
+  return unit_or(sum, (stroke.front().tip - stroke.front().base).normalized());
 }
 
 /// A place on a rim: where one half-edge ends and the next begins.
@@ -251,12 +259,13 @@ void add_blind_wall(const Ring& ring, const Axis& axis, double depth, double uni
 
 }  // namespace
 
-Index add_walls(const std::vector<Index>& half_edges, double depth, const Workpiece& work) {
+Index add_walls(const std::vector<Index>& half_edges, const Stroke& stroke, double depth, const Workpiece& work) {
   Walls walls(work);
   Index count = 0;
   for (const Rim& rim : chain_rims(half_edges, work.editor.surface())) {
     const bool is_built = walls.add(rim.half_edges, [&] {
-      hang_strip(rim, places_of(rim, walls, [&](const RimPlace& place) -> Vec3d { return -depth * normal_at(place.point, walls); }),
+      hang_strip(rim,
+                 places_of(rim, walls, [&](const RimPlace& place) -> Vec3d { return depth * blade_direction(stroke, place.at); }),
                  depth, walls);
     });
     count += is_built ? 1 : 0;

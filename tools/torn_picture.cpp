@@ -59,26 +59,37 @@ ViewFrame view_of(const Operation& operation, const Bounds& bounds) {
   return frame;
 }
 
-/// The rims in the middle, their surroundings, and no more than the whole model.
-Camera aim(const ViewFrame& frame, const std::vector<RimEdge>& rims, const std::vector<DeformedMesh>& posed, const Bounds& bounds,
-           double surroundings) {
+/// Where the operations left something to see: rims, walls and caps.
+std::vector<Vec3d> wound_places(const TornModel& torn, const std::vector<RimEdge>& rims, const std::vector<DeformedMesh>& posed) {
+  std::vector<Vec3d> places;
+  for (const RimEdge& edge : rims) places.emplace_back(posed[edge.mesh].positions[edge.a].cast<double>());
+  for (std::uint32_t m = 0; m < torn.character().meshes.size(); ++m) {
+    const Mesh& mesh = torn.character().meshes[m];
+    for (std::uint32_t t = torn.source().meshes[m].triangle_count(); t < mesh.triangle_count(); ++t)
+      if (!is_retired(mesh.triangles[t]) && torn.source_triangle(m, t) >= torn.source().meshes[m].triangle_count())
+        places.emplace_back(posed[m].positions[mesh.triangles[t][0]].cast<double>());
+  }
+  return places;
+}
+
+/// The wound in the middle, its surroundings, and no more than the whole model.
+Camera aim(const ViewFrame& frame, const std::vector<Vec3d>& wound, const Bounds& bounds, double surroundings) {
   Camera camera;
   camera.up = frame.up;
   camera.focal_point = bounds.centre();
   double radius = 0.5 * bounds.size().norm();
-  if (!rims.empty()) {
-    const auto place = [&](const RimEdge& edge) -> Vec3d { return posed[edge.mesh].positions[edge.a].cast<double>(); };
-    Bounds of_rims;
-    for (const RimEdge& edge : rims) {
-      of_rims.least = of_rims.least.cwiseMin(place(edge));
-      of_rims.greatest = of_rims.greatest.cwiseMax(place(edge));
+  if (!wound.empty()) {
+    Bounds of_wound;
+    for (const Vec3d& place : wound) {
+      of_wound.least = of_wound.least.cwiseMin(place);
+      of_wound.greatest = of_wound.greatest.cwiseMax(place);
     }
     double beside = 0;
-    for (const RimEdge& edge : rims) {
-      const Vec3d offset = place(edge) - of_rims.centre();
+    for (const Vec3d& place : wound) {
+      const Vec3d offset = place - of_wound.centre();
       beside = std::max({beside, std::abs(offset.dot(frame.right)), std::abs(offset.dot(frame.up))});
     }
-    camera.focal_point = of_rims.centre();
+    camera.focal_point = of_wound.centre();
     radius = std::min(radius, surroundings * beside);
   }
   camera.eye = camera.focal_point + radius / std::tan(camera.view_angle_degrees / 2 * std::numbers::pi / 180) * frame.towards_eye;
@@ -142,7 +153,7 @@ Status draw_torn(std::shared_ptr<const Character> source, std::span<const Operat
   paint(still, kSurface);
   // Of a cut the pieces are shown, of a bore what it goes through.
   const double margin = cut != nullptr ? 3.1 : std::holds_alternative<DrillOperation>(history.back()) ? 2.4 : 1.45;
-  return draw(still, aim(frame, rims, open, bounds, margin), kWidth, kHeight, png);
+  return draw(still, aim(frame, wound_places(*torn, rims, open), bounds, margin), kWidth, kHeight, png);
 }
 
 }  // namespace sunder::tools

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 namespace sunder::test {
@@ -146,6 +147,67 @@ Character make_tube(std::uint32_t rings, std::uint32_t sides, std::uint32_t bone
     bend.channels.push_back(channel);
   }
   character.clips.push_back(bend);
+  return character;
+}
+
+void rig_along(Character& character, std::uint32_t bone_count) {
+  Eigen::AlignedBox3f box;
+  for (const Mesh& mesh : character.meshes)
+    for (const Vec3f& position : mesh.positions) box.extend(Eigen::Vector3f(position));
+  Eigen::Index axis = 0;
+  const float step = box.sizes().maxCoeff(&axis) / static_cast<float>(bone_count);
+  character.skeleton = {};
+  character.skins.clear();
+  character.clips.clear();
+  add_chain(character, bone_count, step * Vec3f::Unit(axis));
+  const auto begin = static_cast<float>(box.min()[axis]);
+  character.skeleton.bones[0].rest.translation = begin * Vec3f::Unit(axis);
+  for (Affine3f& bone_from_bind : character.skins[0].bone_from_bind) bone_from_bind.translation() -= begin * Vec3f::Unit(axis);
+  for (Mesh& mesh : character.meshes) {
+    mesh.skin = 0;
+    mesh.weights = {};
+    for (const Vec3f& position : mesh.positions) mesh.weights.append(chain_influences((position[axis] - begin) / step, bone_count));
+  }
+}
+
+Character make_bumpy_ball(std::uint32_t points) {
+  // The faces of an octahedron in n x n parts each: 4 n^2 + 2 points.
+  const auto n = static_cast<int>(std::lround(std::sqrt(std::max(points, 6u) / 4.0)));
+  Character character;
+  character.name = "ball";
+  Mesh mesh;
+  mesh.name = "ball";
+  mesh.submeshes.push_back({"skin", kNone});
+  Random random(8);
+  std::map<std::array<int, 3>, std::uint32_t> known;
+  const auto vertex = [&](const std::array<int, 3>& place) {
+    const auto [at, is_new] = known.try_emplace(place, mesh.vertex_count());
+    if (!is_new) return at->second;
+    Vec3d direction(place[0], place[1], place[2]);
+    direction = (direction / direction.norm() + 0.25 / n * random.direction()).eval();
+    direction /= direction.norm();
+    const double radius = 1 + 0.1 * std::sin(7 * direction.x() + 1) * std::sin(6 * direction.y()) * std::cos(5 * direction.z());
+    mesh.positions.push_back((radius * direction).cast<float>());
+    return at->second;
+  };
+  for (const int x : {1, -1})
+    for (const int y : {1, -1})
+      for (const int z : {1, -1})
+        for (int i = 0; i < n; ++i)
+          for (int j = 0; i + j < n; ++j) {
+            const auto at = [&](int di, int dj) {
+              return vertex({x * (n - i - di - j - dj), y * (i + di), z * (j + dj)});
+            };
+            const bool is_mirrored = x * y * z < 0;
+            const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+              mesh.triangles.push_back(is_mirrored ? Triangle{a, c, b} : Triangle{a, b, c});
+            };
+            add(at(0, 0), at(1, 0), at(0, 1));
+            if (i + j + 1 < n) add(at(1, 0), at(1, 1), at(0, 1));
+          }
+  mesh.triangle_submesh.assign(mesh.triangles.size(), 0);
+  character.meshes.push_back(std::move(mesh));
+  rig_along(character, 4);
   return character;
 }
 

@@ -15,6 +15,12 @@ Character make_sheet(std::uint32_t cells, float size = 1.0f);
 /// influences a vertex, a morph target and a bending clip "Bend" of 2 s.
 Character make_tube(std::uint32_t rings, std::uint32_t sides, std::uint32_t bone_count);
 
+/// A closed ball with bumps, of about `points` points that lie evenly and irregularly, rigged by rig_along().
+Character make_bumpy_ball(std::uint32_t points);
+
+/// Replaces skeleton, skins and weights by `bone_count` bones in a chain along the longest axis, up to four smooth influences a vertex.
+void rig_along(Character& character, std::uint32_t bone_count);
+
 /// Every bone turned by up to `angle` and scaled by up to `scale` (1 = not at all) around its rest; morph weights in [0, 1].
 ModelPose random_pose(const Character& character, Random& random, double angle = 0.6, double scale = 1.2);
 

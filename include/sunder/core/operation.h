@@ -20,7 +20,7 @@ enum class Layers : std::uint8_t {
 struct TearOptions {
   double width = 0.0;  ///< Of the gap, posed metres; >= 0. 0: the lips coincide and no surface is lost.
   Layers layers = Layers::nearest;
-  double wall_depth = 0.0;  ///< Of the inner walls that the lips get, posed metres; >= 0. 0: none.
+  double wall_depth = 0.0;  ///< Of the inner walls that the lips get, along the blade, posed metres; >= 0. 0: none.
 
   bool operator==(const TearOptions&) const = default;
 };

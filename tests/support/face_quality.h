@@ -1,0 +1,20 @@
+#pragma once
+
+#include <sunder/tear/torn_model.h>
+
+#include <vector>
+
+namespace sunder::test {
+
+/// The shape of a model's surface in bind space; retired triangles, walls and caps left out.
+struct FaceQuality {
+  std::vector<double> smallest_angles;   ///< Of each face, degrees, ascending.
+  std::size_t faces_without_area = 0;
+
+  /// `part` 0.01: the 1st percentile.
+  [[nodiscard]] double angle_at(double part) const;
+};
+
+FaceQuality face_quality(const TornModel& model);
+
+}  // namespace sunder::test
