@@ -75,7 +75,8 @@ Trace trace_path(const BladePlane& plane, Index start, const SurfaceEditor& edit
     here = exit.position;
     from = place_on({entry, 1 - exit.fraction, here});
     exit = find_exit(plane, entry, editor, posed);
-    if (!(progress_at(exit.position) - progress_at(here) > -1e-12)) return trace;  // the surface folds away from the blade
+    if (!(sweep_towards(plane, here, exit.position).progress - progress_at(here) > -1e-12))
+      return trace;  // the surface folds away from the blade
   }
   return trace;
 }
