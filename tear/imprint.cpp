@@ -35,7 +35,8 @@ double snapped_part(Index half_edge, Snapping snapping, const SurfaceEditor& edi
 
 Step find_step(const BladePlane& plane, Index point, Snapping snapping, const SurfaceEditor& editor, PosedPoints& posed) {
   const Surface& surface = editor.surface();
-  const SweepCoordinates here = plane.sweep_coordinates(plane.project(posed.position(editor, point)));
+  const Vec3d from = posed.position(editor, point);
+  const SweepCoordinates here = plane.sweep_coordinates(plane.project(from));
   Step best;
   double best_slope = 0;
   surface.for_each_in_fan(surface.point_corner[point], [&](Index corner) {
@@ -47,11 +48,19 @@ Step find_step(const BladePlane& plane, Index point, Snapping snapping, const Su
     step.corner = corner;
     step.fraction = distance_a / (distance_a - distance_b);
     step.crossing_progress = plane.sweep_coordinates(plane.project(at_a + step.fraction * (at_b - at_a))).progress;
-    const double snap = snapped_part(Surface::next(corner), snapping, editor, posed);
-    if (step.fraction < snap) step.fraction = 0;
-    if (step.fraction > 1 - snap) step.fraction = 1;
     step.position = at_a + step.fraction * (at_b - at_a);
-    step.sweep = plane.sweep_coordinates(plane.project(step.position));
+    const double snap = snapped_part(Surface::next(corner), snapping, editor, posed);
+    if (step.fraction < snap || step.fraction > 1 - snap) {
+      // In a sliver an end may be near and yet lie in another direction, as that from which a tear came to its tip.
+      const bool is_at_a = step.fraction < 0.5;
+      const Vec3d way = step.position - from, snapped_way = (is_at_a ? at_a : at_b) - from;
+      const bool keeps_direction = way.dot(snapped_way) > 0.5 * way.norm() * snapped_way.norm();
+      if (keeps_direction || std::min(step.fraction, 1 - step.fraction) < kTightSnap) {
+        step.fraction = is_at_a ? 0 : 1;
+        step.position = is_at_a ? at_a : at_b;
+      }
+    }
+    step.sweep = sweep_towards(plane, from, step.position);
     const double progress = step.sweep.progress - here.progress;
     if (!(progress > 1e-12)) return;
     const double slope = (step.sweep.depth - here.depth) / progress;
@@ -72,6 +81,15 @@ Reach reach_between(const BladePlane& plane, const Vec3d& from, const Vec3d& to)
     if (fraction < reach.fraction || (fraction == reach.fraction && i == 2)) reach = {fraction, i == 2};
   }
   return reach;
+}
+
+SweepCoordinates sweep_towards(const BladePlane& plane, const Vec3d& from, const Vec3d& to) {
+  const Vec2d a = plane.project(from), b = plane.project(to);
+  double part = reach_between(plane, from, to).fraction;
+  const BladePlane::HalfPlane not_before = plane.from_progress(0);
+  const double at_a = not_before.value(a), at_b = not_before.value(b);
+  if (at_b < 0 && at_b < at_a) part = std::min(part, std::max(0.0, at_a / (at_a - at_b)));
+  return plane.sweep_coordinates(a + std::max(part, kSnap) * (b - a));
 }
 
 namespace {

@@ -61,22 +61,22 @@ class Fronts {
 
   /// Grows until of each group at most one set of joined fronts is not exhausted, or to the end.
   void grow(bool to_the_end) {
-    std::vector<Index> active(sets_.count()), still;
+    std::vector<Index> active(sets_.count()), growing;
     std::iota(active.begin(), active.end(), 0);
-    while (!active.empty()) {
+    for (;;) {
+      // Fronts that meet make groups one: who has to grow is asked before any does.
       std::unordered_map<Index, Index> sets_in_group;
       for (const Index front : active) ++sets_in_group[groups_.find(front)];
-      still.clear();
-      for (const Index front : active) {
-        if (sets_.find(front) != front) continue;  // joined another, which carries on
-        if (!to_the_end && sets_in_group[groups_.find(front)] < 2) continue;
+      growing.clear();
+      for (const Index front : active)
+        if (to_the_end || sets_in_group[groups_.find(front)] > 1) growing.push_back(front);
+      if (growing.empty()) return;
+      for (const Index front : growing)
         for (std::size_t turn = 0; turn < kFacesATurn && !open_[front].empty(); ++turn) grow_once(front);
-        still.push_back(sets_.find(front));
-      }
-      std::sort(still.begin(), still.end());
-      still.erase(std::unique(still.begin(), still.end()), still.end());
-      still.erase(std::remove_if(still.begin(), still.end(), [&](Index front) { return open_[front].empty(); }), still.end());
-      active = still;
+      for (Index& front : active) front = sets_.find(front);
+      std::sort(active.begin(), active.end());
+      active.erase(std::unique(active.begin(), active.end()), active.end());
+      active.erase(std::remove_if(active.begin(), active.end(), [&](Index front) { return open_[front].empty(); }), active.end());
     }
   }
 

@@ -195,9 +195,7 @@ Character make_bumpy_ball(std::uint32_t points) {
       for (const int z : {1, -1})
         for (int i = 0; i < n; ++i)
           for (int j = 0; i + j < n; ++j) {
-            const auto at = [&](int di, int dj) {
-              return vertex({x * (n - i - di - j - dj), y * (i + di), z * (j + dj)});
-            };
+            const auto at = [&](int di, int dj) { return vertex({x * (n - i - di - j - dj), y * (i + di), z * (j + dj)}); };
             const bool is_mirrored = x * y * z < 0;
             const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
               mesh.triangles.push_back(is_mirrored ? Triangle{a, c, b} : Triangle{a, b, c});
@@ -208,6 +206,46 @@ Character make_bumpy_ball(std::uint32_t points) {
   mesh.triangle_submesh.assign(mesh.triangles.size(), 0);
   character.meshes.push_back(std::move(mesh));
   rig_along(character, 4);
+  return character;
+}
+
+Character make_two_tubes(std::uint32_t rings, std::uint32_t sides) {
+  Character character = make_tube(rings, sides, 3);
+  Mesh upper = character.meshes[0];
+  Skin skin = character.skins[0];
+  upper.name = "upper";
+  upper.skin = 1;
+  skin.name = "skin of upper";
+  for (Vec3f& position : upper.positions) position.y() += 3.0f;
+  for (Affine3f& bone_from_bind : skin.bone_from_bind) bone_from_bind.translation().y() -= 1.0f;
+  character.skins.push_back(skin);
+  character.meshes.push_back(upper);
+  return character;
+}
+
+Character make_soup(Random& random) {
+  Character character = make_tube(2, 3, 3);
+  Mesh mesh;
+  mesh.name = "soup";
+  mesh.submeshes = {{"one", kNone}, {"other", kNone}};
+  const std::uint32_t grid = 2 + random.index(3);
+  const std::uint32_t vertex_count = 4 + random.index(40);
+  for (std::uint32_t v = 0; v < vertex_count; ++v) {
+    mesh.positions.emplace_back(static_cast<float>(random.index(grid)), static_cast<float>(random.index(grid)),
+                                static_cast<float>(random.index(grid)));
+    const float weight = 0.25f * static_cast<float>(random.index(5));
+    const auto influences = weight == 0.0f   ? std::vector<Influence>{{0, 1.0f}}
+                            : weight == 1.0f ? std::vector<Influence>{{2, 1.0f}}
+                                             : std::vector<Influence>{{0, 1.0f - weight}, {2, weight}};
+    // Coincident vertices mostly agree, so that they weld.
+    mesh.weights.append(random.index(4) == 0 ? influences : std::vector<Influence>{{1, 1.0f}});
+  }
+  const std::uint32_t triangle_count = 1 + random.index(60);
+  for (std::uint32_t t = 0; t < triangle_count; ++t) {
+    mesh.triangles.push_back({random.index(vertex_count), random.index(vertex_count), random.index(vertex_count)});
+    mesh.triangle_submesh.push_back(random.index(2));
+  }
+  character.meshes = {mesh};
   return character;
 }
 

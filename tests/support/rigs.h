@@ -18,8 +18,17 @@ Character make_tube(std::uint32_t rings, std::uint32_t sides, std::uint32_t bone
 /// A closed ball with bumps, of about `points` points that lie evenly and irregularly, rigged by rig_along().
 Character make_bumpy_ball(std::uint32_t points);
 
-/// Replaces skeleton, skins and weights by `bone_count` bones in a chain along the longest axis, up to four smooth influences a vertex.
+/// Replaces skeleton, skins and weights by `bone_count` bones in a chain along the longest axis, up to four smooth influences a
+/// vertex.
 void rig_along(Character& character, std::uint32_t bone_count);
+
+/// Two such tubes, each with a mesh and a skin of its own on three bones; in bind space the upper one stands on the lower one's
+/// cap.
+Character make_two_tubes(std::uint32_t rings, std::uint32_t sides);
+
+/// What nobody would model: random triangles on a coarse grid, with edges of many faces, duplicate and flipped faces, faces without
+/// area, vertices that nothing uses.
+Character make_soup(Random& random);
 
 /// Every bone turned by up to `angle` and scaled by up to `scale` (1 = not at all) around its rest; morph weights in [0, 1].
 ModelPose random_pose(const Character& character, Random& random, double angle = 0.6, double scale = 1.2);

@@ -17,39 +17,13 @@ namespace {
 using test::Random;
 using testing::IsEmpty;
 
-Character make_soup(Random& random) {
-  Character character = test::make_tube(2, 3, 3);
-  Mesh mesh;
-  mesh.name = "soup";
-  mesh.submeshes = {{"one", kNone}, {"other", kNone}};
-  const std::uint32_t grid = 2 + random.index(3);
-  const std::uint32_t vertex_count = 4 + random.index(40);
-  for (std::uint32_t v = 0; v < vertex_count; ++v) {
-    mesh.positions.emplace_back(static_cast<float>(random.index(grid)), static_cast<float>(random.index(grid)),
-                                static_cast<float>(random.index(grid)));
-    const float weight = 0.25f * static_cast<float>(random.index(5));
-    const auto influences = weight == 0.0f   ? std::vector<Influence>{{0, 1.0f}}
-                            : weight == 1.0f ? std::vector<Influence>{{2, 1.0f}}
-                                             : std::vector<Influence>{{0, 1.0f - weight}, {2, weight}};
-    // Coincident vertices mostly agree, so that they weld.
-    mesh.weights.append(random.index(4) == 0 ? influences : std::vector<Influence>{{1, 1.0f}});
-  }
-  const std::uint32_t triangle_count = 1 + random.index(60);
-  for (std::uint32_t t = 0; t < triangle_count; ++t) {
-    mesh.triangles.push_back({random.index(vertex_count), random.index(vertex_count), random.index(vertex_count)});
-    mesh.triangle_submesh.push_back(random.index(2));
-  }
-  character.meshes = {mesh};
-  return character;
-}
-
 TEST(Soup, tears_do_no_harm) {
   const int count = std::getenv("SUNDER_STRESS") != nullptr ? 20000 : 1000;
   int torn = 0;
   for (int seed = 0; seed < count; ++seed) {
     SCOPED_TRACE(seed);
     Random random(static_cast<std::uint64_t>(seed));
-    auto model = TornModel::create(std::make_shared<const Character>(make_soup(random)));
+    auto model = TornModel::create(std::make_shared<const Character>(test::make_soup(random)));
     ASSERT_TRUE(model) << model.error().text();
     const ModelPose pose = test::random_pose(model->source(), random, random.index(2) == 0 ? 0.0 : 0.8, 1.0);
     for (int i = 0; i < 4; ++i) {

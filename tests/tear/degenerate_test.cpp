@@ -1,0 +1,497 @@
+// Every operation on what is hard for it: soups, collapsed and mirrored bones, planes in faces, blades far smaller and far larger
+// than what they meet, tears along, across and into one another.
+#include <sunder/skinning/palette.h>
+#include <sunder/tear/tear_stroke.h>
+#include <sunder/tear/topology.h>
+#include <sunder/tear/torn_model.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <ctime>
+#include <map>
+#include <numbers>
+#include <set>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "support/model_state.h"
+#include "support/rigs.h"
+#include "support/say.h"
+#include "support/torn_invariants.h"
+
+namespace sunder {
+namespace {
+
+using test::Random;
+using testing::IsEmpty;
+
+int count_of_cases(int usual) { return std::getenv("SUNDER_STRESS") != nullptr ? 40 * usual : usual; }
+
+TornModel make_model(Character character) {
+  auto model = TornModel::create(std::make_shared<const Character>(std::move(character)));
+  EXPECT_TRUE(model) << model.error().text();
+  return std::move(*model);
+}
+
+Character make_subject(Random& random) {
+  const std::uint32_t a = random.index(10), b = random.index(10);  // in this order with every compiler
+  switch (random.index(5)) {
+    case 0: return test::make_sheet(1 + a);
+    case 1: return test::make_tube(2 + a, 3 + b, 3);
+    case 2: return test::make_two_tubes(2 + a, 3 + b);
+    default: return test::make_soup(random);
+  }
+}
+
+/// A pose with bones that are collapsed, mirrored or sheared, or all of them as they are bound.
+ModelPose hard_pose(const Character& character, Random& random) {
+  ModelPose pose = random.index(3) == 0 ? bind_pose(character) : test::random_pose(character, random, 0.6, 1.3);
+  if (random.index(2) == 0) return pose;
+  for (Affine3d& bone : pose.model_from_bone) {
+    Mat3d change = Mat3d::Identity();
+    switch (random.index(6)) {
+      case 0: change(random.index(3), random.index(3)) = 0; break;  // flat, or nothing
+      case 1: change.setZero(); break;
+      case 2: change(0, 0) = -1; break;
+      case 3: change = -change; break;
+      case 4: change(random.index(3), random.index(3)) += random.uniform(-2, 2); break;
+      default: continue;
+    }
+    bone.linear() = (bone.linear() * change).eval();
+  }
+  return pose;
+}
+
+/// Where operations are aimed at: the posed surface, its vertices above all.
+struct Target {
+  std::vector<Vec3d> vertices;
+  std::vector<std::array<Vec3d, 3>> faces;
+  double size = 0;
+};
+
+Target target_of(const Character& character, const ModelPose& pose) {
+  Target target;
+  for (std::uint32_t m = 0; m < character.meshes.size(); ++m) {
+    const auto positions = test::posed_positions(character, m, pose);
+    target.vertices.insert(target.vertices.end(), positions.begin(), positions.end());
+    for (const Triangle& triangle : character.meshes[m].triangles)
+      if (!is_retired(triangle)) target.faces.push_back({positions[triangle[0]], positions[triangle[1]], positions[triangle[2]]});
+  }
+  target.size = std::max(test::posed_diagonal(character, pose), 1e-3);
+  return target;
+}
+
+template <class T>
+const T& one_of(const std::vector<T>& values, Random& random) {
+  return values[random.index(static_cast<std::uint32_t>(values.size()))];
+}
+
+Vec3d place_on(const Target& target, Random& random) {
+  const auto& face = one_of(target.faces, random);
+  switch (random.index(4)) {
+    case 0: return face[random.index(3)];
+    case 1: return 0.5 * (face[0] + face[1]);
+    default: {
+      const double u = random.uniform(0, 1), v = random.uniform(0, 1 - u);
+      return (1 - u - v) * face[0] + u * face[1] + v * face[2];
+    }
+  }
+}
+
+/// Along the axes, along an edge, across a face, or anywhere.
+Vec3d direction_at(const Target& target, Random& random) {
+  const auto& face = one_of(target.faces, random);
+  Vec3d direction = Vec3d::Zero();
+  switch (random.index(4)) {
+    case 0: return Vec3d::Unit(random.index(3));
+    case 1: direction = face[1] - face[0]; break;
+    case 2: direction = (face[1] - face[0]).cross(face[2] - face[0]); break;
+    default: break;
+  }
+  return direction.norm() > 1e-12 * target.size ? Vec3d(direction / direction.norm()) : random.direction();
+}
+
+double any_scale(Random& random, double low, double high) { return std::exp(random.uniform(std::log(low), std::log(high))); }
+
+Stroke hard_stroke(const Target& target, Random& random) {
+  Stroke stroke;
+  const Vec3d down = -direction_at(target, random);
+  const double reach = any_scale(random, 1e-2, 10) * target.size, step = any_scale(random, 1e-6, 10) * target.size;
+  Vec3d at = place_on(target, random), along = direction_at(target, random);
+  const double start = random.index(2) == 0 ? 0.0 : random.uniform(0, 1);
+  at -= start * step * along;
+  const std::uint32_t blades = 2 + random.index(5);
+  while (stroke.size() < blades) {
+    stroke.push_back({at - reach * down, at + random.uniform(0.001, 1) * reach * down});
+    at += step * along;
+    if (random.index(3) == 0) along = direction_at(target, random);
+  }
+  return stroke;
+}
+
+TearOptions hard_options(const Target& target, Random& random) {
+  TearOptions options;
+  if (random.index(2) == 0) options.width = any_scale(random, 1e-6, 2) * target.size;
+  if (random.index(3) == 0) options.layers = Layers::all;
+  if (random.index(4) == 0) options.wall_depth = any_scale(random, 1e-4, 0.5) * target.size;
+  return options;
+}
+
+/// In a face or nearly so, through vertices and along edges.
+Cut hard_cut(const Target& target, Random& random) {
+  Cut cut;
+  const auto& face = one_of(target.faces, random);
+  cut.point = face[random.index(3)];
+  cut.normal = (face[1] - face[0]).cross(face[2] - face[0]);
+  if (random.index(2) == 0 || !(cut.normal.norm() > 1e-12 * target.size * target.size)) cut.normal = direction_at(target, random);
+  if (random.index(2) == 0)
+    cut.point += std::pow(10.0, -static_cast<double>(3 + random.index(14))) * target.size * cut.normal.normalized();
+  if (random.index(3) == 0) {  // through an edge
+    const Vec3d edge = face[1] - face[0], across = edge.cross(random.direction());
+    if (across.norm() > 1e-12 * target.size) cut.normal = across;
+  }
+  cut.caps = random.index(2) == 0;
+  if (random.index(3) == 0) {
+    const Vec3d x = cut.normal.unitOrthogonal(), y = cut.normal.normalized().cross(x);
+    const double radius = any_scale(random, 1e-4, 2) * target.size;
+    for (const double angle : {0.1, 1.4, 3.0, 4.4})
+      cut.bounds.push_back(cut.point + radius * (std::cos(angle) * x + std::sin(angle) * y));
+  }
+  return cut;
+}
+
+Bore hard_bore(const Target& target, Random& random) {
+  Bore bore;
+  bore.direction = direction_at(target, random);
+  bore.origin = place_on(target, random) - random.uniform(0, 2) * target.size * bore.direction;
+  bore.depth = any_scale(random, 1e-3, 10) * target.size;
+  bore.radius = any_scale(random, 1e-6, 10) * target.size;
+  if (random.index(2) == 0) bore.chord_tolerance = any_scale(random, 1e-3, 0.9) * bore.radius;
+  bore.wall = random.index(2) == 0;
+  return bore;
+}
+
+Result<TearReport> tear_blade_by_blade(TornModel& model, const ModelPose& pose, const Stroke& stroke, const TearOptions& options) {
+  auto tearing = TearStroke::begin(model, pose, stroke[0], options);
+  if (!tearing) return tearing.error();
+  for (std::size_t i = 1; i < stroke.size(); ++i)
+    if (auto report = tearing->extend(pose, stroke[i]); !report) return report;
+  return tearing->end();
+}
+
+std::string describe(const Stroke& stroke, const TearOptions& options) {
+  std::ostringstream text;
+  text.precision(17);
+  text << "tear, width " << options.width << ", layers " << static_cast<int>(options.layers) << ", wall " << options.wall_depth;
+  for (const Blade& blade : stroke) text << "\n  " << blade.base.transpose() << " -> " << blade.tip.transpose();
+  return text.str();
+}
+
+std::string describe(const Cut& cut) {
+  std::ostringstream text;
+  text.precision(17);
+  text << "cut at " << cut.point.transpose() << ", normal " << cut.normal.transpose() << (cut.caps ? ", caps" : "");
+  for (const Vec3d& corner : cut.bounds) text << "\n  " << corner.transpose();
+  return text.str();
+}
+
+std::string describe(const Bore& bore) {
+  std::ostringstream text;
+  text.precision(17);
+  text << "bore from " << bore.origin.transpose() << " along " << bore.direction.transpose() << ", radius " << bore.radius
+       << ", depth " << bore.depth << ", tolerance " << bore.chord_tolerance << (bore.wall ? ", wall" : "");
+  return text.str();
+}
+
+/// Processor time that an operation may take on models of some hundred faces.
+#if defined(__SANITIZE_ADDRESS__)
+constexpr double kSeconds = 20;
+#else
+constexpr double kSeconds = 1;
+#endif
+
+class Subject {
+ public:
+  explicit Subject(Character character)
+      : model(make_model(std::move(character))),
+        is_clear_(test::is_clear_of_itself(model.source())),
+        begin_(test::state_of(model)) {}
+
+  /// Runs one operation and holds the laws against it. Refusals of bad strokes are fine.
+  template <class Operation>
+  void run(const std::string& what, Operation operation) {
+    SCOPED_TRACE(what);
+    const std::clock_t begin = std::clock();
+    ChangeRecord change;
+    const Result<TearReport> report = operation(change);
+    const double seconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+    EXPECT_LT(seconds, kSeconds);
+    if (!report) {
+      EXPECT_EQ(report.error().code(), StatusCode::invalid_argument) << report.error().text();
+      return;
+    }
+    done += report->runs > 0 ? 1 : 0;
+    EXPECT_THAT(test::broken_laws(model), IsEmpty());
+    EXPECT_THAT(test::broken_lips(model, change), IsEmpty());
+    if (is_clear_) {
+      EXPECT_THAT(test::broken_surface(model), IsEmpty());
+    }
+    expect_pieces_are_components(*report);
+  }
+
+  void undo_everything() {
+    while (model.undo_count() > 0) ASSERT_TRUE(model.undo());
+    EXPECT_EQ(model.character(), model.source());
+    EXPECT_EQ(test::difference(test::state_of(model), begin_), "");
+  }
+
+  TornModel model;
+  int done = 0;
+
+ private:
+  /// Each piece is all that hangs together with any triangle of it.
+  void expect_pieces_are_components(const TearReport& report) {
+    if (report.pieces.empty() || !is_clear_) return;
+    using Face = std::array<std::uint32_t, 2>;  // mesh, triangle
+    std::map<std::array<std::uint32_t, 2>, std::vector<Face>> faces_of_edge;
+    const auto for_each_edge = [&](const Face& face, auto visit) {
+      for (std::uint32_t k = 0; k < 3; ++k) {
+        const std::uint32_t a = model.point_at(face[0], face[1], k), b = model.point_at(face[0], face[1], (k + 1) % 3);
+        visit(std::array{std::min(a, b), std::max(a, b)});
+      }
+    };
+    for (std::uint32_t m = 0; m < model.character().meshes.size(); ++m)
+      for (std::uint32_t t = 0; t < model.character().meshes[m].triangle_count(); ++t)
+        if (!is_retired(model.character().meshes[m].triangles[t]))
+          for_each_edge({m, t}, [&](const auto& edge) { faces_of_edge[edge].push_back({m, t}); });
+    for (const Piece& piece : report.pieces) {
+      std::set<Face> named, found;
+      for (const Piece::Triangles& of_mesh : piece.meshes)
+        for (const std::uint32_t t : of_mesh.triangles) named.insert({of_mesh.mesh, t});
+      EXPECT_EQ(named.size(), piece.triangle_count);
+      if (named.empty()) continue;
+      std::vector<Face> open = {*named.begin()};
+      found.insert(open.front());
+      while (!open.empty()) {
+        const Face face = open.back();
+        open.pop_back();
+        for_each_edge(face, [&](const auto& edge) {
+          for (const Face& other : faces_of_edge.at(edge))
+            if (found.insert(other).second) open.push_back(other);
+        });
+      }
+      EXPECT_EQ(found, named) << "a piece is not all that hangs together";
+    }
+  }
+
+  bool is_clear_;
+  test::ModelState begin_;
+};
+
+void run_hard_operation(Subject& subject, const ModelPose& pose, Random& random) {
+  const Target target = target_of(subject.model.character(), pose);
+  if (target.faces.empty()) return;
+  switch (random.index(4)) {
+    case 0: {
+      const Cut cut = hard_cut(target, random);
+      subject.run(describe(cut), [&](ChangeRecord& change) { return subject.model.cut(pose, cut, &change); });
+      break;
+    }
+    case 1: {
+      const Bore bore = hard_bore(target, random);
+      subject.run(describe(bore), [&](ChangeRecord& change) { return subject.model.drill(pose, bore, &change); });
+      break;
+    }
+    default: {
+      const Stroke stroke = hard_stroke(target, random);
+      const TearOptions options = hard_options(target, random);
+      subject.run(describe(stroke, options),
+                  [&](ChangeRecord& change) { return subject.model.tear(pose, stroke, options, &change); });
+    }
+  }
+}
+
+TEST(Degenerate, operations_on_hard_subjects_in_hard_poses_keep_every_law) {
+  int done = 0;
+  const int count = count_of_cases(400);
+  for (int seed = 0; seed < count; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(static_cast<std::uint64_t>(seed));
+    Subject subject(make_subject(random));
+    ModelPose pose = hard_pose(subject.model.source(), random);
+    for (int i = 0; i < 4 && !testing::Test::HasFailure(); ++i) {
+      run_hard_operation(subject, pose, random);
+      if (random.index(3) == 0) pose = hard_pose(subject.model.source(), random);
+    }
+    subject.undo_everything();
+    done += subject.done;
+    if (testing::Test::HasFailure()) return;
+  }
+  EXPECT_GT(done, count);
+}
+
+// ---- Tears along, across and into one another, on a sheet.
+
+Blade down_at(const Vec2d& at) { return {{at.x(), at.y(), 0.5}, {at.x(), at.y(), -0.5}}; }
+
+Stroke stroke_along(const std::vector<Vec2d>& places) {
+  Stroke stroke;
+  for (const Vec2d& place : places) stroke.push_back(down_at(place));
+  return stroke;
+}
+
+Vec2d place_in_sheet(Random& random, std::uint32_t cells) {
+  const double x = random.uniform(0.15, 0.85), y = random.uniform(0.15, 0.85);
+  if (random.index(2) == 0) return {x, y};
+  return {std::round(x * cells) / cells, std::round(y * cells) / cells};  // through vertices, along edges
+}
+
+TearOptions any_width(Random& random) {
+  TearOptions options;
+  if (random.index(2) == 0) options.width = any_scale(random, 1e-3, 0.05);
+  if (random.index(3) == 0) options.layers = Layers::all;
+  return options;
+}
+
+TEST(Degenerate, tears_meet_older_tears_in_every_way) {
+  for (int seed = 0; seed < count_of_cases(600); ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(static_cast<std::uint64_t>(seed));
+    const std::uint32_t cells = 1 + random.index(12);
+    Subject subject(test::make_sheet(cells));
+    const ModelPose pose = bind_pose(subject.model.source());
+    const auto tear = [&](const Stroke& stroke, const TearOptions& options) {
+      if (random.index(3) == 0)
+        subject.run(test::say(describe(stroke, options), " blade by blade"),
+                    [&](ChangeRecord&) { return tear_blade_by_blade(subject.model, pose, stroke, options); });
+      else
+        subject.run(describe(stroke, options),
+                    [&](ChangeRecord& change) { return subject.model.tear(pose, stroke, options, &change); });
+    };
+    const Vec2d a = place_in_sheet(random, cells), b = place_in_sheet(random, cells);
+    const Vec2d middle = 0.5 * (a + b), across = Vec2d(-(b - a).y(), (b - a).x());
+    const Stroke first = stroke_along({a, middle, b});
+    tear(first, any_width(random));
+    switch (random.index(8)) {
+      case 0: tear(first, any_width(random)); break;                                                         // the same once more
+      case 1: tear(stroke_along({b, middle, a}), any_width(random)); break;                                  // and back
+      case 2: tear(stroke_along({a - 0.3 * (b - a), b + 0.3 * (b - a)}), any_width(random)); break;          // along it and beyond
+      case 3: tear(stroke_along({b, b + 0.4 * across}), any_width(random)); break;                           // on from its tip
+      case 4: tear(stroke_along({b - 0.3 * across, b, b + 0.3 * across}), any_width(random)); break;         // through its tip
+      case 5: tear(stroke_along({middle - 0.4 * across, middle + 0.4 * across}), any_width(random)); break;  // X
+      case 6: tear(stroke_along({middle - 0.4 * across, middle}), any_width(random)); break;                 // T, into it
+      default: tear(stroke_along({middle, middle + 0.4 * across}), any_width(random)); break;                // T, out of it
+    }
+    tear(stroke_along({place_in_sheet(random, cells), place_in_sheet(random, cells), place_in_sheet(random, cells)}),
+         any_width(random));
+    subject.undo_everything();
+    if (testing::Test::HasFailure()) return;
+  }
+}
+
+TEST(Degenerate, a_ring_sets_free_what_is_in_it) {
+  for (int seed = 0; seed < count_of_cases(300); ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(static_cast<std::uint64_t>(seed));
+    const std::uint32_t cells = 1 + random.index(16), corners = 3 + random.index(12);
+    Subject subject(test::make_sheet(cells));
+    const ModelPose pose = bind_pose(subject.model.source());
+    const Vec2d center(random.uniform(0.4, 0.6), random.uniform(0.4, 0.6));
+    const double radius = random.uniform(0.1, 0.35), begin = random.uniform(0, 6), turn = random.index(2) == 0 ? 1 : -1;
+    std::vector<Vec2d> places;
+    for (std::uint32_t i = 0; i < corners; ++i) {
+      const double angle = begin + turn * 2 * std::numbers::pi * i / corners;
+      places.push_back(center + radius * Vec2d(std::cos(angle), std::sin(angle)));
+    }
+    places.push_back(places.front());
+    TearOptions options;
+    if (random.index(2) == 0) options.width = random.uniform(0.01, 0.1) * radius;
+    const Stroke stroke = stroke_along(places);
+    TearReport report;
+    const bool at_once = random.index(2) == 0;
+    subject.run(describe(stroke, options), [&](ChangeRecord& change) {
+      auto result =
+          at_once ? subject.model.tear(pose, stroke, options, &change) : tear_blade_by_blade(subject.model, pose, stroke, options);
+      if (result) report = *result;
+      return result;
+    });
+    const double area = 0.5 * corners * radius * radius * std::sin(2 * std::numbers::pi / corners);
+    EXPECT_EQ(count_topology(subject.model.character()).components, 2u);
+    ASSERT_EQ(report.pieces.size(), 1u) << describe(stroke, options);
+    // The larger part in faces is what is left, be it the flap.
+    const double free = report.pieces[0].area_posed, rest = 1 - report.area_removed_posed - free;
+    const double rim = 0.5 * options.width * 2 * corners * radius * std::sin(std::numbers::pi / corners);
+    EXPECT_LE(std::min(std::abs(free - area), std::abs(rest - area)), 1.1 * rim + 0.002 * area) << describe(stroke, options);
+    subject.undo_everything();
+    if (testing::Test::HasFailure()) return;
+  }
+}
+
+TEST(Degenerate, a_ring_around_a_tube_takes_it_apart) {
+  for (int seed = 0; seed < count_of_cases(100); ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(static_cast<std::uint64_t>(seed));
+    const std::uint32_t rings = 3 + random.index(12), sides = 3 + random.index(14), blades = 5 + random.index(20);
+    Subject subject(test::make_tube(rings, sides, 3));
+    const ModelPose pose = bind_pose(subject.model.source());
+    const double height = random.index(2) == 0 ? random.uniform(0.5, 2.5) : 3.0 * (1 + random.index(rings - 1)) / rings;
+    const double begin = random.index(2) == 0 ? 0.0 : random.uniform(0, 6);
+    Stroke stroke;
+    for (std::uint32_t i = 0; i < blades; ++i) {
+      const double angle = begin + 2 * std::numbers::pi * i / blades;
+      const Vec3d out(std::cos(angle), 0, std::sin(angle));
+      stroke.push_back({2 * out + height * Vec3d::UnitY(), 0.05 * out + height * Vec3d::UnitY()});
+    }
+    stroke.push_back(stroke.front());
+    TearOptions options;
+    if (random.index(2) == 0) options.width = random.uniform(0.01, 0.1);
+    TearReport report;
+    subject.run(describe(stroke, options), [&](ChangeRecord& change) {
+      auto result = subject.model.tear(pose, stroke, options, &change);
+      if (result) report = *result;
+      return result;
+    });
+    EXPECT_EQ(count_topology(subject.model.character()).components, 2u) << describe(stroke, options);
+    EXPECT_EQ(report.pieces.size(), 1u) << describe(stroke, options);
+    subject.undo_everything();
+    if (testing::Test::HasFailure()) return;
+  }
+}
+
+/// Two meshes with skins of their own under one blade.
+TEST(Degenerate, strokes_over_two_meshes_tear_both) {
+  int both = 0;
+  for (int seed = 0; seed < count_of_cases(100); ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(static_cast<std::uint64_t>(seed));
+    const std::uint32_t rings = 2 + random.index(8), sides = 3 + random.index(10);
+    Subject subject(test::make_two_tubes(rings, sides));
+    const ModelPose pose = test::random_pose(subject.model.source(), random, 0.2, 1.1);
+    const auto lower = test::posed_positions(subject.model.source(), 0, pose),
+               upper = test::posed_positions(subject.model.source(), 1, pose);
+    const auto middle_of = [](const std::vector<Vec3d>& places) {
+      Vec3d sum = Vec3d::Zero();
+      for (const Vec3d& place : places) sum += place;
+      return Vec3d(sum / static_cast<double>(places.size()));
+    };
+    const Vec3d from = middle_of(lower), to = middle_of(upper), out = 3 * (to - from).unitOrthogonal();
+    const Stroke stroke = {{from + out, from}, {0.5 * (from + to) + out, 0.5 * (from + to)}, {to + out, to}};
+    const TearOptions options = any_width(random);
+    ChangeRecord of_stroke;
+    subject.run(describe(stroke, options), [&](ChangeRecord& change) {
+      auto result = subject.model.tear(pose, stroke, options, &change);
+      of_stroke = change;
+      return result;
+    });
+    both += of_stroke.meshes.size() == 2 ? 1 : 0;
+    run_hard_operation(subject, pose, random);
+    subject.undo_everything();
+    if (testing::Test::HasFailure()) return;
+  }
+  EXPECT_GT(both, count_of_cases(90));
+}
+
+}  // namespace
+}  // namespace sunder
