@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "tear/leap.h"
 
@@ -85,10 +86,10 @@ Reach reach_between(const BladePlane& plane, const Vec3d& from, const Vec3d& to)
 
 SweepCoordinates sweep_towards(const BladePlane& plane, const Vec3d& from, const Vec3d& to) {
   const Vec2d a = plane.project(from), b = plane.project(to);
-  double part = reach_between(plane, from, to).fraction;
+  const double part = reach_between(plane, from, to).fraction;
   const BladePlane::HalfPlane not_before = plane.from_progress(0);
   const double at_a = not_before.value(a), at_b = not_before.value(b);
-  if (at_b < 0 && at_b < at_a) part = std::min(part, std::max(0.0, at_a / (at_a - at_b)));
+  if (at_b < 0 && at_b < at_a && at_a / (at_a - at_b) < part) return {-std::numeric_limits<double>::infinity(), 0};
   return plane.sweep_coordinates(a + std::max(part, kSnap) * (b - a));
 }
 

@@ -53,8 +53,9 @@ struct Reach {
 };
 [[nodiscard]] Reach reach_between(const BladePlane& plane, const Vec3d& from, const Vec3d& to);
 
-/// Where the sweep stands on the way from one place to another: at the end of the way or, if the way leaves the sweep, about there.
-/// Farther out sweep coordinates say nothing: the lines of a blade that turns meet, and on their other side they run backwards.
+/// Where the sweep stands on the way from one place to another: at its end or, if the way leaves the sweep, about there. Farther
+/// out sweep coordinates say nothing: the lines of a blade that turns meet, and on their other side they run backwards. A way that
+/// leaves before the first blade has progress of minus infinity.
 [[nodiscard]] SweepCoordinates sweep_towards(const BladePlane& plane, const Vec3d& from, const Vec3d& to);
 
 /// Splits an edge and pins the new point where the posed edge has it. @return kNone where its faces cannot be split.
