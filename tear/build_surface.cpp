@@ -112,7 +112,7 @@ Weld weld_vertices(const Character& character) {
 /// Half-edges grouped by the smaller of their two points: a counting sort, so that pairing is linear.
 class HalfEdgeGroups {
  public:
-  explicit HalfEdgeGroups(const Surface& surface) : first_(surface.point_side.size() + 1, 0) {
+  explicit HalfEdgeGroups(const Surface& surface) : first_(surface.point_corner.size() + 1, 0) {
     const auto& points = surface.corner_point;
     const auto smaller = [&](Index h) { return std::min(points[h], points[Surface::next(h)]); };
     const Index count = 3 * surface.triangle_count();
@@ -150,7 +150,7 @@ class HalfEdgeGroups {
 
 /// Vertices at both ends of a half-edge, to tell which of several faces at one edge were modelled as neighbours.
 std::array<Index, 3> edge_vertices(const Character& character, const Surface& surface, Index h, bool reversed) {
-  const TriangleRef& ref = surface.triangles[h / 3];
+  const TriangleRef ref = surface.triangle(h / 3);
   const Triangle& triangle = character.meshes[ref.mesh].triangles[ref.triangle];
   const Index from = triangle[h % 3], to = triangle[Surface::next(h) % 3];
   return reversed ? std::array{ref.mesh, to, from} : std::array{ref.mesh, from, to};
@@ -195,7 +195,7 @@ void split_points_into_fans(Surface& surface) {
     if (is_assigned[corner] || surface.has_repeated_point(corner / 3)) continue;
     Index point = surface.corner_point[corner];
     if (surface.point_corner[point] != kNone) {
-      surface.point_side.push_back(surface.point_side[point]);
+      surface.source_side.push_back(surface.source_side[point]);
       point = static_cast<Index>(surface.point_corner.size());
       surface.point_corner.push_back(kNone);
     }
@@ -212,7 +212,7 @@ void mark_shared_vertices(const Character& character, Surface& surface) {
   std::vector<std::vector<Index>> point_of_vertex;
   for (const Mesh& mesh : character.meshes) point_of_vertex.emplace_back(mesh.vertex_count(), kNone);
   for (Index corner = 0; corner < surface.corner_point.size(); ++corner) {
-    const TriangleRef& ref = surface.triangles[corner / 3];
+    const TriangleRef ref = surface.triangle(corner / 3);
     const Index vertex = character.meshes[ref.mesh].triangles[ref.triangle][corner % 3];
     Index& point = point_of_vertex[ref.mesh][vertex];
     if (point == kNone) point = surface.corner_point[corner];
@@ -235,17 +235,21 @@ Index Surface::find_half_edge(Index from, Index to) const {
 Surface build_surface(const Character& character) {
   Weld weld = weld_vertices(character);
   Surface surface;
-  surface.point_side = std::move(weld.point_side);
-  surface.point_corner.assign(surface.point_side.size(), kNone);
+  surface.source_side = std::move(weld.point_side);
+  surface.point_corner.assign(surface.source_side.size(), kNone);
+  surface.first_triangle = {0};
+  for (const Mesh& mesh : character.meshes) surface.first_triangle.push_back(surface.first_triangle.back() + mesh.triangle_count());
+  surface.corner_point.reserve(3 * std::size_t{surface.first_triangle.back()});
   for (Index m = 0; m < character.meshes.size(); ++m)
-    for (Index t = 0; t < character.meshes[m].triangle_count(); ++t) {
-      surface.triangles.push_back({m, t, t});
-      for (const Index vertex : character.meshes[m].triangles[t]) surface.corner_point.push_back(weld.point_of_vertex[m][vertex]);
-    }
+    for (const Triangle& triangle : character.meshes[m].triangles)
+      for (const Index vertex : triangle) surface.corner_point.push_back(weld.point_of_vertex[m][vertex]);
   surface.twin.assign(surface.corner_point.size(), kNone);
   join_across_edges(character, surface);
   split_points_into_fans(surface);
   mark_shared_vertices(character, surface);
+  if (std::all_of(surface.source_side.begin(), surface.source_side.end(), [](Index side) { return side == 0; }))
+    surface.source_side = {};
+  surface.point_corner.shrink_to_fit();
   return surface;
 }
 

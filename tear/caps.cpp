@@ -49,7 +49,7 @@ class Caps {
         ++report_.open_sections;
         continue;
       }
-      const Index mesh = surface.triangles[rim.half_edges.front() / 3].mesh;
+      const Index mesh = surface.triangle(rim.half_edges.front() / 3).mesh;
       // A cap runs against the border of what it closes.
       std::reverse(rim.half_edges.begin(), rim.half_edges.end());
       closed_of_skin[work_.editor.character().meshes[mesh].skin].push_back(std::move(rim));
@@ -199,7 +199,7 @@ class Caps {
 
   [[nodiscard]] Index mesh_with_most(const std::vector<Index>& half_edges) const {
     std::map<Index, Index> count;
-    for (const Index h : half_edges) ++count[work_.editor.surface().triangles[h / 3].mesh];
+    for (const Index h : half_edges) ++count[work_.editor.surface().triangle(h / 3).mesh];
     return std::max_element(count.begin(), count.end(), [](const auto& a, const auto& b) { return a.second < b.second; })->first;
   }
 

@@ -67,7 +67,7 @@ void cut_surface(const Cut& cut, const Workpiece& work, TearReport& report, std:
   report.blocked = opening.blocked;
   report.length_posed = opening.length_posed;
   if (cut.caps) add_caps(opening, normal, work, report);
-  improve_faces(work.editor.touched_since(before), work.editor);
+  improve_faces(before, work.editor);
 }
 
 }  // namespace sunder::tear

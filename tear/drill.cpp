@@ -75,7 +75,7 @@ void drill_surface(const Bore& bore, const Workpiece& work, TearReport& report) 
   report.faces_crossed = removal.faces_crossed;
   report.blocked = removal.blocked;
   report.area_removed_posed = removal.area_posed;
-  improve_faces(work.editor.touched_since(before), work.editor);
+  improve_faces(before, work.editor);
   if (bore.wall)
     report.open_sections =
         add_bore_wall(work.editor.opened(), bore.origin, bore.direction / bore.direction.norm(), bore.depth, work);

@@ -12,7 +12,7 @@ Vec3d to_bind(const Mat3d& posed_from_bind, const Vec3d& posed, const Vec3d& fal
 
 Index Filling::add_rim_vertex(Index mesh, Index corner) {
   SurfaceEditor& editor = work_.editor;
-  const Index rim_mesh = editor.surface().triangles[corner / 3].mesh, rim_vertex = editor.vertex_at(corner);
+  const Index rim_mesh = editor.surface().triangle(corner / 3).mesh, rim_vertex = editor.vertex_at(corner);
   if (rim_mesh == mesh) return editor.append_filling_vertex(mesh, rim_vertex);
   const Index vertex = editor.append_filling_vertex(mesh, 0);
   copy_surface_point(editor.character().meshes[rim_mesh], rim_vertex, vertex, editor.mesh_of_new_vertex(mesh));
@@ -68,7 +68,7 @@ void Filling::add_triangle(Index mesh, Index like_corner, const std::array<Index
   SurfaceEditor& editor = work_.editor;
   auto known = submesh_of_mesh_.find(mesh);
   if (known == submesh_of_mesh_.end()) {
-    const TriangleRef& ref = editor.surface().triangles[like_corner / 3];
+    const TriangleRef ref = editor.surface().triangle(like_corner / 3);
     const Mesh& of = editor.character().meshes[ref.mesh];
     const Index material = of.submeshes[of.triangle_submesh[ref.triangle]].material;
     known = submesh_of_mesh_.emplace(mesh, editor.append_submesh(mesh, name_, material)).first;
@@ -81,7 +81,7 @@ void Filling::take_back(const SurfaceEditor::Mark& before) {
   work_.posed.forget_from(before.points);
   triangles_.clear();
   for (auto at = submesh_of_mesh_.begin(); at != submesh_of_mesh_.end();)
-    at = at->second >= before.meshes[at->first].submeshes ? submesh_of_mesh_.erase(at) : std::next(at);
+    at = at->second >= work_.editor.character().meshes[at->first].submeshes.size() ? submesh_of_mesh_.erase(at) : std::next(at);
 }
 
 bool Filling::connect(const std::vector<Index>& rim_half_edges) {

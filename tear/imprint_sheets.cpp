@@ -126,7 +126,7 @@ class Imprint {
 
   /// Part of an edge nearer than which a place would be stored as one of its ends, give or take a few units in the last place.
   [[nodiscard]] double snap_of(Index half_edge) const {
-    const auto& positions = editor_.character().meshes[editor_.surface().triangles[half_edge / 3].mesh].positions;
+    const auto& positions = editor_.character().meshes[editor_.surface().triangle(half_edge / 3).mesh].positions;
     const Vec3f &from = positions[editor_.vertex_at(half_edge)], &to = positions[editor_.vertex_at(Surface::next(half_edge))];
     const double coordinate = static_cast<double>(std::max(from.cwiseAbs().maxCoeff(), to.cwiseAbs().maxCoeff()));
     const double length = (to.cast<double>() - from.cast<double>()).norm();

@@ -15,7 +15,7 @@ double shape_squared(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const E
 double gain(Index half_edge, const SurfaceEditor& editor) {
   const Surface& surface = editor.surface();
   const Index twin = surface.twin[half_edge];
-  const Mesh& mesh = editor.character().meshes[surface.triangles[half_edge / 3].mesh];
+  const Mesh& mesh = editor.character().meshes[surface.triangle(half_edge / 3).mesh];
   const auto position = [&](Index corner) -> Eigen::Vector3d { return mesh.positions[editor.vertex_at(corner)].cast<double>(); };
   const Eigen::Vector3d a = position(half_edge), b = position(Surface::next(half_edge)), c = position(Surface::previous(half_edge)),
                         d = position(Surface::previous(twin));
@@ -26,9 +26,12 @@ double gain(Index half_edge, const SurfaceEditor& editor) {
 
 }  // namespace
 
-void improve_faces(const std::vector<Index>& faces, SurfaceEditor& editor) {
+void improve_faces(const SurfaceEditor::Mark& since, SurfaceEditor& editor) {
   const Surface& surface = editor.surface();
-  std::vector<Index> open;
+  std::vector<Index> faces, open;
+  editor.for_each_changed(since, [&](Index face) { faces.push_back(face); });
+  std::sort(faces.begin(), faces.end());
+  for (Index face = since.triangles; face < surface.triangle_count(); ++face) faces.push_back(face);
   for (const Index face : faces)
     if (!surface.has_repeated_point(face)) open.insert(open.end(), {3 * face, 3 * face + 1, 3 * face + 2});
   std::size_t turns_left = 16 * open.size();

@@ -10,6 +10,6 @@ namespace sunder::tear {
 /// stays what it is, lips and borders too.
 /// @param faces  where to look first.
 /// O(faces + edges turned).
-void improve_faces(const std::vector<Index>& faces, SurfaceEditor& editor);
+void improve_faces(const SurfaceEditor::Mark& since, SurfaceEditor& editor);
 
 }  // namespace sunder::tear

@@ -22,6 +22,7 @@ Status TornModel::State::stand_in(const ModelPose& wanted) {
 }
 
 Result<TearReport> TornModel::State::call(const std::function<Status(Call&)>& work, ChangeRecord* change, bool is_cut) {
+  editor.scratch().reset();
   Call call{editor.mark(), {}, {}};
   const auto take_back = [&] {
     editor.roll_back(call.begin);
@@ -43,23 +44,19 @@ Result<TearReport> TornModel::State::call(const std::function<Status(Call&)>& wo
 }
 
 void TornModel::State::count(const tear::SurfaceEditor::Mark& begin, bool is_cut, TearReport& report) {
-  const tear::SurfaceEditor::Mark now = editor.mark();
-  report.points_added = now.points - begin.points;
-  report.triangles_added = now.triangles - begin.triangles;
-  report.vertices_added = report.triangles_retired = 0;
-  for (std::size_t m = 0; m < now.meshes.size(); ++m) report.vertices_added += now.meshes[m].vertices - begin.meshes[m].vertices;
-  for (const std::uint32_t triangle : editor.touched_since(begin)) {
-    if (triangle >= begin.triangles) break;  // ascending
+  report.points_added = editor.surface().point_count() - begin.points;
+  report.triangles_added = editor.surface().triangle_count() - begin.triangles;
+  report.vertices_added = editor.vertices_since(begin);
+  report.triangles_retired = 0;
+  editor.for_each_changed(begin, [&](std::uint32_t triangle) {
     report.triangles_retired += editor.surface().corner_point[3 * triangle] == kNone ? 1 : 0;
-  }
+  });
   report.pieces = tear::find_pieces(begin, is_cut, editor, posed);
 }
 
 void TornModel::State::record(Operation operation, const tear::SurfaceEditor::Mark& begin) {
-  auto step = editor.finish(begin);
-  const bool did_nothing = step.log.empty() && editor.mark().points == begin.points && editor.mark().triangles == begin.triangles;
-  if (did_nothing) return;
-  done.push_back({std::move(operation), std::move(step)});
+  if (editor.numbers_since(begin) == 0) return;  // it did nothing
+  done.push_back({std::move(operation), begin});
   undone.clear();
 }
 

@@ -28,8 +28,9 @@ struct TornModel::State {
   void count(const tear::SurfaceEditor::Mark& begin, bool is_cut, TearReport& report);
 
   /// Where the operation that begins now begins.
-  [[nodiscard]] tear::SurfaceEditor::Mark begin_operation() {
-    editor.begin_opening();
+  /// @param keeps_opened  it will ask which borders it opened.
+  [[nodiscard]] tear::SurfaceEditor::Mark begin_operation(bool keeps_opened) {
+    editor.begin_opening(keeps_opened);
     return editor.mark();
   }
 
@@ -44,7 +45,7 @@ struct TornModel::State {
 
   struct Done {
     Operation operation;
-    tear::SurfaceEditor::Step step;
+    tear::SurfaceEditor::Mark begin;
   };
   struct Undone {
     Operation operation;

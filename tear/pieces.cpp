@@ -2,8 +2,12 @@
 
 #include <algorithm>
 #include <map>
+#include <memory_resource>
 #include <numeric>
+#include <span>
 #include <unordered_map>
+
+#include "tear/scratch_memory.h"
 
 namespace sunder::tear {
 namespace {
@@ -11,61 +15,119 @@ namespace {
 /// Sets of numbers that only ever unite.
 class DisjointSets {
  public:
-  Index add() {
-    parent_.push_back(static_cast<Index>(parent_.size()));
-    return parent_.back();
-  }
+  DisjointSets(Index count, ScratchMemory& scratch) : parent_(count, &scratch) { std::iota(parent_.begin(), parent_.end(), 0); }
   Index find(Index i) {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;
   }
-  void unite(Index a, Index b) { parent_[find(a)] = find(b); }
-  /// The root of `into` stays a root.
-  void unite_into(Index into, Index from) { parent_[find(from)] = find(into); }
-  [[nodiscard]] Index count() const { return static_cast<Index>(parent_.size()); }
-
- private:
-  std::vector<Index> parent_;
-};
-
-/// Fronts that grow over the surface and become one where they meet.
-class Fronts {
- public:
-  explicit Fronts(const Surface& surface) : surface_(surface) {}
-
-  void start(Index face) {
-    if (!front_of_face_.emplace(face, sets_.count()).second) return;
-    (void)sets_.add();
-    (void)groups_.add();
-    faces_.push_back({face});
-    open_.push_back({0});
+  /// The root of `into` stays a root. @return whether they were two sets.
+  bool unite(Index into, Index from) {
+    const Index a = find(into), b = find(from);
+    parent_[b] = a;
+    return a != b;
   }
 
-  /// Groups the fronts by what hung together before, over edges that were opened and faces that are gone. What did not hang
-  /// together need not be found to be apart.
-  void group(const SurfaceEditor& editor, const SurfaceEditor::Mark& begin) {
-    std::unordered_map<Index, Index> node_of_gone;
-    const auto node_of = [&](Index face) {
-      const auto front = front_of_face_.find(face);
-      if (front != front_of_face_.end()) return front->second;
-      if (!surface_.has_repeated_point(face)) return kNone;  // not touched: what joins it still does
-      const auto [node, is_new] = node_of_gone.emplace(face, groups_.count());
-      if (is_new) (void)groups_.add();
-      return node->second;
-    };
+ private:
+  ScratchVector<Index> parent_;
+};
+
+/// Which front holds a face.
+class FrontOfFace {
+ public:
+  /// @param of_all  most faces will be asked for.
+  FrontOfFace(Index face_count, bool of_all, ScratchMemory& scratch) : of_all_(&scratch), of_some_(&scratch) {
+    if (of_all) of_all_.assign(face_count, kNone);
+  }
+  /// @return the front that holds the face already, or `front`, which holds it from now on.
+  Index claim(Index face, Index front) {
+    Index& holder = of_all_.empty() ? of_some_.emplace(face, kNone).first->second : of_all_[face];
+    if (holder == kNone) holder = front;
+    return holder;
+  }
+  /// Those of all faces.
+  [[nodiscard]] const ScratchVector<Index>& of_all() const { return of_all_; }
+
+ private:
+  ScratchVector<Index> of_all_;
+  std::pmr::unordered_map<Index, Index> of_some_;  // asked, never walked through
+};
+
+/// Numbers of the faces that changed or were made since an operation began, and how they hang together.
+class ChangedFaces {
+ public:
+  ChangedFaces(const SurfaceEditor::Mark& begin, const SurfaceEditor& editor)
+      : surface_(editor.surface()),
+        face_(editor.numbers_since(begin), kNone, &editor.scratch()),
+        sets_(editor.numbers_since(begin), editor.scratch()),
+        groups_(editor.numbers_since(begin), editor.scratch()) {
+    editor.for_each_changed(begin, [&](Index face) { face_[editor.number_since(begin, face)] = face; });
+    for (Index face = begin.triangles; face < surface_.triangle_count(); ++face) face_[editor.number_since(begin, face)] = face;
+    for (Index i = 0; i < count(); ++i) {
+      if (!is_live(i)) continue;
+      ++set_count_;
+      for (Index h = 3 * face_[i]; h < 3 * face_[i] + 3; ++h) {
+        if (surface_.twin[h] == kNone) continue;
+        const Index other = editor.number_since(begin, surface_.twin[h] / 3);
+        if (other == kNone) continue;
+        if (sets_.unite(i, other)) ++joined_;
+        groups_.unite(i, other);
+      }
+    }
+    if (set_count() < 2) return;
+    // What hung together before: neighbours, and what was split from one face. What did not change joins as it did.
     editor.for_each_former_neighbour(begin, [&](Index one, Index other) {
-      const Index a = node_of(one), b = node_of(other);
-      if (a != kNone && b != kNone) groups_.unite(a, b);
+      const Index b = editor.number_since(begin, other);
+      if (b != kNone) groups_.unite(editor.number_since(begin, one), b);
     });
+    for (Index face = begin.triangles; face < surface_.triangle_count(); ++face)
+      if (editor.parent(face) != kNone)
+        groups_.unite(editor.number_since(begin, face), editor.number_since(begin, editor.parent(face)));
+  }
+
+  [[nodiscard]] Index count() const { return static_cast<Index>(face_.size()); }
+  [[nodiscard]] Index face(Index i) const { return face_[i]; }
+  [[nodiscard]] bool is_live(Index i) const { return face_[i] != kNone && !surface_.has_repeated_point(face_[i]); }
+  [[nodiscard]] Index set_count() const { return set_count_ - joined_; }
+  [[nodiscard]] DisjointSets& sets() { return sets_; }
+  [[nodiscard]] DisjointSets& groups() { return groups_; }
+
+ private:
+  const Surface& surface_;
+  ScratchVector<Index> face_;  ///< Of each number; kNone for one that stands for no face.
+  DisjointSets sets_;          ///< What hangs together now, as far as it changed.
+  DisjointSets groups_;        ///< What hung together before.
+  Index set_count_ = 0, joined_ = 0;
+};
+
+/// Fronts that grow over the surface, one from each set of changed faces, and become one where they meet.
+class Fronts {
+ public:
+  Fronts(ChangedFaces& changed, bool of_all, const SurfaceEditor& editor)
+      : surface_(editor.surface()),
+        scratch_(editor.scratch()),
+        groups_(changed.groups()),
+        sets_(changed.sets()),
+        front_of_face_(surface_.triangle_count(), of_all, scratch_),
+        faces_(changed.count(), ScratchVector<Index>(&scratch_), &scratch_),
+        open_(faces_, &scratch_),
+        roots_(&scratch_) {
+    for (Index i = 0; i < changed.count(); ++i) {
+      if (!changed.is_live(i)) continue;
+      const Index front = sets_.find(i);
+      if (faces_[front].empty()) roots_.push_back(front);
+      front_of_face_.claim(changed.face(i), front);
+      open_[front].push_back(static_cast<Index>(faces_[front].size()));
+      faces_[front].push_back(changed.face(i));
+    }
   }
 
   /// Grows until of each group at most one set of joined fronts is not exhausted, or to the end.
   void grow(bool to_the_end) {
-    std::vector<Index> active(sets_.count()), growing;
-    std::iota(active.begin(), active.end(), 0);
+    ScratchVector<Index> active(roots_, &scratch_), growing(&scratch_);
+    std::pmr::unordered_map<Index, Index> sets_in_group(&scratch_);
     for (;;) {
       // Fronts that meet make groups one: who has to grow is asked before any does.
-      std::unordered_map<Index, Index> sets_in_group;
+      sets_in_group.clear();
       for (const Index front : active) ++sets_in_group[groups_.find(front)];
       growing.clear();
       for (const Index front : active)
@@ -82,16 +144,22 @@ class Fronts {
 
   /// Fronts that joined.
   struct Set {
-    std::vector<Index> faces;  ///< Ascending.
+    ScratchVector<Index> faces;  ///< Ascending.
     bool is_exhausted = false;
   };
   /// Sets by what hung together before, of more than one each.
   [[nodiscard]] std::vector<std::vector<Set>> separated() {
     std::map<Index, std::vector<Set>> sets_of_group;
-    for (Index front = 0; front < sets_.count(); ++front) {
+    if (!front_of_face_.of_all().empty()) {  // in order without sorting
+      for (const Index front : roots_)
+        if (sets_.find(front) == front) faces_[front].clear();
+      for (Index face = 0; face < surface_.triangle_count(); ++face)
+        if (const Index front = front_of_face_.of_all()[face]; front != kNone) faces_[sets_.find(front)].push_back(face);
+    }
+    for (const Index front : roots_) {
       if (sets_.find(front) != front) continue;
-      std::sort(faces_[front].begin(), faces_[front].end());
-      sets_of_group[groups_.find(front)].push_back({faces_[front], open_[front].empty()});
+      if (front_of_face_.of_all().empty()) std::sort(faces_[front].begin(), faces_[front].end());
+      sets_of_group[groups_.find(front)].push_back({std::move(faces_[front]), open_[front].empty()});
     }
     std::vector<std::vector<Set>> separated;
     for (auto& [unused, sets] : sets_of_group)
@@ -108,7 +176,7 @@ class Fronts {
     b = sets_.find(b);
     if (a == b) return;
     if (faces_[a].size() < faces_[b].size()) std::swap(a, b);
-    sets_.unite_into(a, b);
+    sets_.unite(a, b);
     groups_.unite(a, b);
     const auto offset = static_cast<Index>(faces_[a].size());
     faces_[a].insert(faces_[a].end(), faces_[b].begin(), faces_[b].end());
@@ -124,31 +192,33 @@ class Fronts {
       const Index twin = surface_.twin[h];
       if (twin == kNone) continue;
       const Index owner = sets_.find(front);
-      const auto [at, is_new] = front_of_face_.emplace(twin / 3, owner);
-      if (is_new) {
+      const Index holder = front_of_face_.claim(twin / 3, kNone);
+      if (holder == kNone) {
+        front_of_face_.claim(twin / 3, owner);
         open_[owner].push_back(static_cast<Index>(faces_[owner].size()));
         faces_[owner].push_back(twin / 3);
       } else {
-        join(owner, at->second);
+        join(owner, holder);
       }
     }
   }
 
   const Surface& surface_;
-  std::unordered_map<Index, Index> front_of_face_;  // asked, never walked through
-  DisjointSets sets_;                               ///< Of fronts.
-  DisjointSets groups_;                             ///< Of fronts and, numbered after them, of faces that are gone.
-  std::vector<std::vector<Index>> faces_, open_;    ///< Of each front; open: places in faces.
+  ScratchMemory& scratch_;
+  DisjointSets &groups_, &sets_;
+  FrontOfFace front_of_face_;
+  ScratchVector<ScratchVector<Index>> faces_, open_;  ///< Of each front; open: places in faces.
+  ScratchVector<Index> roots_;                        ///< The fronts as they started.
 };
 
-Piece describe(const std::vector<Index>& faces, const SurfaceEditor& editor, PosedPoints& posed) {
+Piece describe(std::span<const Index> faces, const SurfaceEditor& editor, PosedPoints& posed) {
   const Surface& surface = editor.surface();
   Piece piece;
   piece.triangle_count = static_cast<Index>(faces.size());
   std::vector<std::array<Index, 2>> triangles;
   Vec3d moment = Vec3d::Zero(), mean = Vec3d::Zero();
   for (const Index face : faces) {
-    const TriangleRef& ref = surface.triangles[face];
+    const TriangleRef ref = surface.triangle(face);
     triangles.push_back({ref.mesh, ref.triangle});
     std::array<Vec3d, 3> corners;
     for (Index k = 0; k < 3; ++k) corners[k] = posed.position(editor, surface.corner_point[3 * face + k]);
@@ -176,13 +246,11 @@ Piece describe(const std::vector<Index>& faces, const SurfaceEditor& editor, Pos
 }  // namespace
 
 std::vector<Piece> find_pieces(const SurfaceEditor::Mark& begin, bool all, const SurfaceEditor& editor, PosedPoints& posed) {
-  const Surface& surface = editor.surface();
-  Fronts fronts(surface);
-  for (const Index face : editor.touched_since(begin))
-    if (!surface.has_repeated_point(face)) fronts.start(face);
-  fronts.group(editor, begin);
+  ChangedFaces changed(begin, editor);
+  if (changed.set_count() < 2) return {};
+  Fronts fronts(changed, all, editor);
   fronts.grow(all);
-  std::vector<std::vector<Index>> sets;
+  std::vector<ScratchVector<Index>> sets;
   for (auto& of_group : fronts.separated()) {
     // What is left is the part that did not run out or, where all did, the largest.
     const auto left = std::max_element(of_group.begin(), of_group.end(), [](const Fronts::Set& a, const Fronts::Set& b) {

@@ -47,7 +47,7 @@ const Vec3d& PosedPoints::position(const SurfaceEditor& editor, Index point) {
   }
   if (known_since_[point] != epoch_) {
     const Index corner = editor.surface().point_corner[point];
-    const Mesh& mesh = editor.character().meshes[editor.surface().triangles[corner / 3].mesh];
+    const Mesh& mesh = editor.character().meshes[editor.surface().triangle(corner / 3).mesh];
     positions_[point] = deform_position_reference(mesh, editor.vertex_at(corner), palettes_[mesh.skin], morph_weights_);
     known_since_[point] = epoch_;
   }

@@ -180,7 +180,7 @@ void StrokeTearing::catch_up(const Workpiece& work) {
   const SurfaceEditor::Mark before = work.editor.mark();
   remove_pending(pending_->plane.standing_on(pending_->plane.reach()[2]), work);
   pending_.reset();
-  improve_faces(work.editor.touched_since(before), work.editor);
+  improve_faces(before, work.editor);
 }
 
 }  // namespace sunder::tear

@@ -62,7 +62,7 @@ void StrokeTearing::extend(const Blade& to, const Workpiece& work) {
     tear_all_layers(*plane, work);
   else
     tear_segment(*plane, work);
-  improve_faces(work.editor.touched_since(before), work.editor);
+  improve_faces(before, work.editor);
 }
 
 void StrokeTearing::finish(const Workpiece& work) {

@@ -2,6 +2,7 @@
 
 #include <sunder/core/character.h>
 
+#include <algorithm>
 #include <vector>
 
 namespace sunder::tear {
@@ -15,23 +16,40 @@ struct TriangleRef {
   Index source_triangle = 0;  ///< In the mesh as it was loaded.
 };
 
-/// Connectivity of a character's surface on points, all meshes together.
+/// Connectivity of a character's surface on points, all meshes together. Without what tears append it takes 24 bytes a triangle
+/// and 4 a point.
 ///
 /// Triangle t has corners 3t, 3t+1, 3t+2. A corner also names the half-edge that leaves it, towards the next corner. Each point has
 /// one fan: its corners are reached from one another across edges. Where a surface touches itself in a point only, that is two
 /// points.
 struct Surface {
-  std::vector<Index> corner_point;     ///< 3 a triangle.
-  std::vector<Index> twin;             ///< 3 a triangle: the opposite half-edge, kNone at a border.
-  std::vector<TriangleRef> triangles;  ///< Source triangles first, mesh after mesh.
-  std::vector<Index> point_corner;     ///< One corner of each point; kNone for a point that only degenerate triangles use.
-  std::vector<Index> point_side;       ///< Value of _TEARSIDE.
+  std::vector<Index> corner_point;    ///< 3 a triangle.
+  std::vector<Index> twin;            ///< 3 a triangle: the opposite half-edge, kNone at a border.
+  std::vector<Index> first_triangle;  ///< Of each mesh' source triangles, mesh after mesh; at the end their number.
+  std::vector<TriangleRef> appended;  ///< The triangles after those.
+  std::vector<Index> point_corner;    ///< One corner of each point; kNone for a point that only degenerate triangles use.
+  std::vector<Index> source_side;     ///< Value of _TEARSIDE of the source's points; none where all are 0.
+  std::vector<Index> appended_side;   ///< Of the points after those.
   std::vector<std::vector<bool>> is_shared_vertex;  ///< Of each mesh: source vertices that not one fan alone uses.
   Index non_manifold_edges = 0;                     ///< At build: with more than two faces, or two that disagree in winding.
   Index non_manifold_half_edges = 0;                ///< At build: half-edges left unjoined for that reason.
 
-  [[nodiscard]] Index triangle_count() const { return static_cast<Index>(triangles.size()); }
+  [[nodiscard]] Index triangle_count() const { return first_triangle.back() + static_cast<Index>(appended.size()); }
   [[nodiscard]] Index point_count() const { return static_cast<Index>(point_corner.size()); }
+  [[nodiscard]] Index source_point_count() const { return point_count() - static_cast<Index>(appended_side.size()); }
+
+  [[nodiscard]] TriangleRef triangle(Index t) const {
+    if (t >= first_triangle.back()) return appended[t - first_triangle.back()];
+    Index mesh = 0;
+    if (first_triangle.size() > 2)
+      mesh = static_cast<Index>(std::upper_bound(first_triangle.begin(), first_triangle.end(), t) - first_triangle.begin()) - 1;
+    return {mesh, t - first_triangle[mesh], t - first_triangle[mesh]};
+  }
+  /// Value of _TEARSIDE.
+  [[nodiscard]] Index side(Index point) const {
+    if (point >= source_point_count()) return appended_side[point - source_point_count()];
+    return source_side.empty() ? 0 : source_side[point];
+  }
 
   static Index next(Index corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
   static Index previous(Index corner) { return corner % 3 == 0 ? corner + 2 : corner - 1; }

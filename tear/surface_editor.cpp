@@ -16,39 +16,112 @@ double covered_part(const std::array<double, 3>& p, const std::array<double, 3>&
 
 }  // namespace
 
+/// A face that is to be split: where its corners lie in its origin, and how it is turned.
+class SurfaceEditor::FaceSplit {
+ public:
+  FaceSplit(const SurfaceEditor& editor, Index face)
+      : editor_(editor), ref_(editor.surface_.triangle(face)), vertices_(editor.vertices_of(face)) {
+    for (std::size_t k = 0; k < 3; ++k) places_[k] = editor.place_in_origin(ref_, vertices_[k]);
+    const Mesh& mesh = editor.character_.meshes[ref_.mesh];
+    normal_ = normal(mesh, vertices_);
+    const Triangle& origin = editor.origin_triangle(ref_.mesh, ref_.source_triangle);
+    normal_of_origin_ = origin == vertices_ ? normal_ : normal(mesh, origin);
+  }
+
+  [[nodiscard]] Index mesh() const { return ref_.mesh; }
+  [[nodiscard]] const Triangle& vertices() const { return vertices_; }
+
+  [[nodiscard]] Birth birth_at(const std::array<double, 3>& barycentric) const {
+    Birth birth{ref_.source_triangle, {0, 0, 0}};
+    double sum = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (barycentric[k] <= 0.0) continue;
+      for (std::size_t i = 0; i < 3; ++i) {
+        birth.barycentric[i] += barycentric[k] * places_[k][i];
+        sum += barycentric[k] * places_[k][i];
+      }
+    }
+    for (double& coordinate : birth.barycentric) coordinate /= sum;
+    return birth;
+  }
+
+  /// Whether replacing one corner (0, 1, 2) by a new vertex keeps the winding.
+  [[nodiscard]] bool keeps_winding(Index corner, Index vertex) const {
+    auto places = places_;
+    places[corner] = editor_.place_in_origin(ref_, vertex);
+    if (!(covered_part(places[0], places[1], places[2]) > kLeastPart)) return false;
+    const Mesh& mesh = editor_.character_.meshes[ref_.mesh];
+    const double squared = normal_.squaredNorm();
+    // A face without area has no winding to lose; its parts must only keep their corners apart.
+    if (squared == 0.0)
+      return mesh.positions[vertex] != mesh.positions[vertices_[(corner + 1) % 3]] &&
+             mesh.positions[vertex] != mesh.positions[vertices_[(corner + 2) % 3]];
+    Triangle after = vertices_;
+    after[corner] = vertex;
+    const Eigen::Vector3d normal_after = normal(mesh, after);
+    if (!(normal_after.dot(normal_) > 1e-9 * squared)) return false;
+    // Normals of slivers are as crooked as stored positions are coarse: parts of parts must not end up facing away.
+    return normal_of_origin_.isZero(0) || normal_after.dot(normal_of_origin_) > 0;
+  }
+
+ private:
+  static Eigen::Vector3d normal(const Mesh& mesh, const Triangle& of) {
+    const Eigen::Vector3d a = mesh.positions[of[0]].cast<double>();
+    return (mesh.positions[of[1]].cast<double>() - a).cross(mesh.positions[of[2]].cast<double>() - a);
+  }
+
+  const SurfaceEditor& editor_;
+  const TriangleRef ref_;
+  const Triangle vertices_;
+  std::array<std::array<double, 3>, 3> places_;
+  Eigen::Vector3d normal_, normal_of_origin_;
+};
+
 SurfaceEditor::SurfaceEditor(const Character& source, Character& character)
     : source_(source),
       character_(character),
       surface_(build_surface(character)),
       births_(character.meshes.size()),
       fillings_(character.meshes.size()),
-      appended_triangles_(character.meshes.size()) {
-  Index first = 0;
-  for (const Mesh& mesh : source.meshes) {
-    first_triangle_.push_back(first);
-    first += mesh.triangle_count();
+      appended_triangles_(character.meshes.size()),
+      newest_entry_(surface_.triangle_count(), kNone),
+      spare_sides_(character.meshes.size()) {
+  for (const Index side : surface_.source_side) next_side_ = std::max(next_side_, side + 1);
+  for (const Mesh& mesh : character.meshes) {
+    const auto found = std::find_if(mesh.custom_attributes.begin(), mesh.custom_attributes.end(),
+                                    [](const CustomAttribute& a) { return a.name == kTearSideAttribute && a.components == 1; });
+    side_attribute_.push_back(found == mesh.custom_attributes.end() ? kNone
+                                                                    : static_cast<Index>(found - mesh.custom_attributes.begin()));
   }
-  for (const Index side : surface_.point_side) next_side_ = std::max(next_side_, side + 1);
+  sizes_.reserve(character.meshes.size());
   begin_stage();
 }
 
 Triangle SurfaceEditor::vertices_of(Index triangle) const {
-  const TriangleRef& ref = surface_.triangles[triangle];
+  const TriangleRef ref = surface_.triangle(triangle);
   return character_.meshes[ref.mesh].triangles[ref.triangle];
 }
 
-void SurfaceEditor::log_triangle(Index triangle) {
-  LogEntry entry{triangle, {}, {}, {}, vertices_of(triangle)};
+SurfaceEditor::LogEntry SurfaceEditor::entry_of(Index triangle) const {
+  LogEntry entry{triangle, newest_entry_[triangle], {}, {}, {}, vertices_of(triangle)};
   for (Index k = 0; k < 3; ++k) {
     entry.points[k] = surface_.corner_point[3 * triangle + k];
     entry.twins[k] = surface_.twin[3 * triangle + k];
     entry.point_corners[k] = entry.points[k] == kNone ? kNone : surface_.point_corner[entry.points[k]];
   }
-  log_.push_back(entry);
+  return entry;
+}
+
+void SurfaceEditor::log_triangle(Index triangle) {
+  if (triangle >= logged_since_.triangles) return;
+  Index& newest = newest_entry_[triangle];
+  if (newest != kNone && newest >= logged_since_.log_length) return;
+  log_.push_back(entry_of(triangle));
+  newest = static_cast<Index>(log_.size() - 1);
 }
 
 void SurfaceEditor::restore(const LogEntry& entry) {
-  const TriangleRef& ref = surface_.triangles[entry.triangle];
+  const TriangleRef ref = surface_.triangle(entry.triangle);
   character_.meshes[ref.mesh].triangles[ref.triangle] = entry.vertices;
   for (Index k = 0; k < 3; ++k) {
     surface_.corner_point[3 * entry.triangle + k] = entry.points[k];
@@ -59,9 +132,8 @@ void SurfaceEditor::restore(const LogEntry& entry) {
 
 void SurfaceEditor::set_corner(Index corner, Index point, Index vertex) {
   surface_.corner_point[corner] = point;
-  const TriangleRef& ref = surface_.triangles[corner / 3];
+  const TriangleRef ref = surface_.triangle(corner / 3);
   character_.meshes[ref.mesh].triangles[ref.triangle][corner % 3] = vertex;
-  if (point != kNone) write_side(ref.mesh, vertex, surface_.point_side[point]);
 }
 
 void SurfaceEditor::join(Index a, Index b) {
@@ -70,10 +142,12 @@ void SurfaceEditor::join(Index a, Index b) {
 }
 
 Index SurfaceEditor::append_triangle(Index like, const std::array<Index, 3>& points, const Triangle& vertices) {
-  const TriangleRef ref = surface_.triangles[like];
+  const TriangleRef ref = surface_.triangle(like);
   Mesh& mesh = character_.meshes[ref.mesh];
   const Index triangle = surface_.triangle_count();
-  surface_.triangles.push_back({ref.mesh, mesh.triangle_count(), ref.source_triangle});
+  surface_.appended.push_back({ref.mesh, mesh.triangle_count(), ref.source_triangle});
+  newest_entry_.push_back(kNone);
+  parents_.push_back(like);
   appended_triangles_[ref.mesh].push_back(triangle);
   ancestors_.push_back(ancestor(like));
   const Index submesh = mesh.triangle_submesh[ref.triangle];
@@ -82,24 +156,25 @@ Index SurfaceEditor::append_triangle(Index like, const std::array<Index, 3>& poi
   for (Index k = 0; k < 3; ++k) {
     surface_.corner_point.push_back(points[k]);
     surface_.twin.push_back(kNone);
-    write_side(ref.mesh, vertices[k], surface_.point_side[points[k]]);
   }
   return triangle;
 }
 
 Index SurfaceEditor::append_point() {
   surface_.point_corner.push_back(kNone);
-  surface_.point_side.push_back(next_side_++);
+  surface_.appended_side.push_back(next_side_++);
   return surface_.point_count() - 1;
 }
 
 Index SurfaceEditor::append_vertex(Index mesh, const Birth& birth) {
   births_[mesh].push_back(birth);
+  vertex_mesh_.push_back(mesh);
   return append_interpolated_vertex(origin_triangle(mesh, birth.triangle), birth.barycentric, character_.meshes[mesh]);
 }
 
 void SurfaceEditor::remove_newest_vertex(Index mesh) {
   births_[mesh].pop_back();
+  vertex_mesh_.pop_back();
   remove_vertices_from(character_.meshes[mesh].vertex_count() - 1, character_.meshes[mesh]);
 }
 
@@ -126,59 +201,21 @@ std::array<double, 3> SurfaceEditor::place_in_origin(const TriangleRef& ref, Ind
   return result;
 }
 
-Birth SurfaceEditor::birth_between(Index triangle, const std::array<double, 3>& barycentric) const {
-  Birth birth{surface_.triangles[triangle].source_triangle, {0, 0, 0}};
-  double sum = 0;
-  for (Index k = 0; k < 3; ++k) {
-    if (barycentric[k] <= 0.0) continue;
-    const auto corner = source_barycentric(3 * triangle + k);
-    for (std::size_t i = 0; i < 3; ++i) {
-      birth.barycentric[i] += barycentric[k] * corner[i];
-      sum += barycentric[k] * corner[i];
-    }
-  }
-  for (double& coordinate : birth.barycentric) coordinate /= sum;
-  return birth;
-}
-
-bool SurfaceEditor::keeps_winding(Index corner, Index vertex) const {
-  const TriangleRef& ref = surface_.triangles[corner / 3];
-  const Mesh& mesh = character_.meshes[ref.mesh];
-  const auto normal = [&](const Triangle& of) -> Eigen::Vector3d {
-    const Eigen::Vector3d a = mesh.positions[of[0]].cast<double>();
-    return (mesh.positions[of[1]].cast<double>() - a).cross(mesh.positions[of[2]].cast<double>() - a);
-  };
-  const Triangle before = mesh.triangles[ref.triangle];
-  Triangle after = before;
-  after[corner % 3] = vertex;
-  const double part = covered_part(place_in_origin(ref, after[0]), place_in_origin(ref, after[1]), place_in_origin(ref, after[2]));
-  if (!(part > kLeastPart)) return false;
-  const Eigen::Vector3d normal_before = normal(before);
-  const double squared = normal_before.squaredNorm();
-  // A face without area has no winding to lose; its parts must only keep their corners apart.
-  if (squared == 0.0)
-    return mesh.positions[vertex] != mesh.positions[before[(corner + 1) % 3]] &&
-           mesh.positions[vertex] != mesh.positions[before[(corner + 2) % 3]];
-  if (!(normal(after).dot(normal_before) > 1e-9 * squared)) return false;
-  // Normals of slivers are as crooked as stored positions are coarse: parts of parts must not end up facing away.
-  const Eigen::Vector3d of_origin = normal(origin_triangle(ref.mesh, ref.source_triangle));
-  return of_origin.isZero(0) || normal(after).dot(of_origin) > 0;
-}
-
 Index SurfaceEditor::split_edge(Index half_edge, double fraction) {
   // Face f = (a, b, c) lies left of a -> b, face g = (b, a, d) right of it. p goes between a and b:
   // f -> (a, p, c) in place and (p, b, c); g -> (b, p, d) in place and (p, a, d).
   const Index ab = half_edge, bc = Surface::next(ab), ca = Surface::previous(ab);
   const Index ba = surface_.twin[ab];
   const Index f = ab / 3;
-  const Index mesh_f = surface_.triangles[f].mesh;
-  const Triangle before_f = vertices_of(f);
-  const Index vertex_a = before_f[ab % 3], vertex_b = before_f[bc % 3], vertex_c = before_f[ca % 3];
+  const FaceSplit split_f(*this, f);
+  const Index mesh_f = split_f.mesh();
+  const Index vertex_a = split_f.vertices()[ab % 3], vertex_b = split_f.vertices()[bc % 3], vertex_c = split_f.vertices()[ca % 3];
 
   std::array<double, 3> at = {0, 0, 0};
   at[ab % 3] = 1.0 - fraction;
   at[bc % 3] = fraction;
-  const Index vertex_f = append_vertex(mesh_f, birth_between(f, at));
+  const Index vertex_f = append_vertex(mesh_f, split_f.birth_at(at));
+  bool is_sound = split_f.keeps_winding(ab % 3, vertex_f) && split_f.keeps_winding(bc % 3, vertex_f);
 
   Index vertex_g = vertex_f;
   Index mesh_g = mesh_f;
@@ -187,18 +224,18 @@ Index SurfaceEditor::split_edge(Index half_edge, double fraction) {
   if (ba != kNone) {
     ad = Surface::next(ba);
     db = Surface::previous(ba);
-    mesh_g = surface_.triangles[ba / 3].mesh;
-    before_g = vertices_of(ba / 3);
+    const FaceSplit split_g(*this, ba / 3);
+    mesh_g = split_g.mesh();
+    before_g = split_g.vertices();
     if (mesh_g != mesh_f || before_g[ad % 3] != vertex_a || before_g[ba % 3] != vertex_b) {
       at = {0, 0, 0};
       at[ad % 3] = 1.0 - fraction;
       at[ba % 3] = fraction;
-      vertex_g = append_vertex(mesh_g, birth_between(ba / 3, at));
+      vertex_g = append_vertex(mesh_g, split_g.birth_at(at));
       copy_surface_point(character_.meshes[mesh_f], vertex_f, vertex_g, character_.meshes[mesh_g]);
     }
+    is_sound = is_sound && split_g.keeps_winding(ba % 3, vertex_g) && split_g.keeps_winding(ad % 3, vertex_g);
   }
-  const bool is_sound = keeps_winding(ab, vertex_f) && keeps_winding(bc, vertex_f) &&
-                        (ba == kNone || (keeps_winding(ba, vertex_g) && keeps_winding(ad, vertex_g)));
   if (!is_sound) {
     if (vertex_g != vertex_f || mesh_g != mesh_f) remove_newest_vertex(mesh_g);
     remove_newest_vertex(mesh_f);
@@ -208,6 +245,8 @@ Index SurfaceEditor::split_edge(Index half_edge, double fraction) {
   const auto& points = surface_.corner_point;
   const Index a = points[ab], b = points[bc], c = points[ca];
   const Index p = append_point();
+  write_side_of_new(mesh_f, vertex_f, surface_.side(p));
+  if (vertex_g != vertex_f || mesh_g != mesh_f) write_side_of_new(mesh_g, vertex_g, surface_.side(p));
   const Index twin_bc = surface_.twin[bc];
   log_triangle(f);
   if (twin_bc != kNone) log_triangle(twin_bc / 3);
@@ -215,7 +254,7 @@ Index SurfaceEditor::split_edge(Index half_edge, double fraction) {
   const Index pb = 3 * new_f, new_bc = pb + 1, cp = pb + 2;
   set_corner(bc, p, vertex_f);
   move_opened(bc, new_bc);
-  if (opened_.count(ab) != 0) opened_.insert(pb);
+  if (keeps_opened_ && opened_.count(ab) != 0) opened_.insert(pb);
   join(new_bc, twin_bc);
   join(bc, cp);
   surface_.point_corner[p] = pb;
@@ -243,21 +282,23 @@ Index SurfaceEditor::split_edge(Index half_edge, double fraction) {
 }
 
 Index SurfaceEditor::split_triangle(Index triangle, const std::array<double, 3>& barycentric) {
-  const Index mesh = surface_.triangles[triangle].mesh;
-  const Index vertex = append_vertex(mesh, birth_between(triangle, barycentric));
+  const FaceSplit split(*this, triangle);
+  const Index mesh = split.mesh();
+  const Index vertex = append_vertex(mesh, split.birth_at(barycentric));
   const Index corner = 3 * triangle;
-  if (!keeps_winding(corner, vertex) || !keeps_winding(corner + 1, vertex) || !keeps_winding(corner + 2, vertex)) {
+  if (!split.keeps_winding(0, vertex) || !split.keeps_winding(1, vertex) || !split.keeps_winding(2, vertex)) {
     remove_newest_vertex(mesh);
     return kNone;
   }
   // (a, b, c) -> (a, b, p) in place, (b, c, p), (c, a, p).
-  const Triangle before = vertices_of(triangle);
+  const Triangle& before = split.vertices();
   const Index a = surface_.corner_point[corner], b = surface_.corner_point[corner + 1], c = surface_.corner_point[corner + 2];
   const Index twin_bc = surface_.twin[corner + 1], twin_ca = surface_.twin[corner + 2];
   log_triangle(triangle);
   if (twin_bc != kNone) log_triangle(twin_bc / 3);
   if (twin_ca != kNone) log_triangle(twin_ca / 3);
   const Index p = append_point();
+  write_side_of_new(mesh, vertex, surface_.side(p));
   const Index at_bc = 3 * append_triangle(triangle, {b, c, p}, {before[1], before[2], vertex});
   const Index at_ca = 3 * append_triangle(triangle, {c, a, p}, {before[2], before[0], vertex});
   set_corner(corner + 2, p, vertex);
@@ -275,7 +316,10 @@ Index SurfaceEditor::split_triangle(Index triangle, const std::array<double, 3>&
   return p;
 }
 
-void SurfaceEditor::begin_opening() { opened_.clear(); }
+void SurfaceEditor::begin_opening(bool keeps_opened) {
+  keeps_opened_ = keeps_opened;
+  opened_.clear();
+}
 
 std::vector<Index> SurfaceEditor::opened() const {
   std::vector<Index> borders;
@@ -286,13 +330,13 @@ std::vector<Index> SurfaceEditor::opened() const {
 }
 
 void SurfaceEditor::move_opened(Index from, Index to) {
-  if (opened_.erase(from) > 0) opened_.insert(to);
+  if (keeps_opened_ && opened_.erase(from) > 0) opened_.insert(to);
 }
 
 void SurfaceEditor::cut_edge(Index half_edge) {
   const Index twin = surface_.twin[half_edge];
   if (twin == kNone) return;
-  opened_.insert({half_edge, twin});
+  if (keeps_opened_) opened_.insert({half_edge, twin});
   log_triangle(half_edge / 3);
   log_triangle(twin / 3);
   surface_.twin[half_edge] = kNone;
@@ -311,7 +355,7 @@ Index SurfaceEditor::separate_fan(Index corner, const std::vector<Index>& remain
     bool used = false;
     for (const Index other : remaining)
       surface_.for_each_in_fan(other,
-                               [&](Index c) { used = used || (surface_.triangles[c / 3].mesh == mesh && vertex_at(c) == vertex); });
+                               [&](Index c) { used = used || (vertex_at(c) == vertex && surface_.triangle(c / 3).mesh == mesh); });
     return used;
   };
 
@@ -320,15 +364,20 @@ Index SurfaceEditor::separate_fan(Index corner, const std::vector<Index>& remain
   for (const Index c : corners) log_triangle(c / 3);
   const Index point = append_point();
   for (const Index c : corners) {
-    const Index mesh = surface_.triangles[c / 3].mesh;
+    const TriangleRef ref = surface_.triangle(c / 3);
+    const Index mesh = ref.mesh;
     const Index vertex = vertex_at(c);
     auto known = std::find_if(duplicates.begin(), duplicates.end(),
                               [&](const Duplicate& d) { return d.mesh == mesh && d.vertex == vertex; });
     if (known == duplicates.end()) {
       Index copy = vertex;
       if (is_used_elsewhere(mesh, vertex)) {
-        births_[mesh].push_back({surface_.triangles[c / 3].source_triangle, source_barycentric(c)});
+        births_[mesh].push_back({ref.source_triangle, place_in_origin(ref, vertex)});
+        vertex_mesh_.push_back(mesh);
         copy = append_vertex_copy(vertex, character_.meshes[mesh]);
+        write_side_of_new(mesh, copy, surface_.side(point));
+      } else {
+        write_side(mesh, vertex, surface_.side(point));
       }
       known = duplicates.insert(duplicates.end(), {mesh, vertex, copy});
     }
@@ -354,7 +403,7 @@ bool SurfaceEditor::flip_edge(Index half_edge) {
   if (ba == kNone) return false;
   const Index ad = Surface::next(ba), db = Surface::previous(ba);
   const Index f = ab / 3, g = ba / 3;
-  const TriangleRef &ref_f = surface_.triangles[f], &ref_g = surface_.triangles[g];
+  const TriangleRef ref_f = surface_.triangle(f), ref_g = surface_.triangle(g);
   const bool is_one_triangle = ref_f.mesh == ref_g.mesh && ref_f.source_triangle == ref_g.source_triangle &&
                                vertex_at(ab) == vertex_at(ad) && vertex_at(bc) == vertex_at(ba);
   if (!is_one_triangle) return false;
@@ -408,20 +457,25 @@ void SurfaceEditor::begin_stage() {
 Index SurfaceEditor::append_submesh(Index mesh, const std::string& name, Index material) {
   auto& submeshes = character_.meshes[mesh].submeshes;
   submeshes.push_back({name, material});
+  additions_.push_back({Addition::Kind::submesh, mesh});
   return static_cast<Index>(submeshes.size() - 1);
 }
 
 Index SurfaceEditor::append_filling_vertex(Index mesh, Index like) {
   births_[mesh].push_back({kNone, {1, 0, 0}});
+  vertex_mesh_.push_back(mesh);
   return append_vertex_copy(like, character_.meshes[mesh]);
 }
 
 Index SurfaceEditor::append_filling(Index mesh, Index submesh, const std::array<Index, 3>& points, const Triangle& vertices) {
   const Index origin = source_.meshes[mesh].triangle_count() + static_cast<Index>(fillings_[mesh].size());
   fillings_[mesh].push_back(vertices);
+  additions_.push_back({Addition::Kind::filling, mesh});
   const Index triangle = surface_.triangle_count();
   Mesh& of = character_.meshes[mesh];
-  surface_.triangles.push_back({mesh, of.triangle_count(), origin});
+  surface_.appended.push_back({mesh, of.triangle_count(), origin});
+  newest_entry_.push_back(kNone);
+  parents_.push_back(kNone);
   appended_triangles_[mesh].push_back(triangle);
   ancestors_.push_back(triangle);
   of.triangles.push_back(vertices);
@@ -429,7 +483,7 @@ Index SurfaceEditor::append_filling(Index mesh, Index submesh, const std::array<
   for (Index k = 0; k < 3; ++k) {
     surface_.corner_point.push_back(points[k]);
     surface_.twin.push_back(kNone);
-    write_side(mesh, vertices[k], surface_.point_side[points[k]]);
+    write_side(mesh, vertices[k], surface_.side(points[k]));
     if (surface_.point_corner[points[k]] == kNone) surface_.point_corner[points[k]] = 3 * triangle + k;
     Birth& birth = births_[mesh][vertices[k] - source_.meshes[mesh].vertex_count()];
     if (birth.triangle != kNone) continue;
@@ -445,115 +499,147 @@ void SurfaceEditor::connect(Index a, Index b) {
   join(a, b);
 }
 
-SurfaceEditor::Mark SurfaceEditor::mark() const {
-  Mark mark{surface_.point_count(), surface_.triangle_count(), log_.size(), side_log_.size(), next_side_, {}};
-  for (Index m = 0; m < character_.meshes.size(); ++m) {
-    const Mesh& mesh = character_.meshes[m];
-    mark.meshes.push_back({mesh.vertex_count(), mesh.triangle_count(), static_cast<Index>(mesh.submeshes.size()),
-                           static_cast<Index>(mesh.custom_attributes.size()), static_cast<Index>(fillings_[m].size())});
-  }
-  return mark;
+SurfaceEditor::Mark SurfaceEditor::mark() {
+  logged_since_ = {surface_.point_count(),
+                   surface_.triangle_count(),
+                   static_cast<Index>(vertex_mesh_.size()),
+                   static_cast<Index>(additions_.size()),
+                   next_side_,
+                   static_cast<Index>(log_.size()),
+                   static_cast<Index>(side_log_.size())};
+  return logged_since_;
+}
+
+std::span<const SurfaceEditor::MeshSizes> SurfaceEditor::sizes_at(const Mark& mark) const {
+  sizes_.clear();
+  for (const Mesh& mesh : character_.meshes) sizes_.push_back({mesh.vertex_count(), mesh.triangle_count()});
+  for (Index i = mark.vertices; i < vertex_mesh_.size(); ++i) --sizes_[vertex_mesh_[i]].vertices;
+  for (Index t = mark.triangles; t < surface_.triangle_count(); ++t) --sizes_[surface_.triangle(t).mesh].triangles;
+  return sizes_;
 }
 
 void SurfaceEditor::roll_back(const Mark& to) {
-  for (; log_.size() > to.log_length; log_.pop_back()) restore(log_.back());
+  for (; log_.size() > to.log_length; log_.pop_back()) {
+    restore(log_.back());
+    newest_entry_[log_.back().triangle] = log_.back().previous;
+  }
   for (; side_log_.size() > to.side_log_length; side_log_.pop_back())
-    tear_sides(side_log_.back().mesh)->values[side_log_.back().vertex] = side_log_.back().side;
-  surface_.triangles.resize(to.triangles);
+    (*tear_sides(side_log_.back().mesh))[side_log_.back().vertex] = side_log_.back().side;
+  const std::span<const MeshSizes> sizes = sizes_at(to);
+  for (Index m = 0; m < character_.meshes.size(); ++m) {
+    Mesh& mesh = character_.meshes[m];
+    if (mesh.vertex_count() > sizes[m].vertices) remove_vertices_from(sizes[m].vertices, mesh);
+    births_[m].resize(sizes[m].vertices - source_.meshes[m].vertex_count());
+    appended_triangles_[m].resize(sizes[m].triangles - source_.meshes[m].triangle_count());
+    mesh.triangles.resize(sizes[m].triangles);
+    mesh.triangle_submesh.resize(sizes[m].triangles);
+  }
+  for (; additions_.size() > to.additions; additions_.pop_back()) {
+    const Index m = additions_.back().mesh;
+    Mesh& mesh = character_.meshes[m];
+    switch (additions_.back().kind) {
+      case Addition::Kind::filling: fillings_[m].pop_back(); break;
+      case Addition::Kind::submesh: mesh.submeshes.pop_back(); break;
+      case Addition::Kind::tear_sides:
+        spare_sides_[m] = std::move(mesh.custom_attributes.back().values);
+        mesh.custom_attributes.pop_back();
+        side_attribute_[m] = kNone;
+        break;
+    }
+  }
+  const Index source_triangles = surface_.first_triangle.back();
+  surface_.appended.resize(to.triangles - source_triangles);
+  parents_.resize(to.triangles - source_triangles);
+  newest_entry_.resize(to.triangles);
   surface_.corner_point.resize(3 * std::size_t{to.triangles});
   surface_.twin.resize(3 * std::size_t{to.triangles});
+  surface_.appended_side.resize(to.points - surface_.source_point_count());
   surface_.point_corner.resize(to.points);
-  surface_.point_side.resize(to.points);
+  vertex_mesh_.resize(to.vertices);
   next_side_ = to.next_side;
+  logged_since_ = to;
   if (to.triangles >= stage_begin_) {
     ancestors_.resize(to.triangles - stage_begin_);
   } else {
     stage_begin_ = to.triangles;
     ancestors_.clear();
   }
-  for (Index m = 0; m < character_.meshes.size(); ++m) {
-    Mesh& mesh = character_.meshes[m];
-    const Mark::MeshSizes& sizes = to.meshes[m];
-    remove_vertices_from(sizes.vertices, mesh);
-    births_[m].resize(sizes.vertices - source_.meshes[m].vertex_count());
-    appended_triangles_[m].resize(sizes.triangles - source_.meshes[m].triangle_count());
-    fillings_[m].resize(sizes.fillings);
-    mesh.triangles.resize(sizes.triangles);
-    mesh.triangle_submesh.resize(sizes.triangles);
-    mesh.submeshes.resize(sizes.submeshes);
-    mesh.custom_attributes.resize(sizes.custom_attributes);
-  }
 }
 
-std::vector<Index> SurfaceEditor::touched_since(const Mark& mark) const {
-  std::vector<Index> touched;
-  for (std::size_t i = mark.log_length; i < log_.size(); ++i) touched.push_back(log_[i].triangle);
-  for (Index t = mark.triangles; t < surface_.triangle_count(); ++t) touched.push_back(t);
-  std::sort(touched.begin(), touched.end());
-  touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
-  return touched;
+std::vector<float>* SurfaceEditor::tear_sides(Index mesh) {
+  if (side_attribute_[mesh] == kNone) return nullptr;
+  return &character_.meshes[mesh].custom_attributes[side_attribute_[mesh]].values;
 }
 
-CustomAttribute* SurfaceEditor::tear_sides(Index mesh) {
-  auto& attributes = character_.meshes[mesh].custom_attributes;
-  const auto found = std::find_if(attributes.begin(), attributes.end(), [](const CustomAttribute& candidate) {
-    return candidate.name == kTearSideAttribute && candidate.components == 1;
-  });
-  return found == attributes.end() ? nullptr : &*found;
+void SurfaceEditor::add_tear_sides(Index mesh) {
+  Mesh& of = character_.meshes[mesh];
+  side_attribute_[mesh] = static_cast<Index>(of.custom_attributes.size());
+  of.custom_attributes.push_back({kTearSideAttribute, 1, false, std::move(spare_sides_[mesh])});
+  of.custom_attributes.back().values.resize(of.vertex_count(), 0.0f);
+  additions_.push_back({Addition::Kind::tear_sides, mesh});
 }
 
 void SurfaceEditor::write_side(Index mesh, Index vertex, Index side) {
-  CustomAttribute* sides = tear_sides(mesh);
-  if (sides == nullptr) {
+  if (side_attribute_[mesh] == kNone) {
     if (side == 0) return;
-    Mesh& of = character_.meshes[mesh];
-    of.custom_attributes.push_back({kTearSideAttribute, 1, false, std::vector<float>(of.vertex_count(), 0.0f)});
-    sides = &of.custom_attributes.back();
+    add_tear_sides(mesh);
   }
-  float& value = sides->values[vertex];
+  float& value = (*tear_sides(mesh))[vertex];
   if (value == static_cast<float>(side)) return;
   side_log_.push_back({mesh, vertex, value});
   value = static_cast<float>(side);
 }
 
+void SurfaceEditor::write_side_of_new(Index mesh, Index vertex, Index side) {
+  if (side_attribute_[mesh] == kNone) add_tear_sides(mesh);
+  (*tear_sides(mesh))[vertex] = static_cast<float>(side);
+}
+
 void SurfaceEditor::describe(const Mark& begin, ChangeRecord& change) const {
   change.first_point = begin.points;
   change.point_count = surface_.point_count() - begin.points;
-  change.meshes.clear();
 
-  // The oldest entry of a triangle says what it was; what came after is part of the same change.
-  std::vector<std::size_t> entries;
-  for (std::size_t i = begin.log_length; i < log_.size(); ++i)
-    if (log_[i].triangle < begin.triangles) entries.push_back(i);
-  std::stable_sort(entries.begin(), entries.end(), [&](std::size_t a, std::size_t b) {
-    const TriangleRef &ref_a = surface_.triangles[log_[a].triangle], &ref_b = surface_.triangles[log_[b].triangle];
-    return ref_a.mesh != ref_b.mesh ? ref_a.mesh < ref_b.mesh : ref_a.triangle < ref_b.triangle;
-  });
+  // Of each triangle the oldest entry: what came after is part of the same change.
+  struct Changed {
+    Index triangle, entry;
+  };
+  std::vector<Changed> changed;
+  for (Index i = begin.log_length; i < log_.size(); ++i)
+    if (is_oldest_since(begin, i)) changed.push_back({log_[i].triangle, i});
+  // Which orders the triangles of each mesh too.
+  std::sort(changed.begin(), changed.end(), [](const Changed& a, const Changed& b) { return a.triangle < b.triangle; });
+  const std::span<const MeshSizes> sizes = sizes_at(begin);
+  std::vector<bool> has_changed(character_.meshes.size(), false);
+  for (const Changed& of : changed) has_changed[surface_.triangle(of.triangle).mesh] = true;
+
+  std::size_t count = 0;
   for (Index m = 0; m < character_.meshes.size(); ++m) {
     const Mesh& mesh = character_.meshes[m];
-    const Mark::MeshSizes& sizes = begin.meshes[m];
-    MeshChange of_mesh;
+    if (!has_changed[m] && mesh.vertex_count() == sizes[m].vertices && mesh.triangle_count() == sizes[m].triangles) continue;
+    if (count == change.meshes.size()) change.meshes.emplace_back();
+    MeshChange& of_mesh = change.meshes[count];
     of_mesh.mesh = m;
-    of_mesh.first_vertex = sizes.vertices;
-    of_mesh.vertex_count = mesh.vertex_count() - sizes.vertices;
-    of_mesh.first_triangle = sizes.triangles;
-    of_mesh.triangle_count = mesh.triangle_count() - sizes.triangles;
-    Index previous = kNone;
-    for (const std::size_t i : entries) {
-      const TriangleRef& ref = surface_.triangles[log_[i].triangle];
-      if (ref.mesh != m || log_[i].triangle == previous) continue;
-      previous = log_[i].triangle;
-      if (mesh.triangles[ref.triangle] == log_[i].vertices) continue;
-      of_mesh.rewritten.push_back({ref.triangle, log_[i].vertices});
+    of_mesh.first_vertex = sizes[m].vertices;
+    of_mesh.vertex_count = mesh.vertex_count() - sizes[m].vertices;
+    of_mesh.first_triangle = sizes[m].triangles;
+    of_mesh.triangle_count = mesh.triangle_count() - sizes[m].triangles;
+    of_mesh.rewritten.clear();
+    of_mesh.retired.clear();
+    for (const Changed& of : changed) {
+      const TriangleRef ref = surface_.triangle(of.triangle);
+      if (ref.mesh != m || mesh.triangles[ref.triangle] == log_[of.entry].vertices) continue;
+      of_mesh.rewritten.push_back({ref.triangle, log_[of.entry].vertices});
       if (is_retired(mesh.triangles[ref.triangle])) of_mesh.retired.push_back(ref.triangle);
     }
     if (of_mesh.vertex_count == 0 && of_mesh.triangle_count == 0 && of_mesh.rewritten.empty()) continue;
     for (Index t = of_mesh.first_triangle; t < mesh.triangle_count(); ++t)
       if (is_retired(mesh.triangles[t])) of_mesh.retired.push_back(t);
     const auto source_vertices = static_cast<std::ptrdiff_t>(source_.meshes[m].vertex_count());
-    of_mesh.births.assign(births_[m].begin() + (static_cast<std::ptrdiff_t>(sizes.vertices) - source_vertices), births_[m].end());
-    change.meshes.push_back(std::move(of_mesh));
+    of_mesh.births.assign(births_[m].begin() + (static_cast<std::ptrdiff_t>(sizes[m].vertices) - source_vertices),
+                          births_[m].end());
+    ++count;
   }
+  change.meshes.resize(count);
 
   const std::span<const SideEntry> sides = std::span<const SideEntry>(side_log_).subspan(begin.side_log_length);
   for (MeshChange& of_mesh : change.meshes) fill_dirty_ranges(sides, of_mesh);

@@ -3,12 +3,14 @@
 #include <sunder/core/character.h>
 #include <sunder/tear/change_record.h>
 
+#include <algorithm>
 #include <array>
 #include <span>
 #include <string>
 #include <unordered_set>
 #include <vector>
 
+#include "tear/scratch_memory.h"
 #include "tear/surface.h"
 
 namespace sunder::tear {
@@ -21,18 +23,22 @@ class SurfaceEditor {
 
   [[nodiscard]] const Surface& surface() const { return surface_; }
   [[nodiscard]] const Character& character() const { return character_; }
+  /// For what lives no longer than the operation under way.
+  [[nodiscard]] ScratchMemory& scratch() const { return scratch_; }
   [[nodiscard]] Index vertex_at(Index corner) const {
-    const TriangleRef& ref = surface_.triangles[corner / 3];
+    const TriangleRef ref = surface_.triangle(corner / 3);
     return character_.meshes[ref.mesh].triangles[ref.triangle][corner % 3];
   }
   [[nodiscard]] bool is_source_vertex(Index corner) const {
-    return vertex_at(corner) < source_.meshes[surface_.triangles[corner / 3].mesh].vertex_count();
+    return vertex_at(corner) < source_.meshes[surface_.triangle(corner / 3).mesh].vertex_count();
   }
   /// Whether the faces at both sides of an edge are parts of one source triangle.
   [[nodiscard]] bool is_inner_edge(Index half_edge) const {
     const Index twin = surface_.twin[half_edge];
-    return twin != kNone && surface_.triangles[half_edge / 3].mesh == surface_.triangles[twin / 3].mesh &&
-           surface_.triangles[half_edge / 3].source_triangle == surface_.triangles[twin / 3].source_triangle;
+    // Of two triangles of one origin, one at least was appended.
+    if (twin == kNone || std::max(half_edge, twin) / 3 < surface_.first_triangle.back()) return false;
+    const TriangleRef here = surface_.triangle(half_edge / 3), there = surface_.triangle(twin / 3);
+    return here.mesh == there.mesh && here.source_triangle == there.source_triangle;
   }
   /// Birth of a vertex that is not of the source.
   [[nodiscard]] const Birth& birth(Index mesh, Index vertex) const {
@@ -50,11 +56,11 @@ class SurfaceEditor {
   /// meshes.
   [[nodiscard]] Index surface_triangle(Index mesh, Index triangle) const {
     const Index source_count = source_.meshes[mesh].triangle_count();
-    return triangle < source_count ? first_triangle_[mesh] + triangle : appended_triangles_[mesh][triangle - source_count];
+    return triangle < source_count ? surface_.first_triangle[mesh] + triangle : appended_triangles_[mesh][triangle - source_count];
   }
   /// Barycentric coordinates of a corner in the triangle's origin.
   [[nodiscard]] std::array<double, 3> source_barycentric(Index corner) const {
-    return place_in_origin(surface_.triangles[corner / 3], vertex_at(corner));
+    return place_in_origin(surface_.triangle(corner / 3), vertex_at(corner));
   }
 
   // ---- Refining: the surface stays what it is.
@@ -79,8 +85,8 @@ class SurfaceEditor {
 
   // ---- Opening and removing.
 
-  /// From here on opened() asks for the borders that cut_edge() made since.
-  void begin_opening();
+  /// From here on opened() asks for the borders that cut_edge() made since, if `keeps_opened`.
+  void begin_opening(bool keeps_opened);
   /// Border half-edges, ascending, wherever splitting and turning took them.
   [[nodiscard]] std::vector<Index> opened() const;
 
@@ -110,47 +116,61 @@ class SurfaceEditor {
 
   /// A state to come back to.
   struct Mark {
-    struct MeshSizes {
-      Index vertices = 0, triangles = 0, submeshes = 0, custom_attributes = 0, fillings = 0;
-    };
     Index points = 0;
     Index triangles = 0;
-    std::size_t log_length = 0;
-    std::size_t side_log_length = 0;
+    Index vertices = 0;   ///< Appended, over all meshes.
+    Index additions = 0;  ///< Fillings, submeshes, attributes.
     Index next_side = 1;
-    std::vector<MeshSizes> meshes;
+    Index log_length = 0;
+    Index side_log_length = 0;
   };
-  [[nodiscard]] Mark mark() const;
+  /// Changes are logged once from here on, so that any mark can be rolled back to. O(1).
+  [[nodiscard]] Mark mark();
   void roll_back(const Mark& to);
 
-  /// The triangles that changed since, or are new, ascending; the retired ones too.
-  [[nodiscard]] std::vector<Index> touched_since(const Mark& mark) const;
-
-  /// Calls visit(triangle, its neighbour) for triangles that were neighbours before a change since then.
+  /// Calls visit(triangle) once for each triangle that was there at `begin` and changed since, retired ones too, in the order in
+  /// which they changed.
   template <class Visit>
-  void for_each_former_neighbour(const Mark& since, Visit visit) const {
-    for (std::size_t i = since.log_length; i < log_.size(); ++i)
-      for (const Index twin : log_[i].twins)
-        if (twin != kNone) visit(log_[i].triangle, twin / 3);
+  void for_each_changed(const Mark& begin, Visit visit) const {
+    for (Index i = begin.log_length; i < log_.size(); ++i)
+      if (is_oldest_since(begin, i)) visit(log_[i].triangle);
   }
+  /// Calls visit(triangle, its neighbour) for the neighbours that those triangles had at `begin`.
+  template <class Visit>
+  void for_each_former_neighbour(const Mark& begin, Visit visit) const {
+    for (Index i = begin.log_length; i < log_.size(); ++i)
+      if (is_oldest_since(begin, i))
+        for (const Index twin : log_[i].twins)
+          if (twin != kNone) visit(log_[i].triangle, twin / 3);
+  }
+  /// Numbers the triangles that changed or were appended since, without gaps of note; kNone for others.
+  [[nodiscard]] Index number_since(const Mark& begin, Index triangle) const {
+    const Index changes = static_cast<Index>(log_.size()) - begin.log_length;
+    if (triangle >= begin.triangles) return changes + triangle - begin.triangles;
+    const Index entry = newest_entry_[triangle];
+    return entry == kNone || entry < begin.log_length ? kNone : entry - begin.log_length;
+  }
+  [[nodiscard]] Index numbers_since(const Mark& begin) const {
+    return static_cast<Index>(log_.size()) - begin.log_length + surface_.triangle_count() - begin.triangles;
+  }
+  /// The triangle that an appended one was split from; kNone for those of walls and caps.
+  [[nodiscard]] Index parent(Index triangle) const { return parents_[triangle - surface_.first_triangle.back()]; }
+  /// Vertices appended since, over all meshes.
+  [[nodiscard]] Index vertices_since(const Mark& begin) const { return static_cast<Index>(vertex_mesh_.size()) - begin.vertices; }
 
   /// Fills in what changed since `begin`, but for the lips.
   void describe(const Mark& begin, ChangeRecord& change) const;
 
-  /// What an operation was, to take it back later.
-  struct Step;
-  /// Ends the operation that began at `begin`.
-  [[nodiscard]] Step finish(const Mark& begin);
-  /// Takes back the newest operation. @return what does it again.
+  /// Takes back the newest operation, which began at `begin`. @return what does it again.
   struct Redo;
-  [[nodiscard]] Redo undo(const Step& step, ChangeRecord& change);
-  /// @return what takes it back once more.
-  [[nodiscard]] Step redo(const Redo& redo, ChangeRecord& change);
+  [[nodiscard]] Redo undo(const Mark& begin, ChangeRecord& change);
+  void redo(const Redo& redo, ChangeRecord& change);
 
  private:
   /// A triangle as it was before a change, and the corner that its points were known by.
   struct LogEntry {
     Index triangle;
+    Index previous;  ///< Entry of the same triangle, kNone for none.
     std::array<Index, 3> points;
     std::array<Index, 3> twins;
     std::array<Index, 3> point_corners;
@@ -160,7 +180,21 @@ class SurfaceEditor {
     Index mesh, vertex;
     float side;
   };
+  struct Addition {
+    enum class Kind : std::uint8_t { filling, submesh, tear_sides } kind;
+    Index mesh;
+  };
+  struct MeshSizes {
+    Index vertices = 0, triangles = 0;
+  };
 
+  [[nodiscard]] bool is_oldest_since(const Mark& begin, Index entry) const {
+    const Index previous = log_[entry].previous;
+    return log_[entry].triangle < begin.triangles && (previous == kNone || previous < begin.log_length);
+  }
+  /// Of each mesh. Valid until asked again.
+  [[nodiscard]] std::span<const MeshSizes> sizes_at(const Mark& mark) const;
+  [[nodiscard]] LogEntry entry_of(Index triangle) const;
   void log_triangle(Index triangle);
   void restore(const LogEntry& entry);
   void set_corner(Index corner, Index point, Index vertex);
@@ -173,37 +207,41 @@ class SurfaceEditor {
   /// Where a vertex lies in the origin of a triangle.
   [[nodiscard]] std::array<double, 3> place_in_origin(const TriangleRef& ref, Index vertex) const;
   void write_side(Index mesh, Index vertex, Index side);
+  /// The same for a vertex that is taken back with what needs it.
+  void write_side_of_new(Index mesh, Index vertex, Index side);
   /// @param sides  what was written to _TEARSIDE.
   static void fill_dirty_ranges(std::span<const SideEntry> sides, MeshChange& change);
-  [[nodiscard]] CustomAttribute* tear_sides(Index mesh);
+  /// Values of _TEARSIDE; nothing where the mesh has none.
+  [[nodiscard]] std::vector<float>* tear_sides(Index mesh);
+  void add_tear_sides(Index mesh);
   [[nodiscard]] Triangle vertices_of(Index triangle) const;
-  [[nodiscard]] Birth birth_between(Index triangle, const std::array<double, 3>& barycentric) const;
-  /// Whether replacing one corner of a triangle by a vertex keeps its winding.
-  [[nodiscard]] bool keeps_winding(Index corner, Index vertex) const;
+  class FaceSplit;
 
   const Character& source_;
   Character& character_;
   Surface surface_;
   std::vector<std::vector<Birth>> births_;       ///< Of each mesh: its vertices beyond the source's.
   std::vector<std::vector<Triangle>> fillings_;  ///< Of each mesh.
-  std::vector<Index> first_triangle_;            ///< Of each mesh, in the surface.
   std::vector<std::vector<Index>>
-      appended_triangles_;  ///< Of each mesh: the surface's numbers of its triangles beyond the source's.
-  std::vector<LogEntry> log_;
+      appended_triangles_;          ///< Of each mesh: the surface's numbers of its triangles beyond the source's.
+  std::vector<Index> vertex_mesh_;  ///< Of each appended vertex.
+  std::vector<Addition> additions_;
+  std::vector<LogEntry> log_;  ///< Of all operations that were done and not taken back.
   std::vector<SideEntry> side_log_;
+  std::vector<Index> newest_entry_;              ///< Of each triangle, in the log.
+  Mark logged_since_;                            ///< The newest mark: what was logged or appended since need not be logged again.
+  std::vector<Index> side_attribute_;            ///< Of each mesh, in its custom attributes; kNone without.
+  std::vector<std::vector<float>> spare_sides_;  ///< Of each mesh: what an attribute that was taken back used, all zero.
   /// First value of _TEARSIDE that no point has. Each point that is made gets one: however tears cross, and wherever positions
   /// round to, no two points in one place are taken for one.
   Index next_side_ = 1;
+  std::vector<Index> parents_;  ///< Of each appended triangle: what it was split from.
+  bool keeps_opened_ = false;
+  mutable std::vector<MeshSizes> sizes_;
+  mutable ScratchMemory scratch_{0, false};
   std::unordered_set<Index> opened_;  // asked and sorted, never walked through as it is
   Index stage_begin_ = 0;
   std::vector<Index> ancestors_;  ///< Of the triangles appended since.
-};
-
-/// The log of one operation: the oldest entries win.
-struct SurfaceEditor::Step {
-  Mark begin;
-  std::vector<LogEntry> log;
-  std::vector<SideEntry> side_log;
 };
 
 /// What an operation had made when it was taken back.
@@ -213,15 +251,16 @@ struct SurfaceEditor::Redo {
     std::vector<Triangle> triangles;
     std::vector<Index> triangle_submesh;
     std::vector<Submesh> submeshes;
-    std::vector<CustomAttribute> custom_attributes;  ///< Added ones, without values.
     std::vector<Birth> births;
     std::vector<Triangle> fillings;
     std::vector<Index> appended_triangles;
   };
-  Step step;
   std::vector<OfMesh> meshes;
-  std::vector<Index> corner_point, twin, point_corner, point_side;
+  std::vector<Index> corner_point, twin, point_corner, side, parents, vertex_mesh;
   std::vector<TriangleRef> triangles;
+  std::vector<Addition> additions;
+  std::vector<LogEntry> log;
+  std::vector<SideEntry> side_log;
   Index next_side = 1;
   std::vector<LogEntry> changed;                    ///< Triangles that were there before, as the operation left them.
   std::vector<std::array<Index, 2>> known_corners;  ///< Points that were there before, and the corners they were known by.

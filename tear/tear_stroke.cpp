@@ -125,7 +125,7 @@ Result<TearStroke> TearStroke::begin(TornModel& model, const ModelPose& pose, co
                                                      TearOperation{pose, {blade}, {}, options},
                                                      0,
                                                      {},
-                                                     of_model.begin_operation(),
+                                                     of_model.begin_operation(options.wall_depth > 0),
                                                      {}}));
 }
 

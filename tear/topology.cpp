@@ -63,8 +63,8 @@ bool has_no_area(const Mesh& mesh, const Triangle& triangle) {
 void count_triangles_and_points(const Character& character, const Surface& surface, TopologyCounts& counts) {
   std::vector<bool> is_used(surface.point_count(), false);
   for (Index t = 0; t < surface.triangle_count(); ++t) {
-    const Mesh& mesh = character.meshes[surface.triangles[t].mesh];
-    const Triangle& triangle = mesh.triangles[surface.triangles[t].triangle];
+    const Mesh& mesh = character.meshes[surface.triangle(t).mesh];
+    const Triangle& triangle = mesh.triangles[surface.triangle(t).triangle];
     if (is_retired(triangle)) continue;
     ++counts.triangles;
     if (surface.has_repeated_point(t) || has_no_area(mesh, triangle)) ++counts.degenerate_triangles;

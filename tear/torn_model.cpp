@@ -45,7 +45,7 @@ Result<TearReport> TornModel::tear(const ModelPose& pose, std::span<const Blade>
     if (Status status = validate_turn(stroke[i - 1], stroke[i], i); !status) return status;
   }
   if (Status status = state.stand_in(pose); !status) return status;
-  const tear::SurfaceEditor::Mark begin = state.begin_operation();
+  const tear::SurfaceEditor::Mark begin = state.begin_operation(options.wall_depth > 0);
   auto report = state.call(
       [&](State::Call& call) -> Status {
         tear::StrokeTearing tearing(stroke.front(), options);
@@ -65,7 +65,7 @@ Result<TearReport> TornModel::cut(const ModelPose& pose, const Cut& cut, ChangeR
   if (Status status = state.may_begin(); !status) return status;
   if (Status status = tear::validate_cut(cut); !status) return status;
   if (Status status = state.stand_in(pose); !status) return status;
-  const tear::SurfaceEditor::Mark begin = state.begin_operation();
+  const tear::SurfaceEditor::Mark begin = state.begin_operation(false);
   auto report = state.call(
       [&](State::Call& call) -> Status {
         tear::cut_surface(cut, state.workpiece(), call.report, call.change.lips);
@@ -81,7 +81,7 @@ Result<TearReport> TornModel::drill(const ModelPose& pose, const Bore& bore, Cha
   if (Status status = state.may_begin(); !status) return status;
   if (Status status = tear::validate_bore(bore); !status) return status;
   if (Status status = state.stand_in(pose); !status) return status;
-  const tear::SurfaceEditor::Mark begin = state.begin_operation();
+  const tear::SurfaceEditor::Mark begin = state.begin_operation(bore.wall);
   auto report = state.call(
       [&](State::Call& call) -> Status {
         tear::drill_surface(bore, state.workpiece(), call.report);
@@ -100,7 +100,7 @@ Status TornModel::undo(ChangeRecord* change) {
   ChangeRecord done;
   try {
     state.undone.reserve(state.undone.size() + 1);
-    auto redo = state.editor.undo(last.step, done);
+    auto redo = state.editor.undo(last.begin, done);
     state.undone.push_back({std::move(last.operation), std::move(redo)});
   } catch (const std::bad_alloc&) {
     return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
@@ -118,8 +118,9 @@ Status TornModel::redo(ChangeRecord* change) {
   ChangeRecord done;
   try {
     state.done.reserve(state.done.size() + 1);
-    auto step = state.editor.redo(last.redo, done);
-    state.done.push_back({std::move(last.operation), std::move(step)});
+    const tear::SurfaceEditor::Mark begin = state.editor.mark();
+    state.editor.redo(last.redo, done);
+    state.done.push_back({std::move(last.operation), begin});
   } catch (const std::bad_alloc&) {
     return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
   }
@@ -160,7 +161,7 @@ std::uint32_t TornModel::point_at(std::uint32_t mesh, std::uint32_t triangle, st
 Birth TornModel::birth(std::uint32_t mesh, std::uint32_t vertex) const { return state_->editor.birth(mesh, vertex); }
 
 std::uint32_t TornModel::source_triangle(std::uint32_t mesh, std::uint32_t triangle) const {
-  return state_->editor.surface().triangles[state_->editor.surface_triangle(mesh, triangle)].source_triangle;
+  return state_->editor.surface().triangle(state_->editor.surface_triangle(mesh, triangle)).source_triangle;
 }
 
 std::span<const Triangle> TornModel::fillings(std::uint32_t mesh) const { return state_->editor.fillings(mesh); }

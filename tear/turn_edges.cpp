@@ -17,7 +17,7 @@ Index corner_in(const TriangleRef& origin, Index point, const SurfaceEditor& edi
   Index found = kNone;
   const Surface& surface = editor.surface();
   surface.for_each_in_fan(surface.point_corner[point], [&](Index corner) {
-    const TriangleRef& of = surface.triangles[corner / 3];
+    const TriangleRef of = surface.triangle(corner / 3);
     if (of.mesh == origin.mesh && of.source_triangle == origin.source_triangle) found = corner;
   });
   return found;
@@ -60,7 +60,7 @@ class CrossedEdges {
 
  private:
   [[nodiscard]] bool is_part(Index face) const {
-    return surface_.triangles[face].mesh == origin_.mesh && surface_.triangles[face].source_triangle == origin_.source_triangle;
+    return surface_.triangle(face).mesh == origin_.mesh && surface_.triangle(face).source_triangle == origin_.source_triangle;
   }
 
   const SurfaceEditor& editor_;
@@ -76,7 +76,7 @@ bool turn_edges_into_line(Index from, Index to, Index face, SurfaceEditor& edito
   const Surface& surface = editor.surface();
   const auto is_edge = [&] { return surface.find_half_edge(from, to) != kNone || surface.find_half_edge(to, from) != kNone; };
   if (is_edge()) return true;
-  CrossedEdges line(from, to, surface.triangles[face], editor);
+  CrossedEdges line(from, to, surface.triangle(face), editor);
   std::deque<std::array<Index, 2>> edges;
   if (!line.find(edges)) return false;
   // Sloan 1993: an edge that cannot be turned yet waits until its neighbours are.

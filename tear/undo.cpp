@@ -17,88 +17,78 @@ void append(std::vector<T>& values, const std::vector<T>& tail) {
 
 }  // namespace
 
-SurfaceEditor::Step SurfaceEditor::finish(const Mark& begin) {
-  Step step{begin, {}, {}};
-  // Triangles that the operation made go away with it.
-  std::copy_if(log_.begin() + static_cast<std::ptrdiff_t>(begin.log_length), log_.end(), std::back_inserter(step.log),
-               [&](const LogEntry& entry) { return entry.triangle < begin.triangles; });
-  step.side_log = tail_of(side_log_, begin.side_log_length);
-  log_.resize(begin.log_length);
-  side_log_.resize(begin.side_log_length);
-  return step;
-}
-
-SurfaceEditor::Redo SurfaceEditor::undo(const Step& step, ChangeRecord& change) {
-  const Mark& begin = step.begin;
+SurfaceEditor::Redo SurfaceEditor::undo(const Mark& begin, ChangeRecord& change) {
+  const std::vector<MeshSizes> sizes(sizes_at(begin).begin(), sizes_at(begin).end());
   Redo redo;
-  redo.step = step;
+  redo.additions = tail_of(additions_, begin.additions);
   for (Index m = 0; m < character_.meshes.size(); ++m) {
     const Mesh& mesh = character_.meshes[m];
-    const Mark::MeshSizes& sizes = begin.meshes[m];
+    const auto added = [&](Addition::Kind kind) {
+      return static_cast<std::size_t>(std::count_if(redo.additions.begin(), redo.additions.end(),
+                                                    [&](const Addition& a) { return a.mesh == m && a.kind == kind; }));
+    };
     Redo::OfMesh& of_mesh = redo.meshes.emplace_back();
-    of_mesh.vertices = copy_vertices_from(sizes.vertices, mesh);
-    of_mesh.triangles = tail_of(mesh.triangles, sizes.triangles);
-    of_mesh.triangle_submesh = tail_of(mesh.triangle_submesh, sizes.triangles);
-    of_mesh.submeshes = tail_of(mesh.submeshes, sizes.submeshes);
-    of_mesh.custom_attributes = tail_of(mesh.custom_attributes, sizes.custom_attributes);
-    for (CustomAttribute& attribute : of_mesh.custom_attributes) attribute.values.clear();
-    of_mesh.births = tail_of(births_[m], sizes.vertices - source_.meshes[m].vertex_count());
-    of_mesh.fillings = tail_of(fillings_[m], sizes.fillings);
-    of_mesh.appended_triangles = tail_of(appended_triangles_[m], sizes.triangles - source_.meshes[m].triangle_count());
+    of_mesh.vertices = copy_vertices_from(sizes[m].vertices, mesh);
+    of_mesh.triangles = tail_of(mesh.triangles, sizes[m].triangles);
+    of_mesh.triangle_submesh = tail_of(mesh.triangle_submesh, sizes[m].triangles);
+    of_mesh.submeshes = tail_of(mesh.submeshes, mesh.submeshes.size() - added(Addition::Kind::submesh));
+    of_mesh.births = tail_of(births_[m], sizes[m].vertices - source_.meshes[m].vertex_count());
+    of_mesh.fillings = tail_of(fillings_[m], fillings_[m].size() - added(Addition::Kind::filling));
+    of_mesh.appended_triangles = tail_of(appended_triangles_[m], sizes[m].triangles - source_.meshes[m].triangle_count());
   }
+  const Index source_triangles = surface_.first_triangle.back();
   redo.corner_point = tail_of(surface_.corner_point, 3 * std::size_t{begin.triangles});
   redo.twin = tail_of(surface_.twin, 3 * std::size_t{begin.triangles});
-  redo.triangles = tail_of(surface_.triangles, begin.triangles);
+  redo.triangles = tail_of(surface_.appended, begin.triangles - source_triangles);
+  redo.parents = tail_of(parents_, begin.triangles - source_triangles);
   redo.point_corner = tail_of(surface_.point_corner, begin.points);
-  redo.point_side = tail_of(surface_.point_side, begin.points);
+  redo.side = tail_of(surface_.appended_side, begin.points - surface_.source_point_count());
+  redo.vertex_mesh = tail_of(vertex_mesh_, begin.vertices);
   redo.next_side = next_side_;
-  for (const SideEntry& entry : step.side_log)
-    redo.sides.push_back({entry.mesh, entry.vertex, tear_sides(entry.mesh)->values[entry.vertex]});
+  redo.log = tail_of(log_, begin.log_length);
+  redo.side_log = tail_of(side_log_, begin.side_log_length);
+  for (const SideEntry& entry : redo.side_log)
+    redo.sides.push_back({entry.mesh, entry.vertex, (*tear_sides(entry.mesh))[entry.vertex]});
 
   // What the triangles are now, and the corners by which the points that they had or have are known.
-  std::vector<Index> triangles;
-  for (const LogEntry& entry : step.log) triangles.push_back(entry.triangle);
-  std::sort(triangles.begin(), triangles.end());
-  triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
-  const std::size_t log_length = log_.size();
-  for (const Index triangle : triangles) log_triangle(triangle);
-  redo.changed = tail_of(log_, log_length);
-  log_.resize(log_length);
-  for (const LogEntry& entry : step.log)
+  for_each_changed(begin, [&](Index triangle) { redo.changed.push_back(entry_of(triangle)); });
+  std::sort(redo.changed.begin(), redo.changed.end(), [](const LogEntry& a, const LogEntry& b) { return a.triangle < b.triangle; });
+  for (const LogEntry& entry : redo.log)
     for (const Index point : entry.points)
       if (point != kNone && point < begin.points) redo.known_corners.push_back({point, surface_.point_corner[point]});
 
-  append(log_, step.log);
-  append(side_log_, step.side_log);
-  Mark to = begin;
-  to.log_length = log_length;
-  to.side_log_length = side_log_.size() - step.side_log.size();
-  roll_back(to);
+  roll_back(begin);
 
   change = {};
   change.first_point = begin.points;
   for (Index m = 0; m < character_.meshes.size(); ++m) {
     MeshChange of_mesh;
     of_mesh.mesh = m;
-    of_mesh.first_vertex = begin.meshes[m].vertices;
-    of_mesh.first_triangle = begin.meshes[m].triangles;
+    of_mesh.first_vertex = sizes[m].vertices;
+    of_mesh.first_triangle = sizes[m].triangles;
     for (const LogEntry& entry : redo.changed) {
-      const TriangleRef& ref = surface_.triangles[entry.triangle];
+      const TriangleRef ref = surface_.triangle(entry.triangle);
       if (ref.mesh == m && character_.meshes[m].triangles[ref.triangle] != entry.vertices)
         of_mesh.rewritten.push_back({ref.triangle, entry.vertices});
     }
     const Redo::OfMesh& undone = redo.meshes[m];
     if (of_mesh.rewritten.empty() && undone.births.empty() && undone.triangles.empty()) continue;
-    fill_dirty_ranges(step.side_log, of_mesh);
+    fill_dirty_ranges(redo.side_log, of_mesh);
     change.meshes.push_back(std::move(of_mesh));
   }
   return redo;
 }
 
-SurfaceEditor::Step SurfaceEditor::redo(const Redo& redo, ChangeRecord& change) {
+void SurfaceEditor::redo(const Redo& redo, ChangeRecord& change) {
   change = {};
   change.first_point = surface_.point_count();
   change.point_count = static_cast<Index>(redo.point_corner.size());
+  for (const Addition& addition : redo.additions)
+    if (addition.kind == Addition::Kind::tear_sides) {
+      add_tear_sides(addition.mesh);
+      additions_.pop_back();
+    }
+  append(additions_, redo.additions);
   for (Index m = 0; m < character_.meshes.size(); ++m) {
     Mesh& mesh = character_.meshes[m];
     const Redo::OfMesh& of = redo.meshes[m];
@@ -109,10 +99,6 @@ SurfaceEditor::Step SurfaceEditor::redo(const Redo& redo, ChangeRecord& change) 
     of_mesh.first_triangle = mesh.triangle_count();
     of_mesh.triangle_count = static_cast<Index>(of.triangles.size());
     of_mesh.births = of.births;
-    for (CustomAttribute attribute : of.custom_attributes) {
-      attribute.values.assign(std::size_t{mesh.vertex_count()} * attribute.components, 0.0f);
-      mesh.custom_attributes.push_back(std::move(attribute));
-    }
     append_vertices(of.vertices, mesh);
     append(mesh.triangles, of.triangles);
     append(mesh.triangle_submesh, of.triangle_submesh);
@@ -121,7 +107,7 @@ SurfaceEditor::Step SurfaceEditor::redo(const Redo& redo, ChangeRecord& change) 
     append(fillings_[m], of.fillings);
     append(appended_triangles_[m], of.appended_triangles);
     for (const LogEntry& entry : redo.changed) {
-      const TriangleRef& ref = surface_.triangles[entry.triangle];
+      const TriangleRef ref = surface_.triangle(entry.triangle);
       if (ref.mesh != m || mesh.triangles[ref.triangle] == entry.vertices) continue;
       of_mesh.rewritten.push_back({ref.triangle, mesh.triangles[ref.triangle]});
       if (is_retired(entry.vertices)) of_mesh.retired.push_back(ref.triangle);
@@ -134,15 +120,22 @@ SurfaceEditor::Step SurfaceEditor::redo(const Redo& redo, ChangeRecord& change) 
   }
   append(surface_.corner_point, redo.corner_point);
   append(surface_.twin, redo.twin);
-  append(surface_.triangles, redo.triangles);
+  append(surface_.appended, redo.triangles);
+  append(parents_, redo.parents);
+  newest_entry_.resize(surface_.triangle_count(), kNone);
   append(surface_.point_corner, redo.point_corner);
-  append(surface_.point_side, redo.point_side);
+  append(surface_.appended_side, redo.side);
+  append(vertex_mesh_, redo.vertex_mesh);
   next_side_ = redo.next_side;
   for (const LogEntry& entry : redo.changed) restore(entry);
   for (const auto& [point, corner] : redo.known_corners) surface_.point_corner[point] = corner;
-  for (const SideEntry& entry : redo.sides) tear_sides(entry.mesh)->values[entry.vertex] = entry.side;
+  for (const SideEntry& entry : redo.sides) (*tear_sides(entry.mesh))[entry.vertex] = entry.side;
+  for (const LogEntry& entry : redo.log) {
+    newest_entry_[entry.triangle] = static_cast<Index>(log_.size());
+    log_.push_back(entry);
+  }
+  append(side_log_, redo.side_log);
   begin_stage();
-  return redo.step;
 }
 
 }  // namespace sunder::tear

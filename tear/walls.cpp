@@ -36,7 +36,7 @@ class Walls {
 
   [[nodiscard]] const Surface& surface() const { return work_.editor.surface(); }
   [[nodiscard]] Vec3d position(Index point) const { return work_.posed.position(work_.editor, point); }
-  [[nodiscard]] Index mesh_of(Index half_edge) const { return surface().triangles[half_edge / 3].mesh; }
+  [[nodiscard]] Index mesh_of(Index half_edge) const { return surface().triangle(half_edge / 3).mesh; }
 
   /// Rims of different skins cannot share vertices; points of one rim have one skin.
   [[nodiscard]] bool have_one_skin(const Rim& a, const Rim& b) const {

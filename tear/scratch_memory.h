@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <memory_resource>
+#include <vector>
+
+namespace sunder::tear {
+
+/// Memory for what lives no longer than one operation. It is handed out from one block, forgotten all at once, and kept: an
+/// operation like one before it allocates nothing.
+class ScratchMemory final : public std::pmr::memory_resource {
+ public:
+  /// @param is_fixed  where `bytes` do not suffice, std::bad_alloc is thrown; else the memory grows.
+  explicit ScratchMemory(std::size_t bytes, bool is_fixed) : is_fixed_(is_fixed) {
+    if (bytes > 0) add_block(bytes);
+  }
+
+  /// Forgets all that was handed out.
+  void reset();
+
+ private:
+  struct Block {
+    std::unique_ptr<std::byte[]> bytes;
+    std::size_t size = 0;
+  };
+
+  void add_block(std::size_t size);
+  void* do_allocate(std::size_t bytes, std::size_t alignment) override;
+  void do_deallocate(void* memory, std::size_t bytes, std::size_t alignment) override;
+  [[nodiscard]] bool do_is_equal(const std::pmr::memory_resource& other) const noexcept override { return this == &other; }
+
+  std::vector<Block> blocks_;  ///< Memory is taken from the last.
+  std::size_t used_ = 0;       ///< Of the last.
+  bool is_fixed_;
+};
+
+template <class T>
+using ScratchVector = std::pmr::vector<T>;
+
+}  // namespace sunder::tear
