@@ -46,38 +46,40 @@ std::optional<BladePlane> BladePlane::through(const Vec3d& anchor, const Blade& 
   plane.reach_[0] = beside(plane.to_base_, plane.from_base_, middle, down);
   plane.reach_[1] = beside(plane.to_tip_, plane.from_tip_, middle, -down);
   plane.reach_[2] = {Vec2d(-1, 0), 0.0};
+  plane.e_ = plane.to_base_ - plane.from_base_;
+  plane.d_ = plane.from_tip_ - plane.from_base_;
+  plane.g_ = (plane.to_tip_ - plane.to_base_) - plane.d_;
+  plane.a_ = -cross(plane.e_, plane.g_);
+  plane.cross_e_d_ = cross(plane.e_, plane.d_);
+  plane.not_before_ = plane.from_progress(0);
   return plane;
 }
 
-SweepCoordinates BladePlane::sweep_coordinates(const Vec2d& point) const {
-  // The blade at progress s: base e s + from_base, direction d + g s. The point lies on its line where
-  // cross(point - base(s), direction(s)) = 0: inverse bilinear interpolation, a quadratic in s.
+double BladePlane::progress(const Vec2d& point) const {
+  // The point lies on the blade's line where cross(point - base(s), direction(s)) = 0: inverse bilinear interpolation, a quadratic
+  // in s.
   const Vec2d p = point - from_base_;
-  const Vec2d e = to_base_ - from_base_;
-  const Vec2d d = from_tip_ - from_base_;
-  const Vec2d g = (to_tip_ - to_base_) - d;
-  const double a = -cross(e, g);
-  const double b = cross(p, g) - cross(e, d);
-  const double c = cross(p, d);
+  const double b = cross(p, g_) - cross_e_d_;
+  const double c = cross(p, d_);
+  const double discriminant = b * b - 4 * a_ * c;
+  if (std::abs(a_ * c) <= 1e-14 * b * b || discriminant < 0) return b != 0 ? -c / b : 0.0;
   const auto distance_from_sweep = [](double s) { return s < 0 ? -s : s > 1 ? s - 1 : 0.0; };
-  double progress = 0;
-  const double discriminant = b * b - 4 * a * c;
-  if (std::abs(a * c) <= 1e-14 * b * b || discriminant < 0) {
-    progress = b != 0 ? -c / b : 0.0;
-  } else {
-    const double q = -0.5 * (b + std::copysign(std::sqrt(discriminant), b));
-    const double one = q / a;
-    const double other = q != 0 ? c / q : one;
-    progress = distance_from_sweep(other) <= distance_from_sweep(one) ? other : one;
-  }
-  const Vec2d direction = d + progress * g;
+  const double q = -0.5 * (b + std::copysign(std::sqrt(discriminant), b));
+  const double one = q / a_;
+  const double other = q != 0 ? c / q : one;
+  return distance_from_sweep(other) <= distance_from_sweep(one) ? other : one;
+}
+
+SweepCoordinates BladePlane::sweep_coordinates(const Vec2d& point) const {
+  const double at = progress(point);
+  const Vec2d direction = d_ + at * g_;
   const double squared = direction.squaredNorm();
-  return {progress, squared > 0 ? direction.dot(p - progress * e) / squared : 0.0};
+  return {at, squared > 0 ? direction.dot((point - from_base_) - at * e_) / squared : 0.0};
 }
 
 BladePlane::HalfPlane BladePlane::from_progress(double progress) const {
-  const Vec2d base = from_base_ + progress * (to_base_ - from_base_);
-  const Vec2d direction = (from_tip_ - from_base_) + progress * ((to_tip_ - to_base_) - (from_tip_ - from_base_));
+  const Vec2d base = from_base_ + progress * e_;
+  const Vec2d direction = d_ + progress * g_;
   Vec2d normal{direction.y(), -direction.x()};  // to the blade's right when it points down y: towards growing x
   normal /= normal.norm();
   return {normal, normal.dot(base)};

@@ -28,6 +28,9 @@ class BladePlane {
   [[nodiscard]] double distance(const Vec3d& point) const { return normal_.dot(point - origin_); }
   [[nodiscard]] Vec2d project(const Vec3d& point) const { return {across_.dot(point - origin_), along_.dot(point - origin_)}; }
   [[nodiscard]] SweepCoordinates sweep_coordinates(const Vec2d& point) const;
+  /// Their progress alone.
+  [[nodiscard]] double progress(const Vec2d& point) const;
+  [[nodiscard]] double progress(const Vec3d& point) const { return progress(project(point)); }
 
   /// A half-plane of the plane figure: value(p) = normal . p - offset >= 0 inside.
   struct HalfPlane {
@@ -39,6 +42,8 @@ class BladePlane {
   [[nodiscard]] const std::array<HalfPlane, 3>& reach() const { return reach_; }
   /// What the blade sweeps from `progress` on.
   [[nodiscard]] HalfPlane from_progress(double progress) const;
+  /// What it sweeps from the first blade on.
+  [[nodiscard]] const HalfPlane& not_before() const { return not_before_; }
 
   /// Towards the left of the stroke, seen from where the blade comes; across the second blade, forwards; along it, from base to
   /// tip.
@@ -57,7 +62,11 @@ class BladePlane {
  private:
   Vec3d origin_, across_, along_, normal_;
   Vec2d from_base_, from_tip_, to_base_, to_tip_;
+  // The blade at progress s: base e s + from_base, direction d + g s.
+  Vec2d e_, d_, g_;
+  double a_ = 0, cross_e_d_ = 0;
   std::array<HalfPlane, 3> reach_;
+  HalfPlane not_before_;
 };
 
 }  // namespace sunder::tear

@@ -40,16 +40,13 @@ Step find_step(const BladePlane& plane, Index point, Snapping snapping, const Su
   const SweepCoordinates here = plane.sweep_coordinates(plane.project(from));
   Step best;
   double best_slope = 0;
-  surface.for_each_in_fan(surface.point_corner[point], [&](Index corner) {
-    const Index a = surface.corner_point[Surface::next(corner)], b = surface.corner_point[Surface::previous(corner)];
-    const Vec3d at_a = posed.position(editor, a), at_b = posed.position(editor, b);
-    const double distance_a = plane.distance(at_a), distance_b = plane.distance(at_b);
+  const auto consider = [&](Index corner, const Vec3d& at_a, double distance_a, const Vec3d& at_b, double distance_b) {
     if ((distance_a >= 0) == (distance_b >= 0)) return;
     Step step;
     step.corner = corner;
     step.fraction = distance_a / (distance_a - distance_b);
-    step.crossing_progress = plane.sweep_coordinates(plane.project(at_a + step.fraction * (at_b - at_a))).progress;
     step.position = at_a + step.fraction * (at_b - at_a);
+    step.crossing_progress = plane.progress(step.position);
     const double snap = snapped_part(Surface::next(corner), snapping, editor, posed);
     if (step.fraction < snap || step.fraction > 1 - snap) {
       // In a sliver an end may be near and yet lie in another direction, as that from which a tear came to its tip.
@@ -68,7 +65,20 @@ Step find_step(const BladePlane& plane, Index point, Snapping snapping, const Su
     if (best.corner != kNone && slope >= best_slope) return;
     best = step;
     best_slope = slope;
-  });
+  };
+  // The far edges around the point are a chain: each of its points is looked at once.
+  const Index first = surface.first_of_fan(surface.point_corner[point]);
+  Vec3d at_a = posed.position(editor, surface.corner_point[Surface::next(first)]);
+  double distance_a = plane.distance(at_a);
+  for (Index corner = first; corner != kNone;) {
+    const Vec3d at_b = posed.position(editor, surface.corner_point[Surface::previous(corner)]);
+    const double distance_b = plane.distance(at_b);
+    consider(corner, at_a, distance_a, at_b, distance_b);
+    at_a = at_b;
+    distance_a = distance_b;
+    corner = surface.rotate_ccw(corner);
+    if (corner == first) break;
+  }
   return best;
 }
 
@@ -87,8 +97,7 @@ Reach reach_between(const BladePlane& plane, const Vec3d& from, const Vec3d& to)
 SweepCoordinates sweep_towards(const BladePlane& plane, const Vec3d& from, const Vec3d& to) {
   const Vec2d a = plane.project(from), b = plane.project(to);
   const double part = reach_between(plane, from, to).fraction;
-  const BladePlane::HalfPlane not_before = plane.from_progress(0);
-  const double at_a = not_before.value(a), at_b = not_before.value(b);
+  const double at_a = plane.not_before().value(a), at_b = plane.not_before().value(b);
   if (at_b < 0 && at_b < at_a && at_a / (at_a - at_b) < part) return {-std::numeric_limits<double>::infinity(), 0};
   return plane.sweep_coordinates(a + std::max(part, kSnap) * (b - a));
 }
@@ -102,17 +111,24 @@ Index step_corner(const Step& step) {
   return kNone;
 }
 
+/// A place that a path goes on to, and the half-edge to it, where that is known.
+struct Arrival {
+  Index point = kNone, half_edge = kNone;
+};
+
 /// Goes to the place of a step, splitting the far edge; where that cannot be split, to its nearer end.
-Index take_step(const BladePlane& plane, const Step& step, SurfaceEditor& editor, PosedPoints& posed) {
-  const auto& points = editor.surface().corner_point;
-  if (const Index corner = step_corner(step); corner != kNone) return points[corner];
+Arrival take_step(const BladePlane& plane, const Step& step, SurfaceEditor& editor, PosedPoints& posed) {
+  const Surface& surface = editor.surface();
+  const auto& points = surface.corner_point;
+  if (const Index corner = step_corner(step); corner != kNone)
+    return {points[corner], step.fraction == 0 ? step.corner : surface.twin[corner]};
   const Index far_edge = Surface::next(step.corner);
   const Index here = points[step.corner];
   const Index nearer_end = points[step.fraction < 0.5 ? far_edge : Surface::next(far_edge)];
   const Index point = split_posed_edge(far_edge, step.fraction, editor, posed);
-  if (point != kNone) return point;
-  const auto progress_at = [&](Index at) { return plane.sweep_coordinates(plane.project(posed.position(editor, at))).progress; };
-  return progress_at(nearer_end) > progress_at(here) ? nearer_end : kNone;
+  if (point != kNone) return {point, surface.twin[Surface::next(far_edge)]};
+  const auto progress_at = [&](Index at) { return plane.progress(posed.position(editor, at)); };
+  return {progress_at(nearer_end) > progress_at(here) ? nearer_end : kNone, kNone};
 }
 
 /// Ends a path within the face that a step would cross, `fraction` of the way to its place.
@@ -160,13 +176,14 @@ Index imprint_point(const SurfaceHit& hit, Snapping snapping, SurfaceEditor& edi
 }
 
 Path imprint_path(const BladePlane& plane, Index start, SurfaceEditor& editor, PosedPoints& posed) {
-  Path path;
+  Path path(editor.scratch());
   path.points.push_back(start);
-  const auto progress_at = [&](const Vec3d& at) { return plane.sweep_coordinates(plane.project(at)).progress; };
+  const auto progress_at = [&](const Vec3d& at) { return plane.progress(at); };
   path.progress = progress_at(posed.position(editor, start));
-  const auto go_to = [&](Index point, const Vec3d& from) {
+  const auto go_to = [&](Index point, Index half_edge, const Vec3d& from) {
     path.length_posed += (posed.position(editor, point) - from).norm();
     path.points.push_back(point);
+    path.half_edges.push_back(half_edge);
   };
   for (;;) {
     const Index here = path.points.back();
@@ -188,7 +205,7 @@ Path imprint_path(const BladePlane& plane, Index start, SurfaceEditor& editor, P
       if (const Index landing = take_leap(plane, here, leap, editor, posed); landing != kNone) {
         path.faces_crossed += leap.edges;
         path.progress = std::max(path.progress, leap.progress);
-        go_to(landing, from);
+        go_to(landing, kNone, from);
         if (!leap.end) continue;
         path.end = *leap.end;
         return path;
@@ -198,7 +215,7 @@ Path imprint_path(const BladePlane& plane, Index start, SurfaceEditor& editor, P
       const SurfaceEditor::Mark before = editor.mark();
       const Index stop = stop_within(step, reach.fraction, editor, posed);
       if (progress_at(posed.position(editor, stop)) > progress_at(from)) {
-        go_to(stop, from);
+        go_to(stop, kNone, from);
       } else {  // it snapped to what lies behind
         editor.roll_back(before);
         posed.forget_from(before.points);
@@ -206,12 +223,12 @@ Path imprint_path(const BladePlane& plane, Index start, SurfaceEditor& editor, P
       path.end = reach.ends_at_blade ? Path::End::blade : Path::End::surface;
       return path;
     }
-    const Index next = take_step(plane, step, editor, posed);
+    const auto [next, half_edge] = take_step(plane, step, editor, posed);
     if (next == kNone) {
       path.end = Path::End::blocked;
       return path;
     }
-    go_to(next, from);
+    go_to(next, half_edge, from);
     if (reach.ends_at_blade || reach.fraction < 1) {
       path.end = reach.ends_at_blade ? Path::End::blade : Path::End::surface;
       return path;

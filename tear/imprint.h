@@ -9,7 +9,10 @@ namespace sunder::tear {
 
 /// A run of surface edges along which the surface is to open.
 struct Path {
-  std::vector<Index> points;
+  explicit Path(ScratchMemory& scratch) : points(&scratch), half_edges(&scratch) {}
+
+  ScratchVector<Index> points;
+  ScratchVector<Index> half_edges;  ///< Between them, where known; they may have moved since.
   Index faces_crossed = 0;
   double length_posed = 0;
   double progress = 0;  ///< In the sweep, of the end of the curve.

@@ -28,21 +28,29 @@ double gain(Index half_edge, const SurfaceEditor& editor) {
 
 void improve_faces(const SurfaceEditor::Mark& since, SurfaceEditor& editor) {
   const Surface& surface = editor.surface();
-  std::vector<Index> faces, open;
-  editor.for_each_changed(since, [&](Index face) { faces.push_back(face); });
-  std::sort(faces.begin(), faces.end());
-  for (Index face = since.triangles; face < surface.triangle_count(); ++face) faces.push_back(face);
-  for (const Index face : faces)
-    if (!surface.has_repeated_point(face)) open.insert(open.end(), {3 * face, 3 * face + 1, 3 * face + 2});
-  std::size_t turns_left = 16 * open.size();
+  ScratchVector<Index> open(&editor.scratch());
+  open.reserve(3 * editor.numbers_since(since));
+  // Each edge once, from the later of its faces if both changed.
+  const auto add = [&](Index face) {
+    for (Index h = 3 * face; h < 3 * face + 3; ++h)
+      if (editor.is_inner_edge(h) && (surface.twin[h] < h || editor.number_since(since, surface.twin[h] / 3) == kNone))
+        open.push_back(h);
+  };
+  editor.for_each_changed(since, add);
+  for (Index face = since.triangles; face < surface.triangle_count(); ++face) add(face);
+  std::size_t turns_left = 16 * editor.numbers_since(since);
   while (!open.empty() && turns_left > 0) {
     const Index h = open.back();
     open.pop_back();
-    if (!editor.is_inner_edge(h)) continue;
+    if (!editor.is_inner_edge(h) || !(gain(h, editor) > 1.0001)) continue;
     const Index twin = surface.twin[h];
-    if (!(gain(h, editor) > 1.0001) || !editor.flip_edge(h)) continue;
+    if (!editor.flip_edge(h)) continue;
     --turns_left;
-    for (const Index face : {h / 3, twin / 3}) open.insert(open.end(), {3 * face, 3 * face + 1, 3 * face + 2});
+    // The diagonal is the better one now; what may gain is around it.
+    const Index diagonal = Surface::next(h);
+    for (const Index face : {h / 3, twin / 3})
+      for (Index side = 3 * face; side < 3 * face + 3; ++side)
+        if (side != diagonal && side != surface.twin[diagonal]) open.push_back(side);
   }
 }
 

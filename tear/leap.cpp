@@ -8,9 +8,7 @@
 namespace sunder::tear {
 namespace {
 
-double progress_at(const BladePlane& plane, const Vec3d& position) {
-  return plane.sweep_coordinates(plane.project(position)).progress;
-}
+double progress_at(const BladePlane& plane, const Vec3d& position) { return plane.progress(position); }
 
 }  // namespace
 

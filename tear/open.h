@@ -3,6 +3,7 @@
 #include <sunder/tear/change_record.h>
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "tear/surface_editor.h"
@@ -16,7 +17,9 @@ using PointEdge = std::array<Index, 2>;
 /// becomes several points. Faces right of the edges keep their points; a point whose faces stay together is a tip.
 ///
 /// @param edges  of the surface, directed; an edge that the surface does not have, or that is a border, has nothing to open.
+/// @param half_edges  where known, the half-edge of each; what does not fit is looked up.
 /// @param lips  appended: left and right points in the order of the edges.
-void open_edges(const std::vector<PointEdge>& edges, SurfaceEditor& editor, std::vector<LipPair>& lips);
+void open_edges(std::span<const PointEdge> edges, std::span<const Index> half_edges, SurfaceEditor& editor,
+                std::vector<LipPair>& lips);
 
 }  // namespace sunder::tear

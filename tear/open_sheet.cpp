@@ -110,7 +110,7 @@ SheetOpening open_sheet(const Sheet& sheet, const Workpiece& work, std::vector<L
     opening.right.push_back(right);
   }
   const std::size_t first_lip = lips.size();
-  open_edges(opening.edges, editor, lips);
+  open_edges(opening.edges, {}, editor, lips);
   for (std::size_t i = first_lip; i < lips.size(); ++i) posed.pin(lips[i].left, Vec3d(posed.position(editor, lips[i].right)));
   return opening;
 }

@@ -90,6 +90,7 @@ double StrokeTearing::tear_piece(const BladePlane& plane, Index start, const Sur
       path.points.pop_back();
     else
       path.points.insert(path.points.begin() + 1, middle);
+    path.half_edges.clear();
   }
   // Where the last piece of this segment snapped, something of the section may be left beside it: not a piece of its own.
   const bool is_leftover = path.points.back() == last_end_;
@@ -99,10 +100,11 @@ double StrokeTearing::tear_piece(const BladePlane& plane, Index start, const Sur
     if (path.end == Path::End::blade && start < before.points) tip_ = start;  // moved by less than can be told: go on from here
     return path.end == Path::End::blade ? 1.0 : path.progress;
   }
-  std::vector<PointEdge> edges;
+  ScratchVector<PointEdge> edges(&editor.scratch());
+  edges.reserve(path.points.size() - 1);
   for (std::size_t i = 0; i + 1 < path.points.size(); ++i) edges.push_back({path.points[i], path.points[i + 1]});
   const std::size_t first_lip = lips.size();
-  open_edges(edges, editor, lips);
+  open_edges(edges, path.half_edges, editor, lips);
   for (std::size_t i = first_lip; i < lips.size(); ++i) posed.pin(lips[i].left, Vec3d(posed.position(editor, lips[i].right)));
   torn_edges_ += edges.size();
   if (!continues) ++report.runs;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <initializer_list>
 
 namespace sunder::tear {
 namespace {
@@ -21,11 +22,17 @@ class SurfaceEditor::FaceSplit {
  public:
   FaceSplit(const SurfaceEditor& editor, Index face)
       : editor_(editor), ref_(editor.surface_.triangle(face)), vertices_(editor.vertices_of(face)) {
-    for (std::size_t k = 0; k < 3; ++k) places_[k] = editor.place_in_origin(ref_, vertices_[k]);
     const Mesh& mesh = editor.character_.meshes[ref_.mesh];
-    normal_ = normal(mesh, vertices_);
     const Triangle& origin = editor.origin_triangle(ref_.mesh, ref_.source_triangle);
-    normal_of_origin_ = origin == vertices_ ? normal_ : normal(mesh, origin);
+    normal_ = normal(mesh, vertices_);
+    if (origin == vertices_) {
+      places_ = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+      normal_of_origin_ = normal_;
+    } else {
+      for (std::size_t k = 0; k < 3; ++k) places_[k] = editor.place_in_origin(ref_, vertices_[k]);
+      normal_of_origin_ = normal(mesh, origin);
+    }
+    normal_squared_ = normal_.squaredNorm();
   }
 
   [[nodiscard]] Index mesh() const { return ref_.mesh; }
@@ -45,26 +52,30 @@ class SurfaceEditor::FaceSplit {
     return birth;
   }
 
-  /// Whether replacing one corner (0, 1, 2) by a new vertex keeps the winding.
-  [[nodiscard]] bool keeps_winding(Index corner, Index vertex) const {
+  /// Whether replacing any of these corners (0, 1, 2) by a new vertex keeps the winding.
+  [[nodiscard]] bool keeps_winding(std::initializer_list<Index> corners, Index vertex) const {
+    const auto place = editor_.place_in_origin(ref_, vertex);
+    return std::all_of(corners.begin(), corners.end(), [&](Index corner) { return keeps_winding(corner, vertex, place); });
+  }
+
+ private:
+  [[nodiscard]] bool keeps_winding(Index corner, Index vertex, const std::array<double, 3>& place) const {
     auto places = places_;
-    places[corner] = editor_.place_in_origin(ref_, vertex);
+    places[corner] = place;
     if (!(covered_part(places[0], places[1], places[2]) > kLeastPart)) return false;
     const Mesh& mesh = editor_.character_.meshes[ref_.mesh];
-    const double squared = normal_.squaredNorm();
     // A face without area has no winding to lose; its parts must only keep their corners apart.
-    if (squared == 0.0)
+    if (normal_squared_ == 0.0)
       return mesh.positions[vertex] != mesh.positions[vertices_[(corner + 1) % 3]] &&
              mesh.positions[vertex] != mesh.positions[vertices_[(corner + 2) % 3]];
     Triangle after = vertices_;
     after[corner] = vertex;
     const Eigen::Vector3d normal_after = normal(mesh, after);
-    if (!(normal_after.dot(normal_) > 1e-9 * squared)) return false;
+    if (!(normal_after.dot(normal_) > 1e-9 * normal_squared_)) return false;
     // Normals of slivers are as crooked as stored positions are coarse: parts of parts must not end up facing away.
     return normal_of_origin_.isZero(0) || normal_after.dot(normal_of_origin_) > 0;
   }
 
- private:
   static Eigen::Vector3d normal(const Mesh& mesh, const Triangle& of) {
     const Eigen::Vector3d a = mesh.positions[of[0]].cast<double>();
     return (mesh.positions[of[1]].cast<double>() - a).cross(mesh.positions[of[2]].cast<double>() - a);
@@ -75,6 +86,7 @@ class SurfaceEditor::FaceSplit {
   const Triangle vertices_;
   std::array<std::array<double, 3>, 3> places_;
   Eigen::Vector3d normal_, normal_of_origin_;
+  double normal_squared_ = 0;
 };
 
 SurfaceEditor::SurfaceEditor(const Character& source, Character& character)
@@ -215,7 +227,7 @@ Index SurfaceEditor::split_edge(Index half_edge, double fraction) {
   at[ab % 3] = 1.0 - fraction;
   at[bc % 3] = fraction;
   const Index vertex_f = append_vertex(mesh_f, split_f.birth_at(at));
-  bool is_sound = split_f.keeps_winding(ab % 3, vertex_f) && split_f.keeps_winding(bc % 3, vertex_f);
+  bool is_sound = split_f.keeps_winding({ab % 3, bc % 3}, vertex_f);
 
   Index vertex_g = vertex_f;
   Index mesh_g = mesh_f;
@@ -234,7 +246,7 @@ Index SurfaceEditor::split_edge(Index half_edge, double fraction) {
       vertex_g = append_vertex(mesh_g, split_g.birth_at(at));
       copy_surface_point(character_.meshes[mesh_f], vertex_f, vertex_g, character_.meshes[mesh_g]);
     }
-    is_sound = is_sound && split_g.keeps_winding(ba % 3, vertex_g) && split_g.keeps_winding(ad % 3, vertex_g);
+    is_sound = is_sound && split_g.keeps_winding({ba % 3, ad % 3}, vertex_g);
   }
   if (!is_sound) {
     if (vertex_g != vertex_f || mesh_g != mesh_f) remove_newest_vertex(mesh_g);
@@ -286,7 +298,7 @@ Index SurfaceEditor::split_triangle(Index triangle, const std::array<double, 3>&
   const Index mesh = split.mesh();
   const Index vertex = append_vertex(mesh, split.birth_at(barycentric));
   const Index corner = 3 * triangle;
-  if (!split.keeps_winding(0, vertex) || !split.keeps_winding(1, vertex) || !split.keeps_winding(2, vertex)) {
+  if (!split.keeps_winding({0, 1, 2}, vertex)) {
     remove_newest_vertex(mesh);
     return kNone;
   }
@@ -343,12 +355,12 @@ void SurfaceEditor::cut_edge(Index half_edge) {
   surface_.twin[twin] = kNone;
 }
 
-Index SurfaceEditor::separate_fan(Index corner, const std::vector<Index>& remaining) {
+Index SurfaceEditor::separate_fan(Index corner, std::span<const Index> remaining) {
   const Index old_point = surface_.corner_point[corner];
   struct Duplicate {
     Index mesh, vertex, copy;
   };
-  std::vector<Duplicate> duplicates;
+  ScratchVector<Duplicate> duplicates(&scratch_);
   const auto is_used_elsewhere = [&](Index mesh, Index vertex) {
     const auto& is_shared = surface_.is_shared_vertex[mesh];
     if (vertex < is_shared.size() && is_shared[vertex]) return true;
@@ -359,7 +371,7 @@ Index SurfaceEditor::separate_fan(Index corner, const std::vector<Index>& remain
     return used;
   };
 
-  std::vector<Index> corners;
+  ScratchVector<Index> corners(&scratch_);
   surface_.for_each_in_fan(corner, [&](Index c) { corners.push_back(c); });
   for (const Index c : corners) log_triangle(c / 3);
   const Index point = append_point();

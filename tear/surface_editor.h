@@ -94,7 +94,7 @@ class SurfaceEditor {
   void cut_edge(Index half_edge);
   /// Gives the fan that holds `corner` a point of its own. Vertices that faces of other fans use are duplicated.
   /// @param remaining  a corner of each other fan that this point has.
-  Index separate_fan(Index corner, const std::vector<Index>& remaining);
+  Index separate_fan(Index corner, std::span<const Index> remaining);
   /// Takes a triangle away whose edges are all cut. Its points keep no corner of it.
   void retire_triangle(Index triangle);
   /// Names the corner that a point is known by.

@@ -9,7 +9,7 @@ namespace sunder::tear {
 Trace trace_path(const BladePlane& plane, Index start, const SurfaceEditor& editor, PosedPoints& posed) {
   Trace trace;
   const Surface& surface = editor.surface();
-  const auto progress_at = [&](const Vec3d& at) { return plane.sweep_coordinates(plane.project(at)).progress; };
+  const auto progress_at = [&](const Vec3d& at) { return plane.progress(at); };
   Vec3d here = posed.position(editor, start);
   trace.progress = progress_at(here);
   trace.section.push_back(plane.project(here));
