@@ -36,44 +36,50 @@ double snapped_part(Index half_edge, Snapping snapping, const SurfaceEditor& edi
 
 Step find_step(const BladePlane& plane, Index point, Snapping snapping, const SurfaceEditor& editor, PosedPoints& posed) {
   const Surface& surface = editor.surface();
-  const Vec3d from = posed.position(editor, point);
-  const SweepCoordinates here = plane.sweep_coordinates(plane.project(from));
+  posed.cover(surface.point_count());
+  const Vec3d& from = posed.position(editor, point);
+  const double progress_here = plane.progress(from);
   Step best;
-  double best_slope = 0;
+  double best_progress = 0;
+  const auto slope = [&](const Step& step, double progress) {
+    const double part = std::max(reach_between(plane, from, step.position).fraction, kSnap);
+    const Vec3d reached = from + part * (step.position - from);
+    return (plane.sweep_coordinates(plane.project(reached)).depth - plane.sweep_coordinates(plane.project(from)).depth) / progress;
+  };
   const auto consider = [&](Index corner, const Vec3d& at_a, double distance_a, const Vec3d& at_b, double distance_b) {
-    if ((distance_a >= 0) == (distance_b >= 0)) return;
     Step step;
     step.corner = corner;
     step.fraction = distance_a / (distance_a - distance_b);
     step.position = at_a + step.fraction * (at_b - at_a);
     step.crossing_progress = plane.progress(step.position);
-    const double snap = snapped_part(Surface::next(corner), snapping, editor, posed);
-    if (step.fraction < snap || step.fraction > 1 - snap) {
-      // In a sliver an end may be near and yet lie in another direction, as that from which a tear came to its tip.
-      const bool is_at_a = step.fraction < 0.5;
-      const Vec3d way = step.position - from, snapped_way = (is_at_a ? at_a : at_b) - from;
-      const bool keeps_direction = way.dot(snapped_way) > 0.5 * way.norm() * snapped_way.norm();
-      if (keeps_direction || std::min(step.fraction, 1 - step.fraction) < kTightSnap) {
-        step.fraction = is_at_a ? 0 : 1;
-        step.position = is_at_a ? at_a : at_b;
+    const bool is_at_a = step.fraction < 0.5;
+    bool snaps = std::min(step.fraction, 1 - step.fraction) < kTightSnap;
+    if (!snaps) {
+      const double snap = snapped_part(Surface::next(corner), snapping, editor, posed);
+      if (step.fraction < snap || step.fraction > 1 - snap) {
+        // In a sliver an end may be near and yet lie in another direction, as that from which a tear came to its tip.
+        const Vec3d way = step.position - from, snapped_way = (is_at_a ? at_a : at_b) - from;
+        snaps = way.dot(snapped_way) > 0.5 * way.norm() * snapped_way.norm();
       }
     }
-    step.sweep = sweep_towards(plane, from, step.position);
-    const double progress = step.sweep.progress - here.progress;
+    if (snaps) {
+      step.fraction = is_at_a ? 0 : 1;
+      step.position = is_at_a ? at_a : at_b;
+    }
+    const double progress = progress_towards(plane, from, step.position) - progress_here;
     if (!(progress > 1e-12)) return;
-    const double slope = (step.sweep.depth - here.depth) / progress;
-    if (best.corner != kNone && slope >= best_slope) return;
+    if (best.corner != kNone && slope(step, progress) >= slope(best, best_progress)) return;
     best = step;
-    best_slope = slope;
+    best_progress = progress;
   };
   // The far edges around the point are a chain: each of its points is looked at once.
   const Index first = surface.first_of_fan(surface.point_corner[point]);
-  Vec3d at_a = posed.position(editor, surface.corner_point[Surface::next(first)]);
-  double distance_a = plane.distance(at_a);
+  const Vec3d* at_a = &posed.position(editor, surface.corner_point[Surface::next(first)]);
+  double distance_a = plane.distance(*at_a);
   for (Index corner = first; corner != kNone;) {
-    const Vec3d at_b = posed.position(editor, surface.corner_point[Surface::previous(corner)]);
-    const double distance_b = plane.distance(at_b);
-    consider(corner, at_a, distance_a, at_b, distance_b);
+    const Vec3d* at_b = &posed.position(editor, surface.corner_point[Surface::previous(corner)]);
+    const double distance_b = plane.distance(*at_b);
+    if ((distance_a >= 0) != (distance_b >= 0)) consider(corner, *at_a, distance_a, *at_b, distance_b);
     at_a = at_b;
     distance_a = distance_b;
     corner = surface.rotate_ccw(corner);
@@ -86,20 +92,25 @@ Reach reach_between(const BladePlane& plane, const Vec3d& from, const Vec3d& to)
   const Vec2d a = plane.project(from), b = plane.project(to);
   Reach reach;
   for (std::size_t i = 0; i < plane.reach().size(); ++i) {
-    const double at_a = plane.reach()[i].value(a), at_b = plane.reach()[i].value(b);
-    if (at_b > 0 || at_b >= at_a) continue;  // inside, or coming back in
+    const double at_b = plane.reach()[i].value(b);
+    if (at_b > 0) continue;  // inside
+    const double at_a = plane.reach()[i].value(a);
+    if (at_b >= at_a) continue;  // coming back in
     const double fraction = std::clamp(at_a / (at_a - at_b), 0.0, 1.0);
     if (fraction < reach.fraction || (fraction == reach.fraction && i == 2)) reach = {fraction, i == 2};
   }
   return reach;
 }
 
-SweepCoordinates sweep_towards(const BladePlane& plane, const Vec3d& from, const Vec3d& to) {
-  const Vec2d a = plane.project(from), b = plane.project(to);
+double progress_towards(const BladePlane& plane, const Vec3d& from, const Vec3d& to) {
   const double part = reach_between(plane, from, to).fraction;
-  const double at_a = plane.not_before().value(a), at_b = plane.not_before().value(b);
-  if (at_b < 0 && at_b < at_a && at_a / (at_a - at_b) < part) return {-std::numeric_limits<double>::infinity(), 0};
-  return plane.sweep_coordinates(a + std::max(part, kSnap) * (b - a));
+  const Vec2d b = plane.project(to);
+  const double at_b = plane.not_before().value(b);
+  if (part == 1 && at_b >= 0) return plane.progress(b);
+  const Vec2d a = plane.project(from);
+  const double at_a = plane.not_before().value(a);
+  if (at_b < 0 && at_b < at_a && at_a / (at_a - at_b) < part) return -std::numeric_limits<double>::infinity();
+  return plane.progress(Vec2d(a + std::max(part, kSnap) * (b - a)));
 }
 
 namespace {

@@ -37,7 +37,6 @@ struct Step {
   Index corner = kNone;  ///< Of the face, at the point where the path stands.
   double fraction = 0;   ///< Along the far edge; 0 and 1: at its ends.
   Vec3d position = Vec3d::Zero();
-  SweepCoordinates sweep;
   double crossing_progress = 0;  ///< In the sweep, of the crossing before it snapped.
 };
 
@@ -56,10 +55,10 @@ struct Reach {
 };
 [[nodiscard]] Reach reach_between(const BladePlane& plane, const Vec3d& from, const Vec3d& to);
 
-/// Where the sweep stands on the way from one place to another: at its end or, if the way leaves the sweep, about there. Farther
+/// How far the sweep comes on the way from one place to another: at its end or, if the way leaves the sweep, about there. Farther
 /// out sweep coordinates say nothing: the lines of a blade that turns meet, and on their other side they run backwards. A way that
 /// leaves before the first blade has progress of minus infinity.
-[[nodiscard]] SweepCoordinates sweep_towards(const BladePlane& plane, const Vec3d& from, const Vec3d& to);
+[[nodiscard]] double progress_towards(const BladePlane& plane, const Vec3d& from, const Vec3d& to);
 
 /// Splits an edge and pins the new point where the posed edge has it. @return kNone where its faces cannot be split.
 [[nodiscard]] Index split_posed_edge(Index half_edge, double fraction, SurfaceEditor& editor, PosedPoints& posed);

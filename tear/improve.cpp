@@ -5,20 +5,36 @@
 namespace sunder::tear {
 namespace {
 
+// Plain numbers: this is asked for each face that a tear crosses.
+struct Place {
+  double x = 0, y = 0, z = 0;
+};
+
+double distance_squared(const Place& a, const Place& b) {
+  return (b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y) + (b.z - a.z) * (b.z - a.z);
+}
+
 /// Least height over longest side, squared: 3/4 for an equilateral triangle, 0 for one without area.
-double shape_squared(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
-  const double longest_squared = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
-  return longest_squared > 0 ? (b - a).cross(c - a).squaredNorm() / (longest_squared * longest_squared) : 0.0;
+double shape_squared(const Place& a, const Place& b, const Place& c) {
+  const double longest_squared = std::max({distance_squared(a, b), distance_squared(b, c), distance_squared(c, a)});
+  const Place u{b.x - a.x, b.y - a.y, b.z - a.z}, v{c.x - a.x, c.y - a.y, c.z - a.z};
+  const Place normal{u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x};
+  return longest_squared > 0 ? distance_squared({}, normal) / (longest_squared * longest_squared) : 0.0;
 }
 
 /// By how much turning an edge makes the worse of its two faces better; at most 1 where it does not.
 double gain(Index half_edge, const SurfaceEditor& editor) {
   const Surface& surface = editor.surface();
   const Index twin = surface.twin[half_edge];
-  const Mesh& mesh = editor.character().meshes[surface.triangle(half_edge / 3).mesh];
-  const auto position = [&](Index corner) -> Eigen::Vector3d { return mesh.positions[editor.vertex_at(corner)].cast<double>(); };
-  const Eigen::Vector3d a = position(half_edge), b = position(Surface::next(half_edge)), c = position(Surface::previous(half_edge)),
-                        d = position(Surface::previous(twin));
+  const TriangleRef f = surface.triangle(half_edge / 3), g = surface.triangle(twin / 3);
+  const Mesh& mesh = editor.character().meshes[f.mesh];
+  const Triangle &of_f = mesh.triangles[f.triangle], &of_g = mesh.triangles[g.triangle];
+  const auto place = [&](Index vertex) -> Place {
+    const Vec3f& at = mesh.positions[vertex];
+    return {static_cast<double>(at.x()), static_cast<double>(at.y()), static_cast<double>(at.z())};
+  };
+  const Place a = place(of_f[half_edge % 3]), b = place(of_f[Surface::next(half_edge) % 3]),
+              c = place(of_f[Surface::previous(half_edge) % 3]), d = place(of_g[Surface::previous(twin) % 3]);
   const double before = std::min(shape_squared(a, b, c), shape_squared(b, a, d));
   const double after = std::min(shape_squared(a, d, c), shape_squared(b, c, d));
   return before > 0 ? after / before : after > 0 ? 2.0 : 0.0;

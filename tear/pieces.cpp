@@ -66,14 +66,14 @@ class ChangedFaces {
       if (!is_live(i)) continue;
       ++set_count_;
       for (Index h = 3 * face_[i]; h < 3 * face_[i] + 3; ++h) {
-        if (surface_.twin[h] == kNone) continue;
-        const Index other = editor.number_since(begin, surface_.twin[h] / 3);
-        if (other == kNone) continue;
-        if (sets_.unite(i, other)) ++joined_;
-        groups_.unite(i, other);
+        const Index twin = surface_.twin[h];
+        if (twin == kNone || twin < h) continue;  // each edge once
+        const Index other = editor.number_since(begin, twin / 3);
+        if (other != kNone && sets_.unite(i, other)) ++joined_;
       }
     }
     if (set_count() < 2) return;
+    for (Index i = 0; i < count(); ++i) groups_.unite(sets_.find(i), i);
     // What hung together before: neighbours, and what was split from one face. What did not change joins as it did.
     editor.for_each_former_neighbour(begin, [&](Index one, Index other) {
       const Index b = editor.number_since(begin, other);

@@ -34,37 +34,27 @@ Status PosedPoints::begin(const Character& character, const ModelPose& pose) {
   }
   morph_weights_ = pose.morph_weights;
   if (++epoch_ == 0) {  // once in four thousand million poses
-    known_since_.assign(known_since_.size(), 0);
+    for (Known& known : known_) known.since = 0;
     epoch_ = 1;
   }
   return {};
 }
 
-const Vec3d& PosedPoints::position(const SurfaceEditor& editor, Index point) {
-  if (point >= positions_.size()) {
-    positions_.resize(editor.surface().point_count());
-    known_since_.resize(editor.surface().point_count(), 0);
-  }
-  if (known_since_[point] != epoch_) {
-    const Index corner = editor.surface().point_corner[point];
-    const Mesh& mesh = editor.character().meshes[editor.surface().triangle(corner / 3).mesh];
-    positions_[point] = deform_position_reference(mesh, editor.vertex_at(corner), palettes_[mesh.skin], morph_weights_);
-    known_since_[point] = epoch_;
-  }
-  return positions_[point];
+const Vec3d& PosedPoints::look_up(const SurfaceEditor& editor, Index point) {
+  cover(editor.surface().point_count());
+  const Index corner = editor.surface().point_corner[point];
+  const Mesh& mesh = editor.character().meshes[editor.surface().triangle(corner / 3).mesh];
+  known_[point] = {deform_position_reference(mesh, editor.vertex_at(corner), palettes_[mesh.skin], morph_weights_), epoch_};
+  return known_[point].position;
 }
 
 void PosedPoints::pin(Index point, const Vec3d& position) {
-  if (point >= positions_.size()) {
-    positions_.resize(point + 1);
-    known_since_.resize(point + 1, 0);
-  }
-  positions_[point] = position;
-  known_since_[point] = epoch_;
+  cover(point + 1);
+  known_[point] = {position, epoch_};
 }
 
 void PosedPoints::forget_from(Index first_point) {
-  for (std::size_t point = first_point; point < known_since_.size(); ++point) known_since_[point] = 0;
+  if (known_.size() > first_point) known_.resize(first_point);
 }
 
 }  // namespace sunder::tear

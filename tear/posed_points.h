@@ -18,7 +18,15 @@ class PosedPoints {
   /// check(), then forgets all points.
   [[nodiscard]] Status begin(const Character& character, const ModelPose& pose);
 
-  [[nodiscard]] const Vec3d& position(const SurfaceEditor& editor, Index point);
+  /// The reference is good until the surface has more points than were covered.
+  [[nodiscard]] const Vec3d& position(const SurfaceEditor& editor, Index point) {
+    if (point < known_.size() && known_[point].since == epoch_) return known_[point].position;
+    return look_up(editor, point);
+  }
+
+  void cover(Index point_count) {
+    if (known_.size() < point_count) known_.resize(point_count);
+  }
 
   /// Keeps a point where it was found on the posed surface, instead of where its own weights put it.
   void pin(Index point, const Vec3d& position);
@@ -31,9 +39,14 @@ class PosedPoints {
  private:
   std::vector<std::vector<Affine3d>> palettes_;  ///< Of each skin.
   std::vector<float> morph_weights_;
-  std::vector<Vec3d> positions_;
-  std::vector<std::uint32_t> known_since_;  ///< Epoch in which a position was computed or pinned.
-  std::uint32_t epoch_ = 0;                 ///< Of the pose: a new one forgets all positions at once.
+  struct Known {
+    Vec3d position = Vec3d::Zero();
+    std::uint32_t since = 0;  ///< Epoch in which it was computed or pinned.
+  };
+  [[nodiscard]] const Vec3d& look_up(const SurfaceEditor& editor, Index point);
+
+  std::vector<Known> known_;
+  std::uint32_t epoch_ = 0;  ///< Of the pose: a new one forgets all positions at once.
 };
 
 }  // namespace sunder::tear

@@ -1,7 +1,7 @@
 #include "tear/surface_editor.h"
 
 #include <algorithm>
-#include <cassert>
+#include <cmath>
 #include <initializer_list>
 
 namespace sunder::tear {
@@ -13,6 +13,24 @@ constexpr double kLeastPart = 1e-14;
 /// The part of a triangle that lies between three places in it, by their barycentric coordinates.
 double covered_part(const std::array<double, 3>& p, const std::array<double, 3>& q, const std::array<double, 3>& r) {
   return (q[1] - p[1]) * (r[2] - p[2]) - (q[2] - p[2]) * (r[1] - p[1]);
+}
+
+// Plain numbers: this is asked for each face that a tear crosses.
+struct Direction {
+  double x = 0, y = 0, z = 0;
+};
+
+double dot(const Direction& a, const Direction& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+
+/// Of a triangle in bind space; its length is twice the area.
+Direction normal(const Mesh& mesh, const Triangle& of) {
+  const auto from_first = [&](Index vertex) -> Direction {
+    const Vec3f &a = mesh.positions[of[0]], &b = mesh.positions[vertex];
+    return {static_cast<double>(b.x()) - static_cast<double>(a.x()), static_cast<double>(b.y()) - static_cast<double>(a.y()),
+            static_cast<double>(b.z()) - static_cast<double>(a.z())};
+  };
+  const Direction b = from_first(of[1]), c = from_first(of[2]);
+  return {b.y * c.z - b.z * c.y, b.z * c.x - b.x * c.z, b.x * c.y - b.y * c.x};
 }
 
 }  // namespace
@@ -32,7 +50,7 @@ class SurfaceEditor::FaceSplit {
       for (std::size_t k = 0; k < 3; ++k) places_[k] = editor.place_in_origin(ref_, vertices_[k]);
       normal_of_origin_ = normal(mesh, origin);
     }
-    normal_squared_ = normal_.squaredNorm();
+    normal_squared_ = dot(normal_, normal_);
   }
 
   [[nodiscard]] Index mesh() const { return ref_.mesh; }
@@ -52,40 +70,31 @@ class SurfaceEditor::FaceSplit {
     return birth;
   }
 
-  /// Whether replacing any of these corners (0, 1, 2) by a new vertex keeps the winding.
-  [[nodiscard]] bool keeps_winding(std::initializer_list<Index> corners, Index vertex) const {
-    const auto place = editor_.place_in_origin(ref_, vertex);
+  /// Whether replacing any of these corners (0, 1, 2) by a new vertex, born at `place`, keeps the winding.
+  [[nodiscard]] bool keeps_winding(std::initializer_list<Index> corners, Index vertex, const std::array<double, 3>& place) const {
     return std::all_of(corners.begin(), corners.end(), [&](Index corner) { return keeps_winding(corner, vertex, place); });
   }
 
  private:
   [[nodiscard]] bool keeps_winding(Index corner, Index vertex, const std::array<double, 3>& place) const {
-    auto places = places_;
-    places[corner] = place;
-    if (!(covered_part(places[0], places[1], places[2]) > kLeastPart)) return false;
+    const Index next = (corner + 1) % 3, previous = (corner + 2) % 3;
+    if (!(covered_part(place, places_[next], places_[previous]) > kLeastPart)) return false;
     const Mesh& mesh = editor_.character_.meshes[ref_.mesh];
     // A face without area has no winding to lose; its parts must only keep their corners apart.
     if (normal_squared_ == 0.0)
-      return mesh.positions[vertex] != mesh.positions[vertices_[(corner + 1) % 3]] &&
-             mesh.positions[vertex] != mesh.positions[vertices_[(corner + 2) % 3]];
-    Triangle after = vertices_;
-    after[corner] = vertex;
-    const Eigen::Vector3d normal_after = normal(mesh, after);
-    if (!(normal_after.dot(normal_) > 1e-9 * normal_squared_)) return false;
+      return mesh.positions[vertex] != mesh.positions[vertices_[next]] &&
+             mesh.positions[vertex] != mesh.positions[vertices_[previous]];
+    const Direction normal_after = normal(mesh, {vertex, vertices_[next], vertices_[previous]});
+    if (!(dot(normal_after, normal_) > 1e-9 * normal_squared_)) return false;
     // Normals of slivers are as crooked as stored positions are coarse: parts of parts must not end up facing away.
-    return normal_of_origin_.isZero(0) || normal_after.dot(normal_of_origin_) > 0;
-  }
-
-  static Eigen::Vector3d normal(const Mesh& mesh, const Triangle& of) {
-    const Eigen::Vector3d a = mesh.positions[of[0]].cast<double>();
-    return (mesh.positions[of[1]].cast<double>() - a).cross(mesh.positions[of[2]].cast<double>() - a);
+    return dot(normal_of_origin_, normal_of_origin_) == 0 || dot(normal_after, normal_of_origin_) > 0;
   }
 
   const SurfaceEditor& editor_;
   const TriangleRef ref_;
   const Triangle vertices_;
   std::array<std::array<double, 3>, 3> places_;
-  Eigen::Vector3d normal_, normal_of_origin_;
+  Direction normal_, normal_of_origin_;
   double normal_squared_ = 0;
 };
 
@@ -114,22 +123,26 @@ Triangle SurfaceEditor::vertices_of(Index triangle) const {
   return character_.meshes[ref.mesh].triangles[ref.triangle];
 }
 
-SurfaceEditor::LogEntry SurfaceEditor::entry_of(Index triangle) const {
-  LogEntry entry{triangle, newest_entry_[triangle], {}, {}, {}, vertices_of(triangle)};
+void SurfaceEditor::fill(LogEntry& entry) const {
+  entry.vertices = vertices_of(entry.triangle);
   for (Index k = 0; k < 3; ++k) {
-    entry.points[k] = surface_.corner_point[3 * triangle + k];
-    entry.twins[k] = surface_.twin[3 * triangle + k];
-    entry.point_corners[k] = entry.points[k] == kNone ? kNone : surface_.point_corner[entry.points[k]];
+    const Index point = surface_.corner_point[3 * entry.triangle + k];
+    entry.points[k] = point;
+    entry.twins[k] = surface_.twin[3 * entry.triangle + k];
+    entry.point_corners[k] = point == kNone ? kNone : surface_.point_corner[point];
   }
-  return entry;
 }
 
 void SurfaceEditor::log_triangle(Index triangle) {
   if (triangle >= logged_since_.triangles) return;
   Index& newest = newest_entry_[triangle];
   if (newest != kNone && newest >= logged_since_.log_length) return;
-  log_.push_back(entry_of(triangle));
-  newest = static_cast<Index>(log_.size() - 1);
+  const Index previous = newest;
+  newest = static_cast<Index>(log_.size());
+  LogEntry& entry = log_.emplace_back();
+  entry.triangle = triangle;
+  entry.previous = previous;
+  fill(entry);
 }
 
 void SurfaceEditor::restore(const LogEntry& entry) {
@@ -192,24 +205,15 @@ void SurfaceEditor::remove_newest_vertex(Index mesh) {
 
 std::array<double, 3> SurfaceEditor::place_in_origin(const TriangleRef& ref, Index vertex) const {
   const Triangle& in_triangle = origin_triangle(ref.mesh, ref.source_triangle);
-
-  std::array<double, 3> result = {0, 0, 0};
-  const auto add = [&](Index source_vertex, double part) {
-    for (std::size_t k = 0; k < 3; ++k)
-      if (in_triangle[k] == source_vertex) {
-        result[k] += part;
-        return;
-      }
-    assert(false && "a vertex is shared only by parts of source triangles that share its parents");
-  };
-  if (vertex < source_.meshes[ref.mesh].vertex_count()) {
-    add(vertex, 1.0);
-    return result;
-  }
+  if (vertex < source_.meshes[ref.mesh].vertex_count())
+    return {vertex == in_triangle[0] ? 1.0 : 0.0, vertex == in_triangle[1] ? 1.0 : 0.0, vertex == in_triangle[2] ? 1.0 : 0.0};
   const Birth& born = birth(ref.mesh, vertex);
   if (born.triangle == ref.source_triangle) return born.barycentric;
-  for (std::size_t k = 0; k < 3; ++k)
-    if (born.barycentric[k] > 0.0) add(origin_triangle(ref.mesh, born.triangle)[k], born.barycentric[k]);
+  // Parts of two origins share a vertex only where the origins share its parents.
+  const Triangle& parents = origin_triangle(ref.mesh, born.triangle);
+  std::array<double, 3> result = {0, 0, 0};
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t k = 0; k < 3; ++k) result[i] += parents[k] == in_triangle[i] ? born.barycentric[k] : 0.0;
   return result;
 }
 
@@ -226,8 +230,9 @@ Index SurfaceEditor::split_edge(Index half_edge, double fraction) {
   std::array<double, 3> at = {0, 0, 0};
   at[ab % 3] = 1.0 - fraction;
   at[bc % 3] = fraction;
-  const Index vertex_f = append_vertex(mesh_f, split_f.birth_at(at));
-  bool is_sound = split_f.keeps_winding({ab % 3, bc % 3}, vertex_f);
+  const Birth birth_f = split_f.birth_at(at);
+  const Index vertex_f = append_vertex(mesh_f, birth_f);
+  bool is_sound = split_f.keeps_winding({ab % 3, bc % 3}, vertex_f, birth_f.barycentric);
 
   Index vertex_g = vertex_f;
   Index mesh_g = mesh_f;
@@ -239,14 +244,15 @@ Index SurfaceEditor::split_edge(Index half_edge, double fraction) {
     const FaceSplit split_g(*this, ba / 3);
     mesh_g = split_g.mesh();
     before_g = split_g.vertices();
+    at = {0, 0, 0};
+    at[ad % 3] = 1.0 - fraction;
+    at[ba % 3] = fraction;
+    const Birth birth_g = split_g.birth_at(at);
     if (mesh_g != mesh_f || before_g[ad % 3] != vertex_a || before_g[ba % 3] != vertex_b) {
-      at = {0, 0, 0};
-      at[ad % 3] = 1.0 - fraction;
-      at[ba % 3] = fraction;
-      vertex_g = append_vertex(mesh_g, split_g.birth_at(at));
+      vertex_g = append_vertex(mesh_g, birth_g);
       copy_surface_point(character_.meshes[mesh_f], vertex_f, vertex_g, character_.meshes[mesh_g]);
     }
-    is_sound = is_sound && split_g.keeps_winding({ba % 3, ad % 3}, vertex_g);
+    is_sound = is_sound && split_g.keeps_winding({ba % 3, ad % 3}, vertex_g, birth_g.barycentric);
   }
   if (!is_sound) {
     if (vertex_g != vertex_f || mesh_g != mesh_f) remove_newest_vertex(mesh_g);
@@ -296,9 +302,10 @@ Index SurfaceEditor::split_edge(Index half_edge, double fraction) {
 Index SurfaceEditor::split_triangle(Index triangle, const std::array<double, 3>& barycentric) {
   const FaceSplit split(*this, triangle);
   const Index mesh = split.mesh();
-  const Index vertex = append_vertex(mesh, split.birth_at(barycentric));
+  const Birth birth = split.birth_at(barycentric);
+  const Index vertex = append_vertex(mesh, birth);
   const Index corner = 3 * triangle;
-  if (!split.keeps_winding({0, 1, 2}, vertex)) {
+  if (!split.keeps_winding({0, 1, 2}, vertex, birth.barycentric)) {
     remove_newest_vertex(mesh);
     return kNone;
   }
@@ -432,14 +439,11 @@ bool SurfaceEditor::flip_edge(Index half_edge) {
     return false;
   const Mesh& mesh = character_.meshes[ref_f.mesh];
   const Index vertex_a = vertex_at(ab), vertex_b = vertex_at(bc), vertex_c = vertex_at(ca), vertex_d = vertex_at(db);
-  const auto normal = [&](Index p, Index q, Index r) -> Eigen::Vector3d {
-    const Eigen::Vector3d at_p = mesh.positions[p].cast<double>();
-    return (mesh.positions[q].cast<double>() - at_p).cross(mesh.positions[r].cast<double>() - at_p);
-  };
-  const Triangle& origin = origin_triangle(ref_f.mesh, ref_f.source_triangle);
-  const Eigen::Vector3d before = normal(origin[0], origin[1], origin[2]);
-  const double least = 1e-9 * normal(vertex_a, vertex_b, vertex_c).norm() * before.norm();
-  if (!(normal(vertex_a, vertex_d, vertex_c).dot(before) > least) || !(normal(vertex_b, vertex_c, vertex_d).dot(before) > least))
+  const Direction of_origin = normal(mesh, origin_triangle(ref_f.mesh, ref_f.source_triangle));
+  const Direction before = normal(mesh, {vertex_a, vertex_b, vertex_c});
+  const double least = 1e-9 * std::sqrt(dot(before, before) * dot(of_origin, of_origin));
+  if (!(dot(normal(mesh, {vertex_a, vertex_d, vertex_c}), of_origin) > least) ||
+      !(dot(normal(mesh, {vertex_b, vertex_c, vertex_d}), of_origin) > least))
     return false;
 
   const Index twin_bc = surface_.twin[bc], twin_ad = surface_.twin[ad];
@@ -612,17 +616,17 @@ void SurfaceEditor::describe(const Mark& begin, ChangeRecord& change) const {
   change.point_count = surface_.point_count() - begin.points;
 
   // Of each triangle the oldest entry: what came after is part of the same change.
-  struct Changed {
-    Index triangle, entry;
-  };
-  std::vector<Changed> changed;
-  for (Index i = begin.log_length; i < log_.size(); ++i)
-    if (is_oldest_since(begin, i)) changed.push_back({log_[i].triangle, i});
-  // Which orders the triangles of each mesh too.
-  std::sort(changed.begin(), changed.end(), [](const Changed& a, const Changed& b) { return a.triangle < b.triangle; });
+  ScratchVector<std::uint64_t> changed(&scratch_);  // triangle and entry as one number
+  ScratchVector<bool> has_changed(character_.meshes.size(), false, &scratch_);
+  for (Index i = begin.log_length; i < log_.size(); ++i) {
+    if (!is_oldest_since(begin, i)) continue;
+    const TriangleRef ref = surface_.triangle(log_[i].triangle);
+    if (character_.meshes[ref.mesh].triangles[ref.triangle] == log_[i].vertices) continue;
+    changed.push_back(std::uint64_t{log_[i].triangle} << 32 | i);
+    has_changed[ref.mesh] = true;
+  }
+  std::sort(changed.begin(), changed.end());  // which orders the triangles of each mesh too
   const std::span<const MeshSizes> sizes = sizes_at(begin);
-  std::vector<bool> has_changed(character_.meshes.size(), false);
-  for (const Changed& of : changed) has_changed[surface_.triangle(of.triangle).mesh] = true;
 
   std::size_t count = 0;
   for (Index m = 0; m < character_.meshes.size(); ++m) {
@@ -637,13 +641,12 @@ void SurfaceEditor::describe(const Mark& begin, ChangeRecord& change) const {
     of_mesh.triangle_count = mesh.triangle_count() - sizes[m].triangles;
     of_mesh.rewritten.clear();
     of_mesh.retired.clear();
-    for (const Changed& of : changed) {
-      const TriangleRef ref = surface_.triangle(of.triangle);
-      if (ref.mesh != m || mesh.triangles[ref.triangle] == log_[of.entry].vertices) continue;
-      of_mesh.rewritten.push_back({ref.triangle, log_[of.entry].vertices});
+    for (const std::uint64_t of : changed) {
+      const TriangleRef ref = surface_.triangle(static_cast<Index>(of >> 32));
+      if (ref.mesh != m) continue;
+      of_mesh.rewritten.push_back({ref.triangle, log_[static_cast<Index>(of)].vertices});
       if (is_retired(mesh.triangles[ref.triangle])) of_mesh.retired.push_back(ref.triangle);
     }
-    if (of_mesh.vertex_count == 0 && of_mesh.triangle_count == 0 && of_mesh.rewritten.empty()) continue;
     for (Index t = of_mesh.first_triangle; t < mesh.triangle_count(); ++t)
       if (is_retired(mesh.triangles[t])) of_mesh.retired.push_back(t);
     const auto source_vertices = static_cast<std::ptrdiff_t>(source_.meshes[m].vertex_count());
@@ -657,8 +660,8 @@ void SurfaceEditor::describe(const Mark& begin, ChangeRecord& change) const {
   for (MeshChange& of_mesh : change.meshes) fill_dirty_ranges(sides, of_mesh);
 }
 
-void SurfaceEditor::fill_dirty_ranges(std::span<const SideEntry> sides, MeshChange& change) {
-  std::vector<Index> dirty;
+void SurfaceEditor::fill_dirty_ranges(std::span<const SideEntry> sides, MeshChange& change) const {
+  ScratchVector<Index> dirty(&scratch_);
   for (const SideEntry& entry : sides)
     if (entry.mesh == change.mesh && entry.vertex < change.first_vertex) dirty.push_back(entry.vertex);
   std::sort(dirty.begin(), dirty.end());

@@ -194,7 +194,8 @@ class SurfaceEditor {
   }
   /// Of each mesh. Valid until asked again.
   [[nodiscard]] std::span<const MeshSizes> sizes_at(const Mark& mark) const;
-  [[nodiscard]] LogEntry entry_of(Index triangle) const;
+  /// Writes what the entry's triangle is now.
+  void fill(LogEntry& entry) const;
   void log_triangle(Index triangle);
   void restore(const LogEntry& entry);
   void set_corner(Index corner, Index point, Index vertex);
@@ -210,7 +211,7 @@ class SurfaceEditor {
   /// The same for a vertex that is taken back with what needs it.
   void write_side_of_new(Index mesh, Index vertex, Index side);
   /// @param sides  what was written to _TEARSIDE.
-  static void fill_dirty_ranges(std::span<const SideEntry> sides, MeshChange& change);
+  void fill_dirty_ranges(std::span<const SideEntry> sides, MeshChange& change) const;
   /// Values of _TEARSIDE; nothing where the mesh has none.
   [[nodiscard]] std::vector<float>* tear_sides(Index mesh);
   void add_tear_sides(Index mesh);

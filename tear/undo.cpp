@@ -51,7 +51,11 @@ SurfaceEditor::Redo SurfaceEditor::undo(const Mark& begin, ChangeRecord& change)
     redo.sides.push_back({entry.mesh, entry.vertex, (*tear_sides(entry.mesh))[entry.vertex]});
 
   // What the triangles are now, and the corners by which the points that they had or have are known.
-  for_each_changed(begin, [&](Index triangle) { redo.changed.push_back(entry_of(triangle)); });
+  for_each_changed(begin, [&](Index triangle) {
+    LogEntry& entry = redo.changed.emplace_back();
+    entry.triangle = triangle;
+    fill(entry);
+  });
   std::sort(redo.changed.begin(), redo.changed.end(), [](const LogEntry& a, const LogEntry& b) { return a.triangle < b.triangle; });
   for (const LogEntry& entry : redo.log)
     for (const Index point : entry.points)
