@@ -313,23 +313,41 @@ void run_hard_operation(Subject& subject, const ModelPose& pose, Random& random)
   }
 }
 
+/// @return how many operations met the surface.
+int run_hard_operations(std::uint64_t seed) {
+  SCOPED_TRACE(seed);
+  Random random(seed);
+  Subject subject(make_subject(random));
+  ModelPose pose = hard_pose(subject.model.source(), random);
+  for (int i = 0; i < 4 && !testing::Test::HasFailure(); ++i) {
+    run_hard_operation(subject, pose, random);
+    if (random.index(3) == 0) pose = hard_pose(subject.model.source(), random);
+  }
+  subject.undo_everything();
+  return subject.done;
+}
+
 TEST(Degenerate, operations_on_hard_subjects_in_hard_poses_keep_every_law) {
   int done = 0;
   const int count = count_of_cases(400);
   for (int seed = 0; seed < count; ++seed) {
-    SCOPED_TRACE(seed);
-    Random random(static_cast<std::uint64_t>(seed));
-    Subject subject(make_subject(random));
-    ModelPose pose = hard_pose(subject.model.source(), random);
-    for (int i = 0; i < 4 && !testing::Test::HasFailure(); ++i) {
-      run_hard_operation(subject, pose, random);
-      if (random.index(3) == 0) pose = hard_pose(subject.model.source(), random);
-    }
-    subject.undo_everything();
-    done += subject.done;
+    done += run_hard_operations(static_cast<std::uint64_t>(seed));
     if (testing::Test::HasFailure()) return;
   }
   EXPECT_GT(done, count);
+}
+
+/// Where the surface of a collapsed bone bends away, the plane of two blades leads back past the first of them.
+TEST(Degenerate, a_tear_that_could_go_on_before_its_first_blade_comes_to_an_end) {
+  Subject subject(test::make_sheet(10));
+  ModelPose pose = bind_pose(subject.model.source());
+  pose.model_from_bone[0].linear().setZero();
+  const Stroke stroke = {{{0.14436965948727123, 0.24107710487067946, 0.5}, {0.14436965948727123, 0.24107710487067946, -0.05}},
+                         {{0.14437489273824325, 0.24112420412747801, 0.5}, {0.14437489273824325, 0.24112420412747801, -0.3}},
+                         {{0.14438012598921526, 0.24117130338427656, 0.5}, {0.14438012598921526, 0.24117130338427656, -0.04}},
+                         {{0.14438535924018728, 0.24121840264107511, 0.5}, {0.14438535924018728, 0.24121840264107511, -0.1}}};
+  subject.run(describe(stroke, {}), [&](ChangeRecord& change) { return subject.model.tear(pose, stroke, {}, &change); });
+  EXPECT_EQ(subject.done, 1);
 }
 
 // ---- Tears along, across and into one another, on a sheet.
