@@ -341,6 +341,11 @@ TEST(Degenerate, operations_on_hard_subjects_in_hard_poses_keep_every_law) {
   EXPECT_GT(done, count);
 }
 
+/// Rings of a bore whose points one face joins; caps back to back with a single face, which the next cut goes through.
+TEST(Degenerate, walls_and_caps_give_no_edge_a_third_face) {
+  for (const std::uint64_t seed : {6367u, 7589u, 9340u, 15940u}) EXPECT_GT(run_hard_operations(seed), 0);
+}
+
 TEST(Degenerate, triangles_with_a_point_twice_are_of_no_piece) {
   for (const std::uint64_t seed : {9558u, 13692u, 15125u}) EXPECT_GT(run_hard_operations(seed), 0);
 }
