@@ -94,6 +94,7 @@ class Caps {
     auto flat = triangulate(loops, region, 1.5 * mean_edge(outlines));
     if (!flat) return false;
     const auto rim_count = static_cast<Index>(places.size());
+    split_second_face(half_edges, places, *flat);
     split_joined_edges(half_edges, places, *flat);
     places.insert(places.end(), flat->inner.begin(), flat->inner.end());
     // A body whose faces look inwards has its rims the other way round.
@@ -121,13 +122,25 @@ class Caps {
     return filling_.connect(half_edges);
   }
 
-  /// Whether two points of the rim are joined by an edge of the body that has both its faces: a fold or a face in the plane. A
-  /// cap's edge between them would make that an edge of four faces.
+  /// Whether two points of the rim are joined by an edge that is not the rim's: a fold or a face in the plane, or a border
+  /// elsewhere. A cap's edge between them would give that edge more than two faces.
   [[nodiscard]] bool is_joined(Index half_edge_a, Index half_edge_b) const {
     const Surface& surface = work_.editor.surface();
     const Index a = point_before(half_edge_a), b = point_before(half_edge_b);
-    const auto has_both = [&](Index h) { return h != kNone && surface.twin[h] != kNone; };
-    return has_both(surface.find_half_edge(a, b)) || has_both(surface.find_half_edge(b, a));
+    const Index ab = surface.find_half_edge(a, b), ba = surface.find_half_edge(b, a);
+    return (ab != kNone && ab != half_edge_b) || (ba != kNone && ba != half_edge_a);
+  }
+
+  /// The cap of a face that hangs together with no other gets a point in its middle: of two faces on the same three points neither
+  /// could be split without the other.
+  void split_second_face(const std::vector<Index>& half_edges, const std::vector<Vec2d>& rim, FlatMesh& flat) const {
+    const bool is_one_face =
+        std::all_of(half_edges.begin(), half_edges.end(), [&](Index h) { return h / 3 == half_edges.front() / 3; });
+    if (!is_one_face || flat.triangles.size() != 1) return;
+    const auto [a, b, c] = flat.triangles[0];
+    const auto middle = static_cast<Index>(rim.size());
+    flat.inner.push_back((rim[a] + rim[b] + rim[c]) / 3);
+    flat.triangles = {{a, b, middle}, {b, c, middle}, {c, a, middle}};
   }
 
   /// Puts a point in the middle of each edge between points that are joined.

@@ -1,6 +1,7 @@
 #include "tear/filling.h"
 
 #include <algorithm>
+#include <unordered_set>
 
 namespace sunder::tear {
 
@@ -87,13 +88,28 @@ void Filling::take_back(const SurfaceEditor::Mark& before) {
 bool Filling::connect(const std::vector<Index>& rim_half_edges) {
   const Surface& surface = work_.editor.surface();
   std::map<std::array<Index, 2>, Index> half_edges;
+  std::unordered_set<Index> rim_points;  // asked, never walked through
+  const auto ends_of = [&](Index h) { return std::array{surface.corner_point[h], surface.corner_point[Surface::next(h)]}; };
   bool is_sound = true;
-  const auto add = [&](Index h) {
-    is_sound &= half_edges.emplace(std::array<Index, 2>{surface.corner_point[h], surface.corner_point[Surface::next(h)]}, h).second;
+  const auto add = [&](Index h) { is_sound &= half_edges.emplace(ends_of(h), h).second; };
+  for (const Index h : rim_half_edges) {
+    add(h);
+    rim_points.insert(surface.corner_point[h]);
+    rim_points.insert(surface.corner_point[Surface::next(h)]);
+  }
+  const auto is_joined_elsewhere = [&](Index from, Index to) {
+    const Index h = surface.find_half_edge(from, to);  // of what was there before: nothing is connected yet
+    if (h == kNone) return false;
+    const auto known = half_edges.find({from, to});
+    return known == half_edges.end() || known->second != h;
   };
-  for (const Index h : rim_half_edges) add(h);
   for (const Index triangle : triangles_)
-    for (Index h = 3 * triangle; h < 3 * triangle + 3; ++h) add(h);
+    for (Index h = 3 * triangle; h < 3 * triangle + 3; ++h) {
+      const auto [from, to] = ends_of(h);
+      if (rim_points.count(from) != 0 && rim_points.count(to) != 0)
+        is_sound &= !is_joined_elsewhere(from, to) && !is_joined_elsewhere(to, from);
+      add(h);
+    }
   triangles_.clear();
   if (!is_sound) return false;
   for (const auto& [points, h] : half_edges) {

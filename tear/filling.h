@@ -32,7 +32,8 @@ class Filling {
 
   /// @param like_corner  of the rim: its submesh' material is the filling's.
   void add_triangle(Index mesh, Index like_corner, const std::array<Index, 3>& points, const Triangle& vertices);
-  /// Joins the triangles added to one another and to the rim's half-edges. @return false where an edge has too many faces.
+  /// Joins the triangles added to one another and to the rim's half-edges. @return false where an edge would have too many faces:
+  /// also where points of the rim are joined elsewhere, by an edge that is not the rim's.
   [[nodiscard]] bool connect(const std::vector<Index>& rim_half_edges);
   /// Takes back what was added since.
   void take_back(const SurfaceEditor::Mark& before);

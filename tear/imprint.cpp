@@ -142,6 +142,14 @@ Arrival take_step(const BladePlane& plane, const Step& step, SurfaceEditor& edit
   return {progress_at(nearer_end) > progress_at(here) ? nearer_end : kNone, kNone};
 }
 
+/// Whether a way along an edge ends so near to its end, a point of a border, that only a sliver would hold the two together.
+bool stops_short_of_border(const Step& step, const Reach& reach, const SurfaceEditor& editor, PosedPoints& posed) {
+  const Index corner = step_corner(step);
+  if (corner == kNone || !editor.surface().is_on_border(editor.surface().corner_point[corner])) return false;
+  const Index edge = step.fraction == 0 ? step.corner : corner;
+  return reach.fraction > 1 - snapped_part(edge, Snapping::by_shape, editor, posed);
+}
+
 /// Ends a path within the face that a step would cross, `fraction` of the way to its place.
 Index stop_within(const Step& step, double fraction, SurfaceEditor& editor, PosedPoints& posed) {
   SurfaceHit hit;
@@ -222,7 +230,7 @@ Path imprint_path(const BladePlane& plane, Index start, SurfaceEditor& editor, P
         return path;
       }
     }
-    if (reach.fraction < 1 - kSnap) {
+    if (reach.fraction < 1 - kSnap && !stops_short_of_border(step, reach, editor, posed)) {
       const SurfaceEditor::Mark before = editor.mark();
       const Index stop = stop_within(step, reach.fraction, editor, posed);
       if (progress_at(posed.position(editor, stop)) > progress_at(from)) {

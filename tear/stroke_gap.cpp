@@ -75,9 +75,11 @@ void StrokeTearing::remove(const Cell& cell, const PendingGap& gap, const Workpi
         surface.for_each_in_fan(surface.point_corner[point], [&](Index corner) { seeds.push_back(corner / 3); });
     for (const Index face : gap.faces)
       if (!surface.has_repeated_point(face)) seeds.push_back(face);
+    std::sort(seeds.begin(), seeds.end());
     // The blade is as wide as the gap, and where the surface wrinkles it takes the wrinkle away. But what turns its back on the
-    // blade far below the tear is another layer, which the nearest one hides.
+    // blade far below the tear is another layer, which the nearest one hides; not so what the tear itself goes across.
     const auto is_same_layer = [&](Index face) {
+      if (std::binary_search(seeds.begin(), seeds.end(), face)) return true;
       std::array<Vec3d, 3> corners;
       for (Index k = 0; k < 3; ++k) corners[k] = posed.position(editor, surface.corner_point[3 * face + k]);
       if ((corners[1] - corners[0]).cross(corners[2] - corners[0]).dot(gap.plane.along()) <= 0) return true;

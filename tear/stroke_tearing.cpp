@@ -79,11 +79,7 @@ double StrokeTearing::tear_piece(const BladePlane& plane, Index start, const Sur
   if (path.end == Path::End::blocked) ++report.blocked;
 
   // A tear of one edge between two tips would be closed at both ends of its only edge: it needs a point that can open.
-  const auto is_on_border = [&](Index point) {
-    const auto& surface = editor.surface();
-    return surface.rotate_cw(surface.first_of_fan(surface.point_corner[point])) == kNone;
-  };
-  if (path.points.size() == 2 && !is_on_border(path.points[0]) && !is_on_border(path.points[1])) {
+  if (path.points.size() == 2 && !editor.surface().is_on_border(path.points[0]) && !editor.surface().is_on_border(path.points[1])) {
     const Index edge = editor.surface().find_half_edge(path.points[0], path.points[1]);
     const Index middle = split_posed_edge(edge, 0.5, editor, posed);
     if (middle == kNone)

@@ -78,6 +78,8 @@ struct Surface {
     } while (c != kNone && c != first);
   }
 
+  [[nodiscard]] bool is_on_border(Index point) const { return rotate_cw(first_of_fan(point_corner[point])) == kNone; }
+
   /// The half-edge from one point to another, or kNone.
   [[nodiscard]] Index find_half_edge(Index from, Index to) const;
   [[nodiscard]] bool has_repeated_point(Index triangle) const {
