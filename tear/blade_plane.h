@@ -5,7 +5,7 @@
 #include <array>
 #include <optional>
 
-#include "tear/half_space.h"
+#include "tear/box.h"
 
 namespace sunder::tear {
 
@@ -39,6 +39,11 @@ class BladePlane {
   [[nodiscard]] const std::array<HalfPlane, 3>& reach() const { return reach_; }
   /// What the blade sweeps from `progress` on.
   [[nodiscard]] HalfPlane from_progress(double progress) const;
+
+  /// Whether no point of a box can be met by the sweep: none lies in the plane and within reach.
+  [[nodiscard]] bool passes_by(const Box& box) const;
+  /// No point of the box that lies in the plane and within reach has less progress. Minus infinity where that is not known.
+  [[nodiscard]] double least_progress(const Box& box) const;
 
   /// Towards the left of the stroke, seen from where the blade comes; across the second blade, forwards; along it, from base to
   /// tip.

@@ -22,7 +22,10 @@ SurfaceEditor::SurfaceEditor(const Character& source, Character& character)
       surface_(build_surface(character)),
       births_(character.meshes.size()),
       fillings_(character.meshes.size()),
-      appended_triangles_(character.meshes.size()) {
+      filling_serials_(character.meshes.size()),
+      appended_triangles_(character.meshes.size()),
+      source_triangle_count_(surface_.triangle_count()),
+      newest_part_(character.meshes.size()) {
   Index first = 0;
   for (const Mesh& mesh : source.meshes) {
     first_triangle_.push_back(first);
@@ -74,6 +77,7 @@ Index SurfaceEditor::append_triangle(Index like, const std::array<Index, 3>& poi
   Mesh& mesh = character_.meshes[ref.mesh];
   const Index triangle = surface_.triangle_count();
   surface_.triangles.push_back({ref.mesh, mesh.triangle_count(), ref.source_triangle});
+  chain_new_parts();
   appended_triangles_[ref.mesh].push_back(triangle);
   ancestors_.push_back(ancestor(like));
   const Index submesh = mesh.triangle_submesh[ref.triangle];
@@ -85,6 +89,24 @@ Index SurfaceEditor::append_triangle(Index like, const std::array<Index, 3>& poi
     write_side(ref.mesh, vertices[k], surface_.point_side[points[k]]);
   }
   return triangle;
+}
+
+void SurfaceEditor::chain_new_parts() {
+  for (Index t = source_triangle_count_ + static_cast<Index>(older_part_.size()); t < surface_.triangle_count(); ++t) {
+    const TriangleRef& ref = surface_.triangles[t];
+    std::vector<Index>& newest = newest_part_[ref.mesh];
+    const Index source_count = source_.meshes[ref.mesh].triangle_count();
+    if (ref.source_triangle >= newest.size()) newest.resize(std::max(source_count, ref.source_triangle + 1), kNone);
+    older_part_.push_back(newest[ref.source_triangle]);
+    newest[ref.source_triangle] = t;
+  }
+}
+
+void SurfaceEditor::unchain_parts_from(Index first) {
+  for (; source_triangle_count_ + older_part_.size() > first; older_part_.pop_back()) {
+    const TriangleRef& ref = surface_.triangles[source_triangle_count_ + older_part_.size() - 1];
+    newest_part_[ref.mesh][ref.source_triangle] = older_part_.back();
+  }
 }
 
 Index SurfaceEditor::append_point() {
@@ -419,9 +441,11 @@ Index SurfaceEditor::append_filling_vertex(Index mesh, Index like) {
 Index SurfaceEditor::append_filling(Index mesh, Index submesh, const std::array<Index, 3>& points, const Triangle& vertices) {
   const Index origin = source_.meshes[mesh].triangle_count() + static_cast<Index>(fillings_[mesh].size());
   fillings_[mesh].push_back(vertices);
+  filling_serials_[mesh].push_back(next_serial_++);
   const Index triangle = surface_.triangle_count();
   Mesh& of = character_.meshes[mesh];
   surface_.triangles.push_back({mesh, of.triangle_count(), origin});
+  chain_new_parts();
   appended_triangles_[mesh].push_back(triangle);
   ancestors_.push_back(triangle);
   of.triangles.push_back(vertices);
@@ -459,6 +483,7 @@ void SurfaceEditor::roll_back(const Mark& to) {
   for (; log_.size() > to.log_length; log_.pop_back()) restore(log_.back());
   for (; side_log_.size() > to.side_log_length; side_log_.pop_back())
     tear_sides(side_log_.back().mesh)->values[side_log_.back().vertex] = side_log_.back().side;
+  unchain_parts_from(to.triangles);
   surface_.triangles.resize(to.triangles);
   surface_.corner_point.resize(3 * std::size_t{to.triangles});
   surface_.twin.resize(3 * std::size_t{to.triangles});
@@ -478,6 +503,7 @@ void SurfaceEditor::roll_back(const Mark& to) {
     births_[m].resize(sizes.vertices - source_.meshes[m].vertex_count());
     appended_triangles_[m].resize(sizes.triangles - source_.meshes[m].triangle_count());
     fillings_[m].resize(sizes.fillings);
+    filling_serials_[m].resize(sizes.fillings);
     mesh.triangles.resize(sizes.triangles);
     mesh.triangle_submesh.resize(sizes.triangles);
     mesh.submeshes.resize(sizes.submeshes);

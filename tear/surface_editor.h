@@ -21,6 +21,7 @@ class SurfaceEditor {
 
   [[nodiscard]] const Surface& surface() const { return surface_; }
   [[nodiscard]] const Character& character() const { return character_; }
+  [[nodiscard]] const Character& source() const { return source_; }
   [[nodiscard]] Index vertex_at(Index corner) const {
     const TriangleRef& ref = surface_.triangles[corner / 3];
     return character_.meshes[ref.mesh].triangles[ref.triangle][corner % 3];
@@ -40,6 +41,10 @@ class SurfaceEditor {
   }
   /// Triangles of walls and caps as they were made.
   [[nodiscard]] const std::vector<Triangle>& fillings(Index mesh) const { return fillings_[mesh]; }
+  /// A number that no other filling of the mesh ever had. @param origin  the filling's, as in origin_triangle().
+  [[nodiscard]] std::uint64_t filling_serial(Index mesh, Index origin) const {
+    return filling_serials_[mesh][origin - source_.meshes[mesh].triangle_count()];
+  }
   /// A triangle of the source or, beyond those, of a wall or cap: what births refer to.
   [[nodiscard]] const Triangle& origin_triangle(Index mesh, Index triangle) const {
     const Index source_count = source_.meshes[mesh].triangle_count();
@@ -51,6 +56,17 @@ class SurfaceEditor {
   [[nodiscard]] Index surface_triangle(Index mesh, Index triangle) const {
     const Index source_count = source_.meshes[mesh].triangle_count();
     return triangle < source_count ? first_triangle_[mesh] + triangle : appended_triangles_[mesh][triangle - source_count];
+  }
+  /// Calls visit(triangle of the surface) for each face that is a part of an origin, as far as there still are any.
+  template <class Visit>
+  void for_each_part(Index mesh, Index origin, Visit visit) const {
+    const auto visit_face = [&](Index triangle) {
+      if (!surface_.has_repeated_point(triangle)) visit(triangle);
+    };
+    if (origin < source_.meshes[mesh].triangle_count()) visit_face(first_triangle_[mesh] + origin);
+    if (origin >= newest_part_[mesh].size()) return;
+    for (Index part = newest_part_[mesh][origin]; part != kNone; part = older_part_[part - source_triangle_count_])
+      visit_face(part);
   }
   /// Barycentric coordinates of a corner in the triangle's origin.
   [[nodiscard]] std::array<double, 3> source_barycentric(Index corner) const {
@@ -168,6 +184,9 @@ class SurfaceEditor {
   void move_opened(Index from, Index to);
   Index append_triangle(Index like, const std::array<Index, 3>& points, const Triangle& vertices);
   Index append_point();
+  /// Puts appended triangles at the head of their origin's chain, or takes those from `first` up off again.
+  void chain_new_parts();
+  void unchain_parts_from(Index first);
   Index append_vertex(Index mesh, const Birth& birth);
   void remove_newest_vertex(Index mesh);
   /// Where a vertex lies in the origin of a triangle.
@@ -186,9 +205,14 @@ class SurfaceEditor {
   Surface surface_;
   std::vector<std::vector<Birth>> births_;       ///< Of each mesh: its vertices beyond the source's.
   std::vector<std::vector<Triangle>> fillings_;  ///< Of each mesh.
-  std::vector<Index> first_triangle_;            ///< Of each mesh, in the surface.
+  std::vector<std::vector<std::uint64_t>> filling_serials_;
+  std::uint64_t next_serial_ = 0;
+  std::vector<Index> first_triangle_;  ///< Of each mesh, in the surface.
   std::vector<std::vector<Index>>
-      appended_triangles_;  ///< Of each mesh: the surface's numbers of its triangles beyond the source's.
+      appended_triangles_;                       ///< Of each mesh: the surface's numbers of its triangles beyond the source's.
+  Index source_triangle_count_;                  ///< Of all meshes: appended triangles are numbered from here.
+  std::vector<std::vector<Index>> newest_part_;  ///< Of each mesh: of each origin, the last triangle appended that is a part of it.
+  std::vector<Index> older_part_;                ///< Of each appended triangle: the one before it of the same origin.
   std::vector<LogEntry> log_;
   std::vector<SideEntry> side_log_;
   /// First value of _TEARSIDE that no point has. Each point that is made gets one: however tears cross, and wherever positions

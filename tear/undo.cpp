@@ -119,6 +119,7 @@ SurfaceEditor::Step SurfaceEditor::redo(const Redo& redo, ChangeRecord& change) 
     append(mesh.submeshes, of.submeshes);
     append(births_[m], of.births);
     append(fillings_[m], of.fillings);
+    while (filling_serials_[m].size() < fillings_[m].size()) filling_serials_[m].push_back(next_serial_++);
     append(appended_triangles_[m], of.appended_triangles);
     for (const LogEntry& entry : redo.changed) {
       const TriangleRef& ref = surface_.triangles[entry.triangle];
@@ -135,6 +136,7 @@ SurfaceEditor::Step SurfaceEditor::redo(const Redo& redo, ChangeRecord& change) 
   append(surface_.corner_point, redo.corner_point);
   append(surface_.twin, redo.twin);
   append(surface_.triangles, redo.triangles);
+  chain_new_parts();
   append(surface_.point_corner, redo.point_corner);
   append(surface_.point_side, redo.point_side);
   next_side_ = redo.next_side;
