@@ -84,9 +84,10 @@ BladePlane::HalfPlane BladePlane::from_progress(double progress) const {
   return {normal, normal.dot(base)};
 }
 
-bool BladePlane::passes_by(const Box& box) const {
-  return is_outside(left_of(0), box) || is_outside(right_of(0), box) ||
-         std::any_of(reach_.begin(), reach_.end(), [&](const HalfPlane& reach) { return is_outside(standing_on(reach), box); });
+Mat3d BladePlane::axes() const {
+  Mat3d axes;
+  axes << across_.transpose(), along_.transpose(), normal_.transpose();
+  return axes;
 }
 
 double BladePlane::least_progress(const Box& box) const {
@@ -96,13 +97,13 @@ double BladePlane::least_progress(const Box& box) const {
   // is ahead of the first blade and within reach of the second has exactly one progress in [0, 1], so that one is meant.
   constexpr double kUnknown = -std::numeric_limits<double>::infinity();
   constexpr double kMargin = 1e-7;  // to what the roots may be off by
-  const Vec3d half = box.half_size();
+  const Vec3d half = box.half_size(), middle = box.middle() - axes() * origin_;
   const Vec2d e = to_base_ - from_base_, d = from_tip_ - from_base_, g = (to_tip_ - to_base_) - d;
   const auto radius = [&](const Vec2d& direction) {
-    return (direction.y() * across_ - direction.x() * along_).cwiseAbs().dot(half);
+    return std::abs(direction.y()) * half.x() + std::abs(direction.x()) * half.y();
   };
   const double radius_before = radius(d), radius_after = radius(d + g);
-  const Vec2d p = project(box.middle()) - from_base_;
+  const Vec2d p = Vec2d(middle.x(), middle.y()) - from_base_;
   const double a = -cross(e, g);
   const double b = cross(p, g) - cross(e, d) - (radius_after - radius_before);
   const double c = cross(p, d) - radius_before;

@@ -40,9 +40,10 @@ class BladePlane {
   /// What the blade sweeps from `progress` on.
   [[nodiscard]] HalfPlane from_progress(double progress) const;
 
-  /// Whether no point of a box can be met by the sweep: none lies in the plane and within reach.
-  [[nodiscard]] bool passes_by(const Box& box) const;
-  /// No point of the box that lies in the plane and within reach has less progress. Minus infinity where that is not known.
+  /// Rows: across, along, normal.
+  [[nodiscard]] Mat3d axes() const;
+  /// No point of a box, given in axes(), that lies in the plane and within reach has less progress than this. Minus infinity where
+  /// that is not known.
   [[nodiscard]] double least_progress(const Box& box) const;
 
   /// Towards the left of the stroke, seen from where the blade comes; across the second blade, forwards; along it, from base to

@@ -6,7 +6,7 @@
 
 namespace sunder::tear {
 
-/// An axis-aligned box in model space; infinite where nothing is known.
+/// A box along some axes; infinite where nothing is known.
 struct Box {
   Vec3d low = Vec3d::Zero(), high = Vec3d::Zero();
 
@@ -23,6 +23,14 @@ struct Box {
     return {low - all_around, high + all_around};
   }
 };
+
+/// Orthogonal unit vectors as rows: along `first`, then towards `second` as far as it goes another way.
+[[nodiscard]] Mat3d axes_along(const Vec3d& first, const Vec3d& second = Vec3d::Zero());
+
+/// A half-space in the coordinates along some axes.
+[[nodiscard]] inline HalfSpace in_axes(const Mat3d& axes, const HalfSpace& half_space) {
+  return {axes * half_space.normal, half_space.offset};
+}
 
 /// Whether no point of a box can be found in a half-space, whatever rounding does to either.
 [[nodiscard]] inline bool is_outside(const HalfSpace& half_space, const Box& box) {

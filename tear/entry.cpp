@@ -55,7 +55,13 @@ class Segment {
   explicit Segment(const Blade& blade)
       : base_(blade.base),
         direction_(blade.tip - blade.base),
-        reach_(std::max(blade.base.cwiseAbs().maxCoeff(), blade.tip.cwiseAbs().maxCoeff())) {}
+        axes_(axes_along(direction_)),
+        base_in_axes_(axes_ * base_),
+        direction_in_axes_(axes_ * direction_),
+        reach_(std::max(base_.cwiseAbs().maxCoeff(), blade.tip.cwiseAbs().maxCoeff())) {}
+
+  /// Those that boxes are in: the first is the segment's direction.
+  [[nodiscard]] const Mat3d& axes() const { return axes_; }
 
   struct Part {
     double begin = 0, end = 1;
@@ -66,14 +72,14 @@ class Segment {
     const Box wide = box.widened(reach_);
     Part part;
     for (int k = 0; k < 3; ++k) {
-      const double to_low = wide.low[k] - base_[k], to_high = wide.high[k] - base_[k];
-      if (direction_[k] == 0) {
+      const double to_low = wide.low[k] - base_in_axes_[k], to_high = wide.high[k] - base_in_axes_[k];
+      if (direction_in_axes_[k] == 0) {
         if (to_low > 0 || to_high < 0) return {1, 0};
         continue;
       }
-      const bool ascends = direction_[k] > 0;
-      part.begin = std::max(part.begin, (ascends ? to_low : to_high) / direction_[k]);
-      part.end = std::min(part.end, (ascends ? to_high : to_low) / direction_[k]);
+      const bool ascends = direction_in_axes_[k] > 0;
+      part.begin = std::max(part.begin, (ascends ? to_low : to_high) / direction_in_axes_[k]);
+      part.end = std::min(part.end, (ascends ? to_high : to_low) / direction_in_axes_[k]);
     }
     return part;
   }
@@ -92,8 +98,8 @@ class Segment {
     constexpr double kEdge = 1e-12;
     if (u < -kEdge || v < -kEdge || u + v > 1 + kEdge || depth < 0 || depth > 1) return std::nullopt;
     // Along a triangle's plane, rounding finds places that are not in the triangle.
-    const Box box{corners[0].cwiseMin(corners[1]).cwiseMin(corners[2]), corners[0].cwiseMax(corners[1]).cwiseMax(corners[2])};
-    const Part part = part_in(box);
+    const Vec3d a = axes_ * corners[0], b = axes_ * corners[1], c = axes_ * corners[2];
+    const Part part = part_in({a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)});
     if (part.is_empty()) return std::nullopt;
     depth = std::clamp(depth, part.begin, part.end);
     return SurfaceHit{triangle, {std::max(0.0, 1 - u - v), std::max(0.0, u), std::max(0.0, v)}, base_ + depth * direction_, 0};
@@ -101,6 +107,8 @@ class Segment {
 
  private:
   Vec3d base_, direction_;
+  Mat3d axes_;
+  Vec3d base_in_axes_, direction_in_axes_;
   double reach_;
 };
 
@@ -140,20 +148,30 @@ std::optional<Contact> contact_with(Index triangle, const Corners& corners, cons
 template <class Take>
 void for_each_contact(const BladePlane& plane, double progress, const SurfaceEditor& editor, PosedPoints& posed, Take take) {
   const BladePlane::HalfPlane not_before = plane.from_progress(progress);
-  const HalfSpace beyond = plane.standing_on(not_before);
-  constexpr double kNowhere = std::numeric_limits<double>::infinity();
+  const Mat3d axes = plane.axes();
+  const auto& reach = plane.reach();
+  const std::array<HalfSpace, 6> within = {
+      in_axes(axes, plane.left_of(0)),
+      in_axes(axes, plane.right_of(0)),
+      in_axes(axes, plane.standing_on(reach[0])),
+      in_axes(axes, plane.standing_on(reach[1])),
+      in_axes(axes, plane.standing_on(reach[2])),
+      in_axes(axes, plane.standing_on(not_before)),
+  };
+  const auto least_progress = [&](const Box& box) {
+    return std::any_of(within.begin(), within.end(), [&](const HalfSpace& half_space) { return is_outside(half_space, box); })
+               ? std::numeric_limits<double>::infinity()
+               : plane.least_progress(box);
+  };
   double limit = std::numeric_limits<double>::max();
-  posed.visit_patches(
-      editor,
-      [&](const Box& box) { return plane.passes_by(box) || is_outside(beyond, box) ? kNowhere : plane.least_progress(box); },
-      [&](Index mesh, std::span<const Index> origins) {
-        for (const Index origin : origins)
-          editor.for_each_part(mesh, origin, [&](Index triangle) {
-            const auto contact = contact_with(triangle, posed_corners(editor, posed, triangle), plane, progress, not_before);
-            if (contact) limit = take(*contact);
-          });
-        return limit;
+  posed.visit_patches(editor, axes, least_progress, [&](Index mesh, std::span<const Index> origins) {
+    for (const Index origin : origins)
+      editor.for_each_part(mesh, origin, [&](Index triangle) {
+        const auto contact = contact_with(triangle, posed_corners(editor, posed, triangle), plane, progress, not_before);
+        if (contact) limit = take(*contact);
       });
+    return limit;
+  });
 }
 
 }  // namespace
@@ -163,7 +181,7 @@ std::optional<SurfaceHit> first_hit(const Blade& blade, const SurfaceEditor& edi
   std::optional<SurfaceHit> nearest;
   double nearest_depth = 1.0;
   posed.visit_patches(
-      editor,
+      editor, segment.axes(),
       [&](const Box& box) {
         const Segment::Part part = segment.part_in(box);
         return part.is_empty() ? std::numeric_limits<double>::infinity() : part.begin;

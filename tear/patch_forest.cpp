@@ -9,7 +9,21 @@ void PatchForest::forget_pose() {
   for (Covered& covered : sources_) covered.tree.forget_epochs();  // once in four thousand million poses
   for (auto& of_mesh : fillings_)
     for (Covered& covered : of_mesh) covered.tree.forget_epochs();
+  for (PosedBones& bones : bones_) bones.forget_epochs();
   epoch_ = 1;
+}
+
+void PatchForest::stand_in(const SurfaceEditor& editor, const CharacterPose& pose, const Mat3d& axes) {
+  cover(editor);
+  if (axes != axes_) forget_pose();
+  axes_ = axes;
+  for (std::size_t skin = 0; skin < bones_.size(); ++skin) bones_[skin].stand_in(pose.palettes[skin], axes, epoch_);
+}
+
+std::size_t PatchForest::tree_count() const {
+  std::size_t count = sources_.size();
+  for (const auto& of_mesh : fillings_) count += of_mesh.size();
+  return count;
 }
 
 void PatchForest::cover(const SurfaceEditor& editor) {
@@ -21,6 +35,8 @@ void PatchForest::cover(const SurfaceEditor& editor) {
       if (!meshes[m].triangles.empty())
         sources_.push_back({PatchTree(meshes[m], meshes[m].triangles, 0), m, 0, meshes[m].triangle_count(), 0});
     fillings_.resize(meshes.size());
+    bones_.resize(editor.source().skins.size());
+    for (std::size_t skin = 0; skin < bones_.size(); ++skin) bones_[skin].resize(editor.source().skins[skin].bones.size());
     is_built_ = true;
   }
   for (Index m = 0; m < meshes.size(); ++m) cover_fillings(editor, m);
@@ -32,7 +48,7 @@ void PatchForest::cover(const SurfaceEditor& editor) {
     roots += of_mesh.size();
     for (const Covered& covered : of_mesh) levels = std::max<std::size_t>(levels, covered.tree.level_count());
   }
-  stack_.reserve(roots + PatchTree::kFanOut * levels);
+  stack_.reserve(roots + std::max(PatchTree::kFanOut, PatchTree::kPatchesPerGroup) * (levels + 1));
 }
 
 void PatchForest::cover_fillings(const SurfaceEditor& editor, Index mesh) {

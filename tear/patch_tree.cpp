@@ -91,16 +91,17 @@ class PatchTree::Builder {
       if (!mesh.morph_targets[j].position_deltas.empty()) targets_.push_back(j);
   }
 
-  void add_patch(std::span<const Triangle> triangles, std::span<const Index> order) {
+  void add_group(std::span<const Triangle> triangles, std::span<const Index> order) {
     box_ = {};
     std::uint32_t stamp = 0;
     std::size_t most_influences = 0;
+    std::array<GrowingBox, kPatchesPerGroup> patches;
     for (const Index t : order) {
       const Triangle& triangle = triangles[t];
       GrowingBox of_triangle(mesh_.positions[triangle[0]]);
       of_triangle.extend(GrowingBox(mesh_.positions[triangle[1]]));
       of_triangle.extend(GrowingBox(mesh_.positions[triangle[2]]));
-      box_.extend(of_triangle);
+      patches[stamp / kPatchSize].extend(of_triangle);
       ++stamp;
       for (const Index vertex : triangle) {
         const auto influences = mesh_.weights.of(vertex);
@@ -118,7 +119,12 @@ class PatchTree::Builder {
     }
     const double slack = 2e-7 * static_cast<double>(most_influences + 1);
     tree_.weight_slack_ = std::max(tree_.weight_slack_, slack);
-    box_.widen();
+    const std::size_t patch_count = (order.size() + kPatchSize - 1) / kPatchSize;
+    for (GrowingBox& patch : std::span(patches).first(patch_count)) {
+      patch.widen();
+      box_.extend(patch);
+    }
+    for (const GrowingBox& patch : std::span(patches).first(patch_count)) tree_.patches_.push_back(within_box(patch));
     for (Moved& moved : moved_) {
       moved.box.widen();
       const double least = moved.corners < 3 * order.size() ? 0.0 : static_cast<double>(moved.least);
@@ -209,10 +215,23 @@ class PatchTree::Builder {
       const double low = static_cast<double>(within[0][k]), high = static_cast<double>(within[1][k]);
       const double part = (high - low) / kBoxParts;
       constexpr float kInfinity = std::numeric_limits<float>::infinity();
-      box[0][k] = std::nextafter(static_cast<float>(low + bone.low[k] * part), -kInfinity);
-      box[1][k] = std::nextafter(static_cast<float>(high - bone.high[k] * part), kInfinity);
+      box[0][k] = std::nextafter(static_cast<float>(low + bone.box.low[k] * part), -kInfinity);
+      box[1][k] = std::nextafter(static_cast<float>(high - bone.box.high[k] * part), kInfinity);
     }
     return grown(box);
+  }
+
+  /// Rounded outward, within the node's box.
+  [[nodiscard]] InnerBox within_box(const GrowingBox& inner) const {
+    InnerBox result{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double low = static_cast<double>(box_.low(k)), high = static_cast<double>(box_.high(k));
+      const double parts = high > low ? kBoxParts / (high - low) : 0;
+      const auto whole = [&](double distance) { return static_cast<std::uint8_t>(std::clamp(distance * parts, 0.0, kBoxParts)); };
+      result.low[k] = whole(static_cast<double>(inner.low(k)) - low);
+      result.high[k] = whole(high - static_cast<double>(inner.high(k)));
+    }
+    return result;
   }
 
   void finish_node() {
@@ -224,15 +243,8 @@ class PatchTree::Builder {
       const Moved& moved = moved_[i];
       place_of_slot_[moved.slot] = kNone;
       tree_.is_bounded_ = tree_.is_bounded_ && moved.slot < kMaximumSlots;
-      NodeBone bone{static_cast<std::uint16_t>(moved.slot), moved.least_parts, moved.greatest_parts, {}, {}};
-      for (std::size_t k = 0; k < 3; ++k) {
-        const double low = static_cast<double>(box_.low(k)), high = static_cast<double>(box_.high(k));
-        const double parts = high > low ? kBoxParts / (high - low) : 0;
-        const auto whole = [&](double distance) { return static_cast<std::uint8_t>(std::clamp(distance * parts, 0.0, kBoxParts)); };
-        bone.low[k] = whole(static_cast<double>(moved.box.low(k)) - low);
-        bone.high[k] = whole(high - static_cast<double>(moved.box.high(k)));
-      }
-      tree_.bones_.push_back(bone);
+      tree_.bones_.push_back(
+          {static_cast<std::uint16_t>(moved.slot), moved.least_parts, moved.greatest_parts, within_box(moved.box)});
       const auto weight = [&](const Moved& of) { return int{of.least_parts} + int{of.greatest_parts}; };
       if (weight(moved) > weight(moved_[main])) main = i;
     }
@@ -251,16 +263,18 @@ class PatchTree::Builder {
 PatchTree::PatchTree(const Mesh& mesh, std::span<const Triangle> triangles, Index first_origin)
     : origins_(order_along_curve(mesh, triangles)) {
   const auto parts_of = [](Index count, Index size) { return (count + size - 1) / size; };
-  const Index patch_count = parts_of(static_cast<Index>(triangles.size()), kPatchSize);
-  first_of_level_ = {0, patch_count};
-  for (Index count = patch_count; count > 1; first_of_level_.push_back(first_of_level_.back() + count))
+  const auto triangle_count = static_cast<Index>(triangles.size());
+  const Index group_count = parts_of(triangle_count, kGroupSize);
+  first_of_level_ = {0, group_count};
+  for (Index count = group_count; count > 1; first_of_level_.push_back(first_of_level_.back() + count))
     count = parts_of(count, kFanOut);
   nodes_.reserve(first_of_level_.back() + std::size_t{1});
+  patches_.reserve(parts_of(triangle_count, kPatchSize));
 
   Builder builder(mesh, *this);
-  for (Index patch = 0; patch < patch_count; ++patch) {
+  for (Index group = 0; group < group_count; ++group) {
     builder.begin_node();
-    builder.add_patch(triangles, origins(patch));
+    builder.add_group(triangles, part_of(origins_, group, kGroupSize));
   }
   for (Index level = 1; level < level_count(); ++level)
     for (Index number = 0; number < node_count(level); ++number) {
@@ -270,96 +284,119 @@ PatchTree::PatchTree(const Mesh& mesh, std::span<const Triangle> triangles, Inde
     }
   builder.begin_node();
   bones_.shrink_to_fit();
+  morphs_.shrink_to_fit();
+  first_morph_.shrink_to_fit();
   posed_.resize(nodes_.size() - 1);
   posed_since_.resize(nodes_.size() - 1, 0);
   for (Index& origin : origins_) origin += first_origin;
 }
 
 std::size_t PatchTree::bytes() const {
-  return origins_.capacity() * sizeof(Index) + nodes_.capacity() * sizeof(Node) + bones_.capacity() * sizeof(NodeBone) +
-         morphs_.capacity() * sizeof(NodeMorph) + first_morph_.capacity() * sizeof(Index) + posed_.capacity() * sizeof(Box) +
-         posed_since_.capacity() * sizeof(std::uint32_t);
+  const auto bytes_of = [](const auto& values) { return values.capacity() * sizeof(values[0]); };
+  return bytes_of(origins_) + bytes_of(patches_) + bytes_of(nodes_) + bytes_of(bones_) + bytes_of(morphs_) +
+         bytes_of(first_morph_) + bytes_of(posed_) + bytes_of(posed_since_);
 }
 
-Box PatchTree::compute_posed_box(Index node, const MeshPose& pose) const {
-  using Lanes = Eigen::Array<double, 4, 1>;  // x, y, z and one that nobody asks for
-  struct Matrix {
-    Lanes x, y, z, translation;
-    explicit Matrix(const Affine3d& from)
-        : x(Lanes::Map(from.data())),
-          y(Lanes::Map(from.data() + 3)),
-          z(Lanes::Map(from.data() + 6)),
-          translation(from.data()[9], from.data()[10], from.data()[11], 0.0) {}
-    Matrix(const Matrix& a, const Matrix& b)
-        : x(a.x - b.x), y(a.y - b.y), z(a.z - b.z), translation(a.translation - b.translation) {}
-    [[nodiscard]] Lanes at(const std::array<double, 3>& p) const { return translation + x * p[0] + y * p[1] + z * p[2]; }
-    [[nodiscard]] Lanes spread(const std::array<double, 3>& half) const {
-      return x.abs() * half[0] + y.abs() * half[1] + z.abs() * half[2];
+/// Where a pose may put boxes of a node.
+class PatchTree::Bound {
+ public:
+  Bound(const PatchTree& tree, Index node, const MeshPose& pose) : tree_(tree), pose_(pose), bones_(tree.bones_of(node)) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      double low = static_cast<double>(tree.nodes_[node].bind[0][k]), high = static_cast<double>(tree.nodes_[node].bind[1][k]);
+      half_part_[k] = (high - low) * (0.5 / kBoxParts);
+      largest_[k] = std::max(std::abs(low), std::abs(high));
+      whole_.middle[k] = 0.5 * (low + high);
+      whole_.half[k] = 0.5 * (high - low);
     }
-  };
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  constexpr double kDoubleRounding = 1e-13;  // of sums of products, many times over
-
-  // The box in bind space, morphs included, and what rounding is measured by.
-  std::array<double, 3> low, high, part, largest;
-  for (std::size_t k = 0; k < 3; ++k) {
-    low[k] = static_cast<double>(nodes_[node].bind[0][k]);
-    high[k] = static_cast<double>(nodes_[node].bind[1][k]);
-    part[k] = (high[k] - low[k]) / kBoxParts;
-    largest[k] = std::max(std::abs(low[k]), std::abs(high[k]));
+    if (!tree.first_morph_.empty()) add_morphs(node);
   }
-  if (!first_morph_.empty())
-    for (Index i = first_morph_[node]; i < first_morph_[node + 1]; ++i) {
-      const double weight = static_cast<double>(pose.morph_weights[morphs_[i].target]);
+
+  struct BindBox {
+    std::array<double, 3> middle, half;
+  };
+  [[nodiscard]] BindBox bind_box(const InnerBox& inner) const {
+    if (inner.is_whole()) return whole_;
+    BindBox box;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const int low = inner.low[k], high = inner.high[k];
+      box.middle[k] = whole_.middle[k] + half_part_[k] * (low - high);
+      box.half[k] = whole_.half[k] - half_part_[k] * (low + high);
+    }
+    return box;
+  }
+
+  /// @param bind_box_of  of what a bone moves.
+  template <class BindBoxOf>
+  [[nodiscard]] Box posed(BindBoxOf bind_box_of) const {
+    using Lanes = PosedBones::Lanes;
+    Lanes hull_low = Lanes::Zero(), hull_high = hull_low, main_low = hull_low, main_high = hull_low, mean_low = hull_low,
+          mean_high = hull_low;
+    for (std::size_t i = 0; i < bones_.size(); ++i) {
+      const NodeBone& moved = bones_[i];
+      const PosedBones::Bone& bone = pose_.bones.at(moved.slot);
+      const BindBox box = bind_box_of(moved);
+      const double rounding = bone.rounding_of_translation + bone.rounding[0] * largest_[0] + bone.rounding[1] * largest_[1] +
+                              bone.rounding[2] * largest_[2];
+      const Lanes middle = bone.translation + bone.x * box.middle[0] + bone.y * box.middle[1] + bone.z * box.middle[2];
+      const Lanes half = rounding + bone.size_of_x * box.half[0] + bone.size_of_y * box.half[1] + bone.size_of_z * box.half[2];
+      const Lanes low = middle - half, high = middle + half;  // M_i B_i
+      if (i == 0) {
+        hull_low = main_low = mean_low = low;
+        hull_high = main_high = mean_high = high;
+        continue;
+      }
+      hull_low = hull_low.min(low);
+      hull_high = hull_high.max(high);
+      // w_main = 1 - sum of the others: each of those moves the mean from the main bone's place towards its own.
+      const double least = moved.least_weight * (1 / kWeightParts), greatest = moved.greatest_weight * (1 / kWeightParts);
+      const Lanes down = low - main_low, up = high - main_high;
+      mean_low += (least * down).min(greatest * down);
+      mean_high += (least * up).max(greatest * up);
+    }
+    const Lanes slack = tree_.weight_slack_ * hull_low.abs().max(hull_high.abs());
+    hull_low = hull_low.max(mean_low) - slack;
+    hull_high = hull_high.min(mean_high) + slack;
+    const Box box{hull_low.head<3>(), hull_high.head<3>()};
+    if (tree_.is_bounded_ && box.low.allFinite() && box.high.allFinite()) return box;
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();  // something overflowed
+    return {Vec3d::Constant(-kInfinity), Vec3d::Constant(kInfinity)};
+  }
+
+ private:
+  void add_morphs(Index node) {
+    for (Index i = tree_.first_morph_[node]; i < tree_.first_morph_[node + 1]; ++i) {
+      const double weight = static_cast<double>(pose_.morph_weights[tree_.morphs_[i].target]);
       for (std::size_t k = 0; k < 3; ++k) {
-        const double a = weight * static_cast<double>(morphs_[i].displacement[0][k]);
-        const double b = weight * static_cast<double>(morphs_[i].displacement[1][k]);
-        low[k] += std::min(a, b);
-        high[k] += std::max(a, b);
-        largest[k] += std::max(std::abs(a), std::abs(b));
+        const double a = weight * static_cast<double>(tree_.morphs_[i].displacement[0][k]);
+        const double b = weight * static_cast<double>(tree_.morphs_[i].displacement[1][k]);
+        whole_.middle[k] += 0.5 * (a + b);
+        whole_.half[k] += 0.5 * std::abs(a - b);
+        largest_[k] += std::max(std::abs(a), std::abs(b));
       }
     }
-  const auto middle_and_half = [&](double from, double to, std::size_t k, std::array<double, 3>& middle,
-                                   std::array<double, 3>& half) {
-    middle[k] = 0.5 * (from + to);
-    half[k] = 0.5 * (to - from) + kDoubleRounding * largest[k];
-  };
-
-  const std::span<const NodeBone> bones = bones_of(node);
-  const Matrix main(pose.palette[bones[0].slot]);
-  std::array<double, 3> middle, half;
-  for (std::size_t k = 0; k < 3; ++k) middle_and_half(low[k], high[k], k, middle, half);
-  Lanes at = main.at(middle), spread = main.spread(half);
-  Lanes sum_low = at - spread, sum_high = at + spread;  // of intervals
-  Lanes hull_low = Lanes::Constant(kInfinity), hull_high = Lanes::Constant(-kInfinity);
-  Lanes slack = weight_slack_ * sum_low.abs().max(sum_high.abs());
-  Lanes magnitude = Lanes::Zero();
-  for (std::size_t i = 0; i < bones.size(); ++i) {
-    const NodeBone& bone = bones[i];
-    for (std::size_t k = 0; k < 3; ++k)
-      middle_and_half(low[k] + bone.low[k] * part[k], high[k] - bone.high[k] * part[k], k, middle, half);
-    const Matrix matrix(pose.palette[bone.slot]);
-    at = matrix.at(middle);
-    spread = matrix.spread(half);
-    hull_low = hull_low.min(at - spread);
-    hull_high = hull_high.max(at + spread);
-    magnitude = magnitude.max(matrix.spread(largest) + matrix.translation.abs());
-    if (i == 0) continue;
-    const Matrix beside(matrix, main);
-    at = beside.at(middle);
-    spread = beside.spread(half);
-    const double least = bone.least_weight / kWeightParts, greatest = bone.greatest_weight / kWeightParts;
-    const Lanes from = at - spread, to = at + spread;
-    sum_low += (least * from).min(greatest * from);
-    sum_high += (least * to).max(greatest * to);
   }
-  slack = slack.max(weight_slack_ * hull_low.abs().max(hull_high.abs())) + kDoubleRounding * magnitude;
-  hull_low = hull_low.max(sum_low) - slack;
-  hull_high = hull_high.min(sum_high) + slack;
-  Box box{hull_low.head<3>(), hull_high.head<3>()};
-  if (!is_bounded_ || !box.low.allFinite() || !box.high.allFinite())
-    box = {Vec3d::Constant(-kInfinity), Vec3d::Constant(kInfinity)};
-  return box;
+
+  const PatchTree& tree_;
+  const MeshPose& pose_;
+  std::span<const NodeBone> bones_;
+  BindBox whole_;                    ///< The node's, morphs included.
+  std::array<double, 3> half_part_;  ///< Half of what inner boxes are measured in.
+  std::array<double, 3> largest_;    ///< What rounding is measured by.
+};
+
+Box PatchTree::compute_posed_box(Index node, const MeshPose& pose) const {
+  const Bound bound(*this, node, pose);
+  return bound.posed([&](const NodeBone& bone) { return bound.bind_box(bone.box); });
+}
+
+Index PatchTree::compute_posed_patches(Index group, const MeshPose& pose, std::array<Box, kPatchesPerGroup>& boxes) const {
+  const Bound bound(*this, group, pose);
+  const Index first = kPatchesPerGroup * group, count = std::min(kPatchesPerGroup, patch_count() - first);
+  for (Index i = 0; i < count; ++i) {
+    const Bound::BindBox box = bound.bind_box(patches_[first + i]);
+    boxes[i] = bound.posed([&](const NodeBone&) -> const Bound::BindBox& { return box; });
+  }
+  return count;
 }
 
 }  // namespace sunder::tear

@@ -29,14 +29,14 @@ class PosedPoints {
 
   /// Visits the patches of the surface where `bound` lets it: PatchForest::visit_patches().
   template <class Bound, class Visit>
-  void visit_patches(const SurfaceEditor& editor, Bound bound, Visit visit) {
-    forest_.visit_patches(editor, {palettes_, morph_weights_}, bound, visit);
+  void visit_patches(const SurfaceEditor& editor, const Mat3d& axes, Bound bound, Visit visit) {
+    forest_.visit_patches(editor, {palettes_, morph_weights_}, axes, bound, visit);
   }
   /// Calls visit(face) for the live faces of the patches whose boxes may_hold(box) lets through, in no order that means anything.
   template <class MayHold, class Visit>
-  void for_each_face(const SurfaceEditor& editor, MayHold may_hold, Visit visit) {
+  void for_each_face(const SurfaceEditor& editor, const Mat3d& axes, MayHold may_hold, Visit visit) {
     visit_patches(
-        editor, [&](const Box& box) { return may_hold(box) ? 0.0 : std::numeric_limits<double>::infinity(); },
+        editor, axes, [&](const Box& box) { return may_hold(box) ? 0.0 : std::numeric_limits<double>::infinity(); },
         [&](Index mesh, std::span<const Index> origins) {
           for (const Index origin : origins) editor.for_each_part(mesh, origin, visit);
           return 0.0;
