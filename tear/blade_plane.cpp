@@ -1,6 +1,7 @@
 #include "tear/blade_plane.h"
 
 #include <cmath>
+#include <limits>
 
 namespace sunder::tear {
 namespace {
@@ -83,6 +84,44 @@ BladePlane::HalfPlane BladePlane::from_progress(double progress) const {
   Vec2d normal{direction.y(), -direction.x()};  // to the blade's right when it points down y: towards growing x
   normal /= normal.norm();
   return {normal, normal.dot(base)};
+}
+
+Mat3d BladePlane::axes() const {
+  Mat3d axes;
+  axes << across_.transpose(), along_.transpose(), normal_.transpose();
+  return axes;
+}
+
+double BladePlane::least_progress(const Box& box) const {
+  // As in sweep_coordinates(), a point p is ahead of the blade at progress s where cross(p - base(s), direction(s)) > 0, which is
+  // quadratic in s and linear in p. The least value over the box is the middle's less a radius that is convex in s: at most what
+  // lies linearly between its values at 0 and 1. As long as that difference is positive the whole box is ahead of the blade. What
+  // is ahead of the first blade and within reach of the second has exactly one progress in [0, 1], so that one is meant.
+  constexpr double kUnknown = -std::numeric_limits<double>::infinity();
+  constexpr double kMargin = 1e-7;  // to what the roots may be off by
+  const Vec3d half = box.half_size(), middle = box.middle() - axes() * origin_;
+  const Vec2d e = to_base_ - from_base_, d = from_tip_ - from_base_, g = (to_tip_ - to_base_) - d;
+  const auto radius = [&](const Vec2d& direction) {
+    return std::abs(direction.y()) * half.x() + std::abs(direction.x()) * half.y();
+  };
+  const double radius_before = radius(d), radius_after = radius(d + g);
+  const Vec2d p = Vec2d(middle.x(), middle.y()) - from_base_;
+  const double a = -cross(e, g);
+  const double b = cross(p, g) - cross(e, d) - (radius_after - radius_before);
+  const double c = cross(p, d) - radius_before;
+  if (!(c > 0)) return kUnknown;
+  const double discriminant = b * b - 4 * a * c;
+  double first = 1;  // root above 0
+  if (discriminant >= 0) {
+    const double q = -0.5 * (b + std::copysign(std::sqrt(discriminant), b));
+    if (b < 0)
+      first = std::min(first, c / q);
+    else if (a < 0)
+      first = std::min(first, q / a);
+  } else if (!(discriminant < 0)) {
+    return kUnknown;
+  }
+  return first - kMargin;
 }
 
 }  // namespace sunder::tear

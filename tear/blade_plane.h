@@ -5,7 +5,7 @@
 #include <array>
 #include <optional>
 
-#include "tear/half_space.h"
+#include "tear/box.h"
 
 namespace sunder::tear {
 
@@ -44,6 +44,12 @@ class BladePlane {
   [[nodiscard]] HalfPlane from_progress(double progress) const;
   /// What it sweeps from the first blade on.
   [[nodiscard]] const HalfPlane& not_before() const { return not_before_; }
+
+  /// Rows: across, along, normal.
+  [[nodiscard]] Mat3d axes() const;
+  /// No point of a box, given in axes(), that lies in the plane and within reach has less progress than this. Minus infinity where
+  /// that is not known.
+  [[nodiscard]] double least_progress(const Box& box) const;
 
   /// Towards the left of the stroke, seen from where the blade comes; across the second blade, forwards; along it, from base to
   /// tip.

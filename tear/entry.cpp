@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace sunder::tear {
 namespace {
@@ -48,67 +49,187 @@ bool clip(const BladePlane::HalfPlane& half_plane, const Vec2d& a, const Vec2d& 
   return begin <= end;
 }
 
+/// A segment, and where it runs within boxes.
+class Segment {
+ public:
+  explicit Segment(const Blade& blade)
+      : base_(blade.base),
+        direction_(blade.tip - blade.base),
+        axes_(axes_along(direction_)),
+        base_in_axes_(axes_ * base_),
+        direction_in_axes_(axes_ * direction_),
+        reach_(std::max(base_.cwiseAbs().maxCoeff(), blade.tip.cwiseAbs().maxCoeff())) {}
+
+  /// Those that boxes are in: the first is the segment's direction.
+  [[nodiscard]] const Mat3d& axes() const { return axes_; }
+
+  struct Part {
+    double begin = 0, end = 1;
+    [[nodiscard]] bool is_empty() const { return begin > end; }
+  };
+  /// The part within a box, on the safe side of rounding. The part within a box inside it lies in that part, to the last bit.
+  [[nodiscard]] Part part_in(const Box& box) const {
+    const Box wide = box.widened(reach_);
+    Part part;
+    for (int k = 0; k < 3; ++k) {
+      const double to_low = wide.low[k] - base_in_axes_[k], to_high = wide.high[k] - base_in_axes_[k];
+      if (direction_in_axes_[k] == 0) {
+        if (to_low > 0 || to_high < 0) return {1, 0};
+        continue;
+      }
+      const bool ascends = direction_in_axes_[k] > 0;
+      part.begin = std::max(part.begin, (ascends ? to_low : to_high) / direction_in_axes_[k]);
+      part.end = std::min(part.end, (ascends ? to_high : to_low) / direction_in_axes_[k]);
+    }
+    return part;
+  }
+
+  /// Where it meets a triangle, edges included so that none slips between two faces: Moeller and Trumbore 1997.
+  [[nodiscard]] std::optional<SurfaceHit> hit(Index triangle, const Corners& corners, double& depth) const {
+    const Vec3d ab = corners[1] - corners[0], ac = corners[2] - corners[0];
+    const Vec3d h = direction_.cross(ac);
+    const double determinant = ab.dot(h);
+    if (!(std::abs(determinant) > 1e-14 * ab.norm() * ac.norm() * direction_.norm())) return std::nullopt;
+    const Vec3d from_corner = base_ - corners[0];
+    const double u = from_corner.dot(h) / determinant;
+    const Vec3d q = from_corner.cross(ab);
+    const double v = direction_.dot(q) / determinant;
+    depth = ac.dot(q) / determinant;
+    constexpr double kEdge = 1e-12;
+    if (u < -kEdge || v < -kEdge || u + v > 1 + kEdge || depth < 0 || depth > 1) return std::nullopt;
+    // Along a triangle's plane, rounding finds places that are not in the triangle.
+    const Vec3d a = axes_ * corners[0], b = axes_ * corners[1], c = axes_ * corners[2];
+    const Part part = part_in({a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)});
+    if (part.is_empty()) return std::nullopt;
+    depth = std::clamp(depth, part.begin, part.end);
+    return SurfaceHit{triangle, {std::max(0.0, 1 - u - v), std::max(0.0, u), std::max(0.0, v)}, base_ + depth * direction_, 0};
+  }
+
+ private:
+  Vec3d base_, direction_;
+  Mat3d axes_;
+  Vec3d base_in_axes_, direction_in_axes_;
+  double reach_;
+};
+
+/// Where a sweep meets one triangle.
+struct Contact {
+  SurfaceHit hit;
+  SweepCoordinates low;  ///< Of the hit.
+};
+
+std::optional<Contact> contact_with(Index triangle, const Corners& corners, const BladePlane& plane, double progress,
+                                    const BladePlane::HalfPlane& not_before) {
+  const auto crossing = cross_triangle(plane, corners);
+  if (!crossing) return std::nullopt;
+  const Vec2d &a = crossing->ends[0].position, &b = crossing->ends[1].position;
+  double begin = 0, end = 1;
+  bool is_reached = clip(not_before, a, b, begin, end);
+  for (const auto& half_plane : plane.reach()) is_reached = is_reached && clip(half_plane, a, b, begin, end);
+  if (!is_reached || end - begin < kSnap) return std::nullopt;  // what is left of a triangle after its neighbour's end was snapped
+
+  const SweepCoordinates at_begin = plane.sweep_coordinates(a + begin * (b - a));
+  const SweepCoordinates at_end = plane.sweep_coordinates(a + end * (b - a));
+  const bool forward = at_begin.progress <= at_end.progress;
+  const SweepCoordinates& low = forward ? at_begin : at_end;
+  const SweepCoordinates& high = forward ? at_end : at_begin;
+  if (!(high.progress > std::max(low.progress, progress) + kSamePlace)) return std::nullopt;
+  const double at = forward ? begin : end;
+  Contact contact{{triangle, {}, Vec3d::Zero(), high.progress}, low};
+  for (std::size_t k = 0; k < 3; ++k) {
+    contact.hit.barycentric[k] = (1 - at) * crossing->ends[0].barycentric[k] + at * crossing->ends[1].barycentric[k];
+    contact.hit.position += contact.hit.barycentric[k] * corners[k];
+  }
+  return contact;
+}
+
+/// Calls take(contact) for the contacts of a sweep with the surface. It returns the greatest progress that is of interest from then
+/// on.
+template <class Take>
+void for_each_contact(const BladePlane& plane, double progress, const SurfaceEditor& editor, PosedPoints& posed, Take take) {
+  const BladePlane::HalfPlane not_before = plane.from_progress(progress);
+  const Mat3d axes = plane.axes();
+  const auto& reach = plane.reach();
+  const std::array<HalfSpace, 6> within = {
+      in_axes(axes, plane.left_of(0)),
+      in_axes(axes, plane.right_of(0)),
+      in_axes(axes, plane.standing_on(reach[0])),
+      in_axes(axes, plane.standing_on(reach[1])),
+      in_axes(axes, plane.standing_on(reach[2])),
+      in_axes(axes, plane.standing_on(not_before)),
+  };
+  const auto least_progress = [&](const Box& box) {
+    return std::any_of(within.begin(), within.end(), [&](const HalfSpace& half_space) { return is_outside(half_space, box); })
+               ? std::numeric_limits<double>::infinity()
+               : plane.least_progress(box);
+  };
+  double limit = std::numeric_limits<double>::max();
+  posed.visit_patches(editor, axes, least_progress, [&](Index mesh, std::span<const Index> origins) {
+    for (const Index origin : origins)
+      editor.for_each_part(mesh, origin, [&](Index triangle) {
+        const auto contact = contact_with(triangle, posed_corners(editor, posed, triangle), plane, progress, not_before);
+        if (contact) limit = take(*contact);
+      });
+    return limit;
+  });
+}
+
 }  // namespace
 
 std::optional<SurfaceHit> first_hit(const Blade& blade, const SurfaceEditor& editor, PosedPoints& posed) {
-  // Moeller and Trumbore 1997, edges included so that no ray slips between two faces.
-  const Vec3d direction = blade.tip - blade.base;
+  const Segment segment(blade);
   std::optional<SurfaceHit> nearest;
   double nearest_depth = 1.0;
-  for (Index t = 0; t < editor.surface().triangle_count(); ++t) {
-    if (editor.surface().has_repeated_point(t)) continue;
-    const Corners corners = posed_corners(editor, posed, t);
-    const Vec3d ab = corners[1] - corners[0], ac = corners[2] - corners[0];
-    const Vec3d h = direction.cross(ac);
-    const double determinant = ab.dot(h);
-    if (!(std::abs(determinant) > 1e-14 * ab.norm() * ac.norm() * direction.norm())) continue;
-    const Vec3d from_corner = blade.base - corners[0];
-    const double u = from_corner.dot(h) / determinant;
-    const Vec3d q = from_corner.cross(ab);
-    const double v = direction.dot(q) / determinant;
-    const double depth = ac.dot(q) / determinant;
-    constexpr double kEdge = 1e-12;
-    if (u < -kEdge || v < -kEdge || u + v > 1 + kEdge || depth < 0 || depth > nearest_depth) continue;
-    if (nearest && depth == nearest_depth) continue;
-    nearest_depth = depth;
-    nearest = SurfaceHit{t, {std::max(0.0, 1 - u - v), std::max(0.0, u), std::max(0.0, v)}, blade.base + depth * direction, 0};
-  }
+  posed.visit_patches(
+      editor, segment.axes(),
+      [&](const Box& box) {
+        const Segment::Part part = segment.part_in(box);
+        return part.is_empty() ? std::numeric_limits<double>::infinity() : part.begin;
+      },
+      [&](Index mesh, std::span<const Index> origins) {
+        for (const Index origin : origins)
+          editor.for_each_part(mesh, origin, [&](Index triangle) {
+            double depth = 0;
+            const auto hit = segment.hit(triangle, posed_corners(editor, posed, triangle), depth);
+            if (!hit || depth > nearest_depth || (nearest && depth == nearest_depth && triangle > nearest->triangle)) return;
+            nearest_depth = depth;
+            nearest = hit;
+          });
+        return nearest_depth;
+      });
   return nearest;
 }
 
 std::optional<SurfaceHit> first_contact(const BladePlane& plane, double progress, const SurfaceEditor& editor, PosedPoints& posed) {
-  const BladePlane::HalfPlane not_before = plane.from_progress(progress);
-  std::optional<SurfaceHit> nearest;
-  SweepCoordinates nearest_at;
-  for (Index t = 0; t < editor.surface().triangle_count(); ++t) {
-    if (editor.surface().has_repeated_point(t)) continue;
-    const Corners corners = posed_corners(editor, posed, t);
-    const auto crossing = cross_triangle(plane, corners);
-    if (!crossing) continue;
-    const Vec2d &a = crossing->ends[0].position, &b = crossing->ends[1].position;
-    double begin = 0, end = 1;
-    bool is_reached = clip(not_before, a, b, begin, end);
-    for (const auto& half_plane : plane.reach()) is_reached = is_reached && clip(half_plane, a, b, begin, end);
-    if (!is_reached || end - begin < kSnap) continue;  // what is left of a triangle after its neighbour's end was snapped
-
-    const SweepCoordinates at_begin = plane.sweep_coordinates(a + begin * (b - a));
-    const SweepCoordinates at_end = plane.sweep_coordinates(a + end * (b - a));
-    const bool forward = at_begin.progress <= at_end.progress;
-    const SweepCoordinates& low = forward ? at_begin : at_end;
-    const SweepCoordinates& high = forward ? at_end : at_begin;
-    if (!(high.progress > std::max(low.progress, progress) + kSamePlace)) continue;
-    const bool is_nearer = !nearest || low.progress < nearest_at.progress - kSamePlace ||
-                           (low.progress < nearest_at.progress + kSamePlace && low.depth < nearest_at.depth - kSamePlace);
-    if (!is_nearer) continue;
-    nearest_at = low;
-    const double at = forward ? begin : end;
-    nearest = SurfaceHit{t, {}, Vec3d::Zero(), high.progress};
-    for (std::size_t k = 0; k < 3; ++k) {
-      nearest->barycentric[k] = (1 - at) * crossing->ends[0].barycentric[k] + at * crossing->ends[1].barycentric[k];
-      nearest->position += nearest->barycentric[k] * corners[k];
+  // Whatever the order of visits: the least progress, there the least depth, there the first face.
+  std::optional<Contact> nearest;
+  double least = std::numeric_limits<double>::max(), second = least;
+  for_each_contact(plane, progress, editor, posed, [&](const Contact& contact) {
+    if (contact.low.progress < least) {
+      second = least;
+      least = contact.low.progress;
+      nearest = contact;
+    } else {
+      second = std::min(second, contact.low.progress);
     }
-  }
-  return nearest;
+    return least + kSamePlace;
+  });
+  if (!nearest || !(second < least + kSamePlace)) return nearest ? std::optional(nearest->hit) : std::nullopt;
+
+  const auto is_there = [&](const Contact& contact) { return contact.low.progress < least + kSamePlace; };
+  double least_depth = std::numeric_limits<double>::max();
+  for_each_contact(plane, progress, editor, posed, [&](const Contact& contact) {
+    if (is_there(contact)) least_depth = std::min(least_depth, contact.low.depth);
+    return least + kSamePlace;
+  });
+  nearest.reset();
+  for_each_contact(plane, progress, editor, posed, [&](const Contact& contact) {
+    if (is_there(contact) && contact.low.depth <= least_depth + kSamePlace &&
+        (!nearest || contact.hit.triangle < nearest->hit.triangle))
+      nearest = contact;
+    return least + kSamePlace;
+  });
+  return nearest->hit;
 }
 
 }  // namespace sunder::tear

@@ -7,7 +7,7 @@
 
 namespace sunder::tear {
 
-/// The live faces that a cell may hold a part of. O(all faces).
+/// The live faces that a cell may hold a part of, ascending.
 [[nodiscard]] std::vector<Index> faces_in_cell(const Cell& cell, const SurfaceEditor& editor, PosedPoints& posed);
 
 /// The same, of those that hang together with the seeds inside the cell.

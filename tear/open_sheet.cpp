@@ -12,9 +12,15 @@ namespace {
 /// The live faces on both sides of whose plane there are corners, and which no bound shuts out.
 std::vector<Index> faces_across(const Sheet& sheet, const SurfaceEditor& editor, PosedPoints& posed) {
   const Surface& surface = editor.surface();
+  const Mat3d axes =
+      axes_along(sheet.plane.normal, sheet.bounds.empty() ? Vec3d(Vec3d::Zero()) : sheet.bounds[0].half_space.normal);
+  std::vector<HalfSpace> sides = {in_axes(axes, sheet.plane), in_axes(axes, {-sheet.plane.normal, -sheet.plane.offset})};
+  for (const Sheet::Bound& bound : sheet.bounds) sides.push_back(in_axes(axes, bound.half_space));
+  const auto may_meet = [&](const Box& box) {
+    return std::none_of(sides.begin(), sides.end(), [&](const HalfSpace& side) { return is_outside(side, box); });
+  };
   std::vector<Index> faces;
-  for (Index face = 0; face < surface.triangle_count(); ++face) {
-    if (surface.has_repeated_point(face)) continue;
+  posed.for_each_face(editor, axes, may_meet, [&](Index face) {
     std::array<Vec3d, 3> corners;
     for (Index k = 0; k < 3; ++k) corners[k] = posed.position(editor, surface.corner_point[3 * face + k]);
     const auto has_corner_in = [&](const HalfSpace& half_space) {
@@ -26,7 +32,8 @@ std::vector<Index> faces_across(const Sheet& sheet, const SurfaceEditor& editor,
     if (is_across && std::all_of(sheet.bounds.begin(), sheet.bounds.end(),
                                  [&](const Sheet::Bound& bound) { return has_corner_in(bound.half_space); }))
       faces.push_back(face);
-  }
+  });
+  std::sort(faces.begin(), faces.end());
   return faces;
 }
 

@@ -18,7 +18,7 @@ struct SheetOpening {
   double length_posed = 0;
 };
 
-/// Opens the posed surface, every layer of it, where it meets a sheet. O(all faces).
+/// Opens the posed surface, every layer of it, where it meets a sheet.
 [[nodiscard]] SheetOpening open_sheet(const Sheet& sheet, const Workpiece& work, std::vector<LipPair>& lips);
 
 }  // namespace sunder::tear

@@ -33,6 +33,7 @@ Status PosedPoints::begin(const Character& character, const ModelPose& pose) {
     if (Status status = compute_palette(character.skins[skin], pose, palettes_[skin]); !status) return status;
   }
   morph_weights_ = pose.morph_weights;
+  forest_.forget_pose();
   if (++epoch_ == 0) {  // once in four thousand million poses
     for (Known& known : known_) known.since = 0;
     epoch_ = 1;

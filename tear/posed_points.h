@@ -2,8 +2,10 @@
 
 #include <sunder/core/pose.h>
 
+#include <limits>
 #include <vector>
 
+#include "tear/patch_forest.h"
 #include "tear/surface_editor.h"
 
 namespace sunder::tear {
@@ -33,6 +35,23 @@ class PosedPoints {
   [[nodiscard]] const std::vector<Affine3d>& palette(Index skin) const { return palettes_[skin]; }
   [[nodiscard]] const std::vector<float>& morph_weights() const { return morph_weights_; }
 
+  /// Visits the patches of the surface where `bound` lets it: PatchForest::visit_patches().
+  template <class Bound, class Visit>
+  void visit_patches(const SurfaceEditor& editor, const Mat3d& axes, Bound bound, Visit visit) {
+    forest_.visit_patches(editor, {palettes_, morph_weights_}, axes, bound, visit);
+  }
+  /// Calls visit(face) for the live faces of the patches whose boxes may_hold(box) lets through, in no order that means anything.
+  template <class MayHold, class Visit>
+  void for_each_face(const SurfaceEditor& editor, const Mat3d& axes, MayHold may_hold, Visit visit) {
+    visit_patches(
+        editor, axes, [&](const Box& box) { return may_hold(box) ? 0.0 : std::numeric_limits<double>::infinity(); },
+        [&](Index mesh, std::span<const Index> origins) {
+          for (const Index origin : origins) editor.for_each_part(mesh, origin, visit);
+          return 0.0;
+        });
+  }
+  [[nodiscard]] PatchForest& forest() { return forest_; }
+
   /// Forgets the points from `first_point` up, which were taken back.
   void forget_from(Index first_point);
 
@@ -47,6 +66,7 @@ class PosedPoints {
 
   std::vector<Known> known_;
   std::uint32_t epoch_ = 0;  ///< Of the pose: a new one forgets all positions at once.
+  PatchForest forest_;
 };
 
 }  // namespace sunder::tear

@@ -104,7 +104,9 @@ SurfaceEditor::SurfaceEditor(const Character& source, Character& character)
       surface_(build_surface(character)),
       births_(character.meshes.size()),
       fillings_(character.meshes.size()),
+      filling_serials_(character.meshes.size()),
       appended_triangles_(character.meshes.size()),
+      newest_part_(character.meshes.size()),
       newest_entry_(surface_.triangle_count(), kNone),
       spare_sides_(character.meshes.size()) {
   for (const Index side : surface_.source_side) next_side_ = std::max(next_side_, side + 1);
@@ -173,6 +175,7 @@ Index SurfaceEditor::append_triangle(Index like, const std::array<Index, 3>& poi
   surface_.appended.push_back({ref.mesh, mesh.triangle_count(), ref.source_triangle});
   newest_entry_.push_back(kNone);
   parents_.push_back(like);
+  chain_new_parts();
   appended_triangles_[ref.mesh].push_back(triangle);
   ancestors_.push_back(ancestor(like));
   const Index submesh = mesh.triangle_submesh[ref.triangle];
@@ -183,6 +186,24 @@ Index SurfaceEditor::append_triangle(Index like, const std::array<Index, 3>& poi
     surface_.twin.push_back(kNone);
   }
   return triangle;
+}
+
+void SurfaceEditor::chain_new_parts() {
+  for (Index t = surface_.first_triangle.back() + static_cast<Index>(older_part_.size()); t < surface_.triangle_count(); ++t) {
+    const TriangleRef ref = surface_.triangle(t);
+    std::vector<Index>& newest = newest_part_[ref.mesh];
+    const Index source_count = source_.meshes[ref.mesh].triangle_count();
+    if (ref.source_triangle >= newest.size()) newest.resize(std::max(source_count, ref.source_triangle + 1), kNone);
+    older_part_.push_back(newest[ref.source_triangle]);
+    newest[ref.source_triangle] = t;
+  }
+}
+
+void SurfaceEditor::unchain_parts_from(Index first) {
+  for (; surface_.first_triangle.back() + older_part_.size() > first; older_part_.pop_back()) {
+    const TriangleRef ref = surface_.appended[older_part_.size() - 1];
+    newest_part_[ref.mesh][ref.source_triangle] = older_part_.back();
+  }
 }
 
 Index SurfaceEditor::append_point() {
@@ -487,11 +508,13 @@ Index SurfaceEditor::append_filling(Index mesh, Index submesh, const std::array<
   const Index origin = source_.meshes[mesh].triangle_count() + static_cast<Index>(fillings_[mesh].size());
   fillings_[mesh].push_back(vertices);
   additions_.push_back({Addition::Kind::filling, mesh});
+  filling_serials_[mesh].push_back(next_serial_++);
   const Index triangle = surface_.triangle_count();
   Mesh& of = character_.meshes[mesh];
   surface_.appended.push_back({mesh, of.triangle_count(), origin});
   newest_entry_.push_back(kNone);
   parents_.push_back(kNone);
+  chain_new_parts();
   appended_triangles_[mesh].push_back(triangle);
   ancestors_.push_back(triangle);
   of.triangles.push_back(vertices);
@@ -554,7 +577,10 @@ void SurfaceEditor::roll_back(const Mark& to) {
     const Index m = additions_.back().mesh;
     Mesh& mesh = character_.meshes[m];
     switch (additions_.back().kind) {
-      case Addition::Kind::filling: fillings_[m].pop_back(); break;
+      case Addition::Kind::filling:
+        fillings_[m].pop_back();
+        filling_serials_[m].pop_back();
+        break;
       case Addition::Kind::submesh: mesh.submeshes.pop_back(); break;
       case Addition::Kind::tear_sides:
         spare_sides_[m] = std::move(mesh.custom_attributes.back().values);
@@ -563,6 +589,7 @@ void SurfaceEditor::roll_back(const Mark& to) {
         break;
     }
   }
+  unchain_parts_from(to.triangles);
   const Index source_triangles = surface_.first_triangle.back();
   surface_.appended.resize(to.triangles - source_triangles);
   parents_.resize(to.triangles - source_triangles);

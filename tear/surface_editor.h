@@ -25,6 +25,7 @@ class SurfaceEditor {
   [[nodiscard]] const Character& character() const { return character_; }
   /// For what lives no longer than the operation under way.
   [[nodiscard]] ScratchMemory& scratch() const { return scratch_; }
+  [[nodiscard]] const Character& source() const { return source_; }
   [[nodiscard]] Index vertex_at(Index corner) const {
     const TriangleRef ref = surface_.triangle(corner / 3);
     return character_.meshes[ref.mesh].triangles[ref.triangle][corner % 3];
@@ -46,6 +47,10 @@ class SurfaceEditor {
   }
   /// Triangles of walls and caps as they were made.
   [[nodiscard]] const std::vector<Triangle>& fillings(Index mesh) const { return fillings_[mesh]; }
+  /// A number that no other filling of the mesh ever had. @param origin  the filling's, as in origin_triangle().
+  [[nodiscard]] std::uint64_t filling_serial(Index mesh, Index origin) const {
+    return filling_serials_[mesh][origin - source_.meshes[mesh].triangle_count()];
+  }
   /// A triangle of the source or, beyond those, of a wall or cap: what births refer to.
   [[nodiscard]] const Triangle& origin_triangle(Index mesh, Index triangle) const {
     const Index source_count = source_.meshes[mesh].triangle_count();
@@ -57,6 +62,17 @@ class SurfaceEditor {
   [[nodiscard]] Index surface_triangle(Index mesh, Index triangle) const {
     const Index source_count = source_.meshes[mesh].triangle_count();
     return triangle < source_count ? surface_.first_triangle[mesh] + triangle : appended_triangles_[mesh][triangle - source_count];
+  }
+  /// Calls visit(triangle of the surface) for each face that is a part of an origin, as far as there still are any.
+  template <class Visit>
+  void for_each_part(Index mesh, Index origin, Visit visit) const {
+    const auto visit_face = [&](Index triangle) {
+      if (!surface_.has_repeated_point(triangle)) visit(triangle);
+    };
+    if (origin < source_.meshes[mesh].triangle_count()) visit_face(surface_.first_triangle[mesh] + origin);
+    if (origin >= newest_part_[mesh].size()) return;
+    for (Index part = newest_part_[mesh][origin]; part != kNone; part = older_part_[part - surface_.first_triangle.back()])
+      visit_face(part);
   }
   /// Barycentric coordinates of a corner in the triangle's origin.
   [[nodiscard]] std::array<double, 3> source_barycentric(Index corner) const {
@@ -203,6 +219,9 @@ class SurfaceEditor {
   void move_opened(Index from, Index to);
   Index append_triangle(Index like, const std::array<Index, 3>& points, const Triangle& vertices);
   Index append_point();
+  /// Puts appended triangles at the head of their origin's chain, or takes those from `first` up off again.
+  void chain_new_parts();
+  void unchain_parts_from(Index first);
   Index append_vertex(Index mesh, const Birth& birth);
   void remove_newest_vertex(Index mesh);
   /// Where a vertex lies in the origin of a triangle.
@@ -223,9 +242,13 @@ class SurfaceEditor {
   Surface surface_;
   std::vector<std::vector<Birth>> births_;       ///< Of each mesh: its vertices beyond the source's.
   std::vector<std::vector<Triangle>> fillings_;  ///< Of each mesh.
+  std::vector<std::vector<std::uint64_t>> filling_serials_;
+  std::uint64_t next_serial_ = 0;
   std::vector<std::vector<Index>>
       appended_triangles_;          ///< Of each mesh: the surface's numbers of its triangles beyond the source's.
   std::vector<Index> vertex_mesh_;  ///< Of each appended vertex.
+  std::vector<std::vector<Index>> newest_part_;  ///< Of each mesh: of each origin, the last triangle appended that is a part of it.
+  std::vector<Index> older_part_;  ///< Of each appended triangle: the one before it of the same origin.
   std::vector<Addition> additions_;
   std::vector<LogEntry> log_;  ///< Of all operations that were done and not taken back.
   std::vector<SideEntry> side_log_;

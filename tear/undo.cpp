@@ -109,6 +109,7 @@ void SurfaceEditor::redo(const Redo& redo, ChangeRecord& change) {
     append(mesh.submeshes, of.submeshes);
     append(births_[m], of.births);
     append(fillings_[m], of.fillings);
+    while (filling_serials_[m].size() < fillings_[m].size()) filling_serials_[m].push_back(next_serial_++);
     append(appended_triangles_[m], of.appended_triangles);
     for (const LogEntry& entry : redo.changed) {
       const TriangleRef ref = surface_.triangle(entry.triangle);
@@ -127,6 +128,7 @@ void SurfaceEditor::redo(const Redo& redo, ChangeRecord& change) {
   append(surface_.appended, redo.triangles);
   append(parents_, redo.parents);
   newest_entry_.resize(surface_.triangle_count(), kNone);
+  chain_new_parts();
   append(surface_.point_corner, redo.point_corner);
   append(surface_.appended_side, redo.side);
   append(vertex_mesh_, redo.vertex_mesh);

@@ -1,0 +1,126 @@
+#pragma once
+
+#include <limits>
+
+#include "tear/patch_tree.h"
+#include "tear/surface_editor.h"
+
+namespace sunder::tear {
+
+/// What the meshes of a character are posed by.
+struct CharacterPose {
+  std::span<const std::vector<Affine3d>> palettes;  ///< Of each skin.
+  std::span<const float> morph_weights;
+};
+
+/// Finds faces of the posed surface without posing it: trees of patches over the origins of all meshes. A tear changes none of
+/// them, since the parts of an origin lie within it. Built at the first query; walls and caps get trees of their own at the first
+/// query after them, and neighbouring trees of one size are made one, so that a mesh has few (Bentley and Saxe 1980).
+class PatchForest {
+ public:
+  /// To be called when the pose changes. O(1).
+  void forget_pose();
+
+  /// Visits the patches in which something may be found, more or less the nearest first.
+  /// @param axes   rows: orthogonal unit vectors. Boxes are in these; the nearer they are to how the query lies, the fewer it
+  /// meets.
+  ///               Boxes are remembered as long as neither the pose nor the axes change.
+  /// @param bound  bound(const Box&): the least value, such as a distance, that what is looked for can have in a box; infinity
+  /// where
+  ///               it cannot be there.
+  /// @param visit  visit(mesh, origins of a patch): the greatest value that is of interest from now on. May not call this again.
+  template <class Bound, class Visit>
+  void visit_patches(const SurfaceEditor& editor, const CharacterPose& pose, const Mat3d& axes, Bound bound, Visit visit);
+
+  [[nodiscard]] std::size_t bytes() const;
+  /// Trees over the walls and caps of a mesh.
+  [[nodiscard]] std::size_t filling_tree_count(Index mesh) const { return mesh < fillings_.size() ? fillings_[mesh].size() : 0; }
+
+  /// A tree, and what it covers.
+  struct Covered {
+    PatchTree tree;
+    Index mesh;
+    Index first, end;           ///< Origins.
+    std::uint64_t last_serial;  ///< Of the last one, where they are fillings.
+  };
+  /// Every tree there is, up to date.
+  [[nodiscard]] std::vector<Covered*> trees(const SurfaceEditor& editor);
+
+  /// Makes a pose and axes those that boxes are about.
+  void stand_in(const SurfaceEditor& editor, const CharacterPose& pose, const Mat3d& axes);
+  [[nodiscard]] MeshPose pose_of(const Mesh& mesh, const CharacterPose& pose) {
+    return {bones_[mesh.skin], pose.morph_weights.subspan(mesh.first_morph_weight, mesh.morph_targets.size())};
+  }
+  [[nodiscard]] std::uint32_t epoch() const { return epoch_; }
+
+ private:
+  struct Waiting {
+    double bound;
+    Covered* covered;
+    Index height;  ///< 0: a patch; above, the node's level and 1.
+    Index number;
+  };
+
+  [[nodiscard]] std::size_t tree_count() const;
+  void cover(const SurfaceEditor& editor);
+  void cover_fillings(const SurfaceEditor& editor, Index mesh);
+  /// Puts a node before those on the stack that are farther, down to `first`.
+  void push(const Waiting& node, std::size_t first);
+
+  std::vector<Covered> sources_;                ///< Of each mesh that has triangles.
+  std::vector<std::vector<Covered>> fillings_;  ///< Of each mesh, in their order.
+  std::vector<PosedBones> bones_;               ///< Of each skin.
+  std::vector<Waiting> stack_;                  ///< The nearest last.
+  Mat3d axes_ = Mat3d::Identity();
+  std::uint32_t epoch_ = 1;
+  bool is_built_ = false;
+};
+
+template <class Bound, class Visit>
+void PatchForest::visit_patches(const SurfaceEditor& editor, const CharacterPose& pose, const Mat3d& axes, Bound bound,
+                                Visit visit) {
+  stand_in(editor, pose, axes);
+  const auto& meshes = editor.character().meshes;
+  constexpr double kNowhere = std::numeric_limits<double>::infinity();
+  double limit = std::numeric_limits<double>::max();
+  const auto add = [&](const Box& box, Waiting node, std::size_t first) {
+    node.bound = bound(box);
+    if (node.bound < kNowhere && !(node.bound > limit)) push(node, first);
+  };
+  stack_.clear();
+  const bool is_one_tree = tree_count() == 1;  // whose box holds everything: not worth knowing
+  const auto add_root = [&](Covered& covered) {
+    const Index level = covered.tree.level_count() - 1;
+    if (is_one_tree)
+      push({std::numeric_limits<double>::lowest(), &covered, level + 1, 0}, 0);
+    else
+      add(covered.tree.posed_box(level, 0, pose_of(meshes[covered.mesh], pose), epoch_), {0, &covered, level + 1, 0}, 0);
+  };
+  for (Covered& covered : sources_) add_root(covered);
+  for (auto& of_mesh : fillings_)
+    for (Covered& covered : of_mesh) add_root(covered);
+  std::array<Box, PatchTree::kPatchesPerGroup> boxes;
+  while (!stack_.empty()) {
+    const Waiting node = stack_.back();
+    stack_.pop_back();
+    if (node.bound > limit) continue;
+    Covered& covered = *node.covered;
+    if (node.height == 0) {
+      limit = visit(covered.mesh, covered.tree.origins(node.number));
+      continue;
+    }
+    const MeshPose mesh_pose = pose_of(meshes[covered.mesh], pose);
+    const std::size_t first = stack_.size();
+    if (node.height == 1) {
+      const Index count = covered.tree.compute_posed_patches(node.number, mesh_pose, boxes);
+      for (Index i = 0; i < count; ++i) add(boxes[i], {0, &covered, 0, PatchTree::kPatchesPerGroup * node.number + i}, first);
+      continue;
+    }
+    const Index level = node.height - 2;  // of the children
+    const Index end = std::min(PatchTree::kFanOut * (node.number + 1), covered.tree.node_count(level));
+    for (Index child = PatchTree::kFanOut * node.number; child < end; ++child)
+      add(covered.tree.posed_box(level, child, mesh_pose, epoch_), {0, &covered, node.height - 1, child}, first);
+  }
+}
+
+}  // namespace sunder::tear

@@ -1,0 +1,402 @@
+#include "tear/patch_tree.h"
+
+#include <cmath>
+#include <limits>
+
+#include "tear/hilbert_curve.h"
+
+namespace sunder::tear {
+namespace {
+
+constexpr double kWeightParts = 65000;  // less than 2^16: weights may be a little above 1
+constexpr double kBoxParts = 255;
+constexpr std::size_t kMaximumSlots = std::size_t{1} << 16;
+
+/// What stored positions and weights of new vertices may lie beside their origin's: each is rounded to float once, and a wall that
+/// grows on a wall rounds again.
+constexpr float kRounding = 0x1p-20f;
+
+/// Low corner and negated high corner, each with a fourth lane, so that both grow by taking the lesser.
+struct GrowingBox {
+  std::array<float, 8> least;
+
+  GrowingBox() { least.fill(std::numeric_limits<float>::infinity()); }
+  explicit GrowingBox(const Vec3f& p) : least{p.x(), p.y(), p.z(), 0, -p.x(), -p.y(), -p.z(), 0} {}
+  void extend(const GrowingBox& other) {
+    for (std::size_t i = 0; i < 8; ++i) least[i] = other.least[i] < least[i] ? other.least[i] : least[i];
+  }
+  [[nodiscard]] float low(std::size_t axis) const { return least[axis]; }
+  [[nodiscard]] float high(std::size_t axis) const { return -least[4 + axis]; }
+  [[nodiscard]] bool is_zero() const {
+    return std::all_of(least.begin(), least.end(), [](float value) { return value == 0.0f; });
+  }
+  void widen() {
+    for (float& value : least) value -= kRounding * std::abs(value);
+  }
+};
+
+/// Triangles of a mesh in the order in which a Hilbert curve through bind space comes to their middles.
+std::vector<Index> order_along_curve(const Mesh& mesh, std::span<const Triangle> triangles) {
+  constexpr std::uint32_t kIndexBits = 30, kDigitBits = HilbertCurve::kBits;  // TornModel refuses more triangles than that
+  std::vector<Vec3f> middles(triangles.size());
+  GrowingBox box;
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    const auto& [a, b, c] = triangles[t];
+    middles[t] = (1.0f / 3) * mesh.positions[a] + (1.0f / 3) * mesh.positions[b] + (1.0f / 3) * mesh.positions[c];
+    box.extend(GrowingBox(middles[t]));
+  }
+  double size = 0;
+  for (std::size_t k = 0; k < 3; ++k) size = std::max(size, static_cast<double>(box.high(k)) - static_cast<double>(box.low(k)));
+  constexpr std::uint32_t kCells = 1u << HilbertCurve::kBits;
+  const double cells = size > 0 ? (kCells - 1) / size : 0;
+  std::vector<std::uint64_t> keys(triangles.size());
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    std::array<std::uint32_t, 3> cell;
+    for (std::size_t k = 0; k < 3; ++k)
+      cell[k] = static_cast<std::uint32_t>(
+          cells * (static_cast<double>(middles[t][static_cast<int>(k)]) - static_cast<double>(box.low(k))));
+    keys[t] = HilbertCurve::number_of(cell) << kIndexBits | t;
+  }
+
+  if (keys.size() < 4096) {
+    std::sort(keys.begin(), keys.end());
+  } else {  // least digit first: stable, so that the numbers at the keys' end stay in order
+    std::vector<std::uint64_t> sorted(keys.size());
+    for (std::uint32_t digit = 0; digit < 3; ++digit) {
+      const std::uint32_t shift = kIndexBits + digit * kDigitBits;
+      std::array<Index, std::size_t{1} << kDigitBits> begin{};
+      for (const std::uint64_t key : keys) ++begin[(key >> shift) % begin.size()];
+      Index sum = 0;
+      for (Index& first : begin) {
+        const Index count = first;
+        first = sum;
+        sum += count;
+      }
+      for (const std::uint64_t key : keys) sorted[begin[(key >> shift) % begin.size()]++] = key;
+      keys.swap(sorted);
+    }
+  }
+  std::vector<Index> order(keys.size());
+  for (std::size_t i = 0; i < keys.size(); ++i) order[i] = static_cast<Index>(keys[i] & ((std::uint64_t{1} << kIndexBits) - 1));
+  return order;
+}
+
+}  // namespace
+
+/// Describes nodes one after the other.
+class PatchTree::Builder {
+ public:
+  Builder(const Mesh& mesh, PatchTree& tree) : mesh_(mesh), tree_(tree) {
+    for (Index j = 0; j < mesh.morph_targets.size(); ++j)
+      if (!mesh.morph_targets[j].position_deltas.empty()) targets_.push_back(j);
+  }
+
+  void add_group(std::span<const Triangle> triangles, std::span<const Index> order) {
+    box_ = {};
+    std::uint32_t stamp = 0;
+    std::size_t most_influences = 0;
+    std::array<GrowingBox, kPatchesPerGroup> patches;
+    for (const Index t : order) {
+      const Triangle& triangle = triangles[t];
+      GrowingBox of_triangle(mesh_.positions[triangle[0]]);
+      of_triangle.extend(GrowingBox(mesh_.positions[triangle[1]]));
+      of_triangle.extend(GrowingBox(mesh_.positions[triangle[2]]));
+      patches[stamp / kPatchSize].extend(of_triangle);
+      ++stamp;
+      for (const Index vertex : triangle) {
+        const auto influences = mesh_.weights.of(vertex);
+        most_influences = std::max(most_influences, influences.size());
+        for (const Influence& influence : influences) {
+          Moved& moved = moved_by(influence.slot);
+          ++moved.corners;
+          moved.least = std::min(moved.least, influence.weight);
+          moved.greatest = std::max(moved.greatest, influence.weight);
+          if (moved.stamp == stamp) continue;
+          moved.stamp = stamp;
+          moved.box.extend(of_triangle);
+        }
+      }
+    }
+    const double slack = 2e-7 * static_cast<double>(most_influences + 1);
+    tree_.weight_slack_ = std::max(tree_.weight_slack_, slack);
+    const std::size_t patch_count = (order.size() + kPatchSize - 1) / kPatchSize;
+    for (GrowingBox& patch : std::span(patches).first(patch_count)) {
+      patch.widen();
+      box_.extend(patch);
+    }
+    for (const GrowingBox& patch : std::span(patches).first(patch_count)) tree_.patches_.push_back(within_box(patch));
+    for (Moved& moved : moved_) {
+      moved.box.widen();
+      const double least = moved.corners < 3 * order.size() ? 0.0 : static_cast<double>(moved.least);
+      moved.least_parts = static_cast<std::uint16_t>(least * (1 - 4 * slack) * kWeightParts);
+      moved.greatest_parts = static_cast<std::uint16_t>(
+          std::min(65535.0, std::ceil(static_cast<double>(moved.greatest) * (1 + 4 * slack) * kWeightParts)));
+    }
+    for (const Index j : targets_) {
+      GrowingBox displacement;
+      for (const Index t : order)
+        for (const Index vertex : triangles[t]) displacement.extend(GrowingBox(mesh_.morph_targets[j].position_deltas[vertex]));
+      displacement.widen();
+      if (!displacement.is_zero()) tree_.morphs_.push_back({j, stored(displacement)});
+    }
+    finish_node();
+  }
+
+  /// @param first, count  of its children, in nodes_.
+  void add_parent(Index first, Index count) {
+    box_ = {};
+    for (Index child = first; child < first + count; ++child) {
+      box_.extend(grown(tree_.nodes_[child].bind));
+      for (Index i = first_bone(child); i < first_bone(child + 1); ++i) {
+        const NodeBone& bone = tree_.bones_[i];
+        Moved& moved = moved_by(bone.slot);
+        if (moved.corners++ == 0) moved.least_parts = bone.least_weight;
+        moved.least_parts = std::min(moved.least_parts, bone.least_weight);
+        moved.greatest_parts = std::max(moved.greatest_parts, bone.greatest_weight);
+        moved.box.extend(box_of(bone, tree_.nodes_[child].bind));
+      }
+    }
+    for (Moved& moved : moved_)
+      if (moved.corners < count) moved.least_parts = 0;
+    for (const Index j : targets_) {
+      GrowingBox displacement;
+      for (Index child = first; child < first + count; ++child) {
+        const auto of_child =
+            std::span(tree_.morphs_).subspan(tree_.first_morph_[child], tree_.first_morph_[child + 1] - tree_.first_morph_[child]);
+        const auto found =
+            std::find_if(of_child.begin(), of_child.end(), [&](const NodeMorph& morph) { return morph.target == j; });
+        displacement.extend(found == of_child.end() ? GrowingBox(Vec3f::Zero()) : grown(found->displacement));
+      }
+      if (!displacement.is_zero()) tree_.morphs_.push_back({j, stored(displacement)});
+    }
+    finish_node();
+  }
+
+  /// Begins the next node. Once more after the last.
+  void begin_node() {
+    tree_.nodes_.push_back({{}, static_cast<Index>(tree_.bones_.size())});
+    if (!targets_.empty()) tree_.first_morph_.push_back(static_cast<Index>(tree_.morphs_.size()));
+  }
+
+ private:
+  struct Moved {
+    Index slot = 0;
+    Index corners = 0;  ///< That the bone moves; of a parent, children.
+    std::uint32_t stamp = 0;
+    float least = std::numeric_limits<float>::infinity(), greatest = 0;
+    std::uint16_t least_parts = 0, greatest_parts = 0;
+    GrowingBox box;
+  };
+
+  Moved& moved_by(Index slot) {
+    if (slot >= place_of_slot_.size()) place_of_slot_.resize(slot + std::size_t{1}, kNone);
+    Index& place = place_of_slot_[slot];
+    if (place == kNone) {
+      place = static_cast<Index>(moved_.size());
+      moved_.emplace_back().slot = slot;
+    }
+    return moved_[place];
+  }
+
+  [[nodiscard]] Index first_bone(Index node) const { return tree_.nodes_[node].first_bone; }
+
+  static FloatBox stored(const GrowingBox& box) {
+    return {{{box.low(0), box.low(1), box.low(2)}, {box.high(0), box.high(1), box.high(2)}}};
+  }
+  static GrowingBox grown(const FloatBox& box) {
+    GrowingBox result(Vec3f(box[0][0], box[0][1], box[0][2]));
+    result.extend(GrowingBox(Vec3f(box[1][0], box[1][1], box[1][2])));
+    return result;
+  }
+  /// Rounded outward.
+  static GrowingBox box_of(const NodeBone& bone, const FloatBox& within) {
+    FloatBox box;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double low = static_cast<double>(within[0][k]), high = static_cast<double>(within[1][k]);
+      const double part = (high - low) / kBoxParts;
+      constexpr float kInfinity = std::numeric_limits<float>::infinity();
+      box[0][k] = std::nextafter(static_cast<float>(low + bone.box.low[k] * part), -kInfinity);
+      box[1][k] = std::nextafter(static_cast<float>(high - bone.box.high[k] * part), kInfinity);
+    }
+    return grown(box);
+  }
+
+  /// Rounded outward, within the node's box.
+  [[nodiscard]] InnerBox within_box(const GrowingBox& inner) const {
+    InnerBox result{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double low = static_cast<double>(box_.low(k)), high = static_cast<double>(box_.high(k));
+      const double parts = high > low ? kBoxParts / (high - low) : 0;
+      const auto whole = [&](double distance) { return static_cast<std::uint8_t>(std::clamp(distance * parts, 0.0, kBoxParts)); };
+      result.low[k] = whole(static_cast<double>(inner.low(k)) - low);
+      result.high[k] = whole(high - static_cast<double>(inner.high(k)));
+    }
+    return result;
+  }
+
+  void finish_node() {
+    Node& node = tree_.nodes_.back();
+    node.bind = stored(box_);
+    const std::size_t first = tree_.bones_.size();
+    std::size_t main = 0;
+    for (std::size_t i = 0; i < moved_.size(); ++i) {
+      const Moved& moved = moved_[i];
+      place_of_slot_[moved.slot] = kNone;
+      tree_.is_bounded_ = tree_.is_bounded_ && moved.slot < kMaximumSlots;
+      tree_.bones_.push_back(
+          {static_cast<std::uint16_t>(moved.slot), moved.least_parts, moved.greatest_parts, within_box(moved.box)});
+      const auto weight = [&](const Moved& of) { return int{of.least_parts} + int{of.greatest_parts}; };
+      if (weight(moved) > weight(moved_[main])) main = i;
+    }
+    if (!moved_.empty()) std::swap(tree_.bones_[first], tree_.bones_[first + main]);
+    moved_.clear();
+  }
+
+  const Mesh& mesh_;
+  PatchTree& tree_;
+  std::vector<Index> targets_;        ///< That displace positions.
+  GrowingBox box_;                    ///< Of the node.
+  std::vector<Moved> moved_;          ///< By each bone that moves the node.
+  std::vector<Index> place_of_slot_;  ///< In moved_.
+};
+
+PatchTree::PatchTree(const Mesh& mesh, std::span<const Triangle> triangles, Index first_origin)
+    : origins_(order_along_curve(mesh, triangles)) {
+  const auto parts_of = [](Index count, Index size) { return (count + size - 1) / size; };
+  const auto triangle_count = static_cast<Index>(triangles.size());
+  const Index group_count = parts_of(triangle_count, kGroupSize);
+  first_of_level_ = {0, group_count};
+  for (Index count = group_count; count > 1; first_of_level_.push_back(first_of_level_.back() + count))
+    count = parts_of(count, kFanOut);
+  nodes_.reserve(first_of_level_.back() + std::size_t{1});
+  patches_.reserve(parts_of(triangle_count, kPatchSize));
+
+  Builder builder(mesh, *this);
+  for (Index group = 0; group < group_count; ++group) {
+    builder.begin_node();
+    builder.add_group(triangles, part_of(origins_, group, kGroupSize));
+  }
+  for (Index level = 1; level < level_count(); ++level)
+    for (Index number = 0; number < node_count(level); ++number) {
+      builder.begin_node();
+      const Index first = kFanOut * number;
+      builder.add_parent(first_of_level_[level - 1] + first, std::min(kFanOut, node_count(level - 1) - first));
+    }
+  builder.begin_node();
+  bones_.shrink_to_fit();
+  morphs_.shrink_to_fit();
+  first_morph_.shrink_to_fit();
+  posed_.resize(nodes_.size() - 1);
+  posed_since_.resize(nodes_.size() - 1, 0);
+  for (Index& origin : origins_) origin += first_origin;
+}
+
+std::size_t PatchTree::bytes() const {
+  const auto bytes_of = [](const auto& values) { return values.capacity() * sizeof(values[0]); };
+  return bytes_of(origins_) + bytes_of(patches_) + bytes_of(nodes_) + bytes_of(bones_) + bytes_of(morphs_) +
+         bytes_of(first_morph_) + bytes_of(posed_) + bytes_of(posed_since_);
+}
+
+/// Where a pose may put boxes of a node.
+class PatchTree::Bound {
+ public:
+  Bound(const PatchTree& tree, Index node, const MeshPose& pose) : tree_(tree), pose_(pose), bones_(tree.bones_of(node)) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      double low = static_cast<double>(tree.nodes_[node].bind[0][k]), high = static_cast<double>(tree.nodes_[node].bind[1][k]);
+      half_part_[k] = (high - low) * (0.5 / kBoxParts);
+      largest_[k] = std::max(std::abs(low), std::abs(high));
+      whole_.middle[k] = 0.5 * (low + high);
+      whole_.half[k] = 0.5 * (high - low);
+    }
+    if (!tree.first_morph_.empty()) add_morphs(node);
+  }
+
+  struct BindBox {
+    std::array<double, 3> middle, half;
+  };
+  [[nodiscard]] BindBox bind_box(const InnerBox& inner) const {
+    if (inner.is_whole()) return whole_;
+    BindBox box;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const int low = inner.low[k], high = inner.high[k];
+      box.middle[k] = whole_.middle[k] + half_part_[k] * (low - high);
+      box.half[k] = whole_.half[k] - half_part_[k] * (low + high);
+    }
+    return box;
+  }
+
+  /// @param bind_box_of  of what a bone moves.
+  template <class BindBoxOf>
+  [[nodiscard]] Box posed(BindBoxOf bind_box_of) const {
+    using Lanes = PosedBones::Lanes;
+    Lanes hull_low = Lanes::Zero(), hull_high = hull_low, main_low = hull_low, main_high = hull_low, mean_low = hull_low,
+          mean_high = hull_low;
+    for (std::size_t i = 0; i < bones_.size(); ++i) {
+      const NodeBone& moved = bones_[i];
+      const PosedBones::Bone& bone = pose_.bones.at(moved.slot);
+      const BindBox box = bind_box_of(moved);
+      const double rounding = bone.rounding_of_translation + bone.rounding[0] * largest_[0] + bone.rounding[1] * largest_[1] +
+                              bone.rounding[2] * largest_[2];
+      const Lanes middle = bone.translation + bone.x * box.middle[0] + bone.y * box.middle[1] + bone.z * box.middle[2];
+      const Lanes half = rounding + bone.size_of_x * box.half[0] + bone.size_of_y * box.half[1] + bone.size_of_z * box.half[2];
+      const Lanes low = middle - half, high = middle + half;  // M_i B_i
+      if (i == 0) {
+        hull_low = main_low = mean_low = low;
+        hull_high = main_high = mean_high = high;
+        continue;
+      }
+      hull_low = hull_low.min(low);
+      hull_high = hull_high.max(high);
+      // w_main = 1 - sum of the others: each of those moves the mean from the main bone's place towards its own.
+      const double least = moved.least_weight * (1 / kWeightParts), greatest = moved.greatest_weight * (1 / kWeightParts);
+      const Lanes down = low - main_low, up = high - main_high;
+      mean_low += (least * down).min(greatest * down);
+      mean_high += (least * up).max(greatest * up);
+    }
+    const Lanes slack = tree_.weight_slack_ * hull_low.abs().max(hull_high.abs());
+    hull_low = hull_low.max(mean_low) - slack;
+    hull_high = hull_high.min(mean_high) + slack;
+    const Box box{hull_low.head<3>(), hull_high.head<3>()};
+    if (tree_.is_bounded_ && box.low.allFinite() && box.high.allFinite()) return box;
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();  // something overflowed
+    return {Vec3d::Constant(-kInfinity), Vec3d::Constant(kInfinity)};
+  }
+
+ private:
+  void add_morphs(Index node) {
+    for (Index i = tree_.first_morph_[node]; i < tree_.first_morph_[node + 1]; ++i) {
+      const double weight = static_cast<double>(pose_.morph_weights[tree_.morphs_[i].target]);
+      for (std::size_t k = 0; k < 3; ++k) {
+        const double a = weight * static_cast<double>(tree_.morphs_[i].displacement[0][k]);
+        const double b = weight * static_cast<double>(tree_.morphs_[i].displacement[1][k]);
+        whole_.middle[k] += 0.5 * (a + b);
+        whole_.half[k] += 0.5 * std::abs(a - b);
+        largest_[k] += std::max(std::abs(a), std::abs(b));
+      }
+    }
+  }
+
+  const PatchTree& tree_;
+  const MeshPose& pose_;
+  std::span<const NodeBone> bones_;
+  BindBox whole_;                    ///< The node's, morphs included.
+  std::array<double, 3> half_part_;  ///< Half of what inner boxes are measured in.
+  std::array<double, 3> largest_;    ///< What rounding is measured by.
+};
+
+Box PatchTree::compute_posed_box(Index node, const MeshPose& pose) const {
+  const Bound bound(*this, node, pose);
+  return bound.posed([&](const NodeBone& bone) { return bound.bind_box(bone.box); });
+}
+
+Index PatchTree::compute_posed_patches(Index group, const MeshPose& pose, std::array<Box, kPatchesPerGroup>& boxes) const {
+  const Bound bound(*this, group, pose);
+  const Index first = kPatchesPerGroup * group, count = std::min(kPatchesPerGroup, patch_count() - first);
+  for (Index i = 0; i < count; ++i) {
+    const Bound::BindBox box = bound.bind_box(patches_[first + i]);
+    boxes[i] = bound.posed([&](const NodeBone&) -> const Bound::BindBox& { return box; });
+  }
+  return count;
+}
+
+}  // namespace sunder::tear
