@@ -9,34 +9,6 @@
 namespace sunder::tear {
 namespace {
 
-/// The live faces on both sides of whose plane there are corners, and which no bound shuts out.
-std::vector<Index> faces_across(const Sheet& sheet, const SurfaceEditor& editor, PosedPoints& posed) {
-  const Surface& surface = editor.surface();
-  const Mat3d axes =
-      axes_along(sheet.plane.normal, sheet.bounds.empty() ? Vec3d(Vec3d::Zero()) : sheet.bounds[0].half_space.normal);
-  std::vector<HalfSpace> sides = {in_axes(axes, sheet.plane), in_axes(axes, {-sheet.plane.normal, -sheet.plane.offset})};
-  for (const Sheet::Bound& bound : sheet.bounds) sides.push_back(in_axes(axes, bound.half_space));
-  const auto may_meet = [&](const Box& box) {
-    return std::none_of(sides.begin(), sides.end(), [&](const HalfSpace& side) { return is_outside(side, box); });
-  };
-  std::vector<Index> faces;
-  posed.for_each_face(editor, axes, may_meet, [&](Index face) {
-    std::array<Vec3d, 3> corners;
-    for (Index k = 0; k < 3; ++k) corners[k] = posed.position(editor, surface.corner_point[3 * face + k]);
-    const auto has_corner_in = [&](const HalfSpace& half_space) {
-      return std::any_of(corners.begin(), corners.end(), [&](const Vec3d& corner) { return half_space.contains(corner); });
-    };
-    const bool is_across = has_corner_in(sheet.plane) && std::any_of(corners.begin(), corners.end(), [&](const Vec3d& corner) {
-                             return !sheet.plane.contains(corner);
-                           });
-    if (is_across && std::all_of(sheet.bounds.begin(), sheet.bounds.end(),
-                                 [&](const Sheet::Bound& bound) { return has_corner_in(bound.half_space); }))
-      faces.push_back(face);
-  });
-  std::sort(faces.begin(), faces.end());
-  return faces;
-}
-
 /// Each edge once. An edge with the inside of the sheet at both its sides, or at neither, is one where the surface only touches it.
 void drop_touching(std::vector<PointEdge>& edges) {
   std::vector<PointEdge> sorted = edges;
@@ -83,6 +55,33 @@ bool is_on_border(const Surface& surface, Index point) {
 }
 
 }  // namespace
+
+std::vector<Index> faces_across(const Sheet& sheet, const SurfaceEditor& editor, PosedPoints& posed) {
+  const Surface& surface = editor.surface();
+  const Mat3d axes =
+      axes_along(sheet.plane.normal, sheet.bounds.empty() ? Vec3d(Vec3d::Zero()) : sheet.bounds[0].half_space.normal);
+  std::vector<HalfSpace> sides = {in_axes(axes, sheet.plane), in_axes(axes, {-sheet.plane.normal, -sheet.plane.offset})};
+  for (const Sheet::Bound& bound : sheet.bounds) sides.push_back(in_axes(axes, bound.half_space));
+  const auto may_meet = [&](const Box& box) {
+    return std::none_of(sides.begin(), sides.end(), [&](const HalfSpace& side) { return is_outside(side, box); });
+  };
+  std::vector<Index> faces;
+  posed.for_each_face(editor, axes, may_meet, [&](Index face) {
+    std::array<Vec3d, 3> corners;
+    for (Index k = 0; k < 3; ++k) corners[k] = posed.position(editor, surface.corner_point[3 * face + k]);
+    const auto has_corner_in = [&](const HalfSpace& half_space) {
+      return std::any_of(corners.begin(), corners.end(), [&](const Vec3d& corner) { return half_space.contains(corner); });
+    };
+    const bool is_across = has_corner_in(sheet.plane) && std::any_of(corners.begin(), corners.end(), [&](const Vec3d& corner) {
+                             return !sheet.plane.contains(corner);
+                           });
+    if (is_across && std::all_of(sheet.bounds.begin(), sheet.bounds.end(),
+                                 [&](const Sheet::Bound& bound) { return has_corner_in(bound.half_space); }))
+      faces.push_back(face);
+  });
+  std::sort(faces.begin(), faces.end());
+  return faces;
+}
 
 SheetOpening open_sheet(const Sheet& sheet, const Workpiece& work, std::vector<LipPair>& lips) {
   SurfaceEditor& editor = work.editor;

@@ -18,6 +18,9 @@ struct SheetOpening {
   double length_posed = 0;
 };
 
+/// The live faces on both sides of whose plane there are corners, and which no bound shuts out, ascending.
+[[nodiscard]] std::vector<Index> faces_across(const Sheet& sheet, const SurfaceEditor& editor, PosedPoints& posed);
+
 /// Opens the posed surface, every layer of it, where it meets a sheet.
 [[nodiscard]] SheetOpening open_sheet(const Sheet& sheet, const Workpiece& work, std::vector<LipPair>& lips);
 

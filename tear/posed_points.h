@@ -2,6 +2,7 @@
 
 #include <sunder/core/pose.h>
 
+#include <algorithm>
 #include <limits>
 #include <vector>
 
@@ -51,6 +52,11 @@ class PosedPoints {
         });
   }
   [[nodiscard]] PatchForest& forest() { return forest_; }
+
+  /// How many points have been posed or pinned since begin(). O(all points).
+  [[nodiscard]] std::size_t known_count() const {
+    return static_cast<std::size_t>(std::count(known_since_.begin(), known_since_.end(), epoch_));
+  }
 
   /// Forgets the points from `first_point` up, which were taken back.
   void forget_from(Index first_point);
