@@ -55,7 +55,8 @@ class PosedPoints {
 
   /// How many points have been posed or pinned since begin(). O(all points).
   [[nodiscard]] std::size_t known_count() const {
-    return static_cast<std::size_t>(std::count(known_since_.begin(), known_since_.end(), epoch_));
+    return static_cast<std::size_t>(
+        std::count_if(known_.begin(), known_.end(), [&](const Known& known) { return known.since == epoch_; }));
   }
 
   /// Forgets the points from `first_point` up, which were taken back.
