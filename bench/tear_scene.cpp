@@ -84,8 +84,13 @@ const Scene& scene_of(int divisions) {
   if (!model) std::abort();
   scene.model_ = std::make_unique<TornModel>(std::move(*model));
   Eigen::AlignedBox3d box;
-  for (const Vec3d& position : posed_positions(scene, scene.poses[0])) box.extend(Eigen::Vector3d(position));
-  scene.middle_plane = {box.center(), {1, 0.1, 0.2}, {}, false};
+  Vec3d sum = Vec3d::Zero();
+  const std::vector<Vec3d> positions = posed_positions(scene, scene.poses[0]);
+  for (const Vec3d& position : positions) {
+    box.extend(Eigen::Vector3d(position));
+    sum += position;
+  }
+  scene.middle_plane = {sum / static_cast<double>(positions.size()), {1, 0.1, 0.2}, {}, false};
   fit_stroke(box, scene);
   std::fprintf(stderr, "%s %s: %u points, %u faces; the stroke crosses %u\n", scene.character->name.c_str(),
                size_name(divisions).c_str(), scene.mesh().vertex_count(), scene.mesh().triangle_count(), scene.faces_crossed);

@@ -54,7 +54,7 @@ struct Candidate {
   std::function<double()> run;
   Effort effort;    ///< Of one turn.
   int turns = 10;   ///< It takes part in.
-  int warm_up = 1;  ///< Runs before each turn that do not count.
+  int warm_up = 3;  ///< Runs before each turn that do not count.
   std::vector<double> seconds = {};
 };
 
@@ -85,7 +85,7 @@ Tears measure_tears() {
 #if SUNDER_BENCH_CGAL
   CgalPeer smallest(scene_of(kSmallest)), largest(scene_of(kLargest));
   candidates.push_back({[&] { return smallest.corefine(); }, {10, 0.2, 2}});
-  candidates.push_back({[&] { return largest.corefine(); }, {1, 0, 1}, 2, 0});
+  candidates.push_back({[&] { return largest.corefine(); }, {1, 0, 1}, 3, 0});
 #endif
   measure_in_turns(candidates);
   Tears result;

@@ -9,7 +9,6 @@
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataPlaneClipper.h>
-#include <vtkSMPTools.h>
 
 #include "bench/measure.h"
 
@@ -21,7 +20,7 @@ struct VtkPeer::State {
 };
 
 VtkPeer::VtkPeer(const Scene& scene) : state_(std::make_unique<State>()) {
-  vtkSMPTools::Initialize(1);
+  setenv("VTK_SMP_BACKEND_IN_USE", "Sequential", 1);  // its header is not C++20
   const Mesh& mesh = scene.mesh();
   vtkNew<vtkPoints> points;
   points->SetDataTypeToFloat();
