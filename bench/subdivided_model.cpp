@@ -37,7 +37,7 @@ Character make_base() {
     bunny.meshes.push_back(std::move(mesh));
     return bunny;
   }
-  std::fprintf(stderr, "%s is not there: a procedural ball of 3,486 points instead\n", file.c_str());
+  std::fprintf(stderr, "%s is not there: a procedural ball instead\n", file.c_str());
   return test::make_bumpy_ball(3486);
 }
 
