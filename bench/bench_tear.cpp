@@ -1,148 +1,224 @@
-// Operations on a tube of 64 bones in a bent pose, on meshes of 3.5 thousand to 173 thousand vertices: a tear across about 60 faces
-// with and without width, a cut, a bore, undo and redo, and a stroke that arrives in 200 pieces.
-#include <sunder/skinning/palette.h>
-#include <sunder/skinning/reference.h>
-#include <sunder/tear/tear_stroke.h>
-#include <sunder/tear/torn_model.h>
-
-#include <chrono>
-#include <cmath>
-#include <numeric>
+// What tears cost: the same stroke across about a hundred faces of one surface of 3.5 thousand to 0.9 million points, beside what
+// the memory alone would cost, and beside CGAL and VTK where they are. Each time is the median of many runs; see tear_scene.h.
+#include <cstdio>
+#include <cstring>
 
 #include <benchmark/benchmark.h>
 
-#include "support/rigs.h"
+#include "bench/long_stroke.h"
+#include "bench/measure.h"
+#include "bench/model_memory.h"
+#include "bench/repeated_operation.h"
+#include "bench/tear_stages.h"
+#include "bench/tear_summary.h"
+#include "bench/touch_baseline.h"
 
-namespace sunder {
+#if SUNDER_BENCH_CGAL
+#include "bench/cgal_peer.h"
+#endif
+#if SUNDER_BENCH_VTK
+#include "bench/vtk_peer.h"
+#endif
+
+namespace sunder::bench {
 namespace {
 
-struct Scene {
-  explicit Scene(std::uint32_t sides) : character(std::make_shared<const Character>(test::make_tube(sides, sides, 64))) {
-    test::Random random(1);
-    pose = test::random_pose(*character, random, 0.05, 1.0);
-    // The stroke follows about 30 squares of the mesh, whatever their size: the tear is the same, the model grows.
-    const double faces = 30.0 / sides;
-    stroke = test::random_stroke(*character, pose, random, faces, 4);
-  }
-  std::shared_ptr<const Character> character;
-  ModelPose pose;
-  Stroke stroke;
-};
+constexpr Effort kUsual = {300, 4, 5}, kHeavy = {20, 4, 2};
 
-/// Times `operation` on a model that is made anew for each run.
-template <class Operation>
-void operate(benchmark::State& state, Operation operation) {
-  const Scene scene(static_cast<std::uint32_t>(state.range(0)));
-  TearReport report;
+const Scene& scene_in(const benchmark::State& state) { return scene_of(static_cast<int>(state.range(0))); }
+
+/// Reports the median of what `run` returns, in seconds.
+template <class Run>
+void report_median(benchmark::State& state, const Effort& effort, Run run) {
+  state.counters["points"] = scene_in(state).mesh().vertex_count();
   for (auto _ : state) {
-    state.PauseTiming();
-    auto model = TornModel::create(scene.character);
-    state.ResumeTiming();
-    const auto done = operation(*model, scene);
-    if (!done || done->runs + done->triangles_retired == 0) state.SkipWithError("nothing was torn");
-    if (done) report = *done;
-    state.PauseTiming();
-    model = Status();  // destroyed outside of what is measured
-    state.ResumeTiming();
+    run();  // warms up
+    const auto seconds = sample(effort, run);
+    state.SetIterationTime(median(seconds));
+    state.counters["runs"] = static_cast<double>(seconds.size());
   }
-  state.counters["vertices"] = scene.character->meshes[0].vertex_count();
-  state.counters["faces_crossed"] = report.faces_crossed;
 }
 
-Result<TearReport> tear_along(TornModel& model, const Scene& scene, double width) {
-  return model.tear(scene.pose, scene.stroke, {width, Layers::nearest, 0.0});
+template <RepeatedOperation::Work work>
+void operate(benchmark::State& state, Caches caches, const Effort& effort) {
+  RepeatedOperation operation(scene_in(state), work);
+  report_median(state, effort, [&] { return operation.run(caches); });
+  state.counters["faces_crossed"] = operation.report.faces_crossed;
+  state.counters["allocations"] = static_cast<double>(operation.allocations);
 }
 
-void tear_once(benchmark::State& state) {
-  operate(state, [](TornModel& model, const Scene& scene) { return tear_along(model, scene, 0.0); });
+void tear_warm(benchmark::State& state) { operate<tear_along_stroke>(state, Caches::warm, kUsual); }
+void tear_cold(benchmark::State& state) { operate<tear_along_stroke>(state, Caches::swept, kUsual); }
+void width_warm(benchmark::State& state) { operate<tear_with_width>(state, Caches::warm, kUsual); }
+void drill_warm(benchmark::State& state) { operate<drill_through>(state, Caches::warm, kHeavy); }
+void cut_whole(benchmark::State& state) { operate<cut_in_two>(state, Caches::warm, kHeavy); }
+void cut_whole_with_caps(benchmark::State& state) { operate<cut_with_caps>(state, Caches::warm, kHeavy); }
+
+void undo(benchmark::State& state) {
+  RepeatedOperation tear(scene_in(state), tear_along_stroke);
+  report_median(state, kUsual, [&] { return tear.run_undo_and_redo().undo; });
 }
 
-void tear_with_width(benchmark::State& state) {
-  operate(state, [](TornModel& model, const Scene& scene) { return tear_along(model, scene, 0.05); });
+void redo(benchmark::State& state) {
+  RepeatedOperation tear(scene_in(state), tear_along_stroke);
+  report_median(state, kUsual, [&] { return tear.run_undo_and_redo().redo; });
 }
 
-void cut_once(benchmark::State& state) {
-  operate(state, [](TornModel& model, const Scene& scene) {
-    const Blade& blade = scene.stroke[0];
-    return model.cut(scene.pose, {blade.base + 2.0 / 3 * (blade.tip - blade.base), {0.1, 1, 0.2}, {}, true});
+/// Where a warm tear's time goes, by the same steps on a surface of its own; what these do not explain is the rest. Both in turns.
+void tear_in_stages(benchmark::State& state) {
+  RepeatedOperation tear(scene_in(state), tear_along_stroke);
+  StagedTear staged(scene_in(state));
+  std::vector<double> whole;
+  std::vector<Stages> runs;
+  report_median(state, kUsual, [&] {
+    whole.push_back(tear.run());
+    return runs.emplace_back(staged.run()).sum();
   });
-}
-
-void drill_once(benchmark::State& state) {
-  operate(state, [](TornModel& model, const Scene& scene) {
-    const Blade& blade = scene.stroke[0];
-    return model.drill(scene.pose, {blade.base, blade.tip - blade.base, 0.1, (blade.tip - blade.base).norm(), 0.0, true});
-  });
-}
-
-void undo_and_redo(benchmark::State& state) {
-  const Scene scene(static_cast<std::uint32_t>(state.range(0)));
-  auto model = TornModel::create(scene.character);
-  if (!tear_along(*model, scene, 0.0)) state.SkipWithError("nothing was torn");
-  for (auto _ : state)
-    if (!model->undo() || !model->redo()) state.SkipWithError("nothing to undo");
-  state.counters["vertices"] = scene.character->meshes[0].vertex_count();
-}
-
-/// A stroke along the tube at rest, 200 extensions. What one costs does not depend on how many came before.
-void extend_stroke(benchmark::State& state) {
-  const Scene scene(static_cast<std::uint32_t>(state.range(0)));
-  test::Random random(1);
-  const ModelPose rest = test::random_pose(*scene.character, random, 0.0, 1.0);
-  constexpr int kSegments = 200, kCompared = 20;
-  const auto blade = [](int i) {
-    const double across = 0.1 * std::sin(0.2 * i), along = 2 + 60.0 * i / kSegments;
-    return Blade{{across, along, 1.0}, {across, along, 0.2}};
+  double explained_us = 0;
+  const auto report = [&](const char* name, auto seconds) {
+    std::vector<double> values;
+    for (const Stages& stages : runs) values.push_back(seconds(stages) * 1e6);
+    explained_us += state.counters[name] = median(values);
   };
-  std::vector<double> seconds(kSegments, 0.0);
+  report("us_pose", [](const Stages& s) { return s.pose; });
+  report("us_query", [](const Stages& s) { return s.query; });
+  report("us_imprint", [](const Stages& s) { return s.imprint - s.attributes; });
+  report("us_attributes", [](const Stages& s) { return s.attributes; });
+  report("us_open", [](const Stages& s) { return s.open; });
+  report("us_improve", [](const Stages& s) { return s.improve; });
+  report("us_change_record", [](const Stages& s) { return s.change_record; });
+  state.counters["us_rest"] = median(whole) * 1e6 - explained_us;
+}
+
+/// Where a stroke enters the surface, in a fresh pose; the pose alone beside it.
+void entry_query(benchmark::State& state) {
+  StagedTear staged(scene_in(state));
+  std::vector<double> pose_us;
+  report_median(state, kUsual, [&] {
+    const Stages stages = staged.run_query();
+    pose_us.push_back(stages.pose * 1e6);
+    return stages.query;
+  });
+  state.counters["us_pose"] = median(pose_us);
+}
+
+/// create() and the first tear together, and apart.
+void create_and_first_tear(benchmark::State& state) {
+  RepeatedOperation tear(scene_in(state), tear_along_stroke);
+  tear.run();
+  const double warm = median(sample(kHeavy, [&] { return tear.run(); }));
+  std::vector<double> create, first;
+  report_median(state, {5, 4, 2}, [&] {
+    const FirstTear seconds = time_first_tear(scene_in(state));
+    create.push_back(seconds.create);
+    first.push_back(seconds.tear);
+    return seconds.create + seconds.tear;
+  });
+  state.counters["us_create"] = median(create) * 1e6;
+  state.counters["us_first_tear"] = median(first) * 1e6;
+  state.counters["build_ns_per_face"] = (median(create) + median(first) - warm) * 1e9 / scene_in(state).mesh().triangle_count();
+}
+
+void long_stroke(benchmark::State& state) {
   for (auto _ : state) {
-    auto model = TornModel::create(scene.character);
-    auto stroke = TearStroke::begin(*model, rest, blade(0));
-    const double before = std::accumulate(seconds.begin(), seconds.end(), 0.0);
-    for (int i = 0; i < kSegments; ++i) {
-      const auto begin = std::chrono::steady_clock::now();
-      if (!stroke->extend(rest, blade(i + 1))) state.SkipWithError("nothing was torn");
-      seconds[i] += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    }
-    state.SetIterationTime(std::accumulate(seconds.begin(), seconds.end(), 0.0) - before);
-    if (!stroke->end()) state.SkipWithError("nothing was torn");
+    const LongStroke stroke = time_long_stroke(static_cast<int>(state.range(0)));
+    state.SetIterationTime(stroke.last_20 * 1e-6);
+    state.counters["us_first"] = stroke.first;
+    state.counters["us_second_to_21st"] = stroke.second_to_21st;
+    state.counters["us_last_20"] = stroke.last_20;
   }
-  const auto microseconds = [&](auto begin) {
-    return std::accumulate(begin, begin + kCompared, 0.0) / kCompared * 1e6 / static_cast<double>(state.iterations());
-  };
-  state.counters["vertices"] = scene.character->meshes[0].vertex_count();
-  state.counters["us_second_to_21st"] = microseconds(seconds.begin() + 1);  // the first one enters
-  state.counters["us_last_20"] = microseconds(seconds.end() - kCompared);
-  state.counters["us_first"] = seconds[0] * 1e6 / static_cast<double>(state.iterations());
 }
 
-void build_model(benchmark::State& state) {
-  const Scene scene(static_cast<std::uint32_t>(state.range(0)));
-  for (auto _ : state) benchmark::DoNotOptimize(TornModel::create(scene.character));
-  state.counters["vertices"] = scene.character->meshes[0].vertex_count();
-  state.counters["per_face"] = benchmark::Counter(static_cast<double>(scene.character->meshes[0].triangle_count()),
-                                                  benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+void memory(benchmark::State& state) {
+  for (auto _ : state) {
+    double bytes = 0;
+    state.SetIterationTime(seconds_of([&] { bytes = bytes_per_point(scene_in(state)); }));
+    state.counters["bytes_per_point"] = bytes;
+  }
 }
+
+/// Baseline: what memory alone costs a tear.
+template <Caches caches>
+void touch_memory(benchmark::State& state) {
+  TouchBaseline baseline(scene_in(state));
+  report_median(state, kUsual, [&] { return baseline.run(caches); });
+}
+
+void touch_warm(benchmark::State& state) { touch_memory<Caches::warm>(state); }
+void touch_cold(benchmark::State& state) { touch_memory<Caches::swept>(state); }
 
 /// Baseline: poses every vertex once, in double, as a tool that works on the whole model must.
 void pose_whole_model(benchmark::State& state) {
-  const Scene scene(static_cast<std::uint32_t>(state.range(0)));
-  for (auto _ : state) benchmark::DoNotOptimize(test::posed_positions(*scene.character, 0, scene.pose));
-  state.counters["vertices"] = scene.character->meshes[0].vertex_count();
+  const Scene& scene = scene_in(state);
+  report_median(state, kHeavy,
+                [&] { return seconds_of([&] { benchmark::DoNotOptimize(posed_positions(scene, scene.next_pose()).data()); }); });
 }
 
-void at_three_sizes(benchmark::internal::Benchmark* benchmark) {
-  benchmark->Arg(59)->Arg(187)->Arg(416)->Unit(benchmark::kMicrosecond);
+void at_four_sizes(benchmark::internal::Benchmark* benchmark) {
+  for (const int divisions : kDivisions) benchmark->Arg(divisions);
+  benchmark->Iterations(1)->UseManualTime()->Unit(benchmark::kMicrosecond);
 }
 
-BENCHMARK(pose_whole_model)->Apply(at_three_sizes);
-BENCHMARK(build_model)->Apply(at_three_sizes);
-BENCHMARK(tear_once)->Apply(at_three_sizes);
-BENCHMARK(tear_with_width)->Apply(at_three_sizes);
-BENCHMARK(cut_once)->Apply(at_three_sizes);
-BENCHMARK(drill_once)->Apply(at_three_sizes);
-BENCHMARK(undo_and_redo)->Apply(at_three_sizes);
-BENCHMARK(extend_stroke)->Apply(at_three_sizes)->UseManualTime();
+BENCHMARK(tear_warm)->Apply(at_four_sizes);
+BENCHMARK(tear_cold)->Apply(at_four_sizes);
+BENCHMARK(tear_in_stages)->Apply(at_four_sizes);
+BENCHMARK(entry_query)->Apply(at_four_sizes);
+BENCHMARK(touch_warm)->Apply(at_four_sizes);
+BENCHMARK(touch_cold)->Apply(at_four_sizes);
+BENCHMARK(pose_whole_model)->Apply(at_four_sizes);
+BENCHMARK(undo)->Apply(at_four_sizes);
+BENCHMARK(redo)->Apply(at_four_sizes);
+BENCHMARK(width_warm)->Apply(at_four_sizes);
+BENCHMARK(drill_warm)->Apply(at_four_sizes);
+BENCHMARK(long_stroke)->Apply(at_four_sizes);
+BENCHMARK(create_and_first_tear)->Apply(at_four_sizes);
+BENCHMARK(memory)->Apply(at_four_sizes);
+BENCHMARK(cut_whole)->Apply(at_four_sizes);
+BENCHMARK(cut_whole_with_caps)->Apply(at_four_sizes);
+
+#if SUNDER_BENCH_VTK
+void vtk_plane_clipper(benchmark::State& state) {
+  VtkPeer peer(scene_in(state));
+  report_median(state, kHeavy, [&] { return peer.clip(); });
+}
+BENCHMARK(vtk_plane_clipper)->Apply(at_four_sizes);
+#endif
+
+#if SUNDER_BENCH_CGAL
+void cgal_corefine(benchmark::State& state) {
+  CgalPeer peer(scene_in(state));
+  report_median(state, kHeavy, [&] { return peer.corefine(); });
+  state.counters["new_vertices"] = static_cast<double>(peer.new_vertices());
+}
+BENCHMARK(cgal_corefine)->Name("cgal_corefine_8_floats")->Apply(at_four_sizes);
+
+void cgal_tree_query(benchmark::State& state) {
+  CgalPeer peer(scene_in(state));
+  state.counters["us_build"] = median(sample({5, 2, 1}, [&] { return peer.build_tree(); })) * 1e6;
+  report_median(state, kUsual, [&] { return peer.query_tree(); });
+}
+BENCHMARK(cgal_tree_query)->Apply(at_four_sizes);
+#endif
 
 }  // namespace
-}  // namespace sunder
+}  // namespace sunder::bench
+
+int main(int argc, char** argv) {
+  const auto print_help = [] {
+    std::fputs(sunder::bench::kSummaryHelp, stdout);
+    std::printf("\n");
+    benchmark::PrintDefaultHelp();
+  };
+  if (argc == 2 && std::strcmp(argv[1], "--summary") == 0) {
+    sunder::bench::print_summary();
+    return 0;
+  }
+  benchmark::Initialize(&argc, argv, print_help);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) {
+    std::fprintf(stderr, "bench_tear takes --summary alone, or options of Google Benchmark; see --help\n");
+    return 2;
+  }
+  benchmark::RunSpecifiedBenchmarks();
+  benchmark::Shutdown();
+  return 0;
+}

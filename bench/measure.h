@@ -1,0 +1,46 @@
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
+#include <vector>
+
+namespace sunder::bench {
+
+/// Seconds that `work` takes.
+template <class Work>
+double seconds_of(Work&& work) {
+  const auto begin = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+[[nodiscard]] double median(std::vector<double> values);
+
+/// How often something is measured: `runs` times, or fewer where that takes longer than `seconds`, but `least_runs` at least.
+struct Effort {
+  int runs = 300;
+  double seconds = 10;
+  int least_runs = 3;
+};
+
+/// What `run` returns, once a run.
+template <class Run>
+std::vector<double> sample(const Effort& effort, Run run) {
+  std::vector<double> samples;
+  const auto begin = std::chrono::steady_clock::now();
+  const auto elapsed = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(); };
+  for (int i = 0; i < effort.runs && (i < effort.least_runs || elapsed() < effort.seconds); ++i) samples.push_back(run());
+  return samples;
+}
+
+/// Walks 64 MB, so that nothing of what was used before is left in a cache.
+void sweep_caches();
+
+/// How often the process has asked for memory by operator new.
+[[nodiscard]] std::uint64_t allocation_count();
+
+/// Bytes that the process holds from malloc.
+[[nodiscard]] std::uint64_t bytes_in_use();
+
+}  // namespace sunder::bench

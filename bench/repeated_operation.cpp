@@ -1,0 +1,84 @@
+#include "bench/repeated_operation.h"
+
+#include <cstdio>
+#include <cstdlib>
+
+#include "bench/measure.h"
+
+namespace sunder::bench {
+namespace {
+
+template <class Outcome>
+void require(const Outcome& outcome) {
+  if (outcome) return;
+  std::fprintf(stderr, "an operation failed\n");
+  std::exit(1);
+}
+
+}  // namespace
+
+double RepeatedOperation::run(Caches caches) {
+  const ModelPose& pose = scene_.next_pose();
+  if (caches == Caches::swept) sweep_caches();
+  const std::uint64_t before = allocation_count();
+  Result<TearReport> done = Status();
+  const double seconds = seconds_of([&] { done = work_(scene_, pose, change_); });
+  allocations = allocation_count() - before;
+  require(done);
+  report = std::move(*done);
+  take_back();
+  return seconds;
+}
+
+void RepeatedOperation::take_back() {
+  const std::uint64_t before = allocation_count();
+  require(scene_.model().undo(&change_));
+  undo_allocations = allocation_count() - before;
+}
+
+RepeatedOperation::Seconds RepeatedOperation::run_undo_and_redo() {
+  Seconds seconds;
+  require(work_(scene_, scene_.next_pose(), change_));
+  seconds.undo = seconds_of([&] { require(scene_.model().undo(&change_)); });
+  seconds.redo = seconds_of([&] { require(scene_.model().redo(&change_)); });
+  take_back();
+  return seconds;
+}
+
+Result<TearReport> tear_along_stroke(const Scene& scene, const ModelPose& pose, ChangeRecord& change) {
+  return scene.model().tear(pose, scene.stroke, {}, &change);
+}
+
+Result<TearReport> tear_with_width(const Scene& scene, const ModelPose& pose, ChangeRecord& change) {
+  const double length = (scene.stroke.back().tip - scene.stroke.front().tip).norm();
+  return scene.model().tear(pose, scene.stroke, {0.05 * length, Layers::nearest, 0.0}, &change);
+}
+
+Result<TearReport> cut_in_two(const Scene& scene, const ModelPose& pose, ChangeRecord& change) {
+  return scene.model().cut(pose, scene.middle_plane, &change);
+}
+
+Result<TearReport> cut_with_caps(const Scene& scene, const ModelPose& pose, ChangeRecord& change) {
+  Cut cut = scene.middle_plane;
+  cut.caps = true;
+  return scene.model().cut(pose, cut, &change);
+}
+
+Result<TearReport> drill_through(const Scene& scene, const ModelPose& pose, ChangeRecord& change) {
+  const Vec3d along = scene.stroke.back().tip - scene.stroke.front().tip;
+  const Vec3d depth = scene.stroke[0].tip - scene.stroke[0].base;
+  return scene.model().drill(pose, {scene.stroke[0].base + 0.5 * along, depth, 0.1 * along.norm(), depth.norm(), 0.0, true},
+                             &change);
+}
+
+FirstTear time_first_tear(const Scene& scene) {
+  FirstTear seconds;
+  Result<TornModel> model = Status();
+  seconds.create = seconds_of([&] { model = TornModel::create(scene.character); });
+  require(model);
+  ChangeRecord change;
+  seconds.tear = seconds_of([&] { require(model->tear(scene.next_pose(), scene.stroke, {}, &change)); });
+  return seconds;
+}
+
+}  // namespace sunder::bench

@@ -1,0 +1,172 @@
+#include "bench/tear_summary.h"
+
+#include <cstdio>
+#include <functional>
+#include <optional>
+
+#include "bench/measure.h"
+#include "bench/model_memory.h"
+#include "bench/repeated_operation.h"
+#include "bench/tear_stages.h"
+
+#if SUNDER_BENCH_CGAL
+#include "bench/cgal_peer.h"
+#endif
+#if SUNDER_BENCH_VTK
+#include "bench/vtk_peer.h"
+#endif
+
+namespace sunder::bench {
+namespace {
+
+constexpr double kMicroseconds = 1e6, kNanoseconds = 1e9;
+
+using Figures = std::array<double, kDivisions.size()>;  ///< By size.
+
+/// Prints one JSON object to stdout, member by member.
+class Object {
+ public:
+  void add(const char* name, std::optional<double> value) {
+    begin(name);
+    if (value)
+      std::printf("%.6g", *value);
+    else
+      std::printf("null");
+  }
+  void add(const char* name, const Figures& values) {
+    begin(name);
+    for (std::size_t i = 0; i < values.size(); ++i)
+      std::printf("%s\"%s\": %.6g", i == 0 ? "{" : ", ", size_name(kDivisions[i]).c_str(), values[i]);
+    std::printf("}");
+  }
+  void end() { std::printf("}\n"); }
+
+ private:
+  void begin(const char* name) {
+    std::printf("%s\"%s\": ", is_first_ ? "{" : ", ", name);
+    is_first_ = false;
+  }
+  bool is_first_ = true;
+};
+
+/// Something measured in turns with others.
+struct Candidate {
+  std::function<double()> run;
+  Effort effort;    ///< Of one turn.
+  int turns = 10;   ///< It takes part in.
+  int warm_up = 3;  ///< Runs before each turn that do not count.
+  std::vector<double> seconds = {};
+};
+
+/// Each candidate in turn, round after round.
+void measure_in_turns(std::vector<Candidate>& candidates) {
+  int rounds = 0;
+  for (const Candidate& candidate : candidates) rounds = std::max(rounds, candidate.turns);
+  for (int round = 0; round < rounds; ++round)
+    for (Candidate& candidate : candidates) {
+      if (round >= candidate.turns) continue;
+      for (int i = 0; i < candidate.warm_up; ++i) candidate.run();
+      const auto seconds = sample(candidate.effort, candidate.run);
+      candidate.seconds.insert(candidate.seconds.end(), seconds.begin(), seconds.end());
+    }
+}
+
+/// Medians of tears by size, and of CGAL's corefinement at the smallest and the largest, in seconds.
+struct Tears {
+  Figures warm = {}, cold = {}, faces_crossed = {}, allocations = {}, undo_allocations = {};
+  std::optional<double> cgal_smallest, cgal_largest;
+};
+
+Tears measure_tears() {
+  std::vector<RepeatedOperation> tears;
+  std::vector<Candidate> candidates;
+  for (const int divisions : kDivisions) tears.emplace_back(scene_of(divisions), tear_along_stroke);
+  for (RepeatedOperation& tear : tears) candidates.push_back({[&tear] { return tear.run(); }, {30, 0.5, 2}});
+#if SUNDER_BENCH_CGAL
+  CgalPeer smallest(scene_of(kSmallest)), largest(scene_of(kLargest));
+  candidates.push_back({[&] { return smallest.corefine(); }, {10, 0.2, 2}});
+  candidates.push_back({[&] { return largest.corefine(); }, {1, 0, 1}, 3, 0});
+#endif
+  measure_in_turns(candidates);
+  Tears result;
+  for (std::size_t i = 0; i < tears.size(); ++i) {
+    result.warm[i] = median(candidates[i].seconds);
+    result.faces_crossed[i] = tears[i].report.faces_crossed;
+    result.allocations[i] = static_cast<double>(tears[i].allocations);
+    result.undo_allocations[i] = static_cast<double>(tears[i].undo_allocations);
+  }
+#if SUNDER_BENCH_CGAL
+  result.cgal_smallest = median(candidates[tears.size()].seconds);
+  result.cgal_largest = median(candidates[tears.size() + 1].seconds);
+#endif
+
+  candidates.clear();
+  for (RepeatedOperation& tear : tears) candidates.push_back({[&tear] { return tear.run(Caches::swept); }, {20, 0.5, 2}, 5, 0});
+  measure_in_turns(candidates);
+  for (std::size_t i = 0; i < tears.size(); ++i) result.cold[i] = median(candidates[i].seconds);
+  return result;
+}
+
+/// Seconds of the entry query at the largest size.
+double measure_query() {
+  StagedTear staged(scene_of(kLargest));
+  return median(sample({100, 2}, [&] { return staged.run_query().query; }));
+}
+
+/// Seconds that a fresh model takes at the largest size until its first tear is done.
+double measure_first_tear() {
+  return median(sample({3, 20}, [] {
+    const FirstTear first = time_first_tear(scene_of(kLargest));
+    return first.create + first.tear;
+  }));
+}
+
+std::optional<double> cut_by_vtk() {
+#if SUNDER_BENCH_VTK
+  RepeatedOperation cut(scene_of(kLargest), cut_in_two);
+  VtkPeer peer(scene_of(kLargest));
+  std::vector<Candidate> candidates;
+  candidates.push_back({[&] { return cut.run(); }, {1, 0, 1}, 5, 0});
+  candidates.push_back({[&] { return peer.clip(); }, {3, 1, 1}, 5, 1});
+  measure_in_turns(candidates);
+  return median(candidates[0].seconds) / median(candidates[1].seconds);
+#else
+  return std::nullopt;
+#endif
+}
+
+}  // namespace
+
+void print_summary() {
+  const double bytes = bytes_per_point(scene_of(kLargest));
+  const Tears tears = measure_tears();
+  const double faces = scene_of(kLargest).mesh().triangle_count(), query = measure_query(), first = measure_first_tear();
+  const std::optional<double> vtk = cut_by_vtk();
+  double nanoseconds_a_face = 0;
+  Figures warm_us = {}, cold_us = {}, points = {};
+  for (std::size_t i = 0; i < kDivisions.size(); ++i) {
+    nanoseconds_a_face = std::max(nanoseconds_a_face, tears.warm[i] * kNanoseconds / tears.faces_crossed[i]);
+    warm_us[i] = tears.warm[i] * kMicroseconds;
+    cold_us[i] = tears.cold[i] * kMicroseconds;
+    points[i] = scene_of(kDivisions[i]).mesh().vertex_count();
+  }
+  const auto by_tear = [](std::optional<double> peer, double tear) { return peer ? std::optional(*peer / tear) : std::nullopt; };
+  Object object;
+  object.add("warm_growth_3k_900k", tears.warm.back() / tears.warm.front());
+  object.add("speedup_cgal_3k", by_tear(tears.cgal_smallest, tears.warm.front()));
+  object.add("speedup_cgal_900k", by_tear(tears.cgal_largest, tears.warm.back()));
+  object.add("ns_per_crossed_face", nanoseconds_a_face);
+  object.add("build_ns_per_face", (first - tears.warm.back()) * kNanoseconds / faces);
+  object.add("bytes_per_point", bytes);
+  object.add("warm_allocations", *std::max_element(tears.allocations.begin(), tears.allocations.end()));
+  object.add("warm_undo_allocations", *std::max_element(tears.undo_allocations.begin(), tears.undo_allocations.end()));
+  object.add("warm_us", warm_us);
+  object.add("cold_us", cold_us);
+  object.add("query_us_900k", query * kMicroseconds);
+  object.add("cut_vs_vtk", vtk);
+  object.add("faces_crossed", tears.faces_crossed);
+  object.add("points", points);
+  object.end();
+}
+
+}  // namespace sunder::bench

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "bench/repeated_operation.h"
+
+namespace sunder::bench {
+
+/// Lower bound of a tear: reads once what the faces crossed have, three vertices each with all attributes and weights, at random
+/// places in arrays of the model's size, and writes once the new vertices, two a face, and triangles.
+class TouchBaseline {
+ public:
+  explicit TouchBaseline(const Scene& scene);
+
+  /// @return seconds.
+  double run(Caches caches = Caches::warm);
+
+ private:
+  void touch();
+
+  Mesh mesh_;
+  std::vector<std::uint32_t> faces_;
+  std::uint32_t vertex_count_, triangle_count_;
+};
+
+}  // namespace sunder::bench

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <memory>
+
+#include "bench/tear_scene.h"
+
+namespace sunder::bench {
+
+/// VTK on the scene's surface in its first pose: vtkPolyDataPlaneClipper keeps one side of the middle plane, on one thread, and
+/// interpolates normals and texture coordinates. Not weights; the cut stays without caps, its parts unnamed. Built where VTK is.
+class VtkPeer {
+ public:
+  explicit VtkPeer(const Scene& scene);
+  ~VtkPeer();
+
+  /// @return seconds.
+  double clip();
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace sunder::bench
