@@ -42,6 +42,7 @@ Stages StagedTear::run() {
   Stages stages;
   lips_.clear();
   births_.clear();
+  editor_.scratch().reset();
   const SurfaceEditor::Mark begin = editor_.mark();
   begin_pose(stages);
   for (std::size_t i = 0; i + 1 < scene_.stroke.size(); ++i) tear_segment(scene_.stroke[i], scene_.stroke[i + 1], stages);
@@ -66,23 +67,24 @@ void StagedTear::tear_segment(const Blade& from, const Blade& to, Stages& stages
     plane = BladePlane::through(hit->position, from, to);
     contact = first_contact(*plane, 0, editor_, posed_);
   });
-  tear::Path path;
+  const Index first_vertex = character_.meshes[0].vertex_count();
+  tear::Path path(editor_.scratch());
   stages.imprint += seconds_of([&] {
     if (contact) tip_ = imprint_point(*contact, tear::Snapping::by_shape, editor_, posed_);
     path = imprint_path(*plane, tip_, editor_, posed_);
   });
   const Mesh& mesh = character_.meshes[0];
-  for (Index v = before.meshes[0].vertices; v < mesh.vertex_count(); ++v) births_.push_back(editor_.birth(0, v));
+  for (Index v = first_vertex; v < mesh.vertex_count(); ++v) births_.push_back(editor_.birth(0, v));
   stages.open += seconds_of([&] {
     std::vector<tear::PointEdge> edges;
     for (std::size_t i = 0; i + 1 < path.points.size(); ++i) edges.push_back({path.points[i], path.points[i + 1]});
     const std::size_t first_lip = lips_.size();
-    open_edges(edges, editor_, lips_);
+    open_edges(edges, path.half_edges, editor_, lips_);
     for (std::size_t i = first_lip; i < lips_.size(); ++i)
       posed_.pin(lips_[i].left, Vec3d(posed_.position(editor_, lips_[i].right)));
   });
   tip_ = path.points.back();
-  stages.improve += seconds_of([&] { improve_faces(editor_.touched_since(before), editor_); });
+  stages.improve += seconds_of([&] { improve_faces(before, editor_); });
 }
 
 double StagedTear::time_attributes() {

@@ -44,7 +44,8 @@ class Torn {
     const auto model = TornModel::create(std::make_shared<const Character>(source));
     const Operation operation = test::random_operation(*model, random);
     const SurfaceEditor::Mark begin = editor.mark();
-    editor.begin_opening();
+    editor.scratch().reset();
+    editor.begin_opening(true);
     TearReport report;
     std::vector<LipPair> lips;
     if (const auto* tear = std::get_if<TearOperation>(&operation)) {
@@ -60,7 +61,7 @@ class Torn {
       stand_in(std::get<ModelPose>(drill.pose));
       drill_surface(drill.bore, {editor, posed}, report);
     }
-    done.push_back(editor.finish(begin));
+    done.push_back(begin);
     undone.clear();
   }
   void undo() {
@@ -73,7 +74,8 @@ class Torn {
   void redo() {
     if (undone.empty()) return;
     ChangeRecord change;
-    done.push_back(editor.redo(undone.back(), change));
+    done.push_back(editor.mark());
+    editor.redo(undone.back(), change);
     undone.pop_back();
     stand_in(pose);
   }
@@ -99,7 +101,7 @@ class Torn {
   SurfaceEditor editor;
   PosedPoints posed;
   ModelPose pose;
-  std::vector<SurfaceEditor::Step> done;
+  std::vector<SurfaceEditor::Mark> done;
   std::vector<SurfaceEditor::Redo> undone;
 };
 
@@ -192,7 +194,7 @@ std::vector<std::string> broken_bounds(Torn& torn, Random& random) {
         for (const Index origin : tree.origins(PatchTree::kPatchesPerGroup * group + i))
           torn.editor.for_each_part(covered->mesh, origin, [&](Index face) {
             ++found[face];
-            const Triangle vertices = mesh.triangles[torn.editor.surface().triangles[face].triangle];
+            const Triangle vertices = mesh.triangles[torn.editor.surface().triangle(face).triangle];
             for (const Index vertex : vertices) check(vertex, face);
             for (int k = 0; k < 2; ++k) {
               const double u = random.uniform(0, 1), v = random.uniform(0, 1 - u);
@@ -355,11 +357,11 @@ TEST(PatchForest, has_few_trees_of_caps) {
   std::size_t fillings = 0;
   for (int i = 0; i < 200; ++i) {
     const SurfaceEditor::Mark begin = torn.editor.mark();
-    torn.editor.begin_opening();
+    torn.editor.begin_opening(true);
     TearReport report;
     std::vector<LipPair> lips;
     cut_surface({{0, random.uniform(0.2, 3.8), 0}, {0, 1, 0}, {}, true}, {torn.editor, torn.posed}, report, lips);
-    torn.done.push_back(torn.editor.finish(begin));
+    torn.done.push_back(begin);
     torn.stand_in(torn.pose);
     const auto hit = first_hit(blade, torn.editor, torn.posed);
     ASSERT_TRUE(is_same(hit, test::scan_for_hit(blade, torn.editor, torn.posed)));
