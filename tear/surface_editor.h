@@ -41,10 +41,11 @@ class SurfaceEditor {
   }
   /// Triangles of walls and caps as they were made.
   [[nodiscard]] const std::vector<Triangle>& fillings(Index mesh) const { return fillings_[mesh]; }
-  /// A number that no other filling of the mesh ever had. @param origin  the filling's, as in origin_triangle().
+  /// A number that no other filling ever had; they ascend. @param origin  the filling's, as in origin_triangle().
   [[nodiscard]] std::uint64_t filling_serial(Index mesh, Index origin) const {
     return filling_serials_[mesh][origin - source_.meshes[mesh].triangle_count()];
   }
+  [[nodiscard]] std::uint64_t next_filling_serial() const { return next_serial_; }
   /// A triangle of the source or, beyond those, of a wall or cap: what births refer to.
   [[nodiscard]] const Triangle& origin_triangle(Index mesh, Index triangle) const {
     const Index source_count = source_.meshes[mesh].triangle_count();
