@@ -164,12 +164,9 @@ void for_each_contact(const BladePlane& plane, double progress, const SurfaceEdi
                : plane.least_progress(box);
   };
   double limit = std::numeric_limits<double>::max();
-  posed.visit_patches(editor, axes, least_progress, [&](Index mesh, std::span<const Index> origins) {
-    for (const Index origin : origins)
-      editor.for_each_part(mesh, origin, [&](Index triangle) {
-        const auto contact = contact_with(triangle, posed_corners(editor, posed, triangle), plane, progress, not_before);
-        if (contact) limit = take(*contact);
-      });
+  posed.visit_faces(editor, axes, least_progress, [&](Index triangle) {
+    const auto contact = contact_with(triangle, posed_corners(editor, posed, triangle), plane, progress, not_before);
+    if (contact) limit = take(*contact);
     return limit;
   });
 }
@@ -180,23 +177,20 @@ std::optional<SurfaceHit> first_hit(const Blade& blade, const SurfaceEditor& edi
   const Segment segment(blade);
   std::optional<SurfaceHit> nearest;
   double nearest_depth = 1.0;
-  posed.visit_patches(
-      editor, segment.axes(),
-      [&](const Box& box) {
-        const Segment::Part part = segment.part_in(box);
-        return part.is_empty() ? std::numeric_limits<double>::infinity() : part.begin;
-      },
-      [&](Index mesh, std::span<const Index> origins) {
-        for (const Index origin : origins)
-          editor.for_each_part(mesh, origin, [&](Index triangle) {
-            double depth = 0;
-            const auto hit = segment.hit(triangle, posed_corners(editor, posed, triangle), depth);
-            if (!hit || depth > nearest_depth || (nearest && depth == nearest_depth && triangle > nearest->triangle)) return;
-            nearest_depth = depth;
-            nearest = hit;
-          });
-        return nearest_depth;
-      });
+  const auto least_depth = [&](const Box& box) {
+    const Segment::Part part = segment.part_in(box);
+    return part.is_empty() ? std::numeric_limits<double>::infinity() : part.begin;
+  };
+  posed.visit_faces(editor, segment.axes(), least_depth, [&](Index triangle) {
+    double depth = 0;
+    const auto hit = segment.hit(triangle, posed_corners(editor, posed, triangle), depth);
+    const bool is_nearer = hit && (depth < nearest_depth || (depth == nearest_depth && (!nearest || triangle < nearest->triangle)));
+    if (is_nearer) {
+      nearest_depth = depth;
+      nearest = hit;
+    }
+    return nearest_depth;
+  });
   return nearest;
 }
 

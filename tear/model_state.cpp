@@ -2,17 +2,31 @@
 
 #include <algorithm>
 #include <cmath>
-#include <new>
 
 #include "tear/pieces.h"
 
 namespace sunder {
 
-TornModel::State::State(std::shared_ptr<const Character> from)
-    : source(std::move(from)), character(*source), editor(*source, character) {}
+TornModel::State::State(std::shared_ptr<const Character> from, const TornCapacity& of)
+    : source(std::move(from)), capacity(of), character(*source), editor(*source, character) {
+  editor.reserve(capacity);
+  if (!capacity.is_fixed()) return;
+  pose.model_from_bone.resize(character.skeleton.bones.size());
+  pose.morph_weights.resize(character.rest_morph_weights.size());
+  posed.cover(editor.surface().point_count() + capacity.vertices);
+  lips.reserve(capacity.vertices);
+  history.limit_to(capacity.operations, pose);
+}
 
 Status TornModel::State::may_begin() const {
-  return has_stroke ? Status::failure(StatusCode::invalid_argument, kNone, "a stroke is under way; end it first") : Status();
+  if (has_stroke) return Status::failure(StatusCode::invalid_argument, kNone, "a stroke is under way; end it first");
+  return history.has_room() ? Status() : no_room({"operations"});
+}
+
+Status TornModel::State::no_room(const tear::CapacityExceeded& exceeded) const {
+  return Status::failure(StatusCode::limit_exceeded, kNone,
+                         "no room left for %s: the model was made for %u more vertices, %u more triangles and %u operations",
+                         exceeded.what, capacity.vertices, capacity.triangles, capacity.operations);
 }
 
 Status TornModel::State::stand_in(const ModelPose& wanted) {
@@ -21,26 +35,22 @@ Status TornModel::State::stand_in(const ModelPose& wanted) {
   return {};
 }
 
-Result<TearReport> TornModel::State::call(const std::function<Status(Call&)>& work, ChangeRecord* change, bool is_cut) {
+void TornModel::State::begin_call() {
   editor.scratch().reset();
-  Call call{editor.mark(), {}, {}};
-  const auto take_back = [&] {
-    editor.roll_back(call.begin);
-    posed.forget_from(call.begin.points);
-  };
-  try {
-    if (Status status = work(call); !status) {
-      take_back();
-      return status;
-    }
-    editor.describe(call.begin, call.change);
-    count(call.begin, is_cut, call.report);
-  } catch (const std::bad_alloc&) {
-    take_back();
-    return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
-  }
-  if (change != nullptr) *change = std::move(call.change);
-  return std::move(call.report);
+  lips.clear();
+  begin_of_call_ = editor.mark();
+}
+
+void TornModel::State::end_call(Call& call, ChangeRecord* change, bool is_cut) {
+  count(begin_of_call_, is_cut, call.report);
+  if (change == nullptr) return;
+  editor.describe(begin_of_call_, *change);
+  change->lips = lips;
+}
+
+void TornModel::State::take_back() {
+  editor.roll_back(begin_of_call_);
+  posed.forget_from(begin_of_call_.points);
 }
 
 void TornModel::State::count(const tear::SurfaceEditor::Mark& begin, bool is_cut, TearReport& report) {
@@ -54,10 +64,10 @@ void TornModel::State::count(const tear::SurfaceEditor::Mark& begin, bool is_cut
   report.pieces = tear::find_pieces(begin, is_cut, editor, posed);
 }
 
-void TornModel::State::record(Operation operation, const tear::SurfaceEditor::Mark& begin) {
+void TornModel::State::record(const tear::SurfaceEditor::Mark& begin) {
   if (editor.numbers_since(begin) == 0) return;  // it did nothing
-  done.push_back({std::move(operation), begin});
-  undone.clear();
+  history.next().begin = begin;
+  history.push();
 }
 
 Status validate_blade(const Blade& blade, std::uint32_t index) {

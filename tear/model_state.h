@@ -2,8 +2,11 @@
 
 #include <sunder/tear/torn_model.h>
 
-#include <functional>
+#include <new>
 
+#include "tear/capacity_exceeded.h"
+#include "tear/history.h"
+#include "tear/stroke_tearing.h"
 #include "tear/surface_editor.h"
 #include "tear/workpiece.h"
 
@@ -11,18 +14,35 @@ namespace sunder {
 
 /// What a TornModel is made of, and the frame around each of its operations.
 struct TornModel::State {
-  explicit State(std::shared_ptr<const Character> from);
+  State(std::shared_ptr<const Character> from, const TornCapacity& of);
 
-  /// What one call of an operation works on: a point to come back to, and what the call did.
+  /// What one call of an operation did.
   struct Call {
-    tear::SurfaceEditor::Mark begin;
     TearReport report;
-    ChangeRecord change;
+    std::vector<LipPair>& lips;
   };
-  /// Runs `work` and describes what it did; where memory runs out takes everything back. Points keep the places where they were
-  /// found until the pose is set anew.
+  /// Runs `work(Call&) -> Status` and describes what it did; where memory or capacity runs out takes everything back. Points keep
+  /// the places where they were found until the pose is set anew.
   /// @param is_cut  all pieces are reported, if there are several.
-  Result<TearReport> call(const std::function<Status(Call&)>& work, ChangeRecord* change, bool is_cut = false);
+  template <class Work>
+  Result<TearReport> call(Work work, ChangeRecord* change, bool is_cut = false) {
+    begin_call();
+    Call call{{}, lips};
+    try {
+      if (Status status = work(call); !status) {
+        take_back();
+        return status;
+      }
+      end_call(call, change, is_cut);
+    } catch (const tear::CapacityExceeded& exceeded) {
+      take_back();
+      return no_room(exceeded);
+    } catch (const std::bad_alloc&) {
+      take_back();
+      return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
+    }
+    return std::move(call.report);
+  }
 
   /// Fills in what was added and retired since `begin`, and what came free.
   void count(const tear::SurfaceEditor::Mark& begin, bool is_cut, TearReport& report);
@@ -34,32 +54,34 @@ struct TornModel::State {
     return editor.mark();
   }
 
-  /// Refuses while a stroke is under way.
+  /// Refuses while a stroke is under way, and where there is no room for another operation.
   [[nodiscard]] Status may_begin() const;
+  [[nodiscard]] Status no_room(const tear::CapacityExceeded& exceeded) const;
   /// Makes `pose` the one in which points are looked up. On failure the old one stays.
   [[nodiscard]] Status stand_in(const ModelPose& pose);
-  /// Ends an operation that began at `begin`: it can be taken back from now on, unless it did nothing.
-  void record(Operation operation, const tear::SurfaceEditor::Mark& begin);
+  /// Ends an operation that began at `begin`, and whose description is history.next(): it can be taken back from now on, unless it
+  /// did nothing.
+  void record(const tear::SurfaceEditor::Mark& begin);
 
   [[nodiscard]] tear::Workpiece workpiece() { return {editor, posed}; }
 
-  struct Done {
-    Operation operation;
-    tear::SurfaceEditor::Mark begin;
-  };
-  struct Undone {
-    Operation operation;
-    tear::SurfaceEditor::Redo redo;
-  };
-
   std::shared_ptr<const Character> source;
+  TornCapacity capacity;
   Character character;
   tear::SurfaceEditor editor;
   tear::PosedPoints posed;
   ModelPose pose;  ///< Of `posed`.
   bool has_stroke = false;
-  std::vector<Done> done;
-  std::vector<Undone> undone;  ///< The one to do again last.
+  tear::StrokeTearing tearing;  ///< The stroke under way, or the last one.
+  std::vector<LipPair> lips;    ///< Of the call under way.
+  tear::History history;
+
+ private:
+  void begin_call();
+  void end_call(Call& call, ChangeRecord* change, bool is_cut);
+  void take_back();
+
+  tear::SurfaceEditor::Mark begin_of_call_;
 };
 
 /// What of a stroke can be said before the surface is looked at.

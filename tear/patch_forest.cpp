@@ -56,10 +56,14 @@ void PatchForest::cover_fillings(const SurfaceEditor& editor, Index mesh) {
   std::vector<Covered>& trees = fillings_[mesh];
   const Index source_count = editor.source().meshes[mesh].triangle_count();
   const Index end = source_count + static_cast<Index>(fillings.size());
-  // Fillings come and go last in, first out: where the last one of a tree still is the same, so are all the others.
-  while (!trees.empty() &&
-         (trees.back().end > end || editor.filling_serial(mesh, trees.back().end - 1) != trees.back().last_serial))
+  // Fillings come and go last in, first out, and their serials ascend. A tree that has lost the most of what it was built over is
+  // built anew.
+  while (!trees.empty()) {
+    Covered& last = trees.back();
+    while (last.end > last.first && (last.end > end || editor.filling_serial(mesh, last.end - 1) >= last.serials_from)) --last.end;
+    if (2 * (last.end - last.first) > last.tree.triangle_count()) break;
     trees.pop_back();
+  }
   Index first = trees.empty() ? source_count : trees.back().end;
   if (first == end) return;
   while (!trees.empty() && trees.back().end - trees.back().first < 2 * (end - first)) {
@@ -67,8 +71,7 @@ void PatchForest::cover_fillings(const SurfaceEditor& editor, Index mesh) {
     trees.pop_back();
   }
   const auto triangles = std::span(fillings).subspan(first - source_count);
-  trees.push_back(
-      {PatchTree(editor.character().meshes[mesh], triangles, first), mesh, first, end, editor.filling_serial(mesh, end - 1)});
+  trees.push_back({PatchTree(editor.character().meshes[mesh], triangles, first), mesh, first, end, editor.next_filling_serial()});
 }
 
 void PatchForest::push(const Waiting& node, std::size_t first) {

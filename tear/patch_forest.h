@@ -21,16 +21,16 @@ class PatchForest {
   /// To be called when the pose changes. O(1).
   void forget_pose();
 
-  /// Visits the patches in which something may be found, more or less the nearest first.
+  /// Visits the live faces of the patches in which something may be found, more or less the nearest first.
   /// @param axes   rows: orthogonal unit vectors. Boxes are in these; the nearer they are to how the query lies, the fewer it
   /// meets.
   ///               Boxes are remembered as long as neither the pose nor the axes change.
   /// @param bound  bound(const Box&): the least value, such as a distance, that what is looked for can have in a box; infinity
   /// where
   ///               it cannot be there.
-  /// @param visit  visit(mesh, origins of a patch): the greatest value that is of interest from now on. May not call this again.
+  /// @param visit  visit(face): the greatest value that is of interest from now on. May not call this again.
   template <class Bound, class Visit>
-  void visit_patches(const SurfaceEditor& editor, const CharacterPose& pose, const Mat3d& axes, Bound bound, Visit visit);
+  void visit_faces(const SurfaceEditor& editor, const CharacterPose& pose, const Mat3d& axes, Bound bound, Visit visit);
 
   [[nodiscard]] std::size_t bytes() const;
   /// Trees over the walls and caps of a mesh.
@@ -40,8 +40,8 @@ class PatchForest {
   struct Covered {
     PatchTree tree;
     Index mesh;
-    Index first, end;           ///< Origins.
-    std::uint64_t last_serial;  ///< Of the last one, where they are fillings.
+    Index first, end;            ///< Origins. Those of the tree from `end` up have been taken back since.
+    std::uint64_t serials_from;  ///< Fillings that were made after the tree have serials from here on.
   };
   /// Every tree there is, up to date.
   [[nodiscard]] std::vector<Covered*> trees(const SurfaceEditor& editor);
@@ -77,8 +77,7 @@ class PatchForest {
 };
 
 template <class Bound, class Visit>
-void PatchForest::visit_patches(const SurfaceEditor& editor, const CharacterPose& pose, const Mat3d& axes, Bound bound,
-                                Visit visit) {
+void PatchForest::visit_faces(const SurfaceEditor& editor, const CharacterPose& pose, const Mat3d& axes, Bound bound, Visit visit) {
   stand_in(editor, pose, axes);
   const auto& meshes = editor.character().meshes;
   constexpr double kNowhere = std::numeric_limits<double>::infinity();
@@ -106,7 +105,8 @@ void PatchForest::visit_patches(const SurfaceEditor& editor, const CharacterPose
     if (node.bound > limit) continue;
     Covered& covered = *node.covered;
     if (node.height == 0) {
-      limit = visit(covered.mesh, covered.tree.origins(node.number));
+      for (const Index origin : covered.tree.origins(node.number))
+        if (origin < covered.end) editor.for_each_part(covered.mesh, origin, [&](Index face) { limit = visit(face); });
       continue;
     }
     const MeshPose mesh_pose = pose_of(meshes[covered.mesh], pose);

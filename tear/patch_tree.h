@@ -41,6 +41,7 @@ class PatchTree {
   /// Level 0 are the groups, the last level is the root. The children of node n are the nodes from kFanOut n on of the level below.
   [[nodiscard]] Index level_count() const { return static_cast<Index>(first_of_level_.size()) - 1; }
   [[nodiscard]] Index node_count(Index level) const { return first_of_level_[level + 1] - first_of_level_[level]; }
+  [[nodiscard]] Index triangle_count() const { return static_cast<Index>(origins_.size()); }
   /// The patches of group g are those from kPatchesPerGroup g on.
   [[nodiscard]] Index patch_count() const { return static_cast<Index>(patches_.size()); }
   /// The triangles of a patch, by their numbers as origins.

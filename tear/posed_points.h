@@ -36,20 +36,19 @@ class PosedPoints {
   [[nodiscard]] const std::vector<Affine3d>& palette(Index skin) const { return palettes_[skin]; }
   [[nodiscard]] const std::vector<float>& morph_weights() const { return morph_weights_; }
 
-  /// Visits the patches of the surface where `bound` lets it: PatchForest::visit_patches().
+  /// Visits faces of the surface where `bound` lets it: PatchForest::visit_faces().
   template <class Bound, class Visit>
-  void visit_patches(const SurfaceEditor& editor, const Mat3d& axes, Bound bound, Visit visit) {
-    forest_.visit_patches(editor, {palettes_, morph_weights_}, axes, bound, visit);
+  void visit_faces(const SurfaceEditor& editor, const Mat3d& axes, Bound bound, Visit visit) {
+    forest_.visit_faces(editor, {palettes_, morph_weights_}, axes, bound, visit);
   }
   /// Calls visit(face) for the live faces of the patches whose boxes may_hold(box) lets through, in no order that means anything.
   template <class MayHold, class Visit>
   void for_each_face(const SurfaceEditor& editor, const Mat3d& axes, MayHold may_hold, Visit visit) {
-    visit_patches(
-        editor, axes, [&](const Box& box) { return may_hold(box) ? 0.0 : std::numeric_limits<double>::infinity(); },
-        [&](Index mesh, std::span<const Index> origins) {
-          for (const Index origin : origins) editor.for_each_part(mesh, origin, visit);
-          return 0.0;
-        });
+    const auto bound = [&](const Box& box) { return may_hold(box) ? 0.0 : std::numeric_limits<double>::infinity(); };
+    visit_faces(editor, axes, bound, [&](Index face) {
+      visit(face);
+      return 0.0;
+    });
   }
   [[nodiscard]] PatchForest& forest() { return forest_; }
 

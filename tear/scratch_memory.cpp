@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <new>
 
+#include "tear/capacity_exceeded.h"
+
 namespace sunder::tear {
 namespace {
 
@@ -23,6 +25,12 @@ void ScratchMemory::reset() {
   }
 }
 
+void ScratchMemory::fix(std::size_t bytes) {
+  blocks_.clear();
+  add_block(bytes);
+  is_fixed_ = true;
+}
+
 void ScratchMemory::add_block(std::size_t size) {
   blocks_.push_back({std::unique_ptr<std::byte[]>(new std::byte[size]), size});  // not zeroed
   used_ = 0;
@@ -31,7 +39,7 @@ void ScratchMemory::add_block(std::size_t size) {
 void* ScratchMemory::do_allocate(std::size_t bytes, std::size_t alignment) {
   const auto begin_of_next = [&] { return (used_ + alignment - 1) / alignment * alignment; };
   if (blocks_.empty() || begin_of_next() + bytes > blocks_.back().size) {
-    if (is_fixed_) throw std::bad_alloc();
+    if (is_fixed_) throw CapacityExceeded{"work of one operation"};
     add_block(std::max({kLeastBlock, bytes, blocks_.empty() ? 0 : 2 * blocks_.back().size}));
   }
   const std::size_t begin = begin_of_next();

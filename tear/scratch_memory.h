@@ -11,10 +11,8 @@ namespace sunder::tear {
 /// operation like one before it allocates nothing.
 class ScratchMemory final : public std::pmr::memory_resource {
  public:
-  /// @param is_fixed  where `bytes` do not suffice, std::bad_alloc is thrown; else the memory grows.
-  explicit ScratchMemory(std::size_t bytes, bool is_fixed) : is_fixed_(is_fixed) {
-    if (bytes > 0) add_block(bytes);
-  }
+  /// From here on there are `bytes` and no more: beyond them CapacityExceeded is thrown. Else the memory grows.
+  void fix(std::size_t bytes);
 
   /// Forgets all that was handed out.
   void reset();
@@ -32,7 +30,7 @@ class ScratchMemory final : public std::pmr::memory_resource {
 
   std::vector<Block> blocks_;  ///< Memory is taken from the last.
   std::size_t used_ = 0;       ///< Of the last.
-  bool is_fixed_;
+  bool is_fixed_ = false;
 };
 
 template <class T>

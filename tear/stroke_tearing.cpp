@@ -14,6 +14,19 @@ bool StrokeTearing::stands_on_surface(const Workpiece& work) const {
   return tip_ != kNone && work.editor.surface().point_corner[tip_] != kNone;
 }
 
+void StrokeTearing::begin(const Blade& first, const TearOptions& options) {
+  report = {};
+  lips.clear();
+  options_ = options;
+  blade_ = blade_before_ = first;
+  stroke_.assign(1, first);
+  tip_ = last_end_ = kNone;
+  torn_edges_ = 0;
+  pending_.reset();
+  held_by_.reset();
+  has_removed_ = is_in_new_pose_ = false;
+}
+
 void StrokeTearing::leave_pose(const Workpiece& work) {
   catch_up(work);
   held_by_.reset();

@@ -17,7 +17,8 @@ namespace sunder::tear {
 /// back to a copy.
 class StrokeTearing {
  public:
-  StrokeTearing(const Blade& first, const TearOptions& options) : options_(options), blade_(first), stroke_({first}) {}
+  /// Begins another stroke, in the same memory.
+  void begin(const Blade& first, const TearOptions& options);
 
   /// Tears on to the next blade, in the pose that `work.posed` stands for.
   void extend(const Blade& to, const Workpiece& work);

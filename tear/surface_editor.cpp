@@ -246,6 +246,9 @@ Index SurfaceEditor::split_edge(Index half_edge, double fraction) {
   const Index f = ab / 3;
   const FaceSplit split_f(*this, f);
   const Index mesh_f = split_f.mesh();
+  make_room_for_vertices(mesh_f, 2, 2 * influence_count(mesh_f, split_f.vertices()));
+  make_room_for_triangles(mesh_f, 2);
+  make_room_in_log(4);
   const Index vertex_a = split_f.vertices()[ab % 3], vertex_b = split_f.vertices()[bc % 3], vertex_c = split_f.vertices()[ca % 3];
 
   std::array<double, 3> at = {0, 0, 0};
@@ -264,6 +267,10 @@ Index SurfaceEditor::split_edge(Index half_edge, double fraction) {
     db = Surface::previous(ba);
     const FaceSplit split_g(*this, ba / 3);
     mesh_g = split_g.mesh();
+    if (mesh_g != mesh_f) {
+      make_room_for_vertices(mesh_g, 1, influence_count(mesh_f, split_f.vertices()));
+      make_room_for_triangles(mesh_g, 1);
+    }
     before_g = split_g.vertices();
     at = {0, 0, 0};
     at[ad % 3] = 1.0 - fraction;
@@ -323,6 +330,9 @@ Index SurfaceEditor::split_edge(Index half_edge, double fraction) {
 Index SurfaceEditor::split_triangle(Index triangle, const std::array<double, 3>& barycentric) {
   const FaceSplit split(*this, triangle);
   const Index mesh = split.mesh();
+  make_room_for_vertices(mesh, 1, influence_count(mesh, split.vertices()));
+  make_room_for_triangles(mesh, 2);
+  make_room_in_log(3);
   const Birth birth = split.birth_at(barycentric);
   const Index vertex = append_vertex(mesh, birth);
   const Index corner = 3 * triangle;
@@ -377,6 +387,7 @@ void SurfaceEditor::cut_edge(Index half_edge) {
   const Index twin = surface_.twin[half_edge];
   if (twin == kNone) return;
   if (keeps_opened_) opened_.insert({half_edge, twin});
+  make_room_in_log(2);
   log_triangle(half_edge / 3);
   log_triangle(twin / 3);
   surface_.twin[half_edge] = kNone;
@@ -401,6 +412,15 @@ Index SurfaceEditor::separate_fan(Index corner, std::span<const Index> remaining
 
   ScratchVector<Index> corners(&scratch_);
   surface_.for_each_in_fan(corner, [&](Index c) { corners.push_back(c); });
+  make_room_in_log(corners.size());
+  Index last_vertex = kNone;
+  for (const Index c : corners) {
+    if (vertex_at(c) == last_vertex) continue;
+    last_vertex = vertex_at(c);
+    const Index mesh = surface_.triangle(c / 3).mesh;
+    make_room_for_vertices(mesh, static_cast<Index>(corners.size()),
+                           static_cast<Index>(corners.size() * character_.meshes[mesh].weights.of(last_vertex).size()));
+  }
   for (const Index c : corners) log_triangle(c / 3);
   const Index point = append_point();
   for (const Index c : corners) {
@@ -429,6 +449,7 @@ Index SurfaceEditor::separate_fan(Index corner, std::span<const Index> remaining
 }
 
 void SurfaceEditor::retire_triangle(Index triangle) {
+  make_room_in_log(1);
   log_triangle(triangle);
   const Index vertex = vertices_of(triangle)[0];
   for (Index k = 0; k < 3; ++k) {
@@ -468,6 +489,7 @@ bool SurfaceEditor::flip_edge(Index half_edge) {
     return false;
 
   const Index twin_bc = surface_.twin[bc], twin_ad = surface_.twin[ad];
+  make_room_in_log(4);
   log_triangle(f);
   log_triangle(g);
   if (twin_bc != kNone) log_triangle(twin_bc / 3);
@@ -492,6 +514,7 @@ void SurfaceEditor::begin_stage() {
 }
 
 Index SurfaceEditor::append_submesh(Index mesh, const std::string& name, Index material) {
+  make_room_for_additions(mesh);
   auto& submeshes = character_.meshes[mesh].submeshes;
   submeshes.push_back({name, material});
   additions_.push_back({Addition::Kind::submesh, mesh});
@@ -499,12 +522,15 @@ Index SurfaceEditor::append_submesh(Index mesh, const std::string& name, Index m
 }
 
 Index SurfaceEditor::append_filling_vertex(Index mesh, Index like) {
+  make_room_for_vertices(mesh, 1, static_cast<Index>(character_.meshes[mesh].weights.of(like).size()));
   births_[mesh].push_back({kNone, {1, 0, 0}});
   vertex_mesh_.push_back(mesh);
   return append_vertex_copy(like, character_.meshes[mesh]);
 }
 
 Index SurfaceEditor::append_filling(Index mesh, Index submesh, const std::array<Index, 3>& points, const Triangle& vertices) {
+  make_room_for_triangles(mesh, 1);
+  make_room_for_additions(mesh);
   const Index origin = source_.meshes[mesh].triangle_count() + static_cast<Index>(fillings_[mesh].size());
   fillings_[mesh].push_back(vertices);
   additions_.push_back({Addition::Kind::filling, mesh});
@@ -533,6 +559,7 @@ Index SurfaceEditor::append_filling(Index mesh, Index submesh, const std::array<
 }
 
 void SurfaceEditor::connect(Index a, Index b) {
+  make_room_in_log(2);
   log_triangle(a / 3);
   log_triangle(b / 3);
   join(a, b);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <sunder/core/character.h>
+#include <sunder/tear/capacity.h>
 #include <sunder/tear/change_record.h>
 
 #include <algorithm>
@@ -47,10 +48,11 @@ class SurfaceEditor {
   }
   /// Triangles of walls and caps as they were made.
   [[nodiscard]] const std::vector<Triangle>& fillings(Index mesh) const { return fillings_[mesh]; }
-  /// A number that no other filling of the mesh ever had. @param origin  the filling's, as in origin_triangle().
+  /// A number that no other filling ever had; they ascend. @param origin  the filling's, as in origin_triangle().
   [[nodiscard]] std::uint64_t filling_serial(Index mesh, Index origin) const {
     return filling_serials_[mesh][origin - source_.meshes[mesh].triangle_count()];
   }
+  [[nodiscard]] std::uint64_t next_filling_serial() const { return next_serial_; }
   /// A triangle of the source or, beyond those, of a wall or cap: what births refer to.
   [[nodiscard]] const Triangle& origin_triangle(Index mesh, Index triangle) const {
     const Index source_count = source_.meshes[mesh].triangle_count();
@@ -78,6 +80,11 @@ class SurfaceEditor {
   [[nodiscard]] std::array<double, 3> source_barycentric(Index corner) const {
     return place_in_origin(surface_.triangle(corner / 3), vertex_at(corner));
   }
+
+  // ---- Room.
+
+  /// How much operations may append; the arrays get room for it.
+  void reserve(const TornCapacity& capacity);
 
   // ---- Refining: the surface stays what it is.
 
@@ -177,9 +184,9 @@ class SurfaceEditor {
   /// Fills in what changed since `begin`, but for the lips.
   void describe(const Mark& begin, ChangeRecord& change) const;
 
-  /// Takes back the newest operation, which began at `begin`. @return what does it again.
+  /// Takes back the newest operation, which began at `begin`. @param redo  is made what does it again.
   struct Redo;
-  [[nodiscard]] Redo undo(const Mark& begin, ChangeRecord& change);
+  void undo(const Mark& begin, Redo& redo, ChangeRecord& change);
   void redo(const Redo& redo, ChangeRecord& change);
 
  private:
@@ -212,6 +219,17 @@ class SurfaceEditor {
   [[nodiscard]] std::span<const MeshSizes> sizes_at(const Mark& mark) const;
   /// Writes what the entry's triangle is now.
   void fill(LogEntry& entry) const;
+  /// Lets what follows append as much without any array growing: a change is not left half done for want of memory. The vertices
+  /// are like others of the mesh.
+  /// @throws CapacityExceeded, std::bad_alloc
+  void make_room_for_vertices(Index mesh, Index count, Index influences);
+  void make_room_for_triangles(Index mesh, Index count);
+  void make_room_in_log(std::size_t entries);
+  void make_room_for_additions(Index mesh);
+  template <class T>
+  void make_room(std::vector<T>& values, std::size_t more, const char* what);
+  [[nodiscard]] Index influence_count(Index mesh, const Triangle& of) const;
+
   void log_triangle(Index triangle);
   void restore(const LogEntry& entry);
   void set_corner(Index corner, Index point, Index vertex);
@@ -245,10 +263,10 @@ class SurfaceEditor {
   std::vector<std::vector<std::uint64_t>> filling_serials_;
   std::uint64_t next_serial_ = 0;
   std::vector<std::vector<Index>>
-      appended_triangles_;          ///< Of each mesh: the surface's numbers of its triangles beyond the source's.
-  std::vector<Index> vertex_mesh_;  ///< Of each appended vertex.
+      appended_triangles_;                       ///< Of each mesh: the surface's numbers of its triangles beyond the source's.
+  std::vector<Index> vertex_mesh_;               ///< Of each appended vertex.
   std::vector<std::vector<Index>> newest_part_;  ///< Of each mesh: of each origin, the last triangle appended that is a part of it.
-  std::vector<Index> older_part_;  ///< Of each appended triangle: the one before it of the same origin.
+  std::vector<Index> older_part_;                ///< Of each appended triangle: the one before it of the same origin.
   std::vector<Addition> additions_;
   std::vector<LogEntry> log_;  ///< Of all operations that were done and not taken back.
   std::vector<SideEntry> side_log_;
@@ -262,7 +280,8 @@ class SurfaceEditor {
   std::vector<Index> parents_;  ///< Of each appended triangle: what it was split from.
   bool keeps_opened_ = false;
   mutable std::vector<MeshSizes> sizes_;
-  mutable ScratchMemory scratch_{0, false};
+  bool is_fixed_ = false;
+  mutable ScratchMemory scratch_;
   std::unordered_set<Index> opened_;  // asked and sorted, never walked through as it is
   Index stage_begin_ = 0;
   std::vector<Index> ancestors_;  ///< Of the triangles appended since.

@@ -46,17 +46,19 @@ struct TearStroke::State {
   };
 
   TornModel::State* model;
-  TearOptions options;
   StrokeSampling sampling;
-  tear::StrokeTearing tearing;
-  TearOperation operation;  ///< What was taken up.
+  TearOperation& operation;  ///< What was taken up: the history's next entry.
   double last_seconds = 0;
   std::optional<Held> held;
   tear::SurfaceEditor::Mark begin;
   TearReport total;
+  // What a failing call goes back to.
+  tear::StrokeTearing tearing_before;
+  ModelPose pose_before;
 
   [[nodiscard]] bool is_due(const Blade& blade, double seconds) const {
-    const double moved = std::max((blade.base - tearing.blade().base).norm(), (blade.tip - tearing.blade().tip).norm());
+    const double moved =
+        std::max((blade.base - model->tearing.blade().base).norm(), (blade.tip - model->tearing.blade().tip).norm());
     return moved >= sampling.minimum_distance && seconds - last_seconds >= sampling.minimum_seconds;
   }
 
@@ -64,29 +66,30 @@ struct TearStroke::State {
   Status take_up(const ModelPose& pose, const Blade& blade) {
     const auto index = static_cast<std::uint32_t>(operation.stroke.size());
     if (!same_bits(pose, model->pose)) {
-      tearing.leave_pose(model->workpiece());
+      model->tearing.leave_pose(model->workpiece());
       if (Status status = model->stand_in(pose); !status) return status;
-      tearing.enter_pose(model->workpiece());
+      model->tearing.enter_pose(model->workpiece());
       operation.pose_changes.push_back({index, pose});
     }
     operation.stroke.push_back(blade);
-    tearing.extend(blade, model->workpiece());
+    model->tearing.extend(blade, model->workpiece());
     return {};
   }
 
   /// Runs `work`; where it fails, everything is as it was, the pose too.
   template <class Work>
   Result<TearReport> call(Work work, ChangeRecord* change) {
-    const tear::StrokeTearing tearing_before = tearing;
+    tear::StrokeTearing& tearing = model->tearing;
+    tearing_before = tearing;
+    pose_before = model->pose;
     const std::size_t blades = operation.stroke.size(), poses = operation.pose_changes.size();
-    const ModelPose pose_before = model->pose;
     auto report = model->call(
         [&](TornModel::State::Call& call) -> Status {
           tearing.report = {};
           tearing.lips.clear();
           if (Status status = work(); !status) return status;
           call.report = tearing.report;
-          call.change.lips = tearing.lips;
+          call.lips.swap(tearing.lips);
           return {};
         },
         change);
@@ -117,16 +120,16 @@ Result<TearStroke> TearStroke::begin(TornModel& model, const ModelPose& pose, co
   if (Status status = validate_sampling(sampling); !status) return status;
   if (Status status = validate_blade(blade, 0); !status) return status;
   if (Status status = of_model.stand_in(pose); !status) return status;
+  auto& operation = of_model.history.next().as<TearOperation>();
+  tear::assign_pose(pose, operation.pose);
+  operation.stroke.assign(1, blade);
+  operation.pose_changes.clear();
+  operation.options = options;
+  of_model.tearing.begin(blade, options);
+  auto state = std::unique_ptr<State>(
+      new State{&of_model, sampling, operation, 0, {}, of_model.begin_operation(options.wall_depth > 0), {}, {}, {}});
   of_model.has_stroke = true;
-  return TearStroke(std::unique_ptr<State>(new State{&of_model,
-                                                     options,
-                                                     sampling,
-                                                     tear::StrokeTearing(blade, options),
-                                                     TearOperation{pose, {blade}, {}, options},
-                                                     0,
-                                                     {},
-                                                     of_model.begin_operation(options.wall_depth > 0),
-                                                     {}}));
+  return TearStroke(std::move(state));
 }
 
 Result<TearReport> TearStroke::extend(const ModelPose& pose, const Blade& blade, double seconds, ChangeRecord* change) {
@@ -137,7 +140,7 @@ Result<TearReport> TearStroke::extend(const ModelPose& pose, const Blade& blade,
   if (!std::isfinite(seconds) || seconds < state.last_seconds)
     return Status::failure(StatusCode::invalid_argument, index, "blade %u comes at %g s, after one at %g s", index, seconds,
                            state.last_seconds);
-  if (Status status = validate_turn(state.tearing.blade(), blade, index); !status) return status;
+  if (Status status = validate_turn(state.model->tearing.blade(), blade, index); !status) return status;
   if (!state.is_due(blade, seconds)) {
     if (Status status = state.model->posed.check(state.model->character, pose); !status) return status;
     state.held = State::Held{pose, blade};
@@ -158,7 +161,7 @@ Result<TearReport> TearStroke::end(ChangeRecord* change) {
       [&]() -> Status {
         if (state.held)
           if (Status status = state.take_up(state.held->pose, state.held->blade); !status) return status;
-        state.tearing.finish(state.model->workpiece());
+        state.model->tearing.finish(state.model->workpiece());
         return {};
       },
       change);
@@ -166,7 +169,7 @@ Result<TearReport> TearStroke::end(ChangeRecord* change) {
   state.model->has_stroke = false;
   state.model->count(state.begin, false, state.total);
   // A stroke of one blade tears nothing: there is nothing to take back.
-  if (state.operation.stroke.size() > 1) state.model->record(std::move(state.operation), state.begin);
+  if (state.operation.stroke.size() > 1) state.model->record(state.begin);
   return std::move(state.total);
 }
 

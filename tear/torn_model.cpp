@@ -15,15 +15,19 @@ constexpr std::size_t kMaximumTriangles = kNone / 6;
 
 }  // namespace
 
-Result<TornModel> TornModel::create(std::shared_ptr<const Character> source) {
+Result<TornModel> TornModel::create(std::shared_ptr<const Character> source, const TornCapacity& capacity) {
   if (!source) return Status::failure(StatusCode::empty_input, kNone, "no character");
   if (Status status = validate_character(*source); !status) return status;
-  std::size_t triangles = 0;
+  std::size_t triangles = capacity.triangles;
   for (const Mesh& mesh : source->meshes) triangles += mesh.triangles.size();
-  if (triangles > kMaximumTriangles)
-    return Status::failure(StatusCode::limit_exceeded, kNone, "%zu triangles; at most %zu can be torn", triangles,
-                           kMaximumTriangles);
-  return TornModel(std::make_unique<State>(std::move(source)));
+  if (triangles > kMaximumTriangles || capacity.vertices > kMaximumTriangles || capacity.operations > kMaximumTriangles)
+    return Status::failure(StatusCode::limit_exceeded, kNone, "%zu triangles, with the capacity; at most %zu can be torn",
+                           triangles, kMaximumTriangles);
+  try {
+    return TornModel(std::make_unique<State>(std::move(source), capacity));
+  } catch (const std::bad_alloc&) {
+    return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
+  }
 }
 
 TornModel::TornModel(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -48,15 +52,20 @@ Result<TearReport> TornModel::tear(const ModelPose& pose, std::span<const Blade>
   const tear::SurfaceEditor::Mark begin = state.begin_operation(options.wall_depth > 0);
   auto report = state.call(
       [&](State::Call& call) -> Status {
-        tear::StrokeTearing tearing(stroke.front(), options);
-        for (const Blade& blade : stroke.subspan(1)) tearing.extend(blade, state.workpiece());
-        tearing.finish(state.workpiece());
-        call.report = tearing.report;
-        call.change.lips = tearing.lips;
+        auto& operation = state.history.next().as<TearOperation>();
+        tear::assign_pose(pose, operation.pose);
+        operation.stroke.assign(stroke.begin(), stroke.end());
+        operation.pose_changes.clear();
+        operation.options = options;
+        state.tearing.begin(stroke.front(), options);
+        for (const Blade& blade : stroke.subspan(1)) state.tearing.extend(blade, state.workpiece());
+        state.tearing.finish(state.workpiece());
+        call.report = state.tearing.report;
+        call.lips.swap(state.tearing.lips);
         return {};
       },
       change);
-  if (report) state.record(TearOperation{pose, {stroke.begin(), stroke.end()}, {}, options}, begin);
+  if (report) state.record(begin);
   return report;
 }
 
@@ -68,11 +77,14 @@ Result<TearReport> TornModel::cut(const ModelPose& pose, const Cut& cut, ChangeR
   const tear::SurfaceEditor::Mark begin = state.begin_operation(false);
   auto report = state.call(
       [&](State::Call& call) -> Status {
-        tear::cut_surface(cut, state.workpiece(), call.report, call.change.lips);
+        auto& operation = state.history.next().as<CutOperation>();
+        tear::assign_pose(pose, operation.pose);
+        operation.cut = cut;
+        tear::cut_surface(cut, state.workpiece(), call.report, call.lips);
         return {};
       },
       change, true);
-  if (report) state.record(CutOperation{pose, cut}, begin);
+  if (report) state.record(begin);
   return report;
 }
 
@@ -84,57 +96,59 @@ Result<TearReport> TornModel::drill(const ModelPose& pose, const Bore& bore, Cha
   const tear::SurfaceEditor::Mark begin = state.begin_operation(bore.wall);
   auto report = state.call(
       [&](State::Call& call) -> Status {
+        auto& operation = state.history.next().as<DrillOperation>();
+        tear::assign_pose(pose, operation.pose);
+        operation.bore = bore;
         tear::drill_surface(bore, state.workpiece(), call.report);
         return {};
       },
       change);
-  if (report) state.record(DrillOperation{pose, bore}, begin);
+  if (report) state.record(begin);
   return report;
 }
 
 Status TornModel::undo(ChangeRecord* change) {
   State& state = *state_;
-  if (Status status = state.may_begin(); !status) return status;
-  if (state.done.empty()) return Status::failure(StatusCode::not_found, kNone, "there is nothing to undo");
-  State::Done& last = state.done.back();
-  ChangeRecord done;
+  if (state.has_stroke) return state.may_begin();
+  if (state.history.done().empty()) return Status::failure(StatusCode::not_found, kNone, "there is nothing to undo");
+  tear::History::Entry& last = *state.history.done().back();
+  ChangeRecord unwanted;
   try {
-    state.undone.reserve(state.undone.size() + 1);
-    auto redo = state.editor.undo(last.begin, done);
-    state.undone.push_back({std::move(last.operation), std::move(redo)});
+    state.editor.scratch().reset();
+    state.history.make_room_to_undo();
+    state.editor.undo(last.begin, last.redo, change != nullptr ? *change : unwanted);
+  } catch (const tear::CapacityExceeded& exceeded) {
+    return state.no_room(exceeded);
   } catch (const std::bad_alloc&) {
     return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
   }
-  state.done.pop_back();
-  if (change != nullptr) *change = std::move(done);
+  state.history.move_to_undone();
   return {};
 }
 
 Status TornModel::redo(ChangeRecord* change) {
   State& state = *state_;
   if (Status status = state.may_begin(); !status) return status;
-  if (state.undone.empty()) return Status::failure(StatusCode::not_found, kNone, "there is nothing to do again");
-  State::Undone& last = state.undone.back();
-  ChangeRecord done;
+  if (state.history.undone().empty()) return Status::failure(StatusCode::not_found, kNone, "there is nothing to do again");
+  tear::History::Entry& last = *state.history.undone().back();
+  ChangeRecord unwanted;
   try {
-    state.done.reserve(state.done.size() + 1);
-    const tear::SurfaceEditor::Mark begin = state.editor.mark();
-    state.editor.redo(last.redo, done);
-    state.done.push_back({std::move(last.operation), begin});
+    state.editor.scratch().reset();
+    last.begin = state.editor.mark();
+    state.editor.redo(last.redo, change != nullptr ? *change : unwanted);
   } catch (const std::bad_alloc&) {
     return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
   }
-  state.undone.pop_back();
-  if (change != nullptr) *change = std::move(done);
+  state.history.move_to_done();
   return {};
 }
 
-std::uint32_t TornModel::undo_count() const { return static_cast<std::uint32_t>(state_->done.size()); }
-std::uint32_t TornModel::redo_count() const { return static_cast<std::uint32_t>(state_->undone.size()); }
+std::uint32_t TornModel::undo_count() const { return static_cast<std::uint32_t>(state_->history.done().size()); }
+std::uint32_t TornModel::redo_count() const { return static_cast<std::uint32_t>(state_->history.undone().size()); }
 
 std::vector<Operation> TornModel::history() const {
   std::vector<Operation> operations;
-  for (const State::Done& done : state_->done) operations.push_back(done.operation);
+  for (const auto& entry : state_->history.done()) operations.push_back(entry->operation);
   return operations;
 }
 
@@ -143,7 +157,7 @@ Result<CompactMaps> TornModel::compact() {
   try {
     auto source = std::make_shared<Character>(state_->character);
     CompactMaps maps = sunder::compact(*source);
-    state_ = std::make_unique<State>(std::move(source));
+    state_ = std::make_unique<State>(std::move(source), state_->capacity);
     return maps;
   } catch (const std::bad_alloc&) {
     return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");

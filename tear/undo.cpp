@@ -17,9 +17,9 @@ void append(std::vector<T>& values, const std::vector<T>& tail) {
 
 }  // namespace
 
-SurfaceEditor::Redo SurfaceEditor::undo(const Mark& begin, ChangeRecord& change) {
+void SurfaceEditor::undo(const Mark& begin, Redo& redo, ChangeRecord& change) {
   const std::vector<MeshSizes> sizes(sizes_at(begin).begin(), sizes_at(begin).end());
-  Redo redo;
+  redo = {};
   redo.additions = tail_of(additions_, begin.additions);
   for (Index m = 0; m < character_.meshes.size(); ++m) {
     const Mesh& mesh = character_.meshes[m];
@@ -80,7 +80,6 @@ SurfaceEditor::Redo SurfaceEditor::undo(const Mark& begin, ChangeRecord& change)
     fill_dirty_ranges(redo.side_log, of_mesh);
     change.meshes.push_back(std::move(of_mesh));
   }
-  return redo;
 }
 
 void SurfaceEditor::redo(const Redo& redo, ChangeRecord& change) {

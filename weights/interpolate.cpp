@@ -80,15 +80,15 @@ void append_mean_weights(const Corners& corners, SkinWeights& weights) {
 }
 
 /// Calls `visit(array, floats or entries a vertex)` for each per-vertex array but the weights.
-template <class Visit>
-void for_each_array(Mesh& mesh, Visit visit) {
+template <class AnyMesh, class Visit>
+void for_each_array(AnyMesh& mesh, Visit visit) {
   visit(mesh.positions, 1u);
   visit(mesh.normals, 1u);
   visit(mesh.tangents, 1u);
   for (auto& uv : mesh.uv_sets) visit(uv, 1u);
   for (auto& colors : mesh.color_sets) visit(colors, 1u);
-  for (CustomAttribute& attribute : mesh.custom_attributes) visit(attribute.values, attribute.components);
-  for (MorphTarget& target : mesh.morph_targets) {
+  for (auto& attribute : mesh.custom_attributes) visit(attribute.values, attribute.components);
+  for (auto& target : mesh.morph_targets) {
     visit(target.position_deltas, 1u);
     visit(target.normal_deltas, 1u);
     visit(target.tangent_deltas, 1u);
@@ -173,6 +173,23 @@ void copy_surface_point(const Mesh& like_mesh, std::uint32_t like, std::uint32_t
     weights.influences.push_back(influence);
   }
   weights.first[vertex + 1] = static_cast<std::uint32_t>(weights.influences.size());
+}
+
+bool has_room_for_vertices(std::size_t vertex_count, std::size_t influence_count, const Mesh& mesh) {
+  bool has_room = mesh.weights.first.capacity() - mesh.weights.first.size() >= vertex_count &&
+                  mesh.weights.influences.capacity() - mesh.weights.influences.size() >= influence_count;
+  for_each_array(mesh, [&](const auto& values, std::size_t per_vertex) {
+    has_room = has_room && (values.empty() || values.capacity() - values.size() >= vertex_count * per_vertex);
+  });
+  return has_room;
+}
+
+void reserve_vertices(std::size_t vertex_count, std::size_t influence_count, Mesh& mesh) {
+  for_each_array(mesh, [&](auto& values, std::size_t per_vertex) {
+    if (!values.empty()) values.reserve(values.size() + vertex_count * per_vertex);
+  });
+  mesh.weights.first.reserve(mesh.weights.first.size() + vertex_count);
+  mesh.weights.influences.reserve(mesh.weights.influences.size() + influence_count);
 }
 
 void remove_vertices_from(std::uint32_t vertex_count, Mesh& mesh) {

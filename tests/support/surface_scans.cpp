@@ -83,6 +83,25 @@ std::vector<Contact> all_contacts(const BladePlane& plane, double progress, cons
 
 std::optional<SurfaceHit> scan_for_hit(const Blade& blade, const tear::SurfaceEditor& editor, tear::PosedPoints& posed) {
   const Vec3d direction = blade.tip - blade.base;
+  // Along a face's plane the place is rounding alone: what counts is what of it lies in the face's box along the blade.
+  const Mat3d axes = tear::axes_along(direction);
+  const Vec3d base_in_axes = axes * blade.base, direction_in_axes = axes * direction;
+  const double reach = std::max(blade.base.cwiseAbs().maxCoeff(), blade.tip.cwiseAbs().maxCoeff());
+  const auto clamp_to_box = [&](const Corners& corners, double& depth) {
+    const Vec3d a = axes * corners[0], b = axes * corners[1], c = axes * corners[2];
+    const tear::Box box = tear::Box{a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)}.widened(reach);
+    double begin = 0, end = 1;
+    for (int k = 0; k < 3; ++k) {
+      if (direction_in_axes[k] == 0 && (box.low[k] > base_in_axes[k] || box.high[k] < base_in_axes[k])) return false;
+      if (direction_in_axes[k] == 0) continue;
+      const double at_low = (box.low[k] - base_in_axes[k]) / direction_in_axes[k];
+      const double at_high = (box.high[k] - base_in_axes[k]) / direction_in_axes[k];
+      begin = std::max(begin, std::min(at_low, at_high));
+      end = std::min(end, std::max(at_low, at_high));
+    }
+    depth = std::min(std::max(depth, begin), end);
+    return begin <= end;
+  };
   std::optional<SurfaceHit> nearest;
   double nearest_depth = 1.0;
   for_each_face(editor, posed, [&](Index t, const Corners& corners) {
@@ -94,10 +113,10 @@ std::optional<SurfaceHit> scan_for_hit(const Blade& blade, const tear::SurfaceEd
     const double u = from_corner.dot(h) / determinant;
     const Vec3d q = from_corner.cross(ab);
     const double v = direction.dot(q) / determinant;
-    const double depth = ac.dot(q) / determinant;
+    double depth = ac.dot(q) / determinant;
     constexpr double kEdge = 1e-12;
-    if (u < -kEdge || v < -kEdge || u + v > 1 + kEdge || depth < 0 || depth > nearest_depth) return;
-    if (nearest && depth == nearest_depth) return;
+    if (u < -kEdge || v < -kEdge || u + v > 1 + kEdge || depth < 0 || depth > 1 || !clamp_to_box(corners, depth)) return;
+    if (depth > nearest_depth || (nearest && depth == nearest_depth)) return;
     nearest_depth = depth;
     nearest = SurfaceHit{t, {std::max(0.0, 1 - u - v), std::max(0.0, u), std::max(0.0, v)}, blade.base + depth * direction, 0};
   });

@@ -2,6 +2,7 @@
 
 #include <sunder/core/character.h>
 #include <sunder/core/operation.h>
+#include <sunder/tear/capacity.h>
 #include <sunder/tear/change_record.h>
 #include <sunder/tear/compact.h>
 #include <sunder/tear/report.h>
@@ -15,9 +16,11 @@ namespace sunder {
 class SUNDER_API TornModel {
  public:
   /// @param source  satisfies validate_character(); kept. The model starts as a copy of it.
-  /// @return the first fault of the source; empty_input for none; limit_exceeded above 700 million triangles. O(size of the
-  /// source).
-  static Result<TornModel> create(std::shared_ptr<const Character> source);
+  /// @param capacity  what operations may append; by default the model grows.
+  /// @return the first fault of the source; empty_input for none; limit_exceeded above 700 million triangles, or where memory does
+  /// not
+  ///         suffice. O(size of the source).
+  static Result<TornModel> create(std::shared_ptr<const Character> source, const TornCapacity& capacity = {});
 
   TornModel(TornModel&&) noexcept;
   TornModel& operator=(TornModel&&) noexcept;

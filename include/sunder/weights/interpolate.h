@@ -30,6 +30,12 @@ SUNDER_API std::uint32_t append_vertex_copy(std::uint32_t vertex, Mesh& mesh);
 /// bit: the two are duplicates of one surface point. Both meshes have the same skin.
 SUNDER_API void copy_surface_point(const Mesh& like_mesh, std::uint32_t like, std::uint32_t vertex, Mesh& mesh);
 
+/// Whether that many vertices, with that many influences together, can be appended without an array of `mesh` growing.
+[[nodiscard]] SUNDER_API bool has_room_for_vertices(std::size_t vertex_count, std::size_t influence_count, const Mesh& mesh);
+
+/// Gives all arrays room for that many more vertices, with that many more influences.
+SUNDER_API void reserve_vertices(std::size_t vertex_count, std::size_t influence_count, Mesh& mesh);
+
 /// Removes the newest vertices, down to `vertex_count`.
 SUNDER_API void remove_vertices_from(std::uint32_t vertex_count, Mesh& mesh);
 
