@@ -40,7 +40,7 @@ class BladePlane {
   /// What the blade sweeps from `progress` on.
   [[nodiscard]] HalfPlane from_progress(double progress) const;
 
-  /// Rows: across, along, normal.
+  /// Rows: along, across, normal.
   [[nodiscard]] Mat3d axes() const;
   /// No point of a box, given in axes(), that lies in the plane and within reach has less progress than this. Minus infinity where
   /// that is not known.
