@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 namespace sunder::tear {
@@ -243,34 +244,42 @@ std::optional<SurfaceHit> first_hit(const Blade& blade, const SurfaceEditor& edi
 
 std::optional<SurfaceHit> first_contact(const BladePlane& plane, double progress, const SurfaceEditor& editor, PosedPoints& posed) {
   // Whatever the order of visits: the least progress, there the least depth, there the first face.
+  double least = std::numeric_limits<double>::max(), least_depth = least;
   std::optional<Contact> nearest;
-  double least = std::numeric_limits<double>::max(), second = least;
-  for_each_contact(plane, progress, editor, posed, [&](const Contact& contact) {
-    if (contact.low.progress < least) {
-      second = least;
-      least = contact.low.progress;
-      nearest = contact;
-    } else {
-      second = std::min(second, contact.low.progress);
-    }
-    return least + kSamePlace;
-  });
-  if (!nearest || !(second < least + kSamePlace)) return nearest ? std::optional(nearest->hit) : std::nullopt;
-
   const auto is_there = [&](const Contact& contact) { return contact.low.progress < least + kSamePlace; };
-  double least_depth = std::numeric_limits<double>::max();
-  for_each_contact(plane, progress, editor, posed, [&](const Contact& contact) {
-    if (is_there(contact)) least_depth = std::min(least_depth, contact.low.depth);
-    return least + kSamePlace;
-  });
-  nearest.reset();
-  for_each_contact(plane, progress, editor, posed, [&](const Contact& contact) {
+  const auto choose = [&](const Contact& contact) {
     if (is_there(contact) && contact.low.depth <= least_depth + kSamePlace &&
         (!nearest || contact.hit.triangle < nearest->hit.triangle))
       nearest = contact;
+  };
+  std::array<Contact, 8> near;
+  std::size_t count = 0;
+  bool are_all_near_kept = true;
+  for_each_contact(plane, progress, editor, posed, [&](const Contact& contact) {
+    if (contact.low.progress < least) {
+      least = contact.low.progress;
+      count = static_cast<std::size_t>(std::remove_if(near.begin(), near.begin() + count, std::not_fn(is_there)) - near.begin());
+    }
+    if (is_there(contact)) {
+      are_all_near_kept = are_all_near_kept && count < near.size();
+      if (are_all_near_kept) near[count++] = contact;
+    }
     return least + kSamePlace;
   });
-  return nearest->hit;
+  if (are_all_near_kept) {
+    for (const Contact& contact : std::span(near).first(count)) least_depth = std::min(least_depth, contact.low.depth);
+    for (const Contact& contact : std::span(near).first(count)) choose(contact);
+  } else {  // many faces around one point: look once more, and again
+    for_each_contact(plane, progress, editor, posed, [&](const Contact& contact) {
+      if (is_there(contact)) least_depth = std::min(least_depth, contact.low.depth);
+      return least + kSamePlace;
+    });
+    for_each_contact(plane, progress, editor, posed, [&](const Contact& contact) {
+      choose(contact);
+      return least + kSamePlace;
+    });
+  }
+  return nearest ? std::optional(nearest->hit) : std::nullopt;
 }
 
 }  // namespace sunder::tear
