@@ -88,7 +88,7 @@ BladePlane::HalfPlane BladePlane::from_progress(double progress) const {
 
 Mat3d BladePlane::axes() const {
   Mat3d axes;
-  axes << across_.transpose(), along_.transpose(), normal_.transpose();
+  axes << along_.transpose(), across_.transpose(), normal_.transpose();
   return axes;
 }
 
@@ -102,10 +102,10 @@ double BladePlane::least_progress(const Box& box) const {
   const Vec3d half = box.half_size(), middle = box.middle() - axes() * origin_;
   const Vec2d e = to_base_ - from_base_, d = from_tip_ - from_base_, g = (to_tip_ - to_base_) - d;
   const auto radius = [&](const Vec2d& direction) {
-    return std::abs(direction.y()) * half.x() + std::abs(direction.x()) * half.y();
+    return std::abs(direction.y()) * half.y() + std::abs(direction.x()) * half.x();
   };
   const double radius_before = radius(d), radius_after = radius(d + g);
-  const Vec2d p = Vec2d(middle.x(), middle.y()) - from_base_;
+  const Vec2d p = Vec2d(middle.y(), middle.x()) - from_base_;
   const double a = -cross(e, g);
   const double b = cross(p, g) - cross(e, d) - (radius_after - radius_before);
   const double c = cross(p, d) - radius_before;

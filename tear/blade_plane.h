@@ -45,7 +45,7 @@ class BladePlane {
   /// What it sweeps from the first blade on.
   [[nodiscard]] const HalfPlane& not_before() const { return not_before_; }
 
-  /// Rows: across, along, normal.
+  /// Rows: along, across, normal.
   [[nodiscard]] Mat3d axes() const;
   /// No point of a box, given in axes(), that lies in the plane and within reach has less progress than this. Minus infinity where
   /// that is not known.

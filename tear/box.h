@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 
 #include "tear/half_space.h"
 
@@ -15,13 +16,23 @@ struct Box {
   /// Of all its points.
   [[nodiscard]] double largest_coordinate() const { return std::max(low.cwiseAbs().maxCoeff(), high.cwiseAbs().maxCoeff()); }
 
-  /// The box, wider by more than rounding can move a point that is computed from its corners and from coordinates up to `reach`.
-  /// A box inside another one stays inside it.
+  /// More than rounding can move a point that is computed from the box' corners and from coordinates up to `reach`. That of a box
+  /// inside another one is not greater.
+  [[nodiscard]] double margin(double reach) const {
+    return 1e-9 * (high - low).maxCoeff() + 1e-12 * (largest_coordinate() + reach);
+  }
   [[nodiscard]] Box widened(double reach) const {
-    const double margin = 1e-9 * (high - low).maxCoeff() + 1e-12 * (largest_coordinate() + reach);
-    const Vec3d all_around = Vec3d::Constant(margin);
+    const Vec3d all_around = Vec3d::Constant(margin(reach));
     return {low - all_around, high + all_around};
   }
+};
+
+/// What a thing looks like along the first of some axes: where it lies on it, and where between three pairs of parallels across it,
+/// which are turned as the thing is. The shadow of a long thing that lies askew is much smaller than the box around it.
+struct Shadow {
+  double low = 0, high = 0;        ///< Along the first axis.
+  std::array<Vec2d, 3> normal;     ///< Of each pair of parallels, in the second and third axis.
+  std::array<double, 3> from, to;  ///< Where they are.
 };
 
 /// Orthogonal unit vectors as rows: along `first`, then towards `second` as far as it goes another way.

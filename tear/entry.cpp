@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 namespace sunder::tear {
@@ -66,6 +67,7 @@ class Segment {
   struct Part {
     double begin = 0, end = 1;
     [[nodiscard]] bool is_empty() const { return begin > end; }
+    [[nodiscard]] double begin_or_infinity() const { return is_empty() ? std::numeric_limits<double>::infinity() : begin; }
   };
   /// The part within a box, on the safe side of rounding. The part within a box inside it lies in that part, to the last bit.
   [[nodiscard]] Part part_in(const Box& box) const {
@@ -82,6 +84,17 @@ class Segment {
       part.end = std::min(part.end, (ascends ? to_high : to_low) / direction_in_axes_[k]);
     }
     return part;
+  }
+
+  /// Of what lies both in a box and in a shadow.
+  [[nodiscard]] Part part_in(const Box& box, const Shadow& shadow) const {
+    const double margin = box.margin(reach_);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double at = shadow.normal[k].x() * base_in_axes_.y() + shadow.normal[k].y() * base_in_axes_.z();
+      if (at < shadow.from[k] - margin || at > shadow.to[k] + margin) return {1, 0};
+    }
+    const double to_low = shadow.low - margin - base_in_axes_.x(), to_high = shadow.high + margin - base_in_axes_.x();
+    return {std::max(0.0, to_low / direction_in_axes_.x()), std::min(1.0, to_high / direction_in_axes_.x())};
   }
 
   /// Where it meets a triangle, edges included so that none slips between two faces: Moeller and Trumbore 1997.
@@ -143,28 +156,64 @@ std::optional<Contact> contact_with(Index triangle, const Corners& corners, cons
   return contact;
 }
 
+/// Where a sweep may meet what lies in boxes.
+class Sweep {
+ public:
+  Sweep(const BladePlane& plane, const BladePlane::HalfPlane& not_before)
+      : plane_(plane),
+        axes_(plane.axes()),
+        within_{in_axes(axes_, plane.left_of(0)),
+                in_axes(axes_, plane.right_of(0)),
+                in_axes(axes_, plane.standing_on(plane.reach()[0])),
+                in_axes(axes_, plane.standing_on(plane.reach()[1])),
+                in_axes(axes_, plane.standing_on(plane.reach()[2])),
+                in_axes(axes_, plane.standing_on(not_before))} {
+    for (const HalfSpace& side : within_) reach_ = std::max(reach_, std::abs(side.offset));
+  }
+
+  /// Those that boxes are in: along the blade, across it, and the plane's normal.
+  [[nodiscard]] const Mat3d& axes() const { return axes_; }
+  [[nodiscard]] double least_progress(const Box& box) const {
+    return std::any_of(within_.begin(), within_.end(), [&](const HalfSpace& side) { return is_outside(side, box); })
+               ? std::numeric_limits<double>::infinity()
+               : plane_.least_progress(box.widened(reach_));
+  }
+  /// Of what lies both in a box and in a shadow.
+  [[nodiscard]] double least_progress(const Box& box, const Shadow& shadow) const {
+    // In the plane, a pair of parallels leaves an interval across the blade.
+    const double margin = box.margin(reach_), at_plane = within_[0].offset;
+    Box narrow = box;
+    narrow.low[0] = std::max(narrow.low[0], shadow.low);
+    narrow.high[0] = std::min(narrow.high[0], shadow.high);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double steepness = shadow.normal[k].x();
+      if (!(std::abs(steepness) > 1e-6)) continue;
+      const double from = (shadow.from[k] - margin - shadow.normal[k].y() * at_plane) / steepness;
+      const double to = (shadow.to[k] + margin - shadow.normal[k].y() * at_plane) / steepness;
+      narrow.low[1] = std::max(narrow.low[1], std::min(from, to) - margin / std::abs(steepness));
+      narrow.high[1] = std::min(narrow.high[1], std::max(from, to) + margin / std::abs(steepness));
+    }
+    if (narrow.low[1] > narrow.high[1] + margin || narrow.low[0] > narrow.high[0] + margin)
+      return std::numeric_limits<double>::infinity();
+    return least_progress(narrow);
+  }
+
+ private:
+  const BladePlane& plane_;
+  Mat3d axes_;
+  std::array<HalfSpace, 6> within_;
+  double reach_ = 0;
+};
+
 /// Calls take(contact) for the contacts of a sweep with the surface. It returns the greatest progress that is of interest from then
 /// on.
 template <class Take>
 void for_each_contact(const BladePlane& plane, double progress, const SurfaceEditor& editor, PosedPoints& posed, Take take) {
   const BladePlane::HalfPlane not_before = plane.from_progress(progress);
-  const Mat3d axes = plane.axes();
-  const auto& reach = plane.reach();
-  const std::array<HalfSpace, 6> within = {
-      in_axes(axes, plane.left_of(0)),
-      in_axes(axes, plane.right_of(0)),
-      in_axes(axes, plane.standing_on(reach[0])),
-      in_axes(axes, plane.standing_on(reach[1])),
-      in_axes(axes, plane.standing_on(reach[2])),
-      in_axes(axes, plane.standing_on(not_before)),
-  };
-  const auto least_progress = [&](const Box& box) {
-    return std::any_of(within.begin(), within.end(), [&](const HalfSpace& half_space) { return is_outside(half_space, box); })
-               ? std::numeric_limits<double>::infinity()
-               : plane.least_progress(box);
-  };
+  const Sweep sweep(plane, not_before);
+  const auto least_progress = [&](const Box& box, const auto&... shadow) { return sweep.least_progress(box, shadow...); };
   double limit = std::numeric_limits<double>::max();
-  posed.visit_faces(editor, axes, least_progress, [&](Index triangle) {
+  posed.visit_faces(editor, sweep.axes(), least_progress, [&](Index triangle) {
     const auto contact = contact_with(triangle, posed_corners(editor, posed, triangle), plane, progress, not_before);
     if (contact) limit = take(*contact);
     return limit;
@@ -177,9 +226,8 @@ std::optional<SurfaceHit> first_hit(const Blade& blade, const SurfaceEditor& edi
   const Segment segment(blade);
   std::optional<SurfaceHit> nearest;
   double nearest_depth = 1.0;
-  const auto least_depth = [&](const Box& box) {
-    const Segment::Part part = segment.part_in(box);
-    return part.is_empty() ? std::numeric_limits<double>::infinity() : part.begin;
+  const auto least_depth = [&](const Box& box, const auto&... shadow) {
+    return segment.part_in(box, shadow...).begin_or_infinity();
   };
   posed.visit_faces(editor, segment.axes(), least_depth, [&](Index triangle) {
     double depth = 0;
@@ -196,34 +244,42 @@ std::optional<SurfaceHit> first_hit(const Blade& blade, const SurfaceEditor& edi
 
 std::optional<SurfaceHit> first_contact(const BladePlane& plane, double progress, const SurfaceEditor& editor, PosedPoints& posed) {
   // Whatever the order of visits: the least progress, there the least depth, there the first face.
+  double least = std::numeric_limits<double>::max(), least_depth = least;
   std::optional<Contact> nearest;
-  double least = std::numeric_limits<double>::max(), second = least;
-  for_each_contact(plane, progress, editor, posed, [&](const Contact& contact) {
-    if (contact.low.progress < least) {
-      second = least;
-      least = contact.low.progress;
-      nearest = contact;
-    } else {
-      second = std::min(second, contact.low.progress);
-    }
-    return least + kSamePlace;
-  });
-  if (!nearest || !(second < least + kSamePlace)) return nearest ? std::optional(nearest->hit) : std::nullopt;
-
   const auto is_there = [&](const Contact& contact) { return contact.low.progress < least + kSamePlace; };
-  double least_depth = std::numeric_limits<double>::max();
-  for_each_contact(plane, progress, editor, posed, [&](const Contact& contact) {
-    if (is_there(contact)) least_depth = std::min(least_depth, contact.low.depth);
-    return least + kSamePlace;
-  });
-  nearest.reset();
-  for_each_contact(plane, progress, editor, posed, [&](const Contact& contact) {
+  const auto choose = [&](const Contact& contact) {
     if (is_there(contact) && contact.low.depth <= least_depth + kSamePlace &&
         (!nearest || contact.hit.triangle < nearest->hit.triangle))
       nearest = contact;
+  };
+  std::array<Contact, 8> near;
+  std::size_t count = 0;
+  bool are_all_near_kept = true;
+  for_each_contact(plane, progress, editor, posed, [&](const Contact& contact) {
+    if (contact.low.progress < least) {
+      least = contact.low.progress;
+      count = static_cast<std::size_t>(std::remove_if(near.begin(), near.begin() + count, std::not_fn(is_there)) - near.begin());
+    }
+    if (is_there(contact)) {
+      are_all_near_kept = are_all_near_kept && count < near.size();
+      if (are_all_near_kept) near[count++] = contact;
+    }
     return least + kSamePlace;
   });
-  return nearest->hit;
+  if (are_all_near_kept) {
+    for (const Contact& contact : std::span(near).first(count)) least_depth = std::min(least_depth, contact.low.depth);
+    for (const Contact& contact : std::span(near).first(count)) choose(contact);
+  } else {  // many faces around one point: look once more, and again
+    for_each_contact(plane, progress, editor, posed, [&](const Contact& contact) {
+      if (is_there(contact)) least_depth = std::min(least_depth, contact.low.depth);
+      return least + kSamePlace;
+    });
+    for_each_contact(plane, progress, editor, posed, [&](const Contact& contact) {
+      choose(contact);
+      return least + kSamePlace;
+    });
+  }
+  return nearest ? std::optional(nearest->hit) : std::nullopt;
 }
 
 }  // namespace sunder::tear

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <limits>
+#include <type_traits>
 
 #include "tear/patch_tree.h"
 #include "tear/surface_editor.h"
@@ -27,7 +28,8 @@ class PatchForest {
   ///               Boxes are remembered as long as neither the pose nor the axes change.
   /// @param bound  bound(const Box&): the least value, such as a distance, that what is looked for can have in a box; infinity
   /// where
-  ///               it cannot be there.
+  ///               it cannot be there. What looks along the first axis may offer bound(const Box&, const Shadow&) too: of something
+  ///               that lies both in the box and in the shadow.
   /// @param visit  visit(face): the greatest value that is of interest from now on. May not call this again.
   template <class Bound, class Visit>
   void visit_faces(const SurfaceEditor& editor, const CharacterPose& pose, const Mat3d& axes, Bound bound, Visit visit);
@@ -82,8 +84,8 @@ void PatchForest::visit_faces(const SurfaceEditor& editor, const CharacterPose& 
   const auto& meshes = editor.character().meshes;
   constexpr double kNowhere = std::numeric_limits<double>::infinity();
   double limit = std::numeric_limits<double>::max();
-  const auto add = [&](const Box& box, Waiting node, std::size_t first) {
-    node.bound = bound(box);
+  const auto add = [&](double least, Waiting node, std::size_t first) {
+    node.bound = least;
     if (node.bound < kNowhere && !(node.bound > limit)) push(node, first);
   };
   stack_.clear();
@@ -93,12 +95,13 @@ void PatchForest::visit_faces(const SurfaceEditor& editor, const CharacterPose& 
     if (is_one_tree)
       push({std::numeric_limits<double>::lowest(), &covered, level + 1, 0}, 0);
     else
-      add(covered.tree.posed_box(level, 0, pose_of(meshes[covered.mesh], pose), epoch_), {0, &covered, level + 1, 0}, 0);
+      add(bound(covered.tree.posed_box(level, 0, pose_of(meshes[covered.mesh], pose), epoch_)), {0, &covered, level + 1, 0}, 0);
   };
   for (Covered& covered : sources_) add_root(covered);
   for (auto& of_mesh : fillings_)
     for (Covered& covered : of_mesh) add_root(covered);
   std::array<Box, PatchTree::kPatchesPerGroup> boxes;
+  [[maybe_unused]] std::array<Shadow, PatchTree::kPatchesPerGroup> shadows;
   while (!stack_.empty()) {
     const Waiting node = stack_.back();
     stack_.pop_back();
@@ -112,14 +115,22 @@ void PatchForest::visit_faces(const SurfaceEditor& editor, const CharacterPose& 
     const MeshPose mesh_pose = pose_of(meshes[covered.mesh], pose);
     const std::size_t first = stack_.size();
     if (node.height == 1) {
+      if constexpr (std::is_invocable_v<Bound&, const Box&, const Shadow&>) {
+        const Box& box = covered.tree.posed_box(0, node.number, mesh_pose, epoch_);
+        const Index count = covered.tree.compute_posed_patches(node.number, mesh_pose, shadows);
+        for (Index i = 0; i < count; ++i)
+          add(bound(box, shadows[i]), {0, &covered, 0, PatchTree::kPatchesPerGroup * node.number + i}, first);
+        continue;
+      }
       const Index count = covered.tree.compute_posed_patches(node.number, mesh_pose, boxes);
-      for (Index i = 0; i < count; ++i) add(boxes[i], {0, &covered, 0, PatchTree::kPatchesPerGroup * node.number + i}, first);
+      for (Index i = 0; i < count; ++i)
+        add(bound(boxes[i]), {0, &covered, 0, PatchTree::kPatchesPerGroup * node.number + i}, first);
       continue;
     }
     const Index level = node.height - 2;  // of the children
     const Index end = std::min(PatchTree::kFanOut * (node.number + 1), covered.tree.node_count(level));
     for (Index child = PatchTree::kFanOut * node.number; child < end; ++child)
-      add(covered.tree.posed_box(level, child, mesh_pose, epoch_), {0, &covered, node.height - 1, child}, first);
+      add(bound(covered.tree.posed_box(level, child, mesh_pose, epoch_)), {0, &covered, node.height - 1, child}, first);
   }
 }
 

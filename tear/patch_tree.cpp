@@ -325,41 +325,62 @@ class PatchTree::Bound {
     return box;
   }
 
-  /// @param bind_box_of  of what a bone moves.
-  template <class BindBoxOf>
-  [[nodiscard]] Box posed(BindBoxOf bind_box_of) const {
-    using Lanes = PosedBones::Lanes;
-    Lanes hull_low = Lanes::Zero(), hull_high = hull_low, main_low = hull_low, main_high = hull_low, mean_low = hull_low,
-          mean_high = hull_low;
-    for (std::size_t i = 0; i < bones_.size(); ++i) {
-      const NodeBone& moved = bones_[i];
-      const PosedBones::Bone& bone = pose_.bones.at(moved.slot);
-      const BindBox box = bind_box_of(moved);
-      const double rounding = bone.rounding_of_translation + bone.rounding[0] * largest_[0] + bone.rounding[1] * largest_[1] +
-                              bone.rounding[2] * largest_[2];
-      const Lanes middle = bone.translation + bone.x * box.middle[0] + bone.y * box.middle[1] + bone.z * box.middle[2];
-      const Lanes half = rounding + bone.size_of_x * box.half[0] + bone.size_of_y * box.half[1] + bone.size_of_z * box.half[2];
-      const Lanes low = middle - half, high = middle + half;  // M_i B_i
-      if (i == 0) {
-        hull_low = main_low = mean_low = low;
-        hull_high = main_high = mean_high = high;
-        continue;
-      }
-      hull_low = hull_low.min(low);
-      hull_high = hull_high.max(high);
+  using Lanes = PosedBones::Lanes;
+  struct Interval {
+    Lanes low, high;
+  };
+  /// M_i B_i, in whatever axes the bone is given.
+  EIGEN_STRONG_INLINE Interval posed(const PosedBones::Bone& bone, const BindBox& box) const {
+    const double rounding = bone.rounding_of_translation + bone.rounding[0] * largest_[0] + bone.rounding[1] * largest_[1] +
+                            bone.rounding[2] * largest_[2];
+    const Lanes middle = bone.translation + bone.x * box.middle[0] + bone.y * box.middle[1] + bone.z * box.middle[2];
+    const Lanes half = rounding + bone.size_of_x * box.half[0] + bone.size_of_y * box.half[1] + bone.size_of_z * box.half[2];
+    return {middle - half, middle + half};
+  }
+
+  /// What a mean of points of some intervals lies in.
+  struct Mean {
+    Interval main, hull, sum;
+
+    EIGEN_STRONG_INLINE void begin(const Interval& interval) { main = hull = sum = interval; }
+    EIGEN_STRONG_INLINE void add(const Interval& interval, const NodeBone& bone) {
+      hull.low = hull.low.min(interval.low);
+      hull.high = hull.high.max(interval.high);
       // w_main = 1 - sum of the others: each of those moves the mean from the main bone's place towards its own.
-      const double least = moved.least_weight * (1 / kWeightParts), greatest = moved.greatest_weight * (1 / kWeightParts);
-      const Lanes down = low - main_low, up = high - main_high;
-      mean_low += (least * down).min(greatest * down);
-      mean_high += (least * up).max(greatest * up);
+      const double least = bone.least_weight * (1 / kWeightParts), greatest = bone.greatest_weight * (1 / kWeightParts);
+      const Lanes down = interval.low - main.low, up = interval.high - main.high;
+      sum.low += (least * down).min(greatest * down);
+      sum.high += (least * up).max(greatest * up);
     }
-    const Lanes slack = tree_.weight_slack_ * hull_low.abs().max(hull_high.abs());
-    hull_low = hull_low.max(mean_low) - slack;
-    hull_high = hull_high.min(mean_high) + slack;
-    const Box box{hull_low.head<3>(), hull_high.head<3>()};
-    if (tree_.is_bounded_ && box.low.allFinite() && box.high.allFinite()) return box;
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();  // something overflowed
-    return {Vec3d::Constant(-kInfinity), Vec3d::Constant(kInfinity)};
+    /// Everything, where something overflowed.
+    [[nodiscard]] Interval result(const PatchTree& tree) const {
+      const Lanes slack = tree.weight_slack_ * hull.low.abs().max(hull.high.abs());
+      const Interval both{hull.low.max(sum.low) - slack, hull.high.min(sum.high) + slack};
+      if (tree.is_bounded_ && both.low.allFinite() && both.high.allFinite()) return both;
+      constexpr double kInfinity = std::numeric_limits<double>::infinity();
+      return {Lanes::Constant(-kInfinity), Lanes::Constant(kInfinity)};
+    }
+    [[nodiscard]] Box box(const PatchTree& tree) const {
+      const Interval both = result(tree);
+      return {both.low.head<3>(), both.high.head<3>()};
+    }
+  };
+
+  [[nodiscard]] std::span<const NodeBone> bones() const { return bones_; }
+
+  /// Of the patches of the node, which is a group. @param bone_of  a bone of the pose, by its slot.
+  template <class BoneOf>
+  Index gather_patches(Index group, BoneOf bone_of, std::array<Mean, kPatchesPerGroup>& means) const {
+    const Index first = kPatchesPerGroup * group, count = std::min(kPatchesPerGroup, tree_.patch_count() - first);
+    std::array<BindBox, kPatchesPerGroup> boxes;
+    for (Index i = 0; i < count; ++i) boxes[i] = bind_box(tree_.patches_[first + i]);
+    const PosedBones::Bone& main = bone_of(bones_[0].slot);
+    for (Index i = 0; i < count; ++i) means[i].begin(posed(main, boxes[i]));
+    for (const NodeBone& moved : bones_.subspan(1)) {
+      const PosedBones::Bone& bone = bone_of(moved.slot);
+      for (Index i = 0; i < count; ++i) means[i].add(posed(bone, boxes[i]), moved);
+    }
+    return count;
   }
 
  private:
@@ -386,15 +407,58 @@ class PatchTree::Bound {
 
 Box PatchTree::compute_posed_box(Index node, const MeshPose& pose) const {
   const Bound bound(*this, node, pose);
-  return bound.posed([&](const NodeBone& bone) { return bound.bind_box(bone.box); });
+  Bound::Mean mean;
+  const std::span<const NodeBone> bones = bound.bones();
+  mean.begin(bound.posed(pose.bones.at(bones[0].slot), bound.bind_box(bones[0].box)));
+  for (const NodeBone& bone : bones.subspan(1)) mean.add(bound.posed(pose.bones.at(bone.slot), bound.bind_box(bone.box)), bone);
+  return mean.box(*this);
 }
 
 Index PatchTree::compute_posed_patches(Index group, const MeshPose& pose, std::array<Box, kPatchesPerGroup>& boxes) const {
+  std::array<Bound::Mean, kPatchesPerGroup> means;
+  const auto bone_of = [&](Index slot) -> const PosedBones::Bone& { return pose.bones.at(slot); };
+  const Index count = Bound(*this, group, pose).gather_patches(group, bone_of, means);
+  for (Index i = 0; i < count; ++i) boxes[i] = means[i].box(*this);
+  return count;
+}
+
+Index PatchTree::compute_posed_patches(Index group, const MeshPose& pose, std::array<Shadow, kPatchesPerGroup>& shadows) const {
+  // The parallels run along the shadows of the edges of the group's box, as its main bone turns it.
   const Bound bound(*this, group, pose);
-  const Index first = kPatchesPerGroup * group, count = std::min(kPatchesPerGroup, patch_count() - first);
+  const PosedBones::Bone& main = pose.bones.at(bound.bones()[0].slot);
+  std::array<Vec2d, 3> normal;
+  const std::array<const Bound::Lanes*, 3> edges = {&main.x, &main.y, &main.z};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec2d across(-(*edges[k])[2], (*edges[k])[1]);
+    const double length = across.norm();
+    normal[k] = length > 1e-100 && length < 1e100 ? Vec2d(across / length) : Vec2d(k == 0 ? 1 : 0, k == 0 ? 0 : 1);
+  }
+  const Bound::Lanes along(1, 0, 0, 0), second(0, normal[0].x(), normal[1].x(), normal[2].x()),
+      third(0, normal[0].y(), normal[1].y(), normal[2].y());
+  PosedBones::Bone seen;
+  const auto see = [&](const Bound::Lanes& from) -> Bound::Lanes { return along * from[0] + second * from[1] + third * from[2]; };
+  const auto bone_of = [&](Index slot) -> const PosedBones::Bone& {
+    const PosedBones::Bone& bone = pose.bones.at(slot);
+    seen.x = see(bone.x);
+    seen.y = see(bone.y);
+    seen.z = see(bone.z);
+    seen.translation = see(bone.translation);
+    seen.size_of_x = seen.x.abs();
+    seen.size_of_y = seen.y.abs();
+    seen.size_of_z = seen.z.abs();
+    seen.rounding = bone.rounding;
+    seen.rounding_of_translation = bone.rounding_of_translation;
+    return seen;
+  };
+  std::array<Bound::Mean, kPatchesPerGroup> means;
+  const Index count = bound.gather_patches(group, bone_of, means);
   for (Index i = 0; i < count; ++i) {
-    const Bound::BindBox box = bound.bind_box(patches_[first + i]);
-    boxes[i] = bound.posed([&](const NodeBone&) -> const Bound::BindBox& { return box; });
+    const Bound::Interval shadow = means[i].result(*this);
+    shadows[i] = {shadow.low[0],
+                  shadow.high[0],
+                  normal,
+                  {shadow.low[1], shadow.low[2], shadow.low[3]},
+                  {shadow.high[1], shadow.high[2], shadow.high[3]}};
   }
   return count;
 }

@@ -58,6 +58,7 @@ class PatchTree {
   }
   /// The same of the patches of a group. @return how many there are.
   Index compute_posed_patches(Index group, const MeshPose& pose, std::array<Box, kPatchesPerGroup>& boxes) const;
+  Index compute_posed_patches(Index group, const MeshPose& pose, std::array<Shadow, kPatchesPerGroup>& shadows) const;
   /// Makes epoch numbers free to be used again; 0 is never one.
   void forget_epochs() { posed_since_.assign(posed_since_.size(), 0); }
 
