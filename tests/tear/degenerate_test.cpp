@@ -503,6 +503,11 @@ TEST(Degenerate, a_ring_around_a_tube_takes_it_apart) {
     tear_ring_around_tube(static_cast<std::uint64_t>(seed));
 }
 
+/// Where the middle of the gap runs along an edge, nearer to it than stored coordinates tell apart.
+TEST(Degenerate, a_gap_along_an_edge_is_not_blocked) {
+  for (const std::uint64_t seed : {932u, 1714u, 2170u, 4049u, 8188u, 9529u}) tear_ring_around_tube(seed);
+}
+
 /// Where the second of two blades at an edge of the tube sees the face that the tear comes from at a slant from behind.
 TEST(Degenerate, a_gap_goes_across_faces_that_turn_away_from_the_blade) {
   for (const std::uint64_t seed : {779u, 3858u, 7523u}) tear_ring_around_tube(seed);
