@@ -195,7 +195,8 @@ Cut random_cut(const Subject& subject, Random& random) {
   Cut cut;
   cut.normal = random.direction();
   const double share = random.uniform(0.1, 0.9);
-  cut.point = share * positions[random.index(count)] + (1 - share) * positions[random.index(count)];
+  cut.point = share * positions[random.index(count)];
+  cut.point += (1 - share) * positions[random.index(count)];
   return cut;
 }
 

@@ -51,12 +51,16 @@ ModelPose hard_pose(const Character& character, Random& random) {
   if (random.index(2) == 0) return pose;
   for (Affine3d& bone : pose.model_from_bone) {
     Mat3d change = Mat3d::Identity();
+    const auto any_entry = [&]() -> double& {
+      const std::uint32_t column = random.index(3), row = random.index(3);  // in this order with every compiler
+      return change(row, column);
+    };
     switch (random.index(6)) {
-      case 0: change(random.index(3), random.index(3)) = 0; break;  // flat, or nothing
+      case 0: any_entry() = 0; break;  // flat, or nothing
       case 1: change.setZero(); break;
       case 2: change(0, 0) = -1; break;
       case 3: change = -change; break;
-      case 4: change(random.index(3), random.index(3)) += random.uniform(-2, 2); break;
+      case 4: any_entry() += random.uniform(-2, 2); break;
       default: continue;
     }
     bone.linear() = (bone.linear() * change).eval();
@@ -165,7 +169,8 @@ Cut hard_cut(const Target& target, Random& random) {
 Bore hard_bore(const Target& target, Random& random) {
   Bore bore;
   bore.direction = direction_at(target, random);
-  bore.origin = place_on(target, random) - random.uniform(0, 2) * target.size * bore.direction;
+  const double above = random.uniform(0, 2) * target.size;
+  bore.origin = place_on(target, random) - above * bore.direction;
   bore.depth = any_scale(random, 1e-3, 10) * target.size;
   bore.radius = any_scale(random, 1e-6, 10) * target.size;
   if (random.index(2) == 0) bore.chord_tolerance = any_scale(random, 1e-3, 0.9) * bore.radius;
@@ -415,8 +420,8 @@ TEST(Degenerate, tears_meet_older_tears_in_every_way) {
       case 6: tear(stroke_along({middle - 0.4 * across, middle}), any_width(random)); break;                 // T, into it
       default: tear(stroke_along({middle, middle + 0.4 * across}), any_width(random)); break;                // T, out of it
     }
-    tear(stroke_along({place_in_sheet(random, cells), place_in_sheet(random, cells), place_in_sheet(random, cells)}),
-         any_width(random));
+    const TearOptions options = any_width(random);
+    tear(stroke_along({place_in_sheet(random, cells), place_in_sheet(random, cells), place_in_sheet(random, cells)}), options);
     subject.undo_everything();
     if (testing::Test::HasFailure()) return;
   }
@@ -428,7 +433,8 @@ void tear_ring_in_sheet(std::uint64_t seed) {
   const std::uint32_t cells = 1 + random.index(16), corners = 3 + random.index(12);
   Subject subject(test::make_sheet(cells));
   const ModelPose pose = bind_pose(subject.model.source());
-  const Vec2d center(random.uniform(0.4, 0.6), random.uniform(0.4, 0.6));
+  const double y = random.uniform(0.4, 0.6), x = random.uniform(0.4, 0.6);  // in this order with every compiler
+  const Vec2d center(x, y);
   const double radius = random.uniform(0.1, 0.35), begin = random.uniform(0, 6), turn = random.index(2) == 0 ? 1 : -1;
   std::vector<Vec2d> places;
   for (std::uint32_t i = 0; i < corners; ++i) {

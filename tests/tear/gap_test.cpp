@@ -47,7 +47,7 @@ TEST(Gap, of_a_straight_stroke_on_a_plane_is_width_times_length) {
     const ModelPose pose = bind_pose(model.source());
     TearOptions options;
     options.width = random.uniform(0.001, 0.1);
-    const Vec2d from(random.uniform(0.1, 0.9), random.uniform(0.1, 0.9)), to(random.uniform(0.1, 0.9), random.uniform(0.1, 0.9));
+    const Vec2d from{random.uniform(0.1, 0.9), random.uniform(0.1, 0.9)}, to{random.uniform(0.1, 0.9), random.uniform(0.1, 0.9)};
     const Stroke stroke = {down_at(from.x(), from.y()), down_at(to.x(), to.y())};
     const auto report = model.tear(pose, stroke, options);
     ASSERT_TRUE(report);

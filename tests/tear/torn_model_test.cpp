@@ -12,6 +12,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "support/random_operations.h"
 #include "support/rigs.h"
 #include "support/torn_invariants.h"
 
@@ -265,7 +266,8 @@ TEST(TornModel, tears_the_whole_section_of_surface_and_sweep) {
   Random random(77);
   int compared = 0;
   for (int i = 0; i < 400; ++i) {
-    const Character character = test::make_tube(6 + random.index(20), 6 + random.index(20), 3);
+    const std::uint32_t rings = 6 + random.index(20), sides = 6 + random.index(20);
+    const Character character = test::make_tube(rings, sides, 3);
     const ModelPose pose = test::random_pose(character, random, 0.5, 1.1);
     const Stroke around = test::random_stroke(character, pose, random, random.uniform(0.05, 0.5), 1);
     const Vec3d motion = around[1].base - around[0].base;
@@ -284,12 +286,11 @@ TEST(TornModel, tears_the_whole_section_of_surface_and_sweep) {
 void tear_at_random(std::uint64_t seed) {
   SCOPED_TRACE(seed);
   Random random(seed);
-  const bool is_sheet = random.index(2) == 0;
-  TornModel model = make_model(is_sheet ? test::make_sheet(2 + random.index(12))
-                                        : test::make_tube(3 + random.index(12), 5 + random.index(12), 2 + random.index(4)));
+  TornModel model = make_model(test::random_character(random));
   for (int i = 0; i < 6; ++i) {
     const ModelPose pose = test::random_pose(model.source(), random);
-    const Stroke stroke = test::random_stroke(model.character(), pose, random, random.uniform(0.02, 0.6), 1 + random.index(8));
+    const double length = random.uniform(0.02, 0.6);
+    const Stroke stroke = test::random_stroke(model.character(), pose, random, length, 1 + random.index(8));
     ChangeRecord change;
     const auto report = model.tear(pose, stroke, {}, &change);
     ASSERT_TRUE(report) << report.error().text();

@@ -126,7 +126,8 @@ TEST(Walls, of_random_operations_keep_every_law) {
     for (int k = 0; k < 4; ++k) {
       const ModelPose pose = test::random_pose(model.source(), random, 0.5, 1.1);
       const double diagonal = test::posed_diagonal(model.source(), pose);
-      const Stroke stroke = test::random_stroke(model.source(), pose, random, random.uniform(0.05, 0.3), 1 + random.index(4));
+      const double length = random.uniform(0.05, 0.3);
+      const Stroke stroke = test::random_stroke(model.source(), pose, random, length, 1 + random.index(4));
       if (random.index(2) == 0) {
         const double width = random.index(2) == 0 ? 0.0 : random.uniform(0.002, 0.03) * diagonal;
         ASSERT_TRUE(model.tear(pose, stroke, {width, Layers::nearest, random.uniform(0.005, 0.03) * diagonal}));
