@@ -78,6 +78,8 @@ Character make_sheet(std::uint32_t cells, float size) {
   return character;
 }
 
+Blade down_at(double x, double y) { return {{x, y, 0.5}, {x, y, -0.5}}; }
+
 Character make_tube(std::uint32_t rings, std::uint32_t sides, std::uint32_t bone_count) {
   Character character;
   character.name = "tube";

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <functional>
 #include <numbers>
 #include <numeric>
@@ -15,25 +14,22 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "support/make_model.h"
 #include "support/manifold_oracle.h"
 #include "support/rigs.h"
+#include "support/stress.h"
 #include "support/torn_invariants.h"
 
 namespace sunder {
 namespace {
 
+using test::make_model;
 using test::Random;
 using test::SplitCells;
 using test::SplitTask;
 using testing::IsEmpty;
 
-int count_of_cases(int usual) { return std::getenv("SUNDER_STRESS") != nullptr ? 20 * usual : usual; }
-
-TornModel make_model(const Character& character) {
-  auto model = TornModel::create(std::make_shared<const Character>(character));
-  EXPECT_TRUE(model) << model.error().text();
-  return std::move(*model);
-}
+int count_of_cases(int usual) { return test::stressed(usual, 20); }
 
 // ---- Bodies.
 

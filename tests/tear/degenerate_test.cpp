@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <ctime>
 #include <map>
 #include <numbers>
@@ -16,24 +15,21 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "support/make_model.h"
 #include "support/model_state.h"
 #include "support/rigs.h"
 #include "support/say.h"
+#include "support/stress.h"
 #include "support/torn_invariants.h"
 
 namespace sunder {
 namespace {
 
+using test::make_model;
 using test::Random;
 using testing::IsEmpty;
 
-int count_of_cases(int usual) { return std::getenv("SUNDER_STRESS") != nullptr ? 40 * usual : usual; }
-
-TornModel make_model(Character character) {
-  auto model = TornModel::create(std::make_shared<const Character>(std::move(character)));
-  EXPECT_TRUE(model) << model.error().text();
-  return std::move(*model);
-}
+int count_of_cases(int usual) { return test::stressed(usual, 40); }
 
 Character make_subject(Random& random) {
   const std::uint32_t a = random.index(10), b = random.index(10);  // in this order with every compiler
@@ -370,11 +366,9 @@ TEST(Degenerate, a_tear_that_could_go_on_before_its_first_blade_comes_to_an_end)
 
 // ---- Tears along, across and into one another, on a sheet.
 
-Blade down_at(const Vec2d& at) { return {{at.x(), at.y(), 0.5}, {at.x(), at.y(), -0.5}}; }
-
 Stroke stroke_along(const std::vector<Vec2d>& places) {
   Stroke stroke;
-  for (const Vec2d& place : places) stroke.push_back(down_at(place));
+  for (const Vec2d& place : places) stroke.push_back(test::down_at(place.x(), place.y()));
   return stroke;
 }
 

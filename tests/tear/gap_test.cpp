@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "support/clip_oracle.h"
+#include "support/make_model.h"
 #include "support/rigs.h"
 #include "support/source_cover.h"
 #include "support/torn_invariants.h"
@@ -17,16 +18,10 @@
 namespace sunder {
 namespace {
 
+using test::down_at;
+using test::make_model;
 using test::Random;
 using testing::IsEmpty;
-
-TornModel make_model(Character character) {
-  auto model = TornModel::create(std::make_shared<const Character>(std::move(character)));
-  EXPECT_TRUE(model) << model.error().text();
-  return std::move(*model);
-}
-
-Blade down_at(double x, double y) { return {{x, y, 0.5}, {x, y, -0.5}}; }
 
 double length_of(const Stroke& stroke) {
   double length = 0;

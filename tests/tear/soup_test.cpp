@@ -3,12 +3,11 @@
 #include <sunder/tear/topology.h>
 #include <sunder/tear/torn_model.h>
 
-#include <cstdlib>
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "support/rigs.h"
+#include "support/stress.h"
 #include "support/torn_invariants.h"
 
 namespace sunder {
@@ -18,7 +17,7 @@ using test::Random;
 using testing::IsEmpty;
 
 TEST(Soup, tears_do_no_harm) {
-  const int count = std::getenv("SUNDER_STRESS") != nullptr ? 20000 : 1000;
+  const int count = test::stressed(1000, 20);
   int torn = 0;
   for (int seed = 0; seed < count; ++seed) {
     SCOPED_TRACE(seed);

@@ -6,36 +6,30 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "support/make_model.h"
 #include "support/random_operations.h"
 #include "support/rigs.h"
+#include "support/stress.h"
 #include "support/torn_invariants.h"
 
 namespace sunder {
 namespace {
 
+using test::down_at;
+using test::make_model;
 using test::Random;
 using testing::IsEmpty;
-
-TornModel make_model(Character character) {
-  auto model = TornModel::create(std::make_shared<const Character>(std::move(character)));
-  EXPECT_TRUE(model) << model.error().text();
-  return std::move(*model);
-}
 
 ModelPose rest(const Character& character) {
   ModelPose pose;
   EXPECT_TRUE(compute_model_pose(character.skeleton, rest_pose(character), pose));
   return pose;
 }
-
-/// A blade straight down on the sheet z = 0 at (x, y).
-Blade down_at(double x, double y) { return {{x, y, 0.5}, {x, y, -0.5}}; }
 
 TEST(TornModel, tear_inside_the_sheet_opens_one_loop_of_the_strokes_length) {
   TornModel model = make_model(test::make_sheet(10));
@@ -308,7 +302,7 @@ void tear_at_random(std::uint64_t seed) {
 class RandomTears : public testing::TestWithParam<int> {};
 
 TEST_P(RandomTears, keep_every_law_in_every_pose) {
-  const int rounds = std::getenv("SUNDER_STRESS") != nullptr ? 250 : 1;
+  const int rounds = test::stressed(1, 250);
   for (int round = 0; round < rounds && !HasFatalFailure(); ++round)
     tear_at_random(static_cast<std::uint64_t>(200 * round + GetParam()));
 }

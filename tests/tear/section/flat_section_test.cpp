@@ -15,6 +15,7 @@
 #include <gtest/gtest.h>
 
 #include "support/random.h"
+#include "support/stress.h"
 #include "tear/section/exact_predicates.h"
 
 namespace sunder::tear {
@@ -24,7 +25,7 @@ using test::Random;
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-int case_count(int usual) { return std::getenv("SUNDER_STRESS") != nullptr ? 20 * usual : usual; }
+int case_count(int usual) { return test::stressed(usual, 20); }
 
 double area_of(std::span<const Vec2d> loop) {
   double twice = 0;
