@@ -54,6 +54,7 @@ struct TearStroke::State {
   std::optional<Held> held;
   tear::SurfaceEditor::Mark begin;
   TearReport total;
+  bool has_ended = false;  ///< Then the model is not looked at again: it may be gone, or have another stroke.
 
   [[nodiscard]] bool is_due(const Blade& blade, double seconds) const {
     const double moved = std::max((blade.base - tearing.blade().base).norm(), (blade.tip - tearing.blade().tip).norm());
@@ -106,7 +107,7 @@ TearStroke::TearStroke(std::unique_ptr<State> state) : state_(std::move(state)) 
 TearStroke::TearStroke(TearStroke&&) noexcept = default;
 
 TearStroke::~TearStroke() {
-  if (state_ && state_->model->has_stroke) (void)end();
+  if (state_ && !state_->has_ended) (void)end();
 }
 
 Result<TearStroke> TearStroke::begin(TornModel& model, const ModelPose& pose, const Blade& blade, const TearOptions& options,
@@ -126,12 +127,13 @@ Result<TearStroke> TearStroke::begin(TornModel& model, const ModelPose& pose, co
                                                      0,
                                                      {},
                                                      of_model.begin_operation(),
-                                                     {}}));
+                                                     {},
+                                                     false}));
 }
 
 Result<TearReport> TearStroke::extend(const ModelPose& pose, const Blade& blade, double seconds, ChangeRecord* change) {
   State& state = *state_;
-  if (!state.model->has_stroke) return Status::failure(StatusCode::invalid_argument, kNone, "this stroke was ended");
+  if (state.has_ended) return Status::failure(StatusCode::invalid_argument, kNone, "this stroke was ended");
   const auto index = static_cast<std::uint32_t>(state.operation.stroke.size());
   if (Status status = validate_blade(blade, index); !status) return status;
   if (!std::isfinite(seconds) || seconds < state.last_seconds)
@@ -153,7 +155,7 @@ Result<TearReport> TearStroke::extend(const ModelPose& pose, const Blade& blade,
 
 Result<TearReport> TearStroke::end(ChangeRecord* change) {
   State& state = *state_;
-  if (!state.model->has_stroke) return Status::failure(StatusCode::invalid_argument, kNone, "this stroke was ended");
+  if (state.has_ended) return Status::failure(StatusCode::invalid_argument, kNone, "this stroke was ended");
   const auto report = state.call(
       [&]() -> Status {
         if (state.held)
@@ -164,6 +166,7 @@ Result<TearReport> TearStroke::end(ChangeRecord* change) {
       change);
   if (!report) return report;
   state.model->has_stroke = false;
+  state.has_ended = true;
   state.model->count(state.begin, false, state.total);
   // A stroke of one blade tears nothing: there is nothing to take back.
   if (state.operation.stroke.size() > 1) state.model->record(std::move(state.operation), state.begin);

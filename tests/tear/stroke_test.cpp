@@ -292,6 +292,21 @@ TEST(TearStroke, goes_on_where_its_model_was_moved) {
   EXPECT_EQ(difference(state_of(elsewhere), state_of(straight)), "");
 }
 
+TEST(TearStroke, once_ended_leaves_the_next_one_alone) {
+  TornModel model = make_model(test::make_sheet(6));
+  const ModelPose pose = bind_pose(model.source());
+  auto first = std::make_unique<TearStroke>(begin(model, pose, down_at(0.2, 0.3)));
+  ASSERT_TRUE(first->extend(pose, down_at(0.5, 0.4)));
+  ASSERT_TRUE(first->end());
+  TearStroke second = begin(model, pose, down_at(0.2, 0.7));
+  EXPECT_FALSE(first->extend(pose, down_at(0.8, 0.3)));
+  EXPECT_FALSE(first->end());
+  first.reset();
+  EXPECT_TRUE(second.extend(pose, down_at(0.5, 0.8)));
+  EXPECT_TRUE(second.end());
+  EXPECT_EQ(model.undo_count(), 2u);
+}
+
 TEST(TearStroke, is_one_operation_to_undo) {
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
     SCOPED_TRACE(seed);
