@@ -227,6 +227,8 @@ TEST_P(RandomChanges, keep_a_mirror_equal) {
 
 INSTANTIATE_TEST_SUITE_P(seeds, RandomChanges, testing::Range(0, 100));
 
+TEST(ChangeRecord, comes_with_a_run_where_the_first_segment_was_too_short_to_tear) { mirror_at_random(431); }
+
 TEST(ChangeRecord, of_a_strokes_pieces_keep_a_mirror_equal) {
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
     SCOPED_TRACE(seed);
