@@ -7,6 +7,31 @@
 #include "tear/leap.h"
 
 namespace sunder::tear {
+namespace {
+
+/// Eight units in the last place of a stored coordinate.
+constexpr double kStored = 0x1p-21;
+
+/// A length as a part of another, that of a place which is not stored apart.
+double part_of(double length, double whole) { return whole > 0 ? std::clamp(length / whole, kTightSnap, 0.25) : kTightSnap; }
+
+double largest_coordinate(const Vec3f& a, const Vec3f& b) {
+  return static_cast<double>(std::max(a.cwiseAbs().maxCoeff(), b.cwiseAbs().maxCoeff()));
+}
+
+/// Part of the height on a corner nearer than which to the far edge a place would be stored on it, give or take a few units in the
+/// last place.
+double stored_height(Index corner, const SurfaceEditor& editor) {
+  const auto& positions = editor.character().meshes[editor.surface().triangle(corner / 3).mesh].positions;
+  const auto at = [&](Index c) -> const Vec3f& { return positions[editor.vertex_at(c)]; };
+  const Vec3f &apex = at(corner), &a = at(Surface::next(corner)), &b = at(Surface::previous(corner));
+  const Eigen::Vector3d base = b.cast<double>() - a.cast<double>(), side = apex.cast<double>() - a.cast<double>();
+  const double length = base.norm();
+  return part_of(kStored * std::max(largest_coordinate(a, b), largest_coordinate(apex, apex)),
+                 length > 0 ? base.cross(side).norm() / length : 0);
+}
+
+}  // namespace
 
 Index split_posed_edge(Index half_edge, double fraction, SurfaceEditor& editor, PosedPoints& posed) {
   const auto& points = editor.surface().corner_point;
@@ -17,8 +42,14 @@ Index split_posed_edge(Index half_edge, double fraction, SurfaceEditor& editor, 
   return point;
 }
 
+double stored_part(Index half_edge, const SurfaceEditor& editor) {
+  const auto& positions = editor.character().meshes[editor.surface().triangle(half_edge / 3).mesh].positions;
+  const Vec3f &from = positions[editor.vertex_at(half_edge)], &to = positions[editor.vertex_at(Surface::next(half_edge))];
+  return part_of(kStored * largest_coordinate(from, to), (to.cast<double>() - from.cast<double>()).norm());
+}
+
 double snapped_part(Index half_edge, Snapping snapping, const SurfaceEditor& editor, PosedPoints& posed) {
-  if (snapping == Snapping::tight) return kTightSnap;
+  if (snapping == Snapping::tight) return stored_part(half_edge, editor);
   if (snapping == Snapping::near) return kSnap;
   if (editor.is_source_vertex(half_edge) && editor.is_source_vertex(Surface::next(half_edge))) return kSnap;
   const Surface& surface = editor.surface();
@@ -166,12 +197,11 @@ Index stop_within(const Step& step, double fraction, SurfaceEditor& editor, Pose
 
 Index imprint_point(const SurfaceHit& hit, Snapping snapping, SurfaceEditor& editor, PosedPoints& posed) {
   const Index first = 3 * hit.triangle;
-  const double least = snapping == Snapping::tight ? kTightSnap : kSnap;
   std::array<double, 3> weight = hit.barycentric;
   double sum = 0;
-  for (double& w : weight) {
-    if (w < least) w = 0;
-    sum += w;
+  for (Index k = 0; k < 3; ++k) {
+    if (weight[k] < (snapping == Snapping::tight ? stored_height(first + k, editor) : kSnap)) weight[k] = 0;
+    sum += weight[k];
   }
   for (double& w : weight) w /= sum;
   const auto largest = static_cast<Index>(std::max_element(weight.begin(), weight.end()) - weight.begin());

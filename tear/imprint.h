@@ -45,6 +45,9 @@ struct Step {
 [[nodiscard]] Step find_step(const BladePlane& plane, Index point, Snapping snapping, const SurfaceEditor& editor,
                              PosedPoints& posed);
 
+/// The part of an edge at either end of which a place would be stored as that end, give or take a few units in the last place.
+[[nodiscard]] double stored_part(Index half_edge, const SurfaceEditor& editor);
+
 /// The part of an edge at either end of which a place is that end.
 [[nodiscard]] double snapped_part(Index half_edge, Snapping snapping, const SurfaceEditor& editor, PosedPoints& posed);
 

@@ -110,8 +110,8 @@ class Imprint {
     for (std::size_t begin = 0, end = 0; begin < crossings_.size(); begin = end) {
       const Index h = crossings_[begin].half_edge;
       while (end < crossings_.size() && crossings_[end].half_edge == h) ++end;
-      edges.push_back(
-          {begin, end, editor_.surface().corner_point[h], editor_.surface().corner_point[Surface::next(h)], snap_of(h)});
+      edges.push_back({begin, end, editor_.surface().corner_point[h], editor_.surface().corner_point[Surface::next(h)],
+                       stored_part(h, editor_)});
     }
     std::vector<Crossing*> along;
     for (const Edge& edge : edges) {
@@ -122,16 +122,6 @@ class Imprint {
       });
       split_edge(edge.from, edge.to, edge.snap, along);
     }
-  }
-
-  /// Part of an edge nearer than which a place would be stored as one of its ends, give or take a few units in the last place.
-  [[nodiscard]] double snap_of(Index half_edge) const {
-    const auto& positions = editor_.character().meshes[editor_.surface().triangle(half_edge / 3).mesh].positions;
-    const Vec3f &from = positions[editor_.vertex_at(half_edge)], &to = positions[editor_.vertex_at(Surface::next(half_edge))];
-    const double coordinate = static_cast<double>(std::max(from.cwiseAbs().maxCoeff(), to.cwiseAbs().maxCoeff()));
-    const double length = (to.cast<double>() - from.cast<double>()).norm();
-    constexpr double kStored = 0x1p-22;  // four units in the last place
-    return length > 0 ? std::clamp(kStored * coordinate / length, kTightSnap, 0.25) : kTightSnap;
   }
 
   void split_edge(Index from, Index to, double snap, const std::vector<Crossing*>& along) {

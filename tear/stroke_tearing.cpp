@@ -87,7 +87,7 @@ double StrokeTearing::tear_piece(const BladePlane& plane, Index start, const Sur
   SurfaceEditor& editor = work.editor;
   PosedPoints& posed = work.posed;
   Path path = imprint_path(plane, start, editor, posed);
-  const bool continues = start == tip_;
+  const bool continues = start == tip_ && tip_ends_run_;
   tip_ = kNone;
   if (path.end == Path::End::blocked) ++report.blocked;
 
@@ -106,7 +106,10 @@ double StrokeTearing::tear_piece(const BladePlane& plane, Index start, const Sur
   if (path.points.size() < 2 || is_leftover) {
     editor.roll_back(before);
     posed.forget_from(before.points);
-    if (path.end == Path::End::blade && start < before.points) tip_ = start;  // moved by less than can be told: go on from here
+    if (path.end == Path::End::blade && start < before.points) {  // moved by less than can be told: go on from here
+      tip_ = start;
+      tip_ends_run_ = continues;
+    }
     return path.end == Path::End::blade ? 1.0 : path.progress;
   }
   ScratchVector<PointEdge> edges(&editor.scratch());
@@ -122,6 +125,7 @@ double StrokeTearing::tear_piece(const BladePlane& plane, Index start, const Sur
   last_end_ = path.points.back();
   if (path.end != Path::End::blade) return path.progress;
   tip_ = last_end_;
+  tip_ends_run_ = true;
   return 1.0;
 }
 

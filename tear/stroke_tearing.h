@@ -62,9 +62,10 @@ class StrokeTearing {
 
   TearOptions options_;
   Blade blade_, blade_before_;
-  Stroke stroke_;           ///< All blades, for the walls.
-  Index tip_ = kNone;       ///< Where the tear stands, while it stands on the surface.
-  Index last_end_ = kNone;  ///< Where the last piece of the segment under way ended.
+  Stroke stroke_;              ///< All blades, for the walls.
+  Index tip_ = kNone;          ///< Where the tear stands, while it stands on the surface.
+  bool tip_ends_run_ = false;  ///< Not where a first segment was too short to tear.
+  Index last_end_ = kNone;     ///< Where the last piece of the segment under way ended.
   std::size_t torn_edges_ = 0;
   std::optional<PendingGap> pending_;
   Vec3d held_before_ = Vec3d::Zero();  ///< Where the blade stood on the surface in the pose that was left.

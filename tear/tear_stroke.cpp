@@ -55,6 +55,7 @@ struct TearStroke::State {
   // What a failing call goes back to.
   tear::StrokeTearing tearing_before;
   ModelPose pose_before;
+  bool has_ended = false;  ///< Then the model is not looked at again: it may be gone, or have another stroke.
 
   [[nodiscard]] bool is_due(const Blade& blade, double seconds) const {
     const double moved =
@@ -109,7 +110,7 @@ TearStroke::TearStroke(std::unique_ptr<State> state) : state_(std::move(state)) 
 TearStroke::TearStroke(TearStroke&&) noexcept = default;
 
 TearStroke::~TearStroke() {
-  if (state_ && state_->model->has_stroke) (void)end();
+  if (state_ && !state_->has_ended) (void)end();
 }
 
 Result<TearStroke> TearStroke::begin(TornModel& model, const ModelPose& pose, const Blade& blade, const TearOptions& options,
@@ -127,14 +128,14 @@ Result<TearStroke> TearStroke::begin(TornModel& model, const ModelPose& pose, co
   operation.options = options;
   of_model.tearing.begin(blade, options);
   auto state = std::unique_ptr<State>(
-      new State{&of_model, sampling, operation, 0, {}, of_model.begin_operation(options.wall_depth > 0), {}, {}, {}});
+      new State{&of_model, sampling, operation, 0, {}, of_model.begin_operation(options.wall_depth > 0), {}, {}, {}, false});
   of_model.has_stroke = true;
   return TearStroke(std::move(state));
 }
 
 Result<TearReport> TearStroke::extend(const ModelPose& pose, const Blade& blade, double seconds, ChangeRecord* change) {
   State& state = *state_;
-  if (!state.model->has_stroke) return Status::failure(StatusCode::invalid_argument, kNone, "this stroke was ended");
+  if (state.has_ended) return Status::failure(StatusCode::invalid_argument, kNone, "this stroke was ended");
   const auto index = static_cast<std::uint32_t>(state.operation.stroke.size());
   if (Status status = validate_blade(blade, index); !status) return status;
   if (!std::isfinite(seconds) || seconds < state.last_seconds)
@@ -156,7 +157,7 @@ Result<TearReport> TearStroke::extend(const ModelPose& pose, const Blade& blade,
 
 Result<TearReport> TearStroke::end(ChangeRecord* change) {
   State& state = *state_;
-  if (!state.model->has_stroke) return Status::failure(StatusCode::invalid_argument, kNone, "this stroke was ended");
+  if (state.has_ended) return Status::failure(StatusCode::invalid_argument, kNone, "this stroke was ended");
   const auto report = state.call(
       [&]() -> Status {
         if (state.held)
@@ -167,6 +168,7 @@ Result<TearReport> TearStroke::end(ChangeRecord* change) {
       change);
   if (!report) return report;
   state.model->has_stroke = false;
+  state.has_ended = true;
   state.model->count(state.begin, false, state.total);
   // A stroke of one blade tears nothing: there is nothing to take back.
   if (state.operation.stroke.size() > 1) state.model->record(state.begin);

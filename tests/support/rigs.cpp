@@ -78,6 +78,8 @@ Character make_sheet(std::uint32_t cells, float size) {
   return character;
 }
 
+Blade down_at(double x, double y) { return {{x, y, 0.5}, {x, y, -0.5}}; }
+
 Character make_tube(std::uint32_t rings, std::uint32_t sides, std::uint32_t bone_count) {
   Character character;
   character.name = "tube";
@@ -231,8 +233,9 @@ Character make_soup(Random& random) {
   const std::uint32_t grid = 2 + random.index(3);
   const std::uint32_t vertex_count = 4 + random.index(40);
   for (std::uint32_t v = 0; v < vertex_count; ++v) {
-    mesh.positions.emplace_back(static_cast<float>(random.index(grid)), static_cast<float>(random.index(grid)),
-                                static_cast<float>(random.index(grid)));
+    const std::uint32_t z = random.index(grid), y = random.index(grid),
+                        x = random.index(grid);  // in this order with every compiler
+    mesh.positions.emplace_back(static_cast<float>(x), static_cast<float>(y), static_cast<float>(z));
     const float weight = 0.25f * static_cast<float>(random.index(5));
     const auto influences = weight == 0.0f   ? std::vector<Influence>{{0, 1.0f}}
                             : weight == 1.0f ? std::vector<Influence>{{2, 1.0f}}

@@ -11,6 +11,9 @@ namespace sunder::test {
 /// along x with weights that blend from one to the other.
 Character make_sheet(std::uint32_t cells, float size = 1.0f);
 
+/// A blade that goes down through that sheet, from half a metre above it to half a metre below it.
+Blade down_at(double x, double y);
+
 /// A closed tube along y with a UV seam, hard-edged caps in a second submesh, `bone_count` bones in a chain, up to four smooth
 /// influences a vertex, a morph target and a bending clip "Bend" of 2 s.
 Character make_tube(std::uint32_t rings, std::uint32_t sides, std::uint32_t bone_count);

@@ -8,20 +8,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "support/make_model.h"
 #include "support/rigs.h"
 #include "support/torn_invariants.h"
 
 namespace sunder {
 namespace {
 
+using test::make_model;
 using test::Random;
 using testing::IsEmpty;
-
-TornModel make_model(Character character) {
-  auto model = TornModel::create(std::make_shared<const Character>(std::move(character)));
-  EXPECT_TRUE(model) << model.error().text();
-  return std::move(*model);
-}
 
 /// Posed volume inside some triangles, by the divergence theorem; the whole mesh's where none are given.
 double volume_of(const TornModel& model, const ModelPose& pose, const Piece* piece = nullptr) {

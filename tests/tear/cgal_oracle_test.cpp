@@ -12,7 +12,6 @@
 #include <CGAL/convex_hull_3.h>
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <map>
 #include <numbers>
 #include <numeric>
@@ -21,8 +20,10 @@
 #include <gtest/gtest.h>
 
 #include "support/clip_oracle.h"
+#include "support/make_model.h"
 #include "support/rigs.h"
 #include "support/shared_models.h"
+#include "support/stress.h"
 #include "support/torn_invariants.h"
 
 namespace sunder {
@@ -32,19 +33,14 @@ namespace processing = CGAL::Polygon_mesh_processing;
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point = Kernel::Point_3;
 using Judge = CGAL::Surface_mesh<Point>;
+using test::make_model;
 using test::Random;
 using testing::IsEmpty;
 
 /// Of what CGAL or Sunder may round a place to, as a part of the model's diagonal; areas by its square.
 constexpr double kRounding = 1e-9;
 
-int count_of_cases(int usual) { return std::getenv("SUNDER_STRESS") != nullptr ? 20 * usual : usual; }
-
-TornModel make_model(const Character& character) {
-  auto model = TornModel::create(std::make_shared<const Character>(character));
-  EXPECT_TRUE(model) << model.error().text();
-  return std::move(*model);
-}
+int count_of_cases(int usual) { return test::stressed(usual, 20); }
 
 Point to_judge(const Vec3d& p) { return {p.x(), p.y(), p.z()}; }
 Vec3d from_judge(const Point& p) { return {p.x(), p.y(), p.z()}; }
@@ -195,7 +191,8 @@ Cut random_cut(const Subject& subject, Random& random) {
   Cut cut;
   cut.normal = random.direction();
   const double share = random.uniform(0.1, 0.9);
-  cut.point = share * positions[random.index(count)] + (1 - share) * positions[random.index(count)];
+  cut.point = share * positions[random.index(count)];
+  cut.point += (1 - share) * positions[random.index(count)];
   return cut;
 }
 

@@ -4,17 +4,19 @@
 
 #include <algorithm>
 #include <bit>
-#include <cstdlib>
 
 #include <gtest/gtest.h>
 
+#include "support/make_model.h"
 #include "support/model_state.h"
 #include "support/random_operations.h"
 #include "support/rigs.h"
+#include "support/stress.h"
 
 namespace sunder {
 namespace {
 
+using test::make_model;
 using test::Random;
 
 /// All attributes of a vertex one after another, as bits. The tear side is 0 where the mesh has none yet.
@@ -188,12 +190,6 @@ void expect_report_agrees(const TearReport& report, const ChangeRecord& change) 
   EXPECT_EQ(report.triangles_retired, retired);
 }
 
-TornModel make_model(Character character) {
-  auto model = TornModel::create(std::make_shared<const Character>(std::move(character)));
-  EXPECT_TRUE(model) << model.error().text();
-  return std::move(*model);
-}
-
 void mirror_at_random(std::uint64_t seed) {
   SCOPED_TRACE(seed);
   Random random(seed);
@@ -224,12 +220,14 @@ void mirror_at_random(std::uint64_t seed) {
 class RandomChanges : public testing::TestWithParam<int> {};
 
 TEST_P(RandomChanges, keep_a_mirror_equal) {
-  const int rounds = std::getenv("SUNDER_STRESS") != nullptr ? 50 : 1;
+  const int rounds = test::stressed(1, 50);
   for (int round = 0; round < rounds && !HasFailure(); ++round)
     mirror_at_random(static_cast<std::uint64_t>(100 * round + GetParam()));
 }
 
 INSTANTIATE_TEST_SUITE_P(seeds, RandomChanges, testing::Range(0, 100));
+
+TEST(ChangeRecord, comes_with_a_run_where_the_first_segment_was_too_short_to_tear) { mirror_at_random(431); }
 
 TEST(ChangeRecord, of_a_strokes_pieces_keep_a_mirror_equal) {
   for (std::uint64_t seed = 0; seed < 60; ++seed) {

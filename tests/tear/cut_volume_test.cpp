@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <functional>
 #include <numbers>
 #include <numeric>
@@ -15,25 +14,22 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "support/make_model.h"
 #include "support/manifold_oracle.h"
 #include "support/rigs.h"
+#include "support/stress.h"
 #include "support/torn_invariants.h"
 
 namespace sunder {
 namespace {
 
+using test::make_model;
 using test::Random;
 using test::SplitCells;
 using test::SplitTask;
 using testing::IsEmpty;
 
-int count_of_cases(int usual) { return std::getenv("SUNDER_STRESS") != nullptr ? 20 * usual : usual; }
-
-TornModel make_model(const Character& character) {
-  auto model = TornModel::create(std::make_shared<const Character>(character));
-  EXPECT_TRUE(model) << model.error().text();
-  return std::move(*model);
-}
+int count_of_cases(int usual) { return test::stressed(usual, 20); }
 
 // ---- Bodies.
 
@@ -307,7 +303,9 @@ Vec3d somewhere_in(const Character& character, const ModelPose& pose, Random& ra
   const auto positions = test::posed_positions(character, 0, pose);
   const auto count = static_cast<std::uint32_t>(positions.size());
   const double part = random.uniform(0, 1);
-  return part * positions[random.index(count)] + (1 - part) * positions[random.index(count)];
+  Vec3d place = part * positions[random.index(count)];
+  place += (1 - part) * positions[random.index(count)];
+  return place;
 }
 
 /// A cut's places are known in double. Those of a later one's rim lie in its plane only as exactly as positions are stored, and so
@@ -388,7 +386,8 @@ TEST(CutVolume, of_one_random_cut_adds_up) {
     SCOPED_TRACE(i);
     const Character character = random_body(random);
     const ModelPose pose = bind_pose(character);
-    bodies.push_back(cut_and_check(character, pose, {cut_at(somewhere_in(character, pose, random), random.direction())}, kExact));
+    const Vec3d point = somewhere_in(character, pose, random);
+    bodies.push_back(cut_and_check(character, pose, {cut_at(point, random.direction())}, kExact));
     if (testing::Test::HasFailure()) return;
   }
   compare(bodies);
@@ -401,7 +400,8 @@ TEST(CutVolume, of_one_cut_in_a_bent_pose_adds_up) {
     SCOPED_TRACE(i);
     const Character character = random_body(random);
     const ModelPose pose = test::random_pose(character, random, 0.3, 1.2);
-    bodies.push_back(cut_and_check(character, pose, {cut_at(somewhere_in(character, pose, random), random.direction())}, kExact));
+    const Vec3d point = somewhere_in(character, pose, random);
+    bodies.push_back(cut_and_check(character, pose, {cut_at(point, random.direction())}, kExact));
     if (testing::Test::HasFailure()) return;
   }
   compare(bodies);
@@ -467,7 +467,8 @@ TEST(CutVolume, of_cuts_through_what_is_modelled_adds_up) {
     for (Cut& cut : cuts) {
       const Mesh& mesh = character.meshes[0];
       const Vec3d point = mesh.positions[random.index(mesh.vertex_count())].cast<double>();
-      cut = cut_at(point, (random.index(2) == 0 ? 1.0 : -1.0) * Vec3d(Vec3d::Unit(random.index(3))));
+      const double side = random.index(2) == 0 ? 1.0 : -1.0;
+      cut = cut_at(point, side * Vec3d(Vec3d::Unit(random.index(3))));
       if (random.index(3) == 0) cut.point += std::pow(10.0, random.uniform(-16, -3)) * cut.normal;
     }
     std::erase_if(cuts, [&](const Cut& cut) { return grazes(character, cut); });

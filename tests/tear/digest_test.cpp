@@ -7,17 +7,14 @@
 
 #include <gtest/gtest.h>
 
+#include "support/make_model.h"
 #include "support/random_operations.h"
 #include "support/rigs.h"
 
 namespace sunder {
 namespace {
 
-TornModel make_model(const Character& character) {
-  auto model = TornModel::create(std::make_shared<const Character>(character));
-  EXPECT_TRUE(model) << model.error().text();
-  return std::move(*model);
-}
+using test::make_model;
 
 /// Makes the least change that a float can have.
 void flip_last_bit(float& value) { value = std::bit_cast<float>(std::bit_cast<std::uint32_t>(value) ^ 1u); }

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "support/clip_oracle.h"
+#include "support/make_model.h"
 #include "support/rigs.h"
 #include "support/source_cover.h"
 #include "support/torn_invariants.h"
@@ -17,16 +18,10 @@
 namespace sunder {
 namespace {
 
+using test::down_at;
+using test::make_model;
 using test::Random;
 using testing::IsEmpty;
-
-TornModel make_model(Character character) {
-  auto model = TornModel::create(std::make_shared<const Character>(std::move(character)));
-  EXPECT_TRUE(model) << model.error().text();
-  return std::move(*model);
-}
-
-Blade down_at(double x, double y) { return {{x, y, 0.5}, {x, y, -0.5}}; }
 
 double length_of(const Stroke& stroke) {
   double length = 0;
@@ -47,7 +42,7 @@ TEST(Gap, of_a_straight_stroke_on_a_plane_is_width_times_length) {
     const ModelPose pose = bind_pose(model.source());
     TearOptions options;
     options.width = random.uniform(0.001, 0.1);
-    const Vec2d from(random.uniform(0.1, 0.9), random.uniform(0.1, 0.9)), to(random.uniform(0.1, 0.9), random.uniform(0.1, 0.9));
+    const Vec2d from{random.uniform(0.1, 0.9), random.uniform(0.1, 0.9)}, to{random.uniform(0.1, 0.9), random.uniform(0.1, 0.9)};
     const Stroke stroke = {down_at(from.x(), from.y()), down_at(to.x(), to.y())};
     const auto report = model.tear(pose, stroke, options);
     ASSERT_TRUE(report);

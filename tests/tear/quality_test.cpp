@@ -2,13 +2,13 @@
 #include <sunder/tear/torn_model.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <numbers>
 
 #include <gmock/gmock.h>
 
 #include "support/face_quality.h"
 #include "support/rigs.h"
+#include "support/stress.h"
 #include "support/torn_invariants.h"
 #include "tear/entry.h"
 
@@ -21,7 +21,7 @@ using testing::IsEmpty;
 class FaceQuality : public testing::TestWithParam<int> {};
 
 TEST_P(FaceQuality, stays_above_what_snapping_leaves) {
-  const int tears = std::getenv("SUNDER_STRESS") != nullptr ? 1000 : 200;
+  const int tears = test::stressed(200, 5);
   auto model = TornModel::create(std::make_shared<const Character>(test::make_bumpy_ball(1000)));
   ASSERT_TRUE(model);
   const double smallest_of_source = test::face_quality(*model).angle_at(0);

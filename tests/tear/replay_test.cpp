@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "support/make_model.h"
 #include "support/model_state.h"
 #include "support/random_operations.h"
 #include "support/rigs.h"
@@ -15,14 +16,10 @@ namespace sunder {
 namespace {
 
 using test::difference;
+using test::down_at;
+using test::make_model;
 using test::Random;
 using test::state_of;
-
-TornModel make_model(Character character) {
-  auto model = TornModel::create(std::make_shared<const Character>(std::move(character)));
-  EXPECT_TRUE(model) << model.error().text();
-  return std::move(*model);
-}
 
 TornModel replay(const Character& source, const std::vector<Operation>& history) {
   TornModel model = make_model(source);
@@ -64,8 +61,6 @@ TEST_P(RandomReplay, of_the_history_gives_the_model_again) {
 }
 
 INSTANTIATE_TEST_SUITE_P(seeds, RandomReplay, testing::Range(0, 100));
-
-Blade down_at(double x, double y) { return {{x, y, 0.5}, {x, y, -0.5}}; }
 
 TEST(Replay, history_is_shorter_after_undo_and_longer_after_redo) {
   TornModel model = make_model(test::make_sheet(6));

@@ -4,29 +4,26 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "support/make_model.h"
 #include "support/model_state.h"
 #include "support/random_operations.h"
 #include "support/rigs.h"
+#include "support/stress.h"
 #include "support/torn_invariants.h"
 
 namespace sunder {
 namespace {
 
 using test::difference;
+using test::down_at;
+using test::make_model;
 using test::Random;
 using test::state_of;
 using testing::IsEmpty;
-
-TornModel make_model(Character character) {
-  auto model = TornModel::create(std::make_shared<const Character>(std::move(character)));
-  EXPECT_TRUE(model) << model.error().text();
-  return std::move(*model);
-}
 
 TearStroke begin(TornModel& model, const ModelPose& pose, const Blade& blade, const TearOptions& options = {},
                  const StrokeSampling& sampling = {}) {
@@ -35,9 +32,7 @@ TearStroke begin(TornModel& model, const ModelPose& pose, const Blade& blade, co
   return std::move(*stroke);
 }
 
-/// A blade straight down on the sheet z = 0 at (x, y).
-Blade down_at(double x, double y) { return {{x, y, 0.5}, {x, y, -0.5}}; }
-/// One that does not reach it.
+/// A blade that does not reach the sheet.
 Blade above(double x, double y) { return {{x, y, 0.5}, {x, y, 0.2}}; }
 
 void expect_same_figures(const TearReport& a, const TearReport& b) {
@@ -76,7 +71,7 @@ void tear_piece_by_piece(std::uint64_t seed) {
 class RandomStrokes : public testing::TestWithParam<int> {};
 
 TEST_P(RandomStrokes, piece_by_piece_are_the_same_bits_as_at_once) {
-  const int rounds = std::getenv("SUNDER_STRESS") != nullptr ? 50 : 1;
+  const int rounds = test::stressed(1, 50);
   for (int round = 0; round < rounds && !HasFailure(); ++round)
     tear_piece_by_piece(static_cast<std::uint64_t>(100 * round + GetParam()));
 }
@@ -295,6 +290,21 @@ TEST(TearStroke, goes_on_where_its_model_was_moved) {
   ASSERT_TRUE(stroke.end());
   ASSERT_TRUE(straight.tear(pose, Stroke{down_at(0.2, 0.3), down_at(0.5, 0.4), down_at(0.8, 0.3)}));
   EXPECT_EQ(difference(state_of(elsewhere), state_of(straight)), "");
+}
+
+TEST(TearStroke, once_ended_leaves_the_next_one_alone) {
+  TornModel model = make_model(test::make_sheet(6));
+  const ModelPose pose = bind_pose(model.source());
+  auto first = std::make_unique<TearStroke>(begin(model, pose, down_at(0.2, 0.3)));
+  ASSERT_TRUE(first->extend(pose, down_at(0.5, 0.4)));
+  ASSERT_TRUE(first->end());
+  TearStroke second = begin(model, pose, down_at(0.2, 0.7));
+  EXPECT_FALSE(first->extend(pose, down_at(0.8, 0.3)));
+  EXPECT_FALSE(first->end());
+  first.reset();
+  EXPECT_TRUE(second.extend(pose, down_at(0.5, 0.8)));
+  EXPECT_TRUE(second.end());
+  EXPECT_EQ(model.undo_count(), 2u);
 }
 
 TEST(TearStroke, is_one_operation_to_undo) {

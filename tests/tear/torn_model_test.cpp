@@ -6,35 +6,30 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "support/make_model.h"
+#include "support/random_operations.h"
 #include "support/rigs.h"
+#include "support/stress.h"
 #include "support/torn_invariants.h"
 
 namespace sunder {
 namespace {
 
+using test::down_at;
+using test::make_model;
 using test::Random;
 using testing::IsEmpty;
-
-TornModel make_model(Character character) {
-  auto model = TornModel::create(std::make_shared<const Character>(std::move(character)));
-  EXPECT_TRUE(model) << model.error().text();
-  return std::move(*model);
-}
 
 ModelPose rest(const Character& character) {
   ModelPose pose;
   EXPECT_TRUE(compute_model_pose(character.skeleton, rest_pose(character), pose));
   return pose;
 }
-
-/// A blade straight down on the sheet z = 0 at (x, y).
-Blade down_at(double x, double y) { return {{x, y, 0.5}, {x, y, -0.5}}; }
 
 TEST(TornModel, tear_inside_the_sheet_opens_one_loop_of_the_strokes_length) {
   TornModel model = make_model(test::make_sheet(10));
@@ -265,7 +260,8 @@ TEST(TornModel, tears_the_whole_section_of_surface_and_sweep) {
   Random random(77);
   int compared = 0;
   for (int i = 0; i < 400; ++i) {
-    const Character character = test::make_tube(6 + random.index(20), 6 + random.index(20), 3);
+    const std::uint32_t rings = 6 + random.index(20), sides = 6 + random.index(20);
+    const Character character = test::make_tube(rings, sides, 3);
     const ModelPose pose = test::random_pose(character, random, 0.5, 1.1);
     const Stroke around = test::random_stroke(character, pose, random, random.uniform(0.05, 0.5), 1);
     const Vec3d motion = around[1].base - around[0].base;
@@ -284,12 +280,11 @@ TEST(TornModel, tears_the_whole_section_of_surface_and_sweep) {
 void tear_at_random(std::uint64_t seed) {
   SCOPED_TRACE(seed);
   Random random(seed);
-  const bool is_sheet = random.index(2) == 0;
-  TornModel model = make_model(is_sheet ? test::make_sheet(2 + random.index(12))
-                                        : test::make_tube(3 + random.index(12), 5 + random.index(12), 2 + random.index(4)));
+  TornModel model = make_model(test::random_character(random));
   for (int i = 0; i < 6; ++i) {
     const ModelPose pose = test::random_pose(model.source(), random);
-    const Stroke stroke = test::random_stroke(model.character(), pose, random, random.uniform(0.02, 0.6), 1 + random.index(8));
+    const double length = random.uniform(0.02, 0.6);
+    const Stroke stroke = test::random_stroke(model.character(), pose, random, length, 1 + random.index(8));
     ChangeRecord change;
     const auto report = model.tear(pose, stroke, {}, &change);
     ASSERT_TRUE(report) << report.error().text();
@@ -307,7 +302,7 @@ void tear_at_random(std::uint64_t seed) {
 class RandomTears : public testing::TestWithParam<int> {};
 
 TEST_P(RandomTears, keep_every_law_in_every_pose) {
-  const int rounds = std::getenv("SUNDER_STRESS") != nullptr ? 250 : 1;
+  const int rounds = test::stressed(1, 250);
   for (int round = 0; round < rounds && !HasFatalFailure(); ++round)
     tear_at_random(static_cast<std::uint64_t>(200 * round + GetParam()));
 }

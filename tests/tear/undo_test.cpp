@@ -1,31 +1,28 @@
 #include <sunder/skinning/palette.h>
 #include <sunder/tear/torn_model.h>
 
-#include <cstdlib>
 #include <limits>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "support/make_model.h"
 #include "support/model_state.h"
 #include "support/random_operations.h"
 #include "support/rigs.h"
+#include "support/stress.h"
 #include "support/torn_invariants.h"
 
 namespace sunder {
 namespace {
 
 using test::difference;
+using test::down_at;
+using test::make_model;
 using test::ModelState;
 using test::Random;
 using test::state_of;
 using testing::IsEmpty;
-
-TornModel make_model(Character character) {
-  auto model = TornModel::create(std::make_shared<const Character>(std::move(character)));
-  EXPECT_TRUE(model) << model.error().text();
-  return std::move(*model);
-}
 
 /// Plays random operations. @return the state before each that can be taken back, and the last.
 std::vector<ModelState> play_random(TornModel& model, Random& random, int count) {
@@ -80,7 +77,7 @@ void undo_at_random(std::uint64_t seed) {
 class RandomUndo : public testing::TestWithParam<int> {};
 
 TEST_P(RandomUndo, gives_back_every_state) {
-  const int rounds = std::getenv("SUNDER_STRESS") != nullptr ? 50 : 1;
+  const int rounds = test::stressed(1, 50);
   for (int round = 0; round < rounds && !HasFailure(); ++round)
     undo_at_random(static_cast<std::uint64_t>(100 * round + GetParam()));
 }
@@ -96,8 +93,6 @@ TEST(Undo, of_nothing_is_not_found) {
   EXPECT_EQ(model.redo_count(), 0u);
   EXPECT_EQ(difference(state_of(model), before), "");
 }
-
-Blade down_at(double x, double y) { return {{x, y, 0.5}, {x, y, -0.5}}; }
 
 TEST(Undo, what_was_taken_back_is_forgotten_after_a_new_operation) {
   TornModel model = make_model(test::make_sheet(6));

@@ -9,20 +9,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "support/make_model.h"
 #include "support/rigs.h"
 #include "support/torn_invariants.h"
 
 namespace sunder {
 namespace {
 
+using test::make_model;
 using test::Random;
 using testing::IsEmpty;
-
-TornModel make_model(Character character) {
-  auto model = TornModel::create(std::make_shared<const Character>(std::move(character)));
-  EXPECT_TRUE(model) << model.error().text();
-  return std::move(*model);
-}
 
 double volume_of(const TornModel& model, const ModelPose& pose) {
   double volume = 0;
@@ -126,7 +122,8 @@ TEST(Walls, of_random_operations_keep_every_law) {
     for (int k = 0; k < 4; ++k) {
       const ModelPose pose = test::random_pose(model.source(), random, 0.5, 1.1);
       const double diagonal = test::posed_diagonal(model.source(), pose);
-      const Stroke stroke = test::random_stroke(model.source(), pose, random, random.uniform(0.05, 0.3), 1 + random.index(4));
+      const double length = random.uniform(0.05, 0.3);
+      const Stroke stroke = test::random_stroke(model.source(), pose, random, length, 1 + random.index(4));
       if (random.index(2) == 0) {
         const double width = random.index(2) == 0 ? 0.0 : random.uniform(0.002, 0.03) * diagonal;
         ASSERT_TRUE(model.tear(pose, stroke, {width, Layers::nearest, random.uniform(0.005, 0.03) * diagonal}));

@@ -15,6 +15,7 @@
 #include <gtest/gtest.h>
 
 #include "support/random.h"
+#include "support/stress.h"
 #include "tear/section/exact_predicates.h"
 
 namespace sunder::tear {
@@ -24,7 +25,7 @@ using test::Random;
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-int case_count(int usual) { return std::getenv("SUNDER_STRESS") != nullptr ? 20 * usual : usual; }
+int case_count(int usual) { return test::stressed(usual, 20); }
 
 double area_of(std::span<const Vec2d> loop) {
   double twice = 0;
@@ -271,7 +272,7 @@ TEST(FindRegions, covers_what_an_odd_number_of_loops_holds) {
     for (int i = 0; i < 200; ++i) {
       const FlatLoop& near = loops[random.index(static_cast<std::uint32_t>(loops.size()))];
       const double size = (near[0] - near[near.size() / 2]).norm();
-      const Vec2d p = near[0] + size * Vec2d(random.uniform(-1.5, 1.5), random.uniform(-1.5, 1.5));
+      const Vec2d p = near[0] + size * Vec2d{random.uniform(-1.5, 1.5), random.uniform(-1.5, 1.5)};
       int parity = 0, covered = 0;
       for (const FlatLoop& loop : loops) parity ^= is_inside(loop, p) ? 1 : 0;
       for (const FlatRegion& region : regions)
@@ -388,7 +389,8 @@ TEST(Triangulate, self_crossing_loops_give_nothing_or_a_triangulation) {
     for (FlatLoop& loop : loops) {
       const std::uint32_t count = random.index(9);
       for (std::uint32_t i = 0; i < count; ++i)
-        loop.push_back(on_grid ? Vec2d(random.index(5), random.index(5)) : Vec2d(random.uniform(0, 1), random.uniform(0, 1)));
+        loop.push_back(on_grid ? Vec2d{1.0 * random.index(5), 1.0 * random.index(5)}
+                               : Vec2d{random.uniform(0, 1), random.uniform(0, 1)});
     }
     std::vector<FlatRegion> regions = find_regions(loops);
     for (Index i = 0; i < loops.size(); ++i) regions.push_back({i, {}});

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <sunder/tear/torn_model.h>
+
+#include <memory>
+#include <utility>
+
+#include <gtest/gtest.h>
+
+namespace sunder::test {
+
+/// A character that is known to be good, to be torn.
+inline TornModel make_model(Character character) {
+  auto model = TornModel::create(std::make_shared<const Character>(std::move(character)));
+  EXPECT_TRUE(model) << model.error().text();
+  return std::move(*model);
+}
+
+}  // namespace sunder::test
