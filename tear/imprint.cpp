@@ -9,8 +9,8 @@
 namespace sunder::tear {
 namespace {
 
-/// Eight units in the last place of a stored coordinate.
-constexpr double kStored = 0x1p-21;
+/// Four units in the last place of a stored coordinate.
+constexpr double kStored = 0x1p-22;
 
 /// A length as a part of another, that of a place which is not stored apart.
 double part_of(double length, double whole) { return whole > 0 ? std::clamp(length / whole, kTightSnap, 0.25) : kTightSnap; }

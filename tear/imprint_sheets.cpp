@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <map>
 
 #include "tear/entry.h"
@@ -17,6 +19,7 @@ struct Crossing {
   Index sheet = kNone;
   double fraction = 0;
   Vec3d position = Vec3d::Zero();
+  double slant = 1;     ///< Way along the edge for a distance from the sheet: the more, the less it says where they cross.
   Index point = kNone;  ///< Once it is imprinted.
 
   [[nodiscard]] bool is_before(const Crossing& other) const {
@@ -85,7 +88,8 @@ class Imprint {
     if (plane.contains(at_from) == plane.contains(at_to)) return false;
     const double value_from = plane.value(at_from), value_to = plane.value(at_to);
     const double fraction = value_from == value_to ? 0.0 : std::clamp(value_from / (value_from - value_to), 0.0, 1.0);
-    crossing = {face.edges[k], sheet, fraction, at_from + fraction * (at_to - at_from), kNone};
+    const double slant = (at_to - at_from).norm() / std::max(std::abs(value_from - value_to), std::numeric_limits<double>::min());
+    crossing = {face.edges[k], sheet, fraction, at_from + fraction * (at_to - at_from), slant, kNone};
     return true;
   }
 
@@ -104,7 +108,7 @@ class Imprint {
     struct Edge {
       std::size_t begin, end;
       Index from, to;
-      double snap;
+      double stored;  ///< stored_part()
     };
     std::vector<Edge> edges;
     for (std::size_t begin = 0, end = 0; begin < crossings_.size(); begin = end) {
@@ -120,14 +124,16 @@ class Imprint {
       std::sort(along.begin(), along.end(), [](const Crossing* a, const Crossing* b) {
         return a->fraction != b->fraction ? a->fraction < b->fraction : a->sheet < b->sheet;
       });
-      split_edge(edge.from, edge.to, edge.snap, along);
+      split_edge(edge.from, edge.to, edge.stored, along);
     }
   }
 
-  void split_edge(Index from, Index to, double snap, const std::vector<Crossing*>& along) {
+  /// @param stored  part of the edge that two places on it must be apart to be stored apart.
+  void split_edge(Index from, Index to, double stored, const std::vector<Crossing*>& along) {
     Index last = from;
     double last_fraction = 0;
     for (Crossing* crossing : along) {
+      const double snap = std::min(0.25, stored * crossing->slant);  // nearer ends lie on the sheet, as far as is stored
       if (crossing->fraction - last_fraction <= snap) {
         crossing->point = last;
       } else if (crossing->fraction >= 1 - snap) {
@@ -155,7 +161,7 @@ class Imprint {
   }
 
   [[nodiscard]] Index point_at_crossing(Index half_edge, Index sheet) const {
-    const Crossing wanted{half_edge, sheet, 0, Vec3d::Zero(), kNone};
+    const Crossing wanted{half_edge, sheet, 0, Vec3d::Zero(), 1, kNone};
     const auto found = std::lower_bound(crossings_.begin(), crossings_.end(), wanted,
                                         [](const Crossing& a, const Crossing& b) { return a.is_before(b); });
     return found != crossings_.end() && !wanted.is_before(*found) ? found->point : kNone;

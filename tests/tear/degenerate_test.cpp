@@ -503,9 +503,10 @@ TEST(Degenerate, a_ring_around_a_tube_takes_it_apart) {
     tear_ring_around_tube(static_cast<std::uint64_t>(seed));
 }
 
-/// Where the middle of the gap runs along an edge, nearer to it than stored coordinates tell apart.
+/// Where the middle of the gap runs along an edge, nearer to it than stored coordinates tell apart, or meets edges at a slant
+/// there.
 TEST(Degenerate, a_gap_along_an_edge_is_not_blocked) {
-  for (const std::uint64_t seed : {932u, 1714u, 2170u, 4049u, 8188u, 9529u}) tear_ring_around_tube(seed);
+  for (const std::uint64_t seed : {932u, 1714u, 1983u, 2170u, 4049u, 8188u, 9529u, 10878u}) tear_ring_around_tube(seed);
 }
 
 /// Where the second of two blades at an edge of the tube sees the face that the tear comes from at a slant from behind.
