@@ -30,9 +30,11 @@ class PatchForest {
   /// where
   ///               it cannot be there. What looks along the first axis may offer bound(const Box&, const Shadow&) too: of something
   ///               that lies both in the box and in the shadow.
+  /// @param expect expect(mesh, origins): some faces of these will be visited next.
   /// @param visit  visit(face): the greatest value that is of interest from now on. May not call this again.
-  template <class Bound, class Visit>
-  void visit_faces(const SurfaceEditor& editor, const CharacterPose& pose, const Mat3d& axes, Bound bound, Visit visit);
+  template <class Bound, class Expect, class Visit>
+  void visit_faces(const SurfaceEditor& editor, const CharacterPose& pose, const Mat3d& axes, Bound bound, Expect expect,
+                   Visit visit);
 
   [[nodiscard]] std::size_t bytes() const;
   /// Trees over the walls and caps of a mesh.
@@ -78,8 +80,9 @@ class PatchForest {
   bool is_built_ = false;
 };
 
-template <class Bound, class Visit>
-void PatchForest::visit_faces(const SurfaceEditor& editor, const CharacterPose& pose, const Mat3d& axes, Bound bound, Visit visit) {
+template <class Bound, class Expect, class Visit>
+void PatchForest::visit_faces(const SurfaceEditor& editor, const CharacterPose& pose, const Mat3d& axes, Bound bound, Expect expect,
+                              Visit visit) {
   stand_in(editor, pose, axes);
   const auto& meshes = editor.character().meshes;
   constexpr double kNowhere = std::numeric_limits<double>::infinity();
@@ -108,7 +111,9 @@ void PatchForest::visit_faces(const SurfaceEditor& editor, const CharacterPose& 
     if (node.bound > limit) continue;
     Covered& covered = *node.covered;
     if (node.height == 0) {
-      for (const Index origin : covered.tree.origins(node.number))
+      const std::span<const Index> origins = covered.tree.origins(node.number);
+      expect(covered.mesh, origins);
+      for (const Index origin : origins)
         if (origin < covered.end) editor.for_each_part(covered.mesh, origin, [&](Index face) { limit = visit(face); });
       continue;
     }

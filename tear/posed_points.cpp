@@ -5,8 +5,9 @@
 
 #include <cmath>
 
-namespace sunder::tear {
+#include "tear/prefetch.h"
 
+namespace sunder::tear {
 Status PosedPoints::check(const Character& character, const ModelPose& pose) {
   const std::size_t bone_count = character.skeleton.bones.size();
   if (pose.model_from_bone.size() != bone_count)
@@ -52,6 +53,51 @@ const Vec3d& PosedPoints::look_up(const SurfaceEditor& editor, Index point) {
 void PosedPoints::pin(Index point, const Vec3d& position) {
   cover(point + 1);
   known_[point] = {position, epoch_};
+}
+
+void PosedPoints::fetch(const SurfaceEditor& editor, Index mesh, std::span<const Index> origins) const {
+  // Each loop reads what the one before it has asked for.
+  const Surface& surface = editor.surface();
+  const Mesh& of = editor.character().meshes[mesh];
+  const Index source_count = editor.source().meshes[mesh].triangle_count();
+  std::array<Index, 3 * std::size_t{PatchTree::kPatchSize}> corners;
+  std::size_t count = 0;
+  for (const Index origin : origins) {
+    if (origin >= source_count) continue;
+    const Index first = 3 * editor.surface_triangle(mesh, origin);
+    prefetch(&surface.corner_point[first]);
+    for (Index k = 0; k < 3; ++k) corners[count++] = first + k;
+  }
+  const std::span<Index> points = std::span(corners).first(count);
+  for (Index& corner : points) {
+    corner = surface.corner_point[corner];
+    if (corner >= known_since_.size()) continue;
+    prefetch(&known_since_[corner]);
+    prefetch(&positions_[corner]);
+    prefetch(&surface.point_corner[corner]);
+  }
+  const auto is_wanted = [&](Index point) { return point < known_since_.size() && known_since_[point] != epoch_; };
+  std::size_t vertex_count = 0;
+  for (const Index point : points) {
+    if (!is_wanted(point)) continue;
+    const Index corner = surface.point_corner[point];
+    if (corner == kNone) continue;
+    prefetch(&surface.triangles[corner / 3]);
+    points[vertex_count++] = corner;
+  }
+  const std::span<Index> wanted = points.first(vertex_count);
+  for (const Index corner : wanted)
+    prefetch(&of.triangles[std::min(surface.triangles[corner / 3].triangle, of.triangle_count() - 1)]);
+  for (Index& corner : wanted) {
+    const TriangleRef& ref = surface.triangles[corner / 3];
+    const Index vertex = ref.mesh == mesh ? of.triangles[ref.triangle][corner % 3] : 0;
+    corner = vertex;
+    prefetch(&of.positions[vertex]);
+    prefetch(&of.weights.first[vertex]);
+    for (const MorphTarget& target : of.morph_targets)
+      if (!target.position_deltas.empty()) prefetch(&target.position_deltas[vertex]);
+  }
+  for (const Index vertex : wanted) prefetch(&of.weights.influences[of.weights.first[vertex]]);
 }
 
 void PosedPoints::forget_from(Index first_point) {

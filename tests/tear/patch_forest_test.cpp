@@ -168,6 +168,15 @@ bool holds(const Box& box, const Vec3d& point) {
   return (box.low.array() <= point.array()).all() && (point.array() <= box.high.array()).all();
 }
 
+bool holds(const Shadow& shadow, const Vec3d& point) {
+  bool is_held = shadow.low <= point.x() && point.x() <= shadow.high;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double at = shadow.normal[k].dot(Vec2d(point.y(), point.z()));
+    is_held = is_held && shadow.from[k] <= at && at <= shadow.to[k];
+  }
+  return is_held;
+}
+
 /// A live face that is not found in just one patch, or a posed point outside of a box that should hold it.
 std::vector<std::string> broken_bounds(Torn& torn, Random& random) {
   std::vector<std::string> broken;
@@ -184,8 +193,10 @@ std::vector<std::string> broken_bounds(Torn& torn, Random& random) {
     Mesh& mesh = meshes[covered->mesh];
     const MeshPose mesh_pose = forest.pose_of(mesh, pose);
     std::array<Box, PatchTree::kPatchesPerGroup> patches;
+    std::array<Shadow, PatchTree::kPatchesPerGroup> shadows;
     for (Index group = 0; group < tree.node_count(0); ++group) {
       const Index count = tree.compute_posed_patches(group, mesh_pose, patches);
+      EXPECT_EQ(tree.compute_posed_patches(group, mesh_pose, shadows), count);
       for (Index i = 0; i < count; ++i) {
         std::vector<Box> boxes = {patches[i]};
         for (Index level = 0, number = group; level < tree.level_count(); ++level, number /= PatchTree::kFanOut)
@@ -194,6 +205,7 @@ std::vector<std::string> broken_bounds(Torn& torn, Random& random) {
           const Vec3d at = axes * deform_position_reference(mesh, vertex, palettes[mesh.skin], torn.posed.morph_weights());
           for (std::size_t box = 0; box < boxes.size(); ++box)
             if (!holds(boxes[box], at)) broken.push_back(test::say("face ", face, " outside of its box ", box));
+          if (!holds(shadows[i], at)) broken.push_back(test::say("face ", face, " outside of its shadow"));
         };
         for (const Index origin : tree.origins(PatchTree::kPatchesPerGroup * group + i))
           torn.editor.for_each_part(covered->mesh, origin, [&](Index face) {

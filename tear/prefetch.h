@@ -1,0 +1,12 @@
+#pragma once
+
+namespace sunder::tear {
+
+/// Asks for memory that will be read soon. A hint, where the compiler knows how to give it.
+inline void prefetch([[maybe_unused]] const void* address) {
+#if defined(__GNUC__)
+  __builtin_prefetch(address);
+#endif
+}
+
+}  // namespace sunder::tear
