@@ -71,25 +71,23 @@ void PosedPoints::fetch(const SurfaceEditor& editor, Index mesh, std::span<const
   const std::span<Index> points = std::span(corners).first(count);
   for (Index& corner : points) {
     corner = surface.corner_point[corner];
-    if (corner >= known_since_.size()) continue;
-    prefetch(&known_since_[corner]);
-    prefetch(&positions_[corner]);
+    if (corner >= known_.size()) continue;
+    prefetch(&known_[corner]);
     prefetch(&surface.point_corner[corner]);
   }
-  const auto is_wanted = [&](Index point) { return point < known_since_.size() && known_since_[point] != epoch_; };
+  const auto is_wanted = [&](Index point) { return point < known_.size() && known_[point].since != epoch_; };
   std::size_t vertex_count = 0;
   for (const Index point : points) {
     if (!is_wanted(point)) continue;
     const Index corner = surface.point_corner[point];
     if (corner == kNone) continue;
-    prefetch(&surface.triangles[corner / 3]);
     points[vertex_count++] = corner;
   }
   const std::span<Index> wanted = points.first(vertex_count);
   for (const Index corner : wanted)
-    prefetch(&of.triangles[std::min(surface.triangles[corner / 3].triangle, of.triangle_count() - 1)]);
+    prefetch(&of.triangles[std::min(surface.triangle(corner / 3).triangle, of.triangle_count() - 1)]);
   for (Index& corner : wanted) {
-    const TriangleRef& ref = surface.triangles[corner / 3];
+    const TriangleRef ref = surface.triangle(corner / 3);
     const Index vertex = ref.mesh == mesh ? of.triangles[ref.triangle][corner % 3] : 0;
     corner = vertex;
     prefetch(&of.positions[vertex]);
