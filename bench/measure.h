@@ -37,9 +37,6 @@ std::vector<double> sample(const Effort& effort, Run run) {
 /// Walks 64 MB, so that nothing of what was used before is left in a cache.
 void sweep_caches();
 
-/// How often the process has asked for memory by operator new.
-[[nodiscard]] std::uint64_t allocation_count();
-
 /// Bytes that the process holds from malloc.
 [[nodiscard]] std::uint64_t bytes_in_use();
 

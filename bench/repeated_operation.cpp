@@ -4,6 +4,7 @@
 #include <cstdlib>
 
 #include "bench/measure.h"
+#include "support/allocation_count.h"
 
 namespace sunder::bench {
 namespace {
@@ -20,10 +21,10 @@ void require(const Outcome& outcome) {
 double RepeatedOperation::run(Caches caches) {
   const ModelPose& pose = scene_.next_pose();
   if (caches == Caches::swept) sweep_caches();
-  const std::uint64_t before = allocation_count();
+  const std::uint64_t before = test::allocation_count();
   Result<TearReport> done = Status();
   const double seconds = seconds_of([&] { done = work_(scene_, pose, change_); });
-  allocations = allocation_count() - before;
+  allocations = test::allocation_count() - before;
   require(done);
   report = std::move(*done);
   take_back();
@@ -31,9 +32,9 @@ double RepeatedOperation::run(Caches caches) {
 }
 
 void RepeatedOperation::take_back() {
-  const std::uint64_t before = allocation_count();
+  const std::uint64_t before = test::allocation_count();
   require(scene_.model().undo(&change_));
-  undo_allocations = allocation_count() - before;
+  undo_allocations = test::allocation_count() - before;
 }
 
 RepeatedOperation::Seconds RepeatedOperation::run_undo_and_redo() {

@@ -15,6 +15,7 @@ TornModel::State::State(std::shared_ptr<const Character> from, const TornCapacit
   pose.morph_weights.resize(character.rest_morph_weights.size());
   posed.cover(editor.surface().point_count() + capacity.vertices);
   lips.reserve(capacity.vertices);
+  tearing.lips.reserve(capacity.vertices);
   history.limit_to(capacity.operations, pose);
 }
 

@@ -1,7 +1,7 @@
 #include "tear/pieces.h"
 
 #include <algorithm>
-#include <map>
+#include <array>
 #include <memory_resource>
 #include <numeric>
 #include <span>
@@ -148,22 +148,28 @@ class Fronts {
     bool is_exhausted = false;
   };
   /// Sets by what hung together before, of more than one each.
-  [[nodiscard]] std::vector<std::vector<Set>> separated() {
-    std::map<Index, std::vector<Set>> sets_of_group;
+  [[nodiscard]] ScratchVector<ScratchVector<Set>> separated() {
     if (!front_of_face_.of_all().empty()) {  // in order without sorting
       for (const Index front : roots_)
         if (sets_.find(front) == front) faces_[front].clear();
       for (Index face = 0; face < surface_.triangle_count(); ++face)
         if (const Index front = front_of_face_.of_all()[face]; front != kNone) faces_[sets_.find(front)].push_back(face);
     }
-    for (const Index front : roots_) {
-      if (sets_.find(front) != front) continue;
-      if (front_of_face_.of_all().empty()) std::sort(faces_[front].begin(), faces_[front].end());
-      sets_of_group[groups_.find(front)].push_back({std::move(faces_[front]), open_[front].empty()});
+    ScratchVector<std::array<Index, 2>> by_group(&scratch_);  // group, front
+    for (const Index front : roots_)
+      if (sets_.find(front) == front) by_group.push_back({groups_.find(front), front});
+    std::sort(by_group.begin(), by_group.end());
+    ScratchVector<ScratchVector<Set>> separated(&scratch_);
+    for (std::size_t begin = 0, end = 0; begin < by_group.size(); begin = end) {
+      while (end < by_group.size() && by_group[end][0] == by_group[begin][0]) ++end;
+      if (end - begin < 2) continue;
+      auto& sets = separated.emplace_back();
+      for (std::size_t i = begin; i < end; ++i) {
+        ScratchVector<Index>& faces = faces_[by_group[i][1]];
+        if (front_of_face_.of_all().empty()) std::sort(faces.begin(), faces.end());
+        sets.push_back({std::move(faces), open_[by_group[i][1]].empty()});
+      }
     }
-    std::vector<std::vector<Set>> separated;
-    for (auto& [unused, sets] : sets_of_group)
-      if (sets.size() > 1) separated.push_back(std::move(sets));
     return separated;
   }
 
@@ -250,7 +256,7 @@ std::vector<Piece> find_pieces(const SurfaceEditor::Mark& begin, bool all, const
   if (changed.set_count() < 2) return {};
   Fronts fronts(changed, all, editor);
   fronts.grow(all);
-  std::vector<ScratchVector<Index>> sets;
+  ScratchVector<ScratchVector<Index>> sets(&editor.scratch());
   for (auto& of_group : fronts.separated()) {
     // What is left is the part that did not run out or, where all did, the largest.
     const auto left = std::max_element(of_group.begin(), of_group.end(), [](const Fronts::Set& a, const Fronts::Set& b) {

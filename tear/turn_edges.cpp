@@ -2,6 +2,7 @@
 
 #include <array>
 #include <deque>
+#include <memory_resource>
 
 namespace sunder::tear {
 namespace {
@@ -30,7 +31,7 @@ class CrossedEdges {
       : editor_(editor), surface_(editor.surface()), from_(from), to_(to), origin_(origin) {}
 
   /// @return false where the line leaves the source triangle, or meets a point.
-  bool find(std::deque<std::array<Index, 2>>& edges) {
+  bool find(std::pmr::deque<std::array<Index, 2>>& edges) {
     const Index at_from = corner_in(origin_, from_, editor_), at_to = corner_in(origin_, to_, editor_);
     if (at_from == kNone || at_to == kNone) return false;
     begin_ = place(at_from, editor_);
@@ -77,7 +78,7 @@ bool turn_edges_into_line(Index from, Index to, Index face, SurfaceEditor& edito
   const auto is_edge = [&] { return surface.find_half_edge(from, to) != kNone || surface.find_half_edge(to, from) != kNone; };
   if (is_edge()) return true;
   CrossedEdges line(from, to, surface.triangle(face), editor);
-  std::deque<std::array<Index, 2>> edges;
+  std::pmr::deque<std::array<Index, 2>> edges(&editor.scratch());
   if (!line.find(edges)) return false;
   // Sloan 1993: an edge that cannot be turned yet waits until its neighbours are.
   for (std::size_t turns_left = edges.size() * edges.size() + 4; !edges.empty() && turns_left > 0; --turns_left) {

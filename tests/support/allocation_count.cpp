@@ -1,10 +1,10 @@
 // Counts what the whole process allocates: the ordinary forms of operator new, to which the others lead.
+#include "support/allocation_count.h"
+
 #include <atomic>
 #include <cstddef>
 #include <cstdlib>
 #include <new>
-
-#include "bench/measure.h"
 
 namespace {
 
@@ -29,8 +29,8 @@ void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
 void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
 
-namespace sunder::bench {
+namespace sunder::test {
 
 std::uint64_t allocation_count() { return allocations.load(std::memory_order_relaxed); }
 
-}  // namespace sunder::bench
+}  // namespace sunder::test
