@@ -20,14 +20,14 @@ inline constexpr double kSnap = 1e-3;
 /// sliver. Tears have made these faces small, so the path still moves by little.
 inline constexpr double kSliver = 3e-2;
 
-/// The same where the outline of a gap has to be true: what this leaves is less than rounding shows.
+/// The same at the least, where the outline of a gap has to be true: what this leaves is less than rounding shows.
 inline constexpr double kTightSnap = 1e-9;
 
 /// How far places move onto points and edges that are there.
 enum class Snapping : std::uint8_t {
   by_shape,  ///< kSnap and kSliver.
   near,      ///< kSnap, where a path ends: its tip is where the blade was.
-  tight,     ///< kTightSnap.
+  tight,     ///< What would be stored as the same place (stored_part()), and kTightSnap.
 };
 
 /// A place on the surface.

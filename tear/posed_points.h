@@ -28,7 +28,9 @@ class PosedPoints {
   }
 
   void cover(Index point_count) {
-    if (known_.size() < point_count) known_.resize(point_count);
+    if (known_.size() >= point_count) return;
+    if (known_.capacity() < point_count) known_.reserve(point_count + point_count / 8 + 1024);  // not twice as much
+    known_.resize(point_count);
   }
 
   /// Keeps a point where it was found on the posed surface, instead of where its own weights put it.

@@ -665,6 +665,17 @@ void SurfaceEditor::write_side_of_new(Index mesh, Index vertex, Index side) {
   (*tear_sides(mesh))[vertex] = static_cast<float>(side);
 }
 
+MeshChange& SurfaceEditor::renew_change(std::size_t at, Index mesh, ChangeRecord& change) {
+  if (at == change.meshes.size()) change.meshes.emplace_back();
+  MeshChange& renewed = change.meshes[at];
+  renewed.mesh = mesh;
+  renewed.first_vertex = renewed.vertex_count = renewed.first_triangle = renewed.triangle_count = 0;
+  renewed.births.clear();
+  renewed.rewritten.clear();
+  renewed.retired.clear();
+  return renewed;
+}
+
 void SurfaceEditor::describe(const Mark& begin, ChangeRecord& change) const {
   change.first_point = begin.points;
   change.point_count = surface_.point_count() - begin.points;
@@ -686,15 +697,11 @@ void SurfaceEditor::describe(const Mark& begin, ChangeRecord& change) const {
   for (Index m = 0; m < character_.meshes.size(); ++m) {
     const Mesh& mesh = character_.meshes[m];
     if (!has_changed[m] && mesh.vertex_count() == sizes[m].vertices && mesh.triangle_count() == sizes[m].triangles) continue;
-    if (count == change.meshes.size()) change.meshes.emplace_back();
-    MeshChange& of_mesh = change.meshes[count];
-    of_mesh.mesh = m;
+    MeshChange& of_mesh = renew_change(count, m, change);
     of_mesh.first_vertex = sizes[m].vertices;
     of_mesh.vertex_count = mesh.vertex_count() - sizes[m].vertices;
     of_mesh.first_triangle = sizes[m].triangles;
     of_mesh.triangle_count = mesh.triangle_count() - sizes[m].triangles;
-    of_mesh.rewritten.clear();
-    of_mesh.retired.clear();
     for (const std::uint64_t of : changed) {
       const TriangleRef ref = surface_.triangle(static_cast<Index>(of >> 32));
       if (ref.mesh != m) continue;

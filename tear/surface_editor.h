@@ -247,6 +247,8 @@ class SurfaceEditor {
   void write_side(Index mesh, Index vertex, Index side);
   /// The same for a vertex that is taken back with what needs it.
   void write_side_of_new(Index mesh, Index vertex, Index side);
+  /// Entry `at` of a record, as new, in the memory of the one that was there.
+  static MeshChange& renew_change(std::size_t at, Index mesh, ChangeRecord& change);
   /// @param sides  what was written to _TEARSIDE.
   void fill_dirty_ranges(std::span<const SideEntry> sides, MeshChange& change) const;
   /// Values of _TEARSIDE; nothing where the mesh has none.

@@ -63,11 +63,12 @@ void SurfaceEditor::undo(const Mark& begin, Redo& redo, ChangeRecord& change) {
 
   roll_back(begin);
 
-  change = {};
   change.first_point = begin.points;
+  change.point_count = 0;
+  change.lips.clear();
+  std::size_t count = 0;
   for (Index m = 0; m < character_.meshes.size(); ++m) {
-    MeshChange of_mesh;
-    of_mesh.mesh = m;
+    MeshChange& of_mesh = renew_change(count, m, change);
     of_mesh.first_vertex = sizes[m].vertices;
     of_mesh.first_triangle = sizes[m].triangles;
     for (const LogEntry& entry : redo.changed) {
@@ -78,13 +79,15 @@ void SurfaceEditor::undo(const Mark& begin, Redo& redo, ChangeRecord& change) {
     const Redo::OfMesh& undone = redo.meshes[m];
     if (of_mesh.rewritten.empty() && undone.births.empty() && undone.triangles.empty()) continue;
     fill_dirty_ranges(redo.side_log, of_mesh);
-    change.meshes.push_back(std::move(of_mesh));
+    ++count;
   }
+  change.meshes.resize(count);
 }
 
 void SurfaceEditor::redo(const Redo& redo, ChangeRecord& change) {
-  change = {};
   change.first_point = surface_.point_count();
+  change.lips.clear();
+  std::size_t count = 0;
   change.point_count = static_cast<Index>(redo.point_corner.size());
   for (const Addition& addition : redo.additions)
     if (addition.kind == Addition::Kind::tear_sides) {
@@ -95,8 +98,7 @@ void SurfaceEditor::redo(const Redo& redo, ChangeRecord& change) {
   for (Index m = 0; m < character_.meshes.size(); ++m) {
     Mesh& mesh = character_.meshes[m];
     const Redo::OfMesh& of = redo.meshes[m];
-    MeshChange of_mesh;
-    of_mesh.mesh = m;
+    MeshChange& of_mesh = renew_change(count, m, change);
     of_mesh.first_vertex = mesh.vertex_count();
     of_mesh.vertex_count = static_cast<Index>(of.births.size());
     of_mesh.first_triangle = mesh.triangle_count();
@@ -120,8 +122,9 @@ void SurfaceEditor::redo(const Redo& redo, ChangeRecord& change) {
       if (is_retired(mesh.triangles[t])) of_mesh.retired.push_back(t);
     if (of_mesh.rewritten.empty() && of.births.empty() && of.triangles.empty()) continue;
     fill_dirty_ranges(redo.sides, of_mesh);
-    change.meshes.push_back(std::move(of_mesh));
+    ++count;
   }
+  change.meshes.resize(count);
   append(surface_.corner_point, redo.corner_point);
   append(surface_.twin, redo.twin);
   append(surface_.appended, redo.triangles);

@@ -39,16 +39,17 @@ class SUNDER_API TornModel {
   /// @return what was done; a stroke that misses is a success with runs = 0. size_mismatch, non_finite_value, invalid_argument
   ///         (index = the blade), limit_exceeded (out of memory): the model is as it was, bit for bit.
   ///
-  /// O(all faces) where the tear enters, then O(faces crossed). Allocates.
+  /// O(faces crossed), and where the tear enters O(log faces). Allocates where a model that grows has to grow, for pieces that come
+  /// free, and with a width, walls or all layers. The first operation also builds what entries are looked up in: O(faces).
   Result<TearReport> tear(const ModelPose& pose, std::span<const Blade> stroke, const TearOptions& options = {},
                           ChangeRecord* change = nullptr);
 
   /// Cuts the posed surface by a plane, every layer of it. Lips coincide, as those of a tear.
-  /// @return as tear(). O(all faces).
+  /// @return as tear(). O(faces crossed), and O(all faces) where pieces come free.
   Result<TearReport> cut(const ModelPose& pose, const Cut& cut, ChangeRecord* change = nullptr);
 
   /// Removes the posed surface inside a bore, every layer of it.
-  /// @return as tear(). O(all faces).
+  /// @return as tear(). O(faces crossed and removed).
   Result<TearReport> drill(const ModelPose& pose, const Bore& bore, ChangeRecord* change = nullptr);
 
   /// Takes back the newest operation, or does again the one that was taken back last: every array as it was then, bit for bit.
