@@ -50,10 +50,6 @@ std::vector<std::vector<PointEdge>> runs_of(const std::vector<PointEdge>& edges)
   return runs;
 }
 
-bool is_on_border(const Surface& surface, Index point) {
-  return surface.rotate_cw(surface.first_of_fan(surface.point_corner[point])) == kNone;
-}
-
 }  // namespace
 
 std::vector<Index> faces_across(const Sheet& sheet, const SurfaceEditor& editor, PosedPoints& posed) {
@@ -93,7 +89,7 @@ SheetOpening open_sheet(const Sheet& sheet, const Workpiece& work, std::vector<L
   drop_touching(imprint.edges[0]);
   for (std::vector<PointEdge>& run : runs_of(imprint.edges[0])) {
     // One edge between two tips would stay closed at both its ends: it needs a point that can open.
-    if (run.size() == 1 && !is_on_border(editor.surface(), run[0][0]) && !is_on_border(editor.surface(), run[0][1])) {
+    if (run.size() == 1 && !editor.surface().is_on_border(run[0][0]) && !editor.surface().is_on_border(run[0][1])) {
       const Index h = editor.surface().find_half_edge(run[0][0], run[0][1]);
       const Index middle = h == kNone ? kNone : split_posed_edge(h, 0.5, editor, posed);
       if (middle == kNone) {

@@ -10,8 +10,8 @@
 namespace sunder::test {
 
 /// A character that is known to be good, to be torn.
-inline TornModel make_model(Character character) {
-  auto model = TornModel::create(std::make_shared<const Character>(std::move(character)));
+inline TornModel make_model(Character character, const TornCapacity& capacity = {}) {
+  auto model = TornModel::create(std::make_shared<const Character>(std::move(character)), capacity);
   EXPECT_TRUE(model) << model.error().text();
   return std::move(*model);
 }

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "support/allocation_count.h"
+#include "support/make_model.h"
 #include "support/model_state.h"
 #include "support/rigs.h"
 #include "support/torn_invariants.h"
@@ -16,16 +17,11 @@
 namespace sunder {
 namespace {
 
+using test::make_model;
 using test::Random;
 using testing::IsEmpty;
 
 constexpr TornCapacity kRoom{20000, 20000, 16};
-
-TornModel make_model(const Character& character, const TornCapacity& capacity) {
-  auto model = TornModel::create(std::make_shared<const Character>(character), capacity);
-  EXPECT_TRUE(model) << model.error().text();
-  return std::move(*model);
-}
 
 TEST(Capacity, tears_of_a_warm_model_allocate_nothing) {
   const Character tube = test::make_tube(20, 24, 8);
