@@ -6,10 +6,23 @@
 #include <cstdlib>
 #include <new>
 
+// The address sanitizer has operators of its own, and wants them all: with it nothing is counted.
+#if defined(__SANITIZE_ADDRESS__)
+#define SUNDER_COUNTS_ALLOCATIONS 0
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define SUNDER_COUNTS_ALLOCATIONS 0
+#endif
+#endif
+#ifndef SUNDER_COUNTS_ALLOCATIONS
+#define SUNDER_COUNTS_ALLOCATIONS 1
+#endif
+
 namespace {
 
 std::atomic<std::uint64_t> allocations = 0;
 
+#if SUNDER_COUNTS_ALLOCATIONS
 void* allocate(std::size_t bytes, std::size_t alignment) {
   allocations.fetch_add(1, std::memory_order_relaxed);
   if (bytes == 0) bytes = 1;
@@ -19,15 +32,18 @@ void* allocate(std::size_t bytes, std::size_t alignment) {
   if (memory == nullptr) throw std::bad_alloc();
   return memory;
 }
+#endif
 
 }  // namespace
 
+#if SUNDER_COUNTS_ALLOCATIONS
 void* operator new(std::size_t bytes) { return allocate(bytes, 1); }
 void* operator new(std::size_t bytes, std::align_val_t alignment) { return allocate(bytes, static_cast<std::size_t>(alignment)); }
 void operator delete(void* memory) noexcept { std::free(memory); }
 void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
 void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
+#endif
 
 namespace sunder::test {
 
