@@ -17,9 +17,8 @@ class SUNDER_API TornModel {
  public:
   /// @param source  satisfies validate_character(); kept. The model starts as a copy of it.
   /// @param capacity  what operations may append; by default the model grows.
-  /// @return the first fault of the source; empty_input for none; limit_exceeded above 700 million triangles, or where memory does
-  /// not
-  ///         suffice. O(size of the source).
+  /// @return the first fault of the source; empty_input for none; limit_exceeded above 700 million triangles, or without enough
+  ///         memory. O(size of the source and of the capacity).
   static Result<TornModel> create(std::shared_ptr<const Character> source, const TornCapacity& capacity = {});
 
   TornModel(TornModel&&) noexcept;
@@ -37,7 +36,7 @@ class SUNDER_API TornModel {
   /// @param stroke  at least two blades, model space; each longer than zero; neighbours turned by less than 90 degrees.
   /// @param change  written where given: what an engine has to mirror.
   /// @return what was done; a stroke that misses is a success with runs = 0. size_mismatch, non_finite_value, invalid_argument
-  ///         (index = the blade), limit_exceeded (out of memory): the model is as it was, bit for bit.
+  ///         (index = the blade), limit_exceeded (out of memory, or of the model's capacity): the model is as it was, bit for bit.
   ///
   /// O(faces crossed), and where the tear enters O(log faces). Allocates where a model that grows has to grow, for pieces that come
   /// free, and with a width, walls or all layers. The first operation also builds what entries are looked up in: O(faces).
