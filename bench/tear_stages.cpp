@@ -33,7 +33,7 @@ Stages StagedTear::run_query() {
   stages.query = seconds_of([&] {
     const auto hit = first_hit(from, editor_, posed_);
     const auto plane = BladePlane::through(hit->position, from, to);
-    if (!first_contact(*plane, 0, editor_, posed_)) std::abort();
+    if (!contact_at(*hit, *plane, editor_, posed_)) std::abort();
   });
   return stages;
 }
@@ -65,7 +65,7 @@ void StagedTear::tear_segment(const Blade& from, const Blade& to, Stages& stages
     const auto hit = first_hit(from, editor_, posed_);
     if (!hit) std::abort();  // the scene's strokes begin on the surface
     plane = BladePlane::through(hit->position, from, to);
-    contact = first_contact(*plane, 0, editor_, posed_);
+    contact = contact_at(*hit, *plane, editor_, posed_);
   });
   const Index first_vertex = character_.meshes[0].vertex_count();
   tear::Path path(editor_.scratch());

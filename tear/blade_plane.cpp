@@ -99,7 +99,7 @@ double BladePlane::least_progress(const Box& box) const {
   // is ahead of the first blade and within reach of the second has exactly one progress in [0, 1], so that one is meant.
   constexpr double kUnknown = -std::numeric_limits<double>::infinity();
   constexpr double kMargin = 1e-7;  // to what the roots may be off by
-  const Vec3d half = box.half_size(), middle = box.middle() - axes() * origin_;
+  const Vec3d half = box.half_size(), middle = box.middle();
   const Vec2d e = to_base_ - from_base_, d = from_tip_ - from_base_, g = (to_tip_ - to_base_) - d;
   const auto radius = [&](const Vec2d& direction) {
     return std::abs(direction.y()) * half.y() + std::abs(direction.x()) * half.x();

@@ -45,10 +45,12 @@ class BladePlane {
   /// What it sweeps from the first blade on.
   [[nodiscard]] const HalfPlane& not_before() const { return not_before_; }
 
+  /// A point of the plane: the second blade's base.
+  [[nodiscard]] const Vec3d& origin() const { return origin_; }
   /// Rows: along, across, normal.
   [[nodiscard]] Mat3d axes() const;
-  /// No point of a box, given in axes(), that lies in the plane and within reach has less progress than this. Minus infinity where
-  /// that is not known.
+  /// No point of a box, given along axes() from the origin, that lies in the plane and within reach has less progress than this.
+  /// Minus infinity where that is not known.
   [[nodiscard]] double least_progress(const Box& box) const;
 
   /// Towards the left of the stroke, seen from where the blade comes; across the second blade, forwards; along it, from base to

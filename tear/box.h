@@ -7,7 +7,18 @@
 
 namespace sunder::tear {
 
-/// A box along some axes; infinite where nothing is known.
+/// Coordinates in which a query looks at the posed surface: along its own axes, from a place near the surface, so that far from
+/// the model's origin nothing is lost in float.
+struct Frame {
+  Mat3d axes = Mat3d::Identity();  ///< Rows: orthogonal unit vectors.
+  Vec3d origin = Vec3d::Zero();
+
+  [[nodiscard]] Vec3d place_of(const Vec3d& point) const { return axes * (point - origin); }
+  /// What coordinates of the model are rounded by, besides those in the frame.
+  [[nodiscard]] double reach() const { return origin.cwiseAbs().maxCoeff(); }
+};
+
+/// A box in a frame; infinite where nothing is known.
 struct Box {
   Vec3d low = Vec3d::Zero(), high = Vec3d::Zero();
 
@@ -38,17 +49,25 @@ struct Shadow {
 /// Orthogonal unit vectors as rows: along `first`, then towards `second` as far as it goes another way.
 [[nodiscard]] Mat3d axes_along(const Vec3d& first, const Vec3d& second = Vec3d::Zero());
 
-/// A half-space in the coordinates along some axes.
-[[nodiscard]] inline HalfSpace in_axes(const Mat3d& axes, const HalfSpace& half_space) {
-  return {axes * half_space.normal, half_space.offset};
-}
+/// A half-space in a frame.
+class FramedHalfSpace {
+ public:
+  FramedHalfSpace(const Frame& frame, const HalfSpace& half_space)
+      : inside_{frame.axes * half_space.normal, half_space.offset - half_space.normal.dot(frame.origin)},
+        steepness_(inside_.normal.cwiseAbs()),
+        magnitude_(std::abs(half_space.offset) + half_space.normal.cwiseAbs().dot(frame.origin.cwiseAbs())) {}
 
-/// Whether no point of a box can be found in a half-space, whatever rounding does to either.
-[[nodiscard]] inline bool is_outside(const HalfSpace& half_space, const Box& box) {
-  const Vec3d middle = box.middle(), half = box.half_size(), steepness = half_space.normal.cwiseAbs();
-  const double greatest = half_space.value(middle) + steepness.dot(half);
-  const double magnitude = steepness.dot(middle.cwiseAbs() + half) + std::abs(half_space.offset);
-  return greatest < -1e-12 * magnitude;
-}
+  /// Whether no point of a box can be found in it, whatever rounding does to either.
+  [[nodiscard]] bool is_beside(const Box& box) const {
+    const Vec3d middle = box.middle(), half = box.half_size();
+    const double greatest = inside_.value(middle) + steepness_.dot(half);
+    return greatest < -1e-12 * (magnitude_ + steepness_.dot(middle.cwiseAbs() + half));
+  }
+
+ private:
+  HalfSpace inside_;
+  Vec3d steepness_;
+  double magnitude_;  ///< Of what was added up, in the model.
+};
 
 }  // namespace sunder::tear

@@ -50,51 +50,35 @@ bool clip(const BladePlane::HalfPlane& half_plane, const Vec2d& a, const Vec2d& 
   return begin <= end;
 }
 
-/// A segment, and where it runs within boxes.
+/// A segment, and where it runs within boxes of a frame whose first axis is its direction.
 class Segment {
  public:
-  explicit Segment(const Blade& blade)
+  Segment(const Blade& blade, const Frame& frame)
       : base_(blade.base),
         direction_(blade.tip - blade.base),
-        axes_(axes_along(direction_)),
-        base_in_axes_(axes_ * base_),
-        direction_in_axes_(axes_ * direction_),
-        reach_(std::max(base_.cwiseAbs().maxCoeff(), blade.tip.cwiseAbs().maxCoeff())) {}
-
-  /// Those that boxes are in: the first is the segment's direction.
-  [[nodiscard]] const Mat3d& axes() const { return axes_; }
+        frame_(frame),
+        base_in_frame_(frame.place_of(base_)),
+        direction_in_frame_(frame.axes * direction_),
+        per_step_(direction_in_frame_.cwiseInverse()),
+        reach_(std::max({frame.reach(), base_.cwiseAbs().maxCoeff(), blade.tip.cwiseAbs().maxCoeff()})),
+        rounding_(1e-12 * reach_) {}
 
   struct Part {
     double begin = 0, end = 1;
     [[nodiscard]] bool is_empty() const { return begin > end; }
     [[nodiscard]] double begin_or_infinity() const { return is_empty() ? std::numeric_limits<double>::infinity() : begin; }
   };
-  /// The part within a box, on the safe side of rounding. The part within a box inside it lies in that part, to the last bit.
-  [[nodiscard]] Part part_in(const Box& box) const {
-    const Box wide = box.widened(reach_);
-    Part part;
-    for (int k = 0; k < 3; ++k) {
-      const double to_low = wide.low[k] - base_in_axes_[k], to_high = wide.high[k] - base_in_axes_[k];
-      if (direction_in_axes_[k] == 0) {
-        if (to_low > 0 || to_high < 0) return {1, 0};
-        continue;
-      }
-      const bool ascends = direction_in_axes_[k] > 0;
-      part.begin = std::max(part.begin, (ascends ? to_low : to_high) / direction_in_axes_[k]);
-      part.end = std::min(part.end, (ascends ? to_high : to_low) / direction_in_axes_[k]);
-    }
-    return part;
-  }
+  /// The part within a box of the surface, on the safe side of rounding: those boxes are wider than what they hold by more than
+  /// what rounding does to the place of a thing in the frame, but for what comes of coordinates in the model.
+  [[nodiscard]] Part part_in(const Box& box) const { return part_in(box, rounding_); }
 
-  /// Of what lies both in a box and in a shadow.
-  [[nodiscard]] Part part_in(const Box& box, const Shadow& shadow) const {
-    const double margin = box.margin(reach_);
+  [[nodiscard]] Part part_in(const Box&, const Shadow& shadow) const {
     for (std::size_t k = 0; k < 3; ++k) {
-      const double at = shadow.normal[k].x() * base_in_axes_.y() + shadow.normal[k].y() * base_in_axes_.z();
-      if (at < shadow.from[k] - margin || at > shadow.to[k] + margin) return {1, 0};
+      const double at = shadow.normal[k].x() * base_in_frame_.y() + shadow.normal[k].y() * base_in_frame_.z();
+      if (at < shadow.from[k] - rounding_ || at > shadow.to[k] + rounding_) return {1, 0};
     }
-    const double to_low = shadow.low - margin - base_in_axes_.x(), to_high = shadow.high + margin - base_in_axes_.x();
-    return {std::max(0.0, to_low / direction_in_axes_.x()), std::min(1.0, to_high / direction_in_axes_.x())};
+    const double to_low = shadow.low - rounding_ - base_in_frame_.x(), to_high = shadow.high + rounding_ - base_in_frame_.x();
+    return {std::max(0.0, to_low * per_step_.x()), std::min(1.0, to_high * per_step_.x())};
   }
 
   /// Where it meets a triangle, edges included so that none slips between two faces: Moeller and Trumbore 1997.
@@ -111,8 +95,9 @@ class Segment {
     constexpr double kEdge = 1e-12;
     if (u < -kEdge || v < -kEdge || u + v > 1 + kEdge || depth < 0 || depth > 1) return std::nullopt;
     // Along a triangle's plane, rounding finds places that are not in the triangle.
-    const Vec3d a = axes_ * corners[0], b = axes_ * corners[1], c = axes_ * corners[2];
-    const Part part = part_in({a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)});
+    const Vec3d a = frame_.place_of(corners[0]), b = frame_.place_of(corners[1]), c = frame_.place_of(corners[2]);
+    const Box box{a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)};
+    const Part part = part_in(box, box.margin(reach_));
     if (part.is_empty()) return std::nullopt;
     depth = std::clamp(depth, part.begin, part.end);
     return SurfaceHit{triangle, {std::max(0.0, 1 - u - v), std::max(0.0, u), std::max(0.0, v)}, base_ + depth * direction_, 0};
@@ -120,9 +105,24 @@ class Segment {
 
  private:
   Vec3d base_, direction_;
-  Mat3d axes_;
-  Vec3d base_in_axes_, direction_in_axes_;
-  double reach_;
+  Frame frame_;
+  Vec3d base_in_frame_, direction_in_frame_, per_step_;
+  double reach_, rounding_;
+
+  [[nodiscard]] Part part_in(const Box& box, double margin) const {
+    Part part;
+    for (int k = 0; k < 3; ++k) {
+      const double to_low = box.low[k] - margin - base_in_frame_[k], to_high = box.high[k] + margin - base_in_frame_[k];
+      if (direction_in_frame_[k] == 0) {
+        if (to_low > 0 || to_high < 0) return {1, 0};
+        continue;
+      }
+      const bool ascends = direction_in_frame_[k] > 0;
+      part.begin = std::max(part.begin, (ascends ? to_low : to_high) * per_step_[k]);
+      part.end = std::min(part.end, (ascends ? to_high : to_low) * per_step_[k]);
+    }
+    return part;
+  }
 };
 
 /// Where a sweep meets one triangle.
@@ -159,29 +159,28 @@ std::optional<Contact> contact_with(Index triangle, const Corners& corners, cons
 /// Where a sweep may meet what lies in boxes.
 class Sweep {
  public:
-  Sweep(const BladePlane& plane, const BladePlane::HalfPlane& not_before)
+  /// @param frame  along the blade, across it, and the plane's normal.
+  Sweep(const BladePlane& plane, const BladePlane::HalfPlane& not_before, const Frame& frame)
       : plane_(plane),
-        axes_(plane.axes()),
-        within_{in_axes(axes_, plane.left_of(0)),
-                in_axes(axes_, plane.right_of(0)),
-                in_axes(axes_, plane.standing_on(plane.reach()[0])),
-                in_axes(axes_, plane.standing_on(plane.reach()[1])),
-                in_axes(axes_, plane.standing_on(plane.reach()[2])),
-                in_axes(axes_, plane.standing_on(not_before))} {
-    for (const HalfSpace& side : within_) reach_ = std::max(reach_, std::abs(side.offset));
-  }
+        origin_in_frame_(frame.place_of(plane.origin())),
+        within_{FramedHalfSpace(frame, plane.left_of(0)),
+                FramedHalfSpace(frame, plane.right_of(0)),
+                FramedHalfSpace(frame, plane.standing_on(plane.reach()[0])),
+                FramedHalfSpace(frame, plane.standing_on(plane.reach()[1])),
+                FramedHalfSpace(frame, plane.standing_on(plane.reach()[2])),
+                FramedHalfSpace(frame, plane.standing_on(not_before))},
+        reach_(std::max(frame.reach(), plane.origin().cwiseAbs().maxCoeff())) {}
 
-  /// Those that boxes are in: along the blade, across it, and the plane's normal.
-  [[nodiscard]] const Mat3d& axes() const { return axes_; }
   [[nodiscard]] double least_progress(const Box& box) const {
-    return std::any_of(within_.begin(), within_.end(), [&](const HalfSpace& side) { return is_outside(side, box); })
-               ? std::numeric_limits<double>::infinity()
-               : plane_.least_progress(box.widened(reach_));
+    if (std::any_of(within_.begin(), within_.end(), [&](const FramedHalfSpace& side) { return side.is_beside(box); }))
+      return std::numeric_limits<double>::infinity();
+    const Box wide = box.widened(reach_);
+    return plane_.least_progress({wide.low - origin_in_frame_, wide.high - origin_in_frame_});
   }
   /// Of what lies both in a box and in a shadow.
   [[nodiscard]] double least_progress(const Box& box, const Shadow& shadow) const {
     // In the plane, a pair of parallels leaves an interval across the blade.
-    const double margin = box.margin(reach_), at_plane = within_[0].offset;
+    const double margin = box.margin(reach_), at_plane = origin_in_frame_.z();
     Box narrow = box;
     narrow.low[0] = std::max(narrow.low[0], shadow.low);
     narrow.high[0] = std::min(narrow.high[0], shadow.high);
@@ -200,9 +199,9 @@ class Sweep {
 
  private:
   const BladePlane& plane_;
-  Mat3d axes_;
-  std::array<HalfSpace, 6> within_;
-  double reach_ = 0;
+  Vec3d origin_in_frame_;
+  std::array<FramedHalfSpace, 6> within_;
+  double reach_;
 };
 
 /// Calls take(contact) for the contacts of a sweep with the surface. It returns the greatest progress that is of interest from then
@@ -210,10 +209,11 @@ class Sweep {
 template <class Take>
 void for_each_contact(const BladePlane& plane, double progress, const SurfaceEditor& editor, PosedPoints& posed, Take take) {
   const BladePlane::HalfPlane not_before = plane.from_progress(progress);
-  const Sweep sweep(plane, not_before);
+  const Frame frame = posed.frame_along(plane.axes(), editor);
+  const Sweep sweep(plane, not_before, frame);
   const auto least_progress = [&](const Box& box, const auto&... shadow) { return sweep.least_progress(box, shadow...); };
   double limit = std::numeric_limits<double>::max();
-  posed.visit_faces(editor, sweep.axes(), least_progress, [&](Index triangle) {
+  posed.visit_faces(editor, frame, least_progress, [&](Index triangle) {
     const auto contact = contact_with(triangle, posed_corners(editor, posed, triangle), plane, progress, not_before);
     if (contact) limit = take(*contact);
     return limit;
@@ -223,13 +223,14 @@ void for_each_contact(const BladePlane& plane, double progress, const SurfaceEdi
 }  // namespace
 
 std::optional<SurfaceHit> first_hit(const Blade& blade, const SurfaceEditor& editor, PosedPoints& posed) {
-  const Segment segment(blade);
+  const Frame frame = posed.frame_along(axes_along(blade.tip - blade.base), editor);
+  const Segment segment(blade, frame);
   std::optional<SurfaceHit> nearest;
   double nearest_depth = 1.0;
   const auto least_depth = [&](const Box& box, const auto&... shadow) {
     return segment.part_in(box, shadow...).begin_or_infinity();
   };
-  posed.visit_faces(editor, segment.axes(), least_depth, [&](Index triangle) {
+  posed.visit_faces(editor, frame, least_depth, [&](Index triangle) {
     double depth = 0;
     const auto hit = segment.hit(triangle, posed_corners(editor, posed, triangle), depth);
     const bool is_nearer = hit && (depth < nearest_depth || (depth == nearest_depth && (!nearest || triangle < nearest->triangle)));
@@ -280,6 +281,12 @@ std::optional<SurfaceHit> first_contact(const BladePlane& plane, double progress
     });
   }
   return nearest ? std::optional(nearest->hit) : std::nullopt;
+}
+
+std::optional<SurfaceHit> contact_at(const SurfaceHit& hit, const BladePlane& plane, const SurfaceEditor& editor,
+                                     PosedPoints& posed) {
+  const auto contact = contact_with(hit.triangle, posed_corners(editor, posed, hit.triangle), plane, 0, plane.not_before());
+  return contact && contact->low.progress <= kSamePlace ? std::optional(contact->hit) : std::nullopt;
 }
 
 }  // namespace sunder::tear

@@ -103,13 +103,14 @@ void remove_faces(const std::vector<Index>& faces, SurfaceEditor& editor, PosedP
 std::vector<Index> faces_in_cell(const Cell& cell, const SurfaceEditor& editor, PosedPoints& posed) {
   std::vector<Index> faces;
   std::vector<Vec3d> polygon, clipped;
-  const Mat3d axes = cell.size() < 2 ? axes_along(Vec3d::Zero()) : axes_along(cell[0].normal, cell[1].normal);
-  Cell sides;
-  for (const HalfSpace& side : cell) sides.push_back(in_axes(axes, side));
+  const Frame frame =
+      posed.frame_along(cell.size() < 2 ? axes_along(Vec3d::Zero()) : axes_along(cell[0].normal, cell[1].normal), editor);
+  std::vector<FramedHalfSpace> sides;
+  for (const HalfSpace& side : cell) sides.emplace_back(frame, side);
   const auto may_hold_any = [&](const Box& box) {
-    return std::none_of(sides.begin(), sides.end(), [&](const HalfSpace& side) { return is_outside(side, box); });
+    return std::none_of(sides.begin(), sides.end(), [&](const FramedHalfSpace& side) { return side.is_beside(box); });
   };
-  posed.for_each_face(editor, axes, may_hold_any, [&](Index face) {
+  posed.for_each_face(editor, frame, may_hold_any, [&](Index face) {
     if (is_face_in_cell(cell, posed_corners(face, editor, posed), polygon, clipped)) faces.push_back(face);
   });
   std::sort(faces.begin(), faces.end());

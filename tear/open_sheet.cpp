@@ -54,15 +54,15 @@ std::vector<std::vector<PointEdge>> runs_of(const std::vector<PointEdge>& edges)
 
 std::vector<Index> faces_across(const Sheet& sheet, const SurfaceEditor& editor, PosedPoints& posed) {
   const Surface& surface = editor.surface();
-  const Mat3d axes =
-      axes_along(sheet.plane.normal, sheet.bounds.empty() ? Vec3d(Vec3d::Zero()) : sheet.bounds[0].half_space.normal);
-  std::vector<HalfSpace> sides = {in_axes(axes, sheet.plane), in_axes(axes, {-sheet.plane.normal, -sheet.plane.offset})};
-  for (const Sheet::Bound& bound : sheet.bounds) sides.push_back(in_axes(axes, bound.half_space));
+  const Frame frame = posed.frame_along(
+      axes_along(sheet.plane.normal, sheet.bounds.empty() ? Vec3d(Vec3d::Zero()) : sheet.bounds[0].half_space.normal), editor);
+  std::vector<FramedHalfSpace> sides = {{frame, sheet.plane}, {frame, {-sheet.plane.normal, -sheet.plane.offset}}};
+  for (const Sheet::Bound& bound : sheet.bounds) sides.emplace_back(frame, bound.half_space);
   const auto may_meet = [&](const Box& box) {
-    return std::none_of(sides.begin(), sides.end(), [&](const HalfSpace& side) { return is_outside(side, box); });
+    return std::none_of(sides.begin(), sides.end(), [&](const FramedHalfSpace& side) { return side.is_beside(box); });
   };
   std::vector<Index> faces;
-  posed.for_each_face(editor, axes, may_meet, [&](Index face) {
+  posed.for_each_face(editor, frame, may_meet, [&](Index face) {
     std::array<Vec3d, 3> corners;
     for (Index k = 0; k < 3; ++k) corners[k] = posed.position(editor, surface.corner_point[3 * face + k]);
     const auto has_corner_in = [&](const HalfSpace& half_space) {

@@ -13,11 +13,11 @@ void PatchForest::forget_pose() {
   epoch_ = 1;
 }
 
-void PatchForest::stand_in(const SurfaceEditor& editor, const CharacterPose& pose, const Mat3d& axes) {
+void PatchForest::stand_in(const SurfaceEditor& editor, const CharacterPose& pose, const Frame& frame) {
   cover(editor);
-  if (axes != axes_) forget_pose();
-  axes_ = axes;
-  for (std::size_t skin = 0; skin < bones_.size(); ++skin) bones_[skin].stand_in(pose.palettes[skin], axes, epoch_);
+  if (frame.axes != frame_.axes || frame.origin != frame_.origin) forget_pose();
+  frame_ = frame;
+  for (std::size_t skin = 0; skin < bones_.size(); ++skin) bones_[skin].stand_in(pose.palettes[skin], frame, epoch_);
 }
 
 std::size_t PatchForest::tree_count() const {

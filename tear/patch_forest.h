@@ -23,9 +23,8 @@ class PatchForest {
   void forget_pose();
 
   /// Visits the live faces of the patches in which something may be found, more or less the nearest first.
-  /// @param axes   rows: orthogonal unit vectors. Boxes are in these; the nearer they are to how the query lies, the fewer it
-  /// meets.
-  ///               Boxes are remembered as long as neither the pose nor the axes change.
+  /// @param frame  that boxes are in: the nearer its axes are to how the query lies, the fewer it meets. Boxes are remembered as
+  ///               long as neither the pose nor the frame changes.
   /// @param bound  bound(const Box&): the least value, such as a distance, that what is looked for can have in a box; infinity
   /// where
   ///               it cannot be there. What looks along the first axis may offer bound(const Box&, const Shadow&) too: of something
@@ -33,7 +32,7 @@ class PatchForest {
   /// @param expect expect(mesh, origins): some faces of these will be visited next.
   /// @param visit  visit(face): the greatest value that is of interest from now on. May not call this again.
   template <class Bound, class Expect, class Visit>
-  void visit_faces(const SurfaceEditor& editor, const CharacterPose& pose, const Mat3d& axes, Bound bound, Expect expect,
+  void visit_faces(const SurfaceEditor& editor, const CharacterPose& pose, const Frame& frame, Bound bound, Expect expect,
                    Visit visit);
 
   [[nodiscard]] std::size_t bytes() const;
@@ -50,8 +49,8 @@ class PatchForest {
   /// Every tree there is, up to date.
   [[nodiscard]] std::vector<Covered*> trees(const SurfaceEditor& editor);
 
-  /// Makes a pose and axes those that boxes are about.
-  void stand_in(const SurfaceEditor& editor, const CharacterPose& pose, const Mat3d& axes);
+  /// Makes a pose and a frame those that boxes are about.
+  void stand_in(const SurfaceEditor& editor, const CharacterPose& pose, const Frame& frame);
   [[nodiscard]] MeshPose pose_of(const Mesh& mesh, const CharacterPose& pose) {
     return {bones_[mesh.skin], pose.morph_weights.subspan(mesh.first_morph_weight, mesh.morph_targets.size())};
   }
@@ -75,15 +74,15 @@ class PatchForest {
   std::vector<std::vector<Covered>> fillings_;  ///< Of each mesh, in their order.
   std::vector<PosedBones> bones_;               ///< Of each skin.
   std::vector<Waiting> stack_;                  ///< The nearest last.
-  Mat3d axes_ = Mat3d::Identity();
+  Frame frame_;
   std::uint32_t epoch_ = 1;
   bool is_built_ = false;
 };
 
 template <class Bound, class Expect, class Visit>
-void PatchForest::visit_faces(const SurfaceEditor& editor, const CharacterPose& pose, const Mat3d& axes, Bound bound, Expect expect,
-                              Visit visit) {
-  stand_in(editor, pose, axes);
+void PatchForest::visit_faces(const SurfaceEditor& editor, const CharacterPose& pose, const Frame& frame, Bound bound,
+                              Expect expect, Visit visit) {
+  stand_in(editor, pose, frame);
   const auto& meshes = editor.character().meshes;
   constexpr double kNowhere = std::numeric_limits<double>::infinity();
   double limit = std::numeric_limits<double>::max();
@@ -121,7 +120,7 @@ void PatchForest::visit_faces(const SurfaceEditor& editor, const CharacterPose& 
     const std::size_t first = stack_.size();
     if (node.height == 1) {
       if constexpr (std::is_invocable_v<Bound&, const Box&, const Shadow&>) {
-        const Box& box = covered.tree.posed_box(0, node.number, mesh_pose, epoch_);
+        const Box box = covered.tree.posed_box(0, node.number, mesh_pose, epoch_);
         const Index count = covered.tree.compute_posed_patches(node.number, mesh_pose, shadows);
         for (Index i = 0; i < count; ++i)
           add(bound(box, shadows[i]), {0, &covered, 0, PatchTree::kPatchesPerGroup * node.number + i}, first);

@@ -3,13 +3,16 @@
 #include <cmath>
 #include <limits>
 
+#include "tear/byte_lanes.h"
 #include "tear/hilbert_curve.h"
 
 namespace sunder::tear {
 namespace {
 
-constexpr double kWeightParts = 65000;  // less than 2^16: weights may be a little above 1
-constexpr double kBoxParts = 255;
+constexpr float kWeightParts = 65000;  // less than 2^16: weights may be a little above 1
+constexpr float kBoxParts = 255;
+/// Where more bones move a node, ranges of weights say nothing that the hull does not.
+constexpr std::size_t kFewBones = 12;
 constexpr std::size_t kMaximumSlots = std::size_t{1} << 16;
 
 /// What stored positions and weights of new vertices may lie beside their origin's: each is rounded to float once, and a wall that
@@ -118,7 +121,7 @@ class PatchTree::Builder {
       }
     }
     const double slack = 2e-7 * static_cast<double>(most_influences + 1);
-    tree_.weight_slack_ = std::max(tree_.weight_slack_, slack);
+    tree_.weight_slack_ = std::max(tree_.weight_slack_, static_cast<float>(slack));
     const std::size_t patch_count = (order.size() + kPatchSize - 1) / kPatchSize;
     for (GrowingBox& patch : std::span(patches).first(patch_count)) {
       patch.widen();
@@ -128,9 +131,9 @@ class PatchTree::Builder {
     for (Moved& moved : moved_) {
       moved.box.widen();
       const double least = moved.corners < 3 * order.size() ? 0.0 : static_cast<double>(moved.least);
-      moved.least_parts = static_cast<std::uint16_t>(least * (1 - 4 * slack) * kWeightParts);
+      moved.least_parts = static_cast<std::uint16_t>(least * (1 - 4 * slack) * double{kWeightParts});
       moved.greatest_parts = static_cast<std::uint16_t>(
-          std::min(65535.0, std::ceil(static_cast<double>(moved.greatest) * (1 + 4 * slack) * kWeightParts)));
+          std::min(65535.0, std::ceil(static_cast<double>(moved.greatest) * (1 + 4 * slack) * double{kWeightParts})));
     }
     for (const Index j : targets_) {
       GrowingBox displacement;
@@ -201,22 +204,22 @@ class PatchTree::Builder {
   [[nodiscard]] Index first_bone(Index node) const { return tree_.nodes_[node].first_bone; }
 
   static FloatBox stored(const GrowingBox& box) {
-    return {{{box.low(0), box.low(1), box.low(2)}, {box.high(0), box.high(1), box.high(2)}}};
+    return {{box.low(0), box.low(1), box.low(2), 0}, {box.high(0), box.high(1), box.high(2), 0}};
   }
   static GrowingBox grown(const FloatBox& box) {
-    GrowingBox result(Vec3f(box[0][0], box[0][1], box[0][2]));
-    result.extend(GrowingBox(Vec3f(box[1][0], box[1][1], box[1][2])));
+    GrowingBox result(Vec3f(box.low[0], box.low[1], box.low[2]));
+    result.extend(GrowingBox(Vec3f(box.high[0], box.high[1], box.high[2])));
     return result;
   }
   /// Rounded outward.
   static GrowingBox box_of(const NodeBone& bone, const FloatBox& within) {
     FloatBox box;
     for (std::size_t k = 0; k < 3; ++k) {
-      const double low = static_cast<double>(within[0][k]), high = static_cast<double>(within[1][k]);
-      const double part = (high - low) / kBoxParts;
+      const double low = static_cast<double>(within.low[k]), high = static_cast<double>(within.high[k]);
+      const double part = (high - low) / double{kBoxParts};
       constexpr float kInfinity = std::numeric_limits<float>::infinity();
-      box[0][k] = std::nextafter(static_cast<float>(low + bone.box.low[k] * part), -kInfinity);
-      box[1][k] = std::nextafter(static_cast<float>(high - bone.box.high[k] * part), kInfinity);
+      box.low[k] = std::nextafter(static_cast<float>(low + bone.box.low[k] * part), -kInfinity);
+      box.high[k] = std::nextafter(static_cast<float>(high - bone.box.high[k] * part), kInfinity);
     }
     return grown(box);
   }
@@ -226,8 +229,10 @@ class PatchTree::Builder {
     InnerBox result{};
     for (std::size_t k = 0; k < 3; ++k) {
       const double low = static_cast<double>(box_.low(k)), high = static_cast<double>(box_.high(k));
-      const double parts = high > low ? kBoxParts / (high - low) : 0;
-      const auto whole = [&](double distance) { return static_cast<std::uint8_t>(std::clamp(distance * parts, 0.0, kBoxParts)); };
+      const double parts = high > low ? double{kBoxParts} / (high - low) : 0;
+      const auto whole = [&](double distance) {
+        return static_cast<std::uint8_t>(std::clamp(distance * parts, 0.0, double{kBoxParts}));
+      };
       result.low[k] = whole(static_cast<double>(inner.low(k)) - low);
       result.high[k] = whole(high - static_cast<double>(inner.high(k)));
     }
@@ -300,41 +305,33 @@ std::size_t PatchTree::bytes() const {
 /// Where a pose may put boxes of a node.
 class PatchTree::Bound {
  public:
-  Bound(const PatchTree& tree, Index node, const MeshPose& pose) : tree_(tree), pose_(pose), bones_(tree.bones_of(node)) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      double low = static_cast<double>(tree.nodes_[node].bind[0][k]), high = static_cast<double>(tree.nodes_[node].bind[1][k]);
-      half_part_[k] = (high - low) * (0.5 / kBoxParts);
-      largest_[k] = std::max(std::abs(low), std::abs(high));
-      whole_.middle[k] = 0.5 * (low + high);
-      whole_.half[k] = 0.5 * (high - low);
-    }
-    if (!tree.first_morph_.empty()) add_morphs(node);
-  }
-
-  struct BindBox {
-    std::array<double, 3> middle, half;
-  };
-  [[nodiscard]] BindBox bind_box(const InnerBox& inner) const {
-    if (inner.is_whole()) return whole_;
-    BindBox box;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const int low = inner.low[k], high = inner.high[k];
-      box.middle[k] = whole_.middle[k] + half_part_[k] * (low - high);
-      box.half[k] = whole_.half[k] - half_part_[k] * (low + high);
-    }
-    return box;
+  Bound(const PatchTree& tree, Index node, const MeshPose& pose)
+      : tree_(tree), bones_(tree.bones_of(node)), reach_(static_cast<float>(pose.bones.frame().reach())) {
+    const Eigen::Map<const Lanes> low(tree.nodes_[node].bind.low.data()), high(tree.nodes_[node].bind.high.data());
+    half_part_ = (0.5f / kBoxParts) * (high - low);
+    largest_ = low.abs().max(high.abs());
+    whole_ = {0.5f * low + 0.5f * high, 0.5f * (high - low)};
+    if (!tree.first_morph_.empty()) add_morphs(node, pose);
+    is_bounded_ = is_bounded_ && largest_.maxCoeff() < PosedBones::kLargest;
+    whole_.half += kRoundingOfSums * largest_;
   }
 
   using Lanes = PosedBones::Lanes;
+  struct BindBox {
+    Lanes middle, half;
+  };
+  [[nodiscard]] EIGEN_ALWAYS_INLINE BindBox bind_box(const InnerBox& inner) const {
+    const Lanes low = lanes_of(inner.low), high = lanes_of(inner.high);
+    return {whole_.middle + half_part_ * (low - high), whole_.half - half_part_ * (low + high)};
+  }
+
   struct Interval {
     Lanes low, high;
   };
   /// M_i B_i, in whatever axes the bone is given.
-  EIGEN_STRONG_INLINE Interval posed(const PosedBones::Bone& bone, const BindBox& box) const {
-    const double rounding = bone.rounding_of_translation + bone.rounding[0] * largest_[0] + bone.rounding[1] * largest_[1] +
-                            bone.rounding[2] * largest_[2];
+  EIGEN_ALWAYS_INLINE static Interval posed(const PosedBones::Bone& bone, const BindBox& box) {
     const Lanes middle = bone.translation + bone.x * box.middle[0] + bone.y * box.middle[1] + bone.z * box.middle[2];
-    const Lanes half = rounding + bone.size_of_x * box.half[0] + bone.size_of_y * box.half[1] + bone.size_of_z * box.half[2];
+    const Lanes half = bone.rounding + bone.size_of_x * box.half[0] + bone.size_of_y * box.half[1] + bone.size_of_z * box.half[2];
     return {middle - half, middle + half};
   }
 
@@ -342,31 +339,35 @@ class PatchTree::Bound {
   struct Mean {
     Interval main, hull, sum;
 
-    EIGEN_STRONG_INLINE void begin(const Interval& interval) { main = hull = sum = interval; }
-    EIGEN_STRONG_INLINE void add(const Interval& interval, const NodeBone& bone) {
+    EIGEN_ALWAYS_INLINE void begin(const Interval& interval) { main = hull = sum = interval; }
+    EIGEN_ALWAYS_INLINE void add(const Interval& interval) {
       hull.low = hull.low.min(interval.low);
       hull.high = hull.high.max(interval.high);
+    }
+    EIGEN_ALWAYS_INLINE void add(const Interval& interval, const NodeBone& bone) {
+      add(interval);
       // w_main = 1 - sum of the others: each of those moves the mean from the main bone's place towards its own.
-      const double least = bone.least_weight * (1 / kWeightParts), greatest = bone.greatest_weight * (1 / kWeightParts);
+      const float least = bone.least_weight * (1 / kWeightParts), greatest = bone.greatest_weight * (1 / kWeightParts);
       const Lanes down = interval.low - main.low, up = interval.high - main.high;
       sum.low += (least * down).min(greatest * down);
       sum.high += (least * up).max(greatest * up);
     }
-    /// Everything, where something overflowed.
-    [[nodiscard]] Interval result(const PatchTree& tree) const {
-      const Lanes slack = tree.weight_slack_ * hull.low.abs().max(hull.high.abs());
-      const Interval both{hull.low.max(sum.low) - slack, hull.high.min(sum.high) + slack};
-      if (tree.is_bounded_ && both.low.allFinite() && both.high.allFinite()) return both;
-      constexpr double kInfinity = std::numeric_limits<double>::infinity();
-      return {Lanes::Constant(-kInfinity), Lanes::Constant(kInfinity)};
-    }
-    [[nodiscard]] Box box(const PatchTree& tree) const {
-      const Interval both = result(tree);
-      return {both.low.head<3>(), both.high.head<3>()};
-    }
   };
+  /// Everything, where something may have overflowed.
+  [[nodiscard]] Interval result(const Mean& mean) const {
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    const Lanes largest = mean.hull.low.abs().max(mean.hull.high.abs());
+    if (!is_bounded_ || largest.maxCoeff() > 0.1f * PosedBones::kEverywhere)
+      return {Lanes::Constant(-kInfinity), Lanes::Constant(kInfinity)};
+    const auto terms = static_cast<float>(bones_.size() + 4);
+    const Lanes slack =
+        tree_.weight_slack_ * (largest + reach_) + terms * 1e-7f * (largest + terms * (mean.hull.high - mean.hull.low));
+    return {mean.hull.low.max(mean.sum.low) - slack, mean.hull.high.min(mean.sum.high) + slack};
+  }
 
   [[nodiscard]] std::span<const NodeBone> bones() const { return bones_; }
+  /// Of the places of the node's box.
+  [[nodiscard]] const Lanes& largest() const { return largest_; }
 
   /// Of the patches of the node, which is a group. @param bone_of  a bone of the pose, by its slot.
   template <class BoneOf>
@@ -383,42 +384,68 @@ class PatchTree::Bound {
     return count;
   }
 
+  static Box box(const Interval& interval) {
+    return {interval.low.head<3>().cast<double>(), interval.high.head<3>().cast<double>()};
+  }
+
  private:
-  void add_morphs(Index node) {
+  /// Of a sum of some products in float, many times over.
+  static constexpr float kRoundingOfSums = 2e-6f;
+
+  void add_morphs(Index node, const MeshPose& pose) {
+    std::array<double, 3> middle{}, half{}, largest{};
     for (Index i = tree_.first_morph_[node]; i < tree_.first_morph_[node + 1]; ++i) {
-      const double weight = static_cast<double>(pose_.morph_weights[tree_.morphs_[i].target]);
+      const double weight = static_cast<double>(pose.morph_weights[tree_.morphs_[i].target]);
       for (std::size_t k = 0; k < 3; ++k) {
-        const double a = weight * static_cast<double>(tree_.morphs_[i].displacement[0][k]);
-        const double b = weight * static_cast<double>(tree_.morphs_[i].displacement[1][k]);
-        whole_.middle[k] += 0.5 * (a + b);
-        whole_.half[k] += 0.5 * std::abs(a - b);
-        largest_[k] += std::max(std::abs(a), std::abs(b));
+        const double a = weight * static_cast<double>(tree_.morphs_[i].displacement.low[k]);
+        const double b = weight * static_cast<double>(tree_.morphs_[i].displacement.high[k]);
+        middle[k] += 0.5 * (a + b);
+        half[k] += 0.5 * std::abs(a - b);
+        largest[k] += std::max(std::abs(a), std::abs(b));
       }
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto lane = static_cast<Eigen::Index>(k);
+      largest_[lane] += static_cast<float>(std::min(largest[k], 1e30));
+      if (!(largest[k] < 1e30)) continue;
+      whole_.middle[lane] += static_cast<float>(middle[k]);
+      whole_.half[lane] += static_cast<float>(half[k]);
     }
   }
 
   const PatchTree& tree_;
-  const MeshPose& pose_;
   std::span<const NodeBone> bones_;
-  BindBox whole_;                    ///< The node's, morphs included.
-  std::array<double, 3> half_part_;  ///< Half of what inner boxes are measured in.
-  std::array<double, 3> largest_;    ///< What rounding is measured by.
+  float reach_;
+  BindBox whole_;    ///< The node's, morphs included.
+  Lanes half_part_;  ///< Half of what inner boxes are measured in.
+  Lanes largest_;    ///< Of the places of the node.
+  bool is_bounded_ = tree_.is_bounded_;
 };
 
-Box PatchTree::compute_posed_box(Index node, const MeshPose& pose) const {
+PatchTree::FloatBox PatchTree::compute_posed_box(Index node, const MeshPose& pose) const {
   const Bound bound(*this, node, pose);
   Bound::Mean mean;
   const std::span<const NodeBone> bones = bound.bones();
-  mean.begin(bound.posed(pose.bones.at(bones[0].slot), bound.bind_box(bones[0].box)));
-  for (const NodeBone& bone : bones.subspan(1)) mean.add(bound.posed(pose.bones.at(bone.slot), bound.bind_box(bone.box)), bone);
-  return mean.box(*this);
+  mean.begin(Bound::posed(pose.bones.at(bones[0].slot), bound.bind_box(bones[0].box)));
+  if (bones.size() <= kFewBones) {
+    for (const NodeBone& bone : bones.subspan(1)) mean.add(Bound::posed(pose.bones.at(bone.slot), bound.bind_box(bone.box)), bone);
+  } else {
+    for (const NodeBone& bone : bones.subspan(1)) mean.add(Bound::posed(pose.bones.at(bone.slot), bound.bind_box(bone.box)));
+    mean.sum = mean.hull;
+  }
+  const Bound::Interval interval = bound.result(mean);
+  FloatBox box;
+  Eigen::Map<Bound::Lanes>(box.low.data()) = interval.low;
+  Eigen::Map<Bound::Lanes>(box.high.data()) = interval.high;
+  return box;
 }
 
 Index PatchTree::compute_posed_patches(Index group, const MeshPose& pose, std::array<Box, kPatchesPerGroup>& boxes) const {
   std::array<Bound::Mean, kPatchesPerGroup> means;
+  const Bound bound(*this, group, pose);
   const auto bone_of = [&](Index slot) -> const PosedBones::Bone& { return pose.bones.at(slot); };
-  const Index count = Bound(*this, group, pose).gather_patches(group, bone_of, means);
-  for (Index i = 0; i < count; ++i) boxes[i] = means[i].box(*this);
+  const Index count = bound.gather_patches(group, bone_of, means);
+  for (Index i = 0; i < count; ++i) boxes[i] = Bound::box(bound.result(means[i]));
   return count;
 }
 
@@ -426,12 +453,12 @@ Index PatchTree::compute_posed_patches(Index group, const MeshPose& pose, std::a
   // The parallels run along the shadows of the edges of the group's box, as its main bone turns it.
   const Bound bound(*this, group, pose);
   const PosedBones::Bone& main = pose.bones.at(bound.bones()[0].slot);
-  std::array<Vec2d, 3> normal;
+  std::array<Vec2f, 3> normal;
   const std::array<const Bound::Lanes*, 3> edges = {&main.x, &main.y, &main.z};
   for (std::size_t k = 0; k < 3; ++k) {
-    const Vec2d across(-(*edges[k])[2], (*edges[k])[1]);
-    const double length = across.norm();
-    normal[k] = length > 1e-100 && length < 1e100 ? Vec2d(across / length) : Vec2d(k == 0 ? 1 : 0, k == 0 ? 0 : 1);
+    const Vec2f across(-(*edges[k])[2], (*edges[k])[1]);
+    const float length = across.norm();
+    normal[k] = length > 1e-15f && length < 1e15f ? Vec2f(across / length) : Vec2f(k == 0 ? 1 : 0, k == 0 ? 0 : 1);
   }
   const Bound::Lanes along(1, 0, 0, 0), second(0, normal[0].x(), normal[1].x(), normal[2].x()),
       third(0, normal[0].y(), normal[1].y(), normal[2].y());
@@ -446,19 +473,18 @@ Index PatchTree::compute_posed_patches(Index group, const MeshPose& pose, std::a
     seen.size_of_x = seen.x.abs();
     seen.size_of_y = seen.y.abs();
     seen.size_of_z = seen.z.abs();
-    seen.rounding = bone.rounding;
-    seen.rounding_of_translation = bone.rounding_of_translation;
+    // What was turned is off by what it was turned from.
+    const Bound::Lanes reach = bone.translation.abs() + bone.size_of_x * bound.largest()[0] + bone.size_of_y * bound.largest()[1] +
+                               bone.size_of_z * bound.largest()[2];
+    seen.rounding.setConstant(2 * bone.rounding.maxCoeff() + 1e-6f * reach.head<3>().sum());
     return seen;
   };
   std::array<Bound::Mean, kPatchesPerGroup> means;
   const Index count = bound.gather_patches(group, bone_of, means);
   for (Index i = 0; i < count; ++i) {
-    const Bound::Interval shadow = means[i].result(*this);
-    shadows[i] = {shadow.low[0],
-                  shadow.high[0],
-                  normal,
-                  {shadow.low[1], shadow.low[2], shadow.low[3]},
-                  {shadow.high[1], shadow.high[2], shadow.high[3]}};
+    const Eigen::Array4d low = bound.result(means[i]).low.cast<double>(), high = bound.result(means[i]).high.cast<double>();
+    shadows[i] = {low[0], high[0], {}, {low[1], low[2], low[3]}, {high[1], high[2], high[3]}};
+    for (std::size_t k = 0; k < 3; ++k) shadows[i].normal[k] = normal[k].cast<double>();
   }
   return count;
 }

@@ -47,14 +47,17 @@ class PatchTree {
   /// The triangles of a patch, by their numbers as origins.
   [[nodiscard]] std::span<const Index> origins(Index patch) const { return part_of(origins_, patch, kPatchSize); }
 
-  /// Where the pose may put a node, in the axes of the pose's bones. Computed once in an epoch.
-  [[nodiscard]] const Box& posed_box(Index level, Index number, const MeshPose& pose, std::uint32_t epoch) {
+  /// Where the pose may put a node, in the frame of the pose's bones. Computed once in an epoch.
+  [[nodiscard]] Box posed_box(Index level, Index number, const MeshPose& pose, std::uint32_t epoch) {
     const Index node = first_of_level_[level] + number;
     if (posed_since_[node] != epoch) {
       posed_[node] = compute_posed_box(node, pose);
       posed_since_[node] = epoch;
     }
-    return posed_[node];
+    const auto corner = [](const std::array<float, 4>& of) -> Vec3d {
+      return {static_cast<double>(of[0]), static_cast<double>(of[1]), static_cast<double>(of[2])};
+    };
+    return {corner(posed_[node].low), corner(posed_[node].high)};
   }
   /// The same of the patches of a group. @return how many there are.
   Index compute_posed_patches(Index group, const MeshPose& pose, std::array<Box, kPatchesPerGroup>& boxes) const;
@@ -65,7 +68,10 @@ class PatchTree {
   [[nodiscard]] std::size_t bytes() const;
 
  private:
-  using FloatBox = std::array<std::array<float, 3>, 2>;  ///< Low, high.
+  /// Corners in lanes of four, which are read at once; the last lane is 0.
+  struct FloatBox {
+    std::array<float, 4> low{}, high{};
+  };
 
   struct Node {
     FloatBox bind;     ///< Of all corners.
@@ -73,8 +79,7 @@ class PatchTree {
   };
   /// A box within a node's: how far from its sides, in parts of kBoxParts of its size.
   struct InnerBox {
-    std::array<std::uint8_t, 3> low, high;
-    [[nodiscard]] bool is_whole() const { return (low[0] | low[1] | low[2] | high[0] | high[1] | high[2]) == 0; }
+    std::array<std::uint8_t, 4> low, high;  ///< The fourth is 0.
   };
   /// A bone that moves something of a node.
   struct NodeBone {
@@ -90,7 +95,7 @@ class PatchTree {
   class Builder;
   class Bound;
 
-  [[nodiscard]] Box compute_posed_box(Index node, const MeshPose& pose) const;
+  [[nodiscard]] FloatBox compute_posed_box(Index node, const MeshPose& pose) const;
   static std::span<const Index> part_of(std::span<const Index> numbers, std::size_t part, std::size_t size) {
     return numbers.subspan(size * part, std::min(size, numbers.size() - size * part));
   }
@@ -105,9 +110,9 @@ class PatchTree {
   std::vector<NodeBone> bones_;
   std::vector<NodeMorph> morphs_;
   std::vector<Index> first_morph_;  ///< Of each node in morphs_, and the end; empty where there are none.
-  double weight_slack_ = 0;         ///< What a vertex' weights may add up to besides 1.
+  float weight_slack_ = 0;          ///< What a vertex' weights may add up to besides 1.
   bool is_bounded_ = true;
-  std::vector<Box> posed_;
+  std::vector<FloatBox> posed_;
   std::vector<std::uint32_t> posed_since_;
 };
 

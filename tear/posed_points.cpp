@@ -42,6 +42,15 @@ Status PosedPoints::begin(const Character& character, const ModelPose& pose) {
   return {};
 }
 
+Frame PosedPoints::frame_along(const Mat3d& axes, const SurfaceEditor& editor) const {
+  for (const Mesh& mesh : editor.source().meshes) {
+    if (mesh.triangles.empty()) continue;
+    const Vec3d place = deform_position_reference(mesh, mesh.triangles[0][0], palettes_[mesh.skin], morph_weights_);
+    if (place.allFinite()) return {axes, place};
+  }
+  return {axes, Vec3d::Zero()};
+}
+
 const Vec3d& PosedPoints::look_up(const SurfaceEditor& editor, Index point) {
   cover(editor.surface().point_count());
   const Index corner = editor.surface().point_corner[point];

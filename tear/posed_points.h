@@ -38,17 +38,19 @@ class PosedPoints {
   [[nodiscard]] const std::vector<Affine3d>& palette(Index skin) const { return palettes_[skin]; }
   [[nodiscard]] const std::vector<float>& morph_weights() const { return morph_weights_; }
 
+  /// Along some axes, from a place near the surface.
+  [[nodiscard]] Frame frame_along(const Mat3d& axes, const SurfaceEditor& editor) const;
   /// Visits faces of the surface where `bound` lets it: PatchForest::visit_faces().
   template <class Bound, class Visit>
-  void visit_faces(const SurfaceEditor& editor, const Mat3d& axes, Bound bound, Visit visit) {
+  void visit_faces(const SurfaceEditor& editor, const Frame& frame, Bound bound, Visit visit) {
     const auto expect = [&](Index mesh, std::span<const Index> origins) { fetch(editor, mesh, origins); };
-    forest_.visit_faces(editor, {palettes_, morph_weights_}, axes, bound, expect, visit);
+    forest_.visit_faces(editor, {palettes_, morph_weights_}, frame, bound, expect, visit);
   }
   /// Calls visit(face) for the live faces of the patches whose boxes may_hold(box) lets through, in no order that means anything.
   template <class MayHold, class Visit>
-  void for_each_face(const SurfaceEditor& editor, const Mat3d& axes, MayHold may_hold, Visit visit) {
+  void for_each_face(const SurfaceEditor& editor, const Frame& frame, MayHold may_hold, Visit visit) {
     const auto bound = [&](const Box& box) { return may_hold(box) ? 0.0 : std::numeric_limits<double>::infinity(); };
-    visit_faces(editor, axes, bound, [&](Index face) {
+    visit_faces(editor, frame, bound, [&](Index face) {
       visit(face);
       return 0.0;
     });

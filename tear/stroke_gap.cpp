@@ -42,7 +42,7 @@ StrokeTearing::PendingGap StrokeTearing::find_gap(const BladePlane& plane, const
   double progress = 0;
   if (tip_ != kNone) progress = std::max(0.0, add(tip_));
   for (int futile = 0; progress < 1 && futile < 64;) {
-    const auto contact = first_contact(plane, progress, work.editor, work.posed);
+    const auto contact = find_contact(plane, progress, work);
     if (!contact) break;
     const SurfaceEditor::Mark before = work.editor.mark();
     const std::size_t seeds = gap.seeds.size();

@@ -1,6 +1,7 @@
 #include "tear/stroke_tearing.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "tear/entry.h"
 #include "tear/imprint.h"
@@ -21,6 +22,7 @@ void StrokeTearing::begin(const Blade& first, const TearOptions& options) {
   blade_ = blade_before_ = first;
   stroke_.assign(1, first);
   tip_ = last_end_ = kNone;
+  met_.reset();
   torn_edges_ = 0;
   pending_.reset();
   held_by_.reset();
@@ -59,11 +61,12 @@ void StrokeTearing::extend(const Blade& to, const Workpiece& work) {
   last_end_ = kNone;
   if (!stands_on_surface(work)) tip_ = kNone;
   Vec3d anchor = 0.5 * (from.base + from.tip);
+  met_.reset();
   if (options_.layers == Layers::nearest) {
     if (tip_ != kNone)
       anchor = work.posed.position(work.editor, tip_);
-    else if (const auto hit = first_hit(from, work.editor, work.posed))
-      anchor = hit->position;
+    else if (met_ = first_hit(from, work.editor, work.posed); met_)
+      anchor = met_->position;
   }
   const auto plane = BladePlane::through(anchor, from, to);
   if (!plane) return;  // the blade stands still; so does the tip
@@ -129,6 +132,12 @@ double StrokeTearing::tear_piece(const BladePlane& plane, Index start, const Sur
   return 1.0;
 }
 
+std::optional<SurfaceHit> StrokeTearing::find_contact(const BladePlane& plane, double progress, const Workpiece& work) {
+  if (const auto met = std::exchange(met_, std::nullopt); met && progress == 0)
+    if (const auto contact = contact_at(*met, plane, work.editor, work.posed)) return contact;
+  return first_contact(plane, progress, work.editor, work.posed);
+}
+
 void StrokeTearing::tear_segment(const BladePlane& plane, const Workpiece& work) {
   const std::size_t edges_before = torn_edges_;
   double progress = 0;
@@ -137,7 +146,7 @@ void StrokeTearing::tear_segment(const BladePlane& plane, const Workpiece& work)
   // Where the surface ends, folds away or cannot be split, the sweep goes on to whatever it meets next. Every turn passes a
   // triangle at least; a sweep that gets nowhere in many turns gives up.
   for (int futile = 0; progress < 1 && futile < 64;) {
-    const auto contact = first_contact(plane, progress, work.editor, work.posed);
+    const auto contact = find_contact(plane, progress, work);
     if (!contact) break;
     const SurfaceEditor::Mark before = work.editor.mark();
     const std::size_t edges = torn_edges_;

@@ -47,6 +47,8 @@ class StrokeTearing {
   };
 
   void tear_segment(const BladePlane& plane, const Workpiece& work);
+  /// Where the sweep meets the surface next.
+  [[nodiscard]] std::optional<SurfaceHit> find_contact(const BladePlane& plane, double progress, const Workpiece& work);
   double tear_piece(const BladePlane& plane, Index start, const SurfaceEditor::Mark& before, const Workpiece& work);
   void tear_all_layers(const BladePlane& plane, const Workpiece& work);
 
@@ -62,10 +64,11 @@ class StrokeTearing {
 
   TearOptions options_;
   Blade blade_, blade_before_;
-  Stroke stroke_;              ///< All blades, for the walls.
-  Index tip_ = kNone;          ///< Where the tear stands, while it stands on the surface.
-  bool tip_ends_run_ = false;  ///< Not where a first segment was too short to tear.
-  Index last_end_ = kNone;     ///< Where the last piece of the segment under way ended.
+  Stroke stroke_;                  ///< All blades, for the walls.
+  Index tip_ = kNone;              ///< Where the tear stands, while it stands on the surface.
+  bool tip_ends_run_ = false;      ///< Not where a first segment was too short to tear.
+  std::optional<SurfaceHit> met_;  ///< Where the blade meets the surface at the beginning of the segment, until that is used.
+  Index last_end_ = kNone;         ///< Where the last piece of the segment under way ended.
   std::size_t torn_edges_ = 0;
   std::optional<PendingGap> pending_;
   Vec3d held_before_ = Vec3d::Zero();  ///< Where the blade stood on the surface in the pose that was left.

@@ -84,18 +84,18 @@ std::vector<Contact> all_contacts(const BladePlane& plane, double progress, cons
 std::optional<SurfaceHit> scan_for_hit(const Blade& blade, const tear::SurfaceEditor& editor, tear::PosedPoints& posed) {
   const Vec3d direction = blade.tip - blade.base;
   // Along a face's plane the place is rounding alone: what counts is what of it lies in the face's box along the blade.
-  const Mat3d axes = tear::axes_along(direction);
-  const Vec3d base_in_axes = axes * blade.base, direction_in_axes = axes * direction;
-  const double reach = std::max(blade.base.cwiseAbs().maxCoeff(), blade.tip.cwiseAbs().maxCoeff());
+  const tear::Frame frame = posed.frame_along(tear::axes_along(direction), editor);
+  const Vec3d base_in_axes = frame.place_of(blade.base), direction_in_axes = frame.axes * direction;
+  const double reach = std::max({frame.reach(), blade.base.cwiseAbs().maxCoeff(), blade.tip.cwiseAbs().maxCoeff()});
   const auto clamp_to_box = [&](const Corners& corners, double& depth) {
-    const Vec3d a = axes * corners[0], b = axes * corners[1], c = axes * corners[2];
+    const Vec3d a = frame.place_of(corners[0]), b = frame.place_of(corners[1]), c = frame.place_of(corners[2]);
     const tear::Box box = tear::Box{a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)}.widened(reach);
     double begin = 0, end = 1;
     for (int k = 0; k < 3; ++k) {
       if (direction_in_axes[k] == 0 && (box.low[k] > base_in_axes[k] || box.high[k] < base_in_axes[k])) return false;
       if (direction_in_axes[k] == 0) continue;
-      const double at_low = (box.low[k] - base_in_axes[k]) / direction_in_axes[k];
-      const double at_high = (box.high[k] - base_in_axes[k]) / direction_in_axes[k];
+      const double at_low = (box.low[k] - base_in_axes[k]) * (1 / direction_in_axes[k]);
+      const double at_high = (box.high[k] - base_in_axes[k]) * (1 / direction_in_axes[k]);
       begin = std::max(begin, std::min(at_low, at_high));
       end = std::min(end, std::max(at_low, at_high));
     }

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <sunder/core/math.h>
+
+#include <array>
+#include <cstdint>
+#include <cstring>
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
+
+namespace sunder::tear {
+
+/// Four small numbers as floats, all at once where the compiler would not see that by itself.
+inline Eigen::Array<float, 4, 1> lanes_of(const std::array<std::uint8_t, 4>& bytes) {
+#if defined(__SSE2__)
+  std::int32_t together;
+  std::memcpy(&together, bytes.data(), 4);
+  const __m128i zero = _mm_setzero_si128();
+  const __m128i words = _mm_unpacklo_epi16(_mm_unpacklo_epi8(_mm_cvtsi32_si128(together), zero), zero);
+  Eigen::Array<float, 4, 1> lanes;
+  _mm_store_ps(lanes.data(), _mm_cvtepi32_ps(words));
+  return lanes;
+#else
+  return {static_cast<float>(bytes[0]), static_cast<float>(bytes[1]), static_cast<float>(bytes[2]), static_cast<float>(bytes[3])};
+#endif
+}
+
+}  // namespace sunder::tear
