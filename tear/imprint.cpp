@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "tear/crossing.h"
+#include "tear/edge_crossing.h"
 #include "tear/leap.h"
 
 namespace sunder::tear {
@@ -153,25 +155,76 @@ Index step_corner(const Step& step) {
   return kNone;
 }
 
-/// A place that a path goes on to, and the half-edge to it, where that is known.
-struct Arrival {
-  Index point = kNone, half_edge = kNone;
-};
+/// A path that grows.
+class GrowingPath {
+ public:
+  GrowingPath(const BladePlane& plane, Index start, SurfaceEditor& editor, PosedPoints& posed)
+      : path(editor.scratch()), plane_(plane), editor_(editor), posed_(posed), here_(posed.position(editor, start)) {
+    path.points.push_back(start);
+    path.progress = plane.progress(here_);
+  }
 
-/// Goes to the place of a step, splitting the far edge; where that cannot be split, to its nearer end.
-Arrival take_step(const BladePlane& plane, const Step& step, SurfaceEditor& editor, PosedPoints& posed) {
-  const Surface& surface = editor.surface();
-  const auto& points = surface.corner_point;
-  if (const Index corner = step_corner(step); corner != kNone)
-    return {points[corner], step.fraction == 0 ? step.corner : surface.twin[corner]};
-  const Index far_edge = Surface::next(step.corner);
-  const Index here = points[step.corner];
-  const Index nearer_end = points[step.fraction < 0.5 ? far_edge : Surface::next(far_edge)];
-  const Index point = split_posed_edge(far_edge, step.fraction, editor, posed);
-  if (point != kNone) return {point, surface.twin[Surface::next(far_edge)]};
-  const auto progress_at = [&](Index at) { return plane.progress(posed.position(editor, at)); };
-  return {progress_at(nearer_end) > progress_at(here) ? nearer_end : kNone, kNone};
-}
+  [[nodiscard]] Index point() const { return path.points.back(); }
+  [[nodiscard]] const Vec3d& here() const { return here_; }
+  void come_to(double progress) { path.progress = std::max(path.progress, progress); }
+  void go_to(Index point, Index half_edge) {
+    const Vec3d there = posed_.position(editor_, point);
+    path.length_posed += (there - here_).norm();
+    path.points.push_back(point);
+    path.half_edges.push_back(half_edge);
+    here_ = there;
+  }
+
+  /// Goes to the place of a step, splitting the far edge, and on across what faces of the source are whole; where that edge cannot
+  /// be split, to its nearer end. @param goes_on  the path does not end there. @return whether it went anywhere.
+  bool take(const Step& step, bool goes_on) {
+    const Surface& surface = editor_.surface();
+    const auto& points = surface.corner_point;
+    if (const Index corner = step_corner(step); corner != kNone) {
+      go_to(points[corner], step.fraction == 0 ? step.corner : surface.twin[corner]);
+      return true;
+    }
+    const Index far_edge = Surface::next(step.corner);
+    const Index nearer_end = points[step.fraction < 0.5 ? far_edge : Surface::next(far_edge)];
+    SurfaceEditor::Crossing crossing(editor_);
+    if (const Index made = crossing.begin(far_edge, step.fraction); made != kNone) {
+      posed_.pin(made, step.position);
+      go_to(made, crossing.half_edge());
+      while (goes_on && cross_next(crossing)) ++path.faces_crossed;
+      crossing.end();
+      return true;
+    }
+    if (!(plane_.progress(posed_.position(editor_, nearer_end)) > plane_.progress(here_))) return false;
+    go_to(nearer_end, kNone);
+    return true;
+  }
+
+  Path path;
+
+ private:
+  /// Crosses the face ahead, unless there is anything about it that has to be looked at.
+  bool cross_next(SurfaceEditor::Crossing& crossing) {
+    const Index entry = crossing.ahead();
+    if (entry == kNone || !editor_.is_whole(entry / 3)) return false;
+    const EdgeCrossing exit = find_exit(plane_, entry, editor_, posed_);
+    if (!(exit.fraction > kSnap && exit.fraction < 1 - kSnap)) return false;
+    const Reach reach = reach_between(plane_, here_, exit.position);
+    if (reach.fraction < 1 || reach.ends_at_blade) return false;
+    const double progress = plane_.progress(exit.position);
+    if (!(progress_towards(plane_, here_, exit.position) > plane_.progress(here_) + 1e-12)) return false;
+    const Index made = crossing.go_on(exit.half_edge, exit.fraction);
+    if (made == kNone) return false;
+    posed_.pin(made, exit.position);
+    come_to(progress);
+    go_to(made, crossing.half_edge());
+    return true;
+  }
+
+  const BladePlane& plane_;
+  SurfaceEditor& editor_;
+  PosedPoints& posed_;
+  Vec3d here_;
+};
 
 /// Whether a way along an edge ends so near to its end, a point of a border, that only a sliver would hold the two together.
 bool stops_short_of_border(const Step& step, const Reach& reach, const SurfaceEditor& editor, PosedPoints& posed) {
@@ -225,62 +278,55 @@ Index imprint_point(const SurfaceHit& hit, Snapping snapping, SurfaceEditor& edi
 }
 
 Path imprint_path(const BladePlane& plane, Index start, SurfaceEditor& editor, PosedPoints& posed) {
-  Path path(editor.scratch());
-  path.points.push_back(start);
-  const auto progress_at = [&](const Vec3d& at) { return plane.progress(at); };
-  path.progress = progress_at(posed.position(editor, start));
-  const auto go_to = [&](Index point, Index half_edge, const Vec3d& from) {
-    path.length_posed += (posed.position(editor, point) - from).norm();
-    path.points.push_back(point);
-    path.half_edges.push_back(half_edge);
-  };
+  GrowingPath growing(plane, start, editor, posed);
+  Path& path = growing.path;
   for (;;) {
-    const Index here = path.points.back();
-    const Vec3d from = posed.position(editor, here);
+    const Index here = growing.point();
+    const Vec3d from = growing.here();
     const Step step = find_step(plane, here, Snapping::by_shape, editor, posed);
-    if (step.corner == kNone) return path;
+    if (step.corner == kNone) return std::move(path);
     const bool along_edge = step_corner(step) != kNone;
     const Reach reach = reach_between(plane, from, step.position);
     // Where the curve itself ends; the path may snap to a point before it.
-    path.progress = std::max(path.progress, progress_at(from + reach.fraction * (step.position - from)));
-    if (reach.fraction == 1) path.progress = std::max(path.progress, step.crossing_progress);
+    growing.come_to(plane.progress(Vec3d(from + reach.fraction * (step.position - from))));
+    if (reach.fraction == 1) growing.come_to(step.crossing_progress);
+    const Path::End end_of_reach = reach.ends_at_blade ? Path::End::blade : Path::End::surface;
     if (reach.fraction < kSnap) {
-      path.end = reach.ends_at_blade ? Path::End::blade : Path::End::surface;
-      return path;
+      path.end = end_of_reach;
+      return std::move(path);
     }
     if (!along_edge) ++path.faces_crossed;
     if (!along_edge && reach.fraction == 1 && !reach.ends_at_blade) {
       const Leap leap = find_leap(plane, step, editor, posed);
       if (const Index landing = take_leap(plane, here, leap, editor, posed); landing != kNone) {
         path.faces_crossed += leap.edges;
-        path.progress = std::max(path.progress, leap.progress);
-        go_to(landing, kNone, from);
+        growing.come_to(leap.progress);
+        growing.go_to(landing, kNone);
         if (!leap.end) continue;
         path.end = *leap.end;
-        return path;
+        return std::move(path);
       }
     }
     if (reach.fraction < 1 - kSnap && !stops_short_of_border(step, reach, editor, posed)) {
       const SurfaceEditor::Mark before = editor.mark();
       const Index stop = stop_within(step, reach.fraction, editor, posed);
-      if (progress_at(posed.position(editor, stop)) > progress_at(from)) {
-        go_to(stop, kNone, from);
+      if (plane.progress(posed.position(editor, stop)) > plane.progress(from)) {
+        growing.go_to(stop, kNone);
       } else {  // it snapped to what lies behind
         editor.roll_back(before);
         posed.forget_from(before.points);
       }
-      path.end = reach.ends_at_blade ? Path::End::blade : Path::End::surface;
-      return path;
+      path.end = end_of_reach;
+      return std::move(path);
     }
-    const auto [next, half_edge] = take_step(plane, step, editor, posed);
-    if (next == kNone) {
+    const bool ends_here = reach.ends_at_blade || reach.fraction < 1;
+    if (!growing.take(step, !ends_here)) {
       path.end = Path::End::blocked;
-      return path;
+      return std::move(path);
     }
-    go_to(next, half_edge, from);
-    if (reach.ends_at_blade || reach.fraction < 1) {
-      path.end = reach.ends_at_blade ? Path::End::blade : Path::End::surface;
-      return path;
+    if (ends_here) {
+      path.end = end_of_reach;
+      return std::move(path);
     }
   }
 }

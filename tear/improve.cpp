@@ -2,25 +2,10 @@
 
 #include <algorithm>
 
+#include "tear/face_shape.h"
+
 namespace sunder::tear {
 namespace {
-
-// Plain numbers: this is asked for each face that a tear crosses.
-struct Place {
-  double x = 0, y = 0, z = 0;
-};
-
-double distance_squared(const Place& a, const Place& b) {
-  return (b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y) + (b.z - a.z) * (b.z - a.z);
-}
-
-/// Least height over longest side, squared: 3/4 for an equilateral triangle, 0 for one without area.
-double shape_squared(const Place& a, const Place& b, const Place& c) {
-  const double longest_squared = std::max({distance_squared(a, b), distance_squared(b, c), distance_squared(c, a)});
-  const Place u{b.x - a.x, b.y - a.y, b.z - a.z}, v{c.x - a.x, c.y - a.y, c.z - a.z};
-  const Place normal{u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x};
-  return longest_squared > 0 ? distance_squared({}, normal) / (longest_squared * longest_squared) : 0.0;
-}
 
 /// By how much turning an edge makes the worse of its two faces better; at most 1 where it does not.
 double gain(Index half_edge, const SurfaceEditor& editor) {
@@ -29,12 +14,8 @@ double gain(Index half_edge, const SurfaceEditor& editor) {
   const TriangleRef f = surface.triangle(half_edge / 3), g = surface.triangle(twin / 3);
   const Mesh& mesh = editor.character().meshes[f.mesh];
   const Triangle &of_f = mesh.triangles[f.triangle], &of_g = mesh.triangles[g.triangle];
-  const auto place = [&](Index vertex) -> Place {
-    const Vec3f& at = mesh.positions[vertex];
-    return {static_cast<double>(at.x()), static_cast<double>(at.y()), static_cast<double>(at.z())};
-  };
-  const Place a = place(of_f[half_edge % 3]), b = place(of_f[Surface::next(half_edge) % 3]),
-              c = place(of_f[Surface::previous(half_edge) % 3]), d = place(of_g[Surface::previous(twin) % 3]);
+  const Vec3f &a = mesh.positions[of_f[half_edge % 3]], &b = mesh.positions[of_f[Surface::next(half_edge) % 3]],
+              &c = mesh.positions[of_f[Surface::previous(half_edge) % 3]], &d = mesh.positions[of_g[Surface::previous(twin) % 3]];
   const double before = std::min(shape_squared(a, b, c), shape_squared(b, a, d));
   const double after = std::min(shape_squared(a, d, c), shape_squared(b, c, d));
   return before > 0 ? after / before : after > 0 ? 2.0 : 0.0;
@@ -46,8 +27,15 @@ void improve_faces(const SurfaceEditor::Mark& since, SurfaceEditor& editor) {
   const Surface& surface = editor.surface();
   ScratchVector<Index> open(&editor.scratch());
   open.reserve(3 * editor.numbers_since(since));
+  ScratchVector<bool> is_settled(editor.numbers_since(since), false, &editor.scratch());
+  for (Index face = since.triangles; face < surface.triangle_count(); ++face) {
+    if (!editor.is_settled(face)) continue;
+    is_settled[editor.number_since(since, face)] = true;
+    if (const Index parent = editor.number_since(since, editor.parent(face)); parent != kNone) is_settled[parent] = true;
+  }
   // Each edge once, from the later of its faces if both changed.
   const auto add = [&](Index face) {
+    if (is_settled[editor.number_since(since, face)]) return;
     for (Index h = 3 * face; h < 3 * face + 3; ++h)
       if (editor.is_inner_edge(h) && (surface.twin[h] < h || editor.number_since(since, surface.twin[h] / 3) == kNone))
         open.push_back(h);
@@ -58,7 +46,7 @@ void improve_faces(const SurfaceEditor::Mark& since, SurfaceEditor& editor) {
   while (!open.empty() && turns_left > 0) {
     const Index h = open.back();
     open.pop_back();
-    if (!editor.is_inner_edge(h) || !(gain(h, editor) > 1.0001)) continue;
+    if (!editor.is_inner_edge(h) || !(gain(h, editor) > kBetterShape)) continue;
     const Index twin = surface.twin[h];
     if (!editor.flip_edge(h)) continue;
     --turns_left;

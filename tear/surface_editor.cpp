@@ -2,102 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
+
+#include "tear/face_split.h"
 
 namespace sunder::tear {
-namespace {
-
-/// Smaller parts of a source triangle are not made: rounding of barycentric coordinates could turn them over.
-constexpr double kLeastPart = 1e-14;
-
-/// The part of a triangle that lies between three places in it, by their barycentric coordinates.
-double covered_part(const std::array<double, 3>& p, const std::array<double, 3>& q, const std::array<double, 3>& r) {
-  return (q[1] - p[1]) * (r[2] - p[2]) - (q[2] - p[2]) * (r[1] - p[1]);
-}
-
-// Plain numbers: this is asked for each face that a tear crosses.
-struct Direction {
-  double x = 0, y = 0, z = 0;
-};
-
-double dot(const Direction& a, const Direction& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-
-/// Of a triangle in bind space; its length is twice the area.
-Direction normal(const Mesh& mesh, const Triangle& of) {
-  const auto from_first = [&](Index vertex) -> Direction {
-    const Vec3f &a = mesh.positions[of[0]], &b = mesh.positions[vertex];
-    return {static_cast<double>(b.x()) - static_cast<double>(a.x()), static_cast<double>(b.y()) - static_cast<double>(a.y()),
-            static_cast<double>(b.z()) - static_cast<double>(a.z())};
-  };
-  const Direction b = from_first(of[1]), c = from_first(of[2]);
-  return {b.y * c.z - b.z * c.y, b.z * c.x - b.x * c.z, b.x * c.y - b.y * c.x};
-}
-
-}  // namespace
-
-/// A face that is to be split: where its corners lie in its origin, and how it is turned.
-class SurfaceEditor::FaceSplit {
- public:
-  FaceSplit(const SurfaceEditor& editor, Index face)
-      : editor_(editor), ref_(editor.surface_.triangle(face)), vertices_(editor.vertices_of(face)) {
-    const Mesh& mesh = editor.character_.meshes[ref_.mesh];
-    const Triangle& origin = editor.origin_triangle(ref_.mesh, ref_.source_triangle);
-    normal_ = normal(mesh, vertices_);
-    if (origin == vertices_) {
-      places_ = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-      normal_of_origin_ = normal_;
-    } else {
-      for (std::size_t k = 0; k < 3; ++k) places_[k] = editor.place_in_origin(ref_, vertices_[k]);
-      normal_of_origin_ = normal(mesh, origin);
-    }
-    normal_squared_ = dot(normal_, normal_);
-  }
-
-  [[nodiscard]] Index mesh() const { return ref_.mesh; }
-  [[nodiscard]] const Triangle& vertices() const { return vertices_; }
-
-  [[nodiscard]] Birth birth_at(const std::array<double, 3>& barycentric) const {
-    Birth birth{ref_.source_triangle, {0, 0, 0}};
-    double sum = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      if (barycentric[k] <= 0.0) continue;
-      for (std::size_t i = 0; i < 3; ++i) {
-        birth.barycentric[i] += barycentric[k] * places_[k][i];
-        sum += barycentric[k] * places_[k][i];
-      }
-    }
-    for (double& coordinate : birth.barycentric) coordinate /= sum;
-    return birth;
-  }
-
-  /// Whether replacing any of these corners (0, 1, 2) by a new vertex, born at `place`, keeps the winding.
-  [[nodiscard]] bool keeps_winding(std::initializer_list<Index> corners, Index vertex, const std::array<double, 3>& place) const {
-    return std::all_of(corners.begin(), corners.end(), [&](Index corner) { return keeps_winding(corner, vertex, place); });
-  }
-
- private:
-  [[nodiscard]] bool keeps_winding(Index corner, Index vertex, const std::array<double, 3>& place) const {
-    const Index next = (corner + 1) % 3, previous = (corner + 2) % 3;
-    if (!(covered_part(place, places_[next], places_[previous]) > kLeastPart)) return false;
-    const Mesh& mesh = editor_.character_.meshes[ref_.mesh];
-    // A face without area has no winding to lose; its parts must only keep their corners apart.
-    if (normal_squared_ == 0.0)
-      return mesh.positions[vertex] != mesh.positions[vertices_[next]] &&
-             mesh.positions[vertex] != mesh.positions[vertices_[previous]];
-    const Direction normal_after = normal(mesh, {vertex, vertices_[next], vertices_[previous]});
-    if (!(dot(normal_after, normal_) > 1e-9 * normal_squared_)) return false;
-    // Normals of slivers are as crooked as stored positions are coarse: parts of parts must not end up facing away.
-    return dot(normal_of_origin_, normal_of_origin_) == 0 || dot(normal_after, normal_of_origin_) > 0;
-  }
-
-  const SurfaceEditor& editor_;
-  const TriangleRef ref_;
-  const Triangle vertices_;
-  std::array<std::array<double, 3>, 3> places_;
-  Direction normal_, normal_of_origin_;
-  double normal_squared_ = 0;
-};
-
 SurfaceEditor::SurfaceEditor(const Character& source, Character& character)
     : source_(source),
       character_(character),
@@ -238,95 +146,6 @@ std::array<double, 3> SurfaceEditor::place_in_origin(const TriangleRef& ref, Ind
   return result;
 }
 
-Index SurfaceEditor::split_edge(Index half_edge, double fraction) {
-  // Face f = (a, b, c) lies left of a -> b, face g = (b, a, d) right of it. p goes between a and b:
-  // f -> (a, p, c) in place and (p, b, c); g -> (b, p, d) in place and (p, a, d).
-  const Index ab = half_edge, bc = Surface::next(ab), ca = Surface::previous(ab);
-  const Index ba = surface_.twin[ab];
-  const Index f = ab / 3;
-  const FaceSplit split_f(*this, f);
-  const Index mesh_f = split_f.mesh();
-  make_room_for_vertices(mesh_f, 2, 2 * influence_count(mesh_f, split_f.vertices()));
-  make_room_for_triangles(mesh_f, 2);
-  make_room_in_log(4);
-  const Index vertex_a = split_f.vertices()[ab % 3], vertex_b = split_f.vertices()[bc % 3], vertex_c = split_f.vertices()[ca % 3];
-
-  std::array<double, 3> at = {0, 0, 0};
-  at[ab % 3] = 1.0 - fraction;
-  at[bc % 3] = fraction;
-  const Birth birth_f = split_f.birth_at(at);
-  const Index vertex_f = append_vertex(mesh_f, birth_f);
-  bool is_sound = split_f.keeps_winding({ab % 3, bc % 3}, vertex_f, birth_f.barycentric);
-
-  Index vertex_g = vertex_f;
-  Index mesh_g = mesh_f;
-  Index ad = kNone, db = kNone;
-  Triangle before_g{};
-  if (ba != kNone) {
-    ad = Surface::next(ba);
-    db = Surface::previous(ba);
-    const FaceSplit split_g(*this, ba / 3);
-    mesh_g = split_g.mesh();
-    if (mesh_g != mesh_f) {
-      make_room_for_vertices(mesh_g, 1, influence_count(mesh_f, split_f.vertices()));
-      make_room_for_triangles(mesh_g, 1);
-    }
-    before_g = split_g.vertices();
-    at = {0, 0, 0};
-    at[ad % 3] = 1.0 - fraction;
-    at[ba % 3] = fraction;
-    const Birth birth_g = split_g.birth_at(at);
-    if (mesh_g != mesh_f || before_g[ad % 3] != vertex_a || before_g[ba % 3] != vertex_b) {
-      vertex_g = append_vertex(mesh_g, birth_g);
-      copy_surface_point(character_.meshes[mesh_f], vertex_f, vertex_g, character_.meshes[mesh_g]);
-    }
-    is_sound = is_sound && split_g.keeps_winding({ba % 3, ad % 3}, vertex_g, birth_g.barycentric);
-  }
-  if (!is_sound) {
-    if (vertex_g != vertex_f || mesh_g != mesh_f) remove_newest_vertex(mesh_g);
-    remove_newest_vertex(mesh_f);
-    return kNone;
-  }
-
-  const auto& points = surface_.corner_point;
-  const Index a = points[ab], b = points[bc], c = points[ca];
-  const Index p = append_point();
-  write_side_of_new(mesh_f, vertex_f, surface_.side(p));
-  if (vertex_g != vertex_f || mesh_g != mesh_f) write_side_of_new(mesh_g, vertex_g, surface_.side(p));
-  const Index twin_bc = surface_.twin[bc];
-  log_triangle(f);
-  if (twin_bc != kNone) log_triangle(twin_bc / 3);
-  const Index new_f = append_triangle(f, {p, b, c}, {vertex_f, vertex_b, vertex_c});
-  const Index pb = 3 * new_f, new_bc = pb + 1, cp = pb + 2;
-  set_corner(bc, p, vertex_f);
-  move_opened(bc, new_bc);
-  if (keeps_opened_ && opened_.count(ab) != 0) opened_.insert(pb);
-  join(new_bc, twin_bc);
-  join(bc, cp);
-  surface_.point_corner[p] = pb;
-  surface_.point_corner[b] = new_bc;
-  surface_.point_corner[c] = ca;
-  join(pb, kNone);
-  join(ab, kNone);
-  if (ba != kNone) {
-    const Index d = points[db];
-    const Index twin_ad = surface_.twin[ad];
-    log_triangle(ba / 3);
-    if (twin_ad != kNone) log_triangle(twin_ad / 3);
-    const Index new_g = append_triangle(ba / 3, {p, a, d}, {vertex_g, before_g[ad % 3], before_g[db % 3]});
-    const Index pa = 3 * new_g, new_ad = pa + 1, dp = pa + 2;
-    set_corner(ad, p, vertex_g);
-    move_opened(ad, new_ad);
-    join(new_ad, twin_ad);
-    join(ad, dp);
-    join(ab, pa);
-    join(pb, ba);
-    surface_.point_corner[d] = db;
-  }
-  surface_.point_corner[a] = ab;
-  return p;
-}
-
 Index SurfaceEditor::split_triangle(Index triangle, const std::array<double, 3>& barycentric) {
   const FaceSplit split(*this, triangle);
   const Index mesh = split.mesh();
@@ -336,7 +155,8 @@ Index SurfaceEditor::split_triangle(Index triangle, const std::array<double, 3>&
   const Birth birth = split.birth_at(barycentric);
   const Index vertex = append_vertex(mesh, birth);
   const Index corner = 3 * triangle;
-  if (!split.keeps_winding({0, 1, 2}, vertex, birth.barycentric)) {
+  const FaceSplit::Corner made{vertex, birth.barycentric};
+  if (!split.keeps_winding(0, made) || !split.keeps_winding(1, made) || !split.keeps_winding(2, made)) {
     remove_newest_vertex(mesh);
     return kNone;
   }

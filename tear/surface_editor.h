@@ -88,6 +88,16 @@ class SurfaceEditor {
 
   // ---- Refining: the surface stays what it is.
 
+  /// Whether a face is a triangle of the source that nothing has changed.
+  [[nodiscard]] bool is_whole(Index triangle) const {
+    if (triangle >= surface_.first_triangle.back()) return false;
+    const TriangleRef ref = surface_.triangle(triangle);
+    return character_.meshes[ref.mesh].triangles[ref.triangle] == source_.meshes[ref.mesh].triangles[ref.triangle];
+  }
+  class FaceSplit;
+  /// Splits faces one after the other along a line.
+  class Crossing;
+
   /// Puts one new point on an edge, `fraction` of the way along the half-edge, and splits the faces at both sides of it.
   /// @return the point; kNone where a face would have lost its area or turned over, and nothing was changed.
   [[nodiscard]] Index split_edge(Index half_edge, double fraction);
@@ -177,7 +187,15 @@ class SurfaceEditor {
     return static_cast<Index>(log_.size()) - begin.log_length + surface_.triangle_count() - begin.triangles;
   }
   /// The triangle that an appended one was split from; kNone for those of walls and caps.
-  [[nodiscard]] Index parent(Index triangle) const { return parents_[triangle - surface_.first_triangle.back()]; }
+  [[nodiscard]] Index parent(Index triangle) const {
+    const Index parent = parents_[triangle - surface_.first_triangle.back()];
+    return parent == kNone ? kNone : parent & ~kSettled;
+  }
+  /// Whether an appended triangle was split from its parent along the best diagonal.
+  [[nodiscard]] bool is_settled(Index triangle) const {
+    const Index parent = parents_[triangle - surface_.first_triangle.back()];
+    return parent != kNone && (parent & kSettled) != 0;
+  }
   /// Vertices appended since, over all meshes.
   [[nodiscard]] Index vertices_since(const Mark& begin) const { return static_cast<Index>(vertex_mesh_.size()) - begin.vertices; }
 
@@ -255,7 +273,6 @@ class SurfaceEditor {
   [[nodiscard]] std::vector<float>* tear_sides(Index mesh);
   void add_tear_sides(Index mesh);
   [[nodiscard]] Triangle vertices_of(Index triangle) const;
-  class FaceSplit;
 
   const Character& source_;
   Character& character_;
@@ -279,7 +296,8 @@ class SurfaceEditor {
   /// First value of _TEARSIDE that no point has. Each point that is made gets one: however tears cross, and wherever positions
   /// round to, no two points in one place are taken for one.
   Index next_side_ = 1;
-  std::vector<Index> parents_;  ///< Of each appended triangle: what it was split from.
+  static constexpr Index kSettled = Index{1} << 31;  // beside a triangle's number, which is less than 2^30
+  std::vector<Index> parents_;                       ///< Of each appended triangle: what it was split from, and kSettled.
   bool keeps_opened_ = false;
   mutable std::vector<MeshSizes> sizes_;
   bool is_fixed_ = false;
