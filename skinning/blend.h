@@ -10,10 +10,11 @@ namespace sunder::skinning {
 /// sum_k w_k M_k of one vertex. Built from a loop of multiply-adds, so that it vectorises and its order is fixed.
 template <class Scalar, class Palette>
 Eigen::Matrix<Scalar, 3, 4> blend_matrix(std::span<const Influence> influences, const Palette& model_from_bind) {
-  Eigen::Matrix<Scalar, 3, 4> blended = Eigen::Matrix<Scalar, 3, 4>::Zero();
+  using Numbers = Eigen::Array<Scalar, 12, 1>;  // a matrix as what it is in memory: whole packets, where three rows are none
+  Numbers sum = Numbers::Zero();
   for (const Influence& influence : influences)
-    blended += static_cast<Scalar>(influence.weight) * model_from_bind[influence.slot].matrix();
-  return blended;
+    sum += static_cast<Scalar>(influence.weight) * Eigen::Map<const Numbers>(model_from_bind[influence.slot].data());
+  return Eigen::Map<const Eigen::Matrix<Scalar, 3, 4>>(sum.data());
 }
 
 /// A bind-space attribute plus its morph deltas: `get(target)` is the array of deltas or an empty one.

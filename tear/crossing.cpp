@@ -18,7 +18,8 @@ Index SurfaceEditor::split_edge(Index half_edge, double fraction) {
 Index SurfaceEditor::Crossing::begin(Index half_edge, double fraction) {
   const FaceSplit behind(editor_, half_edge / 3);
   make_room(behind, half_edge, 1);
-  NewPoint made = append_vertices(behind, half_edge, fraction);
+  NewPoint& made = points_[newest_];
+  append_vertices(behind, half_edge, fraction, made);
   const bool is_sound = made.is_sound && behind.keeps_winding(half_edge % 3, made.of_behind) &&
                         behind.keeps_winding(Surface::next(half_edge) % 3, made.of_behind);
   if (!is_sound) {
@@ -28,19 +29,20 @@ Index SurfaceEditor::Crossing::begin(Index half_edge, double fraction) {
   append_point(made);
   behind_ = split_in_two(half_edge, made.point, made.of_behind.vertex);
   half_edge_ = editor_.surface_.twin[Surface::next(half_edge)];
-  newest_ = made;
-  return newest_.point;
+  return made.point;
 }
 
 Index SurfaceEditor::Crossing::go_on(Index half_edge, double fraction) {
-  const FaceSplit& face = *newest_.face_ahead;
+  const NewPoint& last = points_[newest_];
+  NewPoint& made = points_[1 - newest_];
+  const FaceSplit& face = *last.face_ahead;
   make_room(face, half_edge, 2);
-  NewPoint made = append_vertices(face, half_edge, fraction);
+  append_vertices(face, half_edge, fraction, made);
   // The face (u, v, w) is entered through p on u -> v. It loses a corner, v or u; what is left is cut from p to w, or from the new
   // point q to the other one.
-  const FaceSplit::Corner& p = newest_.of_ahead;
+  const FaceSplit::Corner& p = last.of_ahead;
   const FaceSplit::Corner& q = made.of_behind;
-  const Index entry = newest_.ahead;
+  const Index entry = last.ahead;
   const FaceSplit::Corner u = face.corner(entry % 3), v = face.corner(Surface::next(entry) % 3),
                           w = face.corner(Surface::previous(entry) % 3);
   const bool loses_v = half_edge == Surface::next(entry);
@@ -58,19 +60,22 @@ Index SurfaceEditor::Crossing::go_on(Index half_edge, double fraction) {
       least = std::min(least, shape_squared(positions[part[0]->vertex], positions[part[1]->vertex], positions[part[2]->vertex]));
     return least;
   };
-  const bool can_from_p = is_sound(from_p[0]) && is_sound(from_p[1]), can_from_q = is_sound(from_q[0]) && is_sound(from_q[1]);
-  if (!made.is_sound || !is_sound(lost) || !(can_from_p || can_from_q)) {
+  const auto are_sound = [&](const std::array<Part, 2>& parts) { return is_sound(parts[0]) && is_sound(parts[1]); };
+  const bool is_better_from_q = shape(from_q) > kBetterShape * shape(from_p);
+  const bool cuts_as_better = are_sound(is_better_from_q ? from_q : from_p);
+  if (!made.is_sound || !is_sound(lost) || !(cuts_as_better || are_sound(is_better_from_q ? from_p : from_q))) {
     remove_vertices(made);
     return kNone;
   }
   append_point(made);
-  split_in_three(half_edge, made, can_from_q && (!can_from_p || shape(from_q) > kBetterShape * shape(from_p)));
-  newest_ = made;
-  return newest_.point;
+  split_in_three(half_edge, made, is_better_from_q == cuts_as_better);
+  newest_ = 1 - newest_;
+  return made.point;
 }
 
 void SurfaceEditor::Crossing::end() {
-  if (newest_.ahead != kNone) join_behind(split_in_two(newest_.ahead, newest_.point, newest_.of_ahead.vertex));
+  const NewPoint& last = points_[newest_];
+  if (last.ahead != kNone) join_behind(split_in_two(last.ahead, last.point, last.of_ahead.vertex));
 }
 
 void SurfaceEditor::Crossing::make_room(const FaceSplit& behind, Index half_edge, Index triangles) {
@@ -85,8 +90,7 @@ void SurfaceEditor::Crossing::make_room(const FaceSplit& behind, Index half_edge
   editor_.make_room_for_triangles(mesh_ahead, 1);
 }
 
-SurfaceEditor::Crossing::NewPoint SurfaceEditor::Crossing::append_vertices(const FaceSplit& behind, Index half_edge,
-                                                                           double fraction) {
+void SurfaceEditor::Crossing::append_vertices(const FaceSplit& behind, Index half_edge, double fraction, NewPoint& made) {
   const auto birth_on = [&](const FaceSplit& face, Index at_begin, Index at_end) {
     std::array<double, 3> barycentric = {0, 0, 0};
     barycentric[at_begin % 3] = 1 - fraction;
@@ -95,11 +99,12 @@ SurfaceEditor::Crossing::NewPoint SurfaceEditor::Crossing::append_vertices(const
   };
   auto& meshes = editor_.character_.meshes;
   const Birth birth = birth_on(behind, half_edge, Surface::next(half_edge));
-  NewPoint made;
   made.mesh = behind.mesh();
+  made.is_sound = true;
+  made.face_ahead.reset();
   made.of_behind = made.of_ahead = {editor_.append_vertex(made.mesh, birth), birth.barycentric};
   made.ahead = editor_.surface_.twin[half_edge];
-  if (made.ahead == kNone) return made;
+  if (made.ahead == kNone) return;
   const FaceSplit& ahead = made.face_ahead.emplace(editor_, made.ahead / 3);
   const Index at_begin = Surface::next(made.ahead), at_end = made.ahead;
   const Birth birth_ahead = birth_on(ahead, at_begin, at_end);
@@ -110,7 +115,6 @@ SurfaceEditor::Crossing::NewPoint SurfaceEditor::Crossing::append_vertices(const
     copy_surface_point(meshes[made.mesh], made.of_behind.vertex, made.of_ahead.vertex, meshes[ahead.mesh()]);
   }
   made.is_sound = ahead.keeps_winding(at_begin % 3, made.of_ahead) && ahead.keeps_winding(at_end % 3, made.of_ahead);
-  return made;
 }
 
 void SurfaceEditor::Crossing::remove_vertices(const NewPoint& made) {
@@ -152,12 +156,13 @@ SurfaceEditor::Crossing::EdgeParts SurfaceEditor::Crossing::split_in_two(Index h
 
 void SurfaceEditor::Crossing::split_in_three(Index half_edge, const NewPoint& to, bool cuts_from_q) {
   Surface& surface = editor_.surface_;
-  const Index uv = newest_.ahead, vw = Surface::next(uv), wu = Surface::previous(uv), face = uv / 3;
+  const NewPoint& from = points_[newest_];
+  const Index uv = from.ahead, vw = Surface::next(uv), wu = Surface::previous(uv), face = uv / 3;
   const Triangle before = editor_.vertices_of(face);
   const Index vertex_u = before[uv % 3], vertex_v = before[vw % 3], vertex_w = before[wu % 3];
-  const Index vertex_p = newest_.of_ahead.vertex, vertex_q = to.of_behind.vertex;
+  const Index vertex_p = from.of_ahead.vertex, vertex_q = to.of_behind.vertex;
   const Index u = surface.corner_point[uv], v = surface.corner_point[vw], w = surface.corner_point[wu];
-  const Index p = newest_.point, q = to.point;
+  const Index p = from.point, q = to.point;
   const bool was_opened = editor_.keeps_opened_ && editor_.opened_.erase(half_edge) > 0;
   editor_.log_triangle(face);
   // The third edge stays where it is, so that the face across it need not know.

@@ -22,7 +22,7 @@ class SurfaceEditor::Crossing {
   void end();
 
   /// The half-edge by which the face ahead is entered; kNone at a border.
-  [[nodiscard]] Index ahead() const { return newest_.ahead; }
+  [[nodiscard]] Index ahead() const { return points_[newest_].ahead; }
   /// From the point before the newest one, or the corner opposite of the first edge, to the newest one.
   [[nodiscard]] Index half_edge() const { return half_edge_; }
 
@@ -47,7 +47,7 @@ class SurfaceEditor::Crossing {
 
   /// For a point and its vertices, some triangles, and those that end() makes.
   void make_room(const FaceSplit& behind, Index half_edge, Index triangles);
-  [[nodiscard]] NewPoint append_vertices(const FaceSplit& behind, Index half_edge, double fraction);
+  void append_vertices(const FaceSplit& behind, Index half_edge, double fraction, NewPoint& made);
   void remove_vertices(const NewPoint& made);
   void append_point(NewPoint& made);
   /// A new triangle beside the one that it is split from. @return its first half-edge.
@@ -57,7 +57,8 @@ class SurfaceEditor::Crossing {
   void join_behind(const EdgeParts& ahead);
 
   SurfaceEditor& editor_;
-  NewPoint newest_;
+  std::array<NewPoint, 2> points_;  ///< The newest one, and the one before it or that is being made.
+  std::size_t newest_ = 0;
   EdgeParts behind_;  ///< Of the edge with the newest point.
   Index half_edge_ = kNone;
 };

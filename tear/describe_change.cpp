@@ -27,7 +27,7 @@ void SurfaceEditor::describe(const Mark& begin, ChangeRecord& change) const {
   for (Index i = begin.log_length; i < log_.size(); ++i) {
     if (!is_oldest_since(begin, i)) continue;
     const TriangleRef ref = surface_.triangle(log_[i].triangle);
-    if (character_.meshes[ref.mesh].triangles[ref.triangle] == log_[i].vertices) continue;
+    if (is_same(character_.meshes[ref.mesh].triangles[ref.triangle], log_[i].vertices)) continue;
     changed.push_back(std::uint64_t{log_[i].triangle} << 32 | i);
     has_changed[ref.mesh] = true;
   }

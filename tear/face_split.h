@@ -38,7 +38,7 @@ class SurfaceEditor::FaceSplit {
     const Mesh& mesh = editor.character_.meshes[ref_.mesh];
     const Triangle& origin = editor.origin_triangle(ref_.mesh, ref_.source_triangle);
     normal_ = normal(mesh, vertices_);
-    if (origin == vertices_) {
+    if (is_same(origin, vertices_)) {
       places_ = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
       normal_of_origin_ = normal_;
     } else {
@@ -69,7 +69,8 @@ class SurfaceEditor::FaceSplit {
         sum += barycentric[k] * places_[k][i];
       }
     }
-    for (double& coordinate : birth.barycentric) coordinate /= sum;
+    if (sum != 1)
+      for (double& coordinate : birth.barycentric) coordinate /= sum;
     return birth;
   }
 

@@ -93,7 +93,9 @@ void remove_faces(const std::vector<Index>& faces, SurfaceEditor& editor, PosedP
     for (std::size_t fan = 1; fan < fans.size(); ++fan) {
       others = fans;
       others.erase(others.begin() + static_cast<std::ptrdiff_t>(fan));
-      posed.pin(editor.separate_fan(fans[fan], others), Vec3d(posed.position(editor, point)));
+      std::vector<Index> corners;
+      surface.for_each_in_fan(fans[fan], [&](Index corner) { corners.push_back(corner); });
+      posed.pin(editor.separate_fan(corners, others), Vec3d(posed.position(editor, point)));
     }
   }
 }

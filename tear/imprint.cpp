@@ -160,6 +160,9 @@ class GrowingPath {
  public:
   GrowingPath(const BladePlane& plane, Index start, SurfaceEditor& editor, PosedPoints& posed)
       : path(editor.scratch()), plane_(plane), editor_(editor), posed_(posed), here_(posed.position(editor, start)) {
+    constexpr std::size_t kMany = 128;
+    path.points.reserve(kMany);
+    path.half_edges.reserve(kMany);
     path.points.push_back(start);
     path.progress = plane.progress(here_);
   }
@@ -190,7 +193,7 @@ class GrowingPath {
     if (const Index made = crossing.begin(far_edge, step.fraction); made != kNone) {
       posed_.pin(made, step.position);
       go_to(made, crossing.half_edge());
-      while (goes_on && cross_next(crossing)) ++path.faces_crossed;
+      for (double progress = plane_.progress(here_); goes_on && cross_next(progress, crossing);) ++path.faces_crossed;
       crossing.end();
       return true;
     }
@@ -202,20 +205,21 @@ class GrowingPath {
   Path path;
 
  private:
-  /// Crosses the face ahead, unless there is anything about it that has to be looked at.
-  bool cross_next(SurfaceEditor::Crossing& crossing) {
+  /// Crosses the face ahead, unless there is anything about it that has to be looked at. @param progress_here  becomes that there.
+  bool cross_next(double& progress_here, SurfaceEditor::Crossing& crossing) {
     const Index entry = crossing.ahead();
     if (entry == kNone || !editor_.is_whole(entry / 3)) return false;
     const EdgeCrossing exit = find_exit(plane_, entry, editor_, posed_);
     if (!(exit.fraction > kSnap && exit.fraction < 1 - kSnap)) return false;
     const Reach reach = reach_between(plane_, here_, exit.position);
     if (reach.fraction < 1 || reach.ends_at_blade) return false;
-    const double progress = plane_.progress(exit.position);
-    if (!(progress_towards(plane_, here_, exit.position) > plane_.progress(here_) + 1e-12)) return false;
+    const double progress = progress_towards(plane_, here_, exit.position);
+    if (!(progress > progress_here + 1e-12)) return false;
     const Index made = crossing.go_on(exit.half_edge, exit.fraction);
     if (made == kNone) return false;
     posed_.pin(made, exit.position);
     come_to(progress);
+    progress_here = progress;
     go_to(made, crossing.half_edge());
     return true;
   }

@@ -8,48 +8,82 @@ namespace {
 /// Corners that the edges have at their points, in the faces right and left of them.
 class CornersAtPoints {
  public:
-  CornersAtPoints(std::size_t edge_count, ScratchMemory& scratch) : points_(&scratch), mentions_(&scratch) {
-    points_.reserve(edge_count + 1);
+  CornersAtPoints(std::size_t edge_count, ScratchMemory& scratch) : corners_(&scratch), mentions_(&scratch) {
+    corners_.reserve(4 * edge_count);
     mentions_.reserve(4 * edge_count);
   }
 
   void add(Index point, Index right, Index left) {
-    // Edges come in runs: a point's last mention is mostly the newest or the one before it.
-    auto at = std::find_if(points_.rbegin(), points_.rend(), [&](const AtPoint& candidate) { return candidate.point == point; });
-    AtPoint& of = at != points_.rend() ? *at : points_.emplace_back(AtPoint{point, {}, {}});
-    if (right != kNone) append(of.right, right);
-    if (left != kNone) append(of.left, left);
+    mention(point, 0, right);
+    mention(point, kLeft, left);
   }
 
-  [[nodiscard]] std::size_t point_count() const { return points_.size(); }
-  [[nodiscard]] Index point(std::size_t i) const { return points_[i].point; }
-  /// Corners right of the edges first, then those left of them.
+  /// Calls visit(point, its corners) by ascending points. Corners right of the edges come first, then those left of them.
   template <class Visit>
-  void for_each_corner(std::size_t i, Visit visit) const {
-    for (const List& list : {points_[i].right, points_[i].left})
-      for (Index m = list.first; m != kNone; m = mentions_[m].next) visit(mentions_[m].corner);
+  void for_each_point(Visit visit) {
+    std::sort(mentions_.begin(), mentions_.end());
+    ScratchVector<Index> of_point(corners_.get_allocator());
+    of_point.reserve(corners_.size());
+    for (std::size_t begin = 0, end = 0; begin < mentions_.size(); begin = end) {
+      of_point.clear();
+      const auto point = static_cast<Index>(mentions_[begin] >> 32);
+      for (; end < mentions_.size() && mentions_[end] >> 32 == point; ++end)
+        of_point.push_back(corners_[static_cast<Index>(mentions_[end]) & ~kLeft]);
+      visit(point, std::span<const Index>(of_point));
+    }
   }
 
  private:
-  struct List {
-    Index first = kNone, last = kNone;
-  };
-  struct AtPoint {
-    Index point = kNone;
-    List right, left;
-  };
-  struct Mention {
-    Index corner, next;
-  };
-  void append(List& list, Index corner) {
-    const auto mention = static_cast<Index>(mentions_.size());
-    mentions_.push_back({corner, kNone});
-    (list.first == kNone ? list.first : mentions_[list.last].next) = mention;
-    list.last = mention;
+  static constexpr Index kLeft = Index{1} << 31;
+
+  void mention(Index point, Index side, Index corner) {
+    if (corner == kNone) return;
+    mentions_.push_back(std::uint64_t{point} << 32 | (side | static_cast<Index>(corners_.size())));
+    corners_.push_back(corner);
   }
 
-  ScratchVector<AtPoint> points_;
-  ScratchVector<Mention> mentions_;
+  ScratchVector<Index> corners_;
+  ScratchVector<std::uint64_t> mentions_;  ///< Point, side, and place in corners_, as one number.
+};
+
+/// The fans that hold some corners of a point, each from its clockwise end.
+class FansAtPoint {
+ public:
+  FansAtPoint(const Surface& surface, ScratchMemory& scratch)
+      : surface_(surface), corners_(&scratch), begins_(&scratch), others_(&scratch) {
+    corners_.reserve(kMany);
+    begins_.reserve(kMany);
+    others_.reserve(kMany);
+  }
+
+  void clear() {
+    corners_.clear();
+    begins_.clear();
+  }
+  void add(Index corner) {
+    if (std::find(corners_.begin(), corners_.end(), corner) != corners_.end()) return;
+    begins_.push_back(static_cast<Index>(corners_.size()));
+    surface_.for_each_in_fan(corner, [&](Index c) { corners_.push_back(c); });
+  }
+
+  [[nodiscard]] std::size_t count() const { return begins_.size(); }
+  [[nodiscard]] std::span<const Index> corners(std::size_t fan) const {
+    const std::size_t end = fan + 1 < begins_.size() ? begins_[fan + 1] : corners_.size();
+    return std::span(corners_).subspan(begins_[fan], end - begins_[fan]);
+  }
+  /// A corner of each other fan.
+  [[nodiscard]] std::span<const Index> others(std::size_t fan) {
+    others_.clear();
+    for (std::size_t other = 0; other < begins_.size(); ++other)
+      if (other != fan) others_.push_back(corners_[begins_[other]]);
+    return others_;
+  }
+
+ private:
+  static constexpr std::size_t kMany = 16;
+
+  const Surface& surface_;
+  ScratchVector<Index> corners_, begins_, others_;
 };
 
 }  // namespace
@@ -77,21 +111,13 @@ void open_edges(std::span<const PointEdge> edges, std::span<const Index> half_ed
   }
   for (const Index half_edge : to_cut) editor.cut_edge(half_edge);
 
-  // Fans at each point, by their clockwise ends.
-  ScratchVector<Index> fans(&editor.scratch()), remaining(&editor.scratch());
-  for (std::size_t i = 0; i < corners.point_count(); ++i) {
+  FansAtPoint fans(surface, editor.scratch());
+  corners.for_each_point([&](Index at, std::span<const Index> of_point) {
     fans.clear();
-    corners.for_each_corner(i, [&](Index corner) {
-      const Index fan = surface.first_of_fan(corner);
-      if (std::find(fans.begin(), fans.end(), fan) == fans.end()) fans.push_back(fan);
-    });
-    for (std::size_t fan = 1; fan < fans.size(); ++fan) {
-      remaining = fans;
-      remaining.erase(remaining.begin() + static_cast<std::ptrdiff_t>(fan));
-      const Index point = editor.separate_fan(fans[fan], remaining);
-      lips.push_back({point, corners.point(i)});
-    }
-  }
+    for (const Index corner : of_point) fans.add(corner);
+    for (std::size_t fan = 1; fan < fans.count(); ++fan)
+      lips.push_back({editor.separate_fan(fans.corners(fan), fans.others(fan)), at});
+  });
 }
 
 }  // namespace sunder::tear

@@ -1,5 +1,7 @@
 // How the editor's arrays grow.
 
+#include <limits>
+
 #include "tear/capacity_exceeded.h"
 #include "tear/surface_editor.h"
 
@@ -60,30 +62,46 @@ void SurfaceEditor::make_room(std::vector<T>& values, std::size_t more, const ch
   values.reserve(values.size() + growth(values.size(), more));
 }
 
-void SurfaceEditor::make_room_for_vertices(Index mesh, Index count, Index influences) {
+void SurfaceEditor::find_room_for_vertices(Index mesh, Index count, Index influences) {
   Mesh& of = character_.meshes[mesh];
-  if (!has_room_for_vertices(count, influences, of)) {
+  const auto room_for_influences = [&] { return of.weights.influences.capacity() - of.weights.influences.size(); };
+  if (room_for_vertices(of) < count || room_for_influences() < influences) {
     if (is_fixed_) throw CapacityExceeded{"vertices"};
     reserve_vertices(growth(of.vertex_count(), count), growth(of.weights.influences.size(), influences), of);
   }
-  make_room(births_[mesh], count, "vertices");
-  make_room(vertex_mesh_, count, "vertices");
-  make_room(side_log_, count, "vertices");
-  make_room(surface_.point_corner, 1, "vertices");
-  make_room(surface_.appended_side, 1, "vertices");
+  std::size_t room = room_for_vertices(of);
+  const auto make = [&](auto& values) {
+    make_room(values, count, "vertices");
+    room = std::min(room, values.capacity() - values.size());
+  };
+  make(births_[mesh]);
+  make(vertex_mesh_);
+  make(side_log_);
+  make(surface_.point_corner);
+  make(surface_.appended_side);
+  room_.vertices_of = mesh;
+  room_.vertices = room;
+  room_.influences = room_for_influences();
 }
 
-void SurfaceEditor::make_room_for_triangles(Index mesh, Index count) {
-  make_room(character_.meshes[mesh].triangles, count, "triangles");
-  make_room(character_.meshes[mesh].triangle_submesh, count, "triangles");
-  make_room(appended_triangles_[mesh], count, "triangles");
-  make_room(surface_.corner_point, 3 * std::size_t{count}, "triangles");
-  make_room(surface_.twin, 3 * std::size_t{count}, "triangles");
-  make_room(surface_.appended, count, "triangles");
-  make_room(newest_entry_, count, "triangles");
-  make_room(older_part_, count, "triangles");
-  make_room(parents_, count, "triangles");
-  make_room(ancestors_, count, "triangles");
+void SurfaceEditor::find_room_for_triangles(Index mesh, Index count) {
+  std::size_t room = std::numeric_limits<std::size_t>::max();
+  const auto make = [&](auto& values, std::size_t per_triangle) {
+    make_room(values, per_triangle * count, "triangles");
+    room = std::min(room, (values.capacity() - values.size()) / per_triangle);
+  };
+  make(character_.meshes[mesh].triangles, 1);
+  make(character_.meshes[mesh].triangle_submesh, 1);
+  make(appended_triangles_[mesh], 1);
+  make(surface_.corner_point, 3);
+  make(surface_.twin, 3);
+  make(surface_.appended, 1);
+  make(newest_entry_, 1);
+  make(older_part_, 1);
+  make(parents_, 1);
+  make(ancestors_, 1);
+  room_.triangles_of = mesh;
+  room_.triangles = room;
 }
 
 void SurfaceEditor::make_room_in_log(std::size_t entries) { make_room(log_, entries, "changes of triangles"); }

@@ -214,24 +214,20 @@ void SurfaceEditor::cut_edge(Index half_edge) {
   surface_.twin[twin] = kNone;
 }
 
-Index SurfaceEditor::separate_fan(Index corner, std::span<const Index> remaining) {
-  const Index old_point = surface_.corner_point[corner];
-  struct Duplicate {
-    Index mesh, vertex, copy;
-  };
-  ScratchVector<Duplicate> duplicates(&scratch_);
+Index SurfaceEditor::separate_fan(std::span<const Index> corners, std::span<const Index> remaining) {
+  const Index old_point = surface_.corner_point[corners.front()];
   const auto is_used_elsewhere = [&](Index mesh, Index vertex) {
     const auto& is_shared = surface_.is_shared_vertex[mesh];
     if (vertex < is_shared.size() && is_shared[vertex]) return true;
-    bool used = false;
-    for (const Index other : remaining)
-      surface_.for_each_in_fan(other,
-                               [&](Index c) { used = used || (vertex_at(c) == vertex && surface_.triangle(c / 3).mesh == mesh); });
-    return used;
+    const auto is_at = [&](Index c) { return vertex_at(c) == vertex && surface_.triangle(c / 3).mesh == mesh; };
+    return std::any_of(remaining.begin(), remaining.end(), [&](Index other) {
+      if (is_at(other)) return true;
+      bool used = false;
+      surface_.for_each_in_fan(other, [&](Index c) { used = used || is_at(c); });
+      return used;
+    });
   };
 
-  ScratchVector<Index> corners(&scratch_);
-  surface_.for_each_in_fan(corner, [&](Index c) { corners.push_back(c); });
   make_room_in_log(corners.size());
   Index last_vertex = kNone;
   for (const Index c : corners) {
@@ -241,18 +237,25 @@ Index SurfaceEditor::separate_fan(Index corner, std::span<const Index> remaining
     make_room_for_vertices(mesh, static_cast<Index>(corners.size()),
                            static_cast<Index>(corners.size() * character_.meshes[mesh].weights.of(last_vertex).size()));
   }
+  struct Duplicate {
+    Index mesh, vertex, copy;
+  };
+  ScratchVector<Duplicate> duplicates(&scratch_);
+  duplicates.reserve(corners.size());
   for (const Index c : corners) log_triangle(c / 3);
   const Index point = append_point();
   for (const Index c : corners) {
     const TriangleRef ref = surface_.triangle(c / 3);
     const Index mesh = ref.mesh;
-    const Index vertex = vertex_at(c);
+    Index& of_corner = character_.meshes[mesh].triangles[ref.triangle][c % 3];
+    const Index vertex = of_corner;
     auto known = std::find_if(duplicates.begin(), duplicates.end(),
                               [&](const Duplicate& d) { return d.mesh == mesh && d.vertex == vertex; });
     if (known == duplicates.end()) {
       Index copy = vertex;
       if (is_used_elsewhere(mesh, vertex)) {
-        births_[mesh].push_back({ref.source_triangle, place_in_origin(ref, vertex)});
+        const bool is_of_source = vertex < source_.meshes[mesh].vertex_count();
+        births_[mesh].push_back(is_of_source ? Birth{ref.source_triangle, place_in_origin(ref, vertex)} : birth(mesh, vertex));
         vertex_mesh_.push_back(mesh);
         copy = append_vertex_copy(vertex, character_.meshes[mesh]);
         write_side_of_new(mesh, copy, surface_.side(point));
@@ -261,9 +264,10 @@ Index SurfaceEditor::separate_fan(Index corner, std::span<const Index> remaining
       }
       known = duplicates.insert(duplicates.end(), {mesh, vertex, copy});
     }
-    set_corner(c, point, known->copy);
+    surface_.corner_point[c] = point;
+    of_corner = known->copy;
   }
-  surface_.point_corner[point] = corner;
+  surface_.point_corner[point] = corners.front();
   if (!remaining.empty()) surface_.point_corner[old_point] = remaining.front();
   return point;
 }
@@ -399,6 +403,11 @@ SurfaceEditor::Mark SurfaceEditor::mark() {
 std::span<const SurfaceEditor::MeshSizes> SurfaceEditor::sizes_at(const Mark& mark) const {
   sizes_.clear();
   for (const Mesh& mesh : character_.meshes) sizes_.push_back({mesh.vertex_count(), mesh.triangle_count()});
+  if (sizes_.size() == 1) {
+    sizes_[0].vertices -= vertices_since(mark);
+    sizes_[0].triangles -= surface_.triangle_count() - mark.triangles;
+    return sizes_;
+  }
   for (Index i = mark.vertices; i < vertex_mesh_.size(); ++i) --sizes_[vertex_mesh_[i]].vertices;
   for (Index t = mark.triangles; t < surface_.triangle_count(); ++t) --sizes_[surface_.triangle(t).mesh].triangles;
   return sizes_;

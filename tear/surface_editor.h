@@ -92,7 +92,7 @@ class SurfaceEditor {
   [[nodiscard]] bool is_whole(Index triangle) const {
     if (triangle >= surface_.first_triangle.back()) return false;
     const TriangleRef ref = surface_.triangle(triangle);
-    return character_.meshes[ref.mesh].triangles[ref.triangle] == source_.meshes[ref.mesh].triangles[ref.triangle];
+    return is_same(character_.meshes[ref.mesh].triangles[ref.triangle], source_.meshes[ref.mesh].triangles[ref.triangle]);
   }
   class FaceSplit;
   /// Splits faces one after the other along a line.
@@ -125,9 +125,10 @@ class SurfaceEditor {
 
   /// Disconnects the faces at both sides of a half-edge.
   void cut_edge(Index half_edge);
-  /// Gives the fan that holds `corner` a point of its own. Vertices that faces of other fans use are duplicated.
+  /// Gives a fan a point of its own. Vertices that faces of other fans use are duplicated.
+  /// @param corners    of the fan, all.
   /// @param remaining  a corner of each other fan that this point has.
-  Index separate_fan(Index corner, std::span<const Index> remaining);
+  Index separate_fan(std::span<const Index> corners, std::span<const Index> remaining);
   /// Takes a triangle away whose edges are all cut. Its points keep no corner of it.
   void retire_triangle(Index triangle);
   /// Names the corner that a point is known by.
@@ -240,8 +241,18 @@ class SurfaceEditor {
   /// Lets what follows append as much without any array growing: a change is not left half done for want of memory. The vertices
   /// are like others of the mesh.
   /// @throws CapacityExceeded, std::bad_alloc
-  void make_room_for_vertices(Index mesh, Index count, Index influences);
-  void make_room_for_triangles(Index mesh, Index count);
+  void make_room_for_vertices(Index mesh, Index count, Index influences) {
+    if (room_.vertices_of != mesh || room_.vertices < count || room_.influences < influences)
+      find_room_for_vertices(mesh, count, influences);
+    room_.vertices -= count;
+    room_.influences -= influences;
+  }
+  void make_room_for_triangles(Index mesh, Index count) {
+    if (room_.triangles_of != mesh || room_.triangles < count) find_room_for_triangles(mesh, count);
+    room_.triangles -= count;
+  }
+  void find_room_for_vertices(Index mesh, Index count, Index influences);
+  void find_room_for_triangles(Index mesh, Index count);
   void make_room_in_log(std::size_t entries);
   void make_room_for_additions(Index mesh);
   template <class T>
@@ -301,6 +312,12 @@ class SurfaceEditor {
   bool keeps_opened_ = false;
   mutable std::vector<MeshSizes> sizes_;
   bool is_fixed_ = false;
+  /// What was found to have room last, less what was asked for since: there is at least that much.
+  struct Room {
+    Index vertices_of = kNone, triangles_of = kNone;  ///< Mesh.
+    std::size_t vertices = 0, influences = 0, triangles = 0;
+  };
+  Room room_;
   mutable ScratchMemory scratch_;
   std::unordered_set<Index> opened_;  // asked and sorted, never walked through as it is
   Index stage_begin_ = 0;

@@ -85,6 +85,7 @@ void SurfaceEditor::undo(const Mark& begin, Redo& redo, ChangeRecord& change) {
 }
 
 void SurfaceEditor::redo(const Redo& redo, ChangeRecord& change) {
+  room_ = {};
   change.first_point = surface_.point_count();
   change.lips.clear();
   std::size_t count = 0;

@@ -54,29 +54,41 @@ void append_custom(const Corners& corners, CustomAttribute& attribute) {
 
 /// The barycentric mean of the corners' weights. Appended to the pool in place, so that a warm call does not allocate.
 void append_mean_weights(const Corners& corners, SkinWeights& weights) {
-  auto& pool = weights.influences;
-  const std::size_t begin = pool.size();
-  double sum = 0;
+  std::size_t most = 0;
+  for (const std::uint32_t vertex : corners.vertices) most += weights.first[vertex + 1] - weights.first[vertex];
+  const std::size_t old_size = weights.influences.size();
+  weights.influences.resize(old_size + most);
+  Influence* const begin = weights.influences.data() + old_size;
+  Influence* end = begin;
   // The mean is at most a few dozen influences: a linear search for a slot beats any map.
   for (std::size_t k = 0; k < 3; ++k) {
     if (corners.barycentric[k] <= 0.0) continue;
     for (std::uint32_t i = weights.first[corners.vertices[k]]; i < weights.first[corners.vertices[k] + 1]; ++i) {
-      const Influence influence = pool[i];  // by value: the pool grows
+      const Influence influence = weights.influences[i];
       const auto part = static_cast<float>(corners.barycentric[k] * static_cast<double>(influence.weight));
       if (!(part > 0.0f)) continue;
-      const auto same_slot = std::find_if(pool.begin() + static_cast<std::ptrdiff_t>(begin), pool.end(),
-                                          [&](const Influence& other) { return other.slot == influence.slot; });
-      if (same_slot != pool.end())
-        same_slot->weight += part;
+      Influence* same_slot = begin;
+      while (same_slot != end && same_slot->slot != influence.slot) ++same_slot;
+      if (same_slot == end)
+        *end++ = {influence.slot, part};
       else
-        pool.push_back({influence.slot, part});
+        same_slot->weight += part;
     }
   }
-  for (std::size_t i = begin; i < pool.size(); ++i) sum += static_cast<double>(pool[i].weight);
-  for (std::size_t i = begin; i < pool.size(); ++i) pool[i].weight = static_cast<float>(static_cast<double>(pool[i].weight) / sum);
-  std::sort(pool.begin() + static_cast<std::ptrdiff_t>(begin), pool.end(),
-            [](const Influence& a, const Influence& b) { return a.weight != b.weight ? a.weight > b.weight : a.slot < b.slot; });
-  weights.first.push_back(static_cast<std::uint32_t>(pool.size()));
+  double sum = 0;
+  for (const Influence* i = begin; i != end; ++i) sum += static_cast<double>(i->weight);
+  for (Influence* i = begin; i != end; ++i) i->weight = static_cast<float>(static_cast<double>(i->weight) / sum);
+  const auto comes_before = [](const Influence& a, const Influence& b) {
+    return a.weight != b.weight ? a.weight > b.weight : a.slot < b.slot;
+  };
+  for (Influence* i = begin; i != end; ++i) {  // a few, and nearly in order
+    const Influence influence = *i;
+    Influence* place = i;
+    for (; place != begin && comes_before(influence, *(place - 1)); --place) *place = *(place - 1);
+    *place = influence;
+  }
+  weights.influences.resize(static_cast<std::size_t>(end - weights.influences.data()));
+  weights.first.push_back(static_cast<std::uint32_t>(weights.influences.size()));
 }
 
 /// Calls `visit(array, floats or entries a vertex)` for each per-vertex array but the weights.
@@ -175,13 +187,12 @@ void copy_surface_point(const Mesh& like_mesh, std::uint32_t like, std::uint32_t
   weights.first[vertex + 1] = static_cast<std::uint32_t>(weights.influences.size());
 }
 
-bool has_room_for_vertices(std::size_t vertex_count, std::size_t influence_count, const Mesh& mesh) {
-  bool has_room = mesh.weights.first.capacity() - mesh.weights.first.size() >= vertex_count &&
-                  mesh.weights.influences.capacity() - mesh.weights.influences.size() >= influence_count;
+std::size_t room_for_vertices(const Mesh& mesh) {
+  std::size_t room = mesh.weights.first.capacity() - mesh.weights.first.size();
   for_each_array(mesh, [&](const auto& values, std::size_t per_vertex) {
-    has_room = has_room && (values.empty() || values.capacity() - values.size() >= vertex_count * per_vertex);
+    if (!values.empty()) room = std::min(room, (values.capacity() - values.size()) / per_vertex);
   });
-  return has_room;
+  return room;
 }
 
 void reserve_vertices(std::size_t vertex_count, std::size_t influence_count, Mesh& mesh) {

@@ -17,6 +17,9 @@ using Triangle = std::array<std::uint32_t, 3>;  ///< Vertices, counter-clockwise
   return triangle[0] == triangle[1] && triangle[1] == triangle[2];
 }
 
+/// Whether two triangles have the same vertices in the same order. (The comparison of arrays calls into the C library.)
+[[nodiscard]] constexpr bool is_same(const Triangle& a, const Triangle& b) { return a[0] == b[0] && a[1] == b[1] && a[2] == b[2]; }
+
 /// Displacements added to a mesh in bind space, scaled by the target's weight. An array is empty or has one entry a vertex.
 struct MorphTarget {
   std::string name;

@@ -30,8 +30,8 @@ SUNDER_API std::uint32_t append_vertex_copy(std::uint32_t vertex, Mesh& mesh);
 /// bit: the two are duplicates of one surface point. Both meshes have the same skin.
 SUNDER_API void copy_surface_point(const Mesh& like_mesh, std::uint32_t like, std::uint32_t vertex, Mesh& mesh);
 
-/// Whether that many vertices, with that many influences together, can be appended without an array of `mesh` growing.
-[[nodiscard]] SUNDER_API bool has_room_for_vertices(std::size_t vertex_count, std::size_t influence_count, const Mesh& mesh);
+/// How many vertices can be appended without an array of `mesh` growing, but for that of the influences.
+[[nodiscard]] SUNDER_API std::size_t room_for_vertices(const Mesh& mesh);
 
 /// Gives all arrays room for that many more vertices, with that many more influences.
 SUNDER_API void reserve_vertices(std::size_t vertex_count, std::size_t influence_count, Mesh& mesh);
