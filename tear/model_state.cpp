@@ -62,7 +62,7 @@ void TornModel::State::count(const tear::SurfaceEditor::Mark& begin, bool is_cut
   editor.for_each_changed(begin, [&](std::uint32_t triangle) {
     report.triangles_retired += editor.surface().corner_point[3 * triangle] == kNone ? 1 : 0;
   });
-  report.pieces = tear::find_pieces(begin, is_cut, editor, posed);
+  report.pieces = is_cut ? tear::find_all_pieces(begin, editor, posed) : tear::find_pieces(begin, editor, posed);
 }
 
 void TornModel::State::record(const tear::SurfaceEditor::Mark& begin) {
