@@ -131,9 +131,10 @@ void long_stroke(benchmark::State& state) {
 
 void memory(benchmark::State& state) {
   for (auto _ : state) {
-    double bytes = 0;
+    BytesPerPoint bytes;
     state.SetIterationTime(seconds_of([&] { bytes = bytes_per_point(scene_in(state)); }));
-    state.counters["bytes_per_point"] = bytes;
+    state.counters["bytes_per_point"] = bytes.model;
+    state.counters["posed_bytes_per_point"] = bytes.posed_points;
   }
 }
 

@@ -3,6 +3,7 @@
 #include <cstdlib>
 
 #include "bench/measure.h"
+#include "tear/posed_points.h"
 
 namespace sunder::bench {
 namespace {
@@ -26,13 +27,19 @@ std::uint64_t bytes_of(const Mesh& mesh) {
 
 }  // namespace
 
-double bytes_per_point(const Scene& scene) {
+BytesPerPoint bytes_per_point(const Scene& scene) {
   const std::uint64_t before = bytes_in_use();
   auto model = TornModel::create(scene.character);
   if (!model || !model->tear(scene.poses[0], scene.stroke)) std::abort();
   std::uint64_t copy = 0;
   for (const Mesh& mesh : model->character().meshes) copy += bytes_of(mesh);
-  return static_cast<double>(bytes_in_use() - before - copy) / model->point_count();
+  const std::uint64_t all = bytes_in_use() - before - copy;
+  const std::uint64_t without = bytes_in_use();
+  tear::PosedPoints posed;
+  posed.cover(model->point_count());
+  const std::uint64_t of_posed_points = bytes_in_use() - without;
+  const double points = model->point_count();
+  return {static_cast<double>(all - of_posed_points) / points, static_cast<double>(of_posed_points) / points};
 }
 
 }  // namespace sunder::bench

@@ -138,7 +138,7 @@ std::optional<double> cut_by_vtk() {
 }  // namespace
 
 void print_summary() {
-  const double bytes = bytes_per_point(scene_of(kLargest));
+  const BytesPerPoint bytes = bytes_per_point(scene_of(kLargest));
   const Tears tears = measure_tears();
   const double faces = scene_of(kLargest).mesh().triangle_count(), query = measure_query(), first = measure_first_tear();
   const std::optional<double> vtk = cut_by_vtk();
@@ -157,7 +157,8 @@ void print_summary() {
   object.add("speedup_cgal_900k", by_tear(tears.cgal_largest, tears.warm.back()));
   object.add("ns_per_crossed_face", nanoseconds_a_face);
   object.add("build_ns_per_face", (first - tears.warm.back()) * kNanoseconds / faces);
-  object.add("bytes_per_point", bytes);
+  object.add("bytes_per_point", bytes.model);
+  object.add("posed_bytes_per_point", bytes.posed_points);
   object.add("warm_allocations", *std::max_element(tears.allocations.begin(), tears.allocations.end()));
   object.add("warm_undo_allocations", *std::max_element(tears.undo_allocations.begin(), tears.undo_allocations.end()));
   object.add("warm_us", warm_us);
