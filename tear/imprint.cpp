@@ -211,12 +211,15 @@ class GrowingPath {
     if (entry == kNone || !editor_.is_whole(entry / 3)) return false;
     const EdgeCrossing exit = find_exit(plane_, entry, editor_, posed_);
     if (!(exit.fraction > kSnap && exit.fraction < 1 - kSnap)) return false;
+    const Index after = editor_.surface().twin[exit.half_edge];
+    if (after != kNone) editor_.fetch(after / 3);
     const Reach reach = reach_between(plane_, here_, exit.position);
     if (reach.fraction < 1 || reach.ends_at_blade) return false;
     const double progress = progress_towards(plane_, here_, exit.position);
     if (!(progress > progress_here + 1e-12)) return false;
     const Index made = crossing.go_on(exit.half_edge, exit.fraction);
     if (made == kNone) return false;
+    if (after != kNone) posed_.fetch(editor_, editor_.surface().corner_point[Surface::previous(after)]);
     posed_.pin(made, exit.position);
     come_to(progress);
     progress_here = progress;

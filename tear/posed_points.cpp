@@ -107,6 +107,19 @@ void PosedPoints::fetch(const SurfaceEditor& editor, Index mesh, std::span<const
   for (const Index vertex : wanted) prefetch(&of.weights.influences[of.weights.first[vertex]]);
 }
 
+void PosedPoints::fetch(const SurfaceEditor& editor, Index point) const {
+  if (point >= known_.size()) return;
+  prefetch(&known_[point]);
+  const Index corner = editor.surface().point_corner[point];
+  if (corner == kNone) return;
+  const TriangleRef ref = editor.surface().triangle(corner / 3);
+  const Mesh& mesh = editor.character().meshes[ref.mesh];
+  const Index vertex = mesh.triangles[ref.triangle][corner % 3];
+  prefetch(&mesh.positions[vertex]);
+  if (!mesh.normals.empty()) prefetch(&mesh.normals[vertex]);
+  prefetch(&mesh.weights.influences[mesh.weights.first[vertex]]);
+}
+
 void PosedPoints::forget_from(Index first_point) {
   if (known_.size() > first_point) known_.resize(first_point);
 }

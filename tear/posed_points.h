@@ -27,6 +27,9 @@ class PosedPoints {
     return look_up(editor, point);
   }
 
+  /// Asks memory for what posing a point will need.
+  void fetch(const SurfaceEditor& editor, Index point) const;
+
   void cover(Index point_count) {
     if (known_.size() >= point_count) return;
     if (known_.capacity() < point_count) known_.reserve(point_count + point_count / 8 + 1024);  // not twice as much

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "tear/face_split.h"
+#include "tear/prefetch.h"
 
 namespace sunder::tear {
 SurfaceEditor::SurfaceEditor(const Character& source, Character& character)
@@ -31,6 +32,18 @@ SurfaceEditor::SurfaceEditor(const Character& source, Character& character)
 Triangle SurfaceEditor::vertices_of(Index triangle) const {
   const TriangleRef ref = surface_.triangle(triangle);
   return character_.meshes[ref.mesh].triangles[ref.triangle];
+}
+
+void SurfaceEditor::fetch(Index triangle) const {
+  prefetch(&surface_.corner_point[3 * std::size_t{triangle}]);
+  prefetch(&surface_.twin[3 * std::size_t{triangle}]);
+  prefetch(&newest_entry_[triangle]);
+  if (triangle >= surface_.first_triangle.back()) return;
+  const TriangleRef ref = surface_.triangle(triangle);
+  prefetch(&character_.meshes[ref.mesh].triangles[ref.triangle]);
+  prefetch(&character_.meshes[ref.mesh].triangle_submesh[ref.triangle]);
+  prefetch(&source_.meshes[ref.mesh].triangles[ref.triangle]);
+  if (ref.triangle < newest_part_[ref.mesh].size()) prefetch(&newest_part_[ref.mesh][ref.triangle]);
 }
 
 void SurfaceEditor::fill(LogEntry& entry) const {

@@ -94,6 +94,8 @@ class SurfaceEditor {
     const TriangleRef ref = surface_.triangle(triangle);
     return is_same(character_.meshes[ref.mesh].triangles[ref.triangle], source_.meshes[ref.mesh].triangles[ref.triangle]);
   }
+  /// Asks memory for what crossing a face will need.
+  void fetch(Index triangle) const;
   class FaceSplit;
   /// Splits faces one after the other along a line.
   class Crossing;
