@@ -86,6 +86,11 @@ class FansAtPoint {
   ScratchVector<Index> corners_, begins_, others_;
 };
 
+/// Half-edges of an edge.
+struct Side {
+  Index left = kNone, right = kNone;
+};
+
 }  // namespace
 
 void open_edges(std::span<const PointEdge> edges, std::span<const Index> half_edges, SurfaceEditor& editor,
@@ -98,19 +103,34 @@ void open_edges(std::span<const PointEdge> edges, std::span<const Index> half_ed
     return is_right ? known : surface.find_half_edge(from, to);
   };
   // Found before anything is cut: afterwards the two sides do not know one another.
-  CornersAtPoints corners(edges.size(), editor.scratch());
-  ScratchVector<Index> to_cut(&editor.scratch());
-  to_cut.reserve(edges.size());
+  ScratchVector<Side> sides(&editor.scratch());
+  sides.reserve(edges.size());
   for (std::size_t i = 0; i < edges.size(); ++i) {
     const auto& [from, to] = edges[i];
     const Index left = find(i);
-    const Index right = left != kNone ? surface.twin[left] : surface.find_half_edge(to, from);
-    corners.add(from, right == kNone ? kNone : Surface::next(right), left);
-    corners.add(to, right, left == kNone ? kNone : Surface::next(left));
-    if (left != kNone && right != kNone) to_cut.push_back(left);
+    sides.push_back({left, left != kNone ? surface.twin[left] : surface.find_half_edge(to, from)});
   }
-  for (const Index half_edge : to_cut) editor.cut_edge(half_edge);
+  for (const Side& side : sides)
+    if (side.left != kNone && side.right != kNone) editor.cut_edge(side.left);
 
+  // Where a path goes through a point within the surface, two fans are left, each from one of its edges to the other.
+  ScratchVector<bool> is_open(edges.size() + 1, false, &editor.scratch());  // at the beginning of an edge
+  for (std::size_t i = 1; i < edges.size(); ++i) {
+    const Index point = edges[i][0];
+    if (point != edges[i - 1][1]) continue;
+    const Index made = editor.separate_left(sides[i - 1].left, sides[i].left, sides[i - 1].right, sides[i].right);
+    if (made == kNone) continue;
+    is_open[i] = true;
+    lips.push_back({made, point});
+  }
+
+  CornersAtPoints corners(edges.size(), editor.scratch());
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    const auto& [from, to] = edges[i];
+    const auto& [left, right] = sides[i];
+    if (!is_open[i]) corners.add(from, right == kNone ? kNone : Surface::next(right), left);
+    if (!is_open[i + 1]) corners.add(to, right, left == kNone ? kNone : Surface::next(left));
+  }
   FansAtPoint fans(surface, editor.scratch());
   corners.for_each_point([&](Index at, std::span<const Index> of_point) {
     fans.clear();

@@ -267,10 +267,7 @@ Index SurfaceEditor::separate_fan(std::span<const Index> corners, std::span<cons
     if (known == duplicates.end()) {
       Index copy = vertex;
       if (is_used_elsewhere(mesh, vertex)) {
-        const bool is_of_source = vertex < source_.meshes[mesh].vertex_count();
-        births_[mesh].push_back(is_of_source ? Birth{ref.source_triangle, place_in_origin(ref, vertex)} : birth(mesh, vertex));
-        vertex_mesh_.push_back(mesh);
-        copy = append_vertex_copy(vertex, character_.meshes[mesh]);
+        copy = append_duplicate(mesh, vertex, c);
         write_side_of_new(mesh, copy, surface_.side(point));
       } else {
         write_side(mesh, vertex, surface_.side(point));
@@ -282,6 +279,41 @@ Index SurfaceEditor::separate_fan(std::span<const Index> corners, std::span<cons
   }
   surface_.point_corner[point] = corners.front();
   if (!remaining.empty()) surface_.point_corner[old_point] = remaining.front();
+  return point;
+}
+
+Index SurfaceEditor::append_duplicate(Index mesh, Index vertex, Index corner) {
+  const bool is_of_source = vertex < source_.meshes[mesh].vertex_count();
+  const TriangleRef ref = surface_.triangle(corner / 3);
+  births_[mesh].push_back(is_of_source ? Birth{ref.source_triangle, place_in_origin(ref, vertex)} : birth(mesh, vertex));
+  vertex_mesh_.push_back(mesh);
+  return append_vertex_copy(vertex, character_.meshes[mesh]);
+}
+
+Index SurfaceEditor::separate_left(Index arriving, Index leaving, Index across_arriving, Index across_leaving) {
+  for (const Index h : {arriving, leaving, across_arriving, across_leaving})
+    if (h == kNone || surface_.twin[h] != kNone) return kNone;
+  const Index mesh = surface_.triangle(leaving / 3).mesh, vertex = vertex_at(leaving);
+  const auto leads_to = [&](Index first, Index last, Index& count) {
+    for (Index c = first; c != kNone; c = surface_.rotate_ccw(c)) {
+      if (surface_.triangle(c / 3).mesh != mesh || vertex_at(c) != vertex) return false;
+      ++count;
+      if (surface_.rotate_ccw(c) == kNone) return c == last;
+    }
+    return false;
+  };
+  Index left = 0, right = 0;
+  if (!leads_to(leaving, Surface::next(arriving), left) || !leads_to(across_arriving, Surface::next(across_leaving), right))
+    return kNone;
+  make_room_in_log(left);
+  make_room_for_vertices(mesh, 1, static_cast<Index>(character_.meshes[mesh].weights.of(vertex).size()));
+  for (Index c = leaving; c != kNone; c = surface_.rotate_ccw(c)) log_triangle(c / 3);
+  const Index old_point = surface_.corner_point[leaving], point = append_point();
+  const Index copy = append_duplicate(mesh, vertex, leaving);
+  write_side_of_new(mesh, copy, surface_.side(point));
+  for (Index c = leaving; c != kNone; c = surface_.rotate_ccw(c)) set_corner(c, point, copy);
+  surface_.point_corner[point] = leaving;
+  surface_.point_corner[old_point] = across_arriving;
   return point;
 }
 

@@ -131,6 +131,10 @@ class SurfaceEditor {
   /// @param corners    of the fan, all.
   /// @param remaining  a corner of each other fan that this point has.
   Index separate_fan(std::span<const Index> corners, std::span<const Index> remaining);
+  /// The same of the left one of the two fans that are left of a point through which a path was cut, by the path's half-edges
+  /// that arrive there and leave, and those across them.
+  /// @return kNone, and nothing has changed, where there is more to it: other fans, borders or several vertices at the point.
+  Index separate_left(Index arriving, Index leaving, Index across_arriving, Index across_leaving);
   /// Takes a triangle away whose edges are all cut. Its points keep no corner of it.
   void retire_triangle(Index triangle);
   /// Names the corner that a point is known by.
@@ -275,6 +279,8 @@ class SurfaceEditor {
   void remove_newest_vertex(Index mesh);
   /// Where a vertex lies in the origin of a triangle.
   [[nodiscard]] std::array<double, 3> place_in_origin(const TriangleRef& ref, Index vertex) const;
+  /// A copy of a vertex at the same place of the surface. @param corner  that it has.
+  Index append_duplicate(Index mesh, Index vertex, Index corner);
   void write_side(Index mesh, Index vertex, Index side);
   /// The same for a vertex that is taken back with what needs it.
   void write_side_of_new(Index mesh, Index vertex, Index side);
