@@ -136,7 +136,11 @@ Reach reach_between(const BladePlane& plane, const Vec3d& from, const Vec3d& to)
 }
 
 double progress_towards(const BladePlane& plane, const Vec3d& from, const Vec3d& to) {
-  const double part = reach_between(plane, from, to).fraction;
+  return progress_towards(plane, from, to, reach_between(plane, from, to));
+}
+
+double progress_towards(const BladePlane& plane, const Vec3d& from, const Vec3d& to, const Reach& reach) {
+  const double part = reach.fraction;
   const Vec2d b = plane.project(to);
   const double at_b = plane.not_before().value(b);
   if (part == 1 && at_b >= 0) return plane.progress(b);
@@ -215,7 +219,7 @@ class GrowingPath {
     if (after != kNone) editor_.fetch(after / 3);
     const Reach reach = reach_between(plane_, here_, exit.position);
     if (reach.fraction < 1 || reach.ends_at_blade) return false;
-    const double progress = progress_towards(plane_, here_, exit.position);
+    const double progress = progress_towards(plane_, here_, exit.position, reach);
     if (!(progress > progress_here + 1e-12)) return false;
     const Index made = crossing.go_on(exit.half_edge, exit.fraction);
     if (made == kNone) return false;

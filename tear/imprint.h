@@ -62,6 +62,8 @@ struct Reach {
 /// out sweep coordinates say nothing: the lines of a blade that turns meet, and on their other side they run backwards. A way that
 /// leaves before the first blade has progress of minus infinity.
 [[nodiscard]] double progress_towards(const BladePlane& plane, const Vec3d& from, const Vec3d& to);
+/// @param reach  reach_between() them.
+[[nodiscard]] double progress_towards(const BladePlane& plane, const Vec3d& from, const Vec3d& to, const Reach& reach);
 
 /// Splits an edge and pins the new point where the posed edge has it. @return kNone where its faces cannot be split.
 [[nodiscard]] Index split_posed_edge(Index half_edge, double fraction, SurfaceEditor& editor, PosedPoints& posed);
