@@ -27,15 +27,9 @@ void improve_faces(const SurfaceEditor::Mark& since, SurfaceEditor& editor) {
   const Surface& surface = editor.surface();
   ScratchVector<Index> open(&editor.scratch());
   open.reserve(3 * editor.numbers_since(since));
-  ScratchVector<bool> is_settled(editor.numbers_since(since), false, &editor.scratch());
-  for (Index face = since.triangles; face < surface.triangle_count(); ++face) {
-    if (!editor.is_settled(face)) continue;
-    is_settled[editor.number_since(since, face)] = true;
-    if (const Index parent = editor.number_since(since, editor.parent(face)); parent != kNone) is_settled[parent] = true;
-  }
   // Each edge once, from the later of its faces if both changed.
   const auto add = [&](Index face) {
-    if (is_settled[editor.number_since(since, face)]) return;
+    if (editor.is_settled(face)) return;
     for (Index h = 3 * face; h < 3 * face + 3; ++h)
       if (editor.is_inner_edge(h) && (surface.twin[h] < h || editor.number_since(since, surface.twin[h] / 3) == kNone))
         open.push_back(h);

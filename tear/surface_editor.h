@@ -198,8 +198,14 @@ class SurfaceEditor {
     const Index parent = parents_[triangle - surface_.first_triangle.back()];
     return parent == kNone ? kNone : parent & ~kSettled;
   }
-  /// Whether an appended triangle was split from its parent along the best diagonal.
+  /// Whether a triangle of the source was split along the best diagonal and not again since, or another is one of those parts.
   [[nodiscard]] bool is_settled(Index triangle) const {
+    if (triangle < surface_.first_triangle.back()) {
+      const TriangleRef ref = surface_.triangle(triangle);
+      if (ref.source_triangle >= newest_part_[ref.mesh].size()) return false;
+      triangle = newest_part_[ref.mesh][ref.source_triangle];
+      if (triangle == kNone) return false;
+    }
     const Index parent = parents_[triangle - surface_.first_triangle.back()];
     return parent != kNone && (parent & kSettled) != 0;
   }
