@@ -80,7 +80,7 @@ const Scene& scene_of(int divisions) {
   if (!is_new) return scene;
   scene.character = std::make_shared<const Character>(make_subdivided_model(divisions, kBones));
   for (std::size_t i = 0; i < kPoses; ++i) scene.poses.push_back(bend(*scene.character, 0.6 + 1e-4 * static_cast<double>(i)));
-  auto model = TornModel::create(scene.character, {40000, 40000, 16});
+  auto model = TornModel::create(scene.character, {100000, 100000, 16});
   if (!model) std::abort();
   scene.model_ = std::make_unique<TornModel>(std::move(*model));
   Eigen::AlignedBox3d box;
