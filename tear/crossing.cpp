@@ -32,6 +32,18 @@ Index SurfaceEditor::Crossing::begin(Index half_edge, double fraction) {
   return made.point;
 }
 
+/// A part of a face that is to be split.
+struct SurfaceEditor::Crossing::Part {
+  Part(const FaceSplit::Corner& a_, const FaceSplit::Corner& b_, const FaceSplit::Corner& c_)
+      : a(a_), b(b_), c(c_), normal(tear::normal(a.at, b.at, c.at)) {}
+
+  [[nodiscard]] bool is_sound(const FaceSplit& face) const { return face.keeps_winding(a, b, c, normal); }
+  [[nodiscard]] double shape_squared() const { return tear::shape_squared(a.at, b.at, c.at, normal); }
+
+  const FaceSplit::Corner &a, &b, &c;
+  Place normal;
+};
+
 Index SurfaceEditor::Crossing::go_on(Index half_edge, double fraction) {
   const NewPoint& last = points_[newest_];
   NewPoint& made = points_[1 - newest_];
@@ -43,27 +55,17 @@ Index SurfaceEditor::Crossing::go_on(Index half_edge, double fraction) {
   const FaceSplit::Corner& p = last.of_ahead;
   const FaceSplit::Corner& q = made.of_behind;
   const Index entry = last.ahead;
-  const FaceSplit::Corner u = face.corner(entry % 3), v = face.corner(Surface::next(entry) % 3),
-                          w = face.corner(Surface::previous(entry) % 3);
+  const FaceSplit::Corner &u = face.corner(entry % 3), &v = face.corner(Surface::next(entry) % 3),
+                          &w = face.corner(Surface::previous(entry) % 3);
   const bool loses_v = half_edge == Surface::next(entry);
-  using Part = std::array<const FaceSplit::Corner*, 3>;
-  const Part lost = loses_v ? Part{&p, &v, &q} : Part{&u, &p, &q};
-  const std::array<Part, 2> from_p =
-      loses_v ? std::array<Part, 2>{{{&u, &p, &w}, {&p, &q, &w}}} : std::array<Part, 2>{{{&p, &v, &w}, {&p, &w, &q}}};
-  const std::array<Part, 2> from_q =
-      loses_v ? std::array<Part, 2>{{{&u, &p, &q}, {&u, &q, &w}}} : std::array<Part, 2>{{{&p, &v, &q}, {&q, &v, &w}}};
-  const auto is_sound = [&](const Part& part) { return face.keeps_winding(*part[0], *part[1], *part[2]); };
-  const auto shape = [&](const std::array<Part, 2>& parts) {
-    const auto& positions = editor_.character_.meshes[face.mesh()].positions;
-    double least = 1;
-    for (const Part& part : parts)
-      least = std::min(least, shape_squared(positions[part[0]->vertex], positions[part[1]->vertex], positions[part[2]->vertex]));
-    return least;
-  };
-  const auto are_sound = [&](const std::array<Part, 2>& parts) { return is_sound(parts[0]) && is_sound(parts[1]); };
+  const Part lost = loses_v ? Part(p, v, q) : Part(u, p, q);
+  const std::array<Part, 2> from_p = {loses_v ? Part(u, p, w) : Part(p, v, w), loses_v ? Part(p, q, w) : Part(p, w, q)};
+  const std::array<Part, 2> from_q = {loses_v ? Part(u, p, q) : Part(p, v, q), loses_v ? Part(u, q, w) : Part(q, v, w)};
+  const auto shape = [](const std::array<Part, 2>& parts) { return std::min(parts[0].shape_squared(), parts[1].shape_squared()); };
+  const auto are_sound = [&](const std::array<Part, 2>& parts) { return parts[0].is_sound(face) && parts[1].is_sound(face); };
   const bool is_better_from_q = shape(from_q) > kBetterShape * shape(from_p);
   const bool cuts_as_better = are_sound(is_better_from_q ? from_q : from_p);
-  if (!made.is_sound || !is_sound(lost) || !(cuts_as_better || are_sound(is_better_from_q ? from_p : from_q))) {
+  if (!made.is_sound || !lost.is_sound(face) || !(cuts_as_better || are_sound(is_better_from_q ? from_p : from_q))) {
     remove_vertices(made);
     return kNone;
   }
@@ -91,24 +93,19 @@ void SurfaceEditor::Crossing::make_room(const FaceSplit& behind, Index half_edge
 }
 
 void SurfaceEditor::Crossing::append_vertices(const FaceSplit& behind, Index half_edge, double fraction, NewPoint& made) {
-  const auto birth_on = [&](const FaceSplit& face, Index at_begin, Index at_end) {
-    std::array<double, 3> barycentric = {0, 0, 0};
-    barycentric[at_begin % 3] = 1 - fraction;
-    barycentric[at_end % 3] = fraction;
-    return face.birth_at(barycentric);
-  };
   auto& meshes = editor_.character_.meshes;
-  const Birth birth = birth_on(behind, half_edge, Surface::next(half_edge));
+  const Birth birth = behind.birth_between(half_edge % 3, Surface::next(half_edge) % 3, fraction);
   made.mesh = behind.mesh();
   made.is_sound = true;
   made.face_ahead.reset();
-  made.of_behind = made.of_ahead = {editor_.append_vertex(made.mesh, birth), birth.barycentric};
+  const Index vertex = editor_.append_vertex(made.mesh, birth);
+  made.of_behind = made.of_ahead = {vertex, birth.barycentric, place_of(meshes[made.mesh].positions[vertex])};
   made.ahead = editor_.surface_.twin[half_edge];
   if (made.ahead == kNone) return;
   const FaceSplit& ahead = made.face_ahead.emplace(editor_, made.ahead / 3);
   const Index at_begin = Surface::next(made.ahead), at_end = made.ahead;
-  const Birth birth_ahead = birth_on(ahead, at_begin, at_end);
-  made.of_ahead.place = birth_ahead.barycentric;
+  const Birth birth_ahead = ahead.birth_between(at_begin % 3, at_end % 3, fraction);
+  made.of_ahead.barycentric = birth_ahead.barycentric;
   if (ahead.mesh() != made.mesh || ahead.vertices()[at_begin % 3] != behind.vertices()[half_edge % 3] ||
       ahead.vertices()[at_end % 3] != behind.vertices()[Surface::next(half_edge) % 3]) {
     made.of_ahead.vertex = editor_.append_vertex(ahead.mesh(), birth_ahead);

@@ -45,6 +45,8 @@ class SurfaceEditor::Crossing {
     }
   };
 
+  struct Part;
+
   /// For a point and its vertices, some triangles, and those that end() makes.
   void make_room(const FaceSplit& behind, Index half_edge, Index triangles);
   void append_vertices(const FaceSplit& behind, Index half_edge, double fraction, NewPoint& made);

@@ -14,8 +14,9 @@ double gain(Index half_edge, const SurfaceEditor& editor) {
   const TriangleRef f = surface.triangle(half_edge / 3), g = surface.triangle(twin / 3);
   const Mesh& mesh = editor.character().meshes[f.mesh];
   const Triangle &of_f = mesh.triangles[f.triangle], &of_g = mesh.triangles[g.triangle];
-  const Vec3f &a = mesh.positions[of_f[half_edge % 3]], &b = mesh.positions[of_f[Surface::next(half_edge) % 3]],
-              &c = mesh.positions[of_f[Surface::previous(half_edge) % 3]], &d = mesh.positions[of_g[Surface::previous(twin) % 3]];
+  const auto place = [&](Index vertex) { return place_of(mesh.positions[vertex]); };
+  const Place a = place(of_f[half_edge % 3]), b = place(of_f[Surface::next(half_edge) % 3]),
+              c = place(of_f[Surface::previous(half_edge) % 3]), d = place(of_g[Surface::previous(twin) % 3]);
   const double before = std::min(shape_squared(a, b, c), shape_squared(b, a, d));
   const double after = std::min(shape_squared(a, d, c), shape_squared(b, c, d));
   return before > 0 ? after / before : after > 0 ? 2.0 : 0.0;

@@ -168,7 +168,7 @@ Index SurfaceEditor::split_triangle(Index triangle, const std::array<double, 3>&
   const Birth birth = split.birth_at(barycentric);
   const Index vertex = append_vertex(mesh, birth);
   const Index corner = 3 * triangle;
-  const FaceSplit::Corner made{vertex, birth.barycentric};
+  const FaceSplit::Corner made{vertex, birth.barycentric, place_of(character_.meshes[mesh].positions[vertex])};
   if (!split.keeps_winding(0, made) || !split.keeps_winding(1, made) || !split.keeps_winding(2, made)) {
     remove_newest_vertex(mesh);
     return kNone;
@@ -350,8 +350,8 @@ bool SurfaceEditor::flip_edge(Index half_edge) {
     return false;
   const Mesh& mesh = character_.meshes[ref_f.mesh];
   const Index vertex_a = vertex_at(ab), vertex_b = vertex_at(bc), vertex_c = vertex_at(ca), vertex_d = vertex_at(db);
-  const Direction of_origin = normal(mesh, origin_triangle(ref_f.mesh, ref_f.source_triangle));
-  const Direction before = normal(mesh, {vertex_a, vertex_b, vertex_c});
+  const Place of_origin = normal(mesh, origin_triangle(ref_f.mesh, ref_f.source_triangle));
+  const Place before = normal(mesh, {vertex_a, vertex_b, vertex_c});
   const double least = 1e-9 * std::sqrt(dot(before, before) * dot(of_origin, of_origin));
   if (!(dot(normal(mesh, {vertex_a, vertex_d, vertex_c}), of_origin) > least) ||
       !(dot(normal(mesh, {vertex_b, vertex_c, vertex_d}), of_origin) > least))

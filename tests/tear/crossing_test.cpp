@@ -69,7 +69,7 @@ double worse_shape(Index half_edge, const SurfaceEditor& editor) {
   double least = 1;
   for (const Index face : {half_edge / 3, editor.surface().twin[half_edge] / 3}) {
     const auto& positions = editor.character().meshes[editor.surface().triangle(face).mesh].positions;
-    const auto at = [&](Index k) -> const Vec3f& { return positions[editor.vertex_at(3 * face + k)]; };
+    const auto at = [&](Index k) { return place_of(positions[editor.vertex_at(3 * face + k)]); };
     least = std::min(least, shape_squared(at(0), at(1), at(2)));
   }
   return least;
