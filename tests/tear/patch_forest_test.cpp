@@ -365,6 +365,41 @@ TEST(PatchForest, finds_what_looking_at_every_face_finds) {
   EXPECT_GT(faces_across_sheets, 2000);
 }
 
+TEST(PatchForest, a_sweep_in_one_plane_begins_where_its_blade_stands) {
+  int entries = 0;
+  for (std::uint64_t seed = 0; seed < count_of_cases(60); ++seed) {
+    Random random(2000 + seed);
+    Torn torn(some_rig(random));
+    torn.stand_in(test::random_pose(torn.source, random));
+    const double size = size_of(torn);
+    for (int i = 0; i < 30; ++i) {
+      SCOPED_TRACE(test::say("seed ", seed, ", query ", i));
+      const Index face = some_face(torn.editor, random);
+      if (face == kNone) break;
+      std::array<double, 3> part = {random.uniform(0, 1), random.uniform(0, 1), random.uniform(0, 1)};
+      if (random.index(3) == 0) part[random.index(3)] = 0;  // on an edge
+      Vec3d at = Vec3d::Zero();
+      for (Index k = 0; k < 3; ++k)
+        at += part[k] / (part[0] + part[1] + part[2]) *
+              torn.posed.position(torn.editor, torn.editor.surface().corner_point[3 * face + k]);
+      const Vec3d along = 0.4 * size * random.direction(), aside = random.uniform(0.01, 1) * size * random.direction();
+      const Blade from = {at - along, at + 0.1 * along}, to = {from.base + aside, from.tip + aside};
+      const auto hit = first_hit(from, torn.editor, torn.posed);
+      if (!hit) continue;
+      const auto plane = BladePlane::through(hit->position, from, to);
+      ASSERT_TRUE(plane);
+      const auto contact = contact_at(*hit, *plane, torn.editor, torn.posed);
+      if (!contact) continue;  // the sweep goes on across another face
+      const auto expected = test::scan_for_contact(*plane, 0, torn.editor, torn.posed);
+      ASSERT_TRUE(expected);
+      EXPECT_LT((contact->position - hit->position).norm(), 1e-6 * size);
+      EXPECT_LT((contact->position - expected->position).norm(), 1e-6 * size);
+      ++entries;
+    }
+  }
+  EXPECT_GT(entries, 1000);
+}
+
 TEST(PatchForest, has_few_trees_of_caps) {
   Torn torn(test::make_tube(4, 6, 2));
   Random random(4);
