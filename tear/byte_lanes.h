@@ -5,15 +5,12 @@
 #include <array>
 #include <cstdint>
 #include <cstring>
-#if defined(__SSE2__)
-#include <emmintrin.h>
-#endif
 
 namespace sunder::tear {
 
 /// Four small numbers as floats, all at once where the compiler would not see that by itself.
 inline Eigen::Array<float, 4, 1> lanes_of(const std::array<std::uint8_t, 4>& bytes) {
-#if defined(__SSE2__)
+#if defined(EIGEN_VECTORIZE_SSE2)  // then Eigen has included what this needs
   std::int32_t together;
   std::memcpy(&together, bytes.data(), 4);
   const __m128i zero = _mm_setzero_si128();
