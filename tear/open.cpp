@@ -13,36 +13,45 @@ class CornersAtPoints {
     mentions_.reserve(4 * edge_count);
   }
 
-  void add(Index point, Index right, Index left) {
-    mention(point, 0, right);
-    mention(point, kLeft, left);
+  /// @param joint  its place on the path.
+  void add(Index point, std::size_t joint, Index right, Index left) {
+    mention(point, joint, 0, right);
+    mention(point, joint, kLeft, left);
   }
 
-  /// Calls visit(point, its corners) by ascending points. Corners right of the edges come first, then those left of them.
+  /// Calls visit(point, its first joint, its corners) by ascending points. Corners right of the edges come first, then those left
+  /// of them.
   template <class Visit>
   void for_each_point(Visit visit) {
     std::sort(mentions_.begin(), mentions_.end());
-    ScratchVector<Index> of_point(corners_.get_allocator());
+    ScratchVector<Index> of_point(mentions_.get_allocator());
     of_point.reserve(corners_.size());
     for (std::size_t begin = 0, end = 0; begin < mentions_.size(); begin = end) {
       of_point.clear();
+      Index joint = kNone;
       const auto point = static_cast<Index>(mentions_[begin] >> 32);
-      for (; end < mentions_.size() && mentions_[end] >> 32 == point; ++end)
-        of_point.push_back(corners_[static_cast<Index>(mentions_[end]) & ~kLeft]);
-      visit(point, std::span<const Index>(of_point));
+      for (; end < mentions_.size() && mentions_[end] >> 32 == point; ++end) {
+        const Mention& mention = corners_[static_cast<Index>(mentions_[end]) & ~kLeft];
+        of_point.push_back(mention.corner);
+        joint = std::min(joint, mention.joint);
+      }
+      visit(point, joint, std::span<const Index>(of_point));
     }
   }
 
  private:
   static constexpr Index kLeft = Index{1} << 31;
 
-  void mention(Index point, Index side, Index corner) {
+  struct Mention {
+    Index corner, joint;
+  };
+  void mention(Index point, std::size_t joint, Index side, Index corner) {
     if (corner == kNone) return;
     mentions_.push_back(std::uint64_t{point} << 32 | (side | static_cast<Index>(corners_.size())));
-    corners_.push_back(corner);
+    corners_.push_back({corner, static_cast<Index>(joint)});
   }
 
-  ScratchVector<Index> corners_;
+  ScratchVector<Mention> corners_;
   ScratchVector<std::uint64_t> mentions_;  ///< Point, side, and place in corners_, as one number.
 };
 
@@ -91,6 +100,12 @@ struct Side {
   Index left = kNone, right = kNone;
 };
 
+/// Lips, and the edge that begins between them: they are told in the order of the edges.
+struct OpenedJoint {
+  Index joint;
+  LipPair lips;
+};
+
 }  // namespace
 
 void open_edges(std::span<const PointEdge> edges, std::span<const Index> half_edges, SurfaceEditor& editor,
@@ -114,6 +129,8 @@ void open_edges(std::span<const PointEdge> edges, std::span<const Index> half_ed
     if (side.left != kNone && side.right != kNone) editor.cut_edge(side.left);
 
   // Where a path goes through a point within the surface, two fans are left, each from one of its edges to the other.
+  ScratchVector<OpenedJoint> opened(&editor.scratch());
+  opened.reserve(edges.size() + 1);
   ScratchVector<bool> is_open(edges.size() + 1, false, &editor.scratch());  // at the beginning of an edge
   for (std::size_t i = 1; i < edges.size(); ++i) {
     const Index point = edges[i][0];
@@ -121,23 +138,27 @@ void open_edges(std::span<const PointEdge> edges, std::span<const Index> half_ed
     const Index made = editor.separate_left(sides[i - 1].left, sides[i].left, sides[i - 1].right, sides[i].right);
     if (made == kNone) continue;
     is_open[i] = true;
-    lips.push_back({made, point});
+    opened.push_back({static_cast<Index>(i), {made, point}});
   }
 
   CornersAtPoints corners(edges.size(), editor.scratch());
   for (std::size_t i = 0; i < edges.size(); ++i) {
     const auto& [from, to] = edges[i];
     const auto& [left, right] = sides[i];
-    if (!is_open[i]) corners.add(from, right == kNone ? kNone : Surface::next(right), left);
-    if (!is_open[i + 1]) corners.add(to, right, left == kNone ? kNone : Surface::next(left));
+    if (!is_open[i]) corners.add(from, i, right == kNone ? kNone : Surface::next(right), left);
+    if (!is_open[i + 1]) corners.add(to, i + 1, right, left == kNone ? kNone : Surface::next(left));
   }
   FansAtPoint fans(surface, editor.scratch());
-  corners.for_each_point([&](Index at, std::span<const Index> of_point) {
+  corners.for_each_point([&](Index at, Index joint, std::span<const Index> of_point) {
     fans.clear();
     for (const Index corner : of_point) fans.add(corner);
     for (std::size_t fan = 1; fan < fans.count(); ++fan)
-      lips.push_back({editor.separate_fan(fans.corners(fan), fans.others(fan)), at});
+      opened.push_back({joint, {editor.separate_fan(fans.corners(fan), fans.others(fan)), at}});
   });
+  std::sort(opened.begin(), opened.end(), [](const OpenedJoint& a, const OpenedJoint& b) {
+    return a.joint != b.joint ? a.joint < b.joint : a.lips.left < b.lips.left;
+  });
+  for (const OpenedJoint& joint : opened) lips.push_back(joint.lips);
 }
 
 }  // namespace sunder::tear

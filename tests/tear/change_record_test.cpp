@@ -1,4 +1,5 @@
 // What an engine can rely on: buffers that are changed only where a record says so stay equal to the model.
+#include <sunder/skinning/palette.h>
 #include <sunder/tear/change_record.h>
 #include <sunder/tear/tear_stroke.h>
 
@@ -256,6 +257,28 @@ TEST(ChangeRecord, of_a_strokes_pieces_keep_a_mirror_equal) {
       mirror.apply(change, model);
     }
   }
+}
+
+TEST(ChangeRecord, tells_lips_in_the_order_of_the_stroke) {
+  TornModel model = make_model(test::make_tube(12, 24, 3));
+  // Upwards across the seam on the tube's +x side.
+  Stroke stroke;
+  for (int i = 0; i <= 6; ++i) {
+    const double part = i / 6.0, z = 0.3 * (part - 0.5);
+    stroke.push_back({{3, 0.23 + 1.4 * part, z}, {0.2, 0.23 + 1.4 * part, z}});
+  }
+  ChangeRecord change;
+  const auto report = model.tear(bind_pose(model.source()), stroke, {}, &change);
+  ASSERT_TRUE(report) << report.error().text();
+  ASSERT_EQ(report->runs, 1u);
+  ASSERT_GT(change.lips.size(), 15u);
+  const test::ModelState state = test::state_of(model);
+  std::vector<float> heights(state.point_count);
+  const Mesh& mesh = state.character.meshes[0];
+  for (std::size_t corner = 0; corner < state.meshes[0].points.size(); ++corner)
+    heights[state.meshes[0].points[corner]] = mesh.positions[mesh.triangles[corner / 3][corner % 3]].y();
+  for (std::size_t i = 1; i < change.lips.size(); ++i)
+    EXPECT_GT(heights[change.lips[i].left], heights[change.lips[i - 1].left]) << i;
 }
 
 }  // namespace
