@@ -72,6 +72,7 @@ class Segment {
   /// what rounding does to the place of a thing in the frame, but for what comes of coordinates in the model.
   [[nodiscard]] Part part_in(const Box& box) const { return part_in(box, rounding_); }
 
+  /// Of what lies in a shadow, and in a box that was looked at before.
   [[nodiscard]] Part part_in(const Box&, const Shadow& shadow) const {
     for (std::size_t k = 0; k < 3; ++k) {
       const double at = shadow.normal[k].x() * base_in_frame_.y() + shadow.normal[k].y() * base_in_frame_.z();

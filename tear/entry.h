@@ -46,8 +46,8 @@ struct SurfaceHit {
 [[nodiscard]] std::optional<SurfaceHit> first_contact(const BladePlane& plane, double progress, const SurfaceEditor& editor,
                                                       PosedPoints& posed);
 
-/// The contact in the triangle that the first blade of a sweep was found to meet first: no sweep meets the surface before it does.
-/// Nothing where the sweep does not go forward from there across that triangle.
+/// The contact in the triangle that the first blade of a sweep meets first, which no other contact comes before, unless the blade
+/// lies in faces before that triangle. Nothing where the sweep does not go forward from there across it.
 [[nodiscard]] std::optional<SurfaceHit> contact_at(const SurfaceHit& hit, const BladePlane& plane, const SurfaceEditor& editor,
                                                    PosedPoints& posed);
 
