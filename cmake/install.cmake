@@ -18,10 +18,13 @@ if(BUILD_SHARED_LIBS AND UNIX AND NOT APPLE)
   endif()
 endif()
 
-# A static io archive hands its private libraries on to whoever links it.
+# A static archive hands its private libraries on to whoever links it.
 set(SUNDER_STATIC_DEPENDENCIES "")
+if(SUNDER_HIGHWAY AND NOT BUILD_SHARED_LIBS)
+  string(APPEND SUNDER_STATIC_DEPENDENCIES "find_dependency(hwy 1.0.3)\n")
+endif()
 if(SUNDER_IO AND NOT BUILD_SHARED_LIBS)
-  set(SUNDER_STATIC_DEPENDENCIES "find_dependency(TinyGLTF)\nfind_dependency(assimp)\nfind_dependency(nlohmann_json)")
+  string(APPEND SUNDER_STATIC_DEPENDENCIES "find_dependency(TinyGLTF)\nfind_dependency(assimp)\nfind_dependency(nlohmann_json)")
 endif()
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/Sunder)

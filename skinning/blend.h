@@ -29,23 +29,12 @@ Eigen::Matrix<Scalar, 3, 1> add_morphs(const Mesh& mesh, std::uint32_t vertex, s
   return value;
 }
 
-/// How a linear map turns normals, up to length: the cofactor matrix. Unlike the inverse transpose it exists for singular maps and
-/// keeps outward normals outward under mirrors.
-template <class Scalar>
-Eigen::Matrix<Scalar, 3, 3> cofactor(const Eigen::Matrix<Scalar, 3, 3>& linear) {
-  Eigen::Matrix<Scalar, 3, 3> result;
-  result.col(0) = linear.col(1).cross(linear.col(2));
-  result.col(1) = linear.col(2).cross(linear.col(0));
-  result.col(2) = linear.col(0).cross(linear.col(1));
-  return linear.determinant() < Scalar(0) ? Eigen::Matrix<Scalar, 3, 3>(-result) : result;
-}
-
 /// `direction` made unit length, or `fallback` where it has none.
 template <class Scalar>
 Eigen::Matrix<Scalar, 3, 1> unit_or(const Eigen::Matrix<Scalar, 3, 1>& direction, const Eigen::Matrix<Scalar, 3, 1>& fallback) {
   const Scalar largest = direction.cwiseAbs().maxCoeff();
   if (!(largest > Scalar(0)) || !std::isfinite(largest)) return fallback;
-  const Eigen::Matrix<Scalar, 3, 1> scaled = direction / largest;  // cofactors of small-scaled bones underflow when squared
+  const Eigen::Matrix<Scalar, 3, 1> scaled = direction / largest;  // squares of small numbers underflow
   return scaled / scaled.norm();
 }
 

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "skinning/normal_matrix.h"
+
 namespace sunder {
 namespace {
 
@@ -91,5 +93,7 @@ Status compute_palette(const Skin& skin, const ModelPose& pose, std::span<Affine
 Status compute_palette(const Skin& skin, const ModelPose& pose, std::span<Affine3f> model_from_bind) {
   return write_palette(skin, pose, model_from_bind);
 }
+
+Mat3d compute_normal_matrix(const Mat3d& linear) { return skinning::normal_matrix<double>(linear); }
 
 }  // namespace sunder

@@ -1,5 +1,7 @@
 #include <sunder/skinning/reference.h>
 
+#include <sunder/skinning/palette.h>
+
 #include "skinning/blend.h"
 
 namespace sunder {
@@ -16,8 +18,10 @@ Vec3d deform_normal_reference(const Mesh& mesh, std::uint32_t vertex, std::span<
                               std::span<const float> morph_weights) {
   const Eigen::Vector3d bind =
       skinning::add_morphs<double>(mesh, vertex, morph_weights, mesh.normals[vertex].cast<double>(), &MorphTarget::normal_deltas);
-  const Eigen::Matrix3d linear = skinning::blend_matrix<double>(mesh.weights.of(vertex), model_from_bind).leftCols<3>();
-  return skinning::unit_or<double>(skinning::cofactor<double>(linear) * bind, bind);
+  Mat3d blended = Mat3d::Zero();
+  for (const Influence& influence : mesh.weights.of(vertex))
+    blended += static_cast<double>(influence.weight) * compute_normal_matrix(model_from_bind[influence.slot].linear());
+  return skinning::unit_or<double>(blended * bind, bind);
 }
 
 }  // namespace sunder

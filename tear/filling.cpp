@@ -1,5 +1,7 @@
 #include "tear/filling.h"
 
+#include <sunder/skinning/palette.h>
+
 #include <algorithm>
 #include <unordered_set>
 
@@ -44,9 +46,11 @@ Mat3d Filling::blended(Index mesh, Index vertex) const {
 void Filling::shade(Index mesh, Index vertex, const Vec3d& normal, const Vec3d& tangent, const Vec2d& uv) {
   Mesh& of = work_.editor.mesh_of_new_vertex(mesh);
   const Mat3d posed_from_bind = blended(mesh, vertex);
-  // Normals are posed by the cofactor matrix; its inverse is the transpose, but for a factor with the determinant's sign.
-  const double sign = posed_from_bind.determinant() < 0 ? -1.0 : 1.0;
-  Vec3d bind_normal = sign * posed_from_bind.transpose() * normal;
+  Mat3d posed_from_bind_of_normals = Mat3d::Zero();
+  for (const Influence& influence : of.weights.of(vertex))
+    posed_from_bind_of_normals += static_cast<double>(influence.weight) *
+                                  compute_normal_matrix(work_.posed.palette(of.skin)[influence.slot].linear());
+  Vec3d bind_normal = to_bind(posed_from_bind_of_normals, normal, normal);
   bind_normal = bind_normal.norm() > 1e-30 ? Vec3d(bind_normal / bind_normal.norm()) : normal;
   Vec3d bind_tangent = to_bind(posed_from_bind, tangent, tangent);
   bind_tangent -= bind_normal.dot(bind_tangent) * bind_normal;

@@ -14,15 +14,16 @@ struct DeformedMesh {
   std::vector<Vec4f> tangents;   ///< V or none, as the mesh. Unit xyz.
 };
 
-/// Deforms a mesh by its morph targets, then by linear blend skinning, in float:
-///   p = sum_k w_k M_k (position + sum_j m_j delta_j), normals by the cofactor matrix of the blended linear part.
+/// Deforms a mesh once: its morph targets, then linear blend skinning. For frame after frame see SkinnedMesh, which this makes and
+/// forgets.
+///   p = sum_k w_k M_k (position + sum_j m_j delta_j), normals by sum_k w_k compute_normal_matrix(M_k), made unit length.
 ///
 /// @param model_from_bind  one a slot of the mesh's skin, see compute_palette(). May hold scale, shear, mirrors.
 /// @param morph_weights    all weights of the pose (ModelPose::morph_weights).
-/// @param out              resized to fit; does not allocate when it already fits.
-/// @return ok; size_mismatch (nothing written).
+/// @param out              resized to fit.
+/// @return ok; size_mismatch, non_finite_value, and what SkinnedMesh::create() finds (nothing written).
 ///
-/// O(V x (influences + morph targets)), reentrant. Where a blended matrix is singular a normal keeps its bind direction.
+/// O(V x (influences + morph targets)), reentrant. A normal that is left without length keeps its bind direction.
 /// Source: Magnenat-Thalmann et al. 1988 [magnenat1988joint]; normals: see docs/skinning.md.
 [[nodiscard]] SUNDER_API Status deform_mesh(const Mesh& mesh, std::span<const Affine3f> model_from_bind,
                                             std::span<const float> morph_weights, DeformedMesh& out);

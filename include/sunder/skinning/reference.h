@@ -17,7 +17,7 @@ namespace sunder {
                                                          std::span<const Affine3d> model_from_bind,
                                                          std::span<const float> morph_weights);
 
-/// The same for the normal: cofactor matrix of the blended linear part, unit length. Only where the mesh has normals.
+/// The same for the normal: sum_k w_k compute_normal_matrix(M_k), unit length. Only where the mesh has normals.
 [[nodiscard]] SUNDER_API Vec3d deform_normal_reference(const Mesh& mesh, std::uint32_t vertex,
                                                        std::span<const Affine3d> model_from_bind,
                                                        std::span<const float> morph_weights);

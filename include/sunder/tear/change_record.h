@@ -2,6 +2,7 @@
 
 #include <sunder/core/api.h>
 #include <sunder/core/mesh.h>
+#include <sunder/core/range.h>
 #include <sunder/weights/interpolate.h>
 
 #include <array>
@@ -16,13 +17,6 @@ struct RewrittenTriangle {
   Triangle before = {};
 
   bool operator==(const RewrittenTriangle&) const = default;
-};
-
-/// Some elements of a buffer, from `first` on.
-struct Range {
-  std::uint32_t first = 0, count = 0;
-
-  bool operator==(const Range&) const = default;
 };
 
 /// What of a buffer has to be uploaded again: at most eight ranges, ascending and apart. Where there are more places than ranges,

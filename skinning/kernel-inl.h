@@ -1,0 +1,462 @@
+// The kernel: included once for each kind of vectors, by a file that defines V, kVectorLanes and operations on them. No include guard.
+//
+// A block's 16 vertices are posed side by side, in parts of as many lanes as a vector has. Every lane does the same operations in the
+// same order as every other, in each kind of vector and of block: products and sums are rounded one by one, sums over slots ascend
+// and begin with zero. So a vertex is posed to the same bits wherever it stands, and what coincides goes on coinciding.
+
+/// sum_k w_k M_k of some lanes, column after column.
+struct Matrix {
+  V xx, xy, xz, yx, yy, yz, zx, zy, zz, tx, ty, tz;
+};
+
+/// The same for normals: columns.
+struct Linear {
+  V xx, xy, xz, yx, yy, yz, zx, zy, zz;
+};
+
+struct Vector {
+  V x, y, z;
+};
+
+SUNDER_INLINE V add_product(V a, V b, V sum) { return add(sum, mul(a, b)); }
+
+SUNDER_INLINE Matrix blend_slots(const float* weights, const std::uint16_t* slots, std::uint32_t count, const float* matrices) {
+  const V z = zero();
+  Matrix m = {z, z, z, z, z, z, z, z, z, z, z, z};
+  for (std::uint32_t k = 0; k < count; ++k) {
+    const V w = load(weights + kLanes * k);
+    const float* of = matrices + 12 * static_cast<std::size_t>(slots[k]);
+    m.xx = add_product(w, set(of[0]), m.xx);
+    m.xy = add_product(w, set(of[1]), m.xy);
+    m.xz = add_product(w, set(of[2]), m.xz);
+    m.yx = add_product(w, set(of[3]), m.yx);
+    m.yy = add_product(w, set(of[4]), m.yy);
+    m.yz = add_product(w, set(of[5]), m.yz);
+    m.zx = add_product(w, set(of[6]), m.zx);
+    m.zy = add_product(w, set(of[7]), m.zy);
+    m.zz = add_product(w, set(of[8]), m.zz);
+    m.tx = add_product(w, set(of[9]), m.tx);
+    m.ty = add_product(w, set(of[10]), m.ty);
+    m.tz = add_product(w, set(of[11]), m.tz);
+  }
+  return m;
+}
+
+/// sum += weight * the matrix that nine numbers are.
+SUNDER_INLINE void add_linear(V weight, const float* of, Linear& sum) {
+  sum.xx = add_product(weight, set(of[0]), sum.xx);
+  sum.xy = add_product(weight, set(of[1]), sum.xy);
+  sum.xz = add_product(weight, set(of[2]), sum.xz);
+  sum.yx = add_product(weight, set(of[3]), sum.yx);
+  sum.yy = add_product(weight, set(of[4]), sum.yy);
+  sum.yz = add_product(weight, set(of[5]), sum.yz);
+  sum.zx = add_product(weight, set(of[6]), sum.zx);
+  sum.zy = add_product(weight, set(of[7]), sum.zy);
+  sum.zz = add_product(weight, set(of[8]), sum.zz);
+}
+
+SUNDER_INLINE Linear blend_normal_matrices(const float* weights, const std::uint16_t* slots, std::uint32_t count,
+                                           const float* matrices) {
+  const V z = zero();
+  Linear m = {z, z, z, z, z, z, z, z, z};
+  for (std::uint32_t k = 0; k < count; ++k) add_linear(load(weights + kLanes * k), matrices + 9 * static_cast<std::size_t>(slots[k]), m);
+  return m;
+}
+
+SUNDER_INLINE Linear linear_of(const Matrix& m) { return {m.xx, m.xy, m.xz, m.yx, m.yy, m.yz, m.zx, m.zy, m.zz}; }
+
+SUNDER_INLINE Vector transform(const Matrix& m, Vector v) {
+  return {add(add_product(m.zx, v.z, add_product(m.yx, v.y, mul(m.xx, v.x))), m.tx),
+          add(add_product(m.zy, v.z, add_product(m.yy, v.y, mul(m.xy, v.x))), m.ty),
+          add(add_product(m.zz, v.z, add_product(m.yz, v.y, mul(m.xz, v.x))), m.tz)};
+}
+
+SUNDER_INLINE Vector transform(const Linear& m, Vector v) {
+  return {add_product(m.zx, v.z, add_product(m.yx, v.y, mul(m.xx, v.x))),
+          add_product(m.zy, v.z, add_product(m.yy, v.y, mul(m.xy, v.x))),
+          add_product(m.zz, v.z, add_product(m.yz, v.y, mul(m.xz, v.x)))};
+}
+
+/// a * b.
+SUNDER_INLINE Linear product(const Linear& a, const Linear& b) {
+  const Vector x = transform(a, Vector{b.xx, b.xy, b.xz}), y = transform(a, Vector{b.yx, b.yy, b.yz}),
+               z = transform(a, Vector{b.zx, b.zy, b.zz});
+  return {x.x, x.y, x.z, y.x, y.y, y.z, z.x, z.y, z.z};
+}
+
+SUNDER_INLINE Linear sum(const Linear& a, const Linear& b) {
+  return {add(a.xx, b.xx), add(a.xy, b.xy), add(a.xz, b.xz), add(a.yx, b.yx), add(a.yy, b.yy),
+          add(a.yz, b.yz), add(a.zx, b.zx), add(a.zy, b.zy), add(a.zz, b.zz)};
+}
+
+/// `v` at unit length, or `otherwise` where it has none.
+SUNDER_INLINE Vector unit_or(Vector v, Vector otherwise) {
+  const V largest = max(max(abs(v.x), abs(v.y)), abs(v.z));  // squares of small numbers would underflow
+  const V scale = div(set(1.0f), largest);
+  const Vector s = {mul(v.x, scale), mul(v.y, scale), mul(v.z, scale)};
+  const V factor = div(set(1.0f), sqrt(add_product(s.z, s.z, add_product(s.y, s.y, mul(s.x, s.x)))));
+  const V least = set(1e-37f), most = set(3e38f);
+  return {if_between(least, largest, most, mul(s.x, factor), otherwise.x),
+          if_between(least, largest, most, mul(s.y, factor), otherwise.y),
+          if_between(least, largest, most, mul(s.z, factor), otherwise.z)};
+}
+
+SUNDER_INLINE Vector load_vector(const float* numbers) { return {load(numbers), load(numbers + kLanes), load(numbers + 2 * kLanes)}; }
+
+/// What is posed: bind attributes plus the displacements of the targets that have a weight.
+SUNDER_INLINE Vector load_morphed(const SkinWork& work, const Block& block, const float* numbers, std::size_t part) {
+  Vector v = load_vector(numbers);
+  if ((block.kind & kMorphed) == 0) return v;
+  const Blocks& mesh = *work.mesh;
+  const BlockExtra& extra = mesh.extras[block.extra];
+  for (std::uint32_t i = extra.morphs; i < extra.morphs + extra.morph_count; ++i) {
+    const float weight = work.morph_weights[mesh.morphs[i].target];
+    if (weight == 0.0f) continue;
+    const Vector delta = load_vector(mesh.morph_stream.data() + mesh.morphs[i].numbers + part);
+    const V w = set(weight);
+    v = {add_product(w, delta.x, v.x), add_product(w, delta.y, v.y), add_product(w, delta.z, v.z)};
+  }
+  return v;
+}
+
+/// Whether one of the slots that move a block has a flag.
+inline bool moves_by(const SkinWork& work, const Block& block, const std::vector<std::uint8_t>& flags) {
+  const std::uint16_t* slots = work.mesh->slots.data() + block.slots;
+  for (std::uint32_t k = 0; k < block.slot_count; ++k)
+    if (flags[slots[k]] != 0) return true;
+  return false;
+}
+
+// --- Blends that do not fit in registers, or are rare: kLanes numbers each, by way of memory. -------------------------------------
+
+struct BlendedLanes {
+  alignas(64) float matrix[12 * kLanes];
+  alignas(64) float normal[9 * kLanes];
+};
+
+/// Matrices of a block without weights a slot.
+inline void blend_lanes(const SkinWork& work, const Block& block, BlendedLanes& blended) {
+  const Blocks& mesh = *work.mesh;
+  const BlockExtra& extra = mesh.extras[block.extra];
+  const PaletteData& palette = *work.palette;
+  std::uint32_t i = 0;
+  for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
+    float matrix[12] = {}, normal[9] = {};
+    for (; i < mesh.lane_ends[extra.lane_ends + lane]; ++i) {
+      const Influence& influence = mesh.influences[extra.influences + i];
+      const float* of = palette.matrices.data() + 12 * static_cast<std::size_t>(influence.slot);
+      for (std::size_t e = 0; e < 12; ++e) matrix[e] += influence.weight * of[e];
+      if (!palette.any_uneven) continue;
+      const float* of_normals = palette.normal_matrices.data() + 9 * static_cast<std::size_t>(influence.slot);
+      for (std::size_t e = 0; e < 9; ++e) normal[e] += influence.weight * of_normals[e];
+    }
+    for (std::size_t e = 0; e < 12; ++e) blended.matrix[kLanes * e + lane] = matrix[e];
+    for (std::size_t e = 0; e < 9; ++e) blended.normal[kLanes * e + lane] = palette.any_uneven ? normal[e] : matrix[e];
+  }
+}
+
+/// Weights of some lanes, slot after slot, of a block of either kind.
+class SlotWeights {
+ public:
+  SlotWeights(const SkinWork& work, const Block& block, const float* numbers, std::uint32_t lane) {
+    const Blocks& mesh = *work.mesh;
+    if ((block.kind & kSparse) == 0) {
+      dense_ = numbers + kLanes * mesh.attribute_floats() + lane;
+      return;
+    }
+    const BlockExtra& extra = mesh.extras[block.extra];
+    influences_ = mesh.influences.data() + extra.influences;
+    const std::uint32_t* ends = mesh.lane_ends.data() + extra.lane_ends;
+    for (std::uint32_t i = 0; i < kVectorLanes; ++i) {
+      next_[i] = lane + i == 0 ? 0 : ends[lane + i - 1];
+      end_[i] = ends[lane + i];
+    }
+  }
+
+  /// To be asked for each slot of the block, in their order.
+  SUNDER_INLINE V of(std::uint32_t k, std::uint16_t slot) {
+    if (dense_ != nullptr) return load(dense_ + kLanes * k);
+    alignas(64) float weights[kLanes];
+    for (std::uint32_t i = 0; i < kVectorLanes; ++i)
+      weights[i] = next_[i] < end_[i] && influences_[next_[i]].slot == slot ? influences_[next_[i]++].weight : 0.0f;
+    return load(weights);
+  }
+
+ private:
+  const float* dense_ = nullptr;
+  const Influence* influences_ = nullptr;
+  std::uint32_t next_[kLanes] = {}, end_[kLanes] = {};
+};
+
+SUNDER_INLINE void store_linear(const Linear& m, float* numbers) {
+  store(m.xx, numbers);
+  store(m.xy, numbers + kLanes);
+  store(m.xz, numbers + 2 * kLanes);
+  store(m.yx, numbers + 3 * kLanes);
+  store(m.yy, numbers + 4 * kLanes);
+  store(m.yz, numbers + 5 * kLanes);
+  store(m.zx, numbers + 6 * kLanes);
+  store(m.zy, numbers + 7 * kLanes);
+  store(m.zz, numbers + 8 * kLanes);
+}
+
+SUNDER_INLINE Linear load_linear(const float* numbers) {
+  return {load(numbers),
+          load(numbers + kLanes),
+          load(numbers + 2 * kLanes),
+          load(numbers + 3 * kLanes),
+          load(numbers + 4 * kLanes),
+          load(numbers + 5 * kLanes),
+          load(numbers + 6 * kLanes),
+          load(numbers + 7 * kLanes),
+          load(numbers + 8 * kLanes)};
+}
+
+SUNDER_INLINE Matrix load_matrix(const float* numbers) {
+  const Linear m = load_linear(numbers);
+  return {m.xx, m.xy, m.xz, m.yx, m.yy, m.yz, m.zx, m.zy, m.zz,
+          load(numbers + 9 * kLanes), load(numbers + 10 * kLanes), load(numbers + 11 * kLanes)};
+}
+
+/// The motion that blended dual quaternions are, after the blended stretch. A quaternion is taken with the sign that agrees with the
+/// sum so far: both signs are the same rotation, and the shorter way is meant.
+/// Source: Kavan, Collins, Zara, O'Sullivan, Geometric skinning with approximate dual quaternion blending, TOG 2008 [kavan2008dual].
+inline void blend_motions(const SkinWork& work, const Block& block, const float* numbers, BlendedLanes& blended) {
+  const PaletteData& palette = *work.palette;
+  const std::uint16_t* slots = work.mesh->slots.data() + block.slots;
+  const bool is_stretched = moves_by(work, block, palette.is_stretched);
+  for (std::uint32_t lane = 0; lane < kLanes; lane += kVectorLanes) {
+    const V none = zero();
+    V x = none, y = none, z = none, w = none, dx = none, dy = none, dz = none, dw = none;
+    Linear stretch = {none, none, none, none, none, none, none, none, none}, stretch_of_normals = stretch;
+    SlotWeights weights(work, block, numbers, lane);
+    for (std::uint32_t k = 0; k < block.slot_count; ++k) {
+      const float* of = palette.motions.data() + 8 * static_cast<std::size_t>(slots[k]);
+      const V agreement =
+          add_product(w, set(of[3]), add_product(z, set(of[2]), add_product(y, set(of[1]), mul(x, set(of[0])))));
+      const V positive = weights.of(k, slots[k]), weight = negate_where_negative(agreement, positive);
+      x = add_product(weight, set(of[0]), x);
+      y = add_product(weight, set(of[1]), y);
+      z = add_product(weight, set(of[2]), z);
+      w = add_product(weight, set(of[3]), w);
+      dx = add_product(weight, set(of[4]), dx);
+      dy = add_product(weight, set(of[5]), dy);
+      dz = add_product(weight, set(of[6]), dz);
+      dw = add_product(weight, set(of[7]), dw);
+      if (!is_stretched) continue;
+      add_linear(positive, palette.stretches.data() + 18 * static_cast<std::size_t>(slots[k]), stretch);
+      add_linear(positive, palette.stretches.data() + 18 * static_cast<std::size_t>(slots[k]) + 9, stretch_of_normals);
+    }
+    const V length = sqrt(add_product(w, w, add_product(z, z, add_product(y, y, mul(x, x)))));
+    const V scale = div(set(1.0f), max(length, set(1e-30f)));  // lanes without a vertex have none
+    x = mul(x, scale), y = mul(y, scale), z = mul(z, scale), w = mul(w, scale);
+    dx = mul(dx, scale), dy = mul(dy, scale), dz = mul(dz, scale), dw = mul(dw, scale);
+
+    const V one = set(1.0f), two = set(2.0f);
+    const V xx = mul(x, x), yy = mul(y, y), zz = mul(z, z);
+    Linear turn;
+    turn.xx = sub(one, mul(two, add(yy, zz)));
+    turn.yy = sub(one, mul(two, add(xx, zz)));
+    turn.zz = sub(one, mul(two, add(xx, yy)));
+    turn.xy = mul(two, add(mul(x, y), mul(w, z)));
+    turn.yx = mul(two, sub(mul(x, y), mul(w, z)));
+    turn.xz = mul(two, sub(mul(x, z), mul(w, y)));
+    turn.zx = mul(two, add(mul(x, z), mul(w, y)));
+    turn.yz = mul(two, add(mul(y, z), mul(w, x)));
+    turn.zy = mul(two, sub(mul(y, z), mul(w, x)));
+    // Twice the dual part times the conjugate of the real one.
+    const V tx = mul(two, add(sub(mul(dx, w), mul(dw, x)), sub(mul(dz, y), mul(dy, z))));
+    const V ty = mul(two, add(sub(mul(dy, w), mul(dw, y)), sub(mul(dx, z), mul(dz, x))));
+    const V tz = mul(two, add(sub(mul(dz, w), mul(dw, z)), sub(mul(dy, x), mul(dx, y))));
+
+    Linear linear = turn, normal = turn;
+    if (is_stretched) {  // what the stretch adds is nothing where no bone of a vertex stretches: the same bits as in another block
+      linear = sum(turn, product(turn, stretch));
+      normal = sum(turn, product(turn, stretch_of_normals));
+    }
+    store_linear(linear, blended.matrix + lane);
+    store(tx, blended.matrix + 9 * kLanes + lane);
+    store(ty, blended.matrix + 10 * kLanes + lane);
+    store(tz, blended.matrix + 11 * kLanes + lane);
+    store_linear(normal, blended.normal + lane);
+  }
+}
+
+// --- Where results go. ------------------------------------------------------------------------------------------------------------
+
+SUNDER_INLINE bool is_packed(const StridedFloats<float>& array, std::size_t components) {
+  return array.stride == components * sizeof(float);
+}
+
+/// Results of a block whose vertices do not lie packed one after another, before they go to their places.
+struct PosedLanes {
+  alignas(64) float positions[3 * kLanes];
+  alignas(64) float normals[3 * kLanes];
+  alignas(64) float tangents[4 * kLanes];
+};
+
+inline void scatter(const StridedFloats<float>& to, const float* values, std::size_t components, const std::uint32_t* places,
+                    std::uint32_t count) {
+  unsigned char* bytes = reinterpret_cast<unsigned char*>(to.data);
+  if (components == 3)
+    for (std::uint32_t lane = 0; lane < count; ++lane) std::memcpy(bytes + to.stride * places[lane], values + 3 * lane, 12);
+  else
+    for (std::uint32_t lane = 0; lane < count; ++lane) std::memcpy(bytes + to.stride * places[lane], values + 4 * lane, 16);
+}
+
+// --- Vertices with a position for each influence: few, so one after another, and summed in double. ----------------------------------
+
+struct ExactSum {
+  double x = 0, y = 0, z = 0;
+};
+
+/// Adds an influence's part: its matrix' linear part (9 numbers) times its own vector, which morph targets displace.
+inline void add_part(const SkinWork& work, const ExactLane& lane, const float* linear, std::uint32_t influence, std::size_t part,
+                     ExactSum& sum) {
+  const Blocks& mesh = *work.mesh;
+  const std::size_t one = mesh.displacement_floats(), all = one * lane.influence_count;
+  const float* own = mesh.exact_stream.data() + lane.numbers + one * influence + part;
+  double v[3] = {own[0], own[1], own[2]};
+  for (std::uint32_t j = 0; j < mesh.morph_count; ++j) {
+    const double weight = work.morph_weights[j];
+    const float* delta = own + all * (j + 1);
+    for (std::size_t c = 0; c < 3; ++c) v[c] += weight * delta[c];
+  }
+  sum.x += linear[0] * v[0] + linear[3] * v[1] + linear[6] * v[2];
+  sum.y += linear[1] * v[0] + linear[4] * v[1] + linear[7] * v[2];
+  sum.z += linear[2] * v[0] + linear[5] * v[1] + linear[8] * v[2];
+}
+
+inline void write_exact(const ExactSum& sum, bool unit_length, float* to) {
+  double scale = 1;
+  if (unit_length) {
+    const double length = std::sqrt(sum.x * sum.x + sum.y * sum.y + sum.z * sum.z);
+    if (!(length > 0)) return;  // what the block found stays: the bind direction
+    scale = 1 / length;
+  }
+  to[0] = static_cast<float>(scale * sum.x);
+  to[1] = static_cast<float>(scale * sum.y);
+  to[2] = static_cast<float>(scale * sum.z);
+}
+
+inline void pose_exact_lanes(const SkinWork& work, const Block& block, PosedLanes& posed) {
+  const Blocks& mesh = *work.mesh;
+  const BlockExtra& extra = mesh.extras[block.extra];
+  const std::size_t tangent_part = mesh.has_normals ? 6 : 3;
+  for (std::uint32_t i = extra.exact_lanes; i < extra.exact_lanes + extra.exact_count; ++i) {
+    const ExactLane& lane = mesh.exact_lanes[i];
+    ExactSum position, normal, tangent;
+    for (std::uint32_t k = 0; k < lane.influence_count; ++k) {
+      const Influence& influence = mesh.exact_influences[lane.influences + k];
+      const float* matrix = work.palette->matrices.data() + 12 * static_cast<std::size_t>(influence.slot);
+      const double weight = influence.weight;
+      add_part(work, lane, matrix, k, 0, position);
+      position.x += weight * matrix[9];
+      position.y += weight * matrix[10];
+      position.z += weight * matrix[11];
+      if (work.target.normals.data != nullptr)
+        add_part(work, lane, work.palette->normal_matrices.data() + 9 * static_cast<std::size_t>(influence.slot), k, 3, normal);
+      if (work.target.tangents.data != nullptr) add_part(work, lane, matrix, k, tangent_part, tangent);
+    }
+    write_exact(position, false, posed.positions + 3 * lane.lane);
+    if (work.target.normals.data != nullptr) write_exact(normal, work.target.unit_length, posed.normals + 3 * lane.lane);
+    if (work.target.tangents.data != nullptr) write_exact(tangent, work.target.unit_length, posed.tangents + 4 * lane.lane);
+  }
+}
+
+// --- A block. -----------------------------------------------------------------------------------------------------------------------
+
+/// Poses `kVectorLanes` vertices from `lane` on. Outputs are null where nobody wants them.
+template <bool kStream>
+SUNDER_INLINE void pose_lanes(const SkinWork& work, const Block& block, const float* numbers, std::uint32_t lane, const Matrix& matrix,
+                              const Linear& normal_matrix, float* positions, float* normals, float* tangents) {
+  const Blocks& mesh = *work.mesh;
+  const float* at_lane = numbers + lane;
+  const Vector position = transform(matrix, load_morphed(work, block, at_lane, lane));
+  store_interleaved<kStream>(position.x, position.y, position.z, positions + 3 * lane);
+  if (normals != nullptr) {
+    const Vector bind = load_morphed(work, block, at_lane + 3 * kLanes, 3 * kLanes + lane);
+    Vector normal = transform(normal_matrix, bind);
+    if (work.target.unit_length) normal = unit_or(normal, bind);
+    store_interleaved<kStream>(normal.x, normal.y, normal.z, normals + 3 * lane);
+  }
+  if (tangents != nullptr) {
+    const std::size_t part = mesh.has_normals ? 6 * kLanes : 3 * kLanes;
+    const Vector bind = load_morphed(work, block, at_lane + part, part + lane);
+    Vector tangent = transform(linear_of(matrix), bind);
+    if (work.target.unit_length) tangent = unit_or(tangent, bind);
+    store_interleaved4(tangent.x, tangent.y, tangent.z, load(at_lane + part + 3 * kLanes), tangents + 4 * lane);
+  }
+}
+
+template <bool kStream>
+SUNDER_INLINE void pose_block(const SkinWork& work, const Block& block, const float* numbers, float* positions, float* normals,
+                              float* tangents) {
+  const Blocks& mesh = *work.mesh;
+  const PaletteData& palette = *work.palette;
+  if (palette.method == SkinningMethod::linear && (block.kind & kSparse) == 0) {
+    const float* weights = numbers + kLanes * mesh.attribute_floats();
+    const std::uint16_t* slots = mesh.slots.data() + block.slots;
+    const bool uneven = normals != nullptr && palette.any_uneven && moves_by(work, block, palette.is_uneven);
+    for (std::uint32_t lane = 0; lane < kLanes; lane += kVectorLanes) {
+      const Matrix matrix = blend_slots(weights + lane, slots, block.slot_count, palette.matrices.data());
+      if (uneven)
+        pose_lanes<kStream>(work, block, numbers, lane, matrix,
+                            blend_normal_matrices(weights + lane, slots, block.slot_count, palette.normal_matrices.data()), positions,
+                            normals, tangents);
+      else
+        pose_lanes<kStream>(work, block, numbers, lane, matrix, linear_of(matrix), positions, normals, tangents);
+    }
+    return;
+  }
+  BlendedLanes blended;
+  if (palette.method == SkinningMethod::linear)
+    blend_lanes(work, block, blended);
+  else
+    blend_motions(work, block, numbers, blended);
+  for (std::uint32_t lane = 0; lane < kLanes; lane += kVectorLanes)
+    pose_lanes<kStream>(work, block, numbers, lane, load_matrix(blended.matrix + lane), load_linear(blended.normal + lane), positions,
+                        normals, tangents);
+}
+
+template <bool kStream>
+void pose_blocks(const SkinWork& work, std::uint32_t first, std::uint32_t end) {
+  const Blocks& mesh = *work.mesh;
+  const VertexTarget& target = work.target;
+  const bool packed = is_packed(target.positions, 3) && (target.normals.data == nullptr || is_packed(target.normals, 3)) &&
+                      (target.tangents.data == nullptr || is_packed(target.tangents, 4));
+  PosedLanes posed;
+  std::uint32_t in_order[kLanes];
+  for (std::uint32_t b = first; b < end; ++b) {
+    const Block& block = mesh.blocks[b];
+    const float* numbers = mesh.stream.data() + block.numbers;
+    if (work.is_beyond_cache) prefetch_block(numbers, mesh.attribute_floats() + block.slot_count);
+    if (packed && block.lane_count == kLanes && (block.kind & (kScattered | kExact)) == 0) {
+      const std::size_t v = block.first_vertex;
+      pose_block<kStream>(work, block, numbers, target.positions.data + 3 * v,
+                          target.normals.data == nullptr ? nullptr : target.normals.data + 3 * v,
+                          target.tangents.data == nullptr ? nullptr : target.tangents.data + 4 * v);
+      continue;
+    }
+    pose_block<false>(work, block, numbers, posed.positions, target.normals.data == nullptr ? nullptr : posed.normals,
+                      target.tangents.data == nullptr ? nullptr : posed.tangents);
+    if ((block.kind & kExact) != 0 && work.palette->method == SkinningMethod::linear) pose_exact_lanes(work, block, posed);
+    const std::uint32_t* places = in_order;
+    if ((block.kind & kScattered) != 0)
+      places = mesh.places.data() + mesh.extras[block.extra].places;
+    else
+      for (std::uint32_t lane = 0; lane < kLanes; ++lane) in_order[lane] = block.first_vertex + lane;
+    scatter(target.positions, posed.positions, 3, places, block.lane_count);
+    if (target.normals.data != nullptr) scatter(target.normals, posed.normals, 3, places, block.lane_count);
+    if (target.tangents.data != nullptr) scatter(target.tangents, posed.tangents, 4, places, block.lane_count);
+  }
+  finish_streaming();
+}
+
+void run_kernel(const SkinWork& work, std::uint32_t first, std::uint32_t end) {
+  const auto is_aligned = [](const float* data) { return reinterpret_cast<std::uintptr_t>(data) % 64 == 0; };  // null is, too
+  if (work.is_beyond_cache && is_aligned(work.target.positions.data) && is_aligned(work.target.normals.data))
+    pose_blocks<true>(work, first, end);
+  else
+    pose_blocks<false>(work, first, end);
+}

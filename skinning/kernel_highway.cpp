@@ -1,0 +1,118 @@
+// The kernel for each kind of vectors that a CPU may have; the best is chosen when it first runs.
+
+#include "skinning/skin_work.h"
+
+#include <cmath>
+#include <cstring>
+
+// SSSE3 alone is too rare to carry, and AVX3_DL has nothing more that is used here (with it, Highway 1.0 does not compile for
+// -march=native of a CPU that the compiler knows in part). SVE vectors cannot be members of structs.
+#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "skinning/kernel_highway.cpp"
+#include <hwy/foreach_target.h>  // first: it includes this file once for each target
+#include <hwy/cache_control.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace sunder::skinning {
+namespace HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+#undef SUNDER_INLINE
+#define SUNDER_INLINE HWY_INLINE
+
+using Lanes = hn::CappedTag<float, kLanes>;
+using V = hn::Vec<Lanes>;
+constexpr Lanes kTag;
+constexpr std::uint32_t kVectorLanes = static_cast<std::uint32_t>(hn::MaxLanes(Lanes()));
+
+SUNDER_INLINE V zero() { return hn::Zero(kTag); }
+SUNDER_INLINE V set(float value) { return hn::Set(kTag, value); }
+SUNDER_INLINE V load(const float* numbers) { return hn::LoadU(kTag, numbers); }
+SUNDER_INLINE void store(V v, float* numbers) { hn::StoreU(v, kTag, numbers); }
+SUNDER_INLINE V add(V a, V b) { return hn::Add(a, b); }
+SUNDER_INLINE V sub(V a, V b) { return hn::Sub(a, b); }
+SUNDER_INLINE V mul(V a, V b) { return hn::Mul(a, b); }
+SUNDER_INLINE V div(V a, V b) { return hn::Div(a, b); }
+SUNDER_INLINE V sqrt(V a) { return hn::Sqrt(a); }
+SUNDER_INLINE V abs(V a) { return hn::Abs(a); }
+SUNDER_INLINE V max(V a, V b) { return hn::Max(a, b); }
+SUNDER_INLINE V negate_where_negative(V sign, V value) { return hn::IfThenElse(hn::Lt(sign, zero()), hn::Neg(value), value); }
+SUNDER_INLINE V if_between(V least, V value, V most, V inside, V outside) {
+  return hn::IfThenElse(hn::And(hn::Lt(least, value), hn::Lt(value, most)), inside, outside);
+}
+
+template <bool kStream>
+SUNDER_INLINE void store_part(V v, float* numbers) {
+  if constexpr (kStream)
+    hn::Stream(v, kTag, numbers);
+  else
+    hn::StoreU(v, kTag, numbers);
+}
+
+/// x y z x y z ...
+template <bool kStream>
+SUNDER_INLINE void store_interleaved(V x, V y, V z, float* numbers) {
+#if HWY_TARGET == HWY_AVX3
+  // Two permutations a vector; interleaving within 128 bits first, as Highway does, takes more. Numbers from 16 on name the second
+  // operand's lanes.
+  alignas(64) static constexpr std::int32_t kXY[3][16] = {{0, 16, 0, 1, 17, 0, 2, 18, 0, 3, 19, 0, 4, 20, 0, 5},
+                                                          {21, 0, 6, 22, 0, 7, 23, 0, 8, 24, 0, 9, 25, 0, 10, 26},
+                                                          {0, 11, 27, 0, 12, 28, 0, 13, 29, 0, 14, 30, 0, 15, 31, 0}};
+  alignas(64) static constexpr std::int32_t kWithZ[3][16] = {{0, 1, 16, 3, 4, 17, 6, 7, 18, 9, 10, 19, 12, 13, 20, 15},
+                                                             {0, 21, 2, 3, 22, 5, 6, 23, 8, 9, 24, 11, 12, 25, 14, 15},
+                                                             {26, 1, 2, 27, 4, 5, 28, 7, 8, 29, 10, 11, 30, 13, 14, 31}};
+  for (int i = 0; i < 3; ++i) {
+    const __m512 xy = _mm512_permutex2var_ps(x.raw, _mm512_load_si512(kXY[i]), y.raw);
+    store_part<kStream>(V{_mm512_permutex2var_ps(xy, _mm512_load_si512(kWithZ[i]), z.raw)}, numbers + 16 * i);
+  }
+#elif HWY_TARGET == HWY_SCALAR
+  numbers[0] = hn::GetLane(x);
+  numbers[1] = hn::GetLane(y);
+  numbers[2] = hn::GetLane(z);
+#else
+  if constexpr (kStream) {
+    alignas(64) float together[3 * kVectorLanes];
+    hn::StoreInterleaved3(x, y, z, kTag, together);
+    for (std::uint32_t i = 0; i < 3; ++i) hn::Stream(hn::Load(kTag, together + i * kVectorLanes), kTag, numbers + i * kVectorLanes);
+  } else {
+    hn::StoreInterleaved3(x, y, z, kTag, numbers);
+  }
+#endif
+}
+
+/// x y z w x y z w ...
+SUNDER_INLINE void store_interleaved4(V x, V y, V z, V w, float* numbers) {
+#if HWY_TARGET == HWY_SCALAR
+  numbers[0] = hn::GetLane(x);
+  numbers[1] = hn::GetLane(y);
+  numbers[2] = hn::GetLane(z);
+  numbers[3] = hn::GetLane(w);
+#else
+  hn::StoreInterleaved4(x, y, z, w, kTag, numbers);
+#endif
+}
+
+/// Asks for the memory of a later block: what hardware sees coming is 2 KB ahead at most, which is too late for main memory.
+SUNDER_INLINE void prefetch_block(const float* numbers, std::uint32_t vectors) {
+  constexpr std::uint32_t kAhead = 8192 / sizeof(float);
+  for (std::uint32_t i = 0; i < vectors; ++i) hwy::Prefetch(numbers + kAhead + kLanes * i);
+}
+SUNDER_INLINE void finish_streaming() { hwy::FlushStream(); }
+
+#include "skinning/kernel-inl.h"
+
+}  // namespace HWY_NAMESPACE
+}  // namespace sunder::skinning
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace sunder::skinning {
+
+HWY_EXPORT(run_kernel);
+
+void skin_blocks(const SkinWork& work, std::uint32_t first, std::uint32_t end) { HWY_DYNAMIC_DISPATCH(run_kernel)(work, first, end); }
+
+}  // namespace sunder::skinning
+#endif

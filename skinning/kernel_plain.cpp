@@ -1,0 +1,50 @@
+// The kernel without vectors: for builds without Highway.
+
+#include "skinning/skin_work.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#define SUNDER_INLINE inline
+
+namespace sunder::skinning {
+namespace {
+
+using V = float;
+constexpr std::uint32_t kVectorLanes = 1;
+
+V zero() { return 0.0f; }
+V set(float value) { return value; }
+V load(const float* numbers) { return *numbers; }
+void store(V v, float* numbers) { *numbers = v; }
+V add(V a, V b) { return a + b; }
+V sub(V a, V b) { return a - b; }
+V mul(V a, V b) { return a * b; }
+V div(V a, V b) { return a / b; }
+V sqrt(V a) { return std::sqrt(a); }
+V abs(V a) { return std::abs(a); }
+V max(V a, V b) { return std::max(a, b); }
+V negate_where_negative(V sign, V value) { return sign < 0.0f ? -value : value; }
+V if_between(V least, V value, V most, V inside, V outside) { return least < value && value < most ? inside : outside; }
+
+template <bool kStream>
+void store_interleaved(V x, V y, V z, float* numbers) {
+  numbers[0] = x;
+  numbers[1] = y;
+  numbers[2] = z;
+}
+void store_interleaved4(V x, V y, V z, V w, float* numbers) {
+  store_interleaved<false>(x, y, z, numbers);
+  numbers[3] = w;
+}
+void prefetch_block(const float*, std::uint32_t) {}
+void finish_streaming() {}
+
+#include "skinning/kernel-inl.h"
+
+}  // namespace
+
+void skin_blocks(const SkinWork& work, std::uint32_t first, std::uint32_t end) { run_kernel(work, first, end); }
+
+}  // namespace sunder::skinning

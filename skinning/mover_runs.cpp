@@ -1,0 +1,34 @@
+#include "skinning/mover_runs.h"
+
+#include <algorithm>
+
+namespace sunder::skinning {
+
+void MoverRuns::append(std::uint32_t mover, std::uint32_t block) {
+  const std::uint32_t newest = newest_[mover];
+  if (newest != kNoRun) {
+    Range& blocks = runs_[newest].blocks;
+    if (blocks.first + blocks.count > block) return;
+    if (blocks.first + blocks.count == block) {
+      ++blocks.count;
+      return;
+    }
+  }
+  newest_[mover] = static_cast<std::uint32_t>(runs_.size());
+  runs_.push_back({{block, 1}, mover, newest});
+}
+
+void MoverRuns::truncate(std::uint32_t first_block) {
+  // Runs are in the order in which they begin; older ones may reach beyond the cut.
+  while (!runs_.empty() && runs_.back().blocks.first >= first_block) {
+    newest_[runs_.back().mover] = runs_.back().older;
+    runs_.pop_back();
+  }
+  for (const std::uint32_t newest : newest_) {
+    if (newest == kNoRun) continue;
+    Range& blocks = runs_[newest].blocks;
+    blocks.count = std::min(blocks.count, first_block - blocks.first);
+  }
+}
+
+}  // namespace sunder::skinning

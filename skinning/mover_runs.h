@@ -1,0 +1,40 @@
+#pragma once
+
+#include <sunder/core/range.h>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace sunder::skinning {
+
+/// Which blocks a mover, a slot or a morph target, moves: as runs of blocks, the newest first, so that blocks can be appended and taken
+/// from the end.
+class MoverRuns {
+ public:
+  void resize(std::size_t movers) { newest_.assign(movers, kNoRun); }
+  [[nodiscard]] std::size_t mover_count() const { return newest_.size(); }
+
+  /// Says that `mover` moves `block`, which is at least as large as any before.
+  void append(std::uint32_t mover, std::uint32_t block);
+  /// Forgets all blocks from `first_block` on.
+  void truncate(std::uint32_t first_block);
+
+  template <class Visit>
+  void for_each_run(std::uint32_t mover, Visit visit) const {
+    for (std::uint32_t i = newest_[mover]; i != kNoRun; i = runs_[i].older) visit(runs_[i].blocks);
+  }
+
+  void reserve(std::size_t more_runs) { runs_.reserve(runs_.size() + more_runs); }
+
+ private:
+  static constexpr std::uint32_t kNoRun = 0xFFFF'FFFFu;
+  struct Run {
+    Range blocks;
+    std::uint32_t mover = 0, older = kNoRun;
+  };
+  std::vector<Run> runs_;
+  std::vector<std::uint32_t> newest_;  // one a mover
+};
+
+}  // namespace sunder::skinning

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "skinning/blocks.h"
+#include "skinning/palette_data.h"
+
+namespace sunder::skinning {
+
+/// One call's work on some blocks: everything that a kernel reads.
+struct SkinWork {
+  const Blocks* mesh = nullptr;
+  const PaletteData* palette = nullptr;
+  const float* morph_weights = nullptr;  ///< The mesh's own.
+  VertexTarget target;                   ///< Strides filled in; no data for what is not wanted.
+  bool is_beyond_cache = false;          ///< So much memory that it is asked for early, and written around the caches.
+};
+
+/// Poses blocks [first, end). By the best vectors that the CPU has, or one number after another where the build has no Highway.
+void skin_blocks(const SkinWork& work, std::uint32_t first, std::uint32_t end);
+
+}  // namespace sunder::skinning

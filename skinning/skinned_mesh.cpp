@@ -1,0 +1,251 @@
+#include <sunder/skinning/skinned_mesh.h>
+
+#include <algorithm>
+
+#include "skinning/block_builder.h"
+#include "skinning/blocks_to_write.h"
+#include "skinning/identity.h"
+#include "skinning/skin_work.h"
+
+namespace sunder {
+namespace skinning {
+namespace {
+
+constexpr std::uint32_t kWindow = 4096;          // vertices gathered at a time: what they write to stays in the L2 cache
+constexpr std::uint32_t kBlocksATask = 512;      // some 6 microseconds: below that a second thread comes too late
+constexpr std::uint32_t kTasksAThread = 4;       // so that a thread that is interrupted does not hold up the rest
+constexpr std::size_t kBeyondCache = 8u << 20u;  // bytes read and written: more than the L2 caches that a few threads have
+
+/// Forgets the blocks from `first` on, and all that only they have.
+void truncate(Blocks& blocks, std::uint32_t first) {
+  if (first >= blocks.block_count()) return;
+  const Block& block = blocks.blocks[first];
+  blocks.vertex_count = blocks.window(block);
+  blocks.stream.resize(block.numbers);
+  const Block* before = first > 0 ? &blocks.blocks[first - 1] : nullptr;
+  blocks.slots.resize(before != nullptr ? before->slots + before->slot_count : 0);
+  for (std::uint32_t b = first; b < blocks.block_count(); ++b) {
+    if (blocks.blocks[b].kind == 0) continue;
+    const BlockExtra extra = blocks.extras[blocks.blocks[b].extra];
+    blocks.extras.resize(blocks.blocks[b].extra);
+    blocks.places.resize(extra.places);
+    blocks.influences.resize(extra.influences);
+    blocks.lane_ends.resize(extra.lane_ends);
+    if (extra.morphs < blocks.morphs.size()) blocks.morph_stream.resize(blocks.morphs[extra.morphs].numbers);
+    blocks.morphs.resize(extra.morphs);
+    if (extra.exact_lanes < blocks.exact_lanes.size()) {
+      blocks.exact_stream.resize(blocks.exact_lanes[extra.exact_lanes].numbers);
+      blocks.exact_influences.resize(blocks.exact_lanes[extra.exact_lanes].influences);
+    }
+    blocks.exact_lanes.resize(extra.exact_lanes);
+    break;  // later ones' lie behind
+  }
+  blocks.blocks.resize(first);
+  blocks.revisions.resize(first);
+  blocks.movers.truncate(first);
+}
+
+/// The first block that holds a vertex from `first_changed` on, or shares a window with one that does.
+std::uint32_t first_block_to_replace(const Blocks& blocks, std::uint32_t first_changed) {
+  std::uint32_t kept = blocks.block_count();
+  while (kept > 0) {
+    // Blocks of a window are not in the order of their vertices: the window's end tells.
+    const std::uint32_t window = blocks.window(blocks.blocks[kept - 1]);
+    std::uint32_t first = kept - 1, last_vertex = 0;
+    for (;; --first) {
+      last_vertex = std::max(last_vertex, blocks.last_vertex(blocks.blocks[first]));
+      if (first == 0 || blocks.window(blocks.blocks[first - 1]) != window) break;
+    }
+    if (last_vertex < first_changed) break;
+    kept = first;
+  }
+  return kept;
+}
+
+template <class Float>
+StridedFloats<Float> with_stride(const StridedFloats<Float>& array, std::size_t components) {
+  return {array.data, array.stride != 0 ? array.stride : components * sizeof(float)};
+}
+
+Status check_target(const Blocks& blocks, const PaletteData& palette, const VertexTarget& target) {
+  if (palette.slots != blocks.slot_count)
+    return Status::failure(StatusCode::size_mismatch, kNone, "the palette has %zu slots, the mesh was made for %zu", palette.slots,
+                           blocks.slot_count);
+  if (palette.morph_weights.size() < blocks.first_morph_weight + blocks.morph_count)
+    return Status::failure(StatusCode::size_mismatch, kNone, "the mesh reads morph weights up to %u, the palette has %zu",
+                           blocks.first_morph_weight + blocks.morph_count, palette.morph_weights.size());
+  if (palette.revision == 0) return Status::failure(StatusCode::invalid_argument, kNone, "the palette has no pose yet");
+  if (target.vertex_count != blocks.vertex_count)
+    return Status::failure(StatusCode::size_mismatch, kNone, "the buffer holds %u vertices, the mesh has %u", target.vertex_count,
+                           blocks.vertex_count);
+  if (target.positions.data == nullptr && blocks.vertex_count > 0)
+    return Status::failure(StatusCode::invalid_argument, kNone, "the buffer has no place for positions");
+  if ((target.normals.data != nullptr && !blocks.has_normals) || (target.tangents.data != nullptr && !blocks.has_tangents))
+    return Status::failure(StatusCode::invalid_argument, kNone, "the buffer wants %s, the mesh has none",
+                           target.normals.data != nullptr && !blocks.has_normals ? "normals" : "tangents");
+  const auto is_bad = [](const StridedFloats<float>& array, std::size_t packed) {
+    return array.stride != 0 && (array.stride < packed || array.stride % sizeof(float) != 0);
+  };
+  if (is_bad(target.positions, 12) || is_bad(target.normals, 12) || is_bad(target.tangents, 16))
+    return Status::failure(StatusCode::invalid_argument, kNone,
+                           "a stride of the buffer is shorter than a vertex' numbers, or not a multiple of 4");
+  return {};
+}
+
+/// Ranges of blocks, cut into tasks of about as many blocks.
+struct Tasks {
+  SkinWork work;
+  std::span<const Range> ranges;
+  std::uint32_t blocks = 0, count = 0;
+
+  /// Poses the blocks of one task.
+  static void run(const void* tasks, std::uint32_t index) {
+    const Tasks& all = *static_cast<const Tasks*>(tasks);
+    const auto boundary = [&](std::uint32_t i) { return static_cast<std::uint32_t>(std::uint64_t{all.blocks} * i / all.count); };
+    const std::uint32_t first = boundary(index), end = boundary(index + 1);
+    std::uint32_t before = 0;  // blocks of earlier ranges
+    for (const Range& range : all.ranges) {
+      const std::uint32_t from = std::max(first, before), to = std::min(end, before + range.count);
+      if (from < to) skin_blocks(all.work, range.first + from - before, range.first + to - before);
+      before += range.count;
+      if (before >= end) break;
+    }
+  }
+};
+
+/// Vertices of some ranges of blocks.
+void list_vertices(const Blocks& blocks, std::span<const Range> ranges, std::vector<Range>& vertices) {
+  std::uint32_t window = kNone;
+  for (const Range& range : ranges) {
+    for (std::uint32_t b = range.first; b < range.first + range.count; ++b) {
+      const Block& block = blocks.blocks[b];
+      const std::uint32_t first = block.first_vertex, end = blocks.last_vertex(block) + 1;
+      if (!vertices.empty()) {
+        Range& last = vertices.back();
+        const std::uint32_t last_end = last.first + last.count;
+        if (blocks.window(block) == window || first == last_end) {  // in a window blocks are in the order of their bones
+          last.first = std::min(last.first, first);
+          last.count = std::max(last_end, end) - last.first;
+          window = blocks.window(block);
+          continue;
+        }
+      }
+      vertices.push_back({first, end - first});
+      window = blocks.window(block);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace skinning
+
+void PosedBuffer::set_target(const VertexTarget& target) {
+  target_ = target;
+  palette_ = mesh_ = 0;
+}
+
+SkinnedMesh::SkinnedMesh(std::unique_ptr<skinning::Blocks> blocks) : blocks_(std::move(blocks)) {}
+SkinnedMesh::~SkinnedMesh() = default;
+SkinnedMesh::SkinnedMesh(SkinnedMesh&&) noexcept = default;
+SkinnedMesh& SkinnedMesh::operator=(SkinnedMesh&&) noexcept = default;
+
+Result<SkinnedMesh> SkinnedMesh::create(const VertexSource& source, std::size_t slots) {
+  if (const Status status = skinning::check_source(source, slots, 0); !status) return status;
+  auto blocks = std::make_unique<skinning::Blocks>();
+  blocks->id = skinning::new_identity();
+  blocks->slot_count = slots;
+  blocks->has_normals = source.normals.data != nullptr;
+  blocks->has_tangents = source.tangents.data != nullptr;
+  blocks->first_morph_weight = source.first_morph_weight;
+  blocks->morph_count = static_cast<std::uint32_t>(source.morph_targets.size());
+  blocks->movers.resize(slots + source.morph_targets.size());
+  skinning::BlockBuilder builder(source, *blocks);
+  for (std::uint32_t v = 0; v < source.vertex_count; v += skinning::kWindow)
+    builder.append_gathered(v, std::min(source.vertex_count, v + skinning::kWindow));
+  blocks->vertex_count = source.vertex_count;
+  return SkinnedMesh(std::move(blocks));
+}
+
+std::uint32_t SkinnedMesh::vertex_count() const { return blocks_->vertex_count; }
+
+std::size_t SkinnedMesh::stream_bytes() const {
+  const skinning::Blocks& b = *blocks_;
+  return b.stream.size() * sizeof(float) + b.blocks.size() * sizeof(skinning::Block) + b.slots.size() * sizeof(b.slots[0]) +
+         b.extras.size() * sizeof(skinning::BlockExtra) + b.places.size() * sizeof(b.places[0]) +
+         b.influences.size() * sizeof(Influence) + b.lane_ends.size() * sizeof(b.lane_ends[0]);
+}
+
+Status SkinnedMesh::update(const VertexSource& source, std::uint32_t first_changed) {
+  skinning::Blocks& blocks = *blocks_;
+  if ((source.normals.data != nullptr) != blocks.has_normals || (source.tangents.data != nullptr) != blocks.has_tangents ||
+      source.morph_targets.size() != blocks.morph_count || source.first_morph_weight != blocks.first_morph_weight)
+    return Status::failure(StatusCode::size_mismatch, kNone, "the source has other attributes or morph targets than before");
+  if (first_changed > std::min(source.vertex_count, blocks.vertex_count))
+    return Status::failure(StatusCode::index_out_of_range, first_changed, "the first changed vertex is %u; there were %u, and are %u",
+                           first_changed, blocks.vertex_count, source.vertex_count);
+  if (const Status status = skinning::check_source(source, blocks.slot_count, first_changed); !status) return status;
+  if (first_changed == source.vertex_count && first_changed == blocks.vertex_count) return {};
+  const std::uint32_t first_block = skinning::first_block_to_replace(blocks, first_changed);
+  ++blocks.revision;
+  skinning::truncate(blocks, first_block);
+  skinning::BlockBuilder(source, blocks).append_in_order(blocks.vertex_count, source.vertex_count);
+  blocks.vertex_count = source.vertex_count;
+  return {};
+}
+
+void SkinnedMesh::reserve(std::uint32_t more_vertices, std::uint32_t influences) {
+  skinning::Blocks& b = *blocks_;
+  const std::size_t more_blocks = more_vertices / skinning::kLanes + 2;
+  // Neighbours along a tear share most of their bones: half of what they would need if none did.
+  const std::size_t slots = more_blocks * influences * 4;
+  b.stream.reserve(b.stream.size() + more_blocks * skinning::kLanes * (b.attribute_floats() + 4 * influences));
+  b.blocks.reserve(b.blocks.size() + more_blocks);
+  b.revisions.reserve(b.revisions.size() + more_blocks);
+  b.slots.reserve(b.slots.size() + slots);
+  b.movers.reserve(slots);
+}
+
+Status SkinnedMesh::deform(const BonePalette& palette, PosedBuffer& buffer, const ParallelFor& parallel_for) const {
+  using namespace skinning;
+  const Blocks& blocks = *blocks_;
+  const PaletteData& data = palette.data();
+  if (const Status status = check_target(blocks, data, buffer.target_); !status) return status;
+  const bool is_known = buffer.palette_ == data.id && buffer.mesh_ == blocks.id;
+  buffer.dirty_.clear();
+  if (is_known && buffer.palette_revision_ == data.revision && buffer.mesh_revision_ == blocks.revision) return {};
+
+  Tasks tasks;
+  if (is_known)
+    find_blocks_to_write(blocks, data, buffer.palette_revision_, buffer.mesh_revision_, buffer.marks_, buffer.blocks_to_write_);
+  else
+    buffer.blocks_to_write_.assign(blocks.block_count() > 0 ? 1 : 0, {0, blocks.block_count()});
+  for (const Range& range : buffer.blocks_to_write_) tasks.blocks += range.count;
+  if (tasks.blocks > 0) {
+    const std::size_t written = blocks.has_tangents ? 40 : 24;
+    const std::size_t bytes = blocks.stream.size() * sizeof(float) + written * blocks.vertex_count;
+    tasks.work.mesh = &blocks;
+    tasks.work.palette = &data;
+    tasks.work.morph_weights = data.morph_weights.data() + blocks.first_morph_weight;
+    tasks.work.target = buffer.target_;
+    tasks.work.target.positions = with_stride(buffer.target_.positions, 3);
+    tasks.work.target.normals = with_stride(buffer.target_.normals, 3);
+    tasks.work.target.tangents = with_stride(buffer.target_.tangents, 4);
+    tasks.work.is_beyond_cache = bytes / blocks.block_count() * tasks.blocks > kBeyondCache;
+    tasks.ranges = buffer.blocks_to_write_;
+    tasks.count = std::clamp(tasks.blocks / kBlocksATask, 1u, std::max(1u, parallel_for.threads) * kTasksAThread);
+    if (parallel_for.run != nullptr && tasks.count > 1) {
+      parallel_for.run(parallel_for.context, tasks.count, &Tasks::run, &tasks);
+    } else {
+      tasks.count = 1;
+      Tasks::run(&tasks, 0);
+    }
+    list_vertices(blocks, buffer.blocks_to_write_, buffer.dirty_);
+  }
+  buffer.palette_ = data.id;
+  buffer.mesh_ = blocks.id;
+  buffer.palette_revision_ = data.revision;
+  buffer.mesh_revision_ = blocks.revision;
+  return {};
+}
+
+}  // namespace sunder
