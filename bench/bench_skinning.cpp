@@ -1,78 +1,286 @@
-// Skinning of a tube of 64 bones, about four influences a vertex, with one morph target: positions, normals. Nanoseconds a vertex.
-#include <sunder/skinning/deform.h>
-#include <sunder/skinning/palette.h>
-#include <sunder/skinning/reference.h>
+// What it costs to pose a character: ours, naive Eigen and the touching of as many bytes, in turns; what moved and what did not.
 
-#include <benchmark/benchmark.h>
+#include <algorithm>
+#include <cstdio>
+#include <cstring>
+#include <deque>
+#include <functional>
 
-#include "support/rigs.h"
+#include "bench/json_object.h"
+#include "bench/measure.h"
+#include "bench/native_peers.h"
+#include "bench/skinning_scene.h"
+#include "samples/thread_pool.h"
 
-namespace sunder {
+namespace sunder::bench {
 namespace {
 
-struct Scene {
-  explicit Scene(std::uint32_t rings) : character(test::make_tube(rings, 64, 64)), palette(64), float_palette(64) {
-    test::Random random(1);
-    pose = test::random_pose(character, random);
-    if (!compute_palette(character.skins[0], pose, std::span(palette))) std::abort();
-    if (!compute_palette(character.skins[0], pose, std::span(float_palette))) std::abort();
-  }
-  Character character;
-  ModelPose pose;
-  std::vector<Affine3d> palette;
-  std::vector<Affine3f> float_palette;
+constexpr const char* kHelp =
+    "bench_skinning [--summary]\n"
+    "\n"
+    "Poses the bunny, its faces divided 1, 3, 7 and 16 times an edge, on 64 bones with up to four smooth influences a vertex: positions\n"
+    "and normals, nanoseconds a vertex, medians, candidates in turns. 'ordered': vertices in order_for_skinning(), for every candidate;\n"
+    "'file': in the file's order, which scatters them over the bones. 'warm': one character again and again; 'crowd': so many in turn\n"
+    "that none is left in a cache. Eigen and the touching of bytes are compiled for this machine alone, ours for any.\n"
+    "\n"
+    "--summary prints one JSON object, of ordered vertices.\n"
+    "  vs_eigen_in_cache    naive Eigen's time by ours, warm, at the size up to 35 thousand vertices where it is less\n"
+    "  vs_eigen_900k        the same at 892 thousand vertices\n"
+    "  vs_touch_900k        our time by that of touching the bytes that we read and write, the faster of plain stores and stores\n"
+    "                       around the caches, each with and without asking for memory early; at 892 thousand vertices\n"
+    "  vs_touch             the same by size\n"
+    "  two_threads          time on one thread by that on two, by the sample's thread pool, at the size from 31 thousand vertices on\n"
+    "                       where it is least\n"
+    "  two_threads_3k       the same at 3.5 thousand\n"
+    "  one_bone_overhead    a frame in which one of 64 bones moved: the mean part of a full frame's time that it takes, less the part\n"
+    "                       of the vertices that the bone moves; at the size where it is most\n"
+    "  idle_us              set() and deform() of a pose that did not change, at the size where they take longest\n"
+    "  max_error_vs_double  metres, of a character 2 m across, at any size\n";
+
+constexpr std::array<int, 4> kDivisions = {1, 3, 7, 16};
+
+/// A way to pose all of a crowd, once.
+struct Candidate {
+  const char* name;
+  std::function<void(std::size_t pose)> run;
+  std::vector<double> ns_per_vertex = {};
 };
 
-void report(benchmark::State& state, const Mesh& mesh) {
-  state.counters["vertices"] = mesh.vertex_count();
-  state.counters["per_vertex"] = benchmark::Counter(static_cast<double>(mesh.vertex_count()),
-                                                    benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
-}
-
-void deform_float(benchmark::State& state) {
-  const Scene scene(static_cast<std::uint32_t>(state.range(0)));
-  DeformedMesh deformed;
-  for (auto _ : state) {
-    if (!deform_mesh(scene.character.meshes[0], scene.float_palette, scene.pose.morph_weights, deformed))
-      state.SkipWithError("failed");
-    benchmark::DoNotOptimize(deformed.positions.data());
-  }
-  report(state, scene.character.meshes[0]);
-}
-
-void deform_reference(benchmark::State& state) {
-  const Scene scene(static_cast<std::uint32_t>(state.range(0)));
-  const Mesh& mesh = scene.character.meshes[0];
-  for (auto _ : state)
-    for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
-      benchmark::DoNotOptimize(deform_position_reference(mesh, v, scene.palette, scene.pose.morph_weights));
-      benchmark::DoNotOptimize(deform_normal_reference(mesh, v, scene.palette, scene.pose.morph_weights));
+/// Each in turns; a turn is as many frames as take a few hundred microseconds.
+void measure(std::vector<Candidate>& candidates, double vertices, int turns) {
+  const int frames = std::max(1, static_cast<int>(3e5 / vertices));
+  for (int turn = 0; turn < turns; ++turn)
+    for (Candidate& candidate : candidates) {
+      candidate.run(0);
+      const double seconds = seconds_of([&] {
+        for (int i = 0; i < frames; ++i) candidate.run(static_cast<std::size_t>(i + 1) % SkinningScene::kPoses);
+      });
+      candidate.ns_per_vertex.push_back(1e9 * seconds / frames / vertices);
     }
-  report(state, mesh);
 }
 
-/// Lower bound: reads what skinning reads and writes what it writes.
-void touch_memory(benchmark::State& state) {
-  const Scene scene(static_cast<std::uint32_t>(state.range(0)));
-  const Mesh& mesh = scene.character.meshes[0];
-  std::vector<Vec3f> positions(mesh.vertex_count()), normals(mesh.vertex_count());
-  for (auto _ : state) {
-    float sum = 0;
-    for (const Influence& influence : mesh.weights.influences) sum += influence.weight;
-    for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
-      positions[v] = mesh.positions[v] + mesh.morph_targets[0].position_deltas[v];
-      normals[v] = mesh.normals[v];
-    }
-    benchmark::DoNotOptimize(sum);
-    benchmark::DoNotOptimize(positions.data());
-    benchmark::DoNotOptimize(normals.data());
+double time_of(const std::vector<Candidate>& candidates, const char* name) {
+  for (const Candidate& candidate : candidates)
+    if (std::strcmp(candidate.name, name) == 0) return median(candidate.ns_per_vertex);
+  return 0;
+}
+
+/// The least of those whose name begins so.
+double least_time_of(const std::vector<Candidate>& candidates, const char* begin) {
+  double least = 0;
+  for (const Candidate& candidate : candidates)
+    if (std::strncmp(candidate.name, begin, std::strlen(begin)) == 0)
+      least = least == 0 ? median(candidate.ns_per_vertex) : std::min(least, median(candidate.ns_per_vertex));
+  return least;
+}
+
+void add_touching(std::vector<Candidate>& candidates, std::deque<CrowdMember>& crowd) {
+  const auto add = [&](const char* name, Stores stores, std::size_t ahead) {
+    candidates.push_back({name, [&crowd, stores, ahead](std::size_t) {
+                            for (CrowdMember& member : crowd)
+                              touch(member.in.data(), member.mesh.stream_bytes() / sizeof(float), member.positions.data(),
+                                    member.normals.data(), 3 * member.vertices, stores, ahead);
+                          }});
+  };
+  add("touch", Stores::plain, 0);
+  add("touch, early", Stores::plain, 8192);
+  add("touch, around caches", Stores::around_caches, 0);
+  add("touch, around caches, early", Stores::around_caches, 8192);
+}
+
+struct Times {
+  double eigen = 0, ours = 0, two_threads = 0, touch = 0;
+};
+
+Times measure_crowd(const SkinningScene& scene, std::deque<CrowdMember>& crowd, int turns) {
+  samples::ThreadPool pool(2);
+  std::vector<Candidate> candidates;
+  candidates.push_back({"eigen", [&](std::size_t pose) {
+                          for (CrowdMember& member : crowd) member.pose_by_eigen(scene, pose);
+                        }});
+  candidates.push_back({"ours", [&](std::size_t pose) {
+                          for (CrowdMember& member : crowd) member.pose_by_ours(pose, member.buffer);
+                        }});
+  candidates.push_back({"two threads", [&](std::size_t pose) {
+                          for (CrowdMember& member : crowd) member.pose_by_ours(pose, member.buffer, pool.hook());
+                        }});
+  add_touching(candidates, crowd);
+  measure(candidates, static_cast<double>(scene.vertex_count()) * static_cast<double>(crowd.size()), turns);
+  return {time_of(candidates, "eigen"), time_of(candidates, "ours"), time_of(candidates, "two threads"),
+          least_time_of(candidates, "touch")};
+}
+
+/// What a frame costs in which little or nothing moved.
+struct Frames {
+  double full_us = 0, set_us = 0, idle_us = 0;
+  double one_bone_share = 0;    ///< Mean part of a full frame.
+  double moved_share = 0;       ///< Mean part of the vertices that one bone moves.
+};
+
+Frames measure_frames(const SkinningScene& scene, CrowdMember& member) {
+  const Skin& skin = scene.character.skins[0];
+  const std::size_t slots = skin.bones.size();
+  BonePalette palette(slots, scene.poses[0].morph_weights.size());
+  std::array<std::vector<double>, 3> seconds;  // full, set, idle
+  std::vector<double> shares(slots), one_bone(slots);
+  for (const Influence& influence : scene.mesh().weights.influences)
+    if (influence.weight > 0.0f) shares[influence.slot] += 1.0 / scene.vertex_count();
+  const auto frame = [&] { return seconds_of([&] { (void)member.mesh.deform(palette, member.buffer); }); };
+  for (int i = 0; i < 40; ++i) {
+    const ModelPose& pose = scene.poses[static_cast<std::size_t>(i) % SkinningScene::kPoses];
+    seconds[1].push_back(seconds_of([&] { (void)palette.set(skin, pose); }));
+    seconds[0].push_back(frame());
+    seconds[2].push_back(seconds_of([&] {
+                           for (int j = 0; j < 100; ++j) {
+                             (void)palette.set(skin, pose);
+                             (void)member.mesh.deform(palette, member.buffer);
+                           }
+                         }) / 100);
   }
-  report(state, mesh);
+  const double full = median(seconds[0]);
+  Frames result = {full * 1e6, median(seconds[1]) * 1e6, median(seconds[2]) * 1e6, 0, 0};
+  std::vector<Affine3f> matrices = scene.matrices[0];
+  for (std::size_t slot = 0; slot < slots; ++slot) {
+    std::vector<double> of_slot;
+    for (int i = 0; i < 15; ++i) {
+      std::swap(matrices[slot], matrices[slot]);
+      matrices[slot].translation().x() += 1e-3f;
+      (void)palette.set(matrices, scene.poses[0].morph_weights);
+      of_slot.push_back(frame());
+    }
+    result.one_bone_share += median(of_slot) / full / static_cast<double>(slots);
+    result.moved_share += shares[slot] / static_cast<double>(slots);
+  }
+  return result;
 }
 
-BENCHMARK(deform_float)->Arg(54)->Arg(540)->Arg(2700);
-BENCHMARK(deform_reference)->Arg(54)->Arg(540)->Arg(2700);
-BENCHMARK(touch_memory)->Arg(54)->Arg(540)->Arg(2700);
+/// Other attributes and layouts, ours alone.
+std::vector<std::pair<const char*, double>> measure_variants(const SkinningScene& scene) {
+  CrowdMember member(scene), twisting(scene, SkinningMethod::dual_quaternion);
+  const std::uint32_t count = member.vertices;
+  float* interleaved = member.interleaved.data();
+  PosedBuffer positions({count, {member.positions.data()}, {}, {}});
+  PosedBuffer unit({count, {member.positions.data()}, {member.normals.data()}, {}, true});
+  PosedBuffer strided({count, {interleaved, 24}, {interleaved + 3, 24}, {}});
+  std::vector<Candidate> candidates;
+  const auto add = [&](const char* name, CrowdMember& of, PosedBuffer& buffer) {
+    candidates.push_back({name, [&of, &buffer](std::size_t pose) { of.pose_by_ours(pose, buffer); }});
+  };
+  add("positions", member, positions);
+  add("positions, unit normals", member, unit);
+  add("positions, normals, interleaved", member, strided);
+  add("the same by dual quaternions", twisting, twisting.buffer);
+  measure(candidates, count, 15);
+  std::vector<std::pair<const char*, double>> result;
+  for (const Candidate& candidate : candidates) result.emplace_back(candidate.name, median(candidate.ns_per_vertex));
+  return result;
+}
+
+std::deque<CrowdMember> make_crowd(const SkinningScene& scene) {
+  std::deque<CrowdMember> crowd;
+  std::size_t bytes = 0;
+  while (bytes < (std::size_t{96} << 20u) || crowd.size() < 2) {
+    crowd.emplace_back(scene);
+    bytes += crowd.back().mesh.stream_bytes() + 24u * scene.vertex_count();
+  }
+  return crowd;
+}
+
+struct SizeFigures {
+  std::uint32_t vertices = 0;
+  Times warm;
+  Frames frames;
+  SkinningError error, eigen_error;
+};
+
+SizeFigures measure_size(const SkinningScene& scene, std::deque<CrowdMember>& alone) {
+  SizeFigures figures;
+  figures.vertices = scene.vertex_count();
+  figures.warm = measure_crowd(scene, alone, 25);
+  figures.frames = measure_frames(scene, alone.front());
+  CrowdMember& member = alone.front();
+  member.pose_by_eigen(scene, 0);
+  figures.eigen_error = error_of(scene, 0, member.positions.data(), member.normals.data());
+  member.buffer.set_target(member.buffer.target());
+  member.pose_by_ours(0, member.buffer);
+  figures.error = error_of(scene, 0, member.positions.data(), member.normals.data());
+  return figures;
+}
+
+void print_row(std::uint32_t vertices, const char* what, const Times& times) {
+  std::printf("%8u  %-14s %6.2f %6.2f %6.2f   %5.2f %5.2f   %5.2f\n", vertices, what, times.eigen, times.ours, times.touch,
+              times.eigen / times.ours, times.ours / times.touch, times.ours / times.two_threads);
+  std::fflush(stdout);
+}
+
+void print_tables() {
+  std::printf("ns a vertex: positions and normals, 64 bones, up to 4 influences\n");
+  std::printf("vertices                  Eigen   ours  touch   Eigen/ours ours/touch   two threads\n");
+  for (const int divisions : kDivisions)
+    for (const bool ordered : {true, false}) {
+      const SkinningScene scene(divisions, ordered);
+      std::deque<CrowdMember> alone;
+      alone.emplace_back(scene);
+      const SizeFigures figures = measure_size(scene, alone);
+      print_row(scene.vertex_count(), ordered ? "ordered, warm" : "file, warm", figures.warm);
+      alone.clear();
+      std::deque<CrowdMember> crowd = make_crowd(scene);
+      print_row(scene.vertex_count(), ordered ? "ordered, crowd" : "file, crowd", measure_crowd(scene, crowd, 9));
+      crowd.clear();
+      const Frames& frames = figures.frames;
+      std::printf("          a frame %.2f us, set() %.2f us, unchanged %.3f us; one bone moves %.4f of the vertices, takes %.4f of a frame\n",
+                  frames.full_us, frames.set_us, frames.idle_us, frames.moved_share, frames.one_bone_share);
+      std::printf("          maximum error of 2 m: ours %.2g m, normals %.2g; Eigen %.2g m, normals %.2g\n", figures.error.position,
+                  figures.error.normal, figures.eigen_error.position, figures.eigen_error.normal);
+      for (const auto& [name, time] : measure_variants(scene)) std::printf("          %-34s %6.2f\n", name, time);
+    }
+}
+
+void print_summary() {
+  std::vector<SizeFigures> sizes;
+  for (const int divisions : kDivisions) {
+    const SkinningScene scene(divisions, true);
+    std::deque<CrowdMember> alone;
+    alone.emplace_back(scene);
+    sizes.push_back(measure_size(scene, alone));
+  }
+  const auto vs_touch = [](const SizeFigures& size) { return size.warm.ours / size.warm.touch; };
+  const auto vs_eigen = [](const SizeFigures& size) { return size.warm.eigen / size.warm.ours; };
+  const auto threads = [](const SizeFigures& size) { return size.warm.ours / size.warm.two_threads; };
+  double one_bone = -1, idle = 0, error = 0;
+  std::vector<std::pair<std::string, double>> touch_by_size;
+  for (const SizeFigures& size : sizes) {
+    one_bone = std::max(one_bone, size.frames.one_bone_share - size.frames.moved_share);
+    idle = std::max(idle, size.frames.idle_us);
+    error = std::max(error, size.error.position);
+    touch_by_size.emplace_back(std::to_string(size.vertices), vs_touch(size));
+  }
+  JsonObject object;
+  object.add("vs_eigen_in_cache", std::min(vs_eigen(sizes[0]), vs_eigen(sizes[1])));
+  object.add("vs_eigen_900k", vs_eigen(sizes[3]));
+  object.add("vs_touch_900k", vs_touch(sizes[3]));
+  object.add("vs_touch", touch_by_size);
+  object.add("two_threads", std::min({threads(sizes[1]), threads(sizes[2]), threads(sizes[3])}));
+  object.add("two_threads_3k", threads(sizes[0]));
+  object.add("one_bone_overhead", one_bone);
+  object.add("idle_us", idle);
+  object.add("max_error_vs_double", error);
+  object.end();
+}
 
 }  // namespace
-}  // namespace sunder
+}  // namespace sunder::bench
+
+int main(int argc, char** argv) {
+  if (argc == 1) {
+    sunder::bench::print_tables();
+    return 0;
+  }
+  if (argc == 2 && std::strcmp(argv[1], "--summary") == 0) {
+    sunder::bench::print_summary();
+    return 0;
+  }
+  const bool asked = argc == 2 && std::strcmp(argv[1], "--help") == 0;
+  std::fputs(sunder::bench::kHelp, asked ? stdout : stderr);
+  return asked ? 0 : 2;
+}

@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 
+#include "bench/json_object.h"
 #include "bench/measure.h"
 #include "bench/model_memory.h"
 #include "bench/repeated_operation.h"
@@ -23,31 +24,11 @@ constexpr double kMicroseconds = 1e6, kNanoseconds = 1e9;
 
 using Figures = std::array<double, kDivisions.size()>;  ///< By size.
 
-/// Prints one JSON object to stdout, member by member.
-class Object {
- public:
-  void add(const char* name, std::optional<double> value) {
-    begin(name);
-    if (value)
-      std::printf("%.6g", *value);
-    else
-      std::printf("null");
-  }
-  void add(const char* name, const Figures& values) {
-    begin(name);
-    for (std::size_t i = 0; i < values.size(); ++i)
-      std::printf("%s\"%s\": %.6g", i == 0 ? "{" : ", ", size_name(kDivisions[i]).c_str(), values[i]);
-    std::printf("}");
-  }
-  void end() { std::printf("}\n"); }
-
- private:
-  void begin(const char* name) {
-    std::printf("%s\"%s\": ", is_first_ ? "{" : ", ", name);
-    is_first_ = false;
-  }
-  bool is_first_ = true;
-};
+std::vector<std::pair<std::string, double>> by_size(const Figures& values) {
+  std::vector<std::pair<std::string, double>> named;
+  for (std::size_t i = 0; i < values.size(); ++i) named.emplace_back(size_name(kDivisions[i]), values[i]);
+  return named;
+}
 
 /// Something measured in turns with others.
 struct Candidate {
@@ -151,7 +132,7 @@ void print_summary() {
     points[i] = scene_of(kDivisions[i]).mesh().vertex_count();
   }
   const auto by_tear = [](std::optional<double> peer, double tear) { return peer ? std::optional(*peer / tear) : std::nullopt; };
-  Object object;
+  JsonObject object;
   object.add("warm_growth_3k_900k", tears.warm.back() / tears.warm.front());
   object.add("speedup_cgal_3k", by_tear(tears.cgal_smallest, tears.warm.front()));
   object.add("speedup_cgal_900k", by_tear(tears.cgal_largest, tears.warm.back()));
@@ -161,12 +142,12 @@ void print_summary() {
   object.add("posed_bytes_per_point", bytes.posed_points);
   object.add("warm_allocations", *std::max_element(tears.allocations.begin(), tears.allocations.end()));
   object.add("warm_undo_allocations", *std::max_element(tears.undo_allocations.begin(), tears.undo_allocations.end()));
-  object.add("warm_us", warm_us);
-  object.add("cold_us", cold_us);
+  object.add("warm_us", by_size(warm_us));
+  object.add("cold_us", by_size(cold_us));
   object.add("query_us_900k", query * kMicroseconds);
   object.add("cut_vs_vtk", vtk);
-  object.add("faces_crossed", tears.faces_crossed);
-  object.add("points", points);
+  object.add("faces_crossed", by_size(tears.faces_crossed));
+  object.add("points", by_size(points));
   object.end();
 }
 

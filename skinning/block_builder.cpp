@@ -206,6 +206,7 @@ void BlockBuilder::append_block(const std::uint32_t* vertices, std::uint32_t cou
   extra.exact_lanes = static_cast<std::uint32_t>(blocks_.exact_lanes.size());
   if (extra.last_vertex - block.first_vertex != count - 1 || window != block.first_vertex) {
     block.kind |= kScattered;
+    blocks_.scattered_end = number + 1;
     blocks_.places.insert(blocks_.places.end(), vertices, vertices + count);
     blocks_.places.resize(extra.places + kLanes);
   }

@@ -79,6 +79,8 @@ struct Blocks {
   std::vector<Influence> exact_influences;
   std::vector<float> exact_stream;
 
+  std::uint32_t scattered_end = 0;  ///< From this block on, all lie in the order of their vertices.
+
   MoverRuns movers;  ///< Blocks by slot, then by morph target.
 
   [[nodiscard]] std::uint32_t block_count() const { return static_cast<std::uint32_t>(blocks.size()); }

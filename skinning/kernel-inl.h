@@ -65,16 +65,16 @@ SUNDER_INLINE Linear blend_normal_matrices(const float* weights, const std::uint
 
 SUNDER_INLINE Linear linear_of(const Matrix& m) { return {m.xx, m.xy, m.xz, m.yx, m.yy, m.yz, m.zx, m.zy, m.zz}; }
 
+/// A row of a matrix times a vector.
+SUNDER_INLINE V row(V mx, V my, V mz, V x, V y, V z) { return add_product(mz, z, add_product(my, y, mul(mx, x))); }
+
 SUNDER_INLINE Vector transform(const Matrix& m, Vector v) {
-  return {add(add_product(m.zx, v.z, add_product(m.yx, v.y, mul(m.xx, v.x))), m.tx),
-          add(add_product(m.zy, v.z, add_product(m.yy, v.y, mul(m.xy, v.x))), m.ty),
-          add(add_product(m.zz, v.z, add_product(m.yz, v.y, mul(m.xz, v.x))), m.tz)};
+  return {add(row(m.xx, m.yx, m.zx, v.x, v.y, v.z), m.tx), add(row(m.xy, m.yy, m.zy, v.x, v.y, v.z), m.ty),
+          add(row(m.xz, m.yz, m.zz, v.x, v.y, v.z), m.tz)};
 }
 
 SUNDER_INLINE Vector transform(const Linear& m, Vector v) {
-  return {add_product(m.zx, v.z, add_product(m.yx, v.y, mul(m.xx, v.x))),
-          add_product(m.zy, v.z, add_product(m.yy, v.y, mul(m.xy, v.x))),
-          add_product(m.zz, v.z, add_product(m.yz, v.y, mul(m.xz, v.x)))};
+  return {row(m.xx, m.yx, m.zx, v.x, v.y, v.z), row(m.xy, m.yy, m.zy, v.x, v.y, v.z), row(m.xz, m.yz, m.zz, v.x, v.y, v.z)};
 }
 
 /// a * b.
@@ -389,9 +389,9 @@ SUNDER_INLINE void pose_lanes(const SkinWork& work, const Block& block, const fl
   }
 }
 
+/// Blocks of all kinds, by any method.
 template <bool kStream>
-SUNDER_INLINE void pose_block(const SkinWork& work, const Block& block, const float* numbers, float* positions, float* normals,
-                              float* tangents) {
+void pose_any_block(const SkinWork& work, const Block& block, const float* numbers, float* positions, float* normals, float* tangents) {
   const Blocks& mesh = *work.mesh;
   const PaletteData& palette = *work.palette;
   if (palette.method == SkinningMethod::linear && (block.kind & kSparse) == 0) {
@@ -419,36 +419,135 @@ SUNDER_INLINE void pose_block(const SkinWork& work, const Block& block, const fl
                         normals, tangents);
 }
 
+// What most blocks of most frames are: weights a slot, positions and perhaps normals, turned as the positions are. The same operations as
+// those of any block; but every number stays in a register, which compilers do for variables and not for structs. Hence the macros.
+#define SUNDER_ENTRIES(DO) \
+  DO(xx, 0) DO(xy, 1) DO(xz, 2) DO(yx, 3) DO(yy, 4) DO(yz, 5) DO(zx, 6) DO(zy, 7) DO(zz, 8) DO(tx, 9) DO(ty, 10) DO(tz, 11)
+
+template <bool kStream>
+SUNDER_INLINE void transform_common(V xx, V xy, V xz, V yx, V yy, V yz, V zx, V zy, V zz, V tx, V ty, V tz, const float* from,
+                                    float* positions, float* normals) {
+  V x = load(from), y = load(from + kLanes), z = load(from + 2 * kLanes);
+  store_interleaved<kStream>(add(row(xx, yx, zx, x, y, z), tx), add(row(xy, yy, zy, x, y, z), ty), add(row(xz, yz, zz, x, y, z), tz),
+                             positions);
+  if (normals == nullptr) return;
+  x = load(from + 3 * kLanes), y = load(from + 4 * kLanes), z = load(from + 5 * kLanes);
+  store_interleaved<kStream>(row(xx, yx, zx, x, y, z), row(xy, yy, zy, x, y, z), row(xz, yz, zz, x, y, z), normals);
+}
+
+template <bool kStream>
+SUNDER_INLINE void pose_common_block(const float* matrices, const std::uint16_t* slots, std::uint32_t slot_count,
+                                     std::uint32_t attribute_floats, const float* numbers, float* positions, float* normals) {
+  for (std::uint32_t lane = 0; lane < kLanes; lane += kVectorLanes) {
+    const float* weights = numbers + kLanes * attribute_floats + lane;
+#define SUNDER_BEGIN(entry, i) V entry = zero();
+#define SUNDER_ADD(entry, i) entry = add_product(w, set(of[i]), entry);
+    SUNDER_ENTRIES(SUNDER_BEGIN)
+    for (std::uint32_t k = 0; k < slot_count; ++k) {
+      const V w = load(weights + kLanes * k);
+      const float* of = matrices + 12 * static_cast<std::size_t>(slots[k]);
+      SUNDER_ENTRIES(SUNDER_ADD)
+    }
+#undef SUNDER_BEGIN
+#undef SUNDER_ADD
+    transform_common<kStream>(xx, xy, xz, yx, yy, yz, zx, zy, zz, tx, ty, tz, numbers + lane, positions + 3 * lane,
+                              normals == nullptr ? nullptr : normals + 3 * lane);
+  }
+}
+
+/// Two blocks, one behind the other, that the same slots move: each number of a matrix is loaded once for both. Loads are what limits a
+/// block alone. Only for vectors of 16 lanes, of which there are 32.
+template <bool kStream>
+SUNDER_INLINE void pose_common_pair(const float* matrices, const std::uint16_t* slots, std::uint32_t slot_count,
+                                    std::uint32_t attribute_floats, const float* numbers, float* positions, float* normals) {
+  const float* next = numbers + kLanes * (attribute_floats + slot_count);
+  const float *weights = numbers + kLanes * attribute_floats, *next_weights = next + kLanes * attribute_floats;
+#define SUNDER_BEGIN(entry, i) V entry = zero(), next_##entry = entry;
+#define SUNDER_ADD(entry, i)                   \
+  const V of_##entry = set(of[i]);             \
+  entry = add_product(w, of_##entry, entry);   \
+  next_##entry = add_product(next_w, of_##entry, next_##entry);
+  SUNDER_ENTRIES(SUNDER_BEGIN)
+  for (std::uint32_t k = 0; k < slot_count; ++k) {
+    const V w = load(weights + kLanes * k), next_w = load(next_weights + kLanes * k);
+    const float* of = matrices + 12 * static_cast<std::size_t>(slots[k]);
+    SUNDER_ENTRIES(SUNDER_ADD)
+  }
+#undef SUNDER_BEGIN
+#undef SUNDER_ADD
+  transform_common<kStream>(xx, xy, xz, yx, yy, yz, zx, zy, zz, tx, ty, tz, numbers, positions, normals);
+  transform_common<kStream>(next_xx, next_xy, next_xz, next_yx, next_yy, next_yz, next_zx, next_zy, next_zz, next_tx, next_ty, next_tz,
+                            next, positions + 3 * kLanes, normals == nullptr ? nullptr : normals + 3 * kLanes);
+}
+#undef SUNDER_ENTRIES
+
+/// Whether a block is as most are, but for where its vertices go.
+SUNDER_INLINE bool is_common(const SkinWork& work, const Block& block) {
+  return work.is_common && (block.kind & (kSparse | kMorphed)) == 0 &&
+         !(work.palette->any_uneven && moves_by(work, block, work.palette->is_uneven));
+}
+
+/// Poses a block by way of memory, from where its vertices go to their places.
+inline void pose_apart(const SkinWork& work, const Block& block, const float* numbers) {
+  const VertexTarget& target = work.target;
+  PosedLanes posed;
+  float* normals = target.normals.data == nullptr ? nullptr : posed.normals;
+  if (is_common(work, block))
+    pose_common_block<false>(work.palette->matrices.data(), work.mesh->slots.data() + block.slots, block.slot_count,
+                             work.attribute_floats, numbers, posed.positions, normals);
+  else
+    pose_any_block<false>(work, block, numbers, posed.positions, normals, target.tangents.data == nullptr ? nullptr : posed.tangents);
+  if ((block.kind & kExact) != 0 && work.palette->method == SkinningMethod::linear) pose_exact_lanes(work, block, posed);
+
+  std::uint32_t in_order[kLanes];
+  const std::uint32_t* places = in_order;
+  if ((block.kind & kScattered) != 0)
+    places = work.mesh->places.data() + work.mesh->extras[block.extra].places;
+  else
+    for (std::uint32_t lane = 0; lane < kLanes; ++lane) in_order[lane] = block.first_vertex + lane;
+  scatter(target.positions, posed.positions, 3, places, block.lane_count);
+  if (target.normals.data != nullptr) scatter(target.normals, posed.normals, 3, places, block.lane_count);
+  if (target.tangents.data != nullptr) scatter(target.tangents, posed.tangents, 4, places, block.lane_count);
+}
+
 template <bool kStream>
 void pose_blocks(const SkinWork& work, std::uint32_t first, std::uint32_t end) {
-  const Blocks& mesh = *work.mesh;
-  const VertexTarget& target = work.target;
-  const bool packed = is_packed(target.positions, 3) && (target.normals.data == nullptr || is_packed(target.normals, 3)) &&
+  // Variables of this function: compilers take it that a store of a vector may change anything else.
+  const VertexTarget target = work.target;
+  const Block* const blocks = work.mesh->blocks.data();
+  const float* const stream = work.mesh->stream.data();
+  const std::uint16_t* const slots = work.mesh->slots.data();
+  const float* const matrices = work.palette->matrices.data();
+  const std::uint32_t attribute_floats = work.attribute_floats;
+  const bool has_normals = target.normals.data != nullptr;
+  const bool packed = is_packed(target.positions, 3) && (!has_normals || is_packed(target.normals, 3)) &&
                       (target.tangents.data == nullptr || is_packed(target.tangents, 4));
-  PosedLanes posed;
-  std::uint32_t in_order[kLanes];
+  const bool all_common = work.is_common && packed && !work.palette->any_uneven;
   for (std::uint32_t b = first; b < end; ++b) {
-    const Block& block = mesh.blocks[b];
-    const float* numbers = mesh.stream.data() + block.numbers;
-    if (work.is_beyond_cache) prefetch_block(numbers, mesh.attribute_floats() + block.slot_count);
-    if (packed && block.lane_count == kLanes && (block.kind & (kScattered | kExact)) == 0) {
-      const std::size_t v = block.first_vertex;
-      pose_block<kStream>(work, block, numbers, target.positions.data + 3 * v,
-                          target.normals.data == nullptr ? nullptr : target.normals.data + 3 * v,
-                          target.tangents.data == nullptr ? nullptr : target.tangents.data + 4 * v);
-      continue;
+    const Block block = blocks[b];
+    const float* numbers = stream + block.numbers;
+    prefetch_block(numbers, attribute_floats + block.slot_count);
+    const std::size_t v = block.first_vertex;
+    float* const positions = target.positions.data + 3 * v;
+    float* const normals = has_normals ? target.normals.data + 3 * v : nullptr;
+    if (all_common && block.kind == 0 && block.lane_count == kLanes) {
+      if constexpr (kVectorLanes == kLanes) {
+        if (b + 1 < end && blocks[b + 1].slots == block.slots && blocks[b + 1].kind == 0 && blocks[b + 1].lane_count == kLanes) {
+          ++b;
+          prefetch_block(stream + blocks[b].numbers, attribute_floats + block.slot_count);
+          pose_common_pair<kStream>(matrices, slots + block.slots, block.slot_count, attribute_floats, numbers, positions, normals);
+          continue;
+        }
+      }
+      pose_common_block<kStream>(matrices, slots + block.slots, block.slot_count, attribute_floats, numbers, positions, normals);
+    } else if (!packed || block.lane_count != kLanes || (block.kind & (kScattered | kExact)) != 0) {
+      pose_apart(work, block, numbers);
+    } else if (is_common(work, block)) {
+      pose_common_block<kStream>(matrices, slots + block.slots, block.slot_count, attribute_floats, numbers, positions, normals);
+    } else {
+      pose_any_block<kStream>(work, block, numbers, positions, normals,
+                              target.tangents.data == nullptr ? nullptr : target.tangents.data + 4 * v);
     }
-    pose_block<false>(work, block, numbers, posed.positions, target.normals.data == nullptr ? nullptr : posed.normals,
-                      target.tangents.data == nullptr ? nullptr : posed.tangents);
-    if ((block.kind & kExact) != 0 && work.palette->method == SkinningMethod::linear) pose_exact_lanes(work, block, posed);
-    const std::uint32_t* places = in_order;
-    if ((block.kind & kScattered) != 0)
-      places = mesh.places.data() + mesh.extras[block.extra].places;
-    else
-      for (std::uint32_t lane = 0; lane < kLanes; ++lane) in_order[lane] = block.first_vertex + lane;
-    scatter(target.positions, posed.positions, 3, places, block.lane_count);
-    if (target.normals.data != nullptr) scatter(target.normals, posed.normals, 3, places, block.lane_count);
-    if (target.tangents.data != nullptr) scatter(target.tangents, posed.tangents, 4, places, block.lane_count);
   }
   finish_streaming();
 }

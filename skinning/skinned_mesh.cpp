@@ -12,7 +12,7 @@ namespace skinning {
 namespace {
 
 constexpr std::uint32_t kWindow = 4096;          // vertices gathered at a time: what they write to stays in the L2 cache
-constexpr std::uint32_t kBlocksATask = 512;      // some 6 microseconds: below that a second thread comes too late
+constexpr std::uint32_t kBlocksATask = 256;      // at least: some 4 microseconds, below which a second thread comes too late
 constexpr std::uint32_t kTasksAThread = 4;       // so that a thread that is interrupted does not hold up the rest
 constexpr std::size_t kBeyondCache = 8u << 20u;  // bytes read and written: more than the L2 caches that a few threads have
 
@@ -43,6 +43,7 @@ void truncate(Blocks& blocks, std::uint32_t first) {
   blocks.blocks.resize(first);
   blocks.revisions.resize(first);
   blocks.movers.truncate(first);
+  blocks.scattered_end = std::min(blocks.scattered_end, first);
 }
 
 /// The first block that holds a vertex from `first_changed` on, or shares a window with one that does.
@@ -113,26 +114,37 @@ struct Tasks {
   }
 };
 
-/// Vertices of some ranges of blocks.
+void append(std::uint32_t first, std::uint32_t end, std::vector<Range>& ranges) {
+  if (!ranges.empty() && ranges.back().first + ranges.back().count == first)
+    ranges.back().count += end - first;
+  else
+    ranges.push_back({first, end - first});
+}
+
+/// Vertices of some ranges of blocks, ascending.
 void list_vertices(const Blocks& blocks, std::span<const Range> ranges, std::vector<Range>& vertices) {
   std::uint32_t window = kNone;
   for (const Range& range : ranges) {
-    for (std::uint32_t b = range.first; b < range.first + range.count; ++b) {
-      const Block& block = blocks.blocks[b];
-      const std::uint32_t first = block.first_vertex, end = blocks.last_vertex(block) + 1;
-      if (!vertices.empty()) {
-        Range& last = vertices.back();
-        const std::uint32_t last_end = last.first + last.count;
-        if (blocks.window(block) == window || first == last_end) {  // in a window blocks are in the order of their bones
-          last.first = std::min(last.first, first);
-          last.count = std::max(last_end, end) - last.first;
-          window = blocks.window(block);
-          continue;
-        }
-      }
-      vertices.push_back({first, end - first});
-      window = blocks.window(block);
+    const std::uint32_t end = range.first + range.count;
+    std::uint32_t b = range.first;
+    if (range.count == blocks.block_count()) {
+      append(0, blocks.vertex_count, vertices);
+      return;
     }
+    for (; b < std::min(end, blocks.scattered_end); ++b) {
+      const Block& block = blocks.blocks[b];
+      const std::uint32_t first_vertex = block.first_vertex, end_vertex = blocks.last_vertex(block) + 1;
+      if (blocks.window(block) == window) {  // in a window blocks are in the order of their bones
+        Range& last = vertices.back();
+        const std::uint32_t last_end = std::max(last.first + last.count, end_vertex);
+        last.first = std::min(last.first, first_vertex);
+        last.count = last_end - last.first;
+        continue;
+      }
+      append(first_vertex, end_vertex, vertices);
+      window = (block.kind & kScattered) != 0 ? blocks.window(block) : kNone;
+    }
+    if (b < end) append(blocks.blocks[b].first_vertex, blocks.last_vertex(blocks.blocks[end - 1]) + 1, vertices);
   }
 }
 
@@ -230,9 +242,13 @@ Status SkinnedMesh::deform(const BonePalette& palette, PosedBuffer& buffer, cons
     tasks.work.target.positions = with_stride(buffer.target_.positions, 3);
     tasks.work.target.normals = with_stride(buffer.target_.normals, 3);
     tasks.work.target.tangents = with_stride(buffer.target_.tangents, 4);
+    tasks.work.attribute_floats = blocks.attribute_floats();
+    tasks.work.is_common = data.method == SkinningMethod::linear && !buffer.target_.unit_length && buffer.target_.tangents.data == nullptr;
     tasks.work.is_beyond_cache = bytes / blocks.block_count() * tasks.blocks > kBeyondCache;
     tasks.ranges = buffer.blocks_to_write_;
-    tasks.count = std::clamp(tasks.blocks / kBlocksATask, 1u, std::max(1u, parallel_for.threads) * kTasksAThread);
+    const std::uint32_t threads = std::max(1u, parallel_for.threads), most = tasks.blocks / kBlocksATask;
+    tasks.count = std::clamp(most / threads, 1u, kTasksAThread) * threads;  // as many for each
+    if (most < threads) tasks.count = std::max(1u, most);
     if (parallel_for.run != nullptr && tasks.count > 1) {
       parallel_for.run(parallel_for.context, tasks.count, &Tasks::run, &tasks);
     } else {

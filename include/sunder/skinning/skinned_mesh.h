@@ -42,7 +42,7 @@ class SUNDER_API PosedBuffer {
 class SUNDER_API SkinnedMesh {
  public:
   /// Vertices are blocked in their own order where neighbours share bones; where they do not, they are gathered by their bones, a few
-  /// thousand at a time, and written to their places. reorder_for_skinning() makes the first, faster case of the second.
+  /// thousand at a time, and written to their places. order_for_skinning() makes the first, faster case of the second.
   /// @param slots  of the skin.
   /// @return size_mismatch, index_out_of_range, non_finite_value, weights_not_normalized (by more than a hundredth), with the
   ///         vertex; invalid_argument for strides.
