@@ -120,7 +120,7 @@ Status check_source(const VertexSource& source, std::size_t slot_count, std::uin
   return {};
 }
 
-BlockBuilder::BlockBuilder(const VertexSource& source, Blocks& blocks) : source_(source), blocks_(blocks) {
+BlockBuilder::BlockBuilder(const VertexSource& source, Blocks& blocks) : source_(source), blocks_(blocks), slots_(blocks.scratch) {
   if (source.per_influence == nullptr) return;
   std::uint32_t first = 0;
   for (const std::uint32_t vertex : source.per_influence->vertices) {

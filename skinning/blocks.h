@@ -81,6 +81,8 @@ struct Blocks {
 
   std::uint32_t scattered_end = 0;  ///< From this block on, all lie in the order of their vertices.
 
+  std::vector<std::uint16_t> scratch;  ///< Slots of the block that is being made.
+
   MoverRuns movers;  ///< Blocks by slot, then by morph target.
 
   [[nodiscard]] std::uint32_t block_count() const { return static_cast<std::uint32_t>(blocks.size()); }

@@ -114,11 +114,16 @@ struct Tasks {
   }
 };
 
-void append(std::uint32_t first, std::uint32_t end, std::vector<Range>& ranges) {
-  if (!ranges.empty() && ranges.back().first + ranges.back().count == first)
-    ranges.back().count += end - first;
-  else
-    ranges.push_back({first, end - first});
+/// Makes one of ranges that touch.
+void join(std::vector<Range>& ranges) {
+  std::size_t kept = 0;
+  for (const Range& range : ranges) {
+    if (kept > 0 && ranges[kept - 1].first + ranges[kept - 1].count == range.first)
+      ranges[kept - 1].count += range.count;
+    else
+      ranges[kept++] = range;
+  }
+  ranges.resize(kept);
 }
 
 /// Vertices of some ranges of blocks, ascending.
@@ -128,7 +133,7 @@ void list_vertices(const Blocks& blocks, std::span<const Range> ranges, std::vec
     const std::uint32_t end = range.first + range.count;
     std::uint32_t b = range.first;
     if (range.count == blocks.block_count()) {
-      append(0, blocks.vertex_count, vertices);
+      vertices.push_back({0, blocks.vertex_count});
       return;
     }
     for (; b < std::min(end, blocks.scattered_end); ++b) {
@@ -141,11 +146,14 @@ void list_vertices(const Blocks& blocks, std::span<const Range> ranges, std::vec
         last.count = last_end - last.first;
         continue;
       }
-      append(first_vertex, end_vertex, vertices);
+      vertices.push_back({first_vertex, end_vertex - first_vertex});
       window = (block.kind & kScattered) != 0 ? blocks.window(block) : kNone;
     }
-    if (b < end) append(blocks.blocks[b].first_vertex, blocks.last_vertex(blocks.blocks[end - 1]) + 1, vertices);
+    if (b == end) continue;
+    const std::uint32_t first_vertex = blocks.blocks[b].first_vertex;
+    vertices.push_back({first_vertex, blocks.last_vertex(blocks.blocks[end - 1]) + 1 - first_vertex});
   }
+  join(vertices);
 }
 
 }  // namespace
@@ -207,14 +215,21 @@ Status SkinnedMesh::update(const VertexSource& source, std::uint32_t first_chang
 
 void SkinnedMesh::reserve(std::uint32_t more_vertices, std::uint32_t influences) {
   skinning::Blocks& b = *blocks_;
-  const std::size_t more_blocks = more_vertices / skinning::kLanes + 2;
-  // Neighbours along a tear share most of their bones: half of what they would need if none did.
-  const std::size_t slots = more_blocks * influences * 4;
-  b.stream.reserve(b.stream.size() + more_blocks * skinning::kLanes * (b.attribute_floats() + 4 * influences));
-  b.blocks.reserve(b.blocks.size() + more_blocks);
-  b.revisions.reserve(b.revisions.size() + more_blocks);
-  b.slots.reserve(b.slots.size() + slots);
-  b.movers.reserve(slots);
+  const auto add = [](auto& array, std::size_t more) { array.reserve(array.size() + more); };
+  const std::size_t blocks = more_vertices / skinning::kLanes + 2;
+  // Neighbours along a tear share most of their bones: a quarter of what they would need if none did.
+  const std::size_t slots = blocks * influences * skinning::kLanes / 4;
+  add(b.stream, blocks * skinning::kLanes * b.attribute_floats() + slots * skinning::kLanes);
+  add(b.blocks, blocks);
+  add(b.revisions, blocks);
+  add(b.slots, slots);
+  add(b.scratch, skinning::kLanes * influences);
+  add(b.extras, blocks);
+  add(b.influences, std::size_t{more_vertices} * influences);
+  add(b.lane_ends, blocks * skinning::kLanes);
+  add(b.morphs, blocks * b.morph_count);
+  add(b.morph_stream, blocks * b.morph_count * skinning::kLanes * b.displacement_floats());
+  b.movers.reserve(slots + blocks * b.morph_count);
 }
 
 Status SkinnedMesh::deform(const BonePalette& palette, PosedBuffer& buffer, const ParallelFor& parallel_for) const {

@@ -96,7 +96,7 @@ TEST(Digest, of_a_fixed_history_is_the_same_in_every_build) {
     ASSERT_TRUE(report) << report.error().text();
   }
   ASSERT_EQ(model.undo_count(), 5u) << "every operation tore something";
-  EXPECT_EQ(model.digest(), 8378522373955871420u);
+  EXPECT_EQ(model.digest(), 12368875678759424228u);
 }
 
 }  // namespace

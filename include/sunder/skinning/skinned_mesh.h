@@ -24,8 +24,10 @@ class SUNDER_API PosedBuffer {
   /// What the last deform() wrote, ascending and apart: what has to be uploaded. Where vertices are not ordered by their bones, ranges
   /// may hold some that kept their value.
   [[nodiscard]] std::span<const Range> dirty_vertices() const { return dirty_; }
-  /// Moves the buffer, or changes its size. What it holds counts as lost.
+  /// Moves the buffer, or wants other attributes. What it holds counts as lost.
   void set_target(const VertexTarget& target);
+  /// The same memory is of so many vertices now, after SkinnedMesh::update().
+  void set_vertex_count(std::uint32_t vertex_count) { target_.vertex_count = vertex_count; }
   [[nodiscard]] const VertexTarget& target() const { return target_; }
 
  private:
