@@ -32,10 +32,10 @@ run(${CMAKE_CTEST_COMMAND} --test-dir ${WORK}/find_package -C ${CONFIG} --output
 
 # The runtime with Eigen alone, as shared libraries: other packages are hidden from CMake, so needing one fails.
 set(hidden "")
-foreach(package TinyGLTF assimp nlohmann_json CLI11 GTest benchmark Ceres)
+foreach(package hwy TBB TinyGLTF assimp nlohmann_json CLI11 GTest benchmark Ceres)
   list(APPEND hidden -D CMAKE_DISABLE_FIND_PACKAGE_${package}=ON)
 endforeach()
-run(${CMAKE_COMMAND} -S ${consumer} -B ${WORK}/add_subdirectory ${common} -D SUNDER_SOURCE=${SUNDER_SOURCE} -D SUNDER_IO=OFF
+run(${CMAKE_COMMAND} -S ${consumer} -B ${WORK}/add_subdirectory ${common} -D SUNDER_SOURCE=${SUNDER_SOURCE} -D SUNDER_IO=OFF -D SUNDER_HIGHWAY=OFF
   -D CONSUMER_IO=OFF -D BUILD_SHARED_LIBS=ON ${hidden})
 run(${CMAKE_COMMAND} --build ${WORK}/add_subdirectory --config ${CONFIG})
 run(${CMAKE_CTEST_COMMAND} --test-dir ${WORK}/add_subdirectory -C ${CONFIG} --output-on-failure --no-tests=error)

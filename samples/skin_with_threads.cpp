@@ -1,0 +1,9 @@
+// Posing by a plain thread pool.
+
+#include "samples/thread_pool.h"
+#include "samples/waving_strip.h"
+
+int main() {
+  samples::ThreadPool pool(4);
+  return samples::wave_by("thread pool", pool.hook());
+}
