@@ -46,9 +46,9 @@ struct Candidate {
   std::vector<double> ns_per_vertex = {};
 };
 
-/// Each in turns; a turn is as many frames as take a few hundred microseconds.
+/// Each in turns; a turn is as many frames as take some two milliseconds, after one that does not count.
 void measure(std::vector<Candidate>& candidates, double vertices, int turns) {
-  const int frames = std::max(1, static_cast<int>(3e5 / vertices));
+  const int frames = std::max(3, static_cast<int>(2e6 / vertices));
   for (int turn = 0; turn < turns; ++turn)
     for (Candidate& candidate : candidates) {
       candidate.run(0);
@@ -88,8 +88,32 @@ void add_touching(std::vector<Candidate>& candidates, std::deque<CrowdMember>& c
   add("touch, around caches, early", Stores::around_caches, 8192);
 }
 
+/// The same by two threads, each part of the bytes at a time.
+void add_touching_by(samples::ThreadPool& pool, std::vector<Candidate>& candidates, std::deque<CrowdMember>& crowd) {
+  static constexpr std::uint32_t kParts = 8;
+  struct Work {
+    const CrowdMember* member;
+    Stores stores;
+    static void part(const void* work, std::uint32_t index) {
+      const auto& [member, how] = *static_cast<const Work*>(work);
+      const auto cut = [index](std::size_t floats) { return floats / kParts / 16 * 16 * index; };
+      const std::size_t in = member->mesh.stream_bytes() / sizeof(float), out = 3 * std::size_t{member->vertices};
+      touch(member->in.data() + cut(in), in / kParts, member->positions.data() + cut(out), member->normals.data() + cut(out), out / kParts,
+            how, 8192);
+    }
+  };
+  for (const Stores stores : {Stores::plain, Stores::around_caches})
+    candidates.push_back({stores == Stores::plain ? "by two: touch" : "by two: touch, around caches", [&, stores](std::size_t) {
+                            for (const CrowdMember& member : crowd) {
+                              const Work work = {&member, stores};
+                              const ParallelFor hook = pool.hook();
+                              hook.run(hook.context, kParts, &Work::part, &work);
+                            }
+                          }});
+}
+
 struct Times {
-  double eigen = 0, ours = 0, two_threads = 0, touch = 0;
+  double eigen = 0, ours = 0, two_threads = 0, touch = 0, touch_two_threads = 0;
 };
 
 Times measure_crowd(const SkinningScene& scene, std::deque<CrowdMember>& crowd, int turns) {
@@ -105,9 +129,10 @@ Times measure_crowd(const SkinningScene& scene, std::deque<CrowdMember>& crowd, 
                           for (CrowdMember& member : crowd) member.pose_by_ours(pose, member.buffer, pool.hook());
                         }});
   add_touching(candidates, crowd);
+  add_touching_by(pool, candidates, crowd);
   measure(candidates, static_cast<double>(scene.vertex_count()) * static_cast<double>(crowd.size()), turns);
   return {time_of(candidates, "eigen"), time_of(candidates, "ours"), time_of(candidates, "two threads"),
-          least_time_of(candidates, "touch")};
+          least_time_of(candidates, "touch"), least_time_of(candidates, "by two")};
 }
 
 /// What a frame costs in which little or nothing moved.
@@ -208,14 +233,14 @@ SizeFigures measure_size(const SkinningScene& scene, std::deque<CrowdMember>& al
 }
 
 void print_row(std::uint32_t vertices, const char* what, const Times& times) {
-  std::printf("%8u  %-14s %6.2f %6.2f %6.2f   %5.2f %5.2f   %5.2f\n", vertices, what, times.eigen, times.ours, times.touch,
-              times.eigen / times.ours, times.ours / times.touch, times.ours / times.two_threads);
+  std::printf("%8u  %-14s %6.2f %6.2f %6.2f   %10.2f %10.2f   %11.2f %5.2f\n", vertices, what, times.eigen, times.ours, times.touch,
+              times.eigen / times.ours, times.ours / times.touch, times.ours / times.two_threads, times.touch / times.touch_two_threads);
   std::fflush(stdout);
 }
 
 void print_tables() {
   std::printf("ns a vertex: positions and normals, 64 bones, up to 4 influences\n");
-  std::printf("vertices                  Eigen   ours  touch   Eigen/ours ours/touch   two threads\n");
+  std::printf("vertices                  Eigen   ours  touch   Eigen/ours ours/touch   two threads touch\n");
   for (const int divisions : kDivisions)
     for (const bool ordered : {true, false}) {
       const SkinningScene scene(divisions, ordered);

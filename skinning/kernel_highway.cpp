@@ -55,18 +55,17 @@ SUNDER_INLINE void store_part(V v, float* numbers) {
 template <bool kStream>
 SUNDER_INLINE void store_interleaved(V x, V y, V z, float* numbers) {
 #if HWY_TARGET == HWY_AVX3
-  // Two permutations a vector; interleaving within 128 bits first, as Highway does, takes more. Numbers from 16 on name the second
-  // operand's lanes.
-  alignas(64) static constexpr std::int32_t kXY[3][16] = {{0, 16, 0, 1, 17, 0, 2, 18, 0, 3, 19, 0, 4, 20, 0, 5},
-                                                          {21, 0, 6, 22, 0, 7, 23, 0, 8, 24, 0, 9, 25, 0, 10, 26},
-                                                          {0, 11, 27, 0, 12, 28, 0, 13, 29, 0, 14, 30, 0, 15, 31, 0}};
-  alignas(64) static constexpr std::int32_t kWithZ[3][16] = {{0, 1, 16, 3, 4, 17, 6, 7, 18, 9, 10, 19, 12, 13, 20, 15},
-                                                             {0, 21, 2, 3, 22, 5, 6, 23, 8, 9, 24, 11, 12, 25, 14, 15},
-                                                             {26, 1, 2, 27, 4, 5, 28, 7, 8, 29, 10, 11, 30, 13, 14, 31}};
-  for (int i = 0; i < 3; ++i) {
-    const __m512 xy = _mm512_permutex2var_ps(x.raw, _mm512_load_si512(kXY[i]), y.raw);
-    store_part<kStream>(V{_mm512_permutex2var_ps(xy, _mm512_load_si512(kWithZ[i]), z.raw)}, numbers + 16 * i);
-  }
+  // One permutation brings each x to its lane, whichever of the three vectors it goes to: no two want the same lane. The same for y
+  // and z; what is left are blends. (Highway interleaves within 128 bits first, which takes more.)
+  alignas(64) static constexpr std::int32_t kX[16] = {0, 11, 6, 1, 12, 7, 2, 13, 8, 3, 14, 9, 4, 15, 10, 5};
+  alignas(64) static constexpr std::int32_t kY[16] = {5, 0, 11, 6, 1, 12, 7, 2, 13, 8, 3, 14, 9, 4, 15, 10};
+  alignas(64) static constexpr std::int32_t kZ[16] = {10, 5, 0, 11, 6, 1, 12, 7, 2, 13, 8, 3, 14, 9, 4, 15};
+  constexpr __mmask16 kFirst = 0x9249, kSecond = 0x2492, kThird = 0x4924;  // lanes 0 3 6 ..., 1 4 7 ..., 2 5 8 ...
+  const __m512 px = _mm512_permutexvar_ps(_mm512_load_si512(kX), x.raw), py = _mm512_permutexvar_ps(_mm512_load_si512(kY), y.raw),
+               pz = _mm512_permutexvar_ps(_mm512_load_si512(kZ), z.raw);
+  store_part<kStream>(V{_mm512_mask_mov_ps(_mm512_mask_mov_ps(px, kSecond, py), kThird, pz)}, numbers);
+  store_part<kStream>(V{_mm512_mask_mov_ps(_mm512_mask_mov_ps(py, kSecond, pz), kThird, px)}, numbers + 16);
+  store_part<kStream>(V{_mm512_mask_mov_ps(_mm512_mask_mov_ps(pz, kSecond, px), kThird, py)}, numbers + 32);
 #elif HWY_TARGET == HWY_SCALAR
   numbers[0] = hn::GetLane(x);
   numbers[1] = hn::GetLane(y);

@@ -14,7 +14,7 @@ namespace {
 constexpr std::uint32_t kWindow = 4096;          // vertices gathered at a time: what they write to stays in the L2 cache
 constexpr std::uint32_t kBlocksATask = 256;      // at least: some 4 microseconds, below which a second thread comes too late
 constexpr std::uint32_t kTasksAThread = 4;       // so that a thread that is interrupted does not hold up the rest
-constexpr std::size_t kBeyondCache = 8u << 20u;  // bytes read and written: more than the L2 caches that a few threads have
+constexpr std::size_t kBeyondCache = 24u << 20u;  // bytes read and written: most of a last-level cache
 
 /// Forgets the blocks from `first` on, and all that only they have.
 void truncate(Blocks& blocks, std::uint32_t first) {
