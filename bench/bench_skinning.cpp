@@ -18,9 +18,12 @@ namespace {
 constexpr const char* kHelp =
     "bench_skinning [--summary]\n"
     "\n"
-    "Poses the bunny, its faces divided 1, 3, 7 and 16 times an edge, on 64 bones with up to four smooth influences a vertex: positions\n"
-    "and normals, nanoseconds a vertex, medians, candidates in turns. 'ordered': vertices in order_for_skinning(), for every candidate;\n"
-    "'file': in the file's order, which scatters them over the bones. 'warm': one character again and again; 'crowd': so many in turn\n"
+    "Poses the bunny, its faces divided 1, 3, 7 and 16 times an edge, on 64 bones with up to four smooth influences a vertex: "
+    "positions\n"
+    "and normals, nanoseconds a vertex, medians, candidates in turns. 'ordered': vertices in order_for_skinning(), for every "
+    "candidate;\n"
+    "'file': in the file's order, which scatters them over the bones. 'warm': one character again and again; 'crowd': so many in "
+    "turn\n"
     "that none is left in a cache. Eigen and the touching of bytes are compiled for this machine alone, ours for any.\n"
     "\n"
     "--summary prints one JSON object, of ordered vertices.\n"
@@ -29,10 +32,12 @@ constexpr const char* kHelp =
     "  vs_touch_900k        our time by that of touching the bytes that we read and write, the faster of plain stores and stores\n"
     "                       around the caches, each with and without asking for memory early; at 892 thousand vertices\n"
     "  vs_touch             the same by size\n"
-    "  two_threads          time on one thread by that on two, by the sample's thread pool, at the size from 31 thousand vertices on\n"
+    "  two_threads          time on one thread by that on two, by the sample's thread pool, at the size from 31 thousand vertices "
+    "on\n"
     "                       where it is least\n"
     "  two_threads_3k       the same at 3.5 thousand\n"
-    "  one_bone_overhead    a frame in which one of 64 bones moved: the mean part of a full frame's time that it takes, less the part\n"
+    "  one_bone_overhead    a frame in which one of 64 bones moved: the mean part of a full frame's time that it takes, less the "
+    "part\n"
     "                       of the vertices that the bone moves; at the size where it is most\n"
     "  idle_us              set() and deform() of a pose that did not change, at the size where they take longest\n"
     "  max_error_vs_double  metres, of a character 2 m across, at any size\n";
@@ -46,14 +51,14 @@ struct Candidate {
   std::vector<double> ns_per_vertex = {};
 };
 
-/// Each in turns; a turn is as many frames as take some two milliseconds, after one that does not count.
+/// Each in turns; a turn is as many frames as take some two milliseconds or more, after two that do not count.
 void measure(std::vector<Candidate>& candidates, double vertices, int turns) {
-  const int frames = std::max(3, static_cast<int>(2e6 / vertices));
+  const int frames = std::max(6, static_cast<int>(2e6 / vertices));
   for (int turn = 0; turn < turns; ++turn)
     for (Candidate& candidate : candidates) {
-      candidate.run(0);
+      for (const std::size_t pose : {0, 1}) candidate.run(pose);
       const double seconds = seconds_of([&] {
-        for (int i = 0; i < frames; ++i) candidate.run(static_cast<std::size_t>(i + 1) % SkinningScene::kPoses);
+        for (int i = 0; i < frames; ++i) candidate.run(static_cast<std::size_t>(i) % SkinningScene::kPoses);
       });
       candidate.ns_per_vertex.push_back(1e9 * seconds / frames / vertices);
     }
@@ -98,8 +103,8 @@ void add_touching_by(samples::ThreadPool& pool, std::vector<Candidate>& candidat
       const auto& [member, how] = *static_cast<const Work*>(work);
       const auto cut = [index](std::size_t floats) { return floats / kParts / 16 * 16 * index; };
       const std::size_t in = member->mesh.stream_bytes() / sizeof(float), out = 3 * std::size_t{member->vertices};
-      touch(member->in.data() + cut(in), in / kParts, member->positions.data() + cut(out), member->normals.data() + cut(out), out / kParts,
-            how, 8192);
+      touch(member->in.data() + cut(in), in / kParts, member->positions.data() + cut(out), member->normals.data() + cut(out),
+            out / kParts, how, 8192);
     }
   };
   for (const Stores stores : {Stores::plain, Stores::around_caches})
@@ -138,8 +143,8 @@ Times measure_crowd(const SkinningScene& scene, std::deque<CrowdMember>& crowd, 
 /// What a frame costs in which little or nothing moved.
 struct Frames {
   double full_us = 0, set_us = 0, idle_us = 0;
-  double one_bone_share = 0;    ///< Mean part of a full frame.
-  double moved_share = 0;       ///< Mean part of the vertices that one bone moves.
+  double one_bone_share = 0;  ///< Mean part of a full frame.
+  double moved_share = 0;     ///< Mean part of the vertices that one bone moves.
 };
 
 Frames measure_frames(const SkinningScene& scene, CrowdMember& member) {
@@ -160,7 +165,8 @@ Frames measure_frames(const SkinningScene& scene, CrowdMember& member) {
                              (void)palette.set(skin, pose);
                              (void)member.mesh.deform(palette, member.buffer);
                            }
-                         }) / 100);
+                         }) /
+                         100);
   }
   const double full = median(seconds[0]);
   Frames result = {full * 1e6, median(seconds[1]) * 1e6, median(seconds[2]) * 1e6, 0, 0};
@@ -234,7 +240,8 @@ SizeFigures measure_size(const SkinningScene& scene, std::deque<CrowdMember>& al
 
 void print_row(std::uint32_t vertices, const char* what, const Times& times) {
   std::printf("%8u  %-14s %6.2f %6.2f %6.2f   %10.2f %10.2f   %11.2f %5.2f\n", vertices, what, times.eigen, times.ours, times.touch,
-              times.eigen / times.ours, times.ours / times.touch, times.ours / times.two_threads, times.touch / times.touch_two_threads);
+              times.eigen / times.ours, times.ours / times.touch, times.ours / times.two_threads,
+              times.touch / times.touch_two_threads);
   std::fflush(stdout);
 }
 
@@ -253,8 +260,10 @@ void print_tables() {
       print_row(scene.vertex_count(), ordered ? "ordered, crowd" : "file, crowd", measure_crowd(scene, crowd, 9));
       crowd.clear();
       const Frames& frames = figures.frames;
-      std::printf("          a frame %.2f us, set() %.2f us, unchanged %.3f us; one bone moves %.4f of the vertices, takes %.4f of a frame\n",
-                  frames.full_us, frames.set_us, frames.idle_us, frames.moved_share, frames.one_bone_share);
+      std::printf(
+          "          a frame %.2f us, set() %.2f us, unchanged %.3f us; one bone moves %.4f of the vertices, takes %.4f of a "
+          "frame\n",
+          frames.full_us, frames.set_us, frames.idle_us, frames.moved_share, frames.one_bone_share);
       std::printf("          maximum error of 2 m: ours %.2g m, normals %.2g; Eigen %.2g m, normals %.2g\n", figures.error.position,
                   figures.error.normal, figures.eigen_error.position, figures.eigen_error.normal);
       for (const auto& [name, time] : measure_variants(scene)) std::printf("          %-34s %6.2f\n", name, time);

@@ -1,7 +1,8 @@
 #include "bench/native_peers.h"
 
-#include <Eigen/Core>
 #include <cstring>
+
+#include <Eigen/Core>
 
 #if defined(__SSE2__)
 #include <immintrin.h>
@@ -17,8 +18,7 @@ void skin_by_eigen(std::size_t vertices, const float* positions, const float* no
     for (std::size_t k = 0; k < 4; ++k) blended += weights[4 * v + k] * Eigen::Map<const Matrix>(matrices + 12 * slots[4 * v + k]);
     Eigen::Map<Eigen::Vector3f>(posed_positions + 3 * v) =
         blended.leftCols<3>() * Eigen::Map<const Eigen::Vector3f>(positions + 3 * v) + blended.col(3);
-    Eigen::Map<Eigen::Vector3f>(posed_normals + 3 * v) =
-        blended.leftCols<3>() * Eigen::Map<const Eigen::Vector3f>(normals + 3 * v);
+    Eigen::Map<Eigen::Vector3f>(posed_normals + 3 * v) = blended.leftCols<3>() * Eigen::Map<const Eigen::Vector3f>(normals + 3 * v);
   }
 }
 

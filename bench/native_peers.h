@@ -15,10 +15,10 @@ namespace sunder::bench {
 
 enum class Stores { plain, around_caches };
 
-/// Reads every vector of `in` and writes every vector of two arrays: the least that any program needs for as many bytes. Arrays begin at
-/// cache lines; rests of less than a line are left out.
+/// Reads every vector of `in` and writes every vector of two arrays: the least that any program needs for as many bytes. Arrays
+/// begin at cache lines; rests of less than a line are left out.
 /// @param ahead  bytes that it asks for in advance; 0: it leaves that to the machine.
-[[gnu::visibility("default")]] void touch(const float* in, std::size_t in_floats, float* out_a, float* out_b, std::size_t out_floats,
-                                          Stores stores, std::size_t ahead);
+[[gnu::visibility("default")]] void touch(const float* in, std::size_t in_floats, float* out_a, float* out_b,
+                                          std::size_t out_floats, Stores stores, std::size_t ahead);
 
 }  // namespace sunder::bench

@@ -9,8 +9,8 @@
 
 namespace samples {
 
-/// A plain thread pool behind sunder::ParallelFor. A worker that has nothing to do looks for work a little longer before it sleeps: the
-/// next call of a frame comes soon, and waking a thread takes as long as posing ten thousand vertices.
+/// A plain thread pool behind sunder::ParallelFor. A worker that has nothing to do looks for work a little longer before it sleeps:
+/// the next call of a frame comes soon, and waking a thread takes as long as posing ten thousand vertices.
 class ThreadPool {
  public:
   /// @param threads  that work at once, the calling one among them.
@@ -42,8 +42,8 @@ class ThreadPool {
     while (pool.done_.load(std::memory_order_acquire) < count) std::this_thread::yield();
   }
 
-  /// A job is a number of tasks that are left and, above it, the job's own number: a worker that comes late sees another job, and what
-  /// it read of the old one is not used.
+  /// A job is a number of tasks that are left and, above it, the job's own number: a worker that comes late sees another job, and
+  /// what it read of the old one is not used.
   void publish(std::uint32_t count) {
     const std::uint64_t job = (tickets_.load() >> 32u) + 1;
     tickets_.store(job << 32u | count);

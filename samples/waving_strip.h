@@ -60,7 +60,8 @@ inline int wave_by(const char* name, const sunder::ParallelFor& parallel_for) {
     if (!skinned->deform(palette, of_one) || !skinned->deform(palette, of_all, parallel_for)) return 1;
     std::uint32_t written = 0;
     for (const sunder::Range& range : of_all.dirty_vertices()) written += range.count;
-    if (frame < 3) std::printf("frame %d: %6u of %u vertices written, in %zu ranges\n", frame, written, count, of_all.dirty_vertices().size());
+    if (frame < 3)
+      std::printf("frame %d: %6u of %u vertices written, in %zu ranges\n", frame, written, count, of_all.dirty_vertices().size());
   }
   const bool same = std::memcmp(alone.data(), together.data(), alone.size() * sizeof(alone[0])) == 0;
   std::printf("%s, %u threads: %s\n", name, parallel_for.threads, same ? "the same bits as on one" : "OTHER bits than on one");

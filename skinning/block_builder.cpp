@@ -70,7 +70,8 @@ Status check_per_influence(const VertexSource& source) {
   for (const InfluencePositions::Deltas& target : exact.morph_targets)
     all_fit = all_fit && fits(target.positions, false) && fits(target.normals, false) && fits(target.tangents, false);
   if (!all_fit)
-    return Status::failure(StatusCode::size_mismatch, kNone, "positions per influence: arrays do not fit %zu influences", influences);
+    return Status::failure(StatusCode::size_mismatch, kNone, "positions per influence: arrays do not fit %zu influences",
+                           influences);
   return {};
 }
 
@@ -91,7 +92,8 @@ Status check_vertex(const VertexSource& source, std::size_t slot_count, std::uin
     sum += static_cast<double>(weight);
   });
   if (beyond != kNone)
-    return Status::failure(StatusCode::index_out_of_range, vertex, "vertex %u: slot %u, the skin has %zu", vertex, beyond, slot_count);
+    return Status::failure(StatusCode::index_out_of_range, vertex, "vertex %u: slot %u, the skin has %zu", vertex, beyond,
+                           slot_count);
   if (!is_weight || !(std::abs(sum - 1) <= 0.01))
     return Status::failure(StatusCode::weights_not_normalized, vertex, "vertex %u: weights are negative or sum to %g", vertex, sum);
   return {};
@@ -256,7 +258,9 @@ void BlockBuilder::append_weights(const std::uint32_t* vertices, std::uint32_t c
     for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
       const std::size_t first = blocks_.influences.size();
       if (lane < count)
-        for_each_influence(source_, vertices[lane], [&](std::uint32_t slot, float weight) { blocks_.influences.push_back({slot, weight}); });
+        for_each_influence(source_, vertices[lane], [&](std::uint32_t slot, float weight) {
+          blocks_.influences.push_back({slot, weight});
+        });
       std::stable_sort(blocks_.influences.begin() + static_cast<std::ptrdiff_t>(first), blocks_.influences.end(),
                        [](const Influence& a, const Influence& b) { return a.slot < b.slot; });
       std::size_t end = first;
@@ -331,7 +335,8 @@ void BlockBuilder::append_exact(const std::uint32_t* vertices, std::uint32_t cou
     append_all(exact);
     for (std::uint32_t j = 0; j < source_.morph_targets.size(); ++j) {
       append_all(exact.morph_targets.empty() ? InfluencePositions::Deltas() : exact.morph_targets[j]);
-      if (!exact.morph_targets.empty()) blocks_.movers.append(static_cast<std::uint32_t>(blocks_.slot_count) + j, blocks_.block_count());
+      if (!exact.morph_targets.empty())
+        blocks_.movers.append(static_cast<std::uint32_t>(blocks_.slot_count) + j, blocks_.block_count());
     }
     ++extra.exact_count;
   }

@@ -32,8 +32,8 @@ class BlockBuilder {
 
   const VertexSource& source_;
   Blocks& blocks_;
-  std::vector<std::uint16_t>& slots_;       // of the block at hand, ascending
-  std::uint32_t influence_count_ = 0;       // of the block at hand
+  std::vector<std::uint16_t>& slots_;  // of the block at hand, ascending
+  std::uint32_t influence_count_ = 0;  // of the block at hand
   std::vector<std::uint32_t> order_, gathered_;
   std::vector<std::uint32_t> exact_first_;  // one a vertex of source_.per_influence: where its positions begin
 };

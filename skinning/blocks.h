@@ -19,29 +19,30 @@ struct Block {
   std::uint32_t slots = 0;         ///< First of the slots that move it, in Blocks::slots, ascending.
   std::uint16_t slot_count = 0;
   std::uint8_t lane_count = kLanes;
-  std::uint8_t kind = 0;     ///< Bits of BlockKind.
-  std::uint32_t extra = 0;   ///< In Blocks::extras, where `kind` has any bit.
+  std::uint8_t kind = 0;    ///< Bits of BlockKind.
+  std::uint32_t extra = 0;  ///< In Blocks::extras, where `kind` has any bit.
 };
 
 enum BlockKind : std::uint8_t {
   kSparse = 1,     ///< Influences a vertex instead of weights a slot: its vertices share too few bones.
   kScattered = 2,  ///< Its vertices do not follow one another.
   kMorphed = 4,
-  kExact = 8,      ///< Some of its vertices have a position for each influence.
+  kExact = 8,  ///< Some of its vertices have a position for each influence.
 };
 
 /// What only some blocks have. Each index is the first of its own in an array of Blocks.
 struct BlockExtra {
-  std::uint32_t places = 0;                          ///< kLanes vertices, in Blocks::places.
-  std::uint32_t last_vertex = 0;                     ///< The largest.
-  std::uint32_t window = 0;                          ///< First vertex of those it was gathered from.
-  std::uint32_t influences = 0;                      ///< Of lane 0, in Blocks::influences; `lane_ends` follow.
-  std::uint32_t lane_ends = 0;                       ///< kLanes ends in Blocks::lane_ends, counted from `influences`.
-  std::uint32_t morphs = 0, morph_count = 0;         ///< In Blocks::morphs.
-  std::uint32_t exact_lanes = 0, exact_count = 0;    ///< In Blocks::exact_lanes.
+  std::uint32_t places = 0;                        ///< kLanes vertices, in Blocks::places.
+  std::uint32_t last_vertex = 0;                   ///< The largest.
+  std::uint32_t window = 0;                        ///< First vertex of those it was gathered from.
+  std::uint32_t influences = 0;                    ///< Of lane 0, in Blocks::influences; `lane_ends` follow.
+  std::uint32_t lane_ends = 0;                     ///< kLanes ends in Blocks::lane_ends, counted from `influences`.
+  std::uint32_t morphs = 0, morph_count = 0;       ///< In Blocks::morphs.
+  std::uint32_t exact_lanes = 0, exact_count = 0;  ///< In Blocks::exact_lanes.
 };
 
-/// A morph target's part in a block: its displacements, kLanes x, y, z of positions, then of normals, of tangents as the mesh has them.
+/// A morph target's part in a block: its displacements, kLanes x, y, z of positions, then of normals, of tangents as the mesh has
+/// them.
 struct BlockMorph {
   std::uint32_t target = 0;
   std::uint64_t numbers = 0;  ///< In Blocks::morph_stream.

@@ -35,8 +35,8 @@ void list_runs(const std::vector<std::uint64_t>& marks, std::vector<Range>& rang
 
 }  // namespace
 
-void find_blocks_to_write(const Blocks& blocks, const PaletteData& palette, std::uint64_t palette_revision, std::uint64_t mesh_revision,
-                          std::vector<std::uint64_t>& marks, std::vector<Range>& ranges) {
+void find_blocks_to_write(const Blocks& blocks, const PaletteData& palette, std::uint64_t palette_revision,
+                          std::uint64_t mesh_revision, std::vector<std::uint64_t>& marks, std::vector<Range>& ranges) {
   marks.assign((blocks.block_count() + 63) / 64, 0);
   ranges.clear();
   ranges.reserve(blocks.block_count() / 2 + 1);

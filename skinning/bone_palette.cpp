@@ -1,9 +1,10 @@
 #include <sunder/skinning/bone_palette.h>
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <atomic>
 #include <cstring>
+
+#include <Eigen/SVD>
 
 #include "skinning/identity.h"
 #include "skinning/normal_matrix.h"

@@ -1,8 +1,9 @@
-// The kernel: included once for each kind of vectors, by a file that defines V, kVectorLanes and operations on them. No include guard.
+// The kernel: included once for each kind of vectors, by a file that defines V, kVectorLanes and operations on them. No include
+// guard.
 //
-// A block's 16 vertices are posed side by side, in parts of as many lanes as a vector has. Every lane does the same operations in the
-// same order as every other, in each kind of vector and of block: products and sums are rounded one by one, sums over slots ascend
-// and begin with zero. So a vertex is posed to the same bits wherever it stands, and what coincides goes on coinciding.
+// A block's 16 vertices are posed side by side, in parts of as many lanes as a vector has. Every lane does the same operations in
+// the same order as every other, in each kind of vector and of block: products and sums are rounded one by one, sums over slots
+// ascend and begin with zero. So a vertex is posed to the same bits wherever it stands, and what coincides goes on coinciding.
 
 /// sum_k w_k M_k of some lanes, column after column.
 struct Matrix {
@@ -59,7 +60,8 @@ SUNDER_INLINE Linear blend_normal_matrices(const float* weights, const std::uint
                                            const float* matrices) {
   const V z = zero();
   Linear m = {z, z, z, z, z, z, z, z, z};
-  for (std::uint32_t k = 0; k < count; ++k) add_linear(load(weights + kLanes * k), matrices + 9 * static_cast<std::size_t>(slots[k]), m);
+  for (std::uint32_t k = 0; k < count; ++k)
+    add_linear(load(weights + kLanes * k), matrices + 9 * static_cast<std::size_t>(slots[k]), m);
   return m;
 }
 
@@ -101,7 +103,9 @@ SUNDER_INLINE Vector unit_or(Vector v, Vector otherwise) {
           if_between(least, largest, most, mul(s.z, factor), otherwise.z)};
 }
 
-SUNDER_INLINE Vector load_vector(const float* numbers) { return {load(numbers), load(numbers + kLanes), load(numbers + 2 * kLanes)}; }
+SUNDER_INLINE Vector load_vector(const float* numbers) {
+  return {load(numbers), load(numbers + kLanes), load(numbers + 2 * kLanes)};
+}
 
 /// What is posed: bind attributes plus the displacements of the targets that have a weight.
 SUNDER_INLINE Vector load_morphed(const SkinWork& work, const Block& block, const float* numbers, std::size_t part) {
@@ -127,7 +131,8 @@ inline bool moves_by(const SkinWork& work, const Block& block, const std::vector
   return false;
 }
 
-// --- Blends that do not fit in registers, or are rare: kLanes numbers each, by way of memory. -------------------------------------
+// --- Blends that do not fit in registers, or are rare: kLanes numbers each, by way of memory.
+// -------------------------------------
 
 struct BlendedLanes {
   alignas(64) float matrix[12 * kLanes];
@@ -214,13 +219,23 @@ SUNDER_INLINE Linear load_linear(const float* numbers) {
 
 SUNDER_INLINE Matrix load_matrix(const float* numbers) {
   const Linear m = load_linear(numbers);
-  return {m.xx, m.xy, m.xz, m.yx, m.yy, m.yz, m.zx, m.zy, m.zz,
-          load(numbers + 9 * kLanes), load(numbers + 10 * kLanes), load(numbers + 11 * kLanes)};
+  return {m.xx,
+          m.xy,
+          m.xz,
+          m.yx,
+          m.yy,
+          m.yz,
+          m.zx,
+          m.zy,
+          m.zz,
+          load(numbers + 9 * kLanes),
+          load(numbers + 10 * kLanes),
+          load(numbers + 11 * kLanes)};
 }
 
-/// The motion that blended dual quaternions are, after the blended stretch. A quaternion is taken with the sign that agrees with the
-/// sum so far: both signs are the same rotation, and the shorter way is meant.
-/// Source: Kavan, Collins, Zara, O'Sullivan, Geometric skinning with approximate dual quaternion blending, TOG 2008 [kavan2008dual].
+/// The motion that blended dual quaternions are, after the blended stretch. A quaternion is taken with the sign that agrees with
+/// the sum so far: both signs are the same rotation, and the shorter way is meant. Source: Kavan, Collins, Zara, O'Sullivan,
+/// Geometric skinning with approximate dual quaternion blending, TOG 2008 [kavan2008dual].
 inline void blend_motions(const SkinWork& work, const Block& block, const float* numbers, BlendedLanes& blended) {
   const PaletteData& palette = *work.palette;
   const std::uint16_t* slots = work.mesh->slots.data() + block.slots;
@@ -232,8 +247,7 @@ inline void blend_motions(const SkinWork& work, const Block& block, const float*
     SlotWeights weights(work, block, numbers, lane);
     for (std::uint32_t k = 0; k < block.slot_count; ++k) {
       const float* of = palette.motions.data() + 8 * static_cast<std::size_t>(slots[k]);
-      const V agreement =
-          add_product(w, set(of[3]), add_product(z, set(of[2]), add_product(y, set(of[1]), mul(x, set(of[0])))));
+      const V agreement = add_product(w, set(of[3]), add_product(z, set(of[2]), add_product(y, set(of[1]), mul(x, set(of[0])))));
       const V positive = weights.of(k, slots[k]), weight = negate_where_negative(agreement, positive);
       x = add_product(weight, set(of[0]), x);
       y = add_product(weight, set(of[1]), y);
@@ -282,7 +296,8 @@ inline void blend_motions(const SkinWork& work, const Block& block, const float*
   }
 }
 
-// --- Where results go. ------------------------------------------------------------------------------------------------------------
+// --- Where results go.
+// ------------------------------------------------------------------------------------------------------------
 
 SUNDER_INLINE bool is_packed(const StridedFloats<float>& array, std::size_t components) {
   return array.stride == components * sizeof(float);
@@ -304,7 +319,8 @@ inline void scatter(const StridedFloats<float>& to, const float* values, std::si
     for (std::uint32_t lane = 0; lane < count; ++lane) std::memcpy(bytes + to.stride * places[lane], values + 4 * lane, 16);
 }
 
-// --- Vertices with a position for each influence: few, so one after another, and summed in double. ----------------------------------
+// --- Vertices with a position for each influence: few, so one after another, and summed in double.
+// ----------------------------------
 
 struct ExactSum {
   double x = 0, y = 0, z = 0;
@@ -364,12 +380,14 @@ inline void pose_exact_lanes(const SkinWork& work, const Block& block, PosedLane
   }
 }
 
-// --- A block. -----------------------------------------------------------------------------------------------------------------------
+// --- A block.
+// -----------------------------------------------------------------------------------------------------------------------
 
 /// Poses `kVectorLanes` vertices from `lane` on. Outputs are null where nobody wants them.
 template <bool kStream>
-SUNDER_INLINE void pose_lanes(const SkinWork& work, const Block& block, const float* numbers, std::uint32_t lane, const Matrix& matrix,
-                              const Linear& normal_matrix, float* positions, float* normals, float* tangents) {
+SUNDER_INLINE void pose_lanes(const SkinWork& work, const Block& block, const float* numbers, std::uint32_t lane,
+                              const Matrix& matrix, const Linear& normal_matrix, float* positions, float* normals,
+                              float* tangents) {
   const Blocks& mesh = *work.mesh;
   const float* at_lane = numbers + lane;
   const Vector position = transform(matrix, load_morphed(work, block, at_lane, lane));
@@ -391,7 +409,8 @@ SUNDER_INLINE void pose_lanes(const SkinWork& work, const Block& block, const fl
 
 /// Blocks of all kinds, by any method.
 template <bool kStream>
-void pose_any_block(const SkinWork& work, const Block& block, const float* numbers, float* positions, float* normals, float* tangents) {
+void pose_any_block(const SkinWork& work, const Block& block, const float* numbers, float* positions, float* normals,
+                    float* tangents) {
   const Blocks& mesh = *work.mesh;
   const PaletteData& palette = *work.palette;
   if (palette.method == SkinningMethod::linear && (block.kind & kSparse) == 0) {
@@ -402,8 +421,8 @@ void pose_any_block(const SkinWork& work, const Block& block, const float* numbe
       const Matrix matrix = blend_slots(weights + lane, slots, block.slot_count, palette.matrices.data());
       if (uneven)
         pose_lanes<kStream>(work, block, numbers, lane, matrix,
-                            blend_normal_matrices(weights + lane, slots, block.slot_count, palette.normal_matrices.data()), positions,
-                            normals, tangents);
+                            blend_normal_matrices(weights + lane, slots, block.slot_count, palette.normal_matrices.data()),
+                            positions, normals, tangents);
       else
         pose_lanes<kStream>(work, block, numbers, lane, matrix, linear_of(matrix), positions, normals, tangents);
     }
@@ -415,12 +434,13 @@ void pose_any_block(const SkinWork& work, const Block& block, const float* numbe
   else
     blend_motions(work, block, numbers, blended);
   for (std::uint32_t lane = 0; lane < kLanes; lane += kVectorLanes)
-    pose_lanes<kStream>(work, block, numbers, lane, load_matrix(blended.matrix + lane), load_linear(blended.normal + lane), positions,
-                        normals, tangents);
+    pose_lanes<kStream>(work, block, numbers, lane, load_matrix(blended.matrix + lane), load_linear(blended.normal + lane),
+                        positions, normals, tangents);
 }
 
-// What most blocks of most frames are: weights a slot, positions and perhaps normals, turned as the positions are. The same operations as
-// those of any block; but every number stays in a register, which compilers do for variables and not for structs. Hence the macros.
+// What most blocks of most frames are: weights a slot, positions and perhaps normals, turned as the positions are. The same
+// operations as those of any block; but every number stays in a register, which compilers do for variables and not for structs.
+// Hence the macros.
 #define SUNDER_ENTRIES(DO) \
   DO(xx, 0) DO(xy, 1) DO(xz, 2) DO(yx, 3) DO(yy, 4) DO(yz, 5) DO(zx, 6) DO(zy, 7) DO(zz, 8) DO(tx, 9) DO(ty, 10) DO(tz, 11)
 
@@ -428,8 +448,8 @@ template <bool kStream>
 SUNDER_INLINE void transform_common(V xx, V xy, V xz, V yx, V yy, V yz, V zx, V zy, V zz, V tx, V ty, V tz, const float* from,
                                     float* positions, float* normals) {
   V x = load(from), y = load(from + kLanes), z = load(from + 2 * kLanes);
-  store_interleaved<kStream>(add(row(xx, yx, zx, x, y, z), tx), add(row(xy, yy, zy, x, y, z), ty), add(row(xz, yz, zz, x, y, z), tz),
-                             positions);
+  store_interleaved<kStream>(add(row(xx, yx, zx, x, y, z), tx), add(row(xy, yy, zy, x, y, z), ty),
+                             add(row(xz, yz, zz, x, y, z), tz), positions);
   if (normals == nullptr) return;
   x = load(from + 3 * kLanes), y = load(from + 4 * kLanes), z = load(from + 5 * kLanes);
   store_interleaved<kStream>(row(xx, yx, zx, x, y, z), row(xy, yy, zy, x, y, z), row(xz, yz, zz, x, y, z), normals);
@@ -455,17 +475,17 @@ SUNDER_INLINE void pose_common_block(const float* matrices, const std::uint16_t*
   }
 }
 
-/// Two blocks, one behind the other, that the same slots move: each number of a matrix is loaded once for both. Loads are what limits a
-/// block alone. Only for vectors of 16 lanes, of which there are 32.
+/// Two blocks, one behind the other, that the same slots move: each number of a matrix is loaded once for both. Loads are what
+/// limits a block alone. Only for vectors of 16 lanes, of which there are 32.
 template <bool kStream>
 SUNDER_INLINE void pose_common_pair(const float* matrices, const std::uint16_t* slots, std::uint32_t slot_count,
                                     std::uint32_t attribute_floats, const float* numbers, float* positions, float* normals) {
   const float* next = numbers + kLanes * (attribute_floats + slot_count);
   const float *weights = numbers + kLanes * attribute_floats, *next_weights = next + kLanes * attribute_floats;
 #define SUNDER_BEGIN(entry, i) V entry = zero(), next_##entry = entry;
-#define SUNDER_ADD(entry, i)                   \
-  const V of_##entry = set(of[i]);             \
-  entry = add_product(w, of_##entry, entry);   \
+#define SUNDER_ADD(entry, i)                 \
+  const V of_##entry = set(of[i]);           \
+  entry = add_product(w, of_##entry, entry); \
   next_##entry = add_product(next_w, of_##entry, next_##entry);
   SUNDER_ENTRIES(SUNDER_BEGIN)
   for (std::uint32_t k = 0; k < slot_count; ++k) {
@@ -476,8 +496,8 @@ SUNDER_INLINE void pose_common_pair(const float* matrices, const std::uint16_t* 
 #undef SUNDER_BEGIN
 #undef SUNDER_ADD
   transform_common<kStream>(xx, xy, xz, yx, yy, yz, zx, zy, zz, tx, ty, tz, numbers, positions, normals);
-  transform_common<kStream>(next_xx, next_xy, next_xz, next_yx, next_yy, next_yz, next_zx, next_zy, next_zz, next_tx, next_ty, next_tz,
-                            next, positions + 3 * kLanes, normals == nullptr ? nullptr : normals + 3 * kLanes);
+  transform_common<kStream>(next_xx, next_xy, next_xz, next_yx, next_yy, next_yz, next_zx, next_zy, next_zz, next_tx, next_ty,
+                            next_tz, next, positions + 3 * kLanes, normals == nullptr ? nullptr : normals + 3 * kLanes);
 }
 #undef SUNDER_ENTRIES
 
@@ -496,7 +516,8 @@ inline void pose_apart(const SkinWork& work, const Block& block, const float* nu
     pose_common_block<false>(work.palette->matrices.data(), work.mesh->slots.data() + block.slots, block.slot_count,
                              work.attribute_floats, numbers, posed.positions, normals);
   else
-    pose_any_block<false>(work, block, numbers, posed.positions, normals, target.tangents.data == nullptr ? nullptr : posed.tangents);
+    pose_any_block<false>(work, block, numbers, posed.positions, normals,
+                          target.tangents.data == nullptr ? nullptr : posed.tangents);
   if ((block.kind & kExact) != 0 && work.palette->method == SkinningMethod::linear) pose_exact_lanes(work, block, posed);
 
   std::uint32_t in_order[kLanes];

@@ -1,17 +1,17 @@
 // The kernel for each kind of vectors that a CPU may have; the best is chosen when it first runs.
 
-#include "skinning/skin_work.h"
-
 #include <cmath>
 #include <cstring>
+
+#include "skinning/skin_work.h"
 
 // SSSE3 alone is too rare to carry, and AVX3_DL has nothing more that is used here (with it, Highway 1.0 does not compile for
 // -march=native of a CPU that the compiler knows in part). SVE vectors cannot be members of structs.
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "skinning/kernel_highway.cpp"
-#include <hwy/foreach_target.h>  // first: it includes this file once for each target
 #include <hwy/cache_control.h>
+#include <hwy/foreach_target.h>  // first: it includes this file once for each target
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
@@ -111,7 +111,9 @@ namespace sunder::skinning {
 
 HWY_EXPORT(run_kernel);
 
-void skin_blocks(const SkinWork& work, std::uint32_t first, std::uint32_t end) { HWY_DYNAMIC_DISPATCH(run_kernel)(work, first, end); }
+void skin_blocks(const SkinWork& work, std::uint32_t first, std::uint32_t end) {
+  HWY_DYNAMIC_DISPATCH(run_kernel)(work, first, end);
+}
 
 }  // namespace sunder::skinning
 #endif

@@ -1,10 +1,10 @@
 // The kernel without vectors: for builds without Highway.
 
-#include "skinning/skin_work.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+
+#include "skinning/skin_work.h"
 
 #define SUNDER_INLINE inline
 

@@ -10,7 +10,8 @@ namespace sunder::skinning {
 /// How far a matrix may be from a scaled rotation, relative to its scale squared, to count as one: what a float file leaves of it.
 inline constexpr double kEvenScale = 1e-5;
 
-/// Whether a linear map scales all directions alike, as rotations, uniform scales and their mirrors do: it turns normals as vectors.
+/// Whether a linear map scales all directions alike, as rotations, uniform scales and their mirrors do: it turns normals as
+/// vectors.
 template <class Scalar, class Matrix>
 bool has_even_scale(const Matrix& linear) {
   const Eigen::Matrix<Scalar, 3, 3> gram = linear.transpose() * linear;

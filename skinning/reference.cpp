@@ -1,6 +1,5 @@
-#include <sunder/skinning/reference.h>
-
 #include <sunder/skinning/palette.h>
+#include <sunder/skinning/reference.h>
 
 #include "skinning/blend.h"
 

@@ -11,9 +11,9 @@ namespace sunder {
 namespace skinning {
 namespace {
 
-constexpr std::uint32_t kWindow = 4096;          // vertices gathered at a time: what they write to stays in the L2 cache
-constexpr std::uint32_t kBlocksATask = 256;      // at least: some 4 microseconds, below which a second thread comes too late
-constexpr std::uint32_t kTasksAThread = 4;       // so that a thread that is interrupted does not hold up the rest
+constexpr std::uint32_t kWindow = 4096;           // vertices gathered at a time: what they write to stays in the L2 cache
+constexpr std::uint32_t kBlocksATask = 256;       // at least: some 4 microseconds, below which a second thread comes too late
+constexpr std::uint32_t kTasksAThread = 4;        // so that a thread that is interrupted does not hold up the rest
 constexpr std::size_t kBeyondCache = 24u << 20u;  // bytes read and written: most of a last-level cache
 
 /// Forgets the blocks from `first` on, and all that only they have.
@@ -183,6 +183,8 @@ Result<SkinnedMesh> SkinnedMesh::create(const VertexSource& source, std::size_t 
   for (std::uint32_t v = 0; v < source.vertex_count; v += skinning::kWindow)
     builder.append_gathered(v, std::min(source.vertex_count, v + skinning::kWindow));
   blocks->vertex_count = source.vertex_count;
+  blocks->stream.shrink_to_fit();
+  blocks->morph_stream.shrink_to_fit();
   return SkinnedMesh(std::move(blocks));
 }
 
@@ -201,8 +203,9 @@ Status SkinnedMesh::update(const VertexSource& source, std::uint32_t first_chang
       source.morph_targets.size() != blocks.morph_count || source.first_morph_weight != blocks.first_morph_weight)
     return Status::failure(StatusCode::size_mismatch, kNone, "the source has other attributes or morph targets than before");
   if (first_changed > std::min(source.vertex_count, blocks.vertex_count))
-    return Status::failure(StatusCode::index_out_of_range, first_changed, "the first changed vertex is %u; there were %u, and are %u",
-                           first_changed, blocks.vertex_count, source.vertex_count);
+    return Status::failure(StatusCode::index_out_of_range, first_changed,
+                           "the first changed vertex is %u; there were %u, and are %u", first_changed, blocks.vertex_count,
+                           source.vertex_count);
   if (const Status status = skinning::check_source(source, blocks.slot_count, first_changed); !status) return status;
   if (first_changed == source.vertex_count && first_changed == blocks.vertex_count) return {};
   const std::uint32_t first_block = skinning::first_block_to_replace(blocks, first_changed);
@@ -258,7 +261,8 @@ Status SkinnedMesh::deform(const BonePalette& palette, PosedBuffer& buffer, cons
     tasks.work.target.normals = with_stride(buffer.target_.normals, 3);
     tasks.work.target.tangents = with_stride(buffer.target_.tangents, 4);
     tasks.work.attribute_floats = blocks.attribute_floats();
-    tasks.work.is_common = data.method == SkinningMethod::linear && !buffer.target_.unit_length && buffer.target_.tangents.data == nullptr;
+    tasks.work.is_common =
+        data.method == SkinningMethod::linear && !buffer.target_.unit_length && buffer.target_.tangents.data == nullptr;
     tasks.work.is_beyond_cache = bytes / blocks.block_count() * tasks.blocks > kBeyondCache;
     tasks.ranges = buffer.blocks_to_write_;
     const std::uint32_t threads = std::max(1u, parallel_for.threads), most = tasks.blocks / kBlocksATask;

@@ -21,7 +21,8 @@ void for_each_influence(const VertexSource& source, std::uint32_t vertex, Visit 
   }
   const InfluenceArrays& arrays = source.influences;
   const auto row = [vertex](const auto* data, std::size_t stride, std::size_t packed) {
-    return reinterpret_cast<decltype(data)>(reinterpret_cast<const unsigned char*>(data) + (stride != 0 ? stride : packed) * vertex);
+    return reinterpret_cast<decltype(data)>(reinterpret_cast<const unsigned char*>(data) +
+                                            (stride != 0 ? stride : packed) * vertex);
   };
   const std::uint16_t* slots = row(arrays.slots, arrays.slot_stride, arrays.per_vertex * sizeof(std::uint16_t));
   for (std::size_t k = 0; k < arrays.per_vertex; ++k) {

@@ -4,6 +4,7 @@
 #include <sunder/io/save_glb.h>
 #include <sunder/skinning/palette.h>
 #include <sunder/skinning/sample_clip.h>
+#include <sunder/skinning/skinned_mesh.h>
 #include <sunder/tear/replay.h>
 #include <sunder/tear/topology.h>
 #include <sunder/tear/torn_model.h>
@@ -199,10 +200,57 @@ void operate_and_undo(const std::filesystem::path& file, std::uint64_t seed) {
   EXPECT_EQ(model->character(), model->source());
 }
 
+/// The runtime beside the definition, in the frame of the character's middle; torn, it follows.
+void pose_by_runtime(const std::filesystem::path& file, std::uint64_t seed) {
+  const auto loaded = load_character(file);
+  if (!loaded) return;
+  Random random(seed);
+  auto model = TornModel::create(loaded->character);
+  ASSERT_TRUE(model) << model.error().text();
+  std::vector<SkinnedMesh> runtime;
+  for (const Mesh& mesh : loaded->character->meshes) {
+    auto made = SkinnedMesh::create(source_of(mesh), loaded->character->skins[mesh.skin].bones.size());
+    ASSERT_TRUE(made) << made.error().text();
+    runtime.push_back(std::move(*made));
+  }
+  for (int i = 0; i < 6; ++i) {
+    const ModelPose pose = some_pose(model->character(), random);
+    if (i > 1) {
+      ChangeRecord change;
+      const auto report = model->tear(pose, test::random_stroke(model->character(), pose, random), {}, &change);
+      ASSERT_TRUE(report) << report.error().text();
+      for (const MeshChange& of_mesh : change.meshes)
+        ASSERT_TRUE(runtime[of_mesh.mesh].update(source_of(model->character().meshes[of_mesh.mesh]), of_mesh.first_vertex));
+    }
+    const double diagonal = test::posed_diagonal(model->character(), pose);
+    for (std::uint32_t m = 0; m < runtime.size(); ++m) {
+      const Mesh& mesh = model->character().meshes[m];
+      const Skin& skin = model->character().skins[mesh.skin];
+      const auto expected = test::posed_positions(model->character(), m, pose);
+      Affine3d model_from_character = Affine3d::Identity();
+      for (const Vec3d& position : expected) model_from_character.translation() += position / static_cast<double>(expected.size());
+      BonePalette palette(skin.bones.size(), pose.morph_weights.size());
+      ASSERT_TRUE(palette.set(skin, pose, model_from_character));
+      std::vector<Vec3f> posed(mesh.vertex_count());
+      PosedBuffer buffer({mesh.vertex_count(), {posed.empty() ? nullptr : posed[0].data()}, {}, {}});
+      const Status status = runtime[m].deform(palette, buffer);
+      ASSERT_TRUE(status) << status.text();
+      double worst = 0;
+      for (std::size_t v = 0; v < posed.size(); ++v)
+        worst = std::max(worst, (posed[v].cast<double>() + model_from_character.translation() - expected[v]).norm());
+      EXPECT_LE(worst, 5e-7 * diagonal) << "mesh " << m;  // a micrometre of a character of 2 m
+    }
+  }
+}
+
 class RiggedFile : public testing::TestWithParam<std::filesystem::path> {};
 
 TEST_P(RiggedFile, is_torn_moves_on_and_comes_back_from_disk) {
   tear_and_save(GetParam(), std::hash<std::string>()(GetParam().filename().string()));
+}
+
+TEST_P(RiggedFile, is_posed_by_the_runtime_as_by_definition) {
+  pose_by_runtime(GetParam(), std::hash<std::string>()(GetParam().filename().string()));
 }
 
 TEST_P(RiggedFile, takes_every_operation_and_gives_it_back) {

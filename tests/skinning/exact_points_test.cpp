@@ -34,7 +34,8 @@ InfluencePositions append_inside(test::Random& random, Mesh& mesh, std::uint32_t
     at.parts[2] = 1 - at.parts[0] - at.parts[1];
     std::map<std::uint32_t, std::array<double, 3>> weights;  // by slot, of each corner times its part
     for (std::size_t k = 0; k < 3; ++k)
-      for (const Influence& influence : mesh.weights.of(at.corners[k])) weights[influence.slot][k] += at.parts[k] * influence.weight;
+      for (const Influence& influence : mesh.weights.of(at.corners[k]))
+        weights[influence.slot][k] += at.parts[k] * influence.weight;
     const auto blend = [&](const std::array<double, 3>& of, const std::vector<Vec3f>& values) {
       Vec3d sum = Vec3d::Zero();
       for (std::size_t k = 0; k < 3; ++k) sum += of[k] * values[at.corners[k]].cast<double>();

@@ -1,5 +1,5 @@
-// What a SkinnedMesh promises: the definition to float precision; and the same bits whatever the blocks, vectors, tasks, layouts, and
-// whatever of it was already written.
+// What a SkinnedMesh promises: the definition to float precision; and the same bits whatever the blocks, vectors, tasks, layouts,
+// and whatever of it was already written.
 
 #include <sunder/skinning/palette.h>
 #include <sunder/skinning/reference.h>
@@ -52,9 +52,9 @@ BonePalette palette_of(const std::vector<Affine3f>& matrices, const std::vector<
 /// Kinds of meshes: few bones shared by neighbours, as rigs are; bones anywhere; more influences than engines have; sizes beside a
 /// block's, and beyond a window's.
 std::vector<RandomSkin> kinds() {
-  return {{1, 1, 1, 0, false, 1},       {15, 3, 2, 1, false, 3},     {16, 4, 4, 0, true, 4},     {17, 8, 8, 2, true, 8},
-          {333, 60, 4, 3, true, 6},     {500, 300, 4, 0, true, 300}, {700, 400, 24, 1, false, 400}, {1000, 5, 1, 0, false, 5},
-          {5000, 64, 4, 1, false, 6},   {9000, 64, 8, 0, true, 64}};
+  return {{1, 1, 1, 0, false, 1},     {15, 3, 2, 1, false, 3},     {16, 4, 4, 0, true, 4},        {17, 8, 8, 2, true, 8},
+          {333, 60, 4, 3, true, 6},   {500, 300, 4, 0, true, 300}, {700, 400, 24, 1, false, 400}, {1000, 5, 1, 0, false, 5},
+          {5000, 64, 4, 1, false, 6}, {9000, 64, 8, 0, true, 64}};
 }
 
 TEST(SkinnedMesh, agrees_with_the_double_precision_reference) {
@@ -77,8 +77,10 @@ TEST(SkinnedMesh, agrees_with_the_double_precision_reference) {
           blended += influence.weight * compute_normal_matrix(exact[influence.slot].linear());
         Vec3d bind = mesh.normals[v].cast<double>();
         for (std::size_t j = 0; j < mesh.morph_targets.size(); ++j)
-          if (!mesh.morph_targets[j].normal_deltas.empty()) bind += weights[j] * mesh.morph_targets[j].normal_deltas[v].cast<double>();
-        ASSERT_LT((posed.normal(v).cast<double>() - normal).norm() * (blended * bind).norm(), 2e-6 * scale * scale) << "vertex " << v;
+          if (!mesh.morph_targets[j].normal_deltas.empty())
+            bind += weights[j] * mesh.morph_targets[j].normal_deltas[v].cast<double>();
+        ASSERT_LT((posed.normal(v).cast<double>() - normal).norm() * (blended * bind).norm(), 2e-6 * scale * scale)
+            << "vertex " << v;
       }
       EXPECT_TRUE(posed.margins_are_untouched());
     }
@@ -116,14 +118,16 @@ TEST(SkinnedMesh, a_vertex_has_the_same_bits_wherever_it_stands) {
 
       std::vector<std::uint32_t> shuffle(mesh.vertex_count());
       std::iota(shuffle.begin(), shuffle.end(), 0u);
-      for (std::uint32_t i = 0; i + 1 < mesh.vertex_count(); ++i) std::swap(shuffle[i], shuffle[i + random.index(mesh.vertex_count() - i)]);
+      for (std::uint32_t i = 0; i + 1 < mesh.vertex_count(); ++i)
+        std::swap(shuffle[i], shuffle[i + random.index(mesh.vertex_count() - i)]);
       for (const auto& order : {shuffle, order_for_skinning(mesh)}) {
         Mesh other = mesh;
         ASSERT_TRUE(reorder_vertices(other, order));
         PosedArrays other_posed(other);
         PosedBuffer other_buffer(other_posed.target());
         write(skinned(other, kind.slots), palette, other_buffer);
-        for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) ASSERT_TRUE(other_posed.is_same(v, posed, order[v])) << "vertex " << v;
+        for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v)
+          ASSERT_TRUE(other_posed.is_same(v, posed, order[v])) << "vertex " << v;
       }
     }
 }
@@ -445,7 +449,8 @@ TEST(SkinnedMesh, refuses_what_does_not_fit_and_writes_nothing) {
     PosedBuffer buffer(target);
     return made.deform(by, buffer).code();
   };
-  EXPECT_EQ(code_of(palette_of(test::in_float(test::random_palette(random, 5)), {0.5f}), posed.target()), StatusCode::size_mismatch);
+  EXPECT_EQ(code_of(palette_of(test::in_float(test::random_palette(random, 5)), {0.5f}), posed.target()),
+            StatusCode::size_mismatch);
   EXPECT_EQ(code_of(palette_of(test::in_float(test::random_palette(random, 6)), {}), posed.target()), StatusCode::size_mismatch);
   EXPECT_EQ(code_of(BonePalette(6, 1), posed.target()), StatusCode::invalid_argument);
   VertexTarget target = posed.target();

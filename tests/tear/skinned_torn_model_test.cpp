@@ -80,7 +80,9 @@ TEST(SkinnedTornModel, follows_tears_undo_and_redo_and_lips_stay_closed) {
             bool same_morph = true;
             for (const MorphTarget& target : mesh.morph_targets)
               same_morph = same_morph && target.position_deltas[v] == target.position_deltas[w];
-            if (same_morph) { ASSERT_EQ(runtime.positions[v], runtime.positions[w]) << v << " and " << w; }
+            if (same_morph) {
+              ASSERT_EQ(runtime.positions[v], runtime.positions[w]) << v << " and " << w;
+            }
           }
       }
     }
@@ -103,7 +105,9 @@ TEST(SkinnedTornModel, frames_and_updates_with_room_do_not_allocate) {
     (void)model->tear(poses[0], test::random_stroke(model->character(), poses[0], random), {}, &change);
     const std::uint64_t before = test::allocation_count();
     for (const MeshChange& of_mesh : change.meshes) runtime.follow(model->character(), of_mesh.first_vertex);
-    if (i > 0) { EXPECT_EQ(test::allocation_count(), before) << "update"; }
+    if (i > 0) {
+      EXPECT_EQ(test::allocation_count(), before) << "update";
+    }
     runtime.frame(model->character(), poses[0]);  // the buffer may grow to the larger mesh
     const std::uint64_t before_frames = test::allocation_count();
     for (const ModelPose& pose : poses) runtime.frame(model->character(), pose);

@@ -21,8 +21,8 @@ class SUNDER_API PosedBuffer {
  public:
   explicit PosedBuffer(const VertexTarget& target) : target_(target) {}
 
-  /// What the last deform() wrote, ascending and apart: what has to be uploaded. Where vertices are not ordered by their bones, ranges
-  /// may hold some that kept their value.
+  /// What the last deform() wrote, ascending and apart: what has to be uploaded. Where vertices are not ordered by their bones,
+  /// ranges may hold some that kept their value.
   [[nodiscard]] std::span<const Range> dirty_vertices() const { return dirty_; }
   /// Moves the buffer, or wants other attributes. What it holds counts as lost.
   void set_target(const VertexTarget& target);
@@ -36,15 +36,15 @@ class SUNDER_API PosedBuffer {
   std::uint64_t palette_ = 0, palette_revision_ = 0;  // 0: nothing was written
   std::uint64_t mesh_ = 0, mesh_revision_ = 0;
   std::vector<Range> dirty_;
-  std::vector<std::uint64_t> marks_;      // a bit a block
+  std::vector<std::uint64_t> marks_;  // a bit a block
   std::vector<Range> blocks_to_write_;
 };
 
 /// A mesh arranged for skinning: blocks of 16 vertices, each with the bones that move any of them.
 class SUNDER_API SkinnedMesh {
  public:
-  /// Vertices are blocked in their own order where neighbours share bones; where they do not, they are gathered by their bones, a few
-  /// thousand at a time, and written to their places. order_for_skinning() makes the first, faster case of the second.
+  /// Vertices are blocked in their own order where neighbours share bones; where they do not, they are gathered by their bones, a
+  /// few thousand at a time, and written to their places. order_for_skinning() makes the first, faster case of the second.
   /// @param slots  of the skin.
   /// @return size_mismatch, index_out_of_range, non_finite_value, weights_not_normalized (by more than a hundredth), with the
   ///         vertex; invalid_argument for strides.
@@ -59,8 +59,8 @@ class SUNDER_API SkinnedMesh {
   /// Bytes that a deform() of all vertices reads, but for the palette and morph targets.
   [[nodiscard]] std::size_t stream_bytes() const;
 
-  /// Follows a source whose vertices from `first_changed` on are others, more or fewer: what tears append and undo takes from the end.
-  /// The source has the attributes and morph targets that it had.
+  /// Follows a source whose vertices from `first_changed` on are others, more or fewer: what tears append and undo takes from the
+  /// end. The source has the attributes and morph targets that it had.
   /// @return as create(); nothing is changed then.
   ///
   /// O(vertices from `first_changed` on). Allocates where reserve() did not.
@@ -68,9 +68,10 @@ class SUNDER_API SkinnedMesh {
   /// Room for that many vertices more, of `influences` influences on average.
   void reserve(std::uint32_t more_vertices, std::uint32_t influences);
 
-  /// Writes to `buffer` what changed since it was last written: vertices moved by a bone or morph target that changed, and those that
-  /// update() changed. All bits are those of writing everything.
-  /// @return size_mismatch where palette, mesh and buffer do not fit, invalid_argument where the palette has no pose or the mesh lacks
+  /// Writes to `buffer` what changed since it was last written: vertices moved by a bone or morph target that changed, and those
+  /// that update() changed. All bits are those of writing everything.
+  /// @return size_mismatch where palette, mesh and buffer do not fit, invalid_argument where the palette has no pose or the mesh
+  /// lacks
   ///         an attribute that the buffer wants (nothing is written).
   ///
   /// O(vertices moved + blocks / 64); nothing moved: O(1). Allocates only when the buffer sees a larger mesh than before.

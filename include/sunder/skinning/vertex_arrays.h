@@ -18,12 +18,12 @@ struct StridedFloats {
 
 /// Influences as engines keep them: the same number of places a vertex; a place with weight 0 is empty.
 struct InfluenceArrays {
-  std::size_t per_vertex = 0;              ///< Places a vertex.
-  const std::uint16_t* slots = nullptr;    ///< V x per_vertex.
-  std::size_t slot_stride = 0;             ///< Bytes from one vertex to the next; 0: packed.
-  const float* weights = nullptr;          ///< V x per_vertex; or
+  std::size_t per_vertex = 0;                ///< Places a vertex.
+  const std::uint16_t* slots = nullptr;      ///< V x per_vertex.
+  std::size_t slot_stride = 0;               ///< Bytes from one vertex to the next; 0: packed.
+  const float* weights = nullptr;            ///< V x per_vertex; or
   const std::uint16_t* weights16 = nullptr;  ///< the same as 65535ths.
-  std::size_t weight_stride = 0;           ///< Bytes from one vertex to the next; 0: packed.
+  std::size_t weight_stride = 0;             ///< Bytes from one vertex to the next; 0: packed.
 };
 
 /// Vertices with a bind position of their own for each influence: p = sum_i M_i q_i + ... follows a point of a triangle exactly, in
@@ -44,12 +44,12 @@ struct InfluencePositions {
 
 /// What SkinnedMesh reads of a mesh, once.
 struct VertexSource {
-  std::uint32_t vertex_count = 0;          ///< V.
-  StridedFloats<const float> positions;    ///< x y z.
-  StridedFloats<const float> normals;      ///< x y z, unit length, or not there.
-  StridedFloats<const float> tangents;     ///< x y z w, or not there.
-  const SkinWeights* weights = nullptr;    ///< V; or
-  InfluenceArrays influences;              ///< the same in arrays.
+  std::uint32_t vertex_count = 0;        ///< V.
+  StridedFloats<const float> positions;  ///< x y z.
+  StridedFloats<const float> normals;    ///< x y z, unit length, or not there.
+  StridedFloats<const float> tangents;   ///< x y z w, or not there.
+  const SkinWeights* weights = nullptr;  ///< V; or
+  InfluenceArrays influences;            ///< the same in arrays.
   std::span<const MorphTarget> morph_targets;
   std::uint32_t first_morph_weight = 0;               ///< Weight of target 0 in the pose.
   const InfluencePositions* per_influence = nullptr;  ///< Only beside `weights`.
