@@ -446,18 +446,25 @@ void pose_any_block(const SkinWork& work, const Block& block, const float* numbe
 
 template <bool kStream>
 SUNDER_INLINE void transform_common(V xx, V xy, V xz, V yx, V yy, V yz, V zx, V zy, V zz, V tx, V ty, V tz, const float* from,
-                                    float* positions, float* normals) {
+                                    bool unit_length, float* positions, float* normals) {
   V x = load(from), y = load(from + kLanes), z = load(from + 2 * kLanes);
   store_interleaved<kStream>(add(row(xx, yx, zx, x, y, z), tx), add(row(xy, yy, zy, x, y, z), ty),
                              add(row(xz, yz, zz, x, y, z), tz), positions);
   if (normals == nullptr) return;
   x = load(from + 3 * kLanes), y = load(from + 4 * kLanes), z = load(from + 5 * kLanes);
-  store_interleaved<kStream>(row(xx, yx, zx, x, y, z), row(xy, yy, zy, x, y, z), row(xz, yz, zz, x, y, z), normals);
+  const Vector normal = {row(xx, yx, zx, x, y, z), row(xy, yy, zy, x, y, z), row(xz, yz, zz, x, y, z)};
+  if (unit_length) {
+    const Vector unit = unit_or(normal, {x, y, z});
+    store_interleaved<kStream>(unit.x, unit.y, unit.z, normals);
+  } else {
+    store_interleaved<kStream>(normal.x, normal.y, normal.z, normals);
+  }
 }
 
 template <bool kStream>
 SUNDER_INLINE void pose_common_block(const float* matrices, const std::uint16_t* slots, std::uint32_t slot_count,
-                                     std::uint32_t attribute_floats, const float* numbers, float* positions, float* normals) {
+                                     std::uint32_t attribute_floats, const float* numbers, bool unit_length, float* positions,
+                                     float* normals) {
   for (std::uint32_t lane = 0; lane < kLanes; lane += kVectorLanes) {
     const float* weights = numbers + kLanes * attribute_floats + lane;
 #define SUNDER_BEGIN(entry, i) V entry = zero();
@@ -470,7 +477,7 @@ SUNDER_INLINE void pose_common_block(const float* matrices, const std::uint16_t*
     }
 #undef SUNDER_BEGIN
 #undef SUNDER_ADD
-    transform_common<kStream>(xx, xy, xz, yx, yy, yz, zx, zy, zz, tx, ty, tz, numbers + lane, positions + 3 * lane,
+    transform_common<kStream>(xx, xy, xz, yx, yy, yz, zx, zy, zz, tx, ty, tz, numbers + lane, unit_length, positions + 3 * lane,
                               normals == nullptr ? nullptr : normals + 3 * lane);
   }
 }
@@ -479,7 +486,8 @@ SUNDER_INLINE void pose_common_block(const float* matrices, const std::uint16_t*
 /// limits a block alone. Only for vectors of 16 lanes, of which there are 32.
 template <bool kStream>
 SUNDER_INLINE void pose_common_pair(const float* matrices, const std::uint16_t* slots, std::uint32_t slot_count,
-                                    std::uint32_t attribute_floats, const float* numbers, float* positions, float* normals) {
+                                    std::uint32_t attribute_floats, const float* numbers, bool unit_length, float* positions,
+                                    float* normals) {
   const float* next = numbers + kLanes * (attribute_floats + slot_count);
   const float *weights = numbers + kLanes * attribute_floats, *next_weights = next + kLanes * attribute_floats;
 #define SUNDER_BEGIN(entry, i) V entry = zero(), next_##entry = entry;
@@ -495,9 +503,10 @@ SUNDER_INLINE void pose_common_pair(const float* matrices, const std::uint16_t* 
   }
 #undef SUNDER_BEGIN
 #undef SUNDER_ADD
-  transform_common<kStream>(xx, xy, xz, yx, yy, yz, zx, zy, zz, tx, ty, tz, numbers, positions, normals);
+  transform_common<kStream>(xx, xy, xz, yx, yy, yz, zx, zy, zz, tx, ty, tz, numbers, unit_length, positions, normals);
   transform_common<kStream>(next_xx, next_xy, next_xz, next_yx, next_yy, next_yz, next_zx, next_zy, next_zz, next_tx, next_ty,
-                            next_tz, next, positions + 3 * kLanes, normals == nullptr ? nullptr : normals + 3 * kLanes);
+                            next_tz, next, unit_length, positions + 3 * kLanes,
+                            normals == nullptr ? nullptr : normals + 3 * kLanes);
 }
 #undef SUNDER_ENTRIES
 
@@ -514,7 +523,7 @@ inline void pose_apart(const SkinWork& work, const Block& block, const float* nu
   float* normals = target.normals.data == nullptr ? nullptr : posed.normals;
   if (is_common(work, block))
     pose_common_block<false>(work.palette->matrices.data(), work.mesh->slots.data() + block.slots, block.slot_count,
-                             work.attribute_floats, numbers, posed.positions, normals);
+                             work.attribute_floats, numbers, target.unit_length, posed.positions, normals);
   else
     pose_any_block<false>(work, block, numbers, posed.positions, normals,
                           target.tangents.data == nullptr ? nullptr : posed.tangents);
@@ -540,7 +549,7 @@ void pose_blocks(const SkinWork& work, std::uint32_t first, std::uint32_t end) {
   const std::uint16_t* const slots = work.mesh->slots.data();
   const float* const matrices = work.palette->matrices.data();
   const std::uint32_t attribute_floats = work.attribute_floats;
-  const bool has_normals = target.normals.data != nullptr;
+  const bool has_normals = target.normals.data != nullptr, unit_length = target.unit_length;
   const bool packed = is_packed(target.positions, 3) && (!has_normals || is_packed(target.normals, 3)) &&
                       (target.tangents.data == nullptr || is_packed(target.tangents, 4));
   const bool all_common = work.is_common && packed && !work.palette->any_uneven;
@@ -556,15 +565,18 @@ void pose_blocks(const SkinWork& work, std::uint32_t first, std::uint32_t end) {
         if (b + 1 < end && blocks[b + 1].slots == block.slots && blocks[b + 1].kind == 0 && blocks[b + 1].lane_count == kLanes) {
           ++b;
           prefetch_block(stream + blocks[b].numbers, attribute_floats + block.slot_count);
-          pose_common_pair<kStream>(matrices, slots + block.slots, block.slot_count, attribute_floats, numbers, positions, normals);
+          pose_common_pair<kStream>(matrices, slots + block.slots, block.slot_count, attribute_floats, numbers, unit_length,
+                                    positions, normals);
           continue;
         }
       }
-      pose_common_block<kStream>(matrices, slots + block.slots, block.slot_count, attribute_floats, numbers, positions, normals);
+      pose_common_block<kStream>(matrices, slots + block.slots, block.slot_count, attribute_floats, numbers, unit_length, positions,
+                                 normals);
     } else if (!packed || block.lane_count != kLanes || (block.kind & (kScattered | kExact)) != 0) {
       pose_apart(work, block, numbers);
     } else if (is_common(work, block)) {
-      pose_common_block<kStream>(matrices, slots + block.slots, block.slot_count, attribute_floats, numbers, positions, normals);
+      pose_common_block<kStream>(matrices, slots + block.slots, block.slot_count, attribute_floats, numbers, unit_length, positions,
+                                 normals);
     } else {
       pose_any_block<kStream>(work, block, numbers, positions, normals,
                               target.tangents.data == nullptr ? nullptr : target.tangents.data + 4 * v);

@@ -11,7 +11,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "skinning/kernel_highway.cpp"
 #include <hwy/cache_control.h>
-#include <hwy/foreach_target.h>  // first: it includes this file once for each target
+#include <hwy/foreach_target.h>  // before highway.h: it includes this file once for each target
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();

@@ -261,8 +261,7 @@ Status SkinnedMesh::deform(const BonePalette& palette, PosedBuffer& buffer, cons
     tasks.work.target.normals = with_stride(buffer.target_.normals, 3);
     tasks.work.target.tangents = with_stride(buffer.target_.tangents, 4);
     tasks.work.attribute_floats = blocks.attribute_floats();
-    tasks.work.is_common =
-        data.method == SkinningMethod::linear && !buffer.target_.unit_length && buffer.target_.tangents.data == nullptr;
+    tasks.work.is_common = data.method == SkinningMethod::linear && buffer.target_.tangents.data == nullptr;
     tasks.work.is_beyond_cache = bytes / blocks.block_count() * tasks.blocks > kBeyondCache;
     tasks.ranges = buffer.blocks_to_write_;
     const std::uint32_t threads = std::max(1u, parallel_for.threads), most = tasks.blocks / kBlocksATask;
