@@ -48,8 +48,8 @@ void Filling::shade(Index mesh, Index vertex, const Vec3d& normal, const Vec3d& 
   const Mat3d posed_from_bind = blended(mesh, vertex);
   Mat3d posed_from_bind_of_normals = Mat3d::Zero();
   for (const Influence& influence : of.weights.of(vertex))
-    posed_from_bind_of_normals += static_cast<double>(influence.weight) *
-                                  compute_normal_matrix(work_.posed.palette(of.skin)[influence.slot].linear());
+    posed_from_bind_of_normals +=
+        static_cast<double>(influence.weight) * compute_normal_matrix(work_.posed.palette(of.skin)[influence.slot].linear());
   Vec3d bind_normal = to_bind(posed_from_bind_of_normals, normal, normal);
   bind_normal = bind_normal.norm() > 1e-30 ? Vec3d(bind_normal / bind_normal.norm()) : normal;
   Vec3d bind_tangent = to_bind(posed_from_bind, tangent, tangent);
