@@ -152,7 +152,7 @@ Frames measure_frames(const SkinningScene& scene, CrowdMember& member) {
   const std::size_t slots = skin.bones.size();
   BonePalette palette(slots, scene.poses[0].morph_weights.size());
   std::array<std::vector<double>, 3> seconds;  // full, set, idle
-  std::vector<double> shares(slots), one_bone(slots);
+  std::vector<double> shares(slots);
   for (const Influence& influence : scene.mesh().weights.influences)
     if (influence.weight > 0.0f) shares[influence.slot] += 1.0 / scene.vertex_count();
   const auto frame = [&] { return seconds_of([&] { (void)member.mesh.deform(palette, member.buffer); }); };
@@ -174,7 +174,6 @@ Frames measure_frames(const SkinningScene& scene, CrowdMember& member) {
   for (std::size_t slot = 0; slot < slots; ++slot) {
     std::vector<double> of_slot;
     for (int i = 0; i < 15; ++i) {
-      std::swap(matrices[slot], matrices[slot]);
       matrices[slot].translation().x() += 1e-3f;
       (void)palette.set(matrices, scene.poses[0].morph_weights);
       of_slot.push_back(frame());

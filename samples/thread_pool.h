@@ -10,7 +10,7 @@
 namespace samples {
 
 /// A plain thread pool behind sunder::ParallelFor. A worker that has nothing to do looks for work a little longer before it sleeps:
-/// the next call of a frame comes soon, and waking a thread takes as long as posing ten thousand vertices.
+/// the next call of a frame comes soon, and waking a thread takes longer than posing a few thousand vertices.
 class ThreadPool {
  public:
   /// @param threads  that work at once, the calling one among them.

@@ -132,7 +132,6 @@ inline bool moves_by(const SkinWork& work, const Block& block, const std::vector
 }
 
 // --- Blends that do not fit in registers, or are rare: kLanes numbers each, by way of memory.
-// -------------------------------------
 
 struct BlendedLanes {
   alignas(64) float matrix[12 * kLanes];
@@ -297,7 +296,6 @@ inline void blend_motions(const SkinWork& work, const Block& block, const float*
 }
 
 // --- Where results go.
-// ------------------------------------------------------------------------------------------------------------
 
 SUNDER_INLINE bool is_packed(const StridedFloats<float>& array, std::size_t components) {
   return array.stride == components * sizeof(float);
@@ -320,7 +318,6 @@ inline void scatter(const StridedFloats<float>& to, const float* values, std::si
 }
 
 // --- Vertices with a position for each influence: few, so one after another, and summed in double.
-// ----------------------------------
 
 struct ExactSum {
   double x = 0, y = 0, z = 0;
@@ -381,7 +378,6 @@ inline void pose_exact_lanes(const SkinWork& work, const Block& block, PosedLane
 }
 
 // --- A block.
-// -----------------------------------------------------------------------------------------------------------------------
 
 /// Poses `kVectorLanes` vertices from `lane` on. Outputs are null where nobody wants them.
 template <bool kStream>

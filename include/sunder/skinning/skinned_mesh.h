@@ -19,6 +19,7 @@ struct Blocks;
 /// A buffer of posed vertices, and what was last written to it.
 class SUNDER_API PosedBuffer {
  public:
+  /// @param target  memory of the caller's, which outlives this.
   explicit PosedBuffer(const VertexTarget& target) : target_(target) {}
 
   /// What the last deform() wrote, ascending and apart: what has to be uploaded. Where vertices are not ordered by their bones,
@@ -47,7 +48,7 @@ class SUNDER_API SkinnedMesh {
   /// few thousand at a time, and written to their places. order_for_skinning() makes the first, faster case of the second.
   /// @param slots  of the skin.
   /// @return size_mismatch, index_out_of_range, non_finite_value, weights_not_normalized (by more than a hundredth), with the
-  ///         vertex; invalid_argument for strides.
+  ///         vertex; empty_input without positions or influences; invalid_argument for strides; limit_exceeded above 65,536 slots.
   ///
   /// O(V x influences), reads the source and keeps nothing of it.
   [[nodiscard]] static Result<SkinnedMesh> create(const VertexSource& source, std::size_t slots);

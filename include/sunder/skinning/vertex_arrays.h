@@ -26,7 +26,7 @@ struct InfluenceArrays {
   std::size_t weight_stride = 0;             ///< Bytes from one vertex to the next; 0: packed.
 };
 
-/// Vertices with a bind position of their own for each influence: p = sum_i M_i q_i + ... follows a point of a triangle exactly, in
+/// Vertices with a bind position of their own for each influence: p = sum_i M_i q_i follows a point of a triangle exactly, in
 /// every pose, where q_i = sum_k beta_k w_ki [v_k; 1] for the triangle's corners v_k. (The last component of q_i is the weight of
 /// influence i, which the weights of the mesh hold.) Arrays other than `vertices` and `positions` are empty where there is nothing.
 /// Source: Merry, Marais, Gain, Animation space, TOG 2006 [merry2006animation].
