@@ -1,0 +1,247 @@
+#include <sunder/weights/point_refit.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "weights/simplex_solver.h"
+
+namespace sunder {
+namespace {
+
+/// Weights and bind position take turns until a turn gains less than this part, or so many times.
+constexpr double kLeastGain = 1e-4;
+constexpr int kMostTurns = 32;
+/// What moving the bind position costs, as a part of its squared length: where the poses say nothing about a direction it stays.
+constexpr double kStiffness = 1e-4;
+/// A weight below it is not worth an influence.
+constexpr double kLeastWeight = 1e-5;
+
+}  // namespace
+
+/// One point's quadratic forms, and the memory for them. Places are about the centre of the moments.
+class PointRefit::Problem {
+ public:
+  void begin(const PointToRefit& point, const Options& options, const PoseMoments& moments);
+  [[nodiscard]] Fit solve(const PointToRefit& point, const Options& options);
+
+ private:
+  using Vec4 = Eigen::Vector4d;
+
+  /// The mean square for fixed weights, as the bind position has it.
+  struct OfPosition {
+    Eigen::Matrix4d square = Eigen::Matrix4d::Zero();
+    Vec4 towards = Vec4::Zero();
+  };
+
+  /// H_ij, times the number of poses. Where is_turned, its transpose.
+  struct Between {
+    const PoseMoments::Matrix* moment = nullptr;
+    bool is_turned = false;
+  };
+  [[nodiscard]] const Between& between(std::size_t i, std::size_t j) const { return between_[i * terms_.size() + j]; }
+
+  void set_position(const Eigen::Vector3d& position);
+  [[nodiscard]] Eigen::Vector3d best_position(const Eigen::Vector3d& start) const;
+  [[nodiscard]] double mean_square(const std::vector<double>& of_terms, const Eigen::Vector3d& position);
+  void choose(std::size_t maximum);
+  void take_turns(const Eigen::Vector3d& start, Eigen::Vector3d& position);
+  void fill_influences(const std::vector<double>& of_terms);
+
+  const PoseMoments* moments_ = nullptr;
+  std::vector<AnimationPoint::Term> terms_, difference_;
+  std::vector<Between> between_;
+  std::vector<Vec4, Eigen::aligned_allocator<Vec4>> towards_;  ///< sum_j H_ij q_j.
+  double target_square_ = 0;
+  double per_pose_ = 1;
+  weights::SimplexSolver solver_;
+  std::vector<bool> allowed_;
+  std::vector<double> start_, weights_, candidate_, best_;
+  std::vector<Influence> influences_;
+};
+
+PointRefit::PointRefit() : problem_(std::make_unique<Problem>()) {}
+PointRefit::~PointRefit() = default;
+
+PointRefit::Fit PointRefit::fit(const PointToRefit& point, const Options& options, const PoseMoments& moments) {
+  problem_->begin(point, options, moments);
+  return problem_->solve(point, options);
+}
+
+void PointRefit::Problem::begin(const PointToRefit& point, const Options& options, const PoseMoments& moments) {
+  (void)options;
+  moments_ = &moments;
+  per_pose_ = 1.0 / static_cast<double>(std::max<std::size_t>(moments.pose_count(), 1));
+  const auto of_point = point.exact->terms();
+  terms_.assign(of_point.begin(), of_point.end());
+  // About the centre; and as the point of weights that add up to exactly one.
+  double sum = 0;
+  for (const auto& term : terms_) sum += term.q.w();
+  for (auto& term : terms_) {
+    term.q /= sum;
+    term.q.head<3>() -= term.q.w() * moments.centre();
+  }
+  const std::size_t n = terms_.size();
+  between_.resize(n * n);
+  towards_.assign(n, Vec4::Zero());
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = i; j < n; ++j) {
+      const bool is_turned = terms_[i].slot > terms_[j].slot;
+      const PoseMoments::Matrix& moment = moments.of(terms_[is_turned ? j : i].slot, terms_[is_turned ? i : j].slot);
+      between_[i * n + j] = {&moment, is_turned};
+      const Vec4 qi = terms_[i].q, qj = terms_[j].q;
+      if (is_turned) {
+        towards_[i].noalias() += moment.transpose() * qj;
+        if (i != j) towards_[j].noalias() += moment * qi;
+      } else {
+        towards_[i].noalias() += moment * qj;
+        if (i != j) towards_[j].noalias() += moment.transpose() * qi;
+      }
+    }
+  target_square_ = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    towards_[i] *= per_pose_;
+    target_square_ += terms_[i].q.dot(towards_[i]);
+  }
+  start_.assign(n, 0.0);
+  double weight_sum = 0;
+  for (const Influence& influence : point.barycentric) weight_sum += static_cast<double>(influence.weight);
+  for (const Influence& influence : point.barycentric)
+    for (std::size_t i = 0; i < n; ++i)
+      if (terms_[i].slot == influence.slot) start_[i] = static_cast<double>(influence.weight) / weight_sum;
+  weights_ = start_;
+  allowed_.assign(n, true);
+}
+
+/// Squares and products of what each bone alone would be off by: sum w = 1 lets the target be taken from each.
+void PointRefit::Problem::set_position(const Eigen::Vector3d& position) {
+  const std::size_t n = terms_.size();
+  const Vec4 at(position.x(), position.y(), position.z(), 1.0);
+  solver_.resize(n);
+  candidate_.resize(n);
+  for (std::size_t i = 0; i < n; ++i) candidate_[i] = at.dot(towards_[i]);
+  double largest = 0;
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = i; j < n; ++j) {
+      const double product = per_pose_ * at.dot(*between(i, j).moment * at);
+      if (i == j) largest = std::max(largest, product);
+      solver_.gram(i, j) = solver_.gram(j, i) = product - candidate_[i] - candidate_[j] + target_square_;
+    }
+  // Bones that move alike: what tells them apart is where the weights were, and nothing that could be measured.
+  const double tie = 1e-13 * largest + 1e-280;
+  for (std::size_t i = 0; i < n; ++i) {
+    solver_.gram(i, i) += tie;
+    solver_.linear(i) = tie * start_[i];
+  }
+}
+
+Eigen::Vector3d PointRefit::Problem::best_position(const Eigen::Vector3d& start) const {
+  Eigen::Matrix4d square = Eigen::Matrix4d::Zero();
+  Vec4 towards = Vec4::Zero();
+  for (std::size_t i = 0; i < terms_.size(); ++i) {
+    if (weights_[i] == 0) continue;
+    towards += weights_[i] * towards_[i];
+    for (std::size_t j = i; j < terms_.size(); ++j)
+      if (weights_[j] != 0) square += (i == j ? 1.0 : 2.0) * weights_[i] * weights_[j] * *between(i, j).moment;
+  }
+  square = (0.5 * per_pose_) * (square + square.transpose()).eval();
+  const double stiffness = kStiffness * square.topLeftCorner<3, 3>().trace() / 3;
+  Eigen::Matrix3d left = square.topLeftCorner<3, 3>();
+  left.diagonal().array() += stiffness + 1e-280;
+  const Eigen::Vector3d right = towards.head<3>() - square.topRightCorner<3, 1>() + stiffness * start;
+  const Eigen::Vector3d best = left.ldlt().solve(right);
+  return best.allFinite() ? best : start;
+}
+
+double PointRefit::Problem::mean_square(const std::vector<double>& of_terms, const Eigen::Vector3d& position) {
+  difference_.resize(terms_.size());
+  for (std::size_t i = 0; i < terms_.size(); ++i) {
+    difference_[i].slot = terms_[i].slot;
+    difference_[i].q = -terms_[i].q;
+    difference_[i].q.head<3>() += of_terms[i] * position;
+    difference_[i].q.w() += of_terms[i];
+  }
+  return moments_->mean_square(difference_);
+}
+
+/// Solves for the weights at the position set, no more than `maximum` of them: from the best of all, without that one which is
+/// missed least, and so on.
+void PointRefit::Problem::choose(std::size_t maximum) {
+  allowed_.assign(terms_.size(), true);
+  solver_.solve(weights_, allowed_);
+  const auto used = [&] {
+    return static_cast<std::size_t>(std::count_if(weights_.begin(), weights_.end(), [](double w) { return w > 0; }));
+  };
+  while (used() > maximum) {
+    double least = 0;
+    std::size_t dropped = terms_.size();
+    for (std::size_t i = 0; i < terms_.size(); ++i) allowed_[i] = weights_[i] > 0;
+    for (std::size_t i = 0; i < terms_.size(); ++i) {
+      if (!(weights_[i] > 0)) continue;
+      candidate_ = weights_;
+      candidate_[i] = 0;
+      for (double& weight : candidate_) weight /= 1 - weights_[i];
+      allowed_[i] = false;
+      solver_.solve(candidate_, allowed_);
+      allowed_[i] = true;
+      const double value = solver_.value(candidate_);
+      if (dropped < terms_.size() && !(value < least)) continue;
+      least = value;
+      dropped = i;
+      best_ = candidate_;
+    }
+    weights_ = best_;
+  }
+  for (std::size_t i = 0; i < terms_.size(); ++i) allowed_[i] = weights_[i] > 0;
+}
+
+void PointRefit::Problem::take_turns(const Eigen::Vector3d& start, Eigen::Vector3d& position) {
+  double before = mean_square(weights_, position);
+  for (int turn = 0; turn < kMostTurns; ++turn) {
+    position = best_position(start);
+    set_position(position);
+    solver_.solve(weights_, allowed_);
+    const double after = mean_square(weights_, position);
+    if (!(after < (1 - kLeastGain) * before)) return;
+    before = after;
+  }
+}
+
+void PointRefit::Problem::fill_influences(const std::vector<double>& of_terms) {
+  influences_.clear();
+  double sum = 0;
+  for (const double weight : of_terms) sum += weight >= kLeastWeight ? weight : 0.0;
+  for (std::size_t i = 0; i < terms_.size(); ++i)
+    if (of_terms[i] >= kLeastWeight) influences_.push_back({terms_[i].slot, static_cast<float>(of_terms[i] / sum)});
+  std::sort(influences_.begin(), influences_.end(),
+            [](const Influence& a, const Influence& b) { return a.weight != b.weight ? a.weight > b.weight : a.slot < b.slot; });
+}
+
+PointRefit::Fit PointRefit::Problem::solve(const PointToRefit& point, const Options& options) {
+  const Eigen::Vector3d start = point.position - moments_->centre();
+  Fit result;
+  result.position = point.position;
+  result.influences = point.barycentric;
+  result.barycentric_mean_square = result.mean_square = mean_square(start_, start);
+
+  Eigen::Vector3d position = start;
+  set_position(position);
+  choose(options.maximum_influences == 0 ? terms_.size() : options.maximum_influences);
+  if (options.moves_bind) take_turns(start, position);
+  fill_influences(weights_);
+  // What is stored is what has to be better.
+  weights_.assign(terms_.size(), 0.0);
+  double sum = 0;
+  for (const Influence& influence : influences_) sum += static_cast<double>(influence.weight);
+  for (const Influence& influence : influences_)
+    for (std::size_t i = 0; i < terms_.size(); ++i)
+      if (terms_[i].slot == influence.slot) weights_[i] = static_cast<double>(influence.weight) / sum;
+  const double after = mean_square(weights_, position);
+  if (!(after < result.barycentric_mean_square)) return result;
+  result.mean_square = after;
+  result.influences = influences_;
+  result.position = Eigen::Vector3d(position + Eigen::Vector3d(moments_->centre()));
+  result.is_better = true;
+  return result;
+}
+
+}  // namespace sunder
