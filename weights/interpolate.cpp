@@ -52,42 +52,16 @@ void append_custom(const Corners& corners, CustomAttribute& attribute) {
   }
 }
 
-/// The barycentric mean of the corners' weights. Appended to the pool in place, so that a warm call does not allocate.
+/// Appended to the pool in place, so that a warm call does not allocate.
 void append_mean_weights(const Corners& corners, SkinWeights& weights) {
   std::size_t most = 0;
   for (const std::uint32_t vertex : corners.vertices) most += weights.first[vertex + 1] - weights.first[vertex];
   const std::size_t old_size = weights.influences.size();
   weights.influences.resize(old_size + most);
-  Influence* const begin = weights.influences.data() + old_size;
-  Influence* end = begin;
-  // The mean is at most a few dozen influences: a linear search for a slot beats any map.
-  for (std::size_t k = 0; k < 3; ++k) {
-    if (corners.barycentric[k] <= 0.0) continue;
-    for (std::uint32_t i = weights.first[corners.vertices[k]]; i < weights.first[corners.vertices[k] + 1]; ++i) {
-      const Influence influence = weights.influences[i];
-      const auto part = static_cast<float>(corners.barycentric[k] * static_cast<double>(influence.weight));
-      if (!(part > 0.0f)) continue;
-      Influence* same_slot = begin;
-      while (same_slot != end && same_slot->slot != influence.slot) ++same_slot;
-      if (same_slot == end)
-        *end++ = {influence.slot, part};
-      else
-        same_slot->weight += part;
-    }
-  }
-  double sum = 0;
-  for (const Influence* i = begin; i != end; ++i) sum += static_cast<double>(i->weight);
-  for (Influence* i = begin; i != end; ++i) i->weight = static_cast<float>(static_cast<double>(i->weight) / sum);
-  const auto comes_before = [](const Influence& a, const Influence& b) {
-    return a.weight != b.weight ? a.weight > b.weight : a.slot < b.slot;
-  };
-  for (Influence* i = begin; i != end; ++i) {  // a few, and nearly in order
-    const Influence influence = *i;
-    Influence* place = i;
-    for (; place != begin && comes_before(influence, *(place - 1)); --place) *place = *(place - 1);
-    *place = influence;
-  }
-  weights.influences.resize(static_cast<std::size_t>(end - weights.influences.data()));
+  const std::array<std::span<const Influence>, 3> of_corners = {weights.of(corners.vertices[0]), weights.of(corners.vertices[1]),
+                                                                weights.of(corners.vertices[2])};
+  const std::size_t count = mean_influences(of_corners, corners.barycentric, weights.influences.data() + old_size);
+  weights.influences.resize(old_size + count);
   weights.first.push_back(static_cast<std::uint32_t>(weights.influences.size()));
 }
 
@@ -125,6 +99,39 @@ void for_each_array_pair(const Mesh& from, Mesh& to, Visit visit) {
 }
 
 }  // namespace
+
+std::size_t mean_influences(const std::array<std::span<const Influence>, 3>& of_corners, const std::array<double, 3>& barycentric,
+                            Influence* mean) {
+  Influence* const begin = mean;
+  Influence* end = begin;
+  // The mean is at most a few dozen influences: a linear search for a slot beats any map.
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (barycentric[k] <= 0.0) continue;
+    for (const Influence& influence : of_corners[k]) {
+      const auto part = static_cast<float>(barycentric[k] * static_cast<double>(influence.weight));
+      if (!(part > 0.0f)) continue;
+      Influence* same_slot = begin;
+      while (same_slot != end && same_slot->slot != influence.slot) ++same_slot;
+      if (same_slot == end)
+        *end++ = {influence.slot, part};
+      else
+        same_slot->weight += part;
+    }
+  }
+  double sum = 0;
+  for (const Influence* i = begin; i != end; ++i) sum += static_cast<double>(i->weight);
+  for (Influence* i = begin; i != end; ++i) i->weight = static_cast<float>(static_cast<double>(i->weight) / sum);
+  const auto comes_before = [](const Influence& a, const Influence& b) {
+    return a.weight != b.weight ? a.weight > b.weight : a.slot < b.slot;
+  };
+  for (Influence* i = begin; i != end; ++i) {  // a few, and nearly in order
+    const Influence influence = *i;
+    Influence* place = i;
+    for (; place != begin && comes_before(influence, *(place - 1)); --place) *place = *(place - 1);
+    *place = influence;
+  }
+  return static_cast<std::size_t>(end - begin);
+}
 
 std::uint32_t append_interpolated_vertex(const Triangle& vertices, const std::array<double, 3>& barycentric, Mesh& mesh) {
   const Corners corners{vertices, barycentric};
@@ -184,6 +191,14 @@ void copy_surface_point(const Mesh& like_mesh, std::uint32_t like, std::uint32_t
     const Influence influence = like_mesh.weights.influences[i];  // by value: `mesh` may be `like_mesh`
     weights.influences.push_back(influence);
   }
+  weights.first[vertex + 1] = static_cast<std::uint32_t>(weights.influences.size());
+}
+
+void set_position_and_influences(const Vec3f& position, std::span<const Influence> influences, std::uint32_t vertex, Mesh& mesh) {
+  mesh.positions[vertex] = position;
+  SkinWeights& weights = mesh.weights;
+  weights.influences.resize(weights.first[vertex]);
+  weights.influences.insert(weights.influences.end(), influences.begin(), influences.end());
   weights.first[vertex + 1] = static_cast<std::uint32_t>(weights.influences.size());
 }
 

@@ -2,6 +2,7 @@
 
 #include <sunder/core/pose.h>
 #include <sunder/core/stroke.h>
+#include <sunder/core/weight_options.h>
 
 #include <cstdint>
 #include <optional>
@@ -20,7 +21,8 @@ enum class Layers : std::uint8_t {
 struct TearOptions {
   double width = 0.0;  ///< Of the gap, posed metres; >= 0. 0: the lips coincide and no surface is lost.
   Layers layers = Layers::nearest;
-  double wall_depth = 0.0;  ///< Of the inner walls that the lips get, along the blade, posed metres; >= 0. 0: none.
+  double wall_depth = 0.0;               ///< Of the inner walls that the lips get, along the blade, posed metres; >= 0. 0: none.
+  std::optional<WeightOptions> weights = {};  ///< Of the points that it makes; none: the model's.
 
   bool operator==(const TearOptions&) const = default;
 };
@@ -31,7 +33,8 @@ struct Cut {
   Vec3d normal = Vec3d(0.0, 0.0, 1.0);  ///< Towards the left lip; any length but zero.
   /// Corners of a convex polygon, projected onto the plane, outside of which nothing is cut. Empty: the whole plane.
   std::vector<Vec3d> bounds;
-  bool caps = false;  ///< Close what the cut opens, where it opens closed loops.
+  bool caps = false;                     ///< Close what the cut opens, where it opens closed loops.
+  std::optional<WeightOptions> weights = {};  ///< Of the points that it makes; none: the model's.
 
   bool operator==(const Cut&) const = default;
 };
@@ -44,6 +47,7 @@ struct Bore {
   double depth = 0.0;                       ///< From the origin along the axis, metres; > 0.
   double chord_tolerance = 0.0;             ///< How far the rim may stray from the circle, metres. 0: one per cent of the radius.
   bool wall = false;                        ///< Line the bore: from rim to rim, or down to a floor.
+  std::optional<WeightOptions> weights = {};     ///< Of the points that it makes; none: the model's.
 
   bool operator==(const Bore&) const = default;
 };

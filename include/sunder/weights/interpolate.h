@@ -4,6 +4,7 @@
 #include <sunder/core/status.h>
 
 #include <array>
+#include <span>
 
 namespace sunder {
 
@@ -15,6 +16,12 @@ struct Birth {
 
   bool operator==(const Birth&) const = default;
 };
+
+/// The barycentric mean of three corners' influences, normalised, largest first.
+/// @param mean  written; room for the influences of all three.
+/// @return how many they are.
+SUNDER_API std::size_t mean_influences(const std::array<std::span<const Influence>, 3>& of_corners,
+                                       const std::array<double, 3>& barycentric, Influence* mean);
 
 /// Appends the vertex that lies at `barycentric` between three vertices of the mesh: position, normal, tangent, texture
 /// coordinates, colours, custom attributes, morph deltas linear in the coordinates (directions renormalised, labels from the
@@ -41,6 +48,10 @@ SUNDER_API void remove_vertices_from(std::uint32_t vertex_count, Mesh& mesh);
 
 /// A mesh of copies of the vertices from `first_vertex` on, without triangles.
 [[nodiscard]] SUNDER_API Mesh copy_vertices_from(std::uint32_t first_vertex, const Mesh& mesh);
+
+/// Gives `vertex`, the newest of `mesh`, another bind position and other influences.
+SUNDER_API void set_position_and_influences(const Vec3f& position, std::span<const Influence> influences, std::uint32_t vertex,
+                                            Mesh& mesh);
 
 /// Appends all vertices of `tail`, which has the same attributes.
 SUNDER_API void append_vertices(const Mesh& tail, Mesh& mesh);
