@@ -2,17 +2,11 @@
 
 #include <cmath>
 
+#include "skinning/bone_tree.h"
 #include "skinning/normal_matrix.h"
 
 namespace sunder {
 namespace {
-
-Affine3d to_matrix(const BoneTransform& transform) {
-  Affine3d matrix;
-  matrix.linear() = transform.rotation.cast<double>().normalized().toRotationMatrix() * transform.scale.cast<double>().asDiagonal();
-  matrix.translation() = transform.translation.cast<double>();
-  return matrix;
-}
 
 /// Singular to working precision, relative to the matrix' own scale.
 bool is_invertible(const Mat3d& linear) {
@@ -45,14 +39,8 @@ Status compute_model_pose(const Skeleton& skeleton, const Pose& pose, ModelPose&
     return Status::failure(StatusCode::size_mismatch, kNone, "pose has %zu bones, skeleton %zu", pose.parent_from_bone.size(),
                            count);
   model_pose.model_from_bone.resize(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    const Affine3d parent_from_bone = to_matrix(pose.parent_from_bone[i]);
-    const std::uint32_t parent = skeleton.bones[i].parent;
-    if (parent == kNone)
-      model_pose.model_from_bone[i] = parent_from_bone;
-    else
-      model_pose.model_from_bone[i] = model_pose.model_from_bone[parent] * parent_from_bone;
-  }
+  skinning::multiply_down(
+      skeleton, [&](std::size_t bone) { return pose.parent_from_bone[bone]; }, model_pose.model_from_bone);
   model_pose.morph_weights = pose.morph_weights;
   return {};
 }
@@ -77,7 +65,7 @@ ModelPose bind_pose(const Character& character) {
   }
   for (std::size_t i = 0; i < bones.size(); ++i) {
     if (is_bound[i]) continue;
-    const Affine3d parent_from_bone = to_matrix(bones[i].rest);
+    const Affine3d parent_from_bone = skinning::to_matrix(bones[i].rest);
     if (bones[i].parent == kNone)
       pose.model_from_bone[i] = parent_from_bone;
     else

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <sunder/core/character.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace sunder::skinning {
+
+/// Samples a clip into model space bone by bone, with no Pose in between that would need memory: the bits of sample_clip() over
+/// rest_pose(), then compute_model_pose().
+class ClipSampler {
+ public:
+  /// @param clip  one of a character that passed validate_character().
+  explicit ClipSampler(const Clip& clip);
+
+  /// @param character, clip  those of the constructor.
+  /// @param pose             resized to fit.
+  void sample(const Character& character, const Clip& clip, double time, ModelPose& pose) const;
+
+ private:
+  // Channels in the clip's order among those of one bone, which may drive the same part.
+  std::vector<std::uint32_t> bone_channels_;  // ascending by bone
+  std::vector<std::uint32_t> morph_channels_;
+};
+
+}  // namespace sunder::skinning

@@ -1,0 +1,83 @@
+#include "skinning/sample_channel.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sunder::skinning {
+namespace {
+
+/// Where a time falls among a channel's keys.
+struct KeySpan {
+  std::size_t key = 0;  ///< The key at or before the time.
+  float fraction = 0;   ///< Of the way to the next key, in [0, 1]; 0 where the value is held.
+  float seconds = 0;    ///< Between the two keys.
+};
+
+KeySpan find_keys(std::span<const float> times, double time) {
+  if (time <= static_cast<double>(times.front())) return {};
+  if (time >= static_cast<double>(times.back())) return {times.size() - 1, 0, 0};
+  const auto after = std::upper_bound(times.begin(), times.end(), time,
+                                      [](double value, float key_time) { return value < static_cast<double>(key_time); });
+  const auto key = static_cast<std::size_t>(after - times.begin()) - 1;
+  const float seconds = times[key + 1] - times[key];
+  return {key, static_cast<float>((time - static_cast<double>(times[key])) / static_cast<double>(seconds)), seconds};
+}
+
+/// Reads one float of the interpolated value; rotations under `linear` go by slerp instead.
+float interpolate(const Channel& channel, const KeySpan& at, std::uint32_t component) {
+  const std::uint32_t width = channel.width;
+  if (channel.interpolation == Interpolation::cubic_spline) {
+    const float* values = channel.values.data() + at.key * 3 * width + component;
+    const float value = values[width];
+    if (at.fraction == 0.0f) return value;
+    const float out_tangent = values[2 * width];
+    const float next_in_tangent = values[3 * width];
+    const float next_value = values[4 * width];
+    const float t = at.fraction, t2 = t * t, t3 = t2 * t;
+    return (2 * t3 - 3 * t2 + 1) * value + at.seconds * (t3 - 2 * t2 + t) * out_tangent + (3 * t2 - 2 * t3) * next_value +
+           at.seconds * (t3 - t2) * next_in_tangent;
+  }
+  const float* values = channel.values.data() + at.key * width + component;
+  if (channel.interpolation == Interpolation::step || at.fraction == 0.0f) return values[0];
+  return values[0] + at.fraction * (values[width] - values[0]);
+}
+
+Quatf normalized(const Quatf& rotation) {
+  const float length = rotation.norm();
+  return length > 0.0f ? Quatf(rotation.coeffs() / length) : Quatf(Quatf::Identity());
+}
+
+Quatf sample_rotation(const Channel& channel, const KeySpan& at) {
+  if (channel.interpolation == Interpolation::linear && at.fraction > 0.0f) {
+    const float* values = channel.values.data() + at.key * 4;
+    const Quatf from = normalized(Quatf(Eigen::Map<const Eigen::Vector4f>(values)));
+    const Quatf to = normalized(Quatf(Eigen::Map<const Eigen::Vector4f>(values + 4)));
+    return normalized(from.slerp(at.fraction, to));
+  }
+  Vec4f value;
+  for (std::uint32_t i = 0; i < 4; ++i) value[i] = interpolate(channel, at, i);
+  return normalized(Quatf(value));
+}
+
+Vec3f sample_vector(const Channel& channel, const KeySpan& at) {
+  return {interpolate(channel, at, 0), interpolate(channel, at, 1), interpolate(channel, at, 2)};
+}
+
+}  // namespace
+
+void sample_channel(const Channel& channel, double time, BoneTransform& bone) {
+  const KeySpan at = find_keys(channel.times, time);
+  switch (channel.target) {
+    case ChannelTarget::translation: bone.translation = sample_vector(channel, at); break;
+    case ChannelTarget::rotation: bone.rotation = sample_rotation(channel, at); break;
+    case ChannelTarget::scale: bone.scale = sample_vector(channel, at); break;
+    case ChannelTarget::morph_weights: break;
+  }
+}
+
+void sample_channel(const Channel& channel, double time, std::span<float> morph_weights) {
+  const KeySpan at = find_keys(channel.times, time);
+  for (std::uint32_t k = 0; k < channel.width; ++k) morph_weights[channel.index + k] = interpolate(channel, at, k);
+}
+
+}  // namespace sunder::skinning
