@@ -28,8 +28,8 @@ namespace sunder {
 
 /// How far pruning to the first `kept` influences moves a posed vertex, pruned - unpruned, in metres:
 ///   dropped_mass (mean of kept - mean of dropped),   means of M_i p, weighted with w_i.
-/// This is exact for weights that are divided by their sum in double. Stored floats sum to one within 2e-7 x their number, which
-/// moves a vertex by as much again of its distance from the origin, pruned or not.
+/// This is exact where the weights, pruned and unpruned, are divided by their sum in double. Stored floats sum to one only within
+/// 2e-7 x their number; what is left or lacking scales a posed vertex about the origin, pruned or not, and is not counted here.
 ///
 /// @param bind_position    p: in bind space, morph targets added.
 /// @param influences       as they are before pruning, sorted; slots of `model_from_bind`, unchecked.
