@@ -24,7 +24,7 @@ const std::map<std::string, std::set<std::string>> kMayUse = {
     {"tear", {"core", "skinning", "weights", "tear"}},
     {"particles", {"core", "skinning", "weights", "tear", "particles"}},
     {"scene", {"core", "skinning", "weights", "tear", "particles", "scene"}},
-    {"io", {"core", "io"}},
+    {"io", {"core", "weights", "io"}},
     {"tools", {"core", "skinning", "weights", "tear", "particles", "scene", "io", "tools"}},
     {"samples", {"core", "skinning", "weights", "tear", "particles", "scene", "io"}},
 };
@@ -258,6 +258,8 @@ TEST(Architecture, an_upward_arrow_is_found) {
   EXPECT_THAT(faults_of("include/sunder/core/a.h", "#  include  <sunder/skinning/deform.h>"),
               ElementsAre(HasSubstr("from core to skinning")));
   EXPECT_THAT(faults_of("io/gltf/a.cpp", "#include <sunder/tear/topology.h>"), ElementsAre(HasSubstr("from io to tear")));
+  EXPECT_THAT(faults_of("io/gltf/a.cpp", "#include <sunder/skinning/deform.h>"), ElementsAre(HasSubstr("from io to skinning")));
+  EXPECT_THAT(faults_of("io/gltf/a.cpp", "#include <sunder/weights/prune.h>"), IsEmpty());
   EXPECT_THAT(faults_of("tear/a.cpp", "#include <sunder/io/save_glb.h>"), ElementsAre(HasSubstr("from tear to io")));
 }
 

@@ -1,10 +1,12 @@
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <string>
 
 #include <CLI/CLI.hpp>
 
 #include "tools/verbs.h"
+#include "tools/written_influences.h"
 
 namespace sunder::tools {
 namespace {
@@ -12,6 +14,13 @@ namespace {
 constexpr const char* kExitCodes =
     "Exit codes: 0 done, 1 done but something is worth a look, 2 usage or operations, 3 a file cannot be read or written,\n"
     "4 a limit was exceeded, 5 a fault of sunder itself. Data goes to stdout, words go to stderr.";
+
+/// @param name  as weight_format_name() gives it.
+WeightFormat weight_format(const std::string& name) {
+  for (const WeightFormat format : {WeightFormat::unorm16, WeightFormat::unorm8})
+    if (name == weight_format_name(format)) return format;
+  return WeightFormat::float32;
+}
 
 struct Requests {
   InfoRequest info;
@@ -32,8 +41,13 @@ CLI::App* add_tear(CLI::App& app, TearRequest& request) {
   verb->add_option("MODEL", request.model, "The model")->required();
   verb->add_option("--ops", request.operations, "Operations, JSON; see docs/operation_log.md")->required();
   verb->add_option("-o,--output", request.output, "The torn model, GLB")->required();
-  verb->add_option("--influences", request.maximum_influences, "Most influences written a vertex; without it: all")
+  verb->add_option("--influences", request.save.maximum_influences, "Most influences written a vertex; without it: all")
       ->check(CLI::IsMember({4, 8}));
+  verb->add_option_function<std::string>(
+          "--weights-as", [&request](const std::string& name) { request.save.weights = weight_format(name); },
+          "How their weights are written; u16, u8: as integers whose sum is exactly one")
+      ->check(CLI::IsMember({"float", "u16", "u8"}))
+      ->default_str("float");
   verb->add_option("--report", request.report, "Where the JSON report goes instead of stdout");
   verb->add_option("--picture", request.picture,
                    "A PNG of the torn model: lips pulled open, pieces of a cut apart; needs f3d, Xvfb");

@@ -14,6 +14,7 @@
 #include "tools/report.h"
 #include "tools/torn_picture.h"
 #include "tools/verbs.h"
+#include "tools/written_influences.h"
 
 namespace sunder::tools {
 namespace {
@@ -76,12 +77,15 @@ ExitCode run_tear(const TearRequest& request) {
   }
 
   progress.begin_step(operations->size() + 1, "writing");
+  const Result<PruningLoss> pruning_loss = measure_pruning(*model, request.save.maximum_influences);
+  if (!pruning_loss) return complain(request.output.string(), pruning_loss.error(), ExitCode::internal_error);
   const Json report = {{"sunder_report", 1},
                        {"model", request.model.string()},
                        {"output", request.output.string()},
                        {"loading", to_json(loaded->report)},
                        {"operations", std::move(reports)},
-                       {"influences_written_max", request.maximum_influences},
+                       {"influences_written_max", request.save.maximum_influences},
+                       {"influences_written", to_json(*pruning_loss, request.save)},
                        {"result", result_json(*model, source, current)}};
   has_findings |=
       current.non_manifold_edges > source.non_manifold_edges || current.degenerate_triangles > source.degenerate_triangles;
@@ -91,9 +95,7 @@ ExitCode run_tear(const TearRequest& request) {
     return complain(request.report->string(), status, ExitCode::unreadable_input);
   TextBesideModel log_file(request.log, request.log ? format_operations(model->history()) : std::string());
   if (const Status status = log_file.status(); !status) return complain(request.log->string(), status, ExitCode::unreadable_input);
-  SaveOptions options;
-  options.maximum_influences = request.maximum_influences;
-  if (const Status status = save_glb(request.output, model->character(), *loaded, options); !status)
+  if (const Status status = save_glb(request.output, model->character(), *loaded, request.save); !status)
     return complain(request.output.string(), status, ExitCode::internal_error);
   if (const Status status = log_file.commit(); !status) return complain(request.log->string(), status, ExitCode::unreadable_input);
   if (const Status status = report_file.commit(); !status)

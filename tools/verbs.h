@@ -1,6 +1,7 @@
 #pragma once
 
-#include <cstdint>
+#include <sunder/io/save_glb.h>
+
 #include <filesystem>
 #include <optional>
 
@@ -18,7 +19,7 @@ struct InfoRequest {
 /// sunder tear: applies an operation log to a model.
 struct TearRequest {
   std::filesystem::path model, operations, output;
-  std::uint32_t maximum_influences = 0;          ///< As SaveOptions.
+  SaveOptions save;                              ///< How influences are written.
   std::optional<std::filesystem::path> report;   ///< Else stdout.
   std::optional<std::filesystem::path> log;      ///< Where what was played is written, if wanted.
   std::optional<std::filesystem::path> picture;  ///< Likewise a picture of what is left.

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <type_traits>
 
 #include "io/gltf/accessors.h"
+#include "io/gltf/refusal.h"
 
 namespace sunder::gltf {
 namespace {
@@ -21,28 +23,17 @@ constexpr ComponentType component_type() {
     return ComponentType::u32;
 }
 
-/// A vertex's influences as they are written: all of them in their order, or the largest, largest first.
-void choose_influences(std::span<const Influence> all, std::uint32_t maximum, std::vector<Influence>& chosen) {
-  chosen.assign(all.begin(), all.end());
-  if (maximum == 0) return;
-  std::stable_sort(chosen.begin(), chosen.end(), [](const Influence& a, const Influence& b) { return a.weight > b.weight; });
-  if (chosen.size() <= maximum) return;
-  chosen.resize(maximum);
-  double sum = 0.0;
-  for (const Influence& influence : chosen) sum += static_cast<double>(influence.weight);
-  for (Influence& influence : chosen) influence.weight = static_cast<float>(static_cast<double>(influence.weight) / sum);
-}
-
-std::uint32_t most_influences(const SkinWeights& weights) {
-  std::uint32_t most = 1;
-  for (std::uint32_t v = 0; v < weights.vertex_count(); ++v)
-    most = std::max(most, static_cast<std::uint32_t>(weights.of(v).size()));
-  return most;
-}
-
 std::string numbered(const char* name, std::size_t index) { return name + std::to_string(index); }
 
 }  // namespace
+
+void check_options(const SaveOptions& options) {
+  const std::uint32_t maximum = options.maximum_influences;
+  if (maximum != 0 && maximum != 4 && maximum != 8)
+    refuse(StatusCode::invalid_argument, kNone, "save_glb: maximum_influences is 0, 4 or 8, not %u", maximum);
+  if (options.weights > WeightFormat::unorm8)
+    refuse(StatusCode::invalid_argument, kNone, "save_glb: %u is not a weight format", static_cast<unsigned>(options.weights));
+}
 
 std::uint32_t MeshWriter::add_accessor(Json accessor) {
   Json& accessors = draft_.json["accessors"];
@@ -136,33 +127,43 @@ MeshWriter::Vertices MeshWriter::add_vertices(const Mesh& mesh, const SourceDocu
     const Json accessor = *sides;  // The insertion moves it.
     attributes[kTearSideFeatureAttribute] = accessor;
   }
-  if (origin.skinned) add_influences(mesh, attributes);
+  if (origin.skinned) add_influences(mesh.weights, attributes);
   if (!mesh.morph_targets.empty()) vertices.targets = add_targets(mesh);
   return vertices;
 }
 
-void MeshWriter::add_influences(const Mesh& mesh, Json& attributes) {
-  std::uint32_t most = most_influences(mesh.weights);
-  if (maximum_influences_ != 0) most = std::min(most, maximum_influences_);
-  const std::size_t set_count = (most + 3) / 4;
-  const std::size_t vertex_count = mesh.vertex_count();
-  std::vector<std::vector<std::uint32_t>> slots(set_count, std::vector<std::uint32_t>(vertex_count * 4, 0));
-  std::vector<std::vector<float>> weights(set_count, std::vector<float>(vertex_count * 4, 0.0f));
-  std::vector<Influence> chosen;
-  bool fits_a_byte = true;
-  for (std::uint32_t v = 0; v < vertex_count; ++v) {
-    choose_influences(mesh.weights.of(v), maximum_influences_, chosen);
-    for (std::size_t i = 0; i < chosen.size(); ++i) {
-      slots[i / 4][std::size_t{v} * 4 + i % 4] = chosen[i].slot;
-      weights[i / 4][std::size_t{v} * 4 + i % 4] = chosen[i].weight;
-      fits_a_byte &= chosen[i].slot < 256;
-    }
+void MeshWriter::add_influences(const SkinWeights& weights, Json& attributes) {
+  const std::uint32_t maximum = options_.maximum_influences;
+  switch (options_.weights) {
+    case WeightFormat::float32: return add_sets(make_influence_sets<float>(weights, maximum), attributes);
+    case WeightFormat::unorm16: return add_sets(make_influence_sets<std::uint16_t>(weights, maximum), attributes);
+    case WeightFormat::unorm8: return add_sets(make_influence_sets<std::uint8_t>(weights, maximum), attributes);
   }
-  for (std::size_t set = 0; set < set_count; ++set) {
-    attributes[numbered("JOINTS_", set)] = fits_a_byte ? add_integers<std::uint8_t>(slots[set], 4, GlbDraft::ViewTarget::vertices)
-                                                       : add_integers<std::uint16_t>(slots[set], 4, GlbDraft::ViewTarget::vertices);
-    attributes[numbered("WEIGHTS_", set)] = add_floats(weights[set], 4);
+}
+
+template <class Weight>
+void MeshWriter::add_sets(const InfluenceSets<Weight>& sets, Json& attributes) {
+  const bool fits_a_byte = std::all_of(sets.slots.begin(), sets.slots.end(), [](const std::vector<std::uint32_t>& slots) {
+    return std::all_of(slots.begin(), slots.end(), [](std::uint32_t slot) { return slot < 256; });
+  });
+  for (std::size_t set = 0; set < sets.slots.size(); ++set) {
+    const std::vector<std::uint32_t>& slots = sets.slots[set];
+    attributes[numbered("JOINTS_", set)] = fits_a_byte ? add_integers<std::uint8_t>(slots, 4, GlbDraft::ViewTarget::vertices)
+                                                       : add_integers<std::uint16_t>(slots, 4, GlbDraft::ViewTarget::vertices);
+    attributes[numbered("WEIGHTS_", set)] = add_weights(sets.weights[set]);
   }
+}
+
+template <class Weight>
+std::uint32_t MeshWriter::add_weights(const std::vector<Weight>& weights) {
+  if constexpr (std::is_same_v<Weight, float>)
+    return add_floats(weights, 4);
+  else
+    return add_accessor({{"bufferView", draft_.add_view(std::as_bytes(std::span(weights)), GlbDraft::ViewTarget::vertices)},
+                         {"componentType", static_cast<std::uint32_t>(component_type<Weight>())},
+                         {"normalized", true},
+                         {"count", weights.size() / 4},
+                         {"type", "VEC4"}});
 }
 
 Json MeshWriter::add_targets(const Mesh& mesh) {

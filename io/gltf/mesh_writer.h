@@ -1,16 +1,20 @@
 #pragma once
 
 #include <sunder/core/mesh.h>
+#include <sunder/io/save_glb.h>
 
 #include "io/gltf/glb.h"
+#include "io/gltf/influence_sets.h"
 
 namespace sunder::gltf {
+
+/// Refuses options outside their documented range.
+void check_options(const SaveOptions& options);
 
 /// Appends core meshes to a draft as accessors.
 class MeshWriter {
  public:
-  /// @param maximum_influences  as SaveOptions.
-  MeshWriter(GlbDraft& draft, std::uint32_t maximum_influences) : draft_(draft), maximum_influences_(maximum_influences) {}
+  MeshWriter(GlbDraft& draft, const SaveOptions& options) : draft_(draft), options_(options) {}
 
   /// The parts of a glTF primitive that say what its vertices are; shared by all of the mesh's submeshes.
   struct Vertices {
@@ -34,11 +38,15 @@ class MeshWriter {
   std::uint32_t add_integers(const std::vector<std::uint32_t>& values, std::uint32_t components, GlbDraft::ViewTarget target);
   std::uint32_t add_labels(const CustomAttribute& attribute);
   std::uint32_t add_accessor(Json accessor);
-  void add_influences(const Mesh& mesh, Json& attributes);
+  void add_influences(const SkinWeights& weights, Json& attributes);
+  template <class Weight>
+  void add_sets(const InfluenceSets<Weight>& sets, Json& attributes);
+  template <class Weight>
+  std::uint32_t add_weights(const std::vector<Weight>& weights);
   Json add_targets(const Mesh& mesh);
 
   GlbDraft& draft_;
-  std::uint32_t maximum_influences_;
+  SaveOptions options_;
 };
 
 }  // namespace sunder::gltf

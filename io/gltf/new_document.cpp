@@ -49,7 +49,7 @@ Index append(Json& document, const char* list_name, Json entry) {
 class NewDocument {
  public:
   NewDocument(const Character& character, const SaveOptions& options)
-      : character_(character), draft_(nothing_), meshes_(draft_, options.maximum_influences) {}
+      : character_(character), draft_(nothing_), meshes_(draft_, options) {}
 
   std::vector<std::byte> write() {
     draft_.json = {
@@ -263,8 +263,7 @@ class NewDocument {
 
 Status write_new_document(const std::filesystem::path& file, const Character& character, const SaveOptions& options) {
   try {
-    if (options.maximum_influences != 0 && options.maximum_influences != 4 && options.maximum_influences != 8)
-      refuse(StatusCode::invalid_argument, kNone, "save_glb: maximum_influences is 0, 4 or 8, not %u", options.maximum_influences);
+    check_options(options);
     if (const Status status = validate_character(character); !status) return status;
     return write_atomically(file, NewDocument(character, options).write());
   } catch (...) {

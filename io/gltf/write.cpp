@@ -54,7 +54,7 @@ std::vector<std::uint32_t> meshes_to_write(const Character& character, const Loa
 class Patch {
  public:
   Patch(GlbDraft& draft, const Character& character, const SourceDocument& source, const SaveOptions& options)
-      : draft_(draft), character_(character), source_(source), writer_(draft, options.maximum_influences) {}
+      : draft_(draft), character_(character), source_(source), writer_(draft, options) {}
 
   void apply(const std::vector<std::uint32_t>& meshes) {
     std::map<std::uint32_t, std::vector<std::uint32_t>> meshes_of_node;
@@ -184,8 +184,7 @@ class Patch {
 
 Status write(const std::filesystem::path& file, const Character& character, const LoadedCharacter& loaded,
              const SaveOptions& options) {
-  if (options.maximum_influences != 0 && options.maximum_influences != 4 && options.maximum_influences != 8)
-    refuse(StatusCode::invalid_argument, kNone, "save_glb: maximum_influences is 0, 4 or 8, not %u", options.maximum_influences);
+  check_options(options);
   check_same_character(character, loaded);
   const SourceDocument& source = *loaded.source;
   const std::vector<std::uint32_t> meshes = meshes_to_write(character, loaded);

@@ -2,6 +2,9 @@
 
 #include <sunder/io/load_character.h>
 #include <sunder/io/save_glb.h>
+#include <sunder/skinning/palette.h>
+#include <sunder/skinning/pose_spec.h>
+#include <sunder/skinning/reference.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -98,6 +101,7 @@ TEST_F(Command, a_wrong_command_line_exits_with_2) {
   }
   EXPECT_EQ(run_sunder({"tear", model(), "--ops", write("a.json", kOneTear), "-o", path("x.glb"), "--influences", "5"}).exit_code,
             2);
+  EXPECT_EQ(run_sunder({"tear", model(), "--ops", path("a.json"), "-o", path("x.glb"), "--weights-as", "u32"}).exit_code, 2);
   EXPECT_FALSE(exists("x.glb"));
 }
 
@@ -160,6 +164,24 @@ TEST_F(Command, tear_reports_what_it_did) {
   EXPECT_EQ(json::parse(info.out)["topology"]["boundary_loops"], 1);
 }
 
+/// How far apart the vertices of two models are in a pose, at most.
+double greatest_distance(const Character& a, const Character& b, const PoseSpec& spec) {
+  const auto pose = make_pose(a, spec);
+  EXPECT_TRUE(pose && a.meshes.size() == b.meshes.size());
+  double greatest = 0;
+  for (std::size_t m = 0; m < a.meshes.size(); ++m) {
+    const Mesh &of_a = a.meshes[m], &of_b = b.meshes[m];
+    EXPECT_EQ(of_a.positions, of_b.positions);
+    std::vector<Affine3d> palette(a.skins[of_a.skin].bones.size());
+    EXPECT_TRUE(compute_palette(a.skins[of_a.skin], *pose, palette));
+    for (std::uint32_t v = 0; v < of_a.vertex_count(); ++v)
+      greatest = std::max(greatest, (deform_position_reference(of_a, v, palette, pose->morph_weights) -
+                                     deform_position_reference(of_b, v, palette, pose->morph_weights))
+                                        .norm());
+  }
+  return greatest;
+}
+
 TEST_F(Command, tear_plays_every_operation) {
   const CommandResult result = run_sunder({"tear", model(), "--ops", write("all.json", kAll), "-o", path("all.glb")});
   ASSERT_EQ(result.exit_code, 1) << result.err;  // for the misses
@@ -215,6 +237,36 @@ TEST_F(Command, tear_plays_every_operation) {
     EXPECT_EQ(json::parse(info.out)["topology"][count], report["result"]["topology"][count]) << count;
 }
 
+TEST_F(Command, tear_says_what_it_writes_of_the_influences) {
+  const std::string operations = write("a.json", kOneTear);
+  const json all = json::parse(run_sunder({"tear", model(), "--ops", operations, "-o", path("all_kept.glb")}).out);
+  EXPECT_EQ(
+      all["influences_written"],
+      json::parse(R"({"maximum": 0, "format": "float", "vertices_pruned": 0, "dropped_mass_max": 0.0, "pruning_error_max": 0.0})"));
+  for (const char* const format : {"float", "u16", "u8"}) {
+    const CommandResult result =
+        run_sunder({"tear", model(), "--ops", operations, "-o", path("pruned.glb"), "--influences", "4", "--weights-as", format});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const json report = json::parse(result.out);
+    const json& written = report["influences_written"];
+    EXPECT_EQ(report["influences_written_max"], 4);
+    EXPECT_EQ(written["maximum"], 4);
+    EXPECT_EQ(written["format"], format);
+    EXPECT_GT(written["vertices_pruned"], 0);
+    EXPECT_GT(written["dropped_mass_max"].get<double>(), 0.0);
+    EXPECT_LT(written["dropped_mass_max"].get<double>(), 0.8);  // four of at most twenty
+
+    const auto before = load_character(path("all_kept.glb")), after = load_character(path("pruned.glb"));
+    ASSERT_TRUE(before && after);
+    double moved = 0;
+    for (const PoseSpec& spec : {PoseSpec(RestPose()), PoseSpec(ClipPose{"Sway", 0.8})})
+      moved = std::max(moved, greatest_distance(*before->character, *after->character, spec));
+    const double of_an_integer = format == std::string("u8") ? 1.0 / 255 : format == std::string("u16") ? 1.0 / 65535 : 0.0;
+    EXPECT_NEAR(moved, written["pruning_error_max"].get<double>(), 1e-5 + of_an_integer) << format;
+    EXPECT_GT(moved, 0.0);
+  }
+}
+
 /// Plays a log, then the log that it saved, and expects the same model.
 void expect_replay(const std::string& model, const std::string& operations, const std::string& stem) {
   const CommandResult played =
@@ -259,13 +311,15 @@ TEST_F(Command, a_log_that_cannot_be_saved_leaves_nothing) {
 
 TEST_F(Command, what_tear_writes_passes_the_khronos_validator) {
   SUNDER_SKIP_WITHOUT_GLTF_VALIDATOR();
-  for (const char* const influences : {"4", "8"}) {
-    ASSERT_EQ(run_sunder({"tear", model(), "--ops", write("a.json", kOneTear), "-o", path("valid.glb"), "--influences", influences})
-                  .exit_code,
-              0);
-    const test::ValidatorReport report = test::validate_glb(path("valid.glb"));
-    EXPECT_EQ(report.errors, 0) << report.output;
-  }
+  for (const char* const influences : {"4", "8"})
+    for (const char* const format : {"float", "u16", "u8"}) {
+      ASSERT_EQ(run_sunder({"tear", model(), "--ops", write("a.json", kOneTear), "-o", path("valid.glb"), "--influences",
+                            influences, "--weights-as", format})
+                    .exit_code,
+                0);
+      const test::ValidatorReport report = test::validate_glb(path("valid.glb"));
+      EXPECT_EQ(report.errors, 0) << report.output;
+    }
 }
 
 TEST_F(Command, the_report_goes_where_it_is_wanted) {

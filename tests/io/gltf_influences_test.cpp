@@ -1,0 +1,209 @@
+// How save_glb() writes influences: SaveOptions in include/sunder/io/save_glb.h.
+
+#include <sunder/io/save_glb.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <gtest/gtest.h>
+
+#include "support/gltf_builder.h"
+#include "support/gltf_validator.h"
+#include "support/random.h"
+#include "support/temporary_folder.h"
+
+namespace sunder::test {
+namespace {
+
+constexpr std::uint32_t kBones = 20;
+
+/// A strip whose vertices have up to so many of twenty bones, some of them far too small for any integer.
+Character strip_with_influences(std::uint32_t most) {
+  GltfBuilder builder = skinned_strip();
+  Json joints = Json::array();
+  for (std::uint32_t i = 0; i < kBones; ++i) {
+    joints.push_back(builder.json["nodes"].size());
+    builder.json["nodes"][1]["children"].push_back(builder.json["nodes"].size());
+    builder.json["nodes"].push_back({{"name", "bone" + std::to_string(i)}});
+  }
+  builder.json["skins"][0] = {{"joints", joints}};
+  const auto loaded = builder.load();
+  EXPECT_TRUE(loaded.has_value()) << loaded.error().text();
+  Character character = *loaded->character;
+  Random random(most);
+  SkinWeights& weights = character.meshes[0].weights;
+  weights = {};
+  for (std::size_t v = 0; v < kStripVertices; ++v) {
+    std::vector<Influence> influences;
+    double sum = 0;
+    for (std::uint32_t i = 0; i < most; ++i) {
+      influences.push_back(
+          {(static_cast<std::uint32_t>(v) + 7 * i) % kBones, static_cast<float>(std::pow(10, random.uniform(-6, 0)))});
+      sum += static_cast<double>(influences.back().weight);
+    }
+    for (Influence& influence : influences) influence.weight = static_cast<float>(static_cast<double>(influence.weight) / sum);
+    weights.append(influences);
+  }
+  return character;
+}
+
+struct Saved {
+  Json json;
+  std::vector<std::byte> binary;
+  LoadedCharacter again;
+
+  [[nodiscard]] const Json& attributes() const { return json["meshes"][0]["primitives"][0]["attributes"]; }
+  [[nodiscard]] const Json& accessor(const std::string& attribute) const {
+    return json["accessors"][attributes()[attribute].get<std::size_t>()];
+  }
+  [[nodiscard]] bool has(const std::string& attribute) const { return attributes().contains(attribute); }
+
+  /// Component `c` of a vertex, as it stands in the file.
+  template <class T>
+  [[nodiscard]] T value(const std::string& attribute, std::size_t vertex, std::size_t c) const {
+    const Json& view = json["bufferViews"][accessor(attribute)["bufferView"].get<std::size_t>()];
+    const auto offset = view["byteOffset"].get<std::size_t>();
+    EXPECT_EQ(offset % 4, 0u);
+    T result;
+    std::memcpy(&result, binary.data() + offset + (vertex * 4 + c) * sizeof(T), sizeof(T));
+    return result;
+  }
+};
+
+Saved read_back(const std::filesystem::path& file) {
+  Saved saved;
+  const std::vector<std::byte> glb = read_bytes(file);
+  std::uint32_t length = 0;
+  std::memcpy(&length, glb.data() + 12, 4);
+  const auto* const text = reinterpret_cast<const char*>(glb.data()) + 20;
+  saved.json = Json::parse(text, text + length);
+  saved.binary.assign(glb.begin() + 28 + length, glb.end());
+  const auto again = load_character(file);
+  EXPECT_TRUE(again.has_value()) << again.error().text();
+  saved.again = *again;
+  return saved;
+}
+
+Saved save(const Character& character, const SaveOptions& options) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "written.glb";
+  const Status status = save_glb(file, character, options);
+  EXPECT_TRUE(status) << status.text();
+  if (has_gltf_validator()) {
+    const ValidatorReport report = validate_glb(file);
+    EXPECT_EQ(report.errors, 0) << report.output;
+    EXPECT_NE(report.output.find("\"warnings\":0"), std::string::npos) << report.output;  // Such as joints without weight.
+  }
+  return read_back(file);
+}
+
+/// The vertex' weights as the file holds them: they sum to one exactly, and slots without weight are 0.
+template <class Integer>
+void expect_exact_sum(const Saved& saved, std::size_t vertex) {
+  std::uint32_t sum = 0;
+  for (std::size_t set = 0; saved.has("WEIGHTS_" + std::to_string(set)); ++set)
+    for (std::size_t c = 0; c < 4; ++c) {
+      const auto weight = saved.value<Integer>("WEIGHTS_" + std::to_string(set), vertex, c);
+      sum += weight;
+      if (weight == 0) {
+        EXPECT_EQ(saved.value<std::uint8_t>("JOINTS_" + std::to_string(set), vertex, c), 0);
+      }
+    }
+  EXPECT_EQ(sum, std::numeric_limits<Integer>::max()) << "vertex " << vertex;
+}
+
+/// The largest influences of a vertex over their sum, by slot.
+std::map<std::uint32_t, double> largest(const Character& character, std::uint32_t vertex, std::uint32_t maximum) {
+  const auto all = character.meshes[0].weights.of(vertex);
+  std::vector<Influence> sorted(all.begin(), all.end());
+  std::sort(sorted.begin(), sorted.end(), [](auto& a, auto& b) { return a.weight > b.weight; });
+  if (maximum != 0 && sorted.size() > maximum) sorted.resize(maximum);
+  double sum = 0;
+  for (const Influence& influence : sorted) sum += static_cast<double>(influence.weight);
+  std::map<std::uint32_t, double> weights;
+  for (const Influence& influence : sorted) weights[influence.slot] = static_cast<double>(influence.weight) / sum;
+  return weights;
+}
+
+struct Format {
+  WeightFormat format;
+  std::uint32_t component_type;
+  double unit;
+};
+constexpr Format kFormats[] = {
+    {WeightFormat::float32, 5126, 1e-6}, {WeightFormat::unorm16, 5123, 1.0 / 65535}, {WeightFormat::unorm8, 5121, 1.0 / 255}};
+
+TEST(SaveInfluences, come_back_within_one_unit_in_every_format) {
+  for (const Format& format : kFormats)
+    for (const std::uint32_t maximum : {0u, 4u, 8u})
+      for (const std::uint32_t most : {1u, 3u, 4u, 6u, 11u, 20u}) {
+        SCOPED_TRACE(testing::Message() << format.component_type << ", at most " << maximum << " of " << most);
+        const Character character = strip_with_influences(most);
+        const Saved saved = save(character, {maximum, format.format});
+        const std::uint32_t kept = maximum == 0 ? most : std::min(most, maximum);
+        ASSERT_TRUE(saved.has("WEIGHTS_" + std::to_string((kept - 1) / 4)));
+        ASSERT_FALSE(saved.has("WEIGHTS_" + std::to_string((kept + 3) / 4)));
+        EXPECT_EQ(saved.accessor("WEIGHTS_0")["componentType"], format.component_type);
+        EXPECT_EQ(saved.accessor("WEIGHTS_0").value("normalized", false), format.format != WeightFormat::float32);
+        EXPECT_FALSE(saved.accessor("JOINTS_0").contains("normalized"));
+        const SkinWeights& weights = saved.again.character->meshes[0].weights;
+        ASSERT_EQ(weights.vertex_count(), kStripVertices);
+        for (std::uint32_t v = 0; v < kStripVertices; ++v) {
+          if (format.format == WeightFormat::unorm16) expect_exact_sum<std::uint16_t>(saved, v);
+          if (format.format == WeightFormat::unorm8) expect_exact_sum<std::uint8_t>(saved, v);
+          std::map<std::uint32_t, double> found;
+          double sum = 0;
+          for (const Influence& influence : weights.of(v)) {
+            found[influence.slot] = static_cast<double>(influence.weight);
+            sum += static_cast<double>(influence.weight);
+          }
+          EXPECT_NEAR(sum, 1, 2e-7 * static_cast<double>(weights.of(v).size()));
+          const auto expected = largest(character, v, maximum);
+          for (const auto& [slot, weight] : expected) EXPECT_NEAR(found[slot], weight, format.unit) << "slot " << slot;
+          EXPECT_LE(found.size(), expected.size());
+        }
+        for (const LoadNote& note : saved.again.report.notes) EXPECT_EQ(note.kind, LoadNote::Kind::information) << note.text;
+      }
+}
+
+TEST(SaveInfluences, without_a_maximum_stay_in_their_order_bit_for_bit) {
+  const Character character = strip_with_influences(11);
+  EXPECT_EQ(save(character, {}).again.character->meshes[0].weights, character.meshes[0].weights);
+}
+
+TEST(SaveInfluences, of_meshes_that_stay_are_not_touched) {
+  GltfBuilder builder = skinned_strip();
+  builder.json["meshes"].push_back(builder.json["meshes"][0]);
+  builder.json["nodes"].push_back({{"name", "other"}, {"mesh", 1}, {"skin", 0}});
+  builder.json["scenes"][0]["nodes"].push_back(3);
+  const auto loaded = builder.load();
+  ASSERT_TRUE(loaded.has_value()) << loaded.error().text();
+  const SaveOptions as_bytes{4, WeightFormat::unorm8};
+  const TemporaryFolder folder;
+  const auto same = folder.path() / "same.glb", torn = folder.path() / "torn.glb";
+  ASSERT_TRUE(save_glb(same, *loaded->character, *loaded, as_bytes));
+  EXPECT_EQ(read_bytes(same), builder.glb());
+
+  Character changed = *loaded->character;
+  changed.meshes[0].triangles[0].fill(0);  // retired
+  ASSERT_TRUE(save_glb(torn, changed, *loaded, as_bytes));
+  const Saved saved = read_back(torn);
+  if (has_gltf_validator()) {
+    EXPECT_EQ(validate_glb(torn).errors, 0);
+  }
+  EXPECT_EQ(saved.accessor("WEIGHTS_0")["componentType"], 5121);
+  EXPECT_EQ(saved.json["meshes"][1], builder.json["meshes"][1]);
+  EXPECT_EQ(saved.again.character->meshes[1].weights, changed.meshes[1].weights);
+}
+
+TEST(SaveInfluences, refuses_a_format_that_does_not_exist) {
+  const TemporaryFolder folder;
+  SaveOptions options;
+  options.weights = static_cast<WeightFormat>(3);
+  EXPECT_EQ(save_glb(folder.path() / "a.glb", strip_with_influences(4), options).code(), StatusCode::invalid_argument);
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+}  // namespace
+}  // namespace sunder::test

@@ -1,0 +1,101 @@
+#include "tools/written_influences.h"
+
+#include <sunder/skinning/palette.h>
+#include <sunder/skinning/pose_spec.h>
+#include <sunder/weights/prune.h>
+
+#include <algorithm>
+#include <variant>
+#include <vector>
+
+namespace sunder::tools {
+namespace {
+
+/// Rest, and where the blades of the history stood.
+Result<std::vector<ModelPose>> poses_of(const TornModel& model) {
+  std::vector<PoseSpec> specs = {RestPose()};
+  struct Visitor {
+    std::vector<PoseSpec>& specs;
+    void operator()(const TearOperation& tear) {
+      specs.push_back(tear.pose);
+      for (const TearOperation::PoseChange& change : tear.pose_changes) specs.push_back(change.pose);
+    }
+    void operator()(const CutOperation& cut) { specs.push_back(cut.pose); }
+    void operator()(const DrillOperation& drill) { specs.push_back(drill.pose); }
+    void operator()(const UndoOperation&) {}
+    void operator()(const RedoOperation&) {}
+  };
+  for (const Operation& operation : model.history()) std::visit(Visitor{specs}, operation);
+  std::vector<ModelPose> poses;
+  for (const PoseSpec& spec : specs) {
+    Result<ModelPose> pose = make_pose(model.source(), spec);
+    if (!pose) return pose.error();
+    poses.push_back(std::move(*pose));
+  }
+  return poses;
+}
+
+Vec3d morphed_position(const Mesh& mesh, std::uint32_t vertex, const ModelPose& pose) {
+  Vec3d position = mesh.positions[vertex].cast<double>();
+  for (std::size_t j = 0; j < mesh.morph_targets.size(); ++j)
+    if (!mesh.morph_targets[j].position_deltas.empty())
+      position += static_cast<double>(pose.morph_weights[mesh.first_morph_weight + j]) *
+                  mesh.morph_targets[j].position_deltas[vertex].cast<double>();
+  return position;
+}
+
+Status measure_mesh(const Mesh& mesh, const Skin& skin, const std::vector<ModelPose>& poses, std::uint32_t maximum,
+                    PruningLoss& loss) {
+  std::vector<std::vector<Affine3d>> palettes(poses.size(), std::vector<Affine3d>(skin.bones.size()));
+  for (std::size_t i = 0; i < poses.size(); ++i)
+    if (const Status status = compute_palette(skin, poses[i], palettes[i]); !status) return status;
+  std::vector<Influence> influences;
+  for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
+    const auto all = mesh.weights.of(v);
+    if (all.size() <= maximum) continue;
+    influences.assign(all.begin(), all.end());
+    if (!sort_influences(influences)) continue;  // Cannot be: the model is valid.
+    ++loss.vertices_pruned;
+    loss.dropped_mass_max = std::max(loss.dropped_mass_max, dropped_mass(influences, maximum));
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      const Vec3d moved = pruning_displacement(morphed_position(mesh, v, poses[i]), influences, maximum, palettes[i]);
+      loss.pruning_error_max = std::max(loss.pruning_error_max, moved.norm());
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<PruningLoss> measure_pruning(const TornModel& model, std::uint32_t maximum) {
+  PruningLoss loss;
+  if (maximum == 0) return loss;
+  const Result<std::vector<ModelPose>> poses = poses_of(model);
+  if (!poses) return poses.error();
+  const Character& character = model.character();
+  for (std::size_t i = 0; i < character.meshes.size(); ++i) {
+    const Mesh& mesh = character.meshes[i];
+    if (mesh == model.source().meshes[i]) continue;
+    if (const Status status = measure_mesh(mesh, character.skins[mesh.skin], *poses, maximum, loss); !status) return status;
+  }
+  return loss;
+}
+
+const char* weight_format_name(WeightFormat format) {
+  switch (format) {
+    case WeightFormat::float32: return "float";
+    case WeightFormat::unorm16: return "u16";
+    case WeightFormat::unorm8: return "u8";
+  }
+  return "float";
+}
+
+Json to_json(const PruningLoss& loss, const SaveOptions& options) {
+  return {{"maximum", options.maximum_influences},
+          {"format", weight_format_name(options.weights)},
+          {"vertices_pruned", loss.vertices_pruned},
+          {"dropped_mass_max", loss.dropped_mass_max},
+          {"pruning_error_max", loss.pruning_error_max}};
+}
+
+}  // namespace sunder::tools
