@@ -109,13 +109,11 @@ class Caps {
     add_inner_points(mesh, places, rim_count, flat->triangles, points, vertices);
     shade(mesh, places, is_inside_out, vertices);
 
-    const Mesh& of = work_.editor.character().meshes[mesh];
-    turn_flat_triangles(half_edges, of, vertices, flat->triangles);
+    turn_flat_triangles(half_edges, mesh, vertices, flat->triangles);
     for (std::array<Index, 3> corners : flat->triangles) {
       if (is_inside_out) std::swap(corners[1], corners[2]);
       const Triangle triangle = {vertices[corners[0]], vertices[corners[1]], vertices[corners[2]]};
-      const Eigen::Vector3d a = of.positions[triangle[0]].cast<double>();
-      const Eigen::Vector3d ab = of.positions[triangle[1]].cast<double>() - a, ac = of.positions[triangle[2]].cast<double>() - a;
+      const Eigen::Vector3d a = place(mesh, triangle[0]), ab = place(mesh, triangle[1]) - a, ac = place(mesh, triangle[2]) - a;
       if (!(ab.cross(ac).squaredNorm() > 0)) return false;  // stored positions are too coarse for it
       filling_.add_triangle(mesh, half_edges.front(), {points[corners[0]], points[corners[1]], points[corners[2]]}, triangle);
     }
@@ -171,9 +169,9 @@ class Caps {
 
   /// Rim points that lie on one line, as they do where a cut meets an older cap, do so in the pose only nearly; stored, a triangle
   /// of three of them has no area. Its longest edge is turned.
-  void turn_flat_triangles(const std::vector<Index>& half_edges, const Mesh& mesh, const std::vector<Index>& vertices,
+  void turn_flat_triangles(const std::vector<Index>& half_edges, Index mesh, const std::vector<Index>& vertices,
                            std::vector<std::array<Index, 3>>& triangles) const {
-    const auto at = [&](Index i) -> Eigen::Vector3d { return mesh.positions[vertices[i]].cast<double>(); };
+    const auto at = [&](Index i) { return place(mesh, vertices[i]); };
     const auto height_of = [&](const std::array<Index, 3>& t) {
       const double longest = std::max({(at(t[1]) - at(t[0])).norm(), (at(t[2]) - at(t[1])).norm(), (at(t[0]) - at(t[2])).norm()});
       return longest > 0 ? (at(t[1]) - at(t[0])).cross(at(t[2]) - at(t[0])).norm() / longest : 0.0;
@@ -210,6 +208,11 @@ class Caps {
     }
   }
 
+  /// In bind space.
+  [[nodiscard]] Eigen::Vector3d place(Index mesh, Index vertex) const {
+    return work_.editor.born_position(mesh, vertex).cast<double>();
+  }
+
   [[nodiscard]] Index mesh_with_most(const std::vector<Index>& half_edges) const {
     std::map<Index, Index> count;
     for (const Index h : half_edges) ++count[work_.editor.surface().triangle(h / 3).mesh];
@@ -224,7 +227,7 @@ class Caps {
     const Mesh& of = work_.editor.character().meshes[mesh];
     std::vector<Index> slots;
     for (const Index vertex : vertices)
-      for (const Influence& influence : of.weights.of(vertex)) slots.push_back(influence.slot);
+      for (const Influence& influence : work_.editor.born_influences(mesh, vertex)) slots.push_back(influence.slot);
     std::sort(slots.begin(), slots.end());
     slots.erase(std::unique(slots.begin(), slots.end()), slots.end());
 
@@ -232,8 +235,8 @@ class Caps {
     const auto target_count = static_cast<Eigen::Index>(of.morph_targets.size());
     Eigen::MatrixXd rim = Eigen::MatrixXd::Zero(rim_count, first_morph + 3 * target_count);
     for (Index i = 0; i < rim_count; ++i) {
-      rim.block<1, 3>(i, 0) = of.positions[vertices[i]].cast<double>().transpose();
-      for (const Influence& influence : of.weights.of(vertices[i])) {
+      rim.block<1, 3>(i, 0) = place(mesh, vertices[i]).transpose();
+      for (const Influence& influence : work_.editor.born_influences(mesh, vertices[i])) {
         const auto slot = std::lower_bound(slots.begin(), slots.end(), influence.slot) - slots.begin();
         rim(i, 3 + slot) = static_cast<double>(influence.weight);
       }

@@ -110,6 +110,7 @@ void SurfaceEditor::Crossing::append_vertices(const FaceSplit& behind, Index hal
       ahead.vertices()[at_end % 3] != behind.vertices()[Surface::next(half_edge) % 3]) {
     made.of_ahead.vertex = editor_.append_vertex(ahead.mesh(), birth_ahead);
     copy_surface_point(meshes[made.mesh], made.of_behind.vertex, made.of_ahead.vertex, meshes[ahead.mesh()]);
+    editor_.records_[ahead.mesh()].back().original = {made.mesh, made.of_behind.vertex};
   }
   made.is_sound = ahead.keeps_winding(at_begin % 3, made.of_ahead) && ahead.keeps_winding(at_end % 3, made.of_ahead);
 }

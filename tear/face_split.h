@@ -14,8 +14,9 @@ inline double covered_part(const std::array<double, 3>& p, const std::array<doub
 }
 
 /// Of a triangle in bind space.
-inline Place normal(const Mesh& mesh, const Triangle& of) {
-  return normal(place_of(mesh.positions[of[0]]), place_of(mesh.positions[of[1]]), place_of(mesh.positions[of[2]]));
+inline Place normal(const SurfaceEditor& editor, Index mesh, const Triangle& of) {
+  return normal(place_of(editor.born_position(mesh, of[0])), place_of(editor.born_position(mesh, of[1])),
+                place_of(editor.born_position(mesh, of[2])));
 }
 
 /// A face that is to be split: where its corners lie in its origin, and how it is turned.
@@ -29,11 +30,11 @@ class SurfaceEditor::FaceSplit {
   };
 
   FaceSplit(const SurfaceEditor& editor, Index face) : ref_(editor.surface_.triangle(face)), vertices_(editor.vertices_of(face)) {
-    const Mesh& mesh = editor.character_.meshes[ref_.mesh];
     const Triangle& origin = editor.origin_triangle(ref_.mesh, ref_.source_triangle);
     is_whole_ = is_same(origin, vertices_);
-    const Place a = place_of(mesh.positions[vertices_[0]]), b = place_of(mesh.positions[vertices_[1]]),
-                c = place_of(mesh.positions[vertices_[2]]);
+    const Place a = place_of(editor.born_position(ref_.mesh, vertices_[0])),
+                b = place_of(editor.born_position(ref_.mesh, vertices_[1])),
+                c = place_of(editor.born_position(ref_.mesh, vertices_[2]));
     normal_ = normal(a, b, c);
     corners_[0].at = a;
     corners_[1].at = b;
@@ -42,7 +43,7 @@ class SurfaceEditor::FaceSplit {
       corners_[k].vertex = vertices_[k];
       corners_[k].barycentric = is_whole_ ? kAtCorner[k] : editor.place_in_origin(ref_, vertices_[k]);
     }
-    normal_of_origin_ = is_whole_ ? normal_ : normal(mesh, origin);
+    normal_of_origin_ = is_whole_ ? normal_ : normal(editor, ref_.mesh, origin);
     normal_squared_ = dot(normal_, normal_);
     has_origin_area_ = dot(normal_of_origin_, normal_of_origin_) > 0;
   }

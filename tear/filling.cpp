@@ -16,19 +16,13 @@ Vec3d to_bind(const Mat3d& posed_from_bind, const Vec3d& posed, const Vec3d& fal
 Index Filling::add_rim_vertex(Index mesh, Index corner) {
   SurfaceEditor& editor = work_.editor;
   const Index rim_mesh = editor.surface().triangle(corner / 3).mesh, rim_vertex = editor.vertex_at(corner);
-  if (rim_mesh == mesh) return editor.append_filling_vertex(mesh, rim_vertex);
-  const Index vertex = editor.append_filling_vertex(mesh, 0);
-  copy_surface_point(editor.character().meshes[rim_mesh], rim_vertex, vertex, editor.mesh_of_new_vertex(mesh));
-  return vertex;
+  return editor.append_rim_vertex(mesh, {rim_mesh, rim_vertex});
 }
 
 Index Filling::add_inner_vertex(Index mesh, Index like, const Inner& inner) {
   const Index vertex = work_.editor.append_filling_vertex(mesh, like);
   Mesh& of = work_.editor.mesh_of_new_vertex(mesh);
-  of.positions[vertex] = inner.bind_position.cast<float>();
-  of.weights.influences.resize(of.weights.first[vertex]);
-  of.weights.influences.insert(of.weights.influences.end(), inner.influences.begin(), inner.influences.end());
-  of.weights.first[vertex + 1] = static_cast<Index>(of.weights.influences.size());
+  set_position_and_influences(inner.bind_position.cast<float>(), inner.influences, vertex, of);
   for (std::size_t i = 0; i < of.morph_targets.size(); ++i)
     if (!of.morph_targets[i].position_deltas.empty())
       of.morph_targets[i].position_deltas[vertex] = inner.morph_displacements[i].cast<float>();
@@ -38,7 +32,7 @@ Index Filling::add_inner_vertex(Index mesh, Index like, const Inner& inner) {
 Mat3d Filling::blended(Index mesh, Index vertex) const {
   const Mesh& of = work_.editor.character().meshes[mesh];
   Mat3d linear = Mat3d::Zero();
-  for (const Influence& influence : of.weights.of(vertex))
+  for (const Influence& influence : work_.editor.born_influences(mesh, vertex))
     linear += static_cast<double>(influence.weight) * work_.posed.palette(of.skin)[influence.slot].linear();
   return linear;
 }
@@ -47,7 +41,7 @@ void Filling::shade(Index mesh, Index vertex, const Vec3d& normal, const Vec3d& 
   Mesh& of = work_.editor.mesh_of_new_vertex(mesh);
   const Mat3d posed_from_bind = blended(mesh, vertex);
   Mat3d posed_from_bind_of_normals = Mat3d::Zero();
-  for (const Influence& influence : of.weights.of(vertex))
+  for (const Influence& influence : work_.editor.born_influences(mesh, vertex))
     posed_from_bind_of_normals +=
         static_cast<double>(influence.weight) * compute_normal_matrix(work_.posed.palette(of.skin)[influence.slot].linear());
   Vec3d bind_normal = to_bind(posed_from_bind_of_normals, normal, normal);

@@ -1,5 +1,7 @@
 #include "tear/history.h"
 
+#include <atomic>
+
 namespace sunder::tear {
 namespace {
 
@@ -30,6 +32,8 @@ History::Entry& History::next() {
 }
 
 void History::push() {
+  static std::atomic<std::uint64_t> newest_serial = 0;
+  spare_.back()->serial = ++newest_serial;
   done_.push_back(std::move(spare_.back()));
   spare_.pop_back();
   while (!undone_.empty()) move_last(undone_, spare_);

@@ -15,7 +15,9 @@ class History {
   struct Entry {
     Operation operation;
     SurfaceEditor::Mark begin;
-    SurfaceEditor::Redo redo;  ///< Of one that was taken back.
+    SurfaceEditor::Redo redo;             ///< Of one that was taken back.
+    SurfaceEditor::WeightChange weights;  ///< Of a WeightsOperation: what takes it back, or does it again.
+    std::uint64_t serial = 0;             ///< That no other entry has, of any model; given by push().
 
     /// The operation as one of this kind, to be filled in.
     template <class Kind>

@@ -24,8 +24,8 @@ double largest_coordinate(const Vec3f& a, const Vec3f& b) {
 /// Part of the height on a corner nearer than which to the far edge a place would be stored on it, give or take a few units in the
 /// last place.
 double stored_height(Index corner, const SurfaceEditor& editor) {
-  const auto& positions = editor.character().meshes[editor.surface().triangle(corner / 3).mesh].positions;
-  const auto at = [&](Index c) -> const Vec3f& { return positions[editor.vertex_at(c)]; };
+  const Index mesh = editor.surface().triangle(corner / 3).mesh;
+  const auto at = [&](Index c) -> const Vec3f& { return editor.born_position(mesh, editor.vertex_at(c)); };
   const Vec3f &apex = at(corner), &a = at(Surface::next(corner)), &b = at(Surface::previous(corner));
   const Eigen::Vector3d base = b.cast<double>() - a.cast<double>(), side = apex.cast<double>() - a.cast<double>();
   const double length = base.norm();
@@ -45,8 +45,9 @@ Index split_posed_edge(Index half_edge, double fraction, SurfaceEditor& editor, 
 }
 
 double stored_part(Index half_edge, const SurfaceEditor& editor) {
-  const auto& positions = editor.character().meshes[editor.surface().triangle(half_edge / 3).mesh].positions;
-  const Vec3f &from = positions[editor.vertex_at(half_edge)], &to = positions[editor.vertex_at(Surface::next(half_edge))];
+  const Index mesh = editor.surface().triangle(half_edge / 3).mesh;
+  const Vec3f &from = editor.born_position(mesh, editor.vertex_at(half_edge)),
+              &to = editor.born_position(mesh, editor.vertex_at(Surface::next(half_edge)));
   return part_of(kStored * largest_coordinate(from, to), (to.cast<double>() - from.cast<double>()).norm());
 }
 

@@ -14,7 +14,7 @@ double gain(Index half_edge, const SurfaceEditor& editor) {
   const TriangleRef f = surface.triangle(half_edge / 3), g = surface.triangle(twin / 3);
   const Mesh& mesh = editor.character().meshes[f.mesh];
   const Triangle &of_f = mesh.triangles[f.triangle], &of_g = mesh.triangles[g.triangle];
-  const auto place = [&](Index vertex) { return place_of(mesh.positions[vertex]); };
+  const auto place = [&](Index vertex) { return place_of(editor.born_position(f.mesh, vertex)); };
   const Place a = place(of_f[half_edge % 3]), b = place(of_f[Surface::next(half_edge) % 3]),
               c = place(of_f[Surface::previous(half_edge) % 3]), d = place(of_g[Surface::previous(twin) % 3]);
   const double before = std::min(shape_squared(a, b, c), shape_squared(b, a, d));

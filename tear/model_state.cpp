@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "tear/pieces.h"
+#include "tear/weigh.h"
 
 namespace sunder {
 
@@ -36,13 +37,19 @@ Status TornModel::State::stand_in(const ModelPose& wanted) {
   return {};
 }
 
+void TornModel::State::cancel_refits_of(std::uint64_t serial) const {
+  for (const auto& refit : refits)
+    if (const auto work = refit.lock(); work && std::ranges::count(work->serials, serial) > 0) work->cancel();
+}
+
 void TornModel::State::begin_call() {
   editor.scratch().reset();
   lips.clear();
   begin_of_call_ = editor.mark();
 }
 
-void TornModel::State::end_call(Call& call, ChangeRecord* change, bool is_cut) {
+void TornModel::State::end_call(Call& call, const WeightOptions& of_points, ChangeRecord* change, bool is_cut) {
+  tear::weigh_new_points(begin_of_call_, of_points, posed.palettes(), posed.morph_weights(), editor, call.report.weights);
   count(begin_of_call_, is_cut, call.report);
   if (change == nullptr) return;
   editor.describe(begin_of_call_, *change);
@@ -89,12 +96,23 @@ Status validate_turn(const Blade& before, const Blade& blade, std::uint32_t inde
                          index);
 }
 
+Status validate_weights(const WeightOptions& options) {
+  if (options.policy > WeightPolicy::exact)
+    return Status::failure(StatusCode::invalid_argument, kNone, "unknown weight policy %u", static_cast<unsigned>(options.policy));
+  if (options.policy == WeightPolicy::exact && options.maximum_influences != 0)
+    return Status::failure(StatusCode::invalid_argument, kNone, "policy 'exact' takes all influences, not the %u largest",
+                           options.maximum_influences);
+  return {};
+}
+
 Status validate_options(const TearOptions& options) {
   const auto is_length = [](double value) { return value >= 0 && value <= 1e30; };
   if (!is_length(options.width))
     return Status::failure(StatusCode::invalid_argument, kNone, "a gap is 0 to 1e30 wide, not %g", options.width);
   if (!is_length(options.wall_depth))
     return Status::failure(StatusCode::invalid_argument, kNone, "a wall is 0 to 1e30 deep, not %g", options.wall_depth);
+  if (options.weights)
+    if (Status status = validate_weights(*options.weights); !status) return status;
   if (options.layers != Layers::nearest && options.layers != Layers::all)
     return Status::failure(StatusCode::invalid_argument, kNone, "unknown layers %u", static_cast<unsigned>(options.layers));
   return {};

@@ -6,8 +6,10 @@
 
 #include "tear/capacity_exceeded.h"
 #include "tear/history.h"
+#include "tear/refit_work.h"
 #include "tear/stroke_tearing.h"
 #include "tear/surface_editor.h"
+#include "tear/weigh.h"
 #include "tear/workpiece.h"
 
 namespace sunder {
@@ -23,9 +25,10 @@ struct TornModel::State {
   };
   /// Runs `work(Call&) -> Status` and describes what it did; where memory or capacity runs out takes everything back. Points keep
   /// the places where they were found until the pose is set anew.
+  /// @param of_points  the weights that the points get which it made.
   /// @param is_cut  all pieces are reported, if there are several.
   template <class Work>
-  Result<TearReport> call(Work work, ChangeRecord* change, bool is_cut = false) {
+  Result<TearReport> call(Work work, const WeightOptions& of_points, ChangeRecord* change, bool is_cut = false) {
     begin_call();
     Call call{{}, lips};
     try {
@@ -33,7 +36,7 @@ struct TornModel::State {
         take_back();
         return status;
       }
-      end_call(call, change, is_cut);
+      end_call(call, of_points, change, is_cut);
     } catch (const tear::CapacityExceeded& exceeded) {
       take_back();
       return no_room(exceeded);
@@ -63,10 +66,21 @@ struct TornModel::State {
   /// did nothing.
   void record(const tear::SurfaceEditor::Mark& begin);
 
+  /// Makes a WeightsOperation say which operations it is about, or refuses it.
+  [[nodiscard]] Status resolve(WeightsOperation& wanted) const;
+  /// The vertices that these operations appended.
+  [[nodiscard]] tear::VertexRanges vertices_of(const WeightsOperation& resolved) const;
+  /// Gives points other weights, as an operation of its own.
+  [[nodiscard]] Status reweigh(const WeightsOperation& resolved, const tear::Weighing& weighing, ChangeRecord* change);
+
+  /// To be called when an operation was undone.
+  void cancel_refits_of(std::uint64_t serial) const;
+
   [[nodiscard]] tear::Workpiece workpiece() { return {editor, posed}; }
 
   std::shared_ptr<const Character> source;
   TornCapacity capacity;
+  WeightOptions weights;  ///< Of operations that do not say.
   Character character;
   tear::SurfaceEditor editor;
   tear::PosedPoints posed;
@@ -75,10 +89,11 @@ struct TornModel::State {
   tear::StrokeTearing tearing;  ///< The stroke under way, or the last one.
   std::vector<LipPair> lips;    ///< Of the call under way.
   tear::History history;
+  std::vector<std::weak_ptr<tear::RefitWork>> refits;  ///< That were submitted.
 
  private:
   void begin_call();
-  void end_call(Call& call, ChangeRecord* change, bool is_cut);
+  void end_call(Call& call, const WeightOptions& of_points, ChangeRecord* change, bool is_cut);
   void take_back();
 
   tear::SurfaceEditor::Mark begin_of_call_;
@@ -88,5 +103,10 @@ struct TornModel::State {
 [[nodiscard]] Status validate_blade(const Blade& blade, std::uint32_t index);
 [[nodiscard]] Status validate_turn(const Blade& before, const Blade& blade, std::uint32_t index);
 [[nodiscard]] Status validate_options(const TearOptions& options);
+[[nodiscard]] Status validate_weights(const WeightOptions& options);
+/// How an operation is recorded: without what a model does that was told nothing.
+[[nodiscard]] inline std::optional<WeightOptions> recorded(const WeightOptions& options) {
+  return options == WeightOptions{} ? std::nullopt : std::optional(options);
+}
 
 }  // namespace sunder

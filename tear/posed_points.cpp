@@ -55,7 +55,10 @@ const Vec3d& PosedPoints::look_up(const SurfaceEditor& editor, Index point) {
   cover(editor.surface().point_count());
   const Index corner = editor.surface().point_corner[point];
   const Mesh& mesh = editor.character().meshes[editor.surface().triangle(corner / 3).mesh];
-  known_[point] = {deform_position_reference(mesh, editor.vertex_at(corner), palettes_[mesh.skin], morph_weights_), epoch_};
+  const Index of = editor.surface().triangle(corner / 3).mesh, vertex = editor.vertex_at(corner);
+  known_[point] = {deform_position_reference(mesh, vertex, editor.born_position(of, vertex), editor.born_influences(of, vertex),
+                                             palettes_[mesh.skin], morph_weights_),
+                   epoch_};
   return known_[point].position;
 }
 

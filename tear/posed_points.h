@@ -39,6 +39,7 @@ class PosedPoints {
   /// Keeps a point where it was found on the posed surface, instead of where its own weights put it.
   void pin(Index point, const Vec3d& position);
   [[nodiscard]] const std::vector<Affine3d>& palette(Index skin) const { return palettes_[skin]; }
+  [[nodiscard]] std::span<const std::vector<Affine3d>> palettes() const { return palettes_; }
   [[nodiscard]] const std::vector<float>& morph_weights() const { return morph_weights_; }
 
   /// Along some axes, from a place near the surface.

@@ -35,6 +35,13 @@ class Replay {
     if (!pose) return pose.error();
     return step([&](ChangeRecord* change) { return model_.drill(*pose, operation.bore, change); });
   }
+  Result<TearReport> operator()(const WeightsOperation& operation) const {
+    const auto weighed = step([&](ChangeRecord* change) { return model_.reweigh(operation, change); });
+    if (!weighed) return weighed.error();
+    TearReport report;
+    report.weights = *weighed;
+    return report;
+  }
   Result<TearReport> operator()(const UndoOperation& operation) const {
     return repeat(operation.count, model_.undo_count(), "undone", &TornModel::undo);
   }

@@ -33,6 +33,7 @@ void SurfaceEditor::reserve(const TornCapacity& capacity) {
     mesh.custom_attributes.reserve(mesh.custom_attributes.size() + 1);
     if (!is_fixed_) continue;
     births_[m].reserve(vertices);
+    records_[m].reserve(vertices);
     fillings_[m].reserve(triangles);
     filling_serials_[m].reserve(triangles);
     appended_triangles_[m].reserve(triangles);
@@ -75,6 +76,7 @@ void SurfaceEditor::find_room_for_vertices(Index mesh, Index count, Index influe
     room = std::min(room, values.capacity() - values.size());
   };
   make(births_[mesh]);
+  make(records_[mesh]);
   make(vertex_mesh_);
   make(side_log_);
   make(surface_.point_corner);
@@ -102,6 +104,17 @@ void SurfaceEditor::find_room_for_triangles(Index mesh, Index count) {
   make(ancestors_, 1);
   room_.triangles_of = mesh;
   room_.triangles = room;
+}
+
+void SurfaceEditor::make_room_for_born(std::size_t influences) {
+  // Not limited: only policies take it, and vertices are.
+  if (born_.capacity() == born_.size()) born_.reserve(born_.size() + growth(born_.size(), 1));
+  if (born_influences_.capacity() - born_influences_.size() < influences)
+    born_influences_.reserve(born_influences_.size() + growth(born_influences_.size(), influences));
+}
+
+void SurfaceEditor::make_room_for_influences(Index mesh, std::size_t more) {
+  make_room(character_.meshes[mesh].weights.influences, more, "influences");
 }
 
 void SurfaceEditor::make_room_in_log(std::size_t entries) { make_room(log_, entries, "changes of triangles"); }

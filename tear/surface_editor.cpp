@@ -12,6 +12,9 @@ SurfaceEditor::SurfaceEditor(const Character& source, Character& character)
       character_(character),
       surface_(build_surface(character)),
       births_(character.meshes.size()),
+      records_(character.meshes.size()),
+      exact_(character.meshes.size()),
+      exact_first_(character.meshes.size()),
       fillings_(character.meshes.size()),
       filling_serials_(character.meshes.size()),
       appended_triangles_(character.meshes.size()),
@@ -134,13 +137,19 @@ Index SurfaceEditor::append_point() {
 }
 
 Index SurfaceEditor::append_vertex(Index mesh, const Birth& birth) {
+  Mesh& of = character_.meshes[mesh];
+  const Triangle& corners = origin_triangle(mesh, birth.triangle);
   births_[mesh].push_back(birth);
+  records_[mesh].push_back({{mesh, of.vertex_count()}});
   vertex_mesh_.push_back(mesh);
-  return append_interpolated_vertex(origin_triangle(mesh, birth.triangle), birth.barycentric, character_.meshes[mesh]);
+  const Index vertex = append_interpolated_vertex(corners, birth.barycentric, of);
+  if (birth.triangle >= source_.meshes[mesh].triangle_count()) interpolate_born(corners, birth.barycentric, mesh);
+  return vertex;
 }
 
 void SurfaceEditor::remove_newest_vertex(Index mesh) {
   births_[mesh].pop_back();
+  records_[mesh].pop_back();
   vertex_mesh_.pop_back();
   remove_vertices_from(character_.meshes[mesh].vertex_count() - 1, character_.meshes[mesh]);
 }
@@ -286,6 +295,7 @@ Index SurfaceEditor::append_duplicate(Index mesh, Index vertex, Index corner) {
   const bool is_of_source = vertex < source_.meshes[mesh].vertex_count();
   const TriangleRef ref = surface_.triangle(corner / 3);
   births_[mesh].push_back(is_of_source ? Birth{ref.source_triangle, place_in_origin(ref, vertex)} : birth(mesh, vertex));
+  records_[mesh].push_back(record_of(mesh, vertex));
   vertex_mesh_.push_back(mesh);
   return append_vertex_copy(vertex, character_.meshes[mesh]);
 }
@@ -348,13 +358,13 @@ bool SurfaceEditor::flip_edge(Index half_edge) {
   const double least_part = std::max(kLeastPart, 1e-9 * whole);
   if (!(covered_part(place_a, place_d, place_c) > least_part) || !(covered_part(place_b, place_c, place_d) > least_part))
     return false;
-  const Mesh& mesh = character_.meshes[ref_f.mesh];
   const Index vertex_a = vertex_at(ab), vertex_b = vertex_at(bc), vertex_c = vertex_at(ca), vertex_d = vertex_at(db);
-  const Place of_origin = normal(mesh, origin_triangle(ref_f.mesh, ref_f.source_triangle));
-  const Place before = normal(mesh, {vertex_a, vertex_b, vertex_c});
+  const auto normal_of = [&](const Triangle& triangle) { return normal(*this, ref_f.mesh, triangle); };
+  const Place of_origin = normal_of(origin_triangle(ref_f.mesh, ref_f.source_triangle));
+  const Place before = normal_of({vertex_a, vertex_b, vertex_c});
   const double least = 1e-9 * std::sqrt(dot(before, before) * dot(of_origin, of_origin));
-  if (!(dot(normal(mesh, {vertex_a, vertex_d, vertex_c}), of_origin) > least) ||
-      !(dot(normal(mesh, {vertex_b, vertex_c, vertex_d}), of_origin) > least))
+  if (!(dot(normal_of({vertex_a, vertex_d, vertex_c}), of_origin) > least) ||
+      !(dot(normal_of({vertex_b, vertex_c, vertex_d}), of_origin) > least))
     return false;
 
   const Index twin_bc = surface_.twin[bc], twin_ad = surface_.twin[ad];
@@ -390,11 +400,29 @@ Index SurfaceEditor::append_submesh(Index mesh, const std::string& name, Index m
   return static_cast<Index>(submeshes.size() - 1);
 }
 
-Index SurfaceEditor::append_filling_vertex(Index mesh, Index like) {
-  make_room_for_vertices(mesh, 1, static_cast<Index>(character_.meshes[mesh].weights.of(like).size()));
+Index SurfaceEditor::append_rim_vertex(Index mesh, const VertexRef& like) {
+  Mesh& of = character_.meshes[mesh];
+  const Mesh& of_like = character_.meshes[like.mesh];
+  const Index attributes_of = like.mesh == mesh ? like.vertex : 0;
+  make_room_for_vertices(mesh, 1, static_cast<Index>(of_like.weights.of(like.vertex).size() + of.weights.of(attributes_of).size()));
   births_[mesh].push_back({kNone, {1, 0, 0}});
+  records_[mesh].push_back(record_of(like.mesh, like.vertex));
   vertex_mesh_.push_back(mesh);
-  return append_vertex_copy(like, character_.meshes[mesh]);
+  const Index vertex = append_vertex_copy(attributes_of, of);
+  if (like.mesh != mesh) copy_surface_point(of_like, like.vertex, vertex, of);
+  return vertex;
+}
+
+Index SurfaceEditor::append_filling_vertex(Index mesh, Index like) {
+  Mesh& of = character_.meshes[mesh];
+  const std::size_t influences = born_influences(mesh, like).size() + of.weights.of(like).size();
+  make_room_for_vertices(mesh, 1, static_cast<Index>(influences));
+  births_[mesh].push_back({kNone, {1, 0, 0}});
+  records_[mesh].push_back({{mesh, of.vertex_count()}});
+  vertex_mesh_.push_back(mesh);
+  const Index vertex = append_vertex_copy(like, of);
+  if (born_at(mesh, like) != kNone) set_position_and_influences(born_position(mesh, like), born_influences(mesh, like), vertex, of);
+  return vertex;
 }
 
 Index SurfaceEditor::append_filling(Index mesh, Index submesh, const std::array<Index, 3>& points, const Triangle& vertices) {
@@ -439,6 +467,7 @@ SurfaceEditor::Mark SurfaceEditor::mark() {
                    surface_.triangle_count(),
                    static_cast<Index>(vertex_mesh_.size()),
                    static_cast<Index>(additions_.size()),
+                   static_cast<Index>(born_.size()),
                    next_side_,
                    static_cast<Index>(log_.size()),
                    static_cast<Index>(side_log_.size())};
@@ -468,8 +497,12 @@ void SurfaceEditor::roll_back(const Mark& to) {
   const std::span<const MeshSizes> sizes = sizes_at(to);
   for (Index m = 0; m < character_.meshes.size(); ++m) {
     Mesh& mesh = character_.meshes[m];
-    if (mesh.vertex_count() > sizes[m].vertices) remove_vertices_from(sizes[m].vertices, mesh);
+    if (mesh.vertex_count() > sizes[m].vertices) {
+      forget_exact(m, sizes[m].vertices);
+      remove_vertices_from(sizes[m].vertices, mesh);
+    }
     births_[m].resize(sizes[m].vertices - source_.meshes[m].vertex_count());
+    records_[m].resize(births_[m].size());
     appended_triangles_[m].resize(sizes[m].triangles - source_.meshes[m].triangle_count());
     mesh.triangles.resize(sizes[m].triangles);
     mesh.triangle_submesh.resize(sizes[m].triangles);
@@ -500,6 +533,7 @@ void SurfaceEditor::roll_back(const Mark& to) {
   surface_.appended_side.resize(to.points - surface_.source_point_count());
   surface_.point_corner.resize(to.points);
   vertex_mesh_.resize(to.vertices);
+  resize_born(to.born);
   next_side_ = to.next_side;
   logged_since_ = to;
   if (to.triangles >= stage_begin_) {

@@ -1,8 +1,11 @@
 #pragma once
 
 #include <sunder/core/character.h>
+#include <sunder/core/weight_options.h>
+#include <sunder/skinning/vertex_arrays.h>
 #include <sunder/tear/capacity.h>
 #include <sunder/tear/change_record.h>
+#include <sunder/weights/animation_point.h>
 
 #include <algorithm>
 #include <array>
@@ -46,6 +49,77 @@ class SurfaceEditor {
   [[nodiscard]] const Birth& birth(Index mesh, Index vertex) const {
     return births_[mesh][vertex - source_.meshes[mesh].vertex_count()];
   }
+
+  struct Mark;
+
+  // ---- Weights. Tears are found on the surface that births alone give, so that neither the policy of a point nor the time at
+  // which a fit arrived changes where a tear runs. Only arrays of the character have what policies made of it.
+
+  /// A vertex of a mesh.
+  struct VertexRef {
+    Index mesh = kNone, vertex = kNone;
+
+    bool operator==(const VertexRef&) const = default;
+  };
+  /// Of which vertex one is a copy, or another vertex at the same point: the one that was there first. Its own, if none was.
+  [[nodiscard]] VertexRef original(Index mesh, Index vertex) const {
+    const Index source_count = source_.meshes[mesh].vertex_count();
+    return vertex < source_count ? VertexRef{mesh, vertex} : records_[mesh][vertex - source_count].original;
+  }
+  /// What its weights were made by.
+  [[nodiscard]] WeightPolicy policy(Index mesh, Index vertex) const {
+    const Index source_count = source_.meshes[mesh].vertex_count();
+    return vertex < source_count ? WeightPolicy::barycentric : records_[mesh][vertex - source_count].policy;
+  }
+  /// Bind position and influences by birth alone. The influences are good until the next change.
+  [[nodiscard]] const Vec3f& born_position(Index mesh, Index vertex) const {
+    const Index at = born_at(mesh, vertex);
+    return at == kNone ? character_.meshes[mesh].positions[vertex] : born_[at].position;
+  }
+  [[nodiscard]] std::span<const Influence> born_influences(Index mesh, Index vertex) const {
+    const Index at = born_at(mesh, vertex);
+    if (at == kNone) return character_.meshes[mesh].weights.of(vertex);
+    return std::span(born_influences_).subspan(born_[at].first_influence, born_[at].influence_count);
+  }
+  /// Whether a policy may give a vertex other weights: it lies between corners, and is nobody's copy.
+  [[nodiscard]] bool is_weighable(Index mesh, Index vertex) const;
+  /// What a vertex has, or is to have.
+  struct VertexWeights {
+    Index mesh = 0, vertex = 0;
+    WeightPolicy policy = WeightPolicy::barycentric;
+    Vec3f position = Vec3f::Zero();
+    Index first_influence = 0, influence_count = 0;  ///< In WeightChange::influences.
+    Index born = kNone;
+  };
+  struct WeightChange {
+    std::vector<VertexWeights> vertices;  ///< Ascending in each mesh, mesh after mesh; none of the source.
+    std::vector<Influence> influences;
+  };
+  /// Gives vertices what is in `change`, and puts there what they had: once more takes it back.
+  /// @throws CapacityExceeded, std::bad_alloc before anything is changed
+  void exchange(WeightChange& change);
+  /// Keeps what a vertex was born with, which is about to get other weights. @return what VertexWeights::born is.
+  [[nodiscard]] Index keep_born(Index mesh, Index vertex);
+  /// A vertex as what moves it exactly in every pose: where it lies between vertices that are not between others. Whatever policy
+  /// they have. Morph targets at these weights.
+  void describe_exactly(const VertexRef& original, std::span<const float> morph_weights, AnimationPoint& point) const;
+  /// How many vertices each mesh had.
+  [[nodiscard]] std::vector<Index> vertex_counts_at(const Mark& mark) const;
+  /// What exchange() changed. @param exchanged  what it left.
+  void describe(const WeightChange& exchanged, ChangeRecord& change) const;
+  [[nodiscard]] const InfluencePositions& influence_positions(Index mesh) const { return exact_[mesh]; }
+  /// Where an exact vertex' positions begin among those of its mesh.
+  [[nodiscard]] std::size_t exact_place(Index mesh, Index vertex) const {
+    const auto& vertices = exact_[mesh].vertices;
+    return exact_first_[mesh]
+                       [static_cast<std::size_t>(std::lower_bound(vertices.begin(), vertices.end(), vertex) - vertices.begin())];
+  }
+  [[nodiscard]] bool has_exact() const {
+    return std::any_of(exact_.begin(), exact_.end(), [](const InfluencePositions& of) { return !of.vertices.empty(); });
+  }
+  /// Brings influence_positions() up to date for the vertices from `first` up. O(exact vertices from there).
+  void update_exact(Index mesh, Index first);
+
   /// Triangles of walls and caps as they were made.
   [[nodiscard]] const std::vector<Triangle>& fillings(Index mesh) const { return fillings_[mesh]; }
   /// A number that no other filling ever had; they ascend. @param origin  the filling's, as in origin_triangle().
@@ -143,7 +217,10 @@ class SurfaceEditor {
   // ---- Walls and caps.
 
   [[nodiscard]] Index append_submesh(Index mesh, const std::string& name, Index material);
-  /// A vertex like another one, to be changed by `edit_vertex()` before anyone sees it. It is born when a filling uses it.
+  /// A vertex at the point of another one, of a mesh with the same skin. It is born when a filling uses it.
+  [[nodiscard]] Index append_rim_vertex(Index mesh, const VertexRef& like);
+  /// A vertex with the attributes of another one, and with its bind position and influences by birth: to be changed before anyone
+  /// sees it.
   [[nodiscard]] Index append_filling_vertex(Index mesh, Index like);
   [[nodiscard]] Mesh& mesh_of_new_vertex(Index mesh) { return character_.meshes[mesh]; }
   [[nodiscard]] Index append_filling_point() { return append_point(); }
@@ -160,6 +237,7 @@ class SurfaceEditor {
     Index triangles = 0;
     Index vertices = 0;   ///< Appended, over all meshes.
     Index additions = 0;  ///< Fillings, submeshes, attributes.
+    Index born = 0;       ///< Vertices whose birth is kept beside other weights.
     Index next_side = 1;
     Index log_length = 0;
     Index side_log_length = 0;
@@ -241,6 +319,33 @@ class SurfaceEditor {
   struct MeshSizes {
     Index vertices = 0, triangles = 0;
   };
+  /// What is known of an appended vertex besides its birth.
+  struct VertexRecord {
+    VertexRef original;
+    Index born = kNone;  ///< In born_; kNone: the mesh has what it was born with.
+    WeightPolicy policy = WeightPolicy::barycentric;
+  };
+  /// What a vertex was born with that has other weights now.
+  struct Born {
+    Vec3f position;
+    Index first_influence, influence_count;
+  };
+  [[nodiscard]] Index born_at(Index mesh, Index vertex) const {
+    const Index source_count = source_.meshes[mesh].vertex_count();
+    return vertex < source_count || born_.empty() ? kNone : records_[mesh][vertex - source_count].born;
+  }
+  [[nodiscard]] VertexRecord record_of(Index mesh, Index vertex) const {
+    const Index source_count = source_.meshes[mesh].vertex_count();
+    return vertex < source_count ? VertexRecord{{mesh, vertex}} : records_[mesh][vertex - source_count];
+  }
+  void interpolate_born(const Triangle& corners, const std::array<double, 3>& barycentric, Index mesh);
+  void add_exactly(double part, Index mesh, Index vertex, std::span<const float> morph_weights, AnimationPoint& point) const;
+  /// Forgets influence positions of the vertices from `first` up, which are still there.
+  void forget_exact(Index mesh, Index first);
+  void append_exact(Index mesh, Index vertex);
+  template <class Value>
+  [[nodiscard]] Eigen::Vector3d moved_by(Index slot, const VertexRef& vertex, bool follows_original, Value value) const;
+  void resize_born(Index count);
 
   [[nodiscard]] bool is_oldest_since(const Mark& begin, Index entry) const {
     const Index previous = log_[entry].previous;
@@ -265,6 +370,8 @@ class SurfaceEditor {
   }
   void find_room_for_vertices(Index mesh, Index count, Index influences);
   void find_room_for_triangles(Index mesh, Index count);
+  void make_room_for_born(std::size_t influences);
+  void make_room_for_influences(Index mesh, std::size_t more);
   void make_room_in_log(std::size_t entries);
   void make_room_for_additions(Index mesh);
   template <class T>
@@ -302,7 +409,12 @@ class SurfaceEditor {
   const Character& source_;
   Character& character_;
   Surface surface_;
-  std::vector<std::vector<Birth>> births_;       ///< Of each mesh: its vertices beyond the source's.
+  std::vector<std::vector<Birth>> births_;          ///< Of each mesh: its vertices beyond the source's.
+  std::vector<std::vector<VertexRecord>> records_;  ///< Likewise.
+  std::vector<Born> born_;
+  std::vector<Influence> born_influences_;
+  std::vector<InfluencePositions> exact_;        ///< Of each mesh.
+  std::vector<std::vector<Index>> exact_first_;  ///< Of each mesh: where the positions of each of its exact vertices begin.
   std::vector<std::vector<Triangle>> fillings_;  ///< Of each mesh.
   std::vector<std::vector<std::uint64_t>> filling_serials_;
   std::uint64_t next_serial_ = 0;
@@ -346,10 +458,13 @@ struct SurfaceEditor::Redo {
     std::vector<Index> triangle_submesh;
     std::vector<Submesh> submeshes;
     std::vector<Birth> births;
+    std::vector<VertexRecord> records;
     std::vector<Triangle> fillings;
     std::vector<Index> appended_triangles;
   };
   std::vector<OfMesh> meshes;
+  std::vector<Born> born;
+  std::vector<Influence> born_influences;
   std::vector<Index> corner_point, twin, point_corner, side, parents, vertex_mesh;
   std::vector<TriangleRef> triangles;
   std::vector<Addition> additions;

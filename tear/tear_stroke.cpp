@@ -34,6 +34,9 @@ void add_to(TearReport& sum, const TearReport& report) {
   sum.blocked += report.blocked;
   sum.length_posed += report.length_posed;
   sum.area_removed_posed += report.area_removed_posed;
+  sum.weights.points += report.weights.points;
+  sum.weights.ill_conditioned += report.weights.ill_conditioned;
+  sum.weights.pruned += report.weights.pruned;
 }
 
 }  // namespace
@@ -93,7 +96,7 @@ struct TearStroke::State {
           call.lips.swap(tearing.lips);
           return {};
         },
-        change);
+        operation.options.weights.value_or(WeightOptions{}), change);
     if (report) {
       add_to(total, *report);
       return report;
@@ -126,6 +129,7 @@ Result<TearStroke> TearStroke::begin(TornModel& model, const ModelPose& pose, co
   operation.stroke.assign(1, blade);
   operation.pose_changes.clear();
   operation.options = options;
+  operation.options.weights = recorded(options.weights.value_or(of_model.weights));
   of_model.tearing.begin(blade, options);
   auto state = std::unique_ptr<State>(
       new State{&of_model, sampling, operation, 0, {}, of_model.begin_operation(options.wall_depth > 0), {}, {}, {}, false});

@@ -43,6 +43,7 @@ Result<TearReport> TornModel::tear(const ModelPose& pose, std::span<const Blade>
     return Status::failure(StatusCode::invalid_argument, kNone, "a stroke needs at least two blades, this one has %zu",
                            stroke.size());
   if (Status status = validate_options(options); !status) return status;
+  const WeightOptions weights = options.weights.value_or(state.weights);
   for (std::uint32_t i = 0; i < stroke.size(); ++i) {
     if (Status status = validate_blade(stroke[i], i); !status) return status;
     if (i == 0) continue;
@@ -57,6 +58,7 @@ Result<TearReport> TornModel::tear(const ModelPose& pose, std::span<const Blade>
         operation.stroke.assign(stroke.begin(), stroke.end());
         operation.pose_changes.clear();
         operation.options = options;
+        operation.options.weights = recorded(weights);
         state.tearing.begin(stroke.front(), options);
         for (const Blade& blade : stroke.subspan(1)) state.tearing.extend(blade, state.workpiece());
         state.tearing.finish(state.workpiece());
@@ -64,7 +66,7 @@ Result<TearReport> TornModel::tear(const ModelPose& pose, std::span<const Blade>
         call.lips.swap(state.tearing.lips);
         return {};
       },
-      change);
+      weights, change);
   if (report) state.record(begin);
   return report;
 }
@@ -73,6 +75,8 @@ Result<TearReport> TornModel::cut(const ModelPose& pose, const Cut& cut, ChangeR
   State& state = *state_;
   if (Status status = state.may_begin(); !status) return status;
   if (Status status = tear::validate_cut(cut); !status) return status;
+  const WeightOptions weights = cut.weights.value_or(state.weights);
+  if (Status status = validate_weights(weights); !status) return status;
   if (Status status = state.stand_in(pose); !status) return status;
   const tear::SurfaceEditor::Mark begin = state.begin_operation(false);
   auto report = state.call(
@@ -80,10 +84,11 @@ Result<TearReport> TornModel::cut(const ModelPose& pose, const Cut& cut, ChangeR
         auto& operation = state.history.next().as<CutOperation>();
         tear::assign_pose(pose, operation.pose);
         operation.cut = cut;
+        operation.cut.weights = recorded(weights);
         tear::cut_surface(cut, state.workpiece(), call.report, call.lips);
         return {};
       },
-      change, true);
+      weights, change, true);
   if (report) state.record(begin);
   return report;
 }
@@ -92,6 +97,8 @@ Result<TearReport> TornModel::drill(const ModelPose& pose, const Bore& bore, Cha
   State& state = *state_;
   if (Status status = state.may_begin(); !status) return status;
   if (Status status = tear::validate_bore(bore); !status) return status;
+  const WeightOptions weights = bore.weights.value_or(state.weights);
+  if (Status status = validate_weights(weights); !status) return status;
   if (Status status = state.stand_in(pose); !status) return status;
   const tear::SurfaceEditor::Mark begin = state.begin_operation(bore.wall);
   auto report = state.call(
@@ -99,10 +106,11 @@ Result<TearReport> TornModel::drill(const ModelPose& pose, const Bore& bore, Cha
         auto& operation = state.history.next().as<DrillOperation>();
         tear::assign_pose(pose, operation.pose);
         operation.bore = bore;
+        operation.bore.weights = recorded(weights);
         tear::drill_surface(bore, state.workpiece(), call.report);
         return {};
       },
-      change);
+      weights, change);
   if (report) state.record(begin);
   return report;
 }
@@ -113,15 +121,22 @@ Status TornModel::undo(ChangeRecord* change) {
   if (state.history.done().empty()) return Status::failure(StatusCode::not_found, kNone, "there is nothing to undo");
   tear::History::Entry& last = *state.history.done().back();
   ChangeRecord unwanted;
+  ChangeRecord& record = change != nullptr ? *change : unwanted;
   try {
     state.editor.scratch().reset();
     state.history.make_room_to_undo();
-    state.editor.undo(last.begin, last.redo, change != nullptr ? *change : unwanted);
+    if (std::holds_alternative<WeightsOperation>(last.operation)) {
+      state.editor.exchange(last.weights);
+      state.editor.describe(last.weights, record);
+    } else {
+      state.editor.undo(last.begin, last.redo, record);
+    }
   } catch (const tear::CapacityExceeded& exceeded) {
     return state.no_room(exceeded);
   } catch (const std::bad_alloc&) {
     return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
   }
+  state.cancel_refits_of(last.serial);
   state.history.move_to_undone();
   return {};
 }
@@ -132,15 +147,39 @@ Status TornModel::redo(ChangeRecord* change) {
   if (state.history.undone().empty()) return Status::failure(StatusCode::not_found, kNone, "there is nothing to do again");
   tear::History::Entry& last = *state.history.undone().back();
   ChangeRecord unwanted;
+  ChangeRecord& record = change != nullptr ? *change : unwanted;
   try {
     state.editor.scratch().reset();
     last.begin = state.editor.mark();
-    state.editor.redo(last.redo, change != nullptr ? *change : unwanted);
+    if (std::holds_alternative<WeightsOperation>(last.operation)) {
+      state.editor.exchange(last.weights);
+      state.editor.describe(last.weights, record);
+    } else {
+      state.editor.redo(last.redo, record);
+    }
+  } catch (const tear::CapacityExceeded& exceeded) {
+    return state.no_room(exceeded);
   } catch (const std::bad_alloc&) {
     return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
   }
   state.history.move_to_done();
   return {};
+}
+
+Status TornModel::set_weights(const WeightOptions& options) {
+  if (Status status = validate_weights(options); !status) return status;
+  state_->weights = options;
+  return {};
+}
+
+const WeightOptions& TornModel::weights() const { return state_->weights; }
+
+WeightPolicy TornModel::weight_policy(std::uint32_t mesh, std::uint32_t vertex) const {
+  return state_->editor.policy(mesh, vertex);
+}
+
+const InfluencePositions& TornModel::influence_positions(std::uint32_t mesh) const {
+  return state_->editor.influence_positions(mesh);
 }
 
 std::uint32_t TornModel::undo_count() const { return static_cast<std::uint32_t>(state_->history.done().size()); }
@@ -157,6 +196,8 @@ Result<CompactMaps> TornModel::compact() {
   try {
     auto source = std::make_shared<Character>(state_->character);
     CompactMaps maps = sunder::compact(*source);
+    for (const auto& refit : state_->refits)
+      if (const auto work = refit.lock()) work->cancel();
     state_ = std::make_unique<State>(std::move(source), state_->capacity);
     return maps;
   } catch (const std::bad_alloc&) {

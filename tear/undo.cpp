@@ -32,6 +32,7 @@ void SurfaceEditor::undo(const Mark& begin, Redo& redo, ChangeRecord& change) {
     of_mesh.triangles = tail_of(mesh.triangles, sizes[m].triangles);
     of_mesh.triangle_submesh = tail_of(mesh.triangle_submesh, sizes[m].triangles);
     of_mesh.submeshes = tail_of(mesh.submeshes, mesh.submeshes.size() - added(Addition::Kind::submesh));
+    of_mesh.records = tail_of(records_[m], sizes[m].vertices - source_.meshes[m].vertex_count());
     of_mesh.births = tail_of(births_[m], sizes[m].vertices - source_.meshes[m].vertex_count());
     of_mesh.fillings = tail_of(fillings_[m], fillings_[m].size() - added(Addition::Kind::filling));
     of_mesh.appended_triangles = tail_of(appended_triangles_[m], sizes[m].triangles - source_.meshes[m].triangle_count());
@@ -45,6 +46,9 @@ void SurfaceEditor::undo(const Mark& begin, Redo& redo, ChangeRecord& change) {
   redo.side = tail_of(surface_.appended_side, begin.points - surface_.source_point_count());
   redo.vertex_mesh = tail_of(vertex_mesh_, begin.vertices);
   redo.next_side = next_side_;
+  redo.born = tail_of(born_, begin.born);
+  redo.born_influences =
+      tail_of(born_influences_, born_.size() > begin.born ? born_[begin.born].first_influence : born_influences_.size());
   redo.log = tail_of(log_, begin.log_length);
   redo.side_log = tail_of(side_log_, begin.side_log_length);
   for (const SideEntry& entry : redo.side_log)
@@ -96,6 +100,8 @@ void SurfaceEditor::redo(const Redo& redo, ChangeRecord& change) {
       additions_.pop_back();
     }
   append(additions_, redo.additions);
+  append(born_, redo.born);
+  append(born_influences_, redo.born_influences);
   for (Index m = 0; m < character_.meshes.size(); ++m) {
     Mesh& mesh = character_.meshes[m];
     const Redo::OfMesh& of = redo.meshes[m];
@@ -110,6 +116,7 @@ void SurfaceEditor::redo(const Redo& redo, ChangeRecord& change) {
     append(mesh.triangle_submesh, of.triangle_submesh);
     append(mesh.submeshes, of.submeshes);
     append(births_[m], of.births);
+    append(records_[m], of.records);
     append(fillings_[m], of.fillings);
     while (filling_serials_[m].size() < fillings_[m].size()) filling_serials_[m].push_back(next_serial_++);
     append(appended_triangles_[m], of.appended_triangles);
@@ -144,6 +151,8 @@ void SurfaceEditor::redo(const Redo& redo, ChangeRecord& change) {
     log_.push_back(entry);
   }
   append(side_log_, redo.side_log);
+  for (Index m = 0; m < character_.meshes.size(); ++m)
+    update_exact(m, character_.meshes[m].vertex_count() - static_cast<Index>(redo.meshes[m].records.size()));
   begin_stage();
 }
 

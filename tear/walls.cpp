@@ -64,9 +64,10 @@ class Walls {
     filling_.shade(mesh, corner.vertex, normal, tangent, uv);
   }
   void add_triangle(Index mesh, Index like_corner, const Corner& a, const Corner& b, const Corner& c) {
-    const auto& positions = work_.editor.character().meshes[mesh].positions;
-    const Eigen::Vector3d at = positions[a.vertex].cast<double>();
-    const Eigen::Vector3d ab = positions[b.vertex].cast<double>() - at, ac = positions[c.vertex].cast<double>() - at;
+    const auto place = [&](const Corner& of) -> Eigen::Vector3d {
+      return work_.editor.born_position(mesh, of.vertex).cast<double>();
+    };
+    const Eigen::Vector3d ab = place(b) - place(a), ac = place(c) - place(a);
     is_sound_ &= ab.cross(ac).squaredNorm() > 0;  // else stored positions are too coarse for it
     filling_.add_triangle(mesh, like_corner, {a.point, b.point, c.point}, {a.vertex, b.vertex, c.vertex});
   }

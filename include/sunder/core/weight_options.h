@@ -1,5 +1,7 @@
 #pragma once
 
+#include <sunder/core/pose_set_spec.h>
+
 #include <cstdint>
 
 namespace sunder {
@@ -17,6 +19,14 @@ struct WeightOptions {
   std::uint32_t maximum_influences = 0;  ///< The largest are kept, and add up to one. 0: all. `exact` takes all.
 
   bool operator==(const WeightOptions&) const = default;
+};
+
+/// How `refit` fits.
+struct RefitOptions {
+  PoseSetSpec poses;         ///< Over which.
+  bool moves_bind = true;    ///< Whether bind positions are fitted too.
+  bool is_coupled = false;   ///< Whether neighbours are fitted together. Needs a build with Ceres.
+  double smoothness = 0.01;  ///< Of those, see CoupledRefitOptions; >= 0.
 };
 
 }  // namespace sunder

@@ -17,6 +17,12 @@ namespace sunder {
                                                          std::span<const Affine3d> model_from_bind,
                                                          std::span<const float> morph_weights);
 
+/// The same of a vertex as if it had another bind position and other influences.
+[[nodiscard]] SUNDER_API Vec3d deform_position_reference(const Mesh& mesh, std::uint32_t vertex, const Vec3f& position,
+                                                         std::span<const Influence> influences,
+                                                         std::span<const Affine3d> model_from_bind,
+                                                         std::span<const float> morph_weights);
+
 /// The same for the normal: sum_k w_k compute_normal_matrix(M_k), unit length. Only where the mesh has normals.
 [[nodiscard]] SUNDER_API Vec3d deform_normal_reference(const Mesh& mesh, std::uint32_t vertex,
                                                        std::span<const Affine3d> model_from_bind,

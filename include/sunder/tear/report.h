@@ -20,6 +20,14 @@ struct Piece {
   Vec3d centroid_posed = Vec3d::Zero();  ///< Of the surface, by area; model space.
 };
 
+/// What became of the points that an operation weighed: those that lie between vertices. Duplicates count once.
+struct WeightReport {
+  std::uint32_t points = 0;
+  std::uint32_t ill_conditioned = 0;  ///< `pose_exact`: kept their interpolated bind positions.
+  std::uint32_t refitted = 0;         ///< `refit`: got weights that are better over the poses.
+  std::uint32_t pruned = 0;           ///< Lost influences to WeightOptions::maximum_influences.
+};
+
 /// What one operation did, in figures. Fields that an operation has no use for are zero.
 struct TearReport {
   std::uint32_t runs = 0;             ///< Connected runs of torn surface. 0: the operation missed and nothing changed.
@@ -33,6 +41,7 @@ struct TearReport {
   std::uint32_t blocked = 0;        ///< Places where the surface could not be torn, because its faces are too small or degenerate.
   double length_posed = 0.0;        ///< Of the tear on the posed surface, or of all edges of a cut, metres.
   double area_removed_posed = 0.0;  ///< Of the surface that lay in the gap or bore, square metres.
+  WeightReport weights;
   std::uint32_t caps = 0;           ///< Faces of flat section closed, counted once for each side.
   std::uint32_t open_sections = 0;  ///< Runs of cut edges that do not close, and so got no cap.
   /// What came free. Of a tear or bore: what hung together with more before, all but the part with the most faces. Of a cut: every

@@ -2,6 +2,7 @@
 
 #include <sunder/core/character.h>
 #include <sunder/core/operation.h>
+#include <sunder/skinning/vertex_arrays.h>
 #include <sunder/tear/capacity.h>
 #include <sunder/tear/change_record.h>
 #include <sunder/tear/compact.h>
@@ -11,6 +12,9 @@
 #include <span>
 
 namespace sunder {
+
+struct ParentBlends;
+struct WeightErrors;
 
 /// A character that can be torn. It keeps the source, the torn meshes, and the topology of their surface.
 class SUNDER_API TornModel {
@@ -59,6 +63,26 @@ class SUNDER_API TornModel {
   [[nodiscard]] std::uint32_t undo_count() const;
   [[nodiscard]] std::uint32_t redo_count() const;
 
+  /// How operations weigh the points that they make, where they do not say: `barycentric`, all influences, unless this was called.
+  /// What was made before keeps what it has; see reweigh().
+  Status set_weights(const WeightOptions& options);
+  [[nodiscard]] const WeightOptions& weights() const;
+  /// Gives the points that earlier operations made other weights, from their births, and the same to every vertex that shares
+  /// them. An operation of its own: it is in the history, and undo() takes back no more than it. Where tears run does not depend
+  /// on it. `refit` fits here and now; to fit beside the frame see RefitJob.
+  ///
+  /// @param change  written where given: vertices that are dirty.
+  /// @return not_found where there are no such operations; what the pose or the poses of a refit are refused for;
+  /// unsupported_feature
+  ///         for a coupled refit that was not built. O(vertices appended since the first of them), and what a refit takes.
+  Result<WeightReport> reweigh(const WeightsOperation& wanted, ChangeRecord* change = nullptr);
+  /// What the weights of a vertex were made by: `barycentric` for one of the source, for one in a corner of its birth triangle, and
+  /// for one of a wall or cap that is not on its rim. Unchecked.
+  [[nodiscard]] WeightPolicy weight_policy(std::uint32_t mesh, std::uint32_t vertex) const;
+  /// The `exact` vertices of a mesh: what VertexSource::per_influence takes. In the mesh itself, and in files, they have their
+  /// barycentric weights. Unchecked. Valid until the next call that changes the model.
+  [[nodiscard]] const InfluencePositions& influence_positions(std::uint32_t mesh) const;
+
   /// What was done and not taken back, oldest first, with the poses' bone matrices in full: played on the source it gives this
   /// model again, bit for bit.
   [[nodiscard]] std::vector<Operation> history() const;
@@ -91,6 +115,10 @@ class SUNDER_API TornModel {
 
  private:
   friend class TearStroke;
+  friend class RefitJob;
+  friend SUNDER_API Result<WeightErrors> measure_weight_errors(const TornModel&, std::uint32_t, std::uint32_t,
+                                                               std::span<const ModelPose>);
+  friend SUNDER_API ParentBlends parent_blends(const TornModel&, std::uint32_t);
   struct State;
   explicit TornModel(std::unique_ptr<State> state);
   std::unique_ptr<State> state_;

@@ -1,0 +1,73 @@
+#include <sunder/tear/parent_blends.h>
+
+#include <algorithm>
+#include <map>
+
+#include "tear/model_state.h"
+
+namespace sunder {
+namespace {
+
+using VertexRef = tear::SurfaceEditor::VertexRef;
+
+/// The corners that a vertex lies between and its parts of them: its own corners, in the order and with the parts that the first
+/// vertex at its point has of the corners that coincide with them.
+ParentBlend blend_of(const tear::SurfaceEditor& editor, std::uint32_t mesh, std::uint32_t vertex) {
+  const auto coincide = [&](const VertexRef& a, const VertexRef& b) {
+    return editor.born_position(a.mesh, a.vertex) == editor.born_position(b.mesh, b.vertex) &&
+           std::ranges::equal(editor.born_influences(a.mesh, a.vertex), editor.born_influences(b.mesh, b.vertex));
+  };
+  const Birth& own = editor.birth(mesh, vertex);
+  const VertexRef first = editor.original(mesh, vertex);
+  // On the rim of a wall or cap a vertex is born in its own corner: it lies where the lip has it.
+  const bool is_of_rim = std::ranges::count_if(own.barycentric, [](double part) { return part > 0; }) < 2;
+  const Birth& shared = editor.birth(first.mesh, first.vertex);
+  const Triangle& of_shared = editor.origin_triangle(first.mesh, shared.triangle);
+  const Triangle& corners = is_of_rim ? of_shared : editor.origin_triangle(mesh, own.triangle);
+  ParentBlend blend{vertex, {}, {}};
+  std::size_t count = 0;
+  std::uint32_t repeated = kNone;
+  for (std::size_t l = 0; l < 3; ++l) {
+    if (!(shared.barycentric[l] > 0)) continue;
+    const auto same = std::ranges::find_if(corners, [&](std::uint32_t corner) {
+      return is_of_rim ? corner == of_shared[l] : coincide({mesh, corner}, {first.mesh, of_shared[l]});
+    });
+    if (same == corners.end()) break;
+    blend.parents[count] = repeated = *same;
+    blend.parts[count++] = static_cast<float>(shared.barycentric[l]);
+  }
+  const auto wanted = static_cast<std::size_t>(std::ranges::count_if(shared.barycentric, [](double part) { return part > 0; }));
+  if (count < wanted) {  // nothing coincides: as it was born itself
+    blend = {vertex, corners, {}};
+    for (std::size_t k = 0; k < 3; ++k) blend.parts[k] = static_cast<float>(own.barycentric[k]);
+    return blend;
+  }
+  for (; count < 3; ++count) blend.parents[count] = repeated;
+  return blend;
+}
+
+}  // namespace
+
+ParentBlends parent_blends(const TornModel& model, std::uint32_t mesh) {
+  const tear::SurfaceEditor& editor = model.state_->editor;
+  ParentBlends result;
+  std::map<std::uint32_t, std::size_t> level_of;  // of each exact vertex
+  std::vector<std::vector<ParentBlend>> levels;
+  for (const std::uint32_t vertex : editor.influence_positions(mesh).vertices) {
+    const ParentBlend blend = blend_of(editor, mesh, vertex);
+    std::size_t level = 0;
+    for (const std::uint32_t parent : blend.parents)
+      if (const auto known = level_of.find(parent); known != level_of.end()) level = std::max(level, known->second + 1);
+    level_of.emplace(vertex, level);
+    if (level >= levels.size()) levels.resize(level + 1);
+    levels[level].push_back(blend);
+  }
+  for (const auto& of_level : levels) {
+    result.level_begin.push_back(static_cast<std::uint32_t>(result.blends.size()));
+    result.blends.insert(result.blends.end(), of_level.begin(), of_level.end());
+  }
+  result.level_begin.push_back(static_cast<std::uint32_t>(result.blends.size()));
+  return result;
+}
+
+}  // namespace sunder

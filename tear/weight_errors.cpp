@@ -1,0 +1,116 @@
+#include <sunder/skinning/palette.h>
+#include <sunder/skinning/reference.h>
+#include <sunder/tear/weight_errors.h>
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+
+#include "tear/model_state.h"
+
+namespace sunder {
+namespace {
+
+/// Errors of points in poses, as parts of something.
+WeightErrors::Statistics statistics_of(std::vector<double>& values) {
+  WeightErrors::Statistics result;
+  if (values.empty()) return result;
+  double sum = 0;
+  for (const double value : values) sum += value * value;
+  result.rms = std::sqrt(sum / static_cast<double>(values.size()));
+  result.maximum = *std::max_element(values.begin(), values.end());
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) * 95 / 100);
+  std::nth_element(values.begin(), at, values.end());
+  result.percentile95 = *at;
+  return result;
+}
+
+double bind_diagonal(const Character& character) {
+  Eigen::AlignedBox3d box;
+  for (const Mesh& mesh : character.meshes)
+    for (const Vec3f& position : mesh.positions) box.extend(Eigen::Vector3d(position.cast<double>()));
+  return box.isEmpty() ? 0.0 : box.diagonal().norm();
+}
+
+/// Where a vertex of policy `exact` stands, as stored.
+Vec3d exact_position(const tear::SurfaceEditor& editor, const tear::SurfaceEditor::VertexRef& at, std::span<const Affine3d> palette,
+                     std::span<const float> morph_weights) {
+  const InfluencePositions& exact = editor.influence_positions(at.mesh);
+  const Mesh& mesh = editor.character().meshes[at.mesh];
+  std::size_t place = editor.exact_place(at.mesh, at.vertex);
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const Influence& influence : mesh.weights.of(at.vertex)) {
+    Eigen::Vector3d q = exact.positions[place].cast<double>();
+    for (std::size_t j = 0; j < exact.morph_targets.size(); ++j)
+      if (!exact.morph_targets[j].positions.empty())
+        q += static_cast<double>(morph_weights[mesh.first_morph_weight + j]) *
+             exact.morph_targets[j].positions[place].cast<double>();
+    const Affine3d& bone = palette[influence.slot];
+    sum += bone.linear() * q + static_cast<double>(influence.weight) * Eigen::Vector3d(bone.translation());
+    ++place;
+  }
+  return sum;
+}
+
+double mean_edge(const tear::SurfaceEditor& editor, const tear::SurfaceEditor::VertexRef& at) {
+  const Triangle& corners = editor.origin_triangle(at.mesh, editor.birth(at.mesh, at.vertex).triangle);
+  double sum = 0;
+  for (std::size_t k = 0; k < 3; ++k)
+    sum += (editor.born_position(at.mesh, corners[k]) - editor.born_position(at.mesh, corners[(k + 1) % 3])).cast<double>().norm();
+  return sum / 3;
+}
+
+}  // namespace
+
+Result<WeightErrors> measure_weight_errors(const TornModel& model, std::uint32_t first_operation, std::uint32_t operation_count,
+                                           std::span<const ModelPose> poses) {
+  const TornModel::State& state = *model.state_;
+  const tear::SurfaceEditor& editor = state.editor;
+  WeightsOperation operations;
+  operations.first_operation = first_operation;
+  operations.operation_count = operation_count;
+  if (Status status = state.resolve(operations); !status) return status;
+  for (const ModelPose& pose : poses)
+    if (Status status = tear::PosedPoints::check(state.character, pose); !status) return status;
+  try {
+    const auto points = tear::weighable_points(state.vertices_of(operations), editor);
+    WeightErrors errors;
+    errors.poses = static_cast<std::uint32_t>(poses.size());
+    for (const auto& at : points) errors.points.push_back({at.mesh, at.vertex, 0, 0, mean_edge(editor, at)});
+    std::vector<double> metres, of_edge;
+    std::vector<std::vector<Affine3d>> palettes;
+    for (const Skin& skin : state.character.skins) palettes.emplace_back(skin.bones.size());
+    AnimationPoint exact;
+    for (const ModelPose& pose : poses) {
+      for (std::size_t skin = 0; skin < palettes.size(); ++skin)
+        if (Status status = compute_palette(state.character.skins[skin], pose, palettes[skin]); !status) return status;
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        const auto& at = points[i];
+        const Mesh& mesh = state.character.meshes[at.mesh];
+        const std::vector<Affine3d>& palette = palettes[mesh.skin];
+        editor.describe_exactly(at, pose.morph_weights, exact);
+        const Vec3d stands = editor.policy(at.mesh, at.vertex) == WeightPolicy::exact
+                                 ? exact_position(editor, at, palette, pose.morph_weights)
+                                 : deform_position_reference(mesh, at.vertex, palette, pose.morph_weights);
+        const double error = (stands - exact.posed(palette)).norm();
+        WeightErrors::OfPoint& of = errors.points[i];
+        of.rms += error * error / static_cast<double>(poses.size());
+        of.maximum = std::max(of.maximum, error);
+        metres.push_back(error);
+        of_edge.push_back(of.edge > 0 ? error / of.edge : 0.0);
+      }
+    }
+    for (WeightErrors::OfPoint& of : errors.points) of.rms = std::sqrt(of.rms);
+    errors.metres = statistics_of(metres);
+    errors.of_edge = statistics_of(of_edge);
+    errors.of_diagonal = errors.metres;
+    const double diagonal = bind_diagonal(*state.source);
+    for (double* value : {&errors.of_diagonal.rms, &errors.of_diagonal.percentile95, &errors.of_diagonal.maximum})
+      *value = diagonal > 0 ? *value / diagonal : 0.0;
+    return errors;
+  } catch (const std::bad_alloc&) {
+    return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
+  }
+}
+
+}  // namespace sunder
