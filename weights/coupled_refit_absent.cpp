@@ -1,8 +1,0 @@
-#include <sunder/weights/coupled_refit.h>
-namespace sunder {
-bool has_coupled_refit() { return false; }
-Result<std::vector<CoupledFit>> refit_coupled(std::span<const PointToRefit>, std::span<const RefitNeighbours>,
-                                              const CoupledRefitOptions&, const PoseMoments&) {
-  return Status::failure(StatusCode::unsupported_feature, kNone, "absent");
-}
-}  // namespace sunder
