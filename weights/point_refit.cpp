@@ -35,7 +35,7 @@ class PointRefit::Problem {
   void set_position(const Eigen::Vector3d& position);
   [[nodiscard]] Eigen::Vector3d best_position(const Eigen::Vector3d& start) const;
   [[nodiscard]] double mean_square(const std::vector<double>& of_terms, const Eigen::Vector3d& position);
-  void choose(std::size_t maximum);
+  [[nodiscard]] bool choose(std::size_t maximum);
   void take_turns(const Eigen::Vector3d& start, Eigen::Vector3d& position);
 
   const PoseMoments* moments_ = nullptr;
@@ -133,14 +133,13 @@ double PointRefit::Problem::mean_square(const std::vector<double>& of_terms, con
   return weights::mean_square(terms_, of_terms, position, *moments_, difference_);
 }
 
-/// Solves for the weights at the position set, no more than `maximum` of them: from the best of all, without that one which is
-/// missed least, and so on.
-void PointRefit::Problem::choose(std::size_t maximum) {
-  allowed_.assign(terms_.size(), true);
-  solver_.solve(weights_, allowed_);
+/// Leaves no more than `maximum` weights: without that one which is missed least, and so on. 0: as many as there are.
+/// @return whether any had to go.
+bool PointRefit::Problem::choose(std::size_t maximum) {
   const auto used = [&] {
     return static_cast<std::size_t>(std::count_if(weights_.begin(), weights_.end(), [](double w) { return w > 0; }));
   };
+  if (maximum == 0 || used() <= maximum) return false;
   while (used() > maximum) {
     double least = 0;
     std::size_t dropped = terms_.size();
@@ -164,6 +163,7 @@ void PointRefit::Problem::choose(std::size_t maximum) {
     weights_ = best_;
   }
   for (std::size_t i = 0; i < terms_.size(); ++i) allowed_[i] = weights_[i] > 0;
+  return true;
 }
 
 void PointRefit::Problem::take_turns(const Eigen::Vector3d& start, Eigen::Vector3d& position) {
@@ -187,8 +187,10 @@ PointRefit::Fit PointRefit::Problem::solve(const PointToRefit& point, const Opti
 
   Eigen::Vector3d position = start;
   set_position(position);
-  choose(options.maximum_influences == 0 ? terms_.size() : options.maximum_influences);
+  allowed_.assign(terms_.size(), true);
+  solver_.solve(weights_, allowed_);
   if (options.moves_bind) take_turns(start, position);
+  if (choose(options.maximum_influences) && options.moves_bind) take_turns(start, position);
   weights::store_weights(terms_, weights_, influences_);
   // What is stored is what has to be better.
   weights::weights_of_terms(terms_, influences_, weights_);

@@ -112,7 +112,6 @@ TEST_F(CoupledRefit, smoothness_makes_neighbours_move_alike) {
     const double difference = mean_difference(lip, *fits);
     double error = 0;
     for (const CoupledFit& fit : *fits) error += fit.mean_square;
-    std::printf("smoothness %g: %g, error %g\n", smoothness, difference, error);
     EXPECT_LT(difference, before);
     EXPECT_GE(error, (1 - 1e-3) * error_before) << "which is what it costs";
     before = difference;

@@ -72,7 +72,7 @@ Vec3d best_position(const test::Lip& lip, std::size_t point, const Eigen::Vector
 /// The least mean square that turns of exact solves come to, from many starts, over all supports.
 double best_of_all_turns(const test::Lip& lip, std::size_t point, std::size_t maximum, test::Random& random) {
   double best = std::numeric_limits<double>::infinity();
-  for (int start = 0; start < 12; ++start) {
+  for (int start = 0; start < 20; ++start) {
     Vec3d position = lip.points[point].position;
     if (start > 0) position += 0.05 * random.direction();
     double before = std::numeric_limits<double>::infinity();
@@ -153,13 +153,13 @@ TEST(PointRefit, weights_alone_are_the_exact_optimum) {
   EXPECT_GT(checked, 100);
 }
 
-TEST(PointRefit, is_within_two_percent_of_an_exhaustive_search) {
+TEST(PointRefit, nearly_all_points_are_within_two_percent_of_an_exhaustive_search) {
   test::Random random(4);
   PointRefit refit;
   for (const bool moves_bind : {false, true}) {
     double worst = 1, sum = 0, best_sum = 0;
-    int checked = 0;
-    for (int i = 0; i < test::stressed(3, 20); ++i) {
+    int checked = 0, over = 0;
+    for (int i = 0; i < test::stressed(25, 10); ++i) {
       const test::Lip lip(random, {.points = 20, .slots = 14, .angle = 0.9, .face = 0.25});
       for (std::size_t point = 0; point < lip.points.size(); ++point) {
         const std::size_t count = lip.exact[point].terms().size();
@@ -171,11 +171,12 @@ TEST(PointRefit, is_within_two_percent_of_an_exhaustive_search) {
         sum += std::sqrt(fit.mean_square);
         best_sum += std::sqrt(best);
         ++checked;
+        over += std::sqrt(fit.mean_square / best) > 1.02 ? 1 : 0;
       }
     }
-    EXPECT_GT(checked, 20);
-    std::printf("moves_bind %d: %d points, worst %g, mean %g\n", moves_bind, checked, worst, sum / best_sum);
-    EXPECT_LE(sum, 1.02 * best_sum);
+    EXPECT_GT(checked, 100);
+    EXPECT_LE(50 * over, checked) << "worst " << worst;
+    EXPECT_LE(sum, 1.002 * best_sum);
   }
 }
 

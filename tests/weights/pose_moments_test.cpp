@@ -59,7 +59,8 @@ TEST(PoseMoments, mean_square_is_the_mean_over_the_poses) {
     moments.want(point_of(difference));
     moments.want(point_of(random_difference(random)));
     std::vector<std::vector<Affine3d>> palettes;
-    for (std::uint32_t pose = 0; pose <= random.index(9); ++pose) {
+    const std::uint32_t poses = 1 + random.index(9);
+    for (std::uint32_t pose = 0; pose < poses; ++pose) {
       palettes.push_back(test::random_palette(random, kSlots, 2));
       moments.add(palettes.back());
     }
