@@ -7,7 +7,7 @@
 #include <map>
 #include <memory>
 
-#include <Eigen/Cholesky>
+#include <Eigen/Core>
 #include <ceres/cost_function.h>
 #include <ceres/problem.h>
 #include <ceres/solver.h>
@@ -245,7 +245,7 @@ bool CoupledProblem::factor(std::size_t point, RowMajor& root) {
     if (const int i = unknowns.find(term.slot); i >= 0)
       towards_[static_cast<std::size_t>(i)].noalias() = about_place.transpose() * towards;
   }
-  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(4 * n, 4 * n);  // its lower half
+  Eigen::MatrixXd gram(4 * n, 4 * n);
   double stiffness = 0;
   for (int i = 0; i < n; ++i)
     for (int j = 0; j <= i; ++j) {
@@ -260,26 +260,26 @@ bool CoupledProblem::factor(std::size_t point, RowMajor& root) {
       const double weights = unknowns.roots[i] * unknowns.roots[i] * unknowns.roots[j] * unknowns.roots[j];
       stiffness += (i == j ? 1.0 : 2.0) * weights * product.topLeftCorner<3, 3>().trace();
       gram.block<4, 4>(4 * i, 4 * j) = product;
+      if (i != j) gram.block<4, 4>(4 * j, 4 * i) = product.transpose();
     }
   // The offset is the mean of itself by the weights, so that its length can be charged bone by bone.
   stiffness *= weights::kStiffness / 3;
   for (int i = 0; i < n; ++i)
-    for (int j = 0; j <= i; ++j)
+    for (int j = 0; j < n; ++j)
       for (int axis = 0; axis < 3; ++axis) gram(4 * i + axis, 4 * j + axis) += stiffness;
   if (!gram.allFinite()) return false;
 
-  const Eigen::LDLT<Eigen::MatrixXd> factors(gram);
-  if (factors.info() != Eigen::Success) return false;
-  const Eigen::VectorXd pivots = factors.vectorD();
-  const Eigen::MatrixXd upper = factors.matrixU();
-  const double least = kLeastPivot * pivots.maxCoeff();
-  const auto rows = (pivots.array() > least).count();
-  root.setZero(rows, 4 * n);
-  Eigen::Index row = 0;
-  for (Eigen::Index k = 0; k < pivots.size(); ++k)
-    if (pivots[k] > least) root.row(row++) = scale_ * std::sqrt(pivots[k]) * upper.row(k);
-  root = (factors.transpositionsP().transpose() * root.transpose()).transpose().eval();
-  return rows > 0 && root.allFinite();
+  // Cholesky's factors, each time by the largest pivot that is left. What is left below the least of them is rounding.
+  root.resize(4 * n, 4 * n);
+  const double least = kLeastPivot * gram.diagonal().maxCoeff();
+  Eigen::Index rank = 0, pivot = 0;
+  while (rank < root.rows() && gram.diagonal().maxCoeff(&pivot) > least) {
+    root.row(rank) = gram.row(pivot) / std::sqrt(gram(pivot, pivot));
+    gram.noalias() -= root.row(rank).transpose() * root.row(rank);
+    ++rank;
+  }
+  root = (scale_ * root.topRows(rank)).eval();
+  return rank > 0 && root.allFinite();
 }
 
 void CoupledProblem::add_point(std::size_t point) {

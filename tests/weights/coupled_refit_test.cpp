@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -27,6 +28,29 @@ double mean_difference(const test::Lip& lip, const std::vector<CoupledFit>& fits
   for (std::size_t i = 1; i < fits.size(); ++i)
     sum += ((fits[i].position - lip.points[i].position) - (fits[i - 1].position - lip.points[i - 1].position)).norm();
   return sum / static_cast<double>(fits.size() - 1);
+}
+
+/// What is to be least, summed up anew: pose by pose, neighbours by neighbours, slot by slot.
+double cost(const test::Lip& lip, const std::vector<CoupledFit>& fits, double smoothness) {
+  double sum = 0;
+  for (std::size_t i = 0; i < fits.size(); ++i) sum += lip.mean_square(i, fits[i].influences, fits[i].position);
+  const auto change_of = [&](std::uint32_t point) {
+    std::map<std::uint32_t, double> change;
+    if (point == kNone) return change;
+    for (const Influence& influence : fits[point].influences) change[influence.slot] += static_cast<double>(influence.weight);
+    for (const Influence& influence : lip.barycentric[point]) change[influence.slot] -= static_cast<double>(influence.weight);
+    return change;
+  };
+  for (const RefitNeighbours& pair : lip.neighbours) {
+    Vec3d moved = fits[pair.a].position - lip.points[pair.a].position;
+    if (pair.b != kNone) moved -= fits[pair.b].position - lip.points[pair.b].position;
+    std::map<std::uint32_t, double> change = change_of(pair.a);
+    for (const auto& [slot, of_b] : change_of(pair.b)) change[slot] -= of_b;
+    double change_square = 0;
+    for (const auto& [slot, difference] : change) change_square += difference * difference;
+    sum += smoothness * (moved.squaredNorm() + pair.length * pair.length * change_square);
+  }
+  return sum;
 }
 
 class CoupledRefit : public testing::Test {
@@ -116,6 +140,28 @@ TEST_F(CoupledRefit, smoothness_makes_neighbours_move_alike) {
     EXPECT_GE(error, (1 - 1e-3) * error_before) << "which is what it costs";
     before = difference;
     error_before = error;
+  }
+}
+
+TEST_F(CoupledRefit, nothing_near_the_result_costs_less) {
+  test::Random random(10);
+  // From two poses the moments are singular.
+  for (const auto& [smoothness, poses] : {std::pair(0.01, 12u), {0.1, 12u}, {0.01, 2u}}) {
+    const test::Lip lip(random, {.points = 20, .slots = 14, .poses = poses, .maximum_influences = 0});
+    const auto result = refit_coupled(lip.points, lip.neighbours, {{0, true}, smoothness}, lip.moments[0]);
+    ASSERT_TRUE(result) << result.error().text();
+    const double least = cost(lip, *result, smoothness);
+    for (int i = 0; i < 500; ++i) {
+      std::vector<CoupledFit> fits = *result;
+      CoupledFit& fit = fits[random.index(20)];
+      ASSERT_TRUE(fit.is_better) << "a point that was reset is not at the optimum";
+      const double size = i % 2 == 0 ? 1e-4 : 1e-3;
+      if (random.index(2) == 0) fit.position += size * random.direction();
+      const float part = std::min(static_cast<float>(random.uniform(-size, size)), fit.influences.back().weight);
+      fit.influences.front().weight += part;
+      fit.influences.back().weight -= part;
+      EXPECT_GE(cost(lip, fits, smoothness), (1 - 1e-6) * least);
+    }
   }
 }
 
