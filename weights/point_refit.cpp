@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
+#include "weights/refit_terms.h"
 #include "weights/simplex_solver.h"
 
 namespace sunder {
@@ -11,27 +13,17 @@ namespace {
 /// Weights and bind position take turns until a turn gains less than this part, or so many times.
 constexpr double kLeastGain = 1e-4;
 constexpr int kMostTurns = 32;
-/// What moving the bind position costs, as a part of its squared length: where the poses say nothing about a direction it stays.
-constexpr double kStiffness = 1e-4;
-/// A weight below it is not worth an influence.
-constexpr double kLeastWeight = 1e-5;
 
 }  // namespace
 
 /// One point's quadratic forms, and the memory for them. Places are about the centre of the moments.
 class PointRefit::Problem {
  public:
-  void begin(const PointToRefit& point, const Options& options, const PoseMoments& moments);
+  void begin(const PointToRefit& point, const PoseMoments& moments);
   [[nodiscard]] Fit solve(const PointToRefit& point, const Options& options);
 
  private:
   using Vec4 = Eigen::Vector4d;
-
-  /// The mean square for fixed weights, as the bind position has it.
-  struct OfPosition {
-    Eigen::Matrix4d square = Eigen::Matrix4d::Zero();
-    Vec4 towards = Vec4::Zero();
-  };
 
   /// H_ij, times the number of poses. Where is_turned, its transpose.
   struct Between {
@@ -43,9 +35,8 @@ class PointRefit::Problem {
   void set_position(const Eigen::Vector3d& position);
   [[nodiscard]] Eigen::Vector3d best_position(const Eigen::Vector3d& start) const;
   [[nodiscard]] double mean_square(const std::vector<double>& of_terms, const Eigen::Vector3d& position);
-  void choose(std::size_t maximum);
+  [[nodiscard]] bool choose(std::size_t maximum);
   void take_turns(const Eigen::Vector3d& start, Eigen::Vector3d& position);
-  void fill_influences(const std::vector<double>& of_terms);
 
   const PoseMoments* moments_ = nullptr;
   std::vector<AnimationPoint::Term> terms_, difference_;
@@ -63,23 +54,14 @@ PointRefit::PointRefit() : problem_(std::make_unique<Problem>()) {}
 PointRefit::~PointRefit() = default;
 
 PointRefit::Fit PointRefit::fit(const PointToRefit& point, const Options& options, const PoseMoments& moments) {
-  problem_->begin(point, options, moments);
+  problem_->begin(point, moments);
   return problem_->solve(point, options);
 }
 
-void PointRefit::Problem::begin(const PointToRefit& point, const Options& options, const PoseMoments& moments) {
-  (void)options;
+void PointRefit::Problem::begin(const PointToRefit& point, const PoseMoments& moments) {
   moments_ = &moments;
   per_pose_ = 1.0 / static_cast<double>(std::max<std::size_t>(moments.pose_count(), 1));
-  const auto of_point = point.exact->terms();
-  terms_.assign(of_point.begin(), of_point.end());
-  // About the centre; and as the point of weights that add up to exactly one.
-  double sum = 0;
-  for (const auto& term : terms_) sum += term.q.w();
-  for (auto& term : terms_) {
-    term.q /= sum;
-    term.q.head<3>() -= term.q.w() * moments.centre();
-  }
+  weights::centre_terms(*point.exact, moments, terms_);
   const std::size_t n = terms_.size();
   between_.resize(n * n);
   towards_.assign(n, Vec4::Zero());
@@ -102,12 +84,7 @@ void PointRefit::Problem::begin(const PointToRefit& point, const Options& option
     towards_[i] *= per_pose_;
     target_square_ += terms_[i].q.dot(towards_[i]);
   }
-  start_.assign(n, 0.0);
-  double weight_sum = 0;
-  for (const Influence& influence : point.barycentric) weight_sum += static_cast<double>(influence.weight);
-  for (const Influence& influence : point.barycentric)
-    for (std::size_t i = 0; i < n; ++i)
-      if (terms_[i].slot == influence.slot) start_[i] = static_cast<double>(influence.weight) / weight_sum;
+  weights::weights_of_terms(terms_, point.barycentric, start_);
   weights_ = start_;
   allowed_.assign(n, true);
 }
@@ -144,7 +121,7 @@ Eigen::Vector3d PointRefit::Problem::best_position(const Eigen::Vector3d& start)
       if (weights_[j] != 0) square += (i == j ? 1.0 : 2.0) * weights_[i] * weights_[j] * *between(i, j).moment;
   }
   square = (0.5 * per_pose_) * (square + square.transpose()).eval();
-  const double stiffness = kStiffness * square.topLeftCorner<3, 3>().trace() / 3;
+  const double stiffness = weights::kStiffness * square.topLeftCorner<3, 3>().trace() / 3;
   Eigen::Matrix3d left = square.topLeftCorner<3, 3>();
   left.diagonal().array() += stiffness + 1e-280;
   const Eigen::Vector3d right = towards.head<3>() - square.topRightCorner<3, 1>() + stiffness * start;
@@ -153,24 +130,16 @@ Eigen::Vector3d PointRefit::Problem::best_position(const Eigen::Vector3d& start)
 }
 
 double PointRefit::Problem::mean_square(const std::vector<double>& of_terms, const Eigen::Vector3d& position) {
-  difference_.resize(terms_.size());
-  for (std::size_t i = 0; i < terms_.size(); ++i) {
-    difference_[i].slot = terms_[i].slot;
-    difference_[i].q = -terms_[i].q;
-    difference_[i].q.head<3>() += of_terms[i] * position;
-    difference_[i].q.w() += of_terms[i];
-  }
-  return moments_->mean_square(difference_);
+  return weights::mean_square(terms_, of_terms, position, *moments_, difference_);
 }
 
-/// Solves for the weights at the position set, no more than `maximum` of them: from the best of all, without that one which is
-/// missed least, and so on.
-void PointRefit::Problem::choose(std::size_t maximum) {
-  allowed_.assign(terms_.size(), true);
-  solver_.solve(weights_, allowed_);
+/// Leaves no more than `maximum` weights: without that one which is missed least, and so on. 0: as many as there are.
+/// @return whether any had to go.
+bool PointRefit::Problem::choose(std::size_t maximum) {
   const auto used = [&] {
     return static_cast<std::size_t>(std::count_if(weights_.begin(), weights_.end(), [](double w) { return w > 0; }));
   };
+  if (maximum == 0 || used() <= maximum) return false;
   while (used() > maximum) {
     double least = 0;
     std::size_t dropped = terms_.size();
@@ -179,7 +148,9 @@ void PointRefit::Problem::choose(std::size_t maximum) {
       if (!(weights_[i] > 0)) continue;
       candidate_ = weights_;
       candidate_[i] = 0;
-      for (double& weight : candidate_) weight /= 1 - weights_[i];
+      // Added up, not 1 - weights_[i]: beside a weight of almost one that would be nothing.
+      const double rest = std::accumulate(candidate_.begin(), candidate_.end(), 0.0);
+      for (double& weight : candidate_) weight /= rest;
       allowed_[i] = false;
       solver_.solve(candidate_, allowed_);
       allowed_[i] = true;
@@ -192,6 +163,7 @@ void PointRefit::Problem::choose(std::size_t maximum) {
     weights_ = best_;
   }
   for (std::size_t i = 0; i < terms_.size(); ++i) allowed_[i] = weights_[i] > 0;
+  return true;
 }
 
 void PointRefit::Problem::take_turns(const Eigen::Vector3d& start, Eigen::Vector3d& position) {
@@ -206,16 +178,6 @@ void PointRefit::Problem::take_turns(const Eigen::Vector3d& start, Eigen::Vector
   }
 }
 
-void PointRefit::Problem::fill_influences(const std::vector<double>& of_terms) {
-  influences_.clear();
-  double sum = 0;
-  for (const double weight : of_terms) sum += weight >= kLeastWeight ? weight : 0.0;
-  for (std::size_t i = 0; i < terms_.size(); ++i)
-    if (of_terms[i] >= kLeastWeight) influences_.push_back({terms_[i].slot, static_cast<float>(of_terms[i] / sum)});
-  std::sort(influences_.begin(), influences_.end(),
-            [](const Influence& a, const Influence& b) { return a.weight != b.weight ? a.weight > b.weight : a.slot < b.slot; });
-}
-
 PointRefit::Fit PointRefit::Problem::solve(const PointToRefit& point, const Options& options) {
   const Eigen::Vector3d start = point.position - moments_->centre();
   Fit result;
@@ -225,16 +187,13 @@ PointRefit::Fit PointRefit::Problem::solve(const PointToRefit& point, const Opti
 
   Eigen::Vector3d position = start;
   set_position(position);
-  choose(options.maximum_influences == 0 ? terms_.size() : options.maximum_influences);
+  allowed_.assign(terms_.size(), true);
+  solver_.solve(weights_, allowed_);
   if (options.moves_bind) take_turns(start, position);
-  fill_influences(weights_);
+  if (choose(options.maximum_influences) && options.moves_bind) take_turns(start, position);
+  weights::store_weights(terms_, weights_, influences_);
   // What is stored is what has to be better.
-  weights_.assign(terms_.size(), 0.0);
-  double sum = 0;
-  for (const Influence& influence : influences_) sum += static_cast<double>(influence.weight);
-  for (const Influence& influence : influences_)
-    for (std::size_t i = 0; i < terms_.size(); ++i)
-      if (terms_[i].slot == influence.slot) weights_[i] = static_cast<double>(influence.weight) / sum;
+  weights::weights_of_terms(terms_, influences_, weights_);
   const double after = mean_square(weights_, position);
   if (!(after < result.barycentric_mean_square)) return result;
   result.mean_square = after;

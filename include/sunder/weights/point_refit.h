@@ -19,9 +19,9 @@ struct PointToRefit {
 /// Weights, and a bind position, that follow a point better than its interpolated ones, over a set of poses.
 ///
 /// For a fixed bind position the mean squared distance is convex in the weights: a quadratic form on the simplex, solved exactly by
-/// an active set, first over all bones that move the point, then, where those are more than wanted, without one bone after the
-/// other, each time the one that costs least. For fixed weights it is convex in the bind position: three linear equations. The two
-/// take turns.
+/// an active set. For fixed weights it is convex in the bind position: three linear equations. The two take turns, first over all
+/// bones that move the point; where those are more than wanted, one after the other goes, each time the one that costs least, and
+/// they take turns over those that are left.
 class SUNDER_API PointRefit {
  public:
   PointRefit();

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <sunder/weights/coupled_refit.h>
+
+#include <vector>
+
+#include "support/random.h"
+
+namespace sunder::test {
+
+struct RefitScene {
+  std::uint32_t points = 40;
+  std::uint32_t slots = 8;
+  std::uint32_t poses = 12;
+  std::size_t maximum_influences = 4;  ///< Of the barycentric weights; 0: all.
+  double angle = 0.6;                  ///< By which a bone is turned at most.
+  double face = 0.15;                  ///< How large the triangles are in which the points lie, metres.
+  Vec3d centre = Vec3d::Zero();        ///< Of the character.
+};
+
+/// A lip of a tear: points in triangles along a chain of bones two metres long, up to four influences a corner.
+struct Lip {
+  std::vector<std::vector<Affine3d>> palettes;  ///< One a pose.
+  std::vector<AnimationPoint> exact;
+  std::vector<std::vector<Influence>> barycentric;
+  std::vector<PointToRefit> points;
+  std::vector<RefitNeighbours> neighbours;  ///< Along the lip, and two old ones a point.
+  std::vector<PoseMoments> moments;         ///< One.
+
+  Lip(Random& random, const RefitScene& wanted);
+  Lip(const Lip&) = delete;
+  Lip& operator=(const Lip&) = delete;
+
+  /// Where a point is to be in a pose, its weights added up to exactly one.
+  [[nodiscard]] Vec3d target(std::size_t point, std::size_t pose) const;
+  /// Mean squared distance over the poses, pose by pose.
+  [[nodiscard]] double mean_square(std::size_t point, std::span<const Influence> influences, const Vec3d& position) const;
+};
+
+/// Each bone turned about its joint, with those behind it.
+[[nodiscard]] std::vector<Affine3d> bent_chain(Random& random, std::uint32_t slots, double angle, const Vec3d& centre);
+
+}  // namespace sunder::test

@@ -1,0 +1,56 @@
+#include "weights/refit_terms.h"
+
+#include <algorithm>
+
+namespace sunder::weights {
+namespace {
+
+/// A weight below it is not worth an influence.
+constexpr double kLeastWeight = 1e-5;
+
+}  // namespace
+
+void centre_terms(const AnimationPoint& point, const PoseMoments& moments, std::vector<AnimationPoint::Term>& terms) {
+  terms.assign(point.terms().begin(), point.terms().end());
+  double sum = 0;
+  for (const auto& term : terms) sum += term.q.w();
+  for (auto& term : terms) {
+    term.q /= sum;
+    term.q.head<3>() -= term.q.w() * moments.centre();
+  }
+}
+
+void weights_of_terms(std::span<const AnimationPoint::Term> terms, std::span<const Influence> influences,
+                      std::vector<double>& of_terms) {
+  of_terms.assign(terms.size(), 0.0);
+  double sum = 0;
+  for (const Influence& influence : influences) sum += static_cast<double>(influence.weight);
+  for (const Influence& influence : influences)
+    for (std::size_t i = 0; i < terms.size(); ++i)
+      if (terms[i].slot == influence.slot) of_terms[i] = static_cast<double>(influence.weight) / sum;
+}
+
+void store_weights(std::span<const AnimationPoint::Term> terms, std::span<const double> of_terms,
+                   std::vector<Influence>& influences) {
+  influences.clear();
+  double sum = 0;
+  for (const double weight : of_terms) sum += weight >= kLeastWeight ? weight : 0.0;
+  for (std::size_t i = 0; i < terms.size(); ++i)
+    if (of_terms[i] >= kLeastWeight) influences.push_back({terms[i].slot, static_cast<float>(of_terms[i] / sum)});
+  std::sort(influences.begin(), influences.end(),
+            [](const Influence& a, const Influence& b) { return a.weight != b.weight ? a.weight > b.weight : a.slot < b.slot; });
+}
+
+double mean_square(std::span<const AnimationPoint::Term> terms, std::span<const double> of_terms, const Eigen::Vector3d& position,
+                   const PoseMoments& moments, std::vector<AnimationPoint::Term>& difference) {
+  difference.resize(terms.size());
+  for (std::size_t i = 0; i < terms.size(); ++i) {
+    difference[i].slot = terms[i].slot;
+    difference[i].q = -terms[i].q;
+    difference[i].q.head<3>() += of_terms[i] * position;
+    difference[i].q.w() += of_terms[i];
+  }
+  return moments.mean_square(difference);
+}
+
+}  // namespace sunder::weights
