@@ -62,6 +62,8 @@ std::uint64_t TornModel::digest() const {
       const Birth born = birth(m, vertex);
       digest.add(born.triangle);
       for (const double coordinate : born.barycentric) digest.add(coordinate);
+      // In the arrays, exact vertices look like interpolated ones.
+      if (weight_policy(m, vertex) == WeightPolicy::exact) digest.add(vertex);
     }
   }
   return digest.value();

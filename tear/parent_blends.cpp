@@ -20,7 +20,9 @@ ParentBlend blend_of(const tear::SurfaceEditor& editor, std::uint32_t mesh, std:
   const Birth& own = editor.birth(mesh, vertex);
   const VertexRef first = editor.original(mesh, vertex);
   // On the rim of a wall or cap a vertex is born in its own corner: it lies where the lip has it.
-  const bool is_of_rim = std::ranges::count_if(own.barycentric, [](double part) { return part > 0; }) < 2;
+  // Another mesh' vertices cannot be its parents there: it stays as its own weights pose it.
+  const bool is_of_rim = own.triangle == kNone || std::ranges::count_if(own.barycentric, [](double part) { return part > 0; }) < 2;
+  if (is_of_rim && first.mesh != mesh) return {vertex, {vertex, vertex, vertex}, {1, 0, 0}};
   const Birth& shared = editor.birth(first.mesh, first.vertex);
   const Triangle& of_shared = editor.origin_triangle(first.mesh, shared.triangle);
   const Triangle& corners = is_of_rim ? of_shared : editor.origin_triangle(mesh, own.triangle);

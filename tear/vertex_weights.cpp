@@ -155,9 +155,15 @@ void SurfaceEditor::describe_exactly(const VertexRef& vertex, std::span<const fl
 /// a(mesh, vertex).
 template <class Value>
 Eigen::Vector3d SurfaceEditor::moved_by(Index slot, const VertexRef& vertex, bool follows_original, Value value) const {
-  const VertexRef of = follows_original ? original(vertex.mesh, vertex.vertex) : vertex;
+  const VertexRef first = original(vertex.mesh, vertex.vertex), of = follows_original ? first : vertex;
   const Mesh& mesh = character_.meshes[of.mesh];
-  if (const VertexRef first = original(vertex.mesh, vertex.vertex); !is_weighable(first.mesh, first.vertex)) {
+  const auto is_own_corner = [&] {  // the rim of a wall or cap has directions of its own
+    const Birth& born = birth(of.mesh, of.vertex);
+    if (born.triangle == kNone) return true;  // that no triangle came to use
+    const Triangle& corners = origin_triangle(of.mesh, born.triangle);
+    return std::find(corners.begin(), corners.end(), of.vertex) != corners.end();
+  };
+  if (!is_weighable(first.mesh, first.vertex) || is_own_corner()) {
     for (const Influence& influence : mesh.weights.of(of.vertex))
       if (influence.slot == slot) return static_cast<double>(influence.weight) * value(mesh, of.vertex);
     return Eigen::Vector3d::Zero();

@@ -29,7 +29,9 @@ WeightsOperation refit_over_clips(bool moves_bind = true) {
 /// A tube with a bending clip, torn twice.
 struct Torn {
   explicit Torn(std::uint64_t seed)
-      : random(seed), source(std::make_shared<const Character>(test::make_tube(24, 24, 6))), model(*TornModel::create(source)) {
+      : random(seed),
+        source(std::make_shared<const Character>(test::make_tube(24, 24, 6))),
+        model(std::move(*TornModel::create(source))) {
     tear();
     tear();
   }
@@ -168,7 +170,9 @@ TEST(RefitJob, what_cannot_be_fitted_is_refused) {
   EXPECT_EQ(RefitJob::submit(torn.model, wanted).error().code(), StatusCode::invalid_argument);
   wanted = refit_over_clips();
   wanted.refit.is_coupled = true;
-  if (!has_coupled_refit()) EXPECT_EQ(torn.model.reweigh(wanted).error().code(), StatusCode::unsupported_feature);
+  if (!has_coupled_refit()) {
+    EXPECT_EQ(torn.model.reweigh(wanted).error().code(), StatusCode::unsupported_feature);
+  }
 }
 
 TEST(RefitJob, fits_neighbours_together) {

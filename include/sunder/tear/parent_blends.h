@@ -24,7 +24,8 @@ struct ParentBlends {
   std::vector<std::uint32_t> level_begin;  ///< Where each level begins in `blends`, and the end.
 };
 
-/// @param mesh  unchecked. Vertices that share a point have the same parts of parents that coincide, bit for bit.
+/// @param mesh  unchecked. A vertex on the rim of a cap that closes several meshes, at a point of another mesh, is its own parent.
+///              Vertices that share a point have the same parts of parents that coincide, bit for bit.
 /// O(vertices appended), allocates.
 [[nodiscard]] SUNDER_API ParentBlends parent_blends(const TornModel& model, std::uint32_t mesh);
 
