@@ -3,6 +3,7 @@
 #include <sunder/skinning/palette.h>
 
 #include <algorithm>
+#include <cmath>
 #include <new>
 #include <tuple>
 
@@ -92,6 +93,22 @@ void RefitWork::cancel() {
   for (State from : {State::waiting, State::running, State::done}) state.compare_exchange_strong(from, State::cancelled);
 }
 
+template <class Fit>
+void RefitWork::take(std::size_t i, const Fit& fit) {
+  // Better by more than what it may lose when it is stored: a rounding of each coordinate, and of the weights.
+  constexpr double kStored = 1.5e-7;
+  const bool is_taken =
+      fit.is_better && std::sqrt(fit.mean_square) + kStored * fit.position.norm() < std::sqrt(fit.barycentric_mean_square);
+  WeighedPoint& point = weighing.points[i];
+  const auto kept = std::span<const Influence>(weighing.influences).subspan(point.first_influence, point.influence_count);
+  const std::span<const Influence> influences = is_taken ? std::span<const Influence>(fit.influences) : kept;
+  if (is_taken && fit.position != points[i].position) point.position = (fit.position - points[i].morph).template cast<float>();
+  point.first_influence = static_cast<Index>(fitted_.size());
+  point.influence_count = static_cast<Index>(influences.size());
+  fitted_.insert(fitted_.end(), influences.begin(), influences.end());
+  report.refitted += is_taken ? 1 : 0;
+}
+
 Status RefitWork::fit(Index skin) {
   const auto is_of_skin = [&](const Point& point) { return point.skin == skin; };
   std::vector<std::size_t> of_skin;
@@ -133,28 +150,16 @@ Status RefitWork::fit(Index skin) {
     auto fits = refit_coupled(together, of_these, {options, operation.refit.smoothness}, moments);
     if (!fits) return fits.error();
     for (std::size_t i = 0; i < of_skin.size(); ++i) {
-      const CoupledFit& fit = (*fits)[i];
-      report.refitted += fit.is_better ? 1 : 0;
-      take(of_skin[i], fit.position, fit.influences);
+      take(of_skin[i], (*fits)[i]);
     }
     return {};
   }
   PointRefit refit;
   for (const std::size_t i : of_skin) {
     if (is_cancelled) return {};
-    const PointRefit::Fit fit = refit.fit(to_refit(i), options, moments);
-    report.refitted += fit.is_better ? 1 : 0;
-    take(i, fit.position, fit.influences);
+    take(i, refit.fit(to_refit(i), options, moments));
   }
   return {};
-}
-
-void RefitWork::take(std::size_t i, const Vec3d& position, std::span<const Influence> influences) {
-  WeighedPoint& point = weighing.points[i];
-  if (position != points[i].position) point.position = (position - points[i].morph).cast<float>();
-  point.first_influence = static_cast<Index>(fitted_.size());
-  point.influence_count = static_cast<Index>(influences.size());
-  fitted_.insert(fitted_.end(), influences.begin(), influences.end());
 }
 
 }  // namespace sunder::tear

@@ -44,7 +44,8 @@ struct RefitWork {
 
  private:
   [[nodiscard]] Status fit(Index skin);
-  void take(std::size_t point, const Vec3d& position, std::span<const Influence> influences);
+  template <class Fit>
+  void take(std::size_t point, const Fit& fit);
 
   std::vector<Influence> fitted_;
 };

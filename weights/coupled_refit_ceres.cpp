@@ -393,7 +393,7 @@ void CoupledProblem::take_solution() {
     if (unknowns.offset != nullptr) fit.position += Eigen::Map<const Eigen::Vector3d>(unknowns.offset);
     weights::weights_of_terms(terms_, fit.influences, of_terms_);
     fit.mean_square = weights::mean_square(terms_, of_terms_, fit.position - moments_.centre(), moments_, difference_);
-    fit.is_better = weights::is_worth_storing(fit.mean_square, fit.barycentric_mean_square, fit.position);
+    fit.is_better = fit.mean_square < fit.barycentric_mean_square;
     if (fit.is_better) continue;
     fit.influences.assign(points_[point].barycentric.begin(), points_[point].barycentric.end());
     fit.position = points_[point].position;

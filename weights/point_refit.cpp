@@ -195,7 +195,7 @@ PointRefit::Fit PointRefit::Problem::solve(const PointToRefit& point, const Opti
   // What is stored is what has to be better.
   weights::weights_of_terms(terms_, influences_, weights_);
   const double after = mean_square(weights_, position);
-  if (!weights::is_worth_storing(after, result.barycentric_mean_square, point.position)) return result;
+  if (!(after < result.barycentric_mean_square)) return result;
   result.mean_square = after;
   result.influences = influences_;
   result.position = Eigen::Vector3d(position + Eigen::Vector3d(moments_->centre()));

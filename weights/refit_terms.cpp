@@ -1,7 +1,6 @@
 #include "weights/refit_terms.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace sunder::weights {
 namespace {
@@ -52,11 +51,6 @@ double mean_square(std::span<const AnimationPoint::Term> terms, std::span<const 
     difference[i].q.w() += of_terms[i];
   }
   return moments.mean_square(difference);
-}
-
-bool is_worth_storing(double mean_square, double barycentric_mean_square, const Vec3d& position) {
-  constexpr double kStored = 1.5e-7;  // of the position: a rounding of each coordinate, and of the weights
-  return std::sqrt(mean_square) + kStored * position.norm() < std::sqrt(barycentric_mean_square);
 }
 
 }  // namespace sunder::weights

@@ -27,7 +27,4 @@ void store_weights(std::span<const AnimationPoint::Term> terms, std::span<const 
                                  const Eigen::Vector3d& position, const PoseMoments& moments,
                                  std::vector<AnimationPoint::Term>& difference);
 
-/// Whether a fit is better by more than what it may lose when its bind position and weights are stored as floats.
-[[nodiscard]] bool is_worth_storing(double mean_square, double barycentric_mean_square, const Vec3d& position);
-
 }  // namespace sunder::weights
