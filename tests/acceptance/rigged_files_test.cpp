@@ -3,11 +3,13 @@
 #include <sunder/io/load_character.h>
 #include <sunder/io/save_glb.h>
 #include <sunder/skinning/palette.h>
+#include <sunder/skinning/pose_set.h>
 #include <sunder/skinning/sample_clip.h>
 #include <sunder/skinning/skinned_mesh.h>
 #include <sunder/tear/replay.h>
 #include <sunder/tear/topology.h>
 #include <sunder/tear/torn_model.h>
+#include <sunder/tear/weight_errors.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -243,6 +245,83 @@ void pose_by_runtime(const std::filesystem::path& file, std::uint64_t seed) {
   }
 }
 
+/// Torn in some poses and weighed by each policy: exact stays where the surface was, a fit is not worse than interpolation, and
+/// where the tears run does not depend on it.
+void weigh_by_each_policy(const std::filesystem::path& file, std::uint64_t seed) {
+  const auto loaded = load_character(file);
+  if (!loaded) return;
+  Random random(seed);
+  auto model = TornModel::create(loaded->character);
+  ASSERT_TRUE(model) << model.error().text();
+  for (int i = 0; i < 4; ++i) {
+    const ModelPose pose = some_pose(model->character(), random);
+    const auto report = model->tear(pose, test::random_stroke(model->character(), pose, random));
+    ASSERT_TRUE(report) << report.error().text();
+  }
+  if (model->undo_count() == 0) return;
+  const auto interpolated = model->digest();
+  PoseSetSpec spec;
+  spec.clip_samples = 4;
+  for (int i = 0; i < 4; ++i) spec.poses.emplace_back(some_pose(model->character(), random));
+  const auto set = PoseSet::make(loaded->character, spec);
+  ASSERT_TRUE(set) << set.error().text();
+  std::vector<ModelPose> poses(set->size(PoseSet::Role::fit));
+  for (std::size_t i = 0; i < poses.size(); ++i) set->compute(PoseSet::Role::fit, i, poses[i]);
+  const auto measured = [&] {
+    auto errors = measure_weight_errors(*model, 0, 1, poses);
+    EXPECT_TRUE(errors) << errors.error().text();
+    return std::move(*errors);
+  };
+  const auto weigh = [&](const WeightsOperation& wanted) {
+    const auto report = model->reweigh(wanted);
+    ASSERT_TRUE(report) << report.error().text();
+    ASSERT_THAT(test::broken_laws(*model), IsEmpty());
+  };
+  const WeightErrors before = measured();
+  double reach = 0;  // posed places are rounded to what they are about
+  for (const ModelPose& pose : poses) reach = std::max(reach, test::posed_diagonal(*loaded->character, pose));
+  for (const Skin& skin : loaded->character->skins)
+    for (const Affine3f& matrix : skin.bone_from_bind) reach = std::max(reach, static_cast<double>(matrix.translation().norm()));
+
+  WeightsOperation exact;
+  exact.operation_count = 1;
+  exact.weights.policy = WeightPolicy::exact;
+  weigh(exact);
+  EXPECT_LE(measured().metres.maximum, 2e-7 * reach);
+
+  WeightsOperation refit;
+  refit.operation_count = 1;
+  refit.weights = {WeightPolicy::refit, 4};
+  refit.refit.poses = spec;
+  weigh(refit);
+  const WeightErrors after = measured();
+  WeightsOperation barycentric;
+  barycentric.operation_count = 1;
+  barycentric.weights.maximum_influences = 4;
+  weigh(barycentric);
+  const WeightErrors pruned = measured();
+  for (std::size_t i = 0; i < after.points.size(); ++i) {
+    const bool has_morphs = !loaded->character->rest_morph_weights.empty();  // which a fit takes as those of rest
+    EXPECT_LE(after.points[i].rms, pruned.points[i].rms + (has_morphs ? 1e-3 : 3e-7) * reach);
+  }
+
+  WeightsOperation pose_exact;
+  pose_exact.operation_count = 1;
+  pose_exact.weights.policy = WeightPolicy::pose_exact;
+  pose_exact.pose = poses[0];
+  const auto report = model->reweigh(pose_exact);
+  ASSERT_TRUE(report) << report.error().text();
+  const auto errors = measure_weight_errors(*model, 0, 1, {poses.data(), 1});
+  ASSERT_TRUE(errors);
+  EXPECT_LE(std::ranges::count_if(errors->points, [&](const auto& point) { return point.maximum > 1e-6 * reach; }),
+            report->ill_conditioned);
+
+  barycentric.weights = {};
+  weigh(barycentric);
+  EXPECT_EQ(model->digest(), interpolated);
+  EXPECT_EQ(before.points.size(), after.points.size());
+}
+
 class RiggedFile : public testing::TestWithParam<std::filesystem::path> {};
 
 TEST_P(RiggedFile, is_torn_moves_on_and_comes_back_from_disk) {
@@ -251,6 +330,10 @@ TEST_P(RiggedFile, is_torn_moves_on_and_comes_back_from_disk) {
 
 TEST_P(RiggedFile, is_posed_by_the_runtime_as_by_definition) {
   pose_by_runtime(GetParam(), std::hash<std::string>()(GetParam().filename().string()));
+}
+
+TEST_P(RiggedFile, is_weighed_by_each_policy) {
+  weigh_by_each_policy(GetParam(), std::hash<std::string>()(GetParam().filename().string()));
 }
 
 TEST_P(RiggedFile, takes_every_operation_and_gives_it_back) {
