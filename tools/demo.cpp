@@ -21,6 +21,7 @@
 #include "tools/report.h"
 #include "tools/rims.h"
 #include "tools/verbs.h"
+#include "tools/weight_report.h"
 
 namespace sunder::tools {
 namespace {
@@ -207,7 +208,7 @@ ExitCode run_demo(const DemoRequest& request) {
   }
 
   progress.begin_step(1, "tearing");
-  const Result<Demo> demo = tear_mid_clip(model->loaded.character);
+  Result<Demo> demo = tear_mid_clip(model->loaded.character);
   if (!demo) return complain(place, demo.error(), ExitCode::unreadable_input);
 
   const std::filesystem::path output = request.folder / "torn.glb";
@@ -216,11 +217,15 @@ ExitCode run_demo(const DemoRequest& request) {
       return complain((request.folder / "cactus.glb").string(), status, ExitCode::internal_error);
   if (const Status status = save(output, demo->model.character(), *model); !status)
     return complain(output.string(), status, ExitCode::internal_error);
+  const Result<Json> weight_errors =
+      weight_errors_by_policy_json(demo->model, model->loaded.character, pose_at(character, kTearFraction));
+  if (!weight_errors) return complain(place, weight_errors.error(), ExitCode::internal_error);
   const Json report = {{"sunder_report", 1},
                        {"model", place},
                        {"output", output.string()},
                        {"loading", to_json(model->loaded.report)},
                        {"operations", Json::array({to_json(demo->outcome, demo->model.character())})},
+                       {"weight_errors", *weight_errors},
                        {"result", result_json(demo->model, demo->outcome.before, demo->outcome.after)}};
   if (const Status status = write_text(request.folder / "report.json", dump(report)); !status)
     return complain((request.folder / "report.json").string(), status, ExitCode::unreadable_input);

@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include "tools/verbs.h"
+#include "tools/weight_report.h"
 #include "tools/written_influences.h"
 
 namespace sunder::tools {
@@ -20,6 +21,20 @@ WeightFormat weight_format(const std::string& name) {
   for (const WeightFormat format : {WeightFormat::unorm16, WeightFormat::unorm8})
     if (name == weight_format_name(format)) return format;
   return WeightFormat::float32;
+}
+
+/// @param name  as weight_policy_name() gives it.
+WeightPolicy weight_policy(const std::string& name) {
+  for (const WeightPolicy policy : {WeightPolicy::pose_exact, WeightPolicy::refit, WeightPolicy::exact})
+    if (name == weight_policy_name(policy)) return policy;
+  return WeightPolicy::barycentric;
+}
+
+/// @param name  as refit_over_name() gives it.
+RefitOver refit_over(const std::string& name) {
+  for (const RefitOver over : {RefitOver::range_of_motion, RefitOver::both})
+    if (name == refit_over_name(over)) return over;
+  return RefitOver::clips;
 }
 
 struct Requests {
@@ -48,6 +63,19 @@ CLI::App* add_tear(CLI::App& app, TearRequest& request) {
           "How their weights are written; u16, u8: as integers whose sum is exactly one")
       ->check(CLI::IsMember({"float", "u16", "u8"}))
       ->default_str("float");
+  verb->add_option_function<std::string>(
+          "--weights", [&request](const std::string& name) { request.weights = weight_policy(name); },
+          "What new points follow the pose by, where the operations do not say; --influences holds for it too")
+      ->check(CLI::IsMember({"barycentric", "pose_exact", "refit", "exact"}))
+      ->default_str("barycentric");
+  verb->add_option_function<std::string>(
+          "--refit-over", [&request](const std::string& name) { request.refit_over = refit_over(name); },
+          "The poses that --weights refit fits over; without it: the clips if there are any, else the range of motion")
+      ->check(CLI::IsMember({"clips", "range_of_motion", "both"}));
+  verb->callback([&request] {
+    if (request.refit_over && request.weights != WeightPolicy::refit)
+      throw CLI::ValidationError("--refit-over", "nothing is fitted without --weights refit");
+  });
   verb->add_option("--report", request.report, "Where the JSON report goes instead of stdout");
   verb->add_option("--picture", request.picture,
                    "A PNG of the torn model: lips pulled open, pieces of a cut apart; needs f3d, Xvfb");

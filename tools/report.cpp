@@ -1,6 +1,7 @@
 #include "tools/report.h"
 
 #include <sunder/tear/replay.h>
+#include <sunder/tear/weight_errors.h>
 
 #include <chrono>
 #include <cinttypes>
@@ -10,6 +11,7 @@
 #include <utility>
 #include <variant>
 
+#include "tools/history.h"
 #include "tools/model_check.h"
 
 namespace sunder::tools {
@@ -36,6 +38,7 @@ Names names_of(const Operation& operation) {
     Names operator()(const TearOperation&) const { return {"tear", "torn", true}; }
     Names operator()(const CutOperation&) const { return {"cut", "cut", true}; }
     Names operator()(const DrillOperation&) const { return {"drill", "drilled", true}; }
+    Names operator()(const WeightsOperation&) const { return {"weights", "weighed", false}; }
     Names operator()(const UndoOperation&) const { return {"undo", "undone", false}; }
     Names operator()(const RedoOperation&) const { return {"redo", "redone", false}; }
   };
@@ -52,6 +55,23 @@ Json piece_json(const Piece& piece, const Character& character) {
           {"bones", std::move(bones)},
           {"area_posed", piece.area_posed},
           {"centroid_posed", vector_json(piece.centroid_posed)}};
+}
+
+Json weights_json(const WeightReport& weights, double error_max) {
+  return {{"points", weights.points},
+          {"pruned", weights.pruned},
+          {"ill_conditioned", weights.ill_conditioned},
+          {"refitted", weights.refitted},
+          {"error_max", error_max}};
+}
+
+/// Of the points that the newest operation made.
+Result<double> greatest_weight_error(const TornModel& model, const Operation& operation) {
+  const Result<std::vector<ModelPose>> poses = poses_of(operation, model.source());
+  if (!poses) return poses.error();
+  const Result<WeightErrors> errors = measure_weight_errors(model, model.undo_count() - 1, 1, *poses);
+  if (!errors) return errors.error();
+  return errors->metres.maximum;
 }
 
 /// As text: JSON readers keep 53 bits of a number.
@@ -90,8 +110,14 @@ Result<OperationOutcome> play(const Operation& operation, const TopologyCounts& 
   if (!report) return report.error();
   const Names names = names_of(operation);
   const bool has_missed = names.can_miss && report->runs == 0;
-  return OperationOutcome{
-      names.op, names.done, has_missed, *report, elapsed.count(), before, has_missed ? before : count_topology(model.character())};
+  OperationOutcome outcome{names.op, names.done, has_missed, *report, elapsed.count(), 0.0, before, before};
+  if (has_missed) return outcome;
+  outcome.after = count_topology(model.character());
+  if (!names.can_miss) return outcome;  // It made no points.
+  const Result<double> error = greatest_weight_error(model, operation);
+  if (!error) return error.error();
+  outcome.weight_error_max = *error;
+  return outcome;
 }
 
 Json to_json(const OperationOutcome& outcome, const Character& character) {
@@ -115,6 +141,7 @@ Json to_json(const OperationOutcome& outcome, const Character& character) {
           {"blocked", tear.blocked},
           {"length_posed", tear.length_posed},
           {"area_removed_posed", tear.area_removed_posed},
+          {"weights", weights_json(tear.weights, outcome.weight_error_max)},
           {"caps", tear.caps},
           {"open_sections", tear.open_sections},
           {"pieces", std::move(pieces)},

@@ -20,6 +20,8 @@ struct OperationOutcome {
   bool has_missed = false;
   TearReport tear;
   double seconds = 0;  ///< Of the operation alone.
+  /// How far the points that it made stand from where the surface was, at most, in the poses in which it was done; metres.
+  double weight_error_max = 0;
   TopologyCounts before, after;
 };
 

@@ -31,10 +31,18 @@ PoseSpec pose_of(const Operation& operation) {
     }
     PoseSpec operator()(const CutOperation& cut) const { return cut.pose; }
     PoseSpec operator()(const DrillOperation& drill) const { return drill.pose; }
+    PoseSpec operator()(const WeightsOperation& weights) const { return weights.pose; }
     PoseSpec operator()(const UndoOperation&) const { return RestPose{}; }
     PoseSpec operator()(const RedoOperation&) const { return RestPose{}; }
   };
   return std::visit(Visitor(), operation);
+}
+
+/// The newest operation that can be seen: not one that only weighs what earlier ones made.
+const Operation& newest_of(std::span<const Operation> history) {
+  const auto newest = std::find_if(history.rbegin(), history.rend(),
+                                   [](const Operation& operation) { return !std::holds_alternative<WeightsOperation>(operation); });
+  return newest == history.rend() ? history.back() : *newest;
 }
 
 /// A little from above and from the right of where the operation came from; a cut is seen along its plane.
@@ -120,7 +128,8 @@ Status draw_torn(std::shared_ptr<const Character> source, std::span<const Operat
   Result<TornModel> torn = TornModel::create(std::move(source));
   if (!torn) return torn.error();
   const Character& character = torn->character();
-  const Result<ModelPose> pose = make_pose(character, pose_of(history.back()));
+  const Operation& newest = newest_of(history);
+  const Result<ModelPose> pose = make_pose(character, pose_of(newest));
   if (!pose) return pose.error();
 
   std::vector<PulledPair> pairs;
@@ -134,7 +143,7 @@ Status draw_torn(std::shared_ptr<const Character> source, std::span<const Operat
     if (!report) return report.error();
     closed = pose_model(character, *pose);
     if (!closed) return closed.error();
-    pieces = report->pieces;
+    if (!std::holds_alternative<WeightsOperation>(operation)) pieces = report->pieces;
     const bool comes_apart = std::holds_alternative<CutOperation>(operation) && !pieces.empty();
     if (comes_apart) continue;
     for (const ChangeRecord& change : changes) std::ranges::copy(chain_lips(*torn, change, *closed), std::back_inserter(pairs));
@@ -144,15 +153,15 @@ Status draw_torn(std::shared_ptr<const Character> source, std::span<const Operat
   const double diagonal = bounds.size().norm();
   std::vector<DeformedMesh> open = *closed;
   PullOpen(*torn, pairs, *closed, kReach * diagonal).apply(kOpening * diagonal, open);
-  const auto* const cut = std::get_if<CutOperation>(&history.back());
+  const auto* const cut = std::get_if<CutOperation>(&newest);
   if (cut != nullptr) move_apart(character, cut->cut, pieces, kApart * diagonal, open);
 
-  const ViewFrame frame = view_of(history.back(), bounds);
+  const ViewFrame frame = view_of(newest, bounds);
   const std::vector<RimEdge> rims = find_rims(*torn);
   Character still = make_torn_still(*torn, open, *closed, *untorn, rims, frame, kThickness * diagonal);
   paint(still, kSurface);
   // Of a cut the pieces are shown, of a bore what it goes through.
-  const double margin = cut != nullptr ? 3.1 : std::holds_alternative<DrillOperation>(history.back()) ? 2.4 : 1.45;
+  const double margin = cut != nullptr ? 3.1 : std::holds_alternative<DrillOperation>(newest) ? 2.4 : 1.45;
   return draw(still, aim(frame, wound_places(*torn, rims, open), bounds, margin), kWidth, kHeight, png);
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "tools/exit_code.h"
+#include "tools/refit.h"
 
 namespace sunder::tools {
 
@@ -20,6 +21,8 @@ struct InfoRequest {
 struct TearRequest {
   std::filesystem::path model, operations, output;
   SaveOptions save;                              ///< How influences are written.
+  std::optional<WeightPolicy> weights;           ///< Of operations that do not say; else barycentric, with all influences.
+  std::optional<RefitOver> refit_over;           ///< Only of `refit`; else what the model has.
   std::optional<std::filesystem::path> report;   ///< Else stdout.
   std::optional<std::filesystem::path> log;      ///< Where what was played is written, if wanted.
   std::optional<std::filesystem::path> picture;  ///< Likewise a picture of what is left.

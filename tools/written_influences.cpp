@@ -5,35 +5,12 @@
 #include <sunder/weights/prune.h>
 
 #include <algorithm>
-#include <variant>
 #include <vector>
+
+#include "tools/history.h"
 
 namespace sunder::tools {
 namespace {
-
-/// Rest, and where the blades of the history stood.
-Result<std::vector<ModelPose>> poses_of(const TornModel& model) {
-  std::vector<PoseSpec> specs = {RestPose()};
-  struct Visitor {
-    std::vector<PoseSpec>& specs;
-    void operator()(const TearOperation& tear) {
-      specs.push_back(tear.pose);
-      for (const TearOperation::PoseChange& change : tear.pose_changes) specs.push_back(change.pose);
-    }
-    void operator()(const CutOperation& cut) { specs.push_back(cut.pose); }
-    void operator()(const DrillOperation& drill) { specs.push_back(drill.pose); }
-    void operator()(const UndoOperation&) {}
-    void operator()(const RedoOperation&) {}
-  };
-  for (const Operation& operation : model.history()) std::visit(Visitor{specs}, operation);
-  std::vector<ModelPose> poses;
-  for (const PoseSpec& spec : specs) {
-    Result<ModelPose> pose = make_pose(model.source(), spec);
-    if (!pose) return pose.error();
-    poses.push_back(std::move(*pose));
-  }
-  return poses;
-}
 
 Vec3d morphed_position(const Mesh& mesh, std::uint32_t vertex, const ModelPose& pose) {
   Vec3d position = mesh.positions[vertex].cast<double>();
@@ -70,8 +47,11 @@ Status measure_mesh(const Mesh& mesh, const Skin& skin, const std::vector<ModelP
 Result<PruningLoss> measure_pruning(const TornModel& model, std::uint32_t maximum) {
   PruningLoss loss;
   if (maximum == 0) return loss;
-  const Result<std::vector<ModelPose>> poses = poses_of(model);
+  Result<std::vector<ModelPose>> poses = poses_of_history(model);
   if (!poses) return poses.error();
+  const Result<ModelPose> rest = make_pose(model.source(), RestPose());
+  if (!rest) return rest.error();
+  poses->push_back(*rest);
   const Character& character = model.character();
   for (std::size_t i = 0; i < character.meshes.size(); ++i) {
     const Mesh& mesh = character.meshes[i];

@@ -59,13 +59,51 @@ Json pose_json(const PoseSpec& pose) {
   return std::visit([](const auto& kind) { return pose_json(kind); }, pose);
 }
 
+const char* policy_name(WeightPolicy policy) {
+  switch (policy) {
+    case WeightPolicy::barycentric: return "barycentric";
+    case WeightPolicy::pose_exact: return "pose_exact";
+    case WeightPolicy::refit: return "refit";
+    case WeightPolicy::exact: return "exact";
+  }
+  return "barycentric";
+}
+
+Json weights_json(const WeightOptions& weights) {
+  return {{"policy", policy_name(weights.policy)}, {"influences", weights.maximum_influences}};
+}
+
+void add_weights(Json& operation, const std::optional<WeightOptions>& weights) {
+  if (weights) operation["weights"] = weights_json(*weights);
+}
+
+Json pose_set_json(const PoseSetSpec& set) {
+  Json limits = Json::array(), poses = Json::array();
+  for (const JointLimit& limit : set.joint_limits)
+    limits.push_back({{"bone", limit.bone}, {"axis", vector_json(limit.axis)}, {"lower", limit.lower}, {"upper", limit.upper}});
+  for (const PoseSpec& pose : set.poses) poses.push_back(pose_json(pose));
+  return {{"clip_samples", set.clip_samples},
+          {"range_of_motion", set.range_of_motion},
+          {"joint_limits", std::move(limits)},
+          {"poses", std::move(poses)}};
+}
+
+Json refit_json(const RefitOptions& refit) {
+  return {{"poses", pose_set_json(refit.poses)},
+          {"moves_bind", refit.moves_bind},
+          {"coupled", refit.is_coupled},
+          {"smoothness", refit.smoothness}};
+}
+
 /// The fields of an operation that stand on its first line.
 Json header(const TearOperation& tear) {
-  return {{"op", "tear"},
-          {"pose", pose_json(tear.pose)},
-          {"width", tear.options.width},
-          {"layers", tear.options.layers == Layers::all ? "all" : "nearest"},
-          {"wall_depth", tear.options.wall_depth}};
+  Json json = {{"op", "tear"},
+               {"pose", pose_json(tear.pose)},
+               {"width", tear.options.width},
+               {"layers", tear.options.layers == Layers::all ? "all" : "nearest"},
+               {"wall_depth", tear.options.wall_depth}};
+  add_weights(json, tear.options.weights);
+  return json;
 }
 
 Json header(const CutOperation& operation) {
@@ -75,18 +113,30 @@ Json header(const CutOperation& operation) {
                {"plane", {{"point", vector_json(cut.point)}, {"normal", vector_json(cut.normal)}}}};
   for (const Vec3d& corner : cut.bounds) json["bounds"].push_back(vector_json(corner));
   json["caps"] = cut.caps;
+  add_weights(json, cut.weights);
   return json;
 }
 
 Json header(const DrillOperation& operation) {
   const Bore& bore = operation.bore;
-  return {{"op", "drill"},
-          {"pose", pose_json(operation.pose)},
-          {"axis", {{"origin", vector_json(bore.origin)}, {"direction", vector_json(bore.direction)}}},
-          {"radius", bore.radius},
-          {"depth", bore.depth},
-          {"chord_tolerance", bore.chord_tolerance},
-          {"wall", bore.wall}};
+  Json json = {{"op", "drill"},
+               {"pose", pose_json(operation.pose)},
+               {"axis", {{"origin", vector_json(bore.origin)}, {"direction", vector_json(bore.direction)}}},
+               {"radius", bore.radius},
+               {"depth", bore.depth},
+               {"chord_tolerance", bore.chord_tolerance},
+               {"wall", bore.wall}};
+  add_weights(json, bore.weights);
+  return json;
+}
+
+Json header(const WeightsOperation& operation) {
+  Json json = {{"op", "weights"}, {"first", operation.first_operation}};
+  if (operation.operation_count != kNone) json["count"] = operation.operation_count;
+  json["weights"] = weights_json(operation.weights);
+  if (operation.weights.policy == WeightPolicy::pose_exact) json["pose"] = pose_json(operation.pose);
+  if (operation.weights.policy == WeightPolicy::refit) json["refit"] = refit_json(operation.refit);
+  return json;
 }
 
 Json header(const UndoOperation& operation) { return {{"op", "undo"}, {"count", operation.count}}; }

@@ -7,7 +7,7 @@
 namespace sunder::operation_log {
 namespace {
 
-constexpr std::size_t kMaximumDepth = 32;  ///< The format itself needs 8.
+constexpr std::size_t kMaximumDepth = 32;  ///< The format itself needs 9.
 
 /// Refuses, while parsing, what a tree of values can no longer show: nesting and repeated fields.
 class ParseGuard {

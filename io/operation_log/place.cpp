@@ -67,6 +67,14 @@ std::string read_name(const Place& place) {
   return place.value.get<std::string>();
 }
 
+std::uint32_t read_integer(const Place& place, const char* what, std::uint32_t least, std::uint32_t most) {
+  if (!place.value.is_number_unsigned()) place.expected((std::string(what) + ", an integer from " + std::to_string(least)).c_str());
+  const auto integer = place.value.get<std::uint64_t>();
+  if (integer < least) place.malformed("expected at least " + std::to_string(least));
+  if (integer > most) place.malformed("expected at most " + std::to_string(most));
+  return static_cast<std::uint32_t>(integer);
+}
+
 const Json& read_array(const Place& place, const char* what) {
   if (!place.value.is_array()) place.expected(what);
   return place.value;

@@ -47,6 +47,9 @@ double read_number_at_least_zero(const Place& place);
 double read_number_above_zero(const Place& place);
 bool read_bool(const Place& place);
 std::string read_name(const Place& place);
+/// An index from 0, or how many of something.
+/// @param what  names it where it is refused.
+std::uint32_t read_integer(const Place& place, const char* what, std::uint32_t least = 0, std::uint32_t most = kNone - 1);
 const Json& read_array(const Place& place, const char* what);
 
 /// All numbers of an array of that length.
@@ -61,5 +64,11 @@ Eigen::Matrix<double, N, 1, Eigen::DontAlign> read_vector(const Place& place) {
 
 /// @param what  names it where it is refused.
 Vec3d read_direction(const Place& place, const char* what);
+
+/// @param value  keeps what it is where the field is not given.
+template <class Read, class Value>
+void read_if_given(const Place& place, const char* key, Read read, Value& value) {
+  if (place.has(key)) value = read(place.at(key));
+}
 
 }  // namespace sunder::operation_log

@@ -3,14 +3,10 @@
 #include <utility>
 
 #include "io/operation_log/read_pose.h"
+#include "io/operation_log/read_weights.h"
 
 namespace sunder::operation_log {
 namespace {
-
-template <class Read, class Value>
-void read_if_given(const Place& place, const char* key, Read read, Value& value) {
-  if (place.has(key)) value = read(place.at(key));
-}
 
 Layers read_layers(const Place& place) {
   const std::string name = read_name(place);
@@ -35,12 +31,13 @@ void read_stroke(const Place& place, TearOperation& tear) {
 }
 
 TearOperation read_tear(const Place& place) {
-  place.check_fields({"op", "pose", "width", "layers", "wall_depth", "stroke"});
+  place.check_fields({"op", "pose", "width", "layers", "wall_depth", "weights", "stroke"});
   TearOperation tear;
   read_if_given(place, "pose", read_pose, tear.pose);
   read_if_given(place, "width", read_number_at_least_zero, tear.options.width);
   read_if_given(place, "layers", read_layers, tear.options.layers);
   read_if_given(place, "wall_depth", read_number_at_least_zero, tear.options.wall_depth);
+  read_if_given(place, "weights", read_weight_options, tear.options.weights);
   read_stroke(place.at("stroke"), tear);
   return tear;
 }
@@ -55,7 +52,7 @@ std::vector<Vec3d> read_bounds(const Place& place) {
 }
 
 CutOperation read_cut(const Place& place) {
-  place.check_fields({"op", "pose", "plane", "bounds", "caps"});
+  place.check_fields({"op", "pose", "plane", "bounds", "caps", "weights"});
   CutOperation operation;
   read_if_given(place, "pose", read_pose, operation.pose);
   const Place plane = place.at("plane");
@@ -64,11 +61,12 @@ CutOperation read_cut(const Place& place) {
   operation.cut.normal = read_direction(plane.at("normal"), "normal");
   read_if_given(place, "bounds", read_bounds, operation.cut.bounds);
   read_if_given(place, "caps", read_bool, operation.cut.caps);
+  read_if_given(place, "weights", read_weight_options, operation.cut.weights);
   return operation;
 }
 
 DrillOperation read_drill(const Place& place) {
-  place.check_fields({"op", "pose", "axis", "radius", "depth", "chord_tolerance", "wall"});
+  place.check_fields({"op", "pose", "axis", "radius", "depth", "chord_tolerance", "wall", "weights"});
   DrillOperation operation;
   Bore& bore = operation.bore;
   read_if_given(place, "pose", read_pose, operation.pose);
@@ -80,22 +78,15 @@ DrillOperation read_drill(const Place& place) {
   bore.depth = read_number_above_zero(place.at("depth"));
   read_if_given(place, "chord_tolerance", read_number_at_least_zero, bore.chord_tolerance);
   read_if_given(place, "wall", read_bool, bore.wall);
+  read_if_given(place, "weights", read_weight_options, bore.weights);
   return operation;
-}
-
-std::uint32_t read_count(const Place& place) {
-  if (!place.value.is_number_unsigned()) place.expected("how many operations, an integer from 1");
-  const auto count = place.value.get<std::uint64_t>();
-  if (count < 1) place.malformed("expected at least 1");
-  if (count >= kNone) place.malformed("count too large");
-  return static_cast<std::uint32_t>(count);
 }
 
 template <class UndoOrRedo>
 UndoOrRedo read_steps(const Place& place) {
   place.check_fields({"op", "count"});
   UndoOrRedo operation;
-  read_if_given(place, "count", read_count, operation.count);
+  read_if_given(place, "count", read_operation_count, operation.count);
   return operation;
 }
 
@@ -106,9 +97,10 @@ Operation read_operation(const Place& place) {
   if (name == "tear") return read_tear(place);
   if (name == "cut") return read_cut(place);
   if (name == "drill") return read_drill(place);
+  if (name == "weights") return read_weights(place);
   if (name == "undo") return read_steps<UndoOperation>(place);
   if (name == "redo") return read_steps<RedoOperation>(place);
-  kind.fail(StatusCode::unsupported_feature, "operation '" + name + "'; known are tear, cut, drill, undo, redo");
+  kind.fail(StatusCode::unsupported_feature, "operation '" + name + "'; known are tear, cut, drill, weights, undo, redo");
 }
 
 }  // namespace

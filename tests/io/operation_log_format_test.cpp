@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -101,6 +103,16 @@ PoseSpec any_pose(Random& random) {
   }
 }
 
+WeightOptions any_weights(Random& random) {
+  WeightOptions weights{static_cast<WeightPolicy>(random.index(4)), 0};
+  if (weights.policy != WeightPolicy::exact && random.index(2) == 0) weights.maximum_influences = random.index(kNone);
+  return weights;
+}
+
+std::optional<WeightOptions> any_weights_if_any(Random& random) {
+  return random.index(2) == 0 ? std::nullopt : std::optional(any_weights(random));
+}
+
 TearOperation any_tear(Random& random) {
   TearOperation tear{.pose = any_pose(random), .stroke = {}, .pose_changes = {}, .options = {}};
   const std::uint32_t blade_count = 2 + random.index(4);
@@ -110,12 +122,14 @@ TearOperation any_tear(Random& random) {
     tear.stroke.push_back(blade);
     if (i > 0 && random.index(3) == 0) tear.pose_changes.push_back({i, any_pose(random)});
   }
-  tear.options = {any_at_least_zero(random), random.index(2) == 0 ? Layers::nearest : Layers::all, any_at_least_zero(random)};
+  tear.options = {any_at_least_zero(random), random.index(2) == 0 ? Layers::nearest : Layers::all, any_at_least_zero(random),
+                  any_weights_if_any(random)};
   return tear;
 }
 
 CutOperation any_cut(Random& random) {
-  CutOperation operation{any_pose(random), {any_point(random), any_direction(random), {}, random.index(2) == 0}};
+  CutOperation operation{any_pose(random),
+                         {any_point(random), any_direction(random), {}, random.index(2) == 0, any_weights_if_any(random)}};
   if (random.index(2) == 0)
     for (std::uint32_t i = 3 + random.index(3); i > 0; --i) operation.cut.bounds.push_back(any_point(random));
   return operation;
@@ -124,17 +138,45 @@ CutOperation any_cut(Random& random) {
 DrillOperation any_drill(Random& random) {
   return {any_pose(random),
           {any_point(random), any_direction(random), any_above_zero(random), any_above_zero(random), any_at_least_zero(random),
-           random.index(2) == 0}};
+           random.index(2) == 0, any_weights_if_any(random)}};
+}
+
+RefitOptions any_refit(Random& random) {
+  RefitOptions refit;
+  refit.poses.clip_samples = random.index(65'537);
+  refit.poses.range_of_motion = random.index(2) == 0;
+  for (std::uint32_t i = random.index(3); i > 0; --i) {
+    JointLimit limit{random.index(kNone), any_direction(random), any_number(random), any_number(random)};
+    if (limit.lower > limit.upper) std::swap(limit.lower, limit.upper);
+    refit.poses.joint_limits.push_back(limit);
+  }
+  for (std::uint32_t i = random.index(3); i > 0; --i) refit.poses.poses.push_back(any_pose(random));
+  refit.moves_bind = random.index(2) == 0;
+  refit.is_coupled = random.index(2) == 0;
+  refit.smoothness = any_at_least_zero(random);
+  return refit;
+}
+
+WeightsOperation any_weights_operation(Random& random) {
+  WeightsOperation operation;
+  operation.first_operation = random.index(kNone);
+  if (random.index(2) == 0) operation.operation_count = 1 + random.index(kNone - 1);
+  operation.weights = any_weights(random);
+  if (operation.weights.policy == WeightPolicy::pose_exact) operation.pose = any_pose(random);
+  if (operation.weights.policy == WeightPolicy::refit) operation.refit = any_refit(random);
+  return operation;
 }
 
 Operation any_operation(Random& random) {
-  switch (random.index(8)) {
+  switch (random.index(10)) {
     case 0: return UndoOperation{1 + random.index(kNone - 1)};
     case 1: return RedoOperation{1 + random.index(kNone - 1)};
     case 2:
     case 3: return any_cut(random);
     case 4:
     case 5: return any_drill(random);
+    case 6:
+    case 7: return any_weights_operation(random);
     default: return any_tear(random);
   }
 }
@@ -180,16 +222,25 @@ class Bits {
   void add(const ModelPose& pose) { add(pose.model_from_bone), add(pose.morph_weights); }
   void add(const Blade& blade) { add(blade.base), add(blade.tip); }
   void add(const TearOperation::PoseChange& change) { add(change.blade), add(change.pose); }
+  void add(const WeightOptions& weights) { add(static_cast<std::uint32_t>(weights.policy)), add(weights.maximum_influences); }
+  void add(const JointLimit& limit) { add(limit.bone), add(limit.axis), add(limit.lower), add(limit.upper); }
+  void add(const PoseSetSpec& set) { add(set.clip_samples), add(set.range_of_motion), add(set.joint_limits), add(set.poses); }
+  void add(const RefitOptions& refit) { add(refit.poses), add(refit.moves_bind), add(refit.is_coupled), add(refit.smoothness); }
   void add(const TearOperation& tear) {
     add(tear.pose), add(tear.stroke), add(tear.pose_changes), add(tear.options.width);
-    add(tear.options.layers == Layers::all), add(tear.options.wall_depth);
+    add(tear.options.layers == Layers::all), add(tear.options.wall_depth), add(tear.options.weights);
   }
   void add(const CutOperation& operation) {
     add(operation.pose), add(operation.cut.point), add(operation.cut.normal), add(operation.cut.bounds), add(operation.cut.caps);
+    add(operation.cut.weights);
   }
   void add(const DrillOperation& operation) {
     add(operation.pose), add(operation.bore.origin), add(operation.bore.direction), add(operation.bore.radius);
-    add(operation.bore.depth), add(operation.bore.chord_tolerance), add(operation.bore.wall);
+    add(operation.bore.depth), add(operation.bore.chord_tolerance), add(operation.bore.wall), add(operation.bore.weights);
+  }
+  void add(const WeightsOperation& operation) {
+    add(operation.first_operation), add(operation.operation_count), add(operation.weights), add(operation.pose),
+        add(operation.refit);
   }
   void add(const UndoOperation& operation) { add(operation.count); }
   void add(const RedoOperation& operation) { add(operation.count); }
@@ -229,6 +280,25 @@ TEST(FormatOperations, TakesALineForAnOperationAndOneForEachBlade) {
   const std::string text = format_operations(std::vector<Operation>{tear, UndoOperation{}, CutOperation{pose, {}}});
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 4 + 1 + 5 + 1 + 1 + 1);
   EXPECT_NE(text.find("\n    {\"op\":\"undo\",\"count\":1},\n"), std::string::npos) << text;
+}
+
+TEST(FormatOperations, OfWeightsOnlyWhatHasAMeaningIsWritten) {
+  const auto text_of = [](const WeightsOperation& operation) { return format_operations(std::vector<Operation>{operation}); };
+  WeightsOperation operation;
+  operation.pose = BindPose{};
+  operation.weights.policy = WeightPolicy::exact;
+  EXPECT_NE(text_of(operation).find(R"({"op":"weights","first":0,"weights":{"policy":"exact","influences":0}})"), std::string::npos)
+      << text_of(operation);
+  operation.operation_count = 2;
+  operation.weights = {WeightPolicy::pose_exact, 4};
+  EXPECT_NE(text_of(operation).find(
+                R"({"op":"weights","first":0,"count":2,"weights":{"policy":"pose_exact","influences":4},"pose":"bind"})"),
+            std::string::npos)
+      << text_of(operation);
+  operation.weights.policy = WeightPolicy::refit;
+  EXPECT_EQ(text_of(operation).find("bind\"}"), std::string::npos) << text_of(operation);
+  EXPECT_NE(text_of(operation).find(R"("refit":{"poses":{"clip_samples":8,)"), std::string::npos) << text_of(operation);
+  EXPECT_EQ(format_operations(std::vector<Operation>{CutOperation{}}).find("weights"), std::string::npos);
 }
 
 TEST(FormatOperations, AnEmptyLogIsOne) {

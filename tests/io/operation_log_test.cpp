@@ -31,6 +31,15 @@ std::string tear_with(const std::string& fields) {
   return log_of(R"({"op": "tear", )" + fields + R"(, "stroke": )" + kBlades + "}");
 }
 
+/// Weights of operations with other fields behind them.
+std::string weights_with(const std::string& fields) { return log_of(R"({"op": "weights", "weights": )" + fields + "}"); }
+
+/// A refit with other fields.
+std::string refit_with(const std::string& fields) { return weights_with(R"({"policy": "refit"}, "refit": )" + fields); }
+
+/// A refit over a joint limit with other fields.
+std::string limit_with(const std::string& fields) { return refit_with(R"({"poses": {"joint_limits": [{)" + fields + "}]}}"); }
+
 TearOperation parsed(const std::string& json) {
   auto operations = parse_operations(json);
   EXPECT_TRUE(operations) << operations.error().text();
@@ -82,6 +91,65 @@ TEST(OperationLog, ReadsABore) {
   ASSERT_TRUE(operations) << operations.error().text();
   EXPECT_EQ(std::get<DrillOperation>(operations->at(0)).bore, (Bore{{1, 2, 3}, {0, 0, -3}, 0.5, 4, 0.001, true}));
   EXPECT_EQ(std::get<DrillOperation>(operations->at(1)).bore, (Bore{{0, 0, 0}, {0, 0, -1}, 1, 1, 0, false}));
+}
+
+TEST(OperationLog, ATearACutAndABoreMayBringWeights) {
+  EXPECT_EQ(parsed(tear_with(R"("weights": {"policy": "pose_exact", "influences": 4})")).options.weights,
+            (WeightOptions{WeightPolicy::pose_exact, 4}));
+  EXPECT_EQ(parsed(tear_with(R"("weights": {"influences": 8})")).options.weights, (WeightOptions{WeightPolicy::barycentric, 8}));
+  EXPECT_EQ(parsed(tear_with(R"("weights": {})")).options.weights, WeightOptions{});
+  EXPECT_EQ(parsed(tear_with(R"("width": 0)")).options.weights, std::nullopt);
+  const auto cut = parse_operations(cut_with(R"("weights": {"policy": "exact", "influences": 0})"));
+  ASSERT_TRUE(cut) << cut.error().text();
+  EXPECT_EQ(std::get<CutOperation>(cut->at(0)).cut.weights, (WeightOptions{WeightPolicy::exact, 0}));
+  const auto bore = parse_operations(drill_with(R"("radius": 1, "depth": 1, "weights": {"policy": "refit"})"));
+  ASSERT_TRUE(bore) << bore.error().text();
+  EXPECT_EQ(std::get<DrillOperation>(bore->at(0)).bore.weights, (WeightOptions{WeightPolicy::refit, 0}));
+}
+
+TEST(OperationLog, ReadsWeightsOfEarlierOperations) {
+  const auto operations = parse_operations(log_of(R"({"op": "weights", "first": 2, "count": 3,
+      "weights": {"policy": "pose_exact", "influences": 4}, "pose": {"clip": "Walk", "time": 0.5}},
+      {"op": "weights", "weights": {"policy": "exact"}}, {"op": "weights", "weights": {"policy": "refit"}})"));
+  ASSERT_TRUE(operations) << operations.error().text();
+  const auto& first = std::get<WeightsOperation>(operations->at(0));
+  EXPECT_EQ(first.first_operation, 2u);
+  EXPECT_EQ(first.operation_count, 3u);
+  EXPECT_EQ(first.weights, (WeightOptions{WeightPolicy::pose_exact, 4}));
+  EXPECT_EQ(std::get<ClipPose>(first.pose).time, 0.5);
+  const auto& exact = std::get<WeightsOperation>(operations->at(1));
+  EXPECT_EQ(exact.first_operation, 0u);
+  EXPECT_EQ(exact.operation_count, kNone);
+  EXPECT_EQ(exact.weights, (WeightOptions{WeightPolicy::exact, 0}));
+  const auto& refit = std::get<WeightsOperation>(operations->at(2)).refit;
+  EXPECT_EQ(refit.poses.clip_samples, 8u);
+  EXPECT_FALSE(refit.poses.range_of_motion);
+  EXPECT_TRUE(refit.poses.joint_limits.empty());
+  EXPECT_TRUE(refit.poses.poses.empty());
+  EXPECT_TRUE(refit.moves_bind);
+  EXPECT_FALSE(refit.is_coupled);
+  EXPECT_EQ(refit.smoothness, 0.01);
+}
+
+TEST(OperationLog, ReadsWhatARefitIsOver) {
+  const auto operations = parse_operations(refit_with(R"({"poses": {"clip_samples": 0, "range_of_motion": true,
+      "joint_limits": [{"bone": 7, "axis": [0, -2, 0], "lower": -0.5, "upper": 1.5}, {"bone": 0, "axis": [1, 0, 0], "lower": 0, "upper": 0}],
+      "poses": ["bind", {"clip": 1, "time": 0.25}]}, "moves_bind": false, "coupled": true, "smoothness": 0})"));
+  ASSERT_TRUE(operations) << operations.error().text();
+  const RefitOptions& refit = std::get<WeightsOperation>(operations->at(0)).refit;
+  EXPECT_EQ(refit.poses.clip_samples, 0u);
+  EXPECT_TRUE(refit.poses.range_of_motion);
+  ASSERT_EQ(refit.poses.joint_limits.size(), 2u);
+  EXPECT_EQ(refit.poses.joint_limits[0].bone, 7u);
+  EXPECT_EQ(refit.poses.joint_limits[0].axis, Vec3d(0, -2, 0));
+  EXPECT_EQ(refit.poses.joint_limits[0].lower, -0.5);
+  EXPECT_EQ(refit.poses.joint_limits[0].upper, 1.5);
+  ASSERT_EQ(refit.poses.poses.size(), 2u);
+  EXPECT_TRUE(std::holds_alternative<BindPose>(refit.poses.poses[0]));
+  EXPECT_EQ(std::get<ClipPose>(refit.poses.poses[1]).time, 0.25);
+  EXPECT_FALSE(refit.moves_bind);
+  EXPECT_TRUE(refit.is_coupled);
+  EXPECT_EQ(refit.smoothness, 0.0);
 }
 
 TEST(OperationLog, ReadsUndoAndRedo) {
@@ -301,9 +369,86 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"negative count", log_of(R"({"op": "redo", "count": -1})"), kMalformed, "/operations/0/count: expected"},
         Refusal{"half a count", log_of(R"({"op": "undo", "count": 1.5})"), kMalformed, "/operations/0/count: expected"},
         Refusal{"count beyond 32 bits", log_of(R"({"op": "undo", "count": 4294967295})"), kMalformed,
-                "/operations/0/count: count too large"},
+                "/operations/0/count: expected at most 4294967294"},
         Refusal{"undo in a pose", log_of(R"({"op": "undo", "pose": "rest"})"), kMalformed, "unknown field 'pose'"},
         Refusal{"redo in a pose", log_of(R"({"op": "redo", "pose": "rest"})"), kMalformed, "unknown field 'pose'"}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Weights, OperationLogRefuses,
+    testing::Values(
+        Refusal{"weights of a tear as text", tear_with(R"("weights": "exact")"), kMalformed,
+                "/operations/0/weights: expected an object, found string"},
+        Refusal{"unknown field", cut_with(R"("weights": {"refit": {}})"), kMalformed,
+                "/operations/0/weights: unknown field 'refit'"},
+        Refusal{"unknown policy", drill_with(R"("radius": 1, "depth": 1, "weights": {"policy": "linear"})"), kUnsupported,
+                "/operations/0/weights/policy: policy 'linear'"},
+        Refusal{"policy as number", tear_with(R"("weights": {"policy": 3})"), kMalformed,
+                "/operations/0/weights/policy: expected a string"},
+        Refusal{"negative influences", tear_with(R"("weights": {"influences": -1})"), kMalformed,
+                "/operations/0/weights/influences: expected influences, 0 for all, an integer from 0"},
+        Refusal{"half an influence", tear_with(R"("weights": {"influences": 0.5})"), kMalformed,
+                "/operations/0/weights/influences"},
+        Refusal{"influences beyond 32 bits", tear_with(R"("weights": {"influences": 4294967295})"), kMalformed,
+                "/operations/0/weights/influences: expected at most 4294967294"},
+        Refusal{"four influences of exact", tear_with(R"("weights": {"policy": "exact", "influences": 4})"), kMalformed,
+                "/operations/0/weights/influences: the policy 'exact' takes all"},
+        Refusal{"no weights", log_of(R"({"op": "weights"})"), kMalformed, "/operations/0: field 'weights' is missing"},
+        Refusal{"weights no object", weights_with("[]"), kMalformed, "/operations/0/weights: expected an object"},
+        Refusal{"unknown field of the operation", weights_with(R"({}, "policy": "exact")"), kMalformed,
+                "/operations/0: unknown field 'policy'"},
+        Refusal{"negative first", weights_with(R"({}, "first": -1)"), kMalformed,
+                "/operations/0/first: expected an operation's index"},
+        Refusal{"first beyond 32 bits", weights_with(R"({}, "first": 4294967295)"), kMalformed,
+                "/operations/0/first: expected at most"},
+        Refusal{"no operations", weights_with(R"({}, "count": 0)"), kMalformed, "/operations/0/count: expected at least 1"},
+        Refusal{"count as text", weights_with(R"({}, "count": "all")"), kMalformed,
+                "/operations/0/count: expected how many operations, an integer from 1, found string"},
+        Refusal{"a pose for exact", weights_with(R"({"policy": "exact"}, "pose": "bind")"), kMalformed,
+                "/operations/0/pose: only the policy 'pose_exact'"},
+        Refusal{"unknown pose", weights_with(R"({"policy": "pose_exact"}, "pose": "t-pose")"), kMalformed, "/operations/0/pose"},
+        Refusal{"a refit that is barycentric", weights_with(R"({}, "refit": {})"), kMalformed,
+                "/operations/0/refit: only the policy 'refit'"},
+        Refusal{"a refit that is exact in a pose", weights_with(R"({"policy": "pose_exact"}, "refit": {})"), kMalformed,
+                "/operations/0/refit: only the policy 'refit'"}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Refits, OperationLogRefuses,
+    testing::Values(
+        Refusal{"refit no object", refit_with("true"), kMalformed, "/operations/0/refit: expected an object"},
+        Refusal{"unknown field", refit_with(R"({"is_coupled": true})"), kMalformed,
+                "/operations/0/refit: unknown field 'is_coupled'"},
+        Refusal{"moves_bind as number", refit_with(R"({"moves_bind": 1})"), kMalformed,
+                "/operations/0/refit/moves_bind: expected true or false"},
+        Refusal{"coupled as text", refit_with(R"({"coupled": "yes"})"), kMalformed,
+                "/operations/0/refit/coupled: expected true or false"},
+        Refusal{"negative smoothness", refit_with(R"({"smoothness": -0.1})"), kMalformed,
+                "/operations/0/refit/smoothness: negative"},
+        Refusal{"poses no object", refit_with(R"({"poses": ["rest"]})"), kMalformed,
+                "/operations/0/refit/poses: expected an object"},
+        Refusal{"unknown field of the poses", refit_with(R"({"poses": {"clips": 8}})"), kMalformed,
+                "/operations/0/refit/poses: unknown field 'clips'"},
+        Refusal{"negative samples", refit_with(R"({"poses": {"clip_samples": -8}})"), kMalformed,
+                "/refit/poses/clip_samples: expected samples a clip, an integer from 0"},
+        Refusal{"too many samples", refit_with(R"({"poses": {"clip_samples": 65537}})"), kMalformed,
+                "/refit/poses/clip_samples: expected at most 65536"},
+        Refusal{"range of motion as number", refit_with(R"({"poses": {"range_of_motion": 1}})"), kMalformed,
+                "/refit/poses/range_of_motion: expected true or false"},
+        Refusal{"limits no array", refit_with(R"({"poses": {"joint_limits": {}}})"), kMalformed,
+                "/refit/poses/joint_limits: expected an array"},
+        Refusal{"bone by name", limit_with(R"("bone": "Arm", "axis": [1,0,0], "lower": 0, "upper": 1)"), kMalformed,
+                "/joint_limits/0/bone: expected a bone's index"},
+        Refusal{"no bone", limit_with(R"("axis": [1,0,0], "lower": 0, "upper": 1)"), kMalformed,
+                "/joint_limits/0: field 'bone' is missing"},
+        Refusal{"axis of zero length", limit_with(R"("bone": 0, "axis": [0,0,0], "lower": 0, "upper": 1)"), kMalformed,
+                "/joint_limits/0/axis: axis of zero length"},
+        Refusal{"no upper limit", limit_with(R"("bone": 0, "axis": [1,0,0], "lower": 0)"), kMalformed, "'upper' is missing"},
+        Refusal{"limits the wrong way round", limit_with(R"("bone": 0, "axis": [1,0,0], "lower": 1, "upper": 0)"), kMalformed,
+                "/joint_limits/0: 'lower' is above 'upper'"},
+        Refusal{"unknown field of a limit", limit_with(R"("bone": 0, "angle": 1)"), kMalformed, "unknown field 'angle'"},
+        Refusal{"given poses no array", refit_with(R"({"poses": {"poses": "rest"}})"), kMalformed,
+                "/refit/poses/poses: expected an array"},
+        Refusal{"a given pose unknown", refit_with(R"({"poses": {"poses": ["rest", "t-pose"]}})"), kMalformed,
+                "/refit/poses/poses/1: expected \"rest\" or \"bind\""}));
 
 TEST(OperationLog, IndexIsTheOperation) {
   const std::string good = std::string(R"({"op": "tear", "stroke": )") + kBlades + "}";

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <string>
 
 #include <gmock/gmock.h>
@@ -267,15 +268,157 @@ TEST_F(Command, tear_says_what_it_writes_of_the_influences) {
   }
 }
 
+TEST_F(Command, tear_weighs_new_points_as_it_is_told) {
+  const std::string operations = write("a.json", kOneTear);
+  std::map<std::string, json> reports;
+  for (const char* const policy : {"barycentric", "pose_exact", "refit", "exact"}) {
+    const CommandResult result = run_sunder({"tear", model(), "--ops", operations, "-o", path("weighed.glb"), "--weights", policy});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const json report = reports[policy] = json::parse(result.out);
+    EXPECT_EQ(report["weights"]["policy"], policy);
+    EXPECT_EQ(report["weights"]["influences"], 0);
+    EXPECT_EQ(report["operations"].size(), policy == std::string("refit") ? 2u : 1u);
+    const json& errors = report["weight_errors"];
+    for (const char* const set : {"operations", "clips", "clips_held_out", "range_of_motion", "range_of_motion_held_out"}) {
+      ASSERT_TRUE(errors.contains(set)) << set;
+      EXPECT_GT(errors[set]["points"], 5);
+      EXPECT_LE(errors[set]["poses"], 200);
+      EXPECT_GE(errors[set]["maximum"], errors[set]["percentile95"]);
+      for (const char* const unit : {"of_diagonal", "of_edge"})
+        EXPECT_GE(errors[set][unit]["maximum"], errors[set][unit]["rms"]) << set << unit;
+    }
+    EXPECT_EQ(errors["operations"]["poses"], 1);
+    if (report["operations"].size() == 1) {
+      EXPECT_EQ(errors["operations"]["maximum"], report["operations"][0]["weights"]["error_max"]);
+    }
+    EXPECT_EQ(errors["clips"]["poses"], 8);
+    EXPECT_EQ(errors["clips_held_out"]["poses"], 8);
+  }
+  const auto error = [&](const char* policy, const char* set) {
+    return reports[policy]["weight_errors"][set]["rms"].get<double>();
+  };
+  EXPECT_GT(error("barycentric", "operations"), 1e-5);
+  EXPECT_LT(error("pose_exact", "operations"), 1e-6);
+  EXPECT_LT(error("refit", "clips"), error("barycentric", "clips"));
+  EXPECT_LT(error("refit", "clips_held_out"), error("barycentric", "clips_held_out"));
+  EXPECT_LT(error("exact", "range_of_motion"), 1e-6);
+  EXPECT_LT(reports["pose_exact"]["operations"][0]["weights"]["error_max"].get<double>(), 1e-6);
+
+  const json& refit = reports["refit"]["operations"][1];
+  EXPECT_EQ(refit["op"], "weights");
+  EXPECT_EQ(refit["status"], "weighed");
+  EXPECT_GT(refit["weights"]["refitted"], 0);
+  EXPECT_GE(refit["weights"]["points"], refit["weights"]["refitted"]);
+  EXPECT_EQ(reports["refit"]["weights"]["refit_over"], "clips");
+  EXPECT_TRUE(reports["exact"]["weights"]["refit_over"].is_null());
+
+  EXPECT_FALSE(reports["refit"]["weight_errors"].contains("as_written"));
+  const json& as_written = reports["exact"]["weight_errors"]["as_written"];
+  EXPECT_EQ(as_written, reports["barycentric"]["weight_errors"]);
+  EXPECT_THAT(reports["exact"]["weight_errors"]["note"].get<std::string>(), HasSubstr("barycentric"));
+}
+
+TEST_F(Command, influences_are_kept_in_weights_too) {
+  const std::string operations = write("c.json", R"({"sunder_operations": 1, "operations": [
+    {"op": "cut", "pose": {"clip": "Sway", "time": 0.8}, "plane": {"point": [0, 0.8, 0], "normal": [0, 1, 0]}}]})");
+  for (const char* const policy : {"barycentric", "pose_exact", "refit", "exact"}) {
+    const CommandResult result =
+        run_sunder({"tear", model(), "--ops", operations, "-o", path("four.glb"), "--weights", policy, "--influences", "4"});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const json report = json::parse(result.out);
+    const bool is_exact = policy == std::string("exact");
+    EXPECT_EQ(report["weights"]["influences"], is_exact ? 0 : 4);
+    EXPECT_EQ(report["operations"][0]["weights"]["pruned"] > 0, !is_exact) << policy;
+  }
+}
+
+TEST_F(Command, a_refit_is_over_what_it_is_told) {
+  const std::string operations = write("a.json", kOneTear);
+  for (const char* const over : {"clips", "range_of_motion", "both"}) {
+    const CommandResult result = run_sunder({"tear", model(), "--ops", operations, "-o", path("refit.glb"), "--weights", "refit",
+                                             "--refit-over", over, "--save-log", path("refit.json")});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(json::parse(result.out)["weights"]["refit_over"], over);
+    std::ifstream stream(path("refit.json"));
+    const json log = json::parse(stream);
+    ASSERT_EQ(log["operations"].size(), 2u);
+    const json& poses = log["operations"][1]["refit"]["poses"];
+    EXPECT_EQ(poses["clip_samples"] == 8, over != std::string("range_of_motion"));
+    EXPECT_EQ(poses["range_of_motion"] == true, over != std::string("clips"));
+  }
+  for (const std::vector<std::string>& arguments :
+       std::vector<std::vector<std::string>>{{"--refit-over", "clips"},
+                                             {"--weights", "exact", "--refit-over", "both"},
+                                             {"--weights", "refit", "--refit-over", "none"},
+                                             {"--weights", "linear"}}) {
+    std::vector<std::string> all = {"tear", model(), "--ops", operations, "-o", path("unfitted.glb")};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    const CommandResult result = run_sunder(all);
+    EXPECT_EQ(result.exit_code, 2) << arguments.back();
+    EXPECT_THAT(result.err, HasSubstr(arguments[arguments.size() - 2]));
+    EXPECT_FALSE(exists("unfitted.glb"));
+  }
+}
+
+TEST_F(Command, a_model_without_clips_is_refitted_over_its_range_of_motion) {
+  Character still = tools::make_cactus();
+  still.clips.clear();
+  ASSERT_TRUE(save_glb(path("still.glb"), still));
+  const std::string operations = write("still.json", R"({"sunder_operations": 1, "operations": [
+    {"op": "drill", "axis": {"origin": [0, 0.4, 2], "direction": [0, 0, -1]}, "radius": 0.02, "depth": 4}]})");
+  const CommandResult result =
+      run_sunder({"tear", path("still.glb"), "--ops", operations, "-o", path("bored.glb"), "--weights", "refit"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const json report = json::parse(result.out);
+  EXPECT_EQ(report["weights"]["refit_over"], "range_of_motion");
+  EXPECT_FALSE(report["weight_errors"].contains("clips"));
+  EXPECT_TRUE(report["weight_errors"].contains("range_of_motion"));
+
+  const CommandResult no_clips = run_sunder(
+      {"tear", path("still.glb"), "--ops", operations, "-o", path("unbored.glb"), "--weights", "refit", "--refit-over", "clips"});
+  EXPECT_EQ(no_clips.exit_code, 2);
+  EXPECT_THAT(no_clips.err, HasSubstr("--refit-over"));
+  EXPECT_FALSE(exists("unbored.glb"));
+}
+
+/// One tear and bores whose weights the log gives them, of which the last waits for a fit; then weights of the first.
+const char* const kWeighed = R"({"sunder_operations": 1, "operations": [
+  {"op": "tear", "pose": {"clip": "Sway", "time": 0.8}, "weights": {"policy": "refit"},
+   "stroke": [{"base": [-0.1, 1.15, 2], "tip": [-0.1, 1.15, 0]}, {"base": [-0.12, 1.25, 2], "tip": [-0.12, 1.25, 0]}]},
+  {"op": "drill", "axis": {"origin": [0, 0.4, 2], "direction": [0, 0, -1]}, "radius": 0.02, "depth": 4, "weights": {"policy": "exact"}},
+  {"op": "drill", "axis": {"origin": [0, 0.7, 2], "direction": [0, 0, -1]}, "radius": 0.02, "depth": 4,
+   "weights": {"policy": "pose_exact", "influences": 4}},
+  {"op": "weights", "count": 1, "weights": {"policy": "pose_exact"}, "pose": {"clip": "Sway", "time": 0.4}},
+  {"op": "drill", "axis": {"origin": [0, 0.9, 2], "direction": [0, 0, -1]}, "radius": 0.02, "depth": 4}]})";
+
+TEST_F(Command, weights_of_the_log_win) {
+  const CommandResult result = run_sunder({"tear", model(), "--ops", write("weighed.json", kWeighed), "-o", path("won.glb"),
+                                           "--weights", "refit", "--influences", "8", "--save-log", path("won.json")});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  std::ifstream stream(path("won.json"));
+  const json operations = json::parse(stream)["operations"];
+  ASSERT_EQ(operations.size(), 6u);
+  EXPECT_EQ(operations[0]["weights"], json::parse(R"({"policy": "refit", "influences": 0})"));
+  EXPECT_EQ(operations[1]["weights"], json::parse(R"({"policy": "exact", "influences": 0})"));
+  EXPECT_EQ(operations[2]["weights"], json::parse(R"({"policy": "pose_exact", "influences": 4})"));
+  EXPECT_EQ(operations[4]["weights"], json::parse(R"({"policy": "refit", "influences": 8})"));
+  EXPECT_EQ(operations[5]["op"], "weights");
+  EXPECT_EQ(operations[5]["first"], 4);
+  EXPECT_EQ(operations[5]["count"], 1);
+  EXPECT_EQ(operations[5]["weights"], operations[4]["weights"]);
+}
+
 /// Plays a log, then the log that it saved, and expects the same model.
-void expect_replay(const std::string& model, const std::string& operations, const std::string& stem) {
+void expect_replay(const std::string& model, const std::string& operations, const std::string& stem,
+                   const std::string& weights = "barycentric") {
   const CommandResult played =
-      run_sunder({"tear", model, "--ops", operations, "-o", stem + "1.glb", "--save-log", stem + "1.json"});
+      run_sunder({"tear", model, "--ops", operations, "-o", stem + "1.glb", "--save-log", stem + "1.json", "--weights", weights});
   ASSERT_LE(played.exit_code, 1) << played.err;
   const CommandResult replayed =
       run_sunder({"tear", model, "--ops", stem + "1.json", "-o", stem + "2.glb", "--save-log", stem + "2.json"});
   ASSERT_EQ(replayed.exit_code, 0) << replayed.err;
   EXPECT_EQ(json::parse(played.out)["result"], json::parse(replayed.out)["result"]);
+  EXPECT_EQ(json::parse(played.out)["weight_errors"], json::parse(replayed.out)["weight_errors"]);
   EXPECT_EQ(test::read_bytes(stem + "1.glb"), test::read_bytes(stem + "2.glb"));
   EXPECT_EQ(test::read_bytes(stem + "1.json"), test::read_bytes(stem + "2.json"));
 }
@@ -286,6 +429,12 @@ TEST_F(Command, a_saved_log_gives_the_same_model) {
   const json log = json::parse(stream);
   EXPECT_EQ(log["operations"].size(), 4u);  // undone and missed ones are not history
   for (const json& operation : log["operations"]) EXPECT_TRUE(operation["pose"].contains("matrices"));
+}
+
+TEST_F(Command, a_saved_log_gives_the_same_weights) {
+  expect_replay(model(), write("weighed.json", kWeighed), path("replayed"));
+  for (const char* const weights : {"pose_exact", "refit", "exact"})
+    expect_replay(model(), write("all.json", kAll), path("replayed"), weights);
 }
 
 TEST_F(Command, a_saved_log_gives_the_same_shared_model) {
@@ -347,6 +496,12 @@ TEST_F(Command, no_operation_gives_the_source) {
   const std::string none = write("none.json", R"({"sunder_operations": 1, "operations": []})");
   ASSERT_EQ(run_sunder({"tear", model(), "--ops", none, "-o", path("same.glb")}).exit_code, 0);
   EXPECT_EQ(bytes("same.glb"), bytes("cactus.glb"));
+  for (const char* const weights : {"refit", "exact"}) {
+    const CommandResult result = run_sunder({"tear", model(), "--ops", none, "-o", path("same.glb"), "--weights", weights});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(json::parse(result.out)["weight_errors"], json::object());
+    EXPECT_EQ(bytes("same.glb"), bytes("cactus.glb"));
+  }
 }
 
 TEST_F(Command, a_miss_is_a_finding_and_still_written) {
@@ -375,6 +530,9 @@ TEST_F(Command, bad_operations_exit_with_2_name_their_place_and_leave_nothing) {
          "stroke": [{"base": [0,1,1], "tip": [0,1,0]}, {"base": [0,1,-1], "tip": [0,1,0]}]}]})",
        "/operations/0"},
       {R"({"sunder_operations": 1, "operations": [{"op": "undo"}]})", "/operations/0"},
+      {R"({"sunder_operations": 1, "operations": [{"op": "weights", "weights": {}}]})", "/operations/0"},
+      {R"({"sunder_operations": 1, "operations": [{"op": "weights", "weights": {"policy": "sewn"}}]})",
+       "/operations/0/weights/policy"},
       {R"({"sunder_operations": 1, "operations": [{"op": "redo", "count": 0}]})", "count"},
       {R"({"sunder_operations": 1, "operations": [{"op": "cut", "plane": {"point": [0, 1, 0], "normal": [0, 1, 0]},
          "bounds": [[0, 1, 0], [1, 1, 0], [0.1, 1, 0.1], [0, 1, 1]]}]})",
@@ -423,6 +581,14 @@ TEST_F(Command, demo_without_a_renderer_leaves_all_but_the_pictures) {
   EXPECT_TRUE(exists("demo/torn.glb"));
   EXPECT_TRUE(exists("demo/report.json"));
   EXPECT_FALSE(exists("demo/torn.png"));
+
+  std::ifstream stream(path("demo/report.json"));
+  const json errors = json::parse(stream)["weight_errors"];
+  ASSERT_EQ(errors.size(), 4u);
+  EXPECT_GT(errors["barycentric"]["operations"]["maximum"].get<double>(), 1e-5);
+  EXPECT_LT(errors["pose_exact"]["operations"]["maximum"].get<double>(), 1e-6);
+  EXPECT_LT(errors["refit"]["clips"]["rms"], errors["barycentric"]["clips"]["rms"]);
+  EXPECT_LT(errors["exact"]["range_of_motion"]["maximum"].get<double>(), 1e-6);
 
   // The demo's own log makes its tear again.
   ASSERT_EQ(run_sunder({"tear", path("demo/cactus.glb"), "--ops", path("demo/ops.json"), "-o", path("again.glb"), "--report",

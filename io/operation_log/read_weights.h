@@ -1,0 +1,20 @@
+#pragma once
+
+#include <sunder/core/operation.h>
+
+#include "io/operation_log/place.h"
+
+namespace sunder::operation_log {
+
+// They throw a Fault.
+
+/// The field "weights" of an operation.
+WeightOptions read_weight_options(const Place& place);
+
+/// The operation "weights".
+WeightsOperation read_weights(const Place& place);
+
+/// How many operations, from 1.
+std::uint32_t read_operation_count(const Place& place);
+
+}  // namespace sunder::operation_log

@@ -1,0 +1,71 @@
+#include "tools/history.h"
+
+#include <sunder/skinning/pose_spec.h>
+
+#include <algorithm>
+#include <iterator>
+#include <optional>
+#include <utility>
+#include <variant>
+
+namespace sunder::tools {
+
+Result<std::vector<ModelPose>> poses_of(const Operation& operation, const Character& character) {
+  struct Visitor {
+    std::vector<PoseSpec>& specs;
+    void operator()(const TearOperation& tear) {
+      specs.push_back(tear.pose);
+      for (const TearOperation::PoseChange& change : tear.pose_changes) specs.push_back(change.pose);
+    }
+    void operator()(const CutOperation& cut) { specs.push_back(cut.pose); }
+    void operator()(const DrillOperation& drill) { specs.push_back(drill.pose); }
+    void operator()(const WeightsOperation& weights) {
+      if (weights.weights.policy == WeightPolicy::pose_exact) specs.push_back(weights.pose);
+    }
+    void operator()(const UndoOperation&) {}
+    void operator()(const RedoOperation&) {}
+  };
+  std::vector<PoseSpec> specs;
+  std::visit(Visitor{specs}, operation);
+  std::vector<ModelPose> poses;
+  for (const PoseSpec& spec : specs) {
+    Result<ModelPose> pose = make_pose(character, spec);
+    if (!pose) return pose.error();
+    poses.push_back(std::move(*pose));
+  }
+  return poses;
+}
+
+Result<std::vector<ModelPose>> poses_of_history(const TornModel& model) {
+  std::vector<ModelPose> poses;
+  for (const Operation& operation : model.history()) {
+    Result<std::vector<ModelPose>> of_operation = poses_of(operation, model.source());
+    if (!of_operation) return of_operation.error();
+    std::ranges::move(*of_operation, std::back_inserter(poses));
+  }
+  return poses;
+}
+
+std::vector<PointsOfOperation> points_of_history(const std::vector<Operation>& history) {
+  struct Visitor {
+    std::vector<PointsOfOperation>& points;
+    void operator()(const TearOperation& tear) { add(tear.options.weights); }
+    void operator()(const CutOperation& cut) { add(cut.cut.weights); }
+    void operator()(const DrillOperation& drill) { add(drill.bore.weights); }
+    void operator()(const WeightsOperation& operation) {
+      const std::size_t first = std::min<std::size_t>(operation.first_operation, points.size());
+      const std::size_t count = std::min<std::size_t>(operation.operation_count, points.size() - first);
+      for (std::size_t i = first; i < first + count; ++i) points[i].weights = operation.weights, points[i].are_reweighed = true;
+      points.push_back({});
+    }
+    void operator()(const UndoOperation&) {}
+    void operator()(const RedoOperation&) {}
+
+    void add(const std::optional<WeightOptions>& weights) { points.push_back({true, weights.value_or(WeightOptions{}), false}); }
+  };
+  std::vector<PointsOfOperation> points;
+  for (const Operation& operation : history) std::visit(Visitor{points}, operation);
+  return points;
+}
+
+}  // namespace sunder::tools
