@@ -3,6 +3,8 @@
 #include <sunder/skinning/pose_set.h>
 #include <sunder/tear/weight_errors.h>
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "tools/history.h"
@@ -13,19 +15,26 @@ namespace {
 
 constexpr std::size_t kMostPoses = 200;  ///< Of a set, so that measuring takes no longer than a glance.
 
-/// Every n-th so that there are no more than kMostPoses of them.
+/// n, where every n-th of them is to be taken so that there are no more than kMostPoses.
 std::size_t step_through(std::size_t count) { return (count + kMostPoses - 1) / kMostPoses; }
+
+bool is_finite(const ModelPose& pose) {
+  return std::ranges::all_of(pose.model_from_bone, [](const Affine3d& bone) { return bone.matrix().allFinite(); }) &&
+         std::ranges::all_of(pose.morph_weights, [](float weight) { return std::isfinite(weight); });
+}
 
 Status add_poses(std::shared_ptr<const Character> source, const PoseSetSpec& spec, const char* fit_name, const char* held_out_name,
                  std::vector<MeasuredPoses>& sets) {
   const Result<PoseSet> set = PoseSet::make(std::move(source), spec);
-  if (!set) return set.error().code() == StatusCode::empty_input ? Status() : set.error();
+  if (!set) return set.error().code() == StatusCode::limit_exceeded ? set.error() : Status();
   for (const auto& [role, name] : {std::pair(PoseSet::Role::fit, fit_name), std::pair(PoseSet::Role::held_out, held_out_name)}) {
     const std::size_t count = set->size(role);
-    if (count == 0) continue;
-    MeasuredPoses& measured = sets.emplace_back();
-    measured.name = name;
-    for (std::size_t i = 0; i < count; i += step_through(count)) set->compute(role, i, measured.poses.emplace_back());
+    MeasuredPoses measured{name, {}};
+    for (std::size_t i = 0; i < count; i += step_through(count)) {
+      set->compute(role, i, measured.poses.emplace_back());
+      if (!is_finite(measured.poses.back())) measured.poses.pop_back();
+    }
+    if (!measured.poses.empty()) sets.push_back(std::move(measured));
   }
   return {};
 }

@@ -18,7 +18,7 @@ struct MeasuredPoses {
 };
 
 /// The poses of a model's history; its clips and its range of motion, those to fit over and those held out. Of each at most 200:
-/// where there are more, every n-th. What the character does not have is left out.
+/// where there are more, every n-th. What the character does not have, or cannot be measured in, is left out.
 [[nodiscard]] Result<std::vector<MeasuredPoses>> poses_to_measure(const TornModel& model, std::shared_ptr<const Character> source);
 
 /// How far the points that operations made stand from where the surface was before them: one object a set of poses. An empty one

@@ -381,6 +381,26 @@ TEST_F(Command, a_model_without_clips_is_refitted_over_its_range_of_motion) {
   EXPECT_FALSE(exists("unbored.glb"));
 }
 
+TEST_F(Command, a_model_that_does_not_bend_needs_no_refit) {
+  Character stiff = tools::make_cactus();
+  stiff.clips.clear();
+  for (Mesh& mesh : stiff.meshes) {
+    mesh.weights.influences.assign(mesh.vertex_count(), {0, 1.0f});
+    for (std::uint32_t v = 0; v <= mesh.vertex_count(); ++v) mesh.weights.first[v] = v;
+  }
+  ASSERT_TRUE(save_glb(path("stiff.glb"), stiff));
+  const std::string operations = write("stiff.json", R"({"sunder_operations": 1, "operations": [
+    {"op": "drill", "axis": {"origin": [0, 0.4, 2], "direction": [0, 0, -1]}, "radius": 0.02, "depth": 4}]})");
+  const CommandResult result =
+      run_sunder({"tear", path("stiff.glb"), "--ops", operations, "-o", path("bored.glb"), "--weights", "refit"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const json report = json::parse(result.out);
+  EXPECT_TRUE(report["weights"]["refit_over"].is_null());
+  EXPECT_EQ(report["operations"].size(), 1u);
+  EXPECT_EQ(report["weight_errors"].size(), 1u);
+  EXPECT_LT(report["weight_errors"]["operations"]["maximum"].get<double>(), 1e-6);
+}
+
 /// One tear and bores whose weights the log gives them, of which the last waits for a fit; then weights of the first.
 const char* const kWeighed = R"({"sunder_operations": 1, "operations": [
   {"op": "tear", "pose": {"clip": "Sway", "time": 0.8}, "weights": {"policy": "refit"},
