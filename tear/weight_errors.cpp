@@ -1,4 +1,5 @@
 #include <sunder/skinning/palette.h>
+#include <sunder/skinning/pose_spec.h>
 #include <sunder/skinning/reference.h>
 #include <sunder/tear/weight_errors.h>
 
@@ -25,10 +26,12 @@ WeightErrors::Statistics statistics_of(std::vector<double>& values) {
   return result;
 }
 
-double bind_diagonal(const Character& character) {
+/// Of the box around the source in the rest pose.
+double rest_diagonal(const Character& source, std::span<const std::vector<Affine3d>> palettes) {
   Eigen::AlignedBox3d box;
-  for (const Mesh& mesh : character.meshes)
-    for (const Vec3f& position : mesh.positions) box.extend(Eigen::Vector3d(position.cast<double>()));
+  for (const Mesh& mesh : source.meshes)
+    for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v)
+      box.extend(Eigen::Vector3d(deform_position_reference(mesh, v, palettes[mesh.skin], source.rest_morph_weights)));
   return box.isEmpty() ? 0.0 : box.diagonal().norm();
 }
 
@@ -52,12 +55,18 @@ Vec3d exact_position(const tear::SurfaceEditor& editor, const tear::SurfaceEdito
   return sum;
 }
 
-double mean_edge(const tear::SurfaceEditor& editor, const tear::SurfaceEditor::VertexRef& at) {
-  const Triangle& corners = editor.origin_triangle(at.mesh, editor.birth(at.mesh, at.vertex).triangle);
-  double sum = 0;
-  for (std::size_t k = 0; k < 3; ++k)
-    sum += (editor.born_position(at.mesh, corners[k]) - editor.born_position(at.mesh, corners[(k + 1) % 3])).cast<double>().norm();
-  return sum / 3;
+/// Of the triangle that a point was born in, in the rest pose.
+double mean_edge(const tear::SurfaceEditor& editor, const tear::SurfaceEditor::VertexRef& at,
+                 std::span<const std::vector<Affine3d>> palettes) {
+  const Mesh& mesh = editor.character().meshes[at.mesh];
+  std::array<Vec3d, 3> corners;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::uint32_t corner = editor.origin_triangle(at.mesh, editor.birth(at.mesh, at.vertex).triangle)[k];
+    corners[k] =
+        deform_position_reference(mesh, corner, editor.born_position(at.mesh, corner), editor.born_influences(at.mesh, corner),
+                                  palettes[mesh.skin], editor.source().rest_morph_weights);
+  }
+  return ((corners[0] - corners[1]).norm() + (corners[1] - corners[2]).norm() + (corners[2] - corners[0]).norm()) / 3;
 }
 
 }  // namespace
@@ -76,14 +85,23 @@ Result<WeightErrors> measure_weight_errors(const TornModel& model, std::uint32_t
     const auto points = tear::weighable_points(state.vertices_of(operations), editor);
     WeightErrors errors;
     errors.poses = static_cast<std::uint32_t>(poses.size());
-    for (const auto& at : points) errors.points.push_back({at.mesh, at.vertex, 0, 0, mean_edge(editor, at)});
-    std::vector<double> metres, of_edge;
     std::vector<std::vector<Affine3d>> palettes;
     for (const Skin& skin : state.character.skins) palettes.emplace_back(skin.bones.size());
+    const auto stand_in = [&](const ModelPose& pose) {
+      Status status;
+      for (std::size_t skin = 0; skin < palettes.size() && status; ++skin)
+        status = compute_palette(state.character.skins[skin], pose, palettes[skin]);
+      return status;
+    };
+    const auto rest = make_pose(*state.source, RestPose{});
+    if (!rest) return rest.error();
+    if (Status status = stand_in(*rest); !status) return status;
+    const double diagonal = rest_diagonal(*state.source, palettes);
+    for (const auto& at : points) errors.points.push_back({at.mesh, at.vertex, 0, 0, mean_edge(editor, at, palettes)});
+    std::vector<double> metres, of_edge;
     AnimationPoint exact;
     for (const ModelPose& pose : poses) {
-      for (std::size_t skin = 0; skin < palettes.size(); ++skin)
-        if (Status status = compute_palette(state.character.skins[skin], pose, palettes[skin]); !status) return status;
+      if (Status status = stand_in(pose); !status) return status;
       for (std::size_t i = 0; i < points.size(); ++i) {
         const auto& at = points[i];
         const Mesh& mesh = state.character.meshes[at.mesh];
@@ -104,7 +122,6 @@ Result<WeightErrors> measure_weight_errors(const TornModel& model, std::uint32_t
     errors.metres = statistics_of(metres);
     errors.of_edge = statistics_of(of_edge);
     errors.of_diagonal = errors.metres;
-    const double diagonal = bind_diagonal(*state.source);
     for (double* value : {&errors.of_diagonal.rms, &errors.of_diagonal.percentile95, &errors.of_diagonal.maximum})
       *value = diagonal > 0 ? *value / diagonal : 0.0;
     return errors;

@@ -25,7 +25,7 @@ const char* refit_over_name(RefitOver over) {
 }
 
 Result<std::optional<RefitOver>> choose_poses(std::shared_ptr<const Character> character, std::optional<RefitOver> asked) {
-  const RefitOver over = asked ? *asked : !character->clips.empty() ? RefitOver::clips : RefitOver::range_of_motion;
+  const RefitOver over = asked.value_or(RefitOver::both);
   const auto poses = PoseSet::make(std::move(character), pose_set_of(over));
   if (poses) return std::optional(over);
   if (!asked && poses.error().code() == StatusCode::empty_input) return std::optional<RefitOver>();

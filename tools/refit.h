@@ -18,7 +18,7 @@ enum class RefitOver { clips, range_of_motion, both };
 /// What that is over.
 [[nodiscard]] PoseSetSpec pose_set_of(RefitOver over);
 
-/// @param asked  none: over clips where the character has any, else over its range of motion.
+/// @param asked  none: both, as far as the character has them.
 /// @return none where it was not asked for and the character has neither: then it does not bend, and nothing is to be fitted.
 [[nodiscard]] Result<std::optional<RefitOver>> choose_poses(std::shared_ptr<const Character> character,
                                                             std::optional<RefitOver> asked);

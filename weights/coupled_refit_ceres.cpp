@@ -246,7 +246,6 @@ bool CoupledProblem::factor(std::size_t point, RowMajor& root) {
       towards_[static_cast<std::size_t>(i)].noalias() = about_place.transpose() * towards;
   }
   Eigen::MatrixXd gram(4 * n, 4 * n);
-  double stiffness = 0;
   for (int i = 0; i < n; ++i)
     for (int j = 0; j <= i; ++j) {
       Eigen::Matrix4d product = about_place.transpose() * moment(unknowns.slot(i), unknowns.slot(j)) * about_place;
@@ -257,16 +256,25 @@ bool CoupledProblem::factor(std::size_t point, RowMajor& root) {
         product.topRows<3>().setZero();
         product.leftCols<3>().setZero();
       }
-      const double weights = unknowns.roots[i] * unknowns.roots[i] * unknowns.roots[j] * unknowns.roots[j];
-      stiffness += (i == j ? 1.0 : 2.0) * weights * product.topLeftCorner<3, 3>().trace();
       gram.block<4, 4>(4 * i, 4 * j) = product;
       if (i != j) gram.block<4, 4>(4 * j, 4 * i) = product.transpose();
     }
-  // The offset is the mean of itself by the weights, so that its length can be charged bone by bone.
-  stiffness *= weights::kStiffness / 3;
+  // Weights add up to one: the offset is the mean of itself by them, and what is linear in them or constant is quadratic too. So
+  // what holds the point back can be charged bone by bone.
+  const weights::Restraint restraint = weights::restraint_of(terms_, points_[point].position - moments_.centre(), moments_);
+  weights::weights_of_terms(terms_, points_[point].barycentric, of_terms_);
+  const auto before = [&](int i) {
+    for (std::size_t k = 0; k < terms_.size(); ++k)
+      if (terms_[k].slot == unknowns.slot(i)) return of_terms_[k];
+    return 0.0;
+  };
+  double square_before = 0;
+  for (const double weight : of_terms_) square_before += weight * weight;
   for (int i = 0; i < n; ++i)
-    for (int j = 0; j < n; ++j)
-      for (int axis = 0; axis < 3; ++axis) gram(4 * i + axis, 4 * j + axis) += stiffness;
+    for (int j = 0; j < n; ++j) {
+      for (int axis = 0; axis < 3; ++axis) gram(4 * i + axis, 4 * j + axis) += restraint.of_position;
+      gram(4 * i + 3, 4 * j + 3) += restraint.of_weights * ((i == j ? 1.0 : 0.0) - before(i) - before(j) + square_before);
+    }
   if (!gram.allFinite()) return false;
 
   // Cholesky's factors, each time by the largest pivot that is left. What is left below the least of them is rounding.

@@ -43,6 +43,7 @@ class PointRefit::Problem {
   std::vector<Between> between_;
   std::vector<Vec4, Eigen::aligned_allocator<Vec4>> towards_;  ///< sum_j H_ij q_j.
   double target_square_ = 0;
+  weights::Restraint restraint_;
   double per_pose_ = 1;
   weights::SimplexSolver solver_;
   std::vector<bool> allowed_;
@@ -85,6 +86,7 @@ void PointRefit::Problem::begin(const PointToRefit& point, const PoseMoments& mo
     target_square_ += terms_[i].q.dot(towards_[i]);
   }
   weights::weights_of_terms(terms_, point.barycentric, start_);
+  restraint_ = weights::restraint_of(terms_, point.position - moments.centre(), moments);
   weights_ = start_;
   allowed_.assign(n, true);
 }
@@ -103,8 +105,8 @@ void PointRefit::Problem::set_position(const Eigen::Vector3d& position) {
       if (i == j) largest = std::max(largest, product);
       solver_.gram(i, j) = solver_.gram(j, i) = product - candidate_[i] - candidate_[j] + target_square_;
     }
-  // Bones that move alike: what tells them apart is where the weights were, and nothing that could be measured.
-  const double tie = 1e-13 * largest + 1e-280;
+  // Bones that move alike, or nearly: what tells them apart is where the weights were.
+  const double tie = 1e-13 * largest + restraint_.of_weights + 1e-280;
   for (std::size_t i = 0; i < n; ++i) {
     solver_.gram(i, i) += tie;
     solver_.linear(i) = tie * start_[i];
@@ -121,7 +123,7 @@ Eigen::Vector3d PointRefit::Problem::best_position(const Eigen::Vector3d& start)
       if (weights_[j] != 0) square += (i == j ? 1.0 : 2.0) * weights_[i] * weights_[j] * *between(i, j).moment;
   }
   square = (0.5 * per_pose_) * (square + square.transpose()).eval();
-  const double stiffness = weights::kStiffness * square.topLeftCorner<3, 3>().trace() / 3;
+  const double stiffness = restraint_.of_position;
   Eigen::Matrix3d left = square.topLeftCorner<3, 3>();
   left.diagonal().array() += stiffness + 1e-280;
   const Eigen::Vector3d right = towards.head<3>() - square.topRightCorner<3, 1>() + stiffness * start;

@@ -20,6 +20,17 @@ void centre_terms(const AnimationPoint& point, const PoseMoments& moments, std::
   }
 }
 
+Restraint restraint_of(std::span<const AnimationPoint::Term> terms, const Eigen::Vector3d& position, const PoseMoments& moments) {
+  double scale_square = 0, spread_square = 0;
+  for (const auto& term : terms) {
+    if (!(term.q.w() > 0)) continue;
+    scale_square += term.q.w() * moments.of(term.slot, term.slot).topLeftCorner<3, 3>().trace() / 3;
+    spread_square += (Eigen::Vector3d(term.q.head<3>()) - term.q.w() * position).squaredNorm() / term.q.w();
+  }
+  scale_square /= static_cast<double>(std::max<std::size_t>(moments.pose_count(), 1));
+  return {kStiffness * scale_square, kInertia * scale_square * spread_square};
+}
+
 void weights_of_terms(std::span<const AnimationPoint::Term> terms, std::span<const Influence> influences,
                       std::vector<double>& of_terms) {
   of_terms.assign(terms.size(), 0.0);

@@ -33,7 +33,6 @@ double mean_difference(const test::Lip& lip, const std::vector<CoupledFit>& fits
 /// What is to be least, summed up anew: pose by pose, neighbours by neighbours, slot by slot.
 double cost(const test::Lip& lip, const std::vector<CoupledFit>& fits, double smoothness) {
   double sum = 0;
-  for (std::size_t i = 0; i < fits.size(); ++i) sum += lip.mean_square(i, fits[i].influences, fits[i].position);
   const auto change_of = [&](std::uint32_t point) {
     std::map<std::uint32_t, double> change;
     if (point == kNone) return change;
@@ -41,6 +40,17 @@ double cost(const test::Lip& lip, const std::vector<CoupledFit>& fits, double sm
     for (const Influence& influence : lip.barycentric[point]) change[influence.slot] -= static_cast<double>(influence.weight);
     return change;
   };
+  // Bones that only turn have scale 1.
+  for (std::uint32_t i = 0; i < fits.size(); ++i) {
+    sum += lip.mean_square(i, fits[i].influences, fits[i].position);
+    sum += 0.03 * (fits[i].position - lip.points[i].position).squaredNorm();
+    double spread_square = 0, total = 0;
+    for (const auto& term : lip.exact[i].terms()) {
+      total += term.q.w();
+      spread_square += term.q.w() * (term.q.head<3>() / term.q.w() - lip.points[i].position).squaredNorm();
+    }
+    for (const auto& [slot, difference] : change_of(i)) sum += 1e-3 * spread_square / total * difference * difference;
+  }
   for (const RefitNeighbours& pair : lip.neighbours) {
     Vec3d moved = fits[pair.a].position - lip.points[pair.a].position;
     if (pair.b != kNone) moved -= fits[pair.b].position - lip.points[pair.b].position;

@@ -16,12 +16,12 @@ struct WeightErrors {
   struct OfPoint {
     std::uint32_t mesh = 0, vertex = 0;  ///< The first of the vertices that share the point.
     double rms = 0, maximum = 0;         ///< Over the poses, metres.
-    double edge = 0;                     ///< Mean edge of the triangle that it was born in, in bind space, metres.
+    double edge = 0;                     ///< Mean edge of the triangle that it was born in, in the rest pose, metres.
   };
 
   std::uint32_t poses = 0;
   Statistics metres;       ///< Over points and poses.
-  Statistics of_diagonal;  ///< In parts of the diagonal of the source in bind space.
+  Statistics of_diagonal;  ///< In parts of the diagonal of the source in the rest pose.
   Statistics of_edge;      ///< In parts of OfPoint::edge.
   std::vector<OfPoint> points;
 };
@@ -30,7 +30,7 @@ struct WeightErrors {
 /// @param operation_count  kNone: all from there on. What is in the model now is measured, whatever weighed it.
 /// @param poses            one matrix a bone, all finite; none: all figures are zero.
 /// @return not_found where there are no such operations; size_mismatch or non_finite_value with the pose. A model that lost an
-///         operation is another one: measure before undoing. O(points x poses), allocates.
+///         operation is another one: measure before undoing. O(vertices of the source + points x poses), allocates.
 [[nodiscard]] SUNDER_API Result<WeightErrors> measure_weight_errors(const TornModel& model, std::uint32_t first_operation,
                                                                     std::uint32_t operation_count,
                                                                     std::span<const ModelPose> poses);
