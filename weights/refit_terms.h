@@ -7,9 +7,7 @@
 
 namespace sunder::weights {
 
-// What a fit is held back by where its poses say little, so that it does not go wrong in others for the sake of nothing. Measured
-// on rigged files: fits over clips cost under one per cent of their gain by it, and err up to seven times less over a range of
-// motion.
+// What a fit is held back by, so that it does not go wrong in other poses for the sake of nothing in these: docs/weights.md.
 
 /// By the squared scale of the bones, times how far the bind position is moved, squared.
 constexpr double kStiffness = 0.03;

@@ -309,7 +309,7 @@ TEST_F(Command, tear_weighs_new_points_as_it_is_told) {
   EXPECT_EQ(refit["status"], "weighed");
   EXPECT_GT(refit["weights"]["refitted"], 0);
   EXPECT_GE(refit["weights"]["points"], refit["weights"]["refitted"]);
-  EXPECT_EQ(reports["refit"]["weights"]["refit_over"], "clips");
+  EXPECT_EQ(reports["refit"]["weights"]["refit_over"], "both");
   EXPECT_TRUE(reports["exact"]["weights"]["refit_over"].is_null());
 
   EXPECT_FALSE(reports["refit"]["weight_errors"].contains("as_written"));
@@ -370,7 +370,7 @@ TEST_F(Command, a_model_without_clips_is_refitted_over_its_range_of_motion) {
       run_sunder({"tear", path("still.glb"), "--ops", operations, "-o", path("bored.glb"), "--weights", "refit"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const json report = json::parse(result.out);
-  EXPECT_EQ(report["weights"]["refit_over"], "range_of_motion");
+  EXPECT_EQ(report["weights"]["refit_over"], "both");
   EXPECT_FALSE(report["weight_errors"].contains("clips"));
   EXPECT_TRUE(report["weight_errors"].contains("range_of_motion"));
 
