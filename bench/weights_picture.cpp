@@ -51,6 +51,9 @@ void draw_mark(std::FILE* out, double x, double y, double size, const WeightOpti
                  -2.4 * size, colour, look);
 }
 
+/// Marks that lie on each other are all seen.
+double median_size(std::uint32_t maximum) { return maximum == 4 ? 9.5 : maximum == 8 ? 7.5 : 5.5; }
+
 void draw_text(std::FILE* out, double x, double y, const char* anchor, const std::string& text, const char* more = "") {
   std::fprintf(out, "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"%s\"%s>%s</text>\n", x, y, anchor, more, text.c_str());
 }
@@ -99,13 +102,11 @@ void draw_legend(std::FILE* out) {
   draw_text(out, x - 10, y, "start", "influences, at most", " font-weight=\"bold\"");
   for (const auto& [maximum, name] : {std::pair(4u, "4"), std::pair(8u, "8"), std::pair(0u, "all")}) {
     y += 24;
-    std::fprintf(out, "<g style=\"filter:grayscale(1)\">");
-    draw_mark(out, x, y - 4, 7, {WeightPolicy::barycentric, maximum}, true);
-    std::fprintf(out, "</g>");
+    draw_mark(out, x, y - 4, median_size(maximum), {WeightPolicy::barycentric, maximum}, true);
     draw_text(out, x + 18, y, "start", name);
   }
   y += 40;
-  draw_mark(out, x, y - 4, 7, {WeightPolicy::barycentric, 4}, true);
+  draw_mark(out, x, y - 4, median_size(4), {WeightPolicy::barycentric, 4}, true);
   draw_text(out, x + 18, y, "start", "median of models");
   y += 24;
   draw_mark(out, x, y - 4, 4, {WeightPolicy::barycentric, 4}, false);
@@ -145,7 +146,9 @@ bool write_weights_picture(const std::vector<ModelFigures>& models, const char* 
       times_of_row.push_back(model.rows[i].microseconds);
       errors_of_row.push_back(std::max(error_of(model.rows[i]), least));
     }
-    draw_mark(out, time.at(median(times_of_row)), error.at(median(errors_of_row)), 7, models.front().rows[i].options, true);
+    const WeightOptions& options = models.front().rows[i].options;
+    draw_mark(out, time.at(median(times_of_row)), error.at(median(errors_of_row)), median_size(options.maximum_influences), options,
+              true);
   }
   draw_legend(out);
   std::fprintf(out, "</svg>\n");
