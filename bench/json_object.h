@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdio>
 #include <optional>
 #include <string>
 #include <utility>
@@ -7,15 +8,18 @@
 
 namespace sunder::bench {
 
-/// Prints one JSON object to stdout, member by member.
+/// Prints one JSON object, member by member.
 class JsonObject {
  public:
+  explicit JsonObject(std::FILE* file = stdout) : file_(file) {}
   void add(const char* name, std::optional<double> value);
   void add(const char* name, const std::vector<std::pair<std::string, double>>& values);
+  void add_text(const char* name, const std::string& text);  ///< Without characters that JSON escapes.
   void end();
 
  private:
   void begin(const char* name);
+  std::FILE* file_;
   bool is_first_ = true;
 };
 

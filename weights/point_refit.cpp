@@ -13,6 +13,10 @@ namespace {
 /// Weights and bind position take turns until a turn gains less than this part, or so many times.
 constexpr double kLeastGain = 1e-4;
 constexpr int kMostTurns = 32;
+/// How much farther a turn goes after each one that gained.
+constexpr double kGrowth = 1.5;
+/// So many tell which bone is missed least.
+constexpr int kTurnsOfChoice = 2;
 
 }  // namespace
 
@@ -35,8 +39,8 @@ class PointRefit::Problem {
   void set_position(const Eigen::Vector3d& position);
   [[nodiscard]] Eigen::Vector3d best_position(const Eigen::Vector3d& start) const;
   [[nodiscard]] double mean_square(const std::vector<double>& of_terms, const Eigen::Vector3d& position);
-  [[nodiscard]] bool choose(std::size_t maximum);
-  void take_turns(const Eigen::Vector3d& start, Eigen::Vector3d& position);
+  [[nodiscard]] bool choose(std::size_t maximum, int turns, const Eigen::Vector3d& start, Eigen::Vector3d& position);
+  void take_turns(int most, const Eigen::Vector3d& start, Eigen::Vector3d& position);
 
   const PoseMoments* moments_ = nullptr;
   std::vector<AnimationPoint::Term> terms_, difference_;
@@ -47,7 +51,7 @@ class PointRefit::Problem {
   double per_pose_ = 1;
   weights::SimplexSolver solver_;
   std::vector<bool> allowed_;
-  std::vector<double> start_, weights_, candidate_, best_;
+  std::vector<double> start_, weights_, before_, best_, candidate_, earlier_;
   std::vector<Influence> influences_;
 };
 
@@ -136,8 +140,9 @@ double PointRefit::Problem::mean_square(const std::vector<double>& of_terms, con
 }
 
 /// Leaves no more than `maximum` weights: without that one which is missed least, and so on. 0: as many as there are.
+/// @param turns  how many are taken without each of them before it is known how much it is missed. 0: the bind position stays.
 /// @return whether any had to go.
-bool PointRefit::Problem::choose(std::size_t maximum) {
+bool PointRefit::Problem::choose(std::size_t maximum, int turns, const Eigen::Vector3d& start, Eigen::Vector3d& position) {
   const auto used = [&] {
     return static_cast<std::size_t>(std::count_if(weights_.begin(), weights_.end(), [](double w) { return w > 0; }));
   };
@@ -145,22 +150,26 @@ bool PointRefit::Problem::choose(std::size_t maximum) {
   while (used() > maximum) {
     double least = 0;
     std::size_t dropped = terms_.size();
-    for (std::size_t i = 0; i < terms_.size(); ++i) allowed_[i] = weights_[i] > 0;
+    before_ = weights_;
+    const Eigen::Vector3d from = position;
     for (std::size_t i = 0; i < terms_.size(); ++i) {
-      if (!(weights_[i] > 0)) continue;
-      candidate_ = weights_;
-      candidate_[i] = 0;
-      // Added up, not 1 - weights_[i]: beside a weight of almost one that would be nothing.
-      const double rest = std::accumulate(candidate_.begin(), candidate_.end(), 0.0);
-      for (double& weight : candidate_) weight /= rest;
-      allowed_[i] = false;
-      solver_.solve(candidate_, allowed_);
-      allowed_[i] = true;
-      const double value = solver_.value(candidate_);
+      if (!(before_[i] > 0)) continue;
+      for (std::size_t j = 0; j < terms_.size(); ++j) allowed_[j] = j != i && before_[j] > 0;
+      weights_ = before_;
+      weights_[i] = 0;
+      // Added up, not 1 - before_[i]: beside a weight of almost one that would be nothing.
+      const double rest = std::accumulate(weights_.begin(), weights_.end(), 0.0);
+      for (double& weight : weights_) weight /= rest;
+      Eigen::Vector3d moved = from;
+      if (turns > 0) set_position(moved);
+      solver_.solve(weights_, allowed_);
+      take_turns(turns, start, moved);
+      const double value = solver_.value(weights_);
       if (dropped < terms_.size() && !(value < least)) continue;
       least = value;
       dropped = i;
-      best_ = candidate_;
+      best_ = weights_;
+      position = moved;
     }
     weights_ = best_;
   }
@@ -168,15 +177,28 @@ bool PointRefit::Problem::choose(std::size_t maximum) {
   return true;
 }
 
-void PointRefit::Problem::take_turns(const Eigen::Vector3d& start, Eigen::Vector3d& position) {
-  double before = mean_square(weights_, position);
-  for (int turn = 0; turn < kMostTurns; ++turn) {
-    position = best_position(start);
+/// At most so many, from weights that are the best where the bind position is. While turns gain, the bind position goes farther and
+/// farther past the best one for the weights as they are; step by step the two would creep along valleys.
+void PointRefit::Problem::take_turns(int most, const Eigen::Vector3d& start, Eigen::Vector3d& position) {
+  if (most == 0) return;
+  double before = mean_square(weights_, position), stride = 1;
+  for (int turn = 0; turn < most; ++turn) {
+    const Eigen::Vector3d from = position;
+    earlier_ = weights_;
+    position += stride * (best_position(start) - position);
     set_position(position);
     solver_.solve(weights_, allowed_);
     const double after = mean_square(weights_, position);
-    if (!(after < (1 - kLeastGain) * before)) return;
-    before = after;
+    const bool gains = after < (1 - kLeastGain) * before;
+    if (!gains && stride == 1) return;
+    if (!(after < before)) {
+      position = from;
+      weights_ = earlier_;
+      set_position(position);
+    } else {
+      before = after;
+    }
+    stride = gains ? kGrowth * stride : 1;
   }
 }
 
@@ -191,8 +213,9 @@ PointRefit::Fit PointRefit::Problem::solve(const PointToRefit& point, const Opti
   set_position(position);
   allowed_.assign(terms_.size(), true);
   solver_.solve(weights_, allowed_);
-  if (options.moves_bind) take_turns(start, position);
-  if (choose(options.maximum_influences) && options.moves_bind) take_turns(start, position);
+  const int turns = options.moves_bind ? kMostTurns : 0;
+  take_turns(turns, start, position);
+  if (choose(options.maximum_influences, std::min(turns, kTurnsOfChoice), start, position)) take_turns(turns, start, position);
   weights::store_weights(terms_, weights_, influences_);
   // What is stored is what has to be better.
   weights::weights_of_terms(terms_, influences_, weights_);

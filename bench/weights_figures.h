@@ -1,0 +1,52 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bench/weight_solvers.h"
+#include "bench/weights_errors.h"
+
+namespace sunder::bench {
+
+struct PolicyRow {
+  WeightOptions options;
+  double microseconds = 0;  ///< A point; over the model's usual poses.
+  PolicyErrors errors;
+};
+
+/// The convex problems of a model's points, sixteen poses, weights alone, at most four: by PointRefit, and as others get them.
+struct SolverInput {
+  std::vector<WeightProblem> problems;  ///< Of points that keep more than one bone: these bones alone, and the diagonal is 1.
+  double microseconds = 0;              ///< PointRefit's for the same points, of all their bones.
+  std::vector<double> mean_squares;     ///< Of what PointRefit finds, one a problem.
+};
+
+struct ModelFigures {
+  std::string name;
+  std::size_t points = 0;
+  double diagonal = 0;  ///< Metres.
+  std::vector<PolicyRow> rows;
+  double runtime_error = 0;   ///< largest_runtime_error().
+  double vs_exhaustive = 0;   ///< Root mean square of fits by that of ExhaustiveRefit; of both sets of poses, the larger one.
+  double barycentric_us = 0;  ///< K = 4.
+  double refit_us = 0;        ///< PointRefit alone: weights alone, K = 4, sixteen poses.
+  SolverInput solvers;
+
+  [[nodiscard]] const PolicyRow& row(const WeightOptions& options) const;
+  [[nodiscard]] std::optional<double> gain_clips() const;
+  [[nodiscard]] std::optional<double> gain_range_of_motion() const;
+};
+
+/// All that is measured of a model.
+[[nodiscard]] ModelFigures measure_model(WeightsModel& model);
+
+struct Summary {
+  double exact_max_rel = 0, pose_exact_pop_rel = 0;
+  std::optional<double> refit_gain_clips_median;
+  double refit_gain_rom_median = 0, refit_gain_min = 0;
+  double refit_vs_exhaustive = 0, refit_us = 0, barycentric_us = 0;
+};
+
+[[nodiscard]] Summary summarise(const std::vector<ModelFigures>& models);
+
+}  // namespace sunder::bench

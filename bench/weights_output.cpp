@@ -1,0 +1,192 @@
+#include "bench/weights_output.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+
+#include "bench/json_object.h"
+#include "bench/measure.h"
+
+namespace sunder::bench {
+namespace {
+
+std::string number_of(std::uint32_t maximum) { return maximum == 0 ? "all" : std::to_string(maximum); }
+
+/// The median over models of what `figure` finds in one row of each.
+void print_median(const std::vector<ModelFigures>& models, std::size_t row,
+                  const std::function<std::optional<double>(const PolicyRow&)>& figure) {
+  std::vector<double> values;
+  for (const ModelFigures& model : models)
+    if (const auto value = figure(model.rows[row])) values.push_back(*value);
+  if (values.empty())
+    std::printf(" – |");
+  else
+    std::printf(" %.2g |", median(values));
+}
+
+using Over = PolicyErrors::OverPoses;
+
+std::optional<Over> over_clips(const PolicyRow& row) { return row.errors.clips; }
+std::optional<Over> over_motion(const PolicyRow& row) { return row.errors.range_of_motion; }
+
+void print_policies(const std::vector<ModelFigures>& models) {
+  std::printf(
+      "Medians over %zu models; errors in per cent of the diagonal, of clips and of a range of motion (ROM).\n\n"
+      "| policy | K | µs a point | clips: fit, RMS | held out, RMS | 95 %% | max | ROM: fit, RMS | held out, RMS | 95 %% | max | "
+      "pop | fell "
+      "back |\n"
+      "|---|---|---|---|---|---|---|---|---|---|---|---|---|\n",
+      models.size());
+  for (std::size_t i = 0; i < models.front().rows.size(); ++i) {
+    const WeightOptions& options = models.front().rows[i].options;
+    std::printf("| %s | %s |", policy_name(options.policy), number_of(options.maximum_influences).c_str());
+    print_median(models, i, [](const PolicyRow& row) { return row.microseconds; });
+    for (const auto& over : {over_clips, over_motion}) {
+      const auto print = [&](double (*figure)(const Over&)) {
+        print_median(models, i, [&](const PolicyRow& row) {
+          const auto errors = over(row);
+          return errors ? std::optional(100 * figure(*errors)) : std::nullopt;
+        });
+      };
+      print([](const Over& errors) { return errors.fit.rms; });
+      print([](const Over& errors) { return errors.held_out.rms; });
+      print([](const Over& errors) { return errors.held_out.percentile95; });
+      print([](const Over& errors) { return errors.held_out.maximum; });
+    }
+    print_median(models, i, [](const PolicyRow& row) { return 100 * row.errors.pop; });
+    std::uint32_t fell_back = 0;
+    for (const ModelFigures& model : models) fell_back += model.rows[i].errors.ill_conditioned;
+    std::printf(" %s |\n", options.policy == WeightPolicy::pose_exact ? std::to_string(fell_back).c_str() : "");
+  }
+}
+
+void print_gain(std::optional<double> gain) {
+  if (gain)
+    std::printf(" %.2f |", *gain);
+  else
+    std::printf(" – |");
+}
+
+void print_models(const std::vector<ModelFigures>& models) {
+  std::printf(
+      "\nBy model, K = 4: gain is the RMS of barycentric weights by that of the refit, on poses held out.\n\n"
+      "| model | points | gain, clips | gain, ROM | refit by exhaustive search | exact, in float, max of diagonal | barycentric, "
+      "µs | refit of "
+      "weights alone, µs |\n"
+      "|---|---|---|---|---|---|---|---|\n");
+  for (const ModelFigures& model : models) {
+    std::printf("| %s | %zu |", model.name.c_str(), model.points);
+    print_gain(model.gain_clips());
+    print_gain(model.gain_range_of_motion());
+    std::printf(" %.4f | %.1e | %.3f | %.2f |\n", model.vs_exhaustive, model.runtime_error, model.barycentric_us, model.refit_us);
+  }
+}
+
+void print_solvers(const std::vector<ModelFigures>& models, const std::vector<SolverFigures>& solvers) {
+  double microseconds = 0, problems = 0, sum = 0;
+  for (const ModelFigures& model : models) {
+    const auto count = static_cast<double>(model.solvers.problems.size());
+    microseconds += model.solvers.microseconds * count;
+    problems += count;
+    for (const double square : model.solvers.mean_squares) sum += square;
+  }
+  std::printf(
+      "\nThe same %.0f convex problems, 16 poses, weights alone. PointRefit chooses up to four of all bones; the others get "
+      "these.\n\n"
+      "| solver | µs a problem | RMS by PointRefit's |\n|---|---|---|\n| PointRefit | %.2f | 1 |\n",
+      problems, microseconds / problems);
+  for (const SolverFigures& solver : solvers) {
+    double of_solver = 0;
+    for (const double square : solver.mean_squares) of_solver += square;
+    std::printf("| %s | %.2f | %.6f |\n", solver.name, solver.microseconds, std::sqrt(of_solver / sum));
+  }
+}
+
+void add_statistics(JsonObject& object, const std::string& name, const ErrorStatistics& errors, double diagonal) {
+  object.add((name + "_percent").c_str(),
+             {{"rms", 100 * errors.rms}, {"percentile95", 100 * errors.percentile95}, {"maximum", 100 * errors.maximum}});
+  object.add(
+      (name + "_metres").c_str(),
+      {{"rms", diagonal * errors.rms}, {"percentile95", diagonal * errors.percentile95}, {"maximum", diagonal * errors.maximum}});
+}
+
+}  // namespace
+
+const char* policy_name(WeightPolicy policy) {
+  switch (policy) {
+    case WeightPolicy::barycentric: return "barycentric";
+    case WeightPolicy::pose_exact: return "pose_exact";
+    case WeightPolicy::refit: return "refit";
+    default: return "exact";
+  }
+}
+
+void print_weights_tables(const std::vector<ModelFigures>& models, const std::vector<SolverFigures>& solvers) {
+  print_policies(models);
+  print_models(models);
+  print_solvers(models, solvers);
+}
+
+void print_weights_summary(const Summary& summary, std::FILE* file) {
+  JsonObject object(file);
+  object.add("exact_max_rel", summary.exact_max_rel);
+  object.add("pose_exact_pop_rel", summary.pose_exact_pop_rel);
+  object.add("refit_gain_clips_median", summary.refit_gain_clips_median);
+  object.add("refit_gain_rom_median", summary.refit_gain_rom_median);
+  object.add("refit_gain_min", summary.refit_gain_min);
+  object.add("refit_vs_exhaustive", summary.refit_vs_exhaustive);
+  object.add("refit_us", summary.refit_us);
+  object.add("barycentric_us", summary.barycentric_us);
+  object.end();
+}
+
+bool write_weights_json(const std::vector<ModelFigures>& models, const char* file) {
+  std::FILE* out = std::fopen(file, "w");
+  if (out == nullptr) return false;
+  std::fprintf(out, "{\"rows\": [\n");
+  bool is_first = true;
+  for (const ModelFigures& model : models)
+    for (const PolicyRow& row : model.rows) {
+      if (!is_first) std::fprintf(out, ",");
+      is_first = false;
+      JsonObject object(out);
+      object.add_text("model", model.name);
+      object.add_text("policy", policy_name(row.options.policy));
+      object.add("maximum_influences", row.options.maximum_influences);
+      object.add("microseconds", row.microseconds);
+      if (row.errors.clips) {
+        add_statistics(object, "clips_fit", row.errors.clips->fit, model.diagonal);
+        add_statistics(object, "clips_held_out", row.errors.clips->held_out, model.diagonal);
+      }
+      add_statistics(object, "range_of_motion_fit", row.errors.range_of_motion.fit, model.diagonal);
+      add_statistics(object, "range_of_motion_held_out", row.errors.range_of_motion.held_out, model.diagonal);
+      object.add("pop_percent", 100 * row.errors.pop);
+      object.add("pop_metres", model.diagonal * row.errors.pop);
+      object.add("ill_conditioned", row.errors.ill_conditioned);
+      object.end();
+    }
+  std::fprintf(out, "], \"models\": [\n");
+  is_first = true;
+  for (const ModelFigures& model : models) {
+    if (!is_first) std::fprintf(out, ",");
+    is_first = false;
+    JsonObject object(out);
+    object.add_text("model", model.name);
+    object.add("points", static_cast<double>(model.points));
+    object.add("diagonal_metres", model.diagonal);
+    object.add("exact_max_rel", model.runtime_error);
+    object.add("refit_vs_exhaustive", model.vs_exhaustive);
+    object.add("refit_gain_clips", model.gain_clips());
+    object.add("refit_gain_rom", model.gain_range_of_motion());
+    object.add("barycentric_us", model.barycentric_us);
+    object.add("refit_us", model.refit_us);
+    object.end();
+  }
+  std::fprintf(out, "], \"summary\": ");
+  print_weights_summary(summarise(models), out);
+  std::fprintf(out, "}\n");
+  return std::fclose(out) == 0;
+}
+
+}  // namespace sunder::bench
