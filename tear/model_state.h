@@ -2,6 +2,7 @@
 
 #include <sunder/tear/torn_model.h>
 
+#include <mutex>
 #include <new>
 
 #include "tear/capacity_exceeded.h"
@@ -90,6 +91,8 @@ struct TornModel::State {
   std::vector<LipPair> lips;    ///< Of the call under way.
   tear::History history;
   std::vector<std::weak_ptr<tear::RefitWork>> refits;  ///< That were submitted.
+  /// Of the source in the rest pose: the first time it is asked for, O(vertices). May be asked for by several threads.
+  [[nodiscard]] double rest_diagonal() const;
 
  private:
   void begin_call();
@@ -97,6 +100,8 @@ struct TornModel::State {
   void take_back();
 
   tear::SurfaceEditor::Mark begin_of_call_;
+  mutable std::once_flag has_rest_diagonal_;
+  mutable double rest_diagonal_ = 0;
 };
 
 /// What of a stroke can be said before the surface is looked at.

@@ -26,15 +26,6 @@ WeightErrors::Statistics statistics_of(std::vector<double>& values) {
   return result;
 }
 
-/// Of the box around the source in the rest pose.
-double rest_diagonal(const Character& source, std::span<const std::vector<Affine3d>> palettes) {
-  Eigen::AlignedBox3d box;
-  for (const Mesh& mesh : source.meshes)
-    for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v)
-      box.extend(Eigen::Vector3d(deform_position_reference(mesh, v, palettes[mesh.skin], source.rest_morph_weights)));
-  return box.isEmpty() ? 0.0 : box.diagonal().norm();
-}
-
 /// Where a vertex of policy `exact` stands, as stored.
 Vec3d exact_position(const tear::SurfaceEditor& editor, const tear::SurfaceEditor::VertexRef& at, std::span<const Affine3d> palette,
                      std::span<const float> morph_weights) {
@@ -71,6 +62,21 @@ double mean_edge(const tear::SurfaceEditor& editor, const tear::SurfaceEditor::V
 
 }  // namespace
 
+double TornModel::State::rest_diagonal() const {
+  std::call_once(has_rest_diagonal_, [&] {
+    const auto rest = make_pose(*source, RestPose{});
+    Eigen::AlignedBox3d box;
+    for (const Mesh& mesh : source->meshes) {
+      std::vector<Affine3d> palette(source->skins[mesh.skin].bones.size());
+      if (!rest || !compute_palette(source->skins[mesh.skin], *rest, palette)) return;
+      for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v)
+        box.extend(Eigen::Vector3d(deform_position_reference(mesh, v, palette, source->rest_morph_weights)));
+    }
+    rest_diagonal_ = box.isEmpty() ? 0.0 : box.diagonal().norm();
+  });
+  return rest_diagonal_;
+}
+
 Result<WeightErrors> measure_weight_errors(const TornModel& model, std::uint32_t first_operation, std::uint32_t operation_count,
                                            std::span<const ModelPose> poses) {
   const TornModel::State& state = *model.state_;
@@ -96,7 +102,6 @@ Result<WeightErrors> measure_weight_errors(const TornModel& model, std::uint32_t
     const auto rest = make_pose(*state.source, RestPose{});
     if (!rest) return rest.error();
     if (Status status = stand_in(*rest); !status) return status;
-    const double diagonal = rest_diagonal(*state.source, palettes);
     for (const auto& at : points) errors.points.push_back({at.mesh, at.vertex, 0, 0, mean_edge(editor, at, palettes)});
     std::vector<double> metres, of_edge;
     AnimationPoint exact;
@@ -122,6 +127,7 @@ Result<WeightErrors> measure_weight_errors(const TornModel& model, std::uint32_t
     errors.metres = statistics_of(metres);
     errors.of_edge = statistics_of(of_edge);
     errors.of_diagonal = errors.metres;
+    const double diagonal = state.rest_diagonal();
     for (double* value : {&errors.of_diagonal.rms, &errors.of_diagonal.percentile95, &errors.of_diagonal.maximum})
       *value = diagonal > 0 ? *value / diagonal : 0.0;
     return errors;

@@ -18,6 +18,10 @@ constexpr double kGrowth = 1.5;
 /// So many tell which bone is missed least.
 constexpr int kTurnsOfChoice = 2;
 
+/// A fit that is held back is taken where its mean square is no larger than this many times that of one that is not: 1 % of the
+/// root mean square.
+constexpr double kWorth = 1.02;
+
 }  // namespace
 
 /// One point's quadratic forms, and the memory for them. Places are about the centre of the moments.
@@ -37,6 +41,8 @@ class PointRefit::Problem {
   [[nodiscard]] const Between& between(std::size_t i, std::size_t j) const { return between_[i * terms_.size() + j]; }
 
   void set_position(const Eigen::Vector3d& position);
+  void improve(const Options& options, const Eigen::Vector3d& start, Eigen::Vector3d& position);
+  void let_go();
   [[nodiscard]] Eigen::Vector3d best_position(const Eigen::Vector3d& start) const;
   [[nodiscard]] double mean_square(const std::vector<double>& of_terms, const Eigen::Vector3d& position);
   [[nodiscard]] bool choose(std::size_t maximum, int turns, const Eigen::Vector3d& start, Eigen::Vector3d& position);
@@ -51,7 +57,7 @@ class PointRefit::Problem {
   double per_pose_ = 1;
   weights::SimplexSolver solver_;
   std::vector<bool> allowed_;
-  std::vector<double> start_, weights_, before_, best_, candidate_, earlier_;
+  std::vector<double> start_, weights_, held_weights_, before_, best_, candidate_, earlier_;
   std::vector<Influence> influences_;
 };
 
@@ -202,6 +208,24 @@ void PointRefit::Problem::take_turns(int most, const Eigen::Vector3d& start, Eig
   }
 }
 
+/// From the weights as they are, and the position that was set.
+void PointRefit::Problem::improve(const Options& options, const Eigen::Vector3d& start, Eigen::Vector3d& position) {
+  allowed_.assign(terms_.size(), true);
+  solver_.solve(weights_, allowed_);
+  const int turns = options.moves_bind ? kMostTurns : 0;
+  take_turns(turns, start, position);
+  if (choose(options.maximum_influences, std::min(turns, kTurnsOfChoice), start, position)) take_turns(turns, start, position);
+}
+
+/// Weights and bind position may change at no cost from here on.
+void PointRefit::Problem::let_go() {
+  for (std::size_t i = 0; i < terms_.size(); ++i) {
+    solver_.gram(i, i) -= restraint_.of_weights;
+    solver_.linear(i) -= restraint_.of_weights * start_[i];
+  }
+  restraint_ = {};
+}
+
 PointRefit::Fit PointRefit::Problem::solve(const PointToRefit& point, const Options& options) {
   const Eigen::Vector3d start = point.position - moments_->centre();
   Fit result;
@@ -211,11 +235,16 @@ PointRefit::Fit PointRefit::Problem::solve(const PointToRefit& point, const Opti
 
   Eigen::Vector3d position = start;
   set_position(position);
-  allowed_.assign(terms_.size(), true);
-  solver_.solve(weights_, allowed_);
-  const int turns = options.moves_bind ? kMostTurns : 0;
-  take_turns(turns, start, position);
-  if (choose(options.maximum_influences, std::min(turns, kTurnsOfChoice), start, position)) take_turns(turns, start, position);
+  improve(options, start, position);
+  const Eigen::Vector3d held_position = position;
+  held_weights_ = weights_;
+  let_go();
+  const double held_back = solver_.value(weights_);
+  improve(options, start, position);
+  if (held_back <= kWorth * solver_.value(weights_)) {
+    weights_ = held_weights_;
+    position = held_position;
+  }
   weights::store_weights(terms_, weights_, influences_);
   // What is stored is what has to be better.
   weights::weights_of_terms(terms_, influences_, weights_);

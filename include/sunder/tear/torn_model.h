@@ -13,8 +13,13 @@
 
 namespace sunder {
 
+class TornModel;
 struct ParentBlends;
 struct WeightErrors;
+// Friends, which say what they are in headers of their own: <sunder/tear/parent_blends.h>, <sunder/tear/weight_errors.h>.
+SUNDER_API ParentBlends parent_blends(const TornModel& model, std::uint32_t mesh);
+SUNDER_API Result<WeightErrors> measure_weight_errors(const TornModel& model, std::uint32_t first_operation,
+                                                      std::uint32_t operation_count, std::span<const ModelPose> poses);
 
 /// A character that can be torn. It keeps the source, the torn meshes, and the topology of their surface.
 class SUNDER_API TornModel {
@@ -116,9 +121,8 @@ class SUNDER_API TornModel {
  private:
   friend class TearStroke;
   friend class RefitJob;
-  friend SUNDER_API Result<WeightErrors> measure_weight_errors(const TornModel&, std::uint32_t, std::uint32_t,
-                                                               std::span<const ModelPose>);
-  friend SUNDER_API ParentBlends parent_blends(const TornModel&, std::uint32_t);
+  friend Result<WeightErrors> measure_weight_errors(const TornModel&, std::uint32_t, std::uint32_t, std::span<const ModelPose>);
+  friend ParentBlends parent_blends(const TornModel&, std::uint32_t);
   struct State;
   explicit TornModel(std::unique_ptr<State> state);
   std::unique_ptr<State> state_;

@@ -30,7 +30,8 @@ struct WeightErrors {
 /// @param operation_count  kNone: all from there on. What is in the model now is measured, whatever weighed it.
 /// @param poses            one matrix a bone, all finite; none: all figures are zero.
 /// @return not_found where there are no such operations; size_mismatch or non_finite_value with the pose. A model that lost an
-///         operation is another one: measure before undoing. O(vertices of the source + points x poses), allocates.
+///         operation is another one: measure before undoing. O(points x poses), and the first time O(vertices of the source);
+///         allocates.
 [[nodiscard]] SUNDER_API Result<WeightErrors> measure_weight_errors(const TornModel& model, std::uint32_t first_operation,
                                                                     std::uint32_t operation_count,
                                                                     std::span<const ModelPose> poses);
