@@ -54,6 +54,8 @@ class PointRefit::Problem {
   std::vector<Vec4, Eigen::aligned_allocator<Vec4>> towards_;  ///< sum_j H_ij q_j.
   double target_square_ = 0;
   weights::Restraint restraint_;
+  Eigen::Vector3d position_ = Eigen::Vector3d::Zero();  ///< That was set.
+  double tie_ = 0;                                      ///< On the solver's diagonal.
   double per_pose_ = 1;
   weights::SimplexSolver solver_;
   std::vector<bool> allowed_;
@@ -116,11 +118,12 @@ void PointRefit::Problem::set_position(const Eigen::Vector3d& position) {
       solver_.gram(i, j) = solver_.gram(j, i) = product - candidate_[i] - candidate_[j] + target_square_;
     }
   // Bones that move alike, or nearly: what tells them apart is where the weights were.
-  const double tie = 1e-13 * largest + restraint_.of_weights + 1e-280;
+  tie_ = 1e-13 * largest + restraint_.of_weights + 1e-280;
   for (std::size_t i = 0; i < n; ++i) {
-    solver_.gram(i, i) += tie;
-    solver_.linear(i) = tie * start_[i];
+    solver_.gram(i, i) += tie_;
+    solver_.linear(i) = tie_ * start_[i];
   }
+  position_ = position;
 }
 
 Eigen::Vector3d PointRefit::Problem::best_position(const Eigen::Vector3d& start) const {
@@ -142,7 +145,14 @@ Eigen::Vector3d PointRefit::Problem::best_position(const Eigen::Vector3d& start)
 }
 
 double PointRefit::Problem::mean_square(const std::vector<double>& of_terms, const Eigen::Vector3d& position) {
-  return weights::mean_square(terms_, of_terms, position, *moments_, difference_);
+  if (position != position_) return weights::mean_square(terms_, of_terms, position, *moments_, difference_);
+  double sum = 0;  // of what is at hand already, without what holds back
+  for (std::size_t i = 0; i < terms_.size(); ++i) {
+    double row = -tie_ * of_terms[i];
+    for (std::size_t j = 0; j < terms_.size(); ++j) row += solver_.gram(i, j) * of_terms[j];
+    sum += of_terms[i] * row;
+  }
+  return std::max(sum, 0.0);
 }
 
 /// Leaves no more than `maximum` weights: without that one which is missed least, and so on. 0: as many as there are.
@@ -223,6 +233,7 @@ void PointRefit::Problem::let_go() {
     solver_.gram(i, i) -= restraint_.of_weights;
     solver_.linear(i) -= restraint_.of_weights * start_[i];
   }
+  tie_ -= restraint_.of_weights;
   restraint_ = {};
 }
 
@@ -231,17 +242,16 @@ PointRefit::Fit PointRefit::Problem::solve(const PointToRefit& point, const Opti
   Fit result;
   result.position = point.position;
   result.influences = point.barycentric;
-  result.barycentric_mean_square = result.mean_square = mean_square(start_, start);
-
   Eigen::Vector3d position = start;
   set_position(position);
+  result.barycentric_mean_square = result.mean_square = mean_square(start_, start);
   improve(options, start, position);
   const Eigen::Vector3d held_position = position;
   held_weights_ = weights_;
   let_go();
-  const double held_back = solver_.value(weights_);
+  const double held_back = mean_square(weights_, position);
   improve(options, start, position);
-  if (held_back <= kWorth * solver_.value(weights_)) {
+  if (held_back <= kWorth * mean_square(weights_, position)) {
     weights_ = held_weights_;
     position = held_position;
   }
