@@ -40,7 +40,7 @@ void print_policies(const std::vector<ModelFigures>& models) {
       models.size());
   for (std::size_t i = 0; i < models.front().rows.size(); ++i) {
     const WeightOptions& options = models.front().rows[i].options;
-    std::printf("| %s | %s |", policy_name(options.policy), number_of(options.maximum_influences).c_str());
+    std::printf("| %s | %s |", weight_policy_name(options.policy), number_of(options.maximum_influences).c_str());
     print_median(models, i, [](const PolicyRow& row) { return row.microseconds; });
     for (const auto& over : {over_clips, over_motion}) {
       const auto print = [&](double (*figure)(const Over&)) {
@@ -113,15 +113,6 @@ void add_statistics(JsonObject& object, const std::string& name, const ErrorStat
 
 }  // namespace
 
-const char* policy_name(WeightPolicy policy) {
-  switch (policy) {
-    case WeightPolicy::barycentric: return "barycentric";
-    case WeightPolicy::pose_exact: return "pose_exact";
-    case WeightPolicy::refit: return "refit";
-    default: return "exact";
-  }
-}
-
 void print_weights_tables(const std::vector<ModelFigures>& models, const std::vector<SolverFigures>& solvers) {
   print_policies(models);
   print_models(models);
@@ -152,7 +143,7 @@ bool write_weights_json(const std::vector<ModelFigures>& models, const char* fil
       is_first = false;
       JsonObject object(out);
       object.add_text("model", model.name);
-      object.add_text("policy", policy_name(row.options.policy));
+      object.add_text("policy", weight_policy_name(row.options.policy));
       object.add("maximum_influences", row.options.maximum_influences);
       object.add("microseconds", row.microseconds);
       if (row.errors.clips) {

@@ -4,8 +4,6 @@
 
 namespace sunder::bench {
 
-[[nodiscard]] const char* policy_name(WeightPolicy policy);
-
 /// The results of run_other_solvers() for the problems of all models, one after the other.
 void print_weights_tables(const std::vector<ModelFigures>& models, const std::vector<SolverFigures>& solvers);
 void print_weights_summary(const Summary& summary, std::FILE* file);

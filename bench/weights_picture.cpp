@@ -96,7 +96,7 @@ void draw_legend(std::FILE* out) {
        {WeightPolicy::barycentric, WeightPolicy::pose_exact, WeightPolicy::refit, WeightPolicy::exact}) {
     y += 24;
     std::fprintf(out, "<rect x=\"%.1f\" y=\"%.1f\" width=\"14\" height=\"14\" fill=\"%s\"/>\n", x - 7, y - 11, colour_of(policy));
-    draw_text(out, x + 18, y, "start", policy_name(policy));
+    draw_text(out, x + 18, y, "start", weight_policy_name(policy));
   }
   y += 40;
   draw_text(out, x - 10, y, "start", "influences, at most", " font-weight=\"bold\"");

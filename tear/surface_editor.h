@@ -343,6 +343,8 @@ class SurfaceEditor {
   /// Forgets influence positions of the vertices from `first` up, which are still there.
   void forget_exact(Index mesh, Index first);
   void append_exact(Index mesh, Index vertex);
+  /// So that an exchange is not left half done for want of memory.
+  void reserve_exact(Index mesh, std::size_t vertices, std::size_t influences);
   template <class Value>
   [[nodiscard]] Eigen::Vector3d moved_by(Index slot, const VertexRef& vertex, bool follows_original, Value value) const;
   void resize_born(Index count);

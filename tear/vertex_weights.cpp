@@ -79,7 +79,7 @@ void SurfaceEditor::exchange(WeightChange& change) {
   for (std::size_t begin = 0, end = 0; begin < change.vertices.size(); begin = end) {
     const Index mesh = change.vertices[begin].mesh;
     const SkinWeights& weights = character_.meshes[mesh].weights;
-    std::size_t old_count = 0, new_count = 0;
+    std::size_t old_count = 0, new_count = 0, exact_vertices = 0, exact_count = 0;
     for (; end < change.vertices.size() && change.vertices[end].mesh == mesh; ++end) {
       const VertexWeights& to = change.vertices[end];
       const auto influences = weights.of(to.vertex);
@@ -89,9 +89,13 @@ void SurfaceEditor::exchange(WeightChange& change) {
       before.influences.insert(before.influences.end(), influences.begin(), influences.end());
       old_count += influences.size();
       new_count += to.influence_count;
+      if (to.policy != WeightPolicy::exact) continue;
+      ++exact_vertices;
+      exact_count += to.influence_count;
     }
     longest_tail = std::max(longest_tail, weights.influences.size() - weights.first[change.vertices[begin].vertex]);
     if (new_count > old_count) make_room_for_influences(mesh, new_count - old_count);
+    reserve_exact(mesh, exact_vertices, exact_count);
   }
   tail.reserve(longest_tail);
 
@@ -207,6 +211,26 @@ void SurfaceEditor::append_exact(Index mesh, Index vertex) {
       add_deltas(false, &MorphTarget::normal_deltas, exact.morph_targets[j].normals);
       add_deltas(false, &MorphTarget::tangent_deltas, exact.morph_targets[j].tangents);
     }
+  }
+}
+
+void SurfaceEditor::reserve_exact(Index mesh, std::size_t vertices, std::size_t influences) {
+  if (vertices == 0) return;
+  const Mesh& of = character_.meshes[mesh];
+  InfluencePositions& exact = exact_[mesh];
+  const auto reserve = [](auto& values, std::size_t more) {
+    if (values.capacity() - values.size() < more) values.reserve(values.size() + more + values.size() / 8);
+  };
+  reserve(exact.vertices, vertices);
+  reserve(exact_first_[mesh], vertices);
+  reserve(exact.positions, influences);
+  if (!of.normals.empty()) reserve(exact.normals, influences);
+  if (!of.tangents.empty()) reserve(exact.tangents, influences);
+  exact.morph_targets.resize(of.morph_targets.size());
+  for (std::size_t j = 0; j < of.morph_targets.size(); ++j) {
+    if (!of.morph_targets[j].position_deltas.empty()) reserve(exact.morph_targets[j].positions, influences);
+    if (!of.morph_targets[j].normal_deltas.empty()) reserve(exact.morph_targets[j].normals, influences);
+    if (!of.morph_targets[j].tangent_deltas.empty()) reserve(exact.morph_targets[j].tangents, influences);
   }
 }
 

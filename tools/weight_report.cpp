@@ -68,16 +68,6 @@ Result<Json> measure_as(const std::vector<WeightsOperation>& weights, const std:
 
 }  // namespace
 
-const char* weight_policy_name(WeightPolicy policy) {
-  switch (policy) {
-    case WeightPolicy::barycentric: return "barycentric";
-    case WeightPolicy::pose_exact: return "pose_exact";
-    case WeightPolicy::refit: return "refit";
-    case WeightPolicy::exact: return "exact";
-  }
-  return "barycentric";
-}
-
 Result<std::vector<MeasuredPoses>> poses_to_measure(const TornModel& model, std::shared_ptr<const Character> source) {
   std::vector<MeasuredPoses> sets;
   Result<std::vector<ModelPose>> of_history = poses_of_history(model);

@@ -8,9 +8,6 @@
 
 namespace sunder::tools {
 
-/// "barycentric", "pose_exact", "refit" or "exact", as --weights takes it.
-[[nodiscard]] const char* weight_policy_name(WeightPolicy policy);
-
 /// Poses of a character over which the errors of weights are measured.
 struct MeasuredPoses {
   const char* name = "";  ///< As the report names them.

@@ -59,18 +59,8 @@ Json pose_json(const PoseSpec& pose) {
   return std::visit([](const auto& kind) { return pose_json(kind); }, pose);
 }
 
-const char* policy_name(WeightPolicy policy) {
-  switch (policy) {
-    case WeightPolicy::barycentric: return "barycentric";
-    case WeightPolicy::pose_exact: return "pose_exact";
-    case WeightPolicy::refit: return "refit";
-    case WeightPolicy::exact: return "exact";
-  }
-  return "barycentric";
-}
-
 Json weights_json(const WeightOptions& weights) {
-  return {{"policy", policy_name(weights.policy)}, {"influences", weights.maximum_influences}};
+  return {{"policy", weight_policy_name(weights.policy)}, {"influences", weights.maximum_influences}};
 }
 
 void add_weights(Json& operation, const std::optional<WeightOptions>& weights) {

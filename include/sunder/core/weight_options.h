@@ -14,6 +14,17 @@ enum class WeightPolicy : std::uint8_t {
   exact,        ///< A bind position for each influence: exact in every pose. See TornModel::influence_positions().
 };
 
+/// The enumerator's own name, as logs and the command have it.
+[[nodiscard]] constexpr const char* weight_policy_name(WeightPolicy policy) {
+  switch (policy) {
+    case WeightPolicy::barycentric: return "barycentric";
+    case WeightPolicy::pose_exact: return "pose_exact";
+    case WeightPolicy::refit: return "refit";
+    case WeightPolicy::exact: return "exact";
+  }
+  return "unknown";
+}
+
 struct WeightOptions {
   WeightPolicy policy = WeightPolicy::barycentric;
   std::uint32_t maximum_influences = 0;  ///< The largest are kept, and add up to one. 0: all. `exact` takes all.
