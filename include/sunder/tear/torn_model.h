@@ -48,7 +48,8 @@ class SUNDER_API TornModel {
   ///         (index = the blade), limit_exceeded (out of memory, or of the model's capacity): the model is as it was, bit for bit.
   ///
   /// O(faces crossed), and where the tear enters O(log faces). Allocates where a model that grows has to grow, for pieces that come
-  /// free, and with a width, walls or all layers. The first operation also builds what entries are looked up in: O(faces).
+  /// free, with a width, walls or all layers, and where weights are other than `barycentric` with all influences. The first
+  /// operation also builds what entries are looked up in: O(faces).
   Result<TearReport> tear(const ModelPose& pose, std::span<const Blade> stroke, const TearOptions& options = {},
                           ChangeRecord* change = nullptr);
 
