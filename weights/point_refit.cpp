@@ -43,6 +43,7 @@ class PointRefit::Problem {
   void set_position(const Eigen::Vector3d& position);
   void improve(const Options& options, const Eigen::Vector3d& start, Eigen::Vector3d& position);
   void let_go();
+  void hold_back_as_far_as_it_is_worth(const Options& options, const Eigen::Vector3d& start, Eigen::Vector3d& position);
   [[nodiscard]] Eigen::Vector3d best_position(const Eigen::Vector3d& start) const;
   [[nodiscard]] double mean_square(const std::vector<double>& of_terms, const Eigen::Vector3d& position);
   [[nodiscard]] bool choose(std::size_t maximum, int turns, const Eigen::Vector3d& start, Eigen::Vector3d& position);
@@ -59,7 +60,7 @@ class PointRefit::Problem {
   double per_pose_ = 1;
   weights::SimplexSolver solver_;
   std::vector<bool> allowed_;
-  std::vector<double> start_, weights_, held_weights_, before_, best_, candidate_, earlier_;
+  std::vector<double> start_, weights_, held_weights_, free_weights_, before_, best_, candidate_, earlier_;
   std::vector<Influence> influences_;
 };
 
@@ -237,6 +238,34 @@ void PointRefit::Problem::let_go() {
   restraint_ = {};
 }
 
+/// From the fit that is held back, which was just made, to one that is held back as much as costs next to nothing.
+void PointRefit::Problem::hold_back_as_far_as_it_is_worth(const Options& options, const Eigen::Vector3d& start,
+                                                          Eigen::Vector3d& position) {
+  const weights::Restraint whole = restraint_;
+  const Eigen::Vector3d held_position = position;
+  held_weights_ = weights_;
+  let_go();
+  const double held_back = mean_square(weights_, position);
+  improve(options, start, position);
+  const double most = kWorth * mean_square(weights_, position);
+  const Eigen::Vector3d free_position = position;
+  free_weights_ = weights_;
+  position = held_position;
+  weights_ = held_weights_;
+  if (held_back <= most) return;
+  for (const double part : {0.1, 0.01}) {
+    if (!options.moves_bind) break;  // weights alone are for those in a hurry
+    restraint_ = {part * whole.of_position, part * whole.of_weights};
+    set_position(position);
+    improve(options, start, position);
+    if (mean_square(weights_, position) <= most) return;
+    position = held_position;
+    weights_ = held_weights_;
+  }
+  position = free_position;
+  weights_ = free_weights_;
+}
+
 PointRefit::Fit PointRefit::Problem::solve(const PointToRefit& point, const Options& options) {
   const Eigen::Vector3d start = point.position - moments_->centre();
   Fit result;
@@ -246,15 +275,7 @@ PointRefit::Fit PointRefit::Problem::solve(const PointToRefit& point, const Opti
   set_position(position);
   result.barycentric_mean_square = result.mean_square = mean_square(start_, start);
   improve(options, start, position);
-  const Eigen::Vector3d held_position = position;
-  held_weights_ = weights_;
-  let_go();
-  const double held_back = mean_square(weights_, position);
-  improve(options, start, position);
-  if (held_back <= kWorth * mean_square(weights_, position)) {
-    weights_ = held_weights_;
-    position = held_position;
-  }
+  hold_back_as_far_as_it_is_worth(options, start, position);
   weights::store_weights(terms_, weights_, influences_);
   // What is stored is what has to be better.
   weights::weights_of_terms(terms_, influences_, weights_);
