@@ -7,6 +7,8 @@
 #include <new>
 #include <tuple>
 
+#include "tear/morph_displacement.h"
+
 namespace sunder::tear {
 namespace {
 
@@ -63,10 +65,7 @@ RefitWork::RefitWork(std::shared_ptr<const Character> from, WeightsOperation wan
     Point& point = points.emplace_back();
     editor.describe_exactly(of.vertex, source->rest_morph_weights, point.exact);
     point.skin = mesh.skin;
-    for (std::size_t j = 0; j < mesh.morph_targets.size(); ++j)
-      if (!mesh.morph_targets[j].position_deltas.empty())
-        point.morph += static_cast<double>(source->rest_morph_weights[mesh.first_morph_weight + j]) *
-                       mesh.morph_targets[j].position_deltas[of.vertex.vertex].cast<double>();
+    point.morph = morph_displacement(mesh, of.vertex.vertex, source->rest_morph_weights);
     point.position = Vec3d(of.position.cast<double>()) + point.morph;
   }
   if (operation.refit.is_coupled) neighbours = find_neighbours(weighing, since, editor);

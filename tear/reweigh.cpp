@@ -51,8 +51,9 @@ Status TornModel::State::reweigh(const WeightsOperation& resolved, const tear::W
     tear::History::Entry& entry = history.next();
     entry.as<WeightsOperation>() = resolved;
     entry.begin = begin;
-    entry.weights = tear::give_weights(weighing, vertices_of(resolved), editor);
+    entry.weights = tear::change_to(weighing, vertices_of(resolved), editor);
     if (change != nullptr) editor.describe(entry.weights, *change);
+    editor.exchange(entry.weights);  // last, for it cannot be rolled back
   } catch (const tear::CapacityExceeded& exceeded) {
     editor.roll_back(begin);
     return no_room(exceeded);

@@ -105,7 +105,7 @@ class SurfaceEditor {
   void describe_exactly(const VertexRef& original, std::span<const float> morph_weights, AnimationPoint& point) const;
   /// How many vertices each mesh had.
   [[nodiscard]] std::vector<Index> vertex_counts_at(const Mark& mark) const;
-  /// What exchange() changed. @param exchanged  what it left.
+  /// What exchange() changes, before or after it.
   void describe(const WeightChange& exchanged, ChangeRecord& change) const;
   [[nodiscard]] const InfluencePositions& influence_positions(Index mesh) const { return exact_[mesh]; }
   /// Where an exact vertex' positions begin among those of its mesh.

@@ -126,8 +126,8 @@ Status TornModel::undo(ChangeRecord* change) {
     state.editor.scratch().reset();
     state.history.make_room_to_undo();
     if (std::holds_alternative<WeightsOperation>(last.operation)) {
-      state.editor.exchange(last.weights);
       state.editor.describe(last.weights, record);
+      state.editor.exchange(last.weights);
     } else {
       state.editor.undo(last.begin, last.redo, record);
     }
@@ -152,8 +152,8 @@ Status TornModel::redo(ChangeRecord* change) {
     state.editor.scratch().reset();
     last.begin = state.editor.mark();
     if (std::holds_alternative<WeightsOperation>(last.operation)) {
-      state.editor.exchange(last.weights);
       state.editor.describe(last.weights, record);
+      state.editor.exchange(last.weights);
     } else {
       state.editor.redo(last.redo, record);
     }

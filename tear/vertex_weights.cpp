@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "tear/morph_displacement.h"
 #include "tear/surface_editor.h"
 
 namespace sunder::tear {
@@ -142,12 +143,8 @@ void SurfaceEditor::add_exactly(double part, Index mesh, Index vertex, std::span
     return;
   }
   const Mesh& of = character_.meshes[mesh];
-  Eigen::Vector3d position = of.positions[vertex].cast<double>();
-  for (std::size_t j = 0; j < of.morph_targets.size(); ++j)
-    if (!of.morph_targets[j].position_deltas.empty())
-      position += static_cast<double>(morph_weights[of.first_morph_weight + j]) *
-                  of.morph_targets[j].position_deltas[vertex].cast<double>();
-  point.add(part, position, of.weights.of(vertex));
+  point.add(part, Vec3d(of.positions[vertex].cast<double>()) + morph_displacement(of, vertex, morph_weights),
+            of.weights.of(vertex));
 }
 
 void SurfaceEditor::describe_exactly(const VertexRef& vertex, std::span<const float> morph_weights, AnimationPoint& point) const {

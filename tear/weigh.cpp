@@ -6,21 +6,14 @@
 #include <algorithm>
 #include <tuple>
 
+#include "tear/morph_displacement.h"
+
 namespace sunder::tear {
 namespace {
 
 using VertexRef = SurfaceEditor::VertexRef;
 
 bool comes_before(const VertexRef& a, const VertexRef& b) { return std::tie(a.mesh, a.vertex) < std::tie(b.mesh, b.vertex); }
-
-Vec3d morph_displacement(const Mesh& mesh, Index vertex, std::span<const float> morph_weights) {
-  Vec3d sum = Vec3d::Zero();
-  for (std::size_t j = 0; j < mesh.morph_targets.size(); ++j)
-    if (!mesh.morph_targets[j].position_deltas.empty())
-      sum += static_cast<double>(morph_weights[mesh.first_morph_weight + j]) *
-             mesh.morph_targets[j].position_deltas[vertex].cast<double>();
-  return sum;
-}
 
 }  // namespace
 
@@ -67,7 +60,7 @@ Weighing weigh(std::span<const VertexRef> points, const WeightOptions& options, 
   return weighing;
 }
 
-SurfaceEditor::WeightChange give_weights(const Weighing& weighing, const VertexRanges& ranges, SurfaceEditor& editor) {
+SurfaceEditor::WeightChange change_to(const Weighing& weighing, const VertexRanges& ranges, SurfaceEditor& editor) {
   SurfaceEditor::WeightChange change;
   if (weighing.points.empty()) return change;
   change.influences = weighing.influences;
@@ -85,7 +78,6 @@ SurfaceEditor::WeightChange give_weights(const Weighing& weighing, const VertexR
       change.vertices.push_back({mesh, vertex, point->policy, point->position, point->first_influence, point->influence_count,
                                  is_as_born ? kNone : editor.keep_born(mesh, vertex)});
     }
-  editor.exchange(change);
   return change;
 }
 
@@ -97,9 +89,11 @@ void weigh_new_points(const SurfaceEditor::Mark& begin, const WeightOptions& opt
   const auto& meshes = editor.character().meshes;
   const std::vector<Index> counts = editor.vertex_counts_at(begin);
   for (Index mesh = 0; mesh < meshes.size(); ++mesh) ranges.push_back({counts[mesh], meshes[mesh].vertex_count()});
-  if (options != WeightOptions{})
-    give_weights(weigh(weighable_points(ranges, editor), options, palettes, morph_weights, editor, report), ranges, editor);
-  for (Index mesh = 0; mesh < meshes.size(); ++mesh) editor.update_exact(mesh, ranges[mesh][0]);
+  for (Index mesh = 0; mesh < meshes.size(); ++mesh) editor.update_exact(mesh, ranges[mesh][0]);  // copies of older points
+  if (options == WeightOptions{}) return;
+  const Weighing weighing = weigh(weighable_points(ranges, editor), options, palettes, morph_weights, editor, report);
+  SurfaceEditor::WeightChange change = change_to(weighing, ranges, editor);
+  editor.exchange(change);
 }
 
 }  // namespace sunder::tear

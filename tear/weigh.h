@@ -36,12 +36,11 @@ struct Weighing {
                              std::span<const std::vector<Affine3d>> palettes, std::span<const float> morph_weights,
                              const SurfaceEditor& editor, WeightReport& report);
 
-/// Gives points what was weighed for them, and the same to all vertices that share them.
+/// What gives points what was weighed for them, and the same to all vertices that share them: to be exchanged.
 /// @param ranges  where those begin; the first of each mesh.
-/// @return what takes it back.
-SurfaceEditor::WeightChange give_weights(const Weighing& weighing, const VertexRanges& ranges, SurfaceEditor& editor);
+[[nodiscard]] SurfaceEditor::WeightChange change_to(const Weighing& weighing, const VertexRanges& ranges, SurfaceEditor& editor);
 
-/// The same for what was made since `begin`; nothing is done where the policy is that of births.
+/// Weighs the points that were made since `begin`; nothing is done where the policy is that of births.
 void weigh_new_points(const SurfaceEditor::Mark& begin, const WeightOptions& options,
                       std::span<const std::vector<Affine3d>> palettes, std::span<const float> morph_weights, SurfaceEditor& editor,
                       WeightReport& report);
