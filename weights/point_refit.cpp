@@ -33,12 +33,8 @@ class PointRefit::Problem {
  private:
   using Vec4 = Eigen::Vector4d;
 
-  /// H_ij, times the number of poses. Where is_turned, its transpose.
-  struct Between {
-    const PoseMoments::Matrix* moment = nullptr;
-    bool is_turned = false;
-  };
-  [[nodiscard]] const Between& between(std::size_t i, std::size_t j) const { return between_[i * terms_.size() + j]; }
+  /// H_ij or its transpose, times the number of poses; j not below i.
+  [[nodiscard]] const PoseMoments::Matrix& between(std::size_t i, std::size_t j) const { return *between_[i * terms_.size() + j]; }
 
   void set_position(const Eigen::Vector3d& position);
   void improve(const Options& options, const Eigen::Vector3d& start, Eigen::Vector3d& position);
@@ -51,7 +47,7 @@ class PointRefit::Problem {
 
   const PoseMoments* moments_ = nullptr;
   std::vector<AnimationPoint::Term> terms_, difference_;
-  std::vector<Between> between_;
+  std::vector<const PoseMoments::Matrix*> between_;
   std::vector<Vec4, Eigen::aligned_allocator<Vec4>> towards_;  ///< sum_j H_ij q_j.
   double target_square_ = 0;
   weights::Restraint restraint_;
@@ -83,7 +79,7 @@ void PointRefit::Problem::begin(const PointToRefit& point, const PoseMoments& mo
     for (std::size_t j = i; j < n; ++j) {
       const bool is_turned = terms_[i].slot > terms_[j].slot;
       const PoseMoments::Matrix& moment = moments.of(terms_[is_turned ? j : i].slot, terms_[is_turned ? i : j].slot);
-      between_[i * n + j] = {&moment, is_turned};
+      between_[i * n + j] = &moment;
       const Vec4 qi = terms_[i].q, qj = terms_[j].q;
       if (is_turned) {
         towards_[i].noalias() += moment.transpose() * qj;
@@ -114,7 +110,7 @@ void PointRefit::Problem::set_position(const Eigen::Vector3d& position) {
   double largest = 0;
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = i; j < n; ++j) {
-      const double product = per_pose_ * at.dot(*between(i, j).moment * at);
+      const double product = per_pose_ * at.dot(between(i, j) * at);
       if (i == j) largest = std::max(largest, product);
       solver_.gram(i, j) = solver_.gram(j, i) = product - candidate_[i] - candidate_[j] + target_square_;
     }
@@ -134,7 +130,7 @@ Eigen::Vector3d PointRefit::Problem::best_position(const Eigen::Vector3d& start)
     if (weights_[i] == 0) continue;
     towards += weights_[i] * towards_[i];
     for (std::size_t j = i; j < terms_.size(); ++j)
-      if (weights_[j] != 0) square += (i == j ? 1.0 : 2.0) * weights_[i] * weights_[j] * *between(i, j).moment;
+      if (weights_[j] != 0) square += (i == j ? 1.0 : 2.0) * weights_[i] * weights_[j] * between(i, j);
   }
   square = (0.5 * per_pose_) * (square + square.transpose()).eval();
   const double stiffness = restraint_.of_position;
