@@ -1,8 +1,8 @@
 #pragma once
 
-#include <vector>
+#include <sunder/tear/surface.h>
 
-#include "tear/surface.h"
+#include <vector>
 
 namespace sunder::tear {
 

@@ -5,6 +5,7 @@
 #include <sunder/skinning/vertex_arrays.h>
 #include <sunder/tear/capacity.h>
 #include <sunder/tear/change_record.h>
+#include <sunder/tear/surface.h>
 #include <sunder/weights/animation_point.h>
 
 #include <algorithm>
@@ -15,7 +16,6 @@
 #include <vector>
 
 #include "tear/scratch_memory.h"
-#include "tear/surface.h"
 
 namespace sunder::tear {
 

@@ -1,8 +1,7 @@
+#include <sunder/tear/surface.h>
 #include <sunder/tear/topology.h>
 
 #include <algorithm>
-
-#include "tear/surface.h"
 
 namespace sunder {
 namespace {

@@ -185,6 +185,12 @@ const InfluencePositions& TornModel::influence_positions(std::uint32_t mesh) con
 std::uint32_t TornModel::undo_count() const { return static_cast<std::uint32_t>(state_->history.done().size()); }
 std::uint32_t TornModel::redo_count() const { return static_cast<std::uint32_t>(state_->history.undone().size()); }
 
+std::uint64_t TornModel::newest_operation() const {
+  return state_->history.done().empty() ? 0 : state_->history.done().back()->serial;
+}
+
+bool TornModel::is_in_stroke() const { return state_->has_stroke; }
+
 std::vector<Operation> TornModel::history() const {
   std::vector<Operation> operations;
   for (const auto& entry : state_->history.done()) operations.push_back(entry->operation);
@@ -207,6 +213,7 @@ Result<CompactMaps> TornModel::compact() {
 
 const Character& TornModel::character() const { return state_->character; }
 const Character& TornModel::source() const { return *state_->source; }
+const tear::Surface& TornModel::surface() const { return state_->editor.surface(); }
 std::uint32_t TornModel::point_count() const { return state_->editor.surface().point_count(); }
 
 std::uint32_t TornModel::point_at(std::uint32_t mesh, std::uint32_t triangle, std::uint32_t corner) const {

@@ -1,13 +1,12 @@
 #pragma once
 
 #include <sunder/core/math.h>
+#include <sunder/tear/surface.h>
 
 #include <array>
 #include <optional>
 #include <span>
 #include <vector>
-
-#include "tear/surface.h"
 
 namespace sunder::tear {
 

@@ -1,13 +1,12 @@
 #pragma once
 
 #include <sunder/core/math.h>
+#include <sunder/tear/surface.h>
 
 #include <array>
 #include <optional>
 #include <span>
 #include <vector>
-
-#include "tear/surface.h"
 
 namespace sunder::tear {
 
@@ -23,8 +22,8 @@ struct FlatRegion {
   std::vector<Index> holes;  ///< Ascending.
 };
 
-/// Nests loops: outline, hole, island in a hole, and so on. A loop is a hole where it runs against the outermost one around it, so that
-/// of two bodies one in the other each has a region of its own. Regions come in the order of their outlines.
+/// Nests loops: outline, hole, island in a hole, and so on. A loop is a hole where it runs against the outermost one around it, so
+/// that of two bodies one in the other each has a region of its own. Regions come in the order of their outlines.
 ///
 /// Loops that run around no area (fewer than three points, all on one line, to and fro) or are not finite are in no region. Where
 /// loops cross, touch or coincide every other loop is still in exactly one region, but triangulate() may refuse that.

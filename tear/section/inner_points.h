@@ -1,12 +1,11 @@
 #pragma once
 
 #include <sunder/core/math.h>
+#include <sunder/tear/surface.h>
 
 #include <array>
 #include <span>
 #include <vector>
-
-#include "tear/surface.h"
 
 namespace sunder::tear {
 

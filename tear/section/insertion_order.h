@@ -1,11 +1,10 @@
 #pragma once
 
 #include <sunder/core/math.h>
+#include <sunder/tear/surface.h>
 
 #include <span>
 #include <vector>
-
-#include "tear/surface.h"
 
 namespace sunder::tear {
 

@@ -7,6 +7,7 @@
 #include <sunder/tear/change_record.h>
 #include <sunder/tear/compact.h>
 #include <sunder/tear/report.h>
+#include <sunder/tear/surface.h>
 
 #include <memory>
 #include <span>
@@ -89,6 +90,11 @@ class SUNDER_API TornModel {
   /// barycentric weights. Unchecked. Valid until the next call that changes the model.
   [[nodiscard]] const InfluencePositions& influence_positions(std::uint32_t mesh) const;
 
+  /// A number that the newest operation has and no other, of any model; kept by undo() and redo(). 0: nothing is done.
+  [[nodiscard]] std::uint64_t newest_operation() const;
+  /// Whether a TearStroke is under way.
+  [[nodiscard]] bool is_in_stroke() const;
+
   /// What was done and not taken back, oldest first, with the poses' bone matrices in full: played on the source it gives this
   /// model again, bit for bit.
   [[nodiscard]] std::vector<Operation> history() const;
@@ -108,6 +114,8 @@ class SUNDER_API TornModel {
 
   /// Surface points are shared by the vertices that a UV seam or hard edge duplicates, over all meshes.
   [[nodiscard]] std::uint32_t point_count() const;
+  /// The topology as it stands: half-edges between points. Valid until the next call that changes the model.
+  [[nodiscard]] const tear::Surface& surface() const;
   /// The point at a corner (0, 1, 2) of a triangle of a mesh. Unchecked.
   [[nodiscard]] std::uint32_t point_at(std::uint32_t mesh, std::uint32_t triangle, std::uint32_t corner) const;
   /// Where an appended vertex came from; vertices of the source have no birth. A copy of one lies in a corner of its birth

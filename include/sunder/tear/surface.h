@@ -81,7 +81,7 @@ struct Surface {
   [[nodiscard]] bool is_on_border(Index point) const { return rotate_cw(first_of_fan(point_corner[point])) == kNone; }
 
   /// The half-edge from one point to another, or kNone.
-  [[nodiscard]] Index find_half_edge(Index from, Index to) const;
+  [[nodiscard]] SUNDER_API Index find_half_edge(Index from, Index to) const;
   [[nodiscard]] bool has_repeated_point(Index triangle) const {
     const Index* p = &corner_point[3 * triangle];
     return p[0] == p[1] || p[1] == p[2] || p[2] == p[0];
@@ -90,6 +90,6 @@ struct Surface {
 
 /// Joins vertices into points and triangles across edges. Edges with more than two faces, and edges whose two faces disagree in
 /// winding, stay unjoined unless the vertices themselves tell which faces belong together. O(vertices + triangles), deterministic.
-[[nodiscard]] Surface build_surface(const Character& character);
+[[nodiscard]] SUNDER_API Surface build_surface(const Character& character);
 
 }  // namespace sunder::tear
