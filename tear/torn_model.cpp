@@ -1,5 +1,6 @@
 #include <sunder/tear/torn_model.h>
 
+#include <algorithm>
 #include <new>
 
 #include "tear/cut.h"
@@ -180,6 +181,13 @@ WeightPolicy TornModel::weight_policy(std::uint32_t mesh, std::uint32_t vertex) 
 
 const InfluencePositions& TornModel::influence_positions(std::uint32_t mesh) const {
   return state_->editor.influence_positions(mesh);
+}
+
+std::uint32_t TornModel::influence_place(std::uint32_t mesh, std::uint32_t vertex) const {
+  if (state_->editor.policy(mesh, vertex) != WeightPolicy::exact) return kNone;
+  const auto& vertices = state_->editor.influence_positions(mesh).vertices;
+  if (!std::binary_search(vertices.begin(), vertices.end(), vertex)) return kNone;
+  return static_cast<std::uint32_t>(state_->editor.exact_place(mesh, vertex));
 }
 
 std::uint32_t TornModel::undo_count() const { return static_cast<std::uint32_t>(state_->history.done().size()); }

@@ -58,8 +58,8 @@ struct LipEdge {
   Vec3f inward = Vec3f::Zero();
 };
 
-/// A torn model's surface divided into overlapping clusters of points, which follow its pose and its tears. This is their structure;
-/// what moves them is SoftBody, or a physics engine.
+/// A torn model's surface divided into overlapping clusters of points, which follow its pose and its tears. This is their
+/// structure; what moves them is SoftBody, or a physics engine.
 ///
 /// Every point within the range d of a particle's seed, along the surface and not through the air, belongs to the particle. A
 /// particle's rest place is the posed centroid of its members, whatever the pose, evaluated from bones alone: sum_i M_i c_i, where
@@ -69,7 +69,8 @@ struct LipEdge {
 class SUNDER_API ParticleSet {
  public:
   /// @param pose  in which distances along the surface are measured, e.g. the rest pose.
-  /// @return invalid_argument for the options; size_mismatch, non_finite_value for the pose; empty_input for a model without a face;
+  /// @return invalid_argument for the options; size_mismatch, non_finite_value for the pose; empty_input for a model without a
+  /// face;
   ///         limit_exceeded for more than 2^20 particles, or without enough memory. O(memberships log points of a particle).
   static Result<ParticleSet> decompose(const TornModel& model, const ModelPose& pose, const DecompositionOptions& options = {});
 
@@ -122,9 +123,9 @@ class SUNDER_API ParticleSet {
 
   // ---- Tears.
 
-  /// Follows what a call did to the model: an operation, an extension of a stroke, undo, redo, other weights. To be called once after
-  /// each of them, with the records that it wrote. Only what is near the tear changes. No particle holds points of both lips then,
-  /// but for the tips; undo brings back every bit.
+  /// Follows what a call did to the model: an operation, an extension of a stroke, undo, redo, other weights. To be called once
+  /// after each of them, with the records that it wrote. Only what is near the tear changes. No particle holds points of both lips
+  /// then, but for the tips; undo brings back every bit.
   /// @return invalid_argument for another model, or one that was compacted (decompose again). Nothing is changed then.
   ///
   /// O(faces torn): what lies farther from the lips is left to settle().

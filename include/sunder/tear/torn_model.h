@@ -89,6 +89,8 @@ class SUNDER_API TornModel {
   /// The `exact` vertices of a mesh: what VertexSource::per_influence takes. In the mesh itself, and in files, they have their
   /// barycentric weights. Unchecked. Valid until the next call that changes the model.
   [[nodiscard]] const InfluencePositions& influence_positions(std::uint32_t mesh) const;
+  /// Where a vertex' own begin among those; kNone for one that is not `exact`. Unchecked.
+  [[nodiscard]] std::uint32_t influence_place(std::uint32_t mesh, std::uint32_t vertex) const;
 
   /// A number that the newest operation has and no other, of any model; kept by undo() and redo(). 0: nothing is done.
   [[nodiscard]] std::uint64_t newest_operation() const;

@@ -1,0 +1,130 @@
+#include "particles/decompose.h"
+
+#include <numeric>
+#include <stdexcept>
+
+#include "particles/rest_terms.h"
+
+namespace sunder::particles {
+namespace {
+
+/// All numbers below `count` once, far apart in turn: steps of about the golden section, which a seed shifts.
+class ScatteredOrder {
+ public:
+  ScatteredOrder(Index count, std::uint64_t seed) : count_(count) {
+    std::uint64_t mixed = seed + 0x9E37'79B9'7F4A'7C15u;  // splitmix64
+    mixed = (mixed ^ (mixed >> 30u)) * 0xBF58'476D'1CE4'E5B9u;
+    mixed = (mixed ^ (mixed >> 27u)) * 0x94D0'49BB'1331'11EBu;
+    mixed ^= mixed >> 31u;
+    at_ = static_cast<Index>(mixed % count);
+    step_ = std::max<Index>(1, static_cast<Index>((0.5 + 0.2 * static_cast<double>(mixed >> 40u) / (1u << 24u)) * count));
+    while (std::gcd(step_, count) != 1) ++step_;
+  }
+  Index next() { return std::exchange(at_, static_cast<Index>((std::uint64_t{at_} + step_) % count_)); }
+
+ private:
+  Index count_, at_, step_;
+};
+
+struct Visit {
+  Index point;
+  float distance;
+};
+
+}  // namespace
+
+void count_neighbours(Structure& structure) {
+  // A pair once, in the list of the lower particle; then both ways.
+  const auto add = [&](Index of, Index other, double shared) {
+    auto& neighbours = structure.particles[of].neighbours;
+    for (Neighbour& known : neighbours)
+      if (known.particle == other) {
+        ++known.points;
+        known.shared += shared;
+        return;
+      }
+    neighbours.push_back({other, 1, shared});
+  };
+  for (const ParticleInfluences& of : structure.influences) {
+    for (std::size_t i = 0; i < 4 && of.weights[i] > 0; ++i) {
+      structure.particles[of.particles[i]].weight += of.weights[i];
+      for (std::size_t j = 0; j < i; ++j)
+        add(std::min(of.particles[i], of.particles[j]), std::max(of.particles[i], of.particles[j]),
+            double{of.weights[i]} * double{of.weights[j]});
+    }
+  }
+  const auto by_particle = [](const Neighbour& a, const Neighbour& b) { return a.particle < b.particle; };
+  for (Index p = 0; p < structure.particles.size(); ++p) {
+    auto& neighbours = structure.particles[p].neighbours;
+    std::sort(neighbours.begin(), neighbours.end(), by_particle);  // those before it were put in already, in order
+    for (const Neighbour& neighbour : neighbours)
+      if (neighbour.particle > p)
+        structure.particles[neighbour.particle].neighbours.push_back({p, neighbour.points, neighbour.shared});
+  }
+}
+
+void decompose(const TornModel& model, const DecompositionOptions& options, Structure& structure) {
+  const Surface& surface = model.surface();
+  const Index points = structure.point_count();
+  const auto range = static_cast<float>(structure.report.range);
+
+  std::vector<Visit> visits;
+  std::vector<bool> is_covered(points, false);
+  std::vector<Index> counts(points, 0);
+  ScatteredOrder order(points, options.seed);
+  for (Index i = 0; i < points; ++i) {
+    const Index seed = order.next();
+    if (is_covered[seed] || surface.point_corner[seed] == kNone) continue;
+    if (structure.particles.size() == kMaximumParticles) throw std::length_error("particles");
+    structure.front.begin(points);
+    structure.front.add(seed, 0.0f);
+    structure.first_member.push_back(static_cast<Index>(visits.size()));
+    structure.front.run(surface, structure.positions, range, [&](Index point, float distance) {
+      visits.push_back({point, distance});
+      ++counts[point];
+      if (distance <= kCovers * range) is_covered[point] = true;
+      return true;
+    });
+    Particle& particle = structure.particles.emplace_back();
+    particle.serial = structure.next_serial++;
+    particle.seed = seed;
+    particle.range = range;
+    particle.member_count = static_cast<Index>(visits.size()) - structure.first_member.back();
+  }
+  structure.first_member.push_back(static_cast<Index>(visits.size()));
+  structure.joined.resize(structure.particles.size());
+
+  structure.members.resize(visits.size());
+  structure.memberships.resize(visits.size());
+  structure.slabs.resize(points);
+  Index first = 0;
+  for (Index p = 0; p < points; ++p) {
+    structure.slabs[p] = {first, 0};
+    first += counts[p];
+  }
+  for (Index p = 0; p < structure.particles.size(); ++p)
+    for (Index v = structure.first_member[p]; v < structure.first_member[p + 1]; ++v) {
+      Structure::Slab& slab = structure.slabs[visits[v].point];
+      structure.members[v] = visits[v].point;
+      structure.memberships[slab.first + slab.count++] = {p, visits[v].distance / range};
+    }
+
+  structure.influences.resize(points);
+  for (Index p = 0; p < points; ++p) structure.influences[p] = influences_from(structure.memberships_of(p));
+  count_neighbours(structure);
+  for (Index p = 0; p < structure.particles.size(); ++p)
+    sum_rest_terms(model, structure,
+                   std::span(structure.members).subspan(structure.first_member[p], structure.particles[p].member_count),
+                   structure.particles[p]);
+
+  DecompositionReport& report = structure.report;
+  report.particles = static_cast<Index>(structure.particles.size());
+  report.memberships = visits.size();
+  for (Index p = 0; p < points; ++p) {
+    report.points += surface.point_corner[p] != kNone ? 1 : 0;
+    report.covered += counts[p] > 0 ? 1 : 0;
+    report.most_memberships = std::max(report.most_memberships, counts[p]);
+  }
+}
+
+}  // namespace sunder::particles

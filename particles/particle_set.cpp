@@ -1,0 +1,164 @@
+#include <sunder/particles/particle_set.h>
+#include <sunder/skinning/palette.h>
+#include <sunder/skinning/reference.h>
+
+#include <chrono>
+#include <cmath>
+#include <new>
+#include <stdexcept>
+
+#include "particles/decompose.h"
+#include "particles/rest_terms.h"
+
+namespace sunder {
+namespace {
+
+using particles::Index;
+using particles::Particle;
+using particles::Structure;
+
+Status check_pose(const Structure& structure, const ModelPose& pose) {
+  if (pose.model_from_bone.size() != structure.bone_count)
+    return Status::failure(StatusCode::size_mismatch, kNone, "the pose has %zu bones, the character %zu",
+                           pose.model_from_bone.size(), structure.bone_count);
+  if (pose.morph_weights.size() != structure.morph_weight_count)
+    return Status::failure(StatusCode::size_mismatch, kNone, "the pose has %zu morph weights, the character %zu",
+                           pose.morph_weights.size(), structure.morph_weight_count);
+  for (std::uint32_t bone = 0; bone < pose.model_from_bone.size(); ++bone)
+    if (!pose.model_from_bone[bone].matrix().allFinite())
+      return Status::failure(StatusCode::non_finite_value, bone, "the pose of bone %u is not finite", bone);
+  for (std::uint32_t i = 0; i < pose.morph_weights.size(); ++i)
+    if (!std::isfinite(pose.morph_weights[i]))
+      return Status::failure(StatusCode::non_finite_value, i, "morph weight %u is not finite", i);
+  return {};
+}
+
+/// Points, and what moves them, of a model.
+void read_model(const TornModel& model, const ModelPose& pose, Structure& structure) {
+  const Character& character = model.character();
+  structure.skins = character.skins;
+  structure.first_slot = {0};
+  for (const Skin& skin : character.skins)
+    structure.first_slot.push_back(structure.first_slot.back() + static_cast<Index>(skin.bones.size()));
+  structure.pose = pose;
+  structure.palettes.resize(character.skins.size());
+  for (std::size_t s = 0; s < character.skins.size(); ++s) {
+    structure.palettes[s].resize(character.skins[s].bones.size());
+    (void)compute_palette(character.skins[s], pose, std::span(structure.palettes[s]));  // sizes were checked
+  }
+  const tear::Surface& surface = model.surface();
+  structure.vertex_points.resize(character.meshes.size());
+  for (Index m = 0; m < character.meshes.size(); ++m) structure.vertex_points[m].assign(character.meshes[m].vertex_count(), kNone);
+  for (Index t = 0; t < surface.triangle_count(); ++t) {
+    const tear::TriangleRef ref = surface.triangle(t);
+    const Triangle& triangle = character.meshes[ref.mesh].triangles[ref.triangle];
+    if (is_retired(triangle)) continue;
+    for (Index k = 0; k < 3; ++k) structure.vertex_points[ref.mesh][triangle[k]] = surface.corner_point[3 * t + k];
+  }
+  structure.positions.resize(surface.point_count(), Vec3f::Zero());
+  for (Index p = 0; p < surface.point_count(); ++p) {
+    const particles::VertexRef of = particles::vertex_of(model, p);
+    if (of.vertex == kNone) continue;
+    const Mesh& mesh = character.meshes[of.mesh];
+    structure.positions[p] =
+        deform_position_reference(mesh, of.vertex, structure.palettes[mesh.skin], pose.morph_weights).cast<float>();
+  }
+}
+
+double diagonal_of(const Structure& structure, const tear::Surface& surface) {
+  Eigen::AlignedBox3f box;
+  for (Index p = 0; p < structure.point_count(); ++p)
+    if (surface.point_corner[p] != kNone) box.extend(Eigen::Vector3f(structure.positions[p]));
+  return box.isEmpty() ? 0.0 : double{box.diagonal().norm()};
+}
+
+}  // namespace
+
+ParticleSet::ParticleSet(std::unique_ptr<Structure> structure) : structure_(std::move(structure)) {}
+ParticleSet::~ParticleSet() = default;
+ParticleSet::ParticleSet(ParticleSet&&) noexcept = default;
+ParticleSet& ParticleSet::operator=(ParticleSet&&) noexcept = default;
+
+Result<ParticleSet> ParticleSet::decompose(const TornModel& model, const ModelPose& pose, const DecompositionOptions& options) {
+  if (!(options.range > 0) || !std::isfinite(options.range))
+    return Status::failure(StatusCode::invalid_argument, kNone, "the range of particles is %g; it must be finite and above 0",
+                           options.range);
+  try {
+    const auto begin = std::chrono::steady_clock::now();
+    auto structure = std::make_unique<Structure>();
+    structure->bone_count = model.character().skeleton.bones.size();
+    structure->morph_weight_count = model.character().rest_morph_weights.size();
+    if (Status status = check_pose(*structure, pose); !status) return status;
+    read_model(model, pose, *structure);
+    const double diagonal = diagonal_of(*structure, model.surface());
+    if (!(diagonal > 0)) return Status::failure(StatusCode::empty_input, kNone, "the model has no face to divide into particles");
+    structure->report.range = options.is_fraction ? options.range * diagonal : options.range;
+    particles::decompose(model, options, *structure);
+    structure->report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    return ParticleSet(std::move(structure));
+  } catch (const std::length_error&) {
+    return Status::failure(StatusCode::limit_exceeded, kNone, "a range of %g makes more than %zu particles", options.range,
+                           particles::kMaximumParticles);
+  } catch (const std::bad_alloc&) {
+    return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
+  }
+}
+
+const DecompositionReport& ParticleSet::report() const { return structure_->report; }
+std::uint32_t ParticleSet::particle_count() const { return static_cast<Index>(structure_->particles.size()); }
+std::uint64_t ParticleSet::serial(std::uint32_t particle) const { return structure_->particles[particle].serial; }
+std::uint32_t ParticleSet::seed(std::uint32_t particle) const { return structure_->particles[particle].seed; }
+double ParticleSet::range(std::uint32_t particle) const { return double{structure_->particles[particle].range}; }
+std::uint32_t ParticleSet::member_count(std::uint32_t particle) const { return structure_->particles[particle].member_count; }
+
+std::vector<std::uint32_t> ParticleSet::members(std::uint32_t particle) const { return structure_->members_of(particle); }
+
+std::span<const Neighbour> ParticleSet::neighbours(std::uint32_t particle) const {
+  return structure_->particles[particle].neighbours;
+}
+
+double ParticleSet::coupling(std::uint32_t particle, const Neighbour& neighbour) const {
+  const double least = std::min(structure_->particles[particle].weight, structure_->particles[neighbour.particle].weight);
+  return least > 0 ? std::min(1.0, neighbour.shared / least) : 0.0;
+}
+
+const ParticleInfluences& ParticleSet::parents(std::uint32_t particle) const { return structure_->particles[particle].parents; }
+std::uint32_t ParticleSet::point_count() const { return structure_->point_count(); }
+std::span<const Membership> ParticleSet::memberships(std::uint32_t point) const { return structure_->memberships_of(point); }
+std::span<const ParticleInfluences> ParticleSet::influences() const { return structure_->influences; }
+std::span<const std::uint32_t> ParticleSet::vertex_points(std::uint32_t mesh) const { return structure_->vertex_points[mesh]; }
+std::span<const Vec3f> ParticleSet::positions() const { return structure_->positions; }
+std::span<const LipEdge> ParticleSet::lips() const { return structure_->lips; }
+std::uint64_t ParticleSet::revision() const { return structure_->revision; }
+const DirtyRanges& ParticleSet::dirty_points() const { return structure_->dirty_points; }
+
+Status ParticleSet::rest(const ModelPose& pose, std::span<const std::uint32_t> particles, std::span<ParticleRest> rest) const {
+  const Structure& structure = *structure_;
+  if (Status status = check_pose(structure, pose); !status) return status;
+  if (rest.size() != particles.size())
+    return Status::failure(StatusCode::size_mismatch, kNone, "%zu particles, room for %zu", particles.size(), rest.size());
+  std::vector<Affine3d>& palette = structure.palette;
+  palette.resize(structure.first_slot.back());
+  for (std::size_t s = 0; s < structure.skins.size(); ++s)
+    if (Status status = compute_palette(structure.skins[s], pose,
+                                        std::span(palette).subspan(structure.first_slot[s], structure.skins[s].bones.size()));
+        !status)
+      return status;
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    const Particle& particle = structure.particles[particles[i]];
+    Eigen::Matrix<double, 3, 4> blended = Eigen::Matrix<double, 3, 4>::Zero();
+    Vec3d sum = Vec3d::Zero();
+    for (const particles::RestTerm& term : particle.terms) {
+      sum += palette[term.slot].matrix() * term.sum;
+      blended += term.sum.w() * palette[term.slot].matrix();
+    }
+    for (const particles::RestMorphTerm& term : particle.morph_terms)
+      sum += double{pose.morph_weights[term.morph_weight]} * (palette[term.slot].linear() * term.sum);
+    const double per_member = particle.member_count > 0 ? 1.0 / particle.member_count : 0.0;
+    rest[i].place = per_member * sum;
+    rest[i].linear = per_member * blended.leftCols<3>();
+  }
+  return {};
+}
+
+}  // namespace sunder

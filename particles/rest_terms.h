@@ -1,0 +1,51 @@
+#pragma once
+
+#include "particles/structure.h"
+
+namespace sunder::particles {
+
+/// A vertex of a point: all of them are posed alike.
+struct VertexRef {
+  Index mesh = 0, vertex = kNone;
+};
+[[nodiscard]] VertexRef vertex_of(const TornModel& model, Index point);
+
+/// Calls visit(slot, w_vi [v; 1]) and visit_morph(morph weight, slot, w_vi delta) for what moves a vertex, as skinning does it.
+template <class Visit, class VisitMorph>
+void for_each_rest_term(const TornModel& model, std::span<const Index> first_slot, const VertexRef& of, Visit visit,
+                        VisitMorph visit_morph) {
+  const Mesh& mesh = model.character().meshes[of.mesh];
+  const Index first = first_slot[mesh.skin];
+  const std::span<const Influence> influences = mesh.weights.of(of.vertex);
+  const Index place = model.influence_place(of.mesh, of.vertex);
+  const InfluencePositions* exact = place == kNone ? nullptr : &model.influence_positions(of.mesh);
+  for (std::size_t i = 0; i < influences.size(); ++i) {
+    const double weight = influences[i].weight;
+    Vec4d term;
+    if (exact != nullptr)
+      term << exact->positions[place + i].cast<double>(), weight;
+    else
+      term << weight * mesh.positions[of.vertex].cast<double>(), weight;
+    visit(first + influences[i].slot, term);
+  }
+  for (Index t = 0; t < mesh.morph_targets.size(); ++t) {
+    if (exact != nullptr && !exact->morph_targets.empty() && !exact->morph_targets[t].positions.empty()) {
+      for (std::size_t i = 0; i < influences.size(); ++i)
+        visit_morph(mesh.first_morph_weight + t, first + influences[i].slot,
+                    Vec3d(exact->morph_targets[t].positions[place + i].cast<double>()));
+      continue;
+    }
+    const auto& deltas = mesh.morph_targets[t].position_deltas;
+    if (deltas.empty() || deltas[of.vertex] == Vec3f::Zero()) continue;
+    for (const Influence& influence : influences)
+      visit_morph(mesh.first_morph_weight + t, first + influence.slot, Vec3d(influence.weight * deltas[of.vertex].cast<double>()));
+  }
+}
+
+/// Adds `sign` times a vertex to a particle's sums.
+void add_rest_terms(const TornModel& model, const Structure& structure, const VertexRef& of, double sign, Particle& particle);
+
+/// Computes a particle's sums anew from its members.
+void sum_rest_terms(const TornModel& model, const Structure& structure, std::span<const Index> members, Particle& particle);
+
+}  // namespace sunder::particles
