@@ -3,6 +3,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "particles/pair_sums.h"
 #include "particles/rest_terms.h"
 
 namespace sunder::particles {
@@ -33,41 +34,12 @@ struct Visit {
 
 }  // namespace
 
-void count_neighbours(Structure& structure) {
-  // A pair once, in the list of the lower particle; then both ways.
-  const auto add = [&](Index of, Index other, double shared) {
-    auto& neighbours = structure.particles[of].neighbours;
-    for (Neighbour& known : neighbours)
-      if (known.particle == other) {
-        ++known.points;
-        known.shared += shared;
-        return;
-      }
-    neighbours.push_back({other, 1, shared});
-  };
-  for (const ParticleInfluences& of : structure.influences) {
-    for (std::size_t i = 0; i < 4 && of.weights[i] > 0; ++i) {
-      structure.particles[of.particles[i]].weight += of.weights[i];
-      for (std::size_t j = 0; j < i; ++j)
-        add(std::min(of.particles[i], of.particles[j]), std::max(of.particles[i], of.particles[j]),
-            double{of.weights[i]} * double{of.weights[j]});
-    }
-  }
-  const auto by_particle = [](const Neighbour& a, const Neighbour& b) { return a.particle < b.particle; };
-  for (Index p = 0; p < structure.particles.size(); ++p) {
-    auto& neighbours = structure.particles[p].neighbours;
-    std::sort(neighbours.begin(), neighbours.end(), by_particle);  // those before it were put in already, in order
-    for (const Neighbour& neighbour : neighbours)
-      if (neighbour.particle > p)
-        structure.particles[neighbour.particle].neighbours.push_back({p, neighbour.points, neighbour.shared});
-  }
-}
-
 void decompose(const TornModel& model, const DecompositionOptions& options, Structure& structure) {
   const Surface& surface = model.surface();
   const Index points = structure.point_count();
   const auto range = static_cast<float>(structure.report.range);
 
+  const Rings rings(surface, structure.positions);
   std::vector<Visit> visits;
   std::vector<bool> is_covered(points, false);
   std::vector<Index> counts(points, 0);
@@ -76,10 +48,10 @@ void decompose(const TornModel& model, const DecompositionOptions& options, Stru
     const Index seed = order.next();
     if (is_covered[seed] || surface.point_corner[seed] == kNone) continue;
     if (structure.particles.size() == kMaximumParticles) throw std::length_error("particles");
-    structure.front.begin(points);
+    structure.front.begin(points, range, structure.edge_length);
     structure.front.add(seed, 0.0f);
     structure.first_member.push_back(static_cast<Index>(visits.size()));
-    structure.front.run(surface, structure.positions, range, [&](Index point, float distance) {
+    structure.front.run(rings, structure.positions, [&](Index point, float distance, Index) {
       visits.push_back({point, distance});
       ++counts[point];
       if (distance <= kCovers * range) is_covered[point] = true;
@@ -111,11 +83,13 @@ void decompose(const TornModel& model, const DecompositionOptions& options, Stru
 
   structure.influences.resize(points);
   for (Index p = 0; p < points; ++p) structure.influences[p] = influences_from(structure.memberships_of(p));
-  count_neighbours(structure);
-  for (Index p = 0; p < structure.particles.size(); ++p)
-    sum_rest_terms(model, structure,
-                   std::span(structure.members).subspan(structure.first_member[p], structure.particles[p].member_count),
-                   structure.particles[p]);
+  RestSums sums(model, structure);
+  PairSums pairs(structure);
+  for (Index p = 0; p < structure.particles.size(); ++p) {
+    const auto members = std::span(structure.members).subspan(structure.first_member[p], structure.particles[p].member_count);
+    sums.sum(members, structure.particles[p]);
+    pairs.sum(members, p);
+  }
 
   DecompositionReport& report = structure.report;
   report.particles = static_cast<Index>(structure.particles.size());

@@ -56,13 +56,29 @@ void read_model(const TornModel& model, const ModelPose& pose, Structure& struct
     for (Index k = 0; k < 3; ++k) structure.vertex_points[ref.mesh][triangle[k]] = surface.corner_point[3 * t + k];
   }
   structure.positions.resize(surface.point_count(), Vec3f::Zero());
+  structure.vertices.resize(surface.point_count());
   for (Index p = 0; p < surface.point_count(); ++p) {
-    const particles::VertexRef of = particles::vertex_of(model, p);
+    const particles::VertexRef of = structure.vertices[p] = particles::vertex_of(model, p);
     if (of.vertex == kNone) continue;
     const Mesh& mesh = character.meshes[of.mesh];
     structure.positions[p] =
         deform_position_reference(mesh, of.vertex, structure.palettes[mesh.skin], pose.morph_weights).cast<float>();
   }
+}
+
+/// Mean length of the edges: of some of them, all over the surface.
+float edge_length_of(const Structure& structure, const tear::Surface& surface) {
+  const Index corners = 3 * surface.triangle_count(), step = corners / 4096 + 1;
+  double sum = 0;
+  std::size_t count = 0;
+  for (Index c = 0; c < corners; c += step) {
+    if (surface.has_repeated_point(c / 3)) continue;
+    const Vec3f &a = structure.positions[surface.corner_point[c]],
+                &b = structure.positions[surface.corner_point[tear::Surface::next(c)]];
+    sum += (b - a).norm();
+    ++count;
+  }
+  return count > 0 ? static_cast<float>(sum / static_cast<double>(count)) : 0.0f;
 }
 
 double diagonal_of(const Structure& structure, const tear::Surface& surface) {
@@ -93,6 +109,7 @@ Result<ParticleSet> ParticleSet::decompose(const TornModel& model, const ModelPo
     const double diagonal = diagonal_of(*structure, model.surface());
     if (!(diagonal > 0)) return Status::failure(StatusCode::empty_input, kNone, "the model has no face to divide into particles");
     structure->report.range = options.is_fraction ? options.range * diagonal : options.range;
+    structure->edge_length = edge_length_of(*structure, model.surface());
     particles::decompose(model, options, *structure);
     structure->report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     return ParticleSet(std::move(structure));

@@ -1,5 +1,7 @@
 #include "particles/rest_terms.h"
 
+#include <algorithm>
+
 namespace sunder::particles {
 namespace {
 
@@ -37,10 +39,48 @@ void add_rest_terms(const TornModel& model, const Structure& structure, const Ve
       [&](Index morph_weight, Index slot, const Vec3d& term) { add(particle.morph_terms, morph_weight, slot, sign * term); });
 }
 
-void sum_rest_terms(const TornModel& model, const Structure& structure, std::span<const Index> members, Particle& particle) {
+RestSums::RestSums(const TornModel& model, const Structure& structure)
+    : model_(model), structure_(structure), of_slot_(structure.first_slot.back(), Vec4d::Zero()) {
+  for (Index m = 0; m < model.character().meshes.size(); ++m)
+    is_plain_.push_back(model.character().meshes[m].morph_targets.empty() && model.influence_positions(m).vertices.empty());
+}
+
+void RestSums::sum(std::span<const Index> members, Particle& particle) {
   particle.terms.clear();
   particle.morph_terms.clear();
-  for (const Index point : members) add_rest_terms(model, structure, vertex_of(model, point), 1.0, particle);
+  const auto add_to_slot = [&](Index slot, const Vec4d& term) {
+    Vec4d& sum = of_slot_[slot];
+    if (sum.w() == 0) slots_.push_back(slot);  // weights are > 0
+    sum += term;
+  };
+  for (const Index point : members) {
+    const VertexRef& of = structure_.vertices[point];
+    if (!is_plain_[of.mesh]) {
+      for_each_rest_term(model_, structure_.first_slot, of, add_to_slot, [&](Index morph_weight, Index slot, const Vec3d& term) {
+        add(particle.morph_terms, morph_weight, slot, term);
+      });
+      continue;
+    }
+    const Mesh& mesh = model_.character().meshes[of.mesh];
+    const Index first = structure_.first_slot[mesh.skin];
+    const Vec3f& at = mesh.positions[of.vertex];
+    const double x = at.x(), y = at.y(), z = at.z();
+    for (const Influence& influence : mesh.weights.of(of.vertex)) {
+      const double weight = influence.weight;
+      double* sum = of_slot_[first + influence.slot].data();
+      if (sum[3] == 0) slots_.push_back(first + influence.slot);
+      sum[0] += weight * x;
+      sum[1] += weight * y;
+      sum[2] += weight * z;
+      sum[3] += weight;
+    }
+  }
+  std::sort(slots_.begin(), slots_.end());
+  for (const Index slot : slots_) {
+    particle.terms.push_back({slot, of_slot_[slot]});
+    of_slot_[slot].setZero();
+  }
+  slots_.clear();
 }
 
 }  // namespace sunder::particles

@@ -5,9 +5,6 @@
 namespace sunder::particles {
 
 /// A vertex of a point: all of them are posed alike.
-struct VertexRef {
-  Index mesh = 0, vertex = kNone;
-};
 [[nodiscard]] VertexRef vertex_of(const TornModel& model, Index point);
 
 /// Calls visit(slot, w_vi [v; 1]) and visit_morph(morph weight, slot, w_vi delta) for what moves a vertex, as skinning does it.
@@ -45,7 +42,19 @@ void for_each_rest_term(const TornModel& model, std::span<const Index> first_slo
 /// Adds `sign` times a vertex to a particle's sums.
 void add_rest_terms(const TornModel& model, const Structure& structure, const VertexRef& of, double sign, Particle& particle);
 
-/// Computes a particle's sums anew from its members.
-void sum_rest_terms(const TornModel& model, const Structure& structure, std::span<const Index> members, Particle& particle);
+/// Computes particles' sums anew from their members.
+class RestSums {
+ public:
+  RestSums(const TornModel& model, const Structure& structure);
+
+  void sum(std::span<const Index> members, Particle& particle);
+
+ private:
+  const TornModel& model_;
+  const Structure& structure_;
+  std::vector<bool> is_plain_;  ///< Of each mesh: has neither morph targets nor exact points.
+  std::vector<Vec4d> of_slot_;  ///< One a slot: zero between calls.
+  std::vector<Index> slots_;
+};
 
 }  // namespace sunder::particles

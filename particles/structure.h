@@ -6,6 +6,11 @@
 
 namespace sunder::particles {
 
+/// A vertex of a mesh.
+struct VertexRef {
+  Index mesh = 0, vertex = kNone;
+};
+
 /// A sum over a particle's members of what a bone moves: w_vi [v; 1].
 struct RestTerm {
   Index slot = 0;  ///< Over all skins: Structure::first_slot.
@@ -46,6 +51,9 @@ struct Structure {
   std::vector<std::vector<Index>> vertex_points;
 
   // ---- Points.
+  /// A vertex of each, whose weights those of its others are: the one that it had when it came.
+  std::vector<VertexRef> vertices;
+  float edge_length = 0;         ///< In the mean, of the decomposition's surface.
   std::vector<Vec3f> positions;  ///< In that pose.
   /// A point's memberships lie together in `memberships`, ascending by particle. A change puts the new ones at the end and leaves
   /// the old where they are, for undo.

@@ -3,10 +3,10 @@
 #include <sunder/tear/surface.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace sunder::particles {
@@ -14,120 +14,166 @@ namespace sunder::particles {
 using tear::Index;
 using tear::Surface;
 
-/// Distances along a surface, from near to far: fast marching (Kimmel and Sethian 1998), with each face unfolded around the point
-/// from which its two nearer corners are seen at their distances (Novotni and Klein 2002). Exact where the surface is flat and
-/// paths do not bend around borders; else a little too long, never shorter than the straight line. Only the surface is walked, so a
-/// tear is in the way. Memory is kept from one use to the next.
-class SurfaceFront {
+/// A point beside another, and how long the edge to it is.
+struct RingPoint {
+  Index point = 0;
+  float length = 0;
+};
+
+/// The points around each point of a surface, counter-clockwise; where they close a circle the first one comes again at the end. So
+/// each two that follow one another are of one face.
+class Rings {
  public:
-  /// Forgets all distances.
-  void begin(std::size_t point_count) {
-    if (states_.size() < point_count) states_.resize(point_count + point_count / 8);
-    epoch_ += 2;
-    if (epoch_ < 2) {  // once in two thousand million uses
-      std::fill(states_.begin(), states_.end(), State{});
-      epoch_ = 2;
-    }
-    heap_.clear();
-  }
-
-  /// Lets the front start at a point, or from a path that leads there. @param from  as in label().
-  void add(Index point, float distance) {
-    State& state = states_[point];
-    if (state.epoch >= epoch_ && state.distance <= distance) return;
-    state = {distance, epoch_};
-    heap_.push_back(std::uint64_t{std::bit_cast<std::uint32_t>(distance)} << 32 |
-                    point);  // distances are >= 0: bits ascend with them
-    std::push_heap(heap_.begin(), heap_.end(), std::greater<>());
-  }
-
-  /// Whether the front has passed a point, and at which distance.
-  [[nodiscard]] bool has_passed(Index point) const { return states_[point].epoch == epoch_ + 1; }
-  [[nodiscard]] float distance(Index point) const { return states_[point].distance; }
-
-  /// Calls visit(point, distance) for points nearer than `limit`, by growing distance, until it returns false or none is left.
-  template <class Visit>
-  void run(const Surface& surface, std::span<const Vec3f> positions, float limit, Visit visit) {
-    while (!heap_.empty()) {
-      std::pop_heap(heap_.begin(), heap_.end(), std::greater<>());
-      const auto point = static_cast<Index>(heap_.back());
-      const auto distance = std::bit_cast<float>(static_cast<std::uint32_t>(heap_.back() >> 32));
-      heap_.pop_back();
-      State& state = states_[point];
-      if (state.epoch != epoch_ || state.distance != distance) continue;
-      state.epoch = epoch_ + 1;
-      const bool goes_on = visit(point, distance);
-      pass_on(surface, positions, limit, point);
-      if (!goes_on) return;
-    }
+  Rings(const Surface& surface, std::span<const Vec3f> positions);
+  [[nodiscard]] std::span<const RingPoint> operator()(Index point) const {
+    return {points_.data() + first_[point], first_[point + 1] - first_[point]};
   }
 
  private:
-  struct State {
-    float distance = 0;
-    std::uint32_t epoch = 0;  ///< epoch_: a distance is known; epoch_ + 1: it is final.
+  std::vector<Index> first_;
+  std::vector<RingPoint> points_;
+};
+
+/// The same, looked up one after the other.
+class RingWalk {
+ public:
+  RingWalk(const Surface& surface, std::span<const Vec3f> positions) : surface_(surface), positions_(positions) {}
+  /// Good until the next call.
+  [[nodiscard]] std::span<const RingPoint> operator()(Index point) {
+    ring_.clear();
+    append_ring(surface_, positions_, point, ring_);
+    return ring_;
+  }
+  static void append_ring(const Surface& surface, std::span<const Vec3f> positions, Index point, std::vector<RingPoint>& ring);
+
+ private:
+  const Surface& surface_;
+  std::span<const Vec3f> positions_;
+  std::vector<RingPoint> ring_;
+};
+
+/// Distances along a surface, from near to far. Points come in the order of Dijkstra's paths along edges, but each from the
+/// accurate distances around it, and is given one itself when it is reached: that of a source which is unfolded into the plane of
+/// the face through which the shortest path arrives (Novotni and Klein 2002, for the fast marching of Kimmel and Sethian 1998).
+/// Exact where the surface is flat and paths do not bend around borders, but for faces that are obtuse. Only the surface is walked,
+/// so a tear is in the way. Memory is kept from one use to the next.
+class SurfaceFront {
+ public:
+  /// Forgets all distances. @param limit  how far the front goes; @param edge  how long edges about are.
+  void begin(std::size_t point_count, float limit, float edge) {
+    for (const Entry& entry : entries_) labels_[entry.point] = distances_[entry.point] = kUnknown;
+    entries_.clear();
+    if (labels_.size() < point_count) {
+      labels_.resize(point_count + point_count / 8, kUnknown);
+      distances_.resize(labels_.size(), kUnknown);
+    }
+    limit_ = limit;
+    path_limit_ = limit + 0.2f * std::min(edge, limit);
+    const float wanted = kBucketsAnEdge * limit / std::max(edge, 1e-3f * limit);
+    const auto count = static_cast<std::size_t>(std::clamp(wanted, 32.0f, kMostBuckets)) + 1;
+    per_bucket_ = static_cast<float>(count - 1) / path_limit_;
+    buckets_.assign(count, kNone);
+    bucket_ = 0;
+  }
+
+  /// Lets the front start at a point, or reach it, at a distance.
+  void add(Index point, float distance) {
+    if (distance < path_limit_ && distance < labels_[point]) put(point, distance, kNone);
+  }
+
+  /// Whether there is nothing left to reach.
+  [[nodiscard]] bool is_done() const { return bucket_ >= buckets_.size(); }
+  /// Of a point that the front has reached; infinite for others.
+  [[nodiscard]] float distance(Index point) const { return distances_[point]; }
+
+  /// Calls visit(point, distance, the point from which it was reached) for each point nearer than the limit, from near to far, until
+  /// it returns false or none is left. May be called again to go on. @param ring  Rings or RingWalk.
+  template <class Ring, class Visit>
+  void run(Ring& ring, std::span<const Vec3f> positions, Visit visit) {
+    for (; bucket_ < buckets_.size(); ++bucket_)
+      while (buckets_[bucket_] != kNone) {
+        const Entry entry = entries_[buckets_[bucket_]];
+        buckets_[bucket_] = entry.next;
+        if (labels_[entry.point] != entry.distance || distances_[entry.point] != kUnknown) continue;
+        const std::span<const RingPoint> around = ring(entry.point);
+        const float distance = std::min(entry.distance, accurate(positions.data(), entry.point, around));
+        distances_[entry.point] = labels_[entry.point] = distance;
+        if (!(distance < limit_)) continue;
+        const bool goes_on = visit(entry.point, distance, entry.from);
+        const std::size_t room = entries_.size() + around.size();
+        if (entries_.capacity() < room) entries_.reserve(2 * room);
+        const float* const labels = labels_.data();
+        for (const RingPoint& other : around) {
+          const float path = distance + other.length;
+          if (path < labels[other.point] && path < path_limit_) put(other.point, path, entry.point);
+        }
+        if (!goes_on) return;
+      }
+  }
+
+ private:
+  static constexpr float kUnknown = std::numeric_limits<float>::infinity();
+  /// The queue sorts distances into buckets this much finer than edges: points in one can hardly be told of by one another.
+  static constexpr float kBucketsAnEdge = 6.0f, kMostBuckets = 4096.0f;
+
+  struct Entry {
+    Index point;
+    float distance;
+    Index from;  ///< The point that it was reached from; kNone where the front starts.
+    Index next;  ///< In its bucket.
   };
 
-  /// Tells the points around one that was passed.
-  void pass_on(const Surface& surface, std::span<const Vec3f> positions, float limit, Index point) {
-    const Vec3f& at = positions[point];
-    const float distance = states_[point].distance;
-    const Index start = surface.point_corner[point];
-    if (start == kNone) return;
-    Index corner = start;
-    bool is_open = false;
-    do {
-      const Index to = Surface::next(corner), back = Surface::previous(corner);
-      tell_face(positions, limit, at, distance, surface.corner_point[to], surface.corner_point[back]);
-      const Index twin = surface.twin[back];
-      if (twin == kNone) {
-        is_open = true;
-        break;
-      }
-      corner = twin;
-    } while (corner != start);
-    if (!is_open) return;
-    for (Index c = surface.rotate_cw(start); c != kNone; c = surface.rotate_cw(c))
-      tell_face(positions, limit, at, distance, surface.corner_point[Surface::next(c)], surface.corner_point[Surface::previous(c)]);
+  void put(Index point, float distance, Index from) {
+    labels_[point] = distance;
+    const std::size_t bucket = std::max(bucket_, static_cast<std::size_t>(static_cast<std::int32_t>(distance * per_bucket_)));
+    entries_.push_back({point, distance, from, std::exchange(buckets_[bucket], static_cast<Index>(entries_.size()))});
   }
 
-  void tell_face(std::span<const Vec3f> positions, float limit, const Vec3f& at, float distance, Index a, Index b) {
-    const bool has_a = has_passed(a), has_b = has_passed(b);
-    if (has_a && has_b) return;
-    if (has_a || has_b) {
-      const Index known = has_a ? a : b, wanted = has_a ? b : a;
-      const float found = across_face(at, positions[known], positions[wanted], distance, states_[known].distance);
-      if (found < limit) add(wanted, found);
-      return;
+  /// Distance of a point through the face whose other corners are nearest: the nearest point around it, and the nearer one beside
+  /// that.
+  [[nodiscard]] float accurate(const Vec3f* positions, Index point, std::span<const RingPoint> around) const {
+    const float* const distances = distances_.data();
+    const std::size_t count = around.size();
+    float nearest = kUnknown;
+    std::size_t at = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      const float distance = distances[around[i].point];
+      at = distance < nearest ? i : at;
+      nearest = std::min(nearest, distance);
     }
-    const float to_a = distance + (positions[a] - at).norm(), to_b = distance + (positions[b] - at).norm();
-    if (to_a < limit) add(a, to_a);
-    if (to_b < limit) add(b, to_b);
+    if (nearest == kUnknown) return kUnknown;
+    const bool is_closed = around.front().point == around.back().point;
+    const std::size_t before = at > 0 ? at - 1 : count - 2, after = at + 1 < count ? at + 1 : 1;
+    const float at_before = at > 0 || is_closed ? distances[around[before].point] : kUnknown;
+    const float at_after = at + 1 < count || is_closed ? distances[around[after].point] : kUnknown;
+    const float second = std::min(at_before, at_after);
+    if (second == kUnknown) return kUnknown;
+    return across_face(positions[around[at].point], positions[around[at_before < at_after ? before : after].point],
+                       positions[point], nearest, second);
   }
 
-  /// Distance of p, from the distances of a and b: that of a source which is unfolded into the face's plane, beyond ab; along an
-  /// edge where the straight line from there does not cross ab.
+  /// Distance of p from that of a and b: of a source which is unfolded into the face's plane, beyond ab. Infinite where the
+  /// straight line from there does not cross ab.
   static float across_face(const Vec3f& a, const Vec3f& b, const Vec3f& p, float at_a, float at_b) {
     const Vec3f ab = b - a, ap = p - a;
     const float length_squared = ab.squaredNorm(), along = ab.dot(ap);
     const float source_along = 0.5f * (at_a * at_a - at_b * at_b + length_squared);  // these four: times the length of ab
     const float source_beyond_squared = at_a * at_a * length_squared - source_along * source_along;
     const float height_squared = ap.squaredNorm() * length_squared - along * along;
-    if (source_beyond_squared > 0 && height_squared > 0) {
-      const float source_beyond = std::sqrt(source_beyond_squared), height = std::sqrt(height_squared),
-                  down = source_beyond + height;
-      const float crossing = source_along * height + along * source_beyond;  // times `down`
-      if (crossing >= 0 && crossing <= length_squared * down) {
-        const float across = along - source_along;
-        return std::sqrt((across * across + down * down) / length_squared);
-      }
-    }
-    return std::min(at_a + ap.norm(), at_b + (p - b).norm());
+    if (!(source_beyond_squared >= 0 && height_squared > 0)) return kUnknown;
+    const float source_beyond = std::sqrt(source_beyond_squared), height = std::sqrt(height_squared), down = source_beyond + height;
+    const float crossing = source_along * height + along * source_beyond;  // times `down`
+    if (!(crossing >= 0 && crossing <= length_squared * down)) return kUnknown;
+    const float across = along - source_along;
+    return std::sqrt((across * across + down * down) / length_squared);
   }
 
-  std::vector<State> states_;
-  std::uint32_t epoch_ = 0;
-  std::vector<std::uint64_t> heap_;
+  std::vector<float> labels_;     ///< What is known of each point: at most so far.
+  std::vector<float> distances_;  ///< Of those reached.
+  std::vector<Index> buckets_;    ///< The newest entry of each.
+  std::vector<Entry> entries_;    ///< All that were put in: what begin() has to clear.
+  std::size_t bucket_ = 0;        ///< Being emptied.
+  float limit_ = 0, path_limit_ = 0, per_bucket_ = 0;
 };
 
 }  // namespace sunder::particles
