@@ -1,6 +1,29 @@
 #include "particles/structure.h"
 
+#include <iterator>
+
+#include "particles/band.h"
+
 namespace sunder::particles {
+namespace {
+
+/// Moves what an array has beyond `count` into `tail`, or appends what is there. @param is_there  whether the array is to lose it.
+template <class T>
+void move_tail(std::vector<T>& values, std::size_t count, bool is_there, std::vector<T>& tail) {
+  if (is_there) {
+    const auto first = values.begin() + static_cast<std::ptrdiff_t>(count);
+    tail.assign(std::make_move_iterator(first), std::make_move_iterator(values.end()));
+    values.erase(first, values.end());
+  } else {
+    values.insert(values.end(), std::make_move_iterator(tail.begin()), std::make_move_iterator(tail.end()));
+    tail.clear();
+  }
+}
+
+}  // namespace
+
+Structure::Structure() = default;
+Structure::~Structure() = default;
 
 std::vector<Index> Structure::members_of(Index particle) const {
   std::vector<Index> found;
@@ -13,6 +36,41 @@ std::vector<Index> Structure::members_of(Index particle) const {
   std::sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;
+}
+
+void exchange(Structure& structure, Change& change) {
+  const bool is_done = change.appended == nullptr;
+  if (is_done) change.appended = std::make_shared<Change::Appended>();
+  Change::Appended& appended = *change.appended;
+  const auto exchange_values = [&] {
+    for (Change::OfPoint& of : change.changed_points) {
+      std::swap(structure.slabs[of.point], of.slab);
+      std::swap(structure.influences[of.point], of.influences);
+      std::swap(structure.lip_points[of.point], of.lip);
+    }
+    for (auto& [particle, before] : change.changed_particles) std::swap(structure.particles[particle], before);
+    for (Change::OfVertex& of : change.changed_vertices) std::swap(structure.vertex_points[of.mesh][of.vertex], of.point);
+    for (auto& [lip, before] : change.changed_lips) std::swap(structure.lips[lip], before);
+  };
+  exchange_values();
+  move_tail(structure.positions, change.points, is_done, appended.positions);
+  move_tail(structure.vertices, change.points, is_done, appended.vertices);
+  move_tail(structure.slabs, change.points, is_done, appended.slabs);
+  move_tail(structure.influences, change.points, is_done, appended.influences);
+  move_tail(structure.lip_points, change.points, is_done, appended.lip_points);
+  move_tail(structure.particles, change.particles, is_done, appended.particles);
+  move_tail(structure.joined, change.particles, is_done, appended.joined);
+  move_tail(structure.lips, change.lips, is_done, appended.lips);
+  appended.vertex_points.resize(structure.vertex_points.size());
+  for (std::size_t m = 0; m < structure.vertex_points.size(); ++m)
+    move_tail(structure.vertex_points[m], change.vertices[m], is_done, appended.vertex_points[m]);
+  if (!is_done) change.appended.reset();
+  ++structure.revision;
+  std::vector<Index> dirty;
+  for (const Change::OfPoint& of : change.changed_points) dirty.push_back(of.point);
+  for (Index point = change.points; point < structure.point_count(); ++point) dirty.push_back(point);
+  std::sort(dirty.begin(), dirty.end());
+  structure.dirty_points = DirtyRanges::covering(dirty);
 }
 
 }  // namespace sunder::particles

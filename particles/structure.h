@@ -2,6 +2,9 @@
 
 #include <sunder/particles/particle_set.h>
 
+#include <memory>
+#include <utility>
+
 #include "particles/surface_front.h"
 
 namespace sunder::particles {
@@ -23,6 +26,9 @@ struct RestMorphTerm {
   Vec3d sum = Vec3d::Zero();
 };
 
+/// Which side of a tear something is on.
+enum class Side : std::uint8_t { left, right };
+
 struct Particle {
   std::uint64_t serial = 0;
   Index seed = 0;
@@ -33,16 +39,62 @@ struct Particle {
   std::vector<RestMorphTerm> morph_terms;
   std::vector<Neighbour> neighbours;  ///< Ascending.
   ParticleInfluences parents;
+  struct OfTear {
+    Index tear = 0;
+    Side side = Side::left;
+  };
+  std::vector<OfTear> sides;  ///< Of the tears that it touches: it has no point on the other lip.
+
+  [[nodiscard]] const Side* side_of(Index tear) const {
+    for (const OfTear& of : sides)
+      if (of.tear == tear) return &of.side;
+    return nullptr;
+  }
 };
+
+/// Whether a point is on a lip, and where the lip's edge that leaves it is kept.
+struct LipPoint {
+  Index tear = kNone;
+  Side side = Side::left;
+  Index edge = kNone;  ///< In Structure::lips.
+};
+
+/// What one operation did to the structure, to take it back: values as they were. Exchanging them with those that are takes it back,
+/// or does it again.
+struct Change {
+  std::uint64_t operation = 0;  ///< TornModel::newest_operation() of its end; 0: under way.
+  Index points = 0, particles = 0, lips = 0;  ///< How many there were.
+  std::size_t memberships_before = 0, memberships_after = 0;
+  std::vector<Index> vertices;  ///< Of each mesh, how many there were.
+
+  struct OfPoint;
+  struct OfVertex {
+    Index mesh = 0, vertex = 0, point = kNone;
+  };
+  std::vector<OfPoint> changed_points;
+  std::vector<std::pair<Index, Particle>> changed_particles;
+  std::vector<OfVertex> changed_vertices;
+  std::vector<std::pair<Index, LipEdge>> changed_lips;
+
+  /// What it appended, while it is taken back.
+  struct Appended;
+  std::shared_ptr<Appended> appended;
+};
+
+struct Band;
 
 /// What a ParticleSet is made of.
 struct Structure {
+  Structure();
+  ~Structure();
+
   DecompositionReport report;
   std::uint64_t revision = 0;
   std::uint64_t next_serial = 1;
   DirtyRanges dirty_points;
 
   // ---- Of the model.
+  const Character* source = nullptr;  ///< Only to be compared.
   std::vector<Skin> skins;
   std::vector<Index> first_slot;  ///< Of each skin; at the end their number.
   std::size_t bone_count = 0, morph_weight_count = 0;
@@ -51,10 +103,10 @@ struct Structure {
   std::vector<std::vector<Index>> vertex_points;
 
   // ---- Points.
+  std::vector<Vec3f> positions;  ///< In that pose.
   /// A vertex of each, whose weights those of its others are: the one that it had when it came.
   std::vector<VertexRef> vertices;
-  float edge_length = 0;         ///< In the mean, of the decomposition's surface.
-  std::vector<Vec3f> positions;  ///< In that pose.
+  float edge_length = 0;  ///< In the mean, of the decomposition's surface.
   /// A point's memberships lie together in `memberships`, ascending by particle. A change puts the new ones at the end and leaves
   /// the old where they are, for undo.
   struct Slab {
@@ -63,6 +115,7 @@ struct Structure {
   std::vector<Slab> slabs;
   std::vector<Membership> memberships;
   std::vector<ParticleInfluences> influences;
+  std::vector<LipPoint> lip_points;
 
   // ---- Particles.
   std::vector<Particle> particles;
@@ -70,9 +123,13 @@ struct Structure {
   std::vector<Index> first_member, members;
   std::vector<std::vector<Index>> joined;
 
+  // ---- Tears. A tear is an operation: the place of its Change is its number.
   std::vector<LipEdge> lips;
+  std::vector<Change> done, undone;
+  std::unique_ptr<Band> band;  ///< What the last one left to settle().
 
-  SurfaceFront front;
+  // ---- Memory that is used again.
+  SurfaceFront front, band_front;
   mutable std::vector<Affine3d> palette;  ///< Of all slots: what rest() computes with.
 
   [[nodiscard]] Index point_count() const { return static_cast<Index>(positions.size()); }
@@ -87,6 +144,28 @@ struct Structure {
     return nullptr;
   }
 };
+
+struct Change::OfPoint {
+  Index point = 0;
+  Structure::Slab slab;
+  ParticleInfluences influences;
+  LipPoint lip;
+};
+
+struct Change::Appended {
+  std::vector<Vec3f> positions;
+  std::vector<VertexRef> vertices;
+  std::vector<Structure::Slab> slabs;
+  std::vector<ParticleInfluences> influences;
+  std::vector<LipPoint> lip_points;
+  std::vector<Particle> particles;
+  std::vector<std::vector<Index>> joined;
+  std::vector<LipEdge> lips;
+  std::vector<std::vector<Index>> vertex_points;  ///< Of each mesh.
+};
+
+/// Takes a change back, or does it again.
+void exchange(Structure& structure, Change& change);
 
 /// A particle's share before those of one point are made to sum to one: (1 - reach^2)^2, which ends with slope zero.
 [[nodiscard]] inline float falloff(float reach) {
