@@ -1,13 +1,20 @@
 #include "tear/gap.h"
 
 #include <algorithm>
+#include <limits>
 #include <unordered_set>
+
+#include "tear/disjoint_sets.h"
 
 namespace sunder::tear {
 namespace {
 
 /// Less of an edge than this inside a cell does not lead from face to face.
 constexpr double kLeast = 1e-9;
+
+/// By how much an edge of the rim may miss its plane: of its length, and of what coordinates are large by.
+constexpr double kOnSide = 1e-2;
+constexpr double kRounding = 1e-6;
 
 using Corners = std::array<Vec3d, 3>;
 
@@ -100,6 +107,67 @@ void remove_faces(const std::vector<Index>& faces, SurfaceEditor& editor, PosedP
   }
 }
 
+/// The half-space on whose plane an edge lies, of two the first; kNone where it lies on none.
+Index side_of_edge(const Cell& cell, const Vec3d& a, const Vec3d& b) {
+  Index nearest = kNone;
+  double least = std::numeric_limits<double>::infinity();
+  for (Index side = 0; side < cell.size(); ++side) {
+    const double away = std::max(std::abs(cell[side].value(a)), std::abs(cell[side].value(b)));
+    if (away >= least) continue;
+    nearest = side;
+    least = away;
+  }
+  // Off the plane by what an end was snapped by, where a face was too small for another point.
+  const double rounding = std::max(a.cwiseAbs().maxCoeff(), b.cwiseAbs().maxCoeff());
+  return least <= kOnSide * (b - a).norm() + kRounding * rounding ? nearest : kNone;
+}
+
+/// The border between faces that go and those that stay, to be asked for before they go and told when they have gone.
+class RimOfRemoved {
+ public:
+  /// @param faces  that go, ascending.
+  RimOfRemoved(const std::vector<Index>& faces, const SurfaceEditor& editor, PosedPoints& posed) {
+    const Surface& surface = editor.surface();
+    const auto count = static_cast<Index>(faces.size());
+    DisjointSets parts(count, *std::pmr::get_default_resource());
+    for (Index i = 0; i < count; ++i)
+      for (Index h = 3 * faces[i]; h < 3 * faces[i] + 3; ++h) {
+        const Index twin = surface.twin[h];
+        if (twin == kNone) continue;
+        const auto other = std::lower_bound(faces.begin(), faces.end(), twin / 3);
+        if (other != faces.end() && *other == twin / 3)
+          parts.unite_with_lesser(i, static_cast<Index>(other - faces.begin()));
+        else
+          staying_.push_back({twin, i});
+      }
+    std::vector<Index> part_of_root(count, kNone);
+    for (Index i = 0; i < count; ++i) {
+      Index& part = part_of_root[parts.find(i)];
+      if (part == kNone) {
+        part = static_cast<Index>(areas_.size());
+        areas_.push_back(Vec3d::Zero());
+      }
+      const Corners corners = posed_corners(faces[i], editor, posed);
+      areas_[part] += 0.5 * (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+    }
+    for (auto& [half_edge, face] : staying_) face = part_of_root[parts.find(face)];
+  }
+
+  void tell(const Cell& cell, const SurfaceEditor& editor, PosedPoints& posed, CellRim& rim) const {
+    const Surface& surface = editor.surface();
+    rim = {};
+    for (const auto& [half_edge, part] : staying_) {
+      const Index from = surface.corner_point[half_edge], to = surface.corner_point[Surface::next(half_edge)];
+      rim.edges.push_back({{from, to}, side_of_edge(cell, posed.position(editor, from), posed.position(editor, to)), part});
+    }
+    rim.areas = areas_;
+  }
+
+ private:
+  std::vector<std::array<Index, 2>> staying_;  ///< Half-edge that stays, and the part that goes beside it.
+  std::vector<Vec3d> areas_;
+};
+
 }  // namespace
 
 std::vector<Index> faces_in_cell(const Cell& cell, const SurfaceEditor& editor, PosedPoints& posed) {
@@ -145,7 +213,7 @@ std::vector<Index> faces_in_cell(const Cell& cell, const std::vector<Index>& see
   return faces;
 }
 
-GapRemoval remove_cell(const Cell& cell, const std::vector<Index>& faces, SurfaceEditor& editor, PosedPoints& posed) {
+GapRemoval remove_cell(const Cell& cell, const std::vector<Index>& faces, SurfaceEditor& editor, PosedPoints& posed, CellRim* rim) {
   GapRemoval removal;
   if (faces.empty()) return removal;
   const std::vector<Sheet> sheets = sheets_of(cell);
@@ -166,7 +234,13 @@ GapRemoval remove_cell(const Cell& cell, const std::vector<Index>& faces, Surfac
   }
   if (inside.empty()) return removal;
   removal.faces_removed = static_cast<Index>(inside.size());
-  remove_faces(inside, editor, posed);
+  if (rim == nullptr) {
+    remove_faces(inside, editor, posed);
+  } else {
+    const RimOfRemoved of_removed(inside, editor, posed);
+    remove_faces(inside, editor, posed);
+    of_removed.tell(cell, editor, posed, *rim);
+  }
   return removal;
 }
 

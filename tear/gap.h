@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <functional>
 #include <vector>
 
@@ -24,7 +25,20 @@ struct GapRemoval {
   double area_posed = 0;
 };
 
+/// The border that removing a cell left.
+struct CellRim {
+  struct Edge {
+    std::array<Index, 2> points = {};
+    Index side = kNone;  ///< The half-space of the cell on whose plane the edge lies; kNone for one inside the cell.
+    Index part = 0;
+  };
+  std::vector<Edge> edges;
+  std::vector<Vec3d> areas;  ///< Of each part that went, faces joined by edges: the sum of its faces' posed area vectors.
+};
+
 /// Removes what lies inside a convex cell from some faces: the faces inside go, those that reach out of it are clipped.
-GapRemoval remove_cell(const Cell& cell, const std::vector<Index>& faces, SurfaceEditor& editor, PosedPoints& posed);
+/// @param rim  written where given.
+GapRemoval remove_cell(const Cell& cell, const std::vector<Index>& faces, SurfaceEditor& editor, PosedPoints& posed,
+                       CellRim* rim = nullptr);
 
 }  // namespace sunder::tear

@@ -10,8 +10,9 @@ constexpr std::size_t kBlades = 64;
 
 }  // namespace
 
-void History::limit_to(std::size_t operations, const ModelPose& pose) {
+void History::limit_to(std::size_t operations, std::size_t lips, const ModelPose& pose) {
   limit_ = operations;
+  borders_.lips.reserve(lips);
   done_.reserve(operations);
   undone_.reserve(operations);
   spare_.reserve(operations + 1);
@@ -31,9 +32,29 @@ History::Entry& History::next() {
   return *spare_.back();
 }
 
-void History::push() {
+Range History::next_lips() const { return done_.empty() ? Range{} : Range{done_.back()->lips.first + done_.back()->lips.count, 0}; }
+
+Range History::next_rim_points() const {
+  return done_.empty() ? Range{} : Range{done_.back()->rim_points.first + done_.back()->rim_points.count, 0};
+}
+
+void History::make_room_for(std::size_t lips, std::size_t rim_points) {
+  make_room_to_hold(next_lips().first + lips, borders_.lips);
+  make_room_to_hold(next_rim_points().first + rim_points, borders_.rim_points);
+}
+
+void History::push(const OpenedBorders& borders) {
   static std::atomic<std::uint64_t> newest_serial = 0;
-  spare_.back()->serial = ++newest_serial;
+  const auto append = [](const auto& values, Range range, auto& all) {
+    all.resize(range.first);
+    all.insert(all.end(), values.begin(), values.end());
+    range.count = static_cast<Index>(values.size());
+    return range;
+  };
+  Entry& entry = *spare_.back();
+  entry.serial = ++newest_serial;
+  entry.lips = append(borders.lips, next_lips(), borders_.lips);
+  entry.rim_points = append(borders.rim_points, next_rim_points(), borders_.rim_points);
   done_.push_back(std::move(spare_.back()));
   spare_.pop_back();
   while (!undone_.empty()) move_last(undone_, spare_);

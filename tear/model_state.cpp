@@ -15,9 +15,8 @@ TornModel::State::State(std::shared_ptr<const Character> from, const TornCapacit
   pose.model_from_bone.resize(character.skeleton.bones.size());
   pose.morph_weights.resize(character.rest_morph_weights.size());
   posed.cover(editor.surface().point_count() + capacity.vertices);
-  lips.reserve(capacity.vertices);
-  tearing.lips.reserve(capacity.vertices);
-  history.limit_to(capacity.operations, pose);
+  for (auto* lips : {&borders_of_call_.lips, &borders_.lips, &tearing.borders.lips}) lips->reserve(capacity.vertices);
+  history.limit_to(capacity.operations, capacity.vertices, pose);
 }
 
 Status TornModel::State::may_begin() const {
@@ -44,16 +43,29 @@ void TornModel::State::cancel_refits_of(std::uint64_t serial) const {
 
 void TornModel::State::begin_call() {
   editor.scratch().reset();
-  lips.clear();
+  borders_of_call_.clear();
   begin_of_call_ = editor.mark();
 }
 
 void TornModel::State::end_call(Call& call, const WeightOptions& of_points, ChangeRecord* change, bool is_cut) {
   tear::weigh_new_points(begin_of_call_, of_points, posed.palettes(), posed.morph_weights(), editor, call.report.weights);
   count(begin_of_call_, is_cut, call.report);
-  if (change == nullptr) return;
-  editor.describe(begin_of_call_, *change);
-  change->lips = lips;
+  if (change != nullptr) {
+    editor.describe(begin_of_call_, *change);
+    change->lips = borders_of_call_.lips;
+    tear::settle_rims(borders_of_call_.rim_points, editor.surface(), change->rims);
+  }
+  keep_borders();
+}
+
+/// Adds what the call opened to what the operation did. Where memory runs out, nothing is added.
+void TornModel::State::keep_borders() {
+  const auto& [lips, rim_points] = borders_of_call_;
+  tear::make_room_to_hold(borders_.lips.size() + lips.size(), borders_.lips);
+  tear::make_room_to_hold(borders_.rim_points.size() + rim_points.size(), borders_.rim_points);
+  history.make_room_for(borders_.lips.size() + lips.size(), borders_.rim_points.size() + rim_points.size());
+  borders_.lips.insert(borders_.lips.end(), lips.begin(), lips.end());
+  borders_.rim_points.insert(borders_.rim_points.end(), rim_points.begin(), rim_points.end());
 }
 
 void TornModel::State::take_back() {
@@ -75,7 +87,7 @@ void TornModel::State::count(const tear::SurfaceEditor::Mark& begin, bool is_cut
 void TornModel::State::record(const tear::SurfaceEditor::Mark& begin) {
   if (editor.numbers_since(begin) == 0) return;  // it did nothing
   history.next().begin = begin;
-  history.push();
+  history.push(borders_);
 }
 
 Status validate_blade(const Blade& blade, std::uint32_t index) {

@@ -22,7 +22,7 @@ struct TornModel::State {
   /// What one call of an operation did.
   struct Call {
     TearReport report;
-    std::vector<LipPair>& lips;
+    tear::OpenedBorders& borders;
   };
   /// Runs `work(Call&) -> Status` and describes what it did; where memory or capacity runs out takes everything back. Points keep
   /// the places where they were found until the pose is set anew.
@@ -31,7 +31,7 @@ struct TornModel::State {
   template <class Work>
   Result<TearReport> call(Work work, const WeightOptions& of_points, ChangeRecord* change, bool is_cut = false) {
     begin_call();
-    Call call{{}, lips};
+    Call call{{}, borders_of_call_};
     try {
       if (Status status = work(call); !status) {
         take_back();
@@ -55,6 +55,7 @@ struct TornModel::State {
   /// @param keeps_opened  it will ask which borders it opened.
   [[nodiscard]] tear::SurfaceEditor::Mark begin_operation(bool keeps_opened) {
     editor.begin_opening(keeps_opened);
+    borders_.clear();
     return editor.mark();
   }
 
@@ -88,7 +89,6 @@ struct TornModel::State {
   ModelPose pose;  ///< Of `posed`.
   bool has_stroke = false;
   tear::StrokeTearing tearing;  ///< The stroke under way, or the last one.
-  std::vector<LipPair> lips;    ///< Of the call under way.
   tear::History history;
   std::vector<std::weak_ptr<tear::RefitWork>> refits;  ///< That were submitted.
   /// Of the source in the rest pose: the first time it is asked for, O(vertices). May be asked for by several threads.
@@ -96,10 +96,12 @@ struct TornModel::State {
 
  private:
   void begin_call();
+  void keep_borders();
   void end_call(Call& call, const WeightOptions& of_points, ChangeRecord* change, bool is_cut);
   void take_back();
 
   tear::SurfaceEditor::Mark begin_of_call_;
+  tear::OpenedBorders borders_of_call_, borders_;  ///< Of the call under way, and of the operation's calls before it.
   mutable std::once_flag has_rest_diagonal_;
   mutable double rest_diagonal_ = 0;
 };

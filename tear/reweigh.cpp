@@ -61,7 +61,7 @@ Status TornModel::State::reweigh(const WeightsOperation& resolved, const tear::W
     editor.roll_back(begin);
     return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
   }
-  history.push();
+  history.push({});
   return {};
 }
 

@@ -1,5 +1,6 @@
 // The gap of a stroke with a width: one convex cell a segment, mitred where two meet.
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "tear/entry.h"
@@ -61,7 +62,7 @@ StrokeTearing::PendingGap StrokeTearing::find_gap(const BladePlane& plane, const
   return gap;
 }
 
-void StrokeTearing::remove(const Cell& cell, const PendingGap& gap, const Workpiece& work) {
+void StrokeTearing::remove(const Cell& cell, std::span<const Side> sides, const PendingGap& gap, const Workpiece& work) {
   SurfaceEditor& editor = work.editor;
   PosedPoints& posed = work.posed;
   std::vector<Index> faces;
@@ -88,7 +89,9 @@ void StrokeTearing::remove(const Cell& cell, const PendingGap& gap, const Workpi
     };
     faces = faces_in_cell(cell, seeds, is_same_layer, editor, posed);
   }
-  const GapRemoval removal = remove_cell(cell, faces, editor, posed);
+  CellRim rim;
+  const GapRemoval removal = remove_cell(cell, faces, editor, posed, &rim);
+  add_rim_points(rim, sides, gap.plane);
   report.faces_crossed += removal.faces_crossed;
   report.blocked += removal.blocked;
   report.area_removed_posed += removal.area_posed;
@@ -96,12 +99,25 @@ void StrokeTearing::remove(const Cell& cell, const PendingGap& gap, const Workpi
   has_removed_ |= removal.faces_removed > 0;
 }
 
+/// Lips of a sheet through all layers are told by the side of the plane, those of a path along the nearest one by what is seen from
+/// outside: a layer that the blade meets from inside has its left where the plane has its right.
+void StrokeTearing::add_rim_points(const CellRim& rim, std::span<const Side> sides, const BladePlane& plane) {
+  for (const CellRim::Edge& edge : rim.edges) {
+    const Side side = edge.side == kNone ? Side::none : sides[edge.side];
+    if (side == Side::none) continue;
+    const bool is_seen_from_inside = options_.layers == Layers::nearest && rim.areas[edge.part].dot(plane.along()) > 0;
+    for (const Index point : edge.points) borders.rim_points.push_back({point, (side == Side::left) != is_seen_from_inside});
+  }
+}
+
 void StrokeTearing::remove_pending(const HalfSpace& end, const Workpiece& work) {
   const BladePlane& plane = pending_->plane;
   const double half = 0.5 * options_.width;
+  // What lies left of the right side, and right of the left one.
+  constexpr std::array kSides = {Side::right, Side::left, Side::none, Side::none, Side::none, Side::none};
   remove({plane.left_of(-half), plane.right_of(half), plane.standing_on(plane.reach()[0]), plane.standing_on(plane.reach()[1]),
           pending_->start, end},
-         *pending_, work);
+         kSides, *pending_, work);
 }
 
 /// Ends the pending gap where the next one begins. Where the stroke turns gently they share a mitre plane; where it turns sharply,
@@ -124,6 +140,7 @@ void StrokeTearing::join_gaps(PendingGap& next, const Vec3d& at, const Workpiece
   const double outer = normal_before.dot(after) > 0 ? -1.0 : 1.0;
   Cell wedge = {from(before, 0), from(-after, 0), next.plane.standing_on(next.plane.reach()[0]),
                 next.plane.standing_on(next.plane.reach()[1])};
+  std::vector<Side> sides(wedge.size(), Side::none);
   if (cosine >= 0) {
     wedge.push_back(from(-outer * normal_before, -half));
     wedge.push_back(from(-outer * normal_after, -half));
@@ -132,7 +149,8 @@ void StrokeTearing::join_gaps(PendingGap& next, const Vec3d& at, const Workpiece
     if (!(bevel.norm() > 1e-6)) return;  // straight back
     wedge.push_back(from(-bevel / bevel.norm(), -half * outer * normal_before.dot(bevel) / bevel.norm()));
   }
-  remove(wedge, next, work);
+  sides.resize(wedge.size(), outer > 0 ? Side::left : Side::right);
+  remove(wedge, sides, next, work);
 }
 
 void StrokeTearing::sweep_gap(const BladePlane& plane, const Workpiece& work) {

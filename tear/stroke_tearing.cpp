@@ -17,7 +17,7 @@ bool StrokeTearing::stands_on_surface(const Workpiece& work) const {
 
 void StrokeTearing::begin(const Blade& first, const TearOptions& options) {
   report = {};
-  lips.clear();
+  borders.clear();
   options_ = options;
   blade_ = blade_before_ = first;
   stroke_.assign(1, first);
@@ -118,6 +118,7 @@ double StrokeTearing::tear_piece(const BladePlane& plane, Index start, const Sur
   ScratchVector<PointEdge> edges(&editor.scratch());
   edges.reserve(path.points.size() - 1);
   for (std::size_t i = 0; i + 1 < path.points.size(); ++i) edges.push_back({path.points[i], path.points[i + 1]});
+  std::vector<LipPair>& lips = borders.lips;
   const std::size_t first_lip = lips.size();
   open_edges(edges, path.half_edges, editor, lips);
   for (std::size_t i = first_lip; i < lips.size(); ++i) posed.pin(lips[i].left, Vec3d(posed.position(editor, lips[i].right)));
@@ -164,7 +165,7 @@ void StrokeTearing::tear_all_layers(const BladePlane& plane, const Workpiece& wo
   Sheet sheet{plane.left_of(0), {}};
   for (const auto& reach : plane.reach()) sheet.bounds.push_back({plane.standing_on(reach), kNone});
   sheet.bounds.push_back({plane.standing_on(plane.from_progress(0)), kNone});
-  const SheetOpening opening = open_sheet(sheet, work, lips);
+  const SheetOpening opening = open_sheet(sheet, work, borders.lips);
   report.faces_crossed += opening.faces_crossed;
   report.blocked += opening.blocked;
   report.length_posed += opening.length_posed;

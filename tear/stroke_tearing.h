@@ -4,11 +4,14 @@
 #include <sunder/tear/report.h>
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "tear/blade_plane.h"
 #include "tear/entry.h"
+#include "tear/gap.h"
 #include "tear/half_space.h"
+#include "tear/opened_borders.h"
 #include "tear/workpiece.h"
 
 namespace sunder::tear {
@@ -33,7 +36,7 @@ class StrokeTearing {
 
   // What was done since they were cleared.
   TearReport report;
-  std::vector<LipPair> lips;
+  OpenedBorders borders;
 
  private:
   /// A segment whose part of the gap is still to be removed.
@@ -59,7 +62,10 @@ class StrokeTearing {
   [[nodiscard]] HalfSpace start_from_rim(const BladePlane& plane, Index tip, const Workpiece& work) const;
   /// Does what is left of the gap.
   void catch_up(const Workpiece& work);
-  void remove(const Cell& cell, const PendingGap& gap, const Workpiece& work);
+  /// Which side of the gap lies on the plane of a cell's half-space.
+  enum class Side : std::uint8_t { none, left, right };
+  void remove(const Cell& cell, std::span<const Side> sides, const PendingGap& gap, const Workpiece& work);
+  void add_rim_points(const CellRim& rim, std::span<const Side> sides, const BladePlane& plane);
   [[nodiscard]] bool stands_on_surface(const Workpiece& work) const;
 
   TearOptions options_;

@@ -290,12 +290,13 @@ class SurfaceEditor {
   /// Vertices appended since, over all meshes.
   [[nodiscard]] Index vertices_since(const Mark& begin) const { return static_cast<Index>(vertex_mesh_.size()) - begin.vertices; }
 
-  /// Fills in what changed since `begin`, but for the lips.
+  /// Fills in what changed since `begin`, but for lips and rims.
   void describe(const Mark& begin, ChangeRecord& change) const;
 
   /// Takes back the newest operation, which began at `begin`. @param redo  is made what does it again.
   struct Redo;
   void undo(const Mark& begin, Redo& redo, ChangeRecord& change);
+  /// @param change  filled in but for lips and rims.
   void redo(const Redo& redo, ChangeRecord& change);
 
  private:

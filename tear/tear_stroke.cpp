@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 #include "tear/model_state.h"
 #include "tear/stroke_tearing.h"
@@ -90,10 +91,10 @@ struct TearStroke::State {
     auto report = model->call(
         [&](TornModel::State::Call& call) -> Status {
           tearing.report = {};
-          tearing.lips.clear();
+          tearing.borders.clear();
           if (Status status = work(); !status) return status;
           call.report = tearing.report;
-          call.lips.swap(tearing.lips);
+          std::swap(call.borders, tearing.borders);
           return {};
         },
         operation.options.weights.value_or(WeightOptions{}), change);

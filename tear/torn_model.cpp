@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <new>
+#include <utility>
 
 #include "tear/cut.h"
 #include "tear/drill.h"
@@ -64,7 +65,7 @@ Result<TearReport> TornModel::tear(const ModelPose& pose, std::span<const Blade>
         for (const Blade& blade : stroke.subspan(1)) state.tearing.extend(blade, state.workpiece());
         state.tearing.finish(state.workpiece());
         call.report = state.tearing.report;
-        call.lips.swap(state.tearing.lips);
+        std::swap(call.borders, state.tearing.borders);
         return {};
       },
       weights, change);
@@ -86,7 +87,7 @@ Result<TearReport> TornModel::cut(const ModelPose& pose, const Cut& cut, ChangeR
         tear::assign_pose(pose, operation.pose);
         operation.cut = cut;
         operation.cut.weights = recorded(weights);
-        tear::cut_surface(cut, state.workpiece(), call.report, call.lips);
+        tear::cut_surface(cut, state.workpiece(), call.report, call.borders.lips);
         return {};
       },
       weights, change, true);
@@ -150,6 +151,16 @@ Status TornModel::redo(ChangeRecord* change) {
   ChangeRecord unwanted;
   ChangeRecord& record = change != nullptr ? *change : unwanted;
   try {
+    // What it opened is told in memory that is there before anything changes.
+    std::vector<tear::RimPoint> rim_points;
+    if (change != nullptr) {
+      const auto lips = state.history.lips_of(last);
+      const auto told = state.history.rim_points_of(last);
+      rim_points.assign(told.begin(), told.end());
+      record.lips.assign(lips.begin(), lips.end());
+      record.rims.left.reserve(told.size());
+      record.rims.right.reserve(told.size());
+    }
     state.editor.scratch().reset();
     last.begin = state.editor.mark();
     if (std::holds_alternative<WeightsOperation>(last.operation)) {
@@ -157,6 +168,7 @@ Status TornModel::redo(ChangeRecord* change) {
       state.editor.exchange(last.weights);
     } else {
       state.editor.redo(last.redo, record);
+      tear::settle_rims(rim_points, state.editor.surface(), record.rims);
     }
   } catch (const tear::CapacityExceeded& exceeded) {
     return state.no_room(exceeded);

@@ -70,6 +70,8 @@ void SurfaceEditor::undo(const Mark& begin, Redo& redo, ChangeRecord& change) {
   change.first_point = begin.points;
   change.point_count = 0;
   change.lips.clear();
+  change.rims.left.clear();
+  change.rims.right.clear();
   std::size_t count = 0;
   for (Index m = 0; m < character_.meshes.size(); ++m) {
     MeshChange& of_mesh = renew_change(count, m, change);
@@ -91,7 +93,6 @@ void SurfaceEditor::undo(const Mark& begin, Redo& redo, ChangeRecord& change) {
 void SurfaceEditor::redo(const Redo& redo, ChangeRecord& change) {
   room_ = {};
   change.first_point = surface_.point_count();
-  change.lips.clear();
   std::size_t count = 0;
   change.point_count = static_cast<Index>(redo.point_corner.size());
   for (const Addition& addition : redo.additions)

@@ -57,6 +57,18 @@ struct MeshChange {
 struct LipPair {
   std::uint32_t left = 0;
   std::uint32_t right = 0;
+
+  bool operator==(const LipPair&) const = default;
+};
+
+/// The surface points on the two sides of a gap, each side ascending; left and right as of a LipPair. A corner where a side meets
+/// an end belongs to its side; what lies between the corners of an end is in neither. No point is in both: where a stroke crosses
+/// its own gap, the later segment says.
+struct Rims {
+  std::vector<std::uint32_t> left;
+  std::vector<std::uint32_t> right;
+
+  bool operator==(const Rims&) const = default;
 };
 
 /// What one call did, for whoever mirrors the model: engine buffers, particles, bounds.
@@ -65,6 +77,9 @@ struct ChangeRecord {
   std::vector<MeshChange> meshes;                  ///< Those that changed, ascending.
   /// In order along the tear; of a gap, cut or bore no pairs but those of an opened edge. Tips are single points and not listed.
   std::vector<LipPair> lips;
+  /// Of a gap: what the call left at its two sides. All have a face, and lie on a border, or where it was before a wall was hung
+  /// from it. Of a bore none: it has one rim, and no sides.
+  Rims rims;
 };
 
 }  // namespace sunder

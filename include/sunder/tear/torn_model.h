@@ -64,6 +64,7 @@ class SUNDER_API TornModel {
 
   /// Takes back the newest operation, or does again the one that was taken back last: every array as it was then, bit for bit.
   /// Any operation forgets what could be done again. O(what the operation changed).
+  /// @param change  written where given. Of lips and rims, undo() tells none, and redo() what the operation told.
   /// @return not_found where there is none.
   Status undo(ChangeRecord* change = nullptr);
   Status redo(ChangeRecord* change = nullptr);
