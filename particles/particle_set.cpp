@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "particles/decompose.h"
+#include "particles/repair.h"
 #include "particles/rest_terms.h"
 
 namespace sunder {
@@ -40,6 +41,7 @@ void read_model(const TornModel& model, const ModelPose& pose, Structure& struct
   structure.first_slot = {0};
   for (const Skin& skin : character.skins)
     structure.first_slot.push_back(structure.first_slot.back() + static_cast<Index>(skin.bones.size()));
+  structure.source = &model.source();
   structure.pose = pose;
   structure.palettes.resize(character.skins.size());
   for (std::size_t s = 0; s < character.skins.size(); ++s) {
@@ -111,6 +113,9 @@ Result<ParticleSet> ParticleSet::decompose(const TornModel& model, const ModelPo
     structure->report.range = options.is_fraction ? options.range * diagonal : options.range;
     structure->edge_length = edge_length_of(*structure, model.surface());
     particles::decompose(model, options, *structure);
+    structure->lip_points.resize(structure->point_count());
+    structure->memberships_end = structure->memberships.size();
+    structure->triangle_count = model.surface().triangle_count();
     structure->report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     return ParticleSet(std::move(structure));
   } catch (const std::length_error&) {
@@ -176,6 +181,53 @@ Status ParticleSet::rest(const ModelPose& pose, std::span<const std::uint32_t> p
     rest[i].linear = per_member * blended.leftCols<3>();
   }
   return {};
+}
+
+Status ParticleSet::follow(const TornModel& model, std::span<const ChangeRecord> changes) {
+  Structure& structure = *structure_;
+  if (&model.source() != structure.source)
+    return Status::failure(StatusCode::invalid_argument, kNone,
+                           "the particles are of another model, or it was compacted since; they must be decomposed anew");
+  if (structure.is_broken)
+    return Status::failure(StatusCode::invalid_argument, kNone, "memory ran out; the particles must be decomposed anew");
+  try {
+    const std::uint64_t newest = model.newest_operation();
+    auto &done = structure.done, &undone = structure.undone;
+    const auto has = [&](const std::vector<particles::Change>& stack) {
+      return std::ranges::any_of(stack, [&](const particles::Change& change) { return change.operation == newest; });
+    };
+    structure.is_broken = true;  // until all is well
+    if (structure.band) particles::complete_band(model, structure);
+    structure.dirty_points = {};
+    if (!model.is_in_stroke() && (newest == 0 || has(done))) {
+      while (!done.empty() && done.back().operation != newest) {
+        particles::exchange(structure, done.back());
+        undone.push_back(std::move(done.back()));
+        done.pop_back();
+      }
+    } else if (!model.is_in_stroke() && has(undone)) {
+      while (done.empty() || done.back().operation != newest) {
+        particles::exchange(structure, undone.back());
+        done.push_back(std::move(undone.back()));
+        undone.pop_back();
+      }
+    } else {
+      particles::follow_operation(model, structure, changes);
+      if (!model.is_in_stroke()) done.back().operation = newest;
+    }
+    structure.triangle_count = model.surface().triangle_count();
+    structure.is_broken = false;
+  } catch (const std::bad_alloc&) {
+    return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory; the particles must be decomposed anew");
+  }
+  return {};
+}
+
+bool ParticleSet::settle(const TornModel& model, std::uint32_t points) {
+  Structure& structure = *structure_;
+  if (!structure.band || structure.is_broken || &model.source() != structure.source) return false;
+  particles::widen_band(model, structure, std::max(1u, points));
+  return structure.band != nullptr;
 }
 
 }  // namespace sunder

@@ -3,6 +3,7 @@
 #include <iterator>
 
 #include "particles/band.h"
+#include "particles/pair_changes.h"
 
 namespace sunder::particles {
 namespace {
@@ -22,7 +23,7 @@ void move_tail(std::vector<T>& values, std::size_t count, bool is_there, std::ve
 
 }  // namespace
 
-Structure::Structure() = default;
+Structure::Structure() : pairs(std::make_unique<PairChanges>()) {}
 Structure::~Structure() = default;
 
 std::vector<Index> Structure::members_of(Index particle) const {
@@ -65,6 +66,7 @@ void exchange(Structure& structure, Change& change) {
   for (std::size_t m = 0; m < structure.vertex_points.size(); ++m)
     move_tail(structure.vertex_points[m], change.vertices[m], is_done, appended.vertex_points[m]);
   if (!is_done) change.appended.reset();
+  structure.memberships_end = is_done ? change.memberships_before : change.memberships_after;
   ++structure.revision;
   std::vector<Index> dirty;
   for (const Change::OfPoint& of : change.changed_points) dirty.push_back(of.point);

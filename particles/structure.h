@@ -5,6 +5,7 @@
 #include <memory>
 #include <utility>
 
+#include "particles/repair_scratch.h"
 #include "particles/surface_front.h"
 
 namespace sunder::particles {
@@ -59,10 +60,10 @@ struct LipPoint {
   Index edge = kNone;  ///< In Structure::lips.
 };
 
-/// What one operation did to the structure, to take it back: values as they were. Exchanging them with those that are takes it back,
-/// or does it again.
+/// What one operation did to the structure, to take it back: values as they were. Exchanging them with those that are takes it
+/// back, or does it again.
 struct Change {
-  std::uint64_t operation = 0;  ///< TornModel::newest_operation() of its end; 0: under way.
+  std::uint64_t operation = 0;                ///< TornModel::newest_operation() of its end; 0: under way.
   Index points = 0, particles = 0, lips = 0;  ///< How many there were.
   std::size_t memberships_before = 0, memberships_after = 0;
   std::vector<Index> vertices;  ///< Of each mesh, how many there were.
@@ -82,6 +83,11 @@ struct Change {
 };
 
 struct Band;
+/// Where a point of a band lies: beside which place of which chain.
+struct BesideLip {
+  Index chain = 0, place = 0;
+};
+class PairChanges;
 
 /// What a ParticleSet is made of.
 struct Structure {
@@ -126,10 +132,16 @@ struct Structure {
   // ---- Tears. A tear is an operation: the place of its Change is its number.
   std::vector<LipEdge> lips;
   std::vector<Change> done, undone;
-  std::unique_ptr<Band> band;  ///< What the last one left to settle().
+  std::unique_ptr<Band> band;       ///< What the last one left to settle().
+  std::size_t memberships_end = 0;  ///< Of those that are in use: changes that were taken back have theirs behind.
+  Index triangle_count = 0;         ///< Of the surface when it was followed last.
+  bool is_broken = false;           ///< Memory ran out half way.
 
   // ---- Memory that is used again.
   SurfaceFront front, band_front;
+  std::vector<BesideLip> beside;  ///< Of the points that band_front has reached. One a point.
+  RepairScratch scratch;
+  std::unique_ptr<PairChanges> pairs;
   mutable std::vector<Affine3d> palette;  ///< Of all slots: what rest() computes with.
 
   [[nodiscard]] Index point_count() const { return static_cast<Index>(positions.size()); }

@@ -86,8 +86,8 @@ class SurfaceFront {
   /// Of a point that the front has reached; infinite for others.
   [[nodiscard]] float distance(Index point) const { return distances_[point]; }
 
-  /// Calls visit(point, distance, the point from which it was reached) for each point nearer than the limit, from near to far, until
-  /// it returns false or none is left. May be called again to go on. @param ring  Rings or RingWalk.
+  /// Calls visit(point, distance, the point from which it was reached) for each point nearer than the limit, from near to far,
+  /// until it returns false or none is left. May be called again to go on. @param ring  Rings or RingWalk.
   template <class Ring, class Visit>
   void run(Ring& ring, std::span<const Vec3f> positions, Visit visit) {
     for (; bucket_ < buckets_.size(); ++bucket_)
@@ -109,6 +109,22 @@ class SurfaceFront {
         }
         if (!goes_on) return;
       }
+  }
+
+  /// Distance of p from that of a and b: of a source which is unfolded into the face's plane, beyond ab. Infinite where the
+  /// straight line from there does not cross ab.
+  static float across_face(const Vec3f& a, const Vec3f& b, const Vec3f& p, float at_a, float at_b) {
+    const Vec3f ab = b - a, ap = p - a;
+    const float length_squared = ab.squaredNorm(), along = ab.dot(ap);
+    const float source_along = 0.5f * (at_a * at_a - at_b * at_b + length_squared);  // these four: times the length of ab
+    const float source_beyond_squared = at_a * at_a * length_squared - source_along * source_along;
+    const float height_squared = ap.squaredNorm() * length_squared - along * along;
+    if (!(source_beyond_squared >= 0 && height_squared > 0)) return std::numeric_limits<float>::infinity();
+    const float source_beyond = std::sqrt(source_beyond_squared), height = std::sqrt(height_squared), down = source_beyond + height;
+    const float crossing = source_along * height + along * source_beyond;  // times `down`
+    if (!(crossing >= 0 && crossing <= length_squared * down)) return std::numeric_limits<float>::infinity();
+    const float across = along - source_along;
+    return std::sqrt((across * across + down * down) / length_squared);
   }
 
  private:
@@ -150,22 +166,6 @@ class SurfaceFront {
     if (second == kUnknown) return kUnknown;
     return across_face(positions[around[at].point], positions[around[at_before < at_after ? before : after].point],
                        positions[point], nearest, second);
-  }
-
-  /// Distance of p from that of a and b: of a source which is unfolded into the face's plane, beyond ab. Infinite where the
-  /// straight line from there does not cross ab.
-  static float across_face(const Vec3f& a, const Vec3f& b, const Vec3f& p, float at_a, float at_b) {
-    const Vec3f ab = b - a, ap = p - a;
-    const float length_squared = ab.squaredNorm(), along = ab.dot(ap);
-    const float source_along = 0.5f * (at_a * at_a - at_b * at_b + length_squared);  // these four: times the length of ab
-    const float source_beyond_squared = at_a * at_a * length_squared - source_along * source_along;
-    const float height_squared = ap.squaredNorm() * length_squared - along * along;
-    if (!(source_beyond_squared >= 0 && height_squared > 0)) return kUnknown;
-    const float source_beyond = std::sqrt(source_beyond_squared), height = std::sqrt(height_squared), down = source_beyond + height;
-    const float crossing = source_along * height + along * source_beyond;  // times `down`
-    if (!(crossing >= 0 && crossing <= length_squared * down)) return kUnknown;
-    const float across = along - source_along;
-    return std::sqrt((across * across + down * down) / length_squared);
   }
 
   std::vector<float> labels_;     ///< What is known of each point: at most so far.

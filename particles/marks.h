@@ -1,0 +1,34 @@
+#pragma once
+
+#include <sunder/tear/surface.h>
+
+#include <utility>
+
+namespace sunder::particles {
+
+using tear::Index;
+
+/// Numbers that are marked. Forgetting all of them costs nothing.
+class Marks {
+ public:
+  void begin(std::size_t count) {
+    grow(count);
+    if (++epoch_ == 0) {  // once in four thousand million uses
+      std::fill(stamps_.begin(), stamps_.end(), 0);
+      epoch_ = 1;
+    }
+  }
+  /// Room for more numbers.
+  void grow(std::size_t count) {
+    if (stamps_.size() < count) stamps_.resize(count + count / 8 + 16, 0);
+  }
+  [[nodiscard]] bool has(Index i) const { return stamps_[i] == epoch_; }
+  /// @return whether it was not marked yet.
+  bool mark(Index i) { return std::exchange(stamps_[i], epoch_) != epoch_; }
+
+ private:
+  std::vector<std::uint32_t> stamps_;
+  std::uint32_t epoch_ = 0;
+};
+
+}  // namespace sunder::particles

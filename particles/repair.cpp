@@ -1,0 +1,235 @@
+#include "particles/repair.h"
+
+#include <sunder/skinning/reference.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "particles/decompose.h"
+
+namespace sunder::particles {
+namespace {
+
+/// A point with no particle nearer than this, in its range, gets one of its own: what moves it would fade where it stands.
+constexpr float kUncovered = 0.97f;
+
+}  // namespace
+
+Repair::Repair(const TornModel& model, Structure& structure, Change& change, Index tear)
+    : model_(model),
+      surface_(model.surface()),
+      structure_(structure),
+      change_(change),
+      tear_(tear),
+      first_new_(structure.point_count()),
+      border_(model) {
+  structure.scratch.worked.begin(surface_.point_count());
+  if (structure.scratch.work_of.size() < surface_.point_count()) structure.scratch.work_of.resize(surface_.point_count());
+}
+
+void Repair::follow(std::span<const ChangeRecord> changes) {
+  append_points();
+  renew_weights(changes);
+  leave_lost_points(changes);
+  renew_vertex_points();
+  take_up_lips(changes);
+  spread_to_new_points();
+  if (!lips_.empty()) {
+    choose_sides();
+    begin_band();
+  }
+  renew_lip_edges();
+}
+
+void Repair::append_points() {
+  const Character& character = model_.character();
+  for (Index point = first_new_; point < surface_.point_count(); ++point) {
+    const VertexRef of = vertex_of(model_, point);
+    Vec3f position = Vec3f::Zero();
+    if (of.vertex != kNone) {
+      const Mesh& mesh = character.meshes[of.mesh];
+      position =
+          deform_position_reference(mesh, of.vertex, structure_.palettes[mesh.skin], structure_.pose.morph_weights).cast<float>();
+    }
+    structure_.vertices.push_back(of);
+    structure_.positions.push_back(position);
+    structure_.slabs.emplace_back();
+    structure_.influences.emplace_back();
+    structure_.lip_points.emplace_back();
+  }
+  for (Index m = 0; m < character.meshes.size(); ++m) structure_.vertex_points[m].resize(character.meshes[m].vertex_count(), kNone);
+}
+
+void Repair::renew_vertex_points() {
+  const auto renew = [&](Index corner) {
+    const tear::TriangleRef ref = surface_.triangle(corner / 3);
+    const Index vertex = model_.character().meshes[ref.mesh].triangles[ref.triangle][corner % 3];
+    Index& point = structure_.vertex_points[ref.mesh][vertex];
+    if (point == surface_.corner_point[corner]) return;
+    if (vertex < change_.vertices[ref.mesh]) change_.changed_vertices.push_back({ref.mesh, vertex, point});
+    point = surface_.corner_point[corner];
+  };
+  // Vertices are new, or go along with a point that is.
+  for (Index point = first_new_; point < structure_.point_count(); ++point)
+    if (surface_.point_corner[point] != kNone) surface_.for_each_in_fan(surface_.point_corner[point], renew);
+  for (Index corner = 3 * structure_.triangle_count; corner < surface_.corner_point.size(); ++corner)
+    if (!surface_.has_repeated_point(corner / 3)) renew(corner);
+}
+
+/// Points that have no face any more belong to nothing.
+void Repair::leave_lost_points(std::span<const ChangeRecord> changes) {
+  for (const ChangeRecord& change : changes)
+    for (const MeshChange& of_mesh : change.meshes) {
+      if (of_mesh.retired.empty()) continue;
+      for (const RewrittenTriangle& rewritten : of_mesh.rewritten)
+        for (const Index vertex : rewritten.before) {
+          const Index point = structure_.vertex_points[of_mesh.mesh][vertex];
+          if (point != kNone && surface_.point_corner[point] == kNone && !structure_.memberships_of(point).empty())
+            work_of(point).count = 0;
+        }
+    }
+}
+
+void Repair::take_up_lips(std::span<const ChangeRecord> changes) {
+  const auto add = [&](Index point, Side side) {
+    if (point >= structure_.point_count() || surface_.point_corner[point] == kNone) return;
+    LipPoint& lip = structure_.lip_points[point];
+    if (lip.tear == tear_ && lip.side == side) return;
+    log_point(point);
+    lip.tear = tear_;
+    lip.side = side;
+    lips_.push_back(point);
+  };
+  for (const ChangeRecord& change : changes) {
+    for (const LipPair& pair : change.lips) {
+      add(pair.left, Side::left);
+      add(pair.right, Side::right);
+    }
+    for (const Index point : change.rims.left) add(point, Side::left);
+    for (const Index point : change.rims.right) add(point, Side::right);
+  }
+  // A point that a tear made on the lip of an older one is on that too.
+  for (Index point = first_new_; point < structure_.point_count(); ++point) {
+    LipPoint& lip = structure_.lip_points[point];
+    if (lip.tear != kNone) continue;
+    const Index before = border_.previous(point), after = before == kNone ? kNone : border_.next(point);
+    if (after == kNone) continue;
+    const LipPoint &of_before = structure_.lip_points[before], &of_after = structure_.lip_points[after];
+    if (of_before.tear == kNone || of_before.tear != of_after.tear || of_before.side != of_after.side) continue;
+    lip.tear = of_before.tear;
+    lip.side = of_before.side;
+  }
+}
+
+/// Gives a point the memberships of those around it that have theirs. @return false where none has.
+bool Repair::spread_to(Index point, Index first_new) {
+  const Marks& is_ready = structure_.scratch.seen;
+  RingWalk ring(surface_, structure_.positions);
+  const std::span<const RingPoint> around = ring(point);
+  const auto knows = [&](const RingPoint& other) { return other.point < first_new || is_ready.has(other.point); };
+  bool has_any = false;
+  for (std::size_t i = 0; i < around.size(); ++i) {
+    if (!knows(around[i])) continue;
+    has_any = true;
+    const bool has_face = i + 1 < around.size() && knows(around[i + 1]);
+    for (std::size_t m = 0; m < current(around[i].point).size(); ++m) {  // join() moves them
+      const Membership membership = current(around[i].point)[m];
+      if (!may_join(point, membership.particle)) continue;
+      const float range = structure_.particles[membership.particle].range, at = membership.reach * range;
+      float distance = at + around[i].length;
+      if (has_face)
+        for (const Membership& beside : current(around[i + 1].point))
+          if (beside.particle == membership.particle)
+            distance = std::min(distance, SurfaceFront::across_face(structure_.positions[around[i].point],
+                                                                    structure_.positions[around[i + 1].point],
+                                                                    structure_.positions[point], at, beside.reach * range));
+      if (distance < range) join(point, {membership.particle, distance / range});
+    }
+  }
+  return has_any;
+}
+
+/// Gives new points the memberships of those around them, over the surface as it is now torn: so the two lips get theirs each from
+/// its own side.
+void Repair::spread_to_new_points() {
+  Marks& is_ready = structure_.scratch.seen;
+  is_ready.begin(structure_.point_count());
+  std::vector<Index> open, ready, later;
+  for (Index point = first_new_; point < structure_.point_count(); ++point)
+    if (surface_.point_corner[point] != kNone) open.push_back(point);
+  while (!open.empty()) {
+    ready.clear();
+    later.clear();
+    for (const Index point : open) (spread_to(point, first_new_) ? ready : later).push_back(point);
+    for (const Index point : open) (void)work_of(point);
+    if (ready.empty()) return;
+    for (const Index point : ready) is_ready.mark(point);
+    open.swap(later);
+  }
+}
+
+void Repair::renew_weights(std::span<const ChangeRecord> changes) {
+  std::vector<Index> particles;
+  for (const ChangeRecord& change : changes)
+    for (const MeshChange& of_mesh : change.meshes) {
+      // Of what tears append only the vertices themselves are new, and nobody knew them.
+      if (of_mesh.vertex_count > 0 || of_mesh.triangle_count > 0 || !of_mesh.rewritten.empty()) continue;
+      for (const Range& range : of_mesh.dirty_vertices)
+        for (Index vertex = range.first; vertex < range.first + range.count; ++vertex)
+          if (const Index point = structure_.vertex_points[of_mesh.mesh][vertex]; point != kNone)
+            for (const Membership& membership : structure_.memberships_of(point)) particles.push_back(membership.particle);
+    }
+  if (particles.empty()) return;
+  std::sort(particles.begin(), particles.end());
+  particles.erase(std::unique(particles.begin(), particles.end()), particles.end());
+  RestSums sums(model_, structure_);
+  for (const Index particle : particles) sums.sum(structure_.members_of(particle), change_particle(particle));
+}
+
+void Repair::cover() {
+  const auto range = static_cast<float>(structure_.report.range);
+  RingWalk ring(surface_, structure_.positions);
+  for (std::size_t w = 0; w < works_.size(); ++w) {
+    const Index seed = works_[w].point;
+    if (surface_.point_corner[seed] == kNone) continue;
+    if (std::ranges::any_of(memberships(works_[w]), [](const Membership& membership) { return membership.reach < kUncovered; }))
+      continue;
+    const Index particle = make_particle(seed, range, influences_from(structure_.memberships_of(seed)));
+    structure_.front.begin(structure_.point_count(), range, structure_.edge_length);
+    structure_.front.add(seed, 0.0f);
+    structure_.front.run(ring, structure_.positions, [&](Index point, float distance, Index) {
+      if (may_join(point, particle)) join(point, {particle, distance / range});
+      return true;
+    });
+  }
+}
+
+void follow_operation(const TornModel& model, Structure& structure, std::span<const ChangeRecord> changes) {
+  if (structure.done.empty() || structure.done.back().operation != 0) {
+    structure.undone.clear();
+    structure.memberships.resize(structure.memberships_end);
+    Change& change = structure.done.emplace_back();
+    change.points = structure.point_count();
+    change.particles = static_cast<Index>(structure.particles.size());
+    change.lips = static_cast<Index>(structure.lips.size());
+    change.memberships_before = structure.memberships_end;
+    for (const auto& points : structure.vertex_points) change.vertices.push_back(static_cast<Index>(points.size()));
+    structure.scratch.logged_points.begin(change.points);
+    structure.scratch.logged_particles.begin(change.particles);
+  }
+  Repair repair(model, structure, structure.done.back(), static_cast<Index>(structure.done.size() - 1));
+  repair.follow(changes);
+  repair.finish();
+}
+
+void widen_band(const TornModel& model, Structure& structure, Index points) {
+  Repair repair(model, structure, structure.done.back(), structure.band->tear);
+  repair.widen(points);
+  repair.finish();
+}
+
+void complete_band(const TornModel& model, Structure& structure) {
+  while (structure.band) widen_band(model, structure, kNone);
+}
+
+}  // namespace sunder::particles

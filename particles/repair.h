@@ -1,0 +1,82 @@
+#pragma once
+
+#include "particles/band.h"
+#include "particles/lip_border.h"
+#include "particles/rest_terms.h"
+
+namespace sunder::particles {
+
+/// Brings a structure up to date with what was done to its model. Points that change are worked on beside the structure and put
+/// back together, so that each is counted out of its particles and into others once.
+class Repair {
+ public:
+  Repair(const TornModel& model, Structure& structure, Change& change, Index tear);
+
+  /// Takes up new points, new lips, and weights that are other than they were.
+  void follow(std::span<const ChangeRecord> changes);
+  /// Goes on with the band beside the lips for at most so many points.
+  void widen(Index points);
+  /// Ends a call: what changed is put back.
+  void finish();
+
+ private:
+  /// A point that changes: its memberships as they are to be.
+  struct Work {
+    Index point = 0;
+    Index first = 0, count = 0, room = 0;  ///< In memberships_.
+  };
+
+  // ---- Points and particles that change (repair_works.cpp).
+  [[nodiscard]] Work& work_of(Index point);
+  [[nodiscard]] std::span<Membership> memberships(const Work& work) { return {memberships_.data() + work.first, work.count}; }
+  /// Memberships as they stand, worked on or not.
+  [[nodiscard]] std::span<const Membership> current(Index point);
+  void join(Index point, const Membership& membership);
+  /// Whether the lips let a point belong to a particle; one that had no side yet gets the point's.
+  [[nodiscard]] bool may_join(Index point, Index particle);
+  Index make_particle(Index seed, float range, const ParticleInfluences& parents);
+  Particle& change_particle(Index particle);
+  void log_point(Index point);
+  void put_back(const Work& work);
+
+  // ---- What an operation left (repair.cpp).
+  void append_points();
+  void renew_vertex_points();
+  void leave_lost_points(std::span<const ChangeRecord> changes);
+  void take_up_lips(std::span<const ChangeRecord> changes);
+  void spread_to_new_points();
+  bool spread_to(Index point, Index first_new);
+  void renew_weights(std::span<const ChangeRecord> changes);
+  /// Makes particles where points have none left near enough.
+  void cover();
+
+  // ---- Lips (repair_lips.cpp).
+  void choose_sides();
+  void begin_band();
+  void visit_band(Index point, float distance, Index from);
+  void make_lip_particles(LipChain& chain);
+  void keep_to_own_side(Index point, const LipChain& chain, const LipChain::Place& place, float distance);
+  void join_lip_particles(Index point, const LipChain& chain, const LipChain::Place& place, float distance);
+  void renew_lip_edges();
+  void keep_edge(Index half_edge);
+
+  const TornModel& model_;
+  const Surface& surface_;
+  Structure& structure_;
+  Change& change_;
+  Index tear_;
+  Index first_new_;  ///< Points from here up came with this call.
+  LipBorder border_;
+
+  std::vector<Work> works_;
+  std::vector<Membership> memberships_;
+  std::vector<Index> lips_;  ///< Points that this call put on lips.
+};
+
+/// Follows an operation, or an extension of the one under way.
+void follow_operation(const TornModel& model, Structure& structure, std::span<const ChangeRecord> changes);
+/// Goes on with the band that the last one left, for at most so many points, or to its end.
+void widen_band(const TornModel& model, Structure& structure, Index points);
+void complete_band(const TornModel& model, Structure& structure);
+
+}  // namespace sunder::particles
