@@ -169,6 +169,7 @@ void BlockBuilder::append_gathered(std::uint32_t first, std::uint32_t end) {
     std::sort(gathered_.begin() + i, gathered_.begin() + i + count);  // writes ascend
     append_block(gathered_.data() + i, count, first);
   }
+  blocks_.scattered_end = blocks_.block_count();  // also of a last block whose vertices follow one another
 }
 
 double BlockBuilder::work(const std::vector<std::uint32_t>& order, bool scattered) {

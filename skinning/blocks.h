@@ -11,6 +11,8 @@
 namespace sunder::skinning {
 
 inline constexpr std::uint32_t kLanes = 16;  ///< Vertices a block. Vectors of fewer lanes take a block in parts.
+/// Vertices gathered at a time, at most: what they write to stays in the L2 cache.
+inline constexpr std::uint32_t kWindow = 4096;
 
 /// What a kernel reads of a block before its numbers. Small: it is read with every block.
 struct Block {

@@ -4,6 +4,7 @@
 
 #include "skinning/block_builder.h"
 #include "skinning/blocks_to_write.h"
+#include "skinning/displace.h"
 #include "skinning/identity.h"
 #include "skinning/skin_work.h"
 
@@ -11,8 +12,8 @@ namespace sunder {
 namespace skinning {
 namespace {
 
-constexpr std::uint32_t kWindow = 4096;           // vertices gathered at a time: what they write to stays in the L2 cache
 constexpr std::uint32_t kBlocksATask = 256;       // at least: some 4 microseconds, below which a second thread comes too late
+constexpr std::uint32_t kVerticesATask = 4096;    // that are displaced
 constexpr std::uint32_t kTasksAThread = 4;        // so that a thread that is interrupted does not hold up the rest
 constexpr std::size_t kBeyondCache = 24u << 20u;  // bytes read and written: most of a last-level cache
 
@@ -93,21 +94,52 @@ Status check_target(const Blocks& blocks, const PaletteData& palette, const Vert
   return {};
 }
 
-/// Ranges of blocks, cut into tasks of about as many blocks.
+/// Ranges of blocks or vertices, cut into tasks of about as many.
 struct Tasks {
   SkinWork work;
+  const VertexDisplacements* displacements = nullptr;
   std::span<const Range> ranges;
-  std::uint32_t blocks = 0, count = 0;
+  std::uint32_t total = 0, count = 0;
 
   /// Poses the blocks of one task.
-  static void run(const void* tasks, std::uint32_t index) {
+  static void pose(const void* tasks, std::uint32_t index) {
     const Tasks& all = *static_cast<const Tasks*>(tasks);
-    const auto boundary = [&](std::uint32_t i) { return static_cast<std::uint32_t>(std::uint64_t{all.blocks} * i / all.count); };
+    all.for_each_range(index, [&](std::uint32_t first, std::uint32_t end) { skin_blocks(all.work, first, end); });
+  }
+
+  /// Displaces the vertices of one task.
+  static void displace(const void* tasks, std::uint32_t index) {
+    const Tasks& all = *static_cast<const Tasks*>(tasks);
+    all.for_each_range(
+        index, [&](std::uint32_t first, std::uint32_t end) { displace_vertices(*all.displacements, all.work.target, first, end); });
+  }
+
+  /// Does `task` for all of `these`. @param least  elements worth a task.
+  void run(std::span<const Range> these, std::uint32_t least, ParallelFor::Task task, const ParallelFor& parallel_for) {
+    ranges = these;
+    total = 0;
+    for (const Range& range : these) total += range.count;
+    const std::uint32_t threads = std::max(1u, parallel_for.threads), most = total / least;
+    count = std::clamp(most / threads, 1u, kTasksAThread) * threads;  // as many for each
+    if (most < threads) count = std::max(1u, most);
+    if (parallel_for.run != nullptr && count > 1) {
+      parallel_for.run(parallel_for.context, count, task, this);
+    } else {
+      count = 1;
+      task(this, 0);
+    }
+  }
+
+ private:
+  /// Visits what one task has of the ranges.
+  template <class Visit>
+  void for_each_range(std::uint32_t index, Visit visit) const {
+    const auto boundary = [&](std::uint32_t i) { return static_cast<std::uint32_t>(std::uint64_t{total} * i / count); };
     const std::uint32_t first = boundary(index), end = boundary(index + 1);
-    std::uint32_t before = 0;  // blocks of earlier ranges
-    for (const Range& range : all.ranges) {
+    std::uint32_t before = 0;  // elements of earlier ranges
+    for (const Range& range : ranges) {
       const std::uint32_t from = std::max(first, before), to = std::min(end, before + range.count);
-      if (from < to) skin_blocks(all.work, range.first + from - before, range.first + to - before);
+      if (from < to) visit(range.first + from - before, range.first + to - before);
       before += range.count;
       if (before >= end) break;
     }
@@ -235,24 +267,34 @@ void SkinnedMesh::reserve(std::uint32_t more_vertices, std::uint32_t influences)
   b.movers.reserve(slots + blocks * b.morph_count);
 }
 
-Status SkinnedMesh::deform(const BonePalette& palette, PosedBuffer& buffer, const ParallelFor& parallel_for) const {
+Status SkinnedMesh::deform(const BonePalette& palette, PosedBuffer& buffer, const ParallelFor& parallel_for,
+                           const VertexDisplacements* displacements) const {
   using namespace skinning;
   const Blocks& blocks = *blocks_;
   const PaletteData& data = palette.data();
   if (const Status status = check_target(blocks, data, buffer.target_); !status) return status;
+  if (displacements != nullptr)
+    if (const Status status = check_displacements(*displacements, blocks.vertex_count); !status) return status;
+  const std::span<const Range> moved = displacements != nullptr ? displacements->moved : std::span<const Range>();
   const bool is_known = buffer.palette_ == data.id && buffer.mesh_ == blocks.id;
   buffer.dirty_.clear();
-  if (is_known && buffer.palette_revision_ == data.revision && buffer.mesh_revision_ == blocks.revision) return {};
+  if (is_known && buffer.palette_revision_ == data.revision && buffer.mesh_revision_ == blocks.revision && moved.empty() &&
+      buffer.displaced_.empty())
+    return {};
 
-  Tasks tasks;
+  buffer.marks_.assign((blocks.block_count() + 63) / 64, 0);
   if (is_known)
-    find_blocks_to_write(blocks, data, buffer.palette_revision_, buffer.mesh_revision_, buffer.marks_, buffer.blocks_to_write_);
+    mark_changed(blocks, data, buffer.palette_revision_, buffer.mesh_revision_, buffer.marks_);
   else
-    buffer.blocks_to_write_.assign(blocks.block_count() > 0 ? 1 : 0, {0, blocks.block_count()});
-  for (const Range& range : buffer.blocks_to_write_) tasks.blocks += range.count;
-  if (tasks.blocks > 0) {
+    mark({0, blocks.block_count()}, buffer.marks_);
+  mark_displaced(blocks, moved, buffer.displaced_, buffer.marks_);
+  list_runs(blocks, buffer.marks_, buffer.blocks_to_write_);
+  if (!buffer.blocks_to_write_.empty()) {
+    std::uint32_t block_count = 0;
+    for (const Range& range : buffer.blocks_to_write_) block_count += range.count;
     const std::size_t written = blocks.has_tangents ? 40 : 24;
     const std::size_t bytes = blocks.stream.size() * sizeof(float) + written * blocks.vertex_count;
+    Tasks tasks;
     tasks.work.mesh = &blocks;
     tasks.work.palette = &data;
     tasks.work.morph_weights = data.morph_weights.data() + blocks.first_morph_weight;
@@ -262,17 +304,10 @@ Status SkinnedMesh::deform(const BonePalette& palette, PosedBuffer& buffer, cons
     tasks.work.target.tangents = with_stride(buffer.target_.tangents, 4);
     tasks.work.attribute_floats = blocks.attribute_floats();
     tasks.work.is_common = data.method == SkinningMethod::linear && buffer.target_.tangents.data == nullptr;
-    tasks.work.is_beyond_cache = bytes / blocks.block_count() * tasks.blocks > kBeyondCache;
-    tasks.ranges = buffer.blocks_to_write_;
-    const std::uint32_t threads = std::max(1u, parallel_for.threads), most = tasks.blocks / kBlocksATask;
-    tasks.count = std::clamp(most / threads, 1u, kTasksAThread) * threads;  // as many for each
-    if (most < threads) tasks.count = std::max(1u, most);
-    if (parallel_for.run != nullptr && tasks.count > 1) {
-      parallel_for.run(parallel_for.context, tasks.count, &Tasks::run, &tasks);
-    } else {
-      tasks.count = 1;
-      Tasks::run(&tasks, 0);
-    }
+    tasks.work.is_beyond_cache = bytes / blocks.block_count() * block_count > kBeyondCache;
+    tasks.displacements = displacements;
+    tasks.run(buffer.blocks_to_write_, kBlocksATask, &Tasks::pose, parallel_for);
+    if (!moved.empty()) tasks.run(moved, kVerticesATask, &Tasks::displace, parallel_for);
     list_vertices(blocks, buffer.blocks_to_write_, buffer.dirty_);
   }
   buffer.palette_ = data.id;

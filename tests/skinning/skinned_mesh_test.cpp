@@ -341,6 +341,27 @@ TEST(SkinnedMesh, what_did_not_move_is_not_written) {
   EXPECT_LT(written, moved + 200) << "whole blocks of 16 are written, and few others";
 }
 
+TEST(SkinnedMesh, ranges_ascend_where_the_first_vertices_are_gathered_last) {
+  Random random(23);
+  Mesh mesh;
+  for (std::uint32_t v = 0; v < 304; ++v) {
+    mesh.positions.push_back(random.direction().cast<float>());
+    mesh.weights.append(std::vector<Influence>{{v < 16 ? 40 : random.index(40), 1.0f}});
+  }
+  const SkinnedMesh made = skinned(mesh, 41);
+  auto matrices = test::in_float(test::random_palette(random, 41));
+  BonePalette palette = palette_of(matrices, {});
+  PosedArrays posed(mesh);
+  PosedBuffer buffer(posed.target());
+  write(made, palette, buffer);
+  for (const std::size_t slot : {39, 40}) matrices[slot].translation().x() += 1;
+  ASSERT_TRUE(palette.set(matrices, std::vector<float>{}));
+  write(made, palette, buffer);
+  std::vector<bool> changed;
+  for (std::uint32_t v = 0; v < 304; ++v) changed.push_back(mesh.weights.of(v)[0].slot >= 39);
+  expect_ranges_cover(buffer.dirty_vertices(), 304, changed);
+}
+
 TEST(SkinnedMesh, a_buffer_that_was_written_from_elsewhere_is_written_anew) {
   Random random(19);
   const Mesh mesh = test::make_random_skin(random, {100, 6, 4, 0, false, 6});

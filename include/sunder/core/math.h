@@ -16,6 +16,7 @@ using Vec4f = Eigen::Matrix<float, 4, 1, Eigen::DontAlign>;
 using Vec2d = Eigen::Matrix<double, 2, 1, Eigen::DontAlign>;
 using Vec3d = Eigen::Matrix<double, 3, 1, Eigen::DontAlign>;
 using Vec4d = Eigen::Matrix<double, 4, 1, Eigen::DontAlign>;
+using Mat3f = Eigen::Matrix<float, 3, 3, Eigen::DontAlign>;
 using Mat3d = Eigen::Matrix<double, 3, 3, Eigen::DontAlign>;
 
 /// Memory order x, y, z, w (Eigen's and glTF's).

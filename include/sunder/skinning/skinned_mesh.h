@@ -4,6 +4,7 @@
 #include <sunder/core/range.h>
 #include <sunder/skinning/bone_palette.h>
 #include <sunder/skinning/vertex_arrays.h>
+#include <sunder/skinning/vertex_displacements.h>
 
 #include <cstdint>
 #include <memory>
@@ -37,7 +38,8 @@ class SUNDER_API PosedBuffer {
   std::uint64_t palette_ = 0, palette_revision_ = 0;  // 0: nothing was written
   std::uint64_t mesh_ = 0, mesh_revision_ = 0;
   std::vector<Range> dirty_;
-  std::vector<std::uint64_t> marks_;  // a bit a block
+  std::vector<std::uint64_t> marks_;      // a bit a block
+  std::vector<std::uint64_t> displaced_;  // a bit a block: some of its vertices are; or empty
   std::vector<Range> blocks_to_write_;
 };
 
@@ -69,16 +71,20 @@ class SUNDER_API SkinnedMesh {
   /// Room for that many vertices more, of `influences` influences on average.
   void reserve(std::uint32_t more_vertices, std::uint32_t influences);
 
-  /// Writes to `buffer` what changed since it was last written: vertices moved by a bone or morph target that changed, and those
-  /// that update() changed. All bits are those of writing everything.
-  /// @return size_mismatch where palette, mesh and buffer do not fit, invalid_argument where the palette has no pose or the mesh
-  /// lacks
-  ///         an attribute that the buffer wants (nothing is written).
+  /// Writes to `buffer` what changed since it was last written: vertices moved by a bone or morph target that changed, those that
+  /// update() changed, and those that are displaced or were. All bits are those of writing everything.
+  /// @param displacements  what moves vertices beside their bones; null: nothing. They are displaced where the bones put them, not
+  ///                       where the last call left them.
+  /// @return size_mismatch where palette, mesh, buffer and displacements do not fit, index_out_of_range with the range of moved
+  ///         vertices, invalid_argument where the palette has no pose or the mesh lacks an attribute that the buffer wants (nothing
+  ///         is written).
   ///
-  /// O(vertices moved + blocks / 64); nothing moved: O(1). Allocates only when the buffer sees a larger mesh than before.
-  /// Reentrant for different buffers. The same bits on every CPU, at every number of threads, in every layout: no fused
-  /// multiply-adds, and a vertex' influences are summed in the order of their slots.
-  [[nodiscard]] Status deform(const BonePalette& palette, PosedBuffer& buffer, const ParallelFor& parallel_for = {}) const;
+  /// O(vertices moved or displaced + blocks / 64); nothing moved: O(1). Allocates only when the buffer sees a larger mesh than
+  /// before, or displaced vertices for the first time. Displaced vertices are read back from the buffer. Reentrant for different
+  /// buffers. The same bits on every CPU, at every number of threads, in every layout: no fused multiply-adds, and a vertex'
+  /// influences are summed in the order of their slots, then in that of its particles.
+  [[nodiscard]] Status deform(const BonePalette& palette, PosedBuffer& buffer, const ParallelFor& parallel_for = {},
+                              const VertexDisplacements* displacements = nullptr) const;
 
  private:
   explicit SkinnedMesh(std::unique_ptr<skinning::Blocks> blocks);
