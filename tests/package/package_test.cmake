@@ -32,7 +32,7 @@ run(${CMAKE_CTEST_COMMAND} --test-dir ${WORK}/find_package -C ${CONFIG} --output
 
 # The runtime with Eigen alone, as shared libraries: other packages are hidden from CMake, so needing one fails.
 set(hidden "")
-foreach(package hwy TBB TinyGLTF assimp nlohmann_json CLI11 GTest benchmark Ceres)
+foreach(package hwy TBB TinyGLTF assimp nlohmann_json CLI11 GTest benchmark Ceres Bullet)
   list(APPEND hidden -D CMAKE_DISABLE_FIND_PACKAGE_${package}=ON)
 endforeach()
 run(${CMAKE_COMMAND} -S ${consumer} -B ${WORK}/add_subdirectory ${common} -D SUNDER_SOURCE=${SUNDER_SOURCE} -D SUNDER_IO=OFF -D SUNDER_HIGHWAY=OFF
