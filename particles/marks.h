@@ -28,7 +28,7 @@ class Marks {
 
  private:
   std::vector<std::uint32_t> stamps_;
-  std::uint32_t epoch_ = 0;
+  std::uint32_t epoch_ = 1;
 };
 
 }  // namespace sunder::particles
