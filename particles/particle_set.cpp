@@ -2,6 +2,7 @@
 #include <sunder/skinning/palette.h>
 #include <sunder/skinning/reference.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <new>
@@ -152,7 +153,12 @@ std::span<const std::uint32_t> ParticleSet::vertex_points(std::uint32_t mesh) co
 std::span<const Vec3f> ParticleSet::positions() const { return structure_->positions; }
 std::span<const LipEdge> ParticleSet::lips() const { return structure_->lips; }
 std::uint64_t ParticleSet::revision() const { return structure_->revision; }
-const DirtyRanges& ParticleSet::dirty_points() const { return structure_->dirty_points; }
+
+DirtyRanges ParticleSet::dirty_points() const {
+  std::vector<Index> dirty = structure_->dirty;
+  std::sort(dirty.begin(), dirty.end());
+  return DirtyRanges::covering(dirty);
+}
 
 Status ParticleSet::rest(const ModelPose& pose, std::span<const std::uint32_t> particles, std::span<ParticleRest> rest) const {
   const Structure& structure = *structure_;
@@ -197,8 +203,8 @@ Status ParticleSet::follow(const TornModel& model, std::span<const ChangeRecord>
       return std::ranges::any_of(stack, [&](const particles::Change& change) { return change.operation == newest; });
     };
     structure.is_broken = true;  // until all is well
+    structure.dirty.clear();
     if (structure.band) particles::complete_band(model, structure);
-    structure.dirty_points = {};
     if (!model.is_in_stroke() && (newest == 0 || has(done))) {
       while (!done.empty() && done.back().operation != newest) {
         particles::exchange(structure, done.back());
@@ -226,6 +232,7 @@ Status ParticleSet::follow(const TornModel& model, std::span<const ChangeRecord>
 bool ParticleSet::settle(const TornModel& model, std::uint32_t points) {
   Structure& structure = *structure_;
   if (!structure.band || structure.is_broken || &model.source() != structure.source) return false;
+  structure.dirty.clear();
   particles::widen_band(model, structure, std::max(1u, points));
   return structure.band != nullptr;
 }

@@ -22,7 +22,8 @@ Repair::Repair(const TornModel& model, Structure& structure, Change& change, Ind
       change_(change),
       tear_(tear),
       first_new_(structure.point_count()),
-      border_(model) {
+      border_(model),
+      ring_(model.surface(), structure.positions) {
   structure.scratch.worked.begin(surface_.point_count());
   if (structure.scratch.work_of.size() < surface_.point_count()) structure.scratch.work_of.resize(surface_.point_count());
 }
@@ -124,8 +125,7 @@ void Repair::take_up_lips(std::span<const ChangeRecord> changes) {
 /// Gives a point the memberships of those around it that have theirs. @return false where none has.
 bool Repair::spread_to(Index point, Index first_new) {
   const Marks& is_ready = structure_.scratch.seen;
-  RingWalk ring(surface_, structure_.positions);
-  const std::span<const RingPoint> around = ring(point);
+  const std::span<const RingPoint> around = ring_(point);
   const auto knows = [&](const RingPoint& other) { return other.point < first_new || is_ready.has(other.point); };
   bool has_any = false;
   for (std::size_t i = 0; i < around.size(); ++i) {
@@ -188,7 +188,6 @@ void Repair::renew_weights(std::span<const ChangeRecord> changes) {
 
 void Repair::cover() {
   const auto range = static_cast<float>(structure_.report.range);
-  RingWalk ring(surface_, structure_.positions);
   for (std::size_t w = 0; w < works_.size(); ++w) {
     const Index seed = works_[w].point;
     if (surface_.point_corner[seed] == kNone) continue;
@@ -197,7 +196,7 @@ void Repair::cover() {
     const Index particle = make_particle(seed, range, influences_from(structure_.memberships_of(seed)));
     structure_.front.begin(structure_.point_count(), range, structure_.edge_length);
     structure_.front.add(seed, 0.0f);
-    structure_.front.run(ring, structure_.positions, [&](Index point, float distance, Index) {
+    structure_.front.run(ring_, structure_.positions, [&](Index point, float distance, Index) {
       if (may_join(point, particle)) join(point, {particle, distance / range});
       return true;
     });

@@ -70,6 +70,8 @@ class Repair {
 
   std::vector<Work> works_;
   std::vector<Membership> memberships_;
+  RestOfVertex rest_;
+  RingWalk ring_;
   std::vector<Index> lips_;  ///< Points that this call put on lips.
 };
 

@@ -79,13 +79,12 @@ void Repair::begin_band() {
       ++lip_count;
     }
   }
-  widen(lip_count + 2 * static_cast<Index>(lips_.size()) + 64);
+  widen(lip_count + static_cast<Index>(lips_.size()) + 64);
 }
 
 void Repair::widen(Index points) {
   if (!structure_.band) return;
-  RingWalk ring(surface_, structure_.positions);
-  structure_.band_front.run(ring, structure_.positions, [&](Index point, float distance, Index from) {
+  structure_.band_front.run(ring_, structure_.positions, [&](Index point, float distance, Index from) {
     if (from != kNone) visit_band(point, distance, from);
     return --points > 0;
   });

@@ -82,10 +82,13 @@ void Repair::put_back(const Work& work) {
     return;
   log_point(work.point);
   // Who left and who joined: both lists ascend.
+  bool has_rest = false;
   const auto change = [&](Index particle, int sign) {
     Particle& of = change_particle(particle);
     of.member_count = static_cast<Index>(static_cast<std::int64_t>(of.member_count) + sign);
-    add_rest_terms(model_, structure_, structure_.vertices[work.point], sign, of);
+    if (!has_rest) rest_.set(model_, structure_, structure_.vertices[work.point]);
+    has_rest = true;
+    rest_.add_to(of, sign);
     if (sign > 0) structure_.joined[particle].push_back(work.point);
   };
   std::size_t b = 0, n = 0;
@@ -113,11 +116,7 @@ void Repair::finish() {
   for (const Work& work : works_) put_back(work);
   structure_.pairs->apply([&](Index particle) -> Particle& { return change_particle(particle); });
   change_.memberships_after = structure_.memberships_end = structure_.memberships.size();
-  std::vector<Index> dirty;
-  dirty.reserve(works_.size());
-  for (const Work& work : works_) dirty.push_back(work.point);
-  std::sort(dirty.begin(), dirty.end());
-  structure_.dirty_points = DirtyRanges::covering(dirty);
+  for (const Work& work : works_) structure_.dirty.push_back(work.point);
   ++structure_.revision;
 }
 

@@ -33,10 +33,22 @@ VertexRef vertex_of(const TornModel& model, Index point) {
   return {ref.mesh, model.character().meshes[ref.mesh].triangles[ref.triangle][corner % 3]};
 }
 
-void add_rest_terms(const TornModel& model, const Structure& structure, const VertexRef& of, double sign, Particle& particle) {
+void RestOfVertex::set(const TornModel& model, const Structure& structure, const VertexRef& of) {
+  terms_.clear();
+  morph_terms_.clear();
   for_each_rest_term(
-      model, structure.first_slot, of, [&](Index slot, const Vec4d& term) { add(particle.terms, slot, sign * term); },
-      [&](Index morph_weight, Index slot, const Vec3d& term) { add(particle.morph_terms, morph_weight, slot, sign * term); });
+      model, structure.first_slot, of,
+      [&](Index slot, const Vec4d& term) {
+        terms_.push_back({slot, term});
+      },
+      [&](Index morph_weight, Index slot, const Vec3d& term) {
+        morph_terms_.push_back({morph_weight, slot, term});
+      });
+}
+
+void RestOfVertex::add_to(Particle& particle, double sign) const {
+  for (const RestTerm& term : terms_) add(particle.terms, term.slot, sign * term.sum);
+  for (const RestMorphTerm& term : morph_terms_) add(particle.morph_terms, term.morph_weight, term.slot, sign * term.sum);
 }
 
 RestSums::RestSums(const TornModel& model, const Structure& structure)

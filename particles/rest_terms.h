@@ -39,8 +39,16 @@ void for_each_rest_term(const TornModel& model, std::span<const Index> first_slo
   }
 }
 
-/// Adds `sign` times a vertex to a particle's sums.
-void add_rest_terms(const TornModel& model, const Structure& structure, const VertexRef& of, double sign, Particle& particle);
+/// What moves one vertex, to be counted into particles and out of them.
+class RestOfVertex {
+ public:
+  void set(const TornModel& model, const Structure& structure, const VertexRef& of);
+  void add_to(Particle& particle, double sign) const;
+
+ private:
+  std::vector<RestTerm> terms_;
+  std::vector<RestMorphTerm> morph_terms_;
+};
 
 /// Computes particles' sums anew from their members.
 class RestSums {

@@ -68,11 +68,8 @@ void exchange(Structure& structure, Change& change) {
   if (!is_done) change.appended.reset();
   structure.memberships_end = is_done ? change.memberships_before : change.memberships_after;
   ++structure.revision;
-  std::vector<Index> dirty;
-  for (const Change::OfPoint& of : change.changed_points) dirty.push_back(of.point);
-  for (Index point = change.points; point < structure.point_count(); ++point) dirty.push_back(point);
-  std::sort(dirty.begin(), dirty.end());
-  structure.dirty_points = DirtyRanges::covering(dirty);
+  for (const Change::OfPoint& of : change.changed_points) structure.dirty.push_back(of.point);
+  for (Index point = change.points; point < structure.point_count(); ++point) structure.dirty.push_back(point);
 }
 
 }  // namespace sunder::particles

@@ -97,7 +97,7 @@ struct Structure {
   DecompositionReport report;
   std::uint64_t revision = 0;
   std::uint64_t next_serial = 1;
-  DirtyRanges dirty_points;
+  std::vector<Index> dirty;  ///< Points whose influences the last call changed, in no order.
 
   // ---- Of the model.
   const Character* source = nullptr;  ///< Only to be compared.

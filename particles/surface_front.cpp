@@ -6,15 +6,27 @@ void RingWalk::append_ring(const Surface& surface, std::span<const Vec3f> positi
   const Index start = surface.point_corner[point];
   if (start == kNone) return;
   const Vec3f at = positions[point];
-  const auto add = [&](Index other) { ring.push_back({other, (positions[other] - at).norm()}); };
+  const auto add = [&](Index other) {
+    const Vec3f& to = positions[other];
+    const float x = to.x() - at.x(), y = to.y() - at.y(), z = to.z() - at.z();
+    ring.push_back({other, std::sqrt(x * x + y * y + z * z)});
+  };
+  const auto walk = [&](Index first) {
+    add(surface.corner_point[Surface::next(first)]);
+    Index corner = first;
+    do {
+      const Index back = Surface::previous(corner);
+      add(surface.corner_point[back]);
+      corner = surface.twin[back];
+    } while (corner != kNone && corner != first);
+    return corner != kNone;
+  };
+  const std::size_t size = ring.size();
+  if (walk(start)) return;
   const Index first = surface.first_of_fan(start);
-  add(surface.corner_point[Surface::next(first)]);
-  Index corner = first;
-  do {
-    const Index back = Surface::previous(corner);
-    add(surface.corner_point[back]);
-    corner = surface.twin[back];
-  } while (corner != kNone && corner != first);
+  if (first == start) return;
+  ring.resize(size);  // it is open, and began in the middle
+  walk(first);
 }
 
 Rings::Rings(const Surface& surface, std::span<const Vec3f> positions) {

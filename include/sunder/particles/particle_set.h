@@ -139,7 +139,8 @@ class SUNDER_API ParticleSet {
   /// Grows whenever anything changed.
   [[nodiscard]] std::uint64_t revision() const;
   /// Points whose influences the last follow() or settle() changed: at most eight ranges, to be uploaded again.
-  [[nodiscard]] const DirtyRanges& dirty_points() const;
+  /// O(points log points), of those.
+  [[nodiscard]] DirtyRanges dirty_points() const;
 
  private:
   explicit ParticleSet(std::unique_ptr<particles::Structure> structure);
