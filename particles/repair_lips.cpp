@@ -12,6 +12,8 @@ namespace {
 /// A lip has a particle of its own wherever none that is left to it is nearer than this, in its range.
 constexpr float kLipCovered = 0.8f;
 
+float length_of(float x, float y) { return std::sqrt(x * x + y * y); }
+
 float smoothstep(float x) {
   x = std::clamp(x, 0.0f, 1.0f);
   return x * x * (3 - 2 * x);
@@ -115,7 +117,7 @@ void Repair::keep_to_own_side(Index point, const LipChain& chain, const LipChain
       const float range = structure_.particles[membership.particle].range, to_tip = place.to_tip;
       const float straight = membership.reach * range;
       float around = std::numeric_limits<float>::infinity();
-      if (to_tip < 2 * range) around = std::hypot(to_tip, distance) + std::hypot(to_tip, std::max(0.0f, straight - distance));
+      if (to_tip < 2 * range) around = length_of(to_tip, distance) + length_of(to_tip, std::max(0.0f, straight - distance));
       // Where the band ends sooner than the particle, nothing may jump.
       if (chain.depth < range)
         around = std::min(around, 2 * range) + (straight - std::min(around, 2 * range)) * smoothstep(distance / chain.depth);
@@ -159,7 +161,7 @@ void Repair::make_lip_particles(LipChain& chain) {
 
 void Repair::join_lip_particles(Index point, const LipChain& chain, const LipChain::Place& place, float distance) {
   for (const LipChain::OfLip& of : chain.particles) {
-    const float reach = std::hypot(distance / chain.depth, (place.along - of.along) / of.half_width);
+    const float reach = length_of(distance / chain.depth, (place.along - of.along) / of.half_width);
     if (reach < 1 && may_join(point, of.particle)) join(point, {of.particle, reach});
   }
 }

@@ -18,12 +18,9 @@ void for_each_rest_term(const TornModel& model, std::span<const Index> first_slo
   const InfluencePositions* exact = place == kNone ? nullptr : &model.influence_positions(of.mesh);
   for (std::size_t i = 0; i < influences.size(); ++i) {
     const double weight = influences[i].weight;
-    Vec4d term;
-    if (exact != nullptr)
-      term << exact->positions[place + i].cast<double>(), weight;
-    else
-      term << weight * mesh.positions[of.vertex].cast<double>(), weight;
-    visit(first + influences[i].slot, term);
+    const Vec3f& at = exact != nullptr ? exact->positions[place + i] : mesh.positions[of.vertex];
+    const double part = exact != nullptr ? 1.0 : weight;
+    visit(first + influences[i].slot, Vec4d(part * double{at.x()}, part * double{at.y()}, part * double{at.z()}, weight));
   }
   for (Index t = 0; t < mesh.morph_targets.size(); ++t) {
     if (exact != nullptr && !exact->morph_targets.empty() && !exact->morph_targets[t].positions.empty()) {

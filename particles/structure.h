@@ -185,6 +185,9 @@ void exchange(Structure& structure, Change& change);
   return rest * rest;
 }
 
+/// Where the two lips of a tear meet, ascending.
+[[nodiscard]] std::vector<Index> find_tips(const TornModel& model, const Structure& structure);
+
 /// Influences from memberships: the four largest shares, less the fifth, so that nothing jumps where another becomes the fourth.
 [[nodiscard]] ParticleInfluences influences_from(std::span<const Membership> memberships);
 

@@ -114,6 +114,10 @@ class SUNDER_API ParticleSet {
   /// Borders that operations made and have not closed again, in the order in which they were made.
   [[nodiscard]] std::span<const LipEdge> lips() const;
 
+  /// Points in which the two lips of a tear meet; of a gap, the middle of its end. Ascending. O(edges of lips), allocates.
+  /// @param model  as follow() left it.
+  [[nodiscard]] std::vector<std::uint32_t> tips(const TornModel& model) const;
+
   // ---- Poses.
 
   /// Evaluates `rest` for some particles in a pose. @param rest  one each; @param particles ascending or not; unchecked.

@@ -1,0 +1,200 @@
+#include <sunder/particles/force_tearing.h>
+#include <sunder/skinning/palette.h>
+#include <sunder/skinning/reference.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Eigenvalues>
+
+#include "particles/lip_border.h"
+#include "particles/rest_terms.h"
+
+namespace sunder {
+namespace {
+
+using particles::Index;
+
+/// Two neighbours that are farther apart than they bear.
+struct Pair {
+  Index a = 0, b = 0;
+  double over = 0;  ///< Stretch over strength.
+};
+
+/// How many pairs are tried, where the surface cannot be torn at the first.
+constexpr std::size_t kAttempts = 8;
+/// The least that a tear runs on: cosine of the angle between its last edge and where it goes.
+constexpr double kLeastForward = 0.2;
+
+Vec3d rest_place(const SoftBody& body, Index particle) { return body.place(particle) - body.displacement(particle); }
+
+double stretch_of(const SoftBody& body, Index a, Index b) {
+  const double at_rest = (rest_place(body, b) - rest_place(body, a)).norm();
+  return at_rest > 0 ? (body.place(b) - body.place(a)).norm() / at_rest : 0.0;
+}
+
+double strength_of(const SoftBody& body, Index a, Index b) {
+  const double of_a = body.materials()[body.material_of(a)].strength, of_b = body.materials()[body.material_of(b)].strength;
+  if (of_a == 0 || of_b == 0) return std::max(of_a, of_b);
+  return std::min(of_a, of_b);
+}
+
+/// Pairs beyond their strength, the worst first.
+std::vector<Pair> find_overstretched(const SoftBody& body, const ParticleSet& particles, double& greatest) {
+  std::vector<Pair> pairs;
+  for (Index a = 0; a < body.particle_count(); ++a) {
+    for (const Neighbour& neighbour : particles.neighbours(a)) {
+      const Index b = neighbour.particle;
+      if (b <= a || (!body.is_awake(a) && !body.is_awake(b))) continue;
+      const double stretch = stretch_of(body, a, b), strength = strength_of(body, a, b);
+      greatest = std::max(greatest, stretch);
+      if (strength > 0 && stretch > strength) pairs.push_back({a, b, stretch / strength});
+    }
+  }
+  std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& x, const Pair& y) { return x.over > y.over; });
+  return pairs;
+}
+
+/// Direction at rest of the greatest stretch around two particles, in the plane across `normal`.
+Vec3d greatest_stretch_around(const SoftBody& body, const ParticleSet& particles, const Pair& pair, const Vec3d& normal) {
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  const Eigen::Vector3d across = normal;
+  for (const Index particle : {pair.a, pair.b})
+    for (const Neighbour& neighbour : particles.neighbours(particle)) {
+      Eigen::Vector3d along = rest_place(body, neighbour.particle) - rest_place(body, particle);
+      const double more = stretch_of(body, particle, neighbour.particle) - 1;
+      along -= along.dot(across) * across;
+      if (along.norm() > 0) sum += particles.coupling(particle, neighbour) * more / along.squaredNorm() * along * along.transpose();
+    }
+  // The plane's own normal is out of the question, whatever the signs are.
+  sum -= (1 + sum.norm()) * across * across.transpose();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(sum);
+  Vec3d direction = solver.eigenvectors().col(2);
+  return direction;
+}
+
+/// The posed surface around a point.
+class PosedFan {
+ public:
+  PosedFan(const TornModel& model, const ModelPose& pose) : model_(model), pose_(pose) {}
+
+  [[nodiscard]] Vec3d place(Index point) const {
+    const particles::VertexRef of = particles::vertex_of(model_, point);
+    const Mesh& mesh = model_.character().meshes[of.mesh];
+    const Skin& skin = model_.character().skins[mesh.skin];
+    std::vector<Affine3d> palette(skin.bones.size());
+    (void)compute_palette(skin, pose_, std::span(palette));  // the body has stood in it
+    return deform_position_reference(mesh, of.vertex, palette, pose_.morph_weights);
+  }
+
+  [[nodiscard]] Vec3d normal(Index point) const {
+    const tear::Surface& surface = model_.surface();
+    Vec3d sum = Vec3d::Zero();
+    const Vec3d at = place(point);
+    surface.for_each_in_fan(surface.point_corner[point], [&](Index corner) {
+      const Vec3d a = place(surface.corner_point[tear::Surface::next(corner)]) - at;
+      const Vec3d b = place(surface.corner_point[tear::Surface::previous(corner)]) - at;
+      sum += a.cross(b);
+    });
+    const double length = sum.norm();
+    return length > 0 ? Vec3d(sum / length) : Vec3d(Vec3d::Zero());
+  }
+
+ private:
+  const TornModel& model_;
+  const ModelPose& pose_;
+};
+
+/// Where a tear goes on or begins.
+struct Start {
+  Index point = kNone;
+  bool is_tip = false;
+};
+
+/// The tip nearest to the middle of a pair that one of the two holds; else the point that both hold most.
+Start find_start(const ParticleSet& particles, const TornModel& model, const Pair& pair, std::span<const Index> tips) {
+  const auto weight_of = [&](Index point, Index particle) {
+    const ParticleInfluences& of = particles.influences()[point];
+    for (std::size_t i = 0; i < 4; ++i)
+      if (of.particles[i] == particle) return of.weights[i];
+    return 0.0f;
+  };
+  Start start;
+  const std::span<const Vec3f> at = particles.positions();
+  const Vec3f middle = 0.5f * (at[particles.seed(pair.a)] + at[particles.seed(pair.b)]);
+  const auto reach = static_cast<float>(std::max(particles.range(pair.a), particles.range(pair.b)));
+  float nearest = reach;
+  for (const Index tip : tips) {
+    if (!(weight_of(tip, pair.a) > 0) && !(weight_of(tip, pair.b) > 0)) continue;
+    const float distance = (at[tip] - middle).norm();
+    if (!(distance < nearest)) continue;
+    nearest = distance;
+    start = {tip, true};
+  }
+  if (start.is_tip) return start;
+  float most = 0;
+  for (const Index point : particles.members(pair.a)) {
+    const float both = weight_of(point, pair.a) * weight_of(point, pair.b);
+    if (!(both > most) || model.surface().point_corner[point] == kNone) continue;
+    most = both;
+    start.point = point;
+  }
+  return start;
+}
+
+}  // namespace
+
+Result<ForceTearingReport> tear_overstretched(const SoftBody& body, ParticleSet& particles, TornModel& model, const ModelPose& pose,
+                                              const ForceTearingOptions& options, std::vector<ChangeRecord>* changes) {
+  if (!(options.length > 0) || options.length > 2)
+    return Status::failure(StatusCode::invalid_argument, kNone, "a tear of %g particle ranges a call; it must be in (0, 2]",
+                           options.length);
+  if (body.particle_count() != particles.particle_count())
+    return Status::failure(StatusCode::size_mismatch, kNone, "the body has %u particles, the set %u; step the body first",
+                           body.particle_count(), particles.particle_count());
+  ForceTearingReport report;
+  const std::vector<Pair> pairs = find_overstretched(body, particles, report.greatest_stretch);
+  if (pairs.empty()) return report;
+  const std::vector<Index> tips = particles.tips(model);
+  const PosedFan fan(model, pose);
+  const particles::LipBorder border(model);
+  for (std::size_t i = 0; i < std::min(pairs.size(), kAttempts); ++i) {
+    const Pair& pair = pairs[i];
+    const Start start = find_start(particles, model, pair, tips);
+    if (start.point == kNone) continue;
+    const Vec3d at = fan.place(start.point), normal = fan.normal(start.point);
+    if (normal.isZero(0)) continue;
+    Vec3d direction = normal.cross(greatest_stretch_around(body, particles, pair, normal));
+    const double length = options.length * std::min(particles.range(pair.a), particles.range(pair.b));
+    Vec3d from = at;
+    if (start.is_tip) {
+      Vec3d forward = at - 0.5 * (fan.place(border.next(start.point)) + fan.place(border.previous(start.point)));
+      forward -= forward.dot(normal) * normal;
+      if (forward.norm() > 0) {
+        forward /= forward.norm();
+        if (direction.dot(forward) < 0) direction = -direction;
+        if (direction.dot(forward) < kLeastForward) direction = (direction + forward).normalized();
+      }
+    } else {
+      from -= 0.5 * length * direction;
+    }
+    const Vec3d depth = length * normal;
+    const std::array<Blade, 2> stroke = {Blade{from + depth, from - depth},
+                                         Blade{from + length * direction + depth, from + length * direction - depth}};
+    ChangeRecord change;
+    auto tear = model.tear(pose, stroke, {}, &change);
+    if (!tear) return tear.error();
+    if (tear->runs == 0) continue;
+    if (Status status = particles.follow(model, std::span(&change, 1)); !status) return status;
+    report.has_torn = true;
+    report.is_from_tip = start.is_tip;
+    report.place = from;
+    report.direction = direction;
+    report.tear = std::move(*tear);
+    if (changes != nullptr) changes->push_back(std::move(change));
+    return report;
+  }
+  return report;
+}
+
+}  // namespace sunder
