@@ -194,9 +194,18 @@ void Repair::renew_lip_edges() {
     const Index leaving = border_.leaving(point);
     if (leaving == kNone) return;
     const Index to = surface_.corner_point[Surface::next(leaving)];
-    // From the end of a lip to the tip, and on to the other lip; a bore's rim is new all around.
+    // A bore's rim is no lip, but new all around.
     const bool is_wanted = (is_lip(point) && is_lip(to)) || (point >= first_new_ && to >= first_new_);
     if (is_wanted) keep_edge(leaving);
+    if (is_lip(point) && !is_lip(to)) {  // the other lip begins beyond the tip
+      const Index beyond = border_.leaving(to);
+      const LipPoint& other = structure_.lip_points[surface_.corner_point[Surface::next(beyond)]];
+      const LipPoint& own = structure_.lip_points[point];
+      if (other.tear == own.tear && other.side != own.side) {
+        keep_edge(leaving);
+        keep_edge(beyond);
+      }
+    }
     const Index arriving = border_.arriving(point);
     const Index from = surface_.corner_point[arriving];
     if ((is_lip(point) && is_lip(from)) || (point >= first_new_ && from >= first_new_)) keep_edge(arriving);
