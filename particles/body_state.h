@@ -59,7 +59,6 @@ struct BodyState {
 
  private:
   void connect_springs();
-  void inherit(Index particle);
   void follow_pose(double seconds);
   void follow_forces(const TornModel& model, const ModelPose& pose);
   void integrate(double seconds);

@@ -1,32 +1,8 @@
 #include "particles/body_state.h"
+#include "particles/inherit.h"
 #include "particles/lip_tension.h"
 
 namespace sunder::particles {
-
-/// A new particle moves as what it was torn from.
-void BodyState::inherit(Index particle) {
-  const ParticleInfluences& parents = set->parents(particle);
-  Vec3d displacement = Vec3d::Zero(), velocity = Vec3d::Zero(), rest_velocity = Vec3d::Zero();
-  double sum = 0;
-  for (std::size_t k = 0; k < 4 && parents.weights[k] > 0; ++k) {
-    const Index parent = parents.particles[k];
-    if (parent >= motion.count() || parent == particle) continue;
-    if (!(sum > 0)) motion.material_of[particle] = motion.material_of[parent];
-    const double weight = parents.weights[k];
-    displacement += weight * motion.displacements[parent];
-    velocity += weight * motion.velocities[parent];
-    rest_velocity += weight * rests.velocity(parent);
-    sum += weight;
-  }
-  if (!(sum > 0)) motion.material_of[particle] = 0;
-  motion.displacements[particle] = motion.starts[particle] = sum > 0 ? Vec3d(displacement / sum) : Vec3d::Zero();
-  motion.velocities[particle] = sum > 0 ? Vec3d(velocity / sum) : Vec3d::Zero();
-  rests.set_velocity(particle, sum > 0 ? Vec3d(rest_velocity / sum) : Vec3d::Zero());
-  for (auto* vectors : {&motion.forces, &motion.lip_forces, &motion.winds, &motion.corrections, &motion.slept_pulls})
-    (*vectors)[particle].setZero();
-  motion.touched[particle] = motion.bound[particle] = 0;
-  motion.wake(particle);
-}
 
 void BodyState::follow_particles() {
   if (set->revision() == revision) return;
@@ -44,7 +20,7 @@ void BodyState::follow_particles() {
   for (Index p = 0; p < count; ++p) {
     if (motion.serials[p] == set->serial(p)) continue;
     motion.serials[p] = set->serial(p);
-    inherit(p);
+    inherit(set->parents(p), p, rests, motion);
   }
   holds.follow(*set);
   contact.follow(count);
