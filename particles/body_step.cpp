@@ -141,7 +141,7 @@ void BodyState::step(const TornModel& model, const ModelPose& pose, bool is_pose
   contact.end_step();
   if (seconds > 0) {
     sleep.wake_neighbours(world(), active, motion);
-    Sleep::fall_asleep(world(), active, seconds, motion);
+    sleep.fall_asleep(world(), active, seconds, motion);
   }
   publish(true);
 }

@@ -114,8 +114,10 @@ double Contact::push_once(const World& world, Motion& motion) {
       const Vec3d velocity = rest_velocity(touch.whom, world.rests) - velocity_of(touch, touch.rest + moved, world.seconds);
       Vec3d slid = moved - sum_of(touch.whom, motion.starts) + world.seconds * velocity;
       slid -= slid.dot(at.normal) * at.normal;
-      const double length = slid.norm(), most = friction * -at.distance;
-      by -= length <= most ? slid : Vec3d(most / length * slid);
+      const double length = slid.norm();
+      const double back = std::clamp(friction * (touch.depth - at.distance) - touch.dragged, 0.0, length);
+      if (length > 0) by -= back / length * slid;
+      touch.dragged += back;
     }
     touch.depth += -at.distance;
     add_to(touch.whom, touch.squares, by, motion.displacements);
@@ -129,6 +131,14 @@ double Contact::push_once(const World& world, Motion& motion) {
 }
 
 void Contact::slow_down(const World& world, Motion& motion) {
+  // Who was pushed back to where the step began is at rest, whatever pulled it away meanwhile. The other way round, who was pushed
+  // far in a short step has not got that velocity: the lesser counts.
+  if (world.seconds > 0)
+    for (Index p = 0; p < motion.count(); ++p) {
+      if (motion.touched[p] == 0 || motion.awake[p] == 0) continue;
+      const Vec3d mean = (motion.displacements[p] - motion.starts[p]) / world.seconds;
+      if (mean.squaredNorm() < motion.velocities[p].squaredNorm()) motion.velocities[p] = mean;
+    }
   for (int sweep = 0; sweep < kVelocitySweeps; ++sweep)
     for (const Touch& touch : touches_) {
       if (!(touch.depth > 0)) continue;

@@ -44,7 +44,8 @@ class Contact {
     ParticleInfluences whom;
     double squares = 0;  // of its weights
     double tolerance = 0;
-    double depth = 0;  // by which it was pushed, all in all
+    double dragged = 0;  // by which friction took it back
+    double depth = 0;    // by which it was pushed, all in all
     Vec3d normal = Vec3d::Zero();
   };
 

@@ -5,8 +5,11 @@
 namespace sunder::particles {
 namespace {
 
-// In ranges of the particle, and in ranges a second.
-constexpr double kQuietPlace = 1e-4, kQuietSpeed = 1e-3, kFeels = 5e-4, kIsAtRest = 2e-4;
+// In ranges of the particle, and in ranges a second. Who is bound (held, touched, at a stretch limit), or beside one who is, is
+// pulled away and pushed back in every step: it moves a little for ever, its velocity is that of the pull, and springs alone are
+// not in balance.
+constexpr double kQuietPlace = 1e-4, kQuietPlaceBound = 1e-3, kQuietSpeed = 1e-3, kFeels = 5e-4, kFeelsBound = 5e-3,
+                 kIsAtRest = 2e-4;
 constexpr double kQuietSeconds = 0.5;
 
 }  // namespace
@@ -34,7 +37,8 @@ void Sleep::wake_if_pulled(const World& world, Index p, Motion& motion) {
   const Pull pull = pull_on(p, world.graph, world.materials, world.rests, world.gravity, motion);
   // Who sleeps displaced by a pull that goes must follow it all the way back.
   const double range = world.set.range(p), displaced = motion.displacements[p].norm();
-  const double place = displaced > 0 ? std::clamp(0.1 * displaced, 0.1 * kIsAtRest * range, kFeels * range) : kFeels * range;
+  double place = displaced > 0 ? std::clamp(0.1 * displaced, 0.1 * kIsAtRest * range, kFeels * range) : kFeels * range;
+  if (motion.bound[p] != 0) place = kFeelsBound * range;
   const double feels = place * std::max(pull.stiffness, 1.0);
   if ((pull.acceleration - motion.slept_pulls[p]).squaredNorm() > feels * feels) motion.wake(p);
 }
@@ -51,34 +55,57 @@ void Sleep::wake_neighbours(const World& world, std::span<const Index> active, M
     }
 }
 
-void Sleep::fall_asleep(const World& world, std::span<const Index> active, double seconds, Motion& motion) {
+bool Sleep::is_bound_near(const World& world, Index p, const Motion& motion) {
+  bool is_bound = motion.bound[p] != 0;
+  for (const Spring& spring : world.graph.of(p)) is_bound |= motion.bound[spring.other] != 0;
+  return is_bound;
+}
+
+void Sleep::measure(const World& world, std::span<const Index> active, double seconds, Motion& motion) {
   for (const Index p : active) {
-    const double range = world.set.range(p), quiet_place = kQuietPlace * range, quiet_speed = kQuietSpeed * range;
-    if (motion.velocities[p].squaredNorm() > quiet_speed * quiet_speed ||
-        (motion.displacements[p] - motion.quiet_from[p]).squaredNorm() > quiet_place * quiet_place) {
-      motion.quiet_seconds[p] = 0;
-      motion.quiet_from[p] = motion.displacements[p];
+    const bool is_bound = is_bound_near(world, p, motion);
+    const double range = world.set.range(p), quiet_speed = kQuietSpeed * range;
+    const double quiet_place = (is_bound ? kQuietPlaceBound : kQuietPlace) * range;
+    if ((is_bound || motion.velocities[p].squaredNorm() <= quiet_speed * quiet_speed) &&
+        (motion.displacements[p] - motion.quiet_from[p]).squaredNorm() <= quiet_place * quiet_place) {
+      motion.quiet_seconds[p] += seconds;
       continue;
     }
-    motion.quiet_seconds[p] += seconds;
+    motion.quiet_seconds[p] = 0;
+    motion.quiet_from[p] = motion.displacements[p];
+  }
+}
+
+void Sleep::fall_asleep(const World& world, std::span<const Index> active, double seconds, Motion& motion) {
+  measure(world, active, seconds, motion);
+  tired_.clear();
+  for (const Index p : active) {
     if (motion.quiet_seconds[p] < kQuietSeconds) continue;
-    Pull pull = pull_on(p, world.graph, world.materials, world.rests, world.gravity, motion);
-    const double own = world.materials[motion.material_of[p]].return_stiffness;
+    const auto of_p = world.graph.of(p);
+    if (std::any_of(of_p.begin(), of_p.end(), [&](const Spring& spring) {
+          return motion.awake[spring.other] != 0 && motion.quiet_seconds[spring.other] < kQuietSeconds;
+        }))
+      continue;
     // Neighbours that creep back together hardly pull at one another: against the return spring alone there is still some way.
-    const double balanced = quiet_place * (own > 0 ? own : pull.stiffness);
-    if (motion.bound[p] == 0 && pull.acceleration.squaredNorm() > balanced * balanced) continue;
+    const Pull pull = pull_on(p, world.graph, world.materials, world.rests, world.gravity, motion);
+    const double own = world.materials[motion.material_of[p]].return_stiffness;
+    const double balanced = kQuietPlace * world.set.range(p) * (own > 0 ? own : pull.stiffness);
+    if (pull.acceleration.squaredNorm() <= balanced * balanced || is_bound_near(world, p, motion)) tired_.push_back(p);
+  }
+  for (const Index p : tired_) {
     motion.awake[p] = 0;
     --motion.awake_count;
     motion.velocities[p].setZero();
     motion.corrections[p].setZero();
-    const double at_rest = kIsAtRest * range;
-    if (own > 0 && !pull.is_pushed && motion.bound[p] == 0 && motion.displacements[p].squaredNorm() < at_rest * at_rest) {
+    const double at_rest = kIsAtRest * world.set.range(p);
+    if (world.materials[motion.material_of[p]].return_stiffness > 0 && motion.bound[p] == 0 &&
+        motion.displacements[p].squaredNorm() < at_rest * at_rest &&
+        !pull_on(p, world.graph, world.materials, world.rests, world.gravity, motion).is_pushed)
       motion.displacements[p].setZero();
-      pull = pull_on(p, world.graph, world.materials, world.rests, world.gravity, motion);
-    }
     motion.starts[p] = motion.displacements[p];
-    motion.slept_pulls[p] = pull.acceleration;
   }
+  for (const Index p : tired_)
+    motion.slept_pulls[p] = pull_on(p, world.graph, world.materials, world.rests, world.gravity, motion).acceleration;
 }
 
 }  // namespace sunder::particles

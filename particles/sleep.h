@@ -29,10 +29,15 @@ class Sleep {
   static void wake_if_pulled(const World& world, Index particle, Motion& motion);
   /// The same for sleepers beside those that are awake: what moves them goes on from neighbour to neighbour while it is felt.
   void wake_neighbours(const World& world, std::span<const Index> active, Motion& motion);
-  /// Puts to sleep who has been quiet for half a second. What nothing pushes and is all but at rest is put to rest exactly.
-  static void fall_asleep(const World& world, std::span<const Index> active, double seconds, Motion& motion);
+  /// Puts to sleep who has been quiet for half a second, and whose neighbours have. What nothing pushes and is all but at rest is
+  /// put to rest exactly.
+  void fall_asleep(const World& world, std::span<const Index> active, double seconds, Motion& motion);
 
  private:
+  static bool is_bound_near(const World& world, Index particle, const Motion& motion);
+  static void measure(const World& world, std::span<const Index> active, double seconds, Motion& motion);
+
+  std::vector<Index> tired_;
   std::vector<std::uint64_t> asked_;  // in which round a particle was asked
   std::uint64_t round_ = 0;
 };

@@ -6,7 +6,8 @@ namespace sunder::particles {
 namespace {
 
 constexpr int kSweeps = 64;
-constexpr double kTolerance = 1e-3, kMore = 1.01;
+constexpr double kTolerance = 1e-4, kMore = 1.01;
+constexpr double kStopped = 1e-3;  // of the fastest that part
 
 struct Pair {
   Vec3d apart;
@@ -60,16 +61,23 @@ void limit_stretch(const SpringGraph& graph, std::span<const Material> materials
     if (worst <= kTolerance) break;
   }
   if (!is_reached) return;
-  for_each_limited(
-      graph, materials, rests, active, motion, [&](Index p, const Spring& spring, const Pair& pair, double mine, double others) {
-        if (pair.length < pair.most * (1 - kTolerance)) return;
-        const Vec3d along = pair.apart / pair.length;
-        const Index q = spring.other;
-        const double parting = along.dot(motion.velocities[q] + rests.velocity(q) - motion.velocities[p] - rests.velocity(p));
-        if (parting <= 0) return;
-        motion.velocities[p] += mine * parting * along;
-        if (others > 0) motion.velocities[q] -= others * parting * along;
-      });
+  double first = 0;
+  for (int sweep = 0; sweep < kSweeps; ++sweep) {
+    double fastest = 0;
+    for_each_limited(
+        graph, materials, rests, active, motion, [&](Index p, const Spring& spring, const Pair& pair, double mine, double others) {
+          if (pair.length < pair.most * (1 - kTolerance)) return;
+          const Vec3d along = pair.apart / pair.length;
+          const Index q = spring.other;
+          const double parting = along.dot(motion.velocities[q] + rests.velocity(q) - motion.velocities[p] - rests.velocity(p));
+          if (parting <= 0) return;
+          fastest = std::max(fastest, parting);
+          motion.velocities[p] += mine * parting * along;
+          if (others > 0) motion.velocities[q] -= others * parting * along;
+        });
+    first = std::max(first, fastest);
+    if (fastest <= kStopped * first) break;
+  }
   for (const Index p : pulled) motion.wake(p);
 }
 

@@ -47,14 +47,6 @@ TEST(stretch_limit, keeps_neighbours_together) {
   EXPECT_LT(stretch[1], 1.3 * 1.01);
 }
 
-TEST(stretch_limit, sleeps_at_the_limit) {
-  SoftScene scene(test::make_tube(60, 16, 6), soft_material(1.2), 0.1);
-  ASSERT_TRUE(scene.body->set_force(scene.nearest({0.5, 3, 0}), {0.8, 0, 0}));
-  scene.run(12);
-  EXPECT_GT(worst_stretch(scene), 1.15);
-  EXPECT_EQ(scene.body->awake_count(), 0u);
-}
-
 TEST(stretch_limit, changes_no_bit_where_it_is_not_reached) {
   std::vector<double> found[2];
   for (const bool is_limited : {false, true}) {
