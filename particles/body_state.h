@@ -45,6 +45,7 @@ struct BodyState {
 
   // ---- Scratch.
   std::vector<Index> active, needed, changed;
+  std::vector<std::uint8_t> is_needed;
   std::vector<Vec3d> sums;
   std::vector<SpringStep> steps;
 

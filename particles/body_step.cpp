@@ -29,16 +29,18 @@ void BodyState::follow_pose(double seconds) {
     needed.resize(motion.count());
     std::iota(needed.begin(), needed.end(), Index{0});
   } else {
+    // Whom a stretch limit may measure against, too.
     const bool with_neighbours = has_stretch_limit();
+    is_needed.assign(motion.count(), 0);
     for (Index p = 0; p < motion.count(); ++p) {
       if (motion.awake[p] == 0 && is_displaced[p] == 0) continue;
-      needed.push_back(p);
+      is_needed[p] = 1;
       if (with_neighbours)
-        for (const Spring& spring : graph.of(p)) needed.push_back(spring.other);
+        for (const Spring& spring : graph.of(p)) is_needed[spring.other] = 1;
     }
-    holds.for_each_held([&](Index p) { needed.push_back(p); });
-    std::sort(needed.begin(), needed.end());
-    needed.erase(std::unique(needed.begin(), needed.end()), needed.end());
+    holds.for_each_held([&](Index p) { is_needed[p] = 1; });
+    for (Index p = 0; p < motion.count(); ++p)
+      if (is_needed[p] != 0) needed.push_back(p);
   }
   rests.update(*set, needed, seconds);
   for (const Index p : rests.moved()) {

@@ -33,29 +33,31 @@ void CouplingSolver::assemble(const Inputs& in) {
   entries_.clear();
   diagonal_.resize(rows);
   right_.resize(rows);
+  ratios_.clear();
+  for (const SpringStep& step : in.steps) ratios_.push_back(velocity_a_place(step));
   for (Index i = 0; i < rows; ++i) {
     const Index p = in.active[i];
     const SpringStep& step = in.steps[in.material_of[p]];
-    const double ratio = velocity_a_place(step);
+    const double ratio = ratios_[in.material_of[p]];
     const Vec3d& place = in.places[p];
     const Vec3d& velocity = in.velocities[p];
     double sum = in.materials[in.material_of[p]].mass / step.place_from_acceleration;
-    Vec4 pull = Vec4::Zero();
+    Vec3d pull = Vec3d::Zero();
     for (const Spring& spring : in.graph.of(p)) {
       if (!(spring.stiffness > 0)) continue;
       const Index q = spring.other, column = row_of_[q];
-      const double other_ratio = column == kNone ? ratio : velocity_a_place(in.steps[in.material_of[q]]);
+      const double other_ratio = column == kNone ? ratio : ratios_[in.material_of[q]];
       const double greater = std::max(ratio, other_ratio);
       // Nor does either end's say anything then of how fast the two part.
       const double damping =
           std::min(ratio, other_ratio) > 0 ? damping_of(spring.stiffness, spring.damping, spring.frequency, in.seconds) : 0.0;
       const double value = spring.stiffness + damping * greater;
       sum += value;
-      pull -= padded(spring.stiffness * (place - in.places[q]) + damping * (velocity - in.velocities[q]));
+      pull -= spring.stiffness * (place - in.places[q]) + damping * (velocity - in.velocities[q]);
       if (column != kNone) entries_.push_back({column, value});
     }
     diagonal_[i] = sum;
-    right_[i] = pull;
+    right_[i] = padded(pull);
     first_.push_back(static_cast<Index>(entries_.size()));
   }
 }
@@ -74,7 +76,7 @@ void CouplingSolver::assemble_pulls(const Inputs& in) {
       if (row_of_[p] == kNone) continue;
       active.rows[k] = row_of_[p];
       active.weights[k] = pull.weights[k];
-      const double ratio = velocity_a_place(in.steps[in.material_of[p]]);
+      const double ratio = ratios_[in.material_of[p]];
       least = std::min(least, ratio);
       greatest = std::max(greatest, ratio);
     }

@@ -67,6 +67,7 @@ class CouplingSolver {
   std::vector<Index> first_;
   std::vector<Entry> entries_;
   std::vector<double> diagonal_, inverse_;
+  std::vector<double> ratios_;  // velocity a place, one a material
   std::vector<ActivePull> pulls_;
   std::vector<Vec4> x_, right_, residual_, direction_, product_;
 };

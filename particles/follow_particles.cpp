@@ -29,6 +29,7 @@ void BodyState::follow_particles() {
   is_displaced.resize(count, 0);
   for (std::vector<Index>* list : {&active, &needed, &changed}) list->reserve(count);
   sums.reserve(count);
+  is_needed.reserve(count);
   revision = set->revision();
   is_graph_stale = is_tension_stale = true;
   connect_springs();
