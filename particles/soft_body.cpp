@@ -48,6 +48,15 @@ Status check_material(const Material& material, Index index) {
 
 Status out_of_memory() { return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory"); }
 
+Status follow(BodyState& state) {
+  try {
+    state.follow_particles();
+    return {};
+  } catch (const std::bad_alloc&) {
+    return out_of_memory();
+  }
+}
+
 template <class Visit>
 void for_each_influence(const ParticleInfluences& of, Visit visit) {
   for (std::size_t k = 0; k < 4 && of.weights[k] > 0; ++k) visit(of.particles[k], double{of.weights[k]});
@@ -87,7 +96,7 @@ Result<SoftBody> SoftBody::create(ParticleSet& particles, const ModelPose& pose,
 // ---- Materials.
 
 Status SoftBody::set_material(std::uint32_t particle, std::uint32_t material) {
-  state_->follow_particles();
+  if (Status status = follow(*state_); !status) return status;
   if (Status status = check_particle(*state_, particle); !status) return status;
   if (material >= state_->materials.size())
     return Status::failure(StatusCode::index_out_of_range, material, "material %u of %zu", material, state_->materials.size());
@@ -102,7 +111,7 @@ Status SoftBody::change_material(std::uint32_t material, const Material& to) {
   if (material >= state_->materials.size())
     return Status::failure(StatusCode::index_out_of_range, material, "material %u of %zu", material, state_->materials.size());
   if (Status status = check_material(to, material); !status) return status;
-  state_->follow_particles();
+  if (Status status = follow(*state_); !status) return status;
   state_->materials[material] = to;
   state_->is_graph_stale = true;
   for (Index p = 0; p < state_->motion.count(); ++p)
@@ -116,7 +125,7 @@ std::span<const Material> SoftBody::materials() const { return state_->materials
 // ---- What acts.
 
 Status SoftBody::add_impulse(std::uint32_t particle, const Vec3d& newton_seconds) {
-  state_->follow_particles();
+  if (Status status = follow(*state_); !status) return status;
   if (Status status = check_particle(*state_, particle); !status) return status;
   if (Status status = check_finite("an impulse", newton_seconds); !status) return status;
   if (newton_seconds == Vec3d::Zero()) return {};
@@ -127,7 +136,7 @@ Status SoftBody::add_impulse(std::uint32_t particle, const Vec3d& newton_seconds
 }
 
 Status SoftBody::add_point_impulse(std::uint32_t point, const Vec3d& newton_seconds) {
-  state_->follow_particles();
+  if (Status status = follow(*state_); !status) return status;
   if (Status status = check_point(*state_, point); !status) return status;
   if (Status status = check_finite("an impulse", newton_seconds); !status) return status;
   for_each_influence(state_->set->influences()[point],
@@ -136,7 +145,7 @@ Status SoftBody::add_point_impulse(std::uint32_t point, const Vec3d& newton_seco
 }
 
 Status SoftBody::set_force(std::uint32_t particle, const Vec3d& newtons) {
-  state_->follow_particles();
+  if (Status status = follow(*state_); !status) return status;
   if (Status status = check_particle(*state_, particle); !status) return status;
   if (Status status = check_finite("a force", newtons); !status) return status;
   if (state_->motion.forces[particle] == newtons) return {};
@@ -148,17 +157,18 @@ Status SoftBody::set_force(std::uint32_t particle, const Vec3d& newtons) {
 Status SoftBody::set_gravity(const Vec3d& acceleration) {
   if (Status status = check_finite("gravity", acceleration); !status) return status;
   if (state_->gravity == acceleration) return {};
-  state_->follow_particles();
+  if (Status status = follow(*state_); !status) return status;
   state_->gravity = acceleration;
   state_->wake_all();
   return {};
 }
 
-void SoftBody::set_wind(WindField wind) {
-  state_->follow_particles();
+Status SoftBody::set_wind(WindField wind) {
+  if (Status status = follow(*state_); !status) return status;
   // The next step finds out who feels it: a wind that ends as much as one that begins.
   if (!wind) state_->wake_all();
   state_->wind = std::move(wind);
+  return {};
 }
 
 Status SoftBody::set_tension(Tension tension) {
@@ -171,17 +181,25 @@ Status SoftBody::set_tension(Tension tension) {
 }
 
 Result<HoldId> SoftBody::hold(std::uint32_t particle, const Vec3d& target, const HoldOptions& options) {
-  state_->follow_particles();
+  if (Status status = follow(*state_); !status) return status;
   if (Status status = check_particle(*state_, particle); !status) return status;
   if (Status status = check_hold(target, options); !status) return status;
-  return state_->holds.add_particle(*state_->set, particle, target, options.stiffness);
+  try {
+    return state_->holds.add_particle(*state_->set, particle, target, options.stiffness);
+  } catch (const std::bad_alloc&) {
+    return out_of_memory();
+  }
 }
 
 Result<HoldId> SoftBody::hold_point(std::uint32_t point, const Vec3d& target, const HoldOptions& options) {
-  state_->follow_particles();
+  if (Status status = follow(*state_); !status) return status;
   if (Status status = check_point(*state_, point); !status) return status;
   if (Status status = check_hold(target, options); !status) return status;
-  return state_->holds.add_point(*state_->set, point, target, options.stiffness);
+  try {
+    return state_->holds.add_point(*state_->set, point, target, options.stiffness);
+  } catch (const std::bad_alloc&) {
+    return out_of_memory();
+  }
 }
 
 Status SoftBody::move_hold(HoldId hold, const Vec3d& target) {
@@ -191,7 +209,7 @@ Status SoftBody::move_hold(HoldId hold, const Vec3d& target) {
 }
 
 Status SoftBody::release(HoldId hold) {
-  state_->follow_particles();
+  if (Status status = follow(*state_); !status) return status;
   ParticleInfluences whom;
   if (!state_->holds.remove(hold, whom))
     return Status::failure(StatusCode::not_found, kNone, "there is no hold %llu", static_cast<unsigned long long>(hold));
@@ -204,11 +222,15 @@ Status SoftBody::set_colliders(std::span<const Collider> colliders) {
     if (const Status status = validate_collider(colliders[i]); !status)
       return Status::failure(status.code(), i, "collider %u: %.*s", i, static_cast<int>(status.text().size()),
                              status.text().data());
-  state_->follow_particles();
+  if (Status status = follow(*state_); !status) return status;
   for (Index p = 0; p < state_->motion.count(); ++p)
     if (state_->motion.touched[p] != 0) state_->motion.wake(p);
-  state_->contact.set(colliders);
-  return {};
+  try {
+    state_->contact.set(colliders);
+    return {};
+  } catch (const std::bad_alloc&) {
+    return out_of_memory();
+  }
 }
 
 Status SoftBody::move_collider(std::uint32_t collider, const Vec3d& place, const Quatd& turn) {
@@ -238,6 +260,7 @@ Status SoftBody::step(const TornModel& model, const ModelPose& pose, double seco
   if (state.is_idle()) {
     state.time += seconds;
     state.rests.skip_step();
+    state.contacts = {};
     return {};
   }
   if (model.point_count() != state.set->point_count())

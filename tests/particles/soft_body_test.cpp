@@ -32,6 +32,8 @@ std::vector<double> bits_of(const SoftScene& scene) {
   return bits;
 }
 
+Quatd random_turn(test::Random& random) { return Quatd(Eigen::AngleAxisd{random.uniform(-3, 3), random.direction()}); }
+
 Vec3d momentum(const SoftScene& scene) {
   Vec3d sum = Vec3d::Zero();
   for (std::uint32_t p = 0; p < scene.count(); ++p)
@@ -168,18 +170,18 @@ TEST(soft_body, a_hold_of_a_particle_stays_in_the_room) {
 
 TEST(soft_body, wind_pushes_where_it_blows) {
   SoftScene scene = make_tube_scene();
-  scene.body->set_wind([](const Vec3d& place, double) { return place.y() > 4 ? Vec3d(20, 0, 0) : Vec3d::Zero(); });
+  ASSERT_TRUE(scene.body->set_wind([](const Vec3d& place, double) { return place.y() > 4 ? Vec3d(20, 0, 0) : Vec3d::Zero(); }));
   scene.run(2);
   EXPECT_GT(scene.body->displacement(scene.nearest({0, 5.5, 0})).x(), 0.03);
   EXPECT_EQ(scene.body->displacement(scene.nearest({0, 0.5, 0})), Vec3d::Zero());
-  scene.body->set_wind({});
+  ASSERT_TRUE(scene.body->set_wind({}));
   scene.run(5);
   EXPECT_EQ(scene.farthest(), 0);
 }
 
 TEST(soft_body, a_gust_wakes_who_sleeps_and_madness_counts_as_none) {
   SoftScene scene = make_tube_scene();
-  scene.body->set_wind([](const Vec3d&, double seconds) { return seconds > 1 ? Vec3d(0, 0, 5) : Vec3d(kNaN, 0, 0); });
+  ASSERT_TRUE(scene.body->set_wind([](const Vec3d&, double seconds) { return seconds > 1 ? Vec3d(0, 0, 5) : Vec3d(kNaN, 0, 0); }));
   scene.run(0.9);
   EXPECT_EQ(scene.body->awake_count(), 0u);
   scene.run(0.5);
@@ -410,6 +412,74 @@ TEST(soft_body, does_not_allocate_once_warm) {
     (void)scene.body->step(*scene.model, poses[static_cast<std::size_t>(i) % poses.size()], 1.0 / 60);
   }
   EXPECT_EQ(test::allocation_count(), before);
+}
+
+TEST(soft_body, nothing_breaks_it) {
+  test::Random random(21);
+  for (int trial = 0; trial < 24; ++trial) {
+    SoftBodyOptions options;
+    options.follow = trial % 2 == 0 ? Follow::ride : Follow::lag;
+    std::vector<Material> materials(material_presets().begin(), material_presets().end());
+    SoftScene scene(trial % 3 == 0 ? test::make_bumpy_ball(700) : test::make_tube(40, 12, 4), materials, 0.12, options);
+    SoftBody& body = *scene.body;
+    const ModelPose rest = scene.pose;
+    std::vector<HoldId> holds;
+    for (int i = 0; i < 150; ++i) {
+      const std::uint32_t particle = random.index(scene.count()), point = random.index(scene.set->point_count());
+      switch (random.index(12)) {
+        case 0: ASSERT_TRUE(body.add_impulse(particle, 0.02 * random.direction())); break;
+        case 1: ASSERT_TRUE(body.add_point_impulse(point, 0.02 * random.direction())); break;
+        case 2: ASSERT_TRUE(body.set_force(particle, 0.2 * random.direction())); break;
+        case 3: ASSERT_TRUE(body.set_gravity(random.uniform(0, 10) * random.direction())); break;
+        case 4: holds.push_back(body.hold_point(point, 2 * random.direction()).value()); break;
+        case 5: holds.push_back(body.hold(particle, 2 * random.direction()).value()); break;
+        case 6:
+          for (const HoldId hold : holds) ASSERT_TRUE(body.release(hold));
+          holds.clear();
+          break;
+        case 7: {
+          const Collider some[] = {{Sphere{0.4}, random.direction(), random_turn(random), 0.5},
+                                   {Box{{0.2, 0.4, 0.3}}, random.direction(), random_turn(random), 0.1}};
+          ASSERT_TRUE(body.set_colliders({some, random.index(3)}));
+          break;
+        }
+        case 8:
+          if (!body.colliders().empty()) {
+            ASSERT_TRUE(body.move_collider(0, random.direction(), random_turn(random)));
+          }
+          break;
+        case 9: ASSERT_TRUE(body.set_material(particle, random.index(static_cast<std::uint32_t>(materials.size())))); break;
+        case 10:
+          ASSERT_TRUE(body.set_wind(random.index(2) == 0 ? WindField()
+                                                         : [](const Vec3d& p, double t) { return Vec3d(std::sin(t), p.x(), 0); }));
+          break;
+        default:
+          // Also poses that mirror, flatten, and shrink everything to a point.
+          scene.pose = random.index(3) == 0 ? rest : test::random_pose(*scene.character, random, 0.5, 1.3);
+          if (random.index(3) == 0) scene.pose.model_from_bone[0].linear() *= Vec3d(1, -1, 1).asDiagonal();
+          if (random.index(4) == 0) scene.pose.model_from_bone[1].linear() *= Vec3d(1, 0, 1).asDiagonal();
+          if (random.index(8) == 0)
+            for (Affine3d& bone : scene.pose.model_from_bone) bone.linear().setZero();
+      }
+      scene.step(random.index(9) == 0 ? 0.0 : std::pow(10, random.uniform(-5, 0)));
+      for (std::uint32_t p = 0; p < scene.count(); ++p) {
+        ASSERT_TRUE(body.displacement(p).allFinite() && body.velocity(p).allFinite() && body.place(p).allFinite())
+            << trial << ' ' << i;
+        ASSERT_LT(body.displacement(p).norm(), 1e3) << trial << ' ' << i;
+        ASSERT_LT((body.rotations()[p].transpose() * body.rotations()[p] - Mat3f::Identity()).norm(), 1e-4f);
+        ASSERT_EQ(body.displacements()[p].head<3>(), body.displacement(p).cast<float>());
+      }
+    }
+    for (const HoldId hold : holds) ASSERT_TRUE(body.release(hold));
+    for (std::uint32_t p = 0; p < scene.count(); ++p) ASSERT_TRUE(body.set_force(p, Vec3d::Zero()));
+    ASSERT_TRUE(body.set_wind({}));
+    ASSERT_TRUE(body.set_gravity(Vec3d::Zero()));
+    ASSERT_TRUE(body.set_colliders({}));
+    scene.pose = rest;
+    scene.run(30);
+    EXPECT_EQ(scene.farthest(), 0) << trial;
+    EXPECT_EQ(body.awake_count(), 0u) << trial;
+  }
 }
 
 TEST(soft_body, bad_input_is_named_and_changes_nothing) {

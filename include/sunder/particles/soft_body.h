@@ -85,7 +85,8 @@ class SUNDER_API SoftBody {
   [[nodiscard]] std::uint32_t material_of(std::uint32_t particle) const;
   [[nodiscard]] std::span<const Material> materials() const;
 
-  // ---- What acts on it. Every call answers index_out_of_range, non_finite_value or invalid_argument, and changes nothing then.
+  // ---- What acts on it. Every call answers index_out_of_range, non_finite_value, invalid_argument or limit_exceeded (out of
+  // memory), and changes nothing then.
 
   /// Newton seconds, at once. To a point: shared out by its influences.
   Status add_impulse(std::uint32_t particle, const Vec3d& newton_seconds);
@@ -95,7 +96,7 @@ class SUNDER_API SoftBody {
   /// m/s^2; zero to begin with.
   Status set_gravity(const Vec3d& acceleration);
   /// Asked for every particle in every step. None: no wind.
-  void set_wind(WindField wind);
+  Status set_wind(WindField wind);
   Status set_tension(Tension tension);
 
   /// Pulls a particle, or a point by its influences, to a place in model space. A moving target is followed a step behind. A hold
