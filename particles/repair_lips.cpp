@@ -197,10 +197,10 @@ void Repair::renew_lip_edges() {
     // A bore's rim is no lip, but new all around.
     const bool is_wanted = (is_lip(point) && is_lip(to)) || (point >= first_new_ && to >= first_new_);
     if (is_wanted) keep_edge(leaving);
-    if (is_lip(point) && !is_lip(to)) {  // the other lip begins beyond the tip
-      const Index beyond = border_.leaving(to);
-      const LipPoint& other = structure_.lip_points[surface_.corner_point[Surface::next(beyond)]];
+    const Index beyond = is_lip(point) && !is_lip(to) ? border_.leaving(to) : kNone;  // where the other lip begins
+    if (beyond != kNone) {
       const LipPoint& own = structure_.lip_points[point];
+      const LipPoint& other = structure_.lip_points[surface_.corner_point[Surface::next(beyond)]];
       if (other.tear == own.tear && other.side != own.side) {
         keep_edge(leaving);
         keep_edge(beyond);
