@@ -17,8 +17,9 @@ bool BodyState::has_stretch_limit() const {
 }
 
 bool BodyState::is_idle() const {
-  return motion.awake_count == 0 && displaced_count == 0 && set->revision() == revision && options.follow == Follow::ride &&
-         !options.tracks_rest && !is_graph_stale && !is_tension_stale && holds.empty() && contact.colliders().empty() && !wind;
+  return motion.awake_count == 0 && displaced_count == 0 && set->revision() == revision && set->is_settled() &&
+         options.follow == Follow::ride && !options.tracks_rest && !is_graph_stale && !is_tension_stale && holds.empty() &&
+         contact.colliders().empty() && !wind;
 }
 
 /// Brings up to date with the pose whose rest matters, and carries them along or leaves them behind.

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "particles/decompose.h"
+#include "particles/gradients.h"
 #include "particles/repair.h"
 #include "particles/rest_terms.h"
 
@@ -149,6 +150,10 @@ const ParticleInfluences& ParticleSet::parents(std::uint32_t particle) const { r
 std::uint32_t ParticleSet::point_count() const { return structure_->point_count(); }
 std::span<const Membership> ParticleSet::memberships(std::uint32_t point) const { return structure_->memberships_of(point); }
 std::span<const ParticleInfluences> ParticleSet::influences() const { return structure_->influences; }
+std::span<const ParticleGradients> ParticleSet::gradients(const TornModel& model) {
+  return structure_->gradients->of(model.surface(), *structure_);
+}
+bool ParticleSet::is_settled() const { return structure_->band == nullptr; }
 std::span<const std::uint32_t> ParticleSet::vertex_points(std::uint32_t mesh) const { return structure_->vertex_points[mesh]; }
 std::span<const Vec3f> ParticleSet::positions() const { return structure_->positions; }
 std::span<const LipEdge> ParticleSet::lips() const { return structure_->lips; }
@@ -221,6 +226,7 @@ Status ParticleSet::follow(const TornModel& model, std::span<const ChangeRecord>
       particles::follow_operation(model, structure, changes);
       if (!model.is_in_stroke()) done.back().operation = newest;
     }
+    structure.gradients->forget(model.surface(), structure.dirty);
     structure.triangle_count = model.surface().triangle_count();
     structure.is_broken = false;
   } catch (const std::bad_alloc&) {
@@ -233,7 +239,13 @@ bool ParticleSet::settle(const TornModel& model, std::uint32_t points) {
   Structure& structure = *structure_;
   if (!structure.band || structure.is_broken || &model.source() != structure.source) return false;
   structure.dirty.clear();
-  particles::widen_band(model, structure, std::max(1u, points));
+  try {
+    particles::widen_band(model, structure, std::max(1u, points));
+  } catch (const std::bad_alloc&) {
+    structure.is_broken = true;
+    return false;
+  }
+  structure.gradients->forget(model.surface(), structure.dirty);
   return structure.band != nullptr;
 }
 

@@ -270,6 +270,7 @@ Status SoftBody::step(const TornModel& model, const ModelPose& pose, double seco
   if (is_posed)
     if (Status status = state.set->rest(pose, {}, {}); !status) return status;
   try {
+    (void)state.set->settle(model);
     state.follow_particles();
     state.step(model, pose, is_posed, seconds);
   } catch (const std::bad_alloc&) {

@@ -3,6 +3,7 @@
 #include <iterator>
 
 #include "particles/band.h"
+#include "particles/gradients.h"
 #include "particles/pair_changes.h"
 
 namespace sunder::particles {
@@ -23,7 +24,7 @@ void move_tail(std::vector<T>& values, std::size_t count, bool is_there, std::ve
 
 }  // namespace
 
-Structure::Structure() : pairs(std::make_unique<PairChanges>()) {}
+Structure::Structure() : pairs(std::make_unique<PairChanges>()), gradients(std::make_unique<Gradients>()) {}
 Structure::~Structure() = default;
 
 std::vector<Index> Structure::members_of(Index particle) const {

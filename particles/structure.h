@@ -87,6 +87,7 @@ struct Band;
 struct BesideLip {
   Index chain = 0, place = 0;
 };
+class Gradients;
 class PairChanges;
 
 /// What a ParticleSet is made of.
@@ -142,6 +143,7 @@ struct Structure {
   std::vector<BesideLip> beside;  ///< Of the points that band_front has reached. One a point.
   RepairScratch scratch;
   std::unique_ptr<PairChanges> pairs;
+  std::unique_ptr<Gradients> gradients;
   mutable std::vector<Affine3d> palette;  ///< Of all slots: what rest() computes with.
 
   [[nodiscard]] Index point_count() const { return static_cast<Index>(positions.size()); }

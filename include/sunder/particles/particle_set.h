@@ -107,6 +107,9 @@ class SUNDER_API ParticleSet {
   [[nodiscard]] std::span<const Membership> memberships(std::uint32_t point) const;
   /// One a point.
   [[nodiscard]] std::span<const ParticleInfluences> influences() const;
+  /// One a point: gradients of its influences' weights along the surface, in the decomposition's pose; for normals, see
+  /// VertexDisplacements. Valid until the next call that changes the set. O(points) at first, then O(points changed since).
+  [[nodiscard]] std::span<const ParticleGradients> gradients(const TornModel& model);
   /// One a vertex of a mesh: its point; kNone where no face uses it.
   [[nodiscard]] std::span<const std::uint32_t> vertex_points(std::uint32_t mesh) const;
   /// Where points are in the decomposition's pose, metres. One a point.
@@ -139,6 +142,9 @@ class SUNDER_API ParticleSet {
   /// called once a frame. follow() does what is left before it begins.
   /// @return whether there is more to do.
   bool settle(const TornModel& model, std::uint32_t points = 2000);
+
+  /// Whether follow() left nothing to settle().
+  [[nodiscard]] bool is_settled() const;
 
   /// Grows whenever anything changed.
   [[nodiscard]] std::uint64_t revision() const;
