@@ -2,6 +2,8 @@
 
 #include <sunder/particles/soft_body.h>
 
+#include <limits>
+
 #include "particles/coupling.h"
 #include "particles/motion.h"
 #include "particles/point_places.h"
