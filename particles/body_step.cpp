@@ -1,0 +1,149 @@
+#include <algorithm>
+#include <numeric>
+
+#include "particles/body_state.h"
+#include "particles/stretch_limit.h"
+
+namespace sunder::particles {
+namespace {
+
+/// Below this a step's square is nothing to divide by; nor do forces show.
+constexpr double kShortestStep = 1e-100;
+
+}  // namespace
+
+bool BodyState::has_stretch_limit() const {
+  return std::any_of(materials.begin(), materials.end(), [](const Material& material) { return material.stretch_limit > 0; });
+}
+
+bool BodyState::is_idle() const {
+  return motion.awake_count == 0 && displaced_count == 0 && set->revision() == revision && options.follow == Follow::ride &&
+         !options.tracks_rest && !is_graph_stale && !is_tension_stale && holds.empty() && contact.colliders().empty() && !wind;
+}
+
+/// Brings up to date with the pose whose rest matters, and carries them along or leaves them behind.
+void BodyState::follow_pose(double seconds) {
+  const bool sees_all = options.follow == Follow::lag || options.tracks_rest || wind || !contact.colliders().empty();
+  needed.clear();
+  if (sees_all) {
+    needed.resize(motion.count());
+    std::iota(needed.begin(), needed.end(), Index{0});
+  } else {
+    const bool with_neighbours = has_stretch_limit();
+    for (Index p = 0; p < motion.count(); ++p) {
+      if (motion.awake[p] == 0 && is_displaced[p] == 0) continue;
+      needed.push_back(p);
+      if (with_neighbours)
+        for (const Spring& spring : graph.of(p)) needed.push_back(spring.other);
+    }
+    holds.for_each_held([&](Index p) { needed.push_back(p); });
+    std::sort(needed.begin(), needed.end());
+    needed.erase(std::unique(needed.begin(), needed.end()), needed.end());
+  }
+  rests.update(*set, needed, seconds);
+  for (const Index p : rests.moved()) {
+    if (options.follow == Follow::ride) {
+      if (motion.awake[p] == 0 && is_displaced[p] == 0) continue;
+      if (motion.awake[p] == 0) motion.wake(p);
+      for (auto* vectors : {&motion.displacements, &motion.velocities, &motion.quiet_from, &motion.corrections})
+        (*vectors)[p] = rests.turn_of_step(p) * (*vectors)[p];
+    } else {
+      motion.wake(p);
+      // Within the step the frame moves along with the rest; a step without time leaves it behind at once.
+      if (seconds > 0)
+        motion.velocities[p] -= rests.velocity(p);
+      else
+        motion.displacements[p] -= rests.shift(p);
+    }
+  }
+}
+
+void BodyState::follow_forces(const TornModel& model, const ModelPose& pose) {
+  std::fill(motion.winds.begin(), motion.winds.end(), Vec3d::Zero());
+  if (wind)
+    for (Index p = 0; p < motion.count(); ++p) {
+      const Vec3d felt = wind(rests.place(p) + motion.displacements[p], time);
+      if (felt.allFinite()) motion.winds[p] = felt;
+      Sleep::wake_if_pulled(world(), p, motion);
+    }
+  if (contact.is_changed())
+    for (Index p = 0; p < motion.count(); ++p)
+      if (motion.touched[p] != 0) motion.wake(p);
+  for (Index p = 0; p < motion.count(); ++p)
+    if (motion.awake[p] != 0) motion.touched[p] = motion.bound[p] = 0;
+  holds.begin_step(model, pose, rests, materials, places, motion);
+}
+
+void BodyState::integrate(double seconds) {
+  steps.clear();
+  for (const Material& material : materials)
+    steps.push_back(step_spring(material.return_stiffness, material.damping_ratio, seconds));
+  for (const Index p : active) {
+    const SpringStep& step = steps[motion.material_of[p]];
+    const Vec3d outer = motion.forces[p] + rests.turn(p) * motion.lip_forces[p];
+    const Vec3d acceleration = gravity + motion.winds[p] + outer / materials[motion.material_of[p]].mass;
+    const Vec3d place = motion.displacements[p], velocity = motion.velocities[p];
+    motion.starts[p] = place;
+    motion.displacements[p] =
+        step.place_from_place * place + step.place_from_velocity * velocity + step.place_from_acceleration * acceleration;
+    motion.velocities[p] = step.velocity_from_place * place + step.velocity_from_velocity * velocity +
+                           step.velocity_from_acceleration() * acceleration;
+  }
+  if (seconds < kShortestStep) return;
+  solver.solve(
+      {graph, active, steps, materials, motion.material_of, motion.displacements, motion.velocities, holds.pulls(), seconds},
+      motion.corrections);
+  for (const Index p : active) {
+    const SpringStep& step = steps[motion.material_of[p]];
+    motion.displacements[p] += motion.corrections[p];
+    motion.velocities[p] += step.velocity_from_acceleration() / step.place_from_acceleration * motion.corrections[p];
+  }
+}
+
+void BodyState::publish(bool is_posed) {
+  if (is_posed)
+    for (const Index p : rests.updated()) turns[p] = rests.turn(p).cast<float>();
+  displaced_count = 0;
+  bool is_other = false;
+  for (Index p = 0; p < motion.count(); ++p) {
+    if (motion.awake[p] == 0 && is_displaced[p] == 0) continue;
+    const Vec3d& u = motion.displacements[p];
+    displacements[p] << u.cast<float>(), 0.0f;
+    const std::uint8_t displaced = u != Vec3d::Zero() ? 1 : 0;
+    displaced_count += displaced;
+    is_other |= displaced != is_displaced[p];
+    is_displaced[p] = displaced;
+  }
+  if (is_other) ++displaced_key;
+}
+
+void BodyState::step(const TornModel& model, const ModelPose& pose, bool is_posed, double seconds) {
+  time += seconds;
+  connect_springs();
+  // What lags moves in the room; between steps its velocity is kept beside that of its rest.
+  if (options.follow == Follow::lag)
+    for (const Index p : rests.carried()) motion.velocities[p] += rests.velocity(p);
+  if (is_posed)
+    rests.begin_step(pose);
+  else
+    rests.begin_still_step();
+  follow_pose(seconds);
+  follow_forces(model, pose);
+
+  active.clear();
+  for (Index p = 0; p < motion.count(); ++p)
+    if (motion.awake[p] != 0) active.push_back(p);
+  if (!active.empty() && seconds > 0) {
+    integrate(seconds);
+    if (has_stretch_limit()) limit_stretch(graph, materials, rests, active, motion, changed);
+  }
+  contacts = contact.push_out({*set, model, pose, is_posed, graph, rests, places, seconds}, motion);
+  contact.end_step();
+  if (seconds > 0) {
+    sleep.wake_neighbours(world(), active, motion);
+    sleep.fall_asleep(world(), active, seconds, motion);
+  }
+  publish(true);
+}
+
+}  // namespace sunder::particles

@@ -1,0 +1,54 @@
+#include <sunder/particles/material.h>
+
+#include <array>
+#include <cmath>
+
+namespace sunder {
+namespace {
+
+struct Field {
+  const char* name;
+  double value, least, most;
+};
+
+}  // namespace
+
+Status validate_material(const Material& material) {
+  const std::array fields = {
+      Field{"return_stiffness", material.return_stiffness, 0.0, 1e12},
+      Field{"damping_ratio", material.damping_ratio, 0.0, 1e6},
+      Field{"neighbour_stiffness", material.neighbour_stiffness, 0.0, 1e12},
+      Field{"mass", material.mass, 1e-12, 1e12},
+      Field{"range", material.range, 1e-6, 1.0},
+      Field{"stretch_limit", material.stretch_limit == 0 ? 1.0 : material.stretch_limit, 1.0, 1e6},
+      Field{"strength", material.strength == 0 ? 2.0 : material.strength, std::nextafter(1.0, 2.0), 1e6},
+  };
+  for (const Field& field : fields) {
+    if (!std::isfinite(field.value))
+      return Status::failure(StatusCode::non_finite_value, kNone, "material '%.64s': %s is not finite", material.name.c_str(),
+                             field.name);
+    if (field.value < field.least || field.value > field.most)
+      return Status::failure(StatusCode::invalid_argument, kNone, "material '%.64s': %s is %g; it must be from %g to %g%s",
+                             material.name.c_str(), field.name, field.value, field.least, field.most,
+                             field.least == 1.0 ? ", or 0" : "");
+  }
+  return {};
+}
+
+std::span<const Material> material_presets() {
+  static const std::array presets = {
+      Material{"skin", 400, 0.7, 900, 0.01, 0.08, 1.6, 1.8},   Material{"fat", 90, 0.35, 150, 0.02, 0.12, 0, 2.2},
+      Material{"muscle", 900, 0.8, 1600, 0.02, 0.1, 1.4, 1.6}, Material{"rubber", 900, 0.15, 2500, 0.01, 0.1, 3.0, 4.0},
+      Material{"sponge", 150, 1.0, 300, 0.005, 0.12, 0, 1.5},  Material{"jelly", 60, 0.1, 250, 0.02, 0.15, 0, 1.7},
+  };
+  return presets;
+}
+
+Result<Material> find_material(std::string_view name) {
+  for (const Material& material : material_presets())
+    if (material.name == name) return material;
+  return Status::failure(StatusCode::not_found, kNone, "there is no material '%.*s'",
+                         static_cast<int>(std::min<std::size_t>(name.size(), 64)), name.data());
+}
+
+}  // namespace sunder

@@ -1,0 +1,82 @@
+#include <cstring>
+
+#include "particles/soft_scene.h"
+
+namespace sunder {
+namespace {
+
+using test::SoftScene;
+
+/// Greatest distance of two neighbours over that at rest.
+double worst_stretch(const SoftScene& scene) {
+  double worst = 0;
+  for (std::uint32_t p = 0; p < scene.count(); ++p)
+    for (const Neighbour& neighbour : scene.set->neighbours(p)) {
+      const Vec3d at_rest = (scene.body->place(p) - scene.body->displacement(p)) -
+                            (scene.body->place(neighbour.particle) - scene.body->displacement(neighbour.particle));
+      worst = std::max(worst, (scene.body->place(p) - scene.body->place(neighbour.particle)).norm() / at_rest.norm());
+    }
+  return worst;
+}
+
+Material soft_material(double limit) {
+  Material material;
+  material.return_stiffness = 40;
+  material.neighbour_stiffness = 20;
+  material.stretch_limit = limit;
+  return material;
+}
+
+TEST(stretch_limit, keeps_neighbours_together) {
+  double stretch[2];
+  for (const bool is_limited : {false, true}) {
+    SoftScene scene(test::make_tube(60, 16, 6), soft_material(is_limited ? 1.3 : 0.0), 0.1);
+    const std::uint32_t p = scene.nearest({0.5, 3, 0});
+    ASSERT_TRUE(scene.body->set_force(p, {1.5, 0, 0}));
+    double worst = 0;
+    for (int i = 0; i < 240; ++i) {
+      scene.step(1.0 / 60);
+      worst = std::max(worst, worst_stretch(scene));
+    }
+    stretch[is_limited ? 1 : 0] = worst;
+    ASSERT_TRUE(scene.body->set_force(p, Vec3d::Zero()));
+    scene.run(6);
+    EXPECT_EQ(scene.farthest(), 0);
+  }
+  EXPECT_GT(stretch[0], 1.5);
+  EXPECT_LT(stretch[1], 1.3 * 1.01);
+}
+
+TEST(stretch_limit, changes_no_bit_where_it_is_not_reached) {
+  std::vector<double> found[2];
+  for (const bool is_limited : {false, true}) {
+    SoftScene scene(test::make_tube(60, 16, 6), soft_material(is_limited ? 3.0 : 0.0), 0.1);
+    ASSERT_TRUE(scene.body->add_impulse(8, {0.01, 0.01, 0}));
+    for (int i = 0; i < 100; ++i) {
+      scene.step(1.0 / 60);
+      for (std::uint32_t p = 0; p < scene.count(); ++p)
+        for (const double x : {scene.body->displacement(p).x(), scene.body->velocity(p).y()})
+          found[is_limited ? 1 : 0].push_back(x);
+    }
+  }
+  EXPECT_EQ(std::memcmp(found[0].data(), found[1].data(), found[0].size() * sizeof(double)), 0);
+}
+
+TEST(stretch_limit, adds_no_momentum) {
+  Material material = soft_material(1.05);
+  material.return_stiffness = 0;
+  SoftScene scene(test::make_bumpy_ball(800), material, 0.15);
+  ASSERT_TRUE(scene.body->add_impulse(4, {0.02, 0, 0}));
+  for (std::uint32_t p = 0; p < scene.count(); ++p) ASSERT_TRUE(scene.body->add_impulse(p, {0, 1e-6, 0}));  // all awake
+  const auto momentum = [&] {
+    Vec3d sum = Vec3d::Zero();
+    for (std::uint32_t p = 0; p < scene.count(); ++p) sum += material.mass * scene.body->velocity(p);
+    return sum;
+  };
+  const Vec3d before = momentum();
+  for (int i = 0; i < 20; ++i) scene.step(1.0 / 120);
+  EXPECT_LT((momentum() - before).norm(), 1e-6 * before.norm());
+}
+
+}  // namespace
+}  // namespace sunder
