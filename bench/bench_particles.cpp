@@ -118,7 +118,7 @@ void print_tables() {
 
 void print_summary() {
   const DecompositionFigures bunny =
-      measure_decomposition(size_name(kSmallest), scene_of(kSmallest).model(), scene_of(kSmallest).poses[0], 51);
+      measure_decomposition(size_name(kSmallest), scene_of(kSmallest).model(), scene_of(kSmallest).poses[0], 301);
   RepeatedRepair small(scene_of(kSmallest), kRange), large(scene_of(kLargest), kRange);
   std::vector<Candidate> repairs;
   for (RepeatedRepair* repair : {&small, &large}) repairs.push_back({[repair] { return repair->run(); }, {20, 1, 2}, 5, 1});

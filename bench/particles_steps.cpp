@@ -89,6 +89,12 @@ class Frame {
   bool is_plain_first_ = false;
 };
 
+std::uint32_t count(std::span<const Range> ranges) {
+  std::uint32_t sum = 0;
+  for (const Range& range : ranges) sum += range.count;
+  return sum;
+}
+
 /// Pushes every particle some other way, as far as a part of its range.
 void push(const ParticleSet& set, const Material& material, test::Random& random, SoftBody& body) {
   const double speed = 0.2 * std::sqrt(material.return_stiffness);  // times the range
@@ -121,8 +127,10 @@ StepFigures measure_steps(int divisions, std::uint32_t particles, int frames) {
     const ModelPose& pose = scene.next_pose();
     const double step = seconds_of([&] { require(body.step(model, pose, kStep)); });
     const Frame::Seconds seconds = frame.run(model, pose, *set, body);
-    if (body.awake_count() != figures.particles) {
-      std::fprintf(stderr, "%u of %u particles are awake\n", body.awake_count(), figures.particles);
+    const std::uint32_t moved = count(body.moved_vertices(model, 0));
+    if (body.awake_count() != figures.particles || moved != figures.vertices) {
+      std::fprintf(stderr, "%u of %u particles are awake, and %u of %u vertices displaced\n", body.awake_count(), figures.particles,
+                   moved, figures.vertices);
       std::exit(1);
     }
     if (i < 0) continue;
