@@ -57,6 +57,7 @@ double RepeatedRepair::run() {
 RepeatedRepair::Figures RepeatedRepair::figures() const {
   Figures result = figures_;
   result.follow = median_without_first(follow_);
+  result.first = follow_.front();
   result.settle = median_without_first(settle_);
   result.undo = median_without_first(undo_);
   result.settle_calls = median_without_first(settle_calls_);

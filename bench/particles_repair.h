@@ -24,6 +24,7 @@ class RepeatedRepair {
     double members = 0;                                ///< Of a particle, on average.
     double bytes = 0;                                  ///< That the set holds after tears.
     double follow = 0, settle = 0, undo = 0;           ///< Medians, seconds; `settle` is all calls after one tear.
+    double first = 0;                                  ///< follow() of the set's first tear, seconds.
     double settle_calls = 0, longest_settle_call = 0;  ///< Medians; the call in seconds.
   };
   /// Of all runs since the first, which warms up.
