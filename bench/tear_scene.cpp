@@ -63,6 +63,7 @@ void fit_stroke(const Eigen::AlignedBox3d& box, Scene& scene) {
 std::string size_name(int divisions) {
   switch (divisions) {
     case 1: return "3k";
+    case 2: return "14k";
     case 3: return "31k";
     case 7: return "171k";
     default: return "900k";

@@ -13,7 +13,7 @@ namespace sunder::bench {
 inline constexpr std::array<int, 4> kDivisions = {1, 3, 7, 16};
 inline constexpr int kSmallest = kDivisions.front(), kLargest = kDivisions.back();
 
-/// "3k", "31k", "171k", "900k".
+/// "3k", "31k", "171k", "900k"; of two divisions "14k".
 [[nodiscard]] std::string size_name(int divisions);
 
 /// One surface at one of four sizes, skinned to 64 bones, in a bend, and a stroke across about a hundred of its faces: at each size

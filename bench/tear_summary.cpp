@@ -1,9 +1,9 @@
 #include "bench/tear_summary.h"
 
 #include <cstdio>
-#include <functional>
 #include <optional>
 
+#include "bench/in_turns.h"
 #include "bench/json_object.h"
 #include "bench/measure.h"
 #include "bench/model_memory.h"
@@ -28,28 +28,6 @@ std::vector<std::pair<std::string, double>> by_size(const Figures& values) {
   std::vector<std::pair<std::string, double>> named;
   for (std::size_t i = 0; i < values.size(); ++i) named.emplace_back(size_name(kDivisions[i]), values[i]);
   return named;
-}
-
-/// Something measured in turns with others.
-struct Candidate {
-  std::function<double()> run;
-  Effort effort;    ///< Of one turn.
-  int turns = 10;   ///< It takes part in.
-  int warm_up = 3;  ///< Runs before each turn that do not count.
-  std::vector<double> seconds = {};
-};
-
-/// Each candidate in turn, round after round.
-void measure_in_turns(std::vector<Candidate>& candidates) {
-  int rounds = 0;
-  for (const Candidate& candidate : candidates) rounds = std::max(rounds, candidate.turns);
-  for (int round = 0; round < rounds; ++round)
-    for (Candidate& candidate : candidates) {
-      if (round >= candidate.turns) continue;
-      for (int i = 0; i < candidate.warm_up; ++i) candidate.run();
-      const auto seconds = sample(candidate.effort, candidate.run);
-      candidate.seconds.insert(candidate.seconds.end(), seconds.begin(), seconds.end());
-    }
 }
 
 /// Medians of tears by size, and of CGAL's corefinement at the smallest and the largest, in seconds.

@@ -40,22 +40,41 @@ ParticleGradients gradients_at(const Surface& surface, const Structure& structur
 
 }  // namespace
 
+void Gradients::forget(Index point) {
+  if (point >= is_known_.size() || !is_known_[point]) return;
+  is_known_[point] = false;
+  unknown_.push_back(point);
+}
+
 void Gradients::forget(const Surface& surface, std::span<const Index> points) {
   if (!is_wanted_) return;
-  const auto forget_one = [&](Index point) {
-    if (point >= is_known_.size() || !is_known_[point]) return;
-    is_known_[point] = false;
-    unknown_.push_back(point);
-  };
   for (const Index point : points) {
     if (point >= surface.point_count()) continue;
-    forget_one(point);
+    forget(point);
     if (surface.point_corner[point] == kNone) continue;
     surface.for_each_in_fan(surface.point_corner[point], [&](Index corner) {
-      forget_one(surface.corner_point[Surface::next(corner)]);
-      forget_one(surface.corner_point[Surface::previous(corner)]);
+      forget(surface.corner_point[Surface::next(corner)]);
+      forget(surface.corner_point[Surface::previous(corner)]);
     });
   }
+}
+
+void Gradients::forget(const TornModel& model, const Structure& structure, std::span<const ChangeRecord> changes) {
+  if (!is_wanted_) return;
+  for (const ChangeRecord& change : changes)
+    for (const MeshChange& of_mesh : change.meshes) {
+      const std::vector<Index>& points = structure.vertex_points[of_mesh.mesh];
+      const Mesh& mesh = model.character().meshes[of_mesh.mesh];
+      const auto forget_corners = [&](const Triangle& triangle) {
+        for (const Index vertex : triangle)
+          if (vertex < points.size() && points[vertex] != kNone) forget(points[vertex]);
+      };
+      for (const RewrittenTriangle& rewritten : of_mesh.rewritten) {
+        forget_corners(rewritten.before);
+        if (rewritten.triangle < mesh.triangle_count()) forget_corners(mesh.triangles[rewritten.triangle]);
+      }
+      for (Index t = of_mesh.first_triangle; t < mesh.triangle_count(); ++t) forget_corners(mesh.triangles[t]);
+    }
 }
 
 std::span<const ParticleGradients> Gradients::of(const Surface& surface, const Structure& structure) {

@@ -115,9 +115,7 @@ Result<ParticleSet> ParticleSet::decompose(const TornModel& model, const ModelPo
     structure->report.range = options.is_fraction ? options.range * diagonal : options.range;
     structure->edge_length = edge_length_of(*structure, model.surface());
     particles::decompose(model, options, *structure);
-    structure->lip_points.resize(structure->point_count());
-    structure->memberships_end = structure->memberships.size();
-    structure->triangle_count = model.surface().triangle_count();
+    structure->prepare_for_tears(model.surface().triangle_count());
     structure->report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     return ParticleSet(std::move(structure));
   } catch (const std::length_error&) {
@@ -227,6 +225,7 @@ Status ParticleSet::follow(const TornModel& model, std::span<const ChangeRecord>
       if (!model.is_in_stroke()) done.back().operation = newest;
     }
     structure.gradients->forget(model.surface(), structure.dirty);
+    structure.gradients->forget(model, structure, changes);
     structure.triangle_count = model.surface().triangle_count();
     structure.is_broken = false;
   } catch (const std::bad_alloc&) {

@@ -24,8 +24,8 @@ Repair::Repair(const TornModel& model, Structure& structure, Change& change, Ind
       first_new_(structure.point_count()),
       border_(model),
       ring_(model.surface(), structure.positions) {
+  structure.make_room(surface_.point_count());
   structure.scratch.worked.begin(surface_.point_count());
-  if (structure.scratch.work_of.size() < surface_.point_count()) structure.scratch.work_of.resize(surface_.point_count());
 }
 
 void Repair::follow(std::span<const ChangeRecord> changes) {

@@ -65,8 +65,6 @@ void Repair::begin_band() {
     chain.depth = std::min(range, std::max(0.5f * chain.length, structure_.edge_length));
     deepest = std::max(deepest, chain.depth);
   }
-  if (structure_.beside.size() < structure_.point_count())
-    structure_.beside.resize(structure_.point_count() + structure_.point_count() / 8);
   structure_.band_front.begin(structure_.point_count(), deepest, structure_.edge_length);
   Index lip_count = 0;
   for (Index c = 0; c < band.chains.size(); ++c) {

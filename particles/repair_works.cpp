@@ -113,6 +113,9 @@ void Repair::put_back(const Work& work) {
 
 void Repair::finish() {
   cover();
+  auto& memberships = structure_.memberships;
+  if (memberships.capacity() < memberships.size() + memberships_.size())
+    memberships.reserve(memberships.size() + memberships_.size() + memberships.size() / 8);
   for (const Work& work : works_) put_back(work);
   structure_.pairs->apply([&](Index particle) -> Particle& { return change_particle(particle); });
   change_.memberships_after = structure_.memberships_end = structure_.memberships.size();

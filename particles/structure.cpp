@@ -22,10 +22,38 @@ void move_tail(std::vector<T>& values, std::size_t count, bool is_there, std::ve
   }
 }
 
+/// Not twice as much, as arrays do by themselves.
+template <class T>
+void reserve_eighth(std::vector<T>& values, std::size_t count) {
+  if (values.capacity() < count) values.reserve(count + count / 8 + 1024);
+}
+
 }  // namespace
 
 Structure::Structure() : pairs(std::make_unique<PairChanges>()), gradients(std::make_unique<Gradients>()) {}
 Structure::~Structure() = default;
+
+void Structure::make_room(std::size_t points) {
+  reserve_eighth(positions, points);
+  reserve_eighth(vertices, points);
+  reserve_eighth(slabs, points);
+  reserve_eighth(influences, points);
+  reserve_eighth(lip_points, points);
+  if (beside.size() < points) beside.resize(points + points / 8 + 1024);
+  if (scratch.work_of.size() < points) scratch.work_of.resize(points + points / 8 + 1024);
+  front.grow(points);
+  band_front.grow(points);
+  for (Marks* marks : {&scratch.worked, &scratch.logged_points, &scratch.seen, &scratch.given}) marks->grow(points);
+}
+
+void Structure::prepare_for_tears(Index triangles) {
+  triangle_count = triangles;
+  make_room(point_count() + 1);
+  lip_points.resize(point_count());
+  memberships_end = memberships.size();
+  reserve_eighth(memberships, memberships_end + 1);
+  for (std::vector<Index>& points : vertex_points) reserve_eighth(points, points.size() + 1);
+}
 
 std::vector<Index> Structure::members_of(Index particle) const {
   std::vector<Index> found;

@@ -146,6 +146,11 @@ struct Structure {
   std::unique_ptr<Gradients> gradients;
   mutable std::vector<Affine3d> palette;  ///< Of all slots: what rest() computes with.
 
+  /// Memory for the first tears, so that none of them pays for all points.
+  void prepare_for_tears(Index triangles);
+  /// Makes room for points that came; by an eighth at a time.
+  void make_room(std::size_t points);
+
   [[nodiscard]] Index point_count() const { return static_cast<Index>(positions.size()); }
   [[nodiscard]] std::span<const Membership> memberships_of(Index point) const {
     return {memberships.data() + slabs[point].first, slabs[point].count};

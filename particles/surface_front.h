@@ -63,10 +63,7 @@ class SurfaceFront {
   void begin(std::size_t point_count, float limit, float edge) {
     for (const Entry& entry : entries_) labels_[entry.point] = distances_[entry.point] = kUnknown;
     entries_.clear();
-    if (labels_.size() < point_count) {
-      labels_.resize(point_count + point_count / 8, kUnknown);
-      distances_.resize(labels_.size(), kUnknown);
-    }
+    grow(point_count);
     limit_ = limit;
     path_limit_ = limit + 0.2f * std::min(edge, limit);
     const float wanted = kBucketsAnEdge * limit / std::max(edge, 1e-3f * limit);
@@ -74,6 +71,13 @@ class SurfaceFront {
     per_bucket_ = static_cast<float>(count - 1) / path_limit_;
     buckets_.assign(count, kNone);
     bucket_ = 0;
+  }
+
+  /// Room for so many points, and for an eighth more.
+  void grow(std::size_t point_count) {
+    if (labels_.size() >= point_count) return;
+    labels_.resize(point_count + point_count / 8 + 1024, kUnknown);
+    distances_.resize(labels_.size(), kUnknown);
   }
 
   /// Lets the front start at a point, or reach it, at a distance.

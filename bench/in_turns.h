@@ -1,0 +1,22 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "bench/measure.h"
+
+namespace sunder::bench {
+
+/// Something measured in turns with others.
+struct Candidate {
+  std::function<double()> run;  ///< Returns seconds.
+  Effort effort;                ///< Of one turn.
+  int turns = 10;               ///< It takes part in.
+  int warm_up = 3;              ///< Runs before each turn that do not count.
+  std::vector<double> seconds = {};
+};
+
+/// Each candidate in turn, round after round.
+void measure_in_turns(std::vector<Candidate>& candidates);
+
+}  // namespace sunder::bench
