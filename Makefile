@@ -37,7 +37,7 @@ stress:
 	cmake --build --preset asan
 	ctest --preset asan -j $(jobs)
 
-sources := core skinning weights tear io tools samples tests bench include
+sources := core skinning weights tear particles io tools samples tests bench include
 format:
 	scripts/setup format
 	find $(sources) -path '*/node_modules' -prune -o \( -name '*.h' -o -name '*.cpp' \) -print0 | xargs -0 clang-format -i
