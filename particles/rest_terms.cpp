@@ -52,7 +52,7 @@ void RestOfVertex::add_to(Particle& particle, double sign) const {
 }
 
 RestSums::RestSums(const TornModel& model, const Structure& structure)
-    : model_(model), structure_(structure), of_slot_(structure.first_slot.back(), Vec4d::Zero()) {
+    : model_(model), structure_(structure), of_slot_(structure.first_slot.back(), Eigen::Vector4d::Zero()) {
   for (Index m = 0; m < model.character().meshes.size(); ++m)
     is_plain_.push_back(model.character().meshes[m].morph_targets.empty() && model.influence_positions(m).vertices.empty());
 }
@@ -61,7 +61,7 @@ void RestSums::sum(std::span<const Index> members, Particle& particle) {
   particle.terms.clear();
   particle.morph_terms.clear();
   const auto add_to_slot = [&](Index slot, const Vec4d& term) {
-    Vec4d& sum = of_slot_[slot];
+    Eigen::Vector4d& sum = of_slot_[slot];
     if (sum.w() == 0) slots_.push_back(slot);  // weights are > 0
     sum += term;
   };
@@ -76,15 +76,11 @@ void RestSums::sum(std::span<const Index> members, Particle& particle) {
     const Mesh& mesh = model_.character().meshes[of.mesh];
     const Index first = structure_.first_slot[mesh.skin];
     const Vec3f& at = mesh.positions[of.vertex];
-    const double x = at.x(), y = at.y(), z = at.z();
+    const Eigen::Vector4d one(double{at.x()}, double{at.y()}, double{at.z()}, 1.0);
     for (const Influence& influence : mesh.weights.of(of.vertex)) {
-      const double weight = influence.weight;
-      double* sum = of_slot_[first + influence.slot].data();
-      if (sum[3] == 0) slots_.push_back(first + influence.slot);
-      sum[0] += weight * x;
-      sum[1] += weight * y;
-      sum[2] += weight * z;
-      sum[3] += weight;
+      Eigen::Vector4d& sum = of_slot_[first + influence.slot];
+      if (sum.w() == 0) slots_.push_back(first + influence.slot);
+      sum += double{influence.weight} * one;
     }
   }
   std::sort(slots_.begin(), slots_.end());

@@ -57,8 +57,8 @@ class RestSums {
  private:
   const TornModel& model_;
   const Structure& structure_;
-  std::vector<bool> is_plain_;  ///< Of each mesh: has neither morph targets nor exact points.
-  std::vector<Vec4d> of_slot_;  ///< One a slot: zero between calls.
+  std::vector<bool> is_plain_;            ///< Of each mesh: has neither morph targets nor exact points.
+  std::vector<Eigen::Vector4d> of_slot_;  ///< One a slot: zero between calls.
   std::vector<Index> slots_;
 };
 
