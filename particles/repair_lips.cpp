@@ -30,8 +30,7 @@ void Repair::choose_sides() {
   };
   std::vector<Score> scores;
   std::array<float, 2> counts = {};
-  for (const Index point : lips_) {
-    const auto side = static_cast<std::size_t>(structure_.lip_points[point].side);
+  const auto look_at = [&](Index point, std::size_t side) {
     ++counts[side];
     for (const Membership& membership : current(point)) {
       if (scratch.scored.mark(membership.particle)) {
@@ -40,6 +39,14 @@ void Repair::choose_sides() {
       }
       scores[scratch.score_of[membership.particle]].near[side] += 1 - membership.reach;
     }
+  };
+  RingWalk ring(surface_, structure_.positions);
+  for (const Index point : lips_) {
+    const auto side = static_cast<std::size_t>(structure_.lip_points[point].side);
+    look_at(point, side);
+    // The lips are equally near. What is beside them tells on which side the seed is, and knows particles that pass them by.
+    for (const RingPoint& beside : ring(point))
+      if (structure_.lip_points[beside.point].tear != tear_) look_at(beside.point, side);
   }
   for (const Score& score : scores) {
     Particle& particle = structure_.particles[score.particle];
