@@ -2,8 +2,10 @@
 #include <sunder/skinning/palette.h>
 #include <sunder/skinning/reference.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <new>
 #include <stdexcept>
 
@@ -111,6 +113,10 @@ Result<ParticleSet> ParticleSet::decompose(const TornModel& model, const ModelPo
     const double diagonal = diagonal_of(*structure, model.surface());
     if (!(diagonal > 0)) return Status::failure(StatusCode::empty_input, kNone, "the model has no face to divide into particles");
     structure->report.range = options.is_fraction ? options.range * diagonal : options.range;
+    if (const double range = structure->report.range;
+        !(range >= double{std::numeric_limits<float>::min()} && range <= double{std::numeric_limits<float>::max()}))
+      return Status::failure(StatusCode::invalid_argument, kNone, "the range of particles is %g metres, which no float holds",
+                             range);
     structure->edge_length = edge_length_of(*structure, model.surface());
     particles::decompose(model, options, *structure);
     structure->lip_points.resize(structure->point_count());
@@ -197,9 +203,14 @@ Status ParticleSet::follow(const TornModel& model, std::span<const ChangeRecord>
       return std::ranges::any_of(stack, [&](const particles::Change& change) { return change.operation == newest; });
     };
     structure.is_broken = true;  // until all is well
-    if (structure.band) particles::complete_band(model, structure);
+    const bool is_undo = !model.is_in_stroke() && (newest == 0 || has(done));
+    // Of what is taken back, with the points that it made, nothing is to be completed.
+    if (is_undo && !done.empty() && done.back().operation != newest) structure.band.reset();
     structure.dirty_points = {};
-    if (!model.is_in_stroke() && (newest == 0 || has(done))) {
+    if (structure.band) particles::complete_band(model, structure);
+    const DirtyRanges completed = structure.dirty_points;
+    structure.dirty_points = {};
+    if (is_undo) {
       while (!done.empty() && done.back().operation != newest) {
         particles::exchange(structure, done.back());
         undone.push_back(std::move(done.back()));
@@ -214,6 +225,14 @@ Status ParticleSet::follow(const TornModel& model, std::span<const ChangeRecord>
     } else {
       particles::follow_operation(model, structure, changes);
       if (!model.is_in_stroke()) done.back().operation = newest;
+    }
+    if (!completed.empty()) {
+      std::vector<Index> dirty;
+      for (const DirtyRanges& ranges : {completed, structure.dirty_points})
+        for (const Range& range : ranges)
+          for (Index i = 0; i < range.count; ++i) dirty.push_back(range.first + i);
+      std::sort(dirty.begin(), dirty.end());
+      structure.dirty_points = DirtyRanges::covering(dirty);
     }
     structure.triangle_count = model.surface().triangle_count();
     structure.is_broken = false;

@@ -6,7 +6,9 @@ void RingWalk::append_ring(const Surface& surface, std::span<const Vec3f> positi
   const Index start = surface.point_corner[point];
   if (start == kNone) return;
   const Vec3f at = positions[point];
-  const auto add = [&](Index other) { ring.push_back({other, (positions[other] - at).norm()}); };
+  const auto add = [&](Index other) {
+    if (other < positions.size()) ring.push_back({other, (positions[other] - at).norm()});
+  };
   const Index first = surface.first_of_fan(start);
   add(surface.corner_point[Surface::next(first)]);
   Index corner = first;

@@ -21,7 +21,7 @@ struct RingPoint {
 };
 
 /// The points around each point of a surface, counter-clockwise; where they close a circle the first one comes again at the end. So
-/// each two that follow one another are of one face.
+/// each two that follow one another are of one face. Points that have no position yet are left out.
 class Rings {
  public:
   Rings(const Surface& surface, std::span<const Vec3f> positions);
