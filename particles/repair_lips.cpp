@@ -29,15 +29,14 @@ void Repair::choose_sides() {
     std::array<float, 2> near = {};
   };
   std::vector<Score> scores;
-  std::array<float, 2> counts = {};
   const auto look_at = [&](Index point, std::size_t side) {
-    ++counts[side];
     for (const Membership& membership : current(point)) {
       if (scratch.scored.mark(membership.particle)) {
         scratch.score_of[membership.particle] = static_cast<Index>(scores.size());
         scores.push_back({membership.particle});
       }
-      scores[scratch.score_of[membership.particle]].near[side] += 1 - membership.reach;
+      float& near = scores[scratch.score_of[membership.particle]].near[side];
+      near = std::max(near, 1 - membership.reach);
     }
   };
   RingWalk ring(surface_, structure_.positions);
@@ -53,7 +52,7 @@ void Repair::choose_sides() {
     if (particle.side_of(tear_) != nullptr) continue;
     // The seed itself may stand on a lip.
     const LipPoint& of_seed = structure_.lip_points[particle.seed];
-    Side side = score.near[0] * counts[1] >= score.near[1] * counts[0] ? Side::left : Side::right;
+    Side side = score.near[0] >= score.near[1] ? Side::left : Side::right;
     if (of_seed.tear == tear_) side = of_seed.side;
     change_particle(score.particle).sides.push_back({tear_, side});
   }
