@@ -468,6 +468,42 @@ TEST(Follow, of_a_call_that_did_nothing_changes_no_influence) {
   EXPECT_EQ(difference(state_of(followed.model, followed.set, pose), before), "");
 }
 
+TEST(Settle, leaves_no_particle_in_two_pieces) {
+  for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(test::stressed(100, 20)); ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    const std::uint32_t fineness = 8 + random.index(12);
+    Followed followed(seed % 3 == 0   ? test::make_sheet(fineness)
+                      : seed % 3 == 1 ? test::make_tube(fineness, fineness, 3)
+                                      : test::make_bumpy_ball(20 * fineness),
+                      random.uniform(0.06, 0.4), seed);
+    const ModelPose pose = bind_pose(followed.model.source());
+    const std::vector<Vec3d> positions = test::posed_positions(followed.model.source(), 0, pose);
+    CutOperation cut{pose, {}};
+    cut.cut.point = positions[random.index(static_cast<std::uint32_t>(positions.size()))];
+    cut.cut.normal = random.direction();
+    cut.cut.caps = random.index(2) == 0;
+    ASSERT_NO_FATAL_FAILURE(followed.play(cut));
+    settle(followed.model, followed.set, 1 + random.index(300));
+    ASSERT_THAT(test::broken_pieces(followed.model, followed.set), IsEmpty());
+  }
+}
+
+TEST(Lips, are_the_borders_that_an_operation_made) {
+  for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(test::stressed(60, 20)); ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    Followed followed(seed % 2 == 0 ? test::make_sheet(8 + random.index(12)) : test::make_tube(10, 8 + random.index(12), 3), 0.2);
+    const TearOperation tear = test::random_tear(followed.model, random, false);
+    ASSERT_NO_FATAL_FAILURE(followed.play(tear));
+    ASSERT_THAT(test::broken_lip_edges(followed.model, followed.set), IsEmpty());
+    if (followed.model.undo_count() == 0) continue;
+    ASSERT_TRUE(followed.model.undo());
+    ASSERT_TRUE(followed.set.follow(followed.model, {}));
+    EXPECT_TRUE(followed.set.lips().empty());
+  }
+}
+
 TEST(Lips, of_a_flat_tear_pull_apart_evenly) {
   for (const std::uint32_t cells : {4u, 9u, 25u}) {
     SCOPED_TRACE(cells);

