@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <new>
 #include <stdexcept>
 
@@ -113,6 +114,10 @@ Result<ParticleSet> ParticleSet::decompose(const TornModel& model, const ModelPo
     const double diagonal = diagonal_of(*structure, model.surface());
     if (!(diagonal > 0)) return Status::failure(StatusCode::empty_input, kNone, "the model has no face to divide into particles");
     structure->report.range = options.is_fraction ? options.range * diagonal : options.range;
+    if (const double range = structure->report.range;
+        !(range >= double{std::numeric_limits<float>::min()} && range <= double{std::numeric_limits<float>::max()}))
+      return Status::failure(StatusCode::invalid_argument, kNone, "the range of particles is %g metres, which no float holds",
+                             range);
     structure->edge_length = edge_length_of(*structure, model.surface());
     particles::decompose(model, options, *structure);
     structure->prepare_for_tears(model.surface().triangle_count());
@@ -207,8 +212,11 @@ Status ParticleSet::follow(const TornModel& model, std::span<const ChangeRecord>
     };
     structure.is_broken = true;  // until all is well
     structure.dirty.clear();
+    const bool is_undo = !model.is_in_stroke() && (newest == 0 || has(done));
+    // Of what is taken back, with the points that it made, nothing is to be completed.
+    if (is_undo && !done.empty() && done.back().operation != newest) structure.band.reset();
     if (structure.band) particles::complete_band(model, structure);
-    if (!model.is_in_stroke() && (newest == 0 || has(done))) {
+    if (is_undo) {
       while (!done.empty() && done.back().operation != newest) {
         particles::exchange(structure, done.back());
         undone.push_back(std::move(done.back()));

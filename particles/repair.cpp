@@ -34,7 +34,9 @@ void Repair::follow(std::span<const ChangeRecord> changes) {
   leave_lost_points(changes);
   renew_vertex_points();
   take_up_lips(changes);
+  is_before_sides_ = !lips_.empty();
   spread_to_new_points();
+  is_before_sides_ = false;
   if (!lips_.empty()) {
     choose_sides();
     begin_band();

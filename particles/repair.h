@@ -32,7 +32,8 @@ class Repair {
   /// Memberships as they stand, worked on or not.
   [[nodiscard]] std::span<const Membership> current(Index point);
   void join(Index point, const Membership& membership);
-  /// Whether the lips let a point belong to a particle; one that had no side yet gets the point's.
+  /// Whether the lips let a point belong to a particle; one that had no side yet gets the point's, but where choose_sides() is to
+  /// say.
   [[nodiscard]] bool may_join(Index point, Index particle);
   Index make_particle(Index seed, float range, const ParticleInfluences& parents);
   Particle& change_particle(Index particle);
@@ -72,7 +73,8 @@ class Repair {
   std::vector<Membership> memberships_;
   RestOfVertex rest_;
   RingWalk ring_;
-  std::vector<Index> lips_;  ///< Points that this call put on lips.
+  std::vector<Index> lips_;       ///< Points that this call put on lips.
+  bool is_before_sides_ = false;  ///< choose_sides() is still to come.
 };
 
 /// Follows an operation, or an extension of the one under way.

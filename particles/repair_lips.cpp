@@ -31,24 +31,30 @@ void Repair::choose_sides() {
     std::array<float, 2> near = {};
   };
   std::vector<Score> scores;
-  std::array<float, 2> counts = {};
-  for (const Index point : lips_) {
-    const auto side = static_cast<std::size_t>(structure_.lip_points[point].side);
-    ++counts[side];
+  const auto look_at = [&](Index point, std::size_t side) {
     for (const Membership& membership : current(point)) {
       if (scratch.scored.mark(membership.particle)) {
         scratch.score_of[membership.particle] = static_cast<Index>(scores.size());
         scores.push_back({membership.particle});
       }
-      scores[scratch.score_of[membership.particle]].near[side] += 1 - membership.reach;
+      float& near = scores[scratch.score_of[membership.particle]].near[side];
+      near = std::max(near, 1 - membership.reach);
     }
+  };
+
+  for (const Index point : lips_) {
+    const auto side = static_cast<std::size_t>(structure_.lip_points[point].side);
+    look_at(point, side);
+    // The lips are equally near. What is beside them tells on which side the seed is, and knows particles that pass them by.
+    for (const RingPoint& beside : ring_(point))
+      if (structure_.lip_points[beside.point].tear != tear_) look_at(beside.point, side);
   }
   for (const Score& score : scores) {
     Particle& particle = structure_.particles[score.particle];
     if (particle.side_of(tear_) != nullptr) continue;
     // The seed itself may stand on a lip.
     const LipPoint& of_seed = structure_.lip_points[particle.seed];
-    Side side = score.near[0] * counts[1] >= score.near[1] * counts[0] ? Side::left : Side::right;
+    Side side = score.near[0] >= score.near[1] ? Side::left : Side::right;
     if (of_seed.tear == tear_) side = of_seed.side;
     change_particle(score.particle).sides.push_back({tear_, side});
   }

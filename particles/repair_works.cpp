@@ -29,6 +29,7 @@ bool Repair::may_join(Index point, Index particle) {
   const LipPoint& lip = structure_.lip_points[point];
   if (lip.tear == kNone) return true;
   if (const Side* side = structure_.particles[particle].side_of(lip.tear)) return *side == lip.side;
+  if (is_before_sides_ && lip.tear == tear_) return true;
   change_particle(particle).sides.push_back({lip.tear, lip.side});
   return true;
 }

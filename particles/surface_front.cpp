@@ -7,6 +7,7 @@ void RingWalk::append_ring(const Surface& surface, std::span<const Vec3f> positi
   if (start == kNone) return;
   const Vec3f at = positions[point];
   const auto add = [&](Index other) {
+    if (other >= positions.size()) return;  // it came since
     const Vec3f& to = positions[other];
     const float x = to.x() - at.x(), y = to.y() - at.y(), z = to.z() - at.z();
     ring.push_back({other, std::sqrt(x * x + y * y + z * z)});

@@ -21,7 +21,7 @@ struct RingPoint {
 };
 
 /// The points around each point of a surface, counter-clockwise; where they close a circle the first one comes again at the end. So
-/// each two that follow one another are of one face.
+/// each two that follow one another are of one face. Points that have no position yet are left out.
 class Rings {
  public:
   Rings(const Surface& surface, std::span<const Vec3f> positions);
@@ -150,7 +150,7 @@ class SurfaceFront {
   }
 
   /// Distance of a point through the face whose other corners are nearest: the nearest point around it, and the nearer one beside
-  /// that.
+  /// that. Where the straight line does not come through that face, it may come through the one on the nearest point's other side.
   [[nodiscard]] float accurate(const Vec3f* positions, Index point, std::span<const RingPoint> around) const {
     const float* const distances = distances_.data();
     const std::size_t count = around.size();
@@ -166,10 +166,13 @@ class SurfaceFront {
     const std::size_t before = at > 0 ? at - 1 : count - 2, after = at + 1 < count ? at + 1 : 1;
     const float at_before = at > 0 || is_closed ? distances[around[before].point] : kUnknown;
     const float at_after = at + 1 < count || is_closed ? distances[around[after].point] : kUnknown;
-    const float second = std::min(at_before, at_after);
-    if (second == kUnknown) return kUnknown;
-    return across_face(positions[around[at].point], positions[around[at_before < at_after ? before : after].point],
-                       positions[point], nearest, second);
+    const auto across = [&](std::size_t other, float at_other) {
+      if (at_other == kUnknown) return kUnknown;
+      return across_face(positions[around[at].point], positions[around[other].point], positions[point], nearest, at_other);
+    };
+    const float distance = at_before < at_after ? across(before, at_before) : across(after, at_after);
+    if (distance < kUnknown) return distance;
+    return at_before < at_after ? across(after, at_after) : across(before, at_before);
   }
 
   std::vector<float> labels_;     ///< What is known of each point: at most so far.

@@ -1,0 +1,70 @@
+// Particles of every rigged file at hand: decomposed coarsely and finely, torn, and taken back.
+#include <sunder/io/load_character.h>
+#include <sunder/particles/particle_set.h>
+#include <sunder/skinning/palette.h>
+
+#include <algorithm>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "support/particle_laws.h"
+#include "support/random_operations.h"
+#include "support/rigs.h"
+#include "support/shared_models.h"
+
+namespace sunder {
+namespace {
+
+using test::Random;
+using testing::IsEmpty;
+
+void tear_and_undo(const std::filesystem::path& file, double range) {
+  SCOPED_TRACE(file);
+  const auto loaded = load_character(file);
+  if (!loaded) return;  // broken on purpose
+  auto model = TornModel::create(loaded->character);
+  ASSERT_TRUE(model) << model.error().text();
+  Random random(3);
+  const ModelPose pose = test::random_pose(*loaded->character, random, 0.4, 1.1);
+  auto set = ParticleSet::decompose(*model, bind_pose(*loaded->character), {range});
+  ASSERT_TRUE(set) << set.error().text();
+  ASSERT_THAT(test::broken_particles(*model, *set), IsEmpty());
+  EXPECT_EQ(set->report().covered, set->report().points);
+  const test::ParticleState before = test::state_of(*model, *set, pose);
+  for (int i = 0; i < 3; ++i) {
+    SCOPED_TRACE(i);
+    ChangeRecord change;
+    const std::uint32_t done = model->undo_count();
+    const auto report = test::play(*model, test::random_operation(*model, random), &change);
+    ASSERT_TRUE(report) << report.error().text();
+    if (model->undo_count() == done) continue;
+    ASSERT_TRUE(set->follow(*model, {&change, 1}));
+    ASSERT_THAT(test::broken_sides(*set, {&change, 1}), IsEmpty());
+    while (set->settle(*model)) {
+    }
+    ASSERT_THAT(test::broken_particles(*model, *set), IsEmpty());
+    ASSERT_THAT(test::broken_sides(*set, {&change, 1}), IsEmpty());
+  }
+  while (model->undo_count() > 0) ASSERT_TRUE(model->undo());
+  ASSERT_TRUE(set->follow(*model, {}));
+  EXPECT_EQ(test::difference(test::state_of(*model, *set, pose), before), "");
+}
+
+void tear_and_undo_all(const std::filesystem::path& folder) {
+  for (const auto& file : test::files_below(folder, {".glb", ".gltf", ".fbx", ".dae", ".x", ".b3d", ".md5mesh", ".mdl", ".ms3d"}))
+    for (const double range : {0.1, 0.03}) tear_and_undo(file, range);
+}
+
+TEST(RealParticles, keep_the_laws_on_the_shared_models) {
+  SUNDER_SKIP_WITHOUT_SHARED_MODELS();
+  tear_and_undo_all(test::shared_models() / "rigged");
+}
+
+TEST(RealParticles, keep_the_laws_on_the_models_of_assimp) {
+  if (test::assimp_models().empty()) GTEST_SKIP() << "needs Debian's assimp-testmodels";
+  tear_and_undo_all(test::assimp_models());
+}
+
+}  // namespace
+}  // namespace sunder
