@@ -28,6 +28,7 @@ struct LipChain {
 struct Band {
   Index tear = 0;
   std::vector<LipChain> chains;
+  std::vector<Index> to_grow;  ///< Particles that are to be grown anew when the band is done; ascending.
 };
 
 }  // namespace sunder::particles

@@ -23,7 +23,8 @@ Repair::Repair(const TornModel& model, Structure& structure, Change& change, Ind
       tear_(tear),
       first_new_(structure.point_count()),
       border_(model),
-      ring_(model.surface(), structure.positions) {
+      ring_(model.surface(), structure.positions),
+      other_ring_(model.surface(), structure.positions) {
   structure.make_room(surface_.point_count());
   structure.scratch.worked.begin(surface_.point_count());
 }
@@ -40,6 +41,9 @@ void Repair::follow(std::span<const ChangeRecord> changes) {
   if (!lips_.empty()) {
     choose_sides();
     begin_band();
+  } else {
+    cover();
+    if (!lost_.empty()) begin_hole();
   }
   renew_lip_edges();
 }
@@ -87,8 +91,9 @@ void Repair::leave_lost_points(std::span<const ChangeRecord> changes) {
       for (const RewrittenTriangle& rewritten : of_mesh.rewritten)
         for (const Index vertex : rewritten.before) {
           const Index point = structure_.vertex_points[of_mesh.mesh][vertex];
-          if (point != kNone && surface_.point_corner[point] == kNone && !structure_.memberships_of(point).empty())
-            work_of(point).count = 0;
+          if (point == kNone || surface_.point_corner[point] != kNone || structure_.memberships_of(point).empty()) continue;
+          work_of(point).count = 0;
+          lost_.push_back(point);
         }
     }
 }
@@ -188,21 +193,21 @@ void Repair::renew_weights(std::span<const ChangeRecord> changes) {
   for (const Index particle : particles) sums.sum(structure_.members_of(particle), change_particle(particle));
 }
 
-void Repair::cover() {
+void Repair::cover(Index seed) {
+  if (surface_.point_corner[seed] == kNone) return;
+  if (std::ranges::any_of(current(seed), [](const Membership& membership) { return membership.reach < kUncovered; })) return;
   const auto range = static_cast<float>(structure_.report.range);
-  for (std::size_t w = 0; w < works_.size(); ++w) {
-    const Index seed = works_[w].point;
-    if (surface_.point_corner[seed] == kNone) continue;
-    if (std::ranges::any_of(memberships(works_[w]), [](const Membership& membership) { return membership.reach < kUncovered; }))
-      continue;
-    const Index particle = make_particle(seed, range, influences_from(structure_.memberships_of(seed)));
-    structure_.front.begin(structure_.point_count(), range, structure_.edge_length);
-    structure_.front.add(seed, 0.0f);
-    structure_.front.run(ring_, structure_.positions, [&](Index point, float distance, Index) {
-      if (may_join(point, particle)) join(point, {particle, distance / range});
-      return true;
-    });
-  }
+  const Index particle = make_particle(seed, range, influences_from(structure_.memberships_of(seed)));
+  structure_.front.begin(structure_.point_count(), range, structure_.edge_length);
+  structure_.front.add(seed, 0.0f);
+  structure_.front.run(other_ring_, structure_.positions, [&](Index point, float distance, Index) {
+    if (may_join(point, particle)) join(point, {particle, distance / range});
+    return true;
+  });
+}
+
+void Repair::cover() {
+  for (std::size_t w = 0; w < works_.size(); ++w) cover(works_[w].point);
 }
 
 void follow_operation(const TornModel& model, Structure& structure, std::span<const ChangeRecord> changes) {

@@ -48,7 +48,9 @@ class Repair {
   void spread_to_new_points();
   bool spread_to(Index point, Index first_new);
   void renew_weights(std::span<const ChangeRecord> changes);
-  /// Makes particles where points have none left near enough.
+  /// Makes a particle where a point has none left near enough: at once, so that what comes of it does not depend on where a call
+  /// of settle() ends.
+  void cover(Index seed);
   void cover();
 
   // ---- Lips (repair_lips.cpp).
@@ -60,6 +62,11 @@ class Repair {
   void join_lip_particles(Index point, const LipChain& chain, const LipChain::Place& place, float distance);
   void renew_lip_edges();
   void keep_edge(Index half_edge);
+  void forget_edge(Index point);
+  void begin_hole();
+  void widen_band(Index points);
+  void queue_beside_lips(Band& band);
+  Index grow(Index particle);
 
   const TornModel& model_;
   const Surface& surface_;
@@ -72,8 +79,10 @@ class Repair {
   std::vector<Work> works_;
   std::vector<Membership> memberships_;
   RestOfVertex rest_;
-  RingWalk ring_;
+  RingWalk ring_, other_ring_;    ///< The second for what is begun while the first is in use.
   std::vector<Index> lips_;       ///< Points that this call put on lips.
+  std::vector<Index> left_;       ///< Points that left a particle which was grown anew.
+  std::vector<Index> lost_;       ///< Points that it left without a face.
   bool is_before_sides_ = false;  ///< choose_sides() is still to come.
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "particles/lip_chains.h"
 #include "particles/repair.h"
@@ -85,16 +86,90 @@ void Repair::begin_band() {
       ++lip_count;
     }
   }
-  widen(lip_count + static_cast<Index>(lips_.size()) + 64);
+  // What a tear without tips may have set free holds together no longer, however far from the lips.
+  const bool may_part = std::ranges::any_of(band.chains, [](const LipChain& chain) { return !std::isfinite(chain.length); });
+  if (may_part) queue_beside_lips(band);
+  cover();
+  widen_band(lip_count + static_cast<Index>(lips_.size()) + 64);
+}
+
+/// The particles that the tear passes, on the lips or beside them.
+void Repair::queue_beside_lips(Band& band) {
+  for (const Index point : lips_)
+    for (const RingPoint& beside : ring_(point))
+      for (const Membership& membership : structure_.memberships_of(beside.point)) band.to_grow.push_back(membership.particle);
+  std::sort(band.to_grow.begin(), band.to_grow.end());
+  band.to_grow.erase(std::unique(band.to_grow.begin(), band.to_grow.end()), band.to_grow.end());
+}
+
+/// A bore has no lips: particles that its rim takes a part of are grown anew.
+void Repair::begin_hole() {
+  auto band = std::make_unique<Band>();
+  band->tear = tear_;
+  for (Index point = first_new_; point < structure_.point_count(); ++point)
+    if (border_.leaving(point) != kNone)
+      for (const Membership& membership : current(point)) band->to_grow.push_back(membership.particle);
+  if (band->to_grow.empty()) return;
+  std::sort(band->to_grow.begin(), band->to_grow.end());
+  band->to_grow.erase(std::unique(band->to_grow.begin(), band->to_grow.end()), band->to_grow.end());
+  structure_.band_front.begin(structure_.point_count(), structure_.edge_length,
+                              structure_.edge_length);  // of which nothing is left
+  structure_.band = std::move(band);
 }
 
 void Repair::widen(Index points) {
+  if (!structure_.band) return;
+  widen_band(points);
+  while (structure_.band && structure_.band_front.is_done() && !structure_.band->to_grow.empty() && points > 0) {
+    const Index particle = structure_.band->to_grow.back();
+    structure_.band->to_grow.pop_back();
+    const Index grown = grow(particle);
+    points -= std::min(points, grown);
+    if (structure_.band->to_grow.empty()) structure_.band.reset();
+  }
+}
+
+/// Grows a particle from its seed again: what it does not reach any more leaves it. @return how many points it has.
+Index Repair::grow(Index particle) {
+  const float range = structure_.particles[particle].range;
+  const std::vector<Index> members = structure_.members_of(particle);
+  Index seed = structure_.particles[particle].seed;
+  if (surface_.point_corner[seed] == kNone) {
+    // Lost: from what was nearest to it.
+    float nearest = std::numeric_limits<float>::infinity();
+    for (const Index point : members)
+      for (const Membership& membership : current(point))
+        if (membership.particle == particle && membership.reach < nearest && surface_.point_corner[point] != kNone) {
+          nearest = membership.reach;
+          seed = point;
+        }
+    change_particle(particle).seed = seed;
+  }
+  structure_.front.begin(structure_.point_count(), range, structure_.edge_length);
+  structure_.front.add(seed, 0.0f);
+  structure_.front.run(ring_, structure_.positions, [](Index, float, Index) { return true; });
+  for (const Index point : members) {
+    const float distance = structure_.front.distance(point);
+    if (distance < range) continue;  // where it belongs still, as it did
+    Work& work = work_of(point);
+    const auto kept = std::remove_if(memberships_.begin() + work.first, memberships_.begin() + work.first + work.count,
+                                     [&](const Membership& membership) { return membership.particle == particle; });
+    work.count = static_cast<Index>(kept - memberships_.begin()) - work.first;
+  }
+  for (const Index point : members)
+    if (!(structure_.front.distance(point) < range)) left_.push_back(point);
+  for (const Index point : left_) cover(point);
+  left_.clear();
+  return static_cast<Index>(members.size());
+}
+
+void Repair::widen_band(Index points) {
   if (!structure_.band) return;
   structure_.band_front.run(ring_, structure_.positions, [&](Index point, float distance, Index from) {
     if (from != kNone) visit_band(point, distance, from);
     return --points > 0;
   });
-  if (structure_.band_front.is_done()) structure_.band.reset();
+  if (structure_.band_front.is_done() && structure_.band->to_grow.empty()) structure_.band.reset();
 }
 
 void Repair::visit_band(Index point, float distance, Index from) {
@@ -103,6 +178,7 @@ void Repair::visit_band(Index point, float distance, Index from) {
   if (!(distance < chain.depth)) return;
   keep_to_own_side(point, chain, chain.places[beside.place], distance);
   join_lip_particles(point, chain, chain.places[beside.place], distance);
+  cover(point);
 }
 
 /// Particles of the other lip end here, as far as the way around the tip is longer than the way through the tear was; on the lip
@@ -176,8 +252,7 @@ void Repair::keep_edge(Index half_edge) {
   LipPoint& lip = structure_.lip_points[a];
   if (lip.edge != kNone) {
     if (structure_.lips[lip.edge].points[1] == b) return;
-    if (lip.edge < change_.lips) change_.changed_lips.emplace_back(lip.edge, structure_.lips[lip.edge]);
-    structure_.lips[lip.edge] = {{a, a}, Vec3f::Zero()};
+    forget_edge(a);
   }
   log_point(a);
   const Vec3f &at = structure_.positions[a], &to = structure_.positions[b];
@@ -192,28 +267,32 @@ void Repair::keep_edge(Index half_edge) {
   structure_.lips.push_back({{a, b}, inward});
 }
 
+/// Empties what is kept of the edge that leaves a point.
+void Repair::forget_edge(Index point) {
+  const Index edge = structure_.lip_points[point].edge;
+  if (edge == kNone || structure_.lips[edge].points[0] == structure_.lips[edge].points[1]) return;
+  if (edge < change_.lips) change_.changed_lips.emplace_back(edge, structure_.lips[edge]);
+  structure_.lips[edge] = {{point, point}, Vec3f::Zero()};
+}
+
 void Repair::renew_lip_edges() {
-  const auto is_lip = [&](Index point) { return structure_.lip_points[point].tear != kNone; };
+  // A bore's rim is no lip, but new all around.
+  const auto is_torn = [&](Index point) { return structure_.lip_points[point].tear != kNone || point >= first_new_; };
   const auto look_at = [&](Index point) {
-    const Index leaving = border_.leaving(point);
-    if (leaving == kNone) return;
-    const Index to = surface_.corner_point[Surface::next(leaving)];
-    // A bore's rim is no lip, but new all around.
-    const bool is_wanted = (is_lip(point) && is_lip(to)) || (point >= first_new_ && to >= first_new_);
-    if (is_wanted) keep_edge(leaving);
-    const Index beyond = is_lip(point) && !is_lip(to) ? border_.leaving(to) : kNone;  // where the other lip begins
-    if (beyond != kNone) {
-      const LipPoint& own = structure_.lip_points[point];
-      const LipPoint& other = structure_.lip_points[surface_.corner_point[Surface::next(beyond)]];
-      if (other.tear == own.tear && other.side != own.side) {
-        keep_edge(leaving);
-        keep_edge(beyond);
-      }
-    }
-    const Index arriving = border_.arriving(point);
-    const Index from = surface_.corner_point[arriving];
-    if ((is_lip(point) && is_lip(from)) || (point >= first_new_ && from >= first_new_)) keep_edge(arriving);
+    const Index leaving = border_.leaving(point), arriving = border_.arriving(point);
+    if (leaving == kNone || arriving == kNone) return;
+    const Index to = surface_.corner_point[Surface::next(leaving)], from = surface_.corner_point[arriving];
+    if (is_torn(point) && is_torn(to)) keep_edge(leaving);
+    if ((is_torn(point) && is_torn(from)) || structure_.lip_points[from].edge != kNone) keep_edge(arriving);
+    const LipPoint& own = structure_.lip_points[point];
+    const Index beyond = own.tear != kNone && !is_torn(to) ? border_.leaving(to) : kNone;  // where the other lip begins
+    if (beyond == kNone) return;
+    const LipPoint& other = structure_.lip_points[surface_.corner_point[Surface::next(beyond)]];
+    if (other.tear != own.tear || other.side == own.side) return;
+    keep_edge(leaving);
+    keep_edge(beyond);
   };
+  for (const Index point : lost_) forget_edge(point);
   for (const Index point : lips_) look_at(point);
   for (Index point = first_new_; point < structure_.point_count(); ++point)
     if (surface_.point_corner[point] != kNone) look_at(point);

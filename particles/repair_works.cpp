@@ -113,7 +113,6 @@ void Repair::put_back(const Work& work) {
 }
 
 void Repair::finish() {
-  cover();
   auto& memberships = structure_.memberships;
   if (memberships.capacity() < memberships.size() + memberships_.size())
     memberships.reserve(memberships.size() + memberships_.size() + memberships.size() / 8);

@@ -95,7 +95,8 @@ struct Followed {
   }
 };
 
-/// Points as far from all that an operation told or made that nothing reaches them keep every bit.
+/// Points as far from all that an operation told or made that nothing reaches them keep every bit: particles beside it reach a range
+/// to either side of their seeds, and a point that one leaves bare gets another.
 void expect_far_points_kept(const Followed& followed, const ParticleState& before) {
   const ParticleSet& set = followed.set;
   const auto first_new = static_cast<std::uint32_t>(before.memberships.size());
@@ -107,7 +108,7 @@ void expect_far_points_kept(const Followed& followed, const ParticleState& befor
   }
   for (std::uint32_t point = 0; point < first_new; ++point)
     if (followed.model.surface().point_corner[point] == kNone) torn.push_back(set.positions()[point]);
-  const auto reach = static_cast<float>(2.05 * set.report().range);
+  const auto reach = static_cast<float>(3.05 * set.report().range);
   for (std::uint32_t point = 0; point < first_new; ++point) {
     const Vec3f& at = set.positions()[point];
     if (std::ranges::any_of(torn, [&](const Vec3f& other) { return (other - at).norm() < reach; })) continue;
