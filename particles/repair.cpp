@@ -193,11 +193,23 @@ void Repair::renew_weights(std::span<const ChangeRecord> changes) {
   for (const Index particle : particles) sums.sum(structure_.members_of(particle), change_particle(particle));
 }
 
+/// What moved a point before the tear; of one that came with it: what moved those around.
+ParticleInfluences Repair::influences_before(Index point) {
+  if (point < change_.points) {
+    for (const Change::OfPoint& of : change_.changed_points)
+      if (of.point == point) return of.influences;
+    return structure_.influences[point];
+  }
+  for (const RingPoint& beside : other_ring_(point))
+    if (beside.point < change_.points) return influences_before(beside.point);
+  return {};
+}
+
 void Repair::cover(Index seed) {
   if (surface_.point_corner[seed] == kNone) return;
   if (std::ranges::any_of(current(seed), [](const Membership& membership) { return membership.reach < kUncovered; })) return;
   const auto range = static_cast<float>(structure_.report.range);
-  const Index particle = make_particle(seed, range, influences_from(structure_.memberships_of(seed)));
+  const Index particle = make_particle(seed, range, influences_before(seed));
   structure_.front.begin(structure_.point_count(), range, structure_.edge_length);
   structure_.front.add(seed, 0.0f);
   structure_.front.run(other_ring_, structure_.positions, [&](Index point, float distance, Index) {

@@ -51,6 +51,7 @@ class Repair {
   /// Makes a particle where a point has none left near enough: at once, so that what comes of it does not depend on where a call
   /// of settle() ends.
   void cover(Index seed);
+  [[nodiscard]] ParticleInfluences influences_before(Index point);
   void cover();
 
   // ---- Lips (repair_lips.cpp).
