@@ -13,6 +13,9 @@ namespace {
 /// A lip has a particle of its own wherever none that is left to it is nearer than this, in its range.
 constexpr float kLipCovered = 0.8f;
 
+/// Points beside the lips that follow() goes through; settle() does the rest.
+constexpr Index kAtOnce = 64;
+
 float length_of(float x, float y) { return std::sqrt(x * x + y * y); }
 
 float smoothstep(float x) {
@@ -90,7 +93,7 @@ void Repair::begin_band() {
   const bool may_part = std::ranges::any_of(band.chains, [](const LipChain& chain) { return !std::isfinite(chain.length); });
   if (may_part) queue_beside_lips(band);
   cover();
-  widen_band(lip_count + static_cast<Index>(lips_.size()) + 64);
+  widen_band(lip_count + kAtOnce);
 }
 
 /// The particles that the tear passes, on the lips or beside them.

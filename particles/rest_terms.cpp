@@ -5,15 +5,6 @@
 namespace sunder::particles {
 namespace {
 
-void add(std::vector<RestTerm>& terms, Index slot, const Vec4d& term) {
-  for (RestTerm& known : terms)
-    if (known.slot == slot) {
-      known.sum += term;
-      return;
-    }
-  terms.push_back({slot, term});
-}
-
 void add(std::vector<RestMorphTerm>& terms, Index morph_weight, Index slot, const Vec3d& term) {
   for (RestMorphTerm& known : terms)
     if (known.slot == slot && known.morph_weight == morph_weight) {
@@ -46,8 +37,17 @@ void RestOfVertex::set(const TornModel& model, const Structure& structure, const
       });
 }
 
-void RestOfVertex::add_to(Particle& particle, double sign) const {
-  for (const RestTerm& term : terms_) add(particle.terms, term.slot, sign * term.sum);
+void RestOfVertex::add_to(Particle& particle, double sign) {
+  places_.resize(terms_.size(), 0);
+  for (std::size_t i = 0; i < terms_.size(); ++i) {
+    // Mostly where the last one had the same bone.
+    if (places_[i] >= particle.terms.size() || particle.terms[places_[i]].slot != terms_[i].slot) {
+      places_[i] = 0;
+      while (places_[i] < particle.terms.size() && particle.terms[places_[i]].slot != terms_[i].slot) ++places_[i];
+      if (places_[i] == particle.terms.size()) particle.terms.push_back({terms_[i].slot, Vec4d(Vec4d::Zero())});
+    }
+    particle.terms[places_[i]].sum += sign * terms_[i].sum;
+  }
   for (const RestMorphTerm& term : morph_terms_) add(particle.morph_terms, term.morph_weight, term.slot, sign * term.sum);
 }
 

@@ -40,11 +40,12 @@ void for_each_rest_term(const TornModel& model, std::span<const Index> first_slo
 class RestOfVertex {
  public:
   void set(const TornModel& model, const Structure& structure, const VertexRef& of);
-  void add_to(Particle& particle, double sign) const;
+  void add_to(Particle& particle, double sign);
 
  private:
   std::vector<RestTerm> terms_;
   std::vector<RestMorphTerm> morph_terms_;
+  std::vector<std::size_t> places_;  ///< Where a particle had each slot last.
 };
 
 /// Computes particles' sums anew from their members.
