@@ -63,7 +63,7 @@ class MeshBuilder {
     const auto groups = group_primitives(reading_, mesh);
     for (const PrimitiveGroup& group : groups) {
       std::string name = mesh.name().empty() ? nodes_.skeleton.bones[nodes_.bone_from_node[node]].name : mesh.name();
-      if (groups.size() > 1) name += "." + std::to_string(group.primitives.front());
+      if (groups.size() > 1) name.append(".").append(std::to_string(group.primitives.front()));
       add_mesh(at, node, mesh, mesh_index, group, name, morphs.first);
     }
   }
