@@ -25,12 +25,15 @@ struct Pair {
 constexpr std::size_t kAttempts = 8;
 /// The least that a tear runs on: cosine of the angle between its last edge and where it goes.
 constexpr double kLeastForward = 0.2;
+/// Particles that are nearer to one another at rest than this, of the lesser range, as those of splinters are, tell no stretch.
+constexpr double kTooNear = 0.25;
 
 Vec3d rest_place(const SoftBody& body, Index particle) { return body.place(particle) - body.displacement(particle); }
 
-double stretch_of(const SoftBody& body, Index a, Index b) {
+double stretch_of(const SoftBody& body, const ParticleSet& particles, Index a, Index b) {
   const double at_rest = (rest_place(body, b) - rest_place(body, a)).norm();
-  return at_rest > 0 ? (body.place(b) - body.place(a)).norm() / at_rest : 0.0;
+  if (!(at_rest > kTooNear * std::min(particles.range(a), particles.range(b)))) return 0.0;
+  return (body.place(b) - body.place(a)).norm() / at_rest;
 }
 
 double strength_of(const SoftBody& body, Index a, Index b) {
@@ -46,7 +49,7 @@ std::vector<Pair> find_overstretched(const SoftBody& body, const ParticleSet& pa
     for (const Neighbour& neighbour : particles.neighbours(a)) {
       const Index b = neighbour.particle;
       if (b <= a || (!body.is_awake(a) && !body.is_awake(b))) continue;
-      const double stretch = stretch_of(body, a, b), strength = strength_of(body, a, b);
+      const double stretch = stretch_of(body, particles, a, b), strength = strength_of(body, a, b);
       greatest = std::max(greatest, stretch);
       if (strength > 0 && stretch > strength) pairs.push_back({a, b, stretch / strength});
     }
@@ -55,22 +58,30 @@ std::vector<Pair> find_overstretched(const SoftBody& body, const ParticleSet& pa
   return pairs;
 }
 
-/// Direction at rest of the greatest stretch around two particles, in the plane across `normal`.
+/// Direction at rest of the greatest stretch around two particles, in the plane across `normal`: that of the linear map which comes
+/// nearest to what happened to the ways to their neighbours. So neighbours that stand unevenly do not turn it.
 Vec3d greatest_stretch_around(const SoftBody& body, const ParticleSet& particles, const Pair& pair, const Vec3d& normal) {
-  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
-  const Eigen::Vector3d across = normal;
+  Eigen::Matrix<double, 3, 2> plane;
+  plane.col(0) = normal.unitOrthogonal();
+  plane.col(1) = normal.cross(plane.col(0));
+  Eigen::Matrix<double, 3, 2> moved = Eigen::Matrix<double, 3, 2>::Zero();
+  Eigen::Matrix2d at_rest = Eigen::Matrix2d::Zero();
   for (const Index particle : {pair.a, pair.b})
     for (const Neighbour& neighbour : particles.neighbours(particle)) {
-      Eigen::Vector3d along = rest_place(body, neighbour.particle) - rest_place(body, particle);
-      const double more = stretch_of(body, particle, neighbour.particle) - 1;
-      along -= along.dot(across) * across;
-      if (along.norm() > 0) sum += particles.coupling(particle, neighbour) * more / along.squaredNorm() * along * along.transpose();
+      const Eigen::Vector2d along = plane.transpose() * (rest_place(body, neighbour.particle) - rest_place(body, particle));
+      const Eigen::Vector3d now = body.place(neighbour.particle) - body.place(particle);
+      const double weight = particles.coupling(particle, neighbour);
+      moved += weight * now * along.transpose();
+      at_rest += weight * along * along.transpose();
     }
-  // The plane's own normal is out of the question, whatever the signs are.
-  sum -= (1 + sum.norm()) * across * across.transpose();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(sum);
-  Vec3d direction = solver.eigenvectors().col(2);
-  return direction;
+  const double size = at_rest.trace();
+  if (!(at_rest.determinant() > 1e-4 * size * size)) {  // all in a row
+    const Eigen::Vector2d along = plane.transpose() * (rest_place(body, pair.b) - rest_place(body, pair.a));
+    return along.norm() > 0 ? Vec3d(plane * along.normalized()) : Vec3d(plane.col(0));
+  }
+  const Eigen::Matrix<double, 3, 2> map = moved * at_rest.inverse();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(map.transpose() * map);
+  return plane * solver.eigenvectors().col(1);
 }
 
 /// The posed surface around a point.
@@ -165,7 +176,7 @@ Result<ForceTearingReport> tear_overstretched(const SoftBody& body, ParticleSet&
     const Vec3d at = fan.place(start.point), normal = fan.normal(start.point);
     if (normal.isZero(0)) continue;
     Vec3d direction = normal.cross(greatest_stretch_around(body, particles, pair, normal));
-    const double length = options.length * std::min(particles.range(pair.a), particles.range(pair.b));
+    const double length = options.length * particles.report().range;
     Vec3d from = at;
     if (start.is_tip) {
       Vec3d forward = at - 0.5 * (fan.place(border.next(start.point)) + fan.place(border.previous(start.point)));
