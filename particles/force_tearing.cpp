@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <Eigen/Eigenvalues>
 
@@ -25,15 +26,19 @@ struct Pair {
 constexpr std::size_t kAttempts = 8;
 /// The least that a tear runs on: cosine of the angle between its last edge and where it goes.
 constexpr double kLeastForward = 0.2;
-/// Particles that are nearer to one another at rest than this, of the lesser range, as those of splinters are, tell no stretch.
-constexpr double kTooNear = 0.25;
+/// Particles at a tear may be as good as in one place at rest. What they move apart then counts as if they had been so far apart as
+/// seeds are at least: this part of the range.
+constexpr double kLeastApart = 0.8;
+/// Neighbour::shared of particles that hang together at all. Splinters at a tear, of a few points that others hold too, are torn in
+/// vain: they would be torn at the same place for ever.
+constexpr double kLeastShared = 0.05;
 
 Vec3d rest_place(const SoftBody& body, Index particle) { return body.place(particle) - body.displacement(particle); }
 
 double stretch_of(const SoftBody& body, const ParticleSet& particles, Index a, Index b) {
   const double at_rest = (rest_place(body, b) - rest_place(body, a)).norm();
-  if (!(at_rest > kTooNear * std::min(particles.range(a), particles.range(b)))) return 0.0;
-  return (body.place(b) - body.place(a)).norm() / at_rest;
+  const double farther = (body.place(b) - body.place(a)).norm() - at_rest;
+  return 1 + farther / std::max(at_rest, kLeastApart * particles.report().range);
 }
 
 double strength_of(const SoftBody& body, Index a, Index b) {
@@ -48,7 +53,7 @@ std::vector<Pair> find_overstretched(const SoftBody& body, const ParticleSet& pa
   for (Index a = 0; a < body.particle_count(); ++a) {
     for (const Neighbour& neighbour : particles.neighbours(a)) {
       const Index b = neighbour.particle;
-      if (b <= a || (!body.is_awake(a) && !body.is_awake(b))) continue;
+      if (b <= a || neighbour.shared < kLeastShared || (!body.is_awake(a) && !body.is_awake(b))) continue;
       const double stretch = stretch_of(body, particles, a, b), strength = strength_of(body, a, b);
       greatest = std::max(greatest, stretch);
       if (strength > 0 && stretch > strength) pairs.push_back({a, b, stretch / strength});
@@ -58,8 +63,9 @@ std::vector<Pair> find_overstretched(const SoftBody& body, const ParticleSet& pa
   return pairs;
 }
 
-/// Direction at rest of the greatest stretch around two particles, in the plane across `normal`: that of the linear map which comes
-/// nearest to what happened to the ways to their neighbours. So neighbours that stand unevenly do not turn it.
+/// Direction into which the tissue around two particles is stretched most, in the plane across `normal`: of the linear map which
+/// comes nearest to what happened to the ways to their neighbours, so that neighbours that stand unevenly do not turn it. It is
+/// that of the tissue as it is now: at a tip, lips that part move across the way from one to the other.
 Vec3d greatest_stretch_around(const SoftBody& body, const ParticleSet& particles, const Pair& pair, const Vec3d& normal) {
   Eigen::Matrix<double, 3, 2> plane;
   plane.col(0) = normal.unitOrthogonal();
@@ -80,7 +86,8 @@ Vec3d greatest_stretch_around(const SoftBody& body, const ParticleSet& particles
     return along.norm() > 0 ? Vec3d(plane * along.normalized()) : Vec3d(plane.col(0));
   }
   const Eigen::Matrix<double, 3, 2> map = moved * at_rest.inverse();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(map.transpose() * map);
+  const Eigen::Matrix2d within = plane.transpose() * map;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(within * within.transpose());
   return plane * solver.eigenvectors().col(1);
 }
 
@@ -133,10 +140,12 @@ Start find_start(const ParticleSet& particles, const TornModel& model, const Pai
   Start start;
   const std::span<const Vec3f> at = particles.positions();
   const Vec3f middle = 0.5f * (at[particles.seed(pair.a)] + at[particles.seed(pair.b)]);
-  const auto reach = static_cast<float>(std::max(particles.range(pair.a), particles.range(pair.b)));
-  float nearest = reach;
+  float nearest = std::numeric_limits<float>::infinity();  // what a particle holds is near
   for (const Index tip : tips) {
-    if (!(weight_of(tip, pair.a) > 0) && !(weight_of(tip, pair.b) > 0)) continue;
+    // Not by weights: where particles crowd at a tear, those of its tip do not name them all.
+    const std::span<const Membership> of = particles.memberships(tip);
+    if (std::none_of(of.begin(), of.end(), [&](const Membership& m) { return m.particle == pair.a || m.particle == pair.b; }))
+      continue;
     const float distance = (at[tip] - middle).norm();
     if (!(distance < nearest)) continue;
     nearest = distance;
