@@ -14,6 +14,9 @@ namespace {
 
 constexpr double kRange = 0.1;  ///< Of the diagonal.
 
+constexpr double kFarthest = 0.1;          ///< To each side, metres.
+constexpr int kMoments[] = {60, 70, 120};  ///< Of the pictures of a running tear; steps.
+
 /// Down the trunk's front, a little curved.
 std::vector<Vec2d> along_trunk(double from, double to) {
   std::vector<Vec2d> path;
@@ -22,14 +25,14 @@ std::vector<Vec2d> along_trunk(double from, double to) {
 }
 
 void draw_decomposition(const std::string& folder) {
-  const SoftScene scene({}, kRange);
+  const SoftScene scene({Material()}, kRange);
   std::printf("decomposition: %u particles of %u points\n", scene.particles->particle_count(), scene.particles->report().points);
   scene.draw_particles(folder + "/particles_decomposition.png");
 }
 
 /// The same point pulled the same way, before and after a tear beside it.
 void draw_pull(const std::string& folder, bool is_torn) {
-  SoftScene scene({}, kRange);
+  SoftScene scene({Material()}, kRange);
   std::uint32_t held = scene.point_at({0, 1.3, 0.16}), other = held;
   if (is_torn) {
     scene.tear(along_trunk(1.58, 1.02));
@@ -37,17 +40,17 @@ void draw_pull(const std::string& folder, bool is_torn) {
     held = middle.left, other = middle.right;
   }
   const Vec3d at = scene.place(held);
-  if (!scene.body->hold_point(held, at + Vec3d(0.10, 0, 0.14))) std::exit(1);
+  if (!scene.body->hold_point(held, at + Vec3d(0.05, 0, 0.11))) std::exit(1);
   const int steps = scene.step_until_still();
   std::printf("%s: %d steps; the held point moved by %.4f m, the other lip by %.4f m\n", is_torn ? "pull_after" : "pull_before",
               steps, scene.body->point_displacement(held).norm(), scene.body->point_displacement(other).norm());
-  scene.draw(folder + (is_torn ? "/particles_pull_after.png" : "/particles_pull_before.png"), look_from(-38, 12), at, 0.42);
+  scene.draw(folder + (is_torn ? "/particles_pull_after.png" : "/particles_pull_before.png"), look_from(-30, 14), at, 0.36);
 }
 
 void draw_gap(const std::string& folder) {
-  SoftScene scene({}, kRange);
+  SoftScene scene({Material()}, kRange);
   scene.tear(along_trunk(1.58, 1.02));
-  if (!scene.body->set_tension({60, {}})) std::exit(1);
+  if (!scene.body->set_tension({1.2, {}})) std::exit(1);
   const int steps = scene.step_until_still();
   std::printf("gap: %d steps; %.4f of the diagonal wide\n", steps, scene.widest_gap() / scene.diagonal());
   const Vec3d at = scene.place(scene.changes[0].lips[scene.changes[0].lips.size() / 2].left);
@@ -58,17 +61,26 @@ void draw_gap(const std::string& folder) {
 }
 
 void draw_running(const std::string& folder) {
-  Material material;
-  material.strength = 1.5;
-  SoftScene scene(material, 0.05);
-  scene.tear(along_trunk(1.34, 1.26));
+  Material tough;
+  tough.return_stiffness = 100;
+  tough.neighbour_stiffness = 1600;
+  tough.damping_ratio = 1.5;
+  Material weak = tough;
+  weak.strength = 2.0;
+  SoftScene scene({tough, weak}, 0.05);
+  // Only the front: what is held must not tear out.
+  for (std::uint32_t p = 0; p < scene.particles->particle_count(); ++p) {
+    const Vec3f& seed = scene.particles->positions()[scene.particles->seed(p)];
+    if (seed.x() > 0.0f && seed.z() > 0.0f) (void)scene.body->set_material(p, 1);
+  }
+  scene.tear(along_trunk(1.35, 1.25));
   const Vec3d at = scene.place(scene.point_at({0, 1.3, 0.16}));
   std::vector<HoldId> holds;
   std::vector<Vec3d> from;
   std::vector<double> side;
   for (const double x : {-1.0, 1.0})
-    for (const double y : {1.22, 1.3, 1.38}) {
-      const std::uint32_t point = scene.point_at({0.1 * x, y, 0.14});
+    for (const double y : {1.27, 1.33}) {
+      const std::uint32_t point = scene.point_at({0.075 * x, y, 0.15});
       from.push_back(scene.place(point));
       side.push_back(x);
       auto hold = scene.body->hold_point(point, from.back());
@@ -77,9 +89,9 @@ void draw_running(const std::string& folder) {
     }
   int tears = 0, picture = 0;
   double length = 0;
-  for (int i = 0; i < 240; ++i) {
+  for (int i = 0; i <= kMoments[2]; ++i) {
     for (std::size_t h = 0; h < holds.size(); ++h)
-      (void)scene.body->move_hold(holds[h], from[h] + Vec3d(side[h] * std::min(0.12, 0.001 * i), 0, std::min(0.05, 0.0004 * i)));
+      (void)scene.body->move_hold(holds[h], from[h] + Vec3d(side[h] * std::min(kFarthest, 0.001 * i), 0, 0));
     scene.step();
     std::vector<ChangeRecord> changes;
     const auto report = tear_overstretched(*scene.body, *scene.particles, *scene.model, scene.pose, {}, &changes);
@@ -94,9 +106,9 @@ void draw_running(const std::string& folder) {
                   report->place.y() - at.y(), report->place.z() - at.z(), report->direction.x(), report->direction.y(),
                   report->direction.z(), report->tear.length_posed);
     }
-    if (i == 40 || i == 80 || i == 239) {
+    if (i == kMoments[0] || i == kMoments[1] || i == kMoments[2]) {
       std::printf("running_%d: step %d: %d tears, %.3f m\n", picture + 1, i, tears, length);
-      scene.draw(folder + "/particles_running_" + std::to_string(++picture) + ".png", look_from(8, 8), at, 0.42);
+      scene.draw(folder + "/particles_running_" + std::to_string(++picture) + ".png", look_from(8, 8), at, 0.3);
     }
   }
 }

@@ -42,21 +42,22 @@ Vec4f color_of(std::uint32_t particle) {
   Vec4f color = Vec4f::Ones();
   for (int i = 0; i < 3; ++i) {
     const double wave = 0.5 + 0.5 * std::cos(2 * std::numbers::pi * (hue - i / 3.0));
-    color[i] = static_cast<float>(0.03 + 0.97 * wave * wave);
+    color[i] = static_cast<float>(0.06 + 0.94 * wave);
   }
   return color;
 }
 
 }  // namespace
 
-SoftScene::SoftScene(const Material& material, double range) : source(std::make_shared<const Character>(make_cactus())) {
+SoftScene::SoftScene(const std::vector<Material>& materials, double range)
+    : source(std::make_shared<const Character>(make_cactus())) {
   model = std::make_unique<TornModel>(check(TornModel::create(source)));
   rest = bind_pose(*source);
   pose = check(make_pose(*source, ClipPose{std::uint32_t{0}, kClipFraction * static_cast<double>(source->clips[0].duration)}));
   DecompositionOptions options;
   options.range = range;
   particles = std::make_unique<ParticleSet>(check(ParticleSet::decompose(*model, rest, options)));
-  body = std::make_unique<SoftBody>(check(SoftBody::create(*particles, rest, {&material, 1})));
+  body = std::make_unique<SoftBody>(check(SoftBody::create(*particles, rest, materials)));
   diagonal_ = bounds_of(*source, check(pose_model(*source, rest))).size().norm();
   check(body->step(*model, pose, 0));
 }
@@ -125,8 +126,10 @@ std::vector<DeformedMesh> SoftScene::displaced() const {
     target.normals.data = result[m].normals[0].data();
     target.unit_length = true;
     PosedBuffer buffer(target);
-    const VertexDisplacements soft = {particles->vertex_points(m),     particles->influences(),      body->displacements(),
-                                      body->moved_vertices(*model, m), particles->gradients(*model), body->rotations()};
+    // First: it lets the body follow the last tear.
+    const std::span<const Range> moved = body->moved_vertices(*model, m);
+    const VertexDisplacements soft = {particles->vertex_points(m),  particles->influences(), body->displacements(), moved,
+                                      particles->gradients(*model), body->rotations()};
     check(skinned.deform(palette, buffer, {}, &soft));
   }
   return result;
@@ -161,7 +164,7 @@ void SoftScene::draw_particles(const std::string& png) const {
   Camera camera;
   camera.up = frame.up;
   camera.focal_point = bounds_of(*source, bones).centre();
-  camera.eye = camera.focal_point + 1.95 * diagonal_ * frame.towards_eye;
+  camera.eye = camera.focal_point + 1.75 * diagonal_ * frame.towards_eye;
   check(tools::draw(make_still(*source, bones, colors), camera, kWidth, kHeight, png));
 }
 
