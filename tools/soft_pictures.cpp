@@ -44,7 +44,7 @@ void draw_pull(const std::string& folder, bool is_torn) {
   const int steps = scene.step_until_still();
   std::printf("%s: %d steps; the held point moved by %.4f m, the other lip by %.4f m\n", is_torn ? "pull_after" : "pull_before",
               steps, scene.body->point_displacement(held).norm(), scene.body->point_displacement(other).norm());
-  scene.draw(folder + (is_torn ? "/particles_pull_after.png" : "/particles_pull_before.png"), look_from(-30, 14), at, 0.36);
+  scene.draw(folder + (is_torn ? "/particles_pull_after.png" : "/particles_pull_before.png"), look_from(-8, 24), at, 0.36);
 }
 
 void draw_gap(const std::string& folder) {
