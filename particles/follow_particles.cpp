@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <span>
+#include <utility>
 
 #include "particles/body_state.h"
 #include "particles/inherit.h"

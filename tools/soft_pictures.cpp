@@ -2,6 +2,7 @@
 
 #include <sunder/particles/force_tearing.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
