@@ -1,8 +1,31 @@
+#include <algorithm>
+#include <span>
+#include <utility>
+
 #include "particles/body_state.h"
 #include "particles/inherit.h"
 #include "particles/lip_tension.h"
 
 namespace sunder::particles {
+namespace {
+
+/// The four neighbours that share most with a particle, but for `orphans`, which ascend.
+ParticleInfluences like_neighbours(const ParticleSet& set, Index particle, std::span<const Index> orphans) {
+  ParticleInfluences found;
+  for (const Neighbour& neighbour : set.neighbours(particle)) {
+    if (std::binary_search(orphans.begin(), orphans.end(), neighbour.particle)) continue;
+    Index other = neighbour.particle;
+    auto shared = static_cast<float>(neighbour.shared);
+    for (std::size_t k = 0; k < 4; ++k)
+      if (shared > found.weights[k]) {
+        std::swap(other, found.particles[k]);
+        std::swap(shared, found.weights[k]);
+      }
+  }
+  return found;
+}
+
+}  // namespace
 
 void BodyState::follow_particles() {
   if (set->revision() == revision) return;
@@ -17,11 +40,15 @@ void BodyState::follow_particles() {
     rests.begin_still_step();
   }
   rests.follow(*set);
+  std::vector<Index> orphans;
   for (Index p = 0; p < count; ++p) {
     if (motion.serials[p] == set->serial(p)) continue;
     motion.serials[p] = set->serial(p);
     inherit(set->parents(p), p, rests, motion);
+    if (!(set->parents(p).weights[0] > 0)) orphans.push_back(p);
   }
+  // Who has no parents, as one that undo brought back, is as those around it: the tissue must not jump.
+  for (const Index p : orphans) inherit(like_neighbours(*set, p, orphans), p, rests, motion);
   holds.follow(*set);
   contact.follow(count);
   displacements.resize(count, Vec4f::Zero());

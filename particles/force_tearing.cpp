@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <Eigen/Eigenvalues>
 
@@ -25,12 +26,19 @@ struct Pair {
 constexpr std::size_t kAttempts = 8;
 /// The least that a tear runs on: cosine of the angle between its last edge and where it goes.
 constexpr double kLeastForward = 0.2;
+/// Particles at a tear may be as good as in one place at rest. What they move apart then counts as if they had been so far apart as
+/// seeds are at least: this part of the range.
+constexpr double kLeastApart = 0.8;
+/// Neighbour::shared of particles that hang together at all. Splinters at a tear, of a few points that others hold too, are torn in
+/// vain: they would be torn at the same place for ever.
+constexpr double kLeastShared = 0.05;
 
 Vec3d rest_place(const SoftBody& body, Index particle) { return body.place(particle) - body.displacement(particle); }
 
-double stretch_of(const SoftBody& body, Index a, Index b) {
+double stretch_of(const SoftBody& body, const ParticleSet& particles, Index a, Index b) {
   const double at_rest = (rest_place(body, b) - rest_place(body, a)).norm();
-  return at_rest > 0 ? (body.place(b) - body.place(a)).norm() / at_rest : 0.0;
+  const double farther = (body.place(b) - body.place(a)).norm() - at_rest;
+  return 1 + farther / std::max(at_rest, kLeastApart * particles.report().range);
 }
 
 double strength_of(const SoftBody& body, Index a, Index b) {
@@ -45,8 +53,8 @@ std::vector<Pair> find_overstretched(const SoftBody& body, const ParticleSet& pa
   for (Index a = 0; a < body.particle_count(); ++a) {
     for (const Neighbour& neighbour : particles.neighbours(a)) {
       const Index b = neighbour.particle;
-      if (b <= a || (!body.is_awake(a) && !body.is_awake(b))) continue;
-      const double stretch = stretch_of(body, a, b), strength = strength_of(body, a, b);
+      if (b <= a || neighbour.shared < kLeastShared || (!body.is_awake(a) && !body.is_awake(b))) continue;
+      const double stretch = stretch_of(body, particles, a, b), strength = strength_of(body, a, b);
       greatest = std::max(greatest, stretch);
       if (strength > 0 && stretch > strength) pairs.push_back({a, b, stretch / strength});
     }
@@ -55,22 +63,32 @@ std::vector<Pair> find_overstretched(const SoftBody& body, const ParticleSet& pa
   return pairs;
 }
 
-/// Direction at rest of the greatest stretch around two particles, in the plane across `normal`.
+/// Direction into which the tissue around two particles is stretched most, in the plane across `normal`: of the linear map which
+/// comes nearest to what happened to the ways to their neighbours, so that neighbours that stand unevenly do not turn it. It is
+/// that of the tissue as it is now: at a tip, lips that part move across the way from one to the other.
 Vec3d greatest_stretch_around(const SoftBody& body, const ParticleSet& particles, const Pair& pair, const Vec3d& normal) {
-  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
-  const Eigen::Vector3d across = normal;
+  Eigen::Matrix<double, 3, 2> plane;
+  plane.col(0) = normal.unitOrthogonal();
+  plane.col(1) = normal.cross(plane.col(0));
+  Eigen::Matrix<double, 3, 2> moved = Eigen::Matrix<double, 3, 2>::Zero();
+  Eigen::Matrix2d at_rest = Eigen::Matrix2d::Zero();
   for (const Index particle : {pair.a, pair.b})
     for (const Neighbour& neighbour : particles.neighbours(particle)) {
-      Eigen::Vector3d along = rest_place(body, neighbour.particle) - rest_place(body, particle);
-      const double more = stretch_of(body, particle, neighbour.particle) - 1;
-      along -= along.dot(across) * across;
-      if (along.norm() > 0) sum += particles.coupling(particle, neighbour) * more / along.squaredNorm() * along * along.transpose();
+      const Eigen::Vector2d along = plane.transpose() * (rest_place(body, neighbour.particle) - rest_place(body, particle));
+      const Eigen::Vector3d now = body.place(neighbour.particle) - body.place(particle);
+      const double weight = particles.coupling(particle, neighbour);
+      moved += weight * now * along.transpose();
+      at_rest += weight * along * along.transpose();
     }
-  // The plane's own normal is out of the question, whatever the signs are.
-  sum -= (1 + sum.norm()) * across * across.transpose();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(sum);
-  Vec3d direction = solver.eigenvectors().col(2);
-  return direction;
+  const double size = at_rest.trace();
+  if (!(at_rest.determinant() > 1e-4 * size * size)) {  // all in a row
+    const Eigen::Vector2d along = plane.transpose() * (rest_place(body, pair.b) - rest_place(body, pair.a));
+    return along.norm() > 0 ? Vec3d(plane * along.normalized()) : Vec3d(plane.col(0));
+  }
+  const Eigen::Matrix<double, 3, 2> map = moved * at_rest.inverse();
+  const Eigen::Matrix2d within = plane.transpose() * map;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(within * within.transpose());
+  return plane * solver.eigenvectors().col(1);
 }
 
 /// The posed surface around a point.
@@ -122,10 +140,12 @@ Start find_start(const ParticleSet& particles, const TornModel& model, const Pai
   Start start;
   const std::span<const Vec3f> at = particles.positions();
   const Vec3f middle = 0.5f * (at[particles.seed(pair.a)] + at[particles.seed(pair.b)]);
-  const auto reach = static_cast<float>(std::max(particles.range(pair.a), particles.range(pair.b)));
-  float nearest = reach;
+  float nearest = std::numeric_limits<float>::infinity();  // what a particle holds is near
   for (const Index tip : tips) {
-    if (!(weight_of(tip, pair.a) > 0) && !(weight_of(tip, pair.b) > 0)) continue;
+    // Not by weights: where particles crowd at a tear, those of its tip do not name them all.
+    const std::span<const Membership> of = particles.memberships(tip);
+    if (std::none_of(of.begin(), of.end(), [&](const Membership& m) { return m.particle == pair.a || m.particle == pair.b; }))
+      continue;
     const float distance = (at[tip] - middle).norm();
     if (!(distance < nearest)) continue;
     nearest = distance;
@@ -165,7 +185,7 @@ Result<ForceTearingReport> tear_overstretched(const SoftBody& body, ParticleSet&
     const Vec3d at = fan.place(start.point), normal = fan.normal(start.point);
     if (normal.isZero(0)) continue;
     Vec3d direction = normal.cross(greatest_stretch_around(body, particles, pair, normal));
-    const double length = options.length * std::min(particles.range(pair.a), particles.range(pair.b));
+    const double length = options.length * particles.report().range;
     Vec3d from = at;
     if (start.is_tip) {
       Vec3d forward = at - 0.5 * (fan.place(border.next(start.point)) + fan.place(border.previous(start.point)));

@@ -279,8 +279,14 @@ Status SoftBody::step(const TornModel& model, const ModelPose& pose, double seco
   return {};
 }
 
-std::span<const Vec4f> SoftBody::displacements() const { return state_->displacements; }
-std::span<const Mat3f> SoftBody::rotations() const { return state_->turns; }
+std::span<const Vec4f> SoftBody::displacements() {
+  state_->follow_particles();
+  return state_->displacements;
+}
+std::span<const Mat3f> SoftBody::rotations() {
+  state_->follow_particles();
+  return state_->turns;
+}
 
 std::span<const Range> SoftBody::moved_vertices(const TornModel& model, std::uint32_t mesh) {
   state_->follow_particles();

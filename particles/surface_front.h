@@ -37,7 +37,8 @@ class Rings {
 /// The same, looked up one after the other.
 class RingWalk {
  public:
-  RingWalk(const Surface& surface, std::span<const Vec3f> positions) : surface_(surface), positions_(positions) {}
+  /// @param positions  may grow meanwhile.
+  RingWalk(const Surface& surface, const std::vector<Vec3f>& positions) : surface_(surface), positions_(positions) {}
   /// Good until the next call.
   [[nodiscard]] std::span<const RingPoint> operator()(Index point) {
     ring_.clear();
@@ -48,7 +49,7 @@ class RingWalk {
 
  private:
   const Surface& surface_;
-  std::span<const Vec3f> positions_;
+  const std::vector<Vec3f>& positions_;
   std::vector<RingPoint> ring_;
 };
 

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <map>
 #include <set>
+#include <span>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -52,16 +53,20 @@ void wind_by_normals(Mesh& mesh) {
   }
 }
 
-/// One submesh in its pose.
-Mesh make_outside(const Mesh& source, const DeformedMesh& posed, Index submesh) {
+/// One submesh in its pose, of the colours where there are some.
+Mesh make_outside(const Mesh& source, const DeformedMesh& posed, Index submesh, std::span<const Vec4f> colors) {
   Mesh mesh = make_mesh(source.submeshes[submesh].name.empty() ? source.name : source.submeshes[submesh].name);
+  if (!colors.empty()) mesh.color_sets.resize(1);
   std::vector<Index> new_from_old(posed.positions.size(), kNone);
   for (Index t = 0; t < source.triangles.size(); ++t) {
     if (source.triangle_submesh[t] != submesh) continue;
     Triangle triangle = source.triangles[t];
     for (Index& vertex : triangle) {
       Index& copy = new_from_old[vertex];
-      if (copy == kNone) copy = append_vertex(mesh, posed.positions[vertex], posed.normals[vertex]);
+      if (copy == kNone) {
+        copy = append_vertex(mesh, posed.positions[vertex], posed.normals[vertex]);
+        if (!colors.empty()) mesh.color_sets[0].push_back(colors[vertex]);
+      }
       vertex = copy;
     }
     append_triangle(mesh, triangle);
@@ -152,14 +157,16 @@ std::string numbers(const Vec3d& v) {
 
 }  // namespace
 
-Character make_still(const Character& character, const std::vector<DeformedMesh>& posed) {
+Character make_still(const Character& character, const std::vector<DeformedMesh>& posed,
+                     const std::vector<std::vector<Vec4f>>& colors) {
   Character still;
   still.name = character.name;
   still.skeleton.bones.push_back({"Still", kNone, {}});
   still.skins.push_back({"Still", {0}, {Affine3f::Identity()}});
   for (Index i = 0; i < posed.size(); ++i)
     for (Index submesh = 0; submesh < character.meshes[i].submeshes.size(); ++submesh)
-      still.meshes.push_back(make_outside(character.meshes[i], posed[i], submesh));
+      still.meshes.push_back(make_outside(character.meshes[i], posed[i], submesh,
+                                          i < colors.size() ? std::span<const Vec4f>(colors[i]) : std::span<const Vec4f>()));
   for (Mesh& mesh : still.meshes) wind_by_normals(mesh);
   return still;
 }

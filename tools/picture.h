@@ -17,7 +17,10 @@ struct Camera {
 };
 
 /// A posed model as a still scene.
-[[nodiscard]] Character make_still(const Character& character, const std::vector<DeformedMesh>& posed);
+///
+/// @param colors  a mesh each, a vertex each, linear RGBA; fewer: the others have none.
+[[nodiscard]] Character make_still(const Character& character, const std::vector<DeformedMesh>& posed,
+                                   const std::vector<std::vector<Vec4f>>& colors = {});
 
 /// A torn model as a still scene: walls seen from within through what is open are red, a little before the surface itself, and the
 /// rims have a red edge as thick as the flesh. So are walls and caps that the model has.

@@ -11,7 +11,9 @@ struct ForceTearingOptions {
 };
 
 struct ForceTearingReport {
-  double greatest_stretch = 0.0;  ///< Of all neighbours that are awake: their distance over that at rest.
+  /// Of all neighbours that are awake: their distance over that at rest; of those nearer at rest than seeds are, 1 and how much
+  /// farther they are over how near seeds may be.
+  double greatest_stretch = 0.0;
   bool has_torn = false;
   bool is_from_tip = false;         ///< A tear ran on; else one began.
   Vec3d place = Vec3d::Zero();      ///< Where it began, on the posed surface; model space.

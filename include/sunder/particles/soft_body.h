@@ -125,10 +125,11 @@ class SUNDER_API SoftBody {
   Status step(const TornModel& model, const ModelPose& pose, double seconds);
 
   /// One a particle: x y z of the displacement, metres of model space, and 0. What SkinnedMesh and shaders read.
-  [[nodiscard]] std::span<const Vec4f> displacements() const;
+  /// Of the particles as ParticleSet::follow() left them; valid until the next call that is not const.
+  [[nodiscard]] std::span<const Vec4f> displacements();
   /// One a particle: how the pose turns what it holds, from the decomposition's pose to the last step's. Up to date for every
   /// particle that is displaced. A particle whose members are mirrored or flattened keeps the turn that it had.
-  [[nodiscard]] std::span<const Mat3f> rotations() const;
+  [[nodiscard]] std::span<const Mat3f> rotations();
   /// Vertices of a mesh that a displaced particle moves, ascending, apart. Valid until the next call that is not const.
   /// O(points of displaced particles) where other particles are displaced than at the last call, else O(1).
   [[nodiscard]] std::span<const Range> moved_vertices(const TornModel& model, std::uint32_t mesh);
