@@ -57,8 +57,13 @@ void read_model(const TornModel& model, const ModelPose& pose, Structure& struct
   for (Index t = 0; t < surface.triangle_count(); ++t) {
     const tear::TriangleRef ref = surface.triangle(t);
     const Triangle& triangle = character.meshes[ref.mesh].triangles[ref.triangle];
-    if (is_retired(triangle)) continue;
-    for (Index k = 0; k < 3; ++k) structure.vertex_points[ref.mesh][triangle[k]] = surface.corner_point[3 * t + k];
+    if (surface.has_repeated_point(t)) continue;
+    for (Index k = 0; k < 3; ++k) {
+      Index& point = structure.vertex_points[ref.mesh][triangle[k]];
+      const Index now = surface.corner_point[3 * t + k];
+      if (point != kNone && point != now) structure.share_vertex(ref.mesh, triangle[k], point, now);
+      point = now;
+    }
   }
   structure.positions.resize(surface.point_count(), Vec3f::Zero());
   structure.vertices.resize(surface.point_count());

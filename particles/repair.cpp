@@ -33,7 +33,7 @@ void Repair::follow(std::span<const ChangeRecord> changes) {
   append_points();
   renew_weights(changes);
   leave_lost_points(changes);
-  renew_vertex_points();
+  renew_vertex_points(changes);
   take_up_lips(changes);
   is_before_sides_ = !lips_.empty();
   spread_to_new_points();
@@ -67,34 +67,69 @@ void Repair::append_points() {
   for (Index m = 0; m < character.meshes.size(); ++m) structure_.vertex_points[m].resize(character.meshes[m].vertex_count(), kNone);
 }
 
-void Repair::renew_vertex_points() {
+void Repair::set_vertex_point(Index mesh, Index vertex, Index point) {
+  Index& known = structure_.vertex_points[mesh][vertex];
+  if (vertex < change_.vertices[mesh]) change_.changed_vertices.push_back({mesh, vertex, known});
+  known = point;
+}
+
+/// Whether a face around a point has it in a vertex.
+bool Repair::has_vertex(Index point, Index mesh, Index vertex) const {
+  if (point >= surface_.point_count() || surface_.point_corner[point] == kNone) return false;
+  bool has = false;
+  surface_.for_each_in_fan(surface_.point_corner[point], [&](Index corner) {
+    const tear::TriangleRef ref = surface_.triangle(corner / 3);
+    has |= ref.mesh == mesh && model_.character().meshes[mesh].triangles[ref.triangle][corner % 3] == vertex;
+  });
+  return has;
+}
+
+void Repair::renew_vertex_points(std::span<const ChangeRecord> changes) {
   const auto renew = [&](Index corner) {
     const tear::TriangleRef ref = surface_.triangle(corner / 3);
     const Index vertex = model_.character().meshes[ref.mesh].triangles[ref.triangle][corner % 3];
-    Index& point = structure_.vertex_points[ref.mesh][vertex];
-    if (point == surface_.corner_point[corner]) return;
-    if (vertex < change_.vertices[ref.mesh]) change_.changed_vertices.push_back({ref.mesh, vertex, point});
-    point = surface_.corner_point[corner];
+    const Index known = structure_.vertex_points[ref.mesh][vertex], now = surface_.corner_point[corner];
+    if (known == now) return;
+    if (known != kNone && has_vertex(known, ref.mesh, vertex)) structure_.share_vertex(ref.mesh, vertex, known, now);
+    set_vertex_point(ref.mesh, vertex, now);
   };
   // Vertices are new, or go along with a point that is.
   for (Index point = first_new_; point < structure_.point_count(); ++point)
     if (surface_.point_corner[point] != kNone) surface_.for_each_in_fan(surface_.point_corner[point], renew);
   for (Index corner = 3 * structure_.triangle_count; corner < surface_.corner_point.size(); ++corner)
     if (!surface_.has_repeated_point(corner / 3)) renew(corner);
+  // One that several points share may have lost the one that it is at.
+  if (structure_.shared_vertices.empty()) return;
+  for (const ChangeRecord& change : changes)
+    for (const MeshChange& of_mesh : change.meshes)
+      for (const RewrittenTriangle& rewritten : of_mesh.rewritten)
+        for (const Index vertex : rewritten.before) {
+          const auto shared = structure_.shared_vertices.find({of_mesh.mesh, vertex});
+          if (shared == structure_.shared_vertices.end()) continue;
+          for (const Index point : shared->second) lose(point);
+          if (has_vertex(structure_.vertex_points[of_mesh.mesh][vertex], of_mesh.mesh, vertex)) continue;
+          for (const Index point : shared->second)
+            if (has_vertex(point, of_mesh.mesh, vertex)) {
+              set_vertex_point(of_mesh.mesh, vertex, point);
+              break;
+            }
+        }
 }
 
-/// Points that have no face any more belong to nothing.
+/// A point that has no face any more belongs to nothing.
+void Repair::lose(Index point) {
+  if (point >= structure_.point_count() || surface_.point_corner[point] != kNone || current(point).empty()) return;
+  work_of(point).count = 0;
+  lost_.push_back(point);
+}
+
 void Repair::leave_lost_points(std::span<const ChangeRecord> changes) {
   for (const ChangeRecord& change : changes)
     for (const MeshChange& of_mesh : change.meshes) {
       if (of_mesh.retired.empty()) continue;
       for (const RewrittenTriangle& rewritten : of_mesh.rewritten)
-        for (const Index vertex : rewritten.before) {
-          const Index point = structure_.vertex_points[of_mesh.mesh][vertex];
-          if (point == kNone || surface_.point_corner[point] != kNone || structure_.memberships_of(point).empty()) continue;
-          work_of(point).count = 0;
-          lost_.push_back(point);
-        }
+        for (const Index vertex : rewritten.before)
+          if (const Index point = structure_.vertex_points[of_mesh.mesh][vertex]; point != kNone) lose(point);
     }
 }
 

@@ -42,7 +42,10 @@ class Repair {
 
   // ---- What an operation left (repair.cpp).
   void append_points();
-  void renew_vertex_points();
+  void renew_vertex_points(std::span<const ChangeRecord> changes);
+  void set_vertex_point(Index mesh, Index vertex, Index point);
+  [[nodiscard]] bool has_vertex(Index point, Index mesh, Index vertex) const;
+  void lose(Index point);
   void leave_lost_points(std::span<const ChangeRecord> changes);
   void take_up_lips(std::span<const ChangeRecord> changes);
   void spread_to_new_points();

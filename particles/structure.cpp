@@ -33,6 +33,12 @@ void reserve_eighth(std::vector<T>& values, std::size_t count) {
 Structure::Structure() : pairs(std::make_unique<PairChanges>()), gradients(std::make_unique<Gradients>()) {}
 Structure::~Structure() = default;
 
+void Structure::share_vertex(Index mesh, Index vertex, Index point, Index other) {
+  std::vector<Index>& points = shared_vertices[{mesh, vertex}];
+  for (const Index each : {point, other})
+    if (std::find(points.begin(), points.end(), each) == points.end()) points.push_back(each);
+}
+
 void Structure::make_room(std::size_t points) {
   reserve_eighth(positions, points);
   reserve_eighth(vertices, points);
@@ -79,8 +85,16 @@ void exchange(Structure& structure, Change& change) {
       std::swap(structure.lip_points[of.point], of.lip);
     }
     for (auto& [particle, before] : change.changed_particles) std::swap(structure.particles[particle], before);
-    for (Change::OfVertex& of : change.changed_vertices) std::swap(structure.vertex_points[of.mesh][of.vertex], of.point);
-    for (auto& [lip, before] : change.changed_lips) std::swap(structure.lips[lip], before);
+    // These may be there several times: taken back from the last, done again from the first.
+    const auto exchange_in_turn = [&](auto& changes, auto exchange_one) {
+      if (is_done)
+        std::for_each(changes.rbegin(), changes.rend(), exchange_one);
+      else
+        std::for_each(changes.begin(), changes.end(), exchange_one);
+    };
+    exchange_in_turn(change.changed_vertices,
+                     [&](Change::OfVertex& of) { std::swap(structure.vertex_points[of.mesh][of.vertex], of.point); });
+    exchange_in_turn(change.changed_lips, [&](std::pair<Index, LipEdge>& of) { std::swap(structure.lips[of.first], of.second); });
   };
   exchange_values();
   move_tail(structure.positions, change.points, is_done, appended.positions);

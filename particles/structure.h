@@ -2,6 +2,7 @@
 
 #include <sunder/particles/particle_set.h>
 
+#include <map>
 #include <memory>
 #include <utility>
 
@@ -108,6 +109,8 @@ struct Structure {
   ModelPose pose;                               ///< Of the decomposition.
   std::vector<std::vector<Affine3d>> palettes;  ///< In it.
   std::vector<std::vector<Index>> vertex_points;
+  /// Vertices in which a surface touches itself have several points: all that they ever had.
+  std::map<std::pair<Index, Index>, std::vector<Index>> shared_vertices;
 
   // ---- Points.
   std::vector<Vec3f> positions;  ///< In that pose.
@@ -145,6 +148,8 @@ struct Structure {
   std::unique_ptr<PairChanges> pairs;
   std::unique_ptr<Gradients> gradients;
   mutable std::vector<Affine3d> palette;  ///< Of all slots: what rest() computes with.
+
+  void share_vertex(Index mesh, Index vertex, Index point, Index other);
 
   /// Memory for the first tears, so that none of them pays for all points.
   void prepare_for_tears(Index triangles);

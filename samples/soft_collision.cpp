@@ -66,7 +66,7 @@ sunder::ModelPose bent(const sunder::Character& character, double angle) {
   return model_pose;
 }
 
-double deepest_dent(const sunder::SoftBody& body) {
+double deepest_dent(sunder::SoftBody& body) {
   double most = 0;
   for (const sunder::Vec4f& d : body.displacements()) most = std::max(most, double{d.head<3>().norm()});
   return most;

@@ -236,7 +236,7 @@ std::vector<std::string> broken_particles(const TornModel& model, const Particle
   for (std::uint32_t t = 0; t < surface.triangle_count(); ++t) {
     const tear::TriangleRef of = surface.triangle(t);
     const Triangle& triangle = model.character().meshes[of.mesh].triangles[of.triangle];
-    if (is_retired(triangle)) continue;
+    if (is_retired(triangle) || surface.has_repeated_point(t)) continue;
     for (std::uint32_t k = 0; k < 3; ++k) points_of_vertex[{of.mesh, triangle[k]}].insert(surface.corner_point[3 * t + k]);
   }
   for (const auto& [vertex, points] : points_of_vertex)
