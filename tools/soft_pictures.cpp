@@ -16,7 +16,7 @@ namespace {
 constexpr double kRange = 0.1;  ///< Of the diagonal.
 
 constexpr double kFarthest = 0.1;          ///< To each side, metres.
-constexpr int kMoments[] = {60, 70, 120};  ///< Of the pictures of a running tear; steps.
+constexpr int kMoments[] = {60, 92, 120};  ///< Of the pictures of a running tear; steps.
 
 /// Down the trunk's front, a little curved.
 std::vector<Vec2d> along_trunk(double from, double to) {
@@ -74,7 +74,7 @@ void draw_running(const std::string& folder) {
     const Vec3f& seed = scene.particles->positions()[scene.particles->seed(p)];
     if (seed.x() > 0.0f && seed.z() > 0.0f) (void)scene.body->set_material(p, 1);
   }
-  scene.tear(along_trunk(1.35, 1.25));
+  scene.tear(along_trunk(1.39, 1.21));
   const Vec3d at = scene.place(scene.point_at({0, 1.3, 0.16}));
   std::vector<HoldId> holds;
   std::vector<Vec3d> from;

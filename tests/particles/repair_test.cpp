@@ -95,8 +95,8 @@ struct Followed {
   }
 };
 
-/// Points as far from all that an operation told or made that nothing reaches them keep every bit: particles beside it reach a range
-/// to either side of their seeds, and a point that one leaves bare gets another.
+/// Points as far from all that an operation told or made that nothing reaches them keep every bit: particles beside it reach a
+/// range to either side of their seeds, and a point that one leaves bare gets another.
 void expect_far_points_kept(const Followed& followed, const ParticleState& before) {
   const ParticleSet& set = followed.set;
   const auto first_new = static_cast<std::uint32_t>(before.memberships.size());
