@@ -2,6 +2,7 @@
 #include <sunder/skinning/palette.h>
 #include <sunder/skinning/sample_clip.h>
 
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -472,6 +473,42 @@ TEST_F(BulletBodyTest, bad_arguments_are_refused_by_name) {
   EXPECT_EQ(body_->before_step(*set_, pose_, kStep, placed).code(), StatusCode::non_finite_value);
   run(5);
   EXPECT_LT(most_displacement(), 1e-5);
+}
+
+TEST_F(BulletBodyTest, follows_tears_and_what_undoes_them) {
+  load(test::make_sheet(20));
+  create();
+  run(3);
+  const std::uint32_t before = set_->particle_count();
+  const std::array stroke = {test::down_at(0.2, 0.5), test::down_at(0.8, 0.5)};
+  ChangeRecord change;
+  ASSERT_TRUE(model_->tear(pose_, stroke, {}, &change));
+  ASSERT_TRUE(set_->follow(*model_, {&change, 1}));
+  while (set_->settle(*model_)) {
+  }
+  run(5);
+  ASSERT_EQ(body_->particle_count(), set_->particle_count());
+  ASSERT_EQ(body_->displacements().size(), set_->particle_count());
+  for (const Vec4f& displacement : body_->displacements()) EXPECT_LT(displacement.norm(), 1e-4f);
+
+  // One lip is pulled: it moves, the other does not.
+  const LipPair& middle = change.lips[change.lips.size() / 2];
+  const auto displaced = [&](std::uint32_t point) {
+    const ParticleInfluences& of = set_->influences()[point];
+    Vec4f sum = Vec4f::Zero();
+    for (std::size_t i = 0; i < 4; ++i) sum += of.weights[i] * body_->displacements()[of.particles[i]];
+    return sum.norm();
+  };
+  pull(set_->influences()[middle.left].particles[0], {0, 0.02, 0.05});
+  run(2);
+  EXPECT_GT(displaced(middle.left), 0.005f);
+  EXPECT_LT(displaced(middle.right), 0.3f * displaced(middle.left));
+
+  ASSERT_TRUE(model_->undo(&change));
+  ASSERT_TRUE(set_->follow(*model_, {&change, 1}));
+  run(5);
+  EXPECT_EQ(body_->particle_count(), before);
+  EXPECT_EQ(static_cast<std::uint32_t>(world_.getNumCollisionObjects()), before);
 }
 
 }  // namespace
