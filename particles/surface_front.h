@@ -163,7 +163,7 @@ class SurfaceFront {
       nearest = std::min(nearest, distance);
     }
     if (nearest == kUnknown) return kUnknown;
-    const bool is_closed = around.front().point == around.back().point;
+    const bool is_closed = count > 2 && around.front().point == around.back().point;
     const std::size_t before = at > 0 ? at - 1 : count - 2, after = at + 1 < count ? at + 1 : 1;
     const float at_before = at > 0 || is_closed ? distances[around[before].point] : kUnknown;
     const float at_after = at + 1 < count || is_closed ? distances[around[after].point] : kUnknown;
