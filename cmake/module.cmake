@@ -37,9 +37,11 @@ function(sunder_module name)
   set_property(GLOBAL APPEND PROPERTY SUNDER_MODULES ${target})
 endfunction()
 
-# Warnings, and the same bits on every optimisation level: no fused multiply-add behind our back.
+# Warnings, and the same bits on every optimisation level: no fused multiply-add behind our back. Nobody reads errno, so square roots
+# need not be calls.
 function(sunder_compile_options target)
-  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -ffp-contract=off)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -ffp-contract=off
+    -fno-math-errno)
   if(SUNDER_WARNINGS_AS_ERRORS)
     target_compile_options(${target} PRIVATE -Werror)
   endif()

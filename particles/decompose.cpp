@@ -39,29 +39,33 @@ void decompose(const TornModel& model, const DecompositionOptions& options, Stru
   const Index points = structure.point_count();
   const auto range = static_cast<float>(structure.report.range);
 
-  const Rings rings(surface, structure.positions);
+  Rings rings(surface, structure.positions);
   std::vector<Visit> visits;
-  std::vector<bool> is_covered(points, false);
+  std::vector<float> nearest(points, 2 * range);  // distance to a seed
   std::vector<Index> counts(points, 0);
-  ScatteredOrder order(points, options.seed);
-  for (Index i = 0; i < points; ++i) {
-    const Index seed = order.next();
-    if (is_covered[seed] || surface.point_corner[seed] == kNone) continue;
-    if (structure.particles.size() == kMaximumParticles) throw std::length_error("particles");
-    structure.front.begin(points, range, structure.edge_length);
-    structure.front.add(seed, 0.0f);
-    structure.first_member.push_back(static_cast<Index>(visits.size()));
-    structure.front.run(rings, structure.positions, [&](Index point, float distance, Index) {
-      visits.push_back({point, distance});
-      ++counts[point];
-      if (distance <= kCovers * range) is_covered[point] = true;
-      return true;
-    });
-    Particle& particle = structure.particles.emplace_back();
-    particle.serial = structure.next_serial++;
-    particle.seed = seed;
-    particle.range = range;
-    particle.member_count = static_cast<Index>(visits.size()) - structure.first_member.back();
+  // Seeds first stand out of one another's range, then in what gaps that leaves: fewer are needed than if they were as near from
+  // the beginning.
+  for (const float apart : {range, kCovers * range}) {
+    ScatteredOrder order(points, options.seed);
+    for (Index i = 0; i < points; ++i) {
+      const Index seed = order.next();
+      if (nearest[seed] <= apart || surface.point_corner[seed] == kNone) continue;
+      if (structure.particles.size() == kMaximumParticles) throw std::length_error("particles");
+      structure.front.begin(points, range, structure.edge_length);
+      structure.front.add(seed, 0.0f);
+      structure.first_member.push_back(static_cast<Index>(visits.size()));
+      structure.front.run(rings, [&](Index point, float distance, Index) {
+        visits.push_back({point, distance});
+        ++counts[point];
+        nearest[point] = std::min(nearest[point], distance);
+        return true;
+      });
+      Particle& particle = structure.particles.emplace_back();
+      particle.serial = structure.next_serial++;
+      particle.seed = seed;
+      particle.range = range;
+      particle.member_count = static_cast<Index>(visits.size()) - structure.first_member.back();
+    }
   }
   structure.first_member.push_back(static_cast<Index>(visits.size()));
   structure.joined.resize(structure.particles.size());

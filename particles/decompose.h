@@ -10,7 +10,7 @@ void decompose(const TornModel& model, const DecompositionOptions& options, Stru
 
 /// At which part of its range a particle stops to count as covering a point: a seed may stand nowhere within that of another. Less
 /// than 1, so that the weights of neighbours overlap and no point is left to one particle whose share of it fades.
-inline constexpr float kCovers = 0.8f;
+inline constexpr float kCovers = 0.85f;
 
 inline constexpr std::size_t kMaximumParticles = std::size_t{1} << 20u;
 

@@ -165,26 +165,25 @@ void Repair::take_up_lips(std::span<const ChangeRecord> changes) {
 }
 
 /// Gives a point the memberships of those around it that have theirs. @return false where none has.
-bool Repair::spread_to(Index point, Index first_new) {
+bool Repair::spread_to(Index point) {
   const Marks& is_ready = structure_.scratch.seen;
-  const std::span<const RingPoint> around = ring_(point);
-  const auto knows = [&](const RingPoint& other) { return other.point < first_new || is_ready.has(other.point); };
+  const Ring around = ring_(point);
+  const auto knows = [&](Index other) { return other < first_new_ || is_ready.has(other); };
   bool has_any = false;
   for (std::size_t i = 0; i < around.size(); ++i) {
-    if (!knows(around[i])) continue;
+    if (!knows(around.point(i))) continue;
     has_any = true;
-    const bool has_face = i + 1 < around.size() && knows(around[i + 1]);
-    for (std::size_t m = 0; m < current(around[i].point).size(); ++m) {  // join() moves them
-      const Membership membership = current(around[i].point)[m];
+    const bool has_next = i + 1 < around.size() && knows(around.point(i + 1));
+    for (std::size_t m = 0; m < current(around.point(i)).size(); ++m) {  // join() moves them
+      const Membership membership = current(around.point(i))[m];
       if (!may_join(point, membership.particle)) continue;
       const float range = structure_.particles[membership.particle].range, at = membership.reach * range;
-      float distance = at + around[i].length;
-      if (has_face)
-        for (const Membership& beside : current(around[i + 1].point))
+      float distance = at + around.length(i);
+      if (has_next)
+        for (const Membership& beside : current(around.point(i + 1)))
           if (beside.particle == membership.particle)
-            distance = std::min(distance, SurfaceFront::across_face(structure_.positions[around[i].point],
-                                                                    structure_.positions[around[i + 1].point],
-                                                                    structure_.positions[point], at, beside.reach * range));
+            distance = std::min(distance, std::sqrt(one_by_one::square_across(around.opposite(i), around.length(i),
+                                                                              around.length(i + 1), at, beside.reach * range)));
       if (distance < range) join(point, {membership.particle, distance / range});
     }
   }
@@ -202,7 +201,7 @@ void Repair::spread_to_new_points() {
   while (!open.empty()) {
     ready.clear();
     later.clear();
-    for (const Index point : open) (spread_to(point, first_new_) ? ready : later).push_back(point);
+    for (const Index point : open) (spread_to(point) ? ready : later).push_back(point);
     for (const Index point : open) (void)work_of(point);
     if (ready.empty()) return;
     for (const Index point : ready) is_ready.mark(point);
@@ -235,8 +234,9 @@ ParticleInfluences Repair::influences_before(Index point) {
       if (of.point == point) return of.influences;
     return structure_.influences[point];
   }
-  for (const RingPoint& beside : other_ring_(point))
-    if (beside.point < change_.points) return influences_before(beside.point);
+  const Ring around = other_ring_(point);
+  for (std::size_t i = 0; i < around.size(); ++i)
+    if (around.point(i) < change_.points) return influences_before(around.point(i));
   return {};
 }
 
@@ -247,7 +247,7 @@ void Repair::cover(Index seed) {
   const Index particle = make_particle(seed, range, influences_before(seed));
   structure_.front.begin(structure_.point_count(), range, structure_.edge_length);
   structure_.front.add(seed, 0.0f);
-  structure_.front.run(other_ring_, structure_.positions, [&](Index point, float distance, Index) {
+  structure_.front.run(other_ring_, [&](Index point, float distance, Index) {
     if (may_join(point, particle)) join(point, {particle, distance / range});
     return true;
   });

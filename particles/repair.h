@@ -49,7 +49,7 @@ class Repair {
   void leave_lost_points(std::span<const ChangeRecord> changes);
   void take_up_lips(std::span<const ChangeRecord> changes);
   void spread_to_new_points();
-  bool spread_to(Index point, Index first_new);
+  bool spread_to(Index point);
   void renew_weights(std::span<const ChangeRecord> changes);
   /// Makes a particle where a point has none left near enough: at once, so that what comes of it does not depend on where a call
   /// of settle() ends.

@@ -50,8 +50,9 @@ void Repair::choose_sides() {
     const auto side = static_cast<std::size_t>(structure_.lip_points[point].side);
     look_at(point, side);
     // The lips are equally near. What is beside them tells on which side the seed is, and knows particles that pass them by.
-    for (const RingPoint& beside : ring_(point))
-      if (structure_.lip_points[beside.point].tear != tear_) look_at(beside.point, side);
+    const Ring around = ring_(point);
+    for (std::size_t i = 0; i < around.size(); ++i)
+      if (structure_.lip_points[around.point(i)].tear != tear_) look_at(around.point(i), side);
   }
   for (const Score& score : scores) {
     Particle& particle = structure_.particles[score.particle];
@@ -98,9 +99,11 @@ void Repair::begin_band() {
 
 /// The particles that the tear passes, on the lips or beside them.
 void Repair::queue_beside_lips(Band& band) {
-  for (const Index point : lips_)
-    for (const RingPoint& beside : ring_(point))
-      for (const Membership& membership : structure_.memberships_of(beside.point)) band.to_grow.push_back(membership.particle);
+  for (const Index point : lips_) {
+    const Ring around = ring_(point);
+    for (std::size_t i = 0; i < around.size(); ++i)
+      for (const Membership& membership : structure_.memberships_of(around.point(i))) band.to_grow.push_back(membership.particle);
+  }
   std::sort(band.to_grow.begin(), band.to_grow.end());
   band.to_grow.erase(std::unique(band.to_grow.begin(), band.to_grow.end()), band.to_grow.end());
 }
@@ -150,7 +153,7 @@ Index Repair::grow(Index particle) {
   }
   structure_.front.begin(structure_.point_count(), range, structure_.edge_length);
   structure_.front.add(seed, 0.0f);
-  structure_.front.run(ring_, structure_.positions, [](Index, float, Index) { return true; });
+  structure_.front.run(ring_, [](Index, float, Index) { return true; });
   for (const Index point : members) {
     const float distance = structure_.front.distance(point);
     if (distance < range) continue;  // where it belongs still, as it did
@@ -168,7 +171,7 @@ Index Repair::grow(Index particle) {
 
 void Repair::widen_band(Index points) {
   if (!structure_.band) return;
-  structure_.band_front.run(ring_, structure_.positions, [&](Index point, float distance, Index from) {
+  structure_.band_front.run(ring_, [&](Index point, float distance, Index from) {
     if (from != kNone) visit_band(point, distance, from);
     return --points > 0;
   });

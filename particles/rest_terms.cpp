@@ -52,41 +52,42 @@ void RestOfVertex::add_to(Particle& particle, double sign) {
 }
 
 RestSums::RestSums(const TornModel& model, const Structure& structure)
-    : model_(model), structure_(structure), of_slot_(structure.first_slot.back(), Eigen::Vector4d::Zero()) {
-  for (Index m = 0; m < model.character().meshes.size(); ++m)
-    is_plain_.push_back(model.character().meshes[m].morph_targets.empty() && model.influence_positions(m).vertices.empty());
+    : model_(model), structure_(structure), of_slot_(structure.first_slot.back()) {
+  for (Index m = 0; m < model.character().meshes.size(); ++m) {
+    const Mesh& mesh = model.character().meshes[m];
+    const bool is_plain = mesh.morph_targets.empty() && model.influence_positions(m).vertices.empty();
+    meshes_.push_back({&mesh, structure.first_slot[mesh.skin], is_plain});
+  }
 }
 
 void RestSums::sum(std::span<const Index> members, Particle& particle) {
   particle.terms.clear();
   particle.morph_terms.clear();
-  const auto add_to_slot = [&](Index slot, const Vec4d& term) {
-    Eigen::Vector4d& sum = of_slot_[slot];
-    if (sum.w() == 0) slots_.push_back(slot);  // weights are > 0
-    sum += term;
+  const auto of_slot = [&](Index slot) -> OfSlot& {
+    OfSlot& of = of_slot_[slot];
+    if (!of.is_listed) slots_.push_back(slot);
+    of.is_listed = true;
+    return of;
   };
   for (const Index point : members) {
     const VertexRef& of = structure_.vertices[point];
-    if (!is_plain_[of.mesh]) {
-      for_each_rest_term(model_, structure_.first_slot, of, add_to_slot, [&](Index morph_weight, Index slot, const Vec3d& term) {
-        add(particle.morph_terms, morph_weight, slot, term);
-      });
+    const OfMesh& of_mesh = meshes_[of.mesh];
+    if (!of_mesh.is_plain) {
+      for_each_rest_term(
+          model_, structure_.first_slot, of, [&](Index slot, const Vec4d& term) { of_slot(slot).sum += term; },
+          [&](Index morph_weight, Index slot, const Vec3d& term) { add(particle.morph_terms, morph_weight, slot, term); });
       continue;
     }
-    const Mesh& mesh = model_.character().meshes[of.mesh];
-    const Index first = structure_.first_slot[mesh.skin];
-    const Vec3f& at = mesh.positions[of.vertex];
-    const Eigen::Vector4d one(double{at.x()}, double{at.y()}, double{at.z()}, 1.0);
-    for (const Influence& influence : mesh.weights.of(of.vertex)) {
-      Eigen::Vector4d& sum = of_slot_[first + influence.slot];
-      if (sum.w() == 0) slots_.push_back(first + influence.slot);
-      sum += double{influence.weight} * one;
-    }
+    const Vec3f& at = of_mesh.mesh->positions[of.vertex];
+    const Eigen::Vector4d one = Eigen::Vector4f(at.x(), at.y(), at.z(), 1.0f).cast<double>();
+    for (const Influence& influence : of_mesh.mesh->weights.of(of.vertex))
+      of_slot(of_mesh.first_slot + influence.slot).sum += double{influence.weight} * one;
   }
   std::sort(slots_.begin(), slots_.end());
+  particle.terms.reserve(slots_.size());
   for (const Index slot : slots_) {
-    particle.terms.push_back({slot, of_slot_[slot]});
-    of_slot_[slot].setZero();
+    particle.terms.push_back({slot, of_slot_[slot].sum});
+    of_slot_[slot] = {};
   }
   slots_.clear();
 }

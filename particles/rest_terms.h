@@ -58,9 +58,18 @@ class RestSums {
  private:
   const TornModel& model_;
   const Structure& structure_;
-  std::vector<bool> is_plain_;            ///< Of each mesh: has neither morph targets nor exact points.
-  std::vector<Eigen::Vector4d> of_slot_;  ///< One a slot: zero between calls.
-  std::vector<Index> slots_;
+  struct OfMesh {
+    const Mesh* mesh;
+    Index first_slot;
+    bool is_plain;  ///< Has neither morph targets nor exact points.
+  };
+  struct OfSlot {
+    Eigen::Vector4d sum = Eigen::Vector4d::Zero();
+    bool is_listed = false;
+  };
+  std::vector<OfMesh> meshes_;
+  std::vector<OfSlot> of_slot_;  ///< As it begins, between calls.
+  std::vector<Index> slots_;     ///< Those listed.
 };
 
 }  // namespace sunder::particles

@@ -8,7 +8,7 @@ namespace {
 // In ranges of the particle, and in ranges a second. Who is bound (held, touched, at a stretch limit), or beside one who is, is
 // pulled away and pushed back in every step: it moves a little for ever, its velocity is that of the pull, and springs alone are
 // not in balance.
-constexpr double kQuietPlace = 1e-4, kQuietPlaceBound = 1e-3, kQuietSpeed = 1e-3, kFeels = 5e-4, kFeelsBound = 5e-3,
+constexpr double kQuietPlace = 1e-4, kQuietPlaceBound = 3e-3, kQuietSpeed = 1e-3, kFeels = 5e-4, kFeelsBound = 5e-3,
                  kIsAtRest = 2e-4;
 constexpr double kQuietSeconds = 0.5;
 

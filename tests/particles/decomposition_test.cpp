@@ -26,7 +26,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 
 /// At which part of its range a particle covers points: kCovers of particles/decompose.h.
-constexpr double kCovers = 0.8;
+constexpr double kCovers = 0.85;
 
 ParticleSet decompose(const TornModel& model, const DecompositionOptions& options) {
   auto set = ParticleSet::decompose(model, bind_pose(model.source()), options);
@@ -269,6 +269,8 @@ TEST(Decomposition, has_weights_that_do_not_jump) {
 }
 
 TEST(Decomposition, has_weights_that_end_with_slope_zero) {
+  // A share of (1 - reach^2)^2 <= 4 (1 - reach)^2, over that of a seed which is as far as one may be.
+  const double steepest = 1.1 * 4 / std::pow(1 - kCovers * kCovers, 2);
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     const TornModel model = make_model(test::make_sheet(60));
     const ParticleSet set = decompose(model, {0.2, false, seed});
@@ -282,7 +284,7 @@ TEST(Decomposition, has_weights_that_end_with_slope_zero) {
         const auto at = std::ranges::find(influences.particles, of.particle) - influences.particles.begin();
         const double weight = at < 4 ? double{influences.weights[static_cast<std::size_t>(at)]} : 0.0;
         const double end = 1 - double{of.reach};
-        EXPECT_LE(weight, 40 * end * end) << "at " << of.reach;
+        EXPECT_LE(weight, steepest * end * end) << "at " << of.reach;
         ++looked_at;
       }
     }

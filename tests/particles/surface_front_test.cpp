@@ -33,11 +33,11 @@ double edge_length_of(const Surface& surface, const std::vector<Vec3f>& position
 /// Infinite where the front does not come.
 std::vector<float> front_distances(const Surface& surface, const std::vector<Vec3f>& positions, Index source, float limit) {
   SurfaceFront front;
-  const Rings rings(surface, positions);
+  Rings rings(surface, positions);
   front.begin(surface.point_count(), limit, static_cast<float>(edge_length_of(surface, positions)));
   front.add(source, 0.0f);
   std::vector<float> distances(surface.point_count(), kNever);
-  front.run(rings, positions, [&](Index point, float distance, Index) {
+  front.run(rings, [&](Index point, float distance, Index) {
     EXPECT_EQ(distances[point], kNever) << "point " << point << " is reached twice";
     EXPECT_LT(distance, limit);
     EXPECT_EQ(front.distance(point), distance);
@@ -241,7 +241,7 @@ TEST(SurfaceFront, goes_on_after_a_stop_as_if_it_had_not_stopped_and_by_either_r
     const Character character = seed % 2 == 0 ? test::make_tube(12, 10, 3) : test::make_bumpy_ball(400);
     const Surface surface = tear::build_surface(character);
     const std::vector<Vec3f> positions = bind_positions(character, surface);
-    const Rings rings(surface, positions);
+    Rings rings(surface, positions);
     RingWalk walk(surface, positions);
     SurfaceFront front;  // used again and again
     const Index source = random.index(surface.point_count()), other = random.index(surface.point_count());
@@ -252,7 +252,7 @@ TEST(SurfaceFront, goes_on_after_a_stop_as_if_it_had_not_stopped_and_by_either_r
       front.add(other, 0.3f);
       Random when(seed);
       do {
-        front.run(ring, positions, [&](Index point, float distance, Index from) {
+        front.run(ring, [&](Index point, float distance, Index from) {
           visited.push_back({point, from, distance});
           return stops == 0 || when.index(stops) != 0;
         });
@@ -272,24 +272,63 @@ TEST(Rings, go_around_every_point) {
   for (const Character& character : {test::make_sheet(5), test::make_tube(4, 6, 2), test::make_soup(random)}) {
     const Surface surface = tear::build_surface(character);
     const std::vector<Vec3f> positions = bind_positions(character, surface);
-    const Rings rings(surface, positions);
+    Rings rings(surface, positions);
     RingWalk walk(surface, positions);
     for (Index p = 0; p < surface.point_count(); ++p) {
-      const auto ring = rings(p), walked = walk(p);
-      ASSERT_TRUE(std::ranges::equal(
-          ring, walked, [](const RingPoint& a, const RingPoint& b) { return a.point == b.point && a.length == b.length; }));
+      const Ring ring = rings(p), walked = walk(p);
+      ASSERT_EQ(ring.size(), walked.size());
+      for (std::size_t i = 0; i < ring.size(); ++i) {
+        ASSERT_EQ(ring.point(i), walked.point(i));
+        ASSERT_EQ(ring.length(i), walked.length(i));
+        ASSERT_EQ(ring.length(i), (positions[ring.point(i)] - positions[p]).norm());
+      }
       if (surface.point_corner[p] == kNone) {
-        EXPECT_TRUE(ring.empty());
+        EXPECT_EQ(ring.size(), 0u);
         continue;
       }
-      for (std::size_t i = 0; i + 1 < ring.size(); ++i) {  // each two with the point are a face, in its order
-        const Index half_edge = surface.find_half_edge(p, ring[i].point);
+      const std::size_t last = ring.size() - 1;
+      EXPECT_TRUE(std::isnan(ring.opposite(last)));
+      for (std::size_t i = 0; i < last; ++i) {  // each two with the point are a face, in its order
+        const Index half_edge = surface.find_half_edge(p, ring.point(i));
         ASSERT_NE(half_edge, kNone);
-        EXPECT_EQ(surface.corner_point[Surface::previous(half_edge)], ring[i + 1].point);
+        EXPECT_EQ(surface.corner_point[Surface::previous(half_edge)], ring.point(i + 1));
+        EXPECT_EQ(ring.opposite(i), walked.opposite(i));
+        EXPECT_EQ(ring.opposite(i), (positions[ring.point(i + 1)] - positions[ring.point(i)]).norm());
       }
-      EXPECT_EQ(ring.front().point == ring.back().point, !surface.is_on_border(p));
+      EXPECT_EQ(ring.point(0) == ring.point(last), !surface.is_on_border(p));
     }
   }
+}
+
+/// All faces of a block, one after the other, as a front sees them at once.
+TEST(RingLanes, are_what_one_lane_after_the_other_is) {
+  Random random(5);
+  const auto length = [&] { return static_cast<float>(random.uniform(0.2, 2.0)); };
+  std::size_t found = 0, nearer = 0;
+  for (int n = 0; n < 20000; ++n) {
+    std::vector<Known> known(100);
+    for (Known& of : known) {
+      const std::uint32_t kind = random.index(5);
+      of = kind == 0 ? kUnknown : kind == 1 ? -length() : kind == 2 && random.index(10) == 0 ? 0.0f : 3 * length();
+    }
+    RingBlock block;
+    const std::size_t size = 2 + random.index(kRingLanes - 1);
+    for (std::size_t i = 0; i < kRingLanes; ++i) {
+      block.points[i] = i < size ? random.index(100) : 0;
+      block.lengths[i] = i < size ? length() : kNever;
+      block.opposite[i] = i + 1 < size ? length() : std::numeric_limits<float>::quiet_NaN();
+    }
+    const KnownBlock around = gather(known.data(), block);
+    ASSERT_EQ(around.lanes, one_by_one::gather(known.data(), block).lanes);
+    const float shortest = shortest_across(around, block);
+    ASSERT_EQ(shortest, one_by_one::shortest_across(around, block));
+    const unsigned lanes = nearer_lanes(around, block, 1.0f, 2.5f);
+    ASSERT_EQ(lanes, one_by_one::nearer_lanes(around, block, 1.0f, 2.5f));
+    found += shortest < kNever ? 1 : 0;
+    nearer += lanes != 0 ? 1 : 0;
+  }
+  EXPECT_GT(found, 1000u);
+  EXPECT_GT(nearer, 1000u);
 }
 
 }  // namespace

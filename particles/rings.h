@@ -1,0 +1,86 @@
+#pragma once
+
+#include <sunder/tear/surface.h>
+
+#include <array>
+#include <span>
+#include <vector>
+
+namespace sunder::particles {
+
+using tear::Index;
+using tear::Surface;
+
+/// How many points a RingBlock has, and how many faces.
+inline constexpr std::size_t kRingLanes = 8, kRingFaces = kRingLanes - 1;
+
+/// Some of the points around one. Each two that follow one another are of one face; the last is the first of the next block again.
+/// Lanes behind the last point hold the point in the middle, infinitely far: what goes around points does not have to guess, then,
+/// how many there are.
+struct alignas(32) RingBlock {
+  std::array<Index, kRingLanes> points;
+  std::array<float, kRingLanes> lengths;   ///< Of the edges from the point in the middle.
+  std::array<float, kRingLanes> opposite;  ///< Of the edge to the next lane's point; not a number where no face is between them.
+};
+
+/// The points around one, counter-clockwise; where they close a circle the first one comes again at the end. Points that have no
+/// position yet are left out.
+class Ring {
+ public:
+  Ring(const RingBlock* blocks, std::size_t size) : blocks_(blocks), size_(size) {}
+
+  [[nodiscard]] std::size_t size() const { return size_; }
+  [[nodiscard]] Index point(std::size_t i) const { return blocks_[block_of(i)].points[lane_of(i)]; }
+  [[nodiscard]] float length(std::size_t i) const { return blocks_[block_of(i)].lengths[lane_of(i)]; }
+  [[nodiscard]] float opposite(std::size_t i) const { return blocks_[block_of(i)].opposite[lane_of(i)]; }
+  [[nodiscard]] std::span<const RingBlock> blocks() const { return {blocks_, block_count()}; }
+
+ private:
+  [[nodiscard]] std::size_t block_count() const { return size_ < 2 ? size_ : (size_ + kRingFaces - 2) / kRingFaces; }
+  /// The very last point is only in a last lane.
+  [[nodiscard]] std::size_t block_of(std::size_t i) const { return std::min(i / kRingFaces, block_count() - 1); }
+  [[nodiscard]] std::size_t lane_of(std::size_t i) const { return i - kRingFaces * block_of(i); }
+
+  const RingBlock* blocks_;
+  std::size_t size_;
+};
+
+/// Of the points of a surface, each looked up when it is first asked for. So those that are near one another are near in memory.
+class Rings {
+ public:
+  /// @param surface, positions  must outlive it, as they are.
+  Rings(const Surface& surface, std::span<const Vec3f> positions);
+  /// Good until the next call.
+  [[nodiscard]] Ring operator()(Index point) {
+    Ends& ends = ends_[point];
+    if (ends.first == kNone) look_up(point, ends);
+    return {blocks_.data() + ends.first, ends.size};
+  }
+
+ private:
+  struct Ends {
+    Index first = kNone, size = 0;
+  };
+  void look_up(Index point, Ends& ends);
+
+  const Surface& surface_;
+  std::span<const Vec3f> positions_;
+  std::vector<Ends> ends_;
+  std::vector<RingBlock> blocks_;
+};
+
+/// The same, each looked up whenever it is asked for.
+class RingWalk {
+ public:
+  /// @param positions  may grow meanwhile.
+  RingWalk(const Surface& surface, const std::vector<Vec3f>& positions) : surface_(surface), positions_(positions) {}
+  /// Good until the next call.
+  [[nodiscard]] Ring operator()(Index point);
+
+ private:
+  const Surface& surface_;
+  const std::vector<Vec3f>& positions_;
+  std::vector<RingBlock> blocks_;
+};
+
+}  // namespace sunder::particles
