@@ -19,8 +19,10 @@ class LipBorder {
     return twin == kNone || is_filling(twin / 3);
   }
   /// The half-edge of the border that leaves a point, or arrives there; kNone where there is none.
-  [[nodiscard]] Index leaving(Index point) const;
-  [[nodiscard]] Index arriving(Index point) const;
+  [[nodiscard]] Index leaving(Index point) const {
+    return find(point, [](Index corner) { return corner; });
+  }
+  [[nodiscard]] Index arriving(Index point) const { return find(point, Surface::previous); }
   /// The points there.
   [[nodiscard]] Index next(Index point) const {
     const Index half_edge = leaving(point);
@@ -32,6 +34,20 @@ class LipBorder {
   }
 
  private:
+  /// The first half-edge of the border among those that belong to a point's corners.
+  template <class HalfEdgeOf>
+  [[nodiscard]] Index find(Index point, HalfEdgeOf half_edge_of) const {
+    const Index start = surface_.point_corner[point];
+    if (start == kNone) return kNone;
+    const Index first = surface_.first_of_fan(start);
+    Index corner = first;
+    do {
+      if (has(half_edge_of(corner))) return half_edge_of(corner);
+      corner = surface_.rotate_ccw(corner);
+    } while (corner != kNone && corner != first);
+    return kNone;
+  }
+
   /// Whether a triangle is part of a wall or cap.
   [[nodiscard]] bool is_filling(Index triangle) const {
     if (triangle < surface_.first_triangle.back()) return false;

@@ -136,11 +136,10 @@ void Repair::leave_lost_points(std::span<const ChangeRecord> changes) {
 void Repair::take_up_lips(std::span<const ChangeRecord> changes) {
   const auto add = [&](Index point, Side side) {
     if (point >= structure_.point_count() || surface_.point_corner[point] == kNone) return;
-    LipPoint& lip = structure_.lip_points[point];
+    const LipPoint& lip = structure_.lip_points[point];
     if (lip.tear == tear_ && lip.side == side) return;
     log_point(point);
-    lip.tear = tear_;
-    lip.side = side;
+    structure_.put_on_lip(point, tear_, side);
     lips_.push_back(point);
   };
   for (const ChangeRecord& change : changes) {
@@ -151,17 +150,30 @@ void Repair::take_up_lips(std::span<const ChangeRecord> changes) {
     for (const Index point : change.rims.left) add(point, Side::left);
     for (const Index point : change.rims.right) add(point, Side::right);
   }
-  // A point that a tear made on the lip of an older one is on that too.
-  for (Index point = first_new_; point < structure_.point_count(); ++point) {
-    LipPoint& lip = structure_.lip_points[point];
-    if (lip.tear != kNone) continue;
-    const Index before = border_.previous(point), after = before == kNone ? kNone : border_.next(point);
-    if (after == kNone) continue;
-    const LipPoint &of_before = structure_.lip_points[before], &of_after = structure_.lip_points[after];
-    if (of_before.tear == kNone || of_before.tear != of_after.tear || of_before.side != of_after.side) continue;
-    lip.tear = of_before.tear;
-    lip.side = of_before.side;
-  }
+  take_up_older_lips();
+}
+
+/// Points that a tear made on the lips of older ones are on those too.
+void Repair::take_up_older_lips() {
+  std::vector<Particle::OfTear> found;
+  for (int pass = 0; pass < 2; ++pass)  // those beside one another may both be new
+    for (Index point = first_new_; point < structure_.point_count(); ++point) {
+      const Index before = border_.previous(point), after = before == kNone ? kNone : border_.next(point);
+      if (after == kNone) continue;
+      found.clear();
+      const bool is_own = structure_.lip_points[point].tear == tear_;
+      const auto look_at = [&](Index beside, Index other) {
+        structure_.for_each_lip(beside, [&](Index tear, Side side) {
+          // Where the new lip ends in an old one, that goes on to one side; elsewhere the old one passes by.
+          const bool passes = is_own ? structure_.lip_points[beside].tear != tear_ : structure_.is_on_lip(other, tear, side);
+          if (passes && tear != tear_) found.push_back({tear, side});
+        });
+      };
+      look_at(before, after);
+      if (is_own) look_at(after, before);
+      for (const Particle::OfTear& of : found)
+        if (!structure_.is_on_lip(point, of.tear, of.side)) structure_.put_on_lip(point, of.tear, of.side);
+    }
 }
 
 /// Gives a point the memberships of those around it that have theirs. @return false where none has.

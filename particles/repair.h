@@ -48,6 +48,7 @@ class Repair {
   void lose(Index point);
   void leave_lost_points(std::span<const ChangeRecord> changes);
   void take_up_lips(std::span<const ChangeRecord> changes);
+  void take_up_older_lips();
   void spread_to_new_points();
   bool spread_to(Index point);
   void renew_weights(std::span<const ChangeRecord> changes);

@@ -155,15 +155,15 @@ Index Repair::grow(Index particle) {
   structure_.front.add(seed, 0.0f);
   structure_.front.run(ring_, [](Index, float, Index) { return true; });
   for (const Index point : members) {
-    const float distance = structure_.front.distance(point);
-    if (distance < range) continue;  // where it belongs still, as it did
+    if (structure_.front.distance(point) < range) continue;  // where it belongs still, as it did
+    // What an operation took since, which is to be followed next, it may give back. So it stays a member till then.
+    if (surface_.point_corner[point] == kNone) continue;
+    left_.push_back(point);
     Work& work = work_of(point);
     const auto kept = std::remove_if(memberships_.begin() + work.first, memberships_.begin() + work.first + work.count,
                                      [&](const Membership& membership) { return membership.particle == particle; });
     work.count = static_cast<Index>(kept - memberships_.begin()) - work.first;
   }
-  for (const Index point : members)
-    if (!(structure_.front.distance(point) < range)) left_.push_back(point);
   for (const Index point : left_) cover(point);
   left_.clear();
   return static_cast<Index>(members.size());

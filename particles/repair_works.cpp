@@ -26,11 +26,17 @@ std::span<const Membership> Repair::current(Index point) {
 }
 
 bool Repair::may_join(Index point, Index particle) {
-  const LipPoint& lip = structure_.lip_points[point];
-  if (lip.tear == kNone) return true;
-  if (const Side* side = structure_.particles[particle].side_of(lip.tear)) return *side == lip.side;
-  if (is_before_sides_ && lip.tear == tear_) return true;
-  change_particle(particle).sides.push_back({lip.tear, lip.side});
+  bool may = true, has_all = true;
+  structure_.for_each_lip(point, [&](Index tear, Side side) {
+    const Side* known = structure_.particles[particle].side_of(tear);
+    may &= known == nullptr || *known == side;
+    has_all &= known != nullptr;
+  });
+  if (!may || has_all) return may;
+  structure_.for_each_lip(point, [&](Index tear, Side side) {
+    if (is_before_sides_ && tear == tear_) return;
+    if (structure_.particles[particle].side_of(tear) == nullptr) change_particle(particle).sides.push_back({tear, side});
+  });
   return true;
 }
 

@@ -61,6 +61,24 @@ void Structure::prepare_for_tears(Index triangles) {
   for (std::vector<Index>& points : vertex_points) reserve_eighth(points, points.size() + 1);
 }
 
+void Structure::put_on_lip(Index point, Index tear, Side side) {
+  LipPoint& lip = lip_points[point];
+  if (lip.tear == kNone || lip.tear == tear) {
+    lip.tear = tear;
+    lip.side = side;
+    return;
+  }
+  OnLip behind = lip;
+  if (tear > lip.tear) {  // newer
+    lip.tear = tear;
+    lip.side = side;
+  } else {
+    behind = {tear, side, lip.older};
+  }
+  lip.older = static_cast<Index>(older_lips.size());
+  older_lips.push_back(behind);
+}
+
 std::vector<Index> Structure::members_of(Index particle) const {
   std::vector<Index> found;
   const auto add = [&](Index point) {

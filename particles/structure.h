@@ -54,10 +54,15 @@ struct Particle {
   }
 };
 
-/// Whether a point is on a lip, and where the lip's edge that leaves it is kept.
-struct LipPoint {
+/// That a point is on a lip of a tear.
+struct OnLip {
   Index tear = kNone;
   Side side = Side::left;
+  Index older = kNone;  ///< The tear before that whose lip it is on as well, in Structure::older_lips.
+};
+
+/// The newest lip that a point is on, if any, and where the edge of a lip that leaves it is kept.
+struct LipPoint : OnLip {
   Index edge = kNone;  ///< In Structure::lips.
 };
 
@@ -126,6 +131,7 @@ struct Structure {
   std::vector<Membership> memberships;
   std::vector<ParticleInfluences> influences;
   std::vector<LipPoint> lip_points;
+  std::vector<OnLip> older_lips;  ///< Grows only: what undo takes back, redo may need again.
 
   // ---- Particles.
   std::vector<Particle> particles;
@@ -160,6 +166,21 @@ struct Structure {
   [[nodiscard]] std::span<const Membership> memberships_of(Index point) const {
     return {memberships.data() + slabs[point].first, slabs[point].count};
   }
+  /// Calls visit(tear, side) for each lip that a point is on, the newest first.
+  template <class Visit>
+  void for_each_lip(Index point, Visit visit) const {
+    for (const OnLip* lip = &lip_points[point]; lip->tear != kNone; lip = &older_lips[lip->older]) {
+      visit(lip->tear, lip->side);
+      if (lip->older == kNone) return;
+    }
+  }
+  [[nodiscard]] bool is_on_lip(Index point, Index tear, Side side) const {
+    bool is = false;
+    for_each_lip(point, [&](Index of, Side on) { is |= of == tear && on == side; });
+    return is;
+  }
+  /// Puts a point on a lip; on those of other tears it stays. Of two tears the later has the higher number.
+  void put_on_lip(Index point, Index tear, Side side);
   /// Ascending.
   [[nodiscard]] std::vector<Index> members_of(Index particle) const;
   [[nodiscard]] const Membership* find(Index point, Index particle) const {

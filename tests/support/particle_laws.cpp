@@ -110,7 +110,7 @@ void check_particle(const ParticleSet& set, std::uint32_t p, const Sums& sums, s
                            " points, not ", sum.shared, " at ", sum.points));
     const double least = std::min(sums.weights[p], sums.weights[neighbour.particle]);
     const double coupling = set.coupling(p, neighbour);
-    if (!(coupling > 0 && coupling <= 1) || std::abs(coupling - std::min(1.0, sum.shared / least)) > 1e-6 * (1 + 1 / least))
+    if (!(coupling >= 0 && coupling <= 1) || std::abs(coupling - std::min(1.0, sum.shared / least)) > 1e-6 * (1 + 1 / least))
       faults.push_back(
           say("the coupling of particles ", p, " and ", neighbour.particle, " is ", coupling, ", not ", sum.shared / least));
   }

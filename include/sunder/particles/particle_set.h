@@ -95,7 +95,7 @@ class SUNDER_API ParticleSet {
   [[nodiscard]] std::uint32_t member_count(std::uint32_t particle) const;
   /// Those with which it has points in common, ascending.
   [[nodiscard]] std::span<const Neighbour> neighbours(std::uint32_t particle) const;
-  /// How much of two neighbours is common: `shared` over the lesser sum of weights of the two; in (0, 1].
+  /// How much of two neighbours is common: `shared` over the lesser sum of weights of the two; in [0, 1].
   [[nodiscard]] double coupling(std::uint32_t particle, const Neighbour& neighbour) const;
   /// Of a particle that a tear made: where its displacement and velocity come from, as influences on its seed before the tear.
   /// Weights are all 0 for one of the decomposition.
