@@ -41,23 +41,28 @@ void decompose(const TornModel& model, const DecompositionOptions& options, Stru
 
   Rings rings(surface, structure.positions);
   std::vector<Visit> visits;
-  std::vector<float> nearest(points, 2 * range);  // distance to a seed
-  std::vector<Index> counts(points, 0);
+  visits.reserve(3 * std::size_t{points});
+  struct Found {
+    float nearest;  // distance to a seed
+    Index count;    // of memberships
+  };
+  std::vector<Found> found(points, {2 * range, 0});
   // Seeds first stand out of one another's range, then in what gaps that leaves: fewer are needed than if they were as near from
   // the beginning.
   for (const float apart : {range, kCovers * range}) {
     ScatteredOrder order(points, options.seed);
     for (Index i = 0; i < points; ++i) {
       const Index seed = order.next();
-      if (nearest[seed] <= apart || surface.point_corner[seed] == kNone) continue;
+      if (found[seed].nearest <= apart || surface.point_corner[seed] == kNone) continue;
       if (structure.particles.size() == kMaximumParticles) throw std::length_error("particles");
       structure.front.begin(points, range, structure.edge_length);
       structure.front.add(seed, 0.0f);
       structure.first_member.push_back(static_cast<Index>(visits.size()));
       structure.front.run(rings, [&](Index point, float distance, Index) {
         visits.push_back({point, distance});
-        ++counts[point];
-        nearest[point] = std::min(nearest[point], distance);
+        Found& of = found[point];
+        of.nearest = std::min(of.nearest, distance);
+        ++of.count;
         return true;
       });
       Particle& particle = structure.particles.emplace_back();
@@ -76,7 +81,7 @@ void decompose(const TornModel& model, const DecompositionOptions& options, Stru
   Index first = 0;
   for (Index p = 0; p < points; ++p) {
     structure.slabs[p] = {first, 0};
-    first += counts[p];
+    first += found[p].count;
   }
   for (Index p = 0; p < structure.particles.size(); ++p)
     for (Index v = structure.first_member[p]; v < structure.first_member[p + 1]; ++v) {
@@ -88,20 +93,19 @@ void decompose(const TornModel& model, const DecompositionOptions& options, Stru
   structure.influences.resize(points);
   for (Index p = 0; p < points; ++p) structure.influences[p] = influences_from(structure.memberships_of(p));
   RestSums sums(model, structure);
-  PairSums pairs(structure);
   for (Index p = 0; p < structure.particles.size(); ++p) {
     const auto members = std::span(structure.members).subspan(structure.first_member[p], structure.particles[p].member_count);
     sums.sum(members, structure.particles[p]);
-    pairs.sum(members, p);
   }
+  sum_pairs(structure);
 
   DecompositionReport& report = structure.report;
   report.particles = static_cast<Index>(structure.particles.size());
   report.memberships = visits.size();
   for (Index p = 0; p < points; ++p) {
     report.points += surface.point_corner[p] != kNone ? 1 : 0;
-    report.covered += counts[p] > 0 ? 1 : 0;
-    report.most_memberships = std::max(report.most_memberships, counts[p]);
+    report.covered += found[p].count > 0 ? 1 : 0;
+    report.most_memberships = std::max(report.most_memberships, found[p].count);
   }
 }
 

@@ -1,6 +1,5 @@
 #include <sunder/particles/particle_set.h>
 #include <sunder/skinning/palette.h>
-#include <sunder/skinning/reference.h>
 
 #include <algorithm>
 #include <chrono>
@@ -45,40 +44,31 @@ void read_model(const TornModel& model, const ModelPose& pose, Structure& struct
   for (const Skin& skin : character.skins)
     structure.first_slot.push_back(structure.first_slot.back() + static_cast<Index>(skin.bones.size()));
   structure.source = &model.source();
-  structure.pose = pose;
-  structure.palettes.resize(character.skins.size());
-  for (std::size_t s = 0; s < character.skins.size(); ++s) {
-    structure.palettes[s].resize(character.skins[s].bones.size());
-    (void)compute_palette(character.skins[s], pose, std::span(structure.palettes[s]));  // sizes were checked
-  }
+  structure.posed_points = particles::PosedPoints(character, pose);
   const tear::Surface& surface = model.surface();
   structure.vertex_points.resize(character.meshes.size());
   for (Index m = 0; m < character.meshes.size(); ++m) structure.vertex_points[m].assign(character.meshes[m].vertex_count(), kNone);
+  structure.positions.resize(surface.point_count(), Vec3f::Zero());
+  structure.vertices.resize(surface.point_count());
   for (Index t = 0; t < surface.triangle_count(); ++t) {
     const tear::TriangleRef ref = surface.triangle(t);
     const Triangle& triangle = character.meshes[ref.mesh].triangles[ref.triangle];
     if (surface.has_repeated_point(t)) continue;
     for (Index k = 0; k < 3; ++k) {
-      Index& point = structure.vertex_points[ref.mesh][triangle[k]];
       const Index now = surface.corner_point[3 * t + k];
-      if (point != kNone && point != now) structure.share_vertex(ref.mesh, triangle[k], point, now);
-      point = now;
+      const Index before = std::exchange(structure.vertex_points[ref.mesh][triangle[k]], now);
+      if ((before != kNone) & (before != now)) structure.share_vertex(ref.mesh, triangle[k], before, now);
+      structure.vertices[now] = {ref.mesh, triangle[k]};
     }
   }
-  structure.positions.resize(surface.point_count(), Vec3f::Zero());
-  structure.vertices.resize(surface.point_count());
-  for (Index p = 0; p < surface.point_count(); ++p) {
-    const particles::VertexRef of = structure.vertices[p] = particles::vertex_of(model, p);
-    if (of.vertex == kNone) continue;
-    const Mesh& mesh = character.meshes[of.mesh];
-    structure.positions[p] =
-        deform_position_reference(mesh, of.vertex, structure.palettes[mesh.skin], pose.morph_weights).cast<float>();
-  }
+  for (Index p = 0; p < surface.point_count(); ++p)
+    if (const particles::VertexRef& of = structure.vertices[p]; of.vertex != kNone)
+      structure.positions[p] = structure.posed_points.at(character.meshes[of.mesh], of.vertex);
 }
 
 /// Mean length of the edges: of some of them, all over the surface.
 float edge_length_of(const Structure& structure, const tear::Surface& surface) {
-  const Index corners = 3 * surface.triangle_count(), step = corners / 4096 + 1;
+  const Index corners = 3 * surface.triangle_count(), step = corners / 1024 + 1;
   double sum = 0;
   std::size_t count = 0;
   for (Index c = 0; c < corners; c += step) {

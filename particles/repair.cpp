@@ -1,7 +1,5 @@
 #include "particles/repair.h"
 
-#include <sunder/skinning/reference.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -52,14 +50,9 @@ void Repair::append_points() {
   const Character& character = model_.character();
   for (Index point = first_new_; point < surface_.point_count(); ++point) {
     const VertexRef of = vertex_of(model_, point);
-    Vec3f position = Vec3f::Zero();
-    if (of.vertex != kNone) {
-      const Mesh& mesh = character.meshes[of.mesh];
-      position =
-          deform_position_reference(mesh, of.vertex, structure_.palettes[mesh.skin], structure_.pose.morph_weights).cast<float>();
-    }
     structure_.vertices.push_back(of);
-    structure_.positions.push_back(position);
+    structure_.positions.push_back(of.vertex == kNone ? Vec3f(Vec3f::Zero())
+                                                      : structure_.posed_points.at(character.meshes[of.mesh], of.vertex));
     structure_.slabs.emplace_back();
     structure_.influences.emplace_back();
     structure_.lip_points.emplace_back();

@@ -6,6 +6,9 @@
 namespace sunder::particles {
 namespace {
 
+/// So many rings stay in a cache, wherever they are.
+constexpr Index kFew = 8000;
+
 float distance_between(const Vec3f& a, const Vec3f& b) {
   const float x = b.x() - a.x(), y = b.y() - a.y(), z = b.z() - a.z();
   return std::sqrt(x * x + y * y + z * z);
@@ -69,8 +72,10 @@ Index append_ring(const Surface& surface, std::span<const Vec3f> positions, Inde
 }  // namespace
 
 Rings::Rings(const Surface& surface, std::span<const Vec3f> positions)
-    : surface_(surface), positions_(positions), ends_(surface.point_count()) {
+    : surface_(surface), positions_(positions), ends_(surface.point_count()), are_many_(surface.point_count() > kFew) {
   blocks_.reserve(surface.point_count() + surface.point_count() / 4 + 8);
+  if (are_many_) return;
+  for (Index point = 0; point < surface.point_count(); ++point) look_up(point, ends_[point]);
 }
 
 void Rings::look_up(Index point, Ends& ends) {

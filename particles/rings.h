@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "tear/prefetch.h"
+
 namespace sunder::particles {
 
 using tear::Index;
@@ -45,11 +47,19 @@ class Ring {
   std::size_t size_;
 };
 
-/// Of the points of a surface, each looked up when it is first asked for. So those that are near one another are near in memory.
+/// Of the points of a surface. Where they are many each is looked up when it is first asked for: so those that are near one another
+/// are near in memory.
 class Rings {
  public:
   /// @param surface, positions  must outlive it, as they are.
   Rings(const Surface& surface, std::span<const Vec3f> positions);
+  /// That a point is to be asked for soon.
+  void expect(Index point) const {
+    if (!are_many_ || ends_[point].first == kNone) return;
+    const RingBlock& block = blocks_[ends_[point].first];
+    tear::prefetch(&block);
+    tear::prefetch(&block.opposite.back());
+  }
   /// Good until the next call.
   [[nodiscard]] Ring operator()(Index point) {
     Ends& ends = ends_[point];
@@ -66,6 +76,7 @@ class Rings {
   const Surface& surface_;
   std::span<const Vec3f> positions_;
   std::vector<Ends> ends_;
+  bool are_many_;
   std::vector<RingBlock> blocks_;
 };
 
@@ -74,6 +85,7 @@ class RingWalk {
  public:
   /// @param positions  may grow meanwhile.
   RingWalk(const Surface& surface, const std::vector<Vec3f>& positions) : surface_(surface), positions_(positions) {}
+  void expect(Index) const {}
   /// Good until the next call.
   [[nodiscard]] Ring operator()(Index point);
 

@@ -6,6 +6,7 @@
 #include <memory>
 #include <utility>
 
+#include "particles/posed_points.h"
 #include "particles/repair_scratch.h"
 #include "particles/surface_front.h"
 
@@ -111,8 +112,7 @@ struct Structure {
   std::vector<Skin> skins;
   std::vector<Index> first_slot;  ///< Of each skin; at the end their number.
   std::size_t bone_count = 0, morph_weight_count = 0;
-  ModelPose pose;                               ///< Of the decomposition.
-  std::vector<std::vector<Affine3d>> palettes;  ///< In it.
+  PosedPoints posed_points;  ///< In the decomposition's pose.
   std::vector<std::vector<Index>> vertex_points;
   /// Vertices in which a surface touches itself have several points: all that they ever had.
   std::map<std::pair<Index, Index>, std::vector<Index>> shared_vertices;

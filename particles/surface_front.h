@@ -51,7 +51,7 @@ class SurfaceFront {
   /// Calls visit(point, distance, the point from which it was reached) for each point nearer than the limit, from near to far,
   /// until it returns false or none is left. May be called again to go on. @param ring_of  Rings or RingWalk.
   template <class RingOf, class Visit>
-  void run(RingOf& ring_of, Visit visit) {
+  [[gnu::noinline]] void run(RingOf& ring_of, Visit visit) {
     for (; bucket_ < buckets_.size(); ++bucket_)
       while (next_ != kNone || buckets_[bucket_] != kNone) {
         if (next_ == kNone) next_ = std::exchange(buckets_[bucket_], kNone);
@@ -68,7 +68,9 @@ class SurfaceFront {
         known_[entry.point] = distance;
         if (!(distance < limit_)) continue;
         const bool goes_on = visit(entry.point, distance, entry.from);
+        const std::size_t before = entries_.size();
         put_around(entry.point, distance, around);
+        for (std::size_t e = before; e < entries_.size(); ++e) ring_of.expect(entries_[e].point);
         if (!goes_on) return;
       }
   }
