@@ -50,6 +50,7 @@ class SurfaceFront {
 
   /// Calls visit(point, distance, the point from which it was reached) for each point nearer than the limit, from near to far,
   /// until it returns false or none is left. May be called again to go on. @param ring_of  Rings or RingWalk.
+  // Not inlined: within a large function its loop would have too few registers.
   template <class RingOf, class Visit>
   [[gnu::noinline]] void run(RingOf& ring_of, Visit visit) {
     for (; bucket_ < buckets_.size(); ++bucket_)

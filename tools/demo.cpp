@@ -14,10 +14,10 @@
 
 #include "tools/demo_rig.h"
 #include "tools/demo_stroke.h"
+#include "tools/open_lips.h"
 #include "tools/picture.h"
 #include "tools/posed_model.h"
 #include "tools/progress_bar.h"
-#include "tools/pull_open.h"
 #include "tools/report.h"
 #include "tools/rims.h"
 #include "tools/verbs.h"
@@ -26,18 +26,17 @@
 namespace sunder::tools {
 namespace {
 
-/// When in the clip each picture is taken, and how far the lips are pulled apart in it: to each side, of the model's diagonal.
+/// When in the clip each picture is taken, and how much time the tissue has had to open since the one before, at least; steps.
 struct Shot {
   const char* name;
   double clip_fraction;
   bool is_torn;
-  double opening;
+  int steps;
 };
 constexpr Shot kShots[] = {
-    {"before", 0.40, false, 0.0}, {"torn", 0.40, true, 0.006}, {"later_1", 0.65, true, 0.014}, {"later_2", 0.95, true, 0.020}};
+    {"before", 0.40, false, 0}, {"torn", 0.40, true, 4}, {"later_1", 0.65, true, 30}, {"later_2", 0.95, true, 30}};
 constexpr int kPixels = 900;
 constexpr double kTearFraction = 0.40;
-constexpr double kReach = 0.075;      ///< How far along the surface the pull is felt; of the diagonal.
 constexpr double kThickness = 0.006;  ///< Of the flesh; of the diagonal.
 
 /// The model and where it came from; without a file there is nothing to patch on saving.
@@ -134,7 +133,7 @@ Json operations_json(const Character& character, const Stroke& stroke) {
 struct Demo {
   TornModel model;
   OperationOutcome outcome;
-  ChangeRecord change;
+  OpenLips lips;
   Stroke stroke;
   ViewFrame frame;
   Bounds bounds;
@@ -152,18 +151,33 @@ Result<Demo> tear_mid_clip(std::shared_ptr<const Character> character) {
 
   Result<TornModel> model = TornModel::create(character);
   if (!model) return model.error();
-  std::vector<ChangeRecord> changes;  // one: a tear in one pose is one step
+  Result<OpenLips> lips = OpenLips::create(*model);
+  if (!lips) return lips.error();
+  std::vector<ChangeRecord> changes;
   const Result<OperationOutcome> outcome = play(TearOperation{*pose, stroke, {}, {}}, count_topology(*character), *model, &changes);
   if (!outcome) return outcome.error();
-  return Demo{std::move(*model), *outcome, std::move(changes.front()), std::move(stroke), frame, bounds};
+  if (const Status status = lips->follow(*model, changes); !status) return status;
+  return Demo{std::move(*model), *outcome, std::move(*lips), std::move(stroke), frame, bounds};
 }
 
-Status take_pictures(const Demo& demo, const std::filesystem::path& folder, ProgressBar& progress) {
+/// Plays the clip on from one moment to another, and lets the lips open meanwhile.
+Status play_on(Demo& demo, double from, double to, int least_steps) {
+  const Character& torn = demo.model.character();
+  const double seconds = torn.clips.empty() ? 0.0 : (to - from) * static_cast<double>(torn.clips[0].duration);
+  const int steps = std::max(least_steps, static_cast<int>(std::ceil(60 * seconds)));
+  for (int i = 1; i <= steps; ++i) {
+    const Result<ModelPose> pose = make_pose(torn, pose_at(torn, from + (to - from) * i / steps));
+    if (!pose) return pose.error();
+    if (const Status status = demo.lips.step(demo.model, *pose); !status) return status;
+  }
+  return {};
+}
+
+Status take_pictures(Demo& demo, const std::filesystem::path& folder, ProgressBar& progress) {
   const Character& torn = demo.model.character();
   const double diagonal = demo.bounds.size().norm();
   const Result<std::vector<DeformedMesh>> at_tear = posed_at(torn, kTearFraction);
   if (!at_tear) return at_tear.error();
-  const PullOpen pull(demo.model, chain_lips(demo.model, demo.change, *at_tear), *at_tear, kReach * diagonal);
   const std::vector<RimEdge> rims = find_rims(demo.model);
   const Wound fresh = wound_of(rims, *at_tear);
   for (std::size_t i = 0; i < std::size(kShots); ++i) {
@@ -178,8 +192,9 @@ Status take_pictures(const Demo& demo, const std::filesystem::path& folder, Prog
     if (!untorn) return untorn.error();
     Character still;
     if (shot.is_torn) {
+      if (const Status status = play_on(demo, kShots[i - 1].clip_fraction, shot.clip_fraction, shot.steps); !status) return status;
       std::vector<DeformedMesh> open = *closed;
-      pull.apply(shot.opening * diagonal, open);
+      demo.lips.displace(open);
       still = make_torn_still(demo.model, open, *closed, *untorn, rims, frame, kThickness * diagonal);
     } else {
       still = make_still(demo.model.source(), *untorn);

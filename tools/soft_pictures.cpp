@@ -67,7 +67,7 @@ void draw_running(const std::string& folder) {
   tough.neighbour_stiffness = 1600;
   tough.damping_ratio = 1.5;
   Material weak = tough;
-  weak.strength = 2.0;
+  weak.strength = 1.8;
   SoftScene scene({tough, weak}, 0.05);
   // Only the front: what is held must not tear out.
   for (std::uint32_t p = 0; p < scene.particles->particle_count(); ++p) {

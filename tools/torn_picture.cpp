@@ -9,9 +9,9 @@
 #include <numbers>
 #include <vector>
 
+#include "tools/open_lips.h"
 #include "tools/picture.h"
 #include "tools/posed_model.h"
-#include "tools/pull_open.h"
 
 namespace sunder::tools {
 namespace {
@@ -19,8 +19,6 @@ namespace {
 constexpr int kWidth = 480, kHeight = 360;
 const Vec4f kSurface(1.0f, 0.98f, 0.94f, 1.0f);  // Linear RGBA.
 // Of the model's diagonal.
-constexpr double kOpening = 0.012;    ///< To each side.
-constexpr double kReach = 0.06;       ///< How far along the surface the pull is felt.
 constexpr double kThickness = 0.006;  ///< Of the flesh.
 constexpr double kApart = 0.05;       ///< How far a piece of a cut is moved.
 
@@ -132,27 +130,26 @@ Status draw_torn(std::shared_ptr<const Character> source, std::span<const Operat
   const Result<ModelPose> pose = make_pose(character, pose_of(newest));
   if (!pose) return pose.error();
 
-  std::vector<PulledPair> pairs;
+  Result<OpenLips> lips = OpenLips::create(*torn);
+  if (!lips) return lips.error();
   const Result<std::vector<DeformedMesh>> untorn = pose_model(character, *pose);
   if (!untorn) return untorn.error();
-  Result<std::vector<DeformedMesh>> closed = *untorn;
   std::vector<Piece> pieces;
   for (const Operation& operation : history) {
     std::vector<ChangeRecord> changes;
     const Result<TearReport> report = apply_operation(*torn, operation, &changes);
     if (!report) return report.error();
-    closed = pose_model(character, *pose);
-    if (!closed) return closed.error();
+    if (const Status status = lips->follow(*torn, changes); !status) return status;
     if (!std::holds_alternative<WeightsOperation>(operation)) pieces = report->pieces;
-    const bool comes_apart = std::holds_alternative<CutOperation>(operation) && !pieces.empty();
-    if (comes_apart) continue;
-    for (const ChangeRecord& change : changes) std::ranges::copy(chain_lips(*torn, change, *closed), std::back_inserter(pairs));
   }
+  const Result<std::vector<DeformedMesh>> closed = pose_model(character, *pose);
+  if (!closed) return closed.error();
 
   const Bounds bounds = bounds_of(character, *closed);
   const double diagonal = bounds.size().norm();
   std::vector<DeformedMesh> open = *closed;
-  PullOpen(*torn, pairs, *closed, kReach * diagonal).apply(kOpening * diagonal, open);
+  if (const Status status = lips->open(*torn, *pose); !status) return status;
+  lips->displace(open);
   const auto* const cut = std::get_if<CutOperation>(&newest);
   if (cut != nullptr) move_apart(character, cut->cut, pieces, kApart * diagonal, open);
 

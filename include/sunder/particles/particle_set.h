@@ -135,7 +135,7 @@ class SUNDER_API ParticleSet {
   /// then, but for the tips; undo brings back every bit.
   /// @return invalid_argument for another model, or one that was compacted (decompose again). Nothing is changed then.
   ///
-  /// O(faces torn): what lies farther from the lips is left to settle().
+  /// O(faces torn): what lies farther from the lips is left to settle(). Allocates: what undo takes back is kept.
   Status follow(const TornModel& model, std::span<const ChangeRecord> changes);
 
   /// Goes on with what follow() left, for at most so many points: particles that a long tear passes are parted all the way. To be
