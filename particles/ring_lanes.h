@@ -8,10 +8,6 @@
 
 #include "particles/rings.h"
 
-#if defined(EIGEN_VECTORIZE_SSE2)
-#include <emmintrin.h>
-#endif
-
 namespace sunder::particles {
 
 /// What a front knows of a point. Where it has reached it: its distance. Elsewhere: the shortest path to it so far, with the sign
@@ -79,7 +75,7 @@ inline unsigned nearer_lanes(const KnownBlock& known, const RingBlock& block, fl
 
 // What a front does at each point, for all points around it at once. Which of them it has reached can't be guessed, and branches
 // that are guessed wrong are what it would spend most of its time on.
-#if defined(EIGEN_VECTORIZE_SSE2)
+#if defined(EIGEN_VECTORIZE_SSE2)  // then Eigen has included what this needs
 
 inline KnownBlock gather(const Known* known, const RingBlock& block) {
   const auto four = [&](std::size_t i) {

@@ -1,12 +1,11 @@
 #pragma once
 
+#include <sunder/core/prefetch.h>
 #include <sunder/tear/surface.h>
 
 #include <array>
 #include <span>
 #include <vector>
-
-#include "tear/prefetch.h"
 
 namespace sunder::particles {
 
@@ -57,8 +56,8 @@ class Rings {
   void expect(Index point) const {
     if (!are_many_ || ends_[point].first == kNone) return;
     const RingBlock& block = blocks_[ends_[point].first];
-    tear::prefetch(&block);
-    tear::prefetch(&block.opposite.back());
+    prefetch(&block);
+    prefetch(&block.opposite.back());
   }
   /// Good until the next call.
   [[nodiscard]] Ring operator()(Index point) {

@@ -1,11 +1,10 @@
 #include "tear/posed_points.h"
 
+#include <sunder/core/prefetch.h>
 #include <sunder/skinning/palette.h>
 #include <sunder/skinning/reference.h>
 
 #include <cmath>
-
-#include "tear/prefetch.h"
 
 namespace sunder::tear {
 Status PosedPoints::check(const Character& character, const ModelPose& pose) {

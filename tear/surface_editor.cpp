@@ -1,10 +1,11 @@
 #include "tear/surface_editor.h"
 
+#include <sunder/core/prefetch.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "tear/face_split.h"
-#include "tear/prefetch.h"
 
 namespace sunder::tear {
 SurfaceEditor::SurfaceEditor(const Character& source, Character& character)

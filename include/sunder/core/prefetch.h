@@ -1,6 +1,6 @@
 #pragma once
 
-namespace sunder::tear {
+namespace sunder {
 
 /// Asks for memory that will be read soon. A hint, where the compiler knows how to give it.
 inline void prefetch([[maybe_unused]] const void* address) {
@@ -9,4 +9,4 @@ inline void prefetch([[maybe_unused]] const void* address) {
 #endif
 }
 
-}  // namespace sunder::tear
+}  // namespace sunder
