@@ -164,8 +164,12 @@ void Repair::take_up_older_lips() {
       };
       look_at(before, after);
       if (is_own) look_at(after, before);
-      for (const Particle::OfTear& of : found)
-        if (!structure_.is_on_lip(point, of.tear, of.side)) structure_.put_on_lip(point, of.tear, of.side);
+      for (const Particle::OfTear& of : found) {
+        const auto is_other = [&](const Particle::OfTear& other) { return other.tear == of.tear && other.side != of.side; };
+        const bool is_tip = std::ranges::any_of(found, is_other);
+        if (!is_tip && !structure_.is_on_lip(point, of.tear, Side::left) && !structure_.is_on_lip(point, of.tear, Side::right))
+          structure_.put_on_lip(point, of.tear, of.side);
+      }
     }
 }
 

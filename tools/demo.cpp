@@ -37,6 +37,7 @@ constexpr Shot kShots[] = {
     {"before", 0.40, false, 0}, {"torn", 0.40, true, 4}, {"later_1", 0.65, true, 30}, {"later_2", 0.95, true, 30}};
 constexpr int kPixels = 900;
 constexpr double kTearFraction = 0.40;
+constexpr double kMostSteps = 600;    ///< Between two pictures; a clip may be of any length.
 constexpr double kThickness = 0.006;  ///< Of the flesh; of the diagonal.
 
 /// The model and where it came from; without a file there is nothing to patch on saving.
@@ -164,7 +165,7 @@ Result<Demo> tear_mid_clip(std::shared_ptr<const Character> character) {
 Status play_on(Demo& demo, double from, double to, int least_steps) {
   const Character& torn = demo.model.character();
   const double seconds = torn.clips.empty() ? 0.0 : (to - from) * static_cast<double>(torn.clips[0].duration);
-  const int steps = std::max(least_steps, static_cast<int>(std::ceil(60 * seconds)));
+  const int steps = static_cast<int>(std::clamp(std::ceil(60 * seconds), static_cast<double>(least_steps), kMostSteps));
   for (int i = 1; i <= steps; ++i) {
     const Result<ModelPose> pose = make_pose(torn, pose_at(torn, from + (to - from) * i / steps));
     if (!pose) return pose.error();
