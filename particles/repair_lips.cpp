@@ -14,7 +14,7 @@ namespace {
 constexpr float kLipCovered = 0.8f;
 
 /// Points beside the lips that follow() goes through; settle() does the rest.
-constexpr Index kAtOnce = 32;
+constexpr Index kAtOnce = 8;
 
 float length_of(float x, float y) { return std::sqrt(x * x + y * y); }
 
