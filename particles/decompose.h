@@ -4,7 +4,7 @@
 
 namespace sunder::particles {
 
-/// Makes particles of all points. What stands under "Of the model", and positions, are there. O(memberships log front).
+/// Makes particles of all points. What stands under "Of the model", and positions, are there. O(points + memberships).
 /// @throws std::bad_alloc
 void decompose(const TornModel& model, const DecompositionOptions& options, Structure& structure);
 

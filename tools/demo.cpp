@@ -134,7 +134,7 @@ Json operations_json(const Character& character, const Stroke& stroke) {
 struct Demo {
   TornModel model;
   OperationOutcome outcome;
-  OpenLips lips;
+  Result<OpenLips> lips;  ///< Or why they can't be opened: then there are no pictures, but all else.
   Stroke stroke;
   ViewFrame frame;
   Bounds bounds;
@@ -153,12 +153,12 @@ Result<Demo> tear_mid_clip(std::shared_ptr<const Character> character) {
   Result<TornModel> model = TornModel::create(character);
   if (!model) return model.error();
   Result<OpenLips> lips = OpenLips::create(*model);
-  if (!lips) return lips.error();
   std::vector<ChangeRecord> changes;
   const Result<OperationOutcome> outcome = play(TearOperation{*pose, stroke, {}, {}}, count_topology(*character), *model, &changes);
   if (!outcome) return outcome.error();
-  if (const Status status = lips->follow(*model, changes); !status) return status;
-  return Demo{std::move(*model), *outcome, std::move(*lips), std::move(stroke), frame, bounds};
+  if (lips)
+    if (Status status = lips->follow(*model, changes); !status) lips = std::move(status);
+  return Demo{std::move(*model), *outcome, std::move(lips), std::move(stroke), frame, bounds};
 }
 
 /// Plays the clip on from one moment to another, and lets the lips open meanwhile.
@@ -169,12 +169,13 @@ Status play_on(Demo& demo, double from, double to, int least_steps) {
   for (int i = 1; i <= steps; ++i) {
     const Result<ModelPose> pose = make_pose(torn, pose_at(torn, from + (to - from) * i / steps));
     if (!pose) return pose.error();
-    if (const Status status = demo.lips.step(demo.model, *pose); !status) return status;
+    if (const Status status = demo.lips->step(demo.model, *pose); !status) return status;
   }
   return {};
 }
 
 Status take_pictures(Demo& demo, const std::filesystem::path& folder, ProgressBar& progress) {
+  if (!demo.lips) return demo.lips.error();
   const Character& torn = demo.model.character();
   const double diagonal = demo.bounds.size().norm();
   const Result<std::vector<DeformedMesh>> at_tear = posed_at(torn, kTearFraction);
@@ -195,7 +196,7 @@ Status take_pictures(Demo& demo, const std::filesystem::path& folder, ProgressBa
     if (shot.is_torn) {
       if (const Status status = play_on(demo, kShots[i - 1].clip_fraction, shot.clip_fraction, shot.steps); !status) return status;
       std::vector<DeformedMesh> open = *closed;
-      demo.lips.displace(open);
+      demo.lips->displace(open);
       still = make_torn_still(demo.model, open, *closed, *untorn, rims, frame, kThickness * diagonal);
     } else {
       still = make_still(demo.model.source(), *untorn);

@@ -69,9 +69,9 @@ struct LipEdge {
 class SUNDER_API ParticleSet {
  public:
   /// @param pose  in which distances along the surface are measured, e.g. the rest pose.
-  /// @return invalid_argument for the options; size_mismatch, non_finite_value for the pose; empty_input for a model without a
-  /// face;
-  ///         limit_exceeded for more than 2^20 particles, or without enough memory. O(memberships log points of a particle).
+  /// @return invalid_argument for the options; size_mismatch, non_finite_value for the pose; empty_input for a model
+  ///         without a face; limit_exceeded for more than 2^20 particles, or without enough memory.
+  /// O(points + memberships).
   static Result<ParticleSet> decompose(const TornModel& model, const ModelPose& pose, const DecompositionOptions& options = {});
 
   ~ParticleSet();
