@@ -3,7 +3,7 @@
 #include <cstdlib>
 
 #include "bench/measure.h"
-#include "tear/posed_points.h"
+#include "tear/posed/posed_points.h"
 
 namespace sunder::bench {
 namespace {

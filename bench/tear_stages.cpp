@@ -3,10 +3,10 @@
 #include <cstdlib>
 
 #include "bench/measure.h"
-#include "tear/entry.h"
-#include "tear/imprint.h"
-#include "tear/improve.h"
-#include "tear/open.h"
+#include "tear/path/entry.h"
+#include "tear/path/imprint.h"
+#include "tear/surface/improve.h"
+#include "tear/surface/open.h"
 
 namespace sunder::bench {
 

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "bench/tear_scene.h"
-#include "tear/posed_points.h"
-#include "tear/surface_editor.h"
+#include "tear/posed/posed_points.h"
+#include "tear/surface/surface_editor.h"
 
 namespace sunder::bench {
 

@@ -2,13 +2,13 @@
 
 #include <sunder/particles/soft_body.h>
 
-#include "particles/contact.h"
-#include "particles/coupling.h"
-#include "particles/hold_list.h"
-#include "particles/motion.h"
-#include "particles/moved_vertices.h"
-#include "particles/rest_motion.h"
-#include "particles/sleep.h"
+#include "particles/contact/contact.h"
+#include "particles/motion/coupling.h"
+#include "particles/motion/hold_list.h"
+#include "particles/motion/motion.h"
+#include "particles/motion/moved_vertices.h"
+#include "particles/motion/rest_motion.h"
+#include "particles/motion/sleep.h"
 
 namespace sunder::particles {
 

@@ -2,7 +2,7 @@
 #include <numeric>
 
 #include "particles/body_state.h"
-#include "particles/stretch_limit.h"
+#include "particles/motion/stretch_limit.h"
 
 namespace sunder::particles {
 namespace {

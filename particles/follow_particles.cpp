@@ -3,8 +3,8 @@
 #include <utility>
 
 #include "particles/body_state.h"
-#include "particles/inherit.h"
-#include "particles/lip_tension.h"
+#include "particles/motion/inherit.h"
+#include "particles/motion/lip_tension.h"
 
 namespace sunder::particles {
 namespace {

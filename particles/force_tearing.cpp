@@ -8,8 +8,8 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "particles/lip_border.h"
-#include "particles/rest_terms.h"
+#include "particles/clusters/lip_border.h"
+#include "particles/clusters/rest_terms.h"
 
 namespace sunder {
 namespace {

@@ -8,10 +8,10 @@
 #include <new>
 #include <stdexcept>
 
-#include "particles/decompose.h"
-#include "particles/gradients.h"
-#include "particles/repair.h"
-#include "particles/rest_terms.h"
+#include "particles/clusters/decompose.h"
+#include "particles/clusters/gradients.h"
+#include "particles/repair/repair.h"
+#include "particles/clusters/rest_terms.h"
 
 namespace sunder {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "particles/lip_border.h"
-#include "particles/structure.h"
+#include "particles/clusters/lip_border.h"
+#include "particles/clusters/structure.h"
 
 namespace sunder::particles {
 namespace {

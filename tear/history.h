@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "tear/opened_borders.h"
-#include "tear/surface_editor.h"
+#include "tear/surface/opened_borders.h"
+#include "tear/surface/surface_editor.h"
 
 namespace sunder::tear {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tear/pieces.h"
-#include "tear/weigh.h"
+#include "tear/pieces/pieces.h"
+#include "tear/weights/weigh.h"
 
 namespace sunder {
 

@@ -5,13 +5,13 @@
 #include <mutex>
 #include <new>
 
-#include "tear/capacity_exceeded.h"
+#include "tear/surface/capacity_exceeded.h"
 #include "tear/history.h"
-#include "tear/refit_work.h"
-#include "tear/stroke_tearing.h"
-#include "tear/surface_editor.h"
-#include "tear/weigh.h"
-#include "tear/workpiece.h"
+#include "tear/weights/refit_work.h"
+#include "tear/operation/stroke_tearing.h"
+#include "tear/surface/surface_editor.h"
+#include "tear/weights/weigh.h"
+#include "tear/posed/workpiece.h"
 
 namespace sunder {
 

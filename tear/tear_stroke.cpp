@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "tear/model_state.h"
-#include "tear/stroke_tearing.h"
+#include "tear/operation/stroke_tearing.h"
 
 namespace sunder {
 namespace {

@@ -4,10 +4,10 @@
 #include <new>
 #include <utility>
 
-#include "tear/cut.h"
-#include "tear/drill.h"
+#include "tear/operation/cut.h"
+#include "tear/operation/drill.h"
 #include "tear/model_state.h"
-#include "tear/stroke_tearing.h"
+#include "tear/operation/stroke_tearing.h"
 
 namespace sunder {
 namespace {

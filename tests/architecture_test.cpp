@@ -40,7 +40,7 @@ const std::map<std::string, std::set<std::string>> kThirdParties = {
 
 /// Third parties that one file has to itself.
 const std::map<std::string, std::set<std::string>> kThirdPartyOfFile = {
-    {"particles/bullet_body.cpp", {"BulletCollision", "BulletDynamics"}},
+    {"particles/bullet/bullet_body.cpp", {"BulletCollision", "BulletDynamics"}},
     {"weights/coupled_refit_ceres.cpp", {"ceres"}},
 };
 
@@ -286,7 +286,7 @@ TEST(Architecture, a_third_party_behind_another_door_is_found) {
   EXPECT_THAT(faults_of("weights/coupled_refit_ceres.cpp", "#include <ceres/solver.h>"), IsEmpty());
   EXPECT_THAT(faults_of("particles/a.cpp", "#include <BulletDynamics/Dynamics/btRigidBody.h>"),
               ElementsAre(HasSubstr("third party")));
-  EXPECT_THAT(faults_of("particles/bullet_body.cpp", "#include <BulletDynamics/Dynamics/btRigidBody.h>"), IsEmpty());
+  EXPECT_THAT(faults_of("particles/bullet/bullet_body.cpp", "#include <BulletDynamics/Dynamics/btRigidBody.h>"), IsEmpty());
   EXPECT_THAT(faults_of("include/sunder/particles/a.h", "#include <btBulletDynamicsCommon.h>"),
               ElementsAre(HasSubstr("third parties")));
   EXPECT_THAT(faults_of("tools/a.cpp", "#include <assimp/scene.h>"), ElementsAre(HasSubstr("third party")));

@@ -2,7 +2,7 @@
 
 #include <functional>
 
-#include "particles/contact_points.h"
+#include "particles/contact/contact_points.h"
 #include "particles/soft_scene.h"
 
 namespace sunder {

@@ -1,4 +1,4 @@
-#include "particles/coupling.h"
+#include "particles/motion/coupling.h"
 
 #include <cmath>
 

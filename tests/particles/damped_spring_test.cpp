@@ -1,4 +1,4 @@
-#include "particles/damped_spring.h"
+#include "particles/motion/damped_spring.h"
 
 #include <cmath>
 #include <vector>

@@ -25,7 +25,7 @@ using test::Random;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-/// At which part of its range a particle covers points: kCovers of particles/decompose.h.
+/// At which part of its range a particle covers points: kCovers of particles/clusters/decompose.h.
 constexpr double kCovers = 0.85;
 
 ParticleSet decompose(const TornModel& model, const DecompositionOptions& options) {

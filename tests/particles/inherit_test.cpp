@@ -1,4 +1,4 @@
-#include "particles/inherit.h"
+#include "particles/motion/inherit.h"
 
 #include "particles/soft_scene.h"
 

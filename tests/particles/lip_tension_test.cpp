@@ -1,4 +1,4 @@
-#include "particles/lip_tension.h"
+#include "particles/motion/lip_tension.h"
 
 #include <array>
 #include <limits>

@@ -1,5 +1,5 @@
 // Distances along surfaces whose shortest paths are known.
-#include "particles/surface_front.h"
+#include "particles/front/surface_front.h"
 
 #include <sunder/skinning/palette.h>
 

@@ -1,4 +1,4 @@
-#include "particles/turn_of.h"
+#include "particles/motion/turn_of.h"
 
 #include <Eigen/SVD>
 #include <gtest/gtest.h>

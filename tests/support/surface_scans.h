@@ -1,8 +1,8 @@
 #pragma once
 
-#include "tear/entry.h"
-#include "tear/half_space.h"
-#include "tear/posed_points.h"
+#include "tear/path/entry.h"
+#include "tear/geometry/half_space.h"
+#include "tear/posed/posed_points.h"
 
 namespace sunder::test {
 

@@ -1,5 +1,5 @@
 // Faces that are crossed in one pass, without a tear around it.
-#include "tear/crossing.h"
+#include "tear/surface/crossing.h"
 
 #include <map>
 #include <set>
@@ -10,7 +10,7 @@
 #include "support/random.h"
 #include "support/rigs.h"
 #include "support/say.h"
-#include "tear/face_shape.h"
+#include "tear/geometry/face_shape.h"
 
 namespace sunder::tear {
 namespace {

@@ -1,6 +1,6 @@
 // Where a pose may put patches of the surface holds in every pose, and queries that rely on it find what looking at every face
 // finds.
-#include "tear/patch_forest.h"
+#include "tear/posed/patch_forest.h"
 
 #include <sunder/skinning/palette.h>
 #include <sunder/skinning/reference.h>
@@ -18,12 +18,12 @@
 #include "support/rigs.h"
 #include "support/say.h"
 #include "support/surface_scans.h"
-#include "tear/cut.h"
-#include "tear/drill.h"
-#include "tear/gap.h"
-#include "tear/hilbert_curve.h"
-#include "tear/open_sheet.h"
-#include "tear/stroke_tearing.h"
+#include "tear/operation/cut.h"
+#include "tear/operation/drill.h"
+#include "tear/sheet/gap.h"
+#include "tear/posed/hilbert_curve.h"
+#include "tear/sheet/open_sheet.h"
+#include "tear/operation/stroke_tearing.h"
 
 namespace sunder::tear {
 namespace {

@@ -10,7 +10,7 @@
 #include "support/rigs.h"
 #include "support/stress.h"
 #include "support/torn_invariants.h"
-#include "tear/entry.h"
+#include "tear/path/entry.h"
 
 namespace sunder {
 namespace {

@@ -1,0 +1,95 @@
+#include "particles/clusters/gradients.h"
+
+namespace sunder::particles {
+namespace {
+
+float weight_of(const ParticleInfluences& influences, Index particle) {
+  for (std::size_t i = 0; i < 4; ++i)
+    if (influences.particles[i] == particle && influences.weights[i] > 0) return influences.weights[i];
+  return 0.0f;
+}
+
+/// Mean over the faces around a point, by area, of the gradients of what is linear in each.
+ParticleGradients gradients_at(const Surface& surface, const Structure& structure, Index point) {
+  ParticleGradients gradients;
+  gradients.of_weights.fill(Vec3f::Zero());
+  if (surface.point_corner[point] == kNone) return gradients;
+  const ParticleInfluences& own = structure.influences[point];
+  double area = 0;
+  std::array<Vec3d, 4> sums;
+  sums.fill(Vec3d::Zero());
+  surface.for_each_in_fan(surface.point_corner[point], [&](Index corner) {
+    const Index b = surface.corner_point[Surface::next(corner)], c = surface.corner_point[Surface::previous(corner)];
+    const Vec3d at = structure.positions[point].cast<double>();
+    const Vec3d to_b = structure.positions[b].cast<double>() - at, to_c = structure.positions[c].cast<double>() - at;
+    const Vec3d twice = to_b.cross(to_c);
+    const double length = twice.norm();
+    if (!(length > 0)) return;
+    const Vec3d normal = twice / length;
+    area += length;
+    for (std::size_t i = 0; i < 4 && own.weights[i] > 0; ++i) {
+      const double rise_b = weight_of(structure.influences[b], own.particles[i]) - own.weights[i];
+      const double rise_c = weight_of(structure.influences[c], own.particles[i]) - own.weights[i];
+      sums[i] += normal.cross(rise_c * to_b - rise_b * to_c);  // times twice the area
+    }
+  });
+  if (area > 0)
+    for (std::size_t i = 0; i < 4; ++i) gradients.of_weights[i] = (sums[i] / area).cast<float>();
+  return gradients;
+}
+
+}  // namespace
+
+void Gradients::forget(Index point) {
+  if (point >= is_known_.size() || !is_known_[point]) return;
+  is_known_[point] = false;
+  unknown_.push_back(point);
+}
+
+void Gradients::forget(const Surface& surface, std::span<const Index> points) {
+  if (!is_wanted_) return;
+  for (const Index point : points) {
+    if (point >= surface.point_count()) continue;
+    forget(point);
+    if (surface.point_corner[point] == kNone) continue;
+    surface.for_each_in_fan(surface.point_corner[point], [&](Index corner) {
+      forget(surface.corner_point[Surface::next(corner)]);
+      forget(surface.corner_point[Surface::previous(corner)]);
+    });
+  }
+}
+
+void Gradients::forget(const TornModel& model, const Structure& structure, std::span<const ChangeRecord> changes) {
+  if (!is_wanted_) return;
+  for (const ChangeRecord& change : changes)
+    for (const MeshChange& of_mesh : change.meshes) {
+      const std::vector<Index>& points = structure.vertex_points[of_mesh.mesh];
+      const Mesh& mesh = model.character().meshes[of_mesh.mesh];
+      const auto forget_corners = [&](const Triangle& triangle) {
+        for (const Index vertex : triangle)
+          if (vertex < points.size() && points[vertex] != kNone) forget(points[vertex]);
+      };
+      for (const RewrittenTriangle& rewritten : of_mesh.rewritten) {
+        forget_corners(rewritten.before);
+        if (rewritten.triangle < mesh.triangle_count()) forget_corners(mesh.triangles[rewritten.triangle]);
+      }
+      for (Index t = of_mesh.first_triangle; t < mesh.triangle_count(); ++t) forget_corners(mesh.triangles[t]);
+    }
+}
+
+std::span<const ParticleGradients> Gradients::of(const Surface& surface, const Structure& structure) {
+  is_wanted_ = true;
+  const auto known = static_cast<Index>(is_known_.size());
+  is_known_.resize(structure.point_count(), false);
+  gradients_.resize(structure.point_count());
+  for (Index point = known; point < structure.point_count(); ++point) unknown_.push_back(point);
+  for (const Index point : unknown_) {
+    if (point >= structure.point_count()) continue;
+    gradients_[point] = gradients_at(surface, structure, point);
+    is_known_[point] = true;
+  }
+  unknown_.clear();
+  return gradients_;
+}
+
+}  // namespace sunder::particles

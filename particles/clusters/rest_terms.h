@@ -1,0 +1,75 @@
+#pragma once
+
+#include "particles/clusters/structure.h"
+
+namespace sunder::particles {
+
+/// A vertex of a point: all of them are posed alike.
+[[nodiscard]] VertexRef vertex_of(const TornModel& model, Index point);
+
+/// Calls visit(slot, w_vi [v; 1]) and visit_morph(morph weight, slot, w_vi delta) for what moves a vertex, as skinning does it.
+template <class Visit, class VisitMorph>
+void for_each_rest_term(const TornModel& model, std::span<const Index> first_slot, const VertexRef& of, Visit visit,
+                        VisitMorph visit_morph) {
+  const Mesh& mesh = model.character().meshes[of.mesh];
+  const Index first = first_slot[mesh.skin];
+  const std::span<const Influence> influences = mesh.weights.of(of.vertex);
+  const Index place = model.influence_place(of.mesh, of.vertex);
+  const InfluencePositions* exact = place == kNone ? nullptr : &model.influence_positions(of.mesh);
+  for (std::size_t i = 0; i < influences.size(); ++i) {
+    const double weight = influences[i].weight;
+    const Vec3f& at = exact != nullptr ? exact->positions[place + i] : mesh.positions[of.vertex];
+    const double part = exact != nullptr ? 1.0 : weight;
+    visit(first + influences[i].slot, Vec4d(part * double{at.x()}, part * double{at.y()}, part * double{at.z()}, weight));
+  }
+  for (Index t = 0; t < mesh.morph_targets.size(); ++t) {
+    if (exact != nullptr && !exact->morph_targets.empty() && !exact->morph_targets[t].positions.empty()) {
+      for (std::size_t i = 0; i < influences.size(); ++i)
+        visit_morph(mesh.first_morph_weight + t, first + influences[i].slot,
+                    Vec3d(exact->morph_targets[t].positions[place + i].cast<double>()));
+      continue;
+    }
+    const auto& deltas = mesh.morph_targets[t].position_deltas;
+    if (deltas.empty() || deltas[of.vertex] == Vec3f::Zero()) continue;
+    for (const Influence& influence : influences)
+      visit_morph(mesh.first_morph_weight + t, first + influence.slot, Vec3d(influence.weight * deltas[of.vertex].cast<double>()));
+  }
+}
+
+/// What moves one vertex, to be counted into particles and out of them.
+class RestOfVertex {
+ public:
+  void set(const TornModel& model, const Structure& structure, const VertexRef& of);
+  void add_to(Particle& particle, double sign);
+
+ private:
+  std::vector<RestTerm> terms_;
+  std::vector<RestMorphTerm> morph_terms_;
+  std::vector<std::size_t> places_;  ///< Where a particle had each slot last.
+};
+
+/// Computes particles' sums anew from their members.
+class RestSums {
+ public:
+  RestSums(const TornModel& model, const Structure& structure);
+
+  void sum(std::span<const Index> members, Particle& particle);
+
+ private:
+  const TornModel& model_;
+  const Structure& structure_;
+  struct OfMesh {
+    const Mesh* mesh;
+    Index first_slot;
+    bool is_plain;  ///< Has neither morph targets nor exact points.
+  };
+  struct OfSlot {
+    Eigen::Vector4d sum = Eigen::Vector4d::Zero();
+    bool is_listed = false;
+  };
+  std::vector<OfMesh> meshes_;
+  std::vector<OfSlot> of_slot_;  ///< As it begins, between calls.
+  std::vector<Index> slots_;     ///< Those listed.
+};
+
+}  // namespace sunder::particles

@@ -1,0 +1,70 @@
+#pragma once
+
+#include "particles/motion/spring_graph.h"
+
+namespace sunder::particles {
+
+/// Where the pose puts particles, how it turns them and how fast it carries them, for those that are asked for.
+class RestMotion {
+ public:
+  /// @return as ParticleSet::rest().
+  Status begin(const ParticleSet& set, const ModelPose& pose);
+  /// After the set changed: all particles, in the pose as it is. What only the set moved counts as still.
+  void follow(const ParticleSet& set);
+
+  /// Whether a pose is the last one, bit for bit.
+  [[nodiscard]] bool is_same(const ModelPose& pose) const;
+  /// A step begins, with another pose, with the same one, or with one that nobody looks at. Velocities are zero then, until
+  /// update().
+  void begin_step(const ModelPose& pose);
+  void begin_still_step();
+  void skip_step();
+
+  /// Brings particles up to date with the pose, those that are not. O(bones + such particles x their bones).
+  void update(const ParticleSet& set, std::span<const Index> particles, double seconds);
+  /// Whom the last update() found somewhere else than the step before did.
+  [[nodiscard]] std::span<const Index> moved() const { return moved_; }
+  /// Whom the last update() looked at.
+  [[nodiscard]] std::span<const Index> updated() const { return stale_; }
+
+  /// Of a particle that is new.
+  void set_velocity(Index p, const Vec3d& velocity) {
+    particles_[p].velocity = velocity;
+    if (velocity != Vec3d::Zero()) carried_.push_back(p);
+  }
+
+  [[nodiscard]] const Vec3d& place(Index p) const { return particles_[p].place; }
+  [[nodiscard]] const Vec3d& velocity(Index p) const { return particles_[p].velocity; }
+  /// From the decomposition's pose to this one.
+  [[nodiscard]] const Mat3d& turn(Index p) const { return particles_[p].turn; }
+  /// Of whom is in moved(): how they went there.
+  [[nodiscard]] const Vec3d& shift(Index p) const { return particles_[p].shift; }
+  [[nodiscard]] const Mat3d& turn_of_step(Index p) const { return particles_[p].turn_of_step; }
+  /// At least by how much the pose lengthens what a particle holds; 3^0.5 where it does not.
+  [[nodiscard]] double size(Index p) const { return particles_[p].size; }
+  /// Who has a velocity.
+  [[nodiscard]] std::span<const Index> carried() const { return carried_; }
+  /// Counts poses.
+  [[nodiscard]] std::uint64_t epoch() const { return epoch_; }
+
+ private:
+  struct Particle {
+    Vec3d place = Vec3d::Zero(), velocity = Vec3d::Zero(), shift = Vec3d::Zero();
+    Mat3d turn = Mat3d::Identity(), turn_of_step = Mat3d::Identity();
+    Mat3d decomposition_from_bind = Mat3d::Identity();  // inverse of its linear part there; zero where it has none
+    double size = 1;
+    std::uint64_t epoch = 0;  // of the pose that this is of
+  };
+
+  void stop_all();
+  void evaluate(const ParticleSet& set, const ModelPose& pose, std::span<const Index> particles);
+
+  std::vector<Particle> particles_;
+  ModelPose decomposition_pose_, pose_;
+  std::uint64_t epoch_ = 1;
+  bool is_gap_ = false;  // whether steps were skipped since the last pose
+  std::vector<Index> stale_, moved_, carried_;
+  std::vector<ParticleRest> rests_;
+};
+
+}  // namespace sunder::particles

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "tear/geometry/blade_plane.h"
+#include "tear/path/entry.h"
+
+namespace sunder::tear {
+
+/// Where a plane crosses an edge, seen from one of its faces.
+struct EdgeCrossing {
+  Index half_edge = kNone;
+  double fraction = 0;
+  Vec3d position = Vec3d::Zero();
+
+  [[nodiscard]] SurfaceHit place() const;
+  /// The same place, seen from the face across the edge.
+  [[nodiscard]] EdgeCrossing from_across(const Surface& surface) const { return {surface.twin[half_edge], 1 - fraction, position}; }
+};
+
+[[nodiscard]] EdgeCrossing cross_edge(const BladePlane& plane, Index half_edge, const SurfaceEditor& editor, PosedPoints& posed);
+
+/// Where the plane leaves a face that it entered through `half_edge`.
+[[nodiscard]] EdgeCrossing find_exit(const BladePlane& plane, Index half_edge, const SurfaceEditor& editor, PosedPoints& posed);
+
+/// A part of the way through a face between two of its edges.
+[[nodiscard]] SurfaceHit place_between(const SurfaceHit& from, const SurfaceHit& to, double fraction);
+
+}  // namespace sunder::tear

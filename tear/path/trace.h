@@ -1,0 +1,23 @@
+#pragma once
+
+#include <vector>
+
+#include "tear/path/imprint.h"
+
+namespace sunder::tear {
+
+/// The curve in which a blade's plane meets the surface, found without changing anything.
+struct Trace {
+  std::vector<Index> faces;    ///< Crossed, in order.
+  std::vector<Vec2d> section;  ///< Its corners in the plane, by growing progress.
+  double length_posed = 0;
+  double progress = 0;  ///< Of its end.
+  Path::End end = Path::End::surface;
+  SurfaceHit end_place;  ///< Where it ended, if at the blade.
+};
+
+/// Follows the curve as imprint_path() does: from a point on, face to face, while it goes forward in the sweep and the blade
+/// reaches it.
+[[nodiscard]] Trace trace_path(const BladePlane& plane, Index start, const SurfaceEditor& editor, PosedPoints& posed);
+
+}  // namespace sunder::tear

@@ -1,0 +1,129 @@
+#include "tear/posed/posed_points.h"
+
+#include <sunder/core/prefetch.h>
+#include <sunder/skinning/palette.h>
+#include <sunder/skinning/reference.h>
+
+#include <cmath>
+
+namespace sunder::tear {
+Status PosedPoints::check(const Character& character, const ModelPose& pose) {
+  const std::size_t bone_count = character.skeleton.bones.size();
+  if (pose.model_from_bone.size() != bone_count)
+    return Status::failure(StatusCode::size_mismatch, kNone, "pose has %zu bones, the character %zu", pose.model_from_bone.size(),
+                           bone_count);
+  if (pose.morph_weights.size() != character.rest_morph_weights.size())
+    return Status::failure(StatusCode::size_mismatch, kNone, "pose has %zu morph weights, the character %zu",
+                           pose.morph_weights.size(), character.rest_morph_weights.size());
+  for (Index bone = 0; bone < bone_count; ++bone)
+    if (!pose.model_from_bone[bone].matrix().allFinite())
+      return Status::failure(StatusCode::non_finite_value, bone, "pose: the matrix of bone %u '%.80s' is not finite", bone,
+                             character.skeleton.bones[bone].name.c_str());
+  for (Index i = 0; i < pose.morph_weights.size(); ++i)
+    if (!std::isfinite(pose.morph_weights[i]))
+      return Status::failure(StatusCode::non_finite_value, i, "pose: morph weight %u is not finite", i);
+  return {};
+}
+
+Status PosedPoints::begin(const Character& character, const ModelPose& pose) {
+  if (Status status = check(character, pose); !status) return status;
+  palettes_.resize(character.skins.size());
+  for (Index skin = 0; skin < character.skins.size(); ++skin) {
+    palettes_[skin].resize(character.skins[skin].bones.size());
+    if (Status status = compute_palette(character.skins[skin], pose, palettes_[skin]); !status) return status;
+  }
+  morph_weights_ = pose.morph_weights;
+  forest_.forget_pose();
+  if (++epoch_ == 0) {  // once in four thousand million poses
+    for (Known& known : known_) known.since = 0;
+    epoch_ = 1;
+  }
+  return {};
+}
+
+Frame PosedPoints::frame_along(const Mat3d& axes, const SurfaceEditor& editor) const {
+  for (const Mesh& mesh : editor.source().meshes) {
+    if (mesh.triangles.empty()) continue;
+    const Vec3d place = deform_position_reference(mesh, mesh.triangles[0][0], palettes_[mesh.skin], morph_weights_);
+    if (place.allFinite()) return {axes, place};
+  }
+  return {axes, Vec3d::Zero()};
+}
+
+const Vec3d& PosedPoints::look_up(const SurfaceEditor& editor, Index point) {
+  cover(editor.surface().point_count());
+  const Index corner = editor.surface().point_corner[point];
+  const Mesh& mesh = editor.character().meshes[editor.surface().triangle(corner / 3).mesh];
+  const Index of = editor.surface().triangle(corner / 3).mesh, vertex = editor.vertex_at(corner);
+  known_[point] = {deform_position_reference(mesh, vertex, editor.born_position(of, vertex), editor.born_influences(of, vertex),
+                                             palettes_[mesh.skin], morph_weights_),
+                   epoch_};
+  return known_[point].position;
+}
+
+void PosedPoints::pin(Index point, const Vec3d& position) {
+  cover(point + 1);
+  known_[point] = {position, epoch_};
+}
+
+void PosedPoints::fetch(const SurfaceEditor& editor, Index mesh, std::span<const Index> origins) const {
+  // Each loop reads what the one before it has asked for.
+  const Surface& surface = editor.surface();
+  const Mesh& of = editor.character().meshes[mesh];
+  const Index source_count = editor.source().meshes[mesh].triangle_count();
+  std::array<Index, 3 * std::size_t{PatchTree::kPatchSize}> corners;
+  std::size_t count = 0;
+  for (const Index origin : origins) {
+    if (origin >= source_count) continue;
+    const Index first = 3 * editor.surface_triangle(mesh, origin);
+    prefetch(&surface.corner_point[first]);
+    for (Index k = 0; k < 3; ++k) corners[count++] = first + k;
+  }
+  const std::span<Index> points = std::span(corners).first(count);
+  for (Index& corner : points) {
+    corner = surface.corner_point[corner];
+    if (corner >= known_.size()) continue;
+    prefetch(&known_[corner]);
+    prefetch(&surface.point_corner[corner]);
+  }
+  const auto is_wanted = [&](Index point) { return point < known_.size() && known_[point].since != epoch_; };
+  std::size_t vertex_count = 0;
+  for (const Index point : points) {
+    if (!is_wanted(point)) continue;
+    const Index corner = surface.point_corner[point];
+    if (corner == kNone) continue;
+    points[vertex_count++] = corner;
+  }
+  const std::span<Index> wanted = points.first(vertex_count);
+  for (const Index corner : wanted)
+    prefetch(&of.triangles[std::min(surface.triangle(corner / 3).triangle, of.triangle_count() - 1)]);
+  for (Index& corner : wanted) {
+    const TriangleRef ref = surface.triangle(corner / 3);
+    const Index vertex = ref.mesh == mesh ? of.triangles[ref.triangle][corner % 3] : 0;
+    corner = vertex;
+    prefetch(&of.positions[vertex]);
+    prefetch(&of.weights.first[vertex]);
+    for (const MorphTarget& target : of.morph_targets)
+      if (!target.position_deltas.empty()) prefetch(&target.position_deltas[vertex]);
+  }
+  for (const Index vertex : wanted) prefetch(&of.weights.influences[of.weights.first[vertex]]);
+}
+
+void PosedPoints::fetch(const SurfaceEditor& editor, Index point) const {
+  if (point >= known_.size()) return;
+  prefetch(&known_[point]);
+  const Index corner = editor.surface().point_corner[point];
+  if (corner == kNone) return;
+  const TriangleRef ref = editor.surface().triangle(corner / 3);
+  const Mesh& mesh = editor.character().meshes[ref.mesh];
+  const Index vertex = mesh.triangles[ref.triangle][corner % 3];
+  prefetch(&mesh.positions[vertex]);
+  if (!mesh.normals.empty()) prefetch(&mesh.normals[vertex]);
+  prefetch(&mesh.weights.influences[mesh.weights.first[vertex]]);
+}
+
+void PosedPoints::forget_from(Index first_point) {
+  if (known_.size() > first_point) known_.resize(first_point);
+}
+
+}  // namespace sunder::tear

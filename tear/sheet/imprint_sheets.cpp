@@ -1,0 +1,255 @@
+#include "tear/sheet/imprint_sheets.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "tear/path/entry.h"
+#include "tear/sheet/face_lines.h"
+#include "tear/path/imprint.h"
+
+namespace sunder::tear {
+namespace {
+
+/// Where a sheet's plane crosses an edge. The edge is directed as its lower half-edge is, so that both faces see the same numbers.
+struct Crossing {
+  Index half_edge = kNone;
+  Index sheet = kNone;
+  double fraction = 0;
+  Vec3d position = Vec3d::Zero();
+  double slant = 1;     ///< Way along the edge for a distance from the sheet: the more, the less it says where they cross.
+  Index point = kNone;  ///< Once it is imprinted.
+
+  [[nodiscard]] bool is_before(const Crossing& other) const {
+    if (half_edge != other.half_edge) return half_edge < other.half_edge;
+    return sheet < other.sheet;
+  }
+};
+
+/// A face as it stood before anything was split.
+struct Face {
+  Index triangle = kNone;
+  std::array<Index, 3> points = {};
+  std::array<Index, 3> edges = {};       ///< Its half-edges, or their twins where those are lower.
+  std::array<bool, 3> is_reversed = {};  ///< The edge is directed against the face's half-edge.
+};
+
+/// One end of a line in a face: at a crossing of one of its edges, or at a corner where the sheet meets a bound.
+struct LineEnd {
+  Vec3d position = Vec3d::Zero();
+  Index crossed_edge = kNone;
+  Index bound = kNone;  ///< Of Sheet::bounds.
+};
+
+class Imprint {
+ public:
+  Imprint(std::span<const Sheet> sheets, SurfaceEditor& editor, PosedPoints& posed)
+      : sheets_(sheets), editor_(editor), posed_(posed) {
+    result_.edges.resize(sheets.size());
+  }
+
+  SheetImprint run(std::span<const Index> faces) {
+    editor_.begin_stage();
+    for (const Index face : faces) add_face(face);
+    split_edges();
+    index_children();
+    for (const Face& face : faces_) draw_lines(face);
+    return std::move(result_);
+  }
+
+ private:
+  void add_face(Index triangle) {
+    const Surface& surface = editor_.surface();
+    Face face{triangle, {}, {}, {}};
+    bool is_crossed = false;
+    for (Index k = 0; k < 3; ++k) {
+      const Index h = 3 * triangle + k, twin = surface.twin[h];
+      face.points[k] = surface.corner_point[h];
+      face.edges[k] = std::min(h, twin);  // kNone is the highest
+      face.is_reversed[k] = twin < h;
+    }
+    for (Index k = 0; k < 3; ++k)
+      for (Index sheet = 0; sheet < sheets_.size(); ++sheet) {
+        Crossing crossing;
+        if (!cross(face, k, sheet, crossing)) continue;
+        is_crossed = true;
+        if (is_within_bounds(sheet, crossing.position)) crossings_.push_back(crossing);
+      }
+    if (is_crossed) faces_.push_back(face);
+  }
+
+  /// @return whether the sheet's plane crosses edge k of a face.
+  bool cross(const Face& face, Index k, Index sheet, Crossing& crossing) {
+    const Index from = face.points[face.is_reversed[k] ? (k + 1) % 3 : k], to = face.points[face.is_reversed[k] ? k : (k + 1) % 3];
+    const Vec3d at_from = posed_.position(editor_, from), at_to = posed_.position(editor_, to);
+    const HalfSpace& plane = sheets_[sheet].plane;
+    if (plane.contains(at_from) == plane.contains(at_to)) return false;
+    const double value_from = plane.value(at_from), value_to = plane.value(at_to);
+    const double fraction = value_from == value_to ? 0.0 : std::clamp(value_from / (value_from - value_to), 0.0, 1.0);
+    const double slant = (at_to - at_from).norm() / std::max(std::abs(value_from - value_to), std::numeric_limits<double>::min());
+    crossing = {face.edges[k], sheet, fraction, at_from + fraction * (at_to - at_from), slant, kNone};
+    return true;
+  }
+
+  bool is_within_bounds(Index sheet, const Vec3d& position) const {
+    const auto& bounds = sheets_[sheet].bounds;
+    return std::all_of(bounds.begin(), bounds.end(),
+                       [&](const Sheet::Bound& bound) { return bound.half_space.contains(position); });
+  }
+
+  void split_edges() {
+    std::sort(crossings_.begin(), crossings_.end(), [](const Crossing& a, const Crossing& b) { return a.is_before(b); });
+    crossings_.erase(std::unique(crossings_.begin(), crossings_.end(),
+                                 [](const Crossing& a, const Crossing& b) { return !a.is_before(b) && !b.is_before(a); }),
+                     crossings_.end());
+    // Which points an edge runs between has to be known before its first half is anything else.
+    struct Edge {
+      std::size_t begin, end;
+      Index from, to;
+      double stored;  ///< stored_part()
+    };
+    std::vector<Edge> edges;
+    for (std::size_t begin = 0, end = 0; begin < crossings_.size(); begin = end) {
+      const Index h = crossings_[begin].half_edge;
+      while (end < crossings_.size() && crossings_[end].half_edge == h) ++end;
+      edges.push_back({begin, end, editor_.surface().corner_point[h], editor_.surface().corner_point[Surface::next(h)],
+                       stored_part(h, editor_)});
+    }
+    std::vector<Crossing*> along;
+    for (const Edge& edge : edges) {
+      along.clear();
+      for (std::size_t i = edge.begin; i < edge.end; ++i) along.push_back(&crossings_[i]);
+      std::sort(along.begin(), along.end(), [](const Crossing* a, const Crossing* b) {
+        return a->fraction != b->fraction ? a->fraction < b->fraction : a->sheet < b->sheet;
+      });
+      split_edge(edge.from, edge.to, edge.stored, along);
+    }
+  }
+
+  /// @param stored  part of the edge that two places on it must be apart to be stored apart.
+  void split_edge(Index from, Index to, double stored, const std::vector<Crossing*>& along) {
+    Index last = from;
+    double last_fraction = 0;
+    for (Crossing* crossing : along) {
+      const double snap = std::min(0.25, stored * crossing->slant);  // nearer ends lie on the sheet, as far as is stored
+      if (crossing->fraction - last_fraction <= snap) {
+        crossing->point = last;
+      } else if (crossing->fraction >= 1 - snap) {
+        crossing->point = to;
+      } else {
+        const double fraction = (crossing->fraction - last_fraction) / (1 - last_fraction);
+        Index h = editor_.surface().find_half_edge(last, to);
+        Index point = kNone;
+        if (h != kNone) {
+          point = editor_.split_edge(h, fraction);
+        } else if (h = editor_.surface().find_half_edge(to, last); h != kNone) {
+          point = editor_.split_edge(h, 1 - fraction);
+        }
+        if (point == kNone) {
+          // The faces are too small for another point: an end that is near will do. A far one is not on the line; that is blocked.
+          const double near = std::max(kSnap, 4 * snap);
+          if (fraction <= near || fraction >= 1 - near) crossing->point = fraction < 0.5 ? last : to;
+          continue;
+        }
+        posed_.pin(point, crossing->position);
+        crossing->point = last = point;
+        last_fraction = crossing->fraction;
+      }
+    }
+  }
+
+  [[nodiscard]] Index point_at_crossing(Index half_edge, Index sheet) const {
+    const Crossing wanted{half_edge, sheet, 0, Vec3d::Zero(), 1, kNone};
+    const auto found = std::lower_bound(crossings_.begin(), crossings_.end(), wanted,
+                                        [](const Crossing& a, const Crossing& b) { return a.is_before(b); });
+    return found != crossings_.end() && !wanted.is_before(*found) ? found->point : kNone;
+  }
+
+  void index_children() {
+    for (Index t = editor_.stage_begin(); t < editor_.surface().triangle_count(); ++t) {
+      const Index ancestor = editor_.ancestor(t);
+      if (ancestor < editor_.stage_begin()) children_.push_back({ancestor, t});
+    }
+    std::sort(children_.begin(), children_.end());
+  }
+
+  /// The part of a sheet that lies in a face: from where its plane enters with the inside at its left, to where it leaves.
+  bool find_line(const Face& face, Index sheet, LineEnd& from, LineEnd& to) {
+    bool is_found = false;
+    const HalfSpace& plane = sheets_[sheet].plane;
+    for (Index k = 0; k < 3; ++k) {
+      Crossing crossing;
+      if (!cross(face, k, sheet, crossing)) continue;
+      const bool leaves_inside = plane.contains(posed_.position(editor_, face.points[k]));
+      (leaves_inside ? from : to) = {crossing.position, face.edges[k], kNone};
+      is_found = true;
+    }
+    if (!is_found) return false;
+    const Vec3d begin = from.position, way = to.position - from.position;
+    double first = 0, last = 1;
+    const auto& bounds = sheets_[sheet].bounds;
+    for (Index i = 0; i < bounds.size(); ++i) {
+      const HalfSpace& half_space = bounds[i].half_space;
+      const bool has_begin = half_space.contains(begin), has_end = half_space.contains(begin + way);
+      if (has_begin && has_end) continue;
+      if (!has_begin && !has_end) return false;
+      const double at_begin = half_space.value(begin), at_end = half_space.value(begin + way);
+      const double at = at_begin == at_end ? 0.0 : std::clamp(at_begin / (at_begin - at_end), 0.0, 1.0);
+      if (!has_begin && at >= first) {
+        first = at;
+        from = {begin + at * way, kNone, i};
+      } else if (!has_end && at <= last) {
+        last = at;
+        to = {begin + at * way, kNone, i};
+      }
+    }
+    return first < last;
+  }
+
+  Index point_of(const LineEnd& end, const Face& face, Index sheet, FaceLines& lines) {
+    if (end.bound == kNone) return point_at_crossing(end.crossed_edge, sheet);
+    const Index other = sheets_[sheet].bounds[end.bound].sheet;
+    if (other == kNone) return lines.imprint(end.position);
+    // The other sheet ends in the same corner.
+    const std::array<Index, 3> key = {face.triangle, std::min(sheet, other), std::max(sheet, other)};
+    const auto known = corners_.find(key);
+    if (known != corners_.end()) return known->second;
+    return corners_[key] = lines.imprint(end.position);
+  }
+
+  void draw_lines(const Face& face) {
+    const auto begin = std::lower_bound(children_.begin(), children_.end(), std::array<Index, 2>{face.triangle, 0});
+    const auto end = std::lower_bound(begin, children_.end(), std::array<Index, 2>{face.triangle + 1, 0});
+    FaceLines lines(face.triangle, face.points, std::span<const std::array<Index, 2>>(begin, end), editor_, posed_);
+    bool is_crossed = false, is_blocked = false;
+    for (Index sheet = 0; sheet < sheets_.size(); ++sheet) {
+      LineEnd from, to;
+      if (!find_line(face, sheet, from, to)) continue;
+      is_crossed = true;
+      const Index first = point_of(from, face, sheet, lines), last = point_of(to, face, sheet, lines);
+      if (first == kNone || last == kNone || !lines.draw(first, last, result_.edges[sheet])) is_blocked = true;
+    }
+    result_.faces_crossed += is_crossed ? 1 : 0;
+    result_.blocked += is_blocked ? 1 : 0;
+  }
+
+  std::span<const Sheet> sheets_;
+  SurfaceEditor& editor_;
+  PosedPoints& posed_;
+  std::vector<Face> faces_;
+  std::vector<Crossing> crossings_;
+  std::vector<std::array<Index, 2>> children_;  ///< (face, child) of each face but itself.
+  std::map<std::array<Index, 3>, Index> corners_;
+  SheetImprint result_;
+};
+
+}  // namespace
+
+SheetImprint imprint_sheets(std::span<const Sheet> sheets, std::span<const Index> faces, SurfaceEditor& editor,
+                            PosedPoints& posed) {
+  return Imprint(sheets, editor, posed).run(faces);
+}
+
+}  // namespace sunder::tear

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+#include <numeric>
+
+#include "tear/surface/scratch_memory.h"
+
+namespace sunder::tear {
+
+/// Sets of numbers that only ever unite.
+class DisjointSets {
+ public:
+  using Index = std::uint32_t;
+
+  DisjointSets(Index count, std::pmr::memory_resource& memory) : parent_(count, &memory) {
+    std::iota(parent_.begin(), parent_.end(), Index{0});
+  }
+  Index find(Index i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  /// The root of `into` stays a root. @return whether they were two sets.
+  bool unite(Index into, Index from) {
+    const Index a = find(into), b = find(from);
+    parent_[b] = a;
+    return a != b;
+  }
+  /// The lesser root stays a root.
+  void unite_with_lesser(Index i, Index j) {
+    const Index a = find(i), b = find(j);
+    parent_[a < b ? b : a] = a < b ? a : b;
+  }
+
+ private:
+  ScratchVector<Index> parent_;
+};
+
+}  // namespace sunder::tear

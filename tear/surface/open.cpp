@@ -1,0 +1,164 @@
+#include "tear/surface/open.h"
+
+#include <algorithm>
+
+namespace sunder::tear {
+namespace {
+
+/// Corners that the edges have at their points, in the faces right and left of them.
+class CornersAtPoints {
+ public:
+  CornersAtPoints(std::size_t edge_count, ScratchMemory& scratch) : corners_(&scratch), mentions_(&scratch) {
+    corners_.reserve(4 * edge_count);
+    mentions_.reserve(4 * edge_count);
+  }
+
+  /// @param joint  its place on the path.
+  void add(Index point, std::size_t joint, Index right, Index left) {
+    mention(point, joint, 0, right);
+    mention(point, joint, kLeft, left);
+  }
+
+  /// Calls visit(point, its first joint, its corners) by ascending points. Corners right of the edges come first, then those left
+  /// of them.
+  template <class Visit>
+  void for_each_point(Visit visit) {
+    std::sort(mentions_.begin(), mentions_.end());
+    ScratchVector<Index> of_point(mentions_.get_allocator());
+    of_point.reserve(corners_.size());
+    for (std::size_t begin = 0, end = 0; begin < mentions_.size(); begin = end) {
+      of_point.clear();
+      Index joint = kNone;
+      const auto point = static_cast<Index>(mentions_[begin] >> 32);
+      for (; end < mentions_.size() && mentions_[end] >> 32 == point; ++end) {
+        const Mention& mention = corners_[static_cast<Index>(mentions_[end]) & ~kLeft];
+        of_point.push_back(mention.corner);
+        joint = std::min(joint, mention.joint);
+      }
+      visit(point, joint, std::span<const Index>(of_point));
+    }
+  }
+
+ private:
+  static constexpr Index kLeft = Index{1} << 31;
+
+  struct Mention {
+    Index corner, joint;
+  };
+  void mention(Index point, std::size_t joint, Index side, Index corner) {
+    if (corner == kNone) return;
+    mentions_.push_back(std::uint64_t{point} << 32 | (side | static_cast<Index>(corners_.size())));
+    corners_.push_back({corner, static_cast<Index>(joint)});
+  }
+
+  ScratchVector<Mention> corners_;
+  ScratchVector<std::uint64_t> mentions_;  ///< Point, side, and place in corners_, as one number.
+};
+
+/// The fans that hold some corners of a point, each from its clockwise end.
+class FansAtPoint {
+ public:
+  FansAtPoint(const Surface& surface, ScratchMemory& scratch)
+      : surface_(surface), corners_(&scratch), begins_(&scratch), others_(&scratch) {
+    corners_.reserve(kMany);
+    begins_.reserve(kMany);
+    others_.reserve(kMany);
+  }
+
+  void clear() {
+    corners_.clear();
+    begins_.clear();
+  }
+  void add(Index corner) {
+    if (std::find(corners_.begin(), corners_.end(), corner) != corners_.end()) return;
+    begins_.push_back(static_cast<Index>(corners_.size()));
+    surface_.for_each_in_fan(corner, [&](Index c) { corners_.push_back(c); });
+  }
+
+  [[nodiscard]] std::size_t count() const { return begins_.size(); }
+  [[nodiscard]] std::span<const Index> corners(std::size_t fan) const {
+    const std::size_t end = fan + 1 < begins_.size() ? begins_[fan + 1] : corners_.size();
+    return std::span(corners_).subspan(begins_[fan], end - begins_[fan]);
+  }
+  /// A corner of each other fan.
+  [[nodiscard]] std::span<const Index> others(std::size_t fan) {
+    others_.clear();
+    for (std::size_t other = 0; other < begins_.size(); ++other)
+      if (other != fan) others_.push_back(corners_[begins_[other]]);
+    return others_;
+  }
+
+ private:
+  static constexpr std::size_t kMany = 16;
+
+  const Surface& surface_;
+  ScratchVector<Index> corners_, begins_, others_;
+};
+
+/// Half-edges of an edge.
+struct Side {
+  Index left = kNone, right = kNone;
+};
+
+/// Lips, and the edge that begins between them: they are told in the order of the edges.
+struct OpenedJoint {
+  Index joint;
+  LipPair lips;
+};
+
+}  // namespace
+
+void open_edges(std::span<const PointEdge> edges, std::span<const Index> half_edges, SurfaceEditor& editor,
+                std::vector<LipPair>& lips) {
+  const Surface& surface = editor.surface();
+  const auto find = [&](std::size_t i) {
+    const auto& [from, to] = edges[i];
+    const Index known = i < half_edges.size() ? half_edges[i] : kNone;
+    const bool is_right = known != kNone && surface.corner_point[known] == from && surface.corner_point[Surface::next(known)] == to;
+    return is_right ? known : surface.find_half_edge(from, to);
+  };
+  // Found before anything is cut: afterwards the two sides do not know one another.
+  ScratchVector<Side> sides(&editor.scratch());
+  sides.reserve(edges.size());
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    const auto& [from, to] = edges[i];
+    const Index left = find(i);
+    sides.push_back({left, left != kNone ? surface.twin[left] : surface.find_half_edge(to, from)});
+  }
+  for (const Side& side : sides)
+    if (side.left != kNone && side.right != kNone) editor.cut_edge(side.left);
+
+  // Where a path goes through a point within the surface, two fans are left, each from one of its edges to the other.
+  ScratchVector<OpenedJoint> opened(&editor.scratch());
+  opened.reserve(edges.size() + 1);
+  ScratchVector<bool> is_open(edges.size() + 1, false, &editor.scratch());  // at the beginning of an edge
+  for (std::size_t i = 1; i < edges.size(); ++i) {
+    const Index point = edges[i][0];
+    if (point != edges[i - 1][1]) continue;
+    const Index made = editor.separate_left(sides[i - 1].left, sides[i].left, sides[i - 1].right, sides[i].right);
+    if (made == kNone) continue;
+    is_open[i] = true;
+    opened.push_back({static_cast<Index>(i), {made, point}});
+  }
+
+  CornersAtPoints corners(edges.size(), editor.scratch());
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    const auto& [from, to] = edges[i];
+    const auto& [left, right] = sides[i];
+    if (!is_open[i]) corners.add(from, i, right == kNone ? kNone : Surface::next(right), left);
+    if (!is_open[i + 1]) corners.add(to, i + 1, right, left == kNone ? kNone : Surface::next(left));
+  }
+  FansAtPoint fans(surface, editor.scratch());
+  corners.for_each_point([&](Index at, Index joint, std::span<const Index> of_point) {
+    fans.clear();
+    for (const Index corner : of_point) fans.add(corner);
+    for (std::size_t fan = 1; fan < fans.count(); ++fan)
+      opened.push_back({joint, {editor.separate_fan(fans.corners(fan), fans.others(fan)), at}});
+  });
+  std::sort(opened.begin(), opened.end(), [](const OpenedJoint& a, const OpenedJoint& b) {
+    return a.joint != b.joint ? a.joint < b.joint : a.lips.left < b.lips.left;
+  });
+  for (const OpenedJoint& joint : opened) lips.push_back(joint.lips);
+}
+
+}  // namespace sunder::tear

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "tear/surface/gap_rims.h"
+
+namespace sunder::tear {
+
+/// What is told of the borders that a call or an operation opened.
+struct OpenedBorders {
+  std::vector<LipPair> lips;
+  std::vector<RimPoint> rim_points;  ///< In the order in which cells were removed.
+
+  void clear() {
+    lips.clear();
+    rim_points.clear();
+  }
+};
+
+/// Lets `values` hold `size` without growing.
+template <class T>
+void make_room_to_hold(std::size_t size, std::vector<T>& values) {
+  if (size > values.capacity()) values.reserve(std::max(size, 2 * values.capacity()));
+}
+
+}  // namespace sunder::tear
