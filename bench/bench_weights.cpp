@@ -5,6 +5,7 @@
 
 #include "bench/weights_output.h"
 #include "bench/weights_picture.h"
+#include "tear/surface/mesh_vertices.h"
 
 namespace sunder::bench {
 namespace {

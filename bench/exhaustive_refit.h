@@ -1,10 +1,11 @@
 #pragma once
 
 #include <sunder/core/skin.h>
-#include <sunder/weights/animation_point.h>
 
 #include <span>
 #include <vector>
+
+#include "weights/internal/animation_point.h"
 
 namespace sunder::bench {
 

@@ -36,7 +36,7 @@ LongStroke time_long_stroke(int divisions) {
   test::Random random(1);
   const ModelPose rest = test::random_pose(*character, random, 0.0, 1.0);
   auto model = TornModel::create(character);
-  auto stroke = TearStroke::begin(*model, rest, blade_at(0, sides));
+  auto stroke = TearStroke::create(*model, rest, blade_at(0, sides));
   std::vector<double> seconds;
   ChangeRecord change;
   for (int i = 1; i <= kSegments; ++i) {

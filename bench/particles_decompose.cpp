@@ -1,6 +1,6 @@
 #include "bench/particles_decompose.h"
 
-#include <sunder/skinning/pose_spec.h>
+#include <sunder/skinning/pose.h>
 
 #include <cstdio>
 #include <cstdlib>
@@ -9,7 +9,7 @@
 #include "bench/radius_clusters.h"
 
 #if SUNDER_BENCH_IO
-#include <sunder/io/load_character.h>
+#include <sunder/io/character_file.h>
 
 #include <filesystem>
 #endif
@@ -38,7 +38,7 @@ void count(const RadiusClusters& clusters, DecompositionFigures::Peer& peer) {
 std::unique_ptr<ParticleSet> decompose(const TornModel& model, const ModelPose& pose, double range) {
   DecompositionOptions options;
   options.range = range;
-  auto set = ParticleSet::decompose(model, pose, options);
+  auto set = ParticleSet::create(model, pose, options);
   if (!set) {
     std::fprintf(stderr, "%s\n", std::string(set.error().text()).c_str());
     std::exit(1);

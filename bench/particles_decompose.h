@@ -13,7 +13,7 @@ namespace sunder::bench {
 struct DecompositionFigures {
   std::string name;
   DecompositionReport report;
-  double seconds = 0;  ///< ParticleSet::decompose(), all of it.
+  double seconds = 0;  ///< ParticleSet::create(), all of it.
   double bytes = 0;    ///< That the set holds.
   struct Peer {
     double build = 0, search = 0;

@@ -89,14 +89,14 @@ class Frame {
   bool is_plain_first_ = false;
 };
 
-std::uint32_t count(std::span<const Range> ranges) {
+std::uint32_t count(std::span<const IndexRange> ranges) {
   std::uint32_t sum = 0;
-  for (const Range& range : ranges) sum += range.count;
+  for (const IndexRange& range : ranges) sum += range.count;
   return sum;
 }
 
 /// Pushes every particle some other way, as far as a part of its range.
-void push(const ParticleSet& set, const Material& material, test::Random& random, SoftBody& body) {
+void push(const ParticleSet& set, const SoftMaterial& material, test::Random& random, SoftBody& body) {
   const double speed = 0.2 * std::sqrt(material.return_stiffness);  // times the range
   for (std::uint32_t particle = 0; particle < set.particle_count(); ++particle)
     require(body.add_impulse(particle, material.mass * speed * set.range(particle) * random.direction()));
@@ -108,7 +108,7 @@ StepFigures measure_steps(int divisions, std::uint32_t particles, int frames) {
   const Scene& scene = scene_of(divisions);
   const TornModel& model = scene.model();
   const std::unique_ptr<ParticleSet> set = decompose_into(scene, particles);
-  const std::array<Material, 1> materials = {};
+  const std::array<SoftMaterial, 1> materials = {};
   auto created = SoftBody::create(*set, scene.poses[0], materials);
   require(created.error());
   SoftBody& body = *created;

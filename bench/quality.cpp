@@ -2,7 +2,7 @@
 // object a run: tears without width, then tears of which every other has one.
 //
 // bench_quality [model file]
-#include <sunder/io/load_character.h>
+#include <sunder/io/character_file.h>
 
 #include <chrono>
 #include <cstdio>

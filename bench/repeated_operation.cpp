@@ -60,7 +60,7 @@ Result<TearReport> cut_in_two(const Scene& scene, const ModelPose& pose, ChangeR
 }
 
 Result<TearReport> cut_with_caps(const Scene& scene, const ModelPose& pose, ChangeRecord& change) {
-  Cut cut = scene.middle_plane;
+  PlaneCut cut = scene.middle_plane;
   cut.caps = true;
   return scene.model().cut(pose, cut, &change);
 }

@@ -1,8 +1,7 @@
 #include "bench/skinning_scene.h"
 
-#include <sunder/skinning/palette.h>
-#include <sunder/skinning/reference.h>
-#include <sunder/skinning/vertex_order.h>
+#include <sunder/skinning/deform.h>
+#include <sunder/skinning/skinned_mesh.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -10,6 +9,7 @@
 
 #include "bench/native_peers.h"
 #include "bench/subdivided_model.h"
+#include "skinning/internal/reference.h"
 #include "support/rigs.h"
 
 namespace sunder::bench {

@@ -1,7 +1,7 @@
 #include "bench/tear_scene.h"
 
-#include <sunder/skinning/palette.h>
-#include <sunder/skinning/sample_clip.h>
+#include <sunder/skinning/deform.h>
+#include <sunder/skinning/pose.h>
 
 #include <cmath>
 #include <cstdio>
@@ -21,7 +21,7 @@ constexpr std::size_t kPoses = 8;
 
 /// All bones turned alike, so that the chain is an arc of `angle` radians.
 ModelPose bend(const Character& character, double angle) {
-  Pose pose = rest_pose(character);
+  Pose pose = local_rest_pose(character);
   const Quatd turn(Eigen::AngleAxisd(angle / kBones, Eigen::Vector3d::UnitY()));
   for (BoneTransform& bone : pose.parent_from_bone)
     bone.rotation = Quatf((bone.rotation.cast<double>() * turn).normalized().cast<float>());

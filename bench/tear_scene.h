@@ -26,7 +26,7 @@ struct Scene {
   std::vector<ModelPose> poses;  ///< Bends that differ by less than a face is wide: the stroke crosses about the same faces.
   Stroke stroke;
   std::uint32_t faces_crossed = 0;  ///< By the stroke, in the first pose.
-  Cut middle_plane;                 ///< Through the mean of the points, across the longest axis.
+  PlaneCut middle_plane;            ///< Through the mean of the points, across the longest axis.
 
   [[nodiscard]] const Mesh& mesh() const { return character->meshes[0]; }
   /// Whoever does something with it takes it back.

@@ -6,12 +6,12 @@
 #include "tear/path/entry.h"
 #include "tear/path/imprint.h"
 #include "tear/surface/improve.h"
+#include "tear/surface/mesh_vertices.h"
 #include "tear/surface/open.h"
 
 namespace sunder::bench {
 
 using tear::BladePlane;
-using tear::Index;
 using tear::SurfaceEditor;
 using tear::SurfaceHit;
 

@@ -39,7 +39,7 @@ class StagedTear {
   Character character_;
   tear::SurfaceEditor editor_;
   tear::PosedPoints posed_;
-  tear::Index tip_ = kNone;
+  Index tip_ = kNone;
   std::vector<LipPair> lips_;
   std::vector<Birth> births_;  ///< Of the vertices that the imprint made.
   ChangeRecord change_;

@@ -1,12 +1,13 @@
 #include "bench/weights_errors.h"
 
 #include <sunder/skinning/skinned_mesh.h>
-#include <sunder/weights/bind_position.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <set>
+
+#include "weights/internal/bind_position.h"
 
 namespace sunder::bench {
 namespace {

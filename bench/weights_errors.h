@@ -1,6 +1,6 @@
 #pragma once
 
-#include <sunder/tear/weight_errors.h>
+#include <sunder/tear/torn_weights.h>
 
 #include <cstdint>
 #include <optional>

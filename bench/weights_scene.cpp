@@ -1,19 +1,18 @@
 #include "bench/weights_scene.h"
 
-#include <sunder/skinning/palette.h>
-#include <sunder/skinning/pose_set.h>
-#include <sunder/skinning/pose_spec.h>
-#include <sunder/skinning/reference.h>
-#include <sunder/tear/weight_errors.h>
+#include <sunder/skinning/deform.h>
+#include <sunder/skinning/pose.h>
+#include <sunder/tear/torn_weights.h>
 
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 
+#include "skinning/internal/reference.h"
 #include "support/rigs.h"
 
 #if SUNDER_BENCH_IO
-#include <sunder/io/load_character.h>
+#include <sunder/io/character_file.h>
 
 #include <filesystem>
 #endif
@@ -79,7 +78,7 @@ TornOnce tear_once(const std::shared_ptr<const Character>& character, test::Rand
 }
 
 std::optional<Poses> make_poses(const std::shared_ptr<const Character>& character, const PoseSetSpec& spec) {
-  const auto set = PoseSet::make(character, spec);
+  const auto set = PoseSet::create(character, spec);
   if (!set) return std::nullopt;
   Poses poses{spec, {}, {}};
   for (const auto& [role, into] : {std::pair(PoseSet::Role::fit, &poses.fit), std::pair(PoseSet::Role::held_out, &poses.held_out)})

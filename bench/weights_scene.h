@@ -1,13 +1,14 @@
 #pragma once
 
-#include <sunder/core/pose_set_spec.h>
+#include <sunder/operation/pose_spec.h>
 #include <sunder/tear/torn_model.h>
-#include <sunder/weights/animation_point.h>
 
 #include <array>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "weights/internal/animation_point.h"
 
 namespace sunder::bench {
 

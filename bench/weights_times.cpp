@@ -1,13 +1,13 @@
 #include "bench/weights_times.h"
 
-#include <sunder/weights/bind_position.h>
-#include <sunder/weights/interpolate.h>
-#include <sunder/weights/prune.h>
+#include <sunder/weights/influences.h>
 
 #include <algorithm>
 #include <cstdlib>
 
 #include "bench/measure.h"
+#include "tear/surface/mesh_vertices.h"
+#include "weights/internal/bind_position.h"
 
 namespace sunder::bench {
 namespace {

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <sunder/core/weight_options.h>
-#include <sunder/weights/point_refit.h>
+#include <sunder/operation/weight_options.h>
 
 #include <map>
 
 #include "bench/weights_scene.h"
+#include "weights/internal/point_refit.h"
 
 namespace sunder::bench {
 

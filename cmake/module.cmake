@@ -4,9 +4,26 @@
 # IN_FRAME: runs within a frame. Release builds optimise it further, as by a tenth of a tear's time.
 # One static or shared library a module, `sunder::<name>`. Public headers live in include/sunder/<name>/ and are all that is
 # installed; every one of them is compiled alone (target all_verify_interface_header_sets).
+macro(sunder_header_module name)
+  add_library(${target} INTERFACE)
+  add_library(sunder::${name} ALIAS ${target})
+  target_sources(${target} INTERFACE FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR}/include FILES ${arg_HEADERS})
+  target_compile_features(${target} INTERFACE cxx_std_20)
+  foreach(module IN LISTS arg_LINK)
+    target_link_libraries(${target} INTERFACE sunder::${module})
+  endforeach()
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} VERIFY_INTERFACE_HEADER_SETS ON)
+  set_property(GLOBAL APPEND PROPERTY SUNDER_MODULES ${target})
+endmacro()
+
 function(sunder_module name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "IN_FRAME" "" "HEADERS;SOURCES;LINK;PRIVATE_LINK")
+  list(TRANSFORM arg_HEADERS PREPEND ${PROJECT_SOURCE_DIR}/include/sunder/)
   set(target sunder_${name})
+  if(NOT arg_SOURCES)
+    sunder_header_module(${name})
+    return()
+  endif()
   add_library(${target} ${arg_SOURCES})
   add_library(sunder::${name} ALIAS ${target})
   target_sources(${target} PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR}/include FILES ${arg_HEADERS})

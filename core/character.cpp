@@ -8,8 +8,6 @@
 namespace sunder {
 namespace {
 
-using Index = std::uint32_t;
-
 bool is_finite(const BoneTransform& transform) {
   return transform.translation.allFinite() && transform.rotation.coeffs().allFinite() && transform.scale.allFinite();
 }

@@ -1,4 +1,4 @@
-#include <sunder/io/load_character.h>
+#include <sunder/io/character_file.h>
 
 #include <algorithm>
 #include <cctype>

@@ -1,4 +1,4 @@
-#include <sunder/io/save_glb.h>
+#include <sunder/io/character_file.h>
 
 #include "io/gltf/new_document.h"
 #include "io/gltf/write.h"

@@ -17,7 +17,7 @@ struct BodyState {
   ParticleSet* set = nullptr;
   std::uint64_t revision = 0;  ///< Of the set, which all below is of.
   SoftBodyOptions options;
-  std::vector<Material> materials;
+  std::vector<SoftMaterial> materials;
 
   Motion motion;
   SpringGraph graph;

@@ -13,7 +13,7 @@ constexpr double kShortestStep = 1e-100;
 }  // namespace
 
 bool BodyState::has_stretch_limit() const {
-  return std::any_of(materials.begin(), materials.end(), [](const Material& material) { return material.stretch_limit > 0; });
+  return std::any_of(materials.begin(), materials.end(), [](const SoftMaterial& material) { return material.stretch_limit > 0; });
 }
 
 bool BodyState::is_idle() const {
@@ -79,7 +79,7 @@ void BodyState::follow_forces(const TornModel& model, const ModelPose& pose) {
 
 void BodyState::integrate(double seconds) {
   steps.clear();
-  for (const Material& material : materials)
+  for (const SoftMaterial& material : materials)
     steps.push_back(step_spring(material.return_stiffness, material.damping_ratio, seconds));
   for (const Index p : active) {
     const SpringStep& step = steps[motion.material_of[p]];

@@ -1,4 +1,4 @@
-#include <sunder/particles/find_range.h>
+#include <sunder/particles/particle_set.h>
 #include <sunder/particles/soft_body.h>
 
 #include <algorithm>
@@ -31,11 +31,11 @@ Result<ParticleSet> decompose(const TornModel& model, const ModelPose& pose, dou
   DecompositionOptions options;
   options.range = range;
   options.seed = seed;
-  return ParticleSet::decompose(model, pose, options);
+  return ParticleSet::create(model, pose, options);
 }
 
 /// The least of some batches of steps, all particles awake.
-Result<double> time_step(const TornModel& model, const ModelPose& pose, ParticleSet& set, const Material& material) {
+Result<double> time_step(const TornModel& model, const ModelPose& pose, ParticleSet& set, const SoftMaterial& material) {
   constexpr int kBatches = 5, kSteps = 8;
   constexpr double kStep = 1.0 / 60;
   auto body = SoftBody::create(set, pose, std::span(&material, 1));
@@ -79,7 +79,7 @@ Result<FoundRange> find_range_for_particles(const TornModel& model, const ModelP
   return best;
 }
 
-Result<FoundRange> find_range_for_step(const TornModel& model, const ModelPose& pose, double seconds, const Material& material,
+Result<FoundRange> find_range_for_step(const TornModel& model, const ModelPose& pose, double seconds, const SoftMaterial& material,
                                        std::uint64_t seed) {
   if (!(seconds > 0) || !std::isfinite(seconds))
     return Status::failure(StatusCode::invalid_argument, kNone, "a step is to take %g seconds; it must be finite and above 0",

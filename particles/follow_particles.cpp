@@ -12,7 +12,7 @@ namespace {
 /// The four neighbours that share most with a particle, but for `orphans`, which ascend.
 ParticleInfluences like_neighbours(const ParticleSet& set, Index particle, std::span<const Index> orphans) {
   ParticleInfluences found;
-  for (const Neighbour& neighbour : set.neighbours(particle)) {
+  for (const ParticleNeighbour& neighbour : set.neighbours(particle)) {
     if (std::binary_search(orphans.begin(), orphans.end(), neighbour.particle)) continue;
     Index other = neighbour.particle;
     auto shared = static_cast<float>(neighbour.shared);
@@ -79,7 +79,7 @@ void BodyState::connect_springs() {
 
 void BodyState::wake_around(Index particle) {
   motion.wake(particle);
-  for (const Neighbour& neighbour : set->neighbours(particle)) motion.wake(neighbour.particle);
+  for (const ParticleNeighbour& neighbour : set->neighbours(particle)) motion.wake(neighbour.particle);
 }
 
 void BodyState::wake_all() {

@@ -1,6 +1,5 @@
 #include <sunder/particles/force_tearing.h>
-#include <sunder/skinning/palette.h>
-#include <sunder/skinning/reference.h>
+#include <sunder/skinning/deform.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,11 +9,11 @@
 
 #include "particles/clusters/lip_border.h"
 #include "particles/clusters/rest_terms.h"
+#include "skinning/internal/reference.h"
+#include "tear/internal/surface.h"
 
 namespace sunder {
 namespace {
-
-using particles::Index;
 
 /// Two neighbours that are farther apart than they bear.
 struct Pair {
@@ -29,8 +28,8 @@ constexpr double kLeastForward = 0.2;
 /// Particles at a tear may be as good as in one place at rest. What they move apart then counts as if they had been so far apart as
 /// seeds are at least: this part of the range.
 constexpr double kLeastApart = 0.8;
-/// Neighbour::shared of particles that hang together at all. Splinters at a tear, of a few points that others hold too, are torn in
-/// vain: they would be torn at the same place for ever.
+/// ParticleNeighbour::shared of particles that hang together at all. Splinters at a tear, of a few points that others hold too, are
+/// torn in vain: they would be torn at the same place for ever.
 constexpr double kLeastShared = 0.05;
 
 Vec3d rest_place(const SoftBody& body, Index particle) { return body.place(particle) - body.displacement(particle); }
@@ -51,7 +50,7 @@ double strength_of(const SoftBody& body, Index a, Index b) {
 std::vector<Pair> find_overstretched(const SoftBody& body, const ParticleSet& particles, double& greatest) {
   std::vector<Pair> pairs;
   for (Index a = 0; a < body.particle_count(); ++a) {
-    for (const Neighbour& neighbour : particles.neighbours(a)) {
+    for (const ParticleNeighbour& neighbour : particles.neighbours(a)) {
       const Index b = neighbour.particle;
       if (b <= a || neighbour.shared < kLeastShared || (!body.is_awake(a) && !body.is_awake(b))) continue;
       const double stretch = stretch_of(body, particles, a, b), strength = strength_of(body, a, b);
@@ -73,7 +72,7 @@ Vec3d greatest_stretch_around(const SoftBody& body, const ParticleSet& particles
   Eigen::Matrix<double, 3, 2> moved = Eigen::Matrix<double, 3, 2>::Zero();
   Eigen::Matrix2d at_rest = Eigen::Matrix2d::Zero();
   for (const Index particle : {pair.a, pair.b})
-    for (const Neighbour& neighbour : particles.neighbours(particle)) {
+    for (const ParticleNeighbour& neighbour : particles.neighbours(particle)) {
       const Eigen::Vector2d along = plane.transpose() * (rest_place(body, neighbour.particle) - rest_place(body, particle));
       const Eigen::Vector3d now = body.place(neighbour.particle) - body.place(particle);
       const double weight = particles.coupling(particle, neighbour);
@@ -143,8 +142,9 @@ Start find_start(const ParticleSet& particles, const TornModel& model, const Pai
   float nearest = std::numeric_limits<float>::infinity();  // what a particle holds is near
   for (const Index tip : tips) {
     // Not by weights: where particles crowd at a tear, those of its tip do not name them all.
-    const std::span<const Membership> of = particles.memberships(tip);
-    if (std::none_of(of.begin(), of.end(), [&](const Membership& m) { return m.particle == pair.a || m.particle == pair.b; }))
+    const std::span<const ParticleMembership> of = particles.memberships(tip);
+    if (std::none_of(of.begin(), of.end(),
+                     [&](const ParticleMembership& m) { return m.particle == pair.a || m.particle == pair.b; }))
       continue;
     const float distance = (at[tip] - middle).norm();
     if (!(distance < nearest)) continue;

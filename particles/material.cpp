@@ -13,7 +13,7 @@ struct Field {
 
 }  // namespace
 
-Status validate_material(const Material& material) {
+Status validate_material(const SoftMaterial& material) {
   const std::array fields = {
       Field{"return_stiffness", material.return_stiffness, 0.0, 1e12},
       Field{"damping_ratio", material.damping_ratio, 0.0, 1e6},
@@ -35,17 +35,17 @@ Status validate_material(const Material& material) {
   return {};
 }
 
-std::span<const Material> material_presets() {
+std::span<const SoftMaterial> material_presets() {
   static const std::array presets = {
-      Material{"skin", 400, 0.7, 900, 0.01, 0.08, 1.6, 1.8},   Material{"fat", 90, 0.35, 150, 0.02, 0.12, 0, 2.2},
-      Material{"muscle", 900, 0.8, 1600, 0.02, 0.1, 1.4, 1.6}, Material{"rubber", 900, 0.15, 2500, 0.01, 0.1, 3.0, 4.0},
-      Material{"sponge", 150, 1.0, 300, 0.005, 0.12, 0, 1.5},  Material{"jelly", 60, 0.1, 250, 0.02, 0.15, 0, 1.7},
+      SoftMaterial{"skin", 400, 0.7, 900, 0.01, 0.08, 1.6, 1.8},   SoftMaterial{"fat", 90, 0.35, 150, 0.02, 0.12, 0, 2.2},
+      SoftMaterial{"muscle", 900, 0.8, 1600, 0.02, 0.1, 1.4, 1.6}, SoftMaterial{"rubber", 900, 0.15, 2500, 0.01, 0.1, 3.0, 4.0},
+      SoftMaterial{"sponge", 150, 1.0, 300, 0.005, 0.12, 0, 1.5},  SoftMaterial{"jelly", 60, 0.1, 250, 0.02, 0.15, 0, 1.7},
   };
   return presets;
 }
 
-Result<Material> find_material(std::string_view name) {
-  for (const Material& material : material_presets())
+Result<SoftMaterial> find_material(std::string_view name) {
+  for (const SoftMaterial& material : material_presets())
     if (material.name == name) return material;
   return Status::failure(StatusCode::not_found, kNone, "there is no material '%.*s'",
                          static_cast<int>(std::min<std::size_t>(name.size(), 64)), name.data());

@@ -1,5 +1,5 @@
 #include <sunder/particles/particle_set.h>
-#include <sunder/skinning/palette.h>
+#include <sunder/skinning/deform.h>
 
 #include <algorithm>
 #include <chrono>
@@ -10,13 +10,12 @@
 
 #include "particles/clusters/decompose.h"
 #include "particles/clusters/gradients.h"
-#include "particles/repair/repair.h"
 #include "particles/clusters/rest_terms.h"
+#include "particles/repair/repair.h"
+#include "tear/internal/surface.h"
 
 namespace sunder {
 namespace {
-
-using particles::Index;
 using particles::Particle;
 using particles::Structure;
 
@@ -95,7 +94,7 @@ ParticleSet::~ParticleSet() = default;
 ParticleSet::ParticleSet(ParticleSet&&) noexcept = default;
 ParticleSet& ParticleSet::operator=(ParticleSet&&) noexcept = default;
 
-Result<ParticleSet> ParticleSet::decompose(const TornModel& model, const ModelPose& pose, const DecompositionOptions& options) {
+Result<ParticleSet> ParticleSet::create(const TornModel& model, const ModelPose& pose, const DecompositionOptions& options) {
   if (!(options.range > 0) || !std::isfinite(options.range))
     return Status::failure(StatusCode::invalid_argument, kNone, "the range of particles is %g; it must be finite and above 0",
                            options.range);
@@ -135,18 +134,20 @@ std::uint32_t ParticleSet::member_count(std::uint32_t particle) const { return s
 
 std::vector<std::uint32_t> ParticleSet::members(std::uint32_t particle) const { return structure_->members_of(particle); }
 
-std::span<const Neighbour> ParticleSet::neighbours(std::uint32_t particle) const {
+std::span<const ParticleNeighbour> ParticleSet::neighbours(std::uint32_t particle) const {
   return structure_->particles[particle].neighbours;
 }
 
-double ParticleSet::coupling(std::uint32_t particle, const Neighbour& neighbour) const {
+double ParticleSet::coupling(std::uint32_t particle, const ParticleNeighbour& neighbour) const {
   const double least = std::min(structure_->particles[particle].weight, structure_->particles[neighbour.particle].weight);
   return least > 0 ? std::min(1.0, neighbour.shared / least) : 0.0;
 }
 
 const ParticleInfluences& ParticleSet::parents(std::uint32_t particle) const { return structure_->particles[particle].parents; }
 std::uint32_t ParticleSet::point_count() const { return structure_->point_count(); }
-std::span<const Membership> ParticleSet::memberships(std::uint32_t point) const { return structure_->memberships_of(point); }
+std::span<const ParticleMembership> ParticleSet::memberships(std::uint32_t point) const {
+  return structure_->memberships_of(point);
+}
 std::span<const ParticleInfluences> ParticleSet::influences() const { return structure_->influences; }
 std::span<const ParticleGradients> ParticleSet::gradients(const TornModel& model) {
   return structure_->gradients->of(model.surface(), *structure_);

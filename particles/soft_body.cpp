@@ -10,7 +10,6 @@ namespace sunder {
 namespace {
 
 using particles::BodyState;
-using particles::Index;
 
 constexpr double kLongestStep = 3600;
 
@@ -40,7 +39,7 @@ Status check_hold(const Vec3d& target, const HoldOptions& options) {
   return check_finite("the target of a hold", target);
 }
 
-Status check_material(const Material& material, Index index) {
+Status check_material(const SoftMaterial& material, Index index) {
   const Status status = validate_material(material);
   if (status) return status;
   return Status::failure(status.code(), index, "%.*s", static_cast<int>(status.text().size()), status.text().data());
@@ -69,7 +68,7 @@ SoftBody::~SoftBody() = default;
 SoftBody::SoftBody(SoftBody&&) noexcept = default;
 SoftBody& SoftBody::operator=(SoftBody&&) noexcept = default;
 
-Result<SoftBody> SoftBody::create(ParticleSet& particles, const ModelPose& pose, std::span<const Material> materials,
+Result<SoftBody> SoftBody::create(ParticleSet& particles, const ModelPose& pose, std::span<const SoftMaterial> materials,
                                   const SoftBodyOptions& options) {
   if (materials.empty()) return Status::failure(StatusCode::empty_input, kNone, "a soft body needs a material");
   for (Index i = 0; i < materials.size(); ++i)
@@ -107,7 +106,7 @@ Status SoftBody::set_material(std::uint32_t particle, std::uint32_t material) {
   return {};
 }
 
-Status SoftBody::change_material(std::uint32_t material, const Material& to) {
+Status SoftBody::change_material(std::uint32_t material, const SoftMaterial& to) {
   if (material >= state_->materials.size())
     return Status::failure(StatusCode::index_out_of_range, material, "material %u of %zu", material, state_->materials.size());
   if (Status status = check_material(to, material); !status) return status;
@@ -120,7 +119,7 @@ Status SoftBody::change_material(std::uint32_t material, const Material& to) {
 }
 
 std::uint32_t SoftBody::material_of(std::uint32_t particle) const { return state_->motion.material_of[particle]; }
-std::span<const Material> SoftBody::materials() const { return state_->materials; }
+std::span<const SoftMaterial> SoftBody::materials() const { return state_->materials; }
 
 // ---- What acts.
 
@@ -288,7 +287,7 @@ std::span<const Mat3f> SoftBody::rotations() {
   return state_->turns;
 }
 
-std::span<const Range> SoftBody::moved_vertices(const TornModel& model, std::uint32_t mesh) {
+std::span<const IndexRange> SoftBody::moved_vertices(const TornModel& model, std::uint32_t mesh) {
   state_->follow_particles();
   return state_->moved_vertices.of(*state_->set, model, mesh, state_->displaced_key, state_->is_displaced);
 }

@@ -2,8 +2,8 @@
 // What an operation left as it was is not uploaded again; undo shortens the buffers. In the end they hold what the model holds, bit
 // for bit.
 
-#include <sunder/skinning/palette.h>
-#include <sunder/skinning/sample_clip.h>
+#include <sunder/skinning/deform.h>
+#include <sunder/skinning/pose.h>
 #include <sunder/tear/torn_model.h>
 
 #include <algorithm>
@@ -69,8 +69,8 @@ class MeshBuffers {
   void apply(const sunder::MeshChange& change, const sunder::Mesh& mesh) {
     vertex_count_ = change.first_vertex + change.vertex_count;
     triangle_count_ = change.first_triangle + change.triangle_count;
-    for (const sunder::Range& range : change.dirty_vertices) upload_vertices(range, mesh);
-    for (const sunder::Range& range : change.dirty_triangles) upload_triangles(range, mesh);
+    for (const sunder::IndexRange& range : change.dirty_vertices) upload_vertices(range, mesh);
+    for (const sunder::IndexRange& range : change.dirty_triangles) upload_triangles(range, mesh);
   }
 
   [[nodiscard]] bool is_as(const MeshBuffers& other) const {
@@ -87,11 +87,11 @@ class MeshBuffers {
   [[nodiscard]] std::size_t uploaded_bytes() const { return uploaded_bytes_; }
 
  private:
-  void upload_vertices(const sunder::Range& range, const sunder::Mesh& mesh) {
+  void upload_vertices(const sunder::IndexRange& range, const sunder::Mesh& mesh) {
     for (std::uint32_t v = range.first; v < range.first + range.count; ++v) vertices_[v] = pack(mesh, v);
     uploaded_bytes_ += range.count * sizeof(GpuVertex);
   }
-  void upload_triangles(const sunder::Range& range, const sunder::Mesh& mesh) {
+  void upload_triangles(const sunder::IndexRange& range, const sunder::Mesh& mesh) {
     for (std::uint32_t t = range.first; t < range.first + range.count; ++t) {
       indices_[t] = mesh.triangles[t];
       submeshes_[t] = mesh.triangle_submesh[t];
@@ -101,7 +101,7 @@ class MeshBuffers {
 
   std::vector<GpuVertex> vertices_;
   std::vector<sunder::Triangle> indices_;
-  std::vector<std::uint32_t> submeshes_;  ///< Material of each triangle: walls and caps bring new ones.
+  std::vector<std::uint32_t> submeshes_;  ///< SoftMaterial of each triangle: walls and caps bring new ones.
   std::uint32_t vertex_count_ = 0, triangle_count_ = 0;
   std::size_t uploaded_bytes_ = 0;
 };
@@ -185,7 +185,7 @@ sunder::Character make_character() {
 
 /// The hose bent by an angle.
 sunder::ModelPose bent(const sunder::Character& character, float angle) {
-  sunder::Pose pose = rest_pose(character);
+  sunder::Pose pose = local_rest_pose(character);
   pose.parent_from_bone[1].rotation = sunder::Quatf(Eigen::AngleAxisf(angle, Eigen::Vector3f::UnitX()));
   sunder::ModelPose model_pose;
   if (!compute_model_pose(character.skeleton, pose, model_pose)) std::abort();
@@ -216,7 +216,7 @@ std::vector<Step> make_steps(const sunder::Character& character) {
   gap.width = 0.02;
   deep_gap.width = 0.01;
   deep_gap.wall_depth = 0.005;
-  sunder::Cut cut;
+  sunder::PlaneCut cut;
   cut.point = {0, 0.42, 0};
   cut.normal = {0, 1, 0.2};
   cut.caps = true;

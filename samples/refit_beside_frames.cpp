@@ -1,9 +1,10 @@
 // Weights of torn points fitted beside the frame: torn and on screen at once with interpolated weights, fitted on another thread,
 // swapped in a few frames later. The engine uploads what the change record says.
 
-#include <sunder/skinning/palette.h>
+#include <sunder/skinning/deform.h>
+#include <sunder/skinning/pose.h>
 #include <sunder/tear/refit_job.h>
-#include <sunder/tear/weight_errors.h>
+#include <sunder/tear/torn_weights.h>
 
 #include <algorithm>
 #include <cmath>
@@ -76,7 +77,7 @@ int main() {
   wanted.weights = *options.weights;
   wanted.refit.poses.clip_samples = 0;
   wanted.refit.poses.joint_limits = {{1, {0, 0, 1}, 0.0, 2.4}};
-  const auto job = sunder::RefitJob::submit(*model, wanted);
+  const auto job = sunder::RefitJob::create(*model, wanted);
   if (!job) return std::printf("%s\n", job.error().text().data()), 1;
   std::thread worker([job = *job] { job.run(); });
 

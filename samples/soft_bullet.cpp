@@ -2,7 +2,8 @@
 // the sheet are bodies among others.
 
 #include <sunder/particles/bullet_body.h>
-#include <sunder/skinning/palette.h>
+#include <sunder/skinning/deform.h>
+#include <sunder/skinning/pose.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -81,7 +82,7 @@ int main() {
   const auto sheet = make_sheet();
   const auto model = sunder::TornModel::create(sheet);
   if (!model) return std::printf("%s\n", model.error().text().data()), 1;
-  const auto set = sunder::ParticleSet::decompose(*model, sunder::bind_pose(*sheet), {.range = 0.08});
+  const auto set = sunder::ParticleSet::create(*model, sunder::bind_pose(*sheet), {.range = 0.08});
   if (!set) return std::printf("%s\n", set.error().text().data()), 1;
 
   bool has_sagged = false, is_held = false;

@@ -1,8 +1,8 @@
 // A ball on a stick is pressed into a soft tube that bends, held there, and taken away.
 
 #include <sunder/particles/soft_body.h>
-#include <sunder/skinning/palette.h>
-#include <sunder/skinning/sample_clip.h>
+#include <sunder/skinning/deform.h>
+#include <sunder/skinning/pose.h>
 #include <sunder/tear/torn_model.h>
 
 #include <algorithm>
@@ -59,7 +59,7 @@ sunder::Character make_tube() {
 
 /// The tube bent by an angle at its joint.
 sunder::ModelPose bent(const sunder::Character& character, double angle) {
-  sunder::Pose pose = rest_pose(character);
+  sunder::Pose pose = local_rest_pose(character);
   pose.parent_from_bone[1].rotation = sunder::Quatf(Eigen::AngleAxisf(static_cast<float>(angle), Eigen::Vector3f::UnitX()));
   sunder::ModelPose model_pose;
   if (!compute_model_pose(character.skeleton, pose, model_pose)) std::abort();
@@ -84,16 +84,16 @@ int main() {
   auto model = sunder::TornModel::create(character);
   if (!model) return fail("create", model.error());
 
-  const sunder::Material flesh = sunder::find_material("fat").value();
+  const sunder::SoftMaterial flesh = sunder::find_material("fat").value();
   const sunder::ModelPose straight = bent(*character, 0);
   sunder::DecompositionOptions division;
   division.range = flesh.range / 2;
-  auto particles = sunder::ParticleSet::decompose(*model, straight, division);
+  auto particles = sunder::ParticleSet::create(*model, straight, division);
   if (!particles) return fail("decompose", particles.error());
   auto body = sunder::SoftBody::create(*particles, straight, {&flesh, 1});
   if (!body) return fail("soft body", body.error());
 
-  const sunder::Collider ball = {sunder::Sphere{kBall}, {0, 0.25, 0.4}, sunder::Quatd::Identity(), 0.3};
+  const sunder::Collider ball = {sunder::Collider::Sphere{kBall}, {0, 0.25, 0.4}, sunder::Quatd::Identity(), 0.3};
   if (const sunder::Status status = body->set_colliders({&ball, 1}); !status) return fail("colliders", status);
   const auto frame = [&](double angle, double distance) {
     (void)body->move_collider(0, {0, 0.25, distance}, sunder::Quatd::Identity());

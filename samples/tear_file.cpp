@@ -1,9 +1,8 @@
 // Loads a model, tears it in the middle of its first clip, and saves it: tear_file MODEL OUT.glb
 // README begins
-#include <sunder/io/load_character.h>
-#include <sunder/io/save_glb.h>
-#include <sunder/skinning/palette.h>
-#include <sunder/skinning/sample_clip.h>
+#include <sunder/io/character_file.h>
+#include <sunder/skinning/deform.h>
+#include <sunder/skinning/pose.h>
 #include <sunder/tear/torn_model.h>
 
 #include <cstdio>
@@ -13,7 +12,7 @@ sunder::Status tear_file(const char* model_file, const char* torn_file, const su
   if (!loaded) return loaded.error();
   const sunder::Character& character = *loaded->character;
 
-  sunder::Pose pose = sunder::rest_pose(character);  // Or what your engine plays.
+  sunder::Pose pose = sunder::local_rest_pose(character);  // Or what your engine plays.
   if (!character.clips.empty())
     if (const auto status = sunder::sample_clip(character.clips[0], 0.8, pose); !status) return status;
   sunder::ModelPose model_pose;

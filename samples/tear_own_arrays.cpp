@@ -1,7 +1,7 @@
 // A character from arrays of one's own, without any file: a tube of two bones, bent at the elbow and torn along its front.
 
-#include <sunder/skinning/palette.h>
-#include <sunder/skinning/sample_clip.h>
+#include <sunder/skinning/deform.h>
+#include <sunder/skinning/pose.h>
 #include <sunder/tear/topology.h>
 #include <sunder/tear/torn_model.h>
 
@@ -65,7 +65,7 @@ int main() {
   const auto character = std::make_shared<const sunder::Character>(make_character());
   if (const sunder::Status status = validate_character(*character); !status) return std::printf("%s\n", status.text().data()), 1;
 
-  sunder::Pose pose = rest_pose(*character);
+  sunder::Pose pose = local_rest_pose(*character);
   pose.parent_from_bone[1].rotation = sunder::Quatf(Eigen::AngleAxisf(0.8f, Eigen::Vector3f::UnitX()));
   sunder::ModelPose model_pose;
   if (const sunder::Status status = compute_model_pose(character->skeleton, pose, model_pose); !status) return 1;

@@ -59,7 +59,7 @@ inline int wave_by(const char* name, const sunder::ParallelFor& parallel_for) {
     if (!palette.set(pose, {})) return 1;
     if (!skinned->deform(palette, of_one) || !skinned->deform(palette, of_all, parallel_for)) return 1;
     std::uint32_t written = 0;
-    for (const sunder::Range& range : of_all.dirty_vertices()) written += range.count;
+    for (const sunder::IndexRange& range : of_all.dirty_vertices()) written += range.count;
     if (frame < 3)
       std::printf("frame %d: %6u of %u vertices written, in %zu ranges\n", frame, written, count, of_all.dirty_vertices().size());
   }

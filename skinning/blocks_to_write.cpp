@@ -29,10 +29,10 @@ std::uint32_t last_block_to(const Blocks& blocks, std::uint32_t vertex, std::uin
 
 /// Marks those of the blocks [first, end) of a window that hold any vertex of `vertices`, which ascend.
 void mark_in_window(const Blocks& blocks, std::uint32_t first, std::uint32_t end, std::uint32_t window_end,
-                    std::span<const Range> vertices, std::vector<std::uint64_t>& marks) {
+                    std::span<const IndexRange> vertices, std::vector<std::uint64_t>& marks) {
   const std::uint32_t window = blocks.window(blocks.blocks[first]);
   std::array<std::uint64_t, kWindow / 64> wanted = {};
-  for (const Range& range : vertices) {
+  for (const IndexRange& range : vertices) {
     if (range.first >= window_end) break;
     set_bits(std::max(range.first, window) - window, std::min(range.first + range.count, window_end) - window, wanted.data());
   }
@@ -50,7 +50,7 @@ void mark_in_window(const Blocks& blocks, std::uint32_t first, std::uint32_t end
 }
 
 /// Marks blocks that hold vertices of some ranges, which ascend.
-void mark_blocks_of(const Blocks& blocks, std::span<const Range> vertices, std::vector<std::uint64_t>& marks) {
+void mark_blocks_of(const Blocks& blocks, std::span<const IndexRange> vertices, std::vector<std::uint64_t>& marks) {
   std::uint32_t b = 0, done = 0;  // blocks before `b` have been looked at, which hold the vertices before `done`
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     const std::uint32_t end = vertices[i].first + vertices[i].count;
@@ -77,14 +77,14 @@ void mark_blocks_of(const Blocks& blocks, std::span<const Range> vertices, std::
 
 }  // namespace
 
-void mark(const Range& blocks, std::vector<std::uint64_t>& marks) {
+void mark(const IndexRange& blocks, std::vector<std::uint64_t>& marks) {
   set_bits(blocks.first, blocks.first + blocks.count, marks.data());
 }
 
 void mark_changed(const Blocks& blocks, const PaletteData& palette, std::uint64_t palette_revision, std::uint64_t mesh_revision,
                   std::vector<std::uint64_t>& marks) {
   const auto mark_moved_by = [&](std::size_t mover) {
-    blocks.movers.for_each_run(static_cast<std::uint32_t>(mover), [&](const Range& run) { mark(run, marks); });
+    blocks.movers.for_each_run(static_cast<std::uint32_t>(mover), [&](const IndexRange& run) { mark(run, marks); });
   };
   for (std::size_t slot = 0; slot < blocks.slot_count; ++slot)
     if (palette.revisions[slot] > palette_revision) mark_moved_by(slot);
@@ -97,7 +97,7 @@ void mark_changed(const Blocks& blocks, const PaletteData& palette, std::uint64_
   mark({first_new, blocks.block_count() - first_new}, marks);
 }
 
-void mark_displaced(const Blocks& blocks, std::span<const Range> moved, std::vector<std::uint64_t>& displaced,
+void mark_displaced(const Blocks& blocks, std::span<const IndexRange> moved, std::vector<std::uint64_t>& displaced,
                     std::vector<std::uint64_t>& marks) {
   const std::size_t known = std::min(displaced.size(), marks.size());
   for (std::size_t word = 0; word < known; ++word) marks[word] |= displaced[word];
@@ -109,7 +109,7 @@ void mark_displaced(const Blocks& blocks, std::span<const Range> moved, std::vec
   for (std::size_t word = 0; word < marks.size(); ++word) marks[word] |= displaced[word];
 }
 
-void list_runs(const Blocks& blocks, const std::vector<std::uint64_t>& marks, std::vector<Range>& ranges) {
+void list_runs(const Blocks& blocks, const std::vector<std::uint64_t>& marks, std::vector<IndexRange>& ranges) {
   ranges.clear();
   ranges.reserve(blocks.block_count() / 2 + 1);
   for (std::size_t word = 0; word < marks.size(); ++word) {

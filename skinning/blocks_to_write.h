@@ -11,7 +11,7 @@ namespace sunder::skinning {
 // Sets of blocks: a bit a block, in so many words as all blocks take.
 
 /// Marks blocks.
-void mark(const Range& blocks, std::vector<std::uint64_t>& marks);
+void mark(const IndexRange& blocks, std::vector<std::uint64_t>& marks);
 
 /// Marks blocks that a mover moves which changed after `palette_revision`, and those that became what they are after
 /// `mesh_revision`.
@@ -24,10 +24,10 @@ void mark_changed(const Blocks& blocks, const PaletteData& palette, std::uint64_
 /// @param displaced  those of the last call, or empty; written: the blocks that hold vertices of `moved`, empty without any. What
 /// it
 ///                   says of blocks that the mesh got since then does not count: these are to be written in any case.
-void mark_displaced(const Blocks& blocks, std::span<const Range> moved, std::vector<std::uint64_t>& displaced,
+void mark_displaced(const Blocks& blocks, std::span<const IndexRange> moved, std::vector<std::uint64_t>& displaced,
                     std::vector<std::uint64_t>& marks);
 
 /// Runs of marked blocks. @param ranges  written: ascending, apart. Grown to the mesh, and not again.
-void list_runs(const Blocks& blocks, const std::vector<std::uint64_t>& marks, std::vector<Range>& ranges);
+void list_runs(const Blocks& blocks, const std::vector<std::uint64_t>& marks, std::vector<IndexRange>& ranges);
 
 }  // namespace sunder::skinning

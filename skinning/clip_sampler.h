@@ -1,6 +1,7 @@
 #pragma once
 
 #include <sunder/core/character.h>
+#include <sunder/skinning/pose.h>
 
 #include <cstdint>
 #include <vector>
@@ -8,7 +9,7 @@
 namespace sunder::skinning {
 
 /// Samples a clip into model space bone by bone, with no Pose in between that would need memory: the bits of sample_clip() over
-/// rest_pose(), then compute_model_pose().
+/// local_rest_pose(), then compute_model_pose().
 class ClipSampler {
  public:
   /// @param clip  one of a character that passed validate_character().

@@ -128,7 +128,7 @@ Status check_displacements(const VertexDisplacements& displacements, std::uint32
                            displacements.displacements.size(), displacements.model_from_gradient.size());
   std::uint64_t end = 0;
   for (std::size_t i = 0; i < displacements.moved.size(); ++i) {
-    const Range& range = displacements.moved[i];
+    const IndexRange& range = displacements.moved[i];
     const std::uint64_t next = std::uint64_t{range.first} + range.count;
     if (range.first < end || next > vertex_count)
       return Status::failure(StatusCode::index_out_of_range, static_cast<std::uint32_t>(i),

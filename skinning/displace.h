@@ -2,7 +2,6 @@
 
 #include <sunder/core/status.h>
 #include <sunder/skinning/vertex_arrays.h>
-#include <sunder/skinning/vertex_displacements.h>
 
 namespace sunder::skinning {
 

@@ -10,8 +10,6 @@
 namespace sunder::skinning {
 namespace {
 
-using Index = std::uint32_t;
-
 constexpr double kDegree = std::numbers::pi / 180.0;
 
 /// The angles at which a hinge stands. No angle to fit is held out, and none is zero: that is rest.

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <sunder/core/character.h>
-#include <sunder/core/pose_set_spec.h>
+#include <sunder/operation/pose_spec.h>
 
 #include <cstdint>
 #include <vector>

@@ -7,7 +7,7 @@ namespace sunder::skinning {
 void MoverRuns::append(std::uint32_t mover, std::uint32_t block) {
   const std::uint32_t newest = newest_[mover];
   if (newest != kNoRun) {
-    Range& blocks = runs_[newest].blocks;
+    IndexRange& blocks = runs_[newest].blocks;
     if (blocks.first + blocks.count > block) return;
     if (blocks.first + blocks.count == block) {
       ++blocks.count;
@@ -26,7 +26,7 @@ void MoverRuns::truncate(std::uint32_t first_block) {
   }
   for (const std::uint32_t newest : newest_) {
     if (newest == kNoRun) continue;
-    Range& blocks = runs_[newest].blocks;
+    IndexRange& blocks = runs_[newest].blocks;
     blocks.count = std::min(blocks.count, first_block - blocks.first);
   }
 }

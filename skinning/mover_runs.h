@@ -1,6 +1,6 @@
 #pragma once
 
-#include <sunder/core/range.h>
+#include <sunder/core/index.h>
 
 #include <cstdint>
 #include <span>
@@ -30,7 +30,7 @@ class MoverRuns {
  private:
   static constexpr std::uint32_t kNoRun = 0xFFFF'FFFFu;
   struct Run {
-    Range blocks;
+    IndexRange blocks;
     std::uint32_t mover = 0, older = kNoRun;
   };
   std::vector<Run> runs_;

@@ -1,4 +1,5 @@
-#include <sunder/skinning/palette.h>
+#include <sunder/skinning/deform.h>
+#include <sunder/skinning/pose.h>
 
 #include <cmath>
 
@@ -43,6 +44,16 @@ Status compute_model_pose(const Skeleton& skeleton, const Pose& pose, ModelPose&
       skeleton, [&](std::size_t bone) { return pose.parent_from_bone[bone]; }, model_pose.model_from_bone);
   model_pose.morph_weights = pose.morph_weights;
   return {};
+}
+
+ModelPose rest_pose(const Character& character) {
+  ModelPose pose;
+  pose.morph_weights = character.rest_morph_weights;
+  const auto& bones = character.skeleton.bones;
+  pose.model_from_bone.resize(bones.size());
+  skinning::multiply_down(
+      character.skeleton, [&](std::size_t bone) { return bones[bone].rest; }, pose.model_from_bone);
+  return pose;
 }
 
 ModelPose bind_pose(const Character& character) {

@@ -1,5 +1,4 @@
-#include <sunder/skinning/pose_set.h>
-#include <sunder/skinning/pose_spec.h>
+#include <sunder/skinning/pose.h>
 
 #include <cmath>
 #include <new>
@@ -10,8 +9,6 @@
 
 namespace sunder {
 namespace {
-
-using Index = std::uint32_t;
 
 constexpr Index kMaximumClipSamples = 65'536;
 
@@ -91,7 +88,7 @@ struct PoseSet::State {
 
 PoseSet::PoseSet(std::shared_ptr<const State> state) : state_(std::move(state)) {}
 
-Result<PoseSet> PoseSet::make(std::shared_ptr<const Character> character, const PoseSetSpec& spec) {
+Result<PoseSet> PoseSet::create(std::shared_ptr<const Character> character, const PoseSetSpec& spec) {
   if (!character) return Status::failure(StatusCode::empty_input, kNone, "no character");
   if (const Status status = validate_character(*character); !status) return status;
   if (spec.clip_samples > kMaximumClipSamples)

@@ -1,13 +1,10 @@
-#include <sunder/skinning/palette.h>
-#include <sunder/skinning/pose_spec.h>
-#include <sunder/skinning/sample_clip.h>
+#include <sunder/skinning/deform.h>
+#include <sunder/skinning/pose.h>
 
 #include <algorithm>
 
 namespace sunder {
 namespace {
-
-using Index = std::uint32_t;
 
 Result<Index> find_clip(const Character& character, const std::variant<std::string, Index>& wanted) {
   const std::size_t count = character.clips.size();
@@ -68,7 +65,7 @@ Result<ModelPose> make_pose(const Character& character, const PoseSpec& spec) {
                              given->morph_weights.size(), character.rest_morph_weights.size());
     return *given;
   }
-  Pose pose = rest_pose(character);
+  Pose pose = local_rest_pose(character);
   if (const Status status = std::visit(ApplyTo(character, pose), spec); !status) return status;
   ModelPose model_pose;
   if (const Status status = compute_model_pose(character.skeleton, pose, model_pose); !status) return status;

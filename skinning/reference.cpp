@@ -1,5 +1,6 @@
-#include <sunder/skinning/palette.h>
-#include <sunder/skinning/reference.h>
+#include "skinning/internal/reference.h"
+
+#include <sunder/skinning/deform.h>
 
 #include "skinning/blend.h"
 

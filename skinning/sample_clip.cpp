@@ -1,4 +1,4 @@
-#include <sunder/skinning/sample_clip.h>
+#include <sunder/skinning/pose.h>
 
 #include <cmath>
 
@@ -6,7 +6,7 @@
 
 namespace sunder {
 
-Pose rest_pose(const Character& character) {
+Pose local_rest_pose(const Character& character) {
   Pose pose;
   pose.parent_from_bone.reserve(character.skeleton.bones.size());
   for (const Bone& bone : character.skeleton.bones) pose.parent_from_bone.push_back(bone.rest);

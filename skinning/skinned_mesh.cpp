@@ -98,7 +98,7 @@ Status check_target(const Blocks& blocks, const PaletteData& palette, const Vert
 struct Tasks {
   SkinWork work;
   const VertexDisplacements* displacements = nullptr;
-  std::span<const Range> ranges;
+  std::span<const IndexRange> ranges;
   std::uint32_t total = 0, count = 0;
 
   /// Poses the blocks of one task.
@@ -115,10 +115,10 @@ struct Tasks {
   }
 
   /// Does `task` for all of `these`. @param least  elements worth a task.
-  void run(std::span<const Range> these, std::uint32_t least, ParallelFor::Task task, const ParallelFor& parallel_for) {
+  void run(std::span<const IndexRange> these, std::uint32_t least, ParallelFor::Task task, const ParallelFor& parallel_for) {
     ranges = these;
     total = 0;
-    for (const Range& range : these) total += range.count;
+    for (const IndexRange& range : these) total += range.count;
     const std::uint32_t threads = std::max(1u, parallel_for.threads), most = total / least;
     count = std::clamp(most / threads, 1u, kTasksAThread) * threads;  // as many for each
     if (most < threads) count = std::max(1u, most);
@@ -137,7 +137,7 @@ struct Tasks {
     const auto boundary = [&](std::uint32_t i) { return static_cast<std::uint32_t>(std::uint64_t{total} * i / count); };
     const std::uint32_t first = boundary(index), end = boundary(index + 1);
     std::uint32_t before = 0;  // elements of earlier ranges
-    for (const Range& range : ranges) {
+    for (const IndexRange& range : ranges) {
       const std::uint32_t from = std::max(first, before), to = std::min(end, before + range.count);
       if (from < to) visit(range.first + from - before, range.first + to - before);
       before += range.count;
@@ -147,9 +147,9 @@ struct Tasks {
 };
 
 /// Makes one of ranges that touch.
-void join(std::vector<Range>& ranges) {
+void join(std::vector<IndexRange>& ranges) {
   std::size_t kept = 0;
-  for (const Range& range : ranges) {
+  for (const IndexRange& range : ranges) {
     if (kept > 0 && ranges[kept - 1].first + ranges[kept - 1].count == range.first)
       ranges[kept - 1].count += range.count;
     else
@@ -159,9 +159,9 @@ void join(std::vector<Range>& ranges) {
 }
 
 /// Vertices of some ranges of blocks, ascending.
-void list_vertices(const Blocks& blocks, std::span<const Range> ranges, std::vector<Range>& vertices) {
+void list_vertices(const Blocks& blocks, std::span<const IndexRange> ranges, std::vector<IndexRange>& vertices) {
   std::uint32_t window = kNone;
-  for (const Range& range : ranges) {
+  for (const IndexRange& range : ranges) {
     const std::uint32_t end = range.first + range.count;
     std::uint32_t b = range.first;
     if (range.count == blocks.block_count()) {
@@ -172,7 +172,7 @@ void list_vertices(const Blocks& blocks, std::span<const Range> ranges, std::vec
       const Block& block = blocks.blocks[b];
       const std::uint32_t first_vertex = block.first_vertex, end_vertex = blocks.last_vertex(block) + 1;
       if (blocks.window(block) == window) {  // in a window blocks are in the order of their bones
-        Range& last = vertices.back();
+        IndexRange& last = vertices.back();
         const std::uint32_t last_end = std::max(last.first + last.count, end_vertex);
         last.first = std::min(last.first, first_vertex);
         last.count = last_end - last.first;
@@ -275,7 +275,7 @@ Status SkinnedMesh::deform(const BonePalette& palette, PosedBuffer& buffer, cons
   if (const Status status = check_target(blocks, data, buffer.target_); !status) return status;
   if (displacements != nullptr)
     if (const Status status = check_displacements(*displacements, blocks.vertex_count); !status) return status;
-  const std::span<const Range> moved = displacements != nullptr ? displacements->moved : std::span<const Range>();
+  const std::span<const IndexRange> moved = displacements != nullptr ? displacements->moved : std::span<const IndexRange>();
   const bool is_known = buffer.palette_ == data.id && buffer.mesh_ == blocks.id;
   buffer.dirty_.clear();
   if (is_known && buffer.palette_revision_ == data.revision && buffer.mesh_revision_ == blocks.revision && moved.empty() &&
@@ -291,7 +291,7 @@ Status SkinnedMesh::deform(const BonePalette& palette, PosedBuffer& buffer, cons
   list_runs(blocks, buffer.marks_, buffer.blocks_to_write_);
   if (!buffer.blocks_to_write_.empty()) {
     std::uint32_t block_count = 0;
-    for (const Range& range : buffer.blocks_to_write_) block_count += range.count;
+    for (const IndexRange& range : buffer.blocks_to_write_) block_count += range.count;
     const std::size_t written = blocks.has_tangents ? 40 : 24;
     const std::size_t bytes = blocks.stream.size() * sizeof(float) + written * blocks.vertex_count;
     Tasks tasks;

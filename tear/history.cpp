@@ -32,10 +32,12 @@ History::Entry& History::next() {
   return *spare_.back();
 }
 
-Range History::next_lips() const { return done_.empty() ? Range{} : Range{done_.back()->lips.first + done_.back()->lips.count, 0}; }
+IndexRange History::next_lips() const {
+  return done_.empty() ? IndexRange{} : IndexRange{done_.back()->lips.first + done_.back()->lips.count, 0};
+}
 
-Range History::next_rim_points() const {
-  return done_.empty() ? Range{} : Range{done_.back()->rim_points.first + done_.back()->rim_points.count, 0};
+IndexRange History::next_rim_points() const {
+  return done_.empty() ? IndexRange{} : IndexRange{done_.back()->rim_points.first + done_.back()->rim_points.count, 0};
 }
 
 void History::make_room_for(std::size_t lips, std::size_t rim_points) {
@@ -45,7 +47,7 @@ void History::make_room_for(std::size_t lips, std::size_t rim_points) {
 
 void History::push(const OpenedBorders& borders) {
   static std::atomic<std::uint64_t> newest_serial = 0;
-  const auto append = [](const auto& values, Range range, auto& all) {
+  const auto append = [](const auto& values, IndexRange range, auto& all) {
     all.resize(range.first);
     all.insert(all.end(), values.begin(), values.end());
     range.count = static_cast<Index>(values.size());

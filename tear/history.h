@@ -1,7 +1,7 @@
 #pragma once
 
-#include <sunder/core/operation.h>
-#include <sunder/core/range.h>
+#include <sunder/core/index.h>
+#include <sunder/operation/operation.h>
 
 #include <memory>
 #include <span>
@@ -21,7 +21,7 @@ class History {
     SurfaceEditor::Redo redo;             ///< Of one that was taken back.
     SurfaceEditor::WeightChange weights;  ///< Of a WeightsOperation: what takes it back, or does it again.
     std::uint64_t serial = 0;             ///< That no other entry has, of any model; given by push().
-    Range lips, rim_points;               ///< Among those of all entries; given by push().
+    IndexRange lips, rim_points;          ///< Among those of all entries; given by push().
 
     /// The operation as one of this kind, to be filled in.
     template <class Kind>
@@ -64,8 +64,8 @@ class History {
   using Entries = std::vector<std::unique_ptr<Entry>>;
   static void move_last(Entries& from, Entries& to);
   /// Where what the next entry opened is to stand: after what was opened by all that are done.
-  [[nodiscard]] Range next_lips() const;
-  [[nodiscard]] Range next_rim_points() const;
+  [[nodiscard]] IndexRange next_lips() const;
+  [[nodiscard]] IndexRange next_rim_points() const;
 
   Entries done_, undone_, spare_;
   OpenedBorders borders_;  ///< Of all entries, the done ones from the oldest on, then those taken back, from the last on.

@@ -5,13 +5,13 @@
 #include <mutex>
 #include <new>
 
-#include "tear/surface/capacity_exceeded.h"
 #include "tear/history.h"
-#include "tear/weights/refit_work.h"
 #include "tear/operation/stroke_tearing.h"
-#include "tear/surface/surface_editor.h"
-#include "tear/weights/weigh.h"
 #include "tear/posed/workpiece.h"
+#include "tear/surface/capacity_exceeded.h"
+#include "tear/surface/surface_editor.h"
+#include "tear/weights/refit_work.h"
+#include "tear/weights/weigh.h"
 
 namespace sunder {
 

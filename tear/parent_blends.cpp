@@ -1,4 +1,4 @@
-#include <sunder/tear/parent_blends.h>
+#include <sunder/tear/torn_weights.h>
 
 #include <algorithm>
 #include <map>

@@ -1,6 +1,6 @@
-#include <sunder/skinning/pose_spec.h>
-#include <sunder/tear/replay.h>
+#include <sunder/skinning/pose.h>
 #include <sunder/tear/tear_stroke.h>
+#include <sunder/tear/torn_model.h>
 
 namespace sunder {
 namespace {
@@ -75,7 +75,7 @@ class Replay {
       return Status::failure(StatusCode::invalid_argument, kNone, "a stroke needs at least two blades");
     const std::uint32_t done_before = model_.undo_count();
     const std::size_t changes_before = changes_ != nullptr ? changes_->size() : 0;
-    auto stroke = TearStroke::begin(model_, first_pose, operation.stroke.front(), operation.options);
+    auto stroke = TearStroke::create(model_, first_pose, operation.stroke.front(), operation.options);
     if (!stroke) return stroke.error();
     std::size_t next_change = 0;
     const ModelPose* pose = &first_pose;

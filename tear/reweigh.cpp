@@ -1,7 +1,7 @@
 // Weights of points that earlier operations made: at once, and by jobs beside the frame.
 
-#include <sunder/skinning/palette.h>
-#include <sunder/skinning/pose_spec.h>
+#include <sunder/skinning/deform.h>
+#include <sunder/skinning/pose.h>
 #include <sunder/tear/refit_job.h>
 
 #include <algorithm>
@@ -67,7 +67,7 @@ Status TornModel::State::reweigh(const WeightsOperation& resolved, const tear::W
 
 Result<WeightReport> TornModel::reweigh(const WeightsOperation& wanted, ChangeRecord* change) {
   if (wanted.weights.policy == WeightPolicy::refit) {
-    const auto job = RefitJob::submit(*this, wanted);
+    const auto job = RefitJob::create(*this, wanted);
     if (!job) return job.error();
     job->run();
     if (job->poll() == RefitJob::State::failed) return job->failure();
@@ -99,7 +99,7 @@ Result<WeightReport> TornModel::reweigh(const WeightsOperation& wanted, ChangeRe
 
 RefitJob::RefitJob(std::shared_ptr<tear::RefitWork> work) : work_(std::move(work)) {}
 
-Result<RefitJob> RefitJob::submit(TornModel& model, const WeightsOperation& wanted) {
+Result<RefitJob> RefitJob::create(TornModel& model, const WeightsOperation& wanted) {
   TornModel::State& state = *model.state_;
   if (Status status = state.may_begin(); !status) return status;
   if (wanted.weights.policy != WeightPolicy::refit)
@@ -107,7 +107,7 @@ Result<RefitJob> RefitJob::submit(TornModel& model, const WeightsOperation& want
   WeightsOperation resolved = wanted;
   if (Status status = state.resolve(resolved); !status) return status;
   resolved.pose = RestPose{};
-  auto poses = PoseSet::make(state.source, wanted.refit.poses);
+  auto poses = PoseSet::create(state.source, wanted.refit.poses);
   if (!poses) return poses.error();
   try {
     const tear::VertexRanges ranges = state.vertices_of(resolved);

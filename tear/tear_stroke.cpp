@@ -117,8 +117,8 @@ TearStroke::~TearStroke() {
   if (state_ && !state_->has_ended) (void)end();
 }
 
-Result<TearStroke> TearStroke::begin(TornModel& model, const ModelPose& pose, const Blade& blade, const TearOptions& options,
-                                     const StrokeSampling& sampling) {
+Result<TearStroke> TearStroke::create(TornModel& model, const ModelPose& pose, const Blade& blade, const TearOptions& options,
+                                      const StrokeSampling& sampling) {
   TornModel::State& of_model = *model.state_;
   if (Status status = of_model.may_begin(); !status) return status;
   if (Status status = validate_options(options); !status) return status;

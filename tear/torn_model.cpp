@@ -4,10 +4,12 @@
 #include <new>
 #include <utility>
 
+#include "tear/internal/surface.h"
+#include "tear/model_state.h"
 #include "tear/operation/cut.h"
 #include "tear/operation/drill.h"
-#include "tear/model_state.h"
 #include "tear/operation/stroke_tearing.h"
+#include "tear/surface/compact.h"
 
 namespace sunder {
 namespace {
@@ -73,7 +75,7 @@ Result<TearReport> TornModel::tear(const ModelPose& pose, std::span<const Blade>
   return report;
 }
 
-Result<TearReport> TornModel::cut(const ModelPose& pose, const Cut& cut, ChangeRecord* change) {
+Result<TearReport> TornModel::cut(const ModelPose& pose, const PlaneCut& cut, ChangeRecord* change) {
   State& state = *state_;
   if (Status status = state.may_begin(); !status) return status;
   if (Status status = tear::validate_cut(cut); !status) return status;

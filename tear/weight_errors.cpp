@@ -1,12 +1,12 @@
-#include <sunder/skinning/palette.h>
-#include <sunder/skinning/pose_spec.h>
-#include <sunder/skinning/reference.h>
-#include <sunder/tear/weight_errors.h>
+#include <sunder/skinning/deform.h>
+#include <sunder/skinning/pose.h>
+#include <sunder/tear/torn_weights.h>
 
 #include <algorithm>
 #include <cmath>
 #include <new>
 
+#include "skinning/internal/reference.h"
 #include "tear/model_state.h"
 
 namespace sunder {

@@ -1,6 +1,5 @@
-#include <sunder/io/load_character.h>
-#include <sunder/io/save_glb.h>
-#include <sunder/skinning/pose_spec.h>
+#include <sunder/io/character_file.h>
+#include <sunder/skinning/pose.h>
 #include <sunder/tear/topology.h>
 #include <sunder/tear/torn_model.h>
 

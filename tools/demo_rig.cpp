@@ -12,8 +12,6 @@
 
 namespace sunder::tools {
 namespace {
-
-using Index = std::uint32_t;
 constexpr double kPi = std::numbers::pi;
 
 // ---- Shape: limbs are chains of capsules, melted together --------------------------------------------------------------------

@@ -1,6 +1,6 @@
 #include "tools/history.h"
 
-#include <sunder/skinning/pose_spec.h>
+#include <sunder/skinning/pose.h>
 
 #include <algorithm>
 #include <iterator>

@@ -1,6 +1,7 @@
 #include "tools/open_lips.h"
 
-#include <sunder/skinning/palette.h>
+#include <sunder/skinning/deform.h>
+#include <sunder/skinning/pose.h>
 
 #include <utility>
 
@@ -18,11 +19,11 @@ Result<OpenLips> OpenLips::create(const TornModel& model) {
   const ModelPose rest = bind_pose(model.character());
   DecompositionOptions options;
   options.range = kRange;
-  Result<ParticleSet> particles = ParticleSet::decompose(model, rest, options);
+  Result<ParticleSet> particles = ParticleSet::create(model, rest, options);
   if (!particles) return particles.error();
   OpenLips lips;
   lips.particles_ = std::make_unique<ParticleSet>(std::move(*particles));
-  const Material tissue;
+  const SoftMaterial tissue;
   Result<SoftBody> body = SoftBody::create(*lips.particles_, rest, std::span(&tissue, 1));
   if (!body) return body.error();
   lips.body_ = std::make_unique<SoftBody>(std::move(*body));

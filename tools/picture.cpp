@@ -1,6 +1,6 @@
 #include "tools/picture.h"
 
-#include <sunder/io/save_glb.h>
+#include <sunder/io/character_file.h>
 
 #include <algorithm>
 #include <array>
@@ -16,8 +16,6 @@
 
 namespace sunder::tools {
 namespace {
-
-using Index = std::uint32_t;
 
 const Vec4f kTissue(0.75f, 0.05f, 0.05f, 1.0f);  // Linear RGBA.
 const Vec4f kRim(1.0f, 0.16f, 0.12f, 1.0f);

@@ -1,6 +1,6 @@
 #include "tools/posed_model.h"
 
-#include <sunder/skinning/palette.h>
+#include <sunder/skinning/deform.h>
 
 namespace sunder::tools {
 namespace {

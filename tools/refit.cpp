@@ -1,6 +1,6 @@
 #include "tools/refit.h"
 
-#include <sunder/skinning/pose_set.h>
+#include <sunder/skinning/pose.h>
 
 #include <utility>
 
@@ -26,7 +26,7 @@ const char* refit_over_name(RefitOver over) {
 
 Result<std::optional<RefitOver>> choose_poses(std::shared_ptr<const Character> character, std::optional<RefitOver> asked) {
   const RefitOver over = asked.value_or(RefitOver::both);
-  const auto poses = PoseSet::make(std::move(character), pose_set_of(over));
+  const auto poses = PoseSet::create(std::move(character), pose_set_of(over));
   if (poses) return std::optional(over);
   if (!asked && poses.error().code() == StatusCode::empty_input) return std::optional<RefitOver>();
   return poses.error();

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <sunder/core/operation.h>
+#include <sunder/operation/operation.h>
 #include <sunder/tear/torn_model.h>
 
 #include <memory>

@@ -1,7 +1,7 @@
 #include "tools/report.h"
 
-#include <sunder/tear/replay.h>
-#include <sunder/tear/weight_errors.h>
+#include <sunder/tear/torn_model.h>
+#include <sunder/tear/torn_weights.h>
 
 #include <chrono>
 #include <cinttypes>
@@ -45,9 +45,9 @@ Names names_of(const Operation& operation) {
   return std::visit(Visitor(), operation);
 }
 
-Json piece_json(const Piece& piece, const Character& character) {
+Json piece_json(const TornPiece& piece, const Character& character) {
   Json meshes = Json::array(), bones = Json::array();
-  for (const Piece::Triangles& part : piece.meshes)
+  for (const TornPiece::Triangles& part : piece.meshes)
     meshes.push_back({{"mesh", character.meshes[part.mesh].name}, {"index", part.mesh}, {"triangle_count", part.triangles.size()}});
   for (const std::uint32_t bone : piece.bones) bones.push_back(character.skeleton.bones[bone].name);
   return {{"meshes", std::move(meshes)},
@@ -126,7 +126,7 @@ Json to_json(const OperationOutcome& outcome, const Character& character) {
     return Json{{"before", before}, {"after", after}};
   };
   Json pieces = Json::array();
-  for (const Piece& piece : tear.pieces) pieces.push_back(piece_json(piece, character));
+  for (const TornPiece& piece : tear.pieces) pieces.push_back(piece_json(piece, character));
   return {{"op", outcome.op},
           {"status", outcome.has_missed ? "missed" : outcome.done},
           {"seconds", outcome.seconds},

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <sunder/core/operation.h>
-#include <sunder/io/load_character.h>
+#include <sunder/io/character_file.h>
+#include <sunder/operation/operation.h>
 #include <sunder/tear/topology.h>
 #include <sunder/tear/torn_model.h>
 

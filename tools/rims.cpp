@@ -7,8 +7,6 @@
 namespace sunder::tools {
 namespace {
 
-using Index = std::uint32_t;
-
 struct Corner {
   Index mesh, triangle, corner;
 

@@ -26,14 +26,14 @@ std::vector<Vec2d> along_trunk(double from, double to) {
 }
 
 void draw_decomposition(const std::string& folder) {
-  const SoftScene scene({Material()}, kRange);
+  const SoftScene scene({SoftMaterial()}, kRange);
   std::printf("decomposition: %u particles of %u points\n", scene.particles->particle_count(), scene.particles->report().points);
   scene.draw_particles(folder + "/particles_decomposition.png");
 }
 
 /// The same point pulled the same way, before and after a tear beside it.
 void draw_pull(const std::string& folder, bool is_torn) {
-  SoftScene scene({Material()}, kRange);
+  SoftScene scene({SoftMaterial()}, kRange);
   std::uint32_t held = scene.point_at({0, 1.3, 0.16}), other = held;
   if (is_torn) {
     scene.tear(along_trunk(1.58, 1.02));
@@ -49,7 +49,7 @@ void draw_pull(const std::string& folder, bool is_torn) {
 }
 
 void draw_gap(const std::string& folder) {
-  SoftScene scene({Material()}, kRange);
+  SoftScene scene({SoftMaterial()}, kRange);
   scene.tear(along_trunk(1.58, 1.02));
   if (!scene.body->set_tension({1.2, {}})) std::exit(1);
   const int steps = scene.step_until_still();
@@ -62,11 +62,11 @@ void draw_gap(const std::string& folder) {
 }
 
 void draw_running(const std::string& folder) {
-  Material tough;
+  SoftMaterial tough;
   tough.return_stiffness = 100;
   tough.neighbour_stiffness = 1600;
   tough.damping_ratio = 1.5;
-  Material weak = tough;
+  SoftMaterial weak = tough;
   weak.strength = 1.8;
   SoftScene scene({tough, weak}, 0.05);
   // Only the front: what is held must not tear out.

@@ -1,7 +1,7 @@
 #include "tools/soft_scene.h"
 
-#include <sunder/skinning/palette.h>
-#include <sunder/skinning/pose_spec.h>
+#include <sunder/skinning/deform.h>
+#include <sunder/skinning/pose.h>
 #include <sunder/skinning/skinned_mesh.h>
 
 #include <algorithm>
@@ -49,14 +49,14 @@ Vec4f color_of(std::uint32_t particle) {
 
 }  // namespace
 
-SoftScene::SoftScene(const std::vector<Material>& materials, double range)
+SoftScene::SoftScene(const std::vector<SoftMaterial>& materials, double range)
     : source(std::make_shared<const Character>(make_cactus())) {
   model = std::make_unique<TornModel>(check(TornModel::create(source)));
   rest = bind_pose(*source);
   pose = check(make_pose(*source, ClipPose{std::uint32_t{0}, kClipFraction * static_cast<double>(source->clips[0].duration)}));
   DecompositionOptions options;
   options.range = range;
-  particles = std::make_unique<ParticleSet>(check(ParticleSet::decompose(*model, rest, options)));
+  particles = std::make_unique<ParticleSet>(check(ParticleSet::create(*model, rest, options)));
   body = std::make_unique<SoftBody>(check(SoftBody::create(*particles, rest, materials)));
   diagonal_ = bounds_of(*source, check(pose_model(*source, rest))).size().norm();
   check(body->step(*model, pose, 0));
@@ -127,7 +127,7 @@ std::vector<DeformedMesh> SoftScene::displaced() const {
     target.unit_length = true;
     PosedBuffer buffer(target);
     // First: it lets the body follow the last tear.
-    const std::span<const Range> moved = body->moved_vertices(*model, m);
+    const std::span<const IndexRange> moved = body->moved_vertices(*model, m);
     const VertexDisplacements soft = {particles->vertex_points(m),  particles->influences(), body->displacements(), moved,
                                       particles->gradients(*model), body->rotations()};
     check(skinned.deform(palette, buffer, {}, &soft));

@@ -17,7 +17,7 @@ namespace sunder::tools {
 class SoftScene {
  public:
   /// @param range  of the particles, of the diagonal.
-  SoftScene(const std::vector<Material>& materials, double range);
+  SoftScene(const std::vector<SoftMaterial>& materials, double range);
 
   /// Places at rest, which blades from the front pass one after another; the body does not move.
   void tear(const std::vector<Vec2d>& path);

@@ -7,7 +7,6 @@ namespace sunder::tools {
 namespace {
 
 using Field = std::function<double(const Vec3d&)>;
-using Index = std::uint32_t;
 
 Vec3d gradient(const Field& field, const Vec3d& position) {
   constexpr double kStep = 1e-4;

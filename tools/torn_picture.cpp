@@ -1,7 +1,7 @@
 #include "tools/torn_picture.h"
 
-#include <sunder/skinning/pose_spec.h>
-#include <sunder/tear/replay.h>
+#include <sunder/skinning/pose.h>
+#include <sunder/tear/torn_model.h>
 
 #include <algorithm>
 #include <cmath>
@@ -103,12 +103,12 @@ Camera aim(const ViewFrame& frame, const std::vector<Vec3d>& wound, const Bounds
 }
 
 /// Moves the pieces that a cut left to the two sides of its plane.
-void move_apart(const Character& character, const Cut& cut, const std::vector<Piece>& pieces, double distance,
+void move_apart(const Character& character, const PlaneCut& cut, const std::vector<TornPiece>& pieces, double distance,
                 std::vector<DeformedMesh>& posed) {
   const Vec3d normal = cut.normal.normalized();
-  for (const Piece& piece : pieces) {
+  for (const TornPiece& piece : pieces) {
     const double side = (piece.centroid_posed - cut.point).dot(normal) < 0 ? -1.0 : 1.0;
-    for (const Piece::Triangles& part : piece.meshes) {
+    for (const TornPiece::Triangles& part : piece.meshes) {
       std::vector<std::uint32_t> vertices;
       for (const std::uint32_t t : part.triangles)
         for (const std::uint32_t vertex : character.meshes[part.mesh].triangles[t]) vertices.push_back(vertex);
@@ -134,7 +134,7 @@ Status draw_torn(std::shared_ptr<const Character> source, std::span<const Operat
   if (!lips) return lips.error();
   const Result<std::vector<DeformedMesh>> untorn = pose_model(character, *pose);
   if (!untorn) return untorn.error();
-  std::vector<Piece> pieces;
+  std::vector<TornPiece> pieces;
   for (const Operation& operation : history) {
     std::vector<ChangeRecord> changes;
     const Result<TearReport> report = apply_operation(*torn, operation, &changes);

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <sunder/core/character.h>
-#include <sunder/core/operation.h>
+#include <sunder/operation/operation.h>
 
 #include <filesystem>
 #include <memory>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <sunder/io/save_glb.h>
+#include <sunder/io/character_file.h>
 
 #include <filesystem>
 #include <optional>

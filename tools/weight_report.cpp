@@ -1,7 +1,7 @@
 #include "tools/weight_report.h"
 
-#include <sunder/skinning/pose_set.h>
-#include <sunder/tear/weight_errors.h>
+#include <sunder/skinning/pose.h>
+#include <sunder/tear/torn_weights.h>
 
 #include <algorithm>
 #include <cmath>
@@ -25,7 +25,7 @@ bool is_finite(const ModelPose& pose) {
 
 Status add_poses(std::shared_ptr<const Character> source, const PoseSetSpec& spec, const char* fit_name, const char* held_out_name,
                  std::vector<MeasuredPoses>& sets) {
-  const Result<PoseSet> set = PoseSet::make(std::move(source), spec);
+  const Result<PoseSet> set = PoseSet::create(std::move(source), spec);
   if (!set) return set.error().code() == StatusCode::limit_exceeded ? set.error() : Status();
   for (const auto& [role, name] : {std::pair(PoseSet::Role::fit, fit_name), std::pair(PoseSet::Role::held_out, held_out_name)}) {
     const std::size_t count = set->size(role);

@@ -1,8 +1,8 @@
 #include "tools/written_influences.h"
 
-#include <sunder/skinning/palette.h>
-#include <sunder/skinning/pose_spec.h>
-#include <sunder/weights/prune.h>
+#include <sunder/skinning/deform.h>
+#include <sunder/skinning/pose.h>
+#include <sunder/weights/influences.h>
 
 #include <algorithm>
 #include <vector>

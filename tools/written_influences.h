@@ -1,6 +1,8 @@
 #pragma once
 
-#include <sunder/io/save_glb.h>
+#include <sunder/io/character_file.h>
+#include <sunder/skinning/deform.h>
+#include <sunder/skinning/pose.h>
 #include <sunder/tear/torn_model.h>
 
 #include "tools/report.h"

@@ -1,4 +1,4 @@
-#include <sunder/weights/animation_point.h>
+#include "weights/internal/animation_point.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include <sunder/weights/bind_position.h>
+#include "weights/internal/bind_position.h"
 
 #include <algorithm>
 

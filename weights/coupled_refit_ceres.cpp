@@ -1,5 +1,3 @@
-#include <sunder/weights/coupled_refit.h>
-
 #include <algorithm>
 #include <cmath>
 #include <deque>
@@ -14,6 +12,7 @@
 #include <ceres/sphere_manifold.h>
 #include <ceres/types.h>
 
+#include "weights/internal/coupled_refit.h"
 #include "weights/refit_terms.h"
 
 namespace sunder {

@@ -1,4 +1,4 @@
-#include <sunder/weights/point_refit.h>
+#include "weights/internal/point_refit.h"
 
 #include <algorithm>
 #include <cmath>

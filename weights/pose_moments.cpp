@@ -1,4 +1,4 @@
-#include <sunder/weights/pose_moments.h>
+#include "weights/internal/pose_moments.h"
 
 #include <algorithm>
 

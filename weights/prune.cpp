@@ -1,4 +1,4 @@
-#include <sunder/weights/prune.h>
+#include <sunder/weights/influences.h>
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include <sunder/weights/quantise.h>
+#include <sunder/weights/influences.h>
 
 #include <cmath>
 #include <limits>

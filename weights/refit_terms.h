@@ -1,9 +1,9 @@
 #pragma once
 
-#include <sunder/weights/point_refit.h>
-
 #include <span>
 #include <vector>
+
+#include "weights/internal/point_refit.h"
 
 namespace sunder::weights {
 

@@ -1,7 +1,6 @@
 #include "io/gltf/influence_sets.h"
 
-#include <sunder/weights/prune.h>
-#include <sunder/weights/quantise.h>
+#include <sunder/weights/influences.h>
 
 #include <algorithm>
 #include <span>

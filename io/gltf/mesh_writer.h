@@ -1,7 +1,7 @@
 #pragma once
 
 #include <sunder/core/mesh.h>
-#include <sunder/io/save_glb.h>
+#include <sunder/io/character_file.h>
 
 #include "io/gltf/glb.h"
 #include "io/gltf/influence_sets.h"

@@ -16,8 +16,6 @@
 namespace sunder::gltf {
 namespace {
 
-using Index = std::uint32_t;
-
 /// Linear RGB for submeshes in their order: leaf, blossom, clay, earth, sky, sand, plum, moss.
 constexpr std::array<std::array<double, 3>, 8> kColors = {{{0.30, 0.62, 0.22},
                                                            {0.92, 0.38, 0.52},

@@ -97,7 +97,7 @@ Json header(const TearOperation& tear) {
 }
 
 Json header(const CutOperation& operation) {
-  const Cut& cut = operation.cut;
+  const PlaneCut& cut = operation.cut;
   Json json = {{"op", "cut"},
                {"pose", pose_json(operation.pose)},
                {"plane", {{"point", vector_json(cut.point)}, {"normal", vector_json(cut.normal)}}}};

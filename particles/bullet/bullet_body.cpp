@@ -20,8 +20,6 @@ static_assert(sizeof(btScalar) == sizeof(float), "the world of the host has sing
 namespace sunder {
 namespace particles {
 namespace {
-
-using Index = std::uint32_t;
 using Columns = Eigen::Matrix3Xd;
 
 /// Until the first substep tells.
@@ -313,7 +311,7 @@ class BulletParticles final : public btActionInterface {
     if (!(options_.neighbour_stiffness > 0)) return pairs;
     std::vector<double> coupled(set.particle_count(), 0.0);
     for (Index a = 0; a < set.particle_count(); ++a)
-      for (const Neighbour& neighbour : set.neighbours(a)) {
+      for (const ParticleNeighbour& neighbour : set.neighbours(a)) {
         if (neighbour.particle <= a) continue;
         const double coupling = set.coupling(a, neighbour);
         if (!(coupling > 0)) continue;

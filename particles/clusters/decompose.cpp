@@ -5,6 +5,7 @@
 
 #include "particles/clusters/pair_sums.h"
 #include "particles/clusters/rest_terms.h"
+#include "tear/internal/surface.h"
 
 namespace sunder::particles {
 namespace {

@@ -1,5 +1,7 @@
 #include "particles/clusters/gradients.h"
 
+#include "tear/internal/surface.h"
+
 namespace sunder::particles {
 namespace {
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "particles/clusters/structure.h"
+#include "tear/internal/surface.h"
 
 namespace sunder::particles {
 

@@ -4,11 +4,11 @@
 
 namespace sunder::particles {
 
-ParticleInfluences influences_from(std::span<const Membership> memberships) {
+ParticleInfluences influences_from(std::span<const ParticleMembership> memberships) {
   // The five largest shares, descending; of equal ones the lower particle first. A share's bits and, below them, a particle's are
   // one number to sort by, without branches that could not be guessed.
   std::uint64_t first = 0, second = 0, third = 0, fourth = 0, fifth = 0;
-  for (const Membership& membership : memberships) {
+  for (const ParticleMembership& membership : memberships) {
     std::uint64_t key = std::uint64_t{std::bit_cast<std::uint32_t>(falloff(membership.reach))} << 32u | ~membership.particle;
     for (std::uint64_t* const of : {&first, &second, &third, &fourth, &fifth}) {
       const std::uint64_t change = (*of ^ key) & (std::uint64_t{0} - static_cast<std::uint64_t>(key > *of));

@@ -1,10 +1,11 @@
 #pragma once
 
+#include <sunder/core/index.h>
 #include <sunder/tear/torn_model.h>
 
-namespace sunder::particles {
+#include "tear/internal/surface.h"
 
-using tear::Index;
+namespace sunder::particles {
 using tear::Surface;
 
 /// The borders of the surface as it would be without the walls and caps that close it.

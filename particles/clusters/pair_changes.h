@@ -1,7 +1,7 @@
 #pragma once
 
-#include "particles/front/marks.h"
 #include "particles/clusters/structure.h"
+#include "particles/front/marks.h"
 
 namespace sunder::particles {
 
@@ -61,9 +61,9 @@ class PairChanges {
     return row_of_[particle];
   }
 
-  static void add_to(std::vector<Neighbour>& neighbours, Index other, std::int32_t points, double shared) {
+  static void add_to(std::vector<ParticleNeighbour>& neighbours, Index other, std::int32_t points, double shared) {
     auto at = std::lower_bound(neighbours.begin(), neighbours.end(), other,
-                               [](const Neighbour& neighbour, Index particle) { return neighbour.particle < particle; });
+                               [](const ParticleNeighbour& neighbour, Index particle) { return neighbour.particle < particle; });
     if (at == neighbours.end() || at->particle != other) at = neighbours.insert(at, {other, 0, 0.0});
     at->points = static_cast<Index>(static_cast<std::int32_t>(at->points) + points);
     at->shared += shared;

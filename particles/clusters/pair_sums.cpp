@@ -84,7 +84,7 @@ void sum_pairs(Structure& structure) {
     structure.particles[low].neighbours.push_back({high, of.points, of.shared});
     structure.particles[high].neighbours.push_back({low, of.points, of.shared});
   });
-  for (Particle& particle : structure.particles) std::ranges::sort(particle.neighbours, {}, &Neighbour::particle);
+  for (Particle& particle : structure.particles) std::ranges::sort(particle.neighbours, {}, &ParticleNeighbour::particle);
 }
 
 }  // namespace sunder::particles

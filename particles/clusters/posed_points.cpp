@@ -1,6 +1,6 @@
 #include "particles/clusters/posed_points.h"
 
-#include <sunder/skinning/palette.h>
+#include <sunder/skinning/deform.h>
 
 namespace sunder::particles {
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "tear/internal/surface.h"
+
 namespace sunder::particles {
 namespace {
 

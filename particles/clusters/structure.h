@@ -40,7 +40,7 @@ struct Particle {
   double weight = 0;  ///< Sum of what influences give it.
   std::vector<RestTerm> terms;
   std::vector<RestMorphTerm> morph_terms;
-  std::vector<Neighbour> neighbours;  ///< Ascending.
+  std::vector<ParticleNeighbour> neighbours;  ///< Ascending.
   ParticleInfluences parents;
   struct OfTear {
     Index tear = 0;
@@ -128,7 +128,7 @@ struct Structure {
     Index first = 0, count = 0;
   };
   std::vector<Slab> slabs;
-  std::vector<Membership> memberships;
+  std::vector<ParticleMembership> memberships;
   std::vector<ParticleInfluences> influences;
   std::vector<LipPoint> lip_points;
   std::vector<OnLip> older_lips;  ///< Grows only: what undo takes back, redo may need again.
@@ -163,7 +163,7 @@ struct Structure {
   void make_room(std::size_t points);
 
   [[nodiscard]] Index point_count() const { return static_cast<Index>(positions.size()); }
-  [[nodiscard]] std::span<const Membership> memberships_of(Index point) const {
+  [[nodiscard]] std::span<const ParticleMembership> memberships_of(Index point) const {
     return {memberships.data() + slabs[point].first, slabs[point].count};
   }
   /// Calls visit(tear, side) for each lip that a point is on, the newest first.
@@ -183,8 +183,8 @@ struct Structure {
   void put_on_lip(Index point, Index tear, Side side);
   /// Ascending.
   [[nodiscard]] std::vector<Index> members_of(Index particle) const;
-  [[nodiscard]] const Membership* find(Index point, Index particle) const {
-    for (const Membership& membership : memberships_of(point))
+  [[nodiscard]] const ParticleMembership* find(Index point, Index particle) const {
+    for (const ParticleMembership& membership : memberships_of(point))
       if (membership.particle == particle) return &membership;
     return nullptr;
   }
@@ -222,6 +222,6 @@ void exchange(Structure& structure, Change& change);
 [[nodiscard]] std::vector<Index> find_tips(const TornModel& model, const Structure& structure);
 
 /// Influences from memberships: the four largest shares, less the fifth, so that nothing jumps where another becomes the fourth.
-[[nodiscard]] ParticleInfluences influences_from(std::span<const Membership> memberships);
+[[nodiscard]] ParticleInfluences influences_from(std::span<const ParticleMembership> memberships);
 
 }  // namespace sunder::particles

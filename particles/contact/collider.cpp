@@ -11,13 +11,13 @@ SurfaceDistance from_round(const Vec3d& away, double radius) {
   return {length - radius, length > 0 ? Vec3d(away / length) : Vec3d(Vec3d::UnitX())};
 }
 
-SurfaceDistance distance_in_frame(const Sphere& sphere, const Vec3d& p) { return from_round(p, sphere.radius); }
+SurfaceDistance distance_in_frame(const Collider::Sphere& sphere, const Vec3d& p) { return from_round(p, sphere.radius); }
 
-SurfaceDistance distance_in_frame(const Capsule& capsule, const Vec3d& p) {
+SurfaceDistance distance_in_frame(const Collider::Capsule& capsule, const Vec3d& p) {
   return from_round({p.x(), p.y() - std::clamp(p.y(), -capsule.half_length, capsule.half_length), p.z()}, capsule.radius);
 }
 
-SurfaceDistance distance_in_frame(const Box& box, const Vec3d& p) {
+SurfaceDistance distance_in_frame(const Collider::Box& box, const Vec3d& p) {
   const Vec3d beyond = p.cwiseAbs() - box.half_size;
   const auto signed_axis = [&](Eigen::Index axis, double length) {
     Vec3d v = Vec3d::Zero();
@@ -34,7 +34,7 @@ SurfaceDistance distance_in_frame(const Box& box, const Vec3d& p) {
   return length > 0 ? SurfaceDistance{length, away / length} : SurfaceDistance{0, signed_axis(nearest, 1)};
 }
 
-SurfaceDistance distance_in_frame(const HalfSpace&, const Vec3d& p) { return {p.y(), Vec3d::UnitY()}; }
+SurfaceDistance distance_in_frame(const Collider::HalfSpace&, const Vec3d& p) { return {p.y(), Vec3d::UnitY()}; }
 
 }  // namespace
 
@@ -58,12 +58,12 @@ Status validate_collider(const Collider& collider) {
     return Status::failure(StatusCode::invalid_argument, kNone, "its %s is %g; it must be finite and %s 0", name, value,
                            may_be_zero ? "not below" : "above");
   };
-  if (const auto* sphere = std::get_if<Sphere>(&collider.shape)) return check("radius", sphere->radius, false);
-  if (const auto* capsule = std::get_if<Capsule>(&collider.shape)) {
+  if (const auto* sphere = std::get_if<Collider::Sphere>(&collider.shape)) return check("radius", sphere->radius, false);
+  if (const auto* capsule = std::get_if<Collider::Capsule>(&collider.shape)) {
     if (Status status = check("radius", capsule->radius, false); !status) return status;
     return check("half length", capsule->half_length, true);
   }
-  if (const auto* box = std::get_if<Box>(&collider.shape))
+  if (const auto* box = std::get_if<Collider::Box>(&collider.shape))
     for (const double half : {box->half_size.x(), box->half_size.y(), box->half_size.z()})
       if (Status status = check("half size", half, false); !status) return status;
   return {};

@@ -16,7 +16,7 @@ void choose(const ParticleSet& set, Index particle, ContactPoints::Points& chose
   for (const Index point : set.members(particle)) {
     const ParticleInfluences& of = set.influences()[point];
     if (!(of.weights[0] > 0) || of.particles[0] != particle) continue;
-    for (const Membership& membership : set.memberships(point))
+    for (const ParticleMembership& membership : set.memberships(point))
       if (membership.particle == particle) candidates.push_back({membership.reach, point});
   }
   std::sort(candidates.begin(), candidates.end());

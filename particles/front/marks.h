@@ -1,12 +1,12 @@
 #pragma once
 
-#include <sunder/tear/surface.h>
+#include <sunder/core/index.h>
 
 #include <utility>
 
-namespace sunder::particles {
+#include "tear/internal/surface.h"
 
-using tear::Index;
+namespace sunder::particles {
 
 /// Numbers that are marked. Forgetting all of them costs nothing.
 class Marks {

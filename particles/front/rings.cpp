@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "tear/internal/surface.h"
+
 namespace sunder::particles {
 namespace {
 

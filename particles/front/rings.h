@@ -1,15 +1,15 @@
 #pragma once
 
-#include <sunder/core/prefetch.h>
-#include <sunder/tear/surface.h>
+#include <sunder/core/index.h>
 
 #include <array>
 #include <span>
 #include <vector>
 
-namespace sunder::particles {
+#include "core/internal/prefetch.h"
+#include "tear/internal/surface.h"
 
-using tear::Index;
+namespace sunder::particles {
 using tear::Surface;
 
 /// How many points a RingBlock has, and how many faces.

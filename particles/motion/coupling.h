@@ -32,7 +32,7 @@ class CouplingSolver {
     const SpringGraph& graph;
     std::span<const Index> active;      ///< Particles that move, ascending; the others stay where they are.
     std::span<const SpringStep> steps;  ///< One a material.
-    std::span<const Material> materials;
+    std::span<const SoftMaterial> materials;
     std::span<const Index> material_of;         ///< One a particle.
     std::span<const Vec3d> places, velocities;  ///< One a particle: p, q; of those that do not move, u and 0.
     std::span<const PointPull> pulls;

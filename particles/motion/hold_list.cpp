@@ -60,7 +60,7 @@ void HoldList::follow(const ParticleSet& set) {
 }
 
 void HoldList::begin_step(const TornModel& model, const ModelPose& pose, const RestMotion& rests,
-                          std::span<const Material> materials, PointPlaces& places, Motion& motion) {
+                          std::span<const SoftMaterial> materials, PointPlaces& places, Motion& motion) {
   pulls_.clear();
   for (Hold& hold : holds_) {
     PointPull& pull = pulls_.emplace_back();

@@ -32,7 +32,7 @@ class HoldList {
   }
 
   /// Sets up pulls() for a step, and wakes those whose pull is another than in the last one.
-  void begin_step(const TornModel& model, const ModelPose& pose, const RestMotion& rests, std::span<const Material> materials,
+  void begin_step(const TornModel& model, const ModelPose& pose, const RestMotion& rests, std::span<const SoftMaterial> materials,
                   PointPlaces& places, Motion& motion);
   [[nodiscard]] std::span<const PointPull> pulls() const { return pulls_; }
 

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 
+#include "tear/internal/surface.h"
+
 namespace sunder::particles {
 
-std::span<const Range> MovedVertices::of(const ParticleSet& set, const TornModel& model, Index mesh, std::uint64_t key,
-                                         std::span<const std::uint8_t> is_displaced) {
+std::span<const IndexRange> MovedVertices::of(const ParticleSet& set, const TornModel& model, Index mesh, std::uint64_t key,
+                                              std::span<const std::uint8_t> is_displaced) {
   if (meshes_.size() <= mesh) meshes_.resize(mesh + 1);
   OfMesh& found = meshes_[mesh];
   if (found.key == key) return found.ranges;

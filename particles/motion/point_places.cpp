@@ -1,6 +1,6 @@
 #include "particles/motion/point_places.h"
 
-#include <sunder/skinning/palette.h>
+#include <sunder/skinning/deform.h>
 
 #include "particles/clusters/rest_terms.h"
 

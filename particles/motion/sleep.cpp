@@ -14,9 +14,9 @@ constexpr double kQuietSeconds = 0.5;
 
 }  // namespace
 
-Pull pull_on(Index p, const SpringGraph& graph, std::span<const Material> materials, const RestMotion& rests, const Vec3d& gravity,
-             const Motion& motion) {
-  const Material& material = materials[motion.material_of[p]];
+Pull pull_on(Index p, const SpringGraph& graph, std::span<const SoftMaterial> materials, const RestMotion& rests,
+             const Vec3d& gravity, const Motion& motion) {
+  const SoftMaterial& material = materials[motion.material_of[p]];
   const Vec3d outer = motion.forces[p] + rests.turn(p) * motion.lip_forces[p];
   Vec3d inner = Vec3d::Zero();
   double stiffness = 0;

@@ -11,8 +11,8 @@ struct Pull {
   bool is_pushed = false;              ///< Whether anything but springs acts.
   double stiffness = 0;                ///< Of all springs, 1/s^2.
 };
-[[nodiscard]] Pull pull_on(Index particle, const SpringGraph& graph, std::span<const Material> materials, const RestMotion& rests,
-                           const Vec3d& gravity, const Motion& motion);
+[[nodiscard]] Pull pull_on(Index particle, const SpringGraph& graph, std::span<const SoftMaterial> materials,
+                           const RestMotion& rests, const Vec3d& gravity, const Motion& motion);
 
 /// Who is quiet and who feels what. Places are compared with a particle's range, which is the scale at which displacements show.
 class Sleep {
@@ -20,7 +20,7 @@ class Sleep {
   struct World {
     const ParticleSet& set;
     const SpringGraph& graph;
-    std::span<const Material> materials;
+    std::span<const SoftMaterial> materials;
     const RestMotion& rests;
     Vec3d gravity;
   };

@@ -5,7 +5,7 @@
 
 namespace sunder::particles {
 
-Spring spring_between(const Material& a, const Material& b, double coupling) {
+Spring spring_between(const SoftMaterial& a, const SoftMaterial& b, double coupling) {
   const double mass = 0.5 * (a.mass + b.mass), ratio = 0.5 * (a.damping_ratio + b.damping_ratio);
   const double stiffness = 0.5 * (a.neighbour_stiffness + b.neighbour_stiffness);
   Spring spring;
@@ -18,11 +18,12 @@ Spring spring_between(const Material& a, const Material& b, double coupling) {
   return spring;
 }
 
-void connect(const ParticleSet& set, std::span<const Material> materials, std::span<const Index> material_of, SpringGraph& graph) {
+void connect(const ParticleSet& set, std::span<const SoftMaterial> materials, std::span<const Index> material_of,
+             SpringGraph& graph) {
   graph.springs.clear();
   graph.first.assign(1, 0);
   for (Index p = 0; p < set.particle_count(); ++p) {
-    for (const Neighbour& neighbour : set.neighbours(p)) {
+    for (const ParticleNeighbour& neighbour : set.neighbours(p)) {
       Spring spring =
           spring_between(materials[material_of[p]], materials[material_of[neighbour.particle]], set.coupling(p, neighbour));
       spring.other = neighbour.particle;

@@ -8,8 +8,6 @@
 
 namespace sunder::particles {
 
-using Index = std::uint32_t;
-
 /// A spring from a particle to a neighbour. Both have it, with the same numbers, so that their forces are opposite.
 struct Spring {
   Index other = 0;
@@ -31,9 +29,10 @@ struct SpringGraph {
 
 /// Materials that differ meet half-way: stiffness, ratio and mass of their spring are the means, its stretch limit the lesser.
 /// @param material_of  one a particle. O(pairs of neighbours).
-void connect(const ParticleSet& set, std::span<const Material> materials, std::span<const Index> material_of, SpringGraph& graph);
+void connect(const ParticleSet& set, std::span<const SoftMaterial> materials, std::span<const Index> material_of,
+             SpringGraph& graph);
 
 /// The spring of two materials, before its other end is known.
-[[nodiscard]] Spring spring_between(const Material& a, const Material& b, double coupling);
+[[nodiscard]] Spring spring_between(const SoftMaterial& a, const SoftMaterial& b, double coupling);
 
 }  // namespace sunder::particles

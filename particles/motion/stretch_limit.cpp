@@ -22,7 +22,7 @@ Pair pair_of(const RestMotion& rests, const Motion& motion, Index p, const Sprin
 
 /// Calls visit(particle, spring, pair, part of the first, part of the second) for pairs that are limited, once each.
 template <class Visit>
-void for_each_limited(const SpringGraph& graph, std::span<const Material> materials, const RestMotion& rests,
+void for_each_limited(const SpringGraph& graph, std::span<const SoftMaterial> materials, const RestMotion& rests,
                       std::span<const Index> active, const Motion& motion, Visit visit) {
   for (const Index p : active)
     for (const Spring& spring : graph.of(p)) {
@@ -38,7 +38,7 @@ void for_each_limited(const SpringGraph& graph, std::span<const Material> materi
 
 }  // namespace
 
-void limit_stretch(const SpringGraph& graph, std::span<const Material> materials, const RestMotion& rests,
+void limit_stretch(const SpringGraph& graph, std::span<const SoftMaterial> materials, const RestMotion& rests,
                    std::span<const Index> active, Motion& motion, std::vector<Index>& pulled) {
   pulled.clear();
   bool is_reached = false;

@@ -9,7 +9,7 @@ namespace sunder::particles {
 /// pair, until all are within a ten thousandth or nothing more helps. Particles that sleep stay; those that are pulled at are
 /// woken. Nothing is written where no limit is reached. Position based, after Müller, Heidelberger, Hennix, Ratcliff 2007
 /// [mueller2007position]. @param active  who moves, ascending. @param pulled  scratch. O(springs of those x sweeps).
-void limit_stretch(const SpringGraph& graph, std::span<const Material> materials, const RestMotion& rests,
+void limit_stretch(const SpringGraph& graph, std::span<const SoftMaterial> materials, const RestMotion& rests,
                    std::span<const Index> active, Motion& motion, std::vector<Index>& pulled);
 
 }  // namespace sunder::particles

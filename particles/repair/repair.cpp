@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "particles/clusters/decompose.h"
+#include "tear/internal/surface.h"
 
 namespace sunder::particles {
 namespace {
@@ -184,12 +185,12 @@ bool Repair::spread_to(Index point) {
     has_any = true;
     const bool has_next = i + 1 < around.size() && knows(around.point(i + 1));
     for (std::size_t m = 0; m < current(around.point(i)).size(); ++m) {  // join() moves them
-      const Membership membership = current(around.point(i))[m];
+      const ParticleMembership membership = current(around.point(i))[m];
       if (!may_join(point, membership.particle)) continue;
       const float range = structure_.particles[membership.particle].range, at = membership.reach * range;
       float distance = at + around.length(i);
       if (has_next)
-        for (const Membership& beside : current(around.point(i + 1)))
+        for (const ParticleMembership& beside : current(around.point(i + 1)))
           if (beside.particle == membership.particle)
             distance = std::min(distance, std::sqrt(one_by_one::square_across(around.opposite(i), around.length(i),
                                                                               around.length(i + 1), at, beside.reach * range)));
@@ -224,10 +225,10 @@ void Repair::renew_weights(std::span<const ChangeRecord> changes) {
     for (const MeshChange& of_mesh : change.meshes) {
       // Of what tears append only the vertices themselves are new, and nobody knew them.
       if (of_mesh.vertex_count > 0 || of_mesh.triangle_count > 0 || !of_mesh.rewritten.empty()) continue;
-      for (const Range& range : of_mesh.dirty_vertices)
+      for (const IndexRange& range : of_mesh.dirty_vertices)
         for (Index vertex = range.first; vertex < range.first + range.count; ++vertex)
           if (const Index point = structure_.vertex_points[of_mesh.mesh][vertex]; point != kNone)
-            for (const Membership& membership : structure_.memberships_of(point)) particles.push_back(membership.particle);
+            for (const ParticleMembership& membership : structure_.memberships_of(point)) particles.push_back(membership.particle);
     }
   if (particles.empty()) return;
   std::sort(particles.begin(), particles.end());
@@ -251,7 +252,8 @@ ParticleInfluences Repair::influences_before(Index point) {
 
 void Repair::cover(Index seed) {
   if (surface_.point_corner[seed] == kNone) return;
-  if (std::ranges::any_of(current(seed), [](const Membership& membership) { return membership.reach < kUncovered; })) return;
+  if (std::ranges::any_of(current(seed), [](const ParticleMembership& membership) { return membership.reach < kUncovered; }))
+    return;
   const auto range = static_cast<float>(structure_.report.range);
   const Index particle = make_particle(seed, range, influences_before(seed));
   structure_.front.begin(structure_.point_count(), range, structure_.edge_length);

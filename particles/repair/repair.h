@@ -3,6 +3,7 @@
 #include "particles/clusters/band.h"
 #include "particles/clusters/lip_border.h"
 #include "particles/clusters/rest_terms.h"
+#include "tear/internal/surface.h"
 
 namespace sunder::particles {
 
@@ -28,10 +29,12 @@ class Repair {
 
   // ---- Points and particles that change (repair_works.cpp).
   [[nodiscard]] Work& work_of(Index point);
-  [[nodiscard]] std::span<Membership> memberships(const Work& work) { return {memberships_.data() + work.first, work.count}; }
+  [[nodiscard]] std::span<ParticleMembership> memberships(const Work& work) {
+    return {memberships_.data() + work.first, work.count};
+  }
   /// Memberships as they stand, worked on or not.
-  [[nodiscard]] std::span<const Membership> current(Index point);
-  void join(Index point, const Membership& membership);
+  [[nodiscard]] std::span<const ParticleMembership> current(Index point);
+  void join(Index point, const ParticleMembership& membership);
   /// Whether the lips let a point belong to a particle; one that had no side yet gets the point's, but where choose_sides() is to
   /// say.
   [[nodiscard]] bool may_join(Index point, Index particle);
@@ -82,7 +85,7 @@ class Repair {
   LipBorder border_;
 
   std::vector<Work> works_;
-  std::vector<Membership> memberships_;
+  std::vector<ParticleMembership> memberships_;
   RestOfVertex rest_;
   RingWalk ring_, other_ring_;    ///< The second for what is begun while the first is in use.
   std::vector<Index> lips_;       ///< Points that this call put on lips.

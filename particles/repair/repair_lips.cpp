@@ -6,6 +6,7 @@
 
 #include "particles/repair/lip_chains.h"
 #include "particles/repair/repair.h"
+#include "tear/internal/surface.h"
 
 namespace sunder::particles {
 namespace {
@@ -36,7 +37,7 @@ void Repair::choose_sides() {
   };
   std::vector<Score> scores;
   const auto look_at = [&](Index point, std::size_t side) {
-    for (const Membership& membership : current(point)) {
+    for (const ParticleMembership& membership : current(point)) {
       if (scratch.scored.mark(membership.particle)) {
         scratch.score_of[membership.particle] = static_cast<Index>(scores.size());
         scores.push_back({membership.particle});
@@ -102,7 +103,8 @@ void Repair::queue_beside_lips(Band& band) {
   for (const Index point : lips_) {
     const Ring around = ring_(point);
     for (std::size_t i = 0; i < around.size(); ++i)
-      for (const Membership& membership : structure_.memberships_of(around.point(i))) band.to_grow.push_back(membership.particle);
+      for (const ParticleMembership& membership : structure_.memberships_of(around.point(i)))
+        band.to_grow.push_back(membership.particle);
   }
   std::sort(band.to_grow.begin(), band.to_grow.end());
   band.to_grow.erase(std::unique(band.to_grow.begin(), band.to_grow.end()), band.to_grow.end());
@@ -114,7 +116,7 @@ void Repair::begin_hole() {
   band->tear = tear_;
   for (Index point = first_new_; point < structure_.point_count(); ++point)
     if (border_.leaving(point) != kNone)
-      for (const Membership& membership : current(point)) band->to_grow.push_back(membership.particle);
+      for (const ParticleMembership& membership : current(point)) band->to_grow.push_back(membership.particle);
   if (band->to_grow.empty()) return;
   std::sort(band->to_grow.begin(), band->to_grow.end());
   band->to_grow.erase(std::unique(band->to_grow.begin(), band->to_grow.end()), band->to_grow.end());
@@ -144,7 +146,7 @@ Index Repair::grow(Index particle) {
     // Lost: from what was nearest to it.
     float nearest = std::numeric_limits<float>::infinity();
     for (const Index point : members)
-      for (const Membership& membership : current(point))
+      for (const ParticleMembership& membership : current(point))
         if (membership.particle == particle && membership.reach < nearest && surface_.point_corner[point] != kNone) {
           nearest = membership.reach;
           seed = point;
@@ -161,7 +163,7 @@ Index Repair::grow(Index particle) {
     left_.push_back(point);
     Work& work = work_of(point);
     const auto kept = std::remove_if(memberships_.begin() + work.first, memberships_.begin() + work.first + work.count,
-                                     [&](const Membership& membership) { return membership.particle == particle; });
+                                     [&](const ParticleMembership& membership) { return membership.particle == particle; });
     work.count = static_cast<Index>(kept - memberships_.begin()) - work.first;
   }
   for (const Index point : left_) cover(point);
@@ -190,14 +192,14 @@ void Repair::visit_band(Index point, float distance, Index from) {
 /// Particles of the other lip end here, as far as the way around the tip is longer than the way through the tear was; on the lip
 /// itself in any case.
 void Repair::keep_to_own_side(Index point, const LipChain& chain, const LipChain::Place& place, float distance) {
-  const auto other_side = [&](const Membership& membership) {
+  const auto other_side = [&](const ParticleMembership& membership) {
     const Side* side = structure_.particles[membership.particle].side_of(tear_);
     return side != nullptr && *side != chain.side;
   };
   if (std::ranges::none_of(current(point), other_side)) return;
   Work& work = work_of(point);
   Index kept = 0;
-  for (Membership membership : memberships(work)) {
+  for (ParticleMembership membership : memberships(work)) {
     if (other_side(membership)) {
       if (!(distance > 0)) continue;
       const float range = structure_.particles[membership.particle].range, to_tip = place.to_tip;
@@ -224,7 +226,7 @@ void Repair::make_lip_particles(LipChain& chain) {
   const auto is_covered = [&](Index point, float along) {
     for (const LipChain::OfLip& of : chain.particles)
       if (std::abs(along - of.along) < kLipCovered * of.half_width) return true;
-    for (const Membership& membership : current(point)) {
+    for (const ParticleMembership& membership : current(point)) {
       if (!(membership.reach < kLipCovered)) continue;
       const Side* side = structure_.particles[membership.particle].side_of(tear_);
       if (side != nullptr && *side != chain.side) continue;

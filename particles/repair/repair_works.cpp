@@ -20,7 +20,7 @@ Repair::Work& Repair::work_of(Index point) {
   return works_[scratch.work_of[point]];
 }
 
-std::span<const Membership> Repair::current(Index point) {
+std::span<const ParticleMembership> Repair::current(Index point) {
   if (!structure_.scratch.worked.has(point)) return structure_.memberships_of(point);
   return memberships(works_[structure_.scratch.work_of[point]]);
 }
@@ -40,9 +40,9 @@ bool Repair::may_join(Index point, Index particle) {
   return true;
 }
 
-void Repair::join(Index point, const Membership& membership) {
+void Repair::join(Index point, const ParticleMembership& membership) {
   Work& work = work_of(point);
-  for (Membership& known : memberships(work))
+  for (ParticleMembership& known : memberships(work))
     if (known.particle == membership.particle) {
       known.reach = std::min(known.reach, membership.reach);
       return;
@@ -80,12 +80,13 @@ Index Repair::make_particle(Index seed, float range, const ParticleInfluences& p
 }
 
 void Repair::put_back(const Work& work) {
-  const std::span<Membership> now = memberships(work);
-  const auto by_particle = [](const Membership& a, const Membership& b) { return a.particle < b.particle; };
+  const std::span<ParticleMembership> now = memberships(work);
+  const auto by_particle = [](const ParticleMembership& a, const ParticleMembership& b) { return a.particle < b.particle; };
   if (!std::is_sorted(now.begin(), now.end(), by_particle)) std::sort(now.begin(), now.end(), by_particle);
-  const std::span<const Membership> before = structure_.memberships_of(work.point);
-  if (std::ranges::equal(before, now,
-                         [](const Membership& a, const Membership& b) { return a.particle == b.particle && a.reach == b.reach; }))
+  const std::span<const ParticleMembership> before = structure_.memberships_of(work.point);
+  if (std::ranges::equal(before, now, [](const ParticleMembership& a, const ParticleMembership& b) {
+        return a.particle == b.particle && a.reach == b.reach;
+      }))
     return;
   log_point(work.point);
   // Who left and who joined: both lists ascend.

@@ -4,8 +4,9 @@
 #include <map>
 
 #include "tear/filling/filling.h"
-#include "tear/surface/rim.h"
+#include "tear/internal/surface.h"
 #include "tear/section/flat_section.h"
+#include "tear/surface/rim.h"
 
 namespace sunder::tear {
 namespace {

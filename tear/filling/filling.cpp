@@ -1,9 +1,12 @@
 #include "tear/filling/filling.h"
 
-#include <sunder/skinning/palette.h>
+#include <sunder/skinning/deform.h>
 
 #include <algorithm>
 #include <unordered_set>
+
+#include "tear/internal/surface.h"
+#include "tear/surface/mesh_vertices.h"
 
 namespace sunder::tear {
 

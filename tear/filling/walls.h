@@ -1,6 +1,6 @@
 #pragma once
 
-#include <sunder/core/stroke.h>
+#include <sunder/operation/operation.h>
 
 #include <vector>
 

@@ -1,8 +1,8 @@
 #include "tear/operation/cut.h"
 
 #include "tear/filling/caps.h"
-#include "tear/surface/improve.h"
 #include "tear/sheet/open_sheet.h"
+#include "tear/surface/improve.h"
 
 namespace sunder::tear {
 namespace {
@@ -34,7 +34,7 @@ std::vector<HalfSpace> sides_of(const std::vector<Vec3d>& bounds, const Vec3d& n
 
 }  // namespace
 
-Status validate_cut(const Cut& cut) {
+Status validate_cut(const PlaneCut& cut) {
   if (!cut.point.allFinite() || !cut.normal.allFinite())
     return Status::failure(StatusCode::non_finite_value, kNone, "the plane of the cut is not finite");
   if (!is_near(cut.point) || !is_near(cut.normal))
@@ -56,7 +56,7 @@ Status validate_cut(const Cut& cut) {
   return {};
 }
 
-void cut_surface(const Cut& cut, const Workpiece& work, TearReport& report, std::vector<LipPair>& lips) {
+void cut_surface(const PlaneCut& cut, const Workpiece& work, TearReport& report, std::vector<LipPair>& lips) {
   const SurfaceEditor::Mark before = work.editor.mark();
   const Vec3d normal = cut.normal / cut.normal.norm();
   Sheet sheet{{normal, normal.dot(cut.point)}, {}};

@@ -2,9 +2,9 @@
 
 #include <cmath>
 
+#include "tear/filling/walls.h"
 #include "tear/sheet/gap.h"
 #include "tear/surface/improve.h"
-#include "tear/filling/walls.h"
 
 namespace sunder::tear {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <sunder/core/operation.h>
 #include <sunder/core/status.h>
+#include <sunder/operation/operation.h>
 #include <sunder/tear/report.h>
 
 #include "tear/posed/workpiece.h"

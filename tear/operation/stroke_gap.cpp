@@ -3,11 +3,12 @@
 #include <array>
 #include <cmath>
 
+#include "tear/internal/surface.h"
+#include "tear/operation/stroke_tearing.h"
 #include "tear/path/entry.h"
+#include "tear/path/trace.h"
 #include "tear/sheet/gap.h"
 #include "tear/surface/improve.h"
-#include "tear/operation/stroke_tearing.h"
-#include "tear/path/trace.h"
 
 namespace sunder::tear {
 namespace {

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <utility>
 
+#include "tear/filling/walls.h"
 #include "tear/path/entry.h"
 #include "tear/path/imprint.h"
-#include "tear/surface/improve.h"
 #include "tear/sheet/open_sheet.h"
-#include "tear/filling/walls.h"
+#include "tear/surface/improve.h"
 
 namespace sunder::tear {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <sunder/core/operation.h>
+#include <sunder/operation/operation.h>
 #include <sunder/tear/report.h>
 
 #include <optional>
@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "tear/geometry/blade_plane.h"
-#include "tear/path/entry.h"
-#include "tear/sheet/gap.h"
 #include "tear/geometry/half_space.h"
-#include "tear/surface/opened_borders.h"
+#include "tear/path/entry.h"
 #include "tear/posed/workpiece.h"
+#include "tear/sheet/gap.h"
+#include "tear/surface/opened_borders.h"
 
 namespace sunder::tear {
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "tear/geometry/blade_plane.h"
+#include "tear/internal/surface.h"
 #include "tear/path/entry.h"
 
 namespace sunder::tear {

@@ -4,9 +4,10 @@
 #include <cmath>
 #include <limits>
 
-#include "tear/surface/crossing.h"
+#include "tear/internal/surface.h"
 #include "tear/path/edge_crossing.h"
 #include "tear/path/leap.h"
+#include "tear/surface/crossing.h"
 
 namespace sunder::tear {
 namespace {

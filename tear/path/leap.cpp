@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "tear/internal/surface.h"
 #include "tear/path/edge_crossing.h"
 #include "tear/surface/turn_edges.h"
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <memory_resource>
 
+#include "tear/internal/surface.h"
 #include "tear/pieces/changed_faces.h"
 #include "tear/pieces/piece_description.h"
 #include "tear/pieces/pieces.h"
@@ -45,7 +46,7 @@ std::vector<Index> find_separated(ChangedFaces& changed, const Surface& surface,
 
 }  // namespace
 
-std::vector<Piece> find_all_pieces(const SurfaceEditor::Mark& begin, const SurfaceEditor& editor, PosedPoints& posed) {
+std::vector<TornPiece> find_all_pieces(const SurfaceEditor::Mark& begin, const SurfaceEditor& editor, PosedPoints& posed) {
   ChangedFaces changed(begin, editor);
   if (changed.set_count() < 2) return {};
   const Surface& surface = editor.surface();
@@ -66,7 +67,7 @@ std::vector<Piece> find_all_pieces(const SurfaceEditor::Mark& begin, const Surfa
     if (descriptions[i].is_empty()) order.push_back(i);
     descriptions[i].add(face);
   }
-  std::vector<Piece> pieces;
+  std::vector<TornPiece> pieces;
   for (const Index i : order) pieces.push_back(descriptions[i].piece());
   return pieces;
 }

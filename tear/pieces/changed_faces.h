@@ -1,5 +1,6 @@
 #pragma once
 
+#include "tear/internal/surface.h"
 #include "tear/surface/disjoint_sets.h"
 #include "tear/surface/surface_editor.h"
 

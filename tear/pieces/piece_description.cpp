@@ -1,5 +1,7 @@
 #include "tear/pieces/piece_description.h"
 
+#include "tear/internal/surface.h"
+
 namespace sunder::tear {
 
 PieceDescription::PieceDescription(const SurfaceEditor& editor, PosedPoints& posed)
@@ -32,7 +34,7 @@ void PieceDescription::add(Index face) {
         has_bone_[skin.bones[influence.slot]] = true;
 }
 
-Piece PieceDescription::piece() {
+TornPiece PieceDescription::piece() {
   piece_.centroid_posed =
       piece_.area_posed > 0 ? Vec3d(moment_ / piece_.area_posed) : Vec3d(sum_ / static_cast<double>(piece_.triangle_count));
   for (Index bone = 0; bone < has_bone_.size(); ++bone)

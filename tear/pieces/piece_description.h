@@ -17,12 +17,12 @@ class PieceDescription {
   void add(Index face);
   [[nodiscard]] bool is_empty() const { return piece_.triangle_count == 0; }
   /// The piece of those faces. To be called once.
-  [[nodiscard]] Piece piece();
+  [[nodiscard]] TornPiece piece();
 
  private:
   const SurfaceEditor& editor_;
   PosedPoints& posed_;
-  Piece piece_;
+  TornPiece piece_;
   std::vector<std::vector<Index>> triangles_;  ///< Of each mesh.
   std::vector<bool> has_bone_;
   Vec3d moment_ = Vec3d::Zero(), sum_ = Vec3d::Zero();

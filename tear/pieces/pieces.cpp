@@ -6,6 +6,7 @@
 #include <span>
 #include <unordered_map>
 
+#include "tear/internal/surface.h"
 #include "tear/pieces/changed_faces.h"
 #include "tear/pieces/piece_description.h"
 
@@ -125,7 +126,7 @@ class Fronts {
 
 }  // namespace
 
-std::vector<Piece> find_pieces(const SurfaceEditor::Mark& begin, const SurfaceEditor& editor, PosedPoints& posed) {
+std::vector<TornPiece> find_pieces(const SurfaceEditor::Mark& begin, const SurfaceEditor& editor, PosedPoints& posed) {
   ChangedFaces changed(begin, editor);
   if (changed.set_count() < 2) return {};
   Fronts fronts(changed, editor);
@@ -140,7 +141,7 @@ std::vector<Piece> find_pieces(const SurfaceEditor::Mark& begin, const SurfaceEd
       if (set != left) sets.push_back(std::move(set->faces));
   }
   std::sort(sets.begin(), sets.end());
-  std::vector<Piece> pieces;
+  std::vector<TornPiece> pieces;
   for (const auto& faces : sets) {
     PieceDescription description(editor, posed);
     for (const Index face : faces) description.add(face);

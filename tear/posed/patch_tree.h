@@ -11,8 +11,6 @@
 
 namespace sunder::tear {
 
-using Index = std::uint32_t;
-
 /// What a mesh is posed by.
 struct MeshPose {
   PosedBones& bones;                     ///< Of the mesh's skin.

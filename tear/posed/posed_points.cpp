@@ -1,10 +1,12 @@
 #include "tear/posed/posed_points.h"
 
-#include <sunder/core/prefetch.h>
-#include <sunder/skinning/palette.h>
-#include <sunder/skinning/reference.h>
+#include <sunder/skinning/deform.h>
 
 #include <cmath>
+
+#include "core/internal/prefetch.h"
+#include "skinning/internal/reference.h"
+#include "tear/internal/surface.h"
 
 namespace sunder::tear {
 Status PosedPoints::check(const Character& character, const ModelPose& pose) {

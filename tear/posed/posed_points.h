@@ -1,6 +1,6 @@
 #pragma once
 
-#include <sunder/core/pose.h>
+#include <sunder/core/skeleton.h>
 
 #include <algorithm>
 #include <limits>

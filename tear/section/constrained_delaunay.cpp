@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "tear/internal/surface.h"
 #include "tear/section/exact_predicates.h"
 #include "tear/section/insertion_order.h"
 

@@ -1,12 +1,13 @@
 #pragma once
 
 #include <sunder/core/math.h>
-#include <sunder/tear/surface.h>
 
 #include <array>
 #include <optional>
 #include <span>
 #include <vector>
+
+#include "tear/internal/surface.h"
 
 namespace sunder::tear {
 

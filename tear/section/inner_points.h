@@ -1,11 +1,12 @@
 #pragma once
 
 #include <sunder/core/math.h>
-#include <sunder/tear/surface.h>
 
 #include <array>
 #include <span>
 #include <vector>
+
+#include "tear/internal/surface.h"
 
 namespace sunder::tear {
 

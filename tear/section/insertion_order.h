@@ -1,10 +1,11 @@
 #pragma once
 
 #include <sunder/core/math.h>
-#include <sunder/tear/surface.h>
 
 #include <span>
 #include <vector>
+
+#include "tear/internal/surface.h"
 
 namespace sunder::tear {
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "tear/internal/surface.h"
 #include "tear/path/entry.h"
 #include "tear/path/imprint.h"
 

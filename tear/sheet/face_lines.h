@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "tear/surface/open.h"
 #include "tear/posed/posed_points.h"
+#include "tear/surface/open.h"
 
 namespace sunder::tear {
 

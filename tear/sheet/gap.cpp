@@ -4,6 +4,7 @@
 #include <limits>
 #include <unordered_set>
 
+#include "tear/internal/surface.h"
 #include "tear/surface/disjoint_sets.h"
 
 namespace sunder::tear {

@@ -6,9 +6,10 @@
 #include <limits>
 #include <map>
 
+#include "tear/internal/surface.h"
 #include "tear/path/entry.h"
-#include "tear/sheet/face_lines.h"
 #include "tear/path/imprint.h"
+#include "tear/sheet/face_lines.h"
 
 namespace sunder::tear {
 namespace {

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "tear/geometry/half_space.h"
-#include "tear/surface/open.h"
 #include "tear/posed/posed_points.h"
+#include "tear/surface/open.h"
 
 namespace sunder::tear {
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "tear/internal/surface.h"
 #include "tear/path/imprint.h"
 #include "tear/sheet/imprint_sheets.h"
 

@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "tear/geometry/half_space.h"
-#include "tear/surface/open.h"
 #include "tear/posed/workpiece.h"
+#include "tear/surface/open.h"
 
 namespace sunder::tear {
 

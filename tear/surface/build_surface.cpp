@@ -1,9 +1,9 @@
-#include <sunder/tear/surface.h>
-
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <string_view>
+
+#include "tear/internal/surface.h"
 
 namespace sunder::tear {
 namespace {

@@ -1,9 +1,9 @@
-#include <sunder/tear/compact.h>
+#include "tear/surface/compact.h"
+
+#include <sunder/tear/torn_model.h>
 
 namespace sunder {
 namespace {
-
-using Index = std::uint32_t;
 
 struct MeshMaps {
   CompactMaps::OfMesh old_from_new;

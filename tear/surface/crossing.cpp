@@ -1,10 +1,10 @@
 #include "tear/surface/crossing.h"
 
-#include <sunder/weights/interpolate.h>
-
 #include <algorithm>
 
 #include "tear/geometry/face_shape.h"
+#include "tear/internal/surface.h"
+#include "tear/surface/mesh_vertices.h"
 
 namespace sunder::tear {
 

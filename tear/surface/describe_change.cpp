@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "tear/internal/surface.h"
 #include "tear/surface/surface_editor.h"
 
 namespace sunder::tear {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <sunder/core/index.h>
+
 #include <cstdint>
 #include <numeric>
 
@@ -10,8 +12,6 @@ namespace sunder::tear {
 /// Sets of numbers that only ever unite.
 class DisjointSets {
  public:
-  using Index = std::uint32_t;
-
   DisjointSets(Index count, std::pmr::memory_resource& memory) : parent_(count, &memory) {
     std::iota(parent_.begin(), parent_.end(), Index{0});
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "tear/geometry/face_shape.h"
+#include "tear/internal/surface.h"
 #include "tear/surface/surface_editor.h"
 
 namespace sunder::tear {

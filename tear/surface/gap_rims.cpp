@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "tear/internal/surface.h"
+
 namespace sunder::tear {
 
 void settle_rims(std::vector<RimPoint>& points, const Surface& surface, Rims& rims) {

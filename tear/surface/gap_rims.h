@@ -1,9 +1,10 @@
 #pragma once
 
 #include <sunder/tear/change_record.h>
-#include <sunder/tear/surface.h>
 
 #include <vector>
+
+#include "tear/internal/surface.h"
 
 namespace sunder::tear {
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "tear/geometry/face_shape.h"
+#include "tear/internal/surface.h"
 
 namespace sunder::tear {
 namespace {

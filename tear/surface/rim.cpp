@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <map>
 
+#include "tear/internal/surface.h"
+
 namespace sunder::tear {
 
 std::vector<Rim> chain_rims(const std::vector<Index>& half_edges, const Surface& surface) {

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <sunder/tear/surface.h>
-
 #include <vector>
+
+#include "tear/internal/surface.h"
 
 namespace sunder::tear {
 

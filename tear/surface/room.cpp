@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "tear/surface/capacity_exceeded.h"
+#include "tear/surface/mesh_vertices.h"
 #include "tear/surface/surface_editor.h"
 
 namespace sunder::tear {

@@ -1,11 +1,12 @@
 #include "tear/surface/surface_editor.h"
 
-#include <sunder/core/prefetch.h>
-
 #include <algorithm>
 #include <cmath>
 
+#include "core/internal/prefetch.h"
+#include "tear/internal/surface.h"
 #include "tear/surface/face_split.h"
+#include "tear/surface/mesh_vertices.h"
 
 namespace sunder::tear {
 SurfaceEditor::SurfaceEditor(const Character& source, Character& character)

@@ -1,12 +1,10 @@
 #pragma once
 
 #include <sunder/core/character.h>
-#include <sunder/core/weight_options.h>
+#include <sunder/operation/weight_options.h>
 #include <sunder/skinning/vertex_arrays.h>
-#include <sunder/tear/capacity.h>
 #include <sunder/tear/change_record.h>
-#include <sunder/tear/surface.h>
-#include <sunder/weights/animation_point.h>
+#include <sunder/tear/torn_model.h>
 
 #include <algorithm>
 #include <array>
@@ -15,7 +13,10 @@
 #include <unordered_set>
 #include <vector>
 
+#include "tear/internal/surface.h"
+#include "tear/surface/mesh_vertices.h"
 #include "tear/surface/scratch_memory.h"
+#include "weights/internal/animation_point.h"
 
 namespace sunder::tear {
 

@@ -1,12 +1,11 @@
-#include <sunder/tear/surface.h>
 #include <sunder/tear/topology.h>
 
 #include <algorithm>
 
+#include "tear/internal/surface.h"
+
 namespace sunder {
 namespace {
-
-using tear::Index;
 using tear::Surface;
 
 Index count_components(const Surface& surface) {

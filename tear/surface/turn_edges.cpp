@@ -4,6 +4,8 @@
 #include <deque>
 #include <memory_resource>
 
+#include "tear/internal/surface.h"
+
 namespace sunder::tear {
 namespace {
 

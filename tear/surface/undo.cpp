@@ -1,5 +1,7 @@
 #include <algorithm>
 
+#include "tear/internal/surface.h"
+#include "tear/surface/mesh_vertices.h"
 #include "tear/surface/surface_editor.h"
 
 namespace sunder::tear {

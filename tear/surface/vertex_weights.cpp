@@ -1,10 +1,9 @@
 // Weights that vertices have beside those that they were born with.
 
-#include <sunder/weights/interpolate.h>
-
 #include <algorithm>
 #include <array>
 
+#include "tear/surface/mesh_vertices.h"
 #include "tear/surface/morph_displacement.h"
 #include "tear/surface/surface_editor.h"
 

@@ -1,12 +1,13 @@
 #include "tear/weights/refit_work.h"
 
-#include <sunder/skinning/palette.h>
+#include <sunder/skinning/deform.h>
 
 #include <algorithm>
 #include <cmath>
 #include <new>
 #include <tuple>
 
+#include "tear/internal/surface.h"
 #include "tear/surface/morph_displacement.h"
 
 namespace sunder::tear {

@@ -1,15 +1,15 @@
 #pragma once
 
-#include <sunder/core/operation.h>
-#include <sunder/skinning/pose_set.h>
+#include <sunder/operation/operation.h>
+#include <sunder/skinning/pose.h>
 #include <sunder/tear/refit_job.h>
-#include <sunder/weights/coupled_refit.h>
 
 #include <atomic>
 #include <memory>
 #include <vector>
 
 #include "tear/weights/weigh.h"
+#include "weights/internal/coupled_refit.h"
 
 namespace sunder::tear {
 

@@ -1,12 +1,12 @@
 #include "tear/weights/weigh.h"
 
-#include <sunder/weights/bind_position.h>
-#include <sunder/weights/prune.h>
+#include <sunder/weights/influences.h>
 
 #include <algorithm>
 #include <tuple>
 
 #include "tear/surface/morph_displacement.h"
+#include "weights/internal/bind_position.h"
 
 namespace sunder::tear {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <sunder/core/weight_options.h>
+#include <sunder/operation/weight_options.h>
 #include <sunder/tear/report.h>
 
 #include <span>

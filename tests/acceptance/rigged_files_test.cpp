@@ -1,15 +1,12 @@
 // The whole path on every rigged file at hand: load, tear in two poses at three places each, check every law in twenty other poses,
 // save, validate, load again and compare in motion.
-#include <sunder/io/load_character.h>
-#include <sunder/io/save_glb.h>
-#include <sunder/skinning/palette.h>
-#include <sunder/skinning/pose_set.h>
-#include <sunder/skinning/sample_clip.h>
+#include <sunder/io/character_file.h>
+#include <sunder/skinning/deform.h>
+#include <sunder/skinning/pose.h>
 #include <sunder/skinning/skinned_mesh.h>
-#include <sunder/tear/replay.h>
 #include <sunder/tear/topology.h>
 #include <sunder/tear/torn_model.h>
-#include <sunder/tear/weight_errors.h>
+#include <sunder/tear/torn_weights.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -33,7 +30,7 @@ using testing::IsEmpty;
 ModelPose some_pose(const Character& character, Random& random) {
   if (character.clips.empty() || random.index(4) == 0) return test::random_pose(character, random, 0.4, 1.1);
   const Clip& clip = character.clips[random.index(static_cast<std::uint32_t>(character.clips.size()))];
-  Pose pose = rest_pose(character);
+  Pose pose = local_rest_pose(character);
   EXPECT_TRUE(sample_clip(clip, random.uniform(0, static_cast<double>(clip.duration)), pose));
   ModelPose model;
   EXPECT_TRUE(compute_model_pose(character.skeleton, pose, model));
@@ -263,7 +260,7 @@ void weigh_by_each_policy(const std::filesystem::path& file, std::uint64_t seed)
   PoseSetSpec spec;
   spec.clip_samples = 4;
   for (int i = 0; i < 4; ++i) spec.poses.emplace_back(some_pose(model->character(), random));
-  const auto set = PoseSet::make(loaded->character, spec);
+  const auto set = PoseSet::create(loaded->character, spec);
   ASSERT_TRUE(set) << set.error().text();
   std::vector<ModelPose> poses(set->size(PoseSet::Role::fit));
   for (std::size_t i = 0; i < poses.size(); ++i) set->compute(PoseSet::Role::fit, i, poses[i]);

@@ -1,7 +1,6 @@
 // What users do with a torn file next: tools that merge equal vertices must leave its lips apart. Lips coincide and may agree in
 // every attribute that a file has, but for the tear sides.
-#include <sunder/io/load_character.h>
-#include <sunder/io/save_glb.h>
+#include <sunder/io/character_file.h>
 #include <sunder/tear/topology.h>
 #include <sunder/tear/torn_model.h>
 

@@ -1,10 +1,9 @@
 // Imported models, loaded and posed by us, against assimp's own scene evaluated by the definition: the whole chain of units, axes,
 // pivots, binds, weights, keys and welding.
 
-#include <sunder/io/load_character.h>
-#include <sunder/skinning/palette.h>
-#include <sunder/skinning/reference.h>
-#include <sunder/skinning/sample_clip.h>
+#include <sunder/io/character_file.h>
+#include <sunder/skinning/deform.h>
+#include <sunder/skinning/pose.h>
 
 #include <algorithm>
 #include <cmath>
@@ -19,6 +18,7 @@
 #include <gtest/gtest.h>
 
 #include "io/assimp_text_models.h"
+#include "skinning/internal/reference.h"
 #include "support/shared_models.h"
 #include "support/temporary_folder.h"
 
@@ -115,7 +115,7 @@ Corners assimp_corners(const aiScene& scene, unsigned clip, double seconds) {
 // -------------------------------------------------------------------------------------------------------------------------
 
 Corners our_corners(const Character& character, std::size_t clip, double seconds) {
-  Pose pose = rest_pose(character);
+  Pose pose = local_rest_pose(character);
   if (seconds != kRest) {
     EXPECT_TRUE(sample_clip(character.clips[clip], seconds, pose));
   }

@@ -1,6 +1,6 @@
 // How save_glb() writes influences: SaveOptions in include/sunder/io/save_glb.h.
 
-#include <sunder/io/save_glb.h>
+#include <sunder/io/character_file.h>
 
 #include <algorithm>
 #include <cmath>

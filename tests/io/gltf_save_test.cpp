@@ -1,6 +1,6 @@
 // Contract of save_glb(): include/sunder/io/save_glb.h.
 
-#include <sunder/io/save_glb.h>
+#include <sunder/io/character_file.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // A history that was written and read gives the model again, whatever weighed its points.
 
 #include <sunder/io/operation_log.h>
-#include <sunder/tear/replay.h>
+#include <sunder/tear/torn_model.h>
 
 #include <string>
 

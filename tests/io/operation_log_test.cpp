@@ -80,8 +80,8 @@ TEST(OperationLog, ReadsACut) {
   ASSERT_TRUE(operations) << operations.error().text();
   const auto& cut = std::get<CutOperation>(operations->at(0));
   EXPECT_TRUE(std::holds_alternative<BindPose>(cut.pose));
-  EXPECT_EQ(cut.cut, (Cut{{1, 2, 3}, {0, -2, 0}, {{0, 0, 0}, {1, 0, 0}, {0, 0, 1}}, true}));
-  EXPECT_EQ(std::get<CutOperation>(operations->at(1)).cut, Cut{});
+  EXPECT_EQ(cut.cut, (PlaneCut{{1, 2, 3}, {0, -2, 0}, {{0, 0, 0}, {1, 0, 0}, {0, 0, 1}}, true}));
+  EXPECT_EQ(std::get<CutOperation>(operations->at(1)).cut, PlaneCut{});
 }
 
 TEST(OperationLog, ReadsABore) {

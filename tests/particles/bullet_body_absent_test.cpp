@@ -1,5 +1,6 @@
 #include <sunder/particles/bullet_body.h>
-#include <sunder/skinning/palette.h>
+#include <sunder/skinning/deform.h>
+#include <sunder/skinning/pose.h>
 
 #include <gtest/gtest.h>
 
@@ -16,7 +17,7 @@ TEST(BulletBodyAbsent, says_so) {
   const auto sheet = std::make_shared<const Character>(test::make_sheet(4));
   const auto model = TornModel::create(sheet);
   ASSERT_TRUE(model);
-  const auto set = ParticleSet::decompose(*model, bind_pose(*sheet));
+  const auto set = ParticleSet::create(*model, bind_pose(*sheet));
   ASSERT_TRUE(set);
   btDynamicsWorld world;
   const auto body = BulletBody::create(*set, world, bind_pose(*sheet));

@@ -1,6 +1,6 @@
 #include <sunder/particles/bullet_body.h>
-#include <sunder/skinning/palette.h>
-#include <sunder/skinning/sample_clip.h>
+#include <sunder/skinning/deform.h>
+#include <sunder/skinning/pose.h>
 
 #include <array>
 #include <cmath>
@@ -45,7 +45,7 @@ class BulletBodyTest : public testing::Test {
   }
 
   [[nodiscard]] ParticleSet decompose(double range) const {
-    auto set = ParticleSet::decompose(*model_, bind_pose(*character_), {.range = range});
+    auto set = ParticleSet::create(*model_, bind_pose(*character_), {.range = range});
     EXPECT_TRUE(set) << set.error().text();
     return std::move(*set);
   }
@@ -128,7 +128,7 @@ class BulletBodyTest : public testing::Test {
   }
 
   void bend(double angle) {
-    Pose pose = rest_pose(*character_);
+    Pose pose = local_rest_pose(*character_);
     for (std::size_t bone = 1; bone < pose.parent_from_bone.size(); ++bone)
       pose.parent_from_bone[bone].rotation = Quatf(Eigen::AngleAxisf(static_cast<float>(angle), Eigen::Vector3f::UnitX()));
     ASSERT_TRUE(compute_model_pose(character_->skeleton, pose, pose_));
@@ -215,7 +215,7 @@ TEST_F(BulletBodyTest, neighbours_come_along) {
   for (std::uint32_t i = 0; i < set_->particle_count(); ++i) {
     if (i == held) continue;
     double force = -100 * double{u[i].z()}, scale = 1e-2;
-    for (const Neighbour& neighbour : set_->neighbours(i)) {
+    for (const ParticleNeighbour& neighbour : set_->neighbours(i)) {
       const double pulled = 300 * set_->coupling(i, neighbour) * double{u[neighbour.particle].z() - u[i].z()};
       force += pulled;
       scale += std::abs(pulled);

@@ -1,9 +1,10 @@
-#include <sunder/skinning/reference.h>
+#include <sunder/skinning/deform.h>
 
 #include <functional>
 
 #include "particles/contact/contact_points.h"
 #include "particles/soft_scene.h"
+#include "skinning/internal/reference.h"
 
 namespace sunder {
 namespace {
@@ -17,9 +18,9 @@ std::vector<Vec3d> places_on(const Collider& collider, test::Random& random, int
   std::vector<Vec3d> places;
   for (int i = 0; i < count; ++i) {
     Vec3d place;
-    if (const auto* sphere = std::get_if<Sphere>(&collider.shape)) {
+    if (const auto* sphere = std::get_if<Collider::Sphere>(&collider.shape)) {
       place = sphere->radius * random.direction();
-    } else if (const auto* capsule = std::get_if<Capsule>(&collider.shape)) {
+    } else if (const auto* capsule = std::get_if<Collider::Capsule>(&collider.shape)) {
       const Vec3d direction = random.direction();
       const bool is_side = random.index(2) == 0;
       place =
@@ -27,7 +28,7 @@ std::vector<Vec3d> places_on(const Collider& collider, test::Random& random, int
               ? Vec3d(capsule->radius * Vec3d(direction.x(), 0, direction.z()).normalized() +
                       Vec3d(0, random.uniform(-1, 1) * capsule->half_length, 0))
               : Vec3d(capsule->radius * direction + Vec3d(0, direction.y() < 0 ? -capsule->half_length : capsule->half_length, 0));
-    } else if (const auto* box = std::get_if<Box>(&collider.shape)) {
+    } else if (const auto* box = std::get_if<Collider::Box>(&collider.shape)) {
       for (int axis = 0; axis < 3; ++axis) place[axis] = random.uniform(-1, 1) * box->half_size[axis];
       const std::uint32_t axis = random.index(3);
       place[axis] = random.index(2) == 0 ? box->half_size[axis] : -box->half_size[axis];
@@ -41,8 +42,8 @@ std::vector<Vec3d> places_on(const Collider& collider, test::Random& random, int
 
 TEST(collider, distances_are_those_of_its_surface) {
   test::Random random(5);
-  const std::variant<Sphere, Capsule, Box, HalfSpace> shapes[] = {Sphere{0.6}, Capsule{0.3, 0.8}, Box{{0.3, 0.9, 0.5}},
-                                                                  HalfSpace{}};
+  const std::variant<Collider::Sphere, Collider::Capsule, Collider::Box, Collider::HalfSpace> shapes[] = {
+      Collider::Sphere{0.6}, Collider::Capsule{0.3, 0.8}, Collider::Box{{0.3, 0.9, 0.5}}, Collider::HalfSpace{}};
   for (const auto& shape : shapes) {
     const Collider collider{shape, 0.4 * random.direction(), random_turn(random), 0};
     const std::vector<Vec3d> surface = places_on(collider, random, 60000);
@@ -64,9 +65,9 @@ TEST(collider, distances_are_those_of_its_surface) {
 }
 
 TEST(collider, the_middle_of_a_shape_is_inside) {
-  for (const Collider& collider :
-       {Collider{Sphere{0.6}, {1, 2, 3}, Quatd::Identity(), 0}, Collider{Capsule{0.6, 1}, {1, 2, 3}, Quatd::Identity(), 0},
-        Collider{Box{{0.6, 1, 1}}, {1, 2, 3}, Quatd::Identity(), 0}}) {
+  for (const Collider& collider : {Collider{Collider::Sphere{0.6}, {1, 2, 3}, Quatd::Identity(), 0},
+                                   Collider{Collider::Capsule{0.6, 1}, {1, 2, 3}, Quatd::Identity(), 0},
+                                   Collider{Collider::Box{{0.6, 1, 1}}, {1, 2, 3}, Quatd::Identity(), 0}}) {
     const SurfaceDistance found = distance_to(collider, {1, 2, 3});
     EXPECT_DOUBLE_EQ(found.distance, -0.6);
     EXPECT_DOUBLE_EQ(found.normal.norm(), 1);
@@ -76,14 +77,14 @@ TEST(collider, the_middle_of_a_shape_is_inside) {
 TEST(collider, is_checked) {
   const auto fault = [](const Collider& collider) { return validate_collider(collider).code(); };
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(fault({Sphere{1}, Vec3d::Zero(), Quatd::Identity(), 0}), StatusCode::ok);
-  EXPECT_EQ(fault({Sphere{0}, Vec3d::Zero(), Quatd::Identity(), 0}), StatusCode::invalid_argument);
-  EXPECT_EQ(fault({Capsule{1, -1}, Vec3d::Zero(), Quatd::Identity(), 0}), StatusCode::invalid_argument);
-  EXPECT_EQ(fault({Box{{1, 0, 1}}, Vec3d::Zero(), Quatd::Identity(), 0}), StatusCode::invalid_argument);
-  EXPECT_EQ(fault({Sphere{nan}, Vec3d::Zero(), Quatd::Identity(), 0}), StatusCode::invalid_argument);
-  EXPECT_EQ(fault({HalfSpace{}, {nan, 0, 0}, Quatd::Identity(), 0}), StatusCode::non_finite_value);
-  EXPECT_EQ(fault({HalfSpace{}, Vec3d::Zero(), Quatd(2, 0, 0, 0), 0}), StatusCode::invalid_argument);
-  EXPECT_EQ(fault({HalfSpace{}, Vec3d::Zero(), Quatd::Identity(), -1}), StatusCode::invalid_argument);
+  EXPECT_EQ(fault({Collider::Sphere{1}, Vec3d::Zero(), Quatd::Identity(), 0}), StatusCode::ok);
+  EXPECT_EQ(fault({Collider::Sphere{0}, Vec3d::Zero(), Quatd::Identity(), 0}), StatusCode::invalid_argument);
+  EXPECT_EQ(fault({Collider::Capsule{1, -1}, Vec3d::Zero(), Quatd::Identity(), 0}), StatusCode::invalid_argument);
+  EXPECT_EQ(fault({Collider::Box{{1, 0, 1}}, Vec3d::Zero(), Quatd::Identity(), 0}), StatusCode::invalid_argument);
+  EXPECT_EQ(fault({Collider::Sphere{nan}, Vec3d::Zero(), Quatd::Identity(), 0}), StatusCode::invalid_argument);
+  EXPECT_EQ(fault({Collider::HalfSpace{}, {nan, 0, 0}, Quatd::Identity(), 0}), StatusCode::non_finite_value);
+  EXPECT_EQ(fault({Collider::HalfSpace{}, Vec3d::Zero(), Quatd(2, 0, 0, 0), 0}), StatusCode::invalid_argument);
+  EXPECT_EQ(fault({Collider::HalfSpace{}, Vec3d::Zero(), Quatd::Identity(), -1}), StatusCode::invalid_argument);
 }
 
 /// Where a point is, skinned anew and displaced by what the body says.
@@ -116,7 +117,7 @@ double deepest(const SoftScene& scene) {
 TEST(collider, a_ball_pressed_into_a_tube_leaves_no_mark) {
   for (const double friction : {0.0, 0.8}) {
     SoftScene scene(test::make_tube(80, 24, 6), find_material("sponge").value(), 0.06);
-    const Collider ball{Sphere{0.4}, {1.2, 3, 0}, Quatd::Identity(), friction};
+    const Collider ball{Collider::Sphere{0.4}, {1.2, 3, 0}, Quatd::Identity(), friction};
     ASSERT_TRUE(scene.body->set_colliders({&ball, 1}));
     scene.run(0.2);
     EXPECT_EQ(scene.body->awake_count(), 0u);
@@ -152,7 +153,7 @@ TEST(collider, a_ball_pressed_into_a_tube_leaves_no_mark) {
 
 TEST(collider, pushes_nothing_that_it_does_not_touch) {
   SoftScene scene(test::make_tube(80, 24, 6), find_material("skin").value(), 0.06);
-  const Collider ball{Sphere{0.4}, {0.5 + 0.4 + 0.002, 3, 0}, Quatd::Identity(), 0};
+  const Collider ball{Collider::Sphere{0.4}, {0.5 + 0.4 + 0.002, 3, 0}, Quatd::Identity(), 0};
   ASSERT_TRUE(scene.body->set_colliders({&ball, 1}));
   scene.run(0.5);
   EXPECT_EQ(scene.farthest(), 0);
@@ -160,15 +161,15 @@ TEST(collider, pushes_nothing_that_it_does_not_touch) {
 
 TEST(collider, every_shape_is_left_at_any_step) {
   test::Random random(9);
-  const std::variant<Sphere, Capsule, Box, HalfSpace> shapes[] = {Sphere{0.5}, Capsule{0.3, 0.5}, Box{{0.3, 0.5, 0.4}},
-                                                                  HalfSpace{}};
+  const std::variant<Collider::Sphere, Collider::Capsule, Collider::Box, Collider::HalfSpace> shapes[] = {
+      Collider::Sphere{0.5}, Collider::Capsule{0.3, 0.5}, Collider::Box{{0.3, 0.5, 0.4}}, Collider::HalfSpace{}};
   for (const auto& shape : shapes)
     for (const double seconds : {1e-4, 1.0 / 60, 0.5}) {
       SoftScene scene(test::make_bumpy_ball(1500), find_material("fat").value(), 0.08);
       const Vec3d away = random.direction();
       // A half-space with its plane across the ball, a shape dipped into it.
       Collider collider{shape, 1.25 * away, random_turn(random), 0.3};
-      if (std::holds_alternative<HalfSpace>(shape)) {
+      if (std::holds_alternative<Collider::HalfSpace>(shape)) {
         collider.place = -0.9 * away;
         collider.turn = Quatd::FromTwoVectors(Eigen::Vector3d::UnitY(), Eigen::Vector3d(away));
       }
@@ -182,13 +183,13 @@ TEST(collider, every_shape_is_left_at_any_step) {
 }
 
 TEST(collider, a_floor_carries_what_falls) {
-  Material material;
+  SoftMaterial material;
   material.return_stiffness = 20;
   material.neighbour_stiffness = 200;
   material.damping_ratio = 0.5;
   SoftScene scene(test::make_bumpy_ball(1500), material, 0.1);
   ASSERT_TRUE(scene.body->set_gravity({0, -9.81, 0}));
-  const Collider floor{HalfSpace{}, {0, -1.15, 0}, Quatd::Identity(), 0.5};
+  const Collider floor{Collider::HalfSpace{}, {0, -1.15, 0}, Quatd::Identity(), 0.5};
   ASSERT_TRUE(scene.body->set_colliders({&floor, 1}));
   for (int i = 0; i < 300; ++i) {
     scene.step(1.0 / 60);
@@ -205,7 +206,7 @@ TEST(collider, friction_drags_along) {
   double dragged[2];
   for (const bool is_rough : {false, true}) {
     SoftScene scene(test::make_sheet(24, 2.0f), find_material("skin").value(), 0.06);
-    Collider box{Box{{0.2, 0.2, 0.2}}, {1, 1, 0.15}, Quatd::Identity(), is_rough ? 1.0 : 0.0};
+    Collider box{Collider::Box{{0.2, 0.2, 0.2}}, {1, 1, 0.15}, Quatd::Identity(), is_rough ? 1.0 : 0.0};
     ASSERT_TRUE(scene.body->set_colliders({&box, 1}));
     scene.run(0.5);
     for (int i = 1; i <= 30; ++i) {
@@ -223,7 +224,8 @@ TEST(collider, a_pose_that_moves_into_it_is_pushed_back) {
     SoftBodyOptions options;
     options.follow = follow;
     SoftScene scene(test::make_tube(60, 16, 6), find_material("skin").value(), 0.08, options);
-    const Collider wall{HalfSpace{}, {0.7, 0, 0}, Quatd::FromTwoVectors(Eigen::Vector3d::UnitY(), -Eigen::Vector3d::UnitX()), 0.2};
+    const Collider wall{
+        Collider::HalfSpace{}, {0.7, 0, 0}, Quatd::FromTwoVectors(Eigen::Vector3d::UnitY(), -Eigen::Vector3d::UnitX()), 0.2};
     ASSERT_TRUE(scene.body->set_colliders({&wall, 1}));
     const ModelPose start = scene.pose;
     for (int i = 1; i <= 30; ++i) {

@@ -11,14 +11,13 @@ namespace sunder {
 namespace {
 
 using particles::CouplingSolver;
-using particles::Index;
 using particles::Spring;
 using particles::SpringGraph;
 using particles::SpringStep;
 
 /// Particles on springs of their own, coupled at random, and their state.
 struct Network {
-  std::vector<Material> materials;
+  std::vector<SoftMaterial> materials;
   std::vector<Index> material_of, active;
   SpringGraph graph;
   std::vector<particles::PointPull> pulls;
@@ -55,7 +54,7 @@ struct Network {
 
   void step(double seconds, const Vec3d& acceleration = Vec3d::Zero()) {
     std::vector<SpringStep> steps;
-    for (const Material& m : materials) steps.push_back(particles::step_spring(m.return_stiffness, m.damping_ratio, seconds));
+    for (const SoftMaterial& m : materials) steps.push_back(particles::step_spring(m.return_stiffness, m.damping_ratio, seconds));
     for (const Index p : active) {
       const SpringStep& s = steps[material_of[p]];
       const Vec3d u = places[p], v = velocities[p];
@@ -74,7 +73,7 @@ struct Network {
   double energy() const {
     double sum = 0;
     for (Index p = 0; p < places.size(); ++p) {
-      const Material& m = materials[material_of[p]];
+      const SoftMaterial& m = materials[material_of[p]];
       sum += m.mass * (velocities[p].squaredNorm() + m.return_stiffness * places[p].squaredNorm());
       for (const Spring& s : graph.of(p)) sum += 0.5 * s.stiffness * (places[p] - places[s.other]).squaredNorm();
     }
@@ -87,8 +86,8 @@ struct Network {
   }
 };
 
-Material random_material(test::Random& random, double least = -3, double most = 12) {
-  Material m;
+SoftMaterial random_material(test::Random& random, double least = -3, double most = 12) {
+  SoftMaterial m;
   m.return_stiffness = std::pow(10, random.uniform(least, most));
   m.neighbour_stiffness = std::pow(10, random.uniform(least, most));
   m.damping_ratio = random.index(2) == 0 ? random.uniform(0.02, 2) : 1.0;
@@ -107,7 +106,7 @@ TEST(coupling, solves_what_it_says) {
     for (Vec3d& u : network.places) u = random.direction();
     const double h = std::pow(10, random.uniform(-5, 0));
     std::vector<SpringStep> steps;
-    for (const Material& m : network.materials) steps.push_back(particles::step_spring(m.return_stiffness, m.damping_ratio, h));
+    for (const SoftMaterial& m : network.materials) steps.push_back(particles::step_spring(m.return_stiffness, m.damping_ratio, h));
     // The dense matrix column by column: where one particle is displaced, by the definition of the forces.
     const auto force_on = [&](const std::vector<Vec3d>& u, const std::vector<Vec3d>& v, bool has_target) {
       std::vector<Vec3d> force(30, Vec3d::Zero());
@@ -192,7 +191,7 @@ TEST(coupling, is_bounded_and_comes_to_rest_at_any_step_and_stiffness) {
     worst_growth = std::max(worst_growth, most / before);
     // The slowest of all motions: the return spring of the softest particle; after so many of its times nothing is left.
     double slowest = 1e300;
-    for (const Material& m : network.materials) {
+    for (const SoftMaterial& m : network.materials) {
       const double w = std::sqrt(m.return_stiffness), r = m.damping_ratio;
       slowest = std::min(slowest, r < 1 ? w * r : w / (2 * r));
     }
@@ -208,7 +207,7 @@ TEST(coupling, forces_of_neighbours_add_up_to_nothing) {
   for (const double h : {1e-4, 1.0 / 60, 0.5}) {
     Network network(50);
     network.materials = {random_material(random, 2, 4), random_material(random, 2, 4)};
-    for (Material& m : network.materials) m.return_stiffness = 0;
+    for (SoftMaterial& m : network.materials) m.return_stiffness = 0;
     for (Index& m : network.material_of) m = random.index(2);
     network.connect_at_random(random, 8);
     for (Vec3d& v : network.velocities) v = random.direction();

@@ -1,6 +1,7 @@
 // Which points a decomposition puts into which particles, held against distances of other origin.
 #include <sunder/particles/particle_set.h>
-#include <sunder/skinning/palette.h>
+#include <sunder/skinning/deform.h>
+#include <sunder/skinning/pose.h>
 
 #include <algorithm>
 #include <cmath>
@@ -16,6 +17,7 @@
 #include "support/rigs.h"
 #include "support/stress.h"
 #include "support/surface_distances.h"
+#include "tear/internal/surface.h"
 
 namespace sunder {
 namespace {
@@ -29,13 +31,13 @@ using testing::IsEmpty;
 constexpr double kCovers = 0.85;
 
 ParticleSet decompose(const TornModel& model, const DecompositionOptions& options) {
-  auto set = ParticleSet::decompose(model, bind_pose(model.source()), options);
+  auto set = ParticleSet::create(model, bind_pose(model.source()), options);
   EXPECT_TRUE(set) << set.error().text();
   return std::move(*set);
 }
 
 bool is_member(const ParticleSet& set, std::uint32_t point, std::uint32_t particle) {
-  return std::ranges::any_of(set.memberships(point), [&](const Membership& of) { return of.particle == particle; });
+  return std::ranges::any_of(set.memberships(point), [&](const ParticleMembership& of) { return of.particle == particle; });
 }
 
 /// Calls distances(seed) for the true ones from a seed, and compares. @param error  relative, of what the distances are worth.
@@ -57,7 +59,7 @@ void expect_ranges(const ParticleSet& set, Distances distances, double error) {
       }
     }
     for (const std::uint32_t point : set.members(p))
-      for (const Membership& of : set.memberships(point))
+      for (const ParticleMembership& of : set.memberships(point))
         if (of.particle == p) {
           ASSERT_NEAR(double{of.reach}, truth[point] / range, error) << "point " << point;
         }
@@ -174,7 +176,7 @@ TEST(Decomposition, does_not_reach_through_the_air) {
     for (std::uint32_t p = 0; p < set.particle_count(); ++p)
       for (const std::uint32_t point : set.members(p)) EXPECT_EQ(set.positions()[point].z(), set.positions()[set.seed(p)].z());
     for (std::uint32_t p = 0; p < set.particle_count(); ++p)
-      for (const Neighbour& neighbour : set.neighbours(p))
+      for (const ParticleNeighbour& neighbour : set.neighbours(p))
         EXPECT_EQ(set.positions()[set.seed(neighbour.particle)].z(), set.positions()[set.seed(p)].z());
   }
 }
@@ -189,7 +191,7 @@ TEST(Decomposition, keeps_the_laws_on_anything) {
     const auto made = TornModel::create(std::make_shared<const Character>(std::move(character)));
     if (!made) continue;
     const ModelPose pose = test::random_pose(made->source(), random);
-    const auto set = ParticleSet::decompose(*made, pose, {random.uniform(0.02, 1.2), true, seed});
+    const auto set = ParticleSet::create(*made, pose, {random.uniform(0.02, 1.2), true, seed});
     if (!set) {
       EXPECT_EQ(set.error().code(), StatusCode::empty_input) << set.error().text();
       continue;
@@ -207,7 +209,8 @@ TEST(Decomposition, keeps_the_laws_on_anything) {
       if (made->surface().point_corner[point] == kNone || seed % 3 == 0) continue;  // soup has vertices that are at several points
       EXPECT_LT((posed[point].place - set->positions()[point].cast<double>()).norm(), 1e-5 * (1 + posed[point].place.norm()));
       const auto memberships = set->memberships(point);
-      EXPECT_TRUE(std::ranges::any_of(memberships, [](const Membership& of) { return double{of.reach} <= kCovers + 1e-6; }));
+      EXPECT_TRUE(
+          std::ranges::any_of(memberships, [](const ParticleMembership& of) { return double{of.reach} <= kCovers + 1e-6; }));
     }
   }
 }
@@ -278,7 +281,7 @@ TEST(Decomposition, has_weights_that_end_with_slope_zero) {
     for (std::uint32_t point = 0; point < set.point_count(); ++point) {
       const auto memberships = set.memberships(point);
       if (memberships.size() > 4) continue;  // the fifth is taken off
-      for (const Membership& of : memberships) {
+      for (const ParticleMembership& of : memberships) {
         if (!(of.reach > 0.9f)) continue;
         const ParticleInfluences& influences = set.influences()[point];
         const auto at = std::ranges::find(influences.particles, of.particle) - influences.particles.begin();
@@ -333,7 +336,7 @@ TEST(Decomposition, refuses_ranges_that_are_none) {
   const TornModel model = make_model(test::make_sheet(4));
   for (const double range : {0.0, -0.1, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
     for (const bool is_fraction : {true, false}) {
-      const auto set = ParticleSet::decompose(model, bind_pose(model.source()), {range, is_fraction, 0});
+      const auto set = ParticleSet::create(model, bind_pose(model.source()), {range, is_fraction, 0});
       ASSERT_FALSE(set);
       EXPECT_EQ(set.error().code(), StatusCode::invalid_argument);
       EXPECT_THAT(std::string(set.error().text()), HasSubstr("range"));
@@ -345,7 +348,7 @@ TEST(Decomposition, refuses_extreme_ranges_or_takes_them) {
   for (const double range : {1e-300, 1e-30, 1e-12, 1e12, 1e30, 1e300})
     for (const bool is_fraction : {true, false}) {
       SCOPED_TRACE(range);
-      const auto set = ParticleSet::decompose(model, bind_pose(model.source()), {range, is_fraction, 0});
+      const auto set = ParticleSet::create(model, bind_pose(model.source()), {range, is_fraction, 0});
       if (set) {
         EXPECT_THAT(test::broken_particles(model, *set), IsEmpty());
       } else {
@@ -357,7 +360,7 @@ TEST(Decomposition, refuses_extreme_ranges_or_takes_them) {
 TEST(Decomposition, refuses_poses_that_do_not_fit) {
   const TornModel model = make_model(test::make_tube(5, 6, 3));
   const auto error = [&](const ModelPose& pose) {
-    const auto set = ParticleSet::decompose(model, pose);
+    const auto set = ParticleSet::create(model, pose);
     EXPECT_FALSE(set);
     return set.error();
   };
@@ -387,7 +390,7 @@ TEST(Decomposition, refuses_a_model_without_a_face) {
   bore.radius = 3.0;
   bore.depth = 2.0;
   ASSERT_TRUE(model.drill(bind_pose(model.source()), bore));
-  const auto set = ParticleSet::decompose(model, bind_pose(model.source()));
+  const auto set = ParticleSet::create(model, bind_pose(model.source()));
   ASSERT_FALSE(set);
   EXPECT_EQ(set.error().code(), StatusCode::empty_input);
   EXPECT_THAT(std::string(set.error().text()), HasSubstr("face"));
@@ -395,7 +398,7 @@ TEST(Decomposition, refuses_a_model_without_a_face) {
 
 TEST(Decomposition, refuses_more_particles_than_there_may_be) {
   const TornModel model = make_model(test::make_sheet(1030));
-  const auto set = ParticleSet::decompose(model, bind_pose(model.source()), {1e-7, true, 0});
+  const auto set = ParticleSet::create(model, bind_pose(model.source()), {1e-7, true, 0});
   ASSERT_FALSE(set);
   EXPECT_EQ(set.error().code(), StatusCode::limit_exceeded);
   EXPECT_THAT(std::string(set.error().text()), HasSubstr("1048576"));

@@ -1,5 +1,6 @@
-#include <sunder/particles/find_range.h>
-#include <sunder/skinning/palette.h>
+#include <sunder/particles/particle_set.h>
+#include <sunder/skinning/deform.h>
+#include <sunder/skinning/pose.h>
 
 #include <cmath>
 
@@ -30,7 +31,7 @@ TEST(FindRange, makes_about_as_many_particles_as_wanted) {
     EXPECT_NEAR(found->particles, wanted, std::max(1.0, 0.1 * wanted));
     DecompositionOptions options;
     options.range = found->range;
-    EXPECT_EQ(ParticleSet::decompose(scene.model, scene.pose, options)->particle_count(), found->particles);
+    EXPECT_EQ(ParticleSet::create(scene.model, scene.pose, options)->particle_count(), found->particles);
   }
 }
 

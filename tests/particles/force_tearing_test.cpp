@@ -1,7 +1,7 @@
 // The whole chain: a tear, particles that follow it, a body whose lips part, and tissue that tears by itself.
 
 #include <sunder/particles/force_tearing.h>
-#include <sunder/tear/replay.h>
+#include <sunder/tear/torn_model.h>
 
 #include <array>
 #include <cmath>
@@ -28,8 +28,8 @@ constexpr double kStep = 1.0 / 60, kRange = 0.06;
 constexpr double kDiagonal = 1.4142135623730951;  ///< Of the sheet.
 
 /// @param return_stiffness  0: what is pulled is stretched evenly.
-Material tissue(double strength, double return_stiffness = 0) {
-  Material material;
+SoftMaterial tissue(double strength, double return_stiffness = 0) {
+  SoftMaterial material;
   material.return_stiffness = return_stiffness;
   material.strength = strength;
   return material;

@@ -4,13 +4,11 @@
 
 namespace sunder {
 namespace {
-
-using particles::Index;
 using particles::Motion;
 using particles::RestMotion;
 
 struct Torn {
-  test::SoftScene scene{test::make_sheet(8), Material(), 0.2};
+  test::SoftScene scene{test::make_sheet(8), SoftMaterial(), 0.2};
   RestMotion rests;
   Motion motion;
 

@@ -1,7 +1,8 @@
 // Particles of every rigged file at hand: decomposed coarsely and finely, torn, and taken back.
-#include <sunder/io/load_character.h>
+#include <sunder/io/character_file.h>
 #include <sunder/particles/particle_set.h>
-#include <sunder/skinning/palette.h>
+#include <sunder/skinning/deform.h>
+#include <sunder/skinning/pose.h>
 
 #include <algorithm>
 
@@ -27,7 +28,7 @@ void tear_and_undo(const std::filesystem::path& file, double range) {
   ASSERT_TRUE(model) << model.error().text();
   Random random(3);
   const ModelPose pose = test::random_pose(*loaded->character, random, 0.4, 1.1);
-  auto set = ParticleSet::decompose(*model, bind_pose(*loaded->character), {range});
+  auto set = ParticleSet::create(*model, bind_pose(*loaded->character), {range});
   ASSERT_TRUE(set) << set.error().text();
   ASSERT_THAT(test::broken_particles(*model, *set), IsEmpty());
   EXPECT_EQ(set->report().covered, set->report().points);

@@ -1,8 +1,9 @@
 // Particles follow whatever is done to their model, and undo gives back every bit of them.
 #include <sunder/particles/particle_set.h>
-#include <sunder/skinning/palette.h>
-#include <sunder/tear/replay.h>
+#include <sunder/skinning/deform.h>
+#include <sunder/skinning/pose.h>
 #include <sunder/tear/tear_stroke.h>
+#include <sunder/tear/torn_model.h>
 
 #include <algorithm>
 #include <map>
@@ -17,6 +18,7 @@
 #include "support/rigs.h"
 #include "support/say.h"
 #include "support/stress.h"
+#include "tear/internal/surface.h"
 
 namespace sunder {
 namespace {
@@ -39,7 +41,7 @@ Character some_character(Random& random) {
 }
 
 ParticleSet decompose(const TornModel& model, double range, std::uint64_t seed = 0) {
-  auto set = ParticleSet::decompose(model, bind_pose(model.source()), {range, true, seed});
+  auto set = ParticleSet::create(model, bind_pose(model.source()), {range, true, seed});
   EXPECT_TRUE(set) << set.error().text();
   return std::move(*set);
 }
@@ -83,7 +85,7 @@ struct Followed {
       if (point < before.size() && set.influences()[point] == before[point]) continue;
       if (point >= before.size() && model.surface().point_corner[point] == kNone) continue;  // was taken away again
       ASSERT_TRUE(std::ranges::any_of(
-          set.dirty_points(), [&](const Range& range) { return point >= range.first && point - range.first < range.count; }))
+          set.dirty_points(), [&](const IndexRange& range) { return point >= range.first && point - range.first < range.count; }))
           << "point " << point << " changed";
     }
   }
@@ -121,9 +123,9 @@ void expect_far_points_kept(const Followed& followed, const ParticleState& befor
     const Vec3f& at = set.positions()[point];
     if (std::ranges::any_of(torn, [&](const Vec3f& other) { return (other - at).norm() < reach; })) continue;
     const auto now = set.memberships(point);
-    ASSERT_TRUE(
-        std::ranges::equal(now, before.memberships[point],
-                           [](const Membership& a, const Membership& b) { return a.particle == b.particle && a.reach == b.reach; }))
+    ASSERT_TRUE(std::ranges::equal(
+        now, before.memberships[point],
+        [](const ParticleMembership& a, const ParticleMembership& b) { return a.particle == b.particle && a.reach == b.reach; }))
         << "point " << point;
   }
 }
@@ -264,7 +266,7 @@ void extend_at_random(std::uint64_t seed, bool settles) {
   const TearOperation tear = test::random_tear(model, random, seed % 2 == 1);
   const auto& pose = std::get<ModelPose>(tear.pose);
   {
-    auto stroke = TearStroke::begin(model, pose, tear.stroke[0], tear.options);
+    auto stroke = TearStroke::create(model, pose, tear.stroke[0], tear.options);
     ASSERT_TRUE(stroke) << stroke.error().text();
     followed.told.emplace_back();
     const auto follow = [&](const ChangeRecord& change) {
@@ -460,7 +462,7 @@ TEST(Follow, refuses_another_model_and_one_that_was_compacted) {
   EXPECT_EQ(difference(state_of(followed.model, followed.set, pose), before), "");
   ASSERT_TRUE(followed.model.compact());
   expect_refused(followed.model);
-  const auto anew = ParticleSet::decompose(followed.model, pose, {0.2});
+  const auto anew = ParticleSet::create(followed.model, pose, {0.2});
   ASSERT_TRUE(anew) << anew.error().text();
   EXPECT_THAT(test::broken_particles(followed.model, *anew), IsEmpty());
 }

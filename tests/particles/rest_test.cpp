@@ -1,6 +1,7 @@
 // Where particles rest in a pose, held against their members skinned one by one.
 #include <sunder/particles/particle_set.h>
-#include <sunder/skinning/palette.h>
+#include <sunder/skinning/deform.h>
+#include <sunder/skinning/pose.h>
 
 #include <limits>
 #include <numeric>
@@ -23,7 +24,7 @@ using test::Random;
 using testing::IsEmpty;
 
 ParticleSet decompose(const TornModel& model, const ModelPose& pose, double range) {
-  auto set = ParticleSet::decompose(model, pose, {range});
+  auto set = ParticleSet::create(model, pose, {range});
   EXPECT_TRUE(set) << set.error().text();
   return std::move(*set);
 }

@@ -15,7 +15,7 @@ using test::SoftScene;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 const Vec3d kDown(0, -9.81, 0);
 
-SoftScene make_tube_scene(const Material& material = {}, const SoftBodyOptions& options = {}) {
+SoftScene make_tube_scene(const SoftMaterial& material = {}, const SoftBodyOptions& options = {}) {
   return SoftScene(test::make_tube(60, 16, 6), material, 0.1, options);
 }
 
@@ -76,7 +76,7 @@ TEST(soft_body, rings_down_to_exactly_nothing) {
 }
 
 TEST(soft_body, sags_by_gravity_over_stiffness) {
-  Material material;
+  SoftMaterial material;
   material.return_stiffness = 500;
   SoftScene scene = make_tube_scene(material);
   ASSERT_TRUE(scene.body->set_gravity(kDown));
@@ -93,7 +93,7 @@ TEST(soft_body, sags_by_gravity_over_stiffness) {
 TEST(soft_body, a_uniform_body_moves_the_same_by_any_step) {
   // Neighbours that move alike do not pull: every particle follows the closed form.
   for (const double ratio : {0.05, 1.0, 3.0}) {
-    Material material;
+    SoftMaterial material;
     material.return_stiffness = 100;
     material.damping_ratio = ratio;
     std::vector<Vec3d> found;
@@ -110,8 +110,8 @@ TEST(soft_body, a_uniform_body_moves_the_same_by_any_step) {
 TEST(soft_body, is_stable_at_any_step_and_stiffness) {
   test::Random random(11);
   for (int trial = 0; trial < 60; ++trial) {
-    std::vector<Material> materials(3);
-    for (Material& m : materials) {
+    std::vector<SoftMaterial> materials(3);
+    for (SoftMaterial& m : materials) {
       m.return_stiffness = std::pow(10, random.uniform(-3, 12));
       m.neighbour_stiffness = std::pow(10, random.uniform(-3, 12));
       m.damping_ratio = random.uniform(0.1, 2);
@@ -191,7 +191,7 @@ TEST(soft_body, a_gust_wakes_who_sleeps_and_madness_counts_as_none) {
 TEST(soft_body, rides_with_the_pose) {
   SoftScene scene = make_tube_scene();
   const ModelPose start = scene.pose;
-  Material none;
+  SoftMaterial none;
   none.return_stiffness = none.neighbour_stiffness = 0;
   none.damping_ratio = 0;
   ASSERT_TRUE(scene.body->change_material(0, none));
@@ -225,7 +225,7 @@ TEST(soft_body, what_lags_does_not_depend_on_the_step) {
   // The rest moves evenly, then stands: an oscillator in a frame that moves along, and one that does not.
   SoftBodyOptions options;
   options.follow = Follow::lag;
-  Material material;
+  SoftMaterial material;
   material.return_stiffness = 60;
   material.damping_ratio = 0.2;
   std::vector<Vec3d> moving, after;
@@ -253,7 +253,7 @@ TEST(soft_body, velocities_inherit_the_motion_of_the_pose) {
     SoftBodyOptions options;
     options.follow = follow;
     options.tracks_rest = true;
-    Material stiff;
+    SoftMaterial stiff;
     stiff.return_stiffness = 1e8;
     stiff.damping_ratio = 1;
     SoftScene scene = make_tube_scene(stiff, options);
@@ -290,7 +290,7 @@ TEST(soft_body, what_is_far_away_sleeps_on) {
 }
 
 TEST(soft_body, a_front_wakes_neighbour_after_neighbour) {
-  Material material;
+  SoftMaterial material;
   material.return_stiffness = 20;
   material.neighbour_stiffness = 3000;
   SoftScene scene(test::make_tube(60, 16, 6), material, 0.08);
@@ -323,7 +323,7 @@ TEST(soft_body, the_same_calls_give_the_same_bits) {
     EXPECT_TRUE(scene.body->set_gravity(kDown));
     for (std::uint32_t p = 0; p < scene.count(); ++p) EXPECT_TRUE(scene.body->set_material(p, random.index(2)));
     EXPECT_TRUE(scene.body->hold_point(50, {1, 1, 1}));
-    const Collider ball{Sphere{0.4}, {0.7, 2, 0}, Quatd::Identity(), 0.3};
+    const Collider ball{Collider::Sphere{0.4}, {0.7, 2, 0}, Quatd::Identity(), 0.3};
     EXPECT_TRUE(scene.body->set_colliders({&ball, 1}));
     std::vector<double> bits;
     for (int i = 0; i < 60; ++i) {
@@ -338,7 +338,7 @@ TEST(soft_body, the_same_calls_give_the_same_bits) {
 }
 
 TEST(soft_body, other_materials_move_otherwise) {
-  Material soft, hard;
+  SoftMaterial soft, hard;
   soft.return_stiffness = 100;
   hard.return_stiffness = 10000;
   soft.neighbour_stiffness = hard.neighbour_stiffness = 0;
@@ -378,7 +378,7 @@ TEST(soft_body, moved_vertices_are_those_of_displaced_particles) {
       if (scene.body->displacement(of.particles[k]) != Vec3d::Zero()) wanted[v] = true;
   }
   std::uint32_t end = 0;
-  for (const Range& range : scene.body->moved_vertices(*scene.model, 0)) {
+  for (const IndexRange& range : scene.body->moved_vertices(*scene.model, 0)) {
     EXPECT_TRUE(end == 0 || range.first > end);
     end = range.first + range.count;
     for (std::uint32_t v = range.first; v < end; ++v) found[v] = true;
@@ -387,10 +387,10 @@ TEST(soft_body, moved_vertices_are_those_of_displaced_particles) {
 }
 
 TEST(soft_body, does_not_allocate_once_warm) {
-  Material material;
+  SoftMaterial material;
   material.stretch_limit = 1.2;
   SoftScene scene = make_tube_scene(material);
-  const Collider ball{Sphere{0.5}, {0.8, 3, 0}, Quatd::Identity(), 0.5};
+  const Collider ball{Collider::Sphere{0.5}, {0.8, 3, 0}, Quatd::Identity(), 0.5};
   ASSERT_TRUE(scene.body->set_colliders({&ball, 1}));
   ASSERT_TRUE(scene.body->set_gravity(kDown));
   ASSERT_TRUE(scene.body->hold_point(30, {1, 1, 1}));
@@ -419,7 +419,7 @@ TEST(soft_body, nothing_breaks_it) {
   for (int trial = 0; trial < 24; ++trial) {
     SoftBodyOptions options;
     options.follow = trial % 2 == 0 ? Follow::ride : Follow::lag;
-    std::vector<Material> materials(material_presets().begin(), material_presets().end());
+    std::vector<SoftMaterial> materials(material_presets().begin(), material_presets().end());
     SoftScene scene(trial % 3 == 0 ? test::make_bumpy_ball(700) : test::make_tube(40, 12, 4), materials, 0.12, options);
     SoftBody& body = *scene.body;
     const ModelPose rest = scene.pose;
@@ -438,8 +438,8 @@ TEST(soft_body, nothing_breaks_it) {
           holds.clear();
           break;
         case 7: {
-          const Collider some[] = {{Sphere{0.4}, random.direction(), random_turn(random), 0.5},
-                                   {Box{{0.2, 0.4, 0.3}}, random.direction(), random_turn(random), 0.1}};
+          const Collider some[] = {{Collider::Sphere{0.4}, random.direction(), random_turn(random), 0.5},
+                                   {Collider::Box{{0.2, 0.4, 0.3}}, random.direction(), random_turn(random), 0.1}};
           ASSERT_TRUE(body.set_colliders({some, random.index(3)}));
           break;
         }
@@ -507,7 +507,7 @@ TEST(soft_body, bad_input_is_named_and_changes_nothing) {
   expect(body.set_tension({-1.0, {}}), StatusCode::invalid_argument, kNone, "tension");
   expect(body.set_material(count, 0), StatusCode::index_out_of_range, count, "particle");
   expect(body.set_material(0, 1), StatusCode::index_out_of_range, 1, "material");
-  Material bad;
+  SoftMaterial bad;
   bad.name = "bad";
   bad.damping_ratio = -1;
   expect(body.change_material(0, bad), StatusCode::invalid_argument, 0, "'bad': damping_ratio is -1");
@@ -519,7 +519,8 @@ TEST(soft_body, bad_input_is_named_and_changes_nothing) {
   expect(body.move_hold(*hold, nan), StatusCode::non_finite_value, kNone, "target");
   expect(body.move_hold(99, {0, 0, 0}), StatusCode::not_found, kNone, "99");
   expect(body.release(99), StatusCode::not_found, kNone, "99");
-  const Collider bad_ball{Sphere{-1}, Vec3d::Zero(), Quatd::Identity(), 0}, ball{Sphere{1}, {9, 9, 9}, Quatd::Identity(), 0};
+  const Collider bad_ball{Collider::Sphere{-1}, Vec3d::Zero(), Quatd::Identity(), 0},
+      ball{Collider::Sphere{1}, {9, 9, 9}, Quatd::Identity(), 0};
   const Collider both[] = {ball, bad_ball};
   expect(body.set_colliders(both), StatusCode::invalid_argument, 1, "radius is -1");
   expect(body.move_collider(0, {0, 0, 0}, Quatd::Identity()), StatusCode::index_out_of_range, 0, "collider");
@@ -537,13 +538,13 @@ TEST(soft_body, bad_input_is_named_and_changes_nothing) {
   ASSERT_EQ(before.size(), after.size());
   EXPECT_EQ(std::memcmp(before.data(), after.data(), before.size() * sizeof(double)), 0);
   EXPECT_EQ(SoftBody::create(*scene.set, scene.pose, {}).error().code(), StatusCode::empty_input);
-  const Material two[] = {Material(), bad};
+  const SoftMaterial two[] = {SoftMaterial(), bad};
   EXPECT_EQ(SoftBody::create(*scene.set, scene.pose, two).error().index(), 1u);
   EXPECT_EQ(SoftBody::create(*scene.set, wrong, {two, 1}).error().index(), 2u);
 }
 
 TEST(material, is_checked_and_found) {
-  for (const Material& material : material_presets()) {
+  for (const SoftMaterial& material : material_presets()) {
     EXPECT_TRUE(validate_material(material)) << validate_material(material).text();
     const auto found = find_material(material.name);
     ASSERT_TRUE(found);
@@ -551,17 +552,17 @@ TEST(material, is_checked_and_found) {
   }
   EXPECT_EQ(find_material("granite").error().code(), StatusCode::not_found);
   const auto fault = [](auto change) {
-    Material material;
+    SoftMaterial material;
     change(material);
     return validate_material(material);
   };
-  EXPECT_EQ(fault([](Material& m) { m.return_stiffness = kNaN; }).code(), StatusCode::non_finite_value);
-  EXPECT_EQ(fault([](Material& m) { m.return_stiffness = 2e12; }).code(), StatusCode::invalid_argument);
-  EXPECT_EQ(fault([](Material& m) { m.mass = 0; }).code(), StatusCode::invalid_argument);
-  EXPECT_EQ(fault([](Material& m) { m.range = 0; }).code(), StatusCode::invalid_argument);
-  EXPECT_EQ(fault([](Material& m) { m.stretch_limit = 0.5; }).code(), StatusCode::invalid_argument);
-  EXPECT_EQ(fault([](Material& m) { m.strength = 1; }).code(), StatusCode::invalid_argument);
-  EXPECT_EQ(fault([](Material& m) { m.neighbour_stiffness = -1; }).code(), StatusCode::invalid_argument);
+  EXPECT_EQ(fault([](SoftMaterial& m) { m.return_stiffness = kNaN; }).code(), StatusCode::non_finite_value);
+  EXPECT_EQ(fault([](SoftMaterial& m) { m.return_stiffness = 2e12; }).code(), StatusCode::invalid_argument);
+  EXPECT_EQ(fault([](SoftMaterial& m) { m.mass = 0; }).code(), StatusCode::invalid_argument);
+  EXPECT_EQ(fault([](SoftMaterial& m) { m.range = 0; }).code(), StatusCode::invalid_argument);
+  EXPECT_EQ(fault([](SoftMaterial& m) { m.stretch_limit = 0.5; }).code(), StatusCode::invalid_argument);
+  EXPECT_EQ(fault([](SoftMaterial& m) { m.strength = 1; }).code(), StatusCode::invalid_argument);
+  EXPECT_EQ(fault([](SoftMaterial& m) { m.neighbour_stiffness = -1; }).code(), StatusCode::invalid_argument);
 }
 
 }  // namespace

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <sunder/particles/soft_body.h>
-#include <sunder/skinning/palette.h>
-#include <sunder/skinning/sample_clip.h>
+#include <sunder/skinning/deform.h>
+#include <sunder/skinning/pose.h>
 
 #include <cmath>
 #include <memory>
@@ -21,10 +21,10 @@ struct SoftScene {
   std::unique_ptr<ParticleSet> set;
   std::unique_ptr<SoftBody> body;
 
-  explicit SoftScene(Character from, const Material& material = {}, double range = 0.1, const SoftBodyOptions& options = {})
-      : SoftScene(std::move(from), std::vector<Material>{material}, range, options) {}
+  explicit SoftScene(Character from, const SoftMaterial& material = {}, double range = 0.1, const SoftBodyOptions& options = {})
+      : SoftScene(std::move(from), std::vector<SoftMaterial>{material}, range, options) {}
 
-  SoftScene(Character from, const std::vector<Material>& materials, double range, const SoftBodyOptions& options)
+  SoftScene(Character from, const std::vector<SoftMaterial>& materials, double range, const SoftBodyOptions& options)
       : character(std::make_shared<const Character>(std::move(from))) {
     Result<TornModel> made = TornModel::create(character);
     EXPECT_TRUE(made) << made.error().text();
@@ -32,7 +32,7 @@ struct SoftScene {
     pose = bind_pose(*character);
     DecompositionOptions decomposition;
     decomposition.range = range;
-    Result<ParticleSet> divided = ParticleSet::decompose(*model, pose, decomposition);
+    Result<ParticleSet> divided = ParticleSet::create(*model, pose, decomposition);
     EXPECT_TRUE(divided) << divided.error().text();
     set = std::make_unique<ParticleSet>(std::move(*divided));
     Result<SoftBody> soft = SoftBody::create(*set, pose, materials, options);

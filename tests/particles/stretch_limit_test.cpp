@@ -11,7 +11,7 @@ using test::SoftScene;
 double worst_stretch(const SoftScene& scene) {
   double worst = 0;
   for (std::uint32_t p = 0; p < scene.count(); ++p)
-    for (const Neighbour& neighbour : scene.set->neighbours(p)) {
+    for (const ParticleNeighbour& neighbour : scene.set->neighbours(p)) {
       const Vec3d at_rest = (scene.body->place(p) - scene.body->displacement(p)) -
                             (scene.body->place(neighbour.particle) - scene.body->displacement(neighbour.particle));
       worst = std::max(worst, (scene.body->place(p) - scene.body->place(neighbour.particle)).norm() / at_rest.norm());
@@ -19,8 +19,8 @@ double worst_stretch(const SoftScene& scene) {
   return worst;
 }
 
-Material soft_material(double limit) {
-  Material material;
+SoftMaterial soft_material(double limit) {
+  SoftMaterial material;
   material.return_stiffness = 40;
   material.neighbour_stiffness = 20;
   material.stretch_limit = limit;
@@ -63,7 +63,7 @@ TEST(stretch_limit, changes_no_bit_where_it_is_not_reached) {
 }
 
 TEST(stretch_limit, adds_no_momentum) {
-  Material material = soft_material(1.05);
+  SoftMaterial material = soft_material(1.05);
   material.return_stiffness = 0;
   SoftScene scene(test::make_bumpy_ball(800), material, 0.15);
   ASSERT_TRUE(scene.body->add_impulse(4, {0.02, 0, 0}));

@@ -1,7 +1,8 @@
 // Distances along surfaces whose shortest paths are known.
 #include "particles/front/surface_front.h"
 
-#include <sunder/skinning/palette.h>
+#include <sunder/skinning/deform.h>
+#include <sunder/skinning/pose.h>
 
 #include <cmath>
 #include <numbers>
@@ -12,6 +13,7 @@
 #include "support/rigs.h"
 #include "support/stress.h"
 #include "support/surface_distances.h"
+#include "tear/internal/surface.h"
 
 namespace sunder::particles {
 namespace {

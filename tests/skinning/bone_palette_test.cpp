@@ -1,5 +1,6 @@
 #include <sunder/skinning/bone_palette.h>
-#include <sunder/skinning/palette.h>
+#include <sunder/skinning/deform.h>
+#include <sunder/skinning/pose.h>
 
 #include <limits>
 

@@ -1,10 +1,9 @@
 #include <sunder/skinning/deform.h>
-#include <sunder/skinning/palette.h>
-#include <sunder/skinning/reference.h>
-#include <sunder/skinning/sample_clip.h>
+#include <sunder/skinning/pose.h>
 
 #include <gtest/gtest.h>
 
+#include "skinning/internal/reference.h"
 #include "support/rigs.h"
 
 namespace sunder {

@@ -1,4 +1,3 @@
-#include <sunder/skinning/reference.h>
 #include <sunder/skinning/skinned_mesh.h>
 
 #include <cmath>
@@ -6,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "skinning/internal/reference.h"
 #include "support/posed_arrays.h"
 #include "support/random_skin.h"
 

@@ -1,7 +1,6 @@
 // Vertices with a bind position for each influence: they stay where a triangle has them, in every pose.
 
-#include <sunder/skinning/palette.h>
-#include <sunder/skinning/reference.h>
+#include <sunder/skinning/deform.h>
 #include <sunder/skinning/skinned_mesh.h>
 
 #include <array>
@@ -9,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "skinning/internal/reference.h"
 #include "support/posed_arrays.h"
 #include "support/random_skin.h"
 

@@ -1,5 +1,5 @@
-#include <sunder/skinning/palette.h>
-#include <sunder/skinning/sample_clip.h>
+#include <sunder/skinning/deform.h>
+#include <sunder/skinning/pose.h>
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@ namespace {
 
 TEST(Palette, model_matrices_multiply_down_the_tree) {
   const Character character = test::make_tube(2, 4, 3);
-  Pose pose = rest_pose(character);
+  Pose pose = local_rest_pose(character);
   pose.parent_from_bone[0].rotation = Quatf(Eigen::AngleAxisf(0.5f, Eigen::Vector3f::UnitZ()));
   pose.parent_from_bone[1].scale = {2, 1, 0.5};
   ModelPose model;

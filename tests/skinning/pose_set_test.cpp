@@ -1,7 +1,5 @@
-#include <sunder/skinning/palette.h>
-#include <sunder/skinning/pose_set.h>
-#include <sunder/skinning/pose_spec.h>
-#include <sunder/skinning/sample_clip.h>
+#include <sunder/skinning/deform.h>
+#include <sunder/skinning/pose.h>
 
 #include <algorithm>
 #include <cmath>
@@ -52,12 +50,12 @@ PoseSetSpec limits_only(std::vector<JointLimit> limits) {
 }
 
 PoseSet make_set(const std::shared_ptr<const Character>& character, const PoseSetSpec& spec) {
-  Result<PoseSet> set = PoseSet::make(character, spec);
+  Result<PoseSet> set = PoseSet::create(character, spec);
   EXPECT_TRUE(set) << set.error().text();
   return *set;
 }
 
-Status fault_of(const Character& character, const PoseSetSpec& spec) { return PoseSet::make(share(character), spec).error(); }
+Status fault_of(const Character& character, const PoseSetSpec& spec) { return PoseSet::create(share(character), spec).error(); }
 
 std::vector<ModelPose> poses_of(const PoseSet& set, Role role) {
   std::vector<ModelPose> poses(set.size(role));
@@ -195,7 +193,7 @@ TEST(PoseSet, clips_are_fitted_in_the_middles_of_intervals_and_held_out_between)
       for (std::uint32_t i = 0; i < samples; ++i)
         for (const Role role : {Role::fit, Role::held_out}) {
           const double interval = i + (role == Role::fit ? 0.5 : 0.0);
-          Pose local = rest_pose(character);
+          Pose local = local_rest_pose(character);
           ASSERT_TRUE(sample_clip(character.clips[clip], interval / samples * character.clips[clip].duration, local));
           ModelPose wanted, found;
           ASSERT_TRUE(compute_model_pose(character.skeleton, local, wanted));
@@ -467,7 +465,7 @@ TEST(PoseSet, a_set_keeps_its_character) {
 // Refusals
 
 TEST(PoseSet, refuses_faulty_characters) {
-  EXPECT_EQ(PoseSet::make(nullptr, {}).error().code(), StatusCode::empty_input);
+  EXPECT_EQ(PoseSet::create(nullptr, {}).error().code(), StatusCode::empty_input);
   Character character = make_crooked_tube(3);
   character.clips[0].channels[0].times.clear();
   EXPECT_EQ(fault_of(character, {}).code(), StatusCode::empty_input);

@@ -1,10 +1,8 @@
 // What a SkinnedMesh promises: the definition to float precision; and the same bits whatever the blocks, vectors, tasks, layouts,
 // and whatever of it was already written.
 
-#include <sunder/skinning/palette.h>
-#include <sunder/skinning/reference.h>
+#include <sunder/skinning/deform.h>
 #include <sunder/skinning/skinned_mesh.h>
-#include <sunder/skinning/vertex_order.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,6 +12,7 @@
 
 #include <gtest/gtest.h>
 
+#include "skinning/internal/reference.h"
 #include "support/posed_arrays.h"
 #include "support/random_skin.h"
 #include "support/stress.h"
@@ -259,10 +258,10 @@ TEST(SkinnedMesh, weights_of_16_bits_are_65535ths) {
 }
 
 /// Whether ranges ascend, lie apart, and hold every vertex that `changed` says.
-void expect_ranges_cover(std::span<const Range> ranges, std::uint32_t vertices, const std::vector<bool>& changed) {
+void expect_ranges_cover(std::span<const IndexRange> ranges, std::uint32_t vertices, const std::vector<bool>& changed) {
   std::vector<bool> covered(vertices);
   std::uint32_t end = 0;
-  for (const Range& range : ranges) {
+  for (const IndexRange& range : ranges) {
     ASSERT_GT(range.count, 0u);
     ASSERT_TRUE(range.first > end || (range.first == 0 && end == 0)) << "ranges touch or descend";
     end = range.first + range.count;
@@ -318,7 +317,7 @@ TEST(SkinnedMesh, what_did_not_move_is_not_written) {
   PosedBuffer buffer(posed.target());
   write(made, palette, buffer);
   ASSERT_EQ(buffer.dirty_vertices().size(), 1u);
-  EXPECT_EQ(buffer.dirty_vertices()[0], (Range{0, mesh.vertex_count()}));
+  EXPECT_EQ(buffer.dirty_vertices()[0], (IndexRange{0, mesh.vertex_count()}));
 
   posed.erase();
   ASSERT_TRUE(palette.set(matrices, std::vector<float>{0.5f}));

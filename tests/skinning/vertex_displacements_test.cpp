@@ -1,7 +1,6 @@
 // Displaced vertices: the definition to float precision; the same bits whatever was displaced before, at every number of tasks, in
 // every layout; normals and tangents as the displaced surface has them.
 
-#include <sunder/skinning/reference.h>
 #include <sunder/skinning/skinned_mesh.h>
 
 #include <algorithm>
@@ -12,6 +11,7 @@
 
 #include <gtest/gtest.h>
 
+#include "skinning/internal/reference.h"
 #include "support/allocation_count.h"
 #include "support/posed_arrays.h"
 #include "support/random_skin.h"
@@ -62,7 +62,7 @@ struct Soft {
   std::vector<std::uint32_t> rows;
   std::vector<ParticleInfluences> influences;
   std::vector<Vec4f> displacements;
-  std::vector<Range> moved;
+  std::vector<IndexRange> moved;
   std::vector<ParticleGradients> gradients;
   std::vector<Mat3f> matrices;
 
@@ -131,7 +131,7 @@ Vec3d displacement_of(const Soft& soft, std::uint32_t vertex) {
 
 std::vector<bool> moved_vertices(const Soft& soft) {
   std::vector<bool> is_moved(soft.rows.size());
-  for (const Range& range : soft.moved)
+  for (const IndexRange& range : soft.moved)
     for (std::uint32_t v = range.first; v < range.first + range.count; ++v) is_moved[v] = true;
   return is_moved;
 }
@@ -174,10 +174,10 @@ TEST(VertexDisplacements, agree_with_the_definition_in_double) {
 }
 
 /// Whether ranges ascend, lie apart, and hold every vertex that `changed` says.
-void expect_ranges_cover(std::span<const Range> ranges, const std::vector<bool>& changed) {
+void expect_ranges_cover(std::span<const IndexRange> ranges, const std::vector<bool>& changed) {
   std::vector<bool> covered(changed.size());
   std::uint32_t end = 0;
-  for (const Range& range : ranges) {
+  for (const IndexRange& range : ranges) {
     ASSERT_GT(range.count, 0u);
     ASSERT_TRUE(range.first > end || (range.first == 0 && end == 0)) << "ranges touch or descend";
     end = range.first + range.count;
@@ -326,14 +326,14 @@ TEST(VertexDisplacements, only_blocks_that_are_displaced_or_were_are_written) {
     PosedBuffer buffer(posed.target());
     ASSERT_TRUE(made.deform(palette, buffer));
     Soft soft = make_soft(random, kind.vertices);
-    const auto written = [&](std::vector<Range> moved) {
+    const auto written = [&](std::vector<IndexRange> moved) {
       soft.moved = std::move(moved);
       posed.erase();
       const VertexDisplacements view = soft.view();
       EXPECT_TRUE(made.deform(palette, buffer, {}, &view));
       std::uint32_t count = 0;
       for (std::uint32_t v = 0; v < kind.vertices; ++v) count += !posed.is_untouched(v);
-      for (const Range& range : soft.moved) EXPECT_FALSE(posed.is_untouched(range.first));
+      for (const IndexRange& range : soft.moved) EXPECT_FALSE(posed.is_untouched(range.first));
       return count;
     };
     EXPECT_EQ(written({}), 0u);

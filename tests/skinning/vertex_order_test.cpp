@@ -1,4 +1,4 @@
-#include <sunder/skinning/vertex_order.h>
+#include <sunder/skinning/skinned_mesh.h>
 
 #include <algorithm>
 

@@ -1,8 +1,8 @@
-#include <sunder/skinning/palette.h>
-#include <sunder/skinning/reference.h>
+#include <sunder/skinning/deform.h>
 
 #include <algorithm>
 
+#include "skinning/internal/reference.h"
 #include "support/rigs.h"
 #include "support/say.h"
 #include "support/torn_invariants.h"

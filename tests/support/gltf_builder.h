@@ -1,6 +1,6 @@
 #pragma once
 
-#include <sunder/io/load_character.h>
+#include <sunder/io/character_file.h>
 
 #include <cstddef>
 #include <cstdint>

@@ -1,7 +1,7 @@
 #include "support/particle_laws.h"
 
-#include <sunder/skinning/palette.h>
-#include <sunder/skinning/reference.h>
+#include <sunder/skinning/deform.h>
+#include <sunder/skinning/pose.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,8 +11,10 @@
 #include <numeric>
 #include <set>
 
+#include "skinning/internal/reference.h"
 #include "support/rigs.h"
 #include "support/say.h"
+#include "tear/internal/surface.h"
 
 namespace sunder::test {
 namespace {
@@ -29,12 +31,12 @@ std::uint32_t count_of(const ParticleInfluences& influences) {
 struct Sums {
   std::vector<std::vector<std::uint32_t>> members;  ///< Ascending.
   std::vector<double> weights;
-  std::vector<std::map<std::uint32_t, Neighbour>> neighbours;
+  std::vector<std::map<std::uint32_t, ParticleNeighbour>> neighbours;
 
   Sums(const ParticleSet& set)
       : members(set.particle_count()), weights(set.particle_count(), 0.0), neighbours(set.particle_count()) {
     for (std::uint32_t point = 0; point < set.point_count(); ++point) {
-      for (const Membership& membership : set.memberships(point))
+      for (const ParticleMembership& membership : set.memberships(point))
         if (membership.particle < set.particle_count()) members[membership.particle].push_back(point);
       const ParticleInfluences& influences = set.influences()[point];
       const std::uint32_t count = count_of(influences);
@@ -43,7 +45,7 @@ struct Sums {
         weights[influences.particles[i]] += double{influences.weights[i]};
         for (std::uint32_t j = 0; j < count; ++j) {
           if (i == j) continue;
-          Neighbour& neighbour = neighbours[influences.particles[i]][influences.particles[j]];
+          ParticleNeighbour& neighbour = neighbours[influences.particles[i]][influences.particles[j]];
           ++neighbour.points;
           neighbour.shared += double{influences.weights[i]} * double{influences.weights[j]};
         }
@@ -55,7 +57,7 @@ struct Sums {
 void check_point(const ParticleSet& set, std::uint32_t point, bool has_face, std::vector<std::string>& faults) {
   const auto memberships = set.memberships(point);
   std::uint32_t next = 0;
-  for (const Membership& membership : memberships) {
+  for (const ParticleMembership& membership : memberships) {
     if (membership.particle >= set.particle_count()) faults.push_back(say("point ", point, " is in a particle that is not there"));
     if (membership.particle < next) faults.push_back(say("memberships of point ", point, " do not ascend"));
     next = membership.particle + 1;
@@ -72,12 +74,12 @@ void check_point(const ParticleSet& set, std::uint32_t point, bool has_face, std
     if (i > 0 && weight > influences.weights[i - 1]) faults.push_back(say("weights of point ", point, " do not descend"));
     sum += double{weight};
     if (!(weight > 0)) continue;
-    if (std::ranges::none_of(memberships, [&](const Membership& of) { return of.particle == influences.particles[i]; }))
+    if (std::ranges::none_of(memberships, [&](const ParticleMembership& of) { return of.particle == influences.particles[i]; }))
       faults.push_back(say("point ", point, " follows particle ", influences.particles[i], " to which it does not belong"));
   }
   // The four largest shares less the fifth, by sorting all.
   std::vector<double> shares(5, 0.0);
-  for (const Membership& of : memberships) shares.push_back(std::pow(1 - double{of.reach} * double{of.reach}, 2));
+  for (const ParticleMembership& of : memberships) shares.push_back(std::pow(1 - double{of.reach} * double{of.reach}, 2));
   std::sort(shares.rbegin(), shares.rend());
   const double less = shares[0] > shares[4] ? shares[4] : 0.0, total = shares[0] + shares[1] + shares[2] + shares[3] - 4 * less;
   for (std::uint32_t i = 0; i < 4 && total > 1e-3 && shares[0] - shares[4] > 1e-5; ++i)
@@ -96,7 +98,7 @@ void check_particle(const ParticleSet& set, std::uint32_t p, const Sums& sums, s
   if (neighbours.size() != sums.neighbours[p].size())
     faults.push_back(say("particle ", p, " has ", neighbours.size(), " neighbours of ", sums.neighbours[p].size()));
   std::uint32_t next = 0;
-  for (const Neighbour& neighbour : neighbours) {
+  for (const ParticleNeighbour& neighbour : neighbours) {
     if (neighbour.particle < next) faults.push_back(say("neighbours of particle ", p, " do not ascend"));
     next = neighbour.particle + 1;
     const auto expected = sums.neighbours[p].find(neighbour.particle);
@@ -104,7 +106,7 @@ void check_particle(const ParticleSet& set, std::uint32_t p, const Sums& sums, s
       faults.push_back(say("particle ", p, " has nothing in common with its neighbour ", neighbour.particle));
       continue;
     }
-    const Neighbour& sum = expected->second;
+    const ParticleNeighbour& sum = expected->second;
     if (neighbour.points != sum.points || std::abs(neighbour.shared - sum.shared) > 1e-9 * (1 + sum.points))
       faults.push_back(say("particles ", p, " and ", neighbour.particle, " share ", neighbour.shared, " at ", neighbour.points,
                            " points, not ", sum.shared, " at ", sum.points));
@@ -204,7 +206,7 @@ std::string difference(const ParticleState::Particle& a, const ParticleState::Pa
   if (a.parents != b.parents) return "parents";
   if (a.neighbours.size() != b.neighbours.size()) return say("neighbours: ", a.neighbours.size(), " and ", b.neighbours.size());
   for (std::size_t i = 0; i < a.neighbours.size(); ++i) {
-    const Neighbour &x = a.neighbours[i], &y = b.neighbours[i];
+    const ParticleNeighbour &x = a.neighbours[i], &y = b.neighbours[i];
     if (x.particle != y.particle || x.points != y.points) return say("neighbour ", i);
     if (sameness == Sameness::bits ? x.shared != y.shared || a.couplings[i] != b.couplings[i] : !are_near(x.shared, y.shared))
       return say("shared with neighbour ", i, ": ", x.shared, " and ", y.shared);
@@ -262,7 +264,7 @@ std::vector<std::string> broken_sides(const ParticleSet& set, std::span<const Ch
   for (std::size_t side = 0; side < 2; ++side)
     for (const std::uint32_t point : points[side]) {
       if (points[1 - side].contains(point)) continue;  // a stroke that crosses itself
-      for (const Membership& membership : set.memberships(point)) particles[side].insert(membership.particle);
+      for (const ParticleMembership& membership : set.memberships(point)) particles[side].insert(membership.particle);
     }
   std::vector<std::string> faults;
   for (const std::uint32_t particle : particles[0])
@@ -395,7 +397,7 @@ ParticleState state_of(const TornModel& model, const ParticleSet& set, const Mod
     particle.member_count = set.member_count(p);
     particle.members = set.members(p);
     particle.neighbours.assign(set.neighbours(p).begin(), set.neighbours(p).end());
-    for (const Neighbour& neighbour : particle.neighbours) particle.couplings.push_back(set.coupling(p, neighbour));
+    for (const ParticleNeighbour& neighbour : particle.neighbours) particle.couplings.push_back(set.coupling(p, neighbour));
     particle.parents = set.parents(p);
     particle.rest = rest[p];
   }

@@ -45,13 +45,13 @@ struct ParticleState {
     std::uint32_t seed = 0, member_count = 0;
     double range = 0.0;
     std::vector<std::uint32_t> members;
-    std::vector<Neighbour> neighbours;
+    std::vector<ParticleNeighbour> neighbours;
     std::vector<double> couplings;
     ParticleInfluences parents;
     ParticleRest rest;  ///< In some pose.
   };
   std::vector<Particle> particles;
-  std::vector<std::vector<Membership>> memberships;
+  std::vector<std::vector<ParticleMembership>> memberships;
   std::vector<ParticleInfluences> influences;
   std::vector<std::vector<std::uint32_t>> vertex_points;
   std::vector<Vec3f> positions;

@@ -1,10 +1,9 @@
 #pragma once
 
-#include <sunder/weights/coupled_refit.h>
-
 #include <vector>
 
 #include "support/random.h"
+#include "weights/internal/coupled_refit.h"
 
 namespace sunder::test {
 

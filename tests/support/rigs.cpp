@@ -1,13 +1,14 @@
 #include "support/rigs.h"
 
-#include <sunder/skinning/palette.h>
-#include <sunder/skinning/reference.h>
-#include <sunder/skinning/sample_clip.h>
+#include <sunder/skinning/deform.h>
+#include <sunder/skinning/pose.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
+
+#include "skinning/internal/reference.h"
 
 namespace sunder::test {
 namespace {
@@ -253,7 +254,7 @@ Character make_soup(Random& random) {
 }
 
 ModelPose random_pose(const Character& character, Random& random, double angle, double scale) {
-  Pose pose = rest_pose(character);
+  Pose pose = local_rest_pose(character);
   for (BoneTransform& bone : pose.parent_from_bone) {
     const Quatd turn(Eigen::AngleAxisd{random.uniform(-angle, angle), random.direction()});
     bone.rotation = Quatf((bone.rotation.cast<double>() * turn).normalized().cast<float>());

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <sunder/core/character.h>
-#include <sunder/core/stroke.h>
+#include <sunder/operation/operation.h>
 
 #include "support/random.h"
 

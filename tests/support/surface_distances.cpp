@@ -4,6 +4,8 @@
 #include <map>
 #include <queue>
 
+#include "tear/internal/surface.h"
+
 namespace sunder::test {
 namespace {
 

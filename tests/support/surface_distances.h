@@ -1,10 +1,10 @@
 #pragma once
 
-#include <sunder/tear/surface.h>
-
 #include <cstdint>
 #include <span>
 #include <vector>
+
+#include "tear/internal/surface.h"
 
 namespace sunder::test {
 

@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <limits>
 
+#include "tear/internal/surface.h"
+
 namespace sunder::test {
 namespace {
 
 using tear::BladePlane;
 using tear::HalfSpace;
-using tear::Index;
 using tear::kSamePlace;
 using tear::SurfaceHit;
 using tear::SweepCoordinates;

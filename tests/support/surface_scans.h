@@ -1,7 +1,7 @@
 #pragma once
 
-#include "tear/path/entry.h"
 #include "tear/geometry/half_space.h"
+#include "tear/path/entry.h"
 #include "tear/posed/posed_points.h"
 
 namespace sunder::test {
@@ -11,8 +11,7 @@ namespace sunder::test {
 std::optional<tear::SurfaceHit> scan_for_hit(const Blade& blade, const tear::SurfaceEditor& editor, tear::PosedPoints& posed);
 std::optional<tear::SurfaceHit> scan_for_contact(const tear::BladePlane& plane, double progress, const tear::SurfaceEditor& editor,
                                                  tear::PosedPoints& posed);
-std::vector<tear::Index> scan_for_faces_in(const tear::Cell& cell, const tear::SurfaceEditor& editor, tear::PosedPoints& posed);
-std::vector<tear::Index> scan_for_faces_across(const tear::Sheet& sheet, const tear::SurfaceEditor& editor,
-                                               tear::PosedPoints& posed);
+std::vector<Index> scan_for_faces_in(const tear::Cell& cell, const tear::SurfaceEditor& editor, tear::PosedPoints& posed);
+std::vector<Index> scan_for_faces_across(const tear::Sheet& sheet, const tear::SurfaceEditor& editor, tear::PosedPoints& posed);
 
 }  // namespace sunder::test

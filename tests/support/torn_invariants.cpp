@@ -9,6 +9,7 @@
 
 #include "support/say.h"
 #include "support/source_cover.h"
+#include "tear/internal/surface.h"
 
 namespace sunder::test {
 namespace {

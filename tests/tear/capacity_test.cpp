@@ -1,5 +1,6 @@
 // A model of fixed capacity: warm operations allocate nothing, and where room runs out nothing changes.
-#include <sunder/skinning/palette.h>
+#include <sunder/skinning/deform.h>
+#include <sunder/skinning/pose.h>
 #include <sunder/tear/tear_stroke.h>
 #include <sunder/tear/torn_model.h>
 
@@ -69,7 +70,7 @@ TEST(Capacity, a_stroke_that_goes_on_allocates_nothing) {
     const double x = 0.1 + 0.01 * i, y = 0.5 + 0.1 * std::sin(0.1 * i);
     return Blade{{x, y, 0.5}, {x, y, -0.5}};
   };
-  auto stroke = TearStroke::begin(model, pose, blade(0));
+  auto stroke = TearStroke::create(model, pose, blade(0));
   ASSERT_TRUE(stroke);
   for (int i = 1; i < 4; ++i) ASSERT_TRUE(stroke->extend(pose, blade(i)));
   for (int i = 4; i < 60; ++i) {
@@ -96,7 +97,7 @@ TEST(Capacity, where_room_runs_out_nothing_changes) {
       Result<TearReport> report = [&]() -> Result<TearReport> {
         switch (random.index(3)) {
           case 0: {
-            Cut cut;
+            PlaneCut cut;
             cut.point = {0, random.uniform(0.5, 2.5), 0};
             cut.normal = random.direction();
             cut.caps = random.index(2) == 0;

@@ -1,5 +1,6 @@
 // Caps of cuts: what is cut stays closed.
-#include <sunder/skinning/palette.h>
+#include <sunder/skinning/deform.h>
+#include <sunder/skinning/pose.h>
 #include <sunder/tear/topology.h>
 #include <sunder/tear/torn_model.h>
 
@@ -20,7 +21,7 @@ using test::Random;
 using testing::IsEmpty;
 
 /// Posed volume inside some triangles, by the divergence theorem; the whole mesh's where none are given.
-double volume_of(const TornModel& model, const ModelPose& pose, const Piece* piece = nullptr) {
+double volume_of(const TornModel& model, const ModelPose& pose, const TornPiece* piece = nullptr) {
   double volume = 0;
   for (std::uint32_t m = 0; m < model.character().meshes.size(); ++m) {
     const auto positions = test::posed_positions(model.character(), m, pose);
@@ -28,7 +29,7 @@ double volume_of(const TornModel& model, const ModelPose& pose, const Piece* pie
     if (piece == nullptr)
       for (std::uint32_t t = 0; t < model.character().meshes[m].triangle_count(); ++t) triangles.push_back(t);
     else
-      for (const Piece::Triangles& of_mesh : piece->meshes)
+      for (const TornPiece::Triangles& of_mesh : piece->meshes)
         if (of_mesh.mesh == m) triangles = of_mesh.triangles;
     for (const std::uint32_t t : triangles) {
       const Triangle& triangle = model.character().meshes[m].triangles[t];
@@ -38,8 +39,8 @@ double volume_of(const TornModel& model, const ModelPose& pose, const Piece* pie
   return volume;
 }
 
-Cut cut_through(const Vec3d& point, const Vec3d& normal) {
-  Cut cut;
+PlaneCut cut_through(const Vec3d& point, const Vec3d& normal) {
+  PlaneCut cut;
   cut.point = point;
   cut.normal = normal;
   cut.caps = true;

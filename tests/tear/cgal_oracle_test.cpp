@@ -185,10 +185,10 @@ Character make_bunny() {
   return character;
 }
 
-Cut random_cut(const Subject& subject, Random& random) {
+PlaneCut random_cut(const Subject& subject, Random& random) {
   const auto positions = test::posed_positions(subject.character, 0, subject.pose);
   const auto count = static_cast<std::uint32_t>(positions.size());
-  Cut cut;
+  PlaneCut cut;
   cut.normal = random.direction();
   const double share = random.uniform(0.1, 0.9);
   cut.point = share * positions[random.index(count)];
@@ -197,7 +197,7 @@ Cut random_cut(const Subject& subject, Random& random) {
 }
 
 /// One triangle that reaches all of a body: two would add places where their common side passes through faces.
-Judge sheet_of(const Cut& cut, double diagonal) {
+Judge sheet_of(const PlaneCut& cut, double diagonal) {
   const Vec3d normal = cut.normal.normalized(), right = normal.unitOrthogonal(), up = normal.cross(right);
   Judge sheet;
   const auto corner = [&](double x, double y) { return sheet.add_vertex(to_judge(cut.point + diagonal * (x * right + y * up))); };
@@ -209,7 +209,7 @@ Judge sheet_of(const Cut& cut, double diagonal) {
 int compared_cuts = 0;
 
 /// Cuts a closed body as Sunder does and as CGAL does.
-void compare_cut(const Subject& subject, const Cut& cut, double snap = 0) {
+void compare_cut(const Subject& subject, const PlaneCut& cut, double snap = 0) {
   TornModel model = make_model(subject.character);
   const double diagonal = test::posed_diagonal(subject.character, subject.pose);
   Judge surface = posed_surface(model, subject.pose);
@@ -235,7 +235,7 @@ void compare_cut(const Subject& subject, const Cut& cut, double snap = 0) {
               (snap + kRounding * diagonal) * static_cast<double>(1 + change.lips.size()));
   EXPECT_EQ(report->runs > 0, parts.border_length > 0);
   std::vector<double> areas;
-  for (const Piece& piece : report->pieces) areas.push_back(piece.area_posed);
+  for (const TornPiece& piece : report->pieces) areas.push_back(piece.area_posed);
   if (parts.areas.size() > 1 && components == parts.areas.size()) {
     EXPECT_THAT(sorted(areas),
                 testing::Pointwise(testing::DoubleNear((snap + kRounding * diagonal) * diagonal), sorted(parts.areas)));
@@ -282,7 +282,7 @@ TEST(CgalOracle, agrees_about_cuts_through_vertices) {
     SCOPED_TRACE(i);
     const Subject subject = random_tube(random);
     const auto positions = test::posed_positions(subject.character, 0, subject.pose);
-    Cut cut = random_cut(subject, random);
+    PlaneCut cut = random_cut(subject, random);
     cut.point = positions[random.index(static_cast<std::uint32_t>(positions.size()))];
     const double diagonal = test::posed_diagonal(subject.character, subject.pose);
     const double beside = std::array{0.0, 1e-14, 1e-12, 1e-5}[random.index(4)];

@@ -1,5 +1,6 @@
 // What an engine can rely on: buffers that are changed only where a record says so stay equal to the model.
-#include <sunder/skinning/palette.h>
+#include <sunder/skinning/deform.h>
+#include <sunder/skinning/pose.h>
 #include <sunder/tear/change_record.h>
 #include <sunder/tear/tear_stroke.h>
 
@@ -73,7 +74,7 @@ struct MirroredMesh {
 
 void expect_apart_and_within(const DirtyRanges& ranges, std::size_t count) {
   std::uint32_t end = 0;
-  for (const Range& range : ranges) {
+  for (const IndexRange& range : ranges) {
     EXPECT_GT(range.count, 0u);
     if (&range != ranges.begin()) {
       EXPECT_GT(range.first, end);
@@ -164,9 +165,9 @@ class Mirror {
     mirrored.vertices.resize(mesh.vertex_count(), VertexBits(mesh, 0));
     mirrored.triangles.resize(mesh.triangle_count(), {kNone, kNone, kNone});
     mirrored.submesh.resize(mesh.triangle_count(), kNone);
-    for (const Range& range : change.dirty_vertices)
+    for (const IndexRange& range : change.dirty_vertices)
       for (std::uint32_t v = range.first; v < range.first + range.count; ++v) mirrored.vertices[v] = VertexBits(mesh, v);
-    for (const Range& range : change.dirty_triangles)
+    for (const IndexRange& range : change.dirty_triangles)
       for (std::uint32_t t = range.first; t < range.first + range.count; ++t) {
         mirrored.triangles[t] = mesh.triangles[t];
         mirrored.submesh[t] = mesh.triangle_submesh[t];
@@ -238,7 +239,7 @@ TEST(ChangeRecord, of_a_strokes_pieces_keep_a_mirror_equal) {
     Mirror mirror(model);
     const TearOperation tear = test::random_tear(model, random, seed % 2 == 1);
     const auto& pose = std::get<ModelPose>(tear.pose);
-    auto stroke = TearStroke::begin(model, pose, tear.stroke[0], tear.options);
+    auto stroke = TearStroke::create(model, pose, tear.stroke[0], tear.options);
     ASSERT_TRUE(stroke) << stroke.error().text();
     for (std::size_t i = 1; i < tear.stroke.size(); ++i) {
       ChangeRecord change;

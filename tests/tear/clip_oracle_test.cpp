@@ -1,7 +1,8 @@
 // The measure of what gaps and bores remove, held against areas that are known.
 #include "support/clip_oracle.h"
 
-#include <sunder/skinning/palette.h>
+#include <sunder/skinning/deform.h>
+#include <sunder/skinning/pose.h>
 
 #include <cmath>
 

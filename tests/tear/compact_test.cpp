@@ -1,5 +1,7 @@
-#include <sunder/tear/compact.h>
+#include "tear/surface/compact.h"
+
 #include <sunder/tear/topology.h>
+#include <sunder/tear/torn_model.h>
 
 #include <algorithm>
 #include <cstring>

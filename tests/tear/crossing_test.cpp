@@ -11,6 +11,7 @@
 #include "support/rigs.h"
 #include "support/say.h"
 #include "tear/geometry/face_shape.h"
+#include "tear/internal/surface.h"
 
 namespace sunder::tear {
 namespace {

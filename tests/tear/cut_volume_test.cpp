@@ -1,5 +1,6 @@
 // Closed bodies cut with caps: pieces are closed bodies whose volumes add up to the whole, and are what Manifold makes of the cut.
-#include <sunder/skinning/palette.h>
+#include <sunder/skinning/deform.h>
+#include <sunder/skinning/pose.h>
 #include <sunder/tear/topology.h>
 #include <sunder/tear/torn_model.h>
 
@@ -140,7 +141,7 @@ class Places {
   }
 
   /// To be called after each cut.
-  void extend(const Cut& cut) {
+  void extend(const PlaneCut& cut) {
     const Mesh& mesh = model_.character().meshes[0];
     const auto source_vertices = model_.source().meshes[0].vertex_count();
     const auto source_triangles = model_.source().meshes[0].triangle_count();
@@ -239,7 +240,7 @@ double sum_of_volumes(const std::vector<Body>& bodies) {
   return std::accumulate(bodies.begin(), bodies.end(), 0.0, [](double sum, const Body& body) { return sum + body.volume; });
 }
 
-std::array<double, 4> plane_of(const Cut& cut) {
+std::array<double, 4> plane_of(const PlaneCut& cut) {
   const Vec3d normal = cut.normal.normalized();
   return {normal.x(), normal.y(), normal.z(), normal.dot(cut.point)};
 }
@@ -291,8 +292,8 @@ void expect_same_cells(const SplitCells& ours, const SplitCells& theirs, double 
     EXPECT_TRUE(ours.contains(sides) || std::abs(cell.volume) <= 1e-6 * whole) << sides << " has volume " << cell.volume;
 }
 
-Cut cut_at(const Vec3d& point, const Vec3d& normal) {
-  Cut cut;
+PlaneCut cut_at(const Vec3d& point, const Vec3d& normal) {
+  PlaneCut cut;
   cut.point = point;
   cut.normal = normal;
   cut.caps = true;
@@ -322,7 +323,7 @@ struct CutBody {
 
 /// @param rounding   of the volume, as a part of it.
 /// @param may_touch  the section may touch itself; what does gets no cap.
-CutBody cut_and_check(const Character& character, const ModelPose& pose, const std::vector<Cut>& cuts, double rounding,
+CutBody cut_and_check(const Character& character, const ModelPose& pose, const std::vector<PlaneCut>& cuts, double rounding,
                       bool may_touch = false) {
   CutBody result;
   TornModel model = make_model(character);
@@ -332,7 +333,7 @@ CutBody cut_and_check(const Character& character, const ModelPose& pose, const s
   const std::vector<Body> before = bodies_of(model, place);
   for (const Body& body : before) EXPECT_TRUE(body.is_closed);
   result.whole = sum_of_volumes(before);
-  for (const Cut& cut : cuts) {
+  for (const PlaneCut& cut : cuts) {
     SCOPED_TRACE(testing::Message() << character.name << ", point " << cut.point.transpose() << ", normal "
                                     << cut.normal.transpose());
     const auto report = model.cut(pose, cut);
@@ -414,8 +415,8 @@ TEST(CutVolume, of_many_cuts_adds_up) {
     SCOPED_TRACE(i);
     const Character character = random_body(random);
     const ModelPose pose = bind_pose(character);
-    std::vector<Cut> cuts(2 + random.index(5));
-    for (Cut& cut : cuts) {
+    std::vector<PlaneCut> cuts(2 + random.index(5));
+    for (PlaneCut& cut : cuts) {
       const Vec3d point = somewhere_in(character, pose, random);
       cut = cut_at(point, random.direction());
     }
@@ -427,7 +428,7 @@ TEST(CutVolume, of_many_cuts_adds_up) {
 
 /// Whether a plane so nearly passes a face, the farthest point of a body or a saddle of it that stored positions cannot tell it
 /// from them: there pieces without volume come off, or the section touches itself and gets no cap.
-bool grazes(const Character& character, const Cut& cut) {
+bool grazes(const Character& character, const PlaneCut& cut) {
   constexpr double kNear = 2e-3;
   const SplitTask task = task_of(character, bind_pose(character));
   std::vector<int> side;
@@ -463,15 +464,15 @@ TEST(CutVolume, of_cuts_through_what_is_modelled_adds_up) {
     SCOPED_TRACE(i);
     const Character character = random_body(random);
     const ModelPose pose = bind_pose(character);
-    std::vector<Cut> cuts(1 + random.index(3));
-    for (Cut& cut : cuts) {
+    std::vector<PlaneCut> cuts(1 + random.index(3));
+    for (PlaneCut& cut : cuts) {
       const Mesh& mesh = character.meshes[0];
       const Vec3d point = mesh.positions[random.index(mesh.vertex_count())].cast<double>();
       const double side = random.index(2) == 0 ? 1.0 : -1.0;
       cut = cut_at(point, side * Vec3d(Vec3d::Unit(random.index(3))));
       if (random.index(3) == 0) cut.point += std::pow(10.0, random.uniform(-16, -3)) * cut.normal;
     }
-    std::erase_if(cuts, [&](const Cut& cut) { return grazes(character, cut); });
+    std::erase_if(cuts, [&](const PlaneCut& cut) { return grazes(character, cut); });
     if (cuts.empty()) continue;
     CutBody body = cut_and_check(character, pose, cuts, kStored, cuts.size() > 1);
     if (body.is_capped) bodies.push_back(std::move(body));

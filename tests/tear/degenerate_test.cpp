@@ -1,6 +1,7 @@
 // Every operation on what is hard for it: soups, collapsed and mirrored bones, planes in faces, blades far smaller and far larger
 // than what they meet, tears along, across and into one another.
-#include <sunder/skinning/palette.h>
+#include <sunder/skinning/deform.h>
+#include <sunder/skinning/pose.h>
 #include <sunder/tear/tear_stroke.h>
 #include <sunder/tear/topology.h>
 #include <sunder/tear/torn_model.h>
@@ -140,8 +141,8 @@ TearOptions hard_options(const Target& target, Random& random) {
 }
 
 /// In a face or nearly so, through vertices and along edges.
-Cut hard_cut(const Target& target, Random& random) {
-  Cut cut;
+PlaneCut hard_cut(const Target& target, Random& random) {
+  PlaneCut cut;
   const auto& face = one_of(target.faces, random);
   cut.point = face[random.index(3)];
   cut.normal = (face[1] - face[0]).cross(face[2] - face[0]);
@@ -175,7 +176,7 @@ Bore hard_bore(const Target& target, Random& random) {
 }
 
 Result<TearReport> tear_blade_by_blade(TornModel& model, const ModelPose& pose, const Stroke& stroke, const TearOptions& options) {
-  auto tearing = TearStroke::begin(model, pose, stroke[0], options);
+  auto tearing = TearStroke::create(model, pose, stroke[0], options);
   if (!tearing) return tearing.error();
   for (std::size_t i = 1; i < stroke.size(); ++i)
     if (auto report = tearing->extend(pose, stroke[i]); !report) return report;
@@ -190,7 +191,7 @@ std::string describe(const Stroke& stroke, const TearOptions& options) {
   return text.str();
 }
 
-std::string describe(const Cut& cut) {
+std::string describe(const PlaneCut& cut) {
   std::ostringstream text;
   text.precision(17);
   text << "cut at " << cut.point.transpose() << ", normal " << cut.normal.transpose() << (cut.caps ? ", caps" : "");
@@ -271,9 +272,9 @@ class Subject {
     for (std::uint32_t m = 0; m < model.character().meshes.size(); ++m)
       for (std::uint32_t t = 0; t < model.character().meshes[m].triangle_count(); ++t)
         if (!has_repeated_point({m, t})) for_each_edge({m, t}, [&](const auto& edge) { faces_of_edge[edge].push_back({m, t}); });
-    for (const Piece& piece : report.pieces) {
+    for (const TornPiece& piece : report.pieces) {
       std::set<Face> named, found;
-      for (const Piece::Triangles& of_mesh : piece.meshes)
+      for (const TornPiece::Triangles& of_mesh : piece.meshes)
         for (const std::uint32_t t : of_mesh.triangles) named.insert({of_mesh.mesh, t});
       EXPECT_EQ(named.size(), piece.triangle_count);
       if (named.empty()) continue;
@@ -300,7 +301,7 @@ void run_hard_operation(Subject& subject, const ModelPose& pose, Random& random)
   if (target.faces.empty()) return;
   switch (random.index(4)) {
     case 0: {
-      const Cut cut = hard_cut(target, random);
+      const PlaneCut cut = hard_cut(target, random);
       subject.run(describe(cut), [&](ChangeRecord& change) { return subject.model.cut(pose, cut, &change); });
       break;
     }

@@ -1,6 +1,5 @@
 // The digest stands for all bits of a model.
 
-#include <sunder/tear/replay.h>
 #include <sunder/tear/torn_model.h>
 
 #include <bit>

@@ -12,13 +12,14 @@ namespace {
 
 using test::Random;
 
-std::vector<Range> ranges_of(const std::vector<std::uint32_t>& elements) {
+std::vector<IndexRange> ranges_of(const std::vector<std::uint32_t>& elements) {
   const DirtyRanges ranges = DirtyRanges::covering(elements);
   return {ranges.begin(), ranges.end()};
 }
 
-std::uint32_t covered_count(const std::vector<Range>& ranges) {
-  return std::accumulate(ranges.begin(), ranges.end(), 0u, [](std::uint32_t sum, const Range& range) { return sum + range.count; });
+std::uint32_t covered_count(const std::vector<IndexRange>& ranges) {
+  return std::accumulate(ranges.begin(), ranges.end(), 0u,
+                         [](std::uint32_t sum, const IndexRange& range) { return sum + range.count; });
 }
 
 /// Elements of [0, size), each with the probability `density`, some of them repeated.
@@ -30,7 +31,7 @@ std::vector<std::uint32_t> random_elements(Random& random, std::uint32_t size, d
 }
 
 /// The fewest elements that `ranges` ranges cover: each way to cut the runs into groups, by recursion over where the first ends.
-std::uint32_t least_cover(std::span<const Range> runs, std::size_t ranges) {
+std::uint32_t least_cover(std::span<const IndexRange> runs, std::size_t ranges) {
   if (runs.empty()) return 0;
   if (ranges == 0) return kNone;
   std::uint32_t least = kNone;
@@ -41,8 +42,8 @@ std::uint32_t least_cover(std::span<const Range> runs, std::size_t ranges) {
   return least;
 }
 
-std::vector<Range> runs_of(const std::vector<std::uint32_t>& elements) {
-  std::vector<Range> runs;
+std::vector<IndexRange> runs_of(const std::vector<std::uint32_t>& elements) {
+  std::vector<IndexRange> runs;
   for (const std::uint32_t element : elements)
     if (!runs.empty() && element <= runs.back().first + runs.back().count)
       runs.back().count = element - runs.back().first + 1;
@@ -57,15 +58,15 @@ TEST(DirtyRanges, of_nothing_are_none) {
 }
 
 TEST(DirtyRanges, are_exact_up_to_eight_runs) {
-  EXPECT_EQ(ranges_of({5}), (std::vector<Range>{{5, 1}}));
-  EXPECT_EQ(ranges_of({5, 5, 6, 8, 8}), (std::vector<Range>{{5, 2}, {8, 1}}));
+  EXPECT_EQ(ranges_of({5}), (std::vector<IndexRange>{{5, 1}}));
+  EXPECT_EQ(ranges_of({5, 5, 6, 8, 8}), (std::vector<IndexRange>{{5, 2}, {8, 1}}));
   EXPECT_EQ(ranges_of({0, 2, 4, 6, 8, 10, 12, 14}).size(), 8u);
-  EXPECT_EQ(ranges_of({0, kNone - 1}), (std::vector<Range>{{0, 1}, {kNone - 1, 1}}));
+  EXPECT_EQ(ranges_of({0, kNone - 1}), (std::vector<IndexRange>{{0, 1}, {kNone - 1, 1}}));
 }
 
 TEST(DirtyRanges, of_equal_gaps_the_last_are_filled) {
   EXPECT_EQ(ranges_of({0, 2, 4, 6, 8, 10, 12, 14, 16, 18}),
-            (std::vector<Range>{{0, 1}, {2, 1}, {4, 1}, {6, 1}, {8, 1}, {10, 1}, {12, 1}, {14, 5}}));
+            (std::vector<IndexRange>{{0, 1}, {2, 1}, {4, 1}, {6, 1}, {8, 1}, {10, 1}, {12, 1}, {14, 5}}));
 }
 
 TEST(DirtyRanges, are_ascending_apart_and_hold_every_element) {
@@ -87,7 +88,7 @@ TEST(DirtyRanges, are_ascending_apart_and_hold_every_element) {
     }
     for (const std::uint32_t element : elements)
       ASSERT_TRUE(std::ranges::any_of(
-          ranges, [&](const Range& range) { return element >= range.first && element - range.first < range.count; }));
+          ranges, [&](const IndexRange& range) { return element >= range.first && element - range.first < range.count; }));
     if (runs_of(elements).size() <= DirtyRanges::kMaximum) {
       ASSERT_EQ(ranges, runs_of(elements));
     }

@@ -1,5 +1,6 @@
 // Areas of gaps and bores against formulas and against clipping triangle by triangle.
-#include <sunder/skinning/palette.h>
+#include <sunder/skinning/deform.h>
+#include <sunder/skinning/pose.h>
 #include <sunder/tear/topology.h>
 #include <sunder/tear/torn_model.h>
 

@@ -1,9 +1,8 @@
 // Exact points as a shader poses them: means of posed parents.
 
-#include <sunder/skinning/palette.h>
+#include <sunder/skinning/deform.h>
 #include <sunder/skinning/skinned_mesh.h>
-#include <sunder/tear/parent_blends.h>
-#include <sunder/tear/weight_errors.h>
+#include <sunder/tear/torn_weights.h>
 
 #include <cstring>
 #include <map>

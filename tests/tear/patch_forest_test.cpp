@@ -2,10 +2,9 @@
 // finds.
 #include "tear/posed/patch_forest.h"
 
-#include <sunder/skinning/palette.h>
-#include <sunder/skinning/reference.h>
+#include <sunder/skinning/deform.h>
+#include <sunder/skinning/pose.h>
 #include <sunder/tear/torn_model.h>
-#include <sunder/weights/interpolate.h>
 
 #include <bit>
 #include <cstdlib>
@@ -14,16 +13,19 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "skinning/internal/reference.h"
 #include "support/random_operations.h"
 #include "support/rigs.h"
 #include "support/say.h"
 #include "support/surface_scans.h"
+#include "tear/internal/surface.h"
 #include "tear/operation/cut.h"
 #include "tear/operation/drill.h"
-#include "tear/sheet/gap.h"
-#include "tear/posed/hilbert_curve.h"
-#include "tear/sheet/open_sheet.h"
 #include "tear/operation/stroke_tearing.h"
+#include "tear/posed/hilbert_curve.h"
+#include "tear/sheet/gap.h"
+#include "tear/sheet/open_sheet.h"
+#include "tear/surface/mesh_vertices.h"
 
 namespace sunder::tear {
 namespace {

@@ -1,10 +1,9 @@
 // Weights fitted beside the frame.
 
-#include <sunder/skinning/pose_set.h>
+#include <sunder/skinning/pose.h>
 #include <sunder/tear/refit_job.h>
-#include <sunder/tear/replay.h>
-#include <sunder/tear/weight_errors.h>
-#include <sunder/weights/coupled_refit.h>
+#include <sunder/tear/torn_model.h>
+#include <sunder/tear/torn_weights.h>
 
 #include <thread>
 
@@ -13,6 +12,7 @@
 #include "support/make_model.h"
 #include "support/rigs.h"
 #include "support/torn_invariants.h"
+#include "weights/internal/coupled_refit.h"
 
 namespace sunder {
 namespace {
@@ -49,7 +49,7 @@ struct Torn {
 };
 
 std::vector<ModelPose> all_poses(const std::shared_ptr<const Character>& source, const PoseSetSpec& spec, PoseSet::Role role) {
-  const auto set = PoseSet::make(source, spec);
+  const auto set = PoseSet::create(source, spec);
   std::vector<ModelPose> poses(set->size(role));
   for (std::size_t i = 0; i < poses.size(); ++i) set->compute(role, i, poses[i]);
   return poses;
@@ -82,7 +82,7 @@ TEST(RefitJob, is_never_worse_than_interpolation_over_the_poses_that_it_was_fitt
 
 TEST(RefitJob, beside_the_frame_gives_the_bits_that_it_gives_at_once) {
   Torn beside(3), at_once(3);
-  const auto job = RefitJob::submit(beside.model, refit_over_clips());
+  const auto job = RefitJob::create(beside.model, refit_over_clips());
   ASSERT_TRUE(job) << job.error().text();
   EXPECT_EQ(job->poll(), State::waiting);
   const auto digest = beside.model.digest();
@@ -105,7 +105,7 @@ TEST(RefitJob, beside_the_frame_gives_the_bits_that_it_gives_at_once) {
 
 TEST(RefitJob, the_model_may_be_torn_on_meanwhile) {
   Torn torn(4);
-  const auto job = RefitJob::submit(torn.model, refit_over_clips());
+  const auto job = RefitJob::create(torn.model, refit_over_clips());
   ASSERT_TRUE(job);
   std::thread worker([job = *job] { job.run(); });
   torn.tear();
@@ -124,7 +124,7 @@ TEST(RefitJob, the_model_may_be_torn_on_meanwhile) {
 
 TEST(RefitJob, undo_of_what_is_fitted_cancels_it) {
   Torn torn(5);
-  const auto job = RefitJob::submit(torn.model, refit_over_clips());
+  const auto job = RefitJob::create(torn.model, refit_over_clips());
   ASSERT_TRUE(job);
   ASSERT_TRUE(torn.model.undo());
   EXPECT_EQ(job->poll(), State::cancelled);
@@ -136,7 +136,7 @@ TEST(RefitJob, undo_of_what_is_fitted_cancels_it) {
 
   WeightsOperation of_first = refit_over_clips();
   of_first.operation_count = 1;
-  const auto other = RefitJob::submit(torn.model, of_first);
+  const auto other = RefitJob::create(torn.model, of_first);
   ASSERT_TRUE(other);
   ASSERT_TRUE(torn.model.undo()) << "of the second operation, which it is not about";
   other->run();
@@ -146,7 +146,7 @@ TEST(RefitJob, undo_of_what_is_fitted_cancels_it) {
 
 TEST(RefitJob, of_another_model_is_refused) {
   Torn a(6), b(6);
-  const auto job = RefitJob::submit(a.model, refit_over_clips());
+  const auto job = RefitJob::create(a.model, refit_over_clips());
   ASSERT_TRUE(job);
   EXPECT_EQ(job->swap_in(a.model).error().code(), StatusCode::invalid_argument) << "it is not done";
   job->run();
@@ -161,13 +161,13 @@ TEST(RefitJob, what_cannot_be_fitted_is_refused) {
   Torn torn(7);
   WeightsOperation wanted = refit_over_clips();
   wanted.weights.policy = WeightPolicy::exact;
-  EXPECT_EQ(RefitJob::submit(torn.model, wanted).error().code(), StatusCode::invalid_argument);
+  EXPECT_EQ(RefitJob::create(torn.model, wanted).error().code(), StatusCode::invalid_argument);
   wanted = refit_over_clips();
   wanted.refit.poses.clip_samples = 0;
-  EXPECT_EQ(RefitJob::submit(torn.model, wanted).error().code(), StatusCode::empty_input);
+  EXPECT_EQ(RefitJob::create(torn.model, wanted).error().code(), StatusCode::empty_input);
   wanted = refit_over_clips();
   wanted.refit.smoothness = -1;
-  EXPECT_EQ(RefitJob::submit(torn.model, wanted).error().code(), StatusCode::invalid_argument);
+  EXPECT_EQ(RefitJob::create(torn.model, wanted).error().code(), StatusCode::invalid_argument);
   wanted = refit_over_clips();
   wanted.refit.is_coupled = true;
   if (!has_coupled_refit()) {

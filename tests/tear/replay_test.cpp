@@ -1,8 +1,7 @@
-#include <sunder/skinning/palette.h>
-#include <sunder/skinning/pose_spec.h>
-#include <sunder/skinning/sample_clip.h>
-#include <sunder/tear/replay.h>
+#include <sunder/skinning/deform.h>
+#include <sunder/skinning/pose.h>
 #include <sunder/tear/tear_stroke.h>
+#include <sunder/tear/torn_model.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,6 +10,7 @@
 #include "support/model_state.h"
 #include "support/random_operations.h"
 #include "support/rigs.h"
+#include "tear/surface/compact.h"
 
 namespace sunder {
 namespace {
@@ -33,7 +33,7 @@ TornModel replay(const Character& source, const std::vector<Operation>& history)
 /// A stroke whose character moves on with every blade.
 void tear_in_motion(TornModel& model, Random& random, bool has_width) {
   TearOperation tear = test::random_tear(model, random, has_width);
-  auto stroke = TearStroke::begin(model, std::get<ModelPose>(tear.pose), tear.stroke[0], tear.options);
+  auto stroke = TearStroke::create(model, std::get<ModelPose>(tear.pose), tear.stroke[0], tear.options);
   ASSERT_TRUE(stroke) << stroke.error().text();
   for (std::size_t i = 1; i < tear.stroke.size(); ++i) {
     const ModelPose pose = test::random_pose(model.source(), random, 0.2, 1.02);
@@ -93,7 +93,7 @@ TEST(Replay, a_stroke_in_motion_is_one_operation_with_the_poses_it_was_torn_in) 
   }();
   const auto& first_pose = std::get<ModelPose>(tear.pose);
   const ModelPose later_pose = test::random_pose(model.source(), random, 0.1, 1.0);
-  auto stroke = TearStroke::begin(model, first_pose, tear.stroke[0]);
+  auto stroke = TearStroke::create(model, first_pose, tear.stroke[0]);
   ASSERT_TRUE(stroke);
   for (std::size_t i = 1; i < tear.stroke.size(); ++i) ASSERT_TRUE(stroke->extend(i < 3 ? first_pose : later_pose, tear.stroke[i]));
   ASSERT_TRUE(stroke->end());

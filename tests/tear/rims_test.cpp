@@ -1,5 +1,6 @@
 // The sides of gaps in a change record, and what a record says when an operation is done again.
-#include <sunder/skinning/palette.h>
+#include <sunder/skinning/deform.h>
+#include <sunder/skinning/pose.h>
 #include <sunder/tear/change_record.h>
 #include <sunder/tear/tear_stroke.h>
 
@@ -13,6 +14,7 @@
 #include "support/make_model.h"
 #include "support/random_operations.h"
 #include "support/rigs.h"
+#include "tear/internal/surface.h"
 
 namespace sunder {
 namespace {
@@ -300,7 +302,7 @@ void expect_told(const ChangeRecord& change, const std::vector<LipPair>& lips, c
 std::vector<ChangeRecord> tear_by_calls(TornModel& model, const TearOperation& tear, const ModelPose* other = nullptr) {
   const auto& pose = std::get<ModelPose>(tear.pose);
   std::vector<ChangeRecord> changes;
-  auto stroke = TearStroke::begin(model, pose, tear.stroke[0], tear.options);
+  auto stroke = TearStroke::create(model, pose, tear.stroke[0], tear.options);
   EXPECT_TRUE(stroke) << stroke.error().text();
   for (std::size_t i = 1; i < tear.stroke.size(); ++i) {
     const auto report =

@@ -1,4 +1,5 @@
-#include <sunder/skinning/palette.h>
+#include <sunder/skinning/deform.h>
+#include <sunder/skinning/pose.h>
 #include <sunder/tear/tear_stroke.h>
 #include <sunder/tear/topology.h>
 
@@ -27,7 +28,7 @@ using testing::IsEmpty;
 
 TearStroke begin(TornModel& model, const ModelPose& pose, const Blade& blade, const TearOptions& options = {},
                  const StrokeSampling& sampling = {}) {
-  auto stroke = TearStroke::begin(model, pose, blade, options, sampling);
+  auto stroke = TearStroke::create(model, pose, blade, options, sampling);
   EXPECT_TRUE(stroke) << stroke.error().text();
   return std::move(*stroke);
 }
@@ -155,12 +156,12 @@ TEST(TearStroke, bad_options_are_refused_at_its_begin) {
   const ModelPose pose = bind_pose(model.source());
   TearOptions options;
   options.width = -1;
-  EXPECT_EQ(TearStroke::begin(model, pose, down_at(0.2, 0.2), options).error().code(), StatusCode::invalid_argument);
-  EXPECT_EQ(TearStroke::begin(model, pose, Blade{}).error().code(), StatusCode::invalid_argument);
-  EXPECT_EQ(TearStroke::begin(model, ModelPose{}, down_at(0.2, 0.2)).error().code(), StatusCode::size_mismatch);
+  EXPECT_EQ(TearStroke::create(model, pose, down_at(0.2, 0.2), options).error().code(), StatusCode::invalid_argument);
+  EXPECT_EQ(TearStroke::create(model, pose, Blade{}).error().code(), StatusCode::invalid_argument);
+  EXPECT_EQ(TearStroke::create(model, ModelPose{}, down_at(0.2, 0.2)).error().code(), StatusCode::size_mismatch);
   StrokeSampling sampling;
   sampling.minimum_distance = -1;
-  EXPECT_EQ(TearStroke::begin(model, pose, down_at(0.2, 0.2), {}, sampling).error().code(), StatusCode::invalid_argument);
+  EXPECT_EQ(TearStroke::create(model, pose, down_at(0.2, 0.2), {}, sampling).error().code(), StatusCode::invalid_argument);
   EXPECT_TRUE(model.tear(pose, Stroke{down_at(0.2, 0.3), down_at(0.5, 0.4)})) << "none of these is under way";
 }
 
@@ -244,9 +245,9 @@ TEST(TearStroke, while_under_way_its_model_refuses_other_operations) {
   const auto before = state_of(model);
   Bore bore;
   bore.radius = bore.depth = 0.1;
-  EXPECT_EQ(TearStroke::begin(model, pose, other[0]).error().code(), StatusCode::invalid_argument);
+  EXPECT_EQ(TearStroke::create(model, pose, other[0]).error().code(), StatusCode::invalid_argument);
   EXPECT_FALSE(model.tear(pose, other));
-  EXPECT_FALSE(model.cut(pose, Cut{}));
+  EXPECT_FALSE(model.cut(pose, PlaneCut{}));
   EXPECT_FALSE(model.drill(pose, bore));
   EXPECT_FALSE(model.undo());
   EXPECT_FALSE(model.redo());

@@ -1,5 +1,5 @@
-#include <sunder/skinning/palette.h>
-#include <sunder/skinning/sample_clip.h>
+#include <sunder/skinning/deform.h>
+#include <sunder/skinning/pose.h>
 #include <sunder/tear/topology.h>
 #include <sunder/tear/torn_model.h>
 
@@ -27,7 +27,7 @@ using testing::IsEmpty;
 
 ModelPose rest(const Character& character) {
   ModelPose pose;
-  EXPECT_TRUE(compute_model_pose(character.skeleton, rest_pose(character), pose));
+  EXPECT_TRUE(compute_model_pose(character.skeleton, local_rest_pose(character), pose));
   return pose;
 }
 

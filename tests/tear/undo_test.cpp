@@ -1,4 +1,5 @@
-#include <sunder/skinning/palette.h>
+#include <sunder/skinning/deform.h>
+#include <sunder/skinning/pose.h>
 #include <sunder/tear/torn_model.h>
 
 #include <limits>
@@ -153,7 +154,7 @@ TEST(Undo, an_operation_that_fails_changes_nothing) {
   expect_refused(model.tear(pose, Stroke{stroke[0]}), StatusCode::invalid_argument);
   expect_refused(model.tear(ModelPose{}, stroke), StatusCode::size_mismatch);
 
-  Cut cut;
+  PlaneCut cut;
   expect_refused(model.cut(ModelPose{}, cut), StatusCode::size_mismatch);
   cut.normal.setZero();
   expect_refused(model.cut(pose, cut), StatusCode::invalid_argument);

@@ -1,14 +1,14 @@
 // Points weighed by each policy: where they stand, what does not depend on it, and what is given back.
 
-#include <sunder/skinning/palette.h>
-#include <sunder/skinning/reference.h>
+#include <sunder/skinning/deform.h>
 #include <sunder/skinning/skinned_mesh.h>
-#include <sunder/tear/replay.h>
 #include <sunder/tear/tear_stroke.h>
-#include <sunder/tear/weight_errors.h>
+#include <sunder/tear/torn_model.h>
+#include <sunder/tear/torn_weights.h>
 
 #include <gtest/gtest.h>
 
+#include "skinning/internal/reference.h"
 #include "support/make_model.h"
 #include "support/model_state.h"
 #include "support/random_operations.h"
@@ -300,7 +300,7 @@ TEST(WeightPolicy, a_stroke_blade_by_blade_is_that_of_all_its_blades) {
     auto whole = TornModel::create(source), parts = TornModel::create(source);
     const auto of_whole = whole->tear(pose, stroke, options);
     ASSERT_TRUE(of_whole);
-    auto live = TearStroke::begin(*parts, pose, stroke[0], options);
+    auto live = TearStroke::create(*parts, pose, stroke[0], options);
     ASSERT_TRUE(live);
     for (std::size_t i = 1; i < stroke.size(); ++i) ASSERT_TRUE(live->extend(pose, stroke[i]));
     const auto of_parts = live->end();

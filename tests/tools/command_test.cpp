@@ -1,10 +1,8 @@
 // The built command, from the outside: exit codes, JSON, words, and what it leaves on disk.
 
-#include <sunder/io/load_character.h>
-#include <sunder/io/save_glb.h>
-#include <sunder/skinning/palette.h>
-#include <sunder/skinning/pose_spec.h>
-#include <sunder/skinning/reference.h>
+#include <sunder/io/character_file.h>
+#include <sunder/skinning/deform.h>
+#include <sunder/skinning/pose.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -16,6 +14,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "skinning/internal/reference.h"
 #include "support/gltf_validator.h"
 #include "support/shared_models.h"
 #include "support/temporary_folder.h"

@@ -1,9 +1,8 @@
 // Writing a character anew, on the one that has everything.
 
-#include <sunder/io/save_glb.h>
+#include <sunder/io/character_file.h>
 #include <sunder/skinning/deform.h>
-#include <sunder/skinning/palette.h>
-#include <sunder/skinning/sample_clip.h>
+#include <sunder/skinning/pose.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -22,7 +21,7 @@ const Mesh& mesh_named(const Character& character, const std::string& name) {
 }
 
 std::vector<Vec3f> posed_positions(const Character& character, const Mesh& mesh, double time) {
-  Pose pose = rest_pose(character);
+  Pose pose = local_rest_pose(character);
   EXPECT_TRUE(sample_clip(character.clips.at(0), time, pose));
   ModelPose model_pose;
   EXPECT_TRUE(compute_model_pose(character.skeleton, pose, model_pose));

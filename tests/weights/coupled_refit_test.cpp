@@ -1,4 +1,4 @@
-#include <sunder/weights/coupled_refit.h>
+#include "weights/internal/coupled_refit.h"
 
 #include <algorithm>
 #include <cmath>

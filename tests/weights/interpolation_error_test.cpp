@@ -1,12 +1,11 @@
 // The laws of docs/weights.md, in double.
 
-#include <sunder/weights/animation_point.h>
-
 #include <map>
 
 #include <gtest/gtest.h>
 
 #include "support/random_skin.h"
+#include "weights/internal/animation_point.h"
 
 namespace sunder {
 namespace {

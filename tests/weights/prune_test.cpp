@@ -1,7 +1,6 @@
 // Contract of <sunder/weights/prune.h>.
 
-#include <sunder/skinning/reference.h>
-#include <sunder/weights/prune.h>
+#include <sunder/weights/influences.h>
 
 #include <algorithm>
 #include <limits>
@@ -9,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "skinning/internal/reference.h"
 #include "support/random.h"
 #include "support/random_skin.h"
 

@@ -1,6 +1,6 @@
 // Contract of <sunder/weights/quantise.h>.
 
-#include <sunder/weights/quantise.h>
+#include <sunder/weights/influences.h>
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,6 @@
 
 #include <sunder/core/clip.h>
 #include <sunder/core/mesh.h>
-#include <sunder/core/pose.h>
 #include <sunder/core/skeleton.h>
 #include <sunder/core/status.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <cstdint>
+#include <sunder/core/index.h>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -26,8 +26,5 @@ using Quatd = Eigen::Quaternion<double, Eigen::DontAlign>;
 /// 3 x 4 affine transforms, column-major. Named to_from_from: `model_from_bone * bone_from_bind`.
 using Affine3f = Eigen::Transform<float, 3, Eigen::AffineCompact, Eigen::DontAlign>;
 using Affine3d = Eigen::Transform<double, 3, Eigen::AffineCompact, Eigen::DontAlign>;
-
-/// "No such index" in every 32-bit index of the library.
-inline constexpr std::uint32_t kNone = 0xFFFF'FFFFu;
 
 }  // namespace sunder

@@ -8,31 +8,28 @@
 
 namespace sunder {
 
-/// About the origin of the collider's frame.
-struct Sphere {
-  double radius = 1.0;  ///< Metres, > 0.
-};
-
-/// All within the radius of a piece of the frame's y axis.
-struct Capsule {
-  double radius = 1.0;       ///< Metres, > 0.
-  double half_length = 1.0;  ///< Of the piece, metres, >= 0: it lies from -half_length to half_length.
-};
-
-/// Along the frame's axes, about its origin.
-struct Box {
-  Vec3d half_size = Vec3d::Ones();  ///< Metres, each > 0.
-};
-
-/// Everything below the frame's plane y = 0.
-struct HalfSpace {};
-
-/// Something hard that a SoftBody gives way to.
+/// A hard body that a SoftBody gives way to.
 struct Collider {
+  /// A ball about the origin of the collider's frame.
+  struct Sphere {
+    double radius = 1.0;  ///< Metres, > 0.
+  };
+  /// All places within `radius` of the segment from -half_length to half_length on the frame's y axis.
+  struct Capsule {
+    double radius = 1.0;       ///< Metres, > 0.
+    double half_length = 1.0;  ///< Metres, >= 0.
+  };
+  /// A box about the origin of the frame, along its axes.
+  struct Box {
+    Vec3d half_size = Vec3d::Ones();  ///< Metres, each > 0.
+  };
+  /// Everything below the frame's plane y = 0.
+  struct HalfSpace {};
+
   std::variant<Sphere, Capsule, Box, HalfSpace> shape;
-  Vec3d place = Vec3d::Zero();     ///< Of its frame, model space, metres.
-  Quatd turn = Quatd::Identity();  ///< Of its frame; unit length.
-  double friction = 0.0;           ///< Tangential over normal force, at most; >= 0.
+  Vec3d place = Vec3d::Zero();     ///< Origin of the frame, model space, metres.
+  Quatd turn = Quatd::Identity();  ///< Orientation of the frame, unit length.
+  double friction = 0.0;           ///< Largest ratio of tangential to normal force; >= 0.
 };
 
 struct SurfaceDistance {

@@ -26,7 +26,7 @@ struct ForceTearingReport {
 /// bounded length a call. To be called after SoftBody::step(). The tear is an operation like any stroke: it stands in the history
 /// with its blades and its pose, and is undone and replayed as one. Deterministic.
 ///
-/// @param body       its materials say what they bear (Material::strength); the lesser of the two of a pair counts.
+/// @param body       its materials say what they bear (SoftMaterial::strength); the lesser of the two of a pair counts.
 /// @param particles  those of the body; they follow the tear.
 /// @param model      torn by at most one operation.
 /// @param pose       that of the last step.

@@ -1,6 +1,7 @@
 #pragma once
 
-#include <sunder/skinning/vertex_displacements.h>
+#include <sunder/particles/material.h>
+#include <sunder/skinning/vertex_arrays.h>
 #include <sunder/tear/torn_model.h>
 
 #include <array>
@@ -32,13 +33,13 @@ struct DecompositionReport {
 };
 
 /// A point in a particle.
-struct Membership {
+struct ParticleMembership {
   std::uint32_t particle = 0;
   float reach = 0.0f;  ///< Distance from the particle's seed along the surface, as a part of its range; in [0, 1).
 };
 
 /// Particles that have points in common pull at one another.
-struct Neighbour {
+struct ParticleNeighbour {
   std::uint32_t particle = 0;
   std::uint32_t points = 0;  ///< In common: whose influences name both.
   double shared = 0.0;       ///< Sum over those of the product of their two weights.
@@ -72,7 +73,7 @@ class SUNDER_API ParticleSet {
   /// @return invalid_argument for the options; size_mismatch, non_finite_value for the pose; empty_input for a model
   ///         without a face; limit_exceeded for more than 2^20 particles, or without enough memory.
   /// O(points + memberships).
-  static Result<ParticleSet> decompose(const TornModel& model, const ModelPose& pose, const DecompositionOptions& options = {});
+  static Result<ParticleSet> create(const TornModel& model, const ModelPose& pose, const DecompositionOptions& options = {});
 
   ~ParticleSet();
   ParticleSet(ParticleSet&&) noexcept;
@@ -94,9 +95,9 @@ class SUNDER_API ParticleSet {
   [[nodiscard]] std::vector<std::uint32_t> members(std::uint32_t particle) const;
   [[nodiscard]] std::uint32_t member_count(std::uint32_t particle) const;
   /// Those with which it has points in common, ascending.
-  [[nodiscard]] std::span<const Neighbour> neighbours(std::uint32_t particle) const;
+  [[nodiscard]] std::span<const ParticleNeighbour> neighbours(std::uint32_t particle) const;
   /// How much of two neighbours is common: `shared` over the lesser sum of weights of the two; in [0, 1].
-  [[nodiscard]] double coupling(std::uint32_t particle, const Neighbour& neighbour) const;
+  [[nodiscard]] double coupling(std::uint32_t particle, const ParticleNeighbour& neighbour) const;
   /// Of a particle that a tear made: where its displacement and velocity come from, as influences on its seed before the tear.
   /// Weights are all 0 for one of the decomposition.
   [[nodiscard]] const ParticleInfluences& parents(std::uint32_t particle) const;
@@ -104,7 +105,7 @@ class SUNDER_API ParticleSet {
   // ---- Points. All unchecked.
 
   [[nodiscard]] std::uint32_t point_count() const;
-  [[nodiscard]] std::span<const Membership> memberships(std::uint32_t point) const;
+  [[nodiscard]] std::span<const ParticleMembership> memberships(std::uint32_t point) const;
   /// One a point.
   [[nodiscard]] std::span<const ParticleInfluences> influences() const;
   /// One a point: gradients of its influences' weights along the surface, in the decomposition's pose; for normals, see
@@ -156,5 +157,25 @@ class SUNDER_API ParticleSet {
   explicit ParticleSet(std::unique_ptr<particles::Structure> structure);
   std::unique_ptr<particles::Structure> structure_;
 };
+
+/// A range that fits what was wanted.
+struct FoundRange {
+  double range = 0.0;           ///< A fraction of the diagonal, for DecompositionOptions.
+  std::uint32_t particles = 0;  ///< That it makes.
+  double step_seconds = 0.0;    ///< Of SoftBody::step() with all of them awake, in a still pose, as measured; 0: it was not.
+};
+
+/// Searches the range that makes about as many particles as wanted: within 2 %, or as near as ranges come. Deterministic.
+/// @param wanted  >= 1; at most as many as the model has points.
+/// @return invalid_argument, and what ParticleSet::create() finds. A dozen decompositions at most.
+SUNDER_API Result<FoundRange> find_range_for_particles(const TornModel& model, const ModelPose& pose, std::uint32_t wanted,
+                                                       std::uint64_t seed = 0);
+
+/// Searches the smallest range, and so the finest motion, whose steps take no longer than wanted, on this machine as it is now:
+/// each trial is timed.
+/// @param seconds  of one step with all particles awake; > 0.
+/// @return not_found where none does; else as find_range_for_particles(). A few decompositions, some milliseconds of steps each.
+SUNDER_API Result<FoundRange> find_range_for_step(const TornModel& model, const ModelPose& pose, double seconds,
+                                                  const SoftMaterial& material, std::uint64_t seed = 0);
 
 }  // namespace sunder

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <sunder/core/pose.h>
-#include <sunder/core/range.h>
+#include <sunder/core/index.h>
+#include <sunder/core/skeleton.h>
 #include <sunder/particles/collider.h>
 #include <sunder/particles/material.h>
 #include <sunder/particles/particle_set.h>
@@ -64,11 +64,11 @@ class SUNDER_API SoftBody {
  public:
   /// A body at rest, asleep, of the first material throughout.
   /// @param particles  followed: what is torn shows in the next call. Outlives this, and stays where it is.
-  /// @param pose       that of ParticleSet::decompose().
+  /// @param pose       that of ParticleSet::create().
   /// @param materials  at least one.
   /// @return what the pose is refused for by ParticleSet::rest(); empty_input without material; the fault of a material, with its
   ///         index; limit_exceeded without enough memory. O(particles + pairs of neighbours).
-  static Result<SoftBody> create(ParticleSet& particles, const ModelPose& pose, std::span<const Material> materials,
+  static Result<SoftBody> create(ParticleSet& particles, const ModelPose& pose, std::span<const SoftMaterial> materials,
                                  const SoftBodyOptions& options = {});
   ~SoftBody();
   SoftBody(SoftBody&&) noexcept;
@@ -79,9 +79,9 @@ class SUNDER_API SoftBody {
   /// @return index_out_of_range.
   Status set_material(std::uint32_t particle, std::uint32_t material);
   /// Changes a material wherever it is. @return index_out_of_range, or the fault of the material.
-  Status change_material(std::uint32_t material, const Material& to);
+  Status change_material(std::uint32_t material, const SoftMaterial& to);
   [[nodiscard]] std::uint32_t material_of(std::uint32_t particle) const;
-  [[nodiscard]] std::span<const Material> materials() const;
+  [[nodiscard]] std::span<const SoftMaterial> materials() const;
 
   // ---- What acts on it. Every call answers index_out_of_range, non_finite_value, invalid_argument or limit_exceeded (out of
   // memory), and changes nothing then.
@@ -132,7 +132,7 @@ class SUNDER_API SoftBody {
   [[nodiscard]] std::span<const Mat3f> rotations();
   /// Vertices of a mesh that a displaced particle moves, ascending, apart. Valid until the next call that is not const.
   /// O(points of displaced particles) where other particles are displaced than at the last call, else O(1).
-  [[nodiscard]] std::span<const Range> moved_vertices(const TornModel& model, std::uint32_t mesh);
+  [[nodiscard]] std::span<const IndexRange> moved_vertices(const TornModel& model, std::uint32_t mesh);
 
   /// Metres and metres a second, model space, after the last step; unchecked. Velocities are those of the particle in the room:
   /// its rest's own is in them. What has slept through the last steps without a look at the pose is where it was, at velocity 0.

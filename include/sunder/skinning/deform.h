@@ -7,6 +7,19 @@
 
 namespace sunder {
 
+/// model_from_bind of each slot of a skin: model_from_bone * bone_from_bind.
+/// @param model_from_bind  one a slot of `skin`, written.
+/// @return ok; size_mismatch or index_out_of_range (nothing written). O(slots), no allocation.
+[[nodiscard]] SUNDER_API Status compute_palette(const Skin& skin, const ModelPose& pose, std::span<Affine3d> model_from_bind);
+
+/// The same, multiplied in double, stored in float.
+[[nodiscard]] SUNDER_API Status compute_palette(const Skin& skin, const ModelPose& pose, std::span<Affine3f> model_from_bind);
+
+/// How a bone's linear part turns normals: itself where it scales all directions alike (within 1e-5: rotations, uniform scales,
+/// mirrors of both); else its inverse transpose at the linear part's own scale (by the Frobenius norm), outward under mirrors. A
+/// flat map has one too; what leaves no plane has zero. Normals are posed by sum_k w_k of these.
+[[nodiscard]] SUNDER_API Mat3d compute_normal_matrix(const Mat3d& linear);
+
 /// A mesh's vertices in model space.
 struct DeformedMesh {
   std::vector<Vec3f> positions;  ///< V.

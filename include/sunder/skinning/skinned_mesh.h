@@ -1,10 +1,12 @@
 #pragma once
 
+#include <sunder/core/api.h>
+#include <sunder/core/index.h>
+#include <sunder/core/mesh.h>
 #include <sunder/core/parallel_for.h>
-#include <sunder/core/range.h>
+#include <sunder/core/status.h>
 #include <sunder/skinning/bone_palette.h>
 #include <sunder/skinning/vertex_arrays.h>
-#include <sunder/skinning/vertex_displacements.h>
 
 #include <cstdint>
 #include <memory>
@@ -25,7 +27,7 @@ class SUNDER_API PosedBuffer {
 
   /// What the last deform() wrote, ascending and apart: what has to be uploaded. Where vertices are not ordered by their bones,
   /// ranges may hold some that kept their value.
-  [[nodiscard]] std::span<const Range> dirty_vertices() const { return dirty_; }
+  [[nodiscard]] std::span<const IndexRange> dirty_vertices() const { return dirty_; }
   /// Moves the buffer, or wants other attributes. What it holds counts as lost.
   void set_target(const VertexTarget& target);
   /// The same memory is of so many vertices now, after SkinnedMesh::update().
@@ -37,10 +39,10 @@ class SUNDER_API PosedBuffer {
   VertexTarget target_;
   std::uint64_t palette_ = 0, palette_revision_ = 0;  // 0: nothing was written
   std::uint64_t mesh_ = 0, mesh_revision_ = 0;
-  std::vector<Range> dirty_;
+  std::vector<IndexRange> dirty_;
   std::vector<std::uint64_t> marks_;      // a bit a block
   std::vector<std::uint64_t> displaced_;  // a bit a block: some of its vertices are; or empty
-  std::vector<Range> blocks_to_write_;
+  std::vector<IndexRange> blocks_to_write_;
 };
 
 /// A mesh arranged for skinning: blocks of 16 vertices, each with the bones that move any of them.
@@ -90,5 +92,15 @@ class SUNDER_API SkinnedMesh {
   explicit SkinnedMesh(std::unique_ptr<skinning::Blocks> blocks);
   std::unique_ptr<skinning::Blocks> blocks_;
 };
+
+/// An order of vertices in which neighbours are moved by the same bones, so that SkinnedMesh reads least and writes straight on; of
+/// equal bones, the order that there was. For asset pipelines, where vertices may still be renumbered.
+/// @return old_from_new. O(V log V).
+[[nodiscard]] SUNDER_API std::vector<std::uint32_t> order_for_skinning(const Mesh& mesh);
+
+/// Renumbers the vertices of a mesh: every attribute, the weights, morph targets, and the corners of triangles.
+/// @param old_from_new  each vertex once.
+/// @return size_mismatch or index_out_of_range (nothing is changed). O(size of the mesh).
+[[nodiscard]] SUNDER_API Status reorder_vertices(Mesh& mesh, std::span<const std::uint32_t> old_from_new);
 
 }  // namespace sunder

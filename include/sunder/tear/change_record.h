@@ -1,15 +1,23 @@
 #pragma once
 
 #include <sunder/core/api.h>
+#include <sunder/core/index.h>
 #include <sunder/core/mesh.h>
-#include <sunder/core/range.h>
-#include <sunder/weights/interpolate.h>
 
 #include <array>
 #include <span>
 #include <vector>
 
 namespace sunder {
+
+/// Where a new vertex came from: a triangle of the mesh as it was loaded, and where in it. Every attribute is derived from this,
+/// so a vertex made by the hundredth tear is as exact as one made by the first.
+struct Birth {
+  std::uint32_t triangle = 0;                       ///< In the source mesh; beyond its last: of a wall or cap.
+  std::array<double, 3> barycentric = {1.0, 0, 0};  ///< Of its corners; >= 0, sum 1.
+
+  bool operator==(const Birth&) const = default;
+};
 
 /// A triangle of the mesh whose corners now name other vertices.
 struct RewrittenTriangle {
@@ -28,14 +36,14 @@ class DirtyRanges {
   /// @param elements  ascending; repeated ones count once. The seven widest gaps stay apart, of equal ones the first. O(elements).
   SUNDER_API static DirtyRanges covering(std::span<const std::uint32_t> elements);
 
-  [[nodiscard]] const Range* begin() const { return ranges_.data(); }
-  [[nodiscard]] const Range* end() const { return ranges_.data() + count_; }
+  [[nodiscard]] const IndexRange* begin() const { return ranges_.data(); }
+  [[nodiscard]] const IndexRange* end() const { return ranges_.data() + count_; }
   [[nodiscard]] std::size_t size() const { return count_; }
   [[nodiscard]] bool empty() const { return count_ == 0; }
   bool operator==(const DirtyRanges&) const = default;
 
  private:
-  std::array<Range, kMaximum> ranges_ = {};
+  std::array<IndexRange, kMaximum> ranges_ = {};
   std::size_t count_ = 0;
 };
 

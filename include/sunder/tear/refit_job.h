@@ -12,7 +12,7 @@ struct RefitWork;
 
 /// A refit of the weights of torn points that runs beside the frame:
 ///
-///   auto job = RefitJob::submit(model, wanted);           // this frame
+///   auto job = RefitJob::create(model, wanted);           // this frame
 ///   std::thread worker([job] { job->run(); });            // or the host's job system
 ///   if (job->poll() == RefitJob::State::done) job->swap_in(model, &change);  // some later frame
 ///
@@ -23,7 +23,7 @@ class SUNDER_API RefitJob {
 
   /// Copies what the fit takes. @param wanted  its policy is `refit`.
   /// @return as TornModel::reweigh(). O(vertices appended since the first of the operations + bones x held poses).
-  static Result<RefitJob> submit(TornModel& model, const WeightsOperation& wanted);
+  static Result<RefitJob> create(TornModel& model, const WeightsOperation& wanted);
 
   /// Fits. To be called once, on any thread; does not touch the model. Deterministic: weights do not depend on when, where or
   /// beside what it runs.

@@ -8,7 +8,7 @@
 namespace sunder {
 
 /// A part of the surface that hangs together by its faces and by nothing with the rest.
-struct Piece {
+struct TornPiece {
   struct Triangles {
     std::uint32_t mesh = 0;
     std::vector<std::uint32_t> triangles;  ///< Ascending.
@@ -46,7 +46,7 @@ struct TearReport {
   std::uint32_t open_sections = 0;  ///< Runs of cut edges that do not close, and so got no cap.
   /// What came free. Of a tear or bore: what hung together with more before, all but the part with the most faces. Of a cut: every
   /// piece with an edge on it, if it separated any.
-  std::vector<Piece> pieces;
+  std::vector<TornPiece> pieces;
 };
 
 }  // namespace sunder

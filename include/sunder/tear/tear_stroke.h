@@ -18,8 +18,8 @@ class SUNDER_API TearStroke {
  public:
   /// @param blade  where the stroke begins; nothing is torn yet.
   /// @return as TornModel::tear(); also invalid_argument where another stroke is under way.
-  static Result<TearStroke> begin(TornModel& model, const ModelPose& pose, const Blade& blade, const TearOptions& options = {},
-                                  const StrokeSampling& sampling = {});
+  static Result<TearStroke> create(TornModel& model, const ModelPose& pose, const Blade& blade, const TearOptions& options = {},
+                                   const StrokeSampling& sampling = {});
 
   /// Tears on to `blade`, from where the tear now stands on the posed surface. With a width the gap follows one segment behind: how
   /// it is mitred depends on where the blade goes next.

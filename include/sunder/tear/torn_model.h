@@ -1,18 +1,44 @@
 #pragma once
 
 #include <sunder/core/character.h>
-#include <sunder/core/operation.h>
+#include <sunder/operation/operation.h>
 #include <sunder/skinning/vertex_arrays.h>
-#include <sunder/tear/capacity.h>
 #include <sunder/tear/change_record.h>
-#include <sunder/tear/compact.h>
 #include <sunder/tear/report.h>
-#include <sunder/tear/surface.h>
 
+#include <cstdint>
 #include <memory>
 #include <span>
+#include <vector>
 
 namespace sunder {
+
+/// What the operations on a model may append, counted over all that are done and not taken back. With a fixed capacity the memory
+/// is there from the start: an operation that finds no room changes nothing and says so. A cut across n faces appends about 2 n
+/// vertices and triangles.
+struct TornCapacity {
+  std::uint32_t vertices = 0;   ///< Each mesh gets room for so many.
+  std::uint32_t triangles = 0;  ///< Likewise.
+  std::uint32_t operations = 0;
+
+  /// All zero: the model grows as needed, and an operation allocates where it has to grow.
+  [[nodiscard]] constexpr bool is_fixed() const { return vertices > 0 || triangles > 0 || operations > 0; }
+
+  bool operator==(const TornCapacity&) const = default;
+};
+
+/// For each mesh where its elements came from: old_from_new[new] = old. Ascending: order is kept.
+struct CompactMaps {
+  struct OfMesh {
+    std::vector<std::uint32_t> vertex_old_from_new;
+    std::vector<std::uint32_t> triangle_old_from_new;
+  };
+  std::vector<OfMesh> meshes;
+};
+
+namespace tear {
+struct Surface;
+}
 
 class TornModel;
 struct ParentBlends;
@@ -56,7 +82,7 @@ class SUNDER_API TornModel {
 
   /// Cuts the posed surface by a plane, every layer of it. Lips coincide, as those of a tear.
   /// @return as tear(). O(faces crossed), and O(all faces) where pieces come free.
-  Result<TearReport> cut(const ModelPose& pose, const Cut& cut, ChangeRecord* change = nullptr);
+  Result<TearReport> cut(const ModelPose& pose, const PlaneCut& cut, ChangeRecord* change = nullptr);
 
   /// Removes the posed surface inside a bore, every layer of it.
   /// @return as tear(). O(faces crossed and removed).
@@ -139,5 +165,14 @@ class SUNDER_API TornModel {
   explicit TornModel(std::unique_ptr<State> state);
   std::unique_ptr<State> state_;
 };
+
+/// Does what an operation says: poses are looked up in the model's skeleton and clips.
+/// @param changes  appended where given: one record for each step, in order. Undo and redo of several operations, and a stroke in
+///                 several poses, are several steps.
+/// @return as the operation's own call; not_found for a clip or bone that the character does not have, and for undo and redo of
+/// more
+///         than there is (nothing is taken back then).
+SUNDER_API Result<TearReport> apply_operation(TornModel& model, const Operation& operation,
+                                              std::vector<ChangeRecord>* changes = nullptr);
 
 }  // namespace sunder

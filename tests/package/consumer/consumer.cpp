@@ -1,4 +1,5 @@
-#include <sunder/skinning/palette.h>
+#include <sunder/skinning/deform.h>
+#include <sunder/skinning/pose.h>
 #include <sunder/tear/topology.h>
 #include <sunder/tear/torn_model.h>
 
@@ -6,7 +7,7 @@
 #include <memory>
 
 #ifdef CONSUMER_IO
-#include <sunder/io/load_character.h>
+#include <sunder/io/character_file.h>
 #endif
 
 int main() {

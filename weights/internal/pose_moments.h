@@ -2,11 +2,12 @@
 
 #include <sunder/core/api.h>
 #include <sunder/core/math.h>
-#include <sunder/weights/animation_point.h>
 
 #include <cstdint>
 #include <span>
 #include <vector>
+
+#include "weights/internal/animation_point.h"
 
 namespace sunder {
 

@@ -8,15 +8,6 @@
 
 namespace sunder {
 
-/// Where a new vertex came from: a triangle of the mesh as it was loaded, and where in it. Every attribute is derived from this,
-/// so a vertex made by the hundredth tear is as exact as one made by the first.
-struct Birth {
-  std::uint32_t triangle = 0;                       ///< In the source mesh; beyond its last: of a wall or cap.
-  std::array<double, 3> barycentric = {1.0, 0, 0};  ///< Of its corners; >= 0, sum 1.
-
-  bool operator==(const Birth&) const = default;
-};
-
 /// The barycentric mean of three corners' influences, normalised, largest first.
 /// @param mean  written; room for the influences of all three.
 /// @return how many they are.

@@ -1,14 +1,25 @@
 #pragma once
 
-#include <sunder/core/named_pose.h>
-#include <sunder/core/stroke.h>
-#include <sunder/core/weight_options.h>
+#include <sunder/core/math.h>
+#include <sunder/operation/pose_spec.h>
+#include <sunder/operation/weight_options.h>
 
 #include <cstdint>
 #include <variant>
 #include <vector>
 
 namespace sunder {
+
+/// One sample of a blade, model space, metres: a straight edge that reaches from the handle to the point.
+struct Blade {
+  Vec3d base = Vec3d::Zero();  ///< Outside the surface.
+  Vec3d tip = Vec3d::Zero();   ///< How deep the blade reaches.
+
+  bool operator==(const Blade&) const = default;
+};
+
+/// Successive blade positions; each two neighbours sweep one segment.
+using Stroke = std::vector<Blade>;
 
 /// Which of the surfaces that a blade reaches are torn.
 enum class Layers : std::uint8_t {
@@ -26,7 +37,7 @@ struct TearOptions {
 };
 
 /// A cut by a plane, in model space.
-struct Cut {
+struct PlaneCut {
   Vec3d point = Vec3d::Zero();          ///< On the plane.
   Vec3d normal = Vec3d(0.0, 0.0, 1.0);  ///< Towards the left lip; any length but zero.
   /// Corners of a convex polygon, projected onto the plane, outside of which nothing is cut. Empty: the whole plane.
@@ -34,7 +45,7 @@ struct Cut {
   bool caps = false;                          ///< Close what the cut opens, where it opens closed loops.
   std::optional<WeightOptions> weights = {};  ///< Of the points that it makes; none: the model's.
 
-  bool operator==(const Cut&) const = default;
+  bool operator==(const PlaneCut&) const = default;
 };
 
 /// A round hole, in model space.
@@ -66,7 +77,7 @@ struct TearOperation {
 /// {"op": "cut"}
 struct CutOperation {
   PoseSpec pose;
-  Cut cut;
+  PlaneCut cut;
 };
 
 /// {"op": "drill"}

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <sunder/weights/animation_point.h>
-#include <sunder/weights/pose_moments.h>
-
 #include <memory>
 #include <span>
+
+#include "weights/internal/animation_point.h"
+#include "weights/internal/pose_moments.h"
 
 namespace sunder {
 

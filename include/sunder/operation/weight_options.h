@@ -1,6 +1,6 @@
 #pragma once
 
-#include <sunder/core/pose_set_spec.h>
+#include <sunder/operation/pose_spec.h>
 
 #include <cstdint>
 

@@ -1,4 +1,4 @@
-#include <sunder/weights/interpolate.h>
+#include "tear/surface/mesh_vertices.h"
 
 #include <map>
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <sunder/core/character.h>
+#include <sunder/skinning/deform.h>
 
 #include <span>
 

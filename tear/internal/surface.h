@@ -7,8 +7,6 @@
 
 namespace sunder::tear {
 
-using Index = std::uint32_t;
-
 /// Where a triangle of the surface stands in the character, and the source triangle that it is a part of.
 struct TriangleRef {
   Index mesh = 0;

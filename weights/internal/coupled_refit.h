@@ -1,10 +1,11 @@
 #pragma once
 
 #include <sunder/core/status.h>
-#include <sunder/weights/point_refit.h>
 
 #include <span>
 #include <vector>
+
+#include "weights/internal/point_refit.h"
 
 namespace sunder {
 
