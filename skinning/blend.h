@@ -8,22 +8,28 @@
 namespace sunder::skinning {
 
 /// sum_k w_k M_k of one vertex, in double.
-inline Eigen::Matrix<double, 3, 4> blend_matrix(std::span<const Influence> influences, std::span<const Affine3d> model_from_bind) {
-  using Numbers = Eigen::Array<double, 12, 1>;  // a matrix as what it is in memory: whole packets, where three rows are none
+inline Eigen::Matrix<double, 3, 4> blend_matrix(std::span<const Influence> influences,
+                                                std::span<const Affine3d> model_from_bind) {
+  using Numbers = Eigen::Array<double, 12, 1>;  // a matrix as what it is in memory: whole packets,
+                                                // where three rows are none
   Numbers sum = Numbers::Zero();
   for (const Influence& influence : influences)
-    sum += static_cast<double>(influence.weight) * Eigen::Map<const Numbers>(model_from_bind[influence.slot].data());
+    sum += static_cast<double>(influence.weight) *
+           Eigen::Map<const Numbers>(model_from_bind[influence.slot].data());
   return Eigen::Map<const Eigen::Matrix<double, 3, 4>>(sum.data());
 }
 
-/// A bind-space attribute plus its morph deltas: `get(target)` is the array of deltas or an empty one.
+/// A bind-space attribute plus its morph deltas: `get(target)` is the array of deltas or an empty
+/// one.
 template <class Deltas>
-Eigen::Vector3d add_morphs(const Mesh& mesh, std::uint32_t vertex, std::span<const float> morph_weights, Eigen::Vector3d value,
+Eigen::Vector3d add_morphs(const Mesh& mesh, std::uint32_t vertex,
+                           std::span<const float> morph_weights, Eigen::Vector3d value,
                            Deltas deltas) {
   for (std::size_t j = 0; j < mesh.morph_targets.size(); ++j) {
     const auto& of_target = mesh.morph_targets[j].*deltas;
     const float weight = morph_weights[mesh.first_morph_weight + j];
-    if (weight != 0.0f && !of_target.empty()) value += static_cast<double>(weight) * of_target[vertex].template cast<double>();
+    if (weight != 0.0f && !of_target.empty())
+      value += static_cast<double>(weight) * of_target[vertex].template cast<double>();
   }
   return value;
 }

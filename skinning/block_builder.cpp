@@ -10,8 +10,10 @@
 namespace sunder::skinning {
 namespace {
 
-constexpr double kSlotWork = 6, kBlockWork = 20, kScatterWork = 40;  // cycles a block, as measured; only their ratios matter
-constexpr std::uint32_t kSparseFrom = 8;  // weights stored for each weight there is, above which influences are kept a vertex
+constexpr double kSlotWork = 6, kBlockWork = 20,
+                 kScatterWork = 40;  // cycles a block, as measured; only their ratios matter
+constexpr std::uint32_t kSparseFrom =
+    8;  // weights stored for each weight there is, above which influences are kept a vertex
 
 Status check_strides(const VertexSource& source) {
   const auto is_odd = [](std::size_t stride, std::size_t packed, std::size_t unit) {
@@ -19,59 +21,71 @@ Status check_strides(const VertexSource& source) {
   };
   const InfluenceArrays& arrays = source.influences;
   const std::size_t weight_size = arrays.weights != nullptr ? sizeof(float) : sizeof(std::uint16_t);
-  const bool is_bad = is_odd(source.positions.stride, 12, 4) || is_odd(source.normals.stride, 12, 4) ||
-                      is_odd(source.tangents.stride, 16, 4) || is_odd(arrays.slot_stride, 2 * arrays.per_vertex, 2) ||
+  const bool is_bad = is_odd(source.positions.stride, 12, 4) ||
+                      is_odd(source.normals.stride, 12, 4) ||
+                      is_odd(source.tangents.stride, 16, 4) ||
+                      is_odd(arrays.slot_stride, 2 * arrays.per_vertex, 2) ||
                       is_odd(arrays.weight_stride, weight_size * arrays.per_vertex, weight_size);
   if (!is_bad) return {};
-  return Status::failure(StatusCode::invalid_argument, kNone,
-                         "a stride is shorter than a vertex' numbers, or not a multiple of their size");
+  return Status::failure(
+      StatusCode::invalid_argument, kNone,
+      "a stride is shorter than a vertex' numbers, or not a multiple of their size");
 }
 
 Status check_sizes(const VertexSource& source) {
   if (source.positions.data == nullptr && source.vertex_count > 0)
-    return Status::failure(StatusCode::empty_input, kNone, "%u vertices without positions", source.vertex_count);
+    return Status::failure(StatusCode::empty_input, kNone, "%u vertices without positions",
+                           source.vertex_count);
   if (source.weights != nullptr) {
     if (source.weights->vertex_count() != source.vertex_count)
-      return Status::failure(StatusCode::size_mismatch, kNone, "weights of %u vertices, positions of %u",
+      return Status::failure(StatusCode::size_mismatch, kNone,
+                             "weights of %u vertices, positions of %u",
                              source.weights->vertex_count(), source.vertex_count);
   } else if (source.vertex_count > 0) {
     const InfluenceArrays& arrays = source.influences;
-    if (arrays.per_vertex == 0 || arrays.slots == nullptr || (arrays.weights == nullptr) == (arrays.weights16 == nullptr))
-      return Status::failure(StatusCode::empty_input, kNone, "influences need slots, and weights in float or in 16 bits");
+    if (arrays.per_vertex == 0 || arrays.slots == nullptr ||
+        (arrays.weights == nullptr) == (arrays.weights16 == nullptr))
+      return Status::failure(StatusCode::empty_input, kNone,
+                             "influences need slots, and weights in float or in 16 bits");
   }
   for (std::size_t i = 0; i < source.morph_targets.size(); ++i)
-    for (const auto* deltas : {&source.morph_targets[i].position_deltas, &source.morph_targets[i].normal_deltas,
-                               &source.morph_targets[i].tangent_deltas})
+    for (const auto* deltas :
+         {&source.morph_targets[i].position_deltas, &source.morph_targets[i].normal_deltas,
+          &source.morph_targets[i].tangent_deltas})
       if (!deltas->empty() && deltas->size() != source.vertex_count)
         return Status::failure(StatusCode::size_mismatch, static_cast<std::uint32_t>(i),
-                               "morph target %zu: displacements of %zu vertices, the mesh has %u", i, deltas->size(),
-                               source.vertex_count);
+                               "morph target %zu: displacements of %zu vertices, the mesh has %u",
+                               i, deltas->size(), source.vertex_count);
   return {};
 }
 
 Status check_per_influence(const VertexSource& source) {
   const InfluencePositions& exact = *source.per_influence;
   if (source.weights == nullptr)
-    return Status::failure(StatusCode::invalid_argument, kNone, "positions per influence need SkinWeights beside them");
+    return Status::failure(StatusCode::invalid_argument, kNone,
+                           "positions per influence need SkinWeights beside them");
   std::size_t influences = 0;
   for (std::size_t i = 0; i < exact.vertices.size(); ++i) {
     const std::uint32_t vertex = exact.vertices[i];
     if (vertex >= source.vertex_count || (i > 0 && exact.vertices[i - 1] >= vertex))
       return Status::failure(StatusCode::index_out_of_range, static_cast<std::uint32_t>(i),
-                             "positions per influence: vertex %u does not ascend or is beyond %u", vertex, source.vertex_count);
+                             "positions per influence: vertex %u does not ascend or is beyond %u",
+                             vertex, source.vertex_count);
     influences += source.weights->of(vertex).size();
   }
   const auto fits = [&](const std::vector<Vec3f>& values, bool wanted) {
     return values.size() == influences || (values.empty() && !wanted);
   };
-  bool all_fit = fits(exact.positions, true) && fits(exact.normals, source.normals.data != nullptr) &&
-                 fits(exact.tangents, source.tangents.data != nullptr) &&
-                 (exact.morph_targets.empty() || exact.morph_targets.size() == source.morph_targets.size());
+  bool all_fit =
+      fits(exact.positions, true) && fits(exact.normals, source.normals.data != nullptr) &&
+      fits(exact.tangents, source.tangents.data != nullptr) &&
+      (exact.morph_targets.empty() || exact.morph_targets.size() == source.morph_targets.size());
   for (const InfluencePositions::Deltas& target : exact.morph_targets)
-    all_fit = all_fit && fits(target.positions, false) && fits(target.normals, false) && fits(target.tangents, false);
+    all_fit = all_fit && fits(target.positions, false) && fits(target.normals, false) &&
+              fits(target.tangents, false);
   if (!all_fit)
-    return Status::failure(StatusCode::size_mismatch, kNone, "positions per influence: arrays do not fit %zu influences",
-                           influences);
+    return Status::failure(StatusCode::size_mismatch, kNone,
+                           "positions per influence: arrays do not fit %zu influences", influences);
   return {};
 }
 
@@ -79,10 +93,13 @@ Status check_vertex(const VertexSource& source, std::size_t slot_count, std::uin
   const auto is_finite = [vertex](const StridedFloats<const float>& array, std::size_t components) {
     if (array.data == nullptr) return true;
     const float* values = at(array, vertex, components);
-    return std::all_of(values, values + components, [](float value) { return std::isfinite(value); });
+    return std::all_of(values, values + components,
+                       [](float value) { return std::isfinite(value); });
   };
-  if (!is_finite(source.positions, 3) || !is_finite(source.normals, 3) || !is_finite(source.tangents, 4))
-    return Status::failure(StatusCode::non_finite_value, vertex, "vertex %u: an attribute is not finite", vertex);
+  if (!is_finite(source.positions, 3) || !is_finite(source.normals, 3) ||
+      !is_finite(source.tangents, 4))
+    return Status::failure(StatusCode::non_finite_value, vertex,
+                           "vertex %u: an attribute is not finite", vertex);
   std::uint32_t beyond = kNone;
   bool is_weight = true;
   double sum = 0;
@@ -92,10 +109,11 @@ Status check_vertex(const VertexSource& source, std::size_t slot_count, std::uin
     sum += static_cast<double>(weight);
   });
   if (beyond != kNone)
-    return Status::failure(StatusCode::index_out_of_range, vertex, "vertex %u: slot %u, the skin has %zu", vertex, beyond,
-                           slot_count);
+    return Status::failure(StatusCode::index_out_of_range, vertex,
+                           "vertex %u: slot %u, the skin has %zu", vertex, beyond, slot_count);
   if (!is_weight || !(std::abs(sum - 1) <= 0.01))
-    return Status::failure(StatusCode::weights_not_normalized, vertex, "vertex %u: weights are negative or sum to %g", vertex, sum);
+    return Status::failure(StatusCode::weights_not_normalized, vertex,
+                           "vertex %u: weights are negative or sum to %g", vertex, sum);
   return {};
 }
 
@@ -105,7 +123,8 @@ bool is_zero(const Vec3f& value) { return value == Vec3f::Zero(); }
 
 Status check_source(const VertexSource& source, std::size_t slot_count, std::uint32_t first) {
   if (slot_count > 65536)
-    return Status::failure(StatusCode::limit_exceeded, kNone, "a skin of %zu slots; 65536 are possible", slot_count);
+    return Status::failure(StatusCode::limit_exceeded, kNone,
+                           "a skin of %zu slots; 65536 are possible", slot_count);
   if (const Status status = check_sizes(source); !status) return status;
   if (const Status status = check_strides(source); !status) return status;
   if (source.per_influence != nullptr)
@@ -113,16 +132,19 @@ Status check_source(const VertexSource& source, std::size_t slot_count, std::uin
   for (std::uint32_t v = first; v < source.vertex_count; ++v)
     if (const Status status = check_vertex(source, slot_count, v); !status) return status;
   for (std::size_t i = 0; i < source.morph_targets.size(); ++i)
-    for (const auto* deltas : {&source.morph_targets[i].position_deltas, &source.morph_targets[i].normal_deltas,
-                               &source.morph_targets[i].tangent_deltas})
+    for (const auto* deltas :
+         {&source.morph_targets[i].position_deltas, &source.morph_targets[i].normal_deltas,
+          &source.morph_targets[i].tangent_deltas})
       for (std::size_t v = first; v < deltas->size(); ++v)
         if (!(*deltas)[v].allFinite())
           return Status::failure(StatusCode::non_finite_value, static_cast<std::uint32_t>(v),
-                                 "morph target %zu: vertex %zu: a displacement is not finite", i, v);
+                                 "morph target %zu: vertex %zu: a displacement is not finite", i,
+                                 v);
   return {};
 }
 
-BlockBuilder::BlockBuilder(const VertexSource& source, Blocks& blocks) : source_(source), blocks_(blocks), slots_(blocks.scratch) {
+BlockBuilder::BlockBuilder(const VertexSource& source, Blocks& blocks)
+    : source_(source), blocks_(blocks), slots_(blocks.scratch) {
   if (source.per_influence == nullptr) return;
   std::uint32_t first = 0;
   for (const std::uint32_t vertex : source.per_influence->vertices) {
@@ -152,12 +174,14 @@ void BlockBuilder::append_gathered(std::uint32_t first, std::uint32_t end) {
   }
   key_first.push_back(static_cast<std::uint32_t>(keys.size()));
   const auto slots_of = [&](std::uint32_t v) {
-    return std::span<const std::uint32_t>(keys.data() + key_first[v - first], keys.data() + key_first[v - first + 1]);
+    return std::span<const std::uint32_t>(keys.data() + key_first[v - first],
+                                          keys.data() + key_first[v - first + 1]);
   };
   gathered_ = order_;
   std::sort(gathered_.begin(), gathered_.end(), [&](std::uint32_t a, std::uint32_t b) {
     const auto of_a = slots_of(a), of_b = slots_of(b);
-    const auto order = std::lexicographical_compare_three_way(of_a.begin(), of_a.end(), of_b.begin(), of_b.end());
+    const auto order =
+        std::lexicographical_compare_three_way(of_a.begin(), of_a.end(), of_b.begin(), of_b.end());
     return order != 0 ? order < 0 : a < b;
   });
   if (work(order_, false) <= work(gathered_, true)) {
@@ -169,14 +193,16 @@ void BlockBuilder::append_gathered(std::uint32_t first, std::uint32_t end) {
     std::sort(gathered_.begin() + i, gathered_.begin() + i + count);  // writes ascend
     append_block(gathered_.data() + i, count, first);
   }
-  blocks_.scattered_end = blocks_.block_count();  // also of a last block whose vertices follow one another
+  blocks_.scattered_end =
+      blocks_.block_count();  // also of a last block whose vertices follow one another
 }
 
 double BlockBuilder::work(const std::vector<std::uint32_t>& order, bool scattered) {
   double sum = 0;
   for (std::uint32_t i = 0; i < order.size(); i += kLanes) {
     find_slots(order.data() + i, std::min(kLanes, static_cast<std::uint32_t>(order.size()) - i));
-    sum += kBlockWork + kSlotWork * static_cast<double>(slots_.size()) + (scattered ? kScatterWork : 0);
+    sum += kBlockWork + kSlotWork * static_cast<double>(slots_.size()) +
+           (scattered ? kScatterWork : 0);
   }
   return sum;
 }
@@ -193,7 +219,8 @@ void BlockBuilder::find_slots(const std::uint32_t* vertices, std::uint32_t count
   slots_.erase(std::unique(slots_.begin(), slots_.end()), slots_.end());
 }
 
-void BlockBuilder::append_block(const std::uint32_t* vertices, std::uint32_t count, std::uint32_t window) {
+void BlockBuilder::append_block(const std::uint32_t* vertices, std::uint32_t count,
+                                std::uint32_t window) {
   Block block;
   BlockExtra extra;
   const std::uint32_t number = blocks_.block_count();
@@ -253,7 +280,8 @@ void BlockBuilder::append_attributes(const std::uint32_t* vertices, std::uint32_
   if (blocks_.has_tangents) append(source_.tangents, 4);
 }
 
-void BlockBuilder::append_weights(const std::uint32_t* vertices, std::uint32_t count, Block& block, BlockExtra& extra) {
+void BlockBuilder::append_weights(const std::uint32_t* vertices, std::uint32_t count, Block& block,
+                                  BlockExtra& extra) {
   if (slots_.size() * kLanes > kSparseFrom * influence_count_ && slots_.size() > kSparseFrom) {
     block.kind |= kSparse;
     for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
@@ -262,10 +290,12 @@ void BlockBuilder::append_weights(const std::uint32_t* vertices, std::uint32_t c
         for_each_influence(source_, vertices[lane], [&](std::uint32_t slot, float weight) {
           blocks_.influences.push_back({slot, weight});
         });
-      std::stable_sort(blocks_.influences.begin() + static_cast<std::ptrdiff_t>(first), blocks_.influences.end(),
+      std::stable_sort(blocks_.influences.begin() + static_cast<std::ptrdiff_t>(first),
+                       blocks_.influences.end(),
                        [](const Influence& a, const Influence& b) { return a.slot < b.slot; });
       std::size_t end = first;
-      for (std::size_t i = first; i < blocks_.influences.size(); ++i) {  // a slot that is named twice counts once
+      for (std::size_t i = first; i < blocks_.influences.size();
+           ++i) {  // a slot that is named twice counts once
         if (end > first && blocks_.influences[end - 1].slot == blocks_.influences[i].slot)
           blocks_.influences[end - 1].weight += blocks_.influences[i].weight;
         else
@@ -280,16 +310,19 @@ void BlockBuilder::append_weights(const std::uint32_t* vertices, std::uint32_t c
   blocks_.stream.resize(first + slots_.size() * kLanes);
   for (std::uint32_t lane = 0; lane < count; ++lane)
     for_each_influence(source_, vertices[lane], [&](std::uint32_t slot, float weight) {
-      const auto k = static_cast<std::size_t>(std::lower_bound(slots_.begin(), slots_.end(), slot) - slots_.begin());
+      const auto k = static_cast<std::size_t>(std::lower_bound(slots_.begin(), slots_.end(), slot) -
+                                              slots_.begin());
       blocks_.stream[first + kLanes * k + lane] += weight;
     });
 }
 
-void BlockBuilder::append_morphs(const std::uint32_t* vertices, std::uint32_t count, Block& block, BlockExtra& extra) {
+void BlockBuilder::append_morphs(const std::uint32_t* vertices, std::uint32_t count, Block& block,
+                                 BlockExtra& extra) {
   for (std::uint32_t j = 0; j < source_.morph_targets.size(); ++j) {
     const MorphTarget& target = source_.morph_targets[j];
     const auto moves = [&](const std::vector<Vec3f>& deltas) {
-      return !deltas.empty() && std::any_of(vertices, vertices + count, [&](std::uint32_t v) { return !is_zero(deltas[v]); });
+      return !deltas.empty() && std::any_of(vertices, vertices + count,
+                                            [&](std::uint32_t v) { return !is_zero(deltas[v]); });
     };
     if (!moves(target.position_deltas) && !(blocks_.has_normals && moves(target.normal_deltas)) &&
         !(blocks_.has_tangents && moves(target.tangent_deltas)))
@@ -300,28 +333,35 @@ void BlockBuilder::append_morphs(const std::uint32_t* vertices, std::uint32_t co
       blocks_.morph_stream.resize(first + 3 * kLanes);
       for (std::uint32_t lane = 0; lane < count && !deltas.empty(); ++lane)
         for (std::size_t c = 0; c < 3; ++c)
-          blocks_.morph_stream[first + kLanes * c + lane] = deltas[vertices[lane]][static_cast<Eigen::Index>(c)];
+          blocks_.morph_stream[first + kLanes * c + lane] =
+              deltas[vertices[lane]][static_cast<Eigen::Index>(c)];
     };
     append(target.position_deltas);
     if (blocks_.has_normals) append(target.normal_deltas);
     if (blocks_.has_tangents) append(target.tangent_deltas);
-    blocks_.movers.append(static_cast<std::uint32_t>(blocks_.slot_count) + j, blocks_.block_count());
+    blocks_.movers.append(static_cast<std::uint32_t>(blocks_.slot_count) + j,
+                          blocks_.block_count());
     ++extra.morph_count;
   }
   if (extra.morph_count > 0) block.kind |= kMorphed;
 }
 
-void BlockBuilder::append_exact(const std::uint32_t* vertices, std::uint32_t count, Block& block, BlockExtra& extra) {
+void BlockBuilder::append_exact(const std::uint32_t* vertices, std::uint32_t count, Block& block,
+                                BlockExtra& extra) {
   if (source_.per_influence == nullptr) return;
   const InfluencePositions& exact = *source_.per_influence;
   for (std::uint32_t lane = 0; lane < count; ++lane) {
-    const auto known = std::lower_bound(exact.vertices.begin(), exact.vertices.end(), vertices[lane]);
+    const auto known =
+        std::lower_bound(exact.vertices.begin(), exact.vertices.end(), vertices[lane]);
     if (known == exact.vertices.end() || *known != vertices[lane]) continue;
-    const std::uint32_t first = exact_first_[static_cast<std::size_t>(known - exact.vertices.begin())];
+    const std::uint32_t first =
+        exact_first_[static_cast<std::size_t>(known - exact.vertices.begin())];
     const auto influences = source_.weights->of(vertices[lane]);
-    blocks_.exact_lanes.push_back({lane, static_cast<std::uint32_t>(blocks_.exact_influences.size()),
-                                   static_cast<std::uint32_t>(influences.size()), blocks_.exact_stream.size()});
-    blocks_.exact_influences.insert(blocks_.exact_influences.end(), influences.begin(), influences.end());
+    blocks_.exact_lanes.push_back(
+        {lane, static_cast<std::uint32_t>(blocks_.exact_influences.size()),
+         static_cast<std::uint32_t>(influences.size()), blocks_.exact_stream.size()});
+    blocks_.exact_influences.insert(blocks_.exact_influences.end(), influences.begin(),
+                                    influences.end());
     const auto append = [&](const std::vector<Vec3f>& values, std::size_t i) {
       const Vec3f value = values.empty() ? Vec3f(Vec3f::Zero()) : values[first + i];
       blocks_.exact_stream.insert(blocks_.exact_stream.end(), value.data(), value.data() + 3);
@@ -335,9 +375,11 @@ void BlockBuilder::append_exact(const std::uint32_t* vertices, std::uint32_t cou
     };
     append_all(exact);
     for (std::uint32_t j = 0; j < source_.morph_targets.size(); ++j) {
-      append_all(exact.morph_targets.empty() ? InfluencePositions::Deltas() : exact.morph_targets[j]);
+      append_all(exact.morph_targets.empty() ? InfluencePositions::Deltas()
+                                             : exact.morph_targets[j]);
       if (!exact.morph_targets.empty())
-        blocks_.movers.append(static_cast<std::uint32_t>(blocks_.slot_count) + j, blocks_.block_count());
+        blocks_.movers.append(static_cast<std::uint32_t>(blocks_.slot_count) + j,
+                              blocks_.block_count());
     }
     ++extra.exact_count;
   }

@@ -9,7 +9,8 @@
 namespace sunder::skinning {
 
 /// Checks vertices from `first` on: what SkinnedMesh::create() promises to find.
-[[nodiscard]] Status check_source(const VertexSource& source, std::size_t slot_count, std::uint32_t first);
+[[nodiscard]] Status check_source(const VertexSource& source, std::size_t slot_count,
+                                  std::uint32_t first);
 
 /// Makes blocks of checked vertices and appends them.
 class BlockBuilder {
@@ -25,9 +26,12 @@ class BlockBuilder {
   void append_block(const std::uint32_t* vertices, std::uint32_t count, std::uint32_t window);
   void find_slots(const std::uint32_t* vertices, std::uint32_t count);
   void append_attributes(const std::uint32_t* vertices, std::uint32_t count);
-  void append_weights(const std::uint32_t* vertices, std::uint32_t count, Block& block, BlockExtra& extra);
-  void append_morphs(const std::uint32_t* vertices, std::uint32_t count, Block& block, BlockExtra& extra);
-  void append_exact(const std::uint32_t* vertices, std::uint32_t count, Block& block, BlockExtra& extra);
+  void append_weights(const std::uint32_t* vertices, std::uint32_t count, Block& block,
+                      BlockExtra& extra);
+  void append_morphs(const std::uint32_t* vertices, std::uint32_t count, Block& block,
+                     BlockExtra& extra);
+  void append_exact(const std::uint32_t* vertices, std::uint32_t count, Block& block,
+                    BlockExtra& extra);
   [[nodiscard]] double work(const std::vector<std::uint32_t>& order, bool scattered);
 
   const VertexSource& source_;
@@ -35,7 +39,8 @@ class BlockBuilder {
   std::vector<std::uint16_t>& slots_;  // of the block at hand, ascending
   std::uint32_t influence_count_ = 0;  // of the block at hand
   std::vector<std::uint32_t> order_, gathered_;
-  std::vector<std::uint32_t> exact_first_;  // one a vertex of source_.per_influence: where its positions begin
+  std::vector<std::uint32_t>
+      exact_first_;  // one a vertex of source_.per_influence: where its positions begin
 };
 
 }  // namespace sunder::skinning

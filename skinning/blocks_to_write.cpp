@@ -11,35 +11,45 @@ namespace {
 void set_bits(std::uint32_t first, std::uint32_t end, std::uint64_t* words) {
   while (first < end) {
     const std::uint32_t word = first / 64, last = std::min(end, 64 * (word + 1));
-    const std::uint64_t bits = last - first == 64 ? ~std::uint64_t{0} : ((std::uint64_t{1} << (last - first)) - 1) << (first % 64);
+    const std::uint64_t bits = last - first == 64
+                                   ? ~std::uint64_t{0}
+                                   : ((std::uint64_t{1} << (last - first)) - 1) << (first % 64);
     words[word] |= bits;
     first = last;
   }
 }
 
-/// The last block from `b` on whose window begins at `vertex` or before: in steps that double, as the next is mostly near.
+/// The last block from `b` on whose window begins at `vertex` or before: in steps that double, as
+/// the next is mostly near.
 std::uint32_t last_block_to(const Blocks& blocks, std::uint32_t vertex, std::uint32_t b) {
   const std::uint32_t count = blocks.block_count();
   std::uint32_t step = 1;
   for (; step < count - b && blocks.window(blocks.blocks[b + step]) <= vertex; step *= 2) b += step;
   const auto from = blocks.blocks.begin() + b, end = from + std::min(step, count - b);
-  return b + static_cast<std::uint32_t>(
-                 std::partition_point(from, end, [&](const Block& block) { return blocks.window(block) <= vertex; }) - from - 1);
+  return b +
+         static_cast<std::uint32_t>(
+             std::partition_point(
+                 from, end, [&](const Block& block) { return blocks.window(block) <= vertex; }) -
+             from - 1);
 }
 
-/// Marks those of the blocks [first, end) of a window that hold any vertex of `vertices`, which ascend.
-void mark_in_window(const Blocks& blocks, std::uint32_t first, std::uint32_t end, std::uint32_t window_end,
-                    std::span<const IndexRange> vertices, std::vector<std::uint64_t>& marks) {
+/// Marks those of the blocks [first, end) of a window that hold any vertex of `vertices`, which
+/// ascend.
+void mark_in_window(const Blocks& blocks, std::uint32_t first, std::uint32_t end,
+                    std::uint32_t window_end, std::span<const IndexRange> vertices,
+                    std::vector<std::uint64_t>& marks) {
   const std::uint32_t window = blocks.window(blocks.blocks[first]);
   std::array<std::uint64_t, kWindow / 64> wanted = {};
   for (const IndexRange& range : vertices) {
     if (range.first >= window_end) break;
-    set_bits(std::max(range.first, window) - window, std::min(range.first + range.count, window_end) - window, wanted.data());
+    set_bits(std::max(range.first, window) - window,
+             std::min(range.first + range.count, window_end) - window, wanted.data());
   }
   for (std::uint32_t b = first; b < end; ++b) {
     const Block& block = blocks.blocks[b];
     const bool is_scattered = (block.kind & kScattered) != 0;
-    const std::uint32_t* places = is_scattered ? blocks.places.data() + blocks.extras[block.extra].places : nullptr;
+    const std::uint32_t* places =
+        is_scattered ? blocks.places.data() + blocks.extras[block.extra].places : nullptr;
     std::uint64_t any = 0;
     for (std::uint32_t lane = 0; lane < block.lane_count; ++lane) {
       const std::uint32_t at = (is_scattered ? places[lane] : block.first_vertex + lane) - window;
@@ -50,8 +60,11 @@ void mark_in_window(const Blocks& blocks, std::uint32_t first, std::uint32_t end
 }
 
 /// Marks blocks that hold vertices of some ranges, which ascend.
-void mark_blocks_of(const Blocks& blocks, std::span<const IndexRange> vertices, std::vector<std::uint64_t>& marks) {
-  std::uint32_t b = 0, done = 0;  // blocks before `b` have been looked at, which hold the vertices before `done`
+void mark_blocks_of(const Blocks& blocks, std::span<const IndexRange> vertices,
+                    std::vector<std::uint64_t>& marks) {
+  std::uint32_t
+      b = 0,
+      done = 0;  // blocks before `b` have been looked at, which hold the vertices before `done`
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     const std::uint32_t end = vertices[i].first + vertices[i].count;
     if (vertices[i].count == 0 || end <= done) continue;
@@ -81,15 +94,17 @@ void mark(const IndexRange& blocks, std::vector<std::uint64_t>& marks) {
   set_bits(blocks.first, blocks.first + blocks.count, marks.data());
 }
 
-void mark_changed(const Blocks& blocks, const PaletteData& palette, std::uint64_t palette_revision, std::uint64_t mesh_revision,
-                  std::vector<std::uint64_t>& marks) {
+void mark_changed(const Blocks& blocks, const PaletteData& palette, std::uint64_t palette_revision,
+                  std::uint64_t mesh_revision, std::vector<std::uint64_t>& marks) {
   const auto mark_moved_by = [&](std::size_t mover) {
-    blocks.movers.for_each_run(static_cast<std::uint32_t>(mover), [&](const IndexRange& run) { mark(run, marks); });
+    blocks.movers.for_each_run(static_cast<std::uint32_t>(mover),
+                               [&](const IndexRange& run) { mark(run, marks); });
   };
   for (std::size_t slot = 0; slot < blocks.slot_count; ++slot)
     if (palette.revisions[slot] > palette_revision) mark_moved_by(slot);
   for (std::size_t j = 0; j < blocks.morph_count; ++j)
-    if (palette.revisions[palette.slots + blocks.first_morph_weight + j] > palette_revision) mark_moved_by(blocks.slot_count + j);
+    if (palette.revisions[palette.slots + blocks.first_morph_weight + j] > palette_revision)
+      mark_moved_by(blocks.slot_count + j);
 
   // Blocks are only ever replaced from some place to the end: those that are new lie there.
   std::uint32_t first_new = blocks.block_count();
@@ -97,11 +112,12 @@ void mark_changed(const Blocks& blocks, const PaletteData& palette, std::uint64_
   mark({first_new, blocks.block_count() - first_new}, marks);
 }
 
-void mark_displaced(const Blocks& blocks, std::span<const IndexRange> moved, std::vector<std::uint64_t>& displaced,
-                    std::vector<std::uint64_t>& marks) {
+void mark_displaced(const Blocks& blocks, std::span<const IndexRange> moved,
+                    std::vector<std::uint64_t>& displaced, std::vector<std::uint64_t>& marks) {
   const std::size_t known = std::min(displaced.size(), marks.size());
   for (std::size_t word = 0; word < known; ++word) marks[word] |= displaced[word];
-  if (blocks.block_count() % 64 != 0) marks.back() &= (std::uint64_t{1} << (blocks.block_count() % 64)) - 1;
+  if (blocks.block_count() % 64 != 0)
+    marks.back() &= (std::uint64_t{1} << (blocks.block_count() % 64)) - 1;
   displaced.clear();
   if (moved.empty()) return;
   displaced.resize(marks.size());
@@ -109,14 +125,16 @@ void mark_displaced(const Blocks& blocks, std::span<const IndexRange> moved, std
   for (std::size_t word = 0; word < marks.size(); ++word) marks[word] |= displaced[word];
 }
 
-void list_runs(const Blocks& blocks, const std::vector<std::uint64_t>& marks, std::vector<IndexRange>& ranges) {
+void list_runs(const Blocks& blocks, const std::vector<std::uint64_t>& marks,
+               std::vector<IndexRange>& ranges) {
   ranges.clear();
   ranges.reserve(blocks.block_count() / 2 + 1);
   for (std::size_t word = 0; word < marks.size(); ++word) {
     std::uint64_t bits = marks[word];
     while (bits != 0) {
       const int first = std::countr_zero(bits), length = std::countr_one(bits >> first);
-      const std::uint32_t block = static_cast<std::uint32_t>(64 * word) + static_cast<std::uint32_t>(first);
+      const std::uint32_t block =
+          static_cast<std::uint32_t>(64 * word) + static_cast<std::uint32_t>(first);
       if (!ranges.empty() && ranges.back().first + ranges.back().count == block)
         ranges.back().count += static_cast<std::uint32_t>(length);
       else

@@ -22,7 +22,8 @@ namespace {
 
 /// Whether `linear` turns and nothing else, to the precision of what files store.
 bool is_rigid(const Mat3d& linear) {
-  return (linear.transpose() * linear - Mat3d::Identity()).cwiseAbs().maxCoeff() < kEvenScale && linear.determinant() > 0;
+  return (linear.transpose() * linear - Mat3d::Identity()).cwiseAbs().maxCoeff() < kEvenScale &&
+         linear.determinant() > 0;
 }
 
 /// Writes numbers in float, column after column.
@@ -48,7 +49,8 @@ void write_motion(PaletteData& data, std::size_t slot, const Affine3d& matrix) {
   put(real.coeffs(), data.motions.data() + 8 * slot);
   put(Vec4d(0.5 * dual.coeffs()), data.motions.data() + 8 * slot + 4);
   put(Mat3d(stretch - Mat3d::Identity()), data.stretches.data() + 18 * slot);
-  put(Mat3d(normal_matrix<double>(stretch) - Mat3d::Identity()), data.stretches.data() + 18 * slot + 9);
+  put(Mat3d(normal_matrix<double>(stretch) - Mat3d::Identity()),
+      data.stretches.data() + 18 * slot + 9);
 }
 
 void write_slot(PaletteData& data, std::size_t slot, const Affine3f& matrix) {
@@ -66,12 +68,15 @@ void take(PaletteData& data, std::span<const float> morph_weights) {
   ++data.revision;
   bool changed = before == 0;
   for (std::size_t slot = 0; slot < data.slots; ++slot) {
-    if (before != 0 && std::memcmp(data.matrices.data() + 12 * slot, data.fresh[slot].data(), 12 * sizeof(float)) == 0) continue;
+    if (before != 0 && std::memcmp(data.matrices.data() + 12 * slot, data.fresh[slot].data(),
+                                   12 * sizeof(float)) == 0)
+      continue;
     write_slot(data, slot, data.fresh[slot]);
     changed = true;
   }
   for (std::size_t i = 0; i < morph_weights.size(); ++i) {
-    if (before != 0 && std::memcmp(&data.morph_weights[i], &morph_weights[i], sizeof(float)) == 0) continue;
+    if (before != 0 && std::memcmp(&data.morph_weights[i], &morph_weights[i], sizeof(float)) == 0)
+      continue;
     data.morph_weights[i] = morph_weights[i];
     data.revisions[data.slots + i] = data.revision;
     changed = true;
@@ -80,7 +85,9 @@ void take(PaletteData& data, std::span<const float> morph_weights) {
     data.revision = before;
     return;
   }
-  const auto any = [](const std::vector<std::uint8_t>& flags) { return std::find(flags.begin(), flags.end(), 1) != flags.end(); };
+  const auto any = [](const std::vector<std::uint8_t>& flags) {
+    return std::find(flags.begin(), flags.end(), 1) != flags.end();
+  };
   data.any_uneven = any(data.is_uneven);
 }
 
@@ -91,20 +98,25 @@ Status check(const PaletteData& data, std::span<const float> morph_weights) {
                              "slot %zu: its matrix is not finite in float", slot);
   for (std::size_t i = 0; i < morph_weights.size(); ++i)
     if (!std::isfinite(morph_weights[i]))
-      return Status::failure(StatusCode::non_finite_value, static_cast<std::uint32_t>(i), "morph weight %zu is not finite", i);
+      return Status::failure(StatusCode::non_finite_value, static_cast<std::uint32_t>(i),
+                             "morph weight %zu is not finite", i);
   return {};
 }
 
 Status check_sizes(const PaletteData& data, std::size_t slots, std::size_t morph_weights) {
   if (slots != data.slots)
-    return Status::failure(StatusCode::size_mismatch, kNone, "the palette has %zu slots, the pose is of %zu", data.slots, slots);
+    return Status::failure(StatusCode::size_mismatch, kNone,
+                           "the palette has %zu slots, the pose is of %zu", data.slots, slots);
   if (morph_weights != data.morph_weights.size())
-    return Status::failure(StatusCode::size_mismatch, kNone, "the palette has %zu morph weights, the pose %zu",
+    return Status::failure(StatusCode::size_mismatch, kNone,
+                           "the palette has %zu morph weights, the pose %zu",
                            data.morph_weights.size(), morph_weights);
   return {};
 }
 
-bool is_same(const Affine3d& a, const Affine3d& b) { return std::memcmp(a.data(), b.data(), 12 * sizeof(double)) == 0; }
+bool is_same(const Affine3d& a, const Affine3d& b) {
+  return std::memcmp(a.data(), b.data(), 12 * sizeof(double)) == 0;
+}
 
 }  // namespace
 }  // namespace skinning
@@ -132,19 +144,26 @@ BonePalette::~BonePalette() = default;
 BonePalette::BonePalette(BonePalette&&) noexcept = default;
 BonePalette& BonePalette::operator=(BonePalette&&) noexcept = default;
 
-Status BonePalette::set(const Skin& skin, const ModelPose& pose, const Affine3d& model_from_character) {
+Status BonePalette::set(const Skin& skin, const ModelPose& pose,
+                        const Affine3d& model_from_character) {
   skinning::PaletteData& data = *data_;
-  if (const Status status = skinning::check_sizes(data, skin.bones.size(), pose.morph_weights.size()); !status) return status;
+  if (const Status status =
+          skinning::check_sizes(data, skin.bones.size(), pose.morph_weights.size());
+      !status)
+    return status;
   for (std::uint32_t slot = 0; slot < skin.bones.size(); ++slot)
     if (skin.bones[slot] >= pose.model_from_bone.size())
-      return Status::failure(StatusCode::index_out_of_range, slot, "skin slot %u: bone %u, pose has %zu", slot, skin.bones[slot],
+      return Status::failure(StatusCode::index_out_of_range, slot,
+                             "skin slot %u: bone %u, pose has %zu", slot, skin.bones[slot],
                              pose.model_from_bone.size());
 
   const bool same_frame = data.skin == &skin && skinning::is_same(data.frame, model_from_character);
   bool is_unchanged = same_frame;
   for (std::size_t slot = 0; is_unchanged && slot < data.slots; ++slot)
     is_unchanged = skinning::is_same(data.poses[slot], pose.model_from_bone[skin.bones[slot]]);
-  if (is_unchanged && std::equal(pose.morph_weights.begin(), pose.morph_weights.end(), data.morph_weights.begin())) return {};
+  if (is_unchanged &&
+      std::equal(pose.morph_weights.begin(), pose.morph_weights.end(), data.morph_weights.begin()))
+    return {};
 
   const Affine3d character_from_model = model_from_character.inverse();
   for (std::size_t slot = 0; slot < data.slots; ++slot) {
@@ -153,16 +172,21 @@ Status BonePalette::set(const Skin& skin, const ModelPose& pose, const Affine3d&
     data.fresh[slot] = (character_from_model * model_from_bone * bone_from_bind).cast<float>();
   }
   if (const Status status = skinning::check(data, pose.morph_weights); !status) return status;
-  for (std::size_t slot = 0; slot < data.slots; ++slot) data.poses[slot] = pose.model_from_bone[skin.bones[slot]];
+  for (std::size_t slot = 0; slot < data.slots; ++slot)
+    data.poses[slot] = pose.model_from_bone[skin.bones[slot]];
   data.frame = model_from_character;
   data.skin = &skin;
   skinning::take(data, pose.morph_weights);
   return {};
 }
 
-Status BonePalette::set(std::span<const Affine3f> character_from_bind, std::span<const float> morph_weights) {
+Status BonePalette::set(std::span<const Affine3f> character_from_bind,
+                        std::span<const float> morph_weights) {
   skinning::PaletteData& data = *data_;
-  if (const Status status = skinning::check_sizes(data, character_from_bind.size(), morph_weights.size()); !status) return status;
+  if (const Status status =
+          skinning::check_sizes(data, character_from_bind.size(), morph_weights.size());
+      !status)
+    return status;
   std::copy(character_from_bind.begin(), character_from_bind.end(), data.fresh.begin());
   if (const Status status = skinning::check(data, morph_weights); !status) return status;
   data.skin = nullptr;

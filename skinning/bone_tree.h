@@ -9,7 +9,8 @@ namespace sunder::skinning {
 
 inline Affine3d to_matrix(const BoneTransform& transform) {
   Affine3d matrix;
-  matrix.linear() = transform.rotation.cast<double>().normalized().toRotationMatrix() * transform.scale.cast<double>().asDiagonal();
+  matrix.linear() = transform.rotation.cast<double>().normalized().toRotationMatrix() *
+                    transform.scale.cast<double>().asDiagonal();
   matrix.translation() = transform.translation.cast<double>();
   return matrix;
 }
@@ -18,7 +19,8 @@ inline Affine3d to_matrix(const BoneTransform& transform) {
 /// @param parent_from_bone  asked for each bone's BoneTransform once, ascending.
 /// @param model_from_bone   one a bone, written.
 template <class ParentFromBone>
-void multiply_down(const Skeleton& skeleton, const ParentFromBone& parent_from_bone, std::span<Affine3d> model_from_bone) {
+void multiply_down(const Skeleton& skeleton, const ParentFromBone& parent_from_bone,
+                   std::span<Affine3d> model_from_bone) {
   for (std::size_t bone = 0; bone < skeleton.bones.size(); ++bone) {
     const Affine3d local = to_matrix(parent_from_bone(bone));
     const std::uint32_t parent = skeleton.bones[bone].parent;

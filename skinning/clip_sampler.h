@@ -8,8 +8,8 @@
 
 namespace sunder::skinning {
 
-/// Samples a clip into model space bone by bone, with no Pose in between that would need memory: the bits of sample_clip() over
-/// local_rest_pose(), then compute_model_pose().
+/// Samples a clip into model space bone by bone, with no Pose in between that would need memory:
+/// the bits of sample_clip() over local_rest_pose(), then compute_model_pose().
 class ClipSampler {
  public:
   /// @param clip  one of a character that passed validate_character().

@@ -6,8 +6,9 @@
 namespace sunder::skinning {
 namespace {
 
-// Products and sums one by one, in one order, as in the kernel: what coincides and is displaced alike goes on coinciding. Sums of
-// four numbers at once are Eigen's: compilers left alone leave out the fourth, and take one after another.
+// Products and sums one by one, in one order, as in the kernel: what coincides and is displaced
+// alike goes on coinciding. Sums of four numbers at once are Eigen's: compilers left alone leave
+// out the fourth, and take one after another.
 
 using Four = Eigen::Array4f;
 using FourOf = Eigen::Map<const Four>;
@@ -16,14 +17,18 @@ using FourOf = Eigen::Map<const Four>;
 class Rows {
  public:
   explicit Rows(const VertexDisplacements& of)
-      : rows_(of.vertex_rows.data()), influences_(of.influences.data()), count_(of.influences.size()) {}
+      : rows_(of.vertex_rows.data()),
+        influences_(of.influences.data()),
+        count_(of.influences.size()) {}
 
   /// The row of a vertex, or kNone where nothing displaces it.
   [[nodiscard]] std::uint32_t of(std::uint32_t vertex) const {
     const std::uint32_t row = rows_[vertex];
     return row < count_ && influences_[row].weights[0] > 0.0f ? row : kNone;
   }
-  [[nodiscard]] const ParticleInfluences& influences(std::uint32_t row) const { return influences_[row]; }
+  [[nodiscard]] const ParticleInfluences& influences(std::uint32_t row) const {
+    return influences_[row];
+  }
 
  private:
   const std::uint32_t* rows_;
@@ -33,21 +38,23 @@ class Rows {
 
 /// A vertex' floats.
 float* floats_of(const StridedFloats<float>& array, std::uint32_t vertex) {
-  return reinterpret_cast<float*>(reinterpret_cast<unsigned char*>(array.data) + array.stride * vertex);
+  return reinterpret_cast<float*>(reinterpret_cast<unsigned char*>(array.data) +
+                                  array.stride * vertex);
 }
 
 float dot(const float* a, const float* b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-void displace_positions(const VertexDisplacements& displacements, StridedFloats<float> positions, std::uint32_t first,
-                        std::uint32_t end) {
+void displace_positions(const VertexDisplacements& displacements, StridedFloats<float> positions,
+                        std::uint32_t first, std::uint32_t end) {
   const Rows rows(displacements);
   const Vec4f* const of = displacements.displacements.data();
   for (std::uint32_t v = first; v < end; ++v) {
     const std::uint32_t row = rows.of(v);
     if (row == kNone) continue;
     const ParticleInfluences& by = rows.influences(row);
-    const Four sum = by.weights[0] * of[by.particles[0]].array() + by.weights[1] * of[by.particles[1]].array() +
-                     by.weights[2] * of[by.particles[2]].array() + by.weights[3] * of[by.particles[3]].array();
+    const Four sum =
+        by.weights[0] * of[by.particles[0]].array() + by.weights[1] * of[by.particles[1]].array() +
+        by.weights[2] * of[by.particles[2]].array() + by.weights[3] * of[by.particles[3]].array();
     float* p = floats_of(positions, v);
     for (int i = 0; i < 3; ++i) p[i] += sum[i];
   }
@@ -55,8 +62,8 @@ void displace_positions(const VertexDisplacements& displacements, StridedFloats<
 
 /// The mean of four particles' matrices: nine numbers, column after column.
 void blend_matrices(const ParticleInfluences& by, const Mat3f* matrices, float* mean) {
-  const float *a = matrices[by.particles[0]].data(), *b = matrices[by.particles[1]].data(), *c = matrices[by.particles[2]].data(),
-              *d = matrices[by.particles[3]].data();
+  const float *a = matrices[by.particles[0]].data(), *b = matrices[by.particles[1]].data(),
+              *c = matrices[by.particles[2]].data(), *d = matrices[by.particles[3]].data();
   const float wa = by.weights[0], wb = by.weights[1], wc = by.weights[2], wd = by.weights[3];
   Eigen::Map<Four> first(mean), second(mean + 4);
   first = wa * FourOf(a) + wb * FourOf(b) + wc * FourOf(c) + wd * FourOf(d);
@@ -64,7 +71,8 @@ void blend_matrices(const ParticleInfluences& by, const Mat3f* matrices, float* 
   mean[8] = wa * a[8] + wb * b[8] + wc * c[8] + wd * d[8];
 }
 
-/// Writes `turned` to `at`, at the length of what is there, or at unit length. What has no length is left.
+/// Writes `turned` to `at`, at the length of what is there, or at unit length. What has no length
+/// is left.
 void write_turned(const float* turned, bool unit_length, float* at) {
   const auto square = [](const float* v) {  // in double no square of a float underflows
     return double{v[0]} * v[0] + double{v[1]} * v[1] + double{v[2]} * v[2];
@@ -75,7 +83,8 @@ void write_turned(const float* turned, bool unit_length, float* at) {
   for (int i = 0; i < 3; ++i) at[i] = static_cast<float>(scale * turned[i]);
 }
 
-void turn_directions(const VertexDisplacements& displacements, const VertexTarget& target, std::uint32_t first, std::uint32_t end) {
+void turn_directions(const VertexDisplacements& displacements, const VertexTarget& target,
+                     std::uint32_t first, std::uint32_t end) {
   const Rows rows(displacements);
   const Vec4f* const of = displacements.displacements.data();
   const ParticleGradients* const gradients = displacements.gradients.data();
@@ -97,12 +106,14 @@ void turn_directions(const VertexDisplacements& displacements, const VertexTarge
         for (int i = 0; i < 3; ++i) slope[i] += rise * stored[k][i];
       }
       float turned[3];
-      for (int i = 0; i < 3; ++i) turned[i] = n[i] - (mean[i] * slope[0] + mean[3 + i] * slope[1] + mean[6 + i] * slope[2]);
+      for (int i = 0; i < 3; ++i)
+        turned[i] = n[i] - (mean[i] * slope[0] + mean[3 + i] * slope[1] + mean[6 + i] * slope[2]);
       write_turned(turned, unit_length, n);
     }
     if (tangents.data != nullptr) {
       float* t = floats_of(tangents, v);
-      const float back[3] = {dot(mean, t), dot(mean + 3, t), dot(mean + 6, t)};  // g_k . t = stored . (transposed mean t)
+      const float back[3] = {dot(mean, t), dot(mean + 3, t),
+                             dot(mean + 6, t)};  // g_k . t = stored . (transposed mean t)
       float turned[3] = {t[0], t[1], t[2]};
       for (std::size_t k = 0; k < 4; ++k) {
         const float growth = dot(stored[k].data(), back);
@@ -118,31 +129,39 @@ void turn_directions(const VertexDisplacements& displacements, const VertexTarge
 Status check_displacements(const VertexDisplacements& displacements, std::uint32_t vertex_count) {
   if (displacements.moved.empty()) return {};
   if (displacements.vertex_rows.size() != vertex_count)
-    return Status::failure(StatusCode::size_mismatch, kNone, "there are rows for %zu vertices, the mesh has %u",
+    return Status::failure(StatusCode::size_mismatch, kNone,
+                           "there are rows for %zu vertices, the mesh has %u",
                            displacements.vertex_rows.size(), vertex_count);
-  if (!displacements.gradients.empty() && displacements.gradients.size() != displacements.influences.size())
-    return Status::failure(StatusCode::size_mismatch, kNone, "there are %zu rows of gradients, %zu of influences",
+  if (!displacements.gradients.empty() &&
+      displacements.gradients.size() != displacements.influences.size())
+    return Status::failure(StatusCode::size_mismatch, kNone,
+                           "there are %zu rows of gradients, %zu of influences",
                            displacements.gradients.size(), displacements.influences.size());
-  if (!displacements.gradients.empty() && displacements.model_from_gradient.size() != displacements.displacements.size())
-    return Status::failure(StatusCode::size_mismatch, kNone, "there are %zu displacements, and matrices of gradients for %zu",
-                           displacements.displacements.size(), displacements.model_from_gradient.size());
+  if (!displacements.gradients.empty() &&
+      displacements.model_from_gradient.size() != displacements.displacements.size())
+    return Status::failure(StatusCode::size_mismatch, kNone,
+                           "there are %zu displacements, and matrices of gradients for %zu",
+                           displacements.displacements.size(),
+                           displacements.model_from_gradient.size());
   std::uint64_t end = 0;
   for (std::size_t i = 0; i < displacements.moved.size(); ++i) {
     const IndexRange& range = displacements.moved[i];
     const std::uint64_t next = std::uint64_t{range.first} + range.count;
     if (range.first < end || next > vertex_count)
       return Status::failure(StatusCode::index_out_of_range, static_cast<std::uint32_t>(i),
-                             "vertices [%u, %llu) are moved, after those before %llu, of %u", range.first,
-                             static_cast<unsigned long long>(next), static_cast<unsigned long long>(end), vertex_count);
+                             "vertices [%u, %llu) are moved, after those before %llu, of %u",
+                             range.first, static_cast<unsigned long long>(next),
+                             static_cast<unsigned long long>(end), vertex_count);
     end = next;
   }
   return {};
 }
 
-void displace_vertices(const VertexDisplacements& displacements, const VertexTarget& target, std::uint32_t first,
-                       std::uint32_t end) {
+void displace_vertices(const VertexDisplacements& displacements, const VertexTarget& target,
+                       std::uint32_t first, std::uint32_t end) {
   displace_positions(displacements, target.positions, first, end);
-  if (!displacements.gradients.empty() && (target.normals.data != nullptr || target.tangents.data != nullptr))
+  if (!displacements.gradients.empty() &&
+      (target.normals.data != nullptr || target.tangents.data != nullptr))
     turn_directions(displacements, target, first, end);
 }
 

@@ -4,7 +4,8 @@
 
 namespace sunder::skinning {
 
-/// A number that no other object of this process has. A buffer remembers by it what it was written from: addresses come back.
+/// A number that no other object of this process has. A buffer remembers by it what it was written
+/// from: addresses come back.
 [[nodiscard]] std::uint64_t new_identity();
 
 }  // namespace sunder::skinning

@@ -30,8 +30,8 @@ HingeAngles free_angles() {
   return angles;
 }
 
-/// From rest, or from what is nearest to it where the limits leave it out, to each limit: to fit half the way and all of it, held
-/// out a quarter and three.
+/// From rest, or from what is nearest to it where the limits leave it out, to each limit: to fit
+/// half the way and all of it, held out a quarter and three.
 HingeAngles limited_angles(const JointLimit& limit) {
   const double nearest = std::clamp(0.0, limit.lower, limit.upper);
   const auto towards = [&](double end, double part) { return nearest + part * (end - nearest); };
@@ -43,7 +43,8 @@ HingeAngles limited_angles(const JointLimit& limit) {
   if (nearest != 0) angles.fit.push_back(nearest);
   if (limit.upper > nearest) {
     angles.fit.insert(angles.fit.end(), {towards(limit.upper, 0.5), limit.upper});
-    angles.held_out.insert(angles.held_out.end(), {towards(limit.upper, 0.25), towards(limit.upper, 0.75)});
+    angles.held_out.insert(angles.held_out.end(),
+                           {towards(limit.upper, 0.25), towards(limit.upper, 0.75)});
   }
   if (limit.upper != 0) angles.ends.push_back(limit.upper);
   if (limit.lower != 0 && limit.lower != limit.upper) angles.ends.push_back(limit.lower);
@@ -52,14 +53,16 @@ HingeAngles limited_angles(const JointLimit& limit) {
   return angles;
 }
 
-/// Which bones move vertices, and which change a shape when they turn: some bones of one mesh turn with them and some do not.
+/// Which bones move vertices, and which change a shape when they turn: some bones of one mesh turn
+/// with them and some do not.
 struct BoneEffects {
   std::vector<bool> moves_vertices, changes_shape;
 };
 
 BoneEffects find_effects(const Character& character) {
   const auto& bones = character.skeleton.bones;
-  BoneEffects effects{std::vector<bool>(bones.size(), false), std::vector<bool>(bones.size(), false)};
+  BoneEffects effects{std::vector<bool>(bones.size(), false),
+                      std::vector<bool>(bones.size(), false)};
   std::vector<Index> used_below(bones.size());  // bones of the mesh at and below each bone
   for (const Mesh& mesh : character.meshes) {
     const Skin& skin = character.skins[mesh.skin];
@@ -80,17 +83,21 @@ BoneEffects find_effects(const Character& character) {
 
 class SweepMaker {
  public:
-  SweepMaker(const Character& character, const PoseSetSpec& spec) : bones_(character.skeleton.bones) {
+  SweepMaker(const Character& character, const PoseSetSpec& spec)
+      : bones_(character.skeleton.bones) {
     const BoneEffects effects = find_effects(character);
     std::vector<std::vector<Index>> limits_of(bones_.size());
-    for (Index i = 0; i < spec.joint_limits.size(); ++i) limits_of[spec.joint_limits[i].bone].push_back(i);
+    for (Index i = 0; i < spec.joint_limits.size(); ++i)
+      limits_of[spec.joint_limits[i].bone].push_back(i);
     first_hinge_.push_back(0);
     for (Index bone = 0; bone < bones_.size(); ++bone) {
       if (effects.changes_shape[bone]) {
         for (const Index limit : limits_of[bone])
-          add_hinge(bone, spec.joint_limits[limit].axis.stableNormalized(), limited_angles(spec.joint_limits[limit]));
+          add_hinge(bone, spec.joint_limits[limit].axis.stableNormalized(),
+                    limited_angles(spec.joint_limits[limit]));
         if (limits_of[bone].empty() && spec.range_of_motion && effects.moves_vertices[bone])
-          for (const Vec3d& axis : {Vec3d(1, 0, 0), Vec3d(0, 1, 0), Vec3d(0, 0, 1)}) add_hinge(bone, axis, free_angles());
+          for (const Vec3d& axis : {Vec3d(1, 0, 0), Vec3d(0, 1, 0), Vec3d(0, 0, 1)})
+            add_hinge(bone, axis, free_angles());
       }
       first_hinge_.push_back(static_cast<Index>(sweeps_.hinges.size()));
     }
@@ -112,19 +119,26 @@ class SweepMaker {
     const Index begin = first_hinge_[bone], count = first_hinge_[bone + 1] - begin;
     for (Index hinge = begin; hinge < begin + count; ++hinge) {
       for (const double angle : angles_[hinge].fit) sweeps_.fit.push_back({{hinge, angle}, {}});
-      for (const double angle : angles_[hinge].held_out) sweeps_.held_out.push_back({{hinge, angle}, {}});
+      for (const double angle : angles_[hinge].held_out)
+        sweeps_.held_out.push_back({{hinge, angle}, {}});
     }
     const Index parent = bones_[bone].parent;
     if (parent == kNone || count == 0) return;
-    const Index parent_begin = first_hinge_[parent], parent_count = first_hinge_[parent + 1] - parent_begin;
+    const Index parent_begin = first_hinge_[parent],
+                parent_count = first_hinge_[parent + 1] - parent_begin;
     if (parent_count == 0) return;
-    for (Index i = 0; i < std::max(count, parent_count); ++i) {  // x with x, y with y; held out x with y, y with z
+    for (Index i = 0; i < std::max(count, parent_count);
+         ++i) {  // x with x, y with y; held out x with y, y with z
       const Index own = begin + i % count;
-      const Index same = parent_begin + i % parent_count, other = parent_begin + (i + 1) % parent_count;
-      for (const double end : angles_[same].ends) sweeps_.fit.push_back({{own, angles_[own].far_end}, {same, end}});
+      const Index same = parent_begin + i % parent_count,
+                  other = parent_begin + (i + 1) % parent_count;
+      for (const double end : angles_[same].ends)
+        sweeps_.fit.push_back({{own, angles_[own].far_end}, {same, end}});
       // Two joints that each know one angle alone have no second pose.
       const bool is_fixed = angles_[own].held_out.empty() && angles_[other].held_out.empty();
-      if (!is_fixed) sweeps_.held_out.push_back({{own, angles_[own].before_far_end}, {other, angles_[other].before_far_end}});
+      if (!is_fixed)
+        sweeps_.held_out.push_back(
+            {{own, angles_[own].before_far_end}, {other, angles_[other].before_far_end}});
     }
   }
 
@@ -141,7 +155,8 @@ JointSweeps make_joint_sweeps(const Character& character, const PoseSetSpec& spe
   return SweepMaker(character, spec).take();
 }
 
-void compute_sweep(const Character& character, const JointSweeps& sweeps, const Sweep& sweep, ModelPose& pose) {
+void compute_sweep(const Character& character, const JointSweeps& sweeps, const Sweep& sweep,
+                   ModelPose& pose) {
   const auto& bones = character.skeleton.bones;
   pose.model_from_bone.resize(bones.size());
   const auto turned = [&](std::size_t bone) {

@@ -32,11 +32,13 @@ struct JointSweeps {
 
 /// Bones ascending; of each its axes, angles ascending, then those with its parent.
 /// @param character  satisfies validate_character().
-/// @param spec       its limits name bones, are finite and not reversed, and their axes have length.
+/// @param spec       its limits name bones, are finite and not reversed, and their axes have
+/// length.
 [[nodiscard]] JointSweeps make_joint_sweeps(const Character& character, const PoseSetSpec& spec);
 
 /// Rest, but for the turns of a sweep.
 /// @param pose  resized to fit.
-void compute_sweep(const Character& character, const JointSweeps& sweeps, const Sweep& sweep, ModelPose& pose);
+void compute_sweep(const Character& character, const JointSweeps& sweeps, const Sweep& sweep,
+                   ModelPose& pose);
 
 }  // namespace sunder::skinning

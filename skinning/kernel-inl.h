@@ -1,9 +1,10 @@
-// The kernel: included once for each kind of vectors, by a file that defines V, kVectorLanes and operations on them. No include
-// guard.
+// The kernel: included once for each kind of vectors, by a file that defines V, kVectorLanes and
+// operations on them. No include guard.
 //
-// A block's 16 vertices are posed side by side, in parts of as many lanes as a vector has. Every lane does the same operations in
-// the same order as every other, in each kind of vector and of block: products and sums are rounded one by one, sums over slots
-// ascend and begin with zero. So a vertex is posed to the same bits wherever it stands, and what coincides goes on coinciding.
+// A block's 16 vertices are posed side by side, in parts of as many lanes as a vector has. Every
+// lane does the same operations in the same order as every other, in each kind of vector and of
+// block: products and sums are rounded one by one, sums over slots ascend and begin with zero. So a
+// vertex is posed to the same bits wherever it stands, and what coincides goes on coinciding.
 
 /// sum_k w_k M_k of some lanes, column after column.
 struct Matrix {
@@ -21,7 +22,8 @@ struct Vector {
 
 SUNDER_INLINE V add_product(V a, V b, V sum) { return add(sum, mul(a, b)); }
 
-SUNDER_INLINE Matrix blend_slots(const float* weights, const std::uint16_t* slots, std::uint32_t count, const float* matrices) {
+SUNDER_INLINE Matrix blend_slots(const float* weights, const std::uint16_t* slots,
+                                 std::uint32_t count, const float* matrices) {
   const V z = zero();
   Matrix m = {z, z, z, z, z, z, z, z, z, z, z, z};
   for (std::uint32_t k = 0; k < count; ++k) {
@@ -56,8 +58,8 @@ SUNDER_INLINE void add_linear(V weight, const float* of, Linear& sum) {
   sum.zz = add_product(weight, set(of[8]), sum.zz);
 }
 
-SUNDER_INLINE Linear blend_normal_matrices(const float* weights, const std::uint16_t* slots, std::uint32_t count,
-                                           const float* matrices) {
+SUNDER_INLINE Linear blend_normal_matrices(const float* weights, const std::uint16_t* slots,
+                                           std::uint32_t count, const float* matrices) {
   const V z = zero();
   Linear m = {z, z, z, z, z, z, z, z, z};
   for (std::uint32_t k = 0; k < count; ++k)
@@ -65,23 +67,30 @@ SUNDER_INLINE Linear blend_normal_matrices(const float* weights, const std::uint
   return m;
 }
 
-SUNDER_INLINE Linear linear_of(const Matrix& m) { return {m.xx, m.xy, m.xz, m.yx, m.yy, m.yz, m.zx, m.zy, m.zz}; }
+SUNDER_INLINE Linear linear_of(const Matrix& m) {
+  return {m.xx, m.xy, m.xz, m.yx, m.yy, m.yz, m.zx, m.zy, m.zz};
+}
 
 /// A row of a matrix times a vector.
-SUNDER_INLINE V row(V mx, V my, V mz, V x, V y, V z) { return add_product(mz, z, add_product(my, y, mul(mx, x))); }
+SUNDER_INLINE V row(V mx, V my, V mz, V x, V y, V z) {
+  return add_product(mz, z, add_product(my, y, mul(mx, x)));
+}
 
 SUNDER_INLINE Vector transform(const Matrix& m, Vector v) {
-  return {add(row(m.xx, m.yx, m.zx, v.x, v.y, v.z), m.tx), add(row(m.xy, m.yy, m.zy, v.x, v.y, v.z), m.ty),
+  return {add(row(m.xx, m.yx, m.zx, v.x, v.y, v.z), m.tx),
+          add(row(m.xy, m.yy, m.zy, v.x, v.y, v.z), m.ty),
           add(row(m.xz, m.yz, m.zz, v.x, v.y, v.z), m.tz)};
 }
 
 SUNDER_INLINE Vector transform(const Linear& m, Vector v) {
-  return {row(m.xx, m.yx, m.zx, v.x, v.y, v.z), row(m.xy, m.yy, m.zy, v.x, v.y, v.z), row(m.xz, m.yz, m.zz, v.x, v.y, v.z)};
+  return {row(m.xx, m.yx, m.zx, v.x, v.y, v.z), row(m.xy, m.yy, m.zy, v.x, v.y, v.z),
+          row(m.xz, m.yz, m.zz, v.x, v.y, v.z)};
 }
 
 /// a * b.
 SUNDER_INLINE Linear product(const Linear& a, const Linear& b) {
-  const Vector x = transform(a, Vector{b.xx, b.xy, b.xz}), y = transform(a, Vector{b.yx, b.yy, b.yz}),
+  const Vector x = transform(a, Vector{b.xx, b.xy, b.xz}),
+               y = transform(a, Vector{b.yx, b.yy, b.yz}),
                z = transform(a, Vector{b.zx, b.zy, b.zz});
   return {x.x, x.y, x.z, y.x, y.y, y.z, z.x, z.y, z.z};
 }
@@ -93,10 +102,12 @@ SUNDER_INLINE Linear sum(const Linear& a, const Linear& b) {
 
 /// `v` at unit length, or `otherwise` where it has none.
 SUNDER_INLINE Vector unit_or(Vector v, Vector otherwise) {
-  const V largest = max(max(abs(v.x), abs(v.y)), abs(v.z));  // squares of small numbers would underflow
+  const V largest =
+      max(max(abs(v.x), abs(v.y)), abs(v.z));  // squares of small numbers would underflow
   const V scale = div(set(1.0f), largest);
   const Vector s = {mul(v.x, scale), mul(v.y, scale), mul(v.z, scale)};
-  const V factor = div(set(1.0f), sqrt(add_product(s.z, s.z, add_product(s.y, s.y, mul(s.x, s.x)))));
+  const V factor =
+      div(set(1.0f), sqrt(add_product(s.z, s.z, add_product(s.y, s.y, mul(s.x, s.x)))));
   const V least = set(1e-37f), most = set(3e38f);
   return {if_between(least, largest, most, mul(s.x, factor), otherwise.x),
           if_between(least, largest, most, mul(s.y, factor), otherwise.y),
@@ -108,7 +119,8 @@ SUNDER_INLINE Vector load_vector(const float* numbers) {
 }
 
 /// What is posed: bind attributes plus the displacements of the targets that have a weight.
-SUNDER_INLINE Vector load_morphed(const SkinWork& work, const Block& block, const float* numbers, std::size_t part) {
+SUNDER_INLINE Vector load_morphed(const SkinWork& work, const Block& block, const float* numbers,
+                                  std::size_t part) {
   Vector v = load_vector(numbers);
   if ((block.kind & kMorphed) == 0) return v;
   const Blocks& mesh = *work.mesh;
@@ -124,7 +136,8 @@ SUNDER_INLINE Vector load_morphed(const SkinWork& work, const Block& block, cons
 }
 
 /// Whether one of the slots that move a block has a flag.
-inline bool moves_by(const SkinWork& work, const Block& block, const std::vector<std::uint8_t>& flags) {
+inline bool moves_by(const SkinWork& work, const Block& block,
+                     const std::vector<std::uint8_t>& flags) {
   const std::uint16_t* slots = work.mesh->slots.data() + block.slots;
   for (std::uint32_t k = 0; k < block.slot_count; ++k)
     if (flags[slots[k]] != 0) return true;
@@ -151,11 +164,13 @@ inline void blend_lanes(const SkinWork& work, const Block& block, BlendedLanes& 
       const float* of = palette.matrices.data() + 12 * static_cast<std::size_t>(influence.slot);
       for (std::size_t e = 0; e < 12; ++e) matrix[e] += influence.weight * of[e];
       if (!palette.any_uneven) continue;
-      const float* of_normals = palette.normal_matrices.data() + 9 * static_cast<std::size_t>(influence.slot);
+      const float* of_normals =
+          palette.normal_matrices.data() + 9 * static_cast<std::size_t>(influence.slot);
       for (std::size_t e = 0; e < 9; ++e) normal[e] += influence.weight * of_normals[e];
     }
     for (std::size_t e = 0; e < 12; ++e) blended.matrix[kLanes * e + lane] = matrix[e];
-    for (std::size_t e = 0; e < 9; ++e) blended.normal[kLanes * e + lane] = palette.any_uneven ? normal[e] : matrix[e];
+    for (std::size_t e = 0; e < 9; ++e)
+      blended.normal[kLanes * e + lane] = palette.any_uneven ? normal[e] : matrix[e];
   }
 }
 
@@ -182,7 +197,9 @@ class SlotWeights {
     if (dense_ != nullptr) return load(dense_ + kLanes * k);
     alignas(64) float weights[kLanes];
     for (std::uint32_t i = 0; i < kVectorLanes; ++i)
-      weights[i] = next_[i] < end_[i] && influences_[next_[i]].slot == slot ? influences_[next_[i]++].weight : 0.0f;
+      weights[i] = next_[i] < end_[i] && influences_[next_[i]].slot == slot
+                       ? influences_[next_[i]++].weight
+                       : 0.0f;
     return load(weights);
   }
 
@@ -232,22 +249,28 @@ SUNDER_INLINE Matrix load_matrix(const float* numbers) {
           load(numbers + 11 * kLanes)};
 }
 
-/// The motion that blended dual quaternions are, after the blended stretch. A quaternion is taken with the sign that agrees with
-/// the sum so far: both signs are the same rotation, and the shorter way is meant. Source: Kavan, Collins, Zara, O'Sullivan,
-/// Geometric skinning with approximate dual quaternion blending, TOG 2008 [kavan2008dual].
-inline void blend_motions(const SkinWork& work, const Block& block, const float* numbers, BlendedLanes& blended) {
+/// The motion that blended dual quaternions are, after the blended stretch. A quaternion is taken
+/// with the sign that agrees with the sum so far: both signs are the same rotation, and the shorter
+/// way is meant. Source: Kavan, Collins, Zara, O'Sullivan, Geometric skinning with approximate dual
+/// quaternion blending, TOG 2008 [kavan2008dual].
+inline void blend_motions(const SkinWork& work, const Block& block, const float* numbers,
+                          BlendedLanes& blended) {
   const PaletteData& palette = *work.palette;
   const std::uint16_t* slots = work.mesh->slots.data() + block.slots;
   const bool is_stretched = moves_by(work, block, palette.is_stretched);
   for (std::uint32_t lane = 0; lane < kLanes; lane += kVectorLanes) {
     const V none = zero();
     V x = none, y = none, z = none, w = none, dx = none, dy = none, dz = none, dw = none;
-    Linear stretch = {none, none, none, none, none, none, none, none, none}, stretch_of_normals = stretch;
+    Linear stretch = {none, none, none, none, none, none, none, none, none},
+           stretch_of_normals = stretch;
     SlotWeights weights(work, block, numbers, lane);
     for (std::uint32_t k = 0; k < block.slot_count; ++k) {
       const float* of = palette.motions.data() + 8 * static_cast<std::size_t>(slots[k]);
-      const V agreement = add_product(w, set(of[3]), add_product(z, set(of[2]), add_product(y, set(of[1]), mul(x, set(of[0])))));
-      const V positive = weights.of(k, slots[k]), weight = negate_where_negative(agreement, positive);
+      const V agreement =
+          add_product(w, set(of[3]),
+                      add_product(z, set(of[2]), add_product(y, set(of[1]), mul(x, set(of[0])))));
+      const V positive = weights.of(k, slots[k]),
+              weight = negate_where_negative(agreement, positive);
       x = add_product(weight, set(of[0]), x);
       y = add_product(weight, set(of[1]), y);
       z = add_product(weight, set(of[2]), z);
@@ -257,8 +280,10 @@ inline void blend_motions(const SkinWork& work, const Block& block, const float*
       dz = add_product(weight, set(of[6]), dz);
       dw = add_product(weight, set(of[7]), dw);
       if (!is_stretched) continue;
-      add_linear(positive, palette.stretches.data() + 18 * static_cast<std::size_t>(slots[k]), stretch);
-      add_linear(positive, palette.stretches.data() + 18 * static_cast<std::size_t>(slots[k]) + 9, stretch_of_normals);
+      add_linear(positive, palette.stretches.data() + 18 * static_cast<std::size_t>(slots[k]),
+                 stretch);
+      add_linear(positive, palette.stretches.data() + 18 * static_cast<std::size_t>(slots[k]) + 9,
+                 stretch_of_normals);
     }
     const V length = sqrt(add_product(w, w, add_product(z, z, add_product(y, y, mul(x, x)))));
     const V scale = div(set(1.0f), max(length, set(1e-30f)));  // lanes without a vertex have none
@@ -283,7 +308,8 @@ inline void blend_motions(const SkinWork& work, const Block& block, const float*
     const V tz = mul(two, add(sub(mul(dz, w), mul(dw, z)), sub(mul(dy, x), mul(dx, y))));
 
     Linear linear = turn, normal = turn;
-    if (is_stretched) {  // what the stretch adds is nothing where no bone of a vertex stretches: the same bits as in another block
+    if (is_stretched) {  // what the stretch adds is nothing where no bone of a vertex stretches:
+                         // the same bits as in another block
       linear = sum(turn, product(turn, stretch));
       normal = sum(turn, product(turn, stretch_of_normals));
     }
@@ -301,20 +327,23 @@ SUNDER_INLINE bool is_packed(const StridedFloats<float>& array, std::size_t comp
   return array.stride == components * sizeof(float);
 }
 
-/// Results of a block whose vertices do not lie packed one after another, before they go to their places.
+/// Results of a block whose vertices do not lie packed one after another, before they go to their
+/// places.
 struct PosedLanes {
   alignas(64) float positions[3 * kLanes];
   alignas(64) float normals[3 * kLanes];
   alignas(64) float tangents[4 * kLanes];
 };
 
-inline void scatter(const StridedFloats<float>& to, const float* values, std::size_t components, const std::uint32_t* places,
-                    std::uint32_t count) {
+inline void scatter(const StridedFloats<float>& to, const float* values, std::size_t components,
+                    const std::uint32_t* places, std::uint32_t count) {
   unsigned char* bytes = reinterpret_cast<unsigned char*>(to.data);
   if (components == 3)
-    for (std::uint32_t lane = 0; lane < count; ++lane) std::memcpy(bytes + to.stride * places[lane], values + 3 * lane, 12);
+    for (std::uint32_t lane = 0; lane < count; ++lane)
+      std::memcpy(bytes + to.stride * places[lane], values + 3 * lane, 12);
   else
-    for (std::uint32_t lane = 0; lane < count; ++lane) std::memcpy(bytes + to.stride * places[lane], values + 4 * lane, 16);
+    for (std::uint32_t lane = 0; lane < count; ++lane)
+      std::memcpy(bytes + to.stride * places[lane], values + 4 * lane, 16);
 }
 
 // --- Vertices with a position for each influence: few, so one after another, and summed in double.
@@ -323,9 +352,10 @@ struct ExactSum {
   double x = 0, y = 0, z = 0;
 };
 
-/// Adds an influence's part: its matrix' linear part (9 numbers) times its own vector, which morph targets displace.
-inline void add_part(const SkinWork& work, const ExactLane& lane, const float* linear, std::uint32_t influence, std::size_t part,
-                     ExactSum& sum) {
+/// Adds an influence's part: its matrix' linear part (9 numbers) times its own vector, which morph
+/// targets displace.
+inline void add_part(const SkinWork& work, const ExactLane& lane, const float* linear,
+                     std::uint32_t influence, std::size_t part, ExactSum& sum) {
   const Blocks& mesh = *work.mesh;
   const std::size_t one = mesh.displacement_floats(), all = one * lane.influence_count;
   const float* own = mesh.exact_stream.data() + lane.numbers + one * influence + part;
@@ -361,19 +391,26 @@ inline void pose_exact_lanes(const SkinWork& work, const Block& block, PosedLane
     ExactSum position, normal, tangent;
     for (std::uint32_t k = 0; k < lane.influence_count; ++k) {
       const Influence& influence = mesh.exact_influences[lane.influences + k];
-      const float* matrix = work.palette->matrices.data() + 12 * static_cast<std::size_t>(influence.slot);
+      const float* matrix =
+          work.palette->matrices.data() + 12 * static_cast<std::size_t>(influence.slot);
       const double weight = influence.weight;
       add_part(work, lane, matrix, k, 0, position);
       position.x += weight * matrix[9];
       position.y += weight * matrix[10];
       position.z += weight * matrix[11];
       if (work.target.normals.data != nullptr)
-        add_part(work, lane, work.palette->normal_matrices.data() + 9 * static_cast<std::size_t>(influence.slot), k, 3, normal);
-      if (work.target.tangents.data != nullptr) add_part(work, lane, matrix, k, tangent_part, tangent);
+        add_part(
+            work, lane,
+            work.palette->normal_matrices.data() + 9 * static_cast<std::size_t>(influence.slot), k,
+            3, normal);
+      if (work.target.tangents.data != nullptr)
+        add_part(work, lane, matrix, k, tangent_part, tangent);
     }
     write_exact(position, false, posed.positions + 3 * lane.lane);
-    if (work.target.normals.data != nullptr) write_exact(normal, work.target.unit_length, posed.normals + 3 * lane.lane);
-    if (work.target.tangents.data != nullptr) write_exact(tangent, work.target.unit_length, posed.tangents + 4 * lane.lane);
+    if (work.target.normals.data != nullptr)
+      write_exact(normal, work.target.unit_length, posed.normals + 3 * lane.lane);
+    if (work.target.tangents.data != nullptr)
+      write_exact(tangent, work.target.unit_length, posed.tangents + 4 * lane.lane);
   }
 }
 
@@ -381,9 +418,9 @@ inline void pose_exact_lanes(const SkinWork& work, const Block& block, PosedLane
 
 /// Poses `kVectorLanes` vertices from `lane` on. Outputs are null where nobody wants them.
 template <bool kStream>
-SUNDER_INLINE void pose_lanes(const SkinWork& work, const Block& block, const float* numbers, std::uint32_t lane,
-                              const Matrix& matrix, const Linear& normal_matrix, float* positions, float* normals,
-                              float* tangents) {
+SUNDER_INLINE void pose_lanes(const SkinWork& work, const Block& block, const float* numbers,
+                              std::uint32_t lane, const Matrix& matrix, const Linear& normal_matrix,
+                              float* positions, float* normals, float* tangents) {
   const Blocks& mesh = *work.mesh;
   const float* at_lane = numbers + lane;
   const Vector position = transform(matrix, load_morphed(work, block, at_lane, lane));
@@ -399,28 +436,33 @@ SUNDER_INLINE void pose_lanes(const SkinWork& work, const Block& block, const fl
     const Vector bind = load_morphed(work, block, at_lane + part, part + lane);
     Vector tangent = transform(linear_of(matrix), bind);
     if (work.target.unit_length) tangent = unit_or(tangent, bind);
-    store_interleaved4(tangent.x, tangent.y, tangent.z, load(at_lane + part + 3 * kLanes), tangents + 4 * lane);
+    store_interleaved4(tangent.x, tangent.y, tangent.z, load(at_lane + part + 3 * kLanes),
+                       tangents + 4 * lane);
   }
 }
 
 /// Blocks of all kinds, by any method.
 template <bool kStream>
-void pose_any_block(const SkinWork& work, const Block& block, const float* numbers, float* positions, float* normals,
-                    float* tangents) {
+void pose_any_block(const SkinWork& work, const Block& block, const float* numbers,
+                    float* positions, float* normals, float* tangents) {
   const Blocks& mesh = *work.mesh;
   const PaletteData& palette = *work.palette;
   if (palette.method == SkinningMethod::linear && (block.kind & kSparse) == 0) {
     const float* weights = numbers + kLanes * mesh.attribute_floats();
     const std::uint16_t* slots = mesh.slots.data() + block.slots;
-    const bool uneven = normals != nullptr && palette.any_uneven && moves_by(work, block, palette.is_uneven);
+    const bool uneven =
+        normals != nullptr && palette.any_uneven && moves_by(work, block, palette.is_uneven);
     for (std::uint32_t lane = 0; lane < kLanes; lane += kVectorLanes) {
-      const Matrix matrix = blend_slots(weights + lane, slots, block.slot_count, palette.matrices.data());
+      const Matrix matrix =
+          blend_slots(weights + lane, slots, block.slot_count, palette.matrices.data());
       if (uneven)
         pose_lanes<kStream>(work, block, numbers, lane, matrix,
-                            blend_normal_matrices(weights + lane, slots, block.slot_count, palette.normal_matrices.data()),
+                            blend_normal_matrices(weights + lane, slots, block.slot_count,
+                                                  palette.normal_matrices.data()),
                             positions, normals, tangents);
       else
-        pose_lanes<kStream>(work, block, numbers, lane, matrix, linear_of(matrix), positions, normals, tangents);
+        pose_lanes<kStream>(work, block, numbers, lane, matrix, linear_of(matrix), positions,
+                            normals, tangents);
     }
     return;
   }
@@ -430,25 +472,29 @@ void pose_any_block(const SkinWork& work, const Block& block, const float* numbe
   else
     blend_motions(work, block, numbers, blended);
   for (std::uint32_t lane = 0; lane < kLanes; lane += kVectorLanes)
-    pose_lanes<kStream>(work, block, numbers, lane, load_matrix(blended.matrix + lane), load_linear(blended.normal + lane),
-                        positions, normals, tangents);
+    pose_lanes<kStream>(work, block, numbers, lane, load_matrix(blended.matrix + lane),
+                        load_linear(blended.normal + lane), positions, normals, tangents);
 }
 
-// What most blocks of most frames are: weights a slot, positions and perhaps normals, turned as the positions are. The same
-// operations as those of any block; but every number stays in a register, which compilers do for variables and not for structs.
-// Hence the macros.
-#define SUNDER_ENTRIES(DO) \
-  DO(xx, 0) DO(xy, 1) DO(xz, 2) DO(yx, 3) DO(yy, 4) DO(yz, 5) DO(zx, 6) DO(zy, 7) DO(zz, 8) DO(tx, 9) DO(ty, 10) DO(tz, 11)
+// What most blocks of most frames are: weights a slot, positions and perhaps normals, turned as the
+// positions are. The same operations as those of any block; but every number stays in a register,
+// which compilers do for variables and not for structs. Hence the macros.
+#define SUNDER_ENTRIES(DO)                                                                  \
+  DO(xx, 0)                                                                                 \
+  DO(xy, 1) DO(xz, 2) DO(yx, 3) DO(yy, 4) DO(yz, 5) DO(zx, 6) DO(zy, 7) DO(zz, 8) DO(tx, 9) \
+      DO(ty, 10) DO(tz, 11)
 
 template <bool kStream>
-SUNDER_INLINE void transform_common(V xx, V xy, V xz, V yx, V yy, V yz, V zx, V zy, V zz, V tx, V ty, V tz, const float* from,
-                                    bool unit_length, float* positions, float* normals) {
+SUNDER_INLINE void transform_common(V xx, V xy, V xz, V yx, V yy, V yz, V zx, V zy, V zz, V tx,
+                                    V ty, V tz, const float* from, bool unit_length,
+                                    float* positions, float* normals) {
   V x = load(from), y = load(from + kLanes), z = load(from + 2 * kLanes);
   store_interleaved<kStream>(add(row(xx, yx, zx, x, y, z), tx), add(row(xy, yy, zy, x, y, z), ty),
                              add(row(xz, yz, zz, x, y, z), tz), positions);
   if (normals == nullptr) return;
   x = load(from + 3 * kLanes), y = load(from + 4 * kLanes), z = load(from + 5 * kLanes);
-  const Vector normal = {row(xx, yx, zx, x, y, z), row(xy, yy, zy, x, y, z), row(xz, yz, zz, x, y, z)};
+  const Vector normal = {row(xx, yx, zx, x, y, z), row(xy, yy, zy, x, y, z),
+                         row(xz, yz, zz, x, y, z)};
   if (unit_length) {
     const Vector unit = unit_or(normal, {x, y, z});
     store_interleaved<kStream>(unit.x, unit.y, unit.z, normals);
@@ -458,8 +504,9 @@ SUNDER_INLINE void transform_common(V xx, V xy, V xz, V yx, V yy, V yz, V zx, V 
 }
 
 template <bool kStream>
-SUNDER_INLINE void pose_common_block(const float* matrices, const std::uint16_t* slots, std::uint32_t slot_count,
-                                     std::uint32_t attribute_floats, const float* numbers, bool unit_length, float* positions,
+SUNDER_INLINE void pose_common_block(const float* matrices, const std::uint16_t* slots,
+                                     std::uint32_t slot_count, std::uint32_t attribute_floats,
+                                     const float* numbers, bool unit_length, float* positions,
                                      float* normals) {
   for (std::uint32_t lane = 0; lane < kLanes; lane += kVectorLanes) {
     const float* weights = numbers + kLanes * attribute_floats + lane;
@@ -473,19 +520,23 @@ SUNDER_INLINE void pose_common_block(const float* matrices, const std::uint16_t*
     }
 #undef SUNDER_BEGIN
 #undef SUNDER_ADD
-    transform_common<kStream>(xx, xy, xz, yx, yy, yz, zx, zy, zz, tx, ty, tz, numbers + lane, unit_length, positions + 3 * lane,
+    transform_common<kStream>(xx, xy, xz, yx, yy, yz, zx, zy, zz, tx, ty, tz, numbers + lane,
+                              unit_length, positions + 3 * lane,
                               normals == nullptr ? nullptr : normals + 3 * lane);
   }
 }
 
-/// Two blocks, one behind the other, that the same slots move: each number of a matrix is loaded once for both. Loads are what
-/// limits a block alone. Only for vectors of 16 lanes, of which there are 32.
+/// Two blocks, one behind the other, that the same slots move: each number of a matrix is loaded
+/// once for both. Loads are what limits a block alone. Only for vectors of 16 lanes, of which there
+/// are 32.
 template <bool kStream>
-SUNDER_INLINE void pose_common_pair(const float* matrices, const std::uint16_t* slots, std::uint32_t slot_count,
-                                    std::uint32_t attribute_floats, const float* numbers, bool unit_length, float* positions,
+SUNDER_INLINE void pose_common_pair(const float* matrices, const std::uint16_t* slots,
+                                    std::uint32_t slot_count, std::uint32_t attribute_floats,
+                                    const float* numbers, bool unit_length, float* positions,
                                     float* normals) {
   const float* next = numbers + kLanes * (attribute_floats + slot_count);
-  const float *weights = numbers + kLanes * attribute_floats, *next_weights = next + kLanes * attribute_floats;
+  const float *weights = numbers + kLanes * attribute_floats,
+              *next_weights = next + kLanes * attribute_floats;
 #define SUNDER_BEGIN(entry, i) V entry = zero(), next_##entry = entry;
 #define SUNDER_ADD(entry, i)                 \
   const V of_##entry = set(of[i]);           \
@@ -499,9 +550,11 @@ SUNDER_INLINE void pose_common_pair(const float* matrices, const std::uint16_t* 
   }
 #undef SUNDER_BEGIN
 #undef SUNDER_ADD
-  transform_common<kStream>(xx, xy, xz, yx, yy, yz, zx, zy, zz, tx, ty, tz, numbers, unit_length, positions, normals);
-  transform_common<kStream>(next_xx, next_xy, next_xz, next_yx, next_yy, next_yz, next_zx, next_zy, next_zz, next_tx, next_ty,
-                            next_tz, next, unit_length, positions + 3 * kLanes,
+  transform_common<kStream>(xx, xy, xz, yx, yy, yz, zx, zy, zz, tx, ty, tz, numbers, unit_length,
+                            positions, normals);
+  transform_common<kStream>(next_xx, next_xy, next_xz, next_yx, next_yy, next_yz, next_zx, next_zy,
+                            next_zz, next_tx, next_ty, next_tz, next, unit_length,
+                            positions + 3 * kLanes,
                             normals == nullptr ? nullptr : normals + 3 * kLanes);
 }
 #undef SUNDER_ENTRIES
@@ -518,12 +571,14 @@ inline void pose_apart(const SkinWork& work, const Block& block, const float* nu
   PosedLanes posed;
   float* normals = target.normals.data == nullptr ? nullptr : posed.normals;
   if (is_common(work, block))
-    pose_common_block<false>(work.palette->matrices.data(), work.mesh->slots.data() + block.slots, block.slot_count,
-                             work.attribute_floats, numbers, target.unit_length, posed.positions, normals);
+    pose_common_block<false>(work.palette->matrices.data(), work.mesh->slots.data() + block.slots,
+                             block.slot_count, work.attribute_floats, numbers, target.unit_length,
+                             posed.positions, normals);
   else
     pose_any_block<false>(work, block, numbers, posed.positions, normals,
                           target.tangents.data == nullptr ? nullptr : posed.tangents);
-  if ((block.kind & kExact) != 0 && work.palette->method == SkinningMethod::linear) pose_exact_lanes(work, block, posed);
+  if ((block.kind & kExact) != 0 && work.palette->method == SkinningMethod::linear)
+    pose_exact_lanes(work, block, posed);
 
   std::uint32_t in_order[kLanes];
   const std::uint32_t* places = in_order;
@@ -532,13 +587,16 @@ inline void pose_apart(const SkinWork& work, const Block& block, const float* nu
   else
     for (std::uint32_t lane = 0; lane < kLanes; ++lane) in_order[lane] = block.first_vertex + lane;
   scatter(target.positions, posed.positions, 3, places, block.lane_count);
-  if (target.normals.data != nullptr) scatter(target.normals, posed.normals, 3, places, block.lane_count);
-  if (target.tangents.data != nullptr) scatter(target.tangents, posed.tangents, 4, places, block.lane_count);
+  if (target.normals.data != nullptr)
+    scatter(target.normals, posed.normals, 3, places, block.lane_count);
+  if (target.tangents.data != nullptr)
+    scatter(target.tangents, posed.tangents, 4, places, block.lane_count);
 }
 
 template <bool kStream>
 void pose_blocks(const SkinWork& work, std::uint32_t first, std::uint32_t end) {
-  // Variables of this function: compilers take it that a store of a vector may change anything else.
+  // Variables of this function: compilers take it that a store of a vector may change anything
+  // else.
   const VertexTarget target = work.target;
   const Block* const blocks = work.mesh->blocks.data();
   const float* const stream = work.mesh->stream.data();
@@ -546,7 +604,8 @@ void pose_blocks(const SkinWork& work, std::uint32_t first, std::uint32_t end) {
   const float* const matrices = work.palette->matrices.data();
   const std::uint32_t attribute_floats = work.attribute_floats;
   const bool has_normals = target.normals.data != nullptr, unit_length = target.unit_length;
-  const bool packed = is_packed(target.positions, 3) && (!has_normals || is_packed(target.normals, 3)) &&
+  const bool packed = is_packed(target.positions, 3) &&
+                      (!has_normals || is_packed(target.normals, 3)) &&
                       (target.tangents.data == nullptr || is_packed(target.tangents, 4));
   const bool all_common = work.is_common && packed && !work.palette->any_uneven;
   for (std::uint32_t b = first; b < end; ++b) {
@@ -558,32 +617,37 @@ void pose_blocks(const SkinWork& work, std::uint32_t first, std::uint32_t end) {
     float* const normals = has_normals ? target.normals.data + 3 * v : nullptr;
     if (all_common && block.kind == 0 && block.lane_count == kLanes) {
       if constexpr (kVectorLanes == kLanes) {
-        if (b + 1 < end && blocks[b + 1].slots == block.slots && blocks[b + 1].kind == 0 && blocks[b + 1].lane_count == kLanes) {
+        if (b + 1 < end && blocks[b + 1].slots == block.slots && blocks[b + 1].kind == 0 &&
+            blocks[b + 1].lane_count == kLanes) {
           ++b;
           prefetch_block(stream + blocks[b].numbers, attribute_floats + block.slot_count);
-          pose_common_pair<kStream>(matrices, slots + block.slots, block.slot_count, attribute_floats, numbers, unit_length,
-                                    positions, normals);
+          pose_common_pair<kStream>(matrices, slots + block.slots, block.slot_count,
+                                    attribute_floats, numbers, unit_length, positions, normals);
           continue;
         }
       }
-      pose_common_block<kStream>(matrices, slots + block.slots, block.slot_count, attribute_floats, numbers, unit_length, positions,
-                                 normals);
+      pose_common_block<kStream>(matrices, slots + block.slots, block.slot_count, attribute_floats,
+                                 numbers, unit_length, positions, normals);
     } else if (!packed || block.lane_count != kLanes || (block.kind & (kScattered | kExact)) != 0) {
       pose_apart(work, block, numbers);
     } else if (is_common(work, block)) {
-      pose_common_block<kStream>(matrices, slots + block.slots, block.slot_count, attribute_floats, numbers, unit_length, positions,
-                                 normals);
+      pose_common_block<kStream>(matrices, slots + block.slots, block.slot_count, attribute_floats,
+                                 numbers, unit_length, positions, normals);
     } else {
-      pose_any_block<kStream>(work, block, numbers, positions, normals,
-                              target.tangents.data == nullptr ? nullptr : target.tangents.data + 4 * v);
+      pose_any_block<kStream>(
+          work, block, numbers, positions, normals,
+          target.tangents.data == nullptr ? nullptr : target.tangents.data + 4 * v);
     }
   }
   finish_streaming();
 }
 
 void run_kernel(const SkinWork& work, std::uint32_t first, std::uint32_t end) {
-  const auto is_aligned = [](const float* data) { return reinterpret_cast<std::uintptr_t>(data) % 64 == 0; };  // null is, too
-  if (work.is_beyond_cache && is_aligned(work.target.positions.data) && is_aligned(work.target.normals.data))
+  const auto is_aligned = [](const float* data) {
+    return reinterpret_cast<std::uintptr_t>(data) % 64 == 0;
+  };  // null is, too
+  if (work.is_beyond_cache && is_aligned(work.target.positions.data) &&
+      is_aligned(work.target.normals.data))
     pose_blocks<true>(work, first, end);
   else
     pose_blocks<false>(work, first, end);

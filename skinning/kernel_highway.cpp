@@ -5,9 +5,11 @@
 
 #include "skinning/skin_work.h"
 
-// SSSE3 alone is too rare to carry, and AVX3_DL has nothing more that is used here (with it, Highway 1.0 does not compile for
-// -march=native of a CPU that the compiler knows in part). SVE vectors cannot be members of structs.
-#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
+// SSSE3 alone is too rare to carry, and AVX3_DL has nothing more that is used here (with it,
+// Highway 1.0 does not compile for -march=native of a CPU that the compiler knows in part). SVE
+// vectors cannot be members of structs.
+#define HWY_DISABLED_TARGETS \
+  (HWY_SSSE3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "skinning/kernel_highway.cpp"
 #include <hwy/cache_control.h>
@@ -38,7 +40,9 @@ SUNDER_INLINE V div(V a, V b) { return hn::Div(a, b); }
 SUNDER_INLINE V sqrt(V a) { return hn::Sqrt(a); }
 SUNDER_INLINE V abs(V a) { return hn::Abs(a); }
 SUNDER_INLINE V max(V a, V b) { return hn::Max(a, b); }
-SUNDER_INLINE V negate_where_negative(V sign, V value) { return hn::IfThenElse(hn::Lt(sign, zero()), hn::Neg(value), value); }
+SUNDER_INLINE V negate_where_negative(V sign, V value) {
+  return hn::IfThenElse(hn::Lt(sign, zero()), hn::Neg(value), value);
+}
 SUNDER_INLINE V if_between(V least, V value, V most, V inside, V outside) {
   return hn::IfThenElse(hn::And(hn::Lt(least, value), hn::Lt(value, most)), inside, outside);
 }
@@ -55,17 +59,26 @@ SUNDER_INLINE void store_part(V v, float* numbers) {
 template <bool kStream>
 SUNDER_INLINE void store_interleaved(V x, V y, V z, float* numbers) {
 #if HWY_TARGET == HWY_AVX3
-  // One permutation brings each x to its lane, whichever of the three vectors it goes to: no two want the same lane. The same for y
-  // and z; what is left are blends. (Highway interleaves within 128 bits first, which takes more.)
-  alignas(64) static constexpr std::int32_t kX[16] = {0, 11, 6, 1, 12, 7, 2, 13, 8, 3, 14, 9, 4, 15, 10, 5};
-  alignas(64) static constexpr std::int32_t kY[16] = {5, 0, 11, 6, 1, 12, 7, 2, 13, 8, 3, 14, 9, 4, 15, 10};
-  alignas(64) static constexpr std::int32_t kZ[16] = {10, 5, 0, 11, 6, 1, 12, 7, 2, 13, 8, 3, 14, 9, 4, 15};
-  constexpr __mmask16 kFirst = 0x9249, kSecond = 0x2492, kThird = 0x4924;  // lanes 0 3 6 ..., 1 4 7 ..., 2 5 8 ...
-  const __m512 px = _mm512_permutexvar_ps(_mm512_load_si512(kX), x.raw), py = _mm512_permutexvar_ps(_mm512_load_si512(kY), y.raw),
+  // One permutation brings each x to its lane, whichever of the three vectors it goes to: no two
+  // want the same lane. The same for y and z; what is left are blends. (Highway interleaves within
+  // 128 bits first, which takes more.)
+  alignas(64) static constexpr std::int32_t kX[16] = {0, 11, 6,  1, 12, 7,  2,  13,
+                                                      8, 3,  14, 9, 4,  15, 10, 5};
+  alignas(64) static constexpr std::int32_t kY[16] = {5,  0, 11, 6,  1, 12, 7,  2,
+                                                      13, 8, 3,  14, 9, 4,  15, 10};
+  alignas(64) static constexpr std::int32_t kZ[16] = {10, 5,  0, 11, 6,  1, 12, 7,
+                                                      2,  13, 8, 3,  14, 9, 4,  15};
+  constexpr __mmask16 kFirst = 0x9249, kSecond = 0x2492,
+                      kThird = 0x4924;  // lanes 0 3 6 ..., 1 4 7 ..., 2 5 8 ...
+  const __m512 px = _mm512_permutexvar_ps(_mm512_load_si512(kX), x.raw),
+               py = _mm512_permutexvar_ps(_mm512_load_si512(kY), y.raw),
                pz = _mm512_permutexvar_ps(_mm512_load_si512(kZ), z.raw);
-  store_part<kStream>(V{_mm512_mask_mov_ps(_mm512_mask_mov_ps(px, kSecond, py), kThird, pz)}, numbers);
-  store_part<kStream>(V{_mm512_mask_mov_ps(_mm512_mask_mov_ps(py, kSecond, pz), kThird, px)}, numbers + 16);
-  store_part<kStream>(V{_mm512_mask_mov_ps(_mm512_mask_mov_ps(pz, kSecond, px), kThird, py)}, numbers + 32);
+  store_part<kStream>(V{_mm512_mask_mov_ps(_mm512_mask_mov_ps(px, kSecond, py), kThird, pz)},
+                      numbers);
+  store_part<kStream>(V{_mm512_mask_mov_ps(_mm512_mask_mov_ps(py, kSecond, pz), kThird, px)},
+                      numbers + 16);
+  store_part<kStream>(V{_mm512_mask_mov_ps(_mm512_mask_mov_ps(pz, kSecond, px), kThird, py)},
+                      numbers + 32);
 #elif HWY_TARGET == HWY_SCALAR
   numbers[0] = hn::GetLane(x);
   numbers[1] = hn::GetLane(y);
@@ -74,7 +87,8 @@ SUNDER_INLINE void store_interleaved(V x, V y, V z, float* numbers) {
   if constexpr (kStream) {
     alignas(64) float together[3 * kVectorLanes];
     hn::StoreInterleaved3(x, y, z, kTag, together);
-    for (std::uint32_t i = 0; i < 3; ++i) hn::Stream(hn::Load(kTag, together + i * kVectorLanes), kTag, numbers + i * kVectorLanes);
+    for (std::uint32_t i = 0; i < 3; ++i)
+      hn::Stream(hn::Load(kTag, together + i * kVectorLanes), kTag, numbers + i * kVectorLanes);
   } else {
     hn::StoreInterleaved3(x, y, z, kTag, numbers);
   }
@@ -93,7 +107,8 @@ SUNDER_INLINE void store_interleaved4(V x, V y, V z, V w, float* numbers) {
 #endif
 }
 
-/// Asks for the memory of a later block: what hardware sees coming is 2 KB ahead at most, which is too late for main memory.
+/// Asks for the memory of a later block: what hardware sees coming is 2 KB ahead at most, which is
+/// too late for main memory.
 SUNDER_INLINE void prefetch_block(const float* numbers, std::uint32_t vectors) {
   constexpr std::uint32_t kAhead = 8192 / sizeof(float);
   for (std::uint32_t i = 0; i < vectors; ++i) hwy::Prefetch(numbers + kAhead + kLanes * i);

@@ -26,7 +26,9 @@ V sqrt(V a) { return std::sqrt(a); }
 V abs(V a) { return std::abs(a); }
 V max(V a, V b) { return std::max(a, b); }
 V negate_where_negative(V sign, V value) { return sign < 0.0f ? -value : value; }
-V if_between(V least, V value, V most, V inside, V outside) { return least < value && value < most ? inside : outside; }
+V if_between(V least, V value, V most, V inside, V outside) {
+  return least < value && value < most ? inside : outside;
+}
 
 template <bool kStream>
 void store_interleaved(V x, V y, V z, float* numbers) {
@@ -45,6 +47,8 @@ void finish_streaming() {}
 
 }  // namespace
 
-void skin_blocks(const SkinWork& work, std::uint32_t first, std::uint32_t end) { run_kernel(work, first, end); }
+void skin_blocks(const SkinWork& work, std::uint32_t first, std::uint32_t end) {
+  run_kernel(work, first, end);
+}
 
 }  // namespace sunder::skinning

@@ -8,8 +8,8 @@
 
 namespace sunder::skinning {
 
-/// Which blocks a mover, a slot or a morph target, moves: as runs of blocks, the newest first, so that blocks can be appended and
-/// taken from the end.
+/// Which blocks a mover, a slot or a morph target, moves: as runs of blocks, the newest first, so
+/// that blocks can be appended and taken from the end.
 class MoverRuns {
  public:
   void resize(std::size_t movers) { newest_.assign(movers, kNoRun); }

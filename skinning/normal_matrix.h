@@ -7,21 +7,24 @@
 
 namespace sunder::skinning {
 
-/// How far a matrix may be from a scaled rotation, relative to its scale squared, to count as one: what a float file leaves of it.
+/// How far a matrix may be from a scaled rotation, relative to its scale squared, to count as one:
+/// what a float file leaves of it.
 inline constexpr double kEvenScale = 1e-5;
 
-/// Whether a linear map scales all directions alike, as rotations, uniform scales and their mirrors do: it turns normals as
-/// vectors.
+/// Whether a linear map scales all directions alike, as rotations, uniform scales and their mirrors
+/// do: it turns normals as vectors.
 template <class Scalar, class Matrix>
 bool has_even_scale(const Matrix& linear) {
   const Eigen::Matrix<Scalar, 3, 3> gram = linear.transpose() * linear;
   const Scalar mean = gram.trace() / Scalar(3);
-  return (gram - mean * Eigen::Matrix<Scalar, 3, 3>::Identity()).cwiseAbs().maxCoeff() <= Scalar(kEvenScale) * mean;
+  return (gram - mean * Eigen::Matrix<Scalar, 3, 3>::Identity()).cwiseAbs().maxCoeff() <=
+         Scalar(kEvenScale) * mean;
 }
 
-/// How a linear map turns normals: itself where it scales evenly; else the inverse transpose, at the map's own scale, so that bones
-/// count in a blend by their weights, whatever their scales. It is taken from the cofactors, which exist for flat maps too; the
-/// determinant's sign keeps outward normals outward under mirrors. Zero where the map leaves no plane.
+/// How a linear map turns normals: itself where it scales evenly; else the inverse transpose, at
+/// the map's own scale, so that bones count in a blend by their weights, whatever their scales. It
+/// is taken from the cofactors, which exist for flat maps too; the determinant's sign keeps outward
+/// normals outward under mirrors. Zero where the map leaves no plane.
 template <class Scalar, class Matrix>
 Eigen::Matrix<Scalar, 3, 3> normal_matrix(const Matrix& linear) {
   if (has_even_scale<Scalar>(linear)) return linear;

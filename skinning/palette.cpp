@@ -19,14 +19,17 @@ bool is_invertible(const Mat3d& linear) {
 template <class Affine>
 Status write_palette(const Skin& skin, const ModelPose& pose, std::span<Affine> model_from_bind) {
   if (model_from_bind.size() != skin.bones.size())
-    return Status::failure(StatusCode::size_mismatch, kNone, "palette has %zu entries, skin has %zu bones", model_from_bind.size(),
+    return Status::failure(StatusCode::size_mismatch, kNone,
+                           "palette has %zu entries, skin has %zu bones", model_from_bind.size(),
                            skin.bones.size());
   for (std::uint32_t slot = 0; slot < skin.bones.size(); ++slot)
     if (skin.bones[slot] >= pose.model_from_bone.size())
-      return Status::failure(StatusCode::index_out_of_range, slot, "skin slot %u: bone %u, pose has %zu", slot, skin.bones[slot],
+      return Status::failure(StatusCode::index_out_of_range, slot,
+                             "skin slot %u: bone %u, pose has %zu", slot, skin.bones[slot],
                              pose.model_from_bone.size());
   for (std::size_t slot = 0; slot < skin.bones.size(); ++slot) {
-    const Affine3d product = pose.model_from_bone[skin.bones[slot]] * skin.bone_from_bind[slot].template cast<double>();
+    const Affine3d product =
+        pose.model_from_bone[skin.bones[slot]] * skin.bone_from_bind[slot].template cast<double>();
     model_from_bind[slot] = product.cast<typename Affine::Scalar>();
   }
   return {};
@@ -37,11 +40,12 @@ Status write_palette(const Skin& skin, const ModelPose& pose, std::span<Affine> 
 Status compute_model_pose(const Skeleton& skeleton, const Pose& pose, ModelPose& model_pose) {
   const std::size_t count = skeleton.bones.size();
   if (pose.parent_from_bone.size() != count)
-    return Status::failure(StatusCode::size_mismatch, kNone, "pose has %zu bones, skeleton %zu", pose.parent_from_bone.size(),
-                           count);
+    return Status::failure(StatusCode::size_mismatch, kNone, "pose has %zu bones, skeleton %zu",
+                           pose.parent_from_bone.size(), count);
   model_pose.model_from_bone.resize(count);
   skinning::multiply_down(
-      skeleton, [&](std::size_t bone) { return pose.parent_from_bone[bone]; }, model_pose.model_from_bone);
+      skeleton, [&](std::size_t bone) { return pose.parent_from_bone[bone]; },
+      model_pose.model_from_bone);
   model_pose.morph_weights = pose.morph_weights;
   return {};
 }
@@ -69,7 +73,8 @@ ModelPose bind_pose(const Character& character) {
       const Affine3d bone_from_bind = skin.bone_from_bind[slot].cast<double>();
       if (is_bound[bone] || !is_invertible(bone_from_bind.linear())) continue;
       // A rigid part is bound to its node where the node stands: it has no bind pose of its own.
-      if (skin.bones.size() == 1 && bone_from_bind.matrix() == Affine3d::Identity().matrix()) continue;
+      if (skin.bones.size() == 1 && bone_from_bind.matrix() == Affine3d::Identity().matrix())
+        continue;
       pose.model_from_bone[bone] = bone_from_bind.inverse();
       is_bound[bone] = true;
     }
@@ -85,11 +90,13 @@ ModelPose bind_pose(const Character& character) {
   return pose;
 }
 
-Status compute_palette(const Skin& skin, const ModelPose& pose, std::span<Affine3d> model_from_bind) {
+Status compute_palette(const Skin& skin, const ModelPose& pose,
+                       std::span<Affine3d> model_from_bind) {
   return write_palette(skin, pose, model_from_bind);
 }
 
-Status compute_palette(const Skin& skin, const ModelPose& pose, std::span<Affine3f> model_from_bind) {
+Status compute_palette(const Skin& skin, const ModelPose& pose,
+                       std::span<Affine3f> model_from_bind) {
   return write_palette(skin, pose, model_from_bind);
 }
 

@@ -21,8 +21,9 @@ struct PaletteData {
   std::vector<std::uint64_t> revisions;  ///< One a slot, then one a morph weight.
 
   // Only for dual quaternions: matrix = motion * stretch.
-  std::vector<float> motions;              ///< 8 a slot: real part x y z w, dual part x y z w.
-  std::vector<float> stretches;            ///< 18 a slot: the stretch, and its normal_matrix(), both less the identity.
+  std::vector<float> motions;  ///< 8 a slot: real part x y z w, dual part x y z w.
+  std::vector<float>
+      stretches;  ///< 18 a slot: the stretch, and its normal_matrix(), both less the identity.
   std::vector<std::uint8_t> is_stretched;  ///< 1 a slot.
 
   std::vector<Affine3d> poses;  ///< model_from_bone a slot, as last set.

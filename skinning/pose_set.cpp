@@ -17,8 +17,10 @@ struct ClipTime {
   double time = 0;  // seconds
 };
 
-/// The middles of equal intervals to fit over, their beginnings held out; one pose of a clip that does not last.
-void add_clip_times(Index clip, double duration, Index samples, std::vector<ClipTime>& fit, std::vector<ClipTime>& held_out) {
+/// The middles of equal intervals to fit over, their beginnings held out; one pose of a clip that
+/// does not last.
+void add_clip_times(Index clip, double duration, Index samples, std::vector<ClipTime>& fit,
+                    std::vector<ClipTime>& held_out) {
   if (!(duration > 0)) {
     fit.push_back({clip, 0});
     return;
@@ -31,27 +33,35 @@ void add_clip_times(Index clip, double duration, Index samples, std::vector<Clip
 
 Status validate_limit(const JointLimit& limit, Index index, std::size_t bone_count) {
   if (limit.bone >= bone_count)
-    return Status::failure(StatusCode::index_out_of_range, index, "joint limit %u: bone %u, the skeleton has %zu", index,
-                           limit.bone, bone_count);
+    return Status::failure(StatusCode::index_out_of_range, index,
+                           "joint limit %u: bone %u, the skeleton has %zu", index, limit.bone,
+                           bone_count);
   if (!limit.axis.allFinite() || !std::isfinite(limit.lower) || !std::isfinite(limit.upper))
-    return Status::failure(StatusCode::non_finite_value, index, "joint limit %u: axis and angles must be finite", index);
+    return Status::failure(StatusCode::non_finite_value, index,
+                           "joint limit %u: axis and angles must be finite", index);
   if (limit.axis.isZero(0))
-    return Status::failure(StatusCode::invalid_argument, index, "joint limit %u: its axis has no length", index);
+    return Status::failure(StatusCode::invalid_argument, index,
+                           "joint limit %u: its axis has no length", index);
   if (limit.lower > limit.upper)
-    return Status::failure(StatusCode::invalid_argument, index, "joint limit %u: lower %g is above upper %g", index, limit.lower,
+    return Status::failure(StatusCode::invalid_argument, index,
+                           "joint limit %u: lower %g is above upper %g", index, limit.lower,
                            limit.upper);
   return {};
 }
 
 Result<ModelPose> make_given_pose(const Character& character, const PoseSpec& spec, Index index) {
   Result<ModelPose> pose = make_pose(character, spec);
-  if (!pose) return Status::failure(pose.error().code(), index, "given pose %u: %s", index, pose.error().text().data());
+  if (!pose)
+    return Status::failure(pose.error().code(), index, "given pose %u: %s", index,
+                           pose.error().text().data());
   for (const Affine3d& model_from_bone : pose->model_from_bone)
     if (!model_from_bone.matrix().allFinite())
-      return Status::failure(StatusCode::non_finite_value, index, "given pose %u: a bone is not finite", index);
+      return Status::failure(StatusCode::non_finite_value, index,
+                             "given pose %u: a bone is not finite", index);
   for (const float weight : pose->morph_weights)
     if (!std::isfinite(weight))
-      return Status::failure(StatusCode::non_finite_value, index, "given pose %u: a morph weight is not finite", index);
+      return Status::failure(StatusCode::non_finite_value, index,
+                             "given pose %u: a morph weight is not finite", index);
   return pose;
 }
 
@@ -63,11 +73,14 @@ struct PoseSet::State {
     if (spec.clip_samples == 0) return;
     for (Index clip = 0; clip < character->clips.size(); ++clip) {
       samplers.emplace_back(character->clips[clip]);
-      add_clip_times(clip, static_cast<double>(character->clips[clip].duration), spec.clip_samples, fit_times, held_out_times);
+      add_clip_times(clip, static_cast<double>(character->clips[clip].duration), spec.clip_samples,
+                     fit_times, held_out_times);
     }
   }
 
-  [[nodiscard]] const std::vector<ClipTime>& times(Role role) const { return role == Role::fit ? fit_times : held_out_times; }
+  [[nodiscard]] const std::vector<ClipTime>& times(Role role) const {
+    return role == Role::fit ? fit_times : held_out_times;
+  }
   [[nodiscard]] const std::vector<skinning::Sweep>& sweeps_of(Role role) const {
     return role == Role::fit ? sweeps.fit : sweeps.held_out;
   }
@@ -88,17 +101,22 @@ struct PoseSet::State {
 
 PoseSet::PoseSet(std::shared_ptr<const State> state) : state_(std::move(state)) {}
 
-Result<PoseSet> PoseSet::create(std::shared_ptr<const Character> character, const PoseSetSpec& spec) {
+Result<PoseSet> PoseSet::create(std::shared_ptr<const Character> character,
+                                const PoseSetSpec& spec) {
   if (!character) return Status::failure(StatusCode::empty_input, kNone, "no character");
   if (const Status status = validate_character(*character); !status) return status;
   if (spec.clip_samples > kMaximumClipSamples)
-    return Status::failure(StatusCode::limit_exceeded, kNone, "%u samples a clip; at most %u", spec.clip_samples,
-                           kMaximumClipSamples);
+    return Status::failure(StatusCode::limit_exceeded, kNone, "%u samples a clip; at most %u",
+                           spec.clip_samples, kMaximumClipSamples);
   for (Index i = 0; i < spec.joint_limits.size(); ++i)
-    if (const Status status = validate_limit(spec.joint_limits[i], i, character->skeleton.bones.size()); !status) return status;
+    if (const Status status =
+            validate_limit(spec.joint_limits[i], i, character->skeleton.bones.size());
+        !status)
+      return status;
   for (Index clip = 0; clip < character->clips.size(); ++clip)
     if (!std::isfinite(character->clips[clip].duration))
-      return Status::failure(StatusCode::non_finite_value, clip, "clip %u '%.80s': its duration is not finite", clip,
+      return Status::failure(StatusCode::non_finite_value, clip,
+                             "clip %u '%.80s': its duration is not finite", clip,
                              character->clips[clip].name.c_str());
   try {
     const auto state = std::make_shared<State>(std::move(character), spec);
@@ -109,9 +127,10 @@ Result<PoseSet> PoseSet::create(std::shared_ptr<const Character> character, cons
     }
     PoseSet set(state);
     if (set.size(Role::fit) > 0) return set;
-    return Status::failure(StatusCode::empty_input, kNone,
-                           "no pose to fit over: %u samples a clip of %zu clips, no joint turns, no pose is given",
-                           spec.clip_samples, state->character->clips.size());
+    return Status::failure(
+        StatusCode::empty_input, kNone,
+        "no pose to fit over: %u samples a clip of %zu clips, no joint turns, no pose is given",
+        spec.clip_samples, state->character->clips.size());
   } catch (const std::bad_alloc&) {
     return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
   }
@@ -130,7 +149,8 @@ void PoseSet::compute(Role role, std::size_t index, ModelPose& pose) const {
   }
   index -= times.size();
   const auto& sweeps = state.sweeps_of(role);
-  if (index < sweeps.size()) return skinning::compute_sweep(*state.character, state.sweeps, sweeps[index], pose);
+  if (index < sweeps.size())
+    return skinning::compute_sweep(*state.character, state.sweeps, sweeps[index], pose);
   pose = state.given_of(role, index - sweeps.size());
 }
 

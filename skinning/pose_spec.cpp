@@ -6,16 +6,19 @@
 namespace sunder {
 namespace {
 
-Result<Index> find_clip(const Character& character, const std::variant<std::string, Index>& wanted) {
+Result<Index> find_clip(const Character& character,
+                        const std::variant<std::string, Index>& wanted) {
   const std::size_t count = character.clips.size();
   if (const Index* const index = std::get_if<Index>(&wanted)) {
     if (*index < count) return *index;
-    return Status::failure(StatusCode::not_found, *index, "clip %u: the model has %zu clips", *index, count);
+    return Status::failure(StatusCode::not_found, *index, "clip %u: the model has %zu clips",
+                           *index, count);
   }
   const std::string& name = std::get<std::string>(wanted);
   for (Index i = 0; i < count; ++i)
     if (character.clips[i].name == name) return i;
-  return Status::failure(StatusCode::not_found, kNone, "no clip is named '%.100s'; the model has %zu clips, see sunder info",
+  return Status::failure(StatusCode::not_found, kNone,
+                         "no clip is named '%.100s'; the model has %zu clips, see sunder info",
                          name.c_str(), count);
 }
 
@@ -35,10 +38,12 @@ class ApplyTo {
   Status operator()(const BonesPose& spec) const {
     const auto& bones = character_.skeleton.bones;
     for (const BonesPose::Bone& given : spec.bones) {
-      const auto bone =
-          std::find_if(bones.begin(), bones.end(), [&](const Bone& candidate) { return candidate.name == given.name; });
+      const auto bone = std::find_if(bones.begin(), bones.end(), [&](const Bone& candidate) {
+        return candidate.name == given.name;
+      });
       if (bone == bones.end())
-        return Status::failure(StatusCode::not_found, kNone, "no bone is named '%.100s'", given.name.c_str());
+        return Status::failure(StatusCode::not_found, kNone, "no bone is named '%.100s'",
+                               given.name.c_str());
       BoneTransform& local = pose_.parent_from_bone[static_cast<std::size_t>(bone - bones.begin())];
       if (given.translation) local.translation = *given.translation;
       if (given.rotation) local.rotation = *given.rotation;
@@ -58,17 +63,20 @@ Result<ModelPose> make_pose(const Character& character, const PoseSpec& spec) {
   if (std::holds_alternative<BindPose>(spec)) return bind_pose(character);
   if (const auto* const given = std::get_if<ModelPose>(&spec)) {
     if (given->model_from_bone.size() != character.skeleton.bones.size())
-      return Status::failure(StatusCode::size_mismatch, kNone, "pose has %zu bones, the character %zu",
-                             given->model_from_bone.size(), character.skeleton.bones.size());
+      return Status::failure(StatusCode::size_mismatch, kNone,
+                             "pose has %zu bones, the character %zu", given->model_from_bone.size(),
+                             character.skeleton.bones.size());
     if (given->morph_weights.size() != character.rest_morph_weights.size())
-      return Status::failure(StatusCode::size_mismatch, kNone, "pose has %zu morph weights, the character %zu",
+      return Status::failure(StatusCode::size_mismatch, kNone,
+                             "pose has %zu morph weights, the character %zu",
                              given->morph_weights.size(), character.rest_morph_weights.size());
     return *given;
   }
   Pose pose = local_rest_pose(character);
   if (const Status status = std::visit(ApplyTo(character, pose), spec); !status) return status;
   ModelPose model_pose;
-  if (const Status status = compute_model_pose(character.skeleton, pose, model_pose); !status) return status;
+  if (const Status status = compute_model_pose(character.skeleton, pose, model_pose); !status)
+    return status;
   return model_pose;
 }
 

@@ -16,11 +16,15 @@ struct KeySpan {
 KeySpan find_keys(std::span<const float> times, double time) {
   if (time <= static_cast<double>(times.front())) return {};
   if (time >= static_cast<double>(times.back())) return {times.size() - 1, 0, 0};
-  const auto after = std::upper_bound(times.begin(), times.end(), time,
-                                      [](double value, float key_time) { return value < static_cast<double>(key_time); });
+  const auto after = std::upper_bound(
+      times.begin(), times.end(), time,
+      [](double value, float key_time) { return value < static_cast<double>(key_time); });
   const auto key = static_cast<std::size_t>(after - times.begin()) - 1;
   const float seconds = times[key + 1] - times[key];
-  return {key, static_cast<float>((time - static_cast<double>(times[key])) / static_cast<double>(seconds)), seconds};
+  return {
+      key,
+      static_cast<float>((time - static_cast<double>(times[key])) / static_cast<double>(seconds)),
+      seconds};
 }
 
 /// Reads one float of the interpolated value; rotations under `linear` go by slerp instead.
@@ -34,8 +38,8 @@ float interpolate(const Channel& channel, const KeySpan& at, std::uint32_t compo
     const float next_in_tangent = values[3 * width];
     const float next_value = values[4 * width];
     const float t = at.fraction, t2 = t * t, t3 = t2 * t;
-    return (2 * t3 - 3 * t2 + 1) * value + at.seconds * (t3 - 2 * t2 + t) * out_tangent + (3 * t2 - 2 * t3) * next_value +
-           at.seconds * (t3 - t2) * next_in_tangent;
+    return (2 * t3 - 3 * t2 + 1) * value + at.seconds * (t3 - 2 * t2 + t) * out_tangent +
+           (3 * t2 - 2 * t3) * next_value + at.seconds * (t3 - t2) * next_in_tangent;
   }
   const float* values = channel.values.data() + at.key * width + component;
   if (channel.interpolation == Interpolation::step || at.fraction == 0.0f) return values[0];
@@ -77,7 +81,8 @@ void sample_channel(const Channel& channel, double time, BoneTransform& bone) {
 
 void sample_channel(const Channel& channel, double time, std::span<float> morph_weights) {
   const KeySpan at = find_keys(channel.times, time);
-  for (std::uint32_t k = 0; k < channel.width; ++k) morph_weights[channel.index + k] = interpolate(channel, at, k);
+  for (std::uint32_t k = 0; k < channel.width; ++k)
+    morph_weights[channel.index + k] = interpolate(channel, at, k);
 }
 
 }  // namespace sunder::skinning

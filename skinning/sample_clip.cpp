@@ -16,13 +16,15 @@ Pose local_rest_pose(const Character& character) {
 
 Status sample_clip(const Clip& clip, double time, Pose& pose) {
   if (!std::isfinite(time))
-    return Status::failure(StatusCode::non_finite_value, kNone, "clip '%.80s': time is not finite", clip.name.c_str());
+    return Status::failure(StatusCode::non_finite_value, kNone, "clip '%.80s': time is not finite",
+                           clip.name.c_str());
   for (std::uint32_t i = 0; i < clip.channels.size(); ++i) {
     const Channel& channel = clip.channels[i];
     const bool morphs = channel.target == ChannelTarget::morph_weights;
     const std::size_t last = channel.index + static_cast<std::size_t>(morphs ? channel.width : 1);
     if (last > (morphs ? pose.morph_weights.size() : pose.parent_from_bone.size()))
-      return Status::failure(StatusCode::size_mismatch, i, "clip '%.80s': channel %u drives what the pose does not have",
+      return Status::failure(StatusCode::size_mismatch, i,
+                             "clip '%.80s': channel %u drives what the pose does not have",
                              clip.name.c_str(), i);
   }
   for (const Channel& channel : clip.channels) {

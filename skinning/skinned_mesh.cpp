@@ -12,10 +12,13 @@ namespace sunder {
 namespace skinning {
 namespace {
 
-constexpr std::uint32_t kBlocksATask = 256;       // at least: some 4 microseconds, below which a second thread comes too late
-constexpr std::uint32_t kVerticesATask = 4096;    // that are displaced
-constexpr std::uint32_t kTasksAThread = 4;        // so that a thread that is interrupted does not hold up the rest
-constexpr std::size_t kBeyondCache = 24u << 20u;  // bytes read and written: most of a last-level cache
+constexpr std::uint32_t kBlocksATask =
+    256;  // at least: some 4 microseconds, below which a second thread comes too late
+constexpr std::uint32_t kVerticesATask = 4096;  // that are displaced
+constexpr std::uint32_t kTasksAThread =
+    4;  // so that a thread that is interrupted does not hold up the rest
+constexpr std::size_t kBeyondCache = 24u
+                                     << 20u;  // bytes read and written: most of a last-level cache
 
 /// Forgets the blocks from `first` on, and all that only they have.
 void truncate(Blocks& blocks, std::uint32_t first) {
@@ -32,7 +35,8 @@ void truncate(Blocks& blocks, std::uint32_t first) {
     blocks.places.resize(extra.places);
     blocks.influences.resize(extra.influences);
     blocks.lane_ends.resize(extra.lane_ends);
-    if (extra.morphs < blocks.morphs.size()) blocks.morph_stream.resize(blocks.morphs[extra.morphs].numbers);
+    if (extra.morphs < blocks.morphs.size())
+      blocks.morph_stream.resize(blocks.morphs[extra.morphs].numbers);
     blocks.morphs.resize(extra.morphs);
     if (extra.exact_lanes < blocks.exact_lanes.size()) {
       blocks.exact_stream.resize(blocks.exact_lanes[extra.exact_lanes].numbers);
@@ -47,7 +51,8 @@ void truncate(Blocks& blocks, std::uint32_t first) {
   blocks.scattered_end = std::min(blocks.scattered_end, first);
 }
 
-/// The first block that holds a vertex from `first_changed` on, or shares a window with one that does.
+/// The first block that holds a vertex from `first_changed` on, or shares a window with one that
+/// does.
 std::uint32_t first_block_to_replace(const Blocks& blocks, std::uint32_t first_changed) {
   std::uint32_t kept = blocks.block_count();
   while (kept > 0) {
@@ -71,26 +76,35 @@ StridedFloats<Float> with_stride(const StridedFloats<Float>& array, std::size_t 
 
 Status check_target(const Blocks& blocks, const PaletteData& palette, const VertexTarget& target) {
   if (palette.slots != blocks.slot_count)
-    return Status::failure(StatusCode::size_mismatch, kNone, "the palette has %zu slots, the mesh was made for %zu", palette.slots,
+    return Status::failure(StatusCode::size_mismatch, kNone,
+                           "the palette has %zu slots, the mesh was made for %zu", palette.slots,
                            blocks.slot_count);
   if (palette.morph_weights.size() < blocks.first_morph_weight + blocks.morph_count)
-    return Status::failure(StatusCode::size_mismatch, kNone, "the mesh reads morph weights up to %u, the palette has %zu",
-                           blocks.first_morph_weight + blocks.morph_count, palette.morph_weights.size());
-  if (palette.revision == 0) return Status::failure(StatusCode::invalid_argument, kNone, "the palette has no pose yet");
+    return Status::failure(StatusCode::size_mismatch, kNone,
+                           "the mesh reads morph weights up to %u, the palette has %zu",
+                           blocks.first_morph_weight + blocks.morph_count,
+                           palette.morph_weights.size());
+  if (palette.revision == 0)
+    return Status::failure(StatusCode::invalid_argument, kNone, "the palette has no pose yet");
   if (target.vertex_count != blocks.vertex_count)
-    return Status::failure(StatusCode::size_mismatch, kNone, "the buffer holds %u vertices, the mesh has %u", target.vertex_count,
+    return Status::failure(StatusCode::size_mismatch, kNone,
+                           "the buffer holds %u vertices, the mesh has %u", target.vertex_count,
                            blocks.vertex_count);
   if (target.positions.data == nullptr && blocks.vertex_count > 0)
-    return Status::failure(StatusCode::invalid_argument, kNone, "the buffer has no place for positions");
-  if ((target.normals.data != nullptr && !blocks.has_normals) || (target.tangents.data != nullptr && !blocks.has_tangents))
-    return Status::failure(StatusCode::invalid_argument, kNone, "the buffer wants %s, the mesh has none",
-                           target.normals.data != nullptr && !blocks.has_normals ? "normals" : "tangents");
+    return Status::failure(StatusCode::invalid_argument, kNone,
+                           "the buffer has no place for positions");
+  if ((target.normals.data != nullptr && !blocks.has_normals) ||
+      (target.tangents.data != nullptr && !blocks.has_tangents))
+    return Status::failure(
+        StatusCode::invalid_argument, kNone, "the buffer wants %s, the mesh has none",
+        target.normals.data != nullptr && !blocks.has_normals ? "normals" : "tangents");
   const auto is_bad = [](const StridedFloats<float>& array, std::size_t packed) {
     return array.stride != 0 && (array.stride < packed || array.stride % sizeof(float) != 0);
   };
   if (is_bad(target.positions, 12) || is_bad(target.normals, 12) || is_bad(target.tangents, 16))
-    return Status::failure(StatusCode::invalid_argument, kNone,
-                           "a stride of the buffer is shorter than a vertex' numbers, or not a multiple of 4");
+    return Status::failure(
+        StatusCode::invalid_argument, kNone,
+        "a stride of the buffer is shorter than a vertex' numbers, or not a multiple of 4");
   return {};
 }
 
@@ -104,18 +118,21 @@ struct Tasks {
   /// Poses the blocks of one task.
   static void pose(const void* tasks, std::uint32_t index) {
     const Tasks& all = *static_cast<const Tasks*>(tasks);
-    all.for_each_range(index, [&](std::uint32_t first, std::uint32_t end) { skin_blocks(all.work, first, end); });
+    all.for_each_range(
+        index, [&](std::uint32_t first, std::uint32_t end) { skin_blocks(all.work, first, end); });
   }
 
   /// Displaces the vertices of one task.
   static void displace(const void* tasks, std::uint32_t index) {
     const Tasks& all = *static_cast<const Tasks*>(tasks);
-    all.for_each_range(
-        index, [&](std::uint32_t first, std::uint32_t end) { displace_vertices(*all.displacements, all.work.target, first, end); });
+    all.for_each_range(index, [&](std::uint32_t first, std::uint32_t end) {
+      displace_vertices(*all.displacements, all.work.target, first, end);
+    });
   }
 
   /// Does `task` for all of `these`. @param least  elements worth a task.
-  void run(std::span<const IndexRange> these, std::uint32_t least, ParallelFor::Task task, const ParallelFor& parallel_for) {
+  void run(std::span<const IndexRange> these, std::uint32_t least, ParallelFor::Task task,
+           const ParallelFor& parallel_for) {
     ranges = these;
     total = 0;
     for (const IndexRange& range : these) total += range.count;
@@ -134,7 +151,9 @@ struct Tasks {
   /// Visits what one task has of the ranges.
   template <class Visit>
   void for_each_range(std::uint32_t index, Visit visit) const {
-    const auto boundary = [&](std::uint32_t i) { return static_cast<std::uint32_t>(std::uint64_t{total} * i / count); };
+    const auto boundary = [&](std::uint32_t i) {
+      return static_cast<std::uint32_t>(std::uint64_t{total} * i / count);
+    };
     const std::uint32_t first = boundary(index), end = boundary(index + 1);
     std::uint32_t before = 0;  // elements of earlier ranges
     for (const IndexRange& range : ranges) {
@@ -159,7 +178,8 @@ void join(std::vector<IndexRange>& ranges) {
 }
 
 /// Vertices of some ranges of blocks, ascending.
-void list_vertices(const Blocks& blocks, std::span<const IndexRange> ranges, std::vector<IndexRange>& vertices) {
+void list_vertices(const Blocks& blocks, std::span<const IndexRange> ranges,
+                   std::vector<IndexRange>& vertices) {
   std::uint32_t window = kNone;
   for (const IndexRange& range : ranges) {
     const std::uint32_t end = range.first + range.count;
@@ -170,7 +190,8 @@ void list_vertices(const Blocks& blocks, std::span<const IndexRange> ranges, std
     }
     for (; b < std::min(end, blocks.scattered_end); ++b) {
       const Block& block = blocks.blocks[b];
-      const std::uint32_t first_vertex = block.first_vertex, end_vertex = blocks.last_vertex(block) + 1;
+      const std::uint32_t first_vertex = block.first_vertex,
+                          end_vertex = blocks.last_vertex(block) + 1;
       if (blocks.window(block) == window) {  // in a window blocks are in the order of their bones
         IndexRange& last = vertices.back();
         const std::uint32_t last_end = std::max(last.first + last.count, end_vertex);
@@ -183,7 +204,8 @@ void list_vertices(const Blocks& blocks, std::span<const IndexRange> ranges, std
     }
     if (b == end) continue;
     const std::uint32_t first_vertex = blocks.blocks[b].first_vertex;
-    vertices.push_back({first_vertex, blocks.last_vertex(blocks.blocks[end - 1]) + 1 - first_vertex});
+    vertices.push_back(
+        {first_vertex, blocks.last_vertex(blocks.blocks[end - 1]) + 1 - first_vertex});
   }
   join(vertices);
 }
@@ -224,21 +246,27 @@ std::uint32_t SkinnedMesh::vertex_count() const { return blocks_->vertex_count; 
 
 std::size_t SkinnedMesh::stream_bytes() const {
   const skinning::Blocks& b = *blocks_;
-  return b.stream.size() * sizeof(float) + b.blocks.size() * sizeof(skinning::Block) + b.slots.size() * sizeof(b.slots[0]) +
-         b.extras.size() * sizeof(skinning::BlockExtra) + b.places.size() * sizeof(b.places[0]) +
-         b.influences.size() * sizeof(Influence) + b.lane_ends.size() * sizeof(b.lane_ends[0]);
+  return b.stream.size() * sizeof(float) + b.blocks.size() * sizeof(skinning::Block) +
+         b.slots.size() * sizeof(b.slots[0]) + b.extras.size() * sizeof(skinning::BlockExtra) +
+         b.places.size() * sizeof(b.places[0]) + b.influences.size() * sizeof(Influence) +
+         b.lane_ends.size() * sizeof(b.lane_ends[0]);
 }
 
 Status SkinnedMesh::update(const VertexSource& source, std::uint32_t first_changed) {
   skinning::Blocks& blocks = *blocks_;
-  if ((source.normals.data != nullptr) != blocks.has_normals || (source.tangents.data != nullptr) != blocks.has_tangents ||
-      source.morph_targets.size() != blocks.morph_count || source.first_morph_weight != blocks.first_morph_weight)
-    return Status::failure(StatusCode::size_mismatch, kNone, "the source has other attributes or morph targets than before");
+  if ((source.normals.data != nullptr) != blocks.has_normals ||
+      (source.tangents.data != nullptr) != blocks.has_tangents ||
+      source.morph_targets.size() != blocks.morph_count ||
+      source.first_morph_weight != blocks.first_morph_weight)
+    return Status::failure(StatusCode::size_mismatch, kNone,
+                           "the source has other attributes or morph targets than before");
   if (first_changed > std::min(source.vertex_count, blocks.vertex_count))
     return Status::failure(StatusCode::index_out_of_range, first_changed,
-                           "the first changed vertex is %u; there were %u, and are %u", first_changed, blocks.vertex_count,
-                           source.vertex_count);
-  if (const Status status = skinning::check_source(source, blocks.slot_count, first_changed); !status) return status;
+                           "the first changed vertex is %u; there were %u, and are %u",
+                           first_changed, blocks.vertex_count, source.vertex_count);
+  if (const Status status = skinning::check_source(source, blocks.slot_count, first_changed);
+      !status)
+    return status;
   if (first_changed == source.vertex_count && first_changed == blocks.vertex_count) return {};
   const std::uint32_t first_block = skinning::first_block_to_replace(blocks, first_changed);
   ++blocks.revision;
@@ -252,7 +280,8 @@ void SkinnedMesh::reserve(std::uint32_t more_vertices, std::uint32_t influences)
   skinning::Blocks& b = *blocks_;
   const auto add = [](auto& array, std::size_t more) { array.reserve(array.size() + more); };
   const std::size_t blocks = more_vertices / skinning::kLanes + 2;
-  // Neighbours along a tear share most of their bones: a quarter of what they would need if none did.
+  // Neighbours along a tear share most of their bones: a quarter of what they would need if none
+  // did.
   const std::size_t slots = blocks * influences * skinning::kLanes / 4;
   add(b.stream, blocks * skinning::kLanes * b.attribute_floats() + slots * skinning::kLanes);
   add(b.blocks, blocks);
@@ -267,19 +296,22 @@ void SkinnedMesh::reserve(std::uint32_t more_vertices, std::uint32_t influences)
   b.movers.reserve(slots + blocks * b.morph_count);
 }
 
-Status SkinnedMesh::deform(const BonePalette& palette, PosedBuffer& buffer, const ParallelFor& parallel_for,
+Status SkinnedMesh::deform(const BonePalette& palette, PosedBuffer& buffer,
+                           const ParallelFor& parallel_for,
                            const VertexDisplacements* displacements) const {
   using namespace skinning;
   const Blocks& blocks = *blocks_;
   const PaletteData& data = palette.data();
   if (const Status status = check_target(blocks, data, buffer.target_); !status) return status;
   if (displacements != nullptr)
-    if (const Status status = check_displacements(*displacements, blocks.vertex_count); !status) return status;
-  const std::span<const IndexRange> moved = displacements != nullptr ? displacements->moved : std::span<const IndexRange>();
+    if (const Status status = check_displacements(*displacements, blocks.vertex_count); !status)
+      return status;
+  const std::span<const IndexRange> moved =
+      displacements != nullptr ? displacements->moved : std::span<const IndexRange>();
   const bool is_known = buffer.palette_ == data.id && buffer.mesh_ == blocks.id;
   buffer.dirty_.clear();
-  if (is_known && buffer.palette_revision_ == data.revision && buffer.mesh_revision_ == blocks.revision && moved.empty() &&
-      buffer.displaced_.empty())
+  if (is_known && buffer.palette_revision_ == data.revision &&
+      buffer.mesh_revision_ == blocks.revision && moved.empty() && buffer.displaced_.empty())
     return {};
 
   buffer.marks_.assign((blocks.block_count() + 63) / 64, 0);
@@ -303,7 +335,8 @@ Status SkinnedMesh::deform(const BonePalette& palette, PosedBuffer& buffer, cons
     tasks.work.target.normals = with_stride(buffer.target_.normals, 3);
     tasks.work.target.tangents = with_stride(buffer.target_.tangents, 4);
     tasks.work.attribute_floats = blocks.attribute_floats();
-    tasks.work.is_common = data.method == SkinningMethod::linear && buffer.target_.tangents.data == nullptr;
+    tasks.work.is_common =
+        data.method == SkinningMethod::linear && buffer.target_.tangents.data == nullptr;
     tasks.work.is_beyond_cache = bytes / blocks.block_count() * block_count > kBeyondCache;
     tasks.displacements = displacements;
     tasks.run(buffer.blocks_to_write_, kBlocksATask, &Tasks::pose, parallel_for);

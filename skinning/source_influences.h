@@ -12,11 +12,13 @@ Float* at(const StridedFloats<Float>& array, std::uint32_t vertex, std::size_t c
   return reinterpret_cast<Float*>(reinterpret_cast<Byte*>(array.data) + stride * vertex);
 }
 
-/// Calls visit(slot, weight) for each influence of a vertex that has a weight, in the order of the source.
+/// Calls visit(slot, weight) for each influence of a vertex that has a weight, in the order of the
+/// source.
 template <class Visit>
 void for_each_influence(const VertexSource& source, std::uint32_t vertex, Visit visit) {
   if (source.weights != nullptr) {
-    for (const Influence& influence : source.weights->of(vertex)) visit(influence.slot, influence.weight);
+    for (const Influence& influence : source.weights->of(vertex))
+      visit(influence.slot, influence.weight);
     return;
   }
   const InfluenceArrays& arrays = source.influences;
@@ -24,11 +26,15 @@ void for_each_influence(const VertexSource& source, std::uint32_t vertex, Visit 
     return reinterpret_cast<decltype(data)>(reinterpret_cast<const unsigned char*>(data) +
                                             (stride != 0 ? stride : packed) * vertex);
   };
-  const std::uint16_t* slots = row(arrays.slots, arrays.slot_stride, arrays.per_vertex * sizeof(std::uint16_t));
+  const std::uint16_t* slots =
+      row(arrays.slots, arrays.slot_stride, arrays.per_vertex * sizeof(std::uint16_t));
   for (std::size_t k = 0; k < arrays.per_vertex; ++k) {
-    const float weight = arrays.weights != nullptr
-                             ? row(arrays.weights, arrays.weight_stride, arrays.per_vertex * sizeof(float))[k]
-                             : static_cast<float>(row(arrays.weights16, arrays.weight_stride, arrays.per_vertex * 2)[k]) / 65535.0f;
+    const float weight =
+        arrays.weights != nullptr
+            ? row(arrays.weights, arrays.weight_stride, arrays.per_vertex * sizeof(float))[k]
+            : static_cast<float>(
+                  row(arrays.weights16, arrays.weight_stride, arrays.per_vertex * 2)[k]) /
+                  65535.0f;
     if (weight != 0.0f) visit(static_cast<std::uint32_t>(slots[k]), weight);
   }
 }

@@ -6,7 +6,8 @@ namespace sunder {
 namespace {
 
 template <class T>
-void reorder(std::vector<T>& values, std::size_t components, std::span<const std::uint32_t> old_from_new) {
+void reorder(std::vector<T>& values, std::size_t components,
+             std::span<const std::uint32_t> old_from_new) {
   if (values.empty()) return;
   const std::vector<T> old = values;
   for (std::size_t v = 0; v < old_from_new.size(); ++v)
@@ -23,7 +24,8 @@ std::vector<std::uint32_t> order_for_skinning(const Mesh& mesh) {
     std::sort(slots.begin() + mesh.weights.first[v], slots.end());
   }
   const auto slots_of = [&](std::uint32_t v) {
-    return std::span<const std::uint32_t>(slots.data() + mesh.weights.first[v], slots.data() + mesh.weights.first[v + 1]);
+    return std::span<const std::uint32_t>(slots.data() + mesh.weights.first[v],
+                                          slots.data() + mesh.weights.first[v + 1]);
   };
   std::vector<std::uint32_t> old_from_new(mesh.vertex_count());
   for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) old_from_new[v] = v;
@@ -37,13 +39,14 @@ std::vector<std::uint32_t> order_for_skinning(const Mesh& mesh) {
 Status reorder_vertices(Mesh& mesh, std::span<const std::uint32_t> old_from_new) {
   const std::uint32_t count = mesh.vertex_count();
   if (old_from_new.size() != count)
-    return Status::failure(StatusCode::size_mismatch, kNone, "an order of %zu vertices, the mesh has %u", old_from_new.size(),
-                           count);
+    return Status::failure(StatusCode::size_mismatch, kNone,
+                           "an order of %zu vertices, the mesh has %u", old_from_new.size(), count);
   std::vector<std::uint32_t> new_from_old(count, kNone);
   for (std::uint32_t v = 0; v < count; ++v) {
     const std::uint32_t old = old_from_new[v];
     if (old >= count || new_from_old[old] != kNone)
-      return Status::failure(StatusCode::index_out_of_range, v, "place %u: vertex %u is not there, or was named before", v, old);
+      return Status::failure(StatusCode::index_out_of_range, v,
+                             "place %u: vertex %u is not there, or was named before", v, old);
     new_from_old[old] = v;
   }
   reorder(mesh.positions, 1, old_from_new);
@@ -51,7 +54,8 @@ Status reorder_vertices(Mesh& mesh, std::span<const std::uint32_t> old_from_new)
   reorder(mesh.tangents, 1, old_from_new);
   for (auto& uvs : mesh.uv_sets) reorder(uvs, 1, old_from_new);
   for (auto& colors : mesh.color_sets) reorder(colors, 1, old_from_new);
-  for (CustomAttribute& attribute : mesh.custom_attributes) reorder(attribute.values, attribute.components, old_from_new);
+  for (CustomAttribute& attribute : mesh.custom_attributes)
+    reorder(attribute.values, attribute.components, old_from_new);
   for (MorphTarget& target : mesh.morph_targets) {
     reorder(target.position_deltas, 1, old_from_new);
     reorder(target.normal_deltas, 1, old_from_new);

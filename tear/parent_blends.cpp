@@ -10,18 +10,21 @@ namespace {
 
 using VertexRef = tear::SurfaceEditor::VertexRef;
 
-/// The corners that a vertex lies between and its parts of them: its own corners, in the order and with the parts that the first
-/// vertex at its point has of the corners that coincide with them.
+/// The corners that a vertex lies between and its parts of them: its own corners, in the order and
+/// with the parts that the first vertex at its point has of the corners that coincide with them.
 ParentBlend blend_of(const tear::SurfaceEditor& editor, std::uint32_t mesh, std::uint32_t vertex) {
   const auto coincide = [&](const VertexRef& a, const VertexRef& b) {
     return editor.born_position(a.mesh, a.vertex) == editor.born_position(b.mesh, b.vertex) &&
-           std::ranges::equal(editor.born_influences(a.mesh, a.vertex), editor.born_influences(b.mesh, b.vertex));
+           std::ranges::equal(editor.born_influences(a.mesh, a.vertex),
+                              editor.born_influences(b.mesh, b.vertex));
   };
   const Birth& own = editor.birth(mesh, vertex);
   const VertexRef first = editor.original(mesh, vertex);
   // On the rim of a wall or cap a vertex is born in its own corner: it lies where the lip has it.
   // Another mesh' vertices cannot be its parents there: it stays as its own weights pose it.
-  const bool is_of_rim = own.triangle == kNone || std::ranges::count_if(own.barycentric, [](double part) { return part > 0; }) < 2;
+  const bool is_of_rim =
+      own.triangle == kNone ||
+      std::ranges::count_if(own.barycentric, [](double part) { return part > 0; }) < 2;
   if (is_of_rim && first.mesh != mesh) return {vertex, {vertex, vertex, vertex}, {1, 0, 0}};
   const Birth& shared = editor.birth(first.mesh, first.vertex);
   const Triangle& of_shared = editor.origin_triangle(first.mesh, shared.triangle);
@@ -32,13 +35,15 @@ ParentBlend blend_of(const tear::SurfaceEditor& editor, std::uint32_t mesh, std:
   for (std::size_t l = 0; l < 3; ++l) {
     if (!(shared.barycentric[l] > 0)) continue;
     const auto same = std::ranges::find_if(corners, [&](std::uint32_t corner) {
-      return is_of_rim ? corner == of_shared[l] : coincide({mesh, corner}, {first.mesh, of_shared[l]});
+      return is_of_rim ? corner == of_shared[l]
+                       : coincide({mesh, corner}, {first.mesh, of_shared[l]});
     });
     if (same == corners.end()) break;
     blend.parents[count] = repeated = *same;
     blend.parts[count++] = static_cast<float>(shared.barycentric[l]);
   }
-  const auto wanted = static_cast<std::size_t>(std::ranges::count_if(shared.barycentric, [](double part) { return part > 0; }));
+  const auto wanted = static_cast<std::size_t>(
+      std::ranges::count_if(shared.barycentric, [](double part) { return part > 0; }));
   if (count < wanted) {  // nothing coincides: as it was born itself
     blend = {vertex, corners, {}};
     for (std::size_t k = 0; k < 3; ++k) blend.parts[k] = static_cast<float>(own.barycentric[k]);
@@ -59,7 +64,8 @@ ParentBlends parent_blends(const TornModel& model, std::uint32_t mesh) {
     const ParentBlend blend = blend_of(editor, mesh, vertex);
     std::size_t level = 0;
     for (const std::uint32_t parent : blend.parents)
-      if (const auto known = level_of.find(parent); known != level_of.end()) level = std::max(level, known->second + 1);
+      if (const auto known = level_of.find(parent); known != level_of.end())
+        level = std::max(level, known->second + 1);
     level_of.emplace(vertex, level);
     if (level >= levels.size()) levels.resize(level + 1);
     levels[level].push_back(blend);

@@ -27,8 +27,8 @@ WeightErrors::Statistics statistics_of(std::vector<double>& values) {
 }
 
 /// Where a vertex of policy `exact` stands, as stored.
-Vec3d exact_position(const tear::SurfaceEditor& editor, const tear::SurfaceEditor::VertexRef& at, std::span<const Affine3d> palette,
-                     std::span<const float> morph_weights) {
+Vec3d exact_position(const tear::SurfaceEditor& editor, const tear::SurfaceEditor::VertexRef& at,
+                     std::span<const Affine3d> palette, std::span<const float> morph_weights) {
   const InfluencePositions& exact = editor.influence_positions(at.mesh);
   const Mesh& mesh = editor.character().meshes[at.mesh];
   std::size_t place = editor.exact_place(at.mesh, at.vertex);
@@ -40,7 +40,8 @@ Vec3d exact_position(const tear::SurfaceEditor& editor, const tear::SurfaceEdito
         q += static_cast<double>(morph_weights[mesh.first_morph_weight + j]) *
              exact.morph_targets[j].positions[place].cast<double>();
     const Affine3d& bone = palette[influence.slot];
-    sum += bone.linear() * q + static_cast<double>(influence.weight) * Eigen::Vector3d(bone.translation());
+    sum += bone.linear() * q +
+           static_cast<double>(influence.weight) * Eigen::Vector3d(bone.translation());
     ++place;
   }
   return sum;
@@ -52,12 +53,15 @@ double mean_edge(const tear::SurfaceEditor& editor, const tear::SurfaceEditor::V
   const Mesh& mesh = editor.character().meshes[at.mesh];
   std::array<Vec3d, 3> corners;
   for (std::size_t k = 0; k < 3; ++k) {
-    const std::uint32_t corner = editor.origin_triangle(at.mesh, editor.birth(at.mesh, at.vertex).triangle)[k];
-    corners[k] =
-        deform_position_reference(mesh, corner, editor.born_position(at.mesh, corner), editor.born_influences(at.mesh, corner),
-                                  palettes[mesh.skin], editor.source().rest_morph_weights);
+    const std::uint32_t corner =
+        editor.origin_triangle(at.mesh, editor.birth(at.mesh, at.vertex).triangle)[k];
+    corners[k] = deform_position_reference(mesh, corner, editor.born_position(at.mesh, corner),
+                                           editor.born_influences(at.mesh, corner),
+                                           palettes[mesh.skin], editor.source().rest_morph_weights);
   }
-  return ((corners[0] - corners[1]).norm() + (corners[1] - corners[2]).norm() + (corners[2] - corners[0]).norm()) / 3;
+  return ((corners[0] - corners[1]).norm() + (corners[1] - corners[2]).norm() +
+          (corners[2] - corners[0]).norm()) /
+         3;
 }
 
 }  // namespace
@@ -70,14 +74,16 @@ double TornModel::State::rest_diagonal() const {
       std::vector<Affine3d> palette(source->skins[mesh.skin].bones.size());
       if (!rest || !compute_palette(source->skins[mesh.skin], *rest, palette)) return;
       for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v)
-        box.extend(Eigen::Vector3d(deform_position_reference(mesh, v, palette, source->rest_morph_weights)));
+        box.extend(Eigen::Vector3d(
+            deform_position_reference(mesh, v, palette, source->rest_morph_weights)));
     }
     rest_diagonal_ = box.isEmpty() ? 0.0 : box.diagonal().norm();
   });
   return rest_diagonal_;
 }
 
-Result<WeightErrors> measure_weight_errors(const TornModel& model, std::uint32_t first_operation, std::uint32_t operation_count,
+Result<WeightErrors> measure_weight_errors(const TornModel& model, std::uint32_t first_operation,
+                                           std::uint32_t operation_count,
                                            std::span<const ModelPose> poses) {
   const TornModel::State& state = *model.state_;
   const tear::SurfaceEditor& editor = state.editor;
@@ -102,7 +108,8 @@ Result<WeightErrors> measure_weight_errors(const TornModel& model, std::uint32_t
     const auto rest = make_pose(*state.source, RestPose{});
     if (!rest) return rest.error();
     if (Status status = stand_in(*rest); !status) return status;
-    for (const auto& at : points) errors.points.push_back({at.mesh, at.vertex, 0, 0, mean_edge(editor, at, palettes)});
+    for (const auto& at : points)
+      errors.points.push_back({at.mesh, at.vertex, 0, 0, mean_edge(editor, at, palettes)});
     std::vector<double> metres, of_edge;
     AnimationPoint exact;
     for (const ModelPose& pose : poses) {
@@ -112,9 +119,10 @@ Result<WeightErrors> measure_weight_errors(const TornModel& model, std::uint32_t
         const Mesh& mesh = state.character.meshes[at.mesh];
         const std::vector<Affine3d>& palette = palettes[mesh.skin];
         editor.describe_exactly(at, pose.morph_weights, exact);
-        const Vec3d stands = editor.policy(at.mesh, at.vertex) == WeightPolicy::exact
-                                 ? exact_position(editor, at, palette, pose.morph_weights)
-                                 : deform_position_reference(mesh, at.vertex, palette, pose.morph_weights);
+        const Vec3d stands =
+            editor.policy(at.mesh, at.vertex) == WeightPolicy::exact
+                ? exact_position(editor, at, palette, pose.morph_weights)
+                : deform_position_reference(mesh, at.vertex, palette, pose.morph_weights);
         const double error = (stands - exact.posed(palette)).norm();
         WeightErrors::OfPoint& of = errors.points[i];
         of.rms += error * error / static_cast<double>(poses.size());
@@ -128,7 +136,8 @@ Result<WeightErrors> measure_weight_errors(const TornModel& model, std::uint32_t
     errors.of_edge = statistics_of(of_edge);
     errors.of_diagonal = errors.metres;
     const double diagonal = state.rest_diagonal();
-    for (double* value : {&errors.of_diagonal.rms, &errors.of_diagonal.percentile95, &errors.of_diagonal.maximum})
+    for (double* value :
+         {&errors.of_diagonal.rms, &errors.of_diagonal.percentile95, &errors.of_diagonal.maximum})
       *value = diagonal > 0 ? *value / diagonal : 0.0;
     return errors;
   } catch (const std::bad_alloc&) {

@@ -4,11 +4,13 @@
 
 namespace sunder {
 
-void AnimationPoint::add(double part, const Vec3d& position, std::span<const Influence> influences) {
+void AnimationPoint::add(double part, const Vec3d& position,
+                         std::span<const Influence> influences) {
   if (part == 0.0) return;
   for (const Influence& influence : influences) {
     const double weight = part * static_cast<double>(influence.weight);
-    add(influence.slot, {weight * position.x(), weight * position.y(), weight * position.z(), weight});
+    add(influence.slot,
+        {weight * position.x(), weight * position.y(), weight * position.z(), weight});
   }
 }
 
@@ -19,7 +21,8 @@ void AnimationPoint::add(double part, const AnimationPoint& point) {
 
 void AnimationPoint::add(std::uint32_t slot, const Vec4d& q) {
   // A few dozen at most: a linear search beats any map.
-  const auto same = std::find_if(terms_.begin(), terms_.end(), [&](const Term& term) { return term.slot == slot; });
+  const auto same = std::find_if(terms_.begin(), terms_.end(),
+                                 [&](const Term& term) { return term.slot == slot; });
   if (same == terms_.end())
     terms_.push_back({slot, q});
   else
@@ -28,7 +31,8 @@ void AnimationPoint::add(std::uint32_t slot, const Vec4d& q) {
 
 Vec3d AnimationPoint::posed(std::span<const Affine3d> model_from_bind) const {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const Term& term : terms_) sum += model_from_bind[term.slot].matrix() * Eigen::Vector4d(term.q);
+  for (const Term& term : terms_)
+    sum += model_from_bind[term.slot].matrix() * Eigen::Vector4d(term.q);
   return sum;
 }
 

@@ -21,7 +21,8 @@ std::optional<Vec3d> solve_bind_position(std::span<const Influence> influences, 
   Eigen::Matrix3d inverse;
   bool is_invertible = false;
   linear.computeInverseWithCheck(inverse, is_invertible, 0.0);
-  if (!is_invertible || !(inverse.norm() * largest / 3 <= kLargestAmplification)) return std::nullopt;
+  if (!is_invertible || !(inverse.norm() * largest / 3 <= kLargestAmplification))
+    return std::nullopt;
   return Vec3d(inverse * (Eigen::Vector3d(posed) - translation));
 }
 

@@ -4,10 +4,12 @@ namespace sunder {
 
 bool has_coupled_refit() { return false; }
 
-Result<std::vector<CoupledFit>> refit_coupled(std::span<const PointToRefit>, std::span<const RefitNeighbours>,
+Result<std::vector<CoupledFit>> refit_coupled(std::span<const PointToRefit>,
+                                              std::span<const RefitNeighbours>,
                                               const CoupledRefitOptions&, const PoseMoments&) {
   return Status::failure(StatusCode::unsupported_feature, kNone,
-                         "this build cannot fit neighbouring points together: it was made without Ceres (SUNDER_CERES)");
+                         "this build cannot fit neighbouring points together: it was made without "
+                         "Ceres (SUNDER_CERES)");
 }
 
 }  // namespace sunder

@@ -28,7 +28,8 @@ constexpr double kLeastSum = 1e-200;
 /// A pivot below this part of the largest is rounding.
 constexpr double kLeastPivot = 1e-15;
 
-/// A point's unknowns: the roots u of its weights, w_i = u_i^2 with |u| = 1, and how far its bind position is moved.
+/// A point's unknowns: the roots u of its weights, w_i = u_i^2 with |u| = 1, and how far its bind
+/// position is moved.
 struct Unknowns {
   double* roots = nullptr;
   double* offset = nullptr;  ///< nullptr: it is not moved.
@@ -42,20 +43,24 @@ struct Unknowns {
   }
 };
 
-/// What a point is off by in all poses: root * [u_1^2 [offset; 1]; u_2^2 [offset; 1]; ...], as long as the root mean square.
+/// What a point is off by in all poses: root * [u_1^2 [offset; 1]; u_2^2 [offset; 1]; ...], as long
+/// as the root mean square.
 class PointCost final : public ceres::CostFunction {
  public:
-  PointCost(RowMajor root, const Unknowns& unknowns) : root_(std::move(root)), count_(unknowns.count) {
+  PointCost(RowMajor root, const Unknowns& unknowns)
+      : root_(std::move(root)), count_(unknowns.count) {
     set_num_residuals(static_cast<int>(root_.rows()));
     mutable_parameter_block_sizes()->push_back(count_);
     if (unknowns.offset != nullptr) mutable_parameter_block_sizes()->push_back(3);
   }
 
-  bool Evaluate(double const* const* unknowns, double* residuals, double** jacobians) const override {
+  bool Evaluate(double const* const* unknowns, double* residuals,
+                double** jacobians) const override {
     const bool moves = parameter_block_sizes().size() > 1;
     const double* const u = unknowns[0];
     const Eigen::Vector3d offset =
-        moves ? Eigen::Vector3d(unknowns[1][0], unknowns[1][1], unknowns[1][2]) : Eigen::Vector3d::Zero();
+        moves ? Eigen::Vector3d(unknowns[1][0], unknowns[1][1], unknowns[1][2])
+              : Eigen::Vector3d::Zero();
     double* const by_root = jacobians != nullptr ? jacobians[0] : nullptr;
     double* const by_offset = jacobians != nullptr && moves ? jacobians[1] : nullptr;
     for (int row = 0; row < root_.rows(); ++row) {
@@ -80,17 +85,23 @@ class PointCost final : public ceres::CostFunction {
   int count_;
 };
 
-/// The difference of what two weights changed by: u_a^2 - u_b^2 + constant. -1: of a slot that it does not have.
+/// The difference of what two weights changed by: u_a^2 - u_b^2 + constant. -1: of a slot that it
+/// does not have.
 struct ChangeOfSlot {
   int a = -1, b = -1;
   double constant = 0;
 };
 
-/// What neighbours are charged for moving and changing unlike each other; an old neighbour b has no unknowns.
+/// What neighbours are charged for moving and changing unlike each other; an old neighbour b has no
+/// unknowns.
 class NeighbourCost final : public ceres::CostFunction {
  public:
-  NeighbourCost(const Unknowns& a, const Unknowns& b, std::vector<ChangeOfSlot> changes, double of_offset, double of_change)
-      : changes_(std::move(changes)), counts_{a.count, b.count}, of_offset_(of_offset), of_change_(of_change) {
+  NeighbourCost(const Unknowns& a, const Unknowns& b, std::vector<ChangeOfSlot> changes,
+                double of_offset, double of_change)
+      : changes_(std::move(changes)),
+        counts_{a.count, b.count},
+        of_offset_(of_offset),
+        of_change_(of_change) {
     moves_ = a.offset != nullptr;
     set_num_residuals((moves_ ? 3 : 0) + static_cast<int>(changes_.size()));
     for (const Unknowns* unknowns : {&a, &b}) {
@@ -100,18 +111,21 @@ class NeighbourCost final : public ceres::CostFunction {
     }
   }
 
-  bool Evaluate(double const* const* unknowns, double* residuals, double** jacobians) const override {
+  bool Evaluate(double const* const* unknowns, double* residuals,
+                double** jacobians) const override {
     const int stride = moves_ ? 2 : 1, first = moves_ ? 3 : 0;
     for (int side = 0; side < 2; ++side) {
       if (counts_[side] == 0) continue;
       const double sign = side == 0 ? 1.0 : -1.0;
       const double* const u = unknowns[side * stride];
       double* const by_root = jacobians != nullptr ? jacobians[side * stride] : nullptr;
-      double* const by_offset = jacobians != nullptr && moves_ ? jacobians[side * stride + 1] : nullptr;
+      double* const by_offset =
+          jacobians != nullptr && moves_ ? jacobians[side * stride + 1] : nullptr;
       if (by_root != nullptr) std::fill_n(by_root, num_residuals() * counts_[side], 0.0);
       if (by_offset != nullptr) std::fill_n(by_offset, num_residuals() * 3, 0.0);
       for (int axis = 0; axis < first; ++axis) {
-        residuals[axis] = (side == 0 ? 0.0 : residuals[axis]) + sign * of_offset_ * unknowns[side * stride + 1][axis];
+        residuals[axis] = (side == 0 ? 0.0 : residuals[axis]) +
+                          sign * of_offset_ * unknowns[side * stride + 1][axis];
         if (by_offset != nullptr) by_offset[4 * axis] = sign * of_offset_;
       }
       for (std::size_t k = 0; k < changes_.size(); ++k) {
@@ -136,7 +150,8 @@ class NeighbourCost final : public ceres::CostFunction {
 /// The points, their terms, and the least squares over all of them.
 class CoupledProblem {
  public:
-  CoupledProblem(std::span<const PointToRefit> points, const CoupledRefitOptions& options, const PoseMoments& moments);
+  CoupledProblem(std::span<const PointToRefit> points, const CoupledRefitOptions& options,
+                 const PoseMoments& moments);
 
   void couple(std::span<const RefitNeighbours> neighbours);
   /// @return false where there is nothing to solve, or no solution.
@@ -160,7 +175,8 @@ class CoupledProblem {
   std::vector<AnimationPoint::Term> terms_, difference_;
   std::vector<double> of_terms_;
   std::vector<Eigen::Vector4d, Eigen::aligned_allocator<Eigen::Vector4d>> towards_;
-  double scale_ = 1;  ///< Of residuals: makes the sum of squares one with barycentric weights, so that tolerances have a meaning.
+  double scale_ = 1;  ///< Of residuals: makes the sum of squares one with barycentric weights, so
+                      ///< that tolerances have a meaning.
   bool has_unknowns_ = false;
 
   // What the problem points at has to outlive it.
@@ -178,7 +194,8 @@ ceres::Problem::Options problem_options() {
   return options;
 }
 
-CoupledProblem::CoupledProblem(std::span<const PointToRefit> points, const CoupledRefitOptions& options, const PoseMoments& moments)
+CoupledProblem::CoupledProblem(std::span<const PointToRefit> points,
+                               const CoupledRefitOptions& options, const PoseMoments& moments)
     : points_(points),
       options_(options),
       moments_(moments),
@@ -218,9 +235,10 @@ double CoupledProblem::weight_before(std::size_t point, std::uint32_t slot) cons
   return weight / sum;
 }
 
-/// For bones i, j of the fit: A_i^T A_j, the mean over the poses, where A_i = [linear part of M_i, M_i s - p] for the place s where
-/// the point was and the place p that it is to follow. About those, because what matters are differences from them. Factored into
-/// root^T root, without the rows that rounding leaves.
+/// For bones i, j of the fit: A_i^T A_j, the mean over the poses, where A_i = [linear part of M_i,
+/// M_i s - p] for the place s where the point was and the place p that it is to follow. About
+/// those, because what matters are differences from them. Factored into root^T root, without the
+/// rows that rounding leaves.
 /// @return false where it is not finite.
 bool CoupledProblem::factor(std::size_t point, RowMajor& root) {
   using Vec4 = Eigen::Vector4d;
@@ -239,7 +257,8 @@ bool CoupledProblem::factor(std::size_t point, RowMajor& root) {
   double target_square = 0;
   for (const auto& term : terms_) {
     Vec4 towards = Vec4::Zero();
-    for (const auto& other : terms_) towards.noalias() += moment(term.slot, other.slot) * Vec4(other.q);
+    for (const auto& other : terms_)
+      towards.noalias() += moment(term.slot, other.slot) * Vec4(other.q);
     target_square += Vec4(term.q).dot(towards);
     if (const int i = unknowns.find(term.slot); i >= 0)
       towards_[static_cast<std::size_t>(i)].noalias() = about_place.transpose() * towards;
@@ -247,7 +266,8 @@ bool CoupledProblem::factor(std::size_t point, RowMajor& root) {
   Eigen::MatrixXd gram(4 * n, 4 * n);
   for (int i = 0; i < n; ++i)
     for (int j = 0; j <= i; ++j) {
-      Eigen::Matrix4d product = about_place.transpose() * moment(unknowns.slot(i), unknowns.slot(j)) * about_place;
+      Eigen::Matrix4d product =
+          about_place.transpose() * moment(unknowns.slot(i), unknowns.slot(j)) * about_place;
       product.row(3) -= towards_[static_cast<std::size_t>(j)].transpose();
       product.col(3) -= towards_[static_cast<std::size_t>(i)];
       product(3, 3) += target_square;
@@ -258,9 +278,10 @@ bool CoupledProblem::factor(std::size_t point, RowMajor& root) {
       gram.block<4, 4>(4 * i, 4 * j) = product;
       if (i != j) gram.block<4, 4>(4 * j, 4 * i) = product.transpose();
     }
-  // Weights add up to one: the offset is the mean of itself by them, and what is linear in them or constant is quadratic too. So
-  // what holds the point back can be charged bone by bone.
-  const weights::Restraint restraint = weights::restraint_of(terms_, points_[point].position - moments_.centre(), moments_);
+  // Weights add up to one: the offset is the mean of itself by them, and what is linear in them or
+  // constant is quadratic too. So what holds the point back can be charged bone by bone.
+  const weights::Restraint restraint =
+      weights::restraint_of(terms_, points_[point].position - moments_.centre(), moments_);
   weights::weights_of_terms(terms_, points_[point].barycentric, of_terms_);
   const auto before = [&](int i) {
     for (std::size_t k = 0; k < terms_.size(); ++k)
@@ -271,12 +292,15 @@ bool CoupledProblem::factor(std::size_t point, RowMajor& root) {
   for (const double weight : of_terms_) square_before += weight * weight;
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j) {
-      for (int axis = 0; axis < 3; ++axis) gram(4 * i + axis, 4 * j + axis) += restraint.of_position;
-      gram(4 * i + 3, 4 * j + 3) += restraint.of_weights * ((i == j ? 1.0 : 0.0) - before(i) - before(j) + square_before);
+      for (int axis = 0; axis < 3; ++axis)
+        gram(4 * i + axis, 4 * j + axis) += restraint.of_position;
+      gram(4 * i + 3, 4 * j + 3) +=
+          restraint.of_weights * ((i == j ? 1.0 : 0.0) - before(i) - before(j) + square_before);
     }
   if (!gram.allFinite()) return false;
 
-  // Cholesky's factors, each time by the largest pivot that is left. What is left below the least of them is rounding.
+  // Cholesky's factors, each time by the largest pivot that is left. What is left below the least
+  // of them is rounding.
   root.resize(4 * n, 4 * n);
   const double least = kLeastPivot * gram.diagonal().maxCoeff();
   Eigen::Index rank = 0, pivot = 0;
@@ -297,7 +321,8 @@ void CoupledProblem::add_point(std::size_t point) {
   double* const values = values_.data() + values_.size();
   double sum = 0;
   for (const Influence& influence : fit.influences) sum += static_cast<double>(influence.weight);
-  for (const Influence& influence : fit.influences) values_.push_back(std::sqrt(static_cast<double>(influence.weight) / sum));
+  for (const Influence& influence : fit.influences)
+    values_.push_back(std::sqrt(static_cast<double>(influence.weight) / sum));
   unknowns.roots = values;
   if (options_.point.moves_bind) {
     const Eigen::Vector3d offset = fit.position - points_[point].position;
@@ -321,7 +346,8 @@ void CoupledProblem::add_point(std::size_t point) {
   has_unknowns_ = has_unknowns_ || blocks.size() > 1 || unknowns.count > 1;
 }
 
-void CoupledProblem::add_neighbours(std::size_t a, std::uint32_t b, double of_offset, double of_change) {
+void CoupledProblem::add_neighbours(std::size_t a, std::uint32_t b, double of_offset,
+                                    double of_change) {
   const Unknowns nothing;
   const Unknowns& of_a = unknowns_[a];
   const Unknowns& of_b = b == kNone ? nothing : unknowns_[b];
@@ -340,13 +366,16 @@ void CoupledProblem::add_neighbours(std::size_t a, std::uint32_t b, double of_of
     blocks.push_back(unknowns->roots);
     if (unknowns->offset != nullptr) blocks.push_back(unknowns->offset);
   }
-  neighbour_costs_.emplace_back(of_a, of_b, std::move(changes), scale_ * of_offset, scale_ * of_change);
+  neighbour_costs_.emplace_back(of_a, of_b, std::move(changes), scale_ * of_offset,
+                                scale_ * of_change);
   problem_->AddResidualBlock(&neighbour_costs_.back(), nullptr, blocks);
 }
 
 void CoupledProblem::couple(std::span<const RefitNeighbours> neighbours) {
   if (options_.smoothness == 0) return;
-  const auto is_fitted = [&](std::uint32_t point) { return point != kNone && unknowns_[point].count > 0; };
+  const auto is_fitted = [&](std::uint32_t point) {
+    return point != kNone && unknowns_[point].count > 0;
+  };
   // Old neighbours all ask the same of a point: their costs add up.
   struct OfOld {
     double offset = 0, change = 0;
@@ -355,7 +384,8 @@ void CoupledProblem::couple(std::span<const RefitNeighbours> neighbours) {
   for (const RefitNeighbours& pair : neighbours) {
     if (pair.a == pair.b) continue;
     if (is_fitted(pair.a) && is_fitted(pair.b)) {
-      add_neighbours(pair.a, pair.b, std::sqrt(options_.smoothness), std::sqrt(options_.smoothness) * pair.length);
+      add_neighbours(pair.a, pair.b, std::sqrt(options_.smoothness),
+                     std::sqrt(options_.smoothness) * pair.length);
       continue;
     }
     for (const std::uint32_t point : {pair.a, pair.b}) {
@@ -365,7 +395,9 @@ void CoupledProblem::couple(std::span<const RefitNeighbours> neighbours) {
     }
   }
   for (std::size_t point = 0; point < points_.size(); ++point)
-    if (of_old[point].offset > 0) add_neighbours(point, kNone, std::sqrt(of_old[point].offset), std::sqrt(of_old[point].change));
+    if (of_old[point].offset > 0)
+      add_neighbours(point, kNone, std::sqrt(of_old[point].offset),
+                     std::sqrt(of_old[point].change));
 }
 
 bool CoupledProblem::solve() {
@@ -375,15 +407,18 @@ bool CoupledProblem::solve() {
   options.logging_type = ceres::SILENT;
   options.max_num_iterations = kMostSteps;
   options.function_tolerance = kLeastGain;
-  // Eigen's factors: as fast as SuiteSparse's on a band like a lip's, and no BLAS has a say in the bits.
+  // Eigen's factors: as fast as SuiteSparse's on a band like a lip's, and no BLAS has a say in the
+  // bits.
   options.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;
   options.dense_linear_algebra_library_type = ceres::EIGEN;
-  options.linear_solver_type =
-      ceres::IsSparseLinearAlgebraLibraryTypeAvailable(ceres::EIGEN_SPARSE) ? ceres::SPARSE_NORMAL_CHOLESKY : ceres::DENSE_QR;
+  options.linear_solver_type = ceres::IsSparseLinearAlgebraLibraryTypeAvailable(ceres::EIGEN_SPARSE)
+                                   ? ceres::SPARSE_NORMAL_CHOLESKY
+                                   : ceres::DENSE_QR;
   ceres::Solver::Summary summary;
   ceres::Solve(options, problem_.get(), &summary);
   return summary.IsSolutionUsable() &&
-         std::all_of(values_.begin(), values_.end(), [](double value) { return std::isfinite(value); });
+         std::all_of(values_.begin(), values_.end(),
+                     [](double value) { return std::isfinite(value); });
 }
 
 void CoupledProblem::take_solution() {
@@ -394,12 +429,15 @@ void CoupledProblem::take_solution() {
     weights::centre_terms(*points_[point].exact, moments_, terms_);
     of_terms_.assign(terms_.size(), 0.0);
     for (std::size_t i = 0; i < terms_.size(); ++i)
-      if (const int k = unknowns.find(terms_[i].slot); k >= 0) of_terms_[i] = unknowns.roots[k] * unknowns.roots[k];
+      if (const int k = unknowns.find(terms_[i].slot); k >= 0)
+        of_terms_[i] = unknowns.roots[k] * unknowns.roots[k];
     weights::store_weights(terms_, of_terms_, fit.influences);
     fit.position = points_[point].position;
-    if (unknowns.offset != nullptr) fit.position += Eigen::Map<const Eigen::Vector3d>(unknowns.offset);
+    if (unknowns.offset != nullptr)
+      fit.position += Eigen::Map<const Eigen::Vector3d>(unknowns.offset);
     weights::weights_of_terms(terms_, fit.influences, of_terms_);
-    fit.mean_square = weights::mean_square(terms_, of_terms_, fit.position - moments_.centre(), moments_, difference_);
+    fit.mean_square = weights::mean_square(terms_, of_terms_, fit.position - moments_.centre(),
+                                           moments_, difference_);
     fit.is_better = fit.mean_square < fit.barycentric_mean_square;
     if (fit.is_better) continue;
     fit.influences.assign(points_[point].barycentric.begin(), points_[point].barycentric.end());
@@ -408,21 +446,24 @@ void CoupledProblem::take_solution() {
   }
 }
 
-Status check(std::span<const PointToRefit> points, std::span<const RefitNeighbours> neighbours, const CoupledRefitOptions& options,
-             const PoseMoments& moments) {
+Status check(std::span<const PointToRefit> points, std::span<const RefitNeighbours> neighbours,
+             const CoupledRefitOptions& options, const PoseMoments& moments) {
   if (!std::isfinite(options.smoothness) || options.smoothness < 0)
-    return Status::failure(StatusCode::invalid_argument, kNone, "the smoothness has to be finite and not less than zero, not %g",
+    return Status::failure(StatusCode::invalid_argument, kNone,
+                           "the smoothness has to be finite and not less than zero, not %g",
                            options.smoothness);
-  if (moments.pose_count() == 0) return Status::failure(StatusCode::empty_input, kNone, "the moments hold no pose");
+  if (moments.pose_count() == 0)
+    return Status::failure(StatusCode::empty_input, kNone, "the moments hold no pose");
   for (std::size_t i = 0; i < neighbours.size(); ++i) {
     const RefitNeighbours& pair = neighbours[i];
     const auto index = static_cast<std::uint32_t>(i);
     for (const std::uint32_t point : {pair.a, pair.b == kNone ? pair.a : pair.b})
       if (point >= points.size())
-        return Status::failure(StatusCode::index_out_of_range, index, "neighbours %u: point %u of %zu", index, point,
-                               points.size());
+        return Status::failure(StatusCode::index_out_of_range, index,
+                               "neighbours %u: point %u of %zu", index, point, points.size());
     if (!std::isfinite(pair.length) || pair.length < 0)
-      return Status::failure(StatusCode::invalid_argument, index, "neighbours %u: a length of %g", index, pair.length);
+      return Status::failure(StatusCode::invalid_argument, index, "neighbours %u: a length of %g",
+                             index, pair.length);
   }
   return {};
 }
@@ -431,8 +472,10 @@ Status check(std::span<const PointToRefit> points, std::span<const RefitNeighbou
 
 bool has_coupled_refit() { return true; }
 
-Result<std::vector<CoupledFit>> refit_coupled(std::span<const PointToRefit> points, std::span<const RefitNeighbours> neighbours,
-                                              const CoupledRefitOptions& options, const PoseMoments& moments) {
+Result<std::vector<CoupledFit>> refit_coupled(std::span<const PointToRefit> points,
+                                              std::span<const RefitNeighbours> neighbours,
+                                              const CoupledRefitOptions& options,
+                                              const PoseMoments& moments) {
   if (const Status status = check(points, neighbours, options, moments); !status) return status;
   try {
     CoupledProblem problem(points, options, moments);

@@ -18,13 +18,14 @@ constexpr double kGrowth = 1.5;
 /// So many tell which bone is missed least.
 constexpr int kTurnsOfChoice = 2;
 
-/// A fit that is held back is taken where its mean square is no larger than this many times that of one that is not: 1 % of the
-/// root mean square.
+/// A fit that is held back is taken where its mean square is no larger than this many times that of
+/// one that is not: 1 % of the root mean square.
 constexpr double kWorth = 1.02;
 
 }  // namespace
 
-/// One point's quadratic forms, and the memory for them. Places are about the centre of the moments.
+/// One point's quadratic forms, and the memory for them. Places are about the centre of the
+/// moments.
 class PointRefit::Problem {
  public:
   void begin(const PointToRefit& point, const PoseMoments& moments);
@@ -34,15 +35,20 @@ class PointRefit::Problem {
   using Vec4 = Eigen::Vector4d;
 
   /// H_ij or its transpose, times the number of poses; j not below i.
-  [[nodiscard]] const PoseMoments::Matrix& between(std::size_t i, std::size_t j) const { return *between_[i * terms_.size() + j]; }
+  [[nodiscard]] const PoseMoments::Matrix& between(std::size_t i, std::size_t j) const {
+    return *between_[i * terms_.size() + j];
+  }
 
   void set_position(const Eigen::Vector3d& position);
   void improve(const Options& options, const Eigen::Vector3d& start, Eigen::Vector3d& position);
   void let_go();
-  void hold_back_as_far_as_it_is_worth(const Options& options, const Eigen::Vector3d& start, Eigen::Vector3d& position);
+  void hold_back_as_far_as_it_is_worth(const Options& options, const Eigen::Vector3d& start,
+                                       Eigen::Vector3d& position);
   [[nodiscard]] Eigen::Vector3d best_position(const Eigen::Vector3d& start) const;
-  [[nodiscard]] double mean_square(const std::vector<double>& of_terms, const Eigen::Vector3d& position);
-  [[nodiscard]] bool choose(std::size_t maximum, int turns, const Eigen::Vector3d& start, Eigen::Vector3d& position);
+  [[nodiscard]] double mean_square(const std::vector<double>& of_terms,
+                                   const Eigen::Vector3d& position);
+  [[nodiscard]] bool choose(std::size_t maximum, int turns, const Eigen::Vector3d& start,
+                            Eigen::Vector3d& position);
   void take_turns(int most, const Eigen::Vector3d& start, Eigen::Vector3d& position);
 
   const PoseMoments* moments_ = nullptr;
@@ -56,14 +62,16 @@ class PointRefit::Problem {
   double per_pose_ = 1;
   weights::SimplexSolver solver_;
   std::vector<bool> allowed_;
-  std::vector<double> start_, weights_, held_weights_, free_weights_, before_, best_, candidate_, earlier_;
+  std::vector<double> start_, weights_, held_weights_, free_weights_, before_, best_, candidate_,
+      earlier_;
   std::vector<Influence> influences_;
 };
 
 PointRefit::PointRefit() : problem_(std::make_unique<Problem>()) {}
 PointRefit::~PointRefit() = default;
 
-PointRefit::Fit PointRefit::fit(const PointToRefit& point, const Options& options, const PoseMoments& moments) {
+PointRefit::Fit PointRefit::fit(const PointToRefit& point, const Options& options,
+                                const PoseMoments& moments) {
   problem_->begin(point, moments);
   return problem_->solve(point, options);
 }
@@ -78,7 +86,8 @@ void PointRefit::Problem::begin(const PointToRefit& point, const PoseMoments& mo
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = i; j < n; ++j) {
       const bool is_turned = terms_[i].slot > terms_[j].slot;
-      const PoseMoments::Matrix& moment = moments.of(terms_[is_turned ? j : i].slot, terms_[is_turned ? i : j].slot);
+      const PoseMoments::Matrix& moment =
+          moments.of(terms_[is_turned ? j : i].slot, terms_[is_turned ? i : j].slot);
       between_[i * n + j] = &moment;
       const Vec4 qi = terms_[i].q, qj = terms_[j].q;
       if (is_turned) {
@@ -100,7 +109,8 @@ void PointRefit::Problem::begin(const PointToRefit& point, const PoseMoments& mo
   allowed_.assign(n, true);
 }
 
-/// Squares and products of what each bone alone would be off by: sum w = 1 lets the target be taken from each.
+/// Squares and products of what each bone alone would be off by: sum w = 1 lets the target be taken
+/// from each.
 void PointRefit::Problem::set_position(const Eigen::Vector3d& position) {
   const std::size_t n = terms_.size();
   const Vec4 at(position.x(), position.y(), position.z(), 1.0);
@@ -112,7 +122,8 @@ void PointRefit::Problem::set_position(const Eigen::Vector3d& position) {
     for (std::size_t j = i; j < n; ++j) {
       const double product = per_pose_ * at.dot(between(i, j) * at);
       if (i == j) largest = std::max(largest, product);
-      solver_.gram(i, j) = solver_.gram(j, i) = product - candidate_[i] - candidate_[j] + target_square_;
+      solver_.gram(i, j) = solver_.gram(j, i) =
+          product - candidate_[i] - candidate_[j] + target_square_;
     }
   // Bones that move alike, or nearly: what tells them apart is where the weights were.
   tie_ = 1e-13 * largest + restraint_.of_weights + 1e-280;
@@ -130,19 +141,23 @@ Eigen::Vector3d PointRefit::Problem::best_position(const Eigen::Vector3d& start)
     if (weights_[i] == 0) continue;
     towards += weights_[i] * towards_[i];
     for (std::size_t j = i; j < terms_.size(); ++j)
-      if (weights_[j] != 0) square += (i == j ? 1.0 : 2.0) * weights_[i] * weights_[j] * between(i, j);
+      if (weights_[j] != 0)
+        square += (i == j ? 1.0 : 2.0) * weights_[i] * weights_[j] * between(i, j);
   }
   square = (0.5 * per_pose_) * (square + square.transpose()).eval();
   const double stiffness = restraint_.of_position;
   Eigen::Matrix3d left = square.topLeftCorner<3, 3>();
   left.diagonal().array() += stiffness + 1e-280;
-  const Eigen::Vector3d right = towards.head<3>() - square.topRightCorner<3, 1>() + stiffness * start;
+  const Eigen::Vector3d right =
+      towards.head<3>() - square.topRightCorner<3, 1>() + stiffness * start;
   const Eigen::Vector3d best = left.ldlt().solve(right);
   return best.allFinite() ? best : start;
 }
 
-double PointRefit::Problem::mean_square(const std::vector<double>& of_terms, const Eigen::Vector3d& position) {
-  if (position != position_) return weights::mean_square(terms_, of_terms, position, *moments_, difference_);
+double PointRefit::Problem::mean_square(const std::vector<double>& of_terms,
+                                        const Eigen::Vector3d& position) {
+  if (position != position_)
+    return weights::mean_square(terms_, of_terms, position, *moments_, difference_);
   double sum = 0;  // of what is at hand already, without what holds back
   for (std::size_t i = 0; i < terms_.size(); ++i) {
     double row = -tie_ * of_terms[i];
@@ -152,12 +167,16 @@ double PointRefit::Problem::mean_square(const std::vector<double>& of_terms, con
   return std::max(sum, 0.0);
 }
 
-/// Leaves no more than `maximum` weights: without that one which is missed least, and so on. 0: as many as there are.
-/// @param turns  how many are taken without each of them before it is known how much it is missed. 0: the bind position stays.
+/// Leaves no more than `maximum` weights: without that one which is missed least, and so on. 0: as
+/// many as there are.
+/// @param turns  how many are taken without each of them before it is known how much it is missed.
+/// 0: the bind position stays.
 /// @return whether any had to go.
-bool PointRefit::Problem::choose(std::size_t maximum, int turns, const Eigen::Vector3d& start, Eigen::Vector3d& position) {
+bool PointRefit::Problem::choose(std::size_t maximum, int turns, const Eigen::Vector3d& start,
+                                 Eigen::Vector3d& position) {
   const auto used = [&] {
-    return static_cast<std::size_t>(std::count_if(weights_.begin(), weights_.end(), [](double w) { return w > 0; }));
+    return static_cast<std::size_t>(
+        std::count_if(weights_.begin(), weights_.end(), [](double w) { return w > 0; }));
   };
   if (maximum == 0 || used() <= maximum) return false;
   while (used() > maximum) {
@@ -190,9 +209,11 @@ bool PointRefit::Problem::choose(std::size_t maximum, int turns, const Eigen::Ve
   return true;
 }
 
-/// At most so many, from weights that are the best where the bind position is. While turns gain, the bind position goes farther and
-/// farther past the best one for the weights as they are; step by step the two would creep along valleys.
-void PointRefit::Problem::take_turns(int most, const Eigen::Vector3d& start, Eigen::Vector3d& position) {
+/// At most so many, from weights that are the best where the bind position is. While turns gain,
+/// the bind position goes farther and farther past the best one for the weights as they are; step
+/// by step the two would creep along valleys.
+void PointRefit::Problem::take_turns(int most, const Eigen::Vector3d& start,
+                                     Eigen::Vector3d& position) {
   if (most == 0) return;
   double before = mean_square(weights_, position), stride = 1;
   for (int turn = 0; turn < most; ++turn) {
@@ -216,12 +237,14 @@ void PointRefit::Problem::take_turns(int most, const Eigen::Vector3d& start, Eig
 }
 
 /// From the weights as they are, and the position that was set.
-void PointRefit::Problem::improve(const Options& options, const Eigen::Vector3d& start, Eigen::Vector3d& position) {
+void PointRefit::Problem::improve(const Options& options, const Eigen::Vector3d& start,
+                                  Eigen::Vector3d& position) {
   allowed_.assign(terms_.size(), true);
   solver_.solve(weights_, allowed_);
   const int turns = options.moves_bind ? kMostTurns : 0;
   take_turns(turns, start, position);
-  if (choose(options.maximum_influences, std::min(turns, kTurnsOfChoice), start, position)) take_turns(turns, start, position);
+  if (choose(options.maximum_influences, std::min(turns, kTurnsOfChoice), start, position))
+    take_turns(turns, start, position);
 }
 
 /// Weights and bind position may change at no cost from here on.
@@ -234,8 +257,10 @@ void PointRefit::Problem::let_go() {
   restraint_ = {};
 }
 
-/// From the fit that is held back, which was just made, to one that is held back as much as costs next to nothing.
-void PointRefit::Problem::hold_back_as_far_as_it_is_worth(const Options& options, const Eigen::Vector3d& start,
+/// From the fit that is held back, which was just made, to one that is held back as much as costs
+/// next to nothing.
+void PointRefit::Problem::hold_back_as_far_as_it_is_worth(const Options& options,
+                                                          const Eigen::Vector3d& start,
                                                           Eigen::Vector3d& position) {
   const weights::Restraint whole = restraint_;
   const Eigen::Vector3d held_position = position;

@@ -4,14 +4,16 @@
 
 namespace sunder {
 
-PoseMoments::PoseMoments(std::size_t slots, const Vec3d& centre) : centre_(centre), rows_(slots), centred_(slots) {}
+PoseMoments::PoseMoments(std::size_t slots, const Vec3d& centre)
+    : centre_(centre), rows_(slots), centred_(slots) {}
 
 void PoseMoments::want(const AnimationPoint& point) {
   for (const AnimationPoint::Term& a : point.terms())
     for (const AnimationPoint::Term& b : point.terms()) {
       if (b.slot < a.slot) continue;
       std::vector<Entry>& row = rows_[a.slot];
-      const auto known = std::find_if(row.begin(), row.end(), [&](const Entry& entry) { return entry.slot == b.slot; });
+      const auto known = std::find_if(row.begin(), row.end(),
+                                      [&](const Entry& entry) { return entry.slot == b.slot; });
       if (known != row.end()) continue;
       if (a.slot == b.slot) slots_.push_back(a.slot);
       row.push_back({b.slot, static_cast<std::uint32_t>(pairs_.size())});
@@ -39,7 +41,8 @@ double PoseMoments::mean_square(std::span<const AnimationPoint::Term> difference
   for (std::size_t i = 0; i < difference.size(); ++i)
     for (std::size_t j = i; j < difference.size(); ++j) {
       const bool is_ascending = difference[i].slot <= difference[j].slot;
-      const AnimationPoint::Term &low = difference[is_ascending ? i : j], &high = difference[is_ascending ? j : i];
+      const AnimationPoint::Term &low = difference[is_ascending ? i : j],
+                                 &high = difference[is_ascending ? j : i];
       const double product = low.q.dot(of(low.slot, high.slot) * high.q);
       sum += i == j ? product : 2 * product;
     }

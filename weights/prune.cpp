@@ -12,7 +12,8 @@ struct WeightedSum {
   Vec3d position = Vec3d::Zero();
   double weight = 0.0;
 
-  WeightedSum(const Vec3d& bind_position, std::span<const Influence> influences, std::span<const Affine3d> model_from_bind) {
+  WeightedSum(const Vec3d& bind_position, std::span<const Influence> influences,
+              std::span<const Affine3d> model_from_bind) {
     for (const Influence& influence : influences) {
       const auto w = static_cast<double>(influence.weight);
       position += w * (model_from_bind[influence.slot] * bind_position);
@@ -25,8 +26,9 @@ struct WeightedSum {
 
 bool sort_influences(std::span<Influence> influences) {
   if (!(sum_of_weights(influences) > 0.0)) return false;
-  std::sort(influences.begin(), influences.end(),
-            [](const Influence& a, const Influence& b) { return a.weight != b.weight ? a.weight > b.weight : a.slot < b.slot; });
+  std::sort(influences.begin(), influences.end(), [](const Influence& a, const Influence& b) {
+    return a.weight != b.weight ? a.weight > b.weight : a.slot < b.slot;
+  });
   return true;
 }
 
@@ -36,18 +38,20 @@ std::size_t prune_influences(std::span<Influence> influences, std::size_t maximu
   if (influences.size() <= maximum) return influences.size();
   const auto kept = influences.first(maximum);
   const double sum = sum_of_weights(kept);
-  for (Influence& influence : kept) influence.weight = static_cast<float>(static_cast<double>(influence.weight) / sum);
+  for (Influence& influence : kept)
+    influence.weight = static_cast<float>(static_cast<double>(influence.weight) / sum);
   return maximum;
 }
 
 double dropped_mass(std::span<const Influence> influences, std::size_t kept) {
   if (kept >= influences.size()) return 0.0;
-  const double of_kept = sum_of_weights(influences.first(kept)), of_dropped = sum_of_weights(influences.subspan(kept));
+  const double of_kept = sum_of_weights(influences.first(kept)),
+               of_dropped = sum_of_weights(influences.subspan(kept));
   return of_dropped > 0.0 ? of_dropped / (of_kept + of_dropped) : 0.0;
 }
 
-Vec3d pruning_displacement(const Vec3d& bind_position, std::span<const Influence> influences, std::size_t kept,
-                           std::span<const Affine3d> model_from_bind) {
+Vec3d pruning_displacement(const Vec3d& bind_position, std::span<const Influence> influences,
+                           std::size_t kept, std::span<const Affine3d> model_from_bind) {
   if (kept >= influences.size()) return Vec3d::Zero();
   const WeightedSum of_kept(bind_position, influences.first(kept), model_from_bind);
   const WeightedSum of_dropped(bind_position, influences.subspan(kept), model_from_bind);

@@ -28,20 +28,24 @@ bool quantise(std::span<const Influence> influences, std::span<Integer> quantise
   const double sum = sum_of_weights(influences);
   if (quantised.size() != influences.size() || !(sum > 0.0)) return false;
   // The product is exact, so this rounds once and cannot turn the order of two weights around.
-  const auto in_units = [&](std::size_t i) { return static_cast<double>(influences[i].weight) * double{kUnits} / sum; };
+  const auto in_units = [&](std::size_t i) {
+    return static_cast<double>(influences[i].weight) * double{kUnits} / sum;
+  };
   std::uint32_t left = kUnits;
   for (std::size_t i = 0; i < influences.size(); ++i) {
     quantised[i] = static_cast<Integer>(in_units(i));
     left -= quantised[i];
   }
-  // The next claim is the first of those that come after the last one: no list of them has to be kept.
+  // The next claim is the first of those that come after the last one: no list of them has to be
+  // kept.
   std::optional<Claim> last;
   for (; left > 0; --left) {
     std::optional<Claim> next;
     for (std::size_t i = 0; i < influences.size(); ++i) {
       const double exact = in_units(i);
       const Claim claim{exact - std::floor(exact), influences[i].weight, i};
-      if ((!last || last->comes_before(claim)) && (!next || claim.comes_before(*next))) next = claim;
+      if ((!last || last->comes_before(claim)) && (!next || claim.comes_before(*next)))
+        next = claim;
     }
     if (!next) break;  // Cannot be: fewer units are left than there are remainders.
     ++quantised[next->position];

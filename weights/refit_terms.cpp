@@ -10,7 +10,8 @@ constexpr double kLeastWeight = 1e-5;
 
 }  // namespace
 
-void centre_terms(const AnimationPoint& point, const PoseMoments& moments, std::vector<AnimationPoint::Term>& terms) {
+void centre_terms(const AnimationPoint& point, const PoseMoments& moments,
+                  std::vector<AnimationPoint::Term>& terms) {
   terms.assign(point.terms().begin(), point.terms().end());
   double sum = 0;
   for (const auto& term : terms) sum += term.q.w();
@@ -20,25 +21,28 @@ void centre_terms(const AnimationPoint& point, const PoseMoments& moments, std::
   }
 }
 
-Restraint restraint_of(std::span<const AnimationPoint::Term> terms, const Eigen::Vector3d& position, const PoseMoments& moments) {
+Restraint restraint_of(std::span<const AnimationPoint::Term> terms, const Eigen::Vector3d& position,
+                       const PoseMoments& moments) {
   double scale_square = 0, spread_square = 0;
   for (const auto& term : terms) {
     if (!(term.q.w() > 0)) continue;
     scale_square += term.q.w() * moments.of(term.slot, term.slot).topLeftCorner<3, 3>().trace() / 3;
-    spread_square += (Eigen::Vector3d(term.q.head<3>()) - term.q.w() * position).squaredNorm() / term.q.w();
+    spread_square +=
+        (Eigen::Vector3d(term.q.head<3>()) - term.q.w() * position).squaredNorm() / term.q.w();
   }
   scale_square /= static_cast<double>(std::max<std::size_t>(moments.pose_count(), 1));
   return {kStiffness * scale_square, kInertia * scale_square * spread_square};
 }
 
-void weights_of_terms(std::span<const AnimationPoint::Term> terms, std::span<const Influence> influences,
-                      std::vector<double>& of_terms) {
+void weights_of_terms(std::span<const AnimationPoint::Term> terms,
+                      std::span<const Influence> influences, std::vector<double>& of_terms) {
   of_terms.assign(terms.size(), 0.0);
   double sum = 0;
   for (const Influence& influence : influences) sum += static_cast<double>(influence.weight);
   for (const Influence& influence : influences)
     for (std::size_t i = 0; i < terms.size(); ++i)
-      if (terms[i].slot == influence.slot) of_terms[i] = static_cast<double>(influence.weight) / sum;
+      if (terms[i].slot == influence.slot)
+        of_terms[i] = static_cast<double>(influence.weight) / sum;
 }
 
 void store_weights(std::span<const AnimationPoint::Term> terms, std::span<const double> of_terms,
@@ -47,13 +51,16 @@ void store_weights(std::span<const AnimationPoint::Term> terms, std::span<const 
   double sum = 0;
   for (const double weight : of_terms) sum += weight >= kLeastWeight ? weight : 0.0;
   for (std::size_t i = 0; i < terms.size(); ++i)
-    if (of_terms[i] >= kLeastWeight) influences.push_back({terms[i].slot, static_cast<float>(of_terms[i] / sum)});
-  std::sort(influences.begin(), influences.end(),
-            [](const Influence& a, const Influence& b) { return a.weight != b.weight ? a.weight > b.weight : a.slot < b.slot; });
+    if (of_terms[i] >= kLeastWeight)
+      influences.push_back({terms[i].slot, static_cast<float>(of_terms[i] / sum)});
+  std::sort(influences.begin(), influences.end(), [](const Influence& a, const Influence& b) {
+    return a.weight != b.weight ? a.weight > b.weight : a.slot < b.slot;
+  });
 }
 
-double mean_square(std::span<const AnimationPoint::Term> terms, std::span<const double> of_terms, const Eigen::Vector3d& position,
-                   const PoseMoments& moments, std::vector<AnimationPoint::Term>& difference) {
+double mean_square(std::span<const AnimationPoint::Term> terms, std::span<const double> of_terms,
+                   const Eigen::Vector3d& position, const PoseMoments& moments,
+                   std::vector<AnimationPoint::Term>& difference) {
   difference.resize(terms.size());
   for (std::size_t i = 0; i < terms.size(); ++i) {
     difference[i].slot = terms[i].slot;

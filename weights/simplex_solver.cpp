@@ -71,15 +71,18 @@ void SimplexSolver::solve(std::span<double> weights, const std::vector<bool>& al
     if (weights[i] > 0) free_.push_back(i);
     largest = std::max(largest, std::abs(at(i, i)));
   }
-  // A round frees one weight or fixes one; a few are needed. The limit is for what rounding might do.
+  // A round frees one weight or fixes one; a few are needed. The limit is for what rounding might
+  // do.
   for (std::size_t round = 0; round < 8 * count(); ++round) {
     double multiplier = 0;
     if (free_.empty() || !solve_free(multiplier)) return;
     double step = 1;
     for (std::size_t i = 0; i < free_.size(); ++i)
-      if (!(solution_[i] > 0)) step = std::min(step, weights[free_[i]] / (weights[free_[i]] - solution_[i]));
-    const bool is_optimum = std::all_of(solution_.begin(), solution_.begin() + static_cast<std::ptrdiff_t>(free_.size()),
-                                        [](double weight) { return weight > 0; });
+      if (!(solution_[i] > 0))
+        step = std::min(step, weights[free_[i]] / (weights[free_[i]] - solution_[i]));
+    const bool is_optimum = std::all_of(
+        solution_.begin(), solution_.begin() + static_cast<std::ptrdiff_t>(free_.size()),
+        [](double weight) { return weight > 0; });
     std::size_t kept = 0;
     for (std::size_t i = 0; i < free_.size(); ++i) {
       double& weight = weights[free_[i]];

@@ -7,8 +7,8 @@
 
 namespace sunder {
 
-/// One vertex by the definition of linear blend skinning, in double throughout. The oracle that faster code is held against, and
-/// the evaluation that tearing uses.
+/// One vertex by the definition of linear blend skinning, in double throughout. The oracle that
+/// faster code is held against, and the evaluation that tearing uses.
 ///
 /// @param vertex           < mesh.vertex_count(), unchecked.
 /// @param model_from_bind  one a slot of the mesh's skin.
@@ -19,12 +19,14 @@ namespace sunder {
                                                          std::span<const float> morph_weights);
 
 /// The same of a vertex as if it had another bind position and other influences.
-[[nodiscard]] SUNDER_API Vec3d deform_position_reference(const Mesh& mesh, std::uint32_t vertex, const Vec3f& position,
+[[nodiscard]] SUNDER_API Vec3d deform_position_reference(const Mesh& mesh, std::uint32_t vertex,
+                                                         const Vec3f& position,
                                                          std::span<const Influence> influences,
                                                          std::span<const Affine3d> model_from_bind,
                                                          std::span<const float> morph_weights);
 
-/// The same for the normal: sum_k w_k compute_normal_matrix(M_k), unit length. Only where the mesh has normals.
+/// The same for the normal: sum_k w_k compute_normal_matrix(M_k), unit length. Only where the mesh
+/// has normals.
 [[nodiscard]] SUNDER_API Vec3d deform_normal_reference(const Mesh& mesh, std::uint32_t vertex,
                                                        std::span<const Affine3d> model_from_bind,
                                                        std::span<const float> morph_weights);

@@ -15,8 +15,12 @@ namespace {
 struct SectionFrame {
   Vec3d origin, x, y, normal;
 
-  [[nodiscard]] Vec2d project(const Vec3d& point) const { return {x.dot(point - origin), y.dot(point - origin)}; }
-  [[nodiscard]] Vec3d lift(const Vec2d& point) const { return origin + point.x() * x + point.y() * y; }
+  [[nodiscard]] Vec2d project(const Vec3d& point) const {
+    return {x.dot(point - origin), y.dot(point - origin)};
+  }
+  [[nodiscard]] Vec3d lift(const Vec2d& point) const {
+    return origin + point.x() * x + point.y() * y;
+  }
 };
 
 double doubled_area(const FlatLoop& loop) {
@@ -32,7 +36,8 @@ double mean_edge(const std::vector<const FlatLoop*>& loops) {
   double length = 0;
   std::size_t count = 0;
   for (const FlatLoop* loop : loops)
-    for (std::size_t i = 0; i < loop->size(); ++i, ++count) length += ((*loop)[(i + 1) % loop->size()] - (*loop)[i]).norm();
+    for (std::size_t i = 0; i < loop->size(); ++i, ++count)
+      length += ((*loop)[(i + 1) % loop->size()] - (*loop)[i]).norm();
   return length / static_cast<double>(count);
 }
 
@@ -64,7 +69,8 @@ class Caps {
     std::size_t left_over = rims.size();
     for (const Rim& rim : rims) {
       FlatLoop& loop = loops.emplace_back();
-      for (const Index h : rim.half_edges) loop.push_back(frame_.project(position(point_before(h))));
+      for (const Index h : rim.half_edges)
+        loop.push_back(frame_.project(position(point_before(h))));
     }
     for (const FlatRegion& region : find_regions(loops)) {
       const SurfaceEditor::Mark before = work_.editor.mark();
@@ -79,16 +85,22 @@ class Caps {
   }
 
   /// The point where the cap's edge along a border half-edge begins: where the half-edge ends.
-  [[nodiscard]] Index point_before(Index half_edge) const { return work_.editor.surface().corner_point[Surface::next(half_edge)]; }
-  [[nodiscard]] Vec3d position(Index point) const { return work_.posed.position(work_.editor, point); }
+  [[nodiscard]] Index point_before(Index half_edge) const {
+    return work_.editor.surface().corner_point[Surface::next(half_edge)];
+  }
+  [[nodiscard]] Vec3d position(Index point) const {
+    return work_.posed.position(work_.editor, point);
+  }
 
-  bool close(const std::vector<Rim>& rims, const std::vector<FlatLoop>& loops, const FlatRegion& region) {
+  bool close(const std::vector<Rim>& rims, const std::vector<FlatLoop>& loops,
+             const FlatRegion& region) {
     std::vector<Index> half_edges, members = {region.outline};
     members.insert(members.end(), region.holes.begin(), region.holes.end());
     std::vector<Vec2d> places;
     std::vector<const FlatLoop*> outlines;
     for (const Index member : members) {
-      half_edges.insert(half_edges.end(), rims[member].half_edges.begin(), rims[member].half_edges.end());
+      half_edges.insert(half_edges.end(), rims[member].half_edges.begin(),
+                        rims[member].half_edges.end());
       places.insert(places.end(), loops[member].begin(), loops[member].end());
       outlines.push_back(&loops[member]);
     }
@@ -114,15 +126,19 @@ class Caps {
     for (std::array<Index, 3> corners : flat->triangles) {
       if (is_inside_out) std::swap(corners[1], corners[2]);
       const Triangle triangle = {vertices[corners[0]], vertices[corners[1]], vertices[corners[2]]};
-      const Eigen::Vector3d a = place(mesh, triangle[0]), ab = place(mesh, triangle[1]) - a, ac = place(mesh, triangle[2]) - a;
-      if (!(ab.cross(ac).squaredNorm() > 0)) return false;  // stored positions are too coarse for it
-      filling_.add_triangle(mesh, half_edges.front(), {points[corners[0]], points[corners[1]], points[corners[2]]}, triangle);
+      const Eigen::Vector3d a = place(mesh, triangle[0]), ab = place(mesh, triangle[1]) - a,
+                            ac = place(mesh, triangle[2]) - a;
+      if (!(ab.cross(ac).squaredNorm() > 0))
+        return false;  // stored positions are too coarse for it
+      filling_.add_triangle(mesh, half_edges.front(),
+                            {points[corners[0]], points[corners[1]], points[corners[2]]}, triangle);
     }
     return filling_.connect(half_edges);
   }
 
-  /// Whether two points of the rim are joined by an edge that is not the rim's: a fold or a face in the plane, or a border
-  /// elsewhere. A cap's edge between them would give that edge more than two faces.
+  /// Whether two points of the rim are joined by an edge that is not the rim's: a fold or a face in
+  /// the plane, or a border elsewhere. A cap's edge between them would give that edge more than two
+  /// faces.
   [[nodiscard]] bool is_joined(Index half_edge_a, Index half_edge_b) const {
     const Surface& surface = work_.editor.surface();
     const Index a = point_before(half_edge_a), b = point_before(half_edge_b);
@@ -130,11 +146,12 @@ class Caps {
     return (ab != kNone && ab != half_edge_b) || (ba != kNone && ba != half_edge_a);
   }
 
-  /// The cap of a face that hangs together with no other gets a point in its middle: of two faces on the same three points neither
-  /// could be split without the other.
-  void split_second_face(const std::vector<Index>& half_edges, const std::vector<Vec2d>& rim, FlatMesh& flat) const {
-    const bool is_one_face =
-        std::all_of(half_edges.begin(), half_edges.end(), [&](Index h) { return h / 3 == half_edges.front() / 3; });
+  /// The cap of a face that hangs together with no other gets a point in its middle: of two faces
+  /// on the same three points neither could be split without the other.
+  void split_second_face(const std::vector<Index>& half_edges, const std::vector<Vec2d>& rim,
+                         FlatMesh& flat) const {
+    const bool is_one_face = std::all_of(half_edges.begin(), half_edges.end(),
+                                         [&](Index h) { return h / 3 == half_edges.front() / 3; });
     if (!is_one_face || flat.triangles.size() != 1) return;
     const auto [a, b, c] = flat.triangles[0];
     const auto middle = static_cast<Index>(rim.size());
@@ -143,20 +160,26 @@ class Caps {
   }
 
   /// Puts a point in the middle of each edge between points that are joined.
-  void split_joined_edges(const std::vector<Index>& half_edges, const std::vector<Vec2d>& rim, FlatMesh& flat) const {
-    const auto key = [](Index a, Index b) { return std::array<Index, 2>{std::min(a, b), std::max(a, b)}; };
+  void split_joined_edges(const std::vector<Index>& half_edges, const std::vector<Vec2d>& rim,
+                          FlatMesh& flat) const {
+    const auto key = [](Index a, Index b) {
+      return std::array<Index, 2>{std::min(a, b), std::max(a, b)};
+    };
     std::map<std::array<Index, 2>, Index> middles;  // kNone: of no concern
     for (const auto& corners : flat.triangles)
       for (std::size_t k = 0; k < 3; ++k) {
         const Index a = corners[k], b = corners[(k + 1) % 3];
-        if (a >= rim.size() || b >= rim.size() || !middles.emplace(key(a, b), kNone).second) continue;
+        if (a >= rim.size() || b >= rim.size() || !middles.emplace(key(a, b), kNone).second)
+          continue;
         if (!is_joined(half_edges[a], half_edges[b])) continue;
         middles[key(a, b)] = static_cast<Index>(rim.size() + flat.inner.size());
         flat.inner.push_back(0.5 * (rim[a] + rim[b]));
       }
-    for (std::size_t t = 0; t < flat.triangles.size(); ++t)  // parts are appended, and looked at in their turn
+    for (std::size_t t = 0; t < flat.triangles.size();
+         ++t)  // parts are appended, and looked at in their turn
       for (std::size_t k = 0; k < 3;) {
-        const Index a = flat.triangles[t][k], b = flat.triangles[t][(k + 1) % 3], c = flat.triangles[t][(k + 2) % 3];
+        const Index a = flat.triangles[t][k], b = flat.triangles[t][(k + 1) % 3],
+                    c = flat.triangles[t][(k + 2) % 3];
         const auto middle = middles.find(key(a, b));
         if (middle == middles.end() || middle->second == kNone) {
           ++k;
@@ -168,18 +191,21 @@ class Caps {
       }
   }
 
-  /// Rim points that lie on one line, as they do where a cut meets an older cap, do so in the pose only nearly; stored, a triangle
-  /// of three of them has no area. Its longest edge is turned.
-  void turn_flat_triangles(const std::vector<Index>& half_edges, Index mesh, const std::vector<Index>& vertices,
+  /// Rim points that lie on one line, as they do where a cut meets an older cap, do so in the pose
+  /// only nearly; stored, a triangle of three of them has no area. Its longest edge is turned.
+  void turn_flat_triangles(const std::vector<Index>& half_edges, Index mesh,
+                           const std::vector<Index>& vertices,
                            std::vector<std::array<Index, 3>>& triangles) const {
     const auto at = [&](Index i) { return place(mesh, vertices[i]); };
     const auto height_of = [&](const std::array<Index, 3>& t) {
-      const double longest = std::max({(at(t[1]) - at(t[0])).norm(), (at(t[2]) - at(t[1])).norm(), (at(t[0]) - at(t[2])).norm()});
+      const double longest = std::max({(at(t[1]) - at(t[0])).norm(), (at(t[2]) - at(t[1])).norm(),
+                                       (at(t[0]) - at(t[2])).norm()});
       return longest > 0 ? (at(t[1]) - at(t[0])).cross(at(t[2]) - at(t[0])).norm() / longest : 0.0;
     };
     std::map<std::array<Index, 2>, std::size_t> triangle_at;  // by directed edge
     const auto enter = [&](std::size_t t) {
-      for (std::size_t k = 0; k < 3; ++k) triangle_at[{triangles[t][k], triangles[t][(k + 1) % 3]}] = t;
+      for (std::size_t k = 0; k < 3; ++k)
+        triangle_at[{triangles[t][k], triangles[t][(k + 1) % 3]}] = t;
     };
     for (std::size_t t = 0; t < triangles.size(); ++t) enter(t);
     constexpr double kStored = 0x1p-22;  // four units in the last place
@@ -188,7 +214,9 @@ class Caps {
       if (height_of(flat) > kStored * at(flat[0]).cwiseAbs().maxCoeff()) continue;
       std::size_t k = 0;
       for (std::size_t i = 1; i < 3; ++i)
-        if ((at(flat[(i + 1) % 3]) - at(flat[i])).norm() > (at(flat[(k + 1) % 3]) - at(flat[k])).norm()) k = i;
+        if ((at(flat[(i + 1) % 3]) - at(flat[i])).norm() >
+            (at(flat[(k + 1) % 3]) - at(flat[k])).norm())
+          k = i;
       const Index a = flat[k], b = flat[(k + 1) % 3], c = flat[(k + 2) % 3];
       const auto across = triangle_at.find({b, a});
       if (across == triangle_at.end()) continue;
@@ -217,18 +245,22 @@ class Caps {
   [[nodiscard]] Index mesh_with_most(const std::vector<Index>& half_edges) const {
     std::map<Index, Index> count;
     for (const Index h : half_edges) ++count[work_.editor.surface().triangle(h / 3).mesh];
-    return std::max_element(count.begin(), count.end(), [](const auto& a, const auto& b) { return a.second < b.second; })->first;
+    return std::max_element(count.begin(), count.end(),
+                            [](const auto& a, const auto& b) { return a.second < b.second; })
+        ->first;
   }
 
-  /// Bind positions, weights and morph displacements of the inner points: harmonic between those of the rim.
+  /// Bind positions, weights and morph displacements of the inner points: harmonic between those of
+  /// the rim.
   void add_inner_points(Index mesh, const std::vector<Vec2d>& places, Index rim_count,
-                        const std::vector<std::array<Index, 3>>& triangles, std::vector<Index>& points,
-                        std::vector<Index>& vertices) {
+                        const std::vector<std::array<Index, 3>>& triangles,
+                        std::vector<Index>& points, std::vector<Index>& vertices) {
     if (places.size() == rim_count) return;
     const Mesh& of = work_.editor.character().meshes[mesh];
     std::vector<Index> slots;
     for (const Index vertex : vertices)
-      for (const Influence& influence : work_.editor.born_influences(mesh, vertex)) slots.push_back(influence.slot);
+      for (const Influence& influence : work_.editor.born_influences(mesh, vertex))
+        slots.push_back(influence.slot);
     std::sort(slots.begin(), slots.end());
     slots.erase(std::unique(slots.begin(), slots.end()), slots.end());
 
@@ -238,12 +270,14 @@ class Caps {
     for (Index i = 0; i < rim_count; ++i) {
       rim.block<1, 3>(i, 0) = place(mesh, vertices[i]).transpose();
       for (const Influence& influence : work_.editor.born_influences(mesh, vertices[i])) {
-        const auto slot = std::lower_bound(slots.begin(), slots.end(), influence.slot) - slots.begin();
+        const auto slot =
+            std::lower_bound(slots.begin(), slots.end(), influence.slot) - slots.begin();
         rim(i, 3 + slot) = static_cast<double>(influence.weight);
       }
       for (Eigen::Index t = 0; t < target_count; ++t) {
         const auto& deltas = of.morph_targets[static_cast<std::size_t>(t)].position_deltas;
-        if (!deltas.empty()) rim.block<1, 3>(i, first_morph + 3 * t) = deltas[vertices[i]].cast<double>().transpose();
+        if (!deltas.empty())
+          rim.block<1, 3>(i, first_morph + 3 * t) = deltas[vertices[i]].cast<double>().transpose();
       }
     }
     const Eigen::MatrixXd inner = extend_harmonically(places, rim_count, triangles, rim);
@@ -252,7 +286,8 @@ class Caps {
       Filling::Inner made;
       made.bind_position = inner.block<1, 3>(i, 0).transpose();
       double sum = 0;
-      constexpr double kLeastWeight = 1e-6;  // below it, less than a stored weight's rounding of the sum
+      constexpr double kLeastWeight =
+          1e-6;  // below it, less than a stored weight's rounding of the sum
       for (std::size_t s = 0; s < slots.size(); ++s) {
         const double weight = inner(i, 3 + static_cast<Eigen::Index>(s));
         if (weight < kLeastWeight) continue;
@@ -261,18 +296,21 @@ class Caps {
       }
       for (Influence& influence : made.influences)
         influence.weight = static_cast<float>(static_cast<double>(influence.weight) / sum);
-      std::sort(made.influences.begin(), made.influences.end(), [](const Influence& a, const Influence& b) {
-        return a.weight != b.weight ? a.weight > b.weight : a.slot < b.slot;
-      });
+      std::sort(made.influences.begin(), made.influences.end(),
+                [](const Influence& a, const Influence& b) {
+                  return a.weight != b.weight ? a.weight > b.weight : a.slot < b.slot;
+                });
       for (Eigen::Index t = 0; t < target_count; ++t)
-        made.morph_displacements.emplace_back(inner.block<1, 3>(i, first_morph + 3 * t).transpose());
+        made.morph_displacements.emplace_back(
+            inner.block<1, 3>(i, first_morph + 3 * t).transpose());
       vertices.push_back(filling_.add_inner_vertex(mesh, vertices.front(), made));
       points.push_back(work_.editor.append_filling_point());
       work_.posed.pin(points.back(), frame_.lift(places[rim_count + static_cast<std::size_t>(i)]));
     }
   }
 
-  void shade(Index mesh, const std::vector<Vec2d>& places, bool is_inside_out, const std::vector<Index>& vertices) {
+  void shade(Index mesh, const std::vector<Vec2d>& places, bool is_inside_out,
+             const std::vector<Index>& vertices) {
     Vec2d low = places[0], high = places[0];
     for (const Vec2d& place : places) {
       low = low.cwiseMin(place);
@@ -280,8 +318,8 @@ class Caps {
     }
     const double extent = (high - low).maxCoeff();
     for (std::size_t i = 0; i < places.size(); ++i)
-      filling_.shade(mesh, vertices[i], is_inside_out ? Vec3d(-frame_.normal) : frame_.normal, frame_.x,
-                     (places[i] - low) / extent);
+      filling_.shade(mesh, vertices[i], is_inside_out ? Vec3d(-frame_.normal) : frame_.normal,
+                     frame_.x, (places[i] - low) / extent);
   }
 
   SectionFrame frame_;
@@ -292,7 +330,8 @@ class Caps {
 
 }  // namespace
 
-void add_caps(const SheetOpening& opening, const Vec3d& normal, const Workpiece& work, TearReport& report) {
+void add_caps(const SheetOpening& opening, const Vec3d& normal, const Workpiece& work,
+              TearReport& report) {
   if (opening.edges.empty()) return;
   const Vec3d origin = work.posed.position(work.editor, opening.edges.front()[0]);
   const Vec3d away = std::abs(normal.x()) < 0.5 ? Vec3d(Vec3d::UnitX()) : Vec3d(Vec3d::UnitY());

@@ -18,7 +18,8 @@ Vec3d to_bind(const Mat3d& posed_from_bind, const Vec3d& posed, const Vec3d& fal
 
 Index Filling::add_rim_vertex(Index mesh, Index corner) {
   SurfaceEditor& editor = work_.editor;
-  const Index rim_mesh = editor.surface().triangle(corner / 3).mesh, rim_vertex = editor.vertex_at(corner);
+  const Index rim_mesh = editor.surface().triangle(corner / 3).mesh,
+              rim_vertex = editor.vertex_at(corner);
   return editor.append_rim_vertex(mesh, {rim_mesh, rim_vertex});
 }
 
@@ -36,17 +37,20 @@ Mat3d Filling::blended(Index mesh, Index vertex) const {
   const Mesh& of = work_.editor.character().meshes[mesh];
   Mat3d linear = Mat3d::Zero();
   for (const Influence& influence : work_.editor.born_influences(mesh, vertex))
-    linear += static_cast<double>(influence.weight) * work_.posed.palette(of.skin)[influence.slot].linear();
+    linear += static_cast<double>(influence.weight) *
+              work_.posed.palette(of.skin)[influence.slot].linear();
   return linear;
 }
 
-void Filling::shade(Index mesh, Index vertex, const Vec3d& normal, const Vec3d& tangent, const Vec2d& uv) {
+void Filling::shade(Index mesh, Index vertex, const Vec3d& normal, const Vec3d& tangent,
+                    const Vec2d& uv) {
   Mesh& of = work_.editor.mesh_of_new_vertex(mesh);
   const Mat3d posed_from_bind = blended(mesh, vertex);
   Mat3d posed_from_bind_of_normals = Mat3d::Zero();
   for (const Influence& influence : work_.editor.born_influences(mesh, vertex))
     posed_from_bind_of_normals +=
-        static_cast<double>(influence.weight) * compute_normal_matrix(work_.posed.palette(of.skin)[influence.slot].linear());
+        static_cast<double>(influence.weight) *
+        compute_normal_matrix(work_.posed.palette(of.skin)[influence.slot].linear());
   Vec3d bind_normal = to_bind(posed_from_bind_of_normals, normal, normal);
   bind_normal = bind_normal.norm() > 1e-30 ? Vec3d(bind_normal / bind_normal.norm()) : normal;
   Vec3d bind_tangent = to_bind(posed_from_bind, tangent, tangent);
@@ -66,7 +70,8 @@ void Filling::shade(Index mesh, Index vertex, const Vec3d& normal, const Vec3d& 
   }
 }
 
-void Filling::add_triangle(Index mesh, Index like_corner, const std::array<Index, 3>& points, const Triangle& vertices) {
+void Filling::add_triangle(Index mesh, Index like_corner, const std::array<Index, 3>& points,
+                           const Triangle& vertices) {
   SurfaceEditor& editor = work_.editor;
   auto known = submesh_of_mesh_.find(mesh);
   if (known == submesh_of_mesh_.end()) {
@@ -83,14 +88,18 @@ void Filling::take_back(const SurfaceEditor::Mark& before) {
   work_.posed.forget_from(before.points);
   triangles_.clear();
   for (auto at = submesh_of_mesh_.begin(); at != submesh_of_mesh_.end();)
-    at = at->second >= work_.editor.character().meshes[at->first].submeshes.size() ? submesh_of_mesh_.erase(at) : std::next(at);
+    at = at->second >= work_.editor.character().meshes[at->first].submeshes.size()
+             ? submesh_of_mesh_.erase(at)
+             : std::next(at);
 }
 
 bool Filling::connect(const std::vector<Index>& rim_half_edges) {
   const Surface& surface = work_.editor.surface();
   std::map<std::array<Index, 2>, Index> half_edges;
   std::unordered_set<Index> rim_points;  // asked, never walked through
-  const auto ends_of = [&](Index h) { return std::array{surface.corner_point[h], surface.corner_point[Surface::next(h)]}; };
+  const auto ends_of = [&](Index h) {
+    return std::array{surface.corner_point[h], surface.corner_point[Surface::next(h)]};
+  };
   bool is_sound = true;
   const auto add = [&](Index h) { is_sound &= half_edges.emplace(ends_of(h), h).second; };
   for (const Index h : rim_half_edges) {
@@ -99,7 +108,8 @@ bool Filling::connect(const std::vector<Index>& rim_half_edges) {
     rim_points.insert(surface.corner_point[Surface::next(h)]);
   }
   const auto is_joined_elsewhere = [&](Index from, Index to) {
-    const Index h = surface.find_half_edge(from, to);  // of what was there before: nothing is connected yet
+    const Index h =
+        surface.find_half_edge(from, to);  // of what was there before: nothing is connected yet
     if (h == kNone) return false;
     const auto known = half_edges.find({from, to});
     return known == half_edges.end() || known->second != h;

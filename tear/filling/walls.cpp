@@ -24,7 +24,8 @@ class Walls {
  public:
   explicit Walls(const Workpiece& work) : work_(work), filling_(kName, work) {}
 
-  /// Runs `build`, which adds triangles for some borders, and joins them; where it cannot be done, nothing was.
+  /// Runs `build`, which adds triangles for some borders, and joins them; where it cannot be done,
+  /// nothing was.
   template <class Build>
   bool add(const std::vector<Index>& half_edges, Build build) {
     const SurfaceEditor::Mark before = work_.editor.mark();
@@ -36,8 +37,12 @@ class Walls {
   }
 
   [[nodiscard]] const Surface& surface() const { return work_.editor.surface(); }
-  [[nodiscard]] Vec3d position(Index point) const { return work_.posed.position(work_.editor, point); }
-  [[nodiscard]] Index mesh_of(Index half_edge) const { return surface().triangle(half_edge / 3).mesh; }
+  [[nodiscard]] Vec3d position(Index point) const {
+    return work_.posed.position(work_.editor, point);
+  }
+  [[nodiscard]] Index mesh_of(Index half_edge) const {
+    return surface().triangle(half_edge / 3).mesh;
+  }
 
   /// Rims of different skins cannot share vertices; points of one rim have one skin.
   [[nodiscard]] bool have_one_skin(const Rim& a, const Rim& b) const {
@@ -61,16 +66,19 @@ class Walls {
     work_.posed.pin(point, at);
     return point;
   }
-  void shade(Index mesh, const Corner& corner, const Vec3d& normal, const Vec3d& tangent, const Vec2d& uv) {
+  void shade(Index mesh, const Corner& corner, const Vec3d& normal, const Vec3d& tangent,
+             const Vec2d& uv) {
     filling_.shade(mesh, corner.vertex, normal, tangent, uv);
   }
-  void add_triangle(Index mesh, Index like_corner, const Corner& a, const Corner& b, const Corner& c) {
+  void add_triangle(Index mesh, Index like_corner, const Corner& a, const Corner& b,
+                    const Corner& c) {
     const auto place = [&](const Corner& of) -> Eigen::Vector3d {
       return work_.editor.born_position(mesh, of.vertex).cast<double>();
     };
     const Eigen::Vector3d ab = place(b) - place(a), ac = place(c) - place(a);
     is_sound_ &= ab.cross(ac).squaredNorm() > 0;  // else stored positions are too coarse for it
-    filling_.add_triangle(mesh, like_corner, {a.point, b.point, c.point}, {a.vertex, b.vertex, c.vertex});
+    filling_.add_triangle(mesh, like_corner, {a.point, b.point, c.point},
+                          {a.vertex, b.vertex, c.vertex});
   }
   void fail() { is_sound_ = false; }
 
@@ -91,15 +99,16 @@ double squared_distance(const Blade& blade, const Vec3d& point) {
   return (point - blade.base - at * along).squaredNorm();
 }
 
-/// The direction of the blades near a place: nearer ones count by the inverse fourth power of their distance, so that it turns
-/// smoothly from one blade to the next.
+/// The direction of the blades near a place: nearer ones count by the inverse fourth power of their
+/// distance, so that it turns smoothly from one blade to the next.
 Vec3d blade_direction(const Stroke& stroke, const Vec3d& at) {
   double nearest = squared_distance(stroke.front(), at);
   for (const Blade& blade : stroke) nearest = std::min(nearest, squared_distance(blade, at));
   Vec3d sum = Vec3d::Zero();
   for (const Blade& blade : stroke) {
     const double squared = squared_distance(blade, at);
-    const double ratio = squared > 0 ? nearest / squared : 1.0;  // 1 for the nearest, whatever the unit
+    const double ratio =
+        squared > 0 ? nearest / squared : 1.0;  // 1 for the nearest, whatever the unit
     sum += ratio * ratio * (blade.tip - blade.base).normalized();
   }
   return unit_or(sum, (stroke.front().tip - stroke.front().base).normalized());
@@ -116,7 +125,9 @@ struct RimPlace {
 /// A strip from a rim down; returns the lower corners place by place.
 void hang_strip(const Rim& rim, const std::vector<RimPlace>& places, double unit, Walls& walls) {
   const std::size_t count = rim.half_edges.size();
-  const auto wall_normal = [&](std::size_t i) { return places[i].down.cross(Vec3d(places[i + 1].at - places[i].at)); };
+  const auto wall_normal = [&](std::size_t i) {
+    return places[i].down.cross(Vec3d(places[i + 1].at - places[i].at));
+  };
   Corner top, bottom;
   Index mesh = kNone;
   for (std::size_t i = 0; i < count; ++i) {
@@ -128,11 +139,13 @@ void hang_strip(const Rim& rim, const std::vector<RimPlace>& places, double unit
       const std::size_t before = at > 0 ? at - 1 : rim.is_closed ? count - 1 : 0;
       const std::size_t after = at < count ? at : rim.is_closed ? 0 : count - 1;
       const Vec3d own = unit_or(wall_normal(i), Vec3d::UnitZ());
-      const Vec3d mean = unit_or(Vec3d(unit_or(wall_normal(before), own) + unit_or(wall_normal(after), own)), own);
+      const Vec3d mean =
+          unit_or(Vec3d(unit_or(wall_normal(before), own) + unit_or(wall_normal(after), own)), own);
       const Vec3d normal = mean.dot(own) > 0.5 ? mean : own;
       const Vec3d tangent = unit_or(Vec3d(places[i + 1].at - places[i].at), own.unitOrthogonal());
       walls.shade(mesh, top, normal, tangent, {places[at].along / unit, 0});
-      walls.shade(mesh, bottom, normal, tangent, {places[at].along / unit, places[at].down.norm() / unit});
+      walls.shade(mesh, bottom, normal, tangent,
+                  {places[at].along / unit, places[at].down.norm() / unit});
     };
     if (walls.mesh_of(h) != mesh) {
       mesh = walls.mesh_of(h);
@@ -159,7 +172,8 @@ std::vector<RimPlace> places_of(const Rim& rim, Walls& walls, Down down) {
     if (i > 0) along += (place.at - places.back().at).norm();
     place.along = along;
     place.down = down(place);
-    place.bottom = is_last && rim.is_closed ? places.front().bottom : walls.add_point(place.at + place.down);
+    place.bottom =
+        is_last && rim.is_closed ? places.front().bottom : walls.add_point(place.at + place.down);
     places.push_back(place);
   }
   return places;
@@ -176,7 +190,9 @@ struct Axis {
   Vec3d origin, x, y, z;
 
   [[nodiscard]] double height(const Vec3d& point) const { return z.dot(point - origin); }
-  [[nodiscard]] double angle(const Vec3d& point) const { return std::atan2(y.dot(point - origin), x.dot(point - origin)); }
+  [[nodiscard]] double angle(const Vec3d& point) const {
+    return std::atan2(y.dot(point - origin), x.dot(point - origin));
+  }
   [[nodiscard]] Vec3d inward(const Vec3d& point) const {
     const Vec3d offset = point - origin;
     return unit_or(Vec3d(z.dot(offset) * z - offset), x);
@@ -185,8 +201,8 @@ struct Axis {
 
 double turn(double from, double to) { return std::remainder(to - from, 2 * std::numbers::pi); }
 
-/// A wall between two rings: `upper` runs with the axis' sense of rotation, `lower` against it. Both are walked the way the wall's
-/// edges run, against their borders.
+/// A wall between two rings: `upper` runs with the axis' sense of rotation, `lower` against it.
+/// Both are walked the way the wall's edges run, against their borders.
 void join_rings(const Ring& upper, const Ring& lower, const Axis& axis, double unit, Walls& walls) {
   const Index mesh = walls.mesh_of(upper.rim.half_edges.front());
   struct Place {
@@ -197,7 +213,9 @@ void join_rings(const Ring& upper, const Ring& lower, const Axis& axis, double u
     std::vector<Index> corners = rim.half_edges;
     if (backwards) std::reverse(corners.begin(), corners.end());
     // From the corner nearest to where the other ring begins.
-    const auto angle_of = [&](Index corner) { return axis.angle(walls.position(walls.surface().corner_point[corner])); };
+    const auto angle_of = [&](Index corner) {
+      return axis.angle(walls.position(walls.surface().corner_point[corner]));
+    };
     const auto nearest = std::min_element(corners.begin(), corners.end(), [&](Index a, Index b) {
       return std::abs(turn(first_angle, angle_of(a))) < std::abs(turn(first_angle, angle_of(b)));
     });
@@ -208,21 +226,25 @@ void join_rings(const Ring& upper, const Ring& lower, const Axis& axis, double u
     for (std::size_t i = 0; i <= corners.size(); ++i) {
       const Index corner = corners[i % corners.size()];
       const Vec3d at = walls.position(walls.surface().corner_point[corner]);
-      const double angle = i == 0 ? first_angle + turn(first_angle, angle_of(corner))
-                                  : places.back().angle + turn(places.back().angle, angle_of(corner));
+      const double angle = i == 0
+                               ? first_angle + turn(first_angle, angle_of(corner))
+                               : places.back().angle + turn(places.back().angle, angle_of(corner));
       const Corner made = walls.add_top(mesh, corner);
       if (i > 0) along += (at - before).norm();
       before = at;
-      walls.shade(mesh, made, axis.inward(at), axis.z.cross(axis.inward(at)), {along / unit, axis.height(at) / unit});
+      walls.shade(mesh, made, axis.inward(at), axis.z.cross(axis.inward(at)),
+                  {along / unit, axis.height(at) / unit});
       places.push_back({made, angle});
     }
     return places;
   };
-  const double first = axis.angle(walls.position(walls.surface().corner_point[upper.rim.half_edges.front()]));
+  const double first =
+      axis.angle(walls.position(walls.surface().corner_point[upper.rim.half_edges.front()]));
   const auto above = add_ring(upper.rim, first, false), below = add_ring(lower.rim, first, true);
   const Index like = upper.rim.half_edges.front();
   for (std::size_t i = 0, k = 0; i + 1 < above.size() || k + 1 < below.size();) {
-    const bool goes_above = k + 1 == below.size() || (i + 1 < above.size() && above[i + 1].angle <= below[k + 1].angle);
+    const bool goes_above =
+        k + 1 == below.size() || (i + 1 < above.size() && above[i + 1].angle <= below[k + 1].angle);
     if (goes_above) {
       walls.add_triangle(mesh, like, above[i + 1].corner, above[i].corner, below[k].corner);
       ++i;
@@ -235,8 +257,9 @@ void join_rings(const Ring& upper, const Ring& lower, const Axis& axis, double u
 
 /// A wall from a ring down to `depth`, and a floor there.
 void add_blind_wall(const Ring& ring, const Axis& axis, double depth, double unit, Walls& walls) {
-  const auto places =
-      places_of(ring.rim, walls, [&](const RimPlace& place) -> Vec3d { return (depth - axis.height(place.at)) * axis.z; });
+  const auto places = places_of(ring.rim, walls, [&](const RimPlace& place) -> Vec3d {
+    return (depth - axis.height(place.at)) * axis.z;
+  });
   hang_strip(ring.rim, places, unit, walls);
   // The floor looks up: its outline runs against the wall's lower edge.
   const Index mesh = walls.mesh_of(ring.rim.half_edges.front());
@@ -246,7 +269,8 @@ void add_blind_wall(const Ring& ring, const Axis& axis, double depth, double uni
     const Index h = ring.rim.half_edges[i];
     const Vec3d at = places[i].at + places[i].down;
     loop.emplace_back(-axis.x.dot(at - axis.origin), axis.y.dot(at - axis.origin));
-    const Corner corner = walls.add_bottom(mesh, walls.add_top(mesh, h), places[i].bottom, places[i].down);
+    const Corner corner =
+        walls.add_bottom(mesh, walls.add_top(mesh, h), places[i].bottom, places[i].down);
     walls.shade(mesh, corner, -axis.z, -axis.x, loop.back() / unit);
     corners.push_back(corner);
   }
@@ -256,18 +280,23 @@ void add_blind_wall(const Ring& ring, const Axis& axis, double depth, double uni
     return;
   }
   for (const auto& triangle : flat->triangles)
-    walls.add_triangle(mesh, ring.rim.half_edges.front(), corners[triangle[0]], corners[triangle[1]], corners[triangle[2]]);
+    walls.add_triangle(mesh, ring.rim.half_edges.front(), corners[triangle[0]],
+                       corners[triangle[1]], corners[triangle[2]]);
 }
 
 }  // namespace
 
-Index add_walls(const std::vector<Index>& half_edges, const Stroke& stroke, double depth, const Workpiece& work) {
+Index add_walls(const std::vector<Index>& half_edges, const Stroke& stroke, double depth,
+                const Workpiece& work) {
   Walls walls(work);
   Index count = 0;
   for (const Rim& rim : chain_rims(half_edges, work.editor.surface())) {
     const bool is_built = walls.add(rim.half_edges, [&] {
       hang_strip(rim,
-                 places_of(rim, walls, [&](const RimPlace& place) -> Vec3d { return depth * blade_direction(stroke, place.at); }),
+                 places_of(rim, walls,
+                           [&](const RimPlace& place) -> Vec3d {
+                             return depth * blade_direction(stroke, place.at);
+                           }),
                  depth, walls);
     });
     count += is_built ? 1 : 0;
@@ -275,8 +304,8 @@ Index add_walls(const std::vector<Index>& half_edges, const Stroke& stroke, doub
   return count;
 }
 
-Index add_bore_wall(const std::vector<Index>& half_edges, const Vec3d& origin, const Vec3d& z, double depth,
-                    const Workpiece& work) {
+Index add_bore_wall(const std::vector<Index>& half_edges, const Vec3d& origin, const Vec3d& z,
+                    double depth, const Workpiece& work) {
   Walls walls(work);
   Vec3d x = z.cross(std::abs(z.x()) < 0.5 ? Vec3d(Vec3d::UnitX()) : Vec3d(Vec3d::UnitY()));
   x /= x.norm();
@@ -297,19 +326,22 @@ Index add_bore_wall(const std::vector<Index>& half_edges, const Vec3d& origin, c
     else
       ++left;
   }
-  std::stable_sort(rings.begin(), rings.end(), [](const Ring& a, const Ring& b) { return a.height < b.height; });
+  std::stable_sort(rings.begin(), rings.end(),
+                   [](const Ring& a, const Ring& b) { return a.height < b.height; });
   for (std::size_t i = 0; i < rings.size(); ++i) {
     const Ring& ring = rings[i];
     bool is_built = false;
     if (!ring.looks_to_drill) {
       // The drill began inside: there is nothing to line.
-    } else if (i + 1 < rings.size() && !rings[i + 1].looks_to_drill && walls.have_one_skin(ring.rim, rings[i + 1].rim)) {
+    } else if (i + 1 < rings.size() && !rings[i + 1].looks_to_drill &&
+               walls.have_one_skin(ring.rim, rings[i + 1].rim)) {
       const Ring& lower = rings[++i];
       std::vector<Index> both = ring.rim.half_edges;
       both.insert(both.end(), lower.rim.half_edges.begin(), lower.rim.half_edges.end());
       is_built = walls.add(both, [&] { join_rings(ring, lower, axis, depth, walls); });
     } else {
-      is_built = walls.add(ring.rim.half_edges, [&] { add_blind_wall(ring, axis, depth, depth, walls); });
+      is_built =
+          walls.add(ring.rim.half_edges, [&] { add_blind_wall(ring, axis, depth, depth, walls); });
     }
     left += is_built ? 0 : 1;
   }

@@ -11,9 +11,11 @@
 namespace sunder::tear {
 namespace {
 
-/// What hangs together, by points: a point has one fan, so faces with a common point are joined across edges.
+/// What hangs together, by points: a point has one fan, so faces with a common point are joined
+/// across edges.
 DisjointSets join_points(const Surface& surface) {
-  DisjointSets parts(surface.point_count(), *std::pmr::get_default_resource());  // scratch memory is for what tears need
+  DisjointSets parts(surface.point_count(),
+                     *std::pmr::get_default_resource());  // scratch memory is for what tears need
   for (Index face = 0; face < surface.triangle_count(); ++face) {
     if (surface.has_repeated_point(face)) continue;
     const Index* points = &surface.corner_point[3 * face];
@@ -23,22 +25,27 @@ DisjointSets join_points(const Surface& surface) {
   return parts;
 }
 
-/// The points that stand for parts of what fell apart: of each group of what hung together before, where there is more than one.
-std::vector<Index> find_separated(ChangedFaces& changed, const Surface& surface, DisjointSets& parts) {
+/// The points that stand for parts of what fell apart: of each group of what hung together before,
+/// where there is more than one.
+std::vector<Index> find_separated(ChangedFaces& changed, const Surface& surface,
+                                  DisjointSets& parts) {
   std::vector<std::array<Index, 2>> of_face;  // part, group
   for (Index i = 0; i < changed.count(); ++i)
-    if (changed.is_live(i)) of_face.push_back({parts.find(surface.corner_point[3 * changed.face(i)]), i});
+    if (changed.is_live(i))
+      of_face.push_back({parts.find(surface.corner_point[3 * changed.face(i)]), i});
   std::sort(of_face.begin(), of_face.end());
   for (std::size_t i = 1; i < of_face.size(); ++i)  // what hangs together now did so before
-    if (of_face[i][0] == of_face[i - 1][0]) changed.groups().unite(of_face[i - 1][1], of_face[i][1]);
+    if (of_face[i][0] == of_face[i - 1][0])
+      changed.groups().unite(of_face[i - 1][1], of_face[i][1]);
   std::vector<std::array<Index, 2>> by_group;
   for (std::size_t i = 0; i < of_face.size(); ++i)
-    if (i == 0 || of_face[i][0] != of_face[i - 1][0]) by_group.push_back({changed.groups().find(of_face[i][1]), of_face[i][0]});
+    if (i == 0 || of_face[i][0] != of_face[i - 1][0])
+      by_group.push_back({changed.groups().find(of_face[i][1]), of_face[i][0]});
   std::sort(by_group.begin(), by_group.end());
   std::vector<Index> separated;
   for (std::size_t i = 0; i < by_group.size(); ++i) {
-    const bool is_alone =
-        (i == 0 || by_group[i - 1][0] != by_group[i][0]) && (i + 1 == by_group.size() || by_group[i + 1][0] != by_group[i][0]);
+    const bool is_alone = (i == 0 || by_group[i - 1][0] != by_group[i][0]) &&
+                          (i + 1 == by_group.size() || by_group[i + 1][0] != by_group[i][0]);
     if (!is_alone) separated.push_back(by_group[i][1]);
   }
   return separated;
@@ -46,7 +53,8 @@ std::vector<Index> find_separated(ChangedFaces& changed, const Surface& surface,
 
 }  // namespace
 
-std::vector<TornPiece> find_all_pieces(const SurfaceEditor::Mark& begin, const SurfaceEditor& editor, PosedPoints& posed) {
+std::vector<TornPiece> find_all_pieces(const SurfaceEditor::Mark& begin,
+                                       const SurfaceEditor& editor, PosedPoints& posed) {
   ChangedFaces changed(begin, editor);
   if (changed.set_count() < 2) return {};
   const Surface& surface = editor.surface();
@@ -57,7 +65,8 @@ std::vector<TornPiece> find_all_pieces(const SurfaceEditor::Mark& begin, const S
   // The least point of a part stands for it, so it is met first.
   std::vector<Index> number(surface.point_count(), kNone);
   for (Index i = 0; i < separated.size(); ++i) number[separated[i]] = i;
-  for (Index point = 0; point < surface.point_count(); ++point) number[point] = number[parts.find(point)];
+  for (Index point = 0; point < surface.point_count(); ++point)
+    number[point] = number[parts.find(point)];
   std::vector<PieceDescription> descriptions(separated.size(), PieceDescription(editor, posed));
   std::vector<Index> order;  // in which they are met
   for (Index face = 0; face < surface.triangle_count(); ++face) {

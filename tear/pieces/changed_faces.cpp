@@ -7,8 +7,10 @@ ChangedFaces::ChangedFaces(const SurfaceEditor::Mark& begin, const SurfaceEditor
       face_(editor.numbers_since(begin), kNone, &editor.scratch()),
       sets_(editor.numbers_since(begin), editor.scratch()),
       groups_(editor.numbers_since(begin), editor.scratch()) {
-  editor.for_each_changed(begin, [&](Index face) { face_[editor.number_since(begin, face)] = face; });
-  for (Index face = begin.triangles; face < surface_.triangle_count(); ++face) face_[editor.number_since(begin, face)] = face;
+  editor.for_each_changed(begin,
+                          [&](Index face) { face_[editor.number_since(begin, face)] = face; });
+  for (Index face = begin.triangles; face < surface_.triangle_count(); ++face)
+    face_[editor.number_since(begin, face)] = face;
   for (Index i = 0; i < count(); ++i) {
     if (!is_live(i)) continue;
     ++set_count_;
@@ -21,14 +23,16 @@ ChangedFaces::ChangedFaces(const SurfaceEditor::Mark& begin, const SurfaceEditor
   }
   if (set_count() < 2) return;
   for (Index i = 0; i < count(); ++i) groups_.unite(sets_.find(i), i);
-  // What hung together before: neighbours, and what was split from one face. What did not change joins as it did.
+  // What hung together before: neighbours, and what was split from one face. What did not change
+  // joins as it did.
   editor.for_each_former_neighbour(begin, [&](Index one, Index other) {
     const Index b = editor.number_since(begin, other);
     if (b != kNone) groups_.unite(editor.number_since(begin, one), b);
   });
   for (Index face = begin.triangles; face < surface_.triangle_count(); ++face)
     if (editor.parent(face) != kNone)
-      groups_.unite(editor.number_since(begin, face), editor.number_since(begin, editor.parent(face)));
+      groups_.unite(editor.number_since(begin, face),
+                    editor.number_since(begin, editor.parent(face)));
 }
 
 }  // namespace sunder::tear

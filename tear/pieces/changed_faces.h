@@ -6,14 +6,17 @@
 
 namespace sunder::tear {
 
-/// Numbers of the faces that changed or were made since an operation began, and how they hang together.
+/// Numbers of the faces that changed or were made since an operation began, and how they hang
+/// together.
 class ChangedFaces {
  public:
   ChangedFaces(const SurfaceEditor::Mark& begin, const SurfaceEditor& editor);
 
   [[nodiscard]] Index count() const { return static_cast<Index>(face_.size()); }
   [[nodiscard]] Index face(Index i) const { return face_[i]; }
-  [[nodiscard]] bool is_live(Index i) const { return face_[i] != kNone && !surface_.has_repeated_point(face_[i]); }
+  [[nodiscard]] bool is_live(Index i) const {
+    return face_[i] != kNone && !surface_.has_repeated_point(face_[i]);
+  }
   [[nodiscard]] Index set_count() const { return set_count_ - joined_; }
   /// What hangs together now, as far as it changed.
   [[nodiscard]] DisjointSets& sets() { return sets_; }

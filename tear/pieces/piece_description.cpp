@@ -35,8 +35,9 @@ void PieceDescription::add(Index face) {
 }
 
 TornPiece PieceDescription::piece() {
-  piece_.centroid_posed =
-      piece_.area_posed > 0 ? Vec3d(moment_ / piece_.area_posed) : Vec3d(sum_ / static_cast<double>(piece_.triangle_count));
+  piece_.centroid_posed = piece_.area_posed > 0
+                              ? Vec3d(moment_ / piece_.area_posed)
+                              : Vec3d(sum_ / static_cast<double>(piece_.triangle_count));
   for (Index bone = 0; bone < has_bone_.size(); ++bone)
     if (has_bone_[bone]) piece_.bones.push_back(bone);
   for (Index mesh = 0; mesh < triangles_.size(); ++mesh)

@@ -13,7 +13,8 @@
 namespace sunder::tear {
 namespace {
 
-/// Fronts that grow over the surface, one from each set of changed faces, and become one where they meet.
+/// Fronts that grow over the surface, one from each set of changed faces, and become one where they
+/// meet.
 class Fronts {
  public:
   Fronts(ChangedFaces& changed, const SurfaceEditor& editor)
@@ -48,11 +49,14 @@ class Fronts {
         if (sets_in_group[groups_.find(front)] > 1) growing.push_back(front);
       if (growing.empty()) return;
       for (const Index front : growing)
-        for (std::size_t turn = 0; turn < kFacesATurn && !open_[front].empty(); ++turn) grow_once(front);
+        for (std::size_t turn = 0; turn < kFacesATurn && !open_[front].empty(); ++turn)
+          grow_once(front);
       for (Index& front : active) front = sets_.find(front);
       std::sort(active.begin(), active.end());
       active.erase(std::unique(active.begin(), active.end()), active.end());
-      active.erase(std::remove_if(active.begin(), active.end(), [&](Index front) { return open_[front].empty(); }), active.end());
+      active.erase(std::remove_if(active.begin(), active.end(),
+                                  [&](Index front) { return open_[front].empty(); }),
+                   active.end());
     }
   }
 
@@ -126,7 +130,8 @@ class Fronts {
 
 }  // namespace
 
-std::vector<TornPiece> find_pieces(const SurfaceEditor::Mark& begin, const SurfaceEditor& editor, PosedPoints& posed) {
+std::vector<TornPiece> find_pieces(const SurfaceEditor::Mark& begin, const SurfaceEditor& editor,
+                                   PosedPoints& posed) {
   ChangedFaces changed(begin, editor);
   if (changed.set_count() < 2) return {};
   Fronts fronts(changed, editor);
@@ -134,9 +139,11 @@ std::vector<TornPiece> find_pieces(const SurfaceEditor::Mark& begin, const Surfa
   ScratchVector<ScratchVector<Index>> sets(&editor.scratch());
   for (auto& of_group : fronts.separated()) {
     // What is left is the part that did not run out or, where all did, the largest.
-    const auto left = std::max_element(of_group.begin(), of_group.end(), [](const Fronts::Set& a, const Fronts::Set& b) {
-      return a.is_exhausted != b.is_exhausted ? a.is_exhausted : a.faces.size() < b.faces.size();
-    });
+    const auto left = std::max_element(
+        of_group.begin(), of_group.end(), [](const Fronts::Set& a, const Fronts::Set& b) {
+          return a.is_exhausted != b.is_exhausted ? a.is_exhausted
+                                                  : a.faces.size() < b.faces.size();
+        });
     for (auto set = of_group.begin(); set != of_group.end(); ++set)
       if (set != left) sets.push_back(std::move(set->faces));
   }

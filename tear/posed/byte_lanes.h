@@ -14,12 +14,14 @@ inline Eigen::Array<float, 4, 1> lanes_of(const std::array<std::uint8_t, 4>& byt
   std::int32_t together;
   std::memcpy(&together, bytes.data(), 4);
   const __m128i zero = _mm_setzero_si128();
-  const __m128i words = _mm_unpacklo_epi16(_mm_unpacklo_epi8(_mm_cvtsi32_si128(together), zero), zero);
+  const __m128i words =
+      _mm_unpacklo_epi16(_mm_unpacklo_epi8(_mm_cvtsi32_si128(together), zero), zero);
   Eigen::Array<float, 4, 1> lanes;
   _mm_store_ps(lanes.data(), _mm_cvtepi32_ps(words));
   return lanes;
 #else
-  return {static_cast<float>(bytes[0]), static_cast<float>(bytes[1]), static_cast<float>(bytes[2]), static_cast<float>(bytes[3])};
+  return {static_cast<float>(bytes[0]), static_cast<float>(bytes[1]), static_cast<float>(bytes[2]),
+          static_cast<float>(bytes[3])};
 #endif
 }
 

@@ -6,18 +6,21 @@ namespace sunder::tear {
 
 void PatchForest::forget_pose() {
   if (++epoch_ != 0) return;
-  for (Covered& covered : sources_) covered.tree.forget_epochs();  // once in four thousand million poses
+  for (Covered& covered : sources_)
+    covered.tree.forget_epochs();  // once in four thousand million poses
   for (auto& of_mesh : fillings_)
     for (Covered& covered : of_mesh) covered.tree.forget_epochs();
   for (PosedBones& bones : bones_) bones.forget_epochs();
   epoch_ = 1;
 }
 
-void PatchForest::stand_in(const SurfaceEditor& editor, const CharacterPose& pose, const Frame& frame) {
+void PatchForest::stand_in(const SurfaceEditor& editor, const CharacterPose& pose,
+                           const Frame& frame) {
   cover(editor);
   if (frame.axes != frame_.axes || frame.origin != frame_.origin) forget_pose();
   frame_ = frame;
-  for (std::size_t skin = 0; skin < bones_.size(); ++skin) bones_[skin].stand_in(pose.palettes[skin], frame, epoch_);
+  for (std::size_t skin = 0; skin < bones_.size(); ++skin)
+    bones_[skin].stand_in(pose.palettes[skin], frame, epoch_);
 }
 
 std::size_t PatchForest::tree_count() const {
@@ -33,20 +36,25 @@ void PatchForest::cover(const SurfaceEditor& editor) {
     sources_.reserve(meshes.size());
     for (Index m = 0; m < meshes.size(); ++m)
       if (!meshes[m].triangles.empty())
-        sources_.push_back({PatchTree(meshes[m], meshes[m].triangles, 0), m, 0, meshes[m].triangle_count(), 0});
+        sources_.push_back(
+            {PatchTree(meshes[m], meshes[m].triangles, 0), m, 0, meshes[m].triangle_count(), 0});
     fillings_.resize(meshes.size());
     bones_.resize(editor.source().skins.size());
-    for (std::size_t skin = 0; skin < bones_.size(); ++skin) bones_[skin].resize(editor.source().skins[skin].bones.size());
+    for (std::size_t skin = 0; skin < bones_.size(); ++skin)
+      bones_[skin].resize(editor.source().skins[skin].bones.size());
     is_built_ = true;
   }
   for (Index m = 0; m < meshes.size(); ++m) cover_fillings(editor, m);
 
-  // Depth first: of the tree that is being walked, at most the brothers of each node on the way down wait besides the other roots.
+  // Depth first: of the tree that is being walked, at most the brothers of each node on the way
+  // down wait besides the other roots.
   std::size_t roots = sources_.size(), levels = 0;
-  for (const Covered& covered : sources_) levels = std::max<std::size_t>(levels, covered.tree.level_count());
+  for (const Covered& covered : sources_)
+    levels = std::max<std::size_t>(levels, covered.tree.level_count());
   for (const auto& of_mesh : fillings_) {
     roots += of_mesh.size();
-    for (const Covered& covered : of_mesh) levels = std::max<std::size_t>(levels, covered.tree.level_count());
+    for (const Covered& covered : of_mesh)
+      levels = std::max<std::size_t>(levels, covered.tree.level_count());
   }
   stack_.reserve(roots + std::max(PatchTree::kFanOut, PatchTree::kPatchesPerGroup) * (levels + 1));
 }
@@ -56,11 +64,13 @@ void PatchForest::cover_fillings(const SurfaceEditor& editor, Index mesh) {
   std::vector<Covered>& trees = fillings_[mesh];
   const Index source_count = editor.source().meshes[mesh].triangle_count();
   const Index end = source_count + static_cast<Index>(fillings.size());
-  // Fillings come and go last in, first out, and their serials ascend. A tree that has lost the most of what it was built over is
-  // built anew.
+  // Fillings come and go last in, first out, and their serials ascend. A tree that has lost the
+  // most of what it was built over is built anew.
   while (!trees.empty()) {
     Covered& last = trees.back();
-    while (last.end > last.first && (last.end > end || editor.filling_serial(mesh, last.end - 1) >= last.serials_from)) --last.end;
+    while (last.end > last.first &&
+           (last.end > end || editor.filling_serial(mesh, last.end - 1) >= last.serials_from))
+      --last.end;
     if (2 * (last.end - last.first) > last.tree.triangle_count()) break;
     trees.pop_back();
   }
@@ -71,7 +81,8 @@ void PatchForest::cover_fillings(const SurfaceEditor& editor, Index mesh) {
     trees.pop_back();
   }
   const auto triangles = std::span(fillings).subspan(first - source_count);
-  trees.push_back({PatchTree(editor.character().meshes[mesh], triangles, first), mesh, first, end, editor.next_filling_serial()});
+  trees.push_back({PatchTree(editor.character().meshes[mesh], triangles, first), mesh, first, end,
+                   editor.next_filling_serial()});
 }
 
 void PatchForest::push(const Waiting& node, std::size_t first) {

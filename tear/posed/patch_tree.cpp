@@ -15,18 +15,20 @@ constexpr float kBoxParts = 255;
 constexpr std::size_t kFewBones = 12;
 constexpr std::size_t kMaximumSlots = std::size_t{1} << 16;
 
-/// What stored positions and weights of new vertices may lie beside their origin's: each is rounded to float once, and a wall that
-/// grows on a wall rounds again.
+/// What stored positions and weights of new vertices may lie beside their origin's: each is rounded
+/// to float once, and a wall that grows on a wall rounds again.
 constexpr float kRounding = 0x1p-20f;
 
-/// Low corner and negated high corner, each with a fourth lane, so that both grow by taking the lesser.
+/// Low corner and negated high corner, each with a fourth lane, so that both grow by taking the
+/// lesser.
 struct GrowingBox {
   std::array<float, 8> least;
 
   GrowingBox() { least.fill(std::numeric_limits<float>::infinity()); }
   explicit GrowingBox(const Vec3f& p) : least{p.x(), p.y(), p.z(), 0, -p.x(), -p.y(), -p.z(), 0} {}
   void extend(const GrowingBox& other) {
-    for (std::size_t i = 0; i < 8; ++i) least[i] = other.least[i] < least[i] ? other.least[i] : least[i];
+    for (std::size_t i = 0; i < 8; ++i)
+      least[i] = other.least[i] < least[i] ? other.least[i] : least[i];
   }
   [[nodiscard]] float low(std::size_t axis) const { return least[axis]; }
   [[nodiscard]] float high(std::size_t axis) const { return -least[4 + axis]; }
@@ -38,26 +40,32 @@ struct GrowingBox {
   }
 };
 
-/// Triangles of a mesh in the order in which a Hilbert curve through bind space comes to their middles.
+/// Triangles of a mesh in the order in which a Hilbert curve through bind space comes to their
+/// middles.
 std::vector<Index> order_along_curve(const Mesh& mesh, std::span<const Triangle> triangles) {
-  constexpr std::uint32_t kIndexBits = 30, kDigitBits = HilbertCurve::kBits;  // TornModel refuses more triangles than that
+  constexpr std::uint32_t kIndexBits = 30,
+                          kDigitBits =
+                              HilbertCurve::kBits;  // TornModel refuses more triangles than that
   std::vector<Vec3f> middles(triangles.size());
   GrowingBox box;
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     const auto& [a, b, c] = triangles[t];
-    middles[t] = (1.0f / 3) * mesh.positions[a] + (1.0f / 3) * mesh.positions[b] + (1.0f / 3) * mesh.positions[c];
+    middles[t] = (1.0f / 3) * mesh.positions[a] + (1.0f / 3) * mesh.positions[b] +
+                 (1.0f / 3) * mesh.positions[c];
     box.extend(GrowingBox(middles[t]));
   }
   double size = 0;
-  for (std::size_t k = 0; k < 3; ++k) size = std::max(size, static_cast<double>(box.high(k)) - static_cast<double>(box.low(k)));
+  for (std::size_t k = 0; k < 3; ++k)
+    size = std::max(size, static_cast<double>(box.high(k)) - static_cast<double>(box.low(k)));
   constexpr std::uint32_t kCells = 1u << HilbertCurve::kBits;
   const double cells = size > 0 ? (kCells - 1) / size : 0;
   std::vector<std::uint64_t> keys(triangles.size());
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     std::array<std::uint32_t, 3> cell;
     for (std::size_t k = 0; k < 3; ++k)
-      cell[k] = static_cast<std::uint32_t>(
-          cells * (static_cast<double>(middles[t][static_cast<int>(k)]) - static_cast<double>(box.low(k))));
+      cell[k] =
+          static_cast<std::uint32_t>(cells * (static_cast<double>(middles[t][static_cast<int>(k)]) -
+                                              static_cast<double>(box.low(k))));
     keys[t] = HilbertCurve::number_of(cell) << kIndexBits | t;
   }
 
@@ -80,7 +88,8 @@ std::vector<Index> order_along_curve(const Mesh& mesh, std::span<const Triangle>
     }
   }
   std::vector<Index> order(keys.size());
-  for (std::size_t i = 0; i < keys.size(); ++i) order[i] = static_cast<Index>(keys[i] & ((std::uint64_t{1} << kIndexBits) - 1));
+  for (std::size_t i = 0; i < keys.size(); ++i)
+    order[i] = static_cast<Index>(keys[i] & ((std::uint64_t{1} << kIndexBits) - 1));
   return order;
 }
 
@@ -127,18 +136,23 @@ class PatchTree::Builder {
       patch.widen();
       box_.extend(patch);
     }
-    for (const GrowingBox& patch : std::span(patches).first(patch_count)) tree_.patches_.push_back(within_box(patch));
+    for (const GrowingBox& patch : std::span(patches).first(patch_count))
+      tree_.patches_.push_back(within_box(patch));
     for (Moved& moved : moved_) {
       moved.box.widen();
-      const double least = moved.corners < 3 * order.size() ? 0.0 : static_cast<double>(moved.least);
-      moved.least_parts = static_cast<std::uint16_t>(least * (1 - 4 * slack) * double{kWeightParts});
-      moved.greatest_parts = static_cast<std::uint16_t>(
-          std::min(65535.0, std::ceil(static_cast<double>(moved.greatest) * (1 + 4 * slack) * double{kWeightParts})));
+      const double least =
+          moved.corners < 3 * order.size() ? 0.0 : static_cast<double>(moved.least);
+      moved.least_parts =
+          static_cast<std::uint16_t>(least * (1 - 4 * slack) * double{kWeightParts});
+      moved.greatest_parts = static_cast<std::uint16_t>(std::min(
+          65535.0,
+          std::ceil(static_cast<double>(moved.greatest) * (1 + 4 * slack) * double{kWeightParts})));
     }
     for (const Index j : targets_) {
       GrowingBox displacement;
       for (const Index t : order)
-        for (const Index vertex : triangles[t]) displacement.extend(GrowingBox(mesh_.morph_targets[j].position_deltas[vertex]));
+        for (const Index vertex : triangles[t])
+          displacement.extend(GrowingBox(mesh_.morph_targets[j].position_deltas[vertex]));
       displacement.widen();
       if (!displacement.is_zero()) tree_.morphs_.push_back({j, stored(displacement)});
     }
@@ -165,10 +179,13 @@ class PatchTree::Builder {
       GrowingBox displacement;
       for (Index child = first; child < first + count; ++child) {
         const auto of_child =
-            std::span(tree_.morphs_).subspan(tree_.first_morph_[child], tree_.first_morph_[child + 1] - tree_.first_morph_[child]);
-        const auto found =
-            std::find_if(of_child.begin(), of_child.end(), [&](const NodeMorph& morph) { return morph.target == j; });
-        displacement.extend(found == of_child.end() ? GrowingBox(Vec3f::Zero()) : grown(found->displacement));
+            std::span(tree_.morphs_)
+                .subspan(tree_.first_morph_[child],
+                         tree_.first_morph_[child + 1] - tree_.first_morph_[child]);
+        const auto found = std::find_if(of_child.begin(), of_child.end(),
+                                        [&](const NodeMorph& morph) { return morph.target == j; });
+        displacement.extend(found == of_child.end() ? GrowingBox(Vec3f::Zero())
+                                                    : grown(found->displacement));
       }
       if (!displacement.is_zero()) tree_.morphs_.push_back({j, stored(displacement)});
     }
@@ -215,7 +232,8 @@ class PatchTree::Builder {
   static GrowingBox box_of(const NodeBone& bone, const FloatBox& within) {
     FloatBox box;
     for (std::size_t k = 0; k < 3; ++k) {
-      const double low = static_cast<double>(within.low[k]), high = static_cast<double>(within.high[k]);
+      const double low = static_cast<double>(within.low[k]),
+                   high = static_cast<double>(within.high[k]);
       const double part = (high - low) / double{kBoxParts};
       constexpr float kInfinity = std::numeric_limits<float>::infinity();
       box.low[k] = std::nextafter(static_cast<float>(low + bone.box.low[k] * part), -kInfinity);
@@ -248,9 +266,11 @@ class PatchTree::Builder {
       const Moved& moved = moved_[i];
       place_of_slot_[moved.slot] = kNone;
       tree_.is_bounded_ = tree_.is_bounded_ && moved.slot < kMaximumSlots;
-      tree_.bones_.push_back(
-          {static_cast<std::uint16_t>(moved.slot), moved.least_parts, moved.greatest_parts, within_box(moved.box)});
-      const auto weight = [&](const Moved& of) { return int{of.least_parts} + int{of.greatest_parts}; };
+      tree_.bones_.push_back({static_cast<std::uint16_t>(moved.slot), moved.least_parts,
+                              moved.greatest_parts, within_box(moved.box)});
+      const auto weight = [&](const Moved& of) {
+        return int{of.least_parts} + int{of.greatest_parts};
+      };
       if (weight(moved) > weight(moved_[main])) main = i;
     }
     if (!moved_.empty()) std::swap(tree_.bones_[first], tree_.bones_[first + main]);
@@ -271,7 +291,8 @@ PatchTree::PatchTree(const Mesh& mesh, std::span<const Triangle> triangles, Inde
   const auto triangle_count = static_cast<Index>(triangles.size());
   const Index group_count = parts_of(triangle_count, kGroupSize);
   first_of_level_ = {0, group_count};
-  for (Index count = group_count; count > 1; first_of_level_.push_back(first_of_level_.back() + count))
+  for (Index count = group_count; count > 1;
+       first_of_level_.push_back(first_of_level_.back() + count))
     count = parts_of(count, kFanOut);
   nodes_.reserve(first_of_level_.back() + std::size_t{1});
   patches_.reserve(parts_of(triangle_count, kPatchSize));
@@ -285,7 +306,8 @@ PatchTree::PatchTree(const Mesh& mesh, std::span<const Triangle> triangles, Inde
     for (Index number = 0; number < node_count(level); ++number) {
       builder.begin_node();
       const Index first = kFanOut * number;
-      builder.add_parent(first_of_level_[level - 1] + first, std::min(kFanOut, node_count(level - 1) - first));
+      builder.add_parent(first_of_level_[level - 1] + first,
+                         std::min(kFanOut, node_count(level - 1) - first));
     }
   builder.begin_node();
   bones_.shrink_to_fit();
@@ -298,16 +320,19 @@ PatchTree::PatchTree(const Mesh& mesh, std::span<const Triangle> triangles, Inde
 
 std::size_t PatchTree::bytes() const {
   const auto bytes_of = [](const auto& values) { return values.capacity() * sizeof(values[0]); };
-  return bytes_of(origins_) + bytes_of(patches_) + bytes_of(nodes_) + bytes_of(bones_) + bytes_of(morphs_) +
-         bytes_of(first_morph_) + bytes_of(posed_) + bytes_of(posed_since_);
+  return bytes_of(origins_) + bytes_of(patches_) + bytes_of(nodes_) + bytes_of(bones_) +
+         bytes_of(morphs_) + bytes_of(first_morph_) + bytes_of(posed_) + bytes_of(posed_since_);
 }
 
 /// Where a pose may put boxes of a node.
 class PatchTree::Bound {
  public:
   Bound(const PatchTree& tree, Index node, const MeshPose& pose)
-      : tree_(tree), bones_(tree.bones_of(node)), reach_(static_cast<float>(pose.bones.frame().reach())) {
-    const Eigen::Map<const Lanes> low(tree.nodes_[node].bind.low.data()), high(tree.nodes_[node].bind.high.data());
+      : tree_(tree),
+        bones_(tree.bones_of(node)),
+        reach_(static_cast<float>(pose.bones.frame().reach())) {
+    const Eigen::Map<const Lanes> low(tree.nodes_[node].bind.low.data()),
+        high(tree.nodes_[node].bind.high.data());
     half_part_ = (0.5f / kBoxParts) * (high - low);
     largest_ = low.abs().max(high.abs());
     whole_ = {0.5f * low + 0.5f * high, 0.5f * (high - low)};
@@ -330,8 +355,10 @@ class PatchTree::Bound {
   };
   /// M_i B_i, in whatever axes the bone is given.
   EIGEN_ALWAYS_INLINE static Interval posed(const PosedBones::Bone& bone, const BindBox& box) {
-    const Lanes middle = bone.translation + bone.x * box.middle[0] + bone.y * box.middle[1] + bone.z * box.middle[2];
-    const Lanes half = bone.rounding + bone.size_of_x * box.half[0] + bone.size_of_y * box.half[1] + bone.size_of_z * box.half[2];
+    const Lanes middle =
+        bone.translation + bone.x * box.middle[0] + bone.y * box.middle[1] + bone.z * box.middle[2];
+    const Lanes half = bone.rounding + bone.size_of_x * box.half[0] + bone.size_of_y * box.half[1] +
+                       bone.size_of_z * box.half[2];
     return {middle - half, middle + half};
   }
 
@@ -346,8 +373,10 @@ class PatchTree::Bound {
     }
     EIGEN_ALWAYS_INLINE void add(const Interval& interval, const NodeBone& bone) {
       add(interval);
-      // w_main = 1 - sum of the others: each of those moves the mean from the main bone's place towards its own.
-      const float least = bone.least_weight * (1 / kWeightParts), greatest = bone.greatest_weight * (1 / kWeightParts);
+      // w_main = 1 - sum of the others: each of those moves the mean from the main bone's place
+      // towards its own.
+      const float least = bone.least_weight * (1 / kWeightParts),
+                  greatest = bone.greatest_weight * (1 / kWeightParts);
       const Lanes down = interval.low - main.low, up = interval.high - main.high;
       sum.low += (least * down).min(greatest * down);
       sum.high += (least * up).max(greatest * up);
@@ -360,8 +389,8 @@ class PatchTree::Bound {
     if (!is_bounded_ || largest.maxCoeff() > 0.1f * PosedBones::kEverywhere)
       return {Lanes::Constant(-kInfinity), Lanes::Constant(kInfinity)};
     const auto terms = static_cast<float>(bones_.size() + 4);
-    const Lanes slack =
-        tree_.weight_slack_ * (largest + reach_) + terms * 1e-7f * (largest + terms * (mean.hull.high - mean.hull.low));
+    const Lanes slack = tree_.weight_slack_ * (largest + reach_) +
+                        terms * 1e-7f * (largest + terms * (mean.hull.high - mean.hull.low));
     return {mean.hull.low.max(mean.sum.low) - slack, mean.hull.high.min(mean.sum.high) + slack};
   }
 
@@ -371,8 +400,10 @@ class PatchTree::Bound {
 
   /// Of the patches of the node, which is a group. @param bone_of  a bone of the pose, by its slot.
   template <class BoneOf>
-  Index gather_patches(Index group, BoneOf bone_of, std::array<Mean, kPatchesPerGroup>& means) const {
-    const Index first = kPatchesPerGroup * group, count = std::min(kPatchesPerGroup, tree_.patch_count() - first);
+  Index gather_patches(Index group, BoneOf bone_of,
+                       std::array<Mean, kPatchesPerGroup>& means) const {
+    const Index first = kPatchesPerGroup * group,
+                count = std::min(kPatchesPerGroup, tree_.patch_count() - first);
     std::array<BindBox, kPatchesPerGroup> boxes;
     for (Index i = 0; i < count; ++i) boxes[i] = bind_box(tree_.patches_[first + i]);
     const PosedBones::Bone& main = bone_of(bones_[0].slot);
@@ -428,9 +459,11 @@ PatchTree::FloatBox PatchTree::compute_posed_box(Index node, const MeshPose& pos
   const std::span<const NodeBone> bones = bound.bones();
   mean.begin(Bound::posed(pose.bones.at(bones[0].slot), bound.bind_box(bones[0].box)));
   if (bones.size() <= kFewBones) {
-    for (const NodeBone& bone : bones.subspan(1)) mean.add(Bound::posed(pose.bones.at(bone.slot), bound.bind_box(bone.box)), bone);
+    for (const NodeBone& bone : bones.subspan(1))
+      mean.add(Bound::posed(pose.bones.at(bone.slot), bound.bind_box(bone.box)), bone);
   } else {
-    for (const NodeBone& bone : bones.subspan(1)) mean.add(Bound::posed(pose.bones.at(bone.slot), bound.bind_box(bone.box)));
+    for (const NodeBone& bone : bones.subspan(1))
+      mean.add(Bound::posed(pose.bones.at(bone.slot), bound.bind_box(bone.box)));
     mean.sum = mean.hull;
   }
   const Bound::Interval interval = bound.result(mean);
@@ -440,7 +473,8 @@ PatchTree::FloatBox PatchTree::compute_posed_box(Index node, const MeshPose& pos
   return box;
 }
 
-Index PatchTree::compute_posed_patches(Index group, const MeshPose& pose, std::array<Box, kPatchesPerGroup>& boxes) const {
+Index PatchTree::compute_posed_patches(Index group, const MeshPose& pose,
+                                       std::array<Box, kPatchesPerGroup>& boxes) const {
   std::array<Bound::Mean, kPatchesPerGroup> means;
   const Bound bound(*this, group, pose);
   const auto bone_of = [&](Index slot) -> const PosedBones::Bone& { return pose.bones.at(slot); };
@@ -449,7 +483,8 @@ Index PatchTree::compute_posed_patches(Index group, const MeshPose& pose, std::a
   return count;
 }
 
-Index PatchTree::compute_posed_patches(Index group, const MeshPose& pose, std::array<Shadow, kPatchesPerGroup>& shadows) const {
+Index PatchTree::compute_posed_patches(Index group, const MeshPose& pose,
+                                       std::array<Shadow, kPatchesPerGroup>& shadows) const {
   // The parallels run along the shadows of the edges of the group's box, as its main bone turns it.
   const Bound bound(*this, group, pose);
   const PosedBones::Bone& main = pose.bones.at(bound.bones()[0].slot);
@@ -458,12 +493,15 @@ Index PatchTree::compute_posed_patches(Index group, const MeshPose& pose, std::a
   for (std::size_t k = 0; k < 3; ++k) {
     const Vec2f across(-(*edges[k])[2], (*edges[k])[1]);
     const float length = across.norm();
-    normal[k] = length > 1e-15f && length < 1e15f ? Vec2f(across / length) : Vec2f(k == 0 ? 1 : 0, k == 0 ? 0 : 1);
+    normal[k] = length > 1e-15f && length < 1e15f ? Vec2f(across / length)
+                                                  : Vec2f(k == 0 ? 1 : 0, k == 0 ? 0 : 1);
   }
   const Bound::Lanes along(1, 0, 0, 0), second(0, normal[0].x(), normal[1].x(), normal[2].x()),
       third(0, normal[0].y(), normal[1].y(), normal[2].y());
   PosedBones::Bone seen;
-  const auto see = [&](const Bound::Lanes& from) -> Bound::Lanes { return along * from[0] + second * from[1] + third * from[2]; };
+  const auto see = [&](const Bound::Lanes& from) -> Bound::Lanes {
+    return along * from[0] + second * from[1] + third * from[2];
+  };
   const auto bone_of = [&](Index slot) -> const PosedBones::Bone& {
     const PosedBones::Bone& bone = pose.bones.at(slot);
     seen.x = see(bone.x);
@@ -474,7 +512,8 @@ Index PatchTree::compute_posed_patches(Index group, const MeshPose& pose, std::a
     seen.size_of_y = seen.y.abs();
     seen.size_of_z = seen.z.abs();
     // What was turned is off by what it was turned from.
-    const Bound::Lanes reach = bone.translation.abs() + bone.size_of_x * bound.largest()[0] + bone.size_of_y * bound.largest()[1] +
+    const Bound::Lanes reach = bone.translation.abs() + bone.size_of_x * bound.largest()[0] +
+                               bone.size_of_y * bound.largest()[1] +
                                bone.size_of_z * bound.largest()[2];
     seen.rounding.setConstant(2 * bone.rounding.maxCoeff() + 1e-6f * reach.head<3>().sum());
     return seen;
@@ -482,7 +521,8 @@ Index PatchTree::compute_posed_patches(Index group, const MeshPose& pose, std::a
   std::array<Bound::Mean, kPatchesPerGroup> means;
   const Index count = bound.gather_patches(group, bone_of, means);
   for (Index i = 0; i < count; ++i) {
-    const Eigen::Array4d low = bound.result(means[i]).low.cast<double>(), high = bound.result(means[i]).high.cast<double>();
+    const Eigen::Array4d low = bound.result(means[i]).low.cast<double>(),
+                         high = bound.result(means[i]).high.cast<double>();
     shadows[i] = {low[0], high[0], {}, {low[1], low[2], low[3]}, {high[1], high[2], high[3]}};
     for (std::size_t k = 0; k < 3; ++k) shadows[i].normal[k] = normal[k].cast<double>();
   }

@@ -16,9 +16,10 @@ class PosedBones {
   struct Bone {
     Lanes x, y, z, translation;             ///< Columns.
     Lanes size_of_x, size_of_y, size_of_z;  ///< Their absolute values, at least.
-    Lanes rounding;                         ///< What a point may be off by besides what comes of its own coordinates.
+    Lanes rounding;  ///< What a point may be off by besides what comes of its own coordinates.
   };
-  /// Coordinates from here on are not told from infinity. Less than this, neither products nor sums of them overflow.
+  /// Coordinates from here on are not told from infinity. Less than this, neither products nor sums
+  /// of them overflow.
   static constexpr float kLargest = 1e18f;
   /// What the bound of a bone with a larger matrix is off by.
   static constexpr float kEverywhere = 1e37f;
@@ -33,7 +34,9 @@ class PosedBones {
     palette_ = palette;
     frame_ = frame;
     reach_ = frame.reach();
-    for (int k = 0; k < 3; ++k) axis_[static_cast<std::size_t>(k)] << frame.axes(0, k), frame.axes(1, k), frame.axes(2, k), 0.0;
+    for (int k = 0; k < 3; ++k)
+      axis_[static_cast<std::size_t>(k)] << frame.axes(0, k), frame.axes(1, k), frame.axes(2, k),
+          0.0;
     epoch_ = epoch;
   }
   [[nodiscard]] const Frame& frame() const { return frame_; }
@@ -49,12 +52,16 @@ class PosedBones {
   void turn(std::size_t slot) {
     Bone& bone = bones_[slot];
     const double* from = palette_[slot].data();
-    const auto turned = [&](double x, double y, double z) -> Doubles { return axis_[0] * x + axis_[1] * y + axis_[2] * z; };
+    const auto turned = [&](double x, double y, double z) -> Doubles {
+      return axis_[0] * x + axis_[1] * y + axis_[2] * z;
+    };
     const Doubles x = turned(from[0], from[1], from[2]), y = turned(from[3], from[4], from[5]),
                   z = turned(from[6], from[7], from[8]);
-    const Doubles translation = turned(from[9] - frame_.origin.x(), from[10] - frame_.origin.y(), from[11] - frame_.origin.z());
+    const Doubles translation = turned(from[9] - frame_.origin.x(), from[10] - frame_.origin.y(),
+                                       from[11] - frame_.origin.z());
     known_since_[slot] = epoch_;
-    const double in_model = std::max({std::abs(from[9]), std::abs(from[10]), std::abs(from[11])}) + reach_;
+    const double in_model =
+        std::max({std::abs(from[9]), std::abs(from[10]), std::abs(from[11])}) + reach_;
     const Doubles largest = x.abs().max(y.abs()).max(z.abs()).max(translation.abs());
     if (!(largest.maxCoeff() < kLargest && in_model < 1e28)) {
       bone = {Lanes::Zero(), Lanes::Zero(), Lanes::Zero(), Lanes::Zero(),
@@ -66,11 +73,14 @@ class PosedBones {
     bone.z = z.cast<float>();
     bone.translation = translation.cast<float>();
     // Of a component that cancelled, what doubles left of it says nothing about how far it is off.
-    const auto size_of = [](const Lanes& column) -> Lanes { return column.abs() + 1e-8f * column.abs().sum(); };
+    const auto size_of = [](const Lanes& column) -> Lanes {
+      return column.abs() + 1e-8f * column.abs().sum();
+    };
     bone.size_of_x = size_of(bone.x);
     bone.size_of_y = size_of(bone.y);
     bone.size_of_z = size_of(bone.z);
-    bone.rounding = 1e-6f * bone.translation.abs() + (static_cast<float>(1e-13 * in_model) + 1e-30f);
+    bone.rounding =
+        1e-6f * bone.translation.abs() + (static_cast<float>(1e-13 * in_model) + 1e-30f);
   }
 
   std::span<const Affine3d> palette_;

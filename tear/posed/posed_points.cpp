@@ -12,18 +12,22 @@ namespace sunder::tear {
 Status PosedPoints::check(const Character& character, const ModelPose& pose) {
   const std::size_t bone_count = character.skeleton.bones.size();
   if (pose.model_from_bone.size() != bone_count)
-    return Status::failure(StatusCode::size_mismatch, kNone, "pose has %zu bones, the character %zu", pose.model_from_bone.size(),
+    return Status::failure(StatusCode::size_mismatch, kNone,
+                           "pose has %zu bones, the character %zu", pose.model_from_bone.size(),
                            bone_count);
   if (pose.morph_weights.size() != character.rest_morph_weights.size())
-    return Status::failure(StatusCode::size_mismatch, kNone, "pose has %zu morph weights, the character %zu",
+    return Status::failure(StatusCode::size_mismatch, kNone,
+                           "pose has %zu morph weights, the character %zu",
                            pose.morph_weights.size(), character.rest_morph_weights.size());
   for (Index bone = 0; bone < bone_count; ++bone)
     if (!pose.model_from_bone[bone].matrix().allFinite())
-      return Status::failure(StatusCode::non_finite_value, bone, "pose: the matrix of bone %u '%.80s' is not finite", bone,
+      return Status::failure(StatusCode::non_finite_value, bone,
+                             "pose: the matrix of bone %u '%.80s' is not finite", bone,
                              character.skeleton.bones[bone].name.c_str());
   for (Index i = 0; i < pose.morph_weights.size(); ++i)
     if (!std::isfinite(pose.morph_weights[i]))
-      return Status::failure(StatusCode::non_finite_value, i, "pose: morph weight %u is not finite", i);
+      return Status::failure(StatusCode::non_finite_value, i, "pose: morph weight %u is not finite",
+                             i);
   return {};
 }
 
@@ -32,7 +36,8 @@ Status PosedPoints::begin(const Character& character, const ModelPose& pose) {
   palettes_.resize(character.skins.size());
   for (Index skin = 0; skin < character.skins.size(); ++skin) {
     palettes_[skin].resize(character.skins[skin].bones.size());
-    if (Status status = compute_palette(character.skins[skin], pose, palettes_[skin]); !status) return status;
+    if (Status status = compute_palette(character.skins[skin], pose, palettes_[skin]); !status)
+      return status;
   }
   morph_weights_ = pose.morph_weights;
   forest_.forget_pose();
@@ -46,7 +51,8 @@ Status PosedPoints::begin(const Character& character, const ModelPose& pose) {
 Frame PosedPoints::frame_along(const Mat3d& axes, const SurfaceEditor& editor) const {
   for (const Mesh& mesh : editor.source().meshes) {
     if (mesh.triangles.empty()) continue;
-    const Vec3d place = deform_position_reference(mesh, mesh.triangles[0][0], palettes_[mesh.skin], morph_weights_);
+    const Vec3d place =
+        deform_position_reference(mesh, mesh.triangles[0][0], palettes_[mesh.skin], morph_weights_);
     if (place.allFinite()) return {axes, place};
   }
   return {axes, Vec3d::Zero()};
@@ -57,7 +63,8 @@ const Vec3d& PosedPoints::look_up(const SurfaceEditor& editor, Index point) {
   const Index corner = editor.surface().point_corner[point];
   const Mesh& mesh = editor.character().meshes[editor.surface().triangle(corner / 3).mesh];
   const Index of = editor.surface().triangle(corner / 3).mesh, vertex = editor.vertex_at(corner);
-  known_[point] = {deform_position_reference(mesh, vertex, editor.born_position(of, vertex), editor.born_influences(of, vertex),
+  known_[point] = {deform_position_reference(mesh, vertex, editor.born_position(of, vertex),
+                                             editor.born_influences(of, vertex),
                                              palettes_[mesh.skin], morph_weights_),
                    epoch_};
   return known_[point].position;
@@ -68,7 +75,8 @@ void PosedPoints::pin(Index point, const Vec3d& position) {
   known_[point] = {position, epoch_};
 }
 
-void PosedPoints::fetch(const SurfaceEditor& editor, Index mesh, std::span<const Index> origins) const {
+void PosedPoints::fetch(const SurfaceEditor& editor, Index mesh,
+                        std::span<const Index> origins) const {
   // Each loop reads what the one before it has asked for.
   const Surface& surface = editor.surface();
   const Mesh& of = editor.character().meshes[mesh];
@@ -88,7 +96,9 @@ void PosedPoints::fetch(const SurfaceEditor& editor, Index mesh, std::span<const
     prefetch(&known_[corner]);
     prefetch(&surface.point_corner[corner]);
   }
-  const auto is_wanted = [&](Index point) { return point < known_.size() && known_[point].since != epoch_; };
+  const auto is_wanted = [&](Index point) {
+    return point < known_.size() && known_[point].since != epoch_;
+  };
   std::size_t vertex_count = 0;
   for (const Index point : points) {
     if (!is_wanted(point)) continue;
@@ -98,7 +108,8 @@ void PosedPoints::fetch(const SurfaceEditor& editor, Index mesh, std::span<const
   }
   const std::span<Index> wanted = points.first(vertex_count);
   for (const Index corner : wanted)
-    prefetch(&of.triangles[std::min(surface.triangle(corner / 3).triangle, of.triangle_count() - 1)]);
+    prefetch(
+        &of.triangles[std::min(surface.triangle(corner / 3).triangle, of.triangle_count() - 1)]);
   for (Index& corner : wanted) {
     const TriangleRef ref = surface.triangle(corner / 3);
     const Index vertex = ref.mesh == mesh ? of.triangles[ref.triangle][corner % 3] : 0;

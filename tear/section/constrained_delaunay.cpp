@@ -16,8 +16,9 @@ bool is_ahead(const Vec2d& a, const Vec2d& b, const Vec2d& p) {
                         : (b.y() > a.y()) == (p.y() > a.y()) && p.y() != a.y();
 }
 
-/// Triangulates a polygon, counter-clockwise, between its last point and its first, all of which is seen from that edge: ears are
-/// cut as they come (Toussaint and Avis 1982). Points may come twice where the boundary runs to and fro along an edge.
+/// Triangulates a polygon, counter-clockwise, between its last point and its first, all of which is
+/// seen from that edge: ears are cut as they come (Toussaint and Avis 1982). Points may come twice
+/// where the boundary runs to and fro along an edge.
 void fill_from_edge(std::span<const Vec2d> points, const std::vector<Index>& polygon,
                     std::vector<std::array<Index, 3>>& triangles) {
   std::vector<Index> stack;
@@ -80,7 +81,9 @@ void ConstrainedDelaunay::start(Index a, Index b, Index c) {
   for (Index i = 0; i < 3; ++i) {
     const Index ghost = 3 * (i + 1);
     join(i, ghost + 1);
-    join(ghost, 3 * ((i + 1) % 3 + 1) + 2);  // ghost to corner i + 1, which the next ghost triangle leaves for the ghost
+    join(ghost,
+         3 * ((i + 1) % 3 + 1) +
+             2);  // ghost to corner i + 1, which the next ghost triangle leaves for the ghost
   }
 }
 
@@ -95,7 +98,8 @@ Index ConstrainedDelaunay::locate(Index point) const {
   Index triangle = last_;
   if (const Index edge = hull_edge(triangle); edge != kNone) triangle = twin_[edge] / 3;
   Index entered = kNone;
-  for (;;) {  // ends: triangles of a Delaunay triangulation that hide one another from a point do so without cycles
+  for (;;) {  // ends: triangles of a Delaunay triangulation that hide one another from a point do
+              // so without cycles
     Index left = kNone;
     for (Index h = 3 * triangle; h < 3 * triangle + 3 && left == kNone; ++h)
       if (h != entered && orientation(points_[origin_[h]], points_[end(h)], p) < 0) left = h;
@@ -113,9 +117,11 @@ bool ConstrainedDelaunay::in_conflict(Index triangle, Index point) const {
   const Vec2d& p = points_[point];
   const Index edge = hull_edge(triangle);
   if (edge == kNone)
-    return in_circle(points_[origin_[3 * triangle]], points_[origin_[3 * triangle + 1]], points_[origin_[3 * triangle + 2]], p) > 0;
+    return in_circle(points_[origin_[3 * triangle]], points_[origin_[3 * triangle + 1]],
+                     points_[origin_[3 * triangle + 2]], p) > 0;
   const Vec2d &a = points_[origin_[edge]], &b = points_[end(edge)];
-  const int side = orientation(a, b, p);  // its circle: the half-plane outside, and the edge without its ends
+  const int side =
+      orientation(a, b, p);  // its circle: the half-plane outside, and the edge without its ends
   return side > 0 || (side == 0 && is_ahead(a, b, p) && is_ahead(b, a, p));
 }
 
@@ -139,7 +145,8 @@ bool ConstrainedDelaunay::insert(Index point) {
         rim.push_back({origin_[h], end(h), twin_[h]});
       }
     }
-  while (cavity.size() < rim.size()) cavity.push_back(static_cast<Index>(origin_.size() / 3 + (cavity.size() + 2 - rim.size())));
+  while (cavity.size() < rim.size())
+    cavity.push_back(static_cast<Index>(origin_.size() / 3 + (cavity.size() + 2 - rim.size())));
   const auto spoke = [&](Index p) -> Index& { return spoke_[p == kGhost ? points_.size() : p]; };
   for (std::size_t i = 0; i < rim.size(); ++i) {
     set_triangle(cavity[i], {point, rim[i].from, rim[i].to});
@@ -164,7 +171,8 @@ bool ConstrainedDelaunay::fix_edge(Index a, Index b) {
     if (right != kGhost) {
       const int side = orientation(at_a, at_b, points_[right]);
       if (side == 0 && is_ahead(at_a, at_b, points_[right])) return false;
-      if (side < 0 && left != kGhost && orientation(at_a, at_b, points_[left]) > 0) crossing = Surface::next(h);
+      if (side < 0 && left != kGhost && orientation(at_a, at_b, points_[left]) > 0)
+        crossing = Surface::next(h);
     }
     h = twin_[Surface::previous(h)];
   } while (h != leaving_[a] && crossing == kNone);
@@ -193,11 +201,14 @@ bool ConstrainedDelaunay::fix_edge(Index a, Index b) {
   return true;
 }
 
-void ConstrainedDelaunay::refill(const std::vector<Index>& crossed, const std::vector<std::array<Index, 3>>& filling, Index a,
+void ConstrainedDelaunay::refill(const std::vector<Index>& crossed,
+                                 const std::vector<std::array<Index, 3>>& filling, Index a,
                                  Index b) {
   struct Link {
     Index low, high, half_edge;  ///< No half-edge: the edge is fixed.
-    bool operator<(const Link& o) const { return std::tie(low, high, half_edge) < std::tie(o.low, o.high, o.half_edge); }
+    bool operator<(const Link& o) const {
+      return std::tie(low, high, half_edge) < std::tie(o.low, o.high, o.half_edge);
+    }
   };
   std::vector<Link> links;
   const auto add = [&](Index from, Index to, Index half_edge) {
@@ -222,7 +233,8 @@ void ConstrainedDelaunay::refill(const std::vector<Index>& crossed, const std::v
     const Link edge = links[i];
     i += 2;
     fixed_[h] = fixed_[other] = 0;
-    for (; i < links.size() && links[i].low == edge.low && links[i].high == edge.high; ++i) fixed_[h] = fixed_[other] = 1;
+    for (; i < links.size() && links[i].low == edge.low && links[i].high == edge.high; ++i)
+      fixed_[h] = fixed_[other] = 1;
   }
 }
 
@@ -249,9 +261,12 @@ void ConstrainedDelaunay::make_delaunay(const std::vector<char>& is_inside) {
     const Index h = suspects.back();
     suspects.pop_back();
     const Index g = twin_[h];
-    if (fixed_[h] != 0 || in_circle(points_[origin_[h]], points_[end(h)], points_[apex(h)], points_[apex(g)]) <= 0) continue;
+    if (fixed_[h] != 0 ||
+        in_circle(points_[origin_[h]], points_[end(h)], points_[apex(h)], points_[apex(g)]) <= 0)
+      continue;
     flip(h);
-    for (const Index side : {h, Surface::previous(h), g, Surface::previous(g)}) suspects.push_back(side);
+    for (const Index side : {h, Surface::previous(h), g, Surface::previous(g)})
+      suspects.push_back(side);
   }
 }
 
@@ -286,13 +301,16 @@ std::vector<std::array<Index, 3>> ConstrainedDelaunay::inside() && {
       is_reached[across] = 1;
       piece.push_back(across);
     }
-  if (static_cast<std::ptrdiff_t>(piece.size()) != std::count(is_inside.begin(), is_inside.end(), char{1})) return {};
+  if (static_cast<std::ptrdiff_t>(piece.size()) !=
+      std::count(is_inside.begin(), is_inside.end(), char{1}))
+    return {};
 
   make_delaunay(is_inside);
   std::sort(piece.begin(), piece.end());
   std::vector<std::array<Index, 3>> triangles;
   triangles.reserve(piece.size());
-  for (const Index t : piece) triangles.push_back({origin_[3 * t], origin_[3 * t + 1], origin_[3 * t + 2]});
+  for (const Index t : piece)
+    triangles.push_back({origin_[3 * t], origin_[3 * t + 1], origin_[3 * t + 2]});
   return triangles;
 }
 

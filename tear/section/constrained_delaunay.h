@@ -11,10 +11,11 @@
 
 namespace sunder::tear {
 
-/// A Delaunay triangulation of points in the plane into which edges are forced; every decision is exact.
+/// A Delaunay triangulation of points in the plane into which edges are forced; every decision is
+/// exact.
 ///
-/// Half-edge h of triangle h / 3 leaves origin_[h]. The convex hull is closed by triangles that share one ghost point at infinity,
-/// so that every half-edge has a twin.
+/// Half-edge h of triangle h / 3 leaves origin_[h]. The convex hull is closed by triangles that
+/// share one ghost point at infinity, so that every half-edge has a twin.
 class ConstrainedDelaunay {
  public:
   /// @param points  in exact_range(); they outlive the triangulation.
@@ -24,11 +25,13 @@ class ConstrainedDelaunay {
   static std::optional<ConstrainedDelaunay> of(std::span<const Vec2d> points);
 
   /// Makes the segment between two points an edge that stays.
-  /// @return false, with nothing changed, where a third point lies on the segment or an edge fixed before crosses it.
+  /// @return false, with nothing changed, where a third point lies on the segment or an edge fixed
+  /// before crosses it.
   [[nodiscard]] bool fix_edge(Index a, Index b);
 
-  /// The triangles that an odd number of fixed edges parts from the outside, counter-clockwise, where the fixed edges form closed
-  /// loops. Constrained Delaunay: no unfixed edge has the far corner of one side inside the circle of the other.
+  /// The triangles that an odd number of fixed edges parts from the outside, counter-clockwise,
+  /// where the fixed edges form closed loops. Constrained Delaunay: no unfixed edge has the far
+  /// corner of one side inside the circle of the other.
   /// @return empty where they are not connected across unfixed edges.
   [[nodiscard]] std::vector<std::array<Index, 3>> inside() &&;
 
@@ -37,11 +40,13 @@ class ConstrainedDelaunay {
 
   explicit ConstrainedDelaunay(std::span<const Vec2d> points) : points_(points) {}
   void start(Index a, Index b, Index c);
-  /// The triangle that holds a point, or a ghost triangle whose edge sees it from outside; kNone for a point that is there already.
+  /// The triangle that holds a point, or a ghost triangle whose edge sees it from outside; kNone
+  /// for a point that is there already.
   [[nodiscard]] Index locate(Index point) const;
   [[nodiscard]] bool in_conflict(Index triangle, Index point) const;
   [[nodiscard]] bool insert(Index point);
-  void refill(const std::vector<Index>& crossed, const std::vector<std::array<Index, 3>>& filling, Index a, Index b);
+  void refill(const std::vector<Index>& crossed, const std::vector<std::array<Index, 3>>& filling,
+              Index a, Index b);
   void flip(Index half_edge);
   void make_delaunay(const std::vector<char>& is_inside);
 

@@ -6,7 +6,8 @@
 namespace sunder::tear {
 namespace {
 
-// Expansions: Shewchuk, "Adaptive precision floating-point arithmetic and fast robust geometric predicates", 1997.
+// Expansions: Shewchuk, "Adaptive precision floating-point arithmetic and fast robust geometric
+// predicates", 1997.
 
 struct Pair {
   double value;  ///< The rounded result.
@@ -28,10 +29,12 @@ Pair split(double a) {
 Pair two_product(double a, double b) {
   const double product = a * b;
   const Pair x = split(a), y = split(b);
-  return {product, x.error * y.error - (((product - x.value * y.value) - x.error * y.value) - x.value * y.error)};
+  return {product, x.error * y.error -
+                       (((product - x.value * y.value) - x.error * y.value) - x.value * y.error)};
 }
 
-/// A number as an exact sum of at most N doubles that do not overlap, the smallest first, none zero.
+/// A number as an exact sum of at most N doubles that do not overlap, the smallest first, none
+/// zero.
 template <int N>
 struct Expansion {
   std::array<double, N> component{};
@@ -73,7 +76,8 @@ Expansion<2 * N * M> product(const Expansion<N>& a, const Expansion<M>& b) {
   Expansion<2 * N * M> result;
   for (int i = 0; i < a.count; ++i)
     for (int j = 0; j < b.count; ++j) {
-      const Pair pair = two_product(a.component[static_cast<std::size_t>(i)], b.component[static_cast<std::size_t>(j)]);
+      const Pair pair = two_product(a.component[static_cast<std::size_t>(i)],
+                                    b.component[static_cast<std::size_t>(j)]);
       if (pair.error != 0) result.add(pair.error);
       result.add(pair.value);
     }
@@ -81,7 +85,8 @@ Expansion<2 * N * M> product(const Expansion<N>& a, const Expansion<M>& b) {
 }
 
 /// ax * by - ay * bx.
-Expansion<16> cross(const Expansion<2>& ax, const Expansion<2>& ay, const Expansion<2>& bx, const Expansion<2>& by) {
+Expansion<16> cross(const Expansion<2>& ax, const Expansion<2>& ay, const Expansion<2>& bx,
+                    const Expansion<2>& by) {
   Expansion<16> result;
   result.add(product(ax, by));
   result.add(product(ay, bx), -1);
@@ -96,7 +101,9 @@ Expansion<16> squared_norm(const Expansion<2>& x, const Expansion<2>& y) {
 }
 
 int exact_orientation(const Vec2d& a, const Vec2d& b, const Vec2d& c) {
-  return cross(difference(a.x(), c.x()), difference(a.y(), c.y()), difference(b.x(), c.x()), difference(b.y(), c.y())).sign();
+  return cross(difference(a.x(), c.x()), difference(a.y(), c.y()), difference(b.x(), c.x()),
+               difference(b.y(), c.y()))
+      .sign();
 }
 
 int exact_in_circle(const Vec2d& a, const Vec2d& b, const Vec2d& c, const Vec2d& d) {
@@ -129,8 +136,10 @@ int orientation(const Vec2d& a, const Vec2d& b, const Vec2d& c) {
   const double left = (a.x() - c.x()) * (b.y() - c.y());
   const double right = (a.y() - c.y()) * (b.x() - c.x());
   const double value = left - right;
-  if (std::abs(value) > (3 + 16 * kRounding) * kRounding * (std::abs(left) + std::abs(right))) return sign_of(value);
-  if (left == 0 && right == 0) return 0;  // exact: a difference is zero only where it is, and no product underflows
+  if (std::abs(value) > (3 + 16 * kRounding) * kRounding * (std::abs(left) + std::abs(right)))
+    return sign_of(value);
+  if (left == 0 && right == 0)
+    return 0;  // exact: a difference is zero only where it is, and no product underflows
   return exact_orientation(a, b, c);
 }
 
@@ -139,8 +148,10 @@ int in_circle(const Vec2d& a, const Vec2d& b, const Vec2d& c, const Vec2d& d) {
   const double bx = b.x() - d.x(), by = b.y() - d.y();
   const double cx = c.x() - d.x(), cy = c.y() - d.y();
   const double a2 = ax * ax + ay * ay, b2 = bx * bx + by * by, c2 = cx * cx + cy * cy;
-  const double value = a2 * (bx * cy - by * cx) + b2 * (cx * ay - cy * ax) + c2 * (ax * by - ay * bx);
-  const double magnitude = a2 * (std::abs(bx * cy) + std::abs(by * cx)) + b2 * (std::abs(cx * ay) + std::abs(cy * ax)) +
+  const double value =
+      a2 * (bx * cy - by * cx) + b2 * (cx * ay - cy * ax) + c2 * (ax * by - ay * bx);
+  const double magnitude = a2 * (std::abs(bx * cy) + std::abs(by * cx)) +
+                           b2 * (std::abs(cx * ay) + std::abs(cy * ax)) +
                            c2 * (std::abs(ax * by) + std::abs(ay * bx));
   if (std::abs(value) > (10 + 96 * kRounding) * kRounding * magnitude) return sign_of(value);
   return exact_in_circle(a, b, c, d);
@@ -154,12 +165,15 @@ int area_sign(std::span<const Vec2d> loop) {
     area += a.x() * b.y() - a.y() * b.x();
     magnitude += std::abs(a.x() * b.y()) + std::abs(a.y() * b.x());
   }
-  if (std::abs(area) > 2 * static_cast<double>(loop.size() + 8) * kRounding * magnitude) return sign_of(area);
-  Expansion<1024> exact;  // more bits than lie between the smallest and the largest product in range
+  if (std::abs(area) > 2 * static_cast<double>(loop.size() + 8) * kRounding * magnitude)
+    return sign_of(area);
+  Expansion<1024>
+      exact;  // more bits than lie between the smallest and the largest product in range
   for (std::size_t i = 0; i < loop.size(); ++i) {
     const Vec2d &a = loop[i], &b = loop[(i + 1) % loop.size()];
     const Pair positive = two_product(a.x(), b.y()), negative = two_product(a.y(), b.x());
-    for (const double part : {positive.error, positive.value, -negative.error, -negative.value}) exact.add(part);
+    for (const double part : {positive.error, positive.value, -negative.error, -negative.value})
+      exact.add(part);
   }
   return exact.sign();
 }

@@ -7,10 +7,12 @@
 
 namespace sunder::tear {
 
-// Signs of polynomials in coordinates, exact: floating point where its error cannot matter, else expansions of doubles. The same on
-// every compiler that keeps IEEE arithmetic. Exact for coordinates that exact_range() returns.
+// Signs of polynomials in coordinates, exact: floating point where its error cannot matter, else
+// expansions of doubles. The same on every compiler that keeps IEEE arithmetic. Exact for
+// coordinates that exact_range() returns.
 
-/// The point as the predicates can take it: magnitudes below 2^-200 become zero, so that no product underflows.
+/// The point as the predicates can take it: magnitudes below 2^-200 become zero, so that no product
+/// underflows.
 /// @return nothing for magnitudes above 2^200 and for what is not finite.
 [[nodiscard]] std::optional<Vec2d> exact_range(const Vec2d& point);
 

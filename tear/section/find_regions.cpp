@@ -30,7 +30,8 @@ std::vector<Loop> loops_with_area(std::span<const FlatLoop> loops) {
     if (loop.points.size() != loops[i].size() || area_sign(loop.points) == 0) continue;
     loop.low = loop.high = loop.points[0];
     for (std::size_t k = 0; k < loop.points.size(); ++k) {
-      const Vec2d a = loop.points[k] - loop.points[0], b = loop.points[(k + 1) % loop.points.size()] - loop.points[0];
+      const Vec2d a = loop.points[k] - loop.points[0],
+                  b = loop.points[(k + 1) % loop.points.size()] - loop.points[0];
       loop.area += 0.5 * (a.x() * b.y() - a.y() * b.x());
       loop.low = loop.low.cwiseMin(loop.points[k]);
       loop.high = loop.high.cwiseMax(loop.points[k]);
@@ -56,13 +57,14 @@ Side side_of(const Loop& loop, const Vec2d& p) {
     if ((a.y() <= p.y()) == (b.y() <= p.y())) continue;
     const int turn = orientation(a, b, p);
     if (turn == 0) return Side::on;
-    if ((turn > 0) == (b.y() > a.y())) is_inside = !is_inside;  // the ray towards +x crosses the edge
+    if ((turn > 0) == (b.y() > a.y()))
+      is_inside = !is_inside;  // the ray towards +x crosses the edge
   }
   return is_inside ? Side::inside : Side::outside;
 }
 
-/// Whether `outer` holds `inner`, told by the first point of `inner` that is not on `outer`, else by the first such middle of an
-/// edge. Of loops that coincide the first holds the other.
+/// Whether `outer` holds `inner`, told by the first point of `inner` that is not on `outer`, else
+/// by the first such middle of an edge. Of loops that coincide the first holds the other.
 bool holds(const Loop& outer, const Loop& inner) {
   if (!box_holds(outer, inner.low) || !box_holds(outer, inner.high)) return false;
   for (const Vec2d& p : inner.points)
@@ -91,7 +93,8 @@ std::vector<FlatRegion> find_regions(std::span<const FlatLoop> all_loops) {
 
   std::vector<FlatRegion> regions;
   std::vector<std::size_t> region_of(loops.size(), loops.size());
-  // It belongs to the innermost of the outlines that hold it. Among loops that cross there may be none: its own outline then.
+  // It belongs to the innermost of the outlines that hold it. Among loops that cross there may be
+  // none: its own outline then.
   std::vector<std::size_t> outline_of(loops.size());
   for (std::size_t i = 0; i < loops.size(); ++i) {
     std::size_t best = i;

@@ -68,9 +68,11 @@ std::optional<FlatMesh> triangulate_with(const Rim& rim, const std::vector<Vec2d
 
 }  // namespace
 
-std::optional<FlatMesh> triangulate(std::span<const FlatLoop> loops, const FlatRegion& region, double spacing) {
+std::optional<FlatMesh> triangulate(std::span<const FlatLoop> loops, const FlatRegion& region,
+                                    double spacing) {
   Rim rim;
-  if (region.outline >= loops.size() || !append_loop(loops[region.outline], rim)) return std::nullopt;
+  if (region.outline >= loops.size() || !append_loop(loops[region.outline], rim))
+    return std::nullopt;
   rim.area = std::abs(signed_area(loops[region.outline]));
   for (const Index hole : region.holes) {
     if (hole >= loops.size() || !append_loop(loops[hole], rim)) return std::nullopt;
@@ -78,10 +80,13 @@ std::optional<FlatMesh> triangulate(std::span<const FlatLoop> loops, const FlatR
   }
   std::vector<Vec2d> inner;
   if (spacing > 0 && std::isfinite(spacing))
-    inner = place_inner_points(rim.points, rim.edges, rim.area, spacing, 4 * rim.points.size() + 64);
+    inner =
+        place_inner_points(rim.points, rim.edges, rim.area, spacing, 4 * rim.points.size() + 64);
   auto mesh = triangulate_with(rim, inner);
   if (mesh || inner.empty()) return mesh;
-  return triangulate_with(rim, {});  // inner points so close that rounding made some coincide with others or with the rim
+  return triangulate_with(
+      rim,
+      {});  // inner points so close that rounding made some coincide with others or with the rim
 }
 
 }  // namespace sunder::tear

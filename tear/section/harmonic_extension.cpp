@@ -7,7 +7,8 @@
 
 namespace sunder::tear {
 
-Eigen::MatrixXd extend_harmonically(std::span<const Vec2d> points, Index rim_count, std::span<const std::array<Index, 3>> triangles,
+Eigen::MatrixXd extend_harmonically(std::span<const Vec2d> points, Index rim_count,
+                                    std::span<const std::array<Index, 3>> triangles,
                                     const Eigen::MatrixXd& rim_values) {
   struct Weight {
     Index low, high;
@@ -18,13 +19,16 @@ Eigen::MatrixXd extend_harmonically(std::span<const Vec2d> points, Index rim_cou
     for (std::size_t i = 0; i < 3; ++i) {
       const Index a = triangle[i], b = triangle[(i + 1) % 3];
       if (a < rim_count && b < rim_count) continue;
-      const Vec2d to_a = points[a] - points[triangle[(i + 2) % 3]], to_b = points[b] - points[triangle[(i + 2) % 3]];
+      const Vec2d to_a = points[a] - points[triangle[(i + 2) % 3]],
+                  to_b = points[b] - points[triangle[(i + 2) % 3]];
       const double twice_area = to_a.x() * to_b.y() - to_a.y() * to_b.x();
-      if (twice_area > 0) weights.push_back({std::min(a, b), std::max(a, b), to_a.dot(to_b) / twice_area});
+      if (twice_area > 0)
+        weights.push_back({std::min(a, b), std::max(a, b), to_a.dot(to_b) / twice_area});
     }
   // Stable: the same order of summation with every standard library.
-  std::stable_sort(weights.begin(), weights.end(),
-                   [](const Weight& a, const Weight& b) { return a.low != b.low ? a.low < b.low : a.high < b.high; });
+  std::stable_sort(weights.begin(), weights.end(), [](const Weight& a, const Weight& b) {
+    return a.low != b.low ? a.low < b.low : a.high < b.high;
+  });
 
   const auto inner_count = static_cast<Eigen::Index>(points.size() - rim_count);
   const Eigen::Index channels = rim_values.cols();
@@ -40,12 +44,15 @@ Eigen::MatrixXd extend_harmonically(std::span<const Vec2d> points, Index rim_cou
   for (std::size_t i = 0; i < weights.size();) {
     const Index low = weights[i].low, high = weights[i].high;
     double weight = 0;
-    for (; i < weights.size() && weights[i].low == low && weights[i].high == high; ++i) weight += weights[i].value;
-    if (!(weight > 0) || !std::isfinite(weight)) continue;  // on a circle with its neighbours: zero but for rounding
+    for (; i < weights.size() && weights[i].low == low && weights[i].high == high; ++i)
+      weight += weights[i].value;
+    if (!(weight > 0) || !std::isfinite(weight))
+      continue;  // on a circle with its neighbours: zero but for rounding
     const auto column = static_cast<Eigen::Index>(high - rim_count);
     diagonal[column] += weight;
     if (low < rim_count) {
-      right.row(column) += weight * (rim_values.row(low) - least);  // what all have in common would only cost digits
+      right.row(column) +=
+          weight * (rim_values.row(low) - least);  // what all have in common would only cost digits
     } else {
       const auto row = static_cast<Eigen::Index>(low - rim_count);
       diagonal[row] += weight;
@@ -63,7 +70,8 @@ Eigen::MatrixXd extend_harmonically(std::span<const Vec2d> points, Index rim_cou
   for (Eigen::Index channel = 0; channel < channels; ++channel)
     for (Eigen::Index i = 0; i < inner_count; ++i) {
       double& value = result(i, channel);
-      value = std::clamp(std::isfinite(value) ? least[channel] + value : least[channel], least[channel], greatest[channel]);
+      value = std::clamp(std::isfinite(value) ? least[channel] + value : least[channel],
+                         least[channel], greatest[channel]);
     }
   return result;
 }

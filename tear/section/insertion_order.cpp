@@ -23,8 +23,8 @@ std::uint32_t hilbert_place(std::uint32_t x, std::uint32_t y) {
   return place;
 }
 
-/// How often a die of two sides falls on the first in a row: each round of insertion takes about half of the points that are left
-/// for the rounds after it.
+/// How often a die of two sides falls on the first in a row: each round of insertion takes about
+/// half of the points that are left for the rounds after it.
 int rounds_before_last(std::uint64_t seed) {
   seed = (seed + 1) * 0x9E3779B97F4A7C15u;
   seed = (seed ^ (seed >> 30)) * 0xBF58476D1CE4E5B9u;
@@ -50,7 +50,8 @@ std::vector<Index> insertion_order(std::span<const Vec2d> points) {
   for (Index i = 0; i < points.size(); ++i) {
     const auto x = static_cast<std::uint32_t>((points[i].x() - low.x()) * cells_per_length);
     const auto y = static_cast<std::uint32_t>((points[i].y() - low.y()) * cells_per_length);
-    keys.emplace_back(-rounds_before_last(i), hilbert_place(std::min(x, 65535u), std::min(y, 65535u)), i);
+    keys.emplace_back(-rounds_before_last(i),
+                      hilbert_place(std::min(x, 65535u), std::min(y, 65535u)), i);
   }
   std::sort(keys.begin(), keys.end());
   std::vector<Index> order;

@@ -13,7 +13,8 @@
 
 namespace sunder::tear {
 
-/// What a refit needs to know of a model, and what comes of it. Only `state` is read by others while it runs.
+/// What a refit needs to know of a model, and what comes of it. Only `state` is read by others
+/// while it runs.
 struct RefitWork {
   struct Point {
     AnimationPoint exact;
@@ -24,8 +25,8 @@ struct RefitWork {
 
   /// @param weighing  points of the editor's model, as `barycentric` has them.
   /// @param since     where the first of their operations began.
-  RefitWork(std::shared_ptr<const Character> source, WeightsOperation operation, PoseSet poses, Weighing weighing,
-            const SurfaceEditor::Mark& since, const SurfaceEditor& editor);
+  RefitWork(std::shared_ptr<const Character> source, WeightsOperation operation, PoseSet poses,
+            Weighing weighing, const SurfaceEditor::Mark& since, const SurfaceEditor& editor);
 
   void run();
   void cancel();

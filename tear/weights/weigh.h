@@ -28,21 +28,29 @@ struct Weighing {
 };
 
 /// The points that were made in some ranges and lie between vertices.
-[[nodiscard]] std::vector<SurfaceEditor::VertexRef> weighable_points(const VertexRanges& ranges, const SurfaceEditor& editor);
+[[nodiscard]] std::vector<SurfaceEditor::VertexRef> weighable_points(const VertexRanges& ranges,
+                                                                     const SurfaceEditor& editor);
 
 /// What a policy makes of points; `refit` begins as `barycentric`.
 /// @param palettes  of each skin, in the pose that `pose_exact` meets.
-[[nodiscard]] Weighing weigh(std::span<const SurfaceEditor::VertexRef> points, const WeightOptions& options,
-                             std::span<const std::vector<Affine3d>> palettes, std::span<const float> morph_weights,
-                             const SurfaceEditor& editor, WeightReport& report);
+[[nodiscard]] Weighing weigh(std::span<const SurfaceEditor::VertexRef> points,
+                             const WeightOptions& options,
+                             std::span<const std::vector<Affine3d>> palettes,
+                             std::span<const float> morph_weights, const SurfaceEditor& editor,
+                             WeightReport& report);
 
-/// What gives points what was weighed for them, and the same to all vertices that share them: to be exchanged.
+/// What gives points what was weighed for them, and the same to all vertices that share them: to be
+/// exchanged.
 /// @param ranges  where those begin; the first of each mesh.
-[[nodiscard]] SurfaceEditor::WeightChange change_to(const Weighing& weighing, const VertexRanges& ranges, SurfaceEditor& editor);
+[[nodiscard]] SurfaceEditor::WeightChange change_to(const Weighing& weighing,
+                                                    const VertexRanges& ranges,
+                                                    SurfaceEditor& editor);
 
-/// Weighs the points that were made since `begin`; nothing is done where the policy is that of births.
+/// Weighs the points that were made since `begin`; nothing is done where the policy is that of
+/// births.
 void weigh_new_points(const SurfaceEditor::Mark& begin, const WeightOptions& options,
-                      std::span<const std::vector<Affine3d>> palettes, std::span<const float> morph_weights, SurfaceEditor& editor,
+                      std::span<const std::vector<Affine3d>> palettes,
+                      std::span<const float> morph_weights, SurfaceEditor& editor,
                       WeightReport& report);
 
 }  // namespace sunder::tear

@@ -25,7 +25,8 @@ TEST(BonePalette, knows_which_bones_changed_and_when) {
   matrices[3].translation().x() += 1;
   ASSERT_TRUE(palette.set(matrices, std::vector<float>{0, 1}));
   EXPECT_GT(palette.revision(), first);
-  for (std::size_t slot = 0; slot < 5; ++slot) EXPECT_EQ(palette.revision_of(slot), slot == 3 ? palette.revision() : first);
+  for (std::size_t slot = 0; slot < 5; ++slot)
+    EXPECT_EQ(palette.revision_of(slot), slot == 3 ? palette.revision() : first);
   const std::uint64_t second = palette.revision();
   ASSERT_TRUE(palette.set(matrices, std::vector<float>{0.5f, 1}));
   EXPECT_GT(palette.revision(), second) << "a morph weight counts too";
@@ -93,7 +94,8 @@ TEST(BonePalette, refuses_what_does_not_fit_and_takes_nothing) {
   bad = pose;
   bad.model_from_bone.resize(2);
   expect_fault(bad, StatusCode::index_out_of_range, 2);
-  EXPECT_EQ(palette.set(std::vector<Affine3f>(3, Affine3f::Identity()), pose.morph_weights).code(), StatusCode::size_mismatch);
+  EXPECT_EQ(palette.set(std::vector<Affine3f>(3, Affine3f::Identity()), pose.morph_weights).code(),
+            StatusCode::size_mismatch);
   ASSERT_TRUE(palette.set(character.skins[0], pose));
   EXPECT_EQ(palette.revision(), revision);
 }
@@ -118,7 +120,8 @@ TEST(NormalMatrix, is_the_linear_part_where_scale_is_even_and_across_the_surface
   }
   Mat3d flat = Mat3d::Identity();
   flat(2, 2) = 0;
-  EXPECT_GT(Vec3d(compute_normal_matrix(flat) * Vec3d(0.3, 0.2, 1)).normalized().z(), 0.9999) << "all normals of a flattened bone";
+  EXPECT_GT(Vec3d(compute_normal_matrix(flat) * Vec3d(0.3, 0.2, 1)).normalized().z(), 0.9999)
+      << "all normals of a flattened bone";
   Mat3d line = Mat3d::Zero();
   line(0, 0) = 1;
   EXPECT_EQ(compute_normal_matrix(line), Mat3d(Mat3d::Zero()));

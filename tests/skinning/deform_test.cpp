@@ -40,9 +40,14 @@ TEST(Deform, agrees_with_the_double_precision_reference) {
     ASSERT_TRUE(deform_mesh(mesh, in_float(palette), pose.morph_weights, deformed));
     const double diagonal = test::posed_diagonal(character, pose);
     for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
-      ASSERT_LT((deformed.positions[v].cast<double>() - deform_position_reference(mesh, v, palette, pose.morph_weights)).norm(),
+      ASSERT_LT((deformed.positions[v].cast<double>() -
+                 deform_position_reference(mesh, v, palette, pose.morph_weights))
+                    .norm(),
                 2e-6 * diagonal);
-      ASSERT_LT((deformed.normals[v].cast<double>() - deform_normal_reference(mesh, v, palette, pose.morph_weights)).norm(), 2e-4);
+      ASSERT_LT((deformed.normals[v].cast<double>() -
+                 deform_normal_reference(mesh, v, palette, pose.morph_weights))
+                    .norm(),
+                2e-4);
       ASSERT_NEAR(deformed.tangents[v].head<3>().norm(), 1.0f, 1e-5f);
       ASSERT_EQ(deformed.tangents[v].w(), -1.0f);
     }
@@ -52,7 +57,8 @@ TEST(Deform, agrees_with_the_double_precision_reference) {
 TEST(Deform, a_rigid_motion_of_all_bones_moves_the_skin_rigidly) {
   const Character character = test::make_tube(6, 8, 3);
   ModelPose pose = bind_pose(character);
-  const Eigen::Affine3d motion = Eigen::Translation3d(1, -2, 3) * Eigen::AngleAxisd(1.1, Eigen::Vector3d(1, 2, 3).normalized());
+  const Eigen::Affine3d motion = Eigen::Translation3d(1, -2, 3) *
+                                 Eigen::AngleAxisd(1.1, Eigen::Vector3d(1, 2, 3).normalized());
   for (Affine3d& bone : pose.model_from_bone) bone = motion * bone;
   const Mesh& mesh = character.meshes[0];
   const auto palette = palette_of(character, pose);
@@ -61,9 +67,10 @@ TEST(Deform, a_rigid_motion_of_all_bones_moves_the_skin_rigidly) {
                motion * Eigen::Vector3d(mesh.positions[v].cast<double>()))
                   .norm(),
               1e-6);
-    EXPECT_LT(
-        (deform_normal_reference(mesh, v, palette, pose.morph_weights) - motion.linear() * mesh.normals[v].cast<double>()).norm(),
-        1e-6);
+    EXPECT_LT((deform_normal_reference(mesh, v, palette, pose.morph_weights) -
+               motion.linear() * mesh.normals[v].cast<double>())
+                  .norm(),
+              1e-6);
   }
 }
 
@@ -85,7 +92,8 @@ TEST(Deform, a_collapsed_bone_gives_finite_results) {
   ModelPose pose = bind_pose(character);
   for (Affine3d& bone : pose.model_from_bone) bone.linear().setZero();
   DeformedMesh deformed;
-  ASSERT_TRUE(deform_mesh(character.meshes[0], in_float(palette_of(character, pose)), {}, deformed));
+  ASSERT_TRUE(
+      deform_mesh(character.meshes[0], in_float(palette_of(character, pose)), {}, deformed));
   for (const Vec3f& normal : deformed.normals) EXPECT_EQ(normal, Vec3f(0, 0, 1));
 }
 
@@ -97,7 +105,10 @@ TEST(Deform, morph_targets_come_before_bones) {
   const auto palette = palette_of(character, pose);
   for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
     const Vec3f morphed = mesh.positions[v] + mesh.morph_targets[0].position_deltas[v];
-    EXPECT_LT((deform_position_reference(mesh, v, palette, pose.morph_weights) - morphed.cast<double>()).norm(), 1e-6);
+    EXPECT_LT(
+        (deform_position_reference(mesh, v, palette, pose.morph_weights) - morphed.cast<double>())
+            .norm(),
+        1e-6);
   }
 }
 
@@ -106,9 +117,12 @@ TEST(Deform, refuses_palettes_and_weights_that_do_not_fit) {
   const ModelPose pose = bind_pose(character);
   auto palette = palette_of(character, pose);
   DeformedMesh deformed;
-  EXPECT_EQ(deform_mesh(character.meshes[0], in_float(palette), {}, deformed).code(), StatusCode::size_mismatch);
+  EXPECT_EQ(deform_mesh(character.meshes[0], in_float(palette), {}, deformed).code(),
+            StatusCode::size_mismatch);
   palette.pop_back();
-  EXPECT_EQ(deform_mesh(character.meshes[0], in_float(palette), pose.morph_weights, deformed).code(), StatusCode::size_mismatch);
+  EXPECT_EQ(
+      deform_mesh(character.meshes[0], in_float(palette), pose.morph_weights, deformed).code(),
+      StatusCode::size_mismatch);
   EXPECT_TRUE(deformed.positions.empty());
 }
 

@@ -12,10 +12,12 @@
 namespace sunder {
 namespace {
 
-/// The definition for rigid bones, in double: blended unit dual quaternions, each with the sign that agrees with the sum before it.
+/// The definition for rigid bones, in double: blended unit dual quaternions, each with the sign
+/// that agrees with the sum before it.
 Vec3d pose_by_definition(const Mesh& mesh, std::uint32_t v, const std::vector<Affine3d>& matrices) {
   std::vector<Influence> influences(mesh.weights.of(v).begin(), mesh.weights.of(v).end());
-  std::sort(influences.begin(), influences.end(), [](const Influence& a, const Influence& b) { return a.slot < b.slot; });
+  std::sort(influences.begin(), influences.end(),
+            [](const Influence& a, const Influence& b) { return a.slot < b.slot; });
   Eigen::Vector4d real = Eigen::Vector4d::Zero(), dual = real;
   for (const Influence& influence : influences) {
     const Eigen::Quaterniond turn(Eigen::Matrix3d(matrices[influence.slot].linear()));
@@ -28,7 +30,8 @@ Vec3d pose_by_definition(const Mesh& mesh, std::uint32_t v, const std::vector<Af
   dual /= real.norm();
   real /= real.norm();
   const Eigen::Quaterniond turn(real[3], real[0], real[1], real[2]);
-  const Eigen::Quaterniond translation = Eigen::Quaterniond(2 * dual[3], 2 * dual[0], 2 * dual[1], 2 * dual[2]) * turn.conjugate();
+  const Eigen::Quaterniond translation =
+      Eigen::Quaterniond(2 * dual[3], 2 * dual[0], 2 * dual[1], 2 * dual[2]) * turn.conjugate();
   return Vec3d(turn * Eigen::Vector3d(mesh.positions[v].cast<double>())) + Vec3d(translation.vec());
 }
 
@@ -44,7 +47,8 @@ void pose(const Mesh& mesh, const std::vector<Affine3f>& matrices, const VertexT
 
 TEST(DualQuaternion, agrees_with_the_definition_in_double) {
   test::Random random(1);
-  for (const test::RandomSkin& kind : {test::RandomSkin{500, 12, 4, 0, false, 6}, test::RandomSkin{300, 200, 3, 0, false, 200}}) {
+  for (const test::RandomSkin& kind :
+       {test::RandomSkin{500, 12, 4, 0, false, 6}, test::RandomSkin{300, 200, 3, 0, false, 200}}) {
     const Mesh mesh = test::make_random_skin(random, kind);
     auto matrices = test::random_palette(random, kind.slots);
     for (Affine3d& matrix : matrices) {  // near one another: opposite rotations have no middle
@@ -54,14 +58,17 @@ TEST(DualQuaternion, agrees_with_the_definition_in_double) {
     test::PosedArrays posed(mesh);
     pose(mesh, test::in_float(matrices), posed.target());
     for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v)
-      ASSERT_LT((posed.position(v).cast<double>() - pose_by_definition(mesh, v, matrices)).norm(), 1e-6) << "vertex " << v;
+      ASSERT_LT((posed.position(v).cast<double>() - pose_by_definition(mesh, v, matrices)).norm(),
+                1e-6)
+          << "vertex " << v;
   }
 }
 
 TEST(DualQuaternion, with_one_influence_is_the_matrix_whatever_it_does) {
   test::Random random(2);
   const Mesh mesh = test::make_random_skin(random, {300, 10, 1, 0, true, 10});
-  const auto matrices = test::in_float(test::random_palette(random, 10, 1.5));  // stretched, sheared, some mirrored
+  const auto matrices =
+      test::in_float(test::random_palette(random, 10, 1.5));  // stretched, sheared, some mirrored
   test::PosedArrays by_motions(mesh, 0, true), by_matrices(mesh, 0, true);
   pose(mesh, matrices, by_motions.target());
   pose(mesh, matrices, by_matrices.target(), SkinningMethod::linear);
@@ -81,7 +88,9 @@ TEST(DualQuaternion, a_twist_keeps_the_distance_from_its_axis) {
     mesh.weights.append(both);
   }
   std::vector<Affine3f> matrices(2, Affine3f::Identity());
-  matrices[1].linear() = Eigen::AngleAxisf(0.9f * std::numbers::pi_v<float>, Eigen::Vector3f::UnitY()).toRotationMatrix();
+  matrices[1].linear() =
+      Eigen::AngleAxisf(0.9f * std::numbers::pi_v<float>, Eigen::Vector3f::UnitY())
+          .toRotationMatrix();
   test::PosedArrays posed(mesh), collapsed(mesh);
   pose(mesh, matrices, posed.target());
   pose(mesh, matrices, collapsed.target(), SkinningMethod::linear);

@@ -1,4 +1,5 @@
-// Vertices with a bind position for each influence: they stay where a triangle has them, in every pose.
+// Vertices with a bind position for each influence: they stay where a triangle has them, in every
+// pose.
 
 #include <sunder/skinning/deform.h>
 #include <sunder/skinning/skinned_mesh.h>
@@ -21,8 +22,10 @@ struct Inside {
   std::array<double, 3> parts;
 };
 
-/// Appends vertices inside random triangles: weights interpolated, bind positions per influence as the definition has them.
-InfluencePositions append_inside(test::Random& random, Mesh& mesh, std::uint32_t count, std::vector<Inside>& inside) {
+/// Appends vertices inside random triangles: weights interpolated, bind positions per influence as
+/// the definition has them.
+InfluencePositions append_inside(test::Random& random, Mesh& mesh, std::uint32_t count,
+                                 std::vector<Inside>& inside) {
   InfluencePositions exact;
   exact.morph_targets.resize(mesh.morph_targets.size());
   const std::uint32_t old_count = mesh.vertex_count();
@@ -32,7 +35,8 @@ InfluencePositions append_inside(test::Random& random, Mesh& mesh, std::uint32_t
     at.parts[0] = random.uniform(0, 1);
     at.parts[1] = random.uniform(0, 1 - at.parts[0]);
     at.parts[2] = 1 - at.parts[0] - at.parts[1];
-    std::map<std::uint32_t, std::array<double, 3>> weights;  // by slot, of each corner times its part
+    std::map<std::uint32_t, std::array<double, 3>>
+        weights;  // by slot, of each corner times its part
     for (std::size_t k = 0; k < 3; ++k)
       for (const Influence& influence : mesh.weights.of(at.corners[k]))
         weights[influence.slot][k] += at.parts[k] * influence.weight;
@@ -47,9 +51,12 @@ InfluencePositions append_inside(test::Random& random, Mesh& mesh, std::uint32_t
       exact.positions.push_back(blend(of, mesh.positions));
       exact.normals.push_back(blend(of, mesh.normals));
       for (std::size_t j = 0; j < mesh.morph_targets.size(); ++j) {
-        exact.morph_targets[j].positions.push_back(blend(of, mesh.morph_targets[j].position_deltas));
+        exact.morph_targets[j].positions.push_back(
+            blend(of, mesh.morph_targets[j].position_deltas));
         exact.morph_targets[j].normals.push_back(
-            mesh.morph_targets[j].normal_deltas.empty() ? Vec3f(Vec3f::Zero()) : blend(of, mesh.morph_targets[j].normal_deltas));
+            mesh.morph_targets[j].normal_deltas.empty()
+                ? Vec3f(Vec3f::Zero())
+                : blend(of, mesh.morph_targets[j].normal_deltas));
       }
     }
     exact.vertices.push_back(mesh.vertex_count());
@@ -59,7 +66,8 @@ InfluencePositions append_inside(test::Random& random, Mesh& mesh, std::uint32_t
     mesh.normals.push_back(blend(at.parts, mesh.normals).normalized());
     for (MorphTarget& target : mesh.morph_targets) {
       target.position_deltas.push_back(blend(at.parts, target.position_deltas));
-      if (!target.normal_deltas.empty()) target.normal_deltas.push_back(blend(at.parts, target.normal_deltas));
+      if (!target.normal_deltas.empty())
+        target.normal_deltas.push_back(blend(at.parts, target.normal_deltas));
     }
   }
   return exact;
@@ -83,14 +91,16 @@ TEST(ExactPoints, stay_on_their_triangle_in_every_pose) {
     double without = 0;
     for (int pose = 0; pose < 5; ++pose) {
       const auto matrices = test::random_palette(random, slots, pose % 2 == 0 ? 1.0 : 1.3);
-      const std::vector<float> weights = {static_cast<float>(random.uniform(0, 1)), pose == 3 ? 0.0f : 0.4f};
+      const std::vector<float> weights = {static_cast<float>(random.uniform(0, 1)),
+                                          pose == 3 ? 0.0f : 0.4f};
       ASSERT_TRUE(palette.set(test::in_float(matrices), weights));
       ASSERT_TRUE(made->deform(palette, buffer));
       for (std::uint32_t i = 0; i < inside.size(); ++i) {
         Vec3d expected = Vec3d::Zero(), normal = Vec3d::Zero();
         for (std::size_t k = 0; k < 3; ++k) {
           const std::uint32_t corner = inside[i].corners[k];
-          expected += inside[i].parts[k] * deform_position_reference(mesh, corner, matrices, weights);
+          expected +=
+              inside[i].parts[k] * deform_position_reference(mesh, corner, matrices, weights);
           Vec3d bind = mesh.normals[corner].cast<double>();
           bind += weights[0] * mesh.morph_targets[0].normal_deltas[corner].cast<double>();
           Mat3d blended = Mat3d::Zero();
@@ -100,10 +110,15 @@ TEST(ExactPoints, stay_on_their_triangle_in_every_pose) {
         }
         ASSERT_LT((posed.position(old_count + i).cast<double>() - expected).norm(), 5e-7);
         ASSERT_LT((posed.normal(old_count + i).cast<double>() - normal).norm(), 1e-6);
-        without = std::max(without, (deform_position_reference(mesh, old_count + i, matrices, weights) - expected).norm());
+        without = std::max(
+            without,
+            (deform_position_reference(mesh, old_count + i, matrices, weights) - expected).norm());
       }
       for (std::uint32_t v = 0; v < old_count; ++v)
-        ASSERT_LT((posed.position(v).cast<double>() - deform_position_reference(mesh, v, matrices, weights)).norm(), 2e-6);
+        ASSERT_LT((posed.position(v).cast<double>() -
+                   deform_position_reference(mesh, v, matrices, weights))
+                      .norm(),
+                  2e-6);
     }
     EXPECT_GT(without, 0.01) << "interpolated weights alone would not have stayed";
   }

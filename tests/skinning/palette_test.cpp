@@ -16,7 +16,8 @@ TEST(Palette, model_matrices_multiply_down_the_tree) {
   ModelPose model;
   ASSERT_TRUE(compute_model_pose(character.skeleton, pose, model));
   const Eigen::Affine3d root(Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitZ()));
-  const Eigen::Affine3d first = root * Eigen::Translation3d(0, 1, 0) * Eigen::Scaling(2.0, 1.0, 0.5);
+  const Eigen::Affine3d first =
+      root * Eigen::Translation3d(0, 1, 0) * Eigen::Scaling(2.0, 1.0, 0.5);
   const Eigen::Affine3d second = first * Eigen::Translation3d(0, 1, 0);
   EXPECT_TRUE(model.model_from_bone[2].matrix().isApprox(second.matrix().topRows<3>(), 1e-6));
 }
@@ -26,8 +27,10 @@ TEST(Palette, skin_in_bind_pose_reproduces_its_mesh) {
   test::Random random(2);
   // Binds that have nothing to do with the rest pose.
   for (Affine3f& bind : character.skins[0].bone_from_bind)
-    bind = Eigen::Affine3d(Eigen::AngleAxisd(random.uniform(-2, 2), Eigen::Vector3d(random.direction())) *
-                           Eigen::Translation3d(random.uniform(-1, 1), 1, 0) * Eigen::Scaling(random.uniform(0.5, 2)))
+    bind = Eigen::Affine3d(
+               Eigen::AngleAxisd(random.uniform(-2, 2), Eigen::Vector3d(random.direction())) *
+               Eigen::Translation3d(random.uniform(-1, 1), 1, 0) *
+               Eigen::Scaling(random.uniform(0.5, 2)))
                .cast<float>();
   const ModelPose bind = bind_pose(character);
   const auto positions = test::posed_positions(character, 0, bind);
@@ -48,9 +51,11 @@ TEST(Palette, sizes_are_checked) {
   ModelPose model;
   EXPECT_EQ(compute_model_pose(character.skeleton, {}, model).code(), StatusCode::size_mismatch);
   std::vector<Affine3d> palette(1);
-  EXPECT_EQ(compute_palette(character.skins[0], bind_pose(character), palette).code(), StatusCode::size_mismatch);
+  EXPECT_EQ(compute_palette(character.skins[0], bind_pose(character), palette).code(),
+            StatusCode::size_mismatch);
   palette.resize(2);
-  EXPECT_EQ(compute_palette(character.skins[0], model, palette).code(), StatusCode::index_out_of_range);
+  EXPECT_EQ(compute_palette(character.skins[0], model, palette).code(),
+            StatusCode::index_out_of_range);
 }
 
 }  // namespace

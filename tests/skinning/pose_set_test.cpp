@@ -20,16 +20,20 @@ using Role = PoseSet::Role;
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-std::shared_ptr<const Character> share(Character character) { return std::make_shared<const Character>(std::move(character)); }
+std::shared_ptr<const Character> share(Character character) {
+  return std::make_shared<const Character>(std::move(character));
+}
 
 /// A tube whose bones rest turned, shifted and, where asked, scaled unevenly.
 Character make_crooked_tube(std::uint32_t bone_count, bool is_scaled = true) {
   Character character = test::make_tube(8, 4, bone_count);
   test::Random random(3);
   for (Bone& bone : character.skeleton.bones) {
-    bone.rest.rotation = Quatf(Quatd(Eigen::AngleAxisd{random.uniform(-2, 2), random.direction()}).cast<float>());
+    bone.rest.rotation =
+        Quatf(Quatd(Eigen::AngleAxisd{random.uniform(-2, 2), random.direction()}).cast<float>());
     bone.rest.translation += 0.3f * random.direction().cast<float>();
-    for (int axis = 0; is_scaled && axis < 3; ++axis) bone.rest.scale[axis] = static_cast<float>(random.uniform(0.7, 1.4));
+    for (int axis = 0; is_scaled && axis < 3; ++axis)
+      bone.rest.scale[axis] = static_cast<float>(random.uniform(0.7, 1.4));
   }
   character.rest_morph_weights = {0.25f};
   return character;
@@ -55,7 +59,9 @@ PoseSet make_set(const std::shared_ptr<const Character>& character, const PoseSe
   return *set;
 }
 
-Status fault_of(const Character& character, const PoseSetSpec& spec) { return PoseSet::create(share(character), spec).error(); }
+Status fault_of(const Character& character, const PoseSetSpec& spec) {
+  return PoseSet::create(share(character), spec).error();
+}
 
 std::vector<ModelPose> poses_of(const PoseSet& set, Role role) {
   std::vector<ModelPose> poses(set.size(role));
@@ -64,7 +70,8 @@ std::vector<ModelPose> poses_of(const PoseSet& set, Role role) {
 }
 
 bool is_same(const ModelPose& a, const ModelPose& b) {
-  if (a.model_from_bone.size() != b.model_from_bone.size() || a.morph_weights != b.morph_weights) return false;
+  if (a.model_from_bone.size() != b.model_from_bone.size() || a.morph_weights != b.morph_weights)
+    return false;
   for (std::size_t i = 0; i < a.model_from_bone.size(); ++i)
     if (a.model_from_bone[i].matrix() != b.model_from_bone[i].matrix()) return false;
   return true;
@@ -80,7 +87,9 @@ ModelPose posed(const Character& character, const PoseSpec& spec) {
 double distance(const ModelPose& a, const ModelPose& b) {
   double most = 0;
   for (std::size_t i = 0; i < a.model_from_bone.size(); ++i)
-    most = std::max(most, (a.model_from_bone[i].matrix() - b.model_from_bone[i].matrix()).cwiseAbs().maxCoeff());
+    most = std::max(
+        most,
+        (a.model_from_bone[i].matrix() - b.model_from_bone[i].matrix()).cwiseAbs().maxCoeff());
   return most;
 }
 
@@ -88,7 +97,8 @@ double distance(const ModelPose& a, const ModelPose& b) {
 void expect_disjoint(const PoseSet& set) {
   const auto fit = poses_of(set, Role::fit), held_out = poses_of(set, Role::held_out);
   for (std::size_t i = 0; i < fit.size(); ++i)
-    for (std::size_t j = 0; j < held_out.size(); ++j) EXPECT_GT(distance(fit[i], held_out[j]), 1e-3) << i << " and " << j;
+    for (std::size_t j = 0; j < held_out.size(); ++j)
+      EXPECT_GT(distance(fit[i], held_out[j]), 1e-3) << i << " and " << j;
 }
 
 struct Turned {
@@ -98,15 +108,19 @@ struct Turned {
 };
 using Turns = std::vector<Turned>;
 
-/// What must be done to a skeleton at rest to get a pose: the rotation of each bone, read back from the matrices.
+/// What must be done to a skeleton at rest to get a pose: the rotation of each bone, read back from
+/// the matrices.
 std::vector<Mat3d> read_turns(const Character& character, const ModelPose& pose) {
   std::vector<Mat3d> turns;
   for (std::size_t i = 0; i < character.skeleton.bones.size(); ++i) {
     const Bone& bone = character.skeleton.bones[i];
     const Affine3d& model_from_bone = pose.model_from_bone[i];
     const Affine3d parent_from_bone =
-        bone.parent == kNone ? model_from_bone : Affine3d(pose.model_from_bone[bone.parent].inverse() * model_from_bone);
-    EXPECT_TRUE(parent_from_bone.translation().isApprox(bone.rest.translation.cast<double>(), 1e-9)) << "a turn moves no joint";
+        bone.parent == kNone
+            ? model_from_bone
+            : Affine3d(pose.model_from_bone[bone.parent].inverse() * model_from_bone);
+    EXPECT_TRUE(parent_from_bone.translation().isApprox(bone.rest.translation.cast<double>(), 1e-9))
+        << "a turn moves no joint";
     const Mat3d rest = bone.rest.rotation.cast<double>().toRotationMatrix();
     const Mat3d stretch = bone.rest.scale.cast<double>().cwiseInverse().asDiagonal();
     turns.push_back(rest.transpose() * parent_from_bone.linear() * stretch);
@@ -117,15 +131,17 @@ std::vector<Mat3d> read_turns(const Character& character, const ModelPose& pose)
 bool is_turned_by(const std::vector<Mat3d>& found, const Turns& wanted) {
   std::vector<Mat3d> rotations(found.size(), Mat3d::Identity());
   for (const Turned& turned : wanted)
-    rotations[turned.bone] = Eigen::AngleAxisd(turned.angle, Eigen::Vector3d(turned.axis)).toRotationMatrix();
+    rotations[turned.bone] =
+        Eigen::AngleAxisd(turned.angle, Eigen::Vector3d(turned.axis)).toRotationMatrix();
   for (std::size_t i = 0; i < found.size(); ++i)
     if (!((found[i] - rotations[i]).cwiseAbs().maxCoeff() < 1e-6)) return false;
   return true;
 }
 
-/// The poses are those wanted, each once, in any order; bones that are neither turned nor below one that is stand as at rest, bit
-/// for bit.
-void expect_sweeps(const Character& character, const PoseSet& set, Role role, const std::vector<Turns>& wanted) {
+/// The poses are those wanted, each once, in any order; bones that are neither turned nor below one
+/// that is stand as at rest, bit for bit.
+void expect_sweeps(const Character& character, const PoseSet& set, Role role,
+                   const std::vector<Turns>& wanted) {
   const auto& bones = character.skeleton.bones;
   const ModelPose rest = posed(character, RestPose{});
   std::vector<int> hits(wanted.size(), 0);
@@ -140,25 +156,32 @@ void expect_sweeps(const Character& character, const PoseSet& set, Role role, co
     for (const Turned& turned : wanted[match]) moves[turned.bone] = true;
     for (std::size_t i = 0; i < bones.size(); ++i) {
       if (bones[i].parent != kNone && moves[bones[i].parent]) moves[i] = true;
-      EXPECT_EQ(pose.model_from_bone[i].matrix() != rest.model_from_bone[i].matrix(), moves[i]) << "bone " << i;
+      EXPECT_EQ(pose.model_from_bone[i].matrix() != rest.model_from_bone[i].matrix(), moves[i])
+          << "bone " << i;
     }
   }
-  for (std::size_t i = 0; i < wanted.size(); ++i) EXPECT_EQ(hits[i], 1) << "pose " << i << " of those wanted";
+  for (std::size_t i = 0; i < wanted.size(); ++i)
+    EXPECT_EQ(hits[i], 1) << "pose " << i << " of those wanted";
 }
 
 void add_free_bone(std::uint32_t bone, std::vector<Turns>& fit, std::vector<Turns>& held_out) {
   for (int axis = 0; axis < 3; ++axis)
     for (const int sign : {-1, 1}) {
-      for (const int degrees : {30, 60, 90}) fit.push_back({{bone, Vec3d::Unit(axis), sign * degrees * kDegree}});
-      for (const int degrees : {45, 75}) held_out.push_back({{bone, Vec3d::Unit(axis), sign * degrees * kDegree}});
+      for (const int degrees : {30, 60, 90})
+        fit.push_back({{bone, Vec3d::Unit(axis), sign * degrees * kDegree}});
+      for (const int degrees : {45, 75})
+        held_out.push_back({{bone, Vec3d::Unit(axis), sign * degrees * kDegree}});
     }
 }
 
-void add_free_pair(std::uint32_t bone, std::uint32_t parent, std::vector<Turns>& fit, std::vector<Turns>& held_out) {
+void add_free_pair(std::uint32_t bone, std::uint32_t parent, std::vector<Turns>& fit,
+                   std::vector<Turns>& held_out) {
   for (int axis = 0; axis < 3; ++axis) {
     for (const int degrees : {60, -60})
-      fit.push_back({{bone, Vec3d::Unit(axis), 60 * kDegree}, {parent, Vec3d::Unit(axis), degrees * kDegree}});
-    held_out.push_back({{bone, Vec3d::Unit(axis), 45 * kDegree}, {parent, Vec3d::Unit((axis + 1) % 3), 45 * kDegree}});
+      fit.push_back({{bone, Vec3d::Unit(axis), 60 * kDegree},
+                     {parent, Vec3d::Unit(axis), degrees * kDegree}});
+    held_out.push_back({{bone, Vec3d::Unit(axis), 45 * kDegree},
+                        {parent, Vec3d::Unit((axis + 1) % 3), 45 * kDegree}});
   }
 }
 
@@ -167,20 +190,25 @@ void add_free_pair(std::uint32_t bone, std::uint32_t parent, std::vector<Turns>&
 Channel rotation_of(std::uint32_t bone, std::vector<float> times, float angle) {
   Channel channel{ChannelTarget::rotation, bone, 4, Interpolation::linear, std::move(times), {}};
   for (const float time : channel.times)
-    channel.values.insert(channel.values.end(), {0, 0, std::sin(angle * time), std::cos(angle * time)});
+    channel.values.insert(channel.values.end(),
+                          {0, 0, std::sin(angle * time), std::cos(angle * time)});
   return channel;
 }
 
 TEST(PoseSet, clips_are_fitted_in_the_middles_of_intervals_and_held_out_between) {
   Character character = make_crooked_tube(4);
-  // Bones in no order, two channels of one part, of which the later counts, and morph weights between them.
+  // Bones in no order, two channels of one part, of which the later counts, and morph weights
+  // between them.
   Clip wild{"wild", 3.0f, {}};
   wild.channels.push_back(rotation_of(3, {0, 1, 3}, 0.4f));
-  wild.channels.push_back({ChannelTarget::morph_weights, 0, 1, Interpolation::linear, {0, 3}, {0, 1}});
+  wild.channels.push_back(
+      {ChannelTarget::morph_weights, 0, 1, Interpolation::linear, {0, 3}, {0, 1}});
   wild.channels.push_back(rotation_of(1, {0.5f, 2}, 0.3f));
-  wild.channels.push_back({ChannelTarget::scale, 3, 3, Interpolation::step, {0, 1}, {1, 2, 1, 2, 1, 1}});
+  wild.channels.push_back(
+      {ChannelTarget::scale, 3, 3, Interpolation::step, {0, 1}, {1, 2, 1, 2, 1, 1}});
   wild.channels.push_back(rotation_of(1, {0, 3}, -0.2f));
-  wild.channels.push_back({ChannelTarget::translation, 0, 3, Interpolation::linear, {0, 3}, {0, 0, 0, 1, 2, 3}});
+  wild.channels.push_back(
+      {ChannelTarget::translation, 0, 3, Interpolation::linear, {0, 3}, {0, 0, 0, 1, 2, 3}});
   character.clips.push_back(wild);
   ASSERT_TRUE(validate_character(character));
   for (const std::uint32_t samples : {1u, 5u, 8u}) {
@@ -194,7 +222,8 @@ TEST(PoseSet, clips_are_fitted_in_the_middles_of_intervals_and_held_out_between)
         for (const Role role : {Role::fit, Role::held_out}) {
           const double interval = i + (role == Role::fit ? 0.5 : 0.0);
           Pose local = local_rest_pose(character);
-          ASSERT_TRUE(sample_clip(character.clips[clip], interval / samples * character.clips[clip].duration, local));
+          ASSERT_TRUE(sample_clip(character.clips[clip],
+                                  interval / samples * character.clips[clip].duration, local));
           ModelPose wanted, found;
           ASSERT_TRUE(compute_model_pose(character.skeleton, local, wanted));
           set.compute(role, clip * samples + i, found);
@@ -222,7 +251,8 @@ TEST(PoseSet, a_range_of_motion_turns_each_joint_alone_and_with_its_parent) {
     const auto character = share(make_crooked_tube(4, is_scaled));
     const PoseSet set = make_set(character, sweeps_only());
     std::vector<Turns> fit, held_out;
-    for (const std::uint32_t bone : {1u, 2u, 3u}) add_free_bone(bone, fit, held_out);  // with bone 0 all would turn
+    for (const std::uint32_t bone : {1u, 2u, 3u})
+      add_free_bone(bone, fit, held_out);  // with bone 0 all would turn
     for (const std::uint32_t bone : {2u, 3u}) add_free_pair(bone, bone - 1, fit, held_out);
     EXPECT_EQ(set.size(Role::fit), 3u * 18 + 2 * 6);
     EXPECT_EQ(set.size(Role::held_out), 3u * 12 + 2 * 3);
@@ -258,11 +288,13 @@ TEST(PoseSet, joints_side_by_side_have_no_pairs) {
 }
 
 TEST(PoseSet, bones_that_change_no_shape_do_not_turn) {
-  // Bone 0 carries all; bone 1 moves no vertex, and above vertices that others move too; nothing hangs below bone 4.
+  // Bone 0 carries all; bone 1 moves no vertex, and above vertices that others move too; nothing
+  // hangs below bone 4.
   Character character = test::make_tube(8, 4, 5);
   const std::vector<Influence> influences[] = {{{2, 1.0f}}, {{3, 0.5f}, {2, 0.5f}}, {{0, 1.0f}}};
   SkinWeights weights;
-  for (std::uint32_t v = 0; v < character.meshes[0].vertex_count(); ++v) weights.append(influences[v % 3]);
+  for (std::uint32_t v = 0; v < character.meshes[0].vertex_count(); ++v)
+    weights.append(influences[v % 3]);
   character.meshes[0].weights = weights;
   std::vector<Turns> fit, held_out;
   for (const std::uint32_t bone : {2u, 3u}) add_free_bone(bone, fit, held_out);
@@ -273,7 +305,8 @@ TEST(PoseSet, bones_that_change_no_shape_do_not_turn) {
 }
 
 TEST(PoseSet, a_mesh_that_turns_as_a_whole_keeps_its_shape) {
-  // Two rigs in one skeleton, each with a mesh: their roots turn all of one mesh and nothing of the other.
+  // Two rigs in one skeleton, each with a mesh: their roots turn all of one mesh and nothing of the
+  // other.
   Character character = test::make_two_tubes(4, 4);
   for (std::uint32_t bone = 0; bone < 3; ++bone) {
     Bone copy = character.skeleton.bones[bone];
@@ -318,10 +351,12 @@ TEST(PoseSet, limits_that_do_not_reach_to_both_sides_of_rest_are_kept) {
     double lower, upper;
     std::vector<double> fit, held_out;
   };
-  for (const Case& of : {Case{0, 1.2, {0.6, 1.2}, {0.3, 0.9}}, Case{-1.2, 0, {-1.2, -0.6}, {-0.9, -0.3}},
-                         Case{0.4, 1.2, {0.4, 0.8, 1.2}, {0.6, 1.0}}, Case{-1.2, -0.4, {-1.2, -0.8, -0.4}, {-1.0, -0.6}},
-                         Case{0.5, 0.5, {0.5}, {}}}) {
-    const PoseSet set = make_set(share(character), limits_only({{3, Vec3d::UnitZ(), of.lower, of.upper}}));
+  for (const Case& of :
+       {Case{0, 1.2, {0.6, 1.2}, {0.3, 0.9}}, Case{-1.2, 0, {-1.2, -0.6}, {-0.9, -0.3}},
+        Case{0.4, 1.2, {0.4, 0.8, 1.2}, {0.6, 1.0}},
+        Case{-1.2, -0.4, {-1.2, -0.8, -0.4}, {-1.0, -0.6}}, Case{0.5, 0.5, {0.5}, {}}}) {
+    const PoseSet set =
+        make_set(share(character), limits_only({{3, Vec3d::UnitZ(), of.lower, of.upper}}));
     std::vector<Turns> fit, held_out;
     for (const double angle : of.fit) fit.push_back({{3, Vec3d::UnitZ(), angle}});
     for (const double angle : of.held_out) held_out.push_back({{3, Vec3d::UnitZ(), angle}});
@@ -335,7 +370,8 @@ TEST(PoseSet, limits_hold_beside_a_neighbour_too) {
   // A knee below a hip: the knee bends one way, the hip about two axes.
   const Character character = make_crooked_tube(4);
   const Vec3d x = Vec3d::UnitX(), y = Vec3d::UnitY();
-  const PoseSet set = make_set(share(character), limits_only({{2, x, -1.6, 0}, {1, y, -0.4, 0.8}, {1, x, 0, 1.0}}));
+  const PoseSet set =
+      make_set(share(character), limits_only({{2, x, -1.6, 0}, {1, y, -0.4, 0.8}, {1, x, 0, 1.0}}));
   std::vector<Turns> fit, held_out;
   for (const double angle : {-0.4, -0.2, 0.4, 0.8}) fit.push_back({{1, y, angle}});
   for (const double angle : {0.5, 1.0}) fit.push_back({{1, x, angle}});
@@ -355,13 +391,16 @@ TEST(PoseSet, limits_hold_beside_a_neighbour_too) {
 TEST(PoseSet, limits_replace_the_free_range_of_their_bone_alone) {
   const Character character = make_crooked_tube(4);
   PoseSetSpec spec = sweeps_only();
-  spec.joint_limits = {{2, Vec3d::UnitY(), -0.4, 0.8}, {3, Vec3d::UnitX(), 0, 0}};  // bone 3 cannot turn
+  spec.joint_limits = {{2, Vec3d::UnitY(), -0.4, 0.8},
+                       {3, Vec3d::UnitX(), 0, 0}};  // bone 3 cannot turn
   std::vector<Turns> fit, held_out;
   add_free_bone(1, fit, held_out);
   for (const double angle : {-0.4, -0.2, 0.4, 0.8}) fit.push_back({{2, Vec3d::UnitY(), angle}});
-  for (const double angle : {-0.3, -0.1, 0.2, 0.6}) held_out.push_back({{2, Vec3d::UnitY(), angle}});
+  for (const double angle : {-0.3, -0.1, 0.2, 0.6})
+    held_out.push_back({{2, Vec3d::UnitY(), angle}});
   for (int axis = 0; axis < 3; ++axis) {
-    for (const int degrees : {60, -60}) fit.push_back({{2, Vec3d::UnitY(), 0.8}, {1, Vec3d::Unit(axis), degrees * kDegree}});
+    for (const int degrees : {60, -60})
+      fit.push_back({{2, Vec3d::UnitY(), 0.8}, {1, Vec3d::Unit(axis), degrees * kDegree}});
     held_out.push_back({{2, Vec3d::UnitY(), 0.6}, {1, Vec3d::Unit(axis), 45 * kDegree}});
   }
   const PoseSet set = make_set(share(character), spec);
@@ -373,14 +412,17 @@ TEST(PoseSet, limits_replace_the_free_range_of_their_bone_alone) {
 TEST(PoseSet, two_joints_of_one_angle_each_have_one_pose_together) {
   const Character character = make_crooked_tube(3);
   const Vec3d x = Vec3d::UnitX();
-  const PoseSet set = make_set(share(character), limits_only({{1, x, 0.5, 0.5}, {2, x, -0.5, -0.5}}));
-  expect_sweeps(character, set, Role::fit, {{{1, x, 0.5}}, {{2, x, -0.5}}, {{1, x, 0.5}, {2, x, -0.5}}});
+  const PoseSet set =
+      make_set(share(character), limits_only({{1, x, 0.5, 0.5}, {2, x, -0.5, -0.5}}));
+  expect_sweeps(character, set, Role::fit,
+                {{{1, x, 0.5}}, {{2, x, -0.5}}, {{1, x, 0.5}, {2, x, -0.5}}});
   EXPECT_EQ(set.size(Role::held_out), 0u);
 }
 
 TEST(PoseSet, limits_of_bones_that_change_no_shape_are_passed_over) {
   const Character character = make_crooked_tube(3);
-  const PoseSet set = make_set(share(character), limits_only({{0, Vec3d::UnitX(), -1, 1}, {2, Vec3d::UnitX(), -1, 1}}));
+  const PoseSet set = make_set(
+      share(character), limits_only({{0, Vec3d::UnitX(), -1, 1}, {2, Vec3d::UnitX(), -1, 1}}));
   EXPECT_EQ(set.size(Role::fit), 4u);
   EXPECT_EQ(set.size(Role::held_out), 4u);
 }
@@ -390,8 +432,9 @@ TEST(PoseSet, limits_of_bones_that_change_no_shape_are_passed_over) {
 TEST(PoseSet, every_fourth_given_pose_is_held_out) {
   const Character character = make_crooked_tube(3);
   test::Random random(4);
-  std::vector<PoseSpec> given = {RestPose{}, BindPose{}, ClipPose{0u, 0.3},
-                                 BonesPose{{{character.skeleton.bones[1].name, Vec3f(1, 2, 3), {}, {}}}}};
+  std::vector<PoseSpec> given = {
+      RestPose{}, BindPose{}, ClipPose{0u, 0.3},
+      BonesPose{{{character.skeleton.bones[1].name, Vec3f(1, 2, 3), {}, {}}}}};
   while (given.size() < 11) given.emplace_back(test::random_pose(character, random));
   for (std::size_t count = 1; count <= given.size(); ++count) {
     PoseSetSpec spec = limits_only({});
@@ -429,7 +472,8 @@ TEST(PoseSet, the_same_bits_into_new_and_used_memory_from_each_set_and_copy) {
   const PoseSet copy = set;
   for (const Role role : {Role::fit, Role::held_out}) {
     const auto poses = poses_of(set, role);
-    ModelPose used{std::vector<Affine3d>(99, Affine3d(Eigen::Scaling(kNaN))), std::vector<float>(9, 7.0f)};
+    ModelPose used{std::vector<Affine3d>(99, Affine3d(Eigen::Scaling(kNaN))),
+                   std::vector<float>(9, 7.0f)};
     for (std::size_t i = poses.size(); i-- > 0;) {
       set.compute(role, i, used);
       EXPECT_TRUE(is_same(used, poses[i]));
@@ -485,11 +529,13 @@ TEST(PoseSet, refuses_faulty_limits_and_says_which) {
     JointLimit limit;
     StatusCode code;
   };
-  for (const Case& of :
-       {Case{{3, x, -1, 1}, StatusCode::index_out_of_range}, Case{{kNone, x, -1, 1}, StatusCode::index_out_of_range},
-        Case{{1, Vec3d(0, kNaN, 0), -1, 1}, StatusCode::non_finite_value}, Case{{1, x, kNaN, 1}, StatusCode::non_finite_value},
-        Case{{1, x, -1, kInfinity}, StatusCode::non_finite_value}, Case{{1, x, 1, -1}, StatusCode::invalid_argument},
-        Case{{1, Vec3d::Zero(), -1, 1}, StatusCode::invalid_argument}}) {
+  for (const Case& of : {Case{{3, x, -1, 1}, StatusCode::index_out_of_range},
+                         Case{{kNone, x, -1, 1}, StatusCode::index_out_of_range},
+                         Case{{1, Vec3d(0, kNaN, 0), -1, 1}, StatusCode::non_finite_value},
+                         Case{{1, x, kNaN, 1}, StatusCode::non_finite_value},
+                         Case{{1, x, -1, kInfinity}, StatusCode::non_finite_value},
+                         Case{{1, x, 1, -1}, StatusCode::invalid_argument},
+                         Case{{1, Vec3d::Zero(), -1, 1}, StatusCode::invalid_argument}}) {
     const Status fault = fault_of(character, limits_only({good, of.limit}));
     EXPECT_EQ(fault.code(), of.code) << fault.text();
     EXPECT_EQ(fault.index(), 1u);
@@ -508,10 +554,13 @@ TEST(PoseSet, refuses_faulty_given_poses_and_says_which) {
     PoseSpec pose;
     StatusCode code;
   };
-  for (const Case& of : {Case{ClipPose{"none", 0}, StatusCode::not_found}, Case{ClipPose{7u, 0}, StatusCode::not_found},
-                         Case{ClipPose{0u, kNaN}, StatusCode::non_finite_value},
-                         Case{BonesPose{{{"none", {}, {}, {}}}}, StatusCode::not_found}, Case{other, StatusCode::size_mismatch},
-                         Case{no_number, StatusCode::non_finite_value}, Case{no_weight, StatusCode::non_finite_value}}) {
+  for (const Case& of :
+       {Case{ClipPose{"none", 0}, StatusCode::not_found},
+        Case{ClipPose{7u, 0}, StatusCode::not_found},
+        Case{ClipPose{0u, kNaN}, StatusCode::non_finite_value},
+        Case{BonesPose{{{"none", {}, {}, {}}}}, StatusCode::not_found},
+        Case{other, StatusCode::size_mismatch}, Case{no_number, StatusCode::non_finite_value},
+        Case{no_weight, StatusCode::non_finite_value}}) {
     PoseSetSpec spec;
     spec.poses = {RestPose{}, BindPose{}, of.pose};
     const Status fault = fault_of(character, spec);
@@ -524,10 +573,12 @@ TEST(PoseSet, refuses_faulty_given_poses_and_says_which) {
 TEST(PoseSet, refuses_a_set_without_a_pose_to_fit_over) {
   Character character = make_crooked_tube(3);
   EXPECT_EQ(fault_of(character, limits_only({})).code(), StatusCode::empty_input);
-  EXPECT_EQ(fault_of(character, limits_only({{1, Vec3d::UnitX(), 0, 0}})).code(), StatusCode::empty_input);
+  EXPECT_EQ(fault_of(character, limits_only({{1, Vec3d::UnitX(), 0, 0}})).code(),
+            StatusCode::empty_input);
   character.clips.clear();
   EXPECT_EQ(fault_of(character, {}).code(), StatusCode::empty_input);
-  EXPECT_EQ(fault_of(test::make_tube(2, 4, 1), sweeps_only()).code(), StatusCode::empty_input) << "one bone has no neighbour";
+  EXPECT_EQ(fault_of(test::make_tube(2, 4, 1), sweeps_only()).code(), StatusCode::empty_input)
+      << "one bone has no neighbour";
 }
 
 TEST(PoseSet, refuses_more_samples_than_anyone_needs) {

@@ -12,7 +12,8 @@ namespace {
 
 Clip one_channel(Channel channel) { return {"clip", channel.times.back(), {std::move(channel)}}; }
 
-Channel translation(Interpolation interpolation, std::vector<float> times, std::vector<float> values) {
+Channel translation(Interpolation interpolation, std::vector<float> times,
+                    std::vector<float> values) {
   return {ChannelTarget::translation, 1, 3, interpolation, std::move(times), std::move(values)};
 }
 
@@ -32,7 +33,8 @@ TEST(SampleClip, linear_interpolates_between_keys_and_holds_outside) {
 }
 
 TEST(SampleClip, step_holds_the_key_before) {
-  const Clip clip = one_channel(translation(Interpolation::step, {0, 1, 2}, {1, 0, 0, 2, 0, 0, 3, 0, 0}));
+  const Clip clip =
+      one_channel(translation(Interpolation::step, {0, 1, 2}, {1, 0, 0, 2, 0, 0, 3, 0, 0}));
   EXPECT_EQ(translation_at(clip, 0.999).x(), 1);
   EXPECT_EQ(translation_at(clip, 1.0).x(), 2);
   EXPECT_EQ(translation_at(clip, 1.5).x(), 2);
@@ -41,14 +43,16 @@ TEST(SampleClip, step_holds_the_key_before) {
 TEST(SampleClip, cubic_spline_meets_keys_and_reproduces_a_cubic) {
   // x(t) = t^3 on [0, 2]: tangents 0 and 12.
   const Clip clip =
-      one_channel(translation(Interpolation::cubic_spline, {0, 2}, {0, 0, 0, 0, 0, 0, 0, 0, 0, 12, 0, 0, 8, 0, 0, 0, 0, 0}));
-  for (const double t : {0.0, 0.3, 1.0, 1.7, 2.0}) EXPECT_NEAR(static_cast<double>(translation_at(clip, t).x()), t * t * t, 1e-5);
+      one_channel(translation(Interpolation::cubic_spline, {0, 2},
+                              {0, 0, 0, 0, 0, 0, 0, 0, 0, 12, 0, 0, 8, 0, 0, 0, 0, 0}));
+  for (const double t : {0.0, 0.3, 1.0, 1.7, 2.0})
+    EXPECT_NEAR(static_cast<double>(translation_at(clip, t).x()), t * t * t, 1e-5);
 }
 
 TEST(SampleClip, rotations_take_the_short_way_at_even_speed) {
   const float h = std::sqrt(0.5f);
-  Channel channel{ChannelTarget::rotation, 1,      4,
-                  Interpolation::linear,   {0, 1}, {0, 0, 0, 1, 0, 0, -h, -h}};  // 90 degrees, sign flipped
+  Channel channel{ChannelTarget::rotation,   1, 4, Interpolation::linear, {0, 1},
+                  {0, 0, 0, 1, 0, 0, -h, -h}};  // 90 degrees, sign flipped
   Pose pose = local_rest_pose(test::make_sheet(1));
   ASSERT_TRUE(sample_clip(one_channel(channel), 1.0 / 3, pose));
   const Quatd rotation = pose.parent_from_bone[1].rotation.cast<double>();
@@ -59,7 +63,8 @@ TEST(SampleClip, rotations_take_the_short_way_at_even_speed) {
 TEST(SampleClip, drives_morph_weights) {
   const Character character = test::make_tube(2, 4, 2);
   Pose pose = local_rest_pose(character);
-  const Clip clip = one_channel({ChannelTarget::morph_weights, 0, 1, Interpolation::linear, {0, 1}, {0, 1}});
+  const Clip clip =
+      one_channel({ChannelTarget::morph_weights, 0, 1, Interpolation::linear, {0, 1}, {0, 1}});
   ASSERT_TRUE(sample_clip(clip, 0.25, pose));
   EXPECT_FLOAT_EQ(pose.morph_weights[0], 0.25f);
 }
@@ -70,7 +75,8 @@ TEST(SampleClip, leaves_what_it_does_not_drive) {
   ASSERT_TRUE(sample_clip(character.clips[0], 0.5, pose));
   EXPECT_EQ(pose.parent_from_bone[0], character.skeleton.bones[0].rest);
   EXPECT_EQ(pose.parent_from_bone[1].translation, character.skeleton.bones[1].rest.translation);
-  EXPECT_NE(pose.parent_from_bone[1].rotation.coeffs(), character.skeleton.bones[1].rest.rotation.coeffs());
+  EXPECT_NE(pose.parent_from_bone[1].rotation.coeffs(),
+            character.skeleton.bones[1].rest.rotation.coeffs());
 }
 
 TEST(SampleClip, refuses_a_pose_of_another_character_and_writes_nothing) {
@@ -79,7 +85,8 @@ TEST(SampleClip, refuses_a_pose_of_another_character_and_writes_nothing) {
   const Pose before = pose;
   EXPECT_EQ(sample_clip(character.clips[0], 0.5, pose).code(), StatusCode::size_mismatch);
   EXPECT_EQ(pose.parent_from_bone, before.parent_from_bone);
-  EXPECT_EQ(sample_clip(character.clips[0], std::numeric_limits<double>::infinity(), pose).code(), StatusCode::non_finite_value);
+  EXPECT_EQ(sample_clip(character.clips[0], std::numeric_limits<double>::infinity(), pose).code(),
+            StatusCode::non_finite_value);
 }
 
 }  // namespace

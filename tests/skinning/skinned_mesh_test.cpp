@@ -1,5 +1,5 @@
-// What a SkinnedMesh promises: the definition to float precision; and the same bits whatever the blocks, vectors, tasks, layouts,
-// and whatever of it was already written.
+// What a SkinnedMesh promises: the definition to float precision; and the same bits whatever the
+// blocks, vectors, tasks, layouts, and whatever of it was already written.
 
 #include <sunder/skinning/deform.h>
 #include <sunder/skinning/skinned_mesh.h>
@@ -26,7 +26,8 @@ using test::RandomSkin;
 
 std::vector<float> random_morph_weights(Random& random, std::size_t count) {
   std::vector<float> weights;
-  for (std::size_t i = 0; i < count; ++i) weights.push_back(random.index(3) == 0 ? 0.0f : static_cast<float>(random.uniform(0, 1)));
+  for (std::size_t i = 0; i < count; ++i)
+    weights.push_back(random.index(3) == 0 ? 0.0f : static_cast<float>(random.uniform(0, 1)));
   return weights;
 }
 
@@ -36,24 +37,27 @@ SkinnedMesh skinned(const Mesh& mesh, std::size_t slots) {
   return std::move(*made);
 }
 
-void write(const SkinnedMesh& mesh, const BonePalette& palette, PosedBuffer& buffer, const ParallelFor& parallel_for = {}) {
+void write(const SkinnedMesh& mesh, const BonePalette& palette, PosedBuffer& buffer,
+           const ParallelFor& parallel_for = {}) {
   const Status status = mesh.deform(palette, buffer, parallel_for);
   ASSERT_TRUE(status) << status.text();
 }
 
-BonePalette palette_of(const std::vector<Affine3f>& matrices, const std::vector<float>& morph_weights,
+BonePalette palette_of(const std::vector<Affine3f>& matrices,
+                       const std::vector<float>& morph_weights,
                        SkinningMethod method = SkinningMethod::linear) {
   BonePalette palette(matrices.size(), morph_weights.size(), method);
   EXPECT_TRUE(palette.set(matrices, morph_weights));
   return palette;
 }
 
-/// Kinds of meshes: few bones shared by neighbours, as rigs are; bones anywhere; more influences than engines have; sizes beside a
-/// block's, and beyond a window's.
+/// Kinds of meshes: few bones shared by neighbours, as rigs are; bones anywhere; more influences
+/// than engines have; sizes beside a block's, and beyond a window's.
 std::vector<RandomSkin> kinds() {
-  return {{1, 1, 1, 0, false, 1},     {15, 3, 2, 1, false, 3},     {16, 4, 4, 0, true, 4},        {17, 8, 8, 2, true, 8},
-          {333, 60, 4, 3, true, 6},   {500, 300, 4, 0, true, 300}, {700, 400, 24, 1, false, 400}, {1000, 5, 1, 0, false, 5},
-          {5000, 64, 4, 1, false, 6}, {9000, 64, 8, 0, true, 64}};
+  return {{1, 1, 1, 0, false, 1},        {15, 3, 2, 1, false, 3},   {16, 4, 4, 0, true, 4},
+          {17, 8, 8, 2, true, 8},        {333, 60, 4, 3, true, 6},  {500, 300, 4, 0, true, 300},
+          {700, 400, 24, 1, false, 400}, {1000, 5, 1, 0, false, 5}, {5000, 64, 4, 1, false, 6},
+          {9000, 64, 8, 0, true, 64}};
 }
 
 TEST(SkinnedMesh, agrees_with_the_double_precision_reference) {
@@ -68,7 +72,8 @@ TEST(SkinnedMesh, agrees_with_the_double_precision_reference) {
       write(skinned(mesh, kind.slots), palette_of(test::in_float(exact), weights), buffer);
       for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
         const Vec3d expected = deform_position_reference(mesh, v, exact, weights);
-        ASSERT_LT((posed.position(v).cast<double>() - expected).norm(), 1e-6 * scale * scale) << "vertex " << v;
+        ASSERT_LT((posed.position(v).cast<double>() - expected).norm(), 1e-6 * scale * scale)
+            << "vertex " << v;
         // Where bones disagree, blended normals may be short: relative errors grow.
         const Vec3d normal = deform_normal_reference(mesh, v, exact, weights);
         Mat3d blended = Mat3d::Zero();
@@ -78,7 +83,8 @@ TEST(SkinnedMesh, agrees_with_the_double_precision_reference) {
         for (std::size_t j = 0; j < mesh.morph_targets.size(); ++j)
           if (!mesh.morph_targets[j].normal_deltas.empty())
             bind += weights[j] * mesh.morph_targets[j].normal_deltas[v].cast<double>();
-        ASSERT_LT((posed.normal(v).cast<double>() - normal).norm() * (blended * bind).norm(), 2e-6 * scale * scale)
+        ASSERT_LT((posed.normal(v).cast<double>() - normal).norm() * (blended * bind).norm(),
+                  2e-6 * scale * scale)
             << "vertex " << v;
       }
       EXPECT_TRUE(posed.margins_are_untouched());
@@ -96,14 +102,16 @@ TEST(SkinnedMesh, tangents_go_by_the_linear_part_and_keep_w) {
   for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
     Vec3d expected = Vec3d::Zero();
     for (const Influence& influence : mesh.weights.of(v))
-      expected += influence.weight * (exact[influence.slot].linear() * mesh.tangents[v].head<3>().cast<double>());
+      expected += influence.weight *
+                  (exact[influence.slot].linear() * mesh.tangents[v].head<3>().cast<double>());
     ASSERT_LT((posed.tangent(v).head<3>().cast<double>() - expected).norm(), 1e-6);
     ASSERT_EQ(posed.tangent(v).w(), mesh.tangents[v].w());
   }
 }
 
 TEST(SkinnedMesh, a_vertex_has_the_same_bits_wherever_it_stands) {
-  // Lips of a tear and sides of a seam are vertices that coincide, far apart in their buffers: they must not crack.
+  // Lips of a tear and sides of a seam are vertices that coincide, far apart in their buffers: they
+  // must not crack.
   Random random(13);
   for (const SkinningMethod method : {SkinningMethod::linear, SkinningMethod::dual_quaternion})
     for (const RandomSkin& kind : kinds()) {
@@ -154,7 +162,8 @@ TEST(SkinnedMesh, has_the_same_bits_at_every_number_of_tasks) {
   const RandomSkin kind = {40000, 64, 4, 0, false, 8};
   const Mesh mesh = test::make_random_skin(random, kind);
   const SkinnedMesh made = skinned(mesh, kind.slots);
-  const BonePalette palette = palette_of(test::in_float(test::random_palette(random, kind.slots)), {});
+  const BonePalette palette =
+      palette_of(test::in_float(test::random_palette(random, kind.slots)), {});
   PosedArrays alone(mesh);
   PosedBuffer buffer(alone.target());
   write(made, palette, buffer);
@@ -175,7 +184,8 @@ TEST(SkinnedMesh, a_small_mesh_does_not_ask_for_threads) {
   BackwardThreads pool{4};
   PosedArrays posed(mesh);
   PosedBuffer buffer(posed.target());
-  write(skinned(mesh, 20), palette_of(test::in_float(test::random_palette(random, 20)), {}), buffer, pool.hook());
+  write(skinned(mesh, 20), palette_of(test::in_float(test::random_palette(random, 20)), {}), buffer,
+        pool.hook());
   EXPECT_EQ(pool.calls, 0u);
 }
 
@@ -184,7 +194,8 @@ TEST(SkinnedMesh, strides_in_and_out_do_not_change_bits) {
   for (const RandomSkin& kind : kinds()) {
     if (kind.morph_targets > 0) continue;
     const Mesh mesh = test::make_random_skin(random, kind);
-    const BonePalette palette = palette_of(test::in_float(test::random_palette(random, kind.slots, 1.2)), {});
+    const BonePalette palette =
+        palette_of(test::in_float(test::random_palette(random, kind.slots, 1.2)), {});
     PosedArrays packed(mesh), padded(mesh, 3);
     PosedBuffer to_packed(packed.target()), to_padded(padded.target());
     const SkinnedMesh made = skinned(mesh, kind.slots);
@@ -193,8 +204,10 @@ TEST(SkinnedMesh, strides_in_and_out_do_not_change_bits) {
     EXPECT_EQ(padded.first_difference(packed), kNone);
     EXPECT_TRUE(padded.margins_are_untouched());
 
-    // An engine's interleaved vertices, as bytes: position, normal, tangent, slots, weights, and something else.
-    const std::size_t places = kind.influences, stride = 40 + 2 * places + 2 * (places % 2) + 4 * places + 4;
+    // An engine's interleaved vertices, as bytes: position, normal, tangent, slots, weights, and
+    // something else.
+    const std::size_t places = kind.influences,
+                      stride = 40 + 2 * places + 2 * (places % 2) + 4 * places + 4;
     std::vector<float> bytes(mesh.vertex_count() * stride / 4 + 1);
     unsigned char* base = reinterpret_cast<unsigned char*>(bytes.data());
     const std::size_t weights_at = 40 + 2 * places + 2 * (places % 2);
@@ -239,7 +252,8 @@ TEST(SkinnedMesh, weights_of_16_bits_are_65535ths) {
     for (std::size_t k = 0; k < influences.size(); ++k) {
       slots[4 * v + k] = static_cast<std::uint16_t>(influences[k].slot);
       weights[4 * v + k] = static_cast<std::uint16_t>(std::lround(influences[k].weight * 65535));
-      rounded.weights.influences[mesh.weights.first[v] + k].weight = static_cast<float>(weights[4 * v + k]) / 65535.0f;
+      rounded.weights.influences[mesh.weights.first[v] + k].weight =
+          static_cast<float>(weights[4 * v + k]) / 65535.0f;
     }
   }
   VertexSource source = source_of(mesh);
@@ -258,7 +272,8 @@ TEST(SkinnedMesh, weights_of_16_bits_are_65535ths) {
 }
 
 /// Whether ranges ascend, lie apart, and hold every vertex that `changed` says.
-void expect_ranges_cover(std::span<const IndexRange> ranges, std::uint32_t vertices, const std::vector<bool>& changed) {
+void expect_ranges_cover(std::span<const IndexRange> ranges, std::uint32_t vertices,
+                         const std::vector<bool>& changed) {
   std::vector<bool> covered(vertices);
   std::uint32_t end = 0;
   for (const IndexRange& range : ranges) {
@@ -268,7 +283,8 @@ void expect_ranges_cover(std::span<const IndexRange> ranges, std::uint32_t verti
     ASSERT_LE(end, vertices);
     std::fill(covered.begin() + range.first, covered.begin() + end, true);
   }
-  for (std::uint32_t v = 0; v < vertices; ++v) ASSERT_TRUE(covered[v] || !changed[v]) << "vertex " << v << " changed unreported";
+  for (std::uint32_t v = 0; v < vertices; ++v)
+    ASSERT_TRUE(covered[v] || !changed[v]) << "vertex " << v << " changed unreported";
 }
 
 TEST(SkinnedMesh, writing_what_moved_equals_writing_everything) {
@@ -285,7 +301,8 @@ TEST(SkinnedMesh, writing_what_moved_equals_writing_everything) {
         PosedBuffer buffer(posed.target()), to_before(before.target());
         for (int frame = 0; frame < 8; ++frame) {
           for (std::uint32_t i = random.index(3); i > 0; --i)
-            matrices[random.index(kind.slots)] = test::in_float(test::random_palette(random, 1, 1.2))[0];
+            matrices[random.index(kind.slots)] =
+                test::in_float(test::random_palette(random, 1, 1.2))[0];
           if (kind.morph_targets > 0 && random.index(2) == 0)
             weights[random.index(kind.morph_targets)] = static_cast<float>(random.uniform(0, 1));
           ASSERT_TRUE(palette.set(matrices, weights));
@@ -297,7 +314,8 @@ TEST(SkinnedMesh, writing_what_moved_equals_writing_everything) {
           write(made, palette, to_anew);
           ASSERT_EQ(posed.first_difference(anew), kNone);
           std::vector<bool> changed(mesh.vertex_count());
-          for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) changed[v] = !posed.is_same(v, before, v);
+          for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v)
+            changed[v] = !posed.is_same(v, before, v);
           expect_ranges_cover(buffer.dirty_vertices(), mesh.vertex_count(), changed);
           write(made, palette, to_before);
         }
@@ -331,7 +349,8 @@ TEST(SkinnedMesh, what_did_not_move_is_not_written) {
   std::uint32_t moved = 0, written = 0;
   for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
     const auto influences = mesh.weights.of(v);
-    const bool moves = std::any_of(influences.begin(), influences.end(), [](const Influence& i) { return i.slot == 20; });
+    const bool moves = std::any_of(influences.begin(), influences.end(),
+                                   [](const Influence& i) { return i.slot == 20; });
     moved += moves;
     written += !posed.is_untouched(v);
     ASSERT_TRUE(!moves || !posed.is_untouched(v));
@@ -396,7 +415,8 @@ TEST(SkinnedMesh, follows_vertices_that_come_and_go) {
         mesh.weights.first.resize(count + 1);
         mesh.weights.influences.resize(mesh.weights.first[count]);
         for (MorphTarget& target : mesh.morph_targets)
-          for (auto* deltas : {&target.position_deltas, &target.normal_deltas, &target.tangent_deltas})
+          for (auto* deltas :
+               {&target.position_deltas, &target.normal_deltas, &target.tangent_deltas})
             if (!deltas->empty()) deltas->resize(count);
         return mesh;
       };
@@ -411,7 +431,8 @@ TEST(SkinnedMesh, follows_vertices_that_come_and_go) {
       PosedBuffer buffer(target);
       write(made, palette, buffer);
       for (int step = 0; step < 10; ++step) {
-        const std::uint32_t next = kind.vertices - 300 + random.index(300), first_changed = std::min(count, next);
+        const std::uint32_t next = kind.vertices - 300 + random.index(300),
+                            first_changed = std::min(count, next);
         const Mesh mesh = first_vertices(next);
         const Status status = made.update(source_of(mesh), first_changed);
         ASSERT_TRUE(status) << status.text();
@@ -425,7 +446,8 @@ TEST(SkinnedMesh, follows_vertices_that_come_and_go) {
         PosedArrays anew(mesh);
         PosedBuffer to_anew(anew.target());
         write(skinned(mesh, kind.slots), palette, to_anew);
-        for (std::uint32_t v = 0; v < count; ++v) ASSERT_TRUE(posed.is_same(v, anew, v)) << "vertex " << v << " of " << count;
+        for (std::uint32_t v = 0; v < count; ++v)
+          ASSERT_TRUE(posed.is_same(v, anew, v)) << "vertex " << v << " of " << count;
       }
     }
   }
@@ -440,7 +462,8 @@ TEST(SkinnedMesh, a_thousand_kilometres_away_nothing_changes) {
   const auto pose = test::random_palette(random, kind.slots);
   Affine3d model_from_character = Affine3d::Identity();
   model_from_character.translation() = Vec3d(1e6, -4e5, 7e5);
-  model_from_character.linear() = Eigen::AngleAxisd(1.0, Eigen::Vector3d::UnitY()).toRotationMatrix();
+  model_from_character.linear() =
+      Eigen::AngleAxisd(1.0, Eigen::Vector3d::UnitY()).toRotationMatrix();
   for (std::uint32_t slot = 0; slot < kind.slots; ++slot) {
     skin.bones.push_back(slot);
     skin.bone_from_bind.push_back(Affine3f::Identity());
@@ -456,7 +479,9 @@ TEST(SkinnedMesh, a_thousand_kilometres_away_nothing_changes) {
   write(made, at_home, buffer);
   write(made, away, buffer_away);
   for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v)
-    ASSERT_LT((posed_away.position(v).cast<double>() - deform_position_reference(mesh, v, pose, {})).norm(), 1e-6);
+    ASSERT_LT((posed_away.position(v).cast<double>() - deform_position_reference(mesh, v, pose, {}))
+                  .norm(),
+              1e-6);
 }
 
 TEST(SkinnedMesh, refuses_what_does_not_fit_and_writes_nothing) {
@@ -469,9 +494,12 @@ TEST(SkinnedMesh, refuses_what_does_not_fit_and_writes_nothing) {
     PosedBuffer buffer(target);
     return made.deform(by, buffer).code();
   };
-  EXPECT_EQ(code_of(palette_of(test::in_float(test::random_palette(random, 5)), {0.5f}), posed.target()),
-            StatusCode::size_mismatch);
-  EXPECT_EQ(code_of(palette_of(test::in_float(test::random_palette(random, 6)), {}), posed.target()), StatusCode::size_mismatch);
+  EXPECT_EQ(
+      code_of(palette_of(test::in_float(test::random_palette(random, 5)), {0.5f}), posed.target()),
+      StatusCode::size_mismatch);
+  EXPECT_EQ(
+      code_of(palette_of(test::in_float(test::random_palette(random, 6)), {}), posed.target()),
+      StatusCode::size_mismatch);
   EXPECT_EQ(code_of(BonePalette(6, 1), posed.target()), StatusCode::invalid_argument);
   VertexTarget target = posed.target();
   target.vertex_count = 49;
@@ -490,7 +518,9 @@ TEST(SkinnedMesh, refuses_what_does_not_fit_and_writes_nothing) {
 TEST(SkinnedMesh, bad_vertices_are_named) {
   Random random(22);
   const Mesh good = test::make_random_skin(random, {50, 6, 4, 1, true, 6});
-  const auto fault_of = [](const Mesh& mesh) { return SkinnedMesh::create(source_of(mesh), 6).error(); };
+  const auto fault_of = [](const Mesh& mesh) {
+    return SkinnedMesh::create(source_of(mesh), 6).error();
+  };
   const auto expect_fault = [&](const Mesh& mesh, StatusCode code, std::uint32_t index) {
     const Status fault = fault_of(mesh);
     EXPECT_EQ(fault.code(), code) << fault.text();

@@ -30,8 +30,9 @@ class OnlyTargets {
 TEST(Vectors, all_kinds_give_the_same_bits) {
   const std::int64_t supported = hwy::SupportedTargets();
   test::Random random(1);
-  for (const test::RandomSkin& kind : {test::RandomSkin{1000, 40, 4, 2, true, 6}, test::RandomSkin{400, 300, 6, 0, false, 300},
-                                       test::RandomSkin{77, 9, 9, 1, true, 9}})
+  for (const test::RandomSkin& kind :
+       {test::RandomSkin{1000, 40, 4, 2, true, 6}, test::RandomSkin{400, 300, 6, 0, false, 300},
+        test::RandomSkin{77, 9, 9, 1, true, 9}})
     for (const SkinningMethod method : {SkinningMethod::linear, SkinningMethod::dual_quaternion})
       for (const double scale : {1.0, 1.4})
         for (const bool unit_length : {false, true}) {
@@ -55,7 +56,8 @@ TEST(Vectors, all_kinds_give_the_same_bits) {
             const OnlyTargets only(targets & -targets);
             test::PosedArrays posed(mesh, 0, unit_length);
             pose_into(posed);
-            EXPECT_EQ(posed.first_difference(one_by_one), kNone) << hwy::TargetName(targets & -targets);
+            EXPECT_EQ(posed.first_difference(one_by_one), kNone)
+                << hwy::TargetName(targets & -targets);
             EXPECT_TRUE(posed.margins_are_untouched());
             ++kinds;
           }

@@ -1,5 +1,6 @@
-// Displaced vertices: the definition to float precision; the same bits whatever was displaced before, at every number of tasks, in
-// every layout; normals and tangents as the displaced surface has them.
+// Displaced vertices: the definition to float precision; the same bits whatever was displaced
+// before, at every number of tasks, in every layout; normals and tangents as the displaced surface
+// has them.
 
 #include <sunder/skinning/skinned_mesh.h>
 
@@ -24,7 +25,8 @@ using test::PosedArrays;
 using test::Random;
 using test::RandomSkin;
 
-/// As in skinned_mesh_test.cpp: in order, gathered, sparse, with sizes beside a block's and beyond a window's.
+/// As in skinned_mesh_test.cpp: in order, gathered, sparse, with sizes beside a block's and beyond
+/// a window's.
 std::vector<RandomSkin> kinds() {
   return {{1, 1, 1, 0, false, 1},      {17, 8, 8, 2, true, 8},        {333, 60, 4, 3, true, 6},
           {500, 300, 4, 0, true, 300}, {700, 400, 24, 1, false, 400}, {1000, 5, 1, 0, false, 5},
@@ -87,7 +89,8 @@ struct Soft {
     if (wanted == 1) return moved.push_back({random.index(count), 1});
     if (wanted == 2) return moved.push_back({0, count});
     for (std::uint32_t v = random.index(20); v < count;) {
-      const std::uint32_t length = std::min(count - v, random.index(3) == 0 ? random.index(500) : random.index(4));
+      const std::uint32_t length =
+          std::min(count - v, random.index(3) == 0 ? random.index(500) : random.index(4));
       moved.push_back({v, length});
       v += length + (random.index(2) == 0 ? 0 : random.index(random.index(3) == 0 ? 3000 : 40));
     }
@@ -109,13 +112,16 @@ Soft make_soft(Random& random, std::uint32_t vertices, std::uint32_t particles =
       sum += influences.weights[k];
       gradients.of_weights[k] = random_vector(random, 3);
     }
-    for (std::uint32_t k = 0; k < count; ++k) influences.weights[k] = static_cast<float>(influences.weights[k] / sum);
+    for (std::uint32_t k = 0; k < count; ++k)
+      influences.weights[k] = static_cast<float>(influences.weights[k] / sum);
     std::sort(influences.weights.begin(), influences.weights.end(), std::greater<>());
     soft.influences.push_back(influences);
     soft.gradients.push_back(gradients);
   }
   for (std::uint32_t v = 0; v < vertices; ++v)
-    soft.rows.push_back(random.index(5) == 0 ? kNone : random.index(static_cast<std::uint32_t>(soft.influences.size())));
+    soft.rows.push_back(random.index(5) == 0
+                            ? kNone
+                            : random.index(static_cast<std::uint32_t>(soft.influences.size())));
   soft.displace(random);
   return soft;
 }
@@ -125,7 +131,8 @@ Vec3d displacement_of(const Soft& soft, std::uint32_t vertex) {
   Vec3d sum = Vec3d::Zero();
   if (soft.rows[vertex] == kNone) return sum;
   const ParticleInfluences& by = soft.influences[soft.rows[vertex]];
-  for (std::size_t k = 0; k < 4; ++k) sum += double{by.weights[k]} * soft.displacements[by.particles[k]].head<3>().cast<double>();
+  for (std::size_t k = 0; k < 4; ++k)
+    sum += double{by.weights[k]} * soft.displacements[by.particles[k]].head<3>().cast<double>();
   return sum;
 }
 
@@ -136,7 +143,9 @@ std::vector<bool> moved_vertices(const Soft& soft) {
   return is_moved;
 }
 
-bool has_same_bits(const Vec3f& a, const Vec3f& b) { return std::memcmp(a.data(), b.data(), sizeof(a)) == 0; }
+bool has_same_bits(const Vec3f& a, const Vec3f& b) {
+  return std::memcmp(a.data(), b.data(), sizeof(a)) == 0;
+}
 
 TEST(VertexDisplacements, agree_with_the_definition_in_double) {
   Random random(1);
@@ -164,9 +173,11 @@ TEST(VertexDisplacements, agree_with_the_definition_in_double) {
             ASSERT_TRUE(posed.is_same(v, bones, v)) << "vertex " << v << " is in no range";
             continue;
           }
-          const Vec3d expected = deform_position_reference(mesh, v, exact, weights) + displacement_of(soft, v);
+          const Vec3d expected =
+              deform_position_reference(mesh, v, exact, weights) + displacement_of(soft, v);
           ASSERT_LT((posed.position(v).cast<double>() - expected).norm(), 1e-6) << "vertex " << v;
-          ASSERT_TRUE(has_same_bits(posed.normal(v), bones.normal(v))) << "without gradients normals are as bones turn them";
+          ASSERT_TRUE(has_same_bits(posed.normal(v), bones.normal(v)))
+              << "without gradients normals are as bones turn them";
         }
         EXPECT_TRUE(posed.margins_are_untouched());
       }
@@ -207,7 +218,8 @@ TEST(VertexDisplacements, have_the_same_bits_whatever_was_displaced_before) {
         PosedBuffer buffer(posed.target());
         for (int frame = 0; frame < 12; ++frame) {
           if (random.index(2) == 0) {
-            matrices[random.index(kind.slots)] = test::in_float(test::random_palette(random, 1, 1.2))[0];
+            matrices[random.index(kind.slots)] =
+                test::in_float(test::random_palette(random, 1, 1.2))[0];
             ASSERT_TRUE(palette.set(matrices, weights));
           }
           if (random.index(2) == 0) soft.move_some(random);
@@ -223,7 +235,8 @@ TEST(VertexDisplacements, have_the_same_bits_whatever_was_displaced_before) {
           ASSERT_TRUE(made.deform(palette, to_anew, {}, displacements));
           ASSERT_EQ(posed.first_difference(anew), kNone);
           std::vector<bool> changed(kind.vertices);
-          for (std::uint32_t v = 0; v < kind.vertices; ++v) changed[v] = !posed.is_same(v, before, v);
+          for (std::uint32_t v = 0; v < kind.vertices; ++v)
+            changed[v] = !posed.is_same(v, before, v);
           expect_ranges_cover(buffer.dirty_vertices(), changed);
           PosedBuffer to_before(before.target());
           ASSERT_TRUE(made.deform(palette, to_before, {}, displacements));
@@ -236,7 +249,8 @@ TEST(VertexDisplacements, have_the_same_bits_whatever_was_displaced_before) {
 TEST(VertexDisplacements, follow_vertices_that_come_and_go) {
   for (int seed = 1; seed <= test::stressed(3, 30); ++seed) {
     Random random(static_cast<std::uint64_t>(seed));
-    for (RandomSkin kind : {RandomSkin{900, 40, 4, 0, false, 6}, RandomSkin{900, 12, 1, 0, false, 12}}) {
+    for (RandomSkin kind :
+         {RandomSkin{900, 40, 4, 0, false, 6}, RandomSkin{900, 12, 1, 0, false, 12}}) {
       const Mesh whole = test::make_random_skin(random, kind);
       const auto first_vertices = [&](std::uint32_t count) {
         Mesh mesh = whole;
@@ -267,7 +281,8 @@ TEST(VertexDisplacements, follow_vertices_that_come_and_go) {
         PosedArrays anew(mesh);
         PosedBuffer to_anew(anew.target());
         ASSERT_TRUE(made.deform(palette, to_anew, {}, &view));
-        for (std::uint32_t v = 0; v < count; ++v) ASSERT_TRUE(posed.is_same(v, anew, v)) << "vertex " << v << " of " << count;
+        for (std::uint32_t v = 0; v < count; ++v)
+          ASSERT_TRUE(posed.is_same(v, anew, v)) << "vertex " << v << " of " << count;
       }
     }
   }
@@ -317,7 +332,8 @@ TEST(VertexDisplacements, have_the_same_bits_at_every_number_of_tasks) {
 
 TEST(VertexDisplacements, only_blocks_that_are_displaced_or_were_are_written) {
   Random random(5);
-  for (const RandomSkin& kind : {RandomSkin{2000, 50, 3, 0, false, 4}, RandomSkin{9000, 12, 1, 0, false, 12}}) {
+  for (const RandomSkin& kind :
+       {RandomSkin{2000, 50, 3, 0, false, 4}, RandomSkin{9000, 12, 1, 0, false, 12}}) {
     const Mesh mesh = test::make_random_skin(random, kind);
     const SkinnedMesh made = skinned(mesh, kind.slots);
     BonePalette palette(kind.slots, 0);
@@ -364,7 +380,8 @@ TEST(VertexDisplacements, frames_allocate_nothing_once_warm) {
   ASSERT_TRUE(made.deform(palette, buffer, {}, &view));
   ASSERT_TRUE(made.deform(palette, buffer));
   const std::uint64_t before = test::allocation_count();
-  for (int frame = 0; frame < 6; ++frame) ASSERT_TRUE(made.deform(palette, buffer, {}, frame % 3 == 2 ? nullptr : &view));
+  for (int frame = 0; frame < 6; ++frame)
+    ASSERT_TRUE(made.deform(palette, buffer, {}, frame % 3 == 2 ? nullptr : &view));
   EXPECT_EQ(test::allocation_count(), before);
 }
 
@@ -386,7 +403,8 @@ struct Sheet {
         mesh.weights.append(std::vector<Influence>{{0, 1.0f}});
         std::array<std::uint32_t, 4> order = {0, 1, 2, 3};
         const std::array<double, 4> weights = weights_at(mesh.positions.back().cast<double>());
-        std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return weights[a] > weights[b]; });
+        std::sort(order.begin(), order.end(),
+                  [&](std::uint32_t a, std::uint32_t b) { return weights[a] > weights[b]; });
         ParticleInfluences influences;
         ParticleGradients gradients;
         for (std::size_t k = 0; k < 4; ++k) {
@@ -396,8 +414,8 @@ struct Sheet {
             Vec3d step = Vec3d::Zero();
             step[axis] = 1e-5;
             const Vec3d at = mesh.positions.back().cast<double>();
-            gradients.of_weights[k][axis] =
-                static_cast<float>((weights_at(at + step)[order[k]] - weights_at(at - step)[order[k]]) / 2e-5);
+            gradients.of_weights[k][axis] = static_cast<float>(
+                (weights_at(at + step)[order[k]] - weights_at(at - step)[order[k]]) / 2e-5);
           }
         }
         soft.influences.push_back(influences);
@@ -410,7 +428,8 @@ struct Sheet {
 
   /// Products of squares of sines and cosines: they sum to one.
   static std::array<double, 4> weights_at(const Vec3d& at) {
-    const double a = std::pow(std::sin(1.3 * at.x() + 0.4 * at.y() + 0.2), 2), b = std::pow(std::sin(1.7 * at.y() + 0.5), 2);
+    const double a = std::pow(std::sin(1.3 * at.x() + 0.4 * at.y() + 0.2), 2),
+                 b = std::pow(std::sin(1.7 * at.y() + 0.5), 2);
     return {a * b, a * (1 - b), (1 - a) * b, (1 - a) * (1 - b)};
   }
   [[nodiscard]] Vec3d surface(const Vec3d& at, double amount) const {
@@ -426,7 +445,9 @@ struct Sheet {
   }
 };
 
-double angle_between(const Vec3d& a, const Vec3d& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
+double angle_between(const Vec3d& a, const Vec3d& b) {
+  return std::atan2(a.cross(b).norm(), a.dot(b));
+}
 
 TEST(VertexDisplacements, turn_normals_as_the_displaced_surface_turns_to_first_order) {
   Random random(7);
@@ -458,7 +479,8 @@ TEST(VertexDisplacements, turn_normals_as_the_displaced_surface_turns_to_first_o
           const Vec3d along_x = sheet.slope(at, 0, amount), along_y = sheet.slope(at, 1, amount);
           const Vec3d normal = along_x.cross(along_y) * (bone.linear().determinant() < 0 ? -1 : 1);
           worst = std::max(worst, angle_between(posed.normal(v).cast<double>(), normal));
-          undisplaced = std::max(undisplaced, angle_between(bones.normal(v).cast<double>(), normal));
+          undisplaced =
+              std::max(undisplaced, angle_between(bones.normal(v).cast<double>(), normal));
           ASSERT_NEAR(posed.normal(v).norm(), unit_length ? 1.0f : bones.normal(v).norm(), 1e-6);
 
           const Vec3d tangent = posed.tangent(v).head<3>().cast<double>();
@@ -496,7 +518,8 @@ TEST(VertexDisplacements, gradients_are_turned_by_the_mean_of_the_particles) {
     if (soft.rows[v] != kNone) {
       const ParticleInfluences& by = soft.influences[soft.rows[v]];
       Mat3d mean = Mat3d::Zero();
-      for (std::size_t k = 0; k < 4; ++k) mean += double{by.weights[k]} * soft.matrices[by.particles[k]].cast<double>();
+      for (std::size_t k = 0; k < 4; ++k)
+        mean += double{by.weights[k]} * soft.matrices[by.particles[k]].cast<double>();
       for (std::size_t k = 0; k < 4; ++k) {
         const Vec3d u = soft.displacements[by.particles[k]].head<3>().cast<double>();
         const Vec3d g = mean * soft.gradients[soft.rows[v]].of_weights[k].cast<double>();
@@ -504,8 +527,12 @@ TEST(VertexDisplacements, gradients_are_turned_by_the_mean_of_the_particles) {
         tangent += g.dot(t) * u;
       }
     }
-    ASSERT_LT((posed.normal(v).cast<double>() - normal * (n.norm() / normal.norm())).norm(), 1e-6) << "vertex " << v;
-    ASSERT_LT((posed.tangent(v).head<3>().cast<double>() - tangent * (t.norm() / tangent.norm())).norm(), 1e-6) << "vertex " << v;
+    ASSERT_LT((posed.normal(v).cast<double>() - normal * (n.norm() / normal.norm())).norm(), 1e-6)
+        << "vertex " << v;
+    ASSERT_LT(
+        (posed.tangent(v).head<3>().cast<double>() - tangent * (t.norm() / tangent.norm())).norm(),
+        1e-6)
+        << "vertex " << v;
   }
 }
 

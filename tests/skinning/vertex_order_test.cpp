@@ -32,9 +32,11 @@ TEST(VertexOrder, renumbers_everything_that_a_vertex_has) {
   Character character = test::make_tube(6, 8, 4);
   Mesh& mesh = character.meshes[0];
   mesh.custom_attributes.push_back({"_PAIR", 2, true, {}});
-  for (std::uint32_t i = 0; i < 2 * mesh.vertex_count(); ++i) mesh.custom_attributes.back().values.push_back(static_cast<float>(i));
+  for (std::uint32_t i = 0; i < 2 * mesh.vertex_count(); ++i)
+    mesh.custom_attributes.back().values.push_back(static_cast<float>(i));
   mesh.color_sets.emplace_back();
-  for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) mesh.color_sets[0].emplace_back(static_cast<float>(v), 0.0f, 0.0f, 1.0f);
+  for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v)
+    mesh.color_sets[0].emplace_back(static_cast<float>(v), 0.0f, 0.0f, 1.0f);
   ASSERT_TRUE(validate_character(character));
   const Mesh before = mesh;
   const auto order = order_for_skinning(mesh);
@@ -47,22 +49,28 @@ TEST(VertexOrder, renumbers_everything_that_a_vertex_has) {
     ASSERT_EQ(mesh.uv_sets[0][v], before.uv_sets[0][old]);
     ASSERT_EQ(mesh.color_sets[0][v], before.color_sets[0][old]);
     for (std::uint32_t c = 0; c < 2; ++c)
-      ASSERT_EQ(mesh.custom_attributes.back().values[2 * v + c], before.custom_attributes.back().values[2 * old + c]);
-    ASSERT_EQ(mesh.morph_targets[0].position_deltas[v], before.morph_targets[0].position_deltas[old]);
+      ASSERT_EQ(mesh.custom_attributes.back().values[2 * v + c],
+                before.custom_attributes.back().values[2 * old + c]);
+    ASSERT_EQ(mesh.morph_targets[0].position_deltas[v],
+              before.morph_targets[0].position_deltas[old]);
     const auto here = mesh.weights.of(v), there = before.weights.of(old);
     ASSERT_TRUE(std::equal(here.begin(), here.end(), there.begin(), there.end()));
   }
   for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t)
-    for (std::size_t k = 0; k < 3; ++k) ASSERT_EQ(order[mesh.triangles[t][k]], before.triangles[t][k]);
+    for (std::size_t k = 0; k < 3; ++k)
+      ASSERT_EQ(order[mesh.triangles[t][k]], before.triangles[t][k]);
 }
 
 TEST(VertexOrder, refuses_what_is_not_an_order) {
   test::Random random(3);
   Mesh mesh = test::make_random_skin(random, {5, 2, 2, 0, false, 2});
   const Mesh before = mesh;
-  EXPECT_EQ(reorder_vertices(mesh, std::vector<std::uint32_t>{0, 1, 2, 3}).code(), StatusCode::size_mismatch);
-  EXPECT_EQ(reorder_vertices(mesh, std::vector<std::uint32_t>{0, 1, 2, 3, 5}).code(), StatusCode::index_out_of_range);
-  EXPECT_EQ(reorder_vertices(mesh, std::vector<std::uint32_t>{0, 1, 2, 3, 3}).code(), StatusCode::index_out_of_range);
+  EXPECT_EQ(reorder_vertices(mesh, std::vector<std::uint32_t>{0, 1, 2, 3}).code(),
+            StatusCode::size_mismatch);
+  EXPECT_EQ(reorder_vertices(mesh, std::vector<std::uint32_t>{0, 1, 2, 3, 5}).code(),
+            StatusCode::index_out_of_range);
+  EXPECT_EQ(reorder_vertices(mesh, std::vector<std::uint32_t>{0, 1, 2, 3, 3}).code(),
+            StatusCode::index_out_of_range);
   EXPECT_EQ(mesh, before);
 }
 

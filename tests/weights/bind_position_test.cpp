@@ -7,9 +7,11 @@
 namespace sunder {
 namespace {
 
-Vec3d skinned(const Vec3d& bind, std::span<const Influence> influences, std::span<const Affine3d> palette) {
+Vec3d skinned(const Vec3d& bind, std::span<const Influence> influences,
+              std::span<const Affine3d> palette) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const Influence& influence : influences) sum += static_cast<double>(influence.weight) * (palette[influence.slot] * bind);
+  for (const Influence& influence : influences)
+    sum += static_cast<double>(influence.weight) * (palette[influence.slot] * bind);
   return sum;
 }
 
@@ -32,7 +34,8 @@ TEST(BindPosition, is_not_solved_for_where_bones_cancel) {
   std::vector<Affine3d> palette(2, Affine3d::Identity());
   palette[1].linear() = Eigen::AngleAxisd(3.14159, Eigen::Vector3d::UnitY()).toRotationMatrix();
   const std::vector<Influence> halves = {{0, 0.5f}, {1, 0.5f}};
-  EXPECT_FALSE(solve_bind_position(halves, {0.1, 0, 0}, palette)) << "a wrapper twisted by half a turn has no inside";
+  EXPECT_FALSE(solve_bind_position(halves, {0.1, 0, 0}, palette))
+      << "a wrapper twisted by half a turn has no inside";
   palette[1].linear().setZero();
   EXPECT_FALSE(solve_bind_position(std::vector<Influence>{{1, 1.0f}}, {0.1, 0, 0}, palette));
   palette[1].linear().setConstant(std::numeric_limits<double>::quiet_NaN());
@@ -42,7 +45,8 @@ TEST(BindPosition, is_not_solved_for_where_bones_cancel) {
 TEST(BindPosition, does_not_mind_the_unit_of_bones) {
   std::vector<Affine3d> palette(2, Affine3d::Identity());
   for (Affine3d& bone : palette) bone.linear() *= 1e-3;
-  EXPECT_TRUE(solve_bind_position(std::vector<Influence>{{0, 0.5f}, {1, 0.5f}}, {0.1, 0, 0}, palette));
+  EXPECT_TRUE(
+      solve_bind_position(std::vector<Influence>{{0, 0.5f}, {1, 0.5f}}, {0.1, 0, 0}, palette));
 }
 
 }  // namespace

@@ -17,7 +17,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 bool same_bits(const std::vector<CoupledFit>& a, const std::vector<CoupledFit>& b) {
   return std::ranges::equal(a, b, [](const CoupledFit& x, const CoupledFit& y) {
-    return x.influences == y.influences && x.position == y.position && x.mean_square == y.mean_square &&
+    return x.influences == y.influences && x.position == y.position &&
+           x.mean_square == y.mean_square &&
            x.barycentric_mean_square == y.barycentric_mean_square && x.is_better == y.is_better;
   });
 }
@@ -26,7 +27,9 @@ bool same_bits(const std::vector<CoupledFit>& a, const std::vector<CoupledFit>& 
 double mean_difference(const test::Lip& lip, const std::vector<CoupledFit>& fits) {
   double sum = 0;
   for (std::size_t i = 1; i < fits.size(); ++i)
-    sum += ((fits[i].position - lip.points[i].position) - (fits[i - 1].position - lip.points[i - 1].position)).norm();
+    sum += ((fits[i].position - lip.points[i].position) -
+            (fits[i - 1].position - lip.points[i - 1].position))
+               .norm();
   return sum / static_cast<double>(fits.size() - 1);
 }
 
@@ -36,8 +39,10 @@ double cost(const test::Lip& lip, const std::vector<CoupledFit>& fits, double sm
   const auto change_of = [&](std::uint32_t point) {
     std::map<std::uint32_t, double> change;
     if (point == kNone) return change;
-    for (const Influence& influence : fits[point].influences) change[influence.slot] += static_cast<double>(influence.weight);
-    for (const Influence& influence : lip.barycentric[point]) change[influence.slot] -= static_cast<double>(influence.weight);
+    for (const Influence& influence : fits[point].influences)
+      change[influence.slot] += static_cast<double>(influence.weight);
+    for (const Influence& influence : lip.barycentric[point])
+      change[influence.slot] -= static_cast<double>(influence.weight);
     return change;
   };
   // Bones that only turn have scale 1.
@@ -47,9 +52,11 @@ double cost(const test::Lip& lip, const std::vector<CoupledFit>& fits, double sm
     double spread_square = 0, total = 0;
     for (const auto& term : lip.exact[i].terms()) {
       total += term.q.w();
-      spread_square += term.q.w() * (term.q.head<3>() / term.q.w() - lip.points[i].position).squaredNorm();
+      spread_square +=
+          term.q.w() * (term.q.head<3>() / term.q.w() - lip.points[i].position).squaredNorm();
     }
-    for (const auto& [slot, difference] : change_of(i)) sum += 1e-3 * spread_square / total * difference * difference;
+    for (const auto& [slot, difference] : change_of(i))
+      sum += 1e-3 * spread_square / total * difference * difference;
   }
   for (const RefitNeighbours& pair : lip.neighbours) {
     Vec3d moved = fits[pair.a].position - lip.points[pair.a].position;
@@ -84,8 +91,10 @@ TEST_F(CoupledRefit, is_never_worse_than_barycentric_as_it_is_stored) {
     for (const std::size_t maximum : {0u, 1u, 4u})
       for (const bool moves_bind : {false, true})
         for (const double smoothness : {0.0, 0.01, 10.0}) {
-          const test::Lip lip(random, {.points = 30, .maximum_influences = maximum, .centre = centre});
-          const auto fits = refit_coupled(lip.points, lip.neighbours, {{maximum, moves_bind}, smoothness}, lip.moments[0]);
+          const test::Lip lip(random,
+                              {.points = 30, .maximum_influences = maximum, .centre = centre});
+          const auto fits = refit_coupled(lip.points, lip.neighbours,
+                                          {{maximum, moves_bind}, smoothness}, lip.moments[0]);
           ASSERT_TRUE(fits) << fits.error().text();
           ASSERT_EQ(fits->size(), lip.points.size());
           for (std::size_t i = 0; i < fits->size(); ++i) {
@@ -101,7 +110,8 @@ TEST_F(CoupledRefit, is_never_worse_than_barycentric_as_it_is_stored) {
               sum += static_cast<double>(influence.weight);
             }
             EXPECT_NEAR(sum, 1, 2e-7 * static_cast<double>(fit.influences.size()));
-            EXPECT_TRUE(std::ranges::is_sorted(fit.influences, std::ranges::greater(), &Influence::weight));
+            EXPECT_TRUE(
+                std::ranges::is_sorted(fit.influences, std::ranges::greater(), &Influence::weight));
             if (!moves_bind) {
               EXPECT_EQ(fit.position, lip.points[i].position);
             }
@@ -125,7 +135,8 @@ TEST_F(CoupledRefit, without_smoothness_is_not_worse_than_the_single_fits) {
   PointRefit refit;
   for (const bool moves_bind : {false, true}) {
     const test::Lip lip(random, {.points = 60, .slots = 14});
-    const auto fits = refit_coupled(lip.points, lip.neighbours, {{4, moves_bind}, 0}, lip.moments[0]);
+    const auto fits =
+        refit_coupled(lip.points, lip.neighbours, {{4, moves_bind}, 0}, lip.moments[0]);
     ASSERT_TRUE(fits) << fits.error().text();
     for (std::size_t i = 0; i < fits->size(); ++i) {
       const double single = refit.fit(lip.points[i], {4, moves_bind}, lip.moments[0]).mean_square;
@@ -141,7 +152,8 @@ TEST_F(CoupledRefit, smoothness_makes_neighbours_move_alike) {
   std::erase_if(lip.neighbours, [](const RefitNeighbours& pair) { return pair.b == kNone; });
   double before = kInfinity, error_before = 0;
   for (const double smoothness : {0.0, 0.01, 0.1, 1.0}) {
-    const auto fits = refit_coupled(lip.points, lip.neighbours, {{0, true}, smoothness}, lip.moments[0]);
+    const auto fits =
+        refit_coupled(lip.points, lip.neighbours, {{0, true}, smoothness}, lip.moments[0]);
     ASSERT_TRUE(fits) << fits.error().text();
     const double difference = mean_difference(lip, *fits);
     double error = 0;
@@ -157,8 +169,10 @@ TEST_F(CoupledRefit, nothing_near_the_result_costs_less) {
   test::Random random(10);
   // From two poses the moments are singular.
   for (const auto& [smoothness, poses] : {std::pair(0.01, 12u), {0.1, 12u}, {0.01, 2u}}) {
-    const test::Lip lip(random, {.points = 20, .slots = 14, .poses = poses, .maximum_influences = 0});
-    const auto result = refit_coupled(lip.points, lip.neighbours, {{0, true}, smoothness}, lip.moments[0]);
+    const test::Lip lip(random,
+                        {.points = 20, .slots = 14, .poses = poses, .maximum_influences = 0});
+    const auto result =
+        refit_coupled(lip.points, lip.neighbours, {{0, true}, smoothness}, lip.moments[0]);
     ASSERT_TRUE(result) << result.error().text();
     const double least = cost(lip, *result, smoothness);
     for (int i = 0; i < 500; ++i) {
@@ -167,7 +181,8 @@ TEST_F(CoupledRefit, nothing_near_the_result_costs_less) {
       ASSERT_TRUE(fit.is_better) << "a point that was reset is not at the optimum";
       const double size = i % 2 == 0 ? 1e-4 : 1e-3;
       if (random.index(2) == 0) fit.position += size * random.direction();
-      const float part = std::min(static_cast<float>(random.uniform(-size, size)), fit.influences.back().weight);
+      const float part =
+          std::min(static_cast<float>(random.uniform(-size, size)), fit.influences.back().weight);
       fit.influences.front().weight += part;
       fit.influences.back().weight -= part;
       EXPECT_GE(cost(lip, fits, smoothness), (1 - 1e-6) * least);
@@ -181,10 +196,12 @@ TEST_F(CoupledRefit, old_neighbours_hold_a_point_where_it_was) {
   std::erase_if(lip.neighbours, [](const RefitNeighbours& pair) { return pair.b != kNone; });
   double before = kInfinity;
   for (const double smoothness : {0.0, 0.01, 0.1, 1.0}) {
-    const auto fits = refit_coupled(lip.points, lip.neighbours, {{0, true}, smoothness}, lip.moments[0]);
+    const auto fits =
+        refit_coupled(lip.points, lip.neighbours, {{0, true}, smoothness}, lip.moments[0]);
     ASSERT_TRUE(fits) << fits.error().text();
     double moved = 0;
-    for (std::size_t i = 0; i < fits->size(); ++i) moved += ((*fits)[i].position - lip.points[i].position).norm();
+    for (std::size_t i = 0; i < fits->size(); ++i)
+      moved += ((*fits)[i].position - lip.points[i].position).norm();
     EXPECT_LT(moved, before);
     before = moved;
   }
@@ -245,20 +262,26 @@ TEST_F(CoupledRefit, prints_nothing) {
 TEST_F(CoupledRefit, bad_input_is_an_error) {
   test::Random random(9);
   const test::Lip lip(random, {.points = 5});
-  const auto error_of = [&](const std::vector<RefitNeighbours>& neighbours, double smoothness, const PoseMoments& moments) {
+  const auto error_of = [&](const std::vector<RefitNeighbours>& neighbours, double smoothness,
+                            const PoseMoments& moments) {
     const auto fits = refit_coupled(lip.points, neighbours, {{}, smoothness}, moments);
     EXPECT_FALSE(fits);
     return std::pair(fits.error().code(), fits.error().index());
   };
   const RefitNeighbours good{0, 1, 0.1};
   const auto is = [](StatusCode code, std::uint32_t index) { return std::pair(code, index); };
-  EXPECT_EQ(error_of({good, {5, 1, 0.1}}, 0.01, lip.moments[0]), is(StatusCode::index_out_of_range, 1));
-  EXPECT_EQ(error_of({good, good, {1, 5, 0.1}}, 0.01, lip.moments[0]), is(StatusCode::index_out_of_range, 2));
-  EXPECT_EQ(error_of({{kNone, 1, 0.1}}, 0.01, lip.moments[0]), is(StatusCode::index_out_of_range, 0));
+  EXPECT_EQ(error_of({good, {5, 1, 0.1}}, 0.01, lip.moments[0]),
+            is(StatusCode::index_out_of_range, 1));
+  EXPECT_EQ(error_of({good, good, {1, 5, 0.1}}, 0.01, lip.moments[0]),
+            is(StatusCode::index_out_of_range, 2));
+  EXPECT_EQ(error_of({{kNone, 1, 0.1}}, 0.01, lip.moments[0]),
+            is(StatusCode::index_out_of_range, 0));
   for (const double length : {-0.1, kInfinity, std::numeric_limits<double>::quiet_NaN()})
-    EXPECT_EQ(error_of({good, {1, kNone, length}}, 0.01, lip.moments[0]), is(StatusCode::invalid_argument, 1));
+    EXPECT_EQ(error_of({good, {1, kNone, length}}, 0.01, lip.moments[0]),
+              is(StatusCode::invalid_argument, 1));
   for (const double smoothness : {-0.1, kInfinity, std::numeric_limits<double>::quiet_NaN()})
-    EXPECT_EQ(error_of({good}, smoothness, lip.moments[0]), is(StatusCode::invalid_argument, kNone));
+    EXPECT_EQ(error_of({good}, smoothness, lip.moments[0]),
+              is(StatusCode::invalid_argument, kNone));
   PoseMoments none(8, Vec3d::Zero());
   for (const AnimationPoint& exact : lip.exact) none.want(exact);
   EXPECT_EQ(error_of({good}, 0.01, none), is(StatusCode::empty_input, kNone));

@@ -48,7 +48,8 @@ Eigen::MatrixXd off_by_bone(const test::Lip& lip, std::size_t point, const Vec3d
 }
 
 /// The exact optimum of the weights at a bind position, with no more than `maximum` of them.
-test::SimplexOptimum best_weights(const test::Lip& lip, std::size_t point, const Vec3d& position, std::size_t maximum) {
+test::SimplexOptimum best_weights(const test::Lip& lip, std::size_t point, const Vec3d& position,
+                                  std::size_t maximum) {
   const Eigen::MatrixXd off = off_by_bone(lip, point, position);
   return test::best_on_simplex(off.transpose() * off, Eigen::VectorXd::Zero(off.cols()), maximum);
 }
@@ -62,15 +63,18 @@ Vec3d best_position(const test::Lip& lip, std::size_t point, const Eigen::Vector
     Affine3d blended = Affine3d::Identity();
     blended.matrix().setZero();
     for (std::size_t i = 0; i < terms.size(); ++i)
-      blended.matrix() += weights[static_cast<Eigen::Index>(i)] * lip.palettes[pose][terms[i].slot].matrix();
+      blended.matrix() +=
+          weights[static_cast<Eigen::Index>(i)] * lip.palettes[pose][terms[i].slot].matrix();
     linear.middleRows<3>(static_cast<Eigen::Index>(3 * pose)) = blended.linear();
-    right.segment<3>(static_cast<Eigen::Index>(3 * pose)) = lip.target(point, pose) - blended.translation();
+    right.segment<3>(static_cast<Eigen::Index>(3 * pose)) =
+        lip.target(point, pose) - blended.translation();
   }
   return linear.colPivHouseholderQr().solve(right);
 }
 
 /// The least mean square that turns of exact solves come to, from many starts, over all supports.
-double best_of_all_turns(const test::Lip& lip, std::size_t point, std::size_t maximum, test::Random& random) {
+double best_of_all_turns(const test::Lip& lip, std::size_t point, std::size_t maximum,
+                         test::Random& random) {
   double best = std::numeric_limits<double>::infinity();
   for (int start = 0; start < 20; ++start) {
     Vec3d position = lip.points[point].position;
@@ -93,7 +97,8 @@ TEST(PointRefit, is_never_worse_than_barycentric_as_it_is_stored) {
   for (const Vec3d& centre : {Vec3d(0, 0, 0), Vec3d(3e5, -1e6, 2e5)})
     for (const std::size_t maximum : {0u, 1u, 4u})
       for (const bool moves_bind : {false, true}) {
-        const test::Lip lip(random, {.points = 60, .maximum_influences = maximum, .centre = centre});
+        const test::Lip lip(random,
+                            {.points = 60, .maximum_influences = maximum, .centre = centre});
         std::size_t better = 0;
         for (std::size_t i = 0; i < lip.points.size(); ++i) {
           const auto fit = refit.fit(lip.points[i], {maximum, moves_bind}, lip.moments[0]);
@@ -145,7 +150,8 @@ TEST(PointRefit, weights_alone_are_the_exact_optimum) {
       const std::size_t count = lip.exact[point].terms().size();
       if (count > 7) continue;
       const auto fit = refit.fit(lip.points[point], {0, false}, lip.moments[0]);
-      const double best = std::sqrt(best_weights(lip, point, lip.points[point].position, count).value);
+      const double best =
+          std::sqrt(best_weights(lip, point, lip.points[point].position, count).value);
       EXPECT_NEAR(std::sqrt(fit.mean_square), best, 1e-6 * best + 1e-7);
       ++checked;
     }
@@ -165,8 +171,9 @@ TEST(PointRefit, nearly_all_points_are_within_two_percent_of_an_exhaustive_searc
         const std::size_t count = lip.exact[point].terms().size();
         if (count < 5 || count > 7) continue;
         const auto fit = refit.fit(lip.points[point], {4, moves_bind}, lip.moments[0]);
-        const double best =
-            moves_bind ? best_of_all_turns(lip, point, 4, random) : best_weights(lip, point, lip.points[point].position, 4).value;
+        const double best = moves_bind
+                                ? best_of_all_turns(lip, point, 4, random)
+                                : best_weights(lip, point, lip.points[point].position, 4).value;
         worst = std::max(worst, std::sqrt(fit.mean_square / best));
         sum += std::sqrt(fit.mean_square);
         best_sum += std::sqrt(best);
@@ -186,7 +193,8 @@ TEST(PointRefit, allocates_nothing_once_warm) {
   const test::Lip lip(random, {.points = 40});
   const auto fit_all = [&] {
     double sum = 0;
-    for (const PointToRefit& point : lip.points) sum += refit.fit(point, {4, true}, lip.moments[0]).mean_square;
+    for (const PointToRefit& point : lip.points)
+      sum += refit.fit(point, {4, true}, lip.moments[0]).mean_square;
     return sum;
   };
   const double first = fit_all();

@@ -39,12 +39,14 @@ AnimationPoint point_of(const std::vector<AnimationPoint::Term>& terms) {
   return point;
 }
 
-double direct_mean_square(const std::vector<AnimationPoint::Term>& difference, const std::vector<std::vector<Affine3d>>& palettes) {
+double direct_mean_square(const std::vector<AnimationPoint::Term>& difference,
+                          const std::vector<std::vector<Affine3d>>& palettes) {
   double sum = 0;
   for (const auto& palette : palettes) {
     Eigen::Vector3d place = Eigen::Vector3d::Zero();
     for (const auto& term : difference)
-      place += palette[term.slot].linear() * term.q.head<3>() + term.q.w() * palette[term.slot].translation();
+      place += palette[term.slot].linear() * term.q.head<3>() +
+               term.q.w() * palette[term.slot].translation();
     sum += place.squaredNorm();
   }
   return sum / static_cast<double>(palettes.size());
@@ -81,7 +83,8 @@ TEST(PoseMoments, nothing_is_lost_a_thousand_kilometres_from_the_origin) {
     for (int pose = 0; pose < 5; ++pose) {
       palettes.push_back(test::random_palette(random, kSlots));
       std::vector<Affine3d> there = palettes.back();
-      for (Affine3d& matrix : there) matrix = Eigen::Translation3d(centre) * matrix * Eigen::Translation3d(-centre);
+      for (Affine3d& matrix : there)
+        matrix = Eigen::Translation3d(centre) * matrix * Eigen::Translation3d(-centre);
       moments.add(there);
     }
     // The translations that the caller has hold no more than 1e-10.

@@ -17,7 +17,9 @@ namespace {
 
 using Influences = std::vector<Influence>;
 
-Influences copy_of(std::span<const Influence> influences) { return {influences.begin(), influences.end()}; }
+Influences copy_of(std::span<const Influence> influences) {
+  return {influences.begin(), influences.end()};
+}
 
 double sum_of(std::span<const Influence> influences) {
   double sum = 0;
@@ -26,10 +28,12 @@ double sum_of(std::span<const Influence> influences) {
 }
 
 /// Linear blend skinning by its definition, with weights divided by their sum.
-Vec3d posed(const Vec3d& position, std::span<const Influence> influences, const std::vector<Affine3d>& palette) {
+Vec3d posed(const Vec3d& position, std::span<const Influence> influences,
+            const std::vector<Affine3d>& palette) {
   Vec3d sum = Vec3d::Zero();
   for (const Influence& influence : influences)
-    sum += static_cast<double>(influence.weight) / sum_of(influences) * (palette[influence.slot] * position);
+    sum += static_cast<double>(influence.weight) / sum_of(influences) *
+           (palette[influence.slot] * position);
   return sum;
 }
 
@@ -45,10 +49,11 @@ Mesh many_influences(test::Random& random) {
 TEST(Prune, keeps_the_largest_and_what_is_dropped_follows) {
   Influences influences = {{7, 0.125f}, {3, 0.25f}, {5, 0.0625f}, {1, 0.5f}, {2, 0.0625f}};
   ASSERT_EQ(prune_influences(influences, 2), 2u);
-  EXPECT_EQ(
-      influences,
-      (Influences{
-          {1, static_cast<float>(0.5 / 0.75)}, {3, static_cast<float>(0.25 / 0.75)}, {7, 0.125f}, {2, 0.0625f}, {5, 0.0625f}}));
+  EXPECT_EQ(influences, (Influences{{1, static_cast<float>(0.5 / 0.75)},
+                                    {3, static_cast<float>(0.25 / 0.75)},
+                                    {7, 0.125f},
+                                    {2, 0.0625f},
+                                    {5, 0.0625f}}));
 }
 
 TEST(Prune, equal_weights_stay_by_the_lower_slot_whatever_their_order) {
@@ -58,7 +63,8 @@ TEST(Prune, equal_weights_stay_by_the_lower_slot_whatever_their_order) {
     ASSERT_EQ(prune_influences(pruned, 2), 2u);
     EXPECT_EQ(pruned[0], (Influence{0, 0.5f}));
     EXPECT_EQ(pruned[1], (Influence{4, 0.5f}));
-  } while (std::next_permutation(influences.begin(), influences.end(), [](auto& a, auto& b) { return a.slot < b.slot; }));
+  } while (std::next_permutation(influences.begin(), influences.end(),
+                                 [](auto& a, auto& b) { return a.slot < b.slot; }));
 }
 
 TEST(Prune, a_maximum_of_zero_keeps_all_in_their_order) {
@@ -86,7 +92,8 @@ TEST(Prune, what_is_kept_sums_to_one_largest_first) {
       ASSERT_EQ(kept, std::min<std::size_t>(maximum, mesh.weights.of(v).size()));
       influences.resize(kept);
       EXPECT_NEAR(sum_of(influences), 1, 2e-7 * static_cast<double>(kept));
-      EXPECT_TRUE(std::is_sorted(influences.begin(), influences.end(), [](auto& a, auto& b) { return a.weight > b.weight; }));
+      EXPECT_TRUE(std::is_sorted(influences.begin(), influences.end(),
+                                 [](auto& a, auto& b) { return a.weight > b.weight; }));
     }
 }
 
@@ -101,9 +108,12 @@ TEST(Prune, the_displacement_is_that_of_linear_blend_skinning) {
       ASSERT_TRUE(sort_influences(influences));
       for (const std::size_t kept : {1u, 4u, 8u, 40u}) {
         const Vec3d displacement = pruning_displacement(position, influences, kept, palette);
-        const auto first = std::span<const Influence>(influences).first(std::min(kept, influences.size()));
-        const Vec3d expected = posed(position, first, palette) - posed(position, influences, palette);
-        EXPECT_LT((displacement - expected).norm(), 1e-12) << "vertex " << v << ", " << kept << " kept";
+        const auto first =
+            std::span<const Influence>(influences).first(std::min(kept, influences.size()));
+        const Vec3d expected =
+            posed(position, first, palette) - posed(position, influences, palette);
+        EXPECT_LT((displacement - expected).norm(), 1e-12)
+            << "vertex " << v << ", " << kept << " kept";
         EXPECT_NEAR(dropped_mass(influences, kept), 1 - sum_of(first) / sum_of(influences), 1e-14);
       }
     }
@@ -124,8 +134,12 @@ TEST(Prune, the_displacement_holds_for_what_is_stored_but_for_its_rounding) {
   for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
     Influences influences = copy_of(unpruned.weights.of(v));
     ASSERT_TRUE(sort_influences(influences));
-    const Vec3d moved = deform_position_reference(mesh, v, palette, {}) - deform_position_reference(unpruned, v, palette, {});
-    EXPECT_LT((moved - pruning_displacement(mesh.positions[v].cast<double>(), influences, 4, palette)).norm(), 2e-6);
+    const Vec3d moved = deform_position_reference(mesh, v, palette, {}) -
+                        deform_position_reference(unpruned, v, palette, {});
+    EXPECT_LT(
+        (moved - pruning_displacement(mesh.positions[v].cast<double>(), influences, 4, palette))
+            .norm(),
+        2e-6);
   }
 }
 
@@ -134,7 +148,8 @@ TEST(Prune, nothing_dropped_moves_nothing) {
   const Influences influences = {{0, 0.75f}, {1, 0.25f}};
   for (const std::size_t kept : {2u, 3u}) {
     EXPECT_EQ(dropped_mass(influences, kept), 0);
-    EXPECT_EQ(pruning_displacement(Vec3d(1, 2, 3), influences, kept, palette), Vec3d(Vec3d::Zero()));
+    EXPECT_EQ(pruning_displacement(Vec3d(1, 2, 3), influences, kept, palette),
+              Vec3d(Vec3d::Zero()));
   }
   EXPECT_EQ(dropped_mass(influences, 0), 1);
   EXPECT_EQ(pruning_displacement(Vec3d(1, 2, 3), influences, 0, palette), Vec3d(Vec3d::Zero()));
@@ -144,7 +159,8 @@ TEST(Prune, nothing_dropped_moves_nothing) {
 }
 
 TEST(Prune, what_are_no_weights_stay_as_they_are) {
-  const float nan = std::numeric_limits<float>::quiet_NaN(), infinity = std::numeric_limits<float>::infinity();
+  const float nan = std::numeric_limits<float>::quiet_NaN(),
+              infinity = std::numeric_limits<float>::infinity();
   for (const Influences& bad : {Influences{},
                                 {{0, 0.0f}},
                                 {{0, 0.0f}, {1, -0.0f}},

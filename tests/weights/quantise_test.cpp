@@ -23,7 +23,8 @@ double sum_of(const Influences& influences) {
   return sum;
 }
 
-/// Weights over several orders of magnitude, in any order, with some alike; their sum is `sum`, up to rounding.
+/// Weights over several orders of magnitude, in any order, with some alike; their sum is `sum`, up
+/// to rounding.
 Influences random_influences(test::Random& random, std::uint32_t count, double sum) {
   Influences influences;
   for (std::uint32_t i = 0; i < count; ++i) {
@@ -32,7 +33,8 @@ Influences random_influences(test::Random& random, std::uint32_t count, double s
     influences.push_back({i, is_alike ? influences.back().weight : static_cast<float>(weight)});
   }
   const double factor = sum / sum_of(influences);
-  for (Influence& influence : influences) influence.weight = static_cast<float>(factor * static_cast<double>(influence.weight));
+  for (Influence& influence : influences)
+    influence.weight = static_cast<float>(factor * static_cast<double>(influence.weight));
   return influences;
 }
 
@@ -53,7 +55,8 @@ class Quantise : public testing::Test {
     const double sum = sum_of(influences);
     double given = 0;  // to some, and taken from others
     for (std::size_t i = 0; i < result.size(); ++i) {
-      const double error = static_cast<double>(result[i]) - static_cast<double>(influences[i].weight) / sum * kUnits;
+      const double error =
+          static_cast<double>(result[i]) - static_cast<double>(influences[i].weight) / sum * kUnits;
       EXPECT_LT(std::abs(error), 1) << i;
       given += std::max(error, 0.0);
       for (std::size_t j = 0; j < result.size() && result.size() <= 40; ++j)
@@ -79,13 +82,15 @@ TYPED_TEST(Quantise, the_sum_need_not_be_one) {
   for (const double sum : {1.0 + 1e-5, 0.5, 255.0, 1e-44, 1e-38, 1e30})
     for (const std::uint32_t count : {1u, 2u, 4u, 7u}) {
       Influences influences = random_influences(random, count, sum);
-      influences[0].weight = std::max(influences[0].weight, std::numeric_limits<float>::denorm_min());
+      influences[0].weight =
+          std::max(influences[0].weight, std::numeric_limits<float>::denorm_min());
       this->expect_lawful(influences);
     }
 }
 
 TYPED_TEST(Quantise, one_influence_has_all) {
-  for (const float weight : {1.0f, 0.3f, 1.0f - 1e-7f, std::numeric_limits<float>::denorm_min(), std::numeric_limits<float>::max()})
+  for (const float weight : {1.0f, 0.3f, 1.0f - 1e-7f, std::numeric_limits<float>::denorm_min(),
+                             std::numeric_limits<float>::max()})
     EXPECT_EQ(this->quantised({{5, weight}})[0], this->kUnits);
 }
 
@@ -98,7 +103,8 @@ TYPED_TEST(Quantise, equal_weights_give_to_the_first) {
 TYPED_TEST(Quantise, equal_remainders_give_to_the_larger_weight) {
   // 0.5 and 1.5 units above whole ones, and the rest.
   const double units = this->kUnits;
-  const std::vector<TypeParam> result = this->quantised({{0, 0.5f}, {1, 1.5f}, {2, static_cast<float>(units) - 2.0f}});
+  const std::vector<TypeParam> result =
+      this->quantised({{0, 0.5f}, {1, 1.5f}, {2, static_cast<float>(units) - 2.0f}});
   EXPECT_EQ(result, (std::vector<TypeParam>{0, 2, static_cast<TypeParam>(units - 2)}));
 }
 
@@ -118,7 +124,8 @@ TYPED_TEST(Quantise, more_influences_than_units) {
 }
 
 TYPED_TEST(Quantise, what_are_no_weights_is_refused_and_nothing_is_written) {
-  const float nan = std::numeric_limits<float>::quiet_NaN(), infinity = std::numeric_limits<float>::infinity();
+  const float nan = std::numeric_limits<float>::quiet_NaN(),
+              infinity = std::numeric_limits<float>::infinity();
   const auto expect_refused = [](const Influences& influences, std::size_t size) {
     const std::vector<TypeParam> before(size, 77);
     std::vector<TypeParam> after = before;

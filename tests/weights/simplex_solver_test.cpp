@@ -18,7 +18,8 @@ struct Problem {
 };
 
 Eigen::MatrixXd random_matrix(Eigen::Index rows, Eigen::Index columns, test::Random& random) {
-  return Eigen::MatrixXd::NullaryExpr(rows, columns, [&](Eigen::Index, Eigen::Index) { return random.uniform(-1, 1); });
+  return Eigen::MatrixXd::NullaryExpr(
+      rows, columns, [&](Eigen::Index, Eigen::Index) { return random.uniform(-1, 1); });
 }
 
 /// Weights with sum 1, some of them zero.
@@ -31,17 +32,21 @@ std::vector<double> random_weights(std::size_t count, test::Random& random) {
   return weights;
 }
 
-/// Squares of what `count` bones are off by, in `rows` coordinates: singular where there are fewer of these.
+/// Squares of what `count` bones are off by, in `rows` coordinates: singular where there are fewer
+/// of these.
 Problem random_problem(std::size_t count, Eigen::Index rows, test::Random& random) {
   const auto n = static_cast<Eigen::Index>(count);
   Eigen::MatrixXd off = random_matrix(rows, n, random);
-  if (random.index(3) == 0) off.col(random.index(static_cast<std::uint32_t>(count))) = off.col(0);  // bones that move alike
-  if (random.index(2) == 0) off.colwise() += 2 * random_matrix(rows, 1, random).col(0);             // away from the hull
+  if (random.index(3) == 0)
+    off.col(random.index(static_cast<std::uint32_t>(count))) = off.col(0);  // bones that move alike
+  if (random.index(2) == 0)
+    off.colwise() += 2 * random_matrix(rows, 1, random).col(0);  // away from the hull
   Problem problem{off.transpose() * off, Eigen::VectorXd::Zero(n), random_weights(count, random)};
   // As a point's fit has it: what ties the weights to where they were.
   const double tie = 1e-13 * problem.gram.diagonal().maxCoeff();
   problem.gram.diagonal().array() += tie;
-  for (Eigen::Index i = 0; i < n; ++i) problem.linear[i] = tie * problem.start[static_cast<std::size_t>(i)];
+  for (Eigen::Index i = 0; i < n; ++i)
+    problem.linear[i] = tie * problem.start[static_cast<std::size_t>(i)];
   return problem;
 }
 
@@ -70,9 +75,11 @@ TEST(SimplexSolver, finds_what_trying_every_support_finds) {
     std::vector<double> weights = problem.start;
     solver.solve(weights, std::vector<bool>(count, true));
     expect_on_simplex(weights);
-    EXPECT_LE(solver.value(weights), solver.value(problem.start) + 1e-15 * problem.gram.diagonal().maxCoeff());
+    EXPECT_LE(solver.value(weights),
+              solver.value(problem.start) + 1e-15 * problem.gram.diagonal().maxCoeff());
     const test::SimplexOptimum best = test::best_on_simplex(problem.gram, problem.linear, count);
-    EXPECT_NEAR(solver.value(weights), best.value, 1e-10 * problem.gram.diagonal().maxCoeff()) << "case " << i;
+    EXPECT_NEAR(solver.value(weights), best.value, 1e-10 * problem.gram.diagonal().maxCoeff())
+        << "case " << i;
   }
 }
 
@@ -88,7 +95,8 @@ TEST(SimplexSolver, linear_terms_count) {
     solver.solve(weights, std::vector<bool>(count, true));
     expect_on_simplex(weights);
     const test::SimplexOptimum best = test::best_on_simplex(problem.gram, problem.linear, count);
-    EXPECT_NEAR(solver.value(weights), best.value, 1e-9 * (1 + problem.gram.diagonal().maxCoeff())) << "case " << i;
+    EXPECT_NEAR(solver.value(weights), best.value, 1e-9 * (1 + problem.gram.diagonal().maxCoeff()))
+        << "case " << i;
   }
 }
 
@@ -112,8 +120,10 @@ TEST(SimplexSolver, weights_that_are_not_allowed_stay_zero) {
       if (!allowed[k]) {
         EXPECT_EQ(weights[k], 0);
       }
-    const test::SimplexOptimum best = test::best_on_simplex(problem.gram(slots, slots), problem.linear(slots), count);
-    EXPECT_NEAR(solver.value(weights), best.value, 1e-10 * problem.gram.diagonal().maxCoeff()) << "case " << i;
+    const test::SimplexOptimum best =
+        test::best_on_simplex(problem.gram(slots, slots), problem.linear(slots), count);
+    EXPECT_NEAR(solver.value(weights), best.value, 1e-10 * problem.gram.diagonal().maxCoeff())
+        << "case " << i;
   }
 }
 

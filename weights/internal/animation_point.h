@@ -9,8 +9,9 @@
 
 namespace sunder {
 
-/// A point of a posed triangle as what moves it exactly, in every pose: p = sum_i M_i q_i, where q_i = sum_k beta_k w_ki [v_k; 1]
-/// for the corners v_k with their weights w_ki. Source: Merry, Marais, Gain, Animation space, TOG 2006 [merry2006animation].
+/// A point of a posed triangle as what moves it exactly, in every pose: p = sum_i M_i q_i, where
+/// q_i = sum_k beta_k w_ki [v_k; 1] for the corners v_k with their weights w_ki. Source: Merry,
+/// Marais, Gain, Animation space, TOG 2006 [merry2006animation].
 class AnimationPoint {
  public:
   struct Term {
@@ -19,7 +20,8 @@ class AnimationPoint {
   };
 
   void clear() { terms_.clear(); }
-  /// Adds `part` times a vertex: its bind position, morph displacements included, and its influences. O(terms x influences).
+  /// Adds `part` times a vertex: its bind position, morph displacements included, and its
+  /// influences. O(terms x influences).
   SUNDER_API void add(double part, const Vec3d& position, std::span<const Influence> influences);
   /// Adds `part` times another point.
   SUNDER_API void add(double part, const AnimationPoint& point);

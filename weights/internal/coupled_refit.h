@@ -18,8 +18,9 @@ struct RefitNeighbours {
 
 struct CoupledRefitOptions {
   PointRefit::Options point;
-  /// What a difference between neighbours costs, beside the mean squared distance of both: of how far their bind positions were
-  /// moved, and of how much their weights were changed times the length of the edge between them; >= 0.
+  /// What a difference between neighbours costs, beside the mean squared distance of both: of how
+  /// far their bind positions were moved, and of how much their weights were changed times the
+  /// length of the edge between them; >= 0.
   double smoothness = 0.01;
 };
 
@@ -35,15 +36,17 @@ struct CoupledFit {
 /// Whether this build can fit points together: it takes Ceres, which is optional (SUNDER_CERES).
 [[nodiscard]] SUNDER_API bool has_coupled_refit();
 
-/// Fits points one by one, and from there all of them together: least squares over their weights and bind positions, with what
-/// neighbours that differ cost (a Laplacian along the lips and towards the old neighbours). The same bits for the same input. A
-/// point that is worse off than with its barycentric weights keeps those.
+/// Fits points one by one, and from there all of them together: least squares over their weights
+/// and bind positions, with what neighbours that differ cost (a Laplacian along the lips and
+/// towards the old neighbours). The same bits for the same input. A point that is worse off than
+/// with its barycentric weights keeps those.
 ///
-/// @return one fit a point; unsupported_feature where has_coupled_refit() is false; index_out_of_range for a neighbour that is no
-///         point; invalid_argument for a smoothness or a length that is not finite or less than zero; empty_input without poses.
-[[nodiscard]] SUNDER_API Result<std::vector<CoupledFit>> refit_coupled(std::span<const PointToRefit> points,
-                                                                       std::span<const RefitNeighbours> neighbours,
-                                                                       const CoupledRefitOptions& options,
-                                                                       const PoseMoments& moments);
+/// @return one fit a point; unsupported_feature where has_coupled_refit() is false;
+/// index_out_of_range for a neighbour that is no
+///         point; invalid_argument for a smoothness or a length that is not finite or less than
+///         zero; empty_input without poses.
+[[nodiscard]] SUNDER_API Result<std::vector<CoupledFit>> refit_coupled(
+    std::span<const PointToRefit> points, std::span<const RefitNeighbours> neighbours,
+    const CoupledRefitOptions& options, const PoseMoments& moments);
 
 }  // namespace sunder

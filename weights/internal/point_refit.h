@@ -11,17 +11,20 @@ namespace sunder {
 /// What a fit starts from.
 struct PointToRefit {
   const AnimationPoint* exact = nullptr;  ///< What it is to follow.
-  Vec3d position = Vec3d::Zero();         ///< Bind position, in the middle of what it may become; morph displacements included.
-  std::span<const Influence>
-      barycentric;  ///< The influences that it has: normalised, no more than are wanted, a slot of `exact` each.
+  Vec3d position = Vec3d::Zero();  ///< Bind position, in the middle of what it may become; morph
+                                   ///< displacements included.
+  std::span<const Influence> barycentric;  ///< The influences that it has: normalised, no more than
+                                           ///< are wanted, a slot of `exact` each.
 };
 
-/// Weights, and a bind position, that follow a point better than its interpolated ones, over a set of poses.
+/// Weights, and a bind position, that follow a point better than its interpolated ones, over a set
+/// of poses.
 ///
-/// For a fixed bind position the mean squared distance is convex in the weights: a quadratic form on the simplex, solved exactly by
-/// an active set. For fixed weights it is convex in the bind position: three linear equations. The two take turns, first over all
-/// bones that move the point; where those are more than wanted, one after the other goes, each time the one that costs least, and
-/// they take turns over those that are left.
+/// For a fixed bind position the mean squared distance is convex in the weights: a quadratic form
+/// on the simplex, solved exactly by an active set. For fixed weights it is convex in the bind
+/// position: three linear equations. The two take turns, first over all bones that move the point;
+/// where those are more than wanted, one after the other goes, each time the one that costs least,
+/// and they take turns over those that are left.
 class SUNDER_API PointRefit {
  public:
   PointRefit();
@@ -41,7 +44,8 @@ class SUNDER_API PointRefit {
 
   /// @param moments  that were asked for the pairs of `point.exact`, and hold at least one pose.
   /// O(bones squared) a round, a handful of rounds; no allocation once warm.
-  [[nodiscard]] Fit fit(const PointToRefit& point, const Options& options, const PoseMoments& moments);
+  [[nodiscard]] Fit fit(const PointToRefit& point, const Options& options,
+                        const PoseMoments& moments);
 
  private:
   class Problem;

@@ -25,8 +25,8 @@ class SUNDER_API PosedBuffer {
   /// @param target  memory of the caller's, which outlives this.
   explicit PosedBuffer(const VertexTarget& target) : target_(target) {}
 
-  /// What the last deform() wrote, ascending and apart: what has to be uploaded. Where vertices are not ordered by their bones,
-  /// ranges may hold some that kept their value.
+  /// What the last deform() wrote, ascending and apart: what has to be uploaded. Where vertices are
+  /// not ordered by their bones, ranges may hold some that kept their value.
   [[nodiscard]] std::span<const IndexRange> dirty_vertices() const { return dirty_; }
   /// Moves the buffer, or wants other attributes. What it holds counts as lost.
   void set_target(const VertexTarget& target);
@@ -48,11 +48,14 @@ class SUNDER_API PosedBuffer {
 /// A mesh arranged for skinning: blocks of 16 vertices, each with the bones that move any of them.
 class SUNDER_API SkinnedMesh {
  public:
-  /// Vertices are blocked in their own order where neighbours share bones; where they do not, they are gathered by their bones, a
-  /// few thousand at a time, and written to their places. order_for_skinning() makes the first, faster case of the second.
+  /// Vertices are blocked in their own order where neighbours share bones; where they do not, they
+  /// are gathered by their bones, a few thousand at a time, and written to their places.
+  /// order_for_skinning() makes the first, faster case of the second.
   /// @param slots  of the skin.
-  /// @return size_mismatch, index_out_of_range, non_finite_value, weights_not_normalized (by more than a hundredth), with the
-  ///         vertex; empty_input without positions or influences; invalid_argument for strides; limit_exceeded above 65,536 slots.
+  /// @return size_mismatch, index_out_of_range, non_finite_value, weights_not_normalized (by more
+  /// than a hundredth), with the
+  ///         vertex; empty_input without positions or influences; invalid_argument for strides;
+  ///         limit_exceeded above 65,536 slots.
   ///
   /// O(V x influences), reads the source and keeps nothing of it.
   [[nodiscard]] static Result<SkinnedMesh> create(const VertexSource& source, std::size_t slots);
@@ -64,8 +67,9 @@ class SUNDER_API SkinnedMesh {
   /// Bytes that a deform() of all vertices reads, but for the palette and morph targets.
   [[nodiscard]] std::size_t stream_bytes() const;
 
-  /// Follows a source whose vertices from `first_changed` on are others, more or fewer: what tears append and undo takes from the
-  /// end. The source has the attributes and morph targets that it had.
+  /// Follows a source whose vertices from `first_changed` on are others, more or fewer: what tears
+  /// append and undo takes from the end. The source has the attributes and morph targets that it
+  /// had.
   /// @return as create(); nothing is changed then.
   ///
   /// O(vertices from `first_changed` on). Allocates where reserve() did not.
@@ -73,19 +77,24 @@ class SUNDER_API SkinnedMesh {
   /// Room for that many vertices more, of `influences` influences on average.
   void reserve(std::uint32_t more_vertices, std::uint32_t influences);
 
-  /// Writes to `buffer` what changed since it was last written: vertices moved by a bone or morph target that changed, those that
-  /// update() changed, and those that are displaced or were. All bits are those of writing everything.
-  /// @param displacements  what moves vertices beside their bones; null: nothing. They are displaced where the bones put them, not
+  /// Writes to `buffer` what changed since it was last written: vertices moved by a bone or morph
+  /// target that changed, those that update() changed, and those that are displaced or were. All
+  /// bits are those of writing everything.
+  /// @param displacements  what moves vertices beside their bones; null: nothing. They are
+  /// displaced where the bones put them, not
   ///                       where the last call left them.
-  /// @return size_mismatch where palette, mesh, buffer and displacements do not fit, index_out_of_range with the range of moved
-  ///         vertices, invalid_argument where the palette has no pose or the mesh lacks an attribute that the buffer wants (nothing
-  ///         is written).
+  /// @return size_mismatch where palette, mesh, buffer and displacements do not fit,
+  /// index_out_of_range with the range of moved
+  ///         vertices, invalid_argument where the palette has no pose or the mesh lacks an
+  ///         attribute that the buffer wants (nothing is written).
   ///
-  /// O(vertices moved or displaced + blocks / 64); nothing moved: O(1). Allocates only when the buffer sees a larger mesh than
-  /// before, or displaced vertices for the first time. Displaced vertices are read back from the buffer. Reentrant for different
-  /// buffers. The same bits on every CPU, at every number of threads, in every layout: no fused multiply-adds, and a vertex'
+  /// O(vertices moved or displaced + blocks / 64); nothing moved: O(1). Allocates only when the
+  /// buffer sees a larger mesh than before, or displaced vertices for the first time. Displaced
+  /// vertices are read back from the buffer. Reentrant for different buffers. The same bits on
+  /// every CPU, at every number of threads, in every layout: no fused multiply-adds, and a vertex'
   /// influences are summed in the order of their slots, then in that of its particles.
-  [[nodiscard]] Status deform(const BonePalette& palette, PosedBuffer& buffer, const ParallelFor& parallel_for = {},
+  [[nodiscard]] Status deform(const BonePalette& palette, PosedBuffer& buffer,
+                              const ParallelFor& parallel_for = {},
                               const VertexDisplacements* displacements = nullptr) const;
 
  private:
@@ -93,14 +102,17 @@ class SUNDER_API SkinnedMesh {
   std::unique_ptr<skinning::Blocks> blocks_;
 };
 
-/// An order of vertices in which neighbours are moved by the same bones, so that SkinnedMesh reads least and writes straight on; of
-/// equal bones, the order that there was. For asset pipelines, where vertices may still be renumbered.
+/// An order of vertices in which neighbours are moved by the same bones, so that SkinnedMesh reads
+/// least and writes straight on; of equal bones, the order that there was. For asset pipelines,
+/// where vertices may still be renumbered.
 /// @return old_from_new. O(V log V).
 [[nodiscard]] SUNDER_API std::vector<std::uint32_t> order_for_skinning(const Mesh& mesh);
 
-/// Renumbers the vertices of a mesh: every attribute, the weights, morph targets, and the corners of triangles.
+/// Renumbers the vertices of a mesh: every attribute, the weights, morph targets, and the corners
+/// of triangles.
 /// @param old_from_new  each vertex once.
 /// @return size_mismatch or index_out_of_range (nothing is changed). O(size of the mesh).
-[[nodiscard]] SUNDER_API Status reorder_vertices(Mesh& mesh, std::span<const std::uint32_t> old_from_new);
+[[nodiscard]] SUNDER_API Status reorder_vertices(Mesh& mesh,
+                                                 std::span<const std::uint32_t> old_from_new);
 
 }  // namespace sunder
