@@ -5,10 +5,10 @@
 #include <new>
 #include <system_error>
 
+#include "io/files/write_atomically.h"
 #include "io/operation_log/format.h"
 #include "io/operation_log/parse_json.h"
 #include "io/operation_log/read_operation.h"
-#include "io/write_atomically.h"
 
 namespace sunder {
 namespace {
@@ -35,13 +35,15 @@ std::string read_text(const std::filesystem::path& file) {
   const std::filesystem::file_status status = std::filesystem::status(file, error);
   if (status.type() == std::filesystem::file_type::not_found)
     throw Fault{Status::failure(StatusCode::file_not_found, kNone, "no file '%s'", name.c_str())};
-  const Fault unreadable{Status::failure(StatusCode::file_unreadable, kNone, "cannot read '%s'", name.c_str())};
+  const Fault unreadable{
+      Status::failure(StatusCode::file_unreadable, kNone, "cannot read '%s'", name.c_str())};
   std::ifstream stream(file, std::ios::binary);
   const std::uintmax_t size = std::filesystem::file_size(file, error);
   if (status.type() != std::filesystem::file_type::regular || error || !stream) throw unreadable;
   if (size > kMaximumBytes)
-    throw Fault{
-        Status::failure(StatusCode::limit_exceeded, kNone, "%s: %ju bytes; the limit is %zu", name.c_str(), size, kMaximumBytes)};
+    throw Fault{Status::failure(StatusCode::limit_exceeded, kNone,
+                                "%s: %ju bytes; the limit is %zu", name.c_str(), size,
+                                kMaximumBytes)};
   std::string text(static_cast<std::size_t>(size), '\0');
   if (!stream.read(text.data(), static_cast<std::streamsize>(size))) throw unreadable;
   return text;

@@ -7,11 +7,11 @@
 #include <string>
 #include <utility>
 
+#include "io/files/write_atomically.h"
 #include "io/gltf/accessors.h"
 #include "io/gltf/glb.h"
 #include "io/gltf/mesh_writer.h"
 #include "io/gltf/refusal.h"
-#include "io/write_atomically.h"
 
 namespace sunder::gltf {
 namespace {
@@ -50,8 +50,9 @@ class NewDocument {
       : character_(character), draft_(nothing_), meshes_(draft_, options) {}
 
   std::vector<std::byte> write() {
-    draft_.json = {
-        {"asset", {{"version", "2.0"}, {"generator", "Sunder"}}}, {"scene", 0}, {"scenes", Json::array({Json::object()})}};
+    draft_.json = {{"asset", {{"version", "2.0"}, {"generator", "Sunder"}}},
+                   {"scene", 0},
+                   {"scenes", Json::array({Json::object()})}};
     if (!character_.name.empty()) draft_.json["scenes"][0]["name"] = character_.name;
     add_bones();
     for (Index mesh = 0; mesh < character_.meshes.size(); ++mesh) add_mesh(mesh);
@@ -74,19 +75,23 @@ class NewDocument {
       if (!children[bone].empty()) node["children"] = children[bone];
       if (!rest.translation.isZero(0)) node["translation"] = numbers({rest.translation.data(), 3});
       const Quatf rotation = rest.rotation.normalized();
-      if (rotation.coeffs() != Quatf::Identity().coeffs()) node["rotation"] = numbers({rotation.coeffs().data(), 4});
+      if (rotation.coeffs() != Quatf::Identity().coeffs())
+        node["rotation"] = numbers({rotation.coeffs().data(), 4});
       if (rest.scale != Vec3f::Ones()) node["scale"] = numbers({rest.scale.data(), 3});
       append(draft_.json, "nodes", std::move(node));
     }
     // glTF wants the joints of a skin below one root.
-    if (roots.size() > 1) roots = Json::array({append(draft_.json, "nodes", {{"name", "Skeleton"}, {"children", roots}})});
+    if (roots.size() > 1)
+      roots =
+          Json::array({append(draft_.json, "nodes", {{"name", "Skeleton"}, {"children", roots}})});
     roots_ = std::move(roots);
   }
 
   /// Its vertices are all moved by one bone, as that bone's node would move them.
   [[nodiscard]] bool hangs_on_its_bone(const Mesh& mesh) const {
     const Skin& skin = character_.skins[mesh.skin];
-    if (skin.bones.size() != 1 || skin.bone_from_bind[0].matrix() != Affine3f::Identity().matrix()) return false;
+    if (skin.bones.size() != 1 || skin.bone_from_bind[0].matrix() != Affine3f::Identity().matrix())
+      return false;
     return std::all_of(mesh.weights.influences.begin(), mesh.weights.influences.end(),
                        [](const Influence& influence) { return influence.weight == 1.0f; });
   }
@@ -103,12 +108,16 @@ class NewDocument {
     for (Index submesh = 0; submesh < mesh.submeshes.size(); ++submesh) {
       const Index indices = meshes_.add_indices(mesh, submesh);
       if (indices == kNone) continue;
-      Json primitive = {{"attributes", vertices.attributes}, {"indices", indices}, {"material", add_material(mesh, submesh)}};
+      Json primitive = {{"attributes", vertices.attributes},
+                        {"indices", indices},
+                        {"material", add_material(mesh, submesh)}};
       if (!vertices.targets.is_null()) primitive["targets"] = vertices.targets;
       gltf_mesh["primitives"].push_back(std::move(primitive));
     }
     if (!mesh.morph_targets.empty()) {
-      gltf_mesh["weights"] = numbers({character_.rest_morph_weights.data() + mesh.first_morph_weight, mesh.morph_targets.size()});
+      gltf_mesh["weights"] =
+          numbers({character_.rest_morph_weights.data() + mesh.first_morph_weight,
+                   mesh.morph_targets.size()});
       Json names = Json::array();
       for (const MorphTarget& target : mesh.morph_targets) names.push_back(target.name);
       gltf_mesh["extras"]["targetNames"] = std::move(names);
@@ -129,7 +138,9 @@ class NewDocument {
   }
 
   Index add_skinned_node(const Mesh& mesh, Index gltf_mesh) {
-    const Index node = append(draft_.json, "nodes", {{"name", mesh.name}, {"mesh", gltf_mesh}, {"skin", add_skin(mesh.skin)}});
+    const Index node =
+        append(draft_.json, "nodes",
+               {{"name", mesh.name}, {"mesh", gltf_mesh}, {"skin", add_skin(mesh.skin)}});
     roots_.push_back(node);
     return node;
   }
@@ -140,10 +151,12 @@ class NewDocument {
     const Skin& skin = character_.skins[index];
     std::vector<float> matrices;
     for (const Affine3f& bone_from_bind : skin.bone_from_bind) {
-      const Eigen::Matrix4f full = Eigen::Transform<float, 3, Eigen::Affine>(bone_from_bind).matrix();
+      const Eigen::Matrix4f full =
+          Eigen::Transform<float, 3, Eigen::Affine>(bone_from_bind).matrix();
       matrices.insert(matrices.end(), full.data(), full.data() + 16);
     }
-    Json gltf_skin = {{"inverseBindMatrices", add_floats(matrices, "MAT4", 16)}, {"joints", skin.bones}};
+    Json gltf_skin = {{"inverseBindMatrices", add_floats(matrices, "MAT4", 16)},
+                      {"joints", skin.bones}};
     if (!skin.name.empty()) gltf_skin["name"] = skin.name;
     return entry->second = append(draft_.json, "skins", std::move(gltf_skin));
   }
@@ -151,19 +164,24 @@ class NewDocument {
   Index add_material(const Mesh& mesh, Index submesh) {
     const auto& color = kColors[list_of(draft_.json, "materials").size() % kColors.size()];
     // Vertex colours are multiplied with the material's: it stays white below them.
-    const Json base_color = mesh.color_sets.empty() ? Json{color[0], color[1], color[2], 1.0} : Json{1.0, 1.0, 1.0, 1.0};
+    const Json base_color = mesh.color_sets.empty() ? Json{color[0], color[1], color[2], 1.0}
+                                                    : Json{1.0, 1.0, 1.0, 1.0};
     const std::string& name = mesh.submeshes[submesh].name;
-    return append(draft_.json, "materials",
-                  {{"name", name.empty() ? mesh.name : name},
-                   {"pbrMetallicRoughness", {{"baseColorFactor", base_color}, {"metallicFactor", 0.0}, {"roughnessFactor", 0.8}}},
-                   {"doubleSided", true}});
+    return append(
+        draft_.json, "materials",
+        {{"name", name.empty() ? mesh.name : name},
+         {"pbrMetallicRoughness",
+          {{"baseColorFactor", base_color}, {"metallicFactor", 0.0}, {"roughnessFactor", 0.8}}},
+         {"doubleSided", true}});
   }
 
-  Index add_floats(std::span<const float> values, const char* type, std::size_t components, bool with_bounds = false) {
-    Json accessor = {{"bufferView", draft_.add_view(std::as_bytes(values), GlbDraft::ViewTarget::none)},
-                     {"componentType", static_cast<Index>(ComponentType::f32)},
-                     {"count", values.size() / components},
-                     {"type", type}};
+  Index add_floats(std::span<const float> values, const char* type, std::size_t components,
+                   bool with_bounds = false) {
+    Json accessor = {
+        {"bufferView", draft_.add_view(std::as_bytes(values), GlbDraft::ViewTarget::none)},
+        {"componentType", static_cast<Index>(ComponentType::f32)},
+        {"count", values.size() / components},
+        {"type", type}};
     if (with_bounds) {
       const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
       accessor["min"] = numbers({&*least, 1});
@@ -172,7 +190,8 @@ class NewDocument {
     return append(draft_.json, "accessors", std::move(accessor));
   }
 
-  // ---- Clips -------------------------------------------------------------------------------------------------------------------
+  // ---- Clips
+  // -------------------------------------------------------------------------------------------------------------------
 
   struct GltfTarget {
     Index node;
@@ -188,40 +207,48 @@ class NewDocument {
       if (channel.target == ChannelTarget::morph_weights) {
         for (const auto& [mesh, node] : node_of_mesh_) {
           const std::vector<float> values = weights_of_mesh(channel, character_.meshes[mesh]);
-          if (!values.empty()) add_channel(animation, channel_of, {node, "weights"}, channel, values, "SCALAR", 1);
+          if (!values.empty())
+            add_channel(animation, channel_of, {node, "weights"}, channel, values, "SCALAR", 1);
         }
       } else if (channel.target == ChannelTarget::rotation) {
-        add_channel(animation, channel_of, {channel.index, "rotation"}, channel, unit_rotations(channel), "VEC4", 4);
+        add_channel(animation, channel_of, {channel.index, "rotation"}, channel,
+                    unit_rotations(channel), "VEC4", 4);
       } else {
         const char* const path = channel.target == ChannelTarget::scale ? "scale" : "translation";
-        add_channel(animation, channel_of, {channel.index, path}, channel, channel.values, "VEC3", 3);
+        add_channel(animation, channel_of, {channel.index, path}, channel, channel.values, "VEC3",
+                    3);
       }
     }
     if (!animation["channels"].empty()) append(draft_.json, "animations", std::move(animation));
   }
 
-  void add_channel(Json& animation, std::map<std::pair<Index, std::string>, Index>& channel_of, const GltfTarget& target,
-                   const Channel& channel, std::span<const float> values, const char* type, std::size_t components) {
+  void add_channel(Json& animation, std::map<std::pair<Index, std::string>, Index>& channel_of,
+                   const GltfTarget& target, const Channel& channel, std::span<const float> values,
+                   const char* type, std::size_t components) {
     constexpr std::array<const char*, 3> kInterpolations = {"LINEAR", "STEP", "CUBICSPLINE"};
-    Json sampler = {{"input", add_floats(channel.times, "SCALAR", 1, true)},
-                    {"interpolation", kInterpolations[static_cast<std::size_t>(channel.interpolation)]},
-                    {"output", add_floats(values, type, components)}};
+    Json sampler = {
+        {"input", add_floats(channel.times, "SCALAR", 1, true)},
+        {"interpolation", kInterpolations[static_cast<std::size_t>(channel.interpolation)]},
+        {"output", add_floats(values, type, components)}};
     animation["samplers"].push_back(std::move(sampler));
-    Json entry = {{"sampler", animation["samplers"].size() - 1}, {"target", {{"node", target.node}, {"path", target.path}}}};
+    Json entry = {{"sampler", animation["samplers"].size() - 1},
+                  {"target", {{"node", target.node}, {"path", target.path}}}};
     // A later channel of the same target wins, as it does in a pose; glTF allows but one.
-    const auto [found, is_new] =
-        channel_of.try_emplace({target.node, target.path}, static_cast<Index>(animation["channels"].size()));
+    const auto [found, is_new] = channel_of.try_emplace(
+        {target.node, target.path}, static_cast<Index>(animation["channels"].size()));
     if (is_new)
       animation["channels"].push_back(std::move(entry));
     else
       animation["channels"][found->second] = std::move(entry);
   }
 
-  /// A channel's values for the weights of one mesh, all of them, as glTF animates them; empty where it drives none. What it
-  /// does not drive stays at rest.
+  /// A channel's values for the weights of one mesh, all of them, as glTF animates them; empty
+  /// where it drives none. What it does not drive stays at rest.
   [[nodiscard]] std::vector<float> weights_of_mesh(const Channel& channel, const Mesh& mesh) const {
     const std::size_t first = mesh.first_morph_weight, count = mesh.morph_targets.size();
-    if (first >= std::size_t{channel.index} + channel.width || first + count <= channel.index || count == 0) return {};
+    if (first >= std::size_t{channel.index} + channel.width || first + count <= channel.index ||
+        count == 0)
+      return {};
     const bool is_spline = channel.interpolation == Interpolation::cubic_spline;
     std::vector<float> values;
     const std::size_t rows = channel.values.size() / channel.width;
@@ -230,7 +257,8 @@ class NewDocument {
       for (std::size_t i = first; i < first + count; ++i) {
         const bool driven = i >= channel.index && i < std::size_t{channel.index} + channel.width;
         const float otherwise = is_tangent ? 0.0f : character_.rest_morph_weights[i];
-        values.push_back(driven ? channel.values[row * channel.width + i - channel.index] : otherwise);
+        values.push_back(driven ? channel.values[row * channel.width + i - channel.index]
+                                : otherwise);
       }
     }
     return values;
@@ -259,7 +287,8 @@ class NewDocument {
 
 }  // namespace
 
-Status write_new_document(const std::filesystem::path& file, const Character& character, const SaveOptions& options) {
+Status write_new_document(const std::filesystem::path& file, const Character& character,
+                          const SaveOptions& options) {
   try {
     check_options(options);
     if (const Status status = validate_character(character); !status) return status;

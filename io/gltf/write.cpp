@@ -4,10 +4,10 @@
 #include <map>
 #include <set>
 
+#include "io/files/write_atomically.h"
 #include "io/gltf/glb.h"
 #include "io/gltf/mesh_writer.h"
 #include "io/gltf/refusal.h"
-#include "io/write_atomically.h"
 
 namespace sunder::gltf {
 namespace {
@@ -19,32 +19,39 @@ void check_same_character(const Character& character, const LoadedCharacter& loa
     refuse(StatusCode::invalid_argument, kNone, "save_glb: nothing was loaded");
   const Character& source = *loaded.character;
   if (character.meshes.size() != source.meshes.size())
-    refuse(StatusCode::size_mismatch, kNone, "save_glb: %zu meshes, the source has %zu", character.meshes.size(),
-           source.meshes.size());
+    refuse(StatusCode::size_mismatch, kNone, "save_glb: %zu meshes, the source has %zu",
+           character.meshes.size(), source.meshes.size());
   if (&character == &source) return;
   if (character.skeleton != source.skeleton)
     refuse(StatusCode::invalid_argument, kNone, "save_glb: the skeleton is not the source's");
-  if (character.skins != source.skins) refuse(StatusCode::invalid_argument, kNone, "save_glb: the skins are not the source's");
-  if (character.clips != source.clips) refuse(StatusCode::invalid_argument, kNone, "save_glb: the clips are not the source's");
+  if (character.skins != source.skins)
+    refuse(StatusCode::invalid_argument, kNone, "save_glb: the skins are not the source's");
+  if (character.clips != source.clips)
+    refuse(StatusCode::invalid_argument, kNone, "save_glb: the clips are not the source's");
   const std::size_t material_count = count_of(loaded.source->json, "materials");
   for (std::uint32_t i = 0; i < character.meshes.size(); ++i) {
     const Mesh &mesh = character.meshes[i], &before = source.meshes[i];
     if (mesh.skin != before.skin || mesh.first_morph_weight != before.first_morph_weight ||
         mesh.morph_targets.size() != before.morph_targets.size())
-      refuse(StatusCode::invalid_argument, i, "save_glb: mesh %u: its skin or its morph targets are not the source's", i);
+      refuse(StatusCode::invalid_argument, i,
+             "save_glb: mesh %u: its skin or its morph targets are not the source's", i);
     for (const Submesh& submesh : mesh.submeshes)
       if (submesh.material != kNone && submesh.material >= material_count)
-        refuse(StatusCode::index_out_of_range, i, "save_glb: mesh %u: material %u, the source has %zu", i, submesh.material,
+        refuse(StatusCode::index_out_of_range, i,
+               "save_glb: mesh %u: material %u, the source has %zu", i, submesh.material,
                material_count);
   }
   if (const Status status = validate_character(character); !status) throw Refusal{status};
 }
 
-/// Meshes that have to be written: the torn ones and, beside them, those whose source is not valid as it stands.
-std::vector<std::uint32_t> meshes_to_write(const Character& character, const LoadedCharacter& loaded) {
+/// Meshes that have to be written: the torn ones and, beside them, those whose source is not valid
+/// as it stands.
+std::vector<std::uint32_t> meshes_to_write(const Character& character,
+                                           const LoadedCharacter& loaded) {
   std::vector<std::uint32_t> torn, torn_or_repaired;
   for (std::uint32_t i = 0; i < character.meshes.size(); ++i) {
-    const bool differs = &character != loaded.character.get() && !(character.meshes[i] == loaded.character->meshes[i]);
+    const bool differs = &character != loaded.character.get() &&
+                         !(character.meshes[i] == loaded.character->meshes[i]);
     if (differs) torn.push_back(i);
     if (differs || loaded.source->mesh_origins[i].repaired) torn_or_repaired.push_back(i);
   }
@@ -53,12 +60,14 @@ std::vector<std::uint32_t> meshes_to_write(const Character& character, const Loa
 
 class Patch {
  public:
-  Patch(GlbDraft& draft, const Character& character, const SourceDocument& source, const SaveOptions& options)
+  Patch(GlbDraft& draft, const Character& character, const SourceDocument& source,
+        const SaveOptions& options)
       : draft_(draft), character_(character), source_(source), writer_(draft, options) {}
 
   void apply(const std::vector<std::uint32_t>& meshes) {
     std::map<std::uint32_t, std::vector<std::uint32_t>> meshes_of_node;
-    for (const std::uint32_t mesh : meshes) meshes_of_node[source_.mesh_origins[mesh].node].push_back(mesh);
+    for (const std::uint32_t mesh : meshes)
+      meshes_of_node[source_.mesh_origins[mesh].node].push_back(mesh);
     for (const auto& [node, on_node] : meshes_of_node) patch_node(node, on_node);
     remove_unusable_channels();
   }
@@ -73,7 +82,8 @@ class Patch {
     // New primitive for each old one that a written mesh came from; null: it has no triangle left.
     std::map<std::uint32_t, Json> rewritten;
     Json additional = Json::array();
-    for (const std::uint32_t mesh : meshes) rewrite_primitives(mesh, old_primitives, rewritten, additional);
+    for (const std::uint32_t mesh : meshes)
+      rewrite_primitives(mesh, old_primitives, rewritten, additional);
     Json primitives = Json::array();
     for (std::uint32_t i = 0; i < old_primitives.size(); ++i) {
       const auto found = rewritten.find(i);
@@ -99,8 +109,8 @@ class Patch {
     node["mesh"] = all.size() - 1;
   }
 
-  void rewrite_primitives(std::uint32_t mesh_index, const Json& old_primitives, std::map<std::uint32_t, Json>& rewritten,
-                          Json& additional) {
+  void rewrite_primitives(std::uint32_t mesh_index, const Json& old_primitives,
+                          std::map<std::uint32_t, Json>& rewritten, Json& additional) {
     const Mesh& mesh = character_.meshes[mesh_index];
     const Origin& origin = source_.mesh_origins[mesh_index];
     for (const std::uint32_t primitive : origin.primitives) rewritten[primitive] = nullptr;
@@ -117,7 +127,8 @@ class Patch {
       if (!vertices.targets.is_null()) primitive["targets"] = vertices.targets;
       primitive.erase("mode");
       primitive.erase("material");
-      if (mesh.submeshes[submesh].material != kNone) primitive["material"] = mesh.submeshes[submesh].material;
+      if (mesh.submeshes[submesh].material != kNone)
+        primitive["material"] = mesh.submeshes[submesh].material;
       remove_stale_extensions(primitive);
       if (is_new) write_name(mesh.submeshes[submesh], primitive);
       if (is_new)
@@ -130,8 +141,10 @@ class Patch {
   /// Primitives have no name of their own: it is that of their material, or stands in their extras.
   void write_name(const Submesh& submesh, Json& primitive) const {
     const bool has_material = submesh.material != kNone;
-    const std::string of_material = has_material ? entry(draft_.json, "materials", submesh.material).name() : std::string();
-    if (!submesh.name.empty() && submesh.name != of_material) primitive["extras"]["name"] = submesh.name;
+    const std::string of_material =
+        has_material ? entry(draft_.json, "materials", submesh.material).name() : std::string();
+    if (!submesh.name.empty() && submesh.name != of_material)
+      primitive["extras"]["name"] = submesh.name;
   }
 
   /// Those that hold a second form of the data that was replaced.
@@ -144,10 +157,11 @@ class Patch {
 
   std::size_t use_count(std::size_t mesh) const {
     const Json& nodes = draft_.json["nodes"];
-    return static_cast<std::size_t>(std::count_if(nodes.begin(), nodes.end(), [&](const Json& node) {
-      const auto used = node.find("mesh");
-      return used != node.end() && used->is_number() && used->get<std::size_t>() == mesh;
-    }));
+    return static_cast<std::size_t>(
+        std::count_if(nodes.begin(), nodes.end(), [&](const Json& node) {
+          const auto used = node.find("mesh");
+          return used != node.end() && used->is_number() && used->get<std::size_t>() == mesh;
+        }));
   }
 
   /// Morph weights of a node that has lost its mesh can no longer be animated.
@@ -182,8 +196,8 @@ class Patch {
   std::set<std::uint32_t> without_mesh_;
 };
 
-Status write(const std::filesystem::path& file, const Character& character, const LoadedCharacter& loaded,
-             const SaveOptions& options) {
+Status write(const std::filesystem::path& file, const Character& character,
+             const LoadedCharacter& loaded, const SaveOptions& options) {
   check_options(options);
   check_same_character(character, loaded);
   const SourceDocument& source = *loaded.source;
@@ -197,8 +211,8 @@ Status write(const std::filesystem::path& file, const Character& character, cons
 
 }  // namespace
 
-Status write_character(const std::filesystem::path& file, const Character& character, const LoadedCharacter& loaded,
-                       const SaveOptions& options) {
+Status write_character(const std::filesystem::path& file, const Character& character,
+                       const LoadedCharacter& loaded, const SaveOptions& options) {
   try {
     return write(file, character, loaded, options);
   } catch (...) {

@@ -1,4 +1,4 @@
-#include "io/write_atomically.h"
+#include "io/files/write_atomically.h"
 
 #include <atomic>
 #include <cstdio>
@@ -9,7 +9,8 @@ namespace sunder {
 Status write_atomically(const std::filesystem::path& file, std::span<const std::byte> bytes) {
   static std::atomic<unsigned> counter{0};
   const auto failure = [&] {
-    return Status::failure(StatusCode::file_unreadable, kNone, "'%.150s' cannot be written", file.filename().c_str());
+    return Status::failure(StatusCode::file_unreadable, kNone, "'%.150s' cannot be written",
+                           file.filename().c_str());
   };
   // "x": never follows or overwrites what is there, so two writers cannot meet in one file.
   std::filesystem::path beside;

@@ -1,0 +1,235 @@
+// Reads the `#include` lines of the tree and holds them to the arrows of docs/architecture.md.
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "architecture/source_tree.h"
+
+namespace sunder::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::set<std::string> words_of(const std::string& text) {
+  std::istringstream stream(text);
+  std::set<std::string> words;
+  for (std::string word; stream >> word;) words.insert(word);
+  return words;
+}
+
+/// The modules that each folder may include by <sunder/…>, itself among them.
+const std::map<std::string, std::set<std::string>> kMayUse = {
+    {"core", {"core"}},
+    {"operation", {"core", "operation"}},
+    {"skinning", {"core", "operation", "skinning"}},
+    {"weights", {"core", "weights"}},
+    {"tear", {"core", "operation", "skinning", "weights", "tear"}},
+    {"particles", {"core", "operation", "skinning", "weights", "tear", "particles"}},
+    {"scene", {"core", "operation", "skinning", "weights", "tear", "particles", "scene"}},
+    {"io", {"core", "operation", "weights", "io"}},
+    {"tools",
+     {"core", "operation", "skinning", "weights", "tear", "particles", "scene", "io", "tools"}},
+    {"samples", {"core", "operation", "skinning", "weights", "tear", "particles", "scene", "io"}},
+};
+
+/// Folders that may include <sunder/sunder.h>, which includes all modules.
+const std::set<std::string> kMayUseUmbrella = {"samples", "tools"};
+
+/// Folders with third parties; the others see the standard library and Eigen alone. Samples are
+/// programs of users, who have none of our private headers, and threads of their own.
+const std::map<std::string, std::set<std::string>> kThirdParties = {
+    {"io", {"tiny_gltf.h", "assimp", "nlohmann"}},
+    {"skinning", {"hwy"}},
+    {"tools", {"CLI", "nlohmann"}},
+    {"samples", {"btBulletDynamicsCommon.h", "tbb"}},
+};
+
+/// Third parties that a single file may include.
+const std::map<std::string, std::set<std::string>> kThirdPartyOfFile = {
+    {"particles/bullet/bullet_body.cpp", {"BulletCollision", "BulletDynamics"}},
+    {"weights/coupled_refit_ceres.cpp", {"ceres"}},
+};
+
+const std::set<std::string> kMayUseOperatingSystem = {"io", "tools"};
+
+const std::set<std::string> kStandardHeaders = words_of(R"(
+    algorithm any array atomic barrier bit bitset cassert cctype cerrno cfenv cfloat charconv
+    chrono cinttypes climits clocale cmath compare complex concepts condition_variable coroutine
+    csetjmp csignal cstdarg cstddef cstdint cstdio cstdlib cstring ctime cuchar cwchar cwctype
+    deque exception execution filesystem forward_list fstream functional future initializer_list
+    iomanip ios iosfwd iostream istream iterator latch limits list locale map memory
+    memory_resource mutex new numbers numeric optional ostream queue random ranges ratio regex
+    scoped_allocator semaphore set shared_mutex source_location span sstream stack stdexcept
+    stop_token streambuf string string_view system_error thread tuple type_traits typeindex
+    typeinfo unordered_map unordered_set utility valarray variant vector version assert.h ctype.h
+    errno.h float.h limits.h math.h stdarg.h stddef.h stdint.h stdio.h stdlib.h string.h time.h)");
+
+const std::set<std::string> kOperatingSystemHeaders = {"fcntl.h", "poll.h", "signal.h", "spawn.h",
+                                                       "unistd.h"};
+
+/// Why `file`, of `module`, may not have this include; empty if it may.
+std::string fault(const std::string& module, const std::string& file, bool is_public,
+                  const Include& include) {
+  const std::size_t slash = include.path.find('/');
+  const std::string first = include.path.substr(0, slash);
+  if (include.quoted) {
+    if (first == "sunder") return "public headers are included as <sunder/…>";
+    if (is_public) return "a public header includes a private one";
+    const std::string rest =
+        slash == std::string::npos ? std::string() : include.path.substr(slash + 1);
+    if (first != module && rest.starts_with("internal/") && kMayUse.count(first) != 0)
+      return kMayUse.at(module).count(first) != 0
+                 ? std::string()
+                 : "the arrow from " + module + " to " + first + " is not allowed";
+    if (slash == std::string::npos || first != module)
+      return "private headers are included as \"" + module + "/…\", from " + module + "/ only";
+    return {};
+  }
+  if (first == "sunder") {
+    if (include.path == "sunder/sunder.h") {
+      return kMayUseUmbrella.count(module) != 0 ? std::string()
+                                                : "modules include what they use, not all";
+    }
+    const std::string rest = include.path.substr(slash + 1);
+    const std::string used = rest.substr(0, rest.find('/'));
+    return kMayUse.at(module).count(used) != 0
+               ? std::string()
+               : "the arrow from " + module + " to " + used + " is not allowed";
+  }
+  if (kMayUse.count(first) != 0 && slash != std::string::npos)
+    return "a private header in angle brackets";
+  if (first == "Eigen" || kStandardHeaders.count(include.path) != 0) return {};
+  if (is_public) return "third parties other than Eigen stay out of public headers";
+  if (const auto allowed = kThirdParties.find(module);
+      allowed != kThirdParties.end() && allowed->second.count(first) != 0)
+    return {};
+  if (const auto own = kThirdPartyOfFile.find(file);
+      own != kThirdPartyOfFile.end() && own->second.count(first) != 0)
+    return {};
+  if (kMayUseOperatingSystem.count(module) != 0 &&
+      (first == "sys" || kOperatingSystemHeaders.count(include.path) != 0))
+    return {};
+  return module + "/ may not use this third party";
+}
+
+/// One line per include that breaks a rule, sorted: "weights/a.cpp: <sunder/tear/b.h>: why".
+std::vector<std::string> include_faults(const fs::path& root) {
+  std::vector<std::string> faults;
+  const auto check_folder = [&](const std::string& module, const fs::path& folder, bool is_public) {
+    for (const fs::path& path : source_files(folder)) {
+      const std::string file = name_below(root, path);
+      for (const Include& include : includes_of(path))
+        if (const std::string why = fault(module, file, is_public, include); !why.empty())
+          faults.push_back(file + ": " + include.path + ": " + why);
+    }
+  };
+  for (const auto& [module, unused] : kMayUse) {
+    check_folder(module, root / module, false);
+    check_folder(module, root / "include" / "sunder" / module, true);
+  }
+  if (fs::is_directory(root / "include" / "sunder"))
+    for (const auto& entry : fs::directory_iterator(root / "include" / "sunder"))
+      if (entry.path().filename() != "sunder.h" &&
+          kMayUse.count(entry.path().filename().string()) == 0)
+        faults.push_back("include/sunder/" + entry.path().filename().string() + ": not a module");
+  std::sort(faults.begin(), faults.end());
+  return faults;
+}
+
+std::vector<std::string> faults_of(const std::string& file, const std::string& content) {
+  const FixtureTree tree(file, content);
+  return include_faults(tree.root());
+}
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+TEST(Architecture, our_tree_follows_the_arrows) {
+  ASSERT_TRUE(fs::exists(fs::path(SUNDER_SOURCE_DIR) / "include/sunder/core/mesh.h"));
+  EXPECT_THAT(include_faults(SUNDER_SOURCE_DIR), IsEmpty());
+}
+
+TEST(Architecture, an_upward_arrow_is_found) {
+  EXPECT_THAT(faults_of("weights/a.cpp", "#include <sunder/tear/topology.h>"),
+              ElementsAre(HasSubstr("from weights to tear")));
+  EXPECT_THAT(faults_of("include/sunder/core/a.h", "#  include  <sunder/skinning/deform.h>"),
+              ElementsAre(HasSubstr("from core to skinning")));
+  EXPECT_THAT(faults_of("io/gltf/a.cpp", "#include <sunder/tear/topology.h>"),
+              ElementsAre(HasSubstr("from io to tear")));
+  EXPECT_THAT(faults_of("io/gltf/a.cpp", "#include <sunder/skinning/deform.h>"),
+              ElementsAre(HasSubstr("from io to skinning")));
+  EXPECT_THAT(faults_of("io/gltf/a.cpp", "#include <sunder/weights/influences.h>"), IsEmpty());
+  EXPECT_THAT(faults_of("tear/a.cpp", "#include <sunder/io/character_file.h>"),
+              ElementsAre(HasSubstr("from tear to io")));
+}
+
+TEST(Architecture, a_third_party_in_a_public_header_is_found) {
+  EXPECT_THAT(faults_of("include/sunder/io/a.h", "#include <nlohmann/json.hpp>"),
+              ElementsAre(HasSubstr("third parties")));
+  EXPECT_THAT(faults_of("include/sunder/io/a.h",
+                        "#include <Eigen/Core>\n#include <vector>\n#include <sunder/core/mesh.h>"),
+              IsEmpty());
+}
+
+TEST(Architecture, a_third_party_behind_another_door_is_found) {
+  EXPECT_THAT(faults_of("tear/a.cpp", "#include <nlohmann/json.hpp>"),
+              ElementsAre(HasSubstr("third party")));
+  EXPECT_THAT(faults_of("tear/a.cpp", "#include <hwy/highway.h>"),
+              ElementsAre(HasSubstr("third party")));
+  EXPECT_THAT(faults_of("skinning/a.cpp", "#include <hwy/highway.h>"), IsEmpty());
+  EXPECT_THAT(faults_of("weights/a.cpp", "#include <ceres/solver.h>"),
+              ElementsAre(HasSubstr("third party")));
+  EXPECT_THAT(faults_of("weights/coupled_refit_ceres.cpp", "#include <ceres/solver.h>"), IsEmpty());
+  EXPECT_THAT(faults_of("particles/a.cpp", "#include <BulletDynamics/Dynamics/btRigidBody.h>"),
+              ElementsAre(HasSubstr("third party")));
+  EXPECT_THAT(faults_of("particles/bullet/bullet_body.cpp",
+                        "#include <BulletDynamics/Dynamics/btRigidBody.h>"),
+              IsEmpty());
+  EXPECT_THAT(faults_of("include/sunder/particles/a.h", "#include <btBulletDynamicsCommon.h>"),
+              ElementsAre(HasSubstr("third parties")));
+  EXPECT_THAT(faults_of("tools/a.cpp", "#include <assimp/scene.h>"),
+              ElementsAre(HasSubstr("third party")));
+  EXPECT_THAT(faults_of("io/assimp/a.cpp", "#include <assimp/scene.h>\n#include <sys/wait.h>"),
+              IsEmpty());
+}
+
+TEST(Architecture, a_private_header_of_another_module_is_found) {
+  EXPECT_THAT(faults_of("weights/a.cpp", "#include \"tear/surface.h\""),
+              ElementsAre(HasSubstr("private headers")));
+  EXPECT_THAT(faults_of("tear/a.cpp", "#include <tear/surface.h>"),
+              ElementsAre(HasSubstr("angle brackets")));
+  EXPECT_THAT(faults_of("include/sunder/tear/a.h", "#include \"tear/surface.h\""),
+              ElementsAre(HasSubstr("public header includes")));
+  EXPECT_THAT(faults_of("tear/a.cpp", "#include \"surface.h\""),
+              ElementsAre(HasSubstr("private headers")));
+  EXPECT_THAT(faults_of("tear/a.cpp", "#include \"tear/surface.h\""), IsEmpty());
+}
+
+TEST(Architecture, quotes_around_a_public_header_are_found) {
+  EXPECT_THAT(faults_of("tear/a.cpp", "#include \"sunder/tear/topology.h\""),
+              ElementsAre(HasSubstr("<sunder/")));
+}
+
+TEST(Architecture, the_header_of_all_modules_is_for_programs) {
+  EXPECT_THAT(faults_of("samples/a.cpp", "#include <sunder/sunder.h>"), IsEmpty());
+  EXPECT_THAT(faults_of("tear/a.cpp", "#include <sunder/sunder.h>"),
+              ElementsAre(HasSubstr("include what they use")));
+  EXPECT_THAT(faults_of("include/sunder/sunder.h", "#include <sunder/core/mesh.h>"), IsEmpty());
+}
+
+TEST(Architecture, an_unknown_public_folder_is_found) {
+  EXPECT_THAT(faults_of("include/sunder/misc/a.h", "#include <vector>"),
+              ElementsAre(HasSubstr("not a module")));
+}
+
+}  // namespace
+}  // namespace sunder::test

@@ -1,0 +1,78 @@
+// Holds the sizes that keep the house readable: how many headers are installed, how many files
+// stand at a module's root, how long a function is and how many parameters it has.
+
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+#include "architecture/function_scan.h"
+#include "architecture/source_tree.h"
+
+namespace sunder::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMostInstalledHeaders = 36;
+constexpr std::size_t kMostFilesAtRoot = 13;
+
+std::size_t sources_at_root(const fs::path& folder) {
+  std::size_t count = 0;
+  for (const fs::path& file : source_files(folder))
+    if (file.parent_path() == folder) ++count;
+  return count;
+}
+
+TEST(SizeLimits, few_headers_are_installed) {
+  const auto headers = source_files(fs::path(SUNDER_SOURCE_DIR) / "include");
+  EXPECT_FALSE(headers.empty());
+  EXPECT_LE(headers.size(), kMostInstalledHeaders);
+}
+
+TEST(SizeLimits, few_files_stand_at_the_roots_of_large_modules) {
+  for (const char* const module : {"tear", "particles"}) {
+    const std::size_t count = sources_at_root(fs::path(SUNDER_SOURCE_DIR) / module);
+    EXPECT_GT(count, 0u) << module;
+    EXPECT_LE(count, kMostFilesAtRoot) << module;
+  }
+}
+
+TEST(FunctionScan, counts_lines_and_parameters) {
+  const auto functions = scan_functions(R"(namespace a {
+struct S {
+  int method(int x, std::map<int, int> y) const {
+    return x;
+  }
+  int data = 3;
+};
+template <class T>
+[[nodiscard]] bool S::long_name(const T& a,
+                                std::function<void(int, int)> b, int c = f(1, 2)) {
+  if (a) {
+    b(1, 2);
+  }
+  return true;  // }
+}
+void empty() {
+  text("} {");
+}
+bool operator()(int a) {
+  return a;
+}
+constexpr int kTable[] = {
+    1, 2};
+})");
+  ASSERT_EQ(functions.size(), 4u);
+  EXPECT_EQ(functions[0].name, "method");
+  EXPECT_EQ(functions[0].lines, 3u);
+  EXPECT_EQ(functions[0].parameters, 2u);
+  EXPECT_EQ(functions[1].name, "S::long_name");
+  EXPECT_EQ(functions[1].line, 9u);
+  EXPECT_EQ(functions[1].lines, 7u);
+  EXPECT_EQ(functions[1].parameters, 3u);
+  EXPECT_EQ(functions[2].parameters, 0u);
+  EXPECT_EQ(functions[3].parameters, 1u);
+}
+
+}  // namespace
+}  // namespace sunder::test
