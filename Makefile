@@ -1,10 +1,11 @@
 # Thin: each target installs what is missing, configures, builds and runs. CMake and its presets do the work.
 .DEFAULT_GOAL := help
-.PHONY: help demo test bench stress format
+.PHONY: help demo unit test bench stress format
 jobs := $(shell nproc)
 
 help:
 	@echo 'make demo     tears a model in the middle of its animation; pictures, GLB and report in demo/'
+	@echo 'make unit     builds everything and runs the unit tests, which take under two minutes'
 	@echo 'make test     builds everything and runs all tests'
 	@echo 'make bench    runs the benchmarks'
 	@echo 'make stress   all tests with many more random cases, then again under the sanitizers'
@@ -16,6 +17,12 @@ demo:
 	cmake --build --preset release --target sunder
 	build/release/tools/sunder demo -o demo
 	@echo; echo 'Look at:'; ls demo/*.png
+
+unit:
+	scripts/setup test
+	cmake --preset release
+	cmake --build --preset release
+	ctest --preset release -L unit -j $(jobs)
 
 test:
 	scripts/setup demo test
@@ -37,7 +44,7 @@ stress:
 	cmake --build --preset asan
 	ctest --preset asan -j $(jobs)
 
-sources := core skinning weights tear particles io tools samples tests bench include
+sources := core operation skinning weights tear particles scene io tools samples tests bench include
 format:
 	scripts/setup format
 	find $(sources) -path '*/node_modules' -prune -o \( -name '*.h' -o -name '*.cpp' \) -print0 | xargs -0 clang-format -i
