@@ -6,7 +6,7 @@
 
 namespace sunder::skinning {
 
-/// Memory from the start of a cache line on, so that no vector of numbers lies in two.
+/// Allocates from the start of a cache line, so that no vector register is loaded from two lines.
 template <class T>
 struct CacheLineAllocator {
   using value_type = T;

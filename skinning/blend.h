@@ -10,8 +10,8 @@ namespace sunder::skinning {
 /// sum_k w_k M_k of one vertex, in double.
 inline Eigen::Matrix<double, 3, 4> blend_matrix(std::span<const Influence> influences,
                                                 std::span<const Affine3d> model_from_bind) {
-  using Numbers = Eigen::Array<double, 12, 1>;  // a matrix as what it is in memory: whole packets,
-                                                // where three rows are none
+  // A matrix as 12 consecutive numbers, which fill whole packets; columns of three do not.
+  using Numbers = Eigen::Array<double, 12, 1>;
   Numbers sum = Numbers::Zero();
   for (const Influence& influence : influences)
     sum += static_cast<double>(influence.weight) *
@@ -19,8 +19,8 @@ inline Eigen::Matrix<double, 3, 4> blend_matrix(std::span<const Influence> influ
   return Eigen::Map<const Eigen::Matrix<double, 3, 4>>(sum.data());
 }
 
-/// A bind-space attribute plus its morph deltas: `get(target)` is the array of deltas or an empty
-/// one.
+/// A bind-space attribute plus the displacements of the morph targets. @param deltas  member of
+/// MorphTarget; an empty array displaces nothing.
 template <class Deltas>
 Eigen::Vector3d add_morphs(const Mesh& mesh, std::uint32_t vertex,
                            std::span<const float> morph_weights, Eigen::Vector3d value,
@@ -34,7 +34,7 @@ Eigen::Vector3d add_morphs(const Mesh& mesh, std::uint32_t vertex,
   return value;
 }
 
-/// `direction` made unit length, or `fallback` where it has none.
+/// `direction` scaled to unit length, or `fallback` if it has no length.
 inline Eigen::Vector3d unit_or(const Eigen::Vector3d& direction, const Eigen::Vector3d& fallback) {
   const double largest = direction.cwiseAbs().maxCoeff();
   if (!(largest > 0) || !std::isfinite(largest)) return fallback;

@@ -10,10 +10,11 @@
 namespace sunder::skinning {
 namespace {
 
-constexpr double kSlotWork = 6, kBlockWork = 20,
-                 kScatterWork = 40;  // cycles a block, as measured; only their ratios matter
-constexpr std::uint32_t kSparseFrom =
-    8;  // weights stored for each weight there is, above which influences are kept a vertex
+// Measured cycles per slot, per block and per scattered block; only their ratios matter.
+constexpr double kSlotWork = 6, kBlockWork = 20, kScatterWork = 40;
+/// Influences are stored per vertex if storing weights per slot would take more than this many
+/// numbers per influence.
+constexpr std::uint32_t kSparseFrom = 8;
 
 Status check_strides(const VertexSource& source) {
   const auto is_odd = [](std::size_t stride, std::size_t packed, std::size_t unit) {
@@ -29,7 +30,7 @@ Status check_strides(const VertexSource& source) {
   if (!is_bad) return {};
   return Status::failure(
       StatusCode::invalid_argument, kNone,
-      "a stride is shorter than a vertex' numbers, or not a multiple of their size");
+      "a stride is shorter than the numbers of a vertex, or not a multiple of their size");
 }
 
 Status check_sizes(const VertexSource& source) {
@@ -46,7 +47,7 @@ Status check_sizes(const VertexSource& source) {
     if (arrays.per_vertex == 0 || arrays.slots == nullptr ||
         (arrays.weights == nullptr) == (arrays.weights16 == nullptr))
       return Status::failure(StatusCode::empty_input, kNone,
-                             "influences need slots, and weights in float or in 16 bits");
+                             "influences require slots, and weights in float or in 16 bits");
   }
   for (std::size_t i = 0; i < source.morph_targets.size(); ++i)
     for (const auto* deltas :
@@ -63,14 +64,15 @@ Status check_per_influence(const VertexSource& source) {
   const InfluencePositions& exact = *source.per_influence;
   if (source.weights == nullptr)
     return Status::failure(StatusCode::invalid_argument, kNone,
-                           "positions per influence need SkinWeights beside them");
+                           "positions per influence require weights given as SkinWeights");
   std::size_t influences = 0;
   for (std::size_t i = 0; i < exact.vertices.size(); ++i) {
     const std::uint32_t vertex = exact.vertices[i];
     if (vertex >= source.vertex_count || (i > 0 && exact.vertices[i - 1] >= vertex))
-      return Status::failure(StatusCode::index_out_of_range, static_cast<std::uint32_t>(i),
-                             "positions per influence: vertex %u does not ascend or is beyond %u",
-                             vertex, source.vertex_count);
+      return Status::failure(
+          StatusCode::index_out_of_range, static_cast<std::uint32_t>(i),
+          "positions per influence: vertex %u is not in ascending order or not below %u", vertex,
+          source.vertex_count);
     influences += source.weights->of(vertex).size();
   }
   const auto fits = [&](const std::vector<Vec3f>& values, bool wanted) {
@@ -84,8 +86,10 @@ Status check_per_influence(const VertexSource& source) {
     all_fit = all_fit && fits(target.positions, false) && fits(target.normals, false) &&
               fits(target.tangents, false);
   if (!all_fit)
-    return Status::failure(StatusCode::size_mismatch, kNone,
-                           "positions per influence: arrays do not fit %zu influences", influences);
+    return Status::failure(
+        StatusCode::size_mismatch, kNone,
+        "positions per influence: an array does not have %zu entries, one per influence",
+        influences);
   return {};
 }
 
@@ -110,7 +114,8 @@ Status check_vertex(const VertexSource& source, std::size_t slot_count, std::uin
   });
   if (beyond != kNone)
     return Status::failure(StatusCode::index_out_of_range, vertex,
-                           "vertex %u: slot %u, the skin has %zu", vertex, beyond, slot_count);
+                           "vertex %u: slot %u, the skin has %zu slots", vertex, beyond,
+                           slot_count);
   if (!is_weight || !(std::abs(sum - 1) <= 0.01))
     return Status::failure(StatusCode::weights_not_normalized, vertex,
                            "vertex %u: weights are negative or sum to %g", vertex, sum);
@@ -124,7 +129,7 @@ bool is_zero(const Vec3f& value) { return value == Vec3f::Zero(); }
 Status check_source(const VertexSource& source, std::size_t slot_count, std::uint32_t first) {
   if (slot_count > 65536)
     return Status::failure(StatusCode::limit_exceeded, kNone,
-                           "a skin of %zu slots; 65536 are possible", slot_count);
+                           "the skin has %zu slots; the maximum is 65536", slot_count);
   if (const Status status = check_sizes(source); !status) return status;
   if (const Status status = check_strides(source); !status) return status;
   if (source.per_influence != nullptr)
@@ -165,7 +170,7 @@ void BlockBuilder::append_in_order(std::uint32_t first, std::uint32_t end) {
 void BlockBuilder::append_gathered(std::uint32_t first, std::uint32_t end) {
   order_.resize(end - first);
   std::iota(order_.begin(), order_.end(), first);
-  // Sorted by the slots of each vertex, the vertex last.
+  // Sorted by the slots of each vertex, then by the vertex.
   std::vector<std::uint32_t> keys, key_first;
   for (const std::uint32_t v : order_) {
     key_first.push_back(static_cast<std::uint32_t>(keys.size()));
@@ -190,11 +195,11 @@ void BlockBuilder::append_gathered(std::uint32_t first, std::uint32_t end) {
   }
   for (std::uint32_t i = 0; i < gathered_.size(); i += kLanes) {
     const std::uint32_t count = std::min(kLanes, static_cast<std::uint32_t>(gathered_.size()) - i);
-    std::sort(gathered_.begin() + i, gathered_.begin() + i + count);  // writes ascend
+    std::sort(gathered_.begin() + i, gathered_.begin() + i + count);  // so that writes ascend
     append_block(gathered_.data() + i, count, first);
   }
-  blocks_.scattered_end =
-      blocks_.block_count();  // also of a last block whose vertices follow one another
+  // Includes a last block whose vertices happen to be consecutive.
+  blocks_.scattered.end = blocks_.block_count();
 }
 
 double BlockBuilder::work(const std::vector<std::uint32_t>& order, bool scattered) {
@@ -229,16 +234,16 @@ void BlockBuilder::append_block(const std::uint32_t* vertices, std::uint32_t cou
   block.numbers = blocks_.stream.size();
   extra.last_vertex = vertices[count - 1];
   extra.window = window;
-  extra.places = static_cast<std::uint32_t>(blocks_.places.size());
-  extra.influences = static_cast<std::uint32_t>(blocks_.influences.size());
-  extra.lane_ends = static_cast<std::uint32_t>(blocks_.lane_ends.size());
-  extra.morphs = static_cast<std::uint32_t>(blocks_.morphs.size());
-  extra.exact_lanes = static_cast<std::uint32_t>(blocks_.exact_lanes.size());
+  extra.places = static_cast<std::uint32_t>(blocks_.scattered.places.size());
+  extra.influences = static_cast<std::uint32_t>(blocks_.sparse.influences.size());
+  extra.lane_ends = static_cast<std::uint32_t>(blocks_.sparse.lane_ends.size());
+  extra.morphs = static_cast<std::uint32_t>(blocks_.morphs.parts.size());
+  extra.exact_lanes = static_cast<std::uint32_t>(blocks_.exact.lanes.size());
   if (extra.last_vertex - block.first_vertex != count - 1 || window != block.first_vertex) {
     block.kind |= kScattered;
-    blocks_.scattered_end = number + 1;
-    blocks_.places.insert(blocks_.places.end(), vertices, vertices + count);
-    blocks_.places.resize(extra.places + kLanes);
+    blocks_.scattered.end = number + 1;
+    blocks_.scattered.places.insert(blocks_.scattered.places.end(), vertices, vertices + count);
+    blocks_.scattered.places.resize(extra.places + kLanes);
   }
 
   find_slots(vertices, count);
@@ -276,8 +281,8 @@ void BlockBuilder::append_attributes(const std::uint32_t* vertices, std::uint32_
     }
   };
   append(source_.positions, 3);
-  if (blocks_.has_normals) append(source_.normals, 3);
-  if (blocks_.has_tangents) append(source_.tangents, 4);
+  if (blocks_.layout.has_normals) append(source_.normals, 3);
+  if (blocks_.layout.has_tangents) append(source_.tangents, 4);
 }
 
 void BlockBuilder::append_weights(const std::uint32_t* vertices, std::uint32_t count, Block& block,
@@ -285,24 +290,25 @@ void BlockBuilder::append_weights(const std::uint32_t* vertices, std::uint32_t c
   if (slots_.size() * kLanes > kSparseFrom * influence_count_ && slots_.size() > kSparseFrom) {
     block.kind |= kSparse;
     for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
-      const std::size_t first = blocks_.influences.size();
+      const std::size_t first = blocks_.sparse.influences.size();
       if (lane < count)
         for_each_influence(source_, vertices[lane], [&](std::uint32_t slot, float weight) {
-          blocks_.influences.push_back({slot, weight});
+          blocks_.sparse.influences.push_back({slot, weight});
         });
-      std::stable_sort(blocks_.influences.begin() + static_cast<std::ptrdiff_t>(first),
-                       blocks_.influences.end(),
+      std::stable_sort(blocks_.sparse.influences.begin() + static_cast<std::ptrdiff_t>(first),
+                       blocks_.sparse.influences.end(),
                        [](const Influence& a, const Influence& b) { return a.slot < b.slot; });
       std::size_t end = first;
-      for (std::size_t i = first; i < blocks_.influences.size();
+      for (std::size_t i = first; i < blocks_.sparse.influences.size();
            ++i) {  // a slot that is named twice counts once
-        if (end > first && blocks_.influences[end - 1].slot == blocks_.influences[i].slot)
-          blocks_.influences[end - 1].weight += blocks_.influences[i].weight;
+        if (end > first &&
+            blocks_.sparse.influences[end - 1].slot == blocks_.sparse.influences[i].slot)
+          blocks_.sparse.influences[end - 1].weight += blocks_.sparse.influences[i].weight;
         else
-          blocks_.influences[end++] = blocks_.influences[i];
+          blocks_.sparse.influences[end++] = blocks_.sparse.influences[i];
       }
-      blocks_.influences.resize(end);
-      blocks_.lane_ends.push_back(static_cast<std::uint32_t>(end) - extra.influences);
+      blocks_.sparse.influences.resize(end);
+      blocks_.sparse.lane_ends.push_back(static_cast<std::uint32_t>(end) - extra.influences);
     }
     return;
   }
@@ -324,22 +330,23 @@ void BlockBuilder::append_morphs(const std::uint32_t* vertices, std::uint32_t co
       return !deltas.empty() && std::any_of(vertices, vertices + count,
                                             [&](std::uint32_t v) { return !is_zero(deltas[v]); });
     };
-    if (!moves(target.position_deltas) && !(blocks_.has_normals && moves(target.normal_deltas)) &&
-        !(blocks_.has_tangents && moves(target.tangent_deltas)))
+    if (!moves(target.position_deltas) &&
+        !(blocks_.layout.has_normals && moves(target.normal_deltas)) &&
+        !(blocks_.layout.has_tangents && moves(target.tangent_deltas)))
       continue;
-    blocks_.morphs.push_back({j, blocks_.morph_stream.size()});
+    blocks_.morphs.parts.push_back({j, blocks_.morphs.stream.size()});
     const auto append = [&](const std::vector<Vec3f>& deltas) {
-      const std::size_t first = blocks_.morph_stream.size();
-      blocks_.morph_stream.resize(first + 3 * kLanes);
+      const std::size_t first = blocks_.morphs.stream.size();
+      blocks_.morphs.stream.resize(first + 3 * kLanes);
       for (std::uint32_t lane = 0; lane < count && !deltas.empty(); ++lane)
         for (std::size_t c = 0; c < 3; ++c)
-          blocks_.morph_stream[first + kLanes * c + lane] =
+          blocks_.morphs.stream[first + kLanes * c + lane] =
               deltas[vertices[lane]][static_cast<Eigen::Index>(c)];
     };
     append(target.position_deltas);
-    if (blocks_.has_normals) append(target.normal_deltas);
-    if (blocks_.has_tangents) append(target.tangent_deltas);
-    blocks_.movers.append(static_cast<std::uint32_t>(blocks_.slot_count) + j,
+    if (blocks_.layout.has_normals) append(target.normal_deltas);
+    if (blocks_.layout.has_tangents) append(target.tangent_deltas);
+    blocks_.movers.append(static_cast<std::uint32_t>(blocks_.layout.slot_count) + j,
                           blocks_.block_count());
     ++extra.morph_count;
   }
@@ -357,20 +364,20 @@ void BlockBuilder::append_exact(const std::uint32_t* vertices, std::uint32_t cou
     const std::uint32_t first =
         exact_first_[static_cast<std::size_t>(known - exact.vertices.begin())];
     const auto influences = source_.weights->of(vertices[lane]);
-    blocks_.exact_lanes.push_back(
-        {lane, static_cast<std::uint32_t>(blocks_.exact_influences.size()),
-         static_cast<std::uint32_t>(influences.size()), blocks_.exact_stream.size()});
-    blocks_.exact_influences.insert(blocks_.exact_influences.end(), influences.begin(),
+    blocks_.exact.lanes.push_back(
+        {lane, static_cast<std::uint32_t>(blocks_.exact.influences.size()),
+         static_cast<std::uint32_t>(influences.size()), blocks_.exact.stream.size()});
+    blocks_.exact.influences.insert(blocks_.exact.influences.end(), influences.begin(),
                                     influences.end());
     const auto append = [&](const std::vector<Vec3f>& values, std::size_t i) {
       const Vec3f value = values.empty() ? Vec3f(Vec3f::Zero()) : values[first + i];
-      blocks_.exact_stream.insert(blocks_.exact_stream.end(), value.data(), value.data() + 3);
+      blocks_.exact.stream.insert(blocks_.exact.stream.end(), value.data(), value.data() + 3);
     };
     const auto append_all = [&](const auto& of) {
       for (std::size_t i = 0; i < influences.size(); ++i) {
         append(of.positions, i);
-        if (blocks_.has_normals) append(of.normals, i);
-        if (blocks_.has_tangents) append(of.tangents, i);
+        if (blocks_.layout.has_normals) append(of.normals, i);
+        if (blocks_.layout.has_tangents) append(of.tangents, i);
       }
     };
     append_all(exact);
@@ -378,7 +385,7 @@ void BlockBuilder::append_exact(const std::uint32_t* vertices, std::uint32_t cou
       append_all(exact.morph_targets.empty() ? InfluencePositions::Deltas()
                                              : exact.morph_targets[j]);
       if (!exact.morph_targets.empty())
-        blocks_.movers.append(static_cast<std::uint32_t>(blocks_.slot_count) + j,
+        blocks_.movers.append(static_cast<std::uint32_t>(blocks_.layout.slot_count) + j,
                               blocks_.block_count());
     }
     ++extra.exact_count;

@@ -8,7 +8,7 @@
 
 namespace sunder::skinning {
 
-/// Checks vertices from `first` on: what SkinnedMesh::create() promises to find.
+/// Checks the vertices from `first` on. @return the failures that SkinnedMesh::create() documents.
 [[nodiscard]] Status check_source(const VertexSource& source, std::size_t slot_count,
                                   std::uint32_t first);
 
@@ -17,9 +17,9 @@ class BlockBuilder {
  public:
   BlockBuilder(const VertexSource& source, Blocks& blocks);
 
-  /// Vertices [first, end) as they stand.
+  /// Appends vertices [first, end) in their own order.
   void append_in_order(std::uint32_t first, std::uint32_t end);
-  /// Vertices [first, end), gathered by their bones where that makes less work.
+  /// Appends vertices [first, end), gathered by their bones if that makes less work.
   void append_gathered(std::uint32_t first, std::uint32_t end);
 
  private:
@@ -36,11 +36,11 @@ class BlockBuilder {
 
   const VertexSource& source_;
   Blocks& blocks_;
-  std::vector<std::uint16_t>& slots_;  // of the block at hand, ascending
-  std::uint32_t influence_count_ = 0;  // of the block at hand
+  std::vector<std::uint16_t>& slots_;  // of the current block, ascending
+  std::uint32_t influence_count_ = 0;  // of the current block
   std::vector<std::uint32_t> order_, gathered_;
   std::vector<std::uint32_t>
-      exact_first_;  // one a vertex of source_.per_influence: where its positions begin
+      exact_first_;  // per vertex of source_.per_influence: where its positions begin
 };
 
 }  // namespace sunder::skinning

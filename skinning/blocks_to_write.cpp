@@ -19,8 +19,8 @@ void set_bits(std::uint32_t first, std::uint32_t end, std::uint64_t* words) {
   }
 }
 
-/// The last block from `b` on whose window begins at `vertex` or before: in steps that double, as
-/// the next is mostly near.
+/// The last block from `b` on whose window begins at `vertex` or before, by exponential search: the
+/// next one is usually near.
 std::uint32_t last_block_to(const Blocks& blocks, std::uint32_t vertex, std::uint32_t b) {
   const std::uint32_t count = blocks.block_count();
   std::uint32_t step = 1;
@@ -33,8 +33,8 @@ std::uint32_t last_block_to(const Blocks& blocks, std::uint32_t vertex, std::uin
              from - 1);
 }
 
-/// Marks those of the blocks [first, end) of a window that hold any vertex of `vertices`, which
-/// ascend.
+/// Marks the blocks among [first, end) of one window that hold any vertex of `vertices`, which are
+/// ascending.
 void mark_in_window(const Blocks& blocks, std::uint32_t first, std::uint32_t end,
                     std::uint32_t window_end, std::span<const IndexRange> vertices,
                     std::vector<std::uint64_t>& marks) {
@@ -49,7 +49,7 @@ void mark_in_window(const Blocks& blocks, std::uint32_t first, std::uint32_t end
     const Block& block = blocks.blocks[b];
     const bool is_scattered = (block.kind & kScattered) != 0;
     const std::uint32_t* places =
-        is_scattered ? blocks.places.data() + blocks.extras[block.extra].places : nullptr;
+        is_scattered ? blocks.scattered.places.data() + blocks.extras[block.extra].places : nullptr;
     std::uint64_t any = 0;
     for (std::uint32_t lane = 0; lane < block.lane_count; ++lane) {
       const std::uint32_t at = (is_scattered ? places[lane] : block.first_vertex + lane) - window;
@@ -59,12 +59,11 @@ void mark_in_window(const Blocks& blocks, std::uint32_t first, std::uint32_t end
   }
 }
 
-/// Marks blocks that hold vertices of some ranges, which ascend.
+/// Marks the blocks that hold vertices of some ascending ranges.
 void mark_blocks_of(const Blocks& blocks, std::span<const IndexRange> vertices,
                     std::vector<std::uint64_t>& marks) {
-  std::uint32_t
-      b = 0,
-      done = 0;  // blocks before `b` have been looked at, which hold the vertices before `done`
+  // Blocks before `b`, which hold the vertices before `done`, have been processed.
+  std::uint32_t b = 0, done = 0;
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     const std::uint32_t end = vertices[i].first + vertices[i].count;
     if (vertices[i].count == 0 || end <= done) continue;
@@ -73,14 +72,14 @@ void mark_blocks_of(const Blocks& blocks, std::span<const IndexRange> vertices,
       while (b > 0 && blocks.window(blocks.blocks[b - 1]) == blocks.window(blocks.blocks[b])) --b;
     }
     do {
-      if (b >= blocks.scattered_end) {
+      if (b >= blocks.scattered.end) {
         const std::uint32_t last = last_block_to(blocks, end - 1, b);
         mark({b, last + 1 - b}, marks);
         done = blocks.last_vertex(blocks.blocks[last]) + 1;
         b = last + 1;
       } else {
         const std::uint32_t first = b, window = blocks.window(blocks.blocks[b]);
-        for (++b; b < blocks.scattered_end && blocks.window(blocks.blocks[b]) == window;) ++b;
+        for (++b; b < blocks.scattered.end && blocks.window(blocks.blocks[b]) == window;) ++b;
         done = b < blocks.block_count() ? blocks.window(blocks.blocks[b]) : blocks.vertex_count;
         mark_in_window(blocks, first, b, done, vertices.subspan(i), marks);
       }
@@ -100,13 +99,13 @@ void mark_changed(const Blocks& blocks, const PaletteData& palette, std::uint64_
     blocks.movers.for_each_run(static_cast<std::uint32_t>(mover),
                                [&](const IndexRange& run) { mark(run, marks); });
   };
-  for (std::size_t slot = 0; slot < blocks.slot_count; ++slot)
+  for (std::size_t slot = 0; slot < blocks.layout.slot_count; ++slot)
     if (palette.revisions[slot] > palette_revision) mark_moved_by(slot);
-  for (std::size_t j = 0; j < blocks.morph_count; ++j)
-    if (palette.revisions[palette.slots + blocks.first_morph_weight + j] > palette_revision)
-      mark_moved_by(blocks.slot_count + j);
+  for (std::size_t j = 0; j < blocks.layout.morph_count; ++j)
+    if (palette.revisions[palette.slots + blocks.layout.first_morph_weight + j] > palette_revision)
+      mark_moved_by(blocks.layout.slot_count + j);
 
-  // Blocks are only ever replaced from some place to the end: those that are new lie there.
+  // Blocks are only replaced from some block to the end, so the new ones are there.
   std::uint32_t first_new = blocks.block_count();
   while (first_new > 0 && blocks.revisions[first_new - 1] > mesh_revision) --first_new;
   mark({first_new, blocks.block_count() - first_new}, marks);

@@ -20,37 +20,37 @@ std::uint64_t new_identity() {
 
 namespace {
 
-/// Whether `linear` turns and nothing else, to the precision of what files store.
+/// Whether `linear` is a rotation, to the precision of floats in files.
 bool is_rigid(const Mat3d& linear) {
   return (linear.transpose() * linear - Mat3d::Identity()).cwiseAbs().maxCoeff() < kEvenScale &&
          linear.determinant() > 0;
 }
 
-/// Writes numbers in float, column after column.
+/// Writes numbers in float, column by column.
 template <class Matrix>
 void put(const Matrix& matrix, float* to) {
   for (Eigen::Index i = 0; i < matrix.size(); ++i) to[i] = static_cast<float>(matrix.data()[i]);
 }
 
-/// Splits a matrix into a stretch and a rigid motion after it: M v = R S v + t.
+/// Splits a matrix into a stretch followed by a rigid motion: M v = R S v + t.
 void write_motion(PaletteData& data, std::size_t slot, const Affine3d& matrix) {
   Mat3d rotation = matrix.linear(), stretch = Mat3d::Identity();
-  data.is_stretched[slot] = !is_rigid(rotation);
-  if (data.is_stretched[slot]) {
+  data.dual.is_stretched[slot] = !is_rigid(rotation);
+  if (data.dual.is_stretched[slot]) {
     const Eigen::JacobiSVD<Eigen::Matrix3d, Eigen::FullPivHouseholderQRPreconditioner> svd(
         Eigen::Matrix3d(rotation), Eigen::ComputeFullU | Eigen::ComputeFullV);
     rotation = svd.matrixU() * svd.matrixV().transpose();
-    if (rotation.determinant() < 0) rotation = -rotation;  // a mirror belongs to the stretch
+    if (rotation.determinant() < 0) rotation = -rotation;  // a mirror is part of the stretch
     stretch = rotation.transpose() * matrix.linear();
   }
   const Quatd real = Quatd(rotation).normalized();
   const Vec3d t = matrix.translation();
   const Quatd dual(Quatd(0, t.x(), t.y(), t.z()) * real);
-  put(real.coeffs(), data.motions.data() + 8 * slot);
-  put(Vec4d(0.5 * dual.coeffs()), data.motions.data() + 8 * slot + 4);
-  put(Mat3d(stretch - Mat3d::Identity()), data.stretches.data() + 18 * slot);
+  put(real.coeffs(), data.dual.motions.data() + 8 * slot);
+  put(Vec4d(0.5 * dual.coeffs()), data.dual.motions.data() + 8 * slot + 4);
+  put(Mat3d(stretch - Mat3d::Identity()), data.dual.stretches.data() + 18 * slot);
   put(Mat3d(normal_matrix<double>(stretch) - Mat3d::Identity()),
-      data.stretches.data() + 18 * slot + 9);
+      data.dual.stretches.data() + 18 * slot + 9);
 }
 
 void write_slot(PaletteData& data, std::size_t slot, const Affine3f& matrix) {
@@ -62,7 +62,7 @@ void write_slot(PaletteData& data, std::size_t slot, const Affine3f& matrix) {
   data.revisions[slot] = data.revision;
 }
 
-/// Takes data.fresh and morph weights, all of them checked.
+/// Stores data.fresh and the morph weights, after checking all of them.
 void take(PaletteData& data, std::span<const float> morph_weights) {
   const std::uint64_t before = data.revision;
   ++data.revision;
@@ -131,12 +131,12 @@ BonePalette::BonePalette(std::size_t slots, std::size_t morph_weights, SkinningM
   data_->is_uneven.resize(slots);
   data_->morph_weights.resize(morph_weights);
   data_->revisions.resize(slots + morph_weights);
-  data_->poses.resize(slots);
+  data_->last.model_from_bone.resize(slots);
   data_->fresh.resize(slots);
   if (method == SkinningMethod::dual_quaternion) {
-    data_->motions.resize(8 * slots);
-    data_->stretches.resize(18 * slots);
-    data_->is_stretched.resize(slots);
+    data_->dual.motions.resize(8 * slots);
+    data_->dual.stretches.resize(18 * slots);
+    data_->dual.is_stretched.resize(slots);
   }
 }
 
@@ -157,10 +157,12 @@ Status BonePalette::set(const Skin& skin, const ModelPose& pose,
                              "skin slot %u: bone %u, pose has %zu", slot, skin.bones[slot],
                              pose.model_from_bone.size());
 
-  const bool same_frame = data.skin == &skin && skinning::is_same(data.frame, model_from_character);
+  const bool same_frame = data.last.skin == &skin &&
+                          skinning::is_same(data.last.model_from_character, model_from_character);
   bool is_unchanged = same_frame;
   for (std::size_t slot = 0; is_unchanged && slot < data.slots; ++slot)
-    is_unchanged = skinning::is_same(data.poses[slot], pose.model_from_bone[skin.bones[slot]]);
+    is_unchanged =
+        skinning::is_same(data.last.model_from_bone[slot], pose.model_from_bone[skin.bones[slot]]);
   if (is_unchanged &&
       std::equal(pose.morph_weights.begin(), pose.morph_weights.end(), data.morph_weights.begin()))
     return {};
@@ -173,9 +175,9 @@ Status BonePalette::set(const Skin& skin, const ModelPose& pose,
   }
   if (const Status status = skinning::check(data, pose.morph_weights); !status) return status;
   for (std::size_t slot = 0; slot < data.slots; ++slot)
-    data.poses[slot] = pose.model_from_bone[skin.bones[slot]];
-  data.frame = model_from_character;
-  data.skin = &skin;
+    data.last.model_from_bone[slot] = pose.model_from_bone[skin.bones[slot]];
+  data.last.model_from_character = model_from_character;
+  data.last.skin = &skin;
   skinning::take(data, pose.morph_weights);
   return {};
 }
@@ -189,7 +191,7 @@ Status BonePalette::set(std::span<const Affine3f> character_from_bind,
     return status;
   std::copy(character_from_bind.begin(), character_from_bind.end(), data.fresh.begin());
   if (const Status status = skinning::check(data, morph_weights); !status) return status;
-  data.skin = nullptr;
+  data.last.skin = nullptr;
   skinning::take(data, morph_weights);
   return {};
 }

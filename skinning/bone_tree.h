@@ -16,8 +16,8 @@ inline Affine3d to_matrix(const BoneTransform& transform) {
 }
 
 /// model_from_bone of every bone: local transforms multiplied down the tree.
-/// @param parent_from_bone  asked for each bone's BoneTransform once, ascending.
-/// @param model_from_bone   one a bone, written.
+/// @param parent_from_bone  called once with each bone, ascending; returns its BoneTransform.
+/// @param model_from_bone   one matrix per bone, written.
 template <class ParentFromBone>
 void multiply_down(const Skeleton& skeleton, const ParentFromBone& parent_from_bone,
                    std::span<Affine3d> model_from_bone) {

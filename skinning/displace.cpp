@@ -6,14 +6,14 @@
 namespace sunder::skinning {
 namespace {
 
-// Products and sums one by one, in one order, as in the kernel: what coincides and is displaced
-// alike goes on coinciding. Sums of four numbers at once are Eigen's: compilers left alone leave
-// out the fourth, and take one after another.
+// Products and sums are rounded one by one, in one order, as in the kernel, so that coincident
+// vertices with equal displacements stay coincident. Four numbers are summed at once as Eigen
+// arrays, because compilers vectorise loops over three numbers poorly.
 
 using Four = Eigen::Array4f;
 using FourOf = Eigen::Map<const Four>;
 
-/// Rows of vertices. As pointers: compilers take it that a store of a float may change a span.
+/// The rows of vertices. Pointers, because compilers assume that a store of a float changes a span.
 class Rows {
  public:
   explicit Rows(const VertexDisplacements& of)
@@ -21,7 +21,7 @@ class Rows {
         influences_(of.influences.data()),
         count_(of.influences.size()) {}
 
-  /// The row of a vertex, or kNone where nothing displaces it.
+  /// The row of a vertex, or kNone if nothing displaces it.
   [[nodiscard]] std::uint32_t of(std::uint32_t vertex) const {
     const std::uint32_t row = rows_[vertex];
     return row < count_ && influences_[row].weights[0] > 0.0f ? row : kNone;
@@ -36,7 +36,7 @@ class Rows {
   std::size_t count_;
 };
 
-/// A vertex' floats.
+/// The floats of a vertex.
 float* floats_of(const StridedFloats<float>& array, std::uint32_t vertex) {
   return reinterpret_cast<float*>(reinterpret_cast<unsigned char*>(array.data) +
                                   array.stride * vertex);
@@ -60,7 +60,7 @@ void displace_positions(const VertexDisplacements& displacements, StridedFloats<
   }
 }
 
-/// The mean of four particles' matrices: nine numbers, column after column.
+/// The weighted mean of the matrices of four particles: nine numbers, column by column.
 void blend_matrices(const ParticleInfluences& by, const Mat3f* matrices, float* mean) {
   const float *a = matrices[by.particles[0]].data(), *b = matrices[by.particles[1]].data(),
               *c = matrices[by.particles[2]].data(), *d = matrices[by.particles[3]].data();
@@ -71,10 +71,10 @@ void blend_matrices(const ParticleInfluences& by, const Mat3f* matrices, float* 
   mean[8] = wa * a[8] + wb * b[8] + wc * c[8] + wd * d[8];
 }
 
-/// Writes `turned` to `at`, at the length of what is there, or at unit length. What has no length
-/// is left.
+/// Writes `turned` to `at`, scaled to the length of the vector there, or to unit length. A vector
+/// without length is not written.
 void write_turned(const float* turned, bool unit_length, float* at) {
-  const auto square = [](const float* v) {  // in double no square of a float underflows
+  const auto square = [](const float* v) {  // in double the square of a float does not underflow
     return double{v[0]} * v[0] + double{v[1]} * v[1] + double{v[2]} * v[2];
   };
   const double wanted = unit_length ? 1.0 : square(at), found = square(turned);
@@ -112,8 +112,8 @@ void turn_directions(const VertexDisplacements& displacements, const VertexTarge
     }
     if (tangents.data != nullptr) {
       float* t = floats_of(tangents, v);
-      const float back[3] = {dot(mean, t), dot(mean + 3, t),
-                             dot(mean + 6, t)};  // g_k . t = stored . (transposed mean t)
+      // g_k . t = stored . (transposed mean t)
+      const float back[3] = {dot(mean, t), dot(mean + 3, t), dot(mean + 6, t)};
       float turned[3] = {t[0], t[1], t[2]};
       for (std::size_t k = 0; k < 4; ++k) {
         const float growth = dot(stored[k].data(), back);

@@ -5,13 +5,13 @@
 
 namespace sunder::skinning {
 
-/// @return size_mismatch, or index_out_of_range with the range of `moved`. Without any, nothing
-/// else is looked at. O(moved ranges).
+/// @return size_mismatch, or index_out_of_range with the range of `moved`. If `moved` is empty,
+/// nothing else is checked. O(moved ranges).
 [[nodiscard]] Status check_displacements(const VertexDisplacements& displacements,
                                          std::uint32_t vertex_count);
 
-/// Displaces vertices [first, end), which the bones have put into `target`.
-/// @param target  strides filled in.
+/// Displaces vertices [first, end), whose posed positions are already in `target`.
+/// @param target  its strides are not 0.
 void displace_vertices(const VertexDisplacements& displacements, const VertexTarget& target,
                        std::uint32_t first, std::uint32_t end);
 

@@ -4,8 +4,8 @@
 
 namespace sunder::skinning {
 
-/// A number that no other object of this process has. A buffer remembers by it what it was written
-/// from: addresses come back.
+/// A number that is unique in this process. A buffer identifies by it what it was written from;
+/// addresses may be reused.
 [[nodiscard]] std::uint64_t new_identity();
 
 }  // namespace sunder::skinning

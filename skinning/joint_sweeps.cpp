@@ -12,12 +12,12 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 
-/// The angles at which a hinge stands. No angle to fit is held out, and none is zero: that is rest.
+/// The angles of a hinge. No angle of `fit` is held out, and none is zero, which is rest.
 struct HingeAngles {
   std::vector<double> fit, held_out;  // ascending
-  std::vector<double> ends;           // beside a neighbour that turns too
-  double far_end = 0;                 // the end that is farther from rest
-  double before_far_end = 0;          // held out; far_end where there is no way to it
+  std::vector<double> ends;           // used together with a parent that rotates too
+  double far_end = 0;                 // the limit that is farther from rest
+  double before_far_end = 0;          // held out; equal to far_end if there is no angle before it
 };
 
 HingeAngles free_angles() {
@@ -30,8 +30,8 @@ HingeAngles free_angles() {
   return angles;
 }
 
-/// From rest, or from what is nearest to it where the limits leave it out, to each limit: to fit
-/// half the way and all of it, held out a quarter and three.
+/// Fractions of the way from rest, or from the limit nearest to it if the limits exclude it, to
+/// each limit: a half and all of it to fit, a quarter and three quarters held out.
 HingeAngles limited_angles(const JointLimit& limit) {
   const double nearest = std::clamp(0.0, limit.lower, limit.upper);
   const auto towards = [&](double end, double part) { return nearest + part * (end - nearest); };
@@ -53,8 +53,8 @@ HingeAngles limited_angles(const JointLimit& limit) {
   return angles;
 }
 
-/// Which bones move vertices, and which change a shape when they turn: some bones of one mesh turn
-/// with them and some do not.
+/// Finds which bones move vertices, and which change a shape when they rotate: some bones of a mesh
+/// rotate with them and some do not.
 struct BoneEffects {
   std::vector<bool> moves_vertices, changes_shape;
 };
@@ -63,7 +63,8 @@ BoneEffects find_effects(const Character& character) {
   const auto& bones = character.skeleton.bones;
   BoneEffects effects{std::vector<bool>(bones.size(), false),
                       std::vector<bool>(bones.size(), false)};
-  std::vector<Index> used_below(bones.size());  // bones of the mesh at and below each bone
+  std::vector<Index> used_below(
+      bones.size());  // number of bones of the mesh at and below each bone
   for (const Mesh& mesh : character.meshes) {
     const Skin& skin = character.skins[mesh.skin];
     std::fill(used_below.begin(), used_below.end(), 0u);
@@ -102,7 +103,7 @@ class SweepMaker {
       first_hinge_.push_back(static_cast<Index>(sweeps_.hinges.size()));
     }
     for (Index bone = 0; bone < bones_.size(); ++bone) add_sweeps(bone);
-    sweeps_.fit.shrink_to_fit();  // they are kept, and many
+    sweeps_.fit.shrink_to_fit();  // large, and kept
     sweeps_.held_out.shrink_to_fit();
   }
 
@@ -110,7 +111,7 @@ class SweepMaker {
 
  private:
   void add_hinge(Index bone, const Vec3d& axis, HingeAngles angles) {
-    if (angles.fit.empty()) return;  // limits that leave only rest
+    if (angles.fit.empty()) return;  // the limits allow only rest
     sweeps_.hinges.push_back({bone, axis});
     angles_.push_back(std::move(angles));
   }
@@ -134,7 +135,7 @@ class SweepMaker {
                   other = parent_begin + (i + 1) % parent_count;
       for (const double end : angles_[same].ends)
         sweeps_.fit.push_back({{own, angles_[own].far_end}, {same, end}});
-      // Two joints that each know one angle alone have no second pose.
+      // Two joints with only one angle each have no second pose.
       const bool is_fixed = angles_[own].held_out.empty() && angles_[other].held_out.empty();
       if (!is_fixed)
         sweeps_.held_out.push_back(
@@ -143,8 +144,8 @@ class SweepMaker {
   }
 
   const std::vector<Bone>& bones_;
-  std::vector<Index> first_hinge_;   // of each bone, and behind the last
-  std::vector<HingeAngles> angles_;  // one a hinge
+  std::vector<Index> first_hinge_;   // per bone, and the end
+  std::vector<HingeAngles> angles_;  // per hinge
   JointSweeps sweeps_;
 };
 

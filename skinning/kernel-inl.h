@@ -1,17 +1,17 @@
-// The kernel: included once for each kind of vectors, by a file that defines V, kVectorLanes and
+// The kernel. Included once per vector extension, by a file that defines V, kVectorLanes and
 // operations on them. No include guard.
 //
-// A block's 16 vertices are posed side by side, in parts of as many lanes as a vector has. Every
-// lane does the same operations in the same order as every other, in each kind of vector and of
-// block: products and sums are rounded one by one, sums over slots ascend and begin with zero. So a
-// vertex is posed to the same bits wherever it stands, and what coincides goes on coinciding.
+// The 16 vertices of a block are posed side by side, in parts of kVectorLanes. Every lane does the
+// same operations in the same order, in each vector extension and kind of block: products and sums
+// are rounded one by one, sums over slots start with zero and go by ascending slot. So the bits of
+// a posed vertex do not depend on where it is stored, and coincident vertices stay coincident.
 
-/// sum_k w_k M_k of some lanes, column after column.
+/// sum_k w_k M_k of several lanes, column by column.
 struct Matrix {
   V xx, xy, xz, yx, yy, yz, zx, zy, zz, tx, ty, tz;
 };
 
-/// The same for normals: columns.
+/// The same for normals, column by column.
 struct Linear {
   V xx, xy, xz, yx, yy, yz, zx, zy, zz;
 };
@@ -45,7 +45,7 @@ SUNDER_INLINE Matrix blend_slots(const float* weights, const std::uint16_t* slot
   return m;
 }
 
-/// sum += weight * the matrix that nine numbers are.
+/// sum += weight * M, where nine numbers are M.
 SUNDER_INLINE void add_linear(V weight, const float* of, Linear& sum) {
   sum.xx = add_product(weight, set(of[0]), sum.xx);
   sum.xy = add_product(weight, set(of[1]), sum.xy);
@@ -100,7 +100,7 @@ SUNDER_INLINE Linear sum(const Linear& a, const Linear& b) {
           add(a.yz, b.yz), add(a.zx, b.zx), add(a.zy, b.zy), add(a.zz, b.zz)};
 }
 
-/// `v` at unit length, or `otherwise` where it has none.
+/// `v` scaled to unit length, or `otherwise` if it has no length.
 SUNDER_INLINE Vector unit_or(Vector v, Vector otherwise) {
   const V largest =
       max(max(abs(v.x), abs(v.y)), abs(v.z));  // squares of small numbers would underflow
@@ -118,7 +118,7 @@ SUNDER_INLINE Vector load_vector(const float* numbers) {
   return {load(numbers), load(numbers + kLanes), load(numbers + 2 * kLanes)};
 }
 
-/// What is posed: bind attributes plus the displacements of the targets that have a weight.
+/// A bind attribute plus the displacements of the targets with a non-zero weight.
 SUNDER_INLINE Vector load_morphed(const SkinWork& work, const Block& block, const float* numbers,
                                   std::size_t part) {
   Vector v = load_vector(numbers);
@@ -126,16 +126,17 @@ SUNDER_INLINE Vector load_morphed(const SkinWork& work, const Block& block, cons
   const Blocks& mesh = *work.mesh;
   const BlockExtra& extra = mesh.extras[block.extra];
   for (std::uint32_t i = extra.morphs; i < extra.morphs + extra.morph_count; ++i) {
-    const float weight = work.morph_weights[mesh.morphs[i].target];
+    const float weight = work.morph_weights[mesh.morphs.parts[i].target];
     if (weight == 0.0f) continue;
-    const Vector delta = load_vector(mesh.morph_stream.data() + mesh.morphs[i].numbers + part);
+    const Vector delta =
+        load_vector(mesh.morphs.stream.data() + mesh.morphs.parts[i].numbers + part);
     const V w = set(weight);
     v = {add_product(w, delta.x, v.x), add_product(w, delta.y, v.y), add_product(w, delta.z, v.z)};
   }
   return v;
 }
 
-/// Whether one of the slots that move a block has a flag.
+/// Whether any slot of a block has a flag.
 inline bool moves_by(const SkinWork& work, const Block& block,
                      const std::vector<std::uint8_t>& flags) {
   const std::uint16_t* slots = work.mesh->slots.data() + block.slots;
@@ -144,14 +145,14 @@ inline bool moves_by(const SkinWork& work, const Block& block,
   return false;
 }
 
-// --- Blends that do not fit in registers, or are rare: kLanes numbers each, by way of memory.
+// --- Blends that do not fit into registers or are rare: kLanes numbers each, in memory.
 
 struct BlendedLanes {
   alignas(64) float matrix[12 * kLanes];
   alignas(64) float normal[9 * kLanes];
 };
 
-/// Matrices of a block without weights a slot.
+/// The matrices of a block whose weights are stored per influence.
 inline void blend_lanes(const SkinWork& work, const Block& block, BlendedLanes& blended) {
   const Blocks& mesh = *work.mesh;
   const BlockExtra& extra = mesh.extras[block.extra];
@@ -159,8 +160,8 @@ inline void blend_lanes(const SkinWork& work, const Block& block, BlendedLanes& 
   std::uint32_t i = 0;
   for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
     float matrix[12] = {}, normal[9] = {};
-    for (; i < mesh.lane_ends[extra.lane_ends + lane]; ++i) {
-      const Influence& influence = mesh.influences[extra.influences + i];
+    for (; i < mesh.sparse.lane_ends[extra.lane_ends + lane]; ++i) {
+      const Influence& influence = mesh.sparse.influences[extra.influences + i];
       const float* of = palette.matrices.data() + 12 * static_cast<std::size_t>(influence.slot);
       for (std::size_t e = 0; e < 12; ++e) matrix[e] += influence.weight * of[e];
       if (!palette.any_uneven) continue;
@@ -174,25 +175,25 @@ inline void blend_lanes(const SkinWork& work, const Block& block, BlendedLanes& 
   }
 }
 
-/// Weights of some lanes, slot after slot, of a block of either kind.
+/// The weights of several lanes, slot by slot, for a block of either kind.
 class SlotWeights {
  public:
   SlotWeights(const SkinWork& work, const Block& block, const float* numbers, std::uint32_t lane) {
     const Blocks& mesh = *work.mesh;
     if ((block.kind & kSparse) == 0) {
-      dense_ = numbers + kLanes * mesh.attribute_floats() + lane;
+      dense_ = numbers + kLanes * mesh.layout.attribute_floats() + lane;
       return;
     }
     const BlockExtra& extra = mesh.extras[block.extra];
-    influences_ = mesh.influences.data() + extra.influences;
-    const std::uint32_t* ends = mesh.lane_ends.data() + extra.lane_ends;
+    influences_ = mesh.sparse.influences.data() + extra.influences;
+    const std::uint32_t* ends = mesh.sparse.lane_ends.data() + extra.lane_ends;
     for (std::uint32_t i = 0; i < kVectorLanes; ++i) {
       next_[i] = lane + i == 0 ? 0 : ends[lane + i - 1];
       end_[i] = ends[lane + i];
     }
   }
 
-  /// To be asked for each slot of the block, in their order.
+  /// Call it for each slot of the block, in order.
   SUNDER_INLINE V of(std::uint32_t k, std::uint16_t slot) {
     if (dense_ != nullptr) return load(dense_ + kLanes * k);
     alignas(64) float weights[kLanes];
@@ -249,15 +250,15 @@ SUNDER_INLINE Matrix load_matrix(const float* numbers) {
           load(numbers + 11 * kLanes)};
 }
 
-/// The motion that blended dual quaternions are, after the blended stretch. A quaternion is taken
-/// with the sign that agrees with the sum so far: both signs are the same rotation, and the shorter
-/// way is meant. Source: Kavan, Collins, Zara, O'Sullivan, Geometric skinning with approximate dual
-/// quaternion blending, TOG 2008 [kavan2008dual].
+/// The motion of the blended dual quaternions, applied after the blended stretch. Both signs of a
+/// quaternion are the same rotation; each is taken with the sign that agrees with the sum so far,
+/// which gives the shorter way. Source: Kavan, Collins, Zara, O'Sullivan, Geometric skinning with
+/// approximate dual quaternion blending, TOG 2008 [kavan2008dual].
 inline void blend_motions(const SkinWork& work, const Block& block, const float* numbers,
                           BlendedLanes& blended) {
   const PaletteData& palette = *work.palette;
   const std::uint16_t* slots = work.mesh->slots.data() + block.slots;
-  const bool is_stretched = moves_by(work, block, palette.is_stretched);
+  const bool is_stretched = moves_by(work, block, palette.dual.is_stretched);
   for (std::uint32_t lane = 0; lane < kLanes; lane += kVectorLanes) {
     const V none = zero();
     V x = none, y = none, z = none, w = none, dx = none, dy = none, dz = none, dw = none;
@@ -265,7 +266,7 @@ inline void blend_motions(const SkinWork& work, const Block& block, const float*
            stretch_of_normals = stretch;
     SlotWeights weights(work, block, numbers, lane);
     for (std::uint32_t k = 0; k < block.slot_count; ++k) {
-      const float* of = palette.motions.data() + 8 * static_cast<std::size_t>(slots[k]);
+      const float* of = palette.dual.motions.data() + 8 * static_cast<std::size_t>(slots[k]);
       const V agreement =
           add_product(w, set(of[3]),
                       add_product(z, set(of[2]), add_product(y, set(of[1]), mul(x, set(of[0])))));
@@ -280,13 +281,14 @@ inline void blend_motions(const SkinWork& work, const Block& block, const float*
       dz = add_product(weight, set(of[6]), dz);
       dw = add_product(weight, set(of[7]), dw);
       if (!is_stretched) continue;
-      add_linear(positive, palette.stretches.data() + 18 * static_cast<std::size_t>(slots[k]),
+      add_linear(positive, palette.dual.stretches.data() + 18 * static_cast<std::size_t>(slots[k]),
                  stretch);
-      add_linear(positive, palette.stretches.data() + 18 * static_cast<std::size_t>(slots[k]) + 9,
+      add_linear(positive,
+                 palette.dual.stretches.data() + 18 * static_cast<std::size_t>(slots[k]) + 9,
                  stretch_of_normals);
     }
     const V length = sqrt(add_product(w, w, add_product(z, z, add_product(y, y, mul(x, x)))));
-    const V scale = div(set(1.0f), max(length, set(1e-30f)));  // lanes without a vertex have none
+    const V scale = div(set(1.0f), max(length, set(1e-30f)));  // unused lanes have length 0
     x = mul(x, scale), y = mul(y, scale), z = mul(z, scale), w = mul(w, scale);
     dx = mul(dx, scale), dy = mul(dy, scale), dz = mul(dz, scale), dw = mul(dw, scale);
 
@@ -302,14 +304,14 @@ inline void blend_motions(const SkinWork& work, const Block& block, const float*
     turn.zx = mul(two, add(mul(x, z), mul(w, y)));
     turn.yz = mul(two, add(mul(y, z), mul(w, x)));
     turn.zy = mul(two, sub(mul(y, z), mul(w, x)));
-    // Twice the dual part times the conjugate of the real one.
+    // Twice the dual part times the conjugate of the real part.
     const V tx = mul(two, add(sub(mul(dx, w), mul(dw, x)), sub(mul(dz, y), mul(dy, z))));
     const V ty = mul(two, add(sub(mul(dy, w), mul(dw, y)), sub(mul(dx, z), mul(dz, x))));
     const V tz = mul(two, add(sub(mul(dz, w), mul(dw, z)), sub(mul(dy, x), mul(dx, y))));
 
     Linear linear = turn, normal = turn;
-    if (is_stretched) {  // what the stretch adds is nothing where no bone of a vertex stretches:
-                         // the same bits as in another block
+    if (is_stretched) {  // adds zero for a vertex without stretched bones: the same bits as in
+                         // other blocks
       linear = sum(turn, product(turn, stretch));
       normal = sum(turn, product(turn, stretch_of_normals));
     }
@@ -321,14 +323,14 @@ inline void blend_motions(const SkinWork& work, const Block& block, const float*
   }
 }
 
-// --- Where results go.
+// --- Output.
 
 SUNDER_INLINE bool is_packed(const StridedFloats<float>& array, std::size_t components) {
   return array.stride == components * sizeof(float);
 }
 
-/// Results of a block whose vertices do not lie packed one after another, before they go to their
-/// places.
+/// The results of a block whose vertices are not packed one after another, before they are
+/// scattered.
 struct PosedLanes {
   alignas(64) float positions[3 * kLanes];
   alignas(64) float normals[3 * kLanes];
@@ -346,21 +348,21 @@ inline void scatter(const StridedFloats<float>& to, const float* values, std::si
       std::memcpy(bytes + to.stride * places[lane], values + 4 * lane, 16);
 }
 
-// --- Vertices with a position for each influence: few, so one after another, and summed in double.
+// --- Vertices with a position per influence: few, so they are posed one by one, in double.
 
 struct ExactSum {
   double x = 0, y = 0, z = 0;
 };
 
-/// Adds an influence's part: its matrix' linear part (9 numbers) times its own vector, which morph
-/// targets displace.
+/// Adds the part of an influence: the linear part of its matrix (9 numbers) times the influence's
+/// own vector plus its morph displacements.
 inline void add_part(const SkinWork& work, const ExactLane& lane, const float* linear,
                      std::uint32_t influence, std::size_t part, ExactSum& sum) {
   const Blocks& mesh = *work.mesh;
-  const std::size_t one = mesh.displacement_floats(), all = one * lane.influence_count;
-  const float* own = mesh.exact_stream.data() + lane.numbers + one * influence + part;
+  const std::size_t one = mesh.layout.displacement_floats(), all = one * lane.influence_count;
+  const float* own = mesh.exact.stream.data() + lane.numbers + one * influence + part;
   double v[3] = {own[0], own[1], own[2]};
-  for (std::uint32_t j = 0; j < mesh.morph_count; ++j) {
+  for (std::uint32_t j = 0; j < mesh.layout.morph_count; ++j) {
     const double weight = work.morph_weights[j];
     const float* delta = own + all * (j + 1);
     for (std::size_t c = 0; c < 3; ++c) v[c] += weight * delta[c];
@@ -374,7 +376,7 @@ inline void write_exact(const ExactSum& sum, bool unit_length, float* to) {
   double scale = 1;
   if (unit_length) {
     const double length = std::sqrt(sum.x * sum.x + sum.y * sum.y + sum.z * sum.z);
-    if (!(length > 0)) return;  // what the block found stays: the bind direction
+    if (!(length > 0)) return;  // the bind direction, which the block has written, stays
     scale = 1 / length;
   }
   to[0] = static_cast<float>(scale * sum.x);
@@ -385,12 +387,12 @@ inline void write_exact(const ExactSum& sum, bool unit_length, float* to) {
 inline void pose_exact_lanes(const SkinWork& work, const Block& block, PosedLanes& posed) {
   const Blocks& mesh = *work.mesh;
   const BlockExtra& extra = mesh.extras[block.extra];
-  const std::size_t tangent_part = mesh.has_normals ? 6 : 3;
+  const std::size_t tangent_part = mesh.layout.has_normals ? 6 : 3;
   for (std::uint32_t i = extra.exact_lanes; i < extra.exact_lanes + extra.exact_count; ++i) {
-    const ExactLane& lane = mesh.exact_lanes[i];
+    const ExactLane& lane = mesh.exact.lanes[i];
     ExactSum position, normal, tangent;
     for (std::uint32_t k = 0; k < lane.influence_count; ++k) {
-      const Influence& influence = mesh.exact_influences[lane.influences + k];
+      const Influence& influence = mesh.exact.influences[lane.influences + k];
       const float* matrix =
           work.palette->matrices.data() + 12 * static_cast<std::size_t>(influence.slot);
       const double weight = influence.weight;
@@ -414,9 +416,9 @@ inline void pose_exact_lanes(const SkinWork& work, const Block& block, PosedLane
   }
 }
 
-// --- A block.
+// --- Blocks.
 
-/// Poses `kVectorLanes` vertices from `lane` on. Outputs are null where nobody wants them.
+/// Poses `kVectorLanes` vertices from `lane` on. Outputs that are not wanted are null.
 template <bool kStream>
 SUNDER_INLINE void pose_lanes(const SkinWork& work, const Block& block, const float* numbers,
                               std::uint32_t lane, const Matrix& matrix, const Linear& normal_matrix,
@@ -432,7 +434,7 @@ SUNDER_INLINE void pose_lanes(const SkinWork& work, const Block& block, const fl
     store_interleaved<kStream>(normal.x, normal.y, normal.z, normals + 3 * lane);
   }
   if (tangents != nullptr) {
-    const std::size_t part = mesh.has_normals ? 6 * kLanes : 3 * kLanes;
+    const std::size_t part = mesh.layout.has_normals ? 6 * kLanes : 3 * kLanes;
     const Vector bind = load_morphed(work, block, at_lane + part, part + lane);
     Vector tangent = transform(linear_of(matrix), bind);
     if (work.target.unit_length) tangent = unit_or(tangent, bind);
@@ -441,14 +443,14 @@ SUNDER_INLINE void pose_lanes(const SkinWork& work, const Block& block, const fl
   }
 }
 
-/// Blocks of all kinds, by any method.
+/// Poses a block of any kind, by any method.
 template <bool kStream>
 void pose_any_block(const SkinWork& work, const Block& block, const float* numbers,
                     float* positions, float* normals, float* tangents) {
   const Blocks& mesh = *work.mesh;
   const PaletteData& palette = *work.palette;
   if (palette.method == SkinningMethod::linear && (block.kind & kSparse) == 0) {
-    const float* weights = numbers + kLanes * mesh.attribute_floats();
+    const float* weights = numbers + kLanes * mesh.layout.attribute_floats();
     const std::uint16_t* slots = mesh.slots.data() + block.slots;
     const bool uneven =
         normals != nullptr && palette.any_uneven && moves_by(work, block, palette.is_uneven);
@@ -476,13 +478,14 @@ void pose_any_block(const SkinWork& work, const Block& block, const float* numbe
                         load_linear(blended.normal + lane), positions, normals, tangents);
 }
 
-// What most blocks of most frames are: weights a slot, positions and perhaps normals, turned as the
-// positions are. The same operations as those of any block; but every number stays in a register,
-// which compilers do for variables and not for structs. Hence the macros.
-#define SUNDER_ENTRIES(DO)                                                                  \
-  DO(xx, 0)                                                                                 \
-  DO(xy, 1) DO(xz, 2) DO(yx, 3) DO(yy, 4) DO(yz, 5) DO(zx, 6) DO(zy, 7) DO(zz, 8) DO(tx, 9) \
-      DO(ty, 10) DO(tz, 11)
+// The common case: weights per slot; positions and possibly normals, which are transformed like the
+// positions. The operations are those of pose_any_block(), but every number stays in a register.
+// Compilers do that for variables and not for structs, hence the macros.
+#define SUNDER_ENTRIES(DO) \
+  DO(xx, 0)                \
+  DO(xy, 1)                \
+  DO(xz, 2)                \
+  DO(yx, 3) DO(yy, 4) DO(yz, 5) DO(zx, 6) DO(zy, 7) DO(zz, 8) DO(tx, 9) DO(ty, 10) DO(tz, 11)
 
 template <bool kStream>
 SUNDER_INLINE void transform_common(V xx, V xy, V xz, V yx, V yy, V yz, V zx, V zy, V zz, V tx,
@@ -526,9 +529,9 @@ SUNDER_INLINE void pose_common_block(const float* matrices, const std::uint16_t*
   }
 }
 
-/// Two blocks, one behind the other, that the same slots move: each number of a matrix is loaded
-/// once for both. Loads are what limits a block alone. Only for vectors of 16 lanes, of which there
-/// are 32.
+/// Poses two consecutive blocks with the same slots: each number of a matrix is loaded once for
+/// both, because loads limit a single block. Only for vectors of 16 lanes, which come with 32
+/// registers.
 template <bool kStream>
 SUNDER_INLINE void pose_common_pair(const float* matrices, const std::uint16_t* slots,
                                     std::uint32_t slot_count, std::uint32_t attribute_floats,
@@ -559,13 +562,13 @@ SUNDER_INLINE void pose_common_pair(const float* matrices, const std::uint16_t* 
 }
 #undef SUNDER_ENTRIES
 
-/// Whether a block is as most are, but for where its vertices go.
+/// Whether a block is common, regardless of where its vertices go.
 SUNDER_INLINE bool is_common(const SkinWork& work, const Block& block) {
   return work.is_common && (block.kind & (kSparse | kMorphed)) == 0 &&
          !(work.palette->any_uneven && moves_by(work, block, work.palette->is_uneven));
 }
 
-/// Poses a block by way of memory, from where its vertices go to their places.
+/// Poses a block into memory and scatters its vertices to their places.
 inline void pose_apart(const SkinWork& work, const Block& block, const float* numbers) {
   const VertexTarget& target = work.target;
   PosedLanes posed;
@@ -583,7 +586,7 @@ inline void pose_apart(const SkinWork& work, const Block& block, const float* nu
   std::uint32_t in_order[kLanes];
   const std::uint32_t* places = in_order;
   if ((block.kind & kScattered) != 0)
-    places = work.mesh->places.data() + work.mesh->extras[block.extra].places;
+    places = work.mesh->scattered.places.data() + work.mesh->extras[block.extra].places;
   else
     for (std::uint32_t lane = 0; lane < kLanes; ++lane) in_order[lane] = block.first_vertex + lane;
   scatter(target.positions, posed.positions, 3, places, block.lane_count);

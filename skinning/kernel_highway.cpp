@@ -1,4 +1,4 @@
-// The kernel for each kind of vectors that a CPU may have; the best is chosen when it first runs.
+// The kernel for each vector extension of a CPU; the best one is selected at run time.
 
 #include <cmath>
 #include <cstring>
@@ -59,9 +59,9 @@ SUNDER_INLINE void store_part(V v, float* numbers) {
 template <bool kStream>
 SUNDER_INLINE void store_interleaved(V x, V y, V z, float* numbers) {
 #if HWY_TARGET == HWY_AVX3
-  // One permutation brings each x to its lane, whichever of the three vectors it goes to: no two
-  // want the same lane. The same for y and z; what is left are blends. (Highway interleaves within
-  // 128 bits first, which takes more.)
+  // One permutation moves each x to its lane in whichever of the three vectors it belongs to; no
+  // two need the same lane. The same is done for y and z, followed by blends. (Highway interleaves
+  // within 128 bits first, which takes more instructions.)
   alignas(64) static constexpr std::int32_t kX[16] = {0, 11, 6,  1, 12, 7,  2,  13,
                                                       8, 3,  14, 9, 4,  15, 10, 5};
   alignas(64) static constexpr std::int32_t kY[16] = {5,  0, 11, 6,  1, 12, 7,  2,
@@ -107,8 +107,8 @@ SUNDER_INLINE void store_interleaved4(V x, V y, V z, V w, float* numbers) {
 #endif
 }
 
-/// Asks for the memory of a later block: what hardware sees coming is 2 KB ahead at most, which is
-/// too late for main memory.
+/// Prefetches a later block: hardware prefetches at most 2 KB ahead, which is too late for main
+/// memory.
 SUNDER_INLINE void prefetch_block(const float* numbers, std::uint32_t vectors) {
   constexpr std::uint32_t kAhead = 8192 / sizeof(float);
   for (std::uint32_t i = 0; i < vectors; ++i) hwy::Prefetch(numbers + kAhead + kLanes * i);

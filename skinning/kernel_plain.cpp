@@ -1,4 +1,4 @@
-// The kernel without vectors: for builds without Highway.
+// The scalar kernel, for builds without Highway.
 
 #include <algorithm>
 #include <cmath>

@@ -19,7 +19,7 @@ void MoverRuns::append(std::uint32_t mover, std::uint32_t block) {
 }
 
 void MoverRuns::truncate(std::uint32_t first_block) {
-  // Runs are in the order in which they begin; older ones may reach beyond the cut.
+  // Runs are ordered by their first block; older ones may extend beyond the cut.
   while (!runs_.empty() && runs_.back().blocks.first >= first_block) {
     newest_[runs_.back().mover] = runs_.back().older;
     runs_.pop_back();

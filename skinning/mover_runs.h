@@ -8,16 +8,16 @@
 
 namespace sunder::skinning {
 
-/// Which blocks a mover, a slot or a morph target, moves: as runs of blocks, the newest first, so
-/// that blocks can be appended and taken from the end.
+/// The blocks that each mover (a slot or a morph target) moves, as runs of blocks. The newest run
+/// comes first, so that blocks can be appended, and removed from the end.
 class MoverRuns {
  public:
   void resize(std::size_t movers) { newest_.assign(movers, kNoRun); }
   [[nodiscard]] std::size_t mover_count() const { return newest_.size(); }
 
-  /// Says that `mover` moves `block`, which is at least as large as any before.
+  /// Records that `mover` moves `block`. The last block is not exceeded by earlier ones.
   void append(std::uint32_t mover, std::uint32_t block);
-  /// Forgets all blocks from `first_block` on.
+  /// Removes all blocks from `first_block` on.
   void truncate(std::uint32_t first_block);
 
   template <class Visit>
@@ -34,7 +34,7 @@ class MoverRuns {
     std::uint32_t mover = 0, older = kNoRun;
   };
   std::vector<Run> runs_;
-  std::vector<std::uint32_t> newest_;  // one a mover
+  std::vector<std::uint32_t> newest_;  // per mover
 };
 
 }  // namespace sunder::skinning

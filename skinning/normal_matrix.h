@@ -7,12 +7,12 @@
 
 namespace sunder::skinning {
 
-/// How far a matrix may be from a scaled rotation, relative to its scale squared, to count as one:
-/// what a float file leaves of it.
+/// Maximum deviation from a scaled rotation, relative to the squared scale, that still counts as
+/// one: the rounding of floats in files.
 inline constexpr double kEvenScale = 1e-5;
 
-/// Whether a linear map scales all directions alike, as rotations, uniform scales and their mirrors
-/// do: it turns normals as vectors.
+/// Whether a linear map scales all directions alike (rotation, uniform scale, mirror), so that it
+/// transforms normals like vectors.
 template <class Scalar, class Matrix>
 bool has_even_scale(const Matrix& linear) {
   const Eigen::Matrix<Scalar, 3, 3> gram = linear.transpose() * linear;
@@ -21,14 +21,14 @@ bool has_even_scale(const Matrix& linear) {
          Scalar(kEvenScale) * mean;
 }
 
-/// How a linear map turns normals: itself where it scales evenly; else the inverse transpose, at
-/// the map's own scale, so that bones count in a blend by their weights, whatever their scales. It
-/// is taken from the cofactors, which exist for flat maps too; the determinant's sign keeps outward
-/// normals outward under mirrors. Zero where the map leaves no plane.
+/// The matrix that transforms normals: the map itself if it scales evenly; otherwise its inverse
+/// transpose at the map's own scale, so that bones count in a blend by their weights, whatever
+/// their scales. It is computed from the cofactors, which exist for flat maps too; the sign of the
+/// determinant keeps outward normals outward under mirrors. Zero if the map has rank below 2.
 template <class Scalar, class Matrix>
 Eigen::Matrix<Scalar, 3, 3> normal_matrix(const Matrix& linear) {
   if (has_even_scale<Scalar>(linear)) return linear;
-  const Scalar scale = linear.cwiseAbs().maxCoeff();  // not 0: that would be even
+  const Scalar scale = linear.cwiseAbs().maxCoeff();  // not 0, which would be even
   const Eigen::Matrix<Scalar, 3, 3> unit = linear / scale;
   Eigen::Matrix<Scalar, 3, 3> cofactors;
   cofactors.col(0) = unit.col(1).cross(unit.col(2));

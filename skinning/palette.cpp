@@ -9,13 +9,13 @@
 namespace sunder {
 namespace {
 
-/// Singular to working precision, relative to the matrix' own scale.
+/// Whether the matrix is invertible to working precision, relative to its own scale.
 bool is_invertible(const Mat3d& linear) {
   const double scale = linear.cwiseAbs().maxCoeff();
   return scale > 0 && std::abs(linear.determinant()) > 1e-12 * scale * scale * scale;
 }
 
-/// Both precisions of the palette; the products are double in each.
+/// Writes a palette in either precision; the products are computed in double.
 template <class Affine>
 Status write_palette(const Skin& skin, const ModelPose& pose, std::span<Affine> model_from_bind) {
   if (model_from_bind.size() != skin.bones.size())
@@ -72,7 +72,8 @@ ModelPose bind_pose(const Character& character) {
       const std::uint32_t bone = skin.bones[slot];
       const Affine3d bone_from_bind = skin.bone_from_bind[slot].cast<double>();
       if (is_bound[bone] || !is_invertible(bone_from_bind.linear())) continue;
-      // A rigid part is bound to its node where the node stands: it has no bind pose of its own.
+      // A rigid part is attached to its node at the node's place, so it has no bind pose of its
+      // own.
       if (skin.bones.size() == 1 && bone_from_bind.matrix() == Affine3d::Identity().matrix())
         continue;
       pose.model_from_bone[bone] = bone_from_bind.inverse();

@@ -17,8 +17,8 @@ struct ClipTime {
   double time = 0;  // seconds
 };
 
-/// The middles of equal intervals to fit over, their beginnings held out; one pose of a clip that
-/// does not last.
+/// The middles of equal intervals are fitted, their beginnings are held out. A clip of zero
+/// duration gives one pose.
 void add_clip_times(Index clip, double duration, Index samples, std::vector<ClipTime>& fit,
                     std::vector<ClipTime>& held_out) {
   if (!(duration > 0)) {
@@ -87,13 +87,13 @@ struct PoseSet::State {
   [[nodiscard]] std::size_t given_count(Role role) const {
     return role == Role::fit ? given.size() - given.size() / 4 : given.size() / 4;
   }
-  /// Every fourth is held out.
+  /// Every fourth given pose is held out.
   [[nodiscard]] const ModelPose& given_of(Role role, std::size_t index) const {
     return role == Role::fit ? given[index + index / 3] : given[4 * index + 3];
   }
 
   std::shared_ptr<const Character> character;
-  std::vector<skinning::ClipSampler> samplers;  // one a clip, where clips are sampled
+  std::vector<skinning::ClipSampler> samplers;  // per clip, if clips are sampled
   std::vector<ClipTime> fit_times, held_out_times;
   skinning::JointSweeps sweeps;
   std::vector<ModelPose> given;
@@ -106,8 +106,9 @@ Result<PoseSet> PoseSet::create(std::shared_ptr<const Character> character,
   if (!character) return Status::failure(StatusCode::empty_input, kNone, "no character");
   if (const Status status = validate_character(*character); !status) return status;
   if (spec.clip_samples > kMaximumClipSamples)
-    return Status::failure(StatusCode::limit_exceeded, kNone, "%u samples a clip; at most %u",
-                           spec.clip_samples, kMaximumClipSamples);
+    return Status::failure(StatusCode::limit_exceeded, kNone,
+                           "%u samples per clip; the maximum is %u", spec.clip_samples,
+                           kMaximumClipSamples);
   for (Index i = 0; i < spec.joint_limits.size(); ++i)
     if (const Status status =
             validate_limit(spec.joint_limits[i], i, character->skeleton.bones.size());
@@ -129,7 +130,7 @@ Result<PoseSet> PoseSet::create(std::shared_ptr<const Character> character,
     if (set.size(Role::fit) > 0) return set;
     return Status::failure(
         StatusCode::empty_input, kNone,
-        "no pose to fit over: %u samples a clip of %zu clips, no joint turns, no pose is given",
+        "no pose to fit over: %u samples per clip, %zu clips, no joint rotates, no pose is given",
         spec.clip_samples, state->character->clips.size());
   } catch (const std::bad_alloc&) {
     return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");

@@ -11,8 +11,8 @@ Result<Index> find_clip(const Character& character,
   const std::size_t count = character.clips.size();
   if (const Index* const index = std::get_if<Index>(&wanted)) {
     if (*index < count) return *index;
-    return Status::failure(StatusCode::not_found, *index, "clip %u: the model has %zu clips",
-                           *index, count);
+    return Status::failure(StatusCode::not_found, *index,
+                           "clip %u does not exist: the model has %zu clips", *index, count);
   }
   const std::string& name = std::get<std::string>(wanted);
   for (Index i = 0; i < count; ++i)
@@ -22,12 +22,12 @@ Result<Index> find_clip(const Character& character,
                          name.c_str(), count);
 }
 
-/// Writes the local transforms that a spec gives over those of rest.
+/// Overwrites the local transforms of rest with those that a spec gives.
 class ApplyTo {
  public:
   ApplyTo(const Character& character, Pose& pose) : character_(character), pose_(pose) {}
 
-  template <class Other>  // rest; the others are not local transforms
+  template <class Other>  // rest; other specs are not local transforms
   Status operator()(const Other&) const {
     return {};
   }

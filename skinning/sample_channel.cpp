@@ -6,10 +6,10 @@
 namespace sunder::skinning {
 namespace {
 
-/// Where a time falls among a channel's keys.
+/// The position of a time among the keys of a channel.
 struct KeySpan {
   std::size_t key = 0;  ///< The key at or before the time.
-  float fraction = 0;   ///< Of the way to the next key, in [0, 1]; 0 where the value is held.
+  float fraction = 0;   ///< Fraction of the way to the next key, in [0, 1]; 0 if the value is held.
   float seconds = 0;    ///< Between the two keys.
 };
 
@@ -27,7 +27,7 @@ KeySpan find_keys(std::span<const float> times, double time) {
       seconds};
 }
 
-/// Reads one float of the interpolated value; rotations under `linear` go by slerp instead.
+/// Reads one float of the interpolated value. Linear rotations are interpolated by slerp instead.
 float interpolate(const Channel& channel, const KeySpan& at, std::uint32_t component) {
   const std::uint32_t width = channel.width;
   if (channel.interpolation == Interpolation::cubic_spline) {

@@ -7,11 +7,11 @@
 
 namespace sunder::skinning {
 
-/// Writes what a channel of a bone drives, as it is at a finite time.
+/// Writes the value of a channel that drives a bone, at a finite time.
 void sample_channel(const Channel& channel, double time, BoneTransform& bone);
 
-/// Writes what a channel of morph weights drives.
-/// @param morph_weights  all of the character's.
+/// Writes the values of a channel of morph weights. @param morph_weights  all weights of the
+/// character.
 void sample_channel(const Channel& channel, double time, std::span<float> morph_weights);
 
 }  // namespace sunder::skinning

@@ -23,9 +23,10 @@ Status sample_clip(const Clip& clip, double time, Pose& pose) {
     const bool morphs = channel.target == ChannelTarget::morph_weights;
     const std::size_t last = channel.index + static_cast<std::size_t>(morphs ? channel.width : 1);
     if (last > (morphs ? pose.morph_weights.size() : pose.parent_from_bone.size()))
-      return Status::failure(StatusCode::size_mismatch, i,
-                             "clip '%.80s': channel %u drives what the pose does not have",
-                             clip.name.c_str(), i);
+      return Status::failure(
+          StatusCode::size_mismatch, i,
+          "clip '%.80s': channel %u drives a bone or morph weight that the pose does not have",
+          clip.name.c_str(), i);
   }
   for (const Channel& channel : clip.channels) {
     if (channel.target == ChannelTarget::morph_weights)

@@ -5,19 +5,20 @@
 
 namespace sunder::skinning {
 
-/// One call's work on some blocks: everything that a kernel reads.
+/// The inputs of a kernel for one call.
 struct SkinWork {
   const Blocks* mesh = nullptr;
   const PaletteData* palette = nullptr;
-  const float* morph_weights = nullptr;  ///< The mesh's own.
-  VertexTarget target;                   ///< Strides filled in; no data for what is not wanted.
-  std::uint32_t attribute_floats = 0;    ///< Of the mesh.
-  bool is_common = false;                ///< Matrices are blended, and no tangents are wanted.
-  bool is_beyond_cache = false;  ///< So much memory that results are written around the caches.
+  const float* morph_weights = nullptr;  ///< Those of the mesh.
+  VertexTarget target;  ///< Its strides are not 0; no data for attributes that are not wanted.
+  std::uint32_t attribute_floats = 0;  ///< Of the mesh.
+  bool is_common = false;              ///< Linear blending, and no tangents are wanted.
+  bool is_beyond_cache =
+      false;  ///< The outputs are so large that they are written around the caches.
 };
 
-/// Poses blocks [first, end). By the best vectors that the CPU has, or one number after another
-/// where the build has no Highway.
+/// Poses blocks [first, end) with the best vectors of the CPU, or with scalar code in builds
+/// without Highway.
 void skin_blocks(const SkinWork& work, std::uint32_t first, std::uint32_t end);
 
 }  // namespace sunder::skinning

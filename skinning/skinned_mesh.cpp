@@ -12,15 +12,16 @@ namespace sunder {
 namespace skinning {
 namespace {
 
-constexpr std::uint32_t kBlocksATask =
-    256;  // at least: some 4 microseconds, below which a second thread comes too late
-constexpr std::uint32_t kVerticesATask = 4096;  // that are displaced
-constexpr std::uint32_t kTasksAThread =
-    4;  // so that a thread that is interrupted does not hold up the rest
-constexpr std::size_t kBeyondCache = 24u
-                                     << 20u;  // bytes read and written: most of a last-level cache
+/// Minimum blocks per task: about 4 microseconds; for less work a second thread starts too late.
+constexpr std::uint32_t kBlocksPerTask = 256;
+/// Minimum displaced vertices per task.
+constexpr std::uint32_t kVerticesPerTask = 4096;
+/// Several, so that an interrupted thread does not delay the others.
+constexpr std::uint32_t kTasksPerThread = 4;
+/// Bytes read and written that fill most of a last-level cache.
+constexpr std::size_t kBeyondCache = 24u << 20u;
 
-/// Forgets the blocks from `first` on, and all that only they have.
+/// Removes the blocks from `first` on, and all data of theirs.
 void truncate(Blocks& blocks, std::uint32_t first) {
   if (first >= blocks.block_count()) return;
   const Block& block = blocks.blocks[first];
@@ -32,23 +33,23 @@ void truncate(Blocks& blocks, std::uint32_t first) {
     if (blocks.blocks[b].kind == 0) continue;
     const BlockExtra extra = blocks.extras[blocks.blocks[b].extra];
     blocks.extras.resize(blocks.blocks[b].extra);
-    blocks.places.resize(extra.places);
-    blocks.influences.resize(extra.influences);
-    blocks.lane_ends.resize(extra.lane_ends);
-    if (extra.morphs < blocks.morphs.size())
-      blocks.morph_stream.resize(blocks.morphs[extra.morphs].numbers);
-    blocks.morphs.resize(extra.morphs);
-    if (extra.exact_lanes < blocks.exact_lanes.size()) {
-      blocks.exact_stream.resize(blocks.exact_lanes[extra.exact_lanes].numbers);
-      blocks.exact_influences.resize(blocks.exact_lanes[extra.exact_lanes].influences);
+    blocks.scattered.places.resize(extra.places);
+    blocks.sparse.influences.resize(extra.influences);
+    blocks.sparse.lane_ends.resize(extra.lane_ends);
+    if (extra.morphs < blocks.morphs.parts.size())
+      blocks.morphs.stream.resize(blocks.morphs.parts[extra.morphs].numbers);
+    blocks.morphs.parts.resize(extra.morphs);
+    if (extra.exact_lanes < blocks.exact.lanes.size()) {
+      blocks.exact.stream.resize(blocks.exact.lanes[extra.exact_lanes].numbers);
+      blocks.exact.influences.resize(blocks.exact.lanes[extra.exact_lanes].influences);
     }
-    blocks.exact_lanes.resize(extra.exact_lanes);
-    break;  // later ones' lie behind
+    blocks.exact.lanes.resize(extra.exact_lanes);
+    break;  // the data of later blocks follows
   }
   blocks.blocks.resize(first);
   blocks.revisions.resize(first);
   blocks.movers.truncate(first);
-  blocks.scattered_end = std::min(blocks.scattered_end, first);
+  blocks.scattered.end = std::min(blocks.scattered.end, first);
 }
 
 /// The first block that holds a vertex from `first_changed` on, or shares a window with one that
@@ -56,7 +57,7 @@ void truncate(Blocks& blocks, std::uint32_t first) {
 std::uint32_t first_block_to_replace(const Blocks& blocks, std::uint32_t first_changed) {
   std::uint32_t kept = blocks.block_count();
   while (kept > 0) {
-    // Blocks of a window are not in the order of their vertices: the window's end tells.
+    // The blocks of a window are not ordered by their vertices, so the end of the window decides.
     const std::uint32_t window = blocks.window(blocks.blocks[kept - 1]);
     std::uint32_t first = kept - 1, last_vertex = 0;
     for (;; --first) {
@@ -75,14 +76,14 @@ StridedFloats<Float> with_stride(const StridedFloats<Float>& array, std::size_t 
 }
 
 Status check_target(const Blocks& blocks, const PaletteData& palette, const VertexTarget& target) {
-  if (palette.slots != blocks.slot_count)
+  if (palette.slots != blocks.layout.slot_count)
     return Status::failure(StatusCode::size_mismatch, kNone,
-                           "the palette has %zu slots, the mesh was made for %zu", palette.slots,
-                           blocks.slot_count);
-  if (palette.morph_weights.size() < blocks.first_morph_weight + blocks.morph_count)
+                           "the palette has %zu slots, the mesh was created for %zu", palette.slots,
+                           blocks.layout.slot_count);
+  if (palette.morph_weights.size() < blocks.layout.first_morph_weight + blocks.layout.morph_count)
     return Status::failure(StatusCode::size_mismatch, kNone,
                            "the mesh reads morph weights up to %u, the palette has %zu",
-                           blocks.first_morph_weight + blocks.morph_count,
+                           blocks.layout.first_morph_weight + blocks.layout.morph_count,
                            palette.morph_weights.size());
   if (palette.revision == 0)
     return Status::failure(StatusCode::invalid_argument, kNone, "the palette has no pose yet");
@@ -92,23 +93,23 @@ Status check_target(const Blocks& blocks, const PaletteData& palette, const Vert
                            blocks.vertex_count);
   if (target.positions.data == nullptr && blocks.vertex_count > 0)
     return Status::failure(StatusCode::invalid_argument, kNone,
-                           "the buffer has no place for positions");
-  if ((target.normals.data != nullptr && !blocks.has_normals) ||
-      (target.tangents.data != nullptr && !blocks.has_tangents))
+                           "the buffer has no memory for positions");
+  if ((target.normals.data != nullptr && !blocks.layout.has_normals) ||
+      (target.tangents.data != nullptr && !blocks.layout.has_tangents))
     return Status::failure(
-        StatusCode::invalid_argument, kNone, "the buffer wants %s, the mesh has none",
-        target.normals.data != nullptr && !blocks.has_normals ? "normals" : "tangents");
+        StatusCode::invalid_argument, kNone, "the buffer requests %s, the mesh has none",
+        target.normals.data != nullptr && !blocks.layout.has_normals ? "normals" : "tangents");
   const auto is_bad = [](const StridedFloats<float>& array, std::size_t packed) {
     return array.stride != 0 && (array.stride < packed || array.stride % sizeof(float) != 0);
   };
   if (is_bad(target.positions, 12) || is_bad(target.normals, 12) || is_bad(target.tangents, 16))
     return Status::failure(
         StatusCode::invalid_argument, kNone,
-        "a stride of the buffer is shorter than a vertex' numbers, or not a multiple of 4");
+        "a stride of the buffer is shorter than the numbers of a vertex, or not a multiple of 4");
   return {};
 }
 
-/// Ranges of blocks or vertices, cut into tasks of about as many.
+/// Ranges of blocks or vertices, divided into tasks of about the same size.
 struct Tasks {
   SkinWork work;
   const VertexDisplacements* displacements = nullptr;
@@ -130,14 +131,15 @@ struct Tasks {
     });
   }
 
-  /// Does `task` for all of `these`. @param least  elements worth a task.
+  /// Runs `task` over all of `these`. @param least  minimum number of elements per task.
   void run(std::span<const IndexRange> these, std::uint32_t least, ParallelFor::Task task,
            const ParallelFor& parallel_for) {
     ranges = these;
     total = 0;
     for (const IndexRange& range : these) total += range.count;
     const std::uint32_t threads = std::max(1u, parallel_for.threads), most = total / least;
-    count = std::clamp(most / threads, 1u, kTasksAThread) * threads;  // as many for each
+    count =
+        std::clamp(most / threads, 1u, kTasksPerThread) * threads;  // the same number per thread
     if (most < threads) count = std::max(1u, most);
     if (parallel_for.run != nullptr && count > 1) {
       parallel_for.run(parallel_for.context, count, task, this);
@@ -148,14 +150,14 @@ struct Tasks {
   }
 
  private:
-  /// Visits what one task has of the ranges.
+  /// Visits the parts of the ranges that belong to one task.
   template <class Visit>
   void for_each_range(std::uint32_t index, Visit visit) const {
     const auto boundary = [&](std::uint32_t i) {
       return static_cast<std::uint32_t>(std::uint64_t{total} * i / count);
     };
     const std::uint32_t first = boundary(index), end = boundary(index + 1);
-    std::uint32_t before = 0;  // elements of earlier ranges
+    std::uint32_t before = 0;  // number of elements in earlier ranges
     for (const IndexRange& range : ranges) {
       const std::uint32_t from = std::max(first, before), to = std::min(end, before + range.count);
       if (from < to) visit(range.first + from - before, range.first + to - before);
@@ -165,7 +167,7 @@ struct Tasks {
   }
 };
 
-/// Makes one of ranges that touch.
+/// Merges adjacent ranges.
 void join(std::vector<IndexRange>& ranges) {
   std::size_t kept = 0;
   for (const IndexRange& range : ranges) {
@@ -177,7 +179,7 @@ void join(std::vector<IndexRange>& ranges) {
   ranges.resize(kept);
 }
 
-/// Vertices of some ranges of blocks, ascending.
+/// The vertices of some ranges of blocks, ascending.
 void list_vertices(const Blocks& blocks, std::span<const IndexRange> ranges,
                    std::vector<IndexRange>& vertices) {
   std::uint32_t window = kNone;
@@ -188,11 +190,11 @@ void list_vertices(const Blocks& blocks, std::span<const IndexRange> ranges,
       vertices.push_back({0, blocks.vertex_count});
       return;
     }
-    for (; b < std::min(end, blocks.scattered_end); ++b) {
+    for (; b < std::min(end, blocks.scattered.end); ++b) {
       const Block& block = blocks.blocks[b];
       const std::uint32_t first_vertex = block.first_vertex,
                           end_vertex = blocks.last_vertex(block) + 1;
-      if (blocks.window(block) == window) {  // in a window blocks are in the order of their bones
+      if (blocks.window(block) == window) {  // blocks of a window are ordered by their bones
         IndexRange& last = vertices.back();
         const std::uint32_t last_end = std::max(last.first + last.count, end_vertex);
         last.first = std::min(last.first, first_vertex);
@@ -227,18 +229,18 @@ Result<SkinnedMesh> SkinnedMesh::create(const VertexSource& source, std::size_t 
   if (const Status status = skinning::check_source(source, slots, 0); !status) return status;
   auto blocks = std::make_unique<skinning::Blocks>();
   blocks->id = skinning::new_identity();
-  blocks->slot_count = slots;
-  blocks->has_normals = source.normals.data != nullptr;
-  blocks->has_tangents = source.tangents.data != nullptr;
-  blocks->first_morph_weight = source.first_morph_weight;
-  blocks->morph_count = static_cast<std::uint32_t>(source.morph_targets.size());
+  blocks->layout.slot_count = slots;
+  blocks->layout.has_normals = source.normals.data != nullptr;
+  blocks->layout.has_tangents = source.tangents.data != nullptr;
+  blocks->layout.first_morph_weight = source.first_morph_weight;
+  blocks->layout.morph_count = static_cast<std::uint32_t>(source.morph_targets.size());
   blocks->movers.resize(slots + source.morph_targets.size());
   skinning::BlockBuilder builder(source, *blocks);
   for (std::uint32_t v = 0; v < source.vertex_count; v += skinning::kWindow)
     builder.append_gathered(v, std::min(source.vertex_count, v + skinning::kWindow));
   blocks->vertex_count = source.vertex_count;
   blocks->stream.shrink_to_fit();
-  blocks->morph_stream.shrink_to_fit();
+  blocks->morphs.stream.shrink_to_fit();
   return SkinnedMesh(std::move(blocks));
 }
 
@@ -248,23 +250,25 @@ std::size_t SkinnedMesh::stream_bytes() const {
   const skinning::Blocks& b = *blocks_;
   return b.stream.size() * sizeof(float) + b.blocks.size() * sizeof(skinning::Block) +
          b.slots.size() * sizeof(b.slots[0]) + b.extras.size() * sizeof(skinning::BlockExtra) +
-         b.places.size() * sizeof(b.places[0]) + b.influences.size() * sizeof(Influence) +
-         b.lane_ends.size() * sizeof(b.lane_ends[0]);
+         b.scattered.places.size() * sizeof(b.scattered.places[0]) +
+         b.sparse.influences.size() * sizeof(Influence) +
+         b.sparse.lane_ends.size() * sizeof(b.sparse.lane_ends[0]);
 }
 
 Status SkinnedMesh::update(const VertexSource& source, std::uint32_t first_changed) {
   skinning::Blocks& blocks = *blocks_;
-  if ((source.normals.data != nullptr) != blocks.has_normals ||
-      (source.tangents.data != nullptr) != blocks.has_tangents ||
-      source.morph_targets.size() != blocks.morph_count ||
-      source.first_morph_weight != blocks.first_morph_weight)
+  if ((source.normals.data != nullptr) != blocks.layout.has_normals ||
+      (source.tangents.data != nullptr) != blocks.layout.has_tangents ||
+      source.morph_targets.size() != blocks.layout.morph_count ||
+      source.first_morph_weight != blocks.layout.first_morph_weight)
     return Status::failure(StatusCode::size_mismatch, kNone,
                            "the source has other attributes or morph targets than before");
   if (first_changed > std::min(source.vertex_count, blocks.vertex_count))
-    return Status::failure(StatusCode::index_out_of_range, first_changed,
-                           "the first changed vertex is %u; there were %u, and are %u",
-                           first_changed, blocks.vertex_count, source.vertex_count);
-  if (const Status status = skinning::check_source(source, blocks.slot_count, first_changed);
+    return Status::failure(
+        StatusCode::index_out_of_range, first_changed,
+        "the first changed vertex is %u; the mesh had %u vertices, the source has %u",
+        first_changed, blocks.vertex_count, source.vertex_count);
+  if (const Status status = skinning::check_source(source, blocks.layout.slot_count, first_changed);
       !status)
     return status;
   if (first_changed == source.vertex_count && first_changed == blocks.vertex_count) return {};
@@ -280,20 +284,21 @@ void SkinnedMesh::reserve(std::uint32_t more_vertices, std::uint32_t influences)
   skinning::Blocks& b = *blocks_;
   const auto add = [](auto& array, std::size_t more) { array.reserve(array.size() + more); };
   const std::size_t blocks = more_vertices / skinning::kLanes + 2;
-  // Neighbours along a tear share most of their bones: a quarter of what they would need if none
-  // did.
+  // Neighbours along a tear share most of their bones: a quarter of the slots that they would need
+  // otherwise.
   const std::size_t slots = blocks * influences * skinning::kLanes / 4;
-  add(b.stream, blocks * skinning::kLanes * b.attribute_floats() + slots * skinning::kLanes);
+  add(b.stream, blocks * skinning::kLanes * b.layout.attribute_floats() + slots * skinning::kLanes);
   add(b.blocks, blocks);
   add(b.revisions, blocks);
   add(b.slots, slots);
   add(b.scratch, skinning::kLanes * influences);
   add(b.extras, blocks);
-  add(b.influences, std::size_t{more_vertices} * influences);
-  add(b.lane_ends, blocks * skinning::kLanes);
-  add(b.morphs, blocks * b.morph_count);
-  add(b.morph_stream, blocks * b.morph_count * skinning::kLanes * b.displacement_floats());
-  b.movers.reserve(slots + blocks * b.morph_count);
+  add(b.sparse.influences, std::size_t{more_vertices} * influences);
+  add(b.sparse.lane_ends, blocks * skinning::kLanes);
+  add(b.morphs.parts, blocks * b.layout.morph_count);
+  add(b.morphs.stream,
+      blocks * b.layout.morph_count * skinning::kLanes * b.layout.displacement_floats());
+  b.movers.reserve(slots + blocks * b.layout.morph_count);
 }
 
 Status SkinnedMesh::deform(const BonePalette& palette, PosedBuffer& buffer,
@@ -324,23 +329,23 @@ Status SkinnedMesh::deform(const BonePalette& palette, PosedBuffer& buffer,
   if (!buffer.blocks_to_write_.empty()) {
     std::uint32_t block_count = 0;
     for (const IndexRange& range : buffer.blocks_to_write_) block_count += range.count;
-    const std::size_t written = blocks.has_tangents ? 40 : 24;
+    const std::size_t written = blocks.layout.has_tangents ? 40 : 24;
     const std::size_t bytes = blocks.stream.size() * sizeof(float) + written * blocks.vertex_count;
     Tasks tasks;
     tasks.work.mesh = &blocks;
     tasks.work.palette = &data;
-    tasks.work.morph_weights = data.morph_weights.data() + blocks.first_morph_weight;
+    tasks.work.morph_weights = data.morph_weights.data() + blocks.layout.first_morph_weight;
     tasks.work.target = buffer.target_;
     tasks.work.target.positions = with_stride(buffer.target_.positions, 3);
     tasks.work.target.normals = with_stride(buffer.target_.normals, 3);
     tasks.work.target.tangents = with_stride(buffer.target_.tangents, 4);
-    tasks.work.attribute_floats = blocks.attribute_floats();
+    tasks.work.attribute_floats = blocks.layout.attribute_floats();
     tasks.work.is_common =
         data.method == SkinningMethod::linear && buffer.target_.tangents.data == nullptr;
     tasks.work.is_beyond_cache = bytes / blocks.block_count() * block_count > kBeyondCache;
     tasks.displacements = displacements;
-    tasks.run(buffer.blocks_to_write_, kBlocksATask, &Tasks::pose, parallel_for);
-    if (!moved.empty()) tasks.run(moved, kVerticesATask, &Tasks::displace, parallel_for);
+    tasks.run(buffer.blocks_to_write_, kBlocksPerTask, &Tasks::pose, parallel_for);
+    if (!moved.empty()) tasks.run(moved, kVerticesPerTask, &Tasks::displace, parallel_for);
     list_vertices(blocks, buffer.blocks_to_write_, buffer.dirty_);
   }
   buffer.palette_ = data.id;

@@ -4,7 +4,7 @@
 
 namespace sunder::skinning {
 
-/// Number `i` of an attribute of vertex `v`.
+/// The numbers of an attribute of a vertex.
 template <class Float>
 Float* at(const StridedFloats<Float>& array, std::uint32_t vertex, std::size_t components) {
   const std::size_t stride = array.stride != 0 ? array.stride : components * sizeof(float);
@@ -12,8 +12,8 @@ Float* at(const StridedFloats<Float>& array, std::uint32_t vertex, std::size_t c
   return reinterpret_cast<Float*>(reinterpret_cast<Byte*>(array.data) + stride * vertex);
 }
 
-/// Calls visit(slot, weight) for each influence of a vertex that has a weight, in the order of the
-/// source.
+/// Calls visit(slot, weight) for each influence of a vertex with a non-zero weight, in the order of
+/// the source.
 template <class Visit>
 void for_each_influence(const VertexSource& source, std::uint32_t vertex, Visit visit) {
   if (source.weights != nullptr) {

@@ -18,7 +18,7 @@ void reorder(std::vector<T>& values, std::size_t components,
 }  // namespace
 
 std::vector<std::uint32_t> order_for_skinning(const Mesh& mesh) {
-  std::vector<std::uint32_t> slots;  // ascending a vertex
+  std::vector<std::uint32_t> slots;  // per vertex, ascending
   for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
     for (const Influence& influence : mesh.weights.of(v)) slots.push_back(influence.slot);
     std::sort(slots.begin() + mesh.weights.first[v], slots.end());
@@ -40,13 +40,13 @@ Status reorder_vertices(Mesh& mesh, std::span<const std::uint32_t> old_from_new)
   const std::uint32_t count = mesh.vertex_count();
   if (old_from_new.size() != count)
     return Status::failure(StatusCode::size_mismatch, kNone,
-                           "an order of %zu vertices, the mesh has %u", old_from_new.size(), count);
+                           "the order has %zu vertices, the mesh %u", old_from_new.size(), count);
   std::vector<std::uint32_t> new_from_old(count, kNone);
   for (std::uint32_t v = 0; v < count; ++v) {
     const std::uint32_t old = old_from_new[v];
     if (old >= count || new_from_old[old] != kNone)
       return Status::failure(StatusCode::index_out_of_range, v,
-                             "place %u: vertex %u is not there, or was named before", v, old);
+                             "entry %u: vertex %u does not exist or occurs twice", v, old);
     new_from_old[old] = v;
   }
   reorder(mesh.positions, 1, old_from_new);

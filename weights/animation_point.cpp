@@ -20,7 +20,7 @@ void AnimationPoint::add(double part, const AnimationPoint& point) {
 }
 
 void AnimationPoint::add(std::uint32_t slot, const Vec4d& q) {
-  // A few dozen at most: a linear search beats any map.
+  // There are a few dozen terms at most, so a linear search is faster than any map.
   const auto same = std::find_if(terms_.begin(), terms_.end(),
                                  [&](const Term& term) { return term.slot == slot; });
   if (same == terms_.end())

@@ -8,7 +8,7 @@ Result<std::vector<CoupledFit>> refit_coupled(std::span<const PointToRefit>,
                                               std::span<const RefitNeighbours>,
                                               const CoupledRefitOptions&, const PoseMoments&) {
   return Status::failure(StatusCode::unsupported_feature, kNone,
-                         "this build cannot fit neighbouring points together: it was made without "
+                         "this build cannot fit neighbouring points together: it was built without "
                          "Ceres (SUNDER_CERES)");
 }
 

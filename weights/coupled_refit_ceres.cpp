@@ -21,19 +21,19 @@ namespace {
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 constexpr int kMostSteps = 50;
-/// A step that gains less than this part of what is left is the last one.
+/// The solver stops when a step reduces the cost by less than this fraction.
 constexpr double kLeastGain = 1e-6;
-/// Square metres that are none.
+/// A smaller sum of squared metres counts as zero.
 constexpr double kLeastSum = 1e-200;
-/// A pivot below this part of the largest is rounding.
+/// A pivot below this fraction of the largest is rounding.
 constexpr double kLeastPivot = 1e-15;
 
-/// A point's unknowns: the roots u of its weights, w_i = u_i^2 with |u| = 1, and how far its bind
-/// position is moved.
+/// The unknowns of a point: the square roots u of its weights, w_i = u_i^2 with |u| = 1, and the
+/// offset of its bind position.
 struct Unknowns {
   double* roots = nullptr;
-  double* offset = nullptr;  ///< nullptr: it is not moved.
-  int count = 0;             ///< Of weights; 0: nothing of the point is fitted here.
+  double* offset = nullptr;  ///< nullptr: the bind position is fixed.
+  int count = 0;             ///< Number of weights; 0: the point is not fitted here.
   std::vector<std::uint32_t> slots;
 
   [[nodiscard]] std::uint32_t slot(int i) const { return slots[static_cast<std::size_t>(i)]; }
@@ -43,8 +43,8 @@ struct Unknowns {
   }
 };
 
-/// What a point is off by in all poses: root * [u_1^2 [offset; 1]; u_2^2 [offset; 1]; ...], as long
-/// as the root mean square.
+/// The error of a point over all poses: root * [u_1^2 [offset; 1]; u_2^2 [offset; 1]; ...], whose
+/// length is the root mean square.
 class PointCost final : public ceres::CostFunction {
  public:
   PointCost(RowMajor root, const Unknowns& unknowns)
@@ -85,14 +85,14 @@ class PointCost final : public ceres::CostFunction {
   int count_;
 };
 
-/// The difference of what two weights changed by: u_a^2 - u_b^2 + constant. -1: of a slot that it
-/// does not have.
+/// The difference between the changes of two weights: u_a^2 - u_b^2 + constant. -1: the point does
+/// not have the slot.
 struct ChangeOfSlot {
   int a = -1, b = -1;
   double constant = 0;
 };
 
-/// What neighbours are charged for moving and changing unlike each other; an old neighbour b has no
+/// The cost of two neighbours for moving and changing differently. An untorn neighbour b has no
 /// unknowns.
 class NeighbourCost final : public ceres::CostFunction {
  public:
@@ -147,14 +147,21 @@ class NeighbourCost final : public ceres::CostFunction {
   bool moves_ = false;
 };
 
-/// The points, their terms, and the least squares over all of them.
+/// What a problem refers to and does not own.
+struct Parts {
+  std::map<int, std::unique_ptr<ceres::Manifold>> spheres;  ///< By dimension.
+  std::deque<PointCost> point_costs;
+  std::deque<NeighbourCost> neighbour_costs;
+};
+
+/// The least squares problem over all points.
 class CoupledProblem {
  public:
   CoupledProblem(std::span<const PointToRefit> points, const CoupledRefitOptions& options,
                  const PoseMoments& moments);
 
   void couple(std::span<const RefitNeighbours> neighbours);
-  /// @return false where there is nothing to solve, or no solution.
+  /// @return false if there is nothing to solve, or no solution.
   [[nodiscard]] bool solve();
   void take_solution();
   [[nodiscard]] std::vector<CoupledFit> take_fits() { return std::move(fits_); }
@@ -162,7 +169,9 @@ class CoupledProblem {
  private:
   void add_point(std::size_t point);
   void add_neighbours(std::size_t a, std::uint32_t b, double of_offset, double of_change);
-  [[nodiscard]] bool factor(std::size_t point, RowMajor& root);
+  [[nodiscard]] Eigen::MatrixXd gram_of(std::size_t point) const;
+  void add_restraint(std::size_t point, Eigen::MatrixXd& gram);
+  [[nodiscard]] bool find_root(std::size_t point, RowMajor& root);
   [[nodiscard]] double weight_before(std::size_t point, std::uint32_t slot) const;
   [[nodiscard]] ceres::Manifold* sphere(int size);
 
@@ -174,15 +183,12 @@ class CoupledProblem {
   std::vector<Unknowns> unknowns_;
   std::vector<AnimationPoint::Term> terms_, difference_;
   std::vector<double> of_terms_;
-  std::vector<Eigen::Vector4d, Eigen::aligned_allocator<Eigen::Vector4d>> towards_;
-  double scale_ = 1;  ///< Of residuals: makes the sum of squares one with barycentric weights, so
-                      ///< that tolerances have a meaning.
+  /// Scale of the residuals. It makes the sum of squares one with barycentric weights, so that
+  /// tolerances have a meaning.
+  double scale_ = 1;
   bool has_unknowns_ = false;
 
-  // What the problem points at has to outlive it.
-  std::map<int, std::unique_ptr<ceres::Manifold>> spheres_;
-  std::deque<PointCost> point_costs_;
-  std::deque<NeighbourCost> neighbour_costs_;
+  Parts parts_;  ///< Declared before the problem, which refers to them.
   std::unique_ptr<ceres::Problem> problem_;
 };
 
@@ -214,14 +220,14 @@ CoupledProblem::CoupledProblem(std::span<const PointToRefit> points,
     value_count += fit.influences.size() + 3;
     if (std::isfinite(fit.barycentric_mean_square)) sum += fit.barycentric_mean_square;
   }
-  if (!(sum > kLeastSum)) return;  // Nothing to gain; all are as they were.
+  if (!(sum > kLeastSum)) return;  // nothing to gain: all points keep their fits
   scale_ = 1 / std::sqrt(sum);
   values_.reserve(value_count);
   for (std::size_t point = 0; point < points.size(); ++point) add_point(point);
 }
 
 ceres::Manifold* CoupledProblem::sphere(int size) {
-  std::unique_ptr<ceres::Manifold>& manifold = spheres_[size];
+  std::unique_ptr<ceres::Manifold>& manifold = parts_.spheres[size];
   if (manifold == nullptr) manifold = std::make_unique<ceres::SphereManifold<ceres::DYNAMIC>>(size);
   return manifold.get();
 }
@@ -235,25 +241,23 @@ double CoupledProblem::weight_before(std::size_t point, std::uint32_t slot) cons
   return weight / sum;
 }
 
-/// For bones i, j of the fit: A_i^T A_j, the mean over the poses, where A_i = [linear part of M_i,
-/// M_i s - p] for the place s where the point was and the place p that it is to follow. About
-/// those, because what matters are differences from them. Factored into root^T root, without the
-/// rows that rounding leaves.
-/// @return false where it is not finite.
-bool CoupledProblem::factor(std::size_t point, RowMajor& root) {
+/// The mean over the poses of A_i^T A_j for the bones i, j of the fit, where A_i = [linear part of
+/// M_i, M_i s - p] for the point's initial position s and the position p that it is to follow.
+/// Taken about those, because only differences from them matter.
+Eigen::MatrixXd CoupledProblem::gram_of(std::size_t point) const {
   using Vec4 = Eigen::Vector4d;
   const double per_pose = 1.0 / static_cast<double>(moments_.pose_count());
   const auto moment = [&](std::uint32_t i, std::uint32_t j) -> Eigen::Matrix4d {
     if (i <= j) return per_pose * moments_.of(i, j);
     return per_pose * moments_.of(j, i).transpose();
   };
-  weights::centre_terms(*points_[point].exact, moments_, terms_);
   Eigen::Matrix4d about_place = Eigen::Matrix4d::Identity();
   about_place.topRightCorner<3, 1>() = points_[point].position - moments_.centre();
 
   const Unknowns& unknowns = unknowns_[point];
   const int n = unknowns.count;
-  towards_.assign(static_cast<std::size_t>(n), Vec4::Zero());
+  std::vector<Vec4, Eigen::aligned_allocator<Vec4>> towards_of(static_cast<std::size_t>(n),
+                                                               Vec4::Zero());
   double target_square = 0;
   for (const auto& term : terms_) {
     Vec4 towards = Vec4::Zero();
@@ -261,15 +265,15 @@ bool CoupledProblem::factor(std::size_t point, RowMajor& root) {
       towards.noalias() += moment(term.slot, other.slot) * Vec4(other.q);
     target_square += Vec4(term.q).dot(towards);
     if (const int i = unknowns.find(term.slot); i >= 0)
-      towards_[static_cast<std::size_t>(i)].noalias() = about_place.transpose() * towards;
+      towards_of[static_cast<std::size_t>(i)].noalias() = about_place.transpose() * towards;
   }
   Eigen::MatrixXd gram(4 * n, 4 * n);
   for (int i = 0; i < n; ++i)
     for (int j = 0; j <= i; ++j) {
       Eigen::Matrix4d product =
           about_place.transpose() * moment(unknowns.slot(i), unknowns.slot(j)) * about_place;
-      product.row(3) -= towards_[static_cast<std::size_t>(j)].transpose();
-      product.col(3) -= towards_[static_cast<std::size_t>(i)];
+      product.row(3) -= towards_of[static_cast<std::size_t>(j)].transpose();
+      product.col(3) -= towards_of[static_cast<std::size_t>(i)];
       product(3, 3) += target_square;
       if (unknowns.offset == nullptr) {
         product.topRows<3>().setZero();
@@ -278,8 +282,14 @@ bool CoupledProblem::factor(std::size_t point, RowMajor& root) {
       gram.block<4, 4>(4 * i, 4 * j) = product;
       if (i != j) gram.block<4, 4>(4 * j, 4 * i) = product.transpose();
     }
-  // Weights add up to one: the offset is the mean of itself by them, and what is linear in them or
-  // constant is quadratic too. So what holds the point back can be charged bone by bone.
+  return gram;
+}
+
+/// Adds the regularisation of a point to its form. The weights sum to one, so the offset is its own
+/// mean over the bones, and terms that are linear in the weights or constant are quadratic too:
+/// the regularisation can be charged bone by bone.
+void CoupledProblem::add_restraint(std::size_t point, Eigen::MatrixXd& gram) {
+  const Unknowns& unknowns = unknowns_[point];
   const weights::Restraint restraint =
       weights::restraint_of(terms_, points_[point].position - moments_.centre(), moments_);
   weights::weights_of_terms(terms_, points_[point].barycentric, of_terms_);
@@ -290,18 +300,19 @@ bool CoupledProblem::factor(std::size_t point, RowMajor& root) {
   };
   double square_before = 0;
   for (const double weight : of_terms_) square_before += weight * weight;
-  for (int i = 0; i < n; ++i)
-    for (int j = 0; j < n; ++j) {
+  for (int i = 0; i < unknowns.count; ++i)
+    for (int j = 0; j < unknowns.count; ++j) {
       for (int axis = 0; axis < 3; ++axis)
         gram(4 * i + axis, 4 * j + axis) += restraint.of_position;
       gram(4 * i + 3, 4 * j + 3) +=
           restraint.of_weights * ((i == j ? 1.0 : 0.0) - before(i) - before(j) + square_before);
     }
-  if (!gram.allFinite()) return false;
+}
 
-  // Cholesky's factors, each time by the largest pivot that is left. What is left below the least
-  // of them is rounding.
-  root.resize(4 * n, 4 * n);
+/// Cholesky factorisation with full pivoting of a positive semi-definite form: root^T root. Stops
+/// at the first pivot that is only rounding.
+RowMajor factor(Eigen::MatrixXd gram) {
+  RowMajor root(gram.rows(), gram.cols());
   const double least = kLeastPivot * gram.diagonal().maxCoeff();
   Eigen::Index rank = 0, pivot = 0;
   while (rank < root.rows() && gram.diagonal().maxCoeff(&pivot) > least) {
@@ -309,8 +320,18 @@ bool CoupledProblem::factor(std::size_t point, RowMajor& root) {
     gram.noalias() -= root.row(rank).transpose() * root.row(rank);
     ++rank;
   }
-  root = (scale_ * root.topRows(rank)).eval();
-  return rank > 0 && root.allFinite();
+  return root.topRows(rank);
+}
+
+/// The factor of a point's form, see gram_of() and PointCost.
+/// @return false if it is not finite, or zero.
+bool CoupledProblem::find_root(std::size_t point, RowMajor& root) {
+  weights::centre_terms(*points_[point].exact, moments_, terms_);
+  Eigen::MatrixXd gram = gram_of(point);
+  add_restraint(point, gram);
+  if (!gram.allFinite()) return false;
+  root = scale_ * factor(std::move(gram));
+  return root.rows() > 0 && root.allFinite();
 }
 
 void CoupledProblem::add_point(std::size_t point) {
@@ -330,7 +351,7 @@ void CoupledProblem::add_point(std::size_t point) {
     unknowns.offset = values + unknowns.count;
   }
   RowMajor root;
-  if (unknowns.count == 0 || !factor(point, root)) {
+  if (unknowns.count == 0 || !find_root(point, root)) {
     unknowns.count = 0;
     return;
   }
@@ -341,8 +362,8 @@ void CoupledProblem::add_point(std::size_t point) {
     problem_->SetParameterBlockConstant(unknowns.roots);
   std::vector<double*> blocks = {unknowns.roots};
   if (unknowns.offset != nullptr) blocks.push_back(unknowns.offset);
-  point_costs_.emplace_back(std::move(root), unknowns);
-  problem_->AddResidualBlock(&point_costs_.back(), nullptr, blocks);
+  parts_.point_costs.emplace_back(std::move(root), unknowns);
+  problem_->AddResidualBlock(&parts_.point_costs.back(), nullptr, blocks);
   has_unknowns_ = has_unknowns_ || blocks.size() > 1 || unknowns.count > 1;
 }
 
@@ -356,7 +377,7 @@ void CoupledProblem::add_neighbours(std::size_t a, std::uint32_t b, double of_of
     const double before = weight_before(a, slot) - (b == kNone ? 0.0 : weight_before(b, slot));
     changes.push_back({in_a, in_b, -before});
   };
-  // Slots that neither has by now are a constant.
+  // Slots that neither point has any more are a constant.
   for (int i = 0; i < of_a.count; ++i) add(of_a.slot(i), i, of_b.find(of_a.slot(i)));
   for (int j = 0; j < of_b.count; ++j)
     if (of_a.find(of_b.slot(j)) < 0) add(of_b.slot(j), -1, j);
@@ -366,9 +387,9 @@ void CoupledProblem::add_neighbours(std::size_t a, std::uint32_t b, double of_of
     blocks.push_back(unknowns->roots);
     if (unknowns->offset != nullptr) blocks.push_back(unknowns->offset);
   }
-  neighbour_costs_.emplace_back(of_a, of_b, std::move(changes), scale_ * of_offset,
-                                scale_ * of_change);
-  problem_->AddResidualBlock(&neighbour_costs_.back(), nullptr, blocks);
+  parts_.neighbour_costs.emplace_back(of_a, of_b, std::move(changes), scale_ * of_offset,
+                                      scale_ * of_change);
+  problem_->AddResidualBlock(&parts_.neighbour_costs.back(), nullptr, blocks);
 }
 
 void CoupledProblem::couple(std::span<const RefitNeighbours> neighbours) {
@@ -376,11 +397,11 @@ void CoupledProblem::couple(std::span<const RefitNeighbours> neighbours) {
   const auto is_fitted = [&](std::uint32_t point) {
     return point != kNone && unknowns_[point].count > 0;
   };
-  // Old neighbours all ask the same of a point: their costs add up.
-  struct OfOld {
+  // All untorn neighbours of a point ask the same of it, so their costs add up.
+  struct UntornCost {
     double offset = 0, change = 0;
   };
-  std::vector<OfOld> of_old(points_.size());
+  std::vector<UntornCost> untorn(points_.size());
   for (const RefitNeighbours& pair : neighbours) {
     if (pair.a == pair.b) continue;
     if (is_fitted(pair.a) && is_fitted(pair.b)) {
@@ -390,14 +411,14 @@ void CoupledProblem::couple(std::span<const RefitNeighbours> neighbours) {
     }
     for (const std::uint32_t point : {pair.a, pair.b}) {
       if (!is_fitted(point)) continue;
-      of_old[point].offset += options_.smoothness;
-      of_old[point].change += options_.smoothness * pair.length * pair.length;
+      untorn[point].offset += options_.smoothness;
+      untorn[point].change += options_.smoothness * pair.length * pair.length;
     }
   }
   for (std::size_t point = 0; point < points_.size(); ++point)
-    if (of_old[point].offset > 0)
-      add_neighbours(point, kNone, std::sqrt(of_old[point].offset),
-                     std::sqrt(of_old[point].change));
+    if (untorn[point].offset > 0)
+      add_neighbours(point, kNone, std::sqrt(untorn[point].offset),
+                     std::sqrt(untorn[point].change));
 }
 
 bool CoupledProblem::solve() {
@@ -407,8 +428,8 @@ bool CoupledProblem::solve() {
   options.logging_type = ceres::SILENT;
   options.max_num_iterations = kMostSteps;
   options.function_tolerance = kLeastGain;
-  // Eigen's factors: as fast as SuiteSparse's on a band like a lip's, and no BLAS has a say in the
-  // bits.
+  // Eigen's factorisation is as fast as SuiteSparse's on a band like that of a lip, and its bits do
+  // not depend on a BLAS.
   options.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;
   options.dense_linear_algebra_library_type = ceres::EIGEN;
   options.linear_solver_type = ceres::IsSparseLinearAlgebraLibraryTypeAvailable(ceres::EIGEN_SPARSE)
@@ -450,8 +471,7 @@ Status check(std::span<const PointToRefit> points, std::span<const RefitNeighbou
              const CoupledRefitOptions& options, const PoseMoments& moments) {
   if (!std::isfinite(options.smoothness) || options.smoothness < 0)
     return Status::failure(StatusCode::invalid_argument, kNone,
-                           "the smoothness has to be finite and not less than zero, not %g",
-                           options.smoothness);
+                           "the smoothness must be finite and >= 0, not %g", options.smoothness);
   if (moments.pose_count() == 0)
     return Status::failure(StatusCode::empty_input, kNone, "the moments hold no pose");
   for (std::size_t i = 0; i < neighbours.size(); ++i) {

@@ -9,7 +9,7 @@
 namespace sunder {
 namespace {
 
-/// Who gets a unit that is left: the one that comes first in this order.
+/// Priority of a weight for one of the remaining units.
 struct Claim {
   double remainder = 0.0;
   float weight = 0.0f;
@@ -27,19 +27,18 @@ bool quantise(std::span<const Influence> influences, std::span<Integer> quantise
   constexpr std::uint32_t kUnits = std::numeric_limits<Integer>::max();
   const double sum = sum_of_weights(influences);
   if (quantised.size() != influences.size() || !(sum > 0.0)) return false;
-  // The product is exact, so this rounds once and cannot turn the order of two weights around.
+  // The product is exact, so this rounds once and preserves the order of two weights.
   const auto in_units = [&](std::size_t i) {
     return static_cast<double>(influences[i].weight) * double{kUnits} / sum;
   };
-  std::uint32_t left = kUnits;
+  std::uint32_t remaining = kUnits;
   for (std::size_t i = 0; i < influences.size(); ++i) {
     quantised[i] = static_cast<Integer>(in_units(i));
-    left -= quantised[i];
+    remaining -= quantised[i];
   }
-  // The next claim is the first of those that come after the last one: no list of them has to be
-  // kept.
+  // The next claim is the first that comes after the last one, so no list of claims has to be kept.
   std::optional<Claim> last;
-  for (; left > 0; --left) {
+  for (; remaining > 0; --remaining) {
     std::optional<Claim> next;
     for (std::size_t i = 0; i < influences.size(); ++i) {
       const double exact = in_units(i);
@@ -47,7 +46,7 @@ bool quantise(std::span<const Influence> influences, std::span<Integer> quantise
       if ((!last || last->comes_before(claim)) && (!next || claim.comes_before(*next)))
         next = claim;
     }
-    if (!next) break;  // Cannot be: fewer units are left than there are remainders.
+    if (!next) break;  // unreachable: fewer units remain than there are remainders
     ++quantised[next->position];
     last = next;
   }

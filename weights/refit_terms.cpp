@@ -5,7 +5,7 @@
 namespace sunder::weights {
 namespace {
 
-/// A weight below it is not worth an influence.
+/// Smaller weights are not stored.
 constexpr double kLeastWeight = 1e-5;
 
 }  // namespace

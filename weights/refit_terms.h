@@ -7,41 +7,41 @@
 
 namespace sunder::weights {
 
-// What a fit is held back by, so that it does not go wrong in other poses for the sake of nothing
-// in these: docs/weights.md.
+// Regularisation of a fit and the terms that both refits share; see docs/weights.md.
 
-/// By the squared scale of the bones, times how far the bind position is moved, squared.
+/// Cost of moving the bind position: this factor times the squared scale of the bones times the
+/// squared distance moved.
 constexpr double kStiffness = 0.03;
-/// By the same, and by the squared distance of the bones' own bind positions from the point's;
-/// times how much the weights are changed, squared.
+/// Cost of changing the weights: this factor times the squared scale of the bones times the squared
+/// distance of the bones' own bind positions from the point's, times the squared change.
 constexpr double kInertia = 1e-3;
 
-/// What a point is held back by.
+/// The regularisation of one point.
 struct Restraint {
-  double of_position = 0;  ///< Cost of the bind position's squared movement.
-  double of_weights = 0;   ///< Cost of the weights' squared change.
+  double of_position = 0;  ///< Cost per squared movement of the bind position.
+  double of_weights = 0;   ///< Cost per squared change of the weights.
 };
-/// @param terms     of centre_terms().
+/// @param terms     from centre_terms().
 /// @param position  about the centre too.
 [[nodiscard]] Restraint restraint_of(std::span<const AnimationPoint::Term> terms,
                                      const Eigen::Vector3d& position, const PoseMoments& moments);
 
-/// The terms of a point about the centre of the moments, as those of weights that add up to exactly
-/// one.
+/// The terms of a point about the centre of the moments, scaled so that the weights add up to
+/// exactly one.
 void centre_terms(const AnimationPoint& point, const PoseMoments& moments,
                   std::vector<AnimationPoint::Term>& terms);
 
-/// The weight that each term's slot has among the influences, whose sum becomes exactly one.
+/// The weight of each term's slot among the influences, scaled so that the weights add up to
+/// exactly one.
 void weights_of_terms(std::span<const AnimationPoint::Term> terms,
                       std::span<const Influence> influences, std::vector<double>& of_terms);
 
-/// The weights as they are stored: those that are worth an influence, sum one, largest first.
+/// The weights in their stored form: negligible ones dropped, sum one, descending.
 void store_weights(std::span<const AnimationPoint::Term> terms, std::span<const double> of_terms,
                    std::vector<Influence>& influences);
 
-/// The mean square of what these weights and bind position, which is about the centre too, are off
-/// by.
-/// @param difference  memory for it.
+/// The mean squared error of some weights and a bind position, which is about the centre too.
+/// @param difference  scratch memory.
 [[nodiscard]] double mean_square(std::span<const AnimationPoint::Term> terms,
                                  std::span<const double> of_terms, const Eigen::Vector3d& position,
                                  const PoseMoments& moments,

@@ -24,8 +24,9 @@ double SimplexSolver::value(std::span<const double> weights) const {
   return sum;
 }
 
-/// The optimum with the free weights alone, their sum one: [G 1; 1^T 0] by Cholesky's factors of G.
-/// @return false where G is not positive definite.
+/// Computes the optimum over the free weights alone, with sum one, by a Cholesky factorisation of
+/// G: the solution of [G 1; 1^T 0].
+/// @return false if G is not positive definite.
 bool SimplexSolver::solve_free(double& multiplier) {
   const std::size_t n = free_.size();
   double* const factor = factor_.data();
@@ -71,8 +72,7 @@ void SimplexSolver::solve(std::span<double> weights, const std::vector<bool>& al
     if (weights[i] > 0) free_.push_back(i);
     largest = std::max(largest, std::abs(at(i, i)));
   }
-  // A round frees one weight or fixes one; a few are needed. The limit is for what rounding might
-  // do.
+  // Each round frees or fixes one weight, so a few suffice. The limit guards against rounding.
   for (std::size_t round = 0; round < 8 * count(); ++round) {
     double multiplier = 0;
     if (free_.empty() || !solve_free(multiplier)) return;
@@ -86,7 +86,7 @@ void SimplexSolver::solve(std::span<double> weights, const std::vector<bool>& al
     std::size_t kept = 0;
     for (std::size_t i = 0; i < free_.size(); ++i) {
       double& weight = weights[free_[i]];
-      // What stops the step is zero, whatever rounding leaves of it.
+      // The weight that stops the step becomes zero, whatever rounding leaves of it.
       const bool is_stop = !(solution_[i] > 0) && weight / (weight - solution_[i]) <= step;
       weight = is_optimum ? solution_[i] : is_stop ? 0.0 : weight + step * (solution_[i] - weight);
       if (weight > 0)
@@ -96,7 +96,8 @@ void SimplexSolver::solve(std::span<double> weights, const std::vector<bool>& al
     }
     free_.resize(kept);
     if (!is_optimum) continue;
-    // Of the free ones (G w - c)_i = -multiplier; where it is less, growth gains.
+    // For the free weights (G w - c)_i = -multiplier; a weight whose value is lower gains by
+    // growing.
     std::size_t best = count();
     double least = -1e-12 * largest;
     for (std::size_t i = 0; i < count(); ++i) {

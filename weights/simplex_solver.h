@@ -6,11 +6,11 @@
 
 namespace sunder::weights {
 
-/// Finds the least of w^T G w - 2 c^T w over weights w >= 0 with sum 1. Keeps its memory from one
-/// problem to the next.
+/// Minimises w^T G w - 2 c^T w over weights w >= 0 with sum 1. Reuses its memory from one problem
+/// to the next.
 class SimplexSolver {
  public:
-  /// Begins a problem of so many weights, to be filled in.
+  /// Begins a problem of `count` weights; the caller then fills in gram() and linear().
   void resize(std::size_t count);
   [[nodiscard]] std::size_t count() const { return linear_.size(); }
   [[nodiscard]] double& gram(std::size_t i, std::size_t j) {
@@ -18,16 +18,17 @@ class SimplexSolver {
   }  ///< G: symmetric, positive definite.
   [[nodiscard]] double& linear(std::size_t i) { return linear_[i]; }  ///< c.
 
+  /// The value of the objective at `weights`.
   [[nodiscard]] double value(std::span<const double> weights) const;
 
-  /// Solves exactly, by an active set: a step to the optimum of the weights that are not zero, or
-  /// as far as the first of them that becomes zero; at the optimum the weight is freed whose growth
-  /// gains most, until none gains. Each step lowers the value, so that the result is never worse
-  /// than where it began, and the steps come to an end. Source: Nocedal, Wright, Numerical
-  /// Optimization, 2006, algorithm 16.3 [nocedal2006numerical].
+  /// Solves exactly by an active set. Each step moves to the optimum over the non-zero weights, or
+  /// stops where the first of them becomes zero; at an optimum the weight whose growth gains most
+  /// is freed, until none gains. Each step lowers the value, so the result is never worse than the
+  /// start and the iteration ends. Source: Nocedal, Wright, Numerical Optimization, 2006, algorithm
+  /// 16.3 [nocedal2006numerical].
   ///
-  /// @param weights  in: where to begin, >= 0, sum 1. Out: the optimum.
-  /// @param allowed  which of them may become more than zero.
+  /// @param weights  in: the start, >= 0, sum 1. Out: the optimum.
+  /// @param allowed  which weights may become positive.
   void solve(std::span<double> weights, const std::vector<bool>& allowed);
 
  private:
@@ -35,7 +36,7 @@ class SimplexSolver {
   [[nodiscard]] bool solve_free(double& multiplier);
 
   std::vector<double> gram_, linear_;
-  std::vector<std::size_t> free_;  ///< The weights that are not zero.
+  std::vector<std::size_t> free_;  ///< The indices of the non-zero weights.
   std::vector<double> factor_, solution_, of_ones_;
 };
 

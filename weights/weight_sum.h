@@ -7,8 +7,7 @@
 
 namespace sunder {
 
-/// The sum in double; 0 for what are no weights: none at all, negative ones, ones that are not
-/// finite.
+/// The sum in double; 0 for invalid weights: none, a negative one or one that is not finite.
 inline double sum_of_weights(std::span<const Influence> influences) {
   double sum = 0.0;
   for (const Influence& influence : influences) {

@@ -9,8 +9,8 @@
 
 namespace sunder {
 
-/// A point of a posed triangle as what moves it exactly, in every pose: p = sum_i M_i q_i, where
-/// q_i = sum_k beta_k w_ki [v_k; 1] for the corners v_k with their weights w_ki. Source: Merry,
+/// A point of a posed triangle, in the form that follows it exactly in every pose: p = sum_i M_i
+/// q_i with q_i = sum_k beta_k w_ki [v_k; 1] for the corners v_k with weights w_ki. Source: Merry,
 /// Marais, Gain, Animation space, TOG 2006 [merry2006animation].
 class AnimationPoint {
  public:
@@ -20,15 +20,15 @@ class AnimationPoint {
   };
 
   void clear() { terms_.clear(); }
-  /// Adds `part` times a vertex: its bind position, morph displacements included, and its
+  /// Adds `part` times a vertex, given by its bind position (including morph displacements) and its
   /// influences. O(terms x influences).
   SUNDER_API void add(double part, const Vec3d& position, std::span<const Influence> influences);
   /// Adds `part` times another point.
   SUNDER_API void add(double part, const AnimationPoint& point);
 
-  /// One a slot, in the order in which they came.
+  /// One term per slot, in order of first appearance.
   [[nodiscard]] std::span<const Term> terms() const { return terms_; }
-  /// Where it is in a pose. @param model_from_bind  one a slot of the skin.
+  /// The position in a pose. @param model_from_bind  one matrix per slot of the skin.
   [[nodiscard]] SUNDER_API Vec3d posed(std::span<const Affine3d> model_from_bind) const;
 
  private:

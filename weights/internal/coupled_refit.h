@@ -9,42 +9,42 @@
 
 namespace sunder {
 
-/// Two neighbours on the surface whose weights and bind positions are to change alike.
+/// Two neighbours on the surface whose weights and bind positions should change alike.
 struct RefitNeighbours {
   std::uint32_t a = 0;
-  std::uint32_t b = kNone;  ///< Another point; kNone: an old neighbour, which keeps what it has.
-  double length = 0;        ///< Of the edge between them in bind space, metres.
+  std::uint32_t b =
+      kNone;  ///< Another point; kNone: a vertex of the untorn surface, which is not fitted.
+  double length = 0;  ///< Length of their common edge in bind space, metres.
 };
 
 struct CoupledRefitOptions {
   PointRefit::Options point;
-  /// What a difference between neighbours costs, beside the mean squared distance of both: of how
-  /// far their bind positions were moved, and of how much their weights were changed times the
-  /// length of the edge between them; >= 0.
+  /// Cost of a difference between neighbours, relative to the mean squared distances. It multiplies
+  /// the squared difference of their bind position offsets, and the squared difference of their
+  /// weight changes times the edge length; >= 0.
   double smoothness = 0.01;
 };
 
-/// A point's weights and bind position after the fit.
+/// The weights and bind position of a point after the fit.
 struct CoupledFit {
-  std::vector<Influence> influences;  ///< Largest first, sum 1.
+  std::vector<Influence> influences;  ///< By descending weight, sum 1.
   Vec3d position = Vec3d::Zero();
   double mean_square = 0;              ///< As in PointRefit::Fit.
   double barycentric_mean_square = 0;  ///< Likewise.
-  bool is_better = false;              ///< Otherwise it is what it started from.
+  bool is_better = false;              ///< If false, the result is the barycentric start.
 };
 
-/// Whether this build can fit points together: it takes Ceres, which is optional (SUNDER_CERES).
+/// Whether this build can fit points together. It requires Ceres, which is optional (SUNDER_CERES).
 [[nodiscard]] SUNDER_API bool has_coupled_refit();
 
-/// Fits points one by one, and from there all of them together: least squares over their weights
-/// and bind positions, with what neighbours that differ cost (a Laplacian along the lips and
-/// towards the old neighbours). The same bits for the same input. A point that is worse off than
-/// with its barycentric weights keeps those.
+/// Fits each point alone, then all of them together: least squares over their weights and bind
+/// positions plus the costs of neighbours that differ (a Laplacian along the lips and towards the
+/// untorn surface). Deterministic. A point that ends up worse than with its barycentric weights
+/// keeps those.
 ///
-/// @return one fit a point; unsupported_feature where has_coupled_refit() is false;
-/// index_out_of_range for a neighbour that is no
-///         point; invalid_argument for a smoothness or a length that is not finite or less than
-///         zero; empty_input without poses.
+/// @return one fit per point; unsupported_feature if has_coupled_refit() is false;
+/// index_out_of_range for a neighbour that is no point; invalid_argument for a smoothness or length
+/// that is negative or not finite; empty_input without poses.
 [[nodiscard]] SUNDER_API Result<std::vector<CoupledFit>> refit_coupled(
     std::span<const PointToRefit> points, std::span<const RefitNeighbours> neighbours,
     const CoupledRefitOptions& options, const PoseMoments& moments);

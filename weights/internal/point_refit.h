@@ -8,42 +8,43 @@
 
 namespace sunder {
 
-/// What a fit starts from.
+/// The input of a fit.
 struct PointToRefit {
-  const AnimationPoint* exact = nullptr;  ///< What it is to follow.
-  Vec3d position = Vec3d::Zero();  ///< Bind position, in the middle of what it may become; morph
-                                   ///< displacements included.
-  std::span<const Influence> barycentric;  ///< The influences that it has: normalised, no more than
-                                           ///< are wanted, a slot of `exact` each.
+  const AnimationPoint* exact = nullptr;  ///< The point to follow.
+  /// Initial bind position, including morph displacements.
+  Vec3d position = Vec3d::Zero();
+  /// Initial influences: normalised, at most Options::maximum_influences, each with a slot of
+  /// `exact`.
+  std::span<const Influence> barycentric;
 };
 
-/// Weights, and a bind position, that follow a point better than its interpolated ones, over a set
-/// of poses.
+/// Fits the weights and the bind position of a point to its exact motion over a set of poses.
 ///
 /// For a fixed bind position the mean squared distance is convex in the weights: a quadratic form
-/// on the simplex, solved exactly by an active set. For fixed weights it is convex in the bind
-/// position: three linear equations. The two take turns, first over all bones that move the point;
-/// where those are more than wanted, one after the other goes, each time the one that costs least,
-/// and they take turns over those that are left.
+/// on the simplex, which an active set solves exactly. For fixed weights it is convex in the bind
+/// position: three linear equations. The fit alternates between the two over all bones of the
+/// point. If those are too many, it drops one bone after the other, each time the one whose removal
+/// costs least, and alternates again over the rest. Not thread-safe: one object per thread.
 class SUNDER_API PointRefit {
  public:
   PointRefit();
   ~PointRefit();
 
   struct Options {
-    std::size_t maximum_influences = 4;  ///< K; 0: as many as move the point.
+    std::size_t maximum_influences = 4;  ///< K; 0: all bones of the point.
     bool moves_bind = true;              ///< Whether the bind position is fitted too.
   };
   struct Fit {
-    std::span<const Influence> influences;  ///< Largest first, sum 1. Valid until the next fit.
+    std::span<const Influence>
+        influences;  ///< By descending weight, sum 1. Valid until the next fit.
     Vec3d position = Vec3d::Zero();
-    double mean_square = 0;              ///< Of the distance, square metres.
-    double barycentric_mean_square = 0;  ///< The same of what it started from.
-    bool is_better = false;              ///< Otherwise the fit is what it started from.
+    double mean_square = 0;              ///< Of the distance, in square metres.
+    double barycentric_mean_square = 0;  ///< The same for the barycentric start.
+    bool is_better = false;              ///< If false, the result is the barycentric start.
   };
 
-  /// @param moments  that were asked for the pairs of `point.exact`, and hold at least one pose.
-  /// O(bones squared) a round, a handful of rounds; no allocation once warm.
+  /// @param moments  PoseMoments::want() was called for `point.exact`; at least one pose was added.
+  ///         O(bones squared) per iteration, a handful of iterations; no allocation once warm.
   [[nodiscard]] Fit fit(const PointToRefit& point, const Options& options,
                         const PoseMoments& moments);
 

@@ -19,18 +19,22 @@ namespace skinning {
 struct Blocks;
 }
 
-/// A buffer of posed vertices, and what was last written to it.
+/// A buffer of posed vertices, and the state that was last written to it.
+///
+/// Not thread-safe: one deform() at a time per buffer. Different buffers may be written
+/// concurrently.
 class SUNDER_API PosedBuffer {
  public:
-  /// @param target  memory of the caller's, which outlives this.
+  /// @param target  memory owned by the caller; it must outlive the buffer.
   explicit PosedBuffer(const VertexTarget& target) : target_(target) {}
 
-  /// What the last deform() wrote, ascending and apart: what has to be uploaded. Where vertices are
-  /// not ordered by their bones, ranges may hold some that kept their value.
+  /// The vertices written by the last deform(), as ascending disjoint ranges: what has to be
+  /// uploaded. If the mesh gathers its vertices by bones, ranges may include vertices that did not
+  /// change.
   [[nodiscard]] std::span<const IndexRange> dirty_vertices() const { return dirty_; }
-  /// Moves the buffer, or wants other attributes. What it holds counts as lost.
+  /// Replaces the memory or the requested attributes. The next deform() writes everything.
   void set_target(const VertexTarget& target);
-  /// The same memory is of so many vertices now, after SkinnedMesh::update().
+  /// Sets the vertex count, after SkinnedMesh::update(); the memory stays the same.
   void set_vertex_count(std::uint32_t vertex_count) { target_.vertex_count = vertex_count; }
   [[nodiscard]] const VertexTarget& target() const { return target_; }
 
@@ -40,59 +44,54 @@ class SUNDER_API PosedBuffer {
   std::uint64_t palette_ = 0, palette_revision_ = 0;  // 0: nothing was written
   std::uint64_t mesh_ = 0, mesh_revision_ = 0;
   std::vector<IndexRange> dirty_;
-  std::vector<std::uint64_t> marks_;      // a bit a block
-  std::vector<std::uint64_t> displaced_;  // a bit a block: some of its vertices are; or empty
+  std::vector<std::uint64_t> marks_;  // one bit per block
+  std::vector<std::uint64_t>
+      displaced_;  // one bit per block: some of its vertices are displaced; or empty
   std::vector<IndexRange> blocks_to_write_;
 };
 
-/// A mesh arranged for skinning: blocks of 16 vertices, each with the bones that move any of them.
+/// A mesh prepared for skinning: blocks of 16 vertices, each with the bones that move any of them.
+///
+/// Const functions are reentrant. update() and reserve() must not run at the same time as any other
+/// use of the same mesh.
 class SUNDER_API SkinnedMesh {
  public:
-  /// Vertices are blocked in their own order where neighbours share bones; where they do not, they
-  /// are gathered by their bones, a few thousand at a time, and written to their places.
-  /// order_for_skinning() makes the first, faster case of the second.
-  /// @param slots  of the skin.
+  /// Vertices keep their order if neighbours share bones; otherwise up to 4,096 at a time are
+  /// gathered by their bones and scattered when written. order_for_skinning() avoids the second,
+  /// slower case.
+  /// @param source  read during the call only.
+  /// @param slots   number of slots of the skin.
   /// @return size_mismatch, index_out_of_range, non_finite_value, weights_not_normalized (by more
-  /// than a hundredth), with the
-  ///         vertex; empty_input without positions or influences; invalid_argument for strides;
-  ///         limit_exceeded above 65,536 slots.
-  ///
-  /// O(V x influences), reads the source and keeps nothing of it.
+  /// than 1 %), with the vertex; empty_input without positions or influences; invalid_argument for
+  /// strides; limit_exceeded above 65,536 slots. O(V x influences), allocates.
   [[nodiscard]] static Result<SkinnedMesh> create(const VertexSource& source, std::size_t slots);
   ~SkinnedMesh();
   SkinnedMesh(SkinnedMesh&&) noexcept;
   SkinnedMesh& operator=(SkinnedMesh&&) noexcept;
 
   [[nodiscard]] std::uint32_t vertex_count() const;
-  /// Bytes that a deform() of all vertices reads, but for the palette and morph targets.
+  /// Number of bytes that deform() reads for all vertices, without the palette and morph targets.
   [[nodiscard]] std::size_t stream_bytes() const;
 
-  /// Follows a source whose vertices from `first_changed` on are others, more or fewer: what tears
-  /// append and undo takes from the end. The source has the attributes and morph targets that it
-  /// had.
-  /// @return as create(); nothing is changed then.
-  ///
-  /// O(vertices from `first_changed` on). Allocates where reserve() did not.
+  /// Follows a source that changed from vertex `first_changed` on, as tears append vertices and
+  /// undo removes them. Attributes and morph targets must be the same as before.
+  /// @return as create(); the mesh is unchanged on failure.
+  /// O(vertices from `first_changed` on). Allocates unless reserve() made room.
   [[nodiscard]] Status update(const VertexSource& source, std::uint32_t first_changed);
-  /// Room for that many vertices more, of `influences` influences on average.
+  /// Makes room for that many more vertices, with `influences` influences each on average.
   void reserve(std::uint32_t more_vertices, std::uint32_t influences);
 
-  /// Writes to `buffer` what changed since it was last written: vertices moved by a bone or morph
-  /// target that changed, those that update() changed, and those that are displaced or were. All
-  /// bits are those of writing everything.
-  /// @param displacements  what moves vertices beside their bones; null: nothing. They are
-  /// displaced where the bones put them, not
-  ///                       where the last call left them.
-  /// @return size_mismatch where palette, mesh, buffer and displacements do not fit,
-  /// index_out_of_range with the range of moved
-  ///         vertices, invalid_argument where the palette has no pose or the mesh lacks an
-  ///         attribute that the buffer wants (nothing is written).
+  /// Writes the vertices of `buffer` that changed since it was last written: those moved by a
+  /// changed bone or morph target, those changed by update(), and those that are or were displaced.
+  /// The result has the same bits as writing everything.
+  /// @param displacements  displacements added to the posed vertices; null: none.
+  /// @return size_mismatch if palette, mesh, buffer and displacements do not fit together;
+  /// index_out_of_range with the range of displaced vertices; invalid_argument if the palette has
+  /// no pose or the mesh lacks a requested attribute. Nothing is written then.
   ///
-  /// O(vertices moved or displaced + blocks / 64); nothing moved: O(1). Allocates only when the
-  /// buffer sees a larger mesh than before, or displaced vertices for the first time. Displaced
-  /// vertices are read back from the buffer. Reentrant for different buffers. The same bits on
-  /// every CPU, at every number of threads, in every layout: no fused multiply-adds, and a vertex'
-  /// influences are summed in the order of their slots, then in that of its particles.
+  /// O(vertices moved or displaced + blocks / 64); O(1) if nothing moved. Allocates only if the
+  /// buffer sees a larger mesh, or displaced vertices, for the first time. Deterministic: the same
+  /// bits on every CPU, for any number of threads and any layout (docs/skinning.md).
   [[nodiscard]] Status deform(const BonePalette& palette, PosedBuffer& buffer,
                               const ParallelFor& parallel_for = {},
                               const VertexDisplacements* displacements = nullptr) const;
@@ -102,16 +101,15 @@ class SUNDER_API SkinnedMesh {
   std::unique_ptr<skinning::Blocks> blocks_;
 };
 
-/// An order of vertices in which neighbours are moved by the same bones, so that SkinnedMesh reads
-/// least and writes straight on; of equal bones, the order that there was. For asset pipelines,
-/// where vertices may still be renumbered.
-/// @return old_from_new. O(V log V).
+/// An order of the vertices in which neighbours are moved by the same bones, for asset pipelines
+/// that may still renumber vertices. Stable among vertices with the same bones.
+/// @return old_from_new. O(V log V), allocates. Reentrant.
 [[nodiscard]] SUNDER_API std::vector<std::uint32_t> order_for_skinning(const Mesh& mesh);
 
-/// Renumbers the vertices of a mesh: every attribute, the weights, morph targets, and the corners
-/// of triangles.
+/// Renumbers the vertices of a mesh: all attributes, weights, morph targets, and triangles.
 /// @param old_from_new  each vertex once.
-/// @return size_mismatch or index_out_of_range (nothing is changed). O(size of the mesh).
+/// @return size_mismatch or index_out_of_range (the mesh is unchanged). O(size of the mesh),
+/// allocates.
 [[nodiscard]] SUNDER_API Status reorder_vertices(Mesh& mesh,
                                                  std::span<const std::uint32_t> old_from_new);
 

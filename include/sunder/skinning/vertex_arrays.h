@@ -12,18 +12,18 @@
 
 namespace sunder {
 
-/// An attribute of floats in someone's memory, packed or between other attributes. No data: the
-/// attribute is not there.
+/// A float attribute in memory of the caller, packed or interleaved. data == nullptr: the attribute
+/// is absent.
 template <class Float>
 struct StridedFloats {
   Float* data = nullptr;
   std::size_t stride = 0;  ///< Bytes from one vertex to the next, a multiple of 4; 0: packed.
 };
 
-/// Influences as engines keep them: the same number of places a vertex; a place with weight 0 is
-/// empty.
+/// Influences in the layout of engines: a fixed number of entries per vertex; an entry with weight
+/// 0 is unused.
 struct InfluenceArrays {
-  std::size_t per_vertex = 0;                ///< Places a vertex.
+  std::size_t per_vertex = 0;                ///< Number of entries per vertex.
   const std::uint16_t* slots = nullptr;      ///< V x per_vertex.
   std::size_t slot_stride = 0;               ///< Bytes from one vertex to the next; 0: packed.
   const float* weights = nullptr;            ///< V x per_vertex; or
@@ -31,10 +31,10 @@ struct InfluenceArrays {
   std::size_t weight_stride = 0;             ///< Bytes from one vertex to the next; 0: packed.
 };
 
-/// Vertices with a bind position of their own for each influence: p = sum_i M_i q_i follows a point
-/// of a triangle exactly, in every pose, where q_i = sum_k beta_k w_ki [v_k; 1] for the triangle's
-/// corners v_k. (The last component of q_i is the weight of influence i, which the weights of the
-/// mesh hold.) Arrays other than `vertices` and `positions` are empty where there is nothing.
+/// Vertices with a separate bind position per influence: p = sum_i M_i q_i with q_i = sum_k beta_k
+/// w_ki [v_k; 1] for the corners v_k of a triangle. This follows a point of the triangle exactly in
+/// every pose. The last component of q_i is the weight of influence i, which the weights of the
+/// mesh hold. Attributes that the mesh lacks are empty arrays.
 /// Source: Merry, Marais, Gain, Animation space, TOG 2006 [merry2006animation].
 struct InfluencePositions {
   struct Deltas {
@@ -42,28 +42,28 @@ struct InfluencePositions {
   };
 
   std::vector<std::uint32_t> vertices;  ///< Ascending.
-  std::vector<Vec3f> positions;  ///< One an influence of those vertices, back to back, in the order
-                                 ///< of their weights.
-  std::vector<Vec3f> normals;    ///< As `positions`: sum_k beta_k w_ki n_k.
-  std::vector<Vec3f> tangents;   ///< As `positions`.
-  std::vector<Deltas>
-      morph_targets;  ///< One a morph target of the mesh: the same sums of its displacements.
+  /// One per influence of those vertices, consecutive, in the order of their weights.
+  std::vector<Vec3f> positions;
+  std::vector<Vec3f> normals;   ///< As `positions`: sum_k beta_k w_ki n_k.
+  std::vector<Vec3f> tangents;  ///< As `positions`.
+  /// One per morph target of the mesh: the same sums of its displacements.
+  std::vector<Deltas> morph_targets;
 };
 
-/// What SkinnedMesh reads of a mesh, once.
+/// The input of SkinnedMesh, read during calls only.
 struct VertexSource {
   std::uint32_t vertex_count = 0;        ///< V.
   StridedFloats<const float> positions;  ///< x y z.
-  StridedFloats<const float> normals;    ///< x y z, unit length, or not there.
-  StridedFloats<const float> tangents;   ///< x y z w, or not there.
-  const SkinWeights* weights = nullptr;  ///< V; or
-  InfluenceArrays influences;            ///< the same in arrays.
+  StridedFloats<const float> normals;    ///< x y z, unit length; or absent.
+  StridedFloats<const float> tangents;   ///< x y z w; or absent.
+  const SkinWeights* weights = nullptr;  ///< Of V vertices; or
+  InfluenceArrays influences;            ///< the same as arrays.
   std::span<const MorphTarget> morph_targets;
-  std::uint32_t first_morph_weight = 0;               ///< Weight of target 0 in the pose.
-  const InfluencePositions* per_influence = nullptr;  ///< Only beside `weights`.
+  std::uint32_t first_morph_weight = 0;  ///< Index of the weight of target 0 in the pose.
+  const InfluencePositions* per_influence = nullptr;  ///< Requires `weights`.
 };
 
-/// A mesh as it is.
+/// The vertices of a mesh, in place.
 [[nodiscard]] inline VertexSource source_of(const Mesh& mesh) {
   VertexSource source;
   source.vertex_count = mesh.vertex_count();
@@ -76,55 +76,55 @@ struct VertexSource {
   return source;
 }
 
-/// Where posed vertices go. An attribute without data is not computed.
+/// The output of SkinnedMesh. Attributes without data are not computed.
 struct VertexTarget {
   std::uint32_t vertex_count = 0;
   StridedFloats<float> positions;  ///< x y z.
   StridedFloats<float> normals;    ///< x y z.
   StridedFloats<float> tangents;   ///< x y z w.
-  /// Whether normals and tangents get unit length. Otherwise they keep the length that blending
-  /// gives them, which is at most that of the largest scale: a shader that normalises them anyway
-  /// need not pay twice.
+  /// Whether normals and tangents are scaled to unit length. Otherwise they keep the length that
+  /// blending gives them, at most that of the largest scale, so that a shader that normalises them
+  /// anyway does not pay twice.
   bool unit_length = false;
 };
 
-/// What moves a point beside its bones: a row of a vertex buffer. Weights are >= 0 and sum to one,
-/// or are all 0 for a point that nothing moves.
+/// How particles displace a point: a row of a vertex buffer. Weights are >= 0 and sum to one, or
+/// are all 0 for a point that nothing displaces.
 struct ParticleInfluences {
   std::array<std::uint32_t, 4> particles = {};
-  std::array<float, 4> weights = {};  ///< Descending; 0 where there are fewer particles.
+  std::array<float, 4> weights = {};  ///< Descending; 0 for unused entries.
 
   bool operator==(const ParticleInfluences&) const = default;
 };
 
-/// How the four weights of a ParticleInfluences change along the surface.
+/// The gradients of the four weights of a ParticleInfluences along the surface.
 struct ParticleGradients {
-  /// In the surface's tangent plane, in the pose that they were taken in and its space; 1 / metre.
-  /// 0 where the weight is.
+  /// In the surface's tangent plane, in the pose and space in which they were taken; 1 / metre. 0
+  /// for unused entries.
   std::array<Vec3f, 4> of_weights = {Vec3f::Zero(), Vec3f::Zero(), Vec3f::Zero(), Vec3f::Zero()};
 };
 
-/// What moves vertices beside their bones, this time: SkinnedMesh::deform() puts a vertex at p +
-/// sum_k w_k U_k, where the bones put it at p. *Posed space* is that of posed vertices: of the
-/// model, or of the frame that BonePalette::set() was given.
+/// Displacements added to posed vertices: SkinnedMesh::deform() moves a vertex from p, where the
+/// bones put it, to p + sum_k w_k U_k. *Posed space* is model space, or the frame given to
+/// BonePalette::set().
 ///
-/// With gradients, normals and tangents follow, exactly to first order in U: n - sum_k (n . U_k)
-/// g_k and t + sum_k (g_k . t) U_k, at the lengths that the bones gave them, or unit length where
-/// the buffer wants it; the w of tangents is kept. g_k is the stored gradient by the mean, by
-/// weights, of the particles' `model_from_gradient`.
+/// With gradients, normals and tangents follow to first order in U: n - sum_k (n . U_k) g_k and t +
+/// sum_k (g_k . t) U_k, at their previous length, or unit length if the buffer requests it; the w
+/// of tangents is kept. g_k is the stored gradient times the weighted mean of the particles'
+/// `model_from_gradient`.
 struct VertexDisplacements {
-  std::span<const std::uint32_t>
-      vertex_rows;  ///< One a vertex: its row; kNone, or none of the rows: nothing displaces it.
-  std::span<const ParticleInfluences>
-      influences;  ///< Rows, e.g. one a surface point. Particles are unchecked, also of weights 0.
-  std::span<const Vec4f>
-      displacements;                  ///< U, one a particle: x y z 0, posed space, metres, finite.
-  std::span<const IndexRange> moved;  ///< Vertices that are displaced: ascending, none twice.
-                                      ///< Others are where bones put them.
-  std::span<const ParticleGradients>
-      gradients;  ///< One a row; or empty: normals and tangents are as the bones turn them.
-  std::span<const Mat3f> model_from_gradient;  ///< One a particle, where there are gradients: turns
-                                               ///< them into posed space.
+  /// One per vertex: its row. kNone, or any index that is not a row: not displaced.
+  std::span<const std::uint32_t> vertex_rows;
+  /// Rows, for example one per surface point. Particle indices are unchecked, also of weights 0.
+  std::span<const ParticleInfluences> influences;
+  /// U, one per particle: x y z 0, posed space, metres, finite.
+  std::span<const Vec4f> displacements;
+  /// The displaced vertices: ascending, disjoint. All others stay where the bones put them.
+  std::span<const IndexRange> moved;
+  /// One per row; or empty: normals and tangents are not displaced.
+  std::span<const ParticleGradients> gradients;
+  /// One per particle, if there are gradients: transforms them into posed space.
+  std::span<const Mat3f> model_from_gradient;
 };
 
 }  // namespace sunder

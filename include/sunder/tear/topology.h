@@ -4,12 +4,12 @@
 
 namespace sunder {
 
-/// Shape of a character's surface, all meshes together, counted on surface points: vertices that
-/// agree in position, weights, morph displacements and tear side are one point, so UV seams, hard
-/// edges and material borders do not count as borders. Retired triangles count as if they were not
-/// there, and so do points that no other triangle uses.
+/// Shape of a character's surface, all meshes together. Counts refer to surface points: vertices
+/// with equal position, weights, morph displacements and tear side are one point, so UV seams, hard
+/// edges and material borders are not borders. Retired triangles, and points without other
+/// triangles, are not counted.
 struct TopologyCounts {
-  std::uint32_t vertices = 0;  ///< As in the arrays, whether or not a triangle uses them.
+  std::uint32_t vertices = 0;  ///< All entries of the arrays, used or not.
   std::uint32_t points =
       0;  ///< Of triangles. TornModel::point_count() counts those that lost their triangles too.
   std::uint32_t triangles = 0;
@@ -18,11 +18,12 @@ struct TopologyCounts {
   std::uint32_t non_manifold_edges =
       0;  ///< With more than two faces, or with two that disagree in winding.
   std::uint32_t boundary_loops = 0;
-  std::uint32_t components = 0;            ///< Sets of triangles connected across edges.
-  std::uint32_t degenerate_triangles = 0;  ///< A repeated point, or no area in bind space.
+  std::uint32_t components = 0;  ///< Sets of triangles connected across edges.
+  std::uint32_t degenerate_triangles =
+      0;  ///< With a repeated point, or without area in bind space.
 };
 
-/// Counts afresh from the arrays alone. O(vertices + triangles).
+/// Counts from the arrays alone. O(vertices + triangles), allocates. Reentrant.
 [[nodiscard]] SUNDER_API TopologyCounts count_topology(const Character& character);
 
 }  // namespace sunder
