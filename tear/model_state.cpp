@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "tear/pieces/pieces.h"
-#include "tear/weights/weigh.h"
+#include "tear/weights/assign_weights.h"
 
 namespace sunder {
 
@@ -48,7 +48,7 @@ void TornModel::State::begin_call() {
 }
 
 void TornModel::State::end_call(Call& call, const WeightOptions& of_points, ChangeRecord* change, bool is_cut) {
-  tear::weigh_new_points(begin_of_call_, of_points, posed.palettes(), posed.morph_weights(), editor, call.report.weights);
+  tear::assign_new_weights(begin_of_call_, of_points, posed.pose(), editor, call.report.weights);
   count(begin_of_call_, is_cut, call.report);
   if (change != nullptr) {
     editor.describe(begin_of_call_, *change);

@@ -10,8 +10,8 @@
 #include "tear/posed/workpiece.h"
 #include "tear/surface/capacity_exceeded.h"
 #include "tear/surface/surface_editor.h"
-#include "tear/weights/refit_work.h"
-#include "tear/weights/weigh.h"
+#include "tear/weights/refit_task.h"
+#include "tear/weights/assign_weights.h"
 
 namespace sunder {
 
@@ -73,7 +73,7 @@ struct TornModel::State {
   /// The vertices that these operations appended.
   [[nodiscard]] tear::VertexRanges vertices_of(const WeightsOperation& resolved) const;
   /// Gives points other weights, as an operation of its own.
-  [[nodiscard]] Status reweigh(const WeightsOperation& resolved, const tear::Weighing& weighing, ChangeRecord* change);
+  [[nodiscard]] Status reweigh(const WeightsOperation& resolved, const tear::WeightAssignment& assignment, ChangeRecord* change);
 
   /// To be called when an operation was undone.
   void cancel_refits_of(std::uint64_t serial) const;
@@ -90,7 +90,7 @@ struct TornModel::State {
   bool has_stroke = false;
   tear::StrokeTearing tearing;  ///< The stroke under way, or the last one.
   tear::History history;
-  std::vector<std::weak_ptr<tear::RefitWork>> refits;  ///< That were submitted.
+  std::vector<std::weak_ptr<tear::RefitTask>> refits;  ///< That were submitted.
   /// Of the source in the rest pose: the first time it is asked for, O(vertices). May be asked for by several threads.
   [[nodiscard]] double rest_diagonal() const;
 

@@ -38,7 +38,7 @@ Mat3d Filling::blended(Index mesh, Index vertex) const {
   Mat3d linear = Mat3d::Zero();
   for (const Influence& influence : work_.editor.born_influences(mesh, vertex))
     linear += static_cast<double>(influence.weight) *
-              work_.posed.palette(of.skin)[influence.slot].linear();
+              work_.posed.pose().palette(of.skin)[influence.slot].linear();
   return linear;
 }
 
@@ -50,7 +50,7 @@ void Filling::shade(Index mesh, Index vertex, const Vec3d& normal, const Vec3d& 
   for (const Influence& influence : work_.editor.born_influences(mesh, vertex))
     posed_from_bind_of_normals +=
         static_cast<double>(influence.weight) *
-        compute_normal_matrix(work_.posed.palette(of.skin)[influence.slot].linear());
+        compute_normal_matrix(work_.posed.pose().palette(of.skin)[influence.slot].linear());
   Vec3d bind_normal = to_bind(posed_from_bind_of_normals, normal, normal);
   bind_normal = bind_normal.norm() > 1e-30 ? Vec3d(bind_normal / bind_normal.norm()) : normal;
   Vec3d bind_tangent = to_bind(posed_from_bind, tangent, tangent);

@@ -20,7 +20,7 @@ void PatchForest::stand_in(const SurfaceEditor& editor, const CharacterPose& pos
   if (frame.axes != frame_.axes || frame.origin != frame_.origin) forget_pose();
   frame_ = frame;
   for (std::size_t skin = 0; skin < bones_.size(); ++skin)
-    bones_[skin].stand_in(pose.palettes[skin], frame, epoch_);
+    bones_[skin].stand_in(pose.palette(skin), frame, epoch_);
 }
 
 std::size_t PatchForest::tree_count() const {

@@ -3,16 +3,11 @@
 #include <limits>
 #include <type_traits>
 
+#include "skinning/internal/character_pose.h"
 #include "tear/posed/patch_tree.h"
 #include "tear/surface/surface_editor.h"
 
 namespace sunder::tear {
-
-/// What the meshes of a character are posed by.
-struct CharacterPose {
-  std::span<const std::vector<Affine3d>> palettes;  ///< Of each skin.
-  std::span<const float> morph_weights;
-};
 
 /// Finds faces of the posed surface without posing it: trees of patches over the origins of all
 /// meshes. A tear changes none of them, since the parts of an origin lie within it. Built at the
@@ -60,7 +55,7 @@ class PatchForest {
   void stand_in(const SurfaceEditor& editor, const CharacterPose& pose, const Frame& frame);
   [[nodiscard]] MeshPose pose_of(const Mesh& mesh, const CharacterPose& pose) {
     return {bones_[mesh.skin],
-            pose.morph_weights.subspan(mesh.first_morph_weight, mesh.morph_targets.size())};
+            pose.morph_weights().subspan(mesh.first_morph_weight, mesh.morph_targets.size())};
   }
   [[nodiscard]] std::uint32_t epoch() const { return epoch_; }
 

@@ -1,45 +1,12 @@
 #include "tear/posed/posed_points.h"
 
-#include <sunder/skinning/deform.h>
-
-#include <cmath>
-
 #include "core/internal/prefetch.h"
-#include "skinning/internal/reference.h"
 #include "tear/internal/surface.h"
 
 namespace sunder::tear {
-Status PosedPoints::check(const Character& character, const ModelPose& pose) {
-  const std::size_t bone_count = character.skeleton.bones.size();
-  if (pose.model_from_bone.size() != bone_count)
-    return Status::failure(StatusCode::size_mismatch, kNone,
-                           "pose has %zu bones, the character %zu", pose.model_from_bone.size(),
-                           bone_count);
-  if (pose.morph_weights.size() != character.rest_morph_weights.size())
-    return Status::failure(StatusCode::size_mismatch, kNone,
-                           "pose has %zu morph weights, the character %zu",
-                           pose.morph_weights.size(), character.rest_morph_weights.size());
-  for (Index bone = 0; bone < bone_count; ++bone)
-    if (!pose.model_from_bone[bone].matrix().allFinite())
-      return Status::failure(StatusCode::non_finite_value, bone,
-                             "pose: the matrix of bone %u '%.80s' is not finite", bone,
-                             character.skeleton.bones[bone].name.c_str());
-  for (Index i = 0; i < pose.morph_weights.size(); ++i)
-    if (!std::isfinite(pose.morph_weights[i]))
-      return Status::failure(StatusCode::non_finite_value, i, "pose: morph weight %u is not finite",
-                             i);
-  return {};
-}
 
 Status PosedPoints::begin(const Character& character, const ModelPose& pose) {
-  if (Status status = check(character, pose); !status) return status;
-  palettes_.resize(character.skins.size());
-  for (Index skin = 0; skin < character.skins.size(); ++skin) {
-    palettes_[skin].resize(character.skins[skin].bones.size());
-    if (Status status = compute_palette(character.skins[skin], pose, palettes_[skin]); !status)
-      return status;
-  }
-  morph_weights_ = pose.morph_weights;
+  if (Status status = pose_.set(character, pose); !status) return status;
   forest_.forget_pose();
   if (++epoch_ == 0) {  // once in four thousand million poses
     for (Known& known : known_) known.since = 0;
@@ -51,8 +18,7 @@ Status PosedPoints::begin(const Character& character, const ModelPose& pose) {
 Frame PosedPoints::frame_along(const Mat3d& axes, const SurfaceEditor& editor) const {
   for (const Mesh& mesh : editor.source().meshes) {
     if (mesh.triangles.empty()) continue;
-    const Vec3d place =
-        deform_position_reference(mesh, mesh.triangles[0][0], palettes_[mesh.skin], morph_weights_);
+    const Vec3d place = pose_.position(mesh, mesh.triangles[0][0]);
     if (place.allFinite()) return {axes, place};
   }
   return {axes, Vec3d::Zero()};
@@ -63,9 +29,8 @@ const Vec3d& PosedPoints::look_up(const SurfaceEditor& editor, Index point) {
   const Index corner = editor.surface().point_corner[point];
   const Mesh& mesh = editor.character().meshes[editor.surface().triangle(corner / 3).mesh];
   const Index of = editor.surface().triangle(corner / 3).mesh, vertex = editor.vertex_at(corner);
-  known_[point] = {deform_position_reference(mesh, vertex, editor.born_position(of, vertex),
-                                             editor.born_influences(of, vertex),
-                                             palettes_[mesh.skin], morph_weights_),
+  known_[point] = {pose_.position(mesh, vertex, editor.born_position(of, vertex),
+                                  editor.born_influences(of, vertex)),
                    epoch_};
   return known_[point].position;
 }

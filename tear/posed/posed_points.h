@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "skinning/internal/character_pose.h"
 #include "tear/posed/patch_forest.h"
 #include "tear/surface/surface_editor.h"
 
@@ -16,9 +17,7 @@ namespace sunder::tear {
 /// one stroke is torn on one surface; later operations see them where their weights put them.
 class PosedPoints {
  public:
-  /// @return size_mismatch or non_finite_value where the pose does not fit the character.
-  [[nodiscard]] static Status check(const Character& character, const ModelPose& pose);
-  /// check(), then forgets all points.
+  /// Sets the pose and forgets all points. @return as CharacterPose::set().
   [[nodiscard]] Status begin(const Character& character, const ModelPose& pose);
 
   /// The reference is good until the surface has more points than were covered.
@@ -40,9 +39,7 @@ class PosedPoints {
   /// Keeps a point where it was found on the posed surface, instead of where its own weights put
   /// it.
   void pin(Index point, const Vec3d& position);
-  [[nodiscard]] const std::vector<Affine3d>& palette(Index skin) const { return palettes_[skin]; }
-  [[nodiscard]] std::span<const std::vector<Affine3d>> palettes() const { return palettes_; }
-  [[nodiscard]] const std::vector<float>& morph_weights() const { return morph_weights_; }
+  [[nodiscard]] const CharacterPose& pose() const { return pose_; }
 
   /// Along some axes, from a place near the surface.
   [[nodiscard]] Frame frame_along(const Mat3d& axes, const SurfaceEditor& editor) const;
@@ -52,7 +49,7 @@ class PosedPoints {
     const auto expect = [&](Index mesh, std::span<const Index> origins) {
       fetch(editor, mesh, origins);
     };
-    forest_.visit_faces(editor, {palettes_, morph_weights_}, frame, bound, expect, visit);
+    forest_.visit_faces(editor, pose_, frame, bound, expect, visit);
   }
   /// Calls visit(face) for the live faces of the patches whose boxes may_hold(box) lets through, in
   /// no order that means anything.
@@ -84,14 +81,13 @@ class PosedPoints {
   /// them. @param origins  of a patch.
   void fetch(const SurfaceEditor& editor, Index mesh, std::span<const Index> origins) const;
 
-  std::vector<std::vector<Affine3d>> palettes_;  ///< Of each skin.
-  std::vector<float> morph_weights_;
   struct Known {
     Vec3d position = Vec3d::Zero();
     std::uint32_t since = 0;  ///< Epoch in which it was computed or pinned.
   };
   [[nodiscard]] const Vec3d& look_up(const SurfaceEditor& editor, Index point);
 
+  CharacterPose pose_;
   std::vector<Known> known_;
   std::uint32_t epoch_ = 0;  ///< Of the pose: a new one forgets all positions at once.
   PatchForest forest_;

@@ -184,9 +184,7 @@ std::vector<std::string> broken_bounds(Torn& torn, Random& random) {
   std::vector<std::string> broken;
   PatchForest& forest = torn.posed.forest();
   const Frame frame = torn.posed.frame_along(axes_along(random.direction(), random.direction()), torn.editor);
-  std::vector<std::vector<Affine3d>> palettes;
-  for (Index skin = 0; skin < torn.source.skins.size(); ++skin) palettes.push_back(torn.posed.palette(skin));
-  const CharacterPose pose{palettes, torn.posed.morph_weights()};
+  const CharacterPose& pose = torn.posed.pose();
   std::vector<int> found(torn.editor.surface().triangle_count(), 0);
   std::vector<Mesh> meshes = torn.character.meshes;
   forest.stand_in(torn.editor, pose, frame);
@@ -204,7 +202,7 @@ std::vector<std::string> broken_bounds(Torn& torn, Random& random) {
         for (Index level = 0, number = group; level < tree.level_count(); ++level, number /= PatchTree::kFanOut)
           boxes.push_back(tree.posed_box(level, number, mesh_pose, forest.epoch()));
         const auto check = [&](Index vertex, Index face) {
-          const Vec3d at = frame.place_of(deform_position_reference(mesh, vertex, palettes[mesh.skin], torn.posed.morph_weights()));
+          const Vec3d at = frame.place_of(pose.position(mesh, vertex));
           for (std::size_t box = 0; box < boxes.size(); ++box)
             if (!holds(boxes[box], at)) broken.push_back(test::say("face ", face, " outside of its box ", box));
           if (!holds(shadows[i], at)) broken.push_back(test::say("face ", face, " outside of its shadow"));
@@ -444,8 +442,7 @@ TEST(PatchForest, bounds_a_bent_tube_closely) {
   for (const double angle : {0.05, 0.2}) {
     torn.stand_in(test::random_pose(torn.source, random, angle, 1.05));
     const auto positions = test::posed_positions(torn.source, 0, torn.pose);
-    std::vector<std::vector<Affine3d>> palettes = {torn.posed.palette(0)};
-    const CharacterPose pose{palettes, torn.posed.morph_weights()};
+    const CharacterPose& pose = torn.posed.pose();
     PatchForest& forest = torn.posed.forest();
     forest.stand_in(torn.editor, pose, torn.posed.frame_along(Mat3d::Identity(), torn.editor));
     PatchTree& tree = forest.trees(torn.editor)[0]->tree;

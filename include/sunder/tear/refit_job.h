@@ -7,7 +7,7 @@
 namespace sunder {
 
 namespace tear {
-struct RefitWork;
+struct RefitTask;
 }
 
 /// A refit of the weights of torn points that runs in the background:
@@ -44,8 +44,8 @@ class SUNDER_API RefitJob {
   Result<WeightReport> swap_in(TornModel& model, ChangeRecord* change = nullptr) const;
 
  private:
-  explicit RefitJob(std::shared_ptr<tear::RefitWork> work);
-  std::shared_ptr<tear::RefitWork> work_;
+  explicit RefitJob(std::shared_ptr<tear::RefitTask> task);
+  std::shared_ptr<tear::RefitTask> task_;
 };
 
 }  // namespace sunder

@@ -1,4 +1,4 @@
-#include "tear/weights/refit_work.h"
+#include "tear/weights/refit_task.h"
 
 #include <sunder/skinning/deform.h>
 
@@ -13,23 +13,23 @@
 namespace sunder::tear {
 namespace {
 
-/// Edges between points of a weighing, and from them to vertices that stay, each once.
-std::vector<RefitNeighbours> find_neighbours(const Weighing& weighing,
+/// The edges between the points, and from them to vertices of the untorn surface, each once.
+std::vector<RefitNeighbours> find_neighbours(const WeightAssignment& assignment,
                                              const SurfaceEditor::Mark& begin,
                                              const SurfaceEditor& editor) {
   const auto number_of = [&](const SurfaceEditor::VertexRef& vertex) {
-    const auto at = std::lower_bound(weighing.points.begin(), weighing.points.end(), vertex,
-                                     [](const WeighedPoint& a, const auto& b) {
+    const auto at = std::lower_bound(assignment.points.begin(), assignment.points.end(), vertex,
+                                     [](const PointWeights& a, const auto& b) {
                                        return std::tie(a.vertex.mesh, a.vertex.vertex) <
                                               std::tie(b.mesh, b.vertex);
                                      });
-    return at != weighing.points.end() && at->vertex == vertex
-               ? static_cast<Index>(at - weighing.points.begin())
+    return at != assignment.points.end() && at->vertex == vertex
+               ? static_cast<Index>(at - assignment.points.begin())
                : kNone;
   };
   struct Edge {
     Index a, b;
-    SurfaceEditor::VertexRef end;  // the other one, if it is none of the points
+    SurfaceEditor::VertexRef end;  // the untorn end, if there is one
     double length;
     [[nodiscard]] auto key() const { return std::tuple(a, b, end.mesh, end.vertex); }
   };
@@ -52,7 +52,7 @@ std::vector<RefitNeighbours> find_neighbours(const Weighing& weighing,
       edges.push_back({a, b, end, length});
     }
   };
-  // Whoever has a vertex that was appended since was appended or changed since.
+  // Every face with a vertex that was appended since was itself appended or changed since.
   editor.for_each_changed(begin, add_edges);
   for (Index face = begin.triangles; face < editor.surface().triangle_count(); ++face)
     add_edges(face);
@@ -69,14 +69,15 @@ std::vector<RefitNeighbours> find_neighbours(const Weighing& weighing,
 
 }  // namespace
 
-RefitWork::RefitWork(std::shared_ptr<const Character> from, WeightsOperation wanted, PoseSet over,
-                     Weighing begin, const SurfaceEditor::Mark& since, const SurfaceEditor& editor)
+RefitTask::RefitTask(std::shared_ptr<const Character> from, WeightsOperation wanted, PoseSet over,
+                     WeightAssignment begin, const SurfaceEditor::Mark& since,
+                     const SurfaceEditor& editor)
     : source(std::move(from)),
       operation(std::move(wanted)),
       poses(std::move(over)),
-      weighing(std::move(begin)) {
-  points.reserve(weighing.points.size());
-  for (const WeighedPoint& of : weighing.points) {
+      assignment(std::move(begin)) {
+  points.reserve(assignment.points.size());
+  for (const PointWeights& of : assignment.points) {
     const Mesh& mesh = editor.character().meshes[of.vertex.mesh];
     Point& point = points.emplace_back();
     editor.describe_exactly(of.vertex, source->rest_morph_weights, point.exact);
@@ -84,10 +85,10 @@ RefitWork::RefitWork(std::shared_ptr<const Character> from, WeightsOperation wan
     point.morph = morph_displacement(mesh, of.vertex.vertex, source->rest_morph_weights);
     point.position = Vec3d(of.position.cast<double>()) + point.morph;
   }
-  if (operation.refit.is_coupled) neighbours = find_neighbours(weighing, since, editor);
+  if (operation.refit.is_coupled) neighbours = find_neighbours(assignment, since, editor);
 }
 
-void RefitWork::run() {
+void RefitTask::run() {
   using State = RefitJob::State;
   State expected = State::waiting;
   if (!state.compare_exchange_strong(expected, State::running)) return;
@@ -96,7 +97,7 @@ void RefitWork::run() {
       if (std::any_of(points.begin(), points.end(),
                       [&](const Point& point) { return point.skin == skin; }))
         failure = fit(skin);
-    weighing.influences.swap(fitted_);
+    assignment.influences.swap(fitted_);
   } catch (const std::bad_alloc&) {
     failure = Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
   }
@@ -106,7 +107,7 @@ void RefitWork::run() {
                                                        : State::failed);
 }
 
-void RefitWork::cancel() {
+void RefitTask::cancel() {
   using State = RefitJob::State;
   is_cancelled = true;
   for (State from : {State::waiting, State::running, State::done})
@@ -114,15 +115,15 @@ void RefitWork::cancel() {
 }
 
 template <class Fit>
-void RefitWork::take(std::size_t i, const Fit& fit) {
-  // Better by more than what it may lose when it is stored: a rounding of each coordinate, and of
-  // the weights.
+void RefitTask::take(std::size_t i, const Fit& fit) {
+  // The fit must be better by more than it may lose when it is stored: the rounding of coordinates
+  // and weights.
   constexpr double kStored = 1.5e-7;
   const bool is_taken =
       fit.is_better && std::sqrt(fit.mean_square) + kStored * fit.position.norm() <
                            std::sqrt(fit.barycentric_mean_square);
-  WeighedPoint& point = weighing.points[i];
-  const auto kept = std::span<const Influence>(weighing.influences)
+  PointWeights& point = assignment.points[i];
+  const auto kept = std::span<const Influence>(assignment.influences)
                         .subspan(point.first_influence, point.influence_count);
   const std::span<const Influence> influences =
       is_taken ? std::span<const Influence>(fit.influences) : kept;
@@ -134,58 +135,67 @@ void RefitWork::take(std::size_t i, const Fit& fit) {
   report.refitted += is_taken ? 1 : 0;
 }
 
-Status RefitWork::fit(Index skin) {
-  const auto is_of_skin = [&](const Point& point) { return point.skin == skin; };
+Status RefitTask::fit(Index skin) {
   std::vector<std::size_t> of_skin;
   Vec3d centre = Vec3d::Zero();
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!is_of_skin(points[i])) continue;
+    if (points[i].skin != skin) continue;
     of_skin.push_back(i);
     centre += points[i].position;
   }
   centre /= static_cast<double>(of_skin.size());
   PoseMoments moments(source->skins[skin].bones.size(), centre);
   for (const std::size_t i : of_skin) moments.want(points[i].exact);
+  if (Status status = add_poses(skin, moments); !status) return status;
+  if (is_cancelled) return {};
+  if (operation.refit.is_coupled) return fit_together(of_skin, moments);
+  PointRefit refit;
+  for (const std::size_t i : of_skin) {
+    if (is_cancelled) return {};
+    take(i, refit.fit(to_refit(i), options(), moments));
+  }
+  return {};
+}
+
+/// Adds the poses to fit over. Stops early if the task is cancelled.
+Status RefitTask::add_poses(Index skin, PoseMoments& moments) const {
   std::vector<Affine3d> palette(source->skins[skin].bones.size());
   ModelPose pose;
-  for (std::size_t i = 0; i < poses.size(PoseSet::Role::fit); ++i) {
-    if (is_cancelled) return {};
+  for (std::size_t i = 0; i < poses.size(PoseSet::Role::fit) && !is_cancelled; ++i) {
     poses.compute(PoseSet::Role::fit, i, pose);
     if (Status status = compute_palette(source->skins[skin], pose, palette); !status) return status;
     moments.add(palette);
   }
-  const PointRefit::Options options = {operation.weights.maximum_influences,
-                                       operation.refit.moves_bind};
-  const auto to_refit = [&](std::size_t i) {
-    const WeighedPoint& of = weighing.points[i];
-    return PointToRefit{&points[i].exact, points[i].position,
-                        std::span<const Influence>(weighing.influences)
-                            .subspan(of.first_influence, of.influence_count)};
-  };
-  if (operation.refit.is_coupled) {
-    std::vector<PointToRefit> together;
-    std::vector<Index> number(points.size(), kNone);
-    for (const std::size_t i : of_skin) {
-      number[i] = static_cast<Index>(together.size());
-      together.push_back(to_refit(i));
-    }
-    std::vector<RefitNeighbours> of_these;
-    for (const RefitNeighbours& pair : neighbours) {
-      const Index a = number[pair.a], b = pair.b == kNone ? kNone : number[pair.b];
-      if (a != kNone && (b != kNone || pair.b == kNone)) of_these.push_back({a, b, pair.length});
-    }
-    auto fits = refit_coupled(together, of_these, {options, operation.refit.smoothness}, moments);
-    if (!fits) return fits.error();
-    for (std::size_t i = 0; i < of_skin.size(); ++i) {
-      take(of_skin[i], (*fits)[i]);
-    }
-    return {};
-  }
-  PointRefit refit;
+  return {};
+}
+
+PointRefit::Options RefitTask::options() const {
+  return {operation.weights.maximum_influences, operation.refit.moves_bind};
+}
+
+PointToRefit RefitTask::to_refit(std::size_t point) const {
+  const PointWeights& of = assignment.points[point];
+  return {&points[point].exact, points[point].position,
+          std::span<const Influence>(assignment.influences)
+              .subspan(of.first_influence, of.influence_count)};
+}
+
+/// Fits all points of a skin in one problem.
+Status RefitTask::fit_together(std::span<const std::size_t> of_skin, const PoseMoments& moments) {
+  std::vector<PointToRefit> together;
+  std::vector<Index> number(points.size(), kNone);
   for (const std::size_t i : of_skin) {
-    if (is_cancelled) return {};
-    take(i, refit.fit(to_refit(i), options, moments));
+    number[i] = static_cast<Index>(together.size());
+    together.push_back(to_refit(i));
   }
+  std::vector<RefitNeighbours> of_these;
+  for (const RefitNeighbours& pair : neighbours) {
+    const Index a = number[pair.a], b = pair.b == kNone ? kNone : number[pair.b];
+    if (a != kNone && (b != kNone || pair.b == kNone)) of_these.push_back({a, b, pair.length});
+  }
+  auto fits = refit_coupled(together, of_these, {options(), operation.refit.smoothness}, moments);
+  if (!fits) return fits.error();
+  for (std::size_t i = 0; i < of_skin.size(); ++i) take(of_skin[i], (*fits)[i]);
   return {};
 }
 

@@ -6,13 +6,13 @@
 #include <cmath>
 #include <new>
 
-#include "skinning/internal/reference.h"
+#include "skinning/internal/character_pose.h"
 #include "tear/model_state.h"
 
 namespace sunder {
 namespace {
 
-/// Errors of points in poses, as parts of something.
+/// Statistics of some errors; the values are reordered.
 WeightErrors::Statistics statistics_of(std::vector<double>& values) {
   WeightErrors::Statistics result;
   if (values.empty()) return result;
@@ -26,7 +26,7 @@ WeightErrors::Statistics statistics_of(std::vector<double>& values) {
   return result;
 }
 
-/// Where a vertex of policy `exact` stands, as stored.
+/// Posed position of a vertex of policy `exact`, from its stored floats.
 Vec3d exact_position(const tear::SurfaceEditor& editor, const tear::SurfaceEditor::VertexRef& at,
                      std::span<const Affine3d> palette, std::span<const float> morph_weights) {
   const InfluencePositions& exact = editor.influence_positions(at.mesh);
@@ -47,21 +47,32 @@ Vec3d exact_position(const tear::SurfaceEditor& editor, const tear::SurfaceEdito
   return sum;
 }
 
-/// Of the triangle that a point was born in, in the rest pose.
+/// Mean edge of the triangle in which a point was created, in the rest pose.
 double mean_edge(const tear::SurfaceEditor& editor, const tear::SurfaceEditor::VertexRef& at,
-                 std::span<const std::vector<Affine3d>> palettes) {
+                 const CharacterPose& rest) {
   const Mesh& mesh = editor.character().meshes[at.mesh];
   std::array<Vec3d, 3> corners;
   for (std::size_t k = 0; k < 3; ++k) {
     const std::uint32_t corner =
         editor.origin_triangle(at.mesh, editor.birth(at.mesh, at.vertex).triangle)[k];
-    corners[k] = deform_position_reference(mesh, corner, editor.born_position(at.mesh, corner),
-                                           editor.born_influences(at.mesh, corner),
-                                           palettes[mesh.skin], editor.source().rest_morph_weights);
+    corners[k] = rest.position(mesh, corner, editor.born_position(at.mesh, corner),
+                               editor.born_influences(at.mesh, corner));
   }
   return ((corners[0] - corners[1]).norm() + (corners[1] - corners[2]).norm() +
           (corners[2] - corners[0]).norm()) /
          3;
+}
+
+/// Position of a point in a pose minus the position of the untorn surface there.
+Vec3d error_of(const tear::SurfaceEditor& editor, const tear::SurfaceEditor::VertexRef& at,
+               const CharacterPose& pose, AnimationPoint& exact) {
+  const Mesh& mesh = editor.character().meshes[at.mesh];
+  const std::vector<Affine3d>& palette = pose.palette(mesh.skin);
+  editor.describe_exactly(at, pose.morph_weights(), exact);
+  const Vec3d position = editor.policy(at.mesh, at.vertex) == WeightPolicy::exact
+                             ? exact_position(editor, at, palette, pose.morph_weights())
+                             : pose.position(mesh, at.vertex);
+  return position - exact.posed(palette);
 }
 
 }  // namespace
@@ -92,38 +103,23 @@ Result<WeightErrors> measure_weight_errors(const TornModel& model, std::uint32_t
   operations.operation_count = operation_count;
   if (Status status = state.resolve(operations); !status) return status;
   for (const ModelPose& pose : poses)
-    if (Status status = tear::PosedPoints::check(state.character, pose); !status) return status;
+    if (Status status = CharacterPose::check(state.character, pose); !status) return status;
   try {
-    const auto points = tear::weighable_points(state.vertices_of(operations), editor);
+    const auto points = tear::interpolated_points(state.vertices_of(operations), editor);
     WeightErrors errors;
     errors.poses = static_cast<std::uint32_t>(poses.size());
-    std::vector<std::vector<Affine3d>> palettes;
-    for (const Skin& skin : state.character.skins) palettes.emplace_back(skin.bones.size());
-    const auto stand_in = [&](const ModelPose& pose) {
-      Status status;
-      for (std::size_t skin = 0; skin < palettes.size() && status; ++skin)
-        status = compute_palette(state.character.skins[skin], pose, palettes[skin]);
-      return status;
-    };
+    CharacterPose stand;
     const auto rest = make_pose(*state.source, RestPose{});
     if (!rest) return rest.error();
-    if (Status status = stand_in(*rest); !status) return status;
+    if (Status status = stand.set(state.character, *rest); !status) return status;
     for (const auto& at : points)
-      errors.points.push_back({at.mesh, at.vertex, 0, 0, mean_edge(editor, at, palettes)});
+      errors.points.push_back({at.mesh, at.vertex, 0, 0, mean_edge(editor, at, stand)});
     std::vector<double> metres, of_edge;
     AnimationPoint exact;
     for (const ModelPose& pose : poses) {
-      if (Status status = stand_in(pose); !status) return status;
+      if (Status status = stand.set(state.character, pose); !status) return status;
       for (std::size_t i = 0; i < points.size(); ++i) {
-        const auto& at = points[i];
-        const Mesh& mesh = state.character.meshes[at.mesh];
-        const std::vector<Affine3d>& palette = palettes[mesh.skin];
-        editor.describe_exactly(at, pose.morph_weights, exact);
-        const Vec3d stands =
-            editor.policy(at.mesh, at.vertex) == WeightPolicy::exact
-                ? exact_position(editor, at, palette, pose.morph_weights)
-                : deform_position_reference(mesh, at.vertex, palette, pose.morph_weights);
-        const double error = (stands - exact.posed(palette)).norm();
+        const double error = error_of(editor, points[i], stand, exact).norm();
         WeightErrors::OfPoint& of = errors.points[i];
         of.rms += error * error / static_cast<double>(poses.size());
         of.maximum = std::max(of.maximum, error);

@@ -1,0 +1,105 @@
+// Changes the weights of points that earlier operations created.
+
+#include <sunder/skinning/pose.h>
+#include <sunder/tear/refit_job.h>
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+
+#include "skinning/internal/character_pose.h"
+#include "tear/model_state.h"
+
+namespace sunder {
+
+Status TornModel::State::resolve(WeightsOperation& wanted) const {
+  if (Status status = validate_weights(wanted.weights); !status) return status;
+  const auto done = static_cast<std::uint32_t>(history.done().size());
+  if (wanted.first_operation >= done)
+    return Status::failure(StatusCode::not_found, wanted.first_operation,
+                           "weights are requested from operation %u on, there are %u operations",
+                           wanted.first_operation, done);
+  if (wanted.operation_count == kNone) wanted.operation_count = done - wanted.first_operation;
+  if (wanted.operation_count == 0 || wanted.operation_count > done - wanted.first_operation)
+    return Status::failure(
+        StatusCode::not_found, wanted.first_operation,
+        "weights are requested for %u operations from operation %u on, there are %u operations",
+        wanted.operation_count, wanted.first_operation, done);
+  if (wanted.weights.policy != WeightPolicy::refit) return {};
+  if (!std::isfinite(wanted.refit.smoothness) || wanted.refit.smoothness < 0)
+    return Status::failure(StatusCode::invalid_argument, kNone,
+                           "the smoothness of a refit must be finite and >= 0, not %g",
+                           wanted.refit.smoothness);
+  if (wanted.refit.is_coupled && !has_coupled_refit())
+    return Status::failure(
+        StatusCode::unsupported_feature, kNone,
+        "a coupled refit requires Ceres; this build is without it (SUNDER_CERES)");
+  return {};
+}
+
+tear::VertexRanges TornModel::State::vertices_of(const WeightsOperation& resolved) const {
+  const auto& done = history.done();
+  const std::vector<std::uint32_t> first =
+      editor.vertex_counts_at(done[resolved.first_operation]->begin);
+  const std::size_t after = std::size_t{resolved.first_operation} + resolved.operation_count;
+  const std::vector<std::uint32_t> end = after < done.size()
+                                             ? editor.vertex_counts_at(done[after]->begin)
+                                             : std::vector<std::uint32_t>();
+  tear::VertexRanges ranges;
+  for (std::uint32_t mesh = 0; mesh < character.meshes.size(); ++mesh)
+    ranges.push_back(
+        {first[mesh], end.empty() ? character.meshes[mesh].vertex_count() : end[mesh]});
+  return ranges;
+}
+
+Status TornModel::State::reweigh(const WeightsOperation& resolved,
+                                 const tear::WeightAssignment& assignment, ChangeRecord* change) {
+  const tear::SurfaceEditor::Mark begin = editor.mark();
+  try {
+    tear::History::Entry& entry = history.next();
+    entry.as<WeightsOperation>() = resolved;
+    entry.begin = begin;
+    entry.weights = tear::make_weight_change(assignment, vertices_of(resolved), editor);
+    if (change != nullptr) editor.describe(entry.weights, *change);
+    editor.exchange(entry.weights);  // last, because it cannot be rolled back
+  } catch (const tear::CapacityExceeded& exceeded) {
+    editor.roll_back(begin);
+    return no_room(exceeded);
+  } catch (const std::bad_alloc&) {
+    editor.roll_back(begin);
+    return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
+  }
+  history.push({});
+  return {};
+}
+
+Result<WeightReport> TornModel::reweigh(const WeightsOperation& wanted, ChangeRecord* change) {
+  if (wanted.weights.policy == WeightPolicy::refit) {
+    const auto job = RefitJob::create(*this, wanted);
+    if (!job) return job.error();
+    job->run();
+    if (job->poll() == RefitJob::State::failed) return job->failure();
+    return job->swap_in(*this, change);
+  }
+  State& state = *state_;
+  if (Status status = state.may_begin(); !status) return status;
+  WeightsOperation resolved = wanted;
+  if (Status status = state.resolve(resolved); !status) return status;
+  auto pose = make_pose(state.character, wanted.pose);
+  if (!pose) return pose.error();
+  CharacterPose palettes;
+  if (Status status = palettes.set(state.character, *pose); !status) return status;
+  resolved.pose = std::move(*pose);
+  WeightReport report;
+  try {
+    const auto points = tear::interpolated_points(state.vertices_of(resolved), state.editor);
+    const tear::WeightAssignment assignment =
+        tear::compute_weights(points, wanted.weights, palettes, state.editor, report);
+    if (Status status = state.reweigh(resolved, assignment, change); !status) return status;
+  } catch (const std::bad_alloc&) {
+    return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
+  }
+  return report;
+}
+
+}  // namespace sunder
