@@ -9,37 +9,37 @@
 
 namespace sunder::tear {
 
-/// Adds triangles that close what was opened: vertices that take their place and weights from the
-/// rim, with normals, tangents and texture coordinates of their own.
+/// Adds triangles that close what was opened. Their vertices take position and weights from the rim
+/// and have their own normals, tangents and texture coordinates.
 class Filling {
  public:
-  /// @param name  of the submesh that each mesh gets for it.
+  /// @param name  of the submesh that each mesh gets for the filling.
   Filling(std::string name, const Workpiece& work) : name_(std::move(name)), work_(work) {}
 
-  /// A vertex at a corner of the rim, for a filling in `mesh`. The rim's mesh may be another one
-  /// with the same skin.
+  /// Adds a vertex at a corner of the rim, for a filling in `mesh`. The mesh of the rim may be
+  /// another one with the same skin.
   [[nodiscard]] Index add_rim_vertex(Index mesh, Index corner);
-  /// What a vertex that is not on the rim is made of.
+  /// The attributes of a vertex that is not on the rim.
   struct Inner {
     Vec3d bind_position = Vec3d::Zero();
     std::vector<Influence> influences;       ///< Normalised.
-    std::vector<Vec3d> morph_displacements;  ///< Of each target.
+    std::vector<Vec3d> morph_displacements;  ///< One per morph target.
   };
   [[nodiscard]] Index add_inner_vertex(Index mesh, Index like, const Inner& inner);
-  /// How the vertex looks in the pose: its normal, the direction in which u grows, and texture
-  /// coordinates.
+  /// Sets the posed normal, the posed direction in which u grows, and the texture coordinates of a
+  /// vertex.
   void shade(Index mesh, Index vertex, const Vec3d& normal, const Vec3d& tangent, const Vec2d& uv);
-  /// Linear part of the vertex' blended bone matrices.
+  /// Linear part of the blended bone matrices of a vertex.
   [[nodiscard]] Mat3d blended(Index mesh, Index vertex) const;
 
-  /// @param like_corner  of the rim: its submesh' material is the filling's.
+  /// @param like_corner  a corner of the rim; the filling uses the material of its submesh.
   void add_triangle(Index mesh, Index like_corner, const std::array<Index, 3>& points,
                     const Triangle& vertices);
-  /// Joins the triangles added to one another and to the rim's half-edges. @return false where an
-  /// edge would have too many faces: also where points of the rim are joined elsewhere, by an edge
-  /// that is not the rim's.
+  /// Connects the added triangles to each other and to the half-edges of the rim.
+  /// @return false if an edge would have too many faces, for example because points of the rim are
+  /// already joined by another edge.
   [[nodiscard]] bool connect(const std::vector<Index>& rim_half_edges);
-  /// Takes back what was added since.
+  /// Removes everything added since the mark.
   void take_back(const SurfaceEditor::Mark& before);
 
  private:
@@ -49,8 +49,8 @@ class Filling {
   std::vector<Index> triangles_;  ///< Added since the last connect().
 };
 
-/// A posed direction, or displacement, taken back to bind space by the linear part of what poses
-/// it; `fallback` where that is nearly singular.
+/// Transforms a posed direction or displacement to bind space by the linear part of the blended
+/// matrices; returns `fallback` if that is nearly singular.
 [[nodiscard]] Vec3d to_bind(const Mat3d& posed_from_bind, const Vec3d& posed,
                             const Vec3d& fallback);
 

@@ -6,8 +6,7 @@
 
 namespace sunder::tear {
 
-/// Numbers of the faces that changed or were made since an operation began, and how they hang
-/// together.
+/// The faces changed or created since an operation began, numbered, and their connections.
 class ChangedFaces {
  public:
   ChangedFaces(const SurfaceEditor::Mark& begin, const SurfaceEditor& editor);
@@ -18,14 +17,14 @@ class ChangedFaces {
     return face_[i] != kNone && !surface_.has_repeated_point(face_[i]);
   }
   [[nodiscard]] Index set_count() const { return set_count_ - joined_; }
-  /// What hangs together now, as far as it changed.
+  /// The connected sets of changed faces now.
   [[nodiscard]] DisjointSets& sets() { return sets_; }
-  /// What hung together before. Known where there are two sets at least.
+  /// The connected sets before the operation. Known only if there are at least two sets.
   [[nodiscard]] DisjointSets& groups() { return groups_; }
 
  private:
   const Surface& surface_;
-  ScratchVector<Index> face_;  ///< Of each number; kNone for one that stands for no face.
+  ScratchVector<Index> face_;  ///< By number; kNone if the number has no face.
   DisjointSets sets_, groups_;
   Index set_count_ = 0, joined_ = 0;
 };

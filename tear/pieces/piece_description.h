@@ -8,22 +8,22 @@
 
 namespace sunder::tear {
 
-/// A piece of the surface, described face by face.
+/// Collects the description of a piece face by face.
 class PieceDescription {
  public:
   PieceDescription(const SurfaceEditor& editor, PosedPoints& posed);
 
-  /// By ascending number.
+  /// Faces must be added in ascending order.
   void add(Index face);
   [[nodiscard]] bool is_empty() const { return piece_.triangle_count == 0; }
-  /// The piece of those faces. To be called once.
+  /// The piece of the added faces. Call it once.
   [[nodiscard]] TornPiece piece();
 
  private:
   const SurfaceEditor& editor_;
   PosedPoints& posed_;
   TornPiece piece_;
-  std::vector<std::vector<Index>> triangles_;  ///< Of each mesh.
+  std::vector<std::vector<Index>> triangles_;  ///< Per mesh.
   std::vector<bool> has_bone_;
   Vec3d moment_ = Vec3d::Zero(), sum_ = Vec3d::Zero();
 };

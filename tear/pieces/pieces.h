@@ -8,16 +8,17 @@
 
 namespace sunder::tear {
 
-/// The parts into which what changed since `begin` fell, by the edges that were opened or faces
-/// that were removed, but for the one that is left of each thing.
+/// Finds the connected components that the changes since `begin` separated, except one remaining
+/// part of each former component.
 ///
-/// Fronts start from every changed face and grow in turn; those that meet are one. It ends when one
-/// front is left that has not run out: so it costs what the small pieces cost.
-/// @return nothing where everything still hangs together.
+/// Fronts start from every changed face and grow in turn; fronts that meet are merged. The search
+/// ends when at most one front per former component can still grow, so it costs only what the small
+/// pieces cost.
+/// @return nothing if everything is still connected.
 [[nodiscard]] std::vector<TornPiece> find_pieces(const SurfaceEditor::Mark& begin,
                                                  const SurfaceEditor& editor, PosedPoints& posed);
 
-/// The same and what is left, too. O(all faces).
+/// The same including the remaining part. O(all faces).
 [[nodiscard]] std::vector<TornPiece> find_all_pieces(const SurfaceEditor::Mark& begin,
                                                      const SurfaceEditor& editor,
                                                      PosedPoints& posed);

@@ -8,7 +8,7 @@
 
 namespace sunder::tear {
 
-/// Four small numbers as floats, all at once where the compiler would not see that by itself.
+/// Converts four bytes to floats at once; compilers do not find these instructions by themselves.
 inline Eigen::Array<float, 4, 1> lanes_of(const std::array<std::uint8_t, 4>& bytes) {
 #if defined(EIGEN_VECTORIZE_SSE2)  // then Eigen has included what this needs
   std::int32_t together;

@@ -94,9 +94,7 @@ void PatchForest::push(const Waiting& node, std::size_t first) {
 std::vector<PatchForest::Covered*> PatchForest::trees(const SurfaceEditor& editor) {
   cover(editor);
   std::vector<Covered*> trees;
-  for (Covered& covered : sources_) trees.push_back(&covered);
-  for (auto& of_mesh : fillings_)
-    for (Covered& covered : of_mesh) trees.push_back(&covered);
+  for_each_tree([&](Covered& covered) { trees.push_back(&covered); });
   return trees;
 }
 

@@ -9,49 +9,46 @@
 
 namespace sunder::tear {
 
-/// Finds faces of the posed surface without posing it: trees of patches over the origins of all
-/// meshes. A tear changes none of them, since the parts of an origin lie within it. Built at the
-/// first query; walls and caps get trees of their own at the first query after them, and
-/// neighbouring trees of one size are made one, so that a mesh has few (Bentley and Saxe 1980).
+/// Finds faces of the posed surface without posing all of it, by trees of patches over the source
+/// triangles of all meshes. A tear changes no tree, because the parts of a source triangle lie
+/// within it. The trees are built at the first query. Walls and caps get trees of their own at the
+/// first query after them; adjacent trees of similar size are merged, so that a mesh has few
+/// (Bentley and Saxe 1980).
 class PatchForest {
  public:
-  /// To be called when the pose changes. O(1).
+  /// Call it when the pose changes. O(1).
   void forget_pose();
 
-  /// Visits the live faces of the patches in which something may be found, more or less the nearest
-  /// first.
-  /// @param frame  that boxes are in: the nearer its axes are to how the query lies, the fewer it
-  /// meets. Boxes are remembered as
-  ///               long as neither the pose nor the frame changes.
-  /// @param bound  bound(const Box&): the least value, such as a distance, that what is looked for
-  /// can have in a box; infinity where
-  ///               it cannot be there. What looks along the first axis may offer bound(const Box&,
-  ///               const Shadow&) too: of something that lies both in the box and in the shadow.
-  /// @param expect expect(mesh, origins): some faces of these will be visited next.
-  /// @param visit  visit(face): the greatest value that is of interest from now on. May not call
-  /// this again.
+  /// Visits the live faces of the patches in which something may be found, roughly the nearest
+  /// first. Boxes are cached until the pose or the frame changes.
+  /// @param frame   axes of the boxes; fewer boxes are met if the axes are aligned with the query.
+  /// @param bound   bound(const Box&): a lower bound, over the box, of the value that is minimised,
+  ///         such as a distance; infinity if nothing can be found there. A query along the first
+  ///         axis may also accept (const Box&, const Shadow&), for objects inside both.
+  /// @param expect  expect(mesh, origins): faces of these source triangles will be visited next.
+  /// @param visit   visit(face): returns the greatest value still of interest. It must not call
+  ///         this function.
   template <class Bound, class Expect, class Visit>
   void visit_faces(const SurfaceEditor& editor, const CharacterPose& pose, const Frame& frame,
                    Bound bound, Expect expect, Visit visit);
 
   [[nodiscard]] std::size_t bytes() const;
-  /// Trees over the walls and caps of a mesh.
+  /// The number of trees over the walls and caps of a mesh.
   [[nodiscard]] std::size_t filling_tree_count(Index mesh) const {
     return mesh < fillings_.size() ? fillings_[mesh].size() : 0;
   }
 
-  /// A tree, and what it covers.
+  /// A tree and the triangles that it covers.
   struct Covered {
     PatchTree tree;
     Index mesh;
-    Index first, end;  ///< Origins. Those of the tree from `end` up have been taken back since.
-    std::uint64_t
-        serials_from;  ///< Fillings that were made after the tree have serials from here on.
+    Index first, end;  ///< Source triangles. Those of the tree from `end` on were undone since.
+    std::uint64_t serials_from;  ///< Fillings made after the tree have serials from here on.
   };
-  /// Every tree there is, up to date.
+  /// All trees, up to date.
   [[nodiscard]] std::vector<Covered*> trees(const SurfaceEditor& editor);
 
-  /// Makes a pose and a frame those that boxes are about.
+  /// Sets the pose and the frame of the boxes.
   void stand_in(const SurfaceEditor& editor, const CharacterPose& pose, const Frame& frame);
   [[nodiscard]] MeshPose pose_of(const Mesh& mesh, const CharacterPose& pose) {
     return {bones_[mesh.skin],
@@ -63,20 +60,46 @@ class PatchForest {
   struct Waiting {
     double bound;
     Covered* covered;
-    Index height;  ///< 0: a patch; above, the node's level and 1.
+    Index height;  ///< 0: a patch; otherwise the level of the node plus 1.
     Index number;
   };
 
+  /// Memory for the bounds of the patches of a group.
+  struct GroupBounds {
+    std::array<Box, PatchTree::kPatchesPerGroup> boxes;
+    std::array<Shadow, PatchTree::kPatchesPerGroup> shadows;
+  };
+
   [[nodiscard]] std::size_t tree_count() const;
+  template <class Visit>
+  void for_each_tree(Visit visit) {
+    for (Covered& covered : sources_) visit(covered);
+    for (auto& of_mesh : fillings_)
+      for (Covered& covered : of_mesh) visit(covered);
+  }
+  /// Calls visit(bound, patch) for the patches of a group.
+  template <class Bound, class Visit>
+  void for_each_patch(PatchTree& tree, Index group, const MeshPose& pose, Bound& bound,
+                      GroupBounds& patches, Visit visit) const {
+    const Index first = PatchTree::kPatchesPerGroup * group;
+    if constexpr (std::is_invocable_v<Bound&, const Box&, const Shadow&>) {
+      const Box box = tree.posed_box(0, group, pose, epoch_);
+      const Index count = tree.compute_posed_patches(group, pose, patches.shadows);
+      for (Index i = 0; i < count; ++i) visit(bound(box, patches.shadows[i]), first + i);
+    } else {
+      const Index count = tree.compute_posed_patches(group, pose, patches.boxes);
+      for (Index i = 0; i < count; ++i) visit(bound(patches.boxes[i]), first + i);
+    }
+  }
   void cover(const SurfaceEditor& editor);
   void cover_fillings(const SurfaceEditor& editor, Index mesh);
-  /// Puts a node before those on the stack that are farther, down to `first`.
+  /// Puts a node on the stack, before the nodes down to `first` that are farther away.
   void push(const Waiting& node, std::size_t first);
 
-  std::vector<Covered> sources_;                ///< Of each mesh that has triangles.
-  std::vector<std::vector<Covered>> fillings_;  ///< Of each mesh, in their order.
-  std::vector<PosedBones> bones_;               ///< Of each skin.
-  std::vector<Waiting> stack_;                  ///< The nearest last.
+  std::vector<Covered> sources_;                ///< One per mesh with triangles.
+  std::vector<std::vector<Covered>> fillings_;  ///< Per mesh, in order.
+  std::vector<PosedBones> bones_;               ///< One per skin.
+  std::vector<Waiting> stack_;                  ///< The nearest node last.
   Frame frame_;
   std::uint32_t epoch_ = 1;
   bool is_built_ = false;
@@ -94,20 +117,16 @@ void PatchForest::visit_faces(const SurfaceEditor& editor, const CharacterPose& 
     if (node.bound < kNowhere && !(node.bound > limit)) push(node, first);
   };
   stack_.clear();
-  const bool is_one_tree = tree_count() == 1;  // whose box holds everything: not worth knowing
-  const auto add_root = [&](Covered& covered) {
+  const bool is_one_tree = tree_count() == 1;  // its box would exclude nothing
+  for_each_tree([&](Covered& covered) {
     const Index level = covered.tree.level_count() - 1;
     if (is_one_tree)
       push({std::numeric_limits<double>::lowest(), &covered, level + 1, 0}, 0);
     else
       add(bound(covered.tree.posed_box(level, 0, pose_of(meshes[covered.mesh], pose), epoch_)),
           {0, &covered, level + 1, 0}, 0);
-  };
-  for (Covered& covered : sources_) add_root(covered);
-  for (auto& of_mesh : fillings_)
-    for (Covered& covered : of_mesh) add_root(covered);
-  std::array<Box, PatchTree::kPatchesPerGroup> boxes;
-  [[maybe_unused]] std::array<Shadow, PatchTree::kPatchesPerGroup> shadows;
+  });
+  GroupBounds patches;
   while (!stack_.empty()) {
     const Waiting node = stack_.back();
     stack_.pop_back();
@@ -124,18 +143,10 @@ void PatchForest::visit_faces(const SurfaceEditor& editor, const CharacterPose& 
     const MeshPose mesh_pose = pose_of(meshes[covered.mesh], pose);
     const std::size_t first = stack_.size();
     if (node.height == 1) {
-      if constexpr (std::is_invocable_v<Bound&, const Box&, const Shadow&>) {
-        const Box box = covered.tree.posed_box(0, node.number, mesh_pose, epoch_);
-        const Index count = covered.tree.compute_posed_patches(node.number, mesh_pose, shadows);
-        for (Index i = 0; i < count; ++i)
-          add(bound(box, shadows[i]),
-              {0, &covered, 0, PatchTree::kPatchesPerGroup * node.number + i}, first);
-        continue;
-      }
-      const Index count = covered.tree.compute_posed_patches(node.number, mesh_pose, boxes);
-      for (Index i = 0; i < count; ++i)
-        add(bound(boxes[i]), {0, &covered, 0, PatchTree::kPatchesPerGroup * node.number + i},
-            first);
+      for_each_patch(covered.tree, node.number, mesh_pose, bound, patches,
+                     [&](double least, Index patch) {
+                       add(least, {0, &covered, 0, patch}, first);
+                     });
       continue;
     }
     const Index level = node.height - 2;  // of the children

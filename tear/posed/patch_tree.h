@@ -11,34 +11,35 @@
 
 namespace sunder::tear {
 
-/// What a mesh is posed by.
+/// The pose of a mesh.
 struct MeshPose {
-  PosedBones& bones;                     ///< Of the mesh's skin.
-  std::span<const float> morph_weights;  ///< Of the mesh's targets.
+  PosedBones& bones;                     ///< Of the skin of the mesh.
+  std::span<const float> morph_weights;  ///< Of the morph targets of the mesh.
 };
 
-/// Triangles of one mesh in patches that lie together in bind space, some patches in a group, and
-/// above the groups a tree of nodes. Each knows where a pose may put what its triangles hold: not
-/// only their corners but every point between them, stored as rounded as it may be.
+/// Triangles of one mesh in patches that are compact in bind space, several patches per group, and
+/// a tree of nodes above the groups. Each node bounds where a pose may put its triangles: all their
+/// points, including the rounding of stored vertices.
 ///
-/// A posed point is the sum of w_i M_i v. Where bone i moves it, v lies in B_i, the bind-space box
-/// of those triangles of the node that bone i moves a corner of. So the point lies in the hull of
-/// the boxes M_i B_i, and the nearer the range of each weight is known the nearer it lies to a
-/// certain mean of them. The first is loose where a far bone has a tiny weight, the second where
-/// the weights differ much; a node's bound is what both leave.
+/// A posed point is sum w_i M_i v. If bone i moves it, v lies in B_i, the bind-space box of those
+/// triangles of the node that have a corner moved by bone i. So the point lies in the hull of the
+/// boxes M_i B_i, and, given the range of each weight over the node, near a certain weighted mean
+/// of them. The first bound is loose if a distant bone has a tiny weight, the second if the weights
+/// vary much; the bound of a node is their intersection.
 class PatchTree {
  public:
-  static constexpr Index kPatchSize = 8;        ///< Triangles a patch, but for the last one.
-  static constexpr Index kPatchesPerGroup = 4;  ///< Which share the ranges of weights.
-  static constexpr Index kFanOut = 4;           ///< Nodes a node, above.
+  static constexpr Index kPatchSize = 8;        ///< Triangles per patch, except for the last one.
+  static constexpr Index kPatchesPerGroup = 4;  ///< They share the ranges of weights.
+  static constexpr Index kFanOut = 4;           ///< Children per node above the groups.
   static constexpr Index kGroupSize = kPatchSize * kPatchesPerGroup;
 
   /// @param triangles     of the mesh's vertices; not empty.
-  /// @param first_origin  number of triangle 0; the others follow.
+  /// @param first_origin  index of the first triangle among the source triangles and fillings of
+  ///         the mesh; the others follow.
   PatchTree(const Mesh& mesh, std::span<const Triangle> triangles, Index first_origin);
 
-  /// Level 0 are the groups, the last level is the root. The children of node n are the nodes from
-  /// kFanOut n on of the level below.
+  /// Level 0 consists of the groups, the last level of the root. The children of node n are the
+  /// nodes from kFanOut n on of the level below.
   [[nodiscard]] Index level_count() const { return static_cast<Index>(first_of_level_.size()) - 1; }
   [[nodiscard]] Index node_count(Index level) const {
     return first_of_level_[level + 1] - first_of_level_[level];
@@ -46,12 +47,12 @@ class PatchTree {
   [[nodiscard]] Index triangle_count() const { return static_cast<Index>(origins_.size()); }
   /// The patches of group g are those from kPatchesPerGroup g on.
   [[nodiscard]] Index patch_count() const { return static_cast<Index>(patches_.size()); }
-  /// The triangles of a patch, by their numbers as origins.
+  /// The triangles of a patch.
   [[nodiscard]] std::span<const Index> origins(Index patch) const {
     return part_of(origins_, patch, kPatchSize);
   }
 
-  /// Where the pose may put a node, in the frame of the pose's bones. Computed once in an epoch.
+  /// The bound of a posed node, in the frame of the pose's bones. Cached per epoch.
   [[nodiscard]] Box posed_box(Index level, Index number, const MeshPose& pose,
                               std::uint32_t epoch) {
     const Index node = first_of_level_[level] + number;
@@ -64,39 +65,40 @@ class PatchTree {
     };
     return {corner(posed_[node].low), corner(posed_[node].high)};
   }
-  /// The same of the patches of a group. @return how many there are.
+  /// The same for the patches of a group. @return their number.
   Index compute_posed_patches(Index group, const MeshPose& pose,
                               std::array<Box, kPatchesPerGroup>& boxes) const;
   Index compute_posed_patches(Index group, const MeshPose& pose,
                               std::array<Shadow, kPatchesPerGroup>& shadows) const;
-  /// Makes epoch numbers free to be used again; 0 is never one.
+  /// Invalidates all cached boxes, so that epoch numbers can be reused; 0 is never used.
   void forget_epochs() { posed_since_.assign(posed_since_.size(), 0); }
 
   [[nodiscard]] std::size_t bytes() const;
 
  private:
-  /// Corners in lanes of four, which are read at once; the last lane is 0.
+  /// Corners in four lanes, which are loaded at once; the last lane is 0.
   struct FloatBox {
     std::array<float, 4> low{}, high{};
   };
 
   struct Node {
-    FloatBox bind;     ///< Of all corners.
-    Index first_bone;  ///< In bones_; up to that of the next node. The one that moves the node most
-                       ///< comes first.
+    FloatBox bind;  ///< Of all corners.
+    /// In bones_; the bones end at those of the next node. The bone with most weight comes first.
+    Index first_bone;
   };
-  /// A box within a node's: how far from its sides, in parts of kBoxParts of its size.
+  /// A box inside the box of a node, as distances from its sides in units of 1/kBoxParts of its
+  /// size.
   struct InnerBox {
     std::array<std::uint8_t, 4> low, high;  ///< The fourth is 0.
   };
-  /// A bone that moves something of a node.
+  /// A bone that moves a corner of a node.
   struct NodeBone {
     std::uint16_t slot;
-    std::uint16_t least_weight,
-        greatest_weight;  ///< Over the node's corners, in parts of kWeightParts.
-    InnerBox box;         ///< Of what it moves.
+    /// Over the corners of the node, in units of 1/kWeightParts.
+    std::uint16_t least_weight, greatest_weight;
+    InnerBox box;  ///< Of the triangles that it moves.
   };
-  /// What a morph target that moves something of a node displaces it by.
+  /// The bounds of the displacements of a morph target in a node.
   struct NodeMorph {
     Index target;
     FloatBox displacement;
@@ -114,15 +116,14 @@ class PatchTree {
                                      nodes_[node + 1].first_bone - nodes_[node].first_bone);
   }
 
-  std::vector<Index> origins_;         ///< Patch after patch.
-  std::vector<InnerBox> patches_;      ///< Within their groups.
+  std::vector<Index> origins_;         ///< Patch by patch.
+  std::vector<InnerBox> patches_;      ///< Within the boxes of their groups.
   std::vector<Index> first_of_level_;  ///< In nodes_.
-  std::vector<Node> nodes_;            ///< And one that ends the last one's bones.
+  std::vector<Node> nodes_;            ///< And a last one, which ends the bones of the one before.
   std::vector<NodeBone> bones_;
   std::vector<NodeMorph> morphs_;
-  std::vector<Index>
-      first_morph_;         ///< Of each node in morphs_, and the end; empty where there are none.
-  float weight_slack_ = 0;  ///< What a vertex' weights may add up to besides 1.
+  std::vector<Index> first_morph_;  ///< Per node in morphs_, and the end; empty if there are none.
+  float weight_slack_ = 0;          ///< Maximum deviation from 1 of the sum of a vertex's weights.
   bool is_bounded_ = true;
   std::vector<FloatBox> posed_;
   std::vector<std::uint32_t> posed_since_;

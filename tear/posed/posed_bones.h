@@ -8,20 +8,20 @@
 
 namespace sunder::tear {
 
-/// The matrices that pose a skin, turned into the frame of a query when they are first asked for.
+/// The matrices of a posed skin in the frame of a query, each computed on demand.
 class PosedBones {
  public:
-  using Lanes = Eigen::Array<float, 4, 1>;  ///< x, y, z, and one that nobody asks for.
+  using Lanes = Eigen::Array<float, 4, 1>;  ///< x, y, z, and an unused one.
 
   struct Bone {
     Lanes x, y, z, translation;             ///< Columns.
-    Lanes size_of_x, size_of_y, size_of_z;  ///< Their absolute values, at least.
-    Lanes rounding;  ///< What a point may be off by besides what comes of its own coordinates.
+    Lanes size_of_x, size_of_y, size_of_z;  ///< Upper bounds of the absolute values of the columns.
+    Lanes rounding;  ///< Rounding error of a posed point that does not depend on its bind position.
   };
-  /// Coordinates from here on are not told from infinity. Less than this, neither products nor sums
-  /// of them overflow.
+  /// Larger coordinates are treated as infinite. Below it, neither products nor sums of them
+  /// overflow.
   static constexpr float kLargest = 1e18f;
-  /// What the bound of a bone with a larger matrix is off by.
+  /// Rounding of a bone with a larger matrix, which bounds nothing.
   static constexpr float kEverywhere = 1e37f;
 
   void resize(std::size_t slot_count) {
@@ -29,7 +29,7 @@ class PosedBones {
     known_since_.resize(slot_count, 0);
   }
   void forget_epochs() { known_since_.assign(known_since_.size(), 0); }
-  /// What the calls of at() are about from now on.
+  /// Sets the palette, frame and epoch of the following calls of at().
   void stand_in(std::span<const Affine3d> palette, const Frame& frame, std::uint32_t epoch) {
     palette_ = palette;
     frame_ = frame;
@@ -72,7 +72,7 @@ class PosedBones {
     bone.y = y.cast<float>();
     bone.z = z.cast<float>();
     bone.translation = translation.cast<float>();
-    // Of a component that cancelled, what doubles left of it says nothing about how far it is off.
+    // The rounding of doubles may leave an arbitrary rest in a component that cancelled.
     const auto size_of = [](const Lanes& column) -> Lanes {
       return column.abs() + 1e-8f * column.abs().sum();
     };
@@ -86,7 +86,7 @@ class PosedBones {
   std::span<const Affine3d> palette_;
   Frame frame_;
   double reach_ = 0;
-  std::array<Doubles, 3> axis_;  ///< Each of the model's, in the frame.
+  std::array<Doubles, 3> axis_;  ///< Each axis of the model, in the frame.
   std::uint32_t epoch_ = 0;
   std::vector<Bone> bones_;
   std::vector<std::uint32_t> known_since_;

@@ -12,23 +12,24 @@
 
 namespace sunder::tear {
 
-/// Positions of surface points in one pose, in double, computed when first asked for. Points that
-/// the operation under way makes are pinned to where it found them on the posed surface, so that
-/// one stroke is torn on one surface; later operations see them where their weights put them.
+/// Positions of surface points in one pose, in double, computed on demand. Points created by the
+/// current operation are pinned to where it found them on the posed surface, so that one stroke is
+/// torn on one surface. Later operations see them where their weights put them.
 class PosedPoints {
  public:
   /// Sets the pose and forgets all points. @return as CharacterPose::set().
   [[nodiscard]] Status begin(const Character& character, const ModelPose& pose);
 
-  /// The reference is good until the surface has more points than were covered.
+  /// The reference stays valid until the surface has more points than were covered.
   [[nodiscard]] const Vec3d& position(const SurfaceEditor& editor, Index point) {
     if (point < known_.size() && known_[point].since == epoch_) return known_[point].position;
     return look_up(editor, point);
   }
 
-  /// Asks memory for what posing a point will need.
+  /// Prefetches the memory that is read to pose a point.
   void fetch(const SurfaceEditor& editor, Index point) const;
 
+  /// Makes room for that many points.
   void cover(Index point_count) {
     if (known_.size() >= point_count) return;
     if (known_.capacity() < point_count)
@@ -36,14 +37,14 @@ class PosedPoints {
     known_.resize(point_count);
   }
 
-  /// Keeps a point where it was found on the posed surface, instead of where its own weights put
+  /// Fixes a point where it was found on the posed surface, instead of where its own weights put
   /// it.
   void pin(Index point, const Vec3d& position);
   [[nodiscard]] const CharacterPose& pose() const { return pose_; }
 
-  /// Along some axes, from a place near the surface.
+  /// A frame with the given axes and its origin near the surface.
   [[nodiscard]] Frame frame_along(const Mat3d& axes, const SurfaceEditor& editor) const;
-  /// Visits faces of the surface where `bound` lets it: PatchForest::visit_faces().
+  /// Visits faces of the surface as `bound` directs; see PatchForest::visit_faces().
   template <class Bound, class Visit>
   void visit_faces(const SurfaceEditor& editor, const Frame& frame, Bound bound, Visit visit) {
     const auto expect = [&](Index mesh, std::span<const Index> origins) {
@@ -51,8 +52,8 @@ class PosedPoints {
     };
     forest_.visit_faces(editor, pose_, frame, bound, expect, visit);
   }
-  /// Calls visit(face) for the live faces of the patches whose boxes may_hold(box) lets through, in
-  /// no order that means anything.
+  /// Calls visit(face) for the live faces of all patches whose boxes may_hold(box) accepts, in no
+  /// particular order.
   template <class MayHold, class Visit>
   void for_each_face(const SurfaceEditor& editor, const Frame& frame, MayHold may_hold,
                      Visit visit) {
@@ -66,18 +67,18 @@ class PosedPoints {
   }
   [[nodiscard]] PatchForest& forest() { return forest_; }
 
-  /// How many points have been posed or pinned since begin(). O(all points).
+  /// Number of points posed or pinned since begin(). O(all points).
   [[nodiscard]] std::size_t known_count() const {
     return static_cast<std::size_t>(std::count_if(
         known_.begin(), known_.end(), [&](const Known& known) { return known.since == epoch_; }));
   }
 
-  /// Forgets the points from `first_point` up, which were taken back.
+  /// Forgets the points from `first_point` on, which were undone.
   void forget_from(Index first_point);
 
  private:
-  /// Asks memory for what posing some faces will need, for all of them at once: on a large mesh,
-  /// waiting for one array after the other, point after point, takes ten times as long as posing
+  /// Prefetches the memory that is read to pose some faces, for all of them at once: on a large
+  /// mesh, waiting for one array after the other, point by point, takes ten times as long as posing
   /// them. @param origins  of a patch.
   void fetch(const SurfaceEditor& editor, Index mesh, std::span<const Index> origins) const;
 
@@ -89,7 +90,7 @@ class PosedPoints {
 
   CharacterPose pose_;
   std::vector<Known> known_;
-  std::uint32_t epoch_ = 0;  ///< Of the pose: a new one forgets all positions at once.
+  std::uint32_t epoch_ = 0;  ///< Of the pose: a new epoch forgets all positions at once.
   PatchForest forest_;
 };
 

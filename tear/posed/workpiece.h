@@ -4,7 +4,7 @@
 
 namespace sunder::tear {
 
-/// What an operation works on.
+/// The surface that an operation changes, and its points in the pose of the operation.
 struct Workpiece {
   SurfaceEditor& editor;
   PosedPoints& posed;

@@ -11,28 +11,27 @@
 
 namespace sunder::tear {
 
-/// A Delaunay triangulation of points in the plane into which edges are forced; every decision is
-/// exact.
+/// A Delaunay triangulation of points in the plane with forced edges. Every decision is exact.
 ///
 /// Half-edge h of triangle h / 3 leaves origin_[h]. The convex hull is closed by triangles that
-/// share one ghost point at infinity, so that every half-edge has a twin.
+/// share a ghost point at infinity, so every half-edge has a twin.
 class ConstrainedDelaunay {
  public:
-  /// @param points  in exact_range(); they outlive the triangulation.
-  /// @return nothing where two points coincide or all lie on one line.
+  /// @param points  in exact_range(); they must outlive the triangulation.
+  /// @return nullopt if two points coincide or all are collinear.
   ///
-  /// Bowyer and Watson's insertion, in insertion_order(): expected O(n log n).
+  /// Incremental insertion (Bowyer, Watson) in insertion_order(): expected O(n log n).
   static std::optional<ConstrainedDelaunay> of(std::span<const Vec2d> points);
 
-  /// Makes the segment between two points an edge that stays.
-  /// @return false, with nothing changed, where a third point lies on the segment or an edge fixed
+  /// Forces the segment between two points to be an edge.
+  /// @return false, with nothing changed, if a third point lies on the segment or an edge fixed
   /// before crosses it.
   [[nodiscard]] bool fix_edge(Index a, Index b);
 
-  /// The triangles that an odd number of fixed edges parts from the outside, counter-clockwise,
-  /// where the fixed edges form closed loops. Constrained Delaunay: no unfixed edge has the far
-  /// corner of one side inside the circle of the other.
-  /// @return empty where they are not connected across unfixed edges.
+  /// The triangles inside the closed loops of fixed edges, by the even-odd rule, counter-clockwise.
+  /// Constrained Delaunay: no unfixed edge has the far corner of one side inside the circle of the
+  /// other.
+  /// @return empty if they are not connected across unfixed edges.
   [[nodiscard]] std::vector<std::array<Index, 3>> inside() &&;
 
  private:
@@ -40,8 +39,8 @@ class ConstrainedDelaunay {
 
   explicit ConstrainedDelaunay(std::span<const Vec2d> points) : points_(points) {}
   void start(Index a, Index b, Index c);
-  /// The triangle that holds a point, or a ghost triangle whose edge sees it from outside; kNone
-  /// for a point that is there already.
+  /// The triangle that contains a point, or a ghost triangle whose edge sees it from outside; kNone
+  /// if the point coincides with an earlier one.
   [[nodiscard]] Index locate(Index point) const;
   [[nodiscard]] bool in_conflict(Index triangle, Index point) const;
   [[nodiscard]] bool insert(Index point);
@@ -61,11 +60,11 @@ class ConstrainedDelaunay {
   std::vector<Index> origin_;
   std::vector<Index> twin_;
   std::vector<char> fixed_;     ///< By half-edge.
-  std::vector<Index> leaving_;  ///< Of each point a half-edge that leaves it.
-  std::vector<Index> visit_;    ///< By triangle: the last cavity that it was part of.
-  std::vector<Index> spoke_;    ///< By point, the ghost last: scratch of insert().
+  std::vector<Index> leaving_;  ///< Per point a half-edge that leaves it.
+  std::vector<Index> visit_;    ///< Per triangle: the last cavity that contained it.
+  std::vector<Index> spoke_;    ///< Per point, the ghost last: scratch memory of insert().
   Index cavity_ = 0;            ///< Number of cavities so far.
-  Index last_ = 0;              ///< Where locate() starts.
+  Index last_ = 0;              ///< The triangle at which locate() starts.
 };
 
 }  // namespace sunder::tear

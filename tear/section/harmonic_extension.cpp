@@ -7,14 +7,18 @@
 
 namespace sunder::tear {
 
-Eigen::MatrixXd extend_harmonically(std::span<const Vec2d> points, Index rim_count,
-                                    std::span<const std::array<Index, 3>> triangles,
-                                    const Eigen::MatrixXd& rim_values) {
-  struct Weight {
-    Index low, high;
-    double value;  ///< The cotangent of one angle across the edge.
-  };
-  std::vector<Weight> weights;
+namespace {
+
+/// The weight of an edge in the cotangent Laplacian, or a part of it.
+struct EdgeWeight {
+  Index low, high;
+  double value;
+};
+
+/// The cotangent of each angle opposite to an edge that is not on the rim, ordered by edges.
+std::vector<EdgeWeight> cotangents(std::span<const Vec2d> points, Index rim_count,
+                                   std::span<const std::array<Index, 3>> triangles) {
+  std::vector<EdgeWeight> weights;
   for (const auto& triangle : triangles)
     for (std::size_t i = 0; i < 3; ++i) {
       const Index a = triangle[i], b = triangle[(i + 1) % 3];
@@ -25,11 +29,19 @@ Eigen::MatrixXd extend_harmonically(std::span<const Vec2d> points, Index rim_cou
       if (twice_area > 0)
         weights.push_back({std::min(a, b), std::max(a, b), to_a.dot(to_b) / twice_area});
     }
-  // Stable: the same order of summation with every standard library.
-  std::stable_sort(weights.begin(), weights.end(), [](const Weight& a, const Weight& b) {
+  // Stable, so that the order of summation is the same with every standard library.
+  std::stable_sort(weights.begin(), weights.end(), [](const EdgeWeight& a, const EdgeWeight& b) {
     return a.low != b.low ? a.low < b.low : a.high < b.high;
   });
+  return weights;
+}
 
+}  // namespace
+
+Eigen::MatrixXd extend_harmonically(std::span<const Vec2d> points, Index rim_count,
+                                    std::span<const std::array<Index, 3>> triangles,
+                                    const Eigen::MatrixXd& rim_values) {
+  const std::vector<EdgeWeight> weights = cotangents(points, rim_count, triangles);
   const auto inner_count = static_cast<Eigen::Index>(points.size() - rim_count);
   const Eigen::Index channels = rim_values.cols();
   if (inner_count == 0 || rim_count == 0) return Eigen::MatrixXd::Zero(inner_count, channels);
@@ -47,12 +59,12 @@ Eigen::MatrixXd extend_harmonically(std::span<const Vec2d> points, Index rim_cou
     for (; i < weights.size() && weights[i].low == low && weights[i].high == high; ++i)
       weight += weights[i].value;
     if (!(weight > 0) || !std::isfinite(weight))
-      continue;  // on a circle with its neighbours: zero but for rounding
+      continue;  // zero except for rounding: the four points lie on a circle
     const auto column = static_cast<Eigen::Index>(high - rim_count);
     diagonal[column] += weight;
     if (low < rim_count) {
-      right.row(column) +=
-          weight * (rim_values.row(low) - least);  // what all have in common would only cost digits
+      // Relative to the least value, because a common offset would only cost precision.
+      right.row(column) += weight * (rim_values.row(low) - least);
     } else {
       const auto row = static_cast<Eigen::Index>(low - rim_count);
       diagonal[row] += weight;

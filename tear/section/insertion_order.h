@@ -9,10 +9,10 @@
 
 namespace sunder::tear {
 
-/// The order in which to insert points into a Delaunay triangulation: biased random rounds, each
-/// along Hilbert's curve, so that neither the search for a point nor what it changes is long
-/// (Amenta, Choi, Rote 2003). The dice are the points' indices: the same points come in the same
-/// order. At least one point.
+/// The order in which points are inserted into a Delaunay triangulation: biased random rounds, each
+/// along a Hilbert curve, so that both the search for a point and its cavity are short (Amenta,
+/// Choi, Rote 2003). The random numbers depend on the indices alone, so the order is deterministic.
+/// At least one point.
 [[nodiscard]] std::vector<Index> insertion_order(std::span<const Vec2d> points);
 
 }  // namespace sunder::tear
