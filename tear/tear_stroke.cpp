@@ -148,7 +148,7 @@ Result<TearReport> TearStroke::extend(const ModelPose& pose, const Blade& blade,
                            state.last_seconds);
   if (Status status = validate_turn(state.model->tearing.blade(), blade, index); !status) return status;
   if (!state.is_due(blade, seconds)) {
-    if (Status status = state.model->posed.check(state.model->character, pose); !status) return status;
+    if (Status status = CharacterPose::check(state.model->character, pose); !status) return status;
     state.held = State::Held{pose, blade};
     if (change != nullptr) *change = {};
     return TearReport{};

@@ -11,7 +11,8 @@
 namespace sunder::tear {
 namespace {
 
-/// The plane of the section, seen so that the caps of one side turn counter-clockwise.
+/// A frame in the plane of the section, oriented such that the caps of one side are
+/// counter-clockwise.
 struct SectionFrame {
   Vec3d origin, x, y, normal;
 
@@ -56,7 +57,7 @@ class Caps {
         continue;
       }
       const Index mesh = surface.triangle(rim.half_edges.front() / 3).mesh;
-      // A cap runs against the border of what it closes.
+      // A cap runs in the opposite direction of the border that it closes.
       std::reverse(rim.half_edges.begin(), rim.half_edges.end());
       closed_of_skin[work_.editor.character().meshes[mesh].skin].push_back(std::move(rim));
     }
@@ -84,7 +85,8 @@ class Caps {
     report_.open_sections += static_cast<Index>(left_over);
   }
 
-  /// The point where the cap's edge along a border half-edge begins: where the half-edge ends.
+  /// The point at which the cap's edge along a border half-edge begins, which is where the
+  /// half-edge ends.
   [[nodiscard]] Index point_before(Index half_edge) const {
     return work_.editor.surface().corner_point[Surface::next(half_edge)];
   }
@@ -110,7 +112,7 @@ class Caps {
     split_second_face(half_edges, places, *flat);
     split_joined_edges(half_edges, places, *flat);
     places.insert(places.end(), flat->inner.begin(), flat->inner.end());
-    // A body whose faces look inwards has its rims the other way round.
+    // A body whose faces point inwards has reversed rims.
     const bool is_inside_out = doubled_area(loops[region.outline]) < 0;
 
     const Index mesh = mesh_with_most(half_edges);
@@ -136,9 +138,9 @@ class Caps {
     return filling_.connect(half_edges);
   }
 
-  /// Whether two points of the rim are joined by an edge that is not the rim's: a fold or a face in
-  /// the plane, or a border elsewhere. A cap's edge between them would give that edge more than two
-  /// faces.
+  /// Whether two points of the rim are joined by an edge other than the rim's: a fold or a face in
+  /// the plane, or a border elsewhere. With an edge of the cap between them, that edge would have
+  /// too many faces.
   [[nodiscard]] bool is_joined(Index half_edge_a, Index half_edge_b) const {
     const Surface& surface = work_.editor.surface();
     const Index a = point_before(half_edge_a), b = point_before(half_edge_b);
@@ -146,8 +148,8 @@ class Caps {
     return (ab != kNone && ab != half_edge_b) || (ba != kNone && ba != half_edge_a);
   }
 
-  /// The cap of a face that hangs together with no other gets a point in its middle: of two faces
-  /// on the same three points neither could be split without the other.
+  /// Adds a point in the middle of the cap of an isolated face: two faces on the same three points
+  /// could not be split separately.
   void split_second_face(const std::vector<Index>& half_edges, const std::vector<Vec2d>& rim,
                          FlatMesh& flat) const {
     const bool is_one_face = std::all_of(half_edges.begin(), half_edges.end(),
@@ -159,13 +161,13 @@ class Caps {
     flat.triangles = {{a, b, middle}, {b, c, middle}, {c, a, middle}};
   }
 
-  /// Puts a point in the middle of each edge between points that are joined.
+  /// Adds a point in the middle of each edge between points that are joined.
   void split_joined_edges(const std::vector<Index>& half_edges, const std::vector<Vec2d>& rim,
                           FlatMesh& flat) const {
     const auto key = [](Index a, Index b) {
       return std::array<Index, 2>{std::min(a, b), std::max(a, b)};
     };
-    std::map<std::array<Index, 2>, Index> middles;  // kNone: of no concern
+    std::map<std::array<Index, 2>, Index> middles;  // kNone: not joined
     for (const auto& corners : flat.triangles)
       for (std::size_t k = 0; k < 3; ++k) {
         const Index a = corners[k], b = corners[(k + 1) % 3];
@@ -191,7 +193,7 @@ class Caps {
       }
   }
 
-  /// Rim points that lie on one line, as they do where a cut meets an older cap, do so in the pose
+  /// Rim points that should be collinear, as where a cut meets an older cap, are so in the pose
   /// only nearly; stored, a triangle of three of them has no area. Its longest edge is turned.
   void turn_flat_triangles(const std::vector<Index>& half_edges, Index mesh,
                            const std::vector<Index>& vertices,
@@ -250,8 +252,8 @@ class Caps {
         ->first;
   }
 
-  /// Bind positions, weights and morph displacements of the inner points: harmonic between those of
-  /// the rim.
+  /// Adds the inner points. Bind positions, weights and morph displacements are harmonic between
+  /// those of the rim.
   void add_inner_points(Index mesh, const std::vector<Vec2d>& places, Index rim_count,
                         const std::vector<std::array<Index, 3>>& triangles,
                         std::vector<Index>& points, std::vector<Index>& vertices) {

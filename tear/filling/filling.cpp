@@ -96,7 +96,7 @@ void Filling::take_back(const SurfaceEditor::Mark& before) {
 bool Filling::connect(const std::vector<Index>& rim_half_edges) {
   const Surface& surface = work_.editor.surface();
   std::map<std::array<Index, 2>, Index> half_edges;
-  std::unordered_set<Index> rim_points;  // asked, never walked through
+  std::unordered_set<Index> rim_points;  // lookups only, never iterated
   const auto ends_of = [&](Index h) {
     return std::array{surface.corner_point[h], surface.corner_point[Surface::next(h)]};
   };

@@ -14,18 +14,19 @@ namespace {
 
 constexpr const char* kName = "wall";
 
-/// A vertex of a wall and the surface point that it belongs to.
+/// A vertex of a wall, and its surface point.
 struct Corner {
   Index point = kNone;
   Index vertex = kNone;
 };
 
+/// Builds the walls of some borders, one border at a time.
 class Walls {
  public:
   explicit Walls(const Workpiece& work) : work_(work), filling_(kName, work) {}
 
-  /// Runs `build`, which adds triangles for some borders, and joins them; where it cannot be done,
-  /// nothing was.
+  /// Runs `build`, which adds triangles for some borders, and connects them. @return false if that
+  /// fails; then nothing is added.
   template <class Build>
   bool add(const std::vector<Index>& half_edges, Build build) {
     const SurfaceEditor::Mark before = work_.editor.mark();
@@ -44,7 +45,7 @@ class Walls {
     return surface().triangle(half_edge / 3).mesh;
   }
 
-  /// Rims of different skins cannot share vertices; points of one rim have one skin.
+  /// Rims of different skins cannot share vertices; all points of one rim have the same skin.
   [[nodiscard]] bool have_one_skin(const Rim& a, const Rim& b) const {
     const auto& meshes = work_.editor.character().meshes;
     return meshes[mesh_of(a.half_edges.front())].skin == meshes[mesh_of(b.half_edges.front())].skin;
@@ -53,7 +54,7 @@ class Walls {
   [[nodiscard]] Corner add_top(Index mesh, Index corner) {
     return {surface().corner_point[corner], filling_.add_rim_vertex(mesh, corner)};
   }
-  /// A vertex that hangs from another one by a posed displacement.
+  /// Adds a vertex at a posed displacement from another one.
   [[nodiscard]] Corner add_bottom(Index mesh, const Corner& top, Index point, const Vec3d& down) {
     const Index vertex = work_.editor.append_filling_vertex(mesh, top.vertex);
     Mesh& of = work_.editor.mesh_of_new_vertex(mesh);
@@ -99,8 +100,8 @@ double squared_distance(const Blade& blade, const Vec3d& point) {
   return (point - blade.base - at * along).squaredNorm();
 }
 
-/// The direction of the blades near a place: nearer ones count by the inverse fourth power of their
-/// distance, so that it turns smoothly from one blade to the next.
+/// The direction of the blades near a place, weighted by the inverse fourth power of their
+/// distances, so that it varies smoothly from one blade to the next.
 Vec3d blade_direction(const Stroke& stroke, const Vec3d& at) {
   double nearest = squared_distance(stroke.front(), at);
   for (const Blade& blade : stroke) nearest = std::min(nearest, squared_distance(blade, at));
@@ -108,21 +109,21 @@ Vec3d blade_direction(const Stroke& stroke, const Vec3d& at) {
   for (const Blade& blade : stroke) {
     const double squared = squared_distance(blade, at);
     const double ratio =
-        squared > 0 ? nearest / squared : 1.0;  // 1 for the nearest, whatever the unit
+        squared > 0 ? nearest / squared : 1.0;  // 1 for the nearest blade, in any unit
     sum += ratio * ratio * (blade.tip - blade.base).normalized();
   }
   return unit_or(sum, (stroke.front().tip - stroke.front().base).normalized());
 }
 
-/// A place on a rim: where one half-edge ends and the next begins.
+/// The end of a half-edge of a rim and the start of the next.
 struct RimPlace {
   Index point = kNone;
-  Vec3d at, down;    ///< Posed; down: to the wall's lower edge.
+  Vec3d at, down;    ///< Posed; down: displacement to the lower edge of the wall.
   double along = 0;  ///< Along the rim, metres.
   Index bottom = kNone;
 };
 
-/// A strip from a rim down; returns the lower corners place by place.
+/// Adds a strip that extends downwards from a rim.
 void hang_strip(const Rim& rim, const std::vector<RimPlace>& places, double unit, Walls& walls) {
   const std::size_t count = rim.half_edges.size();
   const auto wall_normal = [&](std::size_t i) {
@@ -135,7 +136,7 @@ void hang_strip(const Rim& rim, const std::vector<RimPlace>& places, double unit
     const auto add_corners = [&](std::size_t at, Index corner) {
       top = walls.add_top(mesh, corner);
       bottom = walls.add_bottom(mesh, top, places[at].bottom, places[at].down);
-      // Between two edges the wall is smooth, but not where it turns back at a tip.
+      // The wall is smooth between two edges, but not where it turns back at a tip.
       const std::size_t before = at > 0 ? at - 1 : rim.is_closed ? count - 1 : 0;
       const std::size_t after = at < count ? at : rim.is_closed ? 0 : count - 1;
       const Vec3d own = unit_or(wall_normal(i), Vec3d::UnitZ());
@@ -158,7 +159,7 @@ void hang_strip(const Rim& rim, const std::vector<RimPlace>& places, double unit
   }
 }
 
-/// The places of a rim, one more than half-edges; of a closed rim the last is the first again.
+/// The places of a rim, one more than its half-edges; those of a closed rim end with the first.
 template <class Down>
 std::vector<RimPlace> places_of(const Rim& rim, Walls& walls, Down down) {
   std::vector<RimPlace> places;
@@ -201,8 +202,8 @@ struct Axis {
 
 double turn(double from, double to) { return std::remainder(to - from, 2 * std::numbers::pi); }
 
-/// A wall between two rings: `upper` runs with the axis' sense of rotation, `lower` against it.
-/// Both are walked the way the wall's edges run, against their borders.
+/// Adds a wall between two rings: `upper` runs in the axis' sense of rotation, `lower` against it.
+/// Both are traversed in the direction of the wall's edges, against their borders.
 void join_rings(const Ring& upper, const Ring& lower, const Axis& axis, double unit, Walls& walls) {
   const Index mesh = walls.mesh_of(upper.rim.half_edges.front());
   struct Place {
@@ -212,7 +213,7 @@ void join_rings(const Ring& upper, const Ring& lower, const Axis& axis, double u
   const auto add_ring = [&](const Rim& rim, double first_angle, bool backwards) {
     std::vector<Index> corners = rim.half_edges;
     if (backwards) std::reverse(corners.begin(), corners.end());
-    // From the corner nearest to where the other ring begins.
+    // The start is the corner nearest to the start of the other ring.
     const auto angle_of = [&](Index corner) {
       return axis.angle(walls.position(walls.surface().corner_point[corner]));
     };
@@ -255,13 +256,13 @@ void join_rings(const Ring& upper, const Ring& lower, const Axis& axis, double u
   }
 }
 
-/// A wall from a ring down to `depth`, and a floor there.
+/// Adds a wall from a ring down to `depth`, and a floor there.
 void add_blind_wall(const Ring& ring, const Axis& axis, double depth, double unit, Walls& walls) {
   const auto places = places_of(ring.rim, walls, [&](const RimPlace& place) -> Vec3d {
     return (depth - axis.height(place.at)) * axis.z;
   });
   hang_strip(ring.rim, places, unit, walls);
-  // The floor looks up: its outline runs against the wall's lower edge.
+  // The floor faces upwards: its outline runs against the lower edge of the wall.
   const Index mesh = walls.mesh_of(ring.rim.half_edges.front());
   FlatLoop loop;
   std::vector<Corner> corners;
@@ -332,7 +333,7 @@ Index add_bore_wall(const std::vector<Index>& half_edges, const Vec3d& origin, c
     const Ring& ring = rings[i];
     bool is_built = false;
     if (!ring.looks_to_drill) {
-      // The drill began inside: there is nothing to line.
+      // The drill started inside the body, so there is nothing to line.
     } else if (i + 1 < rings.size() && !rings[i + 1].looks_to_drill &&
                walls.have_one_skin(ring.rim, rings[i + 1].rim)) {
       const Ring& lower = rings[++i];

@@ -1,4 +1,4 @@
-// The pieces of a cut, which are all looked at.
+// Finds all pieces, including the remaining ones, as a cut reports them.
 #include <algorithm>
 #include <array>
 #include <memory_resource>
@@ -11,7 +11,7 @@
 namespace sunder::tear {
 namespace {
 
-/// What hangs together, by points: a point has one fan, so faces with a common point are joined
+/// Connected components by points. A point has one fan, so faces with a common point are connected
 /// across edges.
 DisjointSets join_points(const Surface& surface) {
   DisjointSets parts(surface.point_count(),
@@ -25,8 +25,7 @@ DisjointSets join_points(const Surface& surface) {
   return parts;
 }
 
-/// The points that stand for parts of what fell apart: of each group of what hung together before,
-/// where there is more than one.
+/// The representative points of separated parts: of each former component that now has several.
 std::vector<Index> find_separated(ChangedFaces& changed, const Surface& surface,
                                   DisjointSets& parts) {
   std::vector<std::array<Index, 2>> of_face;  // part, group
@@ -62,13 +61,13 @@ std::vector<TornPiece> find_all_pieces(const SurfaceEditor::Mark& begin,
   const std::vector<Index> separated = find_separated(changed, surface, parts);
   if (separated.empty()) return {};
 
-  // The least point of a part stands for it, so it is met first.
+  // The least point of a part represents it, so it is visited first.
   std::vector<Index> number(surface.point_count(), kNone);
   for (Index i = 0; i < separated.size(); ++i) number[separated[i]] = i;
   for (Index point = 0; point < surface.point_count(); ++point)
     number[point] = number[parts.find(point)];
   std::vector<PieceDescription> descriptions(separated.size(), PieceDescription(editor, posed));
-  std::vector<Index> order;  // in which they are met
+  std::vector<Index> order;  // in which the pieces are found
   for (Index face = 0; face < surface.triangle_count(); ++face) {
     if (surface.has_repeated_point(face)) continue;
     const Index i = number[surface.corner_point[3 * face]];

@@ -26,7 +26,7 @@ void PieceDescription::add(Index face) {
   piece_.area_posed += area;
   moment_ += area * middle;
   sum_ += middle;
-  // The vertices of a point have the same weights: each point is looked at where it is known.
+  // All vertices of a point have the same weights, so each point is processed at one corner.
   const Skin& skin = editor_.character().skins[mesh.skin];
   for (Index k = 0; k < 3; ++k)
     if (surface.point_corner[points[k]] == 3 * face + k)

@@ -13,7 +13,7 @@
 namespace sunder::tear {
 namespace {
 
-/// Fronts that grow over the surface, one from each set of changed faces, and become one where they
+/// Fronts that grow over the surface, one from each set of changed faces, and are merged where they
 /// meet.
 class Fronts {
  public:
@@ -36,12 +36,12 @@ class Fronts {
     }
   }
 
-  /// Grows until of each group at most one set of joined fronts is not exhausted.
+  /// Grows until in each group all but at most one set of merged fronts are exhausted.
   void grow() {
     ScratchVector<Index> active(roots_, &scratch_), growing(&scratch_);
     std::pmr::unordered_map<Index, Index> sets_in_group(&scratch_);
     for (;;) {
-      // Fronts that meet make groups one: who has to grow is asked before any does.
+      // Merging fronts merges groups, so it is decided who grows before any front does.
       sets_in_group.clear();
       for (const Index front : active) ++sets_in_group[groups_.find(front)];
       growing.clear();
@@ -60,12 +60,12 @@ class Fronts {
     }
   }
 
-  /// Fronts that joined.
+  /// Merged fronts.
   struct Set {
     ScratchVector<Index> faces;  ///< Ascending.
     bool is_exhausted = false;
   };
-  /// Sets by what hung together before, of more than one each.
+  /// The sets of each group that has several.
   [[nodiscard]] ScratchVector<ScratchVector<Set>> separated() {
     ScratchVector<std::array<Index, 2>> by_group(&scratch_);  // group, front
     for (const Index front : roots_)
@@ -88,7 +88,7 @@ class Fronts {
  private:
   static constexpr std::size_t kFacesATurn = 8;
 
-  /// Smaller into larger, so that no face is moved often.
+  /// Appends the smaller set to the larger one, so that a face is moved rarely.
   void join(Index a, Index b) {
     a = sets_.find(a);
     b = sets_.find(b);
@@ -123,9 +123,10 @@ class Fronts {
   const Surface& surface_;
   ScratchMemory& scratch_;
   DisjointSets &groups_, &sets_;
-  std::pmr::unordered_map<Index, Index> front_of_face_;  // asked, never walked through
-  ScratchVector<ScratchVector<Index>> faces_, open_;     ///< Of each front; open: places in faces.
-  ScratchVector<Index> roots_;                           ///< The fronts as they started.
+  std::pmr::unordered_map<Index, Index> front_of_face_;  // lookups only, never iterated
+  ScratchVector<ScratchVector<Index>> faces_,
+      open_;                    ///< Of each front; open: indices into its faces.
+  ScratchVector<Index> roots_;  ///< The initial fronts.
 };
 
 }  // namespace
@@ -138,7 +139,7 @@ std::vector<TornPiece> find_pieces(const SurfaceEditor::Mark& begin, const Surfa
   fronts.grow();
   ScratchVector<ScratchVector<Index>> sets(&editor.scratch());
   for (auto& of_group : fronts.separated()) {
-    // What is left is the part that did not run out or, where all did, the largest.
+    // The remaining part is the one that is not exhausted or, if all are, the largest.
     const auto left = std::max_element(
         of_group.begin(), of_group.end(), [](const Fronts::Set& a, const Fronts::Set& b) {
           return a.is_exhausted != b.is_exhausted ? a.is_exhausted

@@ -6,8 +6,7 @@ namespace sunder::tear {
 
 void PatchForest::forget_pose() {
   if (++epoch_ != 0) return;
-  for (Covered& covered : sources_)
-    covered.tree.forget_epochs();  // once in four thousand million poses
+  for (Covered& covered : sources_) covered.tree.forget_epochs();  // once in 2^32 poses
   for (auto& of_mesh : fillings_)
     for (Covered& covered : of_mesh) covered.tree.forget_epochs();
   for (PosedBones& bones : bones_) bones.forget_epochs();
@@ -46,8 +45,8 @@ void PatchForest::cover(const SurfaceEditor& editor) {
   }
   for (Index m = 0; m < meshes.size(); ++m) cover_fillings(editor, m);
 
-  // Depth first: of the tree that is being walked, at most the brothers of each node on the way
-  // down wait besides the other roots.
+  // The search is depth-first: in addition to the other roots, the stack holds at most the siblings
+  // of each node on the way down the current tree.
   std::size_t roots = sources_.size(), levels = 0;
   for (const Covered& covered : sources_)
     levels = std::max<std::size_t>(levels, covered.tree.level_count());
@@ -64,8 +63,8 @@ void PatchForest::cover_fillings(const SurfaceEditor& editor, Index mesh) {
   std::vector<Covered>& trees = fillings_[mesh];
   const Index source_count = editor.source().meshes[mesh].triangle_count();
   const Index end = source_count + static_cast<Index>(fillings.size());
-  // Fillings come and go last in, first out, and their serials ascend. A tree that has lost the
-  // most of what it was built over is built anew.
+  // Fillings are added and removed last in, first out, and their serials ascend. A tree that has
+  // lost most of its fillings is rebuilt.
   while (!trees.empty()) {
     Covered& last = trees.back();
     while (last.end > last.first &&

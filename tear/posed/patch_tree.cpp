@@ -9,18 +9,18 @@
 namespace sunder::tear {
 namespace {
 
-constexpr float kWeightParts = 65000;  // less than 2^16: weights may be a little above 1
+constexpr float kWeightParts = 65000;  // less than 2^16, because weights may slightly exceed 1
 constexpr float kBoxParts = 255;
-/// Where more bones move a node, ranges of weights say nothing that the hull does not.
+/// If more bones move a node, ranges of weights do not improve on the hull.
 constexpr std::size_t kFewBones = 12;
 constexpr std::size_t kMaximumSlots = std::size_t{1} << 16;
 
-/// What stored positions and weights of new vertices may lie beside their origin's: each is rounded
-/// to float once, and a wall that grows on a wall rounds again.
+/// Relative deviation of the stored positions and weights of new vertices from those of their
+/// source triangle: each is rounded to float once, and a wall on a wall is rounded again.
 constexpr float kRounding = 0x1p-20f;
 
-/// Low corner and negated high corner, each with a fourth lane, so that both grow by taking the
-/// lesser.
+/// A box as its low corner and its negated high corner, each with a fourth lane, so that both grow
+/// by taking the minimum.
 struct GrowingBox {
   std::array<float, 8> least;
 
@@ -40,12 +40,10 @@ struct GrowingBox {
   }
 };
 
-/// Triangles of a mesh in the order in which a Hilbert curve through bind space comes to their
-/// middles.
+/// The triangles in the order of their centres along a Hilbert curve through bind space.
 std::vector<Index> order_along_curve(const Mesh& mesh, std::span<const Triangle> triangles) {
-  constexpr std::uint32_t kIndexBits = 30,
-                          kDigitBits =
-                              HilbertCurve::kBits;  // TornModel refuses more triangles than that
+  // TornModel refuses models with more triangles than fit into kIndexBits.
+  constexpr std::uint32_t kIndexBits = 30, kDigitBits = HilbertCurve::kBits;
   std::vector<Vec3f> middles(triangles.size());
   GrowingBox box;
   for (std::size_t t = 0; t < triangles.size(); ++t) {
@@ -71,7 +69,7 @@ std::vector<Index> order_along_curve(const Mesh& mesh, std::span<const Triangle>
 
   if (keys.size() < 4096) {
     std::sort(keys.begin(), keys.end());
-  } else {  // least digit first: stable, so that the numbers at the keys' end stay in order
+  } else {  // least digit first; stable, so that the indices at the end of the keys stay ordered
     std::vector<std::uint64_t> sorted(keys.size());
     for (std::uint32_t digit = 0; digit < 3; ++digit) {
       const std::uint32_t shift = kIndexBits + digit * kDigitBits;
@@ -95,7 +93,7 @@ std::vector<Index> order_along_curve(const Mesh& mesh, std::span<const Triangle>
 
 }  // namespace
 
-/// Describes nodes one after the other.
+/// Builds the nodes one after the other.
 class PatchTree::Builder {
  public:
   Builder(const Mesh& mesh, PatchTree& tree) : mesh_(mesh), tree_(tree) {
@@ -192,7 +190,7 @@ class PatchTree::Builder {
     finish_node();
   }
 
-  /// Begins the next node. Once more after the last.
+  /// Begins the next node. Called once more after the last one.
   void begin_node() {
     tree_.nodes_.push_back({{}, static_cast<Index>(tree_.bones_.size())});
     if (!targets_.empty()) tree_.first_morph_.push_back(static_cast<Index>(tree_.morphs_.size()));
@@ -201,7 +199,7 @@ class PatchTree::Builder {
  private:
   struct Moved {
     Index slot = 0;
-    Index corners = 0;  ///< That the bone moves; of a parent, children.
+    Index corners = 0;  ///< Number of corners that the bone moves; of a parent, number of children.
     std::uint32_t stamp = 0;
     float least = std::numeric_limits<float>::infinity(), greatest = 0;
     std::uint16_t least_parts = 0, greatest_parts = 0;
@@ -279,10 +277,10 @@ class PatchTree::Builder {
 
   const Mesh& mesh_;
   PatchTree& tree_;
-  std::vector<Index> targets_;        ///< That displace positions.
+  std::vector<Index> targets_;        ///< The targets that displace positions.
   GrowingBox box_;                    ///< Of the node.
-  std::vector<Moved> moved_;          ///< By each bone that moves the node.
-  std::vector<Index> place_of_slot_;  ///< In moved_.
+  std::vector<Moved> moved_;          ///< One per bone that moves the node.
+  std::vector<Index> place_of_slot_;  ///< Index into moved_.
 };
 
 PatchTree::PatchTree(const Mesh& mesh, std::span<const Triangle> triangles, Index first_origin)
@@ -324,7 +322,7 @@ std::size_t PatchTree::bytes() const {
          bytes_of(morphs_) + bytes_of(first_morph_) + bytes_of(posed_) + bytes_of(posed_since_);
 }
 
-/// Where a pose may put boxes of a node.
+/// Bounds of the posed boxes of a node.
 class PatchTree::Bound {
  public:
   Bound(const PatchTree& tree, Index node, const MeshPose& pose)
@@ -353,7 +351,7 @@ class PatchTree::Bound {
   struct Interval {
     Lanes low, high;
   };
-  /// M_i B_i, in whatever axes the bone is given.
+  /// M_i B_i, in the axes of the given bone.
   EIGEN_ALWAYS_INLINE static Interval posed(const PosedBones::Bone& bone, const BindBox& box) {
     const Lanes middle =
         bone.translation + bone.x * box.middle[0] + bone.y * box.middle[1] + bone.z * box.middle[2];
@@ -362,7 +360,7 @@ class PatchTree::Bound {
     return {middle - half, middle + half};
   }
 
-  /// What a mean of points of some intervals lies in.
+  /// Bounds of a weighted mean of points, each from one of several intervals.
   struct Mean {
     Interval main, hull, sum;
 
@@ -373,7 +371,7 @@ class PatchTree::Bound {
     }
     EIGEN_ALWAYS_INLINE void add(const Interval& interval, const NodeBone& bone) {
       add(interval);
-      // w_main = 1 - sum of the others: each of those moves the mean from the main bone's place
+      // w_main = 1 - sum of the others: each other bone moves the mean from the main bone's image
       // towards its own.
       const float least = bone.least_weight * (1 / kWeightParts),
                   greatest = bone.greatest_weight * (1 / kWeightParts);
@@ -382,7 +380,7 @@ class PatchTree::Bound {
       sum.high += (least * up).max(greatest * up);
     }
   };
-  /// Everything, where something may have overflowed.
+  /// The bound; everything if numbers may have overflowed.
   [[nodiscard]] Interval result(const Mean& mean) const {
     constexpr float kInfinity = std::numeric_limits<float>::infinity();
     const Lanes largest = mean.hull.low.abs().max(mean.hull.high.abs());
@@ -395,10 +393,11 @@ class PatchTree::Bound {
   }
 
   [[nodiscard]] std::span<const NodeBone> bones() const { return bones_; }
-  /// Of the places of the node's box.
+  /// Largest absolute coordinates of the box of the node.
   [[nodiscard]] const Lanes& largest() const { return largest_; }
 
-  /// Of the patches of the node, which is a group. @param bone_of  a bone of the pose, by its slot.
+  /// The bounds of the patches of the node, which is a group. @param bone_of  returns the bone of a
+  /// slot.
   template <class BoneOf>
   Index gather_patches(Index group, BoneOf bone_of,
                        std::array<Mean, kPatchesPerGroup>& means) const {
@@ -420,7 +419,7 @@ class PatchTree::Bound {
   }
 
  private:
-  /// Of a sum of some products in float, many times over.
+  /// Rounding of a sum of a few products in float, with a wide margin.
   static constexpr float kRoundingOfSums = 2e-6f;
 
   void add_morphs(Index node, const MeshPose& pose) {
@@ -447,9 +446,9 @@ class PatchTree::Bound {
   const PatchTree& tree_;
   std::span<const NodeBone> bones_;
   float reach_;
-  BindBox whole_;    ///< The node's, morphs included.
-  Lanes half_part_;  ///< Half of what inner boxes are measured in.
-  Lanes largest_;    ///< Of the places of the node.
+  BindBox whole_;    ///< The box of the node, morph displacements included.
+  Lanes half_part_;  ///< Half of the unit of inner boxes.
+  Lanes largest_;    ///< Largest absolute coordinates of the node.
   bool is_bounded_ = tree_.is_bounded_;
 };
 
@@ -485,7 +484,7 @@ Index PatchTree::compute_posed_patches(Index group, const MeshPose& pose,
 
 Index PatchTree::compute_posed_patches(Index group, const MeshPose& pose,
                                        std::array<Shadow, kPatchesPerGroup>& shadows) const {
-  // The parallels run along the shadows of the edges of the group's box, as its main bone turns it.
+  // The parallels follow the projected edges of the group's box, rotated by its main bone.
   const Bound bound(*this, group, pose);
   const PosedBones::Bone& main = pose.bones.at(bound.bones()[0].slot);
   std::array<Vec2f, 3> normal;
@@ -511,7 +510,7 @@ Index PatchTree::compute_posed_patches(Index group, const MeshPose& pose,
     seen.size_of_x = seen.x.abs();
     seen.size_of_y = seen.y.abs();
     seen.size_of_z = seen.z.abs();
-    // What was turned is off by what it was turned from.
+    // A rotated number inherits the errors of the numbers that it was computed from.
     const Bound::Lanes reach = bone.translation.abs() + bone.size_of_x * bound.largest()[0] +
                                bone.size_of_y * bound.largest()[1] +
                                bone.size_of_z * bound.largest()[2];

@@ -8,7 +8,7 @@ namespace sunder::tear {
 Status PosedPoints::begin(const Character& character, const ModelPose& pose) {
   if (Status status = pose_.set(character, pose); !status) return status;
   forest_.forget_pose();
-  if (++epoch_ == 0) {  // once in four thousand million poses
+  if (++epoch_ == 0) {  // wrapped around: once in 2^32 poses
     for (Known& known : known_) known.since = 0;
     epoch_ = 1;
   }
@@ -42,7 +42,7 @@ void PosedPoints::pin(Index point, const Vec3d& position) {
 
 void PosedPoints::fetch(const SurfaceEditor& editor, Index mesh,
                         std::span<const Index> origins) const {
-  // Each loop reads what the one before it has asked for.
+  // Each loop reads what the previous one has prefetched.
   const Surface& surface = editor.surface();
   const Mesh& of = editor.character().meshes[mesh];
   const Index source_count = editor.source().meshes[mesh].triangle_count();

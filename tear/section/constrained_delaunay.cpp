@@ -16,9 +16,9 @@ bool is_ahead(const Vec2d& a, const Vec2d& b, const Vec2d& p) {
                         : (b.y() > a.y()) == (p.y() > a.y()) && p.y() != a.y();
 }
 
-/// Triangulates a polygon, counter-clockwise, between its last point and its first, all of which is
-/// seen from that edge: ears are cut as they come (Toussaint and Avis 1982). Points may come twice
-/// where the boundary runs to and fro along an edge.
+/// Triangulates a counter-clockwise polygon that is visible from the edge between its last and
+/// first point, by clipping ears in order (Toussaint and Avis 1982). Points may occur twice where
+/// the boundary runs to and fro along an edge.
 void fill_from_edge(std::span<const Vec2d> points, const std::vector<Index>& polygon,
                     std::vector<std::array<Index, 3>>& triangles) {
   std::vector<Index> stack;
@@ -98,8 +98,8 @@ Index ConstrainedDelaunay::locate(Index point) const {
   Index triangle = last_;
   if (const Index edge = hull_edge(triangle); edge != kNone) triangle = twin_[edge] / 3;
   Index entered = kNone;
-  for (;;) {  // ends: triangles of a Delaunay triangulation that hide one another from a point do
-              // so without cycles
+  for (;;) {  // terminates: in a Delaunay triangulation, triangles hide one another from a point
+              // without cycles
     Index left = kNone;
     for (Index h = 3 * triangle; h < 3 * triangle + 3 && left == kNone; ++h)
       if (h != entered && orientation(points_[origin_[h]], points_[end(h)], p) < 0) left = h;
@@ -120,8 +120,8 @@ bool ConstrainedDelaunay::in_conflict(Index triangle, Index point) const {
     return in_circle(points_[origin_[3 * triangle]], points_[origin_[3 * triangle + 1]],
                      points_[origin_[3 * triangle + 2]], p) > 0;
   const Vec2d &a = points_[origin_[edge]], &b = points_[end(edge)];
-  const int side =
-      orientation(a, b, p);  // its circle: the half-plane outside, and the edge without its ends
+  const int side = orientation(
+      a, b, p);  // the circle of a ghost: the half-plane outside, and the edge without its ends
   return side > 0 || (side == 0 && is_ahead(a, b, p) && is_ahead(b, a, p));
 }
 

@@ -11,7 +11,7 @@ namespace {
 
 struct Pair {
   double value;  ///< The rounded result.
-  double error;  ///< What rounding took away: the exact result is value + error.
+  double error;  ///< The rounding error: the exact result is value + error.
 };
 
 Pair two_sum(double a, double b) {
@@ -33,8 +33,7 @@ Pair two_product(double a, double b) {
                        (((product - x.value * y.value) - x.error * y.value) - x.value * y.error)};
 }
 
-/// A number as an exact sum of at most N doubles that do not overlap, the smallest first, none
-/// zero.
+/// A number as an exact sum of at most N non-zero doubles that do not overlap, the smallest first.
 template <int N>
 struct Expansion {
   std::array<double, N> component{};

@@ -11,7 +11,7 @@ struct Loop {
   Index index = 0;  ///< In the caller's list.
   FlatLoop points;
   Vec2d low, high;
-  double area = 0;  ///< About.
+  double area = 0;  ///< Approximate.
   bool is_clockwise = false;
 };
 
@@ -63,8 +63,9 @@ Side side_of(const Loop& loop, const Vec2d& p) {
   return is_inside ? Side::inside : Side::outside;
 }
 
-/// Whether `outer` holds `inner`, told by the first point of `inner` that is not on `outer`, else
-/// by the first such middle of an edge. Of loops that coincide the first holds the other.
+/// Whether `outer` contains `inner`, decided by the first point of `inner` that is not on `outer`,
+/// otherwise by the first such midpoint of an edge. Of coincident loops the first contains the
+/// other.
 bool holds(const Loop& outer, const Loop& inner) {
   if (!box_holds(outer, inner.low) || !box_holds(outer, inner.high)) return false;
   for (const Vec2d& p : inner.points)
@@ -85,7 +86,7 @@ std::vector<FlatRegion> find_regions(std::span<const FlatLoop> all_loops) {
     for (std::size_t k = 0; k < loops.size(); ++k)
       if (k != i && holds(loops[k], loops[i])) holders[i].push_back(k);
 
-  // A loop is a hole where it runs against the outermost one around it.
+  // A loop is a hole if its direction is opposite to the outermost loop around it.
   std::vector<bool> is_hole(loops.size(), false);
   for (std::size_t i = 0; i < loops.size(); ++i)
     for (const std::size_t k : holders[i])
@@ -93,8 +94,8 @@ std::vector<FlatRegion> find_regions(std::span<const FlatLoop> all_loops) {
 
   std::vector<FlatRegion> regions;
   std::vector<std::size_t> region_of(loops.size(), loops.size());
-  // It belongs to the innermost of the outlines that hold it. Among loops that cross there may be
-  // none: its own outline then.
+  // It belongs to the innermost outline that contains it. Among crossing loops there may be none;
+  // then it is its own outline.
   std::vector<std::size_t> outline_of(loops.size());
   for (std::size_t i = 0; i < loops.size(); ++i) {
     std::size_t best = i;

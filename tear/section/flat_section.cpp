@@ -10,11 +10,11 @@
 namespace sunder::tear {
 namespace {
 
-/// The points of a region's loops, one after another, and the edges between them.
+/// The points of the loops of a region, consecutive, and the edges between them.
 struct Rim {
   std::vector<Vec2d> points;
   std::vector<std::array<Index, 2>> edges;
-  double area = 0;  ///< Of the outline less the holes, about.
+  double area = 0;  ///< Approximate area of the outline minus the holes.
 };
 
 double signed_area(const FlatLoop& loop) {
@@ -26,7 +26,7 @@ double signed_area(const FlatLoop& loop) {
   return 0.5 * twice;
 }
 
-/// @return false where a loop is no polygon or not in range.
+/// @return false if a loop is not a polygon or not in range.
 bool append_loop(const FlatLoop& loop, Rim& rim) {
   if (loop.size() < 3) return false;
   const auto first = static_cast<Index>(rim.points.size());
@@ -51,7 +51,7 @@ std::optional<FlatMesh> triangulate_with(const Rim& rim, const std::vector<Vec2d
   mesh.triangles = std::move(*triangulation).inside();
   if (mesh.triangles.empty()) return std::nullopt;
 
-  // Inner points that rounding put outside are in no triangle.
+  // Inner points that are outside because of rounding are in no triangle.
   std::vector<Index> number(points.size(), kNone);
   const auto rim_count = static_cast<Index>(rim.points.size());
   for (const auto& triangle : mesh.triangles)

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kRowHeight = 0.86602540378443865;  // sqrt(3) / 2 of the spacing
 
-/// Rows of points, every other one shifted by half a spacing.
+/// Rows of points; every other row is shifted by half a spacing.
 struct Lattice {
   Vec2d origin;
   double spacing;
@@ -34,11 +34,11 @@ struct Lattice {
 /// Points of one row between two edges.
 struct Run {
   long row, first, last;  ///< Columns [first, last).
-  std::size_t offset;     ///< Of the first in all points.
+  std::size_t offset;     ///< Index of the first among all points.
 };
 
-/// Runs within the polygons, by row and column. Empty where there would be more than `capacity`
-/// points, which sets `is_too_many`.
+/// The runs inside the polygons, ordered by row and column. Empty if there would be more than
+/// `capacity` points, which sets `is_too_many`.
 std::vector<Run> find_runs(const Lattice& lattice, std::span<const Vec2d> points,
                            std::span<const std::array<Index, 2>> edges, std::size_t capacity,
                            bool& is_too_many) {
@@ -66,12 +66,12 @@ std::vector<Run> find_runs(const Lattice& lattice, std::span<const Vec2d> points
     runs.push_back({row, first, last, count});
     count += static_cast<std::size_t>(last - first);
   }
-  is_too_many = count > 2 * capacity + crossings.size();  // those near the edges go
+  is_too_many = count > 2 * capacity + crossings.size();  // those near the edges will be removed
   if (is_too_many) runs.clear();
   return runs;
 }
 
-/// Takes the points away that are nearer to an edge than `distance`.
+/// Removes the points that are closer to an edge than `distance`.
 void clear_near(const Vec2d& a, const Vec2d& b, double distance, const Lattice& lattice,
                 std::span<const Run> runs, std::vector<char>& keep) {
   const Vec2d along = b - a;
@@ -79,8 +79,8 @@ void clear_near(const Vec2d& a, const Vec2d& b, double distance, const Lattice& 
   const long end_row = lattice.first_row_above(std::max(a.y(), b.y()) + distance) + 1;
   for (long row = lattice.first_row_above(std::min(a.y(), b.y()) - distance) - 1; row < end_row;
        ++row) {
-    // The part of the edge whose height is within the distance of the row; all of it where it is
-    // about level.
+    // The part of the edge whose height is within the distance of the row; all of it if it is
+    // nearly horizontal.
     double from = 0, to = 1;
     if (std::abs(along.y()) > distance) {
       from = (lattice.y(row) - 1.01 * distance - a.y()) / along.y();
@@ -120,8 +120,8 @@ std::vector<Vec2d> place_inner_points(std::span<const Vec2d> points,
     high = high.cwiseMax(points[edge[0]]);
     perimeter += (points[edge[1]] - points[edge[0]]).norm();
   }
-  // No more rows than this in all along the edges, however fine the spacing: what bounds the time
-  // of a region that is all rim.
+  // Maximum number of rows along all edges, for any spacing: it bounds the time for a region that
+  // is all rim.
   spacing = std::max(spacing, perimeter / (64.0 * static_cast<double>(edges.size() + 64)));
   spacing =
       std::max(spacing, std::sqrt(std::abs(area) / (kRowHeight * static_cast<double>(capacity))));

@@ -6,7 +6,7 @@
 namespace sunder::tear {
 namespace {
 
-/// Place of a cell of a 2^16 x 2^16 grid on Hilbert's curve.
+/// Position of a cell of a 2^16 x 2^16 grid along a Hilbert curve.
 std::uint32_t hilbert_place(std::uint32_t x, std::uint32_t y) {
   std::uint32_t place = 0;
   for (std::uint32_t side = 1u << 15; side != 0; side >>= 1) {
@@ -23,8 +23,8 @@ std::uint32_t hilbert_place(std::uint32_t x, std::uint32_t y) {
   return place;
 }
 
-/// How often a die of two sides falls on the first in a row: each round of insertion takes about
-/// half of the points that are left for the rounds after it.
+/// Length of a run of equal random bits: each round of insertion takes about half of the points
+/// that are left.
 int rounds_before_last(std::uint64_t seed) {
   seed = (seed + 1) * 0x9E3779B97F4A7C15u;
   seed = (seed ^ (seed >> 30)) * 0xBF58476D1CE4E5B9u;
