@@ -51,7 +51,8 @@ TEST(DualQuaternion, agrees_with_the_definition_in_double) {
        {test::RandomSkin{500, 12, 4, 0, false, 6}, test::RandomSkin{300, 200, 3, 0, false, 200}}) {
     const Mesh mesh = test::make_random_skin(random, kind);
     auto matrices = test::random_palette(random, kind.slots);
-    for (Affine3d& matrix : matrices) {  // near one another: opposite rotations have no middle
+    for (Affine3d& matrix :
+         matrices) {  // close to each other, because opposite rotations have no mean
       const Eigen::AngleAxisd turn(Eigen::Matrix3d(matrix.linear()));
       matrix.linear() = Eigen::AngleAxisd(turn.angle() / 3, turn.axis()).toRotationMatrix();
     }

@@ -1,5 +1,4 @@
-// Vertices with a bind position for each influence: they stay where a triangle has them, in every
-// pose.
+// Vertices with a bind position per influence follow a point of a triangle exactly in every pose.
 
 #include <sunder/skinning/deform.h>
 #include <sunder/skinning/skinned_mesh.h>
@@ -16,14 +15,14 @@
 namespace sunder {
 namespace {
 
-/// A vertex inside a triangle of others.
+/// A vertex inside a triangle of other vertices.
 struct Inside {
   Triangle corners;
   std::array<double, 3> parts;
 };
 
-/// Appends vertices inside random triangles: weights interpolated, bind positions per influence as
-/// the definition has them.
+/// Appends vertices inside random triangles, with interpolated weights and with bind positions per
+/// influence by definition.
 InfluencePositions append_inside(test::Random& random, Mesh& mesh, std::uint32_t count,
                                  std::vector<Inside>& inside) {
   InfluencePositions exact;

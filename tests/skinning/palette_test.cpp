@@ -25,7 +25,7 @@ TEST(Palette, model_matrices_multiply_down_the_tree) {
 TEST(Palette, skin_in_bind_pose_reproduces_its_mesh) {
   Character character = test::make_tube(6, 8, 4);
   test::Random random(2);
-  // Binds that have nothing to do with the rest pose.
+  // Bind matrices that are unrelated to the rest pose.
   for (Affine3f& bind : character.skins[0].bone_from_bind)
     bind = Eigen::Affine3d(
                Eigen::AngleAxisd(random.uniform(-2, 2), Eigen::Vector3d(random.direction())) *

@@ -24,7 +24,7 @@ std::shared_ptr<const Character> share(Character character) {
   return std::make_shared<const Character>(std::move(character));
 }
 
-/// A tube whose bones rest turned, shifted and, where asked, scaled unevenly.
+/// A tube whose bones are rotated, shifted and, if requested, scaled unevenly at rest.
 Character make_crooked_tube(std::uint32_t bone_count, bool is_scaled = true) {
   Character character = test::make_tube(8, 4, bone_count);
   test::Random random(3);
@@ -83,7 +83,7 @@ ModelPose posed(const Character& character, const PoseSpec& spec) {
   return *pose;
 }
 
-/// The largest difference of two poses' matrices.
+/// The largest difference between the matrices of two poses.
 double distance(const ModelPose& a, const ModelPose& b) {
   double most = 0;
   for (std::size_t i = 0; i < a.model_from_bone.size(); ++i)
@@ -108,8 +108,7 @@ struct Turned {
 };
 using Turns = std::vector<Turned>;
 
-/// What must be done to a skeleton at rest to get a pose: the rotation of each bone, read back from
-/// the matrices.
+/// The rotation of each bone relative to rest, computed from the matrices of a pose.
 std::vector<Mat3d> read_turns(const Character& character, const ModelPose& pose) {
   std::vector<Mat3d> turns;
   for (std::size_t i = 0; i < character.skeleton.bones.size(); ++i) {
@@ -138,8 +137,8 @@ bool is_turned_by(const std::vector<Mat3d>& found, const Turns& wanted) {
   return true;
 }
 
-/// The poses are those wanted, each once, in any order; bones that are neither turned nor below one
-/// that is stand as at rest, bit for bit.
+/// The poses are the expected ones, each once, in any order. Bones that are neither rotated nor
+/// below a rotated one are at rest, bit for bit.
 void expect_sweeps(const Character& character, const PoseSet& set, Role role,
                    const std::vector<Turns>& wanted) {
   const auto& bones = character.skeleton.bones;
@@ -197,8 +196,8 @@ Channel rotation_of(std::uint32_t bone, std::vector<float> times, float angle) {
 
 TEST(PoseSet, clips_are_fitted_in_the_middles_of_intervals_and_held_out_between) {
   Character character = make_crooked_tube(4);
-  // Bones in no order, two channels of one part, of which the later counts, and morph weights
-  // between them.
+  // Bones in random order, two channels of one part, of which the later one counts, and morph
+  // weights between them.
   Clip wild{"wild", 3.0f, {}};
   wild.channels.push_back(rotation_of(3, {0, 1, 3}, 0.4f));
   wild.channels.push_back(
@@ -252,7 +251,7 @@ TEST(PoseSet, a_range_of_motion_turns_each_joint_alone_and_with_its_parent) {
     const PoseSet set = make_set(character, sweeps_only());
     std::vector<Turns> fit, held_out;
     for (const std::uint32_t bone : {1u, 2u, 3u})
-      add_free_bone(bone, fit, held_out);  // with bone 0 all would turn
+      add_free_bone(bone, fit, held_out);  // with bone 0 everything would rotate
     for (const std::uint32_t bone : {2u, 3u}) add_free_pair(bone, bone - 1, fit, held_out);
     EXPECT_EQ(set.size(Role::fit), 3u * 18 + 2 * 6);
     EXPECT_EQ(set.size(Role::held_out), 3u * 12 + 2 * 3);
@@ -288,8 +287,7 @@ TEST(PoseSet, joints_side_by_side_have_no_pairs) {
 }
 
 TEST(PoseSet, bones_that_change_no_shape_do_not_turn) {
-  // Bone 0 carries all; bone 1 moves no vertex, and above vertices that others move too; nothing
-  // hangs below bone 4.
+  // Bone 0 is above all bones; bone 1 moves no vertex; no bone is below bone 4.
   Character character = test::make_tube(8, 4, 5);
   const std::vector<Influence> influences[] = {{{2, 1.0f}}, {{3, 0.5f}, {2, 0.5f}}, {{0, 1.0f}}};
   SkinWeights weights;
@@ -305,8 +303,8 @@ TEST(PoseSet, bones_that_change_no_shape_do_not_turn) {
 }
 
 TEST(PoseSet, a_mesh_that_turns_as_a_whole_keeps_its_shape) {
-  // Two rigs in one skeleton, each with a mesh: their roots turn all of one mesh and nothing of the
-  // other.
+  // Two rigs in one skeleton, each with a mesh: each root rotates all of one mesh and nothing of
+  // the other.
   Character character = test::make_two_tubes(4, 4);
   for (std::uint32_t bone = 0; bone < 3; ++bone) {
     Bone copy = character.skeleton.bones[bone];
@@ -392,7 +390,7 @@ TEST(PoseSet, limits_replace_the_free_range_of_their_bone_alone) {
   const Character character = make_crooked_tube(4);
   PoseSetSpec spec = sweeps_only();
   spec.joint_limits = {{2, Vec3d::UnitY(), -0.4, 0.8},
-                       {3, Vec3d::UnitX(), 0, 0}};  // bone 3 cannot turn
+                       {3, Vec3d::UnitX(), 0, 0}};  // bone 3 cannot rotate
   std::vector<Turns> fit, held_out;
   add_free_bone(1, fit, held_out);
   for (const double angle : {-0.4, -0.2, 0.4, 0.8}) fit.push_back({{2, Vec3d::UnitY(), angle}});

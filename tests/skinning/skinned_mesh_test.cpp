@@ -1,5 +1,5 @@
-// What a SkinnedMesh promises: the definition to float precision; and the same bits whatever the
-// blocks, vectors, tasks, layouts, and whatever of it was already written.
+// SkinnedMesh matches the definition to float precision, and its bits do not depend on blocks,
+// vectors, tasks, layouts, or what was written before.
 
 #include <sunder/skinning/deform.h>
 #include <sunder/skinning/skinned_mesh.h>
@@ -51,8 +51,8 @@ BonePalette palette_of(const std::vector<Affine3f>& matrices,
   return palette;
 }
 
-/// Kinds of meshes: few bones shared by neighbours, as rigs are; bones anywhere; more influences
-/// than engines have; sizes beside a block's, and beyond a window's.
+/// Kinds of meshes: few bones shared by neighbours, as in rigs; random bones; more influences than
+/// engines support; sizes around that of a block, and above that of a window.
 std::vector<RandomSkin> kinds() {
   return {{1, 1, 1, 0, false, 1},        {15, 3, 2, 1, false, 3},   {16, 4, 4, 0, true, 4},
           {17, 8, 8, 2, true, 8},        {333, 60, 4, 3, true, 6},  {500, 300, 4, 0, true, 300},
@@ -74,7 +74,7 @@ TEST(SkinnedMesh, agrees_with_the_double_precision_reference) {
         const Vec3d expected = deform_position_reference(mesh, v, exact, weights);
         ASSERT_LT((posed.position(v).cast<double>() - expected).norm(), 1e-6 * scale * scale)
             << "vertex " << v;
-        // Where bones disagree, blended normals may be short: relative errors grow.
+        // If bones disagree, blended normals may be short, which increases relative errors.
         const Vec3d normal = deform_normal_reference(mesh, v, exact, weights);
         Mat3d blended = Mat3d::Zero();
         for (const Influence& influence : mesh.weights.of(v))
@@ -110,8 +110,8 @@ TEST(SkinnedMesh, tangents_go_by_the_linear_part_and_keep_w) {
 }
 
 TEST(SkinnedMesh, a_vertex_has_the_same_bits_wherever_it_stands) {
-  // Lips of a tear and sides of a seam are vertices that coincide, far apart in their buffers: they
-  // must not crack.
+  // The lips of a tear and the sides of a seam are coincident vertices, far apart in their buffers;
+  // they must not crack.
   Random random(13);
   for (const SkinningMethod method : {SkinningMethod::linear, SkinningMethod::dual_quaternion})
     for (const RandomSkin& kind : kinds()) {
@@ -139,7 +139,7 @@ TEST(SkinnedMesh, a_vertex_has_the_same_bits_wherever_it_stands) {
     }
 }
 
-/// Runs tasks from the last to the first, on so many threads.
+/// Runs tasks from the last to the first, as if on a given number of threads.
 struct BackwardThreads {
   std::uint32_t threads;
   std::uint32_t calls = 0;
@@ -204,8 +204,8 @@ TEST(SkinnedMesh, strides_in_and_out_do_not_change_bits) {
     EXPECT_EQ(padded.first_difference(packed), kNone);
     EXPECT_TRUE(padded.margins_are_untouched());
 
-    // An engine's interleaved vertices, as bytes: position, normal, tangent, slots, weights, and
-    // something else.
+    // Interleaved vertices of an engine, as bytes: position, normal, tangent, slots, weights, and
+    // other data.
     const std::size_t places = kind.influences,
                       stride = 40 + 2 * places + 2 * (places % 2) + 4 * places + 4;
     std::vector<float> bytes(mesh.vertex_count() * stride / 4 + 1);
@@ -271,7 +271,7 @@ TEST(SkinnedMesh, weights_of_16_bits_are_65535ths) {
   EXPECT_EQ(posed.first_difference(expected), kNone);
 }
 
-/// Whether ranges ascend, lie apart, and hold every vertex that `changed` says.
+/// Whether ranges are ascending, disjoint, and contain every changed vertex.
 void expect_ranges_cover(std::span<const IndexRange> ranges, std::uint32_t vertices,
                          const std::vector<bool>& changed) {
   std::vector<bool> covered(vertices);
@@ -306,7 +306,7 @@ TEST(SkinnedMesh, writing_what_moved_equals_writing_everything) {
           if (kind.morph_targets > 0 && random.index(2) == 0)
             weights[random.index(kind.morph_targets)] = static_cast<float>(random.uniform(0, 1));
           ASSERT_TRUE(palette.set(matrices, weights));
-          if (random.index(4) == 0) continue;  // a frame in which nobody draws
+          if (random.index(4) == 0) continue;  // a frame without deform()
           write(made, palette, buffer);
 
           PosedArrays anew(mesh);

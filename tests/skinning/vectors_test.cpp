@@ -1,4 +1,4 @@
-// Every kind of vectors that this CPU has, and none, against one another.
+// Compares all vector extensions of this CPU, and scalar code, with each other.
 
 #include <sunder/skinning/skinned_mesh.h>
 
@@ -12,7 +12,7 @@
 namespace sunder {
 namespace {
 
-/// Lets the library choose among some kinds of vectors only, for as long as this lives.
+/// Restricts the library to some vector extensions during its lifetime.
 class OnlyTargets {
  public:
   explicit OnlyTargets(std::int64_t targets) {

@@ -1,6 +1,6 @@
-// Displaced vertices: the definition to float precision; the same bits whatever was displaced
-// before, at every number of tasks, in every layout; normals and tangents as the displaced surface
-// has them.
+// Displaced vertices match the definition to float precision; their bits do not depend on earlier
+// displacements, the number of tasks, or the layout; normals and tangents are those of the
+// displaced surface.
 
 #include <sunder/skinning/skinned_mesh.h>
 
@@ -25,15 +25,15 @@ using test::PosedArrays;
 using test::Random;
 using test::RandomSkin;
 
-/// As in skinned_mesh_test.cpp: in order, gathered, sparse, with sizes beside a block's and beyond
-/// a window's.
+/// As in skinned_mesh_test.cpp: in order, gathered, sparse; sizes around that of a block and above
+/// that of a window.
 std::vector<RandomSkin> kinds() {
   return {{1, 1, 1, 0, false, 1},      {17, 8, 8, 2, true, 8},        {333, 60, 4, 3, true, 6},
           {500, 300, 4, 0, true, 300}, {700, 400, 24, 1, false, 400}, {1000, 5, 1, 0, false, 5},
           {5000, 64, 4, 1, false, 6},  {9000, 64, 8, 0, true, 64},    {9000, 12, 1, 0, false, 12}};
 }
 
-/// Neighbours share their bones in the first window, and not in those behind it.
+/// Neighbours share their bones in the first window and not in later ones.
 void share_bones_in_first_window(Mesh& mesh) {
   SkinWeights weights;
   for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
@@ -59,7 +59,7 @@ Vec3f random_vector(Random& random, double size) {
 
 Vec4f with_zero(const Vec3f& u) { return {u.x(), u.y(), u.z(), 0.0f}; }
 
-/// What VertexDisplacements is a view of.
+/// The data of a VertexDisplacements.
 struct Soft {
   std::vector<std::uint32_t> rows;
   std::vector<ParticleInfluences> influences;
@@ -80,7 +80,7 @@ struct Soft {
       for (int e = 0; e < 9; ++e) matrix.data()[e] = static_cast<float>(random.uniform(-1, 1));
   }
 
-  /// Vertices at random: none, one, all, or many ranges, some of which touch or are empty.
+  /// Random vertices: none, one, all, or many ranges, some of which are adjacent or empty.
   void move_some(Random& random) {
     const auto count = static_cast<std::uint32_t>(rows.size());
     const std::uint32_t wanted = random.index(4);
@@ -104,7 +104,7 @@ Soft make_soft(Random& random, std::uint32_t vertices, std::uint32_t particles =
   for (std::uint32_t row = 0; row <= vertices * 3 / 4; ++row) {
     ParticleInfluences influences;
     ParticleGradients gradients;
-    const std::uint32_t count = random.index(5);  // 0: nothing moves it
+    const std::uint32_t count = random.index(5);  // 0: not displaced
     double sum = 0;
     for (std::uint32_t k = 0; k < count; ++k) {
       influences.particles[k] = random.index(particles);
@@ -184,7 +184,7 @@ TEST(VertexDisplacements, agree_with_the_definition_in_double) {
     }
 }
 
-/// Whether ranges ascend, lie apart, and hold every vertex that `changed` says.
+/// Whether ranges are ascending, disjoint, and contain every changed vertex.
 void expect_ranges_cover(std::span<const IndexRange> ranges, const std::vector<bool>& changed) {
   std::vector<bool> covered(changed.size());
   std::uint32_t end = 0;
@@ -224,7 +224,7 @@ TEST(VertexDisplacements, have_the_same_bits_whatever_was_displaced_before) {
           }
           if (random.index(2) == 0) soft.move_some(random);
           if (random.index(2) == 0) soft.displace(random);
-          if (random.index(4) == 0) continue;  // a frame in which nobody draws
+          if (random.index(4) == 0) continue;  // a frame without deform()
           const VertexDisplacements view = soft.view(random.index(2) == 0);
           const VertexDisplacements* displacements = random.index(5) == 0 ? nullptr : &view;
           const Status status = made.deform(palette, buffer, {}, displacements);
@@ -288,7 +288,7 @@ TEST(VertexDisplacements, follow_vertices_that_come_and_go) {
   }
 }
 
-/// Runs tasks from the last to the first, on so many threads.
+/// Runs tasks from the last to the first, as if on a given number of threads.
 struct BackwardThreads {
   std::uint32_t threads;
   std::uint32_t calls = 0;
@@ -426,7 +426,7 @@ struct Sheet {
     soft.moved = {{0, mesh.vertex_count()}};
   }
 
-  /// Products of squares of sines and cosines: they sum to one.
+  /// Products of squared sines and cosines, which sum to one.
   static std::array<double, 4> weights_at(const Vec3d& at) {
     const double a = std::pow(std::sin(1.3 * at.x() + 0.4 * at.y() + 0.2), 2),
                  b = std::pow(std::sin(1.7 * at.y() + 0.5), 2);
@@ -571,7 +571,7 @@ TEST(VertexDisplacements, that_do_not_fit_are_refused_and_nothing_is_written) {
   expect_fault(bad, StatusCode::index_out_of_range, 1);
   for (std::uint32_t v = 0; v < kind.vertices; ++v) ASSERT_TRUE(posed.is_untouched(v));
 
-  // Rows beyond the last are none.
+  // An index beyond the last row means no row.
   Soft same = good;
   for (std::uint32_t& row : same.rows)
     if (row == kNone) row = static_cast<std::uint32_t>(good.influences.size());

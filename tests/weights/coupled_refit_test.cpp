@@ -23,7 +23,7 @@ bool same_bits(const std::vector<CoupledFit>& a, const std::vector<CoupledFit>& 
   });
 }
 
-/// How unlike neighbours on the lip are moved, on average.
+/// Mean difference between the offsets of neighbours on the lip.
 double mean_difference(const test::Lip& lip, const std::vector<CoupledFit>& fits) {
   double sum = 0;
   for (std::size_t i = 1; i < fits.size(); ++i)
@@ -33,7 +33,7 @@ double mean_difference(const test::Lip& lip, const std::vector<CoupledFit>& fits
   return sum / static_cast<double>(fits.size() - 1);
 }
 
-/// What is to be least, summed up anew: pose by pose, neighbours by neighbours, slot by slot.
+/// The objective, computed independently: by poses, neighbours and slots.
 double cost(const test::Lip& lip, const std::vector<CoupledFit>& fits, double smoothness) {
   double sum = 0;
   const auto change_of = [&](std::uint32_t point) {
@@ -45,7 +45,7 @@ double cost(const test::Lip& lip, const std::vector<CoupledFit>& fits, double sm
       change[influence.slot] -= static_cast<double>(influence.weight);
     return change;
   };
-  // Bones that only turn have scale 1.
+  // Bones that only rotate have scale 1.
   for (std::uint32_t i = 0; i < fits.size(); ++i) {
     sum += lip.mean_square(i, fits[i].influences, fits[i].position);
     sum += 0.03 * (fits[i].position - lip.points[i].position).squaredNorm();
@@ -73,7 +73,7 @@ double cost(const test::Lip& lip, const std::vector<CoupledFit>& fits, double sm
 class CoupledRefit : public testing::Test {
  protected:
   void SetUp() override {
-    if (!has_coupled_refit()) GTEST_SKIP() << "made without Ceres (SUNDER_CERES)";
+    if (!has_coupled_refit()) GTEST_SKIP() << "built without Ceres (SUNDER_CERES)";
   }
 };
 
@@ -140,7 +140,7 @@ TEST_F(CoupledRefit, without_smoothness_is_not_worse_than_the_single_fits) {
     ASSERT_TRUE(fits) << fits.error().text();
     for (std::size_t i = 0; i < fits->size(); ++i) {
       const double single = refit.fit(lip.points[i], {4, moves_bind}, lip.moments[0]).mean_square;
-      // Both charge a little for moving the bind position, which the mean square does not count.
+      // Both fits have a cost for moving the bind position, which is not part of the mean square.
       EXPECT_LE(std::sqrt((*fits)[i].mean_square), 1.001 * std::sqrt(single) + 1e-7);
     }
   }
@@ -167,7 +167,7 @@ TEST_F(CoupledRefit, smoothness_makes_neighbours_move_alike) {
 
 TEST_F(CoupledRefit, nothing_near_the_result_costs_less) {
   test::Random random(10);
-  // From two poses the moments are singular.
+  // The moments of two poses are singular.
   for (const auto& [smoothness, poses] : {std::pair(0.01, 12u), {0.1, 12u}, {0.01, 2u}}) {
     const test::Lip lip(random,
                         {.points = 20, .slots = 14, .poses = poses, .maximum_influences = 0});

@@ -1,4 +1,4 @@
-// The laws of docs/weights.md, in double.
+// The interpolation error of docs/weights.md, in double.
 
 #include <map>
 

@@ -34,7 +34,7 @@ void expect_storable(std::span<const Influence> influences, std::size_t maximum)
   EXPECT_NEAR(sum, 1, 2e-7 * static_cast<double>(influences.size()));
 }
 
-/// What each bone alone is off by at a bind position, in all poses: a column a term of the point.
+/// The error of each bone alone at a bind position, in all poses: one column per term of the point.
 Eigen::MatrixXd off_by_bone(const test::Lip& lip, std::size_t point, const Vec3d& position) {
   const auto terms = lip.exact[point].terms();
   Eigen::MatrixXd off(3 * lip.palettes.size(), terms.size());
@@ -47,7 +47,7 @@ Eigen::MatrixXd off_by_bone(const test::Lip& lip, std::size_t point, const Vec3d
   return off / std::sqrt(static_cast<double>(lip.palettes.size()));
 }
 
-/// The exact optimum of the weights at a bind position, with no more than `maximum` of them.
+/// The exact optimum of the weights at a bind position, with at most `maximum` of them.
 test::SimplexOptimum best_weights(const test::Lip& lip, std::size_t point, const Vec3d& position,
                                   std::size_t maximum) {
   const Eigen::MatrixXd off = off_by_bone(lip, point, position);
@@ -72,7 +72,7 @@ Vec3d best_position(const test::Lip& lip, std::size_t point, const Eigen::Vector
   return linear.colPivHouseholderQr().solve(right);
 }
 
-/// The least mean square that turns of exact solves come to, from many starts, over all supports.
+/// The least mean square of alternating exact solves, from many starts, over all subsets of bones.
 double best_of_all_turns(const test::Lip& lip, std::size_t point, std::size_t maximum,
                          test::Random& random) {
   double best = std::numeric_limits<double>::infinity();

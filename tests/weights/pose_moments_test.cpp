@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint32_t kSlots = 12;
 
-/// The difference of two points: some slots, in any order, last components that add up to zero.
+/// The difference of two points: some slots in any order; last components that add up to zero.
 std::vector<AnimationPoint::Term> random_difference(test::Random& random) {
   std::vector<std::uint32_t> slots;
   for (std::uint32_t slot = 0; slot < kSlots; ++slot) slots.push_back(slot);
@@ -29,7 +29,7 @@ std::vector<AnimationPoint::Term> random_difference(test::Random& random) {
   return difference;
 }
 
-/// A point that is moved by the same bones.
+/// A point moved by the same bones.
 AnimationPoint point_of(const std::vector<AnimationPoint::Term>& terms) {
   AnimationPoint point;
   for (const auto& term : terms) {
@@ -87,7 +87,7 @@ TEST(PoseMoments, nothing_is_lost_a_thousand_kilometres_from_the_origin) {
         matrix = Eigen::Translation3d(centre) * matrix * Eigen::Translation3d(-centre);
       moments.add(there);
     }
-    // The translations that the caller has hold no more than 1e-10.
+    // The translations of the caller are only accurate to 1e-10.
     const double direct = direct_mean_square(difference, palettes);
     EXPECT_NEAR(std::sqrt(moments.mean_square(difference)), std::sqrt(direct), 1e-8);
   }

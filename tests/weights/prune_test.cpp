@@ -1,4 +1,4 @@
-// Contract of <sunder/weights/prune.h>.
+// Pruning of <sunder/weights/influences.h>.
 
 #include <sunder/weights/influences.h>
 

@@ -1,4 +1,4 @@
-// Contract of <sunder/weights/quantise.h>.
+// Quantisation of <sunder/weights/influences.h>.
 
 #include <sunder/weights/influences.h>
 
@@ -23,8 +23,8 @@ double sum_of(const Influences& influences) {
   return sum;
 }
 
-/// Weights over several orders of magnitude, in any order, with some alike; their sum is `sum`, up
-/// to rounding.
+/// Weights over several orders of magnitude, in any order, some of them equal; they add up to
+/// `sum`, except for rounding.
 Influences random_influences(test::Random& random, std::uint32_t count, double sum) {
   Influences influences;
   for (std::uint32_t i = 0; i < count; ++i) {
@@ -53,7 +53,7 @@ class Quantise : public testing::Test {
     const std::vector<Integer> result = quantised(influences);
     EXPECT_EQ(std::accumulate(result.begin(), result.end(), std::uint64_t{0}), kUnits);
     const double sum = sum_of(influences);
-    double given = 0;  // to some, and taken from others
+    double given = 0;  // units given to some weights and taken from others
     for (std::size_t i = 0; i < result.size(); ++i) {
       const double error =
           static_cast<double>(result[i]) - static_cast<double>(influences[i].weight) / sum * kUnits;

@@ -32,8 +32,8 @@ std::vector<double> random_weights(std::size_t count, test::Random& random) {
   return weights;
 }
 
-/// Squares of what `count` bones are off by, in `rows` coordinates: singular where there are fewer
-/// of these.
+/// The Gram matrix of the errors of `count` bones in `rows` coordinates: singular if `rows` is less
+/// than `count`.
 Problem random_problem(std::size_t count, Eigen::Index rows, test::Random& random) {
   const auto n = static_cast<Eigen::Index>(count);
   Eigen::MatrixXd off = random_matrix(rows, n, random);
@@ -42,7 +42,7 @@ Problem random_problem(std::size_t count, Eigen::Index rows, test::Random& rando
   if (random.index(2) == 0)
     off.colwise() += 2 * random_matrix(rows, 1, random).col(0);  // away from the hull
   Problem problem{off.transpose() * off, Eigen::VectorXd::Zero(n), random_weights(count, random)};
-  // As a point's fit has it: what ties the weights to where they were.
+  // As in the fit of a point: a cost for changing the weights.
   const double tie = 1e-13 * problem.gram.diagonal().maxCoeff();
   problem.gram.diagonal().array() += tie;
   for (Eigen::Index i = 0; i < n; ++i)
