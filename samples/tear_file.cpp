@@ -1,5 +1,4 @@
 // Loads a model, tears it in the middle of its first clip, and saves it: tear_file MODEL OUT.glb
-// README begins
 #include <sunder/io/character_file.h>
 #include <sunder/skinning/deform.h>
 #include <sunder/skinning/pose.h>
@@ -25,7 +24,6 @@ sunder::Status tear_file(const char* model_file, const char* torn_file, const su
   std::printf("%u faces crossed, %.3f m torn\n", report->faces_crossed, report->length_posed);
   return sunder::save_glb(torn_file, torn->character(), *loaded);
 }
-// README ends
 
 int main(int argc, char** argv) {
   if (argc != 3) return std::fputs("usage: tear_file MODEL OUT.glb\n", stderr), 2;
