@@ -1,6 +1,6 @@
-// An engine's side of tearing: vertex and index buffers of fixed capacity that follow a torn model by its change records alone.
-// What an operation left as it was is not uploaded again; undo shortens the buffers. In the end they hold what the model holds, bit
-// for bit.
+// An engine's side of tearing: vertex and index buffers of fixed capacity that follow a torn model
+// by its change records alone. What an operation left as it was is not uploaded again; undo
+// shortens the buffers. In the end they hold what the model holds, bit for bit.
 
 #include <sunder/skinning/deform.h>
 #include <sunder/skinning/pose.h>
@@ -34,10 +34,12 @@ GpuVertex pack(const sunder::Mesh& mesh, std::uint32_t v) {
   }
   vertex.uv = {mesh.uv_sets[0][v].x(), mesh.uv_sets[0][v].y()};
 
-  // A vertex on an edge has the influences of both its ends. The shader takes four: the largest, made to sum to one again.
+  // A vertex on an edge has the influences of both its ends. The shader takes four: the largest,
+  // made to sum to one again.
   const auto all = mesh.weights.of(v);
   std::vector<sunder::Influence> influences(all.begin(), all.end());
-  std::stable_sort(influences.begin(), influences.end(), [](const auto& a, const auto& b) { return a.weight > b.weight; });
+  std::stable_sort(influences.begin(), influences.end(),
+                   [](const auto& a, const auto& b) { return a.weight > b.weight; });
   influences.resize(std::min<std::size_t>(influences.size(), 4));
   float sum = 0;
   for (const sunder::Influence& influence : influences) sum += influence.weight;
@@ -51,7 +53,8 @@ GpuVertex pack(const sunder::Mesh& mesh, std::uint32_t v) {
 /// The buffers of one mesh. They are allocated once, as on a graphics card, and never grow.
 class MeshBuffers {
  public:
-  MeshBuffers(const sunder::Mesh& mesh, std::uint32_t vertex_capacity, std::uint32_t triangle_capacity)
+  MeshBuffers(const sunder::Mesh& mesh, std::uint32_t vertex_capacity,
+              std::uint32_t triangle_capacity)
       : vertices_(vertex_capacity), indices_(triangle_capacity), submeshes_(triangle_capacity) {
     vertex_count_ = mesh.vertex_count();
     triangle_count_ = mesh.triangle_count();
@@ -64,8 +67,9 @@ class MeshBuffers {
            change.first_triangle + change.triangle_count <= indices_.size();
   }
 
-  /// Appended and rewritten elements lie in the dirty ranges. Retired triangles too: they name one vertex three times, and a card
-  /// draws nothing there. What undo takes away lies behind the new ends.
+  /// Appended and rewritten elements lie in the dirty ranges. Retired triangles too: they name one
+  /// vertex three times, and a card draws nothing there. What undo takes away lies behind the new
+  /// ends.
   void apply(const sunder::MeshChange& change, const sunder::Mesh& mesh) {
     vertex_count_ = change.first_vertex + change.vertex_count;
     triangle_count_ = change.first_triangle + change.triangle_count;
@@ -78,7 +82,8 @@ class MeshBuffers {
       return std::memcmp(a.data(), b.data(), count * sizeof(a[0])) == 0;
     };
     return vertex_count_ == other.vertex_count_ && triangle_count_ == other.triangle_count_ &&
-           same(vertices_, other.vertices_, vertex_count_) && same(indices_, other.indices_, triangle_count_) &&
+           same(vertices_, other.vertices_, vertex_count_) &&
+           same(indices_, other.indices_, triangle_count_) &&
            same(submeshes_, other.submeshes_, triangle_count_);
   }
 
@@ -88,7 +93,8 @@ class MeshBuffers {
 
  private:
   void upload_vertices(const sunder::IndexRange& range, const sunder::Mesh& mesh) {
-    for (std::uint32_t v = range.first; v < range.first + range.count; ++v) vertices_[v] = pack(mesh, v);
+    for (std::uint32_t v = range.first; v < range.first + range.count; ++v)
+      vertices_[v] = pack(mesh, v);
     uploaded_bytes_ += range.count * sizeof(GpuVertex);
   }
   void upload_triangles(const sunder::IndexRange& range, const sunder::Mesh& mesh) {
@@ -101,7 +107,8 @@ class MeshBuffers {
 
   std::vector<GpuVertex> vertices_;
   std::vector<sunder::Triangle> indices_;
-  std::vector<std::uint32_t> submeshes_;  ///< SoftMaterial of each triangle: walls and caps bring new ones.
+  std::vector<std::uint32_t>
+      submeshes_;  ///< SoftMaterial of each triangle: walls and caps bring new ones.
   std::uint32_t vertex_count_ = 0, triangle_count_ = 0;
   std::size_t uploaded_bytes_ = 0;
 };
@@ -119,7 +126,8 @@ class Mirror {
   [[nodiscard]] bool apply(const sunder::ChangeRecord& change, const sunder::Character& character) {
     for (const sunder::MeshChange& of_mesh : change.meshes)
       if (!meshes_[of_mesh.mesh].has_room_for(of_mesh)) return false;
-    for (const sunder::MeshChange& of_mesh : change.meshes) meshes_[of_mesh.mesh].apply(of_mesh, character.meshes[of_mesh.mesh]);
+    for (const sunder::MeshChange& of_mesh : change.meshes)
+      meshes_[of_mesh.mesh].apply(of_mesh, character.meshes[of_mesh.mesh]);
     return true;
   }
 
@@ -139,7 +147,8 @@ class Mirror {
 constexpr std::uint32_t kAround = 24, kAlong = 30;
 constexpr float kRadius = 0.15f;
 
-/// A hose of one metre, closed by nothing, on two bones; the first column of vertices is repeated where its texture closes.
+/// A hose of one metre, closed by nothing, on two bones; the first column of vertices is repeated
+/// where its texture closes.
 sunder::Mesh make_hose() {
   sunder::Mesh mesh;
   mesh.name = "Hose";
@@ -186,7 +195,8 @@ sunder::Character make_character() {
 /// The hose bent by an angle.
 sunder::ModelPose bent(const sunder::Character& character, float angle) {
   sunder::Pose pose = local_rest_pose(character);
-  pose.parent_from_bone[1].rotation = sunder::Quatf(Eigen::AngleAxisf(angle, Eigen::Vector3f::UnitX()));
+  pose.parent_from_bone[1].rotation =
+      sunder::Quatf(Eigen::AngleAxisf(angle, Eigen::Vector3f::UnitX()));
   sunder::ModelPose model_pose;
   if (!compute_model_pose(character.skeleton, pose, model_pose)) std::abort();
   return model_pose;
@@ -205,12 +215,17 @@ struct Step {
 
 std::vector<Step> make_steps(const sunder::Character& character) {
   const auto tear = [&](float bend, sunder::Stroke stroke, sunder::TearOptions options) {
-    return
-        [pose = bent(character, bend), stroke = std::move(stroke), options](
-            sunder::TornModel& model, sunder::ChangeRecord* change) { return model.tear(pose, stroke, options, change).error(); };
+    return [pose = bent(character, bend), stroke = std::move(stroke), options](
+               sunder::TornModel& model, sunder::ChangeRecord* change) {
+      return model.tear(pose, stroke, options, change).error();
+    };
   };
-  const auto undo = [](sunder::TornModel& model, sunder::ChangeRecord* change) { return model.undo(change); };
-  const auto redo = [](sunder::TornModel& model, sunder::ChangeRecord* change) { return model.redo(change); };
+  const auto undo = [](sunder::TornModel& model, sunder::ChangeRecord* change) {
+    return model.undo(change);
+  };
+  const auto redo = [](sunder::TornModel& model, sunder::ChangeRecord* change) {
+    return model.redo(change);
+  };
 
   sunder::TearOptions gap, deep_gap;
   gap.width = 0.02;
@@ -230,12 +245,14 @@ std::vector<Step> make_steps(const sunder::Character& character) {
   return {
       {"tear", tear(0.8f, {blade_at(0.1, 0.15), blade_at(0.2, 0.25), blade_at(0.15, 0.33)}, {})},
       {"tear with a gap", tear(0.2f, {blade_at(1.2, 0.10), blade_at(1.5, 0.25)}, gap)},
-      {"tear with a walled gap", tear(0.5f, {blade_at(4.0, 0.30), blade_at(4.6, 0.12), blade_at(5.2, 0.28)}, deep_gap)},
+      {"tear with a walled gap",
+       tear(0.5f, {blade_at(4.0, 0.30), blade_at(4.6, 0.12), blade_at(5.2, 0.28)}, deep_gap)},
       {"undo", undo},
       {"redo", redo},
-      {"cut", [pose = bent(character, 0.8f), cut](auto& model, auto* change) { return model.cut(pose, cut, change).error(); }},
-      {"drill",
-       [pose = bent(character, 0.1f), bore](auto& model, auto* change) { return model.drill(pose, bore, change).error(); }},
+      {"cut", [pose = bent(character, 0.8f), cut](
+                  auto& model, auto* change) { return model.cut(pose, cut, change).error(); }},
+      {"drill", [pose = bent(character, 0.1f), bore](
+                    auto& model, auto* change) { return model.drill(pose, bore, change).error(); }},
       {"undo", undo},
       {"undo", undo},
       {"redo", redo},
@@ -252,26 +269,34 @@ int fail(const char* what, const sunder::Status& status) {
 int play(const std::vector<Step>& steps, sunder::TornModel& model, Mirror& mirror) {
   for (const Step& step : steps) {
     sunder::ChangeRecord change;
-    if (const sunder::Status status = step.play(model, &change); !status) return fail(step.name, status);
+    if (const sunder::Status status = step.play(model, &change); !status)
+      return fail(step.name, status);
     const std::size_t uploaded_before = mirror.mesh(0).uploaded_bytes();
-    if (!mirror.apply(change, model.character())) return std::printf("%s: the buffers are too small\n", step.name), 1;
-    if (!mirror.is_as(model.character())) return std::printf("%s: the buffers are not as the model\n", step.name), 1;
+    if (!mirror.apply(change, model.character()))
+      return std::printf("%s: the buffers are too small\n", step.name), 1;
+    if (!mirror.is_as(model.character()))
+      return std::printf("%s: the buffers are not as the model\n", step.name), 1;
     for (const sunder::MeshChange& of_mesh : change.meshes)
-      std::printf("%-24s %5u vertices %5u triangles, %4zu rewritten, %3zu of them retired, %6zu bytes uploaded\n", step.name,
-                  mirror.mesh(of_mesh.mesh).vertex_count(), mirror.mesh(of_mesh.mesh).triangle_count(), of_mesh.rewritten.size(),
-                  of_mesh.retired.size(), mirror.mesh(of_mesh.mesh).uploaded_bytes() - uploaded_before);
+      std::printf(
+          "%-24s %5u vertices %5u triangles, %4zu rewritten, %3zu of them retired, %6zu bytes "
+          "uploaded\n",
+          step.name, mirror.mesh(of_mesh.mesh).vertex_count(),
+          mirror.mesh(of_mesh.mesh).triangle_count(), of_mesh.rewritten.size(),
+          of_mesh.retired.size(), mirror.mesh(of_mesh.mesh).uploaded_bytes() - uploaded_before);
   }
   return 0;
 }
 
-/// Tears on and on. The tear for which there is no room is taken back: the model can be made to fit its buffers at any time.
+/// Tears on and on. The tear for which there is no room is taken back: the model can be made to fit
+/// its buffers at any time.
 int tear_until_full(const sunder::Character& character, sunder::TornModel& model, Mirror& mirror) {
   const sunder::ModelPose pose = bent(character, 0.3f);
   for (int i = 0; i < 1000; ++i) {
     const double angle = 0.37 * i;
     const sunder::Stroke stroke = {blade_at(angle, 0.05), blade_at(angle + 0.5, 0.35)};
     sunder::ChangeRecord change;
-    if (const auto report = model.tear(pose, stroke, {}, &change); !report) return fail("tear", report.error());
+    if (const auto report = model.tear(pose, stroke, {}, &change); !report)
+      return fail("tear", report.error());
     if (mirror.apply(change, model.character())) continue;
     std::printf("after %d more tears the buffers are full; the last one is taken back\n", i);
     const sunder::Status status = model.undo();  // no record: the buffers never had it
@@ -292,6 +317,7 @@ int main() {
   if (const int code = tear_until_full(*character, *model, mirror); code != 0) return code;
 
   const bool same = mirror.is_as(model->character());
-  std::puts(same ? "the buffers are as the model, bit for bit" : "the buffers are NOT as the model");
+  std::puts(same ? "the buffers are as the model, bit for bit"
+                 : "the buffers are NOT as the model");
   return same ? 0 : 1;
 }

@@ -1,5 +1,6 @@
-// Weights of torn points fitted beside the frame: torn and on screen at once with interpolated weights, fitted on another thread,
-// swapped in a few frames later. The engine uploads what the change record says.
+// Weights of torn points fitted beside the frame: torn and on screen at once with interpolated
+// weights, fitted on another thread, swapped in a few frames later. The engine uploads what the
+// change record says.
 
 #include <sunder/skinning/deform.h>
 #include <sunder/skinning/pose.h>
@@ -23,7 +24,8 @@ std::shared_ptr<const sunder::Character> make_sleeve() {
   sunder::Bone forearm{"forearm", 0, {}};
   forearm.rest.translation = {0.3f, 0.0f, 0.0f};
   character->skeleton.bones.push_back(forearm);
-  sunder::Skin skin{"sleeve", {0, 1}, std::vector<sunder::Affine3f>(2, sunder::Affine3f::Identity())};
+  sunder::Skin skin{
+      "sleeve", {0, 1}, std::vector<sunder::Affine3f>(2, sunder::Affine3f::Identity())};
   skin.bone_from_bind[1].translation() = Eigen::Vector3f(-0.3f, 0.0f, 0.0f);
   character->skins.push_back(skin);
   sunder::Mesh mesh;
@@ -31,7 +33,8 @@ std::shared_ptr<const sunder::Character> make_sleeve() {
   mesh.submeshes.push_back({"cloth", sunder::kNone});
   for (std::uint32_t i = 0; i < kRings; ++i)
     for (std::uint32_t j = 0; j < kSides; ++j) {
-      const float along = static_cast<float>(i) / (kRings - 1), angle = 6.2831853f * static_cast<float>(j) / kSides;
+      const float along = static_cast<float>(i) / (kRings - 1),
+                  angle = 6.2831853f * static_cast<float>(j) / kSides;
       mesh.positions.emplace_back(0.6f * along, 0.05f * std::cos(angle), 0.05f * std::sin(angle));
       const float forward = std::clamp(3.0f * along - 1.0f, 0.0f, 1.0f);
       const sunder::Influence both[] = {{0, 1.0f - forward}, {1, forward}};
@@ -39,7 +42,8 @@ std::shared_ptr<const sunder::Character> make_sleeve() {
                           : forward >= 1.0f ? std::span<const sunder::Influence>(both + 1, 1)
                                             : std::span<const sunder::Influence>(both));
       if (i + 1 == kRings) continue;
-      const std::uint32_t a = i * kSides + j, b = i * kSides + (j + 1) % kSides, c = a + kSides, d = b + kSides;
+      const std::uint32_t a = i * kSides + j, b = i * kSides + (j + 1) % kSides, c = a + kSides,
+                          d = b + kSides;
       mesh.triangles.push_back({a, b, d});
       mesh.triangles.push_back({a, d, c});
     }
@@ -50,8 +54,10 @@ std::shared_ptr<const sunder::Character> make_sleeve() {
 
 sunder::ModelPose bent(const sunder::Character& character, float angle) {
   sunder::Pose pose;
-  for (const sunder::Bone& bone : character.skeleton.bones) pose.parent_from_bone.push_back(bone.rest);
-  pose.parent_from_bone[1].rotation = sunder::Quatf(Eigen::AngleAxisf(angle, Eigen::Vector3f::UnitZ()));
+  for (const sunder::Bone& bone : character.skeleton.bones)
+    pose.parent_from_bone.push_back(bone.rest);
+  pose.parent_from_bone[1].rotation =
+      sunder::Quatf(Eigen::AngleAxisf(angle, Eigen::Vector3f::UnitZ()));
   sunder::ModelPose posed;
   (void)sunder::compute_model_pose(character.skeleton, pose, posed);
   return posed;
@@ -66,7 +72,8 @@ int main() {
 
   // A tear along the elbow, in a bent pose. Four influences a vertex, interpolated for now.
   const sunder::ModelPose pose = bent(*sleeve, 0.9f);
-  const sunder::Stroke stroke = {{{0.24, 0.02, 0.3}, {0.24, 0.02, 0.0}}, {{0.33, 0.05, 0.3}, {0.33, 0.05, 0.0}}};
+  const sunder::Stroke stroke = {{{0.24, 0.02, 0.3}, {0.24, 0.02, 0.0}},
+                                 {{0.33, 0.05, 0.3}, {0.33, 0.05, 0.0}}};
   sunder::TearOptions options;
   options.weights = sunder::WeightOptions{sunder::WeightPolicy::refit, 4};
   const auto torn = model->tear(pose, stroke, options);
@@ -93,13 +100,14 @@ int main() {
     sunder::ChangeRecord change;
     const auto report = job->swap_in(*model, &change);
     if (!report) return std::printf("%s\n", report.error().text().data()), 1;
-    std::printf("frame %d: %u of %u points fitted; %zu ranges of vertices to upload\n", frame, report->refitted, report->points,
-                change.meshes[0].dirty_vertices.size());
+    std::printf("frame %d: %u of %u points fitted; %zu ranges of vertices to upload\n", frame,
+                report->refitted, report->points, change.meshes[0].dirty_vertices.size());
     break;
   }
   worker.join();
   const auto after = sunder::measure_weight_errors(*model, 0, 1, poses);
   if (!before || !after) return 1;
-  std::printf("off by %.3f mm before, %.3f mm after\n", 1e3 * before->metres.rms, 1e3 * after->metres.rms);
+  std::printf("off by %.3f mm before, %.3f mm after\n", 1e3 * before->metres.rms,
+              1e3 * after->metres.rms);
   return after->metres.rms < before->metres.rms ? 0 : 1;
 }

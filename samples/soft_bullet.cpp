@@ -1,5 +1,5 @@
-// A soft, posed sheet in a Bullet world: a ball falls into it and is held. The engine owns the world and the ball; the particles of
-// the sheet are bodies among others.
+// A soft, posed sheet in a Bullet world: a ball falls into it and is held. The engine owns the
+// world and the ball; the particles of the sheet are bodies among others.
 
 #include <sunder/particles/bullet_body.h>
 #include <sunder/skinning/deform.h>
@@ -22,7 +22,8 @@ std::shared_ptr<const sunder::Character> make_sheet() {
   sunder::Bone right{"right", 0, {}};
   right.rest.translation = {0.5f, 0.0f, 0.0f};
   character->skeleton.bones.push_back(right);
-  sunder::Skin skin{"sheet", {0, 1}, std::vector<sunder::Affine3f>(2, sunder::Affine3f::Identity())};
+  sunder::Skin skin{
+      "sheet", {0, 1}, std::vector<sunder::Affine3f>(2, sunder::Affine3f::Identity())};
   skin.bone_from_bind[1].translation() = Eigen::Vector3f(-0.5f, 0.0f, 0.0f);
   character->skins.push_back(skin);
   sunder::Mesh mesh;
@@ -50,9 +51,12 @@ std::shared_ptr<const sunder::Character> make_sheet() {
 /// Both sides lifted: a trough along y.
 sunder::ModelPose lifted(const sunder::Character& character, float angle) {
   sunder::Pose pose;
-  for (const sunder::Bone& bone : character.skeleton.bones) pose.parent_from_bone.push_back(bone.rest);
-  pose.parent_from_bone[0].rotation = sunder::Quatf(Eigen::AngleAxisf(angle, Eigen::Vector3f::UnitY()));
-  pose.parent_from_bone[1].rotation = sunder::Quatf(Eigen::AngleAxisf(-2 * angle, Eigen::Vector3f::UnitY()));
+  for (const sunder::Bone& bone : character.skeleton.bones)
+    pose.parent_from_bone.push_back(bone.rest);
+  pose.parent_from_bone[0].rotation =
+      sunder::Quatf(Eigen::AngleAxisf(angle, Eigen::Vector3f::UnitY()));
+  pose.parent_from_bone[1].rotation =
+      sunder::Quatf(Eigen::AngleAxisf(-2 * angle, Eigen::Vector3f::UnitY()));
   sunder::ModelPose posed;
   (void)sunder::compute_model_pose(character.skeleton, pose, posed);
   return posed;
@@ -100,25 +104,30 @@ int main() {
     constexpr float kFrame = 1.0f / 60;
     for (int frame = 0; frame < 600; ++frame) {
       angle = std::min(0.35f, angle + 0.1f * kFrame);  // the animation goes on
-      if (const auto status = soft->before_step(*set, lifted(*sheet, angle), double{kFrame}); !status)
+      if (const auto status = soft->before_step(*set, lifted(*sheet, angle), double{kFrame});
+          !status)
         return std::printf("%s\n", status.text().data()), 1;
       world.stepSimulation(kFrame, 4);
       soft->after_step();
       float most = 0;
-      for (const sunder::Vec4f& u : soft->displacements()) most = std::max(most, u.norm());  // to the GPU, or SkinnedMesh
+      for (const sunder::Vec4f& u : soft->displacements())
+        most = std::max(most, u.norm());  // to the GPU, or SkinnedMesh
       has_sagged = has_sagged || most > 0.02f;
       if (frame % 60 == 59) {
         const btVector3& at = ball.getWorldTransform().getOrigin();
-        std::printf("%2d s: ball at (%.2f, %.2f, %.2f) m, sheet gives way by %.0f mm\n", (frame + 1) / 60, double{at.x()},
-                    double{at.y()}, double{at.z()}, double{1e3f * most});
+        std::printf("%2d s: ball at (%.2f, %.2f, %.2f) m, sheet gives way by %.0f mm\n",
+                    (frame + 1) / 60, double{at.x()}, double{at.y()}, double{at.z()},
+                    double{1e3f * most});
       }
     }
     const btVector3& at = ball.getWorldTransform().getOrigin();
-    is_held = at.z() > -0.3f && ball.getLinearVelocity().length() < 0.05f && at.x() > 0.2f && at.x() < 0.8f;
+    is_held = at.z() > -0.3f && ball.getLinearVelocity().length() < 0.05f && at.x() > 0.2f &&
+              at.x() < 0.8f;
   }
   const bool is_gone = world.getNumCollisionObjects() == 1;
   world.removeRigidBody(&ball);
   std::printf("the ball %s, the sheet %s, the world %s\n", is_held ? "is held" : "fell",
-              has_sagged ? "gave way" : "did not give way", is_gone ? "is as it was" : "keeps particles");
+              has_sagged ? "gave way" : "did not give way",
+              is_gone ? "is as it was" : "keeps particles");
   return is_held && has_sagged && is_gone ? 0 : 1;
 }

@@ -47,7 +47,8 @@ sunder::Character make_tube() {
     }
   for (std::uint32_t ring = 0; ring < kAlong; ++ring)
     for (std::uint32_t i = 0; i < kAround; ++i) {
-      const std::uint32_t a = ring * kAround + i, b = ring * kAround + (i + 1) % kAround, c = a + kAround, d = b + kAround;
+      const std::uint32_t a = ring * kAround + i, b = ring * kAround + (i + 1) % kAround,
+                          c = a + kAround, d = b + kAround;
       mesh.triangles.push_back({a, b, d});
       mesh.triangles.push_back({a, d, c});
     }
@@ -60,7 +61,8 @@ sunder::Character make_tube() {
 /// The tube bent by an angle at its joint.
 sunder::ModelPose bent(const sunder::Character& character, double angle) {
   sunder::Pose pose = local_rest_pose(character);
-  pose.parent_from_bone[1].rotation = sunder::Quatf(Eigen::AngleAxisf(static_cast<float>(angle), Eigen::Vector3f::UnitX()));
+  pose.parent_from_bone[1].rotation =
+      sunder::Quatf(Eigen::AngleAxisf(static_cast<float>(angle), Eigen::Vector3f::UnitX()));
   sunder::ModelPose model_pose;
   if (!compute_model_pose(character.skeleton, pose, model_pose)) std::abort();
   return model_pose;
@@ -68,7 +70,8 @@ sunder::ModelPose bent(const sunder::Character& character, double angle) {
 
 double deepest_dent(sunder::SoftBody& body) {
   double most = 0;
-  for (const sunder::Vec4f& d : body.displacements()) most = std::max(most, double{d.head<3>().norm()});
+  for (const sunder::Vec4f& d : body.displacements())
+    most = std::max(most, double{d.head<3>().norm()});
   return most;
 }
 
@@ -93,8 +96,10 @@ int main() {
   auto body = sunder::SoftBody::create(*particles, straight, {&flesh, 1});
   if (!body) return fail("soft body", body.error());
 
-  const sunder::Collider ball = {sunder::Collider::Sphere{kBall}, {0, 0.25, 0.4}, sunder::Quatd::Identity(), 0.3};
-  if (const sunder::Status status = body->set_colliders({&ball, 1}); !status) return fail("colliders", status);
+  const sunder::Collider ball = {
+      sunder::Collider::Sphere{kBall}, {0, 0.25, 0.4}, sunder::Quatd::Identity(), 0.3};
+  if (const sunder::Status status = body->set_colliders({&ball, 1}); !status)
+    return fail("colliders", status);
   const auto frame = [&](double angle, double distance) {
     (void)body->move_collider(0, {0, 0.25, distance}, sunder::Quatd::Identity());
     return body->step(*model, bent(*character, angle), kFrame);
@@ -107,21 +112,24 @@ int main() {
   for (int i = 1; i <= 180; ++i) {
     const double in = i <= 60 ? i / 60.0 : i <= 120 ? 1.0 : (180 - i) / 60.0;
     angle = 0.6 * std::min(1.0, i / 60.0);
-    if (const sunder::Status status = frame(angle, far + in * (near - far)); !status) return fail("step", status);
+    if (const sunder::Status status = frame(angle, far + in * (near - far)); !status)
+      return fail("step", status);
     dent = std::max(dent, deepest_dent(*body));
     left_inside = std::max(left_inside, body->contacts().deepest);
     most_awake = std::max(most_awake, body->awake_count());
   }
-  std::printf("the deepest dent: %.1f mm; a contact point was inside the ball by %.2f mm at most\n", 1e3 * dent, 1e3 * left_inside);
+  std::printf("the deepest dent: %.1f mm; a contact point was inside the ball by %.2f mm at most\n",
+              1e3 * dent, 1e3 * left_inside);
   std::printf("of %u particles at most %u were awake\n", body->particle_count(), most_awake);
 
   int frames = 0;
   for (; frames < 600 && body->awake_count() > 0; ++frames)
     if (const sunder::Status status = frame(angle, far); !status) return fail("step", status);
-  std::printf("it was at rest %.2f s after the ball had gone, %.3g mm from where it was\n", frames * kFrame,
-              1e3 * deepest_dent(*body));
+  std::printf("it was at rest %.2f s after the ball had gone, %.3g mm from where it was\n",
+              frames * kFrame, 1e3 * deepest_dent(*body));
 
-  const bool held = dent > 0.04 && dent < 0.1 && left_inside < 1e-3 && body->awake_count() == 0 && deepest_dent(*body) == 0;
+  const bool held = dent > 0.04 && dent < 0.1 && left_inside < 1e-3 && body->awake_count() == 0 &&
+                    deepest_dent(*body) == 0;
   std::puts(held ? "the tube gave way and came back" : "the tube did NOT do what it should");
   return held ? 0 : 1;
 }

@@ -1,4 +1,5 @@
-// A character from arrays of one's own, without any file: a tube of two bones, bent at the elbow and torn along its front.
+// A character from arrays of one's own, without any file: a tube of two bones, bent at the elbow
+// and torn along its front.
 
 #include <sunder/skinning/deform.h>
 #include <sunder/skinning/pose.h>
@@ -25,7 +26,8 @@ sunder::Mesh make_tube() {
       const float height = static_cast<float>(ring) / kAlong;
       mesh.positions.emplace_back(0.15f * std::sin(angle), height, 0.15f * std::cos(angle));
       mesh.normals.emplace_back(std::sin(angle), 0.0f, std::cos(angle));
-      // The upper bone takes over within 0.2 m around the elbow. Weights that are zero are left out.
+      // The upper bone takes over within 0.2 m around the elbow. Weights that are zero are left
+      // out.
       const float upper = std::clamp((height - 0.4f) / 0.2f, 0.0f, 1.0f);
       const sunder::Influence both[] = {{0, 1.0f - upper}, {1, upper}};
       if (upper == 0.0f)
@@ -63,23 +65,31 @@ sunder::Character make_character() {
 
 int main() {
   const auto character = std::make_shared<const sunder::Character>(make_character());
-  if (const sunder::Status status = validate_character(*character); !status) return std::printf("%s\n", status.text().data()), 1;
+  if (const sunder::Status status = validate_character(*character); !status)
+    return std::printf("%s\n", status.text().data()), 1;
 
   sunder::Pose pose = local_rest_pose(*character);
-  pose.parent_from_bone[1].rotation = sunder::Quatf(Eigen::AngleAxisf(0.8f, Eigen::Vector3f::UnitX()));
+  pose.parent_from_bone[1].rotation =
+      sunder::Quatf(Eigen::AngleAxisf(0.8f, Eigen::Vector3f::UnitX()));
   sunder::ModelPose model_pose;
-  if (const sunder::Status status = compute_model_pose(character->skeleton, pose, model_pose); !status) return 1;
+  if (const sunder::Status status = compute_model_pose(character->skeleton, pose, model_pose);
+      !status)
+    return 1;
 
   auto torn = sunder::TornModel::create(character);
   if (!torn) return std::printf("%s\n", torn.error().text().data()), 1;
-  const sunder::Stroke stroke = {
-      {{0.02, 0.25, 0.5}, {0.02, 0.25, 0.0}}, {{0.01, 0.40, 0.5}, {0.01, 0.40, 0.0}}, {{-0.03, 0.55, 0.6}, {-0.03, 0.55, 0.1}}};
+  const sunder::Stroke stroke = {{{0.02, 0.25, 0.5}, {0.02, 0.25, 0.0}},
+                                 {{0.01, 0.40, 0.5}, {0.01, 0.40, 0.0}},
+                                 {{-0.03, 0.55, 0.6}, {-0.03, 0.55, 0.1}}};
   const auto report = torn->tear(model_pose, stroke);
   if (!report) return std::printf("%s\n", report.error().text().data()), 1;
 
-  const sunder::TopologyCounts before = count_topology(*character), after = count_topology(torn->character());
-  std::printf("segments %u, faces crossed %u, length %.3f m\n", report->segments, report->faces_crossed, report->length_posed);
-  std::printf("points %u -> %u, triangles %u -> %u, boundary loops %u -> %u\n", before.points, after.points, before.triangles,
-              after.triangles, before.boundary_loops, after.boundary_loops);
+  const sunder::TopologyCounts before = count_topology(*character),
+                               after = count_topology(torn->character());
+  std::printf("segments %u, faces crossed %u, length %.3f m\n", report->segments,
+              report->faces_crossed, report->length_posed);
+  std::printf("points %u -> %u, triangles %u -> %u, boundary loops %u -> %u\n", before.points,
+              after.points, before.triangles, after.triangles, before.boundary_loops,
+              after.boundary_loops);
   return report->runs > 0 && after.boundary_loops == before.boundary_loops + 1 ? 0 : 1;
 }

@@ -9,8 +9,9 @@
 
 namespace samples {
 
-/// A plain thread pool behind sunder::ParallelFor. A worker that has nothing to do looks for work a little longer before it sleeps:
-/// the next call of a frame comes soon, and waking a thread takes longer than posing a few thousand vertices.
+/// A plain thread pool behind sunder::ParallelFor. A worker that has nothing to do looks for work a
+/// little longer before it sleeps: the next call of a frame comes soon, and waking a thread takes
+/// longer than posing a few thousand vertices.
 class ThreadPool {
  public:
   /// @param threads  that work at once, the calling one among them.
@@ -27,12 +28,15 @@ class ThreadPool {
   ThreadPool(const ThreadPool&) = delete;
   ThreadPool& operator=(const ThreadPool&) = delete;
 
-  [[nodiscard]] sunder::ParallelFor hook() { return {&ThreadPool::run, this, static_cast<std::uint32_t>(workers_.size()) + 1}; }
+  [[nodiscard]] sunder::ParallelFor hook() {
+    return {&ThreadPool::run, this, static_cast<std::uint32_t>(workers_.size()) + 1};
+  }
 
  private:
   static constexpr int kLooks = 20'000;  // some 50 microseconds
 
-  static void run(void* context, std::uint32_t count, sunder::ParallelFor::Task task, const void* work) {
+  static void run(void* context, std::uint32_t count, sunder::ParallelFor::Task task,
+                  const void* work) {
     ThreadPool& pool = *static_cast<ThreadPool*>(context);
     pool.task_ = task;
     pool.work_ = work;
@@ -42,8 +46,8 @@ class ThreadPool {
     while (pool.done_.load(std::memory_order_acquire) < count) std::this_thread::yield();
   }
 
-  /// A job is a number of tasks that are left and, above it, the job's own number: a worker that comes late sees another job, and
-  /// what it read of the old one is not used.
+  /// A job is a number of tasks that are left and, above it, the job's own number: a worker that
+  /// comes late sees another job, and what it read of the old one is not used.
   void publish(std::uint32_t count) {
     const std::uint64_t job = (tickets_.load() >> 32u) + 1;
     tickets_.store(job << 32u | count);

@@ -14,7 +14,8 @@ inline sunder::Mesh make_strip(std::uint32_t along, std::uint32_t across, std::u
   sunder::Mesh mesh;
   for (std::uint32_t i = 0; i < along; ++i)
     for (std::uint32_t j = 0; j < across; ++j) {
-      const float at = static_cast<float>(i) * static_cast<float>(bones - 1) / static_cast<float>(along);
+      const float at =
+          static_cast<float>(i) * static_cast<float>(bones - 1) / static_cast<float>(along);
       const auto bone = static_cast<std::uint32_t>(at);
       mesh.positions.emplace_back(0.1f * at, 0.0f, 0.001f * static_cast<float>(j));
       mesh.normals.emplace_back(0.0f, 1.0f, 0.0f);
@@ -38,7 +39,8 @@ inline std::vector<sunder::Affine3f> wave(std::uint32_t bones, float time) {
   return matrices;
 }
 
-/// Waves the strip for some frames, once on this thread alone and once by a hook, and compares. @return a program's exit code.
+/// Waves the strip for some frames, once on this thread alone and once by a hook, and compares.
+/// @return a program's exit code.
 inline int wave_by(const char* name, const sunder::ParallelFor& parallel_for) {
   constexpr std::uint32_t kBones = 64;
   const sunder::Mesh mesh = make_strip(4000, 50, kBones);
@@ -55,16 +57,22 @@ inline int wave_by(const char* name, const sunder::ParallelFor& parallel_for) {
   std::vector<sunder::Affine3f> pose = wave(kBones, 0);
   for (int frame = 0; frame < 60; ++frame) {
     if (frame % 3 == 0) pose = wave(kBones, 0.1f * static_cast<float>(frame));
-    if (frame % 3 == 1) pose[kBones / 2].translation().z() += 0.01f;  // one bone alone; and in every third frame, nothing
+    if (frame % 3 == 1)
+      pose[kBones / 2].translation().z() +=
+          0.01f;  // one bone alone; and in every third frame, nothing
     if (!palette.set(pose, {})) return 1;
-    if (!skinned->deform(palette, of_one) || !skinned->deform(palette, of_all, parallel_for)) return 1;
+    if (!skinned->deform(palette, of_one) || !skinned->deform(palette, of_all, parallel_for))
+      return 1;
     std::uint32_t written = 0;
     for (const sunder::IndexRange& range : of_all.dirty_vertices()) written += range.count;
     if (frame < 3)
-      std::printf("frame %d: %6u of %u vertices written, in %zu ranges\n", frame, written, count, of_all.dirty_vertices().size());
+      std::printf("frame %d: %6u of %u vertices written, in %zu ranges\n", frame, written, count,
+                  of_all.dirty_vertices().size());
   }
-  const bool same = std::memcmp(alone.data(), together.data(), alone.size() * sizeof(alone[0])) == 0;
-  std::printf("%s, %u threads: %s\n", name, parallel_for.threads, same ? "the same bits as on one" : "OTHER bits than on one");
+  const bool same =
+      std::memcmp(alone.data(), together.data(), alone.size() * sizeof(alone[0])) == 0;
+  std::printf("%s, %u threads: %s\n", name, parallel_for.threads,
+              same ? "the same bits as on one" : "OTHER bits than on one");
   return same ? 0 : 1;
 }
 

@@ -25,15 +25,18 @@
 namespace sunder::tools {
 namespace {
 
-/// When in the clip each picture is taken, and how much time the tissue has had to open since the one before, at least; steps.
+/// When in the clip each picture is taken, and how much time the tissue has had to open since the
+/// one before, at least; steps.
 struct Shot {
   const char* name;
   double clip_fraction;
   bool is_torn;
   int steps;
 };
-constexpr Shot kShots[] = {
-    {"before", 0.40, false, 0}, {"torn", 0.40, true, 4}, {"later_1", 0.65, true, 30}, {"later_2", 0.95, true, 30}};
+constexpr Shot kShots[] = {{"before", 0.40, false, 0},
+                           {"torn", 0.40, true, 4},
+                           {"later_1", 0.65, true, 30},
+                           {"later_2", 0.95, true, 30}};
 constexpr int kPixels = 900;
 constexpr double kTearFraction = 0.40;
 constexpr double kMostSteps = 600;    ///< Between two pictures; a clip may be of any length.
@@ -81,14 +84,16 @@ struct Wound {
 Wound wound_of(const std::vector<RimEdge>& rims, const std::vector<DeformedMesh>& posed) {
   Wound wound{Vec3d::Zero(), Vec3d::Zero()};
   for (const RimEdge& edge : rims) {
-    wound.middle += posed[edge.mesh].positions[edge.a].cast<double>() / static_cast<double>(rims.size());
+    wound.middle +=
+        posed[edge.mesh].positions[edge.a].cast<double>() / static_cast<double>(rims.size());
     wound.outwards += posed[edge.mesh].normals[edge.a].cast<double>();
   }
   wound.outwards.normalize();
   return wound;
 }
 
-/// The eye of the tear's moment, kept as long as the wound stays in sight; where it turns away or leaves, the eye goes with it.
+/// The eye of the tear's moment, kept as long as the wound stays in sight; where it turns away or
+/// leaves, the eye goes with it.
 ViewFrame follow(const ViewFrame& frame, const Wound& then, const Wound& now) {
   if (now.outwards.dot(frame.towards_eye) > 0.45) return frame;
   ViewFrame turned;
@@ -109,9 +114,11 @@ Camera aim(const ViewFrame& frame, const Wound& wound, const Bounds& bounds) {
   double distance = 0;
   for (int corner = 0; corner < 8; ++corner) {
     const Vec3d half_size = bounds.size() / 2;
-    const Vec3d signs((corner & 1) != 0 ? 1 : -1, (corner & 2) != 0 ? 1 : -1, (corner & 4) != 0 ? 1 : -1);
+    const Vec3d signs((corner & 1) != 0 ? 1 : -1, (corner & 2) != 0 ? 1 : -1,
+                      (corner & 4) != 0 ? 1 : -1);
     const Vec3d offset = bounds.centre() + signs.cwiseProduct(half_size) - camera.focal_point;
-    const double beside = std::max(std::abs(offset.dot(frame.right)), std::abs(offset.dot(frame.up)));
+    const double beside =
+        std::max(std::abs(offset.dot(frame.right)), std::abs(offset.dot(frame.up)));
     distance = std::max(distance, beside / slope + offset.dot(frame.towards_eye));
   }
   camera.eye = camera.focal_point + 1.02 * distance * frame.towards_eye;
@@ -121,11 +128,17 @@ Camera aim(const ViewFrame& frame, const Wound& wound, const Bounds& bounds) {
 /// The same tear as an operation log, to repeat it with `sunder tear`.
 Json operations_json(const Character& character, const Stroke& stroke) {
   Json blades = Json::array();
-  for (const Blade& blade : stroke) blades.push_back({{"base", vector_json(blade.base)}, {"tip", vector_json(blade.tip)}});
+  for (const Blade& blade : stroke)
+    blades.push_back({{"base", vector_json(blade.base)}, {"tip", vector_json(blade.tip)}});
   Json pose = "rest";
-  if (!character.clips.empty()) pose = {{"clip", 0}, {"time", kTearFraction * static_cast<double>(character.clips[0].duration)}};
-  Json operation = {
-      {"op", "tear"}, {"pose", std::move(pose)}, {"width", 0.0}, {"layers", "nearest"}, {"stroke", std::move(blades)}};
+  if (!character.clips.empty())
+    pose = {{"clip", 0},
+            {"time", kTearFraction * static_cast<double>(character.clips[0].duration)}};
+  Json operation = {{"op", "tear"},
+                    {"pose", std::move(pose)},
+                    {"width", 0.0},
+                    {"layers", "nearest"},
+                    {"stroke", std::move(blades)}};
   return {{"sunder_operations", 1}, {"operations", Json::array({std::move(operation)})}};
 }
 
@@ -133,7 +146,8 @@ Json operations_json(const Character& character, const Stroke& stroke) {
 struct Demo {
   TornModel model;
   OperationOutcome outcome;
-  Result<OpenLips> lips;  ///< Or why they can't be opened: then there are no pictures, but all else.
+  Result<OpenLips>
+      lips;  ///< Or why they can't be opened: then there are no pictures, but all else.
   Stroke stroke;
   ViewFrame frame;
   Bounds bounds;
@@ -147,13 +161,16 @@ Result<Demo> tear_mid_clip(std::shared_ptr<const Character> character) {
   const Bounds bounds = bounds_of(*character, *posed);
   const ViewFrame frame = choose_view(bounds);
   Stroke stroke = choose_stroke(*character, *posed, frame);
-  if (stroke.empty()) return Status::failure(StatusCode::empty_input, kNone, "no surface is seen that a stroke could cross");
+  if (stroke.empty())
+    return Status::failure(StatusCode::empty_input, kNone,
+                           "no surface is seen that a stroke could cross");
 
   Result<TornModel> model = TornModel::create(character);
   if (!model) return model.error();
   Result<OpenLips> lips = OpenLips::create(*model);
   std::vector<ChangeRecord> changes;
-  const Result<OperationOutcome> outcome = play(TearOperation{*pose, stroke, {}, {}}, count_topology(*character), *model, &changes);
+  const Result<OperationOutcome> outcome =
+      play(TearOperation{*pose, stroke, {}, {}}, count_topology(*character), *model, &changes);
   if (!outcome) return outcome.error();
   if (lips)
     if (Status status = lips->follow(*model, changes); !status) lips = std::move(status);
@@ -163,8 +180,10 @@ Result<Demo> tear_mid_clip(std::shared_ptr<const Character> character) {
 /// Plays the clip on from one moment to another, and lets the lips open meanwhile.
 Status play_on(Demo& demo, double from, double to, int least_steps) {
   const Character& torn = demo.model.character();
-  const double seconds = torn.clips.empty() ? 0.0 : (to - from) * static_cast<double>(torn.clips[0].duration);
-  const int steps = static_cast<int>(std::clamp(std::ceil(60 * seconds), static_cast<double>(least_steps), kMostSteps));
+  const double seconds =
+      torn.clips.empty() ? 0.0 : (to - from) * static_cast<double>(torn.clips[0].duration);
+  const int steps = static_cast<int>(
+      std::clamp(std::ceil(60 * seconds), static_cast<double>(least_steps), kMostSteps));
   for (int i = 1; i <= steps; ++i) {
     const Result<ModelPose> pose = make_pose(torn, pose_at(torn, from + (to - from) * i / steps));
     if (!pose) return pose.error();
@@ -189,18 +208,25 @@ Status take_pictures(Demo& demo, const std::filesystem::path& folder, ProgressBa
     const Wound wound = wound_of(rims, *closed);
     const ViewFrame frame = follow(demo.frame, fresh, wound);
     const Camera camera = aim(frame, wound, bounds_of(torn, *closed));
-    const Result<std::vector<DeformedMesh>> untorn = posed_at(demo.model.source(), shot.clip_fraction);
+    const Result<std::vector<DeformedMesh>> untorn =
+        posed_at(demo.model.source(), shot.clip_fraction);
     if (!untorn) return untorn.error();
     Character still;
     if (shot.is_torn) {
-      if (const Status status = play_on(demo, kShots[i - 1].clip_fraction, shot.clip_fraction, shot.steps); !status) return status;
+      if (const Status status =
+              play_on(demo, kShots[i - 1].clip_fraction, shot.clip_fraction, shot.steps);
+          !status)
+        return status;
       std::vector<DeformedMesh> open = *closed;
       demo.lips->displace(open);
-      still = make_torn_still(demo.model, open, *closed, *untorn, rims, frame, kThickness * diagonal);
+      still =
+          make_torn_still(demo.model, open, *closed, *untorn, rims, frame, kThickness * diagonal);
     } else {
       still = make_still(demo.model.source(), *untorn);
     }
-    if (const Status status = draw(still, camera, kPixels, kPixels, folder / (std::string(shot.name) + ".png")); !status)
+    if (const Status status =
+            draw(still, camera, kPixels, kPixels, folder / (std::string(shot.name) + ".png"));
+        !status)
       return status;
   }
   return {};
@@ -219,7 +245,8 @@ ExitCode run_demo(const DemoRequest& request) {
   std::error_code error;
   std::filesystem::create_directories(request.folder, error);
   if (error) {
-    std::fprintf(stderr, "sunder: %s: cannot make this folder: %s\n", request.folder.c_str(), error.message().c_str());
+    std::fprintf(stderr, "sunder: %s: cannot make this folder: %s\n", request.folder.c_str(),
+                 error.message().c_str());
     return ExitCode::unreadable_input;
   }
 
@@ -233,19 +260,22 @@ ExitCode run_demo(const DemoRequest& request) {
       return complain((request.folder / "cactus.glb").string(), status, ExitCode::internal_error);
   if (const Status status = save(output, demo->model.character(), *model); !status)
     return complain(output.string(), status, ExitCode::internal_error);
-  const Result<Json> weight_errors =
-      weight_errors_by_policy_json(demo->model, model->loaded.character, pose_at(character, kTearFraction));
+  const Result<Json> weight_errors = weight_errors_by_policy_json(
+      demo->model, model->loaded.character, pose_at(character, kTearFraction));
   if (!weight_errors) return complain(place, weight_errors.error(), ExitCode::internal_error);
-  const Json report = {{"sunder_report", 1},
-                       {"model", place},
-                       {"output", output.string()},
-                       {"loading", to_json(model->loaded.report)},
-                       {"operations", Json::array({to_json(demo->outcome, demo->model.character())})},
-                       {"weight_errors", *weight_errors},
-                       {"result", result_json(demo->model, demo->outcome.before, demo->outcome.after)}};
+  const Json report = {
+      {"sunder_report", 1},
+      {"model", place},
+      {"output", output.string()},
+      {"loading", to_json(model->loaded.report)},
+      {"operations", Json::array({to_json(demo->outcome, demo->model.character())})},
+      {"weight_errors", *weight_errors},
+      {"result", result_json(demo->model, demo->outcome.before, demo->outcome.after)}};
   if (const Status status = write_text(request.folder / "report.json", dump(report)); !status)
     return complain((request.folder / "report.json").string(), status, ExitCode::unreadable_input);
-  if (const Status status = write_text(request.folder / "ops.json", dump(operations_json(character, demo->stroke))); !status)
+  if (const Status status =
+          write_text(request.folder / "ops.json", dump(operations_json(character, demo->stroke)));
+      !status)
     return complain((request.folder / "ops.json").string(), status, ExitCode::unreadable_input);
   if (demo->outcome.has_missed) {
     std::fprintf(stderr, "sunder: %s: the stroke missed\n", place.c_str());
@@ -253,7 +283,10 @@ ExitCode run_demo(const DemoRequest& request) {
   }
 
   if (!can_draw()) {
-    std::fputs("sunder: no pictures: f3d and xvfb-run are not both installed (Debian: apt install f3d xvfb xauth)\n", stderr);
+    std::fputs(
+        "sunder: no pictures: f3d and xvfb-run are not both installed (Debian: apt install f3d "
+        "xvfb xauth)\n",
+        stderr);
     return ExitCode::findings;
   }
   if (const Status status = take_pictures(*demo, request.folder, progress); !status) {

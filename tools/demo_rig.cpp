@@ -14,7 +14,8 @@ namespace sunder::tools {
 namespace {
 constexpr double kPi = std::numbers::pi;
 
-// ---- Shape: limbs are chains of capsules, melted together --------------------------------------------------------------------
+// ---- Shape: limbs are chains of capsules, melted together
+// --------------------------------------------------------------------
 
 struct Limb {
   std::vector<Vec3d> axis;  ///< Of its capsules, end to end, from the root outwards.
@@ -53,7 +54,9 @@ LimbPlace place_on(const Limb& limb, const Vec3d& position) {
     const double distance = (offset - along * direction).norm();
     if (distance < nearest.distance) {
       const Vec3d radial = offset - offset.dot(direction) * direction;
-      nearest = {distance, begin + along, std::atan2(radial.dot(direction.cross(limb.side)), radial.dot(limb.side)), radial.norm()};
+      nearest = {distance, begin + along,
+                 std::atan2(radial.dot(direction.cross(limb.side)), radial.dot(limb.side)),
+                 radial.norm()};
     }
     begin += length;
   }
@@ -75,11 +78,13 @@ double melt(double a, double b, double width) {
 
 double cactus_field(const Vec3d& position) {
   double field = limb_field(limbs()[0], position);
-  for (std::size_t i = 1; i < limbs().size(); ++i) field = melt(field, limb_field(limbs()[i], position), 0.09);
+  for (std::size_t i = 1; i < limbs().size(); ++i)
+    field = melt(field, limb_field(limbs()[i], position), 0.09);
   return field;
 }
 
-// ---- Bones -------------------------------------------------------------------------------------------------------------------
+// ---- Bones
+// -------------------------------------------------------------------------------------------------------------------
 
 struct BoneLine {
   const char* name;
@@ -90,12 +95,18 @@ struct BoneLine {
 
 const std::vector<BoneLine>& bone_lines() {
   static const std::vector<BoneLine> all = {
-      {"Root", kNone, {0, 0, 0}, {0, 0.22, 0}, 0.17},           {"Trunk1", 0, {0, 0.22, 0}, {0, 0.60, 0}, 0.17},
-      {"Trunk2", 1, {0, 0.60, 0}, {0, 0.95, 0}, 0.17},          {"Trunk3", 2, {0, 0.95, 0}, {0, 1.28, 0}, 0.17},
-      {"Trunk4", 3, {0, 1.28, 0}, {0, 1.62, 0}, 0.17},          {"Left1", 2, {-0.12, 0.885, 0}, {-0.38, 0.94, 0}, 0.095},
-      {"Left2", 5, {-0.38, 0.94, 0}, {-0.405, 1.17, 0}, 0.095}, {"Left3", 6, {-0.405, 1.17, 0}, {-0.43, 1.40, 0}, 0.095},
-      {"Right1", 3, {0.12, 1.10, 0}, {0.35, 1.14, 0}, 0.088},   {"Right2", 8, {0.35, 1.14, 0}, {0.38, 1.35, 0}, 0.088},
-      {"Right3", 9, {0.38, 1.35, 0}, {0.41, 1.56, 0}, 0.088},   {"Front1", 2, {0, 0.64, 0.12}, {0, 0.67, 0.30}, 0.07},
+      {"Root", kNone, {0, 0, 0}, {0, 0.22, 0}, 0.17},
+      {"Trunk1", 0, {0, 0.22, 0}, {0, 0.60, 0}, 0.17},
+      {"Trunk2", 1, {0, 0.60, 0}, {0, 0.95, 0}, 0.17},
+      {"Trunk3", 2, {0, 0.95, 0}, {0, 1.28, 0}, 0.17},
+      {"Trunk4", 3, {0, 1.28, 0}, {0, 1.62, 0}, 0.17},
+      {"Left1", 2, {-0.12, 0.885, 0}, {-0.38, 0.94, 0}, 0.095},
+      {"Left2", 5, {-0.38, 0.94, 0}, {-0.405, 1.17, 0}, 0.095},
+      {"Left3", 6, {-0.405, 1.17, 0}, {-0.43, 1.40, 0}, 0.095},
+      {"Right1", 3, {0.12, 1.10, 0}, {0.35, 1.14, 0}, 0.088},
+      {"Right2", 8, {0.35, 1.14, 0}, {0.38, 1.35, 0}, 0.088},
+      {"Right3", 9, {0.38, 1.35, 0}, {0.41, 1.56, 0}, 0.088},
+      {"Front1", 2, {0, 0.64, 0.12}, {0, 0.67, 0.30}, 0.07},
       {"Front2", 11, {0, 0.67, 0.30}, {0, 0.86, 0.34}, 0.07},
   };
   return all;
@@ -106,7 +117,8 @@ constexpr Index kRoot = 0;
 Skeleton make_skeleton() {
   Skeleton skeleton;
   for (const BoneLine& line : bone_lines()) {
-    const Vec3d parent_head = line.parent == kNone ? Vec3d(Vec3d::Zero()) : bone_lines()[line.parent].head;
+    const Vec3d parent_head =
+        line.parent == kNone ? Vec3d(Vec3d::Zero()) : bone_lines()[line.parent].head;
     BoneTransform rest;
     rest.translation = (line.head - parent_head).cast<float>();
     skeleton.bones.push_back({line.name, line.parent, rest});
@@ -120,14 +132,16 @@ Affine3f bone_from_bind(Index bone) {
   return result;
 }
 
-/// Shares fall with the fourth power of the distance to the bones, in radii of their flesh; small ones fade to nothing, so that
-/// weights are smooth and yet few.
+/// Shares fall with the fourth power of the distance to the bones, in radii of their flesh; small
+/// ones fade to nothing, so that weights are smooth and yet few.
 std::vector<Influence> influences_at(const Vec3d& position) {
   std::vector<double> shares;
   for (const BoneLine& line : bone_lines()) {
     const Vec3d direction = line.tail - line.head;
-    const double t = std::clamp((position - line.head).dot(direction) / direction.squaredNorm(), 0.0, 1.0);
-    const double squared_ratio = (position - line.head - t * direction).squaredNorm() / (line.reach * line.reach);
+    const double t =
+        std::clamp((position - line.head).dot(direction) / direction.squaredNorm(), 0.0, 1.0);
+    const double squared_ratio =
+        (position - line.head - t * direction).squaredNorm() / (line.reach * line.reach);
     shares.push_back(1 / (squared_ratio * squared_ratio + 1e-6));
   }
   const double largest = *std::max_element(shares.begin(), shares.end());
@@ -138,13 +152,15 @@ std::vector<Influence> influences_at(const Vec3d& position) {
   }
   std::vector<Influence> influences;
   for (Index bone = 0; bone < shares.size(); ++bone)
-    if (const auto weight = static_cast<float>(shares[bone] / sum); weight > 0.0f) influences.push_back({bone, weight});
+    if (const auto weight = static_cast<float>(shares[bone] / sum); weight > 0.0f)
+      influences.push_back({bone, weight});
   std::stable_sort(influences.begin(), influences.end(),
                    [](const Influence& a, const Influence& b) { return a.weight > b.weight; });
   return influences;
 }
 
-// ---- Mesh "Cactus" -----------------------------------------------------------------------------------------------------------
+// ---- Mesh "Cactus"
+// -----------------------------------------------------------------------------------------------------------
 
 constexpr Index kFlesh = 0, kFlower = 1;
 
@@ -174,10 +190,12 @@ std::array<Vec2f, 3> unroll(const std::array<Vec3d, 3>& corners) {
   for (std::size_t i = 0; i < 3; ++i) {
     const LimbPlace place = place_on(limbs()[limb], corners[i]);
     double angle = place.angle;
-    // Across the seam a corner continues on the side of its triangle, so that no triangle runs back over the whole strip.
+    // Across the seam a corner continues on the side of its triangle, so that no triangle runs back
+    // over the whole strip.
     if (angle - middle > kPi) angle -= 2 * kPi;
     if (middle - angle > kPi) angle += 2 * kPi;
-    const double u = (static_cast<double>(limb) + 0.5 + 0.4 * angle / kPi) / static_cast<double>(limbs().size());
+    const double u =
+        (static_cast<double>(limb) + 0.5 + 0.4 * angle / kPi) / static_cast<double>(limbs().size());
     result[i] = Vec2d(u, 1 - place.along / 1.7).cast<float>();
   }
   return result;
@@ -191,7 +209,8 @@ Vec3d swell_at(const Vec3d& position, const Vec3d& normal) {
 
 Mesh make_flesh(Index skin) {
   constexpr double kCell = 0.0265;
-  const PointSurface surface = surface_nets(cactus_field, Vec3d(-0.62, 0.0, -0.24), Vec3d(0.60, 1.86, 0.50), kCell);
+  const PointSurface surface =
+      surface_nets(cactus_field, Vec3d(-0.62, 0.0, -0.24), Vec3d(0.60, 1.86, 0.50), kCell);
 
   Mesh mesh;
   mesh.name = "Cactus";
@@ -200,14 +219,17 @@ Mesh make_flesh(Index skin) {
   mesh.uv_sets.resize(1);
   mesh.morph_targets.push_back({"Swell", {}, {}, {}});
 
-  // One vertex for each point and place in the texture: the copies along a seam are equal in all else.
+  // One vertex for each point and place in the texture: the copies along a seam are equal in all
+  // else.
   std::map<std::tuple<Index, float, float>, Index> vertex_at;
   for (const Triangle& points : surface.triangles) {
-    const std::array<Vec3d, 3> corners = {surface.positions[points[0]], surface.positions[points[1]], surface.positions[points[2]]};
+    const std::array<Vec3d, 3> corners = {
+        surface.positions[points[0]], surface.positions[points[1]], surface.positions[points[2]]};
     const std::array<Vec2f, 3> uvs = unroll(corners);
     Triangle triangle = {};
     for (std::size_t i = 0; i < 3; ++i) {
-      const auto [entry, is_new] = vertex_at.try_emplace({points[i], uvs[i].x(), uvs[i].y()}, mesh.vertex_count());
+      const auto [entry, is_new] =
+          vertex_at.try_emplace({points[i], uvs[i].x(), uvs[i].y()}, mesh.vertex_count());
       triangle[i] = entry->second;
       if (!is_new) continue;
       const Vec3d normal = field_normal(cactus_field, corners[i]);
@@ -218,17 +240,26 @@ Mesh make_flesh(Index skin) {
       mesh.morph_targets[0].position_deltas.push_back(swell_at(corners[i], normal).cast<float>());
     }
     mesh.triangles.push_back(triangle);
-    mesh.triangle_submesh.push_back(is_flower((corners[0] + corners[1] + corners[2]) / 3) ? kFlower : kFlesh);
+    mesh.triangle_submesh.push_back(is_flower((corners[0] + corners[1] + corners[2]) / 3) ? kFlower
+                                                                                          : kFlesh);
   }
   return mesh;
 }
 
-// ---- Mesh "Pot" --------------------------------------------------------------------------------------------------------------
+// ---- Mesh "Pot"
+// --------------------------------------------------------------------------------------------------------------
 
 Mesh make_pot(Index skin) {
-  // Radius and height of the turned outline, from the axis below to the axis above; each piece is a band with hard edges.
-  constexpr std::array<std::array<double, 2>, 8> kOutline = {
-      {{0, 0}, {0.22, 0}, {0.28, 0.26}, {0.31, 0.26}, {0.31, 0.34}, {0.27, 0.34}, {0.26, 0.28}, {0, 0.28}}};
+  // Radius and height of the turned outline, from the axis below to the axis above; each piece is a
+  // band with hard edges.
+  constexpr std::array<std::array<double, 2>, 8> kOutline = {{{0, 0},
+                                                              {0.22, 0},
+                                                              {0.28, 0.26},
+                                                              {0.31, 0.26},
+                                                              {0.31, 0.34},
+                                                              {0.27, 0.34},
+                                                              {0.26, 0.28},
+                                                              {0, 0.28}}};
   constexpr Index kSegments = 32;
   constexpr Index kSoil = 1;
 
@@ -239,15 +270,20 @@ Mesh make_pot(Index skin) {
   mesh.uv_sets.resize(1);
   for (std::size_t band = 0; band + 1 < kOutline.size(); ++band) {
     const Index first = mesh.vertex_count();
-    const double rise = kOutline[band + 1][1] - kOutline[band][1], run = kOutline[band + 1][0] - kOutline[band][0];
+    const double rise = kOutline[band + 1][1] - kOutline[band][1],
+                 run = kOutline[band + 1][0] - kOutline[band][0];
     for (Index i = 0; i <= kSegments; ++i) {
       // The last column repeats the first one, bit for bit, with texture coordinates of its own.
       const double angle = 2 * kPi * (i % kSegments) / kSegments;
       for (const std::size_t end : {band, band + 1}) {
         const double radius = kOutline[end][0];
-        mesh.positions.push_back(Vec3d(radius * std::sin(angle), kOutline[end][1], radius * std::cos(angle)).cast<float>());
-        mesh.normals.push_back(Vec3d(rise * std::sin(angle), -run, rise * std::cos(angle)).cast<float>().normalized());
-        mesh.uv_sets[0].emplace_back(static_cast<float>(i) / kSegments, 1.0f - static_cast<float>(end) / kOutline.size());
+        mesh.positions.push_back(
+            Vec3d(radius * std::sin(angle), kOutline[end][1], radius * std::cos(angle))
+                .cast<float>());
+        mesh.normals.push_back(
+            Vec3d(rise * std::sin(angle), -run, rise * std::cos(angle)).cast<float>().normalized());
+        mesh.uv_sets[0].emplace_back(static_cast<float>(i) / kSegments,
+                                     1.0f - static_cast<float>(end) / kOutline.size());
         const Influence all_of_root{0, 1.0f};
         mesh.weights.append({&all_of_root, 1});
       }
@@ -265,7 +301,8 @@ Mesh make_pot(Index skin) {
   return mesh;
 }
 
-// ---- Clip "Sway" -------------------------------------------------------------------------------------------------------------
+// ---- Clip "Sway"
+// -------------------------------------------------------------------------------------------------------------
 
 Channel make_sway(Index bone, const Vec3d& axis, double amplitude, double phase) {
   Channel channel;

@@ -16,13 +16,16 @@ struct Run {
   double score = 0;
 };
 
-/// Whether the surface goes on from one pixel to its neighbour. Where it is seen too much from the side a tear would hardly show.
+/// Whether the surface goes on from one pixel to its neighbour. Where it is seen too much from the
+/// side a tear would hardly show.
 bool goes_on(const DepthImage& image, const DepthImage::Pixel& from, const DepthImage::Pixel& to) {
-  return to.mesh != kNone && to.mesh == from.mesh && to.facing > 0.4 && std::abs(to.depth - from.depth) < 2.5 * image.pixel_size();
+  return to.mesh != kNone && to.mesh == from.mesh && to.facing > 0.4 &&
+         std::abs(to.depth - from.depth) < 2.5 * image.pixel_size();
 }
 
 /// Keeps the best run of a line through the image.
-void search_line(const DepthImage& image, const Vec2d& start, const Vec2d& direction, double liking, double longest, Run& best) {
+void search_line(const DepthImage& image, const Vec2d& start, const Vec2d& direction, double liking,
+                 double longest, Run& best) {
   const int reach = image.width() + image.height();
   DepthImage::Pixel previous;
   int length = 0;
@@ -50,27 +53,32 @@ Run longest_run(const DepthImage& image) {
   for (int i = 0; i < kDirections; ++i) {
     const double angle = std::numbers::pi * i / kDirections;
     const Vec2d direction(std::cos(angle), std::sin(angle)), across(-direction.y(), direction.x());
-    const double liking = 1 + 0.35 * std::abs(std::sin(2 * angle));  // Oblique strokes look less arranged.
+    const double liking =
+        1 + 0.35 * std::abs(std::sin(2 * angle));  // Oblique strokes look less arranged.
     const int reach = (image.width() + image.height()) / 2;
     for (int offset = -reach; offset <= reach; offset += 3)
-      search_line(image, Vec2d(image.width() / 2.0, image.height() / 2.0) + offset * across, direction, liking, longest, best);
+      search_line(image, Vec2d(image.width() / 2.0, image.height() / 2.0) + offset * across,
+                  direction, liking, longest, best);
   }
   return best;
 }
 
-/// Places along the run's middle part, swinging to both sides by `swing` of its length; none where they leave the surface.
+/// Places along the run's middle part, swinging to both sides by `swing` of its length; none where
+/// they leave the surface.
 std::vector<Vec2d> places_along(const DepthImage& image, const Run& run, double swing) {
   const Vec2d along = run.end - run.begin, across(-along.y(), along.x());
   std::vector<Vec2d> places;
   for (int i = 0; i < kBlades; ++i) {
     const double t = static_cast<double>(i) / (kBlades - 1);
-    places.push_back(run.begin + (0.1 + 0.8 * t) * along + swing * std::sin(2 * std::numbers::pi * t) * across);
+    places.push_back(run.begin + (0.1 + 0.8 * t) * along +
+                     swing * std::sin(2 * std::numbers::pi * t) * across);
   }
   for (std::size_t i = 1; i < places.size(); ++i) {
     const int steps = std::max(1, static_cast<int>((places[i] - places[i - 1]).norm()));
     DepthImage::Pixel previous = image.at(places[i - 1].x(), places[i - 1].y());
     for (int step = 1; step <= steps; ++step) {
-      const Vec2d place = places[i - 1] + static_cast<double>(step) / steps * (places[i] - places[i - 1]);
+      const Vec2d place =
+          places[i - 1] + static_cast<double>(step) / steps * (places[i] - places[i - 1]);
       const DepthImage::Pixel pixel = image.at(place.x(), place.y());
       if (!goes_on(image, previous, pixel)) return {};
       previous = pixel;
@@ -81,7 +89,8 @@ std::vector<Vec2d> places_along(const DepthImage& image, const Run& run, double 
 
 }  // namespace
 
-Stroke choose_stroke(const Character& character, const std::vector<DeformedMesh>& posed, const ViewFrame& frame) {
+Stroke choose_stroke(const Character& character, const std::vector<DeformedMesh>& posed,
+                     const ViewFrame& frame) {
   const DepthImage image(character, posed, frame, kImageSize);
   const Run run = longest_run(image);
   if ((run.end - run.begin).norm() < 4) return {};
@@ -94,9 +103,12 @@ Stroke choose_stroke(const Character& character, const std::vector<DeformedMesh>
   Stroke stroke;
   for (const Vec2d& place : places) {
     const Vec3d hit = image.position(place.x(), place.y());
-    // From before all that is seen to well below the surface: only the nearest layer is torn, however deep the blade.
-    const double clearance = image.nearest_depth() - image.at(place.x(), place.y()).depth + 0.05 * diagonal;
-    stroke.push_back({hit + clearance * frame.towards_eye, hit - 0.06 * diagonal * frame.towards_eye});
+    // From before all that is seen to well below the surface: only the nearest layer is torn,
+    // however deep the blade.
+    const double clearance =
+        image.nearest_depth() - image.at(place.x(), place.y()).depth + 0.05 * diagonal;
+    stroke.push_back(
+        {hit + clearance * frame.towards_eye, hit - 0.06 * diagonal * frame.towards_eye});
   }
   return stroke;
 }

@@ -17,8 +17,10 @@ ExitCode exit_code_of(StatusCode code, ExitCode otherwise) {
 }
 
 ExitCode complain(const std::string& place, const Status& status, ExitCode otherwise) {
-  std::fprintf(stderr, "sunder: %s: %.*s (%.*s)\n", place.c_str(), static_cast<int>(status.text().size()), status.text().data(),
-               static_cast<int>(status_name(status.code()).size()), status_name(status.code()).data());
+  std::fprintf(stderr, "sunder: %s: %.*s (%.*s)\n", place.c_str(),
+               static_cast<int>(status.text().size()), status.text().data(),
+               static_cast<int>(status_name(status.code()).size()),
+               status_name(status.code()).data());
   return exit_code_of(status.code(), otherwise);
 }
 

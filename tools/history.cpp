@@ -15,7 +15,8 @@ Result<std::vector<ModelPose>> poses_of(const Operation& operation, const Charac
     std::vector<PoseSpec>& specs;
     void operator()(const TearOperation& tear) {
       specs.push_back(tear.pose);
-      for (const TearOperation::PoseChange& change : tear.pose_changes) specs.push_back(change.pose);
+      for (const TearOperation::PoseChange& change : tear.pose_changes)
+        specs.push_back(change.pose);
     }
     void operator()(const CutOperation& cut) { specs.push_back(cut.pose); }
     void operator()(const DrillOperation& drill) { specs.push_back(drill.pose); }
@@ -54,14 +55,18 @@ std::vector<PointsOfOperation> points_of_history(const std::vector<Operation>& h
     void operator()(const DrillOperation& drill) { add(drill.bore.weights); }
     void operator()(const WeightsOperation& operation) {
       const std::size_t first = std::min<std::size_t>(operation.first_operation, points.size());
-      const std::size_t count = std::min<std::size_t>(operation.operation_count, points.size() - first);
-      for (std::size_t i = first; i < first + count; ++i) points[i].weights = operation.weights, points[i].are_reweighed = true;
+      const std::size_t count =
+          std::min<std::size_t>(operation.operation_count, points.size() - first);
+      for (std::size_t i = first; i < first + count; ++i)
+        points[i].weights = operation.weights, points[i].are_reweighed = true;
       points.push_back({});
     }
     void operator()(const UndoOperation&) {}
     void operator()(const RedoOperation&) {}
 
-    void add(const std::optional<WeightOptions>& weights) { points.push_back({true, weights.value_or(WeightOptions{}), false}); }
+    void add(const std::optional<WeightOptions>& weights) {
+      points.push_back({true, weights.value_or(WeightOptions{}), false});
+    }
   };
   std::vector<PointsOfOperation> points;
   for (const Operation& operation : history) std::visit(Visitor{points}, operation);

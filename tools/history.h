@@ -6,9 +6,10 @@
 
 namespace sunder::tools {
 
-/// The poses in which an operation is done: one of a tear, cut or bore, more of a tear while the model moves, and that which
-/// weights are to meet.
-[[nodiscard]] Result<std::vector<ModelPose>> poses_of(const Operation& operation, const Character& character);
+/// The poses in which an operation is done: one of a tear, cut or bore, more of a tear while the
+/// model moves, and that which weights are to meet.
+[[nodiscard]] Result<std::vector<ModelPose>> poses_of(const Operation& operation,
+                                                      const Character& character);
 /// Those of a model's whole history, in order.
 [[nodiscard]] Result<std::vector<ModelPose>> poses_of_history(const TornModel& model);
 
@@ -19,6 +20,7 @@ struct PointsOfOperation {
   bool are_reweighed = false;
 };
 /// One an operation.
-[[nodiscard]] std::vector<PointsOfOperation> points_of_history(const std::vector<Operation>& history);
+[[nodiscard]] std::vector<PointsOfOperation> points_of_history(
+    const std::vector<Operation>& history);
 
 }  // namespace sunder::tools

@@ -34,7 +34,8 @@ Json mesh_json(const Character& character, const Mesh& mesh) {
     submeshes.push_back({{"name", mesh.submeshes[i].name}, {"triangles", triangles_of[i]}});
   Json targets = Json::array(), attributes = Json::array();
   for (const MorphTarget& target : mesh.morph_targets) targets.push_back(target.name);
-  for (const CustomAttribute& attribute : mesh.custom_attributes) attributes.push_back(attribute.name);
+  for (const CustomAttribute& attribute : mesh.custom_attributes)
+    attributes.push_back(attribute.name);
   return {{"name", mesh.name},
           {"vertices", mesh.vertex_count()},
           {"points", point_count(character, mesh)},
@@ -62,11 +63,13 @@ Json info_json(const InfoRequest& request, const LoadedCharacter& loaded, const 
   info["bones"] = Json::array();
   for (const Bone& bone : character.skeleton.bones) info["bones"].push_back(bone.name);
   info["skins"] = Json::array();
-  for (const Skin& skin : character.skins) info["skins"].push_back({{"name", skin.name}, {"bones", skin.bones.size()}});
+  for (const Skin& skin : character.skins)
+    info["skins"].push_back({{"name", skin.name}, {"bones", skin.bones.size()}});
   info["clips"] = Json::array();
   for (const Clip& clip : character.clips)
-    info["clips"].push_back(
-        {{"name", clip.name}, {"duration", static_cast<double>(clip.duration)}, {"channels", clip.channels.size()}});
+    info["clips"].push_back({{"name", clip.name},
+                             {"duration", static_cast<double>(clip.duration)},
+                             {"channels", clip.channels.size()}});
   const ModelCheck check = check_model(character);
   info["weight_sum_min"] = check.least_weight_sum;
   info["weight_sum_max"] = check.greatest_weight_sum;
@@ -83,33 +86,44 @@ void print_info(const Json& info) {
   std::printf("%s: %s\n", text(info["model"]).c_str(), text(info["format"]).c_str());
   std::printf("space      %s\n", text(info["space"]).c_str());
   const Json &least = info["bounds"]["min"], &greatest = info["bounds"]["max"];
-  std::printf("bounds     (%.5g, %.5g, %.5g) to (%.5g, %.5g, %.5g), at rest\n", number(least[0]), number(least[1]),
-              number(least[2]), number(greatest[0]), number(greatest[1]), number(greatest[2]));
+  std::printf("bounds     (%.5g, %.5g, %.5g) to (%.5g, %.5g, %.5g), at rest\n", number(least[0]),
+              number(least[1]), number(least[2]), number(greatest[0]), number(greatest[1]),
+              number(greatest[2]));
   std::printf("bones      %zu\n", info["bones"].size());
   for (std::size_t i = 0; i < info["skins"].size(); ++i)
-    std::printf("skin %zu     '%s': %zu bones\n", i, text(info["skins"][i]["name"]).c_str(), count(info["skins"][i]["bones"]));
+    std::printf("skin %zu     '%s': %zu bones\n", i, text(info["skins"][i]["name"]).c_str(),
+                count(info["skins"][i]["bones"]));
   for (std::size_t i = 0; i < info["meshes"].size(); ++i) {
     const Json& mesh = info["meshes"][i];
-    std::printf("mesh %zu     '%s': %zu vertices, %zu points, %zu triangles, %zu submeshes, skin %zu, up to %zu influences\n", i,
-                text(mesh["name"]).c_str(), count(mesh["vertices"]), count(mesh["points"]), count(mesh["triangles"]),
-                mesh["submeshes"].size(), count(mesh["skin"]), count(mesh["influences_max"]));
+    std::printf(
+        "mesh %zu     '%s': %zu vertices, %zu points, %zu triangles, %zu submeshes, skin %zu, up "
+        "to %zu influences\n",
+        i, text(mesh["name"]).c_str(), count(mesh["vertices"]), count(mesh["points"]),
+        count(mesh["triangles"]), mesh["submeshes"].size(), count(mesh["skin"]),
+        count(mesh["influences_max"]));
     std::printf("           %s, %s, %zu UV sets, %zu colour sets, %zu morph targets\n",
-                mesh["normals"].get<bool>() ? "normals" : "no normals", mesh["tangents"].get<bool>() ? "tangents" : "no tangents",
-                count(mesh["uv_sets"]), count(mesh["color_sets"]), mesh["morph_targets"].size());
+                mesh["normals"].get<bool>() ? "normals" : "no normals",
+                mesh["tangents"].get<bool>() ? "tangents" : "no tangents", count(mesh["uv_sets"]),
+                count(mesh["color_sets"]), mesh["morph_targets"].size());
   }
   for (std::size_t i = 0; i < info["clips"].size(); ++i)
-    std::printf("clip %zu     '%s': %.4g s, %zu channels\n", i, text(info["clips"][i]["name"]).c_str(),
-                number(info["clips"][i]["duration"]), count(info["clips"][i]["channels"]));
-  std::printf("weights    sums from %.9g to %.9g\n", number(info["weight_sum_min"]), number(info["weight_sum_max"]));
+    std::printf("clip %zu     '%s': %.4g s, %zu channels\n", i,
+                text(info["clips"][i]["name"]).c_str(), number(info["clips"][i]["duration"]),
+                count(info["clips"][i]["channels"]));
+  std::printf("weights    sums from %.9g to %.9g\n", number(info["weight_sum_min"]),
+              number(info["weight_sum_max"]));
   const Json& topology = info["topology"];
-  std::printf("topology   %zu points, %zu edges, %zu triangles, %zu components\n", count(topology["points"]),
-              count(topology["edges"]), count(topology["triangles"]), count(topology["components"]));
-  std::printf("           %zu boundary loops (%zu edges), %zu non-manifold edges, %zu degenerate triangles\n",
-              count(topology["boundary_loops"]), count(topology["boundary_edges"]), count(topology["non_manifold_edges"]),
-              count(topology["degenerate_triangles"]));
+  std::printf("topology   %zu points, %zu edges, %zu triangles, %zu components\n",
+              count(topology["points"]), count(topology["edges"]), count(topology["triangles"]),
+              count(topology["components"]));
+  std::printf(
+      "           %zu boundary loops (%zu edges), %zu non-manifold edges, %zu degenerate "
+      "triangles\n",
+      count(topology["boundary_loops"]), count(topology["boundary_edges"]),
+      count(topology["non_manifold_edges"]), count(topology["degenerate_triangles"]));
   for (const Json& note : info["notes"])
-    std::printf("%-10s %s: %s (%zu)\n", text(note["kind"]).c_str(), text(note["place"]).c_str(), text(note["text"]).c_str(),
-                count(note["count"]));
+    std::printf("%-10s %s: %s (%zu)\n", text(note["kind"]).c_str(), text(note["place"]).c_str(),
+                text(note["text"]).c_str(), count(note["count"]));
 }
 
 }  // namespace
@@ -130,8 +144,9 @@ ExitCode run_info(const InfoRequest& request) {
     print_info(info);
 
   const auto& notes = loaded->report.notes;
-  const bool was_changed =
-      std::any_of(notes.begin(), notes.end(), [](const LoadNote& note) { return note.kind != LoadNote::Kind::information; });
+  const bool was_changed = std::any_of(notes.begin(), notes.end(), [](const LoadNote& note) {
+    return note.kind != LoadNote::Kind::information;
+  });
   return was_changed ? ExitCode::findings : ExitCode::ok;
 }
 

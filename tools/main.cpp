@@ -13,7 +13,8 @@ namespace sunder::tools {
 namespace {
 
 constexpr const char* kExitCodes =
-    "Exit codes: 0 done, 1 done but something is worth a look, 2 usage or operations, 3 a file cannot be read or written,\n"
+    "Exit codes: 0 done, 1 done but something is worth a look, 2 usage or operations, 3 a file "
+    "cannot be read or written,\n"
     "4 a limit was exceeded, 5 a fault of sunder itself. Data goes to stdout, words go to stderr.";
 
 /// @param name  as weight_format_name() gives it.
@@ -25,7 +26,8 @@ WeightFormat weight_format(const std::string& name) {
 
 /// @param name  as weight_policy_name() gives it.
 WeightPolicy weight_policy(const std::string& name) {
-  for (const WeightPolicy policy : {WeightPolicy::pose_exact, WeightPolicy::refit, WeightPolicy::exact})
+  for (const WeightPolicy policy :
+       {WeightPolicy::pose_exact, WeightPolicy::refit, WeightPolicy::exact})
     if (name == weight_policy_name(policy)) return policy;
   return WeightPolicy::barycentric;
 }
@@ -44,54 +46,71 @@ struct Requests {
 };
 
 CLI::App* add_info(CLI::App& app, InfoRequest& request) {
-  CLI::App* const verb = app.add_subcommand("info", "Say what is in a model, and what is wrong with it");
-  verb->add_option("MODEL", request.model, "glTF, GLB, FBX, COLLADA, X, B3D, OBJ, PLY, OFF ...")->required();
+  CLI::App* const verb =
+      app.add_subcommand("info", "Say what is in a model, and what is wrong with it");
+  verb->add_option("MODEL", request.model, "glTF, GLB, FBX, COLLADA, X, B3D, OBJ, PLY, OFF ...")
+      ->required();
   verb->add_flag("--json", request.as_json, "One JSON object instead of text");
-  verb->footer("Exit code 1 where loading had to repair or drop something.\n\nExample: sunder info fox.glb");
+  verb->footer(
+      "Exit code 1 where loading had to repair or drop something.\n\nExample: sunder info fox.glb");
   return verb;
 }
 
 CLI::App* add_tear(CLI::App& app, TearRequest& request) {
-  CLI::App* const verb = app.add_subcommand("tear", "Tear, cut and drill a model by a list of operations, and save it as GLB");
+  CLI::App* const verb = app.add_subcommand(
+      "tear", "Tear, cut and drill a model by a list of operations, and save it as GLB");
   verb->add_option("MODEL", request.model, "The model")->required();
-  verb->add_option("--ops", request.operations, "Operations, JSON; see docs/operation_log.md")->required();
+  verb->add_option("--ops", request.operations, "Operations, JSON; see docs/operation_log.md")
+      ->required();
   verb->add_option("-o,--output", request.output, "The torn model, GLB")->required();
-  verb->add_option("--influences", request.save.maximum_influences, "Most influences written a vertex; without it: all")
+  verb->add_option("--influences", request.save.maximum_influences,
+                   "Most influences written a vertex; without it: all")
       ->check(CLI::IsMember({4, 8}));
   verb->add_option_function<std::string>(
-          "--weights-as", [&request](const std::string& name) { request.save.weights = weight_format(name); },
+          "--weights-as",
+          [&request](const std::string& name) { request.save.weights = weight_format(name); },
           "How their weights are written; u16, u8: as integers whose sum is exactly one")
       ->check(CLI::IsMember({"float", "u16", "u8"}))
       ->default_str("float");
   verb->add_option_function<std::string>(
-          "--weights", [&request](const std::string& name) { request.weights = weight_policy(name); },
-          "What new points follow the pose by, where the operations do not say; --influences holds for it too")
+          "--weights",
+          [&request](const std::string& name) { request.weights = weight_policy(name); },
+          "What new points follow the pose by, where the operations do not say; --influences holds "
+          "for it too")
       ->check(CLI::IsMember({"barycentric", "pose_exact", "refit", "exact"}))
       ->default_str("barycentric");
   verb->add_option_function<std::string>(
-          "--refit-over", [&request](const std::string& name) { request.refit_over = refit_over(name); },
-          "The poses that --weights refit fits over; without it: the clips if there are any, else the range of motion")
+          "--refit-over",
+          [&request](const std::string& name) { request.refit_over = refit_over(name); },
+          "The poses that --weights refit fits over; without it: the clips if there are any, else "
+          "the range of motion")
       ->check(CLI::IsMember({"clips", "range_of_motion", "both"}));
   verb->callback([&request] {
     if (request.refit_over && request.weights != WeightPolicy::refit)
       throw CLI::ValidationError("--refit-over", "nothing is fitted without --weights refit");
   });
   verb->add_option("--report", request.report, "Where the JSON report goes instead of stdout");
-  verb->add_option("--picture", request.picture,
-                   "A PNG of the torn model: lips pulled open, pieces of a cut apart; needs f3d, Xvfb");
-  verb->add_option("--save-log", request.log, "Where to write what was done and not undone, with the poses in full");
+  verb->add_option(
+      "--picture", request.picture,
+      "A PNG of the torn model: lips pulled open, pieces of a cut apart; needs f3d, Xvfb");
+  verb->add_option("--save-log", request.log,
+                   "Where to write what was done and not undone, with the poses in full");
   verb->footer(
-      "All operations succeed, or nothing is written. Exit code 1 where an operation missed or was blocked.\n\n"
+      "All operations succeed, or nothing is written. Exit code 1 where an operation missed or was "
+      "blocked.\n\n"
       "Example: sunder tear fox.glb --ops ops.json -o torn.glb --influences 4");
   return verb;
 }
 
 CLI::App* add_demo(CLI::App& app, DemoRequest& request) {
-  CLI::App* const verb = app.add_subcommand("demo", "Tear a model in the middle of its animation, and take pictures of it");
+  CLI::App* const verb = app.add_subcommand(
+      "demo", "Tear a model in the middle of its animation, and take pictures of it");
   verb->add_option("MODEL", request.model, "The model; without it: a cactus");
-  verb->add_option("-o,--output", request.folder, "Folder for pictures, GLB and report")->capture_default_str();
+  verb->add_option("-o,--output", request.folder, "Folder for pictures, GLB and report")
+      ->capture_default_str();
   verb->footer(
-      "Pictures are drawn by f3d under Xvfb; where they are missing all the rest is still written, and the exit code is 1.\n\n"
+      "Pictures are drawn by f3d under Xvfb; where they are missing all the rest is still written, "
+      "and the exit code is 1.\n\n"
       "Example: sunder demo fox.glb -o fox_demo");
   return verb;
 }
@@ -108,7 +127,8 @@ int run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? static_cast<int>(ExitCode::ok) : static_cast<int>(ExitCode::usage);
+    return app.exit(error) == 0 ? static_cast<int>(ExitCode::ok)
+                                : static_cast<int>(ExitCode::usage);
   }
   if (info->parsed()) return static_cast<int>(run_info(requests.info));
   if (tear->parsed()) return static_cast<int>(run_tear(requests.tear));

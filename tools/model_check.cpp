@@ -25,21 +25,25 @@ void check_weights(const Mesh& mesh, ModelCheck& check) {
     }
     check.least_weight_sum = std::min(check.least_weight_sum, sum);
     check.greatest_weight_sum = std::max(check.greatest_weight_sum, sum);
-    check.most_influences = std::max(check.most_influences, static_cast<std::uint32_t>(influences.size()));
+    check.most_influences =
+        std::max(check.most_influences, static_cast<std::uint32_t>(influences.size()));
   }
-  check.greatest_weight_sum_error = std::max(check.greatest_weight_sum - 1, 1 - check.least_weight_sum);
+  check.greatest_weight_sum_error =
+      std::max(check.greatest_weight_sum - 1, 1 - check.least_weight_sum);
 }
 
 }  // namespace
 
 ModelCheck check_mesh(const Mesh& mesh) {
   ModelCheck check;
-  check.non_finite_values = count_non_finite(mesh.positions) + count_non_finite(mesh.normals) + count_non_finite(mesh.tangents);
+  check.non_finite_values = count_non_finite(mesh.positions) + count_non_finite(mesh.normals) +
+                            count_non_finite(mesh.tangents);
   for (const auto& uv : mesh.uv_sets) check.non_finite_values += count_non_finite(uv);
   for (const auto& colors : mesh.color_sets) check.non_finite_values += count_non_finite(colors);
   for (const MorphTarget& target : mesh.morph_targets)
-    check.non_finite_values +=
-        count_non_finite(target.position_deltas) + count_non_finite(target.normal_deltas) + count_non_finite(target.tangent_deltas);
+    check.non_finite_values += count_non_finite(target.position_deltas) +
+                               count_non_finite(target.normal_deltas) +
+                               count_non_finite(target.tangent_deltas);
   check_weights(mesh, check);
   return check;
 }
@@ -50,7 +54,8 @@ ModelCheck check_model(const Character& character) {
     const ModelCheck one = check_mesh(mesh);
     all.least_weight_sum = std::min(all.least_weight_sum, one.least_weight_sum);
     all.greatest_weight_sum = std::max(all.greatest_weight_sum, one.greatest_weight_sum);
-    all.greatest_weight_sum_error = std::max(all.greatest_weight_sum_error, one.greatest_weight_sum_error);
+    all.greatest_weight_sum_error =
+        std::max(all.greatest_weight_sum_error, one.greatest_weight_sum_error);
     all.least_weight = std::min(all.least_weight, one.least_weight);
     all.most_influences = std::max(all.most_influences, one.most_influences);
     all.non_finite_values += one.non_finite_values;

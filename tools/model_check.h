@@ -11,7 +11,8 @@ struct ModelCheck {
   double greatest_weight_sum_error = 0.0;  ///< |sum - 1|.
   double least_weight = 1.0;
   std::uint32_t most_influences = 0;
-  std::uint64_t non_finite_values = 0;  ///< In positions, normals, tangents, texture coordinates, colours, morph deltas, weights.
+  std::uint64_t non_finite_values =
+      0;  ///< In positions, normals, tangents, texture coordinates, colours, morph deltas, weights.
 };
 
 [[nodiscard]] ModelCheck check_mesh(const Mesh& mesh);

@@ -8,8 +8,10 @@
 namespace sunder::tools {
 namespace {
 
-constexpr double kRange = 0.075;  ///< Of a particle, of the diagonal: how far from the lips the tissue gives way.
-constexpr double kTension = 1.3;  ///< Newtons a metre: against the stiffness and mass of the default material.
+constexpr double kRange =
+    0.075;  ///< Of a particle, of the diagonal: how far from the lips the tissue gives way.
+constexpr double kTension =
+    1.3;  ///< Newtons a metre: against the stiffness and mass of the default material.
 constexpr double kStep = 1.0 / 60;
 constexpr int kMostSteps = 180;
 
@@ -35,7 +37,9 @@ Status OpenLips::follow(const TornModel& model, std::span<const ChangeRecord> ch
   return particles_->follow(model, changes);
 }
 
-Status OpenLips::step(const TornModel& model, const ModelPose& pose) { return body_->step(model, pose, kStep); }
+Status OpenLips::step(const TornModel& model, const ModelPose& pose) {
+  return body_->step(model, pose, kStep);
+}
 
 Status OpenLips::open(const TornModel& model, const ModelPose& pose) {
   for (int i = 0; i < kMostSteps; ++i) {
@@ -49,7 +53,8 @@ void OpenLips::displace(std::vector<DeformedMesh>& posed) const {
   for (std::uint32_t m = 0; m < posed.size(); ++m) {
     const std::span<const std::uint32_t> points = particles_->vertex_points(m);
     for (std::size_t v = 0; v < points.size(); ++v)
-      if (points[v] != kNone) posed[m].positions[v] += body_->point_displacement(points[v]).cast<float>();
+      if (points[v] != kNone)
+        posed[m].positions[v] += body_->point_displacement(points[v]).cast<float>();
   }
 }
 

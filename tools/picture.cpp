@@ -41,19 +41,24 @@ void append_triangle(Mesh& mesh, const Triangle& triangle) {
   mesh.triangle_submesh.push_back(0);
 }
 
-/// Renderers light a surface by its normals and by its winding: where a file's disagree, or ours, the normals hold.
+/// Renderers light a surface by its normals and by its winding: where a file's disagree, or ours,
+/// the normals hold.
 void wind_by_normals(Mesh& mesh) {
   for (Triangle& triangle : mesh.triangles) {
     const Vec3f& a = mesh.positions[triangle[0]];
-    const Vec3f by_winding = (mesh.positions[triangle[1]] - a).cross(mesh.positions[triangle[2]] - a);
-    const Vec3f by_normals = mesh.normals[triangle[0]] + mesh.normals[triangle[1]] + mesh.normals[triangle[2]];
+    const Vec3f by_winding =
+        (mesh.positions[triangle[1]] - a).cross(mesh.positions[triangle[2]] - a);
+    const Vec3f by_normals =
+        mesh.normals[triangle[0]] + mesh.normals[triangle[1]] + mesh.normals[triangle[2]];
     if (by_winding.dot(by_normals) < 0.0f) std::swap(triangle[1], triangle[2]);
   }
 }
 
 /// One submesh in its pose, of the colours where there are some.
-Mesh make_outside(const Mesh& source, const DeformedMesh& posed, Index submesh, std::span<const Vec4f> colors) {
-  Mesh mesh = make_mesh(source.submeshes[submesh].name.empty() ? source.name : source.submeshes[submesh].name);
+Mesh make_outside(const Mesh& source, const DeformedMesh& posed, Index submesh,
+                  std::span<const Vec4f> colors) {
+  Mesh mesh = make_mesh(source.submeshes[submesh].name.empty() ? source.name
+                                                               : source.submeshes[submesh].name);
   if (!colors.empty()) mesh.color_sets.resize(1);
   std::vector<Index> new_from_old(posed.positions.size(), kNone);
   for (Index t = 0; t < source.triangles.size(); ++t) {
@@ -72,24 +77,28 @@ Mesh make_outside(const Mesh& source, const DeformedMesh& posed, Index submesh, 
   return mesh;
 }
 
-/// +1 where the mesh's normals point outwards, -1 where they point inwards, as they do in some files.
+/// +1 where the mesh's normals point outwards, -1 where they point inwards, as they do in some
+/// files.
 float outward_sign(const Mesh& mesh, const DeformedMesh& posed) {
   Vec3d centre = Vec3d::Zero();
-  for (const Vec3f& position : posed.positions) centre += position.cast<double>() / static_cast<double>(posed.positions.size());
+  for (const Vec3f& position : posed.positions)
+    centre += position.cast<double>() / static_cast<double>(posed.positions.size());
   double flux = 0;
   for (const Triangle& triangle : mesh.triangles) {
-    const Vec3d a = posed.positions[triangle[0]].cast<double>(), b = posed.positions[triangle[1]].cast<double>(),
+    const Vec3d a = posed.positions[triangle[0]].cast<double>(),
+                b = posed.positions[triangle[1]].cast<double>(),
                 c = posed.positions[triangle[2]].cast<double>();
-    const Vec3f normal = posed.normals[triangle[0]] + posed.normals[triangle[1]] + posed.normals[triangle[2]];
+    const Vec3f normal =
+        posed.normals[triangle[0]] + posed.normals[triangle[1]] + posed.normals[triangle[2]];
     flux += (b - a).cross(c - a).norm() * ((a + b + c) / 3 - centre).dot(normal.cast<double>());
   }
   return flux < 0 ? -1.0f : 1.0f;
 }
 
-/// The walls that are seen from within. They lie deeper by `thickness`, where the model is thin by less, so that they never come
-/// out on the side of the eye.
-Mesh make_inside(const Mesh& source, const DeformedMesh& posed, const DeformedMesh& closed, const DepthImage& image,
-                 const ViewFrame& frame, double thickness) {
+/// The walls that are seen from within. They lie deeper by `thickness`, where the model is thin by
+/// less, so that they never come out on the side of the eye.
+Mesh make_inside(const Mesh& source, const DeformedMesh& posed, const DeformedMesh& closed,
+                 const DepthImage& image, const ViewFrame& frame, double thickness) {
   const float outwards = outward_sign(source, closed);
   std::vector<Vec3f> positions = posed.positions;
   std::vector<bool> is_behind(positions.size(), false);
@@ -97,7 +106,8 @@ Mesh make_inside(const Mesh& source, const DeformedMesh& posed, const DeformedMe
     const Vec3f normal = outwards * closed.normals[v];
     const double behind_front = image.depth_behind_front(closed.positions[v].cast<double>());
     const double depth = std::min(thickness, 0.3 * behind_front);
-    is_behind[v] = static_cast<double>(normal.dot(frame.towards_eye.cast<float>())) < 0.1 && depth > 0.02 * thickness;
+    is_behind[v] = static_cast<double>(normal.dot(frame.towards_eye.cast<float>())) < 0.1 &&
+                   depth > 0.02 * thickness;
     positions[v] -= static_cast<float>(depth) * normal;
   }
   Mesh mesh = make_mesh("Inside");
@@ -107,7 +117,8 @@ Mesh make_inside(const Mesh& source, const DeformedMesh& posed, const DeformedMe
     Triangle inner = triangle;
     for (Index& vertex : inner) {
       Index& copy = new_from_old[vertex];
-      if (copy == kNone) copy = append_vertex(mesh, positions[vertex], -outwards * posed.normals[vertex]);
+      if (copy == kNone)
+        copy = append_vertex(mesh, positions[vertex], -outwards * posed.normals[vertex]);
       vertex = copy;
     }
     append_triangle(mesh, inner);
@@ -117,8 +128,8 @@ Mesh make_inside(const Mesh& source, const DeformedMesh& posed, const DeformedMe
 }
 
 /// Strips from the rims down to the inside: the cut through the flesh.
-Mesh make_rims(const Character& character, const std::vector<DeformedMesh>& posed, const std::vector<RimEdge>& rims,
-               double thickness) {
+Mesh make_rims(const Character& character, const std::vector<DeformedMesh>& posed,
+               const std::vector<RimEdge>& rims, double thickness) {
   Mesh mesh = make_mesh("Rim");
   std::vector<float> depth;
   for (std::size_t i = 0; i < posed.size(); ++i)
@@ -129,7 +140,8 @@ Mesh make_rims(const Character& character, const std::vector<DeformedMesh>& pose
     const DeformedMesh& surface = posed[edge.mesh];
     const Vec3f along = surface.positions[edge.b] - surface.positions[edge.a];
     for (const Index vertex : {edge.a, edge.b})
-      facing.try_emplace({edge.mesh, vertex}, Vec3f::Zero()).first->second += along.cross(surface.normals[vertex]);
+      facing.try_emplace({edge.mesh, vertex}, Vec3f::Zero()).first->second +=
+          along.cross(surface.normals[vertex]);
   }
   for (const RimEdge& edge : rims) {
     const DeformedMesh& surface = posed[edge.mesh];
@@ -137,7 +149,8 @@ Mesh make_rims(const Character& character, const std::vector<DeformedMesh>& pose
       const Vec3f away = facing[{edge.mesh, vertex}];
       const Vec3f normal = away.norm() > 0.0f ? Vec3f(away.normalized()) : surface.normals[vertex];
       append_vertex(mesh, surface.positions[vertex], normal);
-      append_vertex(mesh, surface.positions[vertex] - depth[edge.mesh] * surface.normals[vertex], normal);
+      append_vertex(mesh, surface.positions[vertex] - depth[edge.mesh] * surface.normals[vertex],
+                    normal);
     }
     const Index last = mesh.vertex_count();
     append_triangle(mesh, {last - 4, last - 3, last - 2});
@@ -163,15 +176,17 @@ Character make_still(const Character& character, const std::vector<DeformedMesh>
   still.skins.push_back({"Still", {0}, {Affine3f::Identity()}});
   for (Index i = 0; i < posed.size(); ++i)
     for (Index submesh = 0; submesh < character.meshes[i].submeshes.size(); ++submesh)
-      still.meshes.push_back(make_outside(character.meshes[i], posed[i], submesh,
-                                          i < colors.size() ? std::span<const Vec4f>(colors[i]) : std::span<const Vec4f>()));
+      still.meshes.push_back(make_outside(
+          character.meshes[i], posed[i], submesh,
+          i < colors.size() ? std::span<const Vec4f>(colors[i]) : std::span<const Vec4f>()));
   for (Mesh& mesh : still.meshes) wind_by_normals(mesh);
   return still;
 }
 
-Character make_torn_still(const TornModel& torn, const std::vector<DeformedMesh>& posed, const std::vector<DeformedMesh>& closed,
-                          const std::vector<DeformedMesh>& untorn, const std::vector<RimEdge>& rims, const ViewFrame& frame,
-                          double thickness) {
+Character make_torn_still(const TornModel& torn, const std::vector<DeformedMesh>& posed,
+                          const std::vector<DeformedMesh>& closed,
+                          const std::vector<DeformedMesh>& untorn, const std::vector<RimEdge>& rims,
+                          const ViewFrame& frame, double thickness) {
   constexpr int kImageSize = 700;
   const Character& character = torn.character();
   Character still = make_still(character, posed);
@@ -184,7 +199,8 @@ Character make_torn_still(const TornModel& torn, const std::vector<DeformedMesh>
   std::set<Index> torn_meshes;
   for (const RimEdge& edge : rims) torn_meshes.insert(edge.mesh);
   for (const Index mesh : torn_meshes)
-    still.meshes.push_back(make_inside(character.meshes[mesh], posed[mesh], closed[mesh], image, frame, thickness));
+    still.meshes.push_back(
+        make_inside(character.meshes[mesh], posed[mesh], closed[mesh], image, frame, thickness));
   still.meshes.push_back(make_rims(character, posed, rims, thickness));
   for (Mesh& mesh : still.meshes) wind_by_normals(mesh);
   return still;
@@ -192,37 +208,42 @@ Character make_torn_still(const TornModel& torn, const std::vector<DeformedMesh>
 
 void paint(Character& still, const Vec4f& color) {
   for (Mesh& mesh : still.meshes)
-    if (mesh.color_sets.empty()) mesh.color_sets.assign(1, std::vector<Vec4f>(mesh.positions.size(), color));
+    if (mesh.color_sets.empty())
+      mesh.color_sets.assign(1, std::vector<Vec4f>(mesh.positions.size(), color));
 }
 
 bool can_draw() { return is_program_there("f3d") && is_program_there("xvfb-run"); }
 
-Status draw(const Character& still, const Camera& camera, int width, int height, const std::filesystem::path& png) {
+Status draw(const Character& still, const Camera& camera, int width, int height,
+            const std::filesystem::path& png) {
   std::filesystem::path scene = png;
   scene.replace_extension(".scene.glb");
   if (const Status status = save_glb(scene, still); !status) return status;
-  const std::vector<std::string> arguments = {"xvfb-run",
-                                              "-a",
-                                              "f3d",
-                                              scene.string(),
-                                              "--output=" + png.string(),
-                                              "--dry-run",
-                                              "--quiet",
-                                              "--resolution=" + std::to_string(width) + "," + std::to_string(height),
-                                              "--bg-color=0.93,0.94,0.95",
-                                              "--fxaa",
-                                              "--camera-position=" + numbers(camera.eye),
-                                              "--camera-focal-point=" + numbers(camera.focal_point),
-                                              "--camera-view-up=" + numbers(camera.up),
-                                              "--camera-view-angle=" + std::to_string(camera.view_angle_degrees)};
+  const std::vector<std::string> arguments = {
+      "xvfb-run",
+      "-a",
+      "f3d",
+      scene.string(),
+      "--output=" + png.string(),
+      "--dry-run",
+      "--quiet",
+      "--resolution=" + std::to_string(width) + "," + std::to_string(height),
+      "--bg-color=0.93,0.94,0.95",
+      "--fxaa",
+      "--camera-position=" + numbers(camera.eye),
+      "--camera-focal-point=" + numbers(camera.focal_point),
+      "--camera-view-up=" + numbers(camera.up),
+      "--camera-view-angle=" + std::to_string(camera.view_angle_degrees)};
   std::error_code ignored;
   std::filesystem::remove(png, ignored);
-  // Two xvfb-run that start at once may choose the same display; then one of them fails, and succeeds the next time.
+  // Two xvfb-run that start at once may choose the same display; then one of them fails, and
+  // succeeds the next time.
   for (int attempt = 0; attempt < 3 && !std::filesystem::exists(png, ignored); ++attempt)
     (void)run_program(arguments, std::chrono::seconds(120));
   const bool is_drawn = std::filesystem::exists(png, ignored);
   std::filesystem::remove(scene, ignored);
-  return is_drawn ? Status() : Status::failure(StatusCode::internal_error, kNone, "f3d drew nothing");
+  return is_drawn ? Status()
+                  : Status::failure(StatusCode::internal_error, kNone, "f3d drew nothing");
 }
 
 }  // namespace sunder::tools

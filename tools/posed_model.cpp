@@ -9,10 +9,12 @@ void make_normals(const Mesh& mesh, DeformedMesh& posed) {
   posed.normals.assign(posed.positions.size(), Vec3f::Zero());
   for (const Triangle& triangle : mesh.triangles) {
     const Vec3f& a = posed.positions[triangle[0]];
-    const Vec3f doubled_area = (posed.positions[triangle[1]] - a).cross(posed.positions[triangle[2]] - a);
+    const Vec3f doubled_area =
+        (posed.positions[triangle[1]] - a).cross(posed.positions[triangle[2]] - a);
     for (const std::uint32_t vertex : triangle) posed.normals[vertex] += doubled_area;
   }
-  for (Vec3f& normal : posed.normals) normal = normal.norm() > 0.0f ? normal.normalized() : Vec3f::UnitY();
+  for (Vec3f& normal : posed.normals)
+    normal = normal.norm() > 0.0f ? normal.normalized() : Vec3f::UnitY();
 }
 
 /// Whether many triangles are lit as if they faced the other way.
@@ -20,8 +22,10 @@ bool has_wrong_normals(const Mesh& mesh, const DeformedMesh& posed) {
   std::size_t wrong = 0;
   for (const Triangle& triangle : mesh.triangles) {
     const Vec3f& a = posed.positions[triangle[0]];
-    const Vec3f by_winding = (posed.positions[triangle[1]] - a).cross(posed.positions[triangle[2]] - a);
-    const Vec3f by_normals = posed.normals[triangle[0]] + posed.normals[triangle[1]] + posed.normals[triangle[2]];
+    const Vec3f by_winding =
+        (posed.positions[triangle[1]] - a).cross(posed.positions[triangle[2]] - a);
+    const Vec3f by_normals =
+        posed.normals[triangle[0]] + posed.normals[triangle[1]] + posed.normals[triangle[2]];
     if (by_winding.dot(by_normals) < 0.0f) ++wrong;
   }
   return 20 * wrong > mesh.triangles.size();
@@ -36,8 +40,12 @@ Result<std::vector<DeformedMesh>> pose_model(const Character& character, const M
     const Skin& skin = character.skins[character.meshes[i].skin];
     palette.resize(skin.bones.size());
     if (const Status status = compute_palette(skin, pose, palette); !status) return status;
-    if (const Status status = deform_mesh(character.meshes[i], palette, pose.morph_weights, posed[i]); !status) return status;
-    if (posed[i].normals.empty() || has_wrong_normals(character.meshes[i], posed[i])) make_normals(character.meshes[i], posed[i]);
+    if (const Status status =
+            deform_mesh(character.meshes[i], palette, pose.morph_weights, posed[i]);
+        !status)
+      return status;
+    if (posed[i].normals.empty() || has_wrong_normals(character.meshes[i], posed[i]))
+      make_normals(character.meshes[i], posed[i]);
   }
   return posed;
 }

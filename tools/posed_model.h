@@ -6,8 +6,8 @@
 
 namespace sunder::tools {
 
-/// All meshes of a character in a pose; model space. For looking at: where a mesh has no normals, or many that
-/// contradict its winding, smooth ones are made up.
+/// All meshes of a character in a pose; model space. For looking at: where a mesh has no normals,
+/// or many that contradict its winding, smooth ones are made up.
 Result<std::vector<DeformedMesh>> pose_model(const Character& character, const ModelPose& pose);
 
 struct Bounds {

@@ -6,8 +6,8 @@
 
 namespace sunder::tools {
 
-/// One line on stderr that fills up, drawn over itself; only where stderr is a terminal, only when the work takes a while, at most
-/// ten times a second. Erased at the end.
+/// One line on stderr that fills up, drawn over itself; only where stderr is a terminal, only when
+/// the work takes a while, at most ten times a second. Erased at the end.
 class ProgressBar {
  public:
   explicit ProgressBar(std::size_t step_count);

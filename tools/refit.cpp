@@ -24,7 +24,8 @@ const char* refit_over_name(RefitOver over) {
   return "clips";
 }
 
-Result<std::optional<RefitOver>> choose_poses(std::shared_ptr<const Character> character, std::optional<RefitOver> asked) {
+Result<std::optional<RefitOver>> choose_poses(std::shared_ptr<const Character> character,
+                                              std::optional<RefitOver> asked) {
   const RefitOver over = asked.value_or(RefitOver::both);
   const auto poses = PoseSet::create(std::move(character), pose_set_of(over));
   if (poses) return std::optional(over);
@@ -35,7 +36,8 @@ Result<std::optional<RefitOver>> choose_poses(std::shared_ptr<const Character> c
 std::vector<WeightsOperation> refits_of(const std::vector<Operation>& history, RefitOver over) {
   const std::vector<PointsOfOperation> points = points_of_history(history);
   const auto waits = [&](std::size_t i) {
-    return points[i].are_there && points[i].weights.policy == WeightPolicy::refit && !points[i].are_reweighed;
+    return points[i].are_there && points[i].weights.policy == WeightPolicy::refit &&
+           !points[i].are_reweighed;
   };
   std::vector<WeightsOperation> refits;
   for (std::size_t begin = 0; begin < points.size();) {

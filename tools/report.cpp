@@ -48,7 +48,9 @@ Names names_of(const Operation& operation) {
 Json piece_json(const TornPiece& piece, const Character& character) {
   Json meshes = Json::array(), bones = Json::array();
   for (const TornPiece::Triangles& part : piece.meshes)
-    meshes.push_back({{"mesh", character.meshes[part.mesh].name}, {"index", part.mesh}, {"triangle_count", part.triangles.size()}});
+    meshes.push_back({{"mesh", character.meshes[part.mesh].name},
+                      {"index", part.mesh},
+                      {"triangle_count", part.triangles.size()}});
   for (const std::uint32_t bone : piece.bones) bones.push_back(character.skeleton.bones[bone].name);
   return {{"meshes", std::move(meshes)},
           {"triangle_count", piece.triangle_count},
@@ -69,7 +71,8 @@ Json weights_json(const WeightReport& weights, double error_max) {
 Result<double> greatest_weight_error(const TornModel& model, const Operation& operation) {
   const Result<std::vector<ModelPose>> poses = poses_of(operation, model.source());
   if (!poses) return poses.error();
-  const Result<WeightErrors> errors = measure_weight_errors(model, model.undo_count() - 1, 1, *poses);
+  const Result<WeightErrors> errors =
+      measure_weight_errors(model, model.undo_count() - 1, 1, *poses);
   if (!errors) return errors.error();
   return errors->metres.maximum;
 }
@@ -98,19 +101,23 @@ Json to_json(const TopologyCounts& counts) {
 Json to_json(const LoadReport& report) {
   Json notes = Json::array();
   for (const LoadNote& note : report.notes)
-    notes.push_back({{"kind", kind_name(note.kind)}, {"place", note.place}, {"text", note.text}, {"count", note.count}});
+    notes.push_back({{"kind", kind_name(note.kind)},
+                     {"place", note.place},
+                     {"text", note.text},
+                     {"count", note.count}});
   return {{"format", report.format}, {"space", report.space}, {"notes", std::move(notes)}};
 }
 
-Result<OperationOutcome> play(const Operation& operation, const TopologyCounts& before, TornModel& model,
-                              std::vector<ChangeRecord>* changes) {
+Result<OperationOutcome> play(const Operation& operation, const TopologyCounts& before,
+                              TornModel& model, std::vector<ChangeRecord>* changes) {
   const auto begin = std::chrono::steady_clock::now();
   Result<TearReport> report = apply_operation(model, operation, changes);
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
   if (!report) return report.error();
   const Names names = names_of(operation);
   const bool has_missed = names.can_miss && report->runs == 0;
-  OperationOutcome outcome{names.op, names.done, has_missed, *report, elapsed.count(), 0.0, before, before};
+  OperationOutcome outcome{names.op,        names.done, has_missed, *report,
+                           elapsed.count(), 0.0,        before,     before};
   if (has_missed) return outcome;
   outcome.after = count_topology(model.character());
   if (!names.can_miss) return outcome;  // It made no points.
@@ -146,10 +153,12 @@ Json to_json(const OperationOutcome& outcome, const Character& character) {
           {"open_sections", tear.open_sections},
           {"pieces", std::move(pieces)},
           {"components", before_and_after(outcome.before.components, outcome.after.components)},
-          {"boundary_loops", before_and_after(outcome.before.boundary_loops, outcome.after.boundary_loops)}};
+          {"boundary_loops",
+           before_and_after(outcome.before.boundary_loops, outcome.after.boundary_loops)}};
 }
 
-Json result_json(const TornModel& torn, const TopologyCounts& source, const TopologyCounts& result) {
+Json result_json(const TornModel& torn, const TopologyCounts& source,
+                 const TopologyCounts& result) {
   const ModelCheck check = check_model(torn.character());
   return {{"weight_sum_error_max", check.greatest_weight_sum_error},
           {"weight_min", check.least_weight},
@@ -163,14 +172,18 @@ Json result_json(const TornModel& torn, const TopologyCounts& source, const Topo
           {"digest", digest_text(torn.digest())}};
 }
 
-std::string dump(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n'; }
+std::string dump(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+}
 
-StagedText::StagedText(std::filesystem::path file, const std::string& text) : file_(std::move(file)), partial_(file_) {
+StagedText::StagedText(std::filesystem::path file, const std::string& text)
+    : file_(std::move(file)), partial_(file_) {
   partial_ += ".partial";
   std::ofstream stream(partial_, std::ios::binary);
   stream << text;
   stream.close();
-  if (!stream) status_ = Status::failure(StatusCode::file_unreadable, kNone, "cannot write this file");
+  if (!stream)
+    status_ = Status::failure(StatusCode::file_unreadable, kNone, "cannot write this file");
 }
 
 StagedText::~StagedText() {
@@ -182,9 +195,12 @@ Status StagedText::commit() {
   if (!status_) return status_;
   std::error_code error;
   std::filesystem::rename(partial_, file_, error);
-  return error ? Status::failure(StatusCode::file_unreadable, kNone, "cannot write this file") : Status();
+  return error ? Status::failure(StatusCode::file_unreadable, kNone, "cannot write this file")
+               : Status();
 }
 
-Status write_text(const std::filesystem::path& file, const std::string& text) { return StagedText(file, text).commit(); }
+Status write_text(const std::filesystem::path& file, const std::string& text) {
+  return StagedText(file, text).commit();
+}
 
 }  // namespace sunder::tools

@@ -20,14 +20,16 @@ struct OperationOutcome {
   bool has_missed = false;
   TearReport tear;
   double seconds = 0;  ///< Of the operation alone.
-  /// How far the points that it made stand from where the surface was, at most, in the poses in which it was done; metres.
+  /// How far the points that it made stand from where the surface was, at most, in the poses in
+  /// which it was done; metres.
   double weight_error_max = 0;
   TopologyCounts before, after;
 };
 
 /// Does an operation and says what it did.
 /// @param before  the shape of the model.
-[[nodiscard]] Result<OperationOutcome> play(const Operation& operation, const TopologyCounts& before, TornModel& model,
+[[nodiscard]] Result<OperationOutcome> play(const Operation& operation,
+                                            const TopologyCounts& before, TornModel& model,
                                             std::vector<ChangeRecord>* changes = nullptr);
 
 [[nodiscard]] Json to_json(const TopologyCounts& counts);
@@ -36,13 +38,15 @@ struct OperationOutcome {
 [[nodiscard]] Json to_json(const OperationOutcome& outcome, const Character& character);
 
 /// The result of all operations: `torn` by itself, with the source's shape to compare.
-[[nodiscard]] Json result_json(const TornModel& torn, const TopologyCounts& source, const TopologyCounts& result);
+[[nodiscard]] Json result_json(const TornModel& torn, const TopologyCounts& source,
+                               const TopologyCounts& result);
 
 /// Numbers of a 2-, 3- or 4-vector.
 template <class Vector>
 [[nodiscard]] Json vector_json(const Vector& vector) {
   Json array = Json::array();
-  for (int i = 0; i < Vector::RowsAtCompileTime; ++i) array.push_back(static_cast<double>(vector[i]));
+  for (int i = 0; i < Vector::RowsAtCompileTime; ++i)
+    array.push_back(static_cast<double>(vector[i]));
   return array;
 }
 

@@ -12,7 +12,8 @@ struct RimEdge {
   std::uint32_t a = 0, b = 0;  ///< Vertices.
 };
 
-/// Where the surface ends and the source's did not. Edges of walls and caps are no rims. O(size of the model).
+/// Where the surface ends and the source's did not. Edges of walls and caps are no rims. O(size of
+/// the model).
 [[nodiscard]] std::vector<RimEdge> find_rims(const TornModel& model);
 
 }  // namespace sunder::tools

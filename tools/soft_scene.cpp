@@ -21,8 +21,9 @@ constexpr int kWidth = 480, kHeight = 360;
 constexpr double kStep = 1.0 / 60;
 constexpr int kMostSteps = 600;
 constexpr double kClipFraction = 0.40;
-constexpr double kThickness = 0.006;             ///< Of the flesh, of the diagonal.
-const Vec4f kSurface(1.0f, 0.98f, 0.94f, 1.0f);  // Linear RGBA, as the pictures of docs/tear.md have it.
+constexpr double kThickness = 0.006;  ///< Of the flesh, of the diagonal.
+const Vec4f kSurface(1.0f, 0.98f, 0.94f,
+                     1.0f);  // Linear RGBA, as the pictures of docs/tear.md have it.
 
 void check(const Status& status) {
   if (status) return;
@@ -53,7 +54,9 @@ SoftScene::SoftScene(const std::vector<SoftMaterial>& materials, double range)
     : source(std::make_shared<const Character>(make_cactus())) {
   model = std::make_unique<TornModel>(check(TornModel::create(source)));
   rest = bind_pose(*source);
-  pose = check(make_pose(*source, ClipPose{std::uint32_t{0}, kClipFraction * static_cast<double>(source->clips[0].duration)}));
+  pose = check(make_pose(
+      *source,
+      ClipPose{std::uint32_t{0}, kClipFraction * static_cast<double>(source->clips[0].duration)}));
   DecompositionOptions options;
   options.range = range;
   particles = std::make_unique<ParticleSet>(check(ParticleSet::create(*model, rest, options)));
@@ -83,7 +86,8 @@ int SoftScene::step_until_still() {
 std::uint32_t SoftScene::point_at(const Vec3d& rest_place) const {
   const std::span<const Vec3f> at = particles->positions();
   const auto farther = [&](const Vec3f& a, const Vec3f& b) {
-    return (a.cast<double>() - rest_place).squaredNorm() < (b.cast<double>() - rest_place).squaredNorm();
+    return (a.cast<double>() - rest_place).squaredNorm() <
+           (b.cast<double>() - rest_place).squaredNorm();
   };
   return static_cast<std::uint32_t>(std::min_element(at.begin(), at.end(), farther) - at.begin());
 }
@@ -94,7 +98,8 @@ Vec3d SoftScene::place(std::uint32_t point) const {
     const auto points = particles->vertex_points(m);
     const auto vertex = std::find(points.begin(), points.end(), point);
     if (vertex != points.end())
-      return bones[m].positions[static_cast<std::size_t>(vertex - points.begin())].cast<double>() + body->point_displacement(point);
+      return bones[m].positions[static_cast<std::size_t>(vertex - points.begin())].cast<double>() +
+             body->point_displacement(point);
   }
   return Vec3d::Zero();
 }
@@ -103,11 +108,15 @@ double SoftScene::widest_gap() const {
   double widest = 0;
   for (const ChangeRecord& change : changes)
     for (const LipPair& pair : change.lips)
-      widest = std::max(widest, (body->point_displacement(pair.left) - body->point_displacement(pair.right)).norm());
+      widest = std::max(
+          widest,
+          (body->point_displacement(pair.left) - body->point_displacement(pair.right)).norm());
   return widest;
 }
 
-std::vector<DeformedMesh> SoftScene::posed() const { return check(pose_model(model->character(), pose)); }
+std::vector<DeformedMesh> SoftScene::posed() const {
+  return check(pose_model(model->character(), pose));
+}
 
 std::vector<DeformedMesh> SoftScene::displaced() const {
   const Character& character = model->character();
@@ -128,22 +137,26 @@ std::vector<DeformedMesh> SoftScene::displaced() const {
     PosedBuffer buffer(target);
     // First: it lets the body follow the last tear.
     const std::span<const IndexRange> moved = body->moved_vertices(*model, m);
-    const VertexDisplacements soft = {particles->vertex_points(m),  particles->influences(), body->displacements(), moved,
+    const VertexDisplacements soft = {particles->vertex_points(m),  particles->influences(),
+                                      body->displacements(),        moved,
                                       particles->gradients(*model), body->rotations()};
     check(skinned.deform(palette, buffer, {}, &soft));
   }
   return result;
 }
 
-void SoftScene::draw(const std::string& png, const ViewFrame& frame, const Vec3d& centre, double radius) const {
+void SoftScene::draw(const std::string& png, const ViewFrame& frame, const Vec3d& centre,
+                     double radius) const {
   const std::vector<DeformedMesh> untorn = check(pose_model(*source, pose));
   const std::vector<RimEdge> rims = find_rims(*model);
-  Character still = make_torn_still(*model, displaced(), posed(), untorn, rims, frame, kThickness * diagonal_);
+  Character still =
+      make_torn_still(*model, displaced(), posed(), untorn, rims, frame, kThickness * diagonal_);
   paint(still, kSurface);
   Camera camera;
   camera.focal_point = centre;
   camera.up = frame.up;
-  camera.eye = centre + radius / std::tan(camera.view_angle_degrees / 2 * std::numbers::pi / 180) * frame.towards_eye;
+  camera.eye = centre + radius / std::tan(camera.view_angle_degrees / 2 * std::numbers::pi / 180) *
+                            frame.towards_eye;
   check(tools::draw(still, camera, kWidth, kHeight, png));
 }
 

@@ -13,7 +13,8 @@
 
 namespace sunder::tools {
 
-/// The cactus of the demo in a pose of its clip, made soft, to be torn, pulled and drawn. What fails ends the program.
+/// The cactus of the demo in a pose of its clip, made soft, to be torn, pulled and drawn. What
+/// fails ends the program.
 class SoftScene {
  public:
   /// @param range  of the particles, of the diagonal.
@@ -37,7 +38,8 @@ class SoftScene {
   [[nodiscard]] std::vector<DeformedMesh> displaced() const;  ///< As the particles move that.
 
   /// @param centre  of the picture; model space. @param radius  of what is seen, metres.
-  void draw(const std::string& png, const ViewFrame& frame, const Vec3d& centre, double radius) const;
+  void draw(const std::string& png, const ViewFrame& frame, const Vec3d& centre,
+            double radius) const;
   void draw_particles(const std::string& png) const;
 
   std::shared_ptr<const Character> source;

@@ -22,7 +22,8 @@ bool is_program_there(const std::string& name) {
   return false;
 }
 
-std::optional<int> run_program(const std::vector<std::string>& arguments, std::chrono::seconds limit) {
+std::optional<int> run_program(const std::vector<std::string>& arguments,
+                               std::chrono::seconds limit) {
   std::vector<char*> argv;
   for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
   argv.push_back(nullptr);

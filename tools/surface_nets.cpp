@@ -26,21 +26,28 @@ struct Grid {
   std::array<Index, 3> nodes = {};
   std::vector<double> values;
 
-  [[nodiscard]] Index node(Index x, Index y, Index z) const { return (z * nodes[1] + y) * nodes[0] + x; }
-  [[nodiscard]] Vec3d position(Index x, Index y, Index z) const { return origin + cell * Vec3d(x, y, z); }
+  [[nodiscard]] Index node(Index x, Index y, Index z) const {
+    return (z * nodes[1] + y) * nodes[0] + x;
+  }
+  [[nodiscard]] Vec3d position(Index x, Index y, Index z) const {
+    return origin + cell * Vec3d(x, y, z);
+  }
 };
 
 Grid sample(const Field& field, const Vec3d& box_min, const Vec3d& box_max, double cell) {
   Grid grid{box_min, cell, {}, {}};
-  for (int axis = 0; axis < 3; ++axis) grid.nodes[axis] = static_cast<Index>(std::ceil((box_max[axis] - box_min[axis]) / cell)) + 1;
+  for (int axis = 0; axis < 3; ++axis)
+    grid.nodes[axis] = static_cast<Index>(std::ceil((box_max[axis] - box_min[axis]) / cell)) + 1;
   grid.values.reserve(std::size_t{grid.nodes[0]} * grid.nodes[1] * grid.nodes[2]);
   for (Index z = 0; z < grid.nodes[2]; ++z)
     for (Index y = 0; y < grid.nodes[1]; ++y)
-      for (Index x = 0; x < grid.nodes[0]; ++x) grid.values.push_back(field(grid.position(x, y, z)));
+      for (Index x = 0; x < grid.nodes[0]; ++x)
+        grid.values.push_back(field(grid.position(x, y, z)));
   return grid;
 }
 
-/// Mean of the crossings on the edges of the cube whose lowest corner is (x, y, z); false where there is none.
+/// Mean of the crossings on the edges of the cube whose lowest corner is (x, y, z); false where
+/// there is none.
 bool mean_crossing(const Grid& grid, Index x, Index y, Index z, Vec3d& mean) {
   mean.setZero();
   int count = 0;
@@ -51,7 +58,8 @@ bool mean_crossing(const Grid& grid, Index x, Index y, Index z, Vec3d& mean) {
       a[(axis + 2) % 3] += side >> 1u;
       std::array<Index, 3> b = a;
       ++b[axis];
-      const double at_a = grid.values[grid.node(a[0], a[1], a[2])], at_b = grid.values[grid.node(b[0], b[1], b[2])];
+      const double at_a = grid.values[grid.node(a[0], a[1], a[2])],
+                   at_b = grid.values[grid.node(b[0], b[1], b[2])];
       if ((at_a < 0) == (at_b < 0)) continue;
       const double t = at_a / (at_a - at_b);
       mean += (1 - t) * grid.position(a[0], a[1], a[2]) + t * grid.position(b[0], b[1], b[2]);
@@ -76,9 +84,12 @@ void append_quad(PointSurface& surface, const std::array<Index, 4>& corners) {
 
 }  // namespace
 
-Vec3d field_normal(const Field& field, const Vec3d& position) { return gradient(field, position).normalized(); }
+Vec3d field_normal(const Field& field, const Vec3d& position) {
+  return gradient(field, position).normalized();
+}
 
-PointSurface surface_nets(const Field& field, const Vec3d& box_min, const Vec3d& box_max, double cell) {
+PointSurface surface_nets(const Field& field, const Vec3d& box_min, const Vec3d& box_max,
+                          double cell) {
   const Grid grid = sample(field, box_min, box_max, cell);
   PointSurface surface;
   std::vector<Index> point_of_cube(grid.values.size(), kNone);
@@ -110,7 +121,8 @@ PointSurface surface_nets(const Field& field, const Vec3d& box_min, const Vec3d&
             const Index around = side ^ (side >> 1u);  // 0, 1, 3, 2: once around the edge.
             cube[(axis + 1) % 3] -= 1 - (around & 1u);
             cube[(axis + 2) % 3] -= 1 - (around >> 1u);
-            quad[begins_inside ? side : 3 - side] = point_of_cube[grid.node(cube[0], cube[1], cube[2])];
+            quad[begins_inside ? side : 3 - side] =
+                point_of_cube[grid.node(cube[0], cube[1], cube[2])];
           }
           append_quad(surface, quad);
         }

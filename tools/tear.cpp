@@ -22,7 +22,8 @@
 namespace sunder::tools {
 namespace {
 
-/// A text that is on disk before the model is written, and appears under its name after it: a failure leaves neither.
+/// A text that is on disk before the model is written, and appears under its name after it: a
+/// failure leaves neither.
 class TextBesideModel {
  public:
   /// Without a file nothing happens.
@@ -43,11 +44,13 @@ struct Weighing {
   std::optional<RefitOver> refit_over;  ///< Of `refit`, where the model bends.
 };
 
-Result<Weighing> choose_weighing(const TearRequest& request, const std::shared_ptr<const Character>& character) {
+Result<Weighing> choose_weighing(const TearRequest& request,
+                                 const std::shared_ptr<const Character>& character) {
   Weighing weighing;
   if (!request.weights) return weighing;
   weighing.options.policy = *request.weights;
-  if (*request.weights != WeightPolicy::exact) weighing.options.maximum_influences = request.save.maximum_influences;
+  if (*request.weights != WeightPolicy::exact)
+    weighing.options.maximum_influences = request.save.maximum_influences;
   if (*request.weights != WeightPolicy::refit) return weighing;
   const auto over = choose_poses(character, request.refit_over);
   if (!over) return over.error();
@@ -73,19 +76,24 @@ Result<Json> weight_errors_of(TornModel& model, const std::shared_ptr<const Char
   if (!as_written) return as_written;
   if (as_written->is_null()) return errors;
   (*errors)["as_written"] = std::move(*as_written);
-  (*errors)["note"] = "a GLB cannot hold the positions per influence of the policy 'exact': there those points are barycentric";
+  (*errors)["note"] =
+      "a GLB cannot hold the positions per influence of the policy 'exact': there those points are "
+      "barycentric";
   return errors;
 }
 
 /// @return false, after saying so, where there is no picture.
-bool draw_picture(const LoadedCharacter& loaded, const TornModel& model, const std::filesystem::path& png) {
+bool draw_picture(const LoadedCharacter& loaded, const TornModel& model,
+                  const std::filesystem::path& png) {
   const std::vector<Operation> history = model.history();
   Status status;
   if (history.empty())
-    status = Status::failure(StatusCode::empty_input, kNone, "nothing was done that could be drawn");
+    status =
+        Status::failure(StatusCode::empty_input, kNone, "nothing was done that could be drawn");
   else if (!can_draw())
-    status = Status::failure(StatusCode::not_found, kNone,
-                             "f3d and xvfb-run are not both installed (Debian: apt install f3d xvfb xauth)");
+    status = Status::failure(
+        StatusCode::not_found, kNone,
+        "f3d and xvfb-run are not both installed (Debian: apt install f3d xvfb xauth)");
   else
     status = draw_torn(loaded.character, history, png);
   if (!status) (void)complain(png.string(), status, ExitCode::findings);
@@ -96,7 +104,8 @@ bool draw_picture(const LoadedCharacter& loaded, const TornModel& model, const s
 
 ExitCode run_tear(const TearRequest& request) {
   const Result<std::vector<Operation>> operations = load_operations(request.operations);
-  if (!operations) return complain(request.operations.string(), operations.error(), ExitCode::usage);
+  if (!operations)
+    return complain(request.operations.string(), operations.error(), ExitCode::usage);
 
   ProgressBar progress(operations->size() + 3);
   progress.begin_step(0, "reading");
@@ -106,8 +115,10 @@ ExitCode run_tear(const TearRequest& request) {
   if (!model) return complain(request.model.string(), model.error(), ExitCode::internal_error);
 
   const Result<Weighing> weighing = choose_weighing(request, loaded->character);
-  if (!weighing) return complain(request.model.string() + ": --refit-over", weighing.error(), ExitCode::usage);
-  if (const Status status = model->set_weights(weighing->options); !status) return complain("--weights", status, ExitCode::usage);
+  if (!weighing)
+    return complain(request.model.string() + ": --refit-over", weighing.error(), ExitCode::usage);
+  if (const Status status = model->set_weights(weighing->options); !status)
+    return complain("--weights", status, ExitCode::usage);
 
   const TopologyCounts source = count_topology(*loaded->character);
   TopologyCounts current = source;
@@ -117,7 +128,8 @@ ExitCode run_tear(const TearRequest& request) {
     progress.begin_step(i + 1, "tearing");
     const Result<OperationOutcome> outcome = play((*operations)[i], current, *model);
     if (!outcome)
-      return complain(request.operations.string() + ": /operations/" + std::to_string(i), outcome.error(), ExitCode::usage);
+      return complain(request.operations.string() + ": /operations/" + std::to_string(i),
+                      outcome.error(), ExitCode::usage);
     current = outcome->after;
     has_findings |= outcome->has_missed || outcome->tear.blocked > 0;
     reports.push_back(to_json(*outcome, model->character()));
@@ -127,16 +139,20 @@ ExitCode run_tear(const TearRequest& request) {
   if (weighing->refit_over)
     for (const WeightsOperation& refit : refits_of(model->history(), *weighing->refit_over)) {
       const Result<OperationOutcome> outcome = play(refit, current, *model);
-      if (!outcome) return complain(request.model.string() + ": --weights refit", outcome.error(), ExitCode::usage);
+      if (!outcome)
+        return complain(request.model.string() + ": --weights refit", outcome.error(),
+                        ExitCode::usage);
       reports.push_back(to_json(*outcome, model->character()));
     }
   const Json result = result_json(*model, source, current);
   const Result<Json> weight_errors = weight_errors_of(*model, loaded->character);
-  if (!weight_errors) return complain(request.output.string(), weight_errors.error(), ExitCode::internal_error);
+  if (!weight_errors)
+    return complain(request.output.string(), weight_errors.error(), ExitCode::internal_error);
 
   progress.begin_step(operations->size() + 2, "writing");
   const Result<PruningLoss> pruning_loss = measure_pruning(*model, request.save.maximum_influences);
-  if (!pruning_loss) return complain(request.output.string(), pruning_loss.error(), ExitCode::internal_error);
+  if (!pruning_loss)
+    return complain(request.output.string(), pruning_loss.error(), ExitCode::internal_error);
   const Json report = {{"sunder_report", 1},
                        {"model", request.model.string()},
                        {"output", request.output.string()},
@@ -147,17 +163,21 @@ ExitCode run_tear(const TearRequest& request) {
                        {"influences_written_max", request.save.maximum_influences},
                        {"influences_written", to_json(*pruning_loss, request.save)},
                        {"result", result}};
-  has_findings |=
-      current.non_manifold_edges > source.non_manifold_edges || current.degenerate_triangles > source.degenerate_triangles;
+  has_findings |= current.non_manifold_edges > source.non_manifold_edges ||
+                  current.degenerate_triangles > source.degenerate_triangles;
 
   TextBesideModel report_file(request.report, dump(report));
   if (const Status status = report_file.status(); !status)
     return complain(request.report->string(), status, ExitCode::unreadable_input);
-  TextBesideModel log_file(request.log, request.log ? format_operations(model->history()) : std::string());
-  if (const Status status = log_file.status(); !status) return complain(request.log->string(), status, ExitCode::unreadable_input);
-  if (const Status status = save_glb(request.output, model->character(), *loaded, request.save); !status)
+  TextBesideModel log_file(request.log,
+                           request.log ? format_operations(model->history()) : std::string());
+  if (const Status status = log_file.status(); !status)
+    return complain(request.log->string(), status, ExitCode::unreadable_input);
+  if (const Status status = save_glb(request.output, model->character(), *loaded, request.save);
+      !status)
     return complain(request.output.string(), status, ExitCode::internal_error);
-  if (const Status status = log_file.commit(); !status) return complain(request.log->string(), status, ExitCode::unreadable_input);
+  if (const Status status = log_file.commit(); !status)
+    return complain(request.log->string(), status, ExitCode::unreadable_input);
   if (const Status status = report_file.commit(); !status)
     return complain(request.report->string(), status, ExitCode::unreadable_input);
   if (request.picture) has_findings |= !draw_picture(*loaded, *model, *request.picture);

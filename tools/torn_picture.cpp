@@ -38,12 +38,15 @@ PoseSpec pose_of(const Operation& operation) {
 
 /// The newest operation that can be seen: not one that only weighs what earlier ones made.
 const Operation& newest_of(std::span<const Operation> history) {
-  const auto newest = std::find_if(history.rbegin(), history.rend(),
-                                   [](const Operation& operation) { return !std::holds_alternative<WeightsOperation>(operation); });
+  const auto newest =
+      std::find_if(history.rbegin(), history.rend(), [](const Operation& operation) {
+        return !std::holds_alternative<WeightsOperation>(operation);
+      });
   return newest == history.rend() ? history.back() : *newest;
 }
 
-/// A little from above and from the right of where the operation came from; a cut is seen along its plane.
+/// A little from above and from the right of where the operation came from; a cut is seen along its
+/// plane.
 ViewFrame view_of(const Operation& operation, const Bounds& bounds) {
   ViewFrame frame = choose_view(bounds);
   Vec3d from = frame.towards_eye;
@@ -66,20 +69,24 @@ ViewFrame view_of(const Operation& operation, const Bounds& bounds) {
 }
 
 /// Where the operations left something to see: rims, walls and caps.
-std::vector<Vec3d> wound_places(const TornModel& torn, const std::vector<RimEdge>& rims, const std::vector<DeformedMesh>& posed) {
+std::vector<Vec3d> wound_places(const TornModel& torn, const std::vector<RimEdge>& rims,
+                                const std::vector<DeformedMesh>& posed) {
   std::vector<Vec3d> places;
-  for (const RimEdge& edge : rims) places.emplace_back(posed[edge.mesh].positions[edge.a].cast<double>());
+  for (const RimEdge& edge : rims)
+    places.emplace_back(posed[edge.mesh].positions[edge.a].cast<double>());
   for (std::uint32_t m = 0; m < torn.character().meshes.size(); ++m) {
     const Mesh& mesh = torn.character().meshes[m];
     for (std::uint32_t t = torn.source().meshes[m].triangle_count(); t < mesh.triangle_count(); ++t)
-      if (!is_retired(mesh.triangles[t]) && torn.source_triangle(m, t) >= torn.source().meshes[m].triangle_count())
+      if (!is_retired(mesh.triangles[t]) &&
+          torn.source_triangle(m, t) >= torn.source().meshes[m].triangle_count())
         places.emplace_back(posed[m].positions[mesh.triangles[t][0]].cast<double>());
   }
   return places;
 }
 
 /// The wound in the middle, its surroundings, and no more than the whole model.
-Camera aim(const ViewFrame& frame, const std::vector<Vec3d>& wound, const Bounds& bounds, double surroundings) {
+Camera aim(const ViewFrame& frame, const std::vector<Vec3d>& wound, const Bounds& bounds,
+           double surroundings) {
   Camera camera;
   camera.up = frame.up;
   camera.focal_point = bounds.centre();
@@ -93,17 +100,21 @@ Camera aim(const ViewFrame& frame, const std::vector<Vec3d>& wound, const Bounds
     double beside = 0;
     for (const Vec3d& place : wound) {
       const Vec3d offset = place - of_wound.centre();
-      beside = std::max({beside, std::abs(offset.dot(frame.right)), std::abs(offset.dot(frame.up))});
+      beside =
+          std::max({beside, std::abs(offset.dot(frame.right)), std::abs(offset.dot(frame.up))});
     }
     camera.focal_point = of_wound.centre();
     radius = std::min(radius, surroundings * beside);
   }
-  camera.eye = camera.focal_point + radius / std::tan(camera.view_angle_degrees / 2 * std::numbers::pi / 180) * frame.towards_eye;
+  camera.eye =
+      camera.focal_point +
+      radius / std::tan(camera.view_angle_degrees / 2 * std::numbers::pi / 180) * frame.towards_eye;
   return camera;
 }
 
 /// Moves the pieces that a cut left to the two sides of its plane.
-void move_apart(const Character& character, const PlaneCut& cut, const std::vector<TornPiece>& pieces, double distance,
+void move_apart(const Character& character, const PlaneCut& cut,
+                const std::vector<TornPiece>& pieces, double distance,
                 std::vector<DeformedMesh>& posed) {
   const Vec3d normal = cut.normal.normalized();
   for (const TornPiece& piece : pieces) {
@@ -111,7 +122,8 @@ void move_apart(const Character& character, const PlaneCut& cut, const std::vect
     for (const TornPiece::Triangles& part : piece.meshes) {
       std::vector<std::uint32_t> vertices;
       for (const std::uint32_t t : part.triangles)
-        for (const std::uint32_t vertex : character.meshes[part.mesh].triangles[t]) vertices.push_back(vertex);
+        for (const std::uint32_t vertex : character.meshes[part.mesh].triangles[t])
+          vertices.push_back(vertex);
       std::sort(vertices.begin(), vertices.end());
       vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
       for (const std::uint32_t vertex : vertices)
@@ -122,7 +134,8 @@ void move_apart(const Character& character, const PlaneCut& cut, const std::vect
 
 }  // namespace
 
-Status draw_torn(std::shared_ptr<const Character> source, std::span<const Operation> history, const std::filesystem::path& png) {
+Status draw_torn(std::shared_ptr<const Character> source, std::span<const Operation> history,
+                 const std::filesystem::path& png) {
   Result<TornModel> torn = TornModel::create(std::move(source));
   if (!torn) return torn.error();
   const Character& character = torn->character();
@@ -155,11 +168,15 @@ Status draw_torn(std::shared_ptr<const Character> source, std::span<const Operat
 
   const ViewFrame frame = view_of(newest, bounds);
   const std::vector<RimEdge> rims = find_rims(*torn);
-  Character still = make_torn_still(*torn, open, *closed, *untorn, rims, frame, kThickness * diagonal);
+  Character still =
+      make_torn_still(*torn, open, *closed, *untorn, rims, frame, kThickness * diagonal);
   paint(still, kSurface);
   // Of a cut the pieces are shown, of a bore what it goes through.
-  const double margin = cut != nullptr ? 3.1 : std::holds_alternative<DrillOperation>(newest) ? 2.4 : 1.45;
-  return draw(still, aim(frame, wound_places(*torn, rims, open), bounds, margin), kWidth, kHeight, png);
+  const double margin = cut != nullptr                                   ? 3.1
+                        : std::holds_alternative<DrillOperation>(newest) ? 2.4
+                                                                         : 1.45;
+  return draw(still, aim(frame, wound_places(*torn, rims, open), bounds, margin), kWidth, kHeight,
+              png);
 }
 
 }  // namespace sunder::tools

@@ -20,8 +20,9 @@ struct InfoRequest {
 /// sunder tear: applies an operation log to a model.
 struct TearRequest {
   std::filesystem::path model, operations, output;
-  SaveOptions save;                              ///< How influences are written.
-  std::optional<WeightPolicy> weights;           ///< Of operations that do not say; else barycentric, with all influences.
+  SaveOptions save;  ///< How influences are written.
+  std::optional<WeightPolicy>
+      weights;  ///< Of operations that do not say; else barycentric, with all influences.
   std::optional<RefitOver> refit_over;           ///< Only of `refit`; else what the model has.
   std::optional<std::filesystem::path> report;   ///< Else stdout.
   std::optional<std::filesystem::path> log;      ///< Where what was played is written, if wanted.

@@ -17,7 +17,8 @@ ViewFrame choose_view(const Bounds& bounds) {
   return frame;
 }
 
-DepthImage::DepthImage(const Character& character, const std::vector<DeformedMesh>& posed, const ViewFrame& frame, int size)
+DepthImage::DepthImage(const Character& character, const std::vector<DeformedMesh>& posed,
+                       const ViewFrame& frame, int size)
     : frame_(frame) {
   // Corners as (right, up, towards the eye).
   const auto seen = [&](const Vec3f& position) {
@@ -61,15 +62,21 @@ void DepthImage::draw(std::uint32_t mesh, const std::array<Vec3d, 3>& corners) {
     return std::pair(std::max(0, static_cast<int>(std::floor(std::min({a, b, c})))),
                      std::min(count - 1, static_cast<int>(std::ceil(std::max({a, b, c})))));
   };
-  const auto [x_first, x_last] = pixel_range(corners[0].x(), corners[1].x(), corners[2].x(), width_);
-  const auto [y_first, y_last] = pixel_range(corners[0].y(), corners[1].y(), corners[2].y(), height_);
+  const auto [x_first, x_last] =
+      pixel_range(corners[0].x(), corners[1].x(), corners[2].x(), width_);
+  const auto [y_first, y_last] =
+      pixel_range(corners[0].y(), corners[1].y(), corners[2].y(), height_);
   const double scale = 1 / pixel_size_;
-  const auto in_pixels = [&](const Vec3d& corner) { return Vec3d(corner.x(), corner.y(), corner.z() * scale); };
-  const Vec3d normal = (in_pixels(corners[1]) - in_pixels(corners[0])).cross(in_pixels(corners[2]) - in_pixels(corners[0]));
+  const auto in_pixels = [&](const Vec3d& corner) {
+    return Vec3d(corner.x(), corner.y(), corner.z() * scale);
+  };
+  const Vec3d normal = (in_pixels(corners[1]) - in_pixels(corners[0]))
+                           .cross(in_pixels(corners[2]) - in_pixels(corners[0]));
   const double facing = std::abs(normal.z()) / normal.norm();
   for (int y = y_first; y <= y_last; ++y)
     for (int x = x_first; x <= x_last; ++x) {
-      const double a = cross(corners[1], corners[2], x, y) / area, b = cross(corners[2], corners[0], x, y) / area, c = 1 - a - b;
+      const double a = cross(corners[1], corners[2], x, y) / area,
+                   b = cross(corners[2], corners[0], x, y) / area, c = 1 - a - b;
       if (a < 0 || b < 0 || c < 0) continue;
       const double depth = a * corners[0].z() + b * corners[1].z() + c * corners[2].z();
       Pixel& pixel = pixels_[static_cast<std::size_t>(y * width_ + x)];
@@ -90,8 +97,8 @@ double DepthImage::depth_behind_front(const Vec3d& position_model) const {
 }
 
 Vec3d DepthImage::position(double x, double y) const {
-  return (least_.x() + x * pixel_size_) * frame_.right + (least_.y() + y * pixel_size_) * frame_.up +
-         at(x, y).depth * frame_.towards_eye;
+  return (least_.x() + x * pixel_size_) * frame_.right +
+         (least_.y() + y * pixel_size_) * frame_.up + at(x, y).depth * frame_.towards_eye;
 }
 
 }  // namespace sunder::tools

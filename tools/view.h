@@ -23,11 +23,12 @@ class DepthImage {
   struct Pixel {
     std::uint32_t mesh = kNone;  ///< kNone: background.
     double depth = -1e300;       ///< Along towards_eye, metres; larger is nearer.
-    double facing = 0;           ///< Cosine between the surface's normal and the line of sight, >= 0.
+    double facing = 0;  ///< Cosine between the surface's normal and the line of sight, >= 0.
   };
 
   /// @param size  pixels along the longer side.
-  DepthImage(const Character& character, const std::vector<DeformedMesh>& posed, const ViewFrame& frame, int size);
+  DepthImage(const Character& character, const std::vector<DeformedMesh>& posed,
+             const ViewFrame& frame, int size);
 
   [[nodiscard]] int width() const { return width_; }
   [[nodiscard]] int height() const { return height_; }
@@ -35,7 +36,8 @@ class DepthImage {
   [[nodiscard]] double nearest_depth() const { return nearest_depth_; }
   /// Background outside the image.
   [[nodiscard]] Pixel at(double x, double y) const;
-  /// How far a place lies behind the nearest surface on its line of sight, metres; 0 where it lies before it or nothing is there.
+  /// How far a place lies behind the nearest surface on its line of sight, metres; 0 where it lies
+  /// before it or nothing is there.
   [[nodiscard]] double depth_behind_front(const Vec3d& position_model) const;
   /// The surface's place in model space; only where it is not background.
   [[nodiscard]] Vec3d position(double x, double y) const;

@@ -13,21 +13,26 @@
 namespace sunder::tools {
 namespace {
 
-constexpr std::size_t kMostPoses = 200;  ///< Of a set, so that measuring takes no longer than a glance.
+constexpr std::size_t kMostPoses =
+    200;  ///< Of a set, so that measuring takes no longer than a glance.
 
 /// n, where every n-th of them is to be taken so that there are no more than kMostPoses.
 std::size_t step_through(std::size_t count) { return (count + kMostPoses - 1) / kMostPoses; }
 
 bool is_finite(const ModelPose& pose) {
-  return std::ranges::all_of(pose.model_from_bone, [](const Affine3d& bone) { return bone.matrix().allFinite(); }) &&
-         std::ranges::all_of(pose.morph_weights, [](float weight) { return std::isfinite(weight); });
+  return std::ranges::all_of(pose.model_from_bone,
+                             [](const Affine3d& bone) { return bone.matrix().allFinite(); }) &&
+         std::ranges::all_of(pose.morph_weights,
+                             [](float weight) { return std::isfinite(weight); });
 }
 
-Status add_poses(std::shared_ptr<const Character> source, const PoseSetSpec& spec, const char* fit_name, const char* held_out_name,
+Status add_poses(std::shared_ptr<const Character> source, const PoseSetSpec& spec,
+                 const char* fit_name, const char* held_out_name,
                  std::vector<MeasuredPoses>& sets) {
   const Result<PoseSet> set = PoseSet::create(std::move(source), spec);
   if (!set) return set.error().code() == StatusCode::limit_exceeded ? set.error() : Status();
-  for (const auto& [role, name] : {std::pair(PoseSet::Role::fit, fit_name), std::pair(PoseSet::Role::held_out, held_out_name)}) {
+  for (const auto& [role, name] : {std::pair(PoseSet::Role::fit, fit_name),
+                                   std::pair(PoseSet::Role::held_out, held_out_name)}) {
     const std::size_t count = set->size(role);
     MeasuredPoses measured{name, {}};
     for (std::size_t i = 0; i < count; i += step_through(count)) {
@@ -40,7 +45,9 @@ Status add_poses(std::shared_ptr<const Character> source, const PoseSetSpec& spe
 }
 
 Json to_json(const WeightErrors::Statistics& statistics) {
-  return {{"rms", statistics.rms}, {"percentile95", statistics.percentile95}, {"maximum", statistics.maximum}};
+  return {{"rms", statistics.rms},
+          {"percentile95", statistics.percentile95},
+          {"maximum", statistics.maximum}};
 }
 
 Json to_json(const WeightErrors& errors) {
@@ -52,7 +59,8 @@ Json to_json(const WeightErrors& errors) {
 }
 
 /// Measures while operations give points other weights, and takes them back.
-Result<Json> measure_as(const std::vector<WeightsOperation>& weights, const std::vector<MeasuredPoses>& sets, TornModel& model) {
+Result<Json> measure_as(const std::vector<WeightsOperation>& weights,
+                        const std::vector<MeasuredPoses>& sets, TornModel& model) {
   Result<Json> errors = Json();
   std::size_t done = 0;
   for (; done < weights.size(); ++done)
@@ -68,7 +76,8 @@ Result<Json> measure_as(const std::vector<WeightsOperation>& weights, const std:
 
 }  // namespace
 
-Result<std::vector<MeasuredPoses>> poses_to_measure(const TornModel& model, std::shared_ptr<const Character> source) {
+Result<std::vector<MeasuredPoses>> poses_to_measure(const TornModel& model,
+                                                    std::shared_ptr<const Character> source) {
   std::vector<MeasuredPoses> sets;
   Result<std::vector<ModelPose>> of_history = poses_of_history(model);
   if (!of_history) return of_history.error();
@@ -77,11 +86,15 @@ Result<std::vector<MeasuredPoses>> poses_to_measure(const TornModel& model, std:
   operations.name = "operations";
   for (std::size_t i = 0; i < of_history->size(); i += step_through(of_history->size()))
     operations.poses.push_back(std::move((*of_history)[i]));
-  if (const Status status = add_poses(source, PoseSetSpec{}, "clips", "clips_held_out", sets); !status) return status;
+  if (const Status status = add_poses(source, PoseSetSpec{}, "clips", "clips_held_out", sets);
+      !status)
+    return status;
   PoseSetSpec motion;
   motion.clip_samples = 0;
   motion.range_of_motion = true;
-  if (const Status status = add_poses(std::move(source), motion, "range_of_motion", "range_of_motion_held_out", sets); !status)
+  if (const Status status =
+          add_poses(std::move(source), motion, "range_of_motion", "range_of_motion_held_out", sets);
+      !status)
     return status;
   return sets;
 }
@@ -110,15 +123,16 @@ Result<Json> written_weight_errors_json(TornModel& model, const std::vector<Meas
   return measure_as(as_written, sets, model);
 }
 
-Result<Json> weight_errors_by_policy_json(TornModel& model, std::shared_ptr<const Character> source, const PoseSpec& pose) {
+Result<Json> weight_errors_by_policy_json(TornModel& model, std::shared_ptr<const Character> source,
+                                          const PoseSpec& pose) {
   Json json = Json::object();
   if (model.undo_count() == 0) return json;
   const auto sets = poses_to_measure(model, source);
   if (!sets) return sets.error();
   const auto over = choose_poses(std::move(source), {});
   if (!over) return over.error();
-  for (const WeightPolicy policy :
-       {WeightPolicy::barycentric, WeightPolicy::pose_exact, WeightPolicy::refit, WeightPolicy::exact}) {
+  for (const WeightPolicy policy : {WeightPolicy::barycentric, WeightPolicy::pose_exact,
+                                    WeightPolicy::refit, WeightPolicy::exact}) {
     WeightsOperation operation;
     operation.weights.policy = policy;
     operation.pose = pose;

@@ -21,9 +21,10 @@ Vec3d morphed_position(const Mesh& mesh, std::uint32_t vertex, const ModelPose& 
   return position;
 }
 
-Status measure_mesh(const Mesh& mesh, const Skin& skin, const std::vector<ModelPose>& poses, std::uint32_t maximum,
-                    PruningLoss& loss) {
-  std::vector<std::vector<Affine3d>> palettes(poses.size(), std::vector<Affine3d>(skin.bones.size()));
+Status measure_mesh(const Mesh& mesh, const Skin& skin, const std::vector<ModelPose>& poses,
+                    std::uint32_t maximum, PruningLoss& loss) {
+  std::vector<std::vector<Affine3d>> palettes(poses.size(),
+                                              std::vector<Affine3d>(skin.bones.size()));
   for (std::size_t i = 0; i < poses.size(); ++i)
     if (const Status status = compute_palette(skin, poses[i], palettes[i]); !status) return status;
   std::vector<Influence> influences;
@@ -35,7 +36,8 @@ Status measure_mesh(const Mesh& mesh, const Skin& skin, const std::vector<ModelP
     ++loss.vertices_pruned;
     loss.dropped_mass_max = std::max(loss.dropped_mass_max, dropped_mass(influences, maximum));
     for (std::size_t i = 0; i < poses.size(); ++i) {
-      const Vec3d moved = pruning_displacement(morphed_position(mesh, v, poses[i]), influences, maximum, palettes[i]);
+      const Vec3d moved = pruning_displacement(morphed_position(mesh, v, poses[i]), influences,
+                                               maximum, palettes[i]);
       loss.pruning_error_max = std::max(loss.pruning_error_max, moved.norm());
     }
   }
@@ -56,7 +58,9 @@ Result<PruningLoss> measure_pruning(const TornModel& model, std::uint32_t maximu
   for (std::size_t i = 0; i < character.meshes.size(); ++i) {
     const Mesh& mesh = character.meshes[i];
     if (mesh == model.source().meshes[i]) continue;
-    if (const Status status = measure_mesh(mesh, character.skins[mesh.skin], *poses, maximum, loss); !status) return status;
+    if (const Status status = measure_mesh(mesh, character.skins[mesh.skin], *poses, maximum, loss);
+        !status)
+      return status;
   }
   return loss;
 }

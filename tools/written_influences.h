@@ -13,7 +13,8 @@ namespace sunder::tools {
 struct PruningLoss {
   std::uint64_t vertices_pruned = 0;
   double dropped_mass_max = 0;
-  /// How far pruning moves a vertex, at most, in the rest pose and in those of the model's history; metres, in closed form.
+  /// How far pruning moves a vertex, at most, in the rest pose and in those of the model's history;
+  /// metres, in closed form.
   double pruning_error_max = 0;
 };
 

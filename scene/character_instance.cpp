@@ -1,0 +1,283 @@
+#include <sunder/scene/character_instance.h>
+#include <sunder/skinning/pose.h>
+
+#include <cmath>
+#include <new>
+#include <utility>
+
+#include "scene/instance_mesh.h"
+
+namespace sunder {
+namespace {
+
+Status out_of_memory() {
+  return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory; make a new instance");
+}
+
+Status check_seconds(double seconds) {
+  if (!std::isfinite(seconds))
+    return Status::failure(StatusCode::non_finite_value, kNone,
+                           "the time since the last frame is not finite");
+  if (seconds < 0)
+    return Status::failure(StatusCode::invalid_argument, kNone,
+                           "the time since the last frame is %g s; it must not be negative",
+                           seconds);
+  return {};
+}
+
+}  // namespace
+
+struct CharacterInstance::State {
+  TornModel model;
+  std::optional<TearStroke> stroke;  // refers to the model
+  std::optional<ParticleSet> particles;
+  std::optional<SoftBody> body;       // refers to the particles
+  std::vector<BonePalette> palettes;  ///< One per skin.
+  std::vector<scene::InstanceMesh> meshes;
+  ParallelFor parallel_for;
+  ModelPose pose;
+  ChangeRecord scratch;    ///< For callers that want no record.
+  bool is_broken = false;  ///< Memory ran out between two parts, which no longer agree.
+
+  explicit State(TornModel made) : model(std::move(made)) {}
+
+  Status make_soft(const SoftTissue& soft);
+  Status make_meshes(const CharacterInstanceOptions& options);
+  Status follow(std::span<const ChangeRecord> changes);
+  Status deform(Index mesh);
+
+  /// Makes one call that tears, and passes its record on to the particles and the meshes.
+  template <class Call>
+  auto change(ChangeRecord* wanted, Call call) -> decltype(call(wanted)) {
+    if (is_broken) return out_of_memory();
+    ChangeRecord& record = wanted != nullptr ? *wanted : scratch;
+    auto outcome = call(&record);
+    if (outcome)
+      if (Status status = follow({&record, 1}); !status) return status;
+    return outcome;
+  }
+
+  /// Makes a call that appends its records to a list. What was done before it failed is passed on
+  /// too.
+  template <class Call>
+  auto change_all(std::vector<ChangeRecord>* wanted, Call call) -> decltype(call(wanted)) {
+    if (is_broken) return out_of_memory();
+    std::vector<ChangeRecord> unwanted;
+    std::vector<ChangeRecord>& records = wanted != nullptr ? *wanted : unwanted;
+    const std::size_t before = records.size();
+    auto outcome = call(&records);
+    if (outcome || records.size() > before)
+      if (Status status = follow(std::span<const ChangeRecord>(records).subspan(before)); !status)
+        return status;
+    return outcome;
+  }
+};
+
+Status CharacterInstance::State::make_soft(const SoftTissue& soft) {
+  const ModelPose bind = bind_pose(model.character());
+  Result<ParticleSet> divided = ParticleSet::create(model, bind, soft.decomposition);
+  if (!divided) return divided.error();
+  particles.emplace(std::move(*divided));
+  Result<SoftBody> made = SoftBody::create(*particles, bind, soft.materials, soft.body);
+  if (!made) return made.error();
+  body.emplace(std::move(*made));
+  return {};
+}
+
+Status CharacterInstance::State::make_meshes(const CharacterInstanceOptions& options) {
+  const Character& character = model.character();
+  for (const Skin& skin : character.skins)
+    palettes.emplace_back(skin.bones.size(), character.rest_morph_weights.size(), options.method);
+  for (const Mesh& mesh : character.meshes) {
+    Result<scene::InstanceMesh> made =
+        scene::InstanceMesh::create(mesh, character.skins[mesh.skin].bones.size(), options);
+    if (!made) return made.error();
+    meshes.push_back(std::move(*made));
+  }
+  return {};
+}
+
+Status CharacterInstance::State::follow(std::span<const ChangeRecord> changes) {
+  try {
+    for (const ChangeRecord& change : changes)
+      for (const MeshChange& of_mesh : change.meshes) meshes[of_mesh.mesh].note(of_mesh);
+    if (!particles) return {};
+    Status status = particles->follow(model, changes);
+    is_broken = !status;
+    return status;
+  } catch (const std::bad_alloc&) {
+    is_broken = true;
+    return out_of_memory();
+  }
+}
+
+Status CharacterInstance::State::deform(Index mesh) {
+  const Mesh& torn = model.character().meshes[mesh];
+  scene::InstanceMesh& posed = meshes[mesh];
+  if (Status status = posed.update(torn, model.influence_positions(mesh)); !status) return status;
+  const BonePalette& palette = palettes[torn.skin];
+  const std::span<const IndexRange> moved =
+      body ? body->moved_vertices(model, mesh) : std::span<const IndexRange>();
+  if (moved.empty()) return posed.deform(palette, parallel_for, nullptr);
+  VertexDisplacements displaced{particles->vertex_points(mesh),
+                                particles->influences(),
+                                body->displacements(),
+                                moved,
+                                {},
+                                body->rotations()};
+  if (posed.has_directions()) displaced.gradients = particles->gradients(model);
+  return posed.deform(palette, parallel_for, &displaced);
+}
+
+CharacterInstance::CharacterInstance(std::unique_ptr<State> state) : state_(std::move(state)) {}
+CharacterInstance::~CharacterInstance() = default;
+CharacterInstance::CharacterInstance(CharacterInstance&&) noexcept = default;
+CharacterInstance& CharacterInstance::operator=(CharacterInstance&&) noexcept = default;
+
+Result<CharacterInstance> CharacterInstance::create(std::shared_ptr<const Character> character,
+                                                    const CharacterInstanceOptions& options) {
+  try {
+    Result<TornModel> model = TornModel::create(std::move(character), options.capacity);
+    if (!model) return model.error();
+    if (Status status = model->set_weights(options.weights); !status) return status;
+    auto state = std::make_unique<State>(std::move(*model));
+    state->parallel_for = options.parallel_for;
+    if (Status status = state->make_meshes(options); !status) return status;
+    if (options.soft)
+      if (Status status = state->make_soft(*options.soft); !status) return status;
+    return CharacterInstance(std::move(state));
+  } catch (const std::bad_alloc&) {
+    return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
+  }
+}
+
+// ---- Operations.
+
+Result<TearReport> CharacterInstance::tear(const ModelPose& pose, std::span<const Blade> stroke,
+                                           const TearOptions& options, ChangeRecord* change) {
+  return state_->change(change, [&](ChangeRecord* record) {
+    return state_->model.tear(pose, stroke, options, record);
+  });
+}
+
+Result<TearReport> CharacterInstance::cut(const ModelPose& pose, const PlaneCut& cut,
+                                          ChangeRecord* change) {
+  return state_->change(change,
+                        [&](ChangeRecord* record) { return state_->model.cut(pose, cut, record); });
+}
+
+Result<TearReport> CharacterInstance::drill(const ModelPose& pose, const Bore& bore,
+                                            ChangeRecord* change) {
+  return state_->change(
+      change, [&](ChangeRecord* record) { return state_->model.drill(pose, bore, record); });
+}
+
+Status CharacterInstance::undo(ChangeRecord* change) {
+  return state_->change(change, [&](ChangeRecord* record) { return state_->model.undo(record); });
+}
+
+Status CharacterInstance::redo(ChangeRecord* change) {
+  return state_->change(change, [&](ChangeRecord* record) { return state_->model.redo(record); });
+}
+
+Result<TearReport> CharacterInstance::apply(const Operation& operation,
+                                            std::vector<ChangeRecord>* changes) {
+  return state_->change_all(changes, [&](std::vector<ChangeRecord>* records) {
+    return apply_operation(state_->model, operation, records);
+  });
+}
+
+Status CharacterInstance::begin_stroke(const ModelPose& pose, const Blade& blade,
+                                       const TearOptions& options, const StrokeSampling& sampling) {
+  if (state_->is_broken) return out_of_memory();
+  Result<TearStroke> begun = TearStroke::create(state_->model, pose, blade, options, sampling);
+  if (!begun) return begun.error();
+  state_->stroke.emplace(std::move(*begun));
+  return {};
+}
+
+Result<TearReport> CharacterInstance::extend_stroke(const ModelPose& pose, const Blade& blade,
+                                                    double seconds, ChangeRecord* change) {
+  if (!state_->stroke)
+    return Status::failure(StatusCode::invalid_argument, kNone, "no stroke is in progress");
+  return state_->change(change, [&](ChangeRecord* record) {
+    return state_->stroke->extend(pose, blade, seconds, record);
+  });
+}
+
+Result<TearReport> CharacterInstance::end_stroke(ChangeRecord* change) {
+  if (!state_->stroke)
+    return Status::failure(StatusCode::invalid_argument, kNone, "no stroke is in progress");
+  Result<TearReport> report =
+      state_->change(change, [&](ChangeRecord* record) { return state_->stroke->end(record); });
+  if (report) state_->stroke.reset();
+  return report;
+}
+
+Result<ForceTearingReport> CharacterInstance::tear_overstretched(
+    const ForceTearingOptions& options, std::vector<ChangeRecord>* changes) {
+  State& state = *state_;
+  if (!state.body)
+    return Status::failure(StatusCode::invalid_argument, kNone, "the instance is not soft");
+  if (state.pose.model_from_bone.empty())
+    return Status::failure(StatusCode::invalid_argument, kNone,
+                           "the instance has no pose yet; call advance() first");
+  if (state.is_broken) return out_of_memory();
+  std::vector<ChangeRecord> unwanted;
+  std::vector<ChangeRecord>& records = changes != nullptr ? *changes : unwanted;
+  const std::size_t before = records.size();
+  Result<ForceTearingReport> report = sunder::tear_overstretched(
+      *state.body, *state.particles, state.model, state.pose, options, &records);
+  // The particles have followed already.
+  for (std::size_t i = before; i < records.size(); ++i)
+    for (const MeshChange& of_mesh : records[i].meshes) state.meshes[of_mesh.mesh].note(of_mesh);
+  return report;
+}
+
+Result<RefitJob> CharacterInstance::begin_refit(const WeightsOperation& wanted) {
+  return RefitJob::create(state_->model, wanted);
+}
+
+Result<WeightReport> CharacterInstance::swap_in(const RefitJob& job, ChangeRecord* change) {
+  return state_->change(change,
+                        [&](ChangeRecord* record) { return job.swap_in(state_->model, record); });
+}
+
+// ---- Frames.
+
+Status CharacterInstance::advance(const ModelPose& pose, double seconds) {
+  State& state = *state_;
+  if (state.is_broken) return out_of_memory();
+  if (Status status = check_seconds(seconds); !status) return status;
+  const std::vector<Skin>& skins = state.model.character().skins;
+  // The palettes check the pose. Only frames that succeed read them, so a failing one may leave
+  // them half set.
+  for (std::size_t i = 0; i < skins.size(); ++i)
+    if (Status status = state.palettes[i].set(skins[i], pose); !status) return status;
+  try {
+    if (state.body)
+      if (Status status = state.body->step(state.model, pose, seconds); !status) return status;
+    state.is_broken = true;  // until all parts agree again
+    state.pose = pose;
+    for (Index mesh = 0; mesh < state.meshes.size(); ++mesh)
+      if (Status status = state.deform(mesh); !status) return status;
+    state.is_broken = false;
+    return {};
+  } catch (const std::bad_alloc&) {
+    return out_of_memory();
+  }
+}
+
+PosedMesh CharacterInstance::mesh(std::uint32_t mesh) const {
+  return state_->meshes[mesh].posed(state_->model.character().meshes[mesh]);
+}
+
+const TornModel& CharacterInstance::model() const { return state_->model; }
+const ModelPose& CharacterInstance::pose() const { return state_->pose; }
+SoftBody* CharacterInstance::body() { return state_->body ? &*state_->body : nullptr; }
+const SoftBody* CharacterInstance::body() const { return state_->body ? &*state_->body : nullptr; }
+const ParticleSet* CharacterInstance::particles() const {
+  return state_->particles ? &*state_->particles : nullptr;
+}
+
+}  // namespace sunder

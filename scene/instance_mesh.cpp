@@ -1,0 +1,113 @@
+#include "scene/instance_mesh.h"
+
+#include <algorithm>
+
+namespace sunder::scene {
+namespace {
+
+constexpr Index kInfluencesPerVertex =
+    8;  ///< For which memory is reserved where the capacity is fixed.
+
+/// The first vertex whose bind position or weights a change touched. Operations append vertices and
+/// undo removes them from the end; vertices before `first_vertex` are dirty because of their tear
+/// side, which is not skinned. Only a change of weights touches vertices that stay; it changes no
+/// triangle.
+Index first_changed_vertex(const MeshChange& change) {
+  const bool is_of_weights =
+      change.vertex_count == 0 && change.triangle_count == 0 && change.rewritten.empty();
+  if (!is_of_weights || change.dirty_vertices.empty()) return change.first_vertex;
+  return std::min(change.first_vertex, change.dirty_vertices.begin()->first);
+}
+
+template <class Vector>
+StridedFloats<float> floats_of(std::vector<Vector>& values) {
+  return {values.empty() ? nullptr : values[0].data()};
+}
+
+}  // namespace
+
+void PendingRanges::publish(Index count) {
+  published_.clear();
+  std::sort(pending_.begin(), pending_.end(),
+            [](const IndexRange& a, const IndexRange& b) { return a.first < b.first; });
+  for (const IndexRange& range : pending_) {
+    const Index end = std::min(range.first + range.count, count);
+    if (range.first >= end) continue;
+    if (published_.empty() || range.first > published_.back().first + published_.back().count)
+      published_.push_back({range.first, end - range.first});
+    else
+      published_.back().count = std::max(published_.back().count, end - published_.back().first);
+  }
+  pending_.clear();
+}
+
+Result<InstanceMesh> InstanceMesh::create(const Mesh& mesh, std::size_t slots,
+                                          const CharacterInstanceOptions& options) {
+  Result<SkinnedMesh> skinned = SkinnedMesh::create(source_of(mesh), slots);
+  if (!skinned) return skinned.error();
+  InstanceMesh made(std::move(*skinned));
+  made.has_normals_ = options.has_normals && !mesh.normals.empty();
+  made.has_tangents_ = options.has_tangents && !mesh.tangents.empty();
+  made.unit_length_ = options.unit_length;
+  const std::size_t most = std::size_t{mesh.vertex_count()} + options.capacity.vertices;
+  made.positions_.reserve(most);
+  if (made.has_normals_) made.normals_.reserve(most);
+  if (made.has_tangents_) made.tangents_.reserve(most);
+  if (options.capacity.vertices > 0)
+    made.skinned_.reserve(options.capacity.vertices, kInfluencesPerVertex);
+  made.resize(mesh.vertex_count());
+  // The first frame draws everything.
+  made.triangles_.add(IndexRange{0, mesh.triangle_count()});
+  made.attributes_.add(IndexRange{0, mesh.vertex_count()});
+  return made;
+}
+
+void InstanceMesh::note(const MeshChange& change) {
+  triangles_.add(change.dirty_triangles);
+  attributes_.add(change.dirty_vertices);
+  first_changed_ = std::min(first_changed_, first_changed_vertex(change));
+}
+
+void InstanceMesh::resize(Index vertex_count) {
+  positions_.resize(vertex_count);
+  if (has_normals_) normals_.resize(vertex_count);
+  if (has_tangents_) tangents_.resize(vertex_count);
+  const VertexTarget target = {vertex_count, floats_of(positions_), floats_of(normals_),
+                               floats_of(tangents_), unit_length_};
+  const VertexTarget& now = buffer_.target();
+  if (target.positions.data != now.positions.data || target.normals.data != now.normals.data ||
+      target.tangents.data != now.tangents.data)
+    buffer_.set_target(target);  // it grew into other memory, which is written as a whole
+  else
+    buffer_.set_vertex_count(vertex_count);
+}
+
+Status InstanceMesh::update(const Mesh& mesh, const InfluencePositions& exact) {
+  triangles_.publish(mesh.triangle_count());
+  attributes_.publish(mesh.vertex_count());
+  if (first_changed_ == kNone) return {};
+  VertexSource source = source_of(mesh);
+  if (!exact.vertices.empty()) source.per_influence = &exact;
+  if (Status status = skinned_.update(source, first_changed_); !status) return status;
+  resize(mesh.vertex_count());
+  first_changed_ = kNone;
+  return {};
+}
+
+Status InstanceMesh::deform(const BonePalette& palette, const ParallelFor& parallel_for,
+                            const VertexDisplacements* displacements) {
+  return skinned_.deform(palette, buffer_, parallel_for, displacements);
+}
+
+PosedMesh InstanceMesh::posed(const Mesh& mesh) const {
+  if (triangles_.has_pending()) return {};
+  return {positions_,
+          normals_,
+          tangents_,
+          mesh.triangles,
+          buffer_.dirty_vertices(),
+          triangles_.published(),
+          attributes_.published()};
+}
+
+}  // namespace sunder::scene

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <sunder/scene/character_instance.h>
+#include <sunder/skinning/skinned_mesh.h>
+
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace sunder::scene {
+
+/// Collects the ranges that several operations changed, for the frame that draws them.
+class PendingRanges {
+ public:
+  void add(const IndexRange& range) { pending_.push_back(range); }
+  void add(const DirtyRanges& ranges) {
+    pending_.insert(pending_.end(), ranges.begin(), ranges.end());
+  }
+  /// Lists what was added since the last call, ascending and disjoint, as far as it lies below
+  /// `count`.
+  void publish(Index count);
+  [[nodiscard]] std::span<const IndexRange> published() const { return published_; }
+  [[nodiscard]] bool has_pending() const { return !pending_.empty(); }
+
+ private:
+  std::vector<IndexRange> pending_, published_;
+};
+
+/// One mesh of a CharacterInstance: its skinning data, and the posed vertices that are drawn.
+class InstanceMesh {
+ public:
+  static Result<InstanceMesh> create(const Mesh& mesh, std::size_t slots,
+                                     const CharacterInstanceOptions& options);
+
+  /// Notes what a call did to the mesh; the work is left to update(). @throws std::bad_alloc
+  void note(const MeshChange& change);
+  /// Brings the skinning data and the buffers up to date with what was noted. O(what changed).
+  /// @throws std::bad_alloc
+  Status update(const Mesh& mesh, const InfluencePositions& exact);
+  /// Poses the vertices that changed. @param displacements  null: none. @throws std::bad_alloc
+  Status deform(const BonePalette& palette, const ParallelFor& parallel_for,
+                const VertexDisplacements* displacements);
+
+  /// Whether normals or tangents are posed.
+  [[nodiscard]] bool has_directions() const { return has_normals_ || has_tangents_; }
+  /// Empty before the first update(), and where triangles changed since the last one.
+  [[nodiscard]] PosedMesh posed(const Mesh& mesh) const;
+
+ private:
+  explicit InstanceMesh(SkinnedMesh skinned)
+      : skinned_(std::move(skinned)), buffer_(VertexTarget()) {}
+  void resize(Index vertex_count);
+
+  SkinnedMesh skinned_;
+  PosedBuffer buffer_;
+  std::vector<Vec3f> positions_, normals_;
+  std::vector<Vec4f> tangents_;
+  bool has_normals_ = false, has_tangents_ = false, unit_length_ = false;
+  Index first_changed_ = kNone;  ///< First vertex whose skinning data changed since the last
+                                 ///< update(); kNone: none did.
+  PendingRanges triangles_, attributes_;
+};
+
+}  // namespace sunder::scene

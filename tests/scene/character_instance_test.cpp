@@ -1,0 +1,474 @@
+// An instance does what the same calls do that are made on its parts, bit for bit.
+
+#include <sunder/scene/character_instance.h>
+#include <sunder/skinning/pose.h>
+#include <sunder/skinning/skinned_mesh.h>
+
+#include <cstring>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "support/allocation_count.h"
+#include "support/random_operations.h"
+#include "support/rigs.h"
+#include "support/stress.h"
+
+namespace sunder {
+namespace {
+
+constexpr double kFrame = 1.0 / 60;
+
+template <class Vector>
+bool same_bits(std::span<const Vector> a, std::span<const Vector> b) {
+  return a.size() == b.size() &&
+         (a.empty() || std::memcmp(a.data(), b.data(), a.size_bytes()) == 0);
+}
+
+template <class T>
+T value_of(Result<T> result) {
+  EXPECT_TRUE(result) << result.error().text();
+  return std::move(*result);
+}
+
+SoftTissue coarse_tissue() {
+  SoftTissue soft;
+  soft.decomposition.range = 0.2;
+  return soft;
+}
+
+CharacterInstance make_instance(const std::shared_ptr<const Character>& character, bool is_soft,
+                                const TornCapacity& capacity = {}) {
+  CharacterInstanceOptions options;
+  options.capacity = capacity;
+  if (is_soft) options.soft = coarse_tissue();
+  return value_of(CharacterInstance::create(character, options));
+}
+
+/// The parts of an instance, called one by one.
+class Parts {
+ public:
+  Parts(const std::shared_ptr<const Character>& character, bool is_soft)
+      : model(value_of(TornModel::create(character))) {
+    if (is_soft) {
+      const SoftTissue soft = coarse_tissue();
+      set = std::make_unique<ParticleSet>(
+          value_of(ParticleSet::create(model, bind_pose(*character), soft.decomposition)));
+      body = std::make_unique<SoftBody>(
+          value_of(SoftBody::create(*set, bind_pose(*character), soft.materials)));
+    }
+    for (const Mesh& mesh : character->meshes) {
+      const std::size_t slots = character->skins[mesh.skin].bones.size();
+      meshes_.push_back(
+          std::make_unique<OfMesh>(mesh, slots, character->rest_morph_weights.size()));
+    }
+  }
+
+  void follow(std::span<const ChangeRecord> changes) {
+    if (set) {
+      ASSERT_TRUE(set->follow(model, changes));
+    }
+    for (const ChangeRecord& change : changes)
+      for (const MeshChange& of_mesh : change.meshes) {
+        Index first = of_mesh.first_vertex;
+        if (of_mesh.rewritten.empty() && !of_mesh.dirty_vertices.empty())
+          first = std::min(first, of_mesh.dirty_vertices.begin()->first);
+        meshes_[of_mesh.mesh]->first_changed =
+            std::min(meshes_[of_mesh.mesh]->first_changed, first);
+      }
+    for (Index m = 0; m < meshes_.size(); ++m) meshes_[m]->update(model, m);
+  }
+
+  void frame(const ModelPose& pose, double seconds) {
+    if (body) {
+      ASSERT_TRUE(body->step(model, pose, seconds));
+    }
+    for (Index m = 0; m < meshes_.size(); ++m) {
+      OfMesh& of = *meshes_[m];
+      ASSERT_TRUE(of.palette.set(model.character().skins[model.character().meshes[m].skin], pose));
+      if (body) {
+        const auto moved = body->moved_vertices(model, m);
+        const VertexDisplacements displaced{set->vertex_points(m), set->influences(),
+                                            body->displacements(), moved,
+                                            set->gradients(model), body->rotations()};
+        ASSERT_TRUE(of.skinned.deform(of.palette, of.buffer, {}, &displaced));
+      } else {
+        ASSERT_TRUE(of.skinned.deform(of.palette, of.buffer));
+      }
+    }
+  }
+
+  void expect_same(const CharacterInstance& instance) const {
+    ASSERT_EQ(instance.model().digest(), model.digest());
+    for (Index m = 0; m < meshes_.size(); ++m) {
+      const PosedMesh posed = instance.mesh(m);
+      ASSERT_TRUE(same_bits<Vec3f>(posed.positions, meshes_[m]->positions)) << "mesh " << m;
+      ASSERT_TRUE(same_bits<Vec3f>(posed.normals, meshes_[m]->normals)) << "mesh " << m;
+      ASSERT_TRUE(same_bits<Vec4f>(posed.tangents, meshes_[m]->tangents)) << "mesh " << m;
+      ASSERT_TRUE(same_bits<Triangle>(posed.triangles, model.character().meshes[m].triangles))
+          << "mesh " << m;
+    }
+  }
+
+  TornModel model;
+  std::unique_ptr<ParticleSet> set;
+  std::unique_ptr<SoftBody> body;
+
+ private:
+  struct OfMesh {
+    OfMesh(const Mesh& mesh, std::size_t slots, std::size_t morph_weights)
+        : skinned(value_of(SkinnedMesh::create(source_of(mesh), slots))),
+          palette(slots, morph_weights),
+          buffer(VertexTarget()) {
+      resize(mesh);
+    }
+    void resize(const Mesh& mesh) {
+      positions.resize(mesh.positions.size());
+      normals.resize(mesh.normals.size());
+      tangents.resize(mesh.tangents.size());
+      buffer.set_target({mesh.vertex_count(),
+                         {positions.empty() ? nullptr : positions[0].data()},
+                         {normals.empty() ? nullptr : normals[0].data()},
+                         {tangents.empty() ? nullptr : tangents[0].data()}});
+    }
+    void update(const TornModel& model, Index m) {
+      if (first_changed == kNone) return;
+      VertexSource source = source_of(model.character().meshes[m]);
+      source.per_influence = &model.influence_positions(m);
+      ASSERT_TRUE(skinned.update(
+          source, std::min({first_changed, skinned.vertex_count(), source.vertex_count})));
+      resize(model.character().meshes[m]);
+      first_changed = kNone;
+    }
+
+    SkinnedMesh skinned;
+    BonePalette palette;
+    std::vector<Vec3f> positions, normals;
+    std::vector<Vec4f> tangents;
+    PosedBuffer buffer;
+    Index first_changed = kNone;
+  };
+  std::vector<std::unique_ptr<OfMesh>> meshes_;
+};
+
+/// Buffers of an engine that uploads the dirty ranges and nothing else.
+class Mirror {
+ public:
+  void upload(const PosedMesh& mesh, const Mesh& attributes) {
+    copy(mesh.positions, mesh.dirty_vertices, positions_);
+    copy(mesh.normals, mesh.dirty_vertices, normals_);
+    copy(mesh.triangles, mesh.dirty_triangles, triangles_);
+    if (!attributes.uv_sets.empty())
+      copy(std::span<const Vec2f>(attributes.uv_sets[0]), mesh.dirty_attributes, uvs_);
+  }
+  void expect_same(const PosedMesh& mesh, const Mesh& attributes) const {
+    EXPECT_TRUE(same_bits<Vec3f>(mesh.positions, positions_));
+    EXPECT_TRUE(same_bits<Vec3f>(mesh.normals, normals_));
+    EXPECT_TRUE(same_bits<Triangle>(mesh.triangles, triangles_));
+    if (!attributes.uv_sets.empty()) {
+      EXPECT_TRUE(same_bits<Vec2f>(attributes.uv_sets[0], uvs_));
+    }
+  }
+
+ private:
+  template <class T>
+  static void copy(std::span<const T> from, std::span<const IndexRange> ranges,
+                   std::vector<T>& to) {
+    to.resize(from.size());
+    if (from.empty()) return;
+    Index end = 0;
+    for (const IndexRange& range : ranges) {
+      ASSERT_GE(range.first, end);
+      ASSERT_GT(range.count, 0u);
+      end = range.first + range.count;
+      ASSERT_LE(end, from.size());
+      std::copy_n(from.begin() + range.first, range.count, to.begin() + range.first);
+    }
+  }
+
+  std::vector<Vec3f> positions_, normals_;
+  std::vector<Triangle> triangles_;
+  std::vector<Vec2f> uvs_;
+};
+
+/// Calls on an instance and on the parts by hand: the same ones, at random.
+class Duel {
+ public:
+  Duel(const std::shared_ptr<const Character>& character, bool is_soft, std::uint64_t seed)
+      : random_(seed),
+        instance_(make_instance(character, is_soft)),
+        parts_(character, is_soft),
+        mirrors_(character->meshes.size()) {}
+
+  void run(int steps) {
+    for (int i = 0; i < steps && !testing::Test::HasFatalFailure(); ++i) {
+      SCOPED_TRACE("step " + std::to_string(i));
+      for (std::uint32_t n = random_.index(3); n > 0; --n) operate();
+      push();
+      frame();
+    }
+  }
+
+ private:
+  void operate() {
+    switch (random_.index(8)) {
+      case 0: return apply(UndoOperation{1 + random_.index(2)});
+      case 1: return apply(RedoOperation{1});
+      case 2: return stroke();
+      case 3: return reweigh();
+      default: return apply(test::random_operation(parts_.model, random_));
+    }
+  }
+
+  void apply(const Operation& operation) {
+    std::vector<ChangeRecord> changes, of_instance;
+    const auto expected = apply_operation(parts_.model, operation, &changes);
+    const auto found = instance_.apply(operation, random_.index(2) == 0 ? &of_instance : nullptr);
+    ASSERT_EQ(found.has_value(), expected.has_value());
+    if (expected) {
+      ASSERT_EQ(found->faces_crossed, expected->faces_crossed);
+      parts_.follow(changes);
+    }
+  }
+
+  void reweigh() {
+    WeightsOperation wanted;
+    wanted.weights.policy = random_.index(2) == 0 ? WeightPolicy::exact : WeightPolicy::pose_exact;
+    wanted.pose = test::random_pose(parts_.model.source(), random_);
+    apply(wanted);
+  }
+
+  /// Over frames, in a pose that changes.
+  void stroke() {
+    const Character& source = parts_.model.source();
+    ModelPose pose = test::random_pose(source, random_);
+    const Stroke blades = test::random_stroke(source, pose, random_, 0.3, 4);
+    auto expected = TearStroke::create(parts_.model, pose, blades[0]);
+    ASSERT_TRUE(expected);
+    ASSERT_TRUE(instance_.begin_stroke(pose, blades[0]));
+    ASSERT_FALSE(instance_.undo());
+    ChangeRecord change;
+    for (std::size_t i = 1; i < blades.size(); ++i) {
+      if (i == 2)
+        pose.model_from_bone.back() =
+            pose.model_from_bone.back() * Eigen::AngleAxisd(0.05, Eigen::Vector3d::UnitX());
+      const auto by_hand = expected->extend(pose, blades[i], 0.1 * static_cast<double>(i), &change);
+      const auto found = instance_.extend_stroke(pose, blades[i], 0.1 * static_cast<double>(i));
+      ASSERT_EQ(found.has_value(), by_hand.has_value());
+      if (by_hand) parts_.follow({&change, 1});
+      frame();
+    }
+    const auto by_hand = expected->end(&change);
+    const auto found = instance_.end_stroke();
+    ASSERT_TRUE(by_hand);
+    ASSERT_TRUE(found) << found.error().text();
+    ASSERT_EQ(found->faces_crossed, by_hand->faces_crossed);
+    parts_.follow({&change, 1});
+  }
+
+  /// Something for the tissue to do.
+  void push() {
+    if (!parts_.body) return;
+    const Index point = random_.index(parts_.model.source().meshes[0].vertex_count() / 2);
+    const Vec3d impulse = 1e-3 * random_.direction();
+    const Status expected = parts_.body->add_point_impulse(point, impulse);
+    ASSERT_EQ(instance_.body()->add_point_impulse(point, impulse).code(), expected.code());
+  }
+
+  void frame() {
+    if (random_.index(3) > 0) pose_ = test::random_pose(parts_.model.source(), random_, 0.1);
+    if (pose_.model_from_bone.empty()) pose_ = rest_pose(parts_.model.source());
+    const double seconds = random_.index(4) == 0 ? 0.0 : kFrame;
+    parts_.frame(pose_, seconds);
+    const Status status = instance_.advance(pose_, seconds);
+    ASSERT_TRUE(status) << status.text();
+    parts_.expect_same(instance_);
+    for (Index m = 0; m < mirrors_.size(); ++m) {
+      mirrors_[m].upload(instance_.mesh(m), parts_.model.character().meshes[m]);
+      mirrors_[m].expect_same(instance_.mesh(m), parts_.model.character().meshes[m]);
+    }
+  }
+
+  test::Random random_;
+  CharacterInstance instance_;
+  Parts parts_;
+  std::vector<Mirror> mirrors_;
+  ModelPose pose_;
+};
+
+TEST(character_instance, has_the_bits_of_its_parts_called_by_hand) {
+  const std::shared_ptr<const Character> characters[] = {
+      std::make_shared<const Character>(test::make_tube(20, 16, 5)),
+      std::make_shared<const Character>(test::make_two_tubes(10, 10)),
+      std::make_shared<const Character>(test::make_sheet(8))};
+  for (int seed = 1; seed <= test::stressed(8, 20); ++seed)
+    for (const auto& character : characters)
+      for (const bool is_soft : {false, true}) {
+        SCOPED_TRACE("seed " + std::to_string(seed) + (is_soft ? ", soft" : ", rigid"));
+        Duel(character, is_soft, static_cast<std::uint64_t>(seed)).run(12);
+        if (HasFatalFailure()) return;
+      }
+}
+
+/// An instance of a tube that is torn once, and moves.
+struct TornTube {
+  std::shared_ptr<const Character> character =
+      std::make_shared<const Character>(test::make_tube(30, 16, 5));
+  test::Random random{3};
+  CharacterInstance instance;
+  std::vector<ModelPose> poses;
+
+  explicit TornTube(bool is_soft, const TornCapacity& capacity = {})
+      : instance(make_instance(character, is_soft, capacity)) {
+    for (int i = 0; i < 8; ++i) poses.push_back(test::random_pose(*character, random, 0.1));
+    tear();
+    for (const ModelPose& pose : poses) EXPECT_TRUE(instance.advance(pose, kFrame));
+  }
+  void tear() {
+    const auto report = instance.tear(poses[0], test::random_stroke(*character, poses[0], random));
+    ASSERT_TRUE(report) << report.error().text();
+    ASSERT_GT(report->runs, 0u);
+  }
+};
+
+TEST(character_instance, frames_without_a_tear_do_not_allocate) {
+  for (const bool is_soft : {false, true}) {
+    TornTube tube(is_soft);
+    if (is_soft) {
+      ASSERT_TRUE(tube.instance.body()->set_gravity({0, -9.81, 0}));
+    }
+    for (int i = 0; i < 20; ++i)
+      ASSERT_TRUE(tube.instance.advance(tube.poses[static_cast<std::size_t>(i) % 8], kFrame));
+    const std::uint64_t before = test::allocation_count();
+    for (int i = 0; i < 40; ++i)
+      (void)tube.instance.advance(tube.poses[static_cast<std::size_t>(i / 2) % 8], kFrame);
+    EXPECT_EQ(test::allocation_count(), before) << (is_soft ? "soft" : "rigid");
+  }
+}
+
+TEST(character_instance, what_did_not_change_is_not_written) {
+  TornTube tube(true);
+  for (int i = 0; i < 600; ++i)
+    ASSERT_TRUE(tube.instance.advance(tube.poses[0], kFrame));  // comes to rest
+  ASSERT_EQ(tube.instance.body()->awake_count(), 0u);
+  const PosedMesh still = tube.instance.mesh(0);
+  EXPECT_TRUE(still.dirty_vertices.empty());
+  EXPECT_TRUE(still.dirty_triangles.empty());
+  EXPECT_TRUE(still.dirty_attributes.empty());
+
+  const auto two = std::make_shared<const Character>(test::make_two_tubes(10, 10));
+  CharacterInstance instance = make_instance(two, false);
+  const ModelPose rest = rest_pose(*two);
+  ASSERT_TRUE(instance.advance(rest, kFrame));
+  EXPECT_EQ(instance.mesh(0).dirty_triangles.size(), 1u);  // the first frame draws everything
+  test::Random random(5);
+  ASSERT_TRUE(instance.tear(rest, test::random_stroke(*two, rest, random, 0.05, 1)));
+  ChangeRecord change;
+  ASSERT_TRUE(instance.undo(&change));
+  ASSERT_TRUE(instance.redo(&change));
+  ASSERT_EQ(change.meshes.size(), 1u);
+  const Index torn = change.meshes[0].mesh;
+  EXPECT_TRUE(instance.mesh(torn).positions.empty());  // nothing to draw before the next frame
+  EXPECT_FALSE(instance.mesh(1 - torn).positions.empty());
+  ASSERT_TRUE(instance.advance(rest, kFrame));
+  EXPECT_FALSE(instance.mesh(torn).dirty_triangles.empty());
+  EXPECT_TRUE(instance.mesh(1 - torn).dirty_vertices.empty());
+  EXPECT_TRUE(instance.mesh(1 - torn).dirty_triangles.empty());
+}
+
+TEST(character_instance, a_failing_call_changes_nothing) {
+  for (const bool is_soft : {false, true}) {
+    TornTube tube(is_soft);
+    CharacterInstance& instance = tube.instance;
+    ASSERT_TRUE(instance.advance(tube.poses[1], kFrame));
+    const std::uint64_t digest = instance.model().digest();
+    const PosedMesh before = instance.mesh(0);
+    const std::vector<Vec3f> positions(before.positions.begin(), before.positions.end());
+    ModelPose broken = tube.poses[2], shorter = tube.poses[2];
+    broken.model_from_bone[3](0, 0) = std::numeric_limits<double>::quiet_NaN();
+    shorter.model_from_bone.pop_back();
+    const Stroke stroke = test::random_stroke(*tube.character, tube.poses[0], tube.random);
+    EXPECT_EQ(instance.advance(broken, kFrame).code(), StatusCode::non_finite_value);
+    EXPECT_EQ(instance.advance(shorter, kFrame).code(), StatusCode::index_out_of_range);
+    EXPECT_EQ(instance.advance(tube.poses[2], -1).code(), StatusCode::invalid_argument);
+    EXPECT_EQ(instance.advance(tube.poses[2], std::numeric_limits<double>::infinity()).code(),
+              StatusCode::non_finite_value);
+    EXPECT_FALSE(instance.tear(broken, stroke));
+    EXPECT_FALSE(instance.tear(tube.poses[0], {stroke.data(), 1}));
+    EXPECT_FALSE(instance.redo());
+    EXPECT_FALSE(instance.end_stroke());
+    EXPECT_FALSE(instance.extend_stroke(tube.poses[0], stroke[0]));
+    EXPECT_FALSE(instance.apply(UndoOperation{7}));
+    EXPECT_EQ(instance.tear_overstretched().has_value(), is_soft);
+    EXPECT_EQ(instance.model().digest(), digest);
+    EXPECT_TRUE(same_bits<Vec3f>(instance.mesh(0).positions, positions));
+    ASSERT_TRUE(instance.advance(tube.poses[1], 0));
+    EXPECT_TRUE(same_bits<Vec3f>(instance.mesh(0).positions, positions));
+  }
+}
+
+TEST(character_instance, buffers_of_fixed_capacity_stay_where_they_are) {
+  TornTube tube(true, {4000, 8000, 40});
+  const Vec3f* const data = tube.instance.mesh(0).positions.data();
+  for (int i = 0; i < 6; ++i) {
+    tube.tear();
+    ASSERT_TRUE(tube.instance.advance(tube.poses[0], kFrame));
+    EXPECT_EQ(tube.instance.mesh(0).positions.data(), data);
+  }
+}
+
+TEST(character_instance, tears_where_tissue_is_stretched) {
+  const auto sheet = std::make_shared<const Character>(test::make_sheet(24));
+  CharacterInstanceOptions options;
+  options.soft = coarse_tissue();
+  options.soft->decomposition.range = 0.1;
+  options.soft->materials[0].strength = 1.3;
+  CharacterInstance instance = value_of(CharacterInstance::create(sheet, options));
+  EXPECT_FALSE(instance.tear_overstretched());  // no pose yet
+  const ModelPose rest = rest_pose(*sheet);
+  for (const double side : {-1.0, 1.0})
+    for (Index p = 0; p < instance.particles()->particle_count(); ++p) {
+      const Vec3f& seed = instance.particles()->positions()[instance.particles()->seed(p)];
+      if (side * (double{seed.x()} - 0.5) > 0.1)
+        (void)instance.body()->hold(p, seed.cast<double>() + Vec3d(0.15 * side, 0, 0));
+    }
+  std::vector<ChangeRecord> changes;
+  for (int i = 0; i < 60; ++i) {
+    ASSERT_TRUE(instance.advance(rest, kFrame));
+    ASSERT_TRUE(instance.tear_overstretched({}, &changes));
+  }
+  EXPECT_FALSE(changes.empty());
+  EXPECT_GT(instance.model().undo_count(), 0u);
+  ASSERT_TRUE(instance.advance(rest, kFrame));
+  EXPECT_EQ(instance.mesh(0).positions.size(),
+            instance.model().character().meshes[0].vertex_count());
+}
+
+TEST(character_instance, a_refit_is_swapped_in) {
+  TornTube tube(false);
+  WeightsOperation wanted;
+  wanted.weights.policy = WeightPolicy::refit;
+  const auto job = tube.instance.begin_refit(wanted);
+  ASSERT_TRUE(job) << job.error().text();
+  job->run();
+  const auto report = tube.instance.swap_in(*job);
+  ASSERT_TRUE(report) << report.error().text();
+  ASSERT_GT(report->points, 0u);
+  ASSERT_TRUE(tube.instance.advance(tube.poses[0], kFrame));
+  EXPECT_FALSE(tube.instance.mesh(0).dirty_attributes.empty());
+}
+
+TEST(character_instance, refuses_what_its_parts_refuse) {
+  EXPECT_EQ(CharacterInstance::create(nullptr).error().code(), StatusCode::empty_input);
+  const auto sheet = std::make_shared<const Character>(test::make_sheet(4));
+  CharacterInstanceOptions options;
+  options.soft.emplace();
+  options.soft->materials.clear();
+  EXPECT_EQ(CharacterInstance::create(sheet, options).error().code(), StatusCode::empty_input);
+  options.soft.emplace();
+  options.soft->decomposition.range = -1;
+  EXPECT_EQ(CharacterInstance::create(sheet, options).error().code(), StatusCode::invalid_argument);
+}
+
+}  // namespace
+}  // namespace sunder
