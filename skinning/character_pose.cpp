@@ -9,8 +9,9 @@ namespace sunder {
 Status CharacterPose::check(const Character& character, const ModelPose& pose) {
   const std::size_t bone_count = character.skeleton.bones.size();
   if (pose.model_from_bone.size() != bone_count)
-    return Status::failure(StatusCode::size_mismatch, kNone, "pose has %zu bones, the character %zu",
-                           pose.model_from_bone.size(), bone_count);
+    return Status::failure(StatusCode::size_mismatch, kNone,
+                           "pose has %zu bones, the character %zu", pose.model_from_bone.size(),
+                           bone_count);
   if (pose.morph_weights.size() != character.rest_morph_weights.size())
     return Status::failure(StatusCode::size_mismatch, kNone,
                            "pose has %zu morph weights, the character %zu",
