@@ -523,8 +523,12 @@ Index PatchTree::compute_posed_patches(Index group, const MeshPose& pose,
   for (Index i = 0; i < count; ++i) {
     const Eigen::Array4d low = bound.result(means[i]).low.cast<double>(),
                          high = bound.result(means[i]).high.cast<double>();
-    shadows[i] = {low[0], high[0], {}, {low[1], low[2], low[3]}, {high[1], high[2], high[3]}};
-    for (std::size_t k = 0; k < 3; ++k) shadows[i].normal[k] = normal[k].cast<double>();
+    Shadow& shadow = shadows[i];
+    shadow.low = low[0];
+    shadow.high = high[0];
+    shadow.from = {low[1], low[2], low[3]};
+    shadow.to = {high[1], high[2], high[3]};
+    for (std::size_t k = 0; k < 3; ++k) shadow.normal[k] = normal[k].cast<double>();
   }
   return count;
 }

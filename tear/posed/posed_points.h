@@ -27,6 +27,12 @@ class PosedPoints {
     return look_up(editor, point);
   }
 
+  /// Where a point was posed or pinned in this pose; null where it was not.
+  [[nodiscard]] const Vec3d* find_known(Index point) const {
+    return point < known_.size() && known_[point].since == epoch_ ? &known_[point].position
+                                                                  : nullptr;
+  }
+
   /// Asks memory for what posing a point will need.
   void fetch(const SurfaceEditor& editor, Index point) const;
 
