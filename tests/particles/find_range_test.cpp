@@ -28,7 +28,7 @@ TEST(FindRange, makes_about_as_many_particles_as_wanted) {
     SCOPED_TRACE(wanted);
     const auto found = find_range_for_particles(scene.model, scene.pose, wanted);
     ASSERT_TRUE(found) << found.error().text();
-    EXPECT_NEAR(found->particles, wanted, std::max(1.0, 0.1 * wanted));
+    EXPECT_NEAR(found->particles, wanted, std::max(1.0, 0.02 * wanted));
     DecompositionOptions options;
     options.range = found->range;
     EXPECT_EQ(ParticleSet::create(scene.model, scene.pose, options)->particle_count(),
