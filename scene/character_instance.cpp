@@ -229,6 +229,15 @@ Result<TearReport> CharacterInstance::end_stroke(ChangeRecord* change) {
   return report;
 }
 
+Status CharacterInstance::cancel_stroke(ChangeRecord* change) {
+  if (!state_->stroke)
+    return Status::failure(StatusCode::invalid_argument, kNone, "no stroke is in progress");
+  Status status =
+      state_->change(change, [&](ChangeRecord* record) { return state_->stroke->cancel(record); });
+  if (status) state_->stroke.reset();
+  return status;
+}
+
 Result<ForceTearingReport> CharacterInstance::tear_overstretched(
     const ForceTearingOptions& options, std::vector<ChangeRecord>* changes) {
   State& state = *state_;
