@@ -236,7 +236,8 @@ TEST(Architecture, the_header_of_all_modules_is_for_programs) {
 TEST(Architecture, the_header_of_all_modules_includes_every_public_header) {
   const fs::path root = fs::path(SUNDER_SOURCE_DIR) / "include";
   std::set<std::string> included, installed;
-  for (const Include& include : includes_of(root / "sunder/sunder.h")) included.insert(include.path);
+  for (const Include& include : includes_of(root / "sunder/sunder.h"))
+    included.insert(include.path);
   for (const fs::path& file : source_files(root)) installed.insert(name_below(root, file));
   EXPECT_EQ(installed.erase("sunder/sunder.h"), 1u);
   EXPECT_EQ(included, installed);
