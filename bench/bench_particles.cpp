@@ -1,4 +1,5 @@
-// Particles: what dividing a surface into them costs, following a tear, and a step of their motion. One thread.
+// Particles: what dividing a surface into them costs, following a tear, and a step of their motion.
+// One thread.
 
 #include <cstdio>
 #include <cstring>
@@ -15,44 +16,57 @@ namespace {
 constexpr const char* kHelp =
     "bench_particles [--summary]\n"
     "\n"
-    "The bunny, its faces divided 1, 2, 3, 7 and 16 times an edge, on 64 bones. Medians, candidates in turns, one thread.\n"
+    "The bunny, its faces divided 1, 2, 3, 7 and 16 times an edge, on 64 bones. Medians, "
+    "candidates in turns, one thread.\n"
     "\n"
-    "Decomposition: ParticleSet::create(), all of it: posing, distances along the surface, memberships, weights, neighbours, "
+    "Decomposition: ParticleSet::create(), all of it: posing, distances along the surface, "
+    "memberships, weights, neighbours, "
     "rest\n"
-    "sums. Beside it nanoflann's tree and Eigen's scan of all points, which get posed points and make clusters of the same radius "
+    "sums. Compared with nanoflann's tree and Eigen's scan of all points, which get posed points "
+    "and make clusters of the same radius "
     "in\n"
-    "a straight line, nothing else; ours are more, as theirs cover what they reach and ours the inner 80 per cent of it.\n"
-    "Repair: ParticleSet::follow() after a tear across about 100 faces, what settle() then does in all its calls, and follow() "
+    "a straight line, nothing else; ours are more, because theirs cover what they reach and ours "
+    "the inner 85 per cent.\n"
+    "Repair: ParticleSet::follow() after a tear across about 100 faces, what settle() then does in "
+    "all its calls, and follow() "
     "after\n"
-    "the undo; the tear itself is not counted. 'first': follow() after the first tear that a set sees, once.\n"
-    "Steps: a SoftBody 60 times a second, every bone moving; what displacing all vertices adds to skinning them is a column of "
+    "the undo; the tear itself is not counted. 'first': follow() after the first tear of a set, "
+    "once.\n"
+    "Steps: a SoftBody 60 times a second, every bone moving; what displacing all vertices adds to "
+    "skinning them is a column of "
     "its\n"
     "own.\n"
     "\n"
     "Prints tables. --summary prints one JSON object instead.\n"
-    "  bunny_decompose_ms      ParticleSet::create() of 3,485 points, range a tenth of the diagonal\n"
+    "  bunny_decompose_ms      ParticleSet::create() of 3,485 points, range a tenth of the "
+    "diagonal\n"
     "  bunny_particles         its particles\n"
-    "  step_200_ms             a step of about 200 particles that are all awake, and displacing 14 thousand vertices by them, "
+    "  step_200_ms             a step of about 200 particles that are all awake, and displacing 14 "
+    "thousand vertices by them, "
     "less\n"
     "                          skinning alone\n"
-    "  repair_ms_900k          follow() at 892 thousand points, range a tenth of the diagonal; of the same tear again and again,\n"
+    "  repair_ms_900k          follow() at 892 thousand points, range a tenth of the diagonal; of "
+    "the same tear again and again,\n"
     "                          so without what the first one allocates: see the table\n"
     "  repair_growth_3k_900k   that by the same at 3.5 thousand\n"
     "  asleep_us               a step of those 200 particles when all sleep, the pose as before\n"
-    "  vs_nanoflann            the first by nanoflann's time for its tree and clusters; null where it was not built\n";
+    "  vs_nanoflann            the first by nanoflann's time for its tree and clusters; null where "
+    "it was not built\n";
 
 constexpr double kMilliseconds = 1e3, kMicroseconds = 1e6, kNanoseconds = 1e9;
 
 void print_decomposition(const DecompositionFigures& figures) {
   const DecompositionReport& report = figures.report;
   const auto memberships = static_cast<double>(report.memberships);
-  std::printf("%-8s %8u %9u %12.2f %5u %8.2f %6.1f %6.0f   %8.2f %8zu", figures.name.c_str(), report.points, report.particles,
-              memberships / report.points, report.most_memberships, figures.seconds * kMilliseconds,
-              figures.seconds * kNanoseconds / memberships, figures.bytes / report.points, figures.scan.search * kMilliseconds,
+  std::printf("%-8s %8u %9u %12.2f %5u %8.2f %6.1f %6.0f   %8.2f %8zu", figures.name.c_str(),
+              report.points, report.particles, memberships / report.points, report.most_memberships,
+              figures.seconds * kMilliseconds, figures.seconds * kNanoseconds / memberships,
+              figures.bytes / report.points, figures.scan.search * kMilliseconds,
               figures.scan.clusters);
   if (figures.nanoflann) {
     const DecompositionFigures::Peer& peer = *figures.nanoflann;
-    std::printf("   %8.2f %8.2f %8zu %6.2f %8.2f\n", peer.build * kMilliseconds, peer.search * kMilliseconds, peer.clusters,
+    std::printf("   %8.2f %8.2f %8zu %6.2f %8.2f\n", peer.build * kMilliseconds,
+                peer.search * kMilliseconds, peer.clusters,
                 static_cast<double>(peer.memberships) / report.points, *figures.vs_nanoflann());
   } else {
     std::printf("   nanoflann is absent\n");
@@ -62,15 +76,18 @@ void print_decomposition(const DecompositionFigures& figures) {
 
 void print_decompositions() {
   std::printf(
-      "Decomposition, range %g of the diagonal. Ours: along the surface, with weights, neighbours and rest sums. Eigen, nanoflann: "
+      "Decomposition, range %g of the diagonal. Ours: along the surface, with weights, neighbours "
+      "and rest sums. Eigen, nanoflann: "
       "clusters in a straight line alone.\n",
       kRange);
   std::printf("%60s %25s   %41s\n", "", "Eigen's scan", "nanoflann");
   std::printf(
-      "model      points particles  memberships  most       ms     ns  bytes         ms clusters   build ms     find clusters  "
+      "model      points particles  memberships  most       ms     ns  bytes         ms clusters   "
+      "build ms     find clusters  "
       "memb. ours/its\n");
   for (const int divisions : kDivisions)
-    print_decomposition(measure_decomposition(size_name(divisions), scene_of(divisions).model(), scene_of(divisions).poses[0],
+    print_decomposition(measure_decomposition(size_name(divisions), scene_of(divisions).model(),
+                                              scene_of(divisions).poses[0],
                                               divisions == kSmallest  ? 51
                                               : divisions == kLargest ? 3
                                                                       : 9));
@@ -79,27 +96,35 @@ void print_decompositions() {
 }
 
 void print_repairs(double (*range)(int divisions)) {
-  std::printf("  points particles  members faces   follow us    first  settle us calls  longest  undo us  bytes a point\n");
+  std::printf(
+      "  points particles  members faces   follow us    first  settle us calls  longest  undo us  "
+      "bytes a point\n");
   std::vector<RepeatedRepair> repairs;
   std::vector<Candidate> candidates;
-  for (const int divisions : kDivisions) repairs.emplace_back(scene_of(divisions), range(divisions));
-  for (RepeatedRepair& repair : repairs) candidates.push_back({[&repair] { return repair.run(); }, {20, 1, 2}, 5, 1});
+  for (const int divisions : kDivisions)
+    repairs.emplace_back(scene_of(divisions), range(divisions));
+  for (RepeatedRepair& repair : repairs)
+    candidates.push_back({[&repair] { return repair.run(); }, {20, 1, 2}, 5, 1});
   measure_in_turns(candidates);
   for (const RepeatedRepair& repair : repairs) {
     const RepeatedRepair::Figures figures = repair.figures();
-    std::printf("%8u %9u %8.0f %5u %11.1f %8.1f %10.1f %5.0f %8.1f %8.1f %14.0f\n", figures.points, figures.particles,
-                figures.members, figures.faces_crossed, figures.follow * kMicroseconds, figures.first * kMicroseconds,
-                figures.settle * kMicroseconds, figures.settle_calls, figures.longest_settle_call * kMicroseconds,
-                figures.undo * kMicroseconds, figures.bytes / figures.points);
+    std::printf("%8u %9u %8.0f %5u %11.1f %8.1f %10.1f %5.0f %8.1f %8.1f %14.0f\n", figures.points,
+                figures.particles, figures.members, figures.faces_crossed,
+                figures.follow * kMicroseconds, figures.first * kMicroseconds,
+                figures.settle * kMicroseconds, figures.settle_calls,
+                figures.longest_settle_call * kMicroseconds, figures.undo * kMicroseconds,
+                figures.bytes / figures.points);
   }
   std::printf("\n");
   std::fflush(stdout);
 }
 
 void print_step(const StepFigures& figures) {
-  std::printf("%9u %8u %10.1f %9.1f %11.1f %9.1f %12.1f %9.3f %13.3f\n", figures.particles, figures.vertices, figures.neighbours,
-              figures.step * kMicroseconds, figures.displace * kMicroseconds, figures.frame * kMicroseconds,
-              figures.plain_deform * kMicroseconds, figures.asleep * kMicroseconds, figures.asleep_moving * kMicroseconds);
+  std::printf("%9u %8u %10.1f %9.1f %11.1f %9.1f %12.1f %9.3f %13.3f\n", figures.particles,
+              figures.vertices, figures.neighbours, figures.step * kMicroseconds,
+              figures.displace * kMicroseconds, figures.frame * kMicroseconds,
+              figures.plain_deform * kMicroseconds, figures.asleep * kMicroseconds,
+              figures.asleep_moving * kMicroseconds);
   std::fflush(stdout);
 }
 
@@ -110,20 +135,29 @@ void print_tables() {
   print_decompositions();
   std::printf("Repair after a tear, range %g of the diagonal at every size\n", kRange);
   print_repairs([](int) { return kRange; });
-  std::printf("Repair after a tear, range %g of the diagonal by the divisions: about as many members at every size\n", kRange);
+  std::printf(
+      "Repair after a tear, range %g of the diagonal by the divisions: about as many members at "
+      "every size\n",
+      kRange);
   print_repairs([](int divisions) { return kRange / divisions; });
-  std::printf("A step, dt = 1/60, us. Awake: every particle, pushed every tenth frame. 'displace': what that adds to skinning.\n");
-  std::printf("particles vertices neighbours      step    displace      both  plain skin.    asleep  asleep, moved\n");
-  for (const std::uint32_t particles : {100u, kStepped, 1000u}) print_step(measure_steps(kSteppedDivisions, particles, 300));
+  std::printf(
+      "A step, dt = 1/60, us. Awake: every particle, pushed every tenth frame. 'displace': what "
+      "that adds to skinning.\n");
+  std::printf(
+      "particles vertices neighbours      step    displace      both  plain skin.    asleep  "
+      "asleep, moved\n");
+  for (const std::uint32_t particles : {100u, kStepped, 1000u})
+    print_step(measure_steps(kSteppedDivisions, particles, 300));
   print_step(measure_steps(7, 10000, 60));
 }
 
 void print_summary() {
-  const DecompositionFigures bunny =
-      measure_decomposition(size_name(kSmallest), scene_of(kSmallest).model(), scene_of(kSmallest).poses[0], 301);
+  const DecompositionFigures bunny = measure_decomposition(
+      size_name(kSmallest), scene_of(kSmallest).model(), scene_of(kSmallest).poses[0], 301);
   RepeatedRepair small(scene_of(kSmallest), kRange), large(scene_of(kLargest), kRange);
   std::vector<Candidate> repairs;
-  for (RepeatedRepair* repair : {&small, &large}) repairs.push_back({[repair] { return repair->run(); }, {20, 1, 2}, 5, 1});
+  for (RepeatedRepair* repair : {&small, &large})
+    repairs.push_back({[repair] { return repair->run(); }, {20, 1, 2}, 5, 1});
   measure_in_turns(repairs);
   const double small_follow = median(repairs[0].seconds), large_follow = median(repairs[1].seconds);
   const StepFigures steps = measure_steps(kSteppedDivisions, kStepped, 600);

@@ -1,4 +1,5 @@
-// What it costs to pose a character: ours, naive Eigen and the touching of as many bytes, in turns; what moved and what did not.
+// Measures posing a character: ours, naive Eigen and touching as many bytes, in turns; with all
+// bones moving and with few.
 
 #include <algorithm>
 #include <cstdio>
@@ -18,28 +19,38 @@ namespace {
 constexpr const char* kHelp =
     "bench_skinning [--summary]\n"
     "\n"
-    "Poses the bunny, its faces divided 1, 3, 7 and 16 times an edge, on 64 bones with up to four smooth influences a vertex: "
+    "Poses the bunny, its faces divided 1, 3, 7 and 16 times an edge, on 64 bones with up to four "
+    "smooth influences a vertex: "
     "positions\n"
-    "and normals, nanoseconds a vertex, medians, candidates in turns. 'ordered': vertices in order_for_skinning(), for every "
+    "and normals, nanoseconds a vertex, medians, candidates in turns. 'ordered': vertices in "
+    "order_for_skinning(), for every "
     "candidate;\n"
-    "'file': in the file's order, which scatters them over the bones. 'warm': one character again and again; 'crowd': so many in "
+    "'file': in the file's order, which scatters them over the bones. 'warm': one character again "
+    "and again; 'crowd': so many in "
     "turn\n"
-    "that none is left in a cache. Eigen and the touching of bytes are compiled for this machine alone, ours for any.\n"
+    "that none is left in a cache. Eigen and the touching of bytes are compiled for this machine "
+    "alone, ours for any.\n"
     "\n"
     "--summary prints one JSON object, of ordered vertices.\n"
-    "  vs_eigen_in_cache    naive Eigen's time by ours, warm, at the size up to 35 thousand vertices where it is less\n"
+    "  vs_eigen_in_cache    naive Eigen's time by ours, warm, at the size up to 35 thousand "
+    "vertices where it is less\n"
     "  vs_eigen_900k        the same at 892 thousand vertices\n"
-    "  vs_touch_900k        our time by that of touching the bytes that we read and write, the faster of plain stores and stores\n"
-    "                       around the caches, each with and without asking for memory early; at 892 thousand vertices\n"
+    "  vs_touch_900k        our time by that of touching the bytes that we read and write, the "
+    "faster of plain stores and stores\n"
+    "                       around the caches, each with and without asking for memory early; at "
+    "892 thousand vertices\n"
     "  vs_touch             the same by size\n"
-    "  two_threads          time on one thread by that on two, by the sample's thread pool, at the size from 31 thousand vertices "
+    "  two_threads          time on one thread by that on two, by the sample's thread pool, at the "
+    "size from 31 thousand vertices "
     "on\n"
     "                       where it is least\n"
     "  two_threads_3k       the same at 3.5 thousand\n"
-    "  one_bone_overhead    a frame in which one of 64 bones moved: the mean part of a full frame's time that it takes, less the "
+    "  one_bone_overhead    a frame in which one of 64 bones moved: the mean part of a full "
+    "frame's time that it takes, less the "
     "part\n"
     "                       of the vertices that the bone moves; at the size where it is most\n"
-    "  idle_us              set() and deform() of a pose that did not change, at the size where they take longest\n"
+    "  idle_us              set() and deform() of a pose that did not change, at the size where "
+    "they take longest\n"
     "  max_error_vs_double  metres, of a character 2 m across, at any size\n";
 
 constexpr std::array<int, 4> kDivisions = {1, 3, 7, 16};
@@ -51,14 +62,16 @@ struct Candidate {
   std::vector<double> ns_per_vertex = {};
 };
 
-/// Each in turns; a turn is as many frames as take some two milliseconds or more, after two that do not count.
+/// Each in turns; a turn is as many frames as take some two milliseconds or more, after two that do
+/// not count.
 void measure(std::vector<Candidate>& candidates, double vertices, int turns) {
   const int frames = std::max(6, static_cast<int>(2e6 / vertices));
   for (int turn = 0; turn < turns; ++turn)
     for (Candidate& candidate : candidates) {
       for (const std::size_t pose : {0, 1}) candidate.run(pose);
       const double seconds = seconds_of([&] {
-        for (int i = 0; i < frames; ++i) candidate.run(static_cast<std::size_t>(i) % SkinningScene::kPoses);
+        for (int i = 0; i < frames; ++i)
+          candidate.run(static_cast<std::size_t>(i) % SkinningScene::kPoses);
       });
       candidate.ns_per_vertex.push_back(1e9 * seconds / frames / vertices);
     }
@@ -75,7 +88,8 @@ double least_time_of(const std::vector<Candidate>& candidates, const char* begin
   double least = 0;
   for (const Candidate& candidate : candidates)
     if (std::strncmp(candidate.name, begin, std::strlen(begin)) == 0)
-      least = least == 0 ? median(candidate.ns_per_vertex) : std::min(least, median(candidate.ns_per_vertex));
+      least = least == 0 ? median(candidate.ns_per_vertex)
+                         : std::min(least, median(candidate.ns_per_vertex));
   return least;
 }
 
@@ -83,8 +97,9 @@ void add_touching(std::vector<Candidate>& candidates, std::deque<CrowdMember>& c
   const auto add = [&](const char* name, Stores stores, std::size_t ahead) {
     candidates.push_back({name, [&crowd, stores, ahead](std::size_t) {
                             for (CrowdMember& member : crowd)
-                              touch(member.in.data(), member.mesh.stream_bytes() / sizeof(float), member.positions.data(),
-                                    member.normals.data(), 3 * member.vertices, stores, ahead);
+                              touch(member.in.data(), member.mesh.stream_bytes() / sizeof(float),
+                                    member.positions.data(), member.normals.data(),
+                                    3 * member.vertices, stores, ahead);
                           }});
   };
   add("touch", Stores::plain, 0);
@@ -94,7 +109,8 @@ void add_touching(std::vector<Candidate>& candidates, std::deque<CrowdMember>& c
 }
 
 /// The same by two threads, each part of the bytes at a time.
-void add_touching_by(samples::ThreadPool& pool, std::vector<Candidate>& candidates, std::deque<CrowdMember>& crowd) {
+void add_touching_by(samples::ThreadPool& pool, std::vector<Candidate>& candidates,
+                     std::deque<CrowdMember>& crowd) {
   static constexpr std::uint32_t kParts = 8;
   struct Work {
     const CrowdMember* member;
@@ -102,19 +118,22 @@ void add_touching_by(samples::ThreadPool& pool, std::vector<Candidate>& candidat
     static void part(const void* work, std::uint32_t index) {
       const auto& [member, how] = *static_cast<const Work*>(work);
       const auto cut = [index](std::size_t floats) { return floats / kParts / 16 * 16 * index; };
-      const std::size_t in = member->mesh.stream_bytes() / sizeof(float), out = 3 * std::size_t{member->vertices};
-      touch(member->in.data() + cut(in), in / kParts, member->positions.data() + cut(out), member->normals.data() + cut(out),
-            out / kParts, how, 8192);
+      const std::size_t in = member->mesh.stream_bytes() / sizeof(float),
+                        out = 3 * std::size_t{member->vertices};
+      touch(member->in.data() + cut(in), in / kParts, member->positions.data() + cut(out),
+            member->normals.data() + cut(out), out / kParts, how, 8192);
     }
   };
   for (const Stores stores : {Stores::plain, Stores::around_caches})
-    candidates.push_back({stores == Stores::plain ? "by two: touch" : "by two: touch, around caches", [&, stores](std::size_t) {
-                            for (const CrowdMember& member : crowd) {
-                              const Work work = {&member, stores};
-                              const ParallelFor hook = pool.hook();
-                              hook.run(hook.context, kParts, &Work::part, &work);
-                            }
-                          }});
+    candidates.push_back(
+        {stores == Stores::plain ? "by two: touch" : "by two: touch, around caches",
+         [&, stores](std::size_t) {
+           for (const CrowdMember& member : crowd) {
+             const Work work = {&member, stores};
+             const ParallelFor hook = pool.hook();
+             hook.run(hook.context, kParts, &Work::part, &work);
+           }
+         }});
 }
 
 struct Times {
@@ -128,19 +147,23 @@ Times measure_crowd(const SkinningScene& scene, std::deque<CrowdMember>& crowd, 
                           for (CrowdMember& member : crowd) member.pose_by_eigen(scene, pose);
                         }});
   candidates.push_back({"ours", [&](std::size_t pose) {
-                          for (CrowdMember& member : crowd) member.pose_by_ours(pose, member.buffer);
+                          for (CrowdMember& member : crowd)
+                            member.pose_by_ours(pose, member.buffer);
                         }});
   candidates.push_back({"two threads", [&](std::size_t pose) {
-                          for (CrowdMember& member : crowd) member.pose_by_ours(pose, member.buffer, pool.hook());
+                          for (CrowdMember& member : crowd)
+                            member.pose_by_ours(pose, member.buffer, pool.hook());
                         }});
   add_touching(candidates, crowd);
   add_touching_by(pool, candidates, crowd);
-  measure(candidates, static_cast<double>(scene.vertex_count()) * static_cast<double>(crowd.size()), turns);
-  return {time_of(candidates, "eigen"), time_of(candidates, "ours"), time_of(candidates, "two threads"),
-          least_time_of(candidates, "touch"), least_time_of(candidates, "by two")};
+  measure(candidates, static_cast<double>(scene.vertex_count()) * static_cast<double>(crowd.size()),
+          turns);
+  return {time_of(candidates, "eigen"), time_of(candidates, "ours"),
+          time_of(candidates, "two threads"), least_time_of(candidates, "touch"),
+          least_time_of(candidates, "by two")};
 }
 
-/// What a frame costs in which little or nothing moved.
+/// Measures a frame in which little or nothing moved.
 struct Frames {
   double full_us = 0, set_us = 0, idle_us = 0;
   double one_bone_share = 0;  ///< Mean part of a full frame.
@@ -155,7 +178,9 @@ Frames measure_frames(const SkinningScene& scene, CrowdMember& member) {
   std::vector<double> shares(slots);
   for (const Influence& influence : scene.mesh().weights.influences)
     if (influence.weight > 0.0f) shares[influence.slot] += 1.0 / scene.vertex_count();
-  const auto frame = [&] { return seconds_of([&] { (void)member.mesh.deform(palette, member.buffer); }); };
+  const auto frame = [&] {
+    return seconds_of([&] { (void)member.mesh.deform(palette, member.buffer); });
+  };
   for (int i = 0; i < 40; ++i) {
     const ModelPose& pose = scene.poses[static_cast<std::size_t>(i) % SkinningScene::kPoses];
     seconds[1].push_back(seconds_of([&] { (void)palette.set(skin, pose); }));
@@ -194,7 +219,8 @@ std::vector<std::pair<const char*, double>> measure_variants(const SkinningScene
   PosedBuffer strided({count, {interleaved, 24}, {interleaved + 3, 24}, {}});
   std::vector<Candidate> candidates;
   const auto add = [&](const char* name, CrowdMember& of, PosedBuffer& buffer) {
-    candidates.push_back({name, [&of, &buffer](std::size_t pose) { of.pose_by_ours(pose, buffer); }});
+    candidates.push_back(
+        {name, [&of, &buffer](std::size_t pose) { of.pose_by_ours(pose, buffer); }});
   };
   add("positions", member, positions);
   add("positions, unit normals", member, unit);
@@ -202,7 +228,8 @@ std::vector<std::pair<const char*, double>> measure_variants(const SkinningScene
   add("the same by dual quaternions", twisting, twisting.buffer);
   measure(candidates, count, 15);
   std::vector<std::pair<const char*, double>> result;
-  for (const Candidate& candidate : candidates) result.emplace_back(candidate.name, median(candidate.ns_per_vertex));
+  for (const Candidate& candidate : candidates)
+    result.emplace_back(candidate.name, median(candidate.ns_per_vertex));
   return result;
 }
 
@@ -238,15 +265,18 @@ SizeFigures measure_size(const SkinningScene& scene, std::deque<CrowdMember>& al
 }
 
 void print_row(std::uint32_t vertices, const char* what, const Times& times) {
-  std::printf("%8u  %-14s %6.2f %6.2f %6.2f   %10.2f %10.2f   %11.2f %5.2f\n", vertices, what, times.eigen, times.ours, times.touch,
-              times.eigen / times.ours, times.ours / times.touch, times.ours / times.two_threads,
+  std::printf("%8u  %-14s %6.2f %6.2f %6.2f   %10.2f %10.2f   %11.2f %5.2f\n", vertices, what,
+              times.eigen, times.ours, times.touch, times.eigen / times.ours,
+              times.ours / times.touch, times.ours / times.two_threads,
               times.touch / times.touch_two_threads);
   std::fflush(stdout);
 }
 
 void print_tables() {
   std::printf("ns a vertex: positions and normals, 64 bones, up to 4 influences\n");
-  std::printf("vertices                  Eigen   ours  touch   Eigen/ours ours/touch   two threads touch\n");
+  std::printf(
+      "vertices                  Eigen   ours  touch   Eigen/ours ours/touch   two threads "
+      "touch\n");
   for (const int divisions : kDivisions)
     for (const bool ordered : {true, false}) {
       const SkinningScene scene(divisions, ordered);
@@ -256,16 +286,21 @@ void print_tables() {
       print_row(scene.vertex_count(), ordered ? "ordered, warm" : "file, warm", figures.warm);
       alone.clear();
       std::deque<CrowdMember> crowd = make_crowd(scene);
-      print_row(scene.vertex_count(), ordered ? "ordered, crowd" : "file, crowd", measure_crowd(scene, crowd, 9));
+      print_row(scene.vertex_count(), ordered ? "ordered, crowd" : "file, crowd",
+                measure_crowd(scene, crowd, 9));
       crowd.clear();
       const Frames& frames = figures.frames;
       std::printf(
-          "          a frame %.2f us, set() %.2f us, unchanged %.3f us; one bone moves %.4f of the vertices, takes %.4f of a "
+          "          a frame %.2f us, set() %.2f us, unchanged %.3f us; one bone moves %.4f of the "
+          "vertices, takes %.4f of a "
           "frame\n",
           frames.full_us, frames.set_us, frames.idle_us, frames.moved_share, frames.one_bone_share);
-      std::printf("          maximum error of 2 m: ours %.2g m, normals %.2g; Eigen %.2g m, normals %.2g\n", figures.error.position,
-                  figures.error.normal, figures.eigen_error.position, figures.eigen_error.normal);
-      for (const auto& [name, time] : measure_variants(scene)) std::printf("          %-34s %6.2f\n", name, time);
+      std::printf(
+          "          maximum error of 2 m: ours %.2g m, normals %.2g; Eigen %.2g m, normals %.2g\n",
+          figures.error.position, figures.error.normal, figures.eigen_error.position,
+          figures.eigen_error.normal);
+      for (const auto& [name, time] : measure_variants(scene))
+        std::printf("          %-34s %6.2f\n", name, time);
     }
 }
 
@@ -279,7 +314,9 @@ void print_summary() {
   }
   const auto vs_touch = [](const SizeFigures& size) { return size.warm.ours / size.warm.touch; };
   const auto vs_eigen = [](const SizeFigures& size) { return size.warm.eigen / size.warm.ours; };
-  const auto threads = [](const SizeFigures& size) { return size.warm.ours / size.warm.two_threads; };
+  const auto threads = [](const SizeFigures& size) {
+    return size.warm.ours / size.warm.two_threads;
+  };
   double one_bone = -1, idle = 0, error = 0;
   std::vector<std::pair<std::string, double>> touch_by_size;
   for (const SizeFigures& size : sizes) {

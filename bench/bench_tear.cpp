@@ -1,5 +1,6 @@
-// What tears cost: the same stroke across about a hundred faces of one surface of 3.5 thousand to 0.9 million points, beside what
-// the memory alone would cost, and beside CGAL and VTK where they are. Each time is the median of many runs; see tear_scene.h.
+// Measures tears: the same stroke across about a hundred faces of one surface of 3.5 thousand to
+// 0.9 million points, compared with touching the memory alone, and with CGAL and VTK if they are
+// installed. Each time is the median of many runs; see tear_scene.h.
 #include <cstdio>
 #include <cstring>
 
@@ -25,7 +26,9 @@ namespace {
 
 constexpr Effort kUsual = {300, 4, 5}, kHeavy = {20, 4, 2};
 
-const Scene& scene_in(const benchmark::State& state) { return scene_of(static_cast<int>(state.range(0))); }
+const Scene& scene_in(const benchmark::State& state) {
+  return scene_of(static_cast<int>(state.range(0)));
+}
 
 /// Reports the median of what `run` returns, in seconds.
 template <class Run>
@@ -48,11 +51,15 @@ void operate(benchmark::State& state, Caches caches, const Effort& effort) {
 }
 
 void tear_warm(benchmark::State& state) { operate<tear_along_stroke>(state, Caches::warm, kUsual); }
-void tear_cold(benchmark::State& state) { operate<tear_along_stroke>(state, Caches::swept, kUsual); }
+void tear_cold(benchmark::State& state) {
+  operate<tear_along_stroke>(state, Caches::swept, kUsual);
+}
 void width_warm(benchmark::State& state) { operate<tear_with_width>(state, Caches::warm, kUsual); }
 void drill_warm(benchmark::State& state) { operate<drill_through>(state, Caches::warm, kHeavy); }
 void cut_whole(benchmark::State& state) { operate<cut_in_two>(state, Caches::warm, kHeavy); }
-void cut_whole_with_caps(benchmark::State& state) { operate<cut_with_caps>(state, Caches::warm, kHeavy); }
+void cut_whole_with_caps(benchmark::State& state) {
+  operate<cut_with_caps>(state, Caches::warm, kHeavy);
+}
 
 void undo(benchmark::State& state) {
   RepeatedOperation tear(scene_in(state), tear_along_stroke);
@@ -64,7 +71,8 @@ void redo(benchmark::State& state) {
   report_median(state, kUsual, [&] { return tear.run_undo_and_redo().redo; });
 }
 
-/// Where a warm tear's time goes, by the same steps on a surface of its own; what these do not explain is the rest. Both in turns.
+/// Divides the time of a warm tear among its steps, measured on a surface of their own; the
+/// remainder is reported too. Both in turns.
 void tear_in_stages(benchmark::State& state) {
   RepeatedOperation tear(scene_in(state), tear_along_stroke);
   StagedTear staged(scene_in(state));
@@ -90,7 +98,8 @@ void tear_in_stages(benchmark::State& state) {
   state.counters["us_rest"] = median(whole) * 1e6 - explained_us;
 }
 
-/// Where a stroke enters the surface, in a fresh pose; the pose alone beside it.
+/// Measures finding where a stroke enters the surface in a fresh pose, compared with the pose
+/// alone.
 void entry_query(benchmark::State& state) {
   StagedTear staged(scene_in(state));
   std::vector<double> pose_us;
@@ -116,7 +125,8 @@ void create_and_first_tear(benchmark::State& state) {
   });
   state.counters["us_create"] = median(create) * 1e6;
   state.counters["us_first_tear"] = median(first) * 1e6;
-  state.counters["build_ns_per_face"] = (median(create) + median(first) - warm) * 1e9 / scene_in(state).mesh().triangle_count();
+  state.counters["build_ns_per_face"] =
+      (median(create) + median(first) - warm) * 1e9 / scene_in(state).mesh().triangle_count();
 }
 
 void long_stroke(benchmark::State& state) {
@@ -151,8 +161,10 @@ void touch_cold(benchmark::State& state) { touch_memory<Caches::swept>(state); }
 /// Baseline: poses every vertex once, in double, as a tool that works on the whole model must.
 void pose_whole_model(benchmark::State& state) {
   const Scene& scene = scene_in(state);
-  report_median(state, kHeavy,
-                [&] { return seconds_of([&] { benchmark::DoNotOptimize(posed_positions(scene, scene.next_pose()).data()); }); });
+  report_median(state, kHeavy, [&] {
+    return seconds_of(
+        [&] { benchmark::DoNotOptimize(posed_positions(scene, scene.next_pose()).data()); });
+  });
 }
 
 void at_four_sizes(benchmark::internal::Benchmark* benchmark) {
@@ -216,7 +228,8 @@ int main(int argc, char** argv) {
   }
   benchmark::Initialize(&argc, argv, print_help);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) {
-    std::fprintf(stderr, "bench_tear takes --summary alone, or options of Google Benchmark; see --help\n");
+    std::fprintf(stderr,
+                 "bench_tear takes --summary alone, or options of Google Benchmark; see --help\n");
     return 2;
   }
   benchmark::RunSpecifiedBenchmarks();

@@ -116,7 +116,7 @@ double ExhaustiveRefit::least_mean_square(std::size_t maximum, const Vec3d& star
     for (std::size_t i = 0; i < slots_.size(); ++i)
       if ((bits >> i & 1u) != 0) support.bones[support.count++] = i;
     std::vector<Eigen::Vector3d> starts = {Eigen::Vector3d::Zero(), Eigen::Vector3d(start) - position_};
-    // Where each bone, with most of the weight, would have it; and all with the same.
+    // The place that each bone would give it with most of the weight, and that of equal weights.
     for (std::size_t heavy = 0; heavy <= support.count; ++heavy) {
       double weights[8];
       for (std::size_t i = 0; i < support.count; ++i)

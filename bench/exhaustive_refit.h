@@ -19,7 +19,8 @@ class ExhaustiveRefit {
 
   [[nodiscard]] std::size_t bone_count() const { return slots_.size(); }
   [[nodiscard]] double mean_square(std::span<const Influence> influences, const Vec3d& position) const;
-  /// Of all supports of at most `maximum` bones, at most 8. @param start  a bind position to begin from, beside others.
+  /// Tries all supports of at most `maximum` bones, at most 8.
+/// @param start  a bind position to begin from, in addition to others.
   [[nodiscard]] double least_mean_square(std::size_t maximum, const Vec3d& start) const;
 
  private:

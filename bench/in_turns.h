@@ -10,7 +10,7 @@ namespace sunder::bench {
 /// Something measured in turns with others.
 struct Candidate {
   std::function<double()> run;  ///< Returns seconds.
-  Effort effort;                ///< Of one turn.
+  Effort effort;                ///< Seconds of one turn.
   int turns = 10;               ///< It takes part in.
   int warm_up = 3;              ///< Runs before each turn that do not count.
   std::vector<double> seconds = {};

@@ -17,20 +17,24 @@ double seconds_of(Work&& work) {
 
 [[nodiscard]] double median(std::vector<double> values);
 
-/// How often something is measured: `runs` times, or fewer where that takes longer than `seconds`, but `least_runs` at least.
+/// How often something is measured: `runs` times, or fewer where that takes longer than `seconds`,
+/// but `least_runs` at least.
 struct Effort {
   int runs = 300;
   double seconds = 10;
   int least_runs = 3;
 };
 
-/// What `run` returns, once a run.
+/// The values that `run` returns, one per run.
 template <class Run>
 std::vector<double> sample(const Effort& effort, Run run) {
   std::vector<double> samples;
   const auto begin = std::chrono::steady_clock::now();
-  const auto elapsed = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(); };
-  for (int i = 0; i < effort.runs && (i < effort.least_runs || elapsed() < effort.seconds); ++i) samples.push_back(run());
+  const auto elapsed = [&] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  };
+  for (int i = 0; i < effort.runs && (i < effort.least_runs || elapsed() < effort.seconds); ++i)
+    samples.push_back(run());
   return samples;
 }
 

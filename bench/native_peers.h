@@ -5,20 +5,24 @@
 
 namespace sunder::bench {
 
-// What ours is measured beside, compiled for the machine at hand (-O3 -march=native) into a library that shows nothing but these.
+// Baselines for our own code, compiled for this machine (-O3 -march=native) into a library that
+// exports nothing else.
 
-/// Naive skinning in Eigen: a 3 x 4 matrix blended from four influences, applied to a position and a normal, packed arrays.
+/// Naive skinning in Eigen: a 3 x 4 matrix blended from four influences, applied to a position and
+/// a normal, packed arrays.
 /// @param matrices  12 a slot, column after column.
-[[gnu::visibility("default")]] void skin_by_eigen(std::size_t vertices, const float* positions, const float* normals,
-                                                  const std::uint16_t* slots, const float* weights, const float* matrices,
+[[gnu::visibility("default")]] void skin_by_eigen(std::size_t vertices, const float* positions,
+                                                  const float* normals, const std::uint16_t* slots,
+                                                  const float* weights, const float* matrices,
                                                   float* posed_positions, float* posed_normals);
 
 enum class Stores { plain, around_caches };
 
-/// Reads every vector of `in` and writes every vector of two arrays: the least that any program needs for as many bytes. Arrays
-/// begin at cache lines; rests of less than a line are left out.
+/// Reads every vector of `in` and writes every vector of two arrays: the least that any program
+/// needs for as many bytes. Arrays begin at cache lines; rests of less than a line are left out.
 /// @param ahead  bytes that it asks for in advance; 0: it leaves that to the machine.
-[[gnu::visibility("default")]] void touch(const float* in, std::size_t in_floats, float* out_a, float* out_b,
-                                          std::size_t out_floats, Stores stores, std::size_t ahead);
+[[gnu::visibility("default")]] void touch(const float* in, std::size_t in_floats, float* out_a,
+                                          float* out_b, std::size_t out_floats, Stores stores,
+                                          std::size_t ahead);
 
 }  // namespace sunder::bench

@@ -35,7 +35,8 @@ void count(const RadiusClusters& clusters, DecompositionFigures::Peer& peer) {
 
 }  // namespace
 
-std::unique_ptr<ParticleSet> decompose(const TornModel& model, const ModelPose& pose, double range) {
+std::unique_ptr<ParticleSet> decompose(const TornModel& model, const ModelPose& pose,
+                                       double range) {
   DecompositionOptions options;
   options.range = range;
   auto set = ParticleSet::create(model, pose, options);
@@ -50,7 +51,8 @@ std::optional<double> DecompositionFigures::vs_nanoflann() const {
   return nanoflann ? std::optional(seconds / (nanoflann->build + nanoflann->search)) : std::nullopt;
 }
 
-DecompositionFigures measure_decomposition(const std::string& name, const TornModel& model, const ModelPose& pose, int runs) {
+DecompositionFigures measure_decomposition(const std::string& name, const TornModel& model,
+                                           const ModelPose& pose, int runs) {
   DecompositionFigures figures;
   figures.name = name;
   const std::uint64_t before = bytes_in_use();

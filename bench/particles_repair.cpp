@@ -34,7 +34,9 @@ RepeatedRepair::RepeatedRepair(const Scene& scene, double range) : scene_(scene)
 }
 
 double RepeatedRepair::run() {
-  const auto follow = [&] { return seconds_of([&] { require(set_->follow(scene_.model(), {&change_, 1})); }); };
+  const auto follow = [&] {
+    return seconds_of([&] { require(set_->follow(scene_.model(), {&change_, 1})); });
+  };
   const auto report = scene_.model().tear(scene_.next_pose(), scene_.stroke, {}, &change_);
   require(report);
   figures_.faces_crossed = report->faces_crossed;

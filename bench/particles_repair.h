@@ -9,25 +9,26 @@
 
 namespace sunder::bench {
 
-/// Particles follow a tear across about a hundred faces, what it left is settled, the tear is taken back and particles follow that;
-/// again and again on the scene's model, each time in another pose.
+/// Repeats on the scene's model, each time in another pose: particles follow a tear across about a
+/// hundred faces, settle what it left, and follow its undo.
 class RepeatedRepair {
  public:
-  /// @param range  of a particle, as a part of the diagonal.
+  /// @param range  of a particle, as a fraction of the diagonal.
   RepeatedRepair(const Scene& scene, double range);
 
-  /// @return the seconds of ParticleSet::follow() after the tear; the model's own work is not in them.
+  /// @return the seconds of ParticleSet::follow() after the tear; without the model's own work.
   double run();
 
   struct Figures {
     std::uint32_t points = 0, particles = 0, faces_crossed = 0;
-    double members = 0;                                ///< Of a particle, on average.
-    double bytes = 0;                                  ///< That the set holds after tears.
-    double follow = 0, settle = 0, undo = 0;           ///< Medians, seconds; `settle` is all calls after one tear.
-    double first = 0;                                  ///< follow() of the set's first tear, seconds.
+    double members = 0;  ///< Mean per particle.
+    double bytes = 0;    ///< Held by the set after tears.
+    double follow = 0, settle = 0,
+           undo = 0;   ///< Medians, seconds; `settle` is all calls after one tear.
+    double first = 0;  ///< follow() of the set's first tear, seconds.
     double settle_calls = 0, longest_settle_call = 0;  ///< Medians; the call in seconds.
   };
-  /// Of all runs since the first, which warms up.
+  /// Figures of all runs after the first, which warms up.
   [[nodiscard]] Figures figures() const;
 
  private:

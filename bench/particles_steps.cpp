@@ -24,7 +24,8 @@ constexpr int kFramesAPush = 10;
 
 void require(const Status& status) {
   if (status) return;
-  std::fprintf(stderr, "a soft body could not be stepped: %s\n", std::string(status.text()).c_str());
+  std::fprintf(stderr, "a soft body could not be stepped: %s\n",
+               std::string(status.text()).c_str());
   std::exit(1);
 }
 
@@ -59,15 +60,22 @@ class Frame {
     double displaced = 0, plain = 0;
   };
   /// The two one after the other; which is first alternates.
-  Seconds run(const TornModel& model, const ModelPose& pose, const ParticleSet& set, SoftBody& body) {
+  Seconds run(const TornModel& model, const ModelPose& pose, const ParticleSet& set,
+              SoftBody& body) {
     require(palette_.set(skin_, pose));
     Seconds seconds;
     is_plain_first_ = !is_plain_first_;
-    const auto plain = [&] { seconds.plain = seconds_of([&] { require(mesh_.deform(palette_, plain_.buffer)); }); };
+    const auto plain = [&] {
+      seconds.plain = seconds_of([&] { require(mesh_.deform(palette_, plain_.buffer)); });
+    };
     if (is_plain_first_) plain();
     seconds.displaced = seconds_of([&] {
-      const VertexDisplacements displacements = {
-          set.vertex_points(0), set.influences(), body.displacements(), body.moved_vertices(model, 0), {}, {}};
+      const VertexDisplacements displacements = {set.vertex_points(0),
+                                                 set.influences(),
+                                                 body.displacements(),
+                                                 body.moved_vertices(model, 0),
+                                                 {},
+                                                 {}};
       require(mesh_.deform(palette_, displaced_.buffer, {}, &displacements));
     });
     if (!is_plain_first_) plain();
@@ -77,7 +85,9 @@ class Frame {
  private:
   struct Arrays {
     explicit Arrays(std::uint32_t vertices)
-        : positions(vertices), normals(vertices), buffer({vertices, {positions[0].data()}, {normals[0].data()}, {}}) {}
+        : positions(vertices),
+          normals(vertices),
+          buffer({vertices, {positions[0].data()}, {normals[0].data()}, {}}) {}
     std::vector<Vec3f> positions, normals;
     PosedBuffer buffer;
   };
@@ -96,10 +106,12 @@ std::uint32_t count(std::span<const IndexRange> ranges) {
 }
 
 /// Pushes every particle some other way, as far as a part of its range.
-void push(const ParticleSet& set, const SoftMaterial& material, test::Random& random, SoftBody& body) {
+void push(const ParticleSet& set, const SoftMaterial& material, test::Random& random,
+          SoftBody& body) {
   const double speed = 0.2 * std::sqrt(material.return_stiffness);  // times the range
   for (std::uint32_t particle = 0; particle < set.particle_count(); ++particle)
-    require(body.add_impulse(particle, material.mass * speed * set.range(particle) * random.direction()));
+    require(body.add_impulse(particle,
+                             material.mass * speed * set.range(particle) * random.direction()));
 }
 
 }  // namespace
@@ -129,8 +141,8 @@ StepFigures measure_steps(int divisions, std::uint32_t particles, int frames) {
     const Frame::Seconds seconds = frame.run(model, pose, *set, body);
     const std::uint32_t moved = count(body.moved_vertices(model, 0));
     if (body.awake_count() != figures.particles || moved != figures.vertices) {
-      std::fprintf(stderr, "%u of %u particles are awake, and %u of %u vertices displaced\n", body.awake_count(), figures.particles,
-                   moved, figures.vertices);
+      std::fprintf(stderr, "%u of %u particles are awake, and %u of %u vertices displaced\n",
+                   body.awake_count(), figures.particles, moved, figures.vertices);
       std::exit(1);
     }
     if (i < 0) continue;
@@ -147,7 +159,8 @@ StepFigures measure_steps(int divisions, std::uint32_t particles, int frames) {
   const ModelPose& last = scene.next_pose();
   for (int i = 0; i < 3600 && body.awake_count() > 0; ++i) require(body.step(model, last, kStep));
   if (body.awake_count() > 0) {
-    std::fprintf(stderr, "%u of %u particles do not fall asleep\n", body.awake_count(), figures.particles);
+    std::fprintf(stderr, "%u of %u particles do not fall asleep\n", body.awake_count(),
+                 figures.particles);
     std::exit(1);
   }
   constexpr int kBatch = 1000;
@@ -155,7 +168,8 @@ StepFigures measure_steps(int divisions, std::uint32_t particles, int frames) {
     return median(sample({20, 1},
                          [&] {
                            return seconds_of([&] {
-                             for (int i = 0; i < kBatch; ++i) require(body.step(model, pose(), kStep));
+                             for (int i = 0; i < kBatch; ++i)
+                               require(body.step(model, pose(), kStep));
                            });
                          })) /
            kBatch;

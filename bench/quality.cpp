@@ -1,4 +1,5 @@
-// What a thousand random tears do to the faces of a model: their number, and their smallest angles in bind space. Prints one JSON
+// Measures the faces of a model after a thousand random tears: their number, and their smallest
+// angles in bind space. Prints one JSON
 // object a run: tears without width, then tears of which every other has one.
 //
 // bench_quality [model file]

@@ -8,11 +8,12 @@
 
 namespace sunder::bench {
 
-/// Clusters of points by distance in a straight line, which overlap: the first point that is in none becomes a centre, and all
-/// within the radius are its cluster.
+/// Clusters of points by distance in a straight line, which overlap: the first point that is in
+/// none becomes a centre, and all within the radius are its cluster.
 struct RadiusClusters {
   std::vector<std::uint32_t> centres;
-  std::vector<std::uint32_t> first;    ///< Of each cluster in `members`, and their number at the end.
+  std::vector<std::uint32_t>
+      first;  ///< Per cluster its first entry in `members`, and at the end their number.
   std::vector<std::uint32_t> members;  ///< In any order.
 };
 
@@ -26,7 +27,8 @@ RadiusClusters cluster_by_radius(std::size_t points, Search&& search) {
     clusters.centres.push_back(point);
     clusters.first.push_back(static_cast<std::uint32_t>(clusters.members.size()));
     search(point, clusters.members);
-    for (std::size_t i = clusters.first.back(); i < clusters.members.size(); ++i) is_covered[clusters.members[i]] = true;
+    for (std::size_t i = clusters.first.back(); i < clusters.members.size(); ++i)
+      is_covered[clusters.members[i]] = true;
   }
   clusters.first.push_back(static_cast<std::uint32_t>(clusters.members.size()));
   return clusters;

@@ -22,9 +22,11 @@ class LineFloats {
   std::unique_ptr<float, Free> data_;
 };
 
-/// The subdivided bunny on 64 bones, up to four influences a vertex, and poses in which every bone moved.
+/// The subdivided bunny on 64 bones, up to four influences per vertex, and poses in which every
+/// bone moved.
 struct SkinningScene {
-  /// @param ordered  whether its vertices are in order_for_skinning(); otherwise as the file has them.
+  /// @param ordered  whether its vertices are in order_for_skinning(); otherwise as the file has
+  /// them.
   SkinningScene(int divisions, bool ordered);
 
   [[nodiscard]] const Mesh& mesh() const { return character.meshes[0]; }
@@ -58,6 +60,7 @@ struct CrowdMember {
 struct SkinningError {
   double position = 0, normal = 0;
 };
-[[nodiscard]] SkinningError error_of(const SkinningScene& scene, std::size_t pose, const float* positions, const float* normals);
+[[nodiscard]] SkinningError error_of(const SkinningScene& scene, std::size_t pose,
+                                     const float* positions, const float* normals);
 
 }  // namespace sunder::bench

@@ -5,6 +5,7 @@
 #include "bench/measure.h"
 #include "tear/path/entry.h"
 #include "tear/path/imprint.h"
+#include "tear/path/imprint_point.h"
 #include "tear/surface/improve.h"
 #include "tear/surface/mesh_vertices.h"
 #include "tear/surface/open.h"

@@ -6,20 +6,24 @@
 
 namespace sunder::bench {
 
-/// Where the seconds of a tear go.
+/// Seconds per stage of a tear.
 struct Stages {
-  double pose = 0;           ///< The new pose is taken in.
-  double query = 0;          ///< Where the stroke enters the surface.
-  double imprint = 0;        ///< Its path becomes edges; new vertices get their attributes.
-  double attributes = 0;     ///< A part of `imprint`: the attributes and weights of those vertices alone.
-  double open = 0;           ///< The surface opens along the edges.
-  double improve = 0;        ///< Edges beside the tear are turned.
-  double change_record = 0;  ///< What was done is described.
+  double pose = 0;     ///< The new pose is taken in.
+  double query = 0;    ///< Finding where the stroke enters the surface.
+  double imprint = 0;  ///< Its path becomes edges; new vertices get their attributes.
+  double attributes =
+      0;               ///< A part of `imprint`: the attributes and weights of those vertices alone.
+  double open = 0;     ///< The surface opens along the edges.
+  double improve = 0;  ///< Turning edges along the tear.
+  double change_record = 0;  ///< Writing the change record.
 
-  [[nodiscard]] double sum() const { return pose + query + imprint + open + improve + change_record; }
+  [[nodiscard]] double sum() const {
+    return pose + query + imprint + open + improve + change_record;
+  }
 };
 
-/// A tear in slow motion: the steps that StrokeTearing takes, on a surface of its own, each timed and all taken back.
+/// A tear in slow motion: the steps that StrokeTearing takes, on a surface of its own, each timed
+/// and all taken back.
 class StagedTear {
  public:
   explicit StagedTear(const Scene& scene);
@@ -41,7 +45,7 @@ class StagedTear {
   tear::PosedPoints posed_;
   Index tip_ = kNone;
   std::vector<LipPair> lips_;
-  std::vector<Birth> births_;  ///< Of the vertices that the imprint made.
+  std::vector<Birth> births_;  ///< Weights of the vertices that the imprint created.
   ChangeRecord change_;
   Mesh replay_;
 };

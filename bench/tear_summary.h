@@ -2,29 +2,36 @@
 
 namespace sunder::bench {
 
-/// Measures in a few minutes what tears cost, all candidates in turns, and prints one JSON object to stdout.
+/// Measures in a few minutes what tears cost, all candidates in turns, and prints one JSON object
+/// to stdout.
 void print_summary();
 
-/// What the figures of the summary mean.
+/// Explains the figures of the summary.
 inline constexpr const char* kSummaryHelp =
     "bench_tear [--summary] [options of Google Benchmark: --help]\n"
     "\n"
-    "Without --summary: all benchmarks. Each time is a median of up to 300 runs; the last word of a name says how often each face "
+    "Without --summary: all benchmarks. Each time is a median of up to 300 runs; the last word of "
+    "a name says how often each face "
     "of\n"
     "the base model was divided (1, 3, 7, 16: about 3.5, 31, 171 and 892 thousand points).\n"
     "\n"
-    "--summary prints one JSON object. The tear is the same at each size: across about 100 faces. Times are medians.\n"
+    "--summary prints one JSON object. The tear is the same at each size: across about 100 faces. "
+    "Times are medians.\n"
     "  warm_growth_3k_900k   time of a warm tear at 892 thousand points by that at 3.5 thousand\n"
     "  speedup_cgal_3k, speedup_cgal_900k\n"
-    "                        time of CGAL's corefine() with what the stroke sweeps, by that of a warm tear; null without CGAL\n"
+    "                        time of CGAL's corefine() with what the stroke sweeps, by that of a "
+    "warm tear; null without CGAL\n"
     "  ns_per_crossed_face   warm tear, at the size where it is largest\n"
     "  build_ns_per_face     (create() + first tear - warm tear) by faces, at 892 thousand points\n"
-    "  bytes_per_point       held beyond the copy of the character after a first tear, at 892 thousand points\n"
-    "  warm_allocations      calls of operator new in a warm tear, at the size where they are most\n"
+    "  bytes_per_point       held beyond the copy of the character after a first tear, at 892 "
+    "thousand points\n"
+    "  warm_allocations      calls of operator new in a warm tear, at the size where they are "
+    "most\n"
     "  warm_undo_allocations the same of undo()\n"
     "  warm_us, cold_us      by size; cold: 64 MB walked before each\n"
     "  query_us_900k         where the stroke enters the surface, in a fresh pose\n"
-    "  cut_vs_vtk            time of a plane cut without caps, in two with pieces named, by that of vtkPolyDataPlaneClipper, "
+    "  cut_vs_vtk            time of a plane cut without caps, in two with pieces named, by that "
+    "of vtkPolyDataPlaneClipper, "
     "which\n"
     "                        keeps one side; at 892 thousand points; null without VTK\n"
     "  faces_crossed, points by size\n";

@@ -9,7 +9,7 @@
 
 namespace sunder::bench {
 
-/// Of the points of all tears of a model, over some poses, in parts of the diagonal.
+/// Errors of the points of all tears of a model, over some poses, as fractions of the diagonal.
 using ErrorStatistics = WeightErrors::Statistics;
 
 struct PolicyErrors {
@@ -18,15 +18,16 @@ struct PolicyErrors {
   };
   std::optional<OverPoses> clips;  ///< As WeightsModel::clips.
   OverPoses range_of_motion;
-  double pop = 0;                     ///< The largest in the pose of the tear; of `pose_exact`, where it can be met.
+  double pop = 0;  ///< The largest in the pose of the tear; of `pose_exact`, where it can be met.
   std::uint32_t ill_conditioned = 0;  ///< Points of `pose_exact` that fell back.
 };
 
-/// Weighs the points of all tears, measures, and takes it back. `refit` is fitted to the set of poses that it is measured on.
+/// Weighs the points of all tears, measures, and takes it back. `refit` is fitted to the set of
+/// poses that it is measured on.
 [[nodiscard]] PolicyErrors measure_policy(WeightsModel& model, const WeightOptions& options);
 
-/// How far `exact` points of SkinnedMesh, which is in float, stand from where they belong, over all poses, in double: the largest,
-/// in parts of the diagonal.
+/// How far `exact` points of SkinnedMesh, which is in float, stand from where they belong, over all
+/// poses, in double: the largest, in parts of the diagonal.
 [[nodiscard]] double largest_runtime_error(WeightsModel& model);
 
 }  // namespace sunder::bench

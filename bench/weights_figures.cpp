@@ -22,7 +22,8 @@ constexpr double kNothing = 1e-7;
 
 std::vector<WeightOptions> all_options() {
   std::vector<WeightOptions> all;
-  for (const WeightPolicy policy : {WeightPolicy::barycentric, WeightPolicy::pose_exact, WeightPolicy::refit})
+  for (const WeightPolicy policy :
+       {WeightPolicy::barycentric, WeightPolicy::pose_exact, WeightPolicy::refit})
     for (const std::uint32_t maximum : {4u, 8u, 0u}) all.push_back({policy, maximum});
   all.push_back({WeightPolicy::exact, 0});
   return all;
@@ -33,7 +34,8 @@ double measure_vs_exhaustive(const WeightsModel& model, const Poses& poses) {
   const PointsToWeigh points(model, poses.fit);
   std::vector<std::size_t> some(points.size());
   std::iota(some.begin(), some.end(), 0u);
-  std::erase_if(some, [&](std::size_t i) { return points.point(i).exact.terms().size() > kExhaustiveBones; });
+  std::erase_if(
+      some, [&](std::size_t i) { return points.point(i).exact.terms().size() > kExhaustiveBones; });
   test::Random random(3);
   for (std::size_t i = 0; i + 1 < some.size(); ++i)
     std::swap(some[i], some[i + random.index(static_cast<std::uint32_t>(some.size() - i))]);
@@ -49,11 +51,14 @@ double measure_vs_exhaustive(const WeightsModel& model, const Poses& poses) {
     of_references += std::min(of_fit, reference.least_mean_square(4, fit.position));
   }
   const double nothing = kNothing * model.diagonal;
-  return of_references > nothing * nothing * static_cast<double>(some.size()) ? std::sqrt(of_fits / of_references) : 1.0;
+  return of_references > nothing * nothing * static_cast<double>(some.size())
+             ? std::sqrt(of_fits / of_references)
+             : 1.0;
 }
 
 /// A column a bone of the fit: how far it alone would be off, so that the target is zero.
-WeightProblem problem_of(const PointsToWeigh& points, std::size_t i, std::span<const Influence> influences, double diagonal) {
+WeightProblem problem_of(const PointsToWeigh& points, std::size_t i,
+                         std::span<const Influence> influences, double diagonal) {
   WeightProblem problem;
   const auto bones = static_cast<Eigen::Index>(influences.size());
   problem.matrix.resize(WeightProblem::kRows, bones);
@@ -87,7 +92,8 @@ SolverInput measure_solver(const WeightsModel& model, const PointsToWeigh& point
     Eigen::VectorXd weights(problem.matrix.cols());
     for (std::size_t k = 0; k < fit.influences.size(); ++k)
       weights[static_cast<Eigen::Index>(k)] = static_cast<double>(fit.influences[k].weight);
-    input.mean_squares.push_back((problem.matrix * (weights / weights.sum())).squaredNorm() / kSolverPoses);
+    input.mean_squares.push_back((problem.matrix * (weights / weights.sum())).squaredNorm() /
+                                 kSolverPoses);
     input.problems.push_back(problem);
     numbers.push_back(i);
   }
@@ -95,7 +101,7 @@ SolverInput measure_solver(const WeightsModel& model, const PointsToWeigh& point
   return input;
 }
 
-/// Of an even number, the mean of the two in the middle.
+/// The median; for an even count, the mean of the two in the middle.
 double middle_of(std::vector<double> values) {
   if (values.empty()) return 0;
   std::sort(values.begin(), values.end());
@@ -111,13 +117,15 @@ std::optional<double> gain(double barycentric, double refit) {
 }  // namespace
 
 const PolicyRow& ModelFigures::row(const WeightOptions& options) const {
-  const auto found = std::find_if(rows.begin(), rows.end(), [&](const PolicyRow& row) { return row.options == options; });
+  const auto found = std::find_if(rows.begin(), rows.end(),
+                                  [&](const PolicyRow& row) { return row.options == options; });
   if (found == rows.end()) std::abort();
   return *found;
 }
 
 std::optional<double> ModelFigures::gain_clips() const {
-  const auto &barycentric = row({WeightPolicy::barycentric, 4}).errors.clips, &refit = row({WeightPolicy::refit, 4}).errors.clips;
+  const auto &barycentric = row({WeightPolicy::barycentric, 4}).errors.clips,
+             &refit = row({WeightPolicy::refit, 4}).errors.clips;
   if (!barycentric || !refit) return std::nullopt;
   return gain(barycentric->held_out.rms, refit->held_out.rms);
 }
@@ -143,7 +151,9 @@ ModelFigures measure_model(WeightsModel& model) {
   figures.solvers = measure_solver(model, over_few);
   figures.runtime_error = largest_runtime_error(model);
   figures.vs_exhaustive = measure_vs_exhaustive(model, model.range_of_motion);
-  if (model.clips) figures.vs_exhaustive = std::max(figures.vs_exhaustive, measure_vs_exhaustive(model, *model.clips));
+  if (model.clips)
+    figures.vs_exhaustive =
+        std::max(figures.vs_exhaustive, measure_vs_exhaustive(model, *model.clips));
   return figures;
 }
 
@@ -168,7 +178,8 @@ Summary summarise(const std::vector<ModelFigures>& models) {
   if (!of_clips.empty()) summary.refit_gain_clips_median = middle_of(of_clips);
   summary.refit_gain_rom_median = middle_of(of_motion);
   of_motion.insert(of_motion.end(), of_clips.begin(), of_clips.end());
-  if (!of_motion.empty()) summary.refit_gain_min = *std::min_element(of_motion.begin(), of_motion.end());
+  if (!of_motion.empty())
+    summary.refit_gain_min = *std::min_element(of_motion.begin(), of_motion.end());
   return summary;
 }
 

@@ -14,11 +14,13 @@ struct PolicyRow {
   PolicyErrors errors;
 };
 
-/// The convex problems of a model's points, sixteen poses, weights alone, at most four: by PointRefit, and as others get them.
+/// The convex problems of a model's points, sixteen poses, weights alone, at most four: by
+/// PointRefit, and as others get them.
 struct SolverInput {
-  std::vector<WeightProblem> problems;  ///< Of points that keep more than one bone: these bones alone, and the diagonal is 1.
-  double microseconds = 0;              ///< PointRefit's for the same points, of all their bones.
-  std::vector<double> mean_squares;     ///< Of what PointRefit finds, one a problem.
+  std::vector<WeightProblem>
+      problems;  ///< Points that keep more than one bone: these bones alone, with diagonal 1.
+  double microseconds = 0;           ///< PointRefit's for the same points, of all their bones.
+  std::vector<double> mean_squares;  ///< Results of PointRefit, one per problem.
 };
 
 struct ModelFigures {
@@ -27,7 +29,8 @@ struct ModelFigures {
   double diagonal = 0;  ///< Metres.
   std::vector<PolicyRow> rows;
   double runtime_error = 0;   ///< largest_runtime_error().
-  double vs_exhaustive = 0;   ///< Root mean square of fits by that of ExhaustiveRefit; of both sets of poses, the larger one.
+  double vs_exhaustive = 0;   ///< Root mean square of fits by that of ExhaustiveRefit; of both sets
+                              ///< of poses, the larger one.
   double barycentric_us = 0;  ///< K = 4.
   double refit_us = 0;        ///< PointRefit alone: weights alone, K = 4, sixteen poses.
   SolverInput solvers;

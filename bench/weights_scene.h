@@ -14,15 +14,15 @@ namespace sunder::bench {
 
 /// A point that a tear made between vertices of the source.
 struct TornPoint {
-  std::uint32_t mesh = 0, vertex = 0;                    ///< The first of the vertices that share it.
-  Triangle corners = {};                                 ///< Vertices of the source.
-  std::array<double, 3> barycentric = {};                ///< Of the corners.
-  std::array<std::span<const Influence>, 3> influences;  ///< Of the corners.
-  std::array<Vec3d, 3> positions;                        ///< Of the corners, in bind space, with the morph weights of rest.
-  AnimationPoint exact;                                  ///< Likewise.
+  std::uint32_t mesh = 0, vertex = 0;      ///< The first of the vertices that share it.
+  Triangle corners = {};                   ///< Vertices of the source.
+  std::array<double, 3> barycentric = {};  ///< One per corner.
+  std::array<std::span<const Influence>, 3> influences;  ///< One per corner.
+  std::array<Vec3d, 3> positions;  ///< The corners in bind space, with the morph weights of rest.
+  AnimationPoint exact;            ///< Likewise.
 
   [[nodiscard]] Vec3d position() const;  ///< In bind space.
-  /// Where it belongs in a pose: between the posed corners.
+  /// Its wanted place in a pose: between the posed corners.
   [[nodiscard]] Vec3d posed(const Character& source, std::span<const Affine3d> model_from_bind,
                             std::span<const float> morph_weights) const;
 };
@@ -43,7 +43,8 @@ struct Poses {
 struct WeightsModel {
   std::string name;
   std::shared_ptr<const Character> character;
-  double diagonal = 0;  ///< Of the box around it at rest, metres. (Bind space may be in other units.)
+  double diagonal =
+      0;  ///< Diagonal of the box around it at rest, metres. (Bind space may be in other units.)
   std::vector<TornOnce> tears;
   std::optional<Poses> clips;  ///< None where the model has no clip that lasts.
   Poses range_of_motion;
@@ -53,11 +54,12 @@ struct WeightsModel {
   [[nodiscard]] const Poses& usual_poses() const { return clips ? *clips : range_of_motion; }
 };
 
-/// Each with five seeded tears, in poses of its clips or, without any, in random ones. A procedural rig, and six rigged files;
-/// those that are absent are left out, which is said on stderr.
+/// Each with five seeded tears, in poses of its clips or, without any, in random ones. A procedural
+/// rig, and six rigged files; those that are absent are left out, which is said on stderr.
 [[nodiscard]] std::vector<WeightsModel> make_weights_models();
 
 /// model_from_bind of every skin.
-[[nodiscard]] std::vector<std::vector<Affine3d>> palettes_of(const Character& character, const ModelPose& pose);
+[[nodiscard]] std::vector<std::vector<Affine3d>> palettes_of(const Character& character,
+                                                             const ModelPose& pose);
 
 }  // namespace sunder::bench

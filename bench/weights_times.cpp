@@ -14,7 +14,7 @@ namespace {
 
 constexpr Effort kEffort = {400, 0.5, 20};
 
-/// What no compiler may leave out.
+/// A value that no compiler may optimise away.
 volatile double kept_alive;
 
 std::size_t mean_of(const TornPoint& point, std::size_t maximum, std::vector<Influence>& mean) {
@@ -24,7 +24,8 @@ std::size_t mean_of(const TornPoint& point, std::size_t maximum, std::vector<Inf
 
 void describe(const TornPoint& point, AnimationPoint& exact) {
   exact.clear();
-  for (std::size_t k = 0; k < 3; ++k) exact.add(point.barycentric[k], point.positions[k], point.influences[k]);
+  for (std::size_t k = 0; k < 3; ++k)
+    exact.add(point.barycentric[k], point.positions[k], point.influences[k]);
 }
 
 template <class Work>
@@ -46,7 +47,8 @@ PointsToWeigh::PointsToWeigh(const WeightsModel& model, std::span<const ModelPos
   for (const TornOnce& torn : model.tears)
     for (const TornPoint& point : torn.points) {
       const std::uint32_t skin = character.meshes[point.mesh].skin;
-      mean.resize(std::max(mean.size(), point.influences[0].size() + point.influences[1].size() + point.influences[2].size()));
+      mean.resize(std::max(mean.size(), point.influences[0].size() + point.influences[1].size() +
+                                            point.influences[2].size()));
       points_.push_back({&point, skin, kept(point, 0), kept(point, 4), kept(point, 8)});
       auto& [sum, count] = sums.try_emplace(skin, Eigen::Vector3d::Zero(), 0.0).first->second;
       sum += point.position();
@@ -66,13 +68,17 @@ PointsToWeigh::PointsToWeigh(const WeightsModel& model, std::span<const ModelPos
 
 PointToRefit PointsToWeigh::to_refit(std::size_t i, std::size_t maximum) const {
   const Point& of = points_[i];
-  return {&of.torn->exact, of.torn->position(), maximum == 0 ? of.barycentric : maximum == 4 ? of.pruned : of.pruned_to_8};
+  return {&of.torn->exact, of.torn->position(),
+          maximum == 0   ? of.barycentric
+          : maximum == 4 ? of.pruned
+                         : of.pruned_to_8};
 }
 
 double PointsToWeigh::microseconds(const WeightOptions& options) const {
   std::size_t most = 0;
   for (const Point& point : points_)
-    most = std::max(most, point.torn->influences[0].size() + point.torn->influences[1].size() + point.torn->influences[2].size());
+    most = std::max(most, point.torn->influences[0].size() + point.torn->influences[1].size() +
+                              point.torn->influences[2].size());
   std::vector<Influence> mean(most);
   AnimationPoint exact;
   PointRefit refit;
@@ -80,7 +86,8 @@ double PointsToWeigh::microseconds(const WeightOptions& options) const {
     double sum = 0;
     for (std::size_t i = 0; i < points_.size(); ++i) {
       const TornPoint& point = *points_[i].torn;
-      const auto influences = std::span<const Influence>(mean).first(mean_of(point, options.maximum_influences, mean));
+      const auto influences =
+          std::span<const Influence>(mean).first(mean_of(point, options.maximum_influences, mean));
       sum += static_cast<double>(influences[0].weight);
       if (options.policy == WeightPolicy::barycentric) continue;
       describe(point, exact);
@@ -88,22 +95,28 @@ double PointsToWeigh::microseconds(const WeightOptions& options) const {
       if (options.policy == WeightPolicy::exact) continue;
       if (options.policy == WeightPolicy::pose_exact) {
         const std::vector<Affine3d>& palette = palettes(i)[0];
-        if (const auto bind = solve_bind_position(influences, exact.posed(palette), palette)) sum += bind->x();
+        if (const auto bind = solve_bind_position(influences, exact.posed(palette), palette))
+          sum += bind->x();
       } else {
-        sum += refit.fit({&exact, point.position(), influences}, {options.maximum_influences, true}, moments(i)).mean_square;
+        sum += refit
+                   .fit({&exact, point.position(), influences}, {options.maximum_influences, true},
+                        moments(i))
+                   .mean_square;
       }
     }
     kept_alive = sum;
   });
 }
 
-double PointsToWeigh::fit_microseconds(const PointRefit::Options& options, std::span<const std::size_t> points) const {
+double PointsToWeigh::fit_microseconds(const PointRefit::Options& options,
+                                       std::span<const std::size_t> points) const {
   std::vector<PointToRefit> inputs;
   for (const std::size_t i : points) inputs.push_back(to_refit(i, options.maximum_influences));
   PointRefit refit;
   return microseconds_of(points.size(), [&] {
     double sum = 0;
-    for (std::size_t i = 0; i < points.size(); ++i) sum += refit.fit(inputs[i], options, moments(points[i])).mean_square;
+    for (std::size_t i = 0; i < points.size(); ++i)
+      sum += refit.fit(inputs[i], options, moments(points[i])).mean_square;
     kept_alive = sum;
   });
 }

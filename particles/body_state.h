@@ -12,59 +12,74 @@
 
 namespace sunder::particles {
 
-/// What a SoftBody is made of.
-struct BodyState {
-  ParticleSet* set = nullptr;
-  std::uint64_t revision = 0;  ///< Of the set, which all below is of.
-  SoftBodyOptions options;
-  std::vector<SoftMaterial> materials;
-
-  Motion motion;
-  SpringGraph graph;
-  bool is_graph_stale = true;
-  RestMotion rests;
-  PointPlaces places;
-  CouplingSolver solver;
-  Sleep sleep;
-
+/// The forces on all particles of a body.
+struct OuterForces {
   Vec3d gravity = Vec3d::Zero();
   WindField wind;
   Tension tension;
-  bool is_tension_stale = false;
-  HoldList holds;
-  Contact contact;
-  ContactReport contacts;
-  double time = 0;  ///< Seconds of all steps.
+  bool is_tension_stale = false;  ///< Whether Motion::lip_forces are to be computed anew.
+  double time = 0;                ///< Seconds of all steps: when the wind is asked for.
+};
 
+/// The motion that renderers read.
+struct ShownMotion {
   std::vector<Vec4f> displacements;
   std::vector<Mat3f> turns;
   std::vector<std::uint8_t> is_displaced;
   Index displaced_count = 0;
   std::uint64_t displaced_key = 1;  ///< Grows when `is_displaced` or the set changes.
   MovedVertices moved_vertices;
+};
 
-  // ---- Scratch.
+/// Memory of a step that is used again.
+struct StepScratch {
   std::vector<Index> active, needed, changed;
   std::vector<std::uint8_t> is_needed;
   std::vector<Vec3d> sums;
   std::vector<SpringStep> steps;
+};
 
-  /// Nothing moves, and nothing is set that a step would have to look at.
+/// The data of a SoftBody.
+struct BodyState {
+  ParticleSet* set = nullptr;
+  std::uint64_t revision = 0;  ///< Of the set that all below follows.
+  SoftBodyOptions options;
+  std::vector<SoftMaterial> materials;
+
+  Motion motion;
+  SpringGraph graph;
+  RestMotion rests;
+  EpochPose poses;
+  CouplingSolver solver;
+  Sleep sleep;
+  OuterForces outer;
+  HoldList holds;
+  Contact contact;
+  ShownMotion shown;
+  StepScratch scratch;
+
+  /// Whether nothing moves, and nothing is set that a step would have to look at.
   [[nodiscard]] bool is_idle() const;
-  /// Follows the set, if it changed. @throws std::bad_alloc
+  /// Follows the set, if it changed. Where memory runs out, the next call does the rest. @throws
+  /// std::bad_alloc
   void follow_particles();
   void wake_around(Index particle);
   void wake_all();
-  /// The poses and times were checked, and the set followed.
+  /// @param pose, seconds  were checked, and the set was followed. @throws std::bad_alloc
   void step(const TornModel& model, const ModelPose& pose, bool is_posed, double seconds);
 
  private:
+  void reserve(Index count);
+  void inherit_motion();
   void connect_springs();
   void follow_pose(double seconds);
+  void find_needed();
   void follow_forces(const TornModel& model, const ModelPose& pose);
   void integrate(double seconds);
   void publish(bool is_posed);
-  [[nodiscard]] Sleep::World world() const { return {*set, graph, materials, rests, gravity}; }
+  [[nodiscard]] Sleep::World world() const {
+    return {*set, graph, materials, rests, outer.gravity};
+  }
   [[nodiscard]] bool has_stretch_limit() const;
 };
 

@@ -2,57 +2,64 @@
 #include <numeric>
 
 #include "particles/body_state.h"
+#include "particles/internal/tolerances.h"
 #include "particles/motion/stretch_limit.h"
 
 namespace sunder::particles {
-namespace {
-
-/// Below this a step's square is nothing to divide by; nor do forces show.
-constexpr double kShortestStep = 1e-100;
-
-}  // namespace
 
 bool BodyState::has_stretch_limit() const {
-  return std::any_of(materials.begin(), materials.end(), [](const SoftMaterial& material) { return material.stretch_limit > 0; });
+  return std::any_of(materials.begin(), materials.end(),
+                     [](const SoftMaterial& material) { return material.stretch_limit > 0; });
 }
 
 bool BodyState::is_idle() const {
-  return motion.awake_count == 0 && displaced_count == 0 && set->revision() == revision && set->is_settled() &&
-         options.follow == Follow::ride && !options.tracks_rest && !is_graph_stale && !is_tension_stale && holds.empty() &&
-         contact.colliders().empty() && !wind;
+  return motion.awake_count == 0 && shown.displaced_count == 0 && set->revision() == revision &&
+         set->is_settled() && options.follow == Follow::ride && !options.tracks_rest &&
+         !graph.is_stale && !outer.is_tension_stale && holds.empty() &&
+         contact.colliders().empty() && !outer.wind;
 }
 
-/// Brings up to date with the pose whose rest matters, and carries them along or leaves them behind.
-void BodyState::follow_pose(double seconds) {
-  const bool sees_all = options.follow == Follow::lag || options.tracks_rest || wind || !contact.colliders().empty();
+/// Lists the particles whose rest a step needs.
+void BodyState::find_needed() {
+  std::vector<Index>& needed = scratch.needed;
   needed.clear();
+  const bool sees_all = options.follow == Follow::lag || options.tracks_rest || outer.wind ||
+                        !contact.colliders().empty();
   if (sees_all) {
     needed.resize(motion.count());
     std::iota(needed.begin(), needed.end(), Index{0});
-  } else {
-    // Whom a stretch limit may measure against, too.
-    const bool with_neighbours = has_stretch_limit();
-    is_needed.assign(motion.count(), 0);
-    for (Index p = 0; p < motion.count(); ++p) {
-      if (motion.awake[p] == 0 && is_displaced[p] == 0) continue;
-      is_needed[p] = 1;
-      if (with_neighbours)
-        for (const Spring& spring : graph.of(p)) is_needed[spring.other] = 1;
-    }
-    holds.for_each_held([&](Index p) { is_needed[p] = 1; });
-    for (Index p = 0; p < motion.count(); ++p)
-      if (is_needed[p] != 0) needed.push_back(p);
+    return;
   }
-  rests.update(*set, needed, seconds);
+  // A stretch limit measures neighbours too.
+  const bool with_neighbours = has_stretch_limit();
+  std::vector<std::uint8_t>& is_needed = scratch.is_needed;
+  is_needed.assign(motion.count(), 0);
+  for (Index p = 0; p < motion.count(); ++p) {
+    if (motion.awake[p] == 0 && shown.is_displaced[p] == 0) continue;
+    is_needed[p] = 1;
+    if (with_neighbours)
+      for (const Spring& spring : graph.of(p)) is_needed[spring.other] = 1;
+  }
+  holds.for_each_held([&](Index p) { is_needed[p] = 1; });
+  for (Index p = 0; p < motion.count(); ++p)
+    if (is_needed[p] != 0) needed.push_back(p);
+}
+
+/// Brings particles up to date with the pose, and carries them along or leaves them behind.
+void BodyState::follow_pose(double seconds) {
+  find_needed();
+  rests.update(*set, scratch.needed, seconds);
   for (const Index p : rests.moved()) {
     if (options.follow == Follow::ride) {
-      if (motion.awake[p] == 0 && is_displaced[p] == 0) continue;
+      if (motion.awake[p] == 0 && shown.is_displaced[p] == 0) continue;
       if (motion.awake[p] == 0) motion.wake(p);
-      for (auto* vectors : {&motion.displacements, &motion.velocities, &motion.quiet_from, &motion.corrections})
+      for (auto* vectors :
+           {&motion.displacements, &motion.velocities, &motion.quiet.from, &motion.corrections})
         (*vectors)[p] = rests.turn_of_step(p) * (*vectors)[p];
     } else {
       motion.wake(p);
-      // Within the step the frame moves along with the rest; a step without time leaves it behind at once.
+      // Within the step the frame moves along with the rest; a step without time leaves it behind
+      // at once.
       if (seconds > 0)
         motion.velocities[p] -= rests.velocity(p);
       else
@@ -63,9 +70,9 @@ void BodyState::follow_pose(double seconds) {
 
 void BodyState::follow_forces(const TornModel& model, const ModelPose& pose) {
   std::fill(motion.winds.begin(), motion.winds.end(), Vec3d::Zero());
-  if (wind)
+  if (outer.wind)
     for (Index p = 0; p < motion.count(); ++p) {
-      const Vec3d felt = wind(rests.place(p) + motion.displacements[p], time);
+      const Vec3d felt = outer.wind(rests.place(p) + motion.displacements[p], outer.time);
       if (felt.allFinite()) motion.winds[p] = felt;
       Sleep::wake_if_pulled(world(), p, motion);
     }
@@ -74,56 +81,64 @@ void BodyState::follow_forces(const TornModel& model, const ModelPose& pose) {
       if (motion.touched[p] != 0) motion.wake(p);
   for (Index p = 0; p < motion.count(); ++p)
     if (motion.awake[p] != 0) motion.touched[p] = motion.bound[p] = 0;
-  holds.begin_step(model, pose, rests, materials, places, motion);
+  holds.begin_step(model, pose, rests, materials, poses, motion);
 }
 
+/// Integrates the particles that are awake: each alone in closed form, then what their neighbours
+/// and holds add.
 void BodyState::integrate(double seconds) {
+  std::vector<SpringStep>& steps = scratch.steps;
   steps.clear();
   for (const SoftMaterial& material : materials)
     steps.push_back(step_spring(material.return_stiffness, material.damping_ratio, seconds));
-  for (const Index p : active) {
+  for (const Index p : scratch.active) {
     const SpringStep& step = steps[motion.material_of[p]];
-    const Vec3d outer = motion.forces[p] + rests.turn(p) * motion.lip_forces[p];
-    const Vec3d acceleration = gravity + motion.winds[p] + outer / materials[motion.material_of[p]].mass;
+    const Vec3d force = motion.forces[p] + rests.turn(p) * motion.lip_forces[p];
+    const Vec3d acceleration =
+        outer.gravity + motion.winds[p] + force / materials[motion.material_of[p]].mass;
     const Vec3d place = motion.displacements[p], velocity = motion.velocities[p];
     motion.starts[p] = place;
-    motion.displacements[p] =
-        step.place_from_place * place + step.place_from_velocity * velocity + step.place_from_acceleration * acceleration;
-    motion.velocities[p] = step.velocity_from_place * place + step.velocity_from_velocity * velocity +
+    motion.displacements[p] = step.place_from_place * place + step.place_from_velocity * velocity +
+                              step.place_from_acceleration * acceleration;
+    motion.velocities[p] = step.velocity_from_place * place +
+                           step.velocity_from_velocity * velocity +
                            step.velocity_from_acceleration() * acceleration;
   }
-  if (seconds < kShortestStep) return;
-  solver.solve(
-      {graph, active, steps, materials, motion.material_of, motion.displacements, motion.velocities, holds.pulls(), seconds},
-      motion.corrections);
-  for (const Index p : active) {
+  if (seconds < kShortestStepSeconds) return;
+  solver.solve({graph, scratch.active, steps, materials, motion.material_of, motion.displacements,
+                motion.velocities, holds.pulls(), seconds},
+               motion.corrections);
+  for (const Index p : scratch.active) {
     const SpringStep& step = steps[motion.material_of[p]];
     motion.displacements[p] += motion.corrections[p];
-    motion.velocities[p] += step.velocity_from_acceleration() / step.place_from_acceleration * motion.corrections[p];
+    motion.velocities[p] +=
+        step.velocity_from_acceleration() / step.place_from_acceleration * motion.corrections[p];
   }
 }
 
+/// Writes what renderers read. @param is_posed  whether RestMotion::updated() is of this step.
 void BodyState::publish(bool is_posed) {
   if (is_posed)
-    for (const Index p : rests.updated()) turns[p] = rests.turn(p).cast<float>();
-  displaced_count = 0;
+    for (const Index p : rests.updated()) shown.turns[p] = rests.turn(p).cast<float>();
+  shown.displaced_count = 0;
   bool is_other = false;
   for (Index p = 0; p < motion.count(); ++p) {
-    if (motion.awake[p] == 0 && is_displaced[p] == 0) continue;
+    if (motion.awake[p] == 0 && shown.is_displaced[p] == 0) continue;
     const Vec3d& u = motion.displacements[p];
-    displacements[p] << u.cast<float>(), 0.0f;
+    shown.displacements[p] << u.cast<float>(), 0.0f;
     const std::uint8_t displaced = u != Vec3d::Zero() ? 1 : 0;
-    displaced_count += displaced;
-    is_other |= displaced != is_displaced[p];
-    is_displaced[p] = displaced;
+    shown.displaced_count += displaced;
+    is_other |= displaced != shown.is_displaced[p];
+    shown.is_displaced[p] = displaced;
   }
-  if (is_other) ++displaced_key;
+  if (is_other) ++shown.displaced_key;
 }
 
 void BodyState::step(const TornModel& model, const ModelPose& pose, bool is_posed, double seconds) {
-  time += seconds;
+  outer.time += seconds;
   connect_springs();
-  // What lags moves in the room; between steps its velocity is kept beside that of its rest.
+  // A body that lags moves in the room; between steps its velocity is kept relative to that of its
+  // rest.
   if (options.follow == Follow::lag)
     for (const Index p : rests.carried()) motion.velocities[p] += rests.velocity(p);
   if (is_posed)
@@ -133,14 +148,16 @@ void BodyState::step(const TornModel& model, const ModelPose& pose, bool is_pose
   follow_pose(seconds);
   follow_forces(model, pose);
 
+  std::vector<Index>& active = scratch.active;
   active.clear();
   for (Index p = 0; p < motion.count(); ++p)
     if (motion.awake[p] != 0) active.push_back(p);
   if (!active.empty() && seconds > 0) {
     integrate(seconds);
-    if (has_stretch_limit()) limit_stretch(graph, materials, rests, active, motion, changed);
+    if (has_stretch_limit())
+      limit_stretch({graph, materials, rests, active}, motion, scratch.changed);
   }
-  contacts = contact.push_out({*set, model, pose, is_posed, graph, rests, places, seconds}, motion);
+  contact.push_out({*set, model, pose, is_posed, graph, rests, poses, seconds}, motion);
   contact.end_step();
   if (seconds > 0) {
     sleep.wake_neighbours(world(), active, motion);

@@ -9,15 +9,16 @@
 namespace sunder {
 namespace {
 
-constexpr double kFirst = 0.1, kLeast = 1e-6, kMost = 4.0;  // diagonals; distances along a surface may be longer than that
+constexpr double kFirst = 0.1, kLeast = 1e-6,
+                 kMost = 4.0;  // diagonals; distances along a surface may be longer than that
 constexpr int kTrials = 12;
 
-/// What is known of too small and too large ranges, and where to look next.
+/// The ranges known to be too small and too large, and the next one to try.
 class Bracket {
  public:
   void add(double range, bool is_too_small) { (is_too_small ? small_ : large_) = range; }
   [[nodiscard]] bool is_closed() const { return large_ < 1.0001 * small_; }
-  /// @param guess  taken where it lies between the two.
+  /// @param guess  taken where it lies well between the two.
   [[nodiscard]] double next(double guess) const {
     if (guess > 1.02 * small_ && guess < 0.98 * large_) return guess;
     return std::sqrt(small_ * large_);
@@ -27,30 +28,34 @@ class Bracket {
   double small_ = kLeast, large_ = kMost;
 };
 
-Result<ParticleSet> decompose(const TornModel& model, const ModelPose& pose, double range, std::uint64_t seed) {
+Result<ParticleSet> decompose(const TornModel& model, const ModelPose& pose, double range,
+                              std::uint64_t seed) {
   DecompositionOptions options;
   options.range = range;
   options.seed = seed;
   return ParticleSet::create(model, pose, options);
 }
 
-/// The least of some batches of steps, all particles awake.
-Result<double> time_step(const TornModel& model, const ModelPose& pose, ParticleSet& set, const SoftMaterial& material) {
+/// The shortest mean duration of a step among some batches, with all particles awake.
+Result<double> time_step(const TornModel& model, const ModelPose& pose, ParticleSet& set,
+                         const SoftMaterial& material) {
   constexpr int kBatches = 5, kSteps = 8;
   constexpr double kStep = 1.0 / 60;
   auto body = SoftBody::create(set, pose, std::span(&material, 1));
   if (!body) return body.error();
   double least = std::numeric_limits<double>::infinity();
   for (int batch = 0; batch < kBatches; ++batch) {
-    // Each other way, so that no spring hangs slack.
+    // In different directions, so that no spring hangs slack.
     for (std::uint32_t p = 0; p < set.particle_count(); ++p) {
-      const Vec3d push = material.mass * set.range(p) * Vec3d((p % 2 == 0) ? 1.0 : -1.0, (p % 3 == 0) ? 1.0 : -1.0, 0.5);
+      const Vec3d push = material.mass * set.range(p) *
+                         Vec3d((p % 2 == 0) ? 1.0 : -1.0, (p % 3 == 0) ? 1.0 : -1.0, 0.5);
       if (Status status = body->add_impulse(p, push); !status) return status;
     }
     const auto begin = std::chrono::steady_clock::now();
     for (int i = 0; i < kSteps; ++i)
       if (Status status = body->step(model, pose, kStep); !status) return status;
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() / kSteps;
+    const double seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() / kSteps;
     if (batch > 0) least = std::min(least, seconds);  // the first one warms up
   }
   return least;
@@ -58,10 +63,11 @@ Result<double> time_step(const TornModel& model, const ModelPose& pose, Particle
 
 }  // namespace
 
-Result<FoundRange> find_range_for_particles(const TornModel& model, const ModelPose& pose, std::uint32_t wanted,
-                                            std::uint64_t seed) {
+Result<FoundRange> find_range_for_particles(const TornModel& model, const ModelPose& pose,
+                                            std::uint32_t wanted, std::uint64_t seed) {
   if (wanted == 0 || wanted > model.point_count())
-    return Status::failure(StatusCode::invalid_argument, kNone, "%u particles are wanted; the model has %u points", wanted,
+    return Status::failure(StatusCode::invalid_argument, kNone,
+                           "%u particles are wanted; the model has %u points", wanted,
                            model.point_count());
   FoundRange best;
   Bracket bracket;
@@ -71,7 +77,8 @@ Result<FoundRange> find_range_for_particles(const TornModel& model, const ModelP
     if (!set && set.error().code() != StatusCode::limit_exceeded) return set.error();
     const double count = set ? set->particle_count() : std::numeric_limits<std::uint32_t>::max();
     const auto miss = [&](double of) { return std::abs(std::log(of / wanted)); };
-    if (set && (best.particles == 0 || miss(count) < miss(best.particles))) best = {range, set->particle_count(), 0.0};
+    if (set && (best.particles == 0 || miss(count) < miss(best.particles)))
+      best = {range, set->particle_count(), 0.0};
     if (set && std::abs(count - wanted) <= 0.02 * wanted) break;
     bracket.add(range, count > wanted);
     range = bracket.next(range * std::sqrt(count / wanted));
@@ -79,11 +86,12 @@ Result<FoundRange> find_range_for_particles(const TornModel& model, const ModelP
   return best;
 }
 
-Result<FoundRange> find_range_for_step(const TornModel& model, const ModelPose& pose, double seconds, const SoftMaterial& material,
+Result<FoundRange> find_range_for_step(const TornModel& model, const ModelPose& pose,
+                                       double seconds, const SoftMaterial& material,
                                        std::uint64_t seed) {
   if (!(seconds > 0) || !std::isfinite(seconds))
-    return Status::failure(StatusCode::invalid_argument, kNone, "a step is to take %g seconds; it must be finite and above 0",
-                           seconds);
+    return Status::failure(StatusCode::invalid_argument, kNone,
+                           "a step is to take %g seconds; it must be finite and above 0", seconds);
   FoundRange best;
   Bracket bracket;
   double range = kFirst;
@@ -97,12 +105,15 @@ Result<FoundRange> find_range_for_step(const TornModel& model, const ModelPose& 
       taken = *timed;
     }
     const bool fits = taken <= seconds;
-    if (fits && (best.particles == 0 || range < best.range)) best = {range, set->particle_count(), taken};
+    if (fits && (best.particles == 0 || range < best.range))
+      best = {range, set->particle_count(), taken};
     if (fits && (taken > 0.9 * seconds || set->particle_count() >= model.point_count())) break;
     bracket.add(range, !fits);
     range = bracket.next(range * std::sqrt(taken / (0.95 * seconds)));
   }
-  if (best.particles == 0) return Status::failure(StatusCode::not_found, kNone, "no range makes steps of %g seconds", seconds);
+  if (best.particles == 0)
+    return Status::failure(StatusCode::not_found, kNone, "no range makes steps of %g seconds",
+                           seconds);
   return best;
 }
 

@@ -1,71 +1,75 @@
 #include <sunder/particles/force_tearing.h>
-#include <sunder/skinning/deform.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <new>
 
 #include <Eigen/Eigenvalues>
 
 #include "particles/clusters/lip_border.h"
-#include "particles/clusters/rest_terms.h"
-#include "skinning/internal/reference.h"
+#include "particles/clusters/surface_pose.h"
+#include "particles/internal/tolerances.h"
 #include "tear/internal/surface.h"
 
 namespace sunder {
+namespace particles {
 namespace {
 
-/// Two neighbours that are farther apart than they bear.
-struct Pair {
+/// Two neighbours that are farther apart than their materials bear.
+struct OverstretchedPair {
   Index a = 0, b = 0;
   double over = 0;  ///< Stretch over strength.
 };
 
 /// How many pairs are tried, where the surface cannot be torn at the first.
-constexpr std::size_t kAttempts = 8;
-/// The least that a tear runs on: cosine of the angle between its last edge and where it goes.
-constexpr double kLeastForward = 0.2;
-/// Particles at a tear may be as good as in one place at rest. What they move apart then counts as if they had been so far apart as
-/// seeds are at least: this part of the range.
-constexpr double kLeastApart = 0.8;
-/// ParticleNeighbour::shared of particles that hang together at all. Splinters at a tear, of a few points that others hold too, are
-/// torn in vain: they would be torn at the same place for ever.
-constexpr double kLeastShared = 0.05;
+constexpr std::size_t kMostAttempts = 8;
 
-Vec3d rest_place(const SoftBody& body, Index particle) { return body.place(particle) - body.displacement(particle); }
+Vec3d rest_place(const SoftBody& body, Index particle) {
+  return body.place(particle) - body.displacement(particle);
+}
 
 double stretch_of(const SoftBody& body, const ParticleSet& particles, Index a, Index b) {
   const double at_rest = (rest_place(body, b) - rest_place(body, a)).norm();
   const double farther = (body.place(b) - body.place(a)).norm() - at_rest;
-  return 1 + farther / std::max(at_rest, kLeastApart * particles.report().range);
+  return 1 + farther / std::max(at_rest, kLeastApartRanges * particles.report().range);
 }
 
 double strength_of(const SoftBody& body, Index a, Index b) {
-  const double of_a = body.materials()[body.material_of(a)].strength, of_b = body.materials()[body.material_of(b)].strength;
+  const double of_a = body.materials()[body.material_of(a)].strength,
+               of_b = body.materials()[body.material_of(b)].strength;
   if (of_a == 0 || of_b == 0) return std::max(of_a, of_b);
   return std::min(of_a, of_b);
 }
 
-/// Pairs beyond their strength, the worst first.
-std::vector<Pair> find_overstretched(const SoftBody& body, const ParticleSet& particles, double& greatest) {
-  std::vector<Pair> pairs;
+/// Pairs beyond their strength, the worst first. @param greatest  raised to the greatest stretch of
+/// all pairs.
+std::vector<OverstretchedPair> find_overstretched(const SoftBody& body,
+                                                  const ParticleSet& particles, double& greatest) {
+  std::vector<OverstretchedPair> pairs;
   for (Index a = 0; a < body.particle_count(); ++a) {
     for (const ParticleNeighbour& neighbour : particles.neighbours(a)) {
       const Index b = neighbour.particle;
-      if (b <= a || neighbour.shared < kLeastShared || (!body.is_awake(a) && !body.is_awake(b))) continue;
+      if (b <= a || neighbour.shared < kLeastSharedPoints ||
+          (!body.is_awake(a) && !body.is_awake(b)))
+        continue;
       const double stretch = stretch_of(body, particles, a, b), strength = strength_of(body, a, b);
       greatest = std::max(greatest, stretch);
       if (strength > 0 && stretch > strength) pairs.push_back({a, b, stretch / strength});
     }
   }
-  std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& x, const Pair& y) { return x.over > y.over; });
+  std::stable_sort(
+      pairs.begin(), pairs.end(),
+      [](const OverstretchedPair& x, const OverstretchedPair& y) { return x.over > y.over; });
   return pairs;
 }
 
-/// Direction into which the tissue around two particles is stretched most, in the plane across `normal`: of the linear map which
-/// comes nearest to what happened to the ways to their neighbours, so that neighbours that stand unevenly do not turn it. It is
-/// that of the tissue as it is now: at a tip, lips that part move across the way from one to the other.
-Vec3d greatest_stretch_around(const SoftBody& body, const ParticleSet& particles, const Pair& pair, const Vec3d& normal) {
+/// The direction in which the tissue around two particles is stretched most, in the plane across
+/// `normal`: that of the linear map nearest to what happened to the vectors to their neighbours, so
+/// that neighbours that stand unevenly do not turn it. It is the direction in the tissue as it is
+/// now: at a tip, the lips move apart across it.
+Vec3d greatest_stretch_around(const SoftBody& body, const ParticleSet& particles,
+                              const OverstretchedPair& pair, const Vec3d& normal) {
   Eigen::Matrix<double, 3, 2> plane;
   plane.col(0) = normal.unitOrthogonal();
   plane.col(1) = normal.cross(plane.col(0));
@@ -73,15 +77,17 @@ Vec3d greatest_stretch_around(const SoftBody& body, const ParticleSet& particles
   Eigen::Matrix2d at_rest = Eigen::Matrix2d::Zero();
   for (const Index particle : {pair.a, pair.b})
     for (const ParticleNeighbour& neighbour : particles.neighbours(particle)) {
-      const Eigen::Vector2d along = plane.transpose() * (rest_place(body, neighbour.particle) - rest_place(body, particle));
+      const Eigen::Vector2d along =
+          plane.transpose() * (rest_place(body, neighbour.particle) - rest_place(body, particle));
       const Eigen::Vector3d now = body.place(neighbour.particle) - body.place(particle);
       const double weight = particles.coupling(particle, neighbour);
       moved += weight * now * along.transpose();
       at_rest += weight * along * along.transpose();
     }
   const double size = at_rest.trace();
-  if (!(at_rest.determinant() > 1e-4 * size * size)) {  // all in a row
-    const Eigen::Vector2d along = plane.transpose() * (rest_place(body, pair.b) - rest_place(body, pair.a));
+  if (!(at_rest.determinant() > kRowDeterminantFraction * size * size)) {  // all in a row
+    const Eigen::Vector2d along =
+        plane.transpose() * (rest_place(body, pair.b) - rest_place(body, pair.a));
     return along.norm() > 0 ? Vec3d(plane * along.normalized()) : Vec3d(plane.col(0));
   }
   const Eigen::Matrix<double, 3, 2> map = moved * at_rest.inverse();
@@ -90,130 +96,168 @@ Vec3d greatest_stretch_around(const SoftBody& body, const ParticleSet& particles
   return plane * solver.eigenvectors().col(1);
 }
 
-/// The posed surface around a point.
-class PosedFan {
- public:
-  PosedFan(const TornModel& model, const ModelPose& pose) : model_(model), pose_(pose) {}
-
-  [[nodiscard]] Vec3d place(Index point) const {
-    const particles::VertexRef of = particles::vertex_of(model_, point);
-    const Mesh& mesh = model_.character().meshes[of.mesh];
-    const Skin& skin = model_.character().skins[mesh.skin];
-    std::vector<Affine3d> palette(skin.bones.size());
-    (void)compute_palette(skin, pose_, std::span(palette));  // the body has stood in it
-    return deform_position_reference(mesh, of.vertex, palette, pose_.morph_weights);
-  }
-
-  [[nodiscard]] Vec3d normal(Index point) const {
-    const tear::Surface& surface = model_.surface();
-    Vec3d sum = Vec3d::Zero();
-    const Vec3d at = place(point);
-    surface.for_each_in_fan(surface.point_corner[point], [&](Index corner) {
-      const Vec3d a = place(surface.corner_point[tear::Surface::next(corner)]) - at;
-      const Vec3d b = place(surface.corner_point[tear::Surface::previous(corner)]) - at;
-      sum += a.cross(b);
-    });
-    const double length = sum.norm();
-    return length > 0 ? Vec3d(sum / length) : Vec3d(Vec3d::Zero());
-  }
-
- private:
-  const TornModel& model_;
-  const ModelPose& pose_;
-};
-
-/// Where a tear goes on or begins.
+/// The point where a tear goes on or begins.
 struct Start {
   Index point = kNone;
   bool is_tip = false;
 };
 
-/// The tip nearest to the middle of a pair that one of the two holds; else the point that both hold most.
-Start find_start(const ParticleSet& particles, const TornModel& model, const Pair& pair, std::span<const Index> tips) {
-  const auto weight_of = [&](Index point, Index particle) {
-    const ParticleInfluences& of = particles.influences()[point];
-    for (std::size_t i = 0; i < 4; ++i)
-      if (of.particles[i] == particle) return of.weights[i];
-    return 0.0f;
+float weight_of(const ParticleInfluences& of, Index particle) {
+  for (std::size_t i = 0; i < 4; ++i)
+    if (of.particles[i] == particle) return of.weights[i];
+  return 0.0f;
+}
+
+/// The tip nearest to the middle of a pair that one of the two holds, or kNone.
+Index nearest_tip(const ParticleSet& particles, const OverstretchedPair& pair,
+                  std::span<const Index> tips) {
+  const auto is_of_pair = [&](const ParticleMembership& m) {
+    return m.particle == pair.a || m.particle == pair.b;
   };
-  Start start;
   const std::span<const Vec3f> at = particles.positions();
   const Vec3f middle = 0.5f * (at[particles.seed(pair.a)] + at[particles.seed(pair.b)]);
   float nearest = std::numeric_limits<float>::infinity();  // what a particle holds is near
+  Index found = kNone;
   for (const Index tip : tips) {
     // Not by weights: where particles crowd at a tear, those of its tip do not name them all.
-    const std::span<const ParticleMembership> of = particles.memberships(tip);
-    if (std::none_of(of.begin(), of.end(),
-                     [&](const ParticleMembership& m) { return m.particle == pair.a || m.particle == pair.b; }))
-      continue;
+    if (std::ranges::none_of(particles.memberships(tip), is_of_pair)) continue;
     const float distance = (at[tip] - middle).norm();
     if (!(distance < nearest)) continue;
     nearest = distance;
-    start = {tip, true};
+    found = tip;
   }
-  if (start.is_tip) return start;
+  return found;
+}
+
+/// The point that both particles of a pair hold most, or kNone.
+Index most_common_point(const ParticleSet& particles, const TornModel& model,
+                        const OverstretchedPair& pair) {
+  const auto members = particles.members(pair.a);
+  if (!members) throw std::bad_alloc();
   float most = 0;
-  for (const Index point : particles.members(pair.a)) {
-    const float both = weight_of(point, pair.a) * weight_of(point, pair.b);
+  Index found = kNone;
+  for (const Index point : *members) {
+    const ParticleInfluences& of = particles.influences()[point];
+    const float both = weight_of(of, pair.a) * weight_of(of, pair.b);
     if (!(both > most) || model.surface().point_corner[point] == kNone) continue;
     most = both;
-    start.point = point;
+    found = point;
   }
-  return start;
+  return found;
+}
+
+Start find_start(const ParticleSet& particles, const TornModel& model,
+                 const OverstretchedPair& pair, std::span<const Index> tips) {
+  const Index tip = nearest_tip(particles, pair, tips);
+  if (tip != kNone) return {tip, true};
+  return {most_common_point(particles, model, pair), false};
+}
+
+/// A short straight tear on the posed surface.
+struct ShortTear {
+  Vec3d from = Vec3d::Zero();
+  Vec3d direction = Vec3d::Zero();  ///< Unit length.
+  Vec3d normal = Vec3d::Zero();     ///< Of the surface; zero where there is none.
+};
+
+/// Turns the direction of a tear forward, away from the edges of the border that end at its tip.
+void run_forward(const TornModel& model, const SurfacePose& posed, Index tip, ShortTear& tear) {
+  const LipBorder border(model);
+  Vec3d forward = tear.from - 0.5 * (posed.place(model, border.next(tip)) +
+                                     posed.place(model, border.previous(tip)));
+  forward -= forward.dot(tear.normal) * tear.normal;
+  if (!(forward.norm() > 0)) return;
+  forward /= forward.norm();
+  if (tear.direction.dot(forward) < 0) tear.direction = -tear.direction;
+  if (tear.direction.dot(forward) < kLeastForwardCosine)
+    tear.direction = (tear.direction + forward).normalized();
+}
+
+/// Places a tear of some length at a point, across the direction of the greatest stretch.
+ShortTear place_tear(const SoftBody& body, const ParticleSet& particles, const TornModel& model,
+                     const SurfacePose& posed, const OverstretchedPair& pair, const Start& start,
+                     double length) {
+  ShortTear tear;
+  tear.normal = posed.normal(model, start.point);
+  if (tear.normal.isZero(0)) return tear;
+  tear.from = posed.place(model, start.point);
+  tear.direction = tear.normal.cross(greatest_stretch_around(body, particles, pair, tear.normal));
+  if (start.is_tip)
+    run_forward(model, posed, start.point, tear);
+  else
+    tear.from -= 0.5 * length * tear.direction;
+  return tear;
+}
+
+Result<TearReport> run_tear(TornModel& model, const ModelPose& pose, const ShortTear& tear,
+                            double length, ChangeRecord& change) {
+  const Vec3d depth = length * tear.normal, to = tear.from + length * tear.direction;
+  const std::array<Blade, 2> stroke = {Blade{tear.from + depth, tear.from - depth},
+                                       Blade{to + depth, to - depth}};
+  return model.tear(pose, stroke, {}, &change);
+}
+
+/// Tears at the first of some pairs where the surface can be torn.
+/// @param change  written where it has torn.
+Status tear_first(const SoftBody& body, ParticleSet& particles, TornModel& model,
+                  const ModelPose& pose, std::span<const OverstretchedPair> pairs, double length,
+                  ForceTearingReport& report, ChangeRecord& change) {
+  if (Status status = particles.rest(pose, {}, {}); !status) return status;
+  const auto tips = particles.tips(model);
+  if (!tips) return tips.error();
+  SurfacePose posed;
+  posed.begin(model.character().skins, pose.morph_weights.size());
+  if (Status status = posed.set(model.character().skins, pose); !status) return status;
+  for (const OverstretchedPair& pair : pairs.first(std::min(pairs.size(), kMostAttempts))) {
+    const Start start = find_start(particles, model, pair, *tips);
+    if (start.point == kNone) continue;
+    const ShortTear tear = place_tear(body, particles, model, posed, pair, start, length);
+    if (tear.normal.isZero(0)) continue;
+    auto torn = run_tear(model, pose, tear, length, change);
+    if (!torn) return torn.error();
+    if (torn->runs == 0) continue;
+    report.has_torn = true;
+    report.is_from_tip = start.is_tip;
+    report.place = tear.from;
+    report.direction = tear.direction;
+    report.tear = std::move(*torn);
+    return particles.follow(model, std::span(&change, 1));
+  }
+  return {};
 }
 
 }  // namespace
+}  // namespace particles
 
-Result<ForceTearingReport> tear_overstretched(const SoftBody& body, ParticleSet& particles, TornModel& model, const ModelPose& pose,
-                                              const ForceTearingOptions& options, std::vector<ChangeRecord>* changes) {
+Result<ForceTearingReport> tear_overstretched(const SoftBody& body, ParticleSet& particles,
+                                              TornModel& model, const ModelPose& pose,
+                                              const ForceTearingOptions& options,
+                                              std::vector<ChangeRecord>* changes) {
   if (!(options.length > 0) || options.length > 2)
-    return Status::failure(StatusCode::invalid_argument, kNone, "a tear of %g particle ranges a call; it must be in (0, 2]",
+    return Status::failure(StatusCode::invalid_argument, kNone,
+                           "a tear of %g particle ranges a call; it must be in (0, 2]",
                            options.length);
   if (body.particle_count() != particles.particle_count())
-    return Status::failure(StatusCode::size_mismatch, kNone, "the body has %u particles, the set %u; step the body first",
+    return Status::failure(StatusCode::size_mismatch, kNone,
+                           "the body has %u particles, the set %u; step the body first",
                            body.particle_count(), particles.particle_count());
   ForceTearingReport report;
-  const std::vector<Pair> pairs = find_overstretched(body, particles, report.greatest_stretch);
-  if (pairs.empty()) return report;
-  const std::vector<Index> tips = particles.tips(model);
-  const PosedFan fan(model, pose);
-  const particles::LipBorder border(model);
-  for (std::size_t i = 0; i < std::min(pairs.size(), kAttempts); ++i) {
-    const Pair& pair = pairs[i];
-    const Start start = find_start(particles, model, pair, tips);
-    if (start.point == kNone) continue;
-    const Vec3d at = fan.place(start.point), normal = fan.normal(start.point);
-    if (normal.isZero(0)) continue;
-    Vec3d direction = normal.cross(greatest_stretch_around(body, particles, pair, normal));
+  std::vector<ChangeRecord> own;
+  std::vector<ChangeRecord>& records = changes != nullptr ? *changes : own;
+  const std::size_t record_count = records.size();
+  Status status;
+  try {
+    const auto pairs = particles::find_overstretched(body, particles, report.greatest_stretch);
+    if (pairs.empty()) return report;
+    records.emplace_back();  // before the tear, which must not fail for its record
     const double length = options.length * particles.report().range;
-    Vec3d from = at;
-    if (start.is_tip) {
-      Vec3d forward = at - 0.5 * (fan.place(border.next(start.point)) + fan.place(border.previous(start.point)));
-      forward -= forward.dot(normal) * normal;
-      if (forward.norm() > 0) {
-        forward /= forward.norm();
-        if (direction.dot(forward) < 0) direction = -direction;
-        if (direction.dot(forward) < kLeastForward) direction = (direction + forward).normalized();
-      }
-    } else {
-      from -= 0.5 * length * direction;
-    }
-    const Vec3d depth = length * normal;
-    const std::array<Blade, 2> stroke = {Blade{from + depth, from - depth},
-                                         Blade{from + length * direction + depth, from + length * direction - depth}};
-    ChangeRecord change;
-    auto tear = model.tear(pose, stroke, {}, &change);
-    if (!tear) return tear.error();
-    if (tear->runs == 0) continue;
-    if (Status status = particles.follow(model, std::span(&change, 1)); !status) return status;
-    report.has_torn = true;
-    report.is_from_tip = start.is_tip;
-    report.place = from;
-    report.direction = direction;
-    report.tear = std::move(*tear);
-    if (changes != nullptr) changes->push_back(std::move(change));
-    return report;
+    status =
+        particles::tear_first(body, particles, model, pose, pairs, length, report, records.back());
+  } catch (const std::bad_alloc&) {
+    status = Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
   }
+  if (!report.has_torn && records.size() > record_count) records.pop_back();
+  if (!status) return status;
   return report;
 }
 

@@ -21,25 +21,31 @@ Status validate_material(const SoftMaterial& material) {
       Field{"mass", material.mass, 1e-12, 1e12},
       Field{"range", material.range, 1e-6, 1.0},
       Field{"stretch_limit", material.stretch_limit == 0 ? 1.0 : material.stretch_limit, 1.0, 1e6},
-      Field{"strength", material.strength == 0 ? 2.0 : material.strength, std::nextafter(1.0, 2.0), 1e6},
+      Field{"strength", material.strength == 0 ? 2.0 : material.strength, std::nextafter(1.0, 2.0),
+            1e6},
   };
   for (const Field& field : fields) {
     if (!std::isfinite(field.value))
-      return Status::failure(StatusCode::non_finite_value, kNone, "material '%.64s': %s is not finite", material.name.c_str(),
+      return Status::failure(StatusCode::non_finite_value, kNone,
+                             "material '%.64s': %s is not finite", material.name.c_str(),
                              field.name);
     if (field.value < field.least || field.value > field.most)
-      return Status::failure(StatusCode::invalid_argument, kNone, "material '%.64s': %s is %g; it must be from %g to %g%s",
-                             material.name.c_str(), field.name, field.value, field.least, field.most,
-                             field.least == 1.0 ? ", or 0" : "");
+      return Status::failure(StatusCode::invalid_argument, kNone,
+                             "material '%.64s': %s is %g; it must be from %g to %g%s",
+                             material.name.c_str(), field.name, field.value, field.least,
+                             field.most, field.least == 1.0 ? ", or 0" : "");
   }
   return {};
 }
 
 std::span<const SoftMaterial> material_presets() {
   static const std::array presets = {
-      SoftMaterial{"skin", 400, 0.7, 900, 0.01, 0.08, 1.6, 1.8},   SoftMaterial{"fat", 90, 0.35, 150, 0.02, 0.12, 0, 2.2},
-      SoftMaterial{"muscle", 900, 0.8, 1600, 0.02, 0.1, 1.4, 1.6}, SoftMaterial{"rubber", 900, 0.15, 2500, 0.01, 0.1, 3.0, 4.0},
-      SoftMaterial{"sponge", 150, 1.0, 300, 0.005, 0.12, 0, 1.5},  SoftMaterial{"jelly", 60, 0.1, 250, 0.02, 0.15, 0, 1.7},
+      SoftMaterial{"skin", 400, 0.7, 900, 0.01, 0.08, 1.6, 1.8},
+      SoftMaterial{"fat", 90, 0.35, 150, 0.02, 0.12, 0, 2.2},
+      SoftMaterial{"muscle", 900, 0.8, 1600, 0.02, 0.1, 1.4, 1.6},
+      SoftMaterial{"rubber", 900, 0.15, 2500, 0.01, 0.1, 3.0, 4.0},
+      SoftMaterial{"sponge", 150, 1.0, 300, 0.005, 0.12, 0, 1.5},
+      SoftMaterial{"jelly", 60, 0.1, 250, 0.02, 0.15, 0, 1.7},
   };
   return presets;
 }

@@ -5,36 +5,42 @@
 #include <new>
 
 #include "particles/body_state.h"
+#include "particles/clusters/influences.h"
+#include "particles/internal/tolerances.h"
 
 namespace sunder {
 namespace {
 
 using particles::BodyState;
-
-constexpr double kLongestStep = 3600;
+using particles::for_each_influence;
 
 Status check_finite(const char* what, const Vec3d& value) {
   if (value.allFinite()) return {};
-  return Status::failure(StatusCode::non_finite_value, kNone, "%s is (%g, %g, %g); it must be finite", what, value.x(), value.y(),
+  return Status::failure(StatusCode::non_finite_value, kNone,
+                         "%s is (%g, %g, %g); it must be finite", what, value.x(), value.y(),
                          value.z());
 }
 
 Status check_particle(const BodyState& state, Index particle) {
   if (particle < state.motion.count()) return {};
-  return Status::failure(StatusCode::index_out_of_range, particle, "particle %u of %u", particle, state.motion.count());
+  return Status::failure(StatusCode::index_out_of_range, particle, "particle %u of %u", particle,
+                         state.motion.count());
 }
 
 Status check_point(const BodyState& state, Index point) {
   if (point >= state.set->point_count())
-    return Status::failure(StatusCode::index_out_of_range, point, "point %u of %u", point, state.set->point_count());
+    return Status::failure(StatusCode::index_out_of_range, point, "point %u of %u", point,
+                           state.set->point_count());
   if (!(state.set->influences()[point].weights[0] > 0))
-    return Status::failure(StatusCode::invalid_argument, point, "no particle moves point %u", point);
+    return Status::failure(StatusCode::invalid_argument, point, "no particle moves point %u",
+                           point);
   return {};
 }
 
 Status check_hold(const Vec3d& target, const HoldOptions& options) {
   if (!(options.stiffness > 0) || !(options.stiffness <= 1e12))
-    return Status::failure(StatusCode::invalid_argument, kNone, "the stiffness of a hold is %g; it must be above 0, to 1e12",
+    return Status::failure(StatusCode::invalid_argument, kNone,
+                           "the stiffness of a hold is %g; it must be above 0, to 1e12",
                            options.stiffness);
   return check_finite("the target of a hold", target);
 }
@@ -42,10 +48,13 @@ Status check_hold(const Vec3d& target, const HoldOptions& options) {
 Status check_material(const SoftMaterial& material, Index index) {
   const Status status = validate_material(material);
   if (status) return status;
-  return Status::failure(status.code(), index, "%.*s", static_cast<int>(status.text().size()), status.text().data());
+  return Status::failure(status.code(), index, "%.*s", static_cast<int>(status.text().size()),
+                         status.text().data());
 }
 
-Status out_of_memory() { return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory"); }
+Status out_of_memory() {
+  return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
+}
 
 Status follow(BodyState& state) {
   try {
@@ -56,11 +65,6 @@ Status follow(BodyState& state) {
   }
 }
 
-template <class Visit>
-void for_each_influence(const ParticleInfluences& of, Visit visit) {
-  for (std::size_t k = 0; k < 4 && of.weights[k] > 0; ++k) visit(of.particles[k], double{of.weights[k]});
-}
-
 }  // namespace
 
 SoftBody::SoftBody(std::unique_ptr<BodyState> state) : state_(std::move(state)) {}
@@ -68,9 +72,11 @@ SoftBody::~SoftBody() = default;
 SoftBody::SoftBody(SoftBody&&) noexcept = default;
 SoftBody& SoftBody::operator=(SoftBody&&) noexcept = default;
 
-Result<SoftBody> SoftBody::create(ParticleSet& particles, const ModelPose& pose, std::span<const SoftMaterial> materials,
+Result<SoftBody> SoftBody::create(ParticleSet& particles, const ModelPose& pose,
+                                  std::span<const SoftMaterial> materials,
                                   const SoftBodyOptions& options) {
-  if (materials.empty()) return Status::failure(StatusCode::empty_input, kNone, "a soft body needs a material");
+  if (materials.empty())
+    return Status::failure(StatusCode::empty_input, kNone, "a soft body needs a material");
   for (Index i = 0; i < materials.size(); ++i)
     if (Status status = check_material(materials[i], i); !status) return status;
   try {
@@ -81,9 +87,10 @@ Result<SoftBody> SoftBody::create(ParticleSet& particles, const ModelPose& pose,
     if (Status status = state->rests.begin(particles, pose); !status) return status;
     state->revision = particles.revision() + 1;  // of none
     state->follow_particles();
-    for (Index p = 0; p < particles.particle_count(); ++p) {  // what is new wakes; here nothing moves yet
+    for (Index p = 0; p < particles.particle_count();
+         ++p) {  // what is new wakes; here nothing moves yet
       state->motion.awake[p] = 0;
-      state->motion.quiet_seconds[p] = 0;
+      state->motion.quiet.seconds[p] = 0;
     }
     state->motion.awake_count = 0;
     return SoftBody(std::move(state));
@@ -98,27 +105,36 @@ Status SoftBody::set_material(std::uint32_t particle, std::uint32_t material) {
   if (Status status = follow(*state_); !status) return status;
   if (Status status = check_particle(*state_, particle); !status) return status;
   if (material >= state_->materials.size())
-    return Status::failure(StatusCode::index_out_of_range, material, "material %u of %zu", material, state_->materials.size());
+    return Status::failure(StatusCode::index_out_of_range, material, "material %u of %zu", material,
+                           state_->materials.size());
   if (state_->motion.material_of[particle] == material) return {};
   state_->motion.material_of[particle] = material;
-  state_->is_graph_stale = true;
+  state_->graph.is_stale = true;
   state_->wake_around(particle);
   return {};
 }
 
 Status SoftBody::change_material(std::uint32_t material, const SoftMaterial& to) {
   if (material >= state_->materials.size())
-    return Status::failure(StatusCode::index_out_of_range, material, "material %u of %zu", material, state_->materials.size());
+    return Status::failure(StatusCode::index_out_of_range, material, "material %u of %zu", material,
+                           state_->materials.size());
   if (Status status = check_material(to, material); !status) return status;
   if (Status status = follow(*state_); !status) return status;
-  state_->materials[material] = to;
-  state_->is_graph_stale = true;
+  try {
+    SoftMaterial copy = to;
+    state_->materials[material] = std::move(copy);
+  } catch (const std::bad_alloc&) {
+    return out_of_memory();
+  }
+  state_->graph.is_stale = true;
   for (Index p = 0; p < state_->motion.count(); ++p)
     if (state_->motion.material_of[p] == material) state_->wake_around(p);
   return {};
 }
 
-std::uint32_t SoftBody::material_of(std::uint32_t particle) const { return state_->motion.material_of[particle]; }
+std::uint32_t SoftBody::material_of(std::uint32_t particle) const {
+  return state_->motion.material_of[particle];
+}
 std::span<const SoftMaterial> SoftBody::materials() const { return state_->materials; }
 
 // ---- What acts.
@@ -129,7 +145,8 @@ Status SoftBody::add_impulse(std::uint32_t particle, const Vec3d& newton_seconds
   if (Status status = check_finite("an impulse", newton_seconds); !status) return status;
   if (newton_seconds == Vec3d::Zero()) return {};
   auto& motion = state_->motion;
-  motion.velocities[particle] += newton_seconds / state_->materials[motion.material_of[particle]].mass;
+  motion.velocities[particle] +=
+      newton_seconds / state_->materials[motion.material_of[particle]].mass;
   state_->wake_around(particle);
   return {};
 }
@@ -138,8 +155,9 @@ Status SoftBody::add_point_impulse(std::uint32_t point, const Vec3d& newton_seco
   if (Status status = follow(*state_); !status) return status;
   if (Status status = check_point(*state_, point); !status) return status;
   if (Status status = check_finite("an impulse", newton_seconds); !status) return status;
-  for_each_influence(state_->set->influences()[point],
-                     [&](Index p, double weight) { (void)add_impulse(p, weight * newton_seconds); });
+  for_each_influence(state_->set->influences()[point], [&](Index p, double weight) {
+    (void)add_impulse(p, weight * newton_seconds);
+  });
   return {};
 }
 
@@ -155,31 +173,33 @@ Status SoftBody::set_force(std::uint32_t particle, const Vec3d& newtons) {
 
 Status SoftBody::set_gravity(const Vec3d& acceleration) {
   if (Status status = check_finite("gravity", acceleration); !status) return status;
-  if (state_->gravity == acceleration) return {};
+  if (state_->outer.gravity == acceleration) return {};
   if (Status status = follow(*state_); !status) return status;
-  state_->gravity = acceleration;
+  state_->outer.gravity = acceleration;
   state_->wake_all();
   return {};
 }
 
 Status SoftBody::set_wind(WindField wind) {
   if (Status status = follow(*state_); !status) return status;
-  // The next step finds out who feels it: a wind that ends as much as one that begins.
+  // The next step finds out which particles feel it: a wind that ends as much as one that begins.
   if (!wind) state_->wake_all();
-  state_->wind = std::move(wind);
+  state_->outer.wind = std::move(wind);
   return {};
 }
 
 Status SoftBody::set_tension(Tension tension) {
   if (!std::isfinite(tension.newtons_per_metre) || tension.newtons_per_metre < 0)
-    return Status::failure(StatusCode::invalid_argument, kNone, "the tension is %g N/m; it must be finite and not below 0",
+    return Status::failure(StatusCode::invalid_argument, kNone,
+                           "the tension is %g N/m; it must be finite and not below 0",
                            tension.newtons_per_metre);
-  state_->tension = std::move(tension);
-  state_->is_tension_stale = true;
+  state_->outer.tension = std::move(tension);
+  state_->outer.is_tension_stale = true;
   return {};
 }
 
-Result<HoldId> SoftBody::hold(std::uint32_t particle, const Vec3d& target, const HoldOptions& options) {
+Result<HoldId> SoftBody::hold(std::uint32_t particle, const Vec3d& target,
+                              const HoldOptions& options) {
   if (Status status = follow(*state_); !status) return status;
   if (Status status = check_particle(*state_, particle); !status) return status;
   if (Status status = check_hold(target, options); !status) return status;
@@ -190,7 +210,8 @@ Result<HoldId> SoftBody::hold(std::uint32_t particle, const Vec3d& target, const
   }
 }
 
-Result<HoldId> SoftBody::hold_point(std::uint32_t point, const Vec3d& target, const HoldOptions& options) {
+Result<HoldId> SoftBody::hold_point(std::uint32_t point, const Vec3d& target,
+                                    const HoldOptions& options) {
   if (Status status = follow(*state_); !status) return status;
   if (Status status = check_point(*state_, point); !status) return status;
   if (Status status = check_hold(target, options); !status) return status;
@@ -204,14 +225,16 @@ Result<HoldId> SoftBody::hold_point(std::uint32_t point, const Vec3d& target, co
 Status SoftBody::move_hold(HoldId hold, const Vec3d& target) {
   if (Status status = check_finite("the target of a hold", target); !status) return status;
   if (state_->holds.move(hold, target)) return {};
-  return Status::failure(StatusCode::not_found, kNone, "there is no hold %llu", static_cast<unsigned long long>(hold));
+  return Status::failure(StatusCode::not_found, kNone, "there is no hold %llu",
+                         static_cast<unsigned long long>(hold));
 }
 
 Status SoftBody::release(HoldId hold) {
   if (Status status = follow(*state_); !status) return status;
   ParticleInfluences whom;
   if (!state_->holds.remove(hold, whom))
-    return Status::failure(StatusCode::not_found, kNone, "there is no hold %llu", static_cast<unsigned long long>(hold));
+    return Status::failure(StatusCode::not_found, kNone, "there is no hold %llu",
+                           static_cast<unsigned long long>(hold));
   for_each_influence(whom, [&](Index p, double) { state_->wake_around(p); });
   return {};
 }
@@ -219,29 +242,30 @@ Status SoftBody::release(HoldId hold) {
 Status SoftBody::set_colliders(std::span<const Collider> colliders) {
   for (Index i = 0; i < colliders.size(); ++i)
     if (const Status status = validate_collider(colliders[i]); !status)
-      return Status::failure(status.code(), i, "collider %u: %.*s", i, static_cast<int>(status.text().size()),
-                             status.text().data());
+      return Status::failure(status.code(), i, "collider %u: %.*s", i,
+                             static_cast<int>(status.text().size()), status.text().data());
   if (Status status = follow(*state_); !status) return status;
-  for (Index p = 0; p < state_->motion.count(); ++p)
-    if (state_->motion.touched[p] != 0) state_->motion.wake(p);
   try {
     state_->contact.set(colliders);
-    return {};
   } catch (const std::bad_alloc&) {
     return out_of_memory();
   }
+  for (Index p = 0; p < state_->motion.count(); ++p)
+    if (state_->motion.touched[p] != 0) state_->motion.wake(p);
+  return {};
 }
 
 Status SoftBody::move_collider(std::uint32_t collider, const Vec3d& place, const Quatd& turn) {
   const auto colliders = state_->contact.colliders();
   if (collider >= colliders.size())
-    return Status::failure(StatusCode::index_out_of_range, collider, "collider %u of %zu", collider, colliders.size());
+    return Status::failure(StatusCode::index_out_of_range, collider, "collider %u of %zu", collider,
+                           colliders.size());
   Collider moved = colliders[collider];
   moved.place = place;
   moved.turn = turn;
   if (const Status status = validate_collider(moved); !status)
-    return Status::failure(status.code(), collider, "collider %u: %.*s", collider, static_cast<int>(status.text().size()),
-                           status.text().data());
+    return Status::failure(status.code(), collider, "collider %u: %.*s", collider,
+                           static_cast<int>(status.text().size()), status.text().data());
   state_->contact.move(collider, place, turn);
   return {};
 }
@@ -251,19 +275,23 @@ std::span<const Collider> SoftBody::colliders() const { return state_->contact.c
 // ---- Motion.
 
 Status SoftBody::step(const TornModel& model, const ModelPose& pose, double seconds) {
-  if (!std::isfinite(seconds)) return Status::failure(StatusCode::non_finite_value, kNone, "the seconds of a step are not finite");
+  if (!std::isfinite(seconds))
+    return Status::failure(StatusCode::non_finite_value, kNone,
+                           "the seconds of a step are not finite");
   if (seconds < 0)
-    return Status::failure(StatusCode::invalid_argument, kNone, "a step of %g seconds; it must not be below 0", seconds);
-  seconds = std::min(seconds, kLongestStep);
+    return Status::failure(StatusCode::invalid_argument, kNone,
+                           "a step of %g seconds; it must not be below 0", seconds);
+  seconds = std::min(seconds, particles::kLongestStepSeconds);
   BodyState& state = *state_;
   if (state.is_idle()) {
-    state.time += seconds;
+    state.outer.time += seconds;
     state.rests.skip_step();
-    state.contacts = {};
+    state.contact.skip_step();
     return {};
   }
   if (model.point_count() != state.set->point_count())
-    return Status::failure(StatusCode::invalid_argument, kNone, "the model has %u points, the particles were made of %u",
+    return Status::failure(StatusCode::invalid_argument, kNone,
+                           "the model has %u points, the particles were made of %u",
                            model.point_count(), state.set->point_count());
   const bool is_posed = !state.rests.is_same(pose);
   if (is_posed)
@@ -279,42 +307,55 @@ Status SoftBody::step(const TornModel& model, const ModelPose& pose, double seco
 }
 
 std::span<const Vec4f> SoftBody::displacements() {
-  state_->follow_particles();
-  return state_->displacements;
+  if (!follow(*state_)) return {};
+  return state_->shown.displacements;
 }
+
 std::span<const Mat3f> SoftBody::rotations() {
-  state_->follow_particles();
-  return state_->turns;
+  if (!follow(*state_)) return {};
+  return state_->shown.turns;
 }
 
 std::span<const IndexRange> SoftBody::moved_vertices(const TornModel& model, std::uint32_t mesh) {
-  state_->follow_particles();
-  return state_->moved_vertices.of(*state_->set, model, mesh, state_->displaced_key, state_->is_displaced);
+  try {
+    state_->follow_particles();
+    particles::ShownMotion& shown = state_->shown;
+    return shown.moved_vertices.of(*state_->set, model, mesh, shown.displaced_key,
+                                   shown.is_displaced);
+  } catch (const std::bad_alloc&) {
+    return {};
+  }
 }
 
 Vec3d SoftBody::place(std::uint32_t particle) const {
   return state_->rests.place(particle) + state_->motion.displacements[particle];
 }
-Vec3d SoftBody::displacement(std::uint32_t particle) const { return state_->motion.displacements[particle]; }
+Vec3d SoftBody::displacement(std::uint32_t particle) const {
+  return state_->motion.displacements[particle];
+}
 Vec3d SoftBody::velocity(std::uint32_t particle) const {
   return state_->motion.velocities[particle] + state_->rests.velocity(particle);
 }
 
 Vec3d SoftBody::point_displacement(std::uint32_t point) const {
   Vec3d sum = Vec3d::Zero();
-  for_each_influence(state_->set->influences()[point], [&](Index p, double weight) { sum += weight * displacement(p); });
+  for_each_influence(state_->set->influences()[point],
+                     [&](Index p, double weight) { sum += weight * displacement(p); });
   return sum;
 }
 
 Vec3d SoftBody::point_velocity(std::uint32_t point) const {
   Vec3d sum = Vec3d::Zero();
-  for_each_influence(state_->set->influences()[point], [&](Index p, double weight) { sum += weight * velocity(p); });
+  for_each_influence(state_->set->influences()[point],
+                     [&](Index p, double weight) { sum += weight * velocity(p); });
   return sum;
 }
 
 std::uint32_t SoftBody::particle_count() const { return state_->motion.count(); }
-bool SoftBody::is_awake(std::uint32_t particle) const { return state_->motion.awake[particle] != 0; }
+bool SoftBody::is_awake(std::uint32_t particle) const {
+  return state_->motion.awake[particle] != 0;
+}
 std::uint32_t SoftBody::awake_count() const { return state_->motion.awake_count; }
-const ContactReport& SoftBody::contacts() const { return state_->contacts; }
+const ContactReport& SoftBody::contacts() const { return state_->contact.report(); }
 
 }  // namespace sunder

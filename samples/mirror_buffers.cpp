@@ -1,9 +1,7 @@
 // An engine's side of tearing: vertex and index buffers of fixed capacity that follow a torn model
-// by its change records alone. What an operation left as it was is not uploaded again; undo
-// shortens the buffers. In the end they hold what the model holds, bit for bit.
+// by its change records alone. Only what an operation changed is uploaded; undo shortens the
+// buffers. In the end they hold the same bits as the model.
 
-#include <sunder/skinning/deform.h>
-#include <sunder/skinning/pose.h>
 #include <sunder/tear/torn_model.h>
 
 #include <algorithm>
@@ -13,8 +11,9 @@
 #include <cstring>
 #include <functional>
 #include <memory>
-#include <numbers>
 #include <vector>
+
+#include "samples/tube.h"
 
 namespace {
 
@@ -34,8 +33,8 @@ GpuVertex pack(const sunder::Mesh& mesh, std::uint32_t v) {
   }
   vertex.uv = {mesh.uv_sets[0][v].x(), mesh.uv_sets[0][v].y()};
 
-  // A vertex on an edge has the influences of both its ends. The shader takes four: the largest,
-  // made to sum to one again.
+  // A vertex on an edge has the influences of both ends. The shader takes the four largest,
+  // normalised.
   const auto all = mesh.weights.of(v);
   std::vector<sunder::Influence> influences(all.begin(), all.end());
   std::stable_sort(influences.begin(), influences.end(),
@@ -67,9 +66,8 @@ class MeshBuffers {
            change.first_triangle + change.triangle_count <= indices_.size();
   }
 
-  /// Appended and rewritten elements lie in the dirty ranges. Retired triangles too: they name one
-  /// vertex three times, and a card draws nothing there. What undo takes away lies behind the new
-  /// ends.
+  /// Appended and rewritten elements lie in the dirty ranges, and so do retired triangles, which
+  /// name one vertex three times and draw nothing. Elements that undo removes lie behind the ends.
   void apply(const sunder::MeshChange& change, const sunder::Mesh& mesh) {
     vertex_count_ = change.first_vertex + change.vertex_count;
     triangle_count_ = change.first_triangle + change.triangle_count;
@@ -107,8 +105,7 @@ class MeshBuffers {
 
   std::vector<GpuVertex> vertices_;
   std::vector<sunder::Triangle> indices_;
-  std::vector<std::uint32_t>
-      submeshes_;  ///< SoftMaterial of each triangle: walls and caps bring new ones.
+  std::vector<std::uint32_t> submeshes_;  ///< Per triangle; walls and caps add new ones.
   std::uint32_t vertex_count_ = 0, triangle_count_ = 0;
   std::size_t uploaded_bytes_ = 0;
 };
@@ -116,13 +113,13 @@ class MeshBuffers {
 /// All buffers of a character.
 class Mirror {
  public:
-  /// @param growth  capacity, as a multiple of what the character has now.
+  /// @param growth  capacity in multiples of the current size.
   Mirror(const sunder::Character& character, std::uint32_t growth) {
     for (const sunder::Mesh& mesh : character.meshes)
       meshes_.emplace_back(mesh, growth * mesh.vertex_count(), growth * mesh.triangle_count());
   }
 
-  /// @return false where a buffer is too small; nothing was uploaded then.
+  /// @return false if a buffer is too small; nothing is uploaded then.
   [[nodiscard]] bool apply(const sunder::ChangeRecord& change, const sunder::Character& character) {
     for (const sunder::MeshChange& of_mesh : change.meshes)
       if (!meshes_[of_mesh.mesh].has_room_for(of_mesh)) return false;
@@ -144,65 +141,7 @@ class Mirror {
   std::vector<MeshBuffers> meshes_;
 };
 
-constexpr std::uint32_t kAround = 24, kAlong = 30;
-constexpr float kRadius = 0.15f;
-
-/// A hose of one metre, closed by nothing, on two bones; the first column of vertices is repeated
-/// where its texture closes.
-sunder::Mesh make_hose() {
-  sunder::Mesh mesh;
-  mesh.name = "Hose";
-  mesh.uv_sets.emplace_back();
-  for (std::uint32_t ring = 0; ring <= kAlong; ++ring)
-    for (std::uint32_t i = 0; i <= kAround; ++i) {
-      const float angle = 2 * std::numbers::pi_v<float> * static_cast<float>(i % kAround) / kAround;
-      const float height = static_cast<float>(ring) / kAlong;
-      mesh.positions.emplace_back(kRadius * std::sin(angle), height, kRadius * std::cos(angle));
-      mesh.normals.emplace_back(std::sin(angle), 0.0f, std::cos(angle));
-      mesh.uv_sets[0].emplace_back(static_cast<float>(i) / kAround, height);
-      const float upper = std::clamp((height - 0.4f) / 0.2f, 0.0f, 1.0f);
-      const sunder::Influence both[] = {{0, 1.0f - upper}, {1, upper}};
-      if (upper == 0.0f)
-        mesh.weights.append({both, 1});
-      else if (upper == 1.0f)
-        mesh.weights.append({both + 1, 1});
-      else
-        mesh.weights.append(both);
-    }
-  for (std::uint32_t ring = 0; ring < kAlong; ++ring)
-    for (std::uint32_t i = 0; i < kAround; ++i) {
-      const std::uint32_t a = ring * (kAround + 1) + i, b = a + 1, c = a + kAround + 1, d = c + 1;
-      mesh.triangles.push_back({a, b, d});
-      mesh.triangles.push_back({a, d, c});
-    }
-  mesh.submeshes.push_back({"Rubber", sunder::kNone});
-  mesh.triangle_submesh.assign(mesh.triangles.size(), 0);
-  return mesh;
-}
-
-sunder::Character make_character() {
-  sunder::Character character;
-  sunder::BoneTransform at_elbow;
-  at_elbow.translation = {0, 0.5f, 0};
-  character.skeleton.bones = {{"lower", sunder::kNone, {}}, {"upper", 0, at_elbow}};
-  sunder::Affine3f upper_from_bind = sunder::Affine3f::Identity();
-  upper_from_bind.translation() = -at_elbow.translation;
-  character.skins = {{"Hose", {0, 1}, {sunder::Affine3f::Identity(), upper_from_bind}}};
-  character.meshes = {make_hose()};
-  return character;
-}
-
-/// The hose bent by an angle.
-sunder::ModelPose bent(const sunder::Character& character, float angle) {
-  sunder::Pose pose = local_rest_pose(character);
-  pose.parent_from_bone[1].rotation =
-      sunder::Quatf(Eigen::AngleAxisf(angle, Eigen::Vector3f::UnitX()));
-  sunder::ModelPose model_pose;
-  if (!compute_model_pose(character.skeleton, pose, model_pose)) std::abort();
-  return model_pose;
-}
-
-/// A blade that comes from outside, `angle` around the hose, and reaches to its axis.
+/// A blade from outside to the axis of the tube, at an angle around it.
 sunder::Blade blade_at(double angle, double height) {
   const sunder::Vec3d axis(0, height, 0), outwards(std::sin(angle), 0, std::cos(angle));
   return {axis + 0.5 * outwards, axis};
@@ -215,7 +154,7 @@ struct Step {
 
 std::vector<Step> make_steps(const sunder::Character& character) {
   const auto tear = [&](float bend, sunder::Stroke stroke, sunder::TearOptions options) {
-    return [pose = bent(character, bend), stroke = std::move(stroke), options](
+    return [pose = samples::bent(character, bend), stroke = std::move(stroke), options](
                sunder::TornModel& model, sunder::ChangeRecord* change) {
       return model.tear(pose, stroke, options, change).error();
     };
@@ -249,9 +188,9 @@ std::vector<Step> make_steps(const sunder::Character& character) {
        tear(0.5f, {blade_at(4.0, 0.30), blade_at(4.6, 0.12), blade_at(5.2, 0.28)}, deep_gap)},
       {"undo", undo},
       {"redo", redo},
-      {"cut", [pose = bent(character, 0.8f), cut](
+      {"cut", [pose = samples::bent(character, 0.8f), cut](
                   auto& model, auto* change) { return model.cut(pose, cut, change).error(); }},
-      {"drill", [pose = bent(character, 0.1f), bore](
+      {"drill", [pose = samples::bent(character, 0.1f), bore](
                     auto& model, auto* change) { return model.drill(pose, bore, change).error(); }},
       {"undo", undo},
       {"undo", undo},
@@ -265,7 +204,7 @@ int fail(const char* what, const sunder::Status& status) {
   return 1;
 }
 
-/// Plays the steps and uploads what each of them changed.
+/// Plays the steps and uploads what each one changed.
 int play(const std::vector<Step>& steps, sunder::TornModel& model, Mirror& mirror) {
   for (const Step& step : steps) {
     sunder::ChangeRecord change;
@@ -287,10 +226,10 @@ int play(const std::vector<Step>& steps, sunder::TornModel& model, Mirror& mirro
   return 0;
 }
 
-/// Tears on and on. The tear for which there is no room is taken back: the model can be made to fit
-/// its buffers at any time.
+/// Tears until the buffers are full. The tear that does not fit is undone, so the model fits its
+/// buffers again.
 int tear_until_full(const sunder::Character& character, sunder::TornModel& model, Mirror& mirror) {
-  const sunder::ModelPose pose = bent(character, 0.3f);
+  const sunder::ModelPose pose = samples::bent(character, 0.3f);
   for (int i = 0; i < 1000; ++i) {
     const double angle = 0.37 * i;
     const sunder::Stroke stroke = {blade_at(angle, 0.05), blade_at(angle + 0.5, 0.35)};
@@ -299,7 +238,7 @@ int tear_until_full(const sunder::Character& character, sunder::TornModel& model
       return fail("tear", report.error());
     if (mirror.apply(change, model.character())) continue;
     std::printf("after %d more tears the buffers are full; the last one is taken back\n", i);
-    const sunder::Status status = model.undo();  // no record: the buffers never had it
+    const sunder::Status status = model.undo();  // without a record: the buffers never had it
     return status ? 0 : fail("undo", status);
   }
   return std::puts("the buffers were never full"), 1;
@@ -308,7 +247,8 @@ int tear_until_full(const sunder::Character& character, sunder::TornModel& model
 }  // namespace
 
 int main() {
-  const auto character = std::make_shared<const sunder::Character>(make_character());
+  const auto character = std::make_shared<const sunder::Character>(
+      samples::make_tube({.around = 24, .along = 30, .has_uvs = true}));
   auto model = sunder::TornModel::create(character);
   if (!model) return fail("create", model.error());
   Mirror mirror(*character, 4);

@@ -1,4 +1,4 @@
-// Posing by oneTBB: its scheduler behind the same hook.
+// Skinning on the scheduler of oneTBB, through a ParallelFor.
 
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>

@@ -1,4 +1,4 @@
-// Posing by a plain thread pool.
+// Skinning on a plain thread pool, through a ParallelFor.
 
 #include "samples/thread_pool.h"
 #include "samples/waving_strip.h"

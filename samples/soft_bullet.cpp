@@ -1,5 +1,5 @@
-// A soft, posed sheet in a Bullet world: a ball falls into it and is held. The engine owns the
-// world and the ball; the particles of the sheet are bodies among others.
+// A soft, posed sheet in a Bullet world catches a falling ball. The engine owns the world and the
+// ball; the particles of the sheet are bodies like any other.
 
 #include <sunder/particles/bullet_body.h>
 #include <sunder/skinning/deform.h>
@@ -48,7 +48,7 @@ std::shared_ptr<const sunder::Character> make_sheet() {
   return character;
 }
 
-/// Both sides lifted: a trough along y.
+/// Lifts both sides, which makes a trough along y.
 sunder::ModelPose lifted(const sunder::Character& character, float angle) {
   sunder::Pose pose;
   for (const sunder::Bone& bone : character.skeleton.bones)
@@ -62,17 +62,54 @@ sunder::ModelPose lifted(const sunder::Character& character, float angle) {
   return posed;
 }
 
+/// Lets the ball fall into the soft sheet for ten seconds.
+/// @return how far the sheet gave way at most, metres.
+sunder::Result<float> catch_ball(const sunder::Character& sheet, const sunder::ParticleSet& set,
+                                 const btRigidBody& ball, btDiscreteDynamicsWorld& world) {
+  sunder::BulletBodyOptions options;
+  options.return_stiffness = 300;
+  options.neighbour_stiffness = 300;
+  options.mass = 0.05;
+  options.radius = 0.4;
+  float angle = 0.2f;
+  auto soft = sunder::BulletBody::create(set, world, lifted(sheet, angle), options);
+  if (!soft) return soft.error();
+  std::printf("%u particles\n", soft->particle_count());
+
+  constexpr float kFrame = 1.0f / 60;
+  float deepest = 0;
+  for (int frame = 0; frame < 600; ++frame) {
+    angle = std::min(0.35f, angle + 0.1f * kFrame);  // the animation goes on
+    if (const auto status = soft->before_step(set, lifted(sheet, angle), double{kFrame}); !status)
+      return status;
+    world.stepSimulation(kFrame, 4);
+    soft->after_step();
+    float most = 0;
+    for (const sunder::Vec4f& u : soft->displacements())
+      most = std::max(most, u.norm());  // to the GPU, or SkinnedMesh
+    deepest = std::max(deepest, most);
+    if (frame % 60 != 59) continue;
+    const btVector3& at = ball.getWorldTransform().getOrigin();
+    std::printf("%2d s: ball at (%.2f, %.2f, %.2f) m, sheet gives way by %.0f mm\n",
+                (frame + 1) / 60, double{at.x()}, double{at.y()}, double{at.z()},
+                double{1e3f * most});
+  }
+  return deepest;
+}
+
+int fail(const sunder::Status& status) { return std::printf("%s\n", status.text().data()), 1; }
+
 }  // namespace
 
 int main() {
-  // What an engine has: a world, and something in it.
+  // The engine has a world with something in it.
   btDefaultCollisionConfiguration configuration;
   btCollisionDispatcher dispatcher(&configuration);
   btDbvtBroadphase broadphase;
   btSequentialImpulseConstraintSolver solver;
   btDiscreteDynamicsWorld world(&dispatcher, &broadphase, &solver, &configuration);
   world.setGravity({0, 0, -9.81f});
-  world.getSolverInfo().m_linearSlop = 1e-3f;  // what lies on spheres comes to rest
+  world.getSolverInfo().m_linearSlop = 1e-3f;  // lets a body on spheres come to rest
   constexpr float kRadius = 0.2f;
   btSphereShape shape(kRadius);
   btVector3 inertia;
@@ -85,45 +122,16 @@ int main() {
 
   const auto sheet = make_sheet();
   const auto model = sunder::TornModel::create(sheet);
-  if (!model) return std::printf("%s\n", model.error().text().data()), 1;
+  if (!model) return fail(model.error());
   const auto set = sunder::ParticleSet::create(*model, sunder::bind_pose(*sheet), {.range = 0.08});
-  if (!set) return std::printf("%s\n", set.error().text().data()), 1;
+  if (!set) return fail(set.error());
+  const auto deepest = catch_ball(*sheet, *set, ball, world);
+  if (!deepest) return fail(deepest.error());
 
-  bool has_sagged = false, is_held = false;
-  {
-    sunder::BulletBodyOptions options;
-    options.return_stiffness = 300;
-    options.neighbour_stiffness = 300;
-    options.mass = 0.05;
-    options.radius = 0.4;
-    float angle = 0.2f;
-    auto soft = sunder::BulletBody::create(*set, world, lifted(*sheet, angle), options);
-    if (!soft) return std::printf("%s\n", soft.error().text().data()), 1;
-    std::printf("%u particles\n", soft->particle_count());
-
-    constexpr float kFrame = 1.0f / 60;
-    for (int frame = 0; frame < 600; ++frame) {
-      angle = std::min(0.35f, angle + 0.1f * kFrame);  // the animation goes on
-      if (const auto status = soft->before_step(*set, lifted(*sheet, angle), double{kFrame});
-          !status)
-        return std::printf("%s\n", status.text().data()), 1;
-      world.stepSimulation(kFrame, 4);
-      soft->after_step();
-      float most = 0;
-      for (const sunder::Vec4f& u : soft->displacements())
-        most = std::max(most, u.norm());  // to the GPU, or SkinnedMesh
-      has_sagged = has_sagged || most > 0.02f;
-      if (frame % 60 == 59) {
-        const btVector3& at = ball.getWorldTransform().getOrigin();
-        std::printf("%2d s: ball at (%.2f, %.2f, %.2f) m, sheet gives way by %.0f mm\n",
-                    (frame + 1) / 60, double{at.x()}, double{at.y()}, double{at.z()},
-                    double{1e3f * most});
-      }
-    }
-    const btVector3& at = ball.getWorldTransform().getOrigin();
-    is_held = at.z() > -0.3f && ball.getLinearVelocity().length() < 0.05f && at.x() > 0.2f &&
-              at.x() < 0.8f;
-  }
+  const btVector3& at = ball.getWorldTransform().getOrigin();
+  const bool is_held =
+      at.z() > -0.3f && ball.getLinearVelocity().length() < 0.05f && at.x() > 0.2f && at.x() < 0.8f;
+  const bool has_sagged = *deepest > 0.02f;
   const bool is_gone = world.getNumCollisionObjects() == 1;
   world.removeRigidBody(&ball);
   std::printf("the ball %s, the sheet %s, the world %s\n", is_held ? "is held" : "fell",

@@ -30,7 +30,7 @@ sunder::Status tear_file(const char* model_file, const char* torn_file,
 
 int main(int argc, char** argv) {
   if (argc != 3) return std::fputs("usage: tear_file MODEL OUT.glb\n", stderr), 2;
-  // From the front, across a model that stands at the origin and is about as tall as a man.
+  // From the front, across a model of human height that stands at the origin.
   const sunder::Stroke stroke = {{{-0.10, 1.15, 2.0}, {-0.10, 1.15, 0.0}},
                                  {{-0.12, 1.25, 2.0}, {-0.12, 1.25, 0.0}},
                                  {{-0.10, 1.40, 2.0}, {-0.10, 1.40, 0.0}}};

@@ -9,12 +9,12 @@
 
 namespace samples {
 
-/// A plain thread pool behind sunder::ParallelFor. A worker that has nothing to do looks for work a
-/// little longer before it sleeps: the next call of a frame comes soon, and waking a thread takes
-/// longer than posing a few thousand vertices.
+/// A plain thread pool for sunder::ParallelFor. An idle worker looks for work for some time before
+/// it sleeps: the next call of a frame comes soon, and waking a thread takes longer than posing a
+/// few thousand vertices.
 class ThreadPool {
  public:
-  /// @param threads  that work at once, the calling one among them.
+  /// @param threads  number of threads, including the calling one.
   explicit ThreadPool(std::uint32_t threads) {
     for (std::uint32_t i = 1; i < threads; ++i) workers_.emplace_back([this] { work(); });
   }
@@ -46,8 +46,8 @@ class ThreadPool {
     while (pool.done_.load(std::memory_order_acquire) < count) std::this_thread::yield();
   }
 
-  /// A job is a number of tasks that are left and, above it, the job's own number: a worker that
-  /// comes late sees another job, and what it read of the old one is not used.
+  /// A ticket holds the number of remaining tasks in its low half and the number of the job in its
+  /// high half, so a late worker notices that its job is over and drops what it read of it.
   void publish(std::uint32_t count) {
     const std::uint64_t job = (tickets_.load() >> 32u) + 1;
     tickets_.store(job << 32u | count);

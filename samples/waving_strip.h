@@ -26,7 +26,7 @@ inline sunder::Mesh make_strip(std::uint32_t along, std::uint32_t across, std::u
   return mesh;
 }
 
-/// Each bone turned a little about the last one's end.
+/// Turns each bone a little about the end of its parent.
 inline std::vector<sunder::Affine3f> wave(std::uint32_t bones, float time) {
   std::vector<sunder::Affine3f> matrices;
   sunder::Affine3f model_from_bone = sunder::Affine3f::Identity();
@@ -39,8 +39,9 @@ inline std::vector<sunder::Affine3f> wave(std::uint32_t bones, float time) {
   return matrices;
 }
 
-/// Waves the strip for some frames, once on this thread alone and once by a hook, and compares.
-/// @return a program's exit code.
+/// Poses the waving strip for some frames, on this thread and through a hook, and compares the
+/// bits.
+/// @return the program's exit code.
 inline int wave_by(const char* name, const sunder::ParallelFor& parallel_for) {
   constexpr std::uint32_t kBones = 64;
   const sunder::Mesh mesh = make_strip(4000, 50, kBones);
@@ -59,7 +60,7 @@ inline int wave_by(const char* name, const sunder::ParallelFor& parallel_for) {
     if (frame % 3 == 0) pose = wave(kBones, 0.1f * static_cast<float>(frame));
     if (frame % 3 == 1)
       pose[kBones / 2].translation().z() +=
-          0.01f;  // one bone alone; and in every third frame, nothing
+          0.01f;  // one bone moves; in every third frame nothing does
     if (!palette.set(pose, {})) return 1;
     if (!skinned->deform(palette, of_one) || !skinned->deform(palette, of_all, parallel_for))
       return 1;

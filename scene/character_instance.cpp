@@ -43,6 +43,9 @@ struct CharacterInstance::State {
 
   Status make_soft(const SoftTissue& soft);
   Status make_meshes(const CharacterInstanceOptions& options);
+  /// Lets the meshes know.
+  Status note(std::span<const ChangeRecord> changes);
+  /// Lets the meshes and the particles know.
   Status follow(std::span<const ChangeRecord> changes);
   Status deform(Index mesh);
 
@@ -60,16 +63,23 @@ struct CharacterInstance::State {
   /// Makes a call that appends its records to a list. What was done before it failed is passed on
   /// too.
   template <class Call>
-  auto change_all(std::vector<ChangeRecord>* wanted, Call call) -> decltype(call(wanted)) {
+  auto change_all(std::vector<ChangeRecord>* wanted, Call call,
+                  Status (State::*pass_on)(std::span<const ChangeRecord>))
+      -> decltype(call(wanted)) {
     if (is_broken) return out_of_memory();
     std::vector<ChangeRecord> unwanted;
     std::vector<ChangeRecord>& records = wanted != nullptr ? *wanted : unwanted;
     const std::size_t before = records.size();
-    auto outcome = call(&records);
-    if (outcome || records.size() > before)
-      if (Status status = follow(std::span<const ChangeRecord>(records).subspan(before)); !status)
-        return status;
-    return outcome;
+    try {
+      auto outcome = call(&records);
+      const auto made = std::span<const ChangeRecord>(records).subspan(before);
+      if (outcome || !made.empty())
+        if (Status status = (this->*pass_on)(made); !status) return status;
+      return outcome;
+    } catch (const std::bad_alloc&) {
+      is_broken = true;
+      return out_of_memory();
+    }
   }
 };
 
@@ -97,18 +107,22 @@ Status CharacterInstance::State::make_meshes(const CharacterInstanceOptions& opt
   return {};
 }
 
-Status CharacterInstance::State::follow(std::span<const ChangeRecord> changes) {
+Status CharacterInstance::State::note(std::span<const ChangeRecord> changes) {
   try {
     for (const ChangeRecord& change : changes)
       for (const MeshChange& of_mesh : change.meshes) meshes[of_mesh.mesh].note(of_mesh);
-    if (!particles) return {};
-    Status status = particles->follow(model, changes);
-    is_broken = !status;
-    return status;
+    return {};
   } catch (const std::bad_alloc&) {
     is_broken = true;
     return out_of_memory();
   }
+}
+
+Status CharacterInstance::State::follow(std::span<const ChangeRecord> changes) {
+  if (Status status = note(changes); !status || !particles) return status;
+  Status status = particles->follow(model, changes);
+  is_broken = !status;
+  return status;
 }
 
 Status CharacterInstance::State::deform(Index mesh) {
@@ -182,9 +196,10 @@ Status CharacterInstance::redo(ChangeRecord* change) {
 
 Result<TearReport> CharacterInstance::apply(const Operation& operation,
                                             std::vector<ChangeRecord>* changes) {
-  return state_->change_all(changes, [&](std::vector<ChangeRecord>* records) {
+  const auto play = [&](std::vector<ChangeRecord>* records) {
     return apply_operation(state_->model, operation, records);
-  });
+  };
+  return state_->change_all(changes, play, &State::follow);
 }
 
 Status CharacterInstance::begin_stroke(const ModelPose& pose, const Blade& blade,
@@ -214,6 +229,15 @@ Result<TearReport> CharacterInstance::end_stroke(ChangeRecord* change) {
   return report;
 }
 
+Status CharacterInstance::cancel_stroke(ChangeRecord* change) {
+  if (!state_->stroke)
+    return Status::failure(StatusCode::invalid_argument, kNone, "no stroke is in progress");
+  Status status =
+      state_->change(change, [&](ChangeRecord* record) { return state_->stroke->cancel(record); });
+  if (status) state_->stroke.reset();
+  return status;
+}
+
 Result<ForceTearingReport> CharacterInstance::tear_overstretched(
     const ForceTearingOptions& options, std::vector<ChangeRecord>* changes) {
   State& state = *state_;
@@ -222,16 +246,11 @@ Result<ForceTearingReport> CharacterInstance::tear_overstretched(
   if (state.pose.model_from_bone.empty())
     return Status::failure(StatusCode::invalid_argument, kNone,
                            "the instance has no pose yet; call advance() first");
-  if (state.is_broken) return out_of_memory();
-  std::vector<ChangeRecord> unwanted;
-  std::vector<ChangeRecord>& records = changes != nullptr ? *changes : unwanted;
-  const std::size_t before = records.size();
-  Result<ForceTearingReport> report = sunder::tear_overstretched(
-      *state.body, *state.particles, state.model, state.pose, options, &records);
-  // The particles have followed already.
-  for (std::size_t i = before; i < records.size(); ++i)
-    for (const MeshChange& of_mesh : records[i].meshes) state.meshes[of_mesh.mesh].note(of_mesh);
-  return report;
+  const auto tear = [&](std::vector<ChangeRecord>* records) {
+    return sunder::tear_overstretched(*state.body, *state.particles, state.model, state.pose,
+                                      options, records);
+  };
+  return state.change_all(changes, tear, &State::note);  // the particles have followed
 }
 
 Result<RefitJob> CharacterInstance::begin_refit(const WeightsOperation& wanted) {

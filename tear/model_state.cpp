@@ -15,18 +15,22 @@ TornModel::State::State(std::shared_ptr<const Character> from, const TornCapacit
   pose.model_from_bone.resize(character.skeleton.bones.size());
   pose.morph_weights.resize(character.rest_morph_weights.size());
   posed.cover(editor.surface().point_count() + capacity.vertices);
-  for (auto* lips : {&borders_of_call_.lips, &borders_.lips, &tearing.borders.lips}) lips->reserve(capacity.vertices);
+  for (auto* lips : {&borders_of_call_.lips, &borders_.lips, &tearing.borders.lips})
+    lips->reserve(capacity.vertices);
   history.limit_to(capacity.operations, capacity.vertices, pose);
 }
 
 Status TornModel::State::may_begin() const {
-  if (has_stroke) return Status::failure(StatusCode::invalid_argument, kNone, "a stroke is under way; end it first");
+  if (has_stroke)
+    return Status::failure(StatusCode::invalid_argument, kNone,
+                           "a stroke is under way; end it first");
   return history.has_room() ? Status() : no_room({"operations"});
 }
 
 Status TornModel::State::no_room(const tear::CapacityExceeded& exceeded) const {
-  return Status::failure(StatusCode::limit_exceeded, kNone,
-                         "no room left for %s: the model was made for %u more vertices, %u more triangles and %u operations",
+  return Status::failure(StatusCode::capacity_exceeded, kNone,
+                         "no room left for %s: the model was made for %u more vertices, %u more "
+                         "triangles and %u operations",
                          exceeded.what, capacity.vertices, capacity.triangles, capacity.operations);
 }
 
@@ -38,7 +42,8 @@ Status TornModel::State::stand_in(const ModelPose& wanted) {
 
 void TornModel::State::cancel_refits_of(std::uint64_t serial) const {
   for (const auto& refit : refits)
-    if (const auto work = refit.lock(); work && std::ranges::count(work->serials, serial) > 0) work->cancel();
+    if (const auto work = refit.lock(); work && std::ranges::count(work->serials, serial) > 0)
+      work->cancel();
 }
 
 void TornModel::State::begin_call() {
@@ -47,7 +52,8 @@ void TornModel::State::begin_call() {
   begin_of_call_ = editor.mark();
 }
 
-void TornModel::State::end_call(Call& call, const WeightOptions& of_points, ChangeRecord* change, bool is_cut) {
+void TornModel::State::end_call(Call& call, const WeightOptions& of_points, ChangeRecord* change,
+                                bool is_cut) {
   tear::assign_new_weights(begin_of_call_, of_points, posed.pose(), editor, call.report.weights);
   count(begin_of_call_, is_cut, call.report);
   if (change != nullptr) {
@@ -55,15 +61,19 @@ void TornModel::State::end_call(Call& call, const WeightOptions& of_points, Chan
     change->lips = borders_of_call_.lips;
     tear::settle_rims(borders_of_call_.rim_points, editor.surface(), change->rims);
   }
-  keep_borders();
 }
 
-/// Adds what the call opened to what the operation did. Where memory runs out, nothing is added.
-void TornModel::State::keep_borders() {
+/// Lets keep_borders() and record() add what the call opened to what the operation did.
+void TornModel::State::make_room_for_borders() {
   const auto& [lips, rim_points] = borders_of_call_;
   tear::make_room_to_hold(borders_.lips.size() + lips.size(), borders_.lips);
   tear::make_room_to_hold(borders_.rim_points.size() + rim_points.size(), borders_.rim_points);
-  history.make_room_for(borders_.lips.size() + lips.size(), borders_.rim_points.size() + rim_points.size());
+  history.make_room_for(borders_.lips.size() + lips.size(),
+                        borders_.rim_points.size() + rim_points.size());
+}
+
+void TornModel::State::keep_borders() {
+  const auto& [lips, rim_points] = borders_of_call_;
   borders_.lips.insert(borders_.lips.end(), lips.begin(), lips.end());
   borders_.rim_points.insert(borders_.rim_points.end(), rim_points.begin(), rim_points.end());
 }
@@ -73,7 +83,8 @@ void TornModel::State::take_back() {
   posed.forget_from(begin_of_call_.points);
 }
 
-void TornModel::State::count(const tear::SurfaceEditor::Mark& begin, bool is_cut, TearReport& report) {
+void TornModel::State::count(const tear::SurfaceEditor::Mark& begin, bool is_cut,
+                             TearReport& report) {
   report.points_added = editor.surface().point_count() - begin.points;
   report.triangles_added = editor.surface().triangle_count() - begin.triangles;
   report.vertices_added = editor.vertices_since(begin);
@@ -81,7 +92,8 @@ void TornModel::State::count(const tear::SurfaceEditor::Mark& begin, bool is_cut
   editor.for_each_changed(begin, [&](std::uint32_t triangle) {
     report.triangles_retired += editor.surface().corner_point[3 * triangle] == kNone ? 1 : 0;
   });
-  report.pieces = is_cut ? tear::find_all_pieces(begin, editor, posed) : tear::find_pieces(begin, editor, posed);
+  report.pieces = is_cut ? tear::find_all_pieces(begin, editor, posed)
+                         : tear::find_pieces(begin, editor, posed);
 }
 
 void TornModel::State::record(const tear::SurfaceEditor::Mark& begin) {
@@ -102,17 +114,21 @@ Status validate_blade(const Blade& blade, std::uint32_t index) {
 }
 
 Status validate_turn(const Blade& before, const Blade& blade, std::uint32_t index) {
-  if ((blade.tip - blade.base).normalized().dot((before.tip - before.base).normalized()) > 0) return {};
+  if ((blade.tip - blade.base).normalized().dot((before.tip - before.base).normalized()) > 0)
+    return {};
   return Status::failure(StatusCode::invalid_argument, index,
-                         "blade %u is turned by 90 degrees or more against the one before it: sample the stroke more finely",
+                         "blade %u is turned by 90 degrees or more against the one before it: "
+                         "sample the stroke more finely",
                          index);
 }
 
 Status validate_weights(const WeightOptions& options) {
   if (options.policy > WeightPolicy::exact)
-    return Status::failure(StatusCode::invalid_argument, kNone, "unknown weight policy %u", static_cast<unsigned>(options.policy));
+    return Status::failure(StatusCode::invalid_argument, kNone, "unknown weight policy %u",
+                           static_cast<unsigned>(options.policy));
   if (options.policy == WeightPolicy::exact && options.maximum_influences != 0)
-    return Status::failure(StatusCode::invalid_argument, kNone, "policy 'exact' takes all influences, not the %u largest",
+    return Status::failure(StatusCode::invalid_argument, kNone,
+                           "policy 'exact' takes all influences, not the %u largest",
                            options.maximum_influences);
   return {};
 }
@@ -120,13 +136,16 @@ Status validate_weights(const WeightOptions& options) {
 Status validate_options(const TearOptions& options) {
   const auto is_length = [](double value) { return value >= 0 && value <= 1e30; };
   if (!is_length(options.width))
-    return Status::failure(StatusCode::invalid_argument, kNone, "a gap is 0 to 1e30 wide, not %g", options.width);
+    return Status::failure(StatusCode::invalid_argument, kNone, "a gap is 0 to 1e30 wide, not %g",
+                           options.width);
   if (!is_length(options.wall_depth))
-    return Status::failure(StatusCode::invalid_argument, kNone, "a wall is 0 to 1e30 deep, not %g", options.wall_depth);
+    return Status::failure(StatusCode::invalid_argument, kNone, "a wall is 0 to 1e30 deep, not %g",
+                           options.wall_depth);
   if (options.weights)
     if (Status status = validate_weights(*options.weights); !status) return status;
   if (options.layers != Layers::nearest && options.layers != Layers::all)
-    return Status::failure(StatusCode::invalid_argument, kNone, "unknown layers %u", static_cast<unsigned>(options.layers));
+    return Status::failure(StatusCode::invalid_argument, kNone, "unknown layers %u",
+                           static_cast<unsigned>(options.layers));
   return {};
 }
 

@@ -10,8 +10,8 @@
 #include "tear/posed/workpiece.h"
 #include "tear/surface/capacity_exceeded.h"
 #include "tear/surface/surface_editor.h"
-#include "tear/weights/refit_task.h"
 #include "tear/weights/assign_weights.h"
+#include "tear/weights/refit_task.h"
 
 namespace sunder {
 
@@ -24,12 +24,15 @@ struct TornModel::State {
     TearReport report;
     tear::OpenedBorders& borders;
   };
-  /// Runs `work(Call&) -> Status` and describes what it did; where memory or capacity runs out takes everything back. Points keep
-  /// the places where they were found until the pose is set anew.
+  /// Runs `work(Call&) -> Status` and describes what it did; where memory or capacity runs out
+  /// takes everything back. Points keep the places where they were found until the pose is set
+  /// anew.
   /// @param of_points  the weights that the points get which it made.
   /// @param is_cut  all pieces are reported, if there are several.
-  template <class Work>
-  Result<TearReport> call(Work work, const WeightOptions& of_points, ChangeRecord* change, bool is_cut = false) {
+  /// @param conclude  conclude(report): may throw as the rest may; nothing fails after it.
+  template <class Work, class Conclude>
+  Result<TearReport> call(Work work, const WeightOptions& of_points, ChangeRecord* change,
+                          bool is_cut, Conclude conclude) {
     begin_call();
     Call call{{}, borders_of_call_};
     try {
@@ -38,6 +41,9 @@ struct TornModel::State {
         return status;
       }
       end_call(call, of_points, change, is_cut);
+      make_room_for_borders();
+      conclude(call.report);
+      keep_borders();
     } catch (const tear::CapacityExceeded& exceeded) {
       take_back();
       return no_room(exceeded);
@@ -64,8 +70,8 @@ struct TornModel::State {
   [[nodiscard]] Status no_room(const tear::CapacityExceeded& exceeded) const;
   /// Makes `pose` the one in which points are looked up. On failure the old one stays.
   [[nodiscard]] Status stand_in(const ModelPose& pose);
-  /// Ends an operation that began at `begin`, and whose description is history.next(): it can be taken back from now on, unless it
-  /// did nothing.
+  /// Ends an operation that began at `begin`, and whose description is history.next(): it can be
+  /// taken back from now on, unless it did nothing.
   void record(const tear::SurfaceEditor::Mark& begin);
 
   /// Makes a WeightsOperation say which operations it is about, or refuses it.
@@ -73,7 +79,8 @@ struct TornModel::State {
   /// The vertices that these operations appended.
   [[nodiscard]] tear::VertexRanges vertices_of(const WeightsOperation& resolved) const;
   /// Gives points other weights, as an operation of its own.
-  [[nodiscard]] Status reweigh(const WeightsOperation& resolved, const tear::WeightAssignment& assignment, ChangeRecord* change);
+  [[nodiscard]] Status reweigh(const WeightsOperation& resolved,
+                               const tear::WeightAssignment& assignment, ChangeRecord* change);
 
   /// To be called when an operation was undone.
   void cancel_refits_of(std::uint64_t serial) const;
@@ -91,17 +98,26 @@ struct TornModel::State {
   tear::StrokeTearing tearing;  ///< The stroke under way, or the last one.
   tear::History history;
   std::vector<std::weak_ptr<tear::RefitTask>> refits;  ///< That were submitted.
-  /// Of the source in the rest pose: the first time it is asked for, O(vertices). May be asked for by several threads.
+  /// Of the source in the rest pose: the first time it is asked for, O(vertices). May be asked for
+  /// by several threads.
   [[nodiscard]] double rest_diagonal() const;
+
+  template <class Work>
+  Result<TearReport> call(Work work, const WeightOptions& of_points, ChangeRecord* change,
+                          bool is_cut = false) {
+    return call(work, of_points, change, is_cut, [](const TearReport&) {});
+  }
 
  private:
   void begin_call();
+  void make_room_for_borders();
   void keep_borders();
   void end_call(Call& call, const WeightOptions& of_points, ChangeRecord* change, bool is_cut);
   void take_back();
 
   tear::SurfaceEditor::Mark begin_of_call_;
-  tear::OpenedBorders borders_of_call_, borders_;  ///< Of the call under way, and of the operation's calls before it.
+  tear::OpenedBorders borders_of_call_,
+      borders_;  ///< Of the call under way, and of the operation's calls before it.
   mutable std::once_flag has_rest_diagonal_;
   mutable double rest_diagonal_ = 0;
 };

@@ -22,7 +22,9 @@ class Replay {
     const Result<ModelPose> pose = make_pose(model_.character(), operation.pose);
     if (!pose) return pose.error();
     if (operation.pose_changes.empty())
-      return step([&](ChangeRecord* change) { return model_.tear(*pose, operation.stroke, operation.options, change); });
+      return step([&](ChangeRecord* change) {
+        return model_.tear(*pose, operation.stroke, operation.options, change);
+      });
     return tear_while_moving(*pose, operation);
   }
   Result<TearReport> operator()(const CutOperation& operation) const {
@@ -36,7 +38,8 @@ class Replay {
     return step([&](ChangeRecord* change) { return model_.drill(*pose, operation.bore, change); });
   }
   Result<TearReport> operator()(const WeightsOperation& operation) const {
-    const auto weighed = step([&](ChangeRecord* change) { return model_.reweigh(operation, change); });
+    const auto weighed =
+        step([&](ChangeRecord* change) { return model_.reweigh(operation, change); });
     if (!weighed) return weighed.error();
     TearReport report;
     report.weights = *weighed;
@@ -53,43 +56,59 @@ class Replay {
   Result<TearReport> repeat(std::uint32_t count, std::uint32_t available, const char* what,
                             Status (TornModel::*once)(ChangeRecord*)) const {
     if (count > available)
-      return Status::failure(StatusCode::not_found, kNone, "%u operations are to be %s, there are %u", count, what, available);
+      return Status::failure(StatusCode::not_found, kNone,
+                             "%u operations are to be %s, there are %u", count, what, available);
     for (std::uint32_t i = 0; i < count; ++i)
-      if (Status status = step([&](ChangeRecord* change) { return (model_.*once)(change); }); !status) return status;
+      if (Status status = step([&](ChangeRecord* change) { return (model_.*once)(change); });
+          !status)
+        return status;
     return TearReport{};
   }
 
-  Result<TearReport> tear_while_moving(const ModelPose& first_pose, const TearOperation& operation) const {
+  Result<TearReport> tear_while_moving(const ModelPose& first_pose,
+                                       const TearOperation& operation) const {
     std::vector<ModelPose> poses;
     for (std::size_t i = 0; i < operation.pose_changes.size(); ++i) {
       const auto& change = operation.pose_changes[i];
       const std::uint32_t after = i == 0 ? 0 : operation.pose_changes[i - 1].blade;
       if (change.blade <= after || change.blade >= operation.stroke.size())
         return Status::failure(StatusCode::invalid_argument, change.blade,
-                               "pose change %zu at blade %u: they ascend from blade 1 on", i, change.blade);
+                               "pose change %zu at blade %u: they ascend from blade 1 on", i,
+                               change.blade);
       auto pose = make_pose(model_.character(), change.pose);
       if (!pose) return pose.error();
       poses.push_back(std::move(*pose));
     }
     if (operation.stroke.size() < 2)
-      return Status::failure(StatusCode::invalid_argument, kNone, "a stroke needs at least two blades");
-    const std::uint32_t done_before = model_.undo_count();
+      return Status::failure(StatusCode::invalid_argument, kNone,
+                             "a stroke needs at least two blades");
     const std::size_t changes_before = changes_ != nullptr ? changes_->size() : 0;
-    auto stroke = TearStroke::create(model_, first_pose, operation.stroke.front(), operation.options);
+    auto stroke =
+        TearStroke::create(model_, first_pose, operation.stroke.front(), operation.options);
     if (!stroke) return stroke.error();
+    auto report = tear_blade_by_blade(*stroke, first_pose, poses, operation);
+    if (report) return report;
+    // Half a stroke is no stroke.
+    (void)stroke->cancel();
+    if (changes_ != nullptr) changes_->resize(changes_before);
+    return report;
+  }
+
+  /// @param poses  of operation.pose_changes.
+  Result<TearReport> tear_blade_by_blade(TearStroke& stroke, const ModelPose& first_pose,
+                                         const std::vector<ModelPose>& poses,
+                                         const TearOperation& operation) const {
     std::size_t next_change = 0;
     const ModelPose* pose = &first_pose;
-    Status failure;
-    for (std::uint32_t blade = 1; blade < operation.stroke.size() && failure; ++blade) {
-      if (next_change < poses.size() && operation.pose_changes[next_change].blade == blade) pose = &poses[next_change++];
-      failure = step([&](ChangeRecord* change) { return stroke->extend(*pose, operation.stroke[blade], 0.0, change); }).error();
+    for (std::uint32_t blade = 1; blade < operation.stroke.size(); ++blade) {
+      if (next_change < poses.size() && operation.pose_changes[next_change].blade == blade)
+        pose = &poses[next_change++];
+      const auto extended = step([&](ChangeRecord* change) {
+        return stroke.extend(*pose, operation.stroke[blade], 0.0, change);
+      });
+      if (!extended) return extended.error();
     }
-    auto report = step([&](ChangeRecord* change) { return stroke->end(change); });
-    if (failure && report) return report;
-    // Half a stroke is no stroke.
-    if (model_.undo_count() > done_before) (void)model_.undo();
-    if (changes_ != nullptr) changes_->resize(changes_before);
-    return failure ? report.error() : failure;
+    return step([&](ChangeRecord* change) { return stroke.end(change); });
   }
 
   TornModel& model_;
@@ -98,7 +117,8 @@ class Replay {
 
 }  // namespace
 
-Result<TearReport> apply_operation(TornModel& model, const Operation& operation, std::vector<ChangeRecord>* changes) {
+Result<TearReport> apply_operation(TornModel& model, const Operation& operation,
+                                   std::vector<ChangeRecord>* changes) {
   return std::visit(Replay(model, changes), operation);
 }
 

@@ -2,6 +2,8 @@
 
 #include <cmath>
 #include <cstring>
+#include <new>
+#include <unordered_set>
 #include <utility>
 
 #include "tear/model_state.h"
@@ -11,18 +13,22 @@ namespace sunder {
 namespace {
 
 bool same_bits(const ModelPose& a, const ModelPose& b) {
-  if (a.model_from_bone.size() != b.model_from_bone.size() || a.morph_weights != b.morph_weights) return false;
+  if (a.model_from_bone.size() != b.model_from_bone.size() || a.morph_weights != b.morph_weights)
+    return false;
   for (std::size_t i = 0; i < a.model_from_bone.size(); ++i)
-    if (std::memcmp(a.model_from_bone[i].data(), b.model_from_bone[i].data(), 12 * sizeof(double)) != 0) return false;
+    if (std::memcmp(a.model_from_bone[i].data(), b.model_from_bone[i].data(),
+                    12 * sizeof(double)) != 0)
+      return false;
   return true;
 }
 
 Status validate_sampling(const StrokeSampling& sampling) {
   if (!(sampling.minimum_distance >= 0 && sampling.minimum_distance <= 1e30))
-    return Status::failure(StatusCode::invalid_argument, kNone, "samples are 0 to 1e30 apart, not %g", sampling.minimum_distance);
+    return Status::failure(StatusCode::invalid_argument, kNone,
+                           "samples are 0 to 1e30 apart, not %g", sampling.minimum_distance);
   if (!(sampling.minimum_seconds >= 0 && sampling.minimum_seconds <= 1e30))
-    return Status::failure(StatusCode::invalid_argument, kNone, "samples are 0 to 1e30 seconds apart, not %g",
-                           sampling.minimum_seconds);
+    return Status::failure(StatusCode::invalid_argument, kNone,
+                           "samples are 0 to 1e30 seconds apart, not %g", sampling.minimum_seconds);
   return {};
 }
 
@@ -53,26 +59,45 @@ struct TearStroke::State {
   StrokeSampling sampling;
   TearOperation& operation;  ///< What was taken up: the history's next entry.
   double last_seconds = 0;
-  std::optional<Held> held;
-  tear::SurfaceEditor::Mark begin;
-  TearReport total;
-  // What a failing call goes back to.
-  tear::StrokeTearing tearing_before;
-  ModelPose pose_before;
-  bool has_ended = false;  ///< Then the model is not looked at again: it may be gone, or have another stroke.
+  std::optional<Held> held = {};
+  tear::SurfaceEditor::Mark begin = {};
+  TearReport total = {};
+  Index first_in_pose =
+      0;  ///< Points from here on were made in the pose in which the model stands.
+  // The state that a failing call goes back to.
+  tear::StrokeTearing tearing_before = {};
+  ModelPose pose_before = {};
+  std::vector<std::pair<Index, Vec3d>> found_before =
+      {};  ///< Points and where they were found in that pose, if it was left.
+  std::unordered_set<Index> opened_before = {};  ///< Of the editor.
+  bool has_ended =
+      false;  ///< Then the model is not looked at again: it may be gone, or have another stroke.
 
   [[nodiscard]] bool is_due(const Blade& blade, double seconds) const {
-    const double moved =
-        std::max((blade.base - model->tearing.blade().base).norm(), (blade.tip - model->tearing.blade().tip).norm());
+    const double moved = std::max((blade.base - model->tearing.blade().base).norm(),
+                                  (blade.tip - model->tearing.blade().tip).norm());
     return moved >= sampling.minimum_distance && seconds - last_seconds >= sampling.minimum_seconds;
+  }
+
+  /// The stroke is no longer under way.
+  void close() {
+    model->has_stroke = false;
+    has_ended = true;
   }
 
   /// Takes up a blade within a call.
   Status take_up(const ModelPose& pose, const Blade& blade) {
     const auto index = static_cast<std::uint32_t>(operation.stroke.size());
     if (!same_bits(pose, model->pose)) {
+      // In another pose, and in this one when it is entered again, these points stand where their
+      // weights put them.
+      for (Index point = first_in_pose; point < model->editor.surface().point_count(); ++point)
+        if (const Vec3d* found = model->posed.find_known(point))
+          found_before.emplace_back(point, *found);
       model->tearing.leave_pose(model->workpiece());
+      const Index points = model->editor.surface().point_count();
       if (Status status = model->stand_in(pose); !status) return status;
+      first_in_pose = points;
       model->tearing.enter_pose(model->workpiece());
       operation.pose_changes.push_back({index, pose});
     }
@@ -81,12 +106,20 @@ struct TearStroke::State {
     return {};
   }
 
-  /// Runs `work`; where it fails, everything is as it was, the pose too.
-  template <class Work>
-  Result<TearReport> call(Work work, ChangeRecord* change) {
+  /// Runs `work`, and then `conclude` with the report; where one fails, everything is as it was,
+  /// the pose too.
+  template <class Work, class Conclude>
+  Result<TearReport> call(Work work, ChangeRecord* change, Conclude conclude) {
     tear::StrokeTearing& tearing = model->tearing;
-    tearing_before = tearing;
-    pose_before = model->pose;
+    try {
+      tearing_before = tearing;
+      pose_before = model->pose;
+      opened_before = model->editor.opened_half_edges();
+    } catch (const std::bad_alloc&) {
+      return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
+    }
+    found_before.clear();
+    const Index first_before = first_in_pose;
     const std::size_t blades = operation.stroke.size(), poses = operation.pose_changes.size();
     auto report = model->call(
         [&](TornModel::State::Call& call) -> Status {
@@ -97,15 +130,17 @@ struct TearStroke::State {
           std::swap(call.borders, tearing.borders);
           return {};
         },
-        operation.options.weights.value_or(WeightOptions{}), change);
-    if (report) {
-      add_to(total, *report);
-      return report;
-    }
-    tearing = tearing_before;
+        operation.options.weights.value_or(WeightOptions{}), change, false, conclude);
+    if (report) return report;
+    std::swap(tearing, tearing_before);
     operation.stroke.resize(blades);
     operation.pose_changes.resize(poses);
-    if (!same_bits(pose_before, model->pose)) (void)model->stand_in(pose_before);
+    first_in_pose = first_before;
+    model->editor.restore_opened(opened_before);
+    if (!same_bits(pose_before, model->pose)) {
+      (void)model->stand_in(pose_before);
+      for (const auto& [point, found] : found_before) model->posed.pin(point, found);
+    }
     return report;
   }
 };
@@ -114,47 +149,62 @@ TearStroke::TearStroke(std::unique_ptr<State> state) : state_(std::move(state)) 
 TearStroke::TearStroke(TearStroke&&) noexcept = default;
 
 TearStroke::~TearStroke() {
-  if (state_ && !state_->has_ended) (void)end();
+  if (state_ && !state_->has_ended) (void)cancel();
 }
 
-Result<TearStroke> TearStroke::create(TornModel& model, const ModelPose& pose, const Blade& blade, const TearOptions& options,
-                                      const StrokeSampling& sampling) {
+Result<TearStroke> TearStroke::create(TornModel& model, const ModelPose& pose, const Blade& blade,
+                                      const TearOptions& options, const StrokeSampling& sampling) {
   TornModel::State& of_model = *model.state_;
   if (Status status = of_model.may_begin(); !status) return status;
   if (Status status = validate_options(options); !status) return status;
   if (Status status = validate_sampling(sampling); !status) return status;
   if (Status status = validate_blade(blade, 0); !status) return status;
   if (Status status = of_model.stand_in(pose); !status) return status;
-  auto& operation = of_model.history.next().as<TearOperation>();
-  tear::assign_pose(pose, operation.pose);
-  operation.stroke.assign(1, blade);
-  operation.pose_changes.clear();
-  operation.options = options;
-  operation.options.weights = recorded(options.weights.value_or(of_model.weights));
-  of_model.tearing.begin(blade, options);
-  auto state = std::unique_ptr<State>(
-      new State{&of_model, sampling, operation, 0, {}, of_model.begin_operation(options.wall_depth > 0), {}, {}, {}, false});
-  of_model.has_stroke = true;
-  return TearStroke(std::move(state));
+  try {
+    auto& operation = of_model.history.next().as<TearOperation>();
+    tear::assign_pose(pose, operation.pose);
+    operation.stroke.assign(1, blade);
+    operation.pose_changes.clear();
+    operation.options = options;
+    operation.options.weights = recorded(options.weights.value_or(of_model.weights));
+    of_model.tearing.begin(blade, options);
+    auto state = std::unique_ptr<State>(new State{&of_model, sampling, operation});
+    state->begin = of_model.begin_operation(options.wall_depth > 0);
+    state->first_in_pose = state->begin.points;
+    of_model.has_stroke = true;
+    return TearStroke(std::move(state));
+  } catch (const std::bad_alloc&) {
+    return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
+  }
 }
 
-Result<TearReport> TearStroke::extend(const ModelPose& pose, const Blade& blade, double seconds, ChangeRecord* change) {
+Result<TearReport> TearStroke::extend(const ModelPose& pose, const Blade& blade, double seconds,
+                                      ChangeRecord* change) {
   State& state = *state_;
-  if (state.has_ended) return Status::failure(StatusCode::invalid_argument, kNone, "this stroke was ended");
+  if (state.has_ended)
+    return Status::failure(StatusCode::invalid_argument, kNone, "this stroke was ended");
   const auto index = static_cast<std::uint32_t>(state.operation.stroke.size());
   if (Status status = validate_blade(blade, index); !status) return status;
   if (!std::isfinite(seconds) || seconds < state.last_seconds)
-    return Status::failure(StatusCode::invalid_argument, index, "blade %u comes at %g s, after one at %g s", index, seconds,
+    return Status::failure(StatusCode::invalid_argument, index,
+                           "blade %u comes at %g s, after one at %g s", index, seconds,
                            state.last_seconds);
-  if (Status status = validate_turn(state.model->tearing.blade(), blade, index); !status) return status;
+  if (Status status = validate_turn(state.model->tearing.blade(), blade, index); !status)
+    return status;
   if (!state.is_due(blade, seconds)) {
     if (Status status = CharacterPose::check(state.model->character, pose); !status) return status;
-    state.held = State::Held{pose, blade};
+    try {
+      state.held = State::Held{pose, blade};
+    } catch (const std::bad_alloc&) {
+      return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
+    }
     if (change != nullptr) *change = {};
     return TearReport{};
   }
-  auto report = state.call([&] { return state.take_up(pose, blade); }, change);
+  auto report =
+      state.call([&] { return state.take_up(pose, blade); }, change, [](const TearReport&) {});
   if (!report) return report;
+  add_to(state.total, *report);
   state.last_seconds = seconds;
   state.held.reset();
   return report;
@@ -162,22 +212,46 @@ Result<TearReport> TearStroke::extend(const ModelPose& pose, const Blade& blade,
 
 Result<TearReport> TearStroke::end(ChangeRecord* change) {
   State& state = *state_;
-  if (state.has_ended) return Status::failure(StatusCode::invalid_argument, kNone, "this stroke was ended");
+  if (state.has_ended)
+    return Status::failure(StatusCode::invalid_argument, kNone, "this stroke was ended");
+  TearReport total = state.total;
   const auto report = state.call(
       [&]() -> Status {
         if (state.held)
-          if (Status status = state.take_up(state.held->pose, state.held->blade); !status) return status;
+          if (Status status = state.take_up(state.held->pose, state.held->blade); !status)
+            return status;
         state.model->tearing.finish(state.model->workpiece());
         return {};
       },
-      change);
+      change,
+      [&](const TearReport& last) {
+        add_to(total, last);
+        state.model->count(state.begin, false, total);
+      });
   if (!report) return report;
-  state.model->has_stroke = false;
-  state.has_ended = true;
-  state.model->count(state.begin, false, state.total);
+  state.close();
   // A stroke of one blade tears nothing: there is nothing to take back.
   if (state.operation.stroke.size() > 1) state.model->record(state.begin);
-  return std::move(state.total);
+  return total;
+}
+
+Status TearStroke::cancel(ChangeRecord* change) {
+  State& state = *state_;
+  if (state.has_ended)
+    return Status::failure(StatusCode::invalid_argument, kNone, "this stroke was ended");
+  TornModel::State& model = *state.model;
+  try {
+    model.editor.scratch().reset();
+    if (change != nullptr) model.editor.describe_roll_back(state.begin, *change);
+  } catch (const tear::CapacityExceeded& exceeded) {
+    return model.no_room(exceeded);
+  } catch (const std::bad_alloc&) {
+    return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
+  }
+  model.editor.roll_back(state.begin);
+  model.posed.forget_from(state.begin.points);
+  state.close();
+  return {};
 }
 
 }  // namespace sunder

@@ -18,7 +18,7 @@ constexpr double kPi = std::numbers::pi;
 // --------------------------------------------------------------------
 
 struct Limb {
-  std::vector<Vec3d> axis;  ///< Of its capsules, end to end, from the root outwards.
+  std::vector<Vec3d> axis;  ///< Of the capsules, end to end, from the root outwards.
   double radius;
   int ribs;
   Vec3d side;  ///< Perpendicular to all of `axis`: where the angle around it is zero.
@@ -34,12 +34,12 @@ const std::vector<Limb>& limbs() {
   return all;
 }
 
-/// Where a position stands beside a limb.
+/// A position relative to a limb.
 struct LimbPlace {
   double distance;  ///< To the axis.
-  double along;     ///< On the axis, from its begin, metres.
+  double along;     ///< Along the axis, from its beginning, metres.
   double angle;     ///< Around the axis.
-  double radial;    ///< Distance to the axis' line, so zero at the poles of the caps.
+  double radial;    ///< Distance to the infinite axis; zero at the poles of the caps.
 };
 
 LimbPlace place_on(const Limb& limb, const Vec3d& position) {
@@ -132,8 +132,8 @@ Affine3f bone_from_bind(Index bone) {
   return result;
 }
 
-/// Shares fall with the fourth power of the distance to the bones, in radii of their flesh; small
-/// ones fade to nothing, so that weights are smooth and yet few.
+/// Weights fall with the fourth power of the distance to the bones, in radii of their flesh. Small
+/// weights fade to zero, so that they are smooth and few.
 std::vector<Influence> influences_at(const Vec3d& position) {
   std::vector<double> shares;
   for (const BoneLine& line : bone_lines()) {
@@ -181,7 +181,7 @@ std::size_t nearest_limb(const Vec3d& position) {
   return nearest;
 }
 
-/// Texture coordinates of a triangle's corners: each limb unrolled on a strip of its own.
+/// Texture coordinates of the corners of a triangle: each limb is unrolled on its own strip.
 std::array<Vec2f, 3> unroll(const std::array<Vec3d, 3>& corners) {
   const Vec3d centre = (corners[0] + corners[1] + corners[2]) / 3;
   const std::size_t limb = nearest_limb(centre);
@@ -190,8 +190,8 @@ std::array<Vec2f, 3> unroll(const std::array<Vec3d, 3>& corners) {
   for (std::size_t i = 0; i < 3; ++i) {
     const LimbPlace place = place_on(limbs()[limb], corners[i]);
     double angle = place.angle;
-    // Across the seam a corner continues on the side of its triangle, so that no triangle runs back
-    // over the whole strip.
+    // At the seam a corner stays on the side of its triangle, so that no triangle spans the whole
+    // strip.
     if (angle - middle > kPi) angle -= 2 * kPi;
     if (middle - angle > kPi) angle += 2 * kPi;
     const double u =
@@ -219,8 +219,7 @@ Mesh make_flesh(Index skin) {
   mesh.uv_sets.resize(1);
   mesh.morph_targets.push_back({"Swell", {}, {}, {}});
 
-  // One vertex for each point and place in the texture: the copies along a seam are equal in all
-  // else.
+  // One vertex per point and texture coordinate; copies along a seam agree in everything else.
   std::map<std::tuple<Index, float, float>, Index> vertex_at;
   for (const Triangle& points : surface.triangles) {
     const std::array<Vec3d, 3> corners = {
@@ -250,8 +249,8 @@ Mesh make_flesh(Index skin) {
 // --------------------------------------------------------------------------------------------------------------
 
 Mesh make_pot(Index skin) {
-  // Radius and height of the turned outline, from the axis below to the axis above; each piece is a
-  // band with hard edges.
+  // Radius and height of the outline of revolution, from the bottom of the axis to its top. Each
+  // piece is a band with hard edges.
   constexpr std::array<std::array<double, 2>, 8> kOutline = {{{0, 0},
                                                               {0.22, 0},
                                                               {0.28, 0.26},
@@ -273,7 +272,7 @@ Mesh make_pot(Index skin) {
     const double rise = kOutline[band + 1][1] - kOutline[band][1],
                  run = kOutline[band + 1][0] - kOutline[band][0];
     for (Index i = 0; i <= kSegments; ++i) {
-      // The last column repeats the first one, bit for bit, with texture coordinates of its own.
+      // The last column has the bits of the first one, but its own texture coordinates.
       const double angle = 2 * kPi * (i % kSegments) / kSegments;
       for (const std::size_t end : {band, band + 1}) {
         const double radius = kOutline[end][0];
@@ -318,7 +317,7 @@ Channel make_sway(Index bone, const Vec3d& axis, double amplitude, double phase)
   return channel;
 }
 
-/// The flesh breathes: a smooth curve through three keys, flat at each of them.
+/// Breathing flesh: a smooth curve through three keys, flat at each key.
 Channel make_swelling(Index first_morph_weight) {
   Channel channel;
   channel.target = ChannelTarget::morph_weights;

@@ -10,14 +10,14 @@ namespace {
 constexpr int kImageSize = 360;
 constexpr int kBlades = 13;
 
-/// A straight stretch of pixels of one mesh without a jump in depth.
+/// A straight run of pixels of one mesh without a jump in depth.
 struct Run {
   Vec2d begin = Vec2d::Zero(), end = Vec2d::Zero();
   double score = 0;
 };
 
-/// Whether the surface goes on from one pixel to its neighbour. Where it is seen too much from the
-/// side a tear would hardly show.
+/// Whether the surface continues from one pixel to its neighbour, and faces the viewer enough for a
+/// tear to be visible.
 bool goes_on(const DepthImage& image, const DepthImage::Pixel& from, const DepthImage::Pixel& to) {
   return to.mesh != kNone && to.mesh == from.mesh && to.facing > 0.4 &&
          std::abs(to.depth - from.depth) < 2.5 * image.pixel_size();
@@ -53,8 +53,7 @@ Run longest_run(const DepthImage& image) {
   for (int i = 0; i < kDirections; ++i) {
     const double angle = std::numbers::pi * i / kDirections;
     const Vec2d direction(std::cos(angle), std::sin(angle)), across(-direction.y(), direction.x());
-    const double liking =
-        1 + 0.35 * std::abs(std::sin(2 * angle));  // Oblique strokes look less arranged.
+    const double liking = 1 + 0.35 * std::abs(std::sin(2 * angle));  // Prefers oblique strokes.
     const int reach = (image.width() + image.height()) / 2;
     for (int offset = -reach; offset <= reach; offset += 3)
       search_line(image, Vec2d(image.width() / 2.0, image.height() / 2.0) + offset * across,
@@ -63,8 +62,8 @@ Run longest_run(const DepthImage& image) {
   return best;
 }
 
-/// Places along the run's middle part, swinging to both sides by `swing` of its length; none where
-/// they leave the surface.
+/// Places along the middle part of the run, which swing to both sides by `swing` of its length.
+/// Empty if they leave the surface.
 std::vector<Vec2d> places_along(const DepthImage& image, const Run& run, double swing) {
   const Vec2d along = run.end - run.begin, across(-along.y(), along.x());
   std::vector<Vec2d> places;
@@ -103,8 +102,8 @@ Stroke choose_stroke(const Character& character, const std::vector<DeformedMesh>
   Stroke stroke;
   for (const Vec2d& place : places) {
     const Vec3d hit = image.position(place.x(), place.y());
-    // From before all that is seen to well below the surface: only the nearest layer is torn,
-    // however deep the blade.
+    // From in front of everything visible to well below the surface: only the nearest layer is
+    // torn, however deep the blade reaches.
     const double clearance =
         image.nearest_depth() - image.at(place.x(), place.y()).depth + 0.05 * diagonal;
     stroke.push_back(

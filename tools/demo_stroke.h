@@ -6,9 +6,8 @@
 
 namespace sunder::tools {
 
-/// A slightly curved stroke where the model shows the longest stretch of one unbroken surface, seen
-/// from `frame`. Deterministic.
-/// @return no stroke where nothing is seen.
+/// A slightly curved stroke along the longest stretch of unbroken surface that is visible from
+/// `frame`. Deterministic. @return an empty stroke if nothing is visible.
 [[nodiscard]] Stroke choose_stroke(const Character& character,
                                    const std::vector<DeformedMesh>& posed, const ViewFrame& frame);
 

@@ -15,7 +15,7 @@
 namespace sunder::tools {
 namespace {
 
-/// The surface points of one mesh by itself.
+/// The number of surface points of one mesh.
 std::uint32_t point_count(const Character& character, const Mesh& mesh) {
   Character alone;
   alone.skeleton = character.skeleton;
@@ -77,7 +77,7 @@ Json info_json(const InfoRequest& request, const LoadedCharacter& loaded, const 
   return info;
 }
 
-/// The same, for people. Counts of zero that only clutter are left out.
+/// Prints the same for people.
 void print_info(const Json& info) {
   const auto text = [](const Json& value) { return value.get<std::string>(); };
   const auto number = [](const Json& value) { return value.get<double>(); };

@@ -13,18 +13,19 @@ namespace sunder::tools {
 namespace {
 
 constexpr const char* kExitCodes =
-    "Exit codes: 0 done, 1 done but something is worth a look, 2 usage or operations, 3 a file "
-    "cannot be read or written,\n"
-    "4 a limit was exceeded, 5 a fault of sunder itself. Data goes to stdout, words go to stderr.";
+    "Exit codes: 0 done, 1 done with findings, 2 invalid command line or operations, 3 a file "
+    "cannot "
+    "be read or written,\n"
+    "4 a limit was exceeded, 5 internal error. Data goes to stdout, messages go to stderr.";
 
-/// @param name  as weight_format_name() gives it.
+/// @param name  a result of weight_format_name().
 WeightFormat weight_format(const std::string& name) {
   for (const WeightFormat format : {WeightFormat::unorm16, WeightFormat::unorm8})
     if (name == weight_format_name(format)) return format;
   return WeightFormat::float32;
 }
 
-/// @param name  as weight_policy_name() gives it.
+/// @param name  a result of weight_policy_name().
 WeightPolicy weight_policy(const std::string& name) {
   for (const WeightPolicy policy :
        {WeightPolicy::pose_exact, WeightPolicy::refit, WeightPolicy::exact})
@@ -32,7 +33,7 @@ WeightPolicy weight_policy(const std::string& name) {
   return WeightPolicy::barycentric;
 }
 
-/// @param name  as refit_over_name() gives it.
+/// @param name  a result of refit_over_name().
 RefitOver refit_over(const std::string& name) {
   for (const RefitOver over : {RefitOver::range_of_motion, RefitOver::both})
     if (name == refit_over_name(over)) return over;
@@ -46,57 +47,55 @@ struct Requests {
 };
 
 CLI::App* add_info(CLI::App& app, InfoRequest& request) {
-  CLI::App* const verb =
-      app.add_subcommand("info", "Say what is in a model, and what is wrong with it");
+  CLI::App* const verb = app.add_subcommand("info", "Describe a model and list its faults");
   verb->add_option("MODEL", request.model, "glTF, GLB, FBX, COLLADA, X, B3D, OBJ, PLY, OFF ...")
       ->required();
-  verb->add_flag("--json", request.as_json, "One JSON object instead of text");
+  verb->add_flag("--json", request.as_json, "Print one JSON object instead of text");
   verb->footer(
-      "Exit code 1 where loading had to repair or drop something.\n\nExample: sunder info fox.glb");
+      "Exit code 1 if loading had to repair or drop something.\n\nExample: sunder info fox.glb");
   return verb;
 }
 
 CLI::App* add_tear(CLI::App& app, TearRequest& request) {
   CLI::App* const verb = app.add_subcommand(
-      "tear", "Tear, cut and drill a model by a list of operations, and save it as GLB");
+      "tear", "Apply a list of tears, cuts and bores to a model and save it as GLB");
   verb->add_option("MODEL", request.model, "The model")->required();
-  verb->add_option("--ops", request.operations, "Operations, JSON; see docs/operation_log.md")
+  verb->add_option("--ops", request.operations, "The operations, JSON; see docs/operation_log.md")
       ->required();
   verb->add_option("-o,--output", request.output, "The torn model, GLB")->required();
   verb->add_option("--influences", request.save.maximum_influences,
-                   "Most influences written a vertex; without it: all")
+                   "Largest number of influences written per vertex; default: all")
       ->check(CLI::IsMember({4, 8}));
   verb->add_option_function<std::string>(
           "--weights-as",
           [&request](const std::string& name) { request.save.weights = weight_format(name); },
-          "How their weights are written; u16, u8: as integers whose sum is exactly one")
+          "Format of the weights; u16 and u8 are integers that sum to exactly one")
       ->check(CLI::IsMember({"float", "u16", "u8"}))
       ->default_str("float");
   verb->add_option_function<std::string>(
           "--weights",
           [&request](const std::string& name) { request.weights = weight_policy(name); },
-          "What new points follow the pose by, where the operations do not say; --influences holds "
-          "for it too")
+          "How new vertices are skinned where an operation does not say; --influences limits their "
+          "influences too")
       ->check(CLI::IsMember({"barycentric", "pose_exact", "refit", "exact"}))
       ->default_str("barycentric");
   verb->add_option_function<std::string>(
           "--refit-over",
           [&request](const std::string& name) { request.refit_over = refit_over(name); },
-          "The poses that --weights refit fits over; without it: the clips if there are any, else "
-          "the range of motion")
+          "The poses that --weights refit fits over; default: both, as far as the model has them")
       ->check(CLI::IsMember({"clips", "range_of_motion", "both"}));
   verb->callback([&request] {
     if (request.refit_over && request.weights != WeightPolicy::refit)
       throw CLI::ValidationError("--refit-over", "nothing is fitted without --weights refit");
   });
-  verb->add_option("--report", request.report, "Where the JSON report goes instead of stdout");
+  verb->add_option("--report", request.report, "File for the JSON report; default: stdout");
   verb->add_option(
       "--picture", request.picture,
-      "A PNG of the torn model: lips pulled open, pieces of a cut apart; needs f3d, Xvfb");
+      "File for a PNG of the torn model, with open lips and separated pieces; needs f3d and Xvfb");
   verb->add_option("--save-log", request.log,
-                   "Where to write what was done and not undone, with the poses in full");
+                   "File for the operations that were played and not undone, with full poses");
   verb->footer(
-      "All operations succeed, or nothing is written. Exit code 1 where an operation missed or was "
+      "If any operation fails, nothing is written. Exit code 1 if an operation missed or was "
       "blocked.\n\n"
       "Example: sunder tear fox.glb --ops ops.json -o torn.glb --influences 4");
   return verb;
@@ -104,13 +103,13 @@ CLI::App* add_tear(CLI::App& app, TearRequest& request) {
 
 CLI::App* add_demo(CLI::App& app, DemoRequest& request) {
   CLI::App* const verb = app.add_subcommand(
-      "demo", "Tear a model in the middle of its animation, and take pictures of it");
-  verb->add_option("MODEL", request.model, "The model; without it: a cactus");
+      "demo", "Tear a model in the middle of its animation and draw pictures of it");
+  verb->add_option("MODEL", request.model, "The model; default: a cactus");
   verb->add_option("-o,--output", request.folder, "Folder for pictures, GLB and report")
       ->capture_default_str();
   verb->footer(
-      "Pictures are drawn by f3d under Xvfb; where they are missing all the rest is still written, "
-      "and the exit code is 1.\n\n"
+      "Pictures are drawn with f3d under Xvfb; without these everything else is still written, and "
+      "the exit code is 1.\n\n"
       "Example: sunder demo fox.glb -o fox_demo");
   return verb;
 }

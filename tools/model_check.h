@@ -4,15 +4,15 @@
 
 namespace sunder::tools {
 
-/// What a model's numbers look like, over all vertices of all meshes.
+/// Extremes and faults of the numbers of a model, over all vertices of all meshes.
 struct ModelCheck {
   double least_weight_sum = 1.0;
   double greatest_weight_sum = 1.0;
   double greatest_weight_sum_error = 0.0;  ///< |sum - 1|.
   double least_weight = 1.0;
   std::uint32_t most_influences = 0;
-  std::uint64_t non_finite_values =
-      0;  ///< In positions, normals, tangents, texture coordinates, colours, morph deltas, weights.
+  /// In positions, normals, tangents, texture coordinates, colours, morph deltas and weights.
+  std::uint64_t non_finite_values = 0;
 };
 
 [[nodiscard]] ModelCheck check_mesh(const Mesh& mesh);

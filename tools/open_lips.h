@@ -1,37 +1,24 @@
 #pragma once
 
-#include <sunder/particles/soft_body.h>
-#include <sunder/tear/torn_model.h>
+#include <sunder/scene/character_instance.h>
 
 #include <memory>
-#include <span>
 #include <vector>
 
 #include "tools/posed_model.h"
 
 namespace sunder::tools {
 
-/// Lets lips open for pictures, in any pose: tissue under an even tension.
-class OpenLips {
- public:
-  /// @param model  before its first operation.
-  static Result<OpenLips> create(const TornModel& model);
+constexpr double kPictureStep = 1.0 / 60;  ///< Seconds per step of tissue in pictures.
 
-  /// To be called after each operation, with what it told.
-  Status follow(const TornModel& model, std::span<const ChangeRecord> changes);
-  /// A sixtieth of a second.
-  Status step(const TornModel& model, const ModelPose& pose);
-  /// Until nothing moves any more, or for three seconds.
-  Status open(const TornModel& model, const ModelPose& pose);
+/// A character of soft tissue under an even tension, so that the lips of its tears open.
+[[nodiscard]] Result<CharacterInstance> make_gaping_instance(
+    std::shared_ptr<const Character> character);
 
-  /// Moves positions as the tissue has moved.
-  void displace(std::vector<DeformedMesh>& posed) const;
+/// Steps the tissue in one pose until nothing moves, or for three seconds.
+[[nodiscard]] Status open_lips(CharacterInstance& instance, const ModelPose& pose);
 
- private:
-  OpenLips() = default;
-
-  std::unique_ptr<ParticleSet> particles_;
-  std::unique_ptr<SoftBody> body_;
-};
+/// Moves posed vertices to where the tissue has them after the last advance().
+void displace(const CharacterInstance& instance, std::vector<DeformedMesh>& posed);
 
 }  // namespace sunder::tools

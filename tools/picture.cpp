@@ -20,7 +20,7 @@ namespace {
 const Vec4f kTissue(0.75f, 0.05f, 0.05f, 1.0f);  // Linear RGBA.
 const Vec4f kRim(1.0f, 0.16f, 0.12f, 1.0f);
 
-/// A mesh that nothing moves.
+/// A rigid mesh.
 Mesh make_mesh(const std::string& name) {
   Mesh mesh;
   mesh.name = name;
@@ -41,8 +41,8 @@ void append_triangle(Mesh& mesh, const Triangle& triangle) {
   mesh.triangle_submesh.push_back(0);
 }
 
-/// Renderers light a surface by its normals and by its winding: where a file's disagree, or ours,
-/// the normals hold.
+/// Renderers light a surface by its normals and its winding. Where the two disagree, the normals
+/// count.
 void wind_by_normals(Mesh& mesh) {
   for (Triangle& triangle : mesh.triangles) {
     const Vec3f& a = mesh.positions[triangle[0]];
@@ -54,7 +54,7 @@ void wind_by_normals(Mesh& mesh) {
   }
 }
 
-/// One submesh in its pose, of the colours where there are some.
+/// One posed submesh, with its colours if there are any.
 Mesh make_outside(const Mesh& source, const DeformedMesh& posed, Index submesh,
                   std::span<const Vec4f> colors) {
   Mesh mesh = make_mesh(source.submeshes[submesh].name.empty() ? source.name
@@ -77,8 +77,7 @@ Mesh make_outside(const Mesh& source, const DeformedMesh& posed, Index submesh,
   return mesh;
 }
 
-/// +1 where the mesh's normals point outwards, -1 where they point inwards, as they do in some
-/// files.
+/// +1 if the normals of the mesh point outwards, -1 if they point inwards, as in some files.
 float outward_sign(const Mesh& mesh, const DeformedMesh& posed) {
   Vec3d centre = Vec3d::Zero();
   for (const Vec3f& position : posed.positions)
@@ -95,8 +94,8 @@ float outward_sign(const Mesh& mesh, const DeformedMesh& posed) {
   return flux < 0 ? -1.0f : 1.0f;
 }
 
-/// The walls that are seen from within. They lie deeper by `thickness`, where the model is thin by
-/// less, so that they never come out on the side of the eye.
+/// The inside of the surface, which is visible through openings. It lies deeper by `thickness`, or
+/// by less where the model is thin, so that it never shows on the side of the viewer.
 Mesh make_inside(const Mesh& source, const DeformedMesh& posed, const DeformedMesh& closed,
                  const DepthImage& image, const ViewFrame& frame, double thickness) {
   const float outwards = outward_sign(source, closed);
@@ -127,14 +126,14 @@ Mesh make_inside(const Mesh& source, const DeformedMesh& posed, const DeformedMe
   return mesh;
 }
 
-/// Strips from the rims down to the inside: the cut through the flesh.
+/// Strips from the rims to the inside: the section of the flesh.
 Mesh make_rims(const Character& character, const std::vector<DeformedMesh>& posed,
                const std::vector<RimEdge>& rims, double thickness) {
   Mesh mesh = make_mesh("Rim");
   std::vector<float> depth;
   for (std::size_t i = 0; i < posed.size(); ++i)
     depth.push_back(static_cast<float>(thickness) * outward_sign(character.meshes[i], posed[i]));
-  // Away from the face; at a vertex the mean of its two edges.
+  // Points away from the face; at a vertex, the mean of its two edges.
   std::map<std::array<Index, 2>, Vec3f> facing;
   for (const RimEdge& edge : rims) {
     const DeformedMesh& surface = posed[edge.mesh];
@@ -236,8 +235,8 @@ Status draw(const Character& still, const Camera& camera, int width, int height,
       "--camera-view-angle=" + std::to_string(camera.view_angle_degrees)};
   std::error_code ignored;
   std::filesystem::remove(png, ignored);
-  // Two xvfb-run that start at once may choose the same display; then one of them fails, and
-  // succeeds the next time.
+  // Two xvfb-run that start at the same time may choose the same display; the one that fails
+  // succeeds at its next attempt.
   for (int attempt = 0; attempt < 3 && !std::filesystem::exists(png, ignored); ++attempt)
     (void)run_program(arguments, std::chrono::seconds(120));
   const bool is_drawn = std::filesystem::exists(png, ignored);

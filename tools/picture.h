@@ -18,20 +18,19 @@ struct Camera {
 
 /// A posed model as a still scene.
 ///
-/// @param colors  a mesh each, a vertex each, linear RGBA; fewer: the others have none.
+/// @param colors  per mesh, one linear RGBA per vertex; meshes beyond the end have no colours.
 [[nodiscard]] Character make_still(const Character& character,
                                    const std::vector<DeformedMesh>& posed,
                                    const std::vector<std::vector<Vec4f>>& colors = {});
 
-/// A torn model as a still scene: walls seen from within through what is open are red, a little
-/// before the surface itself, and the rims have a red edge as thick as the flesh. So are walls and
-/// caps that the model has.
+/// A torn model as a still scene. The inside that is visible through openings is red, and rims get
+/// a red edge as thick as the flesh. The walls and caps of the model are red too.
 ///
-/// @param posed      pulled open.
-/// @param closed     the same pose before it was pulled open.
-/// @param untorn     the source in that pose.
-/// @param frame      from where it will be seen.
-/// @param thickness  of the flesh, metres; less where the model is thin.
+/// @param posed      with the lips pulled open.
+/// @param closed     in the same pose, with closed lips.
+/// @param untorn     the source in the same pose.
+/// @param frame      the view.
+/// @param thickness  of the flesh, metres; reduced where the model is thin.
 [[nodiscard]] Character make_torn_still(const TornModel& torn,
                                         const std::vector<DeformedMesh>& posed,
                                         const std::vector<DeformedMesh>& closed,
@@ -39,13 +38,13 @@ struct Camera {
                                         const std::vector<RimEdge>& rims, const ViewFrame& frame,
                                         double thickness);
 
-/// Gives all of a still scene that has no colour of its own this one; linear RGBA.
+/// Gives a colour, linear RGBA, to all parts of a still scene that have none.
 void paint(Character& still, const Vec4f& color);
 
-/// Whether the programs that draw are installed: f3d and xvfb-run.
+/// Whether f3d and xvfb-run are installed, which draw.
 [[nodiscard]] bool can_draw();
 
-/// Draws a still scene into a PNG by f3d under Xvfb; about a second.
+/// Draws a still scene into a PNG with f3d under Xvfb. Takes about a second.
 [[nodiscard]] Status draw(const Character& still, const Camera& camera, int width, int height,
                           const std::filesystem::path& png);
 

@@ -6,8 +6,8 @@
 
 namespace sunder::tools {
 
-/// All meshes of a character in a pose; model space. For looking at: where a mesh has no normals,
-/// or many that contradict its winding, smooth ones are made up.
+/// All meshes of a character in a pose, model space, for drawing: a mesh without normals, or with
+/// many that contradict its winding, gets smooth ones.
 Result<std::vector<DeformedMesh>> pose_model(const Character& character, const ModelPose& pose);
 
 struct Bounds {
@@ -18,7 +18,7 @@ struct Bounds {
   [[nodiscard]] Vec3d size() const { return greatest - least; }
 };
 
-/// Of the vertices that triangles use.
+/// The bounds of all vertices that triangles use.
 Bounds bounds_of(const Character& character, const std::vector<DeformedMesh>& posed);
 
 }  // namespace sunder::tools

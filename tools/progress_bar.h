@@ -6,8 +6,8 @@
 
 namespace sunder::tools {
 
-/// One line on stderr that fills up, drawn over itself; only where stderr is a terminal, only when
-/// the work takes a while, at most ten times a second. Erased at the end.
+/// A progress bar of one line on stderr, erased at the end. It is drawn only if stderr is a
+/// terminal and the work takes longer than 300 ms, at most ten times a second.
 class ProgressBar {
  public:
   explicit ProgressBar(std::size_t step_count);
@@ -15,7 +15,7 @@ class ProgressBar {
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  /// Says that step number `step`, counted from zero, begins.
+  /// Shows that step number `step`, counted from zero, begins.
   void begin_step(std::size_t step, const std::string& what);
 
  private:

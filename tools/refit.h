@@ -9,23 +9,23 @@
 
 namespace sunder::tools {
 
-/// --refit-over
+/// The poses of the option --refit-over.
 enum class RefitOver { clips, range_of_motion, both };
 
 /// "clips", "range_of_motion" or "both", as --refit-over takes it.
 [[nodiscard]] const char* refit_over_name(RefitOver over);
 
-/// What that is over.
+/// The pose set of the option.
 [[nodiscard]] PoseSetSpec pose_set_of(RefitOver over);
 
 /// @param asked  none: both, as far as the character has them.
-/// @return none where it was not asked for and the character has neither: then it does not bend,
-/// and nothing is to be fitted.
+/// @return none if nothing was asked for and the character has neither: it does not bend, so there
+///         is nothing to fit.
 [[nodiscard]] Result<std::optional<RefitOver>> choose_poses(
     std::shared_ptr<const Character> character, std::optional<RefitOver> asked);
 
-/// The operations that fit what waits for it in a history: points of policy `refit` to which no
-/// operation gave other weights since. Operations that follow one another with the same weights are
+/// The operations that fit all points of a history that still wait for it: points of the policy
+/// `refit` that no later operation reweighed. Successive operations with the same weights are
 /// fitted together.
 [[nodiscard]] std::vector<WeightsOperation> refits_of(const std::vector<Operation>& history,
                                                       RefitOver over);

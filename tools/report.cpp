@@ -26,7 +26,7 @@ const char* kind_name(LoadNote::Kind kind) {
   return "information";
 }
 
-/// How the report names an operation.
+/// The names of an operation in the report.
 struct Names {
   const char* op;
   const char* done;
@@ -67,7 +67,7 @@ Json weights_json(const WeightReport& weights, double error_max) {
           {"error_max", error_max}};
 }
 
-/// Of the points that the newest operation made.
+/// The greatest error of the points that the newest operation created.
 Result<double> greatest_weight_error(const TornModel& model, const Operation& operation) {
   const Result<std::vector<ModelPose>> poses = poses_of(operation, model.source());
   if (!poses) return poses.error();
@@ -77,7 +77,7 @@ Result<double> greatest_weight_error(const TornModel& model, const Operation& op
   return errors->metres.maximum;
 }
 
-/// As text: JSON readers keep 53 bits of a number.
+/// Text, because JSON readers keep only 53 bits of a number.
 std::string digest_text(std::uint64_t digest) {
   char text[17];
   std::snprintf(text, sizeof text, "%016" PRIx64, digest);
@@ -109,9 +109,9 @@ Json to_json(const LoadReport& report) {
 }
 
 Result<OperationOutcome> play(const Operation& operation, const TopologyCounts& before,
-                              TornModel& model, std::vector<ChangeRecord>* changes) {
+                              TornModel& model) {
   const auto begin = std::chrono::steady_clock::now();
-  Result<TearReport> report = apply_operation(model, operation, changes);
+  Result<TearReport> report = apply_operation(model, operation);
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
   if (!report) return report.error();
   const Names names = names_of(operation);
@@ -120,7 +120,7 @@ Result<OperationOutcome> play(const Operation& operation, const TopologyCounts& 
                            elapsed.count(), 0.0,        before,     before};
   if (has_missed) return outcome;
   outcome.after = count_topology(model.character());
-  if (!names.can_miss) return outcome;  // It made no points.
+  if (!names.can_miss) return outcome;  // It created no points.
   const Result<double> error = greatest_weight_error(model, operation);
   if (!error) return error.error();
   outcome.weight_error_max = *error;

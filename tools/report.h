@@ -13,35 +13,34 @@ namespace sunder::tools {
 
 using Json = nlohmann::ordered_json;
 
-/// What one operation did, with the surface's shape before and after it.
+/// What one operation did, and the topology of the surface before and after it.
 struct OperationOutcome {
-  const char* op = "";    ///< As a log names it.
-  const char* done = "";  ///< What became of the surface, if it was not missed.
+  const char* op = "";    ///< The name in a log.
+  const char* done = "";  ///< The status in the report, if it did not miss.
   bool has_missed = false;
   TearReport tear;
-  double seconds = 0;  ///< Of the operation alone.
-  /// How far the points that it made stand from where the surface was, at most, in the poses in
-  /// which it was done; metres.
+  double seconds = 0;  ///< Duration of the operation alone.
+  /// Greatest distance of a new point from the surface as it was, in the poses of the operation;
+  /// metres.
   double weight_error_max = 0;
   TopologyCounts before, after;
 };
 
-/// Does an operation and says what it did.
-/// @param before  the shape of the model.
+/// Performs an operation and describes what it did.
+/// @param before  the topology of the model.
 [[nodiscard]] Result<OperationOutcome> play(const Operation& operation,
-                                            const TopologyCounts& before, TornModel& model,
-                                            std::vector<ChangeRecord>* changes = nullptr);
+                                            const TopologyCounts& before, TornModel& model);
 
 [[nodiscard]] Json to_json(const TopologyCounts& counts);
 [[nodiscard]] Json to_json(const LoadReport& report);
-/// @param character  after the operation: pieces name its meshes and bones.
+/// @param character  after the operation; pieces refer to its meshes and bones.
 [[nodiscard]] Json to_json(const OperationOutcome& outcome, const Character& character);
 
-/// The result of all operations: `torn` by itself, with the source's shape to compare.
+/// The result of all operations, with the topology of the source for comparison.
 [[nodiscard]] Json result_json(const TornModel& torn, const TopologyCounts& source,
                                const TopologyCounts& result);
 
-/// Numbers of a 2-, 3- or 4-vector.
+/// The numbers of a vector of 2, 3 or 4.
 template <class Vector>
 [[nodiscard]] Json vector_json(const Vector& vector) {
   Json array = Json::array();
@@ -50,10 +49,10 @@ template <class Vector>
   return array;
 }
 
-/// Text as UTF-8 with two spaces of indentation; what is not UTF-8 in a name is replaced.
+/// UTF-8 text, indented by two spaces. Bytes of names that are not UTF-8 are replaced.
 [[nodiscard]] std::string dump(const Json& json);
 
-/// A text file that appears under its name when it is committed, and else leaves nothing behind.
+/// A text file that appears under its name when it is committed, and otherwise leaves nothing.
 class StagedText {
  public:
   StagedText(std::filesystem::path file, const std::string& text);
@@ -69,7 +68,7 @@ class StagedText {
   Status status_;
 };
 
-/// Writes `text` as a whole or not at all.
+/// Writes the whole text or nothing.
 [[nodiscard]] Status write_text(const std::filesystem::path& file, const std::string& text);
 
 }  // namespace sunder::tools

@@ -13,7 +13,7 @@ struct Corner {
   auto operator<=>(const Corner&) const = default;
 };
 
-/// The corners at which edges without a neighbour begin, ascending.
+/// The corners at which border edges begin, ascending.
 std::vector<Corner> find_borders(const TornModel& model) {
   std::vector<std::array<Index, 2>> edges;
   const auto for_each_edge = [&](const auto& visit) {
@@ -34,7 +34,7 @@ std::vector<Corner> find_borders(const TornModel& model) {
   return borders;
 }
 
-/// Whether a place of a triangle lies on the side that begins at a corner.
+/// Whether a place on a triangle lies on the side that begins at a corner.
 bool is_on_side(const Mesh& mesh, const Triangle& triangle, Index corner, const Vec3f& place) {
   const auto position = [&](Index k) {
     return mesh.positions[triangle[(corner + k) % 3]].cast<double>();

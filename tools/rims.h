@@ -6,14 +6,14 @@
 
 namespace sunder::tools {
 
-/// An edge that operations opened. Its face lies at the left of a -> b, seen from outside.
+/// An edge that operations opened. Its face lies left of a -> b, seen from outside.
 struct RimEdge {
   std::uint32_t mesh = 0;
   std::uint32_t a = 0, b = 0;  ///< Vertices.
 };
 
-/// Where the surface ends and the source's did not. Edges of walls and caps are no rims. O(size of
-/// the model).
+/// Border edges that the source did not have. Edges of walls and caps are not rims.
+/// O(size of the model).
 [[nodiscard]] std::vector<RimEdge> find_rims(const TornModel& model);
 
 }  // namespace sunder::tools

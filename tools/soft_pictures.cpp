@@ -1,6 +1,4 @@
-// The pictures of docs/particles.md: soft_pictures FOLDER. What it measures on the way, it says.
-
-#include <sunder/particles/force_tearing.h>
+// Draws the pictures of docs/particles.md and prints what it measures: soft_pictures FOLDER.
 
 #include <algorithm>
 #include <cmath>
@@ -16,9 +14,9 @@ namespace {
 constexpr double kRange = 0.1;  ///< Of the diagonal.
 
 constexpr double kFarthest = 0.1;          ///< To each side, metres.
-constexpr int kMoments[] = {60, 92, 120};  ///< Of the pictures of a running tear; steps.
+constexpr int kMoments[] = {60, 92, 120};  ///< Steps at which a running tear is drawn.
 
-/// Down the trunk's front, a little curved.
+/// A slightly curved path down the front of the trunk.
 std::vector<Vec2d> along_trunk(double from, double to) {
   std::vector<Vec2d> path;
   for (int i = 0; i <= 12; ++i)
@@ -28,12 +26,12 @@ std::vector<Vec2d> along_trunk(double from, double to) {
 
 void draw_decomposition(const std::string& folder) {
   const SoftScene scene({SoftMaterial()}, kRange);
-  std::printf("decomposition: %u particles of %u points\n", scene.particles->particle_count(),
-              scene.particles->report().points);
+  std::printf("decomposition: %u particles of %u points\n", scene.particles().particle_count(),
+              scene.particles().report().points);
   scene.draw_particles(folder + "/particles_decomposition.png");
 }
 
-/// The same point pulled the same way, before and after a tear beside it.
+/// The same point is pulled the same way before and after a tear beside it.
 void draw_pull(const std::string& folder, bool is_torn) {
   SoftScene scene({SoftMaterial()}, kRange);
   std::uint32_t held = scene.point_at({0, 1.3, 0.16}), other = held;
@@ -43,12 +41,12 @@ void draw_pull(const std::string& folder, bool is_torn) {
     held = middle.left, other = middle.right;
   }
   const Vec3d at = scene.place(held);
-  if (!scene.body->hold_point(held, at + Vec3d(0.05, 0, 0.11))) std::exit(1);
+  if (!scene.body().hold_point(held, at + Vec3d(0.05, 0, 0.11))) std::exit(1);
   const int steps = scene.step_until_still();
   std::printf("%s: %d steps; the held point moved by %.4f m, the other lip by %.4f m\n",
               is_torn ? "pull_after" : "pull_before", steps,
-              scene.body->point_displacement(held).norm(),
-              scene.body->point_displacement(other).norm());
+              scene.body().point_displacement(held).norm(),
+              scene.body().point_displacement(other).norm());
   scene.draw(folder + (is_torn ? "/particles_pull_after.png" : "/particles_pull_before.png"),
              look_from(-8, 24), at, 0.36);
 }
@@ -56,13 +54,13 @@ void draw_pull(const std::string& folder, bool is_torn) {
 void draw_gap(const std::string& folder) {
   SoftScene scene({SoftMaterial()}, kRange);
   scene.tear(along_trunk(1.58, 1.02));
-  if (!scene.body->set_tension({1.2, {}})) std::exit(1);
+  if (!scene.body().set_tension({1.2, {}})) std::exit(1);
   const int steps = scene.step_until_still();
   std::printf("gap: %d steps; %.4f of the diagonal wide\n", steps,
               scene.widest_gap() / scene.diagonal());
   const Vec3d at = scene.place(scene.changes[0].lips[scene.changes[0].lips.size() / 2].left);
   scene.draw(folder + "/particles_gap.png", look_from(12, 10), at, 0.42);
-  if (!scene.body->set_tension({})) std::exit(1);
+  if (!scene.body().set_tension({})) std::exit(1);
   const int back = scene.step_until_still();
   std::printf("gap: without tension, after %d steps: %.2e of the diagonal\n", back,
               scene.widest_gap() / scene.diagonal());
@@ -76,10 +74,10 @@ void draw_running(const std::string& folder) {
   SoftMaterial weak = tough;
   weak.strength = 1.8;
   SoftScene scene({tough, weak}, 0.05);
-  // Only the front: what is held must not tear out.
-  for (std::uint32_t p = 0; p < scene.particles->particle_count(); ++p) {
-    const Vec3f& seed = scene.particles->positions()[scene.particles->seed(p)];
-    if (seed.x() > 0.0f && seed.z() > 0.0f) (void)scene.body->set_material(p, 1);
+  // Only the front is weak: what is held must not tear out.
+  for (std::uint32_t p = 0; p < scene.particles().particle_count(); ++p) {
+    const Vec3f& seed = scene.particles().positions()[scene.particles().seed(p)];
+    if (seed.x() > 0.0f && seed.z() > 0.0f) (void)scene.body().set_material(p, 1);
   }
   scene.tear(along_trunk(1.39, 1.21));
   const Vec3d at = scene.place(scene.point_at({0, 1.3, 0.16}));
@@ -91,7 +89,7 @@ void draw_running(const std::string& folder) {
       const std::uint32_t point = scene.point_at({0.075 * x, y, 0.15});
       from.push_back(scene.place(point));
       side.push_back(x);
-      auto hold = scene.body->hold_point(point, from.back());
+      auto hold = scene.body().hold_point(point, from.back());
       if (!hold) std::exit(1);
       holds.push_back(*hold);
     }
@@ -99,12 +97,10 @@ void draw_running(const std::string& folder) {
   double length = 0;
   for (int i = 0; i <= kMoments[2]; ++i) {
     for (std::size_t h = 0; h < holds.size(); ++h)
-      (void)scene.body->move_hold(holds[h],
-                                  from[h] + Vec3d(side[h] * std::min(kFarthest, 0.001 * i), 0, 0));
+      (void)scene.body().move_hold(holds[h],
+                                   from[h] + Vec3d(side[h] * std::min(kFarthest, 0.001 * i), 0, 0));
     scene.step();
-    std::vector<ChangeRecord> changes;
-    const auto report =
-        tear_overstretched(*scene.body, *scene.particles, *scene.model, scene.pose, {}, &changes);
+    const auto report = scene.tear_overstretched();
     if (!report) {
       std::printf("running: step %d: %s\n", i, report.error().text().data());
       continue;

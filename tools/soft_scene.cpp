@@ -2,7 +2,6 @@
 
 #include <sunder/skinning/deform.h>
 #include <sunder/skinning/pose.h>
-#include <sunder/skinning/skinned_mesh.h>
 
 #include <algorithm>
 #include <cmath>
@@ -37,7 +36,16 @@ T check(Result<T> result) {
   return std::move(*result);
 }
 
-/// Colours whose neighbours in number are far apart.
+CharacterInstanceOptions soft_options(const std::vector<SoftMaterial>& materials, double range) {
+  CharacterInstanceOptions options;
+  options.unit_length = true;
+  options.soft.emplace();
+  options.soft->materials = materials;
+  options.soft->decomposition.range = range;
+  return options;
+}
+
+/// Successive particles get colours that differ much.
 Vec4f color_of(std::uint32_t particle) {
   const double hue = std::fmod(0.618033988749895 * particle, 1.0);
   Vec4f color = Vec4f::Ones();
@@ -51,40 +59,42 @@ Vec4f color_of(std::uint32_t particle) {
 }  // namespace
 
 SoftScene::SoftScene(const std::vector<SoftMaterial>& materials, double range)
-    : source(std::make_shared<const Character>(make_cactus())) {
-  model = std::make_unique<TornModel>(check(TornModel::create(source)));
-  rest = bind_pose(*source);
-  pose = check(make_pose(
-      *source,
-      ClipPose{std::uint32_t{0}, kClipFraction * static_cast<double>(source->clips[0].duration)}));
-  DecompositionOptions options;
-  options.range = range;
-  particles = std::make_unique<ParticleSet>(check(ParticleSet::create(*model, rest, options)));
-  body = std::make_unique<SoftBody>(check(SoftBody::create(*particles, rest, materials)));
-  diagonal_ = bounds_of(*source, check(pose_model(*source, rest))).size().norm();
-  check(body->step(*model, pose, 0));
+    : source(std::make_shared<const Character>(make_cactus())),
+      instance(check(CharacterInstance::create(source, soft_options(materials, range)))),
+      rest(bind_pose(*source)),
+      pose(check(make_pose(
+          *source, ClipPose{std::uint32_t{0},
+                            kClipFraction * static_cast<double>(source->clips[0].duration)}))),
+      diagonal_(bounds_of(*source, check(pose_model(*source, rest))).size().norm()) {
+  check(instance.advance(pose, 0));
 }
 
 void SoftScene::tear(const std::vector<Vec2d>& path) {
   Stroke stroke;
   for (const Vec2d& at : path) stroke.push_back({{at.x(), at.y(), 1.0}, {at.x(), at.y(), -0.05}});
   ChangeRecord change;
-  (void)check(model->tear(rest, stroke, {}, &change));
-  check(particles->follow(*model, {&change, 1}));
+  (void)check(instance.tear(rest, stroke, {}, &change));
+  check(instance.advance(pose, 0));
   changes.push_back(std::move(change));
 }
 
-void SoftScene::step() { check(body->step(*model, pose, kStep)); }
+Result<ForceTearingReport> SoftScene::tear_overstretched() {
+  Result<ForceTearingReport> report = instance.tear_overstretched();
+  check(instance.advance(pose, 0));
+  return report;
+}
+
+void SoftScene::step() { check(instance.advance(pose, kStep)); }
 
 int SoftScene::step_until_still() {
   int steps = 0;
   do step();
-  while (++steps < kMostSteps && body->awake_count() > 0);
+  while (++steps < kMostSteps && body().awake_count() > 0);
   return steps;
 }
 
 std::uint32_t SoftScene::point_at(const Vec3d& rest_place) const {
-  const std::span<const Vec3f> at = particles->positions();
+  const std::span<const Vec3f> at = particles().positions();
   const auto farther = [&](const Vec3f& a, const Vec3f& b) {
     return (a.cast<double>() - rest_place).squaredNorm() <
            (b.cast<double>() - rest_place).squaredNorm();
@@ -95,11 +105,11 @@ std::uint32_t SoftScene::point_at(const Vec3d& rest_place) const {
 Vec3d SoftScene::place(std::uint32_t point) const {
   const std::vector<DeformedMesh> bones = posed();
   for (std::uint32_t m = 0; m < bones.size(); ++m) {
-    const auto points = particles->vertex_points(m);
+    const auto points = particles().vertex_points(m);
     const auto vertex = std::find(points.begin(), points.end(), point);
     if (vertex != points.end())
       return bones[m].positions[static_cast<std::size_t>(vertex - points.begin())].cast<double>() +
-             body->point_displacement(point);
+             body().point_displacement(point);
   }
   return Vec3d::Zero();
 }
@@ -110,37 +120,20 @@ double SoftScene::widest_gap() const {
     for (const LipPair& pair : change.lips)
       widest = std::max(
           widest,
-          (body->point_displacement(pair.left) - body->point_displacement(pair.right)).norm());
+          (body().point_displacement(pair.left) - body().point_displacement(pair.right)).norm());
   return widest;
 }
 
 std::vector<DeformedMesh> SoftScene::posed() const {
-  return check(pose_model(model->character(), pose));
+  return check(pose_model(instance.model().character(), pose));
 }
 
 std::vector<DeformedMesh> SoftScene::displaced() const {
-  const Character& character = model->character();
-  std::vector<DeformedMesh> result(character.meshes.size());
+  std::vector<DeformedMesh> result(instance.model().character().meshes.size());
   for (std::uint32_t m = 0; m < result.size(); ++m) {
-    const Mesh& mesh = character.meshes[m];
-    const Skin& skin = character.skins[mesh.skin];
-    const SkinnedMesh skinned = check(SkinnedMesh::create(source_of(mesh), skin.bones.size()));
-    BonePalette palette(skin.bones.size(), pose.morph_weights.size());
-    check(palette.set(skin, pose));
-    result[m].positions.resize(mesh.vertex_count());
-    result[m].normals.resize(mesh.vertex_count());
-    VertexTarget target;
-    target.vertex_count = mesh.vertex_count();
-    target.positions.data = result[m].positions[0].data();
-    target.normals.data = result[m].normals[0].data();
-    target.unit_length = true;
-    PosedBuffer buffer(target);
-    // First: it lets the body follow the last tear.
-    const std::span<const IndexRange> moved = body->moved_vertices(*model, m);
-    const VertexDisplacements soft = {particles->vertex_points(m),  particles->influences(),
-                                      body->displacements(),        moved,
-                                      particles->gradients(*model), body->rotations()};
-    check(skinned.deform(palette, buffer, {}, &soft));
+    const PosedMesh mesh = instance.mesh(m);
+    result[m].positions.assign(mesh.positions.begin(), mesh.positions.end());
+    result[m].normals.assign(mesh.normals.begin(), mesh.normals.end());
   }
   return result;
 }
@@ -148,9 +141,9 @@ std::vector<DeformedMesh> SoftScene::displaced() const {
 void SoftScene::draw(const std::string& png, const ViewFrame& frame, const Vec3d& centre,
                      double radius) const {
   const std::vector<DeformedMesh> untorn = check(pose_model(*source, pose));
-  const std::vector<RimEdge> rims = find_rims(*model);
-  Character still =
-      make_torn_still(*model, displaced(), posed(), untorn, rims, frame, kThickness * diagonal_);
+  const std::vector<RimEdge> rims = find_rims(instance.model());
+  Character still = make_torn_still(instance.model(), displaced(), posed(), untorn, rims, frame,
+                                    kThickness * diagonal_);
   paint(still, kSurface);
   Camera camera;
   camera.focal_point = centre;
@@ -164,10 +157,10 @@ void SoftScene::draw_particles(const std::string& png) const {
   const std::vector<DeformedMesh> bones = posed();
   std::vector<std::vector<Vec4f>> colors(bones.size());
   for (std::uint32_t m = 0; m < bones.size(); ++m)
-    for (const std::uint32_t point : particles->vertex_points(m)) {
+    for (const std::uint32_t point : particles().vertex_points(m)) {
       Vec4f color = Vec4f::Zero();
       if (point != kNone) {
-        const ParticleInfluences& of = particles->influences()[point];
+        const ParticleInfluences& of = particles().influences()[point];
         for (std::size_t k = 0; k < 4; ++k) color += of.weights[k] * color_of(of.particles[k]);
       }
       color[3] = 1.0f;

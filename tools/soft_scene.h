@@ -1,7 +1,6 @@
 #pragma once
 
-#include <sunder/particles/soft_body.h>
-#include <sunder/tear/torn_model.h>
+#include <sunder/scene/character_instance.h>
 
 #include <memory>
 #include <string>
@@ -13,47 +12,50 @@
 
 namespace sunder::tools {
 
-/// The cactus of the demo in a pose of its clip, made soft, to be torn, pulled and drawn. What
-/// fails ends the program.
+/// The cactus of the demo in a pose of its clip, soft: it can be torn, pulled and drawn. A failure
+/// ends the program.
 class SoftScene {
  public:
-  /// @param range  of the particles, of the diagonal.
+  /// @param range  of the particles, in parts of the diagonal.
   SoftScene(const std::vector<SoftMaterial>& materials, double range);
 
-  /// Places at rest, which blades from the front pass one after another; the body does not move.
+  /// Tears along places at rest that blades from the front pass one after another.
   void tear(const std::vector<Vec2d>& path);
+  Result<ForceTearingReport> tear_overstretched();
   void step();
-  /// At most ten seconds. @return how many steps it took.
+  /// Steps for ten seconds at most. @return the number of steps.
   int step_until_still();
 
   /// The point that is nearest to a place at rest.
   [[nodiscard]] std::uint32_t point_at(const Vec3d& rest_place) const;
-  /// Where a point is now.
+  /// Current place of a point.
   [[nodiscard]] Vec3d place(std::uint32_t point) const;
-  /// Greatest distance of two lips that were one point.
+  /// The greatest distance of two points that were one before a tear.
   [[nodiscard]] double widest_gap() const;
   [[nodiscard]] double diagonal() const { return diagonal_; }
+  [[nodiscard]] SoftBody& body() { return *instance.body(); }
+  [[nodiscard]] const SoftBody& body() const { return *instance.body(); }
+  [[nodiscard]] const ParticleSet& particles() const { return *instance.particles(); }
 
-  [[nodiscard]] std::vector<DeformedMesh> posed() const;      ///< As the bones have it.
-  [[nodiscard]] std::vector<DeformedMesh> displaced() const;  ///< As the particles move that.
+  [[nodiscard]] std::vector<DeformedMesh> posed() const;      ///< By the bones alone.
+  [[nodiscard]] std::vector<DeformedMesh> displaced() const;  ///< By bones and particles.
 
-  /// @param centre  of the picture; model space. @param radius  of what is seen, metres.
+  /// @param centre  of the picture, model space.
+  /// @param radius  of what is shown, metres.
   void draw(const std::string& png, const ViewFrame& frame, const Vec3d& centre,
             double radius) const;
   void draw_particles(const std::string& png) const;
 
   std::shared_ptr<const Character> source;
-  std::unique_ptr<TornModel> model;
+  CharacterInstance instance;
   ModelPose rest, pose;
-  std::unique_ptr<ParticleSet> particles;
-  std::unique_ptr<SoftBody> body;
   std::vector<ChangeRecord> changes;
 
  private:
   double diagonal_ = 0;
 };
 
-/// A view from the front, turned to a side and up; degrees.
+/// A view from the front, turned sideways and upwards by degrees.
 [[nodiscard]] ViewFrame look_from(double side, double above);
 
 }  // namespace sunder::tools

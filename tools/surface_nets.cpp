@@ -46,8 +46,8 @@ Grid sample(const Field& field, const Vec3d& box_min, const Vec3d& box_max, doub
   return grid;
 }
 
-/// Mean of the crossings on the edges of the cube whose lowest corner is (x, y, z); false where
-/// there is none.
+/// The mean of the crossings on the edges of the cube whose lowest corner is (x, y, z); false if
+/// there are none.
 bool mean_crossing(const Grid& grid, Index x, Index y, Index z, Vec3d& mean) {
   mean.setZero();
   int count = 0;

@@ -16,10 +16,11 @@ struct PointSurface {
 
 /// Polygonises { field = 0 }; the field is negative inside, and positive on the border of the box.
 ///
-/// @param cell  edge length of the grid's cubes, > 0. Features thinner than two cells may come out
-/// non-manifold. One point a cube that the surface passes, at the mean of the cube's edge
-/// crossings, then moved onto the surface along the gradient. Deterministic. Source: Gibson,
-/// "Constrained elastic surface nets", 1998.
+/// Each cube that the surface crosses gets one point: the mean of the crossings on its edges, moved
+/// onto the surface along the gradient. Deterministic.
+/// @param cell  edge length of the grid's cubes, > 0. Features thinner than two cells may become
+///              non-manifold.
+/// Source: Gibson, "Constrained elastic surface nets", 1998.
 PointSurface surface_nets(const std::function<double(const Vec3d&)>& field, const Vec3d& box_min,
                           const Vec3d& box_max, double cell);
 

@@ -22,11 +22,11 @@
 namespace sunder::tools {
 namespace {
 
-/// A text that is on disk before the model is written, and appears under its name after it: a
-/// failure leaves neither.
+/// A text that is written before the model and appears under its name after it, so that a failure
+/// leaves neither.
 class TextBesideModel {
  public:
-  /// Without a file nothing happens.
+  /// Does nothing without a file.
   TextBesideModel(const std::optional<std::filesystem::path>& file, const std::string& text) {
     if (file) staged_.emplace(*file, text);
   }
@@ -38,10 +38,10 @@ class TextBesideModel {
   std::optional<StagedText> staged_;
 };
 
-/// How the model weighs, from the command line.
+/// How new points are weighed, from the command line.
 struct Weighing {
   WeightOptions options;
-  std::optional<RefitOver> refit_over;  ///< Of `refit`, where the model bends.
+  std::optional<RefitOver> refit_over;  ///< For `refit`, if the model bends.
 };
 
 Result<Weighing> choose_weighing(const TearRequest& request,
@@ -58,7 +58,7 @@ Result<Weighing> choose_weighing(const TearRequest& request,
   return weighing;
 }
 
-Json to_json(const Weighing& weighing) {
+Json weighing_json(const Weighing& weighing) {
   Json json = {{"policy", weight_policy_name(weighing.options.policy)},
                {"influences", weighing.options.maximum_influences},
                {"refit_over", nullptr}};
@@ -66,7 +66,7 @@ Json to_json(const Weighing& weighing) {
   return json;
 }
 
-/// Measures the model, and what of it is in a file where that is less.
+/// Measures the weights of the model, and those of a file where it holds less.
 Result<Json> weight_errors_of(TornModel& model, const std::shared_ptr<const Character>& source) {
   const auto poses = poses_to_measure(model, source);
   if (!poses) return poses.error();
@@ -82,7 +82,7 @@ Result<Json> weight_errors_of(TornModel& model, const std::shared_ptr<const Char
   return errors;
 }
 
-/// @return false, after saying so, where there is no picture.
+/// @return false if there is no picture, which is reported.
 bool draw_picture(const LoadedCharacter& loaded, const TornModel& model,
                   const std::filesystem::path& png) {
   const std::vector<Operation> history = model.history();
@@ -100,6 +100,82 @@ bool draw_picture(const LoadedCharacter& loaded, const TornModel& model,
   return static_cast<bool>(status);
 }
 
+/// A model on which operations are played, and what is reported of them.
+struct TearRun {
+  const TearRequest& request;
+  const LoadedCharacter& loaded;
+  TornModel model;
+  Weighing weighing;
+  TopologyCounts source, current;
+  Json reports = Json::array();
+  bool has_findings = false;
+};
+
+/// @return ok, or the exit code of the failure, which was reported.
+ExitCode play_operations(const std::vector<Operation>& operations, TearRun& run,
+                         ProgressBar& progress) {
+  for (std::size_t i = 0; i < operations.size(); ++i) {
+    progress.begin_step(i + 1, "tearing");
+    const Result<OperationOutcome> outcome = play(operations[i], run.current, run.model);
+    if (!outcome)
+      return complain(run.request.operations.string() + ": /operations/" + std::to_string(i),
+                      outcome.error(), ExitCode::usage);
+    run.current = outcome->after;
+    run.has_findings |= outcome->has_missed || outcome->tear.blocked > 0;
+    run.reports.push_back(to_json(*outcome, run.model.character()));
+  }
+  progress.begin_step(operations.size() + 1, "weighing");
+  if (!run.weighing.refit_over) return ExitCode::ok;
+  for (const WeightsOperation& refit : refits_of(run.model.history(), *run.weighing.refit_over)) {
+    const Result<OperationOutcome> outcome = play(refit, run.current, run.model);
+    if (!outcome)
+      return complain(run.request.model.string() + ": --weights refit", outcome.error(),
+                      ExitCode::usage);
+    run.reports.push_back(to_json(*outcome, run.model.character()));
+  }
+  return ExitCode::ok;
+}
+
+Result<Json> report_json(TearRun& run) {
+  const TearRequest& request = run.request;
+  const Json result = result_json(run.model, run.source, run.current);
+  const Result<Json> weight_errors = weight_errors_of(run.model, run.loaded.character);
+  if (!weight_errors) return weight_errors;
+  const Result<PruningLoss> loss = measure_pruning(run.model, request.save.maximum_influences);
+  if (!loss) return loss.error();
+  return Json{{"sunder_report", 1},
+              {"model", request.model.string()},
+              {"output", request.output.string()},
+              {"loading", to_json(run.loaded.report)},
+              {"operations", std::move(run.reports)},
+              {"weights", weighing_json(run.weighing)},
+              {"weight_errors", *weight_errors},
+              {"influences_written_max", request.save.maximum_influences},
+              {"influences_written", to_json(*loss, request.save)},
+              {"result", result}};
+}
+
+/// Writes the model, its report and its log: all of them, or none.
+ExitCode write_files(const TearRun& run, const std::string& report) {
+  const TearRequest& request = run.request;
+  TextBesideModel report_file(request.report, report);
+  if (const Status status = report_file.status(); !status)
+    return complain(request.report->string(), status, ExitCode::unreadable_input);
+  TextBesideModel log_file(request.log,
+                           request.log ? format_operations(run.model.history()) : std::string());
+  if (const Status status = log_file.status(); !status)
+    return complain(request.log->string(), status, ExitCode::unreadable_input);
+  if (const Status status =
+          save_glb(request.output, run.model.character(), run.loaded, request.save);
+      !status)
+    return complain(request.output.string(), status, ExitCode::internal_error);
+  if (const Status status = log_file.commit(); !status)
+    return complain(request.log->string(), status, ExitCode::unreadable_input);
+  if (const Status status = report_file.commit(); !status)
+    return complain(request.report->string(), status, ExitCode::unreadable_input);
+  return ExitCode::ok;
+}
+
 }  // namespace
 
 ExitCode run_tear(const TearRequest& request) {
@@ -109,80 +185,30 @@ ExitCode run_tear(const TearRequest& request) {
 
   ProgressBar progress(operations->size() + 3);
   progress.begin_step(0, "reading");
+  const std::string place = request.model.string();
   const Result<LoadedCharacter> loaded = load_character(request.model);
-  if (!loaded) return complain(request.model.string(), loaded.error(), ExitCode::unreadable_input);
+  if (!loaded) return complain(place, loaded.error(), ExitCode::unreadable_input);
   Result<TornModel> model = TornModel::create(loaded->character);
-  if (!model) return complain(request.model.string(), model.error(), ExitCode::internal_error);
-
+  if (!model) return complain(place, model.error(), ExitCode::internal_error);
   const Result<Weighing> weighing = choose_weighing(request, loaded->character);
-  if (!weighing)
-    return complain(request.model.string() + ": --refit-over", weighing.error(), ExitCode::usage);
+  if (!weighing) return complain(place + ": --refit-over", weighing.error(), ExitCode::usage);
   if (const Status status = model->set_weights(weighing->options); !status)
     return complain("--weights", status, ExitCode::usage);
 
-  const TopologyCounts source = count_topology(*loaded->character);
-  TopologyCounts current = source;
-  Json reports = Json::array();
-  bool has_findings = false;
-  for (std::size_t i = 0; i < operations->size(); ++i) {
-    progress.begin_step(i + 1, "tearing");
-    const Result<OperationOutcome> outcome = play((*operations)[i], current, *model);
-    if (!outcome)
-      return complain(request.operations.string() + ": /operations/" + std::to_string(i),
-                      outcome.error(), ExitCode::usage);
-    current = outcome->after;
-    has_findings |= outcome->has_missed || outcome->tear.blocked > 0;
-    reports.push_back(to_json(*outcome, model->character()));
-  }
-
-  progress.begin_step(operations->size() + 1, "weighing");
-  if (weighing->refit_over)
-    for (const WeightsOperation& refit : refits_of(model->history(), *weighing->refit_over)) {
-      const Result<OperationOutcome> outcome = play(refit, current, *model);
-      if (!outcome)
-        return complain(request.model.string() + ": --weights refit", outcome.error(),
-                        ExitCode::usage);
-      reports.push_back(to_json(*outcome, model->character()));
-    }
-  const Json result = result_json(*model, source, current);
-  const Result<Json> weight_errors = weight_errors_of(*model, loaded->character);
-  if (!weight_errors)
-    return complain(request.output.string(), weight_errors.error(), ExitCode::internal_error);
-
+  const TopologyCounts counts = count_topology(*loaded->character);
+  TearRun run{request, *loaded, std::move(*model), *weighing, counts, counts};
+  if (const ExitCode code = play_operations(*operations, run, progress); code != ExitCode::ok)
+    return code;
   progress.begin_step(operations->size() + 2, "writing");
-  const Result<PruningLoss> pruning_loss = measure_pruning(*model, request.save.maximum_influences);
-  if (!pruning_loss)
-    return complain(request.output.string(), pruning_loss.error(), ExitCode::internal_error);
-  const Json report = {{"sunder_report", 1},
-                       {"model", request.model.string()},
-                       {"output", request.output.string()},
-                       {"loading", to_json(loaded->report)},
-                       {"operations", std::move(reports)},
-                       {"weights", to_json(*weighing)},
-                       {"weight_errors", *weight_errors},
-                       {"influences_written_max", request.save.maximum_influences},
-                       {"influences_written", to_json(*pruning_loss, request.save)},
-                       {"result", result}};
-  has_findings |= current.non_manifold_edges > source.non_manifold_edges ||
-                  current.degenerate_triangles > source.degenerate_triangles;
-
-  TextBesideModel report_file(request.report, dump(report));
-  if (const Status status = report_file.status(); !status)
-    return complain(request.report->string(), status, ExitCode::unreadable_input);
-  TextBesideModel log_file(request.log,
-                           request.log ? format_operations(model->history()) : std::string());
-  if (const Status status = log_file.status(); !status)
-    return complain(request.log->string(), status, ExitCode::unreadable_input);
-  if (const Status status = save_glb(request.output, model->character(), *loaded, request.save);
-      !status)
-    return complain(request.output.string(), status, ExitCode::internal_error);
-  if (const Status status = log_file.commit(); !status)
-    return complain(request.log->string(), status, ExitCode::unreadable_input);
-  if (const Status status = report_file.commit(); !status)
-    return complain(request.report->string(), status, ExitCode::unreadable_input);
-  if (request.picture) has_findings |= !draw_picture(*loaded, *model, *request.picture);
-  if (!request.report) std::fputs(dump(report).c_str(), stdout);
-  return has_findings ? ExitCode::findings : ExitCode::ok;
+  const Result<Json> json = report_json(run);
+  if (!json) return complain(request.output.string(), json.error(), ExitCode::internal_error);
+  const std::string report = dump(*json);
+  if (const ExitCode code = write_files(run, report); code != ExitCode::ok) return code;
+  run.has_findings |= run.current.non_manifold_edges > run.source.non_manifold_edges ||
+                      run.current.degenerate_triangles > run.source.degenerate_triangles;
+  if (request.picture) run.has_findings |= !draw_picture(*loaded, run.model, *request.picture);
+  if (!request.report) std::fputs(report.c_str(), stdout);
+  return run.has_findings ? ExitCode::findings : ExitCode::ok;
 }
 
 }  // namespace sunder::tools

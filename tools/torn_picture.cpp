@@ -18,9 +18,9 @@ namespace {
 
 constexpr int kWidth = 480, kHeight = 360;
 const Vec4f kSurface(1.0f, 0.98f, 0.94f, 1.0f);  // Linear RGBA.
-// Of the model's diagonal.
+// In parts of the diagonal of the model.
 constexpr double kThickness = 0.006;  ///< Of the flesh.
-constexpr double kApart = 0.05;       ///< How far a piece of a cut is moved.
+constexpr double kApart = 0.05;       ///< By which the pieces of a cut are moved.
 
 PoseSpec pose_of(const Operation& operation) {
   struct Visitor {
@@ -36,7 +36,7 @@ PoseSpec pose_of(const Operation& operation) {
   return std::visit(Visitor(), operation);
 }
 
-/// The newest operation that can be seen: not one that only weighs what earlier ones made.
+/// The newest operation that is visible: not one that only weighs points.
 const Operation& newest_of(std::span<const Operation> history) {
   const auto newest =
       std::find_if(history.rbegin(), history.rend(), [](const Operation& operation) {
@@ -45,8 +45,8 @@ const Operation& newest_of(std::span<const Operation> history) {
   return newest == history.rend() ? history.back() : *newest;
 }
 
-/// A little from above and from the right of where the operation came from; a cut is seen along its
-/// plane.
+/// A view from where the operation came, a little from above and from the right. A cut is seen
+/// along its plane.
 ViewFrame view_of(const Operation& operation, const Bounds& bounds) {
   ViewFrame frame = choose_view(bounds);
   Vec3d from = frame.towards_eye;
@@ -68,7 +68,7 @@ ViewFrame view_of(const Operation& operation, const Bounds& bounds) {
   return frame;
 }
 
-/// Where the operations left something to see: rims, walls and caps.
+/// The places of rims, walls and caps.
 std::vector<Vec3d> wound_places(const TornModel& torn, const std::vector<RimEdge>& rims,
                                 const std::vector<DeformedMesh>& posed) {
   std::vector<Vec3d> places;
@@ -84,7 +84,7 @@ std::vector<Vec3d> wound_places(const TornModel& torn, const std::vector<RimEdge
   return places;
 }
 
-/// The wound in the middle, its surroundings, and no more than the whole model.
+/// Shows the wound in the middle and its surroundings, at most the whole model.
 Camera aim(const ViewFrame& frame, const std::vector<Vec3d>& wound, const Bounds& bounds,
            double surroundings) {
   Camera camera;
@@ -112,7 +112,7 @@ Camera aim(const ViewFrame& frame, const std::vector<Vec3d>& wound, const Bounds
   return camera;
 }
 
-/// Moves the pieces that a cut left to the two sides of its plane.
+/// Moves the pieces of a cut away from its plane, to both sides.
 void move_apart(const Character& character, const PlaneCut& cut,
                 const std::vector<TornPiece>& pieces, double distance,
                 std::vector<DeformedMesh>& posed) {
@@ -136,46 +136,41 @@ void move_apart(const Character& character, const PlaneCut& cut,
 
 Status draw_torn(std::shared_ptr<const Character> source, std::span<const Operation> history,
                  const std::filesystem::path& png) {
-  Result<TornModel> torn = TornModel::create(std::move(source));
-  if (!torn) return torn.error();
-  const Character& character = torn->character();
+  Result<CharacterInstance> instance = make_gaping_instance(std::move(source));
+  if (!instance) return instance.error();
+  const TornModel& torn = instance->model();
   const Operation& newest = newest_of(history);
-  const Result<ModelPose> pose = make_pose(character, pose_of(newest));
+  const Result<ModelPose> pose = make_pose(torn.source(), pose_of(newest));
   if (!pose) return pose.error();
-
-  Result<OpenLips> lips = OpenLips::create(*torn);
-  if (!lips) return lips.error();
-  const Result<std::vector<DeformedMesh>> untorn = pose_model(character, *pose);
+  const Result<std::vector<DeformedMesh>> untorn = pose_model(torn.source(), *pose);
   if (!untorn) return untorn.error();
   std::vector<TornPiece> pieces;
   for (const Operation& operation : history) {
-    std::vector<ChangeRecord> changes;
-    const Result<TearReport> report = apply_operation(*torn, operation, &changes);
+    const Result<TearReport> report = instance->apply(operation);
     if (!report) return report.error();
-    if (const Status status = lips->follow(*torn, changes); !status) return status;
     if (!std::holds_alternative<WeightsOperation>(operation)) pieces = report->pieces;
   }
-  const Result<std::vector<DeformedMesh>> closed = pose_model(character, *pose);
+  const Result<std::vector<DeformedMesh>> closed = pose_model(torn.character(), *pose);
   if (!closed) return closed.error();
 
-  const Bounds bounds = bounds_of(character, *closed);
+  const Bounds bounds = bounds_of(torn.character(), *closed);
   const double diagonal = bounds.size().norm();
   std::vector<DeformedMesh> open = *closed;
-  if (const Status status = lips->open(*torn, *pose); !status) return status;
-  lips->displace(open);
+  if (const Status status = open_lips(*instance, *pose); !status) return status;
+  displace(*instance, open);
   const auto* const cut = std::get_if<CutOperation>(&newest);
-  if (cut != nullptr) move_apart(character, cut->cut, pieces, kApart * diagonal, open);
+  if (cut != nullptr) move_apart(torn.character(), cut->cut, pieces, kApart * diagonal, open);
 
   const ViewFrame frame = view_of(newest, bounds);
-  const std::vector<RimEdge> rims = find_rims(*torn);
+  const std::vector<RimEdge> rims = find_rims(torn);
   Character still =
-      make_torn_still(*torn, open, *closed, *untorn, rims, frame, kThickness * diagonal);
+      make_torn_still(torn, open, *closed, *untorn, rims, frame, kThickness * diagonal);
   paint(still, kSurface);
-  // Of a cut the pieces are shown, of a bore what it goes through.
+  // The picture of a cut shows its pieces, that of a bore its surroundings.
   const double margin = cut != nullptr                                   ? 3.1
                         : std::holds_alternative<DrillOperation>(newest) ? 2.4
                                                                          : 1.45;
-  return draw(still, aim(frame, wound_places(*torn, rims, open), bounds, margin), kWidth, kHeight,
+  return draw(still, aim(frame, wound_places(torn, rims, open), bounds, margin), kWidth, kHeight,
               png);
 }
 

@@ -9,11 +9,11 @@
 
 namespace sunder::tools {
 
-/// Draws what operations left of a model, in the pose of the last one and from where that came: 480
-/// x 360 pixels, lips pulled apart, the pieces of a cut moved apart, the surface light and what is
+/// Draws a torn model in the pose of its last operation, seen from where that came; 480 x 360
+/// pixels. Lips are pulled apart, the pieces of a cut are moved apart, the surface is light, its
 /// inside red.
 ///
-/// @param history  at least one operation; all can be applied to the source.
+/// @param history  at least one operation; all are valid for the source.
 [[nodiscard]] Status draw_torn(std::shared_ptr<const Character> source,
                                std::span<const Operation> history,
                                const std::filesystem::path& png);

@@ -10,7 +10,7 @@
 
 namespace sunder::tools {
 
-/// sunder info: says what is in a model.
+/// sunder info: describes a model.
 struct InfoRequest {
   std::filesystem::path model;
   bool as_json = false;
@@ -21,18 +21,18 @@ struct InfoRequest {
 struct TearRequest {
   std::filesystem::path model, operations, output;
   SaveOptions save;  ///< How influences are written.
-  std::optional<WeightPolicy>
-      weights;  ///< Of operations that do not say; else barycentric, with all influences.
-  std::optional<RefitOver> refit_over;           ///< Only of `refit`; else what the model has.
-  std::optional<std::filesystem::path> report;   ///< Else stdout.
-  std::optional<std::filesystem::path> log;      ///< Where what was played is written, if wanted.
-  std::optional<std::filesystem::path> picture;  ///< Likewise a picture of what is left.
+  /// For operations without weights of their own; none: barycentric, with all influences.
+  std::optional<WeightPolicy> weights;
+  std::optional<RefitOver> refit_over;          ///< Only for `refit`; none: what the model has.
+  std::optional<std::filesystem::path> report;  ///< None: stdout.
+  std::optional<std::filesystem::path> log;     ///< Output file of the operations that were played.
+  std::optional<std::filesystem::path> picture;  ///< Output file of a picture.
 };
 [[nodiscard]] ExitCode run_tear(const TearRequest& request);
 
-/// sunder demo: tears a model in the middle of its animation and takes pictures.
+/// sunder demo: tears a model in the middle of its animation and draws it.
 struct DemoRequest {
-  std::optional<std::filesystem::path> model;  ///< Else the embedded one.
+  std::optional<std::filesystem::path> model;  ///< None: the embedded one.
   std::filesystem::path folder = "demo";
 };
 [[nodiscard]] ExitCode run_demo(const DemoRequest& request);

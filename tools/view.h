@@ -9,15 +9,15 @@
 
 namespace sunder::tools {
 
-/// An orthonormal frame to look at a model from.
+/// An orthonormal frame from which a model is seen.
 struct ViewFrame {
   Vec3d right, up, towards_eye;
 };
 
-/// A little from above and from the side, on the model's broader side. Takes y for up.
+/// A view of the model's broader side, a little from above and from the side. y is up.
 [[nodiscard]] ViewFrame choose_view(const Bounds& bounds);
 
-/// What an eye at infinity sees of a posed model: for each pixel the nearest surface.
+/// An orthographic depth image of a posed model: per pixel the nearest surface.
 class DepthImage {
  public:
   struct Pixel {
@@ -36,10 +36,10 @@ class DepthImage {
   [[nodiscard]] double nearest_depth() const { return nearest_depth_; }
   /// Background outside the image.
   [[nodiscard]] Pixel at(double x, double y) const;
-  /// How far a place lies behind the nearest surface on its line of sight, metres; 0 where it lies
-  /// before it or nothing is there.
+  /// Distance of a place behind the nearest surface on its line of sight, metres; 0 if it lies in
+  /// front of it or nothing is there.
   [[nodiscard]] double depth_behind_front(const Vec3d& position_model) const;
-  /// The surface's place in model space; only where it is not background.
+  /// The place of the surface in model space; only where there is no background.
   [[nodiscard]] Vec3d position(double x, double y) const;
 
  private:

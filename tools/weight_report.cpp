@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t kMostPoses =
     200;  ///< Of a set, so that measuring takes no longer than a glance.
 
-/// n, where every n-th of them is to be taken so that there are no more than kMostPoses.
+/// The step that takes at most kMostPoses of `count` poses.
 std::size_t step_through(std::size_t count) { return (count + kMostPoses - 1) / kMostPoses; }
 
 bool is_finite(const ModelPose& pose) {
@@ -58,7 +58,7 @@ Json to_json(const WeightErrors& errors) {
   return json;
 }
 
-/// Measures while operations give points other weights, and takes them back.
+/// Measures with other weights, which are undone afterwards.
 Result<Json> measure_as(const std::vector<WeightsOperation>& weights,
                         const std::vector<MeasuredPoses>& sets, TornModel& model) {
   Result<Json> errors = Json();

@@ -17,11 +17,13 @@
 #include <thread>
 #include <unistd.h>
 
-// Sanitizers reserve terabytes of address space, so a limit on it would end the child before it begins.
+// Sanitizers reserve terabytes of address space, so a limit on it would end the child before it
+// begins.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define SUNDER_UNDER_SANITIZER 1
 #elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) || __has_feature(memory_sanitizer)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) || \
+    __has_feature(memory_sanitizer)
 #define SUNDER_UNDER_SANITIZER 1
 #endif
 #endif
@@ -34,7 +36,7 @@ using Clock = std::chrono::steady_clock;
 constexpr std::uint32_t kMagic = 0x534E4452;  // "SNDR"
 constexpr int kExitOutOfMemory = 61;
 constexpr int kExitException = 62;
-constexpr int kPipe = 3;  ///< The only descriptor that the child keeps beside 0, 1 and 2.
+constexpr int kPipe = 3;  ///< The only descriptor that the child keeps in addition to 0, 1 and 2.
 
 struct Header {
   std::uint32_t magic = kMagic;
@@ -57,7 +59,8 @@ void set_limit(int resource, std::uint64_t value) {
   setrlimit(static_cast<decltype(RLIMIT_CPU)>(resource), &limit);
 }
 
-/// Address space in use: a limit must allow for what a large host already has, which the fork shares.
+/// Address space in use: a limit must allow for what a large host already has, which the fork
+/// shares.
 [[maybe_unused]] std::uint64_t address_space_in_use() {
   unsigned long long pages = 0;
   if (std::FILE* statm = std::fopen("/proc/self/statm", "r")) {
@@ -72,7 +75,8 @@ void set_limits(const ChildLimits& limits) {
   set_limit(RLIMIT_FSIZE, 0);
   set_limit(RLIMIT_CPU, static_cast<std::uint64_t>(std::ceil(std::min(limits.seconds, 1e9))) + 1);
 #if !defined(SUNDER_UNDER_SANITIZER)
-  if (const std::uint64_t used = address_space_in_use(); used != 0) set_limit(RLIMIT_AS, used + limits.additional_memory);
+  if (const std::uint64_t used = address_space_in_use(); used != 0)
+    set_limit(RLIMIT_AS, used + limits.additional_memory);
 #endif
 }
 
@@ -90,7 +94,9 @@ void leave_host(int pipe_end) {
   if (close_range(kPipe + 1, ~0U, 0) == 0) return;
 #endif
   const long last = sysconf(_SC_OPEN_MAX);
-  for (int descriptor = kPipe + 1; descriptor < std::min(last < 0 ? 1024L : last, 65536L); ++descriptor) close(descriptor);
+  for (int descriptor = kPipe + 1; descriptor < std::min(last < 0 ? 1024L : last, 65536L);
+       ++descriptor)
+    close(descriptor);
 }
 
 bool write_all(const void* data, std::size_t bytes) {
@@ -107,7 +113,8 @@ bool write_all(const void* data, std::size_t bytes) {
   return true;
 }
 
-[[noreturn]] void run_child(const std::function<ChildReply()>& work, const ChildLimits& limits, int pipe_end) {
+[[noreturn]] void run_child(const std::function<ChildReply()>& work, const ChildLimits& limits,
+                            int pipe_end) {
   in_child = true;
   leave_host(pipe_end);
   std::set_terminate(std::abort);
@@ -132,13 +139,16 @@ enum class Reading { complete, ended, timed_out, too_large };
 
 /// Milliseconds until `deadline`, at least 0, for poll().
 int remaining(Clock::time_point deadline) {
-  const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now()).count();
+  const auto left =
+      std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now()).count();
   return static_cast<int>(std::clamp<std::int64_t>(left, 0, 1'000'000));
 }
 
-/// Reads `bytes` bytes or less. The target grows with what arrives, not with what a header promises.
+/// Reads `bytes` bytes or less. The target grows with what arrives, not with what a header
+/// promises.
 template <class Container>
-Reading read_some(int descriptor, std::uint64_t bytes, Clock::time_point deadline, Container& target) {
+Reading read_some(int descriptor, std::uint64_t bytes, Clock::time_point deadline,
+                  Container& target) {
   constexpr std::uint64_t kChunk = std::uint64_t{1} << 20;
   std::uint64_t have = 0;
   while (have < bytes) {
@@ -162,20 +172,26 @@ Reading read_some(int descriptor, std::uint64_t bytes, Clock::time_point deadlin
   return Reading::complete;
 }
 
-Reading read_reply(int descriptor, const ChildLimits& limits, Clock::time_point deadline, ChildReply& reply) {
+Reading read_reply(int descriptor, const ChildLimits& limits, Clock::time_point deadline,
+                   ChildReply& reply) {
   std::string raw;
-  if (const Reading header_reading = read_some(descriptor, sizeof(Header), deadline, raw); header_reading != Reading::complete)
+  if (const Reading header_reading = read_some(descriptor, sizeof(Header), deadline, raw);
+      header_reading != Reading::complete)
     return header_reading;
   Header header;
   std::memcpy(&header, raw.data(), sizeof header);
   if (header.magic != kMagic) return Reading::ended;
-  if (header.head_bytes > limits.maximum_reply || header.body_bytes > limits.maximum_reply - header.head_bytes)
+  if (header.head_bytes > limits.maximum_reply ||
+      header.body_bytes > limits.maximum_reply - header.head_bytes)
     return Reading::too_large;
   const Reading reading = read_some(descriptor, header.head_bytes, deadline, reply.head);
-  return reading == Reading::complete ? read_some(descriptor, header.body_bytes, deadline, reply.body) : reading;
+  return reading == Reading::complete
+             ? read_some(descriptor, header.body_bytes, deadline, reply.body)
+             : reading;
 }
 
-/// waitpid() until `deadline`, then SIGKILL. @return the wait status, or -1 where the host's SIGCHLD setting swallowed it.
+/// waitpid() until `deadline`, then SIGKILL. @return the wait status, or -1 where the host's
+/// SIGCHLD setting swallowed it.
 int reap(pid_t child, Clock::time_point deadline) {
   for (bool killed = false;;) {
     int status = 0;
@@ -191,43 +207,55 @@ int reap(pid_t child, Clock::time_point deadline) {
   }
 }
 
-Status failure_of(Reading reading, int wait_status, const ChildLimits& limits, const std::string& name) {
+Status failure_of(Reading reading, int wait_status, const ChildLimits& limits,
+                  const std::string& name) {
   const char* file = name.c_str();
   if (reading == Reading::timed_out)
-    return Status::failure(StatusCode::limit_exceeded, kNone, "%s: not imported within %g seconds", file, limits.seconds);
+    return Status::failure(StatusCode::limit_exceeded, kNone, "%s: not imported within %g seconds",
+                           file, limits.seconds);
   if (reading == Reading::too_large)
-    return Status::failure(StatusCode::limit_exceeded, kNone, "%s: larger than %llu bytes once imported", file,
+    return Status::failure(StatusCode::limit_exceeded, kNone,
+                           "%s: larger than %llu bytes once imported", file,
                            static_cast<unsigned long long>(limits.maximum_reply));
   if (wait_status != -1 && WIFSIGNALED(wait_status)) {
     const int signal = WTERMSIG(wait_status);
     if (signal == SIGXCPU)
-      return Status::failure(StatusCode::limit_exceeded, kNone, "%s: not imported within %g seconds", file, limits.seconds);
+      return Status::failure(StatusCode::limit_exceeded, kNone,
+                             "%s: not imported within %g seconds", file, limits.seconds);
     if (signal == SIGKILL)
-      return Status::failure(StatusCode::limit_exceeded, kNone, "%s: the importer was killed, out of memory", file);
-    return Status::failure(StatusCode::malformed_file, kNone, "the importer crashed (signal %d) on %s", signal, file);
+      return Status::failure(StatusCode::limit_exceeded, kNone,
+                             "%s: the importer was killed, out of memory", file);
+    return Status::failure(StatusCode::malformed_file, kNone,
+                           "the importer crashed (signal %d) on %s", signal, file);
   }
   if (wait_status != -1 && WIFEXITED(wait_status) && WEXITSTATUS(wait_status) == kExitOutOfMemory)
-    return Status::failure(StatusCode::limit_exceeded, kNone, "%s: the importer ran out of its %llu MiB of memory", file,
+    return Status::failure(StatusCode::limit_exceeded, kNone,
+                           "%s: the importer ran out of its %llu MiB of memory", file,
                            static_cast<unsigned long long>(limits.additional_memory >> 20));
-  return Status::failure(StatusCode::internal_error, kNone, "%s: the importer ended without an answer", file);
+  return Status::failure(StatusCode::internal_error, kNone,
+                         "%s: the importer ended without an answer", file);
 }
 
 }  // namespace
 
 bool is_import_child() { return in_child; }
 
-Result<ChildReply> run_in_child(const std::function<ChildReply()>& work, const ChildLimits& limits, const std::string& name) {
+Result<ChildReply> run_in_child(const std::function<ChildReply()>& work, const ChildLimits& limits,
+                                const std::string& name) {
   const auto deadline =
-      Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(std::min(limits.seconds, 1e8)));
+      Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                         std::chrono::duration<double>(std::min(limits.seconds, 1e8)));
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0)
-    return Status::failure(StatusCode::limit_exceeded, kNone, "no pipe for the importer: %s", std::strerror(errno));
+    return Status::failure(StatusCode::limit_exceeded, kNone, "no pipe for the importer: %s",
+                           std::strerror(errno));
   const pid_t child = fork();
   if (child < 0) {
     const int error = errno;
     close(ends[0]);
     close(ends[1]);
-    return Status::failure(StatusCode::limit_exceeded, kNone, "no process for the importer: %s", std::strerror(error));
+    return Status::failure(StatusCode::limit_exceeded, kNone, "no process for the importer: %s",
+                           std::strerror(error));
   }
   if (child == 0) run_child(work, limits, ends[1]);
   close(ends[1]);
@@ -240,10 +268,13 @@ Result<ChildReply> run_in_child(const std::function<ChildReply()>& work, const C
   } catch (const std::bad_alloc&) {
     out_of_memory = true;
   }
-  const bool give_up = out_of_memory || reading == Reading::timed_out || reading == Reading::too_large;
+  const bool give_up =
+      out_of_memory || reading == Reading::timed_out || reading == Reading::too_large;
   const int wait_status = reap(child, give_up ? Clock::now() : deadline);
   close(ends[0]);
-  if (out_of_memory) return Status::failure(StatusCode::limit_exceeded, kNone, "%s: no memory for what was imported", name.c_str());
+  if (out_of_memory)
+    return Status::failure(StatusCode::limit_exceeded, kNone, "%s: no memory for what was imported",
+                           name.c_str());
   if (reading != Reading::complete) return failure_of(reading, wait_status, limits, name);
   return reply;
 }

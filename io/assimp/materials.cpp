@@ -17,13 +17,16 @@ constexpr std::size_t kMaximumImageBytes = std::size_t{256} << 20;
 
 /// The MIME type that the first bytes tell; empty for what glTF does not carry.
 const char* image_type(std::span<const std::byte> bytes) {
-  const std::string_view start(reinterpret_cast<const char*>(bytes.data()), std::min<std::size_t>(bytes.size(), 8));
+  const std::string_view start(reinterpret_cast<const char*>(bytes.data()),
+                               std::min<std::size_t>(bytes.size(), 8));
   if (start.starts_with("\x89PNG\r\n\x1A\n")) return "image/png";
   if (start.starts_with("\xFF\xD8\xFF")) return "image/jpeg";
   return "";
 }
 
-double unit(float value) { return std::isfinite(value) ? static_cast<double>(std::clamp(value, 0.0f, 1.0f)) : 1.0; }
+double unit(float value) {
+  return std::isfinite(value) ? static_cast<double>(std::clamp(value, 0.0f, 1.0f)) : 1.0;
+}
 
 int wrap_mode(int assimp_mode) {
   switch (assimp_mode) {
@@ -36,9 +39,10 @@ int wrap_mode(int assimp_mode) {
 
 }  // namespace
 
-std::optional<std::uint32_t> MaterialWriter::material_for(std::uint32_t material,
-                                                          std::span<const std::uint32_t> texcoord_of_channel) {
-  if (material >= scene_.mNumMaterials || scene_.mMaterials[material] == nullptr) return std::nullopt;
+std::optional<std::uint32_t> MaterialWriter::material_for(
+    std::uint32_t material, std::span<const std::uint32_t> texcoord_of_channel) {
+  if (material >= scene_.mNumMaterials || scene_.mMaterials[material] == nullptr)
+    return std::nullopt;
   const Texture& texture = base_texture(material);
   const bool textured = texture.index != kNone && texture.channel < texcoord_of_channel.size();
   const std::uint32_t texcoord = textured ? texcoord_of_channel[texture.channel] : kNone;
@@ -64,8 +68,10 @@ Json MaterialWriter::describe(std::uint32_t material) {
   if (name.length > 0) json["name"] = valid_utf8(to_string(name));
 
   aiColor4D color(1.0f, 1.0f, 1.0f, 1.0f);
-  if (source.Get(AI_MATKEY_BASE_COLOR, color) != aiReturn_SUCCESS && source.Get(AI_MATKEY_COLOR_DIFFUSE, color) == aiReturn_SUCCESS)
-    color.a = 1.0f;  // Opacity has its own key; the fourth number of a diffuse colour is often zero or absent.
+  if (source.Get(AI_MATKEY_BASE_COLOR, color) != aiReturn_SUCCESS &&
+      source.Get(AI_MATKEY_COLOR_DIFFUSE, color) == aiReturn_SUCCESS)
+    color.a = 1.0f;  // Opacity has its own key; the fourth number of a diffuse colour is often zero
+                     // or absent.
   float opacity = 1.0f;
   source.Get(AI_MATKEY_OPACITY, opacity);
   double alpha = unit(color.a) * unit(opacity);
@@ -74,7 +80,9 @@ Json MaterialWriter::describe(std::uint32_t material) {
     alpha = 1.0;
   }
   json["pbrMetallicRoughness"] = {
-      {"baseColorFactor", {unit(color.r), unit(color.g), unit(color.b), alpha}}, {"metallicFactor", 0.0}, {"roughnessFactor", 1.0}};
+      {"baseColorFactor", {unit(color.r), unit(color.g), unit(color.b), alpha}},
+      {"metallicFactor", 0.0},
+      {"roughnessFactor", 1.0}};
   if (alpha < 1.0) json["alphaMode"] = "BLEND";
   int two_sided = 0;
   source.Get(AI_MATKEY_TWOSIDED, two_sided);
@@ -89,8 +97,11 @@ const MaterialWriter::Texture& MaterialWriter::base_texture(std::uint32_t materi
   for (const aiTextureType type : {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE}) {
     aiString path;
     unsigned channel = 0;
-    aiTextureMapMode wrap[3] = {aiTextureMapMode_Wrap, aiTextureMapMode_Wrap, aiTextureMapMode_Wrap};
-    if (source.GetTexture(type, 0, &path, nullptr, &channel, nullptr, nullptr, wrap) != aiReturn_SUCCESS || path.length == 0)
+    aiTextureMapMode wrap[3] = {aiTextureMapMode_Wrap, aiTextureMapMode_Wrap,
+                                aiTextureMapMode_Wrap};
+    if (source.GetTexture(type, 0, &path, nullptr, &channel, nullptr, nullptr, wrap) !=
+            aiReturn_SUCCESS ||
+        path.length == 0)
       continue;
     aiUVTransform transform;
     if (source.Get(AI_MATKEY_UVTRANSFORM(type, 0), transform) == aiReturn_SUCCESS &&
@@ -107,7 +118,8 @@ std::uint32_t MaterialWriter::texture_of(const std::string& path, int wrap_u, in
   const std::uint32_t image = image_of(path);
   if (image == kNone) return kNone;
   Json texture = {{"source", image}};
-  if (wrap_u != 10497 || wrap_v != 10497) texture["sampler"] = glb_.append("samplers", {{"wrapS", wrap_u}, {"wrapT", wrap_v}});
+  if (wrap_u != 10497 || wrap_v != 10497)
+    texture["sampler"] = glb_.append("samplers", {{"wrapS", wrap_u}, {"wrapT", wrap_v}});
   return glb_.append("textures", std::move(texture));
 }
 
@@ -118,13 +130,16 @@ std::uint32_t MaterialWriter::image_of(const std::string& path) {
 
   std::optional<std::vector<std::byte>> file;
   std::span<const std::byte> bytes;
-  if (const aiTexture* embedded = scene_.GetEmbeddedTexture(path.c_str()); embedded != nullptr && embedded->pcData != nullptr) {
+  if (const aiTexture* embedded = scene_.GetEmbeddedTexture(path.c_str());
+      embedded != nullptr && embedded->pcData != nullptr) {
     // A height of zero says: a whole image file of mWidth bytes. Bare texels would need an encoder.
-    if (embedded->mHeight == 0) bytes = {reinterpret_cast<const std::byte*>(embedded->pcData), embedded->mWidth};
+    if (embedded->mHeight == 0)
+      bytes = {reinterpret_cast<const std::byte*>(embedded->pcData), embedded->mWidth};
   } else {
     file = folder_.read(path);
     if (!file) {
-      // Absolute paths of the author's machine are common; the file itself usually lies beside the model.
+      // Absolute paths of the author's machine are common; the file itself is usually next to the
+      // model.
       std::string flat = path;
       std::replace(flat.begin(), flat.end(), '\\', '/');
       file = folder_.read(std::filesystem::path(flat).filename().string());

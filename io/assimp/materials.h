@@ -21,15 +21,16 @@ class MaterialWriter {
   MaterialWriter(const aiScene& scene, AssetFolder& folder, GlbBuilder& glb, Notes& notes)
       : scene_(scene), folder_(folder), glb_(glb), notes_(notes) {}
 
-  /// glTF's index of an assimp material for a primitive with these texture coordinates; a primitive that lacks the ones a texture
-  /// needs gets a copy without it. None where the material does not exist.
-  [[nodiscard]] std::optional<std::uint32_t> material_for(std::uint32_t material,
-                                                          std::span<const std::uint32_t> texcoord_of_channel);
+  /// glTF's index of an assimp material for a primitive with these texture coordinates; a primitive
+  /// that lacks the ones a texture needs gets a copy without it. None where the material does not
+  /// exist.
+  [[nodiscard]] std::optional<std::uint32_t> material_for(
+      std::uint32_t material, std::span<const std::uint32_t> texcoord_of_channel);
 
  private:
   struct Texture {
     std::uint32_t index = kNone;  ///< kNone: no usable texture.
-    std::uint32_t channel = 0;    ///< Of assimp's texture coordinates.
+    std::uint32_t channel = 0;    ///< Index of assimp's texture coordinates.
   };
   const Texture& base_texture(std::uint32_t material);
   std::uint32_t texture_of(const std::string& path, int wrap_u, int wrap_v);
@@ -42,7 +43,8 @@ class MaterialWriter {
   Notes& notes_;
   std::map<std::uint32_t, Texture> texture_of_material_;
   std::map<std::string, std::uint32_t> image_of_path_;
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> written_;  ///< By material and TEXCOORD number, kNone without.
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t>
+      written_;  ///< By material and TEXCOORD number, kNone without.
 };
 
 }  // namespace sunder::assimp_import

@@ -20,10 +20,11 @@ struct SceneNode {
   Trs parent_from_node;
   Mat4d model_from_node = Mat4d::Identity();  ///< In the file's rest pose.
   const aiNode* source = nullptr;             ///< None for nodes that the import adds.
-  Json json = Json::object();                 ///< What converters add: mesh, skin, extras.
+  Json json = Json::object();  ///< Properties that converters add: mesh, skin, extras.
 };
 
-/// All nodes of the scene, parents first, below a root that turns the file's space into model space where that is needed.
+/// All nodes of the scene, parents first, below a root that turns the file's space into model space
+/// where that is needed.
 class SceneTree {
  public:
   /// Throws ImportFailure: limit_exceeded where the tree is deeper than 1024 nodes.
@@ -33,7 +34,8 @@ class SceneTree {
   SceneNode& operator[](std::uint32_t node) { return nodes_[node]; }
   [[nodiscard]] const SceneNode& operator[](std::uint32_t node) const { return nodes_[node]; }
 
-  /// The node that assimp means by a name: the first in the file's order. kNone where there is none.
+  /// The node that assimp means by a name: the first in the file's order. kNone where there is
+  /// none.
   [[nodiscard]] std::uint32_t find(const aiString& name) const;
   /// Adds a node; its name is made unique and, if `source_name` is given, found by it.
   std::uint32_t add(std::uint32_t parent, const std::string& name, const Mat4d& parent_from_node,

@@ -10,7 +10,7 @@
 namespace sunder::assimp_import {
 namespace {
 
-constexpr double kTolerance = 1e-4;  ///< Of the mesh's size.
+constexpr double kTolerance = 1e-4;  ///< Fraction of the mesh's size.
 
 Vec3d position(const MeshPart& part, std::uint32_t vertex) {
   const float* p = part.streams[0].values.data() + std::size_t{vertex} * 3;

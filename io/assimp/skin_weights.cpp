@@ -28,7 +28,8 @@ bool is_normalized(std::span<const Influence> influences) {
 
 /// Adds up influences of one slot, sorts, scales to a sum of one.
 void normalize(std::vector<Influence>& influences, Counts& counts) {
-  std::stable_sort(influences.begin(), influences.end(), [](const Influence& a, const Influence& b) { return a.slot < b.slot; });
+  std::stable_sort(influences.begin(), influences.end(),
+                   [](const Influence& a, const Influence& b) { return a.slot < b.slot; });
   std::size_t kept = 0;
   for (std::size_t i = 0; i < influences.size(); ++i) {
     if (kept > 0 && influences[kept - 1].slot == influences[i].slot)
@@ -47,32 +48,41 @@ void normalize(std::vector<Influence>& influences, Counts& counts) {
     counts.largest_deviation = std::max(counts.largest_deviation, deviation);
   }
   if (is_normalized(influences)) return;
-  for (Influence& influence : influences) influence.weight = static_cast<float>(static_cast<double>(influence.weight) / sum);
+  for (Influence& influence : influences)
+    influence.weight = static_cast<float>(static_cast<double>(influence.weight) / sum);
   std::erase_if(influences, [](const Influence& influence) { return !(influence.weight > 0.0f); });
-  // What rounding left goes to the largest, which notices it least.
-  influences[0].weight = static_cast<float>(static_cast<double>(influences[0].weight) + (1.0 - sum_of(influences)));
+  // The remainder of rounding goes to the largest weight, where it matters least.
+  influences[0].weight =
+      static_cast<float>(static_cast<double>(influences[0].weight) + (1.0 - sum_of(influences)));
 }
 
 void report(const Counts& counts, const std::string& place, Notes& notes) {
-  notes.dropped(StatusCode::index_out_of_range, place, "weights of vertices that do not exist", counts.out_of_range);
-  notes.dropped(StatusCode::non_finite_value, place, "weights that are not finite", counts.not_finite);
+  notes.dropped(StatusCode::index_out_of_range, place, "weights of vertices that do not exist",
+                counts.out_of_range);
+  notes.dropped(StatusCode::non_finite_value, place, "weights that are not finite",
+                counts.not_finite);
   notes.dropped(StatusCode::weights_not_normalized, place, "negative weights", counts.negative);
   char text[96];
-  std::snprintf(text, sizeof text, "weights did not sum to one (off by up to %.2g) and were normalised", counts.largest_deviation);
+  std::snprintf(text, sizeof text,
+                "weights did not sum to one (off by up to %.2g) and were normalised",
+                counts.largest_deviation);
   notes.repaired(StatusCode::weights_not_normalized, place, text, counts.not_normalized);
-  notes.repaired(StatusCode::weights_not_normalized, place, "vertices without weights; bound to the skin's first bone",
-                 counts.unweighted);
+  notes.repaired(StatusCode::weights_not_normalized, place,
+                 "vertices without weights; bound to the skin's first bone", counts.unweighted);
 }
 
 }  // namespace
 
-SkinWeights read_weights(const aiMesh& mesh, std::span<const std::uint32_t> slot_of_bone, const std::string& place, Notes& notes) {
+SkinWeights read_weights(const aiMesh& mesh, std::span<const std::uint32_t> slot_of_bone,
+                         const std::string& place, Notes& notes) {
   Counts counts;
   std::vector<std::uint32_t> first(std::size_t{mesh.mNumVertices} + 1, 0);
   // Two passes over the bones: count, then fill. A bad weight is counted in the first only.
   const auto for_each_weight = [&](auto&& use, Counts* bad) {
     for (unsigned b = 0; b < mesh.mNumBones; ++b) {
-      if (mesh.mBones[b] == nullptr || slot_of_bone[b] == kNone || mesh.mBones[b]->mWeights == nullptr) continue;
+      if (mesh.mBones[b] == nullptr || slot_of_bone[b] == kNone ||
+          mesh.mBones[b]->mWeights == nullptr)
+        continue;
       for (unsigned k = 0; k < mesh.mBones[b]->mNumWeights; ++k) {
         const aiVertexWeight& weight = mesh.mBones[b]->mWeights[k];
         if (weight.mVertexId >= mesh.mNumVertices) {
@@ -82,7 +92,8 @@ SkinWeights read_weights(const aiMesh& mesh, std::span<const std::uint32_t> slot
         } else if (weight.mWeight < 0.0f) {
           if (bad != nullptr) ++bad->negative;
         } else if (weight.mWeight > 0.0f) {
-          use(weight.mVertexId, Influence{slot_of_bone[b], std::min(weight.mWeight, 1e30f)});  // Sums stay finite.
+          use(weight.mVertexId,
+              Influence{slot_of_bone[b], std::min(weight.mWeight, 1e30f)});  // Sums stay finite.
         }
       }
     }
@@ -91,7 +102,9 @@ SkinWeights read_weights(const aiMesh& mesh, std::span<const std::uint32_t> slot
   for (std::size_t i = 1; i < first.size(); ++i) first[i] += first[i - 1];
   std::vector<Influence> all(first.back());
   std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
-  for_each_weight([&](unsigned vertex, const Influence& influence) { all[next[vertex]++] = influence; }, nullptr);
+  for_each_weight(
+      [&](unsigned vertex, const Influence& influence) { all[next[vertex]++] = influence; },
+      nullptr);
 
   SkinWeights weights;
   weights.first.reserve(first.size());

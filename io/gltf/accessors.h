@@ -7,7 +7,14 @@
 
 namespace sunder::gltf {
 
-enum class ComponentType : std::uint16_t { i8 = 5120, u8 = 5121, i16 = 5122, u16 = 5123, u32 = 5125, f32 = 5126 };
+enum class ComponentType : std::uint16_t {
+  i8 = 5120,
+  u8 = 5121,
+  i16 = 5122,
+  u16 = 5123,
+  u32 = 5125,
+  f32 = 5126
+};
 
 /// A typed view into the buffers, checked: every element lies inside them.
 struct Accessor {
@@ -17,7 +24,8 @@ struct Accessor {
   bool is_matrix = false;
   bool normalized = false;
   std::uint32_t count = 0;
-  const std::byte* data = nullptr;  ///< Element 0; null: all zero but for the sparse ones.
+  const std::byte* data =
+      nullptr;  ///< Element 0; null: all elements are zero except the sparse ones.
   std::size_t stride = 0;
   std::uint32_t sparse_count = 0;
   ComponentType sparse_index_type = ComponentType::u32;
@@ -27,15 +35,16 @@ struct Accessor {
   [[nodiscard]] bool is_integer() const { return component_type != ComponentType::f32; }
 };
 
-/// Opens and decodes accessors. All that it decodes counts against one budget, so that a small file that is instanced a million
-/// times ends in limit_exceeded and not in swap.
+/// Opens and decodes accessors. All that it decodes counts against one budget, so that a small file
+/// that is instanced a million times ends in limit_exceeded and not in swap.
 class AccessorReader {
  public:
   explicit AccessorReader(const SourceDocument& document);
 
   [[nodiscard]] Accessor open(const Cursor& reference) const;
 
-  /// Decodes to floats (normalised integers to [-1, 1] or [0, 1], others by value). `out` has count x components numbers.
+  /// Decodes to floats (normalised integers to [-1, 1] or [0, 1], others by value). `out` has count
+  /// x components numbers.
   void read_floats(const Accessor& accessor, std::span<float> out) const;
   [[nodiscard]] std::vector<float> read_floats(const Accessor& accessor);
   /// Unsigned integers as they are; refuses other component types.
@@ -50,7 +59,9 @@ class AccessorReader {
     return vectors;
   }
 
-  [[nodiscard]] std::string place(const Accessor& accessor) const { return "/accessors/" + std::to_string(accessor.index); }
+  [[nodiscard]] std::string place(const Accessor& accessor) const {
+    return "/accessors/" + std::to_string(accessor.index);
+  }
 
  private:
   void charge(const Accessor& accessor);

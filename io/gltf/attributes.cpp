@@ -92,7 +92,7 @@ void AttributeReader::read_streams(Mesh& mesh) {
   }
 }
 
-/// What is left of the tear sides where a tool dropped the attribute itself; else a copy of it.
+/// The copy of the tear sides, used if a tool dropped the attribute itself.
 void AttributeReader::read_tear_side_feature(Mesh& mesh, const Cursor& at) {
   if (attributes_.find(kTearSideAttribute)) return;
   const Accessor accessor = reading_.accessors.open(at);

@@ -14,7 +14,8 @@ namespace {
 constexpr std::size_t kHeaderBytes = 12, kChunkHeaderBytes = 8;
 constexpr std::uint32_t kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942;
 constexpr std::size_t kMaximumNesting = 256;
-// The JSON object keeps its members' order and looks them up one by one; without a limit, a hostile object makes that quadratic.
+// The JSON object keeps its members' order and looks them up one by one; without a limit, a hostile
+// object makes that quadratic.
 constexpr std::size_t kMaximumMembers = 10'000;
 
 std::uint32_t read_u32(std::span<const std::byte> bytes, std::size_t offset) {
@@ -25,21 +26,25 @@ std::uint32_t read_u32(std::span<const std::byte> bytes, std::size_t offset) {
 }
 
 Container split_glb(std::span<const std::byte> content) {
-  if (content.size() < kHeaderBytes) refuse(StatusCode::malformed_file, kNone, "GLB: %zu bytes are no header", content.size());
+  if (content.size() < kHeaderBytes)
+    refuse(StatusCode::malformed_file, kNone, "GLB: %zu bytes are no header", content.size());
   if (const std::uint32_t version = read_u32(content, 4); version != 2)
     refuse(StatusCode::unsupported_format, kNone, "GLB version %u; only 2 is read", version);
   const std::size_t claimed = read_u32(content, 8);
   if (claimed > content.size())
-    refuse(StatusCode::malformed_file, kNone, "GLB: its header claims %zu bytes, the file ends after %zu", claimed, content.size());
+    refuse(StatusCode::malformed_file, kNone,
+           "GLB: its header claims %zu bytes, the file ends after %zu", claimed, content.size());
 
   Container container{true, {}, {}};
   bool has_json = false;
-  for (std::size_t offset = kHeaderBytes, chunk = 0; claimed >= offset && claimed - offset >= kChunkHeaderBytes; ++chunk) {
+  for (std::size_t offset = kHeaderBytes, chunk = 0;
+       claimed >= offset && claimed - offset >= kChunkHeaderBytes; ++chunk) {
     const std::size_t length = read_u32(content, offset);
     const std::uint32_t type = read_u32(content, offset + 4);
     offset += kChunkHeaderBytes;
     if (length > claimed - offset)
-      refuse(StatusCode::malformed_file, kNone, "GLB: chunk %zu at byte %zu claims %zu bytes, %zu are left", chunk,
+      refuse(StatusCode::malformed_file, kNone,
+             "GLB: chunk %zu at byte %zu claims %zu bytes, %zu are left", chunk,
              offset - kChunkHeaderBytes, length, claimed - offset);
     const auto data = content.subspan(offset, length);
     if (chunk == 0 && type == kJsonChunk) {
@@ -55,7 +60,8 @@ Container split_glb(std::span<const std::byte> content) {
 }
 
 void check_nesting(std::string_view text) {
-  std::vector<std::size_t> members;  // Of each open array or object; arrays count too but have no limit.
+  std::vector<std::size_t>
+      members;  // One entry per open array or object; arrays are counted too but have no limit.
   std::vector<bool> is_object;
   bool in_string = false;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -71,25 +77,30 @@ void check_nesting(std::string_view text) {
       in_string = true;
     } else if (c == '{' || c == '[') {
       if (members.size() == kMaximumNesting)
-        refuse(StatusCode::limit_exceeded, kNone, "JSON: nested deeper than %zu levels at byte %zu", kMaximumNesting, i);
+        refuse(StatusCode::limit_exceeded, kNone, "JSON: nested deeper than %zu levels at byte %zu",
+               kMaximumNesting, i);
       members.push_back(1);
       is_object.push_back(c == '{');
     } else if (c == '}' || c == ']') {
       if (members.empty()) return;  // The parser says what is wrong.
       members.pop_back();
       is_object.pop_back();
-    } else if (c == ',' && !members.empty() && ++members.back() > kMaximumMembers && is_object.back()) {
-      refuse(StatusCode::limit_exceeded, kNone, "JSON: an object of more than %zu members at byte %zu", kMaximumMembers, i);
+    } else if (c == ',' && !members.empty() && ++members.back() > kMaximumMembers &&
+               is_object.back()) {
+      refuse(StatusCode::limit_exceeded, kNone,
+             "JSON: an object of more than %zu members at byte %zu", kMaximumMembers, i);
     }
   }
 }
 
-/// Extensions that a reader of geometry, skins and animation may ignore, and the one it understands.
+/// Extensions that a reader of geometry, skins and animation may ignore, and the one it
+/// understands.
 bool is_harmless(std::string_view extension) {
   if (extension == "KHR_mesh_quantization") return true;
-  constexpr std::array<std::string_view, 11> kAboutLooks = {"KHR_materials_", "KHR_texture_",  "EXT_texture_",    "MSFT_texture_",
-                                                            "KHR_lights_",    "EXT_lights_",   "KHR_xmp",         "KHR_technique",
-                                                            "EXT_materials_", "MSFT_packing_", "FB_ngon_encoding"};
+  constexpr std::array<std::string_view, 11> kAboutLooks = {
+      "KHR_materials_", "KHR_texture_",  "EXT_texture_",    "MSFT_texture_",
+      "KHR_lights_",    "EXT_lights_",   "KHR_xmp",         "KHR_technique",
+      "EXT_materials_", "MSFT_packing_", "FB_ngon_encoding"};
   for (const std::string_view prefix : kAboutLooks)
     if (extension.substr(0, prefix.size()) == prefix) return true;
   return false;
@@ -99,9 +110,11 @@ void check_version(const Cursor& document) {
   const Cursor asset = document.member("asset");
   const std::string& version = asset.member("version").to_string();
   if (version.substr(0, 2) != "2.")
-    refuse(StatusCode::unsupported_format, kNone, "/asset/version: glTF %.20s; only 2.x is read", version.c_str());
+    refuse(StatusCode::unsupported_format, kNone, "/asset/version: glTF %.20s; only 2.x is read",
+           version.c_str());
   if (const auto minimum = asset.find("minVersion"); minimum && minimum->to_string() != "2.0")
-    refuse(StatusCode::unsupported_format, kNone, "/asset/minVersion: %.20s; only 2.0 is read", minimum->to_string().c_str());
+    refuse(StatusCode::unsupported_format, kNone, "/asset/minVersion: %.20s; only 2.0 is read",
+           minimum->to_string().c_str());
 }
 
 void check_required_extensions(const Cursor& document) {
@@ -110,8 +123,9 @@ void check_required_extensions(const Cursor& document) {
   for (std::size_t i = 0; i < required->size(); ++i) {
     const Cursor extension = required->element(i);
     if (!is_harmless(extension.to_string()))
-      refuse(StatusCode::unsupported_feature, static_cast<std::uint32_t>(i), "%s: the file cannot be read without %.100s",
-             extension.pointer().c_str(), extension.to_string().c_str());
+      refuse(StatusCode::unsupported_feature, static_cast<std::uint32_t>(i),
+             "%s: the file cannot be read without %.100s", extension.pointer().c_str(),
+             extension.to_string().c_str());
   }
 }
 

@@ -34,7 +34,8 @@ Decomposition decompose(const Affine3d& matrix) {
     if ((linear_of(whole) - linear).cwiseAbs().maxCoeff() <= 1e-6 * largest) return {whole, std::nullopt};
   }
 
-  // Of dynamic size: gcc 12 takes the fixed-size one's early return for input that is not finite as a use of nothing.
+  // Dynamic size: gcc 12 warns of an uninitialised use in the fixed-size version's early return for
+  // input that is not finite.
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(linear, Eigen::ComputeFullU | Eigen::ComputeFullV);
   Mat3d u = svd.matrixU(), v = svd.matrixV();
   Vec3d singular = svd.singularValues();

@@ -19,11 +19,12 @@ std::vector<std::string> target_names(const Cursor& mesh) {
   if (!extras || !extras->json().is_object()) return names;
   const auto list = extras->find("targetNames");
   if (!list || !list->json().is_array()) return names;
-  for (const Json& name : list->json()) names.push_back(name.is_string() ? name.get<std::string>() : std::string());
+  for (const Json& name : list->json())
+    names.push_back(name.is_string() ? name.get<std::string>() : std::string());
   return names;
 }
 
-/// Where a primitive that saving added keeps a name that is not its material's.
+/// The field in which a primitive added by saving keeps a name that is not its material's.
 std::string name_in_extras(const Cursor& primitive) {
   const auto extras = primitive.find("extras");
   return extras && extras->json().is_object() ? extras->name() : std::string();
@@ -33,7 +34,8 @@ std::uint32_t target_count(const Cursor& mesh) {
   std::size_t count = 0;
   const Cursor primitives = mesh.member("primitives");
   for (std::size_t i = 0; i < primitives.size(); ++i)
-    if (const auto targets = primitives.element(i).find("targets")) count = std::max(count, targets->size());
+    if (const auto targets = primitives.element(i).find("targets"))
+      count = std::max(count, targets->size());
   return static_cast<std::uint32_t>(count);
 }
 
@@ -48,7 +50,10 @@ SkinWeights rigid_weights(std::uint32_t vertex_count) {
 class MeshBuilder {
  public:
   MeshBuilder(Reading& reading, const NodeSkeleton& nodes, Character& character)
-      : reading_(reading), nodes_(nodes), character_(character), skins_(reading, nodes, character.skins) {
+      : reading_(reading),
+        nodes_(nodes),
+        character_(character),
+        skins_(reading, nodes, character.skins) {
     result_.morphs_of_node.resize(nodes.bone_from_node.size());
   }
 
@@ -62,7 +67,9 @@ class MeshBuilder {
     result_.morphs_of_node[node] = morphs;
     const auto groups = group_primitives(reading_, mesh);
     for (const PrimitiveGroup& group : groups) {
-      std::string name = mesh.name().empty() ? nodes_.skeleton.bones[nodes_.bone_from_node[node]].name : mesh.name();
+      std::string name = mesh.name().empty()
+                             ? nodes_.skeleton.bones[nodes_.bone_from_node[node]].name
+                             : mesh.name();
       if (groups.size() > 1) name.append(".").append(std::to_string(group.primitives.front()));
       add_mesh(at, node, mesh, mesh_index, group, name, morphs.first);
     }
@@ -85,9 +92,11 @@ class MeshBuilder {
     return range;
   }
 
-  void add_mesh(const Cursor& node_at, std::uint32_t node, const Cursor& mesh_at, std::uint32_t mesh_index,
-                const PrimitiveGroup& group, const std::string& name, std::uint32_t first_morph_weight) {
-    const std::string place = "mesh " + std::to_string(character_.meshes.size()) + " '" + name + "'";
+  void add_mesh(const Cursor& node_at, std::uint32_t node, const Cursor& mesh_at,
+                std::uint32_t mesh_index, const PrimitiveGroup& group, const std::string& name,
+                std::uint32_t first_morph_weight) {
+    const std::string place =
+        "mesh " + std::to_string(character_.meshes.size()) + " '" + name + "'";
     const Cursor primitives = mesh_at.member("primitives");
     AttributeReader attributes(reading_, primitives.element(group.primitives.front()), place);
     Mesh mesh;
@@ -96,7 +105,8 @@ class MeshBuilder {
     attributes.read_streams(mesh);
     attributes.read_morph_targets(mesh, target_names(mesh_at));
 
-    SourceDocument::MeshOrigin origin{node, mesh_index, group.primitives, attributes.color_components(), false, false};
+    SourceDocument::MeshOrigin origin{
+        node, mesh_index, group.primitives, attributes.color_components(), false, false};
     origin.repaired = read_faces(primitives, group, mesh);
     origin.repaired |= attributes.repaired();
     if (mesh.triangles.empty()) {
@@ -115,27 +125,32 @@ class MeshBuilder {
       ReadTriangles read = read_triangles(reading_, primitive, mesh.vertex_count());
       repaired |= read.repaired;
       if (mesh.triangles.size() + read.triangles.size() >= kNone / 3)
-        refuse(StatusCode::limit_exceeded, index, "%s: too many triangles for 32-bit indices", primitive.pointer().c_str());
+        refuse(StatusCode::limit_exceeded, index, "%s: too many triangles for 32-bit indices",
+               primitive.pointer().c_str());
       mesh.triangles.insert(mesh.triangles.end(), read.triangles.begin(), read.triangles.end());
-      mesh.triangle_submesh.resize(mesh.triangles.size(), static_cast<std::uint32_t>(mesh.submeshes.size()));
+      mesh.triangle_submesh.resize(mesh.triangles.size(),
+                                   static_cast<std::uint32_t>(mesh.submeshes.size()));
       const auto material = primitive.find("material");
       Submesh submesh;
       if (material) {
         submesh.material = material->to_index(count_of(reading_.json(), "materials"), "material");
         submesh.name = entry(reading_.json(), "materials", submesh.material).name();
       }
-      if (std::string name = name_in_extras(primitive); !name.empty()) submesh.name = std::move(name);
+      if (std::string name = name_in_extras(primitive); !name.empty())
+        submesh.name = std::move(name);
       mesh.submeshes.push_back(std::move(submesh));
     }
     return repaired;
   }
 
-  void read_skin(const Cursor& node_at, std::uint32_t node, AttributeReader& attributes, const std::string& place, Mesh& mesh,
-                 SourceDocument::MeshOrigin& origin) {
+  void read_skin(const Cursor& node_at, std::uint32_t node, AttributeReader& attributes,
+                 const std::string& place, Mesh& mesh, SourceDocument::MeshOrigin& origin) {
     const auto skin_at = node_at.find("skin");
     const auto sets = skin_at ? attributes.read_influences(mesh) : std::vector<InfluenceSet>();
     if (sets.empty()) {
-      if (skin_at) reading_.notes.inform(place, "its node has a skin but it has no weights; it moves with the node");
+      if (skin_at)
+        reading_.notes.inform(place,
+                              "its node has a skin but it has no weights; it moves with the node");
       mesh.skin = skins_.of_node(node);
       mesh.weights = rigid_weights(mesh.vertex_count());
       return;
@@ -143,7 +158,8 @@ class MeshBuilder {
     const std::uint32_t gltf_skin = skin_at->to_index(count_of(reading_.json(), "skins"), "skin");
     mesh.skin = skins_.of_skin(gltf_skin);
     const auto slot_count = static_cast<std::uint32_t>(character_.skins[mesh.skin].bones.size());
-    ReadWeights read = make_weights(sets, mesh.vertex_count(), slot_count, skins_.root_slot(gltf_skin), place, reading_.notes);
+    ReadWeights read = make_weights(sets, mesh.vertex_count(), slot_count,
+                                    skins_.root_slot(gltf_skin), place, reading_.notes);
     mesh.weights = std::move(read.weights);
     origin.skinned = true;
     origin.repaired |= read.repaired;

@@ -12,27 +12,31 @@ namespace {
 
 constexpr std::uint64_t kTriangles = 4, kStrip = 5, kFan = 6;
 
-/// Which accessors a primitive's vertices are: equal keys, equal vertices.
+/// The accessors of a primitive's vertices: equal keys mean equal vertices.
 using VertexKey = std::vector<std::map<std::string, std::uint64_t>>;
 
 VertexKey vertex_key(const Cursor& primitive) {
   const auto accessors_of = [](const Cursor& attributes) {
     std::map<std::string, std::uint64_t> accessors;
     for (const auto& item : attributes.json().items())
-      accessors[item.key()] = Cursor(item.value(), attributes.pointer() + "/" + item.key()).to_unsigned();
+      accessors[item.key()] =
+          Cursor(item.value(), attributes.pointer() + "/" + item.key()).to_unsigned();
     return accessors;
   };
   VertexKey key = {accessors_of(primitive.member("attributes"))};
   if (const auto targets = primitive.find("targets"))
-    for (std::size_t i = 0; i < targets->size(); ++i) key.push_back(accessors_of(targets->element(i)));
+    for (std::size_t i = 0; i < targets->size(); ++i)
+      key.push_back(accessors_of(targets->element(i)));
   return key;
 }
 
-std::vector<std::uint32_t> read_indices(Reading& reading, const Cursor& primitive, std::uint32_t vertex_count) {
+std::vector<std::uint32_t> read_indices(Reading& reading, const Cursor& primitive,
+                                        std::uint32_t vertex_count) {
   if (const auto at = primitive.find("indices")) {
     const Accessor accessor = reading.accessors.open(*at);
     if (accessor.components != 1 || accessor.normalized)
-      refuse(StatusCode::malformed_file, accessor.index, "%s: indices are unsigned scalars", at->pointer().c_str());
+      refuse(StatusCode::malformed_file, accessor.index, "%s: indices are unsigned scalars",
+             at->pointer().c_str());
     return reading.accessors.read_unsigned(accessor);
   }
   std::vector<std::uint32_t> indices(vertex_count);
@@ -44,7 +48,8 @@ std::vector<Triangle> assemble(const std::vector<std::uint32_t>& indices, std::u
   std::vector<Triangle> triangles;
   if (mode == kTriangles) {
     triangles.reserve(indices.size() / 3);
-    for (std::size_t i = 0; i + 3 <= indices.size(); i += 3) triangles.push_back({indices[i], indices[i + 1], indices[i + 2]});
+    for (std::size_t i = 0; i + 3 <= indices.size(); i += 3)
+      triangles.push_back({indices[i], indices[i + 1], indices[i + 2]});
     return triangles;
   }
   for (std::size_t i = 0; i + 3 <= indices.size(); ++i) {
@@ -67,7 +72,8 @@ std::vector<PrimitiveGroup> group_primitives(Reading& reading, const Cursor& mes
     const Cursor primitive = primitives.element(i);
     const std::uint64_t mode = primitive.unsigned_or("mode", kTriangles);
     if (mode > kFan)
-      refuse(StatusCode::malformed_file, i, "%s/mode: %llu", primitive.pointer().c_str(), static_cast<unsigned long long>(mode));
+      refuse(StatusCode::malformed_file, i, "%s/mode: %llu", primitive.pointer().c_str(),
+             static_cast<unsigned long long>(mode));
     if (mode < kTriangles) {
       reading.notes.dropped(StatusCode::unsupported_feature, i, primitive.pointer(),
                             "points and lines cannot be torn and stay in the file only");
@@ -75,7 +81,8 @@ std::vector<PrimitiveGroup> group_primitives(Reading& reading, const Cursor& mes
     }
     const VertexKey key = vertex_key(primitive);
     if (key.front().count("POSITION") == 0) {
-      reading.notes.dropped(StatusCode::malformed_file, i, primitive.pointer(), "a primitive without positions");
+      reading.notes.dropped(StatusCode::malformed_file, i, primitive.pointer(),
+                            "a primitive without positions");
       continue;
     }
     const auto [found, is_new] = group_of_key.try_emplace(key, groups.size());
@@ -85,7 +92,8 @@ std::vector<PrimitiveGroup> group_primitives(Reading& reading, const Cursor& mes
   return groups;
 }
 
-ReadTriangles read_triangles(Reading& reading, const Cursor& primitive, std::uint32_t vertex_count) {
+ReadTriangles read_triangles(Reading& reading, const Cursor& primitive,
+                             std::uint32_t vertex_count) {
   const std::uint64_t mode = primitive.unsigned_or("mode", kTriangles);
   const std::vector<std::uint32_t> indices = read_indices(reading, primitive, vertex_count);
   ReadTriangles result;
@@ -94,16 +102,19 @@ ReadTriangles read_triangles(Reading& reading, const Cursor& primitive, std::uin
                            "the last triangle is incomplete and was left out");
   result.triangles = assemble(indices, mode);
   const auto out_of_range = [&](const Triangle& triangle) {
-    return std::any_of(triangle.begin(), triangle.end(), [&](std::uint32_t vertex) { return vertex >= vertex_count; });
+    return std::any_of(triangle.begin(), triangle.end(),
+                       [&](std::uint32_t vertex) { return vertex >= vertex_count; });
   };
-  const auto first_bad = std::find_if(result.triangles.begin(), result.triangles.end(), out_of_range);
+  const auto first_bad =
+      std::find_if(result.triangles.begin(), result.triangles.end(), out_of_range);
   if (first_bad == result.triangles.end()) return result;
   const auto index = static_cast<std::uint32_t>(first_bad - result.triangles.begin());
   const std::size_t before = result.triangles.size();
   std::erase_if(result.triangles, out_of_range);
-  reading.notes.dropped(StatusCode::index_out_of_range, index, primitive.pointer(),
-                        "triangles name vertices that do not exist (first: triangle " + std::to_string(index) + ")",
-                        static_cast<std::uint32_t>(before - result.triangles.size()));
+  reading.notes.dropped(
+      StatusCode::index_out_of_range, index, primitive.pointer(),
+      "triangles name vertices that do not exist (first: triangle " + std::to_string(index) + ")",
+      static_cast<std::uint32_t>(before - result.triangles.size()));
   result.repaired = true;
   return result;
 }

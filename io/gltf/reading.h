@@ -6,7 +6,7 @@
 
 namespace sunder::gltf {
 
-/// What every part of the reader needs: the document, its numbers, and where to note what happened to them.
+/// Shared by all parts of the reader: the document, its numbers, and the load report.
 struct Reading {
   const SourceDocument& document;
   AccessorReader accessors;

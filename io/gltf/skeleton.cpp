@@ -32,7 +32,7 @@ Quatf read_rotation(Reading& reading, const Cursor& node, const std::array<float
   if (deviation > 1e-4)
     reading.notes.repaired(StatusCode::malformed_file, kNone, node.pointer(),
                            "a rotation that was not of unit length was normalised");
-  // What is unit to float precision keeps its bits.
+  // A quaternion that is unit to float precision keeps its bits.
   if (deviation <= 1e-6) return Quatf(xyzw[3], xyzw[0], xyzw[1], xyzw[2]);
   return rotation.normalized().cast<float>();
 }

@@ -44,7 +44,7 @@ void check_same_character(const Character& character, const LoadedCharacter& loa
   if (const Status status = validate_character(character); !status) throw Refusal{status};
 }
 
-/// Meshes that have to be written: the torn ones and, beside them, those whose source is not valid
+/// Meshes that have to be written: the torn ones and, in addition, those whose source is not valid
 /// as it stands.
 std::vector<std::uint32_t> meshes_to_write(const Character& character,
                                            const LoadedCharacter& loaded) {

@@ -6,7 +6,7 @@
 
 namespace sunder::operation_log {
 
-/// One operation as JSON: on one line, but for a stroke, whose blades take a line each.
+/// One operation as JSON on one line, except that each blade of a stroke takes a line of its own.
 void append_operation(std::string& text, const Operation& operation);
 
 }  // namespace sunder::operation_log

@@ -14,32 +14,40 @@ class ParseGuard {
  public:
   bool operator()(int depth, Json::parse_event_t event, const Json& value) {
     if (static_cast<std::size_t>(depth) > kMaximumDepth)
-      throw Fault{Status::failure(StatusCode::limit_exceeded, kNone, "values are nested deeper than %zu", kMaximumDepth)};
+      throw Fault{Status::failure(StatusCode::limit_exceeded, kNone,
+                                  "values are nested deeper than %zu", kMaximumDepth)};
     if (event == Json::parse_event_t::object_start) fields_.emplace_back();
     if (event == Json::parse_event_t::object_end) fields_.pop_back();
-    if (event == Json::parse_event_t::key && !fields_.back().insert(value.get<std::string>()).second)
-      throw Fault{Status::failure(StatusCode::malformed_file, kNone, "field '%s' occurs twice in one object",
+    if (event == Json::parse_event_t::key &&
+        !fields_.back().insert(value.get<std::string>()).second)
+      throw Fault{Status::failure(StatusCode::malformed_file, kNone,
+                                  "field '%s' occurs twice in one object",
                                   value.get<std::string>().c_str())};
     return true;
   }
 
  private:
-  std::vector<std::set<std::string>> fields_;  ///< Of the objects around the value, outermost first.
+  std::vector<std::set<std::string>> fields_;  ///< Keys of the enclosing objects, outermost first.
 };
 
 }  // namespace
 
 Json parse_json(std::string_view text) {
   if (text.size() > kMaximumBytes)
-    throw Fault{Status::failure(StatusCode::limit_exceeded, kNone, "operation log of %zu bytes; the limit is %zu", text.size(),
+    throw Fault{Status::failure(StatusCode::limit_exceeded, kNone,
+                                "operation log of %zu bytes; the limit is %zu", text.size(),
                                 kMaximumBytes)};
   ParseGuard guard;
   try {
-    return Json::parse(text, [&](int depth, Json::parse_event_t event, const Json& value) { return guard(depth, event, value); });
+    return Json::parse(text, [&](int depth, Json::parse_event_t event, const Json& value) {
+      return guard(depth, event, value);
+    });
   } catch (const Json::parse_error& error) {
     const std::size_t offset = std::min(error.byte == 0 ? 0 : error.byte - 1, text.size());
-    const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(offset), '\n');
-    throw Fault{Status::failure(StatusCode::malformed_file, kNone, "not JSON: line %td, byte %zu: %s", line, offset, error.what())};
+    const auto line =
+        1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(offset), '\n');
+    throw Fault{Status::failure(StatusCode::malformed_file, kNone,
+                                "not JSON: line %td, byte %zu: %s", line, offset, error.what())};
   } catch (const Json::exception& error) {  // Numbers that no double can hold.
     throw Fault{Status::failure(StatusCode::malformed_file, kNone, "not JSON: %s", error.what())};
   }

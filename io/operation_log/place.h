@@ -15,8 +15,9 @@ namespace sunder::operation_log {
 
 using Json = nlohmann::ordered_json;  // Bones keep the order in which the log names them.
 
-constexpr double kLargest = 1e9;              ///< Of a number: metres, seconds, scale.
-constexpr double kLargestMatrixEntry = 1e30;  ///< Of a bone matrix: it may hold any scale.
+constexpr double kLargest = 1e9;  ///< Largest number: metres, seconds, scale.
+constexpr double kLargestMatrixEntry =
+    1e30;  ///< Largest entry of a bone matrix, which may hold any scale.
 
 /// Carries a fault out of the nested readers; never leaves io/operation_log.
 struct Fault {
@@ -30,7 +31,9 @@ struct Place {
   std::uint32_t operation = kNone;
 
   [[noreturn]] void fail(StatusCode code, const std::string& text) const;
-  [[noreturn]] void malformed(const std::string& text) const { fail(StatusCode::malformed_file, text); }
+  [[noreturn]] void malformed(const std::string& text) const {
+    fail(StatusCode::malformed_file, text);
+  }
   [[noreturn]] void expected(const char* what) const;
 
   [[nodiscard]] Place at(std::size_t index) const;
@@ -40,7 +43,7 @@ struct Place {
   void check_fields(std::initializer_list<std::string_view> known) const;
 };
 
-// What a value must be; else they throw a Fault that names the place.
+// Each checks its value and otherwise throws a Fault that names the place.
 
 double read_number(const Place& place);
 double read_number_at_least_zero(const Place& place);
@@ -49,7 +52,8 @@ bool read_bool(const Place& place);
 std::string read_name(const Place& place);
 /// An index from 0, or how many of something.
 /// @param what  names it where it is refused.
-std::uint32_t read_integer(const Place& place, const char* what, std::uint32_t least = 0, std::uint32_t most = kNone - 1);
+std::uint32_t read_integer(const Place& place, const char* what, std::uint32_t least = 0,
+                           std::uint32_t most = kNone - 1);
 const Json& read_array(const Place& place, const char* what);
 
 /// All numbers of an array of that length.

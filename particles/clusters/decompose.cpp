@@ -3,14 +3,17 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "particles/clusters/influences.h"
 #include "particles/clusters/pair_sums.h"
 #include "particles/clusters/rest_terms.h"
+#include "particles/internal/tolerances.h"
 #include "tear/internal/surface.h"
 
 namespace sunder::particles {
 namespace {
 
-/// All numbers below `count` once, far apart in turn: steps of about the golden section, which a seed shifts.
+/// All numbers below `count` once, each far from the one before: steps of about the golden section,
+/// which a seed shifts.
 class ScatteredOrder {
  public:
   ScatteredOrder(Index count, std::uint64_t seed) : count_(count) {
@@ -19,85 +22,123 @@ class ScatteredOrder {
     mixed = (mixed ^ (mixed >> 27u)) * 0x94D0'49BB'1331'11EBu;
     mixed ^= mixed >> 31u;
     at_ = static_cast<Index>(mixed % count);
-    step_ = std::max<Index>(1, static_cast<Index>((0.5 + 0.2 * static_cast<double>(mixed >> 40u) / (1u << 24u)) * count));
+    step_ = std::max<Index>(
+        1,
+        static_cast<Index>((0.5 + 0.2 * static_cast<double>(mixed >> 40u) / (1u << 24u)) * count));
     while (std::gcd(step_, count) != 1) ++step_;
   }
-  Index next() { return std::exchange(at_, static_cast<Index>((std::uint64_t{at_} + step_) % count_)); }
+  Index next() {
+    return std::exchange(at_, static_cast<Index>((std::uint64_t{at_} + step_) % count_));
+  }
 
  private:
   Index count_, at_, step_;
 };
 
+/// A membership as a front finds it.
 struct Visit {
   Index point;
   float distance;
 };
 
+/// The state of a point while seeds are taken.
+struct Found {
+  float nearest;  ///< Distance to the nearest seed.
+  Index count;    ///< Of memberships.
+};
+
+/// Grows a particle from a seed over the surface, and appends its members to `visits`.
+void grow_particle(Index seed, Rings& rings, Structure& structure, std::vector<Visit>& visits,
+                   std::vector<Found>& found) {
+  if (structure.particles.size() == kMaximumParticles) throw std::length_error("particles");
+  const auto range = static_cast<float>(structure.report.range);
+  SurfaceFront& front = structure.scratch.front;
+  front.begin(structure.points.count(), range, structure.edge_length);
+  front.add(seed, 0.0f);
+  structure.members.first.push_back(static_cast<Index>(visits.size()));
+  front.run(rings, [&](Index point, float distance, Index) {
+    visits.push_back({point, distance});
+    Found& of = found[point];
+    of.nearest = std::min(of.nearest, distance);
+    ++of.count;
+    return true;
+  });
+  Particle& particle = structure.particles.emplace_back();
+  particle.serial = structure.next_serial++;
+  particle.seed = seed;
+  particle.range = range;
+  particle.member_count = static_cast<Index>(visits.size()) - structure.members.first.back();
+}
+
+/// Takes seeds until every point is near one. @return the members of all particles, particle after
+/// particle.
+std::vector<Visit> take_seeds(const Surface& surface, std::uint64_t seed_of_order,
+                              Structure& structure, std::vector<Found>& found) {
+  const Index points = structure.points.count();
+  const auto range = static_cast<float>(structure.report.range);
+  Rings rings(surface, structure.points.positions);
+  std::vector<Visit> visits;
+  visits.reserve(3 * std::size_t{points});
+  // Seeds first stand out of one another's range, then in the gaps that this leaves: fewer are
+  // needed than if they were as near from the beginning.
+  for (const float apart : {range, kSeedSpacingReach * range}) {
+    ScatteredOrder order(points, seed_of_order);
+    for (Index i = 0; i < points; ++i) {
+      const Index seed = order.next();
+      if (found[seed].nearest <= apart || surface.point_corner[seed] == kNone) continue;
+      grow_particle(seed, rings, structure, visits, found);
+    }
+  }
+  structure.members.first.push_back(static_cast<Index>(visits.size()));
+  structure.members.joined.resize(structure.particles.size());
+  return visits;
+}
+
+/// Sorts the members of particles into the memberships of points.
+void sort_memberships(std::span<const Visit> visits, std::span<const Found> found,
+                      Structure& structure) {
+  const auto range = static_cast<float>(structure.report.range);
+  PointTable& points = structure.points;
+  MemberLists& members = structure.members;
+  members.points.resize(visits.size());
+  points.memberships.resize(visits.size());
+  points.slabs.resize(found.size());
+  Index first = 0;
+  for (Index p = 0; p < found.size(); ++p) {
+    points.slabs[p] = {first, 0};
+    first += found[p].count;
+  }
+  for (Index p = 0; p < structure.particles.size(); ++p)
+    for (Index v = members.first[p]; v < members.first[p + 1]; ++v) {
+      MembershipSlab& slab = points.slabs[visits[v].point];
+      members.points[v] = visits[v].point;
+      points.memberships[slab.first + slab.count++] = {p, visits[v].distance / range};
+    }
+}
+
+/// Computes the rest terms of all particles from their members.
+void sum_rest_terms(const TornModel& model, Structure& structure) {
+  RestSums sums(model, structure.character.pose.first_slots(), structure.points.vertices);
+  for (Index p = 0; p < structure.particles.size(); ++p) {
+    Particle& particle = structure.particles[p];
+    sums.sum(std::span(structure.members.points)
+                 .subspan(structure.members.first[p], particle.member_count),
+             particle);
+  }
+}
+
 }  // namespace
 
 void decompose(const TornModel& model, const DecompositionOptions& options, Structure& structure) {
   const Surface& surface = model.surface();
-  const Index points = structure.point_count();
-  const auto range = static_cast<float>(structure.report.range);
-
-  Rings rings(surface, structure.positions);
-  std::vector<Visit> visits;
-  visits.reserve(3 * std::size_t{points});
-  struct Found {
-    float nearest;  // distance to a seed
-    Index count;    // of memberships
-  };
-  std::vector<Found> found(points, {2 * range, 0});
-  // Seeds first stand out of one another's range, then in what gaps that leaves: fewer are needed than if they were as near from
-  // the beginning.
-  for (const float apart : {range, kCovers * range}) {
-    ScatteredOrder order(points, options.seed);
-    for (Index i = 0; i < points; ++i) {
-      const Index seed = order.next();
-      if (found[seed].nearest <= apart || surface.point_corner[seed] == kNone) continue;
-      if (structure.particles.size() == kMaximumParticles) throw std::length_error("particles");
-      structure.front.begin(points, range, structure.edge_length);
-      structure.front.add(seed, 0.0f);
-      structure.first_member.push_back(static_cast<Index>(visits.size()));
-      structure.front.run(rings, [&](Index point, float distance, Index) {
-        visits.push_back({point, distance});
-        Found& of = found[point];
-        of.nearest = std::min(of.nearest, distance);
-        ++of.count;
-        return true;
-      });
-      Particle& particle = structure.particles.emplace_back();
-      particle.serial = structure.next_serial++;
-      particle.seed = seed;
-      particle.range = range;
-      particle.member_count = static_cast<Index>(visits.size()) - structure.first_member.back();
-    }
-  }
-  structure.first_member.push_back(static_cast<Index>(visits.size()));
-  structure.joined.resize(structure.particles.size());
-
-  structure.members.resize(visits.size());
-  structure.memberships.resize(visits.size());
-  structure.slabs.resize(points);
-  Index first = 0;
-  for (Index p = 0; p < points; ++p) {
-    structure.slabs[p] = {first, 0};
-    first += found[p].count;
-  }
-  for (Index p = 0; p < structure.particles.size(); ++p)
-    for (Index v = structure.first_member[p]; v < structure.first_member[p + 1]; ++v) {
-      Structure::Slab& slab = structure.slabs[visits[v].point];
-      structure.members[v] = visits[v].point;
-      structure.memberships[slab.first + slab.count++] = {p, visits[v].distance / range};
-    }
-
-  structure.influences.resize(points);
-  for (Index p = 0; p < points; ++p) structure.influences[p] = influences_from(structure.memberships_of(p));
-  RestSums sums(model, structure);
-  for (Index p = 0; p < structure.particles.size(); ++p) {
-    const auto members = std::span(structure.members).subspan(structure.first_member[p], structure.particles[p].member_count);
-    sums.sum(members, structure.particles[p]);
-  }
+  const Index points = structure.points.count();
+  std::vector<Found> found(points, {2 * static_cast<float>(structure.report.range), 0});
+  const std::vector<Visit> visits = take_seeds(surface, options.seed, structure, found);
+  sort_memberships(visits, found, structure);
+  structure.points.influences.resize(points);
+  for (Index p = 0; p < points; ++p)
+    structure.points.influences[p] = influences_from(structure.points.memberships_of(p));
+  sum_rest_terms(model, structure);
   sum_pairs(structure);
 
   DecompositionReport& report = structure.report;

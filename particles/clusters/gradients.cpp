@@ -1,5 +1,7 @@
 #include "particles/clusters/gradients.h"
 
+#include <algorithm>
+
 #include "tear/internal/surface.h"
 
 namespace sunder::particles {
@@ -7,7 +9,8 @@ namespace {
 
 float weight_of(const ParticleInfluences& influences, Index particle) {
   for (std::size_t i = 0; i < 4; ++i)
-    if (influences.particles[i] == particle && influences.weights[i] > 0) return influences.weights[i];
+    if (influences.particles[i] == particle && influences.weights[i] > 0)
+      return influences.weights[i];
   return 0.0f;
 }
 
@@ -16,22 +19,26 @@ ParticleGradients gradients_at(const Surface& surface, const Structure& structur
   ParticleGradients gradients;
   gradients.of_weights.fill(Vec3f::Zero());
   if (surface.point_corner[point] == kNone) return gradients;
-  const ParticleInfluences& own = structure.influences[point];
+  const ParticleInfluences& own = structure.points.influences[point];
   double area = 0;
   std::array<Vec3d, 4> sums;
   sums.fill(Vec3d::Zero());
   surface.for_each_in_fan(surface.point_corner[point], [&](Index corner) {
-    const Index b = surface.corner_point[Surface::next(corner)], c = surface.corner_point[Surface::previous(corner)];
-    const Vec3d at = structure.positions[point].cast<double>();
-    const Vec3d to_b = structure.positions[b].cast<double>() - at, to_c = structure.positions[c].cast<double>() - at;
+    const Index b = surface.corner_point[Surface::next(corner)],
+                c = surface.corner_point[Surface::previous(corner)];
+    const Vec3d at = structure.points.positions[point].cast<double>();
+    const Vec3d to_b = structure.points.positions[b].cast<double>() - at,
+                to_c = structure.points.positions[c].cast<double>() - at;
     const Vec3d twice = to_b.cross(to_c);
     const double length = twice.norm();
     if (!(length > 0)) return;
     const Vec3d normal = twice / length;
     area += length;
     for (std::size_t i = 0; i < 4 && own.weights[i] > 0; ++i) {
-      const double rise_b = weight_of(structure.influences[b], own.particles[i]) - own.weights[i];
-      const double rise_c = weight_of(structure.influences[c], own.particles[i]) - own.weights[i];
+      const double rise_b =
+          weight_of(structure.points.influences[b], own.particles[i]) - own.weights[i];
+      const double rise_c =
+          weight_of(structure.points.influences[c], own.particles[i]) - own.weights[i];
       sums[i] += normal.cross(rise_c * to_b - rise_b * to_c);  // times twice the area
     }
   });
@@ -61,32 +68,44 @@ void Gradients::forget(const Surface& surface, std::span<const Index> points) {
   }
 }
 
-void Gradients::forget(const TornModel& model, const Structure& structure, std::span<const ChangeRecord> changes) {
-  if (!is_wanted_) return;
-  for (const ChangeRecord& change : changes)
-    for (const MeshChange& of_mesh : change.meshes) {
-      const std::vector<Index>& points = structure.vertex_points[of_mesh.mesh];
-      const Mesh& mesh = model.character().meshes[of_mesh.mesh];
-      const auto forget_corners = [&](const Triangle& triangle) {
-        for (const Index vertex : triangle)
-          if (vertex < points.size() && points[vertex] != kNone) forget(points[vertex]);
-      };
-      for (const RewrittenTriangle& rewritten : of_mesh.rewritten) {
-        forget_corners(rewritten.before);
-        if (rewritten.triangle < mesh.triangle_count()) forget_corners(mesh.triangles[rewritten.triangle]);
-      }
-      for (Index t = of_mesh.first_triangle; t < mesh.triangle_count(); ++t) forget_corners(mesh.triangles[t]);
-    }
+void Gradients::forget(const TornModel& model, const Structure& structure,
+                       const MeshChange& change) {
+  const std::vector<Index>& points = structure.vertex_points.of_mesh[change.mesh];
+  const Mesh& mesh = model.character().meshes[change.mesh];
+  const auto forget_corners = [&](const Triangle& triangle) {
+    for (const Index vertex : triangle)
+      if (vertex < points.size() && points[vertex] != kNone) forget(points[vertex]);
+  };
+  for (const RewrittenTriangle& rewritten : change.rewritten) {
+    forget_corners(rewritten.before);
+    if (rewritten.triangle < mesh.triangle_count())
+      forget_corners(mesh.triangles[rewritten.triangle]);
+  }
+  for (Index t = change.first_triangle; t < mesh.triangle_count(); ++t)
+    forget_corners(mesh.triangles[t]);
 }
 
-std::span<const ParticleGradients> Gradients::of(const Surface& surface, const Structure& structure) {
-  is_wanted_ = true;
+void Gradients::forget(const TornModel& model, const Structure& structure,
+                       std::span<const ChangeRecord> changes) {
+  if (!is_wanted_) return;
+  for (const ChangeRecord& change : changes)
+    for (const MeshChange& of_mesh : change.meshes) forget(model, structure, of_mesh);
+}
+
+std::span<const ParticleGradients> Gradients::of(const Surface& surface,
+                                                 const Structure& structure) {
+  const Index count = structure.points.count();
   const auto known = static_cast<Index>(is_known_.size());
-  is_known_.resize(structure.point_count(), false);
-  gradients_.resize(structure.point_count());
-  for (Index point = known; point < structure.point_count(); ++point) unknown_.push_back(point);
+  const std::size_t come = count > known ? count - known : 0;
+  // All memory first: what forget() notes later needs none.
+  gradients_.reserve(count);
+  unknown_.reserve(std::max<std::size_t>(unknown_.size() + come, count));
+  is_known_.resize(count, false);
+  for (Index point = known; point < count; ++point) unknown_.push_back(point);
+  is_wanted_ = true;
+  gradients_.resize(count);
   for (const Index point : unknown_) {
-    if (point >= structure.point_count()) continue;
+    if (point >= count) continue;
     gradients_[point] = gradients_at(surface, structure, point);
     is_known_[point] = true;
   }

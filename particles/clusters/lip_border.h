@@ -8,23 +8,24 @@
 namespace sunder::particles {
 using tear::Surface;
 
-/// The borders of the surface as it would be without the walls and caps that close it.
+/// The borders of the surface without the walls and caps that close it.
 class LipBorder {
  public:
   explicit LipBorder(const TornModel& model) : surface_(model.surface()) {}
 
-  /// Whether a half-edge has the surface on its own side alone.
+  /// Whether a half-edge is a border: the surface is on its own side alone.
   [[nodiscard]] bool has(Index half_edge) const {
     if (is_filling(half_edge / 3)) return false;
     const Index twin = surface_.twin[half_edge];
     return twin == kNone || is_filling(twin / 3);
   }
-  /// The half-edge of the border that leaves a point, or arrives there; kNone where there is none.
+  /// The half-edge of the border that leaves a point, or that arrives at it; kNone where there is
+  /// none.
   [[nodiscard]] Index leaving(Index point) const {
     return find(point, [](Index corner) { return corner; });
   }
   [[nodiscard]] Index arriving(Index point) const { return find(point, Surface::previous); }
-  /// The points there.
+  /// The point after another on the border, and the one before it.
   [[nodiscard]] Index next(Index point) const {
     const Index half_edge = leaving(point);
     return half_edge == kNone ? kNone : surface_.corner_point[Surface::next(half_edge)];
@@ -35,7 +36,7 @@ class LipBorder {
   }
 
  private:
-  /// The first half-edge of the border among those that belong to a point's corners.
+  /// The first half-edge of the border among those of a point's corners.
   template <class HalfEdgeOf>
   [[nodiscard]] Index find(Index point, HalfEdgeOf half_edge_of) const {
     const Index start = surface_.point_corner[point];
@@ -53,7 +54,8 @@ class LipBorder {
   [[nodiscard]] bool is_filling(Index triangle) const {
     if (triangle < surface_.first_triangle.back()) return false;
     const tear::TriangleRef& ref = surface_.appended[triangle - surface_.first_triangle.back()];
-    return ref.source_triangle >= surface_.first_triangle[ref.mesh + 1] - surface_.first_triangle[ref.mesh];
+    return ref.source_triangle >=
+           surface_.first_triangle[ref.mesh + 1] - surface_.first_triangle[ref.mesh];
   }
 
   const Surface& surface_;

@@ -5,11 +5,12 @@
 
 namespace sunder::particles {
 
-/// Counts pairs of influences out of neighbours' sums and into others. Gathered in a small matrix first: the points around a tear
-/// have few pairs of particles, each many times.
+/// Changes the sums of neighbours by the pairs of influences that come and go. They are gathered in
+/// a small matrix first: the points around a tear have few pairs of particles, each many times.
 class PairChanges {
  public:
-  /// @param change  called with a particle before it changes; returns it.
+  /// @param sign    1 for influences that come, -1 for those that go.
+  /// @param change  called with the index of a particle before it changes; returns the particle.
   template <class ChangeParticle>
   void add(const ParticleInfluences& influences, int sign, ChangeParticle change) {
     std::array<std::size_t, 4> rows;
@@ -18,19 +19,20 @@ class PairChanges {
       if (count_ + 4 > kMost) apply(change);
       rows[count] = row_of(influences.particles[count]);
     }
-    // Where that made room, rows may be others now.
+    // apply() may have given the rows to others.
     for (std::size_t i = 0; i < count; ++i) rows[i] = row_of(influences.particles[i]);
     for (std::size_t i = 0; i < count; ++i) {
       weights_[rows[i]] += sign * double{influences.weights[i]};
       for (std::size_t j = 0; j < i; ++j) {
-        const std::size_t at = rows[i] < rows[j] ? rows[i] * kMost + rows[j] : rows[j] * kMost + rows[i];
+        const std::size_t at =
+            rows[i] < rows[j] ? rows[i] * kMost + rows[j] : rows[j] * kMost + rows[i];
         points_[at] += sign;
         shared_[at] += sign * double{influences.weights[i]} * double{influences.weights[j]};
       }
     }
   }
 
-  /// Puts what was gathered where it belongs.
+  /// Adds what was gathered to the particles.
   template <class ChangeParticle>
   void apply(ChangeParticle change) {
     for (std::size_t i = 0; i < count_; ++i) {
@@ -61,10 +63,14 @@ class PairChanges {
     return row_of_[particle];
   }
 
-  static void add_to(std::vector<ParticleNeighbour>& neighbours, Index other, std::int32_t points, double shared) {
+  static void add_to(std::vector<ParticleNeighbour>& neighbours, Index other, std::int32_t points,
+                     double shared) {
     auto at = std::lower_bound(neighbours.begin(), neighbours.end(), other,
-                               [](const ParticleNeighbour& neighbour, Index particle) { return neighbour.particle < particle; });
-    if (at == neighbours.end() || at->particle != other) at = neighbours.insert(at, {other, 0, 0.0});
+                               [](const ParticleNeighbour& neighbour, Index particle) {
+                                 return neighbour.particle < particle;
+                               });
+    if (at == neighbours.end() || at->particle != other)
+      at = neighbours.insert(at, {other, 0, 0.0});
     at->points = static_cast<Index>(static_cast<std::int32_t>(at->points) + points);
     at->shared += shared;
     if (at->points == 0) neighbours.erase(at);

@@ -6,11 +6,12 @@
 namespace sunder::particles {
 namespace {
 
-/// What pairs of particles have in common, by hashing: a pair is in the first place from that of its hash on which is its own.
+/// A hash table of what pairs of particles have in common, with linear probing.
 class PairTable {
  public:
   struct Entry {
-    std::uint64_t pair = kNoPair;  ///< The lower particle, and below it the higher one.
+    std::uint64_t pair =
+        kNoPair;  ///< The lower particle in the high bits, the higher one in the low bits.
     double shared = 0;
     Index points = 0;
   };
@@ -24,11 +25,12 @@ class PairTable {
     if (entry.points == 1 && 2 * ++count_ > entries_.size()) grow();
   }
 
-  /// Calls visit(low, high, entry) for all that there are.
+  /// Calls visit(low, high, entry) for all pairs.
   template <class Visit>
   void for_each(Visit visit) const {
     for (const Entry& entry : entries_)
-      if (entry.pair != kNoPair) visit(static_cast<Index>(entry.pair >> 32u), static_cast<Index>(entry.pair), entry);
+      if (entry.pair != kNoPair)
+        visit(static_cast<Index>(entry.pair >> 32u), static_cast<Index>(entry.pair), entry);
   }
 
  private:
@@ -57,7 +59,7 @@ class PairTable {
 
 void sum_pairs(Structure& structure) {
   PairTable pairs(structure.particles.size());
-  // Gathered without branches first: how many influences a point has can't be guessed.
+  // Gathered without branches first: the number of influences per point is unpredictable.
   struct Common {
     std::uint64_t pair;
     double shared;
@@ -68,13 +70,15 @@ void sum_pairs(Structure& structure) {
     for (std::size_t i = 0; i < count; ++i) pairs.add(gathered[i].pair, gathered[i].shared);
     count = 0;
   };
-  for (const ParticleInfluences& of : structure.influences) {
+  for (const ParticleInfluences& of : structure.points.influences) {
     if (count + 6 > gathered.size()) take();
     for (std::size_t i = 0; i < 4; ++i) {
       structure.particles[of.particles[i]].weight += double{of.weights[i]};
       for (std::size_t j = 0; j < i; ++j) {
-        const Index low = std::min(of.particles[i], of.particles[j]), high = std::max(of.particles[i], of.particles[j]);
-        gathered[count] = {std::uint64_t{low} << 32u | high, double{of.weights[i]} * double{of.weights[j]}};
+        const Index low = std::min(of.particles[i], of.particles[j]),
+                    high = std::max(of.particles[i], of.particles[j]);
+        gathered[count] = {std::uint64_t{low} << 32u | high,
+                           double{of.weights[i]} * double{of.weights[j]}};
         count += static_cast<std::size_t>(of.weights[i] > 0);
       }
     }
@@ -84,7 +88,8 @@ void sum_pairs(Structure& structure) {
     structure.particles[low].neighbours.push_back({high, of.points, of.shared});
     structure.particles[high].neighbours.push_back({low, of.points, of.shared});
   });
-  for (Particle& particle : structure.particles) std::ranges::sort(particle.neighbours, {}, &ParticleNeighbour::particle);
+  for (Particle& particle : structure.particles)
+    std::ranges::sort(particle.neighbours, {}, &ParticleNeighbour::particle);
 }
 
 }  // namespace sunder::particles

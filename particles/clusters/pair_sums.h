@@ -4,7 +4,8 @@
 
 namespace sunder::particles {
 
-/// Makes every particle's list of neighbours, and its weight, from the influences of all points. O(points), expected.
+/// Computes the neighbours and the weight of every particle from the influences of all points.
+/// O(points), expected.
 void sum_pairs(Structure& structure);
 
 }  // namespace sunder::particles

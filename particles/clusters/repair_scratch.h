@@ -1,18 +1,36 @@
 #pragma once
 
 #include "particles/front/marks.h"
+#include "particles/front/surface_front.h"
 
 namespace sunder::particles {
 
+/// Beside which entry of which chain a point of a band lies.
+struct BesideLip {
+  Index chain = 0, place = 0;
+};
+
 /// Memory that one repair leaves to the next.
 struct RepairScratch {
-  Marks worked;                ///< Points that the call under way changes.
-  std::vector<Index> work_of;  ///< Of those: which of its works.
-  Marks logged_points;         ///< That the change under way has noted.
+  SurfaceFront front;             ///< From the seed of one particle.
+  SurfaceFront band_front;        ///< From the lips: goes on from one settle() to the next.
+  std::vector<BesideLip> beside;  ///< Per point that band_front has reached.
+  Marks worked;                   ///< Points that the call under way changes.
+  std::vector<Index> work_of;     ///< Per such point, its entry in StructureEdit.
+  Marks logged_points;            ///< Points that the change under way has noted.
   Marks logged_particles;
   Marks seen, given;
   Marks scored;  ///< Particles that are beside the lips.
   std::vector<Index> score_of;
+
+  /// Makes room for new points, by an eighth at a time.
+  void make_room(std::size_t points) {
+    if (beside.size() < points) beside.resize(points + points / 8 + 1024);
+    if (work_of.size() < points) work_of.resize(points + points / 8 + 1024);
+    front.grow(points);
+    band_front.grow(points);
+    for (Marks* marks : {&worked, &logged_points, &seen, &given}) marks->grow(points);
+  }
 };
 
 }  // namespace sunder::particles

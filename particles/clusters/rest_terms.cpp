@@ -26,11 +26,12 @@ VertexRef vertex_of(const TornModel& model, Index point) {
   return {ref.mesh, model.character().meshes[ref.mesh].triangles[ref.triangle][corner % 3]};
 }
 
-void RestOfVertex::set(const TornModel& model, const Structure& structure, const VertexRef& of) {
+void RestOfVertex::set(const TornModel& model, std::span<const Index> first_slot,
+                       const VertexRef& of) {
   terms_.clear();
   morph_terms_.clear();
   for_each_rest_term(
-      model, structure.first_slot, of,
+      model, first_slot, of,
       [&](Index slot, const Vec4d& term) {
         terms_.push_back({slot, term});
       },
@@ -42,23 +43,29 @@ void RestOfVertex::set(const TornModel& model, const Structure& structure, const
 void RestOfVertex::add_to(Particle& particle, double sign) {
   places_.resize(terms_.size(), 0);
   for (std::size_t i = 0; i < terms_.size(); ++i) {
-    // Mostly where the last one had the same bone.
+    // Mostly where the last particle had the same bone.
     if (places_[i] >= particle.terms.size() || particle.terms[places_[i]].slot != terms_[i].slot) {
       places_[i] = 0;
-      while (places_[i] < particle.terms.size() && particle.terms[places_[i]].slot != terms_[i].slot) ++places_[i];
-      if (places_[i] == particle.terms.size()) particle.terms.push_back({terms_[i].slot, Vec4d(Vec4d::Zero())});
+      while (places_[i] < particle.terms.size() &&
+             particle.terms[places_[i]].slot != terms_[i].slot)
+        ++places_[i];
+      if (places_[i] == particle.terms.size())
+        particle.terms.push_back({terms_[i].slot, Vec4d(Vec4d::Zero())});
     }
     particle.terms[places_[i]].sum += sign * terms_[i].sum;
   }
-  for (const RestMorphTerm& term : morph_terms_) add(particle.morph_terms, term.morph_weight, term.slot, sign * term.sum);
+  for (const RestMorphTerm& term : morph_terms_)
+    add(particle.morph_terms, term.morph_weight, term.slot, sign * term.sum);
 }
 
-RestSums::RestSums(const TornModel& model, const Structure& structure)
-    : model_(model), structure_(structure), of_slot_(structure.first_slot.back()) {
+RestSums::RestSums(const TornModel& model, std::span<const Index> first_slot,
+                   std::span<const VertexRef> vertices)
+    : model_(model), first_slot_(first_slot), vertices_(vertices), of_slot_(first_slot.back()) {
   for (Index m = 0; m < model.character().meshes.size(); ++m) {
     const Mesh& mesh = model.character().meshes[m];
-    const bool is_plain = mesh.morph_targets.empty() && model.influence_positions(m).vertices.empty();
-    meshes_.push_back({&mesh, structure.first_slot[mesh.skin], is_plain});
+    const bool is_plain =
+        mesh.morph_targets.empty() && model.influence_positions(m).vertices.empty();
+    meshes_.push_back({&mesh, first_slot[mesh.skin], is_plain});
   }
 }
 
@@ -72,12 +79,15 @@ void RestSums::sum(std::span<const Index> members, Particle& particle) {
     return of;
   };
   for (const Index point : members) {
-    const VertexRef& of = structure_.vertices[point];
+    const VertexRef& of = vertices_[point];
     const OfMesh& of_mesh = meshes_[of.mesh];
     if (!of_mesh.is_plain) {
       for_each_rest_term(
-          model_, structure_.first_slot, of, [&](Index slot, const Vec4d& term) { of_slot(slot).sum += term; },
-          [&](Index morph_weight, Index slot, const Vec3d& term) { add(particle.morph_terms, morph_weight, slot, term); });
+          model_, first_slot_, of,
+          [&](Index slot, const Vec4d& term) { of_slot(slot).sum += term; },
+          [&](Index morph_weight, Index slot, const Vec3d& term) {
+            add(particle.morph_terms, morph_weight, slot, term);
+          });
       continue;
     }
     const Vec3f& at = of_mesh.mesh->positions[of.vertex];

@@ -1,16 +1,20 @@
 #pragma once
 
-#include "particles/clusters/structure.h"
+#include "particles/clusters/particle.h"
+#include "particles/clusters/point_table.h"
 
 namespace sunder::particles {
 
-/// A vertex of a point: all of them are posed alike.
+/// One vertex of a point: all of them are posed alike. No vertex for a point without a face.
 [[nodiscard]] VertexRef vertex_of(const TornModel& model, Index point);
 
-/// Calls visit(slot, w_vi [v; 1]) and visit_morph(morph weight, slot, w_vi delta) for what moves a vertex, as skinning does it.
+/// Calls visit(slot, w [v; 1]) for each bone that moves a vertex, and visit_morph(morph weight,
+/// slot, w delta) for each morph target and bone, as skinning does. Points of the policy `exact`
+/// have a position per influence in place of w v.
+/// @param first_slot  per skin: SurfacePose::first_slots().
 template <class Visit, class VisitMorph>
-void for_each_rest_term(const TornModel& model, std::span<const Index> first_slot, const VertexRef& of, Visit visit,
-                        VisitMorph visit_morph) {
+void for_each_rest_term(const TornModel& model, std::span<const Index> first_slot,
+                        const VertexRef& of, Visit visit, VisitMorph visit_morph) {
   const Mesh& mesh = model.character().meshes[of.mesh];
   const Index first = first_slot[mesh.skin];
   const std::span<const Influence> influences = mesh.weights.of(of.vertex);
@@ -20,10 +24,12 @@ void for_each_rest_term(const TornModel& model, std::span<const Index> first_slo
     const double weight = influences[i].weight;
     const Vec3f& at = exact != nullptr ? exact->positions[place + i] : mesh.positions[of.vertex];
     const double part = exact != nullptr ? 1.0 : weight;
-    visit(first + influences[i].slot, Vec4d(part * double{at.x()}, part * double{at.y()}, part * double{at.z()}, weight));
+    visit(first + influences[i].slot,
+          Vec4d(part * double{at.x()}, part * double{at.y()}, part * double{at.z()}, weight));
   }
   for (Index t = 0; t < mesh.morph_targets.size(); ++t) {
-    if (exact != nullptr && !exact->morph_targets.empty() && !exact->morph_targets[t].positions.empty()) {
+    if (exact != nullptr && !exact->morph_targets.empty() &&
+        !exact->morph_targets[t].positions.empty()) {
       for (std::size_t i = 0; i < influences.size(); ++i)
         visit_morph(mesh.first_morph_weight + t, first + influences[i].slot,
                     Vec3d(exact->morph_targets[t].positions[place + i].cast<double>()));
@@ -32,32 +38,35 @@ void for_each_rest_term(const TornModel& model, std::span<const Index> first_slo
     const auto& deltas = mesh.morph_targets[t].position_deltas;
     if (deltas.empty() || deltas[of.vertex] == Vec3f::Zero()) continue;
     for (const Influence& influence : influences)
-      visit_morph(mesh.first_morph_weight + t, first + influence.slot, Vec3d(influence.weight * deltas[of.vertex].cast<double>()));
+      visit_morph(mesh.first_morph_weight + t, first + influence.slot,
+                  Vec3d(influence.weight * deltas[of.vertex].cast<double>()));
   }
 }
 
-/// What moves one vertex, to be counted into particles and out of them.
+/// The terms of one vertex, to be counted into particles and out of them.
 class RestOfVertex {
  public:
-  void set(const TornModel& model, const Structure& structure, const VertexRef& of);
+  void set(const TornModel& model, std::span<const Index> first_slot, const VertexRef& of);
+  /// @param sign  1 or -1.
   void add_to(Particle& particle, double sign);
 
  private:
   std::vector<RestTerm> terms_;
   std::vector<RestMorphTerm> morph_terms_;
-  std::vector<std::size_t> places_;  ///< Where a particle had each slot last.
+  std::vector<std::size_t> places_;  ///< Where the last particle had each slot.
 };
 
-/// Computes particles' sums anew from their members.
+/// Sums the terms of particles' members.
 class RestSums {
  public:
-  RestSums(const TornModel& model, const Structure& structure);
+  /// @param vertices  per point. All arguments must outlive this.
+  RestSums(const TornModel& model, std::span<const Index> first_slot,
+           std::span<const VertexRef> vertices);
 
+  /// Replaces the terms of a particle. O(members x influences).
   void sum(std::span<const Index> members, Particle& particle);
 
  private:
-  const TornModel& model_;
-  const Structure& structure_;
   struct OfMesh {
     const Mesh* mesh;
     Index first_slot;
@@ -67,8 +76,12 @@ class RestSums {
     Eigen::Vector4d sum = Eigen::Vector4d::Zero();
     bool is_listed = false;
   };
+
+  const TornModel& model_;
+  std::span<const Index> first_slot_;
+  std::span<const VertexRef> vertices_;
   std::vector<OfMesh> meshes_;
-  std::vector<OfSlot> of_slot_;  ///< As it begins, between calls.
+  std::vector<OfSlot> of_slot_;  ///< All zero between calls.
   std::vector<Index> slots_;     ///< Those listed.
 };
 

@@ -11,10 +11,14 @@ SurfaceDistance from_round(const Vec3d& away, double radius) {
   return {length - radius, length > 0 ? Vec3d(away / length) : Vec3d(Vec3d::UnitX())};
 }
 
-SurfaceDistance distance_in_frame(const Collider::Sphere& sphere, const Vec3d& p) { return from_round(p, sphere.radius); }
+SurfaceDistance distance_in_frame(const Collider::Sphere& sphere, const Vec3d& p) {
+  return from_round(p, sphere.radius);
+}
 
 SurfaceDistance distance_in_frame(const Collider::Capsule& capsule, const Vec3d& p) {
-  return from_round({p.x(), p.y() - std::clamp(p.y(), -capsule.half_length, capsule.half_length), p.z()}, capsule.radius);
+  return from_round(
+      {p.x(), p.y() - std::clamp(p.y(), -capsule.half_length, capsule.half_length), p.z()},
+      capsule.radius);
 }
 
 SurfaceDistance distance_in_frame(const Collider::Box& box, const Vec3d& p) {
@@ -25,40 +29,51 @@ SurfaceDistance distance_in_frame(const Collider::Box& box, const Vec3d& p) {
     return v;
   };
   Eigen::Index nearest = 0;
-  if (const double inside = beyond.maxCoeff(&nearest); inside <= 0) return {inside, signed_axis(nearest, 1)};
+  if (const double inside = beyond.maxCoeff(&nearest); inside <= 0)
+    return {inside, signed_axis(nearest, 1)};
   Vec3d away = Vec3d::Zero();
   for (Eigen::Index axis = 0; axis < 3; ++axis)
     if (beyond[axis] > 0) away += signed_axis(axis, beyond[axis]);
   const double length = away.norm();
   // So little outside that its square is nothing.
-  return length > 0 ? SurfaceDistance{length, away / length} : SurfaceDistance{0, signed_axis(nearest, 1)};
+  return length > 0 ? SurfaceDistance{length, away / length}
+                    : SurfaceDistance{0, signed_axis(nearest, 1)};
 }
 
-SurfaceDistance distance_in_frame(const Collider::HalfSpace&, const Vec3d& p) { return {p.y(), Vec3d::UnitY()}; }
+SurfaceDistance distance_in_frame(const Collider::HalfSpace&, const Vec3d& p) {
+  return {p.y(), Vec3d::UnitY()};
+}
 
 }  // namespace
 
 SurfaceDistance distance_to(const Collider& collider, const Vec3d& place) {
   const Vec3d in_frame = collider.turn.conjugate() * (place - collider.place);
-  SurfaceDistance found = std::visit([&](const auto& shape) { return distance_in_frame(shape, in_frame); }, collider.shape);
+  SurfaceDistance found = std::visit(
+      [&](const auto& shape) { return distance_in_frame(shape, in_frame); }, collider.shape);
   found.normal = collider.turn * found.normal;
   return found;
 }
 
 Status validate_collider(const Collider& collider) {
-  if (!collider.place.allFinite()) return Status::failure(StatusCode::non_finite_value, kNone, "its place is not finite");
-  if (!collider.turn.coeffs().allFinite()) return Status::failure(StatusCode::non_finite_value, kNone, "its turn is not finite");
+  if (!collider.place.allFinite())
+    return Status::failure(StatusCode::non_finite_value, kNone, "its place is not finite");
+  if (!collider.turn.coeffs().allFinite())
+    return Status::failure(StatusCode::non_finite_value, kNone, "its turn is not finite");
   if (const double length = collider.turn.norm(); std::abs(length - 1) > 1e-3)
-    return Status::failure(StatusCode::invalid_argument, kNone, "its turn has length %g; it must be 1", length);
+    return Status::failure(StatusCode::invalid_argument, kNone,
+                           "its turn has length %g; it must be 1", length);
   if (!std::isfinite(collider.friction) || collider.friction < 0)
-    return Status::failure(StatusCode::invalid_argument, kNone, "its friction is %g; it must be finite and not below 0",
+    return Status::failure(StatusCode::invalid_argument, kNone,
+                           "its friction is %g; it must be finite and not below 0",
                            collider.friction);
   const auto check = [](const char* name, double value, bool may_be_zero) {
     if (std::isfinite(value) && (value > 0 || (may_be_zero && value == 0))) return Status();
-    return Status::failure(StatusCode::invalid_argument, kNone, "its %s is %g; it must be finite and %s 0", name, value,
+    return Status::failure(StatusCode::invalid_argument, kNone,
+                           "its %s is %g; it must be finite and %s 0", name, value,
                            may_be_zero ? "not below" : "above");
   };
-  if (const auto* sphere = std::get_if<Collider::Sphere>(&collider.shape)) return check("radius", sphere->radius, false);
+  if (const auto* sphere = std::get_if<Collider::Sphere>(&collider.shape))
+    return check("radius", sphere->radius, false);
   if (const auto* capsule = std::get_if<Collider::Capsule>(&collider.shape)) {
     if (Status status = check("radius", capsule->radius, false); !status) return status;
     return check("half length", capsule->half_length, true);

@@ -3,37 +3,39 @@
 #include <algorithm>
 #include <cmath>
 
+#include "particles/clusters/influences.h"
+#include "particles/internal/tolerances.h"
+
 namespace sunder::particles {
 namespace {
 
-constexpr int kSweeps = 48, kVelocitySweeps = 4;
-constexpr double kTolerance = 1e-3;  // ranges
-constexpr double kMargin = 0.25;     // ranges from a collider within which a point may be pushed in by its neighbours' contacts
-/// A member is at most two ranges from the centroid of all. For a pose that changes no length, RestMotion::size() is 3^0.5.
-constexpr double kReach = 1.2;
+/// Most sweeps over the contacts of a step: over places, and over velocities.
+constexpr int kPlaceSweeps = 48, kVelocitySweeps = 4;
 
 Vec3d sum_of(const ParticleInfluences& whom, const std::vector<Vec3d>& values) {
   Vec3d sum = Vec3d::Zero();
-  for (std::size_t k = 0; k < 4 && whom.weights[k] > 0; ++k) sum += double{whom.weights[k]} * values[whom.particles[k]];
+  for_each_influence(whom, [&](Index p, double weight) { sum += weight * values[p]; });
   return sum;
 }
 
-void add_to(const ParticleInfluences& whom, double squares, const Vec3d& change, std::vector<Vec3d>& values) {
-  for (std::size_t k = 0; k < 4 && whom.weights[k] > 0; ++k)
-    values[whom.particles[k]] += (double{whom.weights[k]} / squares) * change;
+void add_to(const ParticleInfluences& whom, double squares, const Vec3d& change,
+            std::vector<Vec3d>& values) {
+  for_each_influence(whom,
+                     [&](Index p, double weight) { values[p] += (weight / squares) * change; });
 }
 
 Vec3d rest_velocity(const ParticleInfluences& whom, const RestMotion& rests) {
   Vec3d sum = Vec3d::Zero();
-  for (std::size_t k = 0; k < 4 && whom.weights[k] > 0; ++k) sum += double{whom.weights[k]} * rests.velocity(whom.particles[k]);
+  for_each_influence(whom, [&](Index p, double weight) { sum += weight * rests.velocity(p); });
   return sum;
 }
 
 }  // namespace
 
 void Contact::set(std::span<const Collider> colliders) {
-  colliders_.assign(colliders.begin(), colliders.end());
-  before_ = colliders_;
+  std::vector<Collider> now(colliders.begin(), colliders.end()), before = now;
+  colliders_ = std::move(now);
+  before_ = std::move(before);
   is_changed_ = true;
 }
 
@@ -58,81 +60,101 @@ Vec3d Contact::velocity_of(const Touch& touch, const Vec3d& place, double second
   const Collider& now = colliders_[touch.collider];
   const Collider& before = before_[touch.collider];
   if (!(seconds > 0)) return Vec3d::Zero();
-  return (place - (before.place + before.turn * (now.turn.conjugate() * (place - now.place)))) / seconds;
+  return (place - (before.place + before.turn * (now.turn.conjugate() * (place - now.place)))) /
+         seconds;
 }
 
 void Contact::find(const World& world, const Motion& motion) {
   touches_.clear();
   double most = 0;
-  for (Index p = 0; p < motion.count(); ++p) most = std::max(most, motion.displacements[p].squaredNorm());
+  for (Index p = 0; p < motion.count(); ++p)
+    most = std::max(most, motion.displacements[p].squaredNorm());
   most = std::sqrt(most);
   const bool is_quiet = !is_changed_ && !world.is_posed;
+  const auto is_awake = [&](const Spring& spring) { return motion.awake[spring.other] != 0; };
   for (Index p = 0; p < motion.count(); ++p) {
-    const double range = world.set.range(p), reach = kReach * world.rests.size(p) * range + most;
     if (is_quiet && motion.awake[p] == 0) {
       const auto of_p = world.graph.of(p);
-      if (std::none_of(of_p.begin(), of_p.end(), [&](const Spring& spring) { return motion.awake[spring.other] != 0; })) continue;
+      if (std::none_of(of_p.begin(), of_p.end(), is_awake)) continue;
     }
-    const ContactPoints::Points* points = nullptr;
-    for (std::uint32_t c = 0; c < colliders_.size(); ++c) {
-      if (distance_to(colliders_[c], world.rests.place(p)).distance > reach) continue;
-      if (points == nullptr) {
-        world.places.set_pose(world.model, world.pose, world.rests.epoch());
-        points = &points_.of(world.set, world.model, world.places, world.rests.epoch(), p);
-      }
-      for (Index i = 0; i < points->count; ++i) {
-        const ParticleInfluences& whom = world.set.influences()[points->points[i]];
-        const Vec3d place = points->places[i] + sum_of(whom, motion.displacements);
-        if (distance_to(colliders_[c], place).distance > kMargin * range) continue;
-        Touch& touch = touches_.emplace_back();
-        touch.point = points->points[i];
-        touch.collider = c;
-        touch.rest = points->places[i];
-        touch.whom = whom;
-        for (const float weight : whom.weights) touch.squares += double{weight} * double{weight};
-        touch.tolerance = kTolerance * range;
-      }
-    }
+    find_near(world, motion, p, kMemberRanges * world.rests.size(p) * world.set.range(p) + most);
   }
 }
 
+/// @param reach  how far contact points may be from the particle's rest place, metres.
+void Contact::find_near(const World& world, const Motion& motion, Index particle, double reach) {
+  const double range = world.set.range(particle);
+  const ContactPoints::Points* points = nullptr;
+  for (Index c = 0; c < colliders_.size(); ++c) {
+    if (distance_to(colliders_[c], world.rests.place(particle)).distance > reach) continue;
+    if (points == nullptr) {
+      const SurfacePose& pose = world.poses.at(world.model, world.pose, world.rests.epoch());
+      points = &points_.of(world.set, world.model, pose, world.rests.epoch(), particle);
+    }
+    for (Index i = 0; i < points->count; ++i) add_touch(world, motion, *points, i, c, range);
+  }
+}
+
+void Contact::add_touch(const World& world, const Motion& motion,
+                        const ContactPoints::Points& points, Index i, Index collider,
+                        double range) {
+  const ParticleInfluences& whom = world.set.influences()[points.points[i]];
+  const Vec3d place = points.places[i] + sum_of(whom, motion.displacements);
+  if (distance_to(colliders_[collider], place).distance > kContactMarginRanges * range) return;
+  Touch& touch = touches_.emplace_back();
+  touch.point = points.points[i];
+  touch.collider = collider;
+  touch.rest = points.places[i];
+  touch.whom = whom;
+  for (const float weight : whom.weights) touch.squares += double{weight} * double{weight};
+  touch.tolerance = kContactDepthRanges * range;
+}
+
+/// The part that friction takes back of how a point slid along its collider in this step, as far as
+/// the push allows.
+/// @param moved  displacement of the point. @param at  where it is in the collider.
+Vec3d Contact::drag_back(const World& world, const Motion& motion, Touch& touch, const Vec3d& moved,
+                         const SurfaceDistance& at) const {
+  const double friction = colliders_[touch.collider].friction;
+  if (!(friction > 0)) return Vec3d::Zero();
+  const Vec3d velocity = rest_velocity(touch.whom, world.rests) -
+                         velocity_of(touch, touch.rest + moved, world.seconds);
+  Vec3d slid = moved - sum_of(touch.whom, motion.starts) + world.seconds * velocity;
+  slid -= slid.dot(at.normal) * at.normal;
+  const double length = slid.norm();
+  const double back =
+      std::clamp(friction * (touch.depth - at.distance) - touch.dragged, 0.0, length);
+  touch.dragged += back;
+  return length > 0 ? Vec3d(back / length * slid) : Vec3d(Vec3d::Zero());
+}
+
+/// @return how deep the deepest point was, in tolerances.
 double Contact::push_once(const World& world, Motion& motion) {
   double deepest = 0;
   for (Touch& touch : touches_) {
     const Vec3d moved = sum_of(touch.whom, motion.displacements);
     const SurfaceDistance at = distance_to(colliders_[touch.collider], touch.rest + moved);
     if (!(at.distance < 0)) continue;
-    const bool is_awake =
-        std::any_of(touch.whom.particles.begin(), touch.whom.particles.end(),
-                    [&, k = std::size_t{0}](Index p) mutable { return touch.whom.weights[k++] > 0 && motion.awake[p] != 0; });
+    bool is_awake = false;
+    for_each_influence(touch.whom, [&](Index p, double) { is_awake |= motion.awake[p] != 0; });
     if (!is_awake && -at.distance < 2 * touch.tolerance) continue;  // it fell asleep so
     deepest = std::max(deepest, -at.distance / touch.tolerance);
-    Vec3d by = -at.distance * at.normal;
     touch.normal = at.normal;
-    if (const double friction = colliders_[touch.collider].friction; friction > 0) {
-      // What it slid along the collider in this step is taken back, as far as the push allows.
-      const Vec3d velocity = rest_velocity(touch.whom, world.rests) - velocity_of(touch, touch.rest + moved, world.seconds);
-      Vec3d slid = moved - sum_of(touch.whom, motion.starts) + world.seconds * velocity;
-      slid -= slid.dot(at.normal) * at.normal;
-      const double length = slid.norm();
-      const double back = std::clamp(friction * (touch.depth - at.distance) - touch.dragged, 0.0, length);
-      if (length > 0) by -= back / length * slid;
-      touch.dragged += back;
-    }
+    const Vec3d by = -at.distance * at.normal - drag_back(world, motion, touch, moved, at);
     touch.depth += -at.distance;
     add_to(touch.whom, touch.squares, by, motion.displacements);
-    for (std::size_t k = 0; k < 4 && touch.whom.weights[k] > 0; ++k) {
-      const Index p = touch.whom.particles[k];
+    for_each_influence(touch.whom, [&](Index p, double) {
       if (motion.awake[p] == 0) motion.wake(p);
       motion.touched[p] = motion.bound[p] = 1;
-    }
+    });
   }
   return deepest;
 }
 
 void Contact::slow_down(const World& world, Motion& motion) {
-  // Who was pushed back to where the step began is at rest, whatever pulled it away meanwhile. The other way round, who was pushed
-  // far in a short step has not got that velocity: the lesser counts.
+  // A particle that was pushed back to where the step began is at rest, whatever pulled it away
+  // meanwhile. Conversely, one that was pushed far in a short step has not got that velocity: the
+  // lesser counts.
   if (world.seconds > 0)
     for (Index p = 0; p < motion.count(); ++p) {
       if (motion.touched[p] == 0 || motion.awake[p] == 0) continue;
@@ -143,8 +165,9 @@ void Contact::slow_down(const World& world, Motion& motion) {
     for (const Touch& touch : touches_) {
       if (!(touch.depth > 0)) continue;
       const Vec3d place = touch.rest + sum_of(touch.whom, motion.displacements);
-      const Vec3d velocity =
-          sum_of(touch.whom, motion.velocities) + rest_velocity(touch.whom, world.rests) - velocity_of(touch, place, world.seconds);
+      const Vec3d velocity = sum_of(touch.whom, motion.velocities) +
+                             rest_velocity(touch.whom, world.rests) -
+                             velocity_of(touch, place, world.seconds);
       const double into = -velocity.dot(touch.normal);
       if (!(into > 0)) continue;
       Vec3d along = velocity + into * touch.normal;
@@ -154,20 +177,20 @@ void Contact::slow_down(const World& world, Motion& motion) {
     }
 }
 
-ContactReport Contact::push_out(const World& world, Motion& motion) {
-  ContactReport report;
-  if (colliders_.empty() || (!is_changed_ && !world.is_posed && motion.awake_count == 0)) return report;
+void Contact::push_out(const World& world, Motion& motion) {
+  report_ = {};
+  if (colliders_.empty() || (!is_changed_ && !world.is_posed && motion.awake_count == 0)) return;
   find(world, motion);
-  if (touches_.empty()) return report;
-  for (int sweep = 0; sweep < kSweeps; ++sweep)
+  if (touches_.empty()) return;
+  for (int sweep = 0; sweep < kPlaceSweeps; ++sweep)
     if (push_once(world, motion) <= 1) break;
   slow_down(world, motion);
   for (const Touch& touch : touches_) {
-    if (touch.depth > 0) ++report.points;
+    if (touch.depth > 0) ++report_.points;
     const Vec3d place = touch.rest + sum_of(touch.whom, motion.displacements);
-    report.deepest = std::max(report.deepest, -distance_to(colliders_[touch.collider], place).distance);
+    report_.deepest =
+        std::max(report_.deepest, -distance_to(colliders_[touch.collider], place).distance);
   }
-  return report;
 }
 
 }  // namespace sunder::particles

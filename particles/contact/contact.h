@@ -3,14 +3,16 @@
 #include <sunder/particles/soft_body.h>
 
 #include "particles/contact/contact_points.h"
+#include "particles/motion/epoch_pose.h"
 #include "particles/motion/motion.h"
 #include "particles/motion/rest_motion.h"
 
 namespace sunder::particles {
 
-/// Colliders, and what they push.
+/// The colliders of a body, and how they push its particles.
 class Contact {
  public:
+  /// Replaces all colliders, or none where memory runs out. @throws std::bad_alloc
   void set(std::span<const Collider> colliders);
   void move(std::uint32_t collider, const Vec3d& place, const Quatd& turn);
   [[nodiscard]] std::span<const Collider> colliders() const { return colliders_; }
@@ -22,35 +24,46 @@ class Contact {
     const ParticleSet& set;
     const TornModel& model;
     const ModelPose& pose;
-    bool is_posed;  ///< Whether the pose is another than in the last step.
+    bool is_posed;  ///< Whether the pose differs from that of the last step.
     const SpringGraph& graph;
     const RestMotion& rests;
-    PointPlaces& places;
+    EpochPose& poses;
     double seconds;
   };
 
-  /// Pushes contact points out of colliders, each by the particles that move it, in sweeps until none is deeper inside than a
-  /// thousandth of a range; takes the velocity into the collider away, and with friction some of that along it. Wakes what it
-  /// pushes. Position based, as limit_stretch(). O(particles x colliders + contacts x sweeps); nothing awake, moved or posed: O(1).
-  ContactReport push_out(const World& world, Motion& motion);
-  /// Colliders are where they will have been.
+  /// Pushes contact points out of colliders, each by the particles that move it, in sweeps until
+  /// none is deeper inside than kContactDepthRanges; takes the velocity into the collider away, and
+  /// with friction some of that along it. Wakes the particles that it pushes. Position based, as
+  /// limit_stretch(). O(particles x colliders + contacts x sweeps); O(1) where nothing is awake,
+  /// moved or posed.
+  void push_out(const World& world, Motion& motion);
+  /// The report of the last push_out(); empty after skip_step().
+  [[nodiscard]] const ContactReport& report() const { return report_; }
+  void skip_step() { report_ = {}; }
+  /// Ends a step: the colliders' next velocities count from where they are now.
   void end_step();
 
  private:
+  /// A contact point that is in a collider, or near it.
   struct Touch {
     Index point = 0;
     std::uint32_t collider = 0;
-    Vec3d rest;  // place in the pose
+    Vec3d rest;  ///< Place in the pose, without displacement.
     ParticleInfluences whom;
-    double squares = 0;  // of its weights
-    double tolerance = 0;
-    double dragged = 0;  // by which friction took it back
-    double depth = 0;    // by which it was pushed, all in all
+    double squares = 0;    ///< Sum of the squares of its weights.
+    double tolerance = 0;  ///< Metres.
+    double dragged = 0;    ///< Metres by which friction took it back.
+    double depth = 0;      ///< Metres by which it was pushed in all.
     Vec3d normal = Vec3d::Zero();
   };
 
   void find(const World& world, const Motion& motion);
+  void find_near(const World& world, const Motion& motion, Index particle, double reach);
+  void add_touch(const World& world, const Motion& motion, const ContactPoints::Points& points,
+                 Index i, Index collider, double range);
   double push_once(const World& world, Motion& motion);
+  Vec3d drag_back(const World& world, const Motion& motion, Touch& touch, const Vec3d& moved,
+                  const SurfaceDistance& at) const;
   void slow_down(const World& world, Motion& motion);
   [[nodiscard]] Vec3d velocity_of(const Touch& touch, const Vec3d& place, double seconds) const;
 
@@ -58,6 +71,7 @@ class Contact {
   bool is_changed_ = false;
   ContactPoints points_;
   std::vector<Touch> touches_;
+  ContactReport report_;
 };
 
 }  // namespace sunder::particles

@@ -8,22 +8,22 @@
 
 namespace sunder::particles {
 
-/// Numbers that are marked. Forgetting all of them costs nothing.
+/// A set of marked indices. Forgetting all of them costs nothing.
 class Marks {
  public:
   void begin(std::size_t count) {
     grow(count);
-    if (++epoch_ == 0) {  // once in four thousand million uses
+    if (++epoch_ == 0) {  // once in 2^32 uses
       std::fill(stamps_.begin(), stamps_.end(), 0);
       epoch_ = 1;
     }
   }
-  /// Room for more numbers.
+  /// Makes room for more indices.
   void grow(std::size_t count) {
     if (stamps_.size() < count) stamps_.resize(count + count / 8 + 16, 0);
   }
   [[nodiscard]] bool has(Index i) const { return stamps_[i] == epoch_; }
-  /// @return whether it was not marked yet.
+  /// @return whether the index was not marked yet.
   bool mark(Index i) { return std::exchange(stamps_[i], epoch_) != epoch_; }
 
  private:

@@ -10,17 +10,19 @@
 
 namespace sunder::particles {
 
-/// What a front knows of a point. Where it has reached it: its distance. Elsewhere: the shortest path to it so far, with the sign
-/// set, which distances do not have; a path of nothing is -0.
+/// The state of a point in a front: its distance, where the front has reached it; else the length
+/// of the shortest path to it so far, negated (-0 for a path of no length).
 using Known = float;
 
 inline constexpr Known kUnknown = -std::numeric_limits<float>::infinity();
 
 inline bool is_reached(Known known) { return !std::signbit(known); }
-/// Infinite where a point is not reached.
-inline float distance_of(Known known) { return is_reached(known) ? known : std::numeric_limits<float>::infinity(); }
+/// The distance of a point; infinite where it is not reached.
+inline float distance_of(Known known) {
+  return is_reached(known) ? known : std::numeric_limits<float>::infinity();
+}
 
-/// The same of the points of a RingBlock.
+/// The same for the points of a RingBlock.
 struct alignas(16) KnownBlock {
   std::array<Known, kRingLanes> lanes;
 };
@@ -33,36 +35,43 @@ inline KnownBlock gather(const Known* known, const RingBlock& block) {
   return gathered;
 }
 
-/// Square of the distance of a face's corner, from those of the two others: of a source which is unfolded into the face's plane,
-/// beyond the edge between them. Infinite where the straight line from there does not cross that edge, and for what is not a
-/// number.
-/// @param between, to_first, to_second  lengths of the face's edges; @param first, second  distances of its corners.
-inline float square_across(float between, float to_first, float to_second, float first, float second) {
+/// The squared distance of a face's corner, from the distances of the other two: that of a source
+/// unfolded into the plane of the face, beyond the edge between those two. Infinite where the
+/// straight line from the source does not cross that edge, and for NaN.
+/// @param between, to_first, to_second  lengths of the face's edges; @param first, second distances
+/// of its corners.
+inline float square_across(float between, float to_first, float to_second, float first,
+                           float second) {
   const float scale = 0.5f / between, squared = between * between;
   // Where the corner and the source stand along the edge, and how far from it.
   const float along = scale * (squared + (to_first - to_second) * (to_first + to_second));
   const float source_along = scale * (squared + (first - second) * (first + second));
-  const float height_squared = to_first * to_first - along * along, beyond_squared = first * first - source_along * source_along;
+  const float height_squared = to_first * to_first - along * along,
+              beyond_squared = first * first - source_along * source_along;
   const float product = std::sqrt(std::max(0.0f, height_squared) * std::max(0.0f, beyond_squared));
   const float left = source_along * height_squared + along * product;  // both: times the height
   const float right = (between - source_along) * height_squared + (between - along) * product;
-  if (!(height_squared > 0 && beyond_squared >= 0 && left >= 0 && right >= 0)) return std::numeric_limits<float>::infinity();
+  if (!(height_squared > 0 && beyond_squared >= 0 && left >= 0 && right >= 0))
+    return std::numeric_limits<float>::infinity();
   const float across = along - source_along;
   return across * across + (height_squared + beyond_squared + (product + product));
 }
 
-/// Distance of the point in the middle through the face from which it is the least.
+/// The distance of the point in the middle through the face that makes it least.
 inline float shortest_across(const KnownBlock& known, const RingBlock& block) {
   float least = std::numeric_limits<float>::infinity();
   for (std::size_t i = 0; i < kRingFaces; ++i)
-    least = std::min(least, square_across(block.opposite[i], block.lengths[i], block.lengths[i + 1], distance_of(known.lanes[i]),
-                                          distance_of(known.lanes[i + 1])));
+    least = std::min(least,
+                     square_across(block.opposite[i], block.lengths[i], block.lengths[i + 1],
+                                   distance_of(known.lanes[i]), distance_of(known.lanes[i + 1])));
   return std::sqrt(least);
 }
 
-/// Those to which the path through the point in the middle, which is at a distance, is shorter than what is known, and below a
-/// limit: a bit each.
-inline unsigned nearer_lanes(const KnownBlock& known, const RingBlock& block, float distance, float limit) {
+/// The lanes to which the path through the point in the middle is shorter than what is known, and
+/// below a limit; one bit each.
+/// @param distance  of the point in the middle.
+inline unsigned nearer_lanes(const KnownBlock& known, const RingBlock& block, float distance,
+                             float limit) {
   unsigned lanes = 0;
   for (std::size_t i = 0; i < kRingLanes; ++i) {
     const float path = distance + block.lengths[i];
@@ -73,13 +82,14 @@ inline unsigned nearer_lanes(const KnownBlock& known, const RingBlock& block, fl
 
 }  // namespace one_by_one
 
-// What a front does at each point, for all points around it at once. Which of them it has reached can't be guessed, and branches
-// that are guessed wrong are what it would spend most of its time on.
+// The work of a front at each point, for all points around it at once. Which of them it has reached
+// is unpredictable, and mispredicted branches would cost most of its time.
 #if defined(EIGEN_VECTORIZE_SSE2)  // then Eigen has included what this needs
 
 inline KnownBlock gather(const Known* known, const RingBlock& block) {
   const auto four = [&](std::size_t i) {
-    return _mm_setr_ps(known[block.points[i]], known[block.points[i + 1]], known[block.points[i + 2]], known[block.points[i + 3]]);
+    return _mm_setr_ps(known[block.points[i]], known[block.points[i + 1]],
+                       known[block.points[i + 2]], known[block.points[i + 3]]);
   };
   KnownBlock gathered;
   _mm_store_ps(gathered.lanes.data(), four(0));
@@ -94,41 +104,55 @@ inline __m128 next_lanes(__m128 lanes, __m128 following) {
 }
 
 inline float shortest_across(const KnownBlock& known, const RingBlock& block) {
-  const __m128 infinite = _mm_set1_ps(std::numeric_limits<float>::infinity()), zero = _mm_setzero_ps();
+  const __m128 infinite = _mm_set1_ps(std::numeric_limits<float>::infinity()),
+               zero = _mm_setzero_ps();
   const auto distances = [&](std::size_t i) {
     const __m128 lanes = _mm_load_ps(known.lanes.data() + i);
     const __m128 is_unreached = _mm_castsi128_ps(_mm_srai_epi32(_mm_castps_si128(lanes), 31));
     return _mm_or_ps(_mm_and_ps(is_unreached, infinite), _mm_andnot_ps(is_unreached, lanes));
   };
-  const auto squares_across = [&](std::size_t i, __m128 to_first, __m128 to_second, __m128 first, __m128 second) {
+  const auto squares_across = [&](std::size_t i, __m128 to_first, __m128 to_second, __m128 first,
+                                  __m128 second) {
     const __m128 between = _mm_load_ps(block.opposite.data() + i);
-    const __m128 scale = _mm_div_ps(_mm_set1_ps(0.5f), between), squared = _mm_mul_ps(between, between);
+    const __m128 scale = _mm_div_ps(_mm_set1_ps(0.5f), between),
+                 squared = _mm_mul_ps(between, between);
     const auto foot = [&](__m128 a, __m128 b) {
       return _mm_mul_ps(scale, _mm_add_ps(squared, _mm_mul_ps(_mm_sub_ps(a, b), _mm_add_ps(a, b))));
     };
     const __m128 along = foot(to_first, to_second), source_along = foot(first, second);
-    const __m128 height_squared = _mm_sub_ps(_mm_mul_ps(to_first, to_first), _mm_mul_ps(along, along));
-    const __m128 beyond_squared = _mm_sub_ps(_mm_mul_ps(first, first), _mm_mul_ps(source_along, source_along));
-    const __m128 product = _mm_sqrt_ps(_mm_mul_ps(_mm_max_ps(height_squared, zero), _mm_max_ps(beyond_squared, zero)));
-    const __m128 left = _mm_add_ps(_mm_mul_ps(source_along, height_squared), _mm_mul_ps(along, product));
-    const __m128 right =
-        _mm_add_ps(_mm_mul_ps(_mm_sub_ps(between, source_along), height_squared), _mm_mul_ps(_mm_sub_ps(between, along), product));
+    const __m128 height_squared =
+        _mm_sub_ps(_mm_mul_ps(to_first, to_first), _mm_mul_ps(along, along));
+    const __m128 beyond_squared =
+        _mm_sub_ps(_mm_mul_ps(first, first), _mm_mul_ps(source_along, source_along));
+    const __m128 product =
+        _mm_sqrt_ps(_mm_mul_ps(_mm_max_ps(height_squared, zero), _mm_max_ps(beyond_squared, zero)));
+    const __m128 left =
+        _mm_add_ps(_mm_mul_ps(source_along, height_squared), _mm_mul_ps(along, product));
+    const __m128 right = _mm_add_ps(_mm_mul_ps(_mm_sub_ps(between, source_along), height_squared),
+                                    _mm_mul_ps(_mm_sub_ps(between, along), product));
     const __m128 across = _mm_sub_ps(along, source_along);
-    const __m128 square = _mm_add_ps(_mm_mul_ps(across, across),
-                                     _mm_add_ps(_mm_add_ps(height_squared, beyond_squared), _mm_add_ps(product, product)));
-    const __m128 is_found = _mm_and_ps(_mm_and_ps(_mm_cmpgt_ps(height_squared, zero), _mm_cmpge_ps(beyond_squared, zero)),
-                                       _mm_cmpge_ps(_mm_min_ps(left, right), zero));
+    const __m128 square = _mm_add_ps(
+        _mm_mul_ps(across, across),
+        _mm_add_ps(_mm_add_ps(height_squared, beyond_squared), _mm_add_ps(product, product)));
+    const __m128 is_found = _mm_and_ps(
+        _mm_and_ps(_mm_cmpgt_ps(height_squared, zero), _mm_cmpge_ps(beyond_squared, zero)),
+        _mm_cmpge_ps(_mm_min_ps(left, right), zero));
     return _mm_or_ps(_mm_and_ps(is_found, square), _mm_andnot_ps(is_found, infinite));
   };
   const __m128 low = distances(0), high = distances(4);
-  const __m128 low_length = _mm_load_ps(block.lengths.data()), high_length = _mm_load_ps(block.lengths.data() + 4);
-  __m128 least = _mm_min_ps(squares_across(0, low_length, next_lanes(low_length, high_length), low, next_lanes(low, high)),
-                            squares_across(4, high_length, next_lanes(high_length, high_length), high, next_lanes(high, high)));
+  const __m128 low_length = _mm_load_ps(block.lengths.data()),
+               high_length = _mm_load_ps(block.lengths.data() + 4);
+  __m128 least = _mm_min_ps(squares_across(0, low_length, next_lanes(low_length, high_length), low,
+                                           next_lanes(low, high)),
+                            squares_across(4, high_length, next_lanes(high_length, high_length),
+                                           high, next_lanes(high, high)));
   least = _mm_min_ps(least, _mm_shuffle_ps(least, least, _MM_SHUFFLE(1, 0, 3, 2)));
-  return _mm_cvtss_f32(_mm_sqrt_ss(_mm_min_ss(least, _mm_shuffle_ps(least, least, _MM_SHUFFLE(2, 3, 0, 1)))));
+  return _mm_cvtss_f32(
+      _mm_sqrt_ss(_mm_min_ss(least, _mm_shuffle_ps(least, least, _MM_SHUFFLE(2, 3, 0, 1)))));
 }
 
-inline unsigned nearer_lanes(const KnownBlock& known, const RingBlock& block, float distance, float limit) {
+inline unsigned nearer_lanes(const KnownBlock& known, const RingBlock& block, float distance,
+                             float limit) {
   const __m128 sign = _mm_set1_ps(-0.0f), from = _mm_set1_ps(distance), most = _mm_set1_ps(limit);
   const auto four = [&](std::size_t i) {
     const __m128 path = _mm_add_ps(from, _mm_load_ps(block.lengths.data() + i));

@@ -8,7 +8,7 @@
 namespace sunder::particles {
 namespace {
 
-/// So many rings stay in a cache, wherever they are.
+/// Up to so many rings stay in a cache, wherever they are.
 constexpr Index kFew = 8000;
 
 float distance_between(const Vec3f& a, const Vec3f& b) {
@@ -17,7 +17,8 @@ float distance_between(const Vec3f& a, const Vec3f& b) {
 }
 
 /// Appends the blocks of a point's ring. @return its size.
-Index append_ring(const Surface& surface, std::span<const Vec3f> positions, Index point, std::vector<RingBlock>& blocks) {
+Index append_ring(const Surface& surface, std::span<const Vec3f> positions, Index point,
+                  std::vector<RingBlock>& blocks) {
   const Index start = surface.point_corner[point];
   if (start == kNone) return 0;
   RingBlock empty;
@@ -45,7 +46,8 @@ Index append_ring(const Surface& surface, std::span<const Vec3f> positions, Inde
     RingBlock& block = blocks.back();
     block.points[lane] = other;
     block.lengths[lane] = distance_between(positions[point], positions[other]);
-    if (previous != kNone) block.opposite[lane - 1] = distance_between(positions[previous], positions[other]);
+    if (previous != kNone)
+      block.opposite[lane - 1] = distance_between(positions[previous], positions[other]);
     previous = other;
     ++lane;
     ++size;
@@ -74,7 +76,10 @@ Index append_ring(const Surface& surface, std::span<const Vec3f> positions, Inde
 }  // namespace
 
 Rings::Rings(const Surface& surface, std::span<const Vec3f> positions)
-    : surface_(surface), positions_(positions), ends_(surface.point_count()), are_many_(surface.point_count() > kFew) {
+    : surface_(surface),
+      positions_(positions),
+      ends_(surface.point_count()),
+      are_many_(surface.point_count() > kFew) {
   blocks_.reserve(surface.point_count() + surface.point_count() / 4 + 8);
   if (are_many_) return;
   for (Index point = 0; point < surface.point_count(); ++point) look_up(point, ends_[point]);

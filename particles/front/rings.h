@@ -12,54 +12,63 @@
 namespace sunder::particles {
 using tear::Surface;
 
-/// How many points a RingBlock has, and how many faces.
+/// Number of points, and of faces, in a RingBlock.
 inline constexpr std::size_t kRingLanes = 8, kRingFaces = kRingLanes - 1;
 
-/// Some of the points around one. Each two that follow one another are of one face; the last is the first of the next block again.
-/// Lanes behind the last point hold the point in the middle, infinitely far: what goes around points does not have to guess, then,
-/// how many there are.
+/// Some of the points around one. Consecutive points share a face; the last one is repeated as the
+/// first of the next block. Lanes behind the last point hold the point in the middle at an infinite
+/// distance, so that loops over lanes have a fixed length.
 struct alignas(32) RingBlock {
   std::array<Index, kRingLanes> points;
-  std::array<float, kRingLanes> lengths;   ///< Of the edges from the point in the middle.
-  std::array<float, kRingLanes> opposite;  ///< Of the edge to the next lane's point; not a number where no face is between them.
+  std::array<float, kRingLanes> lengths;   ///< Per lane: of the edge from the point in the middle.
+  std::array<float, kRingLanes> opposite;  ///< Of the edge to the next lane's point; not a number
+                                           ///< where no face is between them.
 };
 
-/// The points around one, counter-clockwise; where they close a circle the first one comes again at the end. Points that have no
-/// position yet are left out.
+/// The points around one, counter-clockwise; where they close a circle the first one is repeated at
+/// the end. Points without a position yet are left out.
 class Ring {
  public:
   Ring(const RingBlock* blocks, std::size_t size) : blocks_(blocks), size_(size) {}
 
   [[nodiscard]] std::size_t size() const { return size_; }
   [[nodiscard]] Index point(std::size_t i) const { return blocks_[block_of(i)].points[lane_of(i)]; }
-  [[nodiscard]] float length(std::size_t i) const { return blocks_[block_of(i)].lengths[lane_of(i)]; }
-  [[nodiscard]] float opposite(std::size_t i) const { return blocks_[block_of(i)].opposite[lane_of(i)]; }
+  [[nodiscard]] float length(std::size_t i) const {
+    return blocks_[block_of(i)].lengths[lane_of(i)];
+  }
+  [[nodiscard]] float opposite(std::size_t i) const {
+    return blocks_[block_of(i)].opposite[lane_of(i)];
+  }
   [[nodiscard]] std::span<const RingBlock> blocks() const { return {blocks_, block_count()}; }
 
  private:
-  [[nodiscard]] std::size_t block_count() const { return size_ < 2 ? size_ : (size_ + kRingFaces - 2) / kRingFaces; }
+  [[nodiscard]] std::size_t block_count() const {
+    return size_ < 2 ? size_ : (size_ + kRingFaces - 2) / kRingFaces;
+  }
   /// The very last point is only in a last lane.
-  [[nodiscard]] std::size_t block_of(std::size_t i) const { return std::min(i / kRingFaces, block_count() - 1); }
+  [[nodiscard]] std::size_t block_of(std::size_t i) const {
+    return std::min(i / kRingFaces, block_count() - 1);
+  }
   [[nodiscard]] std::size_t lane_of(std::size_t i) const { return i - kRingFaces * block_of(i); }
 
   const RingBlock* blocks_;
   std::size_t size_;
 };
 
-/// Of the points of a surface. Where they are many each is looked up when it is first asked for: so those that are near one another
-/// are near in memory.
+/// The rings of all points of a surface. On large surfaces each is computed when it is first asked
+/// for, so that rings of neighbouring points are near in memory.
 class Rings {
  public:
   /// @param surface, positions  must outlive it, as they are.
   Rings(const Surface& surface, std::span<const Vec3f> positions);
-  /// That a point is to be asked for soon.
+  /// Prefetches the ring of a point.
   void expect(Index point) const {
     if (!are_many_ || ends_[point].first == kNone) return;
     const RingBlock& block = blocks_[ends_[point].first];
     prefetch(&block);
     prefetch(&block.opposite.back());
   }
-  /// Good until the next call.
+  /// Valid until the next call.
   [[nodiscard]] Ring operator()(Index point) {
     Ends& ends = ends_[point];
     if (ends.first == kNone) look_up(point, ends);
@@ -79,13 +88,14 @@ class Rings {
   std::vector<RingBlock> blocks_;
 };
 
-/// The same, each looked up whenever it is asked for.
+/// The same, each computed whenever it is asked for.
 class RingWalk {
  public:
   /// @param positions  may grow meanwhile.
-  RingWalk(const Surface& surface, const std::vector<Vec3f>& positions) : surface_(surface), positions_(positions) {}
+  RingWalk(const Surface& surface, const std::vector<Vec3f>& positions)
+      : surface_(surface), positions_(positions) {}
   void expect(Index) const {}
-  /// Good until the next call.
+  /// Valid until the next call.
   [[nodiscard]] Ring operator()(Index point);
 
  private:

@@ -8,21 +8,22 @@
 
 namespace sunder::particles {
 
-/// Distances along a surface, from near to far. Points come in the order of Dijkstra's paths along edges, but each from the
-/// accurate distances around it, and is given one itself when it is reached: that of a source which is unfolded into the plane of
-/// the face through which the shortest path arrives (Novotni and Klein 2002, for the fast marching of Kimmel and Sethian 1998).
-/// Exact where the surface is flat and paths do not bend around borders, but for faces that are obtuse. Only the surface is walked,
-/// so a tear is in the way. Memory is kept from one use to the next.
+/// Distances along a surface, from near to far. Points are visited in the order of Dijkstra's paths
+/// along edges; each gets the distance of a source unfolded into the plane of the face through
+/// which the shortest path arrives (Novotni and Klein 2002, for the fast marching of Kimmel and
+/// Sethian 1998). Exact where the surface is flat, faces are not obtuse, and paths do not bend
+/// around borders. Paths do not cross tears. Memory is kept from one use to the next.
 class SurfaceFront {
  public:
-  /// Forgets all distances. @param limit  how far the front goes; @param edge  how long edges about are.
+  /// Forgets all distances. @param limit  how far the front goes. @param edge  typical length of
+  /// edges.
   void begin(std::size_t point_count, float limit, float edge) {
     for (const Entry& entry : entries_) known_[entry.point] = kUnknown;
     entries_.clear();
     grow(point_count);
     limit_ = limit;
-    // A path along edges is longer than the straight way through a face: by up to 0.6 of an edge beside the source, 0.3 farther
-    // away.
+    // A path along edges is longer than the straight way through a face: by up to 0.6 of an edge
+    // beside the source, 0.3 farther away.
     const float beside = std::min(1.0f, 1.5f * edge / limit);
     path_limit_ = limit + (0.3f + 0.3f * beside * beside) * std::min(edge, limit);
     const float wanted = kBucketsAnEdge * limit / std::max(edge, 1e-3f * limit);
@@ -33,23 +34,24 @@ class SurfaceFront {
     next_ = kNone;
   }
 
-  /// Room for so many points, and for an eighth more.
+  /// Makes room for a number of points, and an eighth more.
   void grow(std::size_t point_count) {
     if (known_.size() < point_count) known_.resize(point_count + point_count / 8 + 1024, kUnknown);
   }
 
-  /// Lets the front start at a point, or reach it, at a distance.
+  /// Lets the front start at a point, or reach it, with some distance.
   void add(Index point, float distance) {
     if (distance < path_limit_ && distance < -known_[point]) put(point, distance, kNone);
   }
 
-  /// Whether there is nothing left to reach.
+  /// Whether no point is left to reach.
   [[nodiscard]] bool is_done() const { return bucket_ >= buckets_.size(); }
-  /// Of a point that the front has reached; infinite for others.
+  /// The distance of a point; infinite where the front has not reached it.
   [[nodiscard]] float distance(Index point) const { return distance_of(known_[point]); }
 
-  /// Calls visit(point, distance, the point from which it was reached) for each point nearer than the limit, from near to far,
-  /// until it returns false or none is left. May be called again to go on. @param ring_of  Rings or RingWalk.
+  /// Calls visit(point, distance, the point from which it was reached) for each point nearer than
+  /// the limit, from near to far, until it returns false or none is left. May be called again to
+  /// continue. @param ring_of  Rings or RingWalk.
   // Not inlined: within a large function its loop would have too few registers.
   template <class RingOf, class Visit>
   [[gnu::noinline]] void run(RingOf& ring_of, Visit visit) {
@@ -77,7 +79,8 @@ class SurfaceFront {
   }
 
  private:
-  /// The queue sorts distances into buckets this much finer than edges: points in one can hardly be told of by one another.
+  /// The queue sorts distances into buckets this much finer than edges: points in one bucket hardly
+  /// depend on each other.
   static constexpr float kBucketsAnEdge = 6.0f, kMostBuckets = 4096.0f;
 
   struct Entry {
@@ -89,27 +92,31 @@ class SurfaceFront {
 
   void put(Index point, float path, Index from) {
     known_[point] = -path;
-    const std::size_t bucket = std::max(bucket_, static_cast<std::size_t>(static_cast<std::int32_t>(path * per_bucket_)));
-    entries_.push_back({point, path, from, std::exchange(buckets_[bucket], static_cast<Index>(entries_.size()))});
+    const std::size_t bucket =
+        std::max(bucket_, static_cast<std::size_t>(static_cast<std::int32_t>(path * per_bucket_)));
+    entries_.push_back(
+        {point, path, from, std::exchange(buckets_[bucket], static_cast<Index>(entries_.size()))});
   }
 
-  /// Puts in those around a point to which the path through it is shorter.
+  /// Queues the points around one to which the path through it is shorter.
   void put_around(Index point, float distance, std::span<const RingBlock> around) {
     for (std::size_t b = 0; b < around.size(); ++b) {
       const RingBlock& block = around[b];
-      for (unsigned lanes = nearer_lanes(around_[b], block, distance, path_limit_); lanes != 0; lanes &= lanes - 1) {
+      for (unsigned lanes = nearer_lanes(around_[b], block, distance, path_limit_); lanes != 0;
+           lanes &= lanes - 1) {
         const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
         put(block.points[lane], distance + block.lengths[lane], point);
       }
     }
   }
 
-  std::vector<Known> known_;        ///< One a point.
-  std::vector<Index> buckets_;      ///< The newest entry of each.
-  std::vector<Entry> entries_;      ///< All that were put in: what begin() has to clear.
-  std::vector<KnownBlock> around_;  ///< What is known of the ring of the point that is being reached.
-  std::size_t bucket_ = 0;          ///< Being emptied.
-  Index next_ = kNone;              ///< In the bucket that is being emptied.
+  std::vector<Known> known_;    ///< Per point.
+  std::vector<Index> buckets_;  ///< The newest entry of each bucket.
+  std::vector<Entry> entries_;  ///< All that were put in: what begin() has to clear.
+  std::vector<KnownBlock>
+      around_;              ///< What is known of the ring of the point that is being reached.
+  std::size_t bucket_ = 0;  ///< Being emptied.
+  Index next_ = kNone;      ///< In the bucket that is being emptied.
   float limit_ = 0, path_limit_ = 0, per_bucket_ = 0;
 };
 

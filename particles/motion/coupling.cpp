@@ -4,20 +4,25 @@
 #include <cmath>
 #include <limits>
 
+#include "particles/internal/tolerances.h"
+
 namespace sunder::particles {
 namespace {
 
-/// Damping beside `damping` that a step needs which does not resolve the spring: without it the end of each step is met and the
-/// velocity there flips from step to step for ever.
+/// The damping of a spring, increased where the step does not resolve the spring: otherwise the end
+/// of each step is met, and the velocity there flips from step to step for ever.
 double damping_of(double stiffness, double damping, double frequency, double seconds) {
   if (frequency * seconds <= 2) return damping;
   return std::max(damping, stiffness * (seconds - 2 / frequency));
 }
 
-/// Place, velocity -> velocity a place moved by a constant acceleration. Not above 0 where the particle's own spring turns back
-/// within the step: then its end velocity says nothing of the force.
+/// Velocity per distance moved, at the end of a step under a constant acceleration. Not above 0
+/// where the particle's own spring turns back within the step: then its end velocity says nothing
+/// about the force.
 double velocity_a_place(const SpringStep& step) {
-  return step.place_from_acceleration > 0 ? step.velocity_from_acceleration() / step.place_from_acceleration : 0.0;
+  return step.place_from_acceleration > 0
+             ? step.velocity_from_acceleration() / step.place_from_acceleration
+             : 0.0;
 }
 
 Eigen::Vector4d padded(const Vec3d& v) { return {v.x(), v.y(), v.z(), 0.0}; }
@@ -51,7 +56,9 @@ void CouplingSolver::assemble(const Inputs& in) {
       const double greater = std::max(ratio, other_ratio);
       // Nor does either end's say anything then of how fast the two part.
       const double damping =
-          std::min(ratio, other_ratio) > 0 ? damping_of(spring.stiffness, spring.damping, spring.frequency, in.seconds) : 0.0;
+          std::min(ratio, other_ratio) > 0
+              ? damping_of(spring.stiffness, spring.damping, spring.frequency, in.seconds)
+              : 0.0;
       const double value = spring.stiffness + damping * greater;
       sum += value;
       pull -= spring.stiffness * (place - in.places[q]) + damping * (velocity - in.velocities[q]);
@@ -82,7 +89,8 @@ void CouplingSolver::assemble_pulls(const Inputs& in) {
       greatest = std::max(greatest, ratio);
     }
     if (!std::isfinite(least)) continue;
-    // As stiff as wanted and always well damped: at least critically, and as an implicit Euler step is where that is not resolved.
+    // As stiff as wanted and always well damped: at least critically, and as an implicit Euler step
+    // is where that is not resolved.
     const double critical = pull.frequency > 0 ? 2 * pull.stiffness / pull.frequency : 0.0;
     const double damping = least > 0 ? std::max(critical, pull.stiffness * in.seconds) : 0.0;
     active.stiffness = pull.stiffness + damping * greatest;
@@ -99,7 +107,8 @@ void CouplingSolver::assemble_pulls(const Inputs& in) {
 void CouplingSolver::multiply(const std::vector<Vec4>& x, std::vector<Vec4>& product) const {
   for (std::size_t i = 0; i < diagonal_.size(); ++i) {
     Vec4 sum = diagonal_[i] * x[i];
-    for (Index e = first_[i]; e < first_[i + 1]; ++e) sum -= entries_[e].value * x[entries_[e].column];
+    for (Index e = first_[i]; e < first_[i + 1]; ++e)
+      sum -= entries_[e].value * x[entries_[e].column];
     product[i] = sum;
   }
   for (const ActivePull& pull : pulls_) {
@@ -137,7 +146,7 @@ int CouplingSolver::solve(const Inputs& in, std::span<Vec3d> corrections) {
     direction_[i] = inverse_[i] * residual_[i];
     error += dot(residual_[i], direction_[i]);
   }
-  const double enough = kTolerance * kTolerance * scale;
+  const double enough = kCouplingResidual * kCouplingResidual * scale;
   const int most = 60 + 3 * static_cast<int>(rows);
   int iterations = 0;
   for (; iterations < most && error > enough; ++iterations) {
@@ -154,7 +163,8 @@ int CouplingSolver::solve(const Inputs& in, std::span<Vec3d> corrections) {
     }
     const double keep = next / error;
     error = next;
-    for (std::size_t i = 0; i < rows; ++i) direction_[i] = inverse_[i] * residual_[i] + keep * direction_[i];
+    for (std::size_t i = 0; i < rows; ++i)
+      direction_[i] = inverse_[i] * residual_[i] + keep * direction_[i];
   }
   for (std::size_t i = 0; i < rows; ++i) corrections[in.active[i]] = x_[i].head<3>();
   return iterations;

@@ -7,44 +7,47 @@
 
 namespace sunder::particles {
 
-/// A pull on a point: on a weighted sum of displacements.
+/// A pull on a point, that is on a weighted sum of displacements.
 struct PointPull {
   std::array<Index, 4> particles = {};
   std::array<double, 4> weights = {};  ///< 0 where there are fewer particles.
-  double stiffness = 0;                ///< Newtons a metre.
-  double frequency = 0;                ///< Root of the stiffness by mass; radians a second.
+  double stiffness = 0;                ///< Newtons per metre.
+  double frequency = 0;                ///< Root of the stiffness by mass; radians per second.
   Vec3d target = Vec3d::Zero();        ///< Of the weighted sum, metres.
 };
 
-/// What springs between particles, and pulls on points, add to a step of particles that each hang on a spring of their own.
+/// Solves for what springs between particles, and pulls on points, add to a step in which each
+/// particle hangs on a spring of its own.
 ///
-/// Alone, a particle ends the step by the closed form (SpringStep): place p, velocity q. Forces F of neighbours and pulls
-/// act during the step as constants, taken at its end: the place becomes p + x, x = G F / m, the velocity q + (S / G) x, where G
-/// and S are the particle's responses to an acceleration. With K and D the stiffness and damping of all springs that is
+/// Alone, a particle ends the step by the closed form (SpringStep): place p, velocity q. Forces F
+/// of neighbours and pulls act during the step as constants, taken at its end: the place becomes p
+/// + x, x = G F / m, the velocity q + (S / G) x, where G and S are the particle's responses to an
+/// acceleration. With K and D the stiffness and damping of all springs that is
 ///
 ///   (m / G + K + D S / G) x = -(K p + D q),
 ///
-/// symmetric and positive definite whatever the step, and exact for the particles' own springs. Where two particles have other
-/// responses, the greater S / G of both stands for their spring. Solved by conjugate gradients from the last step's answer.
+/// symmetric and positive definite whatever the step, and exact for the particles' own springs.
+/// Where two particles have other responses, the greater S / G of both stands for their spring.
+/// Solved by conjugate gradients from the last step's answer.
 class CouplingSolver {
  public:
   struct Inputs {
     const SpringGraph& graph;
-    std::span<const Index> active;      ///< Particles that move, ascending; the others stay where they are.
-    std::span<const SpringStep> steps;  ///< One a material.
+    std::span<const Index>
+        active;  ///< Particles that move, ascending; the others stay where they are.
+    std::span<const SpringStep> steps;  ///< Per material.
     std::span<const SoftMaterial> materials;
-    std::span<const Index> material_of;         ///< One a particle.
-    std::span<const Vec3d> places, velocities;  ///< One a particle: p, q; of those that do not move, u and 0.
+    std::span<const Index> material_of;  ///< Per particle.
+    std::span<const Vec3d> places,
+        velocities;  ///< Per particle: p, q; where it does not move, u and 0.
     std::span<const PointPull> pulls;
     double seconds = 0;
   };
 
-  /// @param corrections  one a particle: x, found; what is there is where the search begins.
-  /// @return the number of iterations. O(iterations x springs of `active`); no allocation once warm.
+  /// @param corrections  per particle: x, found; the search begins with what is there.
+  /// @return the number of iterations. O(iterations x springs of `active`); no allocation once
+  /// warm.
   int solve(const Inputs& inputs, std::span<Vec3d> corrections);
-
-  /// How far the residual is brought down, in the preconditioner's norm.
-  static constexpr double kTolerance = 1e-8;
 
  private:
   using Vec4 = Eigen::Vector4d;  // three coordinates; the fourth fills two registers of two
@@ -63,11 +66,11 @@ class CouplingSolver {
   /// product = A x
   void multiply(const std::vector<Vec4>& x, std::vector<Vec4>& product) const;
 
-  std::vector<Index> row_of_;  // kNone of a particle that does not move
+  std::vector<Index> row_of_;  // kNone for a particle that does not move
   std::vector<Index> first_;
   std::vector<Entry> entries_;
   std::vector<double> diagonal_, inverse_;
-  std::vector<double> ratios_;  // velocity a place, one a material
+  std::vector<double> ratios_;  // velocity per place, per material
   std::vector<ActivePull> pulls_;
   std::vector<Vec4> x_, right_, residual_, direction_, product_;
 };

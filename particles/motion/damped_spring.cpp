@@ -8,8 +8,9 @@ namespace {
 /// (1 - e^-x) / x.
 double mean_decay(double x) { return x > 0 ? -std::expm1(-x) / x : 1.0; }
 
-/// The response to a unit acceleration by its power series, for steps short beside all times of the spring: 1 - place_from_place
-/// has few digits there. Terms t_n of g(h) = sum t_n follow from g'' + 2 l g' + k g = 1.
+/// The response to a unit acceleration by its power series, for steps much shorter than all times
+/// of the spring: 1 - place_from_place has few digits there. Terms t_n of g(h) = sum t_n follow
+/// from g'' + 2 l g' + k g = 1.
 double short_response(double stiffness, double twice_rate, double seconds) {
   const double z = stiffness * seconds * seconds, b = twice_rate * seconds;
   double before = 0.0, term = 0.5, sum = 0.5;
@@ -34,18 +35,20 @@ SpringStep step_spring(double stiffness, double damping_ratio, double seconds) {
     step.place_from_velocity = decay * seconds * (turn > 0 ? std::sin(turn) / turn : 1.0);
     step.place_from_place = cosine + rate * step.place_from_velocity;
     step.velocity_from_velocity = cosine - rate * step.place_from_velocity;
-    step.place_from_acceleration =
-        is_short ? short_response(stiffness, 2 * rate, seconds) : (1 - step.place_from_place) / stiffness;
+    step.place_from_acceleration = is_short ? short_response(stiffness, 2 * rate, seconds)
+                                            : (1 - step.place_from_place) / stiffness;
   } else {
-    // Two decays; the slow one from the product of both, for their difference has no digits left where the fast one is very fast.
+    // Two decays; the slow one from the product of both, for their difference has no digits left
+    // where the fast one is very fast.
     const double apart = frequency * std::sqrt((damping_ratio - 1) * (damping_ratio + 1));
     const double fast = rate + apart, slow = fast > 0 ? stiffness / fast : 0.0;
     const double slow_decay = std::exp(-slow * seconds), fast_decay = std::exp(-fast * seconds);
     step.place_from_velocity = slow_decay * seconds * mean_decay(2 * apart * seconds);
     step.place_from_place = slow_decay + slow * step.place_from_velocity;
     step.velocity_from_velocity = fast_decay - slow * step.place_from_velocity;
-    step.place_from_acceleration = is_short ? short_response(stiffness, 2 * rate, seconds)
-                                            : (seconds * mean_decay(slow * seconds) - step.place_from_velocity) / fast;
+    step.place_from_acceleration =
+        is_short ? short_response(stiffness, 2 * rate, seconds)
+                 : (seconds * mean_decay(slow * seconds) - step.place_from_velocity) / fast;
   }
   step.velocity_from_place = -stiffness * step.place_from_velocity;
   return step;

@@ -5,7 +5,8 @@
 
 namespace sunder::particles {
 
-HoldId HoldList::add_particle(const ParticleSet& set, Index particle, const Vec3d& target, double stiffness) {
+HoldId HoldList::add_particle(const ParticleSet& set, Index particle, const Vec3d& target,
+                              double stiffness) {
   Hold& hold = holds_.emplace_back();
   hold.id = next_++;
   hold.particle = particle;
@@ -17,7 +18,8 @@ HoldId HoldList::add_particle(const ParticleSet& set, Index particle, const Vec3
   return id;
 }
 
-HoldId HoldList::add_point(const ParticleSet& set, Index point, const Vec3d& target, double stiffness) {
+HoldId HoldList::add_point(const ParticleSet& set, Index point, const Vec3d& target,
+                           double stiffness) {
   Hold& hold = holds_.emplace_back();
   hold.id = next_++;
   hold.point = point;
@@ -38,7 +40,8 @@ bool HoldList::move(HoldId id, const Vec3d& target) {
 }
 
 bool HoldList::remove(HoldId id, ParticleInfluences& whom) {
-  const auto at = std::find_if(holds_.begin(), holds_.end(), [&](const Hold& hold) { return hold.id == id; });
+  const auto at =
+      std::find_if(holds_.begin(), holds_.end(), [&](const Hold& hold) { return hold.id == id; });
   if (at == holds_.end()) return false;
   whom = at->whom;
   holds_.erase(at);
@@ -47,7 +50,8 @@ bool HoldList::remove(HoldId id, ParticleInfluences& whom) {
 
 void HoldList::follow(const ParticleSet& set) {
   std::erase_if(holds_, [&](const Hold& hold) {
-    if (hold.point != kNone) return hold.point >= set.point_count() || !(set.influences()[hold.point].weights[0] > 0);
+    if (hold.point != kNone)
+      return hold.point >= set.point_count() || !(set.influences()[hold.point].weights[0] > 0);
     return hold.particle >= set.particle_count() || set.serial(hold.particle) != hold.serial;
   });
   for (Hold& hold : holds_) {
@@ -60,7 +64,8 @@ void HoldList::follow(const ParticleSet& set) {
 }
 
 void HoldList::begin_step(const TornModel& model, const ModelPose& pose, const RestMotion& rests,
-                          std::span<const SoftMaterial> materials, PointPlaces& places, Motion& motion) {
+                          std::span<const SoftMaterial> materials, EpochPose& poses,
+                          Motion& motion) {
   pulls_.clear();
   for (Hold& hold : holds_) {
     PointPull& pull = pulls_.emplace_back();
@@ -68,15 +73,15 @@ void HoldList::begin_step(const TornModel& model, const ModelPose& pose, const R
     pull.particles = hold.whom.particles;
     for (std::size_t k = 0; k < 4; ++k) {
       pull.weights[k] = double{hold.whom.weights[k]};
-      if (pull.weights[k] > 0) mass += pull.weights[k] * materials[motion.material_of[pull.particles[k]]].mass;
+      if (pull.weights[k] > 0)
+        mass += pull.weights[k] * materials[motion.material_of[pull.particles[k]]].mass;
     }
     pull.stiffness = hold.stiffness * mass;
     pull.frequency = std::sqrt(hold.stiffness);
     if (hold.point == kNone) {
       hold.rest = rests.place(hold.particle);
     } else if (hold.epoch != rests.epoch()) {
-      places.set_pose(model, pose, rests.epoch());
-      hold.rest = places.place(model, hold.point);
+      hold.rest = poses.at(model, pose, rests.epoch()).place(model, hold.point);
       hold.epoch = rests.epoch();
     }
     pull.target = hold.target - hold.rest;

@@ -5,35 +5,38 @@
 #include <limits>
 
 #include "particles/motion/coupling.h"
+#include "particles/motion/epoch_pose.h"
 #include "particles/motion/motion.h"
-#include "particles/motion/point_places.h"
 #include "particles/motion/rest_motion.h"
 
 namespace sunder::particles {
 
-/// What callers hold.
+/// The holds of a body: points and particles that callers pull to places.
 class HoldList {
  public:
-  HoldId add_particle(const ParticleSet& set, Index particle, const Vec3d& target, double stiffness);
+  HoldId add_particle(const ParticleSet& set, Index particle, const Vec3d& target,
+                      double stiffness);
   HoldId add_point(const ParticleSet& set, Index point, const Vec3d& target, double stiffness);
-  /// @return whether there is such a hold.
+  /// @return whether the hold exists.
   bool move(HoldId id, const Vec3d& target);
-  /// @param whom  what it held. @return whether there was such a hold.
+  /// @param whom  written: what it held. @return whether the hold existed.
   bool remove(HoldId id, ParticleInfluences& whom);
   [[nodiscard]] bool empty() const { return holds_.empty(); }
 
-  /// Drops what holds points and particles that are no more, and finds what moves the others.
+  /// Drops holds of points and particles that vanished, and finds the particles that move the
+  /// others.
   void follow(const ParticleSet& set);
-  /// Calls visit(particle) for everyone who is held.
+  /// Calls visit(particle) for each particle that is held.
   template <class Visit>
   void for_each_held(Visit visit) const {
     for (const Hold& hold : holds_)
       for (std::size_t k = 0; k < 4 && hold.whom.weights[k] > 0; ++k) visit(hold.whom.particles[k]);
   }
 
-  /// Sets up pulls() for a step, and wakes those whose pull is another than in the last one.
-  void begin_step(const TornModel& model, const ModelPose& pose, const RestMotion& rests, std::span<const SoftMaterial> materials,
-                  PointPlaces& places, Motion& motion);
+  /// Sets up pulls() for a step, and wakes the particles whose pull differs from that of the last
+  /// step.
+  void begin_step(const TornModel& model, const ModelPose& pose, const RestMotion& rests,
+                  std::span<const SoftMaterial> materials, EpochPose& poses, Motion& motion);
   [[nodiscard]] std::span<const PointPull> pulls() const { return pulls_; }
 
  private:
@@ -44,9 +47,10 @@ class HoldList {
     ParticleInfluences whom;
     Vec3d target = Vec3d::Zero();
     double stiffness = 0;
-    Vec3d last = Vec3d::Constant(std::numeric_limits<double>::quiet_NaN());  // displacement to which it pulled
-    Vec3d rest = Vec3d::Zero();                                              // place of the point
-    std::uint64_t epoch = 0;                                                 // of that place
+    Vec3d last = Vec3d::Constant(
+        std::numeric_limits<double>::quiet_NaN());  // displacement to which it pulled
+    Vec3d rest = Vec3d::Zero();                     // place of the point
+    std::uint64_t epoch = 0;                        // of that place
   };
 
   std::vector<Hold> holds_;

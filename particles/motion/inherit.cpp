@@ -16,7 +16,8 @@ void inherit(const ParticleInfluences& parents, Index particle, RestMotion& rest
     rest_velocity += weight * rests.velocity(parent);
     sum += weight;
   }
-  for (auto* vectors : {&motion.forces, &motion.lip_forces, &motion.winds, &motion.corrections, &motion.slept_pulls})
+  for (auto* vectors : {&motion.forces, &motion.lip_forces, &motion.winds, &motion.corrections,
+                        &motion.quiet.pulls})
     (*vectors)[particle].setZero();
   if (!(sum > 0)) sum = 1;
   motion.displacements[particle] = motion.starts[particle] = displacement / sum;
@@ -24,7 +25,7 @@ void inherit(const ParticleInfluences& parents, Index particle, RestMotion& rest
   rests.set_velocity(particle, rest_velocity / sum);
   motion.touched[particle] = motion.bound[particle] = 0;
   motion.wake(particle);
-  motion.quiet_from[particle] = motion.displacements[particle];
+  motion.quiet.from[particle] = motion.displacements[particle];
 }
 
 }  // namespace sunder::particles

@@ -3,32 +3,37 @@
 namespace sunder::particles {
 namespace {
 
+/// A shorter direction counts as none.
+constexpr double kLeastDirection = 1e-12;
+
 Vec3d pull_of(const LipEdge& lip, std::span<const Vec3f> positions, const Tension& tension) {
   const Vec3d inward = lip.inward.cast<double>();
   if (!tension.direction) return tension.newtons_per_metre * inward;
   const Vec3d middle = 0.5 * (positions[lip.points[0]] + positions[lip.points[1]]).cast<double>();
   const Vec3d direction = tension.direction(middle);
   const double length = direction.norm();
-  if (!(length > 1e-12) || !direction.allFinite()) return Vec3d::Zero();
+  if (!(length > kLeastDirection) || !direction.allFinite()) return Vec3d::Zero();
   return tension.newtons_per_metre / (length * length) * direction.dot(inward) * direction;
 }
 
 }  // namespace
 
-void add_lip_forces(std::span<const LipEdge> lips, std::span<const Vec3f> positions, std::span<const ParticleInfluences> influences,
-                    const Tension& tension, std::span<Vec3d> forces) {
+void add_lip_forces(std::span<const LipEdge> lips, std::span<const Vec3f> positions,
+                    std::span<const ParticleInfluences> influences, const Tension& tension,
+                    std::span<Vec3d> forces) {
   if (!(tension.newtons_per_metre > 0)) return;
   for (const LipEdge& lip : lips) {
     const Vec3d half = 0.5 * pull_of(lip, positions, tension);
     for (const Index point : lip.points) {
       const ParticleInfluences& of = influences[point];
-      for (std::size_t k = 0; k < 4 && of.weights[k] > 0; ++k) forces[of.particles[k]] += double{of.weights[k]} * half;
+      for (std::size_t k = 0; k < 4 && of.weights[k] > 0; ++k)
+        forces[of.particles[k]] += double{of.weights[k]} * half;
     }
   }
 }
 
-void pull_lips(const ParticleSet& set, const Tension& tension, Motion& motion, std::vector<Vec3d>& scratch,
-               std::vector<Index>& changed) {
+void pull_lips(const ParticleSet& set, const Tension& tension, Motion& motion,
+               std::vector<Vec3d>& scratch, std::vector<Index>& changed) {
   scratch.assign(motion.count(), Vec3d::Zero());
   changed.clear();
   add_lip_forces(set.lips(), set.positions(), set.influences(), tension, scratch);

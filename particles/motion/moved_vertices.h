@@ -6,12 +6,15 @@
 
 namespace sunder::particles {
 
-/// Which vertices of a mesh certain particles move, kept until it is asked with others.
+/// The vertices of each mesh that displaced particles move, kept until other particles are
+/// displaced.
 class MovedVertices {
  public:
-  /// @param key  grows when the particles or what they move change. @param is_displaced  one a particle.
-  std::span<const IndexRange> of(const ParticleSet& set, const TornModel& model, Index mesh, std::uint64_t key,
-                                 std::span<const std::uint8_t> is_displaced);
+  /// @param key           grows when the displaced particles or their points change; not 0.
+  /// @param is_displaced  per particle.
+  /// @throws std::bad_alloc
+  std::span<const IndexRange> of(const ParticleSet& set, const TornModel& model, Index mesh,
+                                 std::uint64_t key, std::span<const std::uint8_t> is_displaced);
 
  private:
   struct OfMesh {

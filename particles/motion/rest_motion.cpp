@@ -4,17 +4,20 @@
 #include <cstring>
 #include <numeric>
 
+#include "particles/internal/tolerances.h"
 #include "particles/motion/turn_of.h"
 
 namespace sunder::particles {
 namespace {
 
-/// A transform's bits, not its value: 0 and -0 pose alike, and comparing them apart only costs an evaluation.
-bool has_same_bits(const Affine3d& a, const Affine3d& b) { return std::memcmp(a.data(), b.data(), 12 * sizeof(double)) == 0; }
+/// Compares bits, not values: 0 and -0 pose alike, and telling them apart only costs an evaluation.
+bool has_same_bits(const Affine3d& a, const Affine3d& b) {
+  return std::memcmp(a.data(), b.data(), 12 * sizeof(double)) == 0;
+}
 
 Mat3d inverse_or_zero(const Mat3d& m) {
   const double size = m.norm(), determinant = m.determinant();
-  if (!(std::abs(determinant) > 1e-9 * size * size * size)) return Mat3d::Zero();
+  if (!(std::abs(determinant) > kFlatDeterminant * size * size * size)) return Mat3d::Zero();
   return m.inverse();
 }
 
@@ -30,13 +33,15 @@ Status RestMotion::begin(const ParticleSet& set, const ModelPose& pose) {
 void RestMotion::follow(const ParticleSet& set) {
   const Index count = set.particle_count();
   particles_.resize(count);
-  for (std::vector<Index>* list : {&moved_, &carried_}) std::erase_if(*list, [&](Index p) { return p >= count; });
+  for (std::vector<Index>* list : {&moved_, &carried_})
+    std::erase_if(*list, [&](Index p) { return p >= count; });
   stale_.resize(count);
   moved_.reserve(count);
-  carried_.reserve(count);
+  carried_.reserve(2 * std::size_t{count});  // for set_velocity()
   std::iota(stale_.begin(), stale_.end(), Index{0});
   evaluate(set, decomposition_pose_, stale_);
-  for (Index p = 0; p < count; ++p) particles_[p].decomposition_from_bind = inverse_or_zero(rests_[p].linear);
+  for (Index p = 0; p < count; ++p)
+    particles_[p].decomposition_from_bind = inverse_or_zero(rests_[p].linear);
   evaluate(set, pose_, stale_);
   for (Index p = 0; p < count; ++p) {
     Particle& particle = particles_[p];
@@ -48,18 +53,21 @@ void RestMotion::follow(const ParticleSet& set) {
   }
 }
 
-void RestMotion::evaluate(const ParticleSet& set, const ModelPose& pose, std::span<const Index> particles) {
+void RestMotion::evaluate(const ParticleSet& set, const ModelPose& pose,
+                          std::span<const Index> particles) {
   rests_.resize(particles.size());
   (void)set.rest(pose, particles, rests_);  // poses were checked
 }
 
 bool RestMotion::is_same(const ModelPose& pose) const {
-  if (pose.model_from_bone.size() != pose_.model_from_bone.size() || pose.morph_weights.size() != pose_.morph_weights.size())
+  if (pose.model_from_bone.size() != pose_.model_from_bone.size() ||
+      pose.morph_weights.size() != pose_.morph_weights.size())
     return false;
   for (std::size_t i = 0; i < pose.model_from_bone.size(); ++i)
     if (!has_same_bits(pose.model_from_bone[i], pose_.model_from_bone[i])) return false;
   return pose.morph_weights.empty() ||
-         std::memcmp(pose.morph_weights.data(), pose_.morph_weights.data(), pose.morph_weights.size() * sizeof(float)) == 0;
+         std::memcmp(pose.morph_weights.data(), pose_.morph_weights.data(),
+                     pose.morph_weights.size() * sizeof(float)) == 0;
 }
 
 void RestMotion::stop_all() {
@@ -94,7 +102,8 @@ void RestMotion::update(const ParticleSet& set, std::span<const Index> particles
     Mat3d turn = particle.turn;
     turn_of(relative, turn);
     particle.size = relative.norm();
-    if (particle.epoch + 1 == epoch_ && (particle.place != rests_[i].place || particle.turn != turn)) {
+    if (particle.epoch + 1 == epoch_ &&
+        (particle.place != rests_[i].place || particle.turn != turn)) {
       particle.shift = rests_[i].place - particle.place;
       particle.turn_of_step = turn * particle.turn.transpose();
       if (seconds > 0) {

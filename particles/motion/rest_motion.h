@@ -4,30 +4,33 @@
 
 namespace sunder::particles {
 
-/// Where the pose puts particles, how it turns them and how fast it carries them, for those that are asked for.
+/// Where the pose puts particles, how it turns them and how fast it carries them. Computed only for
+/// particles that are asked for.
 class RestMotion {
  public:
   /// @return as ParticleSet::rest().
   Status begin(const ParticleSet& set, const ModelPose& pose);
-  /// After the set changed: all particles, in the pose as it is. What only the set moved counts as still.
+  /// Follows a changed set: evaluates all particles in the present pose. A move that only the set
+  /// made is no motion. @throws std::bad_alloc
   void follow(const ParticleSet& set);
 
-  /// Whether a pose is the last one, bit for bit.
+  /// Whether a pose has the bits of the last one.
   [[nodiscard]] bool is_same(const ModelPose& pose) const;
-  /// A step begins, with another pose, with the same one, or with one that nobody looks at. Velocities are zero then, until
-  /// update().
+  /// Begins a step: with another pose, with the same one, or with one that is not evaluated.
+  /// Velocities are zero until update().
   void begin_step(const ModelPose& pose);
   void begin_still_step();
   void skip_step();
 
-  /// Brings particles up to date with the pose, those that are not. O(bones + such particles x their bones).
+  /// Evaluates the particles that are not up to date with the pose. O(bones + such particles x
+  /// their bones).
   void update(const ParticleSet& set, std::span<const Index> particles, double seconds);
-  /// Whom the last update() found somewhere else than the step before did.
+  /// Particles that the last update() found moved since the step before.
   [[nodiscard]] std::span<const Index> moved() const { return moved_; }
-  /// Whom the last update() looked at.
+  /// Particles that the last update() evaluated.
   [[nodiscard]] std::span<const Index> updated() const { return stale_; }
 
-  /// Of a particle that is new.
+  /// Sets the velocity of a new particle.
   void set_velocity(Index p, const Vec3d& velocity) {
     particles_[p].velocity = velocity;
     if (velocity != Vec3d::Zero()) carried_.push_back(p);
@@ -37,21 +40,22 @@ class RestMotion {
   [[nodiscard]] const Vec3d& velocity(Index p) const { return particles_[p].velocity; }
   /// From the decomposition's pose to this one.
   [[nodiscard]] const Mat3d& turn(Index p) const { return particles_[p].turn; }
-  /// Of whom is in moved(): how they went there.
+  /// For particles in moved(): how they moved.
   [[nodiscard]] const Vec3d& shift(Index p) const { return particles_[p].shift; }
   [[nodiscard]] const Mat3d& turn_of_step(Index p) const { return particles_[p].turn_of_step; }
-  /// At least by how much the pose lengthens what a particle holds; 3^0.5 where it does not.
+  /// A bound of how much the pose lengthens what a particle holds; 3^0.5 where it does not.
   [[nodiscard]] double size(Index p) const { return particles_[p].size; }
-  /// Who has a velocity.
+  /// Particles with a velocity.
   [[nodiscard]] std::span<const Index> carried() const { return carried_; }
-  /// Counts poses.
+  /// Number of the pose; grows.
   [[nodiscard]] std::uint64_t epoch() const { return epoch_; }
 
  private:
   struct Particle {
     Vec3d place = Vec3d::Zero(), velocity = Vec3d::Zero(), shift = Vec3d::Zero();
     Mat3d turn = Mat3d::Identity(), turn_of_step = Mat3d::Identity();
-    Mat3d decomposition_from_bind = Mat3d::Identity();  // inverse of its linear part there; zero where it has none
+    Mat3d decomposition_from_bind =
+        Mat3d::Identity();  // inverse of its linear part there; zero where it has none
     double size = 1;
     std::uint64_t epoch = 0;  // of the pose that this is of
   };

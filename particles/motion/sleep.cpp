@@ -2,20 +2,11 @@
 
 #include <algorithm>
 
+#include "particles/internal/tolerances.h"
+
 namespace sunder::particles {
-namespace {
-
-// In ranges of the particle, and in ranges a second. Who is bound (held, touched, at a stretch limit), or beside one who is, is
-// pulled away and pushed back in every step: it moves a little for ever, its velocity is that of the pull, and springs alone are
-// not in balance.
-constexpr double kQuietPlace = 1e-4, kQuietPlaceBound = 3e-3, kQuietSpeed = 1e-3, kFeels = 5e-4, kFeelsBound = 5e-3,
-                 kIsAtRest = 2e-4;
-constexpr double kQuietSeconds = 0.5;
-
-}  // namespace
-
-Pull pull_on(Index p, const SpringGraph& graph, std::span<const SoftMaterial> materials, const RestMotion& rests,
-             const Vec3d& gravity, const Motion& motion) {
+Pull pull_on(Index p, const SpringGraph& graph, std::span<const SoftMaterial> materials,
+             const RestMotion& rests, const Vec3d& gravity, const Motion& motion) {
   const SoftMaterial& material = materials[motion.material_of[p]];
   const Vec3d outer = motion.forces[p] + rests.turn(p) * motion.lip_forces[p];
   Vec3d inner = Vec3d::Zero();
@@ -27,7 +18,8 @@ Pull pull_on(Index p, const SpringGraph& graph, std::span<const SoftMaterial> ma
   Pull pull;
   const Vec3d pushed = gravity + motion.winds[p] + outer / material.mass;
   pull.is_pushed = pushed != Vec3d::Zero();
-  pull.acceleration = pushed + inner / material.mass - material.return_stiffness * motion.displacements[p];
+  pull.acceleration =
+      pushed + inner / material.mass - material.return_stiffness * motion.displacements[p];
   pull.stiffness = material.return_stiffness + stiffness / material.mass;
   return pull;
 }
@@ -35,12 +27,14 @@ Pull pull_on(Index p, const SpringGraph& graph, std::span<const SoftMaterial> ma
 void Sleep::wake_if_pulled(const World& world, Index p, Motion& motion) {
   if (motion.awake[p] != 0) return;
   const Pull pull = pull_on(p, world.graph, world.materials, world.rests, world.gravity, motion);
-  // Who sleeps displaced by a pull that goes must follow it all the way back.
+  // A particle that sleeps displaced by a pull must follow it all the way back when the pull goes.
   const double range = world.set.range(p), displaced = motion.displacements[p].norm();
-  double place = displaced > 0 ? std::clamp(0.1 * displaced, 0.1 * kIsAtRest * range, kFeels * range) : kFeels * range;
-  if (motion.bound[p] != 0) place = kFeelsBound * range;
+  double place = displaced > 0
+                     ? std::clamp(0.1 * displaced, 0.1 * kAtRestRanges * range, kFeltRanges * range)
+                     : kFeltRanges * range;
+  if (motion.bound[p] != 0) place = kFeltBoundRanges * range;
   const double feels = place * std::max(pull.stiffness, 1.0);
-  if ((pull.acceleration - motion.slept_pulls[p]).squaredNorm() > feels * feels) motion.wake(p);
+  if ((pull.acceleration - motion.quiet.pulls[p]).squaredNorm() > feels * feels) motion.wake(p);
 }
 
 void Sleep::wake_neighbours(const World& world, std::span<const Index> active, Motion& motion) {
@@ -61,43 +55,49 @@ bool Sleep::is_bound_near(const World& world, Index p, const Motion& motion) {
   return is_bound;
 }
 
-void Sleep::measure(const World& world, std::span<const Index> active, double seconds, Motion& motion) {
+void Sleep::measure(const World& world, std::span<const Index> active, double seconds,
+                    Motion& motion) {
   for (const Index p : active) {
     const bool is_bound = is_bound_near(world, p, motion);
-    const double range = world.set.range(p), quiet_speed = kQuietSpeed * range;
-    const double quiet_place = (is_bound ? kQuietPlaceBound : kQuietPlace) * range;
+    const double range = world.set.range(p), quiet_speed = kQuietRangesPerSecond * range;
+    const double quiet_place = (is_bound ? kQuietBoundRanges : kQuietRanges) * range;
     if ((is_bound || motion.velocities[p].squaredNorm() <= quiet_speed * quiet_speed) &&
-        (motion.displacements[p] - motion.quiet_from[p]).squaredNorm() <= quiet_place * quiet_place) {
-      motion.quiet_seconds[p] += seconds;
+        (motion.displacements[p] - motion.quiet.from[p]).squaredNorm() <=
+            quiet_place * quiet_place) {
+      motion.quiet.seconds[p] += seconds;
       continue;
     }
-    motion.quiet_seconds[p] = 0;
-    motion.quiet_from[p] = motion.displacements[p];
+    motion.quiet.seconds[p] = 0;
+    motion.quiet.from[p] = motion.displacements[p];
   }
 }
 
-void Sleep::fall_asleep(const World& world, std::span<const Index> active, double seconds, Motion& motion) {
+void Sleep::fall_asleep(const World& world, std::span<const Index> active, double seconds,
+                        Motion& motion) {
   measure(world, active, seconds, motion);
   tired_.clear();
   for (const Index p : active) {
-    if (motion.quiet_seconds[p] < kQuietSeconds) continue;
+    if (motion.quiet.seconds[p] < kQuietSeconds) continue;
     const auto of_p = world.graph.of(p);
     if (std::any_of(of_p.begin(), of_p.end(), [&](const Spring& spring) {
-          return motion.awake[spring.other] != 0 && motion.quiet_seconds[spring.other] < kQuietSeconds;
+          return motion.awake[spring.other] != 0 &&
+                 motion.quiet.seconds[spring.other] < kQuietSeconds;
         }))
       continue;
-    // Neighbours that creep back together hardly pull at one another: against the return spring alone there is still some way.
+    // Neighbours that creep back together hardly pull at one another: against the return spring
+    // alone there is still some way to go.
     const Pull pull = pull_on(p, world.graph, world.materials, world.rests, world.gravity, motion);
     const double own = world.materials[motion.material_of[p]].return_stiffness;
-    const double balanced = kQuietPlace * world.set.range(p) * (own > 0 ? own : pull.stiffness);
-    if (pull.acceleration.squaredNorm() <= balanced * balanced || is_bound_near(world, p, motion)) tired_.push_back(p);
+    const double balanced = kQuietRanges * world.set.range(p) * (own > 0 ? own : pull.stiffness);
+    if (pull.acceleration.squaredNorm() <= balanced * balanced || is_bound_near(world, p, motion))
+      tired_.push_back(p);
   }
   for (const Index p : tired_) {
     motion.awake[p] = 0;
     --motion.awake_count;
     motion.velocities[p].setZero();
     motion.corrections[p].setZero();
-    const double at_rest = kIsAtRest * world.set.range(p);
+    const double at_rest = kAtRestRanges * world.set.range(p);
     if (world.materials[motion.material_of[p]].return_stiffness > 0 && motion.bound[p] == 0 &&
         motion.displacements[p].squaredNorm() < at_rest * at_rest &&
         !pull_on(p, world.graph, world.materials, world.rests, world.gravity, motion).is_pushed)
@@ -105,7 +105,8 @@ void Sleep::fall_asleep(const World& world, std::span<const Index> active, doubl
     motion.starts[p] = motion.displacements[p];
   }
   for (const Index p : tired_)
-    motion.slept_pulls[p] = pull_on(p, world.graph, world.materials, world.rests, world.gravity, motion).acceleration;
+    motion.quiet.pulls[p] =
+        pull_on(p, world.graph, world.materials, world.rests, world.gravity, motion).acceleration;
 }
 
 }  // namespace sunder::particles

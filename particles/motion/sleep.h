@@ -5,16 +5,19 @@
 
 namespace sunder::particles {
 
-/// All beside its velocity that accelerates a particle.
+/// The acceleration of a particle, apart from damping.
 struct Pull {
-  Vec3d acceleration = Vec3d::Zero();  ///< What its springs, neighbours and outer forces leave; without holds and colliders.
+  Vec3d acceleration = Vec3d::Zero();  ///< Sum over its springs, neighbours and outer forces;
+                                       ///< without holds and colliders.
   bool is_pushed = false;              ///< Whether anything but springs acts.
   double stiffness = 0;                ///< Of all springs, 1/s^2.
 };
-[[nodiscard]] Pull pull_on(Index particle, const SpringGraph& graph, std::span<const SoftMaterial> materials,
-                           const RestMotion& rests, const Vec3d& gravity, const Motion& motion);
+[[nodiscard]] Pull pull_on(Index particle, const SpringGraph& graph,
+                           std::span<const SoftMaterial> materials, const RestMotion& rests,
+                           const Vec3d& gravity, const Motion& motion);
 
-/// Who is quiet and who feels what. Places are compared with a particle's range, which is the scale at which displacements show.
+/// Decides which particles sleep and wake. Distances are relative to a particle's range, the scale
+/// at which displacements show.
 class Sleep {
  public:
   struct World {
@@ -25,17 +28,21 @@ class Sleep {
     Vec3d gravity;
   };
 
-  /// Wakes a particle that sleeps, where what pulls at it is not what it fell asleep with: where that would move it visibly.
+  /// Wakes a sleeping particle where the pull on it differs from that with which it fell asleep by
+  /// what would move it visibly.
   static void wake_if_pulled(const World& world, Index particle, Motion& motion);
-  /// The same for sleepers beside those that are awake: what moves them goes on from neighbour to neighbour while it is felt.
+  /// The same for the sleeping neighbours of awake particles: motion spreads from neighbour to
+  /// neighbour while it is felt.
   void wake_neighbours(const World& world, std::span<const Index> active, Motion& motion);
-  /// Puts to sleep who has been quiet for half a second, and whose neighbours have. What nothing pushes and is all but at rest is
-  /// put to rest exactly.
-  void fall_asleep(const World& world, std::span<const Index> active, double seconds, Motion& motion);
+  /// Puts to sleep particles that, like their neighbours, have been quiet for kQuietSeconds. Those
+  /// that nothing pushes and that are nearly at rest are put to rest exactly.
+  void fall_asleep(const World& world, std::span<const Index> active, double seconds,
+                   Motion& motion);
 
  private:
   static bool is_bound_near(const World& world, Index particle, const Motion& motion);
-  static void measure(const World& world, std::span<const Index> active, double seconds, Motion& motion);
+  static void measure(const World& world, std::span<const Index> active, double seconds,
+                      Motion& motion);
 
   std::vector<Index> tired_;
   std::vector<std::uint64_t> asked_;  // in which round a particle was asked

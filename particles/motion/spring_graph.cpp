@@ -18,19 +18,22 @@ Spring spring_between(const SoftMaterial& a, const SoftMaterial& b, double coupl
   return spring;
 }
 
-void connect(const ParticleSet& set, std::span<const SoftMaterial> materials, std::span<const Index> material_of,
-             SpringGraph& graph) {
+void connect(const ParticleSet& set, std::span<const SoftMaterial> materials,
+             std::span<const Index> material_of, SpringGraph& graph) {
+  graph.is_stale = true;
   graph.springs.clear();
   graph.first.assign(1, 0);
   for (Index p = 0; p < set.particle_count(); ++p) {
     for (const ParticleNeighbour& neighbour : set.neighbours(p)) {
       Spring spring =
-          spring_between(materials[material_of[p]], materials[material_of[neighbour.particle]], set.coupling(p, neighbour));
+          spring_between(materials[material_of[p]], materials[material_of[neighbour.particle]],
+                         set.coupling(p, neighbour));
       spring.other = neighbour.particle;
       graph.springs.push_back(spring);
     }
     graph.first.push_back(static_cast<Index>(graph.springs.size()));
   }
+  graph.is_stale = false;
 }
 
 }  // namespace sunder::particles

@@ -2,81 +2,95 @@
 
 #include <algorithm>
 
+#include "particles/internal/tolerances.h"
+
 namespace sunder::particles {
 namespace {
 
-constexpr int kSweeps = 64;
-constexpr double kTolerance = 1e-4, kMore = 1.01;
-constexpr double kStopped = 1e-3;  // of the fastest that part
+constexpr int kMostSweeps = 64;
 
-struct Pair {
-  Vec3d apart;
-  double length = 0, most = 0;
+/// A spring with a limit, seen from one of its ends.
+struct LimitedPair {
+  Index p = 0, q = 0;
+  Vec3d apart;        ///< From p to q.
+  double length = 0;  ///< Of `apart`.
+  double most = 0;    ///< That the limit allows.
+  double mine = 0,
+         yours = 0;  ///< Parts of a correction that p and q take; 0 for q where it sleeps.
 };
 
-Pair pair_of(const RestMotion& rests, const Motion& motion, Index p, const Spring& spring) {
-  const Vec3d at_rest = rests.place(spring.other) - rests.place(p);
-  const Vec3d apart = at_rest + motion.displacements[spring.other] - motion.displacements[p];
-  return {apart, apart.norm(), spring.stretch_limit * at_rest.norm()};
-}
-
-/// Calls visit(particle, spring, pair, part of the first, part of the second) for pairs that are limited, once each.
+/// Calls visit(pair) for each pair with a limit, once.
 template <class Visit>
-void for_each_limited(const SpringGraph& graph, std::span<const SoftMaterial> materials, const RestMotion& rests,
-                      std::span<const Index> active, const Motion& motion, Visit visit) {
-  for (const Index p : active)
-    for (const Spring& spring : graph.of(p)) {
+void for_each_limited(const StretchWorld& world, const Motion& motion, Visit visit) {
+  for (const Index p : world.active)
+    for (const Spring& spring : world.graph.of(p)) {
       const bool is_other_free = motion.awake[spring.other] != 0;
       if (spring.stretch_limit == 0 || (is_other_free && spring.other < p)) continue;
-      const Pair pair = pair_of(rests, motion, p, spring);
-      if (!(pair.most > 0)) continue;
-      const double mine = 1 / materials[motion.material_of[p]].mass;
-      const double others = is_other_free ? 1 / materials[motion.material_of[spring.other]].mass : 0.0;
-      visit(p, spring, pair, mine / (mine + others), others / (mine + others));
+      const Vec3d at_rest = world.rests.place(spring.other) - world.rests.place(p);
+      const double most = spring.stretch_limit * at_rest.norm();
+      if (!(most > 0)) continue;
+      const Vec3d apart = at_rest + motion.displacements[spring.other] - motion.displacements[p];
+      const double mine = 1 / world.materials[motion.material_of[p]].mass;
+      const double yours =
+          is_other_free ? 1 / world.materials[motion.material_of[spring.other]].mass : 0.0;
+      visit(LimitedPair{p, spring.other, apart, apart.norm(), most, mine / (mine + yours),
+                        yours / (mine + yours)});
     }
+}
+
+/// Brings a pair within its limit. @return by how much it was beyond, relative to the limit.
+double pull_together(const LimitedPair& pair, bool is_first_sweep, Motion& motion,
+                     std::vector<Index>& pulled) {
+  if (pair.length <= pair.most) return 0;
+  const Vec3d by = (1 - pair.most / pair.length) * pair.apart;
+  motion.displacements[pair.p] += pair.mine * by;
+  motion.bound[pair.p] = 1;
+  if (pair.yours > 0) {
+    motion.displacements[pair.q] -= pair.yours * by;
+    motion.bound[pair.q] = 1;
+  } else if (is_first_sweep) {
+    // A particle that fell asleep at its limit is pulled for ever, and feels only more than that.
+    const bool feels =
+        motion.bound[pair.q] == 0 || pair.length > (1 + kStretchWakesExcess) * pair.most;
+    if (feels) pulled.push_back(pair.q);
+  }
+  return pair.length / pair.most - 1;
+}
+
+/// Stops a pair at its limit from parting. @return how fast it parted, metres per second.
+double stop_parting(const LimitedPair& pair, const RestMotion& rests, Motion& motion) {
+  if (pair.length < pair.most * (1 - kStretchExcess)) return 0;
+  const Vec3d along = pair.apart / pair.length;
+  const double parting = along.dot(motion.velocities[pair.q] + rests.velocity(pair.q) -
+                                   motion.velocities[pair.p] - rests.velocity(pair.p));
+  if (parting <= 0) return 0;
+  motion.velocities[pair.p] += pair.mine * parting * along;
+  if (pair.yours > 0) motion.velocities[pair.q] -= pair.yours * parting * along;
+  return parting;
 }
 
 }  // namespace
 
-void limit_stretch(const SpringGraph& graph, std::span<const SoftMaterial> materials, const RestMotion& rests,
-                   std::span<const Index> active, Motion& motion, std::vector<Index>& pulled) {
+void limit_stretch(const StretchWorld& world, Motion& motion, std::vector<Index>& pulled) {
   pulled.clear();
   bool is_reached = false;
-  for (int sweep = 0; sweep < kSweeps; ++sweep) {
+  for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
     double worst = 0;
-    for_each_limited(graph, materials, rests, active, motion,
-                     [&](Index p, const Spring& spring, const Pair& pair, double mine, double others) {
-                       if (pair.length <= pair.most) return;
-                       worst = std::max(worst, pair.length / pair.most - 1);
-                       const Vec3d by = (1 - pair.most / pair.length) * pair.apart;
-                       motion.displacements[p] += mine * by;
-                       if (others > 0) motion.displacements[spring.other] -= others * by;
-                       motion.bound[p] = 1;
-                       if (others > 0) motion.bound[spring.other] = 1;
-                       // Who fell asleep at its limit is pulled at for ever, and feels only more than that.
-                       else if (sweep == 0 && (motion.bound[spring.other] == 0 || pair.length > kMore * pair.most))
-                         pulled.push_back(spring.other);
-                     });
-    if (worst > 0) is_reached = true;
-    if (worst <= kTolerance) break;
+    for_each_limited(world, motion, [&](const LimitedPair& pair) {
+      worst = std::max(worst, pull_together(pair, sweep == 0, motion, pulled));
+    });
+    is_reached |= worst > 0;
+    if (worst <= kStretchExcess) break;
   }
   if (!is_reached) return;
   double first = 0;
-  for (int sweep = 0; sweep < kSweeps; ++sweep) {
+  for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
     double fastest = 0;
-    for_each_limited(
-        graph, materials, rests, active, motion, [&](Index p, const Spring& spring, const Pair& pair, double mine, double others) {
-          if (pair.length < pair.most * (1 - kTolerance)) return;
-          const Vec3d along = pair.apart / pair.length;
-          const Index q = spring.other;
-          const double parting = along.dot(motion.velocities[q] + rests.velocity(q) - motion.velocities[p] - rests.velocity(p));
-          if (parting <= 0) return;
-          fastest = std::max(fastest, parting);
-          motion.velocities[p] += mine * parting * along;
-          if (others > 0) motion.velocities[q] -= others * parting * along;
-        });
+    for_each_limited(world, motion, [&](const LimitedPair& pair) {
+      fastest = std::max(fastest, stop_parting(pair, world.rests, motion));
+    });
     first = std::max(first, fastest);
-    if (fastest <= kStopped * first) break;
+    if (fastest <= kStretchStoppedFraction * first) break;
   }
   for (const Index p : pulled) motion.wake(p);
 }

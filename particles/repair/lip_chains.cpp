@@ -1,5 +1,6 @@
 #include "particles/repair/lip_chains.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace sunder::particles {
@@ -7,83 +8,118 @@ namespace {
 
 constexpr float kNever = std::numeric_limits<float>::infinity();
 
-/// Walks along a lip, forward as its border's half-edges point, or back.
+/// Walks along the lips of a tear.
 class LipWalk {
  public:
-  LipWalk(const LipBorder& border, const Structure& structure, Index tear, Side side)
-      : border_(border), structure_(structure), tear_(tear), side_(side) {}
+  /// @param limit  metres of border beyond the points given after which a chain ends.
+  LipWalk(const LipBorder& border, Structure& structure, Index tear, float limit)
+      : border_(border),
+        points_(structure.points),
+        tear_(tear),
+        limit_(limit),
+        given_(structure.scratch.given),
+        seen_(structure.scratch.seen) {}
 
-  [[nodiscard]] Index step(Index point, bool forward) const { return forward ? border_.next(point) : border_.previous(point); }
+  /// The chain of a point that is on a lip.
+  LipChain chain_of(Index start) {
+    LipChain chain;
+    chain.side = side_ = points_.lip_points[start].side;
+    const First first = walk_back(start);
+    const float along = walk_forward(first.point, chain.places);
+    float before = kNever, after = kNever;
+    if (!first.is_circle) {
+      before = to_tip(first.point, false);
+      after = to_tip(chain.places.back().point, true);
+    }
+    chain.length = before + along + after;
+    for (LipChain::Place& place : chain.places)
+      place.to_tip = std::min(place.along + before, along - place.along + after);
+    return chain;
+  }
+
+ private:
+  struct First {
+    Index point;
+    bool is_circle;
+  };
+
+  /// The next point, forward as the half-edges of the border point, or back.
+  [[nodiscard]] Index step(Index point, bool forward) const {
+    return forward ? border_.next(point) : border_.previous(point);
+  }
   [[nodiscard]] bool is_lip(Index point) const {
-    const LipPoint& lip = structure_.lip_points[point];
+    const LipPoint& lip = points_.lip_points[point];
     return lip.tear == tear_ && lip.side == side_;
   }
-  [[nodiscard]] float between(Index a, Index b) const { return (structure_.positions[b] - structure_.positions[a]).norm(); }
+  [[nodiscard]] float between(Index a, Index b) const {
+    return (points_.positions[b] - points_.positions[a]).norm();
+  }
 
-  /// How far it is from an end of a lip to its tip: half of the way around that to the other lip.
-  [[nodiscard]] float to_tip(Index end, bool forward, float limit) const {
+  /// The first point of a chain: the start itself where the chain is a circle.
+  [[nodiscard]] First walk_back(Index start) const {
+    Index first = start;
+    float beyond = 0;  // the points given
+    for (Index at = step(start, false);
+         at != kNone && !seen_.has(at) && is_lip(at) && beyond < limit_; at = step(at, false)) {
+      if (at == start) return {first, true};
+      beyond = given_.has(at) ? 0 : beyond + between(first, at);
+      first = at;
+    }
+    return {first, false};
+  }
+
+  /// Appends the places of a chain from its first point on. @return the distance from there to the
+  /// last one.
+  float walk_forward(Index first, std::vector<LipChain::Place>& places) {
+    float along = 0, beyond = 0;
+    for (Index at = first;;) {
+      places.push_back({at, along, kNever});
+      seen_.mark(at);
+      const Index following = step(at, true);
+      if (following == kNone || following == first || seen_.has(following)) return along;
+      if (!is_lip(following) || beyond >= limit_) return along;
+      const float length = between(at, following);
+      along += length;
+      beyond = given_.has(following) ? 0 : beyond + length;
+      at = following;
+    }
+  }
+
+  /// The distance from an end of a lip to its tip: half of the way around the tip to the other lip.
+  [[nodiscard]] float to_tip(Index end, bool forward) const {
     float walked = 0;
-    for (Index at = end; walked <= 2 * limit;) {
+    for (Index at = end; walked <= 2 * limit_;) {
       const Index following = step(at, forward);
       if (following == kNone || following == end) break;
       walked += between(at, following);
-      const LipPoint& lip = structure_.lip_points[following];
+      const LipPoint& lip = points_.lip_points[following];
       if (lip.tear == tear_ && lip.side != side_) return 0.5f * walked;
       at = following;
     }
     return kNever;
   }
 
- private:
   const LipBorder& border_;
-  const Structure& structure_;
+  const PointTable& points_;
   Index tear_;
-  Side side_;
+  float limit_;
+  const Marks& given_;
+  Marks& seen_;
+  Side side_ = Side::left;
 };
 
 }  // namespace
 
-std::vector<LipChain> find_lip_chains(const LipBorder& border, const Structure& structure, Index tear,
-                                      std::span<const Index> points, float limit, Marks& given, Marks& seen) {
-  given.begin(structure.point_count());
-  seen.begin(structure.point_count());
+std::vector<LipChain> find_lip_chains(const LipBorder& border, Structure& structure, Index tear,
+                                      std::span<const Index> points) {
+  Marks &given = structure.scratch.given, &seen = structure.scratch.seen;
+  given.begin(structure.points.count());
+  seen.begin(structure.points.count());
   for (const Index point : points) given.mark(point);
+  LipWalk walk(border, structure, tear, static_cast<float>(structure.report.range));
   std::vector<LipChain> chains;
-  for (const Index start : points) {
-    if (seen.has(start)) continue;
-    LipChain& chain = chains.emplace_back();
-    chain.side = structure.lip_points[start].side;
-    const LipWalk walk(border, structure, tear, chain.side);
-    Index first = start;
-    float beyond = 0;  // what is given
-    bool is_circle = false;
-    for (Index at = walk.step(start, false); at != kNone && !seen.has(at) && walk.is_lip(at) && beyond < limit;
-         at = walk.step(at, false)) {
-      is_circle = at == start;
-      if (is_circle) break;
-      beyond = given.has(at) ? 0 : beyond + walk.between(first, at);
-      first = at;
-    }
-    float along = 0;
-    beyond = 0;
-    for (Index at = first;;) {
-      chain.places.push_back({at, along, kNever});
-      seen.mark(at);
-      const Index following = walk.step(at, true);
-      if (following == kNone || following == first || seen.has(following) || !walk.is_lip(following) || beyond >= limit) break;
-      const float step = walk.between(at, following);
-      along += step;
-      beyond = given.has(following) ? 0 : beyond + step;
-      at = following;
-    }
-    float before = kNever, after = kNever;
-    if (!is_circle) {
-      before = walk.to_tip(first, false, limit);
-      after = walk.to_tip(chain.places.back().point, true, limit);
-    }
-    chain.length = before + along + after;
-    for (LipChain::Place& place : chain.places) place.to_tip = std::min(place.along + before, along - place.along + after);
-  }
+  for (const Index start : points)
+    if (!seen.has(start)) chains.push_back(walk.chain_of(start));
   return chains;
 }
 

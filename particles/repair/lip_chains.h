@@ -2,15 +2,15 @@
 
 #include "particles/clusters/band.h"
 #include "particles/clusters/lip_border.h"
-#include "particles/front/marks.h"
+#include "particles/clusters/structure.h"
 
 namespace sunder::particles {
 
-/// Puts lips of a tear in order. Structure::lip_points says which points are on them.
-/// @param points  of the chains that are wanted.
-/// @param limit   metres along the border beyond the points given, after which a chain is cut off and tips are not looked for.
-/// @param given, seen  scratch.
-[[nodiscard]] std::vector<LipChain> find_lip_chains(const LipBorder& border, const Structure& structure, Index tear,
-                                                    std::span<const Index> points, float limit, Marks& given, Marks& seen);
+/// Puts the lips of a tear in order. A chain ends a range of particles beyond the points given, and
+/// tips are looked for as far.
+/// @param structure  says which points are on lips; its scratch memory is used.
+/// @param points     of the chains that are wanted.
+[[nodiscard]] std::vector<LipChain> find_lip_chains(const LipBorder& border, Structure& structure,
+                                                    Index tear, std::span<const Index> points);
 
 }  // namespace sunder::particles

@@ -3,9 +3,11 @@
 #include <array>
 #include <cmath>
 
+#include "tear/geometry/tolerances.h"
 #include "tear/internal/surface.h"
 #include "tear/operation/stroke_tearing.h"
 #include "tear/path/entry.h"
+#include "tear/path/imprint_point.h"
 #include "tear/path/trace.h"
 #include "tear/sheet/gap.h"
 #include "tear/surface/improve.h"
@@ -37,7 +39,7 @@ StrokeTearing::PendingGap StrokeTearing::find_gap(const BladePlane& plane, const
     gap.faces.insert(gap.faces.end(), trace.faces.begin(), trace.faces.end());
     gap.section.insert(gap.section.end(), trace.section.begin(), trace.section.end());
     gap.length += trace.length_posed;
-    if (trace.end != Path::End::blade) return trace.progress;
+    if (trace.end != PathEnd::blade) return trace.progress;
     tip_ = imprint_point(trace.end_place, Snapping::tight, work.editor, work.posed);
     return 1.0;
   };

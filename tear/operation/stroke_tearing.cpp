@@ -4,8 +4,10 @@
 #include <utility>
 
 #include "tear/filling/walls.h"
+#include "tear/geometry/tolerances.h"
 #include "tear/path/entry.h"
 #include "tear/path/imprint.h"
+#include "tear/path/imprint_point.h"
 #include "tear/sheet/open_sheet.h"
 #include "tear/surface/improve.h"
 
@@ -92,7 +94,7 @@ double StrokeTearing::tear_piece(const BladePlane& plane, Index start, const Sur
   Path path = imprint_path(plane, start, editor, posed);
   const bool continues = start == tip_ && tip_ends_run_;
   tip_ = kNone;
-  if (path.end == Path::End::blocked) ++report.blocked;
+  if (path.end == PathEnd::blocked) ++report.blocked;
 
   // A tear of one edge between two tips would be closed at both ends of its only edge: it needs a point that can open.
   if (path.points.size() == 2 && !editor.surface().is_on_border(path.points[0]) && !editor.surface().is_on_border(path.points[1])) {
@@ -109,11 +111,11 @@ double StrokeTearing::tear_piece(const BladePlane& plane, Index start, const Sur
   if (path.points.size() < 2 || is_leftover) {
     editor.roll_back(before);
     posed.forget_from(before.points);
-    if (path.end == Path::End::blade && start < before.points) {  // moved by less than can be told: go on from here
+    if (path.end == PathEnd::blade && start < before.points) {  // moved by less than can be told: go on from here
       tip_ = start;
       tip_ends_run_ = continues;
     }
-    return path.end == Path::End::blade ? 1.0 : path.progress;
+    return path.end == PathEnd::blade ? 1.0 : path.progress;
   }
   ScratchVector<PointEdge> edges(&editor.scratch());
   edges.reserve(path.points.size() - 1);
@@ -127,7 +129,7 @@ double StrokeTearing::tear_piece(const BladePlane& plane, Index start, const Sur
   report.faces_crossed += path.faces_crossed;
   report.length_posed += path.length_posed;
   last_end_ = path.points.back();
-  if (path.end != Path::End::blade) return path.progress;
+  if (path.end != PathEnd::blade) return path.progress;
   tip_ = last_end_;
   tip_ends_run_ = true;
   return 1.0;

@@ -2,7 +2,8 @@
 
 #include "tear/geometry/blade_plane.h"
 #include "tear/internal/surface.h"
-#include "tear/path/entry.h"
+#include "tear/path/surface_hit.h"
+#include "tear/posed/posed_points.h"
 
 namespace sunder::tear {
 
@@ -14,15 +15,20 @@ struct EdgeCrossing {
 
   [[nodiscard]] SurfaceHit place() const;
   /// The same place, seen from the face across the edge.
-  [[nodiscard]] EdgeCrossing from_across(const Surface& surface) const { return {surface.twin[half_edge], 1 - fraction, position}; }
+  [[nodiscard]] EdgeCrossing from_across(const Surface& surface) const {
+    return {surface.twin[half_edge], 1 - fraction, position};
+  }
 };
 
-[[nodiscard]] EdgeCrossing cross_edge(const BladePlane& plane, Index half_edge, const SurfaceEditor& editor, PosedPoints& posed);
+[[nodiscard]] EdgeCrossing cross_edge(const BladePlane& plane, Index half_edge,
+                                      const SurfaceEditor& editor, PosedPoints& posed);
 
 /// Where the plane leaves a face that it entered through `half_edge`.
-[[nodiscard]] EdgeCrossing find_exit(const BladePlane& plane, Index half_edge, const SurfaceEditor& editor, PosedPoints& posed);
+[[nodiscard]] EdgeCrossing find_exit(const BladePlane& plane, Index half_edge,
+                                     const SurfaceEditor& editor, PosedPoints& posed);
 
 /// A part of the way through a face between two of its edges.
-[[nodiscard]] SurfaceHit place_between(const SurfaceHit& from, const SurfaceHit& to, double fraction);
+[[nodiscard]] SurfaceHit place_between(const SurfaceHit& from, const SurfaceHit& to,
+                                       double fraction);
 
 }  // namespace sunder::tear

@@ -5,6 +5,8 @@
 #include <functional>
 #include <limits>
 
+#include "tear/geometry/tolerances.h"
+
 namespace sunder::tear {
 namespace {
 
@@ -12,11 +14,12 @@ using Corners = std::array<Vec3d, 3>;
 
 Corners posed_corners(const SurfaceEditor& editor, PosedPoints& posed, Index triangle) {
   const Index* points = &editor.surface().corner_point[3 * triangle];
-  return {posed.position(editor, points[0]), posed.position(editor, points[1]), posed.position(editor, points[2])};
+  return {posed.position(editor, points[0]), posed.position(editor, points[1]),
+          posed.position(editor, points[2])};
 }
 
 /// The part of a triangle that lies in the plane, as two points on its edges.
-struct Crossing {
+struct PlaneSection {
   struct End {
     std::array<double, 3> barycentric = {0, 0, 0};
     Vec2d position = Vec2d::Zero();  ///< In the plane.
@@ -24,25 +27,26 @@ struct Crossing {
   std::array<End, 2> ends;
 };
 
-std::optional<Crossing> cross_triangle(const BladePlane& plane, const Corners& corners) {
+std::optional<PlaneSection> cross_triangle(const BladePlane& plane, const Corners& corners) {
   std::array<double, 3> distance;
   for (std::size_t k = 0; k < 3; ++k) distance[k] = plane.distance(corners[k]);
-  Crossing crossing;
+  PlaneSection section;
   std::size_t found = 0;
   for (std::size_t k = 0; k < 3; ++k) {
     const std::size_t l = (k + 1) % 3;
     if ((distance[k] >= 0) == (distance[l] >= 0)) continue;
     const double t = distance[k] / (distance[k] - distance[l]);
-    Crossing::End& end = crossing.ends[found++];
+    PlaneSection::End& end = section.ends[found++];
     end.barycentric[k] = 1 - t;
     end.barycentric[l] = t;
     end.position = plane.project(corners[k] + t * (corners[l] - corners[k]));
   }
-  return found == 2 ? std::optional(crossing) : std::nullopt;
+  return found == 2 ? std::optional(section) : std::nullopt;
 }
 
 /// Cuts [begin, end] of the line from a to b to a half-plane; false where nothing is left.
-bool clip(const BladePlane::HalfPlane& half_plane, const Vec2d& a, const Vec2d& b, double& begin, double& end) {
+bool clip(const BladePlane::HalfPlane& half_plane, const Vec2d& a, const Vec2d& b, double& begin,
+          double& end) {
   const double at_a = half_plane.value(a), at_b = half_plane.value(b);
   if (at_a < 0 && at_b < 0) return false;
   if (at_a < 0) begin = std::max(begin, at_a / (at_a - at_b));
@@ -60,48 +64,62 @@ class Segment {
         base_in_frame_(frame.place_of(base_)),
         direction_in_frame_(frame.axes * direction_),
         per_step_(direction_in_frame_.cwiseInverse()),
-        reach_(std::max({frame.reach(), base_.cwiseAbs().maxCoeff(), blade.tip.cwiseAbs().maxCoeff()})),
+        reach_(std::max(
+            {frame.reach(), base_.cwiseAbs().maxCoeff(), blade.tip.cwiseAbs().maxCoeff()})),
         rounding_(1e-12 * reach_) {}
 
   struct Part {
     double begin = 0, end = 1;
     [[nodiscard]] bool is_empty() const { return begin > end; }
-    [[nodiscard]] double begin_or_infinity() const { return is_empty() ? std::numeric_limits<double>::infinity() : begin; }
+    [[nodiscard]] double begin_or_infinity() const {
+      return is_empty() ? std::numeric_limits<double>::infinity() : begin;
+    }
   };
-  /// The part within a box of the surface, on the safe side of rounding: those boxes are wider than what they hold by more than
-  /// what rounding does to the place of a thing in the frame, but for what comes of coordinates in the model.
+  /// The part within a box of the surface, on the safe side of rounding: those boxes are wider than
+  /// what they hold by more than what rounding does to the place of a thing in the frame, but for
+  /// what comes of coordinates in the model.
   [[nodiscard]] Part part_in(const Box& box) const { return part_in(box, rounding_); }
 
   /// Of what lies in a shadow, and in a box that was looked at before.
   [[nodiscard]] Part part_in(const Box&, const Shadow& shadow) const {
     for (std::size_t k = 0; k < 3; ++k) {
-      const double at = shadow.normal[k].x() * base_in_frame_.y() + shadow.normal[k].y() * base_in_frame_.z();
+      const double at =
+          shadow.normal[k].x() * base_in_frame_.y() + shadow.normal[k].y() * base_in_frame_.z();
       if (at < shadow.from[k] - rounding_ || at > shadow.to[k] + rounding_) return {1, 0};
     }
-    const double to_low = shadow.low - rounding_ - base_in_frame_.x(), to_high = shadow.high + rounding_ - base_in_frame_.x();
+    const double to_low = shadow.low - rounding_ - base_in_frame_.x(),
+                 to_high = shadow.high + rounding_ - base_in_frame_.x();
     return {std::max(0.0, to_low * per_step_.x()), std::min(1.0, to_high * per_step_.x())};
   }
 
-  /// Where it meets a triangle, edges included so that none slips between two faces: Moeller and Trumbore 1997.
-  [[nodiscard]] std::optional<SurfaceHit> hit(Index triangle, const Corners& corners, double& depth) const {
+  /// Where it meets a triangle, edges included so that none slips between two faces: Moeller and
+  /// Trumbore 1997.
+  [[nodiscard]] std::optional<SurfaceHit> hit(Index triangle, const Corners& corners,
+                                              double& depth) const {
     const Vec3d ab = corners[1] - corners[0], ac = corners[2] - corners[0];
     const Vec3d h = direction_.cross(ac);
     const double determinant = ab.dot(h);
-    if (!(std::abs(determinant) > 1e-14 * ab.norm() * ac.norm() * direction_.norm())) return std::nullopt;
+    if (!(std::abs(determinant) > 1e-14 * ab.norm() * ac.norm() * direction_.norm()))
+      return std::nullopt;
     const Vec3d from_corner = base_ - corners[0];
     const double u = from_corner.dot(h) / determinant;
     const Vec3d q = from_corner.cross(ab);
     const double v = direction_.dot(q) / determinant;
     depth = ac.dot(q) / determinant;
     constexpr double kEdge = 1e-12;
-    if (u < -kEdge || v < -kEdge || u + v > 1 + kEdge || depth < 0 || depth > 1) return std::nullopt;
+    if (u < -kEdge || v < -kEdge || u + v > 1 + kEdge || depth < 0 || depth > 1)
+      return std::nullopt;
     // Along a triangle's plane, rounding finds places that are not in the triangle.
-    const Vec3d a = frame_.place_of(corners[0]), b = frame_.place_of(corners[1]), c = frame_.place_of(corners[2]);
+    const Vec3d a = frame_.place_of(corners[0]), b = frame_.place_of(corners[1]),
+                c = frame_.place_of(corners[2]);
     const Box box{a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)};
     const Part part = part_in(box, box.margin(reach_));
     if (part.is_empty()) return std::nullopt;
     depth = std::clamp(depth, part.begin, part.end);
-    return SurfaceHit{triangle, {std::max(0.0, 1 - u - v), std::max(0.0, u), std::max(0.0, v)}, base_ + depth * direction_, 0};
+    return SurfaceHit{triangle,
+                      {std::max(0.0, 1 - u - v), std::max(0.0, u), std::max(0.0, v)},
+                      base_ + depth * direction_,
+                      0};
   }
 
  private:
@@ -113,7 +131,8 @@ class Segment {
   [[nodiscard]] Part part_in(const Box& box, double margin) const {
     Part part;
     for (int k = 0; k < 3; ++k) {
-      const double to_low = box.low[k] - margin - base_in_frame_[k], to_high = box.high[k] + margin - base_in_frame_[k];
+      const double to_low = box.low[k] - margin - base_in_frame_[k],
+                   to_high = box.high[k] + margin - base_in_frame_[k];
       if (direction_in_frame_[k] == 0) {
         if (to_low > 0 || to_high < 0) return {1, 0};
         continue;
@@ -132,15 +151,17 @@ struct Contact {
   SweepCoordinates low;  ///< Of the hit.
 };
 
-std::optional<Contact> contact_with(Index triangle, const Corners& corners, const BladePlane& plane, double progress,
-                                    const BladePlane::HalfPlane& not_before) {
-  const auto crossing = cross_triangle(plane, corners);
-  if (!crossing) return std::nullopt;
-  const Vec2d &a = crossing->ends[0].position, &b = crossing->ends[1].position;
+std::optional<Contact> contact_with(Index triangle, const Corners& corners, const BladePlane& plane,
+                                    double progress, const BladePlane::HalfPlane& not_before) {
+  const auto section = cross_triangle(plane, corners);
+  if (!section) return std::nullopt;
+  const Vec2d &a = section->ends[0].position, &b = section->ends[1].position;
   double begin = 0, end = 1;
   bool is_reached = clip(not_before, a, b, begin, end);
-  for (const auto& half_plane : plane.reach()) is_reached = is_reached && clip(half_plane, a, b, begin, end);
-  if (!is_reached || end - begin < kSnap) return std::nullopt;  // what is left of a triangle after its neighbour's end was snapped
+  for (const auto& half_plane : plane.reach())
+    is_reached = is_reached && clip(half_plane, a, b, begin, end);
+  if (!is_reached || end - begin < kSnap)
+    return std::nullopt;  // what is left of a triangle after its neighbour's end was snapped
 
   const SweepCoordinates at_begin = plane.sweep_coordinates(a + begin * (b - a));
   const SweepCoordinates at_end = plane.sweep_coordinates(a + end * (b - a));
@@ -151,7 +172,8 @@ std::optional<Contact> contact_with(Index triangle, const Corners& corners, cons
   const double at = forward ? begin : end;
   Contact contact{{triangle, {}, Vec3d::Zero(), high.progress}, low};
   for (std::size_t k = 0; k < 3; ++k) {
-    contact.hit.barycentric[k] = (1 - at) * crossing->ends[0].barycentric[k] + at * crossing->ends[1].barycentric[k];
+    contact.hit.barycentric[k] =
+        (1 - at) * section->ends[0].barycentric[k] + at * section->ends[1].barycentric[k];
     contact.hit.position += contact.hit.barycentric[k] * corners[k];
   }
   return contact;
@@ -173,7 +195,8 @@ class Sweep {
         reach_(std::max(frame.reach(), plane.origin().cwiseAbs().maxCoeff())) {}
 
   [[nodiscard]] double least_progress(const Box& box) const {
-    if (std::any_of(within_.begin(), within_.end(), [&](const FramedHalfSpace& side) { return side.is_beside(box); }))
+    if (std::any_of(within_.begin(), within_.end(),
+                    [&](const FramedHalfSpace& side) { return side.is_beside(box); }))
       return std::numeric_limits<double>::infinity();
     const Box wide = box.widened(reach_);
     return plane_.least_progress({wide.low - origin_in_frame_, wide.high - origin_in_frame_});
@@ -205,17 +228,21 @@ class Sweep {
   double reach_;
 };
 
-/// Calls take(contact) for the contacts of a sweep with the surface. It returns the greatest progress that is of interest from then
-/// on.
+/// Calls take(contact) for the contacts of a sweep with the surface. It returns the greatest
+/// progress that is of interest from then on.
 template <class Take>
-void for_each_contact(const BladePlane& plane, double progress, const SurfaceEditor& editor, PosedPoints& posed, Take take) {
+void for_each_contact(const BladePlane& plane, double progress, const SurfaceEditor& editor,
+                      PosedPoints& posed, Take take) {
   const BladePlane::HalfPlane not_before = plane.from_progress(progress);
   const Frame frame = posed.frame_along(plane.axes(), editor);
   const Sweep sweep(plane, not_before, frame);
-  const auto least_progress = [&](const Box& box, const auto&... shadow) { return sweep.least_progress(box, shadow...); };
+  const auto least_progress = [&](const Box& box, const auto&... shadow) {
+    return sweep.least_progress(box, shadow...);
+  };
   double limit = std::numeric_limits<double>::max();
   posed.visit_faces(editor, frame, least_progress, [&](Index triangle) {
-    const auto contact = contact_with(triangle, posed_corners(editor, posed, triangle), plane, progress, not_before);
+    const auto contact =
+        contact_with(triangle, posed_corners(editor, posed, triangle), plane, progress, not_before);
     if (contact) limit = take(*contact);
     return limit;
   });
@@ -223,7 +250,8 @@ void for_each_contact(const BladePlane& plane, double progress, const SurfaceEdi
 
 }  // namespace
 
-std::optional<SurfaceHit> first_hit(const Blade& blade, const SurfaceEditor& editor, PosedPoints& posed) {
+std::optional<SurfaceHit> first_hit(const Blade& blade, const SurfaceEditor& editor,
+                                    PosedPoints& posed) {
   const Frame frame = posed.frame_along(axes_along(blade.tip - blade.base), editor);
   const Segment segment(blade, frame);
   std::optional<SurfaceHit> nearest;
@@ -234,7 +262,9 @@ std::optional<SurfaceHit> first_hit(const Blade& blade, const SurfaceEditor& edi
   posed.visit_faces(editor, frame, least_depth, [&](Index triangle) {
     double depth = 0;
     const auto hit = segment.hit(triangle, posed_corners(editor, posed, triangle), depth);
-    const bool is_nearer = hit && (depth < nearest_depth || (depth == nearest_depth && (!nearest || triangle < nearest->triangle)));
+    const bool is_nearer =
+        hit && (depth < nearest_depth ||
+                (depth == nearest_depth && (!nearest || triangle < nearest->triangle)));
     if (is_nearer) {
       nearest_depth = depth;
       nearest = hit;
@@ -244,11 +274,14 @@ std::optional<SurfaceHit> first_hit(const Blade& blade, const SurfaceEditor& edi
   return nearest;
 }
 
-std::optional<SurfaceHit> first_contact(const BladePlane& plane, double progress, const SurfaceEditor& editor, PosedPoints& posed) {
+std::optional<SurfaceHit> first_contact(const BladePlane& plane, double progress,
+                                        const SurfaceEditor& editor, PosedPoints& posed) {
   // Whatever the order of visits: the least progress, there the least depth, there the first face.
   double least = std::numeric_limits<double>::max(), least_depth = least;
   std::optional<Contact> nearest;
-  const auto is_there = [&](const Contact& contact) { return contact.low.progress < least + kSamePlace; };
+  const auto is_there = [&](const Contact& contact) {
+    return contact.low.progress < least + kSamePlace;
+  };
   const auto choose = [&](const Contact& contact) {
     if (is_there(contact) && contact.low.depth <= least_depth + kSamePlace &&
         (!nearest || contact.hit.triangle < nearest->hit.triangle))
@@ -260,7 +293,8 @@ std::optional<SurfaceHit> first_contact(const BladePlane& plane, double progress
   for_each_contact(plane, progress, editor, posed, [&](const Contact& contact) {
     if (contact.low.progress < least) {
       least = contact.low.progress;
-      count = static_cast<std::size_t>(std::remove_if(near.begin(), near.begin() + count, std::not_fn(is_there)) - near.begin());
+      count = static_cast<std::size_t>(
+          std::remove_if(near.begin(), near.begin() + count, std::not_fn(is_there)) - near.begin());
     }
     if (is_there(contact)) {
       are_all_near_kept = are_all_near_kept && count < near.size();
@@ -269,7 +303,8 @@ std::optional<SurfaceHit> first_contact(const BladePlane& plane, double progress
     return least + kSamePlace;
   });
   if (are_all_near_kept) {
-    for (const Contact& contact : std::span(near).first(count)) least_depth = std::min(least_depth, contact.low.depth);
+    for (const Contact& contact : std::span(near).first(count))
+      least_depth = std::min(least_depth, contact.low.depth);
     for (const Contact& contact : std::span(near).first(count)) choose(contact);
   } else {  // many faces around one point: look once more, and again
     for_each_contact(plane, progress, editor, posed, [&](const Contact& contact) {
@@ -284,10 +319,12 @@ std::optional<SurfaceHit> first_contact(const BladePlane& plane, double progress
   return nearest ? std::optional(nearest->hit) : std::nullopt;
 }
 
-std::optional<SurfaceHit> contact_at(const SurfaceHit& hit, const BladePlane& plane, const SurfaceEditor& editor,
-                                     PosedPoints& posed) {
-  const auto contact = contact_with(hit.triangle, posed_corners(editor, posed, hit.triangle), plane, 0, plane.not_before());
-  return contact && contact->low.progress <= kSamePlace ? std::optional(contact->hit) : std::nullopt;
+std::optional<SurfaceHit> contact_at(const SurfaceHit& hit, const BladePlane& plane,
+                                     const SurfaceEditor& editor, PosedPoints& posed) {
+  const auto contact = contact_with(hit.triangle, posed_corners(editor, posed, hit.triangle), plane,
+                                    0, plane.not_before());
+  return contact && contact->low.progress <= kSamePlace ? std::optional(contact->hit)
+                                                        : std::nullopt;
 }
 
 }  // namespace sunder::tear

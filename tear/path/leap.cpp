@@ -2,30 +2,28 @@
 
 #include <algorithm>
 
+#include "tear/geometry/tolerances.h"
 #include "tear/internal/surface.h"
 #include "tear/path/edge_crossing.h"
+#include "tear/path/imprint_point.h"
 #include "tear/surface/turn_edges.h"
 
 namespace sunder::tear {
-namespace {
 
-double progress_at(const BladePlane& plane, const Vec3d& position) { return plane.progress(position); }
-
-}  // namespace
-
-Leap find_leap(const BladePlane& plane, const Step& step, const SurfaceEditor& editor, PosedPoints& posed) {
+Leap find_leap(const BladePlane& plane, const Step& step, const SurfaceEditor& editor,
+               PosedPoints& posed) {
   EdgeCrossing at{Surface::next(step.corner), step.fraction, step.position};
   Leap leap{at.place(), 0, step.crossing_progress, {}};
   while (editor.is_inner_edge(at.half_edge)) {
     const EdgeCrossing entry = at.from_across(editor.surface());
     const EdgeCrossing exit = find_exit(plane, entry.half_edge, editor, posed);
-    if (!(progress_at(plane, exit.position) > progress_at(plane, entry.position) + 1e-12)) break;
+    if (!(plane.progress(exit.position) > plane.progress(entry.position) + kLeastAdvance)) break;
     ++leap.edges;
     const Reach reach = reach_between(plane, entry.position, exit.position);
     leap.landing = place_between(entry.place(), exit.place(), reach.fraction);
-    leap.progress = progress_at(plane, leap.landing.position);
-    if (reach.fraction < 1 || reach.ends_at_blade) {
-      leap.end = reach.ends_at_blade ? Path::End::blade : Path::End::surface;
+    leap.progress = plane.progress(leap.landing.position);
+    if (!reach.is_whole()) {
+      leap.end = reach.end();
       break;
     }
     const double snap = snapped_part(exit.half_edge, Snapping::by_shape, editor, posed);
@@ -35,13 +33,16 @@ Leap find_leap(const BladePlane& plane, const Step& step, const SurfaceEditor& e
   return leap;
 }
 
-Index take_leap(const BladePlane& plane, Index here, const Leap& leap, SurfaceEditor& editor, PosedPoints& posed) {
+Index take_leap(const BladePlane& plane, Index here, const Leap& leap, SurfaceEditor& editor,
+                PosedPoints& posed) {
   if (leap.edges == 0) return kNone;
   const SurfaceEditor::Mark before = editor.mark();
-  const Index landing = imprint_point(leap.landing, leap.end ? Snapping::near : Snapping::by_shape, editor, posed);
-  const bool goes_forward =
-      landing != here && progress_at(plane, posed.position(editor, landing)) > progress_at(plane, posed.position(editor, here));
-  if (goes_forward && turn_edges_into_line(here, landing, leap.landing.triangle, editor)) return landing;
+  const Index landing =
+      imprint_point(leap.landing, leap.end ? Snapping::near : Snapping::by_shape, editor, posed);
+  const bool goes_forward = landing != here && plane.progress(posed.position(editor, landing)) >
+                                                   plane.progress(posed.position(editor, here));
+  if (goes_forward && turn_edges_into_line(here, landing, leap.landing.triangle, editor))
+    return landing;
   editor.roll_back(before);
   posed.forget_from(before.points);
   return kNone;

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 
+#include "tear/geometry/tolerances.h"
 #include "tear/internal/surface.h"
 #include "tear/path/edge_crossing.h"
 
 namespace sunder::tear {
 
-Trace trace_path(const BladePlane& plane, Index start, const SurfaceEditor& editor, PosedPoints& posed) {
+Trace trace_path(const BladePlane& plane, Index start, const SurfaceEditor& editor,
+                 PosedPoints& posed) {
   Trace trace;
   const Surface& surface = editor.surface();
   const auto progress_at = [&](const Vec3d& at) { return plane.progress(at); };
@@ -30,8 +32,8 @@ Trace trace_path(const BladePlane& plane, Index start, const SurfaceEditor& edit
     trace.length_posed += (reached - here).norm();
     trace.progress = std::max(trace.progress, progress_at(reached));
     trace.section.push_back(plane.project(reached));
-    if (reach.fraction < 1 || reach.ends_at_blade) {
-      trace.end = reach.ends_at_blade ? Path::End::blade : Path::End::surface;
+    if (!reach.is_whole()) {
+      trace.end = reach.end();
       trace.end_place = place_between(from, exit.place(), reach.fraction);
       return trace;
     }
@@ -40,7 +42,7 @@ Trace trace_path(const BladePlane& plane, Index start, const SurfaceEditor& edit
     const EdgeCrossing entry = exit.from_across(surface);
     from = entry.place();
     exit = find_exit(plane, entry.half_edge, editor, posed);
-    if (!(progress_towards(plane, here, exit.position) - progress_at(here) > -1e-12))
+    if (!(progress_towards(plane, here, exit.position) - progress_at(here) > -kLeastAdvance))
       return trace;  // the surface folds away from the blade
   }
   return trace;

@@ -2,7 +2,8 @@
 
 #include <vector>
 
-#include "tear/path/imprint.h"
+#include "tear/path/surface_hit.h"
+#include "tear/path/sweep.h"
 
 namespace sunder::tear {
 
@@ -12,12 +13,13 @@ struct Trace {
   std::vector<Vec2d> section;  ///< Its corners in the plane, by growing progress.
   double length_posed = 0;
   double progress = 0;  ///< Of its end.
-  Path::End end = Path::End::surface;
+  PathEnd end = PathEnd::surface;
   SurfaceHit end_place;  ///< Where it ended, if at the blade.
 };
 
-/// Follows the curve as imprint_path() does: from a point on, face to face, while it goes forward in the sweep and the blade
-/// reaches it.
-[[nodiscard]] Trace trace_path(const BladePlane& plane, Index start, const SurfaceEditor& editor, PosedPoints& posed);
+/// Follows the curve as imprint_path() does: from a point on, face to face, while it goes forward
+/// in the sweep and the blade reaches it.
+[[nodiscard]] Trace trace_path(const BladePlane& plane, Index start, const SurfaceEditor& editor,
+                               PosedPoints& posed);
 
 }  // namespace sunder::tear

@@ -26,6 +26,12 @@ class PosedPoints {
     return look_up(editor, point);
   }
 
+  /// The position of a point that was posed or pinned since begin(); otherwise null.
+  [[nodiscard]] const Vec3d* find_known(Index point) const {
+    return point < known_.size() && known_[point].since == epoch_ ? &known_[point].position
+                                                                  : nullptr;
+  }
+
   /// Prefetches the memory that is read to pose a point.
   void fetch(const SurfaceEditor& editor, Index point) const;
 

@@ -3,8 +3,7 @@
 #include <algorithm>
 
 #include "tear/internal/surface.h"
-#include "tear/path/entry.h"
-#include "tear/path/imprint.h"
+#include "tear/path/imprint_point.h"
 
 namespace sunder::tear {
 namespace {

@@ -6,9 +6,9 @@
 #include <limits>
 #include <map>
 
+#include "tear/geometry/tolerances.h"
 #include "tear/internal/surface.h"
-#include "tear/path/entry.h"
-#include "tear/path/imprint.h"
+#include "tear/path/snapping.h"
 #include "tear/sheet/face_lines.h"
 
 namespace sunder::tear {

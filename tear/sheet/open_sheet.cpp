@@ -4,7 +4,7 @@
 #include <map>
 
 #include "tear/internal/surface.h"
-#include "tear/path/imprint.h"
+#include "tear/path/imprint_point.h"
 #include "tear/sheet/imprint_sheets.h"
 
 namespace sunder::tear {

@@ -20,8 +20,8 @@
 
 namespace sunder::tear {
 
-/// Refines and opens the surface, and with it the meshes: the only place that changes either. Every change is logged, so that it
-/// can be taken back to any earlier mark, bit for bit.
+/// Refines and opens the surface, and with it the meshes: the only place that changes either. Every
+/// change is logged, so that it can be taken back to any earlier mark, bit for bit.
 class SurfaceEditor {
  public:
   SurfaceEditor(const Character& source, Character& character);
@@ -42,7 +42,8 @@ class SurfaceEditor {
   [[nodiscard]] bool is_inner_edge(Index half_edge) const {
     const Index twin = surface_.twin[half_edge];
     // Of two triangles of one origin, one at least was appended.
-    if (twin == kNone || std::max(half_edge, twin) / 3 < surface_.first_triangle.back()) return false;
+    if (twin == kNone || std::max(half_edge, twin) / 3 < surface_.first_triangle.back())
+      return false;
     const TriangleRef here = surface_.triangle(half_edge / 3), there = surface_.triangle(twin / 3);
     return here.mesh == there.mesh && here.source_triangle == there.source_triangle;
   }
@@ -53,8 +54,9 @@ class SurfaceEditor {
 
   struct Mark;
 
-  // ---- Weights. Tears are found on the surface that births alone give, so that neither the policy of a point nor the time at
-  // which a fit arrived changes where a tear runs. Only arrays of the character have what policies made of it.
+  // ---- Weights. Tears are found on the surface that births alone give, so that neither the policy
+  // of a point nor the time at which a fit arrived changes where a tear runs. Only arrays of the
+  // character have what policies made of it.
 
   /// A vertex of a mesh.
   struct VertexRef {
@@ -62,15 +64,18 @@ class SurfaceEditor {
 
     bool operator==(const VertexRef&) const = default;
   };
-  /// Of which vertex one is a copy, or another vertex at the same point: the one that was there first. Its own, if none was.
+  /// Of which vertex one is a copy, or another vertex at the same point: the one that was there
+  /// first. Its own, if none was.
   [[nodiscard]] VertexRef original(Index mesh, Index vertex) const {
     const Index source_count = source_.meshes[mesh].vertex_count();
-    return vertex < source_count ? VertexRef{mesh, vertex} : records_[mesh][vertex - source_count].original;
+    return vertex < source_count ? VertexRef{mesh, vertex}
+                                 : records_[mesh][vertex - source_count].original;
   }
   /// What its weights were made by.
   [[nodiscard]] WeightPolicy policy(Index mesh, Index vertex) const {
     const Index source_count = source_.meshes[mesh].vertex_count();
-    return vertex < source_count ? WeightPolicy::barycentric : records_[mesh][vertex - source_count].policy;
+    return vertex < source_count ? WeightPolicy::barycentric
+                                 : records_[mesh][vertex - source_count].policy;
   }
   /// Bind position and influences by birth alone. The influences are good until the next change.
   [[nodiscard]] const Vec3f& born_position(Index mesh, Index vertex) const {
@@ -80,9 +85,11 @@ class SurfaceEditor {
   [[nodiscard]] std::span<const Influence> born_influences(Index mesh, Index vertex) const {
     const Index at = born_at(mesh, vertex);
     if (at == kNone) return character_.meshes[mesh].weights.of(vertex);
-    return std::span(born_influences_).subspan(born_[at].first_influence, born_[at].influence_count);
+    return std::span(born_influences_)
+        .subspan(born_[at].first_influence, born_[at].influence_count);
   }
-  /// Whether a policy may give a vertex other weights: it lies between corners, and is nobody's copy.
+  /// Whether a policy may give a vertex other weights: it lies between corners, and is nobody's
+  /// copy.
   [[nodiscard]] bool is_weighable(Index mesh, Index vertex) const;
   /// What a vertex has, or is to have.
   struct VertexWeights {
@@ -93,37 +100,45 @@ class SurfaceEditor {
     Index born = kNone;
   };
   struct WeightChange {
-    std::vector<VertexWeights> vertices;  ///< Ascending in each mesh, mesh after mesh; none of the source.
+    std::vector<VertexWeights>
+        vertices;  ///< Ascending in each mesh, mesh after mesh; none of the source.
     std::vector<Influence> influences;
   };
   /// Gives vertices what is in `change`, and puts there what they had: once more takes it back.
   /// @throws CapacityExceeded, std::bad_alloc before anything is changed
   void exchange(WeightChange& change);
-  /// Keeps what a vertex was born with, which is about to get other weights. @return what VertexWeights::born is.
+  /// Keeps what a vertex was born with, which is about to get other weights. @return what
+  /// VertexWeights::born is.
   [[nodiscard]] Index keep_born(Index mesh, Index vertex);
-  /// A vertex as what moves it exactly in every pose: where it lies between vertices that are not between others. Whatever policy
-  /// they have. Morph targets at these weights.
-  void describe_exactly(const VertexRef& original, std::span<const float> morph_weights, AnimationPoint& point) const;
+  /// A vertex as what moves it exactly in every pose: where it lies between vertices that are not
+  /// between others. Whatever policy they have. Morph targets at these weights.
+  void describe_exactly(const VertexRef& original, std::span<const float> morph_weights,
+                        AnimationPoint& point) const;
   /// How many vertices each mesh had.
   [[nodiscard]] std::vector<Index> vertex_counts_at(const Mark& mark) const;
   /// What exchange() changes, before or after it.
   void describe(const WeightChange& exchanged, ChangeRecord& change) const;
-  [[nodiscard]] const InfluencePositions& influence_positions(Index mesh) const { return exact_[mesh]; }
+  [[nodiscard]] const InfluencePositions& influence_positions(Index mesh) const {
+    return exact_[mesh];
+  }
   /// Where an exact vertex' positions begin among those of its mesh.
   [[nodiscard]] std::size_t exact_place(Index mesh, Index vertex) const {
     const auto& vertices = exact_[mesh].vertices;
-    return exact_first_[mesh]
-                       [static_cast<std::size_t>(std::lower_bound(vertices.begin(), vertices.end(), vertex) - vertices.begin())];
+    return exact_first_[mesh][static_cast<std::size_t>(
+        std::lower_bound(vertices.begin(), vertices.end(), vertex) - vertices.begin())];
   }
   [[nodiscard]] bool has_exact() const {
-    return std::any_of(exact_.begin(), exact_.end(), [](const InfluencePositions& of) { return !of.vertices.empty(); });
+    return std::any_of(exact_.begin(), exact_.end(),
+                       [](const InfluencePositions& of) { return !of.vertices.empty(); });
   }
-  /// Brings influence_positions() up to date for the vertices from `first` up. O(exact vertices from there).
+  /// Brings influence_positions() up to date for the vertices from `first` up. O(exact vertices
+  /// from there).
   void update_exact(Index mesh, Index first);
 
   /// Triangles of walls and caps as they were made.
   [[nodiscard]] const std::vector<Triangle>& fillings(Index mesh) const { return fillings_[mesh]; }
-  /// A number that no other filling ever had; they ascend. @param origin  the filling's, as in origin_triangle().
+  /// A number that no other filling ever had; they ascend. @param origin  the filling's, as in
+  /// origin_triangle().
   [[nodiscard]] std::uint64_t filling_serial(Index mesh, Index origin) const {
     return filling_serials_[mesh][origin - source_.meshes[mesh].triangle_count()];
   }
@@ -131,24 +146,29 @@ class SurfaceEditor {
   /// A triangle of the source or, beyond those, of a wall or cap: what births refer to.
   [[nodiscard]] const Triangle& origin_triangle(Index mesh, Index triangle) const {
     const Index source_count = source_.meshes[mesh].triangle_count();
-    return triangle < source_count ? source_.meshes[mesh].triangles[triangle] : fillings_[mesh][triangle - source_count];
+    return triangle < source_count ? source_.meshes[mesh].triangles[triangle]
+                                   : fillings_[mesh][triangle - source_count];
   }
 
-  /// The surface's number of a mesh's triangle. Appended triangles are numbered in the order in which they were made, over all
-  /// meshes.
+  /// The surface's number of a mesh's triangle. Appended triangles are numbered in the order in
+  /// which they were made, over all meshes.
   [[nodiscard]] Index surface_triangle(Index mesh, Index triangle) const {
     const Index source_count = source_.meshes[mesh].triangle_count();
-    return triangle < source_count ? surface_.first_triangle[mesh] + triangle : appended_triangles_[mesh][triangle - source_count];
+    return triangle < source_count ? surface_.first_triangle[mesh] + triangle
+                                   : appended_triangles_[mesh][triangle - source_count];
   }
-  /// Calls visit(triangle of the surface) for each face that is a part of an origin, as far as there still are any.
+  /// Calls visit(triangle of the surface) for each face that is a part of an origin, as far as
+  /// there still are any.
   template <class Visit>
   void for_each_part(Index mesh, Index origin, Visit visit) const {
     const auto visit_face = [&](Index triangle) {
       if (!surface_.has_repeated_point(triangle)) visit(triangle);
     };
-    if (origin < source_.meshes[mesh].triangle_count()) visit_face(surface_.first_triangle[mesh] + origin);
+    if (origin < source_.meshes[mesh].triangle_count())
+      visit_face(surface_.first_triangle[mesh] + origin);
     if (origin >= newest_part_[mesh].size()) return;
-    for (Index part = newest_part_[mesh][origin]; part != kNone; part = older_part_[part - surface_.first_triangle.back()])
+    for (Index part = newest_part_[mesh][origin]; part != kNone;
+         part = older_part_[part - surface_.first_triangle.back()])
       visit_face(part);
   }
   /// Barycentric coordinates of a corner in the triangle's origin.
@@ -167,7 +187,8 @@ class SurfaceEditor {
   [[nodiscard]] bool is_whole(Index triangle) const {
     if (triangle >= surface_.first_triangle.back()) return false;
     const TriangleRef ref = surface_.triangle(triangle);
-    return is_same(character_.meshes[ref.mesh].triangles[ref.triangle], source_.meshes[ref.mesh].triangles[ref.triangle]);
+    return is_same(character_.meshes[ref.mesh].triangles[ref.triangle],
+                   source_.meshes[ref.mesh].triangles[ref.triangle]);
   }
   /// Asks memory for what crossing a face will need.
   void fetch(Index triangle) const;
@@ -175,15 +196,19 @@ class SurfaceEditor {
   /// Splits faces one after the other along a line.
   class Crossing;
 
-  /// Puts one new point on an edge, `fraction` of the way along the half-edge, and splits the faces at both sides of it.
-  /// @return the point; kNone where a face would have lost its area or turned over, and nothing was changed.
+  /// Puts one new point on an edge, `fraction` of the way along the half-edge, and splits the faces
+  /// at both sides of it.
+  /// @return the point; kNone where a face would have lost its area or turned over, and nothing was
+  /// changed.
   [[nodiscard]] Index split_edge(Index half_edge, double fraction);
-  /// Puts a new point into a triangle and splits it in three. `barycentric`: of its corners, all > 0.
+  /// Puts a new point into a triangle and splits it in three. `barycentric`: of its corners, all >
+  /// 0.
   /// @return as split_edge().
   [[nodiscard]] Index split_triangle(Index triangle, const std::array<double, 3>& barycentric);
-  /// Replaces the edge between two faces of one source triangle by the other diagonal of their quadrilateral: (a, b, c), (b, a, d)
-  /// become (a, d, c), (b, c, d).
-  /// @return false where they are of different triangles, or a face would lose its area or turn over; nothing was changed.
+  /// Replaces the edge between two faces of one source triangle by the other diagonal of their
+  /// quadrilateral: (a, b, c), (b, a, d) become (a, d, c), (b, c, d).
+  /// @return false where they are of different triangles, or a face would lose its area or turn
+  /// over; nothing was changed.
   bool flip_edge(Index half_edge);
 
   /// From here on ancestor() asks which triangle stood there now.
@@ -199,6 +224,9 @@ class SurfaceEditor {
   void begin_opening(bool keeps_opened);
   /// Border half-edges, ascending, wherever splitting and turning took them.
   [[nodiscard]] std::vector<Index> opened() const;
+  /// All that opened() goes by, so that a call that fails can put it back.
+  [[nodiscard]] const std::unordered_set<Index>& opened_half_edges() const { return opened_; }
+  void restore_opened(std::unordered_set<Index>& before) { opened_.swap(before); }
 
   /// Disconnects the faces at both sides of a half-edge.
   void cut_edge(Index half_edge);
@@ -206,9 +234,10 @@ class SurfaceEditor {
   /// @param corners    of the fan, all.
   /// @param remaining  a corner of each other fan that this point has.
   Index separate_fan(std::span<const Index> corners, std::span<const Index> remaining);
-  /// The same of the left one of the two fans that are left of a point through which a path was cut, by the path's half-edges
-  /// that arrive there and leave, and those across them.
-  /// @return kNone, and nothing has changed, where there is more to it: other fans, borders or several vertices at the point.
+  /// The same of the left one of the two fans that are left of a point through which a path was
+  /// cut, by the path's half-edges that arrive there and leave, and those across them.
+  /// @return kNone, and nothing has changed, where there is more to it: other fans, borders or
+  /// several vertices at the point.
   Index separate_left(Index arriving, Index leaving, Index across_arriving, Index across_leaving);
   /// Takes a triangle away whose edges are all cut. Its points keep no corner of it.
   void retire_triangle(Index triangle);
@@ -218,15 +247,17 @@ class SurfaceEditor {
   // ---- Walls and caps.
 
   [[nodiscard]] Index append_submesh(Index mesh, const std::string& name, Index material);
-  /// A vertex at the point of another one, of a mesh with the same skin. It is born when a filling uses it.
+  /// A vertex at the point of another one, of a mesh with the same skin. It is born when a filling
+  /// uses it.
   [[nodiscard]] Index append_rim_vertex(Index mesh, const VertexRef& like);
-  /// A vertex with the attributes of another one, and with its bind position and influences by birth: to be changed before anyone
-  /// sees it.
+  /// A vertex with the attributes of another one, and with its bind position and influences by
+  /// birth: to be changed before anyone sees it.
   [[nodiscard]] Index append_filling_vertex(Index mesh, Index like);
   [[nodiscard]] Mesh& mesh_of_new_vertex(Index mesh) { return character_.meshes[mesh]; }
   [[nodiscard]] Index append_filling_point() { return append_point(); }
   /// A triangle that no triangle of the source covers. Unconnected; see connect().
-  Index append_filling(Index mesh, Index submesh, const std::array<Index, 3>& points, const Triangle& vertices);
+  Index append_filling(Index mesh, Index submesh, const std::array<Index, 3>& points,
+                       const Triangle& vertices);
   /// Joins two border half-edges that run between the same points in opposite directions.
   void connect(Index a, Index b);
 
@@ -247,8 +278,8 @@ class SurfaceEditor {
   [[nodiscard]] Mark mark();
   void roll_back(const Mark& to);
 
-  /// Calls visit(triangle) once for each triangle that was there at `begin` and changed since, retired ones too, in the order in
-  /// which they changed.
+  /// Calls visit(triangle) once for each triangle that was there at `begin` and changed since,
+  /// retired ones too, in the order in which they changed.
   template <class Visit>
   void for_each_changed(const Mark& begin, Visit visit) const {
     for (Index i = begin.log_length; i < log_.size(); ++i)
@@ -262,7 +293,8 @@ class SurfaceEditor {
         for (const Index twin : log_[i].twins)
           if (twin != kNone) visit(log_[i].triangle, twin / 3);
   }
-  /// Numbers the triangles that changed or were appended since, without gaps of note; kNone for others.
+  /// Numbers the triangles that changed or were appended since, without gaps of note; kNone for
+  /// others.
   [[nodiscard]] Index number_since(const Mark& begin, Index triangle) const {
     const Index changes = static_cast<Index>(log_.size()) - begin.log_length;
     if (triangle >= begin.triangles) return changes + triangle - begin.triangles;
@@ -270,14 +302,16 @@ class SurfaceEditor {
     return entry == kNone || entry < begin.log_length ? kNone : entry - begin.log_length;
   }
   [[nodiscard]] Index numbers_since(const Mark& begin) const {
-    return static_cast<Index>(log_.size()) - begin.log_length + surface_.triangle_count() - begin.triangles;
+    return static_cast<Index>(log_.size()) - begin.log_length + surface_.triangle_count() -
+           begin.triangles;
   }
   /// The triangle that an appended one was split from; kNone for those of walls and caps.
   [[nodiscard]] Index parent(Index triangle) const {
     const Index parent = parents_[triangle - surface_.first_triangle.back()];
     return parent == kNone ? kNone : parent & ~kSettled;
   }
-  /// Whether a triangle of the source was split along the best diagonal and not again since, or another is one of those parts.
+  /// Whether a triangle of the source was split along the best diagonal and not again since, or
+  /// another is one of those parts.
   [[nodiscard]] bool is_settled(Index triangle) const {
     if (triangle < surface_.first_triangle.back()) {
       const TriangleRef ref = surface_.triangle(triangle);
@@ -289,12 +323,18 @@ class SurfaceEditor {
     return parent != kNone && (parent & kSettled) != 0;
   }
   /// Vertices appended since, over all meshes.
-  [[nodiscard]] Index vertices_since(const Mark& begin) const { return static_cast<Index>(vertex_mesh_.size()) - begin.vertices; }
+  [[nodiscard]] Index vertices_since(const Mark& begin) const {
+    return static_cast<Index>(vertex_mesh_.size()) - begin.vertices;
+  }
 
   /// Fills in what changed since `begin`, but for lips and rims.
   void describe(const Mark& begin, ChangeRecord& change) const;
 
-  /// Takes back the newest operation, which began at `begin`. @param redo  is made what does it again.
+  /// Fills in what roll_back(begin) is going to change; lips and rims are none.
+  void describe_roll_back(const Mark& begin, ChangeRecord& change) const;
+
+  /// Takes back the newest operation, which began at `begin`. @param redo  is made what does it
+  /// again.
   struct Redo;
   void undo(const Mark& begin, Redo& redo, ChangeRecord& change);
   /// @param change  filled in but for lips and rims.
@@ -334,33 +374,39 @@ class SurfaceEditor {
   };
   [[nodiscard]] Index born_at(Index mesh, Index vertex) const {
     const Index source_count = source_.meshes[mesh].vertex_count();
-    return vertex < source_count || born_.empty() ? kNone : records_[mesh][vertex - source_count].born;
+    return vertex < source_count || born_.empty() ? kNone
+                                                  : records_[mesh][vertex - source_count].born;
   }
   [[nodiscard]] VertexRecord record_of(Index mesh, Index vertex) const {
     const Index source_count = source_.meshes[mesh].vertex_count();
-    return vertex < source_count ? VertexRecord{{mesh, vertex}} : records_[mesh][vertex - source_count];
+    return vertex < source_count ? VertexRecord{{mesh, vertex}}
+                                 : records_[mesh][vertex - source_count];
   }
-  void interpolate_born(const Triangle& corners, const std::array<double, 3>& barycentric, Index mesh);
-  void add_exactly(double part, Index mesh, Index vertex, std::span<const float> morph_weights, AnimationPoint& point) const;
+  void interpolate_born(const Triangle& corners, const std::array<double, 3>& barycentric,
+                        Index mesh);
+  void add_exactly(double part, Index mesh, Index vertex, std::span<const float> morph_weights,
+                   AnimationPoint& point) const;
   /// Forgets influence positions of the vertices from `first` up, which are still there.
   void forget_exact(Index mesh, Index first);
   void append_exact(Index mesh, Index vertex);
   /// So that an exchange is not left half done for want of memory.
   void reserve_exact(Index mesh, std::size_t vertices, std::size_t influences);
   template <class Value>
-  [[nodiscard]] Eigen::Vector3d moved_by(Index slot, const VertexRef& vertex, bool follows_original, Value value) const;
+  [[nodiscard]] Eigen::Vector3d moved_by(Index slot, const VertexRef& vertex, bool follows_original,
+                                         Value value) const;
   void resize_born(Index count);
 
   [[nodiscard]] bool is_oldest_since(const Mark& begin, Index entry) const {
     const Index previous = log_[entry].previous;
-    return log_[entry].triangle < begin.triangles && (previous == kNone || previous < begin.log_length);
+    return log_[entry].triangle < begin.triangles &&
+           (previous == kNone || previous < begin.log_length);
   }
   /// Of each mesh. Valid until asked again.
   [[nodiscard]] std::span<const MeshSizes> sizes_at(const Mark& mark) const;
   /// Writes what the entry's triangle is now.
   void fill(LogEntry& entry) const;
-  /// Lets what follows append as much without any array growing: a change is not left half done for want of memory. The vertices
-  /// are like others of the mesh.
+  /// Lets what follows append as much without any array growing: a change is not left half done for
+  /// want of memory. The vertices are like others of the mesh.
   /// @throws CapacityExceeded, std::bad_alloc
   void make_room_for_vertices(Index mesh, Index count, Index influences) {
     if (room_.vertices_of != mesh || room_.vertices < count || room_.influences < influences)
@@ -389,7 +435,8 @@ class SurfaceEditor {
   void move_opened(Index from, Index to);
   Index append_triangle(Index like, const std::array<Index, 3>& points, const Triangle& vertices);
   Index append_point();
-  /// Puts appended triangles at the head of their origin's chain, or takes those from `first` up off again.
+  /// Puts appended triangles at the head of their origin's chain, or takes those from `first` up
+  /// off again.
   void chain_new_parts();
   void unchain_parts_from(Index first);
   Index append_vertex(Index mesh, const Birth& birth);
@@ -413,32 +460,39 @@ class SurfaceEditor {
   const Character& source_;
   Character& character_;
   Surface surface_;
-  std::vector<std::vector<Birth>> births_;          ///< Of each mesh: its vertices beyond the source's.
+  std::vector<std::vector<Birth>> births_;  ///< Of each mesh: its vertices beyond the source's.
   std::vector<std::vector<VertexRecord>> records_;  ///< Likewise.
   std::vector<Born> born_;
   std::vector<Influence> born_influences_;
-  std::vector<InfluencePositions> exact_;        ///< Of each mesh.
-  std::vector<std::vector<Index>> exact_first_;  ///< Of each mesh: where the positions of each of its exact vertices begin.
+  std::vector<InfluencePositions> exact_;  ///< Of each mesh.
+  std::vector<std::vector<Index>>
+      exact_first_;  ///< Of each mesh: where the positions of each of its exact vertices begin.
   std::vector<std::vector<Triangle>> fillings_;  ///< Of each mesh.
   std::vector<std::vector<std::uint64_t>> filling_serials_;
   std::uint64_t next_serial_ = 0;
-  std::vector<std::vector<Index>>
-      appended_triangles_;                       ///< Of each mesh: the surface's numbers of its triangles beyond the source's.
-  std::vector<Index> vertex_mesh_;               ///< Of each appended vertex.
-  std::vector<std::vector<Index>> newest_part_;  ///< Of each mesh: of each origin, the last triangle appended that is a part of it.
-  std::vector<Index> older_part_;                ///< Of each appended triangle: the one before it of the same origin.
+  std::vector<std::vector<Index>> appended_triangles_;  ///< Of each mesh: the surface's numbers of
+                                                        ///< its triangles beyond the source's.
+  std::vector<Index> vertex_mesh_;                      ///< Of each appended vertex.
+  std::vector<std::vector<Index>> newest_part_;         ///< Of each mesh: of each origin, the last
+                                                        ///< triangle appended that is a part of it.
+  std::vector<Index>
+      older_part_;  ///< Of each appended triangle: the one before it of the same origin.
   std::vector<Addition> additions_;
   std::vector<LogEntry> log_;  ///< Of all operations that were done and not taken back.
   std::vector<SideEntry> side_log_;
-  std::vector<Index> newest_entry_;              ///< Of each triangle, in the log.
-  Mark logged_since_;                            ///< The newest mark: what was logged or appended since need not be logged again.
-  std::vector<Index> side_attribute_;            ///< Of each mesh, in its custom attributes; kNone without.
-  std::vector<std::vector<float>> spare_sides_;  ///< Of each mesh: what an attribute that was taken back used, all zero.
-  /// First value of _TEARSIDE that no point has. Each point that is made gets one: however tears cross, and wherever positions
-  /// round to, no two points in one place are taken for one.
+  std::vector<Index> newest_entry_;  ///< Of each triangle, in the log.
+  Mark logged_since_;  ///< The newest mark: what was logged or appended since need not be logged
+                       ///< again.
+  std::vector<Index> side_attribute_;  ///< Of each mesh, in its custom attributes; kNone without.
+  std::vector<std::vector<float>>
+      spare_sides_;  ///< Of each mesh: what an attribute that was taken back used, all zero.
+  /// First value of _TEARSIDE that no point has. Each point that is made gets one: however tears
+  /// cross, and wherever positions round to, no two points in one place are taken for one.
   Index next_side_ = 1;
-  static constexpr Index kSettled = Index{1} << 31;  // beside a triangle's number, which is less than 2^30
-  std::vector<Index> parents_;                       ///< Of each appended triangle: what it was split from, and kSettled.
+  static constexpr Index kSettled = Index{1}
+                                    << 31;  // beside a triangle's number, which is less than 2^30
+  std::vector<Index>
+      parents_;  ///< Of each appended triangle: what it was split from, and kSettled.
   bool keeps_opened_ = false;
   mutable std::vector<MeshSizes> sizes_;
   bool is_fixed_ = false;
@@ -475,8 +529,9 @@ struct SurfaceEditor::Redo {
   std::vector<LogEntry> log;
   std::vector<SideEntry> side_log;
   Index next_side = 1;
-  std::vector<LogEntry> changed;                    ///< Triangles that were there before, as the operation left them.
-  std::vector<std::array<Index, 2>> known_corners;  ///< Points that were there before, and the corners they were known by.
+  std::vector<LogEntry> changed;  ///< Triangles that were there before, as the operation left them.
+  std::vector<std::array<Index, 2>>
+      known_corners;  ///< Points that were there before, and the corners they were known by.
   std::vector<SideEntry> sides;
 };
 

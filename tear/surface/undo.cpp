@@ -26,18 +26,21 @@ void SurfaceEditor::undo(const Mark& begin, Redo& redo, ChangeRecord& change) {
   for (Index m = 0; m < character_.meshes.size(); ++m) {
     const Mesh& mesh = character_.meshes[m];
     const auto added = [&](Addition::Kind kind) {
-      return static_cast<std::size_t>(std::count_if(redo.additions.begin(), redo.additions.end(),
-                                                    [&](const Addition& a) { return a.mesh == m && a.kind == kind; }));
+      return static_cast<std::size_t>(
+          std::count_if(redo.additions.begin(), redo.additions.end(),
+                        [&](const Addition& a) { return a.mesh == m && a.kind == kind; }));
     };
     Redo::OfMesh& of_mesh = redo.meshes.emplace_back();
     of_mesh.vertices = copy_vertices_from(sizes[m].vertices, mesh);
     of_mesh.triangles = tail_of(mesh.triangles, sizes[m].triangles);
     of_mesh.triangle_submesh = tail_of(mesh.triangle_submesh, sizes[m].triangles);
-    of_mesh.submeshes = tail_of(mesh.submeshes, mesh.submeshes.size() - added(Addition::Kind::submesh));
+    of_mesh.submeshes =
+        tail_of(mesh.submeshes, mesh.submeshes.size() - added(Addition::Kind::submesh));
     of_mesh.records = tail_of(records_[m], sizes[m].vertices - source_.meshes[m].vertex_count());
     of_mesh.births = tail_of(births_[m], sizes[m].vertices - source_.meshes[m].vertex_count());
     of_mesh.fillings = tail_of(fillings_[m], fillings_[m].size() - added(Addition::Kind::filling));
-    of_mesh.appended_triangles = tail_of(appended_triangles_[m], sizes[m].triangles - source_.meshes[m].triangle_count());
+    of_mesh.appended_triangles =
+        tail_of(appended_triangles_[m], sizes[m].triangles - source_.meshes[m].triangle_count());
   }
   const Index source_triangles = surface_.first_triangle.back();
   redo.corner_point = tail_of(surface_.corner_point, 3 * std::size_t{begin.triangles});
@@ -50,46 +53,29 @@ void SurfaceEditor::undo(const Mark& begin, Redo& redo, ChangeRecord& change) {
   redo.next_side = next_side_;
   redo.born = tail_of(born_, begin.born);
   redo.born_influences =
-      tail_of(born_influences_, born_.size() > begin.born ? born_[begin.born].first_influence : born_influences_.size());
+      tail_of(born_influences_, born_.size() > begin.born ? born_[begin.born].first_influence
+                                                          : born_influences_.size());
   redo.log = tail_of(log_, begin.log_length);
   redo.side_log = tail_of(side_log_, begin.side_log_length);
   for (const SideEntry& entry : redo.side_log)
     redo.sides.push_back({entry.mesh, entry.vertex, (*tear_sides(entry.mesh))[entry.vertex]});
 
-  // What the triangles are now, and the corners by which the points that they had or have are known.
+  // What the triangles are now, and the corners by which the points that they had or have are
+  // known.
   for_each_changed(begin, [&](Index triangle) {
     LogEntry& entry = redo.changed.emplace_back();
     entry.triangle = triangle;
     fill(entry);
   });
-  std::sort(redo.changed.begin(), redo.changed.end(), [](const LogEntry& a, const LogEntry& b) { return a.triangle < b.triangle; });
+  std::sort(redo.changed.begin(), redo.changed.end(),
+            [](const LogEntry& a, const LogEntry& b) { return a.triangle < b.triangle; });
   for (const LogEntry& entry : redo.log)
     for (const Index point : entry.points)
-      if (point != kNone && point < begin.points) redo.known_corners.push_back({point, surface_.point_corner[point]});
+      if (point != kNone && point < begin.points)
+        redo.known_corners.push_back({point, surface_.point_corner[point]});
 
+  describe_roll_back(begin, change);
   roll_back(begin);
-
-  change.first_point = begin.points;
-  change.point_count = 0;
-  change.lips.clear();
-  change.rims.left.clear();
-  change.rims.right.clear();
-  std::size_t count = 0;
-  for (Index m = 0; m < character_.meshes.size(); ++m) {
-    MeshChange& of_mesh = renew_change(count, m, change);
-    of_mesh.first_vertex = sizes[m].vertices;
-    of_mesh.first_triangle = sizes[m].triangles;
-    for (const LogEntry& entry : redo.changed) {
-      const TriangleRef ref = surface_.triangle(entry.triangle);
-      if (ref.mesh == m && character_.meshes[m].triangles[ref.triangle] != entry.vertices)
-        of_mesh.rewritten.push_back({ref.triangle, entry.vertices});
-    }
-    const Redo::OfMesh& undone = redo.meshes[m];
-    if (of_mesh.rewritten.empty() && undone.births.empty() && undone.triangles.empty()) continue;
-    fill_dirty_ranges(redo.side_log, of_mesh);
-    ++count;
-  }
-  change.meshes.resize(count);
 }
 
 void SurfaceEditor::redo(const Redo& redo, ChangeRecord& change) {
@@ -121,7 +107,8 @@ void SurfaceEditor::redo(const Redo& redo, ChangeRecord& change) {
     append(births_[m], of.births);
     append(records_[m], of.records);
     append(fillings_[m], of.fillings);
-    while (filling_serials_[m].size() < fillings_[m].size()) filling_serials_[m].push_back(next_serial_++);
+    while (filling_serials_[m].size() < fillings_[m].size())
+      filling_serials_[m].push_back(next_serial_++);
     append(appended_triangles_[m], of.appended_triangles);
     for (const LogEntry& entry : redo.changed) {
       const TriangleRef ref = surface_.triangle(entry.triangle);
@@ -155,7 +142,8 @@ void SurfaceEditor::redo(const Redo& redo, ChangeRecord& change) {
   }
   append(side_log_, redo.side_log);
   for (Index m = 0; m < character_.meshes.size(); ++m)
-    update_exact(m, character_.meshes[m].vertex_count() - static_cast<Index>(redo.meshes[m].records.size()));
+    update_exact(
+        m, character_.meshes[m].vertex_count() - static_cast<Index>(redo.meshes[m].records.size()));
   begin_stage();
 }
 

@@ -40,7 +40,7 @@ const std::map<std::string, Rooms> kRooms = {
     {"particles",
      {{".", {"bullet", "clusters", "contact", "front", "motion", "repair"}},
       {"bullet", {}},
-      {"contact", {"motion"}},
+      {"contact", {"clusters", "motion"}},
       {"motion", {"clusters"}},
       {"repair", {"clusters", "front"}},
       {"clusters", {"front"}},

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::uint32_t kBones = 20;
 
-/// A strip whose vertices have up to so many of twenty bones, some of them far too small for any integer.
+/// A strip whose vertices have up to so many influences, of twenty bones, some far too small for any integer.
 Character strip_with_influences(std::uint32_t most) {
   GltfBuilder builder = skinned_strip();
   Json joints = Json::array();

@@ -187,7 +187,7 @@ TEST(LoadGltfMesh, tear_sides_are_found_under_the_name_that_tools_keep) {
     const CustomAttribute expected{kTearSideAttribute, 1, false, sides};
     EXPECT_EQ(first_mesh(loaded).custom_attributes, std::vector<CustomAttribute>{expected});
   }
-  for (const bool is_first : {false, true}) {  // Where both are there, the attribute itself holds.
+  for (const bool is_first : {false, true}) {  // If both are present, the attribute itself is used.
     GltfBuilder builder = skinned_strip();
     if (is_first) strip_attributes(builder)[kTearSideFeatureAttribute] = builder.add(others, "SCALAR");
     strip_attributes(builder)[kTearSideAttribute] = builder.add(sides, "SCALAR");

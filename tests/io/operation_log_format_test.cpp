@@ -1,4 +1,4 @@
-// What is written is read back to the same bits.
+// Operations are written and read back to the same bits.
 
 #include <sunder/io/operation_log.h>
 

@@ -50,7 +50,8 @@ class BulletBodyTest : public testing::Test {
     return std::move(*set);
   }
 
-  void create(const BulletBodyOptions& options = {}, const Affine3d& world_from_model = Affine3d::Identity()) {
+  void create(const BulletBodyOptions& options = {},
+              const Affine3d& world_from_model = Affine3d::Identity()) {
     auto body = BulletBody::create(*set_, world_, pose_, options, world_from_model);
     ASSERT_TRUE(body) << body.error().text();
     body_.emplace(std::move(*body));
@@ -85,7 +86,8 @@ class BulletBodyTest : public testing::Test {
   void pull(std::uint32_t particle, const Vec3d& by) {
     btRigidBody& body = body_->body(particle);
     btTransform transform = body.getWorldTransform();
-    transform.getOrigin() += btVector3(static_cast<float>(by.x()), static_cast<float>(by.y()), static_cast<float>(by.z()));
+    transform.getOrigin() += btVector3(static_cast<float>(by.x()), static_cast<float>(by.y()),
+                                       static_cast<float>(by.z()));
     body.setWorldTransform(transform);
     body.setInterpolationWorldTransform(transform);
     body.activate(true);
@@ -123,14 +125,16 @@ class BulletBodyTest : public testing::Test {
 
   [[nodiscard]] int awake() const {
     int count = 0;
-    for (std::uint32_t i = 0; i < body_->particle_count(); ++i) count += body_->body(i).isActive() ? 1 : 0;
+    for (std::uint32_t i = 0; i < body_->particle_count(); ++i)
+      count += body_->body(i).isActive() ? 1 : 0;
     return count;
   }
 
   void bend(double angle) {
     Pose pose = local_rest_pose(*character_);
     for (std::size_t bone = 1; bone < pose.parent_from_bone.size(); ++bone)
-      pose.parent_from_bone[bone].rotation = Quatf(Eigen::AngleAxisf(static_cast<float>(angle), Eigen::Vector3f::UnitX()));
+      pose.parent_from_bone[bone].rotation =
+          Quatf(Eigen::AngleAxisf(static_cast<float>(angle), Eigen::Vector3f::UnitX()));
     ASSERT_TRUE(compute_model_pose(character_->skeleton, pose, pose_));
   }
 
@@ -157,7 +161,8 @@ TEST_F(BulletBodyTest, rest_stays_at_rest_in_every_pose) {
     ASSERT_EQ(body_->displacements().size(), set_->particle_count());
     run(30, [&] { ASSERT_LT(most_displacement(), 1e-5); });
     const auto rest = rests();
-    for (std::uint32_t i = 0; i < rest.size(); ++i) EXPECT_LT((place(i) - rest[i].place).norm(), 1e-5);
+    for (std::uint32_t i = 0; i < rest.size(); ++i)
+      EXPECT_LT((place(i) - rest[i].place).norm(), 1e-5);
   }
 }
 
@@ -167,7 +172,9 @@ TEST_F(BulletBodyTest, a_pulled_particle_swings_as_it_must) {
   constexpr double kFrequency = 2 * std::numbers::pi * kHertz;
   for (const double damping : {0.0, 0.05, 0.2})
     for (const double substep : {1.0 / 30, 1.0 / 60, 1.0 / 240}) {
-      create({.return_stiffness = kFrequency * kFrequency, .damping_ratio = damping, .neighbour_stiffness = 0});
+      create({.return_stiffness = kFrequency * kFrequency,
+              .damping_ratio = damping,
+              .neighbour_stiffness = 0});
       const std::uint32_t pulled = particle_next_to({0.5, 0.5, 0});
       pull(pulled, {0, 0, 0.1});
       // Where it goes through rest, and how far it comes between.
@@ -176,7 +183,8 @@ TEST_F(BulletBodyTest, a_pulled_particle_swings_as_it_must) {
       for (int i = 1; i * substep < 2; ++i) {
         step(substep, substep);
         const double now = double{body_->displacements()[pulled].z()};
-        if (std::abs(before) > std::abs(now) && std::abs(before) >= std::abs(before_that)) {  // the parabola through three places
+        if (std::abs(before) > std::abs(now) &&
+            std::abs(before) >= std::abs(before_that)) {  // the parabola through three places
           const double bent = before_that - 2 * before + now, slope = (now - before_that) / 2;
           most = std::abs(before - (bent != 0 ? slope * slope / (2 * bent) : 0));
         }
@@ -191,7 +199,8 @@ TEST_F(BulletBodyTest, a_pulled_particle_swings_as_it_must) {
       const double half_period = (crossings[5] - crossings[1]) / 4;
       const double damped = kFrequency * std::sqrt(1 - damping * damping);
       EXPECT_NEAR(half_period * damped / std::numbers::pi, 1, 0.01) << damping << ' ' << substep;
-      EXPECT_NEAR(std::log(peaks[1] / peaks[4]) / 3, damping * kFrequency * std::numbers::pi / damped, 0.02)
+      EXPECT_NEAR(std::log(peaks[1] / peaks[4]) / 3,
+                  damping * kFrequency * std::numbers::pi / damped, 0.02)
           << damping << ' ' << substep;
       for (std::uint32_t i = 0; i < set_->particle_count(); ++i)
         ASSERT_LT(i == pulled ? 0 : body_->displacements()[i].norm(), 1e-5f);
@@ -216,7 +225,8 @@ TEST_F(BulletBodyTest, neighbours_come_along) {
     if (i == held) continue;
     double force = -100 * double{u[i].z()}, scale = 1e-2;
     for (const ParticleNeighbour& neighbour : set_->neighbours(i)) {
-      const double pulled = 300 * set_->coupling(i, neighbour) * double{u[neighbour.particle].z() - u[i].z()};
+      const double pulled =
+          300 * set_->coupling(i, neighbour) * double{u[neighbour.particle].z() - u[i].z()};
       force += pulled;
       scale += std::abs(pulled);
     }
@@ -231,8 +241,11 @@ TEST_F(BulletBodyTest, springs_of_any_stiffness_stay_bounded) {
   for (const double stiffness : {1e2, 1e4, 1e8, 1e16})
     for (const double neighbour : {0.0, 1e4, 1e8, 1e16})
       for (const double damping : {0.0, 0.1, 1.0, 10.0}) {
-        create({.return_stiffness = stiffness, .damping_ratio = damping, .neighbour_stiffness = neighbour});
-        for (std::uint32_t i = 0; i < set_->particle_count(); ++i) pull(i, 0.05 * random.direction());
+        create({.return_stiffness = stiffness,
+                .damping_ratio = damping,
+                .neighbour_stiffness = neighbour});
+        for (std::uint32_t i = 0; i < set_->particle_count(); ++i)
+          pull(i, 0.05 * random.direction());
         double worst = 0, last = 0;
         run(240, [&] { worst = std::max(worst, last = most_displacement()); });
         ASSERT_LT(worst, 0.5) << stiffness << ' ' << neighbour << ' ' << damping;
@@ -245,7 +258,8 @@ TEST_F(BulletBodyTest, what_is_in_the_way_pushes_and_when_it_goes_they_return) {
   load(test::make_sheet(12));
   create({.radius = 0.2});
   constexpr double kRadius = 0.3;
-  btRigidBody& obstacle = add(new btSphereShape(static_cast<float>(kRadius)), 0, {0.5f, 0.5f, -0.2f});
+  btRigidBody& obstacle =
+      add(new btSphereShape(static_cast<float>(kRadius)), 0, {0.5f, 0.5f, -0.2f});
   run(120);
   const double size = 0.2 * set_->range(0);
   EXPECT_GT(most_displacement(), 0.05);
@@ -259,10 +273,15 @@ TEST_F(BulletBodyTest, what_is_in_the_way_pushes_and_when_it_goes_they_return) {
 
 TEST_F(BulletBodyTest, a_ball_that_falls_is_carried_by_the_springs) {
   load(test::make_sheet(20));
-  // Spheres that Bullet parts to the last bit have no contact in the next substep, and what they carried falls a little.
+  // Spheres that Bullet parts to the last bit have no contact in the next substep, and what they
+  // carried falls a little.
   world_.getSolverInfo().m_linearSlop = 1e-3f;
   constexpr double kBall = 0.5, kStiffness = 200, kMass = 0.1;
-  create({.return_stiffness = kStiffness, .damping_ratio = 0.3, .neighbour_stiffness = 100, .mass = kMass, .radius = 0.25});
+  create({.return_stiffness = kStiffness,
+          .damping_ratio = 0.3,
+          .neighbour_stiffness = 100,
+          .mass = kMass,
+          .radius = 0.25});
   btRigidBody& ball = add(new btSphereShape(0.25f), static_cast<float>(kBall), {0.5f, 0.5f, 0.6f});
   ball.setAngularFactor(0);  // so that it does not roll off
   double fastest = 0;
@@ -271,7 +290,8 @@ TEST_F(BulletBodyTest, a_ball_that_falls_is_carried_by_the_springs) {
   run(540);
   EXPECT_LT(ball.getLinearVelocity().length(), 0.02f);
   EXPECT_GT(ball.getWorldTransform().getOrigin().z(), 0.0f);
-  // In balance: pairs pull at one another, so what return springs give in all is what the ball weighs.
+  // In balance: pairs pull at one another, so what return springs give in all is what the ball
+  // weighs.
   double given = 0;
   for (const Vec4f& u : body_->displacements()) given -= kMass * kStiffness * double{u.z()};
   EXPECT_NEAR(given, 10 * kBall, 0.05 * 10 * kBall);
@@ -345,7 +365,8 @@ TEST_F(BulletBodyTest, a_model_that_is_put_elsewhere_takes_displacements_along) 
   world_from_model.translation() = Vec3d(5, 6, 7);
   world_from_model.rotate(Eigen::AngleAxisd(std::numbers::pi / 2, Eigen::Vector3d::UnitZ()));
   ASSERT_TRUE(body_->before_step(*set_, pose_, 0, world_from_model));
-  for (std::uint32_t i = 0; i < before.size(); ++i) EXPECT_LT((body_->displacements()[i] - before[i]).norm(), 1e-5f);
+  for (std::uint32_t i = 0; i < before.size(); ++i)
+    EXPECT_LT((body_->displacements()[i] - before[i]).norm(), 1e-5f);
   const Vec3d rest = world_from_model * rests()[pulled].place;
   EXPECT_NEAR((place(pulled) - rest).x(), double{-before[pulled].y()}, 1e-5);
   EXPECT_NEAR(body_->body(pulled).getLinearVelocity().x(), -velocity.y(), 1e-4f);
@@ -366,7 +387,8 @@ TEST_F(BulletBodyTest, asking_twice_before_a_step_is_as_asking_once) {
     }
     if (times == 1) once.assign(body_->displacements().begin(), body_->displacements().end());
   }
-  for (std::uint32_t i = 0; i < once.size(); ++i) EXPECT_LT((body_->displacements()[i] - once[i]).norm(), 1e-5f);
+  for (std::uint32_t i = 0; i < once.size(); ++i)
+    EXPECT_LT((body_->displacements()[i] - once[i]).norm(), 1e-5f);
 }
 
 TEST_F(BulletBodyTest, weight_sags) {
@@ -393,14 +415,16 @@ TEST_F(BulletBodyTest, bodies_follow_the_set) {
   EXPECT_EQ(body_->particle_count(), set_->particle_count());
   EXPECT_EQ(world_.getNumCollisionObjects(), static_cast<int>(set_->particle_count()));
   EXPECT_EQ(&body_->body(0), first);
-  EXPECT_LT((body_->displacements()[0] - displaced).norm(), 1e-5f);  // although its rest is elsewhere
+  EXPECT_LT((body_->displacements()[0] - displaced).norm(),
+            1e-5f);  // although its rest is elsewhere
   EXPECT_LT((place(0) - at - (rests()[0].place - rest)).norm(), 1e-5);
   std::swap(*set_, coarse);
   ASSERT_TRUE(body_->before_step(*set_, pose_, kStep));
   EXPECT_EQ(world_.getNumCollisionObjects(), static_cast<int>(count));
   EXPECT_LT((body_->displacements()[0] - displaced).norm(), 1e-5f);
   EXPECT_LT((place(0) - at).norm(), 1e-5);
-  for (std::uint32_t i = 0; i < count; ++i) EXPECT_EQ(body_->body(i).getUserIndex(), static_cast<int>(i));
+  for (std::uint32_t i = 0; i < count; ++i)
+    EXPECT_EQ(body_->body(i).getUserIndex(), static_cast<int>(i));
   run(300);
   EXPECT_LT(most_displacement(), 1e-3);
 }
@@ -457,9 +481,11 @@ TEST_F(BulletBodyTest, bad_arguments_are_refused_by_name) {
 
   Affine3d placed = Affine3d::Identity();
   placed.linear()(2, 2) = -1;
-  EXPECT_EQ(BulletBody::create(*set_, world_, pose_, {}, placed).error().code(), StatusCode::invalid_argument);
+  EXPECT_EQ(BulletBody::create(*set_, world_, pose_, {}, placed).error().code(),
+            StatusCode::invalid_argument);
   placed.linear()(2, 2) = kNaN;
-  EXPECT_EQ(BulletBody::create(*set_, world_, pose_, {}, placed).error().code(), StatusCode::non_finite_value);
+  EXPECT_EQ(BulletBody::create(*set_, world_, pose_, {}, placed).error().code(),
+            StatusCode::non_finite_value);
   ModelPose other = pose_;
   other.model_from_bone.pop_back();
   EXPECT_EQ(BulletBody::create(*set_, world_, other).error().code(), StatusCode::size_mismatch);
@@ -496,7 +522,8 @@ TEST_F(BulletBodyTest, follows_tears_and_what_undoes_them) {
   const auto displaced = [&](std::uint32_t point) {
     const ParticleInfluences& of = set_->influences()[point];
     Vec4f sum = Vec4f::Zero();
-    for (std::size_t i = 0; i < 4; ++i) sum += of.weights[i] * body_->displacements()[of.particles[i]];
+    for (std::size_t i = 0; i < 4; ++i)
+      sum += of.weights[i] * body_->displacements()[of.particles[i]];
     return sum.norm();
   };
   pull(set_->influences()[middle.left].particles[0], {0, 0.02, 0.05});

@@ -3,6 +3,7 @@
 #include <functional>
 
 #include "particles/contact/contact_points.h"
+#include "particles/motion/epoch_pose.h"
 #include "particles/soft_scene.h"
 #include "skinning/internal/reference.h"
 
@@ -11,7 +12,9 @@ namespace {
 
 using test::SoftScene;
 
-Quatd random_turn(test::Random& random) { return Quatd(Eigen::AngleAxisd{random.uniform(-3, 3), random.direction()}); }
+Quatd random_turn(test::Random& random) {
+  return Quatd(Eigen::AngleAxisd{random.uniform(-3, 3), random.direction()});
+}
 
 /// The surface of a collider by its definition: so many places on it.
 std::vector<Vec3d> places_on(const Collider& collider, test::Random& random, int count) {
@@ -23,13 +26,15 @@ std::vector<Vec3d> places_on(const Collider& collider, test::Random& random, int
     } else if (const auto* capsule = std::get_if<Collider::Capsule>(&collider.shape)) {
       const Vec3d direction = random.direction();
       const bool is_side = random.index(2) == 0;
-      place =
-          is_side
-              ? Vec3d(capsule->radius * Vec3d(direction.x(), 0, direction.z()).normalized() +
-                      Vec3d(0, random.uniform(-1, 1) * capsule->half_length, 0))
-              : Vec3d(capsule->radius * direction + Vec3d(0, direction.y() < 0 ? -capsule->half_length : capsule->half_length, 0));
+      place = is_side
+                  ? Vec3d(capsule->radius * Vec3d(direction.x(), 0, direction.z()).normalized() +
+                          Vec3d(0, random.uniform(-1, 1) * capsule->half_length, 0))
+                  : Vec3d(capsule->radius * direction +
+                          Vec3d(0, direction.y() < 0 ? -capsule->half_length : capsule->half_length,
+                                0));
     } else if (const auto* box = std::get_if<Collider::Box>(&collider.shape)) {
-      for (int axis = 0; axis < 3; ++axis) place[axis] = random.uniform(-1, 1) * box->half_size[axis];
+      for (int axis = 0; axis < 3; ++axis)
+        place[axis] = random.uniform(-1, 1) * box->half_size[axis];
       const std::uint32_t axis = random.index(3);
       place[axis] = random.index(2) == 0 ? box->half_size[axis] : -box->half_size[axis];
     } else {
@@ -42,8 +47,9 @@ std::vector<Vec3d> places_on(const Collider& collider, test::Random& random, int
 
 TEST(collider, distances_are_those_of_its_surface) {
   test::Random random(5);
-  const std::variant<Collider::Sphere, Collider::Capsule, Collider::Box, Collider::HalfSpace> shapes[] = {
-      Collider::Sphere{0.6}, Collider::Capsule{0.3, 0.8}, Collider::Box{{0.3, 0.9, 0.5}}, Collider::HalfSpace{}};
+  const std::variant<Collider::Sphere, Collider::Capsule, Collider::Box, Collider::HalfSpace>
+      shapes[] = {Collider::Sphere{0.6}, Collider::Capsule{0.3, 0.8},
+                  Collider::Box{{0.3, 0.9, 0.5}}, Collider::HalfSpace{}};
   for (const auto& shape : shapes) {
     const Collider collider{shape, 0.4 * random.direction(), random_turn(random), 0};
     const std::vector<Vec3d> surface = places_on(collider, random, 60000);
@@ -55,7 +61,8 @@ TEST(collider, distances_are_those_of_its_surface) {
       EXPECT_NEAR(std::abs(found.distance), nearest, 0.03);
       EXPECT_LE(std::abs(found.distance), nearest + 1e-12);
       EXPECT_NEAR(found.normal.norm(), 1, 1e-12);
-      // One step along the normal and one is on the surface; a little farther and one is outside, a little less and inside.
+      // One step along the normal and one is on the surface; a little farther and one is outside, a
+      // little less and inside.
       const Vec3d at = place - found.distance * found.normal;
       EXPECT_NEAR(distance_to(collider, at).distance, 0, 1e-9);
       EXPECT_GT(distance_to(collider, at + 1e-3 * found.normal).distance, 0);
@@ -65,9 +72,10 @@ TEST(collider, distances_are_those_of_its_surface) {
 }
 
 TEST(collider, the_middle_of_a_shape_is_inside) {
-  for (const Collider& collider : {Collider{Collider::Sphere{0.6}, {1, 2, 3}, Quatd::Identity(), 0},
-                                   Collider{Collider::Capsule{0.6, 1}, {1, 2, 3}, Quatd::Identity(), 0},
-                                   Collider{Collider::Box{{0.6, 1, 1}}, {1, 2, 3}, Quatd::Identity(), 0}}) {
+  for (const Collider& collider :
+       {Collider{Collider::Sphere{0.6}, {1, 2, 3}, Quatd::Identity(), 0},
+        Collider{Collider::Capsule{0.6, 1}, {1, 2, 3}, Quatd::Identity(), 0},
+        Collider{Collider::Box{{0.6, 1, 1}}, {1, 2, 3}, Quatd::Identity(), 0}}) {
     const SurfaceDistance found = distance_to(collider, {1, 2, 3});
     EXPECT_DOUBLE_EQ(found.distance, -0.6);
     EXPECT_DOUBLE_EQ(found.normal.norm(), 1);
@@ -78,13 +86,20 @@ TEST(collider, is_checked) {
   const auto fault = [](const Collider& collider) { return validate_collider(collider).code(); };
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(fault({Collider::Sphere{1}, Vec3d::Zero(), Quatd::Identity(), 0}), StatusCode::ok);
-  EXPECT_EQ(fault({Collider::Sphere{0}, Vec3d::Zero(), Quatd::Identity(), 0}), StatusCode::invalid_argument);
-  EXPECT_EQ(fault({Collider::Capsule{1, -1}, Vec3d::Zero(), Quatd::Identity(), 0}), StatusCode::invalid_argument);
-  EXPECT_EQ(fault({Collider::Box{{1, 0, 1}}, Vec3d::Zero(), Quatd::Identity(), 0}), StatusCode::invalid_argument);
-  EXPECT_EQ(fault({Collider::Sphere{nan}, Vec3d::Zero(), Quatd::Identity(), 0}), StatusCode::invalid_argument);
-  EXPECT_EQ(fault({Collider::HalfSpace{}, {nan, 0, 0}, Quatd::Identity(), 0}), StatusCode::non_finite_value);
-  EXPECT_EQ(fault({Collider::HalfSpace{}, Vec3d::Zero(), Quatd(2, 0, 0, 0), 0}), StatusCode::invalid_argument);
-  EXPECT_EQ(fault({Collider::HalfSpace{}, Vec3d::Zero(), Quatd::Identity(), -1}), StatusCode::invalid_argument);
+  EXPECT_EQ(fault({Collider::Sphere{0}, Vec3d::Zero(), Quatd::Identity(), 0}),
+            StatusCode::invalid_argument);
+  EXPECT_EQ(fault({Collider::Capsule{1, -1}, Vec3d::Zero(), Quatd::Identity(), 0}),
+            StatusCode::invalid_argument);
+  EXPECT_EQ(fault({Collider::Box{{1, 0, 1}}, Vec3d::Zero(), Quatd::Identity(), 0}),
+            StatusCode::invalid_argument);
+  EXPECT_EQ(fault({Collider::Sphere{nan}, Vec3d::Zero(), Quatd::Identity(), 0}),
+            StatusCode::invalid_argument);
+  EXPECT_EQ(fault({Collider::HalfSpace{}, {nan, 0, 0}, Quatd::Identity(), 0}),
+            StatusCode::non_finite_value);
+  EXPECT_EQ(fault({Collider::HalfSpace{}, Vec3d::Zero(), Quatd(2, 0, 0, 0), 0}),
+            StatusCode::invalid_argument);
+  EXPECT_EQ(fault({Collider::HalfSpace{}, Vec3d::Zero(), Quatd::Identity(), -1}),
+            StatusCode::invalid_argument);
 }
 
 /// Where a point is, skinned anew and displaced by what the body says.
@@ -99,17 +114,20 @@ Vec3d place_of(const SoftScene& scene, std::uint32_t vertex) {
 /// How deep any contact point is inside any collider, in ranges of its particle.
 double deepest(const SoftScene& scene) {
   particles::ContactPoints points;
-  particles::PointPlaces places;
-  places.set_pose(*scene.model, scene.pose, 1);
+  particles::EpochPose poses;
+  const particles::SurfacePose& posed = poses.at(*scene.model, scene.pose, 1);
   points.follow(scene.count());
   double most = 0;
   for (std::uint32_t p = 0; p < scene.count(); ++p) {
-    const auto& of = points.of(*scene.set, *scene.model, places, 1, p);
+    const auto& of = points.of(*scene.set, *scene.model, posed, 1, p);
     EXPECT_GT(of.count, 0u);
     for (std::uint32_t i = 0; i < of.count; ++i)
       for (const Collider& collider : scene.body->colliders())
-        most = std::max(most, -distance_to(collider, of.places[i] + scene.body->point_displacement(of.points[i])).distance /
-                                  scene.set->range(p));
+        most = std::max(
+            most,
+            -distance_to(collider, of.places[i] + scene.body->point_displacement(of.points[i]))
+                    .distance /
+                scene.set->range(p));
   }
   return most;
 }
@@ -161,8 +179,9 @@ TEST(collider, pushes_nothing_that_it_does_not_touch) {
 
 TEST(collider, every_shape_is_left_at_any_step) {
   test::Random random(9);
-  const std::variant<Collider::Sphere, Collider::Capsule, Collider::Box, Collider::HalfSpace> shapes[] = {
-      Collider::Sphere{0.5}, Collider::Capsule{0.3, 0.5}, Collider::Box{{0.3, 0.5, 0.4}}, Collider::HalfSpace{}};
+  const std::variant<Collider::Sphere, Collider::Capsule, Collider::Box, Collider::HalfSpace>
+      shapes[] = {Collider::Sphere{0.5}, Collider::Capsule{0.3, 0.5},
+                  Collider::Box{{0.3, 0.5, 0.4}}, Collider::HalfSpace{}};
   for (const auto& shape : shapes)
     for (const double seconds : {1e-4, 1.0 / 60, 0.5}) {
       SoftScene scene(test::make_bumpy_ball(1500), find_material("fat").value(), 0.08);
@@ -197,7 +216,8 @@ TEST(collider, a_floor_carries_what_falls) {
   }
   EXPECT_GT(scene.body->contacts().points + (scene.body->awake_count() == 0 ? 1u : 0u), 0u);
   double lowest = 0;
-  for (std::uint32_t v = 0; v < scene.character->meshes[0].vertex_count(); ++v) lowest = std::min(lowest, place_of(scene, v).y());
+  for (std::uint32_t v = 0; v < scene.character->meshes[0].vertex_count(); ++v)
+    lowest = std::min(lowest, place_of(scene, v).y());
   EXPECT_GT(lowest, -1.15 - 0.02);
   EXPECT_LT(lowest, -1.1);
 }
@@ -206,7 +226,8 @@ TEST(collider, friction_drags_along) {
   double dragged[2];
   for (const bool is_rough : {false, true}) {
     SoftScene scene(test::make_sheet(24, 2.0f), find_material("skin").value(), 0.06);
-    Collider box{Collider::Box{{0.2, 0.2, 0.2}}, {1, 1, 0.15}, Quatd::Identity(), is_rough ? 1.0 : 0.0};
+    Collider box{
+        Collider::Box{{0.2, 0.2, 0.2}}, {1, 1, 0.15}, Quatd::Identity(), is_rough ? 1.0 : 0.0};
     ASSERT_TRUE(scene.body->set_colliders({&box, 1}));
     scene.run(0.5);
     for (int i = 1; i <= 30; ++i) {
@@ -224,8 +245,10 @@ TEST(collider, a_pose_that_moves_into_it_is_pushed_back) {
     SoftBodyOptions options;
     options.follow = follow;
     SoftScene scene(test::make_tube(60, 16, 6), find_material("skin").value(), 0.08, options);
-    const Collider wall{
-        Collider::HalfSpace{}, {0.7, 0, 0}, Quatd::FromTwoVectors(Eigen::Vector3d::UnitY(), -Eigen::Vector3d::UnitX()), 0.2};
+    const Collider wall{Collider::HalfSpace{},
+                        {0.7, 0, 0},
+                        Quatd::FromTwoVectors(Eigen::Vector3d::UnitY(), -Eigen::Vector3d::UnitX()),
+                        0.2};
     ASSERT_TRUE(scene.body->set_colliders({&wall, 1}));
     const ModelPose start = scene.pose;
     for (int i = 1; i <= 30; ++i) {

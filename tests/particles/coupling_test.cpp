@@ -25,7 +25,11 @@ struct Network {
   CouplingSolver solver;
   int iterations = 0;
 
-  explicit Network(Index count) : material_of(count, 0), places(count, Vec3d::Zero()), velocities(places), corrections(places) {
+  explicit Network(Index count)
+      : material_of(count, 0),
+        places(count, Vec3d::Zero()),
+        velocities(places),
+        corrections(places) {
     for (Index p = 0; p < count; ++p) active.push_back(p);
   }
 
@@ -33,7 +37,8 @@ struct Network {
     std::vector<std::vector<Spring>> springs(places.size());
     const auto join = [&](Index a, Index b) {
       if (a == b) return;
-      Spring spring = particles::spring_between(materials[material_of[a]], materials[material_of[b]], random.uniform(0.05, 0.6));
+      Spring spring = particles::spring_between(
+          materials[material_of[a]], materials[material_of[b]], random.uniform(0.05, 0.6));
       spring.other = b;
       springs[a].push_back(spring);
       spring.other = a;
@@ -54,14 +59,19 @@ struct Network {
 
   void step(double seconds, const Vec3d& acceleration = Vec3d::Zero()) {
     std::vector<SpringStep> steps;
-    for (const SoftMaterial& m : materials) steps.push_back(particles::step_spring(m.return_stiffness, m.damping_ratio, seconds));
+    for (const SoftMaterial& m : materials)
+      steps.push_back(particles::step_spring(m.return_stiffness, m.damping_ratio, seconds));
     for (const Index p : active) {
       const SpringStep& s = steps[material_of[p]];
       const Vec3d u = places[p], v = velocities[p];
-      places[p] = s.place_from_place * u + s.place_from_velocity * v + s.place_from_acceleration * acceleration;
-      velocities[p] = s.velocity_from_place * u + s.velocity_from_velocity * v + s.velocity_from_acceleration() * acceleration;
+      places[p] = s.place_from_place * u + s.place_from_velocity * v +
+                  s.place_from_acceleration * acceleration;
+      velocities[p] = s.velocity_from_place * u + s.velocity_from_velocity * v +
+                      s.velocity_from_acceleration() * acceleration;
     }
-    iterations = solver.solve({graph, active, steps, materials, material_of, places, velocities, pulls, seconds}, corrections);
+    iterations = solver.solve(
+        {graph, active, steps, materials, material_of, places, velocities, pulls, seconds},
+        corrections);
     for (const Index p : active) {
       const SpringStep& s = steps[material_of[p]];
       places[p] += corrections[p];
@@ -75,7 +85,8 @@ struct Network {
     for (Index p = 0; p < places.size(); ++p) {
       const SoftMaterial& m = materials[material_of[p]];
       sum += m.mass * (velocities[p].squaredNorm() + m.return_stiffness * places[p].squaredNorm());
-      for (const Spring& s : graph.of(p)) sum += 0.5 * s.stiffness * (places[p] - places[s.other]).squaredNorm();
+      for (const Spring& s : graph.of(p))
+        sum += 0.5 * s.stiffness * (places[p] - places[s.other]).squaredNorm();
     }
     return sum;
   }
@@ -106,9 +117,12 @@ TEST(coupling, solves_what_it_says) {
     for (Vec3d& u : network.places) u = random.direction();
     const double h = std::pow(10, random.uniform(-5, 0));
     std::vector<SpringStep> steps;
-    for (const SoftMaterial& m : network.materials) steps.push_back(particles::step_spring(m.return_stiffness, m.damping_ratio, h));
-    // The dense matrix column by column: where one particle is displaced, by the definition of the forces.
-    const auto force_on = [&](const std::vector<Vec3d>& u, const std::vector<Vec3d>& v, bool has_target) {
+    for (const SoftMaterial& m : network.materials)
+      steps.push_back(particles::step_spring(m.return_stiffness, m.damping_ratio, h));
+    // The dense matrix column by column: where one particle is displaced, by the definition of the
+    // forces.
+    const auto force_on = [&](const std::vector<Vec3d>& u, const std::vector<Vec3d>& v,
+                              bool has_target) {
       std::vector<Vec3d> force(30, Vec3d::Zero());
       const auto ratio = [&](Index p) {
         const SpringStep& s = steps[network.material_of[p]];
@@ -120,7 +134,8 @@ TEST(coupling, solves_what_it_says) {
           if (damping > 0 || (s.damping == 0 && std::min(ratio(p), ratio(s.other)) > 0))
             damping = std::max(damping, s.stiffness * (h - 2 / s.frequency));
           const double by = has_target ? 0 : std::max(ratio(p), ratio(s.other));
-          force[p] -= s.stiffness * (u[p] - u[s.other]) + damping * (v[p] - v[s.other] + by * (u[p] - u[s.other]));
+          force[p] -= s.stiffness * (u[p] - u[s.other]) +
+                      damping * (v[p] - v[s.other] + by * (u[p] - u[s.other]));
         }
       const auto& pull = network.pulls[0];
       Vec3d place = has_target ? Vec3d(-pull.target) : Vec3d::Zero(), velocity = Vec3d::Zero();
@@ -131,10 +146,12 @@ TEST(coupling, solves_what_it_says) {
         least = std::min(least, ratio(pull.particles[k]));
         most = std::max(most, ratio(pull.particles[k]));
       }
-      const double damping = least > 0 ? std::max(2 * pull.stiffness / pull.frequency, pull.stiffness * h) : 0;
+      const double damping =
+          least > 0 ? std::max(2 * pull.stiffness / pull.frequency, pull.stiffness * h) : 0;
       for (int k = 0; k < 4; ++k)
         force[pull.particles[k]] -=
-            pull.weights[k] * (pull.stiffness * place + damping * (velocity + (has_target ? 0 : most) * place));
+            pull.weights[k] *
+            (pull.stiffness * place + damping * (velocity + (has_target ? 0 : most) * place));
       return force;
     };
     Network moved = network;
@@ -152,7 +169,8 @@ TEST(coupling, solves_what_it_says) {
       one[p].x() = 1;
       const auto force = force_on(one, none, false);
       for (Index q = 0; q < 30; ++q) a(q, p) = -force[q].x();
-      a(p, p) += network.materials[network.material_of[p]].mass / steps[network.material_of[p]].place_from_acceleration;
+      a(p, p) += network.materials[network.material_of[p]].mass /
+                 steps[network.material_of[p]].place_from_acceleration;
     }
     ASSERT_LT((a - a.transpose()).norm(), 1e-12 * a.norm());
     const auto force = force_on(free_places, free_velocities, true);
@@ -173,7 +191,8 @@ TEST(coupling, is_bounded_and_comes_to_rest_at_any_step_and_stiffness) {
   for (int trial = 0; trial < 300; ++trial) {
     const bool is_mixed = trial % 2 == 0;
     Network network(20 + random.index(40));
-    for (int m = 0; m < (is_mixed ? 3 : 1); ++m) network.materials.push_back(random_material(random));
+    for (int m = 0; m < (is_mixed ? 3 : 1); ++m)
+      network.materials.push_back(random_material(random));
     if (is_mixed)
       for (Index& m : network.material_of) m = random.index(3);
     network.connect_at_random(random, 2 + random.index(8));
@@ -189,7 +208,8 @@ TEST(coupling, is_bounded_and_comes_to_rest_at_any_step_and_stiffness) {
       ASSERT_LT(network.farthest(), 4) << trial << " h " << h << " step " << i;
     }
     worst_growth = std::max(worst_growth, most / before);
-    // The slowest of all motions: the return spring of the softest particle; after so many of its times nothing is left.
+    // The slowest of all motions: the return spring of the softest particle; after so many of its
+    // times nothing is left.
     double slowest = 1e300;
     for (const SoftMaterial& m : network.materials) {
       const double w = std::sqrt(m.return_stiffness), r = m.damping_ratio;
@@ -213,7 +233,8 @@ TEST(coupling, forces_of_neighbours_add_up_to_nothing) {
     for (Vec3d& v : network.velocities) v = random.direction();
     const auto momentum = [&] {
       Vec3d sum = Vec3d::Zero();
-      for (Index p = 0; p < 50; ++p) sum += network.materials[network.material_of[p]].mass * network.velocities[p];
+      for (Index p = 0; p < 50; ++p)
+        sum += network.materials[network.material_of[p]].mass * network.velocities[p];
       return sum;
     };
     const Vec3d before = momentum();
@@ -240,7 +261,8 @@ TEST(coupling, converges_to_the_motion_as_steps_shrink) {
   for (const double h : {1e-2, 1e-3, 1e-4}) {
     const auto found = after(h);
     double error = 0;
-    for (std::size_t p = 0; p < found.size(); ++p) error = std::max(error, (found[p] - finest[p]).norm());
+    for (std::size_t p = 0; p < found.size(); ++p)
+      error = std::max(error, (found[p] - finest[p]).norm());
     EXPECT_LT(error, 0.2 * last) << h;
     last = error;
   }

@@ -1,4 +1,5 @@
-// The whole chain: a tear, particles that follow it, a body whose lips part, and tissue that tears by itself.
+// The whole chain: a tear, particles that follow it, a body whose lips part, and tissue that tears
+// by itself.
 
 #include <sunder/particles/force_tearing.h>
 #include <sunder/tear/torn_model.h>
@@ -37,7 +38,8 @@ SoftMaterial tissue(double strength, double return_stiffness = 0) {
 
 /// Held along both sides that a pull along x parts; only the middle can tear.
 struct Pulled : SoftScene {
-  explicit Pulled(double strength) : SoftScene(make_sheet(40), {tissue(0), tissue(strength)}, kRange, {}) {
+  explicit Pulled(double strength)
+      : SoftScene(make_sheet(40), {tissue(0), tissue(strength)}, kRange, {}) {
     for (std::uint32_t p = 0; p < count(); ++p) {
       const Vec3d at = body->place(p);
       const Status status = body->set_material(p, at.x() > 0.4 && at.x() < 0.6 ? 1 : 0);
@@ -50,7 +52,8 @@ struct Pulled : SoftScene {
   }
 
   void pull(double by) {
-    for (const Hold& hold : holds) ASSERT_TRUE(body->move_hold(hold.id, hold.at + Vec3d(hold.at.x() < 0.5 ? -by : by, 0, 0)));
+    for (const Hold& hold : holds)
+      ASSERT_TRUE(body->move_hold(hold.id, hold.at + Vec3d(hold.at.x() < 0.5 ? -by : by, 0, 0)));
     step(kStep);
   }
 
@@ -100,7 +103,8 @@ TEST(ForceTearing, begins_across_the_pull_and_runs_on_from_its_tip) {
     EXPECT_GT(torn[i].greatest_stretch, 1.3) << i;
     EXPECT_LE(torn[i].tear.length_posed, 0.5 * kRange * kDiagonal * 1.05) << i;
     EXPECT_NEAR(torn[i].direction.norm(), 1, 1e-9) << i;
-    EXPECT_LT(std::abs(torn[i].direction.x()), std::sin(30 * std::numbers::pi / 180)) << i << ": " << torn[i].direction.transpose();
+    EXPECT_LT(std::abs(torn[i].direction.x()), std::sin(30 * std::numbers::pi / 180))
+        << i << ": " << torn[i].direction.transpose();
     ran_on += torn[i].is_from_tip;
   }
   EXPECT_GE(ran_on, torn.size() / 2);
@@ -125,7 +129,8 @@ TEST(ForceTearing, stands_in_the_history_and_is_undone_and_replayed) {
 
   auto again = TornModel::create(scene.character);
   ASSERT_TRUE(again);
-  for (const Operation& operation : scene.model->history()) ASSERT_TRUE(apply_operation(*again, operation));
+  for (const Operation& operation : scene.model->history())
+    ASSERT_TRUE(apply_operation(*again, operation));
   EXPECT_EQ(again->digest(), scene.model->digest());
 
   for (std::size_t i = 0; i < torn.size(); ++i) {
@@ -142,13 +147,16 @@ TEST(ForceTearing, is_deterministic) {
   EXPECT_EQ(a.tear_apart(40).size(), b.tear_apart(40).size());
   EXPECT_EQ(a.model->digest(), b.model->digest());
   ASSERT_EQ(a.count(), b.count());
-  EXPECT_EQ(std::memcmp(a.body->displacements().data(), b.body->displacements().data(), a.count() * sizeof(Vec4f)), 0);
+  EXPECT_EQ(std::memcmp(a.body->displacements().data(), b.body->displacements().data(),
+                        a.count() * sizeof(Vec4f)),
+            0);
 }
 
 TEST(ForceTearing, refuses_bad_options) {
   Pulled scene(1.3);
   for (const double length : {0.0, -1.0, 2.5, std::nan("")}) {
-    const auto report = tear_overstretched(*scene.body, *scene.set, *scene.model, scene.pose, {length});
+    const auto report =
+        tear_overstretched(*scene.body, *scene.set, *scene.model, scene.pose, {length});
     ASSERT_FALSE(report) << length;
     EXPECT_EQ(report.error().code(), StatusCode::invalid_argument);
   }
@@ -169,7 +177,10 @@ TEST(Gap, opens_under_tension_and_closes_without) {
   ASSERT_TRUE(scene.body->set_tension({}));
   scene.run(10);
   for (const LipPair& pair : lips)
-    EXPECT_LT((scene.body->point_displacement(pair.left) - scene.body->point_displacement(pair.right)).norm(), 1e-4 * kDiagonal);
+    EXPECT_LT(
+        (scene.body->point_displacement(pair.left) - scene.body->point_displacement(pair.right))
+            .norm(),
+        1e-4 * kDiagonal);
   EXPECT_EQ(scene.body->awake_count(), 0u);
 }
 
@@ -181,18 +192,23 @@ TEST(Gap, of_a_body_that_was_under_tension_already_opens_at_once) {
   const auto lips = tear_down(scene, 0.75, 0.25);
   scene.run(5);
   const LipPair middle = lips[lips.size() / 2];
-  EXPECT_GT(scene.body->point_displacement(middle.left).x() - scene.body->point_displacement(middle.right).x(), 0.004);
+  EXPECT_GT(scene.body->point_displacement(middle.left).x() -
+                scene.body->point_displacement(middle.right).x(),
+            0.004);
 }
 
 TEST(Gap, opens_across_the_lines_of_tension_and_not_along_them) {
   for (const bool is_across : {false, true}) {
     SoftScene scene(make_sheet(40), tissue(0, 50), kRange);
     const auto lips = tear_down(scene, 0.75, 0.25);
-    ASSERT_TRUE(scene.body->set_tension({5.0, [=](const Vec3d&) -> Vec3d { return is_across ? Vec3d::UnitX() : Vec3d::UnitY(); }}));
+    ASSERT_TRUE(scene.body->set_tension(
+        {5.0, [=](const Vec3d&) -> Vec3d { return is_across ? Vec3d::UnitX() : Vec3d::UnitY(); }}));
     scene.run(5);
     double widest = 0;
     for (const LipPair& pair : lips)
-      widest = std::max(widest, (scene.body->point_displacement(pair.left) - scene.body->point_displacement(pair.right)).norm());
+      widest = std::max(widest, (scene.body->point_displacement(pair.left) -
+                                 scene.body->point_displacement(pair.right))
+                                    .norm());
     if (is_across)
       EXPECT_GT(widest, 0.004);
     else
@@ -205,16 +221,19 @@ TEST(Lips, move_apart_from_each_other_once_torn) {
   const auto point_near = [&](const Vec3d& at) {
     std::uint32_t best = 0;
     for (std::uint32_t p = 1; p < scene.set->point_count(); ++p)
-      if ((scene.set->positions()[p].cast<double>() - at).norm() < (scene.set->positions()[best].cast<double>() - at).norm())
+      if ((scene.set->positions()[p].cast<double>() - at).norm() <
+          (scene.set->positions()[best].cast<double>() - at).norm())
         best = p;
     return best;
   };
   // What is just across the line to be torn moves along.
-  const std::uint32_t here = point_near({0.5, 0.5, 0}), there = point_near({0.5 + 1.0 / 60, 0.5, 0});
+  const std::uint32_t here = point_near({0.5, 0.5, 0}),
+                      there = point_near({0.5 + 1.0 / 60, 0.5, 0});
   const auto hold = scene.body->hold_point(here, {0.5, 0.5, 0.05});
   ASSERT_TRUE(hold);
   scene.run(4);
-  EXPECT_GT(scene.body->point_displacement(there).norm(), 0.5 * scene.body->point_displacement(here).norm());
+  EXPECT_GT(scene.body->point_displacement(there).norm(),
+            0.5 * scene.body->point_displacement(here).norm());
   ASSERT_TRUE(scene.body->release(*hold));
   scene.run(6);
 

@@ -23,8 +23,10 @@ float weight_of(const ParticleSet& set, std::uint32_t point, std::uint32_t parti
   return 0.0f;
 }
 
-/// What the gradient of one weight is: of each face that which has the rises along its two edges; their mean by area.
-Vec3d gradient_by_faces(const TornModel& model, const ParticleSet& set, std::uint32_t point, std::size_t i) {
+/// What the gradient of one weight is: of each face that which has the rises along its two edges;
+/// their mean by area.
+Vec3d gradient_by_faces(const TornModel& model, const ParticleSet& set, std::uint32_t point,
+                        std::size_t i) {
   const tear::Surface& surface = model.surface();
   const std::uint32_t particle = set.influences()[point].particles[i];
   const double own = set.influences()[point].weights[i];
@@ -40,14 +42,16 @@ Vec3d gradient_by_faces(const TornModel& model, const ParticleSet& set, std::uin
     Eigen::Matrix2d gram;
     gram << to_b.dot(to_b), to_b.dot(to_c), to_b.dot(to_c), to_c.dot(to_c);
     const Eigen::Vector2d parts =
-        gram.inverse() * Eigen::Vector2d(weight_of(set, b, particle) - own, weight_of(set, c, particle) - own);
+        gram.inverse() *
+        Eigen::Vector2d(weight_of(set, b, particle) - own, weight_of(set, c, particle) - own);
     sum += area * (parts.x() * to_b + parts.y() * to_c);
     areas += area;
   });
   return areas > 0 ? Vec3d(sum / areas) : Vec3d(Vec3d::Zero());
 }
 
-/// Mean error of what gradients say of the weights of neighbouring points, of the mean difference of these.
+/// Mean error of what gradients say of the weights of neighbouring points, of the mean difference
+/// of these.
 double error_of(std::uint32_t cells) {
   const auto source = std::make_shared<const Character>(make_sheet(cells));
   TornModel model = std::move(*TornModel::create(source));
@@ -58,11 +62,13 @@ double error_of(std::uint32_t cells) {
   double error = 0, difference = 0;
   const tear::Surface& surface = model.surface();
   for (std::uint32_t h = 0; h < surface.corner_point.size(); ++h) {
-    const std::uint32_t a = surface.corner_point[h], b = surface.corner_point[tear::Surface::next(h)];
+    const std::uint32_t a = surface.corner_point[h],
+                        b = surface.corner_point[tear::Surface::next(h)];
     if (surface.is_on_border(a)) continue;
     const Vec3f along = set.positions()[b] - set.positions()[a];
     for (std::size_t i = 0; i < 4 && set.influences()[a].weights[i] > 0; ++i) {
-      const float rise = weight_of(set, b, set.influences()[a].particles[i]) - set.influences()[a].weights[i];
+      const float rise =
+          weight_of(set, b, set.influences()[a].particles[i]) - set.influences()[a].weights[i];
       error += std::abs(rise - gradients[a].of_weights[i].dot(along));
       difference += std::abs(rise);
     }
@@ -97,9 +103,13 @@ TEST(Gradients, are_brought_up_to_date_by_tears) {
       const std::span<const ParticleGradients> kept = set.gradients(*model);
       for (std::uint32_t point = 0; point < set.point_count(); ++point)
         for (std::size_t i = 0; i < 4; ++i) {
-          if (model->surface().point_corner[point] == kNone || !(set.influences()[point].weights[i] > 0)) continue;
+          if (model->surface().point_corner[point] == kNone ||
+              !(set.influences()[point].weights[i] > 0))
+            continue;
           const Vec3d expected = gradient_by_faces(*model, set, point, i);
-          ASSERT_LT((kept[point].of_weights[i].cast<double>() - expected).norm(), 1e-3 * (1 + expected.norm())) << point;
+          ASSERT_LT((kept[point].of_weights[i].cast<double>() - expected).norm(),
+                    1e-3 * (1 + expected.norm()))
+              << point;
         }
     };
     for (int k = 0; k < 3; ++k) {

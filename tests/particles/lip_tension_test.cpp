@@ -11,7 +11,8 @@ namespace {
 /// A slit along x of two edges a lip, its lips at y = 0, seen by three particles a side.
 struct Slit {
   std::vector<Vec3f> positions = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
-  std::vector<LipEdge> lips = {{{0, 1}, {0, 1, 0}}, {{1, 2}, {0, 1, 0}}, {{3, 4}, {0, -1, 0}}, {{4, 5}, {0, -1, 0}}};
+  std::vector<LipEdge> lips = {
+      {{0, 1}, {0, 1, 0}}, {{1, 2}, {0, 1, 0}}, {{3, 4}, {0, -1, 0}}, {{4, 5}, {0, -1, 0}}};
   std::vector<ParticleInfluences> influences = {{{0}, {1}}, {{0, 1}, {0.5f, 0.5f}}, {{1}, {1}},
                                                 {{2}, {1}}, {{2, 3}, {0.5f, 0.5f}}, {{3}, {1}}};
 
@@ -25,7 +26,8 @@ struct Slit {
 
 TEST(lip_tension, parts_the_lips) {
   const auto forces = Slit().forces({3.0, {}});
-  for (int p = 0; p < 4; ++p) EXPECT_EQ(forces[p], Vec3d(0, p < 2 ? 3 : -3, 0));  // two metres of each lip, two particles
+  for (int p = 0; p < 4; ++p)
+    EXPECT_EQ(forces[p], Vec3d(0, p < 2 ? 3 : -3, 0));  // two metres of each lip, two particles
 }
 
 TEST(lip_tension, none_is_no_force) {
@@ -33,13 +35,17 @@ TEST(lip_tension, none_is_no_force) {
 }
 
 TEST(lip_tension, along_a_direction_only_what_it_crosses) {
-  const auto along = [](const Vec3d& direction) { return Slit().forces({2.0, [=](const Vec3d&) { return direction; }}); };
-  for (const Vec3d& force : along({1, 0, 0})) EXPECT_EQ(force, Vec3d::Zero());  // a cut along the fibres stays closed
+  const auto along = [](const Vec3d& direction) {
+    return Slit().forces({2.0, [=](const Vec3d&) { return direction; }});
+  };
+  for (const Vec3d& force : along({1, 0, 0}))
+    EXPECT_EQ(force, Vec3d::Zero());  // a cut along the fibres stays closed
   EXPECT_EQ(along({0, 1, 0})[0], Vec3d(0, 2, 0));
   EXPECT_EQ(along({0, -1, 0})[0], Vec3d(0, 2, 0));
   const Vec3d slanted = along({1, 1, 0})[0];
   EXPECT_NEAR((slanted - Vec3d(1, 1, 0)).norm(), 0, 1e-12);
-  for (const Vec3d& force : along({std::numeric_limits<double>::quiet_NaN(), 0, 0})) EXPECT_EQ(force, Vec3d::Zero());
+  for (const Vec3d& force : along({std::numeric_limits<double>::quiet_NaN(), 0, 0}))
+    EXPECT_EQ(force, Vec3d::Zero());
 }
 
 }  // namespace

@@ -73,7 +73,8 @@ struct Followed {
     ASSERT_NO_FATAL_FAILURE(call(change));
     if (model.undo_count() == before) return;  // a miss
     const std::uint64_t revision = set.revision();
-    const std::vector<ParticleInfluences> influences(set.influences().begin(), set.influences().end());
+    const std::vector<ParticleInfluences> influences(set.influences().begin(),
+                                                     set.influences().end());
     const Status status = set.follow(model, {&change, 1});
     ASSERT_TRUE(status) << status.text();
     EXPECT_GT(set.revision(), revision);
@@ -83,9 +84,13 @@ struct Followed {
   void expect_dirty(const std::vector<ParticleInfluences>& before) const {
     for (std::uint32_t point = 0; point < set.point_count(); ++point) {
       if (point < before.size() && set.influences()[point] == before[point]) continue;
-      if (point >= before.size() && model.surface().point_corner[point] == kNone) continue;  // was taken away again
-      ASSERT_TRUE(std::ranges::any_of(
-          set.dirty_points(), [&](const IndexRange& range) { return point >= range.first && point - range.first < range.count; }))
+      if (point >= before.size() && model.surface().point_corner[point] == kNone)
+        continue;  // was taken away again
+      ASSERT_TRUE(std::ranges::any_of(set.dirty_points(),
+                                      [&](const IndexRange& range) {
+                                        return point >= range.first &&
+                                               point - range.first < range.count;
+                                      }))
           << "point " << point << " changed";
     }
   }
@@ -97,35 +102,41 @@ struct Followed {
   }
 };
 
-/// Points as far from all that an operation told or made that nothing reaches them keep every bit: particles beside it reach a
-/// range to either side of their seeds, and a point that one leaves bare gets another.
+/// Points as far from all that an operation told or made that nothing reaches them keep every bit:
+/// particles beside it reach a range to either side of their seeds, and a point that one leaves
+/// bare gets another.
 void expect_far_points_kept(const Followed& followed, const ParticleState& before) {
   const ParticleSet& set = followed.set;
   const auto first_new = static_cast<std::uint32_t>(before.memberships.size());
   std::vector<Vec3f> torn(set.positions().begin() + first_new, set.positions().end());
   for (const ChangeRecord& change : followed.told.back()) {
-    for (const LipPair& pair : change.lips) torn.insert(torn.end(), {set.positions()[pair.left], set.positions()[pair.right]});
+    for (const LipPair& pair : change.lips)
+      torn.insert(torn.end(), {set.positions()[pair.left], set.positions()[pair.right]});
     for (const auto* side : {&change.rims.left, &change.rims.right})
       for (const std::uint32_t point : *side) torn.push_back(set.positions()[point]);
   }
   for (std::uint32_t point = 0; point < first_new; ++point)
-    if (followed.model.surface().point_corner[point] == kNone) torn.push_back(set.positions()[point]);
+    if (followed.model.surface().point_corner[point] == kNone)
+      torn.push_back(set.positions()[point]);
   // What is beside a lip belongs to what the tear passes, as what is on it does.
   const tear::Surface& surface = followed.model.surface();
   float longest = 0;
   for (std::uint32_t c = 0; c < surface.corner_point.size(); ++c) {
     if (surface.has_repeated_point(c / 3)) continue;
-    const std::uint32_t from = surface.corner_point[c], to = surface.corner_point[tear::Surface::next(c)];
+    const std::uint32_t from = surface.corner_point[c],
+                        to = surface.corner_point[tear::Surface::next(c)];
     longest = std::max(longest, (set.positions()[from] - set.positions()[to]).norm());
   }
   const auto reach = static_cast<float>(3.05 * set.report().range) + 2 * longest;
   for (std::uint32_t point = 0; point < first_new; ++point) {
     const Vec3f& at = set.positions()[point];
-    if (std::ranges::any_of(torn, [&](const Vec3f& other) { return (other - at).norm() < reach; })) continue;
+    if (std::ranges::any_of(torn, [&](const Vec3f& other) { return (other - at).norm() < reach; }))
+      continue;
     const auto now = set.memberships(point);
-    ASSERT_TRUE(std::ranges::equal(
-        now, before.memberships[point],
-        [](const ParticleMembership& a, const ParticleMembership& b) { return a.particle == b.particle && a.reach == b.reach; }))
+    ASSERT_TRUE(std::ranges::equal(now, before.memberships[point],
+                                   [](const ParticleMembership& a, const ParticleMembership& b) {
+                                     return a.particle == b.particle && a.reach == b.reach;
+                                   }))
         << "point " << point;
   }
 }
@@ -150,17 +161,20 @@ void follow_at_random(std::uint64_t seed) {
     ASSERT_NO_FATAL_FAILURE(expect_far_points_kept(followed, states.back()));
     states.push_back(state_of(followed.model, followed.set, pose));
     for (std::size_t p = states[done].particles.size(); p < states.back().particles.size(); ++p)
-      EXPECT_TRUE(serials.insert(states.back().particles[p].serial).second) << "a number comes again";
+      EXPECT_TRUE(serials.insert(states.back().particles[p].serial).second)
+          << "a number comes again";
   }
   ASSERT_EQ(followed.model.undo_count() + 1, states.size());
 
   std::size_t at = states.size() - 1;
   const auto go = [&](std::uint32_t steps, bool back) {
-    for (std::uint32_t step = 0; step < steps; ++step) ASSERT_TRUE(back ? followed.model.undo() : followed.model.redo());
+    for (std::uint32_t step = 0; step < steps; ++step)
+      ASSERT_TRUE(back ? followed.model.undo() : followed.model.redo());
     at = back ? at - steps : at + steps;
     ChangeRecord change;  // what undo and redo told is not looked at
     ASSERT_TRUE(followed.set.follow(followed.model, {&change, 1}));
-    ASSERT_EQ(difference(state_of(followed.model, followed.set, pose), states[at]), "") << "at operation " << at;
+    ASSERT_EQ(difference(state_of(followed.model, followed.set, pose), states[at]), "")
+        << "at operation " << at;
   };
   while (at > 0) ASSERT_NO_FATAL_FAILURE(go(1, true));
   while (at + 1 < states.size()) ASSERT_NO_FATAL_FAILURE(go(1, false));
@@ -178,7 +192,8 @@ void follow_at_random(std::uint64_t seed) {
   ASSERT_NO_FATAL_FAILURE(followed.expect_laws());
   if (followed.told.size() == done) return;
   for (std::size_t p = particles; p < followed.set.particle_count(); ++p)
-    EXPECT_TRUE(serials.insert(followed.set.serial(static_cast<std::uint32_t>(p))).second) << "a number comes again";
+    EXPECT_TRUE(serials.insert(followed.set.serial(static_cast<std::uint32_t>(p))).second)
+        << "a number comes again";
 }
 
 class RandomRepair : public testing::TestWithParam<int> {};
@@ -245,9 +260,10 @@ TEST(Settle, gives_the_same_in_many_calls_as_in_one) {
       ASSERT_NO_FATAL_FAILURE(bit_by_bit.play(operation));
       while (bit_by_bit.set.settle(bit_by_bit.model, 1 + budgets.index(60))) {
       }
-      ASSERT_EQ(difference(state_of(at_once.model, at_once.set, pose), state_of(bit_by_bit.model, bit_by_bit.set, pose),
-                           Sameness::but_for_sums),
-                "")
+      ASSERT_EQ(
+          difference(state_of(at_once.model, at_once.set, pose),
+                     state_of(bit_by_bit.model, bit_by_bit.set, pose), Sameness::but_for_sums),
+          "")
           << "after operation " << i;
     }
   }
@@ -301,8 +317,12 @@ void extend_at_random(std::uint64_t seed, bool settles) {
 
 class StrokeRepair : public testing::TestWithParam<int> {};
 
-TEST_P(StrokeRepair, follows_every_extension) { extend_at_random(static_cast<std::uint64_t>(GetParam()), true); }
-TEST_P(StrokeRepair, follows_extensions_that_nothing_settles) { extend_at_random(static_cast<std::uint64_t>(GetParam()), false); }
+TEST_P(StrokeRepair, follows_every_extension) {
+  extend_at_random(static_cast<std::uint64_t>(GetParam()), true);
+}
+TEST_P(StrokeRepair, follows_extensions_that_nothing_settles) {
+  extend_at_random(static_cast<std::uint64_t>(GetParam()), false);
+}
 
 INSTANTIATE_TEST_SUITE_P(seeds, StrokeRepair, testing::Range(0, 40));
 
@@ -314,8 +334,8 @@ TEST(Follow, takes_a_replayed_stroke_with_all_its_records) {
     const ModelPose some = test::random_pose(followed.model.source(), random);
     const ParticleState before = state_of(followed.model, followed.set, some);
     TearOperation tear = test::random_tear(followed.model, random, seed % 2 == 1);
-    tear.pose_changes.push_back(
-        {static_cast<std::uint32_t>(tear.stroke.size() / 2), test::random_pose(followed.model.source(), random, 0.1)});
+    tear.pose_changes.push_back({static_cast<std::uint32_t>(tear.stroke.size() / 2),
+                                 test::random_pose(followed.model.source(), random, 0.1)});
     if (tear.pose_changes[0].blade == 0) continue;
     std::vector<ChangeRecord> changes;
     const auto report = apply_operation(followed.model, tear, &changes);
@@ -360,7 +380,8 @@ TEST(Follow, takes_layers_walls_and_caps) {
     ASSERT_NO_FATAL_FAILURE(followed.play(cut));
     settle(followed.model, followed.set);
     ASSERT_NO_FATAL_FAILURE(followed.expect_laws());
-    ASSERT_THAT(test::broken_rest(followed.model, followed.set, test::random_pose(source, random)), IsEmpty());
+    ASSERT_THAT(test::broken_rest(followed.model, followed.set, test::random_pose(source, random)),
+                IsEmpty());
   }
 }
 
@@ -371,9 +392,11 @@ Stroke along(std::initializer_list<std::array<double, 2>> places) {
   return stroke;
 }
 
-void follow_strokes(Followed& followed, const std::vector<Stroke>& strokes, const TearOptions& options) {
+void follow_strokes(Followed& followed, const std::vector<Stroke>& strokes,
+                    const TearOptions& options) {
   for (const Stroke& stroke : strokes) {
-    ASSERT_NO_FATAL_FAILURE(followed.play(TearOperation{bind_pose(followed.model.source()), stroke, {}, options}));
+    ASSERT_NO_FATAL_FAILURE(
+        followed.play(TearOperation{bind_pose(followed.model.source()), stroke, {}, options}));
     ASSERT_NO_FATAL_FAILURE(followed.expect_laws());
     settle(followed.model, followed.set, 40);
     ASSERT_NO_FATAL_FAILURE(followed.expect_laws());
@@ -386,16 +409,20 @@ TEST(Follow, takes_tears_that_cross_or_meet) {
       {along({{0.2, 0.51}, {0.83, 0.52}}), along({{0.52, 0.2}, {0.51, 0.52}})},  // T
       {along({{0.2, 0.51}, {0.83, 0.52}}), along({{0.52, 0.81}, {0.49, 0.6}, {0.48, 0.47}})},
       {along({{-0.1, 0.51}, {1.1, 0.52}}), along({{0.52, -0.2}, {0.49, 1.2}})},    // into quarters
-      {along({{0.3, 0.3}, {0.7, 0.31}, {0.71, 0.68}, {0.32, 0.7}, {0.31, 0.2}})},  // a flap that comes free
+      {along({{0.3, 0.3}, {0.7, 0.31}, {0.71, 0.68}, {0.32, 0.7}, {0.31, 0.2}})},  // a flap that
+                                                                                   // comes free
       {along({{0.3, 0.3}, {0.7, 0.7}, {0.71, 0.3}, {0.31, 0.68}})},                // crosses itself
-      {along({{0.2, 0.5}, {0.4, 0.51}}), along({{0.6, 0.49}, {0.8, 0.5}}), along({{0.38, 0.5}, {0.62, 0.5}})},  // joins two
-      {along({{0.41, -0.1}, {0.42, 0.6}}), along({{0.61, -0.1}, {0.6, 0.6}}), along({{0.3, 0.5}, {0.7, 0.51}})},
+      {along({{0.2, 0.5}, {0.4, 0.51}}), along({{0.6, 0.49}, {0.8, 0.5}}),
+       along({{0.38, 0.5}, {0.62, 0.5}})},  // joins two
+      {along({{0.41, -0.1}, {0.42, 0.6}}), along({{0.61, -0.1}, {0.6, 0.6}}),
+       along({{0.3, 0.5}, {0.7, 0.51}})},
   };
   for (std::size_t i = 0; i < all.size(); ++i)
     for (const double width : {0.0, 0.01, 0.06})
       for (const double range : {0.06, 0.15, 0.5})
         for (const std::uint32_t cells : {5u, 20u}) {
-          SCOPED_TRACE(test::say("strokes ", i, ", width ", width, ", range ", range, ", cells ", cells));
+          SCOPED_TRACE(
+              test::say("strokes ", i, ", width ", width, ", range ", range, ", cells ", cells));
           Followed followed(test::make_sheet(cells), range);
           TearOptions options;
           options.width = width;
@@ -414,13 +441,15 @@ TEST(Follow, takes_other_weights) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed);
-    Followed followed(seed % 3 == 0 ? test::make_two_tubes(6, 8) : test::random_character(random), 0.2);
+    Followed followed(seed % 3 == 0 ? test::make_two_tubes(6, 8) : test::random_character(random),
+                      0.2);
     ASSERT_NO_FATAL_FAILURE(followed.play(test::random_operation(followed.model, random)));
     settle(followed.model, followed.set);
     if (followed.model.undo_count() == 0) continue;
     const ModelPose pose = test::random_pose(followed.model.source(), random);
     const ParticleState before = state_of(followed.model, followed.set, pose);
-    for (const WeightPolicy policy : {WeightPolicy::pose_exact, WeightPolicy::exact, WeightPolicy::barycentric}) {
+    for (const WeightPolicy policy :
+         {WeightPolicy::pose_exact, WeightPolicy::exact, WeightPolicy::barycentric}) {
       WeightsOperation wanted;
       wanted.weights.policy = policy;
       wanted.pose = test::random_pose(followed.model.source(), random);
@@ -429,7 +458,8 @@ TEST(Follow, takes_other_weights) {
       ASSERT_TRUE(report) << report.error().text();
       ASSERT_TRUE(followed.set.follow(followed.model, {&change, 1}));
       ASSERT_NO_FATAL_FAILURE(followed.expect_laws());
-      ASSERT_THAT(test::broken_rest(followed.model, followed.set, pose), IsEmpty()) << weight_policy_name(policy);
+      ASSERT_THAT(test::broken_rest(followed.model, followed.set, pose), IsEmpty())
+          << weight_policy_name(policy);
     }
     ASSERT_NO_FATAL_FAILURE(followed.play(test::random_operation(followed.model, random)));
     settle(followed.model, followed.set);
@@ -442,8 +472,8 @@ TEST(Follow, takes_other_weights) {
 
 TEST(Follow, refuses_another_model_and_one_that_was_compacted) {
   Followed followed(test::make_sheet(8), 0.2);
-  ASSERT_NO_FATAL_FAILURE(
-      followed.play(TearOperation{bind_pose(followed.model.source()), along({{0.2, 0.5}, {0.7, 0.52}}), {}, {}}));
+  ASSERT_NO_FATAL_FAILURE(followed.play(
+      TearOperation{bind_pose(followed.model.source()), along({{0.2, 0.5}, {0.7, 0.52}}), {}, {}}));
   settle(followed.model, followed.set);
   const ModelPose pose = bind_pose(followed.model.source());
   const ParticleState before = state_of(followed.model, followed.set, pose);
@@ -470,7 +500,8 @@ TEST(Follow, refuses_another_model_and_one_that_was_compacted) {
 TEST(Follow, of_a_call_that_did_nothing_changes_no_influence) {
   Followed followed(test::make_sheet(8), 0.2);
   const ModelPose pose = bind_pose(followed.model.source());
-  ASSERT_NO_FATAL_FAILURE(followed.play(TearOperation{pose, along({{0.2, 0.5}, {0.7, 0.52}}), {}, {}}));
+  ASSERT_NO_FATAL_FAILURE(
+      followed.play(TearOperation{pose, along({{0.2, 0.5}, {0.7, 0.52}}), {}, {}}));
   settle(followed.model, followed.set);
   const ParticleState before = state_of(followed.model, followed.set, pose);
   ChangeRecord change;
@@ -504,7 +535,9 @@ TEST(Lips, are_the_borders_that_an_operation_made) {
   for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(test::stressed(60, 20)); ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed);
-    Followed followed(seed % 2 == 0 ? test::make_sheet(8 + random.index(12)) : test::make_tube(10, 8 + random.index(12), 3), 0.2);
+    Followed followed(seed % 2 == 0 ? test::make_sheet(8 + random.index(12))
+                                    : test::make_tube(10, 8 + random.index(12), 3),
+                      0.2);
     const TearOperation tear = test::random_tear(followed.model, random, false);
     ASSERT_NO_FATAL_FAILURE(followed.play(tear));
     ASSERT_THAT(test::broken_lip_edges(followed.model, followed.set), IsEmpty());
@@ -520,7 +553,8 @@ TEST(Lips, of_a_flat_tear_pull_apart_evenly) {
     SCOPED_TRACE(cells);
     Followed followed(test::make_sheet(cells), 0.2);
     const ModelPose pose = bind_pose(followed.model.source());
-    const std::vector<Stroke> strokes = {along({{0.21, 0.5}, {0.72, 0.53}}), along({{-0.1, 0.2}, {0.6, 0.27}}),
+    const std::vector<Stroke> strokes = {along({{0.21, 0.5}, {0.72, 0.53}}),
+                                         along({{-0.1, 0.2}, {0.6, 0.27}}),
                                          along({{0.45, 0.81}, {0.47, 0.12}})};
     for (const Stroke& stroke : strokes) {
       ASSERT_NO_FATAL_FAILURE(followed.play(TearOperation{pose, stroke, {}, {}}));

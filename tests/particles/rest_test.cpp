@@ -32,13 +32,17 @@ ParticleSet decompose(const TornModel& model, const ModelPose& pose, double rang
 void rest_at_random(std::uint64_t seed) {
   SCOPED_TRACE(seed);
   Random random(seed);
-  TornModel model = make_model(seed % 3 == 0   ? test::make_two_tubes(4 + random.index(6), 5 + random.index(6))
-                               : seed % 3 == 1 ? test::make_tube(4 + random.index(10), 5 + random.index(8), 2 + random.index(4))
-                                               : test::random_character(random));
+  TornModel model =
+      make_model(seed % 3 == 0   ? test::make_two_tubes(4 + random.index(6), 5 + random.index(6))
+                 : seed % 3 == 1 ? test::make_tube(4 + random.index(10), 5 + random.index(8),
+                                                   2 + random.index(4))
+                                 : test::random_character(random));
   const Character& source = model.source();
   ParticleSet set = decompose(model, test::random_pose(source, random), random.uniform(0.08, 0.3));
   const auto expect_rest = [&] {
-    for (int i = 0; i < 3; ++i) ASSERT_THAT(test::broken_rest(model, set, test::random_pose(source, random, 1.5, 1.6)), IsEmpty());
+    for (int i = 0; i < 3; ++i)
+      ASSERT_THAT(test::broken_rest(model, set, test::random_pose(source, random, 1.5, 1.6)),
+                  IsEmpty());
     ASSERT_THAT(test::broken_rest(model, set, bind_pose(source)), IsEmpty());
   };
   const auto follow = [&](const ChangeRecord& change) {
@@ -47,7 +51,8 @@ void rest_at_random(std::uint64_t seed) {
     ASSERT_NO_FATAL_FAILURE(expect_rest());
   };
   ASSERT_NO_FATAL_FAILURE(expect_rest());
-  constexpr std::array kPolicies = {WeightPolicy::barycentric, WeightPolicy::pose_exact, WeightPolicy::exact};
+  constexpr std::array kPolicies = {WeightPolicy::barycentric, WeightPolicy::pose_exact,
+                                    WeightPolicy::exact};
   for (int i = 0; i < 4; ++i) {
     SCOPED_TRACE(i);
     WeightOptions options;
@@ -96,7 +101,8 @@ TEST(Rest, is_the_same_after_a_refit) {
   ParticleSet set = decompose(model, pose, 0.15);
   Random random(4);
   ChangeRecord change;
-  ASSERT_TRUE(model.tear(pose, test::random_stroke(model.source(), pose, random, 0.3), {}, &change));
+  ASSERT_TRUE(
+      model.tear(pose, test::random_stroke(model.source(), pose, random, 0.3), {}, &change));
   ASSERT_TRUE(set.follow(model, {&change, 1}));
   WeightsOperation wanted;
   wanted.weights.policy = WeightPolicy::refit;
@@ -105,7 +111,9 @@ TEST(Rest, is_the_same_after_a_refit) {
   ASSERT_TRUE(set.follow(model, {&change, 1}));
   while (set.settle(model)) {
   }
-  for (int i = 0; i < 5; ++i) EXPECT_THAT(test::broken_rest(model, set, test::random_pose(model.source(), random)), IsEmpty());
+  for (int i = 0; i < 5; ++i)
+    EXPECT_THAT(test::broken_rest(model, set, test::random_pose(model.source(), random)),
+                IsEmpty());
 }
 
 TEST(Rest, goes_along_with_a_rigid_motion) {

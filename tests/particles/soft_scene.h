@@ -21,10 +21,12 @@ struct SoftScene {
   std::unique_ptr<ParticleSet> set;
   std::unique_ptr<SoftBody> body;
 
-  explicit SoftScene(Character from, const SoftMaterial& material = {}, double range = 0.1, const SoftBodyOptions& options = {})
+  explicit SoftScene(Character from, const SoftMaterial& material = {}, double range = 0.1,
+                     const SoftBodyOptions& options = {})
       : SoftScene(std::move(from), std::vector<SoftMaterial>{material}, range, options) {}
 
-  SoftScene(Character from, const std::vector<SoftMaterial>& materials, double range, const SoftBodyOptions& options)
+  SoftScene(Character from, const std::vector<SoftMaterial>& materials, double range,
+            const SoftBodyOptions& options)
       : character(std::make_shared<const Character>(std::move(from))) {
     Result<TornModel> made = TornModel::create(character);
     EXPECT_TRUE(made) << made.error().text();
@@ -45,7 +47,8 @@ struct SoftScene {
     EXPECT_TRUE(status) << status.text();
   }
   void run(double seconds, double step_seconds = 1.0 / 60) {
-    for (int i = 0; i < static_cast<int>(std::lround(seconds / step_seconds)); ++i) step(step_seconds);
+    for (int i = 0; i < static_cast<int>(std::lround(seconds / step_seconds)); ++i)
+      step(step_seconds);
   }
   [[nodiscard]] std::uint32_t count() const { return body->particle_count(); }
   [[nodiscard]] double farthest() const {
@@ -57,7 +60,8 @@ struct SoftScene {
   [[nodiscard]] std::uint32_t nearest(const Vec3d& place) const {
     std::uint32_t best = 0;
     for (std::uint32_t p = 0; p < count(); ++p)
-      if ((body->place(p) - place).squaredNorm() < (body->place(best) - place).squaredNorm()) best = p;
+      if ((body->place(p) - place).squaredNorm() < (body->place(best) - place).squaredNorm())
+        best = p;
     return best;
   }
 };

@@ -12,9 +12,12 @@ double worst_stretch(const SoftScene& scene) {
   double worst = 0;
   for (std::uint32_t p = 0; p < scene.count(); ++p)
     for (const ParticleNeighbour& neighbour : scene.set->neighbours(p)) {
-      const Vec3d at_rest = (scene.body->place(p) - scene.body->displacement(p)) -
-                            (scene.body->place(neighbour.particle) - scene.body->displacement(neighbour.particle));
-      worst = std::max(worst, (scene.body->place(p) - scene.body->place(neighbour.particle)).norm() / at_rest.norm());
+      const Vec3d at_rest =
+          (scene.body->place(p) - scene.body->displacement(p)) -
+          (scene.body->place(neighbour.particle) - scene.body->displacement(neighbour.particle));
+      worst =
+          std::max(worst, (scene.body->place(p) - scene.body->place(neighbour.particle)).norm() /
+                              at_rest.norm());
     }
   return worst;
 }
@@ -67,10 +70,12 @@ TEST(stretch_limit, adds_no_momentum) {
   material.return_stiffness = 0;
   SoftScene scene(test::make_bumpy_ball(800), material, 0.15);
   ASSERT_TRUE(scene.body->add_impulse(4, {0.02, 0, 0}));
-  for (std::uint32_t p = 0; p < scene.count(); ++p) ASSERT_TRUE(scene.body->add_impulse(p, {0, 1e-6, 0}));  // all awake
+  for (std::uint32_t p = 0; p < scene.count(); ++p)
+    ASSERT_TRUE(scene.body->add_impulse(p, {0, 1e-6, 0}));  // all awake
   const auto momentum = [&] {
     Vec3d sum = Vec3d::Zero();
-    for (std::uint32_t p = 0; p < scene.count(); ++p) sum += material.mass * scene.body->velocity(p);
+    for (std::uint32_t p = 0; p < scene.count(); ++p)
+      sum += material.mass * scene.body->velocity(p);
     return sum;
   };
   const Vec3d before = momentum();

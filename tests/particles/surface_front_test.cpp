@@ -28,12 +28,15 @@ constexpr float kNever = std::numeric_limits<float>::infinity();
 double edge_length_of(const Surface& surface, const std::vector<Vec3f>& positions) {
   double sum = 0;
   for (Index c = 0; c < surface.corner_point.size(); ++c)
-    sum += double{(positions[surface.corner_point[Surface::next(c)]] - positions[surface.corner_point[c]]).norm()};
+    sum += double{
+        (positions[surface.corner_point[Surface::next(c)]] - positions[surface.corner_point[c]])
+            .norm()};
   return sum / static_cast<double>(surface.corner_point.size());
 }
 
 /// Infinite where the front does not come.
-std::vector<float> front_distances(const Surface& surface, const std::vector<Vec3f>& positions, Index source, float limit) {
+std::vector<float> front_distances(const Surface& surface, const std::vector<Vec3f>& positions,
+                                   Index source, float limit) {
   SurfaceFront front;
   Rings rings(surface, positions);
   front.begin(surface.point_count(), limit, static_cast<float>(edge_length_of(surface, positions)));
@@ -50,14 +53,15 @@ std::vector<float> front_distances(const Surface& surface, const std::vector<Vec
   return distances;
 }
 
-/// The largest relative errors against true distances, of points nearer than the limit; farther ones are not reached, but for the
-/// error.
+/// The largest relative errors against true distances, of points nearer than the limit; farther
+/// ones are not reached, but for the error.
 struct Errors {
   double below = 0, above = 0;  ///< Relative.
   double sum = 0;
   std::size_t points = 0;
 
-  void compare(const std::vector<float>& distances, const std::vector<double>& truth, double limit, double margin = 0.03) {
+  void compare(const std::vector<float>& distances, const std::vector<double>& truth, double limit,
+               double margin = 0.03) {
     for (std::size_t p = 0; p < truth.size(); ++p) {
       if (distances[p] == kNever) {
         EXPECT_GT(truth[p], (1 - margin) * limit) << "point " << p << " is not reached";
@@ -86,7 +90,8 @@ Index point_nearest(const std::vector<Vec3f>& positions, const Vec3f& place) {
 Character irregular_sheet(std::uint32_t cells, double by, Random& random) {
   Character sheet = test::make_sheet(cells);
   for (Vec3f& position : sheet.meshes[0].positions) {
-    const bool is_inside = position.x() > 0 && position.x() < 1 && position.y() > 0 && position.y() < 1;
+    const bool is_inside =
+        position.x() > 0 && position.x() < 1 && position.y() > 0 && position.y() < 1;
     if (!is_inside) continue;
     position.x() += static_cast<float>(random.uniform(-by, by) / cells);
     position.y() += static_cast<float>(random.uniform(-by, by) / cells);
@@ -107,8 +112,10 @@ void expect_straight(double irregular, double allowed, double allowed_mean) {
     const Index source = random.index(surface.point_count());
     const auto limit = static_cast<float>(random.uniform(0.2, 1.5));
     std::vector<double> truth;
-    for (const Vec3f& position : positions) truth.push_back(double{(position - positions[source]).norm()});
-    errors.compare(front_distances(surface, positions, source, limit), truth, double{limit}, allowed);
+    for (const Vec3f& position : positions)
+      truth.push_back(double{(position - positions[source]).norm()});
+    errors.compare(front_distances(surface, positions, source, limit), truth, double{limit},
+                   allowed);
   }
   EXPECT_GT(errors.points, 1000u);
   EXPECT_LT(errors.below, 1e-5);
@@ -119,7 +126,8 @@ void expect_straight(double irregular, double allowed, double allowed_mean) {
 TEST(SurfaceFront, is_straight_on_a_flat_sheet) {
   expect_straight(0.0, 0.01, 0.001);
   expect_straight(0.1, 0.1, 0.002);
-  expect_straight(0.2, 0.2, 0.005);  // the more faces are obtuse, the more paths are those along edges
+  expect_straight(0.2, 0.2,
+                  0.005);  // the more faces are obtuse, the more paths are those along edges
 }
 
 TEST(SurfaceFront, goes_around_the_tip_of_a_slit) {
@@ -136,10 +144,12 @@ TEST(SurfaceFront, goes_around_the_tip_of_a_slit) {
     for (Index p = 0; p < positions.size(); ++p) {
       const Vec3d to = positions[p].cast<double>();
       bool is_hidden = to.x() > x + 1e-5;
-      if (std::abs(to.x() - x) <= 1e-5 && to.y() < y - 1e-5) {  // on a lip: which one, its face says
+      if (std::abs(to.x() - x) <= 1e-5 &&
+          to.y() < y - 1e-5) {  // on a lip: which one, its face says
         Vec3d centre = Vec3d::Zero();
         const Index t = surface.point_corner[p] / 3;
-        for (Index k = 0; k < 3; ++k) centre += positions[surface.corner_point[3 * t + k]].cast<double>() / 3;
+        for (Index k = 0; k < 3; ++k)
+          centre += positions[surface.corner_point[3 * t + k]].cast<double>() / 3;
         is_hidden = centre.x() > x;
       } else if (is_hidden) {
         is_hidden = from.y() + (to.y() - from.y()) * (x - from.x()) / (to.x() - from.x()) < y;
@@ -175,7 +185,8 @@ TEST(SurfaceFront, is_straight_on_an_unrolled_tube) {
       truth.push_back(std::hypot(beside, double{positions[p].y() - positions[source].y()}));
     }
     Errors errors;
-    errors.compare(front_distances(surface, positions, source, static_cast<float>(limit)), truth, limit);
+    errors.compare(front_distances(surface, positions, source, static_cast<float>(limit)), truth,
+                   limit);
     EXPECT_LT(errors.below, 1e-3);
     EXPECT_LT(errors.above, 0.01);
   }
@@ -195,7 +206,8 @@ TEST(SurfaceFront, runs_along_great_circles) {
       const Index source = random.index(surface.point_count());
       std::vector<double> truth;
       for (const Vec3f& position : positions)
-        truth.push_back(2 * std::asin(std::min(1.0, 0.5 * double{(position - positions[source]).norm()})));
+        truth.push_back(
+            2 * std::asin(std::min(1.0, 0.5 * double{(position - positions[source]).norm()})));
       errors.compare(front_distances(surface, positions, source, 2.5f), truth, 2.5, 0.05);
     }
     const double mean = errors.sum / static_cast<double>(errors.points);
@@ -210,9 +222,10 @@ TEST(SurfaceFront, lies_between_the_straight_line_and_the_edges) {
   for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(test::stressed(30, 50)); ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed);
-    Character character = seed % 3 == 0   ? test::make_soup(random)
-                          : seed % 3 == 1 ? test::make_bumpy_ball(100 + random.index(800))
-                                          : test::make_two_tubes(5 + random.index(10), 5 + random.index(10));
+    Character character = seed % 3 == 0 ? test::make_soup(random)
+                          : seed % 3 == 1
+                              ? test::make_bumpy_ball(100 + random.index(800))
+                              : test::make_two_tubes(5 + random.index(10), 5 + random.index(10));
     const Surface surface = tear::build_surface(character);
     const std::vector<Vec3f> positions = bind_positions(character, surface);
     const Index source = random.index(surface.point_count());
@@ -225,7 +238,9 @@ TEST(SurfaceFront, lies_between_the_straight_line_and_the_edges) {
         continue;
       }
       EXPECT_LE(double{distances[p]}, edges[p] * (1 + 1e-5)) << "point " << p;
-      EXPECT_GE(double{distances[p]}, double{(positions[p] - positions[source]).norm()} * (1 - 1e-3)) << "point " << p;
+      EXPECT_GE(double{distances[p]},
+                double{(positions[p] - positions[source]).norm()} * (1 - 1e-3))
+          << "point " << p;
     }
   }
 }
@@ -240,16 +255,19 @@ TEST(SurfaceFront, goes_on_after_a_stop_as_if_it_had_not_stopped_and_by_either_r
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed);
-    const Character character = seed % 2 == 0 ? test::make_tube(12, 10, 3) : test::make_bumpy_ball(400);
+    const Character character =
+        seed % 2 == 0 ? test::make_tube(12, 10, 3) : test::make_bumpy_ball(400);
     const Surface surface = tear::build_surface(character);
     const std::vector<Vec3f> positions = bind_positions(character, surface);
     Rings rings(surface, positions);
     RingWalk walk(surface, positions);
     SurfaceFront front;  // used again and again
-    const Index source = random.index(surface.point_count()), other = random.index(surface.point_count());
+    const Index source = random.index(surface.point_count()),
+                other = random.index(surface.point_count());
     const auto run = [&](auto& ring, std::uint32_t stops) {
       std::vector<Visited> visited;
-      front.begin(surface.point_count(), 1.2f, static_cast<float>(edge_length_of(surface, positions)));
+      front.begin(surface.point_count(), 1.2f,
+                  static_cast<float>(edge_length_of(surface, positions)));
       front.add(source, 0.0f);
       front.add(other, 0.3f);
       Random when(seed);
@@ -271,7 +289,8 @@ TEST(SurfaceFront, goes_on_after_a_stop_as_if_it_had_not_stopped_and_by_either_r
 
 TEST(Rings, go_around_every_point) {
   Random random(3);
-  for (const Character& character : {test::make_sheet(5), test::make_tube(4, 6, 2), test::make_soup(random)}) {
+  for (const Character& character :
+       {test::make_sheet(5), test::make_tube(4, 6, 2), test::make_soup(random)}) {
     const Surface surface = tear::build_surface(character);
     const std::vector<Vec3f> positions = bind_positions(character, surface);
     Rings rings(surface, positions);
@@ -295,7 +314,8 @@ TEST(Rings, go_around_every_point) {
         ASSERT_NE(half_edge, kNone);
         EXPECT_EQ(surface.corner_point[Surface::previous(half_edge)], ring.point(i + 1));
         EXPECT_EQ(ring.opposite(i), walked.opposite(i));
-        EXPECT_EQ(ring.opposite(i), (positions[ring.point(i + 1)] - positions[ring.point(i)]).norm());
+        EXPECT_EQ(ring.opposite(i),
+                  (positions[ring.point(i + 1)] - positions[ring.point(i)]).norm());
       }
       EXPECT_EQ(ring.point(0) == ring.point(last), !surface.is_on_border(p));
     }
@@ -311,7 +331,10 @@ TEST(RingLanes, are_what_one_lane_after_the_other_is) {
     std::vector<Known> known(100);
     for (Known& of : known) {
       const std::uint32_t kind = random.index(5);
-      of = kind == 0 ? kUnknown : kind == 1 ? -length() : kind == 2 && random.index(10) == 0 ? 0.0f : 3 * length();
+      of = kind == 0                            ? kUnknown
+           : kind == 1                          ? -length()
+           : kind == 2 && random.index(10) == 0 ? 0.0f
+                                                : 3 * length();
     }
     RingBlock block;
     const std::size_t size = 2 + random.index(kRingLanes - 1);

@@ -258,6 +258,11 @@ class Duel {
       if (by_hand) parts_.follow({&change, 1});
       frame();
     }
+    if (random_.index(4) == 0) {
+      ASSERT_TRUE(expected->cancel(&change));
+      ASSERT_TRUE(instance_.cancel_stroke());
+      return parts_.follow({&change, 1});
+    }
     const auto by_hand = expected->end(&change);
     const auto found = instance_.end_stroke();
     ASSERT_TRUE(by_hand);
@@ -415,6 +420,33 @@ TEST(character_instance, buffers_of_fixed_capacity_stay_where_they_are) {
     ASSERT_TRUE(tube.instance.advance(tube.poses[0], kFrame));
     EXPECT_EQ(tube.instance.mesh(0).positions.data(), data);
   }
+}
+
+TEST(character_instance, a_cancelled_stroke_leaves_nothing) {
+  for (const bool is_soft : {false, true})
+    for (const bool is_torn_before : {false, true}) {
+      TornTube tube(is_soft);
+      if (!is_torn_before) {
+        ASSERT_TRUE(tube.instance.undo());
+      }
+      const ModelPose& pose = tube.poses[0];
+      for (int i = 0; i < 600; ++i) ASSERT_TRUE(tube.instance.advance(pose, kFrame));
+      const std::uint64_t digest = tube.instance.model().digest();
+      const PosedMesh before = tube.instance.mesh(0);
+      const std::vector<Vec3f> positions(before.positions.begin(), before.positions.end());
+      EXPECT_FALSE(tube.instance.cancel_stroke());
+      const Stroke stroke = test::random_stroke(*tube.character, pose, tube.random);
+      ASSERT_TRUE(tube.instance.begin_stroke(pose, stroke[0]));
+      for (std::size_t i = 1; i < stroke.size(); ++i) {
+        ASSERT_TRUE(tube.instance.extend_stroke(pose, stroke[i]));
+        ASSERT_TRUE(tube.instance.advance(pose, kFrame));
+      }
+      EXPECT_NE(tube.instance.model().digest(), digest);
+      ASSERT_TRUE(tube.instance.cancel_stroke());
+      ASSERT_TRUE(tube.instance.advance(pose, kFrame));
+      EXPECT_EQ(tube.instance.model().digest(), digest);
+      EXPECT_TRUE(same_bits<Vec3f>(tube.instance.mesh(0).positions, positions));
+    }
 }
 
 TEST(character_instance, tears_where_tissue_is_stretched) {

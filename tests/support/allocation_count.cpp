@@ -1,9 +1,11 @@
-// Counts what the whole process allocates: the ordinary forms of operator new, to which the others lead.
+// Counts what the whole process allocates: the ordinary forms of operator new, to which the others
+// lead.
 #include "support/allocation_count.h"
 
 #include <atomic>
 #include <cstddef>
 #include <cstdlib>
+#include <limits>
 #include <new>
 
 // The address sanitizer has operators of its own, and wants them all: with it nothing is counted.
@@ -20,15 +22,19 @@
 
 namespace {
 
+constexpr std::uint64_t kNever = std::numeric_limits<std::uint64_t>::max();
+
 std::atomic<std::uint64_t> allocations = 0;
+std::atomic<std::uint64_t> first_failing = kNever;
 
 #if SUNDER_COUNTS_ALLOCATIONS
 void* allocate(std::size_t bytes, std::size_t alignment) {
-  allocations.fetch_add(1, std::memory_order_relaxed);
+  if (allocations.fetch_add(1, std::memory_order_relaxed) >= first_failing) throw std::bad_alloc();
   if (bytes == 0) bytes = 1;
-  void* const memory = alignment <= alignof(std::max_align_t)
-                           ? std::malloc(bytes)
-                           : std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
+  void* const memory =
+      alignment <= alignof(std::max_align_t)
+          ? std::malloc(bytes)
+          : std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
   if (memory == nullptr) throw std::bad_alloc();
   return memory;
 }
@@ -38,7 +44,9 @@ void* allocate(std::size_t bytes, std::size_t alignment) {
 
 #if SUNDER_COUNTS_ALLOCATIONS
 void* operator new(std::size_t bytes) { return allocate(bytes, 1); }
-void* operator new(std::size_t bytes, std::align_val_t alignment) { return allocate(bytes, static_cast<std::size_t>(alignment)); }
+void* operator new(std::size_t bytes, std::align_val_t alignment) {
+  return allocate(bytes, static_cast<std::size_t>(alignment));
+}
 void operator delete(void* memory) noexcept { std::free(memory); }
 void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
@@ -48,5 +56,11 @@ void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std
 namespace sunder::test {
 
 std::uint64_t allocation_count() { return allocations.load(std::memory_order_relaxed); }
+
+FailingAllocations::FailingAllocations(std::uint64_t count) {
+  first_failing = allocation_count() + count;
+}
+FailingAllocations::~FailingAllocations() { first_failing = kNever; }
+bool FailingAllocations::are_possible() { return SUNDER_COUNTS_ALLOCATIONS != 0; }
 
 }  // namespace sunder::test

@@ -18,14 +18,16 @@ Polygon clip(const Polygon& polygon, const HalfSpace& half_space) {
     const double beyond_from = half_space.normal.dot(from) - half_space.offset,
                  beyond_to = half_space.normal.dot(to) - half_space.offset;
     if (beyond_from <= 0) inside.push_back(from);
-    if ((beyond_from <= 0) != (beyond_to <= 0)) inside.push_back(from + beyond_from / (beyond_from - beyond_to) * (to - from));
+    if ((beyond_from <= 0) != (beyond_to <= 0))
+      inside.push_back(from + beyond_from / (beyond_from - beyond_to) * (to - from));
   }
   return inside;
 }
 
 double area_of(const Polygon& polygon) {
   Vec3d sum = Vec3d::Zero();
-  for (std::size_t i = 2; i < polygon.size(); ++i) sum += (polygon[i - 1] - polygon[0]).cross(polygon[i] - polygon[0]);
+  for (std::size_t i = 2; i < polygon.size(); ++i)
+    sum += (polygon[i - 1] - polygon[0]).cross(polygon[i] - polygon[0]);
   return 0.5 * sum.norm();
 }
 
@@ -34,12 +36,14 @@ std::vector<Polygon> posed_triangles(const Character& character, const ModelPose
   for (std::uint32_t m = 0; m < character.meshes.size(); ++m) {
     const auto posed = posed_positions(character, m, pose);
     for (const Triangle& triangle : character.meshes[m].triangles)
-      if (!is_retired(triangle)) triangles.push_back({posed[triangle[0]], posed[triangle[1]], posed[triangle[2]]});
+      if (!is_retired(triangle))
+        triangles.push_back({posed[triangle[0]], posed[triangle[1]], posed[triangle[2]]});
   }
   return triangles;
 }
 
-std::vector<Polygon> clip_all(const std::vector<Polygon>& polygons, std::span<const HalfSpace> cell) {
+std::vector<Polygon> clip_all(const std::vector<Polygon>& polygons,
+                              std::span<const HalfSpace> cell) {
   std::vector<Polygon> inside;
   for (Polygon polygon : polygons) {
     for (const HalfSpace& half_space : cell) polygon = clip(polygon, half_space);
@@ -51,7 +55,7 @@ std::vector<Polygon> clip_all(const std::vector<Polygon>& polygons, std::span<co
 double area_of_union(const std::vector<Polygon>& polygons, std::span<const ConvexCell> cells) {
   double area = 0;
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    // What lies in this cell, without what it shares with those that follow.
+    // The part in this cell, without the parts that it shares with later cells.
     const std::vector<Polygon> inside = clip_all(polygons, cells[i]);
     for (const Polygon& polygon : inside) area += area_of(polygon);
     if (!inside.empty()) area -= area_of_union(inside, cells.subspan(i + 1));
@@ -66,7 +70,8 @@ ConvexCell slab(const Vec3d& point, const Vec3d& normal, double half_thickness) 
   return {{unit, unit.dot(point) + half_thickness}, {-unit, half_thickness - unit.dot(point)}};
 }
 
-ConvexCell prism(const Vec3d& origin, const Vec3d& direction, double radius, double depth, std::uint32_t sides) {
+ConvexCell prism(const Vec3d& origin, const Vec3d& direction, double radius, double depth,
+                 std::uint32_t sides) {
   const Vec3d axis = direction.normalized();
   const Vec3d right = axis.unitOrthogonal(), up = axis.cross(right);
   ConvexCell cell = {{-axis, -axis.dot(origin)}, {axis, axis.dot(origin) + depth}};
@@ -79,13 +84,16 @@ ConvexCell prism(const Vec3d& origin, const Vec3d& direction, double radius, dou
   return cell;
 }
 
-double clipped_area(const Character& character, const ModelPose& pose, std::span<const HalfSpace> convex_cell) {
+double clipped_area(const Character& character, const ModelPose& pose,
+                    std::span<const HalfSpace> convex_cell) {
   double area = 0;
-  for (const Polygon& polygon : clip_all(posed_triangles(character, pose), convex_cell)) area += area_of(polygon);
+  for (const Polygon& polygon : clip_all(posed_triangles(character, pose), convex_cell))
+    area += area_of(polygon);
   return area;
 }
 
-double clipped_area_of_union(const Character& character, const ModelPose& pose, std::span<const ConvexCell> cells) {
+double clipped_area_of_union(const Character& character, const ModelPose& pose,
+                             std::span<const ConvexCell> cells) {
   return area_of_union(posed_triangles(character, pose), cells);
 }
 

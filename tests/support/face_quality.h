@@ -8,7 +8,7 @@ namespace sunder::test {
 
 /// The shape of a model's surface in bind space; retired triangles, walls and caps left out.
 struct FaceQuality {
-  std::vector<double> smallest_angles;  ///< Of each face, degrees, ascending.
+  std::vector<double> smallest_angles;  ///< One per face, degrees, ascending.
   std::size_t faces_without_area = 0;
 
   /// `part` 0.01: the 1st percentile.

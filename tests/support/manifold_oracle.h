@@ -15,7 +15,7 @@ struct SplitTask {
   std::vector<std::array<double, 4>> planes;
 };
 
-/// What lies between the planes.
+/// One cell between the planes.
 struct SplitCell {
   double volume = 0;
   int parts = 0;
@@ -26,11 +26,12 @@ using SplitCells = std::map<std::string, SplitCell>;
 /// Whether node and manifold-3d are there.
 bool has_manifold();
 
-/// What Manifold makes of each task; empty where it could not be run.
+/// The cells that Manifold finds for each task; empty if it could not be run.
 std::vector<SplitCells> split_by_manifold(const std::vector<SplitTask>& tasks);
 
 }  // namespace sunder::test
 
 /// Ends a test that needs Manifold where it is absent.
 #define SUNDER_SKIP_WITHOUT_MANIFOLD() \
-  if (!::sunder::test::has_manifold()) GTEST_SKIP() << "needs node and manifold-3d: npm ci --prefix tests/npm"
+  if (!::sunder::test::has_manifold()) \
+  GTEST_SKIP() << "needs node and manifold-3d: npm ci --prefix tests/npm"

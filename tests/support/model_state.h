@@ -14,7 +14,7 @@ struct ModelState {
   std::uint32_t point_count = 0;
   struct OfMesh {
     std::vector<std::uint32_t> points;  ///< Three a triangle.
-    std::vector<Birth> births;          ///< Of the vertices beyond the source's.
+    std::vector<Birth> births;          ///< One per vertex beyond the source's.
     std::vector<std::uint32_t> source_triangles;
     std::vector<Triangle> fillings;
   };
@@ -23,7 +23,7 @@ struct ModelState {
 
 ModelState state_of(const TornModel& model);
 
-/// What two states differ in, for a message; empty where they are the same.
+/// Describes how two states differ, for a message; empty if they are equal.
 std::string difference(const ModelState& a, const ModelState& b);
 
 bool are_same(const Birth& a, const Birth& b);

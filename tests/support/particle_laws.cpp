@@ -34,10 +34,13 @@ struct Sums {
   std::vector<std::map<std::uint32_t, ParticleNeighbour>> neighbours;
 
   Sums(const ParticleSet& set)
-      : members(set.particle_count()), weights(set.particle_count(), 0.0), neighbours(set.particle_count()) {
+      : members(set.particle_count()),
+        weights(set.particle_count(), 0.0),
+        neighbours(set.particle_count()) {
     for (std::uint32_t point = 0; point < set.point_count(); ++point) {
       for (const ParticleMembership& membership : set.memberships(point))
-        if (membership.particle < set.particle_count()) members[membership.particle].push_back(point);
+        if (membership.particle < set.particle_count())
+          members[membership.particle].push_back(point);
       const ParticleInfluences& influences = set.influences()[point];
       const std::uint32_t count = count_of(influences);
       for (std::uint32_t i = 0; i < count; ++i) {
@@ -45,7 +48,8 @@ struct Sums {
         weights[influences.particles[i]] += double{influences.weights[i]};
         for (std::uint32_t j = 0; j < count; ++j) {
           if (i == j) continue;
-          ParticleNeighbour& neighbour = neighbours[influences.particles[i]][influences.particles[j]];
+          ParticleNeighbour& neighbour =
+              neighbours[influences.particles[i]][influences.particles[j]];
           ++neighbour.points;
           neighbour.shared += double{influences.weights[i]} * double{influences.weights[j]};
         }
@@ -54,77 +58,103 @@ struct Sums {
   }
 };
 
-void check_point(const ParticleSet& set, std::uint32_t point, bool has_face, std::vector<std::string>& faults) {
+void check_point(const ParticleSet& set, std::uint32_t point, bool has_face,
+                 std::vector<std::string>& faults) {
   const auto memberships = set.memberships(point);
   std::uint32_t next = 0;
   for (const ParticleMembership& membership : memberships) {
-    if (membership.particle >= set.particle_count()) faults.push_back(say("point ", point, " is in a particle that is not there"));
-    if (membership.particle < next) faults.push_back(say("memberships of point ", point, " do not ascend"));
+    if (membership.particle >= set.particle_count())
+      faults.push_back(say("point ", point, " is in a particle that is not there"));
+    if (membership.particle < next)
+      faults.push_back(say("memberships of point ", point, " do not ascend"));
     next = membership.particle + 1;
     if (!(membership.reach >= 0 && membership.reach < 1))
-      faults.push_back(say("point ", point, " reaches particle ", membership.particle, " at ", membership.reach));
+      faults.push_back(say("point ", point, " reaches particle ", membership.particle, " at ",
+                           membership.reach));
   }
   if (has_face == memberships.empty())
-    faults.push_back(say("point ", point, has_face ? " belongs to nothing" : " has no face and belongs to something"));
+    faults.push_back(
+        say("point ", point,
+            has_face ? " belongs to nothing" : " has no face and belongs to something"));
   const ParticleInfluences& influences = set.influences()[point];
   double sum = 0;
   for (std::uint32_t i = 0; i < 4; ++i) {
     const float weight = influences.weights[i];
-    if (!(weight >= 0 && weight <= 1)) faults.push_back(say("weight ", i, " of point ", point, " is ", weight));
-    if (i > 0 && weight > influences.weights[i - 1]) faults.push_back(say("weights of point ", point, " do not descend"));
+    if (!(weight >= 0 && weight <= 1))
+      faults.push_back(say("weight ", i, " of point ", point, " is ", weight));
+    if (i > 0 && weight > influences.weights[i - 1])
+      faults.push_back(say("weights of point ", point, " do not descend"));
     sum += double{weight};
     if (!(weight > 0)) continue;
-    if (std::ranges::none_of(memberships, [&](const ParticleMembership& of) { return of.particle == influences.particles[i]; }))
-      faults.push_back(say("point ", point, " follows particle ", influences.particles[i], " to which it does not belong"));
+    if (std::ranges::none_of(memberships, [&](const ParticleMembership& of) {
+          return of.particle == influences.particles[i];
+        }))
+      faults.push_back(say("point ", point, " follows particle ", influences.particles[i],
+                           " to which it does not belong"));
   }
   // The four largest shares less the fifth, by sorting all.
   std::vector<double> shares(5, 0.0);
-  for (const ParticleMembership& of : memberships) shares.push_back(std::pow(1 - double{of.reach} * double{of.reach}, 2));
+  for (const ParticleMembership& of : memberships)
+    shares.push_back(std::pow(1 - double{of.reach} * double{of.reach}, 2));
   std::sort(shares.rbegin(), shares.rend());
-  const double less = shares[0] > shares[4] ? shares[4] : 0.0, total = shares[0] + shares[1] + shares[2] + shares[3] - 4 * less;
+  const double less = shares[0] > shares[4] ? shares[4] : 0.0,
+               total = shares[0] + shares[1] + shares[2] + shares[3] - 4 * less;
   for (std::uint32_t i = 0; i < 4 && total > 1e-3 && shares[0] - shares[4] > 1e-5; ++i)
     if (std::abs(double{influences.weights[i]} - (shares[i] - less) / total) > 1e-6 / total)
-      faults.push_back(say("weight ", i, " of point ", point, " is ", influences.weights[i], ", not ", (shares[i] - less) / total));
+      faults.push_back(say("weight ", i, " of point ", point, " is ", influences.weights[i],
+                           ", not ", (shares[i] - less) / total));
   if (std::abs(sum - (has_face ? 1.0 : 0.0)) > 1e-6)
-    faults.push_back(say("weights of point ", point, " add up to ", sum, " over ", memberships.size(), " memberships"));
+    faults.push_back(say("weights of point ", point, " add up to ", sum, " over ",
+                         memberships.size(), " memberships"));
 }
 
-void check_particle(const ParticleSet& set, std::uint32_t p, const Sums& sums, std::vector<std::string>& faults) {
+void check_particle(const ParticleSet& set, std::uint32_t p, const Sums& sums,
+                    std::vector<std::string>& faults) {
   if (set.member_count(p) != sums.members[p].size())
-    faults.push_back(say("particle ", p, " counts ", set.member_count(p), " members of ", sums.members[p].size()));
-  if (set.members(p) != sums.members[p]) faults.push_back(say("members of particle ", p, " are others than its points say"));
+    faults.push_back(say("particle ", p, " counts ", set.member_count(p), " members of ",
+                         sums.members[p].size()));
+  if (set.members(p).value() != sums.members[p])
+    faults.push_back(say("members of particle ", p, " are others than its points say"));
   if (!(set.range(p) > 0)) faults.push_back(say("the range of particle ", p, " is ", set.range(p)));
   const auto neighbours = set.neighbours(p);
   if (neighbours.size() != sums.neighbours[p].size())
-    faults.push_back(say("particle ", p, " has ", neighbours.size(), " neighbours of ", sums.neighbours[p].size()));
+    faults.push_back(say("particle ", p, " has ", neighbours.size(), " neighbours of ",
+                         sums.neighbours[p].size()));
   std::uint32_t next = 0;
   for (const ParticleNeighbour& neighbour : neighbours) {
-    if (neighbour.particle < next) faults.push_back(say("neighbours of particle ", p, " do not ascend"));
+    if (neighbour.particle < next)
+      faults.push_back(say("neighbours of particle ", p, " do not ascend"));
     next = neighbour.particle + 1;
     const auto expected = sums.neighbours[p].find(neighbour.particle);
     if (expected == sums.neighbours[p].end()) {
-      faults.push_back(say("particle ", p, " has nothing in common with its neighbour ", neighbour.particle));
+      faults.push_back(
+          say("particle ", p, " has nothing in common with its neighbour ", neighbour.particle));
       continue;
     }
     const ParticleNeighbour& sum = expected->second;
-    if (neighbour.points != sum.points || std::abs(neighbour.shared - sum.shared) > 1e-9 * (1 + sum.points))
-      faults.push_back(say("particles ", p, " and ", neighbour.particle, " share ", neighbour.shared, " at ", neighbour.points,
-                           " points, not ", sum.shared, " at ", sum.points));
+    if (neighbour.points != sum.points ||
+        std::abs(neighbour.shared - sum.shared) > 1e-9 * (1 + sum.points))
+      faults.push_back(say("particles ", p, " and ", neighbour.particle, " share ",
+                           neighbour.shared, " at ", neighbour.points, " points, not ", sum.shared,
+                           " at ", sum.points));
     const double least = std::min(sums.weights[p], sums.weights[neighbour.particle]);
     const double coupling = set.coupling(p, neighbour);
-    if (!(coupling >= 0 && coupling <= 1) || std::abs(coupling - std::min(1.0, sum.shared / least)) > 1e-6 * (1 + 1 / least))
-      faults.push_back(
-          say("the coupling of particles ", p, " and ", neighbour.particle, " is ", coupling, ", not ", sum.shared / least));
+    if (!(coupling >= 0 && coupling <= 1) ||
+        std::abs(coupling - std::min(1.0, sum.shared / least)) > 1e-6 * (1 + 1 / least))
+      faults.push_back(say("the coupling of particles ", p, " and ", neighbour.particle, " is ",
+                           coupling, ", not ", sum.shared / least));
   }
 }
 
-/// What moves a point, each by the slot of its skin: of every vertex that the point has, to be the same.
-PosedPoint pose_vertex(const TornModel& model, std::uint32_t m, std::uint32_t vertex, const std::vector<Affine3d>& palette,
-                       const ModelPose& pose) {
+/// What moves a point, each by the slot of its skin: of every vertex that the point has, to be the
+/// same.
+PosedPoint pose_vertex(const TornModel& model, std::uint32_t m, std::uint32_t vertex,
+                       const std::vector<Affine3d>& palette, const ModelPose& pose) {
   const Mesh& mesh = model.character().meshes[m];
   PosedPoint posed;
   const auto influences = mesh.weights.of(vertex);
-  for (const Influence& influence : influences) posed.linear += double{influence.weight} * palette[influence.slot].linear();
+  for (const Influence& influence : influences)
+    posed.linear += double{influence.weight} * palette[influence.slot].linear();
   const std::uint32_t place = model.influence_place(m, vertex);
   if (place == kNone) {
     posed.place = deform_position_reference(mesh, vertex, palette, pose.morph_weights);
@@ -135,9 +165,10 @@ PosedPoint pose_vertex(const TornModel& model, std::uint32_t m, std::uint32_t ve
     Vec3d at = exact.positions[place + i].cast<double>();
     for (std::size_t t = 0; t < mesh.morph_targets.size(); ++t)
       if (t < exact.morph_targets.size() && !exact.morph_targets[t].positions.empty())
-        at += double{pose.morph_weights[mesh.first_morph_weight + t]} * exact.morph_targets[t].positions[place + i].cast<double>();
-    posed.place +=
-        palette[influences[i].slot].linear() * at + double{influences[i].weight} * palette[influences[i].slot].translation();
+        at += double{pose.morph_weights[mesh.first_morph_weight + t]} *
+              exact.morph_targets[t].positions[place + i].cast<double>();
+    posed.place += palette[influences[i].slot].linear() * at +
+                   double{influences[i].weight} * palette[influences[i].slot].translation();
   }
   return posed;
 }
@@ -153,7 +184,9 @@ class Borders {
   }
   [[nodiscard]] bool is_surface(std::uint32_t t) const {
     const tear::TriangleRef of = surface_.triangle(t);
-    if (is_retired(model_.character().meshes[of.mesh].triangles[of.triangle]) || surface_.has_repeated_point(t)) return false;
+    if (is_retired(model_.character().meshes[of.mesh].triangles[of.triangle]) ||
+        surface_.has_repeated_point(t))
+      return false;
     return of.source_triangle < model_.source().meshes[of.mesh].triangle_count();
   }
 
@@ -171,14 +204,16 @@ class SourceBorder {
       if (surface.twin[h] != kNone || surface.has_repeated_point(h / 3)) continue;
       const tear::TriangleRef of = surface.triangle(h / 3);
       const Mesh& mesh = source.meshes[of.mesh];
-      segments_.push_back({mesh.positions[mesh.triangles[of.triangle][h % 3]].cast<double>(),
-                           mesh.positions[mesh.triangles[of.triangle][Surface::next(h) % 3]].cast<double>()});
+      segments_.push_back(
+          {mesh.positions[mesh.triangles[of.triangle][h % 3]].cast<double>(),
+           mesh.positions[mesh.triangles[of.triangle][Surface::next(h) % 3]].cast<double>()});
     }
   }
   /// Whether an edge lies on it.
   [[nodiscard]] bool has(const Vec3d& a, const Vec3d& b, double tolerance) const {
-    return std::ranges::any_of(
-        segments_, [&](const auto& segment) { return distance(segment, a) < tolerance && distance(segment, b) < tolerance; });
+    return std::ranges::any_of(segments_, [&](const auto& segment) {
+      return distance(segment, a) < tolerance && distance(segment, b) < tolerance;
+    });
   }
 
  private:
@@ -192,29 +227,37 @@ class SourceBorder {
 
 template <class T>
 bool have_same_bits(const std::vector<T>& a, const std::vector<T>& b) {
-  return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
+  return a.size() == b.size() &&
+         (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
 }
 
 bool are_near(double a, double b) { return std::abs(a - b) <= 1e-9 * (1 + std::abs(a)); }
 
-std::string difference(const ParticleState::Particle& a, const ParticleState::Particle& b, Sameness sameness) {
-  if (sameness == Sameness::bits && a.serial != b.serial) return say("serial ", a.serial, " and ", b.serial);
+std::string difference(const ParticleState::Particle& a, const ParticleState::Particle& b,
+                       Sameness sameness) {
+  if (sameness == Sameness::bits && a.serial != b.serial)
+    return say("serial ", a.serial, " and ", b.serial);
   if (a.seed != b.seed) return say("seed ", a.seed, " and ", b.seed);
   if (a.range != b.range) return say("range ", a.range, " and ", b.range);
-  if (a.member_count != b.member_count) return say("member count ", a.member_count, " and ", b.member_count);
+  if (a.member_count != b.member_count)
+    return say("member count ", a.member_count, " and ", b.member_count);
   if (a.members != b.members) return "members";
   if (a.parents != b.parents) return "parents";
-  if (a.neighbours.size() != b.neighbours.size()) return say("neighbours: ", a.neighbours.size(), " and ", b.neighbours.size());
+  if (a.neighbours.size() != b.neighbours.size())
+    return say("neighbours: ", a.neighbours.size(), " and ", b.neighbours.size());
   for (std::size_t i = 0; i < a.neighbours.size(); ++i) {
     const ParticleNeighbour &x = a.neighbours[i], &y = b.neighbours[i];
     if (x.particle != y.particle || x.points != y.points) return say("neighbour ", i);
-    if (sameness == Sameness::bits ? x.shared != y.shared || a.couplings[i] != b.couplings[i] : !are_near(x.shared, y.shared))
+    if (sameness == Sameness::bits ? x.shared != y.shared || a.couplings[i] != b.couplings[i]
+                                   : !are_near(x.shared, y.shared))
       return say("shared with neighbour ", i, ": ", x.shared, " and ", y.shared);
   }
   const bool rests_alike = sameness == Sameness::bits
                                ? a.rest.place == b.rest.place && a.rest.linear == b.rest.linear
-                               : (a.rest.place - b.rest.place).norm() < 1e-9 && (a.rest.linear - b.rest.linear).norm() < 1e-9;
-  return rests_alike ? "" : say("rest: ", a.rest.place.transpose(), " and ", b.rest.place.transpose());
+                               : (a.rest.place - b.rest.place).norm() < 1e-9 &&
+                                     (a.rest.linear - b.rest.linear).norm() < 1e-9;
+  return rests_alike ? ""
+                     : say("rest: ", a.rest.place.transpose(), " and ", b.rest.place.transpose());
 }
 
 }  // namespace
@@ -231,7 +274,8 @@ std::vector<std::string> broken_particles(const TornModel& model, const Particle
   std::set<std::uint64_t> serials;
   for (std::uint32_t p = 0; p < set.particle_count(); ++p) {
     check_particle(set, p, sums, faults);
-    if (!serials.insert(set.serial(p)).second) faults.push_back(say("the number of particle ", p, " is not its own"));
+    if (!serials.insert(set.serial(p)).second)
+      faults.push_back(say("the number of particle ", p, " is not its own"));
   }
   // A vertex where a surface touches itself has several points, of which it is at one.
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::set<std::uint32_t>> points_of_vertex;
@@ -239,19 +283,22 @@ std::vector<std::string> broken_particles(const TornModel& model, const Particle
     const tear::TriangleRef of = surface.triangle(t);
     const Triangle& triangle = model.character().meshes[of.mesh].triangles[of.triangle];
     if (is_retired(triangle) || surface.has_repeated_point(t)) continue;
-    for (std::uint32_t k = 0; k < 3; ++k) points_of_vertex[{of.mesh, triangle[k]}].insert(surface.corner_point[3 * t + k]);
+    for (std::uint32_t k = 0; k < 3; ++k)
+      points_of_vertex[{of.mesh, triangle[k]}].insert(surface.corner_point[3 * t + k]);
   }
   for (const auto& [vertex, points] : points_of_vertex)
     if (!points.contains(set.vertex_points(vertex.first)[vertex.second]))
       faults.push_back(say("vertex ", vertex.second, " of mesh ", vertex.first, " is at point ",
-                           set.vertex_points(vertex.first)[vertex.second], ", not at ", *points.begin()));
+                           set.vertex_points(vertex.first)[vertex.second], ", not at ",
+                           *points.begin()));
   for (std::uint32_t m = 0; m < model.character().meshes.size(); ++m)
     if (set.vertex_points(m).size() != model.character().meshes[m].vertex_count())
       faults.push_back(say("mesh ", m, " has ", set.vertex_points(m).size(), " vertices"));
   return faults;
 }
 
-std::vector<std::string> broken_sides(const ParticleSet& set, std::span<const ChangeRecord> changes) {
+std::vector<std::string> broken_sides(const ParticleSet& set,
+                                      std::span<const ChangeRecord> changes) {
   std::array<std::set<std::uint32_t>, 2> points, particles;
   for (const ChangeRecord& change : changes) {
     for (const LipPair& pair : change.lips) {
@@ -264,11 +311,13 @@ std::vector<std::string> broken_sides(const ParticleSet& set, std::span<const Ch
   for (std::size_t side = 0; side < 2; ++side)
     for (const std::uint32_t point : points[side]) {
       if (points[1 - side].contains(point)) continue;  // a stroke that crosses itself
-      for (const ParticleMembership& membership : set.memberships(point)) particles[side].insert(membership.particle);
+      for (const ParticleMembership& membership : set.memberships(point))
+        particles[side].insert(membership.particle);
     }
   std::vector<std::string> faults;
   for (const std::uint32_t particle : particles[0])
-    if (particles[1].contains(particle)) faults.push_back(say("particle ", particle, " has points of both sides"));
+    if (particles[1].contains(particle))
+      faults.push_back(say("particle ", particle, " has points of both sides"));
   return faults;
 }
 
@@ -282,8 +331,11 @@ std::vector<std::uint32_t> pieces_of(const TornModel& model) {
   };
   for (std::uint32_t t = 0; t < surface.triangle_count(); ++t) {
     const tear::TriangleRef of = surface.triangle(t);
-    if (is_retired(model.character().meshes[of.mesh].triangles[of.triangle]) || surface.has_repeated_point(t)) continue;
-    for (std::uint32_t k = 1; k < 3; ++k) above[root(surface.corner_point[3 * t + k])] = root(surface.corner_point[3 * t]);
+    if (is_retired(model.character().meshes[of.mesh].triangles[of.triangle]) ||
+        surface.has_repeated_point(t))
+      continue;
+    for (std::uint32_t k = 1; k < 3; ++k)
+      above[root(surface.corner_point[3 * t + k])] = root(surface.corner_point[3 * t]);
   }
   std::vector<std::uint32_t> pieces(surface.point_count(), kNone);
   for (std::uint32_t point = 0; point < pieces.size(); ++point)
@@ -296,13 +348,16 @@ std::vector<std::string> broken_pieces(const TornModel& model, const ParticleSet
   const std::vector<std::uint32_t> pieces = pieces_of(model);
   for (std::uint32_t p = 0; p < set.particle_count(); ++p) {
     std::set<std::uint32_t> of_particle;
-    for (const std::uint32_t point : set.members(p)) of_particle.insert(pieces[point]);
-    if (of_particle.size() > 1) faults.push_back(say("particle ", p, " is in ", of_particle.size(), " pieces"));
+    const std::vector<std::uint32_t> members = set.members(p).value();
+    for (const std::uint32_t point : members) of_particle.insert(pieces[point]);
+    if (of_particle.size() > 1)
+      faults.push_back(say("particle ", p, " is in ", of_particle.size(), " pieces"));
   }
   return faults;
 }
 
-std::vector<PosedPoint> posed_points(const TornModel& model, const ParticleSet& set, const ModelPose& pose) {
+std::vector<PosedPoint> posed_points(const TornModel& model, const ParticleSet& set,
+                                     const ModelPose& pose) {
   const Character& character = model.character();
   std::vector<PosedPoint> points(set.point_count());
   for (std::uint32_t m = 0; m < character.meshes.size(); ++m) {
@@ -315,17 +370,18 @@ std::vector<PosedPoint> posed_points(const TornModel& model, const ParticleSet& 
   return points;
 }
 
-std::vector<std::string> broken_rest(const TornModel& model, const ParticleSet& set, const ModelPose& pose) {
+std::vector<std::string> broken_rest(const TornModel& model, const ParticleSet& set,
+                                     const ModelPose& pose) {
   std::vector<std::string> faults;
   std::vector<std::uint32_t> all(set.particle_count());
   std::iota(all.begin(), all.end(), 0u);
   std::vector<ParticleRest> rest(all.size());
   if (const Status status = set.rest(pose, all, rest); !status) return {std::string(status.text())};
   const std::vector<PosedPoint> points = posed_points(model, set, pose);
-  const double diagonal =
-      std::max(posed_diagonal(model.character(), pose), posed_diagonal(model.source(), bind_pose(model.source())));
+  const double diagonal = std::max(posed_diagonal(model.character(), pose),
+                                   posed_diagonal(model.source(), bind_pose(model.source())));
   for (const std::uint32_t p : all) {
-    const std::vector<std::uint32_t> members = set.members(p);
+    const std::vector<std::uint32_t> members = set.members(p).value();
     if (members.empty()) continue;
     PosedPoint mean;
     for (const std::uint32_t point : members) {
@@ -333,10 +389,11 @@ std::vector<std::string> broken_rest(const TornModel& model, const ParticleSet& 
       mean.linear += points[point].linear / static_cast<double>(members.size());
     }
     if (!((mean.place - rest[p].place).norm() <= 1e-6 * diagonal))
-      faults.push_back(say("particle ", p, " of ", members.size(), " points rests ", (mean.place - rest[p].place).norm() / diagonal,
-                           " of the diagonal off"));
+      faults.push_back(say("particle ", p, " of ", members.size(), " points rests ",
+                           (mean.place - rest[p].place).norm() / diagonal, " of the diagonal off"));
     if (!((mean.linear - rest[p].linear).norm() <= 1e-6 * (1 + mean.linear.norm())))
-      faults.push_back(say("the linear part of particle ", p, " is ", (mean.linear - rest[p].linear).norm(), " off"));
+      faults.push_back(say("the linear part of particle ", p, " is ",
+                           (mean.linear - rest[p].linear).norm(), " off"));
   }
   return faults;
 }
@@ -352,33 +409,40 @@ std::vector<std::string> broken_lip_edges(const TornModel& model, const Particle
   for (const LipEdge& lip : set.lips()) {
     const auto [a, b] = lip.points;
     if (a == b) {
-      if (lip.inward != Vec3f::Zero()) faults.push_back(say("the edge that is no more at point ", a, " still pulls"));
+      if (lip.inward != Vec3f::Zero())
+        faults.push_back(say("the edge that is no more at point ", a, " still pulls"));
       continue;
     }
-    const std::uint32_t half_edge = surface.point_corner[a] == kNone ? kNone : surface.find_half_edge(a, b);
+    const std::uint32_t half_edge =
+        surface.point_corner[a] == kNone ? kNone : surface.find_half_edge(a, b);
     if (half_edge == kNone || !borders.has(half_edge)) {
       faults.push_back(say("from point ", a, " to ", b, " there is no border"));
       continue;
     }
-    if (!listed.insert(half_edge).second) faults.push_back(say("the edge from point ", a, " to ", b, " is listed twice"));
+    if (!listed.insert(half_edge).second)
+      faults.push_back(say("the edge from point ", a, " to ", b, " is listed twice"));
     const Vec3d edge = at(b) - at(a), inward = lip.inward.cast<double>();
     const Vec3d across = at(surface.corner_point[Surface::previous(half_edge)]) - at(a);
     if (source.has(at(a), at(b), tolerance) && edge.norm() > 10 * tolerance)
       faults.push_back(say("the edge from point ", a, " to ", b, " is one of the source's border"));
-    if (!inward.allFinite()) faults.push_back(say("the edge from point ", a, " to ", b, " is not finite"));
+    if (!inward.allFinite())
+      faults.push_back(say("the edge from point ", a, " to ", b, " is not finite"));
     const double length = edge.norm(), height = length > 0 ? edge.cross(across).norm() / length : 0;
     // A needle's plane is lost in rounding.
     if (!(height > 1e-3 * across.norm()) || !(length > 100 * tolerance)) continue;
     if (std::abs(inward.dot(edge)) > 1e-3 * length * length)
       faults.push_back(say("the edge from point ", a, " to ", b, " pulls askew"));
     if (std::abs(inward.norm() - length) > 1e-5 * length)
-      faults.push_back(say("the edge from point ", a, " to ", b, ", ", length, " long, pulls by ", inward.norm()));
-    if (!(inward.dot(across) > 0)) faults.push_back(say("the edge from point ", a, " to ", b, " pulls outwards"));
+      faults.push_back(say("the edge from point ", a, " to ", b, ", ", length, " long, pulls by ",
+                           inward.norm()));
+    if (!(inward.dot(across) > 0))
+      faults.push_back(say("the edge from point ", a, " to ", b, " pulls outwards"));
   }
   for (std::uint32_t h = 0; h < surface.twin.size(); ++h) {
     if (!borders.has(h) || listed.contains(h)) continue;
     const std::uint32_t a = surface.corner_point[h], b = surface.corner_point[Surface::next(h)];
-    if (!source.has(at(a), at(b), tolerance)) faults.push_back(say("the border from point ", a, " to ", b, " is missing"));
+    if (!source.has(at(a), at(b), tolerance))
+      faults.push_back(say("the border from point ", a, " to ", b, " is missing"));
   }
   return faults;
 }
@@ -395,9 +459,10 @@ ParticleState state_of(const TornModel& model, const ParticleSet& set, const Mod
     particle.seed = set.seed(p);
     particle.range = set.range(p);
     particle.member_count = set.member_count(p);
-    particle.members = set.members(p);
+    particle.members = set.members(p).value();
     particle.neighbours.assign(set.neighbours(p).begin(), set.neighbours(p).end());
-    for (const ParticleNeighbour& neighbour : particle.neighbours) particle.couplings.push_back(set.coupling(p, neighbour));
+    for (const ParticleNeighbour& neighbour : particle.neighbours)
+      particle.couplings.push_back(set.coupling(p, neighbour));
     particle.parents = set.parents(p);
     particle.rest = rest[p];
   }
@@ -412,14 +477,18 @@ ParticleState state_of(const TornModel& model, const ParticleSet& set, const Mod
 }
 
 std::string difference(const ParticleState& a, const ParticleState& b, Sameness sameness) {
-  if (a.memberships.size() != b.memberships.size()) return say(a.memberships.size(), " and ", b.memberships.size(), " points");
-  if (a.particles.size() != b.particles.size()) return say(a.particles.size(), " and ", b.particles.size(), " particles");
+  if (a.memberships.size() != b.memberships.size())
+    return say(a.memberships.size(), " and ", b.memberships.size(), " points");
+  if (a.particles.size() != b.particles.size())
+    return say(a.particles.size(), " and ", b.particles.size(), " particles");
   for (std::size_t point = 0; point < a.memberships.size(); ++point) {
-    if (!have_same_bits(a.memberships[point], b.memberships[point])) return say("memberships of point ", point);
+    if (!have_same_bits(a.memberships[point], b.memberships[point]))
+      return say("memberships of point ", point);
     if (a.influences[point] != b.influences[point]) return say("influences of point ", point);
   }
   for (std::size_t p = 0; p < a.particles.size(); ++p)
-    if (const std::string found = difference(a.particles[p], b.particles[p], sameness); !found.empty())
+    if (const std::string found = difference(a.particles[p], b.particles[p], sameness);
+        !found.empty())
       return say("particle ", p, ": ", found);
   if (a.vertex_points != b.vertex_points) return "points of vertices";
   if (!have_same_bits(a.positions, b.positions)) return "positions";

@@ -10,12 +10,16 @@
 
 namespace sunder::test {
 
-/// Arrays for posed vertices, each between margins that nobody may write to, filled with numbers that no pose gives.
+/// Arrays for posed vertices, each between margins that nobody may write to, filled with numbers
+/// that no pose gives.
 class PosedArrays {
  public:
   /// @param padding  floats between vertices.
   PosedArrays(const Mesh& mesh, std::size_t padding = 0, bool unit_length = false)
-      : count_(mesh.vertex_count()), padding_(padding), has_normals_(!mesh.normals.empty()), has_tangents_(!mesh.tangents.empty()) {
+      : count_(mesh.vertex_count()),
+        padding_(padding),
+        has_normals_(!mesh.normals.empty()),
+        has_tangents_(!mesh.tangents.empty()) {
     positions_.assign(count_ * (3 + padding) + 2 * kMargin, kUntouched);
     normals_.assign(count_ * (3 + padding) + 2 * kMargin, kUntouched);
     tangents_.assign(count_ * (4 + padding) + 2 * kMargin, kUntouched);
@@ -38,8 +42,11 @@ class PosedArrays {
 
   /// Whether vertex `v` has the same bits as vertex `w` of others.
   [[nodiscard]] bool is_same(std::uint32_t v, const PosedArrays& others, std::uint32_t w) const {
-    const auto same = [](const auto& a, const auto& b) { return std::memcmp(a.data(), b.data(), sizeof(a)) == 0; };
-    return same(position(v), others.position(w)) && (!has_normals_ || same(normal(v), others.normal(w))) &&
+    const auto same = [](const auto& a, const auto& b) {
+      return std::memcmp(a.data(), b.data(), sizeof(a)) == 0;
+    };
+    return same(position(v), others.position(w)) &&
+           (!has_normals_ || same(normal(v), others.normal(w))) &&
            (!has_tangents_ || same(tangent(v), others.tangent(w)));
   }
 
@@ -50,27 +57,33 @@ class PosedArrays {
     return kNone;
   }
 
-  /// Whether nothing was written beside the vertices.
+  /// Whether nothing was written outside the vertices.
   [[nodiscard]] bool margins_are_untouched() const {
-    return untouched_beside(positions_, 3) && untouched_beside(normals_, 3) && untouched_beside(tangents_, 4);
+    return untouched_beside(positions_, 3) && untouched_beside(normals_, 3) &&
+           untouched_beside(tangents_, 4);
   }
   [[nodiscard]] bool is_untouched(std::uint32_t v) const { return position(v).x() == kUntouched; }
   void erase() {
-    for (auto* array : {&positions_, &normals_, &tangents_}) std::fill(array->begin(), array->end(), kUntouched);
+    for (auto* array : {&positions_, &normals_, &tangents_})
+      std::fill(array->begin(), array->end(), kUntouched);
   }
 
  private:
   static constexpr float kUntouched = -12345.5f;
   static constexpr std::size_t kMargin = 64;
 
-  [[nodiscard]] Vec3f at(const std::vector<float>& array, std::uint32_t v, std::size_t components) const {
+  [[nodiscard]] Vec3f at(const std::vector<float>& array, std::uint32_t v,
+                         std::size_t components) const {
     const float* p = array.data() + kMargin + v * (components + padding_);
     return {p[0], p[1], p[2]};
   }
-  [[nodiscard]] bool untouched_beside(const std::vector<float>& array, std::size_t components) const {
+  [[nodiscard]] bool untouched_beside(const std::vector<float>& array,
+                                      std::size_t components) const {
     for (std::size_t i = 0; i < array.size(); ++i) {
       const bool is_margin = i < kMargin || i >= array.size() - kMargin;
-      if ((is_margin || (i - kMargin) % (components + padding_) >= components) && array[i] != kUntouched) return false;
+      if ((is_margin || (i - kMargin) % (components + padding_) >= components) &&
+          array[i] != kUntouched)
+        return false;
     }
     return true;
   }

@@ -11,13 +11,14 @@ struct RefitScene {
   std::uint32_t points = 40;
   std::uint32_t slots = 8;
   std::uint32_t poses = 12;
-  std::size_t maximum_influences = 4;  ///< Of the barycentric weights; 0: all.
+  std::size_t maximum_influences = 4;  ///< Number of barycentric weights kept; 0: all.
   double angle = 0.6;                  ///< By which a bone is turned at most.
-  double face = 0.15;                  ///< How large the triangles are in which the points lie, metres.
-  Vec3d centre = Vec3d::Zero();        ///< Of the character.
+  double face = 0.15;            ///< How large the triangles are in which the points lie, metres.
+  Vec3d centre = Vec3d::Zero();  ///< Index in the character.
 };
 
-/// A lip of a tear: points in triangles along a chain of bones two metres long, up to four influences a corner.
+/// A lip of a tear: points in triangles along a chain of bones two metres long, up to four
+/// influences per corner.
 struct Lip {
   std::vector<std::vector<Affine3d>> palettes;  ///< One a pose.
   std::vector<AnimationPoint> exact;
@@ -30,13 +31,15 @@ struct Lip {
   Lip(const Lip&) = delete;
   Lip& operator=(const Lip&) = delete;
 
-  /// Where a point is to be in a pose, its weights added up to exactly one.
+  /// The wanted place of a point in a pose, with weights that sum to exactly one.
   [[nodiscard]] Vec3d target(std::size_t point, std::size_t pose) const;
   /// Mean squared distance over the poses, pose by pose.
-  [[nodiscard]] double mean_square(std::size_t point, std::span<const Influence> influences, const Vec3d& position) const;
+  [[nodiscard]] double mean_square(std::size_t point, std::span<const Influence> influences,
+                                   const Vec3d& position) const;
 };
 
 /// Each bone turned about its joint, with those behind it.
-[[nodiscard]] std::vector<Affine3d> bent_chain(Random& random, std::uint32_t slots, double angle, const Vec3d& centre);
+[[nodiscard]] std::vector<Affine3d> bent_chain(Random& random, std::uint32_t slots, double angle,
+                                               const Vec3d& centre);
 
 }  // namespace sunder::test

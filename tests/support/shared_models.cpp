@@ -19,21 +19,29 @@ std::filesystem::path shared_models() {
   return if_present(SUNDER_SHARED_MODELS);
 }
 
+std::filesystem::path own_data() { return SUNDER_TEST_DATA; }
+
 std::filesystem::path assimp_models() { return if_present("/usr/share/assimp/models"); }
 
-std::vector<std::filesystem::path> files_below(const std::filesystem::path& folder, const std::vector<std::string>& extensions) {
+std::vector<std::filesystem::path> files_below(const std::filesystem::path& folder,
+                                               const std::vector<std::string>& extensions) {
   std::vector<std::filesystem::path> files;
   if (folder.empty()) return files;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
-    if (entry.is_regular_file() && std::find(extensions.begin(), extensions.end(), entry.path().extension()) != extensions.end())
+    if (entry.is_regular_file() && std::find(extensions.begin(), extensions.end(),
+                                             entry.path().extension()) != extensions.end())
       files.push_back(entry.path());
   std::sort(files.begin(), files.end());
   return files;
 }
 
-std::vector<std::filesystem::path> rigged_gltf_models() {
-  const auto models = shared_models();
-  return models.empty() ? std::vector<std::filesystem::path>() : files_below(models / "rigged", {".glb", ".gltf"});
+std::vector<std::filesystem::path> rigged_models(const std::vector<std::string>& extensions) {
+  auto files = files_below(own_data() / "rigged", extensions);
+  if (const auto shared = shared_models(); !shared.empty())
+    for (const auto& file : files_below(shared / "rigged", extensions)) files.push_back(file);
+  return files;
 }
+
+std::vector<std::filesystem::path> rigged_gltf_models() { return rigged_models({".glb", ".gltf"}); }
 
 }  // namespace sunder::test

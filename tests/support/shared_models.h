@@ -6,21 +6,30 @@
 
 namespace sunder::test {
 
-/// The folder of the shared test models (beside the checkout, or what SUNDER_MODELS names); empty where it is absent.
+/// The folder of the shared test models (next to the checkout, or the one that SUNDER_MODELS
+/// names); empty if it is absent.
 std::filesystem::path shared_models();
 
-/// Debian's assimp-testmodels; empty where the package is not installed.
+/// Debian's assimp-testmodels; empty if the package is not installed.
 std::filesystem::path assimp_models();
 
-/// All files below a folder with one of these extensions (".glb"), sorted.
-std::vector<std::filesystem::path> files_below(const std::filesystem::path& folder, const std::vector<std::string>& extensions);
+/// tests/data: the models of our own making, which every clone has.
+std::filesystem::path own_data();
 
-/// The glTF and GLB files of shared_models()/rigged.
+/// All files below a folder with one of these extensions (".glb"), sorted.
+std::vector<std::filesystem::path> files_below(const std::filesystem::path& folder,
+                                               const std::vector<std::string>& extensions);
+
+/// The rigged models with one of these extensions: our own, then the shared ones if they are there.
+/// Never empty for ".glb".
+std::vector<std::filesystem::path> rigged_models(const std::vector<std::string>& extensions);
+
+/// Those in glTF and GLB.
 std::vector<std::filesystem::path> rigged_gltf_models();
 
 }  // namespace sunder::test
 
-/// Ends a test that needs the shared models where they are absent.
+/// Ends a test that needs the shared models if they are absent.
 #define SUNDER_SKIP_WITHOUT_SHARED_MODELS()    \
   if (::sunder::test::shared_models().empty()) \
-  GTEST_SKIP() << "needs the folder ../shared/models beside the checkout, or SUNDER_MODELS"
+  GTEST_SKIP() << "needs the folder ../shared/models next to the checkout, or SUNDER_MODELS"

@@ -22,15 +22,23 @@ class TornMesh {
         fillings_(model.fillings(mesh)) {}
 
   [[nodiscard]] const Mesh& torn() const { return torn_; }
-  [[nodiscard]] std::size_t origin_count() const { return source_.triangle_count() + fillings_.size(); }
-  [[nodiscard]] std::uint32_t origin_of(std::uint32_t triangle) const { return model_.source_triangle(mesh_, triangle); }
-  [[nodiscard]] bool is_filling(std::uint32_t origin) const { return origin >= source_.triangle_count(); }
-  /// The vertices of the source keep their numbers, so those of either kind of origin are vertices of the torn mesh.
+  [[nodiscard]] std::size_t origin_count() const {
+    return source_.triangle_count() + fillings_.size();
+  }
+  [[nodiscard]] std::uint32_t origin_of(std::uint32_t triangle) const {
+    return model_.source_triangle(mesh_, triangle);
+  }
+  [[nodiscard]] bool is_filling(std::uint32_t origin) const {
+    return origin >= source_.triangle_count();
+  }
+  /// The vertices of the source keep their numbers, so those of either kind of origin are vertices
+  /// of the torn mesh.
   [[nodiscard]] Triangle vertices_of_origin(std::uint32_t origin) const {
-    return is_filling(origin) ? fillings_[origin - source_.triangle_count()] : source_.triangles[origin];
+    return is_filling(origin) ? fillings_[origin - source_.triangle_count()]
+                              : source_.triangles[origin];
   }
 
-  /// Where a vertex lies in a triangle, or nothing where it does not belong to it.
+  /// The place of a vertex in a triangle, or nothing if it does not belong to it.
   [[nodiscard]] std::optional<Place> place_in(const Triangle& in, std::uint32_t vertex) const {
     Place place = {0, 0, 0};
     const auto add = [&](std::uint32_t parent, double part) {
@@ -52,7 +60,8 @@ class TornMesh {
   /// Twice its area times its normal, in bind space.
   [[nodiscard]] Eigen::Vector3d cross(const Triangle& triangle) const {
     const Eigen::Vector3d a = torn_.positions[triangle[0]].cast<double>();
-    return (torn_.positions[triangle[1]].cast<double>() - a).cross(torn_.positions[triangle[2]].cast<double>() - a);
+    return (torn_.positions[triangle[1]].cast<double>() - a)
+        .cross(torn_.positions[triangle[2]].cast<double>() - a);
   }
 
  private:
@@ -63,21 +72,25 @@ class TornMesh {
   std::span<const Triangle> fillings_;
 };
 
-/// What a triangle with these corners covers of the whole; negative where it is turned over.
+/// The fraction of the whole that a triangle with these corners covers; negative if it is turned
+/// over.
 double area_of(const std::array<Place, 3>& p) {
-  return p[0][0] * (p[1][1] * p[2][2] - p[1][2] * p[2][1]) - p[0][1] * (p[1][0] * p[2][2] - p[1][2] * p[2][0]) +
+  return p[0][0] * (p[1][1] * p[2][2] - p[1][2] * p[2][1]) -
+         p[0][1] * (p[1][0] * p[2][2] - p[1][2] * p[2][0]) +
          p[0][2] * (p[1][0] * p[2][1] - p[1][1] * p[2][0]);
 }
 
-/// Whether a part faces where the whole does. A whole without area has no such direction, unless it was made by tearing.
+/// Whether a part faces where the whole does. A whole without area has no such direction, unless it
+/// was made by tearing.
 bool faces_as(const TornMesh& mesh, const Triangle& part, std::uint32_t origin) {
   const Eigen::Vector3d whole = mesh.cross(mesh.vertices_of_origin(origin));
   if (whole.isZero(0)) return !mesh.is_filling(origin);
   return mesh.cross(part).dot(whole) > 0;
 }
 
-/// What a part covers of its origin, with what is wrong about it.
-double cover_by(const TornMesh& mesh, std::uint32_t triangle, std::uint32_t origin, std::vector<std::string>& faults) {
+/// The fraction of its origin that a part covers, and its faults.
+double cover_by(const TornMesh& mesh, std::uint32_t triangle, std::uint32_t origin,
+                std::vector<std::string>& faults) {
   const Triangle& part = mesh.torn().triangles[triangle];
   const Triangle whole = mesh.vertices_of_origin(origin);
   const bool is_whole = part == whole;
@@ -88,13 +101,15 @@ double cover_by(const TornMesh& mesh, std::uint32_t triangle, std::uint32_t orig
   for (std::size_t k = 0; k < 3; ++k) {
     const auto place = mesh.place_in(whole, part[k]);
     if (!place) {
-      faults.push_back(say("triangle ", triangle, " has a vertex from outside of what it is a part of"));
+      faults.push_back(
+          say("triangle ", triangle, " has a vertex from outside of what it is a part of"));
       return 0;
     }
     places[k] = *place;
   }
   const double area = area_of(places);
-  if (!(area > 0)) faults.push_back(say("triangle ", triangle, " covers ", area, " of what it is a part of"));
+  if (!(area > 0))
+    faults.push_back(say("triangle ", triangle, " covers ", area, " of what it is a part of"));
   return area;
 }
 
@@ -127,7 +142,8 @@ double removed_area(const TornModel& model, const ModelPose& pose) {
     const std::vector<Vec3d> posed = posed_positions(model.source(), m, pose);
     const Cover cover = cover_of(model, m);
     for (std::uint32_t t = 0; t < source.triangle_count(); ++t) {
-      const Vec3d a = posed[source.triangles[t][0]], b = posed[source.triangles[t][1]], c = posed[source.triangles[t][2]];
+      const Vec3d a = posed[source.triangles[t][0]], b = posed[source.triangles[t][1]],
+                  c = posed[source.triangles[t][2]];
       removed += 0.5 * (b - a).cross(c - a).norm() * (1 - cover.part[t]);
     }
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "tear/geometry/tolerances.h"
 #include "tear/internal/surface.h"
 
 namespace sunder::test {

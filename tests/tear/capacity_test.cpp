@@ -1,4 +1,5 @@
-// A model of fixed capacity: warm operations allocate nothing, and where room runs out nothing changes.
+// A model of fixed capacity: warm operations allocate nothing, and where room runs out nothing
+// changes.
 #include <sunder/skinning/deform.h>
 #include <sunder/skinning/pose.h>
 #include <sunder/tear/tear_stroke.h>
@@ -31,7 +32,8 @@ TEST(Capacity, tears_of_a_warm_model_allocate_nothing) {
     SCOPED_TRACE(seed);
     Random random(seed);
     TornModel model = make_model(tube, kRoom);
-    const ModelPose pose = test::random_pose(tube, random, 0.4, 1.0), other = test::random_pose(tube, random, 0.4, 1.0);
+    const ModelPose pose = test::random_pose(tube, random, 0.4, 1.0),
+                    other = test::random_pose(tube, random, 0.4, 1.0);
     const std::uint32_t blades = 2 + random.index(4);
     const Stroke stroke = test::random_stroke(tube, pose, random, 1.5, blades),
                  next = test::random_stroke(tube, other, random, 1.5, 2);
@@ -87,7 +89,8 @@ TEST(Capacity, where_room_runs_out_nothing_changes) {
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed);
-    const Character character = seed % 3 == 0 ? test::make_two_tubes(6, 10) : test::make_tube(10, 12, 4);
+    const Character character =
+        seed % 3 == 0 ? test::make_two_tubes(6, 10) : test::make_tube(10, 12, 4);
     const std::uint32_t room = 4 + random.index(120);
     TornModel model = make_model(character, {room, room, 3});
     for (int i = 0; i < 5; ++i) {
@@ -103,7 +106,9 @@ TEST(Capacity, where_room_runs_out_nothing_changes) {
             cut.caps = random.index(2) == 0;
             return model.cut(pose, cut);
           }
-          case 1: return model.tear(pose, test::random_stroke(character, pose, random, 1.0, 3), {0.05, Layers::nearest, 0.02});
+          case 1:
+            return model.tear(pose, test::random_stroke(character, pose, random, 1.0, 3),
+                              {0.05, Layers::nearest, 0.02});
           default: return model.tear(pose, test::random_stroke(character, pose, random, 1.0, 3));
         }
       }();
@@ -113,7 +118,7 @@ TEST(Capacity, where_room_runs_out_nothing_changes) {
         continue;
       }
       ++refused;
-      EXPECT_EQ(report.error().code(), StatusCode::limit_exceeded) << report.error().text();
+      EXPECT_EQ(report.error().code(), StatusCode::capacity_exceeded) << report.error().text();
       EXPECT_THAT(report.error().text(), testing::HasSubstr("no room left for"));
       EXPECT_EQ(test::difference(before, test::state_of(model)), "");
       EXPECT_EQ(model.undo_count(), undo_count);
@@ -148,7 +153,7 @@ TEST(Capacity, an_operation_taken_back_makes_room) {
     const auto report = model.tear(pose, stroke);
     ASSERT_TRUE(report) << report.error().text();
     ASSERT_GT(report->runs, 0u);
-    EXPECT_EQ(model.tear(pose, stroke).error().code(), StatusCode::limit_exceeded);
+    EXPECT_EQ(model.tear(pose, stroke).error().code(), StatusCode::capacity_exceeded);
     ASSERT_TRUE(model.undo());
   }
 }

@@ -1,4 +1,5 @@
-// What an engine can rely on: buffers that are changed only where a record says so stay equal to the model.
+// What an engine can rely on: buffers that are changed only where a record says so stay equal to
+// the model.
 #include <sunder/skinning/deform.h>
 #include <sunder/skinning/pose.h>
 #include <sunder/tear/change_record.h>
@@ -21,7 +22,8 @@ namespace {
 using test::make_model;
 using test::Random;
 
-/// All attributes of a vertex one after another, as bits. The tear side is 0 where the mesh has none yet.
+/// All attributes of a vertex one after another, as bits. The tear side is 0 where the mesh has
+/// none yet.
 class VertexBits {
  public:
   VertexBits(const Mesh& mesh, std::uint32_t v) : vertex_(v) {
@@ -35,7 +37,8 @@ class VertexBits {
       if (attribute.name == kTearSideAttribute)
         side = attribute.values[v];
       else
-        for (std::size_t c = 0; c < attribute.components; ++c) add(attribute.values[std::size_t{v} * attribute.components + c]);
+        for (std::size_t c = 0; c < attribute.components; ++c)
+          add(attribute.values[std::size_t{v} * attribute.components + c]);
     add(side);
     for (const MorphTarget& target : mesh.morph_targets) {
       add(target.position_deltas);
@@ -66,7 +69,8 @@ struct MirroredMesh {
   std::vector<Triangle> triangles;
   std::vector<std::uint32_t> submesh;
 
-  explicit MirroredMesh(const Mesh& mesh) : triangles(mesh.triangles), submesh(mesh.triangle_submesh) {
+  explicit MirroredMesh(const Mesh& mesh)
+      : triangles(mesh.triangles), submesh(mesh.triangle_submesh) {
     for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) vertices.emplace_back(mesh, v);
   }
   bool operator==(const MirroredMesh&) const = default;
@@ -132,7 +136,8 @@ class Mirror {
   static void expect_births(const MeshChange& change, const TornModel& model) {
     ASSERT_EQ(change.births.size(), change.vertex_count);
     for (std::uint32_t i = 0; i < change.vertex_count; ++i)
-      EXPECT_TRUE(test::are_same(change.births[i], model.birth(change.mesh, change.first_vertex + i)));
+      EXPECT_TRUE(
+          test::are_same(change.births[i], model.birth(change.mesh, change.first_vertex + i)));
   }
 
   void expect_rewritten(const MeshChange& change, const Mesh& mesh) {
@@ -166,7 +171,8 @@ class Mirror {
     mirrored.triangles.resize(mesh.triangle_count(), {kNone, kNone, kNone});
     mirrored.submesh.resize(mesh.triangle_count(), kNone);
     for (const IndexRange& range : change.dirty_vertices)
-      for (std::uint32_t v = range.first; v < range.first + range.count; ++v) mirrored.vertices[v] = VertexBits(mesh, v);
+      for (std::uint32_t v = range.first; v < range.first + range.count; ++v)
+        mirrored.vertices[v] = VertexBits(mesh, v);
     for (const IndexRange& range : change.dirty_triangles)
       for (std::uint32_t t = range.first; t < range.first + range.count; ++t) {
         mirrored.triangles[t] = mesh.triangles[t];
@@ -183,8 +189,8 @@ void expect_report_agrees(const TearReport& report, const ChangeRecord& change) 
   for (const MeshChange& of_mesh : change.meshes) {
     vertices += of_mesh.vertex_count;
     triangles += of_mesh.triangle_count;
-    retired += static_cast<std::uint32_t>(
-        std::ranges::count_if(of_mesh.retired, [&](std::uint32_t t) { return t < of_mesh.first_triangle; }));
+    retired += static_cast<std::uint32_t>(std::ranges::count_if(
+        of_mesh.retired, [&](std::uint32_t t) { return t < of_mesh.first_triangle; }));
   }
   EXPECT_EQ(report.points_added, change.point_count);
   EXPECT_EQ(report.vertices_added, vertices);
@@ -229,7 +235,9 @@ TEST_P(RandomChanges, keep_a_mirror_equal) {
 
 INSTANTIATE_TEST_SUITE_P(seeds, RandomChanges, testing::Range(0, 100));
 
-TEST(ChangeRecord, comes_with_a_run_where_the_first_segment_was_too_short_to_tear) { mirror_at_random(431); }
+TEST(ChangeRecord, comes_with_a_run_where_the_first_segment_was_too_short_to_tear) {
+  mirror_at_random(431);
+}
 
 TEST(ChangeRecord, of_a_strokes_pieces_keep_a_mirror_equal) {
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
@@ -260,6 +268,28 @@ TEST(ChangeRecord, of_a_strokes_pieces_keep_a_mirror_equal) {
   }
 }
 
+TEST(ChangeRecord, of_a_cancelled_stroke_takes_a_mirror_back) {
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    TornModel model = make_model(test::random_character(random));
+    ASSERT_TRUE(test::play(model, test::random_operation(model, random)));
+    Mirror mirror(model);
+    const TearOperation tear = test::random_tear(model, random, seed % 2 == 1);
+    const auto& pose = std::get<ModelPose>(tear.pose);
+    auto stroke = TearStroke::create(model, pose, tear.stroke[0], tear.options);
+    ASSERT_TRUE(stroke) << stroke.error().text();
+    ChangeRecord change;
+    for (std::size_t i = 1; i < tear.stroke.size(); ++i) {
+      ASSERT_TRUE(stroke->extend(pose, tear.stroke[i], 0.0, &change));
+      mirror.apply(change, model);
+    }
+    ASSERT_TRUE(stroke->cancel(&change));
+    EXPECT_TRUE(change.lips.empty() && change.rims.left.empty() && change.rims.right.empty());
+    mirror.apply(change, model);
+  }
+}
+
 TEST(ChangeRecord, tells_lips_in_the_order_of_the_stroke) {
   TornModel model = make_model(test::make_tube(12, 24, 3));
   // Upwards across the seam on the tube's +x side.
@@ -277,7 +307,8 @@ TEST(ChangeRecord, tells_lips_in_the_order_of_the_stroke) {
   std::vector<float> heights(state.point_count);
   const Mesh& mesh = state.character.meshes[0];
   for (std::size_t corner = 0; corner < state.meshes[0].points.size(); ++corner)
-    heights[state.meshes[0].points[corner]] = mesh.positions[mesh.triangles[corner / 3][corner % 3]].y();
+    heights[state.meshes[0].points[corner]] =
+        mesh.positions[mesh.triangles[corner / 3][corner % 3]].y();
   for (std::size_t i = 1; i < change.lips.size(); ++i)
     EXPECT_GT(heights[change.lips[i].left], heights[change.lips[i - 1].left]) << i;
 }

@@ -10,7 +10,7 @@
 #include "support/rigs.h"
 #include "support/stress.h"
 #include "support/torn_invariants.h"
-#include "tear/path/entry.h"
+#include "tear/geometry/tolerances.h"
 
 namespace sunder {
 namespace {

@@ -456,7 +456,18 @@ TEST_F(Command, a_saved_log_gives_the_same_weights) {
     expect_replay(model(), write("all.json", kAll), path("replayed"), weights);
 }
 
-TEST_F(Command, a_saved_log_gives_the_same_shared_model) {
+TEST_F(Command, a_saved_log_gives_the_same_model_from_a_file_with_clips) {
+  const std::string tube = (test::own_data() / "rigged" / "two_clips.glb").string();
+  const std::string operations = write("tube.json", R"({"sunder_operations": 1, "operations": [
+    {"op": "cut", "pose": {"clip": 0, "time": 0.3}, "plane": {"point": [0, 2.2, 0], "normal": [0, 1, 0]}},
+    {"op": "drill", "pose": {"clip": 1, "time": 0.2}, "axis": {"origin": [0, 0.5, 5], "direction": [0, 0, -1]}, "radius": 0.1, "depth": 10},
+    {"op": "tear", "layers": "all", "width": 0.02, "stroke": [{"base": [-0.3, 1.2, 5], "tip": [-0.3, 1.2, -5]},
+     {"base": [0.3, 1.3, 5], "tip": [0.3, 1.3, -5], "pose": {"clip": 1, "time": 0.6}}]},
+    {"op": "undo", "count": 2}, {"op": "redo"}]})");
+  expect_replay(tube, operations, path("tube"));
+}
+
+TEST_F(Command, a_saved_log_gives_the_same_model_from_an_artists_file) {
   SUNDER_SKIP_WITHOUT_SHARED_MODELS();
   const std::string fox = (test::shared_models() / "rigged" / "fox.glb").string();
   const std::string operations = write("fox.json", R"({"sunder_operations": 1, "operations": [
@@ -477,14 +488,16 @@ TEST_F(Command, a_log_that_cannot_be_saved_leaves_nothing) {
   EXPECT_FALSE(exists("unlogged.json"));
 }
 
-TEST_F(Command, what_tear_writes_passes_the_khronos_validator) {
-  SUNDER_SKIP_WITHOUT_GLTF_VALIDATOR();
+/// By our own reader and, where it is installed, by the Khronos validator.
+TEST_F(Command, what_tear_writes_is_valid) {
   for (const char* const influences : {"4", "8"})
     for (const char* const format : {"float", "u16", "u8"}) {
       ASSERT_EQ(run_sunder({"tear", model(), "--ops", write("a.json", kOneTear), "-o", path("valid.glb"), "--influences",
                             influences, "--weights-as", format})
                     .exit_code,
                 0);
+      EXPECT_TRUE(load_character(path("valid.glb")));
+      if (!test::has_gltf_validator()) continue;
       const test::ValidatorReport report = test::validate_glb(path("valid.glb"));
       EXPECT_EQ(report.errors, 0) << report.output;
     }

@@ -9,16 +9,16 @@
 
 namespace sunder {
 
-/// The file behind a loaded character, kept so that saving can patch it. Opaque.
+/// The file from which a character was loaded, kept so that saving can patch it. Opaque.
 class SourceDocument;
 
-/// One thing that loading repaired, dropped or wants known, counted over the file.
+/// One kind of thing that loading repaired, dropped or reports, counted over the file.
 struct LoadNote {
   enum class Kind : std::uint8_t { information, repaired, dropped };
   Kind kind = Kind::information;
   std::string place;        ///< "mesh 2 'Body'", "clip 'Walk'".
   std::string text;         ///< "weights did not sum to one and were normalised".
-  std::uint32_t count = 1;  ///< How many vertices, keys … it befell.
+  std::uint32_t count = 1;  ///< Number of vertices, keys … concerned.
 };
 
 struct LoadReport {
@@ -28,9 +28,12 @@ struct LoadReport {
 };
 
 struct LoadOptions {
-  bool strict = false;                                   ///< Refuse what would otherwise be repaired or dropped.
-  std::uint64_t maximum_bytes = std::uint64_t{2} << 30;  ///< Of the file and of everything that it refers to.
-  double import_seconds = 120.0;                         ///< Limit for formats that are read in a child process. > 0.
+  /// Refuses what would otherwise be repaired or dropped.
+  bool strict = false;
+  /// Limit for the file together with all files that it refers to.
+  std::uint64_t maximum_bytes = std::uint64_t{2} << 30;
+  /// Time limit for formats that are read in a child process. > 0.
+  double import_seconds = 120.0;
 };
 
 struct LoadedCharacter {
@@ -39,41 +42,50 @@ struct LoadedCharacter {
   LoadReport report;
 };
 
-/// Reads a model: glTF and GLB directly, every other format (FBX, COLLADA, X, B3D, OBJ, PLY, OFF …) by assimp in a child process
-/// with limits. All meshes of the file's scene, skinned or rigid, on one skeleton; model space is the scene's space, metres.
+/// Reads all meshes of a model's scene, skinned or rigid, on one skeleton: glTF and GLB directly,
+/// other formats (FBX, COLLADA, X, B3D, OBJ, PLY, OFF …) by assimp in a child process with limits.
+/// Model space is the scene's space, in metres. Thread-safe; details in docs/io.md.
 ///
-/// @param file  its extension chooses the reader; the content must agree. Other files are read only from its own folder.
-/// @return file_not_found, file_unreadable, unsupported_format, unsupported_feature, malformed_file, path_not_allowed,
-///         limit_exceeded; empty_input where there is no triangle; with options.strict also the first fault that would
-///         have been repaired.
-[[nodiscard]] SUNDER_API Result<LoadedCharacter> load_character(const std::filesystem::path& file, const LoadOptions& options = {});
+/// @param file  its extension chooses the reader. Other files are read only from its own folder.
+/// @return file_not_found, file_unreadable, unsupported_format, unsupported_feature,
+///         malformed_file, path_not_allowed, limit_exceeded; empty_input if there is no triangle;
+///         with options.strict also the first fault that would have been repaired.
+[[nodiscard]] SUNDER_API Result<LoadedCharacter> load_character(const std::filesystem::path& file,
+                                                                const LoadOptions& options = {});
 
-/// How a file holds the weights of influences. Integers are glTF's normalised ones; those of a vertex sum to exactly 65535 or 255
-/// over all its WEIGHTS_n, each less than one unit from its weight. See <sunder/weights/quantise.h>.
+/// How a file stores the weights of influences. Integers are normalised as in glTF; those of a
+/// vertex sum to exactly 65535 or 255 over all its WEIGHTS_n, each less than one unit from its
+/// weight.
 enum class WeightFormat : std::uint8_t { float32, unorm16, unorm8 };
 
-/// What becomes of the influences of meshes that are written. Meshes that stay as the source document has them keep theirs.
+/// How the influences of the meshes that are written are stored. Meshes that stay as they are in
+/// the source document keep theirs.
 struct SaveOptions {
-  /// Most influences written a vertex, largest first, renormalised: 4 or 8; 0 writes all, in as many JOINTS_n / WEIGHTS_n as
-  /// needed. See <sunder/weights/prune.h>.
+  /// Largest number of influences per vertex, 4 or 8; the largest are kept and renormalised. 0
+  /// writes all, in as many JOINTS_n and WEIGHTS_n as needed.
   std::uint32_t maximum_influences = 0;
   WeightFormat weights = WeightFormat::float32;
 };
 
-/// Writes `character`, which is `loaded.character` changed by tearing, as a GLB: the source document with new accessors for the
-/// meshes that differ; where any does, also for those that loading had to repair. Everything else in it (materials, textures,
-/// extras, extensions, animations, untouched meshes) stays as it was. Skeleton, skins and clips must be those of
-/// `loaded.character`.
+/// Writes `character`, which is `loaded.character` changed by tearing, as a GLB: the source
+/// document with new accessors for the meshes that differ and, if any does, for those that loading
+/// repaired. Everything else (materials, textures, extras, animations, other meshes) stays as it
+/// was. If nothing differs and the source was a GLB, the result is the source, byte for byte.
+/// Thread-safe.
 ///
-/// Where nothing differs and the source was a GLB, the result is the source, byte for byte.
-/// @return invalid_argument, size_mismatch (not the same character), file_unreadable (cannot write). A failing call leaves no file
-///         behind and an existing file as it was.
-[[nodiscard]] SUNDER_API Status save_glb(const std::filesystem::path& file, const Character& character,
-                                         const LoadedCharacter& loaded, const SaveOptions& options = {});
+/// @param character  skeleton, skins and clips as in `loaded.character`.
+/// @return invalid_argument, size_mismatch (not the same character), file_unreadable (cannot
+/// write).
+///         A failing call leaves no file behind and an existing file as it was.
+[[nodiscard]] SUNDER_API Status save_glb(const std::filesystem::path& file,
+                                         const Character& character, const LoadedCharacter& loaded,
+                                         const SaveOptions& options = {});
 
-/// Writes a character that did not come from a file: nodes, skins, meshes, clips, and a plain material a submesh.
-/// @return invalid_argument, file_unreadable (cannot write), as above; the first fault where `character` is not valid.
-[[nodiscard]] SUNDER_API Status save_glb(const std::filesystem::path& file, const Character& character,
+/// Writes a character that was not loaded from a file: nodes, skins, meshes, clips, and a plain
+/// material per submesh.
+/// @return as above; the first fault if `character` is not valid.
+[[nodiscard]] SUNDER_API Status save_glb(const std::filesystem::path& file,
+                                         const Character& character,
                                          const SaveOptions& options = {});
 
 }  // namespace sunder

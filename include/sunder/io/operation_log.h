@@ -11,19 +11,22 @@
 
 namespace sunder {
 
-/// Reads an operation log (docs/operation_log.md). Unknown fields, wrong types, other versions and values that are not finite are
-/// refused; the text names the JSON path ("/operations/0/stroke/1/tip").
+/// Reads an operation log (docs/operation_log.md). Unknown fields, wrong types, other versions and
+/// values that are not finite are refused; the error names the place as a JSON pointer
+/// ("/operations/0/stroke/1/tip").
 /// @return malformed_file, unsupported_feature, limit_exceeded.
 [[nodiscard]] SUNDER_API Result<std::vector<Operation>> parse_operations(std::string_view json);
 
-/// parse_operations() of a file's content; also file_not_found, file_unreadable.
-[[nodiscard]] SUNDER_API Result<std::vector<Operation>> load_operations(const std::filesystem::path& file);
+/// Parses the content of a file. @return as parse_operations(); file_not_found, file_unreadable.
+[[nodiscard]] SUNDER_API Result<std::vector<Operation>> load_operations(
+    const std::filesystem::path& file);
 
-/// The log as text that parse_operations() reads back to the same bits.
+/// The log as text; parse_operations() gives back operations with the same bits.
 [[nodiscard]] SUNDER_API std::string format_operations(std::span<const Operation> operations);
 
-/// Writes format_operations() to a file, as a whole or not at all.
+/// Writes format_operations() to a file. A failing call leaves an existing file as it was.
 /// @return file_unreadable.
-[[nodiscard]] SUNDER_API Status save_operations(const std::filesystem::path& file, std::span<const Operation> operations);
+[[nodiscard]] SUNDER_API Status save_operations(const std::filesystem::path& file,
+                                                std::span<const Operation> operations);
 
 }  // namespace sunder

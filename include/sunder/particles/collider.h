@@ -8,13 +8,14 @@
 
 namespace sunder {
 
-/// A hard body that a SoftBody gives way to.
+/// A rigid shape that pushes a SoftBody away. A value: copies may be used by different threads.
 struct Collider {
   /// A ball about the origin of the collider's frame.
   struct Sphere {
     double radius = 1.0;  ///< Metres, > 0.
   };
-  /// All places within `radius` of the segment from -half_length to half_length on the frame's y axis.
+  /// All places within `radius` of the segment from -half_length to half_length on the frame's y
+  /// axis.
   struct Capsule {
     double radius = 1.0;       ///< Metres, > 0.
     double half_length = 1.0;  ///< Metres, >= 0.
@@ -29,18 +30,20 @@ struct Collider {
   std::variant<Sphere, Capsule, Box, HalfSpace> shape;
   Vec3d place = Vec3d::Zero();     ///< Origin of the frame, model space, metres.
   Quatd turn = Quatd::Identity();  ///< Orientation of the frame, unit length.
-  double friction = 0.0;           ///< Largest ratio of tangential to normal force; >= 0.
+  double friction = 0.0;           ///< Greatest ratio of tangential to normal force; >= 0.
 };
 
 struct SurfaceDistance {
   double distance = 0.0;          ///< Metres to the collider's surface; below 0 inside.
-  Vec3d normal = Vec3d::UnitY();  ///< Of the nearest place on it, outwards, unit length. Any where all are as near.
+  Vec3d normal = Vec3d::UnitY();  ///< Outward unit normal at the nearest place; where several are
+                                  ///< as near, of any of them.
 };
 
-/// How far a place in model space is from a collider. Exact, outside and inside. The collider is unchecked.
+/// The distance of a place in model space from a collider, exact outside and inside. The collider
+/// is unchecked. Thread-safe.
 [[nodiscard]] SUNDER_API SurfaceDistance distance_to(const Collider& collider, const Vec3d& place);
 
-/// @return non_finite_value or invalid_argument, with what is wrong.
+/// @return non_finite_value or invalid_argument, whose text says what is wrong. Thread-safe.
 [[nodiscard]] SUNDER_API Status validate_collider(const Collider& collider);
 
 }  // namespace sunder

@@ -17,125 +17,145 @@ namespace particles {
 struct BodyState;
 }
 
-/// What the displacement of a particle is fixed to while bones move.
+/// The frame in which the displacement of a particle stays while bones move.
 enum class Follow : std::uint8_t {
-  ride,  ///< The particle's own frame: it is turned and carried by the pose, and bones alone never excite it.
-  lag,   ///< The room: the particle has inertia, and its rest place moves away from it.
+  ride,  ///< The particle's own frame: the pose turns and carries it, and bones alone never excite
+         ///< it.
+  lag,   ///< Model space: the particle has inertia, and its rest place moves away from it.
 };
 
 struct SoftBodyOptions {
   Follow follow = Follow::ride;
-  /// Whether a body that sleeps under `ride` looks at the pose in each step all the same, so that velocity() and place() of its
-  /// particles are those of the pose. O(particles) a step then.
+  /// Whether a body that sleeps under `ride` still evaluates the pose in each step, so that
+  /// velocity() and place() of its particles are those of the pose. O(particles) per step then.
   bool tracks_rest = false;
 };
 
-/// An acceleration, m/s^2, at a place in model space and a time, seconds of all steps together. What is not finite counts as none.
+/// An acceleration, m/s^2, at a place in model space and at a time, in seconds of all steps. Values
+/// that are not finite count as zero. Must not throw.
 using WindField = std::function<Vec3d(const Vec3d& place, double seconds)>;
 
-/// Pull of the skin in itself, which parts the lips of a tear. It acts at lips alone: elsewhere it is in balance.
+/// Tension in the skin, which parts the lips of a tear. It acts at lips only: elsewhere it is in
+/// balance.
 struct Tension {
   double newtons_per_metre = 0.0;  ///< >= 0.
-  /// Where given: the unit direction, in the decomposition's pose, along which alone the tissue is under tension (as Langer's lines
-  /// of skin are), at a place in that pose. What is not finite counts as none.
+  /// Optional: the unit direction, at a place in the decomposition's pose, along which alone the
+  /// tissue is under tension, as along Langer's lines of skin. Values that are not finite count as
+  /// none. Must not throw.
   std::function<Vec3d(const Vec3d& place)> direction;
 };
 
 struct HoldOptions {
-  double stiffness = 1e6;  ///< 1/s^2, in (0, 1e12]: newtons a metre, for a kilogram of what is held.
+  double stiffness =
+      1e6;  ///< 1/s^2, in (0, 1e12]: newtons per metre, for each kilogram that is held.
 };
 
 using HoldId = std::uint64_t;
 
-/// What colliders did in the last step.
+/// The effect of colliders in the last step.
 struct ContactReport {
-  std::uint32_t points = 0;  ///< Contact points that were pushed out.
-  double deepest = 0.0;      ///< Metres by which a contact point is inside a collider still.
+  std::uint32_t points = 0;  ///< Number of contact points that were pushed out.
+  double deepest = 0.0;      ///< Metres by which a contact point is still inside a collider.
 };
 
-/// The motion of a ParticleSet: each particle hangs on a damped spring to where the pose puts it, and its neighbours pull at it.
+/// The motion of a ParticleSet: each particle has a displacement and a velocity relative to its
+/// rest place, to which a damped spring pulls it; its neighbours pull at it, too. The return spring
+/// is integrated in closed form; neighbours and holds are solved for together, implicitly: any step
+/// and any stiffness is stable. Quiet particles sleep: they keep their displacement and cost
+/// nothing.
 ///
-/// A particle has a displacement u from its rest place and a velocity. The return spring is integrated in closed form; neighbours
-/// and holds are solved for together, implicitly. So any step and any stiffness is stable. Particles that are quiet sleep: they
-/// keep their displacement exactly and cost nothing.
-///
-/// Deterministic: the same calls give the same bits. See docs/particles.md.
+/// Deterministic: the same calls give the same bits. Method: docs/particles.md.
+/// Not thread-safe: one thread at a time per body and its set; different bodies on different sets
+/// are independent.
 class SUNDER_API SoftBody {
  public:
   /// A body at rest, asleep, of the first material throughout.
-  /// @param particles  followed: what is torn shows in the next call. Outlives this, and stays where it is.
+  /// @param particles  followed: what is torn shows in the next call. Outlives the body, and is not
+  /// moved.
   /// @param pose       that of ParticleSet::create().
   /// @param materials  at least one.
-  /// @return what the pose is refused for by ParticleSet::rest(); empty_input without material; the fault of a material, with its
-  ///         index; limit_exceeded without enough memory. O(particles + pairs of neighbours).
-  static Result<SoftBody> create(ParticleSet& particles, const ModelPose& pose, std::span<const SoftMaterial> materials,
+  /// @return as ParticleSet::rest() for the pose; empty_input without material; the fault of a
+  /// material, with its index;
+  ///         limit_exceeded out of memory. O(particles + pairs of neighbours).
+  static Result<SoftBody> create(ParticleSet& particles, const ModelPose& pose,
+                                 std::span<const SoftMaterial> materials,
                                  const SoftBodyOptions& options = {});
   ~SoftBody();
   SoftBody(SoftBody&&) noexcept;
   SoftBody& operator=(SoftBody&&) noexcept;
 
-  // ---- What particles are made of. New particles are as the one that most of them was.
+  // ---- Materials. A new particle has that of its greatest parent. Functions below that return a
+  // Status or Result answer index_out_of_range, non_finite_value, invalid_argument, or
+  // limit_exceeded out of memory, and change nothing then.
 
-  /// @return index_out_of_range.
   Status set_material(std::uint32_t particle, std::uint32_t material);
-  /// Changes a material wherever it is. @return index_out_of_range, or the fault of the material.
+  /// Changes a material wherever it is used. @return also the fault of the material.
   Status change_material(std::uint32_t material, const SoftMaterial& to);
   [[nodiscard]] std::uint32_t material_of(std::uint32_t particle) const;
   [[nodiscard]] std::span<const SoftMaterial> materials() const;
 
-  // ---- What acts on it. Every call answers index_out_of_range, non_finite_value, invalid_argument or limit_exceeded (out of
-  // memory), and changes nothing then.
+  // ---- Forces.
 
-  /// Newton seconds, at once. To a point: shared out by its influences.
+  /// Newton seconds, at once. To a point: distributed by its influences.
   Status add_impulse(std::uint32_t particle, const Vec3d& newton_seconds);
   Status add_point_impulse(std::uint32_t point, const Vec3d& newton_seconds);
-  /// Newtons, until it is set anew.
+  /// Newtons, until it is set again.
   Status set_force(std::uint32_t particle, const Vec3d& newtons);
-  /// m/s^2; zero to begin with.
+  /// m/s^2; initially zero.
   Status set_gravity(const Vec3d& acceleration);
-  /// Asked for every particle in every step. None: no wind.
+  /// Called for every particle in every step. An empty function: no wind.
   Status set_wind(WindField wind);
   Status set_tension(Tension tension);
 
-  /// Pulls a particle, or a point by its influences, to a place in model space. A moving target is followed a step behind. A hold
-  /// of what vanishes is released. @return also invalid_argument for a point that nothing moves.
+  /// Pulls a particle, or a point by its influences, to a place in model space. A moving target is
+  /// followed one step behind. A hold on what vanishes is released. @return also invalid_argument
+  /// for a point that no particle moves.
   Result<HoldId> hold(std::uint32_t particle, const Vec3d& target, const HoldOptions& options = {});
-  Result<HoldId> hold_point(std::uint32_t point, const Vec3d& target, const HoldOptions& options = {});
-  /// @return not_found for a hold that is none, or was released.
+  Result<HoldId> hold_point(std::uint32_t point, const Vec3d& target,
+                            const HoldOptions& options = {});
+  /// @return not_found for a hold that does not exist, or was released.
   Status move_hold(HoldId hold, const Vec3d& target);
   Status release(HoldId hold);
 
-  /// Replaces all colliders; they come without velocity. @return the fault of a collider, with its index.
+  /// Replaces all colliders; they begin without velocity. @return the fault of a collider, with its
+  /// index.
   Status set_colliders(std::span<const Collider> colliders);
-  /// Where a collider is by the end of the next step. Its velocity is that of moving there from where it was after the last one.
+  /// Sets where a collider is at the end of the next step. Its velocity is that of moving there
+  /// from where it was after the last one.
   Status move_collider(std::uint32_t collider, const Vec3d& place, const Quatd& turn);
   [[nodiscard]] std::span<const Collider> colliders() const;
 
   // ---- Motion.
 
-  /// Goes on in time.
+  /// Advances in time.
   /// @param model    the one that was decomposed, as ParticleSet::follow() left it.
   /// @param pose     at the end of the step. Bones move evenly within the step.
-  /// @param seconds  >= 0; more than an hour is an hour.
-  /// @return non_finite_value or invalid_argument for `seconds` and the model, and what the pose is refused for. All is as it was
-  ///         then, bit for bit. A body that sleeps under `ride`, with nothing set that could wake it, looks at neither.
-  ///
-  /// O(particles awake x their neighbours x iterations); with colliders, a wind or lag O(particles) too; asleep O(1). No allocation
-  /// once warm.
+  /// @param seconds  >= 0; more than an hour is taken for an hour.
+  /// @return non_finite_value or invalid_argument for `seconds` and the model, and as
+  /// ParticleSet::rest() for the pose: nothing is
+  ///         changed. A body that sleeps under `ride`, with nothing set that could wake it, checks
+  ///         neither. limit_exceeded out of memory: the step may be half done.
+  /// O(awake particles x neighbours x iterations), with colliders, wind or lag O(particles) too;
+  /// asleep O(1). No allocation once warm.
   Status step(const TornModel& model, const ModelPose& pose, double seconds);
 
-  /// One a particle: x y z of the displacement, metres of model space, and 0. What SkinnedMesh and shaders read.
-  /// Of the particles as ParticleSet::follow() left them; valid until the next call that is not const.
+  /// Per particle, as ParticleSet::follow() left them: x y z of the displacement in metres, model
+  /// space, and 0; for SkinnedMesh and shaders. Valid until the next call that is not const. Empty
+  /// where memory ran out, as are the two below.
   [[nodiscard]] std::span<const Vec4f> displacements();
-  /// One a particle: how the pose turns what it holds, from the decomposition's pose to the last step's. Up to date for every
-  /// particle that is displaced. A particle whose members are mirrored or flattened keeps the turn that it had.
+  /// Per particle: how the pose turns what it holds, from the decomposition's pose to the last
+  /// step's. Up to date for every displaced particle. A particle whose members are mirrored or
+  /// flattened keeps its last turn.
   [[nodiscard]] std::span<const Mat3f> rotations();
-  /// Vertices of a mesh that a displaced particle moves, ascending, apart. Valid until the next call that is not const.
-  /// O(points of displaced particles) where other particles are displaced than at the last call, else O(1).
-  [[nodiscard]] std::span<const IndexRange> moved_vertices(const TornModel& model, std::uint32_t mesh);
+  /// Vertices of a mesh that displaced particles move: ascending ranges that do not touch. Valid
+  /// until the next call that is not const. O(points of displaced particles) where other particles
+  /// are displaced than at the last call, else O(1).
+  [[nodiscard]] std::span<const IndexRange> moved_vertices(const TornModel& model,
+                                                           std::uint32_t mesh);
 
-  /// Metres and metres a second, model space, after the last step; unchecked. Velocities are those of the particle in the room:
-  /// its rest's own is in them. What has slept through the last steps without a look at the pose is where it was, at velocity 0.
+  /// After the last step, model space, metres and metres per second; indices are unchecked. The
+  /// velocity includes that of the rest place. Particles that slept through the last steps have the
+  /// place of the last pose evaluated, and velocity 0.
   [[nodiscard]] Vec3d place(std::uint32_t particle) const;
   [[nodiscard]] Vec3d displacement(std::uint32_t particle) const;
   [[nodiscard]] Vec3d velocity(std::uint32_t particle) const;

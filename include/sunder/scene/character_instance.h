@@ -91,6 +91,8 @@ class SUNDER_API CharacterInstance {
   Result<TearReport> extend_stroke(const ModelPose& pose, const Blade& blade, double seconds = 0.0,
                                    ChangeRecord* change = nullptr);
   Result<TearReport> end_stroke(ChangeRecord* change = nullptr);
+  /// Takes the whole stroke back.
+  Status cancel_stroke(ChangeRecord* change = nullptr);
 
   /// Tears the tissue where it is stretched beyond its strength; see sunder::tear_overstretched().
   /// To be called after advance().

@@ -4,39 +4,50 @@
 
 namespace sunder {
 
-/// Which of the blades that a stroke is given it takes up.
+/// Which incoming blade samples a stroke uses; the others are held back.
 struct StrokeSampling {
-  double minimum_distance = 0.0;  ///< Metres that base or tip must have moved since the last blade taken up; >= 0.
-  double minimum_seconds = 0.0;   ///< That must have passed since then; >= 0.
+  double minimum_distance = 0.0;  ///< Least distance that base or tip must have moved since the
+                                  ///< last used blade, metres; >= 0.
+  double minimum_seconds = 0.0;   ///< Least time since that blade; >= 0.
 };
 
-/// A tear that arrives blade by blade, over many frames, while the character moves. In one pose it gives the same surface, bit for
-/// bit, as TornModel::tear() of all its blades. It is one operation to undo.
+/// A tear that arrives blade by blade, over many frames, while the character moves. In one pose it
+/// gives the same surface, bit for bit, as TornModel::tear() with all its blades. It is one
+/// operation to undo.
 ///
-/// While a stroke is under way its model refuses other operations. The model must outlive it; moving the model is allowed.
+/// While a stroke is under way, its model refuses other operations. The model must outlive the
+/// stroke and may be moved. Use both on one thread at a time.
 class SUNDER_API TearStroke {
  public:
   /// @param blade  where the stroke begins; nothing is torn yet.
-  /// @return as TornModel::tear(); also invalid_argument where another stroke is under way.
-  static Result<TearStroke> create(TornModel& model, const ModelPose& pose, const Blade& blade, const TearOptions& options = {},
+  /// @return as TornModel::tear(); also invalid_argument if another stroke is under way.
+  static Result<TearStroke> create(TornModel& model, const ModelPose& pose, const Blade& blade,
+                                   const TearOptions& options = {},
                                    const StrokeSampling& sampling = {});
 
-  /// Tears on to `blade`, from where the tear now stands on the posed surface. With a width the gap follows one segment behind: how
-  /// it is mitred depends on where the blade goes next.
-  ///
+  /// Tears on to `blade`, from where the tear now stands on the posed surface. A gap follows one
+  /// segment behind, because its mitre depends on the next blade.
   /// @param seconds  time of the blade, for the sampling; not before that of the last.
-  /// @return what this call did: a blade that is not taken up yet is no segment; one that meets nothing is a segment missed. On
-  /// failure
-  ///         the stroke and the model are as they were.
-  ///
+  /// @return what this call did: a blade that is held back is no segment, and one that meets
+  ///         nothing is a missed segment. On failure the stroke and the model are unchanged.
   /// O(faces crossed) while the tear stands on the surface.
-  Result<TearReport> extend(const ModelPose& pose, const Blade& blade, double seconds = 0.0, ChangeRecord* change = nullptr);
+  Result<TearReport> extend(const ModelPose& pose, const Blade& blade, double seconds = 0.0,
+                            ChangeRecord* change = nullptr);
 
-  /// Takes up a blade that was held back, tears what of the gap was left to do, and closes the operation.
-  /// @return what the whole stroke did; `change` is that of this call alone.
+  /// Uses a blade that was held back, completes the gap and the walls, and closes the operation.
+  /// @return the figures of the whole stroke; `change` is that of this call alone. On failure the
+  ///         stroke and the model are unchanged: the stroke can be extended, ended or cancelled.
   Result<TearReport> end(ChangeRecord* change = nullptr);
 
-  /// Ends the stroke where it was not ended.
+  /// Takes the whole stroke back: the model is as it was before create(), bit for bit, with its
+  /// undo and redo stacks. O(what the stroke changed).
+  /// @param change  optional; written: what reverts all calls of the stroke, without lips and
+  ///                rims.
+  /// @return ok without `change`; otherwise limit_exceeded or capacity_exceeded if there is no
+  ///         memory to describe the change, and the stroke is unchanged.
+  Status cancel(ChangeRecord* change = nullptr);
+
+  /// Cancels the stroke if it was not ended.
   ~TearStroke();
   TearStroke(TearStroke&&) noexcept;
   TearStroke& operator=(TearStroke&&) = delete;

@@ -13,21 +13,24 @@
 
 namespace sunder {
 
-/// What the operations on a model may append, counted over all that are done and not taken back. With a fixed capacity the memory
-/// is there from the start: an operation that finds no room changes nothing and says so. A cut across n faces appends about 2 n
-/// vertices and triangles.
+/// The number of elements that the operations on a model may append, summed over all that are done
+/// and not undone. With a fixed capacity all memory is allocated at the start, and an operation
+/// that finds no room changes nothing and returns capacity_exceeded. A cut across n faces appends
+/// about 2 n vertices and triangles.
 struct TornCapacity {
   std::uint32_t vertices = 0;   ///< Each mesh gets room for so many.
   std::uint32_t triangles = 0;  ///< Likewise.
   std::uint32_t operations = 0;
 
   /// All zero: the model grows as needed, and an operation allocates where it has to grow.
-  [[nodiscard]] constexpr bool is_fixed() const { return vertices > 0 || triangles > 0 || operations > 0; }
+  [[nodiscard]] constexpr bool is_fixed() const {
+    return vertices > 0 || triangles > 0 || operations > 0;
+  }
 
   bool operator==(const TornCapacity&) const = default;
 };
 
-/// For each mesh where its elements came from: old_from_new[new] = old. Ascending: order is kept.
+/// Where the elements of each mesh came from: old_from_new[new] = old, ascending.
 struct CompactMaps {
   struct OfMesh {
     std::vector<std::uint32_t> vertex_old_from_new;
@@ -43,135 +46,148 @@ struct Surface;
 class TornModel;
 struct ParentBlends;
 struct WeightErrors;
-// Friends, which say what they are in headers of their own: <sunder/tear/parent_blends.h>, <sunder/tear/weight_errors.h>.
+// Friends of TornModel, documented in <sunder/tear/torn_weights.h>.
 SUNDER_API ParentBlends parent_blends(const TornModel& model, std::uint32_t mesh);
-SUNDER_API Result<WeightErrors> measure_weight_errors(const TornModel& model, std::uint32_t first_operation,
-                                                      std::uint32_t operation_count, std::span<const ModelPose> poses);
+SUNDER_API Result<WeightErrors> measure_weight_errors(const TornModel& model,
+                                                      std::uint32_t first_operation,
+                                                      std::uint32_t operation_count,
+                                                      std::span<const ModelPose> poses);
 
-/// A character that can be torn. It keeps the source, the torn meshes, and the topology of their surface.
+/// A character that can be torn: the source, the torn meshes, and the topology of their surface.
+/// Use a model on one thread at a time; different models are independent. Accessors return
+/// references that are valid until the next call that changes the model.
 class SUNDER_API TornModel {
  public:
-  /// @param source  satisfies validate_character(); kept. The model starts as a copy of it.
-  /// @param capacity  what operations may append; by default the model grows.
-  /// @return the first fault of the source; empty_input for none; limit_exceeded above 700 million triangles, or without enough
-  ///         memory. O(size of the source and of the capacity).
-  static Result<TornModel> create(std::shared_ptr<const Character> source, const TornCapacity& capacity = {});
+  /// @param source  must satisfy validate_character(); kept. The model starts as a copy of it.
+  /// @param capacity  what operations may append; by default the model grows as needed.
+  /// @return the first fault of the source; empty_input if it is null; limit_exceeded above 700
+  ///         million triangles or out of memory. O(size of the source and of the capacity).
+  static Result<TornModel> create(std::shared_ptr<const Character> source,
+                                  const TornCapacity& capacity = {});
 
   TornModel(TornModel&&) noexcept;
   TornModel& operator=(TornModel&&) noexcept;
   ~TornModel();
 
-  /// Tears the posed surface along a stroke. Without width it opens and the two lips coincide until something pulls them apart;
-  /// with a width, the band of surface that a blade of that thickness passes is removed.
-  ///
-  /// Each two neighbouring blades sweep a segment, cut by one plane: through the tip where the tear stands (or the first blade's
-  /// hit) and the second blade. The tear enters where the sweep first meets the surface, on the layer nearest to the blade's base,
-  /// and follows that layer, face to face, while the blade reaches it. Its two ends are closed. See docs/tear.md.
-  ///
-  /// @param pose    one matrix a bone, all finite; morph weights as the character's.
-  /// @param stroke  at least two blades, model space; each longer than zero; neighbours turned by less than 90 degrees.
-  /// @param change  written where given: what an engine has to mirror.
-  /// @return what was done; a stroke that misses is a success with runs = 0. size_mismatch, non_finite_value, invalid_argument
-  ///         (index = the blade), limit_exceeded (out of memory, or of the model's capacity): the model is as it was, bit for bit.
-  ///
-  /// O(faces crossed), and where the tear enters O(log faces). Allocates where a model that grows has to grow, for pieces that come
-  /// free, with a width, walls or all layers, and where weights are other than `barycentric` with all influences. The first
-  /// operation also builds what entries are looked up in: O(faces).
-  Result<TearReport> tear(const ModelPose& pose, std::span<const Blade> stroke, const TearOptions& options = {},
-                          ChangeRecord* change = nullptr);
+  /// Tears the posed surface along a stroke. Without a width the surface opens into two lips that
+  /// coincide; with a width the band that the blade passes is removed. The tear enters where the
+  /// sweep first meets the surface and follows that layer, face to face. docs/tear.md describes
+  /// the method.
+  /// @param pose    one finite matrix per bone; morph weights as many as the character's.
+  /// @param stroke  at least two blades in model space, each longer than zero; neighbours differ
+  ///                by less than 90 degrees.
+  /// @param change  optional; written: what an engine has to mirror.
+  /// @return what was done; runs = 0 if the stroke missed. On size_mismatch, non_finite_value,
+  ///         invalid_argument (index: the blade), limit_exceeded (out of memory) and
+  ///         capacity_exceeded the model is unchanged, bit for bit.
+  /// O(faces crossed + log faces); the first operation also builds a search tree in O(faces).
+  /// Allocates to grow, for pieces, widths, walls and all layers, and for weights other than
+  /// `barycentric`.
+  Result<TearReport> tear(const ModelPose& pose, std::span<const Blade> stroke,
+                          const TearOptions& options = {}, ChangeRecord* change = nullptr);
 
-  /// Cuts the posed surface by a plane, every layer of it. Lips coincide, as those of a tear.
-  /// @return as tear(). O(faces crossed), and O(all faces) where pieces come free.
-  Result<TearReport> cut(const ModelPose& pose, const PlaneCut& cut, ChangeRecord* change = nullptr);
+  /// Cuts all layers of the posed surface by a plane. The lips coincide, as those of a tear.
+  /// @return as tear(). O(faces crossed), and O(all faces) if pieces come free.
+  Result<TearReport> cut(const ModelPose& pose, const PlaneCut& cut,
+                         ChangeRecord* change = nullptr);
 
-  /// Removes the posed surface inside a bore, every layer of it.
+  /// Removes all layers of the posed surface inside a bore.
   /// @return as tear(). O(faces crossed and removed).
   Result<TearReport> drill(const ModelPose& pose, const Bore& bore, ChangeRecord* change = nullptr);
 
-  /// Takes back the newest operation, or does again the one that was taken back last: every array as it was then, bit for bit.
-  /// Any operation forgets what could be done again. O(what the operation changed).
-  /// @param change  written where given. Of lips and rims, undo() tells none, and redo() what the operation told.
-  /// @return not_found where there is none.
+  /// `undo` reverts the most recent operation; `redo` reapplies the operation most recently
+  /// undone. Both restore every array bit for bit. A new operation clears the redo stack. O(what
+  /// the operation changed).
+  /// @param change  optional; written. It has no lips and rims after undo(), and those of the
+  ///                operation after redo().
+  /// @return not_found if there is no such operation.
   Status undo(ChangeRecord* change = nullptr);
   Status redo(ChangeRecord* change = nullptr);
   [[nodiscard]] std::uint32_t undo_count() const;
   [[nodiscard]] std::uint32_t redo_count() const;
 
-  /// How operations weigh the points that they make, where they do not say: `barycentric`, all influences, unless this was called.
-  /// What was made before keeps what it has; see reweigh().
+  /// Sets how new points are skinned by operations that do not say; initially `barycentric` with
+  /// all influences. Existing points are unchanged; see reweigh().
   Status set_weights(const WeightOptions& options);
   [[nodiscard]] const WeightOptions& weights() const;
-  /// Gives the points that earlier operations made other weights, from their births, and the same to every vertex that shares
-  /// them. An operation of its own: it is in the history, and undo() takes back no more than it. Where tears run does not depend
-  /// on it. `refit` fits here and now; to fit beside the frame see RefitJob.
-  ///
-  /// @param change  written where given: vertices that are dirty.
-  /// @return not_found where there are no such operations; what the pose or the poses of a refit are refused for;
-  /// unsupported_feature
-  ///         for a coupled refit that was not built. O(vertices appended since the first of them), and what a refit takes.
+  /// Assigns new weights, computed from births, to points that earlier operations made and to all
+  /// vertices that share them. This is an operation of its own in the history. The paths of tears
+  /// do not depend on weights. `refit` is computed before the call returns; RefitJob computes it
+  /// in the background.
+  /// @param change  optional; written: the dirty vertices.
+  /// @return not_found if there are no such operations; the errors of the pose or of the poses of
+  ///         a refit; unsupported_feature for a coupled refit without Ceres. O(vertices appended
+  ///         since the first of the operations), in addition to the refit.
   Result<WeightReport> reweigh(const WeightsOperation& wanted, ChangeRecord* change = nullptr);
-  /// What the weights of a vertex were made by: `barycentric` for one of the source, for one in a corner of its birth triangle, and
-  /// for one of a wall or cap that is not on its rim. Unchecked.
+  /// The policy that computed the weights of a vertex. `barycentric` for vertices of the source,
+  /// in a corner of their birth triangle, and inside walls and caps. Indices are unchecked.
   [[nodiscard]] WeightPolicy weight_policy(std::uint32_t mesh, std::uint32_t vertex) const;
-  /// The `exact` vertices of a mesh: what VertexSource::per_influence takes. In the mesh itself, and in files, they have their
-  /// barycentric weights. Unchecked. Valid until the next call that changes the model.
+  /// The `exact` vertices of a mesh, as VertexSource::per_influence takes them. In the mesh itself
+  /// and in files they have barycentric weights. The index is unchecked.
   [[nodiscard]] const InfluencePositions& influence_positions(std::uint32_t mesh) const;
-  /// Where a vertex' own begin among those; kNone for one that is not `exact`. Unchecked.
+  /// Index of a vertex's first entry in influence_positions(); kNone if it is not `exact`. Indices
+  /// are unchecked.
   [[nodiscard]] std::uint32_t influence_place(std::uint32_t mesh, std::uint32_t vertex) const;
 
-  /// A number that the newest operation has and no other, of any model; kept by undo() and redo(). 0: nothing is done.
+  /// A number that identifies the most recent operation among those of all models. undo() and
+  /// redo() keep it. 0 if no operation is done.
   [[nodiscard]] std::uint64_t newest_operation() const;
   /// Whether a TearStroke is under way.
   [[nodiscard]] bool is_in_stroke() const;
 
-  /// What was done and not taken back, oldest first, with the poses' bone matrices in full: played on the source it gives this
-  /// model again, bit for bit.
+  /// The operations that are done and not undone, oldest first, with all bone matrices of their
+  /// poses. Played on the source they give this model again, bit for bit.
   [[nodiscard]] std::vector<Operation> history() const;
 
-  /// Drops retired triangles and unused vertices. The model begins anew with the result as its source: births start over, and there
-  /// is nothing to undo. O(size of the model).
-  /// @return where each element came from; limit_exceeded (out of memory): the model is as it was.
+  /// Removes retired triangles and unused vertices. The result becomes the model's source: births
+  /// start over and there is nothing to undo. O(size of the model).
+  /// @return where each element came from; limit_exceeded (out of memory): the model is unchanged.
   Result<CompactMaps> compact();
 
-  /// One number for all bits of the model as it stands: equal models have equal digests on every machine. O(size of the model).
+  /// A hash of all bits of the model: equal models have equal digests on every machine. O(size of
+  /// the model).
   [[nodiscard]] std::uint64_t digest() const;
 
-  /// The model as it stands. Meshes have those vertices and triangles of the source first, under their numbers. A torn mesh carries
-  /// the attribute `_TEARSIDE`, in which the two lips of a tear differ.
+  /// The model in its current state. Each mesh has the vertices and triangles of the source first,
+  /// with the same indices. A torn mesh has the attribute `_TEARSIDE`, which differs between the
+  /// two lips of a tear.
   [[nodiscard]] const Character& character() const;
   [[nodiscard]] const Character& source() const;
 
-  /// Surface points are shared by the vertices that a UV seam or hard edge duplicates, over all meshes.
+  /// Number of surface points. A point is shared by the vertices, of all meshes, that a UV seam or
+  /// a hard edge duplicates.
   [[nodiscard]] std::uint32_t point_count() const;
-  /// The topology as it stands: half-edges between points. Valid until the next call that changes the model.
+  /// The current topology: half-edges between points.
   [[nodiscard]] const tear::Surface& surface() const;
-  /// The point at a corner (0, 1, 2) of a triangle of a mesh. Unchecked.
-  [[nodiscard]] std::uint32_t point_at(std::uint32_t mesh, std::uint32_t triangle, std::uint32_t corner) const;
-  /// Where an appended vertex came from; vertices of the source have no birth. A copy of one lies in a corner of its birth
-  /// triangle. Unchecked.
+  /// The point at a corner (0, 1, 2) of a triangle of a mesh. Indices are unchecked.
+  [[nodiscard]] std::uint32_t point_at(std::uint32_t mesh, std::uint32_t triangle,
+                                       std::uint32_t corner) const;
+  /// Where an appended vertex came from; vertices of the source have no birth. A duplicate of one
+  /// was born in a corner of its triangle. Indices are unchecked.
   [[nodiscard]] Birth birth(std::uint32_t mesh, std::uint32_t vertex) const;
-  /// The triangle of the source that a triangle is a part of; from the source's triangle count up: that of a wall or cap, see
-  /// fillings(). Unchecked.
+  /// The source triangle that a triangle is a part of. Values from the source's triangle count on
+  /// denote triangles of walls and caps; see fillings(). Indices are unchecked.
   [[nodiscard]] std::uint32_t source_triangle(std::uint32_t mesh, std::uint32_t triangle) const;
-  /// Triangles of walls and caps as they were made: their vertices. Births and source_triangle() number them after the source's.
+  /// Vertices of the triangles of walls and caps as they were made. Births and source_triangle()
+  /// number these triangles after those of the source.
   [[nodiscard]] std::span<const Triangle> fillings(std::uint32_t mesh) const;
 
  private:
   friend class TearStroke;
   friend class RefitJob;
-  friend Result<WeightErrors> measure_weight_errors(const TornModel&, std::uint32_t, std::uint32_t, std::span<const ModelPose>);
+  friend Result<WeightErrors> measure_weight_errors(const TornModel&, std::uint32_t, std::uint32_t,
+                                                    std::span<const ModelPose>);
   friend ParentBlends parent_blends(const TornModel&, std::uint32_t);
   struct State;
   explicit TornModel(std::unique_ptr<State> state);
   std::unique_ptr<State> state_;
 };
 
-/// Does what an operation says: poses are looked up in the model's skeleton and clips.
-/// @param changes  appended where given: one record for each step, in order. Undo and redo of several operations, and a stroke in
-///                 several poses, are several steps.
-/// @return as the operation's own call; not_found for a clip or bone that the character does not have, and for undo and redo of
-/// more
-///         than there is (nothing is taken back then).
+/// Plays one operation on a model; poses are looked up in the model's skeleton and clips.
+/// @param changes  optional; one record per step is appended, in order. Undo and redo of several
+///                 operations and strokes in several poses have several steps.
+/// @return as the operation's own call; not_found for an unknown clip or bone, and for more undos
+///         or redos than there are (then none is done). A failing stroke changes nothing.
 SUNDER_API Result<TearReport> apply_operation(TornModel& model, const Operation& operation,
                                               std::vector<ChangeRecord>* changes = nullptr);
 

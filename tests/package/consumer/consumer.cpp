@@ -1,14 +1,7 @@
-#include <sunder/skinning/deform.h>
-#include <sunder/skinning/pose.h>
-#include <sunder/tear/topology.h>
-#include <sunder/tear/torn_model.h>
+#include <sunder/sunder.h>
 
 #include <cstdio>
 #include <memory>
-
-#ifdef CONSUMER_IO
-#include <sunder/io/character_file.h>
-#endif
 
 int main() {
   sunder::Character sheet;
@@ -24,14 +17,20 @@ int main() {
   sheet.meshes.push_back(mesh);
 
   const sunder::ModelPose pose = sunder::bind_pose(sheet);
-  auto torn = sunder::TornModel::create(std::make_shared<const sunder::Character>(sheet));
+  auto torn = sunder::CharacterInstance::create(std::make_shared<const sunder::Character>(sheet));
   if (!torn) return std::printf("%s\n", torn.error().text().data()), 1;
-  const auto report = torn->tear(pose, sunder::Stroke{{{0.6, 0.2, 1}, {0.6, 0.2, -1}}, {{0.4, 0.8, 1}, {0.4, 0.8, -1}}});
+  const auto report = torn->tear(
+      pose, sunder::Stroke{{{0.6, 0.2, 1}, {0.6, 0.2, -1}}, {{0.4, 0.8, 1}, {0.4, 0.8, -1}}});
   if (!report) return std::printf("%s\n", report.error().text().data()), 1;
-  if (report->runs != 1 || sunder::count_topology(torn->character()).boundary_loops != 2) return 1;
+  const sunder::Character& character = torn->model().character();
+  if (report->runs != 1 || sunder::count_topology(character).boundary_loops != 2) return 1;
+  if (!torn->advance(pose, 0.0)) return 1;
+  if (torn->mesh(0).positions.size() != character.meshes[0].positions.size()) return 1;
 
 #ifdef CONSUMER_IO
-  if (sunder::load_character("no such file.glb").error().code() != sunder::StatusCode::file_not_found) return 1;
+  if (sunder::load_character("no such file.glb").error().code() !=
+      sunder::StatusCode::file_not_found)
+    return 1;
 #endif
   return 0;
 }

@@ -1,5 +1,5 @@
-// Flat regions of all shapes, in seeded random order of badness: what comes back is a constrained Delaunay triangulation or
-// nothing.
+// Flat regions of all shapes, in seeded random order of badness: what comes back is a constrained
+// Delaunay triangulation or nothing.
 #include "tear/section/flat_section.h"
 
 #include <algorithm>
@@ -36,34 +36,42 @@ double area_of(std::span<const Vec2d> loop) {
   return 0.5 * twice;
 }
 
-Vec2d polar(double angle, double radius) { return {radius * std::cos(angle), radius * std::sin(angle)}; }
+Vec2d polar(double angle, double radius) {
+  return {radius * std::cos(angle), radius * std::sin(angle)};
+}
 
 /// Around `centre`, between 0.6 and 1 of `radius` away from it.
 FlatLoop star(Random& random, std::uint32_t count, const Vec2d& centre, double radius) {
   FlatLoop loop;
   const bool is_smooth = random.index(2) == 0;
   for (std::uint32_t i = 0; i < count; ++i)
-    loop.push_back(centre + polar(2 * std::numbers::pi * i / count, radius * (is_smooth ? 0.8 : random.uniform(0.6, 1))));
+    loop.push_back(centre + polar(2 * std::numbers::pi * i / count,
+                                  radius * (is_smooth ? 0.8 : random.uniform(0.6, 1))));
   if (random.index(2) == 0) std::reverse(loop.begin(), loop.end());
   return loop;
 }
 
-void add_nested(Random& random, const Vec2d& centre, double radius, int depth, std::vector<FlatLoop>& loops) {
+void add_nested(Random& random, const Vec2d& centre, double radius, int depth,
+                std::vector<FlatLoop>& loops) {
   loops.push_back(star(random, 8 + random.index(40), centre, radius));
   if (depth == 0) return;
   const std::uint32_t children = random.index(4);
   if (children == 1) add_nested(random, centre, 0.5 * radius, depth - 1, loops);
-  if (children > 1)  // circles of a third of the radius around the middle; a polygon of 8 is within 0.55 of the radius everywhere
+  if (children > 1)  // circles of a third of the radius around the middle; a polygon of 8 is within
+                     // 0.55 of the radius everywhere
     for (std::uint32_t i = 0; i < children; ++i)
-      add_nested(random, centre + polar(2 * std::numbers::pi * i / children, 0.3 * radius), 0.2 * radius, depth - 1, loops);
+      add_nested(random, centre + polar(2 * std::numbers::pi * i / children, 0.3 * radius),
+                 0.2 * radius, depth - 1, loops);
 }
 
 FlatLoop spiral(int turns, int points_a_turn, double width) {
   FlatLoop loop;
   const int count = turns * points_a_turn;
-  for (int i = 0; i <= count; ++i) loop.push_back(polar(2 * std::numbers::pi * i / points_a_turn, 1 + double(i) / points_a_turn));
+  for (int i = 0; i <= count; ++i)
+    loop.push_back(polar(2 * std::numbers::pi * i / points_a_turn, 1 + double(i) / points_a_turn));
   for (int i = count; i >= 0; --i)
-    loop.push_back(polar(2 * std::numbers::pi * i / points_a_turn, 1 + width + double(i) / points_a_turn));
+    loop.push_back(
+        polar(2 * std::numbers::pi * i / points_a_turn, 1 + width + double(i) / points_a_turn));
   return loop;
 }
 
@@ -80,12 +88,14 @@ FlatLoop comb(int teeth, double depth) {
 FlatLoop refined(const FlatLoop& loop, int parts) {
   FlatLoop result;
   for (std::size_t i = 0; i < loop.size(); ++i)
-    for (int k = 0; k < parts; ++k) result.push_back(loop[i] + (loop[(i + 1) % loop.size()] - loop[i]) * (double(k) / parts));
+    for (int k = 0; k < parts; ++k)
+      result.push_back(loop[i] + (loop[(i + 1) % loop.size()] - loop[i]) * (double(k) / parts));
   return result;
 }
 
 std::vector<FlatLoop> grid_of_holes(int side, int parts) {
-  std::vector<FlatLoop> loops{refined({{0, 0}, {4.0 * side, 0}, {4.0 * side, 4.0 * side}, {0, 4.0 * side}}, parts * side)};
+  std::vector<FlatLoop> loops{
+      refined({{0, 0}, {4.0 * side, 0}, {4.0 * side, 4.0 * side}, {0, 4.0 * side}}, parts * side)};
   for (int y = 0; y < side; ++y)
     for (int x = 0; x < side; ++x) {
       const Vec2d at(4.0 * x + 1, 4.0 * y + 1);
@@ -95,18 +105,44 @@ std::vector<FlatLoop> grid_of_holes(int side, int parts) {
 }
 
 std::vector<std::vector<FlatLoop>> letters() {
-  return {{{{0, 0}, {4, 0}, {4, 1}, {1, 1}, {1, 2}, {3, 2}, {3, 3}, {1, 3}, {1, 4}, {4, 4}, {4, 5}, {0, 5}}},          // E
-          {{{0, 0}, {1, 0}, {1, 2}, {3, 2}, {3, 0}, {4, 0}, {4, 5}, {3, 5}, {3, 3}, {1, 3}, {1, 5}, {0, 5}}},          // H
-          {{{0, 0}, {1, 0}, {1.5, 2}, {2.5, 2}, {3, 0}, {4, 0}, {2.5, 5}, {1.5, 5}}, {{1.75, 3}, {2, 4}, {2.25, 3}}},  // A
-          {{{0, 0}, {3, 0}, {4, 1}, {4, 2}, {3.5, 2.5}, {4, 3}, {4, 4}, {3, 5}, {0, 5}},
-           {{1, 1}, {1, 2}, {3, 2}, {3, 1}},
-           {{1, 3}, {1, 4}, {3, 4}, {3, 3}}},                                                       // B
-          {{{0, 0}, {4, 0}, {4, 1}, {1.5, 1}, {4, 4}, {4, 5}, {0, 5}, {0, 4}, {2.5, 4}, {0, 1}}}};  // Z
+  return {
+      {{{0, 0},
+        {4, 0},
+        {4, 1},
+        {1, 1},
+        {1, 2},
+        {3, 2},
+        {3, 3},
+        {1, 3},
+        {1, 4},
+        {4, 4},
+        {4, 5},
+        {0, 5}}},  // E
+      {{{0, 0},
+        {1, 0},
+        {1, 2},
+        {3, 2},
+        {3, 0},
+        {4, 0},
+        {4, 5},
+        {3, 5},
+        {3, 3},
+        {1, 3},
+        {1, 5},
+        {0, 5}}},  // H
+      {{{0, 0}, {1, 0}, {1.5, 2}, {2.5, 2}, {3, 0}, {4, 0}, {2.5, 5}, {1.5, 5}},
+       {{1.75, 3}, {2, 4}, {2.25, 3}}},  // A
+      {{{0, 0}, {3, 0}, {4, 1}, {4, 2}, {3.5, 2.5}, {4, 3}, {4, 4}, {3, 5}, {0, 5}},
+       {{1, 1}, {1, 2}, {3, 2}, {3, 1}},
+       {{1, 3}, {1, 4}, {3, 4}, {3, 3}}},                                                       // B
+      {{{0, 0}, {4, 0}, {4, 1}, {1.5, 1}, {4, 4}, {4, 5}, {0, 5}, {0, 4}, {2.5, 4}, {0, 1}}}};  // Z
 }
 
-std::vector<Vec2d> all_points(std::span<const FlatLoop> loops, const FlatRegion& region, const FlatMesh& mesh) {
+std::vector<Vec2d> all_points(std::span<const FlatLoop> loops, const FlatRegion& region,
+                              const FlatMesh& mesh) {
   std::vector<Vec2d> points = loops[region.outline];
-  for (const Index hole : region.holes) points.insert(points.end(), loops[hole].begin(), loops[hole].end());
+  for (const Index hole : region.holes)
+    points.insert(points.end(), loops[hole].begin(), loops[hole].end());
   points.insert(points.end(), mesh.inner.begin(), mesh.inner.end());
   return points;
 }
@@ -122,8 +158,9 @@ double distance_to_segment(const Vec2d& p, const Vec2d& a, const Vec2d& b) {
   return (a + t * (b - a) - p).norm();
 }
 
-/// What triangulate() promises.
-void expect_constrained_delaunay(std::span<const FlatLoop> loops, const FlatRegion& region, const FlatMesh& mesh) {
+/// Checks what the header of triangulate() promises.
+void expect_constrained_delaunay(std::span<const FlatLoop> loops, const FlatRegion& region,
+                                 const FlatMesh& mesh) {
   const std::vector<Vec2d> points = all_points(loops, region, mesh);
   const Index rim = rim_count(loops, region);
   std::map<std::pair<Index, Index>, Index> apex;  // of half-edges
@@ -138,9 +175,11 @@ void expect_constrained_delaunay(std::span<const FlatLoop> loops, const FlatRegi
     area += 0.5 * ((points[t[1]] - points[t[0]]).x() * (points[t[2]] - points[t[0]]).y() -
                    (points[t[1]] - points[t[0]]).y() * (points[t[2]] - points[t[0]]).x());
     for (std::size_t i = 0; i < 3; ++i)
-      ASSERT_TRUE(apex.emplace(std::pair{t[i], t[(i + 1) % 3]}, t[(i + 2) % 3]).second) << "an edge with two faces on one side";
+      ASSERT_TRUE(apex.emplace(std::pair{t[i], t[(i + 1) % 3]}, t[(i + 2) % 3]).second)
+          << "an edge with two faces on one side";
   }
-  ASSERT_EQ(std::count(is_used.begin(), is_used.end(), 1), static_cast<std::ptrdiff_t>(points.size()));
+  ASSERT_EQ(std::count(is_used.begin(), is_used.end(), 1),
+            static_cast<std::ptrdiff_t>(points.size()));
 
   double expected_area = 0;
   std::set<std::pair<Index, Index>> loop_edges;
@@ -164,12 +203,15 @@ void expect_constrained_delaunay(std::span<const FlatLoop> loops, const FlatRegi
     if (loop_edges.count(edge) != 0) continue;
     const auto other = apex.find({edge.second, edge.first});
     ASSERT_NE(other, apex.end()) << "an inner edge with one face";
-    ASSERT_LE(in_circle(points[edge.first], points[edge.second], points[tip], points[other->second]), 0);
+    ASSERT_LE(
+        in_circle(points[edge.first], points[edge.second], points[tip], points[other->second]), 0);
   }
-  ASSERT_EQ(mesh.triangles.size(), rim + 2 * region.holes.size() + 2 * mesh.inner.size() - 2);  // Euler's formula
+  ASSERT_EQ(mesh.triangles.size(),
+            rim + 2 * region.holes.size() + 2 * mesh.inner.size() - 2);  // Euler's formula
 }
 
-void expect_inner_points_in_place(std::span<const FlatLoop> loops, const FlatRegion& region, const FlatMesh& mesh, double spacing) {
+void expect_inner_points_in_place(std::span<const FlatLoop> loops, const FlatRegion& region,
+                                  const FlatMesh& mesh, double spacing) {
   const Index rim = rim_count(loops, region);
   ASSERT_LE(mesh.inner.size(), 4 * rim + 64);
   std::vector<Index> members{region.outline};
@@ -177,10 +219,12 @@ void expect_inner_points_in_place(std::span<const FlatLoop> loops, const FlatReg
   for (const Vec2d& p : mesh.inner)
     for (const Index l : members)
       for (std::size_t i = 0; i < loops[l].size(); ++i)
-        ASSERT_GT(distance_to_segment(p, loops[l][i], loops[l][(i + 1) % loops[l].size()]), 0.499 * spacing);
+        ASSERT_GT(distance_to_segment(p, loops[l][i], loops[l][(i + 1) % loops[l].size()]),
+                  0.499 * spacing);
 }
 
-/// Triangulates every region, which must succeed, with and without inner points. @return inner points.
+/// Triangulates every region, which must succeed, with and without inner points. @return inner
+/// points.
 std::size_t expect_regions_triangulate(const std::vector<FlatLoop>& loops, double spacing) {
   std::size_t inner = 0;
   const auto regions = find_regions(loops);
@@ -204,7 +248,8 @@ bool is_inside(const FlatLoop& loop, const Vec2d& p) {
   bool inside = false;
   for (std::size_t i = 0; i < loop.size(); ++i) {
     const Vec2d &a = loop[i], &b = loop[(i + 1) % loop.size()];
-    if ((a.y() <= p.y()) != (b.y() <= p.y()) && p.x() < a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x()))
+    if ((a.y() <= p.y()) != (b.y() <= p.y()) &&
+        p.x() < a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x()))
       inside = !inside;
   }
   return inside;
@@ -219,7 +264,8 @@ std::vector<FlatLoop> alternated(std::vector<FlatLoop> loops) {
   for (std::size_t i = 0; i < loops.size(); ++i) {
     double area = 0;
     for (std::size_t k = 0; k < loops[i].size(); ++k) {
-      const Vec2d a = loops[i][k] - loops[i][0], b = loops[i][(k + 1) % loops[i].size()] - loops[i][0];
+      const Vec2d a = loops[i][k] - loops[i][0],
+                  b = loops[i][(k + 1) % loops[i].size()] - loops[i][0];
       area += a.x() * b.y() - a.y() * b.x();
     }
     if ((area < 0) != (depths[i] % 2 == 1)) std::reverse(loops[i].begin(), loops[i].end());
@@ -232,7 +278,8 @@ std::vector<FlatLoop> random_nested(Random& random) {
   std::vector<FlatLoop> loops;
   const std::uint32_t roots = 1 + random.index(3);
   for (std::uint32_t i = 0; i < roots; ++i) add_nested(random, {2.5 * i, 0}, 1, 5, loops);
-  for (std::size_t i = loops.size(); i > 1; --i) std::swap(loops[i - 1], loops[random.index(static_cast<std::uint32_t>(i))]);
+  for (std::size_t i = loops.size(); i > 1; --i)
+    std::swap(loops[i - 1], loops[random.index(static_cast<std::uint32_t>(i))]);
   const double scale = std::pow(10.0, static_cast<double>(random.index(4)) * 2 - 6);
   const Vec2d offset = random.index(3) == 0 ? Vec2d(1e6 * scale, -3e5 * scale) : Vec2d(0, 0);
   for (FlatLoop& loop : loops)
@@ -244,8 +291,8 @@ TEST(FindRegions, alternates_outlines_and_holes) {
   const auto square = [](double x, double half) {
     return FlatLoop{{x - half, -half}, {x + half, -half}, {x + half, half}, {x - half, half}};
   };
-  const auto loops =
-      alternated({square(0, 1), square(0, 5), square(0, 3), square(0, 2), square(0, 4), square(20, 1), square(4.5, 0.2)});
+  const auto loops = alternated({square(0, 1), square(0, 5), square(0, 3), square(0, 2),
+                                 square(0, 4), square(20, 1), square(4.5, 0.2)});
   const auto regions = find_regions(loops);
   ASSERT_EQ(regions.size(), 4u);
   EXPECT_EQ(regions[0].outline, 0u);
@@ -277,14 +324,16 @@ TEST(FindRegions, covers_what_an_odd_number_of_loops_holds) {
       for (const FlatLoop& loop : loops) parity ^= is_inside(loop, p) ? 1 : 0;
       for (const FlatRegion& region : regions)
         covered += is_inside(loops[region.outline], p) &&
-                   std::none_of(region.holes.begin(), region.holes.end(), [&](Index hole) { return is_inside(loops[hole], p); });
+                   std::none_of(region.holes.begin(), region.holes.end(),
+                                [&](Index hole) { return is_inside(loops[hole], p); });
       ASSERT_EQ(covered, parity);
     }
   }
 }
 
 TEST(FindRegions, keeps_bodies_in_one_another_apart) {
-  const FlatLoop outer{{0, 0}, {4, 0}, {4, 4}, {0, 4}}, inner{{1, 1}, {3, 1}, {3, 3}, {1, 3}}, hole{{2, 2}, {2, 2.5}, {2.5, 2}};
+  const FlatLoop outer{{0, 0}, {4, 0}, {4, 4}, {0, 4}}, inner{{1, 1}, {3, 1}, {3, 3}, {1, 3}},
+      hole{{2, 2}, {2, 2.5}, {2.5, 2}};
   const auto regions = find_regions(std::vector<FlatLoop>{outer, inner, hole});
   ASSERT_EQ(regions.size(), 2u);
   EXPECT_THAT(regions[0].holes, IsEmpty());
@@ -302,12 +351,15 @@ TEST(FindRegions, leaves_out_loops_without_area) {
                                                  {{0, 0}, {1, 0}, {nan, 1}},
                                                  {{2, 2}, {2, 2}, {2, 2}}}),
               IsEmpty());
-  EXPECT_EQ(find_regions(std::vector<FlatLoop>{{{0, 0}, {1, 1}, {2, 2}}, {{0, 0}, {1, 0}, {0, 1}}}).size(), 1u);
+  EXPECT_EQ(find_regions(std::vector<FlatLoop>{{{0, 0}, {1, 1}, {2, 2}}, {{0, 0}, {1, 0}, {0, 1}}})
+                .size(),
+            1u);
 }
 
 TEST(FindRegions, nests_loops_that_touch) {
   const FlatLoop square{{0, 0}, {4, 0}, {4, 4}, {0, 4}};
-  const std::vector<FlatLoop> loops{square, {{0, 0}, {1, 2}, {2, 1}}, {{4, 1}, {5, 1}, {5, 2}, {4, 2}}, {{0, 2}, {0, 4}, {2, 3}}};
+  const std::vector<FlatLoop> loops{
+      square, {{0, 0}, {1, 2}, {2, 1}}, {{4, 1}, {5, 1}, {5, 2}, {4, 2}}, {{0, 2}, {0, 4}, {2, 3}}};
   const auto regions = find_regions(loops);
   ASSERT_EQ(regions.size(), 2u);
   EXPECT_THAT(regions[0].holes, ElementsAre(1, 3));
@@ -323,7 +375,8 @@ TEST(Triangulate, random_nested_regions) {
     SCOPED_TRACE(seed);
     Random random(static_cast<std::uint64_t>(seed));
     const auto loops = random_nested(random);
-    inner += expect_regions_triangulate(loops, 0.1 * (loops[0][0] - loops[0][loops[0].size() / 2]).norm());
+    inner += expect_regions_triangulate(loops,
+                                        0.1 * (loops[0][0] - loops[0][loops[0].size() / 2]).norm());
   }
   EXPECT_GT(inner, 1000u);
 }
@@ -336,7 +389,9 @@ TEST(Triangulate, spirals_combs_grids_and_letters) {
       for (const FlatLoop& loop : letter) loops.push_back(refined(loop, parts));
       expect_regions_triangulate(loops, 0.3);
       for (FlatLoop& loop : loops)
-        for (Vec2d& p : loop) p = {0.8 * p.x() - 0.6 * p.y() + 1e6, 0.6 * p.x() + 0.8 * p.y()};  // lines that rounding bends
+        for (Vec2d& p : loop)
+          p = {0.8 * p.x() - 0.6 * p.y() + 1e6,
+               0.6 * p.x() + 0.8 * p.y()};  // lines that rounding bends
       expect_regions_triangulate(loops, 0.3);
     }
     expect_regions_triangulate({refined(spiral(5, 24, 0.5), parts)}, 0.1);
@@ -359,13 +414,15 @@ TEST(Triangulate, slivers_and_points_almost_on_one_line) {
     expect_regions_triangulate({wave}, 0.1);
   }
   FlatLoop fan;  // long edges that end next to one another
-  for (int i = 0; i < 40; ++i) fan.insert(fan.end(), {{1e-9 * i, 0}, {0.5 * i - 10, 10}, {1e-9 * i + 5e-10, 1e-6}});
+  for (int i = 0; i < 40; ++i)
+    fan.insert(fan.end(), {{1e-9 * i, 0}, {0.5 * i - 10, 10}, {1e-9 * i + 5e-10, 1e-6}});
   const auto mesh = triangulate(std::vector<FlatLoop>{fan}, {0, {}}, 0.5);
   if (mesh) expect_constrained_delaunay(std::vector<FlatLoop>{fan}, {0, {}}, *mesh);
 }
 
 TEST(Triangulate, long_edges_across_many_points) {
-  // A zigzag of fine teeth on both sides of a channel that long edges follow: forcing them in crosses hundreds of edges.
+  // A zigzag of fine teeth on both sides of a channel that long edges follow: forcing them in
+  // crosses hundreds of edges.
   for (const int count : {10, 300}) {
     std::vector<FlatLoop> loops{{{-1, -1}, {count + 1.0, -1}, {count + 1.0, 1}, {-1, 1}}};
     FlatLoop needle{{-0.5, 0}, {count + 0.5, 1e-4}, {count + 0.5, 2e-4}};
@@ -401,8 +458,9 @@ TEST(Triangulate, self_crossing_loops_give_nothing_or_a_triangulation) {
       (mesh ? made : refused) += 1;
       if (mesh && std::abs(area_of(loops[region.outline])) > 0) {
         const double outline = std::abs(area_of(loops[region.outline]));
-        const bool is_nested = std::all_of(region.holes.begin(), region.holes.end(),
-                                           [&](Index hole) { return std::abs(area_of(loops[hole])) < outline; });
+        const bool is_nested =
+            std::all_of(region.holes.begin(), region.holes.end(),
+                        [&](Index hole) { return std::abs(area_of(loops[hole])) < outline; });
         if (is_nested) expect_constrained_delaunay(loops, region, *mesh);
       }
     }
@@ -412,7 +470,8 @@ TEST(Triangulate, self_crossing_loops_give_nothing_or_a_triangulation) {
 }
 
 TEST(Triangulate, refuses_what_cannot_be_triangulated) {
-  const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
+  const double nan = std::numeric_limits<double>::quiet_NaN(),
+               infinity = std::numeric_limits<double>::infinity();
   const FlatLoop square{{0, 0}, {4, 0}, {4, 4}, {0, 4}};
   const std::vector<std::vector<FlatLoop>> bad{
       {{}},
@@ -426,17 +485,18 @@ TEST(Triangulate, refuses_what_cannot_be_triangulated) {
       {{{0, 0}, {1, 0}, {nan, 1}}},
       {{{0, 0}, {1, 0}, {infinity, 1}}},
       {{{0, 0}, {1e70, 0}, {0, 1e70}}},
-      {square, {{0, 0}, {2, 1}, {1, 2}}},                                        // a hole at a corner
-      {square, {{2, 0}, {3, 1}, {1, 1}}},                                        // a hole at an edge
-      {square, {{1, 1}, {3, 1}, {2, 5}}},                                        // a hole that crosses
-      {square, {{5, 5}, {6, 5}, {5, 6}}},                                        // a hole beside
+      {square, {{0, 0}, {2, 1}, {1, 2}}},  // a hole at a corner
+      {square, {{2, 0}, {3, 1}, {1, 1}}},  // a hole at an edge
+      {square, {{1, 1}, {3, 1}, {2, 5}}},  // a hole that crosses
+      {square, {{5, 5}, {6, 5}, {5, 6}}},  // a hole next to it
       {square, {{1, 1}, {2, 1}, {1, 2}}, {{1.1, 1.1}, {1.2, 1.1}, {1.1, 1.2}}},  // a hole in a hole
   };
   for (std::size_t i = 0; i < bad.size(); ++i) {
     SCOPED_TRACE(i);
     FlatRegion region;
     for (Index hole = 1; hole < bad[i].size(); ++hole) region.holes.push_back(hole);
-    for (const double spacing : {0.0, 0.1, 1e-300, infinity, nan, -1.0}) EXPECT_FALSE(triangulate(bad[i], region, spacing));
+    for (const double spacing : {0.0, 0.1, 1e-300, infinity, nan, -1.0})
+      EXPECT_FALSE(triangulate(bad[i], region, spacing));
   }
   EXPECT_FALSE(triangulate({}, {}, 1));
   EXPECT_FALSE(triangulate(std::vector<FlatLoop>{square}, {0, {1}}, 1));
@@ -495,11 +555,15 @@ TEST(Triangulate, thousands_of_points_take_no_time) {
       for (Index i = 0; i < rim; ++i) values.row(i) << points[i].x(), points[i].y(), 1, 0;
       const auto extended = extend_harmonically(points, rim, mesh->triangles, values);
       const auto end = std::chrono::steady_clock::now();
-      const auto milliseconds = [](auto duration) { return std::chrono::duration<double, std::milli>(duration).count(); };
+      const auto milliseconds = [](auto duration) {
+        return std::chrono::duration<double, std::milli>(duration).count();
+      };
       if (std::getenv("SUNDER_STRESS") != nullptr)
-        std::printf("%s, %u rim points, %zu inner: regions %.1f, triangles %.1f, values %.1f ms\n", name, rim, mesh->inner.size(),
-                    milliseconds(found - start), milliseconds(triangulated - found), milliseconds(end - triangulated));
-      EXPECT_LT(milliseconds(end - start), 10000);  // a guard against quadratic time, generous to sanitizers
+        std::printf("%s, %u rim points, %zu inner: regions %.1f, triangles %.1f, values %.1f ms\n",
+                    name, rim, mesh->inner.size(), milliseconds(found - start),
+                    milliseconds(triangulated - found), milliseconds(end - triangulated));
+      EXPECT_LT(milliseconds(end - start),
+                10000);  // a guard against quadratic time, generous to sanitizers
       expect_constrained_delaunay(loops, regions[0], *mesh);
     }
   }
@@ -547,7 +611,8 @@ TEST(ExtendHarmonically, gives_no_rows_without_inner_points) {
   const std::vector<FlatLoop> loops{{{0, 0}, {1, 0}, {0, 1}}};
   const auto mesh = triangulate(loops, {0, {}}, 0);
   ASSERT_TRUE(mesh);
-  const auto result = extend_harmonically(loops[0], 3, mesh->triangles, Eigen::MatrixXd::Ones(3, 2));
+  const auto result =
+      extend_harmonically(loops[0], 3, mesh->triangles, Eigen::MatrixXd::Ones(3, 2));
   EXPECT_EQ(result.rows(), 0);
   EXPECT_EQ(result.cols(), 2);
 }

@@ -1,0 +1,78 @@
+#include "particles/clusters/change.h"
+
+#include <algorithm>
+#include <iterator>
+
+#include "particles/clusters/structure.h"
+
+namespace sunder::particles {
+namespace {
+
+/// Moves the entries of an array from `count` on into `tail`, or appends those of `tail`.
+/// @param is_there  whether the array is to lose them.
+template <class T>
+void move_tail(std::vector<T>& values, std::size_t count, bool is_there, std::vector<T>& tail) {
+  if (is_there) {
+    const auto first = values.begin() + static_cast<std::ptrdiff_t>(count);
+    tail.assign(std::make_move_iterator(first), std::make_move_iterator(values.end()));
+    values.erase(first, values.end());
+  } else {
+    values.insert(values.end(), std::make_move_iterator(tail.begin()),
+                  std::make_move_iterator(tail.end()));
+    tail.clear();
+  }
+}
+
+/// Entries may be listed several times: they are undone from the last on, and redone from the first
+/// on.
+template <class T, class Exchange>
+void exchange_in_turn(std::vector<T>& changes, bool is_done, Exchange exchange_one) {
+  if (is_done)
+    std::for_each(changes.rbegin(), changes.rend(), exchange_one);
+  else
+    std::for_each(changes.begin(), changes.end(), exchange_one);
+}
+
+void exchange_changed(Structure& structure, Change& change, bool is_done) {
+  PointTable& points = structure.points;
+  for (Change::OfPoint& of : change.changed_points) {
+    std::swap(points.slabs[of.point], of.slab);
+    std::swap(points.influences[of.point], of.influences);
+    std::swap(points.lip_points[of.point], of.lip);
+  }
+  for (auto& [particle, before] : change.changed_particles)
+    std::swap(structure.particles[particle], before);
+  exchange_in_turn(change.changed_vertices, is_done, [&](Change::OfVertex& of) {
+    std::swap(structure.vertex_points.of_mesh[of.mesh][of.vertex], of.point);
+  });
+  exchange_in_turn(change.changed_lips, is_done, [&](std::pair<Index, LipEdge>& of) {
+    std::swap(structure.lips[of.first], of.second);
+  });
+}
+
+}  // namespace
+
+void exchange(Structure& structure, Change& change) {
+  const bool is_done = change.appended == nullptr;
+  if (is_done) change.appended = std::make_shared<Change::Appended>();
+  Change::Appended& appended = *change.appended;
+  exchange_changed(structure, change, is_done);
+  structure.points.for_each_column(appended.points, [&](auto& column, auto& tail) {
+    move_tail(column, change.points, is_done, tail);
+  });
+  move_tail(structure.particles, change.particles, is_done, appended.particles);
+  move_tail(structure.members.joined, change.particles, is_done, appended.joined);
+  move_tail(structure.lips, change.lips, is_done, appended.lips);
+  std::vector<std::vector<Index>>& vertex_points = structure.vertex_points.of_mesh;
+  appended.vertex_points.resize(vertex_points.size());
+  for (std::size_t m = 0; m < vertex_points.size(); ++m)
+    move_tail(vertex_points[m], change.vertices[m], is_done, appended.vertex_points[m]);
+  if (!is_done) change.appended.reset();
+  structure.points.memberships_end = is_done ? change.memberships_before : change.memberships_after;
+  ++structure.revision;
+  for (const Change::OfPoint& of : change.changed_points) structure.dirty.push_back(of.point);
+  for (Index point = change.points; point < structure.points.count(); ++point)
+    structure.dirty.push_back(point);
+}
+
+}  // namespace sunder::particles

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <memory>
+
+#include "particles/clusters/particle.h"
+#include "particles/clusters/point_table.h"
+
+namespace sunder::particles {
+
+struct Structure;
+
+/// The changes of an operation to the structure: the values before it. exchange() swaps them with
+/// the present ones, which undoes the operation or redoes it.
+struct Change {
+  std::uint64_t operation = 0;  ///< TornModel::newest_operation() at its end; 0: under way.
+  Index points = 0, particles = 0, lips = 0;  ///< Counts before.
+  std::size_t memberships_before = 0, memberships_after = 0;
+  std::vector<Index> vertices;  ///< Per mesh: the count before.
+
+  struct OfPoint {
+    Index point = 0;
+    MembershipSlab slab;
+    ParticleInfluences influences;
+    LipPoint lip;
+  };
+  struct OfVertex {
+    Index mesh = 0, vertex = 0, point = kNone;
+  };
+  std::vector<OfPoint> changed_points;
+  std::vector<std::pair<Index, Particle>> changed_particles;
+  std::vector<OfVertex> changed_vertices;
+  std::vector<std::pair<Index, LipEdge>> changed_lips;
+
+  /// The entries that the operation appended, while it is undone.
+  struct Appended {
+    PointColumns points;
+    std::vector<Particle> particles;
+    std::vector<std::vector<Index>> joined;
+    std::vector<LipEdge> lips;
+    std::vector<std::vector<Index>> vertex_points;  ///< Per mesh.
+  };
+  std::shared_ptr<Appended> appended;
+};
+
+/// Undoes a change, or redoes it.
+void exchange(Structure& structure, Change& change);
+
+}  // namespace sunder::particles

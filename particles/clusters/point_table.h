@@ -1,0 +1,84 @@
+#pragma once
+
+#include <sunder/particles/particle_set.h>
+
+#include "particles/clusters/lip_point.h"
+
+namespace sunder::particles {
+
+/// A vertex of a mesh.
+struct VertexRef {
+  Index mesh = 0, vertex = kNone;
+};
+
+/// Gives an array room for `count` entries and an eighth more, where it has less. Arrays would
+/// double by themselves.
+template <class T>
+void reserve_eighth(std::vector<T>& values, std::size_t count) {
+  if (values.capacity() < count) values.reserve(count + count / 8 + 1024);
+}
+
+/// Where the memberships of a point are, in PointTable::memberships.
+struct MembershipSlab {
+  Index first = 0, count = 0;
+};
+
+/// One entry per point in every column.
+struct PointColumns {
+  std::vector<Vec3f> positions;  ///< In the decomposition's pose, metres.
+  /// One vertex of the point: the one that it had when it came. All vertices of a point have the
+  /// same weights.
+  std::vector<VertexRef> vertices;
+  std::vector<MembershipSlab> slabs;
+  std::vector<ParticleInfluences> influences;
+  std::vector<LipPoint> lip_points;
+
+  /// Calls visit(column, column of `other`) for each column: a new column is added here alone.
+  template <class Visit>
+  void for_each_column(PointColumns& other, Visit visit) {
+    visit(positions, other.positions);
+    visit(vertices, other.vertices);
+    visit(slabs, other.slabs);
+    visit(influences, other.influences);
+    visit(lip_points, other.lip_points);
+  }
+};
+
+/// The points of the surface and the particles that they belong to.
+struct PointTable : PointColumns {
+  /// The memberships of a point are contiguous, ascending by particle. A change appends the new
+  /// ones and leaves the old ones where they are, for undo.
+  std::vector<ParticleMembership> memberships;
+  std::size_t memberships_end = 0;  ///< Those in use: changes that were undone have theirs behind.
+  std::vector<OnLip> older_lips;    ///< Grows only: redo may need what undo took back.
+
+  [[nodiscard]] Index count() const { return static_cast<Index>(positions.size()); }
+  [[nodiscard]] std::span<const ParticleMembership> memberships_of(Index point) const {
+    return {memberships.data() + slabs[point].first, slabs[point].count};
+  }
+  [[nodiscard]] const ParticleMembership* find(Index point, Index particle) const {
+    for (const ParticleMembership& membership : memberships_of(point))
+      if (membership.particle == particle) return &membership;
+    return nullptr;
+  }
+
+  /// Calls visit(tear, side) for each lip that a point is on, the newest first.
+  template <class Visit>
+  void for_each_lip(Index point, Visit visit) const {
+    for (const OnLip* lip = &lip_points[point]; lip->tear != kNone; lip = &older_lips[lip->older]) {
+      visit(lip->tear, lip->side);
+      if (lip->older == kNone) return;
+    }
+  }
+  [[nodiscard]] bool is_on_lip(Index point, Index tear, Side side) const {
+    bool is = false;
+    for_each_lip(point, [&](Index of, Side on) { is |= of == tear && on == side; });
+    return is;
+  }
+  /// Puts a point on a lip. It stays on the lips of other tears; later tears have higher numbers.
+  void put_on_lip(Index point, Index tear, Side side);
+  /// Makes room for new points, by an eighth at a time.
+  void make_room(std::size_t points);
+};
+
+}  // namespace sunder::particles

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <sunder/core/index.h>
+
+#include <algorithm>
+#include <map>
+#include <utility>
+#include <vector>
+
+namespace sunder::particles {
+
+/// The point of each vertex.
+struct VertexPoints {
+  std::vector<std::vector<Index>>
+      of_mesh;  ///< Per mesh and vertex: the point; kNone where no face uses the vertex.
+  /// Vertices in which a surface touches itself have several points: all that they ever had.
+  std::map<std::pair<Index, Index>, std::vector<Index>> shared;
+
+  void share(Index mesh, Index vertex, Index point, Index other) {
+    std::vector<Index>& points = shared[{mesh, vertex}];
+    for (const Index each : {point, other})
+      if (std::find(points.begin(), points.end(), each) == points.end()) points.push_back(each);
+  }
+};
+
+}  // namespace sunder::particles

@@ -1,0 +1,97 @@
+#pragma once
+
+namespace sunder::particles {
+
+// Tolerances of the module, in one place. Each name ends with the unit or the base of its value:
+// "ranges" are those of the particle concerned, "reach" is a distance from a seed as a fraction of
+// the particle's range. docs/particles.md lists them.
+
+// ---- Coverage of the surface.
+
+/// A point whose nearest seed of a lip is farther than this gets a lip particle.
+inline constexpr float kLipCoveredReach = 0.8f;
+/// Seeds are at least this far apart. Below 1, so that weights overlap and no point is left to one
+/// particle that fades there.
+inline constexpr float kSeedSpacingReach = 0.85f;
+/// A point without a particle nearer than this gets one of its own: what moves it would fade where
+/// it stands.
+inline constexpr float kUncoveredReach = 0.97f;
+static_assert(kLipCoveredReach < kSeedSpacingReach && kSeedSpacingReach < kUncoveredReach &&
+              kUncoveredReach < 1);
+
+// ---- Sleep. Bound particles (held, touched, at a stretch limit) and their neighbours are pulled
+// away and pushed back in every step, so they move a little for ever.
+
+inline constexpr double kQuietRanges = 1e-4;
+inline constexpr double kAtRestRanges = 2e-4;
+inline constexpr double kFeltRanges = 5e-4;
+inline constexpr double kQuietBoundRanges = 3e-3;
+inline constexpr double kFeltBoundRanges = 5e-3;
+inline constexpr double kQuietRangesPerSecond = 1e-3;
+inline constexpr double kQuietSeconds = 0.5;
+static_assert(kQuietRanges < kAtRestRanges && kAtRestRanges < kFeltRanges,
+              "what sleeps must not wake at once");
+static_assert(kQuietBoundRanges < kFeltBoundRanges, "what sleeps must not wake at once");
+
+// ---- Bodies in a Bullet world.
+
+/// A particle that swings or creeps by less than this may sleep.
+inline constexpr double kBulletStillRanges = 2e-3;
+/// A change of the springs' pull that wakes a body, in multiples of kBulletStillRanges.
+inline constexpr double kBulletWakesStills = 2;
+static_assert(kBulletWakesStills > 1);
+
+// ---- Contact.
+
+/// Contact points deeper than this are pushed out.
+inline constexpr double kContactDepthRanges = 1e-3;
+/// Points nearer to a collider than this may be pushed in by the contacts of their neighbours.
+inline constexpr double kContactMarginRanges = 0.25;
+/// How far members are from the centroid of all, per unit of RestMotion::size(), which is the root
+/// of 3 where the pose changes no length: at most two ranges.
+inline constexpr double kMemberRanges = 1.2;
+static_assert(kContactDepthRanges < kContactMarginRanges && kContactMarginRanges < kMemberRanges);
+
+// ---- Stretch limits, relative to the length that a limit allows.
+
+inline constexpr double kStretchExcess = 1e-4;
+/// A particle that fell asleep at its limit feels only more than this.
+inline constexpr double kStretchWakesExcess = 1e-2;
+/// Sweeps over velocities end where pairs part slower than this fraction of the fastest pair.
+inline constexpr double kStretchStoppedFraction = 1e-3;
+static_assert(kStretchExcess < kStretchWakesExcess);
+
+// ---- Tearing by force.
+
+/// Particles at a tear may be as good as in one place at rest. Their distance then counts as that
+/// of neighbouring seeds.
+inline constexpr double kLeastApartRanges = 0.8;
+/// ParticleNeighbour::shared of particles that hang together. Splinters at a tear, of a few points
+/// that other particles hold too, would be torn in vain at the same place for ever.
+inline constexpr double kLeastSharedPoints = 0.05;
+/// A tear runs on by at least this cosine of the angle between its last edge and its direction.
+inline constexpr double kLeastForwardCosine = 0.2;
+/// Neighbours stand in a row where the determinant of their moments is below this fraction of the
+/// squared trace.
+inline constexpr double kRowDeterminantFraction = 1e-4;
+
+// ---- Solvers.
+
+/// Residual of the springs between particles, relative to the right-hand side, in the
+/// preconditioner's norm.
+inline constexpr double kCouplingResidual = 1e-8;
+/// The square of the same for bodies in a Bullet world, which have single precision.
+inline constexpr double kBulletSquaredResidual = 1e-12;
+static_assert(kCouplingResidual * kCouplingResidual < kBulletSquaredResidual);
+/// A linear map of unit norm whose determinant is below this flattens: it has no rotation and no
+/// inverse.
+inline constexpr double kFlatDeterminant = 1e-9;
+
+// ---- Steps.
+
+/// The square of a shorter step is too small to divide by, and forces do not show in it.
+inline constexpr double kShortestStepSeconds = 1e-100;
+inline constexpr double kLongestStepSeconds = 3600;
+static_assert(kShortestStepSeconds < kLongestStepSeconds);
+
+}  // namespace sunder::particles

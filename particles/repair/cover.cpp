@@ -1,0 +1,48 @@
+#include "particles/repair/cover.h"
+
+#include <algorithm>
+
+#include "particles/internal/tolerances.h"
+
+namespace sunder::particles {
+namespace {
+
+/// The influences on a point before the tear; for a point that came with it, those of a neighbour.
+ParticleInfluences influences_before(StructureEdit& edit, Index point) {
+  const Change& change = edit.change();
+  if (point < change.points) {
+    for (const Change::OfPoint& of : change.changed_points)
+      if (of.point == point) return of.influences;
+    return edit.structure().points.influences[point];
+  }
+  const Ring around = edit.other_ring()(point);
+  for (std::size_t i = 0; i < around.size(); ++i)
+    if (around.point(i) < change.points) return influences_before(edit, around.point(i));
+  return {};
+}
+
+}  // namespace
+
+void cover(StructureEdit& edit, Index point) {
+  if (edit.surface().point_corner[point] == kNone) return;
+  const auto covers = [](const ParticleMembership& membership) {
+    return membership.reach < kUncoveredReach;
+  };
+  if (std::ranges::any_of(edit.memberships(point), covers)) return;
+  Structure& structure = edit.structure();
+  const auto range = static_cast<float>(structure.report.range);
+  const Index particle = edit.make_particle(point, range, influences_before(edit, point));
+  SurfaceFront& front = structure.scratch.front;
+  front.begin(structure.points.count(), range, structure.edge_length);
+  front.add(point, 0.0f);
+  front.run(edit.other_ring(), [&](Index member, float distance, Index) {
+    if (edit.may_join(member, particle)) edit.join(member, {particle, distance / range});
+    return true;
+  });
+}
+
+void cover_taken_up(StructureEdit& edit) {
+  for (std::size_t i = 0; i < edit.taken_up_count(); ++i) cover(edit, edit.taken_up(i));
+}
+
+}  // namespace sunder::particles

@@ -1,0 +1,175 @@
+#include "particles/repair/structure_edit.h"
+
+#include <algorithm>
+
+#include "particles/clusters/influences.h"
+#include "particles/clusters/pair_changes.h"
+
+namespace sunder::particles {
+namespace {
+
+/// Room for memberships that a point gets while it is worked on.
+constexpr Index kMoreMemberships = 4;
+
+}  // namespace
+
+StructureEdit::StructureEdit(const TornModel& model, Structure& structure, Change& change,
+                             Index tear)
+    : model_(model),
+      surface_(model.surface()),
+      structure_(structure),
+      change_(change),
+      tear_(tear),
+      first_new_point_(structure.points.count()),
+      border_(model),
+      ring_(model.surface(), structure.points.positions),
+      other_ring_(model.surface(), structure.points.positions) {
+  structure.make_room(surface_.point_count());
+  structure.scratch.worked.begin(surface_.point_count());
+}
+
+StructureEdit::Work& StructureEdit::work_of(Index point) {
+  RepairScratch& scratch = structure_.scratch;
+  if (scratch.worked.mark(point)) {
+    scratch.work_of[point] = static_cast<Index>(works_.size());
+    const auto known = structure_.points.memberships_of(point);
+    const auto count = static_cast<Index>(known.size());
+    works_.push_back(
+        {point, static_cast<Index>(memberships_.size()), count, count + kMoreMemberships});
+    memberships_.insert(memberships_.end(), known.begin(), known.end());
+    memberships_.resize(memberships_.size() + kMoreMemberships);
+  }
+  return works_[scratch.work_of[point]];
+}
+
+std::span<const ParticleMembership> StructureEdit::memberships(Index point) const {
+  if (!structure_.scratch.worked.has(point)) return structure_.points.memberships_of(point);
+  const Work& work = works_[structure_.scratch.work_of[point]];
+  return {memberships_.data() + work.first, work.count};
+}
+
+bool StructureEdit::may_join(Index point, Index particle, Index undecided_tear) {
+  bool may = true, has_all = true;
+  structure_.points.for_each_lip(point, [&](Index tear, Side side) {
+    const Side* known = structure_.particles[particle].side_of(tear);
+    may &= known == nullptr || *known == side;
+    has_all &= known != nullptr;
+  });
+  if (!may || has_all) return may;
+  structure_.points.for_each_lip(point, [&](Index tear, Side side) {
+    if (tear == undecided_tear) return;
+    if (structure_.particles[particle].side_of(tear) == nullptr)
+      change_particle(particle).sides.push_back({tear, side});
+  });
+  return true;
+}
+
+void StructureEdit::join(Index point, const ParticleMembership& membership) {
+  Work& work = work_of(point);
+  for (Index i = work.first; i < work.first + work.count; ++i)
+    if (memberships_[i].particle == membership.particle) {
+      memberships_[i].reach = std::min(memberships_[i].reach, membership.reach);
+      return;
+    }
+  if (work.count == work.room) {
+    const Work moved{point, static_cast<Index>(memberships_.size()), work.count, 2 * work.room + 2};
+    memberships_.resize(moved.first + moved.room);
+    std::copy_n(memberships_.begin() + work.first, work.count, memberships_.begin() + moved.first);
+    work = moved;
+  }
+  memberships_[work.first + work.count++] = membership;
+}
+
+Particle& StructureEdit::change_particle(Index particle) {
+  structure_.scratch.logged_particles.grow(particle + 1);
+  if (particle < change_.particles && structure_.scratch.logged_particles.mark(particle))
+    change_.changed_particles.emplace_back(particle, structure_.particles[particle]);
+  return structure_.particles[particle];
+}
+
+void StructureEdit::log_point(Index point) {
+  const PointTable& points = structure_.points;
+  if (point < change_.points && structure_.scratch.logged_points.mark(point))
+    change_.changed_points.push_back(
+        {point, points.slabs[point], points.influences[point], points.lip_points[point]});
+}
+
+Index StructureEdit::make_particle(Index seed, float range, const ParticleInfluences& parents) {
+  const auto index = static_cast<Index>(structure_.particles.size());
+  structure_.members.joined.emplace_back();
+  Particle& particle = structure_.particles.emplace_back();
+  particle.serial = structure_.next_serial++;
+  particle.seed = seed;
+  particle.range = range;
+  particle.parents = parents;
+  return index;
+}
+
+/// Counts a point out of the particles that it left and into those that it joined: both lists
+/// ascend.
+void StructureEdit::count_members(Index point, std::span<const ParticleMembership> before,
+                                  std::span<const ParticleMembership> now) {
+  bool has_rest = false;
+  const auto change = [&](Index particle, int sign) {
+    Particle& of = change_particle(particle);
+    of.member_count = static_cast<Index>(static_cast<std::int64_t>(of.member_count) + sign);
+    if (!has_rest)
+      rest_.set(model_, structure_.character.pose.first_slots(), structure_.points.vertices[point]);
+    has_rest = true;
+    rest_.add_to(of, sign);
+    if (sign > 0) structure_.members.joined[particle].push_back(point);
+  };
+  std::size_t b = 0, n = 0;
+  while (b < before.size() || n < now.size()) {
+    if (n == now.size() || (b < before.size() && before[b].particle < now[n].particle))
+      change(before[b++].particle, -1);
+    else if (b == before.size() || now[n].particle < before[b].particle)
+      change(now[n++].particle, +1);
+    else
+      ++b, ++n;
+  }
+}
+
+void StructureEdit::renew_influences(Index point, std::span<const ParticleMembership> now) {
+  ParticleInfluences& known = structure_.points.influences[point];
+  const ParticleInfluences influences = influences_from(now);
+  if (influences == known) return;
+  const auto changing = [&](Index particle) -> Particle& { return change_particle(particle); };
+  structure_.pairs->add(known, -1, changing);
+  structure_.pairs->add(influences, +1, changing);
+  known = influences;
+}
+
+void StructureEdit::put_back(const Work& work) {
+  const std::span<ParticleMembership> now(memberships_.data() + work.first, work.count);
+  const auto by_particle = [](const ParticleMembership& a, const ParticleMembership& b) {
+    return a.particle < b.particle;
+  };
+  if (!std::is_sorted(now.begin(), now.end(), by_particle))
+    std::sort(now.begin(), now.end(), by_particle);
+  PointTable& points = structure_.points;
+  const std::span<const ParticleMembership> before = points.memberships_of(work.point);
+  if (std::ranges::equal(before, now, [](const ParticleMembership& a, const ParticleMembership& b) {
+        return a.particle == b.particle && a.reach == b.reach;
+      }))
+    return;
+  log_point(work.point);
+  count_members(work.point, before, now);
+  renew_influences(work.point, now);
+  points.slabs[work.point] = {static_cast<Index>(points.memberships.size()),
+                              static_cast<Index>(now.size())};
+  points.memberships.insert(points.memberships.end(), now.begin(), now.end());
+}
+
+void StructureEdit::finish() {
+  auto& memberships = structure_.points.memberships;
+  if (memberships.capacity() < memberships.size() + memberships_.size())
+    memberships.reserve(memberships.size() + memberships_.size() + memberships.size() / 8);
+  for (const Work& work : works_) put_back(work);
+  structure_.pairs->apply([&](Index particle) -> Particle& { return change_particle(particle); });
+  change_.memberships_after = structure_.points.memberships_end = memberships.size();
+  for (const Work& work : works_) structure_.dirty.push_back(work.point);
+  ++structure_.revision;
+}
+
+}  // namespace sunder::particles

@@ -1,0 +1,95 @@
+#pragma once
+
+#include "particles/clusters/lip_border.h"
+#include "particles/clusters/structure.h"
+
+namespace sunder::particles {
+
+/// One call's changes to a structure. Memberships of points that change are kept beside the
+/// structure and put back together, so that each point is counted out of its particles and into
+/// others once. All that changes is noted in a Change, for undo.
+class StructureEdit {
+ public:
+  /// @param tear  the number of the operation that is followed.
+  StructureEdit(const TornModel& model, Structure& structure, Change& change, Index tear);
+
+  [[nodiscard]] const TornModel& model() const { return model_; }
+  [[nodiscard]] const Surface& surface() const { return surface_; }
+  [[nodiscard]] const LipBorder& border() const { return border_; }
+  [[nodiscard]] Structure& structure() const { return structure_; }
+  [[nodiscard]] Change& change() const { return change_; }
+  [[nodiscard]] Index tear() const { return tear_; }
+  /// Points from here on came with this call.
+  [[nodiscard]] Index first_new_point() const { return first_new_point_; }
+  /// The neighbours of points, and the same again for what begins while the first is in use.
+  [[nodiscard]] RingWalk& ring() { return ring_; }
+  [[nodiscard]] RingWalk& other_ring() { return other_ring_; }
+
+  // ---- Points.
+
+  /// Memberships as they are to be. Valid until the next change.
+  [[nodiscard]] std::span<const ParticleMembership> memberships(Index point) const;
+  /// Takes a point up, so that finish() looks at it.
+  void take_up(Index point) { (void)work_of(point); }
+  [[nodiscard]] std::size_t taken_up_count() const { return works_.size(); }
+  [[nodiscard]] Index taken_up(std::size_t i) const { return works_[i].point; }
+
+  /// Adds a membership; of two of the same particle the nearer counts.
+  void join(Index point, const ParticleMembership& membership);
+  /// Removes all memberships.
+  void leave_all(Index point) { work_of(point).count = 0; }
+  /// Calls keep(membership), which may change it, and removes those for which it returns false.
+  template <class Keep>
+  void keep_if(Index point, Keep keep) {
+    Work& work = work_of(point);
+    Index kept = 0;
+    for (Index i = 0; i < work.count; ++i) {
+      ParticleMembership membership = memberships_[work.first + i];
+      if (keep(membership)) memberships_[work.first + kept++] = membership;
+    }
+    work.count = kept;
+  }
+  /// Whether the lips of a point let it belong to a particle. A particle without a side of a tear
+  /// gets that of the point.
+  /// @param undecided_tear  whose sides choose_sides() decides later.
+  [[nodiscard]] bool may_join(Index point, Index particle, Index undecided_tear = kNone);
+  /// Notes a point before its lips or influences change.
+  void log_point(Index point);
+
+  // ---- Particles.
+
+  /// @return its index.
+  Index make_particle(Index seed, float range, const ParticleInfluences& parents);
+  /// Notes a particle before it changes. The reference is good until the next make_particle().
+  Particle& change_particle(Index particle);
+
+  /// Ends the call: puts all changes into the structure.
+  void finish();
+
+ private:
+  /// A point that changes, and its memberships in memberships_.
+  struct Work {
+    Index point = 0;
+    Index first = 0, count = 0, room = 0;
+  };
+
+  Work& work_of(Index point);
+  void put_back(const Work& work);
+  void count_members(Index point, std::span<const ParticleMembership> before,
+                     std::span<const ParticleMembership> now);
+  void renew_influences(Index point, std::span<const ParticleMembership> now);
+
+  const TornModel& model_;
+  const Surface& surface_;
+  Structure& structure_;
+  Change& change_;
+  Index tear_;
+  Index first_new_point_;
+  LipBorder border_;
+  RingWalk ring_, other_ring_;
+  std::vector<Work> works_;
+  std::vector<ParticleMembership> memberships_;
+  RestOfVertex rest_;
+};
+
+}  // namespace sunder::particles

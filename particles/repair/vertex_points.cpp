@@ -1,0 +1,110 @@
+#include "particles/repair/vertex_points.h"
+
+#include "tear/internal/surface.h"
+
+namespace sunder::particles {
+namespace {
+
+/// Calls visit(vertex) for each corner of the triangles of a mesh that a call rewrote, as it was
+/// before.
+template <class Visit>
+void for_each_corner_before(const MeshChange& of_mesh, Visit visit) {
+  for (const RewrittenTriangle& rewritten : of_mesh.rewritten)
+    for (const Index vertex : rewritten.before) visit(vertex);
+}
+
+/// A point that has no face any more belongs to nothing.
+void leave_if_lost(StructureEdit& edit, Index point, std::vector<Index>& lost) {
+  if (point >= edit.structure().points.count() || edit.surface().point_corner[point] != kNone)
+    return;
+  if (edit.memberships(point).empty()) return;
+  edit.leave_all(point);
+  lost.push_back(point);
+}
+
+void set_vertex_point(StructureEdit& edit, Index mesh, Index vertex, Index point) {
+  Index& known = edit.structure().vertex_points.of_mesh[mesh][vertex];
+  if (vertex < edit.change().vertices[mesh])
+    edit.change().changed_vertices.push_back({mesh, vertex, known});
+  known = point;
+}
+
+/// Whether a face around a point has it in a vertex.
+bool has_vertex(const StructureEdit& edit, Index point, Index mesh, Index vertex) {
+  const Surface& surface = edit.surface();
+  if (point >= surface.point_count() || surface.point_corner[point] == kNone) return false;
+  bool has = false;
+  surface.for_each_in_fan(surface.point_corner[point], [&](Index corner) {
+    const tear::TriangleRef ref = surface.triangle(corner / 3);
+    has |= ref.mesh == mesh &&
+           edit.model().character().meshes[mesh].triangles[ref.triangle][corner % 3] == vertex;
+  });
+  return has;
+}
+
+/// Writes the point of a corner's vertex.
+void renew_corner(StructureEdit& edit, Index corner) {
+  VertexPoints& points = edit.structure().vertex_points;
+  const tear::TriangleRef ref = edit.surface().triangle(corner / 3);
+  const Index vertex =
+      edit.model().character().meshes[ref.mesh].triangles[ref.triangle][corner % 3];
+  const Index known = points.of_mesh[ref.mesh][vertex], now = edit.surface().corner_point[corner];
+  if (known == now) return;
+  if (known != kNone && has_vertex(edit, known, ref.mesh, vertex))
+    points.share(ref.mesh, vertex, known, now);
+  set_vertex_point(edit, ref.mesh, vertex, now);
+}
+
+/// A vertex that several points share may have lost the one that it is at: then it gets another of
+/// them.
+void renew_shared_vertex(StructureEdit& edit, Index mesh, Index vertex, std::vector<Index>& lost) {
+  VertexPoints& points = edit.structure().vertex_points;
+  const auto shared = points.shared.find({mesh, vertex});
+  if (shared == points.shared.end()) return;
+  for (const Index point : shared->second) leave_if_lost(edit, point, lost);
+  if (has_vertex(edit, points.of_mesh[mesh][vertex], mesh, vertex)) return;
+  for (const Index point : shared->second) {
+    if (!has_vertex(edit, point, mesh, vertex)) continue;
+    set_vertex_point(edit, mesh, vertex, point);
+    return;
+  }
+}
+
+}  // namespace
+
+std::vector<Index> leave_lost_points(StructureEdit& edit, std::span<const ChangeRecord> changes) {
+  std::vector<Index> lost;
+  const auto leave_in = [&](const MeshChange& of_mesh) {
+    if (of_mesh.retired.empty()) return;
+    for_each_corner_before(of_mesh, [&](Index vertex) {
+      const Index point = edit.structure().vertex_points.of_mesh[of_mesh.mesh][vertex];
+      if (point != kNone) leave_if_lost(edit, point, lost);
+    });
+  };
+  for (const ChangeRecord& change : changes)
+    for (const MeshChange& of_mesh : change.meshes) leave_in(of_mesh);
+  return lost;
+}
+
+void renew_vertex_points(StructureEdit& edit, std::span<const ChangeRecord> changes,
+                         std::vector<Index>& lost) {
+  const Structure& structure = edit.structure();
+  const Surface& surface = edit.surface();
+  const auto renew = [&](Index corner) { renew_corner(edit, corner); };
+  // Vertices are new, or go along with a point that is.
+  for (Index point = edit.first_new_point(); point < structure.points.count(); ++point)
+    if (surface.point_corner[point] != kNone)
+      surface.for_each_in_fan(surface.point_corner[point], renew);
+  for (Index corner = 3 * structure.tears.triangle_count; corner < surface.corner_point.size();
+       ++corner)
+    if (!surface.has_repeated_point(corner / 3)) renew(corner);
+  if (structure.vertex_points.shared.empty()) return;
+  const auto renew_shared = [&](const MeshChange& of_mesh) {
+    for_each_corner_before(
+        of_mesh, [&](Index vertex) { renew_shared_vertex(edit, of_mesh.mesh, vertex, lost); });
+  };
+  for (const ChangeRecord& change : changes)
+    for (const MeshChange& of_mesh : change.meshes) renew_shared(of_mesh);
+}
+
+}  // namespace sunder::particles

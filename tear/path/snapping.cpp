@@ -1,0 +1,69 @@
+#include "tear/path/snapping.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tear/geometry/tolerances.h"
+#include "tear/internal/surface.h"
+
+namespace sunder::tear {
+namespace {
+
+/// Four units in the last place of a stored coordinate.
+constexpr double kStored = 0x1p-22;
+
+/// A length as a fraction of another, kept where it can serve as a snapping distance.
+double fraction_of(double length, double whole) {
+  return whole > 0 ? std::clamp(length / whole, kTightSnap, 0.25) : kTightSnap;
+}
+
+double largest_coordinate(const Vec3f& a, const Vec3f& b) {
+  return static_cast<double>(std::max(a.cwiseAbs().maxCoeff(), b.cwiseAbs().maxCoeff()));
+}
+
+}  // namespace
+
+double stored_height(Index corner, const SurfaceEditor& editor) {
+  const Index mesh = editor.surface().triangle(corner / 3).mesh;
+  const auto at = [&](Index c) -> const Vec3f& {
+    return editor.born_position(mesh, editor.vertex_at(c));
+  };
+  const Vec3f &apex = at(corner), &a = at(Surface::next(corner)),
+              &b = at(Surface::previous(corner));
+  const Eigen::Vector3d base = b.cast<double>() - a.cast<double>(),
+                        side = apex.cast<double>() - a.cast<double>();
+  const double length = base.norm();
+  return fraction_of(kStored * std::max(largest_coordinate(a, b), largest_coordinate(apex, apex)),
+                     length > 0 ? base.cross(side).norm() / length : 0);
+}
+
+double stored_part(Index half_edge, const SurfaceEditor& editor) {
+  const Index mesh = editor.surface().triangle(half_edge / 3).mesh;
+  const Vec3f &from = editor.born_position(mesh, editor.vertex_at(half_edge)),
+              &to = editor.born_position(mesh, editor.vertex_at(Surface::next(half_edge)));
+  return fraction_of(kStored * largest_coordinate(from, to),
+                     (to.cast<double>() - from.cast<double>()).norm());
+}
+
+double snapped_part(Index half_edge, Snapping snapping, const SurfaceEditor& editor,
+                    PosedPoints& posed) {
+  if (snapping == Snapping::tight) return stored_part(half_edge, editor);
+  if (snapping == Snapping::near) return kSnap;
+  if (editor.is_source_vertex(half_edge) && editor.is_source_vertex(Surface::next(half_edge)))
+    return kSnap;
+  const Surface& surface = editor.surface();
+  double length_squared = 0, longest_squared = 0;
+  for (const Index side : {half_edge, surface.twin[half_edge]}) {
+    if (side == kNone) continue;
+    const Vec3d a = posed.position(editor, surface.corner_point[side]);
+    const Vec3d b = posed.position(editor, surface.corner_point[Surface::next(side)]);
+    const Vec3d c = posed.position(editor, surface.corner_point[Surface::previous(side)]);
+    length_squared = (b - a).squaredNorm();
+    longest_squared =
+        std::max({longest_squared, length_squared, (c - a).squaredNorm(), (c - b).squaredNorm()});
+  }
+  return length_squared > 0 ? std::min(0.5, kSliver * std::sqrt(longest_squared / length_squared))
+                            : 0.5;
+}
+
+}  // namespace sunder::tear

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "tear/posed/posed_points.h"
+
+namespace sunder::tear {
+
+/// How far places move onto points and edges that exist already.
+enum class Snapping : std::uint8_t {
+  by_shape,  ///< kSnap and kSliver.
+  near,      ///< kSnap, at the end of a path: its tip is where the blade was.
+  tight,     ///< The least distance at which two places are stored apart, and kTightSnap.
+};
+
+/// The fraction of an edge, from either end, within which a place snaps to that end.
+[[nodiscard]] double snapped_part(Index half_edge, Snapping snapping, const SurfaceEditor& editor,
+                                  PosedPoints& posed);
+
+/// The fraction of an edge, from either end, within which a place would be stored as that end, to a
+/// few units in the last place.
+[[nodiscard]] double stored_part(Index half_edge, const SurfaceEditor& editor);
+
+/// The fraction of the height of a face over a corner's far edge within which a place would be
+/// stored on that edge, to a few units in the last place.
+[[nodiscard]] double stored_height(Index corner, const SurfaceEditor& editor);
+
+}  // namespace sunder::tear
