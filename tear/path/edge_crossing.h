@@ -7,7 +7,7 @@
 
 namespace sunder::tear {
 
-/// Where a plane crosses an edge, seen from one of its faces.
+/// The place where a plane crosses an edge, as seen from one of its faces.
 struct EdgeCrossing {
   Index half_edge = kNone;
   double fraction = 0;
@@ -23,11 +23,11 @@ struct EdgeCrossing {
 [[nodiscard]] EdgeCrossing cross_edge(const BladePlane& plane, Index half_edge,
                                       const SurfaceEditor& editor, PosedPoints& posed);
 
-/// Where the plane leaves a face that it entered through `half_edge`.
+/// The place where the plane leaves a face that it entered through `half_edge`.
 [[nodiscard]] EdgeCrossing find_exit(const BladePlane& plane, Index half_edge,
                                      const SurfaceEditor& editor, PosedPoints& posed);
 
-/// A part of the way through a face between two of its edges.
+/// The place at `fraction` of the way through a face between two of its edges.
 [[nodiscard]] SurfaceHit place_between(const SurfaceHit& from, const SurfaceHit& to,
                                        double fraction);
 

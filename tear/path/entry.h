@@ -10,20 +10,20 @@
 
 namespace sunder::tear {
 
-/// Where a blade that stands still first meets the posed surface, from its base towards its tip.
+/// The first place where a blade at rest meets the posed surface, from its base towards its tip.
 [[nodiscard]] std::optional<SurfaceHit> first_hit(const Blade& blade, const SurfaceEditor& editor,
                                                   PosedPoints& posed);
 
-/// Where the sweep of a blade first meets the posed surface at or after `progress`; among the
-/// layers there, the one nearest to its base. A place from which the sweep does not go forward
-/// across its triangle is passed over.
+/// The first place, at or after `progress`, where the sweep of a blade meets the posed surface. If
+/// several layers are met there, the one nearest to the blade's base. Places from which the sweep
+/// does not go forward across their triangle are skipped.
 [[nodiscard]] std::optional<SurfaceHit> first_contact(const BladePlane& plane, double progress,
                                                       const SurfaceEditor& editor,
                                                       PosedPoints& posed);
 
-/// The contact in the triangle that the first blade of a sweep meets first, which no other contact
-/// comes before, unless the blade lies in faces before that triangle. Nothing where the sweep does
-/// not go forward from there across it.
+/// The contact in the triangle that the first blade of a sweep meets. No other contact comes
+/// before it, unless the blade lies in faces before that triangle. Empty if the sweep does not go
+/// forward from there across the triangle.
 [[nodiscard]] std::optional<SurfaceHit> contact_at(const SurfaceHit& hit, const BladePlane& plane,
                                                    const SurfaceEditor& editor, PosedPoints& posed);
 

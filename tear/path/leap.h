@@ -7,9 +7,9 @@
 
 namespace sunder::tear {
 
-/// The way of a path straight on through faces that are parts of one source triangle. The edges
-/// between them are those of earlier tears' triangulation and of no interest: they are turned out
-/// of the way, where a split would leave a point that nobody needs.
+/// A straight part of a path through faces that are parts of one source triangle. The edges
+/// between these faces only belong to the triangulation that earlier tears left. They are turned
+/// out of the way, because splitting them would add points that nothing needs.
 struct Leap {
   SurfaceHit landing;   ///< At a point, on an edge that has to be split, or where the reach of the
                         ///< blade ends.
@@ -18,13 +18,13 @@ struct Leap {
   std::optional<PathEnd> end;
 };
 
-/// Looks ahead beyond the edge that a step goes to.
+/// Looks ahead beyond the edge that a step goes to. Changes nothing.
 [[nodiscard]] Leap find_leap(const BladePlane& plane, const Step& step, const SurfaceEditor& editor,
                              PosedPoints& posed);
 
-/// Makes the way from `here` an edge.
-/// @return where it leads to; kNone where there is no edge in the way or one cannot be turned:
-/// nothing changed.
+/// Makes the way from `here` to the landing an edge.
+/// @return the point at the landing; kNone, and nothing changed, if no edge is in the way or an
+///         edge cannot be turned.
 [[nodiscard]] Index take_leap(const BladePlane& plane, Index here, const Leap& leap,
                               SurfaceEditor& editor, PosedPoints& posed);
 

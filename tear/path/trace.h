@@ -7,7 +7,7 @@
 
 namespace sunder::tear {
 
-/// The curve in which a blade's plane meets the surface, found without changing anything.
+/// The curve in which a blade's plane meets the surface.
 struct Trace {
   std::vector<Index> faces;    ///< Crossed, in order.
   std::vector<Vec2d> section;  ///< Its corners in the plane, by growing progress.
@@ -17,8 +17,8 @@ struct Trace {
   SurfaceHit end_place;  ///< Where it ended, if at the blade.
 };
 
-/// Follows the curve as imprint_path() does: from a point on, face to face, while it goes forward
-/// in the sweep and the blade reaches it.
+/// Follows the curve as imprint_path() does, but changes nothing: from a point on, face to face,
+/// while it goes forward in the sweep and the blade reaches it.
 [[nodiscard]] Trace trace_path(const BladePlane& plane, Index start, const SurfaceEditor& editor,
                                PosedPoints& posed);
 

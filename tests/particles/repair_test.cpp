@@ -326,6 +326,34 @@ TEST_P(StrokeRepair, follows_extensions_that_nothing_settles) {
 
 INSTANTIATE_TEST_SUITE_P(seeds, StrokeRepair, testing::Range(0, 40));
 
+TEST(Follow, takes_a_stroke_that_is_cancelled) {
+  for (const bool is_first : {true, false}) {
+    Followed followed(test::make_sheet(12), 0.2, 0);
+    TornModel& model = followed.model;
+    ParticleSet& set = followed.set;
+    const ModelPose pose = rest_pose(model.source());
+    if (!is_first) {
+      ChangeRecord change;
+      const std::array<Blade, 2> blades = {test::down_at(0.203, 0.3), test::down_at(0.203, 0.7)};
+      ASSERT_TRUE(model.tear(pose, blades, {}, &change));
+      ASSERT_TRUE(set.follow(model, {&change, 1}));
+      settle(model, set);
+    }
+    const ParticleState before = state_of(model, set, pose);
+    auto stroke = TearStroke::create(model, pose, test::down_at(0.503, 0.3));
+    ASSERT_TRUE(stroke) << stroke.error().text();
+    ChangeRecord change;
+    ASSERT_TRUE(stroke->extend(pose, test::down_at(0.503, 0.7), 0.0, &change));
+    ASSERT_TRUE(set.follow(model, {&change, 1}));
+    EXPECT_FALSE(set.lips().empty());
+    ASSERT_TRUE(stroke->cancel(&change));
+    ASSERT_TRUE(set.follow(model, {&change, 1}));
+    EXPECT_EQ(difference(state_of(model, set, pose), before), "")
+        << (is_first ? "the first" : "a later one");
+    EXPECT_TRUE(set.is_settled());
+  }
+}
+
 TEST(Follow, takes_a_replayed_stroke_with_all_its_records) {
   for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(test::stressed(30, 20)); ++seed) {
     SCOPED_TRACE(seed);
