@@ -1,17 +1,16 @@
 #include "support/manifold_oracle.h"
 
-#include <cstdio>
-#include <cstdlib>
-#include <filesystem>
 #include <sstream>
 
+#include "support/node_program.h"
 #include "support/temporary_folder.h"
 
 namespace sunder::test {
 namespace {
 
 template <std::size_t N, class T>
-void write(std::ostream& out, const char* name, const std::vector<std::array<T, N>>& rows, bool nested) {
+void write(std::ostream& out, const char* name, const std::vector<std::array<T, N>>& rows,
+           bool nested) {
   out << '"' << name << "\": [";
   const char* separator = "";
   for (const auto& row : rows) {
@@ -26,8 +25,7 @@ void write(std::ostream& out, const char* name, const std::vector<std::array<T, 
 }  // namespace
 
 bool has_manifold() {
-  static const bool is_there = std::filesystem::exists(std::filesystem::path(SUNDER_TESTS_NPM) / "node_modules" / "manifold-3d") &&
-                               std::system("node --version > /dev/null 2>&1") == 0;
+  static const bool is_there = has_node_packages({"manifold-3d"});
   return is_there;
 }
 
@@ -47,14 +45,10 @@ std::vector<SplitCells> split_by_manifold(const std::vector<SplitTask>& tasks) {
   text << ']';
   const TemporaryFolder folder;
   const auto file = folder.write("tasks.json", text.str());
-  std::FILE* const pipe = popen(("node '" SUNDER_TESTS_NPM "/split.mjs' '" + file.string() + "'").c_str(), "r");
-  if (pipe == nullptr) return {};
-  std::string said;
-  char buffer[4096];
-  while (const std::size_t size = std::fread(buffer, 1, sizeof buffer, pipe)) said.append(buffer, size);
-  if (pclose(pipe) != 0) return {};
+  const auto run = run_node_program("split.mjs", "'" + file.string() + "'");
+  if (!run || !run->succeeded) return {};
   std::vector<SplitCells> cells(tasks.size());
-  std::istringstream lines(said);
+  std::istringstream lines(run->output);
   std::size_t body = 0;
   std::string sides;
   SplitCell cell;
