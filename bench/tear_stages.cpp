@@ -6,6 +6,7 @@
 #include "tear/path/entry.h"
 #include "tear/path/imprint.h"
 #include "tear/path/imprint_point.h"
+#include "tear/surface/describe_change.h"
 #include "tear/surface/improve.h"
 #include "tear/surface/mesh_vertices.h"
 #include "tear/surface/open.h"
@@ -13,6 +14,7 @@
 namespace sunder::bench {
 
 using tear::BladePlane;
+using tear::EditLog;
 using tear::SurfaceEditor;
 using tear::SurfaceHit;
 
@@ -44,10 +46,10 @@ Stages StagedTear::run() {
   lips_.clear();
   births_.clear();
   editor_.scratch().reset();
-  const SurfaceEditor::Mark begin = editor_.mark();
+  const EditLog::Mark begin = editor_.mark();
   begin_pose(stages);
   for (std::size_t i = 0; i + 1 < scene_.stroke.size(); ++i) tear_segment(scene_.stroke[i], scene_.stroke[i + 1], stages);
-  stages.change_record = seconds_of([&] { editor_.describe(begin, change_); });
+  stages.change_record = seconds_of([&] { tear::describe_change(begin, editor_, change_); });
   editor_.roll_back(begin);
   posed_.forget_from(begin.points);
   stages.attributes = time_attributes();
@@ -55,7 +57,7 @@ Stages StagedTear::run() {
 }
 
 void StagedTear::tear_segment(const Blade& from, const Blade& to, Stages& stages) {
-  const SurfaceEditor::Mark before = editor_.mark();
+  const EditLog::Mark before = editor_.mark();
   std::optional<SurfaceHit> contact;
   std::optional<BladePlane> plane;
   stages.query += seconds_of([&] {
@@ -75,7 +77,7 @@ void StagedTear::tear_segment(const Blade& from, const Blade& to, Stages& stages
     path = imprint_path(*plane, tip_, editor_, posed_);
   });
   const Mesh& mesh = character_.meshes[0];
-  for (Index v = first_vertex; v < mesh.vertex_count(); ++v) births_.push_back(editor_.birth(0, v));
+  for (Index v = first_vertex; v < mesh.vertex_count(); ++v) births_.push_back(editor_.births.at(0, v));
   stages.open += seconds_of([&] {
     std::vector<tear::PointEdge> edges;
     for (std::size_t i = 0; i + 1 < path.points.size(); ++i) edges.push_back({path.points[i], path.points[i + 1]});

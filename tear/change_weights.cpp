@@ -9,6 +9,7 @@
 
 #include "skinning/internal/character_pose.h"
 #include "tear/model_state.h"
+#include "tear/surface/weight_change.h"
 
 namespace sunder {
 
@@ -40,10 +41,10 @@ Status TornModel::State::resolve(WeightsOperation& wanted) const {
 tear::VertexRanges TornModel::State::vertices_of(const WeightsOperation& resolved) const {
   const auto& done = history.done();
   const std::vector<std::uint32_t> first =
-      editor.vertex_counts_at(done[resolved.first_operation]->begin);
+      editor.log.vertex_counts_at(done[resolved.first_operation]->begin);
   const std::size_t after = std::size_t{resolved.first_operation} + resolved.operation_count;
   const std::vector<std::uint32_t> end = after < done.size()
-                                             ? editor.vertex_counts_at(done[after]->begin)
+                                             ? editor.log.vertex_counts_at(done[after]->begin)
                                              : std::vector<std::uint32_t>();
   tear::VertexRanges ranges;
   for (std::uint32_t mesh = 0; mesh < character.meshes.size(); ++mesh)
@@ -54,14 +55,14 @@ tear::VertexRanges TornModel::State::vertices_of(const WeightsOperation& resolve
 
 Status TornModel::State::reweigh(const WeightsOperation& resolved,
                                  const tear::WeightAssignment& assignment, ChangeRecord* change) {
-  const tear::SurfaceEditor::Mark begin = editor.mark();
+  const tear::EditLog::Mark begin = editor.mark();
   try {
     tear::History::Entry& entry = history.next();
     entry.as<WeightsOperation>() = resolved;
     entry.begin = begin;
     entry.weights = tear::make_weight_change(assignment, vertices_of(resolved), editor);
-    if (change != nullptr) editor.describe(entry.weights, *change);
-    editor.exchange(entry.weights);  // last, because it cannot be rolled back
+    if (change != nullptr) tear::describe_weights(entry.weights, editor, *change);
+    tear::exchange_weights(entry.weights, editor);  // last, because it cannot be rolled back
   } catch (const tear::CapacityExceeded& exceeded) {
     editor.roll_back(begin);
     return no_room(exceeded);

@@ -9,19 +9,21 @@
 
 #include "tear/surface/opened_borders.h"
 #include "tear/surface/surface_editor.h"
+#include "tear/surface/weight_change.h"
 
 namespace sunder::tear {
 
-/// The operations that were done and those that were taken back. What is dropped keeps its memory for the next.
+/// The operations that were done and those that were taken back. What is dropped keeps its memory
+/// for the next.
 class History {
  public:
   struct Entry {
     Operation operation;
-    SurfaceEditor::Mark begin;
-    SurfaceEditor::Redo redo;             ///< Of one that was taken back.
-    SurfaceEditor::WeightChange weights;  ///< Of a WeightsOperation: what takes it back, or does it again.
-    std::uint64_t serial = 0;             ///< That no other entry has, of any model; given by push().
-    IndexRange lips, rim_points;          ///< Among those of all entries; given by push().
+    EditLog::Mark begin;
+    SurfaceEditor::Redo redo;     ///< Of one that was taken back.
+    WeightChange weights;         ///< Of a WeightsOperation: what takes it back, or does it again.
+    std::uint64_t serial = 0;     ///< That no other entry has, of any model; given by push().
+    IndexRange lips, rim_points;  ///< Among those of all entries; given by push().
 
     /// The operation as one of this kind, to be filled in.
     template <class Kind>
@@ -31,7 +33,8 @@ class History {
     }
   };
 
-  /// Has memory for so many operations, and for the lips that all of them may open, and takes no more.
+  /// Has memory for so many operations, and for the lips that all of them may open, and takes no
+  /// more.
   /// @param pose  like all that come.
   void limit_to(std::size_t operations, std::size_t lips, const ModelPose& pose);
   [[nodiscard]] bool has_room() const { return limit_ == kUnlimited || done_.size() < limit_; }
@@ -68,7 +71,8 @@ class History {
   [[nodiscard]] IndexRange next_rim_points() const;
 
   Entries done_, undone_, spare_;
-  OpenedBorders borders_;  ///< Of all entries, the done ones from the oldest on, then those taken back, from the last on.
+  OpenedBorders borders_;  ///< Of all entries, the done ones from the oldest on, then those taken
+                           ///< back, from the last on.
   static constexpr std::size_t kUnlimited = ~std::size_t{0};
   std::size_t limit_ = kUnlimited;
 };

@@ -27,11 +27,11 @@ WeightErrors::Statistics statistics_of(std::vector<double>& values) {
 }
 
 /// Posed position of a vertex of policy `exact`, from its stored floats.
-Vec3d exact_position(const tear::SurfaceEditor& editor, const tear::SurfaceEditor::VertexRef& at,
+Vec3d exact_position(const tear::SurfaceEditor& editor, const tear::VertexRef& at,
                      std::span<const Affine3d> palette, std::span<const float> morph_weights) {
-  const InfluencePositions& exact = editor.influence_positions(at.mesh);
+  const InfluencePositions& exact = editor.exact.of(at.mesh);
   const Mesh& mesh = editor.character().meshes[at.mesh];
-  std::size_t place = editor.exact_place(at.mesh, at.vertex);
+  std::size_t place = editor.exact.place(at.mesh, at.vertex);
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (const Influence& influence : mesh.weights.of(at.vertex)) {
     Eigen::Vector3d q = exact.positions[place].cast<double>();
@@ -48,15 +48,15 @@ Vec3d exact_position(const tear::SurfaceEditor& editor, const tear::SurfaceEdito
 }
 
 /// Mean edge of the triangle in which a point was created, in the rest pose.
-double mean_edge(const tear::SurfaceEditor& editor, const tear::SurfaceEditor::VertexRef& at,
+double mean_edge(const tear::SurfaceEditor& editor, const tear::VertexRef& at,
                  const CharacterPose& rest) {
   const Mesh& mesh = editor.character().meshes[at.mesh];
   std::array<Vec3d, 3> corners;
   for (std::size_t k = 0; k < 3; ++k) {
     const std::uint32_t corner =
-        editor.origin_triangle(at.mesh, editor.birth(at.mesh, at.vertex).triangle)[k];
-    corners[k] = rest.position(mesh, corner, editor.born_position(at.mesh, corner),
-                               editor.born_influences(at.mesh, corner));
+        editor.fillings.origin_triangle(at.mesh, editor.births.at(at.mesh, at.vertex).triangle)[k];
+    corners[k] = rest.position(mesh, corner, editor.births.position(at.mesh, corner),
+                               editor.births.influences(at.mesh, corner));
   }
   return ((corners[0] - corners[1]).norm() + (corners[1] - corners[2]).norm() +
           (corners[2] - corners[0]).norm()) /
@@ -64,12 +64,12 @@ double mean_edge(const tear::SurfaceEditor& editor, const tear::SurfaceEditor::V
 }
 
 /// Position of a point in a pose minus the position of the untorn surface there.
-Vec3d error_of(const tear::SurfaceEditor& editor, const tear::SurfaceEditor::VertexRef& at,
+Vec3d error_of(const tear::SurfaceEditor& editor, const tear::VertexRef& at,
                const CharacterPose& pose, AnimationPoint& exact) {
   const Mesh& mesh = editor.character().meshes[at.mesh];
   const std::vector<Affine3d>& palette = pose.palette(mesh.skin);
-  editor.describe_exactly(at, pose.morph_weights(), exact);
-  const Vec3d position = editor.policy(at.mesh, at.vertex) == WeightPolicy::exact
+  editor.births.describe_exactly(at, pose.morph_weights(), exact);
+  const Vec3d position = editor.births.policy(at.mesh, at.vertex) == WeightPolicy::exact
                              ? exact_position(editor, at, palette, pose.morph_weights())
                              : pose.position(mesh, at.vertex);
   return position - exact.posed(palette);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "tear/pieces/pieces.h"
+#include "tear/surface/describe_change.h"
 #include "tear/weights/assign_weights.h"
 
 namespace sunder {
@@ -57,7 +58,7 @@ void TornModel::State::end_call(Call& call, const WeightOptions& of_points, Chan
   tear::assign_new_weights(begin_of_call_, of_points, posed.pose(), editor, call.report.weights);
   count(begin_of_call_, is_cut, call.report);
   if (change != nullptr) {
-    editor.describe(begin_of_call_, *change);
+    tear::describe_change(begin_of_call_, editor, *change);
     change->lips = borders_of_call_.lips;
     tear::settle_rims(borders_of_call_.rim_points, editor.surface(), change->rims);
   }
@@ -83,21 +84,21 @@ void TornModel::State::take_back() {
   posed.forget_from(begin_of_call_.points);
 }
 
-void TornModel::State::count(const tear::SurfaceEditor::Mark& begin, bool is_cut,
+void TornModel::State::count(const tear::EditLog::Mark& begin, bool is_cut,
                              TearReport& report) {
   report.points_added = editor.surface().point_count() - begin.points;
   report.triangles_added = editor.surface().triangle_count() - begin.triangles;
-  report.vertices_added = editor.vertices_since(begin);
+  report.vertices_added = editor.log.vertices_since(begin);
   report.triangles_retired = 0;
-  editor.for_each_changed(begin, [&](std::uint32_t triangle) {
+  editor.log.for_each_changed(begin, [&](std::uint32_t triangle) {
     report.triangles_retired += editor.surface().corner_point[3 * triangle] == kNone ? 1 : 0;
   });
   report.pieces = is_cut ? tear::find_all_pieces(begin, editor, posed)
                          : tear::find_pieces(begin, editor, posed);
 }
 
-void TornModel::State::record(const tear::SurfaceEditor::Mark& begin) {
-  if (editor.numbers_since(begin) == 0) return;  // it did nothing
+void TornModel::State::record(const tear::EditLog::Mark& begin) {
+  if (editor.log.numbers_since(begin) == 0) return;  // it did nothing
   history.next().begin = begin;
   history.push(borders_);
 }

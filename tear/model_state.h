@@ -55,12 +55,12 @@ struct TornModel::State {
   }
 
   /// Fills in what was added and retired since `begin`, and what came free.
-  void count(const tear::SurfaceEditor::Mark& begin, bool is_cut, TearReport& report);
+  void count(const tear::EditLog::Mark& begin, bool is_cut, TearReport& report);
 
   /// Where the operation that begins now begins.
   /// @param keeps_opened  it will ask which borders it opened.
-  [[nodiscard]] tear::SurfaceEditor::Mark begin_operation(bool keeps_opened) {
-    editor.begin_opening(keeps_opened);
+  [[nodiscard]] tear::EditLog::Mark begin_operation(bool keeps_opened) {
+    editor.opened_edges.begin(keeps_opened);
     borders_.clear();
     return editor.mark();
   }
@@ -72,7 +72,7 @@ struct TornModel::State {
   [[nodiscard]] Status stand_in(const ModelPose& pose);
   /// Ends an operation that began at `begin`, and whose description is history.next(): it can be
   /// taken back from now on, unless it did nothing.
-  void record(const tear::SurfaceEditor::Mark& begin);
+  void record(const tear::EditLog::Mark& begin);
 
   /// Makes a WeightsOperation say which operations it is about, or refuses it.
   [[nodiscard]] Status resolve(WeightsOperation& wanted) const;
@@ -115,7 +115,7 @@ struct TornModel::State {
   void end_call(Call& call, const WeightOptions& of_points, ChangeRecord* change, bool is_cut);
   void take_back();
 
-  tear::SurfaceEditor::Mark begin_of_call_;
+  tear::EditLog::Mark begin_of_call_;
   tear::OpenedBorders borders_of_call_,
       borders_;  ///< Of the call under way, and of the operation's calls before it.
   mutable std::once_flag has_rest_diagonal_;

@@ -8,27 +8,28 @@
 namespace sunder {
 namespace {
 
-using VertexRef = tear::SurfaceEditor::VertexRef;
+using tear::VertexRef;
 
 /// The corners that a vertex lies between and its parts of them: its own corners, in the order and
 /// with the parts that the first vertex at its point has of the corners that coincide with them.
 ParentBlend blend_of(const tear::SurfaceEditor& editor, std::uint32_t mesh, std::uint32_t vertex) {
   const auto coincide = [&](const VertexRef& a, const VertexRef& b) {
-    return editor.born_position(a.mesh, a.vertex) == editor.born_position(b.mesh, b.vertex) &&
-           std::ranges::equal(editor.born_influences(a.mesh, a.vertex),
-                              editor.born_influences(b.mesh, b.vertex));
+    return editor.births.position(a.mesh, a.vertex) == editor.births.position(b.mesh, b.vertex) &&
+           std::ranges::equal(editor.births.influences(a.mesh, a.vertex),
+                              editor.births.influences(b.mesh, b.vertex));
   };
-  const Birth& own = editor.birth(mesh, vertex);
-  const VertexRef first = editor.original(mesh, vertex);
+  const Birth& own = editor.births.at(mesh, vertex);
+  const VertexRef first = editor.births.original(mesh, vertex);
   // On the rim of a wall or cap a vertex is born in its own corner: it lies where the lip has it.
   // Another mesh' vertices cannot be its parents there: it stays as its own weights pose it.
   const bool is_of_rim =
       own.triangle == kNone ||
       std::ranges::count_if(own.barycentric, [](double part) { return part > 0; }) < 2;
   if (is_of_rim && first.mesh != mesh) return {vertex, {vertex, vertex, vertex}, {1, 0, 0}};
-  const Birth& shared = editor.birth(first.mesh, first.vertex);
-  const Triangle& of_shared = editor.origin_triangle(first.mesh, shared.triangle);
-  const Triangle& corners = is_of_rim ? of_shared : editor.origin_triangle(mesh, own.triangle);
+  const Birth& shared = editor.births.at(first.mesh, first.vertex);
+  const Triangle& of_shared = editor.fillings.origin_triangle(first.mesh, shared.triangle);
+  const Triangle& corners =
+      is_of_rim ? of_shared : editor.fillings.origin_triangle(mesh, own.triangle);
   ParentBlend blend{vertex, {}, {}};
   std::size_t count = 0;
   std::uint32_t repeated = kNone;
@@ -60,7 +61,7 @@ ParentBlends parent_blends(const TornModel& model, std::uint32_t mesh) {
   ParentBlends result;
   std::map<std::uint32_t, std::size_t> level_of;  // of each exact vertex
   std::vector<std::vector<ParentBlend>> levels;
-  for (const std::uint32_t vertex : editor.influence_positions(mesh).vertices) {
+  for (const std::uint32_t vertex : editor.exact.of(mesh).vertices) {
     const ParentBlend blend = blend_of(editor, mesh, vertex);
     std::size_t level = 0;
     for (const std::uint32_t parent : blend.parents)

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "tear/model_state.h"
+#include "tear/surface/describe_change.h"
 #include "tear/operation/stroke_tearing.h"
 
 namespace sunder {
@@ -60,7 +61,7 @@ struct TearStroke::State {
   TearOperation& operation;  ///< What was taken up: the history's next entry.
   double last_seconds = 0;
   std::optional<Held> held = {};
-  tear::SurfaceEditor::Mark begin = {};
+  tear::EditLog::Mark begin = {};
   TearReport total = {};
   Index first_in_pose =
       0;  ///< Points from here on were made in the pose in which the model stands.
@@ -114,7 +115,7 @@ struct TearStroke::State {
     try {
       tearing_before = tearing;
       pose_before = model->pose;
-      opened_before = model->editor.opened_half_edges();
+      opened_before = model->editor.opened_edges.half_edges();
     } catch (const std::bad_alloc&) {
       return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
     }
@@ -136,7 +137,7 @@ struct TearStroke::State {
     operation.stroke.resize(blades);
     operation.pose_changes.resize(poses);
     first_in_pose = first_before;
-    model->editor.restore_opened(opened_before);
+    model->editor.opened_edges.restore(opened_before);
     if (!same_bits(pose_before, model->pose)) {
       (void)model->stand_in(pose_before);
       for (const auto& [point, found] : found_before) model->posed.pin(point, found);
@@ -242,7 +243,7 @@ Status TearStroke::cancel(ChangeRecord* change) {
   TornModel::State& model = *state.model;
   try {
     model.editor.scratch().reset();
-    if (change != nullptr) model.editor.describe_roll_back(state.begin, *change);
+    if (change != nullptr) tear::describe_roll_back(state.begin, model.editor, *change);
   } catch (const tear::CapacityExceeded& exceeded) {
     return model.no_room(exceeded);
   } catch (const std::bad_alloc&) {

@@ -10,6 +10,7 @@
 #include "tear/operation/drill.h"
 #include "tear/operation/stroke_tearing.h"
 #include "tear/surface/compact.h"
+#include "tear/surface/weight_change.h"
 
 namespace sunder {
 namespace {
@@ -19,14 +20,17 @@ constexpr std::size_t kMaximumTriangles = kNone / 6;
 
 }  // namespace
 
-Result<TornModel> TornModel::create(std::shared_ptr<const Character> source, const TornCapacity& capacity) {
+Result<TornModel> TornModel::create(std::shared_ptr<const Character> source,
+                                    const TornCapacity& capacity) {
   if (!source) return Status::failure(StatusCode::empty_input, kNone, "no character");
   if (Status status = validate_character(*source); !status) return status;
   std::size_t triangles = capacity.triangles;
   for (const Mesh& mesh : source->meshes) triangles += mesh.triangles.size();
-  if (triangles > kMaximumTriangles || capacity.vertices > kMaximumTriangles || capacity.operations > kMaximumTriangles)
-    return Status::failure(StatusCode::limit_exceeded, kNone, "%zu triangles, with the capacity; at most %zu can be torn",
-                           triangles, kMaximumTriangles);
+  if (triangles > kMaximumTriangles || capacity.vertices > kMaximumTriangles ||
+      capacity.operations > kMaximumTriangles)
+    return Status::failure(StatusCode::limit_exceeded, kNone,
+                           "%zu triangles, with the capacity; at most %zu can be torn", triangles,
+                           kMaximumTriangles);
   try {
     return TornModel(std::make_unique<State>(std::move(source), capacity));
   } catch (const std::bad_alloc&) {
@@ -39,13 +43,13 @@ TornModel::TornModel(TornModel&&) noexcept = default;
 TornModel& TornModel::operator=(TornModel&&) noexcept = default;
 TornModel::~TornModel() = default;
 
-Result<TearReport> TornModel::tear(const ModelPose& pose, std::span<const Blade> stroke, const TearOptions& options,
-                                   ChangeRecord* change) {
+Result<TearReport> TornModel::tear(const ModelPose& pose, std::span<const Blade> stroke,
+                                   const TearOptions& options, ChangeRecord* change) {
   State& state = *state_;
   if (Status status = state.may_begin(); !status) return status;
   if (stroke.size() < 2)
-    return Status::failure(StatusCode::invalid_argument, kNone, "a stroke needs at least two blades, this one has %zu",
-                           stroke.size());
+    return Status::failure(StatusCode::invalid_argument, kNone,
+                           "a stroke needs at least two blades, this one has %zu", stroke.size());
   if (Status status = validate_options(options); !status) return status;
   const WeightOptions weights = options.weights.value_or(state.weights);
   for (std::uint32_t i = 0; i < stroke.size(); ++i) {
@@ -54,7 +58,7 @@ Result<TearReport> TornModel::tear(const ModelPose& pose, std::span<const Blade>
     if (Status status = validate_turn(stroke[i - 1], stroke[i], i); !status) return status;
   }
   if (Status status = state.stand_in(pose); !status) return status;
-  const tear::SurfaceEditor::Mark begin = state.begin_operation(options.wall_depth > 0);
+  const tear::EditLog::Mark begin = state.begin_operation(options.wall_depth > 0);
   auto report = state.call(
       [&](State::Call& call) -> Status {
         auto& operation = state.history.next().as<TearOperation>();
@@ -75,14 +79,15 @@ Result<TearReport> TornModel::tear(const ModelPose& pose, std::span<const Blade>
   return report;
 }
 
-Result<TearReport> TornModel::cut(const ModelPose& pose, const PlaneCut& cut, ChangeRecord* change) {
+Result<TearReport> TornModel::cut(const ModelPose& pose, const PlaneCut& cut,
+                                  ChangeRecord* change) {
   State& state = *state_;
   if (Status status = state.may_begin(); !status) return status;
   if (Status status = tear::validate_cut(cut); !status) return status;
   const WeightOptions weights = cut.weights.value_or(state.weights);
   if (Status status = validate_weights(weights); !status) return status;
   if (Status status = state.stand_in(pose); !status) return status;
-  const tear::SurfaceEditor::Mark begin = state.begin_operation(false);
+  const tear::EditLog::Mark begin = state.begin_operation(false);
   auto report = state.call(
       [&](State::Call& call) -> Status {
         auto& operation = state.history.next().as<CutOperation>();
@@ -104,7 +109,7 @@ Result<TearReport> TornModel::drill(const ModelPose& pose, const Bore& bore, Cha
   const WeightOptions weights = bore.weights.value_or(state.weights);
   if (Status status = validate_weights(weights); !status) return status;
   if (Status status = state.stand_in(pose); !status) return status;
-  const tear::SurfaceEditor::Mark begin = state.begin_operation(bore.wall);
+  const tear::EditLog::Mark begin = state.begin_operation(bore.wall);
   auto report = state.call(
       [&](State::Call& call) -> Status {
         auto& operation = state.history.next().as<DrillOperation>();
@@ -122,7 +127,8 @@ Result<TearReport> TornModel::drill(const ModelPose& pose, const Bore& bore, Cha
 Status TornModel::undo(ChangeRecord* change) {
   State& state = *state_;
   if (state.has_stroke) return state.may_begin();
-  if (state.history.done().empty()) return Status::failure(StatusCode::not_found, kNone, "there is nothing to undo");
+  if (state.history.done().empty())
+    return Status::failure(StatusCode::not_found, kNone, "there is nothing to undo");
   tear::History::Entry& last = *state.history.done().back();
   ChangeRecord unwanted;
   ChangeRecord& record = change != nullptr ? *change : unwanted;
@@ -130,8 +136,8 @@ Status TornModel::undo(ChangeRecord* change) {
     state.editor.scratch().reset();
     state.history.make_room_to_undo();
     if (std::holds_alternative<WeightsOperation>(last.operation)) {
-      state.editor.describe(last.weights, record);
-      state.editor.exchange(last.weights);
+      tear::describe_weights(last.weights, state.editor, record);
+      tear::exchange_weights(last.weights, state.editor);
     } else {
       state.editor.undo(last.begin, last.redo, record);
     }
@@ -148,7 +154,8 @@ Status TornModel::undo(ChangeRecord* change) {
 Status TornModel::redo(ChangeRecord* change) {
   State& state = *state_;
   if (Status status = state.may_begin(); !status) return status;
-  if (state.history.undone().empty()) return Status::failure(StatusCode::not_found, kNone, "there is nothing to do again");
+  if (state.history.undone().empty())
+    return Status::failure(StatusCode::not_found, kNone, "there is nothing to do again");
   tear::History::Entry& last = *state.history.undone().back();
   ChangeRecord unwanted;
   ChangeRecord& record = change != nullptr ? *change : unwanted;
@@ -166,8 +173,8 @@ Status TornModel::redo(ChangeRecord* change) {
     state.editor.scratch().reset();
     last.begin = state.editor.mark();
     if (std::holds_alternative<WeightsOperation>(last.operation)) {
-      state.editor.describe(last.weights, record);
-      state.editor.exchange(last.weights);
+      tear::describe_weights(last.weights, state.editor, record);
+      tear::exchange_weights(last.weights, state.editor);
     } else {
       state.editor.redo(last.redo, record);
       tear::settle_rims(rim_points, state.editor.surface(), record.rims);
@@ -190,22 +197,26 @@ Status TornModel::set_weights(const WeightOptions& options) {
 const WeightOptions& TornModel::weights() const { return state_->weights; }
 
 WeightPolicy TornModel::weight_policy(std::uint32_t mesh, std::uint32_t vertex) const {
-  return state_->editor.policy(mesh, vertex);
+  return state_->editor.births.policy(mesh, vertex);
 }
 
 const InfluencePositions& TornModel::influence_positions(std::uint32_t mesh) const {
-  return state_->editor.influence_positions(mesh);
+  return state_->editor.exact.of(mesh);
 }
 
 std::uint32_t TornModel::influence_place(std::uint32_t mesh, std::uint32_t vertex) const {
-  if (state_->editor.policy(mesh, vertex) != WeightPolicy::exact) return kNone;
-  const auto& vertices = state_->editor.influence_positions(mesh).vertices;
+  if (state_->editor.births.policy(mesh, vertex) != WeightPolicy::exact) return kNone;
+  const auto& vertices = state_->editor.exact.of(mesh).vertices;
   if (!std::binary_search(vertices.begin(), vertices.end(), vertex)) return kNone;
-  return static_cast<std::uint32_t>(state_->editor.exact_place(mesh, vertex));
+  return static_cast<std::uint32_t>(state_->editor.exact.place(mesh, vertex));
 }
 
-std::uint32_t TornModel::undo_count() const { return static_cast<std::uint32_t>(state_->history.done().size()); }
-std::uint32_t TornModel::redo_count() const { return static_cast<std::uint32_t>(state_->history.undone().size()); }
+std::uint32_t TornModel::undo_count() const {
+  return static_cast<std::uint32_t>(state_->history.done().size());
+}
+std::uint32_t TornModel::redo_count() const {
+  return static_cast<std::uint32_t>(state_->history.undone().size());
+}
 
 std::uint64_t TornModel::newest_operation() const {
   return state_->history.done().empty() ? 0 : state_->history.done().back()->serial;
@@ -238,16 +249,24 @@ const Character& TornModel::source() const { return *state_->source; }
 const tear::Surface& TornModel::surface() const { return state_->editor.surface(); }
 std::uint32_t TornModel::point_count() const { return state_->editor.surface().point_count(); }
 
-std::uint32_t TornModel::point_at(std::uint32_t mesh, std::uint32_t triangle, std::uint32_t corner) const {
-  return state_->editor.surface().corner_point[3 * state_->editor.surface_triangle(mesh, triangle) + corner];
+std::uint32_t TornModel::point_at(std::uint32_t mesh, std::uint32_t triangle,
+                                  std::uint32_t corner) const {
+  return state_->editor.surface()
+      .corner_point[3 * state_->editor.origins.surface_triangle(mesh, triangle) + corner];
 }
 
-Birth TornModel::birth(std::uint32_t mesh, std::uint32_t vertex) const { return state_->editor.birth(mesh, vertex); }
+Birth TornModel::birth(std::uint32_t mesh, std::uint32_t vertex) const {
+  return state_->editor.births.at(mesh, vertex);
+}
 
 std::uint32_t TornModel::source_triangle(std::uint32_t mesh, std::uint32_t triangle) const {
-  return state_->editor.surface().triangle(state_->editor.surface_triangle(mesh, triangle)).source_triangle;
+  return state_->editor.surface()
+      .triangle(state_->editor.origins.surface_triangle(mesh, triangle))
+      .source_triangle;
 }
 
-std::span<const Triangle> TornModel::fillings(std::uint32_t mesh) const { return state_->editor.fillings(mesh); }
+std::span<const Triangle> TornModel::fillings(std::uint32_t mesh) const {
+  return state_->editor.fillings.of(mesh);
+}
 
 }  // namespace sunder

@@ -74,7 +74,7 @@ class Caps {
         loop.push_back(frame_.project(position(point_before(h))));
     }
     for (const FlatRegion& region : find_regions(loops)) {
-      const SurfaceEditor::Mark before = work_.editor.mark();
+      const EditLog::Mark before = work_.editor.mark();
       if (close(rims, loops, region)) {
         ++report_.caps;
         left_over -= 1 + region.holes.size();
@@ -241,7 +241,7 @@ class Caps {
 
   /// In bind space.
   [[nodiscard]] Eigen::Vector3d place(Index mesh, Index vertex) const {
-    return work_.editor.born_position(mesh, vertex).cast<double>();
+    return work_.editor.births.position(mesh, vertex).cast<double>();
   }
 
   [[nodiscard]] Index mesh_with_most(const std::vector<Index>& half_edges) const {
@@ -261,7 +261,7 @@ class Caps {
     const Mesh& of = work_.editor.character().meshes[mesh];
     std::vector<Index> slots;
     for (const Index vertex : vertices)
-      for (const Influence& influence : work_.editor.born_influences(mesh, vertex))
+      for (const Influence& influence : work_.editor.births.influences(mesh, vertex))
         slots.push_back(influence.slot);
     std::sort(slots.begin(), slots.end());
     slots.erase(std::unique(slots.begin(), slots.end()), slots.end());
@@ -271,7 +271,7 @@ class Caps {
     Eigen::MatrixXd rim = Eigen::MatrixXd::Zero(rim_count, first_morph + 3 * target_count);
     for (Index i = 0; i < rim_count; ++i) {
       rim.block<1, 3>(i, 0) = place(mesh, vertices[i]).transpose();
-      for (const Influence& influence : work_.editor.born_influences(mesh, vertices[i])) {
+      for (const Influence& influence : work_.editor.births.influences(mesh, vertices[i])) {
         const auto slot =
             std::lower_bound(slots.begin(), slots.end(), influence.slot) - slots.begin();
         rim(i, 3 + slot) = static_cast<double>(influence.weight);
@@ -306,7 +306,7 @@ class Caps {
         made.morph_displacements.emplace_back(
             inner.block<1, 3>(i, first_morph + 3 * t).transpose());
       vertices.push_back(filling_.add_inner_vertex(mesh, vertices.front(), made));
-      points.push_back(work_.editor.append_filling_point());
+      points.push_back(work_.editor.connectivity.append_point());
       work_.posed.pin(points.back(), frame_.lift(places[rim_count + static_cast<std::size_t>(i)]));
     }
   }

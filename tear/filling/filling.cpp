@@ -6,6 +6,7 @@
 #include <unordered_set>
 
 #include "tear/internal/surface.h"
+#include "tear/surface/append_filling.h"
 #include "tear/surface/mesh_vertices.h"
 
 namespace sunder::tear {
@@ -20,12 +21,12 @@ Index Filling::add_rim_vertex(Index mesh, Index corner) {
   SurfaceEditor& editor = work_.editor;
   const Index rim_mesh = editor.surface().triangle(corner / 3).mesh,
               rim_vertex = editor.vertex_at(corner);
-  return editor.append_rim_vertex(mesh, {rim_mesh, rim_vertex});
+  return editor.births.append_rim_vertex(mesh, {rim_mesh, rim_vertex});
 }
 
 Index Filling::add_inner_vertex(Index mesh, Index like, const Inner& inner) {
-  const Index vertex = work_.editor.append_filling_vertex(mesh, like);
-  Mesh& of = work_.editor.mesh_of_new_vertex(mesh);
+  const Index vertex = work_.editor.births.append_filling_vertex(mesh, like);
+  Mesh& of = work_.editor.mutable_mesh(mesh);
   set_position_and_influences(inner.bind_position.cast<float>(), inner.influences, vertex, of);
   for (std::size_t i = 0; i < of.morph_targets.size(); ++i)
     if (!of.morph_targets[i].position_deltas.empty())
@@ -36,7 +37,7 @@ Index Filling::add_inner_vertex(Index mesh, Index like, const Inner& inner) {
 Mat3d Filling::blended(Index mesh, Index vertex) const {
   const Mesh& of = work_.editor.character().meshes[mesh];
   Mat3d linear = Mat3d::Zero();
-  for (const Influence& influence : work_.editor.born_influences(mesh, vertex))
+  for (const Influence& influence : work_.editor.births.influences(mesh, vertex))
     linear += static_cast<double>(influence.weight) *
               work_.posed.pose().palette(of.skin)[influence.slot].linear();
   return linear;
@@ -44,10 +45,10 @@ Mat3d Filling::blended(Index mesh, Index vertex) const {
 
 void Filling::shade(Index mesh, Index vertex, const Vec3d& normal, const Vec3d& tangent,
                     const Vec2d& uv) {
-  Mesh& of = work_.editor.mesh_of_new_vertex(mesh);
+  Mesh& of = work_.editor.mutable_mesh(mesh);
   const Mat3d posed_from_bind = blended(mesh, vertex);
   Mat3d posed_from_bind_of_normals = Mat3d::Zero();
-  for (const Influence& influence : work_.editor.born_influences(mesh, vertex))
+  for (const Influence& influence : work_.editor.births.influences(mesh, vertex))
     posed_from_bind_of_normals +=
         static_cast<double>(influence.weight) *
         compute_normal_matrix(work_.posed.pose().palette(of.skin)[influence.slot].linear());
@@ -78,12 +79,12 @@ void Filling::add_triangle(Index mesh, Index like_corner, const std::array<Index
     const TriangleRef ref = editor.surface().triangle(like_corner / 3);
     const Mesh& of = editor.character().meshes[ref.mesh];
     const Index material = of.submeshes[of.triangle_submesh[ref.triangle]].material;
-    known = submesh_of_mesh_.emplace(mesh, editor.append_submesh(mesh, name_, material)).first;
+    known = submesh_of_mesh_.emplace(mesh, append_submesh(mesh, name_, material, editor)).first;
   }
-  triangles_.push_back(editor.append_filling(mesh, known->second, points, vertices));
+  triangles_.push_back(append_filling(mesh, known->second, points, vertices, editor));
 }
 
-void Filling::take_back(const SurfaceEditor::Mark& before) {
+void Filling::take_back(const EditLog::Mark& before) {
   work_.editor.roll_back(before);
   work_.posed.forget_from(before.points);
   triangles_.clear();
@@ -125,7 +126,8 @@ bool Filling::connect(const std::vector<Index>& rim_half_edges) {
   if (!is_sound) return false;
   for (const auto& [points, h] : half_edges) {
     const auto twin = half_edges.find({points[1], points[0]});
-    if (twin != half_edges.end() && points[0] < points[1]) work_.editor.connect(h, twin->second);
+    if (twin != half_edges.end() && points[0] < points[1])
+      tear::connect(h, twin->second, work_.editor);
   }
   return true;
 }

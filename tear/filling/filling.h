@@ -40,7 +40,7 @@ class Filling {
   /// already joined by another edge.
   [[nodiscard]] bool connect(const std::vector<Index>& rim_half_edges);
   /// Removes everything added since the mark.
-  void take_back(const SurfaceEditor::Mark& before);
+  void take_back(const EditLog::Mark& before);
 
  private:
   std::string name_;

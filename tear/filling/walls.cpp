@@ -29,7 +29,7 @@ class Walls {
   /// fails; then nothing is added.
   template <class Build>
   bool add(const std::vector<Index>& half_edges, Build build) {
-    const SurfaceEditor::Mark before = work_.editor.mark();
+    const EditLog::Mark before = work_.editor.mark();
     is_sound_ = true;
     build();
     if (is_sound_ && filling_.connect(half_edges)) return true;
@@ -56,14 +56,14 @@ class Walls {
   }
   /// Adds a vertex at a posed displacement from another one.
   [[nodiscard]] Corner add_bottom(Index mesh, const Corner& top, Index point, const Vec3d& down) {
-    const Index vertex = work_.editor.append_filling_vertex(mesh, top.vertex);
-    Mesh& of = work_.editor.mesh_of_new_vertex(mesh);
+    const Index vertex = work_.editor.births.append_filling_vertex(mesh, top.vertex);
+    Mesh& of = work_.editor.mutable_mesh(mesh);
     const Vec3d bind = to_bind(filling_.blended(mesh, vertex), down, down);
     of.positions[vertex] = (of.positions[vertex].cast<double>() + bind).cast<float>();
     return {point, vertex};
   }
   [[nodiscard]] Index add_point(const Vec3d& at) {
-    const Index point = work_.editor.append_filling_point();
+    const Index point = work_.editor.connectivity.append_point();
     work_.posed.pin(point, at);
     return point;
   }
@@ -74,7 +74,7 @@ class Walls {
   void add_triangle(Index mesh, Index like_corner, const Corner& a, const Corner& b,
                     const Corner& c) {
     const auto place = [&](const Corner& of) -> Eigen::Vector3d {
-      return work_.editor.born_position(mesh, of.vertex).cast<double>();
+      return work_.editor.births.position(mesh, of.vertex).cast<double>();
     };
     const Eigen::Vector3d ab = place(b) - place(a), ac = place(c) - place(a);
     is_sound_ &= ab.cross(ac).squaredNorm() > 0;  // else stored positions are too coarse for it

@@ -8,9 +8,11 @@ namespace {
 
 double cross(const Vec2d& a, const Vec2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-/// The half-plane beside the line through a and b that holds `inside`. A line that has no direction, or that passes through
-/// `inside`, is replaced by the one across `fallback` through a: a blade that turns about its own end reaches what lies along it.
-BladePlane::HalfPlane beside(const Vec2d& a, const Vec2d& b, const Vec2d& inside, const Vec2d& fallback) {
+/// The half-plane beside the line through a and b that holds `inside`. A line that has no
+/// direction, or that passes through `inside`, is replaced by the one across `fallback` through a:
+/// a blade that turns about its own end reaches what lies along it.
+BladePlane::HalfPlane beside(const Vec2d& a, const Vec2d& b, const Vec2d& inside,
+                             const Vec2d& fallback) {
   Vec2d normal{-(b - a).y(), (b - a).x()};
   const double length = normal.norm();
   const double side = normal.dot(inside - a);
@@ -24,7 +26,8 @@ BladePlane::HalfPlane beside(const Vec2d& a, const Vec2d& b, const Vec2d& inside
 
 }  // namespace
 
-std::optional<BladePlane> BladePlane::through(const Vec3d& anchor, const Blade& from, const Blade& to) {
+std::optional<BladePlane> BladePlane::through(const Vec3d& anchor, const Blade& from,
+                                              const Blade& to) {
   const Vec3d blade = to.tip - to.base;
   BladePlane plane;
   plane.origin_ = to.base;
@@ -34,7 +37,8 @@ std::optional<BladePlane> BladePlane::through(const Vec3d& anchor, const Blade& 
   const double distance = across.norm();
   if (!(distance > 1e-9 * (blade.norm() + offset.norm()))) return std::nullopt;
   plane.across_ = across / distance;
-  plane.across_ -= plane.along_.dot(plane.across_) * plane.along_;  // again: near-parallel subtraction loses the right angle
+  plane.across_ -= plane.along_.dot(plane.across_) *
+                   plane.along_;  // again: near-parallel subtraction loses the right angle
   plane.across_ /= plane.across_.norm();
   plane.normal_ = plane.across_.cross(plane.along_);
 
@@ -57,8 +61,8 @@ std::optional<BladePlane> BladePlane::through(const Vec3d& anchor, const Blade& 
 }
 
 double BladePlane::progress(const Vec2d& point) const {
-  // The point lies on the blade's line where cross(point - base(s), direction(s)) = 0: inverse bilinear interpolation, a quadratic
-  // in s.
+  // The point lies on the blade's line where cross(point - base(s), direction(s)) = 0: inverse
+  // bilinear interpolation, a quadratic in s.
   const Vec2d p = point - from_base_;
   const double b = cross(p, g_) - cross_e_d_;
   const double c = cross(p, d_);
@@ -81,7 +85,8 @@ SweepCoordinates BladePlane::sweep_coordinates(const Vec2d& point) const {
 BladePlane::HalfPlane BladePlane::from_progress(double progress) const {
   const Vec2d base = from_base_ + progress * e_;
   const Vec2d direction = d_ + progress * g_;
-  Vec2d normal{direction.y(), -direction.x()};  // to the blade's right when it points down y: towards growing x
+  Vec2d normal{direction.y(),
+               -direction.x()};  // to the blade's right when it points down y: towards growing x
   normal /= normal.norm();
   return {normal, normal.dot(base)};
 }
@@ -93,10 +98,12 @@ Mat3d BladePlane::axes() const {
 }
 
 double BladePlane::least_progress(const Box& box) const {
-  // As in sweep_coordinates(), a point p is ahead of the blade at progress s where cross(p - base(s), direction(s)) > 0, which is
-  // quadratic in s and linear in p. The least value over the box is the middle's less a radius that is convex in s: at most what
-  // lies linearly between its values at 0 and 1. As long as that difference is positive the whole box is ahead of the blade. What
-  // is ahead of the first blade and within reach of the second has exactly one progress in [0, 1], so that one is meant.
+  // As in sweep_coordinates(), a point p is ahead of the blade at progress s where cross(p -
+  // base(s), direction(s)) > 0, which is quadratic in s and linear in p. The least value over the
+  // box is the middle's less a radius that is convex in s: at most what lies linearly between its
+  // values at 0 and 1. As long as that difference is positive the whole box is ahead of the blade.
+  // What is ahead of the first blade and within reach of the second has exactly one progress in [0,
+  // 1], so that one is meant.
   constexpr double kUnknown = -std::numeric_limits<double>::infinity();
   constexpr double kMargin = 1e-7;  // to what the roots may be off by
   const Vec3d half = box.half_size(), middle = box.middle();

@@ -15,18 +15,21 @@ struct SweepCoordinates {
   double depth = 0;     ///< 0 at the blade's base, 1 at its tip.
 };
 
-/// One segment of a stroke as a plane figure: the plane through the second blade and the point where the tear stands, and in it the
-/// quadrilateral that the blade sweeps. Plane coordinates: x across the second blade, zero on it and negative before it; y along it
-/// from its base.
+/// One segment of a stroke as a plane figure: the plane through the second blade and the point
+/// where the tear stands, and in it the quadrilateral that the blade sweeps. Plane coordinates: x
+/// across the second blade, zero on it and negative before it; y along it from its base.
 class BladePlane {
  public:
-  /// @param anchor  where the segment starts: the tip of the tear, or where the first blade meets the surface.
+  /// @param anchor  where the segment starts: the tip of the tear, or where the first blade meets
+  /// the surface.
   /// @return nothing where the anchor lies on the second blade: the blade did not move.
   static std::optional<BladePlane> through(const Vec3d& anchor, const Blade& from, const Blade& to);
 
   /// Signed distance from the plane, metres.
   [[nodiscard]] double distance(const Vec3d& point) const { return normal_.dot(point - origin_); }
-  [[nodiscard]] Vec2d project(const Vec3d& point) const { return {across_.dot(point - origin_), along_.dot(point - origin_)}; }
+  [[nodiscard]] Vec2d project(const Vec3d& point) const {
+    return {across_.dot(point - origin_), along_.dot(point - origin_)};
+  }
   [[nodiscard]] SweepCoordinates sweep_coordinates(const Vec2d& point) const;
   /// Their progress alone.
   [[nodiscard]] double progress(const Vec2d& point) const;
@@ -49,12 +52,12 @@ class BladePlane {
   [[nodiscard]] const Vec3d& origin() const { return origin_; }
   /// Rows: along, across, normal.
   [[nodiscard]] Mat3d axes() const;
-  /// No point of a box, given along axes() from the origin, that lies in the plane and within reach has less progress than this.
-  /// Minus infinity where that is not known.
+  /// No point of a box, given along axes() from the origin, that lies in the plane and within reach
+  /// has less progress than this. Minus infinity where that is not known.
   [[nodiscard]] double least_progress(const Box& box) const;
 
-  /// Towards the left of the stroke, seen from where the blade comes; across the second blade, forwards; along it, from base to
-  /// tip.
+  /// Towards the left of the stroke, seen from where the blade comes; across the second blade,
+  /// forwards; along it, from base to tip.
   [[nodiscard]] const Vec3d& normal() const { return normal_; }
   [[nodiscard]] const Vec3d& across() const { return across_; }
   [[nodiscard]] const Vec3d& along() const { return along_; }
@@ -64,8 +67,12 @@ class BladePlane {
     return {normal, half_plane.offset + normal.dot(origin_)};
   }
   /// What lies left of the plane moved by `distance` to its left.
-  [[nodiscard]] HalfSpace left_of(double distance) const { return {normal_, normal_.dot(origin_) + distance}; }
-  [[nodiscard]] HalfSpace right_of(double distance) const { return {-normal_, -(normal_.dot(origin_) + distance)}; }
+  [[nodiscard]] HalfSpace left_of(double distance) const {
+    return {normal_, normal_.dot(origin_) + distance};
+  }
+  [[nodiscard]] HalfSpace right_of(double distance) const {
+    return {-normal_, -(normal_.dot(origin_) + distance)};
+  }
 
  private:
   Vec3d origin_, across_, along_, normal_;

@@ -15,16 +15,18 @@ struct HalfSpace {
 
   /// Metres where the normal is a unit vector.
   [[nodiscard]] double value(const Vec3d& point) const { return normal.dot(point) - offset; }
-  /// A function of the point alone, so that all faces agree about their common points. What rounding cannot tell from the plane is
-  /// inside: a blade that lies in a face passes beside it and not through it.
+  /// A function of the point alone, so that all faces agree about their common points. What
+  /// rounding cannot tell from the plane is inside: a blade that lies in a face passes beside it
+  /// and not through it.
   [[nodiscard]] bool contains(const Vec3d& point) const {
-    const double rounding =
-        std::abs(normal.x() * point.x()) + std::abs(normal.y() * point.y()) + std::abs(normal.z() * point.z()) + std::abs(offset);
+    const double rounding = std::abs(normal.x() * point.x()) + std::abs(normal.y() * point.y()) +
+                            std::abs(normal.z() * point.z()) + std::abs(offset);
     return value(point) >= -2e-15 * rounding;
   }
 };
 
-/// The part of a plane that lies inside some half-spaces: where it meets the surface, edges are to run.
+/// The part of a plane that lies inside some half-spaces: where it meets the surface, edges are to
+/// run.
 struct Sheet {
   /// A limit of the sheet; where that is another sheet of the same figure, the two meet in corners.
   struct Bound {

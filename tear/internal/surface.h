@@ -7,40 +7,52 @@
 
 namespace sunder::tear {
 
-/// Where a triangle of the surface stands in the character, and the source triangle that it is a part of.
+/// Where a triangle of the surface stands in the character, and the source triangle that it is a
+/// part of.
 struct TriangleRef {
   Index mesh = 0;
   Index triangle = 0;         ///< In the mesh as it is now.
   Index source_triangle = 0;  ///< In the mesh as it was loaded.
 };
 
-/// Connectivity of a character's surface on points, all meshes together. Without what tears append it takes 24 bytes a triangle
-/// and 4 a point.
+/// Connectivity of a character's surface on points, all meshes together. Without what tears append
+/// it takes 24 bytes a triangle and 4 a point.
 ///
-/// Triangle t has corners 3t, 3t+1, 3t+2. A corner also names the half-edge that leaves it, towards the next corner. Each point has
-/// one fan: its corners are reached from one another across edges. Where a surface touches itself in a point only, that is two
-/// points.
+/// Triangle t has corners 3t, 3t+1, 3t+2. A corner also names the half-edge that leaves it, towards
+/// the next corner. Each point has one fan: its corners are reached from one another across edges.
+/// Where a surface touches itself in a point only, that is two points.
 struct Surface {
   std::vector<Index> corner_point;    ///< 3 a triangle.
   std::vector<Index> twin;            ///< 3 a triangle: the opposite half-edge, kNone at a border.
-  std::vector<Index> first_triangle;  ///< Of each mesh' source triangles, mesh after mesh; at the end their number.
+  std::vector<Index> first_triangle;  ///< Of each mesh' source triangles, mesh after mesh; at the
+                                      ///< end their number.
   std::vector<TriangleRef> appended;  ///< The triangles after those.
-  std::vector<Index> point_corner;    ///< One corner of each point; kNone for a point that only degenerate triangles use.
-  std::vector<Index> source_side;     ///< Value of _TEARSIDE of the source's points; none where all are 0.
-  std::vector<Index> appended_side;   ///< Of the points after those.
-  std::vector<std::vector<bool>> is_shared_vertex;  ///< Of each mesh: source vertices that not one fan alone uses.
-  Index non_manifold_edges = 0;                     ///< At build: with more than two faces, or two that disagree in winding.
-  Index non_manifold_half_edges = 0;                ///< At build: half-edges left unjoined for that reason.
+  std::vector<Index> point_corner;    ///< One corner of each point; kNone for a point that only
+                                      ///< degenerate triangles use.
+  std::vector<Index>
+      source_side;  ///< Value of _TEARSIDE of the source's points; none where all are 0.
+  std::vector<Index> appended_side;  ///< Of the points after those.
+  std::vector<std::vector<bool>>
+      is_shared_vertex;  ///< Of each mesh: source vertices that not one fan alone uses.
+  Index non_manifold_edges =
+      0;  ///< At build: with more than two faces, or two that disagree in winding.
+  Index non_manifold_half_edges = 0;  ///< At build: half-edges left unjoined for that reason.
 
-  [[nodiscard]] Index triangle_count() const { return first_triangle.back() + static_cast<Index>(appended.size()); }
+  [[nodiscard]] Index triangle_count() const {
+    return first_triangle.back() + static_cast<Index>(appended.size());
+  }
   [[nodiscard]] Index point_count() const { return static_cast<Index>(point_corner.size()); }
-  [[nodiscard]] Index source_point_count() const { return point_count() - static_cast<Index>(appended_side.size()); }
+  [[nodiscard]] Index source_point_count() const {
+    return point_count() - static_cast<Index>(appended_side.size());
+  }
 
   [[nodiscard]] TriangleRef triangle(Index t) const {
     if (t >= first_triangle.back()) return appended[t - first_triangle.back()];
     Index mesh = 0;
     if (first_triangle.size() > 2)
-      mesh = static_cast<Index>(std::upper_bound(first_triangle.begin(), first_triangle.end(), t) - first_triangle.begin()) - 1;
+      mesh = static_cast<Index>(std::upper_bound(first_triangle.begin(), first_triangle.end(), t) -
+                                first_triangle.begin()) -
+             1;
     return {mesh, t - first_triangle[mesh], t - first_triangle[mesh]};
   }
   /// Value of _TEARSIDE.
@@ -52,12 +64,15 @@ struct Surface {
   static Index next(Index corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
   static Index previous(Index corner) { return corner % 3 == 0 ? corner + 2 : corner - 1; }
 
-  /// The corner of the same point in the face across its incoming edge (counter-clockwise), or across its outgoing edge
-  /// (clockwise).
+  /// The corner of the same point in the face across its incoming edge (counter-clockwise), or
+  /// across its outgoing edge (clockwise).
   [[nodiscard]] Index rotate_ccw(Index corner) const { return twin[previous(corner)]; }
-  [[nodiscard]] Index rotate_cw(Index corner) const { return twin[corner] == kNone ? kNone : next(twin[corner]); }
+  [[nodiscard]] Index rotate_cw(Index corner) const {
+    return twin[corner] == kNone ? kNone : next(twin[corner]);
+  }
 
-  /// The corner of a fan from which rotate_ccw() reaches all others: the clockwise end of an open fan, any corner of a closed one.
+  /// The corner of a fan from which rotate_ccw() reaches all others: the clockwise end of an open
+  /// fan, any corner of a closed one.
   [[nodiscard]] Index first_of_fan(Index corner) const {
     Index first = corner;
     for (Index c = rotate_cw(corner); c != kNone && c != corner; c = rotate_cw(c)) first = c;
@@ -76,7 +91,9 @@ struct Surface {
     } while (c != kNone && c != first);
   }
 
-  [[nodiscard]] bool is_on_border(Index point) const { return rotate_cw(first_of_fan(point_corner[point])) == kNone; }
+  [[nodiscard]] bool is_on_border(Index point) const {
+    return rotate_cw(first_of_fan(point_corner[point])) == kNone;
+  }
 
   /// The half-edge from one point to another, or kNone.
   [[nodiscard]] SUNDER_API Index find_half_edge(Index from, Index to) const;
@@ -86,8 +103,9 @@ struct Surface {
   }
 };
 
-/// Joins vertices into points and triangles across edges. Edges with more than two faces, and edges whose two faces disagree in
-/// winding, stay unjoined unless the vertices themselves tell which faces belong together. O(vertices + triangles), deterministic.
+/// Joins vertices into points and triangles across edges. Edges with more than two faces, and edges
+/// whose two faces disagree in winding, stay unjoined unless the vertices themselves tell which
+/// faces belong together. O(vertices + triangles), deterministic.
 [[nodiscard]] SUNDER_API Surface build_surface(const Character& character);
 
 }  // namespace sunder::tear

@@ -11,7 +11,8 @@ constexpr double kFar = 1e60;  ///< Products of four coordinates must stay finit
 
 bool is_near(const Vec3d& vector) { return vector.cwiseAbs().maxCoeff() <= kFar; }
 
-/// Half-spaces that stand on the sides of a polygon in the plane; nothing where it is not convex or has no area.
+/// Half-spaces that stand on the sides of a polygon in the plane; nothing where it is not convex or
+/// has no area.
 std::vector<HalfSpace> sides_of(const std::vector<Vec3d>& bounds, const Vec3d& normal) {
   Vec3d doubled_area = Vec3d::Zero();
   for (std::size_t i = 0; i < bounds.size(); ++i)
@@ -29,35 +30,44 @@ std::vector<HalfSpace> sides_of(const std::vector<Vec3d>& bounds, const Vec3d& n
   for (const HalfSpace& side : sides)
     for (const Vec3d& corner : bounds)
       if (side.value(corner) < -1e-9 * size) return {};
-  return std::abs(doubled_area.dot(normal)) > 1e-12 * size * size ? sides : std::vector<HalfSpace>{};
+  return std::abs(doubled_area.dot(normal)) > 1e-12 * size * size ? sides
+                                                                  : std::vector<HalfSpace>{};
 }
 
 }  // namespace
 
 Status validate_cut(const PlaneCut& cut) {
   if (!cut.point.allFinite() || !cut.normal.allFinite())
-    return Status::failure(StatusCode::non_finite_value, kNone, "the plane of the cut is not finite");
+    return Status::failure(StatusCode::non_finite_value, kNone,
+                           "the plane of the cut is not finite");
   if (!is_near(cut.point) || !is_near(cut.normal))
-    return Status::failure(StatusCode::invalid_argument, kNone, "the plane of the cut lies beyond 1e60");
+    return Status::failure(StatusCode::invalid_argument, kNone,
+                           "the plane of the cut lies beyond 1e60");
   if (!(cut.normal.norm() > 1e-30))
-    return Status::failure(StatusCode::invalid_argument, kNone, "the plane of the cut has no normal");
+    return Status::failure(StatusCode::invalid_argument, kNone,
+                           "the plane of the cut has no normal");
   if (cut.bounds.empty()) return {};
   if (cut.bounds.size() < 3)
-    return Status::failure(StatusCode::invalid_argument, kNone, "bounds of %zu corners; a polygon has three at least",
+    return Status::failure(StatusCode::invalid_argument, kNone,
+                           "bounds of %zu corners; a polygon has three at least",
                            cut.bounds.size());
   for (Index i = 0; i < cut.bounds.size(); ++i) {
     if (!cut.bounds[i].allFinite())
-      return Status::failure(StatusCode::non_finite_value, i, "corner %u of the bounds is not finite", i);
+      return Status::failure(StatusCode::non_finite_value, i,
+                             "corner %u of the bounds is not finite", i);
     if (!is_near(cut.bounds[i]))
-      return Status::failure(StatusCode::invalid_argument, i, "corner %u of the bounds lies beyond 1e60", i);
+      return Status::failure(StatusCode::invalid_argument, i,
+                             "corner %u of the bounds lies beyond 1e60", i);
   }
   if (sides_of(cut.bounds, cut.normal / cut.normal.norm()).empty())
-    return Status::failure(StatusCode::invalid_argument, kNone, "the bounds are not a convex polygon in the plane of the cut");
+    return Status::failure(StatusCode::invalid_argument, kNone,
+                           "the bounds are not a convex polygon in the plane of the cut");
   return {};
 }
 
-void cut_surface(const PlaneCut& cut, const Workpiece& work, TearReport& report, std::vector<LipPair>& lips) {
-  const SurfaceEditor::Mark before = work.editor.mark();
+void cut_surface(const PlaneCut& cut, const Workpiece& work, TearReport& report,
+                 std::vector<LipPair>& lips) {
+  const EditLog::Mark before = work.editor.mark();
   const Vec3d normal = cut.normal / cut.normal.norm();
   Sheet sheet{{normal, normal.dot(cut.point)}, {}};
   for (const HalfSpace& side : sides_of(cut.bounds, normal)) sheet.bounds.push_back({side, kNone});

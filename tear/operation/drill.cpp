@@ -11,13 +11,15 @@ namespace {
 
 constexpr std::size_t kMostSides = 1536;
 
-/// Unit vectors to the corners of a regular polygon whose sides come within `tolerance` (of the radius) of the circle: a hexagon,
-/// its arcs halved until they do. Roots and sums alone, so that it is the same bits with every mathematical library.
+/// Unit vectors to the corners of a regular polygon whose sides come within `tolerance` (of the
+/// radius) of the circle: a hexagon, its arcs halved until they do. Roots and sums alone, so that
+/// it is the same bits with every mathematical library.
 std::vector<Vec3d> circle_corners(const Vec3d& x, const Vec3d& y, double tolerance) {
   const double half_root = 0.5 * std::sqrt(3.0);
   std::vector<Vec3d> corners = {x, 0.5 * x + half_root * y, -0.5 * x + half_root * y};
   for (std::size_t i = 0; i < 3; ++i) corners.push_back(-corners[i]);
-  while (1 - (0.5 * (corners[0] + corners[1])).norm() > tolerance && 2 * corners.size() <= kMostSides) {
+  while (1 - (0.5 * (corners[0] + corners[1])).norm() > tolerance &&
+         2 * corners.size() <= kMostSides) {
     std::vector<Vec3d> finer;
     for (std::size_t i = 0; i < corners.size(); ++i) {
       const Vec3d between = corners[i] + corners[(i + 1) % corners.size()];
@@ -35,7 +37,8 @@ Cell cell_of(const Bore& bore) {
   const Vec3d away = std::abs(axis.x()) < 0.5 ? Vec3d(Vec3d::UnitX()) : Vec3d(Vec3d::UnitY());
   const Vec3d across = axis.cross(away);
   const Vec3d x = across / across.norm(), y = axis.cross(x);
-  const auto corners = circle_corners(x, y, bore.chord_tolerance > 0 ? bore.chord_tolerance / bore.radius : 0.01);
+  const auto corners =
+      circle_corners(x, y, bore.chord_tolerance > 0 ? bore.chord_tolerance / bore.radius : 0.01);
   Cell cell;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Vec3d &a = corners[i], &b = corners[(i + 1) % corners.size()];
@@ -52,33 +55,39 @@ Cell cell_of(const Bore& bore) {
 
 Status validate_bore(const Bore& bore) {
   if (!bore.origin.allFinite() || !bore.direction.allFinite())
-    return Status::failure(StatusCode::non_finite_value, kNone, "the axis of the bore is not finite");
+    return Status::failure(StatusCode::non_finite_value, kNone,
+                           "the axis of the bore is not finite");
   if (bore.origin.cwiseAbs().maxCoeff() > 1e60 || bore.direction.cwiseAbs().maxCoeff() > 1e60)
-    return Status::failure(StatusCode::invalid_argument, kNone, "the axis of the bore lies beyond 1e60");
+    return Status::failure(StatusCode::invalid_argument, kNone,
+                           "the axis of the bore lies beyond 1e60");
   if (!(bore.direction.norm() > 1e-30))
-    return Status::failure(StatusCode::invalid_argument, kNone, "the axis of the bore has no direction");
+    return Status::failure(StatusCode::invalid_argument, kNone,
+                           "the axis of the bore has no direction");
   if (!(bore.radius > 1e-30 && bore.radius <= 1e30))
-    return Status::failure(StatusCode::invalid_argument, kNone, "a bore has a radius above 0 and up to 1e30, not %g", bore.radius);
+    return Status::failure(StatusCode::invalid_argument, kNone,
+                           "a bore has a radius above 0 and up to 1e30, not %g", bore.radius);
   if (!(bore.depth > 1e-30 && bore.depth <= 1e30))
-    return Status::failure(StatusCode::invalid_argument, kNone, "a bore has a depth above 0 and up to 1e30, not %g", bore.depth);
+    return Status::failure(StatusCode::invalid_argument, kNone,
+                           "a bore has a depth above 0 and up to 1e30, not %g", bore.depth);
   if (!(bore.chord_tolerance >= 0 && bore.chord_tolerance <= bore.radius))
-    return Status::failure(StatusCode::invalid_argument, kNone, "a chord tolerance is 0 to the radius, not %g",
-                           bore.chord_tolerance);
+    return Status::failure(StatusCode::invalid_argument, kNone,
+                           "a chord tolerance is 0 to the radius, not %g", bore.chord_tolerance);
   return {};
 }
 
 void drill_surface(const Bore& bore, const Workpiece& work, TearReport& report) {
-  const SurfaceEditor::Mark before = work.editor.mark();
+  const EditLog::Mark before = work.editor.mark();
   const Cell cell = cell_of(bore);
-  const GapRemoval removal = remove_cell(cell, faces_in_cell(cell, work.editor, work.posed), work.editor, work.posed);
+  const GapRemoval removal =
+      remove_cell(cell, faces_in_cell(cell, work.editor, work.posed), work.editor, work.posed);
   report.runs = removal.faces_removed > 0 ? 1 : 0;
   report.faces_crossed = removal.faces_crossed;
   report.blocked = removal.blocked;
   report.area_removed_posed = removal.area_posed;
   improve_faces(before, work.editor);
   if (bore.wall)
-    report.open_sections =
-        add_bore_wall(work.editor.opened(), bore.origin, bore.direction / bore.direction.norm(), bore.depth, work);
+    report.open_sections = add_bore_wall(work.editor.opened_edges.borders(), bore.origin,
+                                         bore.direction / bore.direction.norm(), bore.depth, work);
 }
 
 }  // namespace sunder::tear

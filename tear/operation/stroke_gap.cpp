@@ -17,8 +17,8 @@ namespace {
 
 /// Depth in the plane's y at which the middle of a gap lies at x.
 double depth_at(const std::vector<Vec2d>& section, double x) {
-  const auto after =
-      std::lower_bound(section.begin(), section.end(), x, [](const Vec2d& at, double value) { return at.x() < value; });
+  const auto after = std::lower_bound(section.begin(), section.end(), x,
+                                      [](const Vec2d& at, double value) { return at.x() < value; });
   if (after == section.begin()) return section.front().y();
   if (after == section.end()) return section.back().y();
   const Vec2d &a = *(after - 1), &b = *after;
@@ -48,7 +48,7 @@ StrokeTearing::PendingGap StrokeTearing::find_gap(const BladePlane& plane, const
   for (int futile = 0; progress < 1 && futile < 64;) {
     const auto contact = find_contact(plane, progress, work);
     if (!contact) break;
-    const SurfaceEditor::Mark before = work.editor.mark();
+    const EditLog::Mark before = work.editor.mark();
     const std::size_t seeds = gap.seeds.size();
     const double reached = add(imprint_point(*contact, Snapping::tight, work.editor, work.posed));
     const bool has_advanced = gap.seeds.size() > seeds && reached > progress + kSamePlace;
@@ -61,11 +61,13 @@ StrokeTearing::PendingGap StrokeTearing::find_gap(const BladePlane& plane, const
     progress = std::max(progress, contact->progress_beyond);
     ++futile;
   }
-  std::stable_sort(gap.section.begin(), gap.section.end(), [](const Vec2d& a, const Vec2d& b) { return a.x() < b.x(); });
+  std::stable_sort(gap.section.begin(), gap.section.end(),
+                   [](const Vec2d& a, const Vec2d& b) { return a.x() < b.x(); });
   return gap;
 }
 
-void StrokeTearing::remove(const Cell& cell, std::span<const Side> sides, const PendingGap& gap, const Workpiece& work) {
+void StrokeTearing::remove(const Cell& cell, std::span<const Side> sides, const PendingGap& gap,
+                           const Workpiece& work) {
   SurfaceEditor& editor = work.editor;
   PosedPoints& posed = work.posed;
   std::vector<Index> faces;
@@ -76,17 +78,21 @@ void StrokeTearing::remove(const Cell& cell, std::span<const Side> sides, const 
     std::vector<Index> seeds;
     for (const Index point : gap.seeds)
       if (surface.point_corner[point] != kNone)
-        surface.for_each_in_fan(surface.point_corner[point], [&](Index corner) { seeds.push_back(corner / 3); });
+        surface.for_each_in_fan(surface.point_corner[point],
+                                [&](Index corner) { seeds.push_back(corner / 3); });
     for (const Index face : gap.faces)
       if (!surface.has_repeated_point(face)) seeds.push_back(face);
     std::sort(seeds.begin(), seeds.end());
-    // The blade is as wide as the gap, and where the surface wrinkles it takes the wrinkle away. But what turns its back on the
-    // blade far below the tear is another layer, which the nearest one hides; not so what the tear itself goes across.
+    // The blade is as wide as the gap, and where the surface wrinkles it takes the wrinkle away.
+    // But what turns its back on the blade far below the tear is another layer, which the nearest
+    // one hides; not so what the tear itself goes across.
     const auto is_same_layer = [&](Index face) {
       if (std::binary_search(seeds.begin(), seeds.end(), face)) return true;
       std::array<Vec3d, 3> corners;
-      for (Index k = 0; k < 3; ++k) corners[k] = posed.position(editor, surface.corner_point[3 * face + k]);
-      if ((corners[1] - corners[0]).cross(corners[2] - corners[0]).dot(gap.plane.along()) <= 0) return true;
+      for (Index k = 0; k < 3; ++k)
+        corners[k] = posed.position(editor, surface.corner_point[3 * face + k]);
+      if ((corners[1] - corners[0]).cross(corners[2] - corners[0]).dot(gap.plane.along()) <= 0)
+        return true;
       const Vec2d middle = gap.plane.project((corners[0] + corners[1] + corners[2]) / 3);
       return middle.y() - depth_at(gap.section, middle.x()) < 2 * options_.width;
     };
@@ -102,14 +108,18 @@ void StrokeTearing::remove(const Cell& cell, std::span<const Side> sides, const 
   has_removed_ |= removal.faces_removed > 0;
 }
 
-/// Lips of a sheet through all layers are told by the side of the plane, those of a path along the nearest one by what is seen from
-/// outside: a layer that the blade meets from inside has its left where the plane has its right.
-void StrokeTearing::add_rim_points(const CellRim& rim, std::span<const Side> sides, const BladePlane& plane) {
+/// Lips of a sheet through all layers are told by the side of the plane, those of a path along the
+/// nearest one by what is seen from outside: a layer that the blade meets from inside has its left
+/// where the plane has its right.
+void StrokeTearing::add_rim_points(const CellRim& rim, std::span<const Side> sides,
+                                   const BladePlane& plane) {
   for (const CellRim::Edge& edge : rim.edges) {
     const Side side = edge.side == kNone ? Side::none : sides[edge.side];
     if (side == Side::none) continue;
-    const bool is_seen_from_inside = options_.layers == Layers::nearest && rim.areas[edge.part].dot(plane.along()) > 0;
-    for (const Index point : edge.points) borders.rim_points.push_back({point, (side == Side::left) != is_seen_from_inside});
+    const bool is_seen_from_inside =
+        options_.layers == Layers::nearest && rim.areas[edge.part].dot(plane.along()) > 0;
+    for (const Index point : edge.points)
+      borders.rim_points.push_back({point, (side == Side::left) != is_seen_from_inside});
   }
 }
 
@@ -117,21 +127,25 @@ void StrokeTearing::remove_pending(const HalfSpace& end, const Workpiece& work) 
   const BladePlane& plane = pending_->plane;
   const double half = 0.5 * options_.width;
   // What lies left of the right side, and right of the left one.
-  constexpr std::array kSides = {Side::right, Side::left, Side::none, Side::none, Side::none, Side::none};
-  remove({plane.left_of(-half), plane.right_of(half), plane.standing_on(plane.reach()[0]), plane.standing_on(plane.reach()[1]),
-          pending_->start, end},
+  constexpr std::array kSides = {Side::right, Side::left, Side::none,
+                                 Side::none,  Side::none, Side::none};
+  remove({plane.left_of(-half), plane.right_of(half), plane.standing_on(plane.reach()[0]),
+          plane.standing_on(plane.reach()[1]), pending_->start, end},
          kSides, *pending_, work);
 }
 
-/// Ends the pending gap where the next one begins. Where the stroke turns gently they share a mitre plane; where it turns sharply,
-/// or more than the segments are long, both end square and a wedge closes the outer side: mitred up to a right angle, bevelled
-/// beyond.
+/// Ends the pending gap where the next one begins. Where the stroke turns gently they share a mitre
+/// plane; where it turns sharply, or more than the segments are long, both end square and a wedge
+/// closes the outer side: mitred up to a right angle, bevelled beyond.
 void StrokeTearing::join_gaps(PendingGap& next, const Vec3d& at, const Workpiece& work) {
   const Vec3d before = pending_->plane.across(), after = next.start.normal;
   const double cosine = before.dot(after), half = 0.5 * options_.width;
-  const double overlap = cosine > -1 ? half * std::sqrt(std::max(0.0, (1 - cosine) / (1 + cosine))) : 0;
+  const double overlap =
+      cosine > -1 ? half * std::sqrt(std::max(0.0, (1 - cosine) / (1 + cosine))) : 0;
   const Vec3d normal_before = pending_->plane.normal(), normal_after = next.plane.normal();
-  const auto from = [&](const Vec3d& direction, double distance) { return HalfSpace{direction, direction.dot(at) + distance}; };
+  const auto from = [&](const Vec3d& direction, double distance) {
+    return HalfSpace{direction, direction.dot(at) + distance};
+  };
   if (cosine >= 0 && overlap <= 0.5 * std::min(pending_->length, next.length)) {
     const Vec3d mitre = (before + after) / (before + after).norm();
     remove_pending(from(-mitre, 0), work);
@@ -150,7 +164,8 @@ void StrokeTearing::join_gaps(PendingGap& next, const Vec3d& at, const Workpiece
   } else {
     const Vec3d bevel = outer * (normal_before + normal_after);
     if (!(bevel.norm() > 1e-6)) return;  // straight back
-    wedge.push_back(from(-bevel / bevel.norm(), -half * outer * normal_before.dot(bevel) / bevel.norm()));
+    wedge.push_back(
+        from(-bevel / bevel.norm(), -half * outer * normal_before.dot(bevel) / bevel.norm()));
   }
   sides.resize(wedge.size(), outer > 0 ? Side::left : Side::right);
   remove(wedge, sides, next, work);
@@ -160,17 +175,22 @@ void StrokeTearing::sweep_gap(const BladePlane& plane, const Workpiece& work) {
   const bool takes_all = options_.layers == Layers::all;
   const Index begins_at = tip_;
   const Blade from = blade_before_;
-  PendingGap next{plane, plane.standing_on(plane.from_progress(0)), {}, {}, {}, (blade_.tip - from.tip).norm()};
+  PendingGap next{
+      plane, plane.standing_on(plane.from_progress(0)), {}, {}, {}, (blade_.tip - from.tip).norm()};
   if (!takes_all) next = find_gap(plane, work);
   const bool continues =
-      takes_all ? pending_.has_value() : begins_at != kNone && !next.seeds.empty() && next.seeds.front() == begins_at;
+      takes_all ? pending_.has_value()
+                : begins_at != kNone && !next.seeds.empty() && next.seeds.front() == begins_at;
   if (!takes_all && next.seeds.empty()) {
     ++report.segments_missed;
     return;
   }
   if (!takes_all) report.length_posed += next.length;
   if (pending_ && continues) {
-    join_gaps(next, takes_all ? Vec3d(0.5 * (from.base + from.tip)) : Vec3d(work.posed.position(work.editor, begins_at)), work);
+    join_gaps(next,
+              takes_all ? Vec3d(0.5 * (from.base + from.tip))
+                        : Vec3d(work.posed.position(work.editor, begins_at)),
+              work);
   } else if (pending_) {
     catch_up(work);
   } else if (continues && is_in_new_pose_) {
@@ -180,27 +200,32 @@ void StrokeTearing::sweep_gap(const BladePlane& plane, const Workpiece& work) {
   pending_ = std::move(next);
 }
 
-/// Where a gap goes on from one that was closed square in another pose: from the edge that this left at both sides of the tip,
-/// wherever that stands now, and a little before it, so that nothing is left standing between the two.
-HalfSpace StrokeTearing::start_from_rim(const BladePlane& plane, Index tip, const Workpiece& work) const {
+/// Where a gap goes on from one that was closed square in another pose: from the edge that this
+/// left at both sides of the tip, wherever that stands now, and a little before it, so that nothing
+/// is left standing between the two.
+HalfSpace StrokeTearing::start_from_rim(const BladePlane& plane, Index tip,
+                                        const Workpiece& work) const {
   const Surface& surface = work.editor.surface();
   const Index first = surface.first_of_fan(surface.point_corner[tip]);
   Index last = first;
-  for (Index c = surface.rotate_ccw(first); c != kNone && c != first; c = surface.rotate_ccw(c)) last = c;
+  for (Index c = surface.rotate_ccw(first); c != kNone && c != first; c = surface.rotate_ccw(c))
+    last = c;
   const Vec3d at = work.posed.position(work.editor, tip);
-  const Vec3d along_rim = work.posed.position(work.editor, surface.corner_point[Surface::next(first)]) -
-                          work.posed.position(work.editor, surface.corner_point[Surface::previous(last)]);
+  const Vec3d along_rim =
+      work.posed.position(work.editor, surface.corner_point[Surface::next(first)]) -
+      work.posed.position(work.editor, surface.corner_point[Surface::previous(last)]);
   Vec3d forward = along_rim.cross(plane.along());
   if (forward.dot(plane.across()) < 0) forward = -forward;
   const double length = forward.norm();
   // A rim that does not lie across the way says nothing.
-  forward = length > 0 && forward.dot(plane.across()) > 0.5 * length ? Vec3d(forward / length) : plane.across();
+  forward = length > 0 && forward.dot(plane.across()) > 0.5 * length ? Vec3d(forward / length)
+                                                                     : plane.across();
   return {forward, forward.dot(at) - 0.1 * options_.width};
 }
 
 void StrokeTearing::catch_up(const Workpiece& work) {
   if (!pending_) return;
-  const SurfaceEditor::Mark before = work.editor.mark();
+  const EditLog::Mark before = work.editor.mark();
   remove_pending(pending_->plane.standing_on(pending_->plane.reach()[2]), work);
   pending_.reset();
   improve_faces(before, work.editor);

@@ -73,7 +73,7 @@ void StrokeTearing::extend(const Blade& to, const Workpiece& work) {
   const auto plane = BladePlane::through(anchor, from, to);
   if (!plane) return;  // the blade stands still; so does the tip
 
-  const SurfaceEditor::Mark before = work.editor.mark();
+  const EditLog::Mark before = work.editor.mark();
   if (options_.width > 0)
     sweep_gap(*plane, work);
   else if (options_.layers == Layers::all)
@@ -85,10 +85,10 @@ void StrokeTearing::extend(const Blade& to, const Workpiece& work) {
 
 void StrokeTearing::finish(const Workpiece& work) {
   catch_up(work);
-  if (options_.wall_depth > 0) add_walls(work.editor.opened(), stroke_, options_.wall_depth, work);
+  if (options_.wall_depth > 0) add_walls(work.editor.opened_edges.borders(), stroke_, options_.wall_depth, work);
 }
 
-double StrokeTearing::tear_piece(const BladePlane& plane, Index start, const SurfaceEditor::Mark& before, const Workpiece& work) {
+double StrokeTearing::tear_piece(const BladePlane& plane, Index start, const EditLog::Mark& before, const Workpiece& work) {
   SurfaceEditor& editor = work.editor;
   PosedPoints& posed = work.posed;
   Path path = imprint_path(plane, start, editor, posed);
@@ -151,7 +151,7 @@ void StrokeTearing::tear_segment(const BladePlane& plane, const Workpiece& work)
   for (int futile = 0; progress < 1 && futile < 64;) {
     const auto contact = find_contact(plane, progress, work);
     if (!contact) break;
-    const SurfaceEditor::Mark before = work.editor.mark();
+    const EditLog::Mark before = work.editor.mark();
     const std::size_t edges = torn_edges_;
     const double reached = tear_piece(plane, imprint_point(*contact, Snapping::by_shape, work.editor, work.posed), before, work);
     const bool has_advanced = torn_edges_ > edges && reached > progress + kSamePlace;

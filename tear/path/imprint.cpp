@@ -7,7 +7,7 @@
 #include "tear/path/edge_crossing.h"
 #include "tear/path/imprint_point.h"
 #include "tear/path/leap.h"
-#include "tear/surface/crossing.h"
+#include "tear/surface/line_splitter.h"
 
 namespace sunder::tear {
 namespace {
@@ -98,7 +98,7 @@ class GrowingPath {
     hit.barycentric[Surface::next(step.corner) % 3] = fraction * (1 - step.fraction);
     hit.barycentric[Surface::previous(step.corner) % 3] = fraction * step.fraction;
     hit.position = here_ + fraction * (step.position - here_);
-    const SurfaceEditor::Mark before = editor_.mark();
+    const EditLog::Mark before = editor_.mark();
     const Index stop = imprint_point(hit, Snapping::near, editor_, posed_);
     if (plane_.progress(posed_.position(editor_, stop)) > plane_.progress(here_)) {
       go_to(stop, kNone);
@@ -121,13 +121,13 @@ class GrowingPath {
     }
     const Index far_edge = Surface::next(step.corner);
     const Index nearer_end = points[step.fraction < 0.5 ? far_edge : Surface::next(far_edge)];
-    SurfaceEditor::Crossing crossing(editor_);
-    if (const Index made = crossing.begin(far_edge, step.fraction); made != kNone) {
+    LineSplitter splitter(editor_);
+    if (const Index made = splitter.begin(far_edge, step.fraction); made != kNone) {
       posed_.pin(made, step.position);
-      go_to(made, crossing.half_edge());
-      for (double progress = plane_.progress(here_); goes_on && cross_next(progress, crossing);)
+      go_to(made, splitter.half_edge());
+      for (double progress = plane_.progress(here_); goes_on && cross_next(progress, splitter);)
         ++path.faces_crossed;
-      crossing.end();
+      splitter.end();
       return true;
     }
     if (!(plane_.progress(posed_.position(editor_, nearer_end)) > plane_.progress(here_)))
@@ -138,9 +138,9 @@ class GrowingPath {
 
   /// Crosses the face ahead if it needs no closer look.
   /// @param progress_here  of the current place; updated.
-  bool cross_next(double& progress_here, SurfaceEditor::Crossing& crossing) {
-    const Index entry = crossing.ahead();
-    if (entry == kNone || !editor_.is_whole(entry / 3)) return false;
+  bool cross_next(double& progress_here, LineSplitter& splitter) {
+    const Index entry = splitter.ahead();
+    if (entry == kNone || !editor_.origins.is_whole(entry / 3)) return false;
     const EdgeCrossing exit = find_exit(plane_, entry, editor_, posed_);
     if (!(exit.fraction > kSnap && exit.fraction < 1 - kSnap)) return false;
     const Index after = editor_.surface().twin[exit.half_edge];
@@ -149,14 +149,14 @@ class GrowingPath {
     if (reach.fraction < 1 || reach.ends_at_blade) return false;
     const double progress = progress_towards(plane_, here_, exit.position, reach);
     if (!(progress > progress_here + kLeastAdvance)) return false;
-    const Index made = crossing.go_on(exit.half_edge, exit.fraction);
+    const Index made = splitter.go_on(exit.half_edge, exit.fraction);
     if (made == kNone) return false;
     if (after != kNone)
       posed_.fetch(editor_, editor_.surface().corner_point[Surface::previous(after)]);
     posed_.pin(made, exit.position);
     come_to(progress);
     progress_here = progress;
-    go_to(made, crossing.half_edge());
+    go_to(made, splitter.half_edge());
     return true;
   }
 

@@ -4,6 +4,7 @@
 
 #include "tear/geometry/tolerances.h"
 #include "tear/internal/surface.h"
+#include "tear/surface/split.h"
 
 namespace sunder::tear {
 
@@ -12,7 +13,7 @@ Index split_posed_edge(Index half_edge, double fraction, SurfaceEditor& editor,
   const auto& points = editor.surface().corner_point;
   const Vec3d from = posed.position(editor, points[half_edge]);
   const Vec3d to = posed.position(editor, points[Surface::next(half_edge)]);
-  const Index point = editor.split_edge(half_edge, fraction);
+  const Index point = split_edge(half_edge, fraction, editor);
   if (point != kNone) posed.pin(point, from + fraction * (to - from));
   return point;
 }
@@ -35,7 +36,7 @@ Index imprint_point(const SurfaceHit& hit, Snapping snapping, SurfaceEditor& edi
   if (weight[largest] == 1) return editor.surface().corner_point[first + largest];
 
   if (weight[smallest] > 0) {
-    const Index point = editor.split_triangle(hit.triangle, weight);
+    const Index point = split_triangle(hit.triangle, weight, editor);
     if (point != kNone) {
       posed.pin(point, hit.position);
       return point;

@@ -14,7 +14,7 @@ Leap find_leap(const BladePlane& plane, const Step& step, const SurfaceEditor& e
                PosedPoints& posed) {
   EdgeCrossing at{Surface::next(step.corner), step.fraction, step.position};
   Leap leap{at.place(), 0, step.crossing_progress, {}};
-  while (editor.is_inner_edge(at.half_edge)) {
+  while (editor.origins.is_inner_edge(at.half_edge)) {
     const EdgeCrossing entry = at.from_across(editor.surface());
     const EdgeCrossing exit = find_exit(plane, entry.half_edge, editor, posed);
     if (!(plane.progress(exit.position) > plane.progress(entry.position) + kLeastAdvance)) break;
@@ -36,7 +36,7 @@ Leap find_leap(const BladePlane& plane, const Step& step, const SurfaceEditor& e
 Index take_leap(const BladePlane& plane, Index here, const Leap& leap, SurfaceEditor& editor,
                 PosedPoints& posed) {
   if (leap.edges == 0) return kNone;
-  const SurfaceEditor::Mark before = editor.mark();
+  const EditLog::Mark before = editor.mark();
   const Index landing =
       imprint_point(leap.landing, leap.end ? Snapping::near : Snapping::by_shape, editor, posed);
   const bool goes_forward = landing != here && plane.progress(posed.position(editor, landing)) >

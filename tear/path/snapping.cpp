@@ -26,7 +26,7 @@ double largest_coordinate(const Vec3f& a, const Vec3f& b) {
 double stored_height(Index corner, const SurfaceEditor& editor) {
   const Index mesh = editor.surface().triangle(corner / 3).mesh;
   const auto at = [&](Index c) -> const Vec3f& {
-    return editor.born_position(mesh, editor.vertex_at(c));
+    return editor.births.position(mesh, editor.vertex_at(c));
   };
   const Vec3f &apex = at(corner), &a = at(Surface::next(corner)),
               &b = at(Surface::previous(corner));
@@ -39,8 +39,8 @@ double stored_height(Index corner, const SurfaceEditor& editor) {
 
 double stored_part(Index half_edge, const SurfaceEditor& editor) {
   const Index mesh = editor.surface().triangle(half_edge / 3).mesh;
-  const Vec3f &from = editor.born_position(mesh, editor.vertex_at(half_edge)),
-              &to = editor.born_position(mesh, editor.vertex_at(Surface::next(half_edge)));
+  const Vec3f &from = editor.births.position(mesh, editor.vertex_at(half_edge)),
+              &to = editor.births.position(mesh, editor.vertex_at(Surface::next(half_edge)));
   return fraction_of(kStored * largest_coordinate(from, to),
                      (to.cast<double>() - from.cast<double>()).norm());
 }

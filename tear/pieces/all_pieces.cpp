@@ -52,8 +52,8 @@ std::vector<Index> find_separated(ChangedFaces& changed, const Surface& surface,
 
 }  // namespace
 
-std::vector<TornPiece> find_all_pieces(const SurfaceEditor::Mark& begin,
-                                       const SurfaceEditor& editor, PosedPoints& posed) {
+std::vector<TornPiece> find_all_pieces(const EditLog::Mark& begin, const SurfaceEditor& editor,
+                                       PosedPoints& posed) {
   ChangedFaces changed(begin, editor);
   if (changed.set_count() < 2) return {};
   const Surface& surface = editor.surface();

@@ -2,22 +2,22 @@
 
 namespace sunder::tear {
 
-ChangedFaces::ChangedFaces(const SurfaceEditor::Mark& begin, const SurfaceEditor& editor)
+ChangedFaces::ChangedFaces(const EditLog::Mark& begin, const SurfaceEditor& editor)
     : surface_(editor.surface()),
-      face_(editor.numbers_since(begin), kNone, &editor.scratch()),
-      sets_(editor.numbers_since(begin), editor.scratch()),
-      groups_(editor.numbers_since(begin), editor.scratch()) {
-  editor.for_each_changed(begin,
-                          [&](Index face) { face_[editor.number_since(begin, face)] = face; });
+      face_(editor.log.numbers_since(begin), kNone, &editor.scratch()),
+      sets_(editor.log.numbers_since(begin), editor.scratch()),
+      groups_(editor.log.numbers_since(begin), editor.scratch()) {
+  editor.log.for_each_changed(
+      begin, [&](Index face) { face_[editor.log.number_since(begin, face)] = face; });
   for (Index face = begin.triangles; face < surface_.triangle_count(); ++face)
-    face_[editor.number_since(begin, face)] = face;
+    face_[editor.log.number_since(begin, face)] = face;
   for (Index i = 0; i < count(); ++i) {
     if (!is_live(i)) continue;
     ++set_count_;
     for (Index h = 3 * face_[i]; h < 3 * face_[i] + 3; ++h) {
       const Index twin = surface_.twin[h];
       if (twin == kNone || twin < h) continue;  // each edge once
-      const Index other = editor.number_since(begin, twin / 3);
+      const Index other = editor.log.number_since(begin, twin / 3);
       if (other != kNone && sets_.unite(i, other)) ++joined_;
     }
   }
@@ -25,14 +25,14 @@ ChangedFaces::ChangedFaces(const SurfaceEditor::Mark& begin, const SurfaceEditor
   for (Index i = 0; i < count(); ++i) groups_.unite(sets_.find(i), i);
   // What hung together before: neighbours, and what was split from one face. What did not change
   // joins as it did.
-  editor.for_each_former_neighbour(begin, [&](Index one, Index other) {
-    const Index b = editor.number_since(begin, other);
-    if (b != kNone) groups_.unite(editor.number_since(begin, one), b);
+  editor.log.for_each_former_neighbour(begin, [&](Index one, Index other) {
+    const Index b = editor.log.number_since(begin, other);
+    if (b != kNone) groups_.unite(editor.log.number_since(begin, one), b);
   });
   for (Index face = begin.triangles; face < surface_.triangle_count(); ++face)
-    if (editor.parent(face) != kNone)
-      groups_.unite(editor.number_since(begin, face),
-                    editor.number_since(begin, editor.parent(face)));
+    if (editor.origins.parent(face) != kNone)
+      groups_.unite(editor.log.number_since(begin, face),
+                    editor.log.number_since(begin, editor.origins.parent(face)));
 }
 
 }  // namespace sunder::tear

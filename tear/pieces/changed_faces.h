@@ -9,7 +9,7 @@ namespace sunder::tear {
 /// The faces changed or created since an operation began, numbered, and their connections.
 class ChangedFaces {
  public:
-  ChangedFaces(const SurfaceEditor::Mark& begin, const SurfaceEditor& editor);
+  ChangedFaces(const EditLog::Mark& begin, const SurfaceEditor& editor);
 
   [[nodiscard]] Index count() const { return static_cast<Index>(face_.size()); }
   [[nodiscard]] Index face(Index i) const { return face_[i]; }

@@ -131,7 +131,7 @@ class Fronts {
 
 }  // namespace
 
-std::vector<TornPiece> find_pieces(const SurfaceEditor::Mark& begin, const SurfaceEditor& editor,
+std::vector<TornPiece> find_pieces(const EditLog::Mark& begin, const SurfaceEditor& editor,
                                    PosedPoints& posed) {
   ChangedFaces changed(begin, editor);
   if (changed.set_count() < 2) return {};

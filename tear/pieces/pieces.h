@@ -15,11 +15,11 @@ namespace sunder::tear {
 /// ends when at most one front per former component can still grow, so it costs only what the small
 /// pieces cost.
 /// @return nothing if everything is still connected.
-[[nodiscard]] std::vector<TornPiece> find_pieces(const SurfaceEditor::Mark& begin,
+[[nodiscard]] std::vector<TornPiece> find_pieces(const EditLog::Mark& begin,
                                                  const SurfaceEditor& editor, PosedPoints& posed);
 
 /// The same including the remaining part. O(all faces).
-[[nodiscard]] std::vector<TornPiece> find_all_pieces(const SurfaceEditor::Mark& begin,
+[[nodiscard]] std::vector<TornPiece> find_all_pieces(const EditLog::Mark& begin,
                                                      const SurfaceEditor& editor,
                                                      PosedPoints& posed);
 

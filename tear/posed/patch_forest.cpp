@@ -59,7 +59,7 @@ void PatchForest::cover(const SurfaceEditor& editor) {
 }
 
 void PatchForest::cover_fillings(const SurfaceEditor& editor, Index mesh) {
-  const std::vector<Triangle>& fillings = editor.fillings(mesh);
+  const std::vector<Triangle>& fillings = editor.fillings.of(mesh);
   std::vector<Covered>& trees = fillings_[mesh];
   const Index source_count = editor.source().meshes[mesh].triangle_count();
   const Index end = source_count + static_cast<Index>(fillings.size());
@@ -68,7 +68,7 @@ void PatchForest::cover_fillings(const SurfaceEditor& editor, Index mesh) {
   while (!trees.empty()) {
     Covered& last = trees.back();
     while (last.end > last.first &&
-           (last.end > end || editor.filling_serial(mesh, last.end - 1) >= last.serials_from))
+           (last.end > end || editor.fillings.serial(mesh, last.end - 1) >= last.serials_from))
       --last.end;
     if (2 * (last.end - last.first) > last.tree.triangle_count()) break;
     trees.pop_back();
@@ -81,7 +81,7 @@ void PatchForest::cover_fillings(const SurfaceEditor& editor, Index mesh) {
   }
   const auto triangles = std::span(fillings).subspan(first - source_count);
   trees.push_back({PatchTree(editor.character().meshes[mesh], triangles, first), mesh, first, end,
-                   editor.next_filling_serial()});
+                   editor.fillings.next_serial()});
 }
 
 void PatchForest::push(const Waiting& node, std::size_t first) {

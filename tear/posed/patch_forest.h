@@ -137,7 +137,8 @@ void PatchForest::visit_faces(const SurfaceEditor& editor, const CharacterPose& 
       expect(covered.mesh, origins);
       for (const Index origin : origins)
         if (origin < covered.end)
-          editor.for_each_part(covered.mesh, origin, [&](Index face) { limit = visit(face); });
+          editor.origins.for_each_part(covered.mesh, origin,
+                                       [&](Index face) { limit = visit(face); });
       continue;
     }
     const MeshPose mesh_pose = pose_of(meshes[covered.mesh], pose);

@@ -29,8 +29,8 @@ const Vec3d& PosedPoints::look_up(const SurfaceEditor& editor, Index point) {
   const Index corner = editor.surface().point_corner[point];
   const Mesh& mesh = editor.character().meshes[editor.surface().triangle(corner / 3).mesh];
   const Index of = editor.surface().triangle(corner / 3).mesh, vertex = editor.vertex_at(corner);
-  known_[point] = {pose_.position(mesh, vertex, editor.born_position(of, vertex),
-                                  editor.born_influences(of, vertex)),
+  known_[point] = {pose_.position(mesh, vertex, editor.births.position(of, vertex),
+                                  editor.births.influences(of, vertex)),
                    epoch_};
   return known_[point].position;
 }
@@ -50,7 +50,7 @@ void PosedPoints::fetch(const SurfaceEditor& editor, Index mesh,
   std::size_t count = 0;
   for (const Index origin : origins) {
     if (origin >= source_count) continue;
-    const Index first = 3 * editor.surface_triangle(mesh, origin);
+    const Index first = 3 * editor.origins.surface_triangle(mesh, origin);
     prefetch(&surface.corner_point[first]);
     for (Index k = 0; k < 3; ++k) corners[count++] = first + k;
   }

@@ -4,6 +4,7 @@
 
 #include "tear/internal/surface.h"
 #include "tear/path/imprint_point.h"
+#include "tear/surface/flip_edge.h"
 
 namespace sunder::tear {
 namespace {
@@ -72,7 +73,7 @@ bool FaceLines::turn(Index half_edge) {
   const Vec2d a = place(surface.corner_point[Surface::previous(half_edge)]),
               e = place(surface.corner_point[Surface::previous(twin)]);
   const double least = kOnLine * size_ * (e - a).norm();
-  return cross(e - a, c - a) < -least && cross(e - a, d - a) > least && editor_.flip_edge(half_edge);
+  return cross(e - a, c - a) < -least && cross(e - a, d - a) > least && flip_edge(half_edge, editor_);
 }
 
 bool FaceLines::draw(Index from, Index to, std::vector<PointEdge>& edges) {

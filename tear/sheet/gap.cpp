@@ -5,6 +5,7 @@
 #include <unordered_set>
 
 #include "tear/internal/surface.h"
+#include "tear/surface/disconnect.h"
 #include "tear/surface/disjoint_sets.h"
 
 namespace sunder::tear {
@@ -13,7 +14,8 @@ namespace {
 /// Less of an edge than this inside a cell does not lead from face to face.
 constexpr double kLeast = 1e-9;
 
-/// By how much an edge of the rim may miss its plane: of its length, and of what coordinates are large by.
+/// By how much an edge of the rim may miss its plane: of its length, and of what coordinates are
+/// large by.
 constexpr double kOnSide = 1e-2;
 constexpr double kRounding = 1e-6;
 
@@ -21,7 +23,8 @@ using Corners = std::array<Vec3d, 3>;
 
 Corners posed_corners(Index face, const SurfaceEditor& editor, PosedPoints& posed) {
   const Index* points = &editor.surface().corner_point[3 * face];
-  return {posed.position(editor, points[0]), posed.position(editor, points[1]), posed.position(editor, points[2])};
+  return {posed.position(editor, points[0]), posed.position(editor, points[1]),
+          posed.position(editor, points[2])};
 }
 
 bool is_edge_in_cell(const Cell& cell, const Vec3d& a, const Vec3d& b) {
@@ -36,9 +39,12 @@ bool is_edge_in_cell(const Cell& cell, const Vec3d& a, const Vec3d& b) {
 }
 
 /// Whether a triangle and a cell share more than a border: Sutherland and Hodgman 1974.
-bool is_face_in_cell(const Cell& cell, const Corners& corners, std::vector<Vec3d>& polygon, std::vector<Vec3d>& clipped) {
+bool is_face_in_cell(const Cell& cell, const Corners& corners, std::vector<Vec3d>& polygon,
+                     std::vector<Vec3d>& clipped) {
   for (const HalfSpace& side : cell)
-    if (std::none_of(corners.begin(), corners.end(), [&](const Vec3d& corner) { return side.value(corner) > 0; })) return false;
+    if (std::none_of(corners.begin(), corners.end(),
+                     [&](const Vec3d& corner) { return side.value(corner) > 0; }))
+      return false;
   polygon.assign(corners.begin(), corners.end());
   for (const HalfSpace& side : cell) {
     clipped.clear();
@@ -64,10 +70,13 @@ std::vector<Sheet> sheets_of(const Cell& cell) {
   return sheets;
 }
 
-/// Takes faces (ascending) away and gives every fan that is left of their points a point of its own.
+/// Takes faces (ascending) away and gives every fan that is left of their points a point of its
+/// own.
 void remove_faces(const std::vector<Index>& faces, SurfaceEditor& editor, PosedPoints& posed) {
   const Surface& surface = editor.surface();
-  const auto stays = [&](Index face) { return !std::binary_search(faces.begin(), faces.end(), face); };
+  const auto stays = [&](Index face) {
+    return !std::binary_search(faces.begin(), faces.end(), face);
+  };
 
   // Corners that stay at the points of those that go.
   std::vector<std::array<Index, 2>> remaining;
@@ -83,27 +92,28 @@ void remove_faces(const std::vector<Index>& faces, SurfaceEditor& editor, PosedP
   for (const Index face : faces) {
     for (Index corner = 3 * face; corner < 3 * face + 3; ++corner) {
       points.push_back(surface.corner_point[corner]);
-      editor.cut_edge(corner);
+      cut_edge(corner, editor);
     }
-    editor.retire_triangle(face);
+    retire_triangle(face, editor);
   }
   std::sort(points.begin(), points.end());
   points.erase(std::unique(points.begin(), points.end()), points.end());
   std::vector<Index> fans, others;
   for (const Index point : points) {
     fans.clear();
-    for (auto at = std::lower_bound(remaining.begin(), remaining.end(), std::array<Index, 2>{point, 0});
+    for (auto at =
+             std::lower_bound(remaining.begin(), remaining.end(), std::array<Index, 2>{point, 0});
          at != remaining.end() && (*at)[0] == point; ++at) {
       const Index fan = surface.first_of_fan((*at)[1]);
       if (std::find(fans.begin(), fans.end(), fan) == fans.end()) fans.push_back(fan);
     }
-    editor.set_point_corner(point, fans.empty() ? kNone : fans.front());
+    editor.connectivity.set_point_corner(point, fans.empty() ? kNone : fans.front());
     for (std::size_t fan = 1; fan < fans.size(); ++fan) {
       others = fans;
       others.erase(others.begin() + static_cast<std::ptrdiff_t>(fan));
       std::vector<Index> corners;
       surface.for_each_in_fan(fans[fan], [&](Index corner) { corners.push_back(corner); });
-      posed.pin(editor.separate_fan(corners, others), Vec3d(posed.position(editor, point)));
+      posed.pin(separate_fan(corners, others, editor), Vec3d(posed.position(editor, point)));
     }
   }
 }
@@ -123,7 +133,8 @@ Index side_of_edge(const Cell& cell, const Vec3d& a, const Vec3d& b) {
   return least <= kOnSide * (b - a).norm() + kRounding * rounding ? nearest : kNone;
 }
 
-/// The border between faces that go and those that stay, to be asked for before they go and told when they have gone.
+/// The border between faces that go and those that stay, to be asked for before they go and told
+/// when they have gone.
 class RimOfRemoved {
  public:
   /// @param faces  that go, ascending.
@@ -158,37 +169,47 @@ class RimOfRemoved {
     const Surface& surface = editor.surface();
     rim = {};
     for (const auto& [half_edge, part] : staying_) {
-      const Index from = surface.corner_point[half_edge], to = surface.corner_point[Surface::next(half_edge)];
-      rim.edges.push_back({{from, to}, side_of_edge(cell, posed.position(editor, from), posed.position(editor, to)), part});
+      const Index from = surface.corner_point[half_edge],
+                  to = surface.corner_point[Surface::next(half_edge)];
+      rim.edges.push_back(
+          {{from, to},
+           side_of_edge(cell, posed.position(editor, from), posed.position(editor, to)),
+           part});
     }
     rim.areas = areas_;
   }
 
  private:
-  std::vector<std::array<Index, 2>> staying_;  ///< Half-edge that stays, and the part that goes beside it.
+  std::vector<std::array<Index, 2>>
+      staying_;  ///< Half-edge that stays, and the part that goes beside it.
   std::vector<Vec3d> areas_;
 };
 
 }  // namespace
 
-std::vector<Index> faces_in_cell(const Cell& cell, const SurfaceEditor& editor, PosedPoints& posed) {
+std::vector<Index> faces_in_cell(const Cell& cell, const SurfaceEditor& editor,
+                                 PosedPoints& posed) {
   std::vector<Index> faces;
   std::vector<Vec3d> polygon, clipped;
-  const Frame frame =
-      posed.frame_along(cell.size() < 2 ? axes_along(Vec3d::Zero()) : axes_along(cell[0].normal, cell[1].normal), editor);
+  const Frame frame = posed.frame_along(
+      cell.size() < 2 ? axes_along(Vec3d::Zero()) : axes_along(cell[0].normal, cell[1].normal),
+      editor);
   std::vector<FramedHalfSpace> sides;
   for (const HalfSpace& side : cell) sides.emplace_back(frame, side);
   const auto may_hold_any = [&](const Box& box) {
-    return std::none_of(sides.begin(), sides.end(), [&](const FramedHalfSpace& side) { return side.is_beside(box); });
+    return std::none_of(sides.begin(), sides.end(),
+                        [&](const FramedHalfSpace& side) { return side.is_beside(box); });
   };
   posed.for_each_face(editor, frame, may_hold_any, [&](Index face) {
-    if (is_face_in_cell(cell, posed_corners(face, editor, posed), polygon, clipped)) faces.push_back(face);
+    if (is_face_in_cell(cell, posed_corners(face, editor, posed), polygon, clipped))
+      faces.push_back(face);
   });
   std::sort(faces.begin(), faces.end());
   return faces;
 }
 
-std::vector<Index> faces_in_cell(const Cell& cell, const std::vector<Index>& seeds, const std::function<bool(Index)>& is_wanted,
+std::vector<Index> faces_in_cell(const Cell& cell, const std::vector<Index>& seeds,
+                                 const std::function<bool(Index)>& is_wanted,
                                  const SurfaceEditor& editor, PosedPoints& posed) {
   const Surface& surface = editor.surface();
   std::vector<Index> faces, open;
@@ -198,7 +219,8 @@ std::vector<Index> faces_in_cell(const Cell& cell, const std::vector<Index>& see
     if (seen.insert(face).second && is_wanted(face)) open.push_back(face);
   };
   for (const Index seed : seeds)
-    if (!surface.has_repeated_point(seed) && is_face_in_cell(cell, posed_corners(seed, editor, posed), polygon, clipped))
+    if (!surface.has_repeated_point(seed) &&
+        is_face_in_cell(cell, posed_corners(seed, editor, posed), polygon, clipped))
       visit(seed);
   while (!open.empty()) {
     const Index face = open.back();
@@ -214,7 +236,8 @@ std::vector<Index> faces_in_cell(const Cell& cell, const std::vector<Index>& see
   return faces;
 }
 
-GapRemoval remove_cell(const Cell& cell, const std::vector<Index>& faces, SurfaceEditor& editor, PosedPoints& posed, CellRim* rim) {
+GapRemoval remove_cell(const Cell& cell, const std::vector<Index>& faces, SurfaceEditor& editor,
+                       PosedPoints& posed, CellRim* rim) {
   GapRemoval removal;
   if (faces.empty()) return removal;
   const std::vector<Sheet> sheets = sheets_of(cell);
@@ -223,13 +246,16 @@ GapRemoval remove_cell(const Cell& cell, const std::vector<Index>& faces, Surfac
   removal.blocked = imprint.blocked;
 
   std::vector<Index> candidates = faces;
-  for (Index t = editor.stage_begin(); t < editor.surface().triangle_count(); ++t)
-    if (std::binary_search(faces.begin(), faces.end(), editor.ancestor(t))) candidates.push_back(t);
+  for (Index t = editor.stage.first_triangle(); t < editor.surface().triangle_count(); ++t)
+    if (std::binary_search(faces.begin(), faces.end(), editor.stage.ancestor(t)))
+      candidates.push_back(t);
   std::vector<Index> inside;
   for (const Index face : candidates) {
     const Corners corners = posed_corners(face, editor, posed);
     const Vec3d middle = (corners[0] + corners[1] + corners[2]) / 3;
-    if (!std::all_of(cell.begin(), cell.end(), [&](const HalfSpace& half_space) { return half_space.value(middle) > 0; })) continue;
+    if (!std::all_of(cell.begin(), cell.end(),
+                     [&](const HalfSpace& half_space) { return half_space.value(middle) > 0; }))
+      continue;
     inside.push_back(face);
     removal.area_posed += 0.5 * (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm();
   }

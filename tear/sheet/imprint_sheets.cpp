@@ -10,17 +10,20 @@
 #include "tear/internal/surface.h"
 #include "tear/path/snapping.h"
 #include "tear/sheet/face_lines.h"
+#include "tear/surface/split.h"
 
 namespace sunder::tear {
 namespace {
 
-/// Where a sheet's plane crosses an edge. The edge is directed as its lower half-edge is, so that both faces see the same numbers.
+/// Where a sheet's plane crosses an edge. The edge is directed as its lower half-edge is, so that
+/// both faces see the same numbers.
 struct Crossing {
   Index half_edge = kNone;
   Index sheet = kNone;
   double fraction = 0;
   Vec3d position = Vec3d::Zero();
-  double slant = 1;     ///< Way along the edge for a distance from the sheet: the more, the less it says where they cross.
+  double slant = 1;     ///< Way along the edge for a distance from the sheet: the more, the less it
+                        ///< says where they cross.
   Index point = kNone;  ///< Once it is imprinted.
 
   [[nodiscard]] bool is_before(const Crossing& other) const {
@@ -37,7 +40,8 @@ struct Face {
   std::array<bool, 3> is_reversed = {};  ///< The edge is directed against the face's half-edge.
 };
 
-/// One end of a line in a face: at a crossing of one of its edges, or at a corner where the sheet meets a bound.
+/// One end of a line in a face: at a crossing of one of its edges, or at a corner where the sheet
+/// meets a bound.
 struct LineEnd {
   Vec3d position = Vec3d::Zero();
   Index crossed_edge = kNone;
@@ -52,7 +56,7 @@ class Imprint {
   }
 
   SheetImprint run(std::span<const Index> faces) {
-    editor_.begin_stage();
+    editor_.stage.begin();
     for (const Index face : faces) add_face(face);
     split_edges();
     index_children();
@@ -83,27 +87,35 @@ class Imprint {
 
   /// @return whether the sheet's plane crosses edge k of a face.
   bool cross(const Face& face, Index k, Index sheet, Crossing& crossing) {
-    const Index from = face.points[face.is_reversed[k] ? (k + 1) % 3 : k], to = face.points[face.is_reversed[k] ? k : (k + 1) % 3];
+    const Index from = face.points[face.is_reversed[k] ? (k + 1) % 3 : k],
+                to = face.points[face.is_reversed[k] ? k : (k + 1) % 3];
     const Vec3d at_from = posed_.position(editor_, from), at_to = posed_.position(editor_, to);
     const HalfSpace& plane = sheets_[sheet].plane;
     if (plane.contains(at_from) == plane.contains(at_to)) return false;
     const double value_from = plane.value(at_from), value_to = plane.value(at_to);
-    const double fraction = value_from == value_to ? 0.0 : std::clamp(value_from / (value_from - value_to), 0.0, 1.0);
-    const double slant = (at_to - at_from).norm() / std::max(std::abs(value_from - value_to), std::numeric_limits<double>::min());
-    crossing = {face.edges[k], sheet, fraction, at_from + fraction * (at_to - at_from), slant, kNone};
+    const double fraction =
+        value_from == value_to ? 0.0 : std::clamp(value_from / (value_from - value_to), 0.0, 1.0);
+    const double slant = (at_to - at_from).norm() / std::max(std::abs(value_from - value_to),
+                                                             std::numeric_limits<double>::min());
+    crossing = {face.edges[k], sheet, fraction, at_from + fraction * (at_to - at_from),
+                slant,         kNone};
     return true;
   }
 
   bool is_within_bounds(Index sheet, const Vec3d& position) const {
     const auto& bounds = sheets_[sheet].bounds;
-    return std::all_of(bounds.begin(), bounds.end(),
-                       [&](const Sheet::Bound& bound) { return bound.half_space.contains(position); });
+    return std::all_of(bounds.begin(), bounds.end(), [&](const Sheet::Bound& bound) {
+      return bound.half_space.contains(position);
+    });
   }
 
   void split_edges() {
-    std::sort(crossings_.begin(), crossings_.end(), [](const Crossing& a, const Crossing& b) { return a.is_before(b); });
+    std::sort(crossings_.begin(), crossings_.end(),
+              [](const Crossing& a, const Crossing& b) { return a.is_before(b); });
     crossings_.erase(std::unique(crossings_.begin(), crossings_.end(),
-                                 [](const Crossing& a, const Crossing& b) { return !a.is_before(b) && !b.is_before(a); }),
+                                 [](const Crossing& a, const Crossing& b) {
+                                   return !a.is_before(b) && !b.is_before(a);
+                                 }),
                      crossings_.end());
     // Which points an edge runs between has to be known before its first half is anything else.
     struct Edge {
@@ -115,8 +127,8 @@ class Imprint {
     for (std::size_t begin = 0, end = 0; begin < crossings_.size(); begin = end) {
       const Index h = crossings_[begin].half_edge;
       while (end < crossings_.size() && crossings_[end].half_edge == h) ++end;
-      edges.push_back({begin, end, editor_.surface().corner_point[h], editor_.surface().corner_point[Surface::next(h)],
-                       stored_part(h, editor_)});
+      edges.push_back({begin, end, editor_.surface().corner_point[h],
+                       editor_.surface().corner_point[Surface::next(h)], stored_part(h, editor_)});
     }
     std::vector<Crossing*> along;
     for (const Edge& edge : edges) {
@@ -134,7 +146,8 @@ class Imprint {
     Index last = from;
     double last_fraction = 0;
     for (Crossing* crossing : along) {
-      const double snap = std::min(0.25, stored * crossing->slant);  // nearer ends lie on the sheet, as far as is stored
+      const double snap = std::min(
+          0.25, stored * crossing->slant);  // nearer ends lie on the sheet, as far as is stored
       if (crossing->fraction - last_fraction <= snap) {
         crossing->point = last;
       } else if (crossing->fraction >= 1 - snap) {
@@ -144,14 +157,16 @@ class Imprint {
         Index h = editor_.surface().find_half_edge(last, to);
         Index point = kNone;
         if (h != kNone) {
-          point = editor_.split_edge(h, fraction);
+          point = tear::split_edge(h, fraction, editor_);
         } else if (h = editor_.surface().find_half_edge(to, last); h != kNone) {
-          point = editor_.split_edge(h, 1 - fraction);
+          point = tear::split_edge(h, 1 - fraction, editor_);
         }
         if (point == kNone) {
-          // The faces are too small for another point: an end that is near will do. A far one is not on the line; that is blocked.
+          // The faces are too small for another point: an end that is near will do. A far one is
+          // not on the line; that is blocked.
           const double near = std::max(kSnap, 4 * snap);
-          if (fraction <= near || fraction >= 1 - near) crossing->point = fraction < 0.5 ? last : to;
+          if (fraction <= near || fraction >= 1 - near)
+            crossing->point = fraction < 0.5 ? last : to;
           continue;
         }
         posed_.pin(point, crossing->position);
@@ -163,20 +178,22 @@ class Imprint {
 
   [[nodiscard]] Index point_at_crossing(Index half_edge, Index sheet) const {
     const Crossing wanted{half_edge, sheet, 0, Vec3d::Zero(), 1, kNone};
-    const auto found = std::lower_bound(crossings_.begin(), crossings_.end(), wanted,
-                                        [](const Crossing& a, const Crossing& b) { return a.is_before(b); });
+    const auto found =
+        std::lower_bound(crossings_.begin(), crossings_.end(), wanted,
+                         [](const Crossing& a, const Crossing& b) { return a.is_before(b); });
     return found != crossings_.end() && !wanted.is_before(*found) ? found->point : kNone;
   }
 
   void index_children() {
-    for (Index t = editor_.stage_begin(); t < editor_.surface().triangle_count(); ++t) {
-      const Index ancestor = editor_.ancestor(t);
-      if (ancestor < editor_.stage_begin()) children_.push_back({ancestor, t});
+    for (Index t = editor_.stage.first_triangle(); t < editor_.surface().triangle_count(); ++t) {
+      const Index ancestor = editor_.stage.ancestor(t);
+      if (ancestor < editor_.stage.first_triangle()) children_.push_back({ancestor, t});
     }
     std::sort(children_.begin(), children_.end());
   }
 
-  /// The part of a sheet that lies in a face: from where its plane enters with the inside at its left, to where it leaves.
+  /// The part of a sheet that lies in a face: from where its plane enters with the inside at its
+  /// left, to where it leaves.
   bool find_line(const Face& face, Index sheet, LineEnd& from, LineEnd& to) {
     bool is_found = false;
     const HalfSpace& plane = sheets_[sheet].plane;
@@ -197,7 +214,8 @@ class Imprint {
       if (has_begin && has_end) continue;
       if (!has_begin && !has_end) return false;
       const double at_begin = half_space.value(begin), at_end = half_space.value(begin + way);
-      const double at = at_begin == at_end ? 0.0 : std::clamp(at_begin / (at_begin - at_end), 0.0, 1.0);
+      const double at =
+          at_begin == at_end ? 0.0 : std::clamp(at_begin / (at_begin - at_end), 0.0, 1.0);
       if (!has_begin && at >= first) {
         first = at;
         from = {begin + at * way, kNone, i};
@@ -214,23 +232,29 @@ class Imprint {
     const Index other = sheets_[sheet].bounds[end.bound].sheet;
     if (other == kNone) return lines.imprint(end.position);
     // The other sheet ends in the same corner.
-    const std::array<Index, 3> key = {face.triangle, std::min(sheet, other), std::max(sheet, other)};
+    const std::array<Index, 3> key = {face.triangle, std::min(sheet, other),
+                                      std::max(sheet, other)};
     const auto known = corners_.find(key);
     if (known != corners_.end()) return known->second;
     return corners_[key] = lines.imprint(end.position);
   }
 
   void draw_lines(const Face& face) {
-    const auto begin = std::lower_bound(children_.begin(), children_.end(), std::array<Index, 2>{face.triangle, 0});
-    const auto end = std::lower_bound(begin, children_.end(), std::array<Index, 2>{face.triangle + 1, 0});
-    FaceLines lines(face.triangle, face.points, std::span<const std::array<Index, 2>>(begin, end), editor_, posed_);
+    const auto begin = std::lower_bound(children_.begin(), children_.end(),
+                                        std::array<Index, 2>{face.triangle, 0});
+    const auto end =
+        std::lower_bound(begin, children_.end(), std::array<Index, 2>{face.triangle + 1, 0});
+    FaceLines lines(face.triangle, face.points, std::span<const std::array<Index, 2>>(begin, end),
+                    editor_, posed_);
     bool is_crossed = false, is_blocked = false;
     for (Index sheet = 0; sheet < sheets_.size(); ++sheet) {
       LineEnd from, to;
       if (!find_line(face, sheet, from, to)) continue;
       is_crossed = true;
-      const Index first = point_of(from, face, sheet, lines), last = point_of(to, face, sheet, lines);
-      if (first == kNone || last == kNone || !lines.draw(first, last, result_.edges[sheet])) is_blocked = true;
+      const Index first = point_of(from, face, sheet, lines),
+                  last = point_of(to, face, sheet, lines);
+      if (first == kNone || last == kNone || !lines.draw(first, last, result_.edges[sheet]))
+        is_blocked = true;
     }
     result_.faces_crossed += is_crossed ? 1 : 0;
     result_.blocked += is_blocked ? 1 : 0;
@@ -248,8 +272,8 @@ class Imprint {
 
 }  // namespace
 
-SheetImprint imprint_sheets(std::span<const Sheet> sheets, std::span<const Index> faces, SurfaceEditor& editor,
-                            PosedPoints& posed) {
+SheetImprint imprint_sheets(std::span<const Sheet> sheets, std::span<const Index> faces,
+                            SurfaceEditor& editor, PosedPoints& posed) {
   return Imprint(sheets, editor, posed).run(faces);
 }
 

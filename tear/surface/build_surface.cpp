@@ -32,7 +32,8 @@ class PointIdentity {
     const Mesh& of = character_.meshes[mesh];
     std::uint64_t h = 0x9E3779B97F4A7C15u ^ of.skin;
     for (int i = 0; i < 3; ++i) {
-      const float coordinate = of.positions[vertex][i] + 0.0f;  // -0 + 0 = +0: the two compare equal and must hash so
+      const float coordinate =
+          of.positions[vertex][i] + 0.0f;  // -0 + 0 = +0: the two compare equal and must hash so
       h = (h ^ std::bit_cast<std::uint32_t>(coordinate)) * 0xFF51AFD7ED558CCDu;
       h ^= h >> 32;
     }
@@ -42,7 +43,8 @@ class PointIdentity {
   [[nodiscard]] bool same(Index mesh_a, Index a, Index mesh_b, Index b) const {
     const Mesh& in_a = character_.meshes[mesh_a];
     const Mesh& in_b = character_.meshes[mesh_b];
-    return in_a.positions[a] == in_b.positions[b] && in_a.skin == in_b.skin && tear_side(mesh_a, a) == tear_side(mesh_b, b) &&
+    return in_a.positions[a] == in_b.positions[b] && in_a.skin == in_b.skin &&
+           tear_side(mesh_a, a) == tear_side(mesh_b, b) &&
            same_weights(in_a.weights.of(a), in_b.weights.of(b)) && same_morphs(in_a, a, in_b, b);
   }
 
@@ -55,7 +57,8 @@ class PointIdentity {
 
   static bool same_morphs(const Mesh& mesh_a, Index a, const Mesh& mesh_b, Index b) {
     const auto displacement = [](const Mesh& mesh, std::size_t target, Index vertex) -> Vec3f {
-      if (target >= mesh.morph_targets.size() || mesh.morph_targets[target].position_deltas.empty()) return Vec3f::Zero();
+      if (target >= mesh.morph_targets.size() || mesh.morph_targets[target].position_deltas.empty())
+        return Vec3f::Zero();
       return mesh.morph_targets[target].position_deltas[vertex];
     };
     const bool same_weights_drive_both = mesh_a.first_morph_weight == mesh_b.first_morph_weight;
@@ -96,7 +99,8 @@ Weld weld_vertices(const Character& character) {
     points.reserve(character.meshes[m].vertex_count());
     for (Index v = 0; v < character.meshes[m].vertex_count(); ++v) {
       std::size_t slot = identity.hash(m, v) & (table_size - 1);
-      while (table[slot] != kNone && !identity.same(first_of_point[table[slot]].mesh, first_of_point[table[slot]].vertex, m, v))
+      while (table[slot] != kNone && !identity.same(first_of_point[table[slot]].mesh,
+                                                    first_of_point[table[slot]].vertex, m, v))
         slot = (slot + 1) & (table_size - 1);
       if (table[slot] == kNone) {
         table[slot] = static_cast<Index>(first_of_point.size());
@@ -109,7 +113,8 @@ Weld weld_vertices(const Character& character) {
   return weld;
 }
 
-/// Half-edges grouped by the smaller of their two points: a counting sort, so that pairing is linear.
+/// Half-edges grouped by the smaller of their two points: a counting sort, so that pairing is
+/// linear.
 class HalfEdgeGroups {
  public:
   explicit HalfEdgeGroups(const Surface& surface) : first_(surface.point_corner.size() + 1, 0) {
@@ -124,11 +129,12 @@ class HalfEdgeGroups {
     for (Index h = 0; h < count; ++h)
       if (!surface.has_repeated_point(h / 3)) half_edges_[end[smaller(h)]++] = h;
     for (std::size_t p = 0; p + 1 < first_.size(); ++p)
-      std::sort(half_edges_.begin() + first_[p], half_edges_.begin() + first_[p + 1], [&](Index a, Index b) {
-        const Index larger_a = std::max(points[a], points[Surface::next(a)]),
-                    larger_b = std::max(points[b], points[Surface::next(b)]);
-        return larger_a != larger_b ? larger_a < larger_b : a < b;
-      });
+      std::sort(half_edges_.begin() + first_[p], half_edges_.begin() + first_[p + 1],
+                [&](Index a, Index b) {
+                  const Index larger_a = std::max(points[a], points[Surface::next(a)]),
+                              larger_b = std::max(points[b], points[Surface::next(b)]);
+                  return larger_a != larger_b ? larger_a < larger_b : a < b;
+                });
   }
 
   /// Calls visit(half-edges of one edge) for every edge.
@@ -148,8 +154,10 @@ class HalfEdgeGroups {
   std::vector<Index> half_edges_;
 };
 
-/// Vertices at both ends of a half-edge, to tell which of several faces at one edge were modelled as neighbours.
-std::array<Index, 3> edge_vertices(const Character& character, const Surface& surface, Index h, bool reversed) {
+/// Vertices at both ends of a half-edge, to tell which of several faces at one edge were modelled
+/// as neighbours.
+std::array<Index, 3> edge_vertices(const Character& character, const Surface& surface, Index h,
+                                   bool reversed) {
   const TriangleRef ref = surface.triangle(h / 3);
   const Triangle& triangle = character.meshes[ref.mesh].triangles[ref.triangle];
   const Index from = triangle[h % 3], to = triangle[Surface::next(h) % 3];
@@ -169,14 +177,18 @@ void join_across_edges(const Character& character, Surface& surface) {
     }
     ++surface.non_manifold_edges;
     surface.non_manifold_half_edges += static_cast<Index>(edge.size());
-    if (edge.size() > 64) return;  // a fan of that many faces on one edge is not a surface; the search below is quadratic
+    if (edge.size() > 64)
+      return;  // a fan of that many faces on one edge is not a surface; the search below is
+               // quadratic
     for (std::size_t i = 0; i < edge.size(); ++i) {
       Index partner = kNone;
       bool unique = surface.twin[edge[i]] == kNone;
       for (std::size_t j = 0; j < edge.size() && unique; ++j) {
         if (j == i || edge[i] / 3 == edge[j] / 3) continue;
-        const bool opposite = edge_vertices(character, surface, edge[i], false) == edge_vertices(character, surface, edge[j], true);
-        const bool rival = edge_vertices(character, surface, edge[i], false) == edge_vertices(character, surface, edge[j], false);
+        const bool opposite = edge_vertices(character, surface, edge[i], false) ==
+                              edge_vertices(character, surface, edge[j], true);
+        const bool rival = edge_vertices(character, surface, edge[i], false) ==
+                           edge_vertices(character, surface, edge[j], false);
         unique = !rival && (!opposite || partner == kNone);
         if (opposite) partner = edge[j];
       }
@@ -208,15 +220,18 @@ void split_points_into_fans(Surface& surface) {
 }
 
 void mark_shared_vertices(const Character& character, Surface& surface) {
-  for (const Mesh& mesh : character.meshes) surface.is_shared_vertex.emplace_back(mesh.vertex_count(), false);
+  for (const Mesh& mesh : character.meshes)
+    surface.is_shared_vertex.emplace_back(mesh.vertex_count(), false);
   std::vector<std::vector<Index>> point_of_vertex;
-  for (const Mesh& mesh : character.meshes) point_of_vertex.emplace_back(mesh.vertex_count(), kNone);
+  for (const Mesh& mesh : character.meshes)
+    point_of_vertex.emplace_back(mesh.vertex_count(), kNone);
   for (Index corner = 0; corner < surface.corner_point.size(); ++corner) {
     const TriangleRef ref = surface.triangle(corner / 3);
     const Index vertex = character.meshes[ref.mesh].triangles[ref.triangle][corner % 3];
     Index& point = point_of_vertex[ref.mesh][vertex];
     if (point == kNone) point = surface.corner_point[corner];
-    // A degenerate triangle belongs to no fan: its vertices stay where they are when a fan moves on.
+    // A degenerate triangle belongs to no fan: its vertices stay where they are when a fan moves
+    // on.
     if (point != surface.corner_point[corner] || surface.has_repeated_point(corner / 3))
       surface.is_shared_vertex[ref.mesh][vertex] = true;
   }
@@ -238,16 +253,19 @@ Surface build_surface(const Character& character) {
   surface.source_side = std::move(weld.point_side);
   surface.point_corner.assign(surface.source_side.size(), kNone);
   surface.first_triangle = {0};
-  for (const Mesh& mesh : character.meshes) surface.first_triangle.push_back(surface.first_triangle.back() + mesh.triangle_count());
+  for (const Mesh& mesh : character.meshes)
+    surface.first_triangle.push_back(surface.first_triangle.back() + mesh.triangle_count());
   surface.corner_point.reserve(3 * std::size_t{surface.first_triangle.back()});
   for (Index m = 0; m < character.meshes.size(); ++m)
     for (const Triangle& triangle : character.meshes[m].triangles)
-      for (const Index vertex : triangle) surface.corner_point.push_back(weld.point_of_vertex[m][vertex]);
+      for (const Index vertex : triangle)
+        surface.corner_point.push_back(weld.point_of_vertex[m][vertex]);
   surface.twin.assign(surface.corner_point.size(), kNone);
   join_across_edges(character, surface);
   split_points_into_fans(surface);
   mark_shared_vertices(character, surface);
-  if (std::all_of(surface.source_side.begin(), surface.source_side.end(), [](Index side) { return side == 0; }))
+  if (std::all_of(surface.source_side.begin(), surface.source_side.end(),
+                  [](Index side) { return side == 0; }))
     surface.source_side = {};
   surface.point_corner.shrink_to_fit();
   return surface;

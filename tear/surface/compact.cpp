@@ -29,10 +29,12 @@ MeshMaps find_kept(const Mesh& mesh) {
 
 /// In place: the maps ascend, so nothing is overwritten before it is read.
 template <class Value>
-void keep(const std::vector<Index>& old_from_new, std::vector<Value>& values, std::size_t per_element = 1) {
+void keep(const std::vector<Index>& old_from_new, std::vector<Value>& values,
+          std::size_t per_element = 1) {
   if (values.empty()) return;
   for (std::size_t i = 0; i < old_from_new.size(); ++i)
-    for (std::size_t c = 0; c < per_element; ++c) values[i * per_element + c] = values[old_from_new[i] * per_element + c];
+    for (std::size_t c = 0; c < per_element; ++c)
+      values[i * per_element + c] = values[old_from_new[i] * per_element + c];
   values.resize(old_from_new.size() * per_element);
 }
 
@@ -54,7 +56,8 @@ void keep_vertices(const std::vector<Index>& old_from_new, Mesh& mesh) {
   keep(old_from_new, mesh.tangents);
   for (auto& uv : mesh.uv_sets) keep(old_from_new, uv);
   for (auto& colors : mesh.color_sets) keep(old_from_new, colors);
-  for (CustomAttribute& attribute : mesh.custom_attributes) keep(old_from_new, attribute.values, attribute.components);
+  for (CustomAttribute& attribute : mesh.custom_attributes)
+    keep(old_from_new, attribute.values, attribute.components);
   for (MorphTarget& target : mesh.morph_targets) {
     keep(old_from_new, target.position_deltas);
     keep(old_from_new, target.normal_deltas);

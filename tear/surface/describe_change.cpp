@@ -1,106 +1,154 @@
-// What an operation did, from the editor's logs.
+#include "tear/surface/describe_change.h"
 
 #include <algorithm>
 
-#include "tear/internal/surface.h"
-#include "tear/surface/surface_editor.h"
-
 namespace sunder::tear {
+namespace {
 
-MeshChange& SurfaceEditor::renew_change(std::size_t at, Index mesh, ChangeRecord& change) {
-  if (at == change.meshes.size()) change.meshes.emplace_back();
-  MeshChange& renewed = change.meshes[at];
-  renewed.mesh = mesh;
-  renewed.first_vertex = renewed.vertex_count = renewed.first_triangle = renewed.triangle_count = 0;
-  renewed.births.clear();
-  renewed.rewritten.clear();
-  renewed.retired.clear();
-  return renewed;
+void fill_dirty_ranges(std::span<const SideChange> sides, const SurfaceEditor& editor,
+                       MeshChange& change) {
+  ScratchVector<Index> dirty(&editor.scratch());
+  for (const SideChange& side : sides)
+    if (side.mesh == change.mesh && side.vertex < change.first_vertex) dirty.push_back(side.vertex);
+  std::sort(dirty.begin(), dirty.end());
+  for (Index v = 0; v < change.vertex_count; ++v) dirty.push_back(change.first_vertex + v);
+  change.dirty_vertices = DirtyRanges::covering(dirty);
+  dirty.clear();
+  for (const RewrittenTriangle& rewritten : change.rewritten) dirty.push_back(rewritten.triangle);
+  for (Index t = 0; t < change.triangle_count; ++t) dirty.push_back(change.first_triangle + t);
+  change.dirty_triangles = DirtyRanges::covering(dirty);
 }
 
-void SurfaceEditor::describe(const Mark& begin, ChangeRecord& change) const {
-  change.first_point = begin.points;
-  change.point_count = surface_.point_count() - begin.points;
+/// Writes the changes of meshes one after the other into a record.
+class RecordWriter {
+ public:
+  RecordWriter(const SurfaceEditor& editor, ChangeRecord& change)
+      : editor_(editor), change_(change) {}
+  ~RecordWriter() { change_.meshes.resize(count_); }
+  RecordWriter(const RecordWriter&) = delete;
+  RecordWriter& operator=(const RecordWriter&) = delete;
 
-  // Of each triangle the oldest entry: what came after is part of the same change.
-  ScratchVector<std::uint64_t> changed(&scratch_);  // triangle and entry as one number
-  ScratchVector<bool> has_changed(character_.meshes.size(), false, &scratch_);
-  for (Index i = begin.log_length; i < log_.size(); ++i) {
-    if (!is_oldest_since(begin, i)) continue;
-    const TriangleRef ref = surface_.triangle(log_[i].triangle);
-    if (is_same(character_.meshes[ref.mesh].triangles[ref.triangle], log_[i].vertices)) continue;
-    changed.push_back(std::uint64_t{log_[i].triangle} << 32 | i);
-    has_changed[ref.mesh] = true;
+  /// An empty change of a mesh. It counts once it is closed.
+  MeshChange& open(Index mesh) {
+    if (count_ == change_.meshes.size()) change_.meshes.emplace_back();
+    MeshChange& opened = change_.meshes[count_];
+    opened.mesh = mesh;
+    opened.first_vertex = opened.vertex_count = opened.first_triangle = opened.triangle_count = 0;
+    opened.births.clear();
+    opened.rewritten.clear();
+    opened.retired.clear();
+    return opened;
   }
-  std::sort(changed.begin(), changed.end());  // which orders the triangles of each mesh too
-  const std::span<const MeshSizes> sizes = sizes_at(begin);
+  /// @param sides  which values of _TEARSIDE were written.
+  void close(std::span<const SideChange> sides) {
+    fill_dirty_ranges(sides, editor_, change_.meshes[count_++]);
+  }
 
-  std::size_t count = 0;
-  for (Index m = 0; m < character_.meshes.size(); ++m) {
-    const Mesh& mesh = character_.meshes[m];
-    if (!has_changed[m] && mesh.vertex_count() == sizes[m].vertices &&
-        mesh.triangle_count() == sizes[m].triangles)
-      continue;
-    MeshChange& of_mesh = renew_change(count, m, change);
-    of_mesh.first_vertex = sizes[m].vertices;
-    of_mesh.vertex_count = mesh.vertex_count() - sizes[m].vertices;
-    of_mesh.first_triangle = sizes[m].triangles;
-    of_mesh.triangle_count = mesh.triangle_count() - sizes[m].triangles;
-    for (const std::uint64_t of : changed) {
-      const TriangleRef ref = surface_.triangle(static_cast<Index>(of >> 32));
+ private:
+  const SurfaceEditor& editor_;
+  ChangeRecord& change_;
+  std::size_t count_ = 0;
+};
+
+void list_retired(std::span<const Triangle> appended, MeshChange& change) {
+  for (std::size_t t = 0; t < appended.size(); ++t)
+    if (is_retired(appended[t]))
+      change.retired.push_back(change.first_triangle + static_cast<Index>(t));
+}
+
+}  // namespace
+
+void describe_change(const EditLog::Mark& begin, const SurfaceEditor& editor,
+                     ChangeRecord& change) {
+  const Surface& surface = editor.surface();
+  const auto& meshes = editor.character().meshes;
+  change.first_point = begin.points;
+  change.point_count = surface.point_count() - begin.points;
+
+  struct Changed {
+    Index triangle;
+    const TriangleChange* before;
+  };
+  ScratchVector<Changed> changed(&editor.scratch());
+  ScratchVector<bool> has_changed(meshes.size(), false, &editor.scratch());
+  editor.log.for_each_first_change(begin, [&](const TriangleChange& before) {
+    const TriangleRef ref = surface.triangle(before.triangle);
+    if (is_same(meshes[ref.mesh].triangles[ref.triangle], before.vertices)) return;
+    changed.push_back({before.triangle, &before});
+    has_changed[ref.mesh] = true;
+  });
+  std::sort(changed.begin(), changed.end(),  // which orders the triangles of each mesh too
+            [](const Changed& a, const Changed& b) { return a.triangle < b.triangle; });
+  const std::span<const RowCounts> rows = editor.log.mesh_rows_since(begin);
+
+  RecordWriter writer(editor, change);
+  for (Index m = 0; m < meshes.size(); ++m) {
+    const Mesh& mesh = meshes[m];
+    const Index vertices = rows[m][Rows::mesh_vertices], triangles = rows[m][Rows::mesh_triangles];
+    if (!has_changed[m] && vertices == 0 && triangles == 0) continue;
+    MeshChange& of_mesh = writer.open(m);
+    of_mesh.first_vertex = mesh.vertex_count() - vertices;
+    of_mesh.vertex_count = vertices;
+    of_mesh.first_triangle = mesh.triangle_count() - triangles;
+    of_mesh.triangle_count = triangles;
+    for (const Changed& of : changed) {
+      const TriangleRef ref = surface.triangle(of.triangle);
       if (ref.mesh != m) continue;
-      of_mesh.rewritten.push_back({ref.triangle, log_[static_cast<Index>(of)].vertices});
+      of_mesh.rewritten.push_back({ref.triangle, of.before->vertices});
       if (is_retired(mesh.triangles[ref.triangle])) of_mesh.retired.push_back(ref.triangle);
     }
-    for (Index t = of_mesh.first_triangle; t < mesh.triangle_count(); ++t)
-      if (is_retired(mesh.triangles[t])) of_mesh.retired.push_back(t);
-    const auto source_vertices = static_cast<std::ptrdiff_t>(source_.meshes[m].vertex_count());
-    of_mesh.births.assign(
-        births_[m].begin() + (static_cast<std::ptrdiff_t>(sizes[m].vertices) - source_vertices),
-        births_[m].end());
-    ++count;
+    list_retired(std::span(mesh.triangles).last(triangles), of_mesh);
+    const std::span<const Birth> births = editor.births.newest(m, vertices);
+    of_mesh.births.assign(births.begin(), births.end());
+    writer.close(editor.log.side_changes_since(begin));
   }
-  change.meshes.resize(count);
-
-  const std::span<const SideEntry> sides =
-      std::span<const SideEntry>(side_log_).subspan(begin.side_log_length);
-  for (MeshChange& of_mesh : change.meshes) fill_dirty_ranges(sides, of_mesh);
 }
 
-void SurfaceEditor::describe_roll_back(const Mark& begin, ChangeRecord& change) const {
-  describe(begin, change);
-  // The same triangles are rewritten back; what was appended goes.
+void describe_roll_back(const EditLog::Mark& begin, const SurfaceEditor& editor,
+                        ChangeRecord& change) {
+  describe_change(begin, editor, change);
+  // The same triangles are rewritten back, and everything appended is removed.
   change.point_count = 0;
   change.lips.clear();
   change.rims.left.clear();
   change.rims.right.clear();
-  const std::span<const SideEntry> sides =
-      std::span<const SideEntry>(side_log_).subspan(begin.side_log_length);
   for (MeshChange& of_mesh : change.meshes) {
     of_mesh.vertex_count = of_mesh.triangle_count = 0;
     of_mesh.births.clear();
     of_mesh.retired.clear();
-    const std::vector<Triangle>& triangles = character_.meshes[of_mesh.mesh].triangles;
+    const std::vector<Triangle>& triangles = editor.character().meshes[of_mesh.mesh].triangles;
     for (RewrittenTriangle& rewritten : of_mesh.rewritten)
       rewritten.before = triangles[rewritten.triangle];
-    fill_dirty_ranges(sides, of_mesh);
+    fill_dirty_ranges(editor.log.side_changes_since(begin), editor, of_mesh);
   }
 }
 
-void SurfaceEditor::fill_dirty_ranges(std::span<const SideEntry> sides, MeshChange& change) const {
-  ScratchVector<Index> dirty(&scratch_);
-  for (const SideEntry& entry : sides)
-    if (entry.mesh == change.mesh && entry.vertex < change.first_vertex)
-      dirty.push_back(entry.vertex);
-  std::sort(dirty.begin(), dirty.end());
-  for (Index v = change.first_vertex; v < change.first_vertex + change.vertex_count; ++v)
-    dirty.push_back(v);
-  change.dirty_vertices = DirtyRanges::covering(dirty);
-  dirty.clear();
-  for (const RewrittenTriangle& rewritten : change.rewritten) dirty.push_back(rewritten.triangle);
-  for (Index t = change.first_triangle; t < change.first_triangle + change.triangle_count; ++t)
-    dirty.push_back(t);
-  change.dirty_triangles = DirtyRanges::covering(dirty);
+void describe_redo(const SurfaceEditor::Redo& redo, const SurfaceEditor& editor,
+                   ChangeRecord& change) {
+  const Surface& surface = editor.surface();
+  const auto& meshes = editor.character().meshes;
+  change.first_point = surface.point_count();
+  change.point_count = static_cast<Index>(redo.tails.edit.surface.point_corner.size());
+  RecordWriter writer(editor, change);
+  for (Index m = 0; m < meshes.size(); ++m) {
+    const std::vector<Birth>& births = redo.tails.edit.meshes[m].births;
+    const std::vector<Triangle>& triangles = redo.tails.meshes[m].triangles;
+    MeshChange& of_mesh = writer.open(m);
+    of_mesh.first_vertex = meshes[m].vertex_count();
+    of_mesh.vertex_count = static_cast<Index>(births.size());
+    of_mesh.first_triangle = meshes[m].triangle_count();
+    of_mesh.triangle_count = static_cast<Index>(triangles.size());
+    of_mesh.births = births;
+    for (const TriangleChange& changed : redo.changed) {
+      const TriangleRef ref = surface.triangle(changed.triangle);
+      if (ref.mesh != m || meshes[m].triangles[ref.triangle] == changed.vertices) continue;
+      of_mesh.rewritten.push_back({ref.triangle, meshes[m].triangles[ref.triangle]});
+      if (is_retired(changed.vertices)) of_mesh.retired.push_back(ref.triangle);
+    }
+    list_retired(triangles, of_mesh);
+    if (of_mesh.rewritten.empty() && births.empty() && triangles.empty()) continue;
+    writer.close(redo.sides);
+  }
 }
 
 }  // namespace sunder::tear

@@ -17,7 +17,8 @@ class WidestGaps {
   void offer(const Gap& gap) {
     if (count_ == gaps_.size()) {
       const auto narrowest =
-          std::min_element(gaps_.rbegin(), gaps_.rend(), [](const Gap& a, const Gap& b) { return a.width < b.width; });
+          std::min_element(gaps_.rbegin(), gaps_.rend(),
+                           [](const Gap& a, const Gap& b) { return a.width < b.width; });
       if (gap.width <= narrowest->width) return;
       std::copy(narrowest.base(), gaps_.end(), narrowest.base() - 1);
       --count_;

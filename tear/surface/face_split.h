@@ -6,22 +6,25 @@
 
 namespace sunder::tear {
 
-/// Smaller parts of a source triangle are not made: rounding of barycentric coordinates could turn them over.
+/// Smaller parts of a source triangle are not made: rounding of barycentric coordinates could turn
+/// them over.
 inline constexpr double kLeastPart = 1e-14;
 
 /// The part of a triangle that lies between three places in it, by their barycentric coordinates.
-inline double covered_part(const std::array<double, 3>& p, const std::array<double, 3>& q, const std::array<double, 3>& r) {
+inline double covered_part(const std::array<double, 3>& p, const std::array<double, 3>& q,
+                           const std::array<double, 3>& r) {
   return (q[1] - p[1]) * (r[2] - p[2]) - (q[2] - p[2]) * (r[1] - p[1]);
 }
 
 /// Of a triangle in bind space.
 inline Place normal(const SurfaceEditor& editor, Index mesh, const Triangle& of) {
-  return normal(place_of(editor.born_position(mesh, of[0])), place_of(editor.born_position(mesh, of[1])),
-                place_of(editor.born_position(mesh, of[2])));
+  return normal(place_of(editor.births.position(mesh, of[0])),
+                place_of(editor.births.position(mesh, of[1])),
+                place_of(editor.births.position(mesh, of[2])));
 }
 
 /// A face that is to be split: where its corners lie in its origin, and how it is turned.
-class SurfaceEditor::FaceSplit {
+class FaceSplit {
  public:
   /// A corner of the face or of a part of it.
   struct Corner {
@@ -30,19 +33,21 @@ class SurfaceEditor::FaceSplit {
     Place at;
   };
 
-  FaceSplit(const SurfaceEditor& editor, Index face) : ref_(editor.surface_.triangle(face)), vertices_(editor.vertices_of(face)) {
-    const Triangle& origin = editor.origin_triangle(ref_.mesh, ref_.source_triangle);
+  FaceSplit(const SurfaceEditor& editor, Index face)
+      : ref_(editor.surface().triangle(face)), vertices_(editor.connectivity.vertices_of(face)) {
+    const Triangle& origin = editor.fillings.origin_triangle(ref_.mesh, ref_.source_triangle);
     is_whole_ = is_same(origin, vertices_);
-    const Place a = place_of(editor.born_position(ref_.mesh, vertices_[0])),
-                b = place_of(editor.born_position(ref_.mesh, vertices_[1])),
-                c = place_of(editor.born_position(ref_.mesh, vertices_[2]));
+    const Place a = place_of(editor.births.position(ref_.mesh, vertices_[0])),
+                b = place_of(editor.births.position(ref_.mesh, vertices_[1])),
+                c = place_of(editor.births.position(ref_.mesh, vertices_[2]));
     normal_ = normal(a, b, c);
     corners_[0].at = a;
     corners_[1].at = b;
     corners_[2].at = c;
     for (std::size_t k = 0; k < 3; ++k) {
       corners_[k].vertex = vertices_[k];
-      corners_[k].barycentric = is_whole_ ? kAtCorner[k] : editor.place_in_origin(ref_, vertices_[k]);
+      corners_[k].barycentric =
+          is_whole_ ? kAtCorner[k] : editor.births.place_in_origin(ref_, vertices_[k]);
     }
     normal_of_origin_ = is_whole_ ? normal_ : normal(editor, ref_.mesh, origin);
     normal_squared_ = dot(normal_, normal_);
@@ -71,21 +76,27 @@ class SurfaceEditor::FaceSplit {
   /// The same on the side between two corners (0, 1, 2).
   [[nodiscard]] Birth birth_between(Index from, Index to, double fraction) const {
     const double rest = 1 - fraction;
-    const auto part = [&](std::size_t k) { return rest * kAtCorner[from][k] + fraction * kAtCorner[to][k]; };
+    const auto part = [&](std::size_t k) {
+      return rest * kAtCorner[from][k] + fraction * kAtCorner[to][k];
+    };
     const std::array<double, 3> barycentric = {part(0), part(1), part(2)};
     return is_whole_ ? Birth{ref_.source_triangle, barycentric} : birth_at(barycentric);
   }
 
   /// Whether a part of the face is turned as the face is. @param after  its normal.
-  [[nodiscard]] bool keeps_winding(const Corner& a, const Corner& b, const Corner& c, const Place& after) const {
+  [[nodiscard]] bool keeps_winding(const Corner& a, const Corner& b, const Corner& c,
+                                   const Place& after) const {
     if (!(covered_part(a.barycentric, b.barycentric, c.barycentric) > kLeastPart)) return false;
     // A face without area has no winding to lose; its parts must only keep their corners apart.
     if (normal_squared_ == 0.0) {
-      const auto is_apart = [](const Place& p, const Place& q) { return p.x != q.x || p.y != q.y || p.z != q.z; };
+      const auto is_apart = [](const Place& p, const Place& q) {
+        return p.x != q.x || p.y != q.y || p.z != q.z;
+      };
       return is_apart(a.at, b.at) && is_apart(a.at, c.at);
     }
     if (!(dot(after, normal_) > 1e-9 * normal_squared_)) return false;
-    // Normals of slivers are as crooked as stored positions are coarse: parts of parts must not end up facing away.
+    // Normals of slivers are as crooked as stored positions are coarse: parts of parts must not end
+    // up facing away.
     return !has_origin_area_ || dot(after, normal_of_origin_) > 0;
   }
   /// The same of the face with one of its corners (0, 1, 2) replaced.
@@ -95,7 +106,8 @@ class SurfaceEditor::FaceSplit {
   }
 
  private:
-  static constexpr std::array<std::array<double, 3>, 3> kAtCorner = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  static constexpr std::array<std::array<double, 3>, 3> kAtCorner = {
+      {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 
   TriangleRef ref_;
   Triangle vertices_;

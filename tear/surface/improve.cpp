@@ -4,20 +4,23 @@
 
 #include "tear/geometry/face_shape.h"
 #include "tear/internal/surface.h"
+#include "tear/surface/flip_edge.h"
 
 namespace sunder::tear {
 namespace {
 
-/// By how much turning an edge makes the worse of its two faces better; at most 1 where it does not.
+/// By how much turning an edge makes the worse of its two faces better; at most 1 where it does
+/// not.
 double gain(Index half_edge, const SurfaceEditor& editor) {
   const Surface& surface = editor.surface();
   const Index twin = surface.twin[half_edge];
   const TriangleRef f = surface.triangle(half_edge / 3), g = surface.triangle(twin / 3);
   const Mesh& mesh = editor.character().meshes[f.mesh];
   const Triangle &of_f = mesh.triangles[f.triangle], &of_g = mesh.triangles[g.triangle];
-  const auto place = [&](Index vertex) { return place_of(editor.born_position(f.mesh, vertex)); };
+  const auto place = [&](Index vertex) { return place_of(editor.births.position(f.mesh, vertex)); };
   const Place a = place(of_f[half_edge % 3]), b = place(of_f[Surface::next(half_edge) % 3]),
-              c = place(of_f[Surface::previous(half_edge) % 3]), d = place(of_g[Surface::previous(twin) % 3]);
+              c = place(of_f[Surface::previous(half_edge) % 3]),
+              d = place(of_g[Surface::previous(twin) % 3]);
   const double before = std::min(shape_squared(a, b, c), shape_squared(b, a, d));
   const double after = std::min(shape_squared(a, d, c), shape_squared(b, c, d));
   return before > 0 ? after / before : after > 0 ? 2.0 : 0.0;
@@ -25,26 +28,27 @@ double gain(Index half_edge, const SurfaceEditor& editor) {
 
 }  // namespace
 
-void improve_faces(const SurfaceEditor::Mark& since, SurfaceEditor& editor) {
+void improve_faces(const EditLog::Mark& since, SurfaceEditor& editor) {
   const Surface& surface = editor.surface();
   ScratchVector<Index> open(&editor.scratch());
-  open.reserve(3 * editor.numbers_since(since));
+  open.reserve(3 * editor.log.numbers_since(since));
   // Each edge once, from the later of its faces if both changed.
   const auto add = [&](Index face) {
-    if (editor.is_settled(face)) return;
+    if (editor.origins.is_settled(face)) return;
     for (Index h = 3 * face; h < 3 * face + 3; ++h)
-      if (editor.is_inner_edge(h) && (surface.twin[h] < h || editor.number_since(since, surface.twin[h] / 3) == kNone))
+      if (editor.origins.is_inner_edge(h) &&
+          (surface.twin[h] < h || editor.log.number_since(since, surface.twin[h] / 3) == kNone))
         open.push_back(h);
   };
-  editor.for_each_changed(since, add);
+  editor.log.for_each_changed(since, add);
   for (Index face = since.triangles; face < surface.triangle_count(); ++face) add(face);
-  std::size_t turns_left = 16 * editor.numbers_since(since);
+  std::size_t turns_left = 16 * editor.log.numbers_since(since);
   while (!open.empty() && turns_left > 0) {
     const Index h = open.back();
     open.pop_back();
-    if (!editor.is_inner_edge(h) || !(gain(h, editor) > kBetterShape)) continue;
+    if (!editor.origins.is_inner_edge(h) || !(gain(h, editor) > kBetterShape)) continue;
     const Index twin = surface.twin[h];
-    if (!editor.flip_edge(h)) continue;
+    if (!flip_edge(h, editor)) continue;
     --turns_left;
     // The diagonal is the better one now; what may gain is around it.
     const Index diagonal = Surface::next(h);

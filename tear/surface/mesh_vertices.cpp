@@ -12,7 +12,8 @@ struct Corners {
   std::array<double, 3> barycentric;
 
   template <int N>
-  [[nodiscard]] Eigen::Matrix<double, N, 1> mean(const std::vector<Eigen::Matrix<float, N, 1, Eigen::DontAlign>>& values) const {
+  [[nodiscard]] Eigen::Matrix<double, N, 1> mean(
+      const std::vector<Eigen::Matrix<float, N, 1, Eigen::DontAlign>>& values) const {
     Eigen::Matrix<double, N, 1> sum = Eigen::Matrix<double, N, 1>::Zero();
     for (std::size_t k = 0; k < 3; ++k)
       if (barycentric[k] > 0.0) sum += barycentric[k] * values[vertices[k]].template cast<double>();
@@ -28,11 +29,13 @@ struct Corners {
 /// Unit length; where opposite directions cancel, that of the nearest corner.
 Eigen::Vector3d unit_direction(const Eigen::Vector3d& direction, const Vec3f& nearest) {
   const double length = direction.norm();
-  return length > 1e-12 ? Eigen::Vector3d(direction / length) : Eigen::Vector3d(nearest.cast<double>());
+  return length > 1e-12 ? Eigen::Vector3d(direction / length)
+                        : Eigen::Vector3d(nearest.cast<double>());
 }
 
 template <int N>
-void append_mean(const Corners& corners, std::vector<Eigen::Matrix<float, N, 1, Eigen::DontAlign>>& values) {
+void append_mean(const Corners& corners,
+                 std::vector<Eigen::Matrix<float, N, 1, Eigen::DontAlign>>& values) {
   if (!values.empty()) values.emplace_back(corners.mean(values).template cast<float>());
 }
 
@@ -47,7 +50,8 @@ void append_custom(const Corners& corners, CustomAttribute& attribute) {
     }
     double sum = 0;
     for (std::size_t k = 0; k < 3; ++k)
-      if (corners.barycentric[k] > 0.0) sum += corners.barycentric[k] * static_cast<double>(value_at(corners.vertices[k], c));
+      if (corners.barycentric[k] > 0.0)
+        sum += corners.barycentric[k] * static_cast<double>(value_at(corners.vertices[k], c));
     attribute.values.push_back(static_cast<float>(sum));
   }
 }
@@ -55,12 +59,15 @@ void append_custom(const Corners& corners, CustomAttribute& attribute) {
 /// Appended to the pool in place, so that a warm call does not allocate.
 void append_mean_weights(const Corners& corners, SkinWeights& weights) {
   std::size_t most = 0;
-  for (const std::uint32_t vertex : corners.vertices) most += weights.first[vertex + 1] - weights.first[vertex];
+  for (const std::uint32_t vertex : corners.vertices)
+    most += weights.first[vertex + 1] - weights.first[vertex];
   const std::size_t old_size = weights.influences.size();
   weights.influences.resize(old_size + most);
-  const std::array<std::span<const Influence>, 3> of_corners = {weights.of(corners.vertices[0]), weights.of(corners.vertices[1]),
+  const std::array<std::span<const Influence>, 3> of_corners = {weights.of(corners.vertices[0]),
+                                                                weights.of(corners.vertices[1]),
                                                                 weights.of(corners.vertices[2])};
-  const std::size_t count = mean_influences(of_corners, corners.barycentric, weights.influences.data() + old_size);
+  const std::size_t count =
+      mean_influences(of_corners, corners.barycentric, weights.influences.data() + old_size);
   weights.influences.resize(old_size + count);
   weights.first.push_back(static_cast<std::uint32_t>(weights.influences.size()));
 }
@@ -88,9 +95,11 @@ void for_each_array_pair(const Mesh& from, Mesh& to, Visit visit) {
   visit(from.normals, to.normals, 1u);
   visit(from.tangents, to.tangents, 1u);
   for (std::size_t i = 0; i < from.uv_sets.size(); ++i) visit(from.uv_sets[i], to.uv_sets[i], 1u);
-  for (std::size_t i = 0; i < from.color_sets.size(); ++i) visit(from.color_sets[i], to.color_sets[i], 1u);
+  for (std::size_t i = 0; i < from.color_sets.size(); ++i)
+    visit(from.color_sets[i], to.color_sets[i], 1u);
   for (std::size_t i = 0; i < from.custom_attributes.size(); ++i)
-    visit(from.custom_attributes[i].values, to.custom_attributes[i].values, from.custom_attributes[i].components);
+    visit(from.custom_attributes[i].values, to.custom_attributes[i].values,
+          from.custom_attributes[i].components);
   for (std::size_t i = 0; i < from.morph_targets.size(); ++i) {
     visit(from.morph_targets[i].position_deltas, to.morph_targets[i].position_deltas, 1u);
     visit(from.morph_targets[i].normal_deltas, to.morph_targets[i].normal_deltas, 1u);
@@ -100,8 +109,8 @@ void for_each_array_pair(const Mesh& from, Mesh& to, Visit visit) {
 
 }  // namespace
 
-std::size_t mean_influences(const std::array<std::span<const Influence>, 3>& of_corners, const std::array<double, 3>& barycentric,
-                            Influence* mean) {
+std::size_t mean_influences(const std::array<std::span<const Influence>, 3>& of_corners,
+                            const std::array<double, 3>& barycentric, Influence* mean) {
   Influence* const begin = mean;
   Influence* end = begin;
   // The mean is at most a few dozen influences: a linear search for a slot beats any map.
@@ -120,7 +129,8 @@ std::size_t mean_influences(const std::array<std::span<const Influence>, 3>& of_
   }
   double sum = 0;
   for (const Influence* i = begin; i != end; ++i) sum += static_cast<double>(i->weight);
-  for (Influence* i = begin; i != end; ++i) i->weight = static_cast<float>(static_cast<double>(i->weight) / sum);
+  for (Influence* i = begin; i != end; ++i)
+    i->weight = static_cast<float>(static_cast<double>(i->weight) / sum);
   const auto comes_before = [](const Influence& a, const Influence& b) {
     return a.weight != b.weight ? a.weight > b.weight : a.slot < b.slot;
   };
@@ -133,7 +143,8 @@ std::size_t mean_influences(const std::array<std::span<const Influence>, 3>& of_
   return static_cast<std::size_t>(end - begin);
 }
 
-std::uint32_t append_interpolated_vertex(const Triangle& vertices, const std::array<double, 3>& barycentric, Mesh& mesh) {
+std::uint32_t append_interpolated_vertex(const Triangle& vertices,
+                                         const std::array<double, 3>& barycentric, Mesh& mesh) {
   const Corners corners{vertices, barycentric};
   const std::uint32_t nearest = corners.nearest_vertex();
   const std::uint32_t vertex = mesh.vertex_count();
@@ -178,23 +189,30 @@ std::uint32_t append_vertex_copy(std::uint32_t vertex, Mesh& mesh) {
   return copy;
 }
 
-void copy_surface_point(const Mesh& like_mesh, std::uint32_t like, std::uint32_t vertex, Mesh& mesh) {
+void copy_surface_point(const Mesh& like_mesh, std::uint32_t like, std::uint32_t vertex,
+                        Mesh& mesh) {
   mesh.positions[vertex] = like_mesh.positions[like];
-  const std::size_t shared_targets = std::min(mesh.morph_targets.size(), like_mesh.morph_targets.size());
+  const std::size_t shared_targets =
+      std::min(mesh.morph_targets.size(), like_mesh.morph_targets.size());
   for (std::size_t i = 0; i < shared_targets; ++i)
-    if (!mesh.morph_targets[i].position_deltas.empty() && !like_mesh.morph_targets[i].position_deltas.empty())
-      mesh.morph_targets[i].position_deltas[vertex] = like_mesh.morph_targets[i].position_deltas[like];
+    if (!mesh.morph_targets[i].position_deltas.empty() &&
+        !like_mesh.morph_targets[i].position_deltas.empty())
+      mesh.morph_targets[i].position_deltas[vertex] =
+          like_mesh.morph_targets[i].position_deltas[like];
   auto& weights = mesh.weights;
   weights.influences.resize(weights.first[vertex]);
-  const std::uint32_t begin = like_mesh.weights.first[like], end = like_mesh.weights.first[like + 1];
+  const std::uint32_t begin = like_mesh.weights.first[like],
+                      end = like_mesh.weights.first[like + 1];
   for (std::uint32_t i = begin; i < end; ++i) {
-    const Influence influence = like_mesh.weights.influences[i];  // by value: `mesh` may be `like_mesh`
+    const Influence influence =
+        like_mesh.weights.influences[i];  // by value: `mesh` may be `like_mesh`
     weights.influences.push_back(influence);
   }
   weights.first[vertex + 1] = static_cast<std::uint32_t>(weights.influences.size());
 }
 
-void set_position_and_influences(const Vec3f& position, std::span<const Influence> influences, std::uint32_t vertex, Mesh& mesh) {
+void set_position_and_influences(const Vec3f& position, std::span<const Influence> influences,
+                                 std::uint32_t vertex, Mesh& mesh) {
   mesh.positions[vertex] = position;
   SkinWeights& weights = mesh.weights;
   weights.influences.resize(weights.first[vertex]);
@@ -231,24 +249,31 @@ Mesh copy_vertices_from(std::uint32_t first_vertex, const Mesh& mesh) {
   tail.uv_sets.resize(mesh.uv_sets.size());
   tail.color_sets.resize(mesh.color_sets.size());
   for (const CustomAttribute& attribute : mesh.custom_attributes)
-    tail.custom_attributes.push_back({attribute.name, attribute.components, attribute.interpolates, {}});
+    tail.custom_attributes.push_back(
+        {attribute.name, attribute.components, attribute.interpolates, {}});
   tail.morph_targets.resize(mesh.morph_targets.size());
   for_each_array_pair(mesh, tail, [&](const auto& from, auto& to, std::size_t per_vertex) {
-    if (!from.empty()) to.assign(from.begin() + static_cast<std::ptrdiff_t>(first_vertex * per_vertex), from.end());
+    if (!from.empty())
+      to.assign(from.begin() + static_cast<std::ptrdiff_t>(first_vertex * per_vertex), from.end());
   });
   const std::uint32_t begin = mesh.weights.first[first_vertex];
   tail.weights.first.clear();
   for (std::size_t v = first_vertex; v < mesh.weights.first.size(); ++v)
     tail.weights.first.push_back(mesh.weights.first[v] - begin);
-  tail.weights.influences.assign(mesh.weights.influences.begin() + begin, mesh.weights.influences.end());
+  tail.weights.influences.assign(mesh.weights.influences.begin() + begin,
+                                 mesh.weights.influences.end());
   return tail;
 }
 
 void append_vertices(const Mesh& tail, Mesh& mesh) {
-  for_each_array_pair(tail, mesh, [](const auto& from, auto& to, std::size_t) { to.insert(to.end(), from.begin(), from.end()); });
+  for_each_array_pair(tail, mesh, [](const auto& from, auto& to, std::size_t) {
+    to.insert(to.end(), from.begin(), from.end());
+  });
   const auto begin = static_cast<std::uint32_t>(mesh.weights.influences.size());
-  for (std::size_t v = 1; v < tail.weights.first.size(); ++v) mesh.weights.first.push_back(begin + tail.weights.first[v]);
-  mesh.weights.influences.insert(mesh.weights.influences.end(), tail.weights.influences.begin(), tail.weights.influences.end());
+  for (std::size_t v = 1; v < tail.weights.first.size(); ++v)
+    mesh.weights.first.push_back(begin + tail.weights.first[v]);
+  mesh.weights.influences.insert(mesh.weights.influences.end(), tail.weights.influences.begin(),
+                                 tail.weights.influences.end());
 }
 
 }  // namespace sunder

@@ -14,21 +14,28 @@ namespace sunder {
 SUNDER_API std::size_t mean_influences(const std::array<std::span<const Influence>, 3>& of_corners,
                                        const std::array<double, 3>& barycentric, Influence* mean);
 
-/// Appends the vertex that lies at `barycentric` between three vertices of the mesh: position, normal, tangent, texture
-/// coordinates, colours, custom attributes, morph deltas linear in the coordinates (directions renormalised, labels from the
-/// nearest corner); the weights are the barycentric mean, all influences kept, normalised, largest first.
+/// Appends the vertex that lies at `barycentric` between three vertices of the mesh: position,
+/// normal, tangent, texture coordinates, colours, custom attributes, morph deltas linear in the
+/// coordinates (directions renormalised, labels from the nearest corner); the weights are the
+/// barycentric mean, all influences kept, normalised, largest first.
 ///
-/// @return the new vertex' index. O(attributes + influences); allocates only where an array of `mesh` has to grow.
-SUNDER_API std::uint32_t append_interpolated_vertex(const Triangle& corners, const std::array<double, 3>& barycentric, Mesh& mesh);
+/// @return the new vertex' index. O(attributes + influences); allocates only where an array of
+/// `mesh` has to grow.
+SUNDER_API std::uint32_t append_interpolated_vertex(const Triangle& corners,
+                                                    const std::array<double, 3>& barycentric,
+                                                    Mesh& mesh);
 
 /// Appends a copy of `vertex`, bit for bit.
 SUNDER_API std::uint32_t append_vertex_copy(std::uint32_t vertex, Mesh& mesh);
 
-/// Gives `vertex`, the newest of `mesh`, the position, morph displacements and weights of vertex `like` of `like_mesh`, bit for
-/// bit: the two are duplicates of one surface point. Both meshes have the same skin.
-SUNDER_API void copy_surface_point(const Mesh& like_mesh, std::uint32_t like, std::uint32_t vertex, Mesh& mesh);
+/// Gives `vertex`, the newest of `mesh`, the position, morph displacements and weights of vertex
+/// `like` of `like_mesh`, bit for bit: the two are duplicates of one surface point. Both meshes
+/// have the same skin.
+SUNDER_API void copy_surface_point(const Mesh& like_mesh, std::uint32_t like, std::uint32_t vertex,
+                                   Mesh& mesh);
 
-/// How many vertices can be appended without an array of `mesh` growing, but for that of the influences.
+/// How many vertices can be appended without an array of `mesh` growing, but for that of the
+/// influences.
 [[nodiscard]] SUNDER_API std::size_t room_for_vertices(const Mesh& mesh);
 
 /// Gives all arrays room for that many more vertices, with that many more influences.
@@ -41,8 +48,9 @@ SUNDER_API void remove_vertices_from(std::uint32_t vertex_count, Mesh& mesh);
 [[nodiscard]] SUNDER_API Mesh copy_vertices_from(std::uint32_t first_vertex, const Mesh& mesh);
 
 /// Gives `vertex`, the newest of `mesh`, another bind position and other influences.
-SUNDER_API void set_position_and_influences(const Vec3f& position, std::span<const Influence> influences, std::uint32_t vertex,
-                                            Mesh& mesh);
+SUNDER_API void set_position_and_influences(const Vec3f& position,
+                                            std::span<const Influence> influences,
+                                            std::uint32_t vertex, Mesh& mesh);
 
 /// Appends all vertices of `tail`, which has the same attributes.
 SUNDER_API void append_vertices(const Mesh& tail, Mesh& mesh);

@@ -8,7 +8,8 @@ namespace sunder::tear {
 
 /// What a mesh's morph targets displace a vertex by, in bind space.
 /// @param morph_weights  all weights of the pose.
-inline Vec3d morph_displacement(const Mesh& mesh, std::uint32_t vertex, std::span<const float> morph_weights) {
+inline Vec3d morph_displacement(const Mesh& mesh, std::uint32_t vertex,
+                                std::span<const float> morph_weights) {
   Vec3d sum = Vec3d::Zero();
   for (std::size_t j = 0; j < mesh.morph_targets.size(); ++j)
     if (!mesh.morph_targets[j].position_deltas.empty())

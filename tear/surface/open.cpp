@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "tear/internal/surface.h"
+#include "tear/surface/disconnect.h"
 
 namespace sunder::tear {
 namespace {
@@ -10,7 +11,8 @@ namespace {
 /// Corners that the edges have at their points, in the faces right and left of them.
 class CornersAtPoints {
  public:
-  CornersAtPoints(std::size_t edge_count, ScratchMemory& scratch) : corners_(&scratch), mentions_(&scratch) {
+  CornersAtPoints(std::size_t edge_count, ScratchMemory& scratch)
+      : corners_(&scratch), mentions_(&scratch) {
     corners_.reserve(4 * edge_count);
     mentions_.reserve(4 * edge_count);
   }
@@ -21,8 +23,8 @@ class CornersAtPoints {
     mention(point, joint, kLeft, left);
   }
 
-  /// Calls visit(point, its first joint, its corners) by ascending points. Corners right of the edges come first, then those left
-  /// of them.
+  /// Calls visit(point, its first joint, its corners) by ascending points. Corners right of the
+  /// edges come first, then those left of them.
   template <class Visit>
   void for_each_point(Visit visit) {
     std::sort(mentions_.begin(), mentions_.end());
@@ -110,13 +112,14 @@ struct OpenedJoint {
 
 }  // namespace
 
-void open_edges(std::span<const PointEdge> edges, std::span<const Index> half_edges, SurfaceEditor& editor,
-                std::vector<LipPair>& lips) {
+void open_edges(std::span<const PointEdge> edges, std::span<const Index> half_edges,
+                SurfaceEditor& editor, std::vector<LipPair>& lips) {
   const Surface& surface = editor.surface();
   const auto find = [&](std::size_t i) {
     const auto& [from, to] = edges[i];
     const Index known = i < half_edges.size() ? half_edges[i] : kNone;
-    const bool is_right = known != kNone && surface.corner_point[known] == from && surface.corner_point[Surface::next(known)] == to;
+    const bool is_right = known != kNone && surface.corner_point[known] == from &&
+                          surface.corner_point[Surface::next(known)] == to;
     return is_right ? known : surface.find_half_edge(from, to);
   };
   // Found before anything is cut: afterwards the two sides do not know one another.
@@ -128,16 +131,19 @@ void open_edges(std::span<const PointEdge> edges, std::span<const Index> half_ed
     sides.push_back({left, left != kNone ? surface.twin[left] : surface.find_half_edge(to, from)});
   }
   for (const Side& side : sides)
-    if (side.left != kNone && side.right != kNone) editor.cut_edge(side.left);
+    if (side.left != kNone && side.right != kNone) cut_edge(side.left, editor);
 
-  // Where a path goes through a point within the surface, two fans are left, each from one of its edges to the other.
+  // Where a path goes through a point within the surface, two fans are left, each from one of its
+  // edges to the other.
   ScratchVector<OpenedJoint> opened(&editor.scratch());
   opened.reserve(edges.size() + 1);
-  ScratchVector<bool> is_open(edges.size() + 1, false, &editor.scratch());  // at the beginning of an edge
+  ScratchVector<bool> is_open(edges.size() + 1, false,
+                              &editor.scratch());  // at the beginning of an edge
   for (std::size_t i = 1; i < edges.size(); ++i) {
     const Index point = edges[i][0];
     if (point != edges[i - 1][1]) continue;
-    const Index made = editor.separate_left(sides[i - 1].left, sides[i].left, sides[i - 1].right, sides[i].right);
+    const Index made = separate_left_fan(
+        {sides[i - 1].left, sides[i].left, sides[i - 1].right, sides[i].right}, editor);
     if (made == kNone) continue;
     is_open[i] = true;
     opened.push_back({static_cast<Index>(i), {made, point}});
@@ -155,7 +161,7 @@ void open_edges(std::span<const PointEdge> edges, std::span<const Index> half_ed
     fans.clear();
     for (const Index corner : of_point) fans.add(corner);
     for (std::size_t fan = 1; fan < fans.count(); ++fan)
-      opened.push_back({joint, {editor.separate_fan(fans.corners(fan), fans.others(fan)), at}});
+      opened.push_back({joint, {separate_fan(fans.corners(fan), fans.others(fan), editor), at}});
   });
   std::sort(opened.begin(), opened.end(), [](const OpenedJoint& a, const OpenedJoint& b) {
     return a.joint != b.joint ? a.joint < b.joint : a.lips.left < b.lips.left;

@@ -26,7 +26,8 @@ std::vector<Rim> chain_rims(const std::vector<Index>& half_edges, const Surface&
     rims.push_back(std::move(rim));
   };
   for (const Index h : half_edges)  // what begins somewhere, then what is closed
-    if (!is_entered[surface.corner_point[h]] && leaving.count(surface.corner_point[h]) != 0) follow(surface.corner_point[h]);
+    if (!is_entered[surface.corner_point[h]] && leaving.count(surface.corner_point[h]) != 0)
+      follow(surface.corner_point[h]);
   for (const Index h : half_edges)
     if (leaving.count(surface.corner_point[h]) != 0) follow(surface.corner_point[h]);
   return rims;

@@ -49,7 +49,9 @@ void* ScratchMemory::do_allocate(std::size_t bytes, std::size_t alignment) {
 
 void ScratchMemory::do_deallocate(void* memory, std::size_t bytes, std::size_t) {
   // What was handed out last can be taken back.
-  if (!blocks_.empty() && static_cast<std::byte*>(memory) + bytes == blocks_.back().bytes.get() + used_) used_ -= bytes;
+  if (!blocks_.empty() &&
+      static_cast<std::byte*>(memory) + bytes == blocks_.back().bytes.get() + used_)
+    used_ -= bytes;
 }
 
 }  // namespace sunder::tear

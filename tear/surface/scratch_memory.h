@@ -7,11 +7,12 @@
 
 namespace sunder::tear {
 
-/// Memory for what lives no longer than one operation. It is handed out from one block, forgotten all at once, and kept: an
-/// operation like one before it allocates nothing.
+/// Memory for what lives no longer than one operation. It is handed out from one block, forgotten
+/// all at once, and kept: an operation like one before it allocates nothing.
 class ScratchMemory final : public std::pmr::memory_resource {
  public:
-  /// From here on there are `bytes` and no more: beyond them CapacityExceeded is thrown. Else the memory grows.
+  /// From here on there are `bytes` and no more: beyond them CapacityExceeded is thrown. Else the
+  /// memory grows.
   void fix(std::size_t bytes);
 
   /// Forgets all that was handed out.
@@ -26,7 +27,9 @@ class ScratchMemory final : public std::pmr::memory_resource {
   void add_block(std::size_t size);
   void* do_allocate(std::size_t bytes, std::size_t alignment) override;
   void do_deallocate(void* memory, std::size_t bytes, std::size_t alignment) override;
-  [[nodiscard]] bool do_is_equal(const std::pmr::memory_resource& other) const noexcept override { return this == &other; }
+  [[nodiscard]] bool do_is_equal(const std::pmr::memory_resource& other) const noexcept override {
+    return this == &other;
+  }
 
   std::vector<Block> blocks_;  ///< Memory is taken from the last.
   std::size_t used_ = 0;       ///< Of the last.

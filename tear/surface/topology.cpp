@@ -34,7 +34,8 @@ bool is_border(const Surface& surface, Index half_edge) {
   return surface.twin[half_edge] == kNone && !surface.has_repeated_point(half_edge / 3);
 }
 
-/// A border half-edge is followed by the one that leaves its end point; each point has one fan, hence at most one of them.
+/// A border half-edge is followed by the one that leaves its end point; each point has one fan,
+/// hence at most one of them.
 Index count_boundary_loops(const Surface& surface) {
   std::vector<bool> is_seen(surface.twin.size(), false);
   Index loops = 0;
@@ -44,7 +45,8 @@ Index count_boundary_loops(const Surface& surface) {
     for (Index h = seed; !is_seen[h];) {
       is_seen[h] = true;
       h = Surface::next(h);
-      for (Index across = surface.twin[h]; across != kNone; across = surface.twin[h]) h = Surface::next(across);
+      for (Index across = surface.twin[h]; across != kNone; across = surface.twin[h])
+        h = Surface::next(across);
     }
   }
   return loops;
@@ -53,12 +55,15 @@ Index count_boundary_loops(const Surface& surface) {
 /// Thinner than double arithmetic on float coordinates can tell from nothing.
 bool has_no_area(const Mesh& mesh, const Triangle& triangle) {
   const Eigen::Vector3d a = mesh.positions[triangle[0]].cast<double>();
-  const Eigen::Vector3d ab = mesh.positions[triangle[1]].cast<double>() - a, ac = mesh.positions[triangle[2]].cast<double>() - a;
-  const double longest_squared = std::max({ab.squaredNorm(), ac.squaredNorm(), (ac - ab).squaredNorm()});
+  const Eigen::Vector3d ab = mesh.positions[triangle[1]].cast<double>() - a,
+                        ac = mesh.positions[triangle[2]].cast<double>() - a;
+  const double longest_squared =
+      std::max({ab.squaredNorm(), ac.squaredNorm(), (ac - ab).squaredNorm()});
   return ab.cross(ac).norm() <= 1e-12 * longest_squared;
 }
 
-void count_triangles_and_points(const Character& character, const Surface& surface, TopologyCounts& counts) {
+void count_triangles_and_points(const Character& character, const Surface& surface,
+                                TopologyCounts& counts) {
   std::vector<bool> is_used(surface.point_count(), false);
   for (Index t = 0; t < surface.triangle_count(); ++t) {
     const Mesh& mesh = character.meshes[surface.triangle(t).mesh];
@@ -66,7 +71,8 @@ void count_triangles_and_points(const Character& character, const Surface& surfa
     if (is_retired(triangle)) continue;
     ++counts.triangles;
     if (surface.has_repeated_point(t) || has_no_area(mesh, triangle)) ++counts.degenerate_triangles;
-    for (Index corner = 3 * t; corner < 3 * t + 3; ++corner) is_used[surface.corner_point[corner]] = true;
+    for (Index corner = 3 * t; corner < 3 * t + 3; ++corner)
+      is_used[surface.corner_point[corner]] = true;
   }
   counts.points = static_cast<Index>(std::count(is_used.begin(), is_used.end(), true));
 }

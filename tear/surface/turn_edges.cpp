@@ -5,6 +5,7 @@
 #include <memory_resource>
 
 #include "tear/internal/surface.h"
+#include "tear/surface/flip_edge.h"
 
 namespace sunder::tear {
 namespace {
@@ -34,13 +35,15 @@ class CrossedEdges {
 
   /// @return false where the line leaves the source triangle, or meets a point.
   bool find(std::pmr::deque<std::array<Index, 2>>& edges) {
-    const Index at_from = corner_in(origin_, from_, editor_), at_to = corner_in(origin_, to_, editor_);
+    const Index at_from = corner_in(origin_, from_, editor_),
+                at_to = corner_in(origin_, to_, editor_);
     if (at_from == kNone || at_to == kNone) return false;
     begin_ = place(at_from, editor_);
     way_ = place(at_to, editor_) - begin_;
     Index crossed = kNone;
     surface_.for_each_in_fan(surface_.point_corner[from_], [&](Index corner) {
-      if (is_part(corner / 3) && side(Surface::next(corner)) < 0 && side(Surface::previous(corner)) > 0)
+      if (is_part(corner / 3) && side(Surface::next(corner)) < 0 &&
+          side(Surface::previous(corner)) > 0)
         crossed = Surface::next(corner);
     });
     while (crossed != kNone) {
@@ -63,7 +66,8 @@ class CrossedEdges {
 
  private:
   [[nodiscard]] bool is_part(Index face) const {
-    return surface_.triangle(face).mesh == origin_.mesh && surface_.triangle(face).source_triangle == origin_.source_triangle;
+    return surface_.triangle(face).mesh == origin_.mesh &&
+           surface_.triangle(face).source_triangle == origin_.source_triangle;
   }
 
   const SurfaceEditor& editor_;
@@ -77,18 +81,21 @@ class CrossedEdges {
 
 bool turn_edges_into_line(Index from, Index to, Index face, SurfaceEditor& editor) {
   const Surface& surface = editor.surface();
-  const auto is_edge = [&] { return surface.find_half_edge(from, to) != kNone || surface.find_half_edge(to, from) != kNone; };
+  const auto is_edge = [&] {
+    return surface.find_half_edge(from, to) != kNone || surface.find_half_edge(to, from) != kNone;
+  };
   if (is_edge()) return true;
   CrossedEdges line(from, to, surface.triangle(face), editor);
   std::pmr::deque<std::array<Index, 2>> edges(&editor.scratch());
   if (!line.find(edges)) return false;
   // Sloan 1993: an edge that cannot be turned yet waits until its neighbours are.
-  for (std::size_t turns_left = edges.size() * edges.size() + 4; !edges.empty() && turns_left > 0; --turns_left) {
+  for (std::size_t turns_left = edges.size() * edges.size() + 4; !edges.empty() && turns_left > 0;
+       --turns_left) {
     const std::array<Index, 2> edge = edges.front();
     edges.pop_front();
     const Index h = surface.find_half_edge(edge[0], edge[1]);
     if (h == kNone) return false;
-    if (!editor.flip_edge(h)) {
+    if (!flip_edge(h, editor)) {
       edges.push_back(edge);
       continue;
     }

@@ -8,6 +8,7 @@
 
 #include "skinning/internal/character_pose.h"
 #include "tear/surface/surface_editor.h"
+#include "tear/surface/weight_change.h"
 
 namespace sunder::tear {
 
@@ -16,7 +17,7 @@ using VertexRanges = std::vector<std::array<Index, 2>>;
 
 /// The weights and bind position assigned to a point.
 struct PointWeights {
-  SurfaceEditor::VertexRef vertex;  ///< The first vertex of the point.
+  VertexRef vertex;  ///< The first vertex of the point.
   WeightPolicy policy = WeightPolicy::barycentric;
   Vec3f position = Vec3f::Zero();
   Index first_influence = 0, influence_count = 0;  ///< In WeightAssignment::influences.
@@ -29,12 +30,12 @@ struct WeightAssignment {
 };
 
 /// The points created in some ranges whose attributes are interpolated between other vertices.
-[[nodiscard]] std::vector<SurfaceEditor::VertexRef> interpolated_points(
+[[nodiscard]] std::vector<VertexRef> interpolated_points(
     const VertexRanges& ranges, const SurfaceEditor& editor);
 
 /// Computes the weights of points by a policy; `refit` starts as `barycentric`.
 /// @param pose  used by `pose_exact` only.
-[[nodiscard]] WeightAssignment compute_weights(std::span<const SurfaceEditor::VertexRef> points,
+[[nodiscard]] WeightAssignment compute_weights(std::span<const VertexRef> points,
                                                const WeightOptions& options,
                                                const CharacterPose& pose,
                                                const SurfaceEditor& editor, WeightReport& report);
@@ -42,13 +43,13 @@ struct WeightAssignment {
 /// The change that gives all vertices of each point the assigned weights, for
 /// SurfaceEditor::exchange().
 /// @param ranges  the ranges in which the points were created.
-[[nodiscard]] SurfaceEditor::WeightChange make_weight_change(const WeightAssignment& assignment,
+[[nodiscard]] WeightChange make_weight_change(const WeightAssignment& assignment,
                                                              const VertexRanges& ranges,
                                                              SurfaceEditor& editor);
 
 /// Assigns weights to the points created since `begin`. Does nothing if the options are those with
 /// which points are created.
-void assign_new_weights(const SurfaceEditor::Mark& begin, const WeightOptions& options,
+void assign_new_weights(const EditLog::Mark& begin, const WeightOptions& options,
                         const CharacterPose& pose, SurfaceEditor& editor, WeightReport& report);
 
 }  // namespace sunder::tear

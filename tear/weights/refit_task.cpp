@@ -15,9 +15,9 @@ namespace {
 
 /// The edges between the points, and from them to vertices of the untorn surface, each once.
 std::vector<RefitNeighbours> find_neighbours(const WeightAssignment& assignment,
-                                             const SurfaceEditor::Mark& begin,
+                                             const EditLog::Mark& begin,
                                              const SurfaceEditor& editor) {
-  const auto number_of = [&](const SurfaceEditor::VertexRef& vertex) {
+  const auto number_of = [&](const VertexRef& vertex) {
     const auto at = std::lower_bound(assignment.points.begin(), assignment.points.end(), vertex,
                                      [](const PointWeights& a, const auto& b) {
                                        return std::tie(a.vertex.mesh, a.vertex.vertex) <
@@ -29,7 +29,7 @@ std::vector<RefitNeighbours> find_neighbours(const WeightAssignment& assignment,
   };
   struct Edge {
     Index a, b;
-    SurfaceEditor::VertexRef end;  // the untorn end, if there is one
+    VertexRef end;  // the untorn end, if there is one
     double length;
     [[nodiscard]] auto key() const { return std::tuple(a, b, end.mesh, end.vertex); }
   };
@@ -39,21 +39,21 @@ std::vector<RefitNeighbours> find_neighbours(const WeightAssignment& assignment,
     const Index mesh = editor.surface().triangle(face).mesh;
     for (Index h = 3 * face; h < 3 * face + 3; ++h) {
       const Index from = editor.vertex_at(h), to = editor.vertex_at(Surface::next(h));
-      const auto original_from = editor.original(mesh, from),
-                 original_to = editor.original(mesh, to);
+      const auto original_from = editor.births.original(mesh, from),
+                 original_to = editor.births.original(mesh, to);
       Index a = number_of(original_from), b = number_of(original_to);
       if (a == b) continue;
-      const SurfaceEditor::VertexRef end = a == kNone   ? original_from
+      const VertexRef end = a == kNone   ? original_from
                                            : b == kNone ? original_to
-                                                        : SurfaceEditor::VertexRef{};
+                                                        : VertexRef{};
       if (b < a) std::swap(a, b);  // kNone comes last
       const double length =
-          (editor.born_position(mesh, from) - editor.born_position(mesh, to)).cast<double>().norm();
+          (editor.births.position(mesh, from) - editor.births.position(mesh, to)).cast<double>().norm();
       edges.push_back({a, b, end, length});
     }
   };
   // Every face with a vertex that was appended since was itself appended or changed since.
-  editor.for_each_changed(begin, add_edges);
+  editor.log.for_each_changed(begin, add_edges);
   for (Index face = begin.triangles; face < editor.surface().triangle_count(); ++face)
     add_edges(face);
   std::sort(edges.begin(), edges.end(),
@@ -70,7 +70,7 @@ std::vector<RefitNeighbours> find_neighbours(const WeightAssignment& assignment,
 }  // namespace
 
 RefitTask::RefitTask(std::shared_ptr<const Character> from, WeightsOperation wanted, PoseSet over,
-                     WeightAssignment begin, const SurfaceEditor::Mark& since,
+                     WeightAssignment begin, const EditLog::Mark& since,
                      const SurfaceEditor& editor)
     : source(std::move(from)),
       operation(std::move(wanted)),
@@ -80,7 +80,7 @@ RefitTask::RefitTask(std::shared_ptr<const Character> from, WeightsOperation wan
   for (const PointWeights& of : assignment.points) {
     const Mesh& mesh = editor.character().meshes[of.vertex.mesh];
     Point& point = points.emplace_back();
-    editor.describe_exactly(of.vertex, source->rest_morph_weights, point.exact);
+    editor.births.describe_exactly(of.vertex, source->rest_morph_weights, point.exact);
     point.skin = mesh.skin;
     point.morph = morph_displacement(mesh, of.vertex.vertex, source->rest_morph_weights);
     point.position = Vec3d(of.position.cast<double>()) + point.morph;

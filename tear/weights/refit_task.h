@@ -27,7 +27,7 @@ struct RefitTask {
   /// @param assignment  barycentric weights of points of the editor's model.
   /// @param since       where the first of their operations began.
   RefitTask(std::shared_ptr<const Character> source, WeightsOperation operation, PoseSet poses,
-            WeightAssignment assignment, const SurfaceEditor::Mark& since,
+            WeightAssignment assignment, const EditLog::Mark& since,
             const SurfaceEditor& editor);
 
   void run();

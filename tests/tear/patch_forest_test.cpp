@@ -48,9 +48,9 @@ class Torn {
     if (!has_area()) return;  // then there is no place for a stroke
     const auto model = TornModel::create(std::make_shared<const Character>(source));
     const Operation operation = test::random_operation(*model, random);
-    const SurfaceEditor::Mark begin = editor.mark();
+    const EditLog::Mark begin = editor.mark();
     editor.scratch().reset();
-    editor.begin_opening(true);
+    editor.opened_edges.begin(true);
     TearReport report;
     std::vector<LipPair> lips;
     if (const auto* tear = std::get_if<TearOperation>(&operation)) {
@@ -107,7 +107,7 @@ class Torn {
   SurfaceEditor editor;
   PosedPoints posed;
   ModelPose pose;
-  std::vector<SurfaceEditor::Mark> done;
+  std::vector<EditLog::Mark> done;
   std::vector<SurfaceEditor::Redo> undone;
 };
 
@@ -208,7 +208,7 @@ std::vector<std::string> broken_bounds(Torn& torn, Random& random) {
           if (!holds(shadows[i], at)) broken.push_back(test::say("face ", face, " outside of its shadow"));
         };
         for (const Index origin : tree.origins(PatchTree::kPatchesPerGroup * group + i))
-          torn.editor.for_each_part(covered->mesh, origin, [&](Index face) {
+          torn.editor.origins.for_each_part(covered->mesh, origin, [&](Index face) {
             ++found[face];
             const Triangle vertices = mesh.triangles[torn.editor.surface().triangle(face).triangle];
             for (const Index vertex : vertices) check(vertex, face);
@@ -407,8 +407,8 @@ TEST(PatchForest, has_few_trees_of_caps) {
   std::vector<std::size_t> tree_counts;
   std::size_t fillings = 0;
   for (int i = 0; i < 200; ++i) {
-    const SurfaceEditor::Mark begin = torn.editor.mark();
-    torn.editor.begin_opening(true);
+    const EditLog::Mark begin = torn.editor.mark();
+    torn.editor.opened_edges.begin(true);
     TearReport report;
     std::vector<LipPair> lips;
     cut_surface({{0, random.uniform(0.1, 1.9), 0}, {0, 1, 0}, {}, true}, {torn.editor, torn.posed}, report, lips);
@@ -418,7 +418,7 @@ TEST(PatchForest, has_few_trees_of_caps) {
     if (i % 10 == 0) {
       ASSERT_TRUE(is_same(hit, test::scan_for_hit(blade, torn.editor, torn.posed)));
     }
-    fillings = torn.editor.fillings(0).size();
+    fillings = torn.editor.fillings.of(0).size();
     ASSERT_LE(torn.posed.forest().filling_tree_count(0), std::bit_width(fillings));
     tree_counts.push_back(torn.posed.forest().filling_tree_count(0));
   }
@@ -430,7 +430,7 @@ TEST(PatchForest, has_few_trees_of_caps) {
     if (torn.done.size() % 10 == 0) {
       ASSERT_TRUE(is_same(hit, test::scan_for_hit(blade, torn.editor, torn.posed)));
     }
-    ASSERT_LE(torn.posed.forest().filling_tree_count(0), std::bit_width(torn.editor.fillings(0).size()));
+    ASSERT_LE(torn.posed.forest().filling_tree_count(0), std::bit_width(torn.editor.fillings.of(0).size()));
   }
   EXPECT_EQ(torn.posed.forest().filling_tree_count(0), 0u);
   EXPECT_THAT(broken_bounds(torn, random), testing::IsEmpty());

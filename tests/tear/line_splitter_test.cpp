@@ -1,5 +1,5 @@
 // Faces that are crossed in one pass, without a tear around it.
-#include "tear/surface/crossing.h"
+#include "tear/surface/line_splitter.h"
 
 #include <map>
 #include <set>
@@ -12,6 +12,8 @@
 #include "support/say.h"
 #include "tear/geometry/face_shape.h"
 #include "tear/internal/surface.h"
+#include "tear/surface/flip_edge.h"
+#include "tear/surface/split.h"
 
 namespace sunder::tear {
 namespace {
@@ -34,13 +36,16 @@ std::vector<std::string> broken_connections(const SurfaceEditor& editor) {
   for (Index h = 0; h < surface.twin.size(); ++h) {
     const Index twin = surface.twin[h];
     if (twin == kNone) continue;
-    if (surface.twin[twin] != h) broken.push_back(test::say("half-edge ", h, " is not its twin's twin"));
+    if (surface.twin[twin] != h)
+      broken.push_back(test::say("half-edge ", h, " is not its twin's twin"));
     if (surface.corner_point[h] != surface.corner_point[Surface::next(twin)] ||
         surface.corner_point[twin] != surface.corner_point[Surface::next(h)])
-      broken.push_back(test::say("half-edges ", h, " and ", twin, " do not run between the same points"));
+      broken.push_back(
+          test::say("half-edges ", h, " and ", twin, " do not run between the same points"));
   }
   for (Index point = 0; point < surface.point_count(); ++point)
-    if (const Index corner = surface.point_corner[point]; corner != kNone && surface.corner_point[corner] != point)
+    if (const Index corner = surface.point_corner[point];
+        corner != kNone && surface.corner_point[corner] != point)
       broken.push_back(test::say("point ", point, " is known by a corner of another one"));
   // Each fan is all of its point's corners.
   std::map<Index, std::size_t> corners;
@@ -48,7 +53,9 @@ std::vector<std::string> broken_connections(const SurfaceEditor& editor) {
   for (const auto& [point, count] : corners) {
     std::size_t found = 0;
     surface.for_each_in_fan(surface.point_corner[point], [&](Index) { ++found; });
-    if (found != count) broken.push_back(test::say("point ", point, " has ", count, " corners, ", found, " of them in its fan"));
+    if (found != count)
+      broken.push_back(
+          test::say("point ", point, " has ", count, " corners, ", found, " of them in its fan"));
   }
   return broken;
 }
@@ -58,8 +65,9 @@ std::map<std::array<Index, 2>, double> cover(const SurfaceEditor& editor) {
   std::map<std::array<Index, 2>, double> covered;
   for (Index face = 0; face < editor.surface().triangle_count(); ++face) {
     const TriangleRef ref = editor.surface().triangle(face);
-    const double part = covered_part(editor.source_barycentric(3 * face), editor.source_barycentric(3 * face + 1),
-                                     editor.source_barycentric(3 * face + 2));
+    const double part =
+        covered_part(editor.source_barycentric(3 * face), editor.source_barycentric(3 * face + 1),
+                     editor.source_barycentric(3 * face + 2));
     EXPECT_GT(part, 0);
     covered[{ref.mesh, ref.source_triangle}] += part;
   }
@@ -69,14 +77,15 @@ std::map<std::array<Index, 2>, double> cover(const SurfaceEditor& editor) {
 double worse_shape(Index half_edge, const SurfaceEditor& editor) {
   double least = 1;
   for (const Index face : {half_edge / 3, editor.surface().twin[half_edge] / 3}) {
-    const auto& positions = editor.character().meshes[editor.surface().triangle(face).mesh].positions;
+    const auto& positions =
+        editor.character().meshes[editor.surface().triangle(face).mesh].positions;
     const auto at = [&](Index k) { return place_of(positions[editor.vertex_at(3 * face + k)]); };
     least = std::min(least, shape_squared(at(0), at(1), at(2)));
   }
   return least;
 }
 
-TEST(Crossing, splits_faces_and_keeps_the_surface) {
+TEST(LineSplitter, splits_faces_and_keeps_the_surface) {
   int crossed = 0, seams = 0, other_diagonals = 0;
   for (std::uint64_t seed = 0; seed < 400; ++seed) {
     SCOPED_TRACE(seed);
@@ -86,51 +95,63 @@ TEST(Crossing, splits_faces_and_keeps_the_surface) {
     SurfaceEditor editor(source, character);
     const Surface& surface = editor.surface();
     for (int line = 0; line < 4; ++line) {
-      const SurfaceEditor::Mark before = editor.mark();
-      const auto corner_point = surface.corner_point, twin = surface.twin, point_corner = surface.point_corner;
+      const EditLog::Mark before = editor.mark();
+      const auto corner_point = surface.corner_point, twin = surface.twin,
+                 point_corner = surface.point_corner;
       const Character as_it_was = character;
-      SurfaceEditor::Crossing crossing(editor);
-      const auto fraction = [&] { return random.index(8) == 0 ? 1e-3 : random.uniform(0.01, 0.99); };
-      Index last = crossing.begin(random.index(static_cast<Index>(surface.corner_point.size())), fraction());
+      LineSplitter splitter(editor);
+      const auto fraction = [&] {
+        return random.index(8) == 0 ? 1e-3 : random.uniform(0.01, 0.99);
+      };
+      Index last =
+          splitter.begin(random.index(static_cast<Index>(surface.corner_point.size())), fraction());
       if (last == kNone) continue;
       std::vector<Index> path = {last};
       std::set<Index> in_three;
-      while (crossing.ahead() != kNone && editor.is_whole(crossing.ahead() / 3) && random.index(40) != 0) {
-        const Index entry = crossing.ahead(), exit = random.index(2) == 0 ? Surface::next(entry) : Surface::previous(entry);
-        const std::size_t vertices = character.meshes[surface.triangle(entry / 3).mesh].vertex_count();
-        last = crossing.go_on(exit, fraction());
+      while (splitter.ahead() != kNone && editor.origins.is_whole(splitter.ahead() / 3) &&
+             random.index(40) != 0) {
+        const Index entry = splitter.ahead(),
+                    exit = random.index(2) == 0 ? Surface::next(entry) : Surface::previous(entry);
+        const std::size_t vertices =
+            character.meshes[surface.triangle(entry / 3).mesh].vertex_count();
+        last = splitter.go_on(exit, fraction());
         if (last == kNone) {
           ASSERT_EQ(character.meshes[surface.triangle(entry / 3).mesh].vertex_count(), vertices);
-          ASSERT_EQ(crossing.ahead(), entry);
+          ASSERT_EQ(splitter.ahead(), entry);
           break;
         }
-        seams += character.meshes[surface.triangle(entry / 3).mesh].vertex_count() > vertices + 1 ? 1 : 0;
-        ASSERT_EQ(surface.corner_point[crossing.half_edge()], path.back());
-        ASSERT_EQ(surface.corner_point[Surface::next(crossing.half_edge())], last);
-        ASSERT_NE(surface.twin[crossing.half_edge()], kNone);
+        seams += character.meshes[surface.triangle(entry / 3).mesh].vertex_count() > vertices + 1
+                     ? 1
+                     : 0;
+        ASSERT_EQ(surface.corner_point[splitter.half_edge()], path.back());
+        ASSERT_EQ(surface.corner_point[Surface::next(splitter.half_edge())], last);
+        ASSERT_NE(surface.twin[splitter.half_edge()], kNone);
         path.push_back(last);
         in_three.insert(entry / 3);
         ++crossed;
       }
-      crossing.end();
+      splitter.end();
       ASSERT_THAT(broken_connections(editor), testing::IsEmpty());
       for (const auto& [origin, part] : cover(editor)) ASSERT_NEAR(part, 1, 1e-12) << origin[1];
-      for (std::size_t i = 1; i < path.size(); ++i) ASSERT_NE(surface.find_half_edge(path[i - 1], path[i]), kNone);
+      for (std::size_t i = 1; i < path.size(); ++i)
+        ASSERT_NE(surface.find_half_edge(path[i - 1], path[i]), kNone);
 
       // The other diagonal of what a face has beside the lost corner is not better.
       for (const Index face : in_three)
         for (Index h = 3 * face; h < 3 * face + 3; ++h) {
           const Index other = surface.twin[h];
-          if (other == kNone || !editor.is_inner_edge(h)) continue;
-          const std::set<Index> ends = {surface.corner_point[h], surface.corner_point[Surface::next(h)]};
-          const bool is_path = std::count_if(path.begin(), path.end(), [&](Index p) { return ends.count(p) != 0; }) == 2;
+          if (other == kNone || !editor.origins.is_inner_edge(h)) continue;
+          const std::set<Index> ends = {surface.corner_point[h],
+                                        surface.corner_point[Surface::next(h)]};
+          const bool is_path = std::count_if(path.begin(), path.end(),
+                                             [&](Index p) { return ends.count(p) != 0; }) == 2;
           int parts = 0;
           const TriangleRef ref = surface.triangle(face);
-          editor.for_each_part(ref.mesh, ref.source_triangle, [&](Index) { ++parts; });
+          editor.origins.for_each_part(ref.mesh, ref.source_triangle, [&](Index) { ++parts; });
           if (is_path || parts != 3) continue;
           const double shape = worse_shape(h, editor);
-          const SurfaceEditor::Mark turned = editor.mark();
-          if (!editor.flip_edge(h)) continue;
+          const EditLog::Mark turned = editor.mark();
+          if (!flip_edge(h, editor)) continue;
           EXPECT_LE(worse_shape(Surface::next(h), editor), 1.001 * kBetterShape * shape);
           ++other_diagonals;
           editor.roll_back(turned);
@@ -149,19 +170,19 @@ TEST(Crossing, splits_faces_and_keeps_the_surface) {
   EXPECT_GT(other_diagonals, 1000);
 }
 
-TEST(Crossing, of_one_edge_is_a_split_edge) {
+TEST(LineSplitter, of_one_edge_is_a_split_edge) {
   const Character source = test::make_tube(4, 6, 2);
   for (Index half_edge = 0; half_edge < 3 * source.meshes[0].triangle_count(); half_edge += 7) {
     Character one = source, other = source;
-    SurfaceEditor by_crossing(source, one), by_split(source, other);
-    SurfaceEditor::Crossing crossing(by_crossing);
-    (void)by_crossing.mark();
+    SurfaceEditor by_line(source, one), by_split(source, other);
+    LineSplitter splitter(by_line);
+    (void)by_line.mark();
     (void)by_split.mark();
-    const Index point = crossing.begin(half_edge, 0.25);
-    crossing.end();
-    EXPECT_EQ(point, by_split.split_edge(half_edge, 0.25));
+    const Index point = splitter.begin(half_edge, 0.25);
+    splitter.end();
+    EXPECT_EQ(point, split_edge(half_edge, 0.25, by_split));
     EXPECT_EQ(one, other);
-    EXPECT_EQ(by_crossing.surface().twin, by_split.surface().twin);
+    EXPECT_EQ(by_line.surface().twin, by_split.surface().twin);
   }
 }
 

@@ -7,24 +7,28 @@
 
 namespace sunder::tear {
 
-/// A line that is cut across the surface from face to face, on which a point is made wherever it meets an edge. Between begin() and
-/// end() the face ahead stands as it was and does not know what is behind it: nobody else may change the surface.
-class SurfaceEditor::Crossing {
+/// A line that is cut across the surface from face to face, on which a point is made wherever it
+/// meets an edge. Between begin() and end() the face ahead stands as it was and does not know what
+/// is behind it: nobody else may change the surface.
+class LineSplitter {
  public:
-  explicit Crossing(SurfaceEditor& editor) : editor_(editor) {}
+  explicit LineSplitter(SurfaceEditor& editor) : editor_(editor) {}
 
-  /// Puts a point on an edge, `fraction` of the way along the half-edge, and splits the half-edge's face in two.
-  /// @return the point; kNone where that face or the one ahead would lose its area or turn over, and nothing was changed.
+  /// Puts a point on an edge, `fraction` of the way along the half-edge, and splits the half-edge's
+  /// face in two.
+  /// @return the point; kNone where that face or the one ahead would lose its area or turn over,
+  /// and nothing was changed.
   [[nodiscard]] Index begin(Index half_edge, double fraction);
-  /// Puts a point on another edge of the face ahead, and splits that face in three: the diagonal that makes the better faces is
-  /// theirs. @return as begin().
+  /// Puts a point on another edge of the face ahead, and splits that face in three: the diagonal
+  /// that makes the better faces is theirs. @return as begin().
   [[nodiscard]] Index go_on(Index half_edge, double fraction);
   /// Splits the face ahead in two. To be called after everything.
   void end();
 
   /// The half-edge by which the face ahead is entered; kNone at a border.
   [[nodiscard]] Index ahead() const { return points_[newest_].ahead; }
-  /// From the point before the newest one, or the corner opposite of the first edge, to the newest one.
+  /// From the point before the newest one, or the corner opposite of the first edge, to the newest
+  /// one.
   [[nodiscard]] Index half_edge() const { return half_edge_; }
 
  private:
@@ -47,20 +51,37 @@ class SurfaceEditor::Crossing {
   };
 
   struct Part;
+  struct PartCorner {
+    Index point, vertex;
+  };
+  /// A face (u, v, w) that the line enters through p on u -> v and leaves through q.
+  struct CrossedFace {
+    Index uv;
+    PartCorner u, v, w, p, q;
+  };
+  struct ThreeParts {
+    EdgeParts entry, exit;
+    Index along;  ///< The half-edge from p to q.
+  };
 
   /// For a point and its vertices, some triangles, and those that end() makes.
   void make_room(const FaceSplit& behind, Index half_edge, Index triangles);
   void append_vertices(const FaceSplit& behind, Index half_edge, double fraction, NewPoint& made);
   void remove_vertices(const NewPoint& made);
   void append_point(NewPoint& made);
-  /// A new triangle beside the one that it is split from. @return its first half-edge.
-  [[nodiscard]] Index append_part(Index of, const std::array<Index, 3>& points, const Triangle& vertices);
+  /// Appends a triangle that is split from another one. @return its first half-edge.
+  [[nodiscard]] Index append_part(Index of, const PartCorner& a, const PartCorner& b,
+                                  const PartCorner& c);
   EdgeParts split_in_two(Index half_edge, Index point, Index vertex);
   void split_in_three(Index half_edge, const NewPoint& to, bool cuts_from_q);
+  /// The third edge keeps its half-edge, so the face across it does not change.
+  [[nodiscard]] ThreeParts cut_off_v(const CrossedFace& face, bool cuts_from_q);
+  [[nodiscard]] ThreeParts cut_off_u(const CrossedFace& face, bool cuts_from_q);
   void join_behind(const EdgeParts& ahead);
 
   SurfaceEditor& editor_;
-  std::array<NewPoint, 2> points_;  ///< The newest one, and the one before it or that is being made.
+  std::array<NewPoint, 2>
+      points_;  ///< The newest one, and the one before it or that is being made.
   std::size_t newest_ = 0;
   EdgeParts behind_;  ///< Of the edge with the newest point.
   Index half_edge_ = kNone;

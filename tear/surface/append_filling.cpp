@@ -1,0 +1,34 @@
+#include "tear/surface/append_filling.h"
+
+namespace sunder::tear {
+
+Index append_submesh(Index mesh, const std::string& name, Index material, SurfaceEditor& editor) {
+  editor.room.make_for_additions(mesh);
+  return editor.fillings.append_submesh(mesh, name, material);
+}
+
+Index append_filling(Index mesh, Index submesh, const std::array<Index, 3>& points,
+                     const Triangle& vertices, SurfaceEditor& editor) {
+  editor.room.make_for_triangles(mesh, 1);
+  editor.room.make_for_additions(mesh);
+  const Surface& surface = editor.surface();
+  const Index origin = editor.fillings.append(mesh, vertices);
+  const Index triangle = editor.connectivity.append_filling(
+      {mesh, editor.character().meshes[mesh].triangle_count(), origin}, submesh, points, vertices);
+  for (Index k = 0; k < 3; ++k) {
+    editor.sides.write(mesh, vertices[k], surface.side(points[k]));
+    if (surface.point_corner[points[k]] == kNone)
+      editor.connectivity.set_point_corner(points[k], 3 * triangle + k);
+    editor.births.give_birth(mesh, vertices[k], origin, k);
+  }
+  return triangle;
+}
+
+void connect(Index a, Index b, SurfaceEditor& editor) {
+  editor.room.make_for_changes(2);
+  editor.log.keep(a / 3);
+  editor.log.keep(b / 3);
+  editor.connectivity.join(a, b);
+}
+
+}  // namespace sunder::tear

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <string>
+
+#include "tear/surface/edit_columns.h"
+
+namespace sunder::tear {
+
+/// The triangles of walls and caps. No triangle of the source covers them, so they are origins of
+/// their own: births refer to triangles of the source and, with the numbers after those, to
+/// fillings.
+class Fillings {
+ public:
+  Fillings(const Character& source, Character& character, EditColumns& columns)
+      : source_(source), character_(character), columns_(columns) {}
+
+  /// The fillings of a mesh as they were made.
+  [[nodiscard]] const std::vector<Triangle>& of(Index mesh) const {
+    return columns_.meshes[mesh].fillings;
+  }
+  /// A triangle of the source or a filling.
+  [[nodiscard]] const Triangle& origin_triangle(Index mesh, Index origin) const {
+    const Index source_count = source_.meshes[mesh].triangle_count();
+    return origin < source_count ? source_.meshes[mesh].triangles[origin]
+                                 : columns_.meshes[mesh].fillings[origin - source_count];
+  }
+  /// A number that no other filling ever had; serials ascend.
+  [[nodiscard]] std::uint64_t serial(Index mesh, Index origin) const {
+    return columns_.meshes[mesh].filling_serials[origin - source_.meshes[mesh].triangle_count()];
+  }
+  [[nodiscard]] std::uint64_t next_serial() const { return next_serial_; }
+
+  /// @return the origin. There must be room.
+  Index append(Index mesh, const Triangle& vertices) {
+    std::vector<Triangle>& fillings = columns_.meshes[mesh].fillings;
+    const Index origin =
+        source_.meshes[mesh].triangle_count() + static_cast<Index>(fillings.size());
+    fillings.push_back(vertices);
+    columns_.additions.push_back({Addition::Kind::filling, mesh});
+    give_serials(mesh);
+    return origin;
+  }
+  /// @return the index of the new submesh. There must be room.
+  Index append_submesh(Index mesh, const std::string& name, Index material) {
+    auto& submeshes = character_.meshes[mesh].submeshes;
+    submeshes.push_back({name, material});
+    columns_.additions.push_back({Addition::Kind::submesh, mesh});
+    return static_cast<Index>(submeshes.size() - 1);
+  }
+  /// Gives the fillings that have none a serial.
+  void give_serials(Index mesh) {
+    MeshColumns& of = columns_.meshes[mesh];
+    while (of.filling_serials.size() < of.fillings.size())
+      of.filling_serials.push_back(next_serial_++);
+  }
+
+ private:
+  const Character& source_;
+  Character& character_;
+  EditColumns& columns_;
+  std::uint64_t next_serial_ = 0;
+};
+
+}  // namespace sunder::tear

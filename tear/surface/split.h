@@ -1,0 +1,21 @@
+#pragma once
+
+#include "tear/surface/surface_editor.h"
+
+namespace sunder::tear {
+
+// Splitting faces: the surface stays what it is.
+
+/// Puts a new point on an edge, `fraction` of the way along the half-edge, and splits the faces on
+/// both sides of it.
+/// @return the point; kNone where a face would have lost its area or turned over, and nothing was
+/// changed.
+[[nodiscard]] Index split_edge(Index half_edge, double fraction, SurfaceEditor& editor);
+
+/// Puts a new point into a triangle and splits it in three. @param barycentric  of its corners, all
+/// > 0.
+/// @return as split_edge().
+[[nodiscard]] Index split_triangle(Index triangle, const std::array<double, 3>& barycentric,
+                                   SurfaceEditor& editor);
+
+}  // namespace sunder::tear

@@ -1,0 +1,114 @@
+#pragma once
+
+#include "core/internal/prefetch.h"
+#include "tear/surface/edit_columns.h"
+
+namespace sunder::tear {
+
+/// Where triangles come from: each face is a part of an origin, which is a triangle of the source
+/// or a filling, and an appended triangle was split from another one, its parent.
+class TriangleOrigins {
+ public:
+  TriangleOrigins(const Character& source, const Character& character, EditColumns& columns)
+      : source_(source),
+        character_(character),
+        columns_(columns),
+        newest_part_(character.meshes.size()) {}
+
+  /// The surface's number of a mesh's triangle. Appended triangles are numbered in the order in
+  /// which they were made, over all meshes.
+  [[nodiscard]] Index surface_triangle(Index mesh, Index triangle) const {
+    const Index source_count = source_.meshes[mesh].triangle_count();
+    if (triangle < source_count) return surface().first_triangle[mesh] + triangle;
+    return columns_.meshes[mesh].surface_triangles[triangle - source_count];
+  }
+  /// Calls visit(triangle of the surface) for each face that is a part of an origin, as far as
+  /// there still are any.
+  template <class Visit>
+  void for_each_part(Index mesh, Index origin, Visit visit) const {
+    const auto visit_face = [&](Index triangle) {
+      if (!surface().has_repeated_point(triangle)) visit(triangle);
+    };
+    if (origin < source_.meshes[mesh].triangle_count())
+      visit_face(surface().first_triangle[mesh] + origin);
+    if (origin >= newest_part_[mesh].size()) return;
+    for (Index part = newest_part_[mesh][origin]; part != kNone;
+         part = columns_.older_part[part - source_triangles()])
+      visit_face(part);
+  }
+  /// Whether a face is a triangle of the source that nothing has changed.
+  [[nodiscard]] bool is_whole(Index triangle) const {
+    if (triangle >= source_triangles()) return false;
+    const TriangleRef ref = surface().triangle(triangle);
+    return is_same(character_.meshes[ref.mesh].triangles[ref.triangle],
+                   source_.meshes[ref.mesh].triangles[ref.triangle]);
+  }
+  /// Whether the faces on both sides of an edge are parts of one origin.
+  [[nodiscard]] bool is_inner_edge(Index half_edge) const {
+    const Index twin = surface().twin[half_edge];
+    // Of two triangles of one origin, at least one was appended.
+    if (twin == kNone || std::max(half_edge, twin) / 3 < source_triangles()) return false;
+    const TriangleRef here = surface().triangle(half_edge / 3),
+                      there = surface().triangle(twin / 3);
+    return here.mesh == there.mesh && here.source_triangle == there.source_triangle;
+  }
+  /// The triangle that an appended one was split from; kNone for fillings.
+  [[nodiscard]] Index parent(Index triangle) const {
+    const Index parent = columns_.parents[triangle - source_triangles()];
+    return parent == kNone ? kNone : parent & ~kSettled;
+  }
+  /// Whether a face was made by a split along the better diagonal, and not split again since. For a
+  /// triangle of the source: whether its newest part was.
+  [[nodiscard]] bool is_settled(Index triangle) const {
+    if (triangle < source_triangles()) {
+      const TriangleRef ref = surface().triangle(triangle);
+      if (ref.source_triangle >= newest_part_[ref.mesh].size()) return false;
+      triangle = newest_part_[ref.mesh][ref.source_triangle];
+      if (triangle == kNone) return false;
+    }
+    const Index parent = columns_.parents[triangle - source_triangles()];
+    return parent != kNone && (parent & kSettled) != 0;
+  }
+  /// Says so of the newest triangle.
+  void settle_newest() { columns_.parents.back() |= kSettled; }
+
+  /// Links appended triangles into the lists of their origins' parts.
+  void link_new_parts() {
+    for (Index t = source_triangles() + static_cast<Index>(columns_.older_part.size());
+         t < surface().triangle_count(); ++t) {
+      const TriangleRef ref = surface().triangle(t);
+      std::vector<Index>& newest = newest_part_[ref.mesh];
+      const Index source_count = source_.meshes[ref.mesh].triangle_count();
+      if (ref.source_triangle >= newest.size())
+        newest.resize(std::max(source_count, ref.source_triangle + 1), kNone);
+      columns_.older_part.push_back(newest[ref.source_triangle]);
+      newest[ref.source_triangle] = t;
+    }
+  }
+  /// Takes the triangles from `first` on out of the lists; to be called before their rows are
+  /// removed.
+  void unlink_parts_from(Index first) {
+    for (std::size_t i = columns_.older_part.size(); source_triangles() + i > first; --i) {
+      const TriangleRef ref = surface().appended[i - 1];
+      newest_part_[ref.mesh][ref.source_triangle] = columns_.older_part[i - 1];
+    }
+  }
+  void fetch_newest_part(const TriangleRef& of) const {
+    if (of.triangle < newest_part_[of.mesh].size()) prefetch(&newest_part_[of.mesh][of.triangle]);
+  }
+
+ private:
+  static constexpr Index kSettled =
+      Index{1} << 31;  // in addition to a triangle's number, which is less than 2^30
+
+  [[nodiscard]] const Surface& surface() const { return columns_.surface; }
+  [[nodiscard]] Index source_triangles() const { return columns_.surface.first_triangle.back(); }
+
+  const Character& source_;
+  const Character& character_;
+  EditColumns& columns_;
+  std::vector<std::vector<Index>>
+      newest_part_;  ///< Per mesh: per origin, its triangle that was appended last.
+};
+
+}  // namespace sunder::tear
