@@ -8,9 +8,9 @@ namespace {
 
 double cross(const Vec2d& a, const Vec2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-/// The half-plane beside the line through a and b that holds `inside`. A line that has no
-/// direction, or that passes through `inside`, is replaced by the one across `fallback` through a:
-/// a blade that turns about its own end reaches what lies along it.
+/// The half-plane bounded by the line through a and b that holds `inside`. A line that has no
+/// direction, or that passes through `inside`, is replaced by the one through a at right angles to
+/// `fallback`: a blade that turns about its own end reaches the points along it.
 BladePlane::HalfPlane beside(const Vec2d& a, const Vec2d& b, const Vec2d& inside,
                              const Vec2d& fallback) {
   Vec2d normal{-(b - a).y(), (b - a).x()};
@@ -37,8 +37,9 @@ std::optional<BladePlane> BladePlane::through(const Vec3d& anchor, const Blade& 
   const double distance = across.norm();
   if (!(distance > 1e-9 * (blade.norm() + offset.norm()))) return std::nullopt;
   plane.across_ = across / distance;
-  plane.across_ -= plane.along_.dot(plane.across_) *
-                   plane.along_;  // again: near-parallel subtraction loses the right angle
+  plane.across_ -=
+      plane.along_.dot(plane.across_) *
+      plane.along_;  // a second time: subtracting nearly parallel vectors loses the right angle
   plane.across_ /= plane.across_.norm();
   plane.normal_ = plane.across_.cross(plane.along_);
 
@@ -100,12 +101,12 @@ Mat3d BladePlane::axes() const {
 double BladePlane::least_progress(const Box& box) const {
   // As in sweep_coordinates(), a point p is ahead of the blade at progress s where cross(p -
   // base(s), direction(s)) > 0, which is quadratic in s and linear in p. The least value over the
-  // box is the middle's less a radius that is convex in s: at most what lies linearly between its
-  // values at 0 and 1. As long as that difference is positive the whole box is ahead of the blade.
-  // What is ahead of the first blade and within reach of the second has exactly one progress in [0,
-  // 1], so that one is meant.
+  // box is the value at its middle minus a radius. The radius is convex in s, so it is at most the
+  // linear interpolation of its values at 0 and 1. While the difference is positive the whole box
+  // is ahead of the blade. A point that is ahead of the first blade and within reach of the second
+  // has exactly one progress in [0, 1], so that root is the one meant.
   constexpr double kUnknown = -std::numeric_limits<double>::infinity();
-  constexpr double kMargin = 1e-7;  // to what the roots may be off by
+  constexpr double kMargin = 1e-7;  // bound of the error of the roots
   const Vec3d half = box.half_size(), middle = box.middle();
   const Vec2d e = to_base_ - from_base_, d = from_tip_ - from_base_, g = (to_tip_ - to_base_) - d;
   const auto radius = [&](const Vec2d& direction) {

@@ -9,20 +9,20 @@
 
 namespace sunder::tear {
 
-/// Where a point lies in the sweep of a blade.
+/// Position of a point in the sweep of a blade.
 struct SweepCoordinates {
   double progress = 0;  ///< 0 under the first blade, 1 under the second.
   double depth = 0;     ///< 0 at the blade's base, 1 at its tip.
 };
 
-/// One segment of a stroke as a plane figure: the plane through the second blade and the point
-/// where the tear stands, and in it the quadrilateral that the blade sweeps. Plane coordinates: x
-/// across the second blade, zero on it and negative before it; y along it from its base.
+/// One segment of a stroke as a plane figure: the plane through the second blade and the tip of the
+/// tear, and in it the quadrilateral that the blade sweeps. Plane coordinates: x is across the
+/// second blade, zero on it and negative before it; y is along it from its base.
 class BladePlane {
  public:
-  /// @param anchor  where the segment starts: the tip of the tear, or where the first blade meets
-  /// the surface.
-  /// @return nothing where the anchor lies on the second blade: the blade did not move.
+  /// @param anchor  the start of the segment: the tip of the tear, or the point where the first
+  /// blade meets the surface.
+  /// @return nothing if the anchor lies on the second blade: the blade did not move.
   static std::optional<BladePlane> through(const Vec3d& anchor, const Blade& from, const Blade& to);
 
   /// Signed distance from the plane, metres.
@@ -31,7 +31,7 @@ class BladePlane {
     return {across_.dot(point - origin_), along_.dot(point - origin_)};
   }
   [[nodiscard]] SweepCoordinates sweep_coordinates(const Vec2d& point) const;
-  /// Their progress alone.
+  /// Only the progress of sweep_coordinates().
   [[nodiscard]] double progress(const Vec2d& point) const;
   [[nodiscard]] double progress(const Vec3d& point) const { return progress(project(point)); }
 
@@ -41,23 +41,24 @@ class BladePlane {
     double offset = 0;
     [[nodiscard]] double value(const Vec2d& point) const { return normal.dot(point) - offset; }
   };
-  /// What the blade reaches: below its base, above its tip, before the second blade.
+  /// The half-planes that bound the blade's reach: below its base, above its tip, before the second
+  /// blade.
   [[nodiscard]] const std::array<HalfPlane, 3>& reach() const { return reach_; }
-  /// What the blade sweeps from `progress` on.
+  /// The half-plane that the blade sweeps from `progress` on.
   [[nodiscard]] HalfPlane from_progress(double progress) const;
-  /// What it sweeps from the first blade on.
+  /// The half-plane that it sweeps from the first blade on.
   [[nodiscard]] const HalfPlane& not_before() const { return not_before_; }
 
   /// A point of the plane: the second blade's base.
   [[nodiscard]] const Vec3d& origin() const { return origin_; }
   /// Rows: along, across, normal.
   [[nodiscard]] Mat3d axes() const;
-  /// No point of a box, given along axes() from the origin, that lies in the plane and within reach
-  /// has less progress than this. Minus infinity where that is not known.
+  /// Lower bound of the progress of all points of a box that lie in the plane and within reach;
+  /// minus infinity where none is known. The box is given along axes() from the origin.
   [[nodiscard]] double least_progress(const Box& box) const;
 
-  /// Towards the left of the stroke, seen from where the blade comes; across the second blade,
-  /// forwards; along it, from base to tip.
+  /// Unit vectors. The normal points to the left of the stroke, seen from where the blade comes;
+  /// `across` points forwards across the second blade, `along` from its base to its tip.
   [[nodiscard]] const Vec3d& normal() const { return normal_; }
   [[nodiscard]] const Vec3d& across() const { return across_; }
   [[nodiscard]] const Vec3d& along() const { return along_; }
@@ -66,7 +67,7 @@ class BladePlane {
     const Vec3d normal = half_plane.normal.x() * across_ + half_plane.normal.y() * along_;
     return {normal, half_plane.offset + normal.dot(origin_)};
   }
-  /// What lies left of the plane moved by `distance` to its left.
+  /// The half-spaces on both sides of the plane after it is moved to its left by `distance`.
   [[nodiscard]] HalfSpace left_of(double distance) const {
     return {normal_, normal_.dot(origin_) + distance};
   }

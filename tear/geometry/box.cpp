@@ -3,11 +3,11 @@
 namespace sunder::tear {
 namespace {
 
-/// Nothing where a vector has no direction.
+/// The unit vector, or zero if the vector has no direction.
 Vec3d unit_or_zero(const Vec3d& vector) {
   const double largest = vector.cwiseAbs().maxCoeff();
   if (!(largest > 0) || !std::isfinite(largest)) return Vec3d::Zero();
-  const Vec3d scaled = vector / largest;  // else the square of its length may overflow
+  const Vec3d scaled = vector / largest;  // otherwise the square of its length may overflow
   return scaled / scaled.norm();
 }
 

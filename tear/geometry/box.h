@@ -7,30 +7,32 @@
 
 namespace sunder::tear {
 
-/// Coordinates in which a query looks at the posed surface: along its own axes, from a place near
-/// the surface, so that far from the model's origin nothing is lost in float.
+/// The coordinate frame of a query of the posed surface: with axes of its own and an origin near
+/// the surface, so that float coordinates stay precise far from the model's origin.
 struct Frame {
   Mat3d axes = Mat3d::Identity();  ///< Rows: orthogonal unit vectors.
   Vec3d origin = Vec3d::Zero();
 
   [[nodiscard]] Vec3d place_of(const Vec3d& point) const { return axes * (point - origin); }
-  /// What coordinates of the model are rounded by, besides those in the frame.
+  /// The largest coordinate of the origin: coordinates of the model are rounded in proportion to
+  /// it, in addition to those in the frame.
   [[nodiscard]] double reach() const { return origin.cwiseAbs().maxCoeff(); }
 };
 
-/// A box in a frame; infinite where nothing is known.
+/// A box in a frame; infinite where no bound is known.
 struct Box {
   Vec3d low = Vec3d::Zero(), high = Vec3d::Zero();
 
   [[nodiscard]] Vec3d middle() const { return 0.5 * (low + high); }
   [[nodiscard]] Vec3d half_size() const { return 0.5 * (high - low); }
-  /// Of all its points.
+  /// Over all points of the box.
   [[nodiscard]] double largest_coordinate() const {
     return std::max(low.cwiseAbs().maxCoeff(), high.cwiseAbs().maxCoeff());
   }
 
-  /// More than rounding can move a point that is computed from the box' corners and from
-  /// coordinates up to `reach`. That of a box inside another one is not greater.
+  /// Upper bound of the distance by which rounding can move a point that is computed from the box'
+  /// corners and from coordinates up to `reach`. The margin of a box inside another one is not
+  /// greater.
   [[nodiscard]] double margin(double reach) const {
     return 1e-9 * (high - low).maxCoeff() + 1e-12 * (largest_coordinate() + reach);
   }
@@ -40,19 +42,19 @@ struct Box {
   }
 };
 
-/// What a thing looks like along the first of some axes: where it lies on it, and where between
-/// three pairs of parallels across it, which are turned as the thing is. The shadow of a long thing
-/// that lies askew is much smaller than the box around it.
+/// The projection of an object along the first of some axes: its range on that axis, and across it
+/// three pairs of parallel lines, turned as the object is, that enclose it. The shadow of a long
+/// object that lies askew is much smaller than the box around it.
 struct Shadow {
-  double low = 0, high = 0;  ///< Along the first axis.
+  double low = 0, high = 0;  ///< Range on the first axis.
   std::array<Vec2d, 3> normal = {
       Vec2d::Zero(), Vec2d::Zero(),
-      Vec2d::Zero()};              ///< Of each pair of parallels, in the second and third axis.
-  std::array<double, 3> from, to;  ///< Where they are.
+      Vec2d::Zero()};              ///< Per pair of lines, on the second and third axis.
+  std::array<double, 3> from, to;  ///< Per pair of lines: their offsets along the normal.
 };
 
-/// Orthogonal unit vectors as rows: along `first`, then towards `second` as far as it goes another
-/// way.
+/// Orthogonal unit vectors as rows. The first is parallel to `first`; the second points towards
+/// `second` as far as that differs from `first`.
 [[nodiscard]] Mat3d axes_along(const Vec3d& first, const Vec3d& second = Vec3d::Zero());
 
 /// A half-space in a frame.
@@ -65,7 +67,7 @@ class FramedHalfSpace {
         magnitude_(std::abs(half_space.offset) +
                    half_space.normal.cwiseAbs().dot(frame.origin.cwiseAbs())) {}
 
-  /// Whether no point of a box can be found in it, whatever rounding does to either.
+  /// Whether the box is certainly outside the half-space, whatever rounding does to either.
   [[nodiscard]] bool is_beside(const Box& box) const {
     const Vec3d middle = box.middle(), half = box.half_size();
     const double greatest = inside_.value(middle) + steepness_.dot(half);
@@ -75,7 +77,7 @@ class FramedHalfSpace {
  private:
   HalfSpace inside_;
   Vec3d steepness_;
-  double magnitude_;  ///< Of what was added up, in the model.
+  double magnitude_;  ///< Sum of the magnitudes of the terms, in model space.
 };
 
 }  // namespace sunder::tear

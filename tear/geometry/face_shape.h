@@ -6,8 +6,8 @@
 
 namespace sunder::tear {
 
-/// A place or a direction in bind space. Plain numbers: they are asked for with each face that a
-/// tear crosses.
+/// A place or a direction in bind space. Plain numbers, because this runs for each face that a tear
+/// crosses.
 struct Place {
   double x = 0, y = 0, z = 0;
 };
@@ -20,7 +20,7 @@ inline Place way(const Place& from, const Place& to) {
 }
 inline double dot(const Place& a, const Place& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
-/// Of a triangle; its length is twice the area.
+/// Normal of a triangle; its length is twice the area.
 inline Place normal(const Place& a, const Place& b, const Place& c) {
   const Place u = way(a, b), v = way(a, c);
   return {u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x};
@@ -37,7 +37,8 @@ inline double shape_squared(const Place& a, const Place& b, const Place& c) {
   return shape_squared(a, b, c, normal(a, b, c));
 }
 
-/// Another diagonal has to be better by this part, so that rounding does not turn edges to and fro.
+/// The factor by which another diagonal has to be better, so that rounding does not flip edges to
+/// and fro.
 inline constexpr double kBetterShape = 1.0001;
 
 }  // namespace sunder::tear

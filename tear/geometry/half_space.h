@@ -13,11 +13,11 @@ struct HalfSpace {
   Vec3d normal = Vec3d::Zero();
   double offset = 0;
 
-  /// Metres where the normal is a unit vector.
+  /// Signed distance in metres if the normal is a unit vector.
   [[nodiscard]] double value(const Vec3d& point) const { return normal.dot(point) - offset; }
-  /// A function of the point alone, so that all faces agree about their common points. What
-  /// rounding cannot tell from the plane is inside: a blade that lies in a face passes beside it
-  /// and not through it.
+  /// Depends on the point alone, so that all faces agree about their common points. A point that
+  /// rounding cannot tell from the plane is inside: a blade that lies in a face passes it and does
+  /// not cut through it.
   [[nodiscard]] bool contains(const Vec3d& point) const {
     const double rounding = std::abs(normal.x() * point.x()) + std::abs(normal.y() * point.y()) +
                             std::abs(normal.z() * point.z()) + std::abs(offset);
@@ -25,10 +25,10 @@ struct HalfSpace {
   }
 };
 
-/// The part of a plane that lies inside some half-spaces: where it meets the surface, edges are to
-/// run.
+/// The part of a plane that lies inside some half-spaces. Edges are made where it meets the
+/// surface.
 struct Sheet {
-  /// A limit of the sheet; where that is another sheet of the same figure, the two meet in corners.
+  /// A limit of the sheet. If it is another sheet of the same figure, the two meet in corners.
   struct Bound {
     HalfSpace half_space;
     std::uint32_t sheet = kNone;
@@ -37,7 +37,7 @@ struct Sheet {
   std::vector<Bound> bounds;
 };
 
-/// A convex cell: the inside of all its half-spaces.
+/// A convex cell: the intersection of its half-spaces.
 using Cell = std::vector<HalfSpace>;
 
 }  // namespace sunder::tear

@@ -7,35 +7,36 @@
 
 namespace sunder::tear {
 
-/// Where a triangle of the surface stands in the character, and the source triangle that it is a
-/// part of.
+/// The place of a surface triangle in the character, and the origin that it is a part of: a
+/// triangle of the source or a filling.
 struct TriangleRef {
   Index mesh = 0;
-  Index triangle = 0;         ///< In the mesh as it is now.
-  Index source_triangle = 0;  ///< In the mesh as it was loaded.
+  Index triangle = 0;  ///< In the mesh as it is now.
+  Index source_triangle =
+      0;  ///< Origin: in the mesh as it was loaded, or beyond its triangles a filling.
 };
 
-/// Connectivity of a character's surface on points, all meshes together. Without what tears append
-/// it takes 24 bytes a triangle and 4 a point.
+/// Connectivity of a character's surface on points, all meshes together. The source takes 24 bytes
+/// per triangle and 4 per point.
 ///
 /// Triangle t has corners 3t, 3t+1, 3t+2. A corner also names the half-edge that leaves it, towards
 /// the next corner. Each point has one fan: its corners are reached from one another across edges.
-/// Where a surface touches itself in a point only, that is two points.
+/// Where a surface touches itself in a single point, there are two points.
 struct Surface {
-  std::vector<Index> corner_point;    ///< 3 a triangle.
-  std::vector<Index> twin;            ///< 3 a triangle: the opposite half-edge, kNone at a border.
-  std::vector<Index> first_triangle;  ///< Of each mesh' source triangles, mesh after mesh; at the
-                                      ///< end their number.
-  std::vector<TriangleRef> appended;  ///< The triangles after those.
-  std::vector<Index> point_corner;    ///< One corner of each point; kNone for a point that only
-                                      ///< degenerate triangles use.
+  std::vector<Index> corner_point;  ///< 3 per triangle.
+  std::vector<Index> twin;          ///< 3 per triangle: the opposite half-edge, kNone at a border.
+  std::vector<Index> first_triangle;  ///< Per mesh, the first of its source triangles; then the
+                                      ///< number of all source triangles.
+  std::vector<TriangleRef> appended;  ///< The triangles after those of the source.
+  std::vector<Index> point_corner;  ///< Per point, one of its corners; kNone for a point that only
+                                    ///< degenerate triangles use.
   std::vector<Index>
-      source_side;  ///< Value of _TEARSIDE of the source's points; none where all are 0.
-  std::vector<Index> appended_side;  ///< Of the points after those.
+      source_side;  ///< Per point of the source, its value of _TEARSIDE; empty if all are 0.
+  std::vector<Index> appended_side;  ///< Per point after those of the source.
   std::vector<std::vector<bool>>
-      is_shared_vertex;  ///< Of each mesh: source vertices that not one fan alone uses.
+      is_shared_vertex;  ///< Per mesh: which source vertices are used by more than one fan.
   Index non_manifold_edges =
-      0;  ///< At build: with more than two faces, or two that disagree in winding.
+      0;  ///< At build: edges with more than two faces, or with two that disagree in winding.
   Index non_manifold_half_edges = 0;  ///< At build: half-edges left unjoined for that reason.
 
   [[nodiscard]] Index triangle_count() const {
@@ -55,7 +56,7 @@ struct Surface {
              1;
     return {mesh, t - first_triangle[mesh], t - first_triangle[mesh]};
   }
-  /// Value of _TEARSIDE.
+  /// Value of _TEARSIDE of a point.
   [[nodiscard]] Index side(Index point) const {
     if (point >= source_point_count()) return appended_side[point - source_point_count()];
     return source_side.empty() ? 0 : source_side[point];
@@ -72,7 +73,7 @@ struct Surface {
   }
 
   /// The corner of a fan from which rotate_ccw() reaches all others: the clockwise end of an open
-  /// fan, any corner of a closed one.
+  /// fan, or `corner` itself in a closed one.
   [[nodiscard]] Index first_of_fan(Index corner) const {
     Index first = corner;
     for (Index c = rotate_cw(corner); c != kNone && c != corner; c = rotate_cw(c)) first = c;

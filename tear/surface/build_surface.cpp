@@ -33,7 +33,8 @@ class PointIdentity {
     std::uint64_t h = 0x9E3779B97F4A7C15u ^ of.skin;
     for (int i = 0; i < 3; ++i) {
       const float coordinate =
-          of.positions[vertex][i] + 0.0f;  // -0 + 0 = +0: the two compare equal and must hash so
+          of.positions[vertex][i] +
+          0.0f;  // -0 + 0 = +0: the two compare equal, so their hashes must agree
       h = (h ^ std::bit_cast<std::uint32_t>(coordinate)) * 0xFF51AFD7ED558CCDu;
       h ^= h >> 32;
     }
@@ -150,12 +151,12 @@ class HalfEdgeGroups {
   }
 
  private:
-  std::vector<Index> first_;  ///< Of each point, in half_edges_.
+  std::vector<Index> first_;  ///< Per point: its begin in half_edges_.
   std::vector<Index> half_edges_;
 };
 
-/// Vertices at both ends of a half-edge, to tell which of several faces at one edge were modelled
-/// as neighbours.
+/// The mesh and the vertices at both ends of a half-edge. They tell which of several faces at one
+/// edge were modelled as neighbours.
 std::array<Index, 3> edge_vertices(const Character& character, const Surface& surface, Index h,
                                    bool reversed) {
   const TriangleRef ref = surface.triangle(h / 3);

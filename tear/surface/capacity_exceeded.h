@@ -2,8 +2,8 @@
 
 namespace sunder::tear {
 
-/// Thrown where a model of fixed capacity has no room left for what an operation would append. The
-/// operation is taken back.
+/// Thrown if a model of fixed capacity has no room for what an operation would append. The
+/// operation is rolled back.
 struct CapacityExceeded {
   const char* what;
 };

@@ -7,7 +7,7 @@ namespace {
 
 struct MeshMaps {
   CompactMaps::OfMesh old_from_new;
-  std::vector<Index> vertex_new_from_old;  ///< kNone for those that go.
+  std::vector<Index> vertex_new_from_old;  ///< kNone for vertices that are removed.
 };
 
 MeshMaps find_kept(const Mesh& mesh) {
@@ -77,7 +77,7 @@ void apply(const MeshMaps& maps, Mesh& mesh) {
 }  // namespace
 
 CompactMaps compact(Character& character) {
-  // All maps first: they are all that allocates, so a character is never left half done.
+  // All maps first: nothing else allocates, so a character is never left half done.
   std::vector<MeshMaps> maps;
   CompactMaps result;
   maps.reserve(character.meshes.size());

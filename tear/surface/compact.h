@@ -4,9 +4,9 @@
 
 namespace sunder {
 
-/// Removes retired triangles and the vertices that no triangle uses. Numbers change; everything
-/// else is bit-identical.
-/// @return where each element came from. O(size of the character).
+/// Removes retired triangles and the vertices that no triangle uses. Indices change; everything
+/// else is bit-identical. O(size of the character).
+/// @return the old index of each element.
 CompactMaps compact(Character& character);
 
 }  // namespace sunder

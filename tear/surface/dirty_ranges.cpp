@@ -5,13 +5,13 @@
 namespace sunder {
 namespace {
 
-/// Between elements[after - 1] and elements[after].
+/// The gap between elements[after - 1] and elements[after].
 struct Gap {
   std::uint32_t width = 0;
   std::size_t after = 0;
 };
 
-/// The widest gaps, of equal ones the first; in order.
+/// Keeps the widest gaps in order; among equal ones the first.
 class WidestGaps {
  public:
   void offer(const Gap& gap) {

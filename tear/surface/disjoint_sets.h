@@ -9,7 +9,7 @@
 
 namespace sunder::tear {
 
-/// Sets of numbers that only ever unite.
+/// Union-find over the indices below a count.
 class DisjointSets {
  public:
   DisjointSets(Index count, std::pmr::memory_resource& memory) : parent_(count, &memory) {
@@ -19,7 +19,7 @@ class DisjointSets {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;
   }
-  /// The root of `into` stays a root. @return whether they were two sets.
+  /// The root of `into` stays a root. @return whether there were two sets.
   bool unite(Index into, Index from) {
     const Index a = find(into), b = find(from);
     parent_[b] = a;

@@ -6,30 +6,31 @@
 
 namespace sunder::tear {
 
-/// Smaller parts of a source triangle are not made: rounding of barycentric coordinates could turn
-/// them over.
+/// Smaller parts of an origin are not made: rounding of barycentric coordinates could turn them
+/// over.
 inline constexpr double kLeastPart = 1e-14;
 
-/// The part of a triangle that lies between three places in it, by their barycentric coordinates.
+/// The fraction of a triangle's area that lies between three places in it, given by barycentric
+/// coordinates.
 inline double covered_part(const std::array<double, 3>& p, const std::array<double, 3>& q,
                            const std::array<double, 3>& r) {
   return (q[1] - p[1]) * (r[2] - p[2]) - (q[2] - p[2]) * (r[1] - p[1]);
 }
 
-/// Of a triangle in bind space.
+/// Normal of a triangle in bind space.
 inline Place normal(const SurfaceEditor& editor, Index mesh, const Triangle& of) {
   return normal(place_of(editor.births.position(mesh, of[0])),
                 place_of(editor.births.position(mesh, of[1])),
                 place_of(editor.births.position(mesh, of[2])));
 }
 
-/// A face that is to be split: where its corners lie in its origin, and how it is turned.
+/// A face that is about to be split: the places of its corners in its origin, and its winding.
 class FaceSplit {
  public:
   /// A corner of the face or of a part of it.
   struct Corner {
     Index vertex = kNone;
-    std::array<double, 3> barycentric = {0, 0, 0};  ///< In the origin.
+    std::array<double, 3> barycentric = {0, 0, 0};  ///< Coordinates in the origin.
     Place at;
   };
 
@@ -73,7 +74,7 @@ class FaceSplit {
     return birth;
   }
 
-  /// The same on the side between two corners (0, 1, 2).
+  /// As birth_at() on the side between two corners (0, 1, 2).
   [[nodiscard]] Birth birth_between(Index from, Index to, double fraction) const {
     const double rest = 1 - fraction;
     const auto part = [&](std::size_t k) {
@@ -83,7 +84,7 @@ class FaceSplit {
     return is_whole_ ? Birth{ref_.source_triangle, barycentric} : birth_at(barycentric);
   }
 
-  /// Whether a part of the face is turned as the face is. @param after  its normal.
+  /// Whether a part of the face has the winding of the face. @param after  the normal of the part.
   [[nodiscard]] bool keeps_winding(const Corner& a, const Corner& b, const Corner& c,
                                    const Place& after) const {
     if (!(covered_part(a.barycentric, b.barycentric, c.barycentric) > kLeastPart)) return false;
@@ -95,11 +96,11 @@ class FaceSplit {
       return is_apart(a.at, b.at) && is_apart(a.at, c.at);
     }
     if (!(dot(after, normal_) > 1e-9 * normal_squared_)) return false;
-    // Normals of slivers are as crooked as stored positions are coarse: parts of parts must not end
-    // up facing away.
+    // Rounding of stored positions turns the normals of slivers: parts of parts must not end up
+    // facing away.
     return !has_origin_area_ || dot(after, normal_of_origin_) > 0;
   }
-  /// The same of the face with one of its corners (0, 1, 2) replaced.
+  /// The same for the face with one of its corners (0, 1, 2) replaced.
   [[nodiscard]] bool keeps_winding(Index replaced, const Corner& by) const {
     const Corner &b = corners_[(replaced + 1) % 3], &c = corners_[(replaced + 2) % 3];
     return keeps_winding(by, b, c, normal(by.at, b.at, c.at));

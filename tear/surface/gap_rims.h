@@ -14,10 +14,10 @@ struct RimPoint {
   bool is_left = false;
 };
 
-/// Sorts points by their sides: each once, on the side that was told last, and without those that
-/// have no face any more.
-/// @param points  in the order in which they were told; sorted. @param rims  written; does not
-/// allocate where it has room for all on either side.
+/// Sorts points by their sides: each once, on the side that was reported last. Points without a
+/// face are left out.
+/// @param points  in the order in which they were reported; sorted on return.
+/// @param rims  written; does not allocate if either side has room for all points.
 void settle_rims(std::vector<RimPoint>& points, const Surface& surface, Rims& rims);
 
 }  // namespace sunder::tear

@@ -9,7 +9,7 @@
 namespace sunder::tear {
 namespace {
 
-/// By how much turning an edge makes the worse of its two faces better; at most 1 where it does
+/// The factor by which flipping an edge improves the worse of its two faces; at most 1 if it does
 /// not.
 double gain(Index half_edge, const SurfaceEditor& editor) {
   const Surface& surface = editor.surface();
@@ -50,7 +50,7 @@ void improve_faces(const EditLog::Mark& since, SurfaceEditor& editor) {
     const Index twin = surface.twin[h];
     if (!flip_edge(h, editor)) continue;
     --turns_left;
-    // The diagonal is the better one now; what may gain is around it.
+    // The diagonal is the better one now; only the edges around it may gain.
     const Index diagonal = Surface::next(h);
     for (const Index face : {h / 3, twin / 3})
       for (Index side = 3 * face; side < 3 * face + 3; ++side)

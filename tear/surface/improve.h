@@ -6,10 +6,9 @@
 
 namespace sunder::tear {
 
-/// Turns edges within source triangles where that makes the worst of the two faces' shape better,
-/// until none does. The surface stays what it is, lips and borders too.
-/// @param faces  where to look first.
-/// O(faces + edges turned).
+/// Flips edges between parts of one origin where that improves the shape of the worse of the two
+/// faces, until no flip does. The surface stays what it is, and so do lips and borders.
+/// @param since  faces that changed since are looked at first. O(faces + edges flipped).
 void improve_faces(const EditLog::Mark& since, SurfaceEditor& editor);
 
 }  // namespace sunder::tear

@@ -25,7 +25,7 @@ Index LineSplitter::begin(Index half_edge, double fraction) {
   return made.point;
 }
 
-/// A part of a face that is to be split.
+/// A part of a face that is about to be split.
 struct LineSplitter::Part {
   Part(const FaceSplit::Corner& a_, const FaceSplit::Corner& b_, const FaceSplit::Corner& c_)
       : a(a_), b(b_), c(c_), normal(tear::normal(a.at, b.at, c.at)) {}

@@ -7,28 +7,28 @@
 
 namespace sunder::tear {
 
-/// A line that is cut across the surface from face to face, on which a point is made wherever it
-/// meets an edge. Between begin() and end() the face ahead stands as it was and does not know what
-/// is behind it: nobody else may change the surface.
+/// Splits faces one after the other along a line across the surface, with a new point wherever it
+/// meets an edge. Between begin() and end() the face ahead is still whole and not joined to the
+/// faces behind it, so nothing else may change the surface.
 class LineSplitter {
  public:
   explicit LineSplitter(SurfaceEditor& editor) : editor_(editor) {}
 
   /// Puts a point on an edge, `fraction` of the way along the half-edge, and splits the half-edge's
   /// face in two.
-  /// @return the point; kNone where that face or the one ahead would lose its area or turn over,
-  /// and nothing was changed.
+  /// @return the point; kNone if that face or the one ahead would lose its area or turn over, and
+  /// nothing was changed.
   [[nodiscard]] Index begin(Index half_edge, double fraction);
-  /// Puts a point on another edge of the face ahead, and splits that face in three: the diagonal
-  /// that makes the better faces is theirs. @return as begin().
+  /// Puts a point on another edge of the face ahead, and splits that face in three, along the
+  /// diagonal that makes the better faces. @return as begin().
   [[nodiscard]] Index go_on(Index half_edge, double fraction);
-  /// Splits the face ahead in two. To be called after everything.
+  /// Splits the face ahead in two. Must be called last.
   void end();
 
   /// The half-edge by which the face ahead is entered; kNone at a border.
   [[nodiscard]] Index ahead() const { return points_[newest_].ahead; }
-  /// From the point before the newest one, or the corner opposite of the first edge, to the newest
-  /// one.
+  /// The half-edge to the newest point from the one before it, or from the corner opposite the
+  /// first edge.
   [[nodiscard]] Index half_edge() const { return half_edge_; }
 
  private:
@@ -36,13 +36,13 @@ class LineSplitter {
   struct EdgeParts {
     Index to_point = kNone, from_point = kNone;
   };
-  /// A point that is made on an edge, as the faces at both sides of it know it.
+  /// A point on an edge, with what it is in the faces on both sides.
   struct NewPoint {
     Index mesh = 0;
     FaceSplit::Corner of_behind, of_ahead;
     Index ahead = kNone;  ///< Half-edge of the face ahead; kNone at a border.
     std::optional<FaceSplit> face_ahead;
-    bool is_sound = true;  ///< The face ahead can be split in two there.
+    bool is_sound = true;  ///< Whether the face ahead can be split in two there.
     Index point = kNone;
 
     [[nodiscard]] bool is_two_vertices() const {
@@ -64,7 +64,7 @@ class LineSplitter {
     Index along;  ///< The half-edge from p to q.
   };
 
-  /// For a point and its vertices, some triangles, and those that end() makes.
+  /// Makes room for a point and its vertices, for `triangles`, and for those that end() makes.
   void make_room(const FaceSplit& behind, Index half_edge, Index triangles);
   void append_vertices(const FaceSplit& behind, Index half_edge, double fraction, NewPoint& made);
   void remove_vertices(const NewPoint& made);
@@ -81,9 +81,9 @@ class LineSplitter {
 
   SurfaceEditor& editor_;
   std::array<NewPoint, 2>
-      points_;  ///< The newest one, and the one before it or that is being made.
+      points_;  ///< The newest point, and the one before it or that is being made.
   std::size_t newest_ = 0;
-  EdgeParts behind_;  ///< Of the edge with the newest point.
+  EdgeParts behind_;  ///< The parts of the edge with the newest point.
   Index half_edge_ = kNone;
 };
 

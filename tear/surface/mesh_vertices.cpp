@@ -72,7 +72,7 @@ void append_mean_weights(const Corners& corners, SkinWeights& weights) {
   weights.first.push_back(static_cast<std::uint32_t>(weights.influences.size()));
 }
 
-/// Calls `visit(array, floats or entries a vertex)` for each per-vertex array but the weights.
+/// Calls visit(array, entries per vertex) for each per-vertex array but the weights.
 template <class AnyMesh, class Visit>
 void for_each_array(AnyMesh& mesh, Visit visit) {
   visit(mesh.positions, 1u);
@@ -88,7 +88,8 @@ void for_each_array(AnyMesh& mesh, Visit visit) {
   }
 }
 
-/// The same for the arrays of two meshes that have the same attributes.
+/// Calls visit(from, to, entries per vertex) for the arrays of two meshes that have the same
+/// attributes.
 template <class Visit>
 void for_each_array_pair(const Mesh& from, Mesh& to, Visit visit) {
   visit(from.positions, to.positions, 1u);
@@ -134,7 +135,7 @@ std::size_t mean_influences(const std::array<std::span<const Influence>, 3>& of_
   const auto comes_before = [](const Influence& a, const Influence& b) {
     return a.weight != b.weight ? a.weight > b.weight : a.slot < b.slot;
   };
-  for (Influence* i = begin; i != end; ++i) {  // a few, and nearly in order
+  for (Influence* i = begin; i != end; ++i) {  // insertion sort: a few entries, and nearly in order
     const Influence influence = *i;
     Influence* place = i;
     for (; place != begin && comes_before(influence, *(place - 1)); --place) *place = *(place - 1);

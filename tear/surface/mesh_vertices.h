@@ -9,17 +9,17 @@
 namespace sunder {
 
 /// The barycentric mean of three corners' influences, normalised, largest first.
-/// @param mean  written; room for the influences of all three.
-/// @return how many they are.
+/// @param mean  written; has room for the influences of all three.
+/// @return the number of influences.
 SUNDER_API std::size_t mean_influences(const std::array<std::span<const Influence>, 3>& of_corners,
                                        const std::array<double, 3>& barycentric, Influence* mean);
 
-/// Appends the vertex that lies at `barycentric` between three vertices of the mesh: position,
-/// normal, tangent, texture coordinates, colours, custom attributes, morph deltas linear in the
-/// coordinates (directions renormalised, labels from the nearest corner); the weights are the
-/// barycentric mean, all influences kept, normalised, largest first.
+/// Appends the vertex at `barycentric` between three vertices of the mesh. Position, normal,
+/// tangent, texture coordinates, colours, custom attributes and morph deltas are linear in the
+/// coordinates; directions are renormalised, labels come from the nearest corner. Weights are
+/// mean_influences().
 ///
-/// @return the new vertex' index. O(attributes + influences); allocates only where an array of
+/// @return the index of the new vertex. O(attributes + influences); allocates only if an array of
 /// `mesh` has to grow.
 SUNDER_API std::uint32_t append_interpolated_vertex(const Triangle& corners,
                                                     const std::array<double, 3>& barycentric,
@@ -29,16 +29,17 @@ SUNDER_API std::uint32_t append_interpolated_vertex(const Triangle& corners,
 SUNDER_API std::uint32_t append_vertex_copy(std::uint32_t vertex, Mesh& mesh);
 
 /// Gives `vertex`, the newest of `mesh`, the position, morph displacements and weights of vertex
-/// `like` of `like_mesh`, bit for bit: the two are duplicates of one surface point. Both meshes
-/// have the same skin.
+/// `like` of `like_mesh`, bit for bit, because the two are duplicates of one surface point. Both
+/// meshes have the same skin.
 SUNDER_API void copy_surface_point(const Mesh& like_mesh, std::uint32_t like, std::uint32_t vertex,
                                    Mesh& mesh);
 
-/// How many vertices can be appended without an array of `mesh` growing, but for that of the
-/// influences.
+/// The number of vertices that can be appended before an array of `mesh`, other than the
+/// influences, has to grow.
 [[nodiscard]] SUNDER_API std::size_t room_for_vertices(const Mesh& mesh);
 
-/// Gives all arrays room for that many more vertices, with that many more influences.
+/// Gives all arrays room for `vertex_count` more vertices with `influence_count` more influences in
+/// all.
 SUNDER_API void reserve_vertices(std::size_t vertex_count, std::size_t influence_count, Mesh& mesh);
 
 /// Removes the newest vertices, down to `vertex_count`.

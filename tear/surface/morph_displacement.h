@@ -6,7 +6,7 @@
 
 namespace sunder::tear {
 
-/// What a mesh's morph targets displace a vertex by, in bind space.
+/// The displacement of a vertex by the morph targets of its mesh, in bind space.
 /// @param morph_weights  all weights of the pose.
 inline Vec3d morph_displacement(const Mesh& mesh, std::uint32_t vertex,
                                 std::span<const float> morph_weights) {

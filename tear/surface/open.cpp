@@ -8,7 +8,7 @@
 namespace sunder::tear {
 namespace {
 
-/// Corners that the edges have at their points, in the faces right and left of them.
+/// The corners at the end points of the edges, in the faces right and left of them.
 class CornersAtPoints {
  public:
   CornersAtPoints(std::size_t edge_count, ScratchMemory& scratch)
@@ -17,14 +17,14 @@ class CornersAtPoints {
     mentions_.reserve(4 * edge_count);
   }
 
-  /// @param joint  its place on the path.
+  /// @param joint  the position of the point on the path.
   void add(Index point, std::size_t joint, Index right, Index left) {
     mention(point, joint, 0, right);
     mention(point, joint, kLeft, left);
   }
 
-  /// Calls visit(point, its first joint, its corners) by ascending points. Corners right of the
-  /// edges come first, then those left of them.
+  /// Calls visit(point, first joint, corners) by ascending points. Corners right of the edges come
+  /// first, then those left of them.
   template <class Visit>
   void for_each_point(Visit visit) {
     std::sort(mentions_.begin(), mentions_.end());
@@ -56,10 +56,10 @@ class CornersAtPoints {
   }
 
   ScratchVector<Mention> corners_;
-  ScratchVector<std::uint64_t> mentions_;  ///< Point, side, and place in corners_, as one number.
+  ScratchVector<std::uint64_t> mentions_;  ///< Point, side and index in corners_, as one number.
 };
 
-/// The fans that hold some corners of a point, each from its clockwise end.
+/// The fans that hold given corners of a point, each from its clockwise end.
 class FansAtPoint {
  public:
   FansAtPoint(const Surface& surface, ScratchMemory& scratch)
@@ -99,12 +99,12 @@ class FansAtPoint {
   ScratchVector<Index> corners_, begins_, others_;
 };
 
-/// Half-edges of an edge.
+/// The half-edges of an edge.
 struct Side {
   Index left = kNone, right = kNone;
 };
 
-/// Lips, and the edge that begins between them: they are told in the order of the edges.
+/// Lips, and the edge that begins between them: lips are reported in the order of the edges.
 struct OpenedJoint {
   Index joint;
   LipPair lips;
@@ -122,7 +122,7 @@ void open_edges(std::span<const PointEdge> edges, std::span<const Index> half_ed
                           surface.corner_point[Surface::next(known)] == to;
     return is_right ? known : surface.find_half_edge(from, to);
   };
-  // Found before anything is cut: afterwards the two sides do not know one another.
+  // Found before anything is cut: afterwards neither side leads to the other.
   ScratchVector<Side> sides(&editor.scratch());
   sides.reserve(edges.size());
   for (std::size_t i = 0; i < edges.size(); ++i) {
@@ -133,7 +133,7 @@ void open_edges(std::span<const PointEdge> edges, std::span<const Index> half_ed
   for (const Side& side : sides)
     if (side.left != kNone && side.right != kNone) cut_edge(side.left, editor);
 
-  // Where a path goes through a point within the surface, two fans are left, each from one of its
+  // Where a path goes through a point within the surface, two fans remain, each from one of its
   // edges to the other.
   ScratchVector<OpenedJoint> opened(&editor.scratch());
   opened.reserve(edges.size() + 1);

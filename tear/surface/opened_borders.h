@@ -7,7 +7,7 @@
 
 namespace sunder::tear {
 
-/// What is told of the borders that a call or an operation opened.
+/// The borders that a call or an operation opened, as change records report them.
 struct OpenedBorders {
   std::vector<LipPair> lips;
   std::vector<RimPoint> rim_points;  ///< In the order in which cells were removed.
@@ -18,7 +18,7 @@ struct OpenedBorders {
   }
 };
 
-/// Lets `values` hold `size` without growing.
+/// Reserves memory for `size` values, at least doubling it.
 template <class T>
 void make_room_to_hold(std::size_t size, std::vector<T>& values) {
   if (size > values.capacity()) values.reserve(std::max(size, 2 * values.capacity()));

@@ -25,7 +25,7 @@ std::vector<Rim> chain_rims(const std::vector<Index>& half_edges, const Surface&
     rim.is_closed = point == surface.corner_point[rim.half_edges.front()];
     rims.push_back(std::move(rim));
   };
-  for (const Index h : half_edges)  // what begins somewhere, then what is closed
+  for (const Index h : half_edges)  // open chains first, then closed ones
     if (!is_entered[surface.corner_point[h]] && leaving.count(surface.corner_point[h]) != 0)
       follow(surface.corner_point[h]);
   for (const Index h : half_edges)

@@ -6,15 +6,15 @@
 
 namespace sunder::tear {
 
-/// Border half-edges in the order in which one follows another.
+/// A chain of border half-edges.
 struct Rim {
   std::vector<Index> half_edges;
   bool is_closed = false;
 };
 
-/// Chains border half-edges into rims, in the order of their first ones. Each is followed, among
-/// those given, by the one that leaves the point where it ends: a point has one fan, so there is
-/// one at most.
+/// Chains border half-edges into rims, in the order of their first half-edges. Each half-edge is
+/// followed by the given one that leaves the point where it ends; there is at most one, because a
+/// point has one fan.
 [[nodiscard]] std::vector<Rim> chain_rims(const std::vector<Index>& half_edges,
                                           const Surface& surface);
 

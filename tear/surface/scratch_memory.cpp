@@ -15,13 +15,13 @@ constexpr std::size_t kLeastBlock = 64 * 1024;
 void ScratchMemory::reset() {
   used_ = 0;
   if (blocks_.size() < 2) return;
-  // One block in the place of several, so that the same again finds room in one.
+  // Replaces several blocks by one, so that the same operation finds room in it next time.
   std::size_t total = 0;
   for (const Block& block : blocks_) total += block.size;
   blocks_.clear();
   try {
     add_block(total);
-  } catch (const std::bad_alloc&) {  // it will be asked for again
+  } catch (const std::bad_alloc&) {  // the memory is allocated when it is needed
   }
 }
 
@@ -48,7 +48,7 @@ void* ScratchMemory::do_allocate(std::size_t bytes, std::size_t alignment) {
 }
 
 void ScratchMemory::do_deallocate(void* memory, std::size_t bytes, std::size_t) {
-  // What was handed out last can be taken back.
+  // Only the memory that was handed out last can be reused.
   if (!blocks_.empty() &&
       static_cast<std::byte*>(memory) + bytes == blocks_.back().bytes.get() + used_)
     used_ -= bytes;

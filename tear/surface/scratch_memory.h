@@ -7,15 +7,15 @@
 
 namespace sunder::tear {
 
-/// Memory for what lives no longer than one operation. It is handed out from one block, forgotten
-/// all at once, and kept: an operation like one before it allocates nothing.
+/// Memory for data that lives no longer than one operation. It is handed out from one block,
+/// released all at once, and kept: an operation like one before it allocates nothing.
 class ScratchMemory final : public std::pmr::memory_resource {
  public:
-  /// From here on there are `bytes` and no more: beyond them CapacityExceeded is thrown. Else the
+  /// Limits the memory to `bytes`; beyond them CapacityExceeded is thrown. Without a limit the
   /// memory grows.
   void fix(std::size_t bytes);
 
-  /// Forgets all that was handed out.
+  /// Releases all that was handed out.
   void reset();
 
  private:
@@ -31,8 +31,8 @@ class ScratchMemory final : public std::pmr::memory_resource {
     return this == &other;
   }
 
-  std::vector<Block> blocks_;  ///< Memory is taken from the last.
-  std::size_t used_ = 0;       ///< Of the last.
+  std::vector<Block> blocks_;  ///< Memory is taken from the last block.
+  std::size_t used_ = 0;       ///< Bytes of the last block.
   bool is_fixed_ = false;
 };
 

@@ -52,7 +52,8 @@ Index count_boundary_loops(const Surface& surface) {
   return loops;
 }
 
-/// Thinner than double arithmetic on float coordinates can tell from nothing.
+/// Whether a triangle is so thin that double arithmetic on float coordinates cannot tell it from
+/// one without area.
 bool has_no_area(const Mesh& mesh, const Triangle& triangle) {
   const Eigen::Vector3d a = mesh.positions[triangle[0]].cast<double>();
   const Eigen::Vector3d ab = mesh.positions[triangle[1]].cast<double>() - a,

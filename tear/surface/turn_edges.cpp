@@ -10,13 +10,13 @@
 namespace sunder::tear {
 namespace {
 
-/// Coordinates in the source triangle.
+/// Coordinates in the origin.
 Vec2d place(Index corner, const SurfaceEditor& editor) {
   const auto barycentric = editor.source_barycentric(corner);
   return {barycentric[1], barycentric[2]};
 }
 
-/// The corner of a point in a source triangle.
+/// The corner of a point in an origin.
 Index corner_in(const TriangleRef& origin, Index point, const SurfaceEditor& editor) {
   Index found = kNone;
   const Surface& surface = editor.surface();
@@ -27,13 +27,13 @@ Index corner_in(const TriangleRef& origin, Index point, const SurfaceEditor& edi
   return found;
 }
 
-/// The edges between the faces that a line crosses, from face to face.
+/// Finds the edges that a line crosses, from face to face.
 class CrossedEdges {
  public:
   CrossedEdges(Index from, Index to, const TriangleRef& origin, const SurfaceEditor& editor)
       : editor_(editor), surface_(editor.surface()), from_(from), to_(to), origin_(origin) {}
 
-  /// @return false where the line leaves the source triangle, or meets a point.
+  /// @return false if the line leaves the origin or meets a point.
   bool find(std::pmr::deque<std::array<Index, 2>>& edges) {
     const Index at_from = corner_in(origin_, from_, editor_),
                 at_to = corner_in(origin_, to_, editor_);
@@ -88,7 +88,7 @@ bool turn_edges_into_line(Index from, Index to, Index face, SurfaceEditor& edito
   CrossedEdges line(from, to, surface.triangle(face), editor);
   std::pmr::deque<std::array<Index, 2>> edges(&editor.scratch());
   if (!line.find(edges)) return false;
-  // Sloan 1993: an edge that cannot be turned yet waits until its neighbours are.
+  // Sloan 1993: an edge that cannot be flipped yet waits until its neighbours are flipped.
   for (std::size_t turns_left = edges.size() * edges.size() + 4; !edges.empty() && turns_left > 0;
        --turns_left) {
     const std::array<Index, 2> edge = edges.front();
