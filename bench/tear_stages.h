@@ -22,7 +22,7 @@ struct Stages {
   }
 };
 
-/// A tear in slow motion: the steps that StrokeTearing takes, on a surface of its own, each timed
+/// A tear in slow motion: the steps that a stroke takes, on a surface of its own, each timed
 /// and all taken back.
 class StagedTear {
  public:

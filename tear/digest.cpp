@@ -5,7 +5,8 @@
 namespace sunder {
 namespace {
 
-/// FNV-1a over 32-bit words: Fowler, Noll, Vo. Words, not bytes, so that it does not depend on their order in memory.
+/// FNV-1a over 32-bit words: Fowler, Noll, Vo. Words, not bytes, so that it does not depend on
+/// their order in memory.
 class Digest {
  public:
   void add(std::uint32_t word) { value_ = (value_ ^ word) * 0x100000001B3u; }
@@ -58,7 +59,8 @@ std::uint64_t TornModel::digest() const {
     }
     digest.add(mesh.triangles);
     digest.add(mesh.triangle_submesh);
-    for (std::uint32_t vertex = source().meshes[m].vertex_count(); vertex < mesh.vertex_count(); ++vertex) {
+    for (std::uint32_t vertex = source().meshes[m].vertex_count(); vertex < mesh.vertex_count();
+         ++vertex) {
       const Birth born = birth(m, vertex);
       digest.add(born.triangle);
       for (const double coordinate : born.barycentric) digest.add(coordinate);

@@ -16,8 +16,7 @@ TornModel::State::State(std::shared_ptr<const Character> from, const TornCapacit
   pose.model_from_bone.resize(character.skeleton.bones.size());
   pose.morph_weights.resize(character.rest_morph_weights.size());
   posed.cover(editor.surface().point_count() + capacity.vertices);
-  for (auto* lips : {&borders_of_call_.lips, &borders_.lips, &tearing.borders.lips})
-    lips->reserve(capacity.vertices);
+  for (auto* lips : {&borders_of_call_.lips, &borders_.lips}) lips->reserve(capacity.vertices);
   history.limit_to(capacity.operations, capacity.vertices, pose);
 }
 
@@ -53,15 +52,17 @@ void TornModel::State::begin_call() {
   begin_of_call_ = editor.mark();
 }
 
-void TornModel::State::end_call(Call& call, const WeightOptions& of_points, ChangeRecord* change,
-                                bool is_cut) {
-  tear::assign_new_weights(begin_of_call_, of_points, posed.pose(), editor, call.report.weights);
-  count(begin_of_call_, is_cut, call.report);
-  if (change != nullptr) {
-    tear::describe_change(begin_of_call_, editor, *change);
-    change->lips = borders_of_call_.lips;
-    tear::settle_rims(borders_of_call_.rim_points, editor.surface(), change->rims);
-  }
+WeightReport TornModel::State::weigh_points_since(const tear::EditLog::Mark& begin,
+                                                  const WeightOptions& options) {
+  WeightReport report;
+  tear::assign_new_weights(begin, options, posed.pose(), editor, report);
+  return report;
+}
+
+void TornModel::State::describe_call(ChangeRecord& change) {
+  tear::describe_change(begin_of_call_, editor, change);
+  change.lips = borders_of_call_.lips;
+  tear::settle_rims(borders_of_call_.rim_points, editor.surface(), change.rims);
 }
 
 /// Lets keep_borders() and record() add what the call opened to what the operation did.
@@ -84,8 +85,8 @@ void TornModel::State::take_back() {
   posed.forget_from(begin_of_call_.points);
 }
 
-void TornModel::State::count(const tear::EditLog::Mark& begin, bool is_cut,
-                             TearReport& report) {
+void TornModel::State::count_changes_since(const tear::EditLog::Mark& begin,
+                                           TearReport& report) const {
   report.points_added = editor.surface().point_count() - begin.points;
   report.triangles_added = editor.surface().triangle_count() - begin.triangles;
   report.vertices_added = editor.log.vertices_since(begin);
@@ -93,8 +94,12 @@ void TornModel::State::count(const tear::EditLog::Mark& begin, bool is_cut,
   editor.log.for_each_changed(begin, [&](std::uint32_t triangle) {
     report.triangles_retired += editor.surface().corner_point[3 * triangle] == kNone ? 1 : 0;
   });
-  report.pieces = is_cut ? tear::find_all_pieces(begin, editor, posed)
-                         : tear::find_pieces(begin, editor, posed);
+}
+
+std::vector<TornPiece> TornModel::State::find_pieces_since(const tear::EditLog::Mark& begin,
+                                                           bool names_all) {
+  return names_all ? tear::find_all_pieces(begin, editor, posed)
+                   : tear::find_pieces(begin, editor, posed);
 }
 
 void TornModel::State::record(const tear::EditLog::Mark& begin) {
@@ -121,6 +126,18 @@ Status validate_turn(const Blade& before, const Blade& blade, std::uint32_t inde
                          "blade %u is turned by 90 degrees or more against the one before it: "
                          "sample the stroke more finely",
                          index);
+}
+
+Status validate_stroke(std::span<const Blade> stroke) {
+  if (stroke.size() < 2)
+    return Status::failure(StatusCode::invalid_argument, kNone,
+                           "a stroke needs at least two blades, this one has %zu", stroke.size());
+  for (std::uint32_t i = 0; i < stroke.size(); ++i) {
+    if (Status status = validate_blade(stroke[i], i); !status) return status;
+    if (i == 0) continue;
+    if (Status status = validate_turn(stroke[i - 1], stroke[i], i); !status) return status;
+  }
+  return {};
 }
 
 Status validate_weights(const WeightOptions& options) {

@@ -6,7 +6,8 @@
 #include <new>
 
 #include "tear/history.h"
-#include "tear/operation/stroke_tearing.h"
+#include "tear/operation/ongoing_stroke.h"
+#include "tear/operation/outcome.h"
 #include "tear/posed/workpiece.h"
 #include "tear/surface/capacity_exceeded.h"
 #include "tear/surface/surface_editor.h"
@@ -19,30 +20,35 @@ namespace sunder {
 struct TornModel::State {
   State(std::shared_ptr<const Character> from, const TornCapacity& of);
 
-  /// What one call of an operation did.
-  struct Call {
-    TearReport report;
-    tear::OpenedBorders& borders;
+  /// How one call of an operation is made and reported.
+  struct CallOptions {
+    const WeightOptions& weights;    ///< Weights of the points that the call creates.
+    ChangeRecord* change = nullptr;  ///< Written where given.
+    bool names_all_pieces =
+        false;  ///< A cut reports every piece, other operations those that came free.
   };
-  /// Runs `work(Call&) -> Status` and describes what it did; where memory or capacity runs out
-  /// takes everything back. Points keep the places where they were found until the pose is set
-  /// anew.
-  /// @param of_points  the weights that the points get which it made.
-  /// @param is_cut  all pieces are reported, if there are several.
+
+  /// One call of an operation. `work(Outcome&) -> Status` changes the surface (places, imprints,
+  /// opens, retires, fills); then new points are weighed, changes counted, pieces found, and the
+  /// change record written. If anything fails, everything is taken back. Points keep the places at
+  /// which they were found until the pose is set anew.
   /// @param conclude  conclude(report): may throw as the rest may; nothing fails after it.
   template <class Work, class Conclude>
-  Result<TearReport> call(Work work, const WeightOptions& of_points, ChangeRecord* change,
-                          bool is_cut, Conclude conclude) {
+  Result<TearReport> call(const CallOptions& options, Work work, Conclude conclude) {
     begin_call();
-    Call call{{}, borders_of_call_};
+    tear::Outcome outcome{{}, borders_of_call_};
+    TearReport& report = outcome.report;
     try {
-      if (Status status = work(call); !status) {
+      if (Status status = work(outcome); !status) {
         take_back();
         return status;
       }
-      end_call(call, of_points, change, is_cut);
+      report.weights = weigh_points_since(begin_of_call_, options.weights);
+      count_changes_since(begin_of_call_, report);
+      report.pieces = find_pieces_since(begin_of_call_, options.names_all_pieces);
+      if (options.change != nullptr) describe_call(*options.change);
       make_room_for_borders();
-      conclude(call.report);
+      conclude(report);
       keep_borders();
     } catch (const tear::CapacityExceeded& exceeded) {
       take_back();
@@ -51,11 +57,46 @@ struct TornModel::State {
       take_back();
       return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
     }
-    return std::move(call.report);
+    return std::move(report);
   }
 
-  /// Fills in what was added and retired since `begin`, and what came free.
-  void count(const tear::EditLog::Mark& begin, bool is_cut, TearReport& report);
+  /// How an operation that is one call is made.
+  struct OperationOptions {
+    const ModelPose& pose;
+    const WeightOptions& weights;
+    ChangeRecord* change = nullptr;
+    bool keeps_opened = false;  ///< Whether it asks which borders it opened.
+    bool names_all_pieces = false;
+  };
+
+  /// An operation that is one call, as a transaction: enters the pose, writes the history's next
+  /// entry, does the work, and records the entry. A failure leaves the model as it was.
+  /// @param write_entry  write_entry(Operation&): everything but the pose.
+  /// @param work         work(Outcome&).
+  template <class Operation, class WriteEntry, class Work>
+  Result<TearReport> perform(const OperationOptions& options, WriteEntry write_entry, Work work) {
+    if (Status status = stand_in(options.pose); !status) return status;
+    const tear::EditLog::Mark begin = begin_operation(options.keeps_opened);
+    const auto write_and_work = [&](tear::Outcome& outcome) -> Status {
+      auto& entry = history.next().as<Operation>();
+      tear::assign_pose(options.pose, entry.pose);
+      write_entry(entry);
+      work(outcome);
+      return {};
+    };
+    auto report = call({options.weights, options.change, options.names_all_pieces}, write_and_work,
+                       [](const TearReport&) {});
+    if (report) record(begin);
+    return report;
+  }
+
+  /// Gives the points that were made since `begin` their weights.
+  [[nodiscard]] WeightReport weigh_points_since(const tear::EditLog::Mark& begin,
+                                                const WeightOptions& options);
+  /// Fills in what was added and retired since `begin`.
+  void count_changes_since(const tear::EditLog::Mark& begin, TearReport& report) const;
+  [[nodiscard]] std::vector<TornPiece> find_pieces_since(const tear::EditLog::Mark& begin,
+                                                         bool names_all);
 
   /// Where the operation that begins now begins.
   /// @param keeps_opened  it will ask which borders it opened.
@@ -95,24 +136,18 @@ struct TornModel::State {
   tear::PosedPoints posed;
   ModelPose pose;  ///< Of `posed`.
   bool has_stroke = false;
-  tear::StrokeTearing tearing;  ///< The stroke under way, or the last one.
+  tear::OngoingStroke stroke;  ///< The stroke under way, or the last one.
   tear::History history;
   std::vector<std::weak_ptr<tear::RefitTask>> refits;  ///< That were submitted.
   /// Of the source in the rest pose: the first time it is asked for, O(vertices). May be asked for
   /// by several threads.
   [[nodiscard]] double rest_diagonal() const;
 
-  template <class Work>
-  Result<TearReport> call(Work work, const WeightOptions& of_points, ChangeRecord* change,
-                          bool is_cut = false) {
-    return call(work, of_points, change, is_cut, [](const TearReport&) {});
-  }
-
  private:
   void begin_call();
   void make_room_for_borders();
   void keep_borders();
-  void end_call(Call& call, const WeightOptions& of_points, ChangeRecord* change, bool is_cut);
+  void describe_call(ChangeRecord& change);
   void take_back();
 
   tear::EditLog::Mark begin_of_call_;
@@ -125,6 +160,7 @@ struct TornModel::State {
 /// What of a stroke can be said before the surface is looked at.
 [[nodiscard]] Status validate_blade(const Blade& blade, std::uint32_t index);
 [[nodiscard]] Status validate_turn(const Blade& before, const Blade& blade, std::uint32_t index);
+[[nodiscard]] Status validate_stroke(std::span<const Blade> stroke);
 [[nodiscard]] Status validate_options(const TearOptions& options);
 [[nodiscard]] Status validate_weights(const WeightOptions& options);
 /// How an operation is recorded: without what a model does that was told nothing.

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "tear/model_state.h"
+#include "tear/operation/ongoing_stroke.h"
 #include "tear/surface/describe_change.h"
-#include "tear/operation/stroke_tearing.h"
 
 namespace sunder {
 namespace {
@@ -66,7 +66,7 @@ struct TearStroke::State {
   Index first_in_pose =
       0;  ///< Points from here on were made in the pose in which the model stands.
   // The state that a failing call goes back to.
-  tear::StrokeTearing tearing_before = {};
+  tear::OngoingStroke stroke_before = {};
   ModelPose pose_before = {};
   std::vector<std::pair<Index, Vec3d>> found_before =
       {};  ///< Points and where they were found in that pose, if it was left.
@@ -75,8 +75,8 @@ struct TearStroke::State {
       false;  ///< Then the model is not looked at again: it may be gone, or have another stroke.
 
   [[nodiscard]] bool is_due(const Blade& blade, double seconds) const {
-    const double moved = std::max((blade.base - model->tearing.blade().base).norm(),
-                                  (blade.tip - model->tearing.blade().tip).norm());
+    const Blade& last = model->stroke.blade();
+    const double moved = std::max((blade.base - last.base).norm(), (blade.tip - last.tip).norm());
     return moved >= sampling.minimum_distance && seconds - last_seconds >= sampling.minimum_seconds;
   }
 
@@ -87,7 +87,7 @@ struct TearStroke::State {
   }
 
   /// Takes up a blade within a call.
-  Status take_up(const ModelPose& pose, const Blade& blade) {
+  Status take_up(const ModelPose& pose, const Blade& blade, tear::Outcome& outcome) {
     const auto index = static_cast<std::uint32_t>(operation.stroke.size());
     if (!same_bits(pose, model->pose)) {
       // In another pose, and in this one when it is entered again, these points stand where their
@@ -95,15 +95,15 @@ struct TearStroke::State {
       for (Index point = first_in_pose; point < model->editor.surface().point_count(); ++point)
         if (const Vec3d* found = model->posed.find_known(point))
           found_before.emplace_back(point, *found);
-      model->tearing.leave_pose(model->workpiece());
+      model->stroke.leave_pose(model->workpiece(), outcome);
       const Index points = model->editor.surface().point_count();
       if (Status status = model->stand_in(pose); !status) return status;
       first_in_pose = points;
-      model->tearing.enter_pose(model->workpiece());
+      model->stroke.enter_pose(model->workpiece());
       operation.pose_changes.push_back({index, pose});
     }
     operation.stroke.push_back(blade);
-    model->tearing.extend(blade, model->workpiece());
+    model->stroke.extend(blade, model->workpiece(), outcome);
     return {};
   }
 
@@ -111,9 +111,8 @@ struct TearStroke::State {
   /// the pose too.
   template <class Work, class Conclude>
   Result<TearReport> call(Work work, ChangeRecord* change, Conclude conclude) {
-    tear::StrokeTearing& tearing = model->tearing;
     try {
-      tearing_before = tearing;
+      stroke_before = model->stroke;
       pose_before = model->pose;
       opened_before = model->editor.opened_edges.half_edges();
     } catch (const std::bad_alloc&) {
@@ -122,18 +121,10 @@ struct TearStroke::State {
     found_before.clear();
     const Index first_before = first_in_pose;
     const std::size_t blades = operation.stroke.size(), poses = operation.pose_changes.size();
-    auto report = model->call(
-        [&](TornModel::State::Call& call) -> Status {
-          tearing.report = {};
-          tearing.borders.clear();
-          if (Status status = work(); !status) return status;
-          call.report = tearing.report;
-          std::swap(call.borders, tearing.borders);
-          return {};
-        },
-        operation.options.weights.value_or(WeightOptions{}), change, false, conclude);
+    const WeightOptions weights = operation.options.weights.value_or(WeightOptions{});
+    auto report = model->call({weights, change}, work, conclude);
     if (report) return report;
-    std::swap(tearing, tearing_before);
+    std::swap(model->stroke, stroke_before);
     operation.stroke.resize(blades);
     operation.pose_changes.resize(poses);
     first_in_pose = first_before;
@@ -168,7 +159,7 @@ Result<TearStroke> TearStroke::create(TornModel& model, const ModelPose& pose, c
     operation.pose_changes.clear();
     operation.options = options;
     operation.options.weights = recorded(options.weights.value_or(of_model.weights));
-    of_model.tearing.begin(blade, options);
+    of_model.stroke.begin(blade, options);
     auto state = std::unique_ptr<State>(new State{&of_model, sampling, operation});
     state->begin = of_model.begin_operation(options.wall_depth > 0);
     state->first_in_pose = state->begin.points;
@@ -190,7 +181,7 @@ Result<TearReport> TearStroke::extend(const ModelPose& pose, const Blade& blade,
     return Status::failure(StatusCode::invalid_argument, index,
                            "blade %u comes at %g s, after one at %g s", index, seconds,
                            state.last_seconds);
-  if (Status status = validate_turn(state.model->tearing.blade(), blade, index); !status)
+  if (Status status = validate_turn(state.model->stroke.blade(), blade, index); !status)
     return status;
   if (!state.is_due(blade, seconds)) {
     if (Status status = CharacterPose::check(state.model->character, pose); !status) return status;
@@ -203,7 +194,8 @@ Result<TearReport> TearStroke::extend(const ModelPose& pose, const Blade& blade,
     return TearReport{};
   }
   auto report =
-      state.call([&] { return state.take_up(pose, blade); }, change, [](const TearReport&) {});
+      state.call([&](tear::Outcome& outcome) { return state.take_up(pose, blade, outcome); },
+                 change, [](const TearReport&) {});
   if (!report) return report;
   add_to(state.total, *report);
   state.last_seconds = seconds;
@@ -217,17 +209,18 @@ Result<TearReport> TearStroke::end(ChangeRecord* change) {
     return Status::failure(StatusCode::invalid_argument, kNone, "this stroke was ended");
   TearReport total = state.total;
   const auto report = state.call(
-      [&]() -> Status {
+      [&](tear::Outcome& outcome) -> Status {
         if (state.held)
-          if (Status status = state.take_up(state.held->pose, state.held->blade); !status)
+          if (Status status = state.take_up(state.held->pose, state.held->blade, outcome); !status)
             return status;
-        state.model->tearing.finish(state.model->workpiece());
+        state.model->stroke.finish(state.model->workpiece(), outcome);
         return {};
       },
       change,
       [&](const TearReport& last) {
         add_to(total, last);
-        state.model->count(state.begin, false, total);
+        state.model->count_changes_since(state.begin, total);
+        total.pieces = state.model->find_pieces_since(state.begin, false);
       });
   if (!report) return report;
   state.close();

@@ -8,7 +8,7 @@
 #include "tear/model_state.h"
 #include "tear/operation/cut.h"
 #include "tear/operation/drill.h"
-#include "tear/operation/stroke_tearing.h"
+#include "tear/operation/ongoing_stroke.h"
 #include "tear/surface/compact.h"
 #include "tear/surface/weight_change.h"
 
@@ -47,36 +47,23 @@ Result<TearReport> TornModel::tear(const ModelPose& pose, std::span<const Blade>
                                    const TearOptions& options, ChangeRecord* change) {
   State& state = *state_;
   if (Status status = state.may_begin(); !status) return status;
-  if (stroke.size() < 2)
-    return Status::failure(StatusCode::invalid_argument, kNone,
-                           "a stroke needs at least two blades, this one has %zu", stroke.size());
   if (Status status = validate_options(options); !status) return status;
+  if (Status status = validate_stroke(stroke); !status) return status;
   const WeightOptions weights = options.weights.value_or(state.weights);
-  for (std::uint32_t i = 0; i < stroke.size(); ++i) {
-    if (Status status = validate_blade(stroke[i], i); !status) return status;
-    if (i == 0) continue;
-    if (Status status = validate_turn(stroke[i - 1], stroke[i], i); !status) return status;
-  }
-  if (Status status = state.stand_in(pose); !status) return status;
-  const tear::EditLog::Mark begin = state.begin_operation(options.wall_depth > 0);
-  auto report = state.call(
-      [&](State::Call& call) -> Status {
-        auto& operation = state.history.next().as<TearOperation>();
-        tear::assign_pose(pose, operation.pose);
-        operation.stroke.assign(stroke.begin(), stroke.end());
-        operation.pose_changes.clear();
-        operation.options = options;
-        operation.options.weights = recorded(weights);
-        state.tearing.begin(stroke.front(), options);
-        for (const Blade& blade : stroke.subspan(1)) state.tearing.extend(blade, state.workpiece());
-        state.tearing.finish(state.workpiece());
-        call.report = state.tearing.report;
-        std::swap(call.borders, state.tearing.borders);
-        return {};
-      },
-      weights, change);
-  if (report) state.record(begin);
-  return report;
+  const auto write_entry = [&](TearOperation& entry) {
+    entry.stroke.assign(stroke.begin(), stroke.end());
+    entry.pose_changes.clear();
+    entry.options = options;
+    entry.options.weights = recorded(weights);
+  };
+  const auto work = [&](tear::Outcome& outcome) {
+    state.stroke.begin(stroke.front(), options);
+    for (const Blade& blade : stroke.subspan(1))
+      state.stroke.extend(blade, state.workpiece(), outcome);
+    state.stroke.finish(state.workpiece(), outcome);
+  };
+  return state.perform<TearOperation>({pose, weights, change, options.wall_depth > 0}, write_entry,
+                                      work);
 }
 
 Result<TearReport> TornModel::cut(const ModelPose& pose, const PlaneCut& cut,
@@ -86,20 +73,14 @@ Result<TearReport> TornModel::cut(const ModelPose& pose, const PlaneCut& cut,
   if (Status status = tear::validate_cut(cut); !status) return status;
   const WeightOptions weights = cut.weights.value_or(state.weights);
   if (Status status = validate_weights(weights); !status) return status;
-  if (Status status = state.stand_in(pose); !status) return status;
-  const tear::EditLog::Mark begin = state.begin_operation(false);
-  auto report = state.call(
-      [&](State::Call& call) -> Status {
-        auto& operation = state.history.next().as<CutOperation>();
-        tear::assign_pose(pose, operation.pose);
-        operation.cut = cut;
-        operation.cut.weights = recorded(weights);
-        tear::cut_surface(cut, state.workpiece(), call.report, call.borders.lips);
-        return {};
-      },
-      weights, change, true);
-  if (report) state.record(begin);
-  return report;
+  const auto write_entry = [&](CutOperation& entry) {
+    entry.cut = cut;
+    entry.cut.weights = recorded(weights);
+  };
+  const auto work = [&](tear::Outcome& outcome) {
+    tear::cut_surface(cut, state.workpiece(), outcome);
+  };
+  return state.perform<CutOperation>({pose, weights, change, false, true}, write_entry, work);
 }
 
 Result<TearReport> TornModel::drill(const ModelPose& pose, const Bore& bore, ChangeRecord* change) {
@@ -108,20 +89,14 @@ Result<TearReport> TornModel::drill(const ModelPose& pose, const Bore& bore, Cha
   if (Status status = tear::validate_bore(bore); !status) return status;
   const WeightOptions weights = bore.weights.value_or(state.weights);
   if (Status status = validate_weights(weights); !status) return status;
-  if (Status status = state.stand_in(pose); !status) return status;
-  const tear::EditLog::Mark begin = state.begin_operation(bore.wall);
-  auto report = state.call(
-      [&](State::Call& call) -> Status {
-        auto& operation = state.history.next().as<DrillOperation>();
-        tear::assign_pose(pose, operation.pose);
-        operation.bore = bore;
-        operation.bore.weights = recorded(weights);
-        tear::drill_surface(bore, state.workpiece(), call.report);
-        return {};
-      },
-      weights, change);
-  if (report) state.record(begin);
-  return report;
+  const auto write_entry = [&](DrillOperation& entry) {
+    entry.bore = bore;
+    entry.bore.weights = recorded(weights);
+  };
+  const auto work = [&](tear::Outcome& outcome) {
+    tear::drill_surface(bore, state.workpiece(), outcome);
+  };
+  return state.perform<DrillOperation>({pose, weights, change, bore.wall}, write_entry, work);
 }
 
 Status TornModel::undo(ChangeRecord* change) {

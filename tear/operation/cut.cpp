@@ -65,13 +65,13 @@ Status validate_cut(const PlaneCut& cut) {
   return {};
 }
 
-void cut_surface(const PlaneCut& cut, const Workpiece& work, TearReport& report,
-                 std::vector<LipPair>& lips) {
+void cut_surface(const PlaneCut& cut, const Workpiece& work, Outcome& outcome) {
+  TearReport& report = outcome.report;
   const EditLog::Mark before = work.editor.mark();
   const Vec3d normal = cut.normal / cut.normal.norm();
   Sheet sheet{{normal, normal.dot(cut.point)}, {}};
   for (const HalfSpace& side : sides_of(cut.bounds, normal)) sheet.bounds.push_back({side, kNone});
-  const SheetOpening opening = open_sheet(sheet, work, lips);
+  const SheetOpening opening = open_sheet(sheet, work, outcome.borders.lips);
   report.runs = opening.runs;
   report.faces_crossed = opening.faces_crossed;
   report.blocked = opening.blocked;

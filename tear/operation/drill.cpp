@@ -75,7 +75,8 @@ Status validate_bore(const Bore& bore) {
   return {};
 }
 
-void drill_surface(const Bore& bore, const Workpiece& work, TearReport& report) {
+void drill_surface(const Bore& bore, const Workpiece& work, Outcome& outcome) {
+  TearReport& report = outcome.report;
   const EditLog::Mark before = work.editor.mark();
   const Cell cell = cell_of(bore);
   const GapRemoval removal =

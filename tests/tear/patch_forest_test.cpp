@@ -1,5 +1,5 @@
-// Where a pose may put patches of the surface holds in every pose, and queries that rely on it find what looking at every face
-// finds.
+// Where a pose may put patches of the surface holds in every pose, and queries that rely on it find
+// what looking at every face finds.
 #include "tear/posed/patch_forest.h"
 
 #include <sunder/skinning/deform.h>
@@ -21,7 +21,7 @@
 #include "tear/internal/surface.h"
 #include "tear/operation/cut.h"
 #include "tear/operation/drill.h"
-#include "tear/operation/stroke_tearing.h"
+#include "tear/operation/ongoing_stroke.h"
 #include "tear/posed/hilbert_curve.h"
 #include "tear/sheet/gap.h"
 #include "tear/sheet/open_sheet.h"
@@ -32,12 +32,17 @@ namespace {
 
 using test::Random;
 
-std::uint64_t count_of_cases(std::uint64_t usual) { return std::getenv("SUNDER_STRESS") != nullptr ? 40 * usual : usual; }
+std::uint64_t count_of_cases(std::uint64_t usual) {
+  return std::getenv("SUNDER_STRESS") != nullptr ? 40 * usual : usual;
+}
 
 /// A model that is torn from within.
 class Torn {
  public:
-  explicit Torn(Character of) : source(std::move(of)), character(source), editor(source, character) { stand_in(bind_pose(source)); }
+  explicit Torn(Character of)
+      : source(std::move(of)), character(source), editor(source, character) {
+    stand_in(bind_pose(source));
+  }
 
   void stand_in(const ModelPose& wanted) {
     pose = wanted;
@@ -51,21 +56,22 @@ class Torn {
     const EditLog::Mark begin = editor.mark();
     editor.scratch().reset();
     editor.opened_edges.begin(true);
-    TearReport report;
-    std::vector<LipPair> lips;
+    OpenedBorders borders;
+    Outcome outcome{{}, borders};
     if (const auto* tear = std::get_if<TearOperation>(&operation)) {
       stand_in(std::get<ModelPose>(tear->pose));
-      StrokeTearing tearing;
-      tearing.begin(tear->stroke.front(), tear->options);
-      for (std::size_t i = 1; i < tear->stroke.size(); ++i) tearing.extend(tear->stroke[i], {editor, posed});
-      tearing.finish({editor, posed});
+      OngoingStroke stroke;
+      stroke.begin(tear->stroke.front(), tear->options);
+      for (std::size_t i = 1; i < tear->stroke.size(); ++i)
+        stroke.extend(tear->stroke[i], {editor, posed}, outcome);
+      stroke.finish({editor, posed}, outcome);
     } else if (const auto* cut = std::get_if<CutOperation>(&operation)) {
       stand_in(std::get<ModelPose>(cut->pose));
-      cut_surface(cut->cut, {editor, posed}, report, lips);
+      cut_surface(cut->cut, {editor, posed}, outcome);
     } else {
       const auto& drill = std::get<DrillOperation>(operation);
       stand_in(std::get<ModelPose>(drill.pose));
-      drill_surface(drill.bore, {editor, posed}, report);
+      drill_surface(drill.bore, {editor, posed}, outcome);
     }
     done.push_back(begin);
     undone.clear();
@@ -96,10 +102,12 @@ class Torn {
 
   [[nodiscard]] bool has_area() const {
     return std::any_of(source.meshes.begin(), source.meshes.end(), [](const Mesh& mesh) {
-      return std::any_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const Triangle& triangle) {
-        const Vec3f a = mesh.positions[triangle[0]], b = mesh.positions[triangle[1]], c = mesh.positions[triangle[2]];
-        return (b - a).cross(c - a).norm() > 1e-4f;
-      });
+      return std::any_of(
+          mesh.triangles.begin(), mesh.triangles.end(), [&](const Triangle& triangle) {
+            const Vec3f a = mesh.positions[triangle[0]], b = mesh.positions[triangle[1]],
+                        c = mesh.positions[triangle[2]];
+            return (b - a).cross(c - a).norm() > 1e-4f;
+          });
     });
   }
 
@@ -119,7 +127,8 @@ Character some_rig(Random& random) {
     case 2: return test::make_soup(random);
     case 3: character = test::make_bumpy_ball(100 + random.index(500)); break;
     default: {
-      const std::uint32_t rings = 3 + random.index(20), sides = 5 + random.index(20);  // in this order with every compiler
+      const std::uint32_t rings = 3 + random.index(20),
+                          sides = 5 + random.index(20);  // in this order with every compiler
       character = test::make_tube(rings, sides, 2 + random.index(9));
     }
   }
@@ -129,7 +138,8 @@ Character some_rig(Random& random) {
     MorphTarget target{name, std::vector<Vec3f>(mesh.vertex_count(), Vec3f::Zero()), {}, {}};
     if (target.name != "none")
       for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v)
-        if (target.name == "much" || v % 7 == 0) target.position_deltas[v] = (0.3 * random.direction()).cast<float>();
+        if (target.name == "much" || v % 7 == 0)
+          target.position_deltas[v] = (0.3 * random.direction()).cast<float>();
     mesh.morph_targets.push_back(target);
   }
   mesh.morph_targets.push_back({"empty", {}, {}, {}});
@@ -150,7 +160,9 @@ ModelPose hard_pose(const Character& character, Random& random) {
         for (int i = 0; i < 3; ++i)
           for (int j = 0; j < 3; ++j) bone.linear()(i, j) = entry();
         break;
-      case 4: bone.translation() += Vec3d(random.direction() * std::pow(10.0, random.uniform(-3, 3))); break;
+      case 4:
+        bone.translation() += Vec3d(random.direction() * std::pow(10.0, random.uniform(-3, 3)));
+        break;
       default: break;
     }
   }
@@ -179,11 +191,13 @@ bool holds(const Shadow& shadow, const Vec3d& point) {
   return is_held;
 }
 
-/// A live face that is not found in just one patch, or a posed point outside of a box that should hold it.
+/// A live face that is not found in just one patch, or a posed point outside of a box that should
+/// hold it.
 std::vector<std::string> broken_bounds(Torn& torn, Random& random) {
   std::vector<std::string> broken;
   PatchForest& forest = torn.posed.forest();
-  const Frame frame = torn.posed.frame_along(axes_along(random.direction(), random.direction()), torn.editor);
+  const Frame frame =
+      torn.posed.frame_along(axes_along(random.direction(), random.direction()), torn.editor);
   const CharacterPose& pose = torn.posed.pose();
   std::vector<int> found(torn.editor.surface().triangle_count(), 0);
   std::vector<Mesh> meshes = torn.character.meshes;
@@ -199,13 +213,16 @@ std::vector<std::string> broken_bounds(Torn& torn, Random& random) {
       EXPECT_EQ(tree.compute_posed_patches(group, mesh_pose, shadows), count);
       for (Index i = 0; i < count; ++i) {
         std::vector<Box> boxes = {patches[i]};
-        for (Index level = 0, number = group; level < tree.level_count(); ++level, number /= PatchTree::kFanOut)
+        for (Index level = 0, number = group; level < tree.level_count();
+             ++level, number /= PatchTree::kFanOut)
           boxes.push_back(tree.posed_box(level, number, mesh_pose, forest.epoch()));
         const auto check = [&](Index vertex, Index face) {
           const Vec3d at = frame.place_of(pose.position(mesh, vertex));
           for (std::size_t box = 0; box < boxes.size(); ++box)
-            if (!holds(boxes[box], at)) broken.push_back(test::say("face ", face, " outside of its box ", box));
-          if (!holds(shadows[i], at)) broken.push_back(test::say("face ", face, " outside of its shadow"));
+            if (!holds(boxes[box], at))
+              broken.push_back(test::say("face ", face, " outside of its box ", box));
+          if (!holds(shadows[i], at))
+            broken.push_back(test::say("face ", face, " outside of its shadow"));
         };
         for (const Index origin : tree.origins(PatchTree::kPatchesPerGroup * group + i))
           torn.editor.origins.for_each_part(covered->mesh, origin, [&](Index face) {
@@ -236,7 +253,8 @@ TEST(PatchForest, hilbert_curve_goes_from_neighbour_to_neighbour) {
   EXPECT_EQ(cells.rbegin()->first, 4095u);
   for (auto at = cells.begin(), next = std::next(at); next != cells.end(); ++at, ++next) {
     int steps = 0;
-    for (std::size_t k = 0; k < 3; ++k) steps += std::abs(static_cast<int>(at->second[k]) - static_cast<int>(next->second[k]));
+    for (std::size_t k = 0; k < 3; ++k)
+      steps += std::abs(static_cast<int>(at->second[k]) - static_cast<int>(next->second[k]));
     ASSERT_EQ(steps, 1);
   }
 }
@@ -258,8 +276,8 @@ TEST(PatchForest, holds_the_surface_in_every_pose) {
 
 bool is_same(const std::optional<SurfaceHit>& a, const std::optional<SurfaceHit>& b) {
   if (a.has_value() != b.has_value()) return false;
-  return !a || (a->triangle == b->triangle && a->barycentric == b->barycentric && a->position == b->position &&
-                a->progress_beyond == b->progress_beyond);
+  return !a || (a->triangle == b->triangle && a->barycentric == b->barycentric &&
+                a->position == b->position && a->progress_beyond == b->progress_beyond);
 }
 
 std::string say_hit(const std::optional<SurfaceHit>& hit) {
@@ -278,7 +296,8 @@ Index some_face(const SurfaceEditor& editor, Random& random) {
 /// Blades that meet the surface anywhere: within faces, in points, on edges, along edges and faces.
 Blade some_blade(Torn& torn, Index face, double size, Random& random) {
   std::array<Vec3d, 3> corners;
-  for (Index k = 0; k < 3; ++k) corners[k] = torn.posed.position(torn.editor, torn.editor.surface().corner_point[3 * face + k]);
+  for (Index k = 0; k < 3; ++k)
+    corners[k] = torn.posed.position(torn.editor, torn.editor.surface().corner_point[3 * face + k]);
   Vec3d at = (corners[0] + corners[1] + corners[2]) / 3, along = random.direction();
   switch (random.index(6)) {
     case 0: at = corners[0]; break;
@@ -288,7 +307,9 @@ Blade some_blade(Torn& torn, Index face, double size, Random& random) {
       along = corners[1] - corners[0];
       at = corners[random.index(3)];
       break;
-    case 4: along = corners[1] + random.uniform(0, 1) * (corners[2] - corners[1]) - corners[0]; break;
+    case 4:
+      along = corners[1] + random.uniform(0, 1) * (corners[2] - corners[1]) - corners[0];
+      break;
     default: break;
   }
   const double length = along.norm();
@@ -312,7 +333,8 @@ TEST(PatchForest, finds_what_looking_at_every_face_finds) {
     Random random(1000 + seed);
     Torn torn(some_rig(random));
     for (int round = 0; round < 5; ++round) {
-      torn.stand_in(random.index(3) == 0 ? hard_pose(torn.source, random) : test::random_pose(torn.source, random));
+      torn.stand_in(random.index(3) == 0 ? hard_pose(torn.source, random)
+                                         : test::random_pose(torn.source, random));
       const double size = size_of(torn);
       for (int i = 0; i < 30; ++i) {
         SCOPED_TRACE(test::say("seed ", seed, ", round ", round, ", query ", i));
@@ -321,19 +343,23 @@ TEST(PatchForest, finds_what_looking_at_every_face_finds) {
         const Blade blade = some_blade(torn, face, size, random);
         const auto expected = test::scan_for_hit(blade, torn.editor, torn.posed);
         const auto found = first_hit(blade, torn.editor, torn.posed);
-        EXPECT_TRUE(is_same(found, expected)) << say_hit(found) << " instead of " << say_hit(expected);
+        EXPECT_TRUE(is_same(found, expected))
+            << say_hit(found) << " instead of " << say_hit(expected);
         hits += found ? 1 : 0;
 
         // A second blade that is turned and moved against the first.
-        const Vec3d along = blade.tip - blade.base, aside = random.uniform(0.01, 1) * along.norm() * random.direction();
+        const Vec3d along = blade.tip - blade.base,
+                    aside = random.uniform(0.01, 1) * along.norm() * random.direction();
         const Vec3d turn = random.uniform(0, 0.6) * along.norm() * random.direction();
         const Blade to = {blade.base + aside, blade.tip + aside + turn};
         const Vec3d anchor = found ? found->position : Vec3d(0.5 * (blade.base + blade.tip));
         if (const auto plane = BladePlane::through(anchor, blade, to)) {
           const double progress = random.index(2) == 0 ? 0.0 : random.uniform(0, 1);
-          const auto expected_contact = test::scan_for_contact(*plane, progress, torn.editor, torn.posed);
+          const auto expected_contact =
+              test::scan_for_contact(*plane, progress, torn.editor, torn.posed);
           const auto contact = first_contact(*plane, progress, torn.editor, torn.posed);
-          EXPECT_TRUE(is_same(contact, expected_contact)) << say_hit(contact) << " instead of " << say_hit(expected_contact);
+          EXPECT_TRUE(is_same(contact, expected_contact))
+              << say_hit(contact) << " instead of " << say_hit(expected_contact);
           contacts += contact ? 1 : 0;
         }
 
@@ -344,7 +370,8 @@ TEST(PatchForest, finds_what_looking_at_every_face_finds) {
           for (const double sign : {-1.0, 1.0}) {
             if (random.index(6) == 0) continue;
             const Vec3d normal = sign * random.uniform(0.1, 10) * box.row(k).transpose();
-            cell.push_back({normal, normal.dot(blade.tip) - normal.norm() * size * random.uniform(0, 0.3)});
+            cell.push_back(
+                {normal, normal.dot(blade.tip) - normal.norm() * size * random.uniform(0, 0.3)});
           }
         const std::vector<Index> in_cell = faces_in_cell(cell, torn.editor, torn.posed);
         EXPECT_EQ(in_cell, test::scan_for_faces_in(cell, torn.editor, torn.posed));
@@ -376,13 +403,15 @@ TEST(PatchForest, a_sweep_in_one_plane_begins_where_its_blade_stands) {
       SCOPED_TRACE(test::say("seed ", seed, ", query ", i));
       const Index face = some_face(torn.editor, random);
       if (face == kNone) break;
-      std::array<double, 3> part = {random.uniform(0, 1), random.uniform(0, 1), random.uniform(0, 1)};
+      std::array<double, 3> part = {random.uniform(0, 1), random.uniform(0, 1),
+                                    random.uniform(0, 1)};
       if (random.index(3) == 0) part[random.index(3)] = 0;  // on an edge
       Vec3d at = Vec3d::Zero();
       for (Index k = 0; k < 3; ++k)
         at += part[k] / (part[0] + part[1] + part[2]) *
               torn.posed.position(torn.editor, torn.editor.surface().corner_point[3 * face + k]);
-      const Vec3d along = 0.4 * size * random.direction(), aside = random.uniform(0.01, 1) * size * random.direction();
+      const Vec3d along = 0.4 * size * random.direction(),
+                  aside = random.uniform(0.01, 1) * size * random.direction();
       const Blade from = {at - along, at + 0.1 * along}, to = {from.base + aside, from.tip + aside};
       const auto hit = first_hit(from, torn.editor, torn.posed);
       if (!hit) continue;
@@ -409,9 +438,10 @@ TEST(PatchForest, has_few_trees_of_caps) {
   for (int i = 0; i < 200; ++i) {
     const EditLog::Mark begin = torn.editor.mark();
     torn.editor.opened_edges.begin(true);
-    TearReport report;
-    std::vector<LipPair> lips;
-    cut_surface({{0, random.uniform(0.1, 1.9), 0}, {0, 1, 0}, {}, true}, {torn.editor, torn.posed}, report, lips);
+    OpenedBorders borders;
+    Outcome outcome{{}, borders};
+    cut_surface({{0, random.uniform(0.1, 1.9), 0}, {0, 1, 0}, {}, true}, {torn.editor, torn.posed},
+                outcome);
     torn.done.push_back(begin);
     torn.stand_in(torn.pose);
     const auto hit = first_hit(blade, torn.editor, torn.posed);
@@ -423,14 +453,16 @@ TEST(PatchForest, has_few_trees_of_caps) {
     tree_counts.push_back(torn.posed.forest().filling_tree_count(0));
   }
   EXPECT_GT(fillings, 4000u);
-  EXPECT_GT(*std::max_element(tree_counts.begin(), tree_counts.end()), 2u) << "nothing was put together";
+  EXPECT_GT(*std::max_element(tree_counts.begin(), tree_counts.end()), 2u)
+      << "nothing was put together";
   while (!torn.done.empty()) {
     torn.undo();
     const auto hit = first_hit(blade, torn.editor, torn.posed);
     if (torn.done.size() % 10 == 0) {
       ASSERT_TRUE(is_same(hit, test::scan_for_hit(blade, torn.editor, torn.posed)));
     }
-    ASSERT_LE(torn.posed.forest().filling_tree_count(0), std::bit_width(torn.editor.fillings.of(0).size()));
+    ASSERT_LE(torn.posed.forest().filling_tree_count(0),
+              std::bit_width(torn.editor.fillings.of(0).size()));
   }
   EXPECT_EQ(torn.posed.forest().filling_tree_count(0), 0u);
   EXPECT_THAT(broken_bounds(torn, random), testing::IsEmpty());
@@ -449,11 +481,13 @@ TEST(PatchForest, bounds_a_bent_tube_closely) {
     std::vector<double> ratios;
     std::array<Box, PatchTree::kPatchesPerGroup> patches;
     for (Index group = 0; group < tree.node_count(0); ++group) {
-      const Index count = tree.compute_posed_patches(group, forest.pose_of(torn.source.meshes[0], pose), patches);
+      const Index count =
+          tree.compute_posed_patches(group, forest.pose_of(torn.source.meshes[0], pose), patches);
       for (Index i = 0; i < count; ++i) {
         Eigen::AlignedBox3d truly;
         for (const Index origin : tree.origins(PatchTree::kPatchesPerGroup * group + i))
-          for (const Index vertex : torn.source.meshes[0].triangles[origin]) truly.extend(Eigen::Vector3d(positions[vertex]));
+          for (const Index vertex : torn.source.meshes[0].triangles[origin])
+            truly.extend(Eigen::Vector3d(positions[vertex]));
         ratios.push_back((patches[i].high - patches[i].low).norm() / truly.diagonal().norm());
       }
     }

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "tear/geometry/blade_plane.h"
+#include "tear/operation/outcome.h"
+#include "tear/posed/workpiece.h"
+
+namespace sunder::tear {
+
+/// Tears every layer that the sweep of one segment meets: the sweep is a sheet, as of a cut.
+void tear_all_layers(const BladePlane& plane, const Workpiece& work, Outcome& outcome);
+
+}  // namespace sunder::tear

@@ -1,0 +1,263 @@
+#include "tear/operation/gap_band.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "tear/geometry/tolerances.h"
+#include "tear/internal/surface.h"
+#include "tear/path/imprint_point.h"
+#include "tear/path/trace.h"
+#include "tear/surface/improve.h"
+
+namespace sunder::tear {
+namespace {
+
+/// A sweep that gets nowhere this many times in a segment gives up.
+constexpr int kMostFutileTurns = 64;
+
+/// Depth in the plane's y at which the middle of a gap lies at x.
+double depth_at(const std::vector<Vec2d>& section, double x) {
+  const auto after = std::lower_bound(section.begin(), section.end(), x,
+                                      [](const Vec2d& at, double value) { return at.x() < value; });
+  if (after == section.begin()) return section.front().y();
+  if (after == section.end()) return section.back().y();
+  const Vec2d &a = *(after - 1), &b = *after;
+  return b.x() > a.x() ? a.y() + (x - a.x()) / (b.x() - a.x()) * (b.y() - a.y()) : a.y();
+}
+
+/// The half-space of the places that lie farther along `direction` than `at`, by `distance`.
+HalfSpace from_place(const Vec3d& at, const Vec3d& direction, double distance) {
+  return {direction, direction.dot(at) + distance};
+}
+
+}  // namespace
+
+void GapBand::begin(double width, Layers layers) {
+  width_ = width;
+  layers_ = layers;
+  pending_.reset();
+  has_removed_ = is_in_new_pose_ = false;
+}
+
+void GapBand::sweep(const Segment& segment, const Workpiece& work, StrokeTip& tip,
+                    Outcome& outcome) {
+  const auto& [plane, from, to] = segment;
+  const bool takes_all = layers_ == Layers::all;
+  const Index begins_at = tip.point;
+  Pending next{
+      plane, plane.standing_on(plane.from_progress(0)), {}, {}, {}, (to.tip - from.tip).norm()};
+  bool continues = pending_.has_value();
+  if (!takes_all) {
+    next = find_gap(segment, work, tip, outcome);
+    continues = begins_at != kNone && !next.seeds.empty() && next.seeds.front() == begins_at;
+    if (next.seeds.empty()) {
+      ++outcome.report.segments_missed;
+      return;
+    }
+    outcome.report.length_posed += next.length;
+  }
+  if (pending_ && continues) {
+    const Vec3d at = takes_all ? Vec3d(0.5 * (from.base + from.tip))
+                               : Vec3d(work.posed.position(work.editor, begins_at));
+    join(at, work, next, outcome);
+  } else if (pending_) {
+    catch_up(work, outcome);
+  } else if (continues && is_in_new_pose_) {
+    next.start = start_from_rim(plane, begins_at, work);
+  }
+  is_in_new_pose_ = false;
+  pending_ = std::move(next);
+}
+
+void GapBand::catch_up(const Workpiece& work, Outcome& outcome) {
+  if (!pending_) return;
+  const EditLog::Mark before = work.editor.mark();
+  remove_pending(pending_->plane.standing_on(pending_->plane.reach()[2]), work, outcome);
+  pending_.reset();
+  improve_faces(before, work.editor);
+}
+
+/// Follows the nearest layer along a segment without changing it, but for the points at which the
+/// path enters and ends. Moves the tip.
+GapBand::Pending GapBand::find_gap(const Segment& segment, const Workpiece& work, StrokeTip& tip,
+                                   Outcome& outcome) const {
+  const BladePlane& plane = segment.plane;
+  Pending gap{plane, plane.standing_on(plane.from_progress(0)), {}, {}, {}, 0};
+  double progress = 0;
+  if (tip.point != kNone) progress = std::max(0.0, trace_gap(tip.point, work, tip, gap, outcome));
+  for (int futile = 0; progress < 1 && futile < kMostFutileTurns;) {
+    const auto contact = find_contact(plane, progress, work, tip);
+    if (!contact) break;
+    const EditLog::Mark before = work.editor.mark();
+    const std::size_t seeds = gap.seeds.size();
+    const Index start = imprint_point(*contact, Snapping::tight, work.editor, work.posed);
+    const double reached = trace_gap(start, work, tip, gap, outcome);
+    const bool has_advanced = gap.seeds.size() > seeds && reached > progress + kSamePlace;
+    progress = std::max(progress, reached);
+    if (has_advanced) continue;
+    if (gap.seeds.size() == seeds) {
+      work.editor.roll_back(before);
+      work.posed.forget_from(before.points);
+    }
+    progress = std::max(progress, contact->progress_beyond);
+    ++futile;
+  }
+  std::stable_sort(gap.section.begin(), gap.section.end(),
+                   [](const Vec2d& a, const Vec2d& b) { return a.x() < b.x(); });
+  return gap;
+}
+
+/// Adds one run of the path to a gap. @return how far along the segment it reaches, in [0, 1].
+double GapBand::trace_gap(Index start, const Workpiece& work, StrokeTip& tip, Pending& gap,
+                          Outcome& outcome) const {
+  const bool continues = start == tip.point;
+  tip.point = kNone;
+  const Trace trace = trace_path(gap.plane, start, work.editor, work.posed);
+  if (trace.faces.empty()) return trace.progress;
+  if (!continues) ++outcome.report.runs;
+  gap.seeds.push_back(start);
+  gap.faces.insert(gap.faces.end(), trace.faces.begin(), trace.faces.end());
+  gap.section.insert(gap.section.end(), trace.section.begin(), trace.section.end());
+  gap.length += trace.length_posed;
+  if (trace.end != PathEnd::blade) return trace.progress;
+  tip.point = imprint_point(trace.end_place, Snapping::tight, work.editor, work.posed);
+  return 1.0;
+}
+
+/// Ends the pending gap where the next one begins. Where the stroke turns gently they share a mitre
+/// plane; where it turns sharply, or by more than the segments are long, both end square and a
+/// wedge closes the outer side.
+void GapBand::join(const Vec3d& at, const Workpiece& work, Pending& next, Outcome& outcome) {
+  const Vec3d before = pending_->plane.across(), after = next.start.normal;
+  const double cosine = before.dot(after), half = 0.5 * width_;
+  const double overlap =
+      cosine > -1 ? half * std::sqrt(std::max(0.0, (1 - cosine) / (1 + cosine))) : 0;
+  if (cosine >= 0 && overlap <= 0.5 * std::min(pending_->length, next.length)) {
+    const Vec3d mitre = (before + after) / (before + after).norm();
+    remove_pending(from_place(at, -mitre, 0), work, outcome);
+    next.start = from_place(at, mitre, 0);
+    return;
+  }
+  remove_pending(from_place(at, -before, 0), work, outcome);
+  next.start = from_place(at, after, 0);
+  close_corner(at, work, next, outcome);
+}
+
+/// Removes the wedge on the outer side of a sharp corner: mitred up to a right angle, bevelled
+/// beyond.
+void GapBand::close_corner(const Vec3d& at, const Workpiece& work, const Pending& next,
+                           Outcome& outcome) {
+  const Vec3d before = pending_->plane.across(), after = next.start.normal;
+  const Vec3d normal_before = pending_->plane.normal(), normal_after = next.plane.normal();
+  const double half = 0.5 * width_;
+  const double outer = normal_before.dot(after) > 0 ? -1.0 : 1.0;
+  Cell wedge = {from_place(at, before, 0), from_place(at, -after, 0),
+                next.plane.standing_on(next.plane.reach()[0]),
+                next.plane.standing_on(next.plane.reach()[1])};
+  std::vector<Side> sides(wedge.size(), Side::none);
+  if (before.dot(after) >= 0) {
+    wedge.push_back(from_place(at, -outer * normal_before, -half));
+    wedge.push_back(from_place(at, -outer * normal_after, -half));
+  } else {
+    const Vec3d bevel = outer * (normal_before + normal_after);
+    if (!(bevel.norm() > 1e-6)) return;  // straight back
+    wedge.push_back(from_place(at, -bevel / bevel.norm(),
+                               -half * outer * normal_before.dot(bevel) / bevel.norm()));
+  }
+  sides.resize(wedge.size(), outer > 0 ? Side::left : Side::right);
+  remove(wedge, sides, next, work, outcome);
+}
+
+void GapBand::remove_pending(const HalfSpace& end, const Workpiece& work, Outcome& outcome) {
+  const BladePlane& plane = pending_->plane;
+  const double half = 0.5 * width_;
+  // The cell lies left of the right side, and right of the left one.
+  constexpr std::array kSides = {Side::right, Side::left, Side::none,
+                                 Side::none,  Side::none, Side::none};
+  remove({plane.left_of(-half), plane.right_of(half), plane.standing_on(plane.reach()[0]),
+          plane.standing_on(plane.reach()[1]), pending_->start, end},
+         kSides, *pending_, work, outcome);
+}
+
+/// The start of a gap that goes on from one which was closed square in another pose: the edge that
+/// this left at both sides of the tip, wherever that stands now, and a little before it, so that
+/// nothing is left standing between the two.
+HalfSpace GapBand::start_from_rim(const BladePlane& plane, Index tip, const Workpiece& work) const {
+  const Surface& surface = work.editor.surface();
+  const Index first = surface.first_of_fan(surface.point_corner[tip]);
+  Index last = first;
+  for (Index c = surface.rotate_ccw(first); c != kNone && c != first; c = surface.rotate_ccw(c))
+    last = c;
+  const Vec3d at = work.posed.position(work.editor, tip);
+  const Vec3d along_rim =
+      work.posed.position(work.editor, surface.corner_point[Surface::next(first)]) -
+      work.posed.position(work.editor, surface.corner_point[Surface::previous(last)]);
+  Vec3d forward = along_rim.cross(plane.along());
+  if (forward.dot(plane.across()) < 0) forward = -forward;
+  const double length = forward.norm();
+  // A rim that does not lie across the way says nothing.
+  forward = length > 0 && forward.dot(plane.across()) > 0.5 * length ? Vec3d(forward / length)
+                                                                     : plane.across();
+  return {forward, forward.dot(at) - 0.1 * width_};
+}
+
+/// The faces of the torn layers that a cell holds a part of.
+std::vector<Index> GapBand::faces_to_remove(const Cell& cell, const Pending& gap,
+                                            const Workpiece& work) const {
+  if (layers_ == Layers::all) return faces_in_cell(cell, work.editor, work.posed);
+  const Surface& surface = work.editor.surface();
+  std::vector<Index> seeds;
+  for (const Index point : gap.seeds)
+    if (surface.point_corner[point] != kNone)
+      surface.for_each_in_fan(surface.point_corner[point],
+                              [&](Index corner) { seeds.push_back(corner / 3); });
+  for (const Index face : gap.faces)
+    if (!surface.has_repeated_point(face)) seeds.push_back(face);
+  std::sort(seeds.begin(), seeds.end());
+  // The blade is as wide as the gap, and where the surface wrinkles it takes the wrinkle away. But
+  // a face that turns its back on the blade far below the tear belongs to another layer, which the
+  // nearest one hides; unless the tear itself goes across it.
+  const auto is_same_layer = [&](Index face) {
+    if (std::binary_search(seeds.begin(), seeds.end(), face)) return true;
+    std::array<Vec3d, 3> corners;
+    for (Index k = 0; k < 3; ++k)
+      corners[k] = work.posed.position(work.editor, surface.corner_point[3 * face + k]);
+    const Vec3d normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+    if (normal.dot(gap.plane.along()) <= 0) return true;
+    const Vec2d middle = gap.plane.project((corners[0] + corners[1] + corners[2]) / 3);
+    return middle.y() - depth_at(gap.section, middle.x()) < 2 * width_;
+  };
+  return faces_in_cell(cell, seeds, is_same_layer, work.editor, work.posed);
+}
+
+void GapBand::remove(const Cell& cell, std::span<const Side> sides, const Pending& gap,
+                     const Workpiece& work, Outcome& outcome) {
+  CellRim rim;
+  const GapRemoval removal =
+      remove_cell(cell, faces_to_remove(cell, gap, work), work.editor, work.posed, &rim);
+  add_rim_points(rim, sides, gap.plane, outcome);
+  outcome.report.faces_crossed += removal.faces_crossed;
+  outcome.report.blocked += removal.blocked;
+  outcome.report.area_removed_posed += removal.area_posed;
+  if (layers_ == Layers::all && removal.faces_removed > 0 && !has_removed_) ++outcome.report.runs;
+  has_removed_ |= removal.faces_removed > 0;
+}
+
+/// The lips of a sheet through all layers are told apart by the side of the plane, those of a path
+/// along the nearest layer as seen from outside: a layer that the blade meets from inside has its
+/// left side where the plane has its right.
+void GapBand::add_rim_points(const CellRim& rim, std::span<const Side> sides,
+                             const BladePlane& plane, Outcome& outcome) const {
+  for (const CellRim::Edge& edge : rim.edges) {
+    const Side side = edge.side == kNone ? Side::none : sides[edge.side];
+    if (side == Side::none) continue;
+    const bool is_seen_from_inside =
+        layers_ == Layers::nearest && rim.areas[edge.part].dot(plane.along()) > 0;
+    for (const Index point : edge.points)
+      outcome.borders.rim_points.push_back({point, (side == Side::left) != is_seen_from_inside});
+  }
+}
+
+}  // namespace sunder::tear

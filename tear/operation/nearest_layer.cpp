@@ -1,0 +1,136 @@
+#include "tear/operation/nearest_layer.h"
+
+#include <algorithm>
+
+#include "tear/geometry/tolerances.h"
+#include "tear/internal/surface.h"
+#include "tear/path/imprint.h"
+#include "tear/path/imprint_point.h"
+#include "tear/surface/open.h"
+
+namespace sunder::tear {
+namespace {
+
+/// A sweep that gets nowhere this many times in a segment gives up.
+constexpr int kMostFutileTurns = 64;
+
+/// One segment of a stroke on its way.
+class NearestLayerSegment {
+ public:
+  NearestLayerSegment(const BladePlane& plane, const Workpiece& work, StrokeTip& tip,
+                      Outcome& outcome)
+      : plane_(plane), work_(work), tip_(tip), outcome_(outcome) {}
+
+  void tear();
+
+ private:
+  double tear_piece(Index start, const EditLog::Mark& before);
+  void make_openable(Path& path);
+  double take_back(const Path& path, Index start, bool continues, const EditLog::Mark& before);
+  void open(const Path& path);
+
+  const BladePlane& plane_;
+  const Workpiece& work_;
+  StrokeTip& tip_;
+  Outcome& outcome_;
+  Index last_end_ = kNone;  ///< Where the last piece of the segment ended.
+  std::size_t torn_edges_ = 0;
+};
+
+/// Imprints and opens one piece of the path, from a point to where the blade, the surface or the
+/// faces end. Moves the tip. @return how far along the segment it reaches, in [0, 1].
+double NearestLayerSegment::tear_piece(Index start, const EditLog::Mark& before) {
+  Path path = imprint_path(plane_, start, work_.editor, work_.posed);
+  const bool continues = start == tip_.point && tip_.ends_run;
+  tip_.point = kNone;
+  if (path.end == PathEnd::blocked) ++outcome_.report.blocked;
+  make_openable(path);
+  // Where the last piece of this segment snapped, something of the section may be left next to it:
+  // not a piece of its own.
+  const bool is_leftover = path.points.back() == last_end_;
+  if (path.points.size() < 2 || is_leftover) return take_back(path, start, continues, before);
+  open(path);
+  if (!continues) ++outcome_.report.runs;
+  outcome_.report.faces_crossed += path.faces_crossed;
+  outcome_.report.length_posed += path.length_posed;
+  last_end_ = path.points.back();
+  if (path.end != PathEnd::blade) return path.progress;
+  tip_.point = last_end_;
+  tip_.ends_run = true;
+  return 1.0;
+}
+
+/// A tear of one edge between two tips would be closed at both ends of its only edge: it gets a
+/// point in the middle, which can open.
+void NearestLayerSegment::make_openable(Path& path) {
+  const Surface& surface = work_.editor.surface();
+  if (path.points.size() != 2 || surface.is_on_border(path.points[0]) ||
+      surface.is_on_border(path.points[1]))
+    return;
+  const Index edge = surface.find_half_edge(path.points[0], path.points[1]);
+  const Index middle = split_posed_edge(edge, 0.5, work_.editor, work_.posed);
+  if (middle == kNone)
+    path.points.pop_back();
+  else
+    path.points.insert(path.points.begin() + 1, middle);
+  path.half_edges.clear();
+}
+
+/// Takes back the imprint of a piece that has no edge. A blade that moved by less than can be told
+/// goes on from the same point.
+double NearestLayerSegment::take_back(const Path& path, Index start, bool continues,
+                                      const EditLog::Mark& before) {
+  work_.editor.roll_back(before);
+  work_.posed.forget_from(before.points);
+  if (path.end != PathEnd::blade) return path.progress;
+  if (start < before.points) {
+    tip_.point = start;
+    tip_.ends_run = continues;
+  }
+  return 1.0;
+}
+
+/// Opens the edges of a piece. Both lips stay where the path was found until the pose changes.
+void NearestLayerSegment::open(const Path& path) {
+  SurfaceEditor& editor = work_.editor;
+  ScratchVector<PointEdge> edges(&editor.scratch());
+  edges.reserve(path.points.size() - 1);
+  for (std::size_t i = 0; i + 1 < path.points.size(); ++i)
+    edges.push_back({path.points[i], path.points[i + 1]});
+  std::vector<LipPair>& lips = outcome_.borders.lips;
+  const std::size_t first_lip = lips.size();
+  open_edges(edges, path.half_edges, editor, lips);
+  for (std::size_t i = first_lip; i < lips.size(); ++i)
+    work_.posed.pin(lips[i].left, Vec3d(work_.posed.position(editor, lips[i].right)));
+  torn_edges_ += edges.size();
+}
+
+/// Where the surface ends, folds away or cannot be split, the sweep goes on to the next surface
+/// that it meets. Every turn passes at least one triangle.
+void NearestLayerSegment::tear() {
+  double progress = 0;
+  if (tip_.point != kNone) progress = std::max(0.0, tear_piece(tip_.point, work_.editor.mark()));
+  for (int futile = 0; progress < 1 && futile < kMostFutileTurns;) {
+    const auto contact = find_contact(plane_, progress, work_, tip_);
+    if (!contact) break;
+    const EditLog::Mark before = work_.editor.mark();
+    const std::size_t edges = torn_edges_;
+    const Index start = imprint_point(*contact, Snapping::by_shape, work_.editor, work_.posed);
+    const double reached = tear_piece(start, before);
+    const bool has_advanced = torn_edges_ > edges && reached > progress + kSamePlace;
+    progress = std::max(progress, reached);
+    if (has_advanced) continue;
+    progress = std::max(progress, contact->progress_beyond);
+    ++futile;
+  }
+  if (torn_edges_ == 0 && tip_.point == kNone) ++outcome_.report.segments_missed;
+}
+
+}  // namespace
+
+void tear_nearest_layer(const BladePlane& plane, const Workpiece& work, StrokeTip& tip,
+                        Outcome& outcome) {
+  NearestLayerSegment(plane, work, tip, outcome).tear();
+}
+
+}  // namespace sunder::tear

@@ -1,0 +1,78 @@
+#include "tear/operation/ongoing_stroke.h"
+
+#include "tear/filling/walls.h"
+#include "tear/internal/surface.h"
+#include "tear/operation/all_layers.h"
+#include "tear/operation/nearest_layer.h"
+#include "tear/path/entry.h"
+#include "tear/surface/improve.h"
+
+namespace sunder::tear {
+
+void OngoingStroke::begin(const Blade& first, const TearOptions& options) {
+  options_ = options;
+  blade_ = first;
+  blades_.assign(1, first);
+  tip_ = {};
+  gap_.begin(options.width, options.layers);
+  hold_.hit.reset();
+}
+
+void OngoingStroke::leave_pose(const Workpiece& work, Outcome& outcome) {
+  gap_.catch_up(work, outcome);
+  hold_.hit.reset();
+  if (tip_.is_on_surface(work))
+    hold_.place = work.posed.position(work.editor, tip_.point);
+  else if (hold_.hit = first_hit(blade_, work.editor, work.posed); hold_.hit)
+    hold_.place = hold_.hit->position;
+}
+
+void OngoingStroke::enter_pose(const Workpiece& work) {
+  gap_.enter_pose();
+  Vec3d moved = -hold_.place;
+  if (tip_.is_on_surface(work)) {
+    moved += work.posed.position(work.editor, tip_.point);
+  } else if (hold_.hit) {
+    const Index* points = &work.editor.surface().corner_point[3 * hold_.hit->triangle];
+    for (Index k = 0; k < 3; ++k)
+      moved += hold_.hit->barycentric[k] * work.posed.position(work.editor, points[k]);
+  } else {
+    return;
+  }
+  blade_ = {blade_.base + moved, blade_.tip + moved};
+}
+
+void OngoingStroke::extend(const Blade& to, const Workpiece& work, Outcome& outcome) {
+  ++outcome.report.segments;
+  if (options_.wall_depth > 0) blades_.push_back(to);
+  const Blade from = blade_;
+  blade_ = to;
+  if (!tip_.is_on_surface(work)) tip_.point = kNone;
+  Vec3d anchor = 0.5 * (from.base + from.tip);
+  tip_.hit.reset();
+  if (options_.layers == Layers::nearest) {
+    if (tip_.point != kNone)
+      anchor = work.posed.position(work.editor, tip_.point);
+    else if (tip_.hit = first_hit(from, work.editor, work.posed); tip_.hit)
+      anchor = tip_.hit->position;
+  }
+  const auto plane = BladePlane::through(anchor, from, to);
+  if (!plane) return;  // the blade stands still; so does the tip
+
+  const EditLog::Mark before = work.editor.mark();
+  if (options_.width > 0)
+    gap_.sweep({*plane, from, to}, work, tip_, outcome);
+  else if (options_.layers == Layers::all)
+    tear_all_layers(*plane, work, outcome);
+  else
+    tear_nearest_layer(*plane, work, tip_, outcome);
+  improve_faces(before, work.editor);
+}
+
+void OngoingStroke::finish(const Workpiece& work, Outcome& outcome) {
+  gap_.catch_up(work, outcome);
+  if (options_.wall_depth > 0)
+    add_walls(work.editor.opened_edges.borders(), blades_, options_.wall_depth, work);
+}
+
+}  // namespace sunder::tear
