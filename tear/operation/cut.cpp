@@ -11,8 +11,8 @@ constexpr double kFar = 1e60;  ///< Products of four coordinates must stay finit
 
 bool is_near(const Vec3d& vector) { return vector.cwiseAbs().maxCoeff() <= kFar; }
 
-/// Half-spaces that stand on the sides of a polygon in the plane; nothing where it is not convex or
-/// has no area.
+/// The half-spaces bounded by the sides of a polygon in the plane. Empty if the polygon is not
+/// convex or has no area.
 std::vector<HalfSpace> sides_of(const std::vector<Vec3d>& bounds, const Vec3d& normal) {
   Vec3d doubled_area = Vec3d::Zero();
   for (std::size_t i = 0; i < bounds.size(); ++i)

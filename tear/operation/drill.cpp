@@ -11,9 +11,9 @@ namespace {
 
 constexpr std::size_t kMostSides = 1536;
 
-/// Unit vectors to the corners of a regular polygon whose sides come within `tolerance` (of the
-/// radius) of the circle: a hexagon, its arcs halved until they do. Roots and sums alone, so that
-/// it is the same bits with every mathematical library.
+/// Unit vectors to the corners of a regular polygon whose sides come within `tolerance` (a fraction
+/// of the radius) of the circle: a hexagon whose arcs are halved until they do. Uses only square
+/// roots and sums, so that every mathematical library gives the same bits.
 std::vector<Vec3d> circle_corners(const Vec3d& x, const Vec3d& y, double tolerance) {
   const double half_root = 0.5 * std::sqrt(3.0);
   std::vector<Vec3d> corners = {x, 0.5 * x + half_root * y, -0.5 * x + half_root * y};
@@ -31,7 +31,7 @@ std::vector<Vec3d> circle_corners(const Vec3d& x, const Vec3d& y, double toleran
   return corners;
 }
 
-/// The prism, then its two ends.
+/// The sides of the prism, then its two ends.
 Cell cell_of(const Bore& bore) {
   const Vec3d axis = bore.direction / bore.direction.norm();
   const Vec3d away = std::abs(axis.x()) < 0.5 ? Vec3d(Vec3d::UnitX()) : Vec3d(Vec3d::UnitY());

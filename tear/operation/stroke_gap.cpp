@@ -1,4 +1,4 @@
-// The gap of a stroke with a width: one convex cell a segment, mitred where two meet.
+// The gap of a stroke with a width: one convex cell per segment, mitred where two cells meet.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -15,7 +15,7 @@
 namespace sunder::tear {
 namespace {
 
-/// Depth in the plane's y at which the middle of a gap lies at x.
+/// The y coordinate, in the plane, of the middle of a gap at x.
 double depth_at(const std::vector<Vec2d>& section, double x) {
   const auto after = std::lower_bound(section.begin(), section.end(), x,
                                       [](const Vec2d& at, double value) { return at.x() < value; });
@@ -83,9 +83,9 @@ void StrokeTearing::remove(const Cell& cell, std::span<const Side> sides, const 
     for (const Index face : gap.faces)
       if (!surface.has_repeated_point(face)) seeds.push_back(face);
     std::sort(seeds.begin(), seeds.end());
-    // The blade is as wide as the gap, and where the surface wrinkles it takes the wrinkle away.
-    // But what turns its back on the blade far below the tear is another layer, which the nearest
-    // one hides; not so what the tear itself goes across.
+    // The blade is as wide as the gap, and it removes wrinkles of the surface. A face far below the
+    // tear that faces away from the blade belongs to another layer, which the nearest one hides.
+    // Faces that the tear itself crosses are never another layer.
     const auto is_same_layer = [&](Index face) {
       if (std::binary_search(seeds.begin(), seeds.end(), face)) return true;
       std::array<Vec3d, 3> corners;
@@ -108,9 +108,9 @@ void StrokeTearing::remove(const Cell& cell, std::span<const Side> sides, const 
   has_removed_ |= removal.faces_removed > 0;
 }
 
-/// Lips of a sheet through all layers are told by the side of the plane, those of a path along the
-/// nearest one by what is seen from outside: a layer that the blade meets from inside has its left
-/// where the plane has its right.
+/// Left and right of a gap through all layers are the sides of the plane. Those of a gap in the
+/// nearest layer are as seen from outside: for a layer that the blade meets from inside they are
+/// exchanged.
 void StrokeTearing::add_rim_points(const CellRim& rim, std::span<const Side> sides,
                                    const BladePlane& plane) {
   for (const CellRim::Edge& edge : rim.edges) {
@@ -126,7 +126,7 @@ void StrokeTearing::add_rim_points(const CellRim& rim, std::span<const Side> sid
 void StrokeTearing::remove_pending(const HalfSpace& end, const Workpiece& work) {
   const BladePlane& plane = pending_->plane;
   const double half = 0.5 * options_.width;
-  // What lies left of the right side, and right of the left one.
+  // The first half-space lies left of the gap's right side, the second right of its left side.
   constexpr std::array kSides = {Side::right, Side::left, Side::none,
                                  Side::none,  Side::none, Side::none};
   remove({plane.left_of(-half), plane.right_of(half), plane.standing_on(plane.reach()[0]),
@@ -135,8 +135,8 @@ void StrokeTearing::remove_pending(const HalfSpace& end, const Workpiece& work) 
 }
 
 /// Ends the pending gap where the next one begins. Where the stroke turns gently they share a mitre
-/// plane; where it turns sharply, or more than the segments are long, both end square and a wedge
-/// closes the outer side: mitred up to a right angle, bevelled beyond.
+/// plane. Where it turns sharply, or the mitre is longer than half of the shorter segment, both end
+/// square and a wedge closes the outer side: mitred up to a right angle, bevelled beyond.
 void StrokeTearing::join_gaps(PendingGap& next, const Vec3d& at, const Workpiece& work) {
   const Vec3d before = pending_->plane.across(), after = next.start.normal;
   const double cosine = before.dot(after), half = 0.5 * options_.width;
@@ -200,9 +200,9 @@ void StrokeTearing::sweep_gap(const BladePlane& plane, const Workpiece& work) {
   pending_ = std::move(next);
 }
 
-/// Where a gap goes on from one that was closed square in another pose: from the edge that this
-/// left at both sides of the tip, wherever that stands now, and a little before it, so that nothing
-/// is left standing between the two.
+/// The start of a gap that continues one that was closed square in another pose: the edge that the
+/// earlier gap left on both sides of the tip, as it stands in this pose, moved back a little so
+/// that nothing remains between the two gaps.
 HalfSpace StrokeTearing::start_from_rim(const BladePlane& plane, Index tip,
                                         const Workpiece& work) const {
   const Surface& surface = work.editor.surface();
@@ -217,7 +217,7 @@ HalfSpace StrokeTearing::start_from_rim(const BladePlane& plane, Index tip,
   Vec3d forward = along_rim.cross(plane.along());
   if (forward.dot(plane.across()) < 0) forward = -forward;
   const double length = forward.norm();
-  // A rim that does not lie across the way says nothing.
+  // A rim that does not lie across the direction of the stroke is not used.
   forward = length > 0 && forward.dot(plane.across()) > 0.5 * length ? Vec3d(forward / length)
                                                                      : plane.across();
   return {forward, forward.dot(at) - 0.1 * options_.width};

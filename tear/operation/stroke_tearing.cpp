@@ -48,7 +48,8 @@ void StrokeTearing::enter_pose(const Workpiece& work) {
   } else if (held_by_) {
     for (Index k = 0; k < 3; ++k)
       moved += held_by_->barycentric[k] *
-               work.posed.position(work.editor, work.editor.surface().corner_point[3 * held_by_->triangle + k]);
+               work.posed.position(work.editor,
+                                   work.editor.surface().corner_point[3 * held_by_->triangle + k]);
   } else {
     return;
   }
@@ -71,7 +72,7 @@ void StrokeTearing::extend(const Blade& to, const Workpiece& work) {
       anchor = met_->position;
   }
   const auto plane = BladePlane::through(anchor, from, to);
-  if (!plane) return;  // the blade stands still; so does the tip
+  if (!plane) return;  // the blade did not move, and neither does the tip
 
   const EditLog::Mark before = work.editor.mark();
   if (options_.width > 0)
@@ -85,10 +86,12 @@ void StrokeTearing::extend(const Blade& to, const Workpiece& work) {
 
 void StrokeTearing::finish(const Workpiece& work) {
   catch_up(work);
-  if (options_.wall_depth > 0) add_walls(work.editor.opened_edges.borders(), stroke_, options_.wall_depth, work);
+  if (options_.wall_depth > 0)
+    add_walls(work.editor.opened_edges.borders(), stroke_, options_.wall_depth, work);
 }
 
-double StrokeTearing::tear_piece(const BladePlane& plane, Index start, const EditLog::Mark& before, const Workpiece& work) {
+double StrokeTearing::tear_piece(const BladePlane& plane, Index start, const EditLog::Mark& before,
+                                 const Workpiece& work) {
   SurfaceEditor& editor = work.editor;
   PosedPoints& posed = work.posed;
   Path path = imprint_path(plane, start, editor, posed);
@@ -96,8 +99,10 @@ double StrokeTearing::tear_piece(const BladePlane& plane, Index start, const Edi
   tip_ = kNone;
   if (path.end == PathEnd::blocked) ++report.blocked;
 
-  // A tear of one edge between two tips would be closed at both ends of its only edge: it needs a point that can open.
-  if (path.points.size() == 2 && !editor.surface().is_on_border(path.points[0]) && !editor.surface().is_on_border(path.points[1])) {
+  // A tear of a single edge between two tips stays closed at both ends of the edge, so it needs
+  // another point that can open.
+  if (path.points.size() == 2 && !editor.surface().is_on_border(path.points[0]) &&
+      !editor.surface().is_on_border(path.points[1])) {
     const Index edge = editor.surface().find_half_edge(path.points[0], path.points[1]);
     const Index middle = split_posed_edge(edge, 0.5, editor, posed);
     if (middle == kNone)
@@ -106,12 +111,14 @@ double StrokeTearing::tear_piece(const BladePlane& plane, Index start, const Edi
       path.points.insert(path.points.begin() + 1, middle);
     path.half_edges.clear();
   }
-  // Where the last piece of this segment snapped, something of the section may be left beside it: not a piece of its own.
+  // Where the last piece of this segment snapped, a part of the section may remain next to it. That
+  // part is not a piece of its own.
   const bool is_leftover = path.points.back() == last_end_;
   if (path.points.size() < 2 || is_leftover) {
     editor.roll_back(before);
     posed.forget_from(before.points);
-    if (path.end == PathEnd::blade && start < before.points) {  // moved by less than can be told: go on from here
+    if (path.end == PathEnd::blade &&
+        start < before.points) {  // the movement is too small to tear: the tip stays
       tip_ = start;
       tip_ends_run_ = continues;
     }
@@ -119,11 +126,13 @@ double StrokeTearing::tear_piece(const BladePlane& plane, Index start, const Edi
   }
   ScratchVector<PointEdge> edges(&editor.scratch());
   edges.reserve(path.points.size() - 1);
-  for (std::size_t i = 0; i + 1 < path.points.size(); ++i) edges.push_back({path.points[i], path.points[i + 1]});
+  for (std::size_t i = 0; i + 1 < path.points.size(); ++i)
+    edges.push_back({path.points[i], path.points[i + 1]});
   std::vector<LipPair>& lips = borders.lips;
   const std::size_t first_lip = lips.size();
   open_edges(edges, path.half_edges, editor, lips);
-  for (std::size_t i = first_lip; i < lips.size(); ++i) posed.pin(lips[i].left, Vec3d(posed.position(editor, lips[i].right)));
+  for (std::size_t i = first_lip; i < lips.size(); ++i)
+    posed.pin(lips[i].left, Vec3d(posed.position(editor, lips[i].right)));
   torn_edges_ += edges.size();
   if (!continues) ++report.runs;
   report.faces_crossed += path.faces_crossed;
@@ -135,7 +144,8 @@ double StrokeTearing::tear_piece(const BladePlane& plane, Index start, const Edi
   return 1.0;
 }
 
-std::optional<SurfaceHit> StrokeTearing::find_contact(const BladePlane& plane, double progress, const Workpiece& work) {
+std::optional<SurfaceHit> StrokeTearing::find_contact(const BladePlane& plane, double progress,
+                                                      const Workpiece& work) {
   if (const auto met = std::exchange(met_, std::nullopt); met && progress == 0)
     if (const auto contact = contact_at(*met, plane, work.editor, work.posed)) return contact;
   return first_contact(plane, progress, work.editor, work.posed);
@@ -146,14 +156,16 @@ void StrokeTearing::tear_segment(const BladePlane& plane, const Workpiece& work)
   double progress = 0;
   if (tip_ != kNone) progress = std::max(0.0, tear_piece(plane, tip_, work.editor.mark(), work));
 
-  // Where the surface ends, folds away or cannot be split, the sweep goes on to whatever it meets next. Every turn passes a
-  // triangle at least; a sweep that gets nowhere in many turns gives up.
+  // Where the surface ends, folds away or cannot be split, the sweep continues to the place that it
+  // meets next. Each iteration passes at least one triangle. A sweep that does not advance in 64
+  // iterations ends.
   for (int futile = 0; progress < 1 && futile < 64;) {
     const auto contact = find_contact(plane, progress, work);
     if (!contact) break;
     const EditLog::Mark before = work.editor.mark();
     const std::size_t edges = torn_edges_;
-    const double reached = tear_piece(plane, imprint_point(*contact, Snapping::by_shape, work.editor, work.posed), before, work);
+    const double reached = tear_piece(
+        plane, imprint_point(*contact, Snapping::by_shape, work.editor, work.posed), before, work);
     const bool has_advanced = torn_edges_ > edges && reached > progress + kSamePlace;
     progress = std::max(progress, reached);
     if (has_advanced) continue;

@@ -16,25 +16,25 @@
 
 namespace sunder::tear {
 
-/// A stroke under way: where the tear stands, and what of its gap is left to do. A plain value, so
-/// that a failing extension can go back to a copy.
+/// The state of a stroke under way: the tip of the tear, and the part of its gap that is still to
+/// be removed. A value type, so that a failed extension can be restored from a copy.
 class StrokeTearing {
  public:
-  /// Begins another stroke, in the same memory.
+  /// Begins another stroke. The memory is reused.
   void begin(const Blade& first, const TearOptions& options);
 
-  /// Tears on to the next blade, in the pose that `work.posed` stands for.
+  /// Continues the tear to the next blade, in the pose of `work.posed`.
   void extend(const Blade& to, const Workpiece& work);
-  /// To be called around each change of the pose: the gap is finished in the pose in which it was
-  /// swept, and the blade goes along with the surface that it stands on.
+  /// To be called before and after each change of the pose. The gap is finished in the pose in
+  /// which it was swept, and the blade moves with the surface that it stands on.
   void leave_pose(const Workpiece& work);
   void enter_pose(const Workpiece& work);
-  /// Ends the stroke: what of the gap is left to do, and the walls.
+  /// Ends the stroke: removes the rest of the gap and adds the walls.
   void finish(const Workpiece& work);
 
   [[nodiscard]] const Blade& blade() const { return blade_; }
 
-  // What was done since they were cleared.
+  // Changes since these were last cleared.
   TearReport report;
   OpenedBorders borders;
 
@@ -43,14 +43,14 @@ class StrokeTearing {
   struct PendingGap {
     BladePlane plane;
     HalfSpace start;
-    std::vector<Index> seeds;    ///< Points in which the tear entered the surface.
-    std::vector<Index> faces;    ///< That the middle of the gap crosses.
-    std::vector<Vec2d> section;  ///< The middle of the gap in the plane, by growing x.
+    std::vector<Index> seeds;    ///< Points at which the tear entered the surface.
+    std::vector<Index> faces;    ///< Faces that the middle of the gap crosses.
+    std::vector<Vec2d> section;  ///< The middle of the gap in the plane, ascending by x.
     double length = 0;
   };
 
   void tear_segment(const BladePlane& plane, const Workpiece& work);
-  /// Where the sweep meets the surface next.
+  /// The next place where the sweep meets the surface.
   [[nodiscard]] std::optional<SurfaceHit> find_contact(const BladePlane& plane, double progress,
                                                        const Workpiece& work);
   double tear_piece(const BladePlane& plane, Index start, const EditLog::Mark& before,
@@ -63,9 +63,9 @@ class StrokeTearing {
   void remove_pending(const HalfSpace& end, const Workpiece& work);
   [[nodiscard]] HalfSpace start_from_rim(const BladePlane& plane, Index tip,
                                          const Workpiece& work) const;
-  /// Does what is left of the gap.
+  /// Removes the rest of the gap.
   void catch_up(const Workpiece& work);
-  /// Which side of the gap lies on the plane of a cell's half-space.
+  /// The side of the gap that lies on the plane of a half-space of a cell.
   enum class Side : std::uint8_t { none, left, right };
   void remove(const Cell& cell, std::span<const Side> sides, const PendingGap& gap,
               const Workpiece& work);
@@ -74,17 +74,19 @@ class StrokeTearing {
 
   TearOptions options_;
   Blade blade_, blade_before_;
-  Stroke stroke_;                  ///< All blades, for the walls.
-  Index tip_ = kNone;              ///< Where the tear stands, while it stands on the surface.
-  bool tip_ends_run_ = false;      ///< Not where a first segment was too short to tear.
-  std::optional<SurfaceHit> met_;  ///< Where the blade meets the surface at the beginning of the
-                                   ///< segment, until that is used.
-  Index last_end_ = kNone;         ///< Where the last piece of the segment under way ended.
+  Stroke stroke_;      ///< All blades, for the walls.
+  Index tip_ = kNone;  ///< The tip of the tear; kNone if it is not on the surface.
+  /// Whether a torn run ends at the tip; false if the first segment was too short to tear.
+  bool tip_ends_run_ = false;
+  /// The place where the blade meets the surface at the start of the segment, until it is used.
+  std::optional<SurfaceHit> met_;
+  Index last_end_ = kNone;  ///< The end point of the last piece of the current segment.
   std::size_t torn_edges_ = 0;
   std::optional<PendingGap> pending_;
-  Vec3d held_before_ =
-      Vec3d::Zero();  ///< Where the blade stood on the surface in the pose that was left.
-  std::optional<SurfaceHit> held_by_;  ///< And where on it, where that is not the tip.
+  /// The place of the blade on the surface in the pose that was left.
+  Vec3d held_before_ = Vec3d::Zero();
+  /// That place as a hit on the surface, if it is not the tip.
+  std::optional<SurfaceHit> held_by_;
   bool has_removed_ = false;
   bool is_in_new_pose_ = false;
 };
