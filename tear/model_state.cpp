@@ -64,7 +64,7 @@ void TornModel::State::end_call(Call& call, const WeightOptions& of_points, Chan
   }
 }
 
-/// Lets keep_borders() and record() add what the call opened to what the operation did.
+/// Reserves memory, so that keep_borders() and record() do not fail.
 void TornModel::State::make_room_for_borders() {
   const auto& [lips, rim_points] = borders_of_call_;
   tear::make_room_to_hold(borders_.lips.size() + lips.size(), borders_.lips);
@@ -84,8 +84,7 @@ void TornModel::State::take_back() {
   posed.forget_from(begin_of_call_.points);
 }
 
-void TornModel::State::count(const tear::EditLog::Mark& begin, bool is_cut,
-                             TearReport& report) {
+void TornModel::State::count(const tear::EditLog::Mark& begin, bool is_cut, TearReport& report) {
   report.points_added = editor.surface().point_count() - begin.points;
   report.triangles_added = editor.surface().triangle_count() - begin.triangles;
   report.vertices_added = editor.log.vertices_since(begin);
@@ -98,7 +97,7 @@ void TornModel::State::count(const tear::EditLog::Mark& begin, bool is_cut,
 }
 
 void TornModel::State::record(const tear::EditLog::Mark& begin) {
-  if (editor.log.numbers_since(begin) == 0) return;  // it did nothing
+  if (editor.log.numbers_since(begin) == 0) return;  // nothing changed
   history.next().begin = begin;
   history.push(borders_);
 }

@@ -46,7 +46,7 @@ class GrowingPath {
     const Step step = find_step(plane_, path.points.back(), Snapping::by_shape, editor_, posed_);
     if (step.corner == kNone) return end(PathEnd::surface);
     const Reach reach = reach_between(plane_, here_, step.position);
-    // Where the curve itself ends; the path may snap to a point before it.
+    // The progress at which the curve ends; the path may snap to a point before it.
     come_to(plane_.progress(Vec3d(here_ + reach.fraction * (step.position - here_))));
     if (reach.fraction == 1) come_to(step.crossing_progress);
     if (reach.fraction < kSnap) return end(reach.end());
@@ -77,7 +77,7 @@ class GrowingPath {
     here_ = there;
   }
 
-  /// Turns edges that earlier tears left out of the way, as far as the source triangle goes.
+  /// Flips the edges in the way that earlier tears left within the source triangle.
   bool leap(const Step& step) {
     const Leap leap = find_leap(plane_, step, editor_, posed_);
     const Index landing = take_leap(plane_, path.points.back(), leap, editor_, posed_);
@@ -137,7 +137,7 @@ class GrowingPath {
   }
 
   /// Crosses the face ahead if it needs no closer look.
-  /// @param progress_here  of the current place; updated.
+  /// @param progress_here  progress of the current place; updated.
   bool cross_next(double& progress_here, LineSplitter& splitter) {
     const Index entry = splitter.ahead();
     if (entry == kNone || !editor_.origins.is_whole(entry / 3)) return false;
