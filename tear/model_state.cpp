@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/internal/ordered.h"
 #include "tear/pieces/pieces.h"
 #include "tear/surface/describe_change.h"
 #include "tear/weights/assign_weights.h"
@@ -108,14 +109,13 @@ Status validate_blade(const Blade& blade, std::uint32_t index) {
   // Products of four coordinates must stay finite.
   if (blade.base.cwiseAbs().maxCoeff() > 1e60 || blade.tip.cwiseAbs().maxCoeff() > 1e60)
     return Status::failure(StatusCode::invalid_argument, index, "blade %u lies beyond 1e60", index);
-  if (!((blade.tip - blade.base).norm() > 1e-30))
+  if (!(norm(blade.tip - blade.base) > 1e-30))
     return Status::failure(StatusCode::invalid_argument, index, "blade %u has no length", index);
   return {};
 }
 
 Status validate_turn(const Blade& before, const Blade& blade, std::uint32_t index) {
-  if ((blade.tip - blade.base).normalized().dot((before.tip - before.base).normalized()) > 0)
-    return {};
+  if (dot(normalized(blade.tip - blade.base), normalized(before.tip - before.base)) > 0) return {};
   return Status::failure(StatusCode::invalid_argument, index,
                          "blade %u is turned by 90 degrees or more against the one before it: "
                          "sample the stroke more finely",

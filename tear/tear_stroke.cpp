@@ -6,9 +6,10 @@
 #include <unordered_set>
 #include <utility>
 
+#include "core/internal/ordered.h"
 #include "tear/model_state.h"
-#include "tear/surface/describe_change.h"
 #include "tear/operation/stroke_tearing.h"
+#include "tear/surface/describe_change.h"
 
 namespace sunder {
 namespace {
@@ -76,8 +77,8 @@ struct TearStroke::State {
   bool has_ended = false;
 
   [[nodiscard]] bool is_due(const Blade& blade, double seconds) const {
-    const double moved = std::max((blade.base - model->tearing.blade().base).norm(),
-                                  (blade.tip - model->tearing.blade().tip).norm());
+    const double moved = std::max(norm(blade.base - model->tearing.blade().base),
+                                  norm(blade.tip - model->tearing.blade().tip));
     return moved >= sampling.minimum_distance && seconds - last_seconds >= sampling.minimum_seconds;
   }
 

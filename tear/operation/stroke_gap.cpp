@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/internal/ordered.h"
 #include "tear/geometry/tolerances.h"
 #include "tear/internal/surface.h"
 #include "tear/operation/stroke_tearing.h"
@@ -91,7 +92,7 @@ void StrokeTearing::remove(const Cell& cell, std::span<const Side> sides, const 
       std::array<Vec3d, 3> corners;
       for (Index k = 0; k < 3; ++k)
         corners[k] = posed.position(editor, surface.corner_point[3 * face + k]);
-      if ((corners[1] - corners[0]).cross(corners[2] - corners[0]).dot(gap.plane.along()) <= 0)
+      if (dot((corners[1] - corners[0]).cross(corners[2] - corners[0]), gap.plane.along()) <= 0)
         return true;
       const Vec2d middle = gap.plane.project((corners[0] + corners[1] + corners[2]) / 3);
       return middle.y() - depth_at(gap.section, middle.x()) < 2 * options_.width;
@@ -117,7 +118,7 @@ void StrokeTearing::add_rim_points(const CellRim& rim, std::span<const Side> sid
     const Side side = edge.side == kNone ? Side::none : sides[edge.side];
     if (side == Side::none) continue;
     const bool is_seen_from_inside =
-        options_.layers == Layers::nearest && rim.areas[edge.part].dot(plane.along()) > 0;
+        options_.layers == Layers::nearest && dot(rim.areas[edge.part], plane.along()) > 0;
     for (const Index point : edge.points)
       borders.rim_points.push_back({point, (side == Side::left) != is_seen_from_inside});
   }
@@ -139,22 +140,22 @@ void StrokeTearing::remove_pending(const HalfSpace& end, const Workpiece& work) 
 /// square and a wedge closes the outer side: mitred up to a right angle, bevelled beyond.
 void StrokeTearing::join_gaps(PendingGap& next, const Vec3d& at, const Workpiece& work) {
   const Vec3d before = pending_->plane.across(), after = next.start.normal;
-  const double cosine = before.dot(after), half = 0.5 * options_.width;
+  const double cosine = dot(before, after), half = 0.5 * options_.width;
   const double overlap =
       cosine > -1 ? half * std::sqrt(std::max(0.0, (1 - cosine) / (1 + cosine))) : 0;
   const Vec3d normal_before = pending_->plane.normal(), normal_after = next.plane.normal();
   const auto from = [&](const Vec3d& direction, double distance) {
-    return HalfSpace{direction, direction.dot(at) + distance};
+    return HalfSpace{direction, dot(direction, at) + distance};
   };
   if (cosine >= 0 && overlap <= 0.5 * std::min(pending_->length, next.length)) {
-    const Vec3d mitre = (before + after) / (before + after).norm();
+    const Vec3d mitre = (before + after) / norm(before + after);
     remove_pending(from(-mitre, 0), work);
     next.start = from(mitre, 0);
     return;
   }
   remove_pending(from(-before, 0), work);
   next.start = from(after, 0);
-  const double outer = normal_before.dot(after) > 0 ? -1.0 : 1.0;
+  const double outer = dot(normal_before, after) > 0 ? -1.0 : 1.0;
   Cell wedge = {from(before, 0), from(-after, 0), next.plane.standing_on(next.plane.reach()[0]),
                 next.plane.standing_on(next.plane.reach()[1])};
   std::vector<Side> sides(wedge.size(), Side::none);
@@ -163,9 +164,9 @@ void StrokeTearing::join_gaps(PendingGap& next, const Vec3d& at, const Workpiece
     wedge.push_back(from(-outer * normal_after, -half));
   } else {
     const Vec3d bevel = outer * (normal_before + normal_after);
-    if (!(bevel.norm() > 1e-6)) return;  // straight back
+    if (!(norm(bevel) > 1e-6)) return;  // straight back
     wedge.push_back(
-        from(-bevel / bevel.norm(), -half * outer * normal_before.dot(bevel) / bevel.norm()));
+        from(-bevel / norm(bevel), -half * outer * dot(normal_before, bevel) / norm(bevel)));
   }
   sides.resize(wedge.size(), outer > 0 ? Side::left : Side::right);
   remove(wedge, sides, next, work);
@@ -176,7 +177,7 @@ void StrokeTearing::sweep_gap(const BladePlane& plane, const Workpiece& work) {
   const Index begins_at = tip_;
   const Blade from = blade_before_;
   PendingGap next{
-      plane, plane.standing_on(plane.from_progress(0)), {}, {}, {}, (blade_.tip - from.tip).norm()};
+      plane, plane.standing_on(plane.from_progress(0)), {}, {}, {}, norm(blade_.tip - from.tip)};
   if (!takes_all) next = find_gap(plane, work);
   const bool continues =
       takes_all ? pending_.has_value()
@@ -215,12 +216,12 @@ HalfSpace StrokeTearing::start_from_rim(const BladePlane& plane, Index tip,
       work.posed.position(work.editor, surface.corner_point[Surface::next(first)]) -
       work.posed.position(work.editor, surface.corner_point[Surface::previous(last)]);
   Vec3d forward = along_rim.cross(plane.along());
-  if (forward.dot(plane.across()) < 0) forward = -forward;
-  const double length = forward.norm();
+  if (dot(forward, plane.across()) < 0) forward = -forward;
+  const double length = norm(forward);
   // A rim that does not lie across the direction of the stroke is not used.
-  forward = length > 0 && forward.dot(plane.across()) > 0.5 * length ? Vec3d(forward / length)
-                                                                     : plane.across();
-  return {forward, forward.dot(at) - 0.1 * options_.width};
+  forward = length > 0 && dot(forward, plane.across()) > 0.5 * length ? Vec3d(forward / length)
+                                                                      : plane.across();
+  return {forward, dot(forward, at) - 0.1 * options_.width};
 }
 
 void StrokeTearing::catch_up(const Workpiece& work) {

@@ -5,6 +5,7 @@
 #include <functional>
 #include <limits>
 
+#include "core/internal/ordered.h"
 #include "tear/geometry/tolerances.h"
 
 namespace sunder::tear {
@@ -64,7 +65,7 @@ class Segment {
         direction_(blade.tip - blade.base),
         frame_(frame),
         base_in_frame_(frame.place_of(base_)),
-        direction_in_frame_(frame.axes * direction_),
+        direction_in_frame_(multiply(frame.axes, direction_)),
         per_step_(direction_in_frame_.cwiseInverse()),
         reach_(std::max(
             {frame.reach(), base_.cwiseAbs().maxCoeff(), blade.tip.cwiseAbs().maxCoeff()})),
@@ -100,14 +101,14 @@ class Segment {
                                               double& depth) const {
     const Vec3d ab = corners[1] - corners[0], ac = corners[2] - corners[0];
     const Vec3d h = direction_.cross(ac);
-    const double determinant = ab.dot(h);
-    if (!(std::abs(determinant) > 1e-14 * ab.norm() * ac.norm() * direction_.norm()))
+    const double determinant = dot(ab, h);
+    if (!(std::abs(determinant) > 1e-14 * norm(ab) * norm(ac) * norm(direction_)))
       return std::nullopt;
     const Vec3d from_corner = base_ - corners[0];
-    const double u = from_corner.dot(h) / determinant;
+    const double u = dot(from_corner, h) / determinant;
     const Vec3d q = from_corner.cross(ab);
-    const double v = direction_.dot(q) / determinant;
-    depth = ac.dot(q) / determinant;
+    const double v = dot(direction_, q) / determinant;
+    depth = dot(ac, q) / determinant;
     constexpr double kEdge = 1e-12;
     if (u < -kEdge || v < -kEdge || u + v > 1 + kEdge || depth < 0 || depth > 1)
       return std::nullopt;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/internal/ordered.h"
 #include "tear/geometry/tolerances.h"
 #include "tear/internal/surface.h"
 #include "tear/path/edge_crossing.h"
@@ -71,7 +72,7 @@ class GrowingPath {
   void come_to(double progress) { path.progress = std::max(path.progress, progress); }
   void go_to(Index point, Index half_edge) {
     const Vec3d there = posed_.position(editor_, point);
-    path.length_posed += (there - here_).norm();
+    path.length_posed += norm(there - here_);
     path.points.push_back(point);
     path.half_edges.push_back(half_edge);
     here_ = there;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/internal/ordered.h"
 #include "tear/geometry/tolerances.h"
 #include "tear/internal/surface.h"
 
@@ -92,7 +93,7 @@ class StepChoice {
     // In a sliver an end may be near but lie in another direction, such as the one from which the
     // tear came.
     const Vec3d way = step.position - from_, snapped_way = nearer_end - from_;
-    return way.dot(snapped_way) > 0.5 * way.norm() * snapped_way.norm();
+    return dot(way, snapped_way) > 0.5 * norm(way) * norm(snapped_way);
   }
 
   /// Change of depth per progress.

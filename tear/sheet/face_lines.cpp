@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/internal/ordered.h"
 #include "tear/internal/surface.h"
 #include "tear/path/imprint_point.h"
 #include "tear/surface/flip_edge.h"
@@ -27,16 +28,16 @@ FaceLines::FaceLines(Index face, const std::array<Index, 3>& points,
               ac = posed.position(editor, points[2]) - origin_;
   const Vec3d normal = ab.cross(ac);
   const double longest =
-      std::sqrt(std::max({ab.squaredNorm(), ac.squaredNorm(), (ac - ab).squaredNorm()}));
-  if (!(normal.norm() > 1e-12 * longest * longest)) return;
+      std::sqrt(std::max({squared_norm(ab), squared_norm(ac), squared_norm(ac - ab)}));
+  if (!(norm(normal) > 1e-12 * longest * longest)) return;
   size_ = longest;
-  x_ = ab.norm() > ac.norm() ? Vec3d(ab / ab.norm()) : Vec3d(ac / ac.norm());
-  y_ = (normal / normal.norm()).cross(x_);
+  x_ = norm(ab) > norm(ac) ? Vec3d(ab / norm(ab)) : Vec3d(ac / norm(ac));
+  y_ = (normal / norm(normal)).cross(x_);
 }
 
 Vec2d FaceLines::place(Index point) {
   const Vec3d offset = posed_.position(editor_, point) - origin_;
-  return {x_.dot(offset), y_.dot(offset)};
+  return {dot(x_, offset), dot(y_, offset)};
 }
 
 bool FaceLines::is_drawn(Index a, Index b) const {
@@ -51,7 +52,7 @@ Index FaceLines::imprint(const Vec3d& position) {
     if (is_child(t)) children_.push_back(t);
   first_new_ = editor_.surface().triangle_count();
 
-  const Vec2d at{x_.dot(position - origin_), y_.dot(position - origin_)};
+  const Vec2d at{dot(x_, position - origin_), dot(y_, position - origin_)};
   SurfaceHit best;
   double best_least = 0;
   for (const Index child : children_) {
@@ -78,7 +79,7 @@ bool FaceLines::turn(Index half_edge) {
               d = place(surface.corner_point[Surface::next(half_edge)]);
   const Vec2d a = place(surface.corner_point[Surface::previous(half_edge)]),
               e = place(surface.corner_point[Surface::previous(twin)]);
-  const double least = kOnLine * size_ * (e - a).norm();
+  const double least = kOnLine * size_ * norm(e - a);
   return cross(e - a, c - a) < -least && cross(e - a, d - a) > least &&
          flip_edge(half_edge, editor_);
 }
@@ -98,7 +99,7 @@ bool FaceLines::draw(Index from, Index to, std::vector<PointEdge>& edges) {
     if (size_ == 0) return false;
     const Vec2d begin = place(from), end = place(to);
     const Vec2d way = end - begin;
-    const double length = way.norm();
+    const double length = norm(way);
     if (!(length > 0)) return false;
     const auto left_of_line = [&](Index point) {
       return cross(way, place(point) - begin) / length;
@@ -110,7 +111,7 @@ bool FaceLines::draw(Index from, Index to, std::vector<PointEdge>& edges) {
       const Index c = surface.corner_point[Surface::next(corner)],
                   d = surface.corner_point[Surface::previous(corner)];
       for (const Index point : {c, d}) {
-        const double along = way.dot(place(point) - begin) / length;
+        const double along = dot(way, place(point) - begin) / length;
         if (std::abs(left_of_line(point)) <= kOnLine * size_ && along > 0 && along < length)
           through = point;
       }

@@ -4,6 +4,7 @@
 #include <limits>
 #include <unordered_set>
 
+#include "core/internal/ordered.h"
 #include "tear/internal/surface.h"
 #include "tear/surface/disconnect.h"
 #include "tear/surface/disjoint_sets.h"
@@ -132,7 +133,7 @@ Index side_of_edge(const Cell& cell, const Vec3d& a, const Vec3d& b) {
   // An end may be off the plane by the distance of snapping, where a face was too small for a new
   // point.
   const double rounding = std::max(a.cwiseAbs().maxCoeff(), b.cwiseAbs().maxCoeff());
-  return least <= kOnSide * (b - a).norm() + kRounding * rounding ? nearest : kNone;
+  return least <= kOnSide * norm(b - a) + kRounding * rounding ? nearest : kNone;
 }
 
 /// The border between removed and remaining faces. It is collected before the removal and described
@@ -259,7 +260,7 @@ GapRemoval remove_cell(const Cell& cell, const std::vector<Index>& faces, Surfac
                      [&](const HalfSpace& half_space) { return half_space.value(middle) > 0; }))
       continue;
     inside.push_back(face);
-    removal.area_posed += 0.5 * (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm();
+    removal.area_posed += 0.5 * norm((corners[1] - corners[0]).cross(corners[2] - corners[0]));
   }
   if (inside.empty()) return removal;
   removal.faces_removed = static_cast<Index>(inside.size());

@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 
+#include "core/internal/ordered.h"
 #include "tear/geometry/tolerances.h"
 #include "tear/internal/surface.h"
 #include "tear/path/snapping.h"
@@ -96,8 +97,8 @@ class Imprint {
     const double value_from = plane.value(at_from), value_to = plane.value(at_to);
     const double fraction =
         value_from == value_to ? 0.0 : std::clamp(value_from / (value_from - value_to), 0.0, 1.0);
-    const double slant = (at_to - at_from).norm() / std::max(std::abs(value_from - value_to),
-                                                             std::numeric_limits<double>::min());
+    const double slant = norm(at_to - at_from) / std::max(std::abs(value_from - value_to),
+                                                          std::numeric_limits<double>::min());
     crossing = {face.edges[k], sheet, fraction, at_from + fraction * (at_to - at_from),
                 slant,         kNone};
     return true;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "core/internal/ordered.h"
 #include "tear/internal/surface.h"
 #include "tear/path/imprint_point.h"
 #include "tear/sheet/imprint_sheets.h"
@@ -116,7 +117,7 @@ SheetOpening open_sheet(const Sheet& sheet, const Workpiece& work, std::vector<L
     ++opening.runs;
     for (const PointEdge& edge : run) {
       opening.length_posed +=
-          (posed.position(editor, edge[1]) - posed.position(editor, edge[0])).norm();
+          norm(posed.position(editor, edge[1]) - posed.position(editor, edge[0]));
       opening.edges.push_back(edge);
     }
   }
