@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "core/internal/ordered.h"
 #include "particles/body_state.h"
 #include "particles/internal/tolerances.h"
 #include "particles/motion/stretch_limit.h"
@@ -55,7 +56,7 @@ void BodyState::follow_pose(double seconds) {
       if (motion.awake[p] == 0) motion.wake(p);
       for (auto* vectors :
            {&motion.displacements, &motion.velocities, &motion.quiet.from, &motion.corrections})
-        (*vectors)[p] = rests.turn_of_step(p) * (*vectors)[p];
+        (*vectors)[p] = multiply(rests.turn_of_step(p), (*vectors)[p]);
     } else {
       motion.wake(p);
       // Within the step the frame moves along with the rest; a step without time leaves it behind
@@ -93,7 +94,7 @@ void BodyState::integrate(double seconds) {
     steps.push_back(step_spring(material.return_stiffness, material.damping_ratio, seconds));
   for (const Index p : scratch.active) {
     const SpringStep& step = steps[motion.material_of[p]];
-    const Vec3d force = motion.forces[p] + rests.turn(p) * motion.lip_forces[p];
+    const Vec3d force = motion.forces[p] + multiply(rests.turn(p), motion.lip_forces[p]);
     const Vec3d acceleration =
         outer.gravity + motion.winds[p] + force / materials[motion.material_of[p]].mass;
     const Vec3d place = motion.displacements[p], velocity = motion.velocities[p];

@@ -7,6 +7,7 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "core/internal/ordered.h"
 #include "particles/clusters/lip_border.h"
 #include "particles/clusters/surface_pose.h"
 #include "particles/internal/tolerances.h"
@@ -30,8 +31,8 @@ Vec3d rest_place(const SoftBody& body, Index particle) {
 }
 
 double stretch_of(const SoftBody& body, const ParticleSet& particles, Index a, Index b) {
-  const double at_rest = (rest_place(body, b) - rest_place(body, a)).norm();
-  const double farther = (body.place(b) - body.place(a)).norm() - at_rest;
+  const double at_rest = norm(rest_place(body, b) - rest_place(body, a));
+  const double farther = norm(body.place(b) - body.place(a)) - at_rest;
   return 1 + farther / std::max(at_rest, kLeastApartRanges * particles.report().range);
 }
 
@@ -77,21 +78,21 @@ Vec3d greatest_stretch_around(const SoftBody& body, const ParticleSet& particles
   Eigen::Matrix2d at_rest = Eigen::Matrix2d::Zero();
   for (const Index particle : {pair.a, pair.b})
     for (const ParticleNeighbour& neighbour : particles.neighbours(particle)) {
-      const Eigen::Vector2d along =
-          plane.transpose() * (rest_place(body, neighbour.particle) - rest_place(body, particle));
+      const Eigen::Vector2d along = multiply(
+          plane.transpose(), rest_place(body, neighbour.particle) - rest_place(body, particle));
       const Eigen::Vector3d now = body.place(neighbour.particle) - body.place(particle);
       const double weight = particles.coupling(particle, neighbour);
       moved += weight * now * along.transpose();
       at_rest += weight * along * along.transpose();
     }
-  const double size = at_rest.trace();
+  const double size = trace(at_rest);
   if (!(at_rest.determinant() > kRowDeterminantFraction * size * size)) {  // all in a row
     const Eigen::Vector2d along =
-        plane.transpose() * (rest_place(body, pair.b) - rest_place(body, pair.a));
-    return along.norm() > 0 ? Vec3d(plane * along.normalized()) : Vec3d(plane.col(0));
+        multiply(plane.transpose(), rest_place(body, pair.b) - rest_place(body, pair.a));
+    return norm(along) > 0 ? Vec3d(plane * normalized(along)) : Vec3d(plane.col(0));
   }
   const Eigen::Matrix<double, 3, 2> map = moved * at_rest.inverse();
-  const Eigen::Matrix2d within = plane.transpose() * map;
+  const Eigen::Matrix2d within = multiply(plane.transpose(), map);
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(within * within.transpose());
   return plane * solver.eigenvectors().col(1);
 }
@@ -121,7 +122,7 @@ Index nearest_tip(const ParticleSet& particles, const OverstretchedPair& pair,
   for (const Index tip : tips) {
     // Not by weights: where particles crowd at a tear, those of its tip do not name them all.
     if (std::ranges::none_of(particles.memberships(tip), is_of_pair)) continue;
-    const float distance = (at[tip] - middle).norm();
+    const float distance = norm(at[tip] - middle);
     if (!(distance < nearest)) continue;
     nearest = distance;
     found = tip;
@@ -165,12 +166,12 @@ void run_forward(const TornModel& model, const SurfacePose& posed, Index tip, Sh
   const LipBorder border(model);
   Vec3d forward = tear.from - 0.5 * (posed.place(model, border.next(tip)) +
                                      posed.place(model, border.previous(tip)));
-  forward -= forward.dot(tear.normal) * tear.normal;
-  if (!(forward.norm() > 0)) return;
-  forward /= forward.norm();
-  if (tear.direction.dot(forward) < 0) tear.direction = -tear.direction;
-  if (tear.direction.dot(forward) < kLeastForwardCosine)
-    tear.direction = (tear.direction + forward).normalized();
+  forward -= dot(forward, tear.normal) * tear.normal;
+  if (!(norm(forward) > 0)) return;
+  forward /= norm(forward);
+  if (dot(tear.direction, forward) < 0) tear.direction = -tear.direction;
+  if (dot(tear.direction, forward) < kLeastForwardCosine)
+    tear.direction = normalized(tear.direction + forward);
 }
 
 /// Places a tear of some length at a point, across the direction of the greatest stretch.

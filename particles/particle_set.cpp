@@ -7,6 +7,7 @@
 #include <new>
 #include <stdexcept>
 
+#include "core/internal/ordered.h"
 #include "particles/clusters/decompose.h"
 #include "particles/clusters/gradients.h"
 #include "particles/clusters/read_model.h"

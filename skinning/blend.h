@@ -5,6 +5,8 @@
 #include <cmath>
 #include <span>
 
+#include "core/internal/ordered.h"
+
 namespace sunder::skinning {
 
 /// sum_k w_k M_k of one vertex, in double.
@@ -39,7 +41,7 @@ inline Eigen::Vector3d unit_or(const Eigen::Vector3d& direction, const Eigen::Ve
   const double largest = direction.cwiseAbs().maxCoeff();
   if (!(largest > 0) || !std::isfinite(largest)) return fallback;
   const Eigen::Vector3d scaled = direction / largest;  // squares of small numbers underflow
-  return scaled / scaled.norm();
+  return scaled / norm(scaled);
 }
 
 }  // namespace sunder::skinning

@@ -6,6 +6,7 @@
 
 #include <Eigen/SVD>
 
+#include "core/internal/ordered.h"
 #include "skinning/identity.h"
 #include "skinning/normal_matrix.h"
 #include "skinning/palette_data.h"
@@ -22,8 +23,9 @@ namespace {
 
 /// Whether `linear` is a rotation, to the precision of floats in files.
 bool is_rigid(const Mat3d& linear) {
-  return (linear.transpose() * linear - Mat3d::Identity()).cwiseAbs().maxCoeff() < kEvenScale &&
-         linear.determinant() > 0;
+  return (multiply(linear.transpose(), linear) - Mat3d::Identity()).cwiseAbs().maxCoeff() <
+             kEvenScale &&
+         determinant(linear) > 0;
 }
 
 /// Writes numbers in float, column by column.
@@ -39,13 +41,13 @@ void write_motion(PaletteData& data, std::size_t slot, const Affine3d& matrix) {
   if (data.dual.is_stretched[slot]) {
     const Eigen::JacobiSVD<Eigen::Matrix3d, Eigen::FullPivHouseholderQRPreconditioner> svd(
         Eigen::Matrix3d(rotation), Eigen::ComputeFullU | Eigen::ComputeFullV);
-    rotation = svd.matrixU() * svd.matrixV().transpose();
-    if (rotation.determinant() < 0) rotation = -rotation;  // a mirror is part of the stretch
-    stretch = rotation.transpose() * matrix.linear();
+    rotation = multiply(svd.matrixU(), svd.matrixV().transpose());
+    if (determinant(rotation) < 0) rotation = -rotation;  // a mirror is part of the stretch
+    stretch = multiply(rotation.transpose(), matrix.linear());
   }
-  const Quatd real = Quatd(rotation).normalized();
+  const Quatd real = normalized(Quatd(rotation));
   const Vec3d t = matrix.translation();
-  const Quatd dual(Quatd(0, t.x(), t.y(), t.z()) * real);
+  const Quatd dual = multiply(Quatd(0, t.x(), t.y(), t.z()), real);
   put(real.coeffs(), data.dual.motions.data() + 8 * slot);
   put(Vec4d(0.5 * dual.coeffs()), data.dual.motions.data() + 8 * slot + 4);
   put(Mat3d(stretch - Mat3d::Identity()), data.dual.stretches.data() + 18 * slot);
@@ -167,11 +169,12 @@ Status BonePalette::set(const Skin& skin, const ModelPose& pose,
       std::equal(pose.morph_weights.begin(), pose.morph_weights.end(), data.morph_weights.begin()))
     return {};
 
-  const Affine3d character_from_model = model_from_character.inverse();
+  const Affine3d character_from_model = inverse(model_from_character);
   for (std::size_t slot = 0; slot < data.slots; ++slot) {
     const Affine3d& model_from_bone = pose.model_from_bone[skin.bones[slot]];
     const Affine3d bone_from_bind = skin.bone_from_bind[slot].cast<double>();
-    data.fresh[slot] = (character_from_model * model_from_bone * bone_from_bind).cast<float>();
+    data.fresh[slot] =
+        multiply(multiply(character_from_model, model_from_bone), bone_from_bind).cast<float>();
   }
   if (const Status status = skinning::check(data, pose.morph_weights); !status) return status;
   for (std::size_t slot = 0; slot < data.slots; ++slot)

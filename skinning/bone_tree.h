@@ -5,11 +5,13 @@
 #include <cstddef>
 #include <span>
 
+#include "core/internal/ordered.h"
+
 namespace sunder::skinning {
 
 inline Affine3d to_matrix(const BoneTransform& transform) {
   Affine3d matrix;
-  matrix.linear() = transform.rotation.cast<double>().normalized().toRotationMatrix() *
+  matrix.linear() = normalized(transform.rotation.cast<double>()).toRotationMatrix() *
                     transform.scale.cast<double>().asDiagonal();
   matrix.translation() = transform.translation.cast<double>();
   return matrix;
@@ -27,7 +29,7 @@ void multiply_down(const Skeleton& skeleton, const ParentFromBone& parent_from_b
     if (parent == kNone)
       model_from_bone[bone] = local;
     else
-      model_from_bone[bone] = model_from_bone[parent] * local;
+      model_from_bone[bone] = multiply(model_from_bone[parent], local);
   }
 }
 

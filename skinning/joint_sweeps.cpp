@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "core/internal/ordered.h"
 #include "skinning/bone_tree.h"
 
 namespace sunder::skinning {
@@ -165,7 +166,7 @@ void compute_sweep(const Character& character, const JointSweeps& sweeps, const 
     for (const Turn& turn : {sweep.bone, sweep.parent}) {
       if (turn.hinge == kNone || sweeps.hinges[turn.hinge].bone != bone) continue;
       const Quatd rotation(Eigen::AngleAxisd{turn.angle, sweeps.hinges[turn.hinge].axis});
-      local.rotation = (local.rotation.cast<double>() * rotation).normalized().cast<float>();
+      local.rotation = normalized(multiply(local.rotation.cast<double>(), rotation)).cast<float>();
     }
     return local;
   };

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/internal/ordered.h"
+
 namespace sunder::skinning {
 
 /// Maximum deviation from a scaled rotation, relative to the squared scale, that still counts as
@@ -15,8 +17,8 @@ inline constexpr double kEvenScale = 1e-5;
 /// transforms normals like vectors.
 template <class Scalar, class Matrix>
 bool has_even_scale(const Matrix& linear) {
-  const Eigen::Matrix<Scalar, 3, 3> gram = linear.transpose() * linear;
-  const Scalar mean = gram.trace() / Scalar(3);
+  const Eigen::Matrix<Scalar, 3, 3> gram = multiply(linear.transpose(), linear);
+  const Scalar mean = trace(gram) / Scalar(3);
   return (gram - mean * Eigen::Matrix<Scalar, 3, 3>::Identity()).cwiseAbs().maxCoeff() <=
          Scalar(kEvenScale) * mean;
 }
@@ -34,10 +36,10 @@ Eigen::Matrix<Scalar, 3, 3> normal_matrix(const Matrix& linear) {
   cofactors.col(0) = unit.col(1).cross(unit.col(2));
   cofactors.col(1) = unit.col(2).cross(unit.col(0));
   cofactors.col(2) = unit.col(0).cross(unit.col(1));
-  const Scalar norm = cofactors.norm();
-  if (!(norm > Scalar(1e-20))) return Eigen::Matrix<Scalar, 3, 3>::Zero();
-  const Scalar sign = unit.col(0).dot(cofactors.col(0)) < Scalar(0) ? Scalar(-1) : Scalar(1);
-  return (sign * linear.norm() / norm) * cofactors;
+  const Scalar size = norm(cofactors);
+  if (!(size > Scalar(1e-20))) return Eigen::Matrix<Scalar, 3, 3>::Zero();
+  const Scalar sign = dot(unit.col(0), cofactors.col(0)) < Scalar(0) ? Scalar(-1) : Scalar(1);
+  return (sign * norm(linear) / size) * cofactors;
 }
 
 }  // namespace sunder::skinning

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "core/internal/ordered.h"
 #include "skinning/bone_tree.h"
 #include "skinning/normal_matrix.h"
 
@@ -12,7 +13,7 @@ namespace {
 /// Whether the matrix is invertible to working precision, relative to its own scale.
 bool is_invertible(const Mat3d& linear) {
   const double scale = linear.cwiseAbs().maxCoeff();
-  return scale > 0 && std::abs(linear.determinant()) > 1e-12 * scale * scale * scale;
+  return scale > 0 && std::abs(determinant(linear)) > 1e-12 * scale * scale * scale;
 }
 
 /// Writes a palette in either precision; the products are computed in double.
@@ -28,8 +29,8 @@ Status write_palette(const Skin& skin, const ModelPose& pose, std::span<Affine> 
                              "skin slot %u: bone %u, pose has %zu", slot, skin.bones[slot],
                              pose.model_from_bone.size());
   for (std::size_t slot = 0; slot < skin.bones.size(); ++slot) {
-    const Affine3d product =
-        pose.model_from_bone[skin.bones[slot]] * skin.bone_from_bind[slot].template cast<double>();
+    const Affine3d product = multiply(pose.model_from_bone[skin.bones[slot]],
+                                      Affine3d(skin.bone_from_bind[slot].template cast<double>()));
     model_from_bind[slot] = product.cast<typename Affine::Scalar>();
   }
   return {};
@@ -76,7 +77,7 @@ ModelPose bind_pose(const Character& character) {
       // own.
       if (skin.bones.size() == 1 && bone_from_bind.matrix() == Affine3d::Identity().matrix())
         continue;
-      pose.model_from_bone[bone] = bone_from_bind.inverse();
+      pose.model_from_bone[bone] = inverse(bone_from_bind);
       is_bound[bone] = true;
     }
   }
@@ -86,7 +87,7 @@ ModelPose bind_pose(const Character& character) {
     if (bones[i].parent == kNone)
       pose.model_from_bone[i] = parent_from_bone;
     else
-      pose.model_from_bone[i] = pose.model_from_bone[bones[i].parent] * parent_from_bone;
+      pose.model_from_bone[i] = multiply(pose.model_from_bone[bones[i].parent], parent_from_bone);
   }
   return pose;
 }

@@ -2,6 +2,7 @@
 
 #include <sunder/skinning/deform.h>
 
+#include "core/internal/ordered.h"
 #include "skinning/blend.h"
 
 namespace sunder {
@@ -20,7 +21,7 @@ Vec3d deform_position_reference(const Mesh& mesh, std::uint32_t vertex, const Ve
   const Eigen::Vector3d bind = skinning::add_morphs(
       mesh, vertex, morph_weights, position.cast<double>(), &MorphTarget::position_deltas);
   const auto blended = skinning::blend_matrix(influences, model_from_bind);
-  return blended.leftCols<3>() * bind + blended.col(3);
+  return transform(blended, bind);
 }
 
 Vec3d deform_normal_reference(const Mesh& mesh, std::uint32_t vertex,
@@ -33,7 +34,7 @@ Vec3d deform_normal_reference(const Mesh& mesh, std::uint32_t vertex,
   for (const Influence& influence : mesh.weights.of(vertex))
     blended += static_cast<double>(influence.weight) *
                compute_normal_matrix(model_from_bind[influence.slot].linear());
-  return skinning::unit_or(blended * bind, bind);
+  return skinning::unit_or(multiply(blended, bind), bind);
 }
 
 }  // namespace sunder

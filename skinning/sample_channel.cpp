@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include "core/internal/ordered.h"
 
 namespace sunder::skinning {
 namespace {
@@ -47,8 +50,21 @@ float interpolate(const Channel& channel, const KeySpan& at, std::uint32_t compo
 }
 
 Quatf normalized(const Quatf& rotation) {
-  const float length = rotation.norm();
+  const float length = norm(rotation);
   return length > 0.0f ? Quatf(rotation.coeffs() / length) : Quatf(Quatf::Identity());
+}
+
+/// Along the shorter arc, in Eigen's formula. Its own function adds in another order.
+Quatf slerp(const Quatf& from, const Quatf& to, float fraction) {
+  const float cosine = dot(from.coeffs(), to.coeffs());
+  float of_from = 1.0f - fraction, of_to = fraction;
+  if (std::abs(cosine) < 1.0f - std::numeric_limits<float>::epsilon()) {
+    const float angle = std::acos(std::abs(cosine)), sine = std::sin(angle);
+    of_from = std::sin((1.0f - fraction) * angle) / sine;
+    of_to = std::sin(fraction * angle) / sine;
+  }
+  if (cosine < 0) of_to = -of_to;
+  return Quatf(of_from * from.coeffs() + of_to * to.coeffs());
 }
 
 Quatf sample_rotation(const Channel& channel, const KeySpan& at) {
@@ -56,7 +72,7 @@ Quatf sample_rotation(const Channel& channel, const KeySpan& at) {
     const float* values = channel.values.data() + at.key * 4;
     const Quatf from = normalized(Quatf(Eigen::Map<const Eigen::Vector4f>(values)));
     const Quatf to = normalized(Quatf(Eigen::Map<const Eigen::Vector4f>(values + 4)));
-    return normalized(from.slerp(at.fraction, to));
+    return normalized(slerp(from, to, at.fraction));
   }
   Vec4f value;
   for (std::uint32_t i = 0; i < 4; ++i) value[i] = interpolate(channel, at, i);

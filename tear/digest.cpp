@@ -5,8 +5,8 @@
 namespace sunder {
 namespace {
 
-/// FNV-1a over 32-bit words: Fowler, Noll, Vo. Words, not bytes, so that it does not depend on
-/// their order in memory.
+/// FNV-1a (Fowler, Noll, Vo) over 32-bit words instead of bytes, so that the result does not depend
+/// on byte order.
 class Digest {
  public:
   void add(std::uint32_t word) { value_ = (value_ ^ word) * 0x100000001B3u; }
@@ -64,7 +64,7 @@ std::uint64_t TornModel::digest() const {
       const Birth born = birth(m, vertex);
       digest.add(born.triangle);
       for (const double coordinate : born.barycentric) digest.add(coordinate);
-      // In the arrays, exact vertices look like interpolated ones.
+      // The mesh arrays of exact vertices look like those of interpolated ones.
       if (weight_policy(m, vertex) == WeightPolicy::exact) digest.add(vertex);
     }
   }

@@ -5,7 +5,7 @@
 namespace sunder::tear {
 namespace {
 
-/// Blades of one stroke that an entry has memory for from the start.
+/// Number of blades per stroke for which a new entry has memory.
 constexpr std::size_t kBlades = 64;
 
 }  // namespace
@@ -26,7 +26,7 @@ void History::limit_to(std::size_t operations, std::size_t lips, const ModelPose
 
 History::Entry& History::next() {
   if (spare_.empty()) spare_.push_back(std::make_unique<Entry>());
-  // So that push() does not fail once the operation is done.
+  // Memory is reserved here, so that push() does not fail after the operation.
   if (done_.size() == done_.capacity()) done_.reserve(2 * done_.size() + 8);
   if (spare_.size() + undone_.size() > spare_.capacity())
     spare_.reserve(2 * (spare_.size() + undone_.size()));

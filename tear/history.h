@@ -13,19 +13,22 @@
 
 namespace sunder::tear {
 
-/// The operations that were done and those that were taken back. What is dropped keeps its memory
-/// for the next.
+/// The operations that are done, and the redo stack. Dropped entries keep their memory for later
+/// ones.
 class History {
  public:
   struct Entry {
     Operation operation;
     EditLog::Mark begin;
-    SurfaceEditor::Redo redo;     ///< Of one that was taken back.
-    WeightChange weights;         ///< Of a WeightsOperation: what takes it back, or does it again.
-    std::uint64_t serial = 0;     ///< That no other entry has, of any model; given by push().
-    IndexRange lips, rim_points;  ///< Among those of all entries; given by push().
+    SurfaceEditor::Redo redo;  ///< For an operation that was undone.
+    /// For a WeightsOperation: the weights that undo and redo exchange with those of the model.
+    WeightChange weights;
+    /// Unique among the entries of all models; assigned by push().
+    std::uint64_t serial = 0;
+    /// Ranges in the borders of all entries; assigned by push().
+    IndexRange lips, rim_points;
 
-    /// The operation as one of this kind, to be filled in.
+    /// The operation as a `Kind`. An operation of another kind is replaced by an empty one.
     template <class Kind>
     Kind& as() {
       if (!std::holds_alternative<Kind>(operation)) operation = Kind{};
@@ -33,23 +36,23 @@ class History {
     }
   };
 
-  /// Has memory for so many operations, and for the lips that all of them may open, and takes no
-  /// more.
-  /// @param pose  like all that come.
+  /// Reserves memory for this many operations, and for the lips that all of them may open.
+  /// Afterwards has_room() is false when the limit is reached.
+  /// @param pose  a pose of the size of those that will be recorded.
   void limit_to(std::size_t operations, std::size_t lips, const ModelPose& pose);
   [[nodiscard]] bool has_room() const { return limit_ == kUnlimited || done_.size() < limit_; }
 
-  /// An entry that is none yet, to be filled in.
+  /// The entry that push() will add, to be filled in.
   [[nodiscard]] Entry& next();
-  /// To be called before push() with so many, which does not fail then.
+  /// Reserves memory so that a push() with this many lips and rim points does not fail.
   void make_room_for(std::size_t lips, std::size_t rim_points);
-  /// Makes next() the newest, and forgets what was taken back.
-  /// @param borders  that it opened: to be told again by redo().
+  /// Adds next() as the most recent entry and clears the redo stack.
+  /// @param borders  the borders that the operation opened; redo() reports them again.
   void push(const OpenedBorders& borders);
 
   [[nodiscard]] const std::vector<std::unique_ptr<Entry>>& done() const { return done_; }
   [[nodiscard]] const std::vector<std::unique_ptr<Entry>>& undone() const { return undone_; }
-  /// What an entry was pushed with; of one that was taken back too.
+  /// The lips and rim points with which an entry was pushed. Valid on the redo stack too.
   [[nodiscard]] std::span<const LipPair> lips_of(const Entry& entry) const {
     return std::span(borders_.lips).subspan(entry.lips.first, entry.lips.count);
   }
@@ -59,25 +62,26 @@ class History {
   void make_room_to_undo() {
     if (undone_.size() == undone_.capacity()) undone_.reserve(2 * undone_.size() + 8);
   }
-  /// Moves the newest from one side to the other.
+  /// Move the most recent entry to the redo stack and back.
   void move_to_undone() { move_last(done_, undone_); }
   void move_to_done() { move_last(undone_, done_); }
 
  private:
   using Entries = std::vector<std::unique_ptr<Entry>>;
   static void move_last(Entries& from, Entries& to);
-  /// Where what the next entry opened is to stand: after what was opened by all that are done.
+  /// The place of the next entry's borders: after those of all entries that are done.
   [[nodiscard]] IndexRange next_lips() const;
   [[nodiscard]] IndexRange next_rim_points() const;
 
   Entries done_, undone_, spare_;
-  OpenedBorders borders_;  ///< Of all entries, the done ones from the oldest on, then those taken
-                           ///< back, from the last on.
+  /// Borders of all entries: first those that are done, oldest first, then those of the redo stack,
+  /// from its top down.
+  OpenedBorders borders_;
   static constexpr std::size_t kUnlimited = ~std::size_t{0};
   std::size_t limit_ = kUnlimited;
 };
 
-/// Makes a pose description hold a pose; where it held one before, in the same memory.
+/// Stores a pose in a pose description. Memory of a pose that it held before is reused.
 void assign_pose(const ModelPose& pose, PoseSpec& spec);
 
 }  // namespace sunder::tear

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <new>
 
+#include "core/internal/ordered.h"
 #include "skinning/internal/character_pose.h"
 #include "tear/model_state.h"
 
@@ -40,7 +41,7 @@ Vec3d exact_position(const tear::SurfaceEditor& editor, const tear::VertexRef& a
         q += static_cast<double>(morph_weights[mesh.first_morph_weight + j]) *
              exact.morph_targets[j].positions[place].cast<double>();
     const Affine3d& bone = palette[influence.slot];
-    sum += bone.linear() * q +
+    sum += multiply(bone.linear(), q) +
            static_cast<double>(influence.weight) * Eigen::Vector3d(bone.translation());
     ++place;
   }
@@ -58,8 +59,8 @@ double mean_edge(const tear::SurfaceEditor& editor, const tear::VertexRef& at,
     corners[k] = rest.position(mesh, corner, editor.births.position(at.mesh, corner),
                                editor.births.influences(at.mesh, corner));
   }
-  return ((corners[0] - corners[1]).norm() + (corners[1] - corners[2]).norm() +
-          (corners[2] - corners[0]).norm()) /
+  return (norm(corners[0] - corners[1]) + norm(corners[1] - corners[2]) +
+          norm(corners[2] - corners[0])) /
          3;
 }
 
@@ -88,7 +89,7 @@ double TornModel::State::rest_diagonal() const {
         box.extend(Eigen::Vector3d(
             deform_position_reference(mesh, v, palette, source->rest_morph_weights)));
     }
-    rest_diagonal_ = box.isEmpty() ? 0.0 : box.diagonal().norm();
+    rest_diagonal_ = box.isEmpty() ? 0.0 : norm(box.diagonal());
   });
   return rest_diagonal_;
 }
@@ -119,7 +120,7 @@ Result<WeightErrors> measure_weight_errors(const TornModel& model, std::uint32_t
     for (const ModelPose& pose : poses) {
       if (Status status = stand.set(state.character, pose); !status) return status;
       for (std::size_t i = 0; i < points.size(); ++i) {
-        const double error = error_of(editor, points[i], stand, exact).norm();
+        const double error = norm(error_of(editor, points[i], stand, exact));
         WeightErrors::OfPoint& of = errors.points[i];
         of.rms += error * error / static_cast<double>(poses.size());
         of.maximum = std::max(of.maximum, error);

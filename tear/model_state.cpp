@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/internal/ordered.h"
 #include "tear/pieces/pieces.h"
 #include "tear/surface/describe_change.h"
 #include "tear/weights/assign_weights.h"
@@ -65,7 +66,7 @@ void TornModel::State::describe_call(ChangeRecord& change) {
   tear::settle_rims(borders_of_call_.rim_points, editor.surface(), change.rims);
 }
 
-/// Lets keep_borders() and record() add what the call opened to what the operation did.
+/// Reserves memory, so that keep_borders() and record() do not fail.
 void TornModel::State::make_room_for_borders() {
   const auto& [lips, rim_points] = borders_of_call_;
   tear::make_room_to_hold(borders_.lips.size() + lips.size(), borders_.lips);
@@ -103,7 +104,7 @@ std::vector<TornPiece> TornModel::State::find_pieces_since(const tear::EditLog::
 }
 
 void TornModel::State::record(const tear::EditLog::Mark& begin) {
-  if (editor.log.numbers_since(begin) == 0) return;  // it did nothing
+  if (editor.log.numbers_since(begin) == 0) return;  // nothing changed
   history.next().begin = begin;
   history.push(borders_);
 }
@@ -114,14 +115,13 @@ Status validate_blade(const Blade& blade, std::uint32_t index) {
   // Products of four coordinates must stay finite.
   if (blade.base.cwiseAbs().maxCoeff() > 1e60 || blade.tip.cwiseAbs().maxCoeff() > 1e60)
     return Status::failure(StatusCode::invalid_argument, index, "blade %u lies beyond 1e60", index);
-  if (!((blade.tip - blade.base).norm() > 1e-30))
+  if (!(norm(blade.tip - blade.base) > 1e-30))
     return Status::failure(StatusCode::invalid_argument, index, "blade %u has no length", index);
   return {};
 }
 
 Status validate_turn(const Blade& before, const Blade& blade, std::uint32_t index) {
-  if ((blade.tip - blade.base).normalized().dot((before.tip - before.base).normalized()) > 0)
-    return {};
+  if (dot(normalized(blade.tip - blade.base), normalized(before.tip - before.base)) > 0) return {};
   return Status::failure(StatusCode::invalid_argument, index,
                          "blade %u is turned by 90 degrees or more against the one before it: "
                          "sample the stroke more finely",

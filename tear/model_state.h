@@ -16,7 +16,7 @@
 
 namespace sunder {
 
-/// What a TornModel is made of, and the frame around each of its operations.
+/// The state of a TornModel, and the transaction around each of its operations.
 struct TornModel::State {
   State(std::shared_ptr<const Character> from, const TornCapacity& of);
 
@@ -24,8 +24,8 @@ struct TornModel::State {
   struct CallOptions {
     const WeightOptions& weights;    ///< Weights of the points that the call creates.
     ChangeRecord* change = nullptr;  ///< Written where given.
-    bool names_all_pieces =
-        false;  ///< A cut reports every piece, other operations those that came free.
+    /// Whether every piece is reported, as by a cut, or only those that came free.
+    bool names_all_pieces = false;
   };
 
   /// One call of an operation. `work(Outcome&) -> Status` changes the surface (places, imprints,
@@ -98,49 +98,49 @@ struct TornModel::State {
   [[nodiscard]] std::vector<TornPiece> find_pieces_since(const tear::EditLog::Mark& begin,
                                                          bool names_all);
 
-  /// Where the operation that begins now begins.
-  /// @param keeps_opened  it will ask which borders it opened.
+  /// Begins an operation. @return the mark to roll back to.
+  /// @param keeps_opened  keep a list of the borders that the operation opens.
   [[nodiscard]] tear::EditLog::Mark begin_operation(bool keeps_opened) {
     editor.opened_edges.begin(keeps_opened);
     borders_.clear();
     return editor.mark();
   }
 
-  /// Refuses while a stroke is under way, and where there is no room for another operation.
+  /// @return an error while a stroke is under way, or if there is no room for another operation.
   [[nodiscard]] Status may_begin() const;
   [[nodiscard]] Status no_room(const tear::CapacityExceeded& exceeded) const;
-  /// Makes `pose` the one in which points are looked up. On failure the old one stays.
+  /// Sets the pose in which points are evaluated. On failure the old pose stays.
   [[nodiscard]] Status stand_in(const ModelPose& pose);
-  /// Ends an operation that began at `begin`, and whose description is history.next(): it can be
-  /// taken back from now on, unless it did nothing.
+  /// Records the operation that began at `begin` and is described by history.next(), so that it can
+  /// be undone. An operation that changed nothing is not recorded.
   void record(const tear::EditLog::Mark& begin);
 
-  /// Makes a WeightsOperation say which operations it is about, or refuses it.
+  /// Validates a WeightsOperation and makes its range of operations explicit.
   [[nodiscard]] Status resolve(WeightsOperation& wanted) const;
-  /// The vertices that these operations appended.
+  /// The vertices that the operations of that range appended.
   [[nodiscard]] tear::VertexRanges vertices_of(const WeightsOperation& resolved) const;
-  /// Gives points other weights, as an operation of its own.
+  /// Assigns other weights to points, as an operation of its own.
   [[nodiscard]] Status reweigh(const WeightsOperation& resolved,
                                const tear::WeightAssignment& assignment, ChangeRecord* change);
 
-  /// To be called when an operation was undone.
+  /// Cancels the refits of an operation that was undone.
   void cancel_refits_of(std::uint64_t serial) const;
 
   [[nodiscard]] tear::Workpiece workpiece() { return {editor, posed}; }
 
   std::shared_ptr<const Character> source;
   TornCapacity capacity;
-  WeightOptions weights;  ///< Of operations that do not say.
+  WeightOptions weights;  ///< Options for operations that have none of their own.
   Character character;
   tear::SurfaceEditor editor;
   tear::PosedPoints posed;
-  ModelPose pose;  ///< Of `posed`.
+  ModelPose pose;  ///< The pose of `posed`.
   bool has_stroke = false;
   tear::OngoingStroke stroke;  ///< The stroke under way, or the last one.
   tear::History history;
-  std::vector<std::weak_ptr<tear::RefitTask>> refits;  ///< That were submitted.
-  /// Of the source in the rest pose: the first time it is asked for, O(vertices). May be asked for
-  /// by several threads.
+  std::vector<std::weak_ptr<tear::RefitTask>> refits;  ///< All refits that were submitted.
+  /// Diagonal of the bounding box of the source in the rest pose. Computed by the first call,
+  /// O(vertices). Thread-safe.
   [[nodiscard]] double rest_diagonal() const;
 
  private:
@@ -151,19 +151,19 @@ struct TornModel::State {
   void take_back();
 
   tear::EditLog::Mark begin_of_call_;
-  tear::OpenedBorders borders_of_call_,
-      borders_;  ///< Of the call under way, and of the operation's calls before it.
+  /// Borders of the call under way, and of the earlier calls of the same operation.
+  tear::OpenedBorders borders_of_call_, borders_;
   mutable std::once_flag has_rest_diagonal_;
   mutable double rest_diagonal_ = 0;
 };
 
-/// What of a stroke can be said before the surface is looked at.
+/// The checks of a stroke that do not need the surface.
 [[nodiscard]] Status validate_blade(const Blade& blade, std::uint32_t index);
 [[nodiscard]] Status validate_turn(const Blade& before, const Blade& blade, std::uint32_t index);
 [[nodiscard]] Status validate_stroke(std::span<const Blade> stroke);
 [[nodiscard]] Status validate_options(const TearOptions& options);
 [[nodiscard]] Status validate_weights(const WeightOptions& options);
-/// How an operation is recorded: without what a model does that was told nothing.
+/// The options to record with an operation: none if they are the defaults of a new model.
 [[nodiscard]] inline std::optional<WeightOptions> recorded(const WeightOptions& options) {
   return options == WeightOptions{} ? std::nullopt : std::optional(options);
 }

@@ -10,8 +10,8 @@ namespace {
 
 using tear::VertexRef;
 
-/// The corners that a vertex lies between and its parts of them: its own corners, in the order and
-/// with the parts that the first vertex at its point has of the corners that coincide with them.
+/// The corners between which a vertex lies and their weights. The corners are those of the vertex;
+/// their order and weights are those of the coincident corners of the first vertex at its point.
 ParentBlend blend_of(const tear::SurfaceEditor& editor, std::uint32_t mesh, std::uint32_t vertex) {
   const auto coincide = [&](const VertexRef& a, const VertexRef& b) {
     return editor.births.position(a.mesh, a.vertex) == editor.births.position(b.mesh, b.vertex) &&
@@ -20,8 +20,9 @@ ParentBlend blend_of(const tear::SurfaceEditor& editor, std::uint32_t mesh, std:
   };
   const Birth& own = editor.births.at(mesh, vertex);
   const VertexRef first = editor.births.original(mesh, vertex);
-  // On the rim of a wall or cap a vertex is born in its own corner: it lies where the lip has it.
-  // Another mesh' vertices cannot be its parents there: it stays as its own weights pose it.
+  // A vertex on the rim of a wall or cap is born in its own corner, at the place of the lip. If the
+  // lip is in another mesh its vertices cannot be parents, so the vertex is posed by its own
+  // weights.
   const bool is_of_rim =
       own.triangle == kNone ||
       std::ranges::count_if(own.barycentric, [](double part) { return part > 0; }) < 2;
@@ -45,7 +46,7 @@ ParentBlend blend_of(const tear::SurfaceEditor& editor, std::uint32_t mesh, std:
   }
   const auto wanted = static_cast<std::size_t>(
       std::ranges::count_if(shared.barycentric, [](double part) { return part > 0; }));
-  if (count < wanted) {  // nothing coincides: as it was born itself
+  if (count < wanted) {  // not all corners coincide: use its own birth
     blend = {vertex, corners, {}};
     for (std::size_t k = 0; k < 3; ++k) blend.parts[k] = static_cast<float>(own.barycentric[k]);
     return blend;
@@ -59,7 +60,7 @@ ParentBlend blend_of(const tear::SurfaceEditor& editor, std::uint32_t mesh, std:
 ParentBlends parent_blends(const TornModel& model, std::uint32_t mesh) {
   const tear::SurfaceEditor& editor = model.state_->editor;
   ParentBlends result;
-  std::map<std::uint32_t, std::size_t> level_of;  // of each exact vertex
+  std::map<std::uint32_t, std::size_t> level_of;  // per exact vertex
   std::vector<std::vector<ParentBlend>> levels;
   for (const std::uint32_t vertex : editor.exact.of(mesh).vertices) {
     const ParentBlend blend = blend_of(editor, mesh, vertex);

@@ -88,13 +88,13 @@ class Replay {
     if (!stroke) return stroke.error();
     auto report = tear_blade_by_blade(*stroke, first_pose, poses, operation);
     if (report) return report;
-    // Half a stroke is no stroke.
+    // A stroke that fails midway is cancelled as a whole.
     (void)stroke->cancel();
     if (changes_ != nullptr) changes_->resize(changes_before);
     return report;
   }
 
-  /// @param poses  of operation.pose_changes.
+  /// @param poses  the poses of operation.pose_changes.
   Result<TearReport> tear_blade_by_blade(TearStroke& stroke, const ModelPose& first_pose,
                                          const std::vector<ModelPose>& poses,
                                          const TearOperation& operation) const {

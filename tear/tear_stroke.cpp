@@ -6,6 +6,7 @@
 #include <unordered_set>
 #include <utility>
 
+#include "core/internal/ordered.h"
 #include "tear/model_state.h"
 #include "tear/operation/ongoing_stroke.h"
 #include "tear/surface/describe_change.h"
@@ -33,7 +34,8 @@ Status validate_sampling(const StrokeSampling& sampling) {
   return {};
 }
 
-/// What a stroke did is the sum of what its calls did, but for what is counted over all of it.
+/// The report of a stroke is the sum of its calls' reports, except the figures that are counted
+/// over the whole stroke.
 void add_to(TearReport& sum, const TearReport& report) {
   sum.runs += report.runs;
   sum.segments += report.segments;
@@ -50,7 +52,7 @@ void add_to(TearReport& sum, const TearReport& report) {
 }  // namespace
 
 struct TearStroke::State {
-  /// A blade that the sampling holds back, in the pose in which it came.
+  /// A blade that the sampling holds back, and its pose.
   struct Held {
     ModelPose pose;
     Blade blade;
@@ -58,40 +60,40 @@ struct TearStroke::State {
 
   TornModel::State* model;
   StrokeSampling sampling;
-  TearOperation& operation;  ///< What was taken up: the history's next entry.
+  TearOperation& operation;  ///< The stroke so far, in the next entry of the history.
   double last_seconds = 0;
   std::optional<Held> held = {};
   tear::EditLog::Mark begin = {};
   TearReport total = {};
-  Index first_in_pose =
-      0;  ///< Points from here on were made in the pose in which the model stands.
-  // The state that a failing call goes back to.
+  /// Points from this index on were made in the current pose of the model.
+  Index first_in_pose = 0;
+  // The state to which a failed call returns.
   tear::OngoingStroke stroke_before = {};
   ModelPose pose_before = {};
-  std::vector<std::pair<Index, Vec3d>> found_before =
-      {};  ///< Points and where they were found in that pose, if it was left.
-  std::unordered_set<Index> opened_before = {};  ///< Of the editor.
-  bool has_ended =
-      false;  ///< Then the model is not looked at again: it may be gone, or have another stroke.
+  /// Points with their posed positions in that pose, if the pose was left.
+  std::vector<std::pair<Index, Vec3d>> found_before = {};
+  std::unordered_set<Index> opened_before = {};  ///< The opened edges of the editor.
+  /// Once it is true the model is not used any more: it may be destroyed or have another stroke.
+  bool has_ended = false;
 
   [[nodiscard]] bool is_due(const Blade& blade, double seconds) const {
     const Blade& last = model->stroke.blade();
-    const double moved = std::max((blade.base - last.base).norm(), (blade.tip - last.tip).norm());
+    const double moved = std::max(norm(blade.base - last.base), norm(blade.tip - last.tip));
     return moved >= sampling.minimum_distance && seconds - last_seconds >= sampling.minimum_seconds;
   }
 
-  /// The stroke is no longer under way.
+  /// Ends the stroke: it is no longer under way.
   void close() {
     model->has_stroke = false;
     has_ended = true;
   }
 
-  /// Takes up a blade within a call.
+  /// Extends the stroke by a blade, within a call.
   Status take_up(const ModelPose& pose, const Blade& blade, tear::Outcome& outcome) {
     const auto index = static_cast<std::uint32_t>(operation.stroke.size());
     if (!same_bits(pose, model->pose)) {
-      // In another pose, and in this one when it is entered again, these points stand where their
-      // weights put them.
+      // In another pose, and in this one when it is entered again, these points are at the
+      // positions given by their weights.
       for (Index point = first_in_pose; point < model->editor.surface().point_count(); ++point)
         if (const Vec3d* found = model->posed.find_known(point))
           found_before.emplace_back(point, *found);
@@ -107,8 +109,8 @@ struct TearStroke::State {
     return {};
   }
 
-  /// Runs `work`, and then `conclude` with the report; where one fails, everything is as it was,
-  /// the pose too.
+  /// Runs `work`, then `conclude` with the report. If either fails everything is restored, the pose
+  /// too.
   template <class Work, class Conclude>
   Result<TearReport> call(Work work, ChangeRecord* change, Conclude conclude) {
     try {
@@ -224,7 +226,7 @@ Result<TearReport> TearStroke::end(ChangeRecord* change) {
       });
   if (!report) return report;
   state.close();
-  // A stroke of one blade tears nothing: there is nothing to take back.
+  // A stroke of one blade tears nothing, so there is nothing to undo.
   if (state.operation.stroke.size() > 1) state.model->record(state.begin);
   return total;
 }

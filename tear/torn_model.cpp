@@ -15,7 +15,7 @@
 namespace sunder {
 namespace {
 
-/// Corners have 32-bit numbers; this leaves half of them to what tears append.
+/// Corners have 32-bit indices; this leaves half of them for triangles that tears append.
 constexpr std::size_t kMaximumTriangles = kNone / 6;
 
 }  // namespace
@@ -135,7 +135,7 @@ Status TornModel::redo(ChangeRecord* change) {
   ChangeRecord unwanted;
   ChangeRecord& record = change != nullptr ? *change : unwanted;
   try {
-    // What it opened is told in memory that is there before anything changes.
+    // The memory for lips and rims is reserved before anything changes.
     std::vector<tear::RimPoint> rim_points;
     if (change != nullptr) {
       const auto lips = state.history.lips_of(last);

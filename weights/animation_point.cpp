@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/internal/ordered.h"
+
 namespace sunder {
 
 void AnimationPoint::add(double part, const Vec3d& position,
@@ -31,8 +33,7 @@ void AnimationPoint::add(std::uint32_t slot, const Vec4d& q) {
 
 Vec3d AnimationPoint::posed(std::span<const Affine3d> model_from_bind) const {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const Term& term : terms_)
-    sum += model_from_bind[term.slot].matrix() * Eigen::Vector4d(term.q);
+  for (const Term& term : terms_) sum += multiply(model_from_bind[term.slot].matrix(), term.q);
   return sum;
 }
 

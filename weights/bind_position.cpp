@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include <Eigen/LU>
+#include "core/internal/ordered.h"
 
 namespace sunder {
 
@@ -16,14 +16,13 @@ std::optional<Vec3d> solve_bind_position(std::span<const Influence> influences, 
     const double weight = static_cast<double>(influence.weight);
     linear += weight * bone.linear();
     translation += weight * bone.translation();
-    largest = std::max(largest, bone.linear().norm());
+    largest = std::max(largest, norm(bone.linear()));
   }
-  Eigen::Matrix3d inverse;
-  bool is_invertible = false;
-  linear.computeInverseWithCheck(inverse, is_invertible, 0.0);
-  if (!is_invertible || !(inverse.norm() * largest / 3 <= kLargestAmplification))
+  const Mat3d bind_from_posed = inverse(linear);
+  if (!(norm(bind_from_posed) * largest / 3 <=
+        kLargestAmplification))  // nor where it is not finite
     return std::nullopt;
-  return Vec3d(inverse * (Eigen::Vector3d(posed) - translation));
+  return multiply(bind_from_posed, Eigen::Vector3d(posed) - translation);
 }
 
 }  // namespace sunder

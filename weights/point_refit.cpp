@@ -4,8 +4,10 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/internal/ordered.h"
 #include "weights/refit_terms.h"
 #include "weights/simplex_solver.h"
+#include "weights/symmetric_solve.h"
 
 namespace sunder {
 namespace {
@@ -71,17 +73,17 @@ void PointForms::begin(const AnimationPoint& exact, const PoseMoments& moments) 
       between_[i * n + j] = &moment;
       const Vec4 qi = terms_[i].q, qj = terms_[j].q;
       if (is_turned) {
-        towards_[i].noalias() += moment.transpose() * qj;
-        if (i != j) towards_[j].noalias() += moment * qi;
+        towards_[i] += multiply(moment.transpose(), qj);
+        if (i != j) towards_[j] += multiply(moment, qi);
       } else {
-        towards_[i].noalias() += moment * qj;
-        if (i != j) towards_[j].noalias() += moment.transpose() * qi;
+        towards_[i] += multiply(moment, qj);
+        if (i != j) towards_[j] += multiply(moment.transpose(), qi);
       }
     }
   target_square_ = 0;
   for (std::size_t i = 0; i < n; ++i) {
     towards_[i] *= per_pose_;
-    target_square_ += terms_[i].q.dot(towards_[i]);
+    target_square_ += dot(terms_[i].q, towards_[i]);
   }
 }
 
@@ -101,7 +103,7 @@ Eigen::Vector3d PointForms::best_position(std::span<const double> of_terms,
   left.diagonal().array() += stiffness + 1e-280;
   const Eigen::Vector3d right =
       towards.head<3>() - square.topRightCorner<3, 1>() + stiffness * start;
-  const Eigen::Vector3d best = left.ldlt().solve(right);
+  const Eigen::Vector3d best = weights::solve_symmetric(left, right);
   return best.allFinite() ? best : start;
 }
 
@@ -164,11 +166,11 @@ void PointRefit::Problem::set_position(const Eigen::Vector3d& position) {
   const Vec4 at(position.x(), position.y(), position.z(), 1.0);
   solver_.resize(n);
   scratch_.projected.resize(n);
-  for (std::size_t i = 0; i < n; ++i) scratch_.projected[i] = at.dot(forms_.towards(i));
+  for (std::size_t i = 0; i < n; ++i) scratch_.projected[i] = dot(at, forms_.towards(i));
   double largest = 0;
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = i; j < n; ++j) {
-      const double product = forms_.per_pose() * at.dot(forms_.between(i, j) * at);
+      const double product = forms_.per_pose() * dot(at, multiply(forms_.between(i, j), at));
       if (i == j) largest = std::max(largest, product);
       solver_.gram(i, j) = solver_.gram(j, i) =
           product - scratch_.projected[i] - scratch_.projected[j] + forms_.target_square();

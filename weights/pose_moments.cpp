@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/internal/ordered.h"
+
 namespace sunder {
 
 PoseMoments::PoseMoments(std::size_t slots, const Vec3d& centre)
@@ -27,13 +29,13 @@ void PoseMoments::add(std::span<const Affine3d> model_from_bind) {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   for (const std::uint32_t slot : slots_) {
     centred_[slot].leftCols<3>() = model_from_bind[slot].linear();
-    centred_[slot].col(3) = model_from_bind[slot] * centre_;
+    centred_[slot].col(3) = transform(model_from_bind[slot], centre_);
     mean += centred_[slot].col(3);
   }
   if (!slots_.empty()) mean /= static_cast<double>(slots_.size());
   for (const std::uint32_t slot : slots_) centred_[slot].col(3) -= mean;
   for (std::size_t i = 0; i < pairs_.size(); ++i)
-    moments_[i].noalias() += centred_[pairs_[i].low].transpose() * centred_[pairs_[i].high];
+    moments_[i] += multiply(centred_[pairs_[i].low].transpose(), centred_[pairs_[i].high]);
 }
 
 double PoseMoments::mean_square(std::span<const AnimationPoint::Term> difference) const {
@@ -43,7 +45,7 @@ double PoseMoments::mean_square(std::span<const AnimationPoint::Term> difference
       const bool is_ascending = difference[i].slot <= difference[j].slot;
       const AnimationPoint::Term &low = difference[is_ascending ? i : j],
                                  &high = difference[is_ascending ? j : i];
-      const double product = low.q.dot(of(low.slot, high.slot) * high.q);
+      const double product = dot(low.q, multiply(of(low.slot, high.slot), high.q));
       sum += i == j ? product : 2 * product;
     }
   return pose_count_ > 0 ? std::max(sum, 0.0) / static_cast<double>(pose_count_) : 0.0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/internal/ordered.h"
 #include "weights/weight_sum.h"
 
 namespace sunder {
@@ -16,7 +17,7 @@ struct WeightedSum {
               std::span<const Affine3d> model_from_bind) {
     for (const Influence& influence : influences) {
       const auto w = static_cast<double>(influence.weight);
-      position += w * (model_from_bind[influence.slot] * bind_position);
+      position += w * transform(model_from_bind[influence.slot], bind_position);
       weight += w;
     }
   }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/internal/ordered.h"
+
 namespace sunder::weights {
 namespace {
 
@@ -26,9 +28,9 @@ Restraint restraint_of(std::span<const AnimationPoint::Term> terms, const Eigen:
   double scale_square = 0, spread_square = 0;
   for (const auto& term : terms) {
     if (!(term.q.w() > 0)) continue;
-    scale_square += term.q.w() * moments.of(term.slot, term.slot).topLeftCorner<3, 3>().trace() / 3;
+    scale_square += term.q.w() * trace(moments.of(term.slot, term.slot).topLeftCorner<3, 3>()) / 3;
     spread_square +=
-        (Eigen::Vector3d(term.q.head<3>()) - term.q.w() * position).squaredNorm() / term.q.w();
+        squared_norm(Eigen::Vector3d(term.q.head<3>()) - term.q.w() * position) / term.q.w();
   }
   scale_square /= static_cast<double>(std::max<std::size_t>(moments.pose_count(), 1));
   return {kStiffness * scale_square, kInertia * scale_square * spread_square};

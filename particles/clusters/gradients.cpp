@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/internal/ordered.h"
 #include "tear/internal/surface.h"
 
 namespace sunder::particles {
@@ -30,7 +31,7 @@ ParticleGradients gradients_at(const Surface& surface, const Structure& structur
     const Vec3d to_b = structure.points.positions[b].cast<double>() - at,
                 to_c = structure.points.positions[c].cast<double>() - at;
     const Vec3d twice = to_b.cross(to_c);
-    const double length = twice.norm();
+    const double length = norm(twice);
     if (!(length > 0)) return;
     const Vec3d normal = twice / length;
     area += length;

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "core/internal/ordered.h"
 #include "tear/internal/surface.h"
 
 namespace sunder::particles {
@@ -38,7 +39,7 @@ float mean_edge_length(std::span<const Vec3f> positions, const Surface& surface)
     if (surface.has_repeated_point(c / 3)) continue;
     const Vec3f &a = positions[surface.corner_point[c]],
                 &b = positions[surface.corner_point[Surface::next(c)]];
-    sum += (b - a).norm();
+    sum += norm(b - a);
     ++count;
   }
   return count > 0 ? static_cast<float>(sum / static_cast<double>(count)) : 0.0f;
@@ -68,7 +69,7 @@ double diagonal_of(const Structure& structure, const TornModel& model) {
   for (Index p = 0; p < structure.points.count(); ++p)
     if (model.surface().point_corner[p] != kNone)
       box.extend(Eigen::Vector3f(structure.points.positions[p]));
-  return box.isEmpty() ? 0.0 : double{box.diagonal().norm()};
+  return box.isEmpty() ? 0.0 : double{norm(box.diagonal())};
 }
 
 }  // namespace sunder::particles

@@ -2,6 +2,7 @@
 
 #include <sunder/skinning/deform.h>
 
+#include "core/internal/ordered.h"
 #include "tear/internal/surface.h"
 
 namespace sunder::particles {
@@ -57,7 +58,7 @@ Vec3d SurfacePose::normal(const TornModel& model, Index point) const {
     const Vec3d b = place(model, surface.corner_point[tear::Surface::previous(corner)]) - at;
     sum += a.cross(b);
   });
-  const double length = sum.norm();
+  const double length = norm(sum);
   return length > 0 ? Vec3d(sum / length) : Vec3d(Vec3d::Zero());
 }
 

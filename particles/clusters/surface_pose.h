@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/internal/ordered.h"
 #include "particles/clusters/rest_terms.h"
 
 namespace sunder::particles {
@@ -27,10 +28,10 @@ class SurfacePose {
   [[nodiscard]] const Affine3d& model_from_bind(Index slot) const { return palette_[slot]; }
 
   [[nodiscard]] Vec3d posed(Index slot, const Vec4d& term) const {
-    return palette_[slot].matrix() * term;
+    return multiply(palette_[slot].matrix(), term);
   }
   [[nodiscard]] Vec3d posed_morph(Index morph_weight, Index slot, const Vec3d& term) const {
-    return double{morph_weights_[morph_weight]} * (palette_[slot].linear() * term);
+    return double{morph_weights_[morph_weight]} * multiply(palette_[slot].linear(), term);
   }
   /// Where the pose puts a particle. O(bones of its members).
   [[nodiscard]] ParticleRest rest(const Particle& particle) const;

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/internal/ordered.h"
+
 namespace sunder {
 namespace {
 
 SurfaceDistance from_round(const Vec3d& away, double radius) {
-  const double length = away.norm();
+  const double length = norm(away);
   return {length - radius, length > 0 ? Vec3d(away / length) : Vec3d(Vec3d::UnitX())};
 }
 
@@ -34,7 +36,7 @@ SurfaceDistance distance_in_frame(const Collider::Box& box, const Vec3d& p) {
   Vec3d away = Vec3d::Zero();
   for (Eigen::Index axis = 0; axis < 3; ++axis)
     if (beyond[axis] > 0) away += signed_axis(axis, beyond[axis]);
-  const double length = away.norm();
+  const double length = norm(away);
   // So little outside that its square is nothing.
   return length > 0 ? SurfaceDistance{length, away / length}
                     : SurfaceDistance{0, signed_axis(nearest, 1)};
@@ -59,7 +61,7 @@ Status validate_collider(const Collider& collider) {
     return Status::failure(StatusCode::non_finite_value, kNone, "its place is not finite");
   if (!collider.turn.coeffs().allFinite())
     return Status::failure(StatusCode::non_finite_value, kNone, "its turn is not finite");
-  if (const double length = collider.turn.norm(); std::abs(length - 1) > 1e-3)
+  if (const double length = norm(collider.turn); std::abs(length - 1) > 1e-3)
     return Status::failure(StatusCode::invalid_argument, kNone,
                            "its turn has length %g; it must be 1", length);
   if (!std::isfinite(collider.friction) || collider.friction < 0)

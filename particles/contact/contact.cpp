@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/internal/ordered.h"
 #include "particles/clusters/influences.h"
 #include "particles/internal/tolerances.h"
 
@@ -43,7 +44,7 @@ void Contact::move(std::uint32_t collider, const Vec3d& place, const Quatd& turn
   Collider& moved = colliders_[collider];
   if (moved.place == place && moved.turn.coeffs() == turn.coeffs()) return;
   moved.place = place;
-  moved.turn = turn.normalized();
+  moved.turn = normalized(turn);
   is_changed_ = true;
 }
 
@@ -68,7 +69,7 @@ void Contact::find(const World& world, const Motion& motion) {
   touches_.clear();
   double most = 0;
   for (Index p = 0; p < motion.count(); ++p)
-    most = std::max(most, motion.displacements[p].squaredNorm());
+    most = std::max(most, squared_norm(motion.displacements[p]));
   most = std::sqrt(most);
   const bool is_quiet = !is_changed_ && !world.is_posed;
   const auto is_awake = [&](const Spring& spring) { return motion.awake[spring.other] != 0; };
@@ -120,8 +121,8 @@ Vec3d Contact::drag_back(const World& world, const Motion& motion, Touch& touch,
   const Vec3d velocity = rest_velocity(touch.whom, world.rests) -
                          velocity_of(touch, touch.rest + moved, world.seconds);
   Vec3d slid = moved - sum_of(touch.whom, motion.starts) + world.seconds * velocity;
-  slid -= slid.dot(at.normal) * at.normal;
-  const double length = slid.norm();
+  slid -= dot(slid, at.normal) * at.normal;
+  const double length = norm(slid);
   const double back =
       std::clamp(friction * (touch.depth - at.distance) - touch.dragged, 0.0, length);
   touch.dragged += back;
@@ -159,7 +160,7 @@ void Contact::slow_down(const World& world, Motion& motion) {
     for (Index p = 0; p < motion.count(); ++p) {
       if (motion.touched[p] == 0 || motion.awake[p] == 0) continue;
       const Vec3d mean = (motion.displacements[p] - motion.starts[p]) / world.seconds;
-      if (mean.squaredNorm() < motion.velocities[p].squaredNorm()) motion.velocities[p] = mean;
+      if (squared_norm(mean) < squared_norm(motion.velocities[p])) motion.velocities[p] = mean;
     }
   for (int sweep = 0; sweep < kVelocitySweeps; ++sweep)
     for (const Touch& touch : touches_) {
@@ -168,10 +169,10 @@ void Contact::slow_down(const World& world, Motion& motion) {
       const Vec3d velocity = sum_of(touch.whom, motion.velocities) +
                              rest_velocity(touch.whom, world.rests) -
                              velocity_of(touch, place, world.seconds);
-      const double into = -velocity.dot(touch.normal);
+      const double into = -dot(velocity, touch.normal);
       if (!(into > 0)) continue;
       Vec3d along = velocity + into * touch.normal;
-      const double length = along.norm(), most = colliders_[touch.collider].friction * into;
+      const double length = norm(along), most = colliders_[touch.collider].friction * into;
       if (length > most) along *= most / length;
       add_to(touch.whom, touch.squares, into * touch.normal - along, motion.velocities);
     }

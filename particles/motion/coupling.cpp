@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/internal/ordered.h"
 #include "particles/internal/tolerances.h"
 
 namespace sunder::particles {
@@ -26,8 +27,6 @@ double velocity_a_place(const SpringStep& step) {
 }
 
 Eigen::Vector4d padded(const Vec3d& v) { return {v.x(), v.y(), v.z(), 0.0}; }
-
-double dot(const Eigen::Vector4d& a, const Eigen::Vector4d& b) { return a.dot(b); }
 
 }  // namespace
 

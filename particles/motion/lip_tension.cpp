@@ -1,5 +1,7 @@
 #include "particles/motion/lip_tension.h"
 
+#include "core/internal/ordered.h"
+
 namespace sunder::particles {
 namespace {
 
@@ -11,9 +13,9 @@ Vec3d pull_of(const LipEdge& lip, std::span<const Vec3f> positions, const Tensio
   if (!tension.direction) return tension.newtons_per_metre * inward;
   const Vec3d middle = 0.5 * (positions[lip.points[0]] + positions[lip.points[1]]).cast<double>();
   const Vec3d direction = tension.direction(middle);
-  const double length = direction.norm();
+  const double length = norm(direction);
   if (!(length > kLeastDirection) || !direction.allFinite()) return Vec3d::Zero();
-  return tension.newtons_per_metre / (length * length) * direction.dot(inward) * direction;
+  return tension.newtons_per_metre / (length * length) * dot(direction, inward) * direction;
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <numeric>
 
+#include "core/internal/ordered.h"
 #include "particles/internal/tolerances.h"
 #include "particles/motion/turn_of.h"
 
@@ -16,9 +17,9 @@ bool has_same_bits(const Affine3d& a, const Affine3d& b) {
 }
 
 Mat3d inverse_or_zero(const Mat3d& m) {
-  const double size = m.norm(), determinant = m.determinant();
-  if (!(std::abs(determinant) > kFlatDeterminant * size * size * size)) return Mat3d::Zero();
-  return m.inverse();
+  const double size = norm(m), volume = determinant(m);
+  if (!(std::abs(volume) > kFlatDeterminant * size * size * size)) return Mat3d::Zero();
+  return inverse(m);
 }
 
 }  // namespace
@@ -46,8 +47,8 @@ void RestMotion::follow(const ParticleSet& set) {
   for (Index p = 0; p < count; ++p) {
     Particle& particle = particles_[p];
     particle.place = rests_[p].place;
-    const Mat3d relative = rests_[p].linear * particle.decomposition_from_bind;
-    particle.size = relative.norm();
+    const Mat3d relative = multiply(rests_[p].linear, particle.decomposition_from_bind);
+    particle.size = norm(relative);
     turn_of(relative, particle.turn);
     particle.epoch = epoch_;
   }
@@ -98,14 +99,14 @@ void RestMotion::update(const ParticleSet& set, std::span<const Index> particles
   evaluate(set, pose_, stale_);
   for (std::size_t i = 0; i < stale_.size(); ++i) {
     Particle& particle = particles_[stale_[i]];
-    const Mat3d relative = rests_[i].linear * particle.decomposition_from_bind;
+    const Mat3d relative = multiply(rests_[i].linear, particle.decomposition_from_bind);
     Mat3d turn = particle.turn;
     turn_of(relative, turn);
-    particle.size = relative.norm();
+    particle.size = norm(relative);
     if (particle.epoch + 1 == epoch_ &&
         (particle.place != rests_[i].place || particle.turn != turn)) {
       particle.shift = rests_[i].place - particle.place;
-      particle.turn_of_step = turn * particle.turn.transpose();
+      particle.turn_of_step = multiply(turn, particle.turn.transpose());
       if (seconds > 0) {
         particle.velocity = particle.shift / seconds;
         carried_.push_back(stale_[i]);

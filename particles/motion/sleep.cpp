@@ -2,13 +2,14 @@
 
 #include <algorithm>
 
+#include "core/internal/ordered.h"
 #include "particles/internal/tolerances.h"
 
 namespace sunder::particles {
 Pull pull_on(Index p, const SpringGraph& graph, std::span<const SoftMaterial> materials,
              const RestMotion& rests, const Vec3d& gravity, const Motion& motion) {
   const SoftMaterial& material = materials[motion.material_of[p]];
-  const Vec3d outer = motion.forces[p] + rests.turn(p) * motion.lip_forces[p];
+  const Vec3d outer = motion.forces[p] + multiply(rests.turn(p), motion.lip_forces[p]);
   Vec3d inner = Vec3d::Zero();
   double stiffness = 0;
   for (const Spring& spring : graph.of(p)) {
@@ -28,13 +29,13 @@ void Sleep::wake_if_pulled(const World& world, Index p, Motion& motion) {
   if (motion.awake[p] != 0) return;
   const Pull pull = pull_on(p, world.graph, world.materials, world.rests, world.gravity, motion);
   // A particle that sleeps displaced by a pull must follow it all the way back when the pull goes.
-  const double range = world.set.range(p), displaced = motion.displacements[p].norm();
+  const double range = world.set.range(p), displaced = norm(motion.displacements[p]);
   double place = displaced > 0
                      ? std::clamp(0.1 * displaced, 0.1 * kAtRestRanges * range, kFeltRanges * range)
                      : kFeltRanges * range;
   if (motion.bound[p] != 0) place = kFeltBoundRanges * range;
   const double feels = place * std::max(pull.stiffness, 1.0);
-  if ((pull.acceleration - motion.quiet.pulls[p]).squaredNorm() > feels * feels) motion.wake(p);
+  if (squared_norm(pull.acceleration - motion.quiet.pulls[p]) > feels * feels) motion.wake(p);
 }
 
 void Sleep::wake_neighbours(const World& world, std::span<const Index> active, Motion& motion) {
@@ -61,9 +62,8 @@ void Sleep::measure(const World& world, std::span<const Index> active, double se
     const bool is_bound = is_bound_near(world, p, motion);
     const double range = world.set.range(p), quiet_speed = kQuietRangesPerSecond * range;
     const double quiet_place = (is_bound ? kQuietBoundRanges : kQuietRanges) * range;
-    if ((is_bound || motion.velocities[p].squaredNorm() <= quiet_speed * quiet_speed) &&
-        (motion.displacements[p] - motion.quiet.from[p]).squaredNorm() <=
-            quiet_place * quiet_place) {
+    if ((is_bound || squared_norm(motion.velocities[p]) <= quiet_speed * quiet_speed) &&
+        squared_norm(motion.displacements[p] - motion.quiet.from[p]) <= quiet_place * quiet_place) {
       motion.quiet.seconds[p] += seconds;
       continue;
     }
@@ -89,7 +89,7 @@ void Sleep::fall_asleep(const World& world, std::span<const Index> active, doubl
     const Pull pull = pull_on(p, world.graph, world.materials, world.rests, world.gravity, motion);
     const double own = world.materials[motion.material_of[p]].return_stiffness;
     const double balanced = kQuietRanges * world.set.range(p) * (own > 0 ? own : pull.stiffness);
-    if (pull.acceleration.squaredNorm() <= balanced * balanced || is_bound_near(world, p, motion))
+    if (squared_norm(pull.acceleration) <= balanced * balanced || is_bound_near(world, p, motion))
       tired_.push_back(p);
   }
   for (const Index p : tired_) {
@@ -99,7 +99,7 @@ void Sleep::fall_asleep(const World& world, std::span<const Index> active, doubl
     motion.corrections[p].setZero();
     const double at_rest = kAtRestRanges * world.set.range(p);
     if (world.materials[motion.material_of[p]].return_stiffness > 0 && motion.bound[p] == 0 &&
-        motion.displacements[p].squaredNorm() < at_rest * at_rest &&
+        squared_norm(motion.displacements[p]) < at_rest * at_rest &&
         !pull_on(p, world.graph, world.materials, world.rests, world.gravity, motion).is_pushed)
       motion.displacements[p].setZero();
     motion.starts[p] = motion.displacements[p];

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/internal/ordered.h"
 #include "particles/internal/tolerances.h"
 
 namespace sunder::particles {
@@ -27,13 +28,13 @@ void for_each_limited(const StretchWorld& world, const Motion& motion, Visit vis
       const bool is_other_free = motion.awake[spring.other] != 0;
       if (spring.stretch_limit == 0 || (is_other_free && spring.other < p)) continue;
       const Vec3d at_rest = world.rests.place(spring.other) - world.rests.place(p);
-      const double most = spring.stretch_limit * at_rest.norm();
+      const double most = spring.stretch_limit * norm(at_rest);
       if (!(most > 0)) continue;
       const Vec3d apart = at_rest + motion.displacements[spring.other] - motion.displacements[p];
       const double mine = 1 / world.materials[motion.material_of[p]].mass;
       const double yours =
           is_other_free ? 1 / world.materials[motion.material_of[spring.other]].mass : 0.0;
-      visit(LimitedPair{p, spring.other, apart, apart.norm(), most, mine / (mine + yours),
+      visit(LimitedPair{p, spring.other, apart, norm(apart), most, mine / (mine + yours),
                         yours / (mine + yours)});
     }
 }
@@ -61,8 +62,8 @@ double pull_together(const LimitedPair& pair, bool is_first_sweep, Motion& motio
 double stop_parting(const LimitedPair& pair, const RestMotion& rests, Motion& motion) {
   if (pair.length < pair.most * (1 - kStretchExcess)) return 0;
   const Vec3d along = pair.apart / pair.length;
-  const double parting = along.dot(motion.velocities[pair.q] + rests.velocity(pair.q) -
-                                   motion.velocities[pair.p] - rests.velocity(pair.p));
+  const double parting = dot(along, motion.velocities[pair.q] + rests.velocity(pair.q) -
+                                        motion.velocities[pair.p] - rests.velocity(pair.p));
   if (parting <= 0) return 0;
   motion.velocities[pair.p] += pair.mine * parting * along;
   if (pair.yours > 0) motion.velocities[pair.q] -= pair.yours * parting * along;

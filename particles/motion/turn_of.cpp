@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/internal/ordered.h"
 #include "particles/internal/tolerances.h"
 
 namespace sunder::particles {
@@ -20,7 +21,7 @@ constexpr int kMostIterations = 40;
 bool turn_of(const Mat3d& linear, Mat3d& turn) {
   using Matrix = Eigen::Matrix3d;
   Matrix x = linear;
-  const double size = x.norm();
+  const double size = norm(x);
   if (!(size > kLeastNorm) || !(size < kMostNorm)) return false;
   x /= size;
   const auto cofactors = [](const Matrix& m) {
@@ -31,14 +32,14 @@ bool turn_of(const Mat3d& linear, Mat3d& turn) {
   double change = 1;
   for (int i = 0; i < kMostIterations; ++i) {
     const Matrix c = cofactors(x);
-    const double determinant = x.col(0).dot(c.col(0));
+    const double determinant = dot(x.col(0), c.col(0));
     if (!(determinant > kFlatDeterminant))
       return false;  // of a map of unit size; after the first round it is near 1
     const Matrix inverse_transposed = c / determinant;
     // Uniform scales are gone after one step, others soon; then nothing is left to scale.
-    const double scale = change > 1e-2 ? std::sqrt(inverse_transposed.norm() / x.norm()) : 1.0;
+    const double scale = change > 1e-2 ? std::sqrt(norm(inverse_transposed) / norm(x)) : 1.0;
     const Matrix next = 0.5 * (scale * x + inverse_transposed / scale);
-    change = (next - x).squaredNorm();
+    change = squared_norm(next - x);
     x = next;
     if (change < kSquaredChange) break;
   }

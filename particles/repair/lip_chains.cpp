@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/internal/ordered.h"
+
 namespace sunder::particles {
 namespace {
 
@@ -52,7 +54,7 @@ class LipWalk {
     return lip.tear == tear_ && lip.side == side_;
   }
   [[nodiscard]] float between(Index a, Index b) const {
-    return (points_.positions[b] - points_.positions[a]).norm();
+    return norm(points_.positions[b] - points_.positions[a]);
   }
 
   /// The first point of a chain: the start itself where the chain is a circle.

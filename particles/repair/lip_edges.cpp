@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/internal/ordered.h"
 #include "tear/internal/surface.h"
 
 namespace sunder::particles {
@@ -55,10 +56,10 @@ class LipEdges {
     const Vec3f& to = points_.positions[surface_.corner_point[Surface::next(half_edge)]];
     const Vec3f& across = points_.positions[surface_.corner_point[Surface::previous(half_edge)]];
     const Vec3f edge = to - at;
-    const float squared = edge.squaredNorm();
+    const float squared = squared_norm(edge);
     Vec3f inward = Vec3f::Zero();
-    if (squared > 0) inward = (across - at) - (across - at).dot(edge) / squared * edge;
-    const float length = inward.norm();
+    if (squared > 0) inward = (across - at) - dot(across - at, edge) / squared * edge;
+    const float length = norm(inward);
     if (length > 0) inward *= std::sqrt(squared) / length;
     return inward;
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "core/internal/ordered.h"
 #include "tear/filling/filling.h"
 #include "tear/internal/surface.h"
 #include "tear/section/flat_section.h"
@@ -17,7 +18,7 @@ struct SectionFrame {
   Vec3d origin, x, y, normal;
 
   [[nodiscard]] Vec2d project(const Vec3d& point) const {
-    return {x.dot(point - origin), y.dot(point - origin)};
+    return {dot(x, point - origin), dot(y, point - origin)};
   }
   [[nodiscard]] Vec3d lift(const Vec2d& point) const {
     return origin + point.x() * x + point.y() * y;
@@ -38,7 +39,7 @@ double mean_edge(const std::vector<const FlatLoop*>& loops) {
   std::size_t count = 0;
   for (const FlatLoop* loop : loops)
     for (std::size_t i = 0; i < loop->size(); ++i, ++count)
-      length += ((*loop)[(i + 1) % loop->size()] - (*loop)[i]).norm();
+      length += norm((*loop)[(i + 1) % loop->size()] - (*loop)[i]);
   return length / static_cast<double>(count);
 }
 
@@ -130,7 +131,7 @@ class Caps {
       const Triangle triangle = {vertices[corners[0]], vertices[corners[1]], vertices[corners[2]]};
       const Eigen::Vector3d a = place(mesh, triangle[0]), ab = place(mesh, triangle[1]) - a,
                             ac = place(mesh, triangle[2]) - a;
-      if (!(ab.cross(ac).squaredNorm() > 0))
+      if (!(squared_norm(ab.cross(ac)) > 0))
         return false;  // stored positions are too coarse for it
       filling_.add_triangle(mesh, half_edges.front(),
                             {points[corners[0]], points[corners[1]], points[corners[2]]}, triangle);
@@ -200,9 +201,9 @@ class Caps {
                            std::vector<std::array<Index, 3>>& triangles) const {
     const auto at = [&](Index i) { return place(mesh, vertices[i]); };
     const auto height_of = [&](const std::array<Index, 3>& t) {
-      const double longest = std::max({(at(t[1]) - at(t[0])).norm(), (at(t[2]) - at(t[1])).norm(),
-                                       (at(t[0]) - at(t[2])).norm()});
-      return longest > 0 ? (at(t[1]) - at(t[0])).cross(at(t[2]) - at(t[0])).norm() / longest : 0.0;
+      const double longest = std::max(
+          {norm(at(t[1]) - at(t[0])), norm(at(t[2]) - at(t[1])), norm(at(t[0]) - at(t[2]))});
+      return longest > 0 ? norm((at(t[1]) - at(t[0])).cross(at(t[2]) - at(t[0]))) / longest : 0.0;
     };
     std::map<std::array<Index, 2>, std::size_t> triangle_at;  // by directed edge
     const auto enter = [&](std::size_t t) {
@@ -216,8 +217,7 @@ class Caps {
       if (height_of(flat) > kStored * at(flat[0]).cwiseAbs().maxCoeff()) continue;
       std::size_t k = 0;
       for (std::size_t i = 1; i < 3; ++i)
-        if ((at(flat[(i + 1) % 3]) - at(flat[i])).norm() >
-            (at(flat[(k + 1) % 3]) - at(flat[k])).norm())
+        if (norm(at(flat[(i + 1) % 3]) - at(flat[i])) > norm(at(flat[(k + 1) % 3]) - at(flat[k])))
           k = i;
       const Index a = flat[k], b = flat[(k + 1) % 3], c = flat[(k + 2) % 3];
       const auto across = triangle_at.find({b, a});
@@ -338,7 +338,7 @@ void add_caps(const SheetOpening& opening, const Vec3d& normal, const Workpiece&
   const Vec3d origin = work.posed.position(work.editor, opening.edges.front()[0]);
   const Vec3d away = std::abs(normal.x()) < 0.5 ? Vec3d(Vec3d::UnitX()) : Vec3d(Vec3d::UnitY());
   Vec3d x = normal.cross(away);
-  x /= x.norm();
+  x /= norm(x);
   const Vec3d y = normal.cross(x);
   Caps({origin, x, -y, -normal}, work, report).add(opening.left);
   Caps({origin, x, y, normal}, work, report).add(opening.right);

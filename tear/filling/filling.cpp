@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <unordered_set>
 
+#include "core/internal/ordered.h"
 #include "tear/internal/surface.h"
 #include "tear/surface/append_filling.h"
 #include "tear/surface/mesh_vertices.h"
@@ -12,9 +13,9 @@
 namespace sunder::tear {
 
 Vec3d to_bind(const Mat3d& posed_from_bind, const Vec3d& posed, const Vec3d& fallback) {
-  const double size = posed_from_bind.norm();
-  if (!(std::abs(posed_from_bind.determinant()) > 1e-6 * size * size * size)) return fallback;
-  return posed_from_bind.inverse() * posed;
+  const double size = norm(posed_from_bind);
+  if (!(std::abs(determinant(posed_from_bind)) > 1e-6 * size * size * size)) return fallback;
+  return multiply(inverse(posed_from_bind), posed);
 }
 
 Index Filling::add_rim_vertex(Index mesh, Index corner) {
@@ -53,11 +54,11 @@ void Filling::shade(Index mesh, Index vertex, const Vec3d& normal, const Vec3d& 
         static_cast<double>(influence.weight) *
         compute_normal_matrix(work_.posed.pose().palette(of.skin)[influence.slot].linear());
   Vec3d bind_normal = to_bind(posed_from_bind_of_normals, normal, normal);
-  bind_normal = bind_normal.norm() > 1e-30 ? Vec3d(bind_normal / bind_normal.norm()) : normal;
+  bind_normal = norm(bind_normal) > 1e-30 ? Vec3d(bind_normal / norm(bind_normal)) : normal;
   Vec3d bind_tangent = to_bind(posed_from_bind, tangent, tangent);
-  bind_tangent -= bind_normal.dot(bind_tangent) * bind_normal;
-  if (!(bind_tangent.norm() > 1e-12 * tangent.norm())) bind_tangent = bind_normal.unitOrthogonal();
-  bind_tangent /= bind_tangent.norm();
+  bind_tangent -= dot(bind_normal, bind_tangent) * bind_normal;
+  if (!(norm(bind_tangent) > 1e-12 * norm(tangent))) bind_tangent = bind_normal.unitOrthogonal();
+  bind_tangent /= norm(bind_tangent);
   if (!of.normals.empty()) of.normals[vertex] = bind_normal.cast<float>();
   if (!of.tangents.empty()) {
     const Vec3f unit = bind_tangent.cast<float>();

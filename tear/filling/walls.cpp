@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "core/internal/ordered.h"
 #include "tear/filling/filling.h"
 #include "tear/internal/surface.h"
 #include "tear/section/flat_section.h"
@@ -77,7 +77,7 @@ class Walls {
       return work_.editor.births.position(mesh, of.vertex).cast<double>();
     };
     const Eigen::Vector3d ab = place(b) - place(a), ac = place(c) - place(a);
-    is_sound_ &= ab.cross(ac).squaredNorm() > 0;  // else stored positions are too coarse for it
+    is_sound_ &= squared_norm(ab.cross(ac)) > 0;  // else stored positions are too coarse for it
     filling_.add_triangle(mesh, like_corner, {a.point, b.point, c.point},
                           {a.vertex, b.vertex, c.vertex});
   }
@@ -90,14 +90,14 @@ class Walls {
 };
 
 Vec3d unit_or(const Vec3d& vector, const Vec3d& otherwise) {
-  const double length = vector.norm();
+  const double length = norm(vector);
   return length > 1e-30 ? Vec3d(vector / length) : otherwise;
 }
 
 double squared_distance(const Blade& blade, const Vec3d& point) {
   const Vec3d along = blade.tip - blade.base;
-  const double at = std::clamp(along.dot(point - blade.base) / along.squaredNorm(), 0.0, 1.0);
-  return (point - blade.base - at * along).squaredNorm();
+  const double at = std::clamp(dot(along, point - blade.base) / squared_norm(along), 0.0, 1.0);
+  return squared_norm(point - blade.base - at * along);
 }
 
 /// The direction of the blades near a place, weighted by the inverse fourth power of their
@@ -110,9 +110,9 @@ Vec3d blade_direction(const Stroke& stroke, const Vec3d& at) {
     const double squared = squared_distance(blade, at);
     const double ratio =
         squared > 0 ? nearest / squared : 1.0;  // 1 for the nearest blade, in any unit
-    sum += ratio * ratio * (blade.tip - blade.base).normalized();
+    sum += ratio * ratio * normalized(blade.tip - blade.base);
   }
-  return unit_or(sum, (stroke.front().tip - stroke.front().base).normalized());
+  return unit_or(sum, normalized(stroke.front().tip - stroke.front().base));
 }
 
 /// The end of a half-edge of a rim and the start of the next.
@@ -142,11 +142,11 @@ void hang_strip(const Rim& rim, const std::vector<RimPlace>& places, double unit
       const Vec3d own = unit_or(wall_normal(i), Vec3d::UnitZ());
       const Vec3d mean =
           unit_or(Vec3d(unit_or(wall_normal(before), own) + unit_or(wall_normal(after), own)), own);
-      const Vec3d normal = mean.dot(own) > 0.5 ? mean : own;
+      const Vec3d normal = dot(mean, own) > 0.5 ? mean : own;
       const Vec3d tangent = unit_or(Vec3d(places[i + 1].at - places[i].at), own.unitOrthogonal());
       walls.shade(mesh, top, normal, tangent, {places[at].along / unit, 0});
       walls.shade(mesh, bottom, normal, tangent,
-                  {places[at].along / unit, places[at].down.norm() / unit});
+                  {places[at].along / unit, norm(places[at].down) / unit});
     };
     if (walls.mesh_of(h) != mesh) {
       mesh = walls.mesh_of(h);
@@ -170,7 +170,7 @@ std::vector<RimPlace> places_of(const Rim& rim, Walls& walls, Down down) {
     RimPlace place;
     place.point = walls.surface().corner_point[is_last ? Surface::next(h) : h];
     place.at = walls.position(place.point);
-    if (i > 0) along += (place.at - places.back().at).norm();
+    if (i > 0) along += norm(place.at - places.back().at);
     place.along = along;
     place.down = down(place);
     place.bottom =
@@ -187,20 +187,27 @@ struct Ring {
   double height = 0;  ///< Mean, along the axis.
 };
 
+constexpr double kTurn = 4;  ///< Of Axis::angle().
+
 struct Axis {
   Vec3d origin, x, y, z;
 
-  [[nodiscard]] double height(const Vec3d& point) const { return z.dot(point - origin); }
+  [[nodiscard]] double height(const Vec3d& point) const { return dot(z, point - origin); }
+  /// Grows around the axis as the angle does, by kTurn in a full turn. Divisions give the same bits
+  /// on every machine, arc tangents do not.
   [[nodiscard]] double angle(const Vec3d& point) const {
-    return std::atan2(y.dot(point - origin), x.dot(point - origin));
+    const double u = dot(x, point - origin), v = dot(y, point - origin);
+    const double size = std::abs(u) + std::abs(v);
+    if (!(size > 0)) return 0;
+    return u < 0 ? std::copysign(2.0, v) - v / size : v / size;
   }
   [[nodiscard]] Vec3d inward(const Vec3d& point) const {
     const Vec3d offset = point - origin;
-    return unit_or(Vec3d(z.dot(offset) * z - offset), x);
+    return unit_or(Vec3d(dot(z, offset) * z - offset), x);
   }
 };
 
-double turn(double from, double to) { return std::remainder(to - from, 2 * std::numbers::pi); }
+double turn(double from, double to) { return std::remainder(to - from, kTurn); }
 
 /// Adds a wall between two rings: `upper` runs in the axis' sense of rotation, `lower` against it.
 /// Both are traversed in the direction of the wall's edges, against their borders.
@@ -231,7 +238,7 @@ void join_rings(const Ring& upper, const Ring& lower, const Axis& axis, double u
                                ? first_angle + turn(first_angle, angle_of(corner))
                                : places.back().angle + turn(places.back().angle, angle_of(corner));
       const Corner made = walls.add_top(mesh, corner);
-      if (i > 0) along += (at - before).norm();
+      if (i > 0) along += norm(at - before);
       before = at;
       walls.shade(mesh, made, axis.inward(at), axis.z.cross(axis.inward(at)),
                   {along / unit, axis.height(at) / unit});
@@ -269,7 +276,7 @@ void add_blind_wall(const Ring& ring, const Axis& axis, double depth, double uni
   for (std::size_t i = ring.rim.half_edges.size(); i-- > 0;) {
     const Index h = ring.rim.half_edges[i];
     const Vec3d at = places[i].at + places[i].down;
-    loop.emplace_back(-axis.x.dot(at - axis.origin), axis.y.dot(at - axis.origin));
+    loop.emplace_back(-dot(axis.x, at - axis.origin), dot(axis.y, at - axis.origin));
     const Corner corner =
         walls.add_bottom(mesh, walls.add_top(mesh, h), places[i].bottom, places[i].down);
     walls.shade(mesh, corner, -axis.z, -axis.x, loop.back() / unit);
@@ -309,7 +316,7 @@ Index add_bore_wall(const std::vector<Index>& half_edges, const Vec3d& origin, c
                     double depth, const Workpiece& work) {
   Walls walls(work);
   Vec3d x = z.cross(std::abs(z.x()) < 0.5 ? Vec3d(Vec3d::UnitX()) : Vec3d(Vec3d::UnitY()));
-  x /= x.norm();
+  x /= norm(x);
   const Axis axis{origin, x, z.cross(x), z};
   Index left = 0;
   std::vector<Ring> rings;
@@ -321,7 +328,7 @@ Index add_bore_wall(const std::vector<Index>& half_edges, const Vec3d& origin, c
       around += turn(axis.angle(a), axis.angle(b));
       height += axis.height(a) / static_cast<double>(rim.half_edges.size());
     }
-    const bool is_ring = rim.is_closed && std::abs(std::abs(around) - 2 * std::numbers::pi) < 0.1;
+    const bool is_ring = rim.is_closed && std::abs(std::abs(around) - kTurn) < 0.1;
     if (is_ring)
       rings.push_back({std::move(rim), around > 0, height});
     else

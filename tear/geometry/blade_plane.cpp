@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/internal/ordered.h"
+
 namespace sunder::tear {
 namespace {
 
@@ -14,14 +16,14 @@ double cross(const Vec2d& a, const Vec2d& b) { return a.x() * b.y() - a.y() * b.
 BladePlane::HalfPlane beside(const Vec2d& a, const Vec2d& b, const Vec2d& inside,
                              const Vec2d& fallback) {
   Vec2d normal{-(b - a).y(), (b - a).x()};
-  const double length = normal.norm();
-  const double side = normal.dot(inside - a);
-  if (!(length > 1e-12 * fallback.norm()) || !(std::abs(side) > 1e-12 * length * fallback.norm()))
+  const double length = norm(normal);
+  const double side = dot(normal, inside - a);
+  if (!(length > 1e-12 * norm(fallback)) || !(std::abs(side) > 1e-12 * length * norm(fallback)))
     normal = fallback;
   else if (side < 0)
     normal = -normal;
-  normal /= normal.norm();
-  return {normal, normal.dot(a)};
+  normal /= norm(normal);
+  return {normal, dot(normal, a)};
 }
 
 }  // namespace
@@ -31,16 +33,16 @@ std::optional<BladePlane> BladePlane::through(const Vec3d& anchor, const Blade& 
   const Vec3d blade = to.tip - to.base;
   BladePlane plane;
   plane.origin_ = to.base;
-  plane.along_ = blade / blade.norm();
+  plane.along_ = blade / norm(blade);
   const Vec3d offset = to.base - anchor;
-  const Vec3d across = offset - plane.along_.dot(offset) * plane.along_;
-  const double distance = across.norm();
-  if (!(distance > 1e-9 * (blade.norm() + offset.norm()))) return std::nullopt;
+  const Vec3d across = offset - dot(plane.along_, offset) * plane.along_;
+  const double distance = norm(across);
+  if (!(distance > 1e-9 * (norm(blade) + norm(offset)))) return std::nullopt;
   plane.across_ = across / distance;
   plane.across_ -=
-      plane.along_.dot(plane.across_) *
+      dot(plane.along_, plane.across_) *
       plane.along_;  // a second time: subtracting nearly parallel vectors loses the right angle
-  plane.across_ /= plane.across_.norm();
+  plane.across_ /= norm(plane.across_);
   plane.normal_ = plane.across_.cross(plane.along_);
 
   plane.from_base_ = plane.project(from.base);
@@ -79,8 +81,8 @@ double BladePlane::progress(const Vec2d& point) const {
 SweepCoordinates BladePlane::sweep_coordinates(const Vec2d& point) const {
   const double at = progress(point);
   const Vec2d direction = d_ + at * g_;
-  const double squared = direction.squaredNorm();
-  return {at, squared > 0 ? direction.dot((point - from_base_) - at * e_) / squared : 0.0};
+  const double squared = squared_norm(direction);
+  return {at, squared > 0 ? dot(direction, (point - from_base_) - at * e_) / squared : 0.0};
 }
 
 BladePlane::HalfPlane BladePlane::from_progress(double progress) const {
@@ -88,8 +90,8 @@ BladePlane::HalfPlane BladePlane::from_progress(double progress) const {
   const Vec2d direction = d_ + progress * g_;
   Vec2d normal{direction.y(),
                -direction.x()};  // to the blade's right when it points down y: towards growing x
-  normal /= normal.norm();
-  return {normal, normal.dot(base)};
+  normal /= norm(normal);
+  return {normal, dot(normal, base)};
 }
 
 Mat3d BladePlane::axes() const {

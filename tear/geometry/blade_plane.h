@@ -5,6 +5,7 @@
 #include <array>
 #include <optional>
 
+#include "core/internal/ordered.h"
 #include "tear/geometry/box.h"
 
 namespace sunder::tear {
@@ -26,9 +27,9 @@ class BladePlane {
   static std::optional<BladePlane> through(const Vec3d& anchor, const Blade& from, const Blade& to);
 
   /// Signed distance from the plane, metres.
-  [[nodiscard]] double distance(const Vec3d& point) const { return normal_.dot(point - origin_); }
+  [[nodiscard]] double distance(const Vec3d& point) const { return dot(normal_, point - origin_); }
   [[nodiscard]] Vec2d project(const Vec3d& point) const {
-    return {across_.dot(point - origin_), along_.dot(point - origin_)};
+    return {dot(across_, point - origin_), dot(along_, point - origin_)};
   }
   [[nodiscard]] SweepCoordinates sweep_coordinates(const Vec2d& point) const;
   /// Only the progress of sweep_coordinates().
@@ -39,7 +40,7 @@ class BladePlane {
   struct HalfPlane {
     Vec2d normal = Vec2d::Zero();
     double offset = 0;
-    [[nodiscard]] double value(const Vec2d& point) const { return normal.dot(point) - offset; }
+    [[nodiscard]] double value(const Vec2d& point) const { return dot(normal, point) - offset; }
   };
   /// The half-planes that bound the blade's reach: below its base, above its tip, before the second
   /// blade.
@@ -65,14 +66,14 @@ class BladePlane {
   /// The half-space that stands on a half-plane of the figure, at right angles to the plane.
   [[nodiscard]] HalfSpace standing_on(const HalfPlane& half_plane) const {
     const Vec3d normal = half_plane.normal.x() * across_ + half_plane.normal.y() * along_;
-    return {normal, half_plane.offset + normal.dot(origin_)};
+    return {normal, half_plane.offset + dot(normal, origin_)};
   }
   /// The half-spaces on both sides of the plane after it is moved to its left by `distance`.
   [[nodiscard]] HalfSpace left_of(double distance) const {
-    return {normal_, normal_.dot(origin_) + distance};
+    return {normal_, dot(normal_, origin_) + distance};
   }
   [[nodiscard]] HalfSpace right_of(double distance) const {
-    return {-normal_, -(normal_.dot(origin_) + distance)};
+    return {-normal_, -(dot(normal_, origin_) + distance)};
   }
 
  private:

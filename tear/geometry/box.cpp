@@ -1,5 +1,7 @@
 #include "tear/geometry/box.h"
 
+#include "core/internal/ordered.h"
+
 namespace sunder::tear {
 namespace {
 
@@ -8,7 +10,7 @@ Vec3d unit_or_zero(const Vec3d& vector) {
   const double largest = vector.cwiseAbs().maxCoeff();
   if (!(largest > 0) || !std::isfinite(largest)) return Vec3d::Zero();
   const Vec3d scaled = vector / largest;  // otherwise the square of its length may overflow
-  return scaled / scaled.norm();
+  return scaled / norm(scaled);
 }
 
 }  // namespace
@@ -17,10 +19,10 @@ Mat3d axes_along(const Vec3d& first, const Vec3d& second) {
   const Vec3d x = unit_or_zero(first);
   if (x.isZero(0)) return Mat3d::Identity();
   const Vec3d towards = unit_or_zero(second);
-  const Vec3d across = towards - x.dot(towards) * x;
-  Vec3d y = across.norm() > 1e-3 ? Vec3d(across / across.norm()) : Vec3d(x.unitOrthogonal());
-  y -= x.dot(y) * x;
-  y /= y.norm();
+  const Vec3d across = towards - dot(x, towards) * x;
+  Vec3d y = norm(across) > 1e-3 ? Vec3d(across / norm(across)) : Vec3d(x.unitOrthogonal());
+  y -= dot(x, y) * x;
+  y /= norm(y);
   Mat3d axes;
   axes << x.transpose(), y.transpose(), x.cross(y).transpose();
   return axes;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "core/internal/ordered.h"
 #include "tear/geometry/half_space.h"
 
 namespace sunder::tear {
@@ -13,7 +14,7 @@ struct Frame {
   Mat3d axes = Mat3d::Identity();  ///< Rows: orthogonal unit vectors.
   Vec3d origin = Vec3d::Zero();
 
-  [[nodiscard]] Vec3d place_of(const Vec3d& point) const { return axes * (point - origin); }
+  [[nodiscard]] Vec3d place_of(const Vec3d& point) const { return multiply(axes, point - origin); }
   /// The largest coordinate of the origin: coordinates of the model are rounded in proportion to
   /// it, in addition to those in the frame.
   [[nodiscard]] double reach() const { return origin.cwiseAbs().maxCoeff(); }
@@ -61,17 +62,17 @@ struct Shadow {
 class FramedHalfSpace {
  public:
   FramedHalfSpace(const Frame& frame, const HalfSpace& half_space)
-      : inside_{frame.axes * half_space.normal,
-                half_space.offset - half_space.normal.dot(frame.origin)},
+      : inside_{multiply(frame.axes, half_space.normal),
+                half_space.offset - dot(half_space.normal, frame.origin)},
         steepness_(inside_.normal.cwiseAbs()),
         magnitude_(std::abs(half_space.offset) +
-                   half_space.normal.cwiseAbs().dot(frame.origin.cwiseAbs())) {}
+                   dot(half_space.normal.cwiseAbs(), frame.origin.cwiseAbs())) {}
 
   /// Whether the box is certainly outside the half-space, whatever rounding does to either.
   [[nodiscard]] bool is_beside(const Box& box) const {
     const Vec3d middle = box.middle(), half = box.half_size();
-    const double greatest = inside_.value(middle) + steepness_.dot(half);
-    return greatest < -1e-12 * (magnitude_ + steepness_.dot(middle.cwiseAbs() + half));
+    const double greatest = inside_.value(middle) + dot(steepness_, half);
+    return greatest < -1e-12 * (magnitude_ + dot(steepness_, middle.cwiseAbs() + half));
   }
 
  private:

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "core/internal/ordered.h"
+
 namespace sunder::tear {
 
 /// A place or a direction in bind space. Plain numbers, because this runs for each face that a tear
@@ -18,6 +20,7 @@ inline Place place_of(const Vec3f& at) {
 inline Place way(const Place& from, const Place& to) {
   return {to.x - from.x, to.y - from.y, to.z - from.z};
 }
+using sunder::dot;  // of Eigen's vectors: the next one would hide it
 inline double dot(const Place& a, const Place& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
 /// Normal of a triangle; its length is twice the area.

@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "core/internal/ordered.h"
+
 namespace sunder::tear {
 
 /// One side of a plane in model space: normal . p >= offset.
@@ -14,7 +16,7 @@ struct HalfSpace {
   double offset = 0;
 
   /// Signed distance in metres if the normal is a unit vector.
-  [[nodiscard]] double value(const Vec3d& point) const { return normal.dot(point) - offset; }
+  [[nodiscard]] double value(const Vec3d& point) const { return dot(normal, point) - offset; }
   /// Depends on the point alone, so that all faces agree about their common points. A point that
   /// rounding cannot tell from the plane is inside: a blade that lies in a face passes it and does
   /// not cut through it.

@@ -1,5 +1,6 @@
 #include "tear/operation/cut.h"
 
+#include "core/internal/ordered.h"
 #include "tear/filling/caps.h"
 #include "tear/sheet/open_sheet.h"
 #include "tear/surface/improve.h"
@@ -11,27 +12,27 @@ constexpr double kFar = 1e60;  ///< Products of four coordinates must stay finit
 
 bool is_near(const Vec3d& vector) { return vector.cwiseAbs().maxCoeff() <= kFar; }
 
-/// Half-spaces that stand on the sides of a polygon in the plane; nothing where it is not convex or
-/// has no area.
+/// The half-spaces bounded by the sides of a polygon in the plane. Empty if the polygon is not
+/// convex or has no area.
 std::vector<HalfSpace> sides_of(const std::vector<Vec3d>& bounds, const Vec3d& normal) {
   Vec3d doubled_area = Vec3d::Zero();
   for (std::size_t i = 0; i < bounds.size(); ++i)
     doubled_area += (bounds[i] - bounds[0]).cross(bounds[(i + 1) % bounds.size()] - bounds[0]);
-  const double turn = doubled_area.dot(normal) < 0 ? -1.0 : 1.0;
+  const double turn = dot(doubled_area, normal) < 0 ? -1.0 : 1.0;
   std::vector<HalfSpace> sides;
   for (std::size_t i = 0; i < bounds.size(); ++i) {
     const Vec3d inward = turn * normal.cross(Vec3d(bounds[(i + 1) % bounds.size()] - bounds[i]));
-    const double length = inward.norm();
+    const double length = norm(inward);
     if (!(length > 0)) continue;  // a repeated corner
-    sides.push_back({inward / length, inward.dot(bounds[i]) / length});
+    sides.push_back({inward / length, dot(inward, bounds[i]) / length});
   }
   double size = 0;
-  for (const Vec3d& corner : bounds) size = std::max(size, (corner - bounds[0]).norm());
+  for (const Vec3d& corner : bounds) size = std::max(size, norm(corner - bounds[0]));
   for (const HalfSpace& side : sides)
     for (const Vec3d& corner : bounds)
       if (side.value(corner) < -1e-9 * size) return {};
-  return std::abs(doubled_area.dot(normal)) > 1e-12 * size * size ? sides
-                                                                  : std::vector<HalfSpace>{};
+  return std::abs(dot(doubled_area, normal)) > 1e-12 * size * size ? sides
+                                                                   : std::vector<HalfSpace>{};
 }
 
 }  // namespace
@@ -43,7 +44,7 @@ Status validate_cut(const PlaneCut& cut) {
   if (!is_near(cut.point) || !is_near(cut.normal))
     return Status::failure(StatusCode::invalid_argument, kNone,
                            "the plane of the cut lies beyond 1e60");
-  if (!(cut.normal.norm() > 1e-30))
+  if (!(norm(cut.normal) > 1e-30))
     return Status::failure(StatusCode::invalid_argument, kNone,
                            "the plane of the cut has no normal");
   if (cut.bounds.empty()) return {};
@@ -59,7 +60,7 @@ Status validate_cut(const PlaneCut& cut) {
       return Status::failure(StatusCode::invalid_argument, i,
                              "corner %u of the bounds lies beyond 1e60", i);
   }
-  if (sides_of(cut.bounds, cut.normal / cut.normal.norm()).empty())
+  if (sides_of(cut.bounds, cut.normal / norm(cut.normal)).empty())
     return Status::failure(StatusCode::invalid_argument, kNone,
                            "the bounds are not a convex polygon in the plane of the cut");
   return {};
@@ -68,8 +69,8 @@ Status validate_cut(const PlaneCut& cut) {
 void cut_surface(const PlaneCut& cut, const Workpiece& work, Outcome& outcome) {
   TearReport& report = outcome.report;
   const EditLog::Mark before = work.editor.mark();
-  const Vec3d normal = cut.normal / cut.normal.norm();
-  Sheet sheet{{normal, normal.dot(cut.point)}, {}};
+  const Vec3d normal = cut.normal / norm(cut.normal);
+  Sheet sheet{{normal, dot(normal, cut.point)}, {}};
   for (const HalfSpace& side : sides_of(cut.bounds, normal)) sheet.bounds.push_back({side, kNone});
   const SheetOpening opening = open_sheet(sheet, work, outcome.borders.lips);
   report.runs = opening.runs;

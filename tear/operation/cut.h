@@ -8,11 +8,12 @@
 
 namespace sunder::tear {
 
-/// @return non_finite_value, or invalid_argument: no normal, bounds that are not a convex polygon.
+/// @return non_finite_value; invalid_argument if the normal is zero or the bounds are not a convex
+///         polygon.
 [[nodiscard]] Status validate_cut(const PlaneCut& cut);
 
-/// Opens the posed surface along a plane and closes what was opened with caps, if wanted. Fills in
-/// the report but for what comes from the change record.
+/// Opens the posed surface along a plane and, if requested, closes the sections with caps. Fills in
+/// the report, except the figures that come from the change record.
 void cut_surface(const PlaneCut& cut, const Workpiece& work, Outcome& outcome);
 
 }  // namespace sunder::tear

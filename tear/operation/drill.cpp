@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/internal/ordered.h"
 #include "tear/filling/walls.h"
 #include "tear/sheet/gap.h"
 #include "tear/surface/improve.h"
@@ -11,43 +12,43 @@ namespace {
 
 constexpr std::size_t kMostSides = 1536;
 
-/// Unit vectors to the corners of a regular polygon whose sides come within `tolerance` (of the
-/// radius) of the circle: a hexagon, its arcs halved until they do. Roots and sums alone, so that
-/// it is the same bits with every mathematical library.
+/// Unit vectors to the corners of a regular polygon whose sides come within `tolerance` (a fraction
+/// of the radius) of the circle: a hexagon whose arcs are halved until they do. Uses only square
+/// roots and sums, so that every mathematical library gives the same bits.
 std::vector<Vec3d> circle_corners(const Vec3d& x, const Vec3d& y, double tolerance) {
   const double half_root = 0.5 * std::sqrt(3.0);
   std::vector<Vec3d> corners = {x, 0.5 * x + half_root * y, -0.5 * x + half_root * y};
   for (std::size_t i = 0; i < 3; ++i) corners.push_back(-corners[i]);
-  while (1 - (0.5 * (corners[0] + corners[1])).norm() > tolerance &&
+  while (1 - norm(0.5 * (corners[0] + corners[1])) > tolerance &&
          2 * corners.size() <= kMostSides) {
     std::vector<Vec3d> finer;
     for (std::size_t i = 0; i < corners.size(); ++i) {
       const Vec3d between = corners[i] + corners[(i + 1) % corners.size()];
       finer.push_back(corners[i]);
-      finer.push_back(between / between.norm());
+      finer.push_back(between / norm(between));
     }
     corners = std::move(finer);
   }
   return corners;
 }
 
-/// The prism, then its two ends.
+/// The sides of the prism, then its two ends.
 Cell cell_of(const Bore& bore) {
-  const Vec3d axis = bore.direction / bore.direction.norm();
+  const Vec3d axis = bore.direction / norm(bore.direction);
   const Vec3d away = std::abs(axis.x()) < 0.5 ? Vec3d(Vec3d::UnitX()) : Vec3d(Vec3d::UnitY());
   const Vec3d across = axis.cross(away);
-  const Vec3d x = across / across.norm(), y = axis.cross(x);
+  const Vec3d x = across / norm(across), y = axis.cross(x);
   const auto corners =
       circle_corners(x, y, bore.chord_tolerance > 0 ? bore.chord_tolerance / bore.radius : 0.01);
   Cell cell;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Vec3d &a = corners[i], &b = corners[(i + 1) % corners.size()];
     Vec3d inward = -(a + b);
-    inward /= inward.norm();
-    cell.push_back({inward, inward.dot(bore.origin + bore.radius * a)});
+    inward /= norm(inward);
+    cell.push_back({inward, dot(inward, bore.origin + bore.radius * a)});
   }
-  cell.push_back({axis, axis.dot(bore.origin)});
-  cell.push_back({-axis, -(axis.dot(bore.origin) + bore.depth)});
+  cell.push_back({axis, dot(axis, bore.origin)});
+  cell.push_back({-axis, -(dot(axis, bore.origin) + bore.depth)});
   return cell;
 }
 
@@ -60,7 +61,7 @@ Status validate_bore(const Bore& bore) {
   if (bore.origin.cwiseAbs().maxCoeff() > 1e60 || bore.direction.cwiseAbs().maxCoeff() > 1e60)
     return Status::failure(StatusCode::invalid_argument, kNone,
                            "the axis of the bore lies beyond 1e60");
-  if (!(bore.direction.norm() > 1e-30))
+  if (!(norm(bore.direction) > 1e-30))
     return Status::failure(StatusCode::invalid_argument, kNone,
                            "the axis of the bore has no direction");
   if (!(bore.radius > 1e-30 && bore.radius <= 1e30))
@@ -88,7 +89,7 @@ void drill_surface(const Bore& bore, const Workpiece& work, Outcome& outcome) {
   improve_faces(before, work.editor);
   if (bore.wall)
     report.open_sections = add_bore_wall(work.editor.opened_edges.borders(), bore.origin,
-                                         bore.direction / bore.direction.norm(), bore.depth, work);
+                                         bore.direction / norm(bore.direction), bore.depth, work);
 }
 
 }  // namespace sunder::tear

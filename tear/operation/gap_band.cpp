@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/internal/ordered.h"
 #include "tear/geometry/tolerances.h"
 #include "tear/internal/surface.h"
 #include "tear/path/imprint_point.h"
@@ -29,7 +30,7 @@ double depth_at(const std::vector<Vec2d>& section, double x) {
 
 /// The half-space of the places that lie farther along `direction` than `at`, by `distance`.
 HalfSpace from_place(const Vec3d& at, const Vec3d& direction, double distance) {
-  return {direction, direction.dot(at) + distance};
+  return {direction, dot(direction, at) + distance};
 }
 
 }  // namespace
@@ -47,7 +48,7 @@ void GapBand::sweep(const Segment& segment, const Workpiece& work, StrokeTip& ti
   const bool takes_all = layers_ == Layers::all;
   const Index begins_at = tip.point;
   Pending next{
-      plane, plane.standing_on(plane.from_progress(0)), {}, {}, {}, (to.tip - from.tip).norm()};
+      plane, plane.standing_on(plane.from_progress(0)), {}, {}, {}, norm(to.tip - from.tip)};
   bool continues = pending_.has_value();
   if (!takes_all) {
     next = find_gap(segment, work, tip, outcome);
@@ -131,11 +132,11 @@ double GapBand::trace_gap(Index start, const Workpiece& work, StrokeTip& tip, Pe
 /// wedge closes the outer side.
 void GapBand::join(const Vec3d& at, const Workpiece& work, Pending& next, Outcome& outcome) {
   const Vec3d before = pending_->plane.across(), after = next.start.normal;
-  const double cosine = before.dot(after), half = 0.5 * width_;
+  const double cosine = dot(before, after), half = 0.5 * width_;
   const double overlap =
       cosine > -1 ? half * std::sqrt(std::max(0.0, (1 - cosine) / (1 + cosine))) : 0;
   if (cosine >= 0 && overlap <= 0.5 * std::min(pending_->length, next.length)) {
-    const Vec3d mitre = (before + after) / (before + after).norm();
+    const Vec3d mitre = (before + after) / norm(before + after);
     remove_pending(from_place(at, -mitre, 0), work, outcome);
     next.start = from_place(at, mitre, 0);
     return;
@@ -152,19 +153,19 @@ void GapBand::close_corner(const Vec3d& at, const Workpiece& work, const Pending
   const Vec3d before = pending_->plane.across(), after = next.start.normal;
   const Vec3d normal_before = pending_->plane.normal(), normal_after = next.plane.normal();
   const double half = 0.5 * width_;
-  const double outer = normal_before.dot(after) > 0 ? -1.0 : 1.0;
+  const double outer = dot(normal_before, after) > 0 ? -1.0 : 1.0;
   Cell wedge = {from_place(at, before, 0), from_place(at, -after, 0),
                 next.plane.standing_on(next.plane.reach()[0]),
                 next.plane.standing_on(next.plane.reach()[1])};
   std::vector<Side> sides(wedge.size(), Side::none);
-  if (before.dot(after) >= 0) {
+  if (dot(before, after) >= 0) {
     wedge.push_back(from_place(at, -outer * normal_before, -half));
     wedge.push_back(from_place(at, -outer * normal_after, -half));
   } else {
     const Vec3d bevel = outer * (normal_before + normal_after);
-    if (!(bevel.norm() > 1e-6)) return;  // straight back
-    wedge.push_back(from_place(at, -bevel / bevel.norm(),
-                               -half * outer * normal_before.dot(bevel) / bevel.norm()));
+    if (!(norm(bevel) > 1e-6)) return;  // straight back
+    wedge.push_back(from_place(at, -bevel / norm(bevel),
+                               -half * outer * dot(normal_before, bevel) / norm(bevel)));
   }
   sides.resize(wedge.size(), outer > 0 ? Side::left : Side::right);
   remove(wedge, sides, next, work, outcome);
@@ -195,12 +196,12 @@ HalfSpace GapBand::start_from_rim(const BladePlane& plane, Index tip, const Work
       work.posed.position(work.editor, surface.corner_point[Surface::next(first)]) -
       work.posed.position(work.editor, surface.corner_point[Surface::previous(last)]);
   Vec3d forward = along_rim.cross(plane.along());
-  if (forward.dot(plane.across()) < 0) forward = -forward;
-  const double length = forward.norm();
+  if (dot(forward, plane.across()) < 0) forward = -forward;
+  const double length = norm(forward);
   // A rim that does not lie across the way says nothing.
-  forward = length > 0 && forward.dot(plane.across()) > 0.5 * length ? Vec3d(forward / length)
-                                                                     : plane.across();
-  return {forward, forward.dot(at) - 0.1 * width_};
+  forward = length > 0 && dot(forward, plane.across()) > 0.5 * length ? Vec3d(forward / length)
+                                                                      : plane.across();
+  return {forward, dot(forward, at) - 0.1 * width_};
 }
 
 /// The faces of the torn layers that a cell holds a part of.
@@ -225,7 +226,7 @@ std::vector<Index> GapBand::faces_to_remove(const Cell& cell, const Pending& gap
     for (Index k = 0; k < 3; ++k)
       corners[k] = work.posed.position(work.editor, surface.corner_point[3 * face + k]);
     const Vec3d normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
-    if (normal.dot(gap.plane.along()) <= 0) return true;
+    if (dot(normal, gap.plane.along()) <= 0) return true;
     const Vec2d middle = gap.plane.project((corners[0] + corners[1] + corners[2]) / 3);
     return middle.y() - depth_at(gap.section, middle.x()) < 2 * width_;
   };
@@ -254,7 +255,7 @@ void GapBand::add_rim_points(const CellRim& rim, std::span<const Side> sides,
     const Side side = edge.side == kNone ? Side::none : sides[edge.side];
     if (side == Side::none) continue;
     const bool is_seen_from_inside =
-        layers_ == Layers::nearest && rim.areas[edge.part].dot(plane.along()) > 0;
+        layers_ == Layers::nearest && dot(rim.areas[edge.part], plane.along()) > 0;
     for (const Index point : edge.points)
       outcome.borders.rim_points.push_back({point, (side == Side::left) != is_seen_from_inside});
   }

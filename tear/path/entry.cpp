@@ -5,6 +5,7 @@
 #include <functional>
 #include <limits>
 
+#include "core/internal/ordered.h"
 #include "tear/geometry/tolerances.h"
 
 namespace sunder::tear {
@@ -44,7 +45,8 @@ std::optional<PlaneSection> cross_triangle(const BladePlane& plane, const Corner
   return found == 2 ? std::optional(section) : std::nullopt;
 }
 
-/// Cuts [begin, end] of the line from a to b to a half-plane; false where nothing is left.
+/// Clips the range [begin, end] of the line from a to b to a half-plane. @return false if nothing
+/// is left.
 bool clip(const BladePlane::HalfPlane& half_plane, const Vec2d& a, const Vec2d& b, double& begin,
           double& end) {
   const double at_a = half_plane.value(a), at_b = half_plane.value(b);
@@ -54,7 +56,8 @@ bool clip(const BladePlane::HalfPlane& half_plane, const Vec2d& a, const Vec2d& 
   return begin <= end;
 }
 
-/// A segment, and where it runs within boxes of a frame whose first axis is its direction.
+/// A segment in a frame whose first axis is its direction. Clips the segment to boxes of that
+/// frame.
 class Segment {
  public:
   Segment(const Blade& blade, const Frame& frame)
@@ -62,7 +65,7 @@ class Segment {
         direction_(blade.tip - blade.base),
         frame_(frame),
         base_in_frame_(frame.place_of(base_)),
-        direction_in_frame_(frame.axes * direction_),
+        direction_in_frame_(multiply(frame.axes, direction_)),
         per_step_(direction_in_frame_.cwiseInverse()),
         reach_(std::max(
             {frame.reach(), base_.cwiseAbs().maxCoeff(), blade.tip.cwiseAbs().maxCoeff()})),
@@ -75,12 +78,12 @@ class Segment {
       return is_empty() ? std::numeric_limits<double>::infinity() : begin;
     }
   };
-  /// The part within a box of the surface, on the safe side of rounding: those boxes are wider than
-  /// what they hold by more than what rounding does to the place of a thing in the frame, but for
-  /// what comes of coordinates in the model.
+  /// The part of the segment inside a box of the surface, conservative under rounding. The boxes
+  /// already include a margin for rounding in the frame, so only the rounding of model coordinates
+  /// is added here.
   [[nodiscard]] Part part_in(const Box& box) const { return part_in(box, rounding_); }
 
-  /// Of what lies in a shadow, and in a box that was looked at before.
+  /// The part inside a shadow. Its box was tested before.
   [[nodiscard]] Part part_in(const Box&, const Shadow& shadow) const {
     for (std::size_t k = 0; k < 3; ++k) {
       const double at =
@@ -92,24 +95,25 @@ class Segment {
     return {std::max(0.0, to_low * per_step_.x()), std::min(1.0, to_high * per_step_.x())};
   }
 
-  /// Where it meets a triangle, edges included so that none slips between two faces: Moeller and
-  /// Trumbore 1997.
+  /// The intersection with a triangle, including its edges so that the segment cannot pass between
+  /// two faces. Moeller and Trumbore 1997.
   [[nodiscard]] std::optional<SurfaceHit> hit(Index triangle, const Corners& corners,
                                               double& depth) const {
     const Vec3d ab = corners[1] - corners[0], ac = corners[2] - corners[0];
     const Vec3d h = direction_.cross(ac);
-    const double determinant = ab.dot(h);
-    if (!(std::abs(determinant) > 1e-14 * ab.norm() * ac.norm() * direction_.norm()))
+    const double determinant = dot(ab, h);
+    if (!(std::abs(determinant) > 1e-14 * norm(ab) * norm(ac) * norm(direction_)))
       return std::nullopt;
     const Vec3d from_corner = base_ - corners[0];
-    const double u = from_corner.dot(h) / determinant;
+    const double u = dot(from_corner, h) / determinant;
     const Vec3d q = from_corner.cross(ab);
-    const double v = direction_.dot(q) / determinant;
-    depth = ac.dot(q) / determinant;
+    const double v = dot(direction_, q) / determinant;
+    depth = dot(ac, q) / determinant;
     constexpr double kEdge = 1e-12;
     if (u < -kEdge || v < -kEdge || u + v > 1 + kEdge || depth < 0 || depth > 1)
       return std::nullopt;
-    // Along a triangle's plane, rounding finds places that are not in the triangle.
+    // If the segment runs along the triangle's plane, rounding may give places outside the
+    // triangle.
     const Vec3d a = frame_.place_of(corners[0]), b = frame_.place_of(corners[1]),
                 c = frame_.place_of(corners[2]);
     const Box box{a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)};
@@ -145,10 +149,10 @@ class Segment {
   }
 };
 
-/// Where a sweep meets one triangle.
+/// The contact of a sweep with one triangle.
 struct Contact {
   SurfaceHit hit;
-  SweepCoordinates low;  ///< Of the hit.
+  SweepCoordinates low;  ///< Coordinates of the hit.
 };
 
 std::optional<Contact> contact_with(Index triangle, const Corners& corners, const BladePlane& plane,
@@ -161,7 +165,7 @@ std::optional<Contact> contact_with(Index triangle, const Corners& corners, cons
   for (const auto& half_plane : plane.reach())
     is_reached = is_reached && clip(half_plane, a, b, begin, end);
   if (!is_reached || end - begin < kSnap)
-    return std::nullopt;  // what is left of a triangle after its neighbour's end was snapped
+    return std::nullopt;  // a remnant of a triangle whose neighbour's end was snapped
 
   const SweepCoordinates at_begin = plane.sweep_coordinates(a + begin * (b - a));
   const SweepCoordinates at_end = plane.sweep_coordinates(a + end * (b - a));
@@ -179,10 +183,10 @@ std::optional<Contact> contact_with(Index triangle, const Corners& corners, cons
   return contact;
 }
 
-/// Where a sweep may meet what lies in boxes.
+/// Lower bounds of the progress at which a sweep meets the contents of boxes.
 class Sweep {
  public:
-  /// @param frame  along the blade, across it, and the plane's normal.
+  /// @param frame  its axes: along the blade, across it, and the plane's normal.
   Sweep(const BladePlane& plane, const BladePlane::HalfPlane& not_before, const Frame& frame)
       : plane_(plane),
         origin_in_frame_(frame.place_of(plane.origin())),
@@ -201,9 +205,9 @@ class Sweep {
     const Box wide = box.widened(reach_);
     return plane_.least_progress({wide.low - origin_in_frame_, wide.high - origin_in_frame_});
   }
-  /// Of what lies both in a box and in a shadow.
+  /// The same for the contents of both a box and a shadow.
   [[nodiscard]] double least_progress(const Box& box, const Shadow& shadow) const {
-    // In the plane, a pair of parallels leaves an interval across the blade.
+    // In the plane, a pair of parallel lines bounds an interval across the blade.
     const double margin = box.margin(reach_), at_plane = origin_in_frame_.z();
     Box narrow = box;
     narrow.low[0] = std::max(narrow.low[0], shadow.low);
@@ -228,8 +232,8 @@ class Sweep {
   double reach_;
 };
 
-/// Calls take(contact) for the contacts of a sweep with the surface. It returns the greatest
-/// progress that is of interest from then on.
+/// Calls take(contact) for the contacts of a sweep with the surface. `take` returns the greatest
+/// progress that is still of interest.
 template <class Take>
 void for_each_contact(const BladePlane& plane, double progress, const SurfaceEditor& editor,
                       PosedPoints& posed, Take take) {
@@ -276,7 +280,8 @@ std::optional<SurfaceHit> first_hit(const Blade& blade, const SurfaceEditor& edi
 
 std::optional<SurfaceHit> first_contact(const BladePlane& plane, double progress,
                                         const SurfaceEditor& editor, PosedPoints& posed) {
-  // Whatever the order of visits: the least progress, there the least depth, there the first face.
+  // The choice is independent of the order of visits: the least progress, then the least depth,
+  // then the first face.
   double least = std::numeric_limits<double>::max(), least_depth = least;
   std::optional<Contact> nearest;
   const auto is_there = [&](const Contact& contact) {
@@ -306,7 +311,7 @@ std::optional<SurfaceHit> first_contact(const BladePlane& plane, double progress
     for (const Contact& contact : std::span(near).first(count))
       least_depth = std::min(least_depth, contact.low.depth);
     for (const Contact& contact : std::span(near).first(count)) choose(contact);
-  } else {  // many faces around one point: look once more, and again
+  } else {  // many faces around one point: two more passes
     for_each_contact(plane, progress, editor, posed, [&](const Contact& contact) {
       if (is_there(contact)) least_depth = std::min(least_depth, contact.low.depth);
       return least + kSamePlace;

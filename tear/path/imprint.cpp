@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/internal/ordered.h"
 #include "tear/geometry/tolerances.h"
 #include "tear/internal/surface.h"
 #include "tear/path/edge_crossing.h"
@@ -46,7 +47,7 @@ class GrowingPath {
     const Step step = find_step(plane_, path.points.back(), Snapping::by_shape, editor_, posed_);
     if (step.corner == kNone) return end(PathEnd::surface);
     const Reach reach = reach_between(plane_, here_, step.position);
-    // Where the curve itself ends; the path may snap to a point before it.
+    // The progress at which the curve ends; the path may snap to a point before it.
     come_to(plane_.progress(Vec3d(here_ + reach.fraction * (step.position - here_))));
     if (reach.fraction == 1) come_to(step.crossing_progress);
     if (reach.fraction < kSnap) return end(reach.end());
@@ -71,13 +72,13 @@ class GrowingPath {
   void come_to(double progress) { path.progress = std::max(path.progress, progress); }
   void go_to(Index point, Index half_edge) {
     const Vec3d there = posed_.position(editor_, point);
-    path.length_posed += (there - here_).norm();
+    path.length_posed += norm(there - here_);
     path.points.push_back(point);
     path.half_edges.push_back(half_edge);
     here_ = there;
   }
 
-  /// Turns edges that earlier tears left out of the way, as far as the source triangle goes.
+  /// Flips the edges in the way that earlier tears left within the source triangle.
   bool leap(const Step& step) {
     const Leap leap = find_leap(plane_, step, editor_, posed_);
     const Index landing = take_leap(plane_, path.points.back(), leap, editor_, posed_);
@@ -137,7 +138,7 @@ class GrowingPath {
   }
 
   /// Crosses the face ahead if it needs no closer look.
-  /// @param progress_here  of the current place; updated.
+  /// @param progress_here  progress of the current place; updated.
   bool cross_next(double& progress_here, LineSplitter& splitter) {
     const Index entry = splitter.ahead();
     if (entry == kNone || !editor_.origins.is_whole(entry / 3)) return false;

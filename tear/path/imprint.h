@@ -9,10 +9,12 @@ struct Path {
   explicit Path(ScratchMemory& scratch) : points(&scratch), half_edges(&scratch) {}
 
   ScratchVector<Index> points;
-  ScratchVector<Index> half_edges;  ///< Between them, where known; they may have moved since.
+  /// Half-edges between the points where they are known; they may have moved since.
+  ScratchVector<Index> half_edges;
   Index faces_crossed = 0;
   double length_posed = 0;
-  double progress = 0;  ///< In the sweep, of the end of the curve.
+  /// Progress in the sweep at the end of the curve.
+  double progress = 0;
   PathEnd end = PathEnd::surface;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/internal/ordered.h"
 #include "tear/geometry/tolerances.h"
 #include "tear/internal/surface.h"
 
@@ -32,9 +33,9 @@ double stored_height(Index corner, const SurfaceEditor& editor) {
               &b = at(Surface::previous(corner));
   const Eigen::Vector3d base = b.cast<double>() - a.cast<double>(),
                         side = apex.cast<double>() - a.cast<double>();
-  const double length = base.norm();
+  const double length = norm(base);
   return fraction_of(kStored * std::max(largest_coordinate(a, b), largest_coordinate(apex, apex)),
-                     length > 0 ? base.cross(side).norm() / length : 0);
+                     length > 0 ? norm(base.cross(side)) / length : 0);
 }
 
 double stored_part(Index half_edge, const SurfaceEditor& editor) {
@@ -42,7 +43,7 @@ double stored_part(Index half_edge, const SurfaceEditor& editor) {
   const Vec3f &from = editor.births.position(mesh, editor.vertex_at(half_edge)),
               &to = editor.births.position(mesh, editor.vertex_at(Surface::next(half_edge)));
   return fraction_of(kStored * largest_coordinate(from, to),
-                     (to.cast<double>() - from.cast<double>()).norm());
+                     norm(to.cast<double>() - from.cast<double>()));
 }
 
 double snapped_part(Index half_edge, Snapping snapping, const SurfaceEditor& editor,
@@ -58,9 +59,9 @@ double snapped_part(Index half_edge, Snapping snapping, const SurfaceEditor& edi
     const Vec3d a = posed.position(editor, surface.corner_point[side]);
     const Vec3d b = posed.position(editor, surface.corner_point[Surface::next(side)]);
     const Vec3d c = posed.position(editor, surface.corner_point[Surface::previous(side)]);
-    length_squared = (b - a).squaredNorm();
+    length_squared = squared_norm(b - a);
     longest_squared =
-        std::max({longest_squared, length_squared, (c - a).squaredNorm(), (c - b).squaredNorm()});
+        std::max({longest_squared, length_squared, squared_norm(c - a), squared_norm(c - b)});
   }
   return length_squared > 0 ? std::min(0.5, kSliver * std::sqrt(longest_squared / length_squared))
                             : 0.5;

@@ -12,8 +12,8 @@ struct SurfaceHit {
   Index triangle = kNone;
   std::array<double, 3> barycentric = {};
   Vec3d position = Vec3d::Zero();  ///< Posed.
-  double progress_beyond =
-      0;  ///< Of a contact: the progress at which the sweep leaves that triangle.
+  /// For a contact: the progress at which the sweep leaves the triangle.
+  double progress_beyond = 0;
 };
 
 }  // namespace sunder::tear

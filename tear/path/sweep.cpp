@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/internal/ordered.h"
 #include "tear/geometry/tolerances.h"
 #include "tear/internal/surface.h"
 
@@ -43,8 +44,7 @@ double progress_towards(const BladePlane& plane, const Vec3d& from, const Vec3d&
 
 namespace {
 
-/// The ways in which the plane leaves a point across the faces around it, of which the best is
-/// kept.
+/// Chooses among the steps by which the plane leaves a point across the faces around it.
 class StepChoice {
  public:
   StepChoice(const BladePlane& plane, const Vec3d& from, Snapping snapping,
@@ -59,7 +59,7 @@ class StepChoice {
   /// An end of a far edge.
   struct EdgeEnd {
     const Vec3d* position;
-    double distance;  ///< From the plane.
+    double distance;  ///< Distance from the plane.
   };
   void consider(Index corner, const EdgeEnd& a, const EdgeEnd& b) {
     const Step step = step_across(corner, a, b);
@@ -90,13 +90,13 @@ class StepChoice {
     if (std::min(step.fraction, 1 - step.fraction) < kTightSnap) return true;
     const double snap = snapped_part(Surface::next(step.corner), snapping_, editor_, posed_);
     if (!(step.fraction < snap || step.fraction > 1 - snap)) return false;
-    // In a sliver an end may be near and yet lie in another direction, such as that from which a
-    // tear came to its tip.
+    // In a sliver an end may be near but lie in another direction, such as the one from which the
+    // tear came.
     const Vec3d way = step.position - from_, snapped_way = nearer_end - from_;
-    return way.dot(snapped_way) > 0.5 * way.norm() * snapped_way.norm();
+    return dot(way, snapped_way) > 0.5 * norm(way) * norm(snapped_way);
   }
 
-  /// Depth per progress.
+  /// Change of depth per progress.
   [[nodiscard]] double slope(const Step& step, double progress) const {
     const double part = std::max(reach_between(plane_, from_, step.position).fraction, kSnap);
     const Vec3d reached = from_ + part * (step.position - from_);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/internal/ordered.h"
 #include "tear/geometry/tolerances.h"
 #include "tear/internal/surface.h"
 #include "tear/path/edge_crossing.h"
@@ -29,7 +30,7 @@ Trace trace_path(const BladePlane& plane, Index start, const SurfaceEditor& edit
     trace.faces.push_back(exit.half_edge / 3);
     const Reach reach = reach_between(plane, here, exit.position);
     const Vec3d reached = here + reach.fraction * (exit.position - here);
-    trace.length_posed += (reached - here).norm();
+    trace.length_posed += norm(reached - here);
     trace.progress = std::max(trace.progress, progress_at(reached));
     trace.section.push_back(plane.project(reached));
     if (!reach.is_whole()) {

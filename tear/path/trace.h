@@ -9,12 +9,12 @@ namespace sunder::tear {
 
 /// The curve in which a blade's plane meets the surface.
 struct Trace {
-  std::vector<Index> faces;    ///< Crossed, in order.
-  std::vector<Vec2d> section;  ///< Its corners in the plane, by growing progress.
+  std::vector<Index> faces;    ///< Faces crossed, in order.
+  std::vector<Vec2d> section;  ///< Corners of the curve in the plane, ascending by progress.
   double length_posed = 0;
-  double progress = 0;  ///< Of its end.
+  double progress = 0;  ///< Progress in the sweep at its end.
   PathEnd end = PathEnd::surface;
-  SurfaceHit end_place;  ///< Where it ended, if at the blade.
+  SurfaceHit end_place;  ///< The end, if it is at the blade.
 };
 
 /// Follows the curve as imprint_path() does, but changes nothing: from a point on, face to face,

@@ -1,5 +1,6 @@
 #include "tear/pieces/piece_description.h"
 
+#include "core/internal/ordered.h"
 #include "tear/internal/surface.h"
 
 namespace sunder::tear {
@@ -21,7 +22,7 @@ void PieceDescription::add(Index face) {
   const Index* points = &surface.corner_point[3 * face];
   const Vec3d &a = posed_.position(editor_, points[0]), &b = posed_.position(editor_, points[1]),
               &c = posed_.position(editor_, points[2]);
-  const double area = 0.5 * Vec3d((b - a).cross(c - a)).norm();
+  const double area = 0.5 * norm(Vec3d((b - a).cross(c - a)));
   const Vec3d middle = (a + b + c) / 3;
   piece_.area_posed += area;
   moment_ += area * middle;

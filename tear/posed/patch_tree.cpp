@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/internal/ordered.h"
 #include "tear/posed/byte_lanes.h"
 #include "tear/posed/hilbert_curve.h"
 
@@ -491,7 +492,7 @@ Index PatchTree::compute_posed_patches(Index group, const MeshPose& pose,
   const std::array<const Bound::Lanes*, 3> edges = {&main.x, &main.y, &main.z};
   for (std::size_t k = 0; k < 3; ++k) {
     const Vec2f across(-(*edges[k])[2], (*edges[k])[1]);
-    const float length = across.norm();
+    const float length = norm(across);
     normal[k] = length > 1e-15f && length < 1e15f ? Vec2f(across / length)
                                                   : Vec2f(k == 0 ? 1 : 0, k == 0 ? 0 : 1);
   }

@@ -3,6 +3,7 @@
 
 #include <Eigen/SparseCholesky>
 
+#include "core/internal/ordered.h"
 #include "tear/section/flat_section.h"
 
 namespace sunder::tear {
@@ -27,7 +28,7 @@ std::vector<EdgeWeight> cotangents(std::span<const Vec2d> points, Index rim_coun
                   to_b = points[b] - points[triangle[(i + 2) % 3]];
       const double twice_area = to_a.x() * to_b.y() - to_a.y() * to_b.x();
       if (twice_area > 0)
-        weights.push_back({std::min(a, b), std::max(a, b), to_a.dot(to_b) / twice_area});
+        weights.push_back({std::min(a, b), std::max(a, b), dot(to_a, to_b) / twice_area});
     }
   // Stable, so that the order of summation is the same with every standard library.
   std::stable_sort(weights.begin(), weights.end(), [](const EdgeWeight& a, const EdgeWeight& b) {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "core/internal/ordered.h"
+
 namespace sunder::tear {
 namespace {
 
@@ -75,7 +77,7 @@ std::vector<Run> find_runs(const Lattice& lattice, std::span<const Vec2d> points
 void clear_near(const Vec2d& a, const Vec2d& b, double distance, const Lattice& lattice,
                 std::span<const Run> runs, std::vector<char>& keep) {
   const Vec2d along = b - a;
-  const double squared_length = along.squaredNorm();
+  const double squared_length = squared_norm(along);
   const long end_row = lattice.first_row_above(std::max(a.y(), b.y()) + distance) + 1;
   for (long row = lattice.first_row_above(std::min(a.y(), b.y()) - distance) - 1; row < end_row;
        ++row) {
@@ -100,8 +102,8 @@ void clear_near(const Vec2d& a, const Vec2d& b, double distance, const Lattice& 
            ++column) {
         const Vec2d offset = lattice.point(row, column) - a;
         const double t =
-            squared_length > 0 ? std::clamp(offset.dot(along) / squared_length, 0.0, 1.0) : 0.0;
-        if ((offset - t * along).squaredNorm() < distance * distance)
+            squared_length > 0 ? std::clamp(dot(offset, along) / squared_length, 0.0, 1.0) : 0.0;
+        if (squared_norm(offset - t * along) < distance * distance)
           keep[run->offset + static_cast<std::size_t>(column - run->first)] = 0;
       }
   }
@@ -118,7 +120,7 @@ std::vector<Vec2d> place_inner_points(std::span<const Vec2d> points,
   for (const auto& edge : edges) {
     low = low.cwiseMin(points[edge[0]]);
     high = high.cwiseMax(points[edge[0]]);
-    perimeter += (points[edge[1]] - points[edge[0]]).norm();
+    perimeter += norm(points[edge[1]] - points[edge[0]]);
   }
   // Maximum number of rows along all edges, for any spacing: it bounds the time for a region that
   // is all rim.

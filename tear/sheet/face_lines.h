@@ -9,26 +9,25 @@
 
 namespace sunder::tear {
 
-/// Draws straight lines within what was one face: its parts lie in one plane of the pose, so edges
-/// between them can be turned.
+/// Draws straight lines within an area that was one face. All its parts lie in one plane of the
+/// pose, so edges between them can be flipped.
 class FaceLines {
  public:
-  /// @param face    the face as it was when the editor's stage began, now the first of its own
-  /// children.
-  /// @param points  its corners then.
-  /// @param children  (face, child) of the others.
+  /// @param face  the face as it was when the editor's stage began; it is also its own first child.
+  /// @param points  its corners at that time.
+  /// @param children  pairs (face, child) of the other children.
   FaceLines(Index face, const std::array<Index, 3>& points,
             std::span<const std::array<Index, 2>> children, SurfaceEditor& editor,
             PosedPoints& posed);
 
-  /// Makes a place of the face a point. @return kNone where the face has no area.
+  /// Makes a place in the face a point. @return kNone if the face has no area.
   [[nodiscard]] Index imprint(const Vec3d& position);
 
-  /// Makes the line between two points of the face edges: the edges that cross it are turned out of
-  /// its way where that can be, else split. Lines drawn before stay.
-  /// @param edges  appended: from `from` to `to`.
-  /// @return false where the faces are too small or degenerate for that; edges are appended as far
-  /// as it came.
+  /// Makes the straight line between two points of the face a chain of edges. Edges that cross it
+  /// are flipped where possible and split otherwise. Lines drawn earlier stay.
+  /// @param edges  appended, in order from `from` to `to`.
+  /// @return false if the faces are too small or degenerate; the edges made until then are
+  ///         appended.
   bool draw(Index from, Index to, std::vector<PointEdge>& edges);
 
  private:
@@ -37,17 +36,17 @@ class FaceLines {
     return editor_.stage.ancestor(triangle) == face_;
   }
   [[nodiscard]] bool is_drawn(Index a, Index b) const;
-  /// Turns an edge where both faces it would make are upright. Its far point must not be on the
-  /// wrong side of the line's begin.
+  /// Flips an edge if both new faces keep their winding; otherwise does nothing.
+  /// @return whether the edge was flipped.
   bool turn(Index half_edge);
 
   SurfaceEditor& editor_;
   PosedPoints& posed_;
   Index face_;
   std::vector<Index> children_;
-  Index first_new_;  ///< Triangles from here on that have this ancestor are children too.
+  Index first_new_;  ///< Later triangles with this ancestor are children too.
   Vec3d origin_, x_, y_;
-  double size_ = 0;  ///< The longest edge's length; 0 where the face has no area.
+  double size_ = 0;  ///< Length of the longest edge; 0 if the face has no area.
   std::vector<PointEdge> drawn_;
 };
 

@@ -4,6 +4,7 @@
 #include <limits>
 #include <unordered_set>
 
+#include "core/internal/ordered.h"
 #include "tear/internal/surface.h"
 #include "tear/surface/disconnect.h"
 #include "tear/surface/disjoint_sets.h"
@@ -11,11 +12,12 @@
 namespace sunder::tear {
 namespace {
 
-/// Less of an edge than this inside a cell does not lead from face to face.
+/// The search goes from face to face across an edge if more than this fraction of it is inside the
+/// cell.
 constexpr double kLeast = 1e-9;
 
-/// By how much an edge of the rim may miss its plane: of its length, and of what coordinates are
-/// large by.
+/// The distance by which an edge of the rim may miss its plane, as a fraction of its length and of
+/// the largest coordinate.
 constexpr double kOnSide = 1e-2;
 constexpr double kRounding = 1e-6;
 
@@ -38,7 +40,8 @@ bool is_edge_in_cell(const Cell& cell, const Vec3d& a, const Vec3d& b) {
   return end - begin > kLeast;
 }
 
-/// Whether a triangle and a cell share more than a border: Sutherland and Hodgman 1974.
+/// Whether the intersection of a triangle and a cell is more than a border. Sutherland and Hodgman
+/// 1974.
 bool is_face_in_cell(const Cell& cell, const Corners& corners, std::vector<Vec3d>& polygon,
                      std::vector<Vec3d>& clipped) {
   for (const HalfSpace& side : cell)
@@ -70,15 +73,14 @@ std::vector<Sheet> sheets_of(const Cell& cell) {
   return sheets;
 }
 
-/// Takes faces (ascending) away and gives every fan that is left of their points a point of its
-/// own.
+/// Retires faces (ascending) and gives each fan that remains at their points a point of its own.
 void remove_faces(const std::vector<Index>& faces, SurfaceEditor& editor, PosedPoints& posed) {
   const Surface& surface = editor.surface();
   const auto stays = [&](Index face) {
     return !std::binary_search(faces.begin(), faces.end(), face);
   };
 
-  // Corners that stay at the points of those that go.
+  // (point, corner) for each remaining corner at the points of the removed faces.
   std::vector<std::array<Index, 2>> remaining;
   for (const Index face : faces)
     for (Index corner = 3 * face; corner < 3 * face + 3; ++corner)
@@ -118,7 +120,7 @@ void remove_faces(const std::vector<Index>& faces, SurfaceEditor& editor, PosedP
   }
 }
 
-/// The half-space on whose plane an edge lies, of two the first; kNone where it lies on none.
+/// The half-space on whose plane an edge lies, the first if there are two; kNone if there is none.
 Index side_of_edge(const Cell& cell, const Vec3d& a, const Vec3d& b) {
   Index nearest = kNone;
   double least = std::numeric_limits<double>::infinity();
@@ -128,16 +130,17 @@ Index side_of_edge(const Cell& cell, const Vec3d& a, const Vec3d& b) {
     nearest = side;
     least = away;
   }
-  // Off the plane by what an end was snapped by, where a face was too small for another point.
+  // An end may be off the plane by the distance of snapping, where a face was too small for a new
+  // point.
   const double rounding = std::max(a.cwiseAbs().maxCoeff(), b.cwiseAbs().maxCoeff());
-  return least <= kOnSide * (b - a).norm() + kRounding * rounding ? nearest : kNone;
+  return least <= kOnSide * norm(b - a) + kRounding * rounding ? nearest : kNone;
 }
 
-/// The border between faces that go and those that stay, to be asked for before they go and told
-/// when they have gone.
+/// The border between removed and remaining faces. It is collected before the removal and described
+/// after it, when points have their final indices.
 class RimOfRemoved {
  public:
-  /// @param faces  that go, ascending.
+  /// @param faces  the faces to be removed, ascending.
   RimOfRemoved(const std::vector<Index>& faces, const SurfaceEditor& editor, PosedPoints& posed) {
     const Surface& surface = editor.surface();
     const auto count = static_cast<Index>(faces.size());
@@ -180,8 +183,8 @@ class RimOfRemoved {
   }
 
  private:
-  std::vector<std::array<Index, 2>>
-      staying_;  ///< Half-edge that stays, and the part that goes beside it.
+  /// (remaining half-edge, removed part on its other side)
+  std::vector<std::array<Index, 2>> staying_;
   std::vector<Vec3d> areas_;
 };
 
@@ -213,7 +216,7 @@ std::vector<Index> faces_in_cell(const Cell& cell, const std::vector<Index>& see
                                  const SurfaceEditor& editor, PosedPoints& posed) {
   const Surface& surface = editor.surface();
   std::vector<Index> faces, open;
-  std::unordered_set<Index> seen;  // only asked, never walked through: its order is nobody's
+  std::unordered_set<Index> seen;  // lookups only, never iterated
   std::vector<Vec3d> polygon, clipped;
   const auto visit = [&](Index face) {
     if (seen.insert(face).second && is_wanted(face)) open.push_back(face);
@@ -257,7 +260,7 @@ GapRemoval remove_cell(const Cell& cell, const std::vector<Index>& faces, Surfac
                      [&](const HalfSpace& half_space) { return half_space.value(middle) > 0; }))
       continue;
     inside.push_back(face);
-    removal.area_posed += 0.5 * (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm();
+    removal.area_posed += 0.5 * norm((corners[1] - corners[0]).cross(corners[2] - corners[0]));
   }
   if (inside.empty()) return removal;
   removal.faces_removed = static_cast<Index>(inside.size());

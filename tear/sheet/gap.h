@@ -8,16 +8,17 @@
 
 namespace sunder::tear {
 
-/// The live faces that a cell may hold a part of, ascending.
-[[nodiscard]] std::vector<Index> faces_in_cell(const Cell& cell, const SurfaceEditor& editor, PosedPoints& posed);
-
-/// The same, of those that hang together with the seeds inside the cell.
-/// @param is_wanted  whether the surface may be followed onto a face.
-[[nodiscard]] std::vector<Index> faces_in_cell(const Cell& cell, const std::vector<Index>& seeds,
-                                               const std::function<bool(Index face)>& is_wanted, const SurfaceEditor& editor,
+/// The live faces of which a part lies inside a cell, ascending.
+[[nodiscard]] std::vector<Index> faces_in_cell(const Cell& cell, const SurfaceEditor& editor,
                                                PosedPoints& posed);
 
-/// What removing a cell did.
+/// The same, restricted to faces that are connected to the seeds inside the cell.
+/// @param is_wanted  whether the search may enter a face.
+[[nodiscard]] std::vector<Index> faces_in_cell(const Cell& cell, const std::vector<Index>& seeds,
+                                               const std::function<bool(Index face)>& is_wanted,
+                                               const SurfaceEditor& editor, PosedPoints& posed);
+
+/// Figures of the removal of a cell.
 struct GapRemoval {
   Index faces_crossed = 0;
   Index faces_removed = 0;
@@ -25,20 +26,23 @@ struct GapRemoval {
   double area_posed = 0;
 };
 
-/// The border that removing a cell left.
+/// The border that the removal of a cell left.
 struct CellRim {
   struct Edge {
     std::array<Index, 2> points = {};
-    Index side = kNone;  ///< The half-space of the cell on whose plane the edge lies; kNone for one inside the cell.
+    /// The half-space of the cell on whose plane the edge lies; kNone for an edge inside the cell.
+    Index side = kNone;
     Index part = 0;
   };
   std::vector<Edge> edges;
-  std::vector<Vec3d> areas;  ///< Of each part that went, faces joined by edges: the sum of its faces' posed area vectors.
+  /// Per removed part (faces connected by edges): the sum of the posed area vectors of its faces.
+  std::vector<Vec3d> areas;
 };
 
-/// Removes what lies inside a convex cell from some faces: the faces inside go, those that reach out of it are clipped.
-/// @param rim  written where given.
-GapRemoval remove_cell(const Cell& cell, const std::vector<Index>& faces, SurfaceEditor& editor, PosedPoints& posed,
-                       CellRim* rim = nullptr);
+/// Removes the part of some faces that lies inside a convex cell. Faces inside are removed; faces
+/// that reach out of the cell are clipped.
+/// @param rim  optional; written.
+GapRemoval remove_cell(const Cell& cell, const std::vector<Index>& faces, SurfaceEditor& editor,
+                       PosedPoints& posed, CellRim* rim = nullptr);
 
 }  // namespace sunder::tear

@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 
+#include "core/internal/ordered.h"
 #include "tear/geometry/tolerances.h"
 #include "tear/internal/surface.h"
 #include "tear/path/snapping.h"
@@ -15,16 +16,17 @@
 namespace sunder::tear {
 namespace {
 
-/// Where a sheet's plane crosses an edge. The edge is directed as its lower half-edge is, so that
-/// both faces see the same numbers.
+/// The place where the plane of a sheet crosses an edge. The edge has the direction of its lower
+/// half-edge, so that both faces compute the same numbers.
 struct Crossing {
   Index half_edge = kNone;
   Index sheet = kNone;
   double fraction = 0;
   Vec3d position = Vec3d::Zero();
-  double slant = 1;     ///< Way along the edge for a distance from the sheet: the more, the less it
-                        ///< says where they cross.
-  Index point = kNone;  ///< Once it is imprinted.
+  /// Distance along the edge per distance from the sheet. The greater it is, the less precise is
+  /// the crossing.
+  double slant = 1;
+  Index point = kNone;  ///< Set when the crossing is imprinted.
 
   [[nodiscard]] bool is_before(const Crossing& other) const {
     if (half_edge != other.half_edge) return half_edge < other.half_edge;
@@ -32,12 +34,12 @@ struct Crossing {
   }
 };
 
-/// A face as it stood before anything was split.
+/// A face as it was before any edge was split.
 struct Face {
   Index triangle = kNone;
   std::array<Index, 3> points = {};
-  std::array<Index, 3> edges = {};       ///< Its half-edges, or their twins where those are lower.
-  std::array<bool, 3> is_reversed = {};  ///< The edge is directed against the face's half-edge.
+  std::array<Index, 3> edges = {};       ///< The half-edges, or their twins if those are lower.
+  std::array<bool, 3> is_reversed = {};  ///< Whether the edge runs against the face's half-edge.
 };
 
 /// One end of a line in a face: at a crossing of one of its edges, or at a corner where the sheet
@@ -45,7 +47,7 @@ struct Face {
 struct LineEnd {
   Vec3d position = Vec3d::Zero();
   Index crossed_edge = kNone;
-  Index bound = kNone;  ///< Of Sheet::bounds.
+  Index bound = kNone;  ///< Index in Sheet::bounds.
 };
 
 class Imprint {
@@ -95,8 +97,8 @@ class Imprint {
     const double value_from = plane.value(at_from), value_to = plane.value(at_to);
     const double fraction =
         value_from == value_to ? 0.0 : std::clamp(value_from / (value_from - value_to), 0.0, 1.0);
-    const double slant = (at_to - at_from).norm() / std::max(std::abs(value_from - value_to),
-                                                             std::numeric_limits<double>::min());
+    const double slant = norm(at_to - at_from) / std::max(std::abs(value_from - value_to),
+                                                          std::numeric_limits<double>::min());
     crossing = {face.edges[k], sheet, fraction, at_from + fraction * (at_to - at_from),
                 slant,         kNone};
     return true;
@@ -117,7 +119,8 @@ class Imprint {
                                    return !a.is_before(b) && !b.is_before(a);
                                  }),
                      crossings_.end());
-    // Which points an edge runs between has to be known before its first half is anything else.
+    // The end points of all edges are collected first, because splitting one edge changes
+    // half-edges.
     struct Edge {
       std::size_t begin, end;
       Index from, to;
@@ -141,13 +144,14 @@ class Imprint {
     }
   }
 
-  /// @param stored  part of the edge that two places on it must be apart to be stored apart.
+  /// @param stored  the least fraction of the edge between two places that are stored as different
+  ///         ones.
   void split_edge(Index from, Index to, double stored, const std::vector<Crossing*>& along) {
     Index last = from;
     double last_fraction = 0;
     for (Crossing* crossing : along) {
       const double snap = std::min(
-          0.25, stored * crossing->slant);  // nearer ends lie on the sheet, as far as is stored
+          0.25, stored * crossing->slant);  // ends nearer than this are stored on the sheet
       if (crossing->fraction - last_fraction <= snap) {
         crossing->point = last;
       } else if (crossing->fraction >= 1 - snap) {
@@ -162,8 +166,8 @@ class Imprint {
           point = tear::split_edge(h, 1 - fraction, editor_);
         }
         if (point == kNone) {
-          // The faces are too small for another point: an end that is near will do. A far one is
-          // not on the line; that is blocked.
+          // The faces are too small for another point. An end nearby is used instead; one that is
+          // far off is not on the line, and the crossing is blocked.
           const double near = std::max(kSnap, 4 * snap);
           if (fraction <= near || fraction >= 1 - near)
             crossing->point = fraction < 0.5 ? last : to;
@@ -192,8 +196,8 @@ class Imprint {
     std::sort(children_.begin(), children_.end());
   }
 
-  /// The part of a sheet that lies in a face: from where its plane enters with the inside at its
-  /// left, to where it leaves.
+  /// The line in which a sheet meets a face, directed so that the inside of its plane is on the
+  /// left.
   bool find_line(const Face& face, Index sheet, LineEnd& from, LineEnd& to) {
     bool is_found = false;
     const HalfSpace& plane = sheets_[sheet].plane;
@@ -231,7 +235,7 @@ class Imprint {
     if (end.bound == kNone) return point_at_crossing(end.crossed_edge, sheet);
     const Index other = sheets_[sheet].bounds[end.bound].sheet;
     if (other == kNone) return lines.imprint(end.position);
-    // The other sheet ends in the same corner.
+    // The line of the other sheet ends in the same corner.
     const std::array<Index, 3> key = {face.triangle, std::min(sheet, other),
                                       std::max(sheet, other)};
     const auto known = corners_.find(key);
@@ -265,7 +269,7 @@ class Imprint {
   PosedPoints& posed_;
   std::vector<Face> faces_;
   std::vector<Crossing> crossings_;
-  std::vector<std::array<Index, 2>> children_;  ///< (face, child) of each face but itself.
+  std::vector<std::array<Index, 2>> children_;  ///< (face, child), without the face itself.
   std::map<std::array<Index, 3>, Index> corners_;
   SheetImprint result_;
 };

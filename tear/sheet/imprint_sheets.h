@@ -9,24 +9,24 @@
 
 namespace sunder::tear {
 
-/// What making sheets edges of the surface came to.
+/// Result of imprinting sheets in the surface.
 struct SheetImprint {
-  /// Of each sheet: the edges in which it meets the faces, directed so that the inside of its plane
-  /// is at their left.
+  /// Per sheet: the edges in which it meets the faces, directed so that the inside of its plane is
+  /// on their left.
   std::vector<std::vector<PointEdge>> edges;
   Index faces_crossed = 0;
-  Index blocked = 0;  ///< Faces across which an edge could not be made, because they are too small
-                      ///< or degenerate.
+  /// Number of faces across which an edge could not be made, because they are too small or
+  /// degenerate.
+  Index blocked = 0;
 };
 
-/// Makes the lines in which sheets meet faces edges of the surface, as the faces stand in the pose.
-/// Lines end where the sheets do, also within a face; nothing beyond them is split. Sheets that
-/// bound one another meet in corners. After it the children of each face (Stage::ancestor) lie on
-/// one side of each sheet.
+/// Makes the lines in which sheets meet posed faces edges of the surface. Lines end where the
+/// sheets end, also within a face; nothing beyond is split. Sheets that bound one another meet in
+/// corners. Afterwards each child of a face (Stage::ancestor) lies on one side of each sheet.
 ///
-/// @param faces  live ones, each once.
-/// O((faces + new points) x sheets). Points go nowhere but onto the lines: a crossing that would be
-/// stored as an edge's end, or is nearer to it than 1e-9 of the edge's length, is that end.
+/// @param faces  live faces, each once.
+/// O((faces + new points) x sheets). A crossing snaps to an end of its edge only if it would be
+/// stored as that end or is nearer to it than 1e-9 of the edge's length.
 [[nodiscard]] SheetImprint imprint_sheets(std::span<const Sheet> sheets,
                                           std::span<const Index> faces, SurfaceEditor& editor,
                                           PosedPoints& posed);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "core/internal/ordered.h"
 #include "tear/internal/surface.h"
 #include "tear/path/imprint_point.h"
 #include "tear/sheet/imprint_sheets.h"
@@ -10,19 +11,21 @@
 namespace sunder::tear {
 namespace {
 
-/// Each edge once. An edge with the inside of the sheet at both its sides, or at neither, is one where the surface only touches it.
+/// Removes duplicate edges, and edges along which the surface only touches the sheet: those have
+/// its inside on both sides or on neither.
 void drop_touching(std::vector<PointEdge>& edges) {
   std::vector<PointEdge> sorted = edges;
   std::sort(sorted.begin(), sorted.end());
   std::vector<PointEdge> kept;
   for (const PointEdge& edge : edges)
-    if (!std::binary_search(sorted.begin(), sorted.end(), PointEdge{edge[1], edge[0]})) kept.push_back(edge);
+    if (!std::binary_search(sorted.begin(), sorted.end(), PointEdge{edge[1], edge[0]}))
+      kept.push_back(edge);
   std::sort(kept.begin(), kept.end());
   kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
   edges = std::move(kept);
 }
 
-/// Edges in the order in which one follows another, run after run.
+/// Chains edges into runs.
 std::vector<std::vector<PointEdge>> runs_of(const std::vector<PointEdge>& edges) {
   std::map<Index, std::vector<std::size_t>> leaving;
   std::map<Index, Index> arriving;
@@ -44,7 +47,7 @@ std::vector<std::vector<PointEdge>> runs_of(const std::vector<PointEdge>& edges)
         if (!is_taken[candidate]) i = std::min(i, candidate);
     }
   };
-  for (std::size_t i = 0; i < edges.size(); ++i)  // those that begin somewhere, then the closed ones
+  for (std::size_t i = 0; i < edges.size(); ++i)  // open runs first, then closed ones
     if (!is_taken[i] && arriving.find(edges[i][0]) == arriving.end()) follow(i);
   for (std::size_t i = 0; i < edges.size(); ++i)
     if (!is_taken[i]) follow(i);
@@ -53,27 +56,36 @@ std::vector<std::vector<PointEdge>> runs_of(const std::vector<PointEdge>& edges)
 
 }  // namespace
 
-std::vector<Index> faces_across(const Sheet& sheet, const SurfaceEditor& editor, PosedPoints& posed) {
+std::vector<Index> faces_across(const Sheet& sheet, const SurfaceEditor& editor,
+                                PosedPoints& posed) {
   const Surface& surface = editor.surface();
   const Frame frame = posed.frame_along(
-      axes_along(sheet.plane.normal, sheet.bounds.empty() ? Vec3d(Vec3d::Zero()) : sheet.bounds[0].half_space.normal), editor);
-  std::vector<FramedHalfSpace> sides = {{frame, sheet.plane}, {frame, {-sheet.plane.normal, -sheet.plane.offset}}};
+      axes_along(sheet.plane.normal,
+                 sheet.bounds.empty() ? Vec3d(Vec3d::Zero()) : sheet.bounds[0].half_space.normal),
+      editor);
+  std::vector<FramedHalfSpace> sides = {{frame, sheet.plane},
+                                        {frame, {-sheet.plane.normal, -sheet.plane.offset}}};
   for (const Sheet::Bound& bound : sheet.bounds) sides.emplace_back(frame, bound.half_space);
   const auto may_meet = [&](const Box& box) {
-    return std::none_of(sides.begin(), sides.end(), [&](const FramedHalfSpace& side) { return side.is_beside(box); });
+    return std::none_of(sides.begin(), sides.end(),
+                        [&](const FramedHalfSpace& side) { return side.is_beside(box); });
   };
   std::vector<Index> faces;
   posed.for_each_face(editor, frame, may_meet, [&](Index face) {
     std::array<Vec3d, 3> corners;
-    for (Index k = 0; k < 3; ++k) corners[k] = posed.position(editor, surface.corner_point[3 * face + k]);
+    for (Index k = 0; k < 3; ++k)
+      corners[k] = posed.position(editor, surface.corner_point[3 * face + k]);
     const auto has_corner_in = [&](const HalfSpace& half_space) {
-      return std::any_of(corners.begin(), corners.end(), [&](const Vec3d& corner) { return half_space.contains(corner); });
+      return std::any_of(corners.begin(), corners.end(),
+                         [&](const Vec3d& corner) { return half_space.contains(corner); });
     };
-    const bool is_across = has_corner_in(sheet.plane) && std::any_of(corners.begin(), corners.end(), [&](const Vec3d& corner) {
+    const bool is_across = has_corner_in(sheet.plane) &&
+                           std::any_of(corners.begin(), corners.end(), [&](const Vec3d& corner) {
                              return !sheet.plane.contains(corner);
                            });
-    if (is_across && std::all_of(sheet.bounds.begin(), sheet.bounds.end(),
-                                 [&](const Sheet::Bound& bound) { return has_corner_in(bound.half_space); }))
+    if (is_across &&
+        std::all_of(sheet.bounds.begin(), sheet.bounds.end(),
+                    [&](const Sheet::Bound& bound) { return has_corner_in(bound.half_space); }))
       faces.push_back(face);
   });
   std::sort(faces.begin(), faces.end());
@@ -83,14 +95,17 @@ std::vector<Index> faces_across(const Sheet& sheet, const SurfaceEditor& editor,
 SheetOpening open_sheet(const Sheet& sheet, const Workpiece& work, std::vector<LipPair>& lips) {
   SurfaceEditor& editor = work.editor;
   PosedPoints& posed = work.posed;
-  SheetImprint imprint = imprint_sheets({&sheet, 1}, faces_across(sheet, editor, posed), editor, posed);
+  SheetImprint imprint =
+      imprint_sheets({&sheet, 1}, faces_across(sheet, editor, posed), editor, posed);
   SheetOpening opening;
   opening.faces_crossed = imprint.faces_crossed;
   opening.blocked = imprint.blocked;
   drop_touching(imprint.edges[0]);
   for (std::vector<PointEdge>& run : runs_of(imprint.edges[0])) {
-    // One edge between two tips would stay closed at both its ends: it needs a point that can open.
-    if (run.size() == 1 && !editor.surface().is_on_border(run[0][0]) && !editor.surface().is_on_border(run[0][1])) {
+    // A single edge between two tips stays closed at both ends, so it needs another point that can
+    // open.
+    if (run.size() == 1 && !editor.surface().is_on_border(run[0][0]) &&
+        !editor.surface().is_on_border(run[0][1])) {
       const Index h = editor.surface().find_half_edge(run[0][0], run[0][1]);
       const Index middle = h == kNone ? kNone : split_posed_edge(h, 0.5, editor, posed);
       if (middle == kNone) {
@@ -101,7 +116,8 @@ SheetOpening open_sheet(const Sheet& sheet, const Workpiece& work, std::vector<L
     }
     ++opening.runs;
     for (const PointEdge& edge : run) {
-      opening.length_posed += (posed.position(editor, edge[1]) - posed.position(editor, edge[0])).norm();
+      opening.length_posed +=
+          norm(posed.position(editor, edge[1]) - posed.position(editor, edge[0]));
       opening.edges.push_back(edge);
     }
   }
@@ -114,7 +130,8 @@ SheetOpening open_sheet(const Sheet& sheet, const Workpiece& work, std::vector<L
   }
   const std::size_t first_lip = lips.size();
   open_edges(opening.edges, {}, editor, lips);
-  for (std::size_t i = first_lip; i < lips.size(); ++i) posed.pin(lips[i].left, Vec3d(posed.position(editor, lips[i].right)));
+  for (std::size_t i = first_lip; i < lips.size(); ++i)
+    posed.pin(lips[i].left, Vec3d(posed.position(editor, lips[i].right)));
   return opening;
 }
 

@@ -8,20 +8,25 @@
 
 namespace sunder::tear {
 
-/// What opening the surface along a sheet came to.
+/// Result of opening the surface along a sheet.
 struct SheetOpening {
-  std::vector<PointEdge> edges;    ///< As they were before they opened: the left lip is at the left of each.
-  std::vector<Index> left, right;  ///< Half-edges of the faces at both sides of the edges: the borders of the lips.
-  Index runs = 0;                  ///< Of edges that hang together.
+  /// The edges before they opened; the left lip is on the left of each edge.
+  std::vector<PointEdge> edges;
+  /// Half-edges of the faces on both sides of the edges: the borders of the lips.
+  std::vector<Index> left, right;
+  Index runs = 0;  ///< Number of connected runs of edges.
   Index faces_crossed = 0;
   Index blocked = 0;
   double length_posed = 0;
 };
 
-/// The live faces on both sides of whose plane there are corners, and which no bound shuts out, ascending.
-[[nodiscard]] std::vector<Index> faces_across(const Sheet& sheet, const SurfaceEditor& editor, PosedPoints& posed);
+/// The live faces, ascending, that have corners on both sides of the sheet's plane and that no
+/// bound excludes.
+[[nodiscard]] std::vector<Index> faces_across(const Sheet& sheet, const SurfaceEditor& editor,
+                                              PosedPoints& posed);
 
-/// Opens the posed surface, every layer of it, where it meets a sheet.
-[[nodiscard]] SheetOpening open_sheet(const Sheet& sheet, const Workpiece& work, std::vector<LipPair>& lips);
+/// Opens all layers of the posed surface where they meet a sheet.
+[[nodiscard]] SheetOpening open_sheet(const Sheet& sheet, const Workpiece& work,
+                                      std::vector<LipPair>& lips);
 
 }  // namespace sunder::tear

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/internal/ordered.h"
+
 namespace sunder {
 namespace {
 
@@ -28,7 +30,7 @@ struct Corners {
 
 /// Unit length; where opposite directions cancel, that of the nearest corner.
 Eigen::Vector3d unit_direction(const Eigen::Vector3d& direction, const Vec3f& nearest) {
-  const double length = direction.norm();
+  const double length = norm(direction);
   return length > 1e-12 ? Eigen::Vector3d(direction / length)
                         : Eigen::Vector3d(nearest.cast<double>());
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/internal/ordered.h"
 #include "tear/internal/surface.h"
 
 namespace sunder {
@@ -59,8 +60,8 @@ bool has_no_area(const Mesh& mesh, const Triangle& triangle) {
   const Eigen::Vector3d ab = mesh.positions[triangle[1]].cast<double>() - a,
                         ac = mesh.positions[triangle[2]].cast<double>() - a;
   const double longest_squared =
-      std::max({ab.squaredNorm(), ac.squaredNorm(), (ac - ab).squaredNorm()});
-  return ab.cross(ac).norm() <= 1e-12 * longest_squared;
+      std::max({squared_norm(ab), squared_norm(ac), squared_norm(ac - ab)});
+  return norm(ab.cross(ac)) <= 1e-12 * longest_squared;
 }
 
 void count_triangles_and_points(const Character& character, const Surface& surface,

@@ -7,6 +7,7 @@
 #include <new>
 #include <tuple>
 
+#include "core/internal/ordered.h"
 #include "tear/internal/surface.h"
 #include "tear/surface/morph_displacement.h"
 
@@ -43,12 +44,10 @@ std::vector<RefitNeighbours> find_neighbours(const WeightAssignment& assignment,
                  original_to = editor.births.original(mesh, to);
       Index a = number_of(original_from), b = number_of(original_to);
       if (a == b) continue;
-      const VertexRef end = a == kNone   ? original_from
-                                           : b == kNone ? original_to
-                                                        : VertexRef{};
+      const VertexRef end = a == kNone ? original_from : b == kNone ? original_to : VertexRef{};
       if (b < a) std::swap(a, b);  // kNone comes last
-      const double length =
-          (editor.births.position(mesh, from) - editor.births.position(mesh, to)).cast<double>().norm();
+      const double length = norm(
+          (editor.births.position(mesh, from) - editor.births.position(mesh, to)).cast<double>());
       edges.push_back({a, b, end, length});
     }
   };
@@ -119,9 +118,8 @@ void RefitTask::take(std::size_t i, const Fit& fit) {
   // The fit must be better by more than it may lose when it is stored: the rounding of coordinates
   // and weights.
   constexpr double kStored = 1.5e-7;
-  const bool is_taken =
-      fit.is_better && std::sqrt(fit.mean_square) + kStored * fit.position.norm() <
-                           std::sqrt(fit.barycentric_mean_square);
+  const bool is_taken = fit.is_better && std::sqrt(fit.mean_square) + kStored * norm(fit.position) <
+                                             std::sqrt(fit.barycentric_mean_square);
   PointWeights& point = assignment.points[i];
   const auto kept = std::span<const Influence>(assignment.influences)
                         .subspan(point.first_influence, point.influence_count);

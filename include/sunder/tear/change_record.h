@@ -10,18 +10,20 @@
 
 namespace sunder {
 
-/// Where a new vertex came from: a triangle of the source mesh and a place in it. Every attribute
-/// is derived from the birth, so errors do not accumulate over operations.
+/// The origin of a new vertex: a triangle of the source mesh and a place in it. Every attribute is
+/// derived from the birth, so errors do not accumulate over operations.
 struct Birth {
-  std::uint32_t triangle = 0;  ///< In the source mesh; beyond its last: of a wall or cap.
-  std::array<double, 3> barycentric = {1.0, 0, 0};  ///< Of its corners; >= 0, sum 1.
+  /// Index in the source mesh. From its triangle count on: a triangle of a wall or cap, see
+  /// TornModel::fillings().
+  std::uint32_t triangle = 0;
+  std::array<double, 3> barycentric = {1.0, 0, 0};  ///< Per corner; >= 0, sum 1.
 
   bool operator==(const Birth&) const = default;
 };
 
-/// A triangle whose corners refer to other vertices now.
+/// A triangle whose corners now refer to other vertices.
 struct RewrittenTriangle {
-  std::uint32_t triangle = 0;  ///< In Mesh::triangles.
+  std::uint32_t triangle = 0;  ///< Index in Mesh::triangles.
   Triangle before = {};
 
   bool operator==(const RewrittenTriangle&) const = default;
@@ -33,8 +35,8 @@ class DirtyRanges {
  public:
   static constexpr std::size_t kMaximum = 8;
 
-  /// @param elements  ascending; repeated ones count once. The seven widest gaps stay apart, of
-  /// equal ones the first. O(elements).
+  /// @param elements  ascending; repeated elements count once. The seven widest gaps between them
+  ///         separate the ranges; of equally wide gaps the first. O(elements).
   SUNDER_API static DirtyRanges covering(std::span<const std::uint32_t> elements);
 
   [[nodiscard]] const IndexRange* begin() const { return ranges_.data(); }
@@ -55,11 +57,14 @@ struct MeshChange {
   std::uint32_t mesh = 0;
   std::uint32_t first_vertex = 0, vertex_count = 0;      ///< Appended.
   std::uint32_t first_triangle = 0, triangle_count = 0;  ///< Appended.
-  std::vector<Birth> births;                             ///< Of the appended vertices.
-  std::vector<RewrittenTriangle> rewritten;  ///< Ascending by triangle; the retired ones too.
-  std::vector<std::uint32_t> retired;        ///< Ascending: is_retired() from now on.
-  DirtyRanges dirty_vertices;                ///< Appended ones, and those whose tear side changed.
-  DirtyRanges dirty_triangles;               ///< Appended and rewritten ones.
+  std::vector<Birth> births;                             ///< Per appended vertex.
+  /// Ascending by triangle; includes the retired ones.
+  std::vector<RewrittenTriangle> rewritten;
+  /// Triangles that are is_retired() from now on, ascending.
+  std::vector<std::uint32_t> retired;
+  /// Appended vertices, and those whose tear side changed.
+  DirtyRanges dirty_vertices;
+  DirtyRanges dirty_triangles;  ///< Appended and rewritten triangles.
 };
 
 /// Two surface points that were one before the tear, left and right of the stroke's direction as
@@ -71,10 +76,10 @@ struct LipPair {
   bool operator==(const LipPair&) const = default;
 };
 
-/// The surface points on the two sides of a gap, each side ascending; left and right as of a
-/// LipPair. A corner where a side meets an end belongs to its side; what lies between the corners
-/// of an end is in neither. No point is in both: where a stroke crosses its own gap, the later
-/// segment says.
+/// The surface points on the two sides of a gap, each side ascending. Left and right are those of
+/// LipPair. A corner where a side meets an end belongs to the side; points between the corners of
+/// an end are in neither. No point is in both: where a stroke crosses its own gap, the later
+/// segment decides.
 struct Rims {
   std::vector<std::uint32_t> left;
   std::vector<std::uint32_t> right;
@@ -85,12 +90,12 @@ struct Rims {
 /// The changes by one call, for engine buffers, particles, bounds and other mirrors of the model.
 struct ChangeRecord {
   std::uint32_t first_point = 0, point_count = 0;  ///< Surface points appended.
-  std::vector<MeshChange> meshes;                  ///< Those that changed, ascending.
-  /// In order along the tear; of a gap, cut or bore no pairs but those of an opened edge. Tips are
+  std::vector<MeshChange> meshes;                  ///< The meshes that changed, ascending.
+  /// In order along the tear. Gaps, cuts and bores list only the pairs of opened edges. Tips are
   /// single points and not listed.
   std::vector<LipPair> lips;
-  /// Of a gap: what the call left at its two sides. All have a face, and lie on a border, or where
-  /// it was before a wall was hung from it. Of a bore none: it has one rim, and no sides.
+  /// For a gap: the points that the call left on its two sides. All have a face, and lie on a
+  /// border or on a rim from which a wall hangs. Empty for a bore, which has one rim and no sides.
   Rims rims;
 };
 

@@ -10,8 +10,8 @@ namespace sunder {
 /// triangles, are not counted.
 struct TopologyCounts {
   std::uint32_t vertices = 0;  ///< All entries of the arrays, used or not.
-  std::uint32_t points =
-      0;  ///< Of triangles. TornModel::point_count() counts those that lost their triangles too.
+  /// Points that have triangles. TornModel::point_count() also counts points that lost theirs.
+  std::uint32_t points = 0;
   std::uint32_t triangles = 0;
   std::uint32_t edges = 0;
   std::uint32_t boundary_edges = 0;  ///< With one face.

@@ -18,8 +18,8 @@ namespace sunder {
 /// that finds no room changes nothing and returns capacity_exceeded. A cut across n faces appends
 /// about 2 n vertices and triangles.
 struct TornCapacity {
-  std::uint32_t vertices = 0;   ///< Each mesh gets room for so many.
-  std::uint32_t triangles = 0;  ///< Likewise.
+  std::uint32_t vertices = 0;   ///< Per mesh.
+  std::uint32_t triangles = 0;  ///< Per mesh.
   std::uint32_t operations = 0;
 
   /// All zero: the model grows as needed, and an operation allocates where it has to grow.
@@ -30,7 +30,7 @@ struct TornCapacity {
   bool operator==(const TornCapacity&) const = default;
 };
 
-/// Where the elements of each mesh came from: old_from_new[new] = old, ascending.
+/// The previous index of each element, per mesh: old_from_new[new] = old, ascending.
 struct CompactMaps {
   struct OfMesh {
     std::vector<std::uint32_t> vertex_old_from_new;
@@ -106,8 +106,8 @@ class SUNDER_API TornModel {
   [[nodiscard]] std::uint32_t undo_count() const;
   [[nodiscard]] std::uint32_t redo_count() const;
 
-  /// Sets how new points are skinned by operations that do not say; initially `barycentric` with
-  /// all influences. Existing points are unchanged; see reweigh().
+  /// Sets how points created by operations without weight options are skinned; initially
+  /// `barycentric` with all influences. Existing points are unchanged; see reweigh().
   Status set_weights(const WeightOptions& options);
   [[nodiscard]] const WeightOptions& weights() const;
   /// Assigns new weights, computed from births, to points that earlier operations made and to all
