@@ -187,7 +187,7 @@ struct Ring {
   double height = 0;  ///< Mean, along the axis.
 };
 
-constexpr double kTurn = 4;  ///< Of Axis::angle().
+constexpr double kTurn = 4;  ///< One full turn in units of Axis::angle().
 
 struct Axis {
   Vec3d origin, x, y, z;

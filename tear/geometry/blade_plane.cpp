@@ -39,9 +39,8 @@ std::optional<BladePlane> BladePlane::through(const Vec3d& anchor, const Blade& 
   const double distance = norm(across);
   if (!(distance > 1e-9 * (norm(blade) + norm(offset)))) return std::nullopt;
   plane.across_ = across / distance;
-  plane.across_ -=
-      dot(plane.along_, plane.across_) *
-      plane.along_;  // a second time: subtracting nearly parallel vectors loses the right angle
+  // A second time, because subtracting nearly parallel vectors loses the right angle.
+  plane.across_ -= dot(plane.along_, plane.across_) * plane.along_;
   plane.across_ /= norm(plane.across_);
   plane.normal_ = plane.across_.cross(plane.along_);
 

@@ -33,7 +33,8 @@ std::vector<Index> find_separated(ChangedFaces& changed, const Surface& surface,
     if (changed.is_live(i))
       of_face.push_back({parts.find(surface.corner_point[3 * changed.face(i)]), i});
   std::sort(of_face.begin(), of_face.end());
-  for (std::size_t i = 1; i < of_face.size(); ++i)  // what hangs together now did so before
+  // Faces that are connected now were connected before.
+  for (std::size_t i = 1; i < of_face.size(); ++i)
     if (of_face[i][0] == of_face[i - 1][0])
       changed.groups().unite(of_face[i - 1][1], of_face[i][1]);
   std::vector<std::array<Index, 2>> by_group;

@@ -23,8 +23,8 @@ ChangedFaces::ChangedFaces(const EditLog::Mark& begin, const SurfaceEditor& edit
   }
   if (set_count() < 2) return;
   for (Index i = 0; i < count(); ++i) groups_.unite(sets_.find(i), i);
-  // What hung together before: neighbours, and what was split from one face. What did not change
-  // joins as it did.
+  // Connections before the operation: neighbours, and faces split from one face. Unchanged faces
+  // are connected as they are now.
   editor.log.for_each_former_neighbour(begin, [&](Index one, Index other) {
     const Index b = editor.log.number_since(begin, other);
     if (b != kNone) groups_.unite(editor.log.number_since(begin, one), b);

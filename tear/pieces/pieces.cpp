@@ -124,8 +124,8 @@ class Fronts {
   ScratchMemory& scratch_;
   DisjointSets &groups_, &sets_;
   std::pmr::unordered_map<Index, Index> front_of_face_;  // lookups only, never iterated
-  ScratchVector<ScratchVector<Index>> faces_,
-      open_;                    ///< Of each front; open: indices into its faces.
+  /// Per front: its faces, and the indices in them of those that can still grow.
+  ScratchVector<ScratchVector<Index>> faces_, open_;
   ScratchVector<Index> roots_;  ///< The initial fronts.
 };
 

@@ -33,8 +33,8 @@ class HilbertCurve {
     return ((bits << by) | (bits >> (3 - by))) & 7u;
   }
 
-  /// Of each state and octant: the octant's number along the curve, and the state in it times 8.
-  /// States are 3 x entry corner + direction.
+  /// Per state and octant: the octant's index along the curve, plus 8 times the state in that
+  /// octant. States are 3 x entry corner + direction.
   static constexpr std::array<std::uint8_t, std::size_t{24} * 8> make_steps() {
     std::array<std::uint8_t, std::size_t{24} * 8> steps{};
     for (std::uint32_t state = 0; state < 24; ++state)

@@ -35,7 +35,7 @@ class PosedPoints {
   /// Prefetches the memory that is read to pose a point.
   void fetch(const SurfaceEditor& editor, Index point) const;
 
-  /// Makes room for that many points.
+  /// Makes room for `point_count` points.
   void cover(Index point_count) {
     if (known_.size() >= point_count) return;
     if (known_.capacity() < point_count)
@@ -96,7 +96,7 @@ class PosedPoints {
 
   CharacterPose pose_;
   std::vector<Known> known_;
-  std::uint32_t epoch_ = 0;  ///< Of the pose: a new epoch forgets all positions at once.
+  std::uint32_t epoch_ = 0;  ///< Epoch of the pose: a new epoch invalidates all positions at once.
   PatchForest forest_;
 };
 

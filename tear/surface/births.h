@@ -11,12 +11,12 @@
 
 namespace sunder::tear {
 
-/// What appended vertices were born with: where in which origin, and the bind position and
-/// influences that follow from it.
+/// The births of appended vertices: the origin and the place in it, and the bind position and
+/// influences that follow from them.
 ///
-/// Tears are found on the surface that births alone give, so that neither the weight policy of a
-/// point nor the time at which a fit arrived changes where a tear runs. Only the meshes of the
-/// character have what policies made of it.
+/// The paths of tears are computed on the surface given by births alone, so that they depend
+/// neither on the weight policy of a point nor on the time at which a fit is complete. Weights made
+/// by policies are only in the meshes of the character.
 class Births {
  public:
   Births(const Character& source, Character& character, EditColumns& columns,
@@ -32,7 +32,7 @@ class Births {
   [[nodiscard]] const Birth& at(Index mesh, Index vertex) const {
     return columns_.meshes[mesh].births[vertex - source_.meshes[mesh].vertex_count()];
   }
-  /// Those of the last `count` vertices of a mesh.
+  /// Births of the last `count` vertices of a mesh.
   [[nodiscard]] std::span<const Birth> newest(Index mesh, Index count) const {
     return std::span<const Birth>(columns_.meshes[mesh].births).last(count);
   }
@@ -48,13 +48,14 @@ class Births {
     return vertex < source_count ? VertexRef{mesh, vertex}
                                  : columns_.meshes[mesh].records[vertex - source_count].original;
   }
-  /// The policy that made its weights.
+  /// The policy that made the weights of a vertex.
   [[nodiscard]] WeightPolicy policy(Index mesh, Index vertex) const {
     const Index source_count = source_.meshes[mesh].vertex_count();
     return vertex < source_count ? WeightPolicy::barycentric
                                  : columns_.meshes[mesh].records[vertex - source_count].policy;
   }
-  /// The index of what it was born with in EditColumns::kept_births; kNone if its mesh has that.
+  /// Index of the vertex in EditColumns::kept_births; kNone if its mesh still has the values by
+  /// birth.
   [[nodiscard]] Index kept_birth(Index mesh, Index vertex) const {
     const Index source_count = source_.meshes[mesh].vertex_count();
     if (vertex < source_count || columns_.kept_births.empty()) return kNone;
@@ -79,40 +80,41 @@ class Births {
                                                       Index vertex) const;
   /// Whether a policy may give a vertex other weights: it lies between corners and is an original.
   [[nodiscard]] bool is_weighable(Index mesh, Index vertex) const;
-  /// Describes a vertex by what moves it exactly in every pose, whatever its policy: by the
-  /// vertices that it lies between and that do not lie between others. @param morph_weights  at
-  /// which morph targets are added.
+  /// Describes the exact motion of a vertex in every pose, whatever its policy: by the vertices
+  /// between which it lies and that do not lie between others themselves.
+  /// @param morph_weights  the weights with which morph targets are added.
   void describe_exactly(const VertexRef& vertex, std::span<const float> morph_weights,
                         AnimationPoint& point) const;
 
   // ---- Appending. There must be room, except where a function makes it.
 
-  /// A vertex that is interpolated in an origin.
+  /// Appends a vertex that is interpolated in an origin.
   Index append(Index mesh, const Birth& birth);
-  /// A copy of a vertex at the same point. @param triangle  that has the vertex.
+  /// Appends a copy of a vertex at the same point. @param triangle  a triangle that has the vertex.
   Index append_duplicate(Index mesh, Index vertex, const TriangleRef& triangle);
-  /// A vertex at the point of another one, of a mesh with the same skin. It is born when a filling
-  /// uses it. Makes room.
+  /// Appends a vertex at the point of another one, which may be in another mesh with the same skin.
+  /// It gets its birth when a filling uses it. Makes room.
   [[nodiscard]] Index append_rim_vertex(Index mesh, const VertexRef& like);
-  /// A vertex with the attributes of another one, and with its bind position and influences by
-  /// birth, to be changed before anyone sees it. It is born when a filling uses it. Makes room.
+  /// Appends a vertex with the attributes of another one, and with its bind position and influences
+  /// by birth; the caller changes them. It gets its birth when a filling uses it. Makes room.
   [[nodiscard]] Index append_filling_vertex(Index mesh, Index like);
-  /// A filling uses a vertex as one of its corners (0, 1, 2).
+  /// Sets the birth of a vertex that a filling uses as one of its corners (0, 1, 2).
   void give_birth(Index mesh, Index vertex, Index filling, Index corner);
   void remove_newest(Index mesh);
-  /// Says that the newest vertex of a mesh is at the point of another one.
+  /// Sets the original of the newest vertex of a mesh.
   void set_original_of_newest(Index mesh, const VertexRef& original) {
     columns_.meshes[mesh].records.back().original = original;
   }
-  /// Says by which policy a vertex has its weights. @param kept_birth  what keep() returned, kNone
-  /// for weights as born.
+  /// Sets the policy that made the weights of a vertex.
+  /// @param kept_birth  the result of keep(); kNone for weights by birth.
   void set_policy(Index mesh, Index vertex, WeightPolicy policy, Index kept_birth) {
     VertexRecord& record =
         columns_.meshes[mesh].records[vertex - source_.meshes[mesh].vertex_count()];
     record.policy = policy;
     record.kept_birth = kept_birth;
   }
-  /// Keeps what a vertex was born with, because it is about to get other weights. Makes room.
+  /// Keeps the position and influences by birth of a vertex that is about to get other weights.
+  /// Makes room.
   /// @return the index in EditColumns::kept_births.
   [[nodiscard]] Index keep(Index mesh, Index vertex);
 

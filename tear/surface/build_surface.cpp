@@ -14,7 +14,7 @@ const CustomAttribute* find_tear_side(const Mesh& mesh) {
   return nullptr;
 }
 
-/// Tells which vertices are one surface point.
+/// Decides which vertices are one surface point.
 class PointIdentity {
  public:
   explicit PointIdentity(const Character& character) : character_(character) {
@@ -151,7 +151,7 @@ class HalfEdgeGroups {
   }
 
  private:
-  std::vector<Index> first_;  ///< Per point: its begin in half_edges_.
+  std::vector<Index> first_;  ///< Per point: index of its first entry in half_edges_.
   std::vector<Index> half_edges_;
 };
 

@@ -77,7 +77,8 @@ void apply(const MeshMaps& maps, Mesh& mesh) {
 }  // namespace
 
 CompactMaps compact(Character& character) {
-  // All maps first: nothing else allocates, so a character is never left half done.
+  // The maps are made first. Nothing after them allocates, so a character is never left half
+  // changed.
   std::vector<MeshMaps> maps;
   CompactMaps result;
   maps.reserve(character.meshes.size());

@@ -35,7 +35,7 @@ class Connectivity {
     columns_.surface.twin[a] = b;
     if (b != kNone) columns_.surface.twin[b] = a;
   }
-  /// Names the corner that a point is known by.
+  /// Sets the corner by which a point is found (Surface::point_corner).
   void set_point_corner(Index point, Index corner) {
     columns_.surface.point_corner[point] = corner;
   }

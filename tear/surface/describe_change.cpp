@@ -28,7 +28,7 @@ class RecordWriter {
   RecordWriter(const RecordWriter&) = delete;
   RecordWriter& operator=(const RecordWriter&) = delete;
 
-  /// An empty change of a mesh. It counts once it is closed.
+  /// Opens an empty change of a mesh. It becomes part of the record when it is closed.
   MeshChange& open(Index mesh) {
     if (count_ == change_.meshes.size()) change_.meshes.emplace_back();
     MeshChange& opened = change_.meshes[count_];
@@ -39,7 +39,7 @@ class RecordWriter {
     opened.retired.clear();
     return opened;
   }
-  /// @param sides  which values of _TEARSIDE were written.
+  /// @param sides  the values of _TEARSIDE that were written.
   void close(std::span<const SideChange> sides) {
     fill_dirty_ranges(sides, editor_, change_.meshes[count_++]);
   }

@@ -4,15 +4,14 @@
 
 namespace sunder::tear {
 
-// What an engine copies to do what the editor did, but for lips and rims. Records are written in
-// the memory that they have.
+// Write change records, except lips and rims. The memory of the records is reused.
 
-/// What changed since a mark.
+/// Describes the changes since a mark.
 void describe_change(const EditLog::Mark& begin, const SurfaceEditor& editor, ChangeRecord& change);
-/// What roll_back() is about to change; there are no lips and rims.
+/// Describes the changes that roll_back() will make. The record has no lips and rims.
 void describe_roll_back(const EditLog::Mark& begin, const SurfaceEditor& editor,
                         ChangeRecord& change);
-/// What redo() is about to do.
+/// Describes the changes that redo() will make.
 void describe_redo(const SurfaceEditor::Redo& redo, const SurfaceEditor& editor,
                    ChangeRecord& change);
 

@@ -5,7 +5,7 @@
 namespace sunder::tear {
 namespace {
 
-/// The fans of a point that is separated, but for the one that moves.
+/// The fans of a point that is separated, except the fan that moves.
 class RemainingFans {
  public:
   RemainingFans(std::span<const Index> corners, const SurfaceEditor& editor)

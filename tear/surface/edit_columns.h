@@ -20,24 +20,24 @@ struct VertexRef {
   bool operator==(const VertexRef&) const = default;
 };
 
-/// What is known of an appended vertex in addition to its birth.
+/// Data of an appended vertex in addition to its birth.
 struct VertexRecord {
   VertexRef original;  ///< The first vertex at the same point; itself if there was none before.
-  Index kept_birth =
-      kNone;  ///< In EditColumns::kept_births; kNone: the mesh has what it was born with.
+  /// Index in EditColumns::kept_births; kNone if the mesh has the values by birth.
+  Index kept_birth = kNone;
   WeightPolicy policy = WeightPolicy::barycentric;
 };
 
-/// What a vertex was born with whose mesh has other weights for it now.
+/// Position and influences by birth of a vertex that has other weights in its mesh.
 struct KeptBirth {
   Vec3f position;
-  Index first_influence, influence_count;  ///< In EditColumns::kept_influences.
+  Index first_influence, influence_count;  ///< Range in EditColumns::kept_influences.
 };
 
-/// A triangle as it was before a change, and the corners by which its points were known.
+/// A triangle as it was before a change, with the `point_corner` entries of its points.
 struct TriangleChange {
   Index triangle;
-  Index previous;  ///< The change of the same triangle before this one; kNone if there is none.
+  Index previous;  ///< The previous change of the same triangle; kNone if there is none.
   std::array<Index, 3> points;
   std::array<Index, 3> twins;
   std::array<Index, 3> point_corners;
@@ -58,10 +58,10 @@ struct Addition {
 
 /// The columns of one mesh.
 struct MeshColumns {
-  std::vector<Birth> births;             ///< Per appended vertex.
-  std::vector<VertexRecord> records;     ///< Per appended vertex.
-  std::vector<Index> surface_triangles;  ///< Per appended triangle: its number in the surface.
-  std::vector<Triangle> fillings;        ///< Per triangle of a wall or cap, as it was made.
+  std::vector<Birth> births;                   ///< Per appended vertex.
+  std::vector<VertexRecord> records;           ///< Per appended vertex.
+  std::vector<Index> surface_triangles;        ///< Per appended triangle: its index in the surface.
+  std::vector<Triangle> fillings;              ///< Per triangle of a wall or cap, as it was made.
   std::vector<std::uint64_t> filling_serials;  ///< Per filling.
 };
 
@@ -70,21 +70,21 @@ struct EditColumns {
   Surface surface;
   std::vector<MeshColumns> meshes;
   std::vector<Index> vertex_mesh;  ///< Per appended vertex, over all meshes.
-  std::vector<Index>
-      parents;  ///< Per appended triangle: the one it was split from, see TriangleOrigins.
+  /// Per appended triangle: the one it was split from, see TriangleOrigins.
+  std::vector<Index> parents;
   std::vector<Index> older_part;  ///< Per appended triangle: the part of the same origin before it.
-  std::vector<Index>
-      newest_change;  ///< Per triangle: its last entry in triangle_changes, kNone if there is none.
+  /// Per triangle: its last entry in triangle_changes; kNone if there is none.
+  std::vector<Index> newest_change;
   std::vector<Index> ancestors;  ///< Per triangle of the stage, see Stage.
   std::vector<KeptBirth> kept_births;
   std::vector<Influence> kept_influences;
   std::vector<Addition> additions;
-  std::vector<TriangleChange>
-      triangle_changes;                  ///< Of all operations that were done and not undone.
-  std::vector<SideChange> side_changes;  ///< Likewise.
+  /// Changes by all operations that are done and not undone.
+  std::vector<TriangleChange> triangle_changes;
+  std::vector<SideChange> side_changes;  ///< The same for _TEARSIDE.
 };
 
-/// What one row of a column stands for.
+/// The element that one row of a column describes.
 enum class Rows : std::uint8_t {
   triangles,
   points,
@@ -111,8 +111,8 @@ struct RowCounts {
 struct Column {
   Rows rows;
   Index per_row = 1;
-  bool is_kept =
-      true;  ///< Undo keeps the rows for redo, which computes those of other columns anew.
+  /// Whether undo keeps the rows for redo; redo recomputes those of other columns.
+  bool is_kept = true;
 };
 
 /// The vertex arrays and weights of a mesh as one column.

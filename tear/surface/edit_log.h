@@ -6,16 +6,16 @@
 
 namespace sunder::tear {
 
-/// Which rows operations appended and which old triangles they changed, so that the surface can be
-/// taken back to any earlier mark, bit for bit, and a change be described. Each triangle is logged
-/// once per mark.
+/// Logs the rows that operations appended and the old triangles that they changed, so that the
+/// surface can be rolled back to any earlier mark, bit for bit, and changes can be described. Each
+/// triangle is logged once per mark.
 class EditLog {
  public:
-  /// A state to come back to: how many rows there were.
+  /// A state to which the surface can be rolled back: the row counts at that time.
   struct Mark {
     Index points = 0;
     Index triangles = 0;
-    Index vertices = 0;  ///< Appended, over all meshes.
+    Index vertices = 0;  ///< Number of appended vertices, over all meshes.
     Index additions = 0;
     Index kept_births = 0;
     Index next_side = 1;
@@ -26,27 +26,28 @@ class EditLog {
   EditLog(Character& character, EditColumns& columns)
       : character_(character), columns_(columns), mesh_rows_(character.meshes.size()) {}
 
-  /// What was logged or appended before need not be logged again. O(1).
+  /// Sets a new mark. Triangles that were logged or appended earlier are logged again when they
+  /// change. O(1).
   Mark mark(Index next_side);
-  /// To be called when a state was rolled back to.
+  /// Sets the mark after a roll back.
   void set_mark(const Mark& mark) { newest_mark_ = mark; }
 
-  /// Keeps a triangle that is about to change. There must be room.
+  /// Logs a triangle that is about to change. There must be room.
   void keep(Index triangle) {
     if (triangle >= newest_mark_.triangles) return;
     const Index previous = columns_.newest_change[triangle];
     if (previous != kNone && previous >= newest_mark_.triangle_changes) return;
     append(triangle, previous);
   }
-  /// A triangle as it is now.
+  /// The current state of a triangle.
   [[nodiscard]] TriangleChange describe(Index triangle) const;
   void restore(const TriangleChange& change);
-  /// Restores the triangles that changed since, and forgets that they did.
+  /// Restores the triangles that changed since a mark, and removes their entries.
   void restore_since(const Mark& mark);
 
-  /// Rows appended since, over all meshes.
+  /// Number of rows appended since a mark, over all meshes.
   [[nodiscard]] RowCounts rows_since(const Mark& mark) const;
-  /// Rows per mesh. Valid until the next call.
+  /// The same per mesh. Valid until the next call.
   [[nodiscard]] std::span<const RowCounts> mesh_rows_since(const Mark& mark) const;
   [[nodiscard]] Index vertices_since(const Mark& mark) const {
     return static_cast<Index>(columns_.vertex_mesh.size()) - mark.vertices;
@@ -54,11 +55,11 @@ class EditLog {
   [[nodiscard]] std::span<const SideChange> side_changes_since(const Mark& mark) const {
     return std::span<const SideChange>(columns_.side_changes).subspan(mark.side_changes);
   }
-  /// The number of vertices per mesh.
+  /// Number of vertices per mesh at a mark.
   [[nodiscard]] std::vector<Index> vertex_counts_at(const Mark& mark) const;
 
-  /// Calls visit(TriangleChange) with the first change since of each triangle that was there at the
-  /// mark, in the order in which they changed.
+  /// Calls visit(TriangleChange) with the first change since a mark of each triangle that existed
+  /// at the mark, in the order of the changes.
   template <class Visit>
   void for_each_first_change(const Mark& mark, Visit visit) const {
     const auto& changes = columns_.triangle_changes;
@@ -69,7 +70,7 @@ class EditLog {
         visit(changes[i]);
     }
   }
-  /// Calls visit(triangle) for each of those triangles, retired ones too.
+  /// Calls visit(triangle) for each of those triangles, including retired ones.
   template <class Visit>
   void for_each_changed(const Mark& mark, Visit visit) const {
     for_each_first_change(mark, [&](const TriangleChange& change) { visit(change.triangle); });
@@ -82,8 +83,8 @@ class EditLog {
         if (twin != kNone) visit(change.triangle, twin / 3);
     });
   }
-  /// Numbers the triangles that were changed or appended since, nearly without gaps; kNone for
-  /// others.
+  /// Numbers the triangles that were changed or appended since a mark, nearly without gaps; kNone
+  /// for others.
   [[nodiscard]] Index number_since(const Mark& mark, Index triangle) const {
     const Index changes =
         static_cast<Index>(columns_.triangle_changes.size()) - mark.triangle_changes;

@@ -14,7 +14,7 @@ Eigen::Vector3d ExactPositions::moved_by(Index slot, const VertexRef& vertex, bo
   const Mesh& mesh = character_.meshes[of.mesh];
   const auto is_own_corner = [&] {  // the rim of a wall or cap has directions of its own
     const Birth& born = births_.at(of.mesh, of.vertex);
-    if (born.triangle == kNone) return true;  // that no triangle came to use
+    if (born.triangle == kNone) return true;  // not used by a triangle yet
     const Triangle& corners = fillings_.origin_triangle(of.mesh, born.triangle);
     return std::find(corners.begin(), corners.end(), of.vertex) != corners.end();
   };
@@ -43,8 +43,8 @@ void ExactPositions::append(Index mesh, Index vertex) {
     values.emplace_back(moved_by(slot, {mesh, vertex}, is_of_point, value).template cast<float>());
   };
   for (const Influence& influence : of.weights.of(vertex)) {
-    // Places are those of the point, the same bits at all vertices that share it; directions are
-    // the vertex' own.
+    // Positions are those of the point, with the same bits for all vertices that share it;
+    // directions are the vertex' own.
     add(influence.slot, true, exact.positions,
         [](const Mesh& m, Index v) -> Eigen::Vector3d { return m.positions[v].cast<double>(); });
     if (!of.normals.empty())

@@ -6,8 +6,7 @@
 
 namespace sunder::tear {
 
-/// Per mesh, what moves vertices of WeightPolicy::exact: a bind position of its own for each
-/// influence.
+/// The bind positions, one per influence, of the vertices of WeightPolicy::exact of each mesh.
 class ExactPositions {
  public:
   ExactPositions(const Character& source, const Character& character, const EditColumns& columns,
@@ -21,7 +20,7 @@ class ExactPositions {
         first_(character.meshes.size()) {}
 
   [[nodiscard]] const InfluencePositions& of(Index mesh) const { return exact_[mesh]; }
-  /// Where an exact vertex' positions begin among those of its mesh.
+  /// Index of the first position of an exact vertex among those of its mesh.
   [[nodiscard]] std::size_t place(Index mesh, Index vertex) const {
     const auto& vertices = exact_[mesh].vertices;
     return first_[mesh][static_cast<std::size_t>(
@@ -32,11 +31,11 @@ class ExactPositions {
                        [](const InfluencePositions& of) { return of.vertices.empty(); });
   }
 
-  /// Brings the positions of the vertices from `first` on up to date. O(exact vertices from there).
+  /// Updates the positions of the vertices from `first` on. O(exact vertices from there).
   void update_from(Index mesh, Index first);
-  /// Forgets those of the vertices from `first` on, which are still there.
+  /// Removes the positions of the vertices from `first` on; the vertices still exist.
   void forget_from(Index mesh, Index first);
-  /// Room for more, so that an exchange of weights is not left half done for want of memory.
+  /// Reserves memory, so that an exchange of weights is not left half done when memory runs out.
   void reserve(Index mesh, std::size_t vertices, std::size_t influences);
 
  private:
@@ -51,8 +50,8 @@ class ExactPositions {
   const Births& births_;
   const Fillings& fillings_;
   std::vector<InfluencePositions> exact_;  ///< Per mesh.
-  std::vector<std::vector<Index>>
-      first_;  ///< Per mesh: per exact vertex, where its positions begin.
+  /// Per mesh, per exact vertex: index of its first position.
+  std::vector<std::vector<Index>> first_;
 };
 
 }  // namespace sunder::tear

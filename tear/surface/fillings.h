@@ -6,8 +6,8 @@
 
 namespace sunder::tear {
 
-/// The triangles of walls and caps. No triangle of the source covers them, so they are origins of
-/// their own: births refer to triangles of the source and, with the numbers after those, to
+/// The triangles of walls and caps. No triangle of the source covers them, so they are origins
+/// themselves: the indices in births refer to triangles of the source and, after those, to
 /// fillings.
 class Fillings {
  public:
@@ -24,7 +24,7 @@ class Fillings {
     return origin < source_count ? source_.meshes[mesh].triangles[origin]
                                  : columns_.meshes[mesh].fillings[origin - source_count];
   }
-  /// A number that no other filling ever had; serials ascend.
+  /// A number that no other filling ever had. Serials ascend.
   [[nodiscard]] std::uint64_t serial(Index mesh, Index origin) const {
     return columns_.meshes[mesh].filling_serials[origin - source_.meshes[mesh].triangle_count()];
   }
@@ -47,7 +47,7 @@ class Fillings {
     columns_.additions.push_back({Addition::Kind::submesh, mesh});
     return static_cast<Index>(submeshes.size() - 1);
   }
-  /// Gives the fillings that have none a serial.
+  /// Assigns serials to the fillings that have none.
   void give_serials(Index mesh) {
     MeshColumns& of = columns_.meshes[mesh];
     while (of.filling_serials.size() < of.fillings.size())

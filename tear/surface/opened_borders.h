@@ -18,7 +18,7 @@ struct OpenedBorders {
   }
 };
 
-/// Reserves memory for `size` values, at least doubling it.
+/// Reserves memory for `size` values. An array that has to grow at least doubles.
 template <class T>
 void make_room_to_hold(std::size_t size, std::vector<T>& values) {
   if (size > values.capacity()) values.reserve(std::max(size, 2 * values.capacity()));

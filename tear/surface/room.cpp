@@ -7,8 +7,8 @@
 namespace sunder::tear {
 namespace {
 
-/// By how many entries arrays grow that may grow: by an eighth, because doubling a large model for
-/// a small tear wastes memory.
+/// Number of entries by which an array grows: an eighth, because doubling a large model for a small
+/// tear wastes memory.
 std::size_t growth(std::size_t size, std::size_t more) { return std::max(more, size / 8 + 1024); }
 
 /// Upper bound of the old triangles that change per appended one: a tear has two or three, and the
@@ -27,7 +27,7 @@ bool comes_with_triangles(Rows rows) {
 template <class Values>
 constexpr bool kIsMeshVertices = std::is_same_v<std::remove_cvref_t<Values>, MeshVertices<Mesh>>;
 
-/// Rows of a column that a model of fixed capacity gets room for.
+/// Number of rows of a column for which a model of fixed capacity reserves memory.
 std::size_t fixed_rows(Rows rows, const TornCapacity& capacity, std::size_t mesh_count) {
   if (comes_with_vertices(rows)) return capacity.vertices;
   if (comes_with_triangles(rows) || rows == Rows::mesh_fillings) return capacity.triangles;

@@ -7,19 +7,20 @@
 
 namespace sunder::tear {
 
-/// Lets columns grow before a change begins, so that none is left half done for want of memory.
-/// Columns of a model of fixed capacity do not grow.
+/// Reserves memory of the columns before a change begins, so that no change is left half done when
+/// memory runs out. Columns of a model of fixed capacity do not grow.
 ///
-/// All functions throw CapacityExceeded or std::bad_alloc; rows are as they were then.
+/// All functions may throw CapacityExceeded or std::bad_alloc; the rows are unchanged then.
 class Room {
  public:
   explicit Room(const ModelColumns& columns) : columns_(columns) {}
 
-  /// Sets how much operations may append, and gives the columns room for it.
+  /// Sets the capacity for operations and reserves memory for it.
   void reserve(const TornCapacity& capacity);
   [[nodiscard]] bool is_fixed() const { return is_fixed_; }
 
-  /// For `count` vertices of a mesh with `influences` influences in all, and for as many points.
+  /// Makes room for `count` vertices of a mesh with `influences` influences in all, and for as many
+  /// points.
   void make_for_vertices(Index mesh, Index count, Index influences) {
     if (known_.vertices_of != mesh || known_.vertices < count || known_.influences < influences)
       find_for_vertices(mesh, count, influences);
@@ -30,27 +31,27 @@ class Room {
     if (known_.triangles_of != mesh || known_.triangles < count) find_for_triangles(mesh, count);
     known_.triangles -= count;
   }
-  /// For entries of the edit log.
+  /// Makes room for entries of the edit log.
   void make_for_changes(std::size_t count) {
     auto& changes = columns_.edit.triangle_changes;
     if (changes.capacity() - changes.size() < count) grow(changes, count, "changes of triangles");
   }
-  /// For a filling and a submesh.
+  /// Makes room for a filling and a submesh.
   void make_for_additions(Index mesh);
-  /// For one more kept birth. Not limited: policies alone keep births, and the number of vertices
-  /// is limited.
+  /// Makes room for one more kept birth. It is not limited, because only policies keep births and
+  /// the number of vertices is limited.
   void make_for_kept_birth(std::size_t influences);
   void make_for_influences(Index mesh, std::size_t more);
   /// To be called after columns grew in another way.
   void forget() { known_ = {}; }
 
-  /// Influences of the corners of a triangle, in all.
+  /// Total number of influences of the corners of a triangle.
   [[nodiscard]] Index influence_count(Index mesh, const Triangle& of) const;
 
  private:
-  /// The room found last, less what was asked for since: there is at least that much.
+  /// A lower bound of the room: the room found last, minus the room requested since.
   struct Known {
-    Index vertices_of = kNone, triangles_of = kNone;  ///< Mesh.
+    Index vertices_of = kNone, triangles_of = kNone;  ///< The mesh.
     std::size_t vertices = 0, influences = 0, triangles = 0;
   };
 

@@ -8,8 +8,7 @@ namespace sunder::tear {
 
 /// Puts a new point on an edge, `fraction` of the way along the half-edge, and splits the faces on
 /// both sides of it.
-/// @return the point; kNone where a face would have lost its area or turned over, and nothing was
-/// changed.
+/// @return the point; kNone if a face would lose its area or turn over; then nothing is changed.
 [[nodiscard]] Index split_edge(Index half_edge, double fraction, SurfaceEditor& editor);
 
 /// Puts a new point into a triangle and splits it in three. @param barycentric  of its corners, all

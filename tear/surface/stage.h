@@ -4,8 +4,8 @@
 
 namespace sunder::tear {
 
-/// Knows for each triangle appended since the stage began which triangle stood there at that time:
-/// its ancestor.
+/// Stores, for each triangle appended since the stage began, its ancestor: the triangle from which
+/// it was split that existed when the stage began.
 class Stage {
  public:
   explicit Stage(EditColumns& columns) : columns_(columns) { begin(); }
@@ -20,7 +20,7 @@ class Stage {
   }
   /// The first triangle that was appended since the stage began.
   [[nodiscard]] Index first_triangle() const { return first_triangle_; }
-  /// To be called when triangles from `triangle_count` on were removed.
+  /// To be called after triangles from `triangle_count` on were removed.
   void roll_back(Index triangle_count) {
     first_triangle_ = std::min(first_triangle_, triangle_count);
   }

@@ -19,9 +19,9 @@
 
 namespace sunder::tear {
 
-/// The surface of a model that is torn, with its meshes, and all that is known of what was done to
-/// it. Functions of this folder that take a SurfaceEditor are the only ones that change either;
-/// every change is logged, so that it can be taken back to any earlier mark, bit for bit.
+/// The surface and the meshes of a torn model, and the data about past operations. Only functions
+/// of this folder that take a SurfaceEditor change them. Every change is logged, so that it can be
+/// rolled back to any earlier mark, bit for bit.
 class SurfaceEditor {
  public:
   SurfaceEditor(const Character& source, Character& character);
@@ -31,7 +31,7 @@ class SurfaceEditor {
   [[nodiscard]] const Surface& surface() const { return columns_.surface; }
   [[nodiscard]] const Character& character() const { return character_; }
   [[nodiscard]] const Character& source() const { return source_; }
-  /// For what lives no longer than the operation under way.
+  /// Memory for data that lives no longer than the operation under way.
   [[nodiscard]] ScratchMemory& scratch() const { return scratch_; }
 
   [[nodiscard]] Index vertex_at(Index corner) const { return connectivity.vertex_at(corner); }
@@ -42,23 +42,23 @@ class SurfaceEditor {
   [[nodiscard]] std::array<double, 3> source_barycentric(Index corner) const {
     return births.place_in_origin(surface().triangle(corner / 3), vertex_at(corner));
   }
-  /// Prefetches what crossing a face will read.
+  /// Prefetches the data that crossing a face will read.
   void fetch(Index triangle) const;
-  /// A mesh, to change weights or vertices that no one has seen yet.
+  /// A mesh, for changes of weights and of vertices that were just appended.
   [[nodiscard]] Mesh& mutable_mesh(Index mesh) { return character_.meshes[mesh]; }
 
   // ---- Operations.
 
-  /// Sets how much operations may append.
+  /// Sets the capacity for operations.
   void reserve(const TornCapacity& capacity);
-  /// Changes are logged once from here on, so that any mark can be rolled back to. O(1).
+  /// Sets a mark to which the surface can be rolled back. O(1).
   [[nodiscard]] EditLog::Mark mark() { return log.mark(sides.next()); }
   void roll_back(const EditLog::Mark& to);
-  /// Takes back the newest operation, which began at `begin`.
-  /// @param redo  written: what does it again. @param change  written, but for lips and rims.
+  /// Reverts the most recent operation, which began at `begin`.
+  /// @param redo  written: the input of redo(). @param change  written, except lips and rims.
   struct Redo;
   void undo(const EditLog::Mark& begin, Redo& redo, ChangeRecord& change);
-  /// Does an operation again. @param change  written, but for lips and rims.
+  /// Reapplies an operation. @param change  written, except lips and rims.
   void redo(const Redo& redo, ChangeRecord& change);
 
  private:
@@ -85,13 +85,13 @@ class SurfaceEditor {
   Connectivity connectivity;
 };
 
-/// How undo was done: everything that redo needs.
+/// The data that undo keeps for redo.
 struct SurfaceEditor::Redo {
   ColumnTails tails;
   Index next_side = 1;
   std::vector<TriangleChange> changed;  ///< Old triangles as the operation left them, ascending.
-  std::vector<std::array<Index, 2>>
-      known_corners;  ///< Old points, and the corners by which the operation left them known.
+  /// Old points, with their `point_corner` as the operation left it.
+  std::vector<std::array<Index, 2>> known_corners;
   std::vector<SideChange> sides;  ///< Values of _TEARSIDE as the operation left them.
 };
 

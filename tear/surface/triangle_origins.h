@@ -5,8 +5,8 @@
 
 namespace sunder::tear {
 
-/// Where triangles come from: each face is a part of an origin, which is a triangle of the source
-/// or a filling, and an appended triangle was split from another one, its parent.
+/// The origins of triangles: each face is a part of an origin, which is a triangle of the source or
+/// a filling. An appended triangle was split from another one, its parent.
 class TriangleOrigins {
  public:
   TriangleOrigins(const Character& source, const Character& character, EditColumns& columns)
@@ -15,15 +15,14 @@ class TriangleOrigins {
         columns_(columns),
         newest_part_(character.meshes.size()) {}
 
-  /// The surface's number of a mesh's triangle. Appended triangles are numbered in the order in
+  /// Index in the surface of a triangle of a mesh. Appended triangles are numbered in the order in
   /// which they were made, over all meshes.
   [[nodiscard]] Index surface_triangle(Index mesh, Index triangle) const {
     const Index source_count = source_.meshes[mesh].triangle_count();
     if (triangle < source_count) return surface().first_triangle[mesh] + triangle;
     return columns_.meshes[mesh].surface_triangles[triangle - source_count];
   }
-  /// Calls visit(triangle of the surface) for each face that is a part of an origin, as far as
-  /// there still are any.
+  /// Calls visit(triangle of the surface) for each remaining face that is a part of an origin.
   template <class Visit>
   void for_each_part(Index mesh, Index origin, Visit visit) const {
     const auto visit_face = [&](Index triangle) {
@@ -69,7 +68,7 @@ class TriangleOrigins {
     const Index parent = columns_.parents[triangle - source_triangles()];
     return parent != kNone && (parent & kSettled) != 0;
   }
-  /// Says so of the newest triangle.
+  /// Marks the newest triangle as settled.
   void settle_newest() { columns_.parents.back() |= kSettled; }
 
   /// Links appended triangles into the lists of their origins' parts.
@@ -85,7 +84,7 @@ class TriangleOrigins {
       newest[ref.source_triangle] = t;
     }
   }
-  /// Takes the triangles from `first` on out of the lists; to be called before their rows are
+  /// Removes the triangles from `first` on from the lists; to be called before their rows are
   /// removed.
   void unlink_parts_from(Index first) {
     for (std::size_t i = columns_.older_part.size(); source_triangles() + i > first; --i) {
@@ -99,7 +98,7 @@ class TriangleOrigins {
 
  private:
   static constexpr Index kSettled =
-      Index{1} << 31;  // in addition to a triangle's number, which is less than 2^30
+      Index{1} << 31;  // combined with a triangle's index, which is less than 2^30
 
   [[nodiscard]] const Surface& surface() const { return columns_.surface; }
   [[nodiscard]] Index source_triangles() const { return columns_.surface.first_triangle.back(); }
@@ -107,8 +106,8 @@ class TriangleOrigins {
   const Character& source_;
   const Character& character_;
   EditColumns& columns_;
-  std::vector<std::vector<Index>>
-      newest_part_;  ///< Per mesh: per origin, its triangle that was appended last.
+  /// Per mesh, per origin: its part that was appended last.
+  std::vector<std::vector<Index>> newest_part_;
 };
 
 }  // namespace sunder::tear

@@ -25,7 +25,7 @@ void SurfaceEditor::keep_rows(const EditLog::Mark& begin, Redo& redo) {
         all, redo.tails);
 }
 
-/// What the operation made of old triangles, points and vertices.
+/// Keeps the state in which the operation left old triangles, points and vertices.
 void SurfaceEditor::keep_changes(const EditLog::Mark& begin, Redo& redo) {
   redo.next_side = sides.next();
   for (const SideChange& change : redo.tails.edit.side_changes)
@@ -65,7 +65,7 @@ void SurfaceEditor::redo(const Redo& redo, ChangeRecord& change) {
   append_rows(redo);
   room.forget();
 
-  // The columns that are computed anew.
+  // The remaining columns are recomputed.
   for (Index m = 0; m < columns_.meshes.size(); ++m) fillings.give_serials(m);
   columns_.newest_change.resize(surface().triangle_count(), kNone);
   origins.link_new_parts();

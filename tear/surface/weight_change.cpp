@@ -5,7 +5,7 @@
 namespace sunder::tear {
 namespace {
 
-/// The part of a change that is about one mesh, from `begin` on.
+/// The part of a change that concerns one mesh, from `begin` on.
 std::span<const VertexWeights> part_of_mesh(const WeightChange& change, std::size_t begin) {
   std::size_t end = begin;
   while (end < change.vertices.size() && change.vertices[end].mesh == change.vertices[begin].mesh)
@@ -13,7 +13,7 @@ std::span<const VertexWeights> part_of_mesh(const WeightChange& change, std::siz
   return std::span(change.vertices).subspan(begin, end - begin);
 }
 
-/// Appends what the vertices have, and makes room for what they are to have.
+/// Appends the current weights of the vertices, and makes room for the new ones.
 void keep_and_make_room(std::span<const VertexWeights> to, SurfaceEditor& editor,
                         WeightChange& before) {
   const Index mesh = to.front().mesh;

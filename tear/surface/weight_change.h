@@ -4,22 +4,22 @@
 
 namespace sunder::tear {
 
-/// What a vertex has, or is to have.
+/// The current or future weights of a vertex.
 struct VertexWeights {
   Index mesh = 0, vertex = 0;
   WeightPolicy policy = WeightPolicy::barycentric;
   Vec3f position = Vec3f::Zero();
-  Index first_influence = 0, influence_count = 0;  ///< In WeightChange::influences.
-  Index kept_birth = kNone;                        ///< As Births::keep() returned it.
+  Index first_influence = 0, influence_count = 0;  ///< Range in WeightChange::influences.
+  Index kept_birth = kNone;                        ///< Result of Births::keep().
 };
 
 struct WeightChange {
-  std::vector<VertexWeights>
-      vertices;  ///< Ascending per mesh, mesh after mesh; none of the source.
+  /// Ascending by mesh, then by vertex; only appended vertices.
+  std::vector<VertexWeights> vertices;
   std::vector<Influence> influences;
 };
 
-/// Gives vertices what is in `change`, and writes there what they had: a second call takes it back.
+/// Exchanges the weights of vertices with those in `change`. A second call restores them.
 /// @throws CapacityExceeded, std::bad_alloc before anything is changed
 void exchange_weights(WeightChange& change, SurfaceEditor& editor);
 

@@ -30,8 +30,8 @@ struct WeightAssignment {
 };
 
 /// The points created in some ranges whose attributes are interpolated between other vertices.
-[[nodiscard]] std::vector<VertexRef> interpolated_points(
-    const VertexRanges& ranges, const SurfaceEditor& editor);
+[[nodiscard]] std::vector<VertexRef> interpolated_points(const VertexRanges& ranges,
+                                                         const SurfaceEditor& editor);
 
 /// Computes the weights of points by a policy; `refit` starts as `barycentric`.
 /// @param pose  used by `pose_exact` only.
@@ -40,12 +40,10 @@ struct WeightAssignment {
                                                const CharacterPose& pose,
                                                const SurfaceEditor& editor, WeightReport& report);
 
-/// The change that gives all vertices of each point the assigned weights, for
-/// SurfaceEditor::exchange().
+/// The change that gives all vertices of each point the assigned weights, for exchange_weights().
 /// @param ranges  the ranges in which the points were created.
 [[nodiscard]] WeightChange make_weight_change(const WeightAssignment& assignment,
-                                                             const VertexRanges& ranges,
-                                                             SurfaceEditor& editor);
+                                              const VertexRanges& ranges, SurfaceEditor& editor);
 
 /// Assigns weights to the points created since `begin`. Does nothing if the options are those with
 /// which points are created.

@@ -27,8 +27,7 @@ struct RefitTask {
   /// @param assignment  barycentric weights of points of the editor's model.
   /// @param since       where the first of their operations began.
   RefitTask(std::shared_ptr<const Character> source, WeightsOperation operation, PoseSet poses,
-            WeightAssignment assignment, const EditLog::Mark& since,
-            const SurfaceEditor& editor);
+            WeightAssignment assignment, const EditLog::Mark& since, const SurfaceEditor& editor);
 
   void run();
   void cancel();
@@ -40,7 +39,7 @@ struct RefitTask {
   WeightReport report;
   std::vector<Point> points;
   std::vector<RefitNeighbours> neighbours;  ///< If the points are fitted together.
-  std::vector<std::uint64_t> serials;       ///< Of the operations.
+  std::vector<std::uint64_t> serials;       ///< Serials of the operations.
   Status failure;
   std::atomic<RefitJob::State> state = RefitJob::State::waiting;
   std::atomic<bool> is_cancelled = false;
