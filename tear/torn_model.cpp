@@ -172,14 +172,19 @@ Status TornModel::set_weights(const WeightOptions& options) {
 const WeightOptions& TornModel::weights() const { return state_->weights; }
 
 WeightPolicy TornModel::weight_policy(std::uint32_t mesh, std::uint32_t vertex) const {
+  SUNDER_ASSERT(mesh < character().meshes.size() &&
+                vertex < character().meshes[mesh].vertex_count());
   return state_->editor.births.policy(mesh, vertex);
 }
 
 const InfluencePositions& TornModel::influence_positions(std::uint32_t mesh) const {
+  SUNDER_ASSERT(mesh < character().meshes.size());
   return state_->editor.exact.of(mesh);
 }
 
 std::uint32_t TornModel::influence_place(std::uint32_t mesh, std::uint32_t vertex) const {
+  SUNDER_ASSERT(mesh < character().meshes.size() &&
+                vertex < character().meshes[mesh].vertex_count());
   if (state_->editor.births.policy(mesh, vertex) != WeightPolicy::exact) return kNone;
   const auto& vertices = state_->editor.exact.of(mesh).vertices;
   if (!std::binary_search(vertices.begin(), vertices.end(), vertex)) return kNone;
@@ -226,21 +231,29 @@ std::uint32_t TornModel::point_count() const { return state_->editor.surface().p
 
 std::uint32_t TornModel::point_at(std::uint32_t mesh, std::uint32_t triangle,
                                   std::uint32_t corner) const {
+  SUNDER_ASSERT(mesh < character().meshes.size() &&
+                triangle < character().meshes[mesh].triangle_count());
+  SUNDER_ASSERT(corner < 3);
   return state_->editor.surface()
       .corner_point[3 * state_->editor.origins.surface_triangle(mesh, triangle) + corner];
 }
 
 Birth TornModel::birth(std::uint32_t mesh, std::uint32_t vertex) const {
+  SUNDER_ASSERT(mesh < character().meshes.size() &&
+                vertex < character().meshes[mesh].vertex_count());
   return state_->editor.births.at(mesh, vertex);
 }
 
 std::uint32_t TornModel::source_triangle(std::uint32_t mesh, std::uint32_t triangle) const {
+  SUNDER_ASSERT(mesh < character().meshes.size() &&
+                triangle < character().meshes[mesh].triangle_count());
   return state_->editor.surface()
       .triangle(state_->editor.origins.surface_triangle(mesh, triangle))
       .source_triangle;
 }
 
 std::span<const Triangle> TornModel::fillings(std::uint32_t mesh) const {
+  SUNDER_ASSERT(mesh < character().meshes.size());
   return state_->editor.fillings.of(mesh);
 }
 

@@ -243,6 +243,15 @@ TEST(Architecture, the_header_of_all_modules_includes_every_public_header) {
   EXPECT_EQ(included, installed);
 }
 
+TEST(Architecture, public_headers_are_for_every_compiler) {
+  const fs::path root = fs::path(SUNDER_SOURCE_DIR) / "include";
+  for (const fs::path& file : source_files(root)) {
+    if (name_below(root, file) == "sunder/core/api.h") continue;  // behind macros
+    for (const char* const extension : {"__attribute__", "__builtin", "[[gnu::"})
+      EXPECT_EQ(text_of(file).find(extension), std::string::npos) << file << ": " << extension;
+  }
+}
+
 TEST(Architecture, an_unknown_public_folder_is_found) {
   EXPECT_THAT(faults_of("include/sunder/misc/a.h", "#include <vector>"),
               ElementsAre(HasSubstr("not a module")));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <sunder/core/api.h>
 #include <sunder/core/math.h>
 
 #include <span>
@@ -8,14 +9,17 @@
 
 namespace sunder {
 
-/// Which bones move a mesh, and where it was when they were attached. Several skins may share bones with different binds.
+/// Which bones move a mesh, and where it was when they were attached. Several skins may share bones
+/// with different binds.
 struct Skin {
   std::string name;
   std::vector<std::uint32_t> bones;      ///< Skeleton index of each slot; influences name slots.
   std::vector<Affine3f> bone_from_bind;  ///< One a slot: inverse of the bone's transform at bind.
 
   bool operator==(const Skin& other) const {
-    if (name != other.name || bones != other.bones || bone_from_bind.size() != other.bone_from_bind.size()) return false;
+    if (name != other.name || bones != other.bones ||
+        bone_from_bind.size() != other.bone_from_bind.size())
+      return false;
     for (std::size_t i = 0; i < bone_from_bind.size(); ++i)
       if (bone_from_bind[i].matrix() != other.bone_from_bind[i].matrix()) return false;
     return true;
@@ -29,14 +33,17 @@ struct Influence {
   bool operator==(const Influence&) const = default;
 };
 
-/// The influences of a mesh's vertices, any number a vertex, back to back. A vertex has at least one, no slot twice,
-/// and its weights sum to one within 2e-7 x their number.
+/// The influences of a mesh's vertices, any number a vertex, back to back. A vertex has at least
+/// one, no slot twice, and its weights sum to one within 2e-7 x their number.
 struct SkinWeights {
   std::vector<std::uint32_t> first = {0};  ///< V + 1 offsets into `influences`.
   std::vector<Influence> influences;
 
-  [[nodiscard]] std::uint32_t vertex_count() const { return static_cast<std::uint32_t>(first.size() - 1); }
+  [[nodiscard]] std::uint32_t vertex_count() const {
+    return static_cast<std::uint32_t>(first.size() - 1);
+  }
   [[nodiscard]] std::span<const Influence> of(std::uint32_t vertex) const {
+    SUNDER_ASSERT(vertex < vertex_count());
     return {influences.data() + first[vertex], first[vertex + 1] - first[vertex]};
   }
   void append(std::span<const Influence> of_new_vertex) {

@@ -40,9 +40,12 @@ class [[nodiscard]] SUNDER_API Status {
  public:
   Status() = default;
 
-  /// @param index  first offending element, in the array that the text names; kNone where there is none.
-  /// @param format printf format of the text: what was expected and what was found. Longer texts are cut at 255 bytes.
-  static Status failure(StatusCode code, std::uint32_t index, const char* format, ...) __attribute__((format(printf, 3, 4)));
+  /// @param index  first offending element, in the array that the text names; kNone where there is
+  /// none.
+  /// @param format printf format of the text: what was expected and what was found. Longer texts
+  /// are cut at 255 bytes.
+  SUNDER_PRINTF(3, 4)
+  static Status failure(StatusCode code, std::uint32_t index, const char* format, ...);
 
   [[nodiscard]] bool is_ok() const { return code_ == StatusCode::ok; }
   explicit operator bool() const { return is_ok(); }
@@ -66,12 +69,18 @@ class [[nodiscard]] Result {
   [[nodiscard]] bool has_value() const { return value_.has_value(); }
   explicit operator bool() const { return has_value(); }
   /// Only where has_value().
-  [[nodiscard]] T& value() { return *value_; }
-  [[nodiscard]] const T& value() const { return *value_; }
-  T& operator*() { return *value_; }
-  const T& operator*() const { return *value_; }
-  T* operator->() { return &*value_; }
-  const T* operator->() const { return &*value_; }
+  [[nodiscard]] T& value() { return **this; }
+  [[nodiscard]] const T& value() const { return **this; }
+  T& operator*() {
+    SUNDER_ASSERT(has_value());
+    return *value_;
+  }
+  const T& operator*() const {
+    SUNDER_ASSERT(has_value());
+    return *value_;
+  }
+  T* operator->() { return &**this; }
+  const T* operator->() const { return &**this; }
   /// ok where has_value().
   [[nodiscard]] const Status& error() const { return error_; }
 
