@@ -65,6 +65,8 @@ void Room::grow(std::vector<Value>& values, std::size_t more, const char* what) 
   if (is_fixed_) throw CapacityExceeded{what};
   values.reserve(values.size() + growth(values.size(), more));
 }
+// Used by the inline make_room_in_log().
+template void Room::grow(std::vector<TriangleChange>& values, std::size_t more, const char* what);
 
 /// @return the rows for which all those columns have room.
 template <class IsMeant>
