@@ -66,7 +66,7 @@ EIGEN_STRONG_INLINE typename A::Scalar squared_norm(const Eigen::MatrixBase<A>& 
   });
 }
 
-/// Of a matrix: Frobenius'.
+/// Frobenius norm of a matrix.
 template <class A>
 EIGEN_STRONG_INLINE typename A::Scalar norm(const Eigen::MatrixBase<A>& a) {
   return std::sqrt(squared_norm(a));
@@ -137,7 +137,7 @@ Eigen::Transform<Scalar, 3, Eigen::AffineCompact, options> multiply(
   return product;
 }
 
-/// Of a 3 x 3 matrix, along its first row.
+/// Determinant of a 3 x 3 matrix, expanded along its first row.
 template <class A>
 typename A::Scalar determinant(const Eigen::MatrixBase<A>& matrix) {
   static_assert(ordered::kRows<A> == 3 && ordered::kColumns<A> == 3);
@@ -147,7 +147,7 @@ typename A::Scalar determinant(const Eigen::MatrixBase<A>& matrix) {
          m.coeff(0, 2) * (m.coeff(1, 0) * m.coeff(2, 1) - m.coeff(1, 1) * m.coeff(2, 0));
 }
 
-/// Of a 3 x 3 matrix, by its cofactors. Not finite where the matrix is singular.
+/// Inverse of a 3 x 3 matrix, by its cofactors. Not finite if the matrix is singular.
 template <class A>
 auto inverse(const Eigen::MatrixBase<A>& matrix) {
   static_assert(ordered::kRows<A> == 3 && ordered::kColumns<A> == 3);

@@ -20,7 +20,7 @@ using Triangle = std::array<std::uint32_t, 3>;  ///< Vertices, counter-clockwise
 /// Whether two triangles have the same vertices in the same order. (The comparison of arrays calls into the C library.)
 [[nodiscard]] constexpr bool is_same(const Triangle& a, const Triangle& b) { return a[0] == b[0] && a[1] == b[1] && a[2] == b[2]; }
 
-/// Displacements added to a mesh in bind space, scaled by the target's weight. An array is empty or has one entry a vertex.
+/// Displacements added to a mesh in bind space, scaled by the target's weight. An array is empty or has one entry per vertex.
 struct MorphTarget {
   std::string name;
   std::vector<Vec3f> position_deltas;
@@ -33,7 +33,7 @@ struct MorphTarget {
 /// An attribute that Sunder gives no meaning to and carries along.
 struct CustomAttribute {
   std::string name;              ///< glTF style: "_FEATURE_ID_0".
-  std::uint32_t components = 1;  ///< Floats a vertex, 1 to 4.
+  std::uint32_t components = 1;  ///< Floats per vertex, 1 to 4.
   bool interpolates = true;      ///< false: a label; a new vertex takes its nearest parent's.
   std::vector<float> values;     ///< V x components.
 
@@ -48,7 +48,7 @@ struct Submesh {
   bool operator==(const Submesh&) const = default;
 };
 
-/// A triangle mesh in bind space with one skin. Every array with "V" has one entry a vertex or, where optional, none.
+/// A triangle mesh in bind space with one skin. Every array with "V" has one entry per vertex or, if optional, none.
 struct Mesh {
   std::string name;
   std::uint32_t skin = 0;  ///< In Character::skins.

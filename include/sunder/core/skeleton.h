@@ -34,15 +34,17 @@ struct Skeleton {
   bool operator==(const Skeleton&) const = default;
 };
 
-/// What animation writes: a transform a bone, relative to its parent, and the morph weights.
+/// A pose as animation writes it: one transform per bone, relative to its parent, and the morph
+/// weights.
 struct Pose {
-  std::vector<BoneTransform> parent_from_bone;  ///< One a bone of the skeleton.
+  std::vector<BoneTransform> parent_from_bone;  ///< One per bone of the skeleton.
   std::vector<float> morph_weights;             ///< As Character::rest_morph_weights.
 };
 
-/// What deformation reads: where each bone stands in model space. Full matrices, so that a pose can come from anything.
+/// A pose as deformation reads it: one full matrix per bone, in model space, so that a pose can come
+/// from any source.
 struct ModelPose {
-  std::vector<Affine3d> model_from_bone;  ///< One a bone of the skeleton.
+  std::vector<Affine3d> model_from_bone;  ///< One per bone of the skeleton.
   std::vector<float> morph_weights;       ///< As Character::rest_morph_weights.
 };
 

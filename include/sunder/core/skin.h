@@ -9,8 +9,8 @@
 
 namespace sunder {
 
-/// Which bones move a mesh, and where it was when they were attached. Several skins may share bones
-/// with different binds.
+/// The bones that move a mesh, with their transforms at the time they were attached. Several skins
+/// may share bones and bind them differently.
 struct Skin {
   std::string name;
   std::vector<std::uint32_t> bones;      ///< Skeleton index of each slot; influences name slots.
@@ -33,7 +33,7 @@ struct Influence {
   bool operator==(const Influence&) const = default;
 };
 
-/// The influences of a mesh's vertices, any number a vertex, back to back. A vertex has at least
+/// The influences of a mesh's vertices, any number per vertex, back to back. A vertex has at least
 /// one, no slot twice, and its weights sum to one within 2e-7 x their number.
 struct SkinWeights {
   std::vector<std::uint32_t> first = {0};  ///< V + 1 offsets into `influences`.

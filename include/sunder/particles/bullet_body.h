@@ -23,7 +23,7 @@ struct BulletBodyOptions {
   /// k: a particle alone is pulled to its rest place by k times its displacement, per mass; 1/s^2;
   /// >= 0. It swings with sqrt(k) / 2 pi hertz.
   double return_stiffness = 400.0;
-  /// Of every spring: 0 swings for ever, 1 returns without swinging; in [0, 10].
+  /// Damping ratio of every spring, in [0, 10]: 0 swings for ever, 1 returns without swinging.
   double damping_ratio = 0.3;
   /// The same between neighbours, for the difference of their displacements, times
   /// ParticleSet::coupling(); 1/s^2; >= 0.

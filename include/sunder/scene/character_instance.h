@@ -40,7 +40,7 @@ struct PosedMesh {
   std::span<const Vec3f> normals;    ///< One per vertex, or empty.
   std::span<const Vec4f> tangents;   ///< One per vertex, or empty; w is the bitangent's sign.
   std::span<const Triangle> triangles;
-  /// What the last advance() changed, ascending and disjoint: the ranges to upload again. A buffer
+  /// Ranges that the last advance() changed, to be uploaded again; ascending and disjoint. A buffer
   /// that grew is listed as a whole.
   std::span<const IndexRange> dirty_vertices;
   std::span<const IndexRange> dirty_triangles;
