@@ -1,4 +1,5 @@
-// Weights of torn points: what they cost, and how far the points then stand from the surface that was torn.
+// Weights of torn points: what they cost, and how far the points then stand from the surface that
+// was torn.
 
 #include <cstdio>
 #include <cstring>
@@ -13,30 +14,42 @@ namespace {
 constexpr const char* kHelp =
     "bench_weights [--summary] [--json FILE] [--svg FILE]\n"
     "\n"
-    "Tears a procedural rig and six models of ../shared/models five times each, in bent poses, and weighs the points by every "
+    "Tears a procedural rig and six models of ../shared/models five times each, in bent poses, and "
+    "weighs the points by every "
     "policy with\n"
-    "at most 4, 8 and all influences. Errors are of all points of a model, over the poses that refits are fitted over and over "
+    "at most 4, 8 and all influences. Errors are of all points of a model, over the poses that "
+    "refits are fitted over and over "
     "others,\n"
-    "held out: of the model's clips (8 samples each), and of a range of motion. 'pop' is the largest one in the pose of the tear; "
+    "held out: of the model's clips (8 samples each), and of a range of motion. 'pop' is the "
+    "largest one in the pose of the tear; "
     "of\n"
     "pose_exact without points whose bones turn too far apart for it, which 'fell back'.\n"
     "\n"
-    "Times are of functions of `weights`, over all points of a model, the least of many runs, where corners, matrices and moments "
+    "Times are of functions of `weights`, over all points of a model, the least of many runs, "
+    "where corners, matrices and moments "
     "are\n"
-    "there. barycentric: mean_influences() and prune_influences(); the others that and AnimationPoint, pose_exact also\n"
-    "solve_bind_position(), refit PointRefit::fit() over the poses of clips, or of the range of motion where there are none.\n"
+    "there. barycentric: mean_influences() and prune_influences(); the others that and "
+    "AnimationPoint, pose_exact also\n"
+    "solve_bind_position(), refit PointRefit::fit() over the poses of clips, or of the range of "
+    "motion where there are none.\n"
     "\n"
-    "Prints tables. --summary prints one JSON object instead. Parts are of the diagonal at rest; K = 4.\n"
-    "  exact_max_rel            largest error of exact points of SkinnedMesh, in float, over all poses\n"
+    "Prints tables. --summary prints one JSON object instead. Parts are of the diagonal at rest; K "
+    "= 4.\n"
+    "  exact_max_rel            largest error of exact points of SkinnedMesh, in float, over all "
+    "poses\n"
     "  pose_exact_pop_rel       largest pop of pose_exact\n"
-    "  refit_gain_clips_median  RMS error of barycentric weights by that of the refit, in clip poses held out; median of models,\n"
+    "  refit_gain_clips_median  RMS error of barycentric weights by that of the refit, in clip "
+    "poses held out; median of models,\n"
     "                           without those where one bone moves all points: nothing to gain\n"
     "  refit_gain_rom_median    the same over the range of motion\n"
     "  refit_gain_min           least of both, of all models\n"
-    "  refit_vs_exhaustive      RMS error of the refit, in the poses of the fit, by that of a search over all choices of bones; 60 "
+    "  refit_vs_exhaustive      RMS error of the refit, in the poses of the fit, by that of a "
+    "search over all choices of bones; 60 "
     "points a\n"
-    "                           model that at most 8 bones move; largest of models and both sets of poses\n"
-    "  refit_us                 PointRefit::fit() alone, weights alone, 16 poses, microseconds a point\n"
+    "                           model that at most 8 bones move; largest of models and both sets "
+    "of poses\n"
+    "  refit_us                 PointRefit::fit() alone, weights alone, 16 poses, microseconds a "
+    "point\n"
     "  barycentric_us           mean_influences() and prune_influences(), likewise\n";
 
 int run(bool wants_summary, const char* json, const char* picture) {

@@ -6,15 +6,17 @@
 
 namespace sunder::bench {
 
-/// CGAL on the scene's surface in its first pose: what a user of CGAL has next to a tear. Built where CGAL is.
+/// CGAL on the scene's surface in its first pose: what a user of CGAL has next to a tear. Built
+/// where CGAL is.
 class CgalPeer {
  public:
   explicit CgalPeer(const Scene& scene);
   ~CgalPeer();
 
-  /// Makes the edges in which the surface meets the rectangle that the stroke sweeps: corefine() with exact predicates, and the
-  /// eight floats of position, normal and texture coordinates of the new vertices by its visitor. Weights are not interpolated,
-  /// lips not opened, the copy of the input and of the sheet not counted. @return seconds.
+  /// Makes the edges in which the surface meets the rectangle that the stroke sweeps: corefine()
+  /// with exact predicates, and the eight floats of position, normal and texture coordinates of the
+  /// new vertices by its visitor. Weights are not interpolated, lips not opened, the copy of the
+  /// input and of the sheet not counted. @return seconds.
   double corefine();
   /// New vertices of the last corefine().
   [[nodiscard]] std::size_t new_vertices() const;

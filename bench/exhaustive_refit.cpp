@@ -31,27 +31,34 @@ ExhaustiveRefit::ExhaustiveRefit(const AnimationPoint& exact, const Vec3d& posit
       off[i].col(3) = bone.linear() * position_ + Eigen::Vector3d(bone.translation()) - belongs;
     }
     for (std::size_t i = 0; i < n; ++i)
-      for (std::size_t j = 0; j < n; ++j) moments_[i * n + j] += off[i].transpose() * off[j] / static_cast<double>(palettes.size());
+      for (std::size_t j = 0; j < n; ++j)
+        moments_[i * n + j] += off[i].transpose() * off[j] / static_cast<double>(palettes.size());
   }
 }
 
-double ExhaustiveRefit::mean_square(std::span<const Influence> influences, const Vec3d& position) const {
+double ExhaustiveRefit::mean_square(std::span<const Influence> influences,
+                                    const Vec3d& position) const {
   Eigen::Vector4d at;
   at << position - position_, 1;
   double sum = 0, weights = 0;
   for (const Influence& a : influences) {
-    const auto i = static_cast<std::size_t>(std::find(slots_.begin(), slots_.end(), a.slot) - slots_.begin());
+    const auto i =
+        static_cast<std::size_t>(std::find(slots_.begin(), slots_.end(), a.slot) - slots_.begin());
     weights += static_cast<double>(a.weight);
     for (const Influence& b : influences) {
-      const auto j = static_cast<std::size_t>(std::find(slots_.begin(), slots_.end(), b.slot) - slots_.begin());
-      sum += static_cast<double>(a.weight) * static_cast<double>(b.weight) * at.dot(moment(i, j) * at);
+      const auto j = static_cast<std::size_t>(std::find(slots_.begin(), slots_.end(), b.slot) -
+                                              slots_.begin());
+      sum +=
+          static_cast<double>(a.weight) * static_cast<double>(b.weight) * at.dot(moment(i, j) * at);
     }
   }
   return std::max(sum, 0.0) / (weights * weights);
 }
 
-/// The least w^T G w of sum one lies inside one of the faces of the simplex, where G w is the same for all bones of the face.
-double ExhaustiveRefit::solve_weights(const Support& support, const Eigen::Vector3d& offset, double* weights) const {
+/// The least w^T G w of sum one lies inside one of the faces of the simplex, where G w is the same
+/// for all bones of the face.
+double ExhaustiveRefit::solve_weights(const Support& support, const Eigen::Vector3d& offset,
+                                      double* weights) const {
   const Eigen::Vector4d at(offset.x(), offset.y(), offset.z(), 1);
   using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 8, 8>;
   using SmallVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 8, 1>;
@@ -59,7 +66,9 @@ double ExhaustiveRefit::solve_weights(const Support& support, const Eigen::Vecto
   Small gram(n, n);
   for (Eigen::Index i = 0; i < n; ++i)
     for (Eigen::Index j = 0; j < n; ++j)
-      gram(i, j) = at.dot(moment(support.bones[static_cast<std::size_t>(i)], support.bones[static_cast<std::size_t>(j)]) * at);
+      gram(i, j) = at.dot(moment(support.bones[static_cast<std::size_t>(i)],
+                                 support.bones[static_cast<std::size_t>(j)]) *
+                          at);
   gram.diagonal().array() += 1e-14 * gram.trace() + 1e-280;
   double least = std::numeric_limits<double>::infinity();
   for (unsigned face = 1; face < (1u << support.count); ++face) {
@@ -82,11 +91,13 @@ double ExhaustiveRefit::solve_weights(const Support& support, const Eigen::Vecto
   return least;
 }
 
-double ExhaustiveRefit::solve_offset(const Support& support, const double* weights, Eigen::Vector3d& offset) const {
+double ExhaustiveRefit::solve_offset(const Support& support, const double* weights,
+                                     Eigen::Vector3d& offset) const {
   Eigen::Matrix4d square = Eigen::Matrix4d::Zero();
   for (std::size_t i = 0; i < support.count; ++i)
     for (std::size_t j = 0; j < support.count; ++j)
-      if (weights[i] > 0 && weights[j] > 0) square += weights[i] * weights[j] * moment(support.bones[i], support.bones[j]);
+      if (weights[i] > 0 && weights[j] > 0)
+        square += weights[i] * weights[j] * moment(support.bones[i], support.bones[j]);
   Eigen::Matrix3d left = square.topLeftCorner<3, 3>();
   left.diagonal().array() += 1e-13 * left.trace() + 1e-280;
   const Eigen::Vector3d best = -left.ldlt().solve(square.topRightCorner<3, 1>());
@@ -115,17 +126,22 @@ double ExhaustiveRefit::least_mean_square(std::size_t maximum, const Vec3d& star
     Support support;
     for (std::size_t i = 0; i < slots_.size(); ++i)
       if ((bits >> i & 1u) != 0) support.bones[support.count++] = i;
-    std::vector<Eigen::Vector3d> starts = {Eigen::Vector3d::Zero(), Eigen::Vector3d(start) - position_};
+    std::vector<Eigen::Vector3d> starts = {Eigen::Vector3d::Zero(),
+                                           Eigen::Vector3d(start) - position_};
     // The place that each bone would give it with most of the weight, and that of equal weights.
     for (std::size_t heavy = 0; heavy <= support.count; ++heavy) {
       double weights[8];
       for (std::size_t i = 0; i < support.count; ++i)
-        weights[i] = (heavy == support.count ? 1.0 : i == heavy ? 0.8 : 0.2) / static_cast<double>(support.count);
+        weights[i] = (heavy == support.count ? 1.0
+                      : i == heavy           ? 0.8
+                                             : 0.2) /
+                     static_cast<double>(support.count);
       Eigen::Vector3d offset = Eigen::Vector3d::Zero();
       (void)solve_offset(support, weights, offset);
       starts.push_back(offset);
     }
-    for (const Eigen::Vector3d& offset : starts) least = std::min(least, take_turns(support, offset));
+    for (const Eigen::Vector3d& offset : starts)
+      least = std::min(least, take_turns(support, offset));
   }
   return least;
 }

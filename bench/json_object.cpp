@@ -14,7 +14,8 @@ void JsonObject::add(const char* name, const std::vector<std::pair<std::string, 
   begin(name);
   std::fprintf(file_, "{");
   for (std::size_t i = 0; i < values.size(); ++i)
-    std::fprintf(file_, "%s\"%s\": %.6g", i == 0 ? "" : ", ", values[i].first.c_str(), values[i].second);
+    std::fprintf(file_, "%s\"%s\": %.6g", i == 0 ? "" : ", ", values[i].first.c_str(),
+                 values[i].second);
   std::fprintf(file_, "}");
 }
 

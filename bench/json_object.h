@@ -14,7 +14,8 @@ class JsonObject {
   explicit JsonObject(std::FILE* file = stdout) : file_(file) {}
   void add(const char* name, std::optional<double> value);
   void add(const char* name, const std::vector<std::pair<std::string, double>>& values);
-  void add_text(const char* name, const std::string& text);  ///< Without characters that JSON escapes.
+  void add_text(const char* name,
+                const std::string& text);  ///< Without characters that JSON escapes.
   void end();
 
  private:

@@ -17,9 +17,11 @@ namespace {
 constexpr std::uint32_t kBones = 64;  // one unit of height each
 constexpr int kSegments = 1000, kCompared = 20;
 
-/// From inside one side of the tube to inside the next; rising so that no turn of the helix meets the one before.
+/// From inside one side of the tube to inside the next; rising so that no turn of the helix meets
+/// the one before.
 Blade blade_at(int segment, std::uint32_t sides) {
-  const double angle = 2 * std::numbers::pi * (segment + 0.4) / sides, height = 4 + 0.05 * segment * kBones / sides;
+  const double angle = 2 * std::numbers::pi * (segment + 0.4) / sides,
+               height = 4 + 0.05 * segment * kBones / sides;
   const Vec3d outwards(std::cos(angle), 0, -std::sin(angle)), axis(0, height, 0);
   return {axis + outwards, axis + 0.2 * outwards};
 }
@@ -41,13 +43,15 @@ LongStroke time_long_stroke(int divisions) {
   ChangeRecord change;
   for (int i = 1; i <= kSegments; ++i) {
     Result<TearReport> done = Status();
-    seconds.push_back(seconds_of([&] { done = stroke->extend(rest, blade_at(i, sides), 0.0, &change); }));
+    seconds.push_back(
+        seconds_of([&] { done = stroke->extend(rest, blade_at(i, sides), 0.0, &change); }));
     if (done && done->segments_missed == 0) continue;
     std::fprintf(stderr, "segment %d of the long stroke tore nothing\n", i);
     std::exit(1);
   }
   if (!stroke->end()) std::abort();
-  return {seconds[0] * 1e6, mean_microseconds(seconds.begin() + 1), mean_microseconds(seconds.end() - kCompared)};
+  return {seconds[0] * 1e6, mean_microseconds(seconds.begin() + 1),
+          mean_microseconds(seconds.end() - kCompared)};
 }
 
 }  // namespace sunder::bench

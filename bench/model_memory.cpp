@@ -18,9 +18,11 @@ std::uint64_t bytes_of(const Mesh& mesh) {
   std::uint64_t bytes = bytes_of(mesh.positions) + bytes_of(mesh.normals) + bytes_of(mesh.tangents);
   for (const auto& uv : mesh.uv_sets) bytes += bytes_of(uv);
   for (const auto& colors : mesh.color_sets) bytes += bytes_of(colors);
-  for (const CustomAttribute& attribute : mesh.custom_attributes) bytes += bytes_of(attribute.values);
+  for (const CustomAttribute& attribute : mesh.custom_attributes)
+    bytes += bytes_of(attribute.values);
   for (const MorphTarget& target : mesh.morph_targets)
-    bytes += bytes_of(target.position_deltas) + bytes_of(target.normal_deltas) + bytes_of(target.tangent_deltas);
+    bytes += bytes_of(target.position_deltas) + bytes_of(target.normal_deltas) +
+             bytes_of(target.tangent_deltas);
   bytes += bytes_of(mesh.weights.first) + bytes_of(mesh.weights.influences);
   return bytes + bytes_of(mesh.triangles) + bytes_of(mesh.triangle_submesh);
 }
@@ -39,7 +41,8 @@ BytesPerPoint bytes_per_point(const Scene& scene) {
   posed.cover(model->point_count());
   const std::uint64_t of_posed_points = bytes_in_use() - without;
   const double points = model->point_count();
-  return {static_cast<double>(all - of_posed_points) / points, static_cast<double>(of_posed_points) / points};
+  return {static_cast<double>(all - of_posed_points) / points,
+          static_cast<double>(of_posed_points) / points};
 }
 
 }  // namespace sunder::bench

@@ -23,7 +23,8 @@ struct Cloud {
   }
 };
 
-using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, Cloud>, Cloud, 3, std::uint32_t>;
+using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, Cloud>, Cloud,
+                                                 3, std::uint32_t>;
 
 }  // namespace
 
@@ -38,10 +39,11 @@ NanoflannClusters cluster_by_nanoflann(std::span<const Vec3f> points, float radi
   std::vector<std::pair<std::uint32_t, float>> found;
   const nanoflann::SearchParams unsorted(32, 0.0f, false);
   result.search = seconds_of([&] {
-    result.clusters = cluster_by_radius(points.size(), [&](std::uint32_t centre, std::vector<std::uint32_t>& members) {
-      tree->radiusSearch(points[centre].data(), radius * radius, found, unsorted);
-      for (const auto& [point, squared_distance] : found) members.push_back(point);
-    });
+    result.clusters = cluster_by_radius(
+        points.size(), [&](std::uint32_t centre, std::vector<std::uint32_t>& members) {
+          tree->radiusSearch(points[centre].data(), radius * radius, found, unsorted);
+          for (const auto& [point, squared_distance] : found) members.push_back(point);
+        });
   });
   return result;
 }

@@ -10,15 +10,19 @@
 
 namespace sunder::bench {
 
-void skin_by_eigen(std::size_t vertices, const float* positions, const float* normals, const std::uint16_t* slots,
-                   const float* weights, const float* matrices, float* posed_positions, float* posed_normals) {
+void skin_by_eigen(std::size_t vertices, const float* positions, const float* normals,
+                   const std::uint16_t* slots, const float* weights, const float* matrices,
+                   float* posed_positions, float* posed_normals) {
   using Matrix = Eigen::Matrix<float, 3, 4>;
   for (std::size_t v = 0; v < vertices; ++v) {
     Matrix blended = Matrix::Zero();
-    for (std::size_t k = 0; k < 4; ++k) blended += weights[4 * v + k] * Eigen::Map<const Matrix>(matrices + 12 * slots[4 * v + k]);
+    for (std::size_t k = 0; k < 4; ++k)
+      blended += weights[4 * v + k] * Eigen::Map<const Matrix>(matrices + 12 * slots[4 * v + k]);
     Eigen::Map<Eigen::Vector3f>(posed_positions + 3 * v) =
-        blended.leftCols<3>() * Eigen::Map<const Eigen::Vector3f>(positions + 3 * v) + blended.col(3);
-    Eigen::Map<Eigen::Vector3f>(posed_normals + 3 * v) = blended.leftCols<3>() * Eigen::Map<const Eigen::Vector3f>(normals + 3 * v);
+        blended.leftCols<3>() * Eigen::Map<const Eigen::Vector3f>(positions + 3 * v) +
+        blended.col(3);
+    Eigen::Map<Eigen::Vector3f>(posed_normals + 3 * v) =
+        blended.leftCols<3>() * Eigen::Map<const Eigen::Vector3f>(normals + 3 * v);
   }
 }
 
@@ -33,7 +37,8 @@ template <Stores kStores>
 void store(const Line& line, float* to) {
 #if defined(__AVX512F__)
   if constexpr (kStores == Stores::around_caches) {
-    _mm512_stream_si512(reinterpret_cast<__m512i*>(to), reinterpret_cast<const __m512i&>(line.words));
+    _mm512_stream_si512(reinterpret_cast<__m512i*>(to),
+                        reinterpret_cast<const __m512i&>(line.words));
     return;
   }
 #elif defined(__SSE2__)
@@ -48,7 +53,8 @@ void store(const Line& line, float* to) {
 }
 
 template <Stores kStores>
-void touch_by(const float* in, std::size_t in_floats, float* out_a, float* out_b, std::size_t out_floats, std::size_t ahead) {
+void touch_by(const float* in, std::size_t in_floats, float* out_a, float* out_b,
+              std::size_t out_floats, std::size_t ahead) {
   const std::size_t reads = in_floats / 16, writes = 2 * (out_floats / 16);
   Line sums[4] = {};
   std::size_t written = 0;
@@ -63,7 +69,8 @@ void touch_by(const float* in, std::size_t in_floats, float* out_a, float* out_b
       store<kStores>(sums[0], ((written & 1u) != 0 ? out_b : out_a) + 16 * (written / 2));
   }
   for (int j = 1; j < 4; ++j) sums[0].words |= sums[j].words;
-  for (; written < writes; ++written) store<kStores>(sums[0], ((written & 1u) != 0 ? out_b : out_a) + 16 * (written / 2));
+  for (; written < writes; ++written)
+    store<kStores>(sums[0], ((written & 1u) != 0 ? out_b : out_a) + 16 * (written / 2));
   std::memcpy(out_a, &sums[0].words, 64);  // so that all reads count
 #if defined(__SSE2__)
   if constexpr (kStores == Stores::around_caches) _mm_sfence();
@@ -72,8 +79,8 @@ void touch_by(const float* in, std::size_t in_floats, float* out_a, float* out_b
 
 }  // namespace
 
-void touch(const float* in, std::size_t in_floats, float* out_a, float* out_b, std::size_t out_floats, Stores stores,
-           std::size_t ahead) {
+void touch(const float* in, std::size_t in_floats, float* out_a, float* out_b,
+           std::size_t out_floats, Stores stores, std::size_t ahead) {
   if (stores == Stores::plain)
     touch_by<Stores::plain>(in, in_floats, out_a, out_b, out_floats, ahead);
   else

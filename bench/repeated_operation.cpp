@@ -46,11 +46,13 @@ RepeatedOperation::Seconds RepeatedOperation::run_undo_and_redo() {
   return seconds;
 }
 
-Result<TearReport> tear_along_stroke(const Scene& scene, const ModelPose& pose, ChangeRecord& change) {
+Result<TearReport> tear_along_stroke(const Scene& scene, const ModelPose& pose,
+                                     ChangeRecord& change) {
   return scene.model().tear(pose, scene.stroke, {}, &change);
 }
 
-Result<TearReport> tear_with_width(const Scene& scene, const ModelPose& pose, ChangeRecord& change) {
+Result<TearReport> tear_with_width(const Scene& scene, const ModelPose& pose,
+                                   ChangeRecord& change) {
   const double length = (scene.stroke.back().tip - scene.stroke.front().tip).norm();
   return scene.model().tear(pose, scene.stroke, {0.05 * length, Layers::nearest, 0.0}, &change);
 }
@@ -68,8 +70,10 @@ Result<TearReport> cut_with_caps(const Scene& scene, const ModelPose& pose, Chan
 Result<TearReport> drill_through(const Scene& scene, const ModelPose& pose, ChangeRecord& change) {
   const Vec3d along = scene.stroke.back().tip - scene.stroke.front().tip;
   const Vec3d depth = scene.stroke[0].tip - scene.stroke[0].base;
-  return scene.model().drill(pose, {scene.stroke[0].base + 0.5 * along, depth, 0.1 * along.norm(), depth.norm(), 0.0, true},
-                             &change);
+  return scene.model().drill(
+      pose,
+      {scene.stroke[0].base + 0.5 * along, depth, 0.1 * along.norm(), depth.norm(), 0.0, true},
+      &change);
 }
 
 FirstTear time_first_tear(const Scene& scene) {
@@ -78,7 +82,8 @@ FirstTear time_first_tear(const Scene& scene) {
   seconds.create = seconds_of([&] { model = TornModel::create(scene.character); });
   require(model);
   ChangeRecord change;
-  seconds.tear = seconds_of([&] { require(model->tear(scene.next_pose(), scene.stroke, {}, &change)); });
+  seconds.tear =
+      seconds_of([&] { require(model->tear(scene.next_pose(), scene.stroke, {}, &change)); });
   return seconds;
 }
 

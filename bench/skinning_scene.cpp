@@ -20,7 +20,8 @@ void require(const Status& status) {
 }
 
 SkinnedMesh make_mesh(const SkinningScene& scene) {
-  Result<SkinnedMesh> mesh = SkinnedMesh::create(source_of(scene.mesh()), scene.character.skins[0].bones.size());
+  Result<SkinnedMesh> mesh =
+      SkinnedMesh::create(source_of(scene.mesh()), scene.character.skins[0].bones.size());
   require(mesh.error());
   return std::move(*mesh);
 }
@@ -28,11 +29,13 @@ SkinnedMesh make_mesh(const SkinningScene& scene) {
 }  // namespace
 
 LineFloats::LineFloats(std::size_t count)
-    : data_(static_cast<float*>(::operator new((count + 16) * sizeof(float), std::align_val_t(64)))) {
+    : data_(
+          static_cast<float*>(::operator new((count + 16) * sizeof(float), std::align_val_t(64)))) {
   std::memset(data_.get(), 0, (count + 16) * sizeof(float));
 }
 
-SkinningScene::SkinningScene(int divisions, bool ordered) : character(make_subdivided_model(divisions, 64)) {
+SkinningScene::SkinningScene(int divisions, bool ordered)
+    : character(make_subdivided_model(divisions, 64)) {
   Mesh& mesh = character.meshes[0];
   if (ordered) require(reorder_vertices(mesh, order_for_skinning(mesh)));
   test::Random random(1);
@@ -57,7 +60,8 @@ CrowdMember::CrowdMember(const SkinningScene& scene, SkinningMethod method)
       weights(4 * vertices),
       buffer({vertices, {positions.data()}, {normals.data()}, {}}) {
   for (std::size_t i = 0; i < SkinningScene::kPoses; ++i) {
-    palettes.emplace_back(scene.character.skins[0].bones.size(), scene.character.rest_morph_weights.size(), method);
+    palettes.emplace_back(scene.character.skins[0].bones.size(),
+                          scene.character.rest_morph_weights.size(), method);
     require(palettes.back().set(scene.character.skins[0], scene.poses[i]));
   }
   for (std::uint32_t v = 0; v < vertices; ++v) {
@@ -72,25 +76,29 @@ CrowdMember::CrowdMember(const SkinningScene& scene, SkinningMethod method)
 }
 
 void CrowdMember::pose_by_eigen(const SkinningScene& scene, std::size_t pose) {
-  skin_by_eigen(vertices, bind_positions.data(), bind_normals.data(), slots.data(), weights.data(), scene.matrices[pose][0].data(),
-                positions.data(), normals.data());
+  skin_by_eigen(vertices, bind_positions.data(), bind_normals.data(), slots.data(), weights.data(),
+                scene.matrices[pose][0].data(), positions.data(), normals.data());
 }
 
 void CrowdMember::pose_by_ours(std::size_t pose, PosedBuffer& to, const ParallelFor& parallel_for) {
   require(mesh.deform(palettes[pose], to, parallel_for));
 }
 
-SkinningError error_of(const SkinningScene& scene, std::size_t pose, const float* positions, const float* normals) {
+SkinningError error_of(const SkinningScene& scene, std::size_t pose, const float* positions,
+                       const float* normals) {
   std::vector<Affine3d> palette(scene.matrices[pose].size());
   require(compute_palette(scene.character.skins[0], scene.poses[pose], std::span(palette)));
   const double scale = 2.0 / test::posed_diagonal(scene.character, scene.poses[pose]);
   SkinningError error;
   for (std::uint32_t v = 0; v < scene.vertex_count(); ++v) {
-    const Vec3d position = deform_position_reference(scene.mesh(), v, palette, scene.poses[pose].morph_weights);
+    const Vec3d position =
+        deform_position_reference(scene.mesh(), v, palette, scene.poses[pose].morph_weights);
     const Vec3d found = Eigen::Map<const Eigen::Vector3f>(positions + 3 * v).cast<double>();
     error.position = std::max(error.position, scale * (found - position).norm());
-    const Vec3d normal = deform_normal_reference(scene.mesh(), v, palette, scene.poses[pose].morph_weights);
-    const Vec3d found_normal = Eigen::Map<const Eigen::Vector3f>(normals + 3 * v).cast<double>().normalized();
+    const Vec3d normal =
+        deform_normal_reference(scene.mesh(), v, palette, scene.poses[pose].morph_weights);
+    const Vec3d found_normal =
+        Eigen::Map<const Eigen::Vector3f>(normals + 3 * v).cast<double>().normalized();
     error.normal = std::max(error.normal, (found_normal - normal).norm());
   }
   return error;

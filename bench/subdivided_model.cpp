@@ -41,10 +41,12 @@ Character make_base() {
   return test::make_bumpy_ball(3486);
 }
 
-/// Numbers the points of subdivided triangles: corners first, then those inside edges, shared by both faces, and inside faces.
+/// Numbers the points of subdivided triangles: corners first, then those inside edges, shared by
+/// both faces, and inside faces.
 class Subdivision {
  public:
-  Subdivision(const Mesh& base, int divisions, Mesh& mesh) : base_(base), divisions_(divisions), mesh_(mesh) {
+  Subdivision(const Mesh& base, int divisions, Mesh& mesh)
+      : base_(base), divisions_(divisions), mesh_(mesh) {
     mesh_.positions = base.positions;
   }
 
@@ -77,11 +79,14 @@ class Subdivision {
   std::uint32_t on_edge(std::uint32_t from, std::uint32_t to, int part) {
     if (from > to) return on_edge(to, from, divisions_ - part);
     const auto [known, is_new] = first_on_edge_.try_emplace({from, to}, mesh_.vertex_count());
-    for (int i = 1; is_new && i < divisions_; ++i) append(((divisions_ - i) * place(from) + i * place(to)) / divisions_);
+    for (int i = 1; is_new && i < divisions_; ++i)
+      append(((divisions_ - i) * place(from) + i * place(to)) / divisions_);
     return known->second + static_cast<std::uint32_t>(part) - 1;
   }
 
-  [[nodiscard]] Vec3d place(std::uint32_t vertex) const { return base_.positions[vertex].cast<double>(); }
+  [[nodiscard]] Vec3d place(std::uint32_t vertex) const {
+    return base_.positions[vertex].cast<double>();
+  }
   std::uint32_t append(const Vec3d& position) {
     mesh_.positions.push_back(position.cast<float>());
     return mesh_.vertex_count() - 1;
@@ -104,7 +109,8 @@ void add_normals_and_uvs(Mesh& mesh) {
   mesh.normals.clear();
   for (const Vec3d& sum : sums) mesh.normals.push_back(Vec3d(sum.normalized()).cast<float>());
   mesh.uv_sets.assign(1, {});
-  for (const Vec3f& position : mesh.positions) mesh.uv_sets[0].emplace_back(position.x(), position.y());
+  for (const Vec3f& position : mesh.positions)
+    mesh.uv_sets[0].emplace_back(position.x(), position.y());
 }
 
 }  // namespace

@@ -30,11 +30,14 @@ ModelPose bend(const Character& character, double angle) {
   return result;
 }
 
-/// Parallel blades that reach from outside the box around the posed model to its middle, side by side along its flank.
+/// Parallel blades that reach from outside the box around the posed model to its middle, side by
+/// side along its flank.
 Stroke stroke_of_length(const Eigen::AlignedBox3d& box, double length) {
   constexpr int kSegments = 4;
-  constexpr double kSlope = -25 * std::numbers::pi / 180;  // where the bunny's flank is longest and has no folds
-  const Vec3d middle = box.min() + Eigen::Vector3d(box.sizes().cwiseProduct(Eigen::Vector3d(0.52, 0.3, 0.5)));
+  constexpr double kSlope =
+      -25 * std::numbers::pi / 180;  // where the bunny's flank is longest and has no folds
+  const Vec3d middle =
+      box.min() + Eigen::Vector3d(box.sizes().cwiseProduct(Eigen::Vector3d(0.52, 0.3, 0.5)));
   const Vec3d along(std::cos(kSlope), std::sin(kSlope), 0), outwards(0, 0, -0.6 * box.sizes().z());
   Stroke stroke;
   for (int i = 0; i <= kSegments; ++i) {
@@ -47,7 +50,9 @@ Stroke stroke_of_length(const Eigen::AlignedBox3d& box, double length) {
 /// Makes the stroke as long as it takes to cross the wanted number of faces in the first pose.
 void fit_stroke(const Eigen::AlignedBox3d& box, Scene& scene) {
   double shorter = 0, longer = box.sizes().x();
-  for (int i = 0; i < 20 && (scene.faces_crossed < kWantedFaces - 2 || scene.faces_crossed > kWantedFaces + 2); ++i) {
+  for (int i = 0;
+       i < 20 && (scene.faces_crossed < kWantedFaces - 2 || scene.faces_crossed > kWantedFaces + 2);
+       ++i) {
     const double length = 0.5 * (shorter + longer);
     scene.stroke = stroke_of_length(box, length);
     const auto report = scene.model().tear(scene.poses[0], scene.stroke);
@@ -80,7 +85,8 @@ const Scene& scene_of(int divisions) {
   Scene& scene = known->second;
   if (!is_new) return scene;
   scene.character = std::make_shared<const Character>(make_subdivided_model(divisions, kBones));
-  for (std::size_t i = 0; i < kPoses; ++i) scene.poses.push_back(bend(*scene.character, 0.6 + 1e-4 * static_cast<double>(i)));
+  for (std::size_t i = 0; i < kPoses; ++i)
+    scene.poses.push_back(bend(*scene.character, 0.6 + 1e-4 * static_cast<double>(i)));
   auto model = TornModel::create(scene.character, {100000, 100000, 16});
   if (!model) std::abort();
   scene.model_ = std::make_unique<TornModel>(std::move(*model));
@@ -93,8 +99,9 @@ const Scene& scene_of(int divisions) {
   }
   scene.middle_plane = {sum / static_cast<double>(positions.size()), {1, 0.1, 0.2}, {}, false};
   fit_stroke(box, scene);
-  std::fprintf(stderr, "%s %s: %u points, %u faces; the stroke crosses %u\n", scene.character->name.c_str(),
-               size_name(divisions).c_str(), scene.mesh().vertex_count(), scene.mesh().triangle_count(), scene.faces_crossed);
+  std::fprintf(stderr, "%s %s: %u points, %u faces; the stroke crosses %u\n",
+               scene.character->name.c_str(), size_name(divisions).c_str(),
+               scene.mesh().vertex_count(), scene.mesh().triangle_count(), scene.faces_crossed);
   return scene;
 }
 

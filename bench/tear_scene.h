@@ -16,14 +16,17 @@ inline constexpr int kSmallest = kDivisions.front(), kLargest = kDivisions.back(
 /// "3k", "31k", "171k", "900k"; of two divisions "14k".
 [[nodiscard]] std::string size_name(int divisions);
 
-/// One surface at one of four sizes, skinned to 64 bones, in a bend, and a stroke across about a hundred of its faces: at each size
-/// from the same place in the same direction, the shorter the smaller the faces are.
+/// One surface at one of four sizes, skinned to 64 bones, in a bend, and a stroke across about a
+/// hundred of its faces: at each size from the same place in the same direction, the shorter the
+/// smaller the faces are.
 ///
-/// The surface is the Stanford bunny (../shared/models) or, where that is absent, a ball with bumps of about as many points. The
-/// stroke has four segments whose blades lie in one plane and are parallel, so what it sweeps is one rectangle.
+/// The surface is the Stanford bunny (../shared/models) or, where that is absent, a ball with bumps
+/// of about as many points. The stroke has four segments whose blades lie in one plane and are
+/// parallel, so what it sweeps is one rectangle.
 struct Scene {
   std::shared_ptr<const Character> character;  ///< One mesh with normals and one UV set.
-  std::vector<ModelPose> poses;  ///< Bends that differ by less than a face is wide: the stroke crosses about the same faces.
+  std::vector<ModelPose> poses;  ///< Bends that differ by less than a face is wide: the stroke
+                                 ///< crosses about the same faces.
   Stroke stroke;
   std::uint32_t faces_crossed = 0;  ///< By the stroke, in the first pose.
   PlaneCut middle_plane;            ///< Through the mean of the points, across the longest axis.

@@ -19,7 +19,10 @@ using tear::SurfaceEditor;
 using tear::SurfaceHit;
 
 StagedTear::StagedTear(const Scene& scene)
-    : scene_(scene), character_(*scene.character), editor_(*scene.character, character_), replay_(scene.mesh()) {}
+    : scene_(scene),
+      character_(*scene.character),
+      editor_(*scene.character, character_),
+      replay_(scene.mesh()) {}
 
 void StagedTear::begin_pose(Stages& stages) {
   const ModelPose& pose = scene_.next_pose();
@@ -48,7 +51,8 @@ Stages StagedTear::run() {
   editor_.scratch().reset();
   const EditLog::Mark begin = editor_.mark();
   begin_pose(stages);
-  for (std::size_t i = 0; i + 1 < scene_.stroke.size(); ++i) tear_segment(scene_.stroke[i], scene_.stroke[i + 1], stages);
+  for (std::size_t i = 0; i + 1 < scene_.stroke.size(); ++i)
+    tear_segment(scene_.stroke[i], scene_.stroke[i + 1], stages);
   stages.change_record = seconds_of([&] { tear::describe_change(begin, editor_, change_); });
   editor_.roll_back(begin);
   posed_.forget_from(begin.points);
@@ -77,10 +81,12 @@ void StagedTear::tear_segment(const Blade& from, const Blade& to, Stages& stages
     path = imprint_path(*plane, tip_, editor_, posed_);
   });
   const Mesh& mesh = character_.meshes[0];
-  for (Index v = first_vertex; v < mesh.vertex_count(); ++v) births_.push_back(editor_.births.at(0, v));
+  for (Index v = first_vertex; v < mesh.vertex_count(); ++v)
+    births_.push_back(editor_.births.at(0, v));
   stages.open += seconds_of([&] {
     std::vector<tear::PointEdge> edges;
-    for (std::size_t i = 0; i + 1 < path.points.size(); ++i) edges.push_back({path.points[i], path.points[i + 1]});
+    for (std::size_t i = 0; i + 1 < path.points.size(); ++i)
+      edges.push_back({path.points[i], path.points[i + 1]});
     const std::size_t first_lip = lips_.size();
     open_edges(edges, path.half_edges, editor_, lips_);
     for (std::size_t i = first_lip; i < lips_.size(); ++i)
@@ -94,7 +100,8 @@ double StagedTear::time_attributes() {
   const std::uint32_t count = replay_.vertex_count();
   const double seconds = seconds_of([&] {
     for (const Birth& birth : births_)
-      append_interpolated_vertex(scene_.mesh().triangles[birth.triangle], birth.barycentric, replay_);
+      append_interpolated_vertex(scene_.mesh().triangles[birth.triangle], birth.barycentric,
+                                 replay_);
   });
   remove_vertices_from(count, replay_);
   return seconds;

@@ -26,11 +26,13 @@ using Figures = std::array<double, kDivisions.size()>;  ///< By size.
 
 std::vector<std::pair<std::string, double>> by_size(const Figures& values) {
   std::vector<std::pair<std::string, double>> named;
-  for (std::size_t i = 0; i < values.size(); ++i) named.emplace_back(size_name(kDivisions[i]), values[i]);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    named.emplace_back(size_name(kDivisions[i]), values[i]);
   return named;
 }
 
-/// Medians of tears by size, and of CGAL's corefinement at the smallest and the largest, in seconds.
+/// Medians of tears by size, and of CGAL's corefinement at the smallest and the largest, in
+/// seconds.
 struct Tears {
   Figures warm = {}, cold = {}, faces_crossed = {}, allocations = {}, undo_allocations = {};
   std::optional<double> cgal_smallest, cgal_largest;
@@ -40,7 +42,8 @@ Tears measure_tears() {
   std::vector<RepeatedOperation> tears;
   std::vector<Candidate> candidates;
   for (const int divisions : kDivisions) tears.emplace_back(scene_of(divisions), tear_along_stroke);
-  for (RepeatedOperation& tear : tears) candidates.push_back({[&tear] { return tear.run(); }, {30, 0.5, 2}});
+  for (RepeatedOperation& tear : tears)
+    candidates.push_back({[&tear] { return tear.run(); }, {30, 0.5, 2}});
 #if SUNDER_BENCH_CGAL
   CgalPeer smallest(scene_of(kSmallest)), largest(scene_of(kLargest));
   candidates.push_back({[&] { return smallest.corefine(); }, {10, 0.2, 2}});
@@ -60,7 +63,8 @@ Tears measure_tears() {
 #endif
 
   candidates.clear();
-  for (RepeatedOperation& tear : tears) candidates.push_back({[&tear] { return tear.run(Caches::swept); }, {20, 0.5, 2}, 5, 0});
+  for (RepeatedOperation& tear : tears)
+    candidates.push_back({[&tear] { return tear.run(Caches::swept); }, {20, 0.5, 2}, 5, 0});
   measure_in_turns(candidates);
   for (std::size_t i = 0; i < tears.size(); ++i) result.cold[i] = median(candidates[i].seconds);
   return result;
@@ -99,17 +103,21 @@ std::optional<double> cut_by_vtk() {
 void print_summary() {
   const BytesPerPoint bytes = bytes_per_point(scene_of(kLargest));
   const Tears tears = measure_tears();
-  const double faces = scene_of(kLargest).mesh().triangle_count(), query = measure_query(), first = measure_first_tear();
+  const double faces = scene_of(kLargest).mesh().triangle_count(), query = measure_query(),
+               first = measure_first_tear();
   const std::optional<double> vtk = cut_by_vtk();
   double nanoseconds_a_face = 0;
   Figures warm_us = {}, cold_us = {}, points = {};
   for (std::size_t i = 0; i < kDivisions.size(); ++i) {
-    nanoseconds_a_face = std::max(nanoseconds_a_face, tears.warm[i] * kNanoseconds / tears.faces_crossed[i]);
+    nanoseconds_a_face =
+        std::max(nanoseconds_a_face, tears.warm[i] * kNanoseconds / tears.faces_crossed[i]);
     warm_us[i] = tears.warm[i] * kMicroseconds;
     cold_us[i] = tears.cold[i] * kMicroseconds;
     points[i] = scene_of(kDivisions[i]).mesh().vertex_count();
   }
-  const auto by_tear = [](std::optional<double> peer, double tear) { return peer ? std::optional(*peer / tear) : std::nullopt; };
+  const auto by_tear = [](std::optional<double> peer, double tear) {
+    return peer ? std::optional(*peer / tear) : std::nullopt;
+  };
   JsonObject object;
   object.add("warm_growth_3k_900k", tears.warm.back() / tears.warm.front());
   object.add("speedup_cgal_3k", by_tear(tears.cgal_smallest, tears.warm.front()));
@@ -118,8 +126,10 @@ void print_summary() {
   object.add("build_ns_per_face", (first - tears.warm.back()) * kNanoseconds / faces);
   object.add("bytes_per_point", bytes.model);
   object.add("posed_bytes_per_point", bytes.posed_points);
-  object.add("warm_allocations", *std::max_element(tears.allocations.begin(), tears.allocations.end()));
-  object.add("warm_undo_allocations", *std::max_element(tears.undo_allocations.begin(), tears.undo_allocations.end()));
+  object.add("warm_allocations",
+             *std::max_element(tears.allocations.begin(), tears.allocations.end()));
+  object.add("warm_undo_allocations",
+             *std::max_element(tears.undo_allocations.begin(), tears.undo_allocations.end()));
   object.add("warm_us", by_size(warm_us));
   object.add("cold_us", by_size(cold_us));
   object.add("query_us_900k", query * kMicroseconds);

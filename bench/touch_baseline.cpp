@@ -6,9 +6,12 @@
 namespace sunder::bench {
 
 TouchBaseline::TouchBaseline(const Scene& scene)
-    : mesh_(scene.mesh()), vertex_count_(mesh_.vertex_count()), triangle_count_(mesh_.triangle_count()) {
+    : mesh_(scene.mesh()),
+      vertex_count_(mesh_.vertex_count()),
+      triangle_count_(mesh_.triangle_count()) {
   test::Random random(1);
-  for (std::uint32_t i = 0; i < scene.faces_crossed; ++i) faces_.push_back(random.index(triangle_count_));
+  for (std::uint32_t i = 0; i < scene.faces_crossed; ++i)
+    faces_.push_back(random.index(triangle_count_));
   for (int i = 0; i < 2; ++i) touch();  // so that the arrays have room
 }
 

@@ -24,9 +24,11 @@ VtkPeer::VtkPeer(const Scene& scene) : state_(std::make_unique<State>()) {
   const Mesh& mesh = scene.mesh();
   vtkNew<vtkPoints> points;
   points->SetDataTypeToFloat();
-  for (const Vec3d& position : posed_positions(scene, scene.poses[0])) points->InsertNextPoint(position.data());
+  for (const Vec3d& position : posed_positions(scene, scene.poses[0]))
+    points->InsertNextPoint(position.data());
   vtkNew<vtkCellArray> faces;
-  for (const Triangle& t : mesh.triangles) faces->InsertNextCell({vtkIdType{t[0]}, vtkIdType{t[1]}, vtkIdType{t[2]}});
+  for (const Triangle& t : mesh.triangles)
+    faces->InsertNextCell({vtkIdType{t[0]}, vtkIdType{t[1]}, vtkIdType{t[2]}});
   vtkNew<vtkFloatArray> normals, uvs;
   normals->SetNumberOfComponents(3);
   for (const Vec3f& normal : mesh.normals) normals->InsertNextTuple(normal.data());

@@ -6,8 +6,9 @@
 
 namespace sunder::bench {
 
-/// VTK on the scene's surface in its first pose: vtkPolyDataPlaneClipper keeps one side of the middle plane, on one thread, and
-/// interpolates normals and texture coordinates. Not weights; the cut stays without caps, its parts unnamed. Built where VTK is.
+/// VTK on the scene's surface in its first pose: vtkPolyDataPlaneClipper keeps one side of the
+/// middle plane, on one thread, and interpolates normals and texture coordinates. Not weights; the
+/// cut stays without caps, its parts unnamed. Built where VTK is.
 class VtkPeer {
  public:
   explicit VtkPeer(const Scene& scene);

@@ -51,7 +51,8 @@ double mean_square_of(const WeightProblem& problem, Solve&& solve) {
   Parameters x = problem.start.template head<N>().cwiseSqrt();
   solve(residual, x);
   const Parameters w = Squares<N>::weights(x);
-  return (problem.matrix.template leftCols<N>() * w - problem.target).squaredNorm() / (WeightProblem::kRows / 3);
+  return (problem.matrix.template leftCols<N>() * w - problem.target).squaredNorm() /
+         (WeightProblem::kRows / 3);
 }
 
 template <class Solve>
@@ -72,7 +73,8 @@ SolverFigures run(const char* name, const std::vector<WeightProblem>& problems, 
       }
     });
   });
-  figures.microseconds = 1e6 * *std::min_element(seconds.begin(), seconds.end()) / static_cast<double>(problems.size());
+  figures.microseconds = 1e6 * *std::min_element(seconds.begin(), seconds.end()) /
+                         static_cast<double>(problems.size());
   return figures;
 }
 
@@ -80,10 +82,11 @@ SolverFigures run(const char* name, const std::vector<WeightProblem>& problems, 
 
 #if SUNDER_BENCH_TINY_SOLVER
 SolverFigures run_tiny_solver(const std::vector<WeightProblem>& problems) {
-  return run("ceres::TinySolver", problems, []<int N>(const Squares<N>& residual, Eigen::Matrix<double, N, 1>& x) {
-    ceres::TinySolver<Squares<N>> solver;
-    (void)solver.Solve(residual, &x);
-  });
+  return run("ceres::TinySolver", problems,
+             []<int N>(const Squares<N>& residual, Eigen::Matrix<double, N, 1>& x) {
+               ceres::TinySolver<Squares<N>> solver;
+               (void)solver.Solve(residual, &x);
+             });
 }
 #endif
 
@@ -92,7 +95,8 @@ template <int N>
 class SquaresCost : public ceres::SizedCostFunction<WeightProblem::kRows, N> {
  public:
   explicit SquaresCost(const Squares<N>& residual) : residual_(residual) {}
-  bool Evaluate(const double* const* parameters, double* residuals, double** jacobians) const override {
+  bool Evaluate(const double* const* parameters, double* residuals,
+                double** jacobians) const override {
     Eigen::Matrix<double, WeightProblem::kRows, N> slopes;
     const bool wants_slopes = jacobians != nullptr && jacobians[0] != nullptr;
     residual_(parameters[0], residuals, wants_slopes ? slopes.data() : nullptr);
@@ -107,21 +111,24 @@ class SquaresCost : public ceres::SizedCostFunction<WeightProblem::kRows, N> {
 };
 
 SolverFigures run_ceres(const std::vector<WeightProblem>& problems) {
-  return run("ceres::Problem", problems, []<int N>(const Squares<N>& residual, Eigen::Matrix<double, N, 1>& x) {
-    ceres::Problem problem;
-    problem.AddResidualBlock(new SquaresCost<N>(residual), nullptr, x.data());  // which the problem owns
-    ceres::Solver::Options options;
-    options.linear_solver_type = ceres::DENSE_QR;
-    options.logging_type = ceres::SILENT;
-    ceres::Solver::Summary summary;
-    ceres::Solve(options, &problem, &summary);
-  });
+  return run("ceres::Problem", problems,
+             []<int N>(const Squares<N>& residual, Eigen::Matrix<double, N, 1>& x) {
+               ceres::Problem problem;
+               problem.AddResidualBlock(new SquaresCost<N>(residual), nullptr,
+                                        x.data());  // which the problem owns
+               ceres::Solver::Options options;
+               options.linear_solver_type = ceres::DENSE_QR;
+               options.logging_type = ceres::SILENT;
+               ceres::Solver::Summary summary;
+               ceres::Solve(options, &problem, &summary);
+             });
 }
 #endif
 
 }  // namespace
 
-std::vector<SolverFigures> run_other_solvers([[maybe_unused]] const std::vector<WeightProblem>& problems) {
+std::vector<SolverFigures> run_other_solvers(
+    [[maybe_unused]] const std::vector<WeightProblem>& problems) {
   std::vector<SolverFigures> figures;
 #if SUNDER_BENCH_TINY_SOLVER
   figures.push_back(run_tiny_solver(problems));

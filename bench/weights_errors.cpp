@@ -31,9 +31,11 @@ void undo(TornOnce& torn) {
 }
 
 /// One a point and pose, in metres.
-void append_errors(const TornModel& model, std::span<const ModelPose> poses, std::vector<double>& errors) {
+void append_errors(const TornModel& model, std::span<const ModelPose> poses,
+                   std::vector<double>& errors) {
   for (const ModelPose& pose : poses)
-    for (const auto& point : value_or_abort(measure_weight_errors(model, 0, 1, {&pose, 1})).points) errors.push_back(point.maximum);
+    for (const auto& point : value_or_abort(measure_weight_errors(model, 0, 1, {&pose, 1})).points)
+      errors.push_back(point.maximum);
 }
 
 ErrorStatistics statistics_of(std::vector<double>& errors, double diagonal) {
@@ -41,11 +43,12 @@ ErrorStatistics statistics_of(std::vector<double>& errors, double diagonal) {
   double sum = 0;
   for (const double error : errors) sum += error * error;
   std::sort(errors.begin(), errors.end());
-  return {std::sqrt(sum / static_cast<double>(errors.size())) / diagonal, errors[(errors.size() - 1) * 95 / 100] / diagonal,
-          errors.back() / diagonal};
+  return {std::sqrt(sum / static_cast<double>(errors.size())) / diagonal,
+          errors[(errors.size() - 1) * 95 / 100] / diagonal, errors.back() / diagonal};
 }
 
-PolicyErrors::OverPoses measure_over(WeightsModel& model, const WeightOptions& options, const Poses& poses) {
+PolicyErrors::OverPoses measure_over(WeightsModel& model, const WeightOptions& options,
+                                     const Poses& poses) {
   std::vector<double> fit, held_out;
   for (TornOnce& torn : model.tears) {
     reweigh(torn, options, poses.spec);
@@ -56,14 +59,17 @@ PolicyErrors::OverPoses measure_over(WeightsModel& model, const WeightOptions& o
   return {statistics_of(fit, model.diagonal), statistics_of(held_out, model.diagonal)};
 }
 
-/// The largest error in the pose of the tear, without points for which solve_bind_position() has nothing.
+/// The largest error in the pose of the tear, without points for which solve_bind_position() has
+/// nothing.
 double largest_pop(const TornOnce& torn, bool is_pose_exact) {
   const Character& character = torn.model.character();
   const auto palettes = palettes_of(character, torn.pose);
   double largest = 0;
-  for (const auto& point : value_or_abort(measure_weight_errors(torn.model, 0, 1, {&torn.pose, 1})).points) {
+  for (const auto& point :
+       value_or_abort(measure_weight_errors(torn.model, 0, 1, {&torn.pose, 1})).points) {
     const Mesh& mesh = character.meshes[point.mesh];
-    const bool is_met = !is_pose_exact || solve_bind_position(mesh.weights.of(point.vertex), Vec3d::Zero(), palettes[mesh.skin]);
+    const bool is_met = !is_pose_exact || solve_bind_position(mesh.weights.of(point.vertex),
+                                                              Vec3d::Zero(), palettes[mesh.skin]);
     if (is_met) largest = std::max(largest, point.maximum);
   }
   return largest;
@@ -84,18 +90,21 @@ struct Posed {
         positions(3 * std::size_t{of.vertex_count()}),
         buffer({of.vertex_count(), {positions.data()}, {}, {}}) {}
 
-  static SkinnedMesh skin(const Character& character, const Mesh& mesh, const InfluencePositions& exact) {
+  static SkinnedMesh skin(const Character& character, const Mesh& mesh,
+                          const InfluencePositions& exact) {
     VertexSource source = source_of(mesh);
     source.per_influence = &exact;
     return value_or_abort(SkinnedMesh::create(source, character.skins[mesh.skin].bones.size()));
   }
 
   void pose(const Character& character, const ModelPose& pose) {
-    if (!palette.set(character.skins[mesh->skin], pose) || !skinned.deform(palette, buffer)) std::abort();
+    if (!palette.set(character.skins[mesh->skin], pose) || !skinned.deform(palette, buffer))
+      std::abort();
   }
 };
 
-double largest_runtime_error(const WeightsModel& model, const TornOnce& torn, std::span<const ModelPose> poses) {
+double largest_runtime_error(const WeightsModel& model, const TornOnce& torn,
+                             std::span<const ModelPose> poses) {
   const Character& character = torn.model.character();
   std::set<std::uint32_t> torn_meshes;
   for (const TornPoint& point : torn.points) torn_meshes.insert(point.mesh);
@@ -109,8 +118,9 @@ double largest_runtime_error(const WeightsModel& model, const TornOnce& torn, st
       for (const TornPoint& point : torn.points) {
         if (point.mesh != mesh) continue;
         const Vec3d belongs = point.posed(*model.character, palettes[of.skin], pose.morph_weights);
-        const Vec3d stands =
-            Eigen::Map<const Eigen::Vector3f>(posed.positions.data() + 3 * std::size_t{point.vertex}).cast<double>();
+        const Vec3d stands = Eigen::Map<const Eigen::Vector3f>(posed.positions.data() +
+                                                               3 * std::size_t{point.vertex})
+                                 .cast<double>();
         largest = std::max(largest, (stands - belongs).norm());
       }
     }
@@ -126,7 +136,8 @@ PolicyErrors measure_policy(WeightsModel& model, const WeightOptions& options) {
   errors.range_of_motion = measure_over(model, options, model.range_of_motion);
   for (TornOnce& torn : model.tears) {
     errors.ill_conditioned += reweigh(torn, options, model.usual_poses().spec).ill_conditioned;
-    errors.pop = std::max(errors.pop, largest_pop(torn, options.policy == WeightPolicy::pose_exact) / model.diagonal);
+    errors.pop = std::max(
+        errors.pop, largest_pop(torn, options.policy == WeightPolicy::pose_exact) / model.diagonal);
     undo(torn);
   }
   return errors;

@@ -11,7 +11,9 @@
 namespace sunder::bench {
 namespace {
 
-std::string number_of(std::uint32_t maximum) { return maximum == 0 ? "all" : std::to_string(maximum); }
+std::string number_of(std::uint32_t maximum) {
+  return maximum == 0 ? "all" : std::to_string(maximum);
+}
 
 /// The median over models of what `figure` finds in one row of each.
 void print_median(const std::vector<ModelFigures>& models, std::size_t row,
@@ -32,15 +34,18 @@ std::optional<Over> over_motion(const PolicyRow& row) { return row.errors.range_
 
 void print_policies(const std::vector<ModelFigures>& models) {
   std::printf(
-      "Medians over %zu models; errors in per cent of the diagonal, of clips and of a range of motion (ROM).\n\n"
-      "| policy | K | µs a point | clips: fit, RMS | held out, RMS | 95 %% | max | ROM: fit, RMS | held out, RMS | 95 %% | max | "
+      "Medians over %zu models; errors in per cent of the diagonal, of clips and of a range of "
+      "motion (ROM).\n\n"
+      "| policy | K | µs a point | clips: fit, RMS | held out, RMS | 95 %% | max | ROM: fit, RMS | "
+      "held out, RMS | 95 %% | max | "
       "pop | fell "
       "back |\n"
       "|---|---|---|---|---|---|---|---|---|---|---|---|---|\n",
       models.size());
   for (std::size_t i = 0; i < models.front().rows.size(); ++i) {
     const WeightOptions& options = models.front().rows[i].options;
-    std::printf("| %s | %s |", weight_policy_name(options.policy), number_of(options.maximum_influences).c_str());
+    std::printf("| %s | %s |", weight_policy_name(options.policy),
+                number_of(options.maximum_influences).c_str());
     print_median(models, i, [](const PolicyRow& row) { return row.microseconds; });
     for (const auto& over : {over_clips, over_motion}) {
       const auto print = [&](double (*figure)(const Over&)) {
@@ -57,7 +62,9 @@ void print_policies(const std::vector<ModelFigures>& models) {
     print_median(models, i, [](const PolicyRow& row) { return 100 * row.errors.pop; });
     std::uint32_t fell_back = 0;
     for (const ModelFigures& model : models) fell_back += model.rows[i].errors.ill_conditioned;
-    std::printf(" %s |\n", options.policy == WeightPolicy::pose_exact ? std::to_string(fell_back).c_str() : "");
+    std::printf(" %s |\n", options.policy == WeightPolicy::pose_exact
+                               ? std::to_string(fell_back).c_str()
+                               : "");
   }
 }
 
@@ -70,8 +77,10 @@ void print_gain(std::optional<double> gain) {
 
 void print_models(const std::vector<ModelFigures>& models) {
   std::printf(
-      "\nBy model, K = 4: gain is the RMS of barycentric weights by that of the refit, on poses held out.\n\n"
-      "| model | points | gain, clips | gain, ROM | refit by exhaustive search | exact, in float, max of diagonal | barycentric, "
+      "\nBy model, K = 4: gain is the RMS of barycentric weights by that of the refit, on poses "
+      "held out.\n\n"
+      "| model | points | gain, clips | gain, ROM | refit by exhaustive search | exact, in float, "
+      "max of diagonal | barycentric, "
       "µs | refit of "
       "weights alone, µs |\n"
       "|---|---|---|---|---|---|---|---|\n");
@@ -79,11 +88,13 @@ void print_models(const std::vector<ModelFigures>& models) {
     std::printf("| %s | %zu |", model.name.c_str(), model.points);
     print_gain(model.gain_clips());
     print_gain(model.gain_range_of_motion());
-    std::printf(" %.4f | %.1e | %.3f | %.2f |\n", model.vs_exhaustive, model.runtime_error, model.barycentric_us, model.refit_us);
+    std::printf(" %.4f | %.1e | %.3f | %.2f |\n", model.vs_exhaustive, model.runtime_error,
+                model.barycentric_us, model.refit_us);
   }
 }
 
-void print_solvers(const std::vector<ModelFigures>& models, const std::vector<SolverFigures>& solvers) {
+void print_solvers(const std::vector<ModelFigures>& models,
+                   const std::vector<SolverFigures>& solvers) {
   double microseconds = 0, problems = 0, sum = 0;
   for (const ModelFigures& model : models) {
     const auto count = static_cast<double>(model.solvers.problems.size());
@@ -92,28 +103,33 @@ void print_solvers(const std::vector<ModelFigures>& models, const std::vector<So
     for (const double square : model.solvers.mean_squares) sum += square;
   }
   std::printf(
-      "\nThe same %.0f convex problems, 16 poses, weights alone. PointRefit chooses up to four of all bones; the others get "
+      "\nThe same %.0f convex problems, 16 poses, weights alone. PointRefit chooses up to four of "
+      "all bones; the others get "
       "these.\n\n"
       "| solver | µs a problem | RMS by PointRefit's |\n|---|---|---|\n| PointRefit | %.2f | 1 |\n",
       problems, microseconds / problems);
   for (const SolverFigures& solver : solvers) {
     double of_solver = 0;
     for (const double square : solver.mean_squares) of_solver += square;
-    std::printf("| %s | %.2f | %.6f |\n", solver.name, solver.microseconds, std::sqrt(of_solver / sum));
+    std::printf("| %s | %.2f | %.6f |\n", solver.name, solver.microseconds,
+                std::sqrt(of_solver / sum));
   }
 }
 
-void add_statistics(JsonObject& object, const std::string& name, const ErrorStatistics& errors, double diagonal) {
-  object.add((name + "_percent").c_str(),
-             {{"rms", 100 * errors.rms}, {"percentile95", 100 * errors.percentile95}, {"maximum", 100 * errors.maximum}});
-  object.add(
-      (name + "_metres").c_str(),
-      {{"rms", diagonal * errors.rms}, {"percentile95", diagonal * errors.percentile95}, {"maximum", diagonal * errors.maximum}});
+void add_statistics(JsonObject& object, const std::string& name, const ErrorStatistics& errors,
+                    double diagonal) {
+  object.add((name + "_percent").c_str(), {{"rms", 100 * errors.rms},
+                                           {"percentile95", 100 * errors.percentile95},
+                                           {"maximum", 100 * errors.maximum}});
+  object.add((name + "_metres").c_str(), {{"rms", diagonal * errors.rms},
+                                          {"percentile95", diagonal * errors.percentile95},
+                                          {"maximum", diagonal * errors.maximum}});
 }
 
 }  // namespace
 
-void print_weights_tables(const std::vector<ModelFigures>& models, const std::vector<SolverFigures>& solvers) {
+void print_weights_tables(const std::vector<ModelFigures>& models,
+                          const std::vector<SolverFigures>& solvers) {
   print_policies(models);
   print_models(models);
   print_solvers(models, solvers);
@@ -151,7 +167,8 @@ bool write_weights_json(const std::vector<ModelFigures>& models, const char* fil
         add_statistics(object, "clips_held_out", row.errors.clips->held_out, model.diagonal);
       }
       add_statistics(object, "range_of_motion_fit", row.errors.range_of_motion.fit, model.diagonal);
-      add_statistics(object, "range_of_motion_held_out", row.errors.range_of_motion.held_out, model.diagonal);
+      add_statistics(object, "range_of_motion_held_out", row.errors.range_of_motion.held_out,
+                     model.diagonal);
       object.add("pop_percent", 100 * row.errors.pop);
       object.add("pop_metres", model.diagonal * row.errors.pop);
       object.add("ill_conditioned", row.errors.ill_conditioned);

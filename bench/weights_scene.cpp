@@ -35,7 +35,8 @@ ModelPose bent_pose(const Character& character, test::Random& random) {
   return *pose;
 }
 
-TornPoint describe_point(const Character& source, const TornModel& model, std::uint32_t mesh, std::uint32_t vertex) {
+TornPoint describe_point(const Character& source, const TornModel& model, std::uint32_t mesh,
+                         std::uint32_t vertex) {
   TornPoint point;
   point.mesh = mesh;
   point.vertex = vertex;
@@ -56,7 +57,8 @@ TornPoint describe_point(const Character& source, const TornModel& model, std::u
   return point;
 }
 
-/// Strokes that miss, or tear what single bones move, of which no policy has to decide anything, are drawn again.
+/// Strokes that miss, or tear what single bones move, of which no policy has to decide anything,
+/// are drawn again.
 TornOnce tear_once(const std::shared_ptr<const Character>& character, test::Random& random) {
   for (int i = 0; i < 100; ++i) {
     auto model = TornModel::create(character);
@@ -70,18 +72,21 @@ TornOnce tear_once(const std::shared_ptr<const Character>& character, test::Rand
     TornOnce torn{pose, std::move(*model), {}};
     for (const WeightErrors::OfPoint& point : errors->points)
       torn.points.push_back(describe_point(*character, torn.model, point.mesh, point.vertex));
-    if (std::any_of(torn.points.begin(), torn.points.end(), [](const TornPoint& p) { return p.exact.terms().size() > 1; }))
+    if (std::any_of(torn.points.begin(), torn.points.end(),
+                    [](const TornPoint& p) { return p.exact.terms().size() > 1; }))
       return torn;
   }
   std::fprintf(stderr, "%s: no stroke tears it\n", character->name.c_str());
   std::exit(1);
 }
 
-std::optional<Poses> make_poses(const std::shared_ptr<const Character>& character, const PoseSetSpec& spec) {
+std::optional<Poses> make_poses(const std::shared_ptr<const Character>& character,
+                                const PoseSetSpec& spec) {
   const auto set = PoseSet::create(character, spec);
   if (!set) return std::nullopt;
   Poses poses{spec, {}, {}};
-  for (const auto& [role, into] : {std::pair(PoseSet::Role::fit, &poses.fit), std::pair(PoseSet::Role::held_out, &poses.held_out)})
+  for (const auto& [role, into] : {std::pair(PoseSet::Role::fit, &poses.fit),
+                                   std::pair(PoseSet::Role::held_out, &poses.held_out)})
     for (std::size_t i = 0; i < set->size(role); ++i) set->compute(role, i, into->emplace_back());
   return poses;
 }
@@ -106,10 +111,13 @@ WeightsModel make_model(std::string name, Character from) {
     std::exit(1);
   }
   model.range_of_motion = std::move(*range_of_motion);
-  std::fprintf(stderr, "%s: %u bones, %zu points of %d tears; poses of clips: %zu, held out %zu; of turning joints: %zu, %zu\n",
-               model.name.c_str(), static_cast<unsigned>(model.character->skeleton.bones.size()), model.point_count(), kTears,
-               model.clips ? model.clips->fit.size() : 0, model.clips ? model.clips->held_out.size() : 0,
-               model.range_of_motion.fit.size(), model.range_of_motion.held_out.size());
+  std::fprintf(stderr,
+               "%s: %u bones, %zu points of %d tears; poses of clips: %zu, held out %zu; of "
+               "turning joints: %zu, %zu\n",
+               model.name.c_str(), static_cast<unsigned>(model.character->skeleton.bones.size()),
+               model.point_count(), kTears, model.clips ? model.clips->fit.size() : 0,
+               model.clips ? model.clips->held_out.size() : 0, model.range_of_motion.fit.size(),
+               model.range_of_motion.held_out.size());
   return model;
 }
 
@@ -125,7 +133,8 @@ Vec3d TornPoint::posed(const Character& source, std::span<const Affine3d> model_
                        std::span<const float> morph_weights) const {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (std::size_t k = 0; k < 3; ++k)
-    sum += barycentric[k] * deform_position_reference(source.meshes[mesh], corners[k], model_from_bind, morph_weights);
+    sum += barycentric[k] * deform_position_reference(source.meshes[mesh], corners[k],
+                                                      model_from_bind, morph_weights);
   return sum;
 }
 
@@ -139,8 +148,8 @@ std::vector<WeightsModel> make_weights_models() {
   std::vector<WeightsModel> models;
   models.push_back(make_model("tube", test::make_tube(24, 16, 8)));
 #if SUNDER_BENCH_IO
-  for (const char* name :
-       {"cactoro.glb", "mannequiny.glb", "cesium_man.dae", "fox.glb", "robot_expressive.glb", "soft_tube_14bones.fbx"}) {
+  for (const char* name : {"cactoro.glb", "mannequiny.glb", "cesium_man.dae", "fox.glb",
+                           "robot_expressive.glb", "soft_tube_14bones.fbx"}) {
     const std::filesystem::path file = std::filesystem::path(SUNDER_SHARED_MODELS "/rigged") / name;
     if (!std::filesystem::exists(file)) {
       std::fprintf(stderr, "%s is not there, and left out\n", file.string().c_str());

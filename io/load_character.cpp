@@ -22,18 +22,22 @@ std::string extension_of(const std::filesystem::path& file) {
   return extension;
 }
 
-Result<LoadedCharacter> load_gltf(const std::filesystem::path& file, bool is_glb, const LoadOptions& options) {
+Result<LoadedCharacter> load_gltf(const std::filesystem::path& file, bool is_glb,
+                                  const LoadOptions& options) {
   const auto content = gltf::read_file(file, options.maximum_bytes, "file");
-  if (content.empty()) return Status::failure(StatusCode::malformed_file, kNone, "the file is empty");
+  if (content.empty())
+    return Status::failure(StatusCode::malformed_file, kNone, "the file is empty");
   if (gltf::has_glb_magic(content) != is_glb)
-    return Status::failure(StatusCode::unsupported_format, kNone, "the file's name says %s, its content does not",
+    return Status::failure(StatusCode::unsupported_format, kNone,
+                           "the file's name says %s, its content does not",
                            is_glb ? "GLB" : "glTF text");
   std::filesystem::path folder = file.parent_path();
   return gltf::read_character(content, folder.empty() ? "." : folder, options);
 }
 
 /// Other formats arrive as a GLB in memory, which refers to no file.
-Result<LoadedCharacter> load_by_assimp(const std::filesystem::path& file, const LoadOptions& options) {
+Result<LoadedCharacter> load_by_assimp(const std::filesystem::path& file,
+                                       const LoadOptions& options) {
   auto imported = assimp_import::import_as_glb(file, options);
   if (!imported) return imported.error();
   auto loaded = gltf::read_character(imported->glb, {}, options);
@@ -48,10 +52,12 @@ Result<LoadedCharacter> load_by_assimp(const std::filesystem::path& file, const 
 
 }  // namespace
 
-Result<LoadedCharacter> load_character(const std::filesystem::path& file, const LoadOptions& options) {
+Result<LoadedCharacter> load_character(const std::filesystem::path& file,
+                                       const LoadOptions& options) {
   return gltf::without_exceptions<LoadedCharacter>([&]() -> Result<LoadedCharacter> {
     const std::string extension = extension_of(file);
-    if (extension == ".glb" || extension == ".gltf") return load_gltf(file, extension == ".glb", options);
+    if (extension == ".glb" || extension == ".gltf")
+      return load_gltf(file, extension == ".glb", options);
     return load_by_assimp(file, options);
   });
 }

@@ -9,7 +9,8 @@ namespace sunder::assimp_import {
 
 namespace fs = std::filesystem;
 
-AssetFolder::AssetFolder(const fs::path& folder, std::uint64_t maximum_bytes) : budget_(maximum_bytes) {
+AssetFolder::AssetFolder(const fs::path& folder, std::uint64_t maximum_bytes)
+    : budget_(maximum_bytes) {
   std::error_code error;
   folder_ = fs::canonical(folder, error);
 }
@@ -18,11 +19,15 @@ Result<fs::path> AssetFolder::resolve(std::string_view reference) const {
   std::string text(reference.substr(0, reference.find('\0')));
   std::replace(text.begin(), text.end(), '\\', '/');
   std::error_code error;
-  const fs::path file = fs::weakly_canonical(folder_ / text, error);  // An absolute reference replaces the folder.
-  if (error || folder_.empty()) return Status::failure(StatusCode::file_not_found, kNone, "no file '%s'", text.c_str());
-  const auto [end_of_folder, rest] = std::mismatch(folder_.begin(), folder_.end(), file.begin(), file.end());
+  const fs::path file =
+      fs::weakly_canonical(folder_ / text, error);  // An absolute reference replaces the folder.
+  if (error || folder_.empty())
+    return Status::failure(StatusCode::file_not_found, kNone, "no file '%s'", text.c_str());
+  const auto [end_of_folder, rest] =
+      std::mismatch(folder_.begin(), folder_.end(), file.begin(), file.end());
   if (end_of_folder != folder_.end())
-    return Status::failure(StatusCode::path_not_allowed, kNone, "'%s' is outside the model's own folder", text.c_str());
+    return Status::failure(StatusCode::path_not_allowed, kNone,
+                           "'%s' is outside the model's own folder", text.c_str());
   if (!fs::is_regular_file(file, error) || error)
     return Status::failure(StatusCode::file_not_found, kNone, "no file '%s'", text.c_str());
   return file;
@@ -33,7 +38,8 @@ Status AssetFolder::charge(const fs::path& file) {
   std::error_code error;
   const std::uint64_t bytes = fs::file_size(file, error);
   if (error || bytes > budget_)
-    return Status::failure(StatusCode::limit_exceeded, kNone, "'%s' and what it refers to exceed the size limit",
+    return Status::failure(StatusCode::limit_exceeded, kNone,
+                           "'%s' and what it refers to exceed the size limit",
                            file.filename().c_str());
   budget_ -= bytes;
   charged_.insert(file);

@@ -12,8 +12,8 @@
 
 namespace sunder::assimp_import {
 
-/// The only place that an import reads from: regular files in the model's own folder and below, within a budget of bytes.
-/// Links are followed before the check, so none leads out.
+/// The only place that an import reads from: regular files in the model's own folder and below,
+/// within a budget of bytes. Links are followed before the check, so none leads out.
 class AssetFolder {
  public:
   AssetFolder(const std::filesystem::path& folder, std::uint64_t maximum_bytes);

@@ -7,7 +7,8 @@
 namespace sunder::assimp_import {
 namespace {
 
-/// bone_from_mesh such that the bone at `model_from_bone` leaves the mesh where its own node puts it.
+/// bone_from_mesh such that the bone at `model_from_bone` leaves the mesh where its own node puts
+/// it.
 Mat4d offset_at_rest(const Mat4d& model_from_bone, const Mat4d& model_from_mesh) {
   if (!is_usable_bind(model_from_bone)) return Mat4d::Identity();
   return model_from_bone.inverse() * model_from_mesh;
@@ -15,8 +16,8 @@ Mat4d offset_at_rest(const Mat4d& model_from_bone, const Mat4d& model_from_mesh)
 
 }  // namespace
 
-std::vector<BoneBinding> bind_bones(const aiMesh& mesh, std::uint32_t mesh_node, const std::string& place, SceneTree& tree,
-                                    Notes& notes) {
+std::vector<BoneBinding> bind_bones(const aiMesh& mesh, std::uint32_t mesh_node,
+                                    const std::string& place, SceneTree& tree, Notes& notes) {
   std::vector<BoneBinding> bindings(mesh.mNumBones);
   std::map<std::uint32_t, Mat4f> offset_of_node;
   for (unsigned i = 0; i < mesh.mNumBones; ++i) {
@@ -29,24 +30,29 @@ std::vector<BoneBinding> bind_bones(const aiMesh& mesh, std::uint32_t mesh_node,
 
     binding.node = tree.find(bone.mName);
     if (binding.node == kNone) {
-      const Mat4d model_from_bone = usable ? Mat4d(model_from_mesh * offset.inverse()) : model_from_mesh;
+      const Mat4d model_from_bone =
+          usable ? Mat4d(model_from_mesh * offset.inverse()) : model_from_mesh;
       const Mat4d model_from_root = tree[0].model_from_node;
-      const Mat4d root_from_bone =
-          is_usable_bind(model_from_root) ? Mat4d(model_from_root.inverse() * model_from_bone) : model_from_bone;
+      const Mat4d root_from_bone = is_usable_bind(model_from_root)
+                                       ? Mat4d(model_from_root.inverse() * model_from_bone)
+                                       : model_from_bone;
       binding.node = tree.add(0, valid_utf8(to_string(bone.mName)), root_from_bone, &bone.mName);
-      notes.repaired(StatusCode::not_found, place, "bones without a node of their name; added below the root");
+      notes.repaired(StatusCode::not_found, place,
+                     "bones without a node of their name; added below the root");
     }
     if (!usable) {
       offset = offset_at_rest(tree[binding.node].model_from_node, model_from_mesh);
-      notes.repaired(StatusCode::malformed_file, place,
-                     "bind matrices not finite, affine and invertible; recomputed from the rest pose");
+      notes.repaired(
+          StatusCode::malformed_file, place,
+          "bind matrices not finite, affine and invertible; recomputed from the rest pose");
     }
     offset.row(3) << 0.0, 0.0, 0.0, 1.0;
     binding.bone_from_mesh = offset.cast<float>();
 
     const auto [known, is_new] = offset_of_node.emplace(binding.node, binding.bone_from_mesh);
     if (!is_new && known->second != binding.bone_from_mesh) {
-      notes.repaired(StatusCode::malformed_file, place, "bones of one name with different bind matrices; the first one's taken");
+      notes.repaired(StatusCode::malformed_file, place,
+                     "bones of one name with different bind matrices; the first one's taken");
       binding.bone_from_mesh = known->second;
     }
   }

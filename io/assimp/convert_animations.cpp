@@ -19,8 +19,13 @@ struct Keys {
 
 class ClipWriter {
  public:
-  ClipWriter(const aiAnimation& source, std::string place, const SceneTree& tree, GlbBuilder& glb, Notes& notes)
-      : place_(std::move(place)), tree_(tree), glb_(glb), notes_(notes), ticks_per_second_(source.mTicksPerSecond) {
+  ClipWriter(const aiAnimation& source, std::string place, const SceneTree& tree, GlbBuilder& glb,
+             Notes& notes)
+      : place_(std::move(place)),
+        tree_(tree),
+        glb_(glb),
+        notes_(notes),
+        ticks_per_second_(source.mTicksPerSecond) {
     if (!(std::isfinite(ticks_per_second_) && ticks_per_second_ > 0.0)) {
       ticks_per_second_ = kAssumedTicksPerSecond;
       notes_.inform(place_, "no tick rate given; 25 a second assumed");
@@ -35,15 +40,17 @@ class ClipWriter {
     }
     const auto vector_value = [](const aiVectorKey& key, std::vector<float>& values) {
       values.insert(values.end(), {key.mValue.x, key.mValue.y, key.mValue.z});
-      return std::isfinite(key.mValue.x) && std::isfinite(key.mValue.y) && std::isfinite(key.mValue.z);
+      return std::isfinite(key.mValue.x) && std::isfinite(key.mValue.y) &&
+             std::isfinite(key.mValue.z);
     };
     const auto rotation_value = [](const aiQuatKey& key, std::vector<float>& values) {
-      Quatd rotation(static_cast<double>(key.mValue.w), static_cast<double>(key.mValue.x), static_cast<double>(key.mValue.y),
-                     static_cast<double>(key.mValue.z));
+      Quatd rotation(static_cast<double>(key.mValue.w), static_cast<double>(key.mValue.x),
+                     static_cast<double>(key.mValue.y), static_cast<double>(key.mValue.z));
       const double length = rotation.norm();
       if (!std::isfinite(length) || length < 1e-6) return false;
       rotation.coeffs() /= length;
-      // q and -q are one rotation; staying close to the key before keeps every kind of interpolation on the short way.
+      // q and -q are one rotation; staying close to the key before keeps every kind of
+      // interpolation on the short way.
       if (const std::size_t size = values.size(); size >= 4) {
         const float* before = values.data() + size - 4;
         double cosine = 0.0;
@@ -53,8 +60,10 @@ class ClipWriter {
       for (int i = 0; i < 4; ++i) values.push_back(static_cast<float>(rotation.coeffs()[i]));
       return true;
     };
-    write(node, "translation", 3, collect(channel.mPositionKeys, channel.mNumPositionKeys, vector_value));
-    write(node, "rotation", 4, collect(channel.mRotationKeys, channel.mNumRotationKeys, rotation_value));
+    write(node, "translation", 3,
+          collect(channel.mPositionKeys, channel.mNumPositionKeys, vector_value));
+    write(node, "rotation", 4,
+          collect(channel.mRotationKeys, channel.mNumRotationKeys, rotation_value));
     write(node, "scale", 3, collect(channel.mScalingKeys, channel.mNumScalingKeys, vector_value));
   }
 
@@ -62,7 +71,8 @@ class ClipWriter {
     // FBX: the node's name, an asterisk and a number; others the node's name alone.
     std::string name = to_string(channel.mName);
     const auto carries = [&](const MorphedNode& one) { return one.source_name == name; };
-    if (std::none_of(morphed.begin(), morphed.end(), carries)) name.resize(std::min(name.size(), name.rfind('*')));
+    if (std::none_of(morphed.begin(), morphed.end(), carries))
+      name.resize(std::min(name.size(), name.rfind('*')));
     bool found = false;
     for (const MorphedNode& one : morphed) {
       if (!carries(one)) continue;
@@ -73,13 +83,15 @@ class ClipWriter {
         if (key.mValues == nullptr || key.mWeights == nullptr) return true;
         for (unsigned i = 0; i < key.mNumValuesAndWeights; ++i) {
           if (!std::isfinite(key.mWeights[i])) return false;
-          if (key.mValues[i] < one.target_count) values[start + key.mValues[i]] = static_cast<float>(key.mWeights[i]);
+          if (key.mValues[i] < one.target_count)
+            values[start + key.mValues[i]] = static_cast<float>(key.mWeights[i]);
         }
         return true;
       };
       write(one.node, "weights", 1, collect(channel.mKeys, channel.mNumKeys, weights_value));
     }
-    if (!found) notes_.dropped(StatusCode::not_found, place_, "morph channels of meshes that do not exist");
+    if (!found)
+      notes_.dropped(StatusCode::not_found, place_, "morph channels of meshes that do not exist");
   }
 
   /// The animation; empty where nothing is driven.
@@ -108,7 +120,8 @@ class ClipWriter {
         result.times.push_back(time);
       }
     }
-    notes_.dropped(StatusCode::malformed_file, place_, "keys not later than the one before", out_of_order);
+    notes_.dropped(StatusCode::malformed_file, place_, "keys not later than the one before",
+                   out_of_order);
     notes_.dropped(StatusCode::malformed_file, place_, "keys before time zero", before_zero);
     notes_.dropped(StatusCode::non_finite_value, place_, "keys that are not finite", not_finite);
     return result;
@@ -117,21 +130,26 @@ class ClipWriter {
   void write(std::uint32_t node, const char* path, int components, const Keys& keys) {
     if (keys.times.empty()) return;
     if (!driven_.emplace(node, path).second) {
-      notes_.dropped(StatusCode::malformed_file, place_, "channels that drive what another channel drives");
+      notes_.dropped(StatusCode::malformed_file, place_,
+                     "channels that drive what another channel drives");
       return;
     }
     const std::uint32_t input = input_of(keys.times);
     const std::uint32_t output = glb_.add_floats(keys.values, components, GlbBuilder::Use::plain);
-    json_["samplers"].push_back({{"input", input}, {"interpolation", "LINEAR"}, {"output", output}});
-    json_["channels"].push_back({{"sampler", json_["samplers"].size() - 1}, {"target", {{"node", node}, {"path", path}}}});
+    json_["samplers"].push_back(
+        {{"input", input}, {"interpolation", "LINEAR"}, {"output", output}});
+    json_["channels"].push_back(
+        {{"sampler", json_["samplers"].size() - 1}, {"target", {{"node", node}, {"path", path}}}});
   }
 
   /// Channels mostly share their times; one accessor then serves them all.
   std::uint32_t input_of(const std::vector<float>& times) {
-    const auto known = std::find_if(inputs_.rbegin(), inputs_.rend(), [&](const auto& input) { return input.first == times; });
+    const auto known = std::find_if(inputs_.rbegin(), inputs_.rend(),
+                                    [&](const auto& input) { return input.first == times; });
     if (known != inputs_.rend()) return known->second;
     const std::uint32_t accessor = glb_.add_floats(times, 1, GlbBuilder::Use::plain, true);
-    if (inputs_.size() < 16) inputs_.emplace_back(times, accessor);  // Enough for the usual case, bounded for the others.
+    if (inputs_.size() < 16)
+      inputs_.emplace_back(times, accessor);  // Enough for the usual case, bounded for the others.
     return accessor;
   }
 
@@ -147,8 +165,8 @@ class ClipWriter {
 
 }  // namespace
 
-void convert_animations(const aiScene& scene, const SceneTree& tree, std::span<const MorphedNode> morphed, GlbBuilder& glb,
-                        Notes& notes) {
+void convert_animations(const aiScene& scene, const SceneTree& tree,
+                        std::span<const MorphedNode> morphed, GlbBuilder& glb, Notes& notes) {
   for (unsigned i = 0; i < scene.mNumAnimations; ++i) {
     const aiAnimation& source = *scene.mAnimations[i];
     const std::string name = valid_utf8(to_string(source.mName));
@@ -159,7 +177,8 @@ void convert_animations(const aiScene& scene, const SceneTree& tree, std::span<c
     for (unsigned k = 0; k < source.mNumMorphMeshChannels; ++k)
       if (source.mMorphMeshChannels[k] != nullptr) clip.add(*source.mMorphMeshChannels[k], morphed);
     if (source.mNumMeshChannels > 0)
-      notes.dropped(StatusCode::unsupported_feature, place, "mesh-swapping channels", source.mNumMeshChannels);
+      notes.dropped(StatusCode::unsupported_feature, place, "mesh-swapping channels",
+                    source.mNumMeshChannels);
     Json json = clip.take();
     if (json.empty()) {
       notes.dropped(StatusCode::empty_input, place, "animations that drive nothing");

@@ -9,9 +9,10 @@
 
 namespace sunder::assimp_import {
 
-/// Writes every animation that drives something: node transforms and morph weights, linear, in seconds. Keys that do not come later
-/// than the one before, lie before zero or are not finite are dropped, never sorted.
-void convert_animations(const aiScene& scene, const SceneTree& tree, std::span<const MorphedNode> morphed, GlbBuilder& glb,
-                        Notes& notes);
+/// Writes every animation that drives something: node transforms and morph weights, linear, in
+/// seconds. Keys that do not come later than the one before, lie before zero or are not finite are
+/// dropped, never sorted.
+void convert_animations(const aiScene& scene, const SceneTree& tree,
+                        std::span<const MorphedNode> morphed, GlbBuilder& glb, Notes& notes);
 
 }  // namespace sunder::assimp_import

@@ -17,7 +17,8 @@ namespace {
 std::vector<std::string> morph_names(const aiMesh& mesh) {
   std::vector<std::string> names;
   for (unsigned i = 0; i < mesh.mNumAnimMeshes; ++i)
-    if (mesh.mAnimMeshes[i] != nullptr) names.push_back(valid_utf8(to_string(mesh.mAnimMeshes[i]->mName)));
+    if (mesh.mAnimMeshes[i] != nullptr)
+      names.push_back(valid_utf8(to_string(mesh.mAnimMeshes[i]->mName)));
   return names;
 }
 
@@ -26,7 +27,8 @@ struct Group {
   bool is_skinned = false;
   std::vector<std::string> targets;
   std::map<std::uint32_t, Mat4f> bone_from_mesh_of_node;
-  std::vector<std::pair<std::uint32_t, std::vector<BoneBinding>>> meshes;  ///< aiMesh index, its bones.
+  std::vector<std::pair<std::uint32_t, std::vector<BoneBinding>>>
+      meshes;  ///< aiMesh index, its bones.
 
   [[nodiscard]] bool accepts(bool skinned, const std::vector<std::string>& wanted_targets,
                              const std::vector<BoneBinding>& bones) const {
@@ -40,8 +42,9 @@ struct Group {
 
 class Converter {
  public:
-  Converter(const aiScene& scene, const std::vector<bool>& is_de_indexed, const std::string& extension, SceneTree& tree,
-            MaterialWriter& materials, GlbBuilder& glb, Notes& notes)
+  Converter(const aiScene& scene, const std::vector<bool>& is_de_indexed,
+            const std::string& extension, SceneTree& tree, MaterialWriter& materials,
+            GlbBuilder& glb, Notes& notes)
       : scene_(scene),
         is_de_indexed_(is_de_indexed),
         extension_(extension),
@@ -56,7 +59,8 @@ class Converter {
       if (tree_[node].source == nullptr) continue;
       bool is_first = true;
       for (const Group& group : groups_of(node)) {
-        const std::uint32_t carrier = is_first ? node : tree_.add(node, tree_[node].name + "_mesh", Mat4d::Identity());
+        const std::uint32_t carrier =
+            is_first ? node : tree_.add(node, tree_[node].name + "_mesh", Mat4d::Identity());
         if (convert(group, carrier, node)) is_first = false;
       }
     }
@@ -65,7 +69,8 @@ class Converter {
 
  private:
   [[nodiscard]] std::string place_of(std::uint32_t mesh) const {
-    return "mesh " + std::to_string(mesh) + " '" + valid_utf8(to_string(scene_.mMeshes[mesh]->mName)) + "'";
+    return "mesh " + std::to_string(mesh) + " '" +
+           valid_utf8(to_string(scene_.mMeshes[mesh]->mName)) + "'";
   }
 
   std::vector<Group> groups_of(std::uint32_t node) {
@@ -76,18 +81,24 @@ class Converter {
       if (index >= scene_.mNumMeshes || scene_.mMeshes[index] == nullptr) continue;
       const aiMesh& mesh = *scene_.mMeshes[index];
       std::vector<BoneBinding> bones;
-      if (mesh.mNumBones > 0 && mesh.mBones != nullptr) bones = bind_bones(mesh, node, place_of(index), tree_, notes_);
+      if (mesh.mNumBones > 0 && mesh.mBones != nullptr)
+        bones = bind_bones(mesh, node, place_of(index), tree_, notes_);
       std::erase_if(bones, [](const BoneBinding& bone) { return bone.node == kNone; });
       const bool is_skinned = !bones.empty();
       std::vector<std::string> targets = morph_names(mesh);
 
-      auto group =
-          std::find_if(groups.begin(), groups.end(), [&](const Group& one) { return one.accepts(is_skinned, targets, bones); });
+      auto group = std::find_if(groups.begin(), groups.end(), [&](const Group& one) {
+        return one.accepts(is_skinned, targets, bones);
+      });
       if (group == groups.end()) {
-        groups.push_back({.is_skinned = is_skinned, .targets = std::move(targets), .bone_from_mesh_of_node = {}, .meshes = {}});
+        groups.push_back({.is_skinned = is_skinned,
+                          .targets = std::move(targets),
+                          .bone_from_mesh_of_node = {},
+                          .meshes = {}});
         group = groups.end() - 1;
       }
-      for (const BoneBinding& bone : bones) group->bone_from_mesh_of_node.emplace(bone.node, bone.bone_from_mesh);
+      for (const BoneBinding& bone : bones)
+        group->bone_from_mesh_of_node.emplace(bone.node, bone.bone_from_mesh);
       group->meshes.emplace_back(index, std::move(bones));
     }
     return groups;
@@ -124,7 +135,8 @@ class Converter {
     generate_missing_normals(parts, notes_);
     for (std::size_t i = 0; i < parts.size(); ++i)
       if (is_de_indexed_[part_mesh_[i]]) weld_identical(parts[i]);
-    if (group.is_skinned) check_skin(slots, parts, source_node, place_of(part_mesh_[0]), tree_, notes_);
+    if (group.is_skinned)
+      check_skin(slots, parts, source_node, place_of(part_mesh_[0]), tree_, notes_);
 
     const std::uint32_t mesh = write_mesh(group, parts, slots);
     tree_[carrier].json["mesh"] = mesh;
@@ -146,7 +158,8 @@ class Converter {
         std::size_t next = 0;
         for (unsigned b = 0; b < mesh.mNumBones; ++b) {
           if (mesh.mBones[b] == nullptr) continue;  // Such bones have no binding either.
-          const auto slot = std::lower_bound(slots.nodes.begin(), slots.nodes.end(), bones[next++].node);
+          const auto slot =
+              std::lower_bound(slots.nodes.begin(), slots.nodes.end(), bones[next++].node);
           slot_of_bone[b] = static_cast<std::uint32_t>(slot - slots.nodes.begin());
         }
         part.weights = read_weights(mesh, slot_of_bone, part.place, notes_);
@@ -159,16 +172,20 @@ class Converter {
 
   std::uint32_t skin_of(const SkinSlots& slots) {
     for (std::uint32_t i = 0; i < skins_.size(); ++i)
-      if (skins_[i].nodes == slots.nodes && skins_[i].bone_from_mesh == slots.bone_from_mesh) return i;
+      if (skins_[i].nodes == slots.nodes && skins_[i].bone_from_mesh == slots.bone_from_mesh)
+        return i;
     skins_.push_back(slots);
-    return glb_.append("skins", {{"inverseBindMatrices", glb_.add_matrices(slots.bone_from_mesh)}, {"joints", slots.nodes}});
+    return glb_.append("skins", {{"inverseBindMatrices", glb_.add_matrices(slots.bone_from_mesh)},
+                                 {"joints", slots.nodes}});
   }
 
-  std::uint32_t write_mesh(const Group& group, std::vector<MeshPart>& parts, const SkinSlots& slots) {
+  std::uint32_t write_mesh(const Group& group, std::vector<MeshPart>& parts,
+                           const SkinSlots& slots) {
     Json mesh = Json::object();
     const std::string name = valid_utf8(to_string(scene_.mMeshes[part_mesh_[0]]->mName));
     if (!name.empty()) mesh["name"] = name;
-    for (MeshPart& part : parts) mesh["primitives"].push_back(write_primitive(part, group.targets.size(), slots.nodes.size()));
+    for (MeshPart& part : parts)
+      mesh["primitives"].push_back(write_primitive(part, group.targets.size(), slots.nodes.size()));
     if (!group.targets.empty()) {
       mesh["weights"] = default_weights(*scene_.mMeshes[part_mesh_[0]]);
       mesh["extras"]["targetNames"] = group.targets;
@@ -180,16 +197,20 @@ class Converter {
     Json primitive = {{"attributes", Json::object()}};
     if (target_count > 0) primitive["targets"] = Json(target_count, Json::object());
     for (const Stream& stream : part.streams) {
-      Json& attributes = stream.target == kNone ? primitive["attributes"] : primitive["targets"][stream.target];
+      Json& attributes =
+          stream.target == kNone ? primitive["attributes"] : primitive["targets"][stream.target];
       attributes[stream.semantic] =
-          glb_.add_floats(stream.values, stream.components, GlbBuilder::Use::vertex_attribute, stream.semantic == "POSITION");
+          glb_.add_floats(stream.values, stream.components, GlbBuilder::Use::vertex_attribute,
+                          stream.semantic == "POSITION");
     }
     if (joint_count > 0) write_weights(part, joint_count, primitive["attributes"]);
     std::vector<std::uint32_t> indices;
     indices.reserve(part.triangles.size() * 3);
-    for (const Triangle& triangle : part.triangles) indices.insert(indices.end(), triangle.begin(), triangle.end());
+    for (const Triangle& triangle : part.triangles)
+      indices.insert(indices.end(), triangle.begin(), triangle.end());
     primitive["indices"] = glb_.add_indices(indices);
-    if (const auto material = materials_.material_for(part.material, part.texcoord_of_channel)) primitive["material"] = *material;
+    if (const auto material = materials_.material_for(part.material, part.texcoord_of_channel))
+      primitive["material"] = *material;
     return primitive;
   }
 
@@ -210,7 +231,8 @@ class Converter {
       }
       const std::string number = std::to_string(set);
       attributes["JOINTS_" + number] = glb_.add_joints(joints, joint_count);
-      attributes["WEIGHTS_" + number] = glb_.add_floats(weights, 4, GlbBuilder::Use::vertex_attribute);
+      attributes["WEIGHTS_" + number] =
+          glb_.add_floats(weights, 4, GlbBuilder::Use::vertex_attribute);
     }
   }
 
@@ -218,17 +240,21 @@ class Converter {
     Json weights = Json::array();
     for (unsigned i = 0; i < mesh.mNumAnimMeshes; ++i) {
       if (mesh.mAnimMeshes[i] == nullptr) continue;
-      // assimp's FBX loader says 1 for most channels, whatever the file says; FBX characters rest at 0.
+      // assimp's FBX loader says 1 for most channels, whatever the file says; FBX characters rest
+      // at 0.
       const float weight = extension_ == "fbx" ? 0.0f : mesh.mAnimMeshes[i]->mWeight;
       weights.push_back(std::isfinite(weight) ? static_cast<double>(weight) : 0.0);
     }
-    if (extension_ == "fbx") notes_.inform(place_of(part_mesh_[0]), "default morph weights are not imported; taken as zero");
+    if (extension_ == "fbx")
+      notes_.inform(place_of(part_mesh_[0]),
+                    "default morph weights are not imported; taken as zero");
     return weights;
   }
 
   void add_morphed(const Group& group, std::uint32_t carrier, std::uint32_t source_node) {
     if (group.targets.empty()) return;
-    morphed_.push_back({carrier, to_string(tree_[source_node].source->mName), static_cast<std::uint32_t>(group.targets.size())});
+    morphed_.push_back({carrier, to_string(tree_[source_node].source->mName),
+                        static_cast<std::uint32_t>(group.targets.size())});
   }
 
   const aiScene& scene_;
@@ -241,15 +267,17 @@ class Converter {
 
   std::vector<SkinSlots> skins_;  ///< As written.
   std::map<std::vector<std::uint32_t>, std::uint32_t>
-      mesh_of_sources_;                   ///< glTF mesh by skin and aiMeshes; kNone: nothing to draw.
+      mesh_of_sources_;  ///< glTF mesh by skin and aiMeshes; kNone: nothing to draw.
   std::vector<std::uint32_t> part_mesh_;  ///< aiMesh of each part at hand.
   std::vector<MorphedNode> morphed_;
 };
 
 }  // namespace
 
-std::vector<MorphedNode> convert_meshes(const aiScene& scene, const std::vector<bool>& is_de_indexed, const std::string& extension,
-                                        SceneTree& tree, MaterialWriter& materials, GlbBuilder& glb, Notes& notes) {
+std::vector<MorphedNode> convert_meshes(const aiScene& scene,
+                                        const std::vector<bool>& is_de_indexed,
+                                        const std::string& extension, SceneTree& tree,
+                                        MaterialWriter& materials, GlbBuilder& glb, Notes& notes) {
   return Converter(scene, is_de_indexed, extension, tree, materials, glb, notes).convert_all();
 }
 

@@ -23,8 +23,8 @@ std::string format_name(const std::string& extension) {
   else
     std::transform(format.begin(), format.end(), format.begin(),
                    [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-  return format + " by assimp " + std::to_string(aiGetVersionMajor()) + "." + std::to_string(aiGetVersionMinor()) + "." +
-         std::to_string(aiGetVersionPatch());
+  return format + " by assimp " + std::to_string(aiGetVersionMajor()) + "." +
+         std::to_string(aiGetVersionMinor()) + "." + std::to_string(aiGetVersionPatch());
 }
 
 }  // namespace
@@ -43,18 +43,23 @@ ImportedGlb read_and_convert(const std::filesystem::path& file, const LoadOption
   result.report.space = space.description;
 
   GlbBuilder glb(options.maximum_bytes);
-  glb.document["asset"] = {{"version", "2.0"}, {"generator", "Sunder, from " + result.report.format}};
+  glb.document["asset"] = {{"version", "2.0"},
+                           {"generator", "Sunder, from " + result.report.format}};
   SceneTree tree(scene, space, notes);
   MaterialWriter materials(scene, folder, glb, notes);
-  const std::vector<MorphedNode> morphed = convert_meshes(scene, read.is_de_indexed, extension, tree, materials, glb, notes);
+  const std::vector<MorphedNode> morphed =
+      convert_meshes(scene, read.is_de_indexed, extension, tree, materials, glb, notes);
   if (!glb.document.contains("meshes"))
-    throw ImportFailure{Status::failure(StatusCode::empty_input, kNone, "%s: no triangles", file.filename().c_str())};
+    throw ImportFailure{Status::failure(StatusCode::empty_input, kNone, "%s: no triangles",
+                                        file.filename().c_str())};
   convert_animations(scene, tree, morphed, glb, notes);
   if (scene.mNumCameras + scene.mNumLights > 0)
-    notes.inform("scene", "cameras and lights are not imported", scene.mNumCameras + scene.mNumLights);
+    notes.inform("scene", "cameras and lights are not imported",
+                 scene.mNumCameras + scene.mNumLights);
   tree.write(glb);
 
-  if (const Status fault = notes.first_fault(); options.strict && !fault) throw ImportFailure{fault};
+  if (const Status fault = notes.first_fault(); options.strict && !fault)
+    throw ImportFailure{fault};
   result.report.notes = notes.all();
   result.glb = glb.finish();
   return result;

@@ -8,8 +8,9 @@
 
 namespace sunder::assimp_import {
 
-/// The work of the child process: reads the file by assimp and converts the whole scene. Throws ImportFailure and whatever assimp
-/// throws.
-[[nodiscard]] ImportedGlb read_and_convert(const std::filesystem::path& file, const LoadOptions& options);
+/// The work of the child process: reads the file by assimp and converts the whole scene. Throws
+/// ImportFailure and whatever assimp throws.
+[[nodiscard]] ImportedGlb read_and_convert(const std::filesystem::path& file,
+                                           const LoadOptions& options);
 
 }  // namespace sunder::assimp_import

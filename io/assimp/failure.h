@@ -4,7 +4,8 @@
 
 namespace sunder::assimp_import {
 
-/// Ends the conversion with a status. Thrown and caught inside the child process only, where assimp throws anyway.
+/// Ends the conversion with a status. Thrown and caught inside the child process only, where assimp
+/// throws anyway.
 struct ImportFailure {
   Status status;
 };

@@ -21,7 +21,8 @@ const char* vector_type(int components) {
   return kTypes[components - 1];
 }
 
-void append_chunk(std::vector<std::byte>& glb, std::uint32_t type, std::span<const std::byte> content, std::byte padding) {
+void append_chunk(std::vector<std::byte>& glb, std::uint32_t type,
+                  std::span<const std::byte> content, std::byte padding) {
   const std::size_t padded = (content.size() + 3) / 4 * 4;
   const std::uint32_t head[2] = {static_cast<std::uint32_t>(padded), type};
   const auto head_bytes = std::as_bytes(std::span(head));
@@ -44,7 +45,8 @@ std::uint32_t GlbBuilder::add_bytes(std::span<const std::byte> bytes, int target
   // A quarter GiB below what 32-bit chunk lengths can say is left to the JSON.
   const std::uint64_t most = std::min<std::uint64_t>(maximum_bytes_, 0xF000'0000u);
   if (bytes.size() > most - std::min<std::uint64_t>(most, offset))
-    throw ImportFailure{Status::failure(StatusCode::limit_exceeded, kNone, "the imported model is larger than %llu bytes",
+    throw ImportFailure{Status::failure(StatusCode::limit_exceeded, kNone,
+                                        "the imported model is larger than %llu bytes",
                                         static_cast<unsigned long long>(most))};
   binary_.insert(binary_.end(), bytes.begin(), bytes.end());
   Json view = {{"buffer", 0}, {"byteOffset", offset}, {"byteLength", bytes.size()}};
@@ -52,16 +54,20 @@ std::uint32_t GlbBuilder::add_bytes(std::span<const std::byte> bytes, int target
   return append("bufferViews", std::move(view));
 }
 
-std::uint32_t GlbBuilder::add_accessor(std::span<const std::byte> bytes, int target, int component_type, const char* type,
-                                       std::size_t count) {
+std::uint32_t GlbBuilder::add_accessor(std::span<const std::byte> bytes, int target,
+                                       int component_type, const char* type, std::size_t count) {
   const std::uint32_t view = add_bytes(bytes, target);
-  return append("accessors", {{"bufferView", view}, {"componentType", component_type}, {"count", count}, {"type", type}});
+  return append(
+      "accessors",
+      {{"bufferView", view}, {"componentType", component_type}, {"count", count}, {"type", type}});
 }
 
-std::uint32_t GlbBuilder::add_floats(std::span<const float> values, int components, Use use, bool with_bounds) {
+std::uint32_t GlbBuilder::add_floats(std::span<const float> values, int components, Use use,
+                                     bool with_bounds) {
   const auto width = static_cast<std::size_t>(components);
-  const std::uint32_t accessor = add_accessor(std::as_bytes(values), use == Use::vertex_attribute ? kArrayBuffer : 0, kFloat,
-                                              vector_type(components), values.size() / width);
+  const std::uint32_t accessor =
+      add_accessor(std::as_bytes(values), use == Use::vertex_attribute ? kArrayBuffer : 0, kFloat,
+                   vector_type(components), values.size() / width);
   if (with_bounds) {
     std::vector<float> least(values.begin(), values.begin() + components), most = least;
     for (std::size_t i = 0; i < values.size(); ++i) {
@@ -81,19 +87,24 @@ std::uint32_t GlbBuilder::add_matrices(std::span<const Mat4f> matrices) {
 std::uint32_t GlbBuilder::add_indices(std::span<const std::uint32_t> indices) {
   // 65535 is not an index: it restarts a strip.
   if (indices.empty() || *std::max_element(indices.begin(), indices.end()) >= 0xFFFF)
-    return add_accessor(std::as_bytes(indices), kElementArrayBuffer, kInt, "SCALAR", indices.size());
+    return add_accessor(std::as_bytes(indices), kElementArrayBuffer, kInt, "SCALAR",
+                        indices.size());
   std::vector<std::uint16_t> narrow;
   narrow.reserve(indices.size());
   for (const std::uint32_t index : indices) narrow.push_back(static_cast<std::uint16_t>(index));
-  return add_accessor(std::as_bytes(std::span(narrow)), kElementArrayBuffer, kShort, "SCALAR", narrow.size());
+  return add_accessor(std::as_bytes(std::span(narrow)), kElementArrayBuffer, kShort, "SCALAR",
+                      narrow.size());
 }
 
-std::uint32_t GlbBuilder::add_joints(std::span<const std::uint16_t> joints, std::size_t joint_count) {
-  if (joint_count > 256) return add_accessor(std::as_bytes(joints), kArrayBuffer, kShort, "VEC4", joints.size() / 4);
+std::uint32_t GlbBuilder::add_joints(std::span<const std::uint16_t> joints,
+                                     std::size_t joint_count) {
+  if (joint_count > 256)
+    return add_accessor(std::as_bytes(joints), kArrayBuffer, kShort, "VEC4", joints.size() / 4);
   std::vector<std::uint8_t> narrow;
   narrow.reserve(joints.size());
   for (const std::uint16_t joint : joints) narrow.push_back(static_cast<std::uint8_t>(joint));
-  return add_accessor(std::as_bytes(std::span(narrow)), kArrayBuffer, kByte, "VEC4", narrow.size() / 4);
+  return add_accessor(std::as_bytes(std::span(narrow)), kArrayBuffer, kByte, "VEC4",
+                      narrow.size() / 4);
 }
 
 std::vector<std::byte> GlbBuilder::finish() {
@@ -106,7 +117,8 @@ std::vector<std::byte> GlbBuilder::finish() {
   append_chunk(glb, 0x4E4F534A, std::as_bytes(std::span(text)), std::byte{' '});
   if (!binary_.empty()) append_chunk(glb, 0x004E4942, binary_, std::byte{0});
   if (glb.size() > std::min<std::uint64_t>(maximum_bytes_, 0xFFFF'FFFFu))
-    throw ImportFailure{Status::failure(StatusCode::limit_exceeded, kNone, "the imported model is larger than the size limit")};
+    throw ImportFailure{Status::failure(StatusCode::limit_exceeded, kNone,
+                                        "the imported model is larger than the size limit")};
   const std::uint32_t head[3] = {0x46546C67, 2, static_cast<std::uint32_t>(glb.size())};
   std::memcpy(glb.data(), head, sizeof head);
   return glb;

@@ -24,7 +24,8 @@ class GlbBuilder {
   enum class Use { vertex_attribute, plain };
 
   /// Each returns the new accessor's index. `components` is 1 to 4, a scalar or a vector.
-  std::uint32_t add_floats(std::span<const float> values, int components, Use use, bool with_bounds = false);
+  std::uint32_t add_floats(std::span<const float> values, int components, Use use,
+                           bool with_bounds = false);
   std::uint32_t add_matrices(std::span<const Mat4f> matrices);
   std::uint32_t add_indices(std::span<const std::uint32_t> indices);
   /// Four to a vertex; bytes where `joint_count` allows.
@@ -39,7 +40,8 @@ class GlbBuilder {
   [[nodiscard]] std::vector<std::byte> finish();
 
  private:
-  std::uint32_t add_accessor(std::span<const std::byte> bytes, int target, int component_type, const char* type, std::size_t count);
+  std::uint32_t add_accessor(std::span<const std::byte> bytes, int target, int component_type,
+                             const char* type, std::size_t count);
 
   std::uint64_t maximum_bytes_;
   std::vector<std::byte> binary_;

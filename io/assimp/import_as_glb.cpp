@@ -32,14 +32,18 @@ Status check_file(const fs::path& file, const LoadOptions& options) {
   if (error || status.type() != fs::file_type::regular || !std::ifstream(file, std::ios::binary))
     return Status::failure(StatusCode::file_unreadable, kNone, "cannot read '%s'", name.c_str());
   const std::uintmax_t bytes = fs::file_size(file, error);
-  if (error) return Status::failure(StatusCode::file_unreadable, kNone, "cannot read '%s'", name.c_str());
-  if (bytes == 0) return Status::failure(StatusCode::empty_input, kNone, "%s: the file is empty", name.c_str());
+  if (error)
+    return Status::failure(StatusCode::file_unreadable, kNone, "cannot read '%s'", name.c_str());
+  if (bytes == 0)
+    return Status::failure(StatusCode::empty_input, kNone, "%s: the file is empty", name.c_str());
   if (bytes > options.maximum_bytes)
-    return Status::failure(StatusCode::limit_exceeded, kNone, "%s: %llu bytes, the limit is %llu", name.c_str(),
-                           static_cast<unsigned long long>(bytes), static_cast<unsigned long long>(options.maximum_bytes));
+    return Status::failure(StatusCode::limit_exceeded, kNone, "%s: %llu bytes, the limit is %llu",
+                           name.c_str(), static_cast<unsigned long long>(bytes),
+                           static_cast<unsigned long long>(options.maximum_bytes));
   const std::string extension = lower_extension(file);
   if (extension == "gltf" || extension == "glb" || extension == "vrm")
-    return Status::failure(StatusCode::unsupported_format, kNone, "%s: glTF is not read by assimp", name.c_str());
+    return Status::failure(StatusCode::unsupported_format, kNone, "%s: glTF is not read by assimp",
+                           name.c_str());
   return {};
 }
 
@@ -48,24 +52,28 @@ std::string encode_head(const Status& status, const LoadReport& report) {
   head["format"] = report.format;
   head["space"] = report.space;
   head["notes"] = json::array();
-  for (const LoadNote& note : report.notes) head["notes"].push_back({note.kind, note.place, note.text, note.count});
+  for (const LoadNote& note : report.notes)
+    head["notes"].push_back({note.kind, note.place, note.text, note.count});
   return head.dump(-1, ' ', false, json::error_handler_t::replace);
 }
 
-/// The child may have been led astray by the file, so its answer is read like any other input. Throws json::exception.
+/// The child may have been led astray by the file, so its answer is read like any other input.
+/// Throws json::exception.
 Status decode_head(const std::string& text, LoadReport& report) {
   const json head = json::parse(text);
   report.format = head.at("format").get<std::string>();
   report.space = head.at("space").get<std::string>();
   for (const json& note : head.at("notes")) {
     const int kind = note.at(0).get<int>();
-    if (kind < 0 || kind > static_cast<int>(LoadNote::Kind::dropped)) throw std::out_of_range("note kind");
-    report.notes.push_back({static_cast<LoadNote::Kind>(kind), note.at(1).get<std::string>(), note.at(2).get<std::string>(),
-                            note.at(3).get<std::uint32_t>()});
+    if (kind < 0 || kind > static_cast<int>(LoadNote::Kind::dropped))
+      throw std::out_of_range("note kind");
+    report.notes.push_back({static_cast<LoadNote::Kind>(kind), note.at(1).get<std::string>(),
+                            note.at(2).get<std::string>(), note.at(3).get<std::uint32_t>()});
   }
   const int code = head.at("code").get<int>();
   if (code == static_cast<int>(StatusCode::ok)) return {};
-  if (code < 0 || code > static_cast<int>(StatusCode::internal_error)) throw std::out_of_range("status code");
+  if (code < 0 || code > static_cast<int>(StatusCode::internal_error))
+    throw std::out_of_range("status code");
   return Status::failure(static_cast<StatusCode>(code), head.at("index").get<std::uint32_t>(), "%s",
                          head.at("text").get<std::string>().c_str());
 }
@@ -81,10 +89,15 @@ ChildReply answer(const fs::path& file, const LoadOptions& options) {
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::length_error&) {
-    return {encode_head(Status::failure(StatusCode::malformed_file, kNone, "%s: announces impossible sizes", name.c_str()), {}),
+    return {encode_head(Status::failure(StatusCode::malformed_file, kNone,
+                                        "%s: announces impossible sizes", name.c_str()),
+                        {}),
             {}};
   } catch (const std::exception& error) {
-    return {encode_head(Status::failure(StatusCode::malformed_file, kNone, "%s: %s", name.c_str(), error.what()), {}), {}};
+    return {encode_head(Status::failure(StatusCode::malformed_file, kNone, "%s: %s", name.c_str(),
+                                        error.what()),
+                        {}),
+            {}};
   }
 }
 
@@ -94,8 +107,10 @@ Result<ImportedGlb> import_as_glb(const fs::path& file, const LoadOptions& optio
   try {
     if (const Status checked = check_file(file, options); !checked) return checked;
     const fs::path whole = fs::canonical(file);
-    const ChildLimits limits{.seconds = options.import_seconds, .maximum_reply = options.maximum_bytes};
-    Result<ChildReply> reply = run_in_child([&] { return answer(whole, options); }, limits, file.filename().string());
+    const ChildLimits limits{.seconds = options.import_seconds,
+                             .maximum_reply = options.maximum_bytes};
+    Result<ChildReply> reply =
+        run_in_child([&] { return answer(whole, options); }, limits, file.filename().string());
     if (!reply) return reply.error();
 
     ImportedGlb imported;
@@ -103,9 +118,11 @@ Result<ImportedGlb> import_as_glb(const fs::path& file, const LoadOptions& optio
     imported.glb = std::move(reply->body);
     return imported;
   } catch (const std::bad_alloc&) {
-    return Status::failure(StatusCode::limit_exceeded, kNone, "%s: out of memory", file.filename().c_str());
+    return Status::failure(StatusCode::limit_exceeded, kNone, "%s: out of memory",
+                           file.filename().c_str());
   } catch (const std::exception& error) {
-    return Status::failure(StatusCode::internal_error, kNone, "%s: %s", file.filename().c_str(), error.what());
+    return Status::failure(StatusCode::internal_error, kNone, "%s: %s", file.filename().c_str(),
+                           error.what());
   }
 }
 

@@ -10,9 +10,13 @@
 namespace sunder::assimp_import {
 namespace {
 
-bool is_finite(const aiVector3D& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+bool is_finite(const aiVector3D& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
 
-Vec3d to_eigen(const aiVector3D& v) { return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)}; }
+Vec3d to_eigen(const aiVector3D& v) {
+  return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
+}
 
 void append(std::vector<float>& values, const Vec3d& v) {
   for (int i = 0; i < 3; ++i) values.push_back(static_cast<float>(v[i]));
@@ -38,12 +42,14 @@ void read_triangles(const aiMesh& mesh, MeshPart& part, Notes& notes) {
     }
     for (unsigned k = 0; k < 3; ++k) {
       if (face.mIndices[k] >= mesh.mNumVertices)
-        throw ImportFailure{Status::failure(StatusCode::index_out_of_range, f, "%s: face %u: vertex %u of %u", part.place.c_str(),
-                                            f, face.mIndices[k], mesh.mNumVertices)};
+        throw ImportFailure{Status::failure(StatusCode::index_out_of_range, f,
+                                            "%s: face %u: vertex %u of %u", part.place.c_str(), f,
+                                            face.mIndices[k], mesh.mNumVertices)};
     }
     part.triangles.push_back({face.mIndices[0], face.mIndices[1], face.mIndices[2]});
   }
-  notes.dropped(StatusCode::unsupported_feature, part.place, "points, lines and collapsed polygons", skipped);
+  notes.dropped(StatusCode::unsupported_feature, part.place, "points, lines and collapsed polygons",
+                skipped);
 }
 
 void read_positions(const aiMesh& mesh, MeshPart& part) {
@@ -51,8 +57,9 @@ void read_positions(const aiMesh& mesh, MeshPart& part) {
   positions.values.reserve(std::size_t{mesh.mNumVertices} * 3);
   for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
     if (!is_finite(mesh.mVertices[v]))
-      throw ImportFailure{
-          Status::failure(StatusCode::non_finite_value, v, "%s: vertex %u: position is not finite", part.place.c_str(), v)};
+      throw ImportFailure{Status::failure(StatusCode::non_finite_value, v,
+                                          "%s: vertex %u: position is not finite",
+                                          part.place.c_str(), v)};
     append(positions.values, to_eigen(mesh.mVertices[v]));
   }
   part.streams.push_back(std::move(positions));
@@ -69,7 +76,8 @@ void read_normals(const aiMesh& mesh, MeshPart& part) {
   part.streams.push_back(std::move(normals));
 }
 
-/// assimp's v grows upward, glTF's downward, but the bitangent follows the picture in both, so its sign stays.
+/// assimp's v grows upward, glTF's downward, but the bitangent follows the picture in both, so its
+/// sign stays.
 void read_tangents(const aiMesh& mesh, MeshPart& part, Notes& notes) {
   if (!mesh.HasTangentsAndBitangents() || !mesh.HasNormals() || !mesh.HasTextureCoords(0)) return;
   Stream tangents{.semantic = "TANGENT", .components = 4, .values = {}};
@@ -77,10 +85,12 @@ void read_tangents(const aiMesh& mesh, MeshPart& part, Notes& notes) {
   for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
     const Vec3d tangent = direction_of(mesh.mTangents[v]);
     if (tangent.isZero() || !is_finite(mesh.mBitangents[v])) {
-      notes.dropped(StatusCode::malformed_file, part.place, "tangents, some of which have no direction");
+      notes.dropped(StatusCode::malformed_file, part.place,
+                    "tangents, some of which have no direction");
       return;
     }
-    const double side = direction_of(mesh.mNormals[v]).cross(tangent).dot(to_eigen(mesh.mBitangents[v]));
+    const double side =
+        direction_of(mesh.mNormals[v]).cross(tangent).dot(to_eigen(mesh.mBitangents[v]));
     append(tangents.values, tangent);
     tangents.values.push_back(side < 0.0 ? -1.0f : 1.0f);
   }
@@ -104,7 +114,8 @@ void read_texcoords(const aiMesh& mesh, MeshPart& part, Notes& notes) {
     part.texcoord_of_channel[channel] = set++;
     part.streams.push_back(std::move(uv));
   }
-  notes.repaired(StatusCode::non_finite_value, part.place, "texture coordinates not finite, set to zero", bad);
+  notes.repaired(StatusCode::non_finite_value, part.place,
+                 "texture coordinates not finite, set to zero", bad);
 }
 
 void read_colors(const aiMesh& mesh, MeshPart& part, Notes& notes) {
@@ -123,15 +134,19 @@ void read_colors(const aiMesh& mesh, MeshPart& part, Notes& notes) {
     }
     part.streams.push_back(std::move(colors));
   }
-  notes.repaired(StatusCode::invalid_argument, part.place, "colour components outside 0 to 1, clamped", clamped);
+  notes.repaired(StatusCode::invalid_argument, part.place,
+                 "colour components outside 0 to 1, clamped", clamped);
 }
 
 /// assimp stores a morph target's shape, glTF how it differs.
 void read_morph_target(const aiMesh& mesh, std::uint32_t target, MeshPart& part, Notes& notes) {
   const aiAnimMesh& shape = *mesh.mAnimMeshes[target];
   std::uint32_t bad = 0;
-  const auto add = [&](const char* semantic, const aiVector3D* values, auto&& value_of, auto&& is_fixed) {
-    Stream deltas{.semantic = semantic, .target = target, .values = std::vector<float>(std::size_t{mesh.mNumVertices} * 3, 0.0f)};
+  const auto add = [&](const char* semantic, const aiVector3D* values, auto&& value_of,
+                       auto&& is_fixed) {
+    Stream deltas{.semantic = semantic,
+                  .target = target,
+                  .values = std::vector<float>(std::size_t{mesh.mNumVertices} * 3, 0.0f)};
     const Stream& base = *part.find(semantic);
     for (unsigned v = 0; values != nullptr && v < mesh.mNumVertices; ++v) {
       if (is_fixed(v)) continue;
@@ -148,15 +163,19 @@ void read_morph_target(const aiMesh& mesh, std::uint32_t target, MeshPart& part,
     part.streams.push_back(std::move(deltas));
   };
   const bool fits = shape.mNumVertices == mesh.mNumVertices;
-  if (!fits) notes.repaired(StatusCode::size_mismatch, part.place, "morph targets of another vertex count, emptied");
+  if (!fits)
+    notes.repaired(StatusCode::size_mismatch, part.place,
+                   "morph targets of another vertex count, emptied");
   add(
       "POSITION", fits ? shape.mVertices : nullptr, [](const aiVector3D& v) { return to_eigen(v); },
       [](unsigned) { return false; });
-  if (mesh.HasNormals() && part.vertices_without_normal.empty() && fits && shape.mNormals != nullptr)
+  if (mesh.HasNormals() && part.vertices_without_normal.empty() && fits &&
+      shape.mNormals != nullptr)
     add(
         "NORMAL", shape.mNormals, [](const aiVector3D& v) { return direction_of(v); },
         [&](unsigned v) { return direction_of(shape.mNormals[v]).isZero(); });
-  notes.repaired(StatusCode::non_finite_value, part.place, "morph displacements not finite, set to zero", bad);
+  notes.repaired(StatusCode::non_finite_value, part.place,
+                 "morph displacements not finite, set to zero", bad);
 }
 
 }  // namespace

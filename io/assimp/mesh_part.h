@@ -26,15 +26,18 @@ struct MeshPart {
   SkinWeights weights;          ///< V, or none for a rigid part.
   std::vector<Triangle> triangles;
   std::vector<std::uint32_t> vertices_without_normal;
-  std::vector<std::uint32_t> texcoord_of_channel;  ///< n of TEXCOORD_n for each assimp channel; kNone where it is empty.
+  std::vector<std::uint32_t>
+      texcoord_of_channel;  ///< n of TEXCOORD_n for each assimp channel; kNone where it is empty.
   std::uint32_t material = 0;
 
-  [[nodiscard]] std::uint32_t vertex_count() const { return static_cast<std::uint32_t>(streams[0].values.size() / 3); }
+  [[nodiscard]] std::uint32_t vertex_count() const {
+    return static_cast<std::uint32_t>(streams[0].values.size() / 3);
+  }
   [[nodiscard]] Stream* find(const char* semantic, std::uint32_t target = kNone);
 };
 
-/// Triangles and attributes of a mesh, without weights. No triangles: nothing to convert. Throws ImportFailure where a position is
-/// not finite or a face names a vertex that does not exist.
+/// Triangles and attributes of a mesh, without weights. No triangles: nothing to convert. Throws
+/// ImportFailure where a position is not finite or a face names a vertex that does not exist.
 [[nodiscard]] MeshPart read_part(const aiMesh& mesh, const std::string& place, Notes& notes);
 
 }  // namespace sunder::assimp_import

@@ -29,7 +29,8 @@ std::optional<double> number(const aiMetadata* metadata, const char* key) {
 std::optional<Vec3d> axis(const aiMetadata* metadata, const char* key, const char* sign_key) {
   const std::optional<double> index = number(metadata, key);
   if (!index || !(*index == 0.0 || *index == 1.0 || *index == 2.0)) return std::nullopt;
-  return Vec3d(Vec3d::Unit(static_cast<Eigen::Index>(*index)) * (number(metadata, sign_key).value_or(1.0) < 0.0 ? -1.0 : 1.0));
+  return Vec3d(Vec3d::Unit(static_cast<Eigen::Index>(*index)) *
+               (number(metadata, sign_key).value_or(1.0) < 0.0 ? -1.0 : 1.0));
 }
 
 const char* axis_name(const Vec3d& direction) {
@@ -43,7 +44,8 @@ ModelSpace fbx_space(const aiMetadata* metadata, Notes& notes) {
   ModelSpace space;
   double unit = number(metadata, "UnitScaleFactor").value_or(1.0);  // In centimetres.
   if (!std::isfinite(unit) || unit < 1e-6 || unit > 1e9) {
-    notes.repaired(StatusCode::malformed_file, "settings", "unit scale unusable, centimetres assumed");
+    notes.repaired(StatusCode::malformed_file, "settings",
+                   "unit scale unusable, centimetres assumed");
     unit = 1.0;
   }
   space.model_from_scene.scale = Vec3d::Constant(unit * 0.01);
@@ -62,7 +64,8 @@ ModelSpace fbx_space(const aiMetadata* metadata, Notes& notes) {
       notes.inform("settings", "axes are not those of a right-handed space; left as they are");
     }
   }
-  space.is_identity = space.model_from_scene.scale == Vec3d::Ones() && space.model_from_scene.rotation.isApprox(Quatd::Identity());
+  space.is_identity = space.model_from_scene.scale == Vec3d::Ones() &&
+                      space.model_from_scene.rotation.isApprox(Quatd::Identity());
 
   char text[128];
   std::snprintf(text, sizeof text, "metres, y up; the file: unit %g cm, %s up", unit, up_name);

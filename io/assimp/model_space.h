@@ -16,8 +16,9 @@ struct ModelSpace {
   std::string description;  ///< For LoadReport::space.
 };
 
-/// FBX: unit and axes from the file's settings, which assimp 5.2 reads but does not apply. COLLADA: assimp has applied both to the
-/// root node. Other formats say neither.
-[[nodiscard]] ModelSpace model_space_of(const aiScene& scene, const std::string& extension, Notes& notes);
+/// FBX: unit and axes from the file's settings, which assimp 5.2 reads but does not apply. COLLADA:
+/// assimp has applied both to the root node. Other formats say neither.
+[[nodiscard]] ModelSpace model_space_of(const aiScene& scene, const std::string& extension,
+                                        Notes& notes);
 
 }  // namespace sunder::assimp_import

@@ -30,15 +30,19 @@ Vec3d position(const MeshPart& part, std::uint32_t vertex) {
 }  // namespace
 
 void generate_missing_normals(std::span<MeshPart> parts, Notes& notes) {
-  if (std::all_of(parts.begin(), parts.end(), [](const MeshPart& part) { return part.vertices_without_normal.empty(); })) return;
+  if (std::all_of(parts.begin(), parts.end(),
+                  [](const MeshPart& part) { return part.vertices_without_normal.empty(); }))
+    return;
 
   std::unordered_map<std::string, Vec3d> normal_of_point;
   for (const MeshPart& part : parts) {
     for (const Triangle& triangle : part.triangles) {
       const Vec3d a = position(part, triangle[0]);
-      const Vec3d twice_area = (position(part, triangle[1]) - a).cross(position(part, triangle[2]) - a);
+      const Vec3d twice_area =
+          (position(part, triangle[1]) - a).cross(position(part, triangle[2]) - a);
       for (const std::uint32_t vertex : triangle)
-        normal_of_point.try_emplace(point_key(part, vertex), Vec3d::Zero()).first->second += twice_area;
+        normal_of_point.try_emplace(point_key(part, vertex), Vec3d::Zero()).first->second +=
+            twice_area;
     }
   }
 
@@ -53,16 +57,20 @@ void generate_missing_normals(std::span<MeshPart> parts, Notes& notes) {
       if (length > 1e-300) {
         normal /= length;
       } else {
-        normal = Vec3d::UnitY();  // A vertex of no triangle, or of collapsed ones only: any direction is as good.
+        normal = Vec3d::UnitY();  // A vertex of no triangle, or of collapsed ones only: any
+                                  // direction is as good.
         ++undefined;
       }
-      for (int i = 0; i < 3; ++i) normals[std::size_t{vertex} * 3 + static_cast<std::size_t>(i)] = static_cast<float>(normal[i]);
+      for (int i = 0; i < 3; ++i)
+        normals[std::size_t{vertex} * 3 + static_cast<std::size_t>(i)] =
+            static_cast<float>(normal[i]);
     }
     const auto missing = static_cast<std::uint32_t>(part.vertices_without_normal.size());
     if (missing == part.vertex_count())
       notes.inform(part.place, "the file has no normals; smooth ones generated", missing);
     else
-      notes.repaired(StatusCode::malformed_file, part.place, "normals without direction; smooth ones generated", missing);
+      notes.repaired(StatusCode::malformed_file, part.place,
+                     "normals without direction; smooth ones generated", missing);
     notes.inform(part.place, "vertices of no proper triangle; normal set to +y", undefined);
     part.vertices_without_normal.clear();
   }

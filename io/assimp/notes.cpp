@@ -8,15 +8,18 @@ void Notes::inform(std::string_view place, std::string_view text, std::uint32_t 
   add(LoadNote::Kind::information, StatusCode::ok, place, text, count);
 }
 
-void Notes::repaired(StatusCode fault, std::string_view place, std::string_view text, std::uint32_t count) {
+void Notes::repaired(StatusCode fault, std::string_view place, std::string_view text,
+                     std::uint32_t count) {
   add(LoadNote::Kind::repaired, fault, place, text, count);
 }
 
-void Notes::dropped(StatusCode fault, std::string_view place, std::string_view text, std::uint32_t count) {
+void Notes::dropped(StatusCode fault, std::string_view place, std::string_view text,
+                    std::uint32_t count) {
   add(LoadNote::Kind::dropped, fault, place, text, count);
 }
 
-void Notes::add(LoadNote::Kind kind, StatusCode fault, std::string_view place, std::string_view text, std::uint32_t count) {
+void Notes::add(LoadNote::Kind kind, StatusCode fault, std::string_view place,
+                std::string_view text, std::uint32_t count) {
   if (count == 0) return;
   for (LoadNote& note : notes_) {
     if (note.kind == kind && note.place == place && note.text == text) {
@@ -31,13 +34,15 @@ void Notes::add(LoadNote::Kind kind, StatusCode fault, std::string_view place, s
 Status Notes::first_fault() const {
   for (std::size_t i = 0; i < notes_.size(); ++i)
     if (notes_[i].kind != LoadNote::Kind::information)
-      return Status::failure(faults_[i], kNone, "%s: %s (%u)", notes_[i].place.c_str(), notes_[i].text.c_str(), notes_[i].count);
+      return Status::failure(faults_[i], kNone, "%s: %s (%u)", notes_[i].place.c_str(),
+                             notes_[i].text.c_str(), notes_[i].count);
   return {};
 }
 
 std::string valid_utf8(std::string_view text) {
   using Json = nlohmann::json;
-  return Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace)).get<std::string>();
+  return Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace))
+      .get<std::string>();
 }
 
 }  // namespace sunder::assimp_import

@@ -13,15 +13,18 @@ class Notes {
  public:
   void inform(std::string_view place, std::string_view text, std::uint32_t count = 1);
   /// @param fault  what a strict import fails with.
-  void repaired(StatusCode fault, std::string_view place, std::string_view text, std::uint32_t count = 1);
-  void dropped(StatusCode fault, std::string_view place, std::string_view text, std::uint32_t count = 1);
+  void repaired(StatusCode fault, std::string_view place, std::string_view text,
+                std::uint32_t count = 1);
+  void dropped(StatusCode fault, std::string_view place, std::string_view text,
+               std::uint32_t count = 1);
 
   [[nodiscard]] const std::vector<LoadNote>& all() const { return notes_; }
   /// The first repair or loss as a failure; ok where there is none.
   [[nodiscard]] Status first_fault() const;
 
  private:
-  void add(LoadNote::Kind kind, StatusCode fault, std::string_view place, std::string_view text, std::uint32_t count);
+  void add(LoadNote::Kind kind, StatusCode fault, std::string_view place, std::string_view text,
+           std::uint32_t count);
 
   std::vector<LoadNote> notes_;
   std::vector<StatusCode> faults_;  ///< One a note.

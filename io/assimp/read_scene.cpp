@@ -23,12 +23,15 @@
 #include "io/assimp/child_process.h"
 #include "io/assimp/failure.h"
 
-// Debian builds assimp with its assertions on, and some valid files trip them. In the child an assertion becomes an ordinary import
-// error; elsewhere in the program, which may use assimp itself, it stays what it was. Where the linker lets assimp keep its own
-// version, the child aborts and the parent reports that.
+// Debian builds assimp with its assertions on, and some valid files trip them. In the child an
+// assertion becomes an ordinary import error; elsewhere in the program, which may use assimp
+// itself, it stays what it was. Where the linker lets assimp keep its own version, the child aborts
+// and the parent reports that.
 namespace Assimp {
-__attribute__((visibility("default"))) void aiAssertViolation(const char* expression, const char* file, int line) {
-  if (sunder::assimp_import::is_import_child()) throw std::runtime_error(std::string("assertion failed: ") + expression);
+__attribute__((visibility("default"))) void aiAssertViolation(const char* expression,
+                                                              const char* file, int line) {
+  if (sunder::assimp_import::is_import_child())
+    throw std::runtime_error(std::string("assertion failed: ") + expression);
   std::fprintf(stderr, "ai_assert failure in %s(%d): %s\n", file, line, expression);
   std::abort();
 }
@@ -68,7 +71,8 @@ class FolderIOSystem : public Assimp::DefaultIOSystem {
   Status refusal_;
 };
 
-/// Whether a loader claims the file by the end of its name; some claim two-part ones such as ".mesh.xml".
+/// Whether a loader claims the file by the end of its name; some claim two-part ones such as
+/// ".mesh.xml".
 bool claims(const aiImporterDesc* description, const std::string& lower_name) {
   if (description == nullptr || description->mFileExtensions == nullptr) return false;
   std::istringstream extensions(description->mFileExtensions);
@@ -77,11 +81,12 @@ bool claims(const aiImporterDesc* description, const std::string& lower_name) {
   return false;
 }
 
-/// Leaves only the loaders of the file's extension; the others would otherwise be tried on the content. They are not freed: the
-/// child exits. @return whether any is left.
+/// Leaves only the loaders of the file's extension; the others would otherwise be tried on the
+/// content. They are not freed: the child exits. @return whether any is left.
 bool keep_loaders_of(Assimp::Importer& importer, const std::string& lower_name) {
   for (std::size_t i = importer.GetImporterCount(); i-- > 0;)
-    if (!claims(importer.GetImporterInfo(i), lower_name)) importer.UnregisterLoader(importer.GetImporter(i));
+    if (!claims(importer.GetImporterInfo(i), lower_name))
+      importer.UnregisterLoader(importer.GetImporter(i));
   return importer.GetImporterCount() > 0;
 }
 
@@ -98,7 +103,8 @@ void check_magic(const fs::path& file, const std::string& extension) {
       Magic{"md5mesh", "", "MD5Version"},
       Magic{"md5anim", "", "MD5Version"},
   };
-  const auto magic = std::find_if(kMagic.begin(), kMagic.end(), [&](const Magic& one) { return one.extension == extension; });
+  const auto magic = std::find_if(kMagic.begin(), kMagic.end(),
+                                  [&](const Magic& one) { return one.extension == extension; });
   if (magic == kMagic.end()) return;
   std::string start(1024, '\0');
   std::ifstream stream(file, std::ios::binary);
@@ -106,12 +112,14 @@ void check_magic(const fs::path& file, const std::string& extension) {
   start.resize(static_cast<std::size_t>(stream.gcount()));
   if (!magic->begins.empty() && start.starts_with(magic->begins)) return;
   if (!magic->contains.empty() && start.find(magic->contains) != std::string::npos) return;
-  throw ImportFailure{Status::failure(StatusCode::malformed_file, kNone, "%s: the content is not that of a .%s file",
+  throw ImportFailure{Status::failure(StatusCode::malformed_file, kNone,
+                                      "%s: the content is not that of a .%s file",
                                       file.filename().c_str(), extension.c_str())};
 }
 
 std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return text;
 }
 
@@ -141,8 +149,10 @@ bool is_de_indexed(const aiMesh& mesh) {
   if (text.empty()) text = "the importer gives no reason";
   // assimp likes to name whole paths, which are nobody's business.
   const std::string folder = file.parent_path().string() + "/";
-  for (std::size_t at = text.find(folder); at != std::string::npos; at = text.find(folder, at)) text.erase(at, folder.size());
-  throw ImportFailure{Status::failure(StatusCode::malformed_file, kNone, "%s: %s", name.c_str(), text.c_str())};
+  for (std::size_t at = text.find(folder); at != std::string::npos; at = text.find(folder, at))
+    text.erase(at, folder.size());
+  throw ImportFailure{
+      Status::failure(StatusCode::malformed_file, kNone, "%s: %s", name.c_str(), text.c_str())};
 }
 
 }  // namespace
@@ -155,13 +165,15 @@ std::string lower_extension(const fs::path& file) {
 ReadScene read_scene(Assimp::Importer& importer, const fs::path& file, AssetFolder& folder) {
   const std::string extension = lower_extension(file);
   if (!keep_loaders_of(importer, lower(file.filename().string())))
-    throw ImportFailure{Status::failure(StatusCode::unsupported_format, kNone, "%s: no reader for .%s files",
-                                        file.filename().c_str(), extension.c_str())};
+    throw ImportFailure{Status::failure(StatusCode::unsupported_format, kNone,
+                                        "%s: no reader for .%s files", file.filename().c_str(),
+                                        extension.c_str())};
   check_magic(file, extension);
 
   auto* const system = new FolderIOSystem(folder);  // The importer owns it.
   importer.SetIOHandler(system);
-  // Pivots stay nodes of their own: that is exact, where folding them loses animation (assimp issues 1068, 4005).
+  // Pivots stay nodes of their own: that is exact, where folding them loses animation (assimp
+  // issues 1068, 4005).
   importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, true);
   // No made-up mesh around the bones of a file without meshes.
   importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
@@ -170,11 +182,14 @@ ReadScene read_scene(Assimp::Importer& importer, const fs::path& file, AssetFold
   if (!system->refusal()) throw ImportFailure{system->refusal()};
   if (scene == nullptr || scene->mRootNode == nullptr) fail(importer, file);
   ReadScene result;
-  for (unsigned i = 0; i < scene->mNumMeshes; ++i) result.is_de_indexed.push_back(is_de_indexed(*scene->mMeshes[i]));
+  for (unsigned i = 0; i < scene->mNumMeshes; ++i)
+    result.is_de_indexed.push_back(is_de_indexed(*scene->mMeshes[i]));
 
-  // Joining vertices would heal tears and mix weights; every check that assimp's validation makes is made again on the result.
+  // Joining vertices would heal tears and mix weights; every check that assimp's validation makes
+  // is made again on the result.
   result.scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
-  if (result.scene == nullptr || result.scene->mNumMeshes != result.is_de_indexed.size()) fail(importer, file);
+  if (result.scene == nullptr || result.scene->mNumMeshes != result.is_de_indexed.size())
+    fail(importer, file);
   return result;
 }
 

@@ -16,13 +16,16 @@ namespace sunder::assimp_import {
 
 struct ReadScene {
   const aiScene* scene = nullptr;  ///< The importer's.
-  /// One a mesh: every corner has its own vertex. The loader took the file's sharing apart, so welding may restore it; in other
-  /// meshes vertices that coincide do so because the file says so, as the two lips of a tear do, and stay apart.
+  /// One a mesh: every corner has its own vertex. The loader took the file's sharing apart, so
+  /// welding may restore it; in other meshes vertices that coincide do so because the file says so,
+  /// as the two lips of a tear do, and stay apart.
   std::vector<bool> is_de_indexed;
 };
 
-/// Reads `file` with the one loader that its extension names; nothing is sniffed, and no step but triangulation runs.
-/// Throws ImportFailure: unsupported_format, malformed_file with assimp's text, path_not_allowed, limit_exceeded.
-[[nodiscard]] ReadScene read_scene(Assimp::Importer& importer, const std::filesystem::path& file, AssetFolder& folder);
+/// Reads `file` with the one loader that its extension names; nothing is sniffed, and no step but
+/// triangulation runs. Throws ImportFailure: unsupported_format, malformed_file with assimp's text,
+/// path_not_allowed, limit_exceeded.
+[[nodiscard]] ReadScene read_scene(Assimp::Importer& importer, const std::filesystem::path& file,
+                                   AssetFolder& folder);
 
 }  // namespace sunder::assimp_import

@@ -8,27 +8,32 @@ namespace sunder::assimp_import {
 namespace {
 
 constexpr std::uint32_t kMaximumDepth = 1024;
-/// Axes further from right angles than rounding explains, relative; what goes unnoticed below it moves no vertex by more than that
-/// part of its distance. Text formats round to four or five digits, and where shear has to go anyway that much is not worth a note.
+/// Axes further from right angles than rounding explains, relative; what goes unnoticed below it
+/// moves no vertex by more than that part of its distance. Text formats round to four or five
+/// digits, and where shear has to go anyway that much is not worth a note.
 constexpr double kShear = 1e-5;
 constexpr double kNotedShear = 1e-4;
 
 template <class Vector>
 Json float_array(const Vector& values) {
   Json array = Json::array();
-  for (Eigen::Index i = 0; i < values.size(); ++i) array.push_back(static_cast<double>(static_cast<float>(values[i])));
+  for (Eigen::Index i = 0; i < values.size(); ++i)
+    array.push_back(static_cast<double>(static_cast<float>(values[i])));
   return array;
 }
 
 void write_transform(const Trs& trs, Json& node) {
   if (trs.translation != Vec3d::Zero()) node["translation"] = float_array(trs.translation);
-  if (trs.rotation.coeffs() != Quatd::Identity().coeffs()) node["rotation"] = float_array(trs.rotation.coeffs());
+  if (trs.rotation.coeffs() != Quatd::Identity().coeffs())
+    node["rotation"] = float_array(trs.rotation.coeffs());
   if (trs.scale != Vec3d::Ones()) node["scale"] = float_array(trs.scale);
 }
 
 }  // namespace
 
-std::string to_string(const aiString& text) { return {text.data, std::min<std::size_t>(text.length, sizeof text.data)}; }
+std::string to_string(const aiString& text) {
+  return {text.data, std::min<std::size_t>(text.length, sizeof text.data)};
+}
 
 SceneTree::SceneTree(const aiScene& scene, const ModelSpace& space, Notes& notes) {
   for (unsigned i = 0; i < scene.mNumAnimations; ++i)
@@ -52,10 +57,12 @@ SceneTree::SceneTree(const aiScene& scene, const ModelSpace& space, Notes& notes
     const Pending next = pending.back();
     pending.pop_back();
     if (next.depth >= kMaximumDepth)
-      throw ImportFailure{Status::failure(StatusCode::limit_exceeded, kNone, "nodes are nested deeper than %u", kMaximumDepth)};
+      throw ImportFailure{Status::failure(StatusCode::limit_exceeded, kNone,
+                                          "nodes are nested deeper than %u", kMaximumDepth)};
     const std::uint32_t index = add_node(*next.node, next.parent, notes);
     for (unsigned i = next.node->mNumChildren; i-- > 0;)
-      if (next.node->mChildren[i] != nullptr) pending.push_back({next.node->mChildren[i], index, next.depth + 1});
+      if (next.node->mChildren[i] != nullptr)
+        pending.push_back({next.node->mChildren[i], index, next.depth + 1});
   }
 }
 
@@ -63,25 +70,30 @@ std::uint32_t SceneTree::add_node(const aiNode& source, std::uint32_t parent, No
   const std::string source_name = to_string(source.mName);
   SceneNode node;
   const std::string readable = valid_utf8(source_name);
-  if (readable != source_name) notes.repaired(StatusCode::malformed_file, "names", "not UTF-8; bad bytes replaced");
+  if (readable != source_name)
+    notes.repaired(StatusCode::malformed_file, "names", "not UTF-8; bad bytes replaced");
   node.name = unique_name(readable);
   if (node.name != readable) {
     node.json["extras"]["source_name"] = readable;
-    notes.inform("node '" + readable + "'", "several nodes have this name; the later ones got a number");
+    notes.inform("node '" + readable + "'",
+                 "several nodes have this name; the later ones got a number");
   }
   node.source = &source;
   const std::string place = "node '" + node.name + "'";
 
   Mat4d matrix = to_eigen(source.mTransformation);
   if (!matrix.allFinite()) {
-    notes.repaired(StatusCode::non_finite_value, place, "transform is not finite, replaced by identity");
+    notes.repaired(StatusCode::non_finite_value, place,
+                   "transform is not finite, replaced by identity");
     matrix.setIdentity();
   }
   node.parent_from_node = decompose(matrix);
   const double shear = linear_difference(matrix, matrix_of(node.parent_from_node));
   if (shear > kShear) {
     if (animated_.contains(source_name)) {
-      if (shear > kNotedShear) notes.repaired(StatusCode::unsupported_feature, place, "shear removed from an animated node");
+      if (shear > kNotedShear)
+        notes.repaired(StatusCode::unsupported_feature, place,
+                       "shear removed from an animated node");
     } else {
       // glTF nodes have no shear, but two of them in a row have.
       const ShearParts parts = split_shear(matrix);
@@ -96,14 +108,17 @@ std::uint32_t SceneTree::add_node(const aiNode& source, std::uint32_t parent, No
   }
   node.parent = parent;
   const std::uint32_t index = push(std::move(node));
-  if (!node_of_name_.emplace(source_name, index).second && !source_name.empty() && animated_.contains(source_name))
-    notes.inform("node '" + readable + "'", "animated or skinned by an ambiguous name; the first node of that name is taken");
+  if (!node_of_name_.emplace(source_name, index).second && !source_name.empty() &&
+      animated_.contains(source_name))
+    notes.inform("node '" + readable + "'",
+                 "animated or skinned by an ambiguous name; the first node of that name is taken");
   return index;
 }
 
 std::uint32_t SceneTree::push(SceneNode node) {
   node.model_from_node = matrix_of(node.parent_from_node);
-  if (node.parent != kNone) node.model_from_node = nodes_[node.parent].model_from_node * node.model_from_node;
+  if (node.parent != kNone)
+    node.model_from_node = nodes_[node.parent].model_from_node * node.model_from_node;
   nodes_.push_back(std::move(node));
   return static_cast<std::uint32_t>(nodes_.size() - 1);
 }
@@ -121,8 +136,8 @@ std::uint32_t SceneTree::find(const aiString& name) const {
   return found == node_of_name_.end() ? kNone : found->second;
 }
 
-std::uint32_t SceneTree::add(std::uint32_t parent, const std::string& name, const Mat4d& parent_from_node,
-                             const aiString* source_name) {
+std::uint32_t SceneTree::add(std::uint32_t parent, const std::string& name,
+                             const Mat4d& parent_from_node, const aiString* source_name) {
   SceneNode node;
   node.name = unique_name(name);
   node.parent = parent;

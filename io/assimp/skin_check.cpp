@@ -20,7 +20,8 @@ Vec3d position(const MeshPart& part, std::uint32_t vertex) {
 Eigen::AlignedBox3d bounds_of(std::span<const MeshPart> parts) {
   Eigen::AlignedBox3d bounds;
   for (const MeshPart& part : parts)
-    for (std::uint32_t v = 0; v < part.vertex_count(); ++v) bounds.extend(Eigen::Vector3d(position(part, v)));
+    for (std::uint32_t v = 0; v < part.vertex_count(); ++v)
+      bounds.extend(Eigen::Vector3d(position(part, v)));
   return bounds;
 }
 
@@ -40,7 +41,8 @@ double relative_difference(const Mat4d& a, const Mat4d& b, const Eigen::AlignedB
   return largest / std::max(mapped.diagonal().norm(), std::numeric_limits<double>::min());
 }
 
-/// The mesh deformed with each bone at the inverse of its bind matrix, all in floats as at run time, against itself.
+/// The mesh deformed with each bone at the inverse of its bind matrix, all in floats as at run
+/// time, against itself.
 double reproduction_error(const SkinSlots& skin, std::span<const MeshPart> parts) {
   std::vector<Mat4d> mesh_from_mesh;
   for (const Mat4f& bone_from_mesh : skin.bone_from_mesh) {
@@ -63,8 +65,8 @@ double reproduction_error(const SkinSlots& skin, std::span<const MeshPart> parts
 
 }  // namespace
 
-void check_skin(const SkinSlots& skin, std::span<const MeshPart> parts, std::uint32_t mesh_node, const std::string& place,
-                const SceneTree& tree, Notes& notes) {
+void check_skin(const SkinSlots& skin, std::span<const MeshPart> parts, std::uint32_t mesh_node,
+                const std::string& place, const SceneTree& tree, Notes& notes) {
   const Eigen::AlignedBox3d bounds = bounds_of(parts);
   if (bounds.isEmpty() || skin.nodes.empty()) return;
   const double size = std::max(bounds.diagonal().norm(), std::numeric_limits<double>::min());
@@ -74,7 +76,8 @@ void check_skin(const SkinSlots& skin, std::span<const MeshPart> parts, std::uin
     for (const Influence& influence : part.weights.influences) moves[influence.slot] = true;
 
   char text[128];
-  std::snprintf(text, sizeof text, "posed at bind the skin reproduces the mesh within %.1e of its size",
+  std::snprintf(text, sizeof text,
+                "posed at bind the skin reproduces the mesh within %.1e of its size",
                 reproduction_error(skin, parts) / size);
   notes.inform(place, text);
 
@@ -84,14 +87,17 @@ void check_skin(const SkinSlots& skin, std::span<const MeshPart> parts, std::uin
   double deviation = 0.0;
   for (std::size_t slot = 0; slot < skin.nodes.size(); ++slot) {
     if (!moves[slot]) continue;
-    model_from_mesh[slot] = tree[skin.nodes[slot]].model_from_node * skin.bone_from_mesh[slot].cast<double>();
+    model_from_mesh[slot] =
+        tree[skin.nodes[slot]].model_from_node * skin.bone_from_mesh[slot].cast<double>();
     if (reference == nullptr) reference = &model_from_mesh[slot];
     deviation = std::max(deviation, relative_difference(model_from_mesh[slot], *reference, bounds));
   }
   if (deviation > kTolerance) {
-    std::snprintf(text, sizeof text, "rest pose differs from bind pose, by up to %.2g of the mesh's size", deviation);
+    std::snprintf(text, sizeof text,
+                  "rest pose differs from bind pose, by up to %.2g of the mesh's size", deviation);
     notes.inform(place, text);
-  } else if (reference != nullptr && relative_difference(tree[mesh_node].model_from_node, *reference, bounds) > kTolerance) {
+  } else if (reference != nullptr && relative_difference(tree[mesh_node].model_from_node,
+                                                         *reference, bounds) > kTolerance) {
     notes.inform(place, "the mesh's own node stands elsewhere than its skin; the skin counts");
   }
 }

@@ -11,7 +11,8 @@ namespace sunder::assimp_import {
 Mat4d to_eigen(const aiMatrix4x4& matrix) {
   Mat4d result;
   for (unsigned row = 0; row < 4; ++row)
-    for (unsigned column = 0; column < 4; ++column) result(row, column) = static_cast<double>(matrix[row][column]);
+    for (unsigned column = 0; column < 4; ++column)
+      result(row, column) = static_cast<double>(matrix[row][column]);
   return result;
 }
 
@@ -42,7 +43,8 @@ Trs decompose(const Mat4d& matrix) {
     }
   }
   if (collapsed == 1) {
-    axes.col(last_collapsed) = axes.col((last_collapsed + 1) % 3).cross(axes.col((last_collapsed + 2) % 3));
+    axes.col(last_collapsed) =
+        axes.col((last_collapsed + 1) % 3).cross(axes.col((last_collapsed + 2) % 3));
   } else if (collapsed == 2) {
     int kept = 0;
     while (axes.col(kept).isZero()) ++kept;
@@ -93,8 +95,10 @@ bool is_usable_bind(const Mat4d& matrix) {
   if ((matrix.row(3) - affine).cwiseAbs().maxCoeff() > 1e-6) return false;
   const Mat3d linear = matrix.topLeftCorner<3, 3>();
   const Vec3d lengths = linear.colwise().norm().transpose();
-  // Determinant of the unit axes: the sine-like measure of how far they are from lying in one plane.
-  return lengths.minCoeff() > 1e-12 * lengths.maxCoeff() && std::abs(linear.determinant()) > 1e-7 * lengths.prod();
+  // Determinant of the unit axes: the sine-like measure of how far they are from lying in one
+  // plane.
+  return lengths.minCoeff() > 1e-12 * lengths.maxCoeff() &&
+         std::abs(linear.determinant()) > 1e-7 * lengths.prod();
 }
 
 }  // namespace sunder::assimp_import

@@ -20,14 +20,16 @@ struct Trs {
 
 [[nodiscard]] Mat4d matrix_of(const Trs& trs);
 
-/// Nearest Trs of an affine matrix: exact unless its axes are not at right angles. A mirrored matrix gets three negative scales, as
-/// assimp's own decomposition does, so that rest and key frames agree.
+/// Nearest Trs of an affine matrix: exact unless its axes are not at right angles. A mirrored
+/// matrix gets three negative scales, as assimp's own decomposition does, so that rest and key
+/// frames agree.
 [[nodiscard]] Trs decompose(const Mat4d& matrix);
 
 /// Largest difference between the two linear parts, relative to the longest axis.
 [[nodiscard]] double linear_difference(const Mat4d& a, const Mat4d& b);
 
-/// Two transforms whose product, outer first, is `matrix`: any affine map is a rotation, a scale along axes, another rotation.
+/// Two transforms whose product, outer first, is `matrix`: any affine map is a rotation, a scale
+/// along axes, another rotation.
 struct ShearParts {
   Trs outer, inner;
 };

@@ -34,10 +34,12 @@ class Vertices {
 
   [[nodiscard]] bool equal(std::uint32_t a, std::uint32_t b) const {
     for (const Stream& stream : part_.streams)
-      if (std::memcmp(values(stream, a), values(stream, b), sizeof(float) * static_cast<std::size_t>(stream.components)) != 0)
+      if (std::memcmp(values(stream, a), values(stream, b),
+                      sizeof(float) * static_cast<std::size_t>(stream.components)) != 0)
         return false;
     const auto of_a = influences(a), of_b = influences(b);
-    return of_a.size() == of_b.size() && (of_a.empty() || std::memcmp(of_a.data(), of_b.data(), of_a.size_bytes()) == 0);
+    return of_a.size() == of_b.size() &&
+           (of_a.empty() || std::memcmp(of_a.data(), of_b.data(), of_a.size_bytes()) == 0);
   }
 
  private:
@@ -45,7 +47,8 @@ class Vertices {
     return stream.values.data() + std::size_t{vertex} * static_cast<std::size_t>(stream.components);
   }
   [[nodiscard]] std::span<const Influence> influences(std::uint32_t vertex) const {
-    return part_.weights.vertex_count() == 0 ? std::span<const Influence>() : part_.weights.of(vertex);
+    return part_.weights.vertex_count() == 0 ? std::span<const Influence>()
+                                             : part_.weights.of(vertex);
   }
 
   const MeshPart& part_;
@@ -54,7 +57,8 @@ class Vertices {
 void keep(Stream& stream, const std::vector<std::uint32_t>& old_from_new) {
   const auto width = static_cast<std::size_t>(stream.components);
   for (std::size_t i = 0; i < old_from_new.size(); ++i)
-    std::memmove(stream.values.data() + i * width, stream.values.data() + old_from_new[i] * width, width * sizeof(float));
+    std::memmove(stream.values.data() + i * width, stream.values.data() + old_from_new[i] * width,
+                 width * sizeof(float));
   stream.values.resize(old_from_new.size() * width);
 }
 

@@ -29,7 +29,8 @@ std::size_t size_of(ComponentType type) {
 ComponentType read_component_type(const Cursor& at) {
   const std::uint64_t type = at.to_unsigned();
   if (type < 5120 || type > 5126 || type == 5124)
-    refuse(StatusCode::malformed_file, kNone, "%.120s: no component type %llu", at.pointer().c_str(), static_cast<Place>(type));
+    refuse(StatusCode::malformed_file, kNone, "%.120s: no component type %llu",
+           at.pointer().c_str(), static_cast<Place>(type));
   return static_cast<ComponentType>(type);
 }
 
@@ -49,23 +50,28 @@ constexpr std::array<ElementType, 7> kElementTypes = {{{"SCALAR", 1, false},
 const ElementType& read_element_type(const Cursor& at) {
   for (const ElementType& type : kElementTypes)
     if (type.name == at.to_string()) return type;
-  refuse(StatusCode::malformed_file, kNone, "%.120s: no type '%.40s'", at.pointer().c_str(), at.to_string().c_str());
+  refuse(StatusCode::malformed_file, kNone, "%.120s: no type '%.40s'", at.pointer().c_str(),
+         at.to_string().c_str());
 }
 
-/// Refuses unless `count` elements of `size` bytes, `stride` apart, fit in `available` bytes from `offset` on.
-void check_extent(const Cursor& at, std::uint64_t offset, std::uint64_t stride, std::uint64_t count, std::uint64_t size,
-                  std::uint64_t available) {
+/// Refuses unless `count` elements of `size` bytes, `stride` apart, fit in `available` bytes from
+/// `offset` on.
+void check_extent(const Cursor& at, std::uint64_t offset, std::uint64_t stride, std::uint64_t count,
+                  std::uint64_t size, std::uint64_t available) {
   // offset, stride < 2^53 and count < 2^32: compare by division, nothing can wrap.
-  const bool fits =
-      offset <= available && size <= available - offset && (count == 1 || stride <= (available - offset - size) / (count - 1));
+  const bool fits = offset <= available && size <= available - offset &&
+                    (count == 1 || stride <= (available - offset - size) / (count - 1));
   if (!fits)
-    refuse(StatusCode::index_out_of_range, kNone, "%.120s: %llu elements of %llu bytes from byte %llu on do not fit in %llu bytes",
-           at.pointer().c_str(), static_cast<Place>(count), static_cast<Place>(size), static_cast<Place>(offset),
-           static_cast<Place>(available));
+    refuse(StatusCode::index_out_of_range, kNone,
+           "%.120s: %llu elements of %llu bytes from byte %llu on do not fit in %llu bytes",
+           at.pointer().c_str(), static_cast<Place>(count), static_cast<Place>(size),
+           static_cast<Place>(offset), static_cast<Place>(available));
 }
 
-const std::byte* open_packed(const SourceDocument& document, const Cursor& at, std::uint64_t count, std::size_t size) {
-  const std::uint32_t view = at.member("bufferView").to_index(count_of(document.json, "bufferViews"), "buffer view");
+const std::byte* open_packed(const SourceDocument& document, const Cursor& at, std::uint64_t count,
+                             std::size_t size) {
+  const std::uint32_t view =
+      at.member("bufferView").to_index(count_of(document.json, "bufferViews"), "buffer view");
   const auto bytes = bytes_of_view(document, view);
   const std::uint64_t offset = at.unsigned_or("byteOffset", 0);
   check_extent(at, offset, size, count, size, bytes.size());
@@ -84,12 +90,14 @@ template <class T, class Out, class Convert>
 void decode_elements(const Accessor& accessor, std::span<Out> out, const Convert& convert) {
   const std::size_t components = accessor.components;
   const auto element = [&](const std::byte* from, std::size_t to) {
-    for (std::size_t c = 0; c < components; ++c) out[to * components + c] = convert(load<T>(from + c * sizeof(T)));
+    for (std::size_t c = 0; c < components; ++c)
+      out[to * components + c] = convert(load<T>(from + c * sizeof(T)));
   };
   if (accessor.data == nullptr)
     std::fill(out.begin(), out.end(), Out{0});
   else
-    for (std::size_t i = 0; i < accessor.count; ++i) element(accessor.data + i * accessor.stride, i);
+    for (std::size_t i = 0; i < accessor.count; ++i)
+      element(accessor.data + i * accessor.stride, i);
   const std::size_t index_size = size_of(accessor.sparse_index_type);
   for (std::size_t i = 0; i < accessor.sparse_count; ++i) {
     const std::byte* at = accessor.sparse_indices + i * index_size;
@@ -97,8 +105,8 @@ void decode_elements(const Accessor& accessor, std::span<Out> out, const Convert
                                 : index_size == 2 ? load<std::uint16_t>(at)
                                                   : load<std::uint32_t>(at);
     if (index >= accessor.count)
-      refuse(StatusCode::index_out_of_range, index, "/accessors/%u/sparse: index %u of %u elements", accessor.index, index,
-             accessor.count);
+      refuse(StatusCode::index_out_of_range, index, "/accessors/%u/sparse: index %u of %u elements",
+             accessor.index, index, accessor.count);
     element(accessor.sparse_values + i * components * sizeof(T), index);
   }
 }
@@ -120,22 +128,26 @@ void decode_unsigned(const Accessor& accessor, std::span<std::uint32_t> out) {
 void open_sparse(const SourceDocument& document, const Cursor& sparse, Accessor& accessor) {
   const std::uint64_t count = sparse.member("count").to_unsigned();
   if (count == 0 || count > accessor.count)
-    refuse(StatusCode::malformed_file, accessor.index, "%s/count: %llu of %u elements", sparse.pointer().c_str(),
-           static_cast<Place>(count), accessor.count);
+    refuse(StatusCode::malformed_file, accessor.index, "%s/count: %llu of %u elements",
+           sparse.pointer().c_str(), static_cast<Place>(count), accessor.count);
   const Cursor indices = sparse.member("indices");
   accessor.sparse_count = static_cast<std::uint32_t>(count);
   accessor.sparse_index_type = read_component_type(indices.member("componentType"));
-  if (accessor.sparse_index_type != ComponentType::u8 && accessor.sparse_index_type != ComponentType::u16 &&
+  if (accessor.sparse_index_type != ComponentType::u8 &&
+      accessor.sparse_index_type != ComponentType::u16 &&
       accessor.sparse_index_type != ComponentType::u32)
-    refuse(StatusCode::malformed_file, accessor.index, "%s/componentType: not unsigned", indices.pointer().c_str());
-  accessor.sparse_indices = open_packed(document, indices, count, size_of(accessor.sparse_index_type));
-  accessor.sparse_values =
-      open_packed(document, sparse.member("values"), count, accessor.components * size_of(accessor.component_type));
+    refuse(StatusCode::malformed_file, accessor.index, "%s/componentType: not unsigned",
+           indices.pointer().c_str());
+  accessor.sparse_indices =
+      open_packed(document, indices, count, size_of(accessor.sparse_index_type));
+  accessor.sparse_values = open_packed(document, sparse.member("values"), count,
+                                       accessor.components * size_of(accessor.component_type));
 }
 
 }  // namespace
 
-AccessorReader::AccessorReader(const SourceDocument& document) : document_(document), bytes_left_(document.maximum_bytes) {
+AccessorReader::AccessorReader(const SourceDocument& document)
+    : document_(document), bytes_left_(document.maximum_bytes) {
   file_bytes_ = document.content.size();
   for (const auto& file : document.other_files) file_bytes_ += file.size();
 }
@@ -152,25 +164,30 @@ Accessor AccessorReader::open(const Cursor& reference) const {
   accessor.normalized = at.bool_or("normalized", false);
   const std::uint64_t count = at.member("count").to_unsigned();
   if (count == 0 || count >= kNone)
-    refuse(count == 0 ? StatusCode::malformed_file : StatusCode::limit_exceeded, index, "%s/count: %llu", at.pointer().c_str(),
-           static_cast<Place>(count));
+    refuse(count == 0 ? StatusCode::malformed_file : StatusCode::limit_exceeded, index,
+           "%s/count: %llu", at.pointer().c_str(), static_cast<Place>(count));
   accessor.count = static_cast<std::uint32_t>(count);
 
   const std::size_t element_size = accessor.components * size_of(accessor.component_type);
   if (at.find("bufferView")) {
-    const std::uint32_t view = at.member("bufferView").to_index(count_of(document_.json, "bufferViews"), "buffer view");
+    const std::uint32_t view =
+        at.member("bufferView").to_index(count_of(document_.json, "bufferViews"), "buffer view");
     const auto bytes = bytes_of_view(document_, view);
-    const std::uint64_t stride = entry(document_.json, "bufferViews", view).unsigned_or("byteStride", element_size);
+    const std::uint64_t stride =
+        entry(document_.json, "bufferViews", view).unsigned_or("byteStride", element_size);
     if (stride < element_size)
-      refuse(StatusCode::malformed_file, view, "/bufferViews/%u/byteStride: %llu, but elements have %zu bytes", view,
+      refuse(StatusCode::malformed_file, view,
+             "/bufferViews/%u/byteStride: %llu, but elements have %zu bytes", view,
              static_cast<Place>(stride), element_size);
     const std::uint64_t offset = at.unsigned_or("byteOffset", 0);
     check_extent(at, offset, stride, count, element_size, bytes.size());
     accessor.data = bytes.data() + offset;
     accessor.stride = stride;
   } else if (count > file_bytes_) {
-    // All zeros: the file holds none of it, so its own claim is all there is. Believe no more than the file could have held.
-    refuse(StatusCode::limit_exceeded, index, "%s/count: %llu elements without data in a file of %llu bytes", at.pointer().c_str(),
+    // All zeros: the file holds none of it, so its own claim is all there is. Believe no more than
+    // the file could have held.
+    refuse(StatusCode::limit_exceeded, index,
+           "%s/count: %llu elements without data in a file of %llu bytes", at.pointer().c_str(),
            static_cast<Place>(count), static_cast<Place>(file_bytes_));
   }
   if (const auto sparse = at.find("sparse")) open_sparse(document_, *sparse, accessor);
@@ -180,7 +197,8 @@ Accessor AccessorReader::open(const Cursor& reference) const {
 void AccessorReader::charge(const Accessor& accessor) {
   const std::uint64_t bytes = std::uint64_t{accessor.count} * accessor.components * sizeof(float);
   if (bytes > bytes_left_)
-    refuse(StatusCode::limit_exceeded, accessor.index, "%s: the file's arrays unfold to more than the %llu bytes that are allowed",
+    refuse(StatusCode::limit_exceeded, accessor.index,
+           "%s: the file's arrays unfold to more than the %llu bytes that are allowed",
            place(accessor).c_str(), static_cast<Place>(document_.maximum_bytes));
   bytes_left_ -= bytes;
 }
@@ -210,7 +228,9 @@ std::vector<std::uint32_t> AccessorReader::read_unsigned(const Accessor& accesso
     case ComponentType::u8: decode_unsigned<std::uint8_t>(accessor, values); break;
     case ComponentType::u16: decode_unsigned<std::uint16_t>(accessor, values); break;
     case ComponentType::u32: decode_unsigned<std::uint32_t>(accessor, values); break;
-    default: refuse(StatusCode::malformed_file, accessor.index, "%s: expected unsigned integers", place(accessor).c_str());
+    default:
+      refuse(StatusCode::malformed_file, accessor.index, "%s: expected unsigned integers",
+             place(accessor).c_str());
   }
   return values;
 }

@@ -10,14 +10,16 @@
 namespace sunder::gltf {
 namespace {
 
-/// Why a channel is left out. Thrown only inside this file: an animation's faults cost a channel, not the model.
+/// Why a channel is left out. Thrown only inside this file: an animation's faults cost a channel,
+/// not the model.
 struct Unusable {
   std::string reason;
 };
 
 class AnimationReader {
  public:
-  AnimationReader(Reading& reading, const NodeSkeleton& nodes, const std::vector<MorphRange>& morphs_of_node)
+  AnimationReader(Reading& reading, const NodeSkeleton& nodes,
+                  const std::vector<MorphRange>& morphs_of_node)
       : reading_(reading), nodes_(nodes), morphs_of_node_(morphs_of_node) {}
 
   Clip read(const Cursor& animation, const std::string& name) {
@@ -29,11 +31,13 @@ class AnimationReader {
     for (std::uint32_t i = 0; i < channels.size(); ++i) {
       try {
         Channel channel = read_channel(animation, channels.element(i), place);
-        if (!driven.insert({channel.target, channel.index}).second) throw Unusable{"an earlier channel drives the same"};
+        if (!driven.insert({channel.target, channel.index}).second)
+          throw Unusable{"an earlier channel drives the same"};
         clip.duration = std::max(clip.duration, channel.times.back());
         clip.channels.push_back(std::move(channel));
       } catch (const Unusable& unusable) {
-        reading_.notes.dropped(StatusCode::malformed_file, i, place, "channel " + std::to_string(i) + ": " + unusable.reason);
+        reading_.notes.dropped(StatusCode::malformed_file, i, place,
+                               "channel " + std::to_string(i) + ": " + unusable.reason);
       }
     }
     return clip;
@@ -44,7 +48,8 @@ class AnimationReader {
     Channel channel;
     read_target(at.member("target"), channel);
     const Cursor samplers = animation.member("samplers");
-    const Cursor sampler = samplers.element(at.member("sampler").to_index(samplers.size(), "sampler"));
+    const Cursor sampler =
+        samplers.element(at.member("sampler").to_index(samplers.size(), "sampler"));
     read_interpolation(sampler, channel);
     channel.times = read_times(sampler.member("input"));
     read_values(sampler.member("output"), channel);
@@ -77,7 +82,8 @@ class AnimationReader {
     } else {
       throw Unusable{"it drives '" + path.substr(0, 40) + "'"};
     }
-    if (channel.target != ChannelTarget::morph_weights && entry(reading_.json(), "nodes", node).find("matrix"))
+    if (channel.target != ChannelTarget::morph_weights &&
+        entry(reading_.json(), "nodes", node).find("matrix"))
       throw Unusable{"its node has a matrix, which cannot be animated"};
   }
 
@@ -96,11 +102,13 @@ class AnimationReader {
 
   std::vector<float> read_times(const Cursor& input) {
     const Accessor accessor = reading_.accessors.open(input);
-    if (accessor.components != 1 || accessor.is_integer()) throw Unusable{"its key times are not floats"};
+    if (accessor.components != 1 || accessor.is_integer())
+      throw Unusable{"its key times are not floats"};
     std::vector<float> times = reading_.accessors.read_floats(accessor);
     float previous = 0.0f;
     for (const float time : times) {
-      if (!std::isfinite(time) || time < 0.0f) throw Unusable{"a key time is negative or not finite"};
+      if (!std::isfinite(time) || time < 0.0f)
+        throw Unusable{"a key time is negative or not finite"};
       if (time < previous) throw Unusable{"its key times decrease"};
       previous = time;
     }
@@ -109,18 +117,25 @@ class AnimationReader {
 
   void read_values(const Cursor& output, Channel& channel) {
     const Accessor accessor = reading_.accessors.open(output);
-    const std::size_t components = channel.target == ChannelTarget::morph_weights ? 1 : channel.width;
-    const std::size_t expected = channel.times.size() * channel.width / components * (is_cubic(channel) ? 3 : 1);
+    const std::size_t components =
+        channel.target == ChannelTarget::morph_weights ? 1 : channel.width;
+    const std::size_t expected =
+        channel.times.size() * channel.width / components * (is_cubic(channel) ? 3 : 1);
     if (accessor.is_matrix || accessor.components != components || accessor.count != expected)
       throw Unusable{"numbers of key times and values disagree"};
-    if (accessor.is_integer() && !accessor.normalized) throw Unusable{"its values are integers that are not normalised"};
+    if (accessor.is_integer() && !accessor.normalized)
+      throw Unusable{"its values are integers that are not normalised"};
     channel.values = reading_.accessors.read_floats(accessor);
     for (const float value : channel.values)
       if (!std::isfinite(value)) throw Unusable{"a key value is not finite"};
   }
 
-  static bool is_cubic(const Channel& channel) { return channel.interpolation == Interpolation::cubic_spline; }
-  static std::size_t floats_per_key(const Channel& channel) { return std::size_t{channel.width} * (is_cubic(channel) ? 3 : 1); }
+  static bool is_cubic(const Channel& channel) {
+    return channel.interpolation == Interpolation::cubic_spline;
+  }
+  static std::size_t floats_per_key(const Channel& channel) {
+    return std::size_t{channel.width} * (is_cubic(channel) ? 3 : 1);
+  }
 
   /// Keeps the last of the keys at one time: what a player shows from then on.
   void merge_equal_times(Channel& channel, const std::string& place) {
@@ -129,12 +144,14 @@ class AnimationReader {
     for (std::size_t key = 0; key < channel.times.size(); ++key) {
       if (key + 1 < channel.times.size() && channel.times[key + 1] == channel.times[key]) continue;
       channel.times[kept] = channel.times[key];
-      std::copy_n(channel.values.begin() + static_cast<std::ptrdiff_t>(key * key_floats), key_floats,
+      std::copy_n(channel.values.begin() + static_cast<std::ptrdiff_t>(key * key_floats),
+                  key_floats,
                   channel.values.begin() + static_cast<std::ptrdiff_t>(kept * key_floats));
       ++kept;
     }
     if (kept == channel.times.size()) return;
-    reading_.notes.repaired(StatusCode::malformed_file, kNone, place, "several keys at the same time; the last was kept",
+    reading_.notes.repaired(StatusCode::malformed_file, kNone, place,
+                            "several keys at the same time; the last was kept",
                             static_cast<std::uint32_t>(channel.times.size() - kept));
     channel.times.resize(kept);
     channel.values.resize(kept * key_floats);
@@ -155,15 +172,19 @@ class AnimationReader {
 
 }  // namespace
 
-std::vector<Clip> read_animations(Reading& reading, const NodeSkeleton& nodes, const std::vector<MorphRange>& morphs_of_node) {
+std::vector<Clip> read_animations(Reading& reading, const NodeSkeleton& nodes,
+                                  const std::vector<MorphRange>& morphs_of_node) {
   const std::size_t count = count_of(reading.json(), "animations");
   std::vector<std::string> names;
-  for (std::size_t i = 0; i < count; ++i) names.push_back(entry(reading.json(), "animations", i).name());
+  for (std::size_t i = 0; i < count; ++i)
+    names.push_back(entry(reading.json(), "animations", i).name());
   if (const std::size_t renamed = make_unique(names, "clip"); renamed > 0)
-    reading.notes.inform("clips", "animations without a name of their own were given one", static_cast<std::uint32_t>(renamed));
+    reading.notes.inform("clips", "animations without a name of their own were given one",
+                         static_cast<std::uint32_t>(renamed));
   AnimationReader reader(reading, nodes, morphs_of_node);
   std::vector<Clip> clips;
-  for (std::size_t i = 0; i < count; ++i) clips.push_back(reader.read(entry(reading.json(), "animations", i), names[i]));
+  for (std::size_t i = 0; i < count; ++i)
+    clips.push_back(reader.read(entry(reading.json(), "animations", i), names[i]));
   return clips;
 }
 

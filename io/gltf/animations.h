@@ -8,7 +8,8 @@
 
 namespace sunder::gltf {
 
-/// One clip an animation of the file, in its order. A channel that cannot be used is dropped, and noted.
+/// One clip an animation of the file, in its order. A channel that cannot be used is dropped, and
+/// noted.
 [[nodiscard]] std::vector<Clip> read_animations(Reading& reading, const NodeSkeleton& nodes,
                                                 const std::vector<MorphRange>& morphs_of_node);
 

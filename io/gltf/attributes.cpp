@@ -8,22 +8,27 @@
 namespace sunder::gltf {
 namespace {
 
-// How far a quantised unit vector may be off: what KHR_mesh_quantization's bytes need, and what validators accept.
+// How far a quantised unit vector may be off: what KHR_mesh_quantization's bytes need, and what
+// validators accept.
 constexpr float kUnitTolerance = 0.005f;
 
-std::string set_name(const char* prefix, std::size_t index) { return prefix + std::to_string(index); }
+std::string set_name(const char* prefix, std::size_t index) {
+  return prefix + std::to_string(index);
+}
 
 template <class Vector>
 std::uint32_t first_non_finite(const std::vector<Vector>& values) {
-  const auto found = std::find_if(values.begin(), values.end(), [](const Vector& value) { return !value.allFinite(); });
+  const auto found = std::find_if(values.begin(), values.end(),
+                                  [](const Vector& value) { return !value.allFinite(); });
   return found == values.end() ? kNone : static_cast<std::uint32_t>(found - values.begin());
 }
 
 /// Makes a direction of unit length if it is not. @return whether it was changed.
 template <class Direction>
 bool make_unit(Direction&& direction, const Vec3f& if_zero) {
-  const float norm =
-      direction.template cast<double>().norm() > 0 ? static_cast<float>(direction.template cast<double>().norm()) : 0.0f;
+  const float norm = direction.template cast<double>().norm() > 0
+                         ? static_cast<float>(direction.template cast<double>().norm())
+                         : 0.0f;
   if (std::abs(norm - 1.0f) <= kUnitTolerance) return false;
   if (norm > 0.0f)
     direction = direction.template cast<double>().normalized().template cast<float>();
@@ -35,16 +40,19 @@ bool make_unit(Direction&& direction, const Vec3f& if_zero) {
 }  // namespace
 
 AttributeReader::AttributeReader(Reading& reading, const Cursor& primitive, std::string place)
-    : reading_(reading), primitive_(primitive), attributes_(primitive.member("attributes")), place_(std::move(place)) {}
+    : reading_(reading),
+      primitive_(primitive),
+      attributes_(primitive.member("attributes")),
+      place_(std::move(place)) {}
 
 Accessor AttributeReader::open(const Cursor& at, const Mesh& mesh, std::uint32_t components) const {
   const Accessor accessor = reading_.accessors.open(at);
   if (accessor.is_matrix || accessor.components != components)
-    refuse(StatusCode::malformed_file, accessor.index, "%s: expected %u numbers a vertex, found %u", at.pointer().c_str(),
-           components, accessor.components);
+    refuse(StatusCode::malformed_file, accessor.index, "%s: expected %u numbers a vertex, found %u",
+           at.pointer().c_str(), components, accessor.components);
   if (!mesh.positions.empty() && accessor.count != mesh.positions.size())
-    refuse(StatusCode::size_mismatch, accessor.index, "%s: %u elements for %zu vertices", at.pointer().c_str(), accessor.count,
-           mesh.positions.size());
+    refuse(StatusCode::size_mismatch, accessor.index, "%s: %u elements for %zu vertices",
+           at.pointer().c_str(), accessor.count, mesh.positions.size());
   return accessor;
 }
 
@@ -61,7 +69,8 @@ void AttributeReader::zero_non_finite(std::vector<Vector>& values, const char* w
   repaired_ = true;
   // Not dropped: materials name these sets by number, and the later ones would move up.
   reading_.notes.repaired(StatusCode::non_finite_value, first, place_,
-                          std::string(what) + " were not finite and became zero (first: vertex " + std::to_string(first) + ")",
+                          std::string(what) + " were not finite and became zero (first: vertex " +
+                              std::to_string(first) + ")",
                           count);
 }
 
@@ -96,16 +105,19 @@ void AttributeReader::read_streams(Mesh& mesh) {
 void AttributeReader::read_tear_side_feature(Mesh& mesh, const Cursor& at) {
   if (attributes_.find(kTearSideAttribute)) return;
   const Accessor accessor = reading_.accessors.open(at);
-  if (!accessor.is_matrix && accessor.components == 1) return read_custom(mesh, kTearSideAttribute, at);
-  reading_.notes.dropped(StatusCode::malformed_file, accessor.index, place_,
-                         std::string("attribute ") + kTearSideFeatureAttribute + " is not one number a vertex");
+  if (!accessor.is_matrix && accessor.components == 1)
+    return read_custom(mesh, kTearSideAttribute, at);
+  reading_.notes.dropped(
+      StatusCode::malformed_file, accessor.index, place_,
+      std::string("attribute ") + kTearSideFeatureAttribute + " is not one number a vertex");
 }
 
 void AttributeReader::read_positions(Mesh& mesh) {
   const Accessor accessor = open(attributes_.member("POSITION"), mesh, 3);
   mesh.positions = reading_.accessors.read_vectors<Vec3f>(accessor);
   if (const std::uint32_t vertex = first_non_finite(mesh.positions); vertex != kNone)
-    refuse(StatusCode::non_finite_value, vertex, "/accessors/%u: the position of vertex %u is not finite", accessor.index, vertex);
+    refuse(StatusCode::non_finite_value, vertex,
+           "/accessors/%u: the position of vertex %u is not finite", accessor.index, vertex);
 }
 
 void AttributeReader::read_normals(Mesh& mesh) {
@@ -117,8 +129,8 @@ void AttributeReader::read_normals(Mesh& mesh) {
   for (Vec3f& normal : mesh.normals) changed += make_unit(normal, Vec3f::UnitZ());
   if (changed == 0) return;
   repaired_ = true;
-  reading_.notes.repaired(StatusCode::malformed_file, kNone, place_, "normals were not of unit length and were normalised",
-                          changed);
+  reading_.notes.repaired(StatusCode::malformed_file, kNone, place_,
+                          "normals were not of unit length and were normalised", changed);
 }
 
 void AttributeReader::read_tangents(Mesh& mesh) {
@@ -137,8 +149,9 @@ void AttributeReader::read_tangents(Mesh& mesh) {
   }
   if (changed == 0) return;
   repaired_ = true;
-  reading_.notes.repaired(StatusCode::malformed_file, kNone, place_,
-                          "tangents were not of unit length, or their sign not +-1, and were corrected", changed);
+  reading_.notes.repaired(
+      StatusCode::malformed_file, kNone, place_,
+      "tangents were not of unit length, or their sign not +-1, and were corrected", changed);
 }
 
 void AttributeReader::read_uv_sets(Mesh& mesh) {
@@ -170,7 +183,8 @@ void AttributeReader::read_color_sets(Mesh& mesh) {
 void AttributeReader::note_sets_beyond(const char* prefix, std::size_t used) {
   const std::string start = prefix;
   std::size_t sets = 0;
-  for (const auto& item : attributes_.json().items()) sets += item.key().compare(0, start.size(), start) == 0;
+  for (const auto& item : attributes_.json().items())
+    sets += item.key().compare(0, start.size(), start) == 0;
   if (sets > used)
     reading_.notes.dropped(StatusCode::malformed_file, kNone, place_,
                            start + "n are not numbered 0, 1 …; those after the gap are left out",
@@ -181,26 +195,31 @@ void AttributeReader::read_custom(Mesh& mesh, const std::string& name, const Cur
   const Accessor accessor = reading_.accessors.open(at);
   if (accessor.is_matrix || accessor.component_type == ComponentType::u32) {
     reading_.notes.dropped(StatusCode::unsupported_feature, accessor.index, place_,
-                           "attribute " + name + (accessor.is_matrix ? " holds matrices" : " holds 32-bit integers") +
+                           "attribute " + name +
+                               (accessor.is_matrix ? " holds matrices" : " holds 32-bit integers") +
                                "; it stays in the file but not on a torn mesh");
     return;
   }
-  const bool is_label = (accessor.is_integer() && !accessor.normalized) || name == kTearSideAttribute;
+  const bool is_label =
+      (accessor.is_integer() && !accessor.normalized) || name == kTearSideAttribute;
   CustomAttribute attribute{name, accessor.components, !is_label, {}};
   attribute.values = reading_.accessors.read_floats(open(at, mesh, accessor.components));
-  const auto bad =
-      std::find_if(attribute.values.begin(), attribute.values.end(), [](float value) { return !std::isfinite(value); });
+  const auto bad = std::find_if(attribute.values.begin(), attribute.values.end(),
+                                [](float value) { return !std::isfinite(value); });
   if (bad == attribute.values.end()) {
     mesh.custom_attributes.push_back(std::move(attribute));
     return;
   }
-  const auto vertex = static_cast<std::uint32_t>((bad - attribute.values.begin()) / accessor.components);
+  const auto vertex =
+      static_cast<std::uint32_t>((bad - attribute.values.begin()) / accessor.components);
   repaired_ = true;
-  reading_.notes.dropped(StatusCode::non_finite_value, vertex, place_,
-                         "attribute " + name + " is not finite (first: vertex " + std::to_string(vertex) + ")");
+  reading_.notes.dropped(
+      StatusCode::non_finite_value, vertex, place_,
+      "attribute " + name + " is not finite (first: vertex " + std::to_string(vertex) + ")");
 }
 
-std::vector<Vec3f> AttributeReader::read_deltas(const Cursor& target, const char* name, const Mesh& mesh) {
+std::vector<Vec3f> AttributeReader::read_deltas(const Cursor& target, const char* name,
+                                                const Mesh& mesh) {
   const auto at = target.find(name);
   if (!at) return {};
   auto deltas = reading_.accessors.read_vectors<Vec3f>(open(*at, mesh, 3));
@@ -214,15 +233,16 @@ void AttributeReader::read_morph_targets(Mesh& mesh, const std::vector<std::stri
   bool has_other = false;
   for (std::size_t i = 0; i < targets->size(); ++i) {
     const Cursor at = targets->element(i);
-    mesh.morph_targets.push_back({i < names.size() ? names[i] : std::string(), read_deltas(at, "POSITION", mesh),
-                                  read_deltas(at, "NORMAL", mesh), read_deltas(at, "TANGENT", mesh)});
+    mesh.morph_targets.push_back(
+        {i < names.size() ? names[i] : std::string(), read_deltas(at, "POSITION", mesh),
+         read_deltas(at, "NORMAL", mesh), read_deltas(at, "TANGENT", mesh)});
     for (const auto& item : at.json().items())
       has_other |= item.key() != "POSITION" && item.key() != "NORMAL" && item.key() != "TANGENT";
   }
   if (has_other)
-    reading_.notes.dropped(
-        StatusCode::unsupported_feature, kNone, place_,
-        "morph targets move more than positions, normals and tangents; that stays in the file but not on a torn mesh");
+    reading_.notes.dropped(StatusCode::unsupported_feature, kNone, place_,
+                           "morph targets move more than positions, normals and tangents; that "
+                           "stays in the file but not on a torn mesh");
 }
 
 std::vector<InfluenceSet> AttributeReader::read_influences(const Mesh& mesh) {
@@ -232,16 +252,21 @@ std::vector<InfluenceSet> AttributeReader::read_influences(const Mesh& mesh) {
     const auto weights = attributes_.find(set_name("WEIGHTS_", sets.size()).c_str());
     if (!joints && !weights) return sets;
     if (!joints || !weights)
-      refuse(StatusCode::size_mismatch, static_cast<std::uint32_t>(sets.size()), "%s: JOINTS_%zu and WEIGHTS_%zu go together",
-             attributes_.pointer().c_str(), sets.size(), sets.size());
+      refuse(StatusCode::size_mismatch, static_cast<std::uint32_t>(sets.size()),
+             "%s: JOINTS_%zu and WEIGHTS_%zu go together", attributes_.pointer().c_str(),
+             sets.size(), sets.size());
     const Accessor slots = open(*joints, mesh, 4), values = open(*weights, mesh, 4);
     if (slots.normalized || slots.component_type == ComponentType::u32)
-      refuse(StatusCode::malformed_file, slots.index, "%s: joints are 8 or 16-bit integers", joints->pointer().c_str());
+      refuse(StatusCode::malformed_file, slots.index, "%s: joints are 8 or 16-bit integers",
+             joints->pointer().c_str());
     if (values.is_integer() &&
-        !(values.normalized && (values.component_type == ComponentType::u8 || values.component_type == ComponentType::u16)))
-      refuse(StatusCode::malformed_file, values.index, "%s: weights are floats or normalised unsigned 8 or 16-bit integers",
+        !(values.normalized && (values.component_type == ComponentType::u8 ||
+                                values.component_type == ComponentType::u16)))
+      refuse(StatusCode::malformed_file, values.index,
+             "%s: weights are floats or normalised unsigned 8 or 16-bit integers",
              weights->pointer().c_str());
-    sets.push_back({reading_.accessors.read_unsigned(slots), reading_.accessors.read_floats(values)});
+    sets.push_back(
+        {reading_.accessors.read_unsigned(slots), reading_.accessors.read_floats(values)});
   }
 }
 

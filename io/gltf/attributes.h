@@ -22,7 +22,9 @@ class AttributeReader {
   /// JOINTS_n with WEIGHTS_n, n = 0, 1 …; empty where the primitive has none.
   [[nodiscard]] std::vector<InfluenceSet> read_influences(const Mesh& mesh);
 
-  [[nodiscard]] const std::vector<std::uint32_t>& color_components() const { return color_components_; }
+  [[nodiscard]] const std::vector<std::uint32_t>& color_components() const {
+    return color_components_;
+  }
   [[nodiscard]] bool repaired() const { return repaired_; }
 
  private:

@@ -8,7 +8,8 @@ namespace {
 
 using Place = unsigned long long;
 
-void resolve_buffer(SourceDocument& document, const Container& container, std::size_t index, std::uint64_t& bytes_left) {
+void resolve_buffer(SourceDocument& document, const Container& container, std::size_t index,
+                    std::uint64_t& bytes_left) {
   const Cursor buffer = entry(document.json, "buffers", index);
   const std::uint64_t claimed = buffer.member("byteLength").to_unsigned();
   std::span<const std::byte> bytes;
@@ -17,36 +18,42 @@ void resolve_buffer(SourceDocument& document, const Container& container, std::s
       document.other_files.push_back(decode_data_uri(uri->to_string(), uri->pointer()));
     else
       document.other_files.push_back(
-          read_file(resolve_uri(uri->to_string(), document.folder, uri->pointer()), bytes_left, uri->pointer()));
+          read_file(resolve_uri(uri->to_string(), document.folder, uri->pointer()), bytes_left,
+                    uri->pointer()));
     bytes = document.other_files.back();
     bytes_left -= std::min<std::uint64_t>(bytes_left, bytes.size());
   } else if (index == 0 && container.is_glb) {
     bytes = container.binary;
   } else {
-    refuse(StatusCode::unsupported_feature, static_cast<std::uint32_t>(index), "%s: a buffer without data",
-           buffer.pointer().c_str());
+    refuse(StatusCode::unsupported_feature, static_cast<std::uint32_t>(index),
+           "%s: a buffer without data", buffer.pointer().c_str());
   }
   if (claimed > bytes.size())
-    refuse(StatusCode::malformed_file, static_cast<std::uint32_t>(index), "%s/byteLength: claims %llu bytes, there are %zu",
-           buffer.pointer().c_str(), static_cast<Place>(claimed), bytes.size());
+    refuse(StatusCode::malformed_file, static_cast<std::uint32_t>(index),
+           "%s/byteLength: claims %llu bytes, there are %zu", buffer.pointer().c_str(),
+           static_cast<Place>(claimed), bytes.size());
   document.buffers.push_back(bytes.first(claimed));
 }
 
 }  // namespace
 
 void resolve_buffers(SourceDocument& document, const Container& container) {
-  std::uint64_t bytes_left = document.maximum_bytes - std::min<std::uint64_t>(document.maximum_bytes, document.content.size());
+  std::uint64_t bytes_left =
+      document.maximum_bytes -
+      std::min<std::uint64_t>(document.maximum_bytes, document.content.size());
   const std::size_t buffer_count = count_of(document.json, "buffers");
   for (std::size_t i = 0; i < buffer_count; ++i) resolve_buffer(document, container, i, bytes_left);
 
   for (std::size_t i = 0; i < count_of(document.json, "bufferViews"); ++i) {
     const Cursor view = entry(document.json, "bufferViews", i);
     const std::uint32_t buffer = view.member("buffer").to_index(buffer_count, "buffer");
-    const std::uint64_t offset = view.unsigned_or("byteOffset", 0), length = view.member("byteLength").to_unsigned();
+    const std::uint64_t offset = view.unsigned_or("byteOffset", 0),
+                        length = view.member("byteLength").to_unsigned();
     const std::uint64_t available = document.buffers[buffer].size();
     if (offset > available || length > available - offset)
-      refuse(StatusCode::index_out_of_range, static_cast<std::uint32_t>(i), "%s: bytes %llu + %llu of a buffer of %llu",
-             view.pointer().c_str(), static_cast<Place>(offset), static_cast<Place>(length), static_cast<Place>(available));
+      refuse(StatusCode::index_out_of_range, static_cast<std::uint32_t>(i),
+             "%s: bytes %llu + %llu of a buffer of %llu", view.pointer().c_str(),
+             static_cast<Place>(offset), static_cast<Place>(length), static_cast<Place>(available));
   }
 }
 

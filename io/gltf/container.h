@@ -19,7 +19,8 @@ struct Container {
 
 [[nodiscard]] bool has_glb_magic(std::span<const std::byte> content);
 
-/// Finds the JSON and the BIN chunk. Every length that the file claims is checked against what is there.
+/// Finds the JSON and the BIN chunk. Every length that the file claims is checked against what is
+/// there.
 [[nodiscard]] Container split_container(std::span<const std::byte> content);
 
 /// Parses the JSON after checking its nesting, then its version and required extensions.

@@ -8,7 +8,8 @@ namespace sunder::gltf {
 namespace {
 
 [[noreturn]] void refuse_type(const Cursor& at, const char* expected) {
-  refuse(StatusCode::malformed_file, kNone, "%.120s: expected %s, found %s", at.pointer().c_str(), expected, at.json().type_name());
+  refuse(StatusCode::malformed_file, kNone, "%.120s: expected %s, found %s", at.pointer().c_str(),
+         expected, at.json().type_name());
 }
 
 }  // namespace
@@ -32,8 +33,8 @@ std::size_t Cursor::size() const {
 
 Cursor Cursor::element(std::size_t index) const {
   if (index >= size())
-    refuse(StatusCode::index_out_of_range, static_cast<std::uint32_t>(index), "%.120s: element %zu of %zu", pointer_.c_str(), index,
-           size());
+    refuse(StatusCode::index_out_of_range, static_cast<std::uint32_t>(index),
+           "%.120s: element %zu of %zu", pointer_.c_str(), index, size());
   return Cursor((*value_)[index], pointer_ + "/" + std::to_string(index));
 }
 
@@ -42,22 +43,25 @@ std::uint64_t Cursor::to_unsigned() const {
   if (!value_->is_number()) refuse_type(*this, "a whole number");
   const double number = value_->get<double>();
   if (!(number >= 0.0 && number <= kLargest) || number != std::floor(number))
-    refuse(StatusCode::malformed_file, kNone, "%.120s: expected a whole number >= 0, found %g", pointer_.c_str(), number);
+    refuse(StatusCode::malformed_file, kNone, "%.120s: expected a whole number >= 0, found %g",
+           pointer_.c_str(), number);
   return static_cast<std::uint64_t>(number);
 }
 
 std::uint32_t Cursor::to_index(std::size_t count, const char* what) const {
   const std::uint64_t index = to_unsigned();
   if (index >= count)
-    refuse(StatusCode::index_out_of_range, static_cast<std::uint32_t>(index), "%.120s: %s %llu, the file has %zu", pointer_.c_str(),
-           what, static_cast<unsigned long long>(index), count);
+    refuse(StatusCode::index_out_of_range, static_cast<std::uint32_t>(index),
+           "%.120s: %s %llu, the file has %zu", pointer_.c_str(), what,
+           static_cast<unsigned long long>(index), count);
   return static_cast<std::uint32_t>(index);
 }
 
 float Cursor::to_float() const {
   if (!value_->is_number()) refuse_type(*this, "a number");
   const auto number = static_cast<float>(value_->get<double>());
-  if (!std::isfinite(number)) refuse(StatusCode::non_finite_value, kNone, "%.120s: too large for a float", pointer_.c_str());
+  if (!std::isfinite(number))
+    refuse(StatusCode::non_finite_value, kNone, "%.120s: too large for a float", pointer_.c_str());
   return number;
 }
 
@@ -91,6 +95,8 @@ std::size_t count_of(const Json& document, const char* list) {
   return found ? found->size() : 0;
 }
 
-Cursor entry(const Json& document, const char* list, std::size_t index) { return Cursor(document, "").member(list).element(index); }
+Cursor entry(const Json& document, const char* list, std::size_t index) {
+  return Cursor(document, "").member(list).element(index);
+}
 
 }  // namespace sunder::gltf

@@ -12,8 +12,8 @@ namespace sunder::gltf {
 
 using Json = nlohmann::ordered_json;
 
-/// A place in the document that knows its JSON pointer. Every access checks presence, type and range, and refuses the file with the
-/// place in the text ("/accessors/4/bufferView: …").
+/// A place in the document that knows its JSON pointer. Every access checks presence, type and
+/// range, and refuses the file with the place in the text ("/accessors/4/bufferView: …").
 class Cursor {
  public:
   Cursor(const Json& value, std::string pointer) : value_(&value), pointer_(std::move(pointer)) {}
@@ -40,7 +40,8 @@ class Cursor {
   // Optional members with their default.
   [[nodiscard]] std::uint64_t unsigned_or(const char* key, std::uint64_t otherwise) const;
   [[nodiscard]] bool bool_or(const char* key, bool otherwise) const;
-  [[nodiscard]] std::string name() const;  ///< Member "name"; empty where it is absent or not a string.
+  [[nodiscard]] std::string name()
+      const;  ///< Member "name"; empty where it is absent or not a string.
 
  private:
   const Json* value_;

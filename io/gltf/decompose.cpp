@@ -8,7 +8,8 @@ namespace sunder::gltf {
 namespace {
 
 Mat3d linear_of(const BoneTransform& transform) {
-  return transform.rotation.cast<double>().toRotationMatrix() * transform.scale.cast<double>().asDiagonal();
+  return transform.rotation.cast<double>().toRotationMatrix() *
+         transform.scale.cast<double>().asDiagonal();
 }
 
 /// Rotation of an orthonormal matrix of positive determinant, stored as floats.
@@ -31,7 +32,8 @@ Decomposition decompose(const Affine3d& matrix) {
   if (scale.cwiseAbs().minCoeff() > 0) {
     whole.rotation = to_rotation(linear * scale.cwiseInverse().asDiagonal());
     whole.scale = scale.cast<float>();
-    if ((linear_of(whole) - linear).cwiseAbs().maxCoeff() <= 1e-6 * largest) return {whole, std::nullopt};
+    if ((linear_of(whole) - linear).cwiseAbs().maxCoeff() <= 1e-6 * largest)
+      return {whole, std::nullopt};
   }
 
   // Dynamic size: gcc 12 warns of an uninitialised use in the fixed-size version's early return for

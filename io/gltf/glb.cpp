@@ -21,7 +21,8 @@ Json& list_of(Json& document, const char* name) {
 }
 
 void append_u32(std::vector<std::byte>& bytes, std::size_t value) {
-  for (int shift = 0; shift < 32; shift += 8) bytes.push_back(static_cast<std::byte>(value >> shift & 0xFFu));
+  for (int shift = 0; shift < 32; shift += 8)
+    bytes.push_back(static_cast<std::byte>(value >> shift & 0xFFu));
 }
 
 /// The media type of image bytes, of those that glTF and its extensions know; null for others.
@@ -29,14 +30,17 @@ const char* media_type(std::span<const std::byte> bytes) {
   const std::string_view text{reinterpret_cast<const char*>(bytes.data()), bytes.size()};
   if (text.substr(0, 8) == "\x89PNG\r\n\x1A\n") return "image/png";
   if (text.substr(0, 3) == "\xFF\xD8\xFF") return "image/jpeg";
-  if (text.substr(0, 4) == "RIFF" && text.size() >= 12 && text.substr(8, 4) == "WEBP") return "image/webp";
+  if (text.substr(0, 4) == "RIFF" && text.size() >= 12 && text.substr(8, 4) == "WEBP")
+    return "image/webp";
   if (text.substr(0, 7) == "\xABKTX 20") return "image/ktx2";
   return nullptr;
 }
 
 }  // namespace
 
-GlbDraft::GlbDraft(const SourceDocument& source) : json(source.json), source_(source) { merge_buffers(); }
+GlbDraft::GlbDraft(const SourceDocument& source) : json(source.json), source_(source) {
+  merge_buffers();
+}
 
 std::uint64_t GlbDraft::append(std::span<const std::byte> bytes) {
   binary_.resize((binary_.size() + kAlignment - 1) / kAlignment * kAlignment);
@@ -50,26 +54,33 @@ void GlbDraft::merge_buffers() {
   for (const auto& buffer : source_.buffers) offset_of_buffer.push_back(append(buffer));
   if (source_.buffers.empty()) return;
   Json& buffers = json["buffers"];
-  Json merged = buffers.size() == 1 ? buffers[0] : Json::object();  // Keeps a lone buffer's name and extras.
+  Json merged =
+      buffers.size() == 1 ? buffers[0] : Json::object();  // Keeps a lone buffer's name and extras.
   merged.erase("uri");
   buffers = Json::array({std::move(merged)});
   if (offset_of_buffer.size() == 1 || !json.contains("bufferViews")) return;
 
   const auto move = [&](Json& view) {
-    if (!view.contains("buffer") || !view["buffer"].is_number_unsigned() || view["buffer"] >= offset_of_buffer.size()) return;
-    const std::uint64_t offset = view.contains("byteOffset") ? view["byteOffset"].get<std::uint64_t>() : 0;
+    if (!view.contains("buffer") || !view["buffer"].is_number_unsigned() ||
+        view["buffer"] >= offset_of_buffer.size())
+      return;
+    const std::uint64_t offset =
+        view.contains("byteOffset") ? view["byteOffset"].get<std::uint64_t>() : 0;
     view["byteOffset"] = offset + offset_of_buffer[view["buffer"].get<std::size_t>()];
     view["buffer"] = 0;
   };
   for (Json& view : json["bufferViews"]) {
     move(view);
-    const auto packed = view.find("extensions");  // An optional, compressed form of the same bytes, in some buffer too.
+    const auto packed = view.find(
+        "extensions");  // An optional, compressed form of the same bytes, in some buffer too.
     if (packed != view.end() && packed->is_object() && packed->contains("EXT_meshopt_compression"))
-      if (Json& compressed = (*packed)["EXT_meshopt_compression"]; compressed.is_object()) move(compressed);
+      if (Json& compressed = (*packed)["EXT_meshopt_compression"]; compressed.is_object())
+        move(compressed);
   }
 }
 
-std::uint32_t GlbDraft::add_view(std::span<const std::byte> bytes, ViewTarget target, std::uint32_t stride) {
+std::uint32_t GlbDraft::add_view(std::span<const std::byte> bytes, ViewTarget target,
+                                 std::uint32_t stride) {
   Json view = {{"buffer", 0}, {"byteOffset", append(bytes)}, {"byteLength", bytes.size()}};
   if (stride != 0) view["byteStride"] = stride;
   if (target != ViewTarget::none) view["target"] = static_cast<std::uint32_t>(target);
@@ -82,7 +93,8 @@ void GlbDraft::embed_images() {
   std::uint64_t bytes_left = source_.maximum_bytes;
   if (!json.contains("images") || !json["images"].is_array()) return;
   for (Json& image : json["images"])
-    if (image.is_object() && image.contains("uri") && image["uri"].is_string()) embed_image(image, bytes_left);
+    if (image.is_object() && image.contains("uri") && image["uri"].is_string())
+      embed_image(image, bytes_left);
 }
 
 void GlbDraft::embed_image(Json& image, std::uint64_t& bytes_left) {
@@ -113,7 +125,8 @@ std::vector<std::byte> GlbDraft::finish() {
   text.resize((text.size() + 3) / 4 * 4, ' ');
   const std::size_t total = 12 + 8 + text.size() + (binary_.empty() ? 0 : 8 + binary_.size());
   if (total > std::numeric_limits<std::uint32_t>::max())
-    refuse(StatusCode::limit_exceeded, kNone, "the GLB would have %zu bytes; its format ends at 4 GiB", total);
+    refuse(StatusCode::limit_exceeded, kNone,
+           "the GLB would have %zu bytes; its format ends at 4 GiB", total);
 
   std::vector<std::byte> glb;
   glb.reserve(total);

@@ -8,7 +8,8 @@
 
 namespace sunder::gltf {
 
-/// A document on its way to a GLB: its JSON, and one BIN chunk that only grows. Indices of what it holds already do not change.
+/// A document on its way to a GLB: its JSON, and one BIN chunk that only grows. Indices of what it
+/// holds already do not change.
 class GlbDraft {
  public:
   /// Copies the document; all its buffers become one, all that they hold stays.
@@ -19,10 +20,13 @@ class GlbDraft {
   enum class ViewTarget : std::uint16_t { none = 0, vertices = 34962, indices = 34963 };
 
   /// Appends bytes as a new buffer view. @return its index.
-  /// @param stride  bytes from one element to the next where that is not the element's size; else 0.
-  std::uint32_t add_view(std::span<const std::byte> bytes, ViewTarget target, std::uint32_t stride = 0);
+  /// @param stride  bytes from one element to the next where that is not the element's size; else
+  /// 0.
+  std::uint32_t add_view(std::span<const std::byte> bytes, ViewTarget target,
+                         std::uint32_t stride = 0);
 
-  /// Puts images of the source's folder into the chunk. Those that cannot be read, and other kinds than glTF knows, keep their URI.
+  /// Puts images of the source's folder into the chunk. Those that cannot be read, and other kinds
+  /// than glTF knows, keep their URI.
   void embed_images();
 
   /// The finished file.

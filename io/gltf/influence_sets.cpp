@@ -18,7 +18,8 @@ std::uint32_t most_influences(const SkinWeights& weights) {
 }
 
 bool write_weights(std::span<const Influence> kept, std::span<float> written) {
-  std::transform(kept.begin(), kept.end(), written.begin(), [](const Influence& influence) { return influence.weight; });
+  std::transform(kept.begin(), kept.end(), written.begin(),
+                 [](const Influence& influence) { return influence.weight; });
   return true;
 }
 
@@ -43,8 +44,10 @@ InfluenceSets<Weight> make_influence_sets(const SkinWeights& weights, std::uint3
     const auto all = weights.of(v);
     influences.assign(all.begin(), all.end());
     const std::size_t kept = prune_influences(influences, maximum);
-    if (kept == 0 || !write_weights(std::span<const Influence>(influences).first(kept), std::span<Weight>(written).first(kept)))
-      refuse(StatusCode::weights_not_normalized, v, "save_glb: vertex %u: its influences have no weight", v);
+    if (kept == 0 || !write_weights(std::span<const Influence>(influences).first(kept),
+                                    std::span<Weight>(written).first(kept)))
+      refuse(StatusCode::weights_not_normalized, v,
+             "save_glb: vertex %u: its influences have no weight", v);
     for (std::size_t i = 0; i < kept; ++i) {
       if (written[i] == Weight{0}) continue;  // The joint of nothing is 0.
       sets.slots[i / 4][std::size_t{v} * 4 + i % 4] = influences[i].slot;

@@ -30,9 +30,11 @@ std::string numbered(const char* name, std::size_t index) { return name + std::t
 void check_options(const SaveOptions& options) {
   const std::uint32_t maximum = options.maximum_influences;
   if (maximum != 0 && maximum != 4 && maximum != 8)
-    refuse(StatusCode::invalid_argument, kNone, "save_glb: maximum_influences is 0, 4 or 8, not %u", maximum);
+    refuse(StatusCode::invalid_argument, kNone, "save_glb: maximum_influences is 0, 4 or 8, not %u",
+           maximum);
   if (options.weights > WeightFormat::unorm8)
-    refuse(StatusCode::invalid_argument, kNone, "save_glb: %u is not a weight format", static_cast<unsigned>(options.weights));
+    refuse(StatusCode::invalid_argument, kNone, "save_glb: %u is not a weight format",
+           static_cast<unsigned>(options.weights));
 }
 
 std::uint32_t MeshWriter::add_accessor(Json accessor) {
@@ -42,11 +44,13 @@ std::uint32_t MeshWriter::add_accessor(Json accessor) {
   return static_cast<std::uint32_t>(accessors.size() - 1);
 }
 
-std::uint32_t MeshWriter::add_floats(std::span<const float> values, std::uint32_t components, Bounds bounds) {
-  Json accessor = {{"bufferView", draft_.add_view(std::as_bytes(values), GlbDraft::ViewTarget::vertices)},
-                   {"componentType", static_cast<std::uint32_t>(ComponentType::f32)},
-                   {"count", values.size() / components},
-                   {"type", kTypes[components]}};
+std::uint32_t MeshWriter::add_floats(std::span<const float> values, std::uint32_t components,
+                                     Bounds bounds) {
+  Json accessor = {
+      {"bufferView", draft_.add_view(std::as_bytes(values), GlbDraft::ViewTarget::vertices)},
+      {"componentType", static_cast<std::uint32_t>(ComponentType::f32)},
+      {"count", values.size() / components},
+      {"type", kTypes[components]}};
   if (bounds == Bounds::yes) {
     Json least = Json::array(), greatest = Json::array();
     for (std::size_t c = 0; c < components; ++c) {
@@ -71,21 +75,25 @@ std::uint32_t MeshWriter::add_vectors(const std::vector<Vector>& values, Bounds 
 }
 
 template <class T>
-std::uint32_t MeshWriter::add_integers(const std::vector<std::uint32_t>& values, std::uint32_t components,
-                                       GlbDraft::ViewTarget target) {
+std::uint32_t MeshWriter::add_integers(const std::vector<std::uint32_t>& values,
+                                       std::uint32_t components, GlbDraft::ViewTarget target) {
   std::vector<T> narrow(values.size());
-  std::transform(values.begin(), values.end(), narrow.begin(), [](std::uint32_t value) { return static_cast<T>(value); });
-  return add_accessor({{"bufferView", draft_.add_view(std::as_bytes(std::span<const T>(narrow)), target)},
-                       {"componentType", static_cast<std::uint32_t>(component_type<T>())},
-                       {"count", values.size() / components},
-                       {"type", kTypes[components]}});
+  std::transform(values.begin(), values.end(), narrow.begin(),
+                 [](std::uint32_t value) { return static_cast<T>(value); });
+  return add_accessor(
+      {{"bufferView", draft_.add_view(std::as_bytes(std::span<const T>(narrow)), target)},
+       {"componentType", static_cast<std::uint32_t>(component_type<T>())},
+       {"count", values.size() / components},
+       {"type", kTypes[components]}});
 }
 
 /// Labels stay 16-bit integers: by that, who reads them knows that they do not interpolate.
 std::uint32_t MeshWriter::add_labels(const CustomAttribute& attribute) {
-  const auto [least, greatest] = std::minmax_element(attribute.values.begin(), attribute.values.end());
+  const auto [least, greatest] =
+      std::minmax_element(attribute.values.begin(), attribute.values.end());
   const bool is_signed = *least < 0.0f;
-  const bool fits = is_signed ? *least >= -32768.0f && *greatest <= 32767.0f : *greatest <= 65535.0f;
+  const bool fits =
+      is_signed ? *least >= -32768.0f && *greatest <= 32767.0f : *greatest <= 65535.0f;
   if (!fits) return add_floats(attribute.values, attribute.components);
   // Vertex data is aligned to four bytes.
   const std::size_t components = attribute.components, stride = (components + 1) / 2 * 2,
@@ -93,35 +101,45 @@ std::uint32_t MeshWriter::add_labels(const CustomAttribute& attribute) {
   std::vector<std::uint16_t> labels(count * stride, 0);
   for (std::size_t i = 0; i < count; ++i)
     for (std::size_t c = 0; c < components; ++c)
-      labels[i * stride + c] = static_cast<std::uint16_t>(static_cast<std::int32_t>(attribute.values[i * components + c]));
-  const std::uint32_t view = draft_.add_view(std::as_bytes(std::span<const std::uint16_t>(labels)), GlbDraft::ViewTarget::vertices,
-                                             static_cast<std::uint32_t>(stride * sizeof(std::uint16_t)));
+      labels[i * stride + c] = static_cast<std::uint16_t>(
+          static_cast<std::int32_t>(attribute.values[i * components + c]));
+  const std::uint32_t view = draft_.add_view(
+      std::as_bytes(std::span<const std::uint16_t>(labels)), GlbDraft::ViewTarget::vertices,
+      static_cast<std::uint32_t>(stride * sizeof(std::uint16_t)));
   return add_accessor({{"bufferView", view},
-                       {"componentType", static_cast<std::uint32_t>(is_signed ? ComponentType::i16 : ComponentType::u16)},
+                       {"componentType", static_cast<std::uint32_t>(
+                                             is_signed ? ComponentType::i16 : ComponentType::u16)},
                        {"count", count},
                        {"type", kTypes[components]}});
 }
 
-bool MeshWriter::has_triangles(const Mesh& mesh) { return !std::all_of(mesh.triangles.begin(), mesh.triangles.end(), is_retired); }
+bool MeshWriter::has_triangles(const Mesh& mesh) {
+  return !std::all_of(mesh.triangles.begin(), mesh.triangles.end(), is_retired);
+}
 
-MeshWriter::Vertices MeshWriter::add_vertices(const Mesh& mesh, const SourceDocument::MeshOrigin& origin) {
+MeshWriter::Vertices MeshWriter::add_vertices(const Mesh& mesh,
+                                              const SourceDocument::MeshOrigin& origin) {
   Vertices vertices{Json::object(), nullptr};
   Json& attributes = vertices.attributes;
   attributes["POSITION"] = add_vectors(mesh.positions, Bounds::yes);
   if (!mesh.normals.empty()) attributes["NORMAL"] = add_vectors(mesh.normals);
   if (!mesh.tangents.empty()) attributes["TANGENT"] = add_vectors(mesh.tangents);
-  for (std::size_t i = 0; i < mesh.uv_sets.size(); ++i) attributes[numbered("TEXCOORD_", i)] = add_vectors(mesh.uv_sets[i]);
+  for (std::size_t i = 0; i < mesh.uv_sets.size(); ++i)
+    attributes[numbered("TEXCOORD_", i)] = add_vectors(mesh.uv_sets[i]);
   for (std::size_t i = 0; i < mesh.color_sets.size(); ++i) {
     const bool has_alpha = i >= origin.color_components.size() || origin.color_components[i] == 4;
     std::vector<Vec3f> rgb;
     if (!has_alpha)
       for (const Vec4f& color : mesh.color_sets[i]) rgb.push_back(color.head<3>());
-    attributes[numbered("COLOR_", i)] = has_alpha ? add_vectors(mesh.color_sets[i]) : add_vectors(rgb);
+    attributes[numbered("COLOR_", i)] =
+        has_alpha ? add_vectors(mesh.color_sets[i]) : add_vectors(rgb);
   }
   for (const CustomAttribute& attribute : mesh.custom_attributes) {
-    // Tools that merge equal vertices compare plain float attributes most reliably: tear sides are written as such.
+    // Tools that merge equal vertices compare plain float attributes most reliably: tear sides are
+    // written as such.
     const bool as_floats = attribute.interpolates || attribute.name == kTearSideAttribute;
-    attributes[attribute.name] = as_floats ? add_floats(attribute.values, attribute.components) : add_labels(attribute);
+    attributes[attribute.name] =
+        as_floats ? add_floats(attribute.values, attribute.components) : add_labels(attribute);
   }
   if (const auto sides = attributes.find(kTearSideAttribute); sides != attributes.end()) {
     const Json accessor = *sides;  // The insertion moves it.
@@ -135,21 +153,27 @@ MeshWriter::Vertices MeshWriter::add_vertices(const Mesh& mesh, const SourceDocu
 void MeshWriter::add_influences(const SkinWeights& weights, Json& attributes) {
   const std::uint32_t maximum = options_.maximum_influences;
   switch (options_.weights) {
-    case WeightFormat::float32: return add_sets(make_influence_sets<float>(weights, maximum), attributes);
-    case WeightFormat::unorm16: return add_sets(make_influence_sets<std::uint16_t>(weights, maximum), attributes);
-    case WeightFormat::unorm8: return add_sets(make_influence_sets<std::uint8_t>(weights, maximum), attributes);
+    case WeightFormat::float32:
+      return add_sets(make_influence_sets<float>(weights, maximum), attributes);
+    case WeightFormat::unorm16:
+      return add_sets(make_influence_sets<std::uint16_t>(weights, maximum), attributes);
+    case WeightFormat::unorm8:
+      return add_sets(make_influence_sets<std::uint8_t>(weights, maximum), attributes);
   }
 }
 
 template <class Weight>
 void MeshWriter::add_sets(const InfluenceSets<Weight>& sets, Json& attributes) {
-  const bool fits_a_byte = std::all_of(sets.slots.begin(), sets.slots.end(), [](const std::vector<std::uint32_t>& slots) {
-    return std::all_of(slots.begin(), slots.end(), [](std::uint32_t slot) { return slot < 256; });
-  });
+  const bool fits_a_byte = std::all_of(
+      sets.slots.begin(), sets.slots.end(), [](const std::vector<std::uint32_t>& slots) {
+        return std::all_of(slots.begin(), slots.end(),
+                           [](std::uint32_t slot) { return slot < 256; });
+      });
   for (std::size_t set = 0; set < sets.slots.size(); ++set) {
     const std::vector<std::uint32_t>& slots = sets.slots[set];
-    attributes[numbered("JOINTS_", set)] = fits_a_byte ? add_integers<std::uint8_t>(slots, 4, GlbDraft::ViewTarget::vertices)
-                                                       : add_integers<std::uint16_t>(slots, 4, GlbDraft::ViewTarget::vertices);
+    attributes[numbered("JOINTS_", set)] =
+        fits_a_byte ? add_integers<std::uint8_t>(slots, 4, GlbDraft::ViewTarget::vertices)
+                    : add_integers<std::uint16_t>(slots, 4, GlbDraft::ViewTarget::vertices);
     attributes[numbered("WEIGHTS_", set)] = add_weights(sets.weights[set]);
   }
 }
@@ -159,7 +183,8 @@ std::uint32_t MeshWriter::add_weights(const std::vector<Weight>& weights) {
   if constexpr (std::is_same_v<Weight, float>)
     return add_floats(weights, 4);
   else
-    return add_accessor({{"bufferView", draft_.add_view(std::as_bytes(std::span(weights)), GlbDraft::ViewTarget::vertices)},
+    return add_accessor({{"bufferView", draft_.add_view(std::as_bytes(std::span(weights)),
+                                                        GlbDraft::ViewTarget::vertices)},
                          {"componentType", static_cast<std::uint32_t>(component_type<Weight>())},
                          {"normalized", true},
                          {"count", weights.size() / 4},
@@ -170,16 +195,20 @@ Json MeshWriter::add_targets(const Mesh& mesh) {
   Json targets = Json::array();
   for (const MorphTarget& target : mesh.morph_targets) {
     Json deltas = Json::object();
-    if (!target.position_deltas.empty()) deltas["POSITION"] = add_vectors(target.position_deltas, Bounds::yes);
+    if (!target.position_deltas.empty())
+      deltas["POSITION"] = add_vectors(target.position_deltas, Bounds::yes);
     // Deltas of something that the mesh does not have are not valid glTF.
-    if (!target.normal_deltas.empty() && !mesh.normals.empty()) deltas["NORMAL"] = add_vectors(target.normal_deltas);
-    if (!target.tangent_deltas.empty() && !mesh.tangents.empty()) deltas["TANGENT"] = add_vectors(target.tangent_deltas);
+    if (!target.normal_deltas.empty() && !mesh.normals.empty())
+      deltas["NORMAL"] = add_vectors(target.normal_deltas);
+    if (!target.tangent_deltas.empty() && !mesh.tangents.empty())
+      deltas["TANGENT"] = add_vectors(target.tangent_deltas);
     if (deltas.empty())  // Neither is a target without deltas; one of zeros takes no space.
-      deltas["POSITION"] = add_accessor({{"componentType", static_cast<std::uint32_t>(ComponentType::f32)},
-                                         {"count", mesh.positions.size()},
-                                         {"type", "VEC3"},
-                                         {"min", {0.0, 0.0, 0.0}},
-                                         {"max", {0.0, 0.0, 0.0}}});
+      deltas["POSITION"] =
+          add_accessor({{"componentType", static_cast<std::uint32_t>(ComponentType::f32)},
+                        {"count", mesh.positions.size()},
+                        {"type", "VEC3"},
+                        {"min", {0.0, 0.0, 0.0}},
+                        {"max", {0.0, 0.0, 0.0}}});
     targets.push_back(std::move(deltas));
   }
   return targets;

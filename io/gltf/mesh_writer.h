@@ -16,7 +16,8 @@ class MeshWriter {
  public:
   MeshWriter(GlbDraft& draft, const SaveOptions& options) : draft_(draft), options_(options) {}
 
-  /// The parts of a glTF primitive that say what its vertices are; shared by all of the mesh's submeshes.
+  /// The parts of a glTF primitive that say what its vertices are; shared by all of the mesh's
+  /// submeshes.
   struct Vertices {
     Json attributes;
     Json targets;  ///< null where the mesh has none.
@@ -31,11 +32,13 @@ class MeshWriter {
 
  private:
   enum class Bounds { no, yes };
-  std::uint32_t add_floats(std::span<const float> values, std::uint32_t components, Bounds bounds = Bounds::no);
+  std::uint32_t add_floats(std::span<const float> values, std::uint32_t components,
+                           Bounds bounds = Bounds::no);
   template <class Vector>
   std::uint32_t add_vectors(const std::vector<Vector>& values, Bounds bounds = Bounds::no);
   template <class T>
-  std::uint32_t add_integers(const std::vector<std::uint32_t>& values, std::uint32_t components, GlbDraft::ViewTarget target);
+  std::uint32_t add_integers(const std::vector<std::uint32_t>& values, std::uint32_t components,
+                             GlbDraft::ViewTarget target);
   std::uint32_t add_labels(const CustomAttribute& attribute);
   std::uint32_t add_accessor(Json accessor);
   void add_influences(const SkinWeights& weights, Json& attributes);

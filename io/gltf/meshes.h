@@ -21,6 +21,7 @@ struct ReadMeshes {
 };
 
 /// Appends the scene's meshes, their skins and rest morph weights to the character.
-[[nodiscard]] ReadMeshes read_meshes(Reading& reading, const NodeSkeleton& nodes, Character& character);
+[[nodiscard]] ReadMeshes read_meshes(Reading& reading, const NodeSkeleton& nodes,
+                                     Character& character);
 
 }  // namespace sunder::gltf

@@ -15,7 +15,8 @@ std::size_t make_unique(std::vector<std::string>& names, const std::string& kind
     const std::string base = names[i].empty() ? kind + " " + std::to_string(i) : names[i];
     std::string candidate = base;
     std::size_t& number = next_number.try_emplace(base, 1).first->second;
-    while (originals.count(candidate) != 0 || taken.count(candidate) != 0) candidate = base + "#" + std::to_string(++number);
+    while (originals.count(candidate) != 0 || taken.count(candidate) != 0)
+      candidate = base + "#" + std::to_string(++number);
     taken.insert(candidate);
     names[i] = candidate;
     ++changed;

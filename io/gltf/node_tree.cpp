@@ -20,7 +20,8 @@ void check_depths(const NodeTree& tree) {
     const std::uint32_t node = open.back();
     open.pop_back();
     if (depth[node] > kMaximumDepth)
-      refuse(StatusCode::limit_exceeded, node, "/nodes/%u: nested deeper than %u levels", node, kMaximumDepth);
+      refuse(StatusCode::limit_exceeded, node, "/nodes/%u: nested deeper than %u levels", node,
+             kMaximumDepth);
     for (const std::uint32_t child : tree.children[node]) {
       depth[child] = depth[node] + 1;
       open.push_back(child);
@@ -30,7 +31,8 @@ void check_depths(const NodeTree& tree) {
     if (depth[node] != kNone) continue;
     std::uint32_t on_cycle = node;  // count steps up lead from below onto the cycle.
     for (std::uint32_t step = 0; step < count; ++step) on_cycle = tree.parent[on_cycle];
-    refuse(StatusCode::not_a_tree, on_cycle, "/nodes/%u/children: node %u is its own ancestor, by its parent %u",
+    refuse(StatusCode::not_a_tree, on_cycle,
+           "/nodes/%u/children: node %u is its own ancestor, by its parent %u",
            tree.parent[on_cycle], on_cycle, tree.parent[on_cycle]);
   }
 }
@@ -49,7 +51,8 @@ NodeTree read_node_tree(const Json& document) {
     for (std::size_t i = 0; i < children->size(); ++i) {
       const std::uint32_t child = children->element(i).to_index(count, "node");
       if (tree.parent[child] != kNone)
-        refuse(StatusCode::not_a_tree, child, "/nodes/%u/children/%zu: node %u is already a child of node %u", node, i, child,
+        refuse(StatusCode::not_a_tree, child,
+               "/nodes/%u/children/%zu: node %u is already a child of node %u", node, i, child,
                tree.parent[child]);
       tree.parent[child] = node;
       tree.children[node].push_back(child);

@@ -19,8 +19,8 @@ struct NodeTree {
   }
 };
 
-/// @throws Refusal  not_a_tree, with both nodes named, where a node has two parents or is its own ancestor; limit_exceeded below
-/// level
+/// @throws Refusal  not_a_tree, with both nodes named, where a node has two parents or is its own
+/// ancestor; limit_exceeded below level
 ///         1024.
 [[nodiscard]] NodeTree read_node_tree(const Json& document);
 

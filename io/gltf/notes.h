@@ -6,15 +6,18 @@
 
 namespace sunder::gltf {
 
-/// Collects the report's notes. In strict mode what would be noted as repaired or dropped refuses the file instead.
+/// Collects the report's notes. In strict mode what would be noted as repaired or dropped refuses
+/// the file instead.
 class Notes {
  public:
   Notes(LoadReport& report, bool strict) : report_(report), strict_(strict) {}
 
   void inform(const std::string& place, const std::string& text, std::uint32_t count = 1);
   /// @param code, index  of the refusal in strict mode.
-  void repaired(StatusCode code, std::uint32_t index, const std::string& place, const std::string& text, std::uint32_t count = 1);
-  void dropped(StatusCode code, std::uint32_t index, const std::string& place, const std::string& text, std::uint32_t count = 1);
+  void repaired(StatusCode code, std::uint32_t index, const std::string& place,
+                const std::string& text, std::uint32_t count = 1);
+  void dropped(StatusCode code, std::uint32_t index, const std::string& place,
+               const std::string& text, std::uint32_t count = 1);
 
  private:
   LoadReport& report_;

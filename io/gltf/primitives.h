@@ -14,7 +14,8 @@ struct PrimitiveGroup {
   std::vector<std::uint32_t> primitives;  ///< In the mesh's primitives.
 };
 
-/// Sorts a mesh's primitives by their vertices. Those without triangles or positions are left out, and noted.
+/// Sorts a mesh's primitives by their vertices. Those without triangles or positions are left out,
+/// and noted.
 [[nodiscard]] std::vector<PrimitiveGroup> group_primitives(Reading& reading, const Cursor& mesh);
 
 struct ReadTriangles {
@@ -23,6 +24,7 @@ struct ReadTriangles {
 };
 
 /// A primitive's faces as single triangles, whatever its mode.
-[[nodiscard]] ReadTriangles read_triangles(Reading& reading, const Cursor& primitive, std::uint32_t vertex_count);
+[[nodiscard]] ReadTriangles read_triangles(Reading& reading, const Cursor& primitive,
+                                           std::uint32_t vertex_count);
 
 }  // namespace sunder::gltf

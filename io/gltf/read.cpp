@@ -23,10 +23,11 @@ std::string scene_name(const Json& document) {
   return entry(document, "scenes", chosen ? chosen->to_index(count, "scene") : 0).name();
 }
 
-LoadedCharacter read(std::span<const std::byte> content, const std::filesystem::path& folder, const LoadOptions& options) {
+LoadedCharacter read(std::span<const std::byte> content, const std::filesystem::path& folder,
+                     const LoadOptions& options) {
   if (content.size() > options.maximum_bytes)
-    refuse(StatusCode::limit_exceeded, kNone, "the file has %zu bytes, %llu are allowed", content.size(),
-           static_cast<unsigned long long>(options.maximum_bytes));
+    refuse(StatusCode::limit_exceeded, kNone, "the file has %zu bytes, %llu are allowed",
+           content.size(), static_cast<unsigned long long>(options.maximum_bytes));
   const auto document = std::make_shared<SourceDocument>();
   document->content.assign(content.begin(), content.end());
   document->maximum_bytes = options.maximum_bytes;
@@ -44,13 +45,16 @@ LoadedCharacter read(std::span<const std::byte> content, const std::filesystem::
   character->name = scene_name(document->json);
   NodeSkeleton nodes = read_skeleton(reading);
   ReadMeshes meshes = read_meshes(reading, nodes, *character);
-  if (character->meshes.empty()) refuse(StatusCode::empty_input, kNone, "the scene has no triangle");
+  if (character->meshes.empty())
+    refuse(StatusCode::empty_input, kNone, "the scene has no triangle");
   character->clips = read_animations(reading, nodes, meshes.morphs_of_node);
   character->skeleton = std::move(nodes.skeleton);
   document->mesh_origins = std::move(meshes.origins);
-  if (!document->is_glb) document->content = {};  // The text is not needed again; buffers lie in other_files.
+  if (!document->is_glb)
+    document->content = {};  // The text is not needed again; buffers lie in other_files.
   if (const Status status = validate_character(*character); !status)
-    refuse(StatusCode::internal_error, status.index(), "the reader let through: %.200s", status.text().data());
+    refuse(StatusCode::internal_error, status.index(), "the reader let through: %.200s",
+           status.text().data());
 
   loaded.character = character;
   loaded.source = document;
@@ -59,7 +63,8 @@ LoadedCharacter read(std::span<const std::byte> content, const std::filesystem::
 
 }  // namespace
 
-Result<LoadedCharacter> read_character(std::span<const std::byte> content, const std::filesystem::path& folder,
+Result<LoadedCharacter> read_character(std::span<const std::byte> content,
+                                       const std::filesystem::path& folder,
                                        const LoadOptions& options) {
   return without_exceptions<LoadedCharacter>([&] { return read(content, folder, options); });
 }

@@ -16,7 +16,8 @@ bool read_numbers(const Cursor& node, const char* key, std::array<float, N>& out
   const auto at = node.find(key);
   if (!at) return false;
   if (at->size() != N)
-    refuse(StatusCode::malformed_file, kNone, "%s: %zu numbers, expected %zu", at->pointer().c_str(), at->size(), N);
+    refuse(StatusCode::malformed_file, kNone, "%s: %zu numbers, expected %zu",
+           at->pointer().c_str(), at->size(), N);
   for (std::size_t i = 0; i < N; ++i) out[i] = at->element(i).to_float();
   return true;
 }
@@ -25,7 +26,8 @@ Quatf read_rotation(Reading& reading, const Cursor& node, const std::array<float
   const Quatd rotation(xyzw[3], xyzw[0], xyzw[1], xyzw[2]);
   const double norm = rotation.norm();
   if (norm < 1e-6) {
-    reading.notes.repaired(StatusCode::malformed_file, kNone, node.pointer(), "a rotation of length zero became the identity");
+    reading.notes.repaired(StatusCode::malformed_file, kNone, node.pointer(),
+                           "a rotation of length zero became the identity");
     return Quatf::Identity();
   }
   const double deviation = std::abs(norm - 1.0);
@@ -42,7 +44,8 @@ Decomposition read_transform(Reading& reading, const Cursor& node) {
   if (read_numbers(node, "matrix", matrix)) {
     Eigen::Matrix4f columns = Eigen::Map<const Eigen::Matrix4f>(matrix.data());
     if ((columns.row(3) - Eigen::RowVector4f(0, 0, 0, 1)).cwiseAbs().maxCoeff() > 1e-5f)
-      refuse(StatusCode::malformed_file, kNone, "%s/matrix: its last row is not 0 0 0 1", node.pointer().c_str());
+      refuse(StatusCode::malformed_file, kNone, "%s/matrix: its last row is not 0 0 0 1",
+             node.pointer().c_str());
     Affine3d affine;
     affine.matrix() = columns.topRows<3>().cast<double>();
     return decompose(affine);
@@ -52,14 +55,16 @@ Decomposition read_transform(Reading& reading, const Cursor& node) {
   read_numbers(node, "translation", translation);
   read_numbers(node, "scale", scale);
   BoneTransform transform;
-  if (read_numbers(node, "rotation", rotation)) transform.rotation = read_rotation(reading, node, rotation);
+  if (read_numbers(node, "rotation", rotation))
+    transform.rotation = read_rotation(reading, node, rotation);
   transform.translation = {translation[0], translation[1], translation[2]};
   transform.scale = {scale[0], scale[1], scale[2]};
   return {transform, std::nullopt};
 }
 
 /// Appends the tree below `root` to `order`, parents first.
-void append_tree(const NodeTree& tree, std::uint32_t root, std::vector<bool>& visited, std::vector<std::uint32_t>& order) {
+void append_tree(const NodeTree& tree, std::uint32_t root, std::vector<bool>& visited,
+                 std::vector<std::uint32_t>& order) {
   std::vector<std::uint32_t> open = {root};
   while (!open.empty()) {
     const std::uint32_t node = open.back();
@@ -91,12 +96,14 @@ std::vector<std::uint32_t> scene_roots(Reading& reading, const NodeTree& tree) {
   }
   if (with_parent > 0)
     reading.notes.repaired(StatusCode::malformed_file, kNone, nodes->pointer(),
-                           "the scene lists nodes that have a parent; the whole trees are used", with_parent);
+                           "the scene lists nodes that have a parent; the whole trees are used",
+                           with_parent);
   return roots;
 }
 
 /// Joints of the scene's skins that stand in no tree of the scene.
-std::vector<std::uint32_t> outside_joints(Reading& reading, const std::vector<std::uint32_t>& scene_nodes,
+std::vector<std::uint32_t> outside_joints(Reading& reading,
+                                          const std::vector<std::uint32_t>& scene_nodes,
                                           const std::vector<bool>& visited) {
   const Json& json = reading.json();
   std::vector<std::uint32_t> joints;
@@ -123,7 +130,8 @@ NodeSkeleton read_skeleton(Reading& reading) {
   const NodeTree tree = read_node_tree(reading.json());
   NodeSkeleton result;
   std::vector<bool> visited(tree.parent.size());
-  for (const std::uint32_t root : scene_roots(reading, tree)) append_tree(tree, root, visited, result.scene_nodes);
+  for (const std::uint32_t root : scene_roots(reading, tree))
+    append_tree(tree, root, visited, result.scene_nodes);
   std::vector<std::uint32_t> order = result.scene_nodes;
   const auto outside = outside_joints(reading, result.scene_nodes, visited);
   for (const std::uint32_t joint : outside) append_tree(tree, tree.root_of(joint), visited, order);
@@ -137,7 +145,8 @@ NodeSkeleton read_skeleton(Reading& reading) {
   for (const std::uint32_t node : order) {
     const Cursor at = entry(reading.json(), "nodes", node);
     const Decomposition transform = read_transform(reading, at);
-    std::uint32_t parent = tree.parent[node] == kNone ? kNone : result.bone_from_node[tree.parent[node]];
+    std::uint32_t parent =
+        tree.parent[node] == kNone ? kNone : result.bone_from_node[tree.parent[node]];
     auto& bones = result.skeleton.bones;
     if (transform.second) {
       ++sheared;
@@ -150,10 +159,14 @@ NodeSkeleton read_skeleton(Reading& reading) {
     names.push_back(at.name());
     bones.push_back({{}, parent, transform.second.value_or(transform.first)});
   }
-  if (sheared > 0) reading.notes.inform("skeleton", "matrices with shear were split over an extra bone '…#shear' each", sheared);
+  if (sheared > 0)
+    reading.notes.inform(
+        "skeleton", "matrices with shear were split over an extra bone '…#shear' each", sheared);
   if (const std::size_t renamed = make_unique(names, "bone"); renamed > 0)
-    reading.notes.inform("skeleton", "nodes without a name of their own were given one", static_cast<std::uint32_t>(renamed));
-  for (std::size_t i = 0; i < names.size(); ++i) result.skeleton.bones[i].name = std::move(names[i]);
+    reading.notes.inform("skeleton", "nodes without a name of their own were given one",
+                         static_cast<std::uint32_t>(renamed));
+  for (std::size_t i = 0; i < names.size(); ++i)
+    result.skeleton.bones[i].name = std::move(names[i]);
   return result;
 }
 

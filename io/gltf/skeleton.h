@@ -14,7 +14,8 @@ struct NodeSkeleton {
   std::vector<std::uint32_t> scene_nodes;     ///< Nodes of the scene, parents first.
 };
 
-/// The nodes of the default scene as bones, and those trees outside it in which joints of its skins stand.
+/// The nodes of the default scene as bones, and those trees outside it in which joints of its skins
+/// stand.
 [[nodiscard]] NodeSkeleton read_skeleton(Reading& reading);
 
 }  // namespace sunder::gltf

@@ -10,9 +10,11 @@ namespace {
 Affine3f read_bind(const Accessor& accessor, std::uint32_t slot, const float* numbers) {
   const Eigen::Matrix4f matrix = Eigen::Map<const Eigen::Matrix4f>(numbers);
   if (!matrix.allFinite())
-    refuse(StatusCode::non_finite_value, slot, "/accessors/%u: inverse bind matrix %u is not finite", accessor.index, slot);
+    refuse(StatusCode::non_finite_value, slot,
+           "/accessors/%u: inverse bind matrix %u is not finite", accessor.index, slot);
   if ((matrix.row(3) - Eigen::RowVector4f(0, 0, 0, 1)).cwiseAbs().maxCoeff() > 1e-5f)
-    refuse(StatusCode::malformed_file, slot, "/accessors/%u: inverse bind matrix %u: its last row is not 0 0 0 1", accessor.index,
+    refuse(StatusCode::malformed_file, slot,
+           "/accessors/%u: inverse bind matrix %u: its last row is not 0 0 0 1", accessor.index,
            slot);
   Affine3f bind;
   bind.matrix() = matrix.topRows<3>();
@@ -68,26 +70,30 @@ Skin SkinReader::read_skin(const Cursor& at) {
   Skin skin;
   skin.name = at.name();
   const Cursor joints = at.member("joints");
-  if (joints.size() == 0) refuse(StatusCode::malformed_file, kNone, "%s: empty", joints.pointer().c_str());
+  if (joints.size() == 0)
+    refuse(StatusCode::malformed_file, kNone, "%s: empty", joints.pointer().c_str());
   for (std::size_t i = 0; i < joints.size(); ++i)
-    skin.bones.push_back(nodes_.bone_from_node[joints.element(i).to_index(nodes_.bone_from_node.size(), "node")]);
+    skin.bones.push_back(
+        nodes_.bone_from_node[joints.element(i).to_index(nodes_.bone_from_node.size(), "node")]);
   skin.bone_from_bind.assign(skin.bones.size(), Affine3f::Identity());
 
   const auto binds = at.find("inverseBindMatrices");
   if (!binds) return skin;
   const Accessor accessor = reading_.accessors.open(*binds);
   if (accessor.components != 16 || accessor.is_integer())
-    refuse(StatusCode::malformed_file, accessor.index, "%s: expected MAT4 of floats", binds->pointer().c_str());
+    refuse(StatusCode::malformed_file, accessor.index, "%s: expected MAT4 of floats",
+           binds->pointer().c_str());
   if (accessor.count < skin.bones.size())
-    refuse(StatusCode::size_mismatch, accessor.index, "%s: %u matrices for %zu joints", binds->pointer().c_str(), accessor.count,
-           skin.bones.size());
+    refuse(StatusCode::size_mismatch, accessor.index, "%s: %u matrices for %zu joints",
+           binds->pointer().c_str(), accessor.count, skin.bones.size());
   const std::vector<float> numbers = reading_.accessors.read_floats(accessor);
   std::uint32_t singular = 0;
   for (std::uint32_t slot = 0; slot < skin.bones.size(); ++slot) {
     skin.bone_from_bind[slot] = read_bind(accessor, slot, numbers.data() + std::size_t{slot} * 16);
     if (is_singular(skin.bone_from_bind[slot])) ++singular;
   }
-  if (singular > 0) reading_.notes.inform(at.pointer(), "inverse bind matrices that have no inverse", singular);
+  if (singular > 0)
+    reading_.notes.inform(at.pointer(), "inverse bind matrices that have no inverse", singular);
   return skin;
 }
 

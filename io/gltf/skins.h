@@ -17,7 +17,8 @@ class SkinReader {
   /// @return index in the character's skins.
   std::uint32_t of_skin(std::uint32_t gltf_skin);
   std::uint32_t of_node(std::uint32_t node);
-  /// The slot for a vertex that the file binds to nothing: the skin's `skeleton` node where that is a joint, else its first joint.
+  /// The slot for a vertex that the file binds to nothing: the skin's `skeleton` node where that is
+  /// a joint, else its first joint.
   [[nodiscard]] std::uint32_t root_slot(std::uint32_t gltf_skin) const;
 
  private:

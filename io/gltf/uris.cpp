@@ -23,7 +23,8 @@ int hex_digit(char c) {
 std::string percent_decoded(const std::string& uri) {
   std::string decoded;
   for (std::size_t i = 0; i < uri.size(); ++i) {
-    if (uri[i] == '%' && i + 2 < uri.size() && hex_digit(uri[i + 1]) >= 0 && hex_digit(uri[i + 2]) >= 0) {
+    if (uri[i] == '%' && i + 2 < uri.size() && hex_digit(uri[i + 1]) >= 0 &&
+        hex_digit(uri[i + 2]) >= 0) {
       decoded.push_back(static_cast<char>(hex_digit(uri[i + 1]) * 16 + hex_digit(uri[i + 2])));
       i += 2;
     } else {
@@ -39,7 +40,8 @@ bool has_scheme(const std::string& path) {
 }
 
 bool is_inside(const std::filesystem::path& file, const std::filesystem::path& folder) {
-  return std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end();
+  return std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first ==
+         folder.end();
 }
 
 }  // namespace
@@ -51,59 +53,77 @@ std::vector<std::byte> decode_data_uri(const std::string& uri, const std::string
   constexpr std::string_view kEncoding = ";base64";
   if (comma == std::string::npos || comma < kEncoding.size() ||
       uri.compare(comma - kEncoding.size(), kEncoding.size(), kEncoding) != 0)
-    refuse(StatusCode::malformed_file, kNone, "%.120s: a data URI that is not base64", place.c_str());
+    refuse(StatusCode::malformed_file, kNone, "%.120s: a data URI that is not base64",
+           place.c_str());
   // tinygltf's decoder stops in silence at the first character that is not base64.
-  const std::size_t stop = uri.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/", comma + 1);
+  const std::size_t stop = uri.find_first_not_of(
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/", comma + 1);
   if (stop != std::string::npos && uri.find_first_not_of('=', stop) != std::string::npos)
-    refuse(StatusCode::malformed_file, static_cast<std::uint32_t>(stop), "%.120s: character %zu is not base64", place.c_str(),
-           stop);
+    refuse(StatusCode::malformed_file, static_cast<std::uint32_t>(stop),
+           "%.120s: character %zu is not base64", place.c_str(), stop);
   std::vector<unsigned char> decoded;
   std::string mime_type;
-  // It knows only some media types, and its answer to an empty payload is failure: give it the one that glTF names.
-  tinygltf::DecodeDataURI(&decoded, mime_type, "data:application/octet-stream;base64," + uri.substr(comma + 1), 0, false);
+  // It knows only some media types, and its answer to an empty payload is failure: give it the one
+  // that glTF names.
+  tinygltf::DecodeDataURI(&decoded, mime_type,
+                          "data:application/octet-stream;base64," + uri.substr(comma + 1), 0,
+                          false);
   std::vector<std::byte> bytes(decoded.size());
   if (!decoded.empty()) std::memcpy(bytes.data(), decoded.data(), decoded.size());
   return bytes;
 }
 
-std::filesystem::path resolve_uri(const std::string& uri, const std::filesystem::path& folder, const std::string& place) {
+std::filesystem::path resolve_uri(const std::string& uri, const std::filesystem::path& folder,
+                                  const std::string& place) {
   const auto refuse_path = [&](const char* why) {
-    refuse(StatusCode::path_not_allowed, kNone, "%.80s: '%.80s' %s", place.c_str(), uri.c_str(), why);
+    refuse(StatusCode::path_not_allowed, kNone, "%.80s: '%.80s' %s", place.c_str(), uri.c_str(),
+           why);
   };
   if (folder.empty()) refuse_path("refers to another file, which this source may not");
   const std::string decoded = percent_decoded(uri);
   if (decoded.empty() || decoded.find('\0') != std::string::npos) refuse_path("is not a file name");
   if (has_scheme(decoded)) refuse_path("is not a relative path");
   const std::filesystem::path relative = std::filesystem::u8path(decoded);
-  if (relative.is_absolute() || relative.has_root_directory()) refuse_path("is not a relative path");
+  if (relative.is_absolute() || relative.has_root_directory())
+    refuse_path("is not a relative path");
 
   std::error_code error;
   const auto allowed = std::filesystem::canonical(folder, error);
-  if (error) refuse(StatusCode::file_not_found, kNone, "%.80s: the asset's folder cannot be opened", place.c_str());
+  if (error)
+    refuse(StatusCode::file_not_found, kNone, "%.80s: the asset's folder cannot be opened",
+           place.c_str());
   const auto file = std::filesystem::weakly_canonical(allowed / relative, error);
-  if (error) refuse(StatusCode::file_unreadable, kNone, "%.80s: '%.80s' cannot be resolved", place.c_str(), uri.c_str());
+  if (error)
+    refuse(StatusCode::file_unreadable, kNone, "%.80s: '%.80s' cannot be resolved", place.c_str(),
+           uri.c_str());
   if (!is_inside(file, allowed)) refuse_path("lies outside the asset's folder");
   return file;
 }
 
-std::vector<std::byte> read_file(const std::filesystem::path& file, std::uint64_t maximum_bytes, const std::string& place) {
+std::vector<std::byte> read_file(const std::filesystem::path& file, std::uint64_t maximum_bytes,
+                                 const std::string& place) {
   std::error_code error;
   const auto status = std::filesystem::status(file, error);
   if (!std::filesystem::exists(status))
-    refuse(StatusCode::file_not_found, kNone, "%.120s: '%.100s' does not exist", place.c_str(), file.filename().c_str());
+    refuse(StatusCode::file_not_found, kNone, "%.120s: '%.100s' does not exist", place.c_str(),
+           file.filename().c_str());
   if (!std::filesystem::is_regular_file(status))
-    refuse(StatusCode::file_unreadable, kNone, "%.120s: '%.100s' is not a file", place.c_str(), file.filename().c_str());
+    refuse(StatusCode::file_unreadable, kNone, "%.120s: '%.100s' is not a file", place.c_str(),
+           file.filename().c_str());
   const std::uintmax_t size = std::filesystem::file_size(file, error);
   std::ifstream stream(file, std::ios::binary);
   if (error || !stream)
-    refuse(StatusCode::file_unreadable, kNone, "%.120s: '%.100s' cannot be read", place.c_str(), file.filename().c_str());
+    refuse(StatusCode::file_unreadable, kNone, "%.120s: '%.100s' cannot be read", place.c_str(),
+           file.filename().c_str());
   if (size > maximum_bytes)
-    refuse(StatusCode::limit_exceeded, kNone, "%.80s: '%.80s' has %llu bytes, %llu are allowed", place.c_str(),
-           file.filename().c_str(), static_cast<unsigned long long>(size), static_cast<unsigned long long>(maximum_bytes));
+    refuse(StatusCode::limit_exceeded, kNone, "%.80s: '%.80s' has %llu bytes, %llu are allowed",
+           place.c_str(), file.filename().c_str(), static_cast<unsigned long long>(size),
+           static_cast<unsigned long long>(maximum_bytes));
   std::vector<std::byte> bytes(size);
   stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
   if (static_cast<std::uintmax_t>(stream.gcount()) != size)
-    refuse(StatusCode::file_unreadable, kNone, "%.120s: '%.100s' ended early", place.c_str(), file.filename().c_str());
+    refuse(StatusCode::file_unreadable, kNone, "%.120s: '%.100s' ended early", place.c_str(),
+           file.filename().c_str());
   return bytes;
 }
 

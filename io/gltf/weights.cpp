@@ -26,8 +26,8 @@ struct Faults {
 
 constexpr double kWorthNoting = 1e-5;
 
-void collect(const InfluenceSet& set, std::uint32_t vertex, std::uint32_t slot_count, std::vector<Influence>& influences,
-             Faults& faults) {
+void collect(const InfluenceSet& set, std::uint32_t vertex, std::uint32_t slot_count,
+             std::vector<Influence>& influences, Faults& faults) {
   for (std::size_t i = std::size_t{vertex} * 4; i < std::size_t{vertex} * 4 + 4; ++i) {
     const std::uint32_t slot = set.slots[i];
     const float weight = set.weights[i];
@@ -40,7 +40,8 @@ void collect(const InfluenceSet& set, std::uint32_t vertex, std::uint32_t slot_c
     } else if (slot >= slot_count) {
       faults.out_of_range.add(vertex);
     } else if (const auto same =
-                   std::find_if(influences.begin(), influences.end(), [&](const Influence& other) { return other.slot == slot; });
+                   std::find_if(influences.begin(), influences.end(),
+                                [&](const Influence& other) { return other.slot == slot; });
                same != influences.end()) {
       same->weight = std::min(same->weight + weight, std::numeric_limits<float>::max());
       faults.repeated.add(vertex);
@@ -51,7 +52,8 @@ void collect(const InfluenceSet& set, std::uint32_t vertex, std::uint32_t slot_c
 }
 
 /// Brings the sum to one if it is further off than rounding explains.
-void normalize(std::uint32_t vertex, bool is_already_noted, std::vector<Influence>& influences, Faults& faults) {
+void normalize(std::uint32_t vertex, bool is_already_noted, std::vector<Influence>& influences,
+               Faults& faults) {
   double sum = 0.0;
   bool too_large = false;
   for (const Influence& influence : influences) {
@@ -65,38 +67,49 @@ void normalize(std::uint32_t vertex, bool is_already_noted, std::vector<Influenc
     faults.not_normalized.add(vertex);
     faults.largest_deviation = std::max(faults.largest_deviation, deviation);
   }
-  for (Influence& influence : influences) influence.weight = static_cast<float>(static_cast<double>(influence.weight) / sum);
+  for (Influence& influence : influences)
+    influence.weight = static_cast<float>(static_cast<double>(influence.weight) / sum);
   std::erase_if(influences, [](const Influence& influence) { return influence.weight == 0.0f; });
 }
 
 void note(const Faults& faults, const std::string& place, Notes& notes) {
   const auto repaired = [&](const Tally& tally, StatusCode code, const char* text) {
     if (tally.count > 0)
-      notes.repaired(code, tally.first_vertex, place, text + (" (first: vertex " + std::to_string(tally.first_vertex) + ")"),
+      notes.repaired(code, tally.first_vertex, place,
+                     text + (" (first: vertex " + std::to_string(tally.first_vertex) + ")"),
                      tally.count);
   };
-  repaired(faults.not_finite, StatusCode::non_finite_value, "weights were not finite and became zero");
-  repaired(faults.negative, StatusCode::weights_not_normalized, "weights were negative and became zero");
+  repaired(faults.not_finite, StatusCode::non_finite_value,
+           "weights were not finite and became zero");
+  repaired(faults.negative, StatusCode::weights_not_normalized,
+           "weights were negative and became zero");
   if (faults.out_of_range.count > 0)
     notes.dropped(StatusCode::index_out_of_range, faults.out_of_range.first_vertex, place,
                   "influences named joints that the skin does not have (first: vertex " +
                       std::to_string(faults.out_of_range.first_vertex) + ")",
                   faults.out_of_range.count);
-  repaired(faults.repeated, StatusCode::malformed_file, "joints named twice by a vertex were merged");
-  repaired(faults.without_weight, StatusCode::weights_not_normalized, "vertices without weight were bound to the skin's root");
+  repaired(faults.repeated, StatusCode::malformed_file,
+           "joints named twice by a vertex were merged");
+  repaired(faults.without_weight, StatusCode::weights_not_normalized,
+           "vertices without weight were bound to the skin's root");
   char text[96];
-  std::snprintf(text, sizeof text, "weights did not sum to one (off by up to %.3g) and were normalised", faults.largest_deviation);
+  std::snprintf(text, sizeof text,
+                "weights did not sum to one (off by up to %.3g) and were normalised",
+                faults.largest_deviation);
   repaired(faults.not_normalized, StatusCode::weights_not_normalized, text);
 }
 
 }  // namespace
 
-ReadWeights make_weights(const std::vector<InfluenceSet>& sets, std::uint32_t vertex_count, std::uint32_t slot_count,
-                         std::uint32_t root_slot, const std::string& place, Notes& notes) {
+ReadWeights make_weights(const std::vector<InfluenceSet>& sets, std::uint32_t vertex_count,
+                         std::uint32_t slot_count, std::uint32_t root_slot,
+                         const std::string& place, Notes& notes) {
   ReadWeights result;
   result.weights.first.reserve(std::size_t{vertex_count} + 1);
   Faults faults;
-  const auto noted = [&] { return faults.not_finite.count + faults.negative.count + faults.out_of_range.count; };
+  const auto noted = [&] {
+    return faults.not_finite.count + faults.negative.count + faults.out_of_range.count;
+  };
   std::vector<Influence> influences;
   for (std::uint32_t vertex = 0; vertex < vertex_count; ++vertex) {
     influences.clear();
@@ -111,7 +124,8 @@ ReadWeights make_weights(const std::vector<InfluenceSet>& sets, std::uint32_t ve
     result.weights.append(influences);
   }
   note(faults, place, notes);
-  result.repaired = faults.changed || noted() + faults.repeated.count + faults.without_weight.count > 0;
+  result.repaired =
+      faults.changed || noted() + faults.repeated.count + faults.without_weight.count > 0;
   return result;
 }
 

@@ -20,9 +20,11 @@ struct ReadWeights {
   bool repaired = false;  ///< They are not what the file says.
 };
 
-/// Turns the file's fixed sets into what SkinWeights promises, and notes what had to be done for it. Weights that keep the promise
-/// already keep their bits; influences keep the file's order.
-[[nodiscard]] ReadWeights make_weights(const std::vector<InfluenceSet>& sets, std::uint32_t vertex_count, std::uint32_t slot_count,
-                                       std::uint32_t root_slot, const std::string& place, Notes& notes);
+/// Turns the file's fixed sets into what SkinWeights promises, and notes what had to be done for
+/// it. Weights that keep the promise already keep their bits; influences keep the file's order.
+[[nodiscard]] ReadWeights make_weights(const std::vector<InfluenceSet>& sets,
+                                       std::uint32_t vertex_count, std::uint32_t slot_count,
+                                       std::uint32_t root_slot, const std::string& place,
+                                       Notes& notes);
 
 }  // namespace sunder::gltf

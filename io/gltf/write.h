@@ -5,7 +5,7 @@
 namespace sunder::gltf {
 
 /// See save_glb().
-[[nodiscard]] Status write_character(const std::filesystem::path& file, const Character& character, const LoadedCharacter& loaded,
-                                     const SaveOptions& options);
+[[nodiscard]] Status write_character(const std::filesystem::path& file, const Character& character,
+                                     const LoadedCharacter& loaded, const SaveOptions& options);
 
 }  // namespace sunder::gltf

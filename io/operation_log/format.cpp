@@ -8,7 +8,8 @@
 namespace sunder::operation_log {
 namespace {
 
-// Doubles are written as the shortest text that reads back to the same bits; floats as the doubles they are.
+// Doubles are written as the shortest text that reads back to the same bits; floats as the doubles
+// they are.
 
 template <class Scalar>
 Json numbers(std::span<const Scalar> values) {
@@ -19,7 +20,8 @@ Json numbers(std::span<const Scalar> values) {
 
 template <class Vector>
 Json vector_json(const Vector& vector) {
-  return numbers(std::span<const typename Vector::Scalar>(vector.data(), static_cast<std::size_t>(vector.size())));
+  return numbers(std::span<const typename Vector::Scalar>(vector.data(),
+                                                          static_cast<std::size_t>(vector.size())));
 }
 
 Json pose_json(const RestPose&) { return "rest"; }
@@ -52,7 +54,8 @@ Json pose_json(const ModelPose& pose) {
     const Eigen::Matrix<double, 3, 4, Eigen::RowMajor | Eigen::DontAlign> rows = matrix.matrix();
     matrices.push_back(vector_json(rows));
   }
-  return {{"matrices", std::move(matrices)}, {"morph_weights", numbers(std::span<const float>(pose.morph_weights))}};
+  return {{"matrices", std::move(matrices)},
+          {"morph_weights", numbers(std::span<const float>(pose.morph_weights))}};
 }
 
 Json pose_json(const PoseSpec& pose) {
@@ -60,7 +63,8 @@ Json pose_json(const PoseSpec& pose) {
 }
 
 Json weights_json(const WeightOptions& weights) {
-  return {{"policy", weight_policy_name(weights.policy)}, {"influences", weights.maximum_influences}};
+  return {{"policy", weight_policy_name(weights.policy)},
+          {"influences", weights.maximum_influences}};
 }
 
 void add_weights(Json& operation, const std::optional<WeightOptions>& weights) {
@@ -70,7 +74,10 @@ void add_weights(Json& operation, const std::optional<WeightOptions>& weights) {
 Json pose_set_json(const PoseSetSpec& set) {
   Json limits = Json::array(), poses = Json::array();
   for (const JointLimit& limit : set.joint_limits)
-    limits.push_back({{"bone", limit.bone}, {"axis", vector_json(limit.axis)}, {"lower", limit.lower}, {"upper", limit.upper}});
+    limits.push_back({{"bone", limit.bone},
+                      {"axis", vector_json(limit.axis)},
+                      {"lower", limit.lower},
+                      {"upper", limit.upper}});
   for (const PoseSpec& pose : set.poses) poses.push_back(pose_json(pose));
   return {{"clip_samples", set.clip_samples},
           {"range_of_motion", set.range_of_motion},
@@ -109,13 +116,14 @@ Json header(const CutOperation& operation) {
 
 Json header(const DrillOperation& operation) {
   const Bore& bore = operation.bore;
-  Json json = {{"op", "drill"},
-               {"pose", pose_json(operation.pose)},
-               {"axis", {{"origin", vector_json(bore.origin)}, {"direction", vector_json(bore.direction)}}},
-               {"radius", bore.radius},
-               {"depth", bore.depth},
-               {"chord_tolerance", bore.chord_tolerance},
-               {"wall", bore.wall}};
+  Json json = {
+      {"op", "drill"},
+      {"pose", pose_json(operation.pose)},
+      {"axis", {{"origin", vector_json(bore.origin)}, {"direction", vector_json(bore.direction)}}},
+      {"radius", bore.radius},
+      {"depth", bore.depth},
+      {"chord_tolerance", bore.chord_tolerance},
+      {"wall", bore.wall}};
   add_weights(json, bore.weights);
   return json;
 }
@@ -124,7 +132,8 @@ Json header(const WeightsOperation& operation) {
   Json json = {{"op", "weights"}, {"first", operation.first_operation}};
   if (operation.operation_count != kNone) json["count"] = operation.operation_count;
   json["weights"] = weights_json(operation.weights);
-  if (operation.weights.policy == WeightPolicy::pose_exact) json["pose"] = pose_json(operation.pose);
+  if (operation.weights.policy == WeightPolicy::pose_exact)
+    json["pose"] = pose_json(operation.pose);
   if (operation.weights.policy == WeightPolicy::refit) json["refit"] = refit_json(operation.refit);
   return json;
 }
@@ -134,13 +143,17 @@ Json header(const UndoOperation& operation) { return {{"op", "undo"}, {"count", 
 Json header(const RedoOperation& operation) { return {{"op", "redo"}, {"count", operation.count}}; }
 
 /// Names in files may be any bytes; JSON is UTF-8.
-std::string one_line(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
+std::string one_line(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
 
 void append_stroke(std::string& text, const TearOperation& tear) {
   auto change = tear.pose_changes.begin();
   for (std::uint32_t i = 0; i < tear.stroke.size(); ++i) {
-    Json blade = {{"base", vector_json(tear.stroke[i].base)}, {"tip", vector_json(tear.stroke[i].tip)}};
-    if (change != tear.pose_changes.end() && change->blade == i) blade["pose"] = pose_json((change++)->pose);
+    Json blade = {{"base", vector_json(tear.stroke[i].base)},
+                  {"tip", vector_json(tear.stroke[i].tip)}};
+    if (change != tear.pose_changes.end() && change->blade == i)
+      blade["pose"] = pose_json((change++)->pose);
     text += i == 0 ? "\n      " : ",\n      ";
     text += one_line(blade);
   }

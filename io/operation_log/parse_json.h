@@ -9,7 +9,8 @@ namespace sunder::operation_log {
 
 constexpr std::size_t kMaximumBytes = std::size_t{64} << 20;
 
-/// Text to values; throws a Fault where it is too long, nested too deeply, not JSON, or names a field twice.
+/// Text to values; throws a Fault where it is too long, nested too deeply, not JSON, or names a
+/// field twice.
 Json parse_json(std::string_view text);
 
 }  // namespace sunder::operation_log

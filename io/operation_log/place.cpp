@@ -14,18 +14,24 @@ std::string escaped(const std::string& key) {
 }
 
 bool is_number_up_to(const Json& value, double largest) {
-  return value.is_number() && std::abs(value.get<double>()) <= largest;  // Not so for what is not finite.
+  return value.is_number() &&
+         std::abs(value.get<double>()) <= largest;  // Not so for what is not finite.
 }
 
 }  // namespace
 
 void Place::fail(StatusCode code, const std::string& text) const {
-  throw Fault{Status::failure(code, operation, "%s: %s", path.empty() ? "/" : path.c_str(), text.c_str())};
+  throw Fault{
+      Status::failure(code, operation, "%s: %s", path.empty() ? "/" : path.c_str(), text.c_str())};
 }
 
-void Place::expected(const char* what) const { malformed(std::string("expected ") + what + ", found " + value.type_name()); }
+void Place::expected(const char* what) const {
+  malformed(std::string("expected ") + what + ", found " + value.type_name());
+}
 
-Place Place::at(std::size_t index) const { return {value[index], path + "/" + std::to_string(index), operation}; }
+Place Place::at(std::size_t index) const {
+  return {value[index], path + "/" + std::to_string(index), operation};
+}
 
 Place Place::at(const std::string& key) const {
   const auto found = value.find(key);
@@ -36,7 +42,8 @@ Place Place::at(const std::string& key) const {
 void Place::check_fields(std::initializer_list<std::string_view> known) const {
   if (!value.is_object()) expected("an object");
   for (const auto& [key, unused] : value.items())
-    if (std::find(known.begin(), known.end(), key) == known.end()) malformed("unknown field '" + key + "'");
+    if (std::find(known.begin(), known.end(), key) == known.end())
+      malformed("unknown field '" + key + "'");
 }
 
 double read_number(const Place& place) {
@@ -67,8 +74,10 @@ std::string read_name(const Place& place) {
   return place.value.get<std::string>();
 }
 
-std::uint32_t read_integer(const Place& place, const char* what, std::uint32_t least, std::uint32_t most) {
-  if (!place.value.is_number_unsigned()) place.expected((std::string(what) + ", an integer from " + std::to_string(least)).c_str());
+std::uint32_t read_integer(const Place& place, const char* what, std::uint32_t least,
+                           std::uint32_t most) {
+  if (!place.value.is_number_unsigned())
+    place.expected((std::string(what) + ", an integer from " + std::to_string(least)).c_str());
   const auto integer = place.value.get<std::uint64_t>();
   if (integer < least) place.malformed("expected at least " + std::to_string(least));
   if (integer > most) place.malformed("expected at most " + std::to_string(most));
@@ -84,7 +93,8 @@ void read_numbers(const Place& place, std::span<double> numbers, double largest)
   const Json& array = place.value;
   if (!array.is_array() || array.size() != numbers.size())
     place.expected(("an array of " + std::to_string(numbers.size()) + " numbers").c_str());
-  // Logs of strokes hold bone matrices by the million: places of single numbers are only made to be named in a failure.
+  // Logs of strokes hold bone matrices by the million: places of single numbers are only made to be
+  // named in a failure.
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     if (!array[i].is_number()) place.at(i).expected("a number");
     if (!is_number_up_to(array[i], largest))

@@ -11,7 +11,9 @@ namespace {
 Layers read_layers(const Place& place) {
   const std::string name = read_name(place);
   if (name == "all") return Layers::all;
-  if (name != "nearest") place.fail(StatusCode::unsupported_feature, "layers '" + name + "'; 'nearest' and 'all' are known");
+  if (name != "nearest")
+    place.fail(StatusCode::unsupported_feature,
+               "layers '" + name + "'; 'nearest' and 'all' are known");
   return Layers::nearest;
 }
 
@@ -66,7 +68,8 @@ CutOperation read_cut(const Place& place) {
 }
 
 DrillOperation read_drill(const Place& place) {
-  place.check_fields({"op", "pose", "axis", "radius", "depth", "chord_tolerance", "wall", "weights"});
+  place.check_fields(
+      {"op", "pose", "axis", "radius", "depth", "chord_tolerance", "wall", "weights"});
   DrillOperation operation;
   Bore& bore = operation.bore;
   read_if_given(place, "pose", read_pose, operation.pose);
@@ -100,7 +103,8 @@ Operation read_operation(const Place& place) {
   if (name == "weights") return read_weights(place);
   if (name == "undo") return read_steps<UndoOperation>(place);
   if (name == "redo") return read_steps<RedoOperation>(place);
-  kind.fail(StatusCode::unsupported_feature, "operation '" + name + "'; known are tear, cut, drill, weights, undo, redo");
+  kind.fail(StatusCode::unsupported_feature,
+            "operation '" + name + "'; known are tear, cut, drill, weights, undo, redo");
 }
 
 }  // namespace
@@ -112,7 +116,8 @@ std::vector<Operation> read_log(const Json& log) {
   const Place version = root.at("sunder_operations");
   if (!version.value.is_number_integer()) version.expected("the version, an integer");
   if (version.value != 1)
-    version.fail(StatusCode::unsupported_feature, "version " + version.value.dump() + "; this build reads version 1");
+    version.fail(StatusCode::unsupported_feature,
+                 "version " + version.value.dump() + "; this build reads version 1");
   root.check_fields({"sunder_operations", "operations"});
 
   const Place list = root.at("operations");

@@ -23,12 +23,14 @@ ClipPose read_clip_pose(const Place& place) {
   return pose;
 }
 
-/// Normalises, but leaves alone what was written by us: floats that are of unit length already must keep their bits.
+/// Normalises, but leaves alone what was written by us: floats that are of unit length already must
+/// keep their bits.
 Quatf read_rotation(const Place& place) {
   const Quatd rotation(Vec4d(read_vector<4>(place)));
   if (rotation.norm() < 1e-9) place.malformed("rotation of zero length");
   const Quatf as_floats = rotation.cast<float>();
-  const bool is_unit = std::abs(rotation.norm() - 1.0) < 1e-6 && as_floats.cast<double>().coeffs() == rotation.coeffs();
+  const bool is_unit = std::abs(rotation.norm() - 1.0) < 1e-6 &&
+                       as_floats.cast<double>().coeffs() == rotation.coeffs();
   return is_unit ? as_floats : Quatf(rotation.normalized().cast<float>());
 }
 
@@ -42,7 +44,8 @@ BonesPose read_bones_pose(const Place& place) {
     bone.check_fields({"translation", "rotation", "scale"});
     if (name.empty()) bone.malformed("a bone without name");
     BonesPose::Bone read{.name = name, .translation = {}, .rotation = {}, .scale = {}};
-    if (bone.has("translation")) read.translation = read_vector<3>(bone.at("translation")).cast<float>();
+    if (bone.has("translation"))
+      read.translation = read_vector<3>(bone.at("translation")).cast<float>();
     if (bone.has("rotation")) read.rotation = read_rotation(bone.at("rotation"));
     if (bone.has("scale")) read.scale = read_vector<3>(bone.at("scale")).cast<float>();
     pose.bones.push_back(std::move(read));

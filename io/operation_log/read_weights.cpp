@@ -41,7 +41,9 @@ std::vector<Element> read_list(const Place& place) {
 PoseSetSpec read_pose_set(const Place& place) {
   place.check_fields({"clip_samples", "range_of_motion", "joint_limits", "poses"});
   PoseSetSpec poses;
-  const auto read_samples = [](const Place& samples) { return read_integer(samples, "samples a clip", 0, kMaximumClipSamples); };
+  const auto read_samples = [](const Place& samples) {
+    return read_integer(samples, "samples a clip", 0, kMaximumClipSamples);
+  };
   read_if_given(place, "clip_samples", read_samples, poses.clip_samples);
   read_if_given(place, "range_of_motion", read_bool, poses.range_of_motion);
   read_if_given(place, "joint_limits", read_list<JointLimit, read_joint_limit>, poses.joint_limits);
@@ -65,7 +67,9 @@ WeightOptions read_weight_options(const Place& place) {
   place.check_fields({"policy", "influences"});
   WeightOptions options;
   read_if_given(place, "policy", read_policy, options.policy);
-  const auto read_influences = [](const Place& influences) { return read_integer(influences, "influences, 0 for all"); };
+  const auto read_influences = [](const Place& influences) {
+    return read_integer(influences, "influences, 0 for all");
+  };
   read_if_given(place, "influences", read_influences, options.maximum_influences);
   if (options.policy == WeightPolicy::exact && options.maximum_influences != 0)
     place.at("influences").malformed("the policy 'exact' takes all influences, which is 0");
@@ -75,7 +79,9 @@ WeightOptions read_weight_options(const Place& place) {
 WeightsOperation read_weights(const Place& place) {
   place.check_fields({"op", "first", "count", "weights", "pose", "refit"});
   WeightsOperation operation;
-  const auto read_first = [](const Place& first) { return read_integer(first, "an operation's index"); };
+  const auto read_first = [](const Place& first) {
+    return read_integer(first, "an operation's index");
+  };
   read_if_given(place, "first", read_first, operation.first_operation);
   read_if_given(place, "count", read_operation_count, operation.operation_count);
   operation.weights = read_weight_options(place.at("weights"));
@@ -88,6 +94,8 @@ WeightsOperation read_weights(const Place& place) {
   return operation;
 }
 
-std::uint32_t read_operation_count(const Place& place) { return read_integer(place, "how many operations", 1); }
+std::uint32_t read_operation_count(const Place& place) {
+  return read_integer(place, "how many operations", 1);
+}
 
 }  // namespace sunder::operation_log

@@ -12,7 +12,6 @@
 namespace sunder::tear {
 namespace {
 
-
 bool comes_before(const VertexRef& a, const VertexRef& b) {
   return std::tie(a.mesh, a.vertex) < std::tie(b.mesh, b.vertex);
 }
@@ -78,8 +77,8 @@ WeightAssignment compute_weights(std::span<const VertexRef> points, const Weight
   return assignment;
 }
 
-WeightChange make_weight_change(const WeightAssignment& assignment,
-                                               const VertexRanges& ranges, SurfaceEditor& editor) {
+WeightChange make_weight_change(const WeightAssignment& assignment, const VertexRanges& ranges,
+                                SurfaceEditor& editor) {
   WeightChange change;
   if (assignment.points.empty()) return change;
   change.influences = assignment.influences;
@@ -93,8 +92,9 @@ WeightChange make_weight_change(const WeightAssignment& assignment,
       if (point == assignment.points.end() || point->vertex != original) continue;
       const auto influences = std::span<const Influence>(assignment.influences)
                                   .subspan(point->first_influence, point->influence_count);
-      const bool is_as_born = point->position == editor.births.position(mesh, vertex) &&
-                              std::ranges::equal(influences, editor.births.influences(mesh, vertex));
+      const bool is_as_born =
+          point->position == editor.births.position(mesh, vertex) &&
+          std::ranges::equal(influences, editor.births.influences(mesh, vertex));
       change.vertices.push_back({mesh, vertex, point->policy, point->position,
                                  point->first_influence, point->influence_count,
                                  is_as_born ? kNone : editor.births.keep(mesh, vertex)});

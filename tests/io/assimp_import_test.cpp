@@ -50,10 +50,13 @@ struct Glb {
     const json& accessor = document["accessors"][index];
     const json& view = document["bufferViews"][accessor["bufferView"].get<std::size_t>()];
     std::vector<T> values(view["byteLength"].get<std::size_t>() / sizeof(T));
-    std::memcpy(values.data(), binary.data() + view["byteOffset"].get<std::size_t>(), values.size() * sizeof(T));
+    std::memcpy(values.data(), binary.data() + view["byteOffset"].get<std::size_t>(),
+                values.size() * sizeof(T));
     return values;
   }
-  [[nodiscard]] const json& primitive(std::size_t mesh = 0) const { return document["meshes"][mesh]["primitives"][0]; }
+  [[nodiscard]] const json& primitive(std::size_t mesh = 0) const {
+    return document["meshes"][mesh]["primitives"][0];
+  }
   [[nodiscard]] std::vector<float> attribute(const char* name) const {
     return accessor<float>(primitive()["attributes"][name].get<std::size_t>());
   }
@@ -91,7 +94,8 @@ class LeavesNothingBehind {
 TEST(AssimpImport, ObjWithMaterialAndTextureCoordinates) {
   const test::TemporaryFolder folder;
   folder.write("square.mtl", std::string_view(test::kSquareMtl));
-  const auto imported = import_as_glb(folder.write("square.obj", std::string_view(test::kSquareObj)), {});
+  const auto imported =
+      import_as_glb(folder.write("square.obj", std::string_view(test::kSquareObj)), {});
   ASSERT_TRUE(imported) << imported.error().text();
   EXPECT_EQ(imported->report.format.rfind("OBJ by assimp 5.2", 0), 0u) << imported->report.format;
   EXPECT_EQ(imported->report.space, "file units, taken as metres; axes as in the file");
@@ -113,21 +117,24 @@ TEST(AssimpImport, ObjWithMaterialAndTextureCoordinates) {
 
 TEST(AssimpImport, OffKeepsItsVertices) {
   const test::TemporaryFolder folder;
-  const auto imported = import_as_glb(folder.write("square.off", std::string_view(test::kSquareOff)), {});
+  const auto imported =
+      import_as_glb(folder.write("square.off", std::string_view(test::kSquareOff)), {});
   ASSERT_TRUE(imported) << imported.error().text();
   EXPECT_EQ(Glb(*imported).attribute("POSITION").size(), 12u);
 }
 
 TEST(AssimpImport, LipsOfATornIndexedMeshStayApart) {
   const test::TemporaryFolder folder;
-  const auto imported = import_as_glb(folder.write("torn.ply", std::string_view(test::kTornPly)), {});
+  const auto imported =
+      import_as_glb(folder.write("torn.ply", std::string_view(test::kTornPly)), {});
   ASSERT_TRUE(imported) << imported.error().text();
   EXPECT_EQ(Glb(*imported).attribute("POSITION").size(), 21u);
 }
 
 TEST(AssimpImport, XWithSkinAndAnimation) {
   const test::TemporaryFolder folder;
-  const auto imported = import_as_glb(folder.write("strip.x", std::string_view(test::kSkinnedX)), {});
+  const auto imported =
+      import_as_glb(folder.write("strip.x", std::string_view(test::kSkinnedX)), {});
   ASSERT_TRUE(imported) << imported.error().text();
   const Glb glb(*imported);
   ASSERT_EQ(glb.document["skins"].size(), 1u);
@@ -149,7 +156,8 @@ TEST(AssimpImport, XWithSkinAndAnimation) {
 
 TEST(AssimpImport, ColladaWithSixInfluencesUnitAndUpAxis) {
   const test::TemporaryFolder folder;
-  const auto imported = import_as_glb(folder.write("sail.dae", std::string_view(test::kSixBoneCollada)), {});
+  const auto imported =
+      import_as_glb(folder.write("sail.dae", std::string_view(test::kSixBoneCollada)), {});
   ASSERT_TRUE(imported) << imported.error().text();
   const Glb glb(*imported);
   const std::vector<float> first = glb.attribute("WEIGHTS_0"), second = glb.attribute("WEIGHTS_1");
@@ -164,19 +172,25 @@ TEST(AssimpImport, ColladaWithSixInfluencesUnitAndUpAxis) {
   EXPECT_NEAR(sum, 1.0, 6 * 2e-7);
   EXPECT_TRUE(has_note(imported->report, LoadNote::Kind::repaired, "off by up to 0.2"));
 
-  // Centimetres and z up are on the root; the whole chain is checked with poses in assimp_pose_test.cpp.
+  // Centimetres and z up are on the root; the whole chain is checked with poses in
+  // assimp_pose_test.cpp.
   EXPECT_EQ(imported->report.space, "metres, y up; unit and up axis of the file applied");
 
   LoadOptions strict;
   strict.strict = true;
-  EXPECT_EQ(import_as_glb(folder.path() / "sail.dae", strict).error().code(), StatusCode::weights_not_normalized);
+  EXPECT_EQ(import_as_glb(folder.path() / "sail.dae", strict).error().code(),
+            StatusCode::weights_not_normalized);
 }
 
 TEST(AssimpImport, ContentMustBeWhatTheNameSays) {
   const test::TemporaryFolder folder;
-  EXPECT_EQ(import_as_glb(folder.write("strip.fbx", std::string_view(test::kSkinnedX)), {}).error().code(),
+  EXPECT_EQ(import_as_glb(folder.write("strip.fbx", std::string_view(test::kSkinnedX)), {})
+                .error()
+                .code(),
             StatusCode::malformed_file);
-  EXPECT_EQ(import_as_glb(folder.write("strip.ply", std::string_view(test::kSkinnedX)), {}).error().code(),
+  EXPECT_EQ(import_as_glb(folder.write("strip.ply", std::string_view(test::kSkinnedX)), {})
+                .error()
+                .code(),
             StatusCode::malformed_file);
   EXPECT_FALSE(import_as_glb(folder.write("strip.dae", std::string_view(test::kSkinnedX)), {}));
   EXPECT_FALSE(import_as_glb(folder.write("strip.3ds", std::string_view(test::kSkinnedX)), {}));
@@ -185,12 +199,19 @@ TEST(AssimpImport, ContentMustBeWhatTheNameSays) {
 TEST(AssimpImport, RefusesWhatIsNotItsBusiness) {
   const test::TemporaryFolder folder;
   for (const char* name : {"a.glb", "a.gltf", "a.VRM", "a.unknown", "a", "a.txt"})
-    EXPECT_EQ(import_as_glb(folder.write(name, std::string_view("x")), {}).error().code(), StatusCode::unsupported_format) << name;
-  EXPECT_EQ(import_as_glb(folder.path() / "absent.fbx", {}).error().code(), StatusCode::file_not_found);
+    EXPECT_EQ(import_as_glb(folder.write(name, std::string_view("x")), {}).error().code(),
+              StatusCode::unsupported_format)
+        << name;
+  EXPECT_EQ(import_as_glb(folder.path() / "absent.fbx", {}).error().code(),
+            StatusCode::file_not_found);
   fs::create_directory(folder.path() / "folder.fbx");
-  EXPECT_EQ(import_as_glb(folder.path() / "folder.fbx", {}).error().code(), StatusCode::file_unreadable);
-  EXPECT_EQ(import_as_glb(folder.write("points.obj", std::string_view("v 0 0 0\nv 1 0 0\np 1 2\n")), {}).error().code(),
-            StatusCode::empty_input);
+  EXPECT_EQ(import_as_glb(folder.path() / "folder.fbx", {}).error().code(),
+            StatusCode::file_unreadable);
+  EXPECT_EQ(
+      import_as_glb(folder.write("points.obj", std::string_view("v 0 0 0\nv 1 0 0\np 1 2\n")), {})
+          .error()
+          .code(),
+      StatusCode::empty_input);
 }
 
 TEST(AssimpImport, ReadsNothingOutsideTheModelsFolder) {
@@ -199,12 +220,15 @@ TEST(AssimpImport, ReadsNothingOutsideTheModelsFolder) {
   folder.write("square.mtl", std::string_view(test::kSquareMtl));
   std::string model = test::kSquareObj;
   model.replace(model.find("square.mtl"), 10, "../square.mtl");
-  EXPECT_EQ(import_as_glb(folder.write("inside/square.obj", std::string_view(model)), {}).error().code(),
-            StatusCode::path_not_allowed);
+  EXPECT_EQ(
+      import_as_glb(folder.write("inside/square.obj", std::string_view(model)), {}).error().code(),
+      StatusCode::path_not_allowed);
 
   // A link leads out as much as a path does.
   fs::create_symlink(folder.path() / "square.mtl", folder.path() / "inside" / "square.mtl");
-  EXPECT_EQ(import_as_glb(folder.write("inside/link.obj", std::string_view(test::kSquareObj)), {}).error().code(),
+  EXPECT_EQ(import_as_glb(folder.write("inside/link.obj", std::string_view(test::kSquareObj)), {})
+                .error()
+                .code(),
             StatusCode::path_not_allowed);
 }
 
@@ -261,15 +285,18 @@ struct BadFile {
 /// Does nothing if the shared models are absent.
 void expect_bad_shared_files_end_in_a_status() {
   if (test::shared_models().empty()) return;
-  for (const BadFile bad :
-       {BadFile{"garbage.fbx", StatusCode::malformed_file}, BadFile{"empty.obj", StatusCode::empty_input},
-        BadFile{"face_oob.obj", StatusCode::malformed_file}, BadFile{"huge_counts.off", StatusCode::limit_exceeded},
-        BadFile{"empty_init_from.dae", StatusCode::malformed_file}, BadFile{"skinweights_oob.x", StatusCode::malformed_file}}) {
+  for (const BadFile bad : {BadFile{"garbage.fbx", StatusCode::malformed_file},
+                            BadFile{"empty.obj", StatusCode::empty_input},
+                            BadFile{"face_oob.obj", StatusCode::malformed_file},
+                            BadFile{"huge_counts.off", StatusCode::limit_exceeded},
+                            BadFile{"empty_init_from.dae", StatusCode::malformed_file},
+                            BadFile{"skinweights_oob.x", StatusCode::malformed_file}}) {
     if (kIsSanitized && bad.code == StatusCode::limit_exceeded) continue;  // No memory limit there.
     const auto imported = import_as_glb(test::shared_models() / "bad" / bad.name, {});
     ASSERT_FALSE(imported) << bad.name;
     EXPECT_EQ(imported.error().code(), bad.code) << bad.name << ": " << imported.error().text();
-    EXPECT_NE(imported.error().text().find(bad.name), std::string_view::npos) << imported.error().text();
+    EXPECT_NE(imported.error().text().find(bad.name), std::string_view::npos)
+        << imported.error().text();
   }
 }
 
@@ -279,12 +306,14 @@ TEST(AssimpImport, BadTextsEndInAStatus) {
     const auto imported = import_as_glb(folder.write(name, content), {});
     EXPECT_FALSE(imported) << name;
     if (imported) return StatusCode::ok;
-    EXPECT_NE(imported.error().text().find(name), std::string_view::npos) << imported.error().text();
+    EXPECT_NE(imported.error().text().find(name), std::string_view::npos)
+        << imported.error().text();
     return imported.error().code();
   };
   const LeavesNothingBehind check;
   EXPECT_EQ(code_of("empty.obj", ""), StatusCode::empty_input);
-  EXPECT_EQ(code_of("face.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n"), StatusCode::malformed_file);
+  EXPECT_EQ(code_of("face.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n"),
+            StatusCode::malformed_file);
   if (!kIsSanitized) {  // which has no memory limit
     EXPECT_EQ(code_of("huge.off", "OFF\n3000000000 3000000000 0\n0 0 0\n"),
               StatusCode::limit_exceeded);
@@ -300,7 +329,9 @@ TEST(AssimpImport, RiggedModelsBecomeValidGltf) {
   for (const fs::path& file : files) {
     const auto imported = import_as_glb(file, {});
     ASSERT_TRUE(imported) << file << imported.error().text();
-    EXPECT_TRUE(has_note(imported->report, LoadNote::Kind::information, "reproduces the mesh within")) << file;
+    EXPECT_TRUE(
+        has_note(imported->report, LoadNote::Kind::information, "reproduces the mesh within"))
+        << file;
     EXPECT_NO_THROW(Glb{*imported}) << file;
     if (!test::has_gltf_validator()) continue;
     const auto report = test::validate_glb(folder.write("model.glb", imported->glb));
@@ -315,7 +346,8 @@ TEST(AssimpImport, FbxUnitAndAxesAreApplied) {
   EXPECT_EQ(imported->report.space, "metres, y up; the file: unit 100 cm, z up");
   const json root = Glb(*imported).document["nodes"][0];
   EXPECT_EQ(root["name"], "model_from_file");
-  EXPECT_NEAR(root["rotation"][0].get<double>(), -0.70710678, 1e-7);  // A quarter turn about x: z becomes y.
+  EXPECT_NEAR(root["rotation"][0].get<double>(), -0.70710678,
+              1e-7);  // A quarter turn about x: z becomes y.
   EXPECT_FALSE(root.contains("scale"));
 }
 
@@ -333,7 +365,8 @@ TEST(AssimpImport, AssimpsOwnModels) {
       ++imported_files;
       EXPECT_NO_THROW(Glb{*imported}) << entry.path();
     } else {
-      EXPECT_NE(imported.error().code(), StatusCode::internal_error) << entry.path() << imported.error().text();
+      EXPECT_NE(imported.error().code(), StatusCode::internal_error)
+          << entry.path() << imported.error().text();
     }
   }
   EXPECT_GT(imported_files, 250);

@@ -1,5 +1,5 @@
-// Imported models, loaded and posed by us, against assimp's own scene evaluated by the definition: the whole chain of units, axes,
-// pivots, binds, weights, keys and welding.
+// Imported models, loaded and posed by us, against assimp's own scene evaluated by the definition:
+// the whole chain of units, axes, pivots, binds, weights, keys and welding.
 
 #include <sunder/io/character_file.h>
 #include <sunder/skinning/deform.h>
@@ -51,7 +51,9 @@ aiVector3D sample(const aiVectorKey* keys, unsigned count, double ticks) {
 aiQuaternion sample(const aiQuatKey* keys, unsigned count, double ticks) {
   const auto [at, factor] = locate(keys, count, ticks);
   aiQuaternion result = keys[at].mValue;
-  if (factor != 0.0) aiQuaternion::Interpolate(result, keys[at].mValue, keys[at + 1].mValue, static_cast<float>(factor));
+  if (factor != 0.0)
+    aiQuaternion::Interpolate(result, keys[at].mValue, keys[at + 1].mValue,
+                              static_cast<float>(factor));
   return result.Normalize();
 }
 
@@ -66,20 +68,21 @@ Corners assimp_corners(const aiScene& scene, unsigned clip, double seconds) {
   }
   std::map<std::string, aiMatrix4x4> model_from_node;
   std::vector<std::pair<const aiNode*, aiMatrix4x4>> order;
-  const std::function<void(const aiNode*, const aiMatrix4x4&)> visit = [&](const aiNode* node,
-                                                                           const aiMatrix4x4& model_from_parent) {
-    aiMatrix4x4 local = node->mTransformation;
-    if (const auto found = channel_of.find(node->mName.C_Str()); found != channel_of.end()) {
-      const aiNodeAnim& channel = *found->second;
-      local = aiMatrix4x4(sample(channel.mScalingKeys, channel.mNumScalingKeys, ticks),
-                          sample(channel.mRotationKeys, channel.mNumRotationKeys, ticks),
-                          sample(channel.mPositionKeys, channel.mNumPositionKeys, ticks));
-    }
-    const aiMatrix4x4 model_from_this = model_from_parent * local;
-    model_from_node.emplace(node->mName.C_Str(), model_from_this);
-    order.emplace_back(node, model_from_this);
-    for (unsigned i = 0; i < node->mNumChildren; ++i) visit(node->mChildren[i], model_from_this);
-  };
+  const std::function<void(const aiNode*, const aiMatrix4x4&)> visit =
+      [&](const aiNode* node, const aiMatrix4x4& model_from_parent) {
+        aiMatrix4x4 local = node->mTransformation;
+        if (const auto found = channel_of.find(node->mName.C_Str()); found != channel_of.end()) {
+          const aiNodeAnim& channel = *found->second;
+          local = aiMatrix4x4(sample(channel.mScalingKeys, channel.mNumScalingKeys, ticks),
+                              sample(channel.mRotationKeys, channel.mNumRotationKeys, ticks),
+                              sample(channel.mPositionKeys, channel.mNumPositionKeys, ticks));
+        }
+        const aiMatrix4x4 model_from_this = model_from_parent * local;
+        model_from_node.emplace(node->mName.C_Str(), model_from_this);
+        order.emplace_back(node, model_from_this);
+        for (unsigned i = 0; i < node->mNumChildren; ++i)
+          visit(node->mChildren[i], model_from_this);
+      };
   visit(scene.mRootNode, aiMatrix4x4());
 
   Corners corners;
@@ -90,7 +93,8 @@ Corners assimp_corners(const aiScene& scene, unsigned clip, double seconds) {
       std::vector<double> sums(mesh.mNumVertices, 0.0);
       const auto add = [&](unsigned vertex, const aiMatrix4x4& matrix, double weight) {
         const aiVector3D p = matrix * mesh.mVertices[vertex];
-        posed[vertex] += weight * Vec3d(static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z));
+        posed[vertex] += weight * Vec3d(static_cast<double>(p.x), static_cast<double>(p.y),
+                                        static_cast<double>(p.z));
         sums[vertex] += weight;
       };
       for (unsigned b = 0; b < mesh.mNumBones; ++b) {
@@ -134,9 +138,10 @@ Corners our_corners(const Character& character, std::size_t clip, double seconds
   return corners;
 }
 
-/// Largest distance between corners of the two, relative to assimp's size. `model_from_scene` is what assimp itself did not apply.
-void expect_same(const Corners& ours, const Corners& theirs, const Affine3d& model_from_scene, double tolerance,
-                 const std::string& what) {
+/// Largest distance between corners of the two, relative to assimp's size. `model_from_scene` is
+/// what assimp itself did not apply.
+void expect_same(const Corners& ours, const Corners& theirs, const Affine3d& model_from_scene,
+                 double tolerance, const std::string& what) {
   ASSERT_EQ(ours.size(), theirs.size()) << what;
   Eigen::AlignedBox3d box;
   double largest = 0.0;
@@ -145,7 +150,8 @@ void expect_same(const Corners& ours, const Corners& theirs, const Affine3d& mod
     box.extend(Eigen::Vector3d(expected));
     largest = std::max(largest, (ours[i] - expected).norm());
   }
-  EXPECT_LE(largest, tolerance * box.diagonal().norm()) << what << ": size " << box.diagonal().transpose();
+  EXPECT_LE(largest, tolerance * box.diagonal().norm())
+      << what << ": size " << box.diagonal().transpose();
 }
 
 void compare(const fs::path& file, const Affine3d& model_from_scene, double tolerance) {
@@ -155,23 +161,24 @@ void compare(const fs::path& file, const Affine3d& model_from_scene, double tole
   const aiScene* scene = importer.ReadFile(file.string(), aiProcess_Triangulate);
   ASSERT_NE(scene, nullptr);
   const Character& character = *loaded->character;
-  expect_same(our_corners(character, 0, kRest), assimp_corners(*scene, 0, kRest), model_from_scene, tolerance,
-              file.filename().string() + " at rest");
+  expect_same(our_corners(character, 0, kRest), assimp_corners(*scene, 0, kRest), model_from_scene,
+              tolerance, file.filename().string() + " at rest");
   ASSERT_EQ(character.clips.size(), scene->mNumAnimations) << file;
   for (unsigned clip = 0; clip < scene->mNumAnimations; ++clip) {
     const double duration = static_cast<double>(character.clips[clip].duration);
     for (const double part : {0.0, 0.21, 0.5, 0.83, 1.0}) {
-      const std::string what =
-          file.filename().string() + ", clip " + character.clips[clip].name + " at " + std::to_string(part * duration);
-      expect_same(our_corners(character, clip, part * duration), assimp_corners(*scene, clip, part * duration), model_from_scene,
-                  tolerance, what);
+      const std::string what = file.filename().string() + ", clip " + character.clips[clip].name +
+                               " at " + std::to_string(part * duration);
+      expect_same(our_corners(character, clip, part * duration),
+                  assimp_corners(*scene, clip, part * duration), model_from_scene, tolerance, what);
     }
   }
 }
 
 TEST(AssimpPoses, ColladaArrivesInMetresWithYUp) {
   const test::TemporaryFolder folder;
-  const auto loaded = load_character(folder.write("sail.dae", std::string_view(test::kSixBoneCollada)));
+  const auto loaded =
+      load_character(folder.write("sail.dae", std::string_view(test::kSixBoneCollada)));
   ASSERT_TRUE(loaded) << loaded.error().text();
   const Corners corners = our_corners(*loaded->character, 0, kRest);
   ASSERT_EQ(corners.size(), 3u);
@@ -202,8 +209,9 @@ TEST(AssimpPoses, AssimpsOwnModels) {
   const fs::path models = test::assimp_models();
   if (models.empty()) GTEST_SKIP() << "needs Debian's assimp-testmodels";
   for (const char* name :
-       {"Collada/duck.dae", "Collada/box_nested_animation.dae", "Collada/anims_with_full_rotations_between_keys.DAE",
-        "X/BCN_Epileptic.X", "X/test.x", "B3D/WusonBlitz.b3d", "MD5/SimpleCube.md5mesh", "3DS/RotatingCube.3DS", "OBJ/spider.obj",
+       {"Collada/duck.dae", "Collada/box_nested_animation.dae",
+        "Collada/anims_with_full_rotations_between_keys.DAE", "X/BCN_Epileptic.X", "X/test.x",
+        "B3D/WusonBlitz.b3d", "MD5/SimpleCube.md5mesh", "3DS/RotatingCube.3DS", "OBJ/spider.obj",
         "PLY/Wuson.ply", "STL/Spider_ascii.stl"})
     compare(models / name, Affine3d::Identity(), 5e-6);
   compare(models / "FBX/huesitos.fbx", Affine3d(Eigen::UniformScaling<double>(0.01)), 5e-6);

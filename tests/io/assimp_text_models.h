@@ -6,17 +6,21 @@ namespace sunder::test {
 
 /// A unit square of two triangles in each text format.
 inline constexpr const char* kSquareObj =
-    "mtllib square.mtl\nusemtl red\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 0.75\nvt 0 1\nf 1/1 2/2 3/3 4/4\n";
+    "mtllib square.mtl\nusemtl red\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 "
+    "0.75\nvt 0 1\nf 1/1 2/2 3/3 4/4\n";
 inline constexpr const char* kSquareMtl = "newmtl red\nKd 0.5 0.25 0.125\n";
-inline constexpr const char* kSquareOff = "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n";
-/// Vertices 0 and 4, 2 and 5 coincide: an open tear along the diagonal. Vertices of one lip are shared, so the lips stay apart.
+inline constexpr const char* kSquareOff =
+    "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n";
+/// Vertices 0 and 4, 2 and 5 coincide: an open tear along the diagonal. Vertices of one lip are
+/// shared, so the lips stay apart.
 inline constexpr const char* kTornPly =
-    "ply\nformat ascii 1.0\nelement vertex 7\nproperty float x\nproperty float y\nproperty float z\nelement face 3\n"
+    "ply\nformat ascii 1.0\nelement vertex 7\nproperty float x\nproperty float y\nproperty float "
+    "z\nelement face 3\n"
     "property list uchar int vertex_indices\nend_header\n"
     "0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 0\n1 1 0\n2 0 0\n3 0 1 2\n3 4 5 3\n3 1 6 2\n";
 
-/// A strip of two quads along y (every number has its point: assimp takes "1,0" for 1.0), skinned to two bones in a chain, the
-/// upper one turned by a quarter about z in one second.
+/// A strip of two quads along y (every number has its point: assimp takes "1,0" for 1.0), skinned
+/// to two bones in a chain, the upper one turned by a quarter about z in one second.
 inline const std::string kSkinnedX = R"(xof 0303txt 0032
 AnimTicksPerSecond { 10; }
 Frame Root {
@@ -49,14 +53,16 @@ AnimationSet Bend {
 }
 )";
 
-/// One triangle on six bones, all six on vertex 0, in centimetres and z up, with a weight sum of 1.2 there.
+/// One triangle on six bones, all six on vertex 0, in centimetres and z up, with a weight sum
+/// of 1.2 there.
 inline const std::string kSixBoneCollada = [] {
   std::string joints, nodes, binds;
   for (int i = 0; i < 6; ++i) {
     const std::string name = "bone" + std::to_string(i);
     joints += (i > 0 ? " " : "") + name;
-    nodes += "<node id='" + name + "' sid='" + name + "' name='" + name + "' type='JOINT'><matrix sid='transform'>1 0 0 " +
-             std::to_string(i) + " 0 1 0 0 0 0 1 0 0 0 0 1</matrix></node>";
+    nodes += "<node id='" + name + "' sid='" + name + "' name='" + name +
+             "' type='JOINT'><matrix sid='transform'>1 0 0 " + std::to_string(i) +
+             " 0 1 0 0 0 0 1 0 0 0 0 1</matrix></node>";
     binds += "1 0 0 -" + std::to_string(i) + " 0 1 0 0 0 0 1 0 0 0 0 1 ";
   }
   return R"(<?xml version="1.0" encoding="utf-8"?>

@@ -29,15 +29,20 @@ TEST(LoadGltfBadInput, what_is_not_gltf_is_refused) {
   EXPECT_EQ(code_of("a.gltf", "glTF"), StatusCode::unsupported_format);
   EXPECT_EQ(code_of("a.glb", skinned_strip().text()), StatusCode::unsupported_format);
   EXPECT_EQ(code_of("a.gltf", "{\"asset\": {\"version\": \"2.0\"}"), StatusCode::malformed_file);
-  EXPECT_EQ(code_of("a.gltf", "{\"asset\": {\"version\": \"1.0\"}}"), StatusCode::unsupported_format);
+  EXPECT_EQ(code_of("a.gltf", "{\"asset\": {\"version\": \"1.0\"}}"),
+            StatusCode::unsupported_format);
   EXPECT_EQ(code_of("a.gltf", "{\"asset\": {\"version\": \"2.0\"}}"), StatusCode::empty_input);
-  EXPECT_EQ(load_character(folder.path() / "absent.glb").error().code(), StatusCode::file_not_found);
+  EXPECT_EQ(load_character(folder.path() / "absent.glb").error().code(),
+            StatusCode::file_not_found);
 }
 
 TEST(LoadGltfBadInput, truncated_files_are_refused_at_every_length) {
   const auto glb = skinned_strip().glb();
   for (std::size_t size = 0; size < glb.size(); size += 7)
-    EXPECT_FALSE(load_bytes("cut.glb", {glb.begin(), glb.begin() + static_cast<std::ptrdiff_t>(size)}).has_value()) << size;
+    EXPECT_FALSE(
+        load_bytes("cut.glb", {glb.begin(), glb.begin() + static_cast<std::ptrdiff_t>(size)})
+            .has_value())
+        << size;
 }
 
 TEST(LoadGltfBadInput, lengths_are_not_believed) {
@@ -51,13 +56,15 @@ TEST(LoadGltfBadInput, lengths_are_not_believed) {
   GltfBuilder builder = skinned_strip();
   builder.json["buffers"] = {{{"byteLength", 4'000'000'000u}}};
   EXPECT_EQ(error_of(builder).code(), StatusCode::malformed_file);
-  for (const Json& count : {Json(4'000'000'000u), Json(9.0e15), Json(-1), Json(1.5), Json("ten"), Json(0)}) {
+  for (const Json& count :
+       {Json(4'000'000'000u), Json(9.0e15), Json(-1), Json(1.5), Json("ten"), Json(0)}) {
     builder = skinned_strip();
     builder.json["accessors"][0]["count"] = count;
     EXPECT_FALSE(builder.load().has_value()) << count;
   }
   builder = skinned_strip();
-  builder.json["accessors"][0] = {{"componentType", 5126}, {"count", 4'000'000'000u}, {"type", "VEC3"}};
+  builder.json["accessors"][0] = {
+      {"componentType", 5126}, {"count", 4'000'000'000u}, {"type", "VEC3"}};
   EXPECT_EQ(error_of(builder).code(), StatusCode::limit_exceeded);
 }
 
@@ -91,9 +98,10 @@ TEST(LoadGltfBadInput, indices_of_every_kind_are_checked) {
     return error_of(builder).code();
   };
   for (const char* const pointer :
-       {"/scene", "/scenes/0/nodes/0", "/nodes/0/mesh", "/nodes/0/skin", "/nodes/1/children/0", "/skins/0/joints/0",
-        "/skins/0/inverseBindMatrices", "/meshes/0/primitives/0/indices", "/meshes/0/primitives/0/material",
-        "/meshes/0/primitives/0/attributes/POSITION", "/meshes/0/primitives/0/attributes/NORMAL", "/bufferViews/0/buffer"})
+       {"/scene", "/scenes/0/nodes/0", "/nodes/0/mesh", "/nodes/0/skin", "/nodes/1/children/0",
+        "/skins/0/joints/0", "/skins/0/inverseBindMatrices", "/meshes/0/primitives/0/indices",
+        "/meshes/0/primitives/0/material", "/meshes/0/primitives/0/attributes/POSITION",
+        "/meshes/0/primitives/0/attributes/NORMAL", "/bufferViews/0/buffer"})
     EXPECT_EQ(code_with(pointer, 99), StatusCode::index_out_of_range) << pointer;
   EXPECT_EQ(code_with("/nodes/1/children/0", "x"), StatusCode::malformed_file);
   EXPECT_EQ(code_with("/meshes/0/primitives", Json::object()), StatusCode::malformed_file);
@@ -109,11 +117,14 @@ TEST(LoadGltfBadInput, extensions_that_hide_the_geometry_are_named) {
   builder.json["extensionsRequired"] = {"KHR_texture_transform", "KHR_draco_mesh_compression"};
   const Status error = error_of(builder);
   EXPECT_EQ(error.code(), StatusCode::unsupported_feature);
-  EXPECT_EQ(error.text(), "/extensionsRequired/1: the file cannot be read without KHR_draco_mesh_compression");
+  EXPECT_EQ(error.text(),
+            "/extensionsRequired/1: the file cannot be read without KHR_draco_mesh_compression");
 }
 
 TEST(LoadGltfBadInput, deep_json_and_huge_objects_are_refused) {
-  EXPECT_EQ(load_text("{\"asset\":{\"version\":\"2.0\"},\"extras\":" + std::string(1'000'000, '[')).error().code(),
+  EXPECT_EQ(load_text("{\"asset\":{\"version\":\"2.0\"},\"extras\":" + std::string(1'000'000, '['))
+                .error()
+                .code(),
             StatusCode::limit_exceeded);
   std::string wide = "{\"asset\":{\"version\":\"2.0\"},\"extras\":{";
   for (int i = 0; i < 200'000; ++i) wide += "\"k" + std::to_string(i) + "\":0,";
@@ -134,10 +145,16 @@ TEST(LoadGltfBadInput, a_small_file_that_unfolds_to_a_large_one_meets_the_limit)
 }
 
 TEST(LoadGltfBadInput, a_data_uri_that_is_not_base64_is_refused) {
-  EXPECT_EQ(load_text(skinned_strip().text_with_uri("data:application/octet-stream;base64,AA!!AA==")).error().code(),
+  EXPECT_EQ(
+      load_text(skinned_strip().text_with_uri("data:application/octet-stream;base64,AA!!AA=="))
+          .error()
+          .code(),
+      StatusCode::malformed_file);
+  EXPECT_EQ(load_text(skinned_strip().text_with_uri("data:text/plain,hello")).error().code(),
             StatusCode::malformed_file);
-  EXPECT_EQ(load_text(skinned_strip().text_with_uri("data:text/plain,hello")).error().code(), StatusCode::malformed_file);
-  EXPECT_EQ(load_text(skinned_strip().text_with_uri("data:application/octet-stream;base64,AAAA")).error().code(),
+  EXPECT_EQ(load_text(skinned_strip().text_with_uri("data:application/octet-stream;base64,AAAA"))
+                .error()
+                .code(),
             StatusCode::malformed_file);
 }
 
@@ -153,9 +170,11 @@ void expect_refused_or_valid(const Result<LoadedCharacter>& loaded) {
 
 TEST(LoadGltfBadInput, random_damage_never_breaks_more_than_the_file) {
   GltfBuilder builder = skinned_strip();
-  const std::size_t times = builder.add(std::vector<float>{0, 1}, "SCALAR"), values = builder.add(std::vector<float>(6), "VEC3");
-  builder.json["animations"] = {{{"channels", {{{"sampler", 0}, {"target", {{"node", 2}, {"path", "scale"}}}}}},
-                                 {"samplers", {{{"input", times}, {"output", values}}}}}};
+  const std::size_t times = builder.add(std::vector<float>{0, 1}, "SCALAR"),
+                    values = builder.add(std::vector<float>(6), "VEC3");
+  builder.json["animations"] = {
+      {{"channels", {{{"sampler", 0}, {"target", {{"node", 2}, {"path", "scale"}}}}}},
+       {"samplers", {{{"input", times}, {"output", values}}}}}};
   builder.json["nodes"][1]["matrix"] = {1, 0, 0, 0, 0.5, 1, 0, 0, 0, 0.25, -2, 0, 5, 6, 7, 1};
   const auto original = builder.glb();
   std::mt19937 random(20240611);

@@ -18,7 +18,8 @@ namespace {
 
 constexpr std::uint32_t kBones = 20;
 
-/// A strip whose vertices have up to so many influences, of twenty bones, some far too small for any integer.
+/// A strip whose vertices have up to so many influences, of twenty bones, some far too small for
+/// any integer.
 Character strip_with_influences(std::uint32_t most) {
   GltfBuilder builder = skinned_strip();
   Json joints = Json::array();
@@ -38,11 +39,12 @@ Character strip_with_influences(std::uint32_t most) {
     std::vector<Influence> influences;
     double sum = 0;
     for (std::uint32_t i = 0; i < most; ++i) {
-      influences.push_back(
-          {(static_cast<std::uint32_t>(v) + 7 * i) % kBones, static_cast<float>(std::pow(10, random.uniform(-6, 0)))});
+      influences.push_back({(static_cast<std::uint32_t>(v) + 7 * i) % kBones,
+                            static_cast<float>(std::pow(10, random.uniform(-6, 0)))});
       sum += static_cast<double>(influences.back().weight);
     }
-    for (Influence& influence : influences) influence.weight = static_cast<float>(static_cast<double>(influence.weight) / sum);
+    for (Influence& influence : influences)
+      influence.weight = static_cast<float>(static_cast<double>(influence.weight) / sum);
     weights.append(influences);
   }
   return character;
@@ -53,11 +55,15 @@ struct Saved {
   std::vector<std::byte> binary;
   LoadedCharacter again;
 
-  [[nodiscard]] const Json& attributes() const { return json["meshes"][0]["primitives"][0]["attributes"]; }
+  [[nodiscard]] const Json& attributes() const {
+    return json["meshes"][0]["primitives"][0]["attributes"];
+  }
   [[nodiscard]] const Json& accessor(const std::string& attribute) const {
     return json["accessors"][attributes()[attribute].get<std::size_t>()];
   }
-  [[nodiscard]] bool has(const std::string& attribute) const { return attributes().contains(attribute); }
+  [[nodiscard]] bool has(const std::string& attribute) const {
+    return attributes().contains(attribute);
+  }
 
   /// Component `c` of a vertex, as it stands in the file.
   template <class T>
@@ -93,12 +99,14 @@ Saved save(const Character& character, const SaveOptions& options) {
   if (has_gltf_validator()) {
     const ValidatorReport report = validate_glb(file);
     EXPECT_EQ(report.errors, 0) << report.output;
-    EXPECT_NE(report.output.find("\"warnings\":0"), std::string::npos) << report.output;  // Such as joints without weight.
+    EXPECT_NE(report.output.find("\"warnings\":0"), std::string::npos)
+        << report.output;  // Such as joints without weight.
   }
   return read_back(file);
 }
 
-/// The vertex' weights as the file holds them: they sum to one exactly, and slots without weight are 0.
+/// The vertex' weights as the file holds them: they sum to one exactly, and slots without weight
+/// are 0.
 template <class Integer>
 void expect_exact_sum(const Saved& saved, std::size_t vertex) {
   std::uint32_t sum = 0;
@@ -114,7 +122,8 @@ void expect_exact_sum(const Saved& saved, std::size_t vertex) {
 }
 
 /// The largest influences of a vertex over their sum, by slot.
-std::map<std::uint32_t, double> largest(const Character& character, std::uint32_t vertex, std::uint32_t maximum) {
+std::map<std::uint32_t, double> largest(const Character& character, std::uint32_t vertex,
+                                        std::uint32_t maximum) {
   const auto all = character.meshes[0].weights.of(vertex);
   std::vector<Influence> sorted(all.begin(), all.end());
   std::sort(sorted.begin(), sorted.end(), [](auto& a, auto& b) { return a.weight > b.weight; });
@@ -122,7 +131,8 @@ std::map<std::uint32_t, double> largest(const Character& character, std::uint32_
   double sum = 0;
   for (const Influence& influence : sorted) sum += static_cast<double>(influence.weight);
   std::map<std::uint32_t, double> weights;
-  for (const Influence& influence : sorted) weights[influence.slot] = static_cast<double>(influence.weight) / sum;
+  for (const Influence& influence : sorted)
+    weights[influence.slot] = static_cast<double>(influence.weight) / sum;
   return weights;
 }
 
@@ -131,21 +141,24 @@ struct Format {
   std::uint32_t component_type;
   double unit;
 };
-constexpr Format kFormats[] = {
-    {WeightFormat::float32, 5126, 1e-6}, {WeightFormat::unorm16, 5123, 1.0 / 65535}, {WeightFormat::unorm8, 5121, 1.0 / 255}};
+constexpr Format kFormats[] = {{WeightFormat::float32, 5126, 1e-6},
+                               {WeightFormat::unorm16, 5123, 1.0 / 65535},
+                               {WeightFormat::unorm8, 5121, 1.0 / 255}};
 
 TEST(SaveInfluences, come_back_within_one_unit_in_every_format) {
   for (const Format& format : kFormats)
     for (const std::uint32_t maximum : {0u, 4u, 8u})
       for (const std::uint32_t most : {1u, 3u, 4u, 6u, 11u, 20u}) {
-        SCOPED_TRACE(testing::Message() << format.component_type << ", at most " << maximum << " of " << most);
+        SCOPED_TRACE(testing::Message()
+                     << format.component_type << ", at most " << maximum << " of " << most);
         const Character character = strip_with_influences(most);
         const Saved saved = save(character, {maximum, format.format});
         const std::uint32_t kept = maximum == 0 ? most : std::min(most, maximum);
         ASSERT_TRUE(saved.has("WEIGHTS_" + std::to_string((kept - 1) / 4)));
         ASSERT_FALSE(saved.has("WEIGHTS_" + std::to_string((kept + 3) / 4)));
         EXPECT_EQ(saved.accessor("WEIGHTS_0")["componentType"], format.component_type);
-        EXPECT_EQ(saved.accessor("WEIGHTS_0").value("normalized", false), format.format != WeightFormat::float32);
+        EXPECT_EQ(saved.accessor("WEIGHTS_0").value("normalized", false),
+                  format.format != WeightFormat::float32);
         EXPECT_FALSE(saved.accessor("JOINTS_0").contains("normalized"));
         const SkinWeights& weights = saved.again.character->meshes[0].weights;
         ASSERT_EQ(weights.vertex_count(), kStripVertices);
@@ -160,10 +173,12 @@ TEST(SaveInfluences, come_back_within_one_unit_in_every_format) {
           }
           EXPECT_NEAR(sum, 1, 2e-7 * static_cast<double>(weights.of(v).size()));
           const auto expected = largest(character, v, maximum);
-          for (const auto& [slot, weight] : expected) EXPECT_NEAR(found[slot], weight, format.unit) << "slot " << slot;
+          for (const auto& [slot, weight] : expected)
+            EXPECT_NEAR(found[slot], weight, format.unit) << "slot " << slot;
           EXPECT_LE(found.size(), expected.size());
         }
-        for (const LoadNote& note : saved.again.report.notes) EXPECT_EQ(note.kind, LoadNote::Kind::information) << note.text;
+        for (const LoadNote& note : saved.again.report.notes)
+          EXPECT_EQ(note.kind, LoadNote::Kind::information) << note.text;
       }
 }
 
@@ -201,7 +216,8 @@ TEST(SaveInfluences, refuses_a_format_that_does_not_exist) {
   const TemporaryFolder folder;
   SaveOptions options;
   options.weights = static_cast<WeightFormat>(3);
-  EXPECT_EQ(save_glb(folder.path() / "a.glb", strip_with_influences(4), options).code(), StatusCode::invalid_argument);
+  EXPECT_EQ(save_glb(folder.path() / "a.glb", strip_with_influences(4), options).code(),
+            StatusCode::invalid_argument);
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 

@@ -12,7 +12,9 @@ namespace {
 
 Json& primitive_of(GltfBuilder& builder) { return builder.json["meshes"][0]["primitives"][0]; }
 
-const Mesh& first_mesh(const Result<LoadedCharacter>& loaded) { return loaded->character->meshes.at(0); }
+const Mesh& first_mesh(const Result<LoadedCharacter>& loaded) {
+  return loaded->character->meshes.at(0);
+}
 
 TEST(LoadGltfMesh, attributes_and_triangles_are_read) {
   const auto loaded = skinned_strip().load(strict());
@@ -31,12 +33,15 @@ TEST(LoadGltfMesh, attributes_and_triangles_are_read) {
 
 TEST(LoadGltfMesh, strips_and_fans_become_triangles) {
   GltfBuilder builder = skinned_strip();
-  primitive_of(builder)["indices"] = builder.add(std::vector<std::uint8_t>{0, 1, 2, 3, 3, 4}, "SCALAR");
+  primitive_of(builder)["indices"] =
+      builder.add(std::vector<std::uint8_t>{0, 1, 2, 3, 3, 4}, "SCALAR");
   primitive_of(builder)["mode"] = 5;
-  EXPECT_EQ(first_mesh(builder.load(strict())).triangles, (std::vector<Triangle>{{0, 1, 2}, {1, 3, 2}}));
+  EXPECT_EQ(first_mesh(builder.load(strict())).triangles,
+            (std::vector<Triangle>{{0, 1, 2}, {1, 3, 2}}));
   primitive_of(builder)["indices"] = builder.add(std::vector<std::uint32_t>{0, 1, 2, 3}, "SCALAR");
   primitive_of(builder)["mode"] = 6;
-  EXPECT_EQ(first_mesh(builder.load(strict())).triangles, (std::vector<Triangle>{{1, 2, 0}, {2, 3, 0}}));
+  EXPECT_EQ(first_mesh(builder.load(strict())).triangles,
+            (std::vector<Triangle>{{1, 2, 0}, {2, 3, 0}}));
 }
 
 TEST(LoadGltfMesh, without_indices_every_three_vertices_are_a_triangle) {
@@ -69,7 +74,8 @@ TEST(LoadGltfMesh, primitives_on_the_same_vertices_are_one_mesh) {
 
 TEST(LoadGltfMesh, triangles_of_vertices_that_do_not_exist_are_dropped) {
   GltfBuilder builder = skinned_strip();
-  primitive_of(builder)["indices"] = builder.add(std::vector<std::uint16_t>{0, 1, 2, 1, 77, 2}, "SCALAR");
+  primitive_of(builder)["indices"] =
+      builder.add(std::vector<std::uint16_t>{0, 1, 2, 1, 77, 2}, "SCALAR");
   const auto loaded = builder.load();
   ASSERT_TRUE(loaded.has_value()) << loaded.error().text();
   EXPECT_EQ(first_mesh(loaded).triangles.size(), 1u);
@@ -85,8 +91,11 @@ TEST(LoadGltfMesh, interleaved_and_unaligned_data_is_read) {
   }
   const std::size_t view = builder.add_view(bytes);
   builder.json["bufferViews"][view]["byteStride"] = 16;
-  builder.json["accessors"].push_back(
-      {{"bufferView", view}, {"byteOffset", 3}, {"componentType", 5126}, {"count", kStripVertices}, {"type", "VEC3"}});
+  builder.json["accessors"].push_back({{"bufferView", view},
+                                       {"byteOffset", 3},
+                                       {"componentType", 5126},
+                                       {"count", kStripVertices},
+                                       {"type", "VEC3"}});
   strip_attributes(builder)["POSITION"] = builder.json["accessors"].size() - 1;
   const auto loaded = builder.load(strict());
   ASSERT_TRUE(loaded.has_value()) << loaded.error().text();
@@ -97,11 +106,14 @@ TEST(LoadGltfMesh, sparse_data_replaces_elements_with_and_without_a_base) {
   GltfBuilder builder = skinned_strip();
   const std::size_t indices = builder.add_view(std::vector<std::uint8_t>{1, 4});
   const std::size_t values = builder.add_view(std::vector<float>{7, 8, 9, 4, 5, 6});
-  const Json sparse = {
-      {"count", 2}, {"indices", {{"bufferView", indices}, {"componentType", 5121}}}, {"values", {{"bufferView", values}}}};
+  const Json sparse = {{"count", 2},
+                       {"indices", {{"bufferView", indices}, {"componentType", 5121}}},
+                       {"values", {{"bufferView", values}}}};
   builder.json["accessors"][0]["sparse"] = sparse;
-  builder.json["accessors"].push_back({{"componentType", 5126}, {"count", kStripVertices}, {"type", "VEC3"}, {"sparse", sparse}});
-  primitive_of(builder)["targets"] = Json::array({{{"POSITION", builder.json["accessors"].size() - 1}}});
+  builder.json["accessors"].push_back(
+      {{"componentType", 5126}, {"count", kStripVertices}, {"type", "VEC3"}, {"sparse", sparse}});
+  primitive_of(builder)["targets"] =
+      Json::array({{{"POSITION", builder.json["accessors"].size() - 1}}});
   const auto loaded = builder.load(strict());
   ASSERT_TRUE(loaded.has_value()) << loaded.error().text();
   const Mesh& mesh = first_mesh(loaded);
@@ -126,8 +138,10 @@ TEST(LoadGltfMesh, quantised_vertices_are_decoded) {
   strip_attributes(builder)["POSITION"] = builder.add(positions, "VEC3");
   strip_attributes(builder)["NORMAL"] = builder.add(normals, "VEC3", true);
   strip_attributes(builder)["TEXCOORD_0"] = builder.add(uvs, "VEC2", true);
-  strip_attributes(builder)["COLOR_0"] = builder.add(std::vector<std::uint8_t>(kStripVertices * 3, 51), "VEC3", true);
-  strip_attributes(builder)["_LABEL"] = builder.add(std::vector<std::uint8_t>(kStripVertices, 200), "SCALAR");
+  strip_attributes(builder)["COLOR_0"] =
+      builder.add(std::vector<std::uint8_t>(kStripVertices * 3, 51), "VEC3", true);
+  strip_attributes(builder)["_LABEL"] =
+      builder.add(std::vector<std::uint8_t>(kStripVertices, 200), "SCALAR");
   const auto loaded = builder.load(strict());
   ASSERT_TRUE(loaded.has_value()) << loaded.error().text();
   const Mesh& mesh = first_mesh(loaded);
@@ -151,10 +165,13 @@ TEST(LoadGltfMesh, a_position_that_is_not_finite_is_always_refused) {
 
 TEST(LoadGltfMesh, other_attributes_that_are_not_finite_are_dropped_or_made_zero) {
   GltfBuilder builder = skinned_strip();
-  strip_attributes(builder)["NORMAL"] = builder.add(std::vector<float>(kStripVertices * 3, std::nanf("")), "VEC3");
+  strip_attributes(builder)["NORMAL"] =
+      builder.add(std::vector<float>(kStripVertices * 3, std::nanf("")), "VEC3");
   EXPECT_EQ(builder.load(strict()).error().code(), StatusCode::non_finite_value);
-  strip_attributes(builder)["TEXCOORD_0"] = builder.add(std::vector<float>(kStripVertices * 2, std::nanf("")), "VEC2");
-  strip_attributes(builder)["_HEAT"] = builder.add(std::vector<float>(kStripVertices, INFINITY), "SCALAR");
+  strip_attributes(builder)["TEXCOORD_0"] =
+      builder.add(std::vector<float>(kStripVertices * 2, std::nanf("")), "VEC2");
+  strip_attributes(builder)["_HEAT"] =
+      builder.add(std::vector<float>(kStripVertices, INFINITY), "SCALAR");
   const auto loaded = builder.load();
   ASSERT_TRUE(loaded.has_value()) << loaded.error().text();
   EXPECT_TRUE(first_mesh(loaded).normals.empty());
@@ -189,9 +206,11 @@ TEST(LoadGltfMesh, tear_sides_are_found_under_the_name_that_tools_keep) {
   }
   for (const bool is_first : {false, true}) {  // If both are present, the attribute itself is used.
     GltfBuilder builder = skinned_strip();
-    if (is_first) strip_attributes(builder)[kTearSideFeatureAttribute] = builder.add(others, "SCALAR");
+    if (is_first)
+      strip_attributes(builder)[kTearSideFeatureAttribute] = builder.add(others, "SCALAR");
     strip_attributes(builder)[kTearSideAttribute] = builder.add(sides, "SCALAR");
-    if (!is_first) strip_attributes(builder)[kTearSideFeatureAttribute] = builder.add(others, "SCALAR");
+    if (!is_first)
+      strip_attributes(builder)[kTearSideFeatureAttribute] = builder.add(others, "SCALAR");
     const auto loaded = builder.load(strict());
     ASSERT_TRUE(loaded.has_value()) << loaded.error().text();
     ASSERT_EQ(first_mesh(loaded).custom_attributes.size(), 1u);
@@ -203,8 +222,10 @@ TEST(LoadGltfMesh, tear_sides_are_found_under_the_name_that_tools_keep) {
 
 TEST(LoadGltfMesh, other_things_of_that_name_are_dropped) {
   GltfBuilder builder = skinned_strip();
-  strip_attributes(builder)[kTearSideFeatureAttribute] = builder.add(std::vector<float>(kStripVertices * 2, 1.0f), "VEC2");
-  strip_attributes(builder)["_FEATURE_ID_0"] = builder.add(std::vector<float>(kStripVertices, 1.0f), "SCALAR");
+  strip_attributes(builder)[kTearSideFeatureAttribute] =
+      builder.add(std::vector<float>(kStripVertices * 2, 1.0f), "VEC2");
+  strip_attributes(builder)["_FEATURE_ID_0"] =
+      builder.add(std::vector<float>(kStripVertices, 1.0f), "SCALAR");
   const auto loaded = builder.load();
   ASSERT_TRUE(loaded.has_value()) << loaded.error().text();
   ASSERT_EQ(first_mesh(loaded).custom_attributes.size(), 1u);
@@ -214,7 +235,8 @@ TEST(LoadGltfMesh, other_things_of_that_name_are_dropped) {
 
 TEST(LoadGltfMesh, matrix_attributes_stay_in_the_file_only) {
   GltfBuilder builder = skinned_strip();
-  strip_attributes(builder)["_FRAME"] = builder.add(std::vector<float>(kStripVertices * 16, 1.0f), "MAT4");
+  strip_attributes(builder)["_FRAME"] =
+      builder.add(std::vector<float>(kStripVertices * 16, 1.0f), "MAT4");
   const auto loaded = builder.load();
   ASSERT_TRUE(loaded.has_value()) << loaded.error().text();
   EXPECT_TRUE(first_mesh(loaded).custom_attributes.empty());
@@ -226,15 +248,17 @@ TEST(LoadGltfFiles, external_buffers_are_read_from_the_files_folder_alone) {
   const GltfBuilder builder = skinned_strip();
   outer.write("outside.bin", builder.binary());
   outer.write("asset/sub/inside part.bin", builder.binary());
-  std::filesystem::create_symlink(outer.path() / "outside.bin", outer.path() / "asset" / "link.bin");
+  std::filesystem::create_symlink(outer.path() / "outside.bin",
+                                  outer.path() / "asset" / "link.bin");
   const auto load_with = [&](const std::string& uri) {
     return load_character(outer.write("asset/model.gltf", builder.text_with_uri(uri)));
   };
   EXPECT_TRUE(load_with("sub/inside%20part.bin").has_value());
   EXPECT_TRUE(load_with("sub/../sub/inside part.bin").has_value());
   for (const std::string& uri :
-       {std::string("../outside.bin"), std::string("sub/../../outside.bin"), std::string("%2e%2e/outside.bin"),
-        (outer.path() / "outside.bin").string(), "file://" + (outer.path() / "outside.bin").string(),
+       {std::string("../outside.bin"), std::string("sub/../../outside.bin"),
+        std::string("%2e%2e/outside.bin"), (outer.path() / "outside.bin").string(),
+        "file://" + (outer.path() / "outside.bin").string(),
         std::string("http://example.com/a.bin"), std::string("link.bin"), std::string("a%00b")})
     EXPECT_EQ(load_with(uri).error().code(), StatusCode::path_not_allowed) << uri;
   EXPECT_EQ(load_with("missing.bin").error().code(), StatusCode::file_not_found);

@@ -18,7 +18,8 @@ namespace {
 /// Appends a copy of a vertex.
 std::uint32_t append_copy(Mesh& mesh, std::uint32_t vertex) {
   const auto copy = [&](auto& stream) {
-    if (!stream.empty()) stream.push_back(typename std::decay_t<decltype(stream)>::value_type(stream[vertex]));
+    if (!stream.empty())
+      stream.push_back(typename std::decay_t<decltype(stream)>::value_type(stream[vertex]));
   };
   copy(mesh.positions);
   copy(mesh.normals);
@@ -40,7 +41,8 @@ std::uint32_t append_copy(Mesh& mesh, std::uint32_t vertex) {
 
 /// Gives the first triangles vertices of their own and a tear side, as a tear would.
 void fake_tear(Mesh& mesh, std::size_t triangles = 2) {
-  CustomAttribute side{kTearSideAttribute, 1, false, std::vector<float>(mesh.positions.size(), 0.0f)};
+  CustomAttribute side{kTearSideAttribute, 1, false,
+                       std::vector<float>(mesh.positions.size(), 0.0f)};
   mesh.custom_attributes.push_back(side);
   for (std::size_t t = 0; t < std::min(triangles, mesh.triangles.size()); ++t)
     for (std::uint32_t& vertex : mesh.triangles[t]) {
@@ -55,7 +57,8 @@ struct Saved {
   Result<LoadedCharacter> again = Status();
 };
 
-Saved save(const Character& character, const LoadedCharacter& loaded, const SaveOptions& options = {}) {
+Saved save(const Character& character, const LoadedCharacter& loaded,
+           const SaveOptions& options = {}) {
   const TemporaryFolder folder;
   const auto file = folder.path() / "torn.glb";
   Saved saved;
@@ -75,7 +78,9 @@ Saved save(const Character& character, const LoadedCharacter& loaded, const Save
 Mesh grouped_by_submesh(Mesh mesh) {
   std::vector<std::uint32_t> order(mesh.triangles.size());
   for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
-  std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return mesh.triangle_submesh[a] < mesh.triangle_submesh[b]; });
+  std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) {
+    return mesh.triangle_submesh[a] < mesh.triangle_submesh[b];
+  });
   const auto triangles = mesh.triangles;
   const auto submesh = mesh.triangle_submesh;
   for (std::size_t i = 0; i < order.size(); ++i) {
@@ -131,8 +136,10 @@ TEST(SaveGlb, an_unchanged_text_becomes_a_glb_of_the_same_content) {
 
 TEST(SaveGlb, a_torn_mesh_comes_back_bit_for_bit) {
   GltfBuilder builder = skinned_strip();
-  strip_attributes(builder)["COLOR_0"] = builder.add(std::vector<float>(kStripVertices * 3, 0.25f), "VEC3");
-  strip_attributes(builder)["_HEAT"] = builder.add(std::vector<float>(kStripVertices * 2, 0.5f), "VEC2");
+  strip_attributes(builder)["COLOR_0"] =
+      builder.add(std::vector<float>(kStripVertices * 3, 0.25f), "VEC3");
+  strip_attributes(builder)["_HEAT"] =
+      builder.add(std::vector<float>(kStripVertices * 2, 0.5f), "VEC2");
   const LoadedCharacter loaded = loaded_strip(builder);
   Character torn = *loaded.character;
   fake_tear(torn.meshes[0]);
@@ -143,7 +150,8 @@ TEST(SaveGlb, a_torn_mesh_comes_back_bit_for_bit) {
   EXPECT_EQ(saved.again->character->skins, torn.skins);
   const Json json = json_of(saved.bytes);
   const Json& primitive = json["meshes"][0]["primitives"][0];
-  EXPECT_EQ(json["accessors"][primitive["attributes"]["COLOR_0"].get<std::size_t>()]["type"], "VEC3");
+  EXPECT_EQ(json["accessors"][primitive["attributes"]["COLOR_0"].get<std::size_t>()]["type"],
+            "VEC3");
   EXPECT_TRUE(primitive["attributes"].contains("_TEARSIDE"));
 }
 
@@ -155,16 +163,20 @@ TEST(SaveGlb, tear_sides_are_written_under_two_names_and_read_under_one) {
   ASSERT_TRUE(saved.again.has_value());
   const Json json = json_of(saved.bytes);
   const Json& attributes = json["meshes"][0]["primitives"][0]["attributes"];
-  EXPECT_EQ(attributes[kTearSideFeatureAttribute], attributes[kTearSideAttribute]);  // It takes no space.
-  EXPECT_EQ(json["accessors"][attributes[kTearSideAttribute].get<std::size_t>()]["componentType"], 5126);
+  EXPECT_EQ(attributes[kTearSideFeatureAttribute],
+            attributes[kTearSideAttribute]);  // It takes no space.
+  EXPECT_EQ(json["accessors"][attributes[kTearSideAttribute].get<std::size_t>()]["componentType"],
+            5126);
   EXPECT_EQ(saved.again->character->meshes[0].custom_attributes, torn.meshes[0].custom_attributes);
   const Saved twice = save(torn, *saved.again);  // Neither name piles up.
-  EXPECT_EQ(json_of(twice.bytes)["meshes"][0]["primitives"][0]["attributes"].size(), attributes.size());
+  EXPECT_EQ(json_of(twice.bytes)["meshes"][0]["primitives"][0]["attributes"].size(),
+            attributes.size());
 }
 
 TEST(SaveGlb, labels_stay_labels) {
   GltfBuilder builder = skinned_strip();
-  strip_attributes(builder)["_FEATURE_ID_0"] = builder.add(std::vector<std::uint16_t>(kStripVertices * 2, 300), "VEC2");
+  strip_attributes(builder)["_FEATURE_ID_0"] =
+      builder.add(std::vector<std::uint16_t>(kStripVertices * 2, 300), "VEC2");
   builder.json["accessors"].back()["type"] = "VEC2";
   const LoadedCharacter loaded = loaded_strip(builder);
   ASSERT_FALSE(loaded.character->meshes[0].custom_attributes[0].interpolates);
@@ -180,17 +192,20 @@ TEST(SaveGlb, everything_else_of_the_document_stays) {
   builder.json["extras"] = {{"studio", "x"}};
   builder.json["skins"][0]["extras"] = {{"kept", 1}};
   builder.json["meshes"][0]["primitives"][0]["extras"] = {{"kept", 2}};
-  builder.json["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 0.7}, {"znear", 0.01}}}}};
+  builder.json["cameras"] = {
+      {{"type", "perspective"}, {"perspective", {{"yfov", 0.7}, {"znear", 0.01}}}}};
   const LoadedCharacter loaded = loaded_strip(builder);
   Character torn = *loaded.character;
   fake_tear(torn.meshes[0]);
   Json json = json_of(save(torn, loaded).bytes);
-  for (const char* const key : {"asset", "extras", "skins", "nodes", "scenes", "cameras", "materials"})
+  for (const char* const key :
+       {"asset", "extras", "skins", "nodes", "scenes", "cameras", "materials"})
     EXPECT_EQ(json[key], builder.json[key]) << key;
   Json primitive = json["meshes"][0]["primitives"][0];
   EXPECT_EQ(primitive["extras"], (Json{{"kept", 2}}));
   EXPECT_EQ(primitive["material"], 0);
-  for (std::size_t i = 0; i < builder.json["accessors"].size(); ++i) EXPECT_EQ(json["accessors"][i], builder.json["accessors"][i]);
+  for (std::size_t i = 0; i < builder.json["accessors"].size(); ++i)
+    EXPECT_EQ(json["accessors"][i], builder.json["accessors"][i]);
 }
 
 TEST(SaveGlb, a_submesh_without_triangles_disappears) {
@@ -221,8 +236,9 @@ TEST(SaveGlb, a_node_whose_mesh_is_gone_keeps_no_trace_of_it) {
                     values = builder.add(std::vector<float>{0, 1}, "SCALAR");
   builder.json["accessors"][times]["min"] = {0};
   builder.json["accessors"][times]["max"] = {1};
-  builder.json["animations"] = {{{"channels", {{{"sampler", 0}, {"target", {{"node", 3}, {"path", "weights"}}}}}},
-                                 {"samplers", {{{"input", times}, {"output", values}}}}}};
+  builder.json["animations"] = {
+      {{"channels", {{{"sampler", 0}, {"target", {{"node", 3}, {"path", "weights"}}}}}},
+       {"samplers", {{{"input", times}, {"output", values}}}}}};
   const LoadedCharacter loaded = loaded_strip(builder);
   Character torn = *loaded.character;
   ASSERT_EQ(torn.meshes.size(), 2u);
@@ -235,7 +251,9 @@ TEST(SaveGlb, a_node_whose_mesh_is_gone_keeps_no_trace_of_it) {
 }
 
 /// Takes a triangle away, as a gap does.
-void retire(Mesh& mesh, std::uint32_t triangle) { mesh.triangles[triangle].fill(mesh.triangles[triangle][0]); }
+void retire(Mesh& mesh, std::uint32_t triangle) {
+  mesh.triangles[triangle].fill(mesh.triangles[triangle][0]);
+}
 
 void retire_all(Mesh& mesh) {
   for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t) retire(mesh, t);
@@ -377,7 +395,8 @@ TEST(SaveGlb, refuses_a_material_that_the_source_does_not_have) {
   Character torn = *loaded.character;
   add_cap(torn.meshes[0], {"cap", 2});
   const TemporaryFolder folder;
-  EXPECT_EQ(save_glb(folder.path() / "torn.glb", torn, loaded).code(), StatusCode::index_out_of_range);
+  EXPECT_EQ(save_glb(folder.path() / "torn.glb", torn, loaded).code(),
+            StatusCode::index_out_of_range);
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
@@ -407,14 +426,16 @@ TEST(SaveGlb, a_rigid_mesh_is_written_without_weights) {
   fake_tear(torn.meshes[0]);
   const Saved saved = save(torn, loaded);
   ASSERT_TRUE(saved.again.has_value());
-  EXPECT_FALSE(json_of(saved.bytes)["meshes"][0]["primitives"][0]["attributes"].contains("JOINTS_0"));
+  EXPECT_FALSE(
+      json_of(saved.bytes)["meshes"][0]["primitives"][0]["attributes"].contains("JOINTS_0"));
   expect_same_content(saved.again->character->meshes[0], torn.meshes[0]);
 }
 
 TEST(SaveGlb, a_torn_strip_becomes_triangles) {
   GltfBuilder builder = skinned_strip();
   builder.json["meshes"][0]["primitives"][0]["mode"] = 5;
-  builder.json["meshes"][0]["primitives"][0]["indices"] = builder.add(std::vector<std::uint16_t>{0, 1, 2, 3, 4, 5}, "SCALAR");
+  builder.json["meshes"][0]["primitives"][0]["indices"] =
+      builder.add(std::vector<std::uint16_t>{0, 1, 2, 3, 4, 5}, "SCALAR");
   const LoadedCharacter loaded = loaded_strip(builder);
   Character torn = *loaded.character;
   fake_tear(torn.meshes[0], 1);
@@ -434,7 +455,8 @@ TEST(SaveGlb, more_than_four_influences_take_more_sets_or_are_cut_to_the_largest
   builder.json["skins"][0] = {{"joints", joints}};
   const LoadedCharacter loaded = loaded_strip(builder);
   Character torn = *loaded.character;
-  const std::vector<Influence> six = {{0, 0.0625f}, {1, 0.125f}, {2, 0.25f}, {3, 0.25f}, {4, 0.1875f}, {5, 0.125f}};
+  const std::vector<Influence> six = {{0, 0.0625f}, {1, 0.125f},  {2, 0.25f},
+                                      {3, 0.25f},   {4, 0.1875f}, {5, 0.125f}};
   torn.meshes[0].weights = {};
   for (std::size_t v = 0; v < kStripVertices; ++v) torn.meshes[0].weights.append(six);
 
@@ -462,17 +484,20 @@ TEST(SaveGlb, weights_that_loading_repaired_are_written_when_anything_is_torn) {
   builder.json["scenes"][0]["nodes"].push_back(3);
   std::vector<float> unnormalised(kStripVertices * 4, 0.25f);
   unnormalised[5] = 0.0f;
-  builder.json["meshes"][1]["primitives"][0]["attributes"]["WEIGHTS_0"] = builder.add(unnormalised, "VEC4");
+  builder.json["meshes"][1]["primitives"][0]["attributes"]["WEIGHTS_0"] =
+      builder.add(unnormalised, "VEC4");
   std::vector<std::uint8_t> joints(kStripVertices * 4, 0);
   for (std::size_t v = 0; v < kStripVertices; ++v) joints[v * 4 + 1] = 1;
-  builder.json["meshes"][1]["primitives"][0]["attributes"]["JOINTS_0"] = builder.add(joints, "VEC4");
+  builder.json["meshes"][1]["primitives"][0]["attributes"]["JOINTS_0"] =
+      builder.add(joints, "VEC4");
   const LoadedCharacter loaded = loaded_strip(builder);
   Character torn = *loaded.character;
   fake_tear(torn.meshes[0]);
   const Saved saved = save(torn, loaded);  // Among others: the validator finds no error.
   ASSERT_TRUE(saved.again.has_value());
   EXPECT_EQ(saved.again->character->meshes[1].weights, torn.meshes[1].weights);
-  for (const LoadNote& note : saved.again->report.notes) EXPECT_EQ(note.kind, LoadNote::Kind::information) << note.text;
+  for (const LoadNote& note : saved.again->report.notes)
+    EXPECT_EQ(note.kind, LoadNote::Kind::information) << note.text;
 }
 
 TEST(SaveGlb, morph_targets_come_back) {
@@ -482,7 +507,8 @@ TEST(SaveGlb, morph_targets_come_back) {
   const std::size_t accessor = builder.add(deltas, "VEC3");
   builder.json["accessors"][accessor]["min"] = {0.125, 0.125, 0.125};
   builder.json["accessors"][accessor]["max"] = {0.125, 0.125, 0.125};
-  primitive["targets"] = Json::array({{{"POSITION", accessor}}, {{"POSITION", accessor}, {"NORMAL", accessor}}});
+  primitive["targets"] =
+      Json::array({{{"POSITION", accessor}}, {{"POSITION", accessor}, {"NORMAL", accessor}}});
   builder.json["meshes"][0]["extras"]["targetNames"] = {"puff", "lean"};
   builder.json["meshes"][0]["weights"] = {0.5, 0.25};
   const LoadedCharacter loaded = loaded_strip(builder);
@@ -525,7 +551,8 @@ TEST(SaveGlb, several_external_buffers_and_images_end_in_one_file) {
   const Json json = json_of(read_bytes(file));
   EXPECT_EQ(json["buffers"].size(), 1u);
   EXPECT_EQ(json["images"][0]["mimeType"], "image/png");
-  EXPECT_EQ(json["bufferViews"][json["images"][0]["bufferView"].get<std::size_t>()]["byteLength"], png.size());
+  EXPECT_EQ(json["bufferViews"][json["images"][0]["bufferView"].get<std::size_t>()]["byteLength"],
+            png.size());
   EXPECT_EQ(json["images"][1]["uri"], "missing.png");
 }
 
@@ -533,19 +560,24 @@ TEST(SaveGlb, a_failing_save_leaves_the_folder_as_it_was) {
   const LoadedCharacter loaded = loaded_strip();
   const TemporaryFolder folder;
   std::filesystem::create_directory(folder.path() / "taken.glb");
-  EXPECT_EQ(save_glb(folder.path() / "taken.glb", *loaded.character, loaded).code(), StatusCode::file_unreadable);
-  EXPECT_EQ(save_glb(folder.path() / "no" / "folder.glb", *loaded.character, loaded).code(), StatusCode::file_unreadable);
+  EXPECT_EQ(save_glb(folder.path() / "taken.glb", *loaded.character, loaded).code(),
+            StatusCode::file_unreadable);
+  EXPECT_EQ(save_glb(folder.path() / "no" / "folder.glb", *loaded.character, loaded).code(),
+            StatusCode::file_unreadable);
   Character other = *loaded.character;
   other.meshes.push_back(other.meshes[0]);
   EXPECT_EQ(save_glb(folder.path() / "other.glb", other, loaded).code(), StatusCode::size_mismatch);
   other = *loaded.character;
   other.skeleton.bones[0].name = "renamed";
-  EXPECT_EQ(save_glb(folder.path() / "other.glb", other, loaded).code(), StatusCode::invalid_argument);
+  EXPECT_EQ(save_glb(folder.path() / "other.glb", other, loaded).code(),
+            StatusCode::invalid_argument);
   other = *loaded.character;
   other.meshes[0].weights.influences[0].weight = 0.5f;
-  EXPECT_EQ(save_glb(folder.path() / "other.glb", other, loaded).code(), StatusCode::weights_not_normalized);
+  EXPECT_EQ(save_glb(folder.path() / "other.glb", other, loaded).code(),
+            StatusCode::weights_not_normalized);
   std::size_t entries = 0;
-  for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder.path())) ++entries;
+  for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder.path()))
+    ++entries;
   EXPECT_EQ(entries, 1u);
 }
 
@@ -568,7 +600,8 @@ TEST(SaveGlb, rigged_models_come_back_torn) {
 }
 
 TEST(SaveGlb, the_validator_judges_what_the_tests_above_wrote) {
-  SUNDER_SKIP_WITHOUT_GLTF_VALIDATOR();  // They do it where they can; this says by name where they could not.
+  SUNDER_SKIP_WITHOUT_GLTF_VALIDATOR();  // They do it where they can; this says by name where they
+                                         // could not.
 }
 
 }  // namespace

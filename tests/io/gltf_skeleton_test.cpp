@@ -98,7 +98,8 @@ TEST(LoadGltfSkeleton, rotations_are_made_unit) {
   builder.json["nodes"][2]["rotation"] = {0, 0, 0, 2};
   auto loaded = builder.load();
   ASSERT_TRUE(loaded.has_value()) << loaded.error().text();
-  EXPECT_EQ(bone_named(*loaded->character, "tip").rest.rotation.coeffs(), Quatf::Identity().coeffs());
+  EXPECT_EQ(bone_named(*loaded->character, "tip").rest.rotation.coeffs(),
+            Quatf::Identity().coeffs());
   EXPECT_EQ(builder.load(strict()).error().code(), StatusCode::malformed_file);
   builder.json["nodes"][2]["rotation"] = {0, 0, 0, 0};
   loaded = builder.load();
@@ -122,7 +123,8 @@ TEST(LoadGltfSkeleton, cycles_and_two_parents_are_refused_by_name) {
 TEST(LoadGltfSkeleton, deep_trees_are_refused_without_recursion) {
   GltfBuilder builder = skinned_strip();
   const std::size_t first = builder.json["nodes"].size();
-  for (std::size_t i = 0; i < 100'000; ++i) builder.json["nodes"].push_back({{"children", {first + i + 1}}});
+  for (std::size_t i = 0; i < 100'000; ++i)
+    builder.json["nodes"].push_back({{"children", {first + i + 1}}});
   builder.json["nodes"].push_back(Json::object());
   builder.json["nodes"][2]["children"] = {first};
   EXPECT_EQ(builder.load().error().code(), StatusCode::limit_exceeded);
@@ -135,8 +137,9 @@ struct Animated {
   Animated(std::vector<float> times, std::vector<float> values, const char* type, const char* path,
            const char* interpolation = "LINEAR") {
     const std::size_t input = builder.add(times, "SCALAR"), output = builder.add(values, type);
-    builder.json["animations"] = {{{"channels", {{{"sampler", 0}, {"target", {{"node", 2}, {"path", path}}}}}},
-                                   {"samplers", {{{"input", input}, {"output", output}, {"interpolation", interpolation}}}}}};
+    builder.json["animations"] = {
+        {{"channels", {{{"sampler", 0}, {"target", {{"node", 2}, {"path", path}}}}}},
+         {"samplers", {{{"input", input}, {"output", output}, {"interpolation", interpolation}}}}}};
   }
 };
 
@@ -146,7 +149,8 @@ TEST(LoadGltfClips, keys_are_kept_in_all_interpolations) {
                                             {"CUBICSPLINE", Interpolation::cubic_spline, 3u}}) {
     std::vector<float> values(2 * 3 * per_key);
     for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<float>(i);
-    const auto loaded = Animated({0.5f, 2}, values, "VEC3", "translation", name).builder.load(strict());
+    const auto loaded =
+        Animated({0.5f, 2}, values, "VEC3", "translation", name).builder.load(strict());
     ASSERT_TRUE(loaded.has_value()) << loaded.error().text();
     const Clip& clip = loaded->character->clips.at(0);
     EXPECT_EQ(clip.name, "clip 0");
@@ -160,19 +164,22 @@ TEST(LoadGltfClips, keys_are_kept_in_all_interpolations) {
 
 TEST(LoadGltfClips, integer_rotations_are_decoded) {
   Animated animated({0, 1}, {0, 0, 0, 1, 0, 0, 0, 1}, "VEC4", "rotation");
-  animated.builder.json["animations"][0]["samplers"][0]["output"] =
-      animated.builder.add(std::vector<std::int16_t>{0, 0, 0, 32767, -32768, 0, 0, 0}, "VEC4", true);
+  animated.builder.json["animations"][0]["samplers"][0]["output"] = animated.builder.add(
+      std::vector<std::int16_t>{0, 0, 0, 32767, -32768, 0, 0, 0}, "VEC4", true);
   const auto loaded = animated.builder.load(strict());
   ASSERT_TRUE(loaded.has_value()) << loaded.error().text();
-  EXPECT_EQ(loaded->character->clips[0].channels.at(0).values, (std::vector<float>{0, 0, 0, 1, -1, 0, 0, 0}));
+  EXPECT_EQ(loaded->character->clips[0].channels.at(0).values,
+            (std::vector<float>{0, 0, 0, 1, -1, 0, 0, 0}));
 }
 
 TEST(LoadGltfClips, morph_weights_drive_their_nodes_range) {
   Animated animated({0, 1}, {0, 1, 0.5f, 0.25f}, "SCALAR", "weights");
   GltfBuilder& builder = animated.builder;
   const std::size_t deltas = builder.add(std::vector<float>(kStripVertices * 3, 1.0f), "VEC3");
-  builder.json["meshes"][0]["primitives"][0]["targets"] = Json::array({{{"POSITION", deltas}}, {{"POSITION", deltas}}});
-  builder.json["nodes"].push_back({{"name", "twin"}, {"mesh", 0}, {"skin", 0}, {"weights", {0.25, 0.75}}});
+  builder.json["meshes"][0]["primitives"][0]["targets"] =
+      Json::array({{{"POSITION", deltas}}, {{"POSITION", deltas}}});
+  builder.json["nodes"].push_back(
+      {{"name", "twin"}, {"mesh", 0}, {"skin", 0}, {"weights", {0.25, 0.75}}});
   builder.json["scenes"][0]["nodes"].push_back(3);
   builder.json["animations"][0]["channels"][0]["target"]["node"] = 3;
   const auto loaded = builder.load(strict());
@@ -189,13 +196,16 @@ TEST(LoadGltfClips, an_unusable_channel_is_dropped_and_the_model_kept) {
   std::vector<Animated> faulty;
   faulty.emplace_back(std::vector<float>{1, 0}, std::vector<float>(6), "VEC3", "translation");
   faulty.emplace_back(std::vector<float>{-1, 0}, std::vector<float>(6), "VEC3", "translation");
-  faulty.emplace_back(std::vector<float>{0, std::nanf("")}, std::vector<float>(6), "VEC3", "translation");
+  faulty.emplace_back(std::vector<float>{0, std::nanf("")}, std::vector<float>(6), "VEC3",
+                      "translation");
   faulty.emplace_back(std::vector<float>{0, 1}, std::vector<float>(9), "VEC3", "translation");
   faulty.emplace_back(std::vector<float>{0, 1}, std::vector<float>(6), "VEC3", "pointer");
-  faulty.emplace_back(std::vector<float>{0, 1}, std::vector<float>(6), "VEC3", "translation", "WAVY");
+  faulty.emplace_back(std::vector<float>{0, 1}, std::vector<float>(6), "VEC3", "translation",
+                      "WAVY");
   faulty.emplace_back(std::vector<float>{0, 1}, std::vector<float>(8), "VEC4", "rotation");
   faulty.emplace_back(std::vector<float>{0, 1}, std::vector<float>(2), "SCALAR", "weights");
-  faulty.emplace_back(std::vector<float>{0, 1}, std::vector<float>{0, 0, 0, std::nanf(""), 0, 0}, "VEC3", "scale");
+  faulty.emplace_back(std::vector<float>{0, 1}, std::vector<float>{0, 0, 0, std::nanf(""), 0, 0},
+                      "VEC3", "scale");
   for (std::size_t i = 0; i < faulty.size(); ++i) {
     SCOPED_TRACE(i);
     const auto loaded = faulty[i].builder.load();
@@ -208,7 +218,8 @@ TEST(LoadGltfClips, an_unusable_channel_is_dropped_and_the_model_kept) {
 }
 
 TEST(LoadGltfClips, of_keys_at_one_time_the_last_is_kept) {
-  const auto loaded = Animated({0, 1, 1, 2}, {0, 0, 0, 1, 1, 1, 2, 2, 2, 3, 3, 3}, "VEC3", "scale").builder.load();
+  const auto loaded =
+      Animated({0, 1, 1, 2}, {0, 0, 0, 1, 1, 1, 2, 2, 2, 3, 3, 3}, "VEC3", "scale").builder.load();
   ASSERT_TRUE(loaded.has_value()) << loaded.error().text();
   const Channel& channel = loaded->character->clips[0].channels.at(0);
   EXPECT_EQ(channel.times, (std::vector<float>{0, 1, 2}));

@@ -9,8 +9,8 @@ namespace {
 
 /// Gives every vertex of the strip the same four joints and weights.
 template <class Joint, class Weight>
-GltfBuilder strip_with(std::array<Joint, 4> joints, std::array<Weight, 4> weights, const char* set = "0",
-                       GltfBuilder builder = skinned_strip()) {
+GltfBuilder strip_with(std::array<Joint, 4> joints, std::array<Weight, 4> weights,
+                       const char* set = "0", GltfBuilder builder = skinned_strip()) {
   std::vector<Joint> all_joints;
   std::vector<Weight> all_weights;
   for (std::size_t v = 0; v < kStripVertices; ++v) {
@@ -18,11 +18,13 @@ GltfBuilder strip_with(std::array<Joint, 4> joints, std::array<Weight, 4> weight
     all_weights.insert(all_weights.end(), weights.begin(), weights.end());
   }
   strip_attributes(builder)[std::string("JOINTS_") + set] = builder.add(all_joints, "VEC4");
-  strip_attributes(builder)[std::string("WEIGHTS_") + set] = builder.add(all_weights, "VEC4", !std::is_floating_point_v<Weight>);
+  strip_attributes(builder)[std::string("WEIGHTS_") + set] =
+      builder.add(all_weights, "VEC4", !std::is_floating_point_v<Weight>);
   return builder;
 }
 
-std::vector<Influence> influences_of(const Result<LoadedCharacter>& loaded, std::uint32_t vertex = 0) {
+std::vector<Influence> influences_of(const Result<LoadedCharacter>& loaded,
+                                     std::uint32_t vertex = 0) {
   const auto of = loaded->character->meshes[0].weights.of(vertex);
   return {of.begin(), of.end()};
 }
@@ -40,15 +42,19 @@ TEST(LoadGltfWeights, floats_keep_their_bits_and_zeros_are_left_out) {
 }
 
 TEST(LoadGltfWeights, normalised_bytes_are_read_as_fractions) {
-  const auto loaded = strip_with<std::uint8_t, std::uint8_t>({0, 1, 0, 0}, {204, 51, 0, 0}).load(strict());
+  const auto loaded =
+      strip_with<std::uint8_t, std::uint8_t>({0, 1, 0, 0}, {204, 51, 0, 0}).load(strict());
   ASSERT_TRUE(loaded.has_value()) << loaded.error().text();
-  EXPECT_EQ(influences_of(loaded), (std::vector<Influence>{{0, 204.0f / 255.0f}, {1, 51.0f / 255.0f}}));
+  EXPECT_EQ(influences_of(loaded),
+            (std::vector<Influence>{{0, 204.0f / 255.0f}, {1, 51.0f / 255.0f}}));
 }
 
 TEST(LoadGltfWeights, normalised_shorts_and_short_joints_are_read) {
-  const auto loaded = strip_with<std::uint16_t, std::uint16_t>({1, 0, 0, 0}, {65534, 1, 0, 0}).load(strict());
+  const auto loaded =
+      strip_with<std::uint16_t, std::uint16_t>({1, 0, 0, 0}, {65534, 1, 0, 0}).load(strict());
   ASSERT_TRUE(loaded.has_value()) << loaded.error().text();
-  EXPECT_EQ(influences_of(loaded), (std::vector<Influence>{{1, 65534.0f / 65535.0f}, {0, 1.0f / 65535.0f}}));
+  EXPECT_EQ(influences_of(loaded),
+            (std::vector<Influence>{{1, 65534.0f / 65535.0f}, {0, 1.0f / 65535.0f}}));
 }
 
 TEST(LoadGltfWeights, a_second_set_adds_influences) {
@@ -70,18 +76,21 @@ TEST(LoadGltfWeights, sums_off_by_more_than_rounding_are_normalised_and_noted) {
   EXPECT_EQ(influences_of(loaded), (std::vector<Influence>{{0, 0.5f}, {1, 0.5f}}));
   ASSERT_EQ(loaded->report.notes.size(), 1u);
   EXPECT_EQ(loaded->report.notes[0].count, kStripVertices);
-  EXPECT_TRUE(has_note(loaded->report, kRepaired, "off by up to 0.5")) << loaded->report.notes[0].text;
+  EXPECT_TRUE(has_note(loaded->report, kRepaired, "off by up to 0.5"))
+      << loaded->report.notes[0].text;
   EXPECT_EQ(builder.load(strict()).error().code(), StatusCode::weights_not_normalized);
 }
 
 TEST(LoadGltfWeights, sums_off_by_a_little_are_normalised_in_silence) {
-  const auto loaded = strip_with<std::uint8_t, float>({0, 1, 0, 0}, {0.5f, 0.500004f, 0, 0}).load(strict());
+  const auto loaded =
+      strip_with<std::uint8_t, float>({0, 1, 0, 0}, {0.5f, 0.500004f, 0, 0}).load(strict());
   ASSERT_TRUE(loaded.has_value()) << loaded.error().text();
   EXPECT_TRUE(loaded->report.notes.empty());
 }
 
 TEST(LoadGltfWeights, nan_weights_become_zero) {
-  const GltfBuilder builder = strip_with<std::uint8_t, float>({0, 1, 0, 0}, {std::nanf(""), 0.5f, 0, 0});
+  const GltfBuilder builder =
+      strip_with<std::uint8_t, float>({0, 1, 0, 0}, {std::nanf(""), 0.5f, 0, 0});
   const auto loaded = builder.load();
   ASSERT_TRUE(loaded.has_value()) << loaded.error().text();
   EXPECT_EQ(influences_of(loaded), (std::vector<Influence>{{1, 1.0f}}));
@@ -98,7 +107,8 @@ TEST(LoadGltfWeights, negative_weights_become_zero) {
 }
 
 TEST(LoadGltfWeights, huge_weights_are_normalised) {
-  const auto loaded = strip_with<std::uint8_t, float>({0, 0, 1, 0}, {3e38f, 3e38f, 3e38f, 0}).load();
+  const auto loaded =
+      strip_with<std::uint8_t, float>({0, 0, 1, 0}, {3e38f, 3e38f, 3e38f, 0}).load();
   ASSERT_TRUE(loaded.has_value()) << loaded.error().text();
   EXPECT_EQ(influences_of(loaded).size(), 2u);
 }
@@ -134,11 +144,13 @@ TEST(LoadGltfWeights, sets_that_do_not_match_are_refused) {
   strip_attributes(lonely).erase("WEIGHTS_0");
   EXPECT_EQ(lonely.load().error().code(), StatusCode::size_mismatch);
   GltfBuilder short_joints = skinned_strip();
-  strip_attributes(short_joints)["JOINTS_0"] = short_joints.add(std::vector<std::uint8_t>(4 * 3), "VEC4");
+  strip_attributes(short_joints)["JOINTS_0"] =
+      short_joints.add(std::vector<std::uint8_t>(4 * 3), "VEC4");
   EXPECT_EQ(short_joints.load().error().code(), StatusCode::size_mismatch);
   const GltfBuilder integers = [] {
     GltfBuilder builder = skinned_strip();
-    strip_attributes(builder)["WEIGHTS_0"] = builder.add(std::vector<std::uint8_t>(4 * kStripVertices, 63), "VEC4", false);
+    strip_attributes(builder)["WEIGHTS_0"] =
+        builder.add(std::vector<std::uint8_t>(4 * kStripVertices, 63), "VEC4", false);
     return builder;
   }();
   EXPECT_EQ(integers.load().error().code(), StatusCode::malformed_file);
@@ -149,7 +161,8 @@ TEST(LoadGltfSkins, without_inverse_binds_they_are_the_identity) {
   builder.json["skins"][0].erase("inverseBindMatrices");
   const auto loaded = builder.load(strict());
   ASSERT_TRUE(loaded.has_value()) << loaded.error().text();
-  for (const Affine3f& bind : loaded->character->skins[0].bone_from_bind) EXPECT_EQ(bind.matrix(), Affine3f::Identity().matrix());
+  for (const Affine3f& bind : loaded->character->skins[0].bone_from_bind)
+    EXPECT_EQ(bind.matrix(), Affine3f::Identity().matrix());
 }
 
 TEST(LoadGltfSkins, bones_and_binds_come_in_the_order_of_the_joints) {
@@ -192,7 +205,8 @@ TEST(LoadGltfSkins, two_skins_on_the_same_joints_keep_their_own_binds) {
   ASSERT_EQ(character.skins.size(), 2u);
   ASSERT_EQ(character.meshes.size(), 2u);
   EXPECT_EQ(character.skins[0].bones, character.skins[1].bones);
-  EXPECT_NE(character.skins[0].bone_from_bind[1].matrix(), character.skins[1].bone_from_bind[1].matrix());
+  EXPECT_NE(character.skins[0].bone_from_bind[1].matrix(),
+            character.skins[1].bone_from_bind[1].matrix());
   EXPECT_NE(character.meshes[0].skin, character.meshes[1].skin);
 }
 

@@ -19,15 +19,19 @@ namespace {
 
 using test::Random;
 
-// ---- Operations of any bits ------------------------------------------------------------------------------------------------
+// ---- Operations of any bits
+// ------------------------------------------------------------------------------------------------
 
-/// Any double up to `largest`: of all magnitudes, round ones and those that no short text names, zeros of both signs.
+/// Any double up to `largest`: of all magnitudes, round ones and those that no short text names,
+/// zeros of both signs.
 double any_number(Random& random, double largest = 1e9) {
   switch (random.index(8)) {
     case 0: return 0.0;
     case 1: return -0.0;
     case 2: return static_cast<double>(random.index(2001)) - 1000.0;
-    case 3: return std::bit_cast<double>(std::uint64_t{random.index(0xFFFF'FFFF)});  // Below the smallest normal one.
+    case 3:
+      return std::bit_cast<double>(
+          std::uint64_t{random.index(0xFFFF'FFFF)});  // Below the smallest normal one.
     case 4: return random.uniform(-largest, largest);
     default: return random.uniform(-1, 1) * std::exp2(random.uniform(-300, 0)) * largest;
   }
@@ -40,7 +44,9 @@ double any_above_zero(Random& random) {
 
 double any_at_least_zero(Random& random) { return std::abs(any_number(random)); }
 
-Vec3d any_point(Random& random) { return {any_number(random), any_number(random), any_number(random)}; }
+Vec3d any_point(Random& random) {
+  return {any_number(random), any_number(random), any_number(random)};
+}
 
 Vec3d any_direction(Random& random) {
   Vec3d direction = any_point(random);
@@ -64,7 +70,8 @@ BonesPose any_bones_pose(Random& random) {
     if (random.index(2) == 0) bone.translation = vector();
     if (random.index(2) == 0) {
       const Vec3d axis = random.direction();
-      bone.rotation = Quatf(Quatd(Eigen::AngleAxisd(random.uniform(-4, 4), Eigen::Vector3d(axis))).cast<float>());
+      bone.rotation = Quatf(
+          Quatd(Eigen::AngleAxisd(random.uniform(-4, 4), Eigen::Vector3d(axis))).cast<float>());
     }
     if (random.index(2) == 0) bone.scale = vector();
     pose.bones.push_back(bone);
@@ -79,7 +86,8 @@ ModelPose any_model_pose(Random& random) {
     for (int k = 0; k < 12; ++k) matrix.matrix().data()[k] = any_number(random, 1e30);
     pose.model_from_bone.push_back(matrix);
   }
-  for (std::uint32_t i = random.index(3); i > 0; --i) pose.morph_weights.push_back(static_cast<float>(any_number(random)));
+  for (std::uint32_t i = random.index(3); i > 0; --i)
+    pose.morph_weights.push_back(static_cast<float>(any_number(random)));
   return pose;
 }
 
@@ -105,7 +113,8 @@ PoseSpec any_pose(Random& random) {
 
 WeightOptions any_weights(Random& random) {
   WeightOptions weights{static_cast<WeightPolicy>(random.index(4)), 0};
-  if (weights.policy != WeightPolicy::exact && random.index(2) == 0) weights.maximum_influences = random.index(kNone);
+  if (weights.policy != WeightPolicy::exact && random.index(2) == 0)
+    weights.maximum_influences = random.index(kNone);
   return weights;
 }
 
@@ -122,23 +131,28 @@ TearOperation any_tear(Random& random) {
     tear.stroke.push_back(blade);
     if (i > 0 && random.index(3) == 0) tear.pose_changes.push_back({i, any_pose(random)});
   }
-  tear.options = {any_at_least_zero(random), random.index(2) == 0 ? Layers::nearest : Layers::all, any_at_least_zero(random),
-                  any_weights_if_any(random)};
+  tear.options = {any_at_least_zero(random), random.index(2) == 0 ? Layers::nearest : Layers::all,
+                  any_at_least_zero(random), any_weights_if_any(random)};
   return tear;
 }
 
 CutOperation any_cut(Random& random) {
   CutOperation operation{any_pose(random),
-                         {any_point(random), any_direction(random), {}, random.index(2) == 0, any_weights_if_any(random)}};
+                         {any_point(random),
+                          any_direction(random),
+                          {},
+                          random.index(2) == 0,
+                          any_weights_if_any(random)}};
   if (random.index(2) == 0)
-    for (std::uint32_t i = 3 + random.index(3); i > 0; --i) operation.cut.bounds.push_back(any_point(random));
+    for (std::uint32_t i = 3 + random.index(3); i > 0; --i)
+      operation.cut.bounds.push_back(any_point(random));
   return operation;
 }
 
 DrillOperation any_drill(Random& random) {
   return {any_pose(random),
-          {any_point(random), any_direction(random), any_above_zero(random), any_above_zero(random), any_at_least_zero(random),
-           random.index(2) == 0, any_weights_if_any(random)}};
+          {any_point(random), any_direction(random), any_above_zero(random), any_above_zero(random),
+           any_at_least_zero(random), random.index(2) == 0, any_weights_if_any(random)}};
 }
 
 RefitOptions any_refit(Random& random) {
@@ -146,7 +160,8 @@ RefitOptions any_refit(Random& random) {
   refit.poses.clip_samples = random.index(65'537);
   refit.poses.range_of_motion = random.index(2) == 0;
   for (std::uint32_t i = random.index(3); i > 0; --i) {
-    JointLimit limit{random.index(kNone), any_direction(random), any_number(random), any_number(random)};
+    JointLimit limit{random.index(kNone), any_direction(random), any_number(random),
+                     any_number(random)};
     if (limit.lower > limit.upper) std::swap(limit.lower, limit.upper);
     refit.poses.joint_limits.push_back(limit);
   }
@@ -181,7 +196,8 @@ Operation any_operation(Random& random) {
   }
 }
 
-// ---- Their bits ------------------------------------------------------------------------------------------------------------
+// ---- Their bits
+// ------------------------------------------------------------------------------------------------------------
 
 /// All bits of operations as text: two are equal if and only if these are.
 class Bits {
@@ -217,30 +233,44 @@ class Bits {
   void add(const RestPose&) {}
   void add(const BindPose&) {}
   void add(const ClipPose& pose) { add(pose.clip), add(pose.time); }
-  void add(const BonesPose::Bone& bone) { add(bone.name), add(bone.translation), add(bone.rotation), add(bone.scale); }
+  void add(const BonesPose::Bone& bone) {
+    add(bone.name), add(bone.translation), add(bone.rotation), add(bone.scale);
+  }
   void add(const BonesPose& pose) { add(pose.bones); }
   void add(const ModelPose& pose) { add(pose.model_from_bone), add(pose.morph_weights); }
   void add(const Blade& blade) { add(blade.base), add(blade.tip); }
   void add(const TearOperation::PoseChange& change) { add(change.blade), add(change.pose); }
-  void add(const WeightOptions& weights) { add(static_cast<std::uint32_t>(weights.policy)), add(weights.maximum_influences); }
-  void add(const JointLimit& limit) { add(limit.bone), add(limit.axis), add(limit.lower), add(limit.upper); }
-  void add(const PoseSetSpec& set) { add(set.clip_samples), add(set.range_of_motion), add(set.joint_limits), add(set.poses); }
-  void add(const RefitOptions& refit) { add(refit.poses), add(refit.moves_bind), add(refit.is_coupled), add(refit.smoothness); }
+  void add(const WeightOptions& weights) {
+    add(static_cast<std::uint32_t>(weights.policy)), add(weights.maximum_influences);
+  }
+  void add(const JointLimit& limit) {
+    add(limit.bone), add(limit.axis), add(limit.lower), add(limit.upper);
+  }
+  void add(const PoseSetSpec& set) {
+    add(set.clip_samples), add(set.range_of_motion), add(set.joint_limits), add(set.poses);
+  }
+  void add(const RefitOptions& refit) {
+    add(refit.poses), add(refit.moves_bind), add(refit.is_coupled), add(refit.smoothness);
+  }
   void add(const TearOperation& tear) {
     add(tear.pose), add(tear.stroke), add(tear.pose_changes), add(tear.options.width);
-    add(tear.options.layers == Layers::all), add(tear.options.wall_depth), add(tear.options.weights);
+    add(tear.options.layers == Layers::all), add(tear.options.wall_depth),
+        add(tear.options.weights);
   }
   void add(const CutOperation& operation) {
-    add(operation.pose), add(operation.cut.point), add(operation.cut.normal), add(operation.cut.bounds), add(operation.cut.caps);
+    add(operation.pose), add(operation.cut.point), add(operation.cut.normal),
+        add(operation.cut.bounds), add(operation.cut.caps);
     add(operation.cut.weights);
   }
   void add(const DrillOperation& operation) {
-    add(operation.pose), add(operation.bore.origin), add(operation.bore.direction), add(operation.bore.radius);
-    add(operation.bore.depth), add(operation.bore.chord_tolerance), add(operation.bore.wall), add(operation.bore.weights);
+    add(operation.pose), add(operation.bore.origin), add(operation.bore.direction),
+        add(operation.bore.radius);
+    add(operation.bore.depth), add(operation.bore.chord_tolerance), add(operation.bore.wall),
+        add(operation.bore.weights);
   }
   void add(const WeightsOperation& operation) {
-    add(operation.first_operation), add(operation.operation_count), add(operation.weights), add(operation.pose),
-        add(operation.refit);
+    add(operation.first_operation), add(operation.operation_count), add(operation.weights),
+        add(operation.pose), add(operation.refit);
   }
   void add(const UndoOperation& operation) { add(operation.count); }
   void add(const RedoOperation& operation) { add(operation.count); }
@@ -252,7 +282,8 @@ std::string bits(const std::vector<Operation>& operations) {
   return result.text;
 }
 
-// ---- Tests -----------------------------------------------------------------------------------------------------------------
+// ---- Tests
+// -----------------------------------------------------------------------------------------------------------------
 
 class FormattedOperations : public testing::TestWithParam<std::uint64_t> {};
 
@@ -277,28 +308,36 @@ TEST(FormatOperations, TakesALineForAnOperationAndOneForEachBlade) {
   pose.model_from_bone.assign(100, Affine3d::Identity());
   tear.stroke.assign(5, {{0, 0, 1}, {0, 0, 0}});
   tear.pose_changes = {{3, pose}};
-  const std::string text = format_operations(std::vector<Operation>{tear, UndoOperation{}, CutOperation{pose, {}}});
+  const std::string text =
+      format_operations(std::vector<Operation>{tear, UndoOperation{}, CutOperation{pose, {}}});
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 4 + 1 + 5 + 1 + 1 + 1);
   EXPECT_NE(text.find("\n    {\"op\":\"undo\",\"count\":1},\n"), std::string::npos) << text;
 }
 
 TEST(FormatOperations, OfWeightsOnlyWhatHasAMeaningIsWritten) {
-  const auto text_of = [](const WeightsOperation& operation) { return format_operations(std::vector<Operation>{operation}); };
+  const auto text_of = [](const WeightsOperation& operation) {
+    return format_operations(std::vector<Operation>{operation});
+  };
   WeightsOperation operation;
   operation.pose = BindPose{};
   operation.weights.policy = WeightPolicy::exact;
-  EXPECT_NE(text_of(operation).find(R"({"op":"weights","first":0,"weights":{"policy":"exact","influences":0}})"), std::string::npos)
+  EXPECT_NE(text_of(operation).find(
+                R"({"op":"weights","first":0,"weights":{"policy":"exact","influences":0}})"),
+            std::string::npos)
       << text_of(operation);
   operation.operation_count = 2;
   operation.weights = {WeightPolicy::pose_exact, 4};
-  EXPECT_NE(text_of(operation).find(
-                R"({"op":"weights","first":0,"count":2,"weights":{"policy":"pose_exact","influences":4},"pose":"bind"})"),
-            std::string::npos)
+  EXPECT_NE(
+      text_of(operation).find(
+          R"({"op":"weights","first":0,"count":2,"weights":{"policy":"pose_exact","influences":4},"pose":"bind"})"),
+      std::string::npos)
       << text_of(operation);
   operation.weights.policy = WeightPolicy::refit;
   EXPECT_EQ(text_of(operation).find("bind\"}"), std::string::npos) << text_of(operation);
-  EXPECT_NE(text_of(operation).find(R"("refit":{"poses":{"clip_samples":8,)"), std::string::npos) << text_of(operation);
-  EXPECT_EQ(format_operations(std::vector<Operation>{CutOperation{}}).find("weights"), std::string::npos);
+  EXPECT_NE(text_of(operation).find(R"("refit":{"poses":{"clip_samples":8,)"), std::string::npos)
+      << text_of(operation);
+  EXPECT_EQ(format_operations(std::vector<Operation>{CutOperation{}}).find("weights"),
+            std::string::npos);
 }
 
 TEST(FormatOperations, AnEmptyLogIsOne) {
@@ -333,8 +372,10 @@ TEST(SaveOperations, LeavesNothingBehindWhereItFails) {
   const test::TemporaryFolder folder;
   std::filesystem::create_directories(folder.path() / "taken.json" / "inside");
   const std::vector<Operation> operations = {UndoOperation{}};
-  EXPECT_EQ(save_operations(folder.path() / "taken.json", operations).code(), StatusCode::file_unreadable);
-  EXPECT_EQ(save_operations(folder.path() / "no" / "folder.json", operations).code(), StatusCode::file_unreadable);
+  EXPECT_EQ(save_operations(folder.path() / "taken.json", operations).code(),
+            StatusCode::file_unreadable);
+  EXPECT_EQ(save_operations(folder.path() / "no" / "folder.json", operations).code(),
+            StatusCode::file_unreadable);
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
 }
 

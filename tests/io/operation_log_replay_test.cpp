@@ -17,7 +17,8 @@ namespace {
 TearOperation bent_tear(double height, const WeightOptions& weights) {
   TearOperation tear;
   tear.pose = ClipPose{"Bend", 0.7};
-  tear.stroke = {{{0.1, height, 2}, {0.1, height, 0}}, {{0.15, height + 0.3, 2}, {0.15, height + 0.3, 0}}};
+  tear.stroke = {{{0.1, height, 2}, {0.1, height, 0}},
+                 {{0.15, height + 0.3, 2}, {0.15, height + 0.3, 0}}};
   tear.options.weights = weights;
   return tear;
 }
@@ -57,7 +58,8 @@ TEST_P(LoggedWeights, give_the_model_again) {
   reweighed[1].pose = ClipPose{"Bend", 1.2};
   reweighed[2].weights = {WeightPolicy::refit, 4};
   reweighed[3].weights.policy = WeightPolicy::refit;
-  reweighed[3].refit.poses = {0, true, {{1, {0, 0, 1}, -0.2, 0.9}}, {ClipPose{"Bend", 0.1}, BindPose{}}};
+  reweighed[3].refit.poses = {
+      0, true, {{1, {0, 0, 1}, -0.2, 0.9}}, {ClipPose{"Bend", 0.1}, BindPose{}}};
   reweighed[3].refit.moves_bind = false;
   reweighed[3].first_operation = 1;
   reweighed[3].operation_count = 1;
@@ -79,12 +81,15 @@ TEST_P(LoggedWeights, give_the_model_again) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Policies, LoggedWeights,
-                         testing::Values(Weighed{"barycentric", {}}, Weighed{"barycentric_of_two", {WeightPolicy::barycentric, 2}},
-                                         Weighed{"pose_exact", {WeightPolicy::pose_exact, 0}},
-                                         Weighed{"pose_exact_of_four", {WeightPolicy::pose_exact, 4}},
-                                         Weighed{"refit", {WeightPolicy::refit, 0}}, Weighed{"exact", {WeightPolicy::exact, 0}}),
-                         [](const auto& instance) { return std::string(instance.param.name); });
+INSTANTIATE_TEST_SUITE_P(
+    Policies, LoggedWeights,
+    testing::Values(Weighed{"barycentric", {}},
+                    Weighed{"barycentric_of_two", {WeightPolicy::barycentric, 2}},
+                    Weighed{"pose_exact", {WeightPolicy::pose_exact, 0}},
+                    Weighed{"pose_exact_of_four", {WeightPolicy::pose_exact, 4}},
+                    Weighed{"refit", {WeightPolicy::refit, 0}},
+                    Weighed{"exact", {WeightPolicy::exact, 0}}),
+    [](const auto& instance) { return std::string(instance.param.name); });
 
 TEST(LoggedDefaults, of_a_model_stand_in_the_log_of_what_it_made) {
   const Character tube = test::make_tube(9, 10, 3);
@@ -99,7 +104,8 @@ TEST(LoggedDefaults, of_a_model_stand_in_the_log_of_what_it_made) {
   ASSERT_TRUE(apply_operation(model, cut));
   const auto read = parse_operations(format_operations(model.history()));
   ASSERT_TRUE(read) << read.error().text();
-  EXPECT_EQ(std::get<TearOperation>(read->at(0)).options.weights, (WeightOptions{WeightPolicy::exact, 0}));
+  EXPECT_EQ(std::get<TearOperation>(read->at(0)).options.weights,
+            (WeightOptions{WeightPolicy::exact, 0}));
   expect_the_same(played(tube, *read), model);
 }
 

@@ -13,9 +13,12 @@
 namespace sunder {
 namespace {
 
-constexpr const char* kBlades = R"([{"base": [0,0,1], "tip": [0,0,0]}, {"base": [0.1,0,1], "tip": [0.1,0,0]}])";
+constexpr const char* kBlades =
+    R"([{"base": [0,0,1], "tip": [0,0,0]}, {"base": [0.1,0,1], "tip": [0.1,0,0]}])";
 
-std::string log_of(const std::string& operations) { return R"({"sunder_operations": 1, "operations": [)" + operations + "]}"; }
+std::string log_of(const std::string& operations) {
+  return R"({"sunder_operations": 1, "operations": [)" + operations + "]}";
+}
 
 std::string cut_with(const std::string& fields) {
   return log_of(R"({"op": "cut", "plane": {"point": [0,0,0], "normal": [0,0,1]}, )" + fields + "}");
@@ -23,7 +26,8 @@ std::string cut_with(const std::string& fields) {
 
 /// A drill with other fields behind its axis.
 std::string drill_with(const std::string& fields) {
-  return log_of(R"({"op": "drill", "axis": {"origin": [0,0,0], "direction": [0,0,1]}, )" + fields + "}");
+  return log_of(R"({"op": "drill", "axis": {"origin": [0,0,0], "direction": [0,0,1]}, )" + fields +
+                "}");
 }
 
 /// A tear with other fields than the stroke in front of it.
@@ -32,13 +36,19 @@ std::string tear_with(const std::string& fields) {
 }
 
 /// Weights of operations with other fields behind them.
-std::string weights_with(const std::string& fields) { return log_of(R"({"op": "weights", "weights": )" + fields + "}"); }
+std::string weights_with(const std::string& fields) {
+  return log_of(R"({"op": "weights", "weights": )" + fields + "}");
+}
 
 /// A refit with other fields.
-std::string refit_with(const std::string& fields) { return weights_with(R"({"policy": "refit"}, "refit": )" + fields); }
+std::string refit_with(const std::string& fields) {
+  return weights_with(R"({"policy": "refit"}, "refit": )" + fields);
+}
 
 /// A refit over a joint limit with other fields.
-std::string limit_with(const std::string& fields) { return refit_with(R"({"poses": {"joint_limits": [{)" + fields + "}]}}"); }
+std::string limit_with(const std::string& fields) {
+  return refit_with(R"({"poses": {"joint_limits": [{)" + fields + "}]}}");
+}
 
 TearOperation parsed(const std::string& json) {
   auto operations = parse_operations(json);
@@ -48,7 +58,8 @@ TearOperation parsed(const std::string& json) {
 }
 
 TEST(OperationLog, ReadsEveryField) {
-  const TearOperation tear = parsed(tear_with(R"("pose": {"clip": "Walk", "time": 0.4}, "width": 0.0, "layers": "nearest")"));
+  const TearOperation tear = parsed(
+      tear_with(R"("pose": {"clip": "Walk", "time": 0.4}, "width": 0.0, "layers": "nearest")"));
   const ClipPose pose = std::get<ClipPose>(tear.pose);
   EXPECT_EQ(std::get<std::string>(pose.clip), "Walk");
   EXPECT_EQ(pose.time, 0.4);
@@ -57,7 +68,8 @@ TEST(OperationLog, ReadsEveryField) {
 }
 
 TEST(OperationLog, ReadsWidthLayersAndWalls) {
-  const TearOperation tear = parsed(tear_with(R"("width": 0.02, "layers": "all", "wall_depth": 0.01)"));
+  const TearOperation tear =
+      parsed(tear_with(R"("width": 0.02, "layers": "all", "wall_depth": 0.01)"));
   EXPECT_EQ(tear.options, (TearOptions{0.02, Layers::all, 0.01}));
   EXPECT_EQ(parsed(tear_with(R"("width": 0)")).options, TearOptions{});
 }
@@ -85,26 +97,34 @@ TEST(OperationLog, ReadsACut) {
 }
 
 TEST(OperationLog, ReadsABore) {
-  const auto operations = parse_operations(log_of(R"({"op": "drill", "axis": {"origin": [1, 2, 3], "direction": [0, 0, -3]},
+  const auto operations = parse_operations(
+      log_of(R"({"op": "drill", "axis": {"origin": [1, 2, 3], "direction": [0, 0, -3]},
       "radius": 0.5, "depth": 4, "chord_tolerance": 0.001, "wall": true},
       {"op": "drill", "axis": {"origin": [0,0,0], "direction": [0,0,-1]}, "radius": 1, "depth": 1})"));
   ASSERT_TRUE(operations) << operations.error().text();
-  EXPECT_EQ(std::get<DrillOperation>(operations->at(0)).bore, (Bore{{1, 2, 3}, {0, 0, -3}, 0.5, 4, 0.001, true}));
-  EXPECT_EQ(std::get<DrillOperation>(operations->at(1)).bore, (Bore{{0, 0, 0}, {0, 0, -1}, 1, 1, 0, false}));
+  EXPECT_EQ(std::get<DrillOperation>(operations->at(0)).bore,
+            (Bore{{1, 2, 3}, {0, 0, -3}, 0.5, 4, 0.001, true}));
+  EXPECT_EQ(std::get<DrillOperation>(operations->at(1)).bore,
+            (Bore{{0, 0, 0}, {0, 0, -1}, 1, 1, 0, false}));
 }
 
 TEST(OperationLog, ATearACutAndABoreMayBringWeights) {
-  EXPECT_EQ(parsed(tear_with(R"("weights": {"policy": "pose_exact", "influences": 4})")).options.weights,
-            (WeightOptions{WeightPolicy::pose_exact, 4}));
-  EXPECT_EQ(parsed(tear_with(R"("weights": {"influences": 8})")).options.weights, (WeightOptions{WeightPolicy::barycentric, 8}));
+  EXPECT_EQ(
+      parsed(tear_with(R"("weights": {"policy": "pose_exact", "influences": 4})")).options.weights,
+      (WeightOptions{WeightPolicy::pose_exact, 4}));
+  EXPECT_EQ(parsed(tear_with(R"("weights": {"influences": 8})")).options.weights,
+            (WeightOptions{WeightPolicy::barycentric, 8}));
   EXPECT_EQ(parsed(tear_with(R"("weights": {})")).options.weights, WeightOptions{});
   EXPECT_EQ(parsed(tear_with(R"("width": 0)")).options.weights, std::nullopt);
   const auto cut = parse_operations(cut_with(R"("weights": {"policy": "exact", "influences": 0})"));
   ASSERT_TRUE(cut) << cut.error().text();
-  EXPECT_EQ(std::get<CutOperation>(cut->at(0)).cut.weights, (WeightOptions{WeightPolicy::exact, 0}));
-  const auto bore = parse_operations(drill_with(R"("radius": 1, "depth": 1, "weights": {"policy": "refit"})"));
+  EXPECT_EQ(std::get<CutOperation>(cut->at(0)).cut.weights,
+            (WeightOptions{WeightPolicy::exact, 0}));
+  const auto bore =
+      parse_operations(drill_with(R"("radius": 1, "depth": 1, "weights": {"policy": "refit"})"));
   ASSERT_TRUE(bore) << bore.error().text();
-  EXPECT_EQ(std::get<DrillOperation>(bore->at(0)).bore.weights, (WeightOptions{WeightPolicy::refit, 0}));
+  EXPECT_EQ(std::get<DrillOperation>(bore->at(0)).bore.weights,
+            (WeightOptions{WeightPolicy::refit, 0}));
 }
 
 TEST(OperationLog, ReadsWeightsOfEarlierOperations) {
@@ -132,7 +152,8 @@ TEST(OperationLog, ReadsWeightsOfEarlierOperations) {
 }
 
 TEST(OperationLog, ReadsWhatARefitIsOver) {
-  const auto operations = parse_operations(refit_with(R"({"poses": {"clip_samples": 0, "range_of_motion": true,
+  const auto operations =
+      parse_operations(refit_with(R"({"poses": {"clip_samples": 0, "range_of_motion": true,
       "joint_limits": [{"bone": 7, "axis": [0, -2, 0], "lower": -0.5, "upper": 1.5}, {"bone": 0, "axis": [1, 0, 0], "lower": 0, "upper": 0}],
       "poses": ["bind", {"clip": 1, "time": 0.25}]}, "moves_bind": false, "coupled": true, "smoothness": 0})"));
   ASSERT_TRUE(operations) << operations.error().text();
@@ -153,8 +174,8 @@ TEST(OperationLog, ReadsWhatARefitIsOver) {
 }
 
 TEST(OperationLog, ReadsUndoAndRedo) {
-  const auto operations = parse_operations(
-      log_of(R"({"op": "undo"}, {"op": "undo", "count": 3}, {"op": "redo"}, {"op": "redo", "count": 4294967294})"));
+  const auto operations = parse_operations(log_of(
+      R"({"op": "undo"}, {"op": "undo", "count": 3}, {"op": "redo"}, {"op": "redo", "count": 4294967294})"));
   ASSERT_TRUE(operations) << operations.error().text();
   EXPECT_EQ(std::get<UndoOperation>(operations->at(0)).count, 1u);
   EXPECT_EQ(std::get<UndoOperation>(operations->at(1)).count, 3u);
@@ -164,13 +185,17 @@ TEST(OperationLog, ReadsUndoAndRedo) {
 
 TEST(OperationLog, MatricesAreRows) {
   const ModelPose pose = std::get<ModelPose>(
-      parsed(tear_with(R"("pose": {"matrices": [[1,2,3,4, 5,6,7,8, 9,10,11,1e30]], "morph_weights": [0.5, -2]})")).pose);
+      parsed(
+          tear_with(
+              R"("pose": {"matrices": [[1,2,3,4, 5,6,7,8, 9,10,11,1e30]], "morph_weights": [0.5, -2]})"))
+          .pose);
   ASSERT_EQ(pose.model_from_bone.size(), 1u);
   Eigen::Matrix<double, 3, 4> expected;
   expected << 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 1e30;
   EXPECT_EQ(pose.model_from_bone[0].matrix(), expected);
   EXPECT_EQ(pose.morph_weights, (std::vector<float>{0.5f, -2.0f}));
-  const ModelPose empty = std::get<ModelPose>(parsed(tear_with(R"("pose": {"matrices": []})")).pose);
+  const ModelPose empty =
+      std::get<ModelPose>(parsed(tear_with(R"("pose": {"matrices": []})")).pose);
   EXPECT_TRUE(empty.model_from_bone.empty());
   EXPECT_TRUE(empty.morph_weights.empty());
 }
@@ -182,7 +207,8 @@ TEST(OperationLog, RestIsTheDefaultPose) {
 }
 
 TEST(OperationLog, ClipByIndex) {
-  const ClipPose pose = std::get<ClipPose>(parsed(tear_with(R"("pose": {"clip": 2, "time": 0})")).pose);
+  const ClipPose pose =
+      std::get<ClipPose>(parsed(tear_with(R"("pose": {"clip": 2, "time": 0})")).pose);
   EXPECT_EQ(std::get<std::uint32_t>(pose.clip), 2u);
 }
 
@@ -215,7 +241,9 @@ struct Refusal {
   const char* text;  ///< Must occur in the message.
 };
 
-std::ostream& operator<<(std::ostream& stream, const Refusal& refusal) { return stream << refusal.what; }
+std::ostream& operator<<(std::ostream& stream, const Refusal& refusal) {
+  return stream << refusal.what;
+}
 
 class OperationLogRefuses : public testing::TestWithParam<Refusal> {};
 
@@ -223,7 +251,8 @@ TEST_P(OperationLogRefuses, NamingThePlace) {
   const auto operations = parse_operations(GetParam().json);
   ASSERT_FALSE(operations);
   EXPECT_EQ(operations.error().code(), GetParam().code) << operations.error().text();
-  EXPECT_NE(operations.error().text().find(GetParam().text), std::string_view::npos) << operations.error().text();
+  EXPECT_NE(operations.error().text().find(GetParam().text), std::string_view::npos)
+      << operations.error().text();
 }
 
 constexpr auto kMalformed = StatusCode::malformed_file;
@@ -237,141 +266,209 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"trailing text", log_of("") + " x", kMalformed, "line 1"},
         Refusal{"bad UTF-8", "{\"\xFF\": 1}", kMalformed, "not JSON"},
         Refusal{"not an object", "[]", kMalformed, "expected an object, found array"},
-        Refusal{"no version", R"({"operations": []})", kMalformed, "'sunder_operations' is missing"},
-        Refusal{"version as text", R"({"sunder_operations": "1", "operations": []})", kMalformed, "/sunder_operations"},
-        Refusal{"another version", R"({"sunder_operations": 2, "anything": 0})", kUnsupported, "version 2"},
-        Refusal{"no operations", R"({"sunder_operations": 1})", kMalformed, "'operations' is missing"},
+        Refusal{"no version", R"({"operations": []})", kMalformed,
+                "'sunder_operations' is missing"},
+        Refusal{"version as text", R"({"sunder_operations": "1", "operations": []})", kMalformed,
+                "/sunder_operations"},
+        Refusal{"another version", R"({"sunder_operations": 2, "anything": 0})", kUnsupported,
+                "version 2"},
+        Refusal{"no operations", R"({"sunder_operations": 1})", kMalformed,
+                "'operations' is missing"},
         Refusal{"operations no array", R"({"sunder_operations": 1, "operations": {}})", kMalformed,
                 "/operations: expected an array"},
-        Refusal{"unknown field at the top", R"({"sunder_operations": 1, "operations": [], "author": ""})", kMalformed, "'author'"},
-        Refusal{"a field twice", R"({"sunder_operations": 1, "operations": [], "operations": []})", kMalformed,
-                "'operations' occurs twice"},
-        Refusal{"operation no object", log_of("7"), kMalformed, "/operations/0: expected an object, found number"},
-        Refusal{"operation without op", log_of("{}"), kMalformed, "/operations/0: field 'op' is missing"},
+        Refusal{"unknown field at the top",
+                R"({"sunder_operations": 1, "operations": [], "author": ""})", kMalformed,
+                "'author'"},
+        Refusal{"a field twice", R"({"sunder_operations": 1, "operations": [], "operations": []})",
+                kMalformed, "'operations' occurs twice"},
+        Refusal{"operation no object", log_of("7"), kMalformed,
+                "/operations/0: expected an object, found number"},
+        Refusal{"operation without op", log_of("{}"), kMalformed,
+                "/operations/0: field 'op' is missing"},
         Refusal{"unknown operation", log_of(R"({"op": "sew"})"), kUnsupported, "/operations/0/op"},
         Refusal{"unknown field", tear_with(R"("depth": 1)"), kMalformed, "unknown field 'depth'"},
         Refusal{"no stroke", log_of(R"({"op": "tear"})"), kMalformed, "'stroke' is missing"},
-        Refusal{"one blade", log_of(R"({"op": "tear", "stroke": [{"base": [0,0,1], "tip": [0,0,0]}]})"), kMalformed,
-                "/operations/0/stroke"},
-        Refusal{"blade without tip", log_of(R"({"op": "tear", "stroke": [{"base": [0,0,1]}, {}]})"), kMalformed,
-                "/stroke/0: field 'tip'"},
-        Refusal{"blade without length", log_of(R"({"op": "tear", "stroke": [{"base": [0,0,1], "tip": [0,0,1]}, {}]})"), kMalformed,
-                "/operations/0/stroke/0: blade without length"},
-        Refusal{"two coordinates", log_of(R"({"op": "tear", "stroke": [{"base": [0,0], "tip": [0,0,1]}, {}]})"), kMalformed,
-                "/stroke/0/base"},
-        Refusal{"coordinate as text", log_of(R"({"op": "tear", "stroke": [{"base": [0,0,"1"], "tip": [0,0,1]}, {}]})"), kMalformed,
-                "/stroke/0/base/2: expected a number, found string"},
-        Refusal{"NaN", log_of(R"({"op": "tear", "stroke": [{"base": [0,0,NaN], "tip": [0,0,1]}, {}]})"), kMalformed, "not JSON"},
-        Refusal{"overflow", log_of(R"({"op": "tear", "stroke": [{"base": [0,0,1e999], "tip": [0,0,1]}, {}]})"), kMalformed,
-                "1e999"},
-        Refusal{"too large", log_of(R"({"op": "tear", "stroke": [{"base": [0,0,1e10], "tip": [0,0,1]}, {}]})"), kMalformed,
-                "/stroke/0/base/2"},
-        Refusal{"negative width", tear_with(R"("width": -0.01)"), kMalformed, "/operations/0/width"},
-        Refusal{"negative depth of walls", tear_with(R"("wall_depth": -1)"), kMalformed, "/operations/0/wall_depth"},
+        Refusal{"one blade",
+                log_of(R"({"op": "tear", "stroke": [{"base": [0,0,1], "tip": [0,0,0]}]})"),
+                kMalformed, "/operations/0/stroke"},
+        Refusal{"blade without tip", log_of(R"({"op": "tear", "stroke": [{"base": [0,0,1]}, {}]})"),
+                kMalformed, "/stroke/0: field 'tip'"},
+        Refusal{"blade without length",
+                log_of(R"({"op": "tear", "stroke": [{"base": [0,0,1], "tip": [0,0,1]}, {}]})"),
+                kMalformed, "/operations/0/stroke/0: blade without length"},
+        Refusal{"two coordinates",
+                log_of(R"({"op": "tear", "stroke": [{"base": [0,0], "tip": [0,0,1]}, {}]})"),
+                kMalformed, "/stroke/0/base"},
+        Refusal{"coordinate as text",
+                log_of(R"({"op": "tear", "stroke": [{"base": [0,0,"1"], "tip": [0,0,1]}, {}]})"),
+                kMalformed, "/stroke/0/base/2: expected a number, found string"},
+        Refusal{"NaN",
+                log_of(R"({"op": "tear", "stroke": [{"base": [0,0,NaN], "tip": [0,0,1]}, {}]})"),
+                kMalformed, "not JSON"},
+        Refusal{"overflow",
+                log_of(R"({"op": "tear", "stroke": [{"base": [0,0,1e999], "tip": [0,0,1]}, {}]})"),
+                kMalformed, "1e999"},
+        Refusal{"too large",
+                log_of(R"({"op": "tear", "stroke": [{"base": [0,0,1e10], "tip": [0,0,1]}, {}]})"),
+                kMalformed, "/stroke/0/base/2"},
+        Refusal{"negative width", tear_with(R"("width": -0.01)"), kMalformed,
+                "/operations/0/width"},
+        Refusal{"negative depth of walls", tear_with(R"("wall_depth": -1)"), kMalformed,
+                "/operations/0/wall_depth"},
         Refusal{"width as text", tear_with(R"("width": "0")"), kMalformed, "/operations/0/width"},
-        Refusal{"unknown layers", tear_with(R"("layers": "odd")"), kUnsupported, "/operations/0/layers"},
-        Refusal{"layers as number", tear_with(R"("layers": 1)"), kMalformed, "/operations/0/layers: expected a string"},
+        Refusal{"unknown layers", tear_with(R"("layers": "odd")"), kUnsupported,
+                "/operations/0/layers"},
+        Refusal{"layers as number", tear_with(R"("layers": 1)"), kMalformed,
+                "/operations/0/layers: expected a string"},
         Refusal{"unknown pose", tear_with(R"("pose": "t-pose")"), kMalformed, "/operations/0/pose"},
         Refusal{"pose as number", tear_with(R"("pose": 3)"), kMalformed, "/operations/0/pose"},
-        Refusal{"clip without time", tear_with(R"("pose": {"clip": "Walk"})"), kMalformed, "'time' is missing"},
-        Refusal{"negative time", tear_with(R"("pose": {"clip": "Walk", "time": -1})"), kMalformed, "/pose/time"},
-        Refusal{"negative clip", tear_with(R"("pose": {"clip": -1, "time": 0})"), kMalformed, "/pose/clip"},
-        Refusal{"clip index beyond 32 bits", tear_with(R"("pose": {"clip": 4294967295, "time": 0})"), kMalformed, "/pose/clip"},
-        Refusal{"clip and bones", tear_with(R"("pose": {"clip": 0, "time": 0, "bones": {}})"), kMalformed, "unknown field"},
-        Refusal{"unknown part of a bone", tear_with(R"("pose": {"bones": {"A/B": {"shear": 1}}})"), kMalformed, "/pose/bones/A~1B"},
-        Refusal{"bone without name", tear_with(R"("pose": {"bones": {"": {}}})"), kMalformed, "without name"},
-        Refusal{"rotation of zero length", tear_with(R"("pose": {"bones": {"A": {"rotation": [0,0,0,0]}}})"), kMalformed,
+        Refusal{"clip without time", tear_with(R"("pose": {"clip": "Walk"})"), kMalformed,
+                "'time' is missing"},
+        Refusal{"negative time", tear_with(R"("pose": {"clip": "Walk", "time": -1})"), kMalformed,
+                "/pose/time"},
+        Refusal{"negative clip", tear_with(R"("pose": {"clip": -1, "time": 0})"), kMalformed,
+                "/pose/clip"},
+        Refusal{"clip index beyond 32 bits",
+                tear_with(R"("pose": {"clip": 4294967295, "time": 0})"), kMalformed, "/pose/clip"},
+        Refusal{"clip and bones", tear_with(R"("pose": {"clip": 0, "time": 0, "bones": {}})"),
+                kMalformed, "unknown field"},
+        Refusal{"unknown part of a bone", tear_with(R"("pose": {"bones": {"A/B": {"shear": 1}}})"),
+                kMalformed, "/pose/bones/A~1B"},
+        Refusal{"bone without name", tear_with(R"("pose": {"bones": {"": {}}})"), kMalformed,
+                "without name"},
+        Refusal{"rotation of zero length",
+                tear_with(R"("pose": {"bones": {"A": {"rotation": [0,0,0,0]}}})"), kMalformed,
                 "/A/rotation"},
-        Refusal{"the same bone twice", tear_with(R"("pose": {"bones": {"A": {}, "A": {}}})"), kMalformed, "'A' occurs twice"}));
+        Refusal{"the same bone twice", tear_with(R"("pose": {"bones": {"A": {}, "A": {}}})"),
+                kMalformed, "'A' occurs twice"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Tears, OperationLogRefuses,
     testing::Values(
-        Refusal{"pose of the first blade",
-                log_of(R"({"op": "tear", "stroke": [{"base": [0,0,1], "tip": [0,0,0], "pose": "rest"}, {}]})"), kMalformed,
-                "/operations/0/stroke/0/pose"},
-        Refusal{"unknown pose of a blade", log_of(R"({"op": "tear", "stroke": [{"base": [0,0,1], "tip": [0,0,0]},
+        Refusal{
+            "pose of the first blade",
+            log_of(
+                R"({"op": "tear", "stroke": [{"base": [0,0,1], "tip": [0,0,0], "pose": "rest"}, {}]})"),
+            kMalformed, "/operations/0/stroke/0/pose"},
+        Refusal{"unknown pose of a blade",
+                log_of(R"({"op": "tear", "stroke": [{"base": [0,0,1], "tip": [0,0,0]},
                                                     {"base": [0,0,1], "tip": [0,0,0], "pose": "t"}]})"),
                 kMalformed, "/operations/0/stroke/1/pose"},
-        Refusal{"unknown field of a blade", log_of(R"({"op": "tear", "stroke": [{"base": [0,0,1], "edge": 1}, {}]})"), kMalformed,
-                "/operations/0/stroke/0: unknown field 'edge'"},
+        Refusal{"unknown field of a blade",
+                log_of(R"({"op": "tear", "stroke": [{"base": [0,0,1], "edge": 1}, {}]})"),
+                kMalformed, "/operations/0/stroke/0: unknown field 'edge'"},
         Refusal{"stroke no array", log_of(R"({"op": "tear", "stroke": {}})"), kMalformed,
                 "/operations/0/stroke: expected an array of blades, found object"},
-        Refusal{"fields of a cut", tear_with(R"("caps": true)"), kMalformed, "unknown field 'caps'"},
-        Refusal{"matrices no array", tear_with(R"("pose": {"matrices": 1})"), kMalformed, "/pose/matrices: expected an array"},
-        Refusal{"a matrix too short", tear_with(R"("pose": {"matrices": [[1,0,0,0, 0,1,0,0, 0,0,1]]})"), kMalformed,
+        Refusal{"fields of a cut", tear_with(R"("caps": true)"), kMalformed,
+                "unknown field 'caps'"},
+        Refusal{"matrices no array", tear_with(R"("pose": {"matrices": 1})"), kMalformed,
+                "/pose/matrices: expected an array"},
+        Refusal{"a matrix too short",
+                tear_with(R"("pose": {"matrices": [[1,0,0,0, 0,1,0,0, 0,0,1]]})"), kMalformed,
                 "/pose/matrices/0: expected an array of 12 numbers"},
-        Refusal{"a matrix of four rows", tear_with(R"("pose": {"matrices": [[1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]]})"), kMalformed,
-                "/pose/matrices/0: expected an array of 12 numbers"},
-        Refusal{"a matrix with text", tear_with(R"("pose": {"matrices": [[1,0,0,0, 0,"1",0,0, 0,0,1,0]]})"), kMalformed,
+        Refusal{"a matrix of four rows",
+                tear_with(R"("pose": {"matrices": [[1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]]})"),
+                kMalformed, "/pose/matrices/0: expected an array of 12 numbers"},
+        Refusal{"a matrix with text",
+                tear_with(R"("pose": {"matrices": [[1,0,0,0, 0,"1",0,0, 0,0,1,0]]})"), kMalformed,
                 "/pose/matrices/0/5: expected a number, found string"},
-        Refusal{"a matrix without number", tear_with(R"("pose": {"matrices": [[1,0,0,0, 0,null,0,0, 0,0,1,0]]})"), kMalformed,
+        Refusal{"a matrix without number",
+                tear_with(R"("pose": {"matrices": [[1,0,0,0, 0,null,0,0, 0,0,1,0]]})"), kMalformed,
                 "/pose/matrices/0/5: expected a number, found null"},
-        Refusal{"a matrix too large", tear_with(R"("pose": {"matrices": [[1,0,0,0, 0,1,0,0, 0,0,1,1.1e30]]})"), kMalformed,
-                "/pose/matrices/0/11: number beyond 1e30"},
-        Refusal{"morph weights too large", tear_with(R"("pose": {"matrices": [], "morph_weights": [0, 1e10]})"), kMalformed,
+        Refusal{"a matrix too large",
+                tear_with(R"("pose": {"matrices": [[1,0,0,0, 0,1,0,0, 0,0,1,1.1e30]]})"),
+                kMalformed, "/pose/matrices/0/11: number beyond 1e30"},
+        Refusal{"morph weights too large",
+                tear_with(R"("pose": {"matrices": [], "morph_weights": [0, 1e10]})"), kMalformed,
                 "/pose/morph_weights/1: number beyond 1e9"},
-        Refusal{"morph weights no array", tear_with(R"("pose": {"matrices": [], "morph_weights": 0})"), kMalformed,
+        Refusal{"morph weights no array",
+                tear_with(R"("pose": {"matrices": [], "morph_weights": 0})"), kMalformed,
                 "/pose/morph_weights: expected an array"},
-        Refusal{"morph weights alone", tear_with(R"("pose": {"morph_weights": [0]})"), kMalformed, "unknown field 'morph_weights'"},
-        Refusal{"matrices and bones", tear_with(R"("pose": {"matrices": [], "bones": {}})"), kMalformed,
-                "unknown field 'matrices'"}));
+        Refusal{"morph weights alone", tear_with(R"("pose": {"morph_weights": [0]})"), kMalformed,
+                "unknown field 'morph_weights'"},
+        Refusal{"matrices and bones", tear_with(R"("pose": {"matrices": [], "bones": {}})"),
+                kMalformed, "unknown field 'matrices'"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Cuts, OperationLogRefuses,
     testing::Values(
-        Refusal{"no plane", log_of(R"({"op": "cut"})"), kMalformed, "/operations/0: field 'plane' is missing"},
+        Refusal{"no plane", log_of(R"({"op": "cut"})"), kMalformed,
+                "/operations/0: field 'plane' is missing"},
         Refusal{"plane no object", log_of(R"({"op": "cut", "plane": [0,0,1,0]})"), kMalformed,
                 "/operations/0/plane: expected an object"},
-        Refusal{"no point", log_of(R"({"op": "cut", "plane": {"normal": [0,0,1]}})"), kMalformed, "'point' is missing"},
-        Refusal{"no normal", log_of(R"({"op": "cut", "plane": {"point": [0,0,1]}})"), kMalformed, "'normal' is missing"},
-        Refusal{"normal of zero length", log_of(R"({"op": "cut", "plane": {"point": [0,0,1], "normal": [0,-0.0,0]}})"), kMalformed,
-                "/plane/normal: normal of zero length"},
-        Refusal{"unknown field of the plane", log_of(R"({"op": "cut", "plane": {"distance": 1}})"), kMalformed,
-                "/plane: unknown field 'distance'"},
-        Refusal{"two corners", cut_with(R"("bounds": [[0,0,0], [1,0,0]])"), kMalformed, "/bounds: bounds need at least three"},
-        Refusal{"no corners", cut_with(R"("bounds": [])"), kMalformed, "/bounds: bounds need at least three"},
-        Refusal{"bounds no array", cut_with(R"("bounds": true)"), kMalformed, "/bounds: expected an array of points"},
-        Refusal{"a corner of two numbers", cut_with(R"("bounds": [[0,0,0], [1,0], [0,0,1]])"), kMalformed,
-                "/bounds/1: expected an array of 3"},
-        Refusal{"caps as number", cut_with(R"("caps": 1)"), kMalformed, "/caps: expected true or false, found number"},
+        Refusal{"no point", log_of(R"({"op": "cut", "plane": {"normal": [0,0,1]}})"), kMalformed,
+                "'point' is missing"},
+        Refusal{"no normal", log_of(R"({"op": "cut", "plane": {"point": [0,0,1]}})"), kMalformed,
+                "'normal' is missing"},
+        Refusal{"normal of zero length",
+                log_of(R"({"op": "cut", "plane": {"point": [0,0,1], "normal": [0,-0.0,0]}})"),
+                kMalformed, "/plane/normal: normal of zero length"},
+        Refusal{"unknown field of the plane", log_of(R"({"op": "cut", "plane": {"distance": 1}})"),
+                kMalformed, "/plane: unknown field 'distance'"},
+        Refusal{"two corners", cut_with(R"("bounds": [[0,0,0], [1,0,0]])"), kMalformed,
+                "/bounds: bounds need at least three"},
+        Refusal{"no corners", cut_with(R"("bounds": [])"), kMalformed,
+                "/bounds: bounds need at least three"},
+        Refusal{"bounds no array", cut_with(R"("bounds": true)"), kMalformed,
+                "/bounds: expected an array of points"},
+        Refusal{"a corner of two numbers", cut_with(R"("bounds": [[0,0,0], [1,0], [0,0,1]])"),
+                kMalformed, "/bounds/1: expected an array of 3"},
+        Refusal{"caps as number", cut_with(R"("caps": 1)"), kMalformed,
+                "/caps: expected true or false, found number"},
         Refusal{"pose of a cut", cut_with(R"("pose": "t-pose")"), kMalformed, "/operations/0/pose"},
         Refusal{"width of a cut", cut_with(R"("width": 0)"), kMalformed, "unknown field 'width'"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Drills, OperationLogRefuses,
     testing::Values(
-        Refusal{"no axis", log_of(R"({"op": "drill", "radius": 1, "depth": 1})"), kMalformed, "'axis' is missing"},
-        Refusal{"no origin", log_of(R"({"op": "drill", "axis": {"direction": [0,0,1]}, "radius": 1, "depth": 1})"), kMalformed,
-                "'origin' is missing"},
-        Refusal{"no direction", log_of(R"({"op": "drill", "axis": {"origin": [0,0,1]}, "radius": 1, "depth": 1})"), kMalformed,
-                "'direction' is missing"},
-        Refusal{"direction of zero length",
-                log_of(R"({"op": "drill", "axis": {"origin": [0,0,1], "direction": [0,0,0]}, "radius": 1, "depth": 1})"),
-                kMalformed, "/axis/direction: direction of zero length"},
-        Refusal{"unknown field of the axis", log_of(R"({"op": "drill", "axis": {"angle": 1}, "radius": 1, "depth": 1})"),
+        Refusal{"no axis", log_of(R"({"op": "drill", "radius": 1, "depth": 1})"), kMalformed,
+                "'axis' is missing"},
+        Refusal{
+            "no origin",
+            log_of(R"({"op": "drill", "axis": {"direction": [0,0,1]}, "radius": 1, "depth": 1})"),
+            kMalformed, "'origin' is missing"},
+        Refusal{"no direction",
+                log_of(R"({"op": "drill", "axis": {"origin": [0,0,1]}, "radius": 1, "depth": 1})"),
+                kMalformed, "'direction' is missing"},
+        Refusal{
+            "direction of zero length",
+            log_of(
+                R"({"op": "drill", "axis": {"origin": [0,0,1], "direction": [0,0,0]}, "radius": 1, "depth": 1})"),
+            kMalformed, "/axis/direction: direction of zero length"},
+        Refusal{"unknown field of the axis",
+                log_of(R"({"op": "drill", "axis": {"angle": 1}, "radius": 1, "depth": 1})"),
                 kMalformed, "/axis: unknown field 'angle'"},
         Refusal{"no radius", drill_with(R"("depth": 1)"), kMalformed, "'radius' is missing"},
-        Refusal{"radius 0", drill_with(R"("radius": 0, "depth": 1)"), kMalformed, "/operations/0/radius: not above 0"},
-        Refusal{"negative radius", drill_with(R"("radius": -1, "depth": 1)"), kMalformed, "/operations/0/radius"},
+        Refusal{"radius 0", drill_with(R"("radius": 0, "depth": 1)"), kMalformed,
+                "/operations/0/radius: not above 0"},
+        Refusal{"negative radius", drill_with(R"("radius": -1, "depth": 1)"), kMalformed,
+                "/operations/0/radius"},
         Refusal{"no depth", drill_with(R"("radius": 1)"), kMalformed, "'depth' is missing"},
-        Refusal{"depth 0", drill_with(R"("radius": 1, "depth": 0)"), kMalformed, "/operations/0/depth: not above 0"},
-        Refusal{"negative chord tolerance", drill_with(R"("radius": 1, "depth": 1, "chord_tolerance": -1)"), kMalformed,
+        Refusal{"depth 0", drill_with(R"("radius": 1, "depth": 0)"), kMalformed,
+                "/operations/0/depth: not above 0"},
+        Refusal{"negative chord tolerance",
+                drill_with(R"("radius": 1, "depth": 1, "chord_tolerance": -1)"), kMalformed,
                 "/operations/0/chord_tolerance: negative"},
         Refusal{"wall as text", drill_with(R"("radius": 1, "depth": 1, "wall": "yes")"), kMalformed,
                 "/operations/0/wall: expected true or false, found string"},
-        Refusal{"unknown field", drill_with(R"("radius": 1, "depth": 1, "walls": true)"), kMalformed, "unknown field 'walls'"}));
+        Refusal{"unknown field", drill_with(R"("radius": 1, "depth": 1, "walls": true)"),
+                kMalformed, "unknown field 'walls'"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Steps, OperationLogRefuses,
-    testing::Values(
-        Refusal{"count 0", log_of(R"({"op": "undo", "count": 0})"), kMalformed, "/operations/0/count: expected at least 1"},
-        Refusal{"negative count", log_of(R"({"op": "redo", "count": -1})"), kMalformed, "/operations/0/count: expected"},
-        Refusal{"half a count", log_of(R"({"op": "undo", "count": 1.5})"), kMalformed, "/operations/0/count: expected"},
-        Refusal{"count beyond 32 bits", log_of(R"({"op": "undo", "count": 4294967295})"), kMalformed,
-                "/operations/0/count: expected at most 4294967294"},
-        Refusal{"undo in a pose", log_of(R"({"op": "undo", "pose": "rest"})"), kMalformed, "unknown field 'pose'"},
-        Refusal{"redo in a pose", log_of(R"({"op": "redo", "pose": "rest"})"), kMalformed, "unknown field 'pose'"}));
+    testing::Values(Refusal{"count 0", log_of(R"({"op": "undo", "count": 0})"), kMalformed,
+                            "/operations/0/count: expected at least 1"},
+                    Refusal{"negative count", log_of(R"({"op": "redo", "count": -1})"), kMalformed,
+                            "/operations/0/count: expected"},
+                    Refusal{"half a count", log_of(R"({"op": "undo", "count": 1.5})"), kMalformed,
+                            "/operations/0/count: expected"},
+                    Refusal{"count beyond 32 bits",
+                            log_of(R"({"op": "undo", "count": 4294967295})"), kMalformed,
+                            "/operations/0/count: expected at most 4294967294"},
+                    Refusal{"undo in a pose", log_of(R"({"op": "undo", "pose": "rest"})"),
+                            kMalformed, "unknown field 'pose'"},
+                    Refusal{"redo in a pose", log_of(R"({"op": "redo", "pose": "rest"})"),
+                            kMalformed, "unknown field 'pose'"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Weights, OperationLogRefuses,
@@ -380,41 +477,51 @@ INSTANTIATE_TEST_SUITE_P(
                 "/operations/0/weights: expected an object, found string"},
         Refusal{"unknown field", cut_with(R"("weights": {"refit": {}})"), kMalformed,
                 "/operations/0/weights: unknown field 'refit'"},
-        Refusal{"unknown policy", drill_with(R"("radius": 1, "depth": 1, "weights": {"policy": "linear"})"), kUnsupported,
-                "/operations/0/weights/policy: policy 'linear'"},
+        Refusal{"unknown policy",
+                drill_with(R"("radius": 1, "depth": 1, "weights": {"policy": "linear"})"),
+                kUnsupported, "/operations/0/weights/policy: policy 'linear'"},
         Refusal{"policy as number", tear_with(R"("weights": {"policy": 3})"), kMalformed,
                 "/operations/0/weights/policy: expected a string"},
-        Refusal{"negative influences", tear_with(R"("weights": {"influences": -1})"), kMalformed,
-                "/operations/0/weights/influences: expected influences, 0 for all, an integer from 0"},
+        Refusal{
+            "negative influences", tear_with(R"("weights": {"influences": -1})"), kMalformed,
+            "/operations/0/weights/influences: expected influences, 0 for all, an integer from 0"},
         Refusal{"half an influence", tear_with(R"("weights": {"influences": 0.5})"), kMalformed,
                 "/operations/0/weights/influences"},
-        Refusal{"influences beyond 32 bits", tear_with(R"("weights": {"influences": 4294967295})"), kMalformed,
-                "/operations/0/weights/influences: expected at most 4294967294"},
-        Refusal{"four influences of exact", tear_with(R"("weights": {"policy": "exact", "influences": 4})"), kMalformed,
+        Refusal{"influences beyond 32 bits", tear_with(R"("weights": {"influences": 4294967295})"),
+                kMalformed, "/operations/0/weights/influences: expected at most 4294967294"},
+        Refusal{"four influences of exact",
+                tear_with(R"("weights": {"policy": "exact", "influences": 4})"), kMalformed,
                 "/operations/0/weights/influences: the policy 'exact' takes all"},
-        Refusal{"no weights", log_of(R"({"op": "weights"})"), kMalformed, "/operations/0: field 'weights' is missing"},
-        Refusal{"weights no object", weights_with("[]"), kMalformed, "/operations/0/weights: expected an object"},
-        Refusal{"unknown field of the operation", weights_with(R"({}, "policy": "exact")"), kMalformed,
-                "/operations/0: unknown field 'policy'"},
+        Refusal{"no weights", log_of(R"({"op": "weights"})"), kMalformed,
+                "/operations/0: field 'weights' is missing"},
+        Refusal{"weights no object", weights_with("[]"), kMalformed,
+                "/operations/0/weights: expected an object"},
+        Refusal{"unknown field of the operation", weights_with(R"({}, "policy": "exact")"),
+                kMalformed, "/operations/0: unknown field 'policy'"},
         Refusal{"negative first", weights_with(R"({}, "first": -1)"), kMalformed,
                 "/operations/0/first: expected an operation's index"},
         Refusal{"first beyond 32 bits", weights_with(R"({}, "first": 4294967295)"), kMalformed,
                 "/operations/0/first: expected at most"},
-        Refusal{"no operations", weights_with(R"({}, "count": 0)"), kMalformed, "/operations/0/count: expected at least 1"},
-        Refusal{"count as text", weights_with(R"({}, "count": "all")"), kMalformed,
-                "/operations/0/count: expected how many operations, an integer from 1, found string"},
-        Refusal{"a pose for exact", weights_with(R"({"policy": "exact"}, "pose": "bind")"), kMalformed,
-                "/operations/0/pose: only the policy 'pose_exact'"},
-        Refusal{"unknown pose", weights_with(R"({"policy": "pose_exact"}, "pose": "t-pose")"), kMalformed, "/operations/0/pose"},
+        Refusal{"no operations", weights_with(R"({}, "count": 0)"), kMalformed,
+                "/operations/0/count: expected at least 1"},
+        Refusal{
+            "count as text", weights_with(R"({}, "count": "all")"), kMalformed,
+            "/operations/0/count: expected how many operations, an integer from 1, found string"},
+        Refusal{"a pose for exact", weights_with(R"({"policy": "exact"}, "pose": "bind")"),
+                kMalformed, "/operations/0/pose: only the policy 'pose_exact'"},
+        Refusal{"unknown pose", weights_with(R"({"policy": "pose_exact"}, "pose": "t-pose")"),
+                kMalformed, "/operations/0/pose"},
         Refusal{"a refit that is barycentric", weights_with(R"({}, "refit": {})"), kMalformed,
                 "/operations/0/refit: only the policy 'refit'"},
-        Refusal{"a refit that is exact in a pose", weights_with(R"({"policy": "pose_exact"}, "refit": {})"), kMalformed,
+        Refusal{"a refit that is exact in a pose",
+                weights_with(R"({"policy": "pose_exact"}, "refit": {})"), kMalformed,
                 "/operations/0/refit: only the policy 'refit'"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Refits, OperationLogRefuses,
     testing::Values(
-        Refusal{"refit no object", refit_with("true"), kMalformed, "/operations/0/refit: expected an object"},
+        Refusal{"refit no object", refit_with("true"), kMalformed,
+                "/operations/0/refit: expected an object"},
         Refusal{"unknown field", refit_with(R"({"is_coupled": true})"), kMalformed,
                 "/operations/0/refit: unknown field 'is_coupled'"},
         Refusal{"moves_bind as number", refit_with(R"({"moves_bind": 1})"), kMalformed,
@@ -431,24 +538,29 @@ INSTANTIATE_TEST_SUITE_P(
                 "/refit/poses/clip_samples: expected samples a clip, an integer from 0"},
         Refusal{"too many samples", refit_with(R"({"poses": {"clip_samples": 65537}})"), kMalformed,
                 "/refit/poses/clip_samples: expected at most 65536"},
-        Refusal{"range of motion as number", refit_with(R"({"poses": {"range_of_motion": 1}})"), kMalformed,
-                "/refit/poses/range_of_motion: expected true or false"},
+        Refusal{"range of motion as number", refit_with(R"({"poses": {"range_of_motion": 1}})"),
+                kMalformed, "/refit/poses/range_of_motion: expected true or false"},
         Refusal{"limits no array", refit_with(R"({"poses": {"joint_limits": {}}})"), kMalformed,
                 "/refit/poses/joint_limits: expected an array"},
-        Refusal{"bone by name", limit_with(R"("bone": "Arm", "axis": [1,0,0], "lower": 0, "upper": 1)"), kMalformed,
+        Refusal{"bone by name",
+                limit_with(R"("bone": "Arm", "axis": [1,0,0], "lower": 0, "upper": 1)"), kMalformed,
                 "/joint_limits/0/bone: expected a bone's index"},
         Refusal{"no bone", limit_with(R"("axis": [1,0,0], "lower": 0, "upper": 1)"), kMalformed,
                 "/joint_limits/0: field 'bone' is missing"},
-        Refusal{"axis of zero length", limit_with(R"("bone": 0, "axis": [0,0,0], "lower": 0, "upper": 1)"), kMalformed,
+        Refusal{"axis of zero length",
+                limit_with(R"("bone": 0, "axis": [0,0,0], "lower": 0, "upper": 1)"), kMalformed,
                 "/joint_limits/0/axis: axis of zero length"},
-        Refusal{"no upper limit", limit_with(R"("bone": 0, "axis": [1,0,0], "lower": 0)"), kMalformed, "'upper' is missing"},
-        Refusal{"limits the wrong way round", limit_with(R"("bone": 0, "axis": [1,0,0], "lower": 1, "upper": 0)"), kMalformed,
+        Refusal{"no upper limit", limit_with(R"("bone": 0, "axis": [1,0,0], "lower": 0)"),
+                kMalformed, "'upper' is missing"},
+        Refusal{"limits the wrong way round",
+                limit_with(R"("bone": 0, "axis": [1,0,0], "lower": 1, "upper": 0)"), kMalformed,
                 "/joint_limits/0: 'lower' is above 'upper'"},
-        Refusal{"unknown field of a limit", limit_with(R"("bone": 0, "angle": 1)"), kMalformed, "unknown field 'angle'"},
+        Refusal{"unknown field of a limit", limit_with(R"("bone": 0, "angle": 1)"), kMalformed,
+                "unknown field 'angle'"},
         Refusal{"given poses no array", refit_with(R"({"poses": {"poses": "rest"}})"), kMalformed,
                 "/refit/poses/poses: expected an array"},
-        Refusal{"a given pose unknown", refit_with(R"({"poses": {"poses": ["rest", "t-pose"]}})"), kMalformed,
-                "/refit/poses/poses/1: expected \"rest\" or \"bind\""}));
+        Refusal{"a given pose unknown", refit_with(R"({"poses": {"poses": ["rest", "t-pose"]}})"),
+                kMalformed, "/refit/poses/poses/1: expected \"rest\" or \"bind\""}));
 
 TEST(OperationLog, IndexIsTheOperation) {
   const std::string good = std::string(R"({"op": "tear", "stroke": )") + kBlades + "}";
@@ -476,18 +588,21 @@ TEST(OperationLog, FromAFile) {
   ASSERT_TRUE(operations) << operations.error().text();
   EXPECT_EQ(operations->size(), 1u);
 
-  EXPECT_EQ(load_operations(folder.path() / "absent.json").error().code(), StatusCode::file_not_found);
+  EXPECT_EQ(load_operations(folder.path() / "absent.json").error().code(),
+            StatusCode::file_not_found);
   EXPECT_EQ(load_operations(folder.path()).error().code(), StatusCode::file_unreadable);
 }
 
-/// The page and the schema are for people and other programs; what they show must be what the code takes.
+/// The page and the schema are for people and other programs; what they show must be what the code
+/// takes.
 TEST(OperationLog, DocumentedExamplesAreRead) {
   const std::filesystem::path docs = std::filesystem::path(SUNDER_SOURCE_DIR) / "docs";
   std::ifstream page(docs / "operation_log.md");
   ASSERT_TRUE(page);
   const std::string text{std::istreambuf_iterator<char>(page), {}};
   std::set<std::size_t> kinds;
-  for (std::size_t start = text.find("```json\n"); start != std::string::npos; start = text.find("```json\n", start + 1)) {
+  for (std::size_t start = text.find("```json\n"); start != std::string::npos;
+       start = text.find("```json\n", start + 1)) {
     std::string example = text.substr(start + 8, text.find("```", start + 8) - start - 8);
     if (example.find("sunder_operations") == std::string::npos) example = log_of(example);
     const auto operations = parse_operations(example);
@@ -499,7 +614,8 @@ TEST(OperationLog, DocumentedExamplesAreRead) {
   std::ifstream schema(docs / "operation_log.schema.json");
   const nlohmann::json parsed_schema = nlohmann::json::parse(schema);
   EXPECT_EQ(parsed_schema["properties"]["sunder_operations"]["const"], 1);
-  EXPECT_EQ(parsed_schema["properties"]["operations"]["items"]["oneOf"].size(), std::variant_size_v<Operation>);
+  EXPECT_EQ(parsed_schema["properties"]["operations"]["items"]["oneOf"].size(),
+            std::variant_size_v<Operation>);
 }
 
 }  // namespace

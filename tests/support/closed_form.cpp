@@ -44,7 +44,8 @@ struct Posed {
     for (const std::uint32_t parent : parents) {
       reach = std::max(reach, morphed(parent).norm());
       for (const Influence& influence : source.weights.of(parent))
-        reach = std::max(reach, (palette[influence.slot] * morphed(parent)).norm() / std::max(largest, 1e-30));
+        reach = std::max(
+            reach, (palette[influence.slot] * morphed(parent)).norm() / std::max(largest, 1e-30));
     }
     return reach;
   }
@@ -53,11 +54,13 @@ struct Posed {
 Vec3d closed_form(const Posed& posed, const Birth& birth) {
   const Triangle parents = posed.source.triangles[birth.triangle];
   Vec3d expected = Vec3d::Zero();
-  for (std::size_t k = 0; k < 3; ++k) expected += birth.barycentric[k] * posed.position(posed.source, parents[k]);
+  for (std::size_t k = 0; k < 3; ++k)
+    expected += birth.barycentric[k] * posed.position(posed.source, parents[k]);
   for (std::size_t k = 0; k < 3; ++k)
     for (std::size_t l = k + 1; l < 3; ++l) {
       const Vec3d edge = posed.morphed(parents[k]) - posed.morphed(parents[l]);
-      expected -= birth.barycentric[k] * birth.barycentric[l] * (posed.turned(parents[k], edge) - posed.turned(parents[l], edge));
+      expected -= birth.barycentric[k] * birth.barycentric[l] *
+                  (posed.turned(parents[k], edge) - posed.turned(parents[l], edge));
     }
   return expected;
 }
@@ -74,15 +77,19 @@ std::vector<std::string> broken_closed_form(const TornModel& model, const ModelP
     const Skin& skin = model.source().skins[source.skin];
     Posed posed{source, pose, std::vector<Affine3d>(skin.bones.size())};
     if (!compute_palette(skin, pose, posed.palette)) return {"no palette"};
-    for (const Affine3d& matrix : posed.palette) posed.largest = std::max(posed.largest, matrix.linear().norm());
+    for (const Affine3d& matrix : posed.palette)
+      posed.largest = std::max(posed.largest, matrix.linear().norm());
     for (std::uint32_t v = source.vertex_count(); v < torn.vertex_count(); ++v) {
       const Birth birth = model.birth(m, v);
       if (birth.triangle >= source.triangle_count()) continue;  // of a wall or cap
       const double error = (posed.position(torn, v) - closed_form(posed, birth)).norm();
-      // Rounding of the stored floats, seen through the largest matrix: positions and weights carry 2^-24 each.
-      const double rounding = 2e-6 * std::max(diagonal, posed.largest * posed.reach(source.triangles[birth.triangle]));
+      // Rounding of the stored floats, seen through the largest matrix: positions and weights carry
+      // 2^-24 each.
+      const double rounding =
+          2e-6 * std::max(diagonal, posed.largest * posed.reach(source.triangles[birth.triangle]));
       if (!(error <= rounding))
-        faults.push_back(say("mesh ", m, " vertex ", v, ": ", error, " from the closed form, rounding explains ", rounding));
+        faults.push_back(say("mesh ", m, " vertex ", v, ": ", error,
+                             " from the closed form, rounding explains ", rounding));
     }
   }
   return faults;

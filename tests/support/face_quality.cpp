@@ -12,7 +12,9 @@ FaceQuality face_quality(const TornModel& model) {
     const Mesh& mesh = model.character().meshes[m];
     for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t) {
       const Triangle& triangle = mesh.triangles[t];
-      if (is_retired(triangle) || model.source_triangle(m, t) >= model.source().meshes[m].triangle_count()) continue;
+      if (is_retired(triangle) ||
+          model.source_triangle(m, t) >= model.source().meshes[m].triangle_count())
+        continue;
       double smallest = std::numbers::pi;
       bool has_area = true;
       for (std::size_t k = 0; k < 3; ++k) {
@@ -32,7 +34,8 @@ FaceQuality face_quality(const TornModel& model) {
 }
 
 double FaceQuality::angle_at(double part) const {
-  return smallest_angles[static_cast<std::size_t>(part * static_cast<double>(smallest_angles.size() - 1))];
+  return smallest_angles[static_cast<std::size_t>(part *
+                                                  static_cast<double>(smallest_angles.size() - 1))];
 }
 
 }  // namespace sunder::test

@@ -13,14 +13,17 @@ std::string base64(const std::vector<std::byte>& bytes) {
   for (std::size_t i = 0; i < bytes.size(); i += 3) {
     std::uint32_t three = 0;
     for (std::size_t k = 0; k < 3; ++k)
-      three = three << 8 | (i + k < bytes.size() ? std::to_integer<std::uint32_t>(bytes[i + k]) : 0u);
-    for (std::size_t k = 0; k < 4; ++k) text += i + k <= bytes.size() ? kDigits[three >> (18 - 6 * k) & 63u] : '=';
+      three =
+          three << 8 | (i + k < bytes.size() ? std::to_integer<std::uint32_t>(bytes[i + k]) : 0u);
+    for (std::size_t k = 0; k < 4; ++k)
+      text += i + k <= bytes.size() ? kDigits[three >> (18 - 6 * k) & 63u] : '=';
   }
   return text;
 }
 
 void append_u32(std::vector<std::byte>& bytes, std::size_t value) {
-  for (int shift = 0; shift < 32; shift += 8) bytes.push_back(static_cast<std::byte>(value >> shift & 0xFFu));
+  for (int shift = 0; shift < 32; shift += 8)
+    bytes.push_back(static_cast<std::byte>(value >> shift & 0xFFu));
 }
 
 void append(std::vector<std::byte>& bytes, const void* data, std::size_t size) {
@@ -37,14 +40,16 @@ GltfBuilder::GltfBuilder() : json({{"asset", {{"version", "2.0"}}}}) {
 
 std::size_t GltfBuilder::add_view(const void* data, std::size_t size) {
   binary_.resize((binary_.size() + 3) / 4 * 4);
-  json["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", binary_.size()}, {"byteLength", size}});
+  json["bufferViews"].push_back(
+      {{"buffer", 0}, {"byteOffset", binary_.size()}, {"byteLength", size}});
   append(binary_, data, size);
   return json["bufferViews"].size() - 1;
 }
 
-std::size_t GltfBuilder::add_accessor(const void* data, std::size_t size, std::size_t numbers, int component_type, const char* type,
-                                      bool normalized) {
-  const std::map<std::string, std::size_t> components = {{"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}, {"MAT4", 16}};
+std::size_t GltfBuilder::add_accessor(const void* data, std::size_t size, std::size_t numbers,
+                                      int component_type, const char* type, bool normalized) {
+  const std::map<std::string, std::size_t> components = {
+      {"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}, {"MAT4", 16}};
   Json accessor = {{"bufferView", add_view(data, size)},
                    {"componentType", component_type},
                    {"count", numbers / components.at(type)},
@@ -56,7 +61,8 @@ std::size_t GltfBuilder::add_accessor(const void* data, std::size_t size, std::s
 
 Json GltfBuilder::with_buffer() const {
   Json document = json;
-  if (!document.contains("buffers")) document["buffers"] = Json::array({{{"byteLength", binary_.size()}}});
+  if (!document.contains("buffers"))
+    document["buffers"] = Json::array({{{"byteLength", binary_.size()}}});
   return document;
 }
 
@@ -84,9 +90,13 @@ std::string GltfBuilder::text_with_uri(const std::string& uri) const {
   return document.dump();
 }
 
-std::string GltfBuilder::text() const { return text_with_uri("data:application/octet-stream;base64," + base64(binary_)); }
+std::string GltfBuilder::text() const {
+  return text_with_uri("data:application/octet-stream;base64," + base64(binary_));
+}
 
-Result<LoadedCharacter> GltfBuilder::load(const LoadOptions& options) const { return load_bytes("built.glb", glb(), options); }
+Result<LoadedCharacter> GltfBuilder::load(const LoadOptions& options) const {
+  return load_bytes("built.glb", glb(), options);
+}
 
 GltfBuilder skinned_strip() {
   GltfBuilder builder;
@@ -103,7 +113,8 @@ GltfBuilder skinned_strip() {
   }
   for (std::uint16_t row = 0; row < 4; ++row) {
     const auto v = static_cast<std::uint16_t>(row * 2);
-    for (const int offset : {0, 1, 2, 1, 3, 2}) indices.push_back(static_cast<std::uint16_t>(v + offset));
+    for (const int offset : {0, 1, 2, 1, 3, 2})
+      indices.push_back(static_cast<std::uint16_t>(v + offset));
   }
   const std::vector<float> binds = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0,  0, 1,
                                     1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, -1, 0, 1};
@@ -119,7 +130,9 @@ GltfBuilder skinned_strip() {
   const std::size_t bind_accessor = builder.add(binds, "MAT4");
   builder.json["materials"] = {{{"name", "skin"}}, {{"name", "other"}}};
   builder.json["meshes"] = {
-      {{"name", "strip"}, {"primitives", {{{"attributes", attributes}, {"indices", index_accessor}, {"material", 0}}}}}};
+      {{"name", "strip"},
+       {"primitives",
+        {{{"attributes", attributes}, {"indices", index_accessor}, {"material", 0}}}}}};
   builder.json["skins"] = {{{"joints", {1, 2}}, {"inverseBindMatrices", bind_accessor}}};
   builder.json["nodes"] = {{{"name", "body"}, {"mesh", 0}, {"skin", 0}},
                            {{"name", "root"}, {"children", {2}}},
@@ -129,9 +142,12 @@ GltfBuilder skinned_strip() {
   return builder;
 }
 
-Json& strip_attributes(GltfBuilder& builder) { return builder.json["meshes"][0]["primitives"][0]["attributes"]; }
+Json& strip_attributes(GltfBuilder& builder) {
+  return builder.json["meshes"][0]["primitives"][0]["attributes"];
+}
 
-Result<LoadedCharacter> load_bytes(const std::string& name, const std::vector<std::byte>& bytes, const LoadOptions& options) {
+Result<LoadedCharacter> load_bytes(const std::string& name, const std::vector<std::byte>& bytes,
+                                   const LoadOptions& options) {
   const TemporaryFolder folder;
   return load_character(folder.write(name, bytes), options);
 }

@@ -26,7 +26,8 @@ class GltfBuilder {
   /// @param type  "SCALAR" … "MAT4".
   template <class T>
   std::size_t add(const std::vector<T>& values, const char* type, bool normalized = false) {
-    return add_accessor(values.data(), values.size() * sizeof(T), values.size(), component_type<T>(), type, normalized);
+    return add_accessor(values.data(), values.size() * sizeof(T), values.size(),
+                        component_type<T>(), type, normalized);
   }
   /// Appends a buffer view only.
   template <class T>
@@ -57,22 +58,23 @@ class GltfBuilder {
       return 5125;
   }
   std::size_t add_view(const void* data, std::size_t size);
-  std::size_t add_accessor(const void* data, std::size_t size, std::size_t numbers, int component_type, const char* type,
-                           bool normalized);
+  std::size_t add_accessor(const void* data, std::size_t size, std::size_t numbers,
+                           int component_type, const char* type, bool normalized);
   [[nodiscard]] Json with_buffer() const;
 
   std::vector<std::byte> binary_;
 };
 
-/// A strip of 10 vertices and 8 triangles along y, on two joints (nodes 1 and 2 below node 0's sibling); the mesh is node 0.
-/// Weights go from joint 0 below to joint 1 above.
+/// A strip of 10 vertices and 8 triangles along y, on two joints (nodes 1 and 2 below node 0's
+/// sibling); the mesh is node 0. Weights go from joint 0 below to joint 1 above.
 GltfBuilder skinned_strip();
 /// Its attributes, and its number of vertices.
 Json& strip_attributes(GltfBuilder& builder);
 inline constexpr std::size_t kStripVertices = 10;
 
 /// Loads bytes as a file of this name.
-Result<LoadedCharacter> load_bytes(const std::string& name, const std::vector<std::byte>& bytes, const LoadOptions& options = {});
+Result<LoadedCharacter> load_bytes(const std::string& name, const std::vector<std::byte>& bytes,
+                                   const LoadOptions& options = {});
 Result<LoadedCharacter> load_text(const std::string& text, const LoadOptions& options = {});
 
 inline LoadOptions strict() {

@@ -8,14 +8,17 @@ namespace sunder::test {
 
 /// Programs that merge equal vertices of a glTF, as users run them.
 inline constexpr std::array<const char*, 3> kWeldingTools = {"gltf-transform", "gltfpack", "three"};
-/// The same with their default settings, which merge also what is only near: by 14-bit positions, within 0.0001.
-inline constexpr std::array<const char*, 2> kCoarseWeldingTools = {"gltfpack-coarse", "three-coarse"};
+/// The same with their default settings, which merge also what is only near: by 14-bit positions,
+/// within 0.0001.
+inline constexpr std::array<const char*, 2> kCoarseWeldingTools = {"gltfpack-coarse",
+                                                                   "three-coarse"};
 
 /// Whether node and all tools are there.
 bool has_welding_tools();
 
 /// Runs one of these on a GLB. @return what it complained of; empty: it has written `output`.
-std::string weld_by_tool(const std::string& tool, const std::filesystem::path& input, const std::filesystem::path& output);
+std::string weld_by_tool(const std::string& tool, const std::filesystem::path& input,
+                         const std::filesystem::path& output);
 
 }  // namespace sunder::test
 

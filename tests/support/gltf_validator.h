@@ -20,4 +20,5 @@ ValidatorReport validate_glb(const std::filesystem::path& file);
 
 /// Ends a test that needs the validator where it is absent.
 #define SUNDER_SKIP_WITHOUT_GLTF_VALIDATOR() \
-  if (!::sunder::test::has_gltf_validator()) GTEST_SKIP() << "needs node and gltf-validator: npm ci --prefix tests/npm"
+  if (!::sunder::test::has_gltf_validator()) \
+  GTEST_SKIP() << "needs node and gltf-validator: npm ci --prefix tests/npm"

@@ -12,8 +12,10 @@ std::string difference_of_meshes(const Character& a, const Character& b) {
     const Mesh &in_a = a.meshes[m], &in_b = b.meshes[m];
     if (in_a.positions != in_b.positions) return say("positions of mesh ", m);
     if (in_a.triangles != in_b.triangles) return say("triangles of mesh ", m);
-    if (in_a.custom_attributes != in_b.custom_attributes) return say("custom attributes of mesh ", m);
-    if (in_a.submeshes != in_b.submeshes || in_a.triangle_submesh != in_b.triangle_submesh) return say("submeshes of mesh ", m);
+    if (in_a.custom_attributes != in_b.custom_attributes)
+      return say("custom attributes of mesh ", m);
+    if (in_a.submeshes != in_b.submeshes || in_a.triangle_submesh != in_b.triangle_submesh)
+      return say("submeshes of mesh ", m);
     if (in_a != in_b) return say("an attribute of mesh ", m);
   }
   return a == b ? "" : "something but the meshes";
@@ -21,7 +23,9 @@ std::string difference_of_meshes(const Character& a, const Character& b) {
 
 }  // namespace
 
-bool are_same(const Birth& a, const Birth& b) { return a.triangle == b.triangle && a.barycentric == b.barycentric; }
+bool are_same(const Birth& a, const Birth& b) {
+  return a.triangle == b.triangle && a.barycentric == b.barycentric;
+}
 
 ModelState state_of(const TornModel& model) {
   ModelState state{model.character(), model.digest(), model.point_count(), {}};
@@ -41,8 +45,10 @@ ModelState state_of(const TornModel& model) {
 }
 
 std::string difference(const ModelState& a, const ModelState& b) {
-  if (const std::string meshes = difference_of_meshes(a.character, b.character); !meshes.empty()) return meshes;
-  if (a.point_count != b.point_count) return say("point count: ", a.point_count, " and ", b.point_count);
+  if (const std::string meshes = difference_of_meshes(a.character, b.character); !meshes.empty())
+    return meshes;
+  if (a.point_count != b.point_count)
+    return say("point count: ", a.point_count, " and ", b.point_count);
   for (std::size_t m = 0; m < a.meshes.size(); ++m) {
     const auto &in_a = a.meshes[m], &in_b = b.meshes[m];
     if (in_a.points != in_b.points) return say("points of mesh ", m);

@@ -7,16 +7,20 @@
 
 namespace sunder::test {
 
-/// Seeded, and the same on every standard library: only the engine is taken from it, not its distributions.
+/// Seeded, and the same on every standard library: only the engine is taken from it, not its
+/// distributions.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : engine_(seed) {}
 
-  double uniform(double low, double high) { return low + (high - low) * static_cast<double>(engine_() >> 11) * 0x1p-53; }
+  double uniform(double low, double high) {
+    return low + (high - low) * static_cast<double>(engine_() >> 11) * 0x1p-53;
+  }
   std::uint32_t index(std::uint32_t count) { return static_cast<std::uint32_t>(engine_() % count); }
   Vec3d direction() {
     for (;;) {
-      const Vec3d v{uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)};  // braces: in this order with every compiler
+      const Vec3d v{uniform(-1, 1), uniform(-1, 1),
+                    uniform(-1, 1)};  // braces: in this order with every compiler
       if (v.norm() > 0.1 && v.norm() < 1) return v / v.norm();
     }
   }

@@ -19,10 +19,12 @@ CutOperation random_cut(const TornModel& model, Random& random) {
   operation.cut.normal *= random.uniform(0.1, 3);
   operation.cut.caps = random.index(2) == 0;
   if (random.index(2) == 0) {
-    const Vec3d right = operation.cut.normal.unitOrthogonal(), up = operation.cut.normal.normalized().cross(right);
+    const Vec3d right = operation.cut.normal.unitOrthogonal(),
+                up = operation.cut.normal.normalized().cross(right);
     const double radius = random.uniform(0.1, 0.5) * posed_diagonal(source, pose);
     for (const double angle : {0.0, 1.3, 2.9, 4.4})
-      operation.cut.bounds.push_back(operation.cut.point + radius * (std::cos(angle) * right + std::sin(angle) * up));
+      operation.cut.bounds.push_back(operation.cut.point +
+                                     radius * (std::cos(angle) * right + std::sin(angle) * up));
   }
   return operation;
 }
@@ -45,7 +47,8 @@ DrillOperation random_drill(const TornModel& model, Random& random) {
 
 Character random_character(Random& random) {
   if (random.index(2) == 0) return make_sheet(2 + random.index(10));
-  const std::uint32_t rings = 3 + random.index(10), sides = 5 + random.index(10);  // in this order with every compiler
+  const std::uint32_t rings = 3 + random.index(10),
+                      sides = 5 + random.index(10);  // in this order with every compiler
   return make_tube(rings, sides, 2 + random.index(4));
 }
 
@@ -58,7 +61,8 @@ TearOperation random_tear(const TornModel& model, Random& random, bool has_width
   operation.stroke = random_stroke(source, pose, random, length, 1 + random.index(6));
   if (!has_width) return operation;
   operation.options.width = random.uniform(0.002, 0.05) * posed_diagonal(source, pose);
-  if (random.index(3) == 0) operation.options.wall_depth = random.uniform(0.002, 0.02) * posed_diagonal(source, pose);
+  if (random.index(3) == 0)
+    operation.options.wall_depth = random.uniform(0.002, 0.02) * posed_diagonal(source, pose);
   if (random.index(3) == 0) operation.options.layers = Layers::all;
   return operation;
 }
@@ -75,7 +79,8 @@ Operation random_operation(const TornModel& model, Random& random) {
 Result<TearReport> play(TornModel& model, const Operation& operation, ChangeRecord* change) {
   if (const auto* tear = std::get_if<TearOperation>(&operation))
     return model.tear(std::get<ModelPose>(tear->pose), tear->stroke, tear->options, change);
-  if (const auto* cut = std::get_if<CutOperation>(&operation)) return model.cut(std::get<ModelPose>(cut->pose), cut->cut, change);
+  if (const auto* cut = std::get_if<CutOperation>(&operation))
+    return model.cut(std::get<ModelPose>(cut->pose), cut->cut, change);
   if (const auto* drill = std::get_if<DrillOperation>(&operation))
     return model.drill(std::get<ModelPose>(drill->pose), drill->bore, change);
   std::abort();

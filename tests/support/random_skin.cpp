@@ -6,13 +6,16 @@ namespace sunder::test {
 namespace {
 
 Vec3f random_vector(Random& random, double size) {
-  const double x = random.uniform(-size, size), y = random.uniform(-size, size), z = random.uniform(-size, size);
+  const double x = random.uniform(-size, size), y = random.uniform(-size, size),
+               z = random.uniform(-size, size);
   return Vec3d(x, y, z).cast<float>();
 }
 
-std::vector<Influence> random_influences(Random& random, const RandomSkin& wanted, std::uint32_t vertex) {
+std::vector<Influence> random_influences(Random& random, const RandomSkin& wanted,
+                                         std::uint32_t vertex) {
   const std::uint32_t spread = std::min(wanted.spread, wanted.slots);
-  const auto middle = static_cast<std::uint32_t>(std::uint64_t{vertex} * (wanted.slots - spread + 1) / wanted.vertices);
+  const auto middle = static_cast<std::uint32_t>(std::uint64_t{vertex} *
+                                                 (wanted.slots - spread + 1) / wanted.vertices);
   std::vector<std::uint32_t> slots;
   for (std::uint32_t i = 0; i < spread; ++i) slots.push_back(middle + i);
   const std::uint32_t count = 1 + random.index(std::min(wanted.influences, spread));
@@ -23,7 +26,8 @@ std::vector<Influence> random_influences(Random& random, const RandomSkin& wante
     influences.push_back({slots[i], static_cast<float>(random.uniform(0.05, 1))});
     sum += influences.back().weight;
   }
-  for (Influence& influence : influences) influence.weight = static_cast<float>(influence.weight / sum);
+  for (Influence& influence : influences)
+    influence.weight = static_cast<float>(influence.weight / sum);
   return influences;
 }
 
@@ -37,7 +41,8 @@ Mesh make_random_skin(Random& random, const RandomSkin& wanted) {
     mesh.normals.push_back(random.direction().cast<float>());
     if (wanted.tangents) {
       const Vec3f tangent = random.direction().cast<float>();
-      mesh.tangents.emplace_back(tangent.x(), tangent.y(), tangent.z(), random.index(2) == 0 ? 1.0f : -1.0f);
+      mesh.tangents.emplace_back(tangent.x(), tangent.y(), tangent.z(),
+                                 random.index(2) == 0 ? 1.0f : -1.0f);
     }
     mesh.weights.append(random_influences(random, wanted, v));
   }
@@ -46,10 +51,13 @@ Mesh make_random_skin(Random& random, const RandomSkin& wanted) {
     MorphTarget& target = mesh.morph_targets[j];
     target.name = "target";
     for (std::uint32_t v = 0; v < wanted.vertices; ++v) {
-      const bool moves = v * (j + 2) / std::max(1u, wanted.vertices) % 2 == 0;  // whole stretches that it leaves alone
+      const bool moves = v * (j + 2) / std::max(1u, wanted.vertices) % 2 ==
+                         0;  // whole stretches that it leaves alone
       target.position_deltas.push_back(moves ? random_vector(random, 0.1) : Vec3f(Vec3f::Zero()));
-      if (j % 2 == 0) target.normal_deltas.push_back(moves ? random_vector(random, 0.1) : Vec3f(Vec3f::Zero()));
-      if (wanted.tangents && j % 3 == 0) target.tangent_deltas.push_back(random_vector(random, 0.1));
+      if (j % 2 == 0)
+        target.normal_deltas.push_back(moves ? random_vector(random, 0.1) : Vec3f(Vec3f::Zero()));
+      if (wanted.tangents && j % 3 == 0)
+        target.tangent_deltas.push_back(random_vector(random, 0.1));
     }
   }
   return mesh;
@@ -60,7 +68,8 @@ std::vector<Affine3d> random_palette(Random& random, std::uint32_t slots, double
   for (Affine3d& matrix : palette) {
     matrix = Affine3d::Identity();
     const Vec3d axis = random.direction();
-    matrix.linear() = Eigen::AngleAxisd(random.uniform(-3, 3), Eigen::Vector3d(axis)).toRotationMatrix();
+    matrix.linear() =
+        Eigen::AngleAxisd(random.uniform(-3, 3), Eigen::Vector3d(axis)).toRotationMatrix();
     if (scale > 1.0 && random.index(3) != 0) {
       Mat3d stretch = Mat3d::Identity();
       for (int i = 0; i < 3; ++i) stretch(i, i) = random.uniform(1 / scale, scale);

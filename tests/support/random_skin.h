@@ -16,12 +16,14 @@ struct RandomSkin {
   std::uint32_t spread = 8;
 };
 
-/// Vertices without triangles, at random places within a metre of the origin, normals and weights at random, all bits odd.
+/// Vertices without triangles, at random places within a metre of the origin, normals and weights
+/// at random, all bits odd.
 [[nodiscard]] Mesh make_random_skin(Random& random, const RandomSkin& wanted);
 
-/// Bones turned at random, up to half a metre away; with `scale` > 1 also scaled by up to as much, unevenly, and sheared, some
-/// mirrored.
-[[nodiscard]] std::vector<Affine3d> random_palette(Random& random, std::uint32_t slots, double scale = 1.0);
+/// Bones turned at random, up to half a metre away; with `scale` > 1 also scaled by up to as much,
+/// unevenly, and sheared, some mirrored.
+[[nodiscard]] std::vector<Affine3d> random_palette(Random& random, std::uint32_t slots,
+                                                   double scale = 1.0);
 
 /// In float, and what floats hold of it in double.
 [[nodiscard]] std::vector<Affine3f> in_float(const std::vector<Affine3d>& palette);

@@ -14,9 +14,11 @@ std::vector<Influence> influences_at(double x, std::uint32_t slots, Random& rand
   const double reach = 6.0 / slots;
   for (std::uint32_t slot = 0; slot < slots; ++slot) {
     const double away = (x - joint_x(slot, slots) - 1.0 / slots) / reach;
-    influences.push_back({slot, static_cast<float>(std::exp(-3 * away * away) * random.uniform(0.5, 1.5))});
+    influences.push_back(
+        {slot, static_cast<float>(std::exp(-3 * away * away) * random.uniform(0.5, 1.5))});
   }
-  std::sort(influences.begin(), influences.end(), [](const Influence& a, const Influence& b) { return a.weight > b.weight; });
+  std::sort(influences.begin(), influences.end(),
+            [](const Influence& a, const Influence& b) { return a.weight > b.weight; });
   influences.resize(std::min<std::size_t>(influences.size(), 3 + random.index(2)));
   float sum = 0;
   for (const Influence& influence : influences) sum += influence.weight;
@@ -26,8 +28,10 @@ std::vector<Influence> influences_at(double x, std::uint32_t slots, Random& rand
 
 std::vector<Influence> barycentric_weights(const AnimationPoint& exact, std::size_t maximum) {
   std::vector<Influence> influences;
-  for (const auto& term : exact.terms()) influences.push_back({term.slot, static_cast<float>(term.q.w())});
-  std::sort(influences.begin(), influences.end(), [](const Influence& a, const Influence& b) { return a.weight > b.weight; });
+  for (const auto& term : exact.terms())
+    influences.push_back({term.slot, static_cast<float>(term.q.w())});
+  std::sort(influences.begin(), influences.end(),
+            [](const Influence& a, const Influence& b) { return a.weight > b.weight; });
   if (maximum > 0) influences.resize(std::min(influences.size(), maximum));
   float sum = 0;
   for (const Influence& influence : influences) sum += influence.weight;
@@ -37,7 +41,8 @@ std::vector<Influence> barycentric_weights(const AnimationPoint& exact, std::siz
 
 }  // namespace
 
-std::vector<Affine3d> bent_chain(Random& random, std::uint32_t slots, double angle, const Vec3d& centre) {
+std::vector<Affine3d> bent_chain(Random& random, std::uint32_t slots, double angle,
+                                 const Vec3d& centre) {
   std::vector<Affine3d> palette(slots, Affine3d::Identity());
   for (std::uint32_t slot = 0; slot < slots; ++slot) {
     const Eigen::Vector3d axis = random.direction();
@@ -51,7 +56,8 @@ std::vector<Affine3d> bent_chain(Random& random, std::uint32_t slots, double ang
   return palette;
 }
 
-Lip::Lip(Random& random, const RefitScene& wanted) : exact(wanted.points), barycentric(wanted.points) {
+Lip::Lip(Random& random, const RefitScene& wanted)
+    : exact(wanted.points), barycentric(wanted.points) {
   for (std::uint32_t i = 0; i < wanted.poses; ++i)
     palettes.push_back(bent_chain(random, wanted.slots, wanted.angle, wanted.centre));
   moments.emplace_back(wanted.slots, wanted.centre);
@@ -69,7 +75,8 @@ Lip::Lip(Random& random, const RefitScene& wanted) : exact(wanted.points), baryc
     points.push_back({&exact[i], wanted.centre + position, barycentric[i]});
     moments[0].want(exact[i]);
     if (i > 0) neighbours.push_back({i - 1, i, step});
-    for (int k = 0; k < 2; ++k) neighbours.push_back({i, kNone, random.uniform(0.5, 1.0) * wanted.face});
+    for (int k = 0; k < 2; ++k)
+      neighbours.push_back({i, kNone, random.uniform(0.5, 1.0) * wanted.face});
   }
   for (const auto& palette : palettes) moments[0].add(palette);
 }
@@ -80,15 +87,18 @@ Vec3d Lip::target(std::size_t point, std::size_t pose) const {
   return exact[point].posed(palettes[pose]) / sum;
 }
 
-double Lip::mean_square(std::size_t point, std::span<const Influence> influences, const Vec3d& position) const {
+double Lip::mean_square(std::size_t point, std::span<const Influence> influences,
+                        const Vec3d& position) const {
   double sum = 0, weight_sum = 0;
   for (const Influence& influence : influences) weight_sum += static_cast<double>(influence.weight);
   for (std::size_t pose = 0; pose < palettes.size(); ++pose) {
-    // Differences from where it is to be, so that far from the origin no more is lost than has to be.
+    // Differences from where it is to be, so that far from the origin no more is lost than has to
+    // be.
     const Vec3d wanted = target(point, pose);
     Eigen::Vector3d difference = Eigen::Vector3d::Zero();
     for (const Influence& influence : influences)
-      difference += static_cast<double>(influence.weight) / weight_sum * (palettes[pose][influence.slot] * position - wanted);
+      difference += static_cast<double>(influence.weight) / weight_sum *
+                    (palettes[pose][influence.slot] * position - wanted);
     sum += difference.squaredNorm();
   }
   return sum / static_cast<double>(palettes.size());

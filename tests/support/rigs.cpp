@@ -59,7 +59,8 @@ Character make_sheet(std::uint32_t cells, float size) {
   mesh.submeshes.push_back({"cloth", kNone});
   for (std::uint32_t j = 0; j <= cells; ++j)
     for (std::uint32_t i = 0; i <= cells; ++i) {
-      const float u = static_cast<float>(i) / static_cast<float>(cells), v = static_cast<float>(j) / static_cast<float>(cells);
+      const float u = static_cast<float>(i) / static_cast<float>(cells),
+                  v = static_cast<float>(j) / static_cast<float>(cells);
       mesh.positions.emplace_back(size * u, size * v, 0.0f);
       mesh.normals.emplace_back(0.0f, 0.0f, 1.0f);
       mesh.uv_sets[0].emplace_back(u, v);
@@ -92,28 +93,39 @@ Character make_tube(std::uint32_t rings, std::uint32_t sides, std::uint32_t bone
   mesh.uv_sets.emplace_back();
   mesh.submeshes = {{"side", kNone}, {"caps", kNone}};
   MorphTarget swell{"swell", {}, {}, {}};
-  const auto add_vertex = [&](double angle, double radius, double height, const Vec3f& normal, const Vec2f& uv) {
-    const Vec3f around(static_cast<float>(std::cos(angle)), 0, static_cast<float>(-std::sin(angle)));
-    mesh.positions.push_back(static_cast<float>(radius) * around + Vec3f(0, static_cast<float>(height), 0));
+  const auto add_vertex = [&](double angle, double radius, double height, const Vec3f& normal,
+                              const Vec2f& uv) {
+    const Vec3f around(static_cast<float>(std::cos(angle)), 0,
+                       static_cast<float>(-std::sin(angle)));
+    mesh.positions.push_back(static_cast<float>(radius) * around +
+                             Vec3f(0, static_cast<float>(height), 0));
     mesh.normals.push_back(normal);
     mesh.uv_sets[0].push_back(uv);
     mesh.weights.append(chain_influences(height, bone_count));
     swell.position_deltas.push_back(static_cast<float>(radius * 0.3) * around);
     return mesh.vertex_count() - 1;
   };
-  const auto add_triangle = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t submesh) {
+  const auto add_triangle = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c,
+                                std::uint32_t submesh) {
     mesh.triangles.push_back({a, b, c});
     mesh.triangle_submesh.push_back(submesh);
   };
-  const auto angle_at = [&](std::uint32_t side) { return 2 * std::numbers::pi * (side % sides) / sides; };
-  const auto height_at = [&](std::uint32_t ring) { return static_cast<double>(bone_count) * ring / rings; };
+  const auto angle_at = [&](std::uint32_t side) {
+    return 2 * std::numbers::pi * (side % sides) / sides;
+  };
+  const auto height_at = [&](std::uint32_t ring) {
+    return static_cast<double>(bone_count) * ring / rings;
+  };
   constexpr double kRadius = 0.5;
 
   for (std::uint32_t ring = 0; ring <= rings; ++ring)
-    for (std::uint32_t side = 0; side <= sides; ++side) {  // the last column repeats the first: the seam
+    for (std::uint32_t side = 0; side <= sides;
+         ++side) {  // the last column repeats the first: the seam
       const double angle = angle_at(side);
-      add_vertex(angle, kRadius, height_at(ring), {static_cast<float>(std::cos(angle)), 0, static_cast<float>(-std::sin(angle))},
-                 {static_cast<float>(side) / static_cast<float>(sides), static_cast<float>(ring) / static_cast<float>(rings)});
+      add_vertex(angle, kRadius, height_at(ring),
+                 {static_cast<float>(std::cos(angle)), 0, static_cast<float>(-std::sin(angle))},
+                 {static_cast<float>(side) / static_cast<float>(sides),
+                  static_cast<float>(ring) / static_cast<float>(rings)});
     }
   for (std::uint32_t ring = 0; ring < rings; ++ring)
     for (std::uint32_t side = 0; side < sides; ++side) {
@@ -127,9 +139,9 @@ Character make_tube(std::uint32_t rings, std::uint32_t sides, std::uint32_t bone
     const std::uint32_t center = add_vertex(0, 0, height, normal, {0.5f, 0.5f});
     const std::uint32_t rim = center + 1;
     for (std::uint32_t side = 0; side < sides; ++side)
-      add_vertex(
-          angle_at(side), kRadius, height, normal,
-          {static_cast<float>(0.5 + 0.5 * std::cos(angle_at(side))), static_cast<float>(0.5 + 0.5 * std::sin(angle_at(side)))});
+      add_vertex(angle_at(side), kRadius, height, normal,
+                 {static_cast<float>(0.5 + 0.5 * std::cos(angle_at(side))),
+                  static_cast<float>(0.5 + 0.5 * std::sin(angle_at(side)))});
     for (std::uint32_t side = 0; side < sides; ++side) {
       const std::uint32_t a = rim + side, b = rim + (side + 1) % sides;
       top ? add_triangle(center, a, b, 1) : add_triangle(center, b, a, 1);
@@ -165,11 +177,13 @@ void rig_along(Character& character, std::uint32_t bone_count) {
   add_chain(character, bone_count, step * Vec3f::Unit(axis));
   const auto begin = static_cast<float>(box.min()[axis]);
   character.skeleton.bones[0].rest.translation = begin * Vec3f::Unit(axis);
-  for (Affine3f& bone_from_bind : character.skins[0].bone_from_bind) bone_from_bind.translation() -= begin * Vec3f::Unit(axis);
+  for (Affine3f& bone_from_bind : character.skins[0].bone_from_bind)
+    bone_from_bind.translation() -= begin * Vec3f::Unit(axis);
   for (Mesh& mesh : character.meshes) {
     mesh.skin = 0;
     mesh.weights = {};
-    for (const Vec3f& position : mesh.positions) mesh.weights.append(chain_influences((position[axis] - begin) / step, bone_count));
+    for (const Vec3f& position : mesh.positions)
+      mesh.weights.append(chain_influences((position[axis] - begin) / step, bone_count));
   }
 }
 
@@ -189,7 +203,8 @@ Character make_bumpy_ball(std::uint32_t points) {
     Vec3d direction(place[0], place[1], place[2]);
     direction = (direction / direction.norm() + 0.25 / n * random.direction()).eval();
     direction /= direction.norm();
-    const double radius = 1 + 0.1 * std::sin(7 * direction.x() + 1) * std::sin(6 * direction.y()) * std::cos(5 * direction.z());
+    const double radius = 1 + 0.1 * std::sin(7 * direction.x() + 1) * std::sin(6 * direction.y()) *
+                                  std::cos(5 * direction.z());
     mesh.positions.push_back((radius * direction).cast<float>());
     return at->second;
   };
@@ -198,7 +213,9 @@ Character make_bumpy_ball(std::uint32_t points) {
       for (const int z : {1, -1})
         for (int i = 0; i < n; ++i)
           for (int j = 0; i + j < n; ++j) {
-            const auto at = [&](int di, int dj) { return vertex({x * (n - i - di - j - dj), y * (i + di), z * (j + dj)}); };
+            const auto at = [&](int di, int dj) {
+              return vertex({x * (n - i - di - j - dj), y * (i + di), z * (j + dj)});
+            };
             const bool is_mirrored = x * y * z < 0;
             const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
               mesh.triangles.push_back(is_mirrored ? Triangle{a, c, b} : Triangle{a, b, c});
@@ -236,17 +253,20 @@ Character make_soup(Random& random) {
   for (std::uint32_t v = 0; v < vertex_count; ++v) {
     const std::uint32_t z = random.index(grid), y = random.index(grid),
                         x = random.index(grid);  // in this order with every compiler
-    mesh.positions.emplace_back(static_cast<float>(x), static_cast<float>(y), static_cast<float>(z));
+    mesh.positions.emplace_back(static_cast<float>(x), static_cast<float>(y),
+                                static_cast<float>(z));
     const float weight = 0.25f * static_cast<float>(random.index(5));
-    const auto influences = weight == 0.0f   ? std::vector<Influence>{{0, 1.0f}}
-                            : weight == 1.0f ? std::vector<Influence>{{2, 1.0f}}
-                                             : std::vector<Influence>{{0, 1.0f - weight}, {2, weight}};
+    const auto influences = weight == 0.0f ? std::vector<Influence>{{0, 1.0f}}
+                            : weight == 1.0f
+                                ? std::vector<Influence>{{2, 1.0f}}
+                                : std::vector<Influence>{{0, 1.0f - weight}, {2, weight}};
     // Coincident vertices mostly agree, so that they weld.
     mesh.weights.append(random.index(4) == 0 ? influences : std::vector<Influence>{{1, 1.0f}});
   }
   const std::uint32_t triangle_count = 1 + random.index(60);
   for (std::uint32_t t = 0; t < triangle_count; ++t) {
-    mesh.triangles.push_back({random.index(vertex_count), random.index(vertex_count), random.index(vertex_count)});
+    mesh.triangles.push_back(
+        {random.index(vertex_count), random.index(vertex_count), random.index(vertex_count)});
     mesh.triangle_submesh.push_back(random.index(2));
   }
   character.meshes = {mesh};
@@ -258,7 +278,8 @@ ModelPose random_pose(const Character& character, Random& random, double angle, 
   for (BoneTransform& bone : pose.parent_from_bone) {
     const Quatd turn(Eigen::AngleAxisd{random.uniform(-angle, angle), random.direction()});
     bone.rotation = Quatf((bone.rotation.cast<double>() * turn).normalized().cast<float>());
-    for (int axis = 0; axis < 3; ++axis) bone.scale[axis] *= static_cast<float>(std::pow(scale, random.uniform(-1, 1)));
+    for (int axis = 0; axis < 3; ++axis)
+      bone.scale[axis] *= static_cast<float>(std::pow(scale, random.uniform(-1, 1)));
   }
   for (float& weight : pose.morph_weights) weight = static_cast<float>(random.uniform(0, 1));
   ModelPose result;
@@ -266,7 +287,8 @@ ModelPose random_pose(const Character& character, Random& random, double angle, 
   return result;
 }
 
-std::vector<Vec3d> posed_positions(const Character& character, std::uint32_t mesh, const ModelPose& pose) {
+std::vector<Vec3d> posed_positions(const Character& character, std::uint32_t mesh,
+                                   const ModelPose& pose) {
   const Mesh& of = character.meshes[mesh];
   std::vector<Affine3d> palette(character.skins[of.skin].bones.size());
   if (!compute_palette(character.skins[of.skin], pose, palette)) std::abort();
@@ -279,11 +301,13 @@ std::vector<Vec3d> posed_positions(const Character& character, std::uint32_t mes
 double posed_diagonal(const Character& character, const ModelPose& pose) {
   Eigen::AlignedBox3d box;
   for (std::uint32_t mesh = 0; mesh < character.meshes.size(); ++mesh)
-    for (const Vec3d& position : posed_positions(character, mesh, pose)) box.extend(Eigen::Vector3d(position));
+    for (const Vec3d& position : posed_positions(character, mesh, pose))
+      box.extend(Eigen::Vector3d(position));
   return box.diagonal().norm();
 }
 
-Stroke random_stroke(const Character& character, const ModelPose& pose, Random& random, double length, std::uint32_t segments) {
+Stroke random_stroke(const Character& character, const ModelPose& pose, Random& random,
+                     double length, std::uint32_t segments) {
   const double diagonal = posed_diagonal(character, pose);
   for (;;) {
     const std::uint32_t mesh = random.index(static_cast<std::uint32_t>(character.meshes.size()));
@@ -302,11 +326,13 @@ Stroke random_stroke(const Character& character, const ModelPose& pose, Random& 
     if (along.norm() < 0.1) continue;
     along /= along.norm();
     Stroke stroke;
-    const double height = 0.1 * diagonal, depth = 0.05 * diagonal, step = length * diagonal / segments;
+    const double height = 0.1 * diagonal, depth = 0.05 * diagonal,
+                 step = length * diagonal / segments;
     for (std::uint32_t i = 0; i <= segments; ++i) {
       stroke.push_back({at + height * normal, at - depth * normal});
       at += step * along;
-      along = Eigen::AngleAxisd(random.uniform(-0.4, 0.4), Eigen::Vector3d(normal)) * Eigen::Vector3d(along);
+      along = Eigen::AngleAxisd(random.uniform(-0.4, 0.4), Eigen::Vector3d(normal)) *
+              Eigen::Vector3d(along);
     }
     return stroke;
   }

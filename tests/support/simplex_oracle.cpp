@@ -9,7 +9,8 @@
 
 namespace sunder::test {
 
-SimplexOptimum best_on_simplex(const Eigen::MatrixXd& gram, const Eigen::VectorXd& linear, std::size_t maximum) {
+SimplexOptimum best_on_simplex(const Eigen::MatrixXd& gram, const Eigen::VectorXd& linear,
+                               std::size_t maximum) {
   SimplexOptimum best;
   best.value = std::numeric_limits<double>::infinity();
   const auto n = static_cast<int>(linear.size());
@@ -27,7 +28,9 @@ SimplexOptimum best_on_simplex(const Eigen::MatrixXd& gram, const Eigen::VectorX
     left.topLeftCorner(m, m) = gram(slots, slots) / scale;
     right.head(m) = linear(slots) / scale;
     const Eigen::VectorXd solution = left.fullPivLu().solve(right);
-    if (!solution.allFinite() || !(solution.head(m).minCoeff() >= 0) || std::abs(solution.head(m).sum() - 1) > 1e-9) continue;
+    if (!solution.allFinite() || !(solution.head(m).minCoeff() >= 0) ||
+        std::abs(solution.head(m).sum() - 1) > 1e-9)
+      continue;
     Eigen::VectorXd weights = Eigen::VectorXd::Zero(n);
     weights(slots) = solution.head(m) / solution.head(m).sum();
     const double value = weights.dot(gram * weights - 2 * linear);

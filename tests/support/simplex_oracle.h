@@ -11,7 +11,9 @@ struct SimplexOptimum {
   double value = 0;
 };
 
-/// The least of w^T G w - 2 c^T w over weights >= 0 with sum 1, no more than `maximum` of them not zero: every support is tried.
-SimplexOptimum best_on_simplex(const Eigen::MatrixXd& gram, const Eigen::VectorXd& linear, std::size_t maximum);
+/// The least of w^T G w - 2 c^T w over weights >= 0 with sum 1, no more than `maximum` of them not
+/// zero: every support is tried.
+SimplexOptimum best_on_simplex(const Eigen::MatrixXd& gram, const Eigen::VectorXd& linear,
+                               std::size_t maximum);
 
 }  // namespace sunder::test

@@ -24,7 +24,9 @@ std::vector<double> shortest(const Graph& graph, std::uint32_t source) {
   for (std::uint32_t f = 0; f < graph.faces.size(); ++f)
     for (const std::uint32_t node : graph.faces[f]) faces_of[node].push_back(f);
   std::vector<double> distances(graph.places.size(), kNever);
-  std::priority_queue<std::pair<double, std::uint32_t>, std::vector<std::pair<double, std::uint32_t>>, std::greater<>> queue;
+  std::priority_queue<std::pair<double, std::uint32_t>,
+                      std::vector<std::pair<double, std::uint32_t>>, std::greater<>>
+      queue;
   queue.emplace(distances[source] = 0.0, source);
   while (!queue.empty()) {
     const auto [distance, node] = queue.top();
@@ -32,7 +34,8 @@ std::vector<double> shortest(const Graph& graph, std::uint32_t source) {
     if (distance > distances[node]) continue;
     for (const std::uint32_t f : faces_of[node])
       for (const std::uint32_t other : graph.faces[f])
-        if (const double path = distance + (graph.places[other] - graph.places[node]).norm(); path < distances[other])
+        if (const double path = distance + (graph.places[other] - graph.places[node]).norm();
+            path < distances[other])
           queue.emplace(distances[other] = path, other);
   }
   return distances;
@@ -40,8 +43,8 @@ std::vector<double> shortest(const Graph& graph, std::uint32_t source) {
 
 }  // namespace
 
-std::vector<double> fine_distances(const Surface& surface, std::span<const Vec3f> positions, std::uint32_t source,
-                                   std::uint32_t steps) {
+std::vector<double> fine_distances(const Surface& surface, std::span<const Vec3f> positions,
+                                   std::uint32_t source, std::uint32_t steps) {
   Graph graph;
   for (const Vec3f& position : positions) graph.places.emplace_back(position.cast<double>());
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> first_of_edge;
@@ -49,13 +52,17 @@ std::vector<double> fine_distances(const Surface& surface, std::span<const Vec3f
     if (surface.has_repeated_point(t)) continue;
     auto& face = graph.faces.emplace_back();
     for (std::uint32_t k = 0; k < 3; ++k) {
-      const std::uint32_t a = surface.corner_point[3 * t + k], b = surface.corner_point[3 * t + (k + 1) % 3];
+      const std::uint32_t a = surface.corner_point[3 * t + k],
+                          b = surface.corner_point[3 * t + (k + 1) % 3];
       face.push_back(a);
-      const auto [at, is_new] = first_of_edge.try_emplace(std::minmax(a, b), static_cast<std::uint32_t>(graph.places.size()));
+      const auto [at, is_new] = first_of_edge.try_emplace(
+          std::minmax(a, b), static_cast<std::uint32_t>(graph.places.size()));
       for (std::uint32_t i = 0; i < steps; ++i) {
         face.push_back(at->second + i);
         const double part = (i + 1.0) / (steps + 1.0);
-        if (is_new) graph.places.emplace_back((1 - part) * graph.places[std::min(a, b)] + part * graph.places[std::max(a, b)]);
+        if (is_new)
+          graph.places.emplace_back((1 - part) * graph.places[std::min(a, b)] +
+                                    part * graph.places[std::max(a, b)]);
       }
     }
   }
@@ -64,7 +71,8 @@ std::vector<double> fine_distances(const Surface& surface, std::span<const Vec3f
   return distances;
 }
 
-std::vector<double> edge_distances(const Surface& surface, std::span<const Vec3f> positions, std::uint32_t source) {
+std::vector<double> edge_distances(const Surface& surface, std::span<const Vec3f> positions,
+                                   std::uint32_t source) {
   return fine_distances(surface, positions, source, 0);
 }
 

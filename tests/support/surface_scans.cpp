@@ -29,7 +29,8 @@ void for_each_face(const tear::SurfaceEditor& editor, tear::PosedPoints& posed, 
   }
 }
 
-/// Cuts [begin, end] of the line from a to b to where `value` is not negative; false where nothing is left.
+/// Cuts [begin, end] of the line from a to b to where `value` is not negative; false where nothing
+/// is left.
 bool clip(double at_a, double at_b, double& begin, double& end) {
   if (at_a < 0 && at_b < 0) return false;
   if (at_a < 0) begin = std::max(begin, at_a / (at_a - at_b));
@@ -42,8 +43,8 @@ struct Contact {
   SweepCoordinates low;
 };
 
-std::vector<Contact> all_contacts(const BladePlane& plane, double progress, const tear::SurfaceEditor& editor,
-                                  tear::PosedPoints& posed) {
+std::vector<Contact> all_contacts(const BladePlane& plane, double progress,
+                                  const tear::SurfaceEditor& editor, tear::PosedPoints& posed) {
   const BladePlane::HalfPlane not_before = plane.from_progress(progress);
   std::vector<Contact> contacts;
   for_each_face(editor, posed, [&](Index triangle, const Corners& corners) {
@@ -63,7 +64,8 @@ std::vector<Contact> all_contacts(const BladePlane& plane, double progress, cons
     const Vec2d &a = position[0], &b = position[1];
     double begin = 0, end = 1;
     bool is_reached = clip(not_before.value(a), not_before.value(b), begin, end);
-    for (const auto& side : plane.reach()) is_reached = is_reached && clip(side.value(a), side.value(b), begin, end);
+    for (const auto& side : plane.reach())
+      is_reached = is_reached && clip(side.value(a), side.value(b), begin, end);
     if (!is_reached || end - begin < tear::kSnap) return;
     const SweepCoordinates at_begin = plane.sweep_coordinates(a + begin * (b - a));
     const SweepCoordinates at_end = plane.sweep_coordinates(a + end * (b - a));
@@ -83,18 +85,25 @@ std::vector<Contact> all_contacts(const BladePlane& plane, double progress, cons
 
 }  // namespace
 
-std::optional<SurfaceHit> scan_for_hit(const Blade& blade, const tear::SurfaceEditor& editor, tear::PosedPoints& posed) {
+std::optional<SurfaceHit> scan_for_hit(const Blade& blade, const tear::SurfaceEditor& editor,
+                                       tear::PosedPoints& posed) {
   const Vec3d direction = blade.tip - blade.base;
-  // Along a face's plane the place is rounding alone: what counts is what of it lies in the face's box along the blade.
+  // Along a face's plane the place is rounding alone: what counts is what of it lies in the face's
+  // box along the blade.
   const tear::Frame frame = posed.frame_along(tear::axes_along(direction), editor);
   const Vec3d base_in_axes = frame.place_of(blade.base), direction_in_axes = frame.axes * direction;
-  const double reach = std::max({frame.reach(), blade.base.cwiseAbs().maxCoeff(), blade.tip.cwiseAbs().maxCoeff()});
+  const double reach =
+      std::max({frame.reach(), blade.base.cwiseAbs().maxCoeff(), blade.tip.cwiseAbs().maxCoeff()});
   const auto clamp_to_box = [&](const Corners& corners, double& depth) {
-    const Vec3d a = frame.place_of(corners[0]), b = frame.place_of(corners[1]), c = frame.place_of(corners[2]);
-    const tear::Box box = tear::Box{a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)}.widened(reach);
+    const Vec3d a = frame.place_of(corners[0]), b = frame.place_of(corners[1]),
+                c = frame.place_of(corners[2]);
+    const tear::Box box =
+        tear::Box{a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)}.widened(reach);
     double begin = 0, end = 1;
     for (int k = 0; k < 3; ++k) {
-      if (direction_in_axes[k] == 0 && (box.low[k] > base_in_axes[k] || box.high[k] < base_in_axes[k])) return false;
+      if (direction_in_axes[k] == 0 &&
+          (box.low[k] > base_in_axes[k] || box.high[k] < base_in_axes[k]))
+        return false;
       if (direction_in_axes[k] == 0) continue;
       const double at_low = (box.low[k] - base_in_axes[k]) * (1 / direction_in_axes[k]);
       const double at_high = (box.high[k] - base_in_axes[k]) * (1 / direction_in_axes[k]);
@@ -117,32 +126,43 @@ std::optional<SurfaceHit> scan_for_hit(const Blade& blade, const tear::SurfaceEd
     const double v = direction.dot(q) / determinant;
     double depth = ac.dot(q) / determinant;
     constexpr double kEdge = 1e-12;
-    if (u < -kEdge || v < -kEdge || u + v > 1 + kEdge || depth < 0 || depth > 1 || !clamp_to_box(corners, depth)) return;
+    if (u < -kEdge || v < -kEdge || u + v > 1 + kEdge || depth < 0 || depth > 1 ||
+        !clamp_to_box(corners, depth))
+      return;
     if (depth > nearest_depth || (nearest && depth == nearest_depth)) return;
     nearest_depth = depth;
-    nearest = SurfaceHit{t, {std::max(0.0, 1 - u - v), std::max(0.0, u), std::max(0.0, v)}, blade.base + depth * direction, 0};
+    nearest = SurfaceHit{t,
+                         {std::max(0.0, 1 - u - v), std::max(0.0, u), std::max(0.0, v)},
+                         blade.base + depth * direction,
+                         0};
   });
   return nearest;
 }
 
-std::optional<SurfaceHit> scan_for_contact(const BladePlane& plane, double progress, const tear::SurfaceEditor& editor,
+std::optional<SurfaceHit> scan_for_contact(const BladePlane& plane, double progress,
+                                           const tear::SurfaceEditor& editor,
                                            tear::PosedPoints& posed) {
   const std::vector<Contact> contacts = all_contacts(plane, progress, editor, posed);
   double least = std::numeric_limits<double>::max(), least_depth = least;
   for (const Contact& contact : contacts) least = std::min(least, contact.low.progress);
   for (const Contact& contact : contacts)
-    if (contact.low.progress < least + kSamePlace) least_depth = std::min(least_depth, contact.low.depth);
+    if (contact.low.progress < least + kSamePlace)
+      least_depth = std::min(least_depth, contact.low.depth);
   for (const Contact& contact : contacts)
-    if (contact.low.progress < least + kSamePlace && contact.low.depth <= least_depth + kSamePlace) return contact.hit;
+    if (contact.low.progress < least + kSamePlace && contact.low.depth <= least_depth + kSamePlace)
+      return contact.hit;
   return std::nullopt;
 }
 
-std::vector<Index> scan_for_faces_in(const tear::Cell& cell, const tear::SurfaceEditor& editor, tear::PosedPoints& posed) {
+std::vector<Index> scan_for_faces_in(const tear::Cell& cell, const tear::SurfaceEditor& editor,
+                                     tear::PosedPoints& posed) {
   std::vector<Index> faces;
   std::vector<Vec3d> clipped;
   for_each_face(editor, posed, [&](Index face, const Corners& corners) {
     for (const HalfSpace& side : cell)
-      if (std::none_of(corners.begin(), corners.end(), [&](const Vec3d& corner) { return side.value(corner) > 0; })) return;
+      if (std::none_of(corners.begin(), corners.end(),
+                       [&](const Vec3d& corner) { return side.value(corner) > 0; }))
+        return;
     std::vector<Vec3d> polygon(corners.begin(), corners.end());
     for (const HalfSpace& side : cell) {
       clipped.clear();
@@ -160,14 +180,18 @@ std::vector<Index> scan_for_faces_in(const tear::Cell& cell, const tear::Surface
   return faces;
 }
 
-std::vector<Index> scan_for_faces_across(const tear::Sheet& sheet, const tear::SurfaceEditor& editor, tear::PosedPoints& posed) {
+std::vector<Index> scan_for_faces_across(const tear::Sheet& sheet,
+                                         const tear::SurfaceEditor& editor,
+                                         tear::PosedPoints& posed) {
   std::vector<Index> faces;
   for_each_face(editor, posed, [&](Index face, const Corners& corners) {
     const auto count_in = [&](const HalfSpace& half_space) {
-      return std::count_if(corners.begin(), corners.end(), [&](const Vec3d& corner) { return half_space.contains(corner); });
+      return std::count_if(corners.begin(), corners.end(),
+                           [&](const Vec3d& corner) { return half_space.contains(corner); });
     };
     const auto in_front = count_in(sheet.plane);
-    if (in_front > 0 && in_front < 3 && std::all_of(sheet.bounds.begin(), sheet.bounds.end(), [&](const tear::Sheet::Bound& bound) {
+    if (in_front > 0 && in_front < 3 &&
+        std::all_of(sheet.bounds.begin(), sheet.bounds.end(), [&](const tear::Sheet::Bound& bound) {
           return count_in(bound.half_space) > 0;
         }))
       faces.push_back(face);

@@ -8,10 +8,15 @@ namespace sunder::test {
 
 // The queries of tear/ by looking at every face there is: what their answers are.
 
-std::optional<tear::SurfaceHit> scan_for_hit(const Blade& blade, const tear::SurfaceEditor& editor, tear::PosedPoints& posed);
-std::optional<tear::SurfaceHit> scan_for_contact(const tear::BladePlane& plane, double progress, const tear::SurfaceEditor& editor,
+std::optional<tear::SurfaceHit> scan_for_hit(const Blade& blade, const tear::SurfaceEditor& editor,
+                                             tear::PosedPoints& posed);
+std::optional<tear::SurfaceHit> scan_for_contact(const tear::BladePlane& plane, double progress,
+                                                 const tear::SurfaceEditor& editor,
                                                  tear::PosedPoints& posed);
-std::vector<Index> scan_for_faces_in(const tear::Cell& cell, const tear::SurfaceEditor& editor, tear::PosedPoints& posed);
-std::vector<Index> scan_for_faces_across(const tear::Sheet& sheet, const tear::SurfaceEditor& editor, tear::PosedPoints& posed);
+std::vector<Index> scan_for_faces_in(const tear::Cell& cell, const tear::SurfaceEditor& editor,
+                                     tear::PosedPoints& posed);
+std::vector<Index> scan_for_faces_across(const tear::Sheet& sheet,
+                                         const tear::SurfaceEditor& editor,
+                                         tear::PosedPoints& posed);
 
 }  // namespace sunder::test

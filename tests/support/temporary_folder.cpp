@@ -18,11 +18,14 @@ TemporaryFolder::~TemporaryFolder() {
   std::filesystem::remove_all(path_, ignored);
 }
 
-std::filesystem::path TemporaryFolder::write(std::string_view name, std::span<const std::byte> content) const {
-  return write(name, std::string_view(reinterpret_cast<const char*>(content.data()), content.size()));
+std::filesystem::path TemporaryFolder::write(std::string_view name,
+                                             std::span<const std::byte> content) const {
+  return write(name,
+               std::string_view(reinterpret_cast<const char*>(content.data()), content.size()));
 }
 
-std::filesystem::path TemporaryFolder::write(std::string_view name, std::string_view content) const {
+std::filesystem::path TemporaryFolder::write(std::string_view name,
+                                             std::string_view content) const {
   const auto file = path_ / name;
   std::filesystem::create_directories(file.parent_path());
   std::ofstream stream(file, std::ios::binary);
@@ -33,7 +36,8 @@ std::filesystem::path TemporaryFolder::write(std::string_view name, std::string_
 
 std::vector<std::byte> read_bytes(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
-  const std::string content((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
+  const std::string content((std::istreambuf_iterator<char>(stream)),
+                            std::istreambuf_iterator<char>());
   std::vector<std::byte> bytes(content.size());
   for (std::size_t i = 0; i < content.size(); ++i) bytes[i] = static_cast<std::byte>(content[i]);
   return bytes;

@@ -20,20 +20,24 @@ using test::make_model;
 using test::Random;
 using testing::IsEmpty;
 
-/// Posed volume inside some triangles, by the divergence theorem; the whole mesh's where none are given.
+/// Posed volume inside some triangles, by the divergence theorem; the whole mesh's where none are
+/// given.
 double volume_of(const TornModel& model, const ModelPose& pose, const TornPiece* piece = nullptr) {
   double volume = 0;
   for (std::uint32_t m = 0; m < model.character().meshes.size(); ++m) {
     const auto positions = test::posed_positions(model.character(), m, pose);
     std::vector<std::uint32_t> triangles;
     if (piece == nullptr)
-      for (std::uint32_t t = 0; t < model.character().meshes[m].triangle_count(); ++t) triangles.push_back(t);
+      for (std::uint32_t t = 0; t < model.character().meshes[m].triangle_count(); ++t)
+        triangles.push_back(t);
     else
       for (const TornPiece::Triangles& of_mesh : piece->meshes)
         if (of_mesh.mesh == m) triangles = of_mesh.triangles;
     for (const std::uint32_t t : triangles) {
       const Triangle& triangle = model.character().meshes[m].triangles[t];
-      volume += positions[triangle[0]].dot(Vec3d(positions[triangle[1]].cross(positions[triangle[2]]))) / 6;
+      volume +=
+          positions[triangle[0]].dot(Vec3d(positions[triangle[1]].cross(positions[triangle[2]]))) /
+          6;
     }
   }
   return volume;
@@ -60,7 +64,9 @@ TEST(Caps, close_both_halves_of_a_tube) {
   EXPECT_EQ(counts.boundary_edges, 0u);
   EXPECT_EQ(counts.non_manifold_edges, 0u);
   ASSERT_EQ(report->pieces.size(), 2u);
-  EXPECT_NEAR(volume_of(model, pose, &report->pieces[0]) + volume_of(model, pose, &report->pieces[1]), whole, 1e-6 * whole);
+  EXPECT_NEAR(
+      volume_of(model, pose, &report->pieces[0]) + volume_of(model, pose, &report->pieces[1]),
+      whole, 1e-6 * whole);
   EXPECT_GT(volume_of(model, pose, &report->pieces[0]), 0);
   EXPECT_GT(volume_of(model, pose, &report->pieces[1]), 0);
   EXPECT_THAT(test::broken_laws(model), IsEmpty());
@@ -76,7 +82,8 @@ TEST(Caps, of_random_cuts_in_random_poses_leave_no_border) {
       const ModelPose pose = test::random_pose(model.source(), random, 0.5, 1.1);
       const auto positions = test::posed_positions(model.source(), 0, pose);
       Vec3d middle = Vec3d::Zero();
-      for (int n = 0; n < 3; ++n) middle += positions[random.index(static_cast<std::uint32_t>(positions.size()))] / 3;
+      for (int n = 0; n < 3; ++n)
+        middle += positions[random.index(static_cast<std::uint32_t>(positions.size()))] / 3;
       const auto report = model.cut(pose, cut_through(middle, random.direction()));
       ASSERT_TRUE(report) << report.error().text();
       ASSERT_EQ(report->open_sections, 0u) << "cut " << k;

@@ -1,5 +1,5 @@
-// Cuts, gaps and bores against CGAL's corefinement of the posed surface: exact predicates, a method of its own, nothing shared.
-// Built where CGAL is (scripts/setup oracle).
+// Cuts, gaps and bores against CGAL's corefinement of the posed surface: exact predicates, a method
+// of its own, nothing shared. Built where CGAL is (scripts/setup oracle).
 #include <sunder/tear/topology.h>
 #include <sunder/tear/torn_model.h>
 
@@ -37,7 +37,8 @@ using test::make_model;
 using test::Random;
 using testing::IsEmpty;
 
-/// Of what CGAL or Sunder may round a place to, as a part of the model's diagonal; areas by its square.
+/// Of what CGAL or Sunder may round a place to, as a part of the model's diagonal; areas by its
+/// square.
 constexpr double kRounding = 1e-9;
 
 int count_of_cases(int usual) { return test::stressed(usual, 20); }
@@ -56,7 +57,8 @@ Judge posed_surface(const TornModel& model, const ModelPose& pose) {
       std::array<Judge::Vertex_index, 3> corners;
       for (std::uint32_t k = 0; k < 3; ++k) {
         Judge::Vertex_index& vertex = vertex_of_point[model.point_at(m, t, k)];
-        if (vertex == Judge::null_vertex()) vertex = surface.add_vertex(to_judge(positions[mesh.triangles[t][k]]));
+        if (vertex == Judge::null_vertex())
+          vertex = surface.add_vertex(to_judge(positions[mesh.triangles[t][k]]));
         corners[k] = vertex;
       }
       EXPECT_NE(surface.add_face(corners[0], corners[1], corners[2]), Judge::null_face());
@@ -76,7 +78,8 @@ struct Parts {
 Parts parts_of(const Judge& surface) {
   Parts parts;
   Judge& mutable_surface = const_cast<Judge&>(surface);
-  const auto part_of = mutable_surface.add_property_map<Judge::Face_index, std::size_t>("f:part", 0).first;
+  const auto part_of =
+      mutable_surface.add_property_map<Judge::Face_index, std::size_t>("f:part", 0).first;
   const std::size_t count = processing::connected_components(surface, part_of);
   parts.areas.resize(count, 0);
   parts.middles.resize(count, Vec3d::Zero());
@@ -102,11 +105,13 @@ Parts parts_of(const Judge& surface) {
   return parts;
 }
 
-/// Each place once: both lips have it, and a line through a vertex crosses all the edges there in places nearer than `distance`.
+/// Each place once: both lips have it, and a line through a vertex crosses all the edges there in
+/// places nearer than `distance`.
 std::vector<Vec3d> distinct(const std::vector<Vec3d>& places, double distance) {
   std::vector<Vec3d> kept;
   for (const Vec3d& place : places)
-    if (std::none_of(kept.begin(), kept.end(), [&](const Vec3d& other) { return (place - other).norm() <= distance; }))
+    if (std::none_of(kept.begin(), kept.end(),
+                     [&](const Vec3d& other) { return (place - other).norm() <= distance; }))
       kept.push_back(place);
   return kept;
 }
@@ -117,8 +122,10 @@ double distance_to(const std::vector<Vec3d>& places, const Vec3d& place) {
   return least;
 }
 
-/// Where the points that a call opened lie on the posed source: by their births, into which no interpolation of weights enters.
-std::vector<Vec3d> opened_places(const TornModel& model, const ModelPose& pose, const ChangeRecord& change) {
+/// Where the points that a call opened lie on the posed source: by their births, into which no
+/// interpolation of weights enters.
+std::vector<Vec3d> opened_places(const TornModel& model, const ModelPose& pose,
+                                 const ChangeRecord& change) {
   std::map<std::uint32_t, Vec3d> place_of_point;
   for (std::uint32_t m = 0; m < model.character().meshes.size(); ++m) {
     const Mesh &torn = model.character().meshes[m], &source = model.source().meshes[m];
@@ -131,7 +138,8 @@ std::vector<Vec3d> opened_places(const TornModel& model, const ModelPose& pose, 
           place = posed[vertex];
         } else {
           const Birth birth = model.birth(m, vertex);
-          for (std::size_t i = 0; i < 3; ++i) place += birth.barycentric[i] * posed[source.triangles[birth.triangle][i]];
+          for (std::size_t i = 0; i < 3; ++i)
+            place += birth.barycentric[i] * posed[source.triangles[birth.triangle][i]];
         }
         place_of_point[model.point_at(m, t, k)] = place;
       }
@@ -154,10 +162,13 @@ struct Subject {
 
 Subject random_tube(Random& random) {
   for (;;) {
-    const std::uint32_t rings = 4 + random.index(16), sides = 5 + random.index(20), bones = 2 + random.index(3);
+    const std::uint32_t rings = 4 + random.index(16), sides = 5 + random.index(20),
+                        bones = 2 + random.index(3);
     Subject subject{test::make_tube(rings, sides, bones), {}};
     subject.pose = test::random_pose(subject.character, random, 0.5, 1.2);
-    if (!processing::does_self_intersect(posed_surface(make_model(subject.character), subject.pose))) return subject;
+    if (!processing::does_self_intersect(
+            posed_surface(make_model(subject.character), subject.pose)))
+      return subject;
   }
 }
 
@@ -179,7 +190,8 @@ Character make_bunny() {
   for (const auto face : bunny.faces()) {
     Triangle& triangle = mesh.triangles.emplace_back();
     std::size_t k = 0;
-    for (const auto vertex : vertices_around_face(bunny.halfedge(face), bunny)) triangle[k++] = vertex.idx();
+    for (const auto vertex : vertices_around_face(bunny.halfedge(face), bunny))
+      triangle[k++] = vertex.idx();
   }
   mesh.triangle_submesh.assign(mesh.triangles.size(), 0);
   return character;
@@ -196,11 +208,15 @@ PlaneCut random_cut(const Subject& subject, Random& random) {
   return cut;
 }
 
-/// One triangle that reaches all of a body: two would add places where their common side passes through faces.
+/// One triangle that reaches all of a body: two would add places where their common side passes
+/// through faces.
 Judge sheet_of(const PlaneCut& cut, double diagonal) {
-  const Vec3d normal = cut.normal.normalized(), right = normal.unitOrthogonal(), up = normal.cross(right);
+  const Vec3d normal = cut.normal.normalized(), right = normal.unitOrthogonal(),
+              up = normal.cross(right);
   Judge sheet;
-  const auto corner = [&](double x, double y) { return sheet.add_vertex(to_judge(cut.point + diagonal * (x * right + y * up))); };
+  const auto corner = [&](double x, double y) {
+    return sheet.add_vertex(to_judge(cut.point + diagonal * (x * right + y * up)));
+  };
   const auto a = corner(-4, -2), b = corner(4, -2), c = corner(0, 4);
   sheet.add_face(a, b, c);
   return sheet;
@@ -225,7 +241,9 @@ void compare_cut(const Subject& subject, const PlaneCut& cut, double snap = 0) {
   EXPECT_THAT(test::broken_laws(model), IsEmpty());
   EXPECT_THAT(test::broken_surface(model), IsEmpty());
   // A corner that the plane cuts off nearer than anyone rounds is not a piece.
-  if (*std::min_element(parts.areas.begin(), parts.areas.end()) < std::max(snap, kRounding * diagonal) * diagonal) return;
+  if (*std::min_element(parts.areas.begin(), parts.areas.end()) <
+      std::max(snap, kRounding * diagonal) * diagonal)
+    return;
   const std::size_t components = count_topology(model.character()).components;
   // A bridge no wider than the rounding may hold two parts together or not.
   if (snap == 0) {
@@ -238,15 +256,18 @@ void compare_cut(const Subject& subject, const PlaneCut& cut, double snap = 0) {
   for (const TornPiece& piece : report->pieces) areas.push_back(piece.area_posed);
   if (parts.areas.size() > 1 && components == parts.areas.size()) {
     EXPECT_THAT(sorted(areas),
-                testing::Pointwise(testing::DoubleNear((snap + kRounding * diagonal) * diagonal), sorted(parts.areas)));
+                testing::Pointwise(testing::DoubleNear((snap + kRounding * diagonal) * diagonal),
+                                   sorted(parts.areas)));
   }
   const double near = snap + 1e-12 * diagonal;
-  const std::vector<Vec3d> opened = opened_places(model, subject.pose, change), section = distinct(parts.section, near);
+  const std::vector<Vec3d> opened = opened_places(model, subject.pose, change),
+                           section = distinct(parts.section, near);
   EXPECT_EQ(distinct(opened, near).size(), section.size());
   if (snap == 0) {
     EXPECT_EQ(opened.size(), section.size()) << "each place opens once";
   }
-  for (const Vec3d& place : opened) EXPECT_LE(distance_to(section, place), snap + kRounding * diagonal);
+  for (const Vec3d& place : opened)
+    EXPECT_LE(distance_to(section, place), snap + kRounding * diagonal);
   ++compared_cuts;
 }
 
@@ -268,13 +289,14 @@ TEST(CgalOracle, agrees_about_cuts_of_the_bunny) {
   ASSERT_FALSE(subject.character.meshes.empty());
   for (int i = 0; i < count_of_cases(8) && !testing::Test::HasFailure(); ++i) {
     SCOPED_TRACE(i);
-    subject.pose =
-        i % 2 == 0 ? test::random_pose(subject.character, random, 0, 1) : test::random_pose(subject.character, random, 0.3, 1.1);
+    subject.pose = i % 2 == 0 ? test::random_pose(subject.character, random, 0, 1)
+                              : test::random_pose(subject.character, random, 0.3, 1.1);
     compare_cut(subject, random_cut(subject, random));
   }
 }
 
-/// Through vertices, to the last bit and beside them: a place that would be stored as the end of its edge is that end.
+/// Through vertices, to the last bit and beside them: a place that would be stored as the end of
+/// its edge is that end.
 TEST(CgalOracle, agrees_about_cuts_through_vertices) {
   Random random(3);
   compared_cuts = 0;
@@ -298,7 +320,8 @@ struct Removal {
   std::size_t parts_outside = 0;
 };
 
-Removal remove_body(Judge surface, const std::vector<Vec3d>& corners, const test::ConvexCell& cell) {
+Removal remove_body(Judge surface, const std::vector<Vec3d>& corners,
+                    const test::ConvexCell& cell) {
   std::vector<Point> points;
   for (const Vec3d& corner : corners) points.push_back(to_judge(corner));
   Judge body;
@@ -307,8 +330,9 @@ Removal remove_body(Judge surface, const std::vector<Vec3d>& corners, const test
   const Parts parts = parts_of(surface);
   Removal removal;
   for (std::size_t part = 0; part < parts.areas.size(); ++part) {
-    const bool is_inside = std::all_of(
-        cell.begin(), cell.end(), [&](const test::HalfSpace& side) { return side.normal.dot(parts.middles[part]) <= side.offset; });
+    const bool is_inside = std::all_of(cell.begin(), cell.end(), [&](const test::HalfSpace& side) {
+      return side.normal.dot(parts.middles[part]) <= side.offset;
+    });
     if (is_inside)
       removal.area_inside += parts.areas[part];
     else
@@ -327,7 +351,8 @@ test::ConvexCell cell_around(const std::vector<Vec3d>& corners) {
   for (const auto face : body.faces()) {
     std::array<Vec3d, 3> at;
     std::size_t k = 0;
-    for (const auto vertex : vertices_around_face(body.halfedge(face), body)) at[k++] = from_judge(body.point(vertex));
+    for (const auto vertex : vertices_around_face(body.halfedge(face), body))
+      at[k++] = from_judge(body.point(vertex));
     const Vec3d normal = (at[1] - at[0]).cross(at[2] - at[0]).normalized();
     cell.push_back({normal, normal.dot(at[0])});
   }
@@ -337,17 +362,22 @@ test::ConvexCell cell_around(const std::vector<Vec3d>& corners) {
 void compare_gap(const Subject& subject, Random& random) {
   TornModel model = make_model(subject.character);
   const double diagonal = test::posed_diagonal(subject.character, subject.pose);
-  const Stroke around = test::random_stroke(subject.character, subject.pose, random, random.uniform(0.02, 0.6), 1);
-  const Vec3d motion = around[1].base - around[0].base, blade = random.uniform(1, 8) * (around[0].tip - around[0].base);
-  const Stroke stroke = {{around[0].base, around[0].base + blade}, {around[0].base + motion, around[0].base + motion + blade}};
+  const Stroke around =
+      test::random_stroke(subject.character, subject.pose, random, random.uniform(0.02, 0.6), 1);
+  const Vec3d motion = around[1].base - around[0].base,
+              blade = random.uniform(1, 8) * (around[0].tip - around[0].base);
+  const Stroke stroke = {{around[0].base, around[0].base + blade},
+                         {around[0].base + motion, around[0].base + motion + blade}};
   TearOptions options;
   options.width = random.uniform(0.005, 0.1) * diagonal;
   options.layers = Layers::all;
   const Vec3d half = 0.5 * options.width * motion.cross(blade).normalized();
   std::vector<Vec3d> corners;
   for (const Blade& at : stroke)
-    for (const Vec3d& end : {at.base, at.tip}) corners.insert(corners.end(), {end - half, end + half});
-  const Removal expected = remove_body(posed_surface(model, subject.pose), corners, cell_around(corners));
+    for (const Vec3d& end : {at.base, at.tip})
+      corners.insert(corners.end(), {end - half, end + half});
+  const Removal expected =
+      remove_body(posed_surface(model, subject.pose), corners, cell_around(corners));
 
   const auto report = model.tear(subject.pose, stroke, options);
   ASSERT_TRUE(report) << report.error().text();
@@ -377,7 +407,8 @@ TEST(CgalOracle, agrees_about_gaps_of_the_bunny) {
   }
 }
 
-/// A bore of which is only promised that it stays within the tolerance of the circle lies between two prisms.
+/// A bore of which is only promised that it stays within the tolerance of the circle lies between
+/// two prisms.
 void compare_bore(const Subject& subject, Random& random) {
   TornModel model = make_model(subject.character);
   const double diagonal = test::posed_diagonal(subject.character, subject.pose);
@@ -388,7 +419,8 @@ void compare_bore(const Subject& subject, Random& random) {
   bore.depth = random.uniform(0.5, 10) * bore.direction.norm();
   bore.radius = random.uniform(0.01, 0.2) * diagonal;
   bore.chord_tolerance = 1e-4 * bore.radius;
-  const Vec3d axis = bore.direction.normalized(), right = axis.unitOrthogonal(), up = axis.cross(right);
+  const Vec3d axis = bore.direction.normalized(), right = axis.unitOrthogonal(),
+              up = axis.cross(right);
   const auto removal_by = [&](double radius) {
     constexpr int kSides = 200;
     std::vector<Vec3d> corners;

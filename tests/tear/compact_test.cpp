@@ -20,7 +20,8 @@ template <class Value>
 void fill(std::vector<Value>& values, std::size_t count, Random& random) {
   values.resize(count);
   auto* const floats = reinterpret_cast<float*>(values.data());
-  for (std::size_t i = 0; i < count * sizeof(Value) / sizeof(float); ++i) floats[i] = static_cast<float>(random.uniform(-1, 1));
+  for (std::size_t i = 0; i < count * sizeof(Value) / sizeof(float); ++i)
+    floats[i] = static_cast<float>(random.uniform(-1, 1));
 }
 
 std::vector<Influence> random_influences(Random& random) {
@@ -31,7 +32,8 @@ std::vector<Influence> random_influences(Random& random) {
   }
 }
 
-/// A mesh with every kind of array, or with as few as may be; some of its triangles retired, some vertices without a triangle.
+/// A mesh with every kind of array, or with as few as may be; some of its triangles retired, some
+/// vertices without a triangle.
 Mesh random_mesh(Random& random, bool is_full) {
   Mesh mesh;
   mesh.name = is_full ? "full" : "bare";
@@ -45,7 +47,8 @@ Mesh random_mesh(Random& random, bool is_full) {
     for (auto& uv : mesh.uv_sets = std::vector<std::vector<Vec2f>>(2)) fill(uv, count, random);
     fill(mesh.color_sets.emplace_back(), count, random);
     for (std::uint32_t components = 1; components <= 4; ++components) {
-      mesh.custom_attributes.push_back({"_CUSTOM_" + std::to_string(components), components, components == 2, {}});
+      mesh.custom_attributes.push_back(
+          {"_CUSTOM_" + std::to_string(components), components, components == 2, {}});
       fill(mesh.custom_attributes.back().values, count * components, random);
     }
     mesh.morph_targets = {{"all", {}, {}, {}}, {"none", {}, {}, {}}};
@@ -56,7 +59,8 @@ Mesh random_mesh(Random& random, bool is_full) {
   const auto vertex = [&] { return random.index(static_cast<std::uint32_t>(count)); };
   for (std::uint32_t triangles = random.index(40); triangles > 0; --triangles) {
     const std::uint32_t a = vertex();
-    mesh.triangles.push_back(random.index(3) == 0 ? Triangle{a, a, a} : Triangle{a, vertex(), vertex()});
+    mesh.triangles.push_back(random.index(3) == 0 ? Triangle{a, a, a}
+                                                  : Triangle{a, vertex(), vertex()});
     mesh.triangle_submesh.push_back(random.index(2));
   }
   return mesh;
@@ -70,31 +74,38 @@ Character random_character(Random& random) {
 }
 
 template <class Value>
-bool are_kept(const std::vector<Value>& after, const std::vector<Value>& before, const std::vector<std::uint32_t>& old_from_new,
-              std::size_t per_element = 1) {
+bool are_kept(const std::vector<Value>& after, const std::vector<Value>& before,
+              const std::vector<std::uint32_t>& old_from_new, std::size_t per_element = 1) {
   if (before.empty()) return after.empty();
   if (after.size() != old_from_new.size() * per_element) return false;
   for (std::size_t i = 0; i < old_from_new.size(); ++i)
-    if (std::memcmp(&after[i * per_element], &before[old_from_new[i] * per_element], per_element * sizeof(Value)) != 0)
+    if (std::memcmp(&after[i * per_element], &before[old_from_new[i] * per_element],
+                    per_element * sizeof(Value)) != 0)
       return false;
   return true;
 }
 
-void expect_vertices_kept(const Mesh& after, const Mesh& before, const std::vector<std::uint32_t>& old_from_new) {
+void expect_vertices_kept(const Mesh& after, const Mesh& before,
+                          const std::vector<std::uint32_t>& old_from_new) {
   EXPECT_TRUE(are_kept(after.positions, before.positions, old_from_new));
   EXPECT_TRUE(are_kept(after.normals, before.normals, old_from_new));
   EXPECT_TRUE(are_kept(after.tangents, before.tangents, old_from_new));
-  for (std::size_t i = 0; i < before.uv_sets.size(); ++i) EXPECT_TRUE(are_kept(after.uv_sets[i], before.uv_sets[i], old_from_new));
+  for (std::size_t i = 0; i < before.uv_sets.size(); ++i)
+    EXPECT_TRUE(are_kept(after.uv_sets[i], before.uv_sets[i], old_from_new));
   for (std::size_t i = 0; i < before.color_sets.size(); ++i)
     EXPECT_TRUE(are_kept(after.color_sets[i], before.color_sets[i], old_from_new));
   for (std::size_t i = 0; i < before.custom_attributes.size(); ++i) {
     const CustomAttribute& attribute = before.custom_attributes[i];
-    EXPECT_TRUE(are_kept(after.custom_attributes[i].values, attribute.values, old_from_new, attribute.components));
+    EXPECT_TRUE(are_kept(after.custom_attributes[i].values, attribute.values, old_from_new,
+                         attribute.components));
   }
   for (std::size_t i = 0; i < before.morph_targets.size(); ++i) {
-    EXPECT_TRUE(are_kept(after.morph_targets[i].position_deltas, before.morph_targets[i].position_deltas, old_from_new));
-    EXPECT_TRUE(are_kept(after.morph_targets[i].normal_deltas, before.morph_targets[i].normal_deltas, old_from_new));
-    EXPECT_TRUE(are_kept(after.morph_targets[i].tangent_deltas, before.morph_targets[i].tangent_deltas, old_from_new));
+    EXPECT_TRUE(are_kept(after.morph_targets[i].position_deltas,
+                         before.morph_targets[i].position_deltas, old_from_new));
+    EXPECT_TRUE(are_kept(after.morph_targets[i].normal_deltas,
+                         before.morph_targets[i].normal_deltas, old_from_new));
+    EXPECT_TRUE(are_kept(after.morph_targets[i].tangent_deltas,
+                         before.morph_targets[i].tangent_deltas, old_from_new));
   }
   ASSERT_EQ(after.weights.vertex_count(), old_from_new.size());
   for (std::uint32_t v = 0; v < old_from_new.size(); ++v)
@@ -103,10 +114,12 @@ void expect_vertices_kept(const Mesh& after, const Mesh& before, const std::vect
 
 void expect_triangles_kept(const Mesh& after, const Mesh& before, const CompactMaps::OfMesh& maps) {
   ASSERT_EQ(after.triangle_count(), maps.triangle_old_from_new.size());
-  EXPECT_TRUE(are_kept(after.triangle_submesh, before.triangle_submesh, maps.triangle_old_from_new));
+  EXPECT_TRUE(
+      are_kept(after.triangle_submesh, before.triangle_submesh, maps.triangle_old_from_new));
   for (std::uint32_t t = 0; t < after.triangle_count(); ++t)
     for (std::size_t k = 0; k < 3; ++k)
-      EXPECT_EQ(maps.vertex_old_from_new[after.triangles[t][k]], before.triangles[maps.triangle_old_from_new[t]][k]);
+      EXPECT_EQ(maps.vertex_old_from_new[after.triangles[t][k]],
+                before.triangles[maps.triangle_old_from_new[t]][k]);
 }
 
 void expect_ascending(const std::vector<std::uint32_t>& map) {
@@ -122,7 +135,8 @@ void expect_nothing_superfluous(const Mesh& after, const Mesh& before) {
   }
   EXPECT_EQ(std::count(is_used.begin(), is_used.end(), false), 0);
   EXPECT_EQ(after.triangle_count(),
-            before.triangle_count() - std::count_if(before.triangles.begin(), before.triangles.end(), is_retired));
+            before.triangle_count() -
+                std::count_if(before.triangles.begin(), before.triangles.end(), is_retired));
 }
 
 TEST(Compact, keeps_every_bit_of_what_stays) {
@@ -155,7 +169,8 @@ TEST(Compact, a_second_time_changes_nothing) {
     const CompactMaps maps = compact(twice);
     EXPECT_EQ(twice, once);
     for (const auto& of_mesh : maps.meshes)
-      for (std::uint32_t v = 0; v < of_mesh.vertex_old_from_new.size(); ++v) EXPECT_EQ(of_mesh.vertex_old_from_new[v], v);
+      for (std::uint32_t v = 0; v < of_mesh.vertex_old_from_new.size(); ++v)
+        EXPECT_EQ(of_mesh.vertex_old_from_new[v], v);
   }
 }
 

@@ -1,4 +1,5 @@
-// Closed bodies cut with caps: pieces are closed bodies whose volumes add up to the whole, and are what Manifold makes of the cut.
+// Closed bodies cut with caps: pieces are closed bodies whose volumes add up to the whole, and are
+// what Manifold makes of the cut.
 #include <sunder/skinning/deform.h>
 #include <sunder/skinning/pose.h>
 #include <sunder/tear/topology.h>
@@ -35,7 +36,8 @@ int count_of_cases(int usual) { return test::stressed(usual, 20); }
 // ---- Bodies.
 
 /// On two bones; weights blend along x.
-Character make_body(const char* name, const std::vector<Vec3f>& positions, const std::vector<Triangle>& triangles) {
+Character make_body(const char* name, const std::vector<Vec3f>& positions,
+                    const std::vector<Triangle>& triangles) {
   Character character = test::make_sheet(1);  // for its bones
   Mesh& mesh = character.meshes[0];
   mesh = {};
@@ -58,8 +60,11 @@ Character make_torus(std::uint32_t around, std::uint32_t across) {
     for (std::uint32_t j = 0; j < across; ++j) {
       const double u = 2 * std::numbers::pi * i / around, v = 2 * std::numbers::pi * j / across;
       const double radius = 1 + 0.4 * std::cos(v);
-      positions.push_back(Vec3d(radius * std::cos(u), radius * std::sin(u), 0.4 * std::sin(v)).cast<float>());
-      const auto at = [&](std::uint32_t a, std::uint32_t b) { return (a % around) * across + b % across; };
+      positions.push_back(
+          Vec3d(radius * std::cos(u), radius * std::sin(u), 0.4 * std::sin(v)).cast<float>());
+      const auto at = [&](std::uint32_t a, std::uint32_t b) {
+        return (a % around) * across + b % across;
+      };
       triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
       triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
     }
@@ -72,11 +77,14 @@ Character make_ball(std::uint32_t rings, std::uint32_t sides) {
   for (std::uint32_t ring = 1; ring < rings; ++ring)
     for (std::uint32_t side = 0; side < sides; ++side) {
       const double u = std::numbers::pi * ring / rings, v = 2 * std::numbers::pi * side / sides;
-      positions.push_back(Vec3d(std::sin(u) * std::cos(v), std::sin(u) * std::sin(v), -std::cos(u)).cast<float>());
+      positions.push_back(
+          Vec3d(std::sin(u) * std::cos(v), std::sin(u) * std::sin(v), -std::cos(u)).cast<float>());
     }
   positions.emplace_back(0.0f, 0.0f, 1.0f);
   const auto top = static_cast<std::uint32_t>(positions.size() - 1);
-  const auto at = [&](std::uint32_t ring, std::uint32_t side) { return 1 + (ring - 1) * sides + side % sides; };
+  const auto at = [&](std::uint32_t ring, std::uint32_t side) {
+    return 1 + (ring - 1) * sides + side % sides;
+  };
   for (std::uint32_t side = 0; side < sides; ++side) {
     triangles.push_back({0, at(1, side + 1), at(1, side)});
     for (std::uint32_t ring = 1; ring + 1 < rings; ++ring) {
@@ -88,10 +96,12 @@ Character make_ball(std::uint32_t rings, std::uint32_t sides) {
   return make_body("ball", positions, triangles);
 }
 
-void add_box(const Vec3f& low, const Vec3f& high, bool inwards, std::vector<Vec3f>& positions, std::vector<Triangle>& triangles) {
+void add_box(const Vec3f& low, const Vec3f& high, bool inwards, std::vector<Vec3f>& positions,
+             std::vector<Triangle>& triangles) {
   const auto first = static_cast<std::uint32_t>(positions.size());
   for (const int corner : {0, 1, 3, 2, 4, 5, 7, 6})
-    positions.emplace_back((corner & 1) != 0 ? high.x() : low.x(), (corner & 2) != 0 ? high.y() : low.y(),
+    positions.emplace_back((corner & 1) != 0 ? high.x() : low.x(),
+                           (corner & 2) != 0 ? high.y() : low.y(),
                            (corner & 4) != 0 ? high.z() : low.z());
   for (Triangle triangle : {Triangle{0, 2, 1},
                             {0, 3, 2},
@@ -121,7 +131,8 @@ Character make_nested_boxes() {
 }
 
 Character random_body(Random& random) {
-  const std::uint32_t a = random.index(16), b = random.index(16);  // in this order with every compiler
+  const std::uint32_t a = random.index(16),
+                      b = random.index(16);  // in this order with every compiler
   switch (random.index(4)) {
     case 0: return make_torus(5 + a, 4 + b);
     case 1: return make_ball(3 + a, 4 + b);
@@ -132,8 +143,8 @@ Character random_body(Random& random) {
 
 // ---- What is there after cuts.
 
-/// Places of a torn body's points on the posed source and in the planes of its cuts, in double: no stored position is in it but the
-/// source's.
+/// Places of a torn body's points on the posed source and in the planes of its cuts, in double: no
+/// stored position is in it but the source's.
 class Places {
  public:
   Places(const TornModel& model, const ModelPose& pose) : model_(model), pose_(pose) {
@@ -148,14 +159,17 @@ class Places {
     const auto first = static_cast<std::uint32_t>(of_vertex_.size());
     of_vertex_.resize(mesh.vertex_count(), Vec3d::Constant(std::nan("")));
     const auto corner_of = [&](const Birth& birth, std::size_t k) {
-      return birth.triangle < source_triangles ? model_.source().meshes[0].triangles[birth.triangle][k]
-                                               : model_.fillings(0)[birth.triangle - source_triangles][k];
+      return birth.triangle < source_triangles
+                 ? model_.source().meshes[0].triangles[birth.triangle][k]
+                 : model_.fillings(0)[birth.triangle - source_triangles][k];
     };
     const auto is_own = [&](std::uint32_t vertex) {  // a corner of a cap as it was made
       if (vertex < source_vertices) return false;
       const Birth birth = model_.birth(0, vertex);
       for (std::size_t k = 0; k < 3; ++k)
-        if (birth.triangle >= source_triangles && birth.barycentric[k] == 1 && corner_of(birth, k) == vertex) return true;
+        if (birth.triangle >= source_triangles && birth.barycentric[k] == 1 &&
+            corner_of(birth, k) == vertex)
+          return true;
       return false;
     };
     for (std::uint32_t vertex = first; vertex < mesh.vertex_count(); ++vertex) {
@@ -163,14 +177,16 @@ class Places {
       const Birth birth = model_.birth(0, vertex);
       of_vertex_[vertex] = Vec3d::Zero();
       for (std::size_t k = 0; k < 3; ++k)
-        if (birth.barycentric[k] != 0) of_vertex_[vertex] += birth.barycentric[k] * of_vertex_[corner_of(birth, k)];
+        if (birth.barycentric[k] != 0)
+          of_vertex_[vertex] += birth.barycentric[k] * of_vertex_[corner_of(birth, k)];
     }
     std::vector<Vec3d> of_point(model_.point_count(), Vec3d::Constant(std::nan("")));
-    const auto for_each_corner = [&](const std::function<void(std::uint32_t, std::uint32_t)>& visit) {
-      for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t)
-        for (std::uint32_t k = 0; k < 3 && !is_retired(mesh.triangles[t]); ++k)
-          visit(mesh.triangles[t][k], model_.point_at(0, t, k));
-    };
+    const auto for_each_corner =
+        [&](const std::function<void(std::uint32_t, std::uint32_t)>& visit) {
+          for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t)
+            for (std::uint32_t k = 0; k < 3 && !is_retired(mesh.triangles[t]); ++k)
+              visit(mesh.triangles[t][k], model_.point_at(0, t, k));
+        };
     for_each_corner([&](std::uint32_t vertex, std::uint32_t point) {
       if (of_vertex_[vertex].allFinite()) of_point[point] = of_vertex_[vertex];
     });
@@ -200,7 +216,8 @@ struct Body {
   double volume = 0;
 };
 
-std::vector<Body> bodies_of(const TornModel& model, const std::function<Vec3d(std::uint32_t)>& place) {
+std::vector<Body> bodies_of(const TornModel& model,
+                            const std::function<Vec3d(std::uint32_t)>& place) {
   const Mesh& mesh = model.character().meshes[0];
   std::map<std::array<std::uint32_t, 2>, std::vector<std::uint32_t>> faces_of_edge;  // directed
   std::vector<std::uint32_t> parent(mesh.triangle_count());
@@ -213,7 +230,8 @@ std::vector<Body> bodies_of(const TornModel& model, const std::function<Vec3d(st
     return std::array{model.point_at(0, t, k), model.point_at(0, t, (k + 1) % 3)};
   };
   for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t)
-    for (std::uint32_t k = 0; k < 3 && !is_retired(mesh.triangles[t]); ++k) faces_of_edge[edge_of(t, k)].push_back(t);
+    for (std::uint32_t k = 0; k < 3 && !is_retired(mesh.triangles[t]); ++k)
+      faces_of_edge[edge_of(t, k)].push_back(t);
   std::set<std::uint32_t> with_border;
   for (const auto& [edge, faces] : faces_of_edge) {
     const auto other = faces_of_edge.find({edge[1], edge[0]});
@@ -228,7 +246,8 @@ std::vector<Body> bodies_of(const TornModel& model, const std::function<Vec3d(st
     Body& body = bodies[find(t)];
     body.triangles.push_back(t);
     body.is_closed = body.is_closed && !with_border.contains(t);
-    const Vec3d a = place(mesh.triangles[t][0]), b = place(mesh.triangles[t][1]), c = place(mesh.triangles[t][2]);
+    const Vec3d a = place(mesh.triangles[t][0]), b = place(mesh.triangles[t][1]),
+                c = place(mesh.triangles[t][2]);
     body.volume += a.dot(Vec3d(b.cross(c))) / 6;
   }
   std::vector<Body> result;
@@ -237,7 +256,8 @@ std::vector<Body> bodies_of(const TornModel& model, const std::function<Vec3d(st
 }
 
 double sum_of_volumes(const std::vector<Body>& bodies) {
-  return std::accumulate(bodies.begin(), bodies.end(), 0.0, [](double sum, const Body& body) { return sum + body.volume; });
+  return std::accumulate(bodies.begin(), bodies.end(), 0.0,
+                         [](double sum, const Body& body) { return sum + body.volume; });
 }
 
 std::array<double, 4> plane_of(const PlaneCut& cut) {
@@ -286,10 +306,12 @@ SplitCells cells_of(const TornModel& model, const std::vector<Body>& bodies, con
 void expect_same_cells(const SplitCells& ours, const SplitCells& theirs, double whole) {
   for (const auto& [sides, cell] : ours) {
     const auto other = theirs.find(sides);
-    EXPECT_NEAR(cell.volume, other == theirs.end() ? 0.0 : other->second.volume, 1e-6 * whole) << sides;
+    EXPECT_NEAR(cell.volume, other == theirs.end() ? 0.0 : other->second.volume, 1e-6 * whole)
+        << sides;
   }
   for (const auto& [sides, cell] : theirs)
-    EXPECT_TRUE(ours.contains(sides) || std::abs(cell.volume) <= 1e-6 * whole) << sides << " has volume " << cell.volume;
+    EXPECT_TRUE(ours.contains(sides) || std::abs(cell.volume) <= 1e-6 * whole)
+        << sides << " has volume " << cell.volume;
 }
 
 PlaneCut cut_at(const Vec3d& point, const Vec3d& normal) {
@@ -309,8 +331,8 @@ Vec3d somewhere_in(const Character& character, const ModelPose& pose, Random& ra
   return place;
 }
 
-/// A cut's places are known in double. Those of a later one's rim lie in its plane only as exactly as positions are stored, and so
-/// does a vertex to which the plane is nearer than that.
+/// A cut's places are known in double. Those of a later one's rim lie in its plane only as exactly
+/// as positions are stored, and so does a vertex to which the plane is nearer than that.
 constexpr double kExact = 1e-12, kStored = 1e-6;
 
 /// Cuts a copy of the body and looks at what came of it.
@@ -323,8 +345,8 @@ struct CutBody {
 
 /// @param rounding   of the volume, as a part of it.
 /// @param may_touch  the section may touch itself; what does gets no cap.
-CutBody cut_and_check(const Character& character, const ModelPose& pose, const std::vector<PlaneCut>& cuts, double rounding,
-                      bool may_touch = false) {
+CutBody cut_and_check(const Character& character, const ModelPose& pose,
+                      const std::vector<PlaneCut>& cuts, double rounding, bool may_touch = false) {
   CutBody result;
   TornModel model = make_model(character);
   result.task = task_of(character, pose);
@@ -334,8 +356,8 @@ CutBody cut_and_check(const Character& character, const ModelPose& pose, const s
   for (const Body& body : before) EXPECT_TRUE(body.is_closed);
   result.whole = sum_of_volumes(before);
   for (const PlaneCut& cut : cuts) {
-    SCOPED_TRACE(testing::Message() << character.name << ", point " << cut.point.transpose() << ", normal "
-                                    << cut.normal.transpose());
+    SCOPED_TRACE(testing::Message() << character.name << ", point " << cut.point.transpose()
+                                    << ", normal " << cut.normal.transpose());
     const auto report = model.cut(pose, cut);
     EXPECT_TRUE(report) << report.error().text();
     result.is_capped = result.is_capped && report->open_sections == 0 && report->blocked == 0;
@@ -356,7 +378,8 @@ CutBody cut_and_check(const Character& character, const ModelPose& pose, const s
   }
   const auto stored = test::posed_positions(model.character(), 0, pose);
   if (cuts.size() > 1 && result.is_capped) {
-    EXPECT_NEAR(sum_of_volumes(bodies_of(model, [&](std::uint32_t v) { return stored[v]; })), result.whole, 1e-5 * result.whole);
+    EXPECT_NEAR(sum_of_volumes(bodies_of(model, [&](std::uint32_t v) { return stored[v]; })),
+                result.whole, 1e-5 * result.whole);
   }
   result.cells = cells_of(model, bodies, result.task, place);
   EXPECT_THAT(test::broken_laws(model), IsEmpty());
@@ -376,7 +399,8 @@ void compare(const std::vector<CutBody>& bodies) {
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     std::ostringstream planes;
     planes.precision(17);
-    for (const auto& [x, y, z, offset] : tasks[i].planes) planes << x << ' ' << y << ' ' << z << ' ' << offset << '\n';
+    for (const auto& [x, y, z, offset] : tasks[i].planes)
+      planes << x << ' ' << y << ' ' << z << ' ' << offset << '\n';
     SCOPED_TRACE(planes.str());
     expect_same_cells(bodies[i].cells, cells[i], bodies[i].whole);
   }
@@ -428,8 +452,9 @@ TEST(CutVolume, of_many_cuts_adds_up) {
   compare(bodies);
 }
 
-/// Whether a plane so nearly passes a face, the farthest point of a body or a saddle of it that stored positions cannot tell it
-/// from them: there pieces without volume come off, or the section touches itself and gets no cap.
+/// Whether a plane so nearly passes a face, the farthest point of a body or a saddle of it that
+/// stored positions cannot tell it from them: there pieces without volume come off, or the section
+/// touches itself and gets no cap.
 bool grazes(const Character& character, const PlaneCut& cut) {
   constexpr double kNear = 2e-3;
   const SplitTask task = task_of(character, bind_pose(character));
@@ -438,7 +463,9 @@ bool grazes(const Character& character, const PlaneCut& cut) {
     const double distance = cut.normal.normalized().dot(Vec3d(x, y, z) - cut.point);
     side.push_back(distance > kNear ? 1 : distance < -kNear ? -1 : 0);
   }
-  if (std::find(side.begin(), side.end(), 1) == side.end() || std::find(side.begin(), side.end(), -1) == side.end()) return true;
+  if (std::find(side.begin(), side.end(), 1) == side.end() ||
+      std::find(side.begin(), side.end(), -1) == side.end())
+    return true;
   std::map<std::uint32_t, int> lines;                       // in which the plane leaves a point
   std::map<std::array<std::uint32_t, 2>, int> side_beside;  // of edges in the plane
   for (const auto& triangle : task.triangles) {

@@ -1,5 +1,5 @@
-// Every operation on what is hard for it: soups, collapsed and mirrored bones, planes in faces, blades far smaller and far larger
-// than what they meet, tears along, across and into one another.
+// Every operation on what is hard for it: soups, collapsed and mirrored bones, planes in faces,
+// blades far smaller and far larger than what they meet, tears along, across and into one another.
 #include <sunder/skinning/deform.h>
 #include <sunder/skinning/pose.h>
 #include <sunder/tear/tear_stroke.h>
@@ -33,7 +33,8 @@ using testing::IsEmpty;
 int count_of_cases(int usual) { return test::stressed(usual, 40); }
 
 Character make_subject(Random& random) {
-  const std::uint32_t a = random.index(10), b = random.index(10);  // in this order with every compiler
+  const std::uint32_t a = random.index(10),
+                      b = random.index(10);  // in this order with every compiler
   switch (random.index(5)) {
     case 0: return test::make_sheet(1 + a);
     case 1: return test::make_tube(2 + a, 3 + b, 3);
@@ -44,12 +45,14 @@ Character make_subject(Random& random) {
 
 /// A pose with bones that are collapsed, mirrored or sheared, or all of them as they are bound.
 ModelPose hard_pose(const Character& character, Random& random) {
-  ModelPose pose = random.index(3) == 0 ? bind_pose(character) : test::random_pose(character, random, 0.6, 1.3);
+  ModelPose pose =
+      random.index(3) == 0 ? bind_pose(character) : test::random_pose(character, random, 0.6, 1.3);
   if (random.index(2) == 0) return pose;
   for (Affine3d& bone : pose.model_from_bone) {
     Mat3d change = Mat3d::Identity();
     const auto any_entry = [&]() -> double& {
-      const std::uint32_t column = random.index(3), row = random.index(3);  // in this order with every compiler
+      const std::uint32_t column = random.index(3),
+                          row = random.index(3);  // in this order with every compiler
       return change(row, column);
     };
     switch (random.index(6)) {
@@ -78,7 +81,9 @@ Target target_of(const Character& character, const ModelPose& pose) {
     const auto positions = test::posed_positions(character, m, pose);
     target.vertices.insert(target.vertices.end(), positions.begin(), positions.end());
     for (const Triangle& triangle : character.meshes[m].triangles)
-      if (!is_retired(triangle)) target.faces.push_back({positions[triangle[0]], positions[triangle[1]], positions[triangle[2]]});
+      if (!is_retired(triangle))
+        target.faces.push_back(
+            {positions[triangle[0]], positions[triangle[1]], positions[triangle[2]]});
   }
   target.size = std::max(test::posed_diagonal(character, pose), 1e-3);
   return target;
@@ -111,15 +116,19 @@ Vec3d direction_at(const Target& target, Random& random) {
     case 2: direction = (face[1] - face[0]).cross(face[2] - face[0]); break;
     default: break;
   }
-  return direction.norm() > 1e-12 * target.size ? Vec3d(direction / direction.norm()) : random.direction();
+  return direction.norm() > 1e-12 * target.size ? Vec3d(direction / direction.norm())
+                                                : random.direction();
 }
 
-double any_scale(Random& random, double low, double high) { return std::exp(random.uniform(std::log(low), std::log(high))); }
+double any_scale(Random& random, double low, double high) {
+  return std::exp(random.uniform(std::log(low), std::log(high)));
+}
 
 Stroke hard_stroke(const Target& target, Random& random) {
   Stroke stroke;
   const Vec3d down = -direction_at(target, random);
-  const double reach = any_scale(random, 1e-2, 10) * target.size, step = any_scale(random, 1e-6, 10) * target.size;
+  const double reach = any_scale(random, 1e-2, 10) * target.size,
+               step = any_scale(random, 1e-6, 10) * target.size;
   Vec3d at = place_on(target, random), along = direction_at(target, random);
   const double start = random.index(2) == 0 ? 0.0 : random.uniform(0, 1);
   at -= start * step * along;
@@ -146,9 +155,11 @@ PlaneCut hard_cut(const Target& target, Random& random) {
   const auto& face = one_of(target.faces, random);
   cut.point = face[random.index(3)];
   cut.normal = (face[1] - face[0]).cross(face[2] - face[0]);
-  if (random.index(2) == 0 || !(cut.normal.norm() > 1e-12 * target.size * target.size)) cut.normal = direction_at(target, random);
+  if (random.index(2) == 0 || !(cut.normal.norm() > 1e-12 * target.size * target.size))
+    cut.normal = direction_at(target, random);
   if (random.index(2) == 0)
-    cut.point += std::pow(10.0, -static_cast<double>(3 + random.index(14))) * target.size * cut.normal.normalized();
+    cut.point += std::pow(10.0, -static_cast<double>(3 + random.index(14))) * target.size *
+                 cut.normal.normalized();
   if (random.index(3) == 0) {  // through an edge
     const Vec3d edge = face[1] - face[0], across = edge.cross(random.direction());
     if (across.norm() > 1e-12 * target.size) cut.normal = across;
@@ -175,7 +186,8 @@ Bore hard_bore(const Target& target, Random& random) {
   return bore;
 }
 
-Result<TearReport> tear_blade_by_blade(TornModel& model, const ModelPose& pose, const Stroke& stroke, const TearOptions& options) {
+Result<TearReport> tear_blade_by_blade(TornModel& model, const ModelPose& pose,
+                                       const Stroke& stroke, const TearOptions& options) {
   auto tearing = TearStroke::create(model, pose, stroke[0], options);
   if (!tearing) return tearing.error();
   for (std::size_t i = 1; i < stroke.size(); ++i)
@@ -186,15 +198,18 @@ Result<TearReport> tear_blade_by_blade(TornModel& model, const ModelPose& pose, 
 std::string describe(const Stroke& stroke, const TearOptions& options) {
   std::ostringstream text;
   text.precision(17);
-  text << "tear, width " << options.width << ", layers " << static_cast<int>(options.layers) << ", wall " << options.wall_depth;
-  for (const Blade& blade : stroke) text << "\n  " << blade.base.transpose() << " -> " << blade.tip.transpose();
+  text << "tear, width " << options.width << ", layers " << static_cast<int>(options.layers)
+       << ", wall " << options.wall_depth;
+  for (const Blade& blade : stroke)
+    text << "\n  " << blade.base.transpose() << " -> " << blade.tip.transpose();
   return text.str();
 }
 
 std::string describe(const PlaneCut& cut) {
   std::ostringstream text;
   text.precision(17);
-  text << "cut at " << cut.point.transpose() << ", normal " << cut.normal.transpose() << (cut.caps ? ", caps" : "");
+  text << "cut at " << cut.point.transpose() << ", normal " << cut.normal.transpose()
+       << (cut.caps ? ", caps" : "");
   for (const Vec3d& corner : cut.bounds) text << "\n  " << corner.transpose();
   return text.str();
 }
@@ -202,8 +217,9 @@ std::string describe(const PlaneCut& cut) {
 std::string describe(const Bore& bore) {
   std::ostringstream text;
   text.precision(17);
-  text << "bore from " << bore.origin.transpose() << " along " << bore.direction.transpose() << ", radius " << bore.radius
-       << ", depth " << bore.depth << ", tolerance " << bore.chord_tolerance << (bore.wall ? ", wall" : "");
+  text << "bore from " << bore.origin.transpose() << " along " << bore.direction.transpose()
+       << ", radius " << bore.radius << ", depth " << bore.depth << ", tolerance "
+       << bore.chord_tolerance << (bore.wall ? ", wall" : "");
   return text.str();
 }
 
@@ -253,25 +269,29 @@ class Subject {
   int done = 0;
 
  private:
-  /// Each piece is all that hangs together with any triangle of it. Triangles that have a point twice hang together with none.
+  /// Each piece is all that hangs together with any triangle of it. Triangles that have a point
+  /// twice hang together with none.
   void expect_pieces_are_components(const TearReport& report) {
     if (report.pieces.empty() || !is_clear_) return;
     using Face = std::array<std::uint32_t, 2>;  // mesh, triangle
     std::map<std::array<std::uint32_t, 2>, std::vector<Face>> faces_of_edge;
     const auto for_each_edge = [&](const Face& face, auto visit) {
       for (std::uint32_t k = 0; k < 3; ++k) {
-        const std::uint32_t a = model.point_at(face[0], face[1], k), b = model.point_at(face[0], face[1], (k + 1) % 3);
+        const std::uint32_t a = model.point_at(face[0], face[1], k),
+                            b = model.point_at(face[0], face[1], (k + 1) % 3);
         visit(std::array{std::min(a, b), std::max(a, b)});
       }
     };
     const auto has_repeated_point = [&](const Face& face) {
-      const std::uint32_t a = model.point_at(face[0], face[1], 0), b = model.point_at(face[0], face[1], 1),
+      const std::uint32_t a = model.point_at(face[0], face[1], 0),
+                          b = model.point_at(face[0], face[1], 1),
                           c = model.point_at(face[0], face[1], 2);
       return a == b || b == c || c == a;
     };
     for (std::uint32_t m = 0; m < model.character().meshes.size(); ++m)
       for (std::uint32_t t = 0; t < model.character().meshes[m].triangle_count(); ++t)
-        if (!has_repeated_point({m, t})) for_each_edge({m, t}, [&](const auto& edge) { faces_of_edge[edge].push_back({m, t}); });
+        if (!has_repeated_point({m, t}))
+          for_each_edge({m, t}, [&](const auto& edge) { faces_of_edge[edge].push_back({m, t}); });
     for (const TornPiece& piece : report.pieces) {
       std::set<Face> named, found;
       for (const TornPiece::Triangles& of_mesh : piece.meshes)
@@ -302,19 +322,22 @@ void run_hard_operation(Subject& subject, const ModelPose& pose, Random& random)
   switch (random.index(4)) {
     case 0: {
       const PlaneCut cut = hard_cut(target, random);
-      subject.run(describe(cut), [&](ChangeRecord& change) { return subject.model.cut(pose, cut, &change); });
+      subject.run(describe(cut),
+                  [&](ChangeRecord& change) { return subject.model.cut(pose, cut, &change); });
       break;
     }
     case 1: {
       const Bore bore = hard_bore(target, random);
-      subject.run(describe(bore), [&](ChangeRecord& change) { return subject.model.drill(pose, bore, &change); });
+      subject.run(describe(bore),
+                  [&](ChangeRecord& change) { return subject.model.drill(pose, bore, &change); });
       break;
     }
     default: {
       const Stroke stroke = hard_stroke(target, random);
       const TearOptions options = hard_options(target, random);
-      subject.run(describe(stroke, options),
-                  [&](ChangeRecord& change) { return subject.model.tear(pose, stroke, options, &change); });
+      subject.run(describe(stroke, options), [&](ChangeRecord& change) {
+        return subject.model.tear(pose, stroke, options, &change);
+      });
     }
   }
 }
@@ -343,25 +366,33 @@ TEST(Degenerate, operations_on_hard_subjects_in_hard_poses_keep_every_law) {
   EXPECT_GT(done, count);
 }
 
-/// Rings of a bore whose points one face joins; caps back to back with a single face, which the next cut goes through.
+/// Rings of a bore whose points one face joins; caps back to back with a single face, which the
+/// next cut goes through.
 TEST(Degenerate, walls_and_caps_give_no_edge_a_third_face) {
-  for (const std::uint64_t seed : {6367u, 7589u, 9340u, 15940u}) EXPECT_GT(run_hard_operations(seed), 0);
+  for (const std::uint64_t seed : {6367u, 7589u, 9340u, 15940u})
+    EXPECT_GT(run_hard_operations(seed), 0);
 }
 
 TEST(Degenerate, triangles_with_a_point_twice_are_of_no_piece) {
   for (const std::uint64_t seed : {9558u, 13692u, 15125u}) EXPECT_GT(run_hard_operations(seed), 0);
 }
 
-/// Where the surface of a collapsed bone bends away, the plane of two blades leads back past the first of them.
+/// Where the surface of a collapsed bone bends away, the plane of two blades leads back past the
+/// first of them.
 TEST(Degenerate, a_tear_that_could_go_on_before_its_first_blade_comes_to_an_end) {
   Subject subject(test::make_sheet(10));
   ModelPose pose = bind_pose(subject.model.source());
   pose.model_from_bone[0].linear().setZero();
-  const Stroke stroke = {{{0.14436965948727123, 0.24107710487067946, 0.5}, {0.14436965948727123, 0.24107710487067946, -0.05}},
-                         {{0.14437489273824325, 0.24112420412747801, 0.5}, {0.14437489273824325, 0.24112420412747801, -0.3}},
-                         {{0.14438012598921526, 0.24117130338427656, 0.5}, {0.14438012598921526, 0.24117130338427656, -0.04}},
-                         {{0.14438535924018728, 0.24121840264107511, 0.5}, {0.14438535924018728, 0.24121840264107511, -0.1}}};
-  subject.run(describe(stroke, {}), [&](ChangeRecord& change) { return subject.model.tear(pose, stroke, {}, &change); });
+  const Stroke stroke = {{{0.14436965948727123, 0.24107710487067946, 0.5},
+                          {0.14436965948727123, 0.24107710487067946, -0.05}},
+                         {{0.14437489273824325, 0.24112420412747801, 0.5},
+                          {0.14437489273824325, 0.24112420412747801, -0.3}},
+                         {{0.14438012598921526, 0.24117130338427656, 0.5},
+                          {0.14438012598921526, 0.24117130338427656, -0.04}},
+                         {{0.14438535924018728, 0.24121840264107511, 0.5},
+                          {0.14438535924018728, 0.24121840264107511, -0.1}}};
+  subject.run(describe(stroke, {}),
+              [&](ChangeRecord& change) { return subject.model.tear(pose, stroke, {}, &change); });
   EXPECT_EQ(subject.done, 1);
 }
 
@@ -376,7 +407,8 @@ Stroke stroke_along(const std::vector<Vec2d>& places) {
 Vec2d place_in_sheet(Random& random, std::uint32_t cells) {
   const double x = random.uniform(0.15, 0.85), y = random.uniform(0.15, 0.85);
   if (random.index(2) == 0) return {x, y};
-  return {std::round(x * cells) / cells, std::round(y * cells) / cells};  // through vertices, along edges
+  return {std::round(x * cells) / cells,
+          std::round(y * cells) / cells};  // through vertices, along edges
 }
 
 TearOptions any_width(Random& random) {
@@ -395,28 +427,44 @@ TEST(Degenerate, tears_meet_older_tears_in_every_way) {
     const ModelPose pose = bind_pose(subject.model.source());
     const auto tear = [&](const Stroke& stroke, const TearOptions& options) {
       if (random.index(3) == 0)
-        subject.run(test::say(describe(stroke, options), " blade by blade"),
-                    [&](ChangeRecord&) { return tear_blade_by_blade(subject.model, pose, stroke, options); });
+        subject.run(test::say(describe(stroke, options), " blade by blade"), [&](ChangeRecord&) {
+          return tear_blade_by_blade(subject.model, pose, stroke, options);
+        });
       else
-        subject.run(describe(stroke, options),
-                    [&](ChangeRecord& change) { return subject.model.tear(pose, stroke, options, &change); });
+        subject.run(describe(stroke, options), [&](ChangeRecord& change) {
+          return subject.model.tear(pose, stroke, options, &change);
+        });
     };
     const Vec2d a = place_in_sheet(random, cells), b = place_in_sheet(random, cells);
     const Vec2d middle = 0.5 * (a + b), across = Vec2d(-(b - a).y(), (b - a).x());
     const Stroke first = stroke_along({a, middle, b});
     tear(first, any_width(random));
     switch (random.index(8)) {
-      case 0: tear(first, any_width(random)); break;                                                         // the same once more
-      case 1: tear(stroke_along({b, middle, a}), any_width(random)); break;                                  // and back
-      case 2: tear(stroke_along({a - 0.3 * (b - a), b + 0.3 * (b - a)}), any_width(random)); break;          // along it and beyond
-      case 3: tear(stroke_along({b, b + 0.4 * across}), any_width(random)); break;                           // on from its tip
-      case 4: tear(stroke_along({b - 0.3 * across, b, b + 0.3 * across}), any_width(random)); break;         // through its tip
-      case 5: tear(stroke_along({middle - 0.4 * across, middle + 0.4 * across}), any_width(random)); break;  // X
-      case 6: tear(stroke_along({middle - 0.4 * across, middle}), any_width(random)); break;                 // T, into it
-      default: tear(stroke_along({middle, middle + 0.4 * across}), any_width(random)); break;                // T, out of it
+      case 0: tear(first, any_width(random)); break;                         // the same once more
+      case 1: tear(stroke_along({b, middle, a}), any_width(random)); break;  // and back
+      case 2:
+        tear(stroke_along({a - 0.3 * (b - a), b + 0.3 * (b - a)}), any_width(random));
+        break;  // along it and beyond
+      case 3:
+        tear(stroke_along({b, b + 0.4 * across}), any_width(random));
+        break;  // on from its tip
+      case 4:
+        tear(stroke_along({b - 0.3 * across, b, b + 0.3 * across}), any_width(random));
+        break;  // through its tip
+      case 5:
+        tear(stroke_along({middle - 0.4 * across, middle + 0.4 * across}), any_width(random));
+        break;  // X
+      case 6:
+        tear(stroke_along({middle - 0.4 * across, middle}), any_width(random));
+        break;  // T, into it
+      default:
+        tear(stroke_along({middle, middle + 0.4 * across}), any_width(random));
+        break;  // T, out of it
     }
     const TearOptions options = any_width(random);
-    tear(stroke_along({place_in_sheet(random, cells), place_in_sheet(random, cells), place_in_sheet(random, cells)}), options);
+    tear(stroke_along({place_in_sheet(random, cells), place_in_sheet(random, cells),
+                       place_in_sheet(random, cells)}),
+         options);
     subject.undo_everything();
     if (testing::Test::HasFailure()) return;
   }
@@ -428,9 +476,11 @@ void tear_ring_in_sheet(std::uint64_t seed) {
   const std::uint32_t cells = 1 + random.index(16), corners = 3 + random.index(12);
   Subject subject(test::make_sheet(cells));
   const ModelPose pose = bind_pose(subject.model.source());
-  const double y = random.uniform(0.4, 0.6), x = random.uniform(0.4, 0.6);  // in this order with every compiler
+  const double y = random.uniform(0.4, 0.6),
+               x = random.uniform(0.4, 0.6);  // in this order with every compiler
   const Vec2d center(x, y);
-  const double radius = random.uniform(0.1, 0.35), begin = random.uniform(0, 6), turn = random.index(2) == 0 ? 1 : -1;
+  const double radius = random.uniform(0.1, 0.35), begin = random.uniform(0, 6),
+               turn = random.index(2) == 0 ? 1 : -1;
   std::vector<Vec2d> places;
   for (std::uint32_t i = 0; i < corners; ++i) {
     const double angle = begin + turn * 2 * std::numbers::pi * i / corners;
@@ -443,8 +493,8 @@ void tear_ring_in_sheet(std::uint64_t seed) {
   TearReport report;
   const bool at_once = random.index(2) == 0;
   subject.run(describe(stroke, options), [&](ChangeRecord& change) {
-    auto result =
-        at_once ? subject.model.tear(pose, stroke, options, &change) : tear_blade_by_blade(subject.model, pose, stroke, options);
+    auto result = at_once ? subject.model.tear(pose, stroke, options, &change)
+                          : tear_blade_by_blade(subject.model, pose, stroke, options);
     if (result) report = *result;
     return result;
   });
@@ -455,9 +505,11 @@ void tear_ring_in_sheet(std::uint64_t seed) {
   const double free = report.pieces[0].area_posed, rest = 1 - report.area_removed_posed - free;
   const double perimeter = 2 * corners * radius * std::sin(std::numbers::pi / corners);
   const double rim = 0.5 * options.width * perimeter;
-  // On edges that tears made, places snap by up to 3 % of the faces' longest side: some of them, to either side.
+  // On edges that tears made, places snap by up to 3 % of the faces' longest side: some of them, to
+  // either side.
   const double snapped = 0.2 * 0.03 * std::numbers::sqrt2 / cells * perimeter;
-  EXPECT_LE(std::min(std::abs(free - area), std::abs(rest - area)), 1.1 * rim + snapped) << describe(stroke, options);
+  EXPECT_LE(std::min(std::abs(free - area), std::abs(rest - area)), 1.1 * rim + snapped)
+      << describe(stroke, options);
   subject.undo_everything();
 }
 
@@ -468,16 +520,19 @@ TEST(Degenerate, a_ring_sets_free_what_is_in_it) {
 
 /// Where the path back snaps beside the place where it began.
 TEST(Degenerate, a_ring_meets_its_begin) {
-  for (const std::uint64_t seed : {394u, 2484u, 4306u, 5099u, 5137u, 6481u}) tear_ring_in_sheet(seed);
+  for (const std::uint64_t seed : {394u, 2484u, 4306u, 5099u, 5137u, 6481u})
+    tear_ring_in_sheet(seed);
 }
 
 void tear_ring_around_tube(std::uint64_t seed) {
   SCOPED_TRACE(seed);
   Random random(seed);
-  const std::uint32_t rings = 3 + random.index(12), sides = 3 + random.index(14), blades = 5 + random.index(20);
+  const std::uint32_t rings = 3 + random.index(12), sides = 3 + random.index(14),
+                      blades = 5 + random.index(20);
   Subject subject(test::make_tube(rings, sides, 3));
   const ModelPose pose = bind_pose(subject.model.source());
-  const double height = random.index(2) == 0 ? random.uniform(0.5, 2.5) : 3.0 * (1 + random.index(rings - 1)) / rings;
+  const double height =
+      random.index(2) == 0 ? random.uniform(0.5, 2.5) : 3.0 * (1 + random.index(rings - 1)) / rings;
   const double begin = random.index(2) == 0 ? 0.0 : random.uniform(0, 6);
   Stroke stroke;
   for (std::uint32_t i = 0; i < blades; ++i) {
@@ -504,13 +559,15 @@ TEST(Degenerate, a_ring_around_a_tube_takes_it_apart) {
     tear_ring_around_tube(static_cast<std::uint64_t>(seed));
 }
 
-/// Where the middle of the gap runs along an edge, nearer to it than stored coordinates tell apart, or meets edges at a slant
-/// there.
+/// Where the middle of the gap runs along an edge, nearer to it than stored coordinates tell apart,
+/// or meets edges at a slant there.
 TEST(Degenerate, a_gap_along_an_edge_is_not_blocked) {
-  for (const std::uint64_t seed : {932u, 1714u, 1983u, 2170u, 4049u, 8188u, 9529u, 10878u}) tear_ring_around_tube(seed);
+  for (const std::uint64_t seed : {932u, 1714u, 1983u, 2170u, 4049u, 8188u, 9529u, 10878u})
+    tear_ring_around_tube(seed);
 }
 
-/// Where the second of two blades at an edge of the tube sees the face that the tear comes from at a slant from behind.
+/// Where the second of two blades at an edge of the tube sees the face that the tear comes from at
+/// a slant from behind.
 TEST(Degenerate, a_gap_goes_across_faces_that_turn_away_from_the_blade) {
   for (const std::uint64_t seed : {779u, 3858u, 7523u}) tear_ring_around_tube(seed);
 }
@@ -531,8 +588,10 @@ TEST(Degenerate, strokes_over_two_meshes_tear_both) {
       for (const Vec3d& place : places) sum += place;
       return Vec3d(sum / static_cast<double>(places.size()));
     };
-    const Vec3d from = middle_of(lower), to = middle_of(upper), out = 3 * (to - from).unitOrthogonal();
-    const Stroke stroke = {{from + out, from}, {0.5 * (from + to) + out, 0.5 * (from + to)}, {to + out, to}};
+    const Vec3d from = middle_of(lower), to = middle_of(upper),
+                out = 3 * (to - from).unitOrthogonal();
+    const Stroke stroke = {
+        {from + out, from}, {0.5 * (from + to) + out, 0.5 * (from + to)}, {to + out, to}};
     const TearOptions options = any_width(random);
     ChangeRecord of_stroke;
     subject.run(describe(stroke, options), [&](ChangeRecord& change) {

@@ -16,7 +16,9 @@ namespace {
 using test::make_model;
 
 /// Makes the least change that a float can have.
-void flip_last_bit(float& value) { value = std::bit_cast<float>(std::bit_cast<std::uint32_t>(value) ^ 1u); }
+void flip_last_bit(float& value) {
+  value = std::bit_cast<float>(std::bit_cast<std::uint32_t>(value) ^ 1u);
+}
 
 TEST(Digest, of_equal_models_is_equal) {
   const Character tube = test::make_tube(12, 16, 3);
@@ -43,9 +45,11 @@ TEST(Digest, differs_after_one_bit) {
   expect_another("position", [](Mesh& mesh) { flip_last_bit(mesh.positions.back().z()); });
   expect_another("normal", [](Mesh& mesh) { flip_last_bit(mesh.normals.front().x()); });
   expect_another("texture coordinate", [](Mesh& mesh) { flip_last_bit(mesh.uv_sets[0][5].y()); });
-  expect_another("morph displacement", [](Mesh& mesh) { flip_last_bit(mesh.morph_targets[0].position_deltas[7].y()); });
+  expect_another("morph displacement",
+                 [](Mesh& mesh) { flip_last_bit(mesh.morph_targets[0].position_deltas[7].y()); });
   expect_another("weight", [](Mesh& mesh) { flip_last_bit(mesh.weights.influences[3].weight); });
-  expect_another("winding", [](Mesh& mesh) { std::swap(mesh.triangles[0][1], mesh.triangles[0][2]); });
+  expect_another("winding",
+                 [](Mesh& mesh) { std::swap(mesh.triangles[0][1], mesh.triangles[0][2]); });
 }
 
 TEST(Digest, is_restored_by_undo_and_redo) {
@@ -68,13 +72,16 @@ TEST(Digest, is_restored_by_undo_and_redo) {
   }
 }
 
-/// The same bits from every compiler, at every optimisation level: the only test that can say so is one number that all builds must
-/// find. It changes only with a change that means to change what operations give.
+/// The same bits from every compiler, at every optimisation level: the only test that can say so is
+/// one number that all builds must find. It changes only with a change that means to change what
+/// operations give.
 TEST(Digest, of_a_fixed_history_is_the_same_in_every_build) {
   TornModel model = make_model(test::make_tube(12, 16, 3));
-  ModelPose pose{{model.source().skeleton.bones.size(), Affine3d::Identity()}, model.source().rest_morph_weights};
+  ModelPose pose{{model.source().skeleton.bones.size(), Affine3d::Identity()},
+                 model.source().rest_morph_weights};
   for (std::size_t bone = 0; bone < pose.model_from_bone.size(); ++bone)
-    pose.model_from_bone[bone].matrix() << 1, 0.125 * static_cast<double>(bone), 0, 0.25, 0, 0.875, 0.0625, 0.5, -0.03125, 0, 1, 0;
+    pose.model_from_bone[bone].matrix() << 1, 0.125 * static_cast<double>(bone), 0, 0.25, 0, 0.875,
+        0.0625, 0.5, -0.03125, 0, 1, 0;
   const auto positions = test::posed_positions(model.source(), 0, pose);
   const Vec3d middle = 0.5 * (positions[20] + positions[60]);
   const auto blade = [&](double along, double up) -> Blade {
@@ -84,7 +91,8 @@ TEST(Digest, of_a_fixed_history_is_the_same_in_every_build) {
   const Stroke stroke = {blade(-0.3, -0.2), blade(0, 0.05), blade(0.3, 0.3)};
   const std::vector<Operation> operations = {
       TearOperation{pose, stroke, {}, {}},
-      TearOperation{pose, {blade(0.1, -0.4), blade(-0.1, 0.6)}, {}, {0.0625, Layers::nearest, 0.03125}},
+      TearOperation{
+          pose, {blade(0.1, -0.4), blade(-0.1, 0.6)}, {}, {0.0625, Layers::nearest, 0.03125}},
       DrillOperation{pose, {middle + Vec3d(0.05, 0.5, 3), Vec3d(0, 0, -1), 0.125, 6, 0.001, true}},
       CutOperation{pose, {middle, Vec3d(0.25, 1, 0.5), {}, true}},
       UndoOperation{2},

@@ -18,8 +18,9 @@ std::vector<IndexRange> ranges_of(const std::vector<std::uint32_t>& elements) {
 }
 
 std::uint32_t covered_count(const std::vector<IndexRange>& ranges) {
-  return std::accumulate(ranges.begin(), ranges.end(), 0u,
-                         [](std::uint32_t sum, const IndexRange& range) { return sum + range.count; });
+  return std::accumulate(
+      ranges.begin(), ranges.end(), 0u,
+      [](std::uint32_t sum, const IndexRange& range) { return sum + range.count; });
 }
 
 /// Elements of [0, size), each with the probability `density`, some of them repeated.
@@ -30,14 +31,16 @@ std::vector<std::uint32_t> random_elements(Random& random, std::uint32_t size, d
   return elements;
 }
 
-/// The fewest elements that `ranges` ranges cover: each way to cut the runs into groups, by recursion over where the first ends.
+/// The fewest elements that `ranges` ranges cover: each way to cut the runs into groups, by
+/// recursion over where the first ends.
 std::uint32_t least_cover(std::span<const IndexRange> runs, std::size_t ranges) {
   if (runs.empty()) return 0;
   if (ranges == 0) return kNone;
   std::uint32_t least = kNone;
   for (std::size_t last = 0; last < runs.size(); ++last) {
     const std::uint32_t rest = least_cover(runs.subspan(last + 1), ranges - 1);
-    if (rest != kNone) least = std::min(least, runs[last].first + runs[last].count - runs[0].first + rest);
+    if (rest != kNone)
+      least = std::min(least, runs[last].first + runs[last].count - runs[0].first + rest);
   }
   return least;
 }
@@ -65,8 +68,9 @@ TEST(DirtyRanges, are_exact_up_to_eight_runs) {
 }
 
 TEST(DirtyRanges, of_equal_gaps_the_last_are_filled) {
-  EXPECT_EQ(ranges_of({0, 2, 4, 6, 8, 10, 12, 14, 16, 18}),
-            (std::vector<IndexRange>{{0, 1}, {2, 1}, {4, 1}, {6, 1}, {8, 1}, {10, 1}, {12, 1}, {14, 5}}));
+  EXPECT_EQ(
+      ranges_of({0, 2, 4, 6, 8, 10, 12, 14, 16, 18}),
+      (std::vector<IndexRange>{{0, 1}, {2, 1}, {4, 1}, {6, 1}, {8, 1}, {10, 1}, {12, 1}, {14, 5}}));
 }
 
 TEST(DirtyRanges, are_ascending_apart_and_hold_every_element) {
@@ -87,8 +91,9 @@ TEST(DirtyRanges, are_ascending_apart_and_hold_every_element) {
       ASSERT_TRUE(std::ranges::binary_search(elements, ranges[r].first + ranges[r].count - 1));
     }
     for (const std::uint32_t element : elements)
-      ASSERT_TRUE(std::ranges::any_of(
-          ranges, [&](const IndexRange& range) { return element >= range.first && element - range.first < range.count; }));
+      ASSERT_TRUE(std::ranges::any_of(ranges, [&](const IndexRange& range) {
+        return element >= range.first && element - range.first < range.count;
+      }));
     if (runs_of(elements).size() <= DirtyRanges::kMaximum) {
       ASSERT_EQ(ranges, runs_of(elements));
     }

@@ -26,7 +26,8 @@ using testing::IsEmpty;
 
 double length_of(const Stroke& stroke) {
   double length = 0;
-  for (std::size_t i = 0; i + 1 < stroke.size(); ++i) length += (stroke[i + 1].tip - stroke[i].tip).norm();
+  for (std::size_t i = 0; i + 1 < stroke.size(); ++i)
+    length += (stroke[i + 1].tip - stroke[i].tip).norm();
   return length;
 }
 
@@ -43,7 +44,8 @@ TEST(Gap, of_a_straight_stroke_on_a_plane_is_width_times_length) {
     const ModelPose pose = bind_pose(model.source());
     TearOptions options;
     options.width = random.uniform(0.001, 0.1);
-    const Vec2d from{random.uniform(0.1, 0.9), random.uniform(0.1, 0.9)}, to{random.uniform(0.1, 0.9), random.uniform(0.1, 0.9)};
+    const Vec2d from{random.uniform(0.1, 0.9), random.uniform(0.1, 0.9)},
+        to{random.uniform(0.1, 0.9), random.uniform(0.1, 0.9)};
     const Stroke stroke = {down_at(from.x(), from.y()), down_at(to.x(), to.y())};
     const auto report = model.tear(pose, stroke, options);
     ASSERT_TRUE(report);
@@ -71,7 +73,8 @@ TEST(Gap, of_a_turning_stroke_is_mitred) {
       x += 0.09 * std::cos(heading);
       y += 0.09 * std::sin(heading);
       // Back to the middle before it leaves the sheet.
-      heading = std::clamp(heading + random.uniform(y < 0.3 ? 0.0 : -1.5, y > 0.7 ? 0.0 : 1.5), -1.2, 1.2);
+      heading = std::clamp(heading + random.uniform(y < 0.3 ? 0.0 : -1.5, y > 0.7 ? 0.0 : 1.5),
+                           -1.2, 1.2);
     }
     const auto report = model.tear(pose, stroke, options);
     ASSERT_TRUE(report);
@@ -79,7 +82,8 @@ TEST(Gap, of_a_turning_stroke_is_mitred) {
     const double expected = options.width * length_of(stroke);
     EXPECT_NEAR(report->area_removed_posed, expected, 1e-6 * expected);
     EXPECT_NEAR(test::removed_area(model, pose), expected, 1e-6 * expected);
-    EXPECT_EQ(count_topology(model.character()).boundary_loops, 2u) << "one gap, no notch, nothing left inside";
+    EXPECT_EQ(count_topology(model.character()).boundary_loops, 2u)
+        << "one gap, no notch, nothing left inside";
     expect_sound(model);
   }
 }
@@ -90,7 +94,8 @@ TEST(Gap, at_a_sharp_turn_is_bevelled_and_has_no_spike) {
   TearOptions options;
   options.width = 0.04;
   const double turn = 170.0 / 180.0 * std::numbers::pi;
-  const Stroke stroke = {down_at(0.2, 0.5), down_at(0.6, 0.5), down_at(0.6 + 0.3 * std::cos(turn), 0.5 + 0.3 * std::sin(turn))};
+  const Stroke stroke = {down_at(0.2, 0.5), down_at(0.6, 0.5),
+                         down_at(0.6 + 0.3 * std::cos(turn), 0.5 + 0.3 * std::sin(turn))};
   const auto report = model.tear(pose, stroke, options);
   ASSERT_TRUE(report);
   EXPECT_EQ(count_topology(model.character()).boundary_loops, 2u);
@@ -114,7 +119,8 @@ test::ConvexCell band_cell(const Stroke& stroke, double width) {
   test::ConvexCell cell = test::slab(stroke[0].base, normal, 0.5 * width);
   const auto between = [&](const Vec3d& edge, const Vec3d& from, const Vec3d& to) {
     const Vec3d across = normal.cross(edge).normalized();
-    const double low = std::min(across.dot(from), across.dot(to)), high = std::max(across.dot(from), across.dot(to));
+    const double low = std::min(across.dot(from), across.dot(to)),
+                 high = std::max(across.dot(from), across.dot(to));
     cell.push_back({across, high});
     cell.push_back({-across, -low});
   };
@@ -130,15 +136,18 @@ TEST(Gap, is_what_clipping_each_face_finds_in_any_pose) {
     SCOPED_TRACE(i);
     const bool is_sheet = random.index(2) == 0;
     const std::uint32_t cells = 2 + random.index(20), sides = 5 + random.index(20);
-    TornModel model = make_model(is_sheet ? test::make_sheet(cells) : test::make_tube(cells + 2, sides, 3));
+    TornModel model =
+        make_model(is_sheet ? test::make_sheet(cells) : test::make_tube(cells + 2, sides, 3));
     const ModelPose pose = test::random_pose(model.source(), random, 0.6, 1.2);
-    const Stroke around = test::random_stroke(model.source(), pose, random, random.uniform(0.02, 0.5), 1);
+    const Stroke around =
+        test::random_stroke(model.source(), pose, random, random.uniform(0.02, 0.5), 1);
     const Vec3d motion = around[1].base - around[0].base;
     const Stroke stroke = {around[0], {around[0].base + motion, around[0].tip + motion}};
     TearOptions options;
     options.width = random.uniform(0.002, 0.1) * test::posed_diagonal(model.source(), pose);
     options.layers = random.index(2) == 0 ? Layers::all : Layers::nearest;
-    const double inside = test::clipped_area(model.source(), pose, band_cell(stroke, options.width));
+    const double inside =
+        test::clipped_area(model.source(), pose, band_cell(stroke, options.width));
     const auto report = model.tear(pose, stroke, options);
     ASSERT_TRUE(report);
     expect_sound(model);
@@ -157,7 +166,8 @@ TEST(Bore, is_what_clipping_each_face_finds_in_any_pose) {
     SCOPED_TRACE(i);
     const bool is_sheet = random.index(2) == 0;
     const std::uint32_t cells = 2 + random.index(20), sides = 5 + random.index(20);
-    TornModel model = make_model(is_sheet ? test::make_sheet(cells) : test::make_tube(cells + 2, sides, 3));
+    TornModel model =
+        make_model(is_sheet ? test::make_sheet(cells) : test::make_tube(cells + 2, sides, 3));
     const ModelPose pose = test::random_pose(model.source(), random, 0.6, 1.2);
     const Blade along = test::random_stroke(model.source(), pose, random, 0.1, 1)[0];
     Bore bore;
@@ -171,11 +181,14 @@ TEST(Bore, is_what_clipping_each_face_finds_in_any_pose) {
     expect_sound(model);
     // The prism stands in the cylinder and is at most the tolerance thinner.
     const auto cylinder = [&](double radius) {
-      return test::clipped_area(model.source(), pose, test::prism(bore.origin, bore.direction, radius, bore.depth, 720));
+      return test::clipped_area(model.source(), pose,
+                                test::prism(bore.origin, bore.direction, radius, bore.depth, 720));
     };
     EXPECT_LE(report->area_removed_posed, cylinder(bore.radius) * (1 + 1e-4));
-    EXPECT_GE(report->area_removed_posed, cylinder(bore.radius - bore.chord_tolerance) * (1 - 1e-6));
-    EXPECT_NEAR(test::removed_area(model, pose), report->area_removed_posed, 1e-5 * report->area_removed_posed);
+    EXPECT_GE(report->area_removed_posed,
+              cylinder(bore.radius - bore.chord_tolerance) * (1 - 1e-6));
+    EXPECT_NEAR(test::removed_area(model, pose), report->area_removed_posed,
+                1e-5 * report->area_removed_posed);
   }
 }
 
@@ -190,7 +203,8 @@ TEST(Bore, of_a_coarse_plane_has_a_round_rim) {
   ASSERT_TRUE(report);
   expect_sound(model);
   EXPECT_EQ(count_topology(model.character()).boundary_loops, 2u);
-  EXPECT_NEAR(report->area_removed_posed, std::numbers::pi * 0.04, std::numbers::pi * 0.04 * 2 * 0.0005 / 0.2);
+  EXPECT_NEAR(report->area_removed_posed, std::numbers::pi * 0.04,
+              std::numbers::pi * 0.04 * 2 * 0.0005 / 0.2);
 }
 
 }  // namespace

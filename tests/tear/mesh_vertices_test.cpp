@@ -19,7 +19,8 @@ Mesh rich_mesh() {
   mesh.color_sets.emplace_back();
   mesh.custom_attributes = {{"_HEAT", 2, true, {}}, {"_PART", 1, false, {}}};
   for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
-    mesh.color_sets[0].emplace_back(random.uniform(0, 1), random.uniform(0, 1), random.uniform(0, 1), 1.0f);
+    mesh.color_sets[0].emplace_back(random.uniform(0, 1), random.uniform(0, 1),
+                                    random.uniform(0, 1), 1.0f);
     mesh.custom_attributes[0].values.push_back(static_cast<float>(random.uniform(0, 9)));
     mesh.custom_attributes[0].values.push_back(static_cast<float>(random.uniform(0, 9)));
     mesh.custom_attributes[1].values.push_back(static_cast<float>(v));
@@ -34,12 +35,14 @@ TEST(Interpolate, every_attribute_is_the_barycentric_mean) {
     const std::uint32_t t = random.index(source.triangle_count());
     const double u = random.uniform(0, 0.5), v = random.uniform(0, 0.49);
     Mesh mesh = source;
-    const std::uint32_t made = append_interpolated_vertex(source.triangles[t], {1 - u - v, u, v}, mesh);
+    const std::uint32_t made =
+        append_interpolated_vertex(source.triangles[t], {1 - u - v, u, v}, mesh);
     ASSERT_EQ(made, source.vertex_count());
-    const std::uint32_t a = source.triangles[t][0], b = source.triangles[t][1], c = source.triangles[t][2];
+    const std::uint32_t a = source.triangles[t][0], b = source.triangles[t][1],
+                        c = source.triangles[t][2];
     const auto mean = [&](const auto& values) {
-      return ((1 - u - v) * values[a].template cast<double>() + u * values[b].template cast<double>() +
-              v * values[c].template cast<double>())
+      return ((1 - u - v) * values[a].template cast<double>() +
+              u * values[b].template cast<double>() + v * values[c].template cast<double>())
           .eval();
     };
     EXPECT_LT((mesh.positions[made].cast<double>() - mean(source.positions)).norm(), 1e-6);
@@ -48,10 +51,15 @@ TEST(Interpolate, every_attribute_is_the_barycentric_mean) {
     EXPECT_LT((mesh.normals[made].cast<double>() - mean(source.normals).normalized()).norm(), 1e-6);
     EXPECT_NEAR(mesh.tangents[made].head<3>().norm(), 1.0f, 1e-6f);
     EXPECT_EQ(mesh.tangents[made].w(), 1.0f);
-    EXPECT_LT((mesh.morph_targets[0].position_deltas[made].cast<double>() - mean(source.morph_targets[0].position_deltas)).norm(),
+    EXPECT_LT((mesh.morph_targets[0].position_deltas[made].cast<double>() -
+               mean(source.morph_targets[0].position_deltas))
+                  .norm(),
               1e-6);
     const float part = mesh.custom_attributes[1].values[made];
-    EXPECT_EQ(part, static_cast<float>(1 - u - v >= std::max(u, v) ? a : u > v ? b : c)) << "labels come from the nearest corner";
+    EXPECT_EQ(part, static_cast<float>(1 - u - v >= std::max(u, v) ? a
+                                       : u > v                     ? b
+                                                                   : c))
+        << "labels come from the nearest corner";
 
     std::map<std::uint32_t, double> expected, actual;
     for (const auto& [corner, beta] : {std::pair{a, 1 - u - v}, {b, u}, {c, v}})
@@ -100,7 +108,8 @@ TEST(Interpolate, a_surface_point_is_copied_bit_for_bit) {
   const std::uint32_t made = append_interpolated_vertex(source.triangles[8], {0.6, 0.3, 0.1}, mesh);
   copy_surface_point(mesh, like, made, mesh);
   EXPECT_EQ(mesh.positions[made], mesh.positions[like]);
-  EXPECT_EQ(mesh.morph_targets[0].position_deltas[made], mesh.morph_targets[0].position_deltas[like]);
+  EXPECT_EQ(mesh.morph_targets[0].position_deltas[made],
+            mesh.morph_targets[0].position_deltas[like]);
   EXPECT_TRUE(std::ranges::equal(mesh.weights.of(made), mesh.weights.of(like)));
 }
 

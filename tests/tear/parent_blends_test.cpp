@@ -47,7 +47,8 @@ TEST(ParentBlends, pose_as_influence_positions_do_in_every_pose) {
     test::Random random(seed);
     auto model = test::make_model(test::make_tube(14, 18, 5));
     ASSERT_TRUE(model.set_weights({WeightPolicy::exact, 0}));
-    for (int i = 0; i < 4; ++i) ASSERT_TRUE(test::play(model, test::random_operation(model, random)));
+    for (int i = 0; i < 4; ++i)
+      ASSERT_TRUE(test::play(model, test::random_operation(model, random)));
     const Mesh& mesh = model.character().meshes[0];
     const Skin& skin = model.character().skins[0];
     const ParentBlends parents = parent_blends(model, 0);
@@ -68,7 +69,8 @@ TEST(ParentBlends, pose_as_influence_positions_do_in_every_pose) {
       const std::vector<Vec3f> expected = skinned(source, skin, pose);
       const double diagonal = test::posed_diagonal(model.source(), pose);
       for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v)
-        ASSERT_LT((blended[v] - expected[v]).norm(), 2e-6 * diagonal) << "vertex " << v << " of seed " << seed;
+        ASSERT_LT((blended[v] - expected[v]).norm(), 2e-6 * diagonal)
+            << "vertex " << v << " of seed " << seed;
     }
   }
   EXPECT_GT(blends, 1000u);
@@ -82,21 +84,25 @@ TEST(ParentBlends, lips_stay_closed_bit_for_bit) {
     ASSERT_TRUE(model.set_weights({WeightPolicy::exact, 0}));
     const ModelPose pose = test::random_pose(model.source(), random, 0.9);
     ChangeRecord change;
-    ASSERT_TRUE(model.tear(pose, test::random_stroke(model.source(), pose, random, 0.6, 5), {}, &change));
+    ASSERT_TRUE(
+        model.tear(pose, test::random_stroke(model.source(), pose, random, 0.6, 5), {}, &change));
     const Mesh& mesh = model.character().meshes[0];
     const ModelPose other = test::random_pose(model.source(), random, 0.9);
     std::vector<Vec3f> positions = skinned(source_of(mesh), model.character().skins[0], other);
     blend(parent_blends(model, 0), positions);
     std::map<std::uint32_t, std::vector<std::uint32_t>> vertices_of_point;
     for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t)
-      for (std::uint32_t k = 0; k < 3; ++k) vertices_of_point[model.point_at(0, t, k)].push_back(mesh.triangles[t][k]);
+      for (std::uint32_t k = 0; k < 3; ++k)
+        vertices_of_point[model.point_at(0, t, k)].push_back(mesh.triangles[t][k]);
     const auto is_same = [&](std::uint32_t a, std::uint32_t b) {
       return std::memcmp(&positions[a], &positions[b], sizeof(Vec3f)) == 0;
     };
     for (const auto& [point, vertices] : vertices_of_point)
-      for (const std::uint32_t vertex : vertices) EXPECT_TRUE(is_same(vertex, vertices[0])) << "point " << point;
+      for (const std::uint32_t vertex : vertices)
+        EXPECT_TRUE(is_same(vertex, vertices[0])) << "point " << point;
     ASSERT_FALSE(change.lips.empty());
-    for (const LipPair& lips : change.lips) EXPECT_TRUE(is_same(vertices_of_point[lips.left][0], vertices_of_point[lips.right][0]));
+    for (const LipPair& lips : change.lips)
+      EXPECT_TRUE(is_same(vertices_of_point[lips.left][0], vertices_of_point[lips.right][0]));
   }
 }
 

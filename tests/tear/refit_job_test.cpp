@@ -48,7 +48,8 @@ struct Torn {
   TornModel model;
 };
 
-std::vector<ModelPose> all_poses(const std::shared_ptr<const Character>& source, const PoseSetSpec& spec, PoseSet::Role role) {
+std::vector<ModelPose> all_poses(const std::shared_ptr<const Character>& source,
+                                 const PoseSetSpec& spec, PoseSet::Role role) {
   const auto set = PoseSet::create(source, spec);
   std::vector<ModelPose> poses(set->size(role));
   for (std::size_t i = 0; i < poses.size(); ++i) set->compute(role, i, poses[i]);
@@ -115,8 +116,10 @@ TEST(RefitJob, the_model_may_be_torn_on_meanwhile) {
   EXPECT_EQ(test::broken_laws(torn.model), std::vector<std::string>());
   EXPECT_EQ(test::broken_surface(torn.model), std::vector<std::string>());
   auto again = TornModel::create(torn.source);
-  for (const Operation& operation : torn.model.history()) ASSERT_TRUE(apply_operation(*again, operation));
-  EXPECT_EQ(again->digest(), torn.model.digest()) << "the history says what was fitted, and when it came";
+  for (const Operation& operation : torn.model.history())
+    ASSERT_TRUE(apply_operation(*again, operation));
+  EXPECT_EQ(again->digest(), torn.model.digest())
+      << "the history says what was fitted, and when it came";
   ASSERT_TRUE(torn.model.undo());
   ASSERT_TRUE(torn.model.redo());
   EXPECT_EQ(again->digest(), torn.model.digest());
@@ -191,10 +194,12 @@ TEST(RefitJob, fits_neighbours_together) {
   ASSERT_TRUE(before && of_single && of_coupled);
   EXPECT_LT(of_coupled->metres.rms, before->metres.rms);
   EXPECT_GT(of_coupled->metres.rms, of_single->metres.rms * 0.999);
-  for (std::size_t i = 0; i < before->points.size(); ++i) EXPECT_LE(of_coupled->points[i].rms, before->points[i].rms + 1e-7);
+  for (std::size_t i = 0; i < before->points.size(); ++i)
+    EXPECT_LE(of_coupled->points[i].rms, before->points[i].rms + 1e-7);
   EXPECT_EQ(test::broken_laws(coupled.model), std::vector<std::string>());
   auto again = TornModel::create(coupled.source);
-  for (const Operation& operation : coupled.model.history()) ASSERT_TRUE(apply_operation(*again, operation));
+  for (const Operation& operation : coupled.model.history())
+    ASSERT_TRUE(apply_operation(*again, operation));
   EXPECT_EQ(again->digest(), coupled.model.digest());
 }
 

@@ -33,7 +33,8 @@ TornModel replay(const Character& source, const std::vector<Operation>& history)
 /// A stroke whose character moves on with every blade.
 void tear_in_motion(TornModel& model, Random& random, bool has_width) {
   TearOperation tear = test::random_tear(model, random, has_width);
-  auto stroke = TearStroke::create(model, std::get<ModelPose>(tear.pose), tear.stroke[0], tear.options);
+  auto stroke =
+      TearStroke::create(model, std::get<ModelPose>(tear.pose), tear.stroke[0], tear.options);
   ASSERT_TRUE(stroke) << stroke.error().text();
   for (std::size_t i = 1; i < tear.stroke.size(); ++i) {
     const ModelPose pose = test::random_pose(model.source(), random, 0.2, 1.02);
@@ -56,7 +57,8 @@ TEST_P(RandomReplay, of_the_history_gives_the_model_again) {
     else
       ASSERT_TRUE(test::play(model, test::random_operation(model, random)));
     ASSERT_EQ(model.history().size(), model.undo_count());
-    ASSERT_EQ(difference(state_of(replay(model.source(), model.history())), state_of(model)), "") << "operation " << i;
+    ASSERT_EQ(difference(state_of(replay(model.source(), model.history())), state_of(model)), "")
+        << "operation " << i;
   }
 }
 
@@ -66,7 +68,8 @@ TEST(Replay, history_is_shorter_after_undo_and_longer_after_redo) {
   TornModel model = make_model(test::make_sheet(6));
   EXPECT_TRUE(model.history().empty());
   const ModelPose pose = bind_pose(model.source());
-  const Stroke first = {down_at(0.2, 0.2), down_at(0.4, 0.3)}, second = {down_at(0.6, 0.6), down_at(0.8, 0.7)};
+  const Stroke first = {down_at(0.2, 0.2), down_at(0.4, 0.3)},
+               second = {down_at(0.6, 0.6), down_at(0.8, 0.7)};
   ASSERT_TRUE(model.tear(pose, first));
   const std::uint64_t after_first = model.digest();
   TearOptions options;
@@ -89,13 +92,15 @@ TEST(Replay, a_stroke_in_motion_is_one_operation_with_the_poses_it_was_torn_in) 
   Random random(4);
   const TearOperation tear = [&] {
     for (;;)
-      if (auto candidate = test::random_tear(model, random, false); candidate.stroke.size() >= 4) return candidate;
+      if (auto candidate = test::random_tear(model, random, false); candidate.stroke.size() >= 4)
+        return candidate;
   }();
   const auto& first_pose = std::get<ModelPose>(tear.pose);
   const ModelPose later_pose = test::random_pose(model.source(), random, 0.1, 1.0);
   auto stroke = TearStroke::create(model, first_pose, tear.stroke[0]);
   ASSERT_TRUE(stroke);
-  for (std::size_t i = 1; i < tear.stroke.size(); ++i) ASSERT_TRUE(stroke->extend(i < 3 ? first_pose : later_pose, tear.stroke[i]));
+  for (std::size_t i = 1; i < tear.stroke.size(); ++i)
+    ASSERT_TRUE(stroke->extend(i < 3 ? first_pose : later_pose, tear.stroke[i]));
   ASSERT_TRUE(stroke->end());
   ASSERT_EQ(model.history().size(), 1u);
   const auto played = std::get<TearOperation>(model.history()[0]);
@@ -114,8 +119,10 @@ TEST(Replay, poses_are_looked_up_by_name) {
   const Character tube = test::make_tube(9, 10, 3);
   const Stroke stroke = {{{0.1, 1.2, 2}, {0.1, 1.2, 0}}, {{0.15, 1.6, 2}, {0.15, 1.6, 0}}};
   BonesPose bones;
-  bones.bones.push_back({"bone1", {}, Quatf(Eigen::AngleAxisf(0.3f, Eigen::Vector3f::UnitX())), {}});
-  const PoseSpec specs[] = {RestPose{}, BindPose{}, ClipPose{"Bend", 0.7}, ClipPose{0u, 1.1}, bones};
+  bones.bones.push_back(
+      {"bone1", {}, Quatf(Eigen::AngleAxisf(0.3f, Eigen::Vector3f::UnitX())), {}});
+  const PoseSpec specs[] = {RestPose{}, BindPose{}, ClipPose{"Bend", 0.7}, ClipPose{0u, 1.1},
+                            bones};
   for (const PoseSpec& spec : specs) {
     SCOPED_TRACE(spec.index());
     TearOperation operation;
@@ -132,7 +139,8 @@ TEST(Replay, poses_are_looked_up_by_name) {
     ASSERT_TRUE(pose);
     ASSERT_TRUE(given.tear(*pose, stroke));
     EXPECT_EQ(difference(state_of(named), state_of(given)), "");
-    EXPECT_TRUE(std::holds_alternative<ModelPose>(std::get<TearOperation>(named.history()[0]).pose));
+    EXPECT_TRUE(
+        std::holds_alternative<ModelPose>(std::get<TearOperation>(named.history()[0]).pose));
   }
 }
 
@@ -143,7 +151,8 @@ TEST(Replay, clips_and_bones_that_do_not_exist_are_not_found) {
   nobody.bones.push_back({"nobody", {}, {}, {}});
   TearOperation tear;
   tear.stroke = {{{0.1, 0.2, 2}, {0.1, 0.2, 0}}, {{0.1, 0.6, 2}, {0.1, 0.6, 0}}};
-  for (const PoseSpec& spec : {PoseSpec(ClipPose{"Jump", 0}), PoseSpec(ClipPose{7u, 0}), PoseSpec(nobody)}) {
+  for (const PoseSpec& spec :
+       {PoseSpec(ClipPose{"Jump", 0}), PoseSpec(ClipPose{7u, 0}), PoseSpec(nobody)}) {
     tear.pose = spec;
     EXPECT_EQ(apply_operation(model, tear).error().code(), StatusCode::not_found);
     CutOperation cut;
@@ -179,7 +188,8 @@ TEST(Replay, compacting_begins_anew) {
     SCOPED_TRACE(seed);
     Random random(seed);
     TornModel model = make_model(test::random_character(random));
-    for (int i = 0; i < 3; ++i) ASSERT_TRUE(test::play(model, test::random_operation(model, random)));
+    for (int i = 0; i < 3; ++i)
+      ASSERT_TRUE(test::play(model, test::random_operation(model, random)));
     Character expected = model.character();
     const CompactMaps maps = compact(expected);
     const auto compacted = model.compact();

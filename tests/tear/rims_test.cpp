@@ -37,18 +37,22 @@ std::map<std::uint32_t, Vec3d> posed_points(const TornModel& model, const ModelP
 }
 
 /// The middle of the faces that a point has.
-Vec3d middle_of_fan(std::uint32_t point, const TornModel& model, const std::map<std::uint32_t, Vec3d>& places) {
+Vec3d middle_of_fan(std::uint32_t point, const TornModel& model,
+                    const std::map<std::uint32_t, Vec3d>& places) {
   const tear::Surface& surface = model.surface();
   Vec3d sum = Vec3d::Zero();
   double count = 0;
   surface.for_each_in_fan(surface.point_corner[point], [&](std::uint32_t corner) {
-    for (std::uint32_t k = 0; k < 3; ++k) sum += places.at(surface.corner_point[corner / 3 * 3 + k]);
+    for (std::uint32_t k = 0; k < 3; ++k)
+      sum += places.at(surface.corner_point[corner / 3 * 3 + k]);
     count += 3;
   });
   return sum / count;
 }
 
-bool has_face(const TornModel& model, std::uint32_t point) { return model.surface().point_corner[point] != kNone; }
+bool has_face(const TornModel& model, std::uint32_t point) {
+  return model.surface().point_corner[point] != kNone;
+}
 
 void expect_listed_well(const Rims& rims, const TornModel& model, bool has_wall = false) {
   std::vector<std::uint32_t> all;
@@ -70,10 +74,13 @@ struct Segment {
   Stroke stroke;
   Vec3d left;
 
-  Segment(const Blade& from, const Vec3d& motion) : stroke{from, {from.base + motion, from.tip + motion}} {
+  Segment(const Blade& from, const Vec3d& motion)
+      : stroke{from, {from.base + motion, from.tip + motion}} {
     left = motion.cross(from.tip - from.base).normalized();
   }
-  [[nodiscard]] double distance(const Vec3d& point) const { return left.dot(point - stroke[0].base); }
+  [[nodiscard]] double distance(const Vec3d& point) const {
+    return left.dot(point - stroke[0].base);
+  }
   /// 1 at the blade's tip.
   [[nodiscard]] double depth(const Vec3d& point) const {
     const Vec3d down = stroke[0].tip - stroke[0].base;
@@ -93,19 +100,26 @@ TEST(Rims, are_the_border_at_half_the_width_of_a_segment) {
     Random random(seed);
     const bool is_sheet = random.index(2) == 0;
     const std::uint32_t cells = 2 + random.index(12), sides = 5 + random.index(12);
-    TornModel model = make_model(is_sheet ? test::make_sheet(cells) : test::make_tube(cells + 2, sides, 3));
-    // Where bones turn apart, points of the older tear stand elsewhere than the surface that the gap is found on.
+    TornModel model =
+        make_model(is_sheet ? test::make_sheet(cells) : test::make_tube(cells + 2, sides, 3));
+    // Where bones turn apart, points of the older tear stand elsewhere than the surface that the
+    // gap is found on.
     const bool is_torn_before = random.index(2) == 0;
-    const ModelPose pose =
-        is_torn_before ? test::random_pose(model.source(), random, 0.0, 1.0) : test::random_pose(model.source(), random, 0.6, 1.2);
+    const ModelPose pose = is_torn_before ? test::random_pose(model.source(), random, 0.0, 1.0)
+                                          : test::random_pose(model.source(), random, 0.6, 1.2);
     const double diagonal = test::posed_diagonal(model.source(), pose);
     TearOptions options;
     options.weights = WeightOptions{WeightPolicy::pose_exact};
     const Segment segment = random_segment(model.source(), pose, random);
     if (is_torn_before) {  // across the segment's middle
-      const Vec3d middle = segment.stroke[0].base + 0.5 * (segment.stroke[1].base - segment.stroke[0].base);
-      const Vec3d down = segment.stroke[0].tip - segment.stroke[0].base, step = 0.1 * diagonal * segment.left;
-      ASSERT_TRUE(model.tear(pose, Stroke{{middle - step, middle - step + down}, {middle + step, middle + step + down}}, options));
+      const Vec3d middle =
+          segment.stroke[0].base + 0.5 * (segment.stroke[1].base - segment.stroke[0].base);
+      const Vec3d down = segment.stroke[0].tip - segment.stroke[0].base,
+                  step = 0.1 * diagonal * segment.left;
+      ASSERT_TRUE(model.tear(
+          pose,
+          Stroke{{middle - step, middle - step + down}, {middle + step, middle + step + down}},
+          options));
     }
     options.width = random.uniform(0.005, 0.1) * diagonal;
     options.layers = random.index(2) == 0 ? Layers::all : Layers::nearest;
@@ -115,13 +129,17 @@ TEST(Rims, are_the_border_at_half_the_width_of_a_segment) {
     expect_listed_well(change.rims, model);
     const auto places = posed_points(model, pose);
     const double near = 1e-6 * diagonal;
-    for (const std::uint32_t point : change.rims.left) EXPECT_NEAR(segment.distance(places.at(point)), 0.5 * options.width, near);
-    for (const std::uint32_t point : change.rims.right) EXPECT_NEAR(segment.distance(places.at(point)), -0.5 * options.width, near);
+    for (const std::uint32_t point : change.rims.left)
+      EXPECT_NEAR(segment.distance(places.at(point)), 0.5 * options.width, near);
+    for (const std::uint32_t point : change.rims.right)
+      EXPECT_NEAR(segment.distance(places.at(point)), -0.5 * options.width, near);
     gaps += change.rims.left.empty() || change.rims.right.empty() ? 0 : 1;
     crossing += is_torn_before && report->runs > 0 ? 1 : 0;
-    if (is_sheet) continue;  // it has a border of its own: at the plane, or so near that a side lies beyond it
+    if (is_sheet)
+      continue;  // it has a border of its own: at the plane, or so near that a side lies beyond it
     const bool has_depth = std::ranges::none_of(places, [&](const auto& place) {
-      return model.surface().is_on_border(place.first) && std::abs(segment.depth(place.second) - 1) < 1e-6;
+      return model.surface().is_on_border(place.first) &&
+             std::abs(segment.depth(place.second) - 1) < 1e-6;
     });
     if (report->runs > 0 && report->pieces.empty() && has_depth) {
       EXPECT_FALSE(change.rims.left.empty());
@@ -142,9 +160,11 @@ TEST(Rims, are_the_border_at_half_the_width_of_a_segment) {
   EXPECT_GT(within, 30);
 }
 
-/// Of the lips of a tear without width: whether the left ones have their faces left of the segment, in the sense of Segment::left.
+/// Of the lips of a tear without width: whether the left ones have their faces left of the segment,
+/// in the sense of Segment::left.
 /// @return +1, -1, or 0 where some do and some do not.
-int side_of_left_lips(const ChangeRecord& change, const TornModel& model, const ModelPose& pose, const Segment& segment) {
+int side_of_left_lips(const ChangeRecord& change, const TornModel& model, const ModelPose& pose,
+                      const Segment& segment) {
   const auto places = posed_points(model, pose);
   int left = 0, right = 0;
   for (const LipPair& pair : change.lips) {
@@ -155,8 +175,8 @@ int side_of_left_lips(const ChangeRecord& change, const TornModel& model, const 
   return right == 0 ? 1 : left == 0 ? -1 : 0;
 }
 
-void expect_sides_of_lips(const Character& character, const ModelPose& pose, const Segment& segment, Layers layers, double width,
-                          int expected) {
+void expect_sides_of_lips(const Character& character, const ModelPose& pose, const Segment& segment,
+                          Layers layers, double width, int expected) {
   TearOptions options;
   options.layers = layers;
   TornModel torn = make_model(character), with_gap = make_model(character);
@@ -171,8 +191,10 @@ void expect_sides_of_lips(const Character& character, const ModelPose& pose, con
   const auto places = posed_points(with_gap, pose);
   ASSERT_FALSE(rims.rims.left.empty());
   ASSERT_FALSE(rims.rims.right.empty());
-  for (const std::uint32_t point : rims.rims.left) EXPECT_GT(expected * segment.distance(places.at(point)), 0);
-  for (const std::uint32_t point : rims.rims.right) EXPECT_LT(expected * segment.distance(places.at(point)), 0);
+  for (const std::uint32_t point : rims.rims.left)
+    EXPECT_GT(expected * segment.distance(places.at(point)), 0);
+  for (const std::uint32_t point : rims.rims.right)
+    EXPECT_LT(expected * segment.distance(places.at(point)), 0);
 }
 
 TEST(Rims, have_the_sides_of_the_lips_that_the_stroke_makes_without_width) {
@@ -182,7 +204,8 @@ TEST(Rims, have_the_sides_of_the_lips_that_the_stroke_makes_without_width) {
   const Segment from_below({{0.2, 0.41, -0.5}, {0.2, 0.41, 0.5}}, {0.5, 0.13, 0});
   expect_sides_of_lips(sheet, flat, from_above, Layers::nearest, 0.04, 1);
   expect_sides_of_lips(sheet, flat, from_above, Layers::all, 0.04, 1);
-  // Seen from outside, left of such a stroke is where the blade has its right; a sheet through all layers goes by the blade.
+  // Seen from outside, left of such a stroke is where the blade has its right; a sheet through all
+  // layers goes by the blade.
   expect_sides_of_lips(sheet, flat, from_below, Layers::nearest, 0.04, -1);
   expect_sides_of_lips(sheet, flat, from_below, Layers::all, 0.04, 1);
   const Character tube = test::make_tube(9, 12, 3);
@@ -191,7 +214,8 @@ TEST(Rims, have_the_sides_of_the_lips_that_the_stroke_makes_without_width) {
   expect_sides_of_lips(tube, bind_pose(tube), across, Layers::all, 0.05, 1);
 }
 
-/// Walks each border loop that has points of rims: it goes along one side, then along the other, with nothing between but the ends.
+/// Walks each border loop that has points of rims: it goes along one side, then along the other,
+/// with nothing between but the ends.
 /// @return how many such loops there are.
 int count_loops_of_two_sides(const Rims& rims, const TornModel& model) {
   const tear::Surface& surface = model.surface();
@@ -214,7 +238,8 @@ int count_loops_of_two_sides(const Rims& rims, const TornModel& model) {
     }
     if (sides == "-") continue;
     ++loops;
-    // An end is the straight edge between two corners, or has points of the surface's own edges in it.
+    // An end is the straight edge between two corners, or has points of the surface's own edges in
+    // it.
     std::erase(sides, '-');
     sides.erase(std::unique(sides.begin(), sides.end()), sides.end());
     if (sides.size() > 1 && sides.front() == sides.back()) sides.pop_back();
@@ -236,7 +261,8 @@ TEST(Rims, of_a_turning_stroke_are_two_runs) {
       stroke.push_back(down_at(x, y));
       x += 0.09 * std::cos(heading);
       y += 0.09 * std::sin(heading);
-      heading = std::clamp(heading + random.uniform(y < 0.3 ? 0.0 : -1.5, y > 0.7 ? 0.0 : 1.5), -1.2, 1.2);
+      heading = std::clamp(heading + random.uniform(y < 0.3 ? 0.0 : -1.5, y > 0.7 ? 0.0 : 1.5),
+                           -1.2, 1.2);
     }
     ChangeRecord change;
     ASSERT_TRUE(model.tear(bind_pose(model.source()), stroke, options, &change));
@@ -255,7 +281,8 @@ TEST(Rims, go_around_a_bevel_on_the_outer_side) {
     TearOptions options;
     options.width = 0.04;
     const double turn = degrees / 180.0 * std::numbers::pi;
-    const Stroke stroke = {down_at(0.2, 0.5), down_at(0.6, 0.5), down_at(0.6 + 0.3 * std::cos(turn), 0.5 + 0.3 * std::sin(turn))};
+    const Stroke stroke = {down_at(0.2, 0.5), down_at(0.6, 0.5),
+                           down_at(0.6 + 0.3 * std::cos(turn), 0.5 + 0.3 * std::sin(turn))};
     ChangeRecord change;
     const ModelPose pose = bind_pose(model.source());
     ASSERT_TRUE(model.tear(pose, stroke, options, &change));
@@ -288,25 +315,28 @@ Rims sum_of(const std::vector<ChangeRecord>& changes, const TornModel& model) {
 
 std::vector<LipPair> lips_of(const std::vector<ChangeRecord>& changes) {
   std::vector<LipPair> lips;
-  for (const ChangeRecord& change : changes) lips.insert(lips.end(), change.lips.begin(), change.lips.end());
+  for (const ChangeRecord& change : changes)
+    lips.insert(lips.end(), change.lips.begin(), change.lips.end());
   return lips;
 }
 
 void expect_told(const ChangeRecord& change, const std::vector<LipPair>& lips, const Rims& rims) {
-  EXPECT_TRUE(change.lips == lips) << change.lips.size() << " pairs, " << lips.size() << " expected";
+  EXPECT_TRUE(change.lips == lips)
+      << change.lips.size() << " pairs, " << lips.size() << " expected";
   EXPECT_EQ(change.rims.left, rims.left);
   EXPECT_EQ(change.rims.right, rims.right);
 }
 
 /// Tears blade by blade. @param other  where given, the pose of every second blade.
-std::vector<ChangeRecord> tear_by_calls(TornModel& model, const TearOperation& tear, const ModelPose* other = nullptr) {
+std::vector<ChangeRecord> tear_by_calls(TornModel& model, const TearOperation& tear,
+                                        const ModelPose* other = nullptr) {
   const auto& pose = std::get<ModelPose>(tear.pose);
   std::vector<ChangeRecord> changes;
   auto stroke = TearStroke::create(model, pose, tear.stroke[0], tear.options);
   EXPECT_TRUE(stroke) << stroke.error().text();
   for (std::size_t i = 1; i < tear.stroke.size(); ++i) {
-    const auto report =
-        stroke->extend(other != nullptr && i % 2 == 0 ? *other : pose, tear.stroke[i], 0.0, &changes.emplace_back());
+    const auto report = stroke->extend(other != nullptr && i % 2 == 0 ? *other : pose,
+                                       tear.stroke[i], 0.0, &changes.emplace_back());
     EXPECT_TRUE(report) << report.error().text();
     expect_listed_well(changes.back().rims, model);
   }
@@ -320,7 +350,8 @@ TEST(Rims, of_a_stroke_by_calls_are_in_sum_those_of_the_tear) {
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed);
-    TornModel at_once = make_model(test::random_character(random)), by_calls = make_model(at_once.source());
+    TornModel at_once = make_model(test::random_character(random)),
+              by_calls = make_model(at_once.source());
     for (int i = 0; i < 2; ++i) {
       const TearOperation tear = test::random_tear(at_once, random, i == 1 || random.index(3) > 0);
       ChangeRecord change;
@@ -371,7 +402,8 @@ void redo_at_random(TornModel& model, Random& random) {
       case 1: {
         if (done.empty() || random.index(3) > 0) break;
         WeightsOperation wanted;
-        wanted.weights.policy = random.index(2) == 0 ? WeightPolicy::pose_exact : WeightPolicy::barycentric;
+        wanted.weights.policy =
+            random.index(2) == 0 ? WeightPolicy::pose_exact : WeightPolicy::barycentric;
         wanted.pose = bind_pose(model.source());
         ASSERT_TRUE(model.reweigh(wanted, &change));
         expect_told(change, {}, {});

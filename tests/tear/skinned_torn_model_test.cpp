@@ -17,11 +17,13 @@ namespace {
 /// A mesh's buffers with room for more.
 struct Runtime {
   explicit Runtime(const Character& character)
-      : made(std::move(*SkinnedMesh::create(source_of(character.meshes[0]), character.skins[0].bones.size()))),
+      : made(std::move(
+            *SkinnedMesh::create(source_of(character.meshes[0]), character.skins[0].bones.size()))),
         palette(character.skins[0].bones.size(), character.rest_morph_weights.size()),
         positions(20000),
         normals(20000),
-        buffer({character.meshes[0].vertex_count(), {positions[0].data()}, {normals[0].data()}, {}}) {}
+        buffer(
+            {character.meshes[0].vertex_count(), {positions[0].data()}, {normals[0].data()}, {}}) {}
 
   void frame(const Character& character, const ModelPose& pose) {
     ASSERT_TRUE(palette.set(character.skins[0], pose));
@@ -39,7 +41,8 @@ struct Runtime {
     PosedBuffer to_expected(expected.target());
     ASSERT_TRUE(anew->deform(palette, to_expected));
     for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
-      ASSERT_EQ(std::memcmp(positions[v].data(), expected.position(v).data(), 12), 0) << "vertex " << v;
+      ASSERT_EQ(std::memcmp(positions[v].data(), expected.position(v).data(), 12), 0)
+          << "vertex " << v;
       ASSERT_EQ(std::memcmp(normals[v].data(), expected.normal(v).data(), 12), 0) << "vertex " << v;
     }
   }
@@ -67,16 +70,20 @@ TEST(SkinnedTornModel, follows_tears_undo_and_redo_and_lips_stay_closed) {
         (void)model->redo(&change);
       else
         (void)model->tear(pose, test::random_stroke(model->character(), pose, random), {}, &change);
-      for (const MeshChange& of_mesh : change.meshes) runtime.follow(model->character(), of_mesh.first_vertex);
+      for (const MeshChange& of_mesh : change.meshes)
+        runtime.follow(model->character(), of_mesh.first_vertex);
       runtime.frame(model->character(), test::random_pose(*source, random));
       runtime.expect_as_made_anew(model->character());
-      // Wherever two vertices are one point of the bind surface with the same weights, the pose keeps them together, bit for bit.
+      // Wherever two vertices are one point of the bind surface with the same weights, the pose
+      // keeps them together, bit for bit.
       for (const MeshChange& of_mesh : change.meshes) {
         const Mesh& mesh = model->character().meshes[0];
         for (std::uint32_t v = of_mesh.first_vertex; v < mesh.vertex_count(); ++v)
           for (std::uint32_t w = v + 1; w < mesh.vertex_count(); ++w) {
             const auto of_v = mesh.weights.of(v), of_w = mesh.weights.of(w);
-            if (mesh.positions[v] != mesh.positions[w] || !std::equal(of_v.begin(), of_v.end(), of_w.begin(), of_w.end())) continue;
+            if (mesh.positions[v] != mesh.positions[w] ||
+                !std::equal(of_v.begin(), of_v.end(), of_w.begin(), of_w.end()))
+              continue;
             bool same_morph = true;
             for (const MorphTarget& target : mesh.morph_targets)
               same_morph = same_morph && target.position_deltas[v] == target.position_deltas[w];
@@ -102,9 +109,11 @@ TEST(SkinnedTornModel, frames_and_updates_with_room_do_not_allocate) {
   runtime.frame(*source, poses[1]);  // the first that writes only what changed
   for (int i = 0; i < 10; ++i) {
     ChangeRecord change;
-    (void)model->tear(poses[0], test::random_stroke(model->character(), poses[0], random), {}, &change);
+    (void)model->tear(poses[0], test::random_stroke(model->character(), poses[0], random), {},
+                      &change);
     const std::uint64_t before = test::allocation_count();
-    for (const MeshChange& of_mesh : change.meshes) runtime.follow(model->character(), of_mesh.first_vertex);
+    for (const MeshChange& of_mesh : change.meshes)
+      runtime.follow(model->character(), of_mesh.first_vertex);
     if (i > 0) {
       EXPECT_EQ(test::allocation_count(), before) << "update";
     }

@@ -1,5 +1,6 @@
-// Surfaces that nobody would model: random triangles on a coarse grid, with edges of many faces, duplicate and flipped faces, faces
-// without area, vertices that nothing uses. Tearing them must do no harm.
+// Surfaces that nobody would model: random triangles on a coarse grid, with edges of many faces,
+// duplicate and flipped faces, faces without area, vertices that nothing uses. Tearing them must do
+// no harm.
 #include <sunder/tear/topology.h>
 #include <sunder/tear/torn_model.h>
 
@@ -24,12 +25,17 @@ TEST(Soup, tears_do_no_harm) {
     Random random(static_cast<std::uint64_t>(seed));
     auto model = TornModel::create(std::make_shared<const Character>(test::make_soup(random)));
     ASSERT_TRUE(model) << model.error().text();
-    const ModelPose pose = test::random_pose(model->source(), random, random.index(2) == 0 ? 0.0 : 0.8, 1.0);
+    const ModelPose pose =
+        test::random_pose(model->source(), random, random.index(2) == 0 ? 0.0 : 0.8, 1.0);
     for (int i = 0; i < 4; ++i) {
       Stroke stroke;
-      const bool on_grid = random.index(2) == 0;  // through vertices, along edges, in the planes of faces
-      const auto coordinate = [&] { return on_grid ? random.index(5) * 0.5 : random.uniform(-0.5, 3); };
-      Vec3d at{coordinate(), coordinate(), coordinate()};  // braces: in this order with every compiler
+      const bool on_grid =
+          random.index(2) == 0;  // through vertices, along edges, in the planes of faces
+      const auto coordinate = [&] {
+        return on_grid ? random.index(5) * 0.5 : random.uniform(-0.5, 3);
+      };
+      Vec3d at{coordinate(), coordinate(),
+               coordinate()};  // braces: in this order with every compiler
       const Vec3d blade = on_grid ? Vec3d(Vec3d::Unit(random.index(3))) : random.direction();
       for (std::uint32_t b = 0; b < 2 + random.index(3); ++b) {
         stroke.push_back({at + 3 * blade, at - random.uniform(0, 3) * blade});
@@ -44,7 +50,8 @@ TEST(Soup, tears_do_no_harm) {
       ASSERT_THAT(test::broken_lips(*model, change), IsEmpty());
       ASSERT_THAT(test::broken_laws(*model), IsEmpty());
     }
-    ASSERT_THAT(test::broken_closed_form(*model, test::random_pose(model->source(), random)), IsEmpty());
+    ASSERT_THAT(test::broken_closed_form(*model, test::random_pose(model->source(), random)),
+                IsEmpty());
   }
   EXPECT_GT(torn, count / 4);
 }

@@ -7,7 +7,8 @@
 namespace sunder {
 namespace {
 
-/// Triangles of one rigid bone, each corner a vertex of its own: what is joined is joined by position.
+/// Triangles of one rigid bone, each corner a vertex of its own: what is joined is joined by
+/// position.
 Character make_soup(const std::vector<std::array<Vec3f, 3>>& triangles) {
   Character character = test::make_sheet(1);
   Mesh mesh;
@@ -15,7 +16,8 @@ Character make_soup(const std::vector<std::array<Vec3f, 3>>& triangles) {
   mesh.submeshes.push_back({"soup", kNone});
   const Influence rigid[] = {{0, 1.0f}};
   for (const auto& corners : triangles) {
-    mesh.triangles.push_back({mesh.vertex_count(), mesh.vertex_count() + 1, mesh.vertex_count() + 2});
+    mesh.triangles.push_back(
+        {mesh.vertex_count(), mesh.vertex_count() + 1, mesh.vertex_count() + 2});
     mesh.triangle_submesh.push_back(0);
     for (const Vec3f& corner : corners) {
       mesh.positions.push_back(corner);
@@ -63,7 +65,8 @@ TEST(Topology, meshes_of_one_skin_are_one_surface) {
   EXPECT_EQ(count_topology(character).boundary_edges, 0u);
   character.meshes[1].skin = 1;
   character.skins.push_back(character.skins[0]);
-  EXPECT_GT(count_topology(character).boundary_edges, 0u) << "what another skin moves is another surface";
+  EXPECT_GT(count_topology(character).boundary_edges, 0u)
+      << "what another skin moves is another surface";
 }
 
 TEST(Topology, coincident_points_with_other_weights_sides_or_morphs_are_separate) {
@@ -74,14 +77,17 @@ TEST(Topology, coincident_points_with_other_weights_sides_or_morphs_are_separate
   };
   const std::uint32_t first = 0, last = 8;  // the first ring's two ends of the seam
   EXPECT_EQ(borders_after([](Mesh&) {}), 0u);
-  EXPECT_GT(borders_after([&](Mesh& mesh) { mesh.morph_targets[0].position_deltas[last] *= 2.0f; }), 0u);
+  EXPECT_GT(borders_after([&](Mesh& mesh) { mesh.morph_targets[0].position_deltas[last] *= 2.0f; }),
+            0u);
   EXPECT_GT(borders_after([&](Mesh& mesh) {
-              mesh.custom_attributes.push_back({kTearSideAttribute, 1, false, std::vector<float>(mesh.vertex_count(), 0.0f)});
+              mesh.custom_attributes.push_back(
+                  {kTearSideAttribute, 1, false, std::vector<float>(mesh.vertex_count(), 0.0f)});
               mesh.custom_attributes[0].values[first] = 1.0f;
             }),
             0u);
   EXPECT_GT(borders_after([&](Mesh& mesh) {
-              for (std::uint32_t i = mesh.weights.first[last]; i < mesh.weights.first[last + 1]; ++i)
+              for (std::uint32_t i = mesh.weights.first[last]; i < mesh.weights.first[last + 1];
+                   ++i)
                 mesh.weights.influences[i].slot = 2 - mesh.weights.influences[i].slot;
             }),
             0u);
@@ -89,7 +95,8 @@ TEST(Topology, coincident_points_with_other_weights_sides_or_morphs_are_separate
 
 TEST(Topology, edges_of_three_faces_or_of_two_that_disagree_are_not_manifold) {
   EXPECT_EQ(count_topology(make_soup({{kA, kB, kC}, {kB, kA, kD}})).non_manifold_edges, 0u);
-  EXPECT_EQ(count_topology(make_soup({{kA, kB, kC}, {kB, kA, kD}, {kA, kB, kE}})).non_manifold_edges, 1u);
+  EXPECT_EQ(
+      count_topology(make_soup({{kA, kB, kC}, {kB, kA, kD}, {kA, kB, kE}})).non_manifold_edges, 1u);
   const TopologyCounts flipped = count_topology(make_soup({{kA, kB, kC}, {kA, kB, kD}}));
   EXPECT_EQ(flipped.non_manifold_edges, 1u);
   EXPECT_EQ(flipped.components, 2u);
@@ -111,7 +118,8 @@ TEST(Topology, surfaces_that_touch_in_a_point_are_apart) {
 }
 
 TEST(Topology, degenerate_triangles_are_counted_and_join_nothing) {
-  const TopologyCounts counts = count_topology(make_soup({{kA, kB, kC}, {kA, kB, kB}, {kA, kB, 0.5f * kB}}));
+  const TopologyCounts counts =
+      count_topology(make_soup({{kA, kB, kC}, {kA, kB, kB}, {kA, kB, 0.5f * kB}}));
   EXPECT_EQ(counts.degenerate_triangles, 2u);
 }
 
@@ -119,7 +127,8 @@ TEST(Topology, retired_triangles_and_what_only_they_use_count_for_nothing) {
   Character character = make_soup({{kA, kB, kC}, {kB, kA, kD}, {kE, 2 * kE, 3 * kD}});
   const TopologyCounts before = count_topology(character);
   EXPECT_EQ(before.points, 7u);
-  for (const std::uint32_t t : {1u, 2u}) character.meshes[0].triangles[t].fill(character.meshes[0].triangles[t][0]);
+  for (const std::uint32_t t : {1u, 2u})
+    character.meshes[0].triangles[t].fill(character.meshes[0].triangles[t][0]);
   const TopologyCounts after = count_topology(character);
   EXPECT_EQ(after.vertices, before.vertices);
   EXPECT_EQ(after.points, 3u);

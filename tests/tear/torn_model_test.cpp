@@ -34,7 +34,8 @@ ModelPose rest(const Character& character) {
 TEST(TornModel, tear_inside_the_sheet_opens_one_loop_of_the_strokes_length) {
   TornModel model = make_model(test::make_sheet(10));
   ChangeRecord change;
-  const auto report = model.tear(rest(model.source()), std::vector{down_at(0.23, 0.31), down_at(0.61, 0.52)}, {}, &change);
+  const auto report = model.tear(
+      rest(model.source()), std::vector{down_at(0.23, 0.31), down_at(0.61, 0.52)}, {}, &change);
   ASSERT_TRUE(report) << report.error().text();
   EXPECT_EQ(report->runs, 1u);
   EXPECT_NEAR(report->length_posed, std::hypot(0.38, 0.21), 1e-3);
@@ -49,7 +50,9 @@ TEST(TornModel, tear_inside_the_sheet_opens_one_loop_of_the_strokes_length) {
 
 TEST(TornModel, tear_across_the_whole_sheet_separates_it) {
   TornModel model = make_model(test::make_sheet(8));
-  const auto report = model.tear(rest(model.source()), std::vector{down_at(-0.2, 0.43), down_at(0.5, 0.47), down_at(1.2, 0.44)});
+  const auto report =
+      model.tear(rest(model.source()),
+                 std::vector{down_at(-0.2, 0.43), down_at(0.5, 0.47), down_at(1.2, 0.44)});
   ASSERT_TRUE(report);
   EXPECT_EQ(count_topology(model.character()).components, 2u);
   EXPECT_THAT(test::broken_laws(model), IsEmpty());
@@ -58,7 +61,8 @@ TEST(TornModel, tear_across_the_whole_sheet_separates_it) {
 
 TEST(TornModel, tear_along_grid_lines_and_through_vertices_makes_no_sliver) {
   TornModel model = make_model(test::make_sheet(10));
-  const auto report = model.tear(rest(model.source()), std::vector{down_at(-0.1, 0.5), down_at(1.1, 0.5)});
+  const auto report =
+      model.tear(rest(model.source()), std::vector{down_at(-0.1, 0.5), down_at(1.1, 0.5)});
   ASSERT_TRUE(report);
   EXPECT_EQ(report->triangles_added, 0u);
   EXPECT_EQ(report->points_added, 11u);
@@ -69,7 +73,8 @@ TEST(TornModel, tear_along_grid_lines_and_through_vertices_makes_no_sliver) {
 
 TEST(TornModel, tear_within_one_face_opens) {
   TornModel model = make_model(test::make_sheet(1));
-  const auto report = model.tear(rest(model.source()), std::vector{down_at(0.5, 0.1), down_at(0.8, 0.3)});
+  const auto report =
+      model.tear(rest(model.source()), std::vector{down_at(0.5, 0.1), down_at(0.8, 0.3)});
   ASSERT_TRUE(report);
   EXPECT_EQ(report->runs, 1u);
   EXPECT_EQ(count_topology(model.character()).boundary_loops, 2u);
@@ -80,7 +85,8 @@ TEST(TornModel, tear_within_one_face_opens) {
 TEST(TornModel, segments_continue_from_the_stored_tip) {
   TornModel model = make_model(test::make_sheet(7));
   Stroke stroke;
-  for (int i = 0; i <= 20; ++i) stroke.push_back(down_at(0.2 + 0.03 * i, 0.5 + 0.2 * std::sin(0.5 * i)));
+  for (int i = 0; i <= 20; ++i)
+    stroke.push_back(down_at(0.2 + 0.03 * i, 0.5 + 0.2 * std::sin(0.5 * i)));
   ChangeRecord change;
   const auto report = model.tear(rest(model.source()), stroke, {}, &change);
   ASSERT_TRUE(report);
@@ -95,8 +101,10 @@ TEST(TornModel, segments_continue_from_the_stored_tip) {
 
 TEST(TornModel, tear_that_crosses_an_older_one_leaves_no_bridge) {
   TornModel model = make_model(test::make_sheet(9));
-  ASSERT_TRUE(model.tear(rest(model.source()), std::vector{down_at(-0.1, 0.4371), down_at(1.1, 0.5213)}));
-  ASSERT_TRUE(model.tear(rest(model.source()), std::vector{down_at(0.4713, -0.1), down_at(0.5119, 1.1)}));
+  ASSERT_TRUE(
+      model.tear(rest(model.source()), std::vector{down_at(-0.1, 0.4371), down_at(1.1, 0.5213)}));
+  ASSERT_TRUE(
+      model.tear(rest(model.source()), std::vector{down_at(0.4713, -0.1), down_at(0.5119, 1.1)}));
   EXPECT_EQ(count_topology(model.character()).components, 4u);
   EXPECT_THAT(test::broken_laws(model), IsEmpty());
   EXPECT_THAT(test::broken_surface(model), IsEmpty());
@@ -130,8 +138,9 @@ TEST(TornModel, a_stroke_beyond_the_blades_reach_changes_nothing) {
 TEST(TornModel, tear_runs_over_uv_seams_and_into_the_caps) {
   TornModel model = make_model(test::make_tube(10, 12, 3));
   // Along the seam side (+x), over the rim, onto the cap.
-  const Stroke stroke = {
-      {{0.9, 2.2, 0.03}, {0.3, 2.2, 0.03}}, {{0.9, 3.3, -0.05}, {0.1, 2.9, -0.05}}, {{0.2, 3.4, -0.07}, {0.1, 2.8, -0.07}}};
+  const Stroke stroke = {{{0.9, 2.2, 0.03}, {0.3, 2.2, 0.03}},
+                         {{0.9, 3.3, -0.05}, {0.1, 2.9, -0.05}},
+                         {{0.2, 3.4, -0.07}, {0.1, 2.8, -0.07}}};
   ChangeRecord change;
   const auto report = model.tear(rest(model.source()), stroke, {}, &change);
   ASSERT_TRUE(report) << report.error().text();
@@ -152,15 +161,19 @@ TEST(TornModel, refuses_bad_strokes_and_poses_and_stays_as_it_was) {
   };
   EXPECT_EQ(code_of(pose, {}), StatusCode::invalid_argument);
   EXPECT_EQ(code_of(pose, {down_at(0.5, 0.5)}), StatusCode::invalid_argument);
-  EXPECT_EQ(code_of(pose, {down_at(0.2, 0.5), {{nan, 0, 1}, {0, 0, 0}}}), StatusCode::non_finite_value);
-  EXPECT_EQ(code_of(pose, {down_at(0.2, 0.5), {{0.4, 0.5, 0}, {0.4, 0.5, 0}}}), StatusCode::invalid_argument);
-  EXPECT_EQ(code_of(pose, {down_at(0.2, 0.5), {{0.4, 0.5, -1}, {0.4, 0.5, 1}}}), StatusCode::invalid_argument);
+  EXPECT_EQ(code_of(pose, {down_at(0.2, 0.5), {{nan, 0, 1}, {0, 0, 0}}}),
+            StatusCode::non_finite_value);
+  EXPECT_EQ(code_of(pose, {down_at(0.2, 0.5), {{0.4, 0.5, 0}, {0.4, 0.5, 0}}}),
+            StatusCode::invalid_argument);
+  EXPECT_EQ(code_of(pose, {down_at(0.2, 0.5), {{0.4, 0.5, -1}, {0.4, 0.5, 1}}}),
+            StatusCode::invalid_argument);
   ModelPose short_pose = pose;
   short_pose.model_from_bone.pop_back();
   EXPECT_EQ(code_of(short_pose, {down_at(0.2, 0.5), down_at(0.6, 0.5)}), StatusCode::size_mismatch);
   ModelPose nan_pose = pose;
   nan_pose.model_from_bone[1].translation().x() = nan;
-  EXPECT_EQ(code_of(nan_pose, {down_at(0.2, 0.5), down_at(0.6, 0.5)}), StatusCode::non_finite_value);
+  EXPECT_EQ(code_of(nan_pose, {down_at(0.2, 0.5), down_at(0.6, 0.5)}),
+            StatusCode::non_finite_value);
 }
 
 TEST(TornModel, tears_in_a_pose_with_a_collapsed_bone_without_harm) {
@@ -169,7 +182,8 @@ TEST(TornModel, tears_in_a_pose_with_a_collapsed_bone_without_harm) {
   pose.model_from_bone[1].linear().setZero();
   Random random(5);
   for (int i = 0; i < 20; ++i) {
-    ASSERT_TRUE(model.tear(pose, test::random_stroke(model.character(), rest(model.source()), random)));
+    ASSERT_TRUE(
+        model.tear(pose, test::random_stroke(model.character(), rest(model.source()), random)));
     ASSERT_THAT(test::broken_laws(model), IsEmpty());
     ASSERT_THAT(test::broken_surface(model), IsEmpty());
   }
@@ -178,19 +192,29 @@ TEST(TornModel, tears_in_a_pose_with_a_collapsed_bone_without_harm) {
 TEST(TornModel, keeps_every_law_at_any_scale_and_far_from_the_origin) {
   Random random(31);
   // The last of each scale rounds the mesh to a few hundred float steps across.
-  for (const auto& [scale, offset] :
-       {std::pair{1e-5f, 0.0f}, {1e-5f, 0.2f}, {1e-2f, 1e2f}, {1.0f, 1e3f}, {1.0f, 3e4f}, {1e4f, 0.0f}, {1e4f, 1e8f}}) {
+  for (const auto& [scale, offset] : {std::pair{1e-5f, 0.0f},
+                                      {1e-5f, 0.2f},
+                                      {1e-2f, 1e2f},
+                                      {1.0f, 1e3f},
+                                      {1.0f, 3e4f},
+                                      {1e4f, 0.0f},
+                                      {1e4f, 1e8f}}) {
     Character character = test::make_tube(12, 14, 3);
-    for (Vec3f& position : character.meshes[0].positions) position = scale * position + Vec3f(offset, -offset, 0.5f * offset);
+    for (Vec3f& position : character.meshes[0].positions)
+      position = scale * position + Vec3f(offset, -offset, 0.5f * offset);
     for (Vec3f& delta : character.meshes[0].morph_targets[0].position_deltas) delta *= scale;
     TornModel model = make_model(character);
     const ModelPose pose = bind_pose(model.source());
     for (int i = 0; i < 5; ++i) {
       ChangeRecord change;
-      ASSERT_TRUE(model.tear(pose, test::random_stroke(model.character(), pose, random), {}, &change));
-      ASSERT_THAT(test::broken_laws(model), IsEmpty()) << "scale " << scale << ", offset " << offset;
-      ASSERT_THAT(test::broken_surface(model), IsEmpty()) << "scale " << scale << ", offset " << offset;
-      ASSERT_THAT(test::broken_lips(model, change), IsEmpty()) << "scale " << scale << ", offset " << offset;
+      ASSERT_TRUE(
+          model.tear(pose, test::random_stroke(model.character(), pose, random), {}, &change));
+      ASSERT_THAT(test::broken_laws(model), IsEmpty())
+          << "scale " << scale << ", offset " << offset;
+      ASSERT_THAT(test::broken_surface(model), IsEmpty())
+          << "scale " << scale << ", offset " << offset;
+      ASSERT_THAT(test::broken_lips(model, change), IsEmpty())
+          << "scale " << scale << ", offset " << offset;
     }
   }
 }
@@ -208,8 +232,9 @@ TEST(TornModel, the_same_tears_give_the_same_bits) {
   EXPECT_EQ(tear_twice(), tear_twice());
 }
 
-/// The section of a posed mesh with the parallelogram that a blade sweeps when it moves without turning: clipped triangle by
-/// triangle, independent of the kernel. Intervals are in [0, 1] along the motion.
+/// The section of a posed mesh with the parallelogram that a blade sweeps when it moves without
+/// turning: clipped triangle by triangle, independent of the kernel. Intervals are in [0, 1] along
+/// the motion.
 struct Section {
   double length = 0;
   std::vector<std::array<double, 2>> intervals;
@@ -223,12 +248,14 @@ struct Section {
   }
 };
 
-Section section_of(const Character& character, const ModelPose& pose, const Blade& from, const Vec3d& motion) {
+Section section_of(const Character& character, const ModelPose& pose, const Blade& from,
+                   const Vec3d& motion) {
   const Vec3d blade = from.tip - from.base;
   const Vec3d normal = motion.cross(blade).normalized();
   Eigen::Matrix<double, 3, 2> frame;
   frame << motion, blade;
-  const Eigen::Matrix<double, 2, 3> inverse = (frame.transpose() * frame).inverse() * frame.transpose();
+  const Eigen::Matrix<double, 2, 3> inverse =
+      (frame.transpose() * frame).inverse() * frame.transpose();
   const auto positions = test::posed_positions(character, 0, pose);
   Section section;
   for (const Triangle& triangle : character.meshes[0].triangles) {
@@ -243,7 +270,8 @@ Section section_of(const Character& character, const ModelPose& pose, const Blad
     double begin = 0, end = 1;
     for (int axis = 0; axis < 2; ++axis)
       for (const double limit : {0.0, 1.0}) {
-        const double sign = limit == 0.0 ? 1 : -1, in_p = sign * (p[axis] - limit), in_q = sign * (q[axis] - limit);
+        const double sign = limit == 0.0 ? 1 : -1, in_p = sign * (p[axis] - limit),
+                     in_q = sign * (q[axis] - limit);
         if (in_p < 0 && in_q < 0) end = -1;
         if (in_p < 0 && in_q >= 0) begin = std::max(begin, in_p / (in_p - in_q));
         if (in_q < 0 && in_p >= 0) end = std::min(end, in_p / (in_p - in_q));
@@ -263,7 +291,8 @@ TEST(TornModel, tears_the_whole_section_of_surface_and_sweep) {
     const std::uint32_t rings = 6 + random.index(20), sides = 6 + random.index(20);
     const Character character = test::make_tube(rings, sides, 3);
     const ModelPose pose = test::random_pose(character, random, 0.5, 1.1);
-    const Stroke around = test::random_stroke(character, pose, random, random.uniform(0.05, 0.5), 1);
+    const Stroke around =
+        test::random_stroke(character, pose, random, random.uniform(0.05, 0.5), 1);
     const Vec3d motion = around[1].base - around[0].base;
     const Stroke stroke = {around[0], {around[0].base + motion, around[0].tip + motion}};
     Section section = section_of(character, pose, stroke[0], motion);
@@ -284,7 +313,8 @@ void tear_at_random(std::uint64_t seed) {
   for (int i = 0; i < 6; ++i) {
     const ModelPose pose = test::random_pose(model.source(), random);
     const double length = random.uniform(0.02, 0.6);
-    const Stroke stroke = test::random_stroke(model.character(), pose, random, length, 1 + random.index(8));
+    const Stroke stroke =
+        test::random_stroke(model.character(), pose, random, length, 1 + random.index(8));
     ChangeRecord change;
     const auto report = model.tear(pose, stroke, {}, &change);
     ASSERT_TRUE(report) << report.error().text();
@@ -296,7 +326,9 @@ void tear_at_random(std::uint64_t seed) {
     }
   }
   for (int i = 0; i < 5; ++i)
-    ASSERT_THAT(test::broken_closed_form(model, test::random_pose(model.source(), random, 1.5, 1.5)), IsEmpty());
+    ASSERT_THAT(
+        test::broken_closed_form(model, test::random_pose(model.source(), random, 1.5, 1.5)),
+        IsEmpty());
 }
 
 class RandomTears : public testing::TestWithParam<int> {};

@@ -48,7 +48,8 @@ void undo_at_random(std::uint64_t seed) {
   const std::vector<ModelState> states = play_random(model, random, 6);
   std::size_t at = states.size() - 1;
   const auto expect_state = [&] {
-    EXPECT_EQ(difference(state_of(model), states[at]), "") << "after operation " << at << " of " << states.size() - 1;
+    EXPECT_EQ(difference(state_of(model), states[at]), "")
+        << "after operation " << at << " of " << states.size() - 1;
     EXPECT_EQ(model.undo_count(), at);
     EXPECT_EQ(model.redo_count(), states.size() - 1 - at);
   };
@@ -112,8 +113,10 @@ TEST(Undo, what_follows_an_undo_is_as_if_the_undone_had_never_been) {
   for (std::uint64_t seed = 0; seed < 30; ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed);
-    TornModel model = make_model(test::random_character(random)), straight = make_model(model.source());
-    const Operation kept = test::random_operation(model, random), undone = test::random_operation(model, random),
+    TornModel model = make_model(test::random_character(random)),
+              straight = make_model(model.source());
+    const Operation kept = test::random_operation(model, random),
+                    undone = test::random_operation(model, random),
                     last = test::random_operation(model, random);
     ASSERT_TRUE(test::play(model, kept));
     const std::uint32_t before = model.undo_count();

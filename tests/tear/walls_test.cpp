@@ -25,7 +25,8 @@ double volume_of(const TornModel& model, const ModelPose& pose) {
   double volume = 0;
   const auto positions = test::posed_positions(model.character(), 0, pose);
   for (const Triangle& triangle : model.character().meshes[0].triangles)
-    volume += positions[triangle[0]].dot(Vec3d(positions[triangle[1]].cross(positions[triangle[2]]))) / 6;
+    volume +=
+        positions[triangle[0]].dot(Vec3d(positions[triangle[1]].cross(positions[triangle[2]]))) / 6;
   return volume;
 }
 
@@ -36,7 +37,9 @@ void expect_sound(const TornModel& model) {
 }
 
 Stroke along_tube() {
-  return {{{-0.2, 1.2, 0.8}, {-0.2, 1.2, 0.2}}, {{0.05, 1.5, 0.8}, {0.05, 1.5, 0.2}}, {{0.2, 1.8, 0.8}, {0.2, 1.8, 0.2}}};
+  return {{{-0.2, 1.2, 0.8}, {-0.2, 1.2, 0.2}},
+          {{0.05, 1.5, 0.8}, {0.05, 1.5, 0.2}},
+          {{0.2, 1.8, 0.8}, {0.2, 1.8, 0.2}}};
 }
 
 TEST(Walls, of_a_tear_hang_from_its_lips) {
@@ -48,7 +51,8 @@ TEST(Walls, of_a_tear_hang_from_its_lips) {
     ASSERT_TRUE(model.tear(pose, along_tube(), options));
     TornModel without = make_model(test::make_tube(10, 12, 3));
     ASSERT_TRUE(without.tear(pose, along_tube(), {width, Layers::nearest, 0.0}));
-    const TopologyCounts counts = count_topology(model.character()), bare = count_topology(without.character());
+    const TopologyCounts counts = count_topology(model.character()),
+                         bare = count_topology(without.character());
     // Two triangles on each border edge, whose lower edges are a border as long.
     EXPECT_EQ(counts.triangles, bare.triangles + 2 * bare.boundary_edges);
     EXPECT_EQ(counts.boundary_edges, bare.boundary_edges);
@@ -58,13 +62,17 @@ TEST(Walls, of_a_tear_hang_from_its_lips) {
     const Mesh& mesh = model.character().meshes[0];
     EXPECT_EQ(mesh.submeshes.back().name, "wall");
     EXPECT_EQ(mesh.submeshes.size(), model.source().meshes[0].submeshes.size() + 1);
-    // Everything lies within the depth below the surface of the tube (radius about 0.5), and something lies that deep.
-    const auto radius = [&](std::uint32_t v) { return std::hypot(mesh.positions[v].x(), mesh.positions[v].z()); };
+    // Everything lies within the depth below the surface of the tube (radius about 0.5), and
+    // something lies that deep.
+    const auto radius = [&](std::uint32_t v) {
+      return std::hypot(mesh.positions[v].x(), mesh.positions[v].z());
+    };
     double deepest = 1;
     for (std::uint32_t v = model.source().meshes[0].vertex_count(); v < mesh.vertex_count(); ++v)
       deepest = std::min(deepest, static_cast<double>(radius(v)));
     double surface = 1;
-    for (std::uint32_t v = model.source().meshes[0].vertex_count(); v < without.character().meshes[0].vertex_count(); ++v)
+    for (std::uint32_t v = model.source().meshes[0].vertex_count();
+         v < without.character().meshes[0].vertex_count(); ++v)
       surface = std::min(surface, static_cast<double>(radius(v)));
     EXPECT_NEAR(surface - deepest, 0.07, 0.02);
   }
@@ -124,10 +132,12 @@ TEST(Walls, of_random_operations_keep_every_law) {
       const ModelPose pose = test::random_pose(model.source(), random, 0.5, 1.1);
       const double diagonal = test::posed_diagonal(model.source(), pose);
       const double length = random.uniform(0.05, 0.3);
-      const Stroke stroke = test::random_stroke(model.source(), pose, random, length, 1 + random.index(4));
+      const Stroke stroke =
+          test::random_stroke(model.source(), pose, random, length, 1 + random.index(4));
       if (random.index(2) == 0) {
         const double width = random.index(2) == 0 ? 0.0 : random.uniform(0.002, 0.03) * diagonal;
-        ASSERT_TRUE(model.tear(pose, stroke, {width, Layers::nearest, random.uniform(0.005, 0.03) * diagonal}));
+        ASSERT_TRUE(model.tear(pose, stroke,
+                               {width, Layers::nearest, random.uniform(0.005, 0.03) * diagonal}));
       } else {
         Bore bore;
         bore.origin = stroke[0].base;

@@ -1,4 +1,5 @@
-// Points weighed by each policy: where they stand, what does not depend on it, and what is given back.
+// Points weighed by each policy: where they stand, what does not depend on it, and what is given
+// back.
 
 #include <sunder/skinning/deform.h>
 #include <sunder/skinning/skinned_mesh.h>
@@ -25,10 +26,11 @@ constexpr WeightOptions kPoseExact = {WeightPolicy::pose_exact, 0};
 constexpr WeightOptions kPoseExact4 = {WeightPolicy::pose_exact, 4};
 constexpr WeightOptions kRefit4 = {WeightPolicy::refit, 4};
 constexpr WeightOptions kExact = {WeightPolicy::exact, 0};
-constexpr std::array kAll = {kBarycentric, kBarycentric4, kBarycentric2, kPoseExact, kPoseExact4, kRefit4, kExact};
+constexpr std::array kAll = {kBarycentric, kBarycentric4, kBarycentric2, kPoseExact,
+                             kPoseExact4,  kRefit4,       kExact};
 
-TornModel torn(const std::shared_ptr<const Character>& source, const std::vector<Operation>& operations,
-               const WeightOptions& weights) {
+TornModel torn(const std::shared_ptr<const Character>& source,
+               const std::vector<Operation>& operations, const WeightOptions& weights) {
   auto model = TornModel::create(source);
   EXPECT_TRUE(model);
   EXPECT_TRUE(model->set_weights(weights));
@@ -43,7 +45,8 @@ TornModel torn(const std::shared_ptr<const Character>& source, const std::vector
 struct Case {
   explicit Case(int seed) {
     test::Random random(static_cast<std::uint64_t>(seed));
-    source = std::make_shared<const Character>(seed % 3 == 0 ? test::random_character(random) : test::make_tube(14, 18, 5));
+    source = std::make_shared<const Character>(seed % 3 == 0 ? test::random_character(random)
+                                                             : test::make_tube(14, 18, 5));
     auto model = TornModel::create(source);
     for (int i = 0; i < 4; ++i) {
       operations.push_back(test::random_operation(*model, random));
@@ -81,14 +84,17 @@ TEST_P(WeightPolicies, keep_the_laws) {
   const Case of(GetParam());
   for (const WeightOptions& weights : kAll) {
     const TornModel model = torn(of.source, of.operations, weights);
-    ASSERT_TRUE(validate_character(model.character())) << validate_character(model.character()).text();
+    ASSERT_TRUE(validate_character(model.character()))
+        << validate_character(model.character()).text();
     for (std::uint32_t m = 0; m < of.source->meshes.size(); ++m) {
       const Mesh& mesh = model.character().meshes[m];
       for (std::uint32_t v = of.source->meshes[m].vertex_count(); v < mesh.vertex_count(); ++v) {
         double sum = 0;
-        for (const Influence& influence : mesh.weights.of(v)) sum += static_cast<double>(influence.weight);
+        for (const Influence& influence : mesh.weights.of(v))
+          sum += static_cast<double>(influence.weight);
         ASSERT_NEAR(sum, 1, 2e-7 * static_cast<double>(mesh.weights.of(v).size()));
-        const bool is_limited = weights.maximum_influences != 0 && weights.policy != WeightPolicy::barycentric &&
+        const bool is_limited = weights.maximum_influences != 0 &&
+                                weights.policy != WeightPolicy::barycentric &&
                                 model.weight_policy(m, v) == weights.policy;
         if (is_limited) {
           ASSERT_LE(mesh.weights.of(v).size(), weights.maximum_influences);
@@ -108,7 +114,8 @@ TEST_P(WeightPolicies, exact_points_stand_where_the_surface_was_in_every_pose) {
   const auto errors = measure_weight_errors(model, 0, kNone, of.poses);
   ASSERT_TRUE(errors) << errors.error().text();
   EXPECT_LE(errors->of_diagonal.maximum, 2e-7);
-  const auto barycentric = measure_weight_errors(torn(of.source, of.operations, kBarycentric), 0, kNone, of.poses);
+  const auto barycentric =
+      measure_weight_errors(torn(of.source, of.operations, kBarycentric), 0, kNone, of.poses);
   ASSERT_TRUE(barycentric);
   ASSERT_EQ(barycentric->points.size(), errors->points.size());
 }
@@ -142,8 +149,10 @@ TEST_P(WeightPolicies, exact_points_are_posed_by_the_runtime) {
         Vec3d expected = Vec3d::Zero();
         for (std::size_t k = 0; k < 3; ++k)
           expected += birth.barycentric[k] *
-                      deform_position_reference(source, source.triangles[birth.triangle][k], matrices, pose.morph_weights);
-        ASSERT_LT((positions[v].cast<double>() - expected).norm(), 1e-6 * diagonal) << "vertex " << v;
+                      deform_position_reference(source, source.triangles[birth.triangle][k],
+                                                matrices, pose.morph_weights);
+        ASSERT_LT((positions[v].cast<double>() - expected).norm(), 1e-6 * diagonal)
+            << "vertex " << v;
       }
     }
   }
@@ -163,8 +172,9 @@ TEST_P(WeightPolicies, pose_exact_points_stand_where_the_surface_was_in_the_pose
     const auto errors = measure_weight_errors(model, 0, kNone, {&pose, 1});
     ASSERT_TRUE(errors);
     EXPECT_EQ(report->weights.points, errors->points.size());
-    const auto off = std::ranges::count_if(
-        errors->points, [&](const auto& point) { return point.maximum > 1e-6 * test::posed_diagonal(*source, pose); });
+    const auto off = std::ranges::count_if(errors->points, [&](const auto& point) {
+      return point.maximum > 1e-6 * test::posed_diagonal(*source, pose);
+    });
     EXPECT_LE(off, report->weights.ill_conditioned);
     EXPECT_LT(report->weights.ill_conditioned, std::max(1u, report->weights.points / 2));
   }
@@ -228,7 +238,8 @@ TEST_P(WeightPolicies, points_are_weighed_anew_as_if_they_had_been_from_the_star
       const TornModel expected = torn(of.source, of.operations, to);
       EXPECT_EQ(model.digest(), expected.digest());
       for (std::uint32_t m = 0; m < of.source->meshes.size(); ++m)
-        EXPECT_EQ(model.influence_positions(m).positions, expected.influence_positions(m).positions);
+        EXPECT_EQ(model.influence_positions(m).positions,
+                  expected.influence_positions(m).positions);
       const auto after = model.digest();
       ASSERT_TRUE(model.undo(&change));
       EXPECT_EQ(model.digest(), before);
@@ -252,7 +263,8 @@ TEST_P(WeightPolicies, later_operations_do_not_see_what_points_were_weighed_to) 
     const TornModel plain = torn(of.source, of.operations, kBarycentric);
     for (std::uint32_t m = 0; m < of.source->meshes.size(); ++m) {
       ASSERT_EQ(model->character().meshes[m].triangles, plain.character().meshes[m].triangles);
-      for (std::uint32_t v = of.source->meshes[m].vertex_count(); v < plain.character().meshes[m].vertex_count(); ++v)
+      for (std::uint32_t v = of.source->meshes[m].vertex_count();
+           v < plain.character().meshes[m].vertex_count(); ++v)
         ASSERT_TRUE(test::are_same(plain.birth(m, v), model->birth(m, v)));
     }
     if (model->undo_count() == 0) continue;
@@ -270,7 +282,8 @@ TEST(WeightPolicy, lips_have_the_same_bits) {
     TearOptions options;
     options.weights = weights;
     ChangeRecord change;
-    ASSERT_TRUE(model.tear(pose, test::random_stroke(model.source(), pose, random, 0.4, 4), options, &change));
+    ASSERT_TRUE(model.tear(pose, test::random_stroke(model.source(), pose, random, 0.4, 4), options,
+                           &change));
     ASSERT_FALSE(change.lips.empty());
     EXPECT_EQ(test::broken_lips(model, change), std::vector<std::string>());
   }
@@ -305,7 +318,8 @@ TEST(WeightPolicy, a_stroke_blade_by_blade_is_that_of_all_its_blades) {
     for (std::size_t i = 1; i < stroke.size(); ++i) ASSERT_TRUE(live->extend(pose, stroke[i]));
     const auto of_parts = live->end();
     ASSERT_TRUE(of_parts);
-    const auto a = measure_weight_errors(*whole, 0, kNone, {&pose, 1}), b = measure_weight_errors(*parts, 0, kNone, {&pose, 1});
+    const auto a = measure_weight_errors(*whole, 0, kNone, {&pose, 1}),
+               b = measure_weight_errors(*parts, 0, kNone, {&pose, 1});
     ASSERT_TRUE(a && b);
     ASSERT_EQ(a->points.size(), b->points.size());
     EXPECT_NEAR(a->metres.rms, b->metres.rms, 1e-9);
@@ -348,7 +362,8 @@ TEST(WeightPolicy, what_cannot_be_is_refused_and_changes_nothing) {
   EXPECT_EQ(model.digest(), torn_digest);
   EXPECT_EQ(model.undo_count(), 1u);
   EXPECT_EQ(measure_weight_errors(model, 4, 1, {}).error().code(), StatusCode::not_found);
-  EXPECT_EQ(measure_weight_errors(model, 0, 1, {&bad, 1}).error().code(), StatusCode::non_finite_value);
+  EXPECT_EQ(measure_weight_errors(model, 0, 1, {&bad, 1}).error().code(),
+            StatusCode::non_finite_value);
 }
 
 TEST(WeightPolicy, exact_and_interpolated_models_are_told_apart) {
@@ -370,7 +385,8 @@ TEST(WeightPolicy, a_model_of_fixed_capacity_weighs_too) {
   for (const WeightOptions& weights : kAll) {
     TearOptions options;
     options.weights = weights;
-    const auto report = model.tear(pose, test::random_stroke(model.source(), pose, random), options);
+    const auto report =
+        model.tear(pose, test::random_stroke(model.source(), pose, random), options);
     ASSERT_TRUE(report) << report.error().text();
   }
   WeightsOperation wanted;

@@ -38,8 +38,8 @@ const char* const kOneTear = R"({"sunder_operations": 1, "operations": [
 const char* const kMiss = R"({"sunder_operations": 1, "operations": [
   {"op": "tear", "stroke": [{"base": [9, 9, 2], "tip": [9, 9, 0]}, {"base": [9, 10, 2], "tip": [9, 10, 0]}]}]})";
 
-/// Every operation: a tear that opens, one with a gap, one while the cactus sways, a cut through its trunk, a bore, what is taken
-/// back, and misses.
+/// Every operation: a tear that opens, one with a gap, one while the cactus sways, a cut through
+/// its trunk, a bore, what is taken back, and misses.
 const char* const kAll = R"({"sunder_operations": 1, "operations": [
   {"op": "tear", "pose": {"clip": "Sway", "time": 0.8},
    "stroke": [{"base": [-0.1, 1.15, 2], "tip": [-0.1, 1.15, 0]}, {"base": [-0.12, 1.25, 2], "tip": [-0.12, 1.25, 0]}]},
@@ -74,7 +74,9 @@ class Command : public testing::Test {
     return path(name);
   }
   static bool exists(const std::string& name) { return std::filesystem::exists(path(name)); }
-  static std::vector<std::byte> bytes(const std::string& name) { return test::read_bytes(path(name)); }
+  static std::vector<std::byte> bytes(const std::string& name) {
+    return test::read_bytes(path(name));
+  }
 
   static test::TemporaryFolder* folder_;
 };
@@ -92,16 +94,21 @@ TEST_F(Command, help_has_an_example_for_each_verb) {
 }
 
 TEST_F(Command, a_wrong_command_line_exits_with_2) {
-  for (const std::vector<std::string>& arguments :
-       std::vector<std::vector<std::string>>{{}, {"sew"}, {"info"}, {"info", model(), "--xml"}, {"tear", model()}}) {
+  for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
+           {}, {"sew"}, {"info"}, {"info", model(), "--xml"}, {"tear", model()}}) {
     const CommandResult result = run_sunder(arguments);
     EXPECT_EQ(result.exit_code, 2) << result.err;
     EXPECT_THAT(result.out, IsEmpty());
     EXPECT_THAT(result.err, testing::Not(IsEmpty()));
   }
-  EXPECT_EQ(run_sunder({"tear", model(), "--ops", write("a.json", kOneTear), "-o", path("x.glb"), "--influences", "5"}).exit_code,
+  EXPECT_EQ(run_sunder({"tear", model(), "--ops", write("a.json", kOneTear), "-o", path("x.glb"),
+                        "--influences", "5"})
+                .exit_code,
             2);
-  EXPECT_EQ(run_sunder({"tear", model(), "--ops", path("a.json"), "-o", path("x.glb"), "--weights-as", "u32"}).exit_code, 2);
+  EXPECT_EQ(run_sunder({"tear", model(), "--ops", path("a.json"), "-o", path("x.glb"),
+                        "--weights-as", "u32"})
+                .exit_code,
+            2);
   EXPECT_FALSE(exists("x.glb"));
 }
 
@@ -130,7 +137,8 @@ TEST_F(Command, info_speaks_to_people_too) {
 }
 
 TEST_F(Command, an_unreadable_model_exits_with_3) {
-  for (const std::string& file : {path("no such.glb"), write("garbage.glb", "not a model"), write("text.txt", "hello")}) {
+  for (const std::string& file :
+       {path("no such.glb"), write("garbage.glb", "not a model"), write("text.txt", "hello")}) {
     const CommandResult result = run_sunder({"info", file});
     EXPECT_EQ(result.exit_code, 3) << file;
     EXPECT_THAT(result.err, HasSubstr(file));
@@ -139,7 +147,8 @@ TEST_F(Command, an_unreadable_model_exits_with_3) {
 }
 
 TEST_F(Command, tear_reports_what_it_did) {
-  const CommandResult result = run_sunder({"tear", model(), "--ops", write("a.json", kOneTear), "-o", path("torn.glb")});
+  const CommandResult result =
+      run_sunder({"tear", model(), "--ops", write("a.json", kOneTear), "-o", path("torn.glb")});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const json report = json::parse(result.out);
   const json& operation = report["operations"].at(0);
@@ -175,15 +184,17 @@ double greatest_distance(const Character& a, const Character& b, const PoseSpec&
     std::vector<Affine3d> palette(a.skins[of_a.skin].bones.size());
     EXPECT_TRUE(compute_palette(a.skins[of_a.skin], *pose, palette));
     for (std::uint32_t v = 0; v < of_a.vertex_count(); ++v)
-      greatest = std::max(greatest, (deform_position_reference(of_a, v, palette, pose->morph_weights) -
-                                     deform_position_reference(of_b, v, palette, pose->morph_weights))
-                                        .norm());
+      greatest =
+          std::max(greatest, (deform_position_reference(of_a, v, palette, pose->morph_weights) -
+                              deform_position_reference(of_b, v, palette, pose->morph_weights))
+                                 .norm());
   }
   return greatest;
 }
 
 TEST_F(Command, tear_plays_every_operation) {
-  const CommandResult result = run_sunder({"tear", model(), "--ops", write("all.json", kAll), "-o", path("all.glb")});
+  const CommandResult result =
+      run_sunder({"tear", model(), "--ops", write("all.json", kAll), "-o", path("all.glb")});
   ASSERT_EQ(result.exit_code, 1) << result.err;  // for the misses
   const json report = json::parse(result.out);
   const json& operations = report["operations"];
@@ -194,12 +205,14 @@ TEST_F(Command, tear_plays_every_operation) {
     statuses.push_back(operation["status"]);
     EXPECT_EQ(operation["blocked"], 0);
   }
-  EXPECT_THAT(names, testing::ElementsAre("tear", "tear", "tear", "cut", "undo", "redo", "drill", "undo", "drill", "cut", "drill"));
-  EXPECT_THAT(statuses, testing::ElementsAre("torn", "torn", "torn", "cut", "undone", "redone", "drilled", "undone", "drilled",
-                                             "missed", "missed"));
+  EXPECT_THAT(names, testing::ElementsAre("tear", "tear", "tear", "cut", "undo", "redo", "drill",
+                                          "undo", "drill", "cut", "drill"));
+  EXPECT_THAT(statuses, testing::ElementsAre("torn", "torn", "torn", "cut", "undone", "redone",
+                                             "drilled", "undone", "drilled", "missed", "missed"));
   for (std::size_t i = 1; i < operations.size(); ++i)
     for (const char* const count : {"components", "boundary_loops"})
-      EXPECT_EQ(operations[i][count]["before"], operations[i - 1][count]["after"]) << i << ' ' << count;
+      EXPECT_EQ(operations[i][count]["before"], operations[i - 1][count]["after"])
+          << i << ' ' << count;
 
   EXPECT_EQ(operations[0]["area_removed_posed"], 0.0);
   EXPECT_GT(operations[1]["area_removed_posed"].get<double>(), 0.002);
@@ -221,31 +234,37 @@ TEST_F(Command, tear_plays_every_operation) {
     triangles += piece["triangle_count"].get<int>();
   }
   EXPECT_GT(triangles, 11'000);
-  const auto higher =
-      std::max(cut["pieces"][0]["centroid_posed"][1].get<double>(), cut["pieces"][1]["centroid_posed"][1].get<double>());
+  const auto higher = std::max(cut["pieces"][0]["centroid_posed"][1].get<double>(),
+                               cut["pieces"][1]["centroid_posed"][1].get<double>());
   EXPECT_GT(higher, 0.8);
   EXPECT_EQ(operations[4]["components"]["after"], cut["components"]["before"]);
   EXPECT_EQ(operations[5]["components"], cut["components"]);
-  EXPECT_EQ(operations[8]["boundary_loops"]["after"], operations[8]["boundary_loops"]["before"].get<int>() + 2);
+  EXPECT_EQ(operations[8]["boundary_loops"]["after"],
+            operations[8]["boundary_loops"]["before"].get<int>() + 2);
   EXPECT_THAT(report["result"]["digest"].get<std::string>(), testing::MatchesRegex("[0-9a-f]{16}"));
   EXPECT_EQ(report["result"]["non_manifold_edges"], 0);
 
   // What is written is the model, without the triangles that are gone.
   const CommandResult info = run_sunder({"info", path("all.glb"), "--json"});
   ASSERT_EQ(info.exit_code, 0) << info.err;
-  for (const char* const count : {"triangles", "points", "components", "boundary_loops", "non_manifold_edges"})
-    EXPECT_EQ(json::parse(info.out)["topology"][count], report["result"]["topology"][count]) << count;
+  for (const char* const count :
+       {"triangles", "points", "components", "boundary_loops", "non_manifold_edges"})
+    EXPECT_EQ(json::parse(info.out)["topology"][count], report["result"]["topology"][count])
+        << count;
 }
 
 TEST_F(Command, tear_says_what_it_writes_of_the_influences) {
   const std::string operations = write("a.json", kOneTear);
-  const json all = json::parse(run_sunder({"tear", model(), "--ops", operations, "-o", path("all_kept.glb")}).out);
+  const json all = json::parse(
+      run_sunder({"tear", model(), "--ops", operations, "-o", path("all_kept.glb")}).out);
   EXPECT_EQ(
       all["influences_written"],
-      json::parse(R"({"maximum": 0, "format": "float", "vertices_pruned": 0, "dropped_mass_max": 0.0, "pruning_error_max": 0.0})"));
+      json::parse(
+          R"({"maximum": 0, "format": "float", "vertices_pruned": 0, "dropped_mass_max": 0.0, "pruning_error_max": 0.0})"));
   for (const char* const format : {"float", "u16", "u8"}) {
     const CommandResult result =
-        run_sunder({"tear", model(), "--ops", operations, "-o", path("pruned.glb"), "--influences", "4", "--weights-as", format});
+        run_sunder({"tear", model(), "--ops", operations, "-o", path("pruned.glb"), "--influences",
+                    "4", "--weights-as", format});
     ASSERT_EQ(result.exit_code, 0) << result.err;
     const json report = json::parse(result.out);
     const json& written = report["influences_written"];
@@ -256,12 +275,15 @@ TEST_F(Command, tear_says_what_it_writes_of_the_influences) {
     EXPECT_GT(written["dropped_mass_max"].get<double>(), 0.0);
     EXPECT_LT(written["dropped_mass_max"].get<double>(), 0.8);  // four of at most twenty
 
-    const auto before = load_character(path("all_kept.glb")), after = load_character(path("pruned.glb"));
+    const auto before = load_character(path("all_kept.glb")),
+               after = load_character(path("pruned.glb"));
     ASSERT_TRUE(before && after);
     double moved = 0;
     for (const PoseSpec& spec : {PoseSpec(RestPose()), PoseSpec(ClipPose{"Sway", 0.8})})
       moved = std::max(moved, greatest_distance(*before->character, *after->character, spec));
-    const double of_an_integer = format == std::string("u8") ? 1.0 / 255 : format == std::string("u16") ? 1.0 / 65535 : 0.0;
+    const double of_an_integer = format == std::string("u8")    ? 1.0 / 255
+                                 : format == std::string("u16") ? 1.0 / 65535
+                                                                : 0.0;
     EXPECT_NEAR(moved, written["pruning_error_max"].get<double>(), 1e-5 + of_an_integer) << format;
     EXPECT_GT(moved, 0.0);
   }
@@ -271,14 +293,16 @@ TEST_F(Command, tear_weighs_new_points_as_it_is_told) {
   const std::string operations = write("a.json", kOneTear);
   std::map<std::string, json> reports;
   for (const char* const policy : {"barycentric", "pose_exact", "refit", "exact"}) {
-    const CommandResult result = run_sunder({"tear", model(), "--ops", operations, "-o", path("weighed.glb"), "--weights", policy});
+    const CommandResult result = run_sunder(
+        {"tear", model(), "--ops", operations, "-o", path("weighed.glb"), "--weights", policy});
     ASSERT_EQ(result.exit_code, 0) << result.err;
     const json report = reports[policy] = json::parse(result.out);
     EXPECT_EQ(report["weights"]["policy"], policy);
     EXPECT_EQ(report["weights"]["influences"], 0);
     EXPECT_EQ(report["operations"].size(), policy == std::string("refit") ? 2u : 1u);
     const json& errors = report["weight_errors"];
-    for (const char* const set : {"operations", "clips", "clips_held_out", "range_of_motion", "range_of_motion_held_out"}) {
+    for (const char* const set :
+         {"operations", "clips", "clips_held_out", "range_of_motion", "range_of_motion_held_out"}) {
       ASSERT_TRUE(errors.contains(set)) << set;
       EXPECT_GT(errors[set]["points"], 5);
       EXPECT_LE(errors[set]["poses"], 200);
@@ -314,7 +338,8 @@ TEST_F(Command, tear_weighs_new_points_as_it_is_told) {
   EXPECT_FALSE(reports["refit"]["weight_errors"].contains("as_written"));
   const json& as_written = reports["exact"]["weight_errors"]["as_written"];
   EXPECT_EQ(as_written, reports["barycentric"]["weight_errors"]);
-  EXPECT_THAT(reports["exact"]["weight_errors"]["note"].get<std::string>(), HasSubstr("barycentric"));
+  EXPECT_THAT(reports["exact"]["weight_errors"]["note"].get<std::string>(),
+              HasSubstr("barycentric"));
 }
 
 TEST_F(Command, influences_are_kept_in_weights_too) {
@@ -322,7 +347,8 @@ TEST_F(Command, influences_are_kept_in_weights_too) {
     {"op": "cut", "pose": {"clip": "Sway", "time": 0.8}, "plane": {"point": [0, 0.8, 0], "normal": [0, 1, 0]}}]})");
   for (const char* const policy : {"barycentric", "pose_exact", "refit", "exact"}) {
     const CommandResult result =
-        run_sunder({"tear", model(), "--ops", operations, "-o", path("four.glb"), "--weights", policy, "--influences", "4"});
+        run_sunder({"tear", model(), "--ops", operations, "-o", path("four.glb"), "--weights",
+                    policy, "--influences", "4"});
     ASSERT_EQ(result.exit_code, 0) << result.err;
     const json report = json::parse(result.out);
     const bool is_exact = policy == std::string("exact");
@@ -334,8 +360,9 @@ TEST_F(Command, influences_are_kept_in_weights_too) {
 TEST_F(Command, a_refit_is_over_what_it_is_told) {
   const std::string operations = write("a.json", kOneTear);
   for (const char* const over : {"clips", "range_of_motion", "both"}) {
-    const CommandResult result = run_sunder({"tear", model(), "--ops", operations, "-o", path("refit.glb"), "--weights", "refit",
-                                             "--refit-over", over, "--save-log", path("refit.json")});
+    const CommandResult result =
+        run_sunder({"tear", model(), "--ops", operations, "-o", path("refit.glb"), "--weights",
+                    "refit", "--refit-over", over, "--save-log", path("refit.json")});
     ASSERT_EQ(result.exit_code, 0) << result.err;
     EXPECT_EQ(json::parse(result.out)["weights"]["refit_over"], over);
     std::ifstream stream(path("refit.json"));
@@ -350,7 +377,8 @@ TEST_F(Command, a_refit_is_over_what_it_is_told) {
                                              {"--weights", "exact", "--refit-over", "both"},
                                              {"--weights", "refit", "--refit-over", "none"},
                                              {"--weights", "linear"}}) {
-    std::vector<std::string> all = {"tear", model(), "--ops", operations, "-o", path("unfitted.glb")};
+    std::vector<std::string> all = {"tear",     model(), "--ops",
+                                    operations, "-o",    path("unfitted.glb")};
     all.insert(all.end(), arguments.begin(), arguments.end());
     const CommandResult result = run_sunder(all);
     EXPECT_EQ(result.exit_code, 2) << arguments.back();
@@ -365,16 +393,17 @@ TEST_F(Command, a_model_without_clips_is_refitted_over_its_range_of_motion) {
   ASSERT_TRUE(save_glb(path("still.glb"), still));
   const std::string operations = write("still.json", R"({"sunder_operations": 1, "operations": [
     {"op": "drill", "axis": {"origin": [0, 0.4, 2], "direction": [0, 0, -1]}, "radius": 0.02, "depth": 4}]})");
-  const CommandResult result =
-      run_sunder({"tear", path("still.glb"), "--ops", operations, "-o", path("bored.glb"), "--weights", "refit"});
+  const CommandResult result = run_sunder({"tear", path("still.glb"), "--ops", operations, "-o",
+                                           path("bored.glb"), "--weights", "refit"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const json report = json::parse(result.out);
   EXPECT_EQ(report["weights"]["refit_over"], "both");
   EXPECT_FALSE(report["weight_errors"].contains("clips"));
   EXPECT_TRUE(report["weight_errors"].contains("range_of_motion"));
 
-  const CommandResult no_clips = run_sunder(
-      {"tear", path("still.glb"), "--ops", operations, "-o", path("unbored.glb"), "--weights", "refit", "--refit-over", "clips"});
+  const CommandResult no_clips =
+      run_sunder({"tear", path("still.glb"), "--ops", operations, "-o", path("unbored.glb"),
+                  "--weights", "refit", "--refit-over", "clips"});
   EXPECT_EQ(no_clips.exit_code, 2);
   EXPECT_THAT(no_clips.err, HasSubstr("--refit-over"));
   EXPECT_FALSE(exists("unbored.glb"));
@@ -390,8 +419,8 @@ TEST_F(Command, a_model_that_does_not_bend_needs_no_refit) {
   ASSERT_TRUE(save_glb(path("stiff.glb"), stiff));
   const std::string operations = write("stiff.json", R"({"sunder_operations": 1, "operations": [
     {"op": "drill", "axis": {"origin": [0, 0.4, 2], "direction": [0, 0, -1]}, "radius": 0.02, "depth": 4}]})");
-  const CommandResult result =
-      run_sunder({"tear", path("stiff.glb"), "--ops", operations, "-o", path("bored.glb"), "--weights", "refit"});
+  const CommandResult result = run_sunder({"tear", path("stiff.glb"), "--ops", operations, "-o",
+                                           path("bored.glb"), "--weights", "refit"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const json report = json::parse(result.out);
   EXPECT_TRUE(report["weights"]["refit_over"].is_null());
@@ -400,7 +429,8 @@ TEST_F(Command, a_model_that_does_not_bend_needs_no_refit) {
   EXPECT_LT(report["weight_errors"]["operations"]["maximum"].get<double>(), 1e-6);
 }
 
-/// One tear and bores whose weights the log gives them, of which the last waits for a fit; then weights of the first.
+/// One tear and bores whose weights the log gives them, of which the last waits for a fit; then
+/// weights of the first.
 const char* const kWeighed = R"({"sunder_operations": 1, "operations": [
   {"op": "tear", "pose": {"clip": "Sway", "time": 0.8}, "weights": {"policy": "refit"},
    "stroke": [{"base": [-0.1, 1.15, 2], "tip": [-0.1, 1.15, 0]}, {"base": [-0.12, 1.25, 2], "tip": [-0.12, 1.25, 0]}]},
@@ -411,8 +441,9 @@ const char* const kWeighed = R"({"sunder_operations": 1, "operations": [
   {"op": "drill", "axis": {"origin": [0, 0.9, 2], "direction": [0, 0, -1]}, "radius": 0.02, "depth": 4}]})";
 
 TEST_F(Command, weights_of_the_log_win) {
-  const CommandResult result = run_sunder({"tear", model(), "--ops", write("weighed.json", kWeighed), "-o", path("won.glb"),
-                                           "--weights", "refit", "--influences", "8", "--save-log", path("won.json")});
+  const CommandResult result =
+      run_sunder({"tear", model(), "--ops", write("weighed.json", kWeighed), "-o", path("won.glb"),
+                  "--weights", "refit", "--influences", "8", "--save-log", path("won.json")});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   std::ifstream stream(path("won.json"));
   const json operations = json::parse(stream)["operations"];
@@ -430,11 +461,11 @@ TEST_F(Command, weights_of_the_log_win) {
 /// Plays a log, then the log that it saved, and expects the same model.
 void expect_replay(const std::string& model, const std::string& operations, const std::string& stem,
                    const std::string& weights = "barycentric") {
-  const CommandResult played =
-      run_sunder({"tear", model, "--ops", operations, "-o", stem + "1.glb", "--save-log", stem + "1.json", "--weights", weights});
+  const CommandResult played = run_sunder({"tear", model, "--ops", operations, "-o", stem + "1.glb",
+                                           "--save-log", stem + "1.json", "--weights", weights});
   ASSERT_LE(played.exit_code, 1) << played.err;
-  const CommandResult replayed =
-      run_sunder({"tear", model, "--ops", stem + "1.json", "-o", stem + "2.glb", "--save-log", stem + "2.json"});
+  const CommandResult replayed = run_sunder({"tear", model, "--ops", stem + "1.json", "-o",
+                                             stem + "2.glb", "--save-log", stem + "2.json"});
   ASSERT_EQ(replayed.exit_code, 0) << replayed.err;
   EXPECT_EQ(json::parse(played.out)["result"], json::parse(replayed.out)["result"]);
   EXPECT_EQ(json::parse(played.out)["weight_errors"], json::parse(replayed.out)["weight_errors"]);
@@ -447,7 +478,8 @@ TEST_F(Command, a_saved_log_gives_the_same_model) {
   std::ifstream stream(path("replay1.json"));
   const json log = json::parse(stream);
   EXPECT_EQ(log["operations"].size(), 4u);  // undone and missed ones are not history
-  for (const json& operation : log["operations"]) EXPECT_TRUE(operation["pose"].contains("matrices"));
+  for (const json& operation : log["operations"])
+    EXPECT_TRUE(operation["pose"].contains("matrices"));
 }
 
 TEST_F(Command, a_saved_log_gives_the_same_weights) {
@@ -480,8 +512,9 @@ TEST_F(Command, a_saved_log_gives_the_same_model_from_an_artists_file) {
 }
 
 TEST_F(Command, a_log_that_cannot_be_saved_leaves_nothing) {
-  const CommandResult result = run_sunder({"tear", model(), "--ops", write("a.json", kOneTear), "-o", path("unlogged.glb"),
-                                           "--save-log", path("no such folder/log.json"), "--report", path("unlogged.json")});
+  const CommandResult result = run_sunder(
+      {"tear", model(), "--ops", write("a.json", kOneTear), "-o", path("unlogged.glb"),
+       "--save-log", path("no such folder/log.json"), "--report", path("unlogged.json")});
   EXPECT_EQ(result.exit_code, 3);
   EXPECT_THAT(result.err, HasSubstr("no such folder/log.json"));
   EXPECT_FALSE(exists("unlogged.glb"));
@@ -492,8 +525,8 @@ TEST_F(Command, a_log_that_cannot_be_saved_leaves_nothing) {
 TEST_F(Command, what_tear_writes_is_valid) {
   for (const char* const influences : {"4", "8"})
     for (const char* const format : {"float", "u16", "u8"}) {
-      ASSERT_EQ(run_sunder({"tear", model(), "--ops", write("a.json", kOneTear), "-o", path("valid.glb"), "--influences",
-                            influences, "--weights-as", format})
+      ASSERT_EQ(run_sunder({"tear", model(), "--ops", write("a.json", kOneTear), "-o",
+                            path("valid.glb"), "--influences", influences, "--weights-as", format})
                     .exit_code,
                 0);
       EXPECT_TRUE(load_character(path("valid.glb")));
@@ -504,15 +537,16 @@ TEST_F(Command, what_tear_writes_is_valid) {
 }
 
 TEST_F(Command, the_report_goes_where_it_is_wanted) {
-  const CommandResult result =
-      run_sunder({"tear", model(), "--ops", write("a.json", kOneTear), "-o", path("torn2.glb"), "--report", path("r.json")});
+  const CommandResult result = run_sunder({"tear", model(), "--ops", write("a.json", kOneTear),
+                                           "-o", path("torn2.glb"), "--report", path("r.json")});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.out, IsEmpty());
   std::ifstream stream(path("r.json"));
   EXPECT_EQ(json::parse(stream)["operations"].size(), 1u);
 
   const CommandResult failing =
-      run_sunder({"tear", model(), "--ops", path("a.json"), "-o", path("torn3.glb"), "--report", path("no such folder/r.json")});
+      run_sunder({"tear", model(), "--ops", path("a.json"), "-o", path("torn3.glb"), "--report",
+                  path("no such folder/r.json")});
   EXPECT_EQ(failing.exit_code, 3);
   EXPECT_FALSE(exists("torn3.glb"));
 }
@@ -529,7 +563,8 @@ TEST_F(Command, no_operation_gives_the_source) {
   ASSERT_EQ(run_sunder({"tear", model(), "--ops", none, "-o", path("same.glb")}).exit_code, 0);
   EXPECT_EQ(bytes("same.glb"), bytes("cactus.glb"));
   for (const char* const weights : {"refit", "exact"}) {
-    const CommandResult result = run_sunder({"tear", model(), "--ops", none, "-o", path("same.glb"), "--weights", weights});
+    const CommandResult result =
+        run_sunder({"tear", model(), "--ops", none, "-o", path("same.glb"), "--weights", weights});
     ASSERT_EQ(result.exit_code, 0) << result.err;
     EXPECT_EQ(json::parse(result.out)["weight_errors"], json::object());
     EXPECT_EQ(bytes("same.glb"), bytes("cactus.glb"));
@@ -537,7 +572,8 @@ TEST_F(Command, no_operation_gives_the_source) {
 }
 
 TEST_F(Command, a_miss_is_a_finding_and_still_written) {
-  const CommandResult result = run_sunder({"tear", model(), "--ops", write("miss.json", kMiss), "-o", path("missed.glb")});
+  const CommandResult result =
+      run_sunder({"tear", model(), "--ops", write("miss.json", kMiss), "-o", path("missed.glb")});
   EXPECT_EQ(result.exit_code, 1) << result.err;
   EXPECT_EQ(json::parse(result.out)["operations"][0]["status"], "missed");
   EXPECT_EQ(bytes("missed.glb"), bytes("cactus.glb"));
@@ -562,7 +598,8 @@ TEST_F(Command, bad_operations_exit_with_2_name_their_place_and_leave_nothing) {
          "stroke": [{"base": [0,1,1], "tip": [0,1,0]}, {"base": [0,1,-1], "tip": [0,1,0]}]}]})",
        "/operations/0"},
       {R"({"sunder_operations": 1, "operations": [{"op": "undo"}]})", "/operations/0"},
-      {R"({"sunder_operations": 1, "operations": [{"op": "weights", "weights": {}}]})", "/operations/0"},
+      {R"({"sunder_operations": 1, "operations": [{"op": "weights", "weights": {}}]})",
+       "/operations/0"},
       {R"({"sunder_operations": 1, "operations": [{"op": "weights", "weights": {"policy": "sewn"}}]})",
        "/operations/0/weights/policy"},
       {R"({"sunder_operations": 1, "operations": [{"op": "redo", "count": 0}]})", "count"},
@@ -577,14 +614,17 @@ TEST_F(Command, bad_operations_exit_with_2_name_their_place_and_leave_nothing) {
        "/operations/0"},
   };
   for (const Case& bad : cases) {
-    const CommandResult result = run_sunder({"tear", model(), "--ops", write("bad.json", bad.operations), "-o", path("bad.glb")});
+    const CommandResult result = run_sunder(
+        {"tear", model(), "--ops", write("bad.json", bad.operations), "-o", path("bad.glb")});
     EXPECT_EQ(result.exit_code, 2) << bad.operations << result.err;
     EXPECT_THAT(result.err, HasSubstr(bad.words));
     EXPECT_THAT(result.err, HasSubstr("bad.json"));
     EXPECT_THAT(result.out, IsEmpty());
     EXPECT_FALSE(exists("bad.glb"));
   }
-  EXPECT_EQ(run_sunder({"tear", model(), "--ops", path("no such.json"), "-o", path("bad.glb")}).exit_code, 3);
+  EXPECT_EQ(
+      run_sunder({"tear", model(), "--ops", path("no such.json"), "-o", path("bad.glb")}).exit_code,
+      3);
 }
 
 TEST_F(Command, a_failing_operation_after_a_good_one_writes_nothing) {
@@ -592,16 +632,16 @@ TEST_F(Command, a_failing_operation_after_a_good_one_writes_nothing) {
   operations["operations"].push_back(operations["operations"][0]);
   operations["operations"][1]["pose"]["clip"] = 99;
   std::ofstream(path("kept.glb")) << "was here before";
-  const CommandResult result =
-      run_sunder({"tear", model(), "--ops", write("second.json", operations.dump()), "-o", path("kept.glb")});
+  const CommandResult result = run_sunder(
+      {"tear", model(), "--ops", write("second.json", operations.dump()), "-o", path("kept.glb")});
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_THAT(result.err, HasSubstr("/operations/1"));
   EXPECT_EQ(bytes("kept.glb").size(), 15u);
 }
 
 TEST_F(Command, an_output_that_cannot_be_written_exits_with_3) {
-  const CommandResult result =
-      run_sunder({"tear", model(), "--ops", write("a.json", kOneTear), "-o", path("no such folder/torn.glb")});
+  const CommandResult result = run_sunder(
+      {"tear", model(), "--ops", write("a.json", kOneTear), "-o", path("no such folder/torn.glb")});
   EXPECT_EQ(result.exit_code, 3);
   EXPECT_THAT(result.out, IsEmpty());
 }
@@ -623,8 +663,8 @@ TEST_F(Command, demo_without_a_renderer_leaves_all_but_the_pictures) {
   EXPECT_LT(errors["exact"]["range_of_motion"]["maximum"].get<double>(), 1e-6);
 
   // The demo's own log makes its tear again.
-  ASSERT_EQ(run_sunder({"tear", path("demo/cactus.glb"), "--ops", path("demo/ops.json"), "-o", path("again.glb"), "--report",
-                        path("again.json")})
+  ASSERT_EQ(run_sunder({"tear", path("demo/cactus.glb"), "--ops", path("demo/ops.json"), "-o",
+                        path("again.glb"), "--report", path("again.json")})
                 .exit_code,
             0);
   std::ifstream first(path("demo/report.json")), second(path("again.json"));
@@ -635,18 +675,22 @@ TEST_F(Command, demo_without_a_renderer_leaves_all_but_the_pictures) {
 }
 
 TEST_F(Command, demo_draws_four_pictures) {
-  if (std::system("command -v f3d xvfb-run >/dev/null 2>&1") != 0) GTEST_SKIP() << "needs f3d and xvfb-run";
+  if (std::system("command -v f3d xvfb-run >/dev/null 2>&1") != 0)
+    GTEST_SKIP() << "needs f3d and xvfb-run";
   const CommandResult result = run_sunder({"demo", model(), "-o", path("pictures")});
   EXPECT_EQ(result.exit_code, 0) << result.err;
   for (const char* const name : {"before", "torn", "later_1", "later_2"})
-    EXPECT_GT(std::filesystem::file_size(path("pictures/" + std::string(name) + ".png")), 10'000u) << name;
+    EXPECT_GT(std::filesystem::file_size(path("pictures/" + std::string(name) + ".png")), 10'000u)
+        << name;
 }
 
 TEST_F(Command, tear_draws_what_is_left) {
-  if (std::system("command -v f3d xvfb-run >/dev/null 2>&1") != 0) GTEST_SKIP() << "needs f3d and xvfb-run";
+  if (std::system("command -v f3d xvfb-run >/dev/null 2>&1") != 0)
+    GTEST_SKIP() << "needs f3d and xvfb-run";
   for (const char* const operations : {kOneTear, kAll}) {
-    const CommandResult result = run_sunder(
-        {"tear", model(), "--ops", write("drawn.json", operations), "-o", path("drawn.glb"), "--picture", path("drawn.png")});
+    const CommandResult result =
+        run_sunder({"tear", model(), "--ops", write("drawn.json", operations), "-o",
+                    path("drawn.glb"), "--picture", path("drawn.png")});
     EXPECT_LE(result.exit_code, 1) << result.err;
     EXPECT_THAT(result.err, IsEmpty());
     EXPECT_GT(std::filesystem::file_size(path("drawn.png")), 10'000u);
@@ -656,7 +700,8 @@ TEST_F(Command, tear_draws_what_is_left) {
 
 TEST_F(Command, a_picture_that_cannot_be_drawn_is_a_finding) {
   const CommandResult no_renderer =
-      run_sunder({"tear", model(), "--ops", write("a.json", kOneTear), "-o", path("undrawn.glb"), "--picture", path("undrawn.png")},
+      run_sunder({"tear", model(), "--ops", write("a.json", kOneTear), "-o", path("undrawn.glb"),
+                  "--picture", path("undrawn.png")},
                  {{"PATH", "/nonexistent"}});
   EXPECT_EQ(no_renderer.exit_code, 1);
   EXPECT_THAT(no_renderer.err, HasSubstr("f3d"));
@@ -664,8 +709,8 @@ TEST_F(Command, a_picture_that_cannot_be_drawn_is_a_finding) {
   EXPECT_EQ(json::parse(no_renderer.out)["operations"].size(), 1u);
 
   const std::string none = write("none.json", R"({"sunder_operations": 1, "operations": []})");
-  const CommandResult nothing =
-      run_sunder({"tear", model(), "--ops", none, "-o", path("undrawn.glb"), "--picture", path("undrawn.png")});
+  const CommandResult nothing = run_sunder({"tear", model(), "--ops", none, "-o",
+                                            path("undrawn.glb"), "--picture", path("undrawn.png")});
   EXPECT_EQ(nothing.exit_code, 1);
   EXPECT_THAT(nothing.err, HasSubstr("undrawn.png"));
   EXPECT_FALSE(exists("undrawn.png"));

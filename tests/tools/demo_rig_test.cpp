@@ -34,11 +34,13 @@ TEST(DemoRig, has_something_of_everything_that_a_tear_must_carry) {
   EXPECT_EQ(flesh.uv_sets.size(), 1u);
   EXPECT_EQ(flesh.morph_targets.size(), 1u);
   std::size_t most_influences = 0;
-  for (std::uint32_t v = 0; v < flesh.vertex_count(); ++v) most_influences = std::max(most_influences, flesh.weights.of(v).size());
+  for (std::uint32_t v = 0; v < flesh.vertex_count(); ++v)
+    most_influences = std::max(most_influences, flesh.weights.of(v).size());
   EXPECT_GT(most_influences, 4u);
   const auto& channels = cactus.clips.at(0).channels;
-  EXPECT_TRUE(std::any_of(channels.begin(), channels.end(),
-                          [](const Channel& channel) { return channel.interpolation == Interpolation::cubic_spline; }));
+  EXPECT_TRUE(std::any_of(channels.begin(), channels.end(), [](const Channel& channel) {
+    return channel.interpolation == Interpolation::cubic_spline;
+  }));
   // A UV seam: more vertices than points.
   EXPECT_GT(count_topology(cactus).vertices, count_topology(cactus).points);
 }

@@ -17,7 +17,8 @@ namespace sunder {
 namespace {
 
 const Mesh& mesh_named(const Character& character, const std::string& name) {
-  return *std::find_if(character.meshes.begin(), character.meshes.end(), [&](const Mesh& mesh) { return mesh.name == name; });
+  return *std::find_if(character.meshes.begin(), character.meshes.end(),
+                       [&](const Mesh& mesh) { return mesh.name == name; });
 }
 
 std::vector<Vec3f> posed_positions(const Character& character, const Mesh& mesh, double time) {
@@ -85,10 +86,12 @@ TEST_F(NewDocument, moves_as_before) {
   for (const double time : {0.0, 0.37, 1.0, 1.61})
     for (const Mesh& before : cactus_.meshes) {
       const auto expected = posed_positions(cactus_, before, time);
-      const auto found = posed_positions(*loaded.character, mesh_named(*loaded.character, before.name), time);
+      const auto found =
+          posed_positions(*loaded.character, mesh_named(*loaded.character, before.name), time);
       ASSERT_EQ(found.size(), expected.size());
       float worst = 0;
-      for (std::size_t v = 0; v < found.size(); ++v) worst = std::max(worst, (found[v] - expected[v]).norm());
+      for (std::size_t v = 0; v < found.size(); ++v)
+        worst = std::max(worst, (found[v] - expected[v]).norm());
       EXPECT_LT(worst, 2e-6f) << before.name << " at " << time;
     }
 }
@@ -98,7 +101,8 @@ TEST_F(NewDocument, keeps_the_largest_influences_that_are_asked_for) {
   options.maximum_influences = 4;
   const LoadedCharacter loaded = save_and_load(cactus_, options);
   const Mesh& flesh = mesh_named(*loaded.character, "Cactus");
-  for (std::uint32_t v = 0; v < flesh.vertex_count(); ++v) ASSERT_LE(flesh.weights.of(v).size(), 4u);
+  for (std::uint32_t v = 0; v < flesh.vertex_count(); ++v)
+    ASSERT_LE(flesh.weights.of(v).size(), 4u);
 }
 
 TEST_F(NewDocument, refuses_what_is_not_valid_and_leaves_no_file) {
@@ -108,7 +112,8 @@ TEST_F(NewDocument, refuses_what_is_not_valid_and_leaves_no_file) {
   SaveOptions options;
   options.maximum_influences = 5;
   EXPECT_EQ(save_glb(file_, cactus_, options).code(), StatusCode::invalid_argument);
-  EXPECT_EQ(save_glb(folder_.path() / "no such folder" / "a.glb", cactus_).code(), StatusCode::file_unreadable);
+  EXPECT_EQ(save_glb(folder_.path() / "no such folder" / "a.glb", cactus_).code(),
+            StatusCode::file_unreadable);
   EXPECT_TRUE(std::filesystem::is_empty(folder_.path()));
 }
 

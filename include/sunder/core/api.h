@@ -17,8 +17,7 @@
 
 /// Lets compilers that can do it check the arguments of a printf format.
 #if defined(__GNUC__)
-#define SUNDER_PRINTF(text, first_argument) \
-  __attribute__((format(printf, text, first_argument)))
+#define SUNDER_PRINTF(text, first_argument) __attribute__((format(printf, text, first_argument)))
 #else
 #define SUNDER_PRINTF(text, first_argument)
 #endif

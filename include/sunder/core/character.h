@@ -10,22 +10,26 @@
 
 namespace sunder {
 
-/// A rigged model: meshes and skins on one skeleton, with its clips. Rigid parts are meshes whose skin has one bone.
+/// A rigged model: meshes and skins on one skeleton, with its clips. Rigid parts are meshes whose
+/// skin has one bone.
 struct Character {
   std::string name;
   Skeleton skeleton;
   std::vector<Skin> skins;
   std::vector<Mesh> meshes;
-  std::vector<float> rest_morph_weights;  ///< All meshes' weights; Mesh::first_morph_weight says where each begins.
+  std::vector<float> rest_morph_weights;  ///< All meshes' weights; Mesh::first_morph_weight says
+                                          ///< where each begins.
   std::vector<Clip> clips;
 
   bool operator==(const Character&) const = default;
 };
 
-/// Checks everything that the rest of the library then trusts: lengths, index ranges, finite values, the bone tree,
-/// unique bone names, normalised weights, key times. Triangles may be degenerate or non-manifold; tearing copes with those.
+/// Checks everything that the rest of the library then trusts: lengths, index ranges, finite
+/// values, the bone tree, unique bone names, normalised weights, key times. Triangles may be
+/// degenerate or non-manifold; tearing copes with those.
 ///
-/// @return the first fault, with its index and, in the text, its place ("mesh 2 'Body': vertex 812: …"). O(size), no allocation
+/// @return the first fault, with its index and, in the text, its place ("mesh 2 'Body': vertex 812:
+/// …"). O(size), no allocation
 ///         but a set of bone names.
 [[nodiscard]] SUNDER_API Status validate_character(const Character& character);
 

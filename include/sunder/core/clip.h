@@ -16,11 +16,13 @@ struct Channel {
   ChannelTarget target = ChannelTarget::translation;
   /// The bone; for morph weights, the first weight in Pose::morph_weights.
   std::uint32_t index = 0;
-  /// Floats of one value: 3 (translation, scale), 4 (rotation, x y z w) or the number of morph weights driven.
+  /// Floats of one value: 3 (translation, scale), 4 (rotation, x y z w) or the number of morph
+  /// weights driven.
   std::uint32_t width = 3;
   Interpolation interpolation = Interpolation::linear;
   std::vector<float> times;  ///< Seconds, strictly increasing, >= 0, at least one.
-  /// times.size() * width floats; three times as many for cubic_spline (in-tangent, value, out-tangent a key).
+  /// times.size() * width floats; three times as many for cubic_spline (in-tangent, value,
+  /// out-tangent a key).
   std::vector<float> values;
 
   bool operator==(const Channel&) const = default;

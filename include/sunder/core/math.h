@@ -7,8 +7,9 @@
 
 namespace sunder {
 
-// Eigen types whose layout does not depend on compiler flags (DontAlign), so that a host built with -mavx and a library
-// built without it agree on every struct. Column vectors, right-handed; see docs/conventions.md.
+// Eigen types whose layout does not depend on compiler flags (DontAlign), so that a host built with
+// -mavx and a library built without it agree on every struct. Column vectors, right-handed; see
+// docs/conventions.md.
 
 using Vec2f = Eigen::Matrix<float, 2, 1, Eigen::DontAlign>;
 using Vec3f = Eigen::Matrix<float, 3, 1, Eigen::DontAlign>;

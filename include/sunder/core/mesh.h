@@ -11,16 +11,20 @@ namespace sunder {
 
 using Triangle = std::array<std::uint32_t, 3>;  ///< Vertices, counter-clockwise from outside.
 
-/// A triangle that an operation took away keeps its number and names one vertex three times: buffers that mirror the mesh draw
-/// nothing there. Files are written without it.
+/// A triangle that an operation took away keeps its number and names one vertex three times:
+/// buffers that mirror the mesh draw nothing there. Files are written without it.
 [[nodiscard]] constexpr bool is_retired(const Triangle& triangle) {
   return triangle[0] == triangle[1] && triangle[1] == triangle[2];
 }
 
-/// Whether two triangles have the same vertices in the same order. (The comparison of arrays calls into the C library.)
-[[nodiscard]] constexpr bool is_same(const Triangle& a, const Triangle& b) { return a[0] == b[0] && a[1] == b[1] && a[2] == b[2]; }
+/// Whether two triangles have the same vertices in the same order. (The comparison of arrays calls
+/// into the C library.)
+[[nodiscard]] constexpr bool is_same(const Triangle& a, const Triangle& b) {
+  return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
+}
 
-/// Displacements added to a mesh in bind space, scaled by the target's weight. An array is empty or has one entry per vertex.
+/// Displacements added to a mesh in bind space, scaled by the target's weight. An array is empty or
+/// has one entry per vertex.
 struct MorphTarget {
   std::string name;
   std::vector<Vec3f> position_deltas;
@@ -48,14 +52,15 @@ struct Submesh {
   bool operator==(const Submesh&) const = default;
 };
 
-/// A triangle mesh in bind space with one skin. Every array with "V" has one entry per vertex or, if optional, none.
+/// A triangle mesh in bind space with one skin. Every array with "V" has one entry per vertex or,
+/// if optional, none.
 struct Mesh {
   std::string name;
   std::uint32_t skin = 0;  ///< In Character::skins.
 
-  std::vector<Vec3f> positions;                ///< V.
-  std::vector<Vec3f> normals;                  ///< V or none. Unit length.
-  std::vector<Vec4f> tangents;                 ///< V or none. Unit xyz; w = +1 or -1, the bitangent's sign.
+  std::vector<Vec3f> positions;  ///< V.
+  std::vector<Vec3f> normals;    ///< V or none. Unit length.
+  std::vector<Vec4f> tangents;   ///< V or none. Unit xyz; w = +1 or -1, the bitangent's sign.
   std::vector<std::vector<Vec2f>> uv_sets;     ///< Each V.
   std::vector<std::vector<Vec4f>> color_sets;  ///< Each V. Linear RGBA.
   std::vector<CustomAttribute> custom_attributes;
@@ -68,16 +73,22 @@ struct Mesh {
   std::vector<std::uint32_t> triangle_submesh;  ///< One a triangle, in `submeshes`.
   std::vector<Submesh> submeshes;
 
-  [[nodiscard]] std::uint32_t vertex_count() const { return static_cast<std::uint32_t>(positions.size()); }
-  [[nodiscard]] std::uint32_t triangle_count() const { return static_cast<std::uint32_t>(triangles.size()); }
+  [[nodiscard]] std::uint32_t vertex_count() const {
+    return static_cast<std::uint32_t>(positions.size());
+  }
+  [[nodiscard]] std::uint32_t triangle_count() const {
+    return static_cast<std::uint32_t>(triangles.size());
+  }
 
   bool operator==(const Mesh&) const = default;
 };
 
-/// Name of the custom attribute that keeps the two lips of a tear apart: coincident vertices of one surface differ in it.
+/// Name of the custom attribute that keeps the two lips of a tear apart: coincident vertices of one
+/// surface differ in it.
 inline constexpr const char* kTearSideAttribute = "_TEARSIDE";
 
-/// The same values once more in glTF files, under a name that tools keep which drop attributes they do not know.
+/// The same values once more in glTF files, under a name that tools keep which drop attributes they
+/// do not know.
 inline constexpr const char* kTearSideFeatureAttribute = "_FEATURE_ID_7353";
 
 }  // namespace sunder

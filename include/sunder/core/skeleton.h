@@ -14,7 +14,8 @@ struct BoneTransform {
   Vec3f scale = Vec3f::Ones();         ///< May be negative or zero.
 
   bool operator==(const BoneTransform& other) const {
-    return translation == other.translation && rotation.coeffs() == other.rotation.coeffs() && scale == other.scale;
+    return translation == other.translation && rotation.coeffs() == other.rotation.coeffs() &&
+           scale == other.scale;
   }
 };
 
@@ -26,8 +27,9 @@ struct Bone {
   bool operator==(const Bone&) const = default;
 };
 
-/// The whole transform tree of a character, parents before children. It holds what deforms skins and also what only
-/// carries them: armature nodes, and the nodes of rigid parts, so that one palette serves every mesh.
+/// The whole transform tree of a character, parents before children. It holds what deforms skins
+/// and also what only carries them: armature nodes, and the nodes of rigid parts, so that one
+/// palette serves every mesh.
 struct Skeleton {
   std::vector<Bone> bones;
 
@@ -41,8 +43,8 @@ struct Pose {
   std::vector<float> morph_weights;             ///< As Character::rest_morph_weights.
 };
 
-/// A pose as deformation reads it: one full matrix per bone, in model space, so that a pose can come
-/// from any source.
+/// A pose as deformation reads it: one full matrix per bone, in model space, so that a pose can
+/// come from any source.
 struct ModelPose {
   std::vector<Affine3d> model_from_bone;  ///< One per bone of the skeleton.
   std::vector<float> morph_weights;       ///< As Character::rest_morph_weights.

@@ -10,7 +10,8 @@
 
 namespace sunder {
 
-/// One sample of a blade, model space, metres: a straight edge that reaches from the handle to the point.
+/// One sample of a blade, model space, metres: a straight edge that reaches from the handle to the
+/// point.
 struct Blade {
   Vec3d base = Vec3d::Zero();  ///< Outside the surface.
   Vec3d tip = Vec3d::Zero();   ///< How deep the blade reaches.
@@ -28,9 +29,11 @@ enum class Layers : std::uint8_t {
 };
 
 struct TearOptions {
-  double width = 0.0;  ///< Of the gap, posed metres; >= 0. 0: the lips coincide and no surface is lost.
+  double width =
+      0.0;  ///< Of the gap, posed metres; >= 0. 0: the lips coincide and no surface is lost.
   Layers layers = Layers::nearest;
-  double wall_depth = 0.0;  ///< Of the inner walls that the lips get, along the blade, posed metres; >= 0. 0: none.
+  double wall_depth =
+      0.0;  ///< Of the inner walls that the lips get, along the blade, posed metres; >= 0. 0: none.
   std::optional<WeightOptions> weights = {};  ///< Of the points that it makes; none: the model's.
 
   bool operator==(const TearOptions&) const = default;
@@ -40,9 +43,10 @@ struct TearOptions {
 struct PlaneCut {
   Vec3d point = Vec3d::Zero();          ///< On the plane.
   Vec3d normal = Vec3d(0.0, 0.0, 1.0);  ///< Towards the left lip; any length but zero.
-  /// Corners of a convex polygon, projected onto the plane, outside of which nothing is cut. Empty: the whole plane.
+  /// Corners of a convex polygon, projected onto the plane, outside of which nothing is cut. Empty:
+  /// the whole plane.
   std::vector<Vec3d> bounds;
-  bool caps = false;                          ///< Close what the cut opens, where it opens closed loops.
+  bool caps = false;  ///< Close what the cut opens, where it opens closed loops.
   std::optional<WeightOptions> weights = {};  ///< Of the points that it makes; none: the model's.
 
   bool operator==(const PlaneCut&) const = default;
@@ -50,12 +54,13 @@ struct PlaneCut {
 
 /// A round hole, in model space.
 struct Bore {
-  Vec3d origin = Vec3d::Zero();               ///< Where the axis begins, outside the surface.
-  Vec3d direction = Vec3d(0.0, 0.0, -1.0);    ///< Of the axis; any length but zero.
-  double radius = 0.0;                        ///< Metres; > 0.
-  double depth = 0.0;                         ///< From the origin along the axis, metres; > 0.
-  double chord_tolerance = 0.0;               ///< How far the rim may stray from the circle, metres. 0: one per cent of the radius.
-  bool wall = false;                          ///< Line the bore: from rim to rim, or down to a floor.
+  Vec3d origin = Vec3d::Zero();             ///< Where the axis begins, outside the surface.
+  Vec3d direction = Vec3d(0.0, 0.0, -1.0);  ///< Of the axis; any length but zero.
+  double radius = 0.0;                      ///< Metres; > 0.
+  double depth = 0.0;                       ///< From the origin along the axis, metres; > 0.
+  double chord_tolerance =
+      0.0;  ///< How far the rim may stray from the circle, metres. 0: one per cent of the radius.
+  bool wall = false;  ///< Line the bore: from rim to rim, or down to a floor.
   std::optional<WeightOptions> weights = {};  ///< Of the points that it makes; none: the model's.
 
   bool operator==(const Bore&) const = default;
@@ -63,7 +68,8 @@ struct Bore {
 
 /// {"op": "tear"}
 struct TearOperation {
-  /// From blade `blade` on the character stands in `pose`: the segment that ends with that blade is torn in it.
+  /// From blade `blade` on the character stands in `pose`: the segment that ends with that blade is
+  /// torn in it.
   struct PoseChange {
     std::uint32_t blade = 0;
     PoseSpec pose;
@@ -88,7 +94,7 @@ struct DrillOperation {
 
 /// {"op": "weights"}: gives points that earlier operations made other weights.
 struct WeightsOperation {
-  std::uint32_t first_operation = 0;      ///< Of those that are done and not taken back, oldest first.
+  std::uint32_t first_operation = 0;  ///< Of those that are done and not taken back, oldest first.
   std::uint32_t operation_count = kNone;  ///< kNone: all from there on.
   WeightOptions weights;
   PoseSpec pose;       ///< That `pose_exact` meets.
@@ -105,6 +111,7 @@ struct RedoOperation {
   std::uint32_t count = 1;
 };
 
-using Operation = std::variant<TearOperation, CutOperation, DrillOperation, WeightsOperation, UndoOperation, RedoOperation>;
+using Operation = std::variant<TearOperation, CutOperation, DrillOperation, WeightsOperation,
+                               UndoOperation, RedoOperation>;
 
 }  // namespace sunder

@@ -29,7 +29,8 @@ struct BonesPose {
   };
   std::vector<Bone> bones;
 };
-/// How operations and pose sets name a pose. What was played is logged as a ModelPose: bone matrices in full.
+/// How operations and pose sets name a pose. What was played is logged as a ModelPose: bone
+/// matrices in full.
 using PoseSpec = std::variant<RestPose, BindPose, ClipPose, BonesPose, ModelPose>;
 
 /// How far a bone turns about one axis. Several limits of one bone are its several axes.
@@ -42,10 +43,13 @@ struct JointLimit {
 
 /// The poses over which weights are fitted, and others over which their error is measured.
 struct PoseSetSpec {
-  /// Of each clip that lasts: so many poses to fit over, and as many between them held out. At most 65,536; 0: no clips.
+  /// Of each clip that lasts: so many poses to fit over, and as many between them held out. At most
+  /// 65,536; 0: no clips.
   std::uint32_t clip_samples = 8;
-  bool range_of_motion = false;  ///< Turn every bone that changes a mesh's shape, alone and with its parent.
-  /// Bones that turn only so; they do also where no range of motion is asked for. Those that change no shape stay at rest.
+  bool range_of_motion =
+      false;  ///< Turn every bone that changes a mesh's shape, alone and with its parent.
+  /// Bones that turn only so; they do also where no range of motion is asked for. Those that change
+  /// no shape stay at rest.
   std::vector<JointLimit> joint_limits;
   std::vector<PoseSpec> poses;  ///< As given; every fourth is held out.
 };

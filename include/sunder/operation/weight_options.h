@@ -8,10 +8,14 @@ namespace sunder {
 
 /// What a point that an operation makes follows the pose by. See docs/weights.md.
 enum class WeightPolicy : std::uint8_t {
-  barycentric,  ///< Bind position and weights are the mean of the corners'. The point pops where bones turn apart.
-  pose_exact,   ///< The same weights; the bind position is such that the operation's own pose is met exactly.
-  refit,        ///< Weights and bind position fitted over many poses, beside the frame; until then `barycentric`.
-  exact,        ///< A bind position for each influence: exact in every pose. See TornModel::influence_positions().
+  barycentric,  ///< Bind position and weights are the mean of the corners'. The point pops where
+                ///< bones turn apart.
+  pose_exact,  ///< The same weights; the bind position is such that the operation's own pose is met
+               ///< exactly.
+  refit,       ///< Weights and bind position fitted over many poses, beside the frame; until then
+               ///< `barycentric`.
+  exact,       ///< A bind position for each influence: exact in every pose. See
+               ///< TornModel::influence_positions().
 };
 
 /// The enumerator's own name, as logs and the command have it.
@@ -27,7 +31,8 @@ enum class WeightPolicy : std::uint8_t {
 
 struct WeightOptions {
   WeightPolicy policy = WeightPolicy::barycentric;
-  std::uint32_t maximum_influences = 0;  ///< The largest are kept, and add up to one. 0: all. `exact` takes all.
+  std::uint32_t maximum_influences =
+      0;  ///< The largest are kept, and add up to one. 0: all. `exact` takes all.
 
   bool operator==(const WeightOptions&) const = default;
 };
