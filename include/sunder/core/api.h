@@ -2,7 +2,7 @@
 
 #include <cassert>
 
-/// Marks what the shared library exports; everything else is hidden.
+/// Exports a symbol from the shared library; all others are hidden.
 #if defined(SUNDER_STATIC)
 #define SUNDER_API
 #elif defined(_WIN32)
@@ -15,13 +15,13 @@
 #define SUNDER_API [[gnu::visibility("default")]]
 #endif
 
-/// Lets compilers that can do it check the arguments of a printf format.
+/// Lets GCC and Clang check the arguments of a printf format.
 #if defined(__GNUC__)
 #define SUNDER_PRINTF(text, first_argument) __attribute__((format(printf, text, first_argument)))
 #else
 #define SUNDER_PRINTF(text, first_argument)
 #endif
 
-/// A documented precondition, such as an index that is unchecked. Stops the program in debug
-/// builds, does nothing where NDEBUG is defined, and never changes a layout.
+/// Asserts a documented precondition, such as the range of an unchecked index. Does nothing if
+/// NDEBUG is defined; never changes the layout of a type.
 #define SUNDER_ASSERT(condition) assert(condition)

@@ -17,20 +17,20 @@ struct Character {
   Skeleton skeleton;
   std::vector<Skin> skins;
   std::vector<Mesh> meshes;
-  std::vector<float> rest_morph_weights;  ///< All meshes' weights; Mesh::first_morph_weight says
-                                          ///< where each begins.
+  /// The weights of all meshes, in one array; Mesh::first_morph_weight is each mesh's offset.
+  std::vector<float> rest_morph_weights;
   std::vector<Clip> clips;
 
   bool operator==(const Character&) const = default;
 };
 
-/// Checks everything that the rest of the library then trusts: lengths, index ranges, finite
-/// values, the bone tree, unique bone names, normalised weights, key times. Triangles may be
-/// degenerate or non-manifold; tearing copes with those.
+/// Checks everything that the rest of the library relies on: lengths, index ranges, finite values,
+/// the bone tree, unique bone names, normalised weights, key times. Triangles may be degenerate or
+/// non-manifold; tearing accepts them.
 ///
-/// @return the first fault, with its index and, in the text, its place ("mesh 2 'Body': vertex 812:
-/// …"). O(size), no allocation
-///         but a set of bone names.
+/// O(size); allocates only a set of bone names.
+///
+/// @return the first fault: its index, and in the text its place ("mesh 2 'Body': vertex 812: …").
 [[nodiscard]] SUNDER_API Status validate_character(const Character& character);
 
 }  // namespace sunder

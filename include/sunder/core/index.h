@@ -7,10 +7,10 @@ namespace sunder {
 /// Index of a vertex, triangle, bone or other element of an array.
 using Index = std::uint32_t;
 
-/// "No such index" in every 32-bit index of the library.
+/// Means "no such index" wherever the library uses a 32-bit index.
 inline constexpr Index kNone = 0xFFFF'FFFFu;
 
-/// `count` successive elements of a buffer, from `first` on.
+/// `count` consecutive elements of a buffer, starting at `first`.
 struct IndexRange {
   Index first = 0, count = 0;
 

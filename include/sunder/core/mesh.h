@@ -11,14 +11,14 @@ namespace sunder {
 
 using Triangle = std::array<std::uint32_t, 3>;  ///< Vertices, counter-clockwise from outside.
 
-/// A triangle that an operation took away keeps its number and names one vertex three times:
-/// buffers that mirror the mesh draw nothing there. Files are written without it.
+/// Whether an operation removed the triangle. A removed triangle keeps its index and names one
+/// vertex three times, so that nothing is drawn there. It is not written to files.
 [[nodiscard]] constexpr bool is_retired(const Triangle& triangle) {
   return triangle[0] == triangle[1] && triangle[1] == triangle[2];
 }
 
-/// Whether two triangles have the same vertices in the same order. (The comparison of arrays calls
-/// into the C library.)
+/// Whether two triangles have the same vertices in the same order. (Faster than `==` of arrays,
+/// which calls the C library.)
 [[nodiscard]] constexpr bool is_same(const Triangle& a, const Triangle& b) {
   return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
 }
@@ -34,12 +34,12 @@ struct MorphTarget {
   bool operator==(const MorphTarget&) const = default;
 };
 
-/// An attribute that Sunder gives no meaning to and carries along.
+/// A vertex attribute without a meaning to Sunder. Operations keep it and interpolate it.
 struct CustomAttribute {
   std::string name;              ///< glTF style: "_FEATURE_ID_0".
   std::uint32_t components = 1;  ///< Floats per vertex, 1 to 4.
-  bool interpolates = true;      ///< false: a label; a new vertex takes its nearest parent's.
-  std::vector<float> values;     ///< V x components.
+  bool interpolates = true;   ///< false: a label, copied to a new vertex from its nearest parent.
+  std::vector<float> values;  ///< V x components.
 
   bool operator==(const CustomAttribute&) const = default;
 };
@@ -47,30 +47,30 @@ struct CustomAttribute {
 /// Triangles that share a material.
 struct Submesh {
   std::string name;
-  std::uint32_t material = kNone;  ///< The source file's index.
+  std::uint32_t material = kNone;  ///< Index in the source file.
 
   bool operator==(const Submesh&) const = default;
 };
 
-/// A triangle mesh in bind space with one skin. Every array with "V" has one entry per vertex or,
-/// if optional, none.
+/// A triangle mesh in bind space with one skin. Arrays marked "V" have one entry per vertex;
+/// arrays marked "V or none" may be empty.
 struct Mesh {
   std::string name;
-  std::uint32_t skin = 0;  ///< In Character::skins.
+  std::uint32_t skin = 0;  ///< Index in Character::skins.
 
   std::vector<Vec3f> positions;  ///< V.
   std::vector<Vec3f> normals;    ///< V or none. Unit length.
-  std::vector<Vec4f> tangents;   ///< V or none. Unit xyz; w = +1 or -1, the bitangent's sign.
+  std::vector<Vec4f> tangents;   ///< V or none. xyz of unit length; w is the bitangent's sign, ±1.
   std::vector<std::vector<Vec2f>> uv_sets;     ///< Each V.
   std::vector<std::vector<Vec4f>> color_sets;  ///< Each V. Linear RGBA.
   std::vector<CustomAttribute> custom_attributes;
   SkinWeights weights;  ///< V.
 
   std::vector<MorphTarget> morph_targets;
-  std::uint32_t first_morph_weight = 0;  ///< Weight of morph target 0 in Pose::morph_weights.
+  std::uint32_t first_morph_weight = 0;  ///< Index of target 0's weight in Pose::morph_weights.
 
   std::vector<Triangle> triangles;
-  std::vector<std::uint32_t> triangle_submesh;  ///< One a triangle, in `submeshes`.
+  std::vector<std::uint32_t> triangle_submesh;  ///< One per triangle: index in `submeshes`.
   std::vector<Submesh> submeshes;
 
   [[nodiscard]] std::uint32_t vertex_count() const {
@@ -83,12 +83,12 @@ struct Mesh {
   bool operator==(const Mesh&) const = default;
 };
 
-/// Name of the custom attribute that keeps the two lips of a tear apart: coincident vertices of one
-/// surface differ in it.
+/// Name of the custom attribute that keeps the two lips of a tear apart in other tools: coincident
+/// vertices on opposite lips have different values.
 inline constexpr const char* kTearSideAttribute = "_TEARSIDE";
 
-/// The same values once more in glTF files, under a name that tools keep which drop attributes they
-/// do not know.
+/// A second name for the same values in glTF files: some tools drop every custom attribute except
+/// feature ids.
 inline constexpr const char* kTearSideFeatureAttribute = "_FEATURE_ID_7353";
 
 }  // namespace sunder

@@ -4,8 +4,8 @@
 
 namespace sunder {
 
-/// How a call may spread its work over the host's threads: a hook into a job system. The default
-/// does all of it where it is called. Results are the same bits, whatever the hook does.
+/// A hook into the host's job system, by which a call spreads its work over threads. Without a hook
+/// the calling thread does all the work. Results have the same bits with every hook.
 struct ParallelFor {
   using Task = void (*)(const void* work, std::uint32_t index);
 
@@ -13,7 +13,7 @@ struct ParallelFor {
   /// all calls have returned. Tasks neither throw nor allocate, nor call this hook.
   void (*run)(void* context, std::uint32_t count, Task task, const void* work) = nullptr;
   void* context = nullptr;    ///< Handed to `run`.
-  std::uint32_t threads = 1;  ///< That work at once; work is cut into a few tasks for each.
+  std::uint32_t threads = 1;  ///< Threads behind `run`; work is cut into a few tasks per thread.
 };
 
 }  // namespace sunder

@@ -13,8 +13,8 @@ namespace sunder {
 /// may share bones and bind them differently.
 struct Skin {
   std::string name;
-  std::vector<std::uint32_t> bones;      ///< Skeleton index of each slot; influences name slots.
-  std::vector<Affine3f> bone_from_bind;  ///< One a slot: inverse of the bone's transform at bind.
+  std::vector<std::uint32_t> bones;      ///< Skeleton index per slot; influences refer to slots.
+  std::vector<Affine3f> bone_from_bind;  ///< One per slot: inverse of the bone's bind transform.
 
   bool operator==(const Skin& other) const {
     if (name != other.name || bones != other.bones ||
@@ -27,14 +27,14 @@ struct Skin {
 };
 
 struct Influence {
-  std::uint32_t slot = 0;  ///< In Skin::bones.
+  std::uint32_t slot = 0;  ///< Index in Skin::bones.
   float weight = 0.0f;     ///< In (0, 1].
 
   bool operator==(const Influence&) const = default;
 };
 
-/// The influences of a mesh's vertices, any number per vertex, back to back. A vertex has at least
-/// one, no slot twice, and its weights sum to one within 2e-7 x their number.
+/// The influences of a mesh's vertices, back to back, any number per vertex. A vertex has at least
+/// one influence and no slot twice; its weights sum to 1 within 2e-7 times their number.
 struct SkinWeights {
   std::vector<std::uint32_t> first = {0};  ///< V + 1 offsets into `influences`.
   std::vector<Influence> influences;

@@ -10,7 +10,7 @@
 
 namespace sunder {
 
-/// One enumerator a cause. What the caller can do about it differs from cause to cause.
+/// The cause of a failure; one enumerator per cause that a caller may want to handle differently.
 enum class StatusCode : std::uint8_t {
   ok,
   empty_input,             ///< Nothing to work on: no mesh, no stroke, no file content.
@@ -19,31 +19,30 @@ enum class StatusCode : std::uint8_t {
   non_finite_value,        ///< NaN or infinity.
   weights_not_normalized,  ///< Negative weights, or a sum that is not one.
   not_a_tree,              ///< A cycle, or a node with two parents.
-  invalid_argument,        ///< An option, name or stroke outside its documented range.
-  not_found,               ///< A clip, bone or mesh of that name does not exist.
+  invalid_argument,        ///< An option, name or stroke is outside its documented range.
+  not_found,               ///< No clip, bone or mesh has that name.
   file_not_found,
   file_unreadable,      ///< Exists but cannot be read or written.
   path_not_allowed,     ///< A file refers to something outside its own folder.
-  unsupported_format,   ///< Not a format, or not a version, that this build reads.
-  unsupported_feature,  ///< The format is known; this part of it is not.
+  unsupported_format,   ///< This build does not read the format, or this version of it.
+  unsupported_feature,  ///< The format is supported; a part of it that the file uses is not.
   malformed_file,       ///< The content contradicts its own format.
-  limit_exceeded,       ///< A size, depth, memory or time limit.
+  limit_exceeded,       ///< A limit on size, depth, memory or time is exceeded.
   capacity_exceeded,    ///< A buffer of fixed capacity is full; nothing was changed.
-  internal_error,       ///< A bug in Sunder or in a library behind it.
+  internal_error,       ///< A bug in Sunder or in a library that it uses.
 };
 
-/// The enumerator's own name, for logs and JSON ("index_out_of_range").
+/// The enumerator's name as text, for logs and JSON ("index_out_of_range").
 [[nodiscard]] SUNDER_API std::string_view status_name(StatusCode code);
 
-/// Outcome of a call. Fixed size: making one, even a failure, never allocates.
+/// Outcome of a call: success, or a cause with an index and a text. Fixed size; never allocates.
 class [[nodiscard]] SUNDER_API Status {
  public:
   Status() = default;
 
-  /// @param index  first offending element, in the array that the text names; kNone where there is
-  /// none.
-  /// @param format printf format of the text: what was expected and what was found. Longer texts
-  /// are cut at 255 bytes.
+  /// @param index   first offending element of the array that the text names, or kNone.
+  /// @param format  printf format of the text: what was expected and what was found. Texts are cut
+  ///                at 255 bytes.
   SUNDER_PRINTF(3, 4)
   static Status failure(StatusCode code, std::uint32_t index, const char* format, ...);
 
@@ -59,7 +58,7 @@ class [[nodiscard]] SUNDER_API Status {
   char text_[256] = {};
 };
 
-/// A value or the reason why there is none. Members are named as in std::expected (C++23).
+/// A value, or the Status that says why there is none. Members are named as in std::expected.
 template <class T>
 class [[nodiscard]] Result {
  public:
@@ -68,7 +67,7 @@ class [[nodiscard]] Result {
 
   [[nodiscard]] bool has_value() const { return value_.has_value(); }
   explicit operator bool() const { return has_value(); }
-  /// Only where has_value().
+  /// Precondition: has_value().
   [[nodiscard]] T& value() { return **this; }
   [[nodiscard]] const T& value() const { return **this; }
   T& operator*() {
@@ -81,7 +80,7 @@ class [[nodiscard]] Result {
   }
   T* operator->() { return &**this; }
   const T* operator->() const { return &**this; }
-  /// ok where has_value().
+  /// The failure; ok if has_value().
   [[nodiscard]] const Status& error() const { return error_; }
 
  private:

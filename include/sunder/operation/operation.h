@@ -10,8 +10,7 @@
 
 namespace sunder {
 
-/// One sample of a blade, model space, metres: a straight edge that reaches from the handle to the
-/// point.
+/// One position of a blade: a straight cutting edge from `base` to `tip`. Model space, metres.
 struct Blade {
   Vec3d base = Vec3d::Zero();  ///< Outside the surface.
   Vec3d tip = Vec3d::Zero();   ///< How deep the blade reaches.
@@ -19,22 +18,22 @@ struct Blade {
   bool operator==(const Blade&) const = default;
 };
 
-/// Successive blade positions; each two neighbours sweep one segment.
+/// Successive blade positions; each pair of neighbours sweeps one segment.
 using Stroke = std::vector<Blade>;
 
-/// Which of the surfaces that a blade reaches are torn.
+/// Which of the surfaces within reach of a blade are torn.
 enum class Layers : std::uint8_t {
-  nearest,  ///< The one that it meets first.
-  all,      ///< Every one that it passes.
+  nearest,  ///< The first one that the blade meets.
+  all,      ///< Every one that the blade passes through.
 };
 
 struct TearOptions {
-  double width =
-      0.0;  ///< Of the gap, posed metres; >= 0. 0: the lips coincide and no surface is lost.
+  /// Width of the gap, posed metres, >= 0. With 0 the lips coincide and no surface is removed.
+  double width = 0.0;
   Layers layers = Layers::nearest;
-  double wall_depth =
-      0.0;  ///< Of the inner walls that the lips get, along the blade, posed metres; >= 0. 0: none.
-  std::optional<WeightOptions> weights = {};  ///< Of the points that it makes; none: the model's.
+  /// Depth of the inner walls along the blade, posed metres, >= 0. With 0 there are no walls.
+  double wall_depth = 0.0;
+  std::optional<WeightOptions> weights = {};  ///< For new points; if empty, the model's options.
 
   bool operator==(const TearOptions&) const = default;
 };
@@ -42,71 +41,71 @@ struct TearOptions {
 /// A cut by a plane, in model space.
 struct PlaneCut {
   Vec3d point = Vec3d::Zero();          ///< On the plane.
-  Vec3d normal = Vec3d(0.0, 0.0, 1.0);  ///< Towards the left lip; any length but zero.
-  /// Corners of a convex polygon, projected onto the plane, outside of which nothing is cut. Empty:
-  /// the whole plane.
+  Vec3d normal = Vec3d(0.0, 0.0, 1.0);  ///< Towards the left lip; any length except zero.
+  /// Corners of a convex polygon, which is projected onto the plane and limits the cut. Empty: the
+  /// whole plane cuts.
   std::vector<Vec3d> bounds;
-  bool caps = false;  ///< Close what the cut opens, where it opens closed loops.
-  std::optional<WeightOptions> weights = {};  ///< Of the points that it makes; none: the model's.
+  bool caps = false;  ///< Closes the opened sections, where their rims are closed loops.
+  std::optional<WeightOptions> weights = {};  ///< For new points; if empty, the model's options.
 
   bool operator==(const PlaneCut&) const = default;
 };
 
 /// A round hole, in model space.
 struct Bore {
-  Vec3d origin = Vec3d::Zero();             ///< Where the axis begins, outside the surface.
-  Vec3d direction = Vec3d(0.0, 0.0, -1.0);  ///< Of the axis; any length but zero.
+  Vec3d origin = Vec3d::Zero();             ///< Start of the axis, outside the surface.
+  Vec3d direction = Vec3d(0.0, 0.0, -1.0);  ///< Direction of the axis; any length except zero.
   double radius = 0.0;                      ///< Metres; > 0.
   double depth = 0.0;                       ///< From the origin along the axis, metres; > 0.
-  double chord_tolerance =
-      0.0;  ///< How far the rim may stray from the circle, metres. 0: one per cent of the radius.
-  bool wall = false;  ///< Line the bore: from rim to rim, or down to a floor.
-  std::optional<WeightOptions> weights = {};  ///< Of the points that it makes; none: the model's.
+  /// Largest distance between the polygonal rim and the circle, metres. 0: 1 % of the radius.
+  double chord_tolerance = 0.0;
+  bool wall = false;  ///< Lines the bore with a wall, from rim to rim or down to a floor.
+  std::optional<WeightOptions> weights = {};  ///< For new points; if empty, the model's options.
 
   bool operator==(const Bore&) const = default;
 };
 
-/// {"op": "tear"}
+/// A tear, `{"op": "tear"}` in a log.
 struct TearOperation {
-  /// From blade `blade` on the character stands in `pose`: the segment that ends with that blade is
-  /// torn in it.
+  /// The pose changes to `pose` at blade `blade`: the segment that ends with that blade is torn in
+  /// the new pose.
   struct PoseChange {
     std::uint32_t blade = 0;
     PoseSpec pose;
   };
-  PoseSpec pose;                         ///< Of the first blade. Default: rest.
+  PoseSpec pose;                         ///< Pose at the first blade. Default: rest.
   Stroke stroke;                         ///< Model space, metres. At least two blades.
   std::vector<PoseChange> pose_changes;  ///< Ascending by blade, each > 0.
   TearOptions options;
 };
 
-/// {"op": "cut"}
+/// A cut, `{"op": "cut"}` in a log.
 struct CutOperation {
   PoseSpec pose;
   PlaneCut cut;
 };
 
-/// {"op": "drill"}
+/// A bore, `{"op": "drill"}` in a log.
 struct DrillOperation {
   PoseSpec pose;
   Bore bore;
 };
 
-/// {"op": "weights"}: gives points that earlier operations made other weights.
+/// Assigns new weights to points that earlier operations created, `{"op": "weights"}` in a log.
 struct WeightsOperation {
-  std::uint32_t first_operation = 0;  ///< Of those that are done and not taken back, oldest first.
-  std::uint32_t operation_count = kNone;  ///< kNone: all from there on.
+  std::uint32_t first_operation = 0;      ///< Counted from the oldest one that is not undone.
+  std::uint32_t operation_count = kNone;  ///< kNone: all from `first_operation` on.
   WeightOptions weights;
-  PoseSpec pose;       ///< That `pose_exact` meets.
-  RefitOptions refit;  ///< Of `refit`.
+  PoseSpec pose;       ///< The pose for the policy `pose_exact`.
+  RefitOptions refit;  ///< Options for the policy `refit`.
 };
 
-/// {"op": "undo"}: takes back the newest operations that are not yet taken back.
+/// Reverts the most recent operations that are not undone yet, `{"op": "undo"}` in a log.
 struct UndoOperation {
   std::uint32_t count = 1;
 };
 
-/// {"op": "redo"}: does again what was taken back last.
+/// Reapplies the operations most recently undone, `{"op": "redo"}` in a log.
 struct RedoOperation {
   std::uint32_t count = 1;
 };

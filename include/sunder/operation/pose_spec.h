@@ -10,16 +10,16 @@
 
 namespace sunder {
 
-/// "rest": the file's own bone transforms.
+/// The rest pose: bone transforms as stored in the file.
 struct RestPose {};
-/// "bind": the pose in which the skins were attached.
+/// The bind pose: the pose in which the skins were attached.
 struct BindPose {};
-/// A clip at a time; clip by name or by index.
+/// A clip at a point in time.
 struct ClipPose {
-  std::variant<std::string, std::uint32_t> clip;
-  double time = 0.0;  ///< Seconds.
+  std::variant<std::string, std::uint32_t> clip;  ///< By name or by index.
+  double time = 0.0;                              ///< Seconds.
 };
-/// Bone transforms over rest. A part that the log does not give keeps its rest value.
+/// The rest pose with some bone transforms replaced. Parts that are not given keep the rest value.
 struct BonesPose {
   struct Bone {
     std::string name;
@@ -29,29 +29,29 @@ struct BonesPose {
   };
   std::vector<Bone> bones;
 };
-/// How operations and pose sets name a pose. What was played is logged as a ModelPose: bone
-/// matrices in full.
+/// How operations and pose sets specify a pose. A recorded operation stores its pose as a
+/// ModelPose, with all bone matrices.
 using PoseSpec = std::variant<RestPose, BindPose, ClipPose, BonesPose, ModelPose>;
 
-/// How far a bone turns about one axis. Several limits of one bone are its several axes.
+/// The range in which a bone turns about one axis. A bone with several axes has several limits.
 struct JointLimit {
   std::uint32_t bone = 0;
-  Vec3d axis = Vec3d(1.0, 0.0, 0.0);  ///< In the bone's own frame; any length but zero.
-  double lower = 0.0;                 ///< Radians about rest; <= upper.
+  Vec3d axis = Vec3d(1.0, 0.0, 0.0);  ///< In the bone's own frame; any length except zero.
+  double lower = 0.0;                 ///< Radians relative to rest; <= upper.
   double upper = 0.0;
 };
 
-/// The poses over which weights are fitted, and others over which their error is measured.
+/// The poses over which weights are fitted, and the held-out poses that measure their error.
 struct PoseSetSpec {
-  /// Of each clip that lasts: so many poses to fit over, and as many between them held out. At most
-  /// 65,536; 0: no clips.
+  /// Number of poses sampled from each clip of non-zero duration; the same number, sampled halfway
+  /// between them, is held out. At most 65,536; 0: no clips.
   std::uint32_t clip_samples = 8;
-  bool range_of_motion =
-      false;  ///< Turn every bone that changes a mesh's shape, alone and with its parent.
-  /// Bones that turn only so; they do also where no range of motion is asked for. Those that change
-  /// no shape stay at rest.
+  /// Adds poses that turn each bone that changes a mesh's shape, alone and with its parent.
+  bool range_of_motion = false;
+  /// Bones listed here turn within their limits only, and turn also without `range_of_motion`.
+  /// Bones that change no mesh's shape stay at rest.
   std::vector<JointLimit> joint_limits;
-  std::vector<PoseSpec> poses;  ///< As given; every fourth is held out.
+  std::vector<PoseSpec> poses;  ///< Further poses; every fourth is held out.
 };
 
 }  // namespace sunder

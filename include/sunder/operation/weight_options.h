@@ -6,19 +6,21 @@
 
 namespace sunder {
 
-/// What a point that an operation makes follows the pose by. See docs/weights.md.
+/// How a point that an operation creates is skinned. See docs/weights.md.
 enum class WeightPolicy : std::uint8_t {
-  barycentric,  ///< Bind position and weights are the mean of the corners'. The point pops where
-                ///< bones turn apart.
-  pose_exact,  ///< The same weights; the bind position is such that the operation's own pose is met
-               ///< exactly.
-  refit,       ///< Weights and bind position fitted over many poses, beside the frame; until then
-               ///< `barycentric`.
-  exact,       ///< A bind position for each influence: exact in every pose. See
-               ///< TornModel::influence_positions().
+  /// Bind position and weights are interpolated from the triangle's corners. The point leaves the
+  /// untorn surface where bones turn apart.
+  barycentric,
+  /// As `barycentric`, but with a bind position that is exact in the pose of the operation.
+  pose_exact,
+  /// Weights and bind position are fitted over many poses, in the background; `barycentric` until
+  /// then.
+  refit,
+  /// One bind position per influence, exact in every pose. See TornModel::influence_positions().
+  exact,
 };
 
-/// The enumerator's own name, as logs and the command have it.
+/// The enumerator's name as text, as used in logs and by the command.
 [[nodiscard]] constexpr const char* weight_policy_name(WeightPolicy policy) {
   switch (policy) {
     case WeightPolicy::barycentric: return "barycentric";
@@ -31,18 +33,18 @@ enum class WeightPolicy : std::uint8_t {
 
 struct WeightOptions {
   WeightPolicy policy = WeightPolicy::barycentric;
-  std::uint32_t maximum_influences =
-      0;  ///< The largest are kept, and add up to one. 0: all. `exact` takes all.
+  /// Influences kept per new point: the largest ones, renormalised. 0: all. `exact` keeps all.
+  std::uint32_t maximum_influences = 0;
 
   bool operator==(const WeightOptions&) const = default;
 };
 
-/// How `refit` fits.
+/// How the policy `refit` fits weights.
 struct RefitOptions {
-  PoseSetSpec poses;         ///< Over which.
+  PoseSetSpec poses;         ///< The poses to fit over.
   bool moves_bind = true;    ///< Whether bind positions are fitted too.
   bool is_coupled = false;   ///< Whether neighbours are fitted together. Needs a build with Ceres.
-  double smoothness = 0.01;  ///< Of those, see CoupledRefitOptions; >= 0.
+  double smoothness = 0.01;  ///< Smoothness of coupled fits, >= 0; see docs/weights.md.
 };
 
 }  // namespace sunder

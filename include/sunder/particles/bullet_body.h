@@ -1,8 +1,7 @@
 #pragma once
 
 #ifdef BT_USE_DOUBLE_PRECISION
-#error \
-    "sunder::BulletBody is for Bullet in single precision (Debian's libBulletDynamics, not its -float64 variant)"
+#error "sunder::BulletBody needs Bullet in single precision: undefine BT_USE_DOUBLE_PRECISION"
 #endif
 
 #include <sunder/particles/particle_set.h>
