@@ -23,10 +23,11 @@ Status validate_skeleton(const Skeleton& skeleton) {
       return Status::failure(StatusCode::invalid_argument, i, "bone %u has no name", i);
     if (!names.insert(bone.name).second)
       return Status::failure(StatusCode::invalid_argument, i,
-                             "bone %u: another bone is named '%.80s' too", i, bone.name.c_str());
+                             "bone %u: an earlier bone is also named '%.80s'", i,
+                             bone.name.c_str());
     if (bone.parent != kNone && bone.parent >= i)
       return Status::failure(StatusCode::not_a_tree, i,
-                             "bone %u '%.80s': parent %u does not come before it", i,
+                             "bone %u '%.80s': its parent %u must have a lower index", i,
                              bone.name.c_str(), bone.parent);
     if (!is_finite(bone.rest))
       return Status::failure(StatusCode::non_finite_value, i,
@@ -44,13 +45,13 @@ Status validate_skin(const Skin& skin, Index index, std::size_t bone_count) {
     return Status::failure(StatusCode::empty_input, index, "skin %u has no bones", index);
   if (skin.bones.size() != skin.bone_from_bind.size())
     return Status::failure(StatusCode::size_mismatch, index,
-                           "skin %u: %zu bones, %zu bind matrices", index, skin.bones.size(),
-                           skin.bone_from_bind.size());
+                           "skin %u: it has %zu bones, but %zu bind matrices", index,
+                           skin.bones.size(), skin.bone_from_bind.size());
   for (Index slot = 0; slot < skin.bones.size(); ++slot) {
     if (skin.bones[slot] >= bone_count)
       return Status::failure(StatusCode::index_out_of_range, slot,
-                             "skin %u slot %u: bone %u, skeleton has %zu", index, slot,
-                             skin.bones[slot], bone_count);
+                             "skin %u slot %u: bone %u does not exist; the skeleton has %zu bones",
+                             index, slot, skin.bones[slot], bone_count);
     if (!skin.bone_from_bind[slot].matrix().allFinite())
       return Status::failure(StatusCode::non_finite_value, slot,
                              "skin %u slot %u: bind matrix is not finite", index, slot);
@@ -98,24 +99,25 @@ Status validate_weights(const MeshPlace& mesh, const SkinWeights& weights, std::
     for (std::size_t i = 0; i < influences.size(); ++i) {
       const Influence& influence = influences[i];
       if (influence.slot >= slot_count)
-        return Status::failure(StatusCode::index_out_of_range, v,
-                               "mesh %u '%.60s': vertex %u: bone slot %u, skin has %zu", mesh.index,
-                               mesh.name, v, influence.slot, slot_count);
+        return Status::failure(
+            StatusCode::index_out_of_range, v,
+            "mesh %u '%.60s': vertex %u: slot %u does not exist; the skin has %zu", mesh.index,
+            mesh.name, v, influence.slot, slot_count);
       if (!(influence.weight > 0.0f) || !std::isfinite(influence.weight))
         return Status::failure(StatusCode::weights_not_normalized, v,
-                               "mesh %u '%.60s': vertex %u: weight %g", mesh.index, mesh.name, v,
-                               static_cast<double>(influence.weight));
+                               "mesh %u '%.60s': vertex %u: weight %g is not in (0, 1]", mesh.index,
+                               mesh.name, v, static_cast<double>(influence.weight));
       for (std::size_t j = 0; j < i; ++j)
         if (influences[j].slot == influence.slot)
           return Status::failure(StatusCode::invalid_argument, v,
-                                 "mesh %u '%.60s': vertex %u: bone slot %u twice", mesh.index,
+                                 "mesh %u '%.60s': vertex %u: slot %u occurs twice", mesh.index,
                                  mesh.name, v, influence.slot);
       sum += static_cast<double>(influence.weight);
     }
     if (std::abs(sum - 1.0) > 2e-7 * static_cast<double>(influences.size()))
       return Status::failure(StatusCode::weights_not_normalized, v,
-                             "mesh %u '%.60s': vertex %u: weights sum to %.9g", mesh.index,
-                             mesh.name, v, sum);
+                             "mesh %u '%.60s': vertex %u: the weights sum to %.9g, not 1",
+                             mesh.index, mesh.name, v, sum);
   }
   return {};
 }
@@ -168,8 +170,9 @@ Status validate_mesh(const Character& character, Index index) {
   const Mesh& mesh = character.meshes[index];
   const MeshPlace place{index, mesh.name.c_str()};
   if (mesh.skin >= character.skins.size())
-    return Status::failure(StatusCode::index_out_of_range, index, "mesh %u '%.60s': skin %u of %zu",
-                           index, place.name, mesh.skin, character.skins.size());
+    return Status::failure(StatusCode::index_out_of_range, index,
+                           "mesh %u '%.60s': skin %u does not exist; there are %zu", index,
+                           place.name, mesh.skin, character.skins.size());
   if (mesh.positions.size() >= kNone || mesh.triangles.size() >= kNone / 3)
     return Status::failure(StatusCode::limit_exceeded, index,
                            "mesh %u '%.60s' is too large for 32-bit indices", index, place.name);
@@ -179,24 +182,27 @@ Status validate_mesh(const Character& character, Index index) {
       !status)
     return status;
   if (mesh.first_morph_weight + mesh.morph_targets.size() > character.rest_morph_weights.size())
-    return Status::failure(
-        StatusCode::index_out_of_range, index, "mesh %u '%.60s': morph weights %u … %zu of %zu",
-        index, place.name, mesh.first_morph_weight,
-        mesh.first_morph_weight + mesh.morph_targets.size(), character.rest_morph_weights.size());
+    return Status::failure(StatusCode::index_out_of_range, index,
+                           "mesh %u '%.60s': uses morph weights [%u, %zu); the character has %zu",
+                           index, place.name, mesh.first_morph_weight,
+                           mesh.first_morph_weight + mesh.morph_targets.size(),
+                           character.rest_morph_weights.size());
   if (mesh.triangle_submesh.size() != mesh.triangles.size())
     return Status::failure(StatusCode::size_mismatch, index,
-                           "mesh %u '%.60s': %zu submesh entries for %zu triangles", index,
-                           place.name, mesh.triangle_submesh.size(), mesh.triangles.size());
+                           "mesh %u '%.60s': triangle_submesh has %zu entries for %zu triangles",
+                           index, place.name, mesh.triangle_submesh.size(), mesh.triangles.size());
   for (Index t = 0; t < mesh.triangles.size(); ++t) {
     for (const Index vertex : mesh.triangles[t])
       if (vertex >= mesh.positions.size())
-        return Status::failure(StatusCode::index_out_of_range, t,
-                               "mesh %u '%.60s': triangle %u: vertex %u of %zu", index, place.name,
-                               t, vertex, mesh.positions.size());
+        return Status::failure(
+            StatusCode::index_out_of_range, t,
+            "mesh %u '%.60s': triangle %u: vertex %u does not exist; there are %zu", index,
+            place.name, t, vertex, mesh.positions.size());
     if (mesh.triangle_submesh[t] >= mesh.submeshes.size())
-      return Status::failure(StatusCode::index_out_of_range, t,
-                             "mesh %u '%.60s': triangle %u: submesh %u of %zu", index, place.name,
-                             t, mesh.triangle_submesh[t], mesh.submeshes.size());
+      return Status::failure(
+          StatusCode::index_out_of_range, t,
+          "mesh %u '%.60s': triangle %u: submesh %u does not exist; there are %zu", index,
+          place.name, t, mesh.triangle_submesh[t], mesh.submeshes.size());
   }
   return {};
 }
@@ -214,11 +220,12 @@ Status validate_channel(const Character& character, const Channel& channel, Inde
   if (channel.width == 0 || last > target_count)
     return fail(StatusCode::index_out_of_range, "its target does not exist");
   if (!morphs && channel.width != (channel.target == ChannelTarget::rotation ? 4u : 3u))
-    return fail(StatusCode::size_mismatch, "wrong number of floats a key");
-  if (channel.times.empty()) return fail(StatusCode::empty_input, "no key");
+    return fail(StatusCode::size_mismatch, "wrong number of floats per key");
+  if (channel.times.empty()) return fail(StatusCode::empty_input, "it has no key");
   const std::size_t values_per_key = channel.interpolation == Interpolation::cubic_spline ? 3 : 1;
   if (channel.values.size() != channel.times.size() * channel.width * values_per_key)
-    return fail(StatusCode::size_mismatch, "numbers of times and values disagree");
+    return fail(StatusCode::size_mismatch,
+                "the number of values does not match the number of times");
   float previous = -1.0f;
   for (const float time : channel.times) {
     if (!std::isfinite(time) || time < 0.0f || time <= previous)

@@ -29,7 +29,7 @@ Result<LoadedCharacter> load_gltf(const std::filesystem::path& file, bool is_glb
     return Status::failure(StatusCode::malformed_file, kNone, "the file is empty");
   if (gltf::has_glb_magic(content) != is_glb)
     return Status::failure(StatusCode::unsupported_format, kNone,
-                           "the file's name says %s, its content does not",
+                           "the file extension says %s, but the content is not",
                            is_glb ? "GLB" : "glTF text");
   std::filesystem::path folder = file.parent_path();
   return gltf::read_character(content, folder.empty() ? "." : folder, options);

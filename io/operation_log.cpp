@@ -23,7 +23,8 @@ Status status_of_current_exception() {
   } catch (const Fault& fault) {
     return fault.status;
   } catch (const std::bad_alloc&) {
-    return Status::failure(StatusCode::limit_exceeded, kNone, "no memory for the operation log");
+    return Status::failure(StatusCode::limit_exceeded, kNone,
+                           "out of memory while reading the operation log");
   } catch (const std::exception& error) {
     return Status::failure(StatusCode::internal_error, kNone, "operation log: %s", error.what());
   }

@@ -67,8 +67,8 @@ Result<FoundRange> find_range_for_particles(const TornModel& model, const ModelP
                                             std::uint32_t wanted, std::uint64_t seed) {
   if (wanted == 0 || wanted > model.point_count())
     return Status::failure(StatusCode::invalid_argument, kNone,
-                           "%u particles are wanted; the model has %u points", wanted,
-                           model.point_count());
+                           "%u particles are requested; it must be 1 to the number of points, %u",
+                           wanted, model.point_count());
   FoundRange best;
   Bracket bracket;
   double range = kFirst;
@@ -91,7 +91,8 @@ Result<FoundRange> find_range_for_step(const TornModel& model, const ModelPose& 
                                        std::uint64_t seed) {
   if (!(seconds > 0) || !std::isfinite(seconds))
     return Status::failure(StatusCode::invalid_argument, kNone,
-                           "a step is to take %g seconds; it must be finite and above 0", seconds);
+                           "the requested step time is %g s; it must be finite and above 0",
+                           seconds);
   FoundRange best;
   Bracket bracket;
   double range = kFirst;
@@ -112,8 +113,8 @@ Result<FoundRange> find_range_for_step(const TornModel& model, const ModelPose& 
     range = bracket.next(range * std::sqrt(taken / (0.95 * seconds)));
   }
   if (best.particles == 0)
-    return Status::failure(StatusCode::not_found, kNone, "no range makes steps of %g seconds",
-                           seconds);
+    return Status::failure(StatusCode::not_found, kNone,
+                           "no range was found with steps of at most %g s", seconds);
   return best;
 }
 

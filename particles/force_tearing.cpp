@@ -235,12 +235,13 @@ Result<ForceTearingReport> tear_overstretched(const SoftBody& body, ParticleSet&
                                               const ForceTearingOptions& options,
                                               std::vector<ChangeRecord>* changes) {
   if (!(options.length > 0) || options.length > 2)
-    return Status::failure(StatusCode::invalid_argument, kNone,
-                           "a tear of %g particle ranges a call; it must be in (0, 2]",
-                           options.length);
+    return Status::failure(
+        StatusCode::invalid_argument, kNone,
+        "the tear length is %g particle ranges per call; it must be above 0 and at most 2",
+        options.length);
   if (body.particle_count() != particles.particle_count())
     return Status::failure(StatusCode::size_mismatch, kNone,
-                           "the body has %u particles, the set %u; step the body first",
+                           "the body has %u particles, the set has %u; step the body first",
                            body.particle_count(), particles.particle_count());
   ForceTearingReport report;
   std::vector<ChangeRecord> own;

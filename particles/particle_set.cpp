@@ -23,11 +23,11 @@ using particles::Structure;
 Status check_pose(const particles::CharacterLink& character, const ModelPose& pose) {
   if (pose.model_from_bone.size() != character.bone_count)
     return Status::failure(StatusCode::size_mismatch, kNone,
-                           "the pose has %zu bones, the character %zu", pose.model_from_bone.size(),
-                           character.bone_count);
+                           "the pose has %zu bones, the character has %zu",
+                           pose.model_from_bone.size(), character.bone_count);
   if (pose.morph_weights.size() != character.morph_weight_count)
     return Status::failure(StatusCode::size_mismatch, kNone,
-                           "the pose has %zu morph weights, the character %zu",
+                           "the pose has %zu morph weights, the character has %zu",
                            pose.morph_weights.size(), character.morph_weight_count);
   for (std::uint32_t bone = 0; bone < pose.model_from_bone.size(); ++bone)
     if (!pose.model_from_bone[bone].matrix().allFinite())
@@ -35,7 +35,8 @@ Status check_pose(const particles::CharacterLink& character, const ModelPose& po
                              "the pose of bone %u is not finite", bone);
   for (std::uint32_t i = 0; i < pose.morph_weights.size(); ++i)
     if (!std::isfinite(pose.morph_weights[i]))
-      return Status::failure(StatusCode::non_finite_value, i, "morph weight %u is not finite", i);
+      return Status::failure(StatusCode::non_finite_value, i,
+                             "morph weight %u of the pose is not finite", i);
   return {};
 }
 
@@ -48,13 +49,14 @@ Status find_range(const DecompositionOptions& options, double diagonal,
                   DecompositionReport& report) {
   if (!(diagonal > 0))
     return Status::failure(StatusCode::empty_input, kNone,
-                           "the model has no face to divide into particles");
+                           "the model has no face that can be divided into particles");
   report.range = options.is_fraction ? options.range * diagonal : options.range;
   if (report.range >= double{std::numeric_limits<float>::min()} &&
       report.range <= double{std::numeric_limits<float>::max()})
     return {};
   return Status::failure(StatusCode::invalid_argument, kNone,
-                         "the range of particles is %g metres, which no float holds", report.range);
+                         "the range of particles is %g m; it must be a finite float above 0",
+                         report.range);
 }
 
 }  // namespace
@@ -175,7 +177,8 @@ Status ParticleSet::rest(const ModelPose& pose, std::span<const std::uint32_t> p
   particles::CharacterLink& character = structure_->character;
   if (Status status = check_pose(character, pose); !status) return status;
   if (rest.size() != particles.size())
-    return Status::failure(StatusCode::size_mismatch, kNone, "%zu particles, room for %zu",
+    return Status::failure(StatusCode::size_mismatch, kNone,
+                           "%zu particles are requested, but the output has %zu entries",
                            particles.size(), rest.size());
   if (Status status = character.pose.set(character.skins, pose); !status) return status;
   for (std::size_t i = 0; i < particles.size(); ++i)
@@ -187,18 +190,18 @@ Status ParticleSet::follow(const TornModel& model, std::span<const ChangeRecord>
   Structure& structure = *structure_;
   if (&model.source() != structure.character.source)
     return Status::failure(StatusCode::invalid_argument, kNone,
-                           "the particles are of another model, or it was compacted since; they "
-                           "must be decomposed anew");
+                           "the particles belong to another model, or it was compacted since; "
+                           "create a new ParticleSet");
   if (structure.tears.is_broken)
     return Status::failure(StatusCode::invalid_argument, kNone,
-                           "memory ran out; the particles must be decomposed anew");
+                           "memory ran out in an earlier call; create a new ParticleSet");
   structure.dirty.clear();
   try {
     particles::follow_history(model, structure, changes);
   } catch (const std::bad_alloc&) {
     structure.tears.is_broken = true;
     return Status::failure(StatusCode::limit_exceeded, kNone,
-                           "out of memory; the particles must be decomposed anew");
+                           "out of memory; create a new ParticleSet");
   }
   return {};
 }

@@ -23,16 +23,18 @@ Status check_finite(const char* what, const Vec3d& value) {
 
 Status check_particle(const BodyState& state, Index particle) {
   if (particle < state.motion.count()) return {};
-  return Status::failure(StatusCode::index_out_of_range, particle, "particle %u of %u", particle,
+  return Status::failure(StatusCode::index_out_of_range, particle,
+                         "particle %u does not exist; there are %u", particle,
                          state.motion.count());
 }
 
 Status check_point(const BodyState& state, Index point) {
   if (point >= state.set->point_count())
-    return Status::failure(StatusCode::index_out_of_range, point, "point %u of %u", point,
+    return Status::failure(StatusCode::index_out_of_range, point,
+                           "point %u does not exist; there are %u", point,
                            state.set->point_count());
   if (!(state.set->influences()[point].weights[0] > 0))
-    return Status::failure(StatusCode::invalid_argument, point, "no particle moves point %u",
+    return Status::failure(StatusCode::invalid_argument, point, "point %u belongs to no particle",
                            point);
   return {};
 }
@@ -40,7 +42,7 @@ Status check_point(const BodyState& state, Index point) {
 Status check_hold(const Vec3d& target, const HoldOptions& options) {
   if (!(options.stiffness > 0) || !(options.stiffness <= 1e12))
     return Status::failure(StatusCode::invalid_argument, kNone,
-                           "the stiffness of a hold is %g; it must be above 0, to 1e12",
+                           "the stiffness of a hold is %g; it must be above 0 and at most 1e12",
                            options.stiffness);
   return check_finite("the target of a hold", target);
 }
@@ -76,7 +78,8 @@ Result<SoftBody> SoftBody::create(ParticleSet& particles, const ModelPose& pose,
                                   std::span<const SoftMaterial> materials,
                                   const SoftBodyOptions& options) {
   if (materials.empty())
-    return Status::failure(StatusCode::empty_input, kNone, "a soft body needs a material");
+    return Status::failure(StatusCode::empty_input, kNone,
+                           "a soft body needs at least one material");
   for (Index i = 0; i < materials.size(); ++i)
     if (Status status = check_material(materials[i], i); !status) return status;
   try {
@@ -105,7 +108,8 @@ Status SoftBody::set_material(std::uint32_t particle, std::uint32_t material) {
   if (Status status = follow(*state_); !status) return status;
   if (Status status = check_particle(*state_, particle); !status) return status;
   if (material >= state_->materials.size())
-    return Status::failure(StatusCode::index_out_of_range, material, "material %u of %zu", material,
+    return Status::failure(StatusCode::index_out_of_range, material,
+                           "material %u does not exist; there are %zu", material,
                            state_->materials.size());
   if (state_->motion.material_of[particle] == material) return {};
   state_->motion.material_of[particle] = material;
@@ -116,7 +120,8 @@ Status SoftBody::set_material(std::uint32_t particle, std::uint32_t material) {
 
 Status SoftBody::change_material(std::uint32_t material, const SoftMaterial& to) {
   if (material >= state_->materials.size())
-    return Status::failure(StatusCode::index_out_of_range, material, "material %u of %zu", material,
+    return Status::failure(StatusCode::index_out_of_range, material,
+                           "material %u does not exist; there are %zu", material,
                            state_->materials.size());
   if (Status status = check_material(to, material); !status) return status;
   if (Status status = follow(*state_); !status) return status;
@@ -225,7 +230,7 @@ Result<HoldId> SoftBody::hold_point(std::uint32_t point, const Vec3d& target,
 Status SoftBody::move_hold(HoldId hold, const Vec3d& target) {
   if (Status status = check_finite("the target of a hold", target); !status) return status;
   if (state_->holds.move(hold, target)) return {};
-  return Status::failure(StatusCode::not_found, kNone, "there is no hold %llu",
+  return Status::failure(StatusCode::not_found, kNone, "hold %llu does not exist",
                          static_cast<unsigned long long>(hold));
 }
 
@@ -233,7 +238,7 @@ Status SoftBody::release(HoldId hold) {
   if (Status status = follow(*state_); !status) return status;
   ParticleInfluences whom;
   if (!state_->holds.remove(hold, whom))
-    return Status::failure(StatusCode::not_found, kNone, "there is no hold %llu",
+    return Status::failure(StatusCode::not_found, kNone, "hold %llu does not exist",
                            static_cast<unsigned long long>(hold));
   for_each_influence(whom, [&](Index p, double) { state_->wake_around(p); });
   return {};
@@ -258,8 +263,8 @@ Status SoftBody::set_colliders(std::span<const Collider> colliders) {
 Status SoftBody::move_collider(std::uint32_t collider, const Vec3d& place, const Quatd& turn) {
   const auto colliders = state_->contact.colliders();
   if (collider >= colliders.size())
-    return Status::failure(StatusCode::index_out_of_range, collider, "collider %u of %zu", collider,
-                           colliders.size());
+    return Status::failure(StatusCode::index_out_of_range, collider,
+                           "collider %u does not exist; there are %zu", collider, colliders.size());
   Collider moved = colliders[collider];
   moved.place = place;
   moved.turn = turn;
@@ -276,11 +281,10 @@ std::span<const Collider> SoftBody::colliders() const { return state_->contact.c
 
 Status SoftBody::step(const TornModel& model, const ModelPose& pose, double seconds) {
   if (!std::isfinite(seconds))
-    return Status::failure(StatusCode::non_finite_value, kNone,
-                           "the seconds of a step are not finite");
+    return Status::failure(StatusCode::non_finite_value, kNone, "the time step is not finite");
   if (seconds < 0)
     return Status::failure(StatusCode::invalid_argument, kNone,
-                           "a step of %g seconds; it must not be below 0", seconds);
+                           "the time step is %g s; it must not be below 0", seconds);
   seconds = std::min(seconds, particles::kLongestStepSeconds);
   BodyState& state = *state_;
   if (state.is_idle()) {
@@ -290,9 +294,10 @@ Status SoftBody::step(const TornModel& model, const ModelPose& pose, double seco
     return {};
   }
   if (model.point_count() != state.set->point_count())
-    return Status::failure(StatusCode::invalid_argument, kNone,
-                           "the model has %u points, the particles were made of %u",
-                           model.point_count(), state.set->point_count());
+    return Status::failure(
+        StatusCode::invalid_argument, kNone,
+        "the model has %u points, the particles have %u; call ParticleSet::follow() first",
+        model.point_count(), state.set->point_count());
   const bool is_posed = !state.rests.is_same(pose);
   if (is_posed)
     if (Status status = state.set->rest(pose, {}, {}); !status) return status;

@@ -35,19 +35,19 @@ Status check_strides(const VertexSource& source) {
 
 Status check_sizes(const VertexSource& source) {
   if (source.positions.data == nullptr && source.vertex_count > 0)
-    return Status::failure(StatusCode::empty_input, kNone, "%u vertices without positions",
-                           source.vertex_count);
+    return Status::failure(StatusCode::empty_input, kNone,
+                           "the source has %u vertices, but no positions", source.vertex_count);
   if (source.weights != nullptr) {
     if (source.weights->vertex_count() != source.vertex_count)
       return Status::failure(StatusCode::size_mismatch, kNone,
-                             "weights of %u vertices, positions of %u",
+                             "there are weights for %u vertices, but positions for %u",
                              source.weights->vertex_count(), source.vertex_count);
   } else if (source.vertex_count > 0) {
     const InfluenceArrays& arrays = source.influences;
     if (arrays.per_vertex == 0 || arrays.slots == nullptr ||
         (arrays.weights == nullptr) == (arrays.weights16 == nullptr))
       return Status::failure(StatusCode::empty_input, kNone,
-                             "influences require slots, and weights in float or in 16 bits");
+                             "influences need slots, and weights as floats or 16-bit integers");
   }
   for (std::size_t i = 0; i < source.morph_targets.size(); ++i)
     for (const auto* deltas :
@@ -64,7 +64,7 @@ Status check_per_influence(const VertexSource& source) {
   const InfluencePositions& exact = *source.per_influence;
   if (source.weights == nullptr)
     return Status::failure(StatusCode::invalid_argument, kNone,
-                           "positions per influence require weights given as SkinWeights");
+                           "positions per influence need weights given as SkinWeights");
   std::size_t influences = 0;
   for (std::size_t i = 0; i < exact.vertices.size(); ++i) {
     const std::uint32_t vertex = exact.vertices[i];
@@ -114,8 +114,8 @@ Status check_vertex(const VertexSource& source, std::size_t slot_count, std::uin
   });
   if (beyond != kNone)
     return Status::failure(StatusCode::index_out_of_range, vertex,
-                           "vertex %u: slot %u, the skin has %zu slots", vertex, beyond,
-                           slot_count);
+                           "vertex %u: slot %u does not exist; the skin has %zu slots", vertex,
+                           beyond, slot_count);
   if (!is_weight || !(std::abs(sum - 1) <= 0.01))
     return Status::failure(StatusCode::weights_not_normalized, vertex,
                            "vertex %u: weights are negative or sum to %g", vertex, sum);

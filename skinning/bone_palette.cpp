@@ -108,7 +108,7 @@ Status check(const PaletteData& data, std::span<const float> morph_weights) {
 Status check_sizes(const PaletteData& data, std::size_t slots, std::size_t morph_weights) {
   if (slots != data.slots)
     return Status::failure(StatusCode::size_mismatch, kNone,
-                           "the palette has %zu slots, the pose is of %zu", data.slots, slots);
+                           "the palette has %zu slots, the pose has %zu", data.slots, slots);
   if (morph_weights != data.morph_weights.size())
     return Status::failure(StatusCode::size_mismatch, kNone,
                            "the palette has %zu morph weights, the pose %zu",
@@ -156,8 +156,8 @@ Status BonePalette::set(const Skin& skin, const ModelPose& pose,
   for (std::uint32_t slot = 0; slot < skin.bones.size(); ++slot)
     if (skin.bones[slot] >= pose.model_from_bone.size())
       return Status::failure(StatusCode::index_out_of_range, slot,
-                             "skin slot %u: bone %u, pose has %zu", slot, skin.bones[slot],
-                             pose.model_from_bone.size());
+                             "skin slot %u: bone %u does not exist; the pose has %zu bones", slot,
+                             skin.bones[slot], pose.model_from_bone.size());
 
   const bool same_frame = data.last.skin == &skin &&
                           skinning::is_same(data.last.model_from_character, model_from_character);

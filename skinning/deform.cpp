@@ -7,13 +7,13 @@ Status deform_mesh(const Mesh& mesh, std::span<const Affine3f> model_from_bind,
                    std::span<const float> morph_weights, DeformedMesh& out) {
   if (mesh.first_morph_weight + mesh.morph_targets.size() > morph_weights.size())
     return Status::failure(StatusCode::size_mismatch, kNone,
-                           "mesh '%.80s' reads morph weights up to %zu, the pose has %zu",
+                           "mesh '%.80s' uses morph weights up to %zu; the pose has %zu",
                            mesh.name.c_str(), mesh.first_morph_weight + mesh.morph_targets.size(),
                            morph_weights.size());
   for (const Influence& influence : mesh.weights.influences)
     if (influence.slot >= model_from_bind.size())
       return Status::failure(StatusCode::size_mismatch, influence.slot,
-                             "mesh '%.80s' uses bone slot %u, the palette has %zu",
+                             "mesh '%.80s' uses bone slot %u; the palette has %zu",
                              mesh.name.c_str(), influence.slot, model_from_bind.size());
   const Result<SkinnedMesh> skinned = SkinnedMesh::create(source_of(mesh), model_from_bind.size());
   if (!skinned) return skinned.error();

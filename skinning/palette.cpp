@@ -21,13 +21,13 @@ template <class Affine>
 Status write_palette(const Skin& skin, const ModelPose& pose, std::span<Affine> model_from_bind) {
   if (model_from_bind.size() != skin.bones.size())
     return Status::failure(StatusCode::size_mismatch, kNone,
-                           "palette has %zu entries, skin has %zu bones", model_from_bind.size(),
-                           skin.bones.size());
+                           "the palette has %zu entries, the skin has %zu bones",
+                           model_from_bind.size(), skin.bones.size());
   for (std::uint32_t slot = 0; slot < skin.bones.size(); ++slot)
     if (skin.bones[slot] >= pose.model_from_bone.size())
       return Status::failure(StatusCode::index_out_of_range, slot,
-                             "skin slot %u: bone %u, pose has %zu", slot, skin.bones[slot],
-                             pose.model_from_bone.size());
+                             "skin slot %u: bone %u does not exist; the pose has %zu bones", slot,
+                             skin.bones[slot], pose.model_from_bone.size());
   for (std::size_t slot = 0; slot < skin.bones.size(); ++slot) {
     const Affine3d product = multiply(pose.model_from_bone[skin.bones[slot]],
                                       Affine3d(skin.bone_from_bind[slot].template cast<double>()));
@@ -41,7 +41,8 @@ Status write_palette(const Skin& skin, const ModelPose& pose, std::span<Affine> 
 Status compute_model_pose(const Skeleton& skeleton, const Pose& pose, ModelPose& model_pose) {
   const std::size_t count = skeleton.bones.size();
   if (pose.parent_from_bone.size() != count)
-    return Status::failure(StatusCode::size_mismatch, kNone, "pose has %zu bones, skeleton %zu",
+    return Status::failure(StatusCode::size_mismatch, kNone,
+                           "the pose has %zu bones, the skeleton has %zu",
                            pose.parent_from_bone.size(), count);
   model_pose.model_from_bone.resize(count);
   skinning::multiply_down(

@@ -34,14 +34,14 @@ void add_clip_times(Index clip, double duration, Index samples, std::vector<Clip
 Status validate_limit(const JointLimit& limit, Index index, std::size_t bone_count) {
   if (limit.bone >= bone_count)
     return Status::failure(StatusCode::index_out_of_range, index,
-                           "joint limit %u: bone %u, the skeleton has %zu", index, limit.bone,
-                           bone_count);
+                           "joint limit %u: bone %u does not exist; the skeleton has %zu bones",
+                           index, limit.bone, bone_count);
   if (!limit.axis.allFinite() || !std::isfinite(limit.lower) || !std::isfinite(limit.upper))
     return Status::failure(StatusCode::non_finite_value, index,
                            "joint limit %u: axis and angles must be finite", index);
   if (limit.axis.isZero(0))
     return Status::failure(StatusCode::invalid_argument, index,
-                           "joint limit %u: its axis has no length", index);
+                           "joint limit %u: the axis has no length", index);
   if (limit.lower > limit.upper)
     return Status::failure(StatusCode::invalid_argument, index,
                            "joint limit %u: lower %g is above upper %g", index, limit.lower,
@@ -103,7 +103,7 @@ PoseSet::PoseSet(std::shared_ptr<const State> state) : state_(std::move(state)) 
 
 Result<PoseSet> PoseSet::create(std::shared_ptr<const Character> character,
                                 const PoseSetSpec& spec) {
-  if (!character) return Status::failure(StatusCode::empty_input, kNone, "no character");
+  if (!character) return Status::failure(StatusCode::empty_input, kNone, "the character is null");
   if (const Status status = validate_character(*character); !status) return status;
   if (spec.clip_samples > kMaximumClipSamples)
     return Status::failure(StatusCode::limit_exceeded, kNone,
@@ -130,7 +130,7 @@ Result<PoseSet> PoseSet::create(std::shared_ptr<const Character> character,
     if (set.size(Role::fit) > 0) return set;
     return Status::failure(
         StatusCode::empty_input, kNone,
-        "no pose to fit over: %u samples per clip, %zu clips, no joint rotates, no pose is given",
+        "no pose to fit over: %u samples per clip, %zu clips, no joint that rotates, no given pose",
         spec.clip_samples, state->character->clips.size());
   } catch (const std::bad_alloc&) {
     return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");

@@ -12,13 +12,13 @@ Result<Index> find_clip(const Character& character,
   if (const Index* const index = std::get_if<Index>(&wanted)) {
     if (*index < count) return *index;
     return Status::failure(StatusCode::not_found, *index,
-                           "clip %u does not exist: the model has %zu clips", *index, count);
+                           "clip %u does not exist; the model has %zu clips", *index, count);
   }
   const std::string& name = std::get<std::string>(wanted);
   for (Index i = 0; i < count; ++i)
     if (character.clips[i].name == name) return i;
   return Status::failure(StatusCode::not_found, kNone,
-                         "no clip is named '%.100s'; the model has %zu clips, see sunder info",
+                         "no clip is named '%.100s'; `sunder info` lists the model's %zu clips",
                          name.c_str(), count);
 }
 
@@ -64,11 +64,11 @@ Result<ModelPose> make_pose(const Character& character, const PoseSpec& spec) {
   if (const auto* const given = std::get_if<ModelPose>(&spec)) {
     if (given->model_from_bone.size() != character.skeleton.bones.size())
       return Status::failure(StatusCode::size_mismatch, kNone,
-                             "pose has %zu bones, the character %zu", given->model_from_bone.size(),
-                             character.skeleton.bones.size());
+                             "the pose has %zu bones, the character has %zu",
+                             given->model_from_bone.size(), character.skeleton.bones.size());
     if (given->morph_weights.size() != character.rest_morph_weights.size())
       return Status::failure(StatusCode::size_mismatch, kNone,
-                             "pose has %zu morph weights, the character %zu",
+                             "the pose has %zu morph weights, the character has %zu",
                              given->morph_weights.size(), character.rest_morph_weights.size());
     return *given;
   }

@@ -16,8 +16,8 @@ Pose local_rest_pose(const Character& character) {
 
 Status sample_clip(const Clip& clip, double time, Pose& pose) {
   if (!std::isfinite(time))
-    return Status::failure(StatusCode::non_finite_value, kNone, "clip '%.80s': time is not finite",
-                           clip.name.c_str());
+    return Status::failure(StatusCode::non_finite_value, kNone,
+                           "clip '%.80s': the time is not finite", clip.name.c_str());
   for (std::uint32_t i = 0; i < clip.channels.size(); ++i) {
     const Channel& channel = clip.channels[i];
     const bool morphs = channel.target == ChannelTarget::morph_weights;

@@ -82,11 +82,12 @@ Status check_target(const Blocks& blocks, const PaletteData& palette, const Vert
                            blocks.layout.slot_count);
   if (palette.morph_weights.size() < blocks.layout.first_morph_weight + blocks.layout.morph_count)
     return Status::failure(StatusCode::size_mismatch, kNone,
-                           "the mesh reads morph weights up to %u, the palette has %zu",
+                           "the mesh uses morph weights up to %u; the palette has %zu",
                            blocks.layout.first_morph_weight + blocks.layout.morph_count,
                            palette.morph_weights.size());
   if (palette.revision == 0)
-    return Status::failure(StatusCode::invalid_argument, kNone, "the palette has no pose yet");
+    return Status::failure(StatusCode::invalid_argument, kNone,
+                           "the palette has no pose yet; call BonePalette::set() first");
   if (target.vertex_count != blocks.vertex_count)
     return Status::failure(StatusCode::size_mismatch, kNone,
                            "the buffer holds %u vertices, the mesh has %u", target.vertex_count,
@@ -264,10 +265,10 @@ Status SkinnedMesh::update(const VertexSource& source, std::uint32_t first_chang
     return Status::failure(StatusCode::size_mismatch, kNone,
                            "the source has other attributes or morph targets than before");
   if (first_changed > std::min(source.vertex_count, blocks.vertex_count))
-    return Status::failure(
-        StatusCode::index_out_of_range, first_changed,
-        "the first changed vertex is %u; the mesh had %u vertices, the source has %u",
-        first_changed, blocks.vertex_count, source.vertex_count);
+    return Status::failure(StatusCode::index_out_of_range, first_changed,
+                           "the first changed vertex is %u, beyond the %u vertices of the mesh or "
+                           "the %u of the source",
+                           first_changed, blocks.vertex_count, source.vertex_count);
   if (const Status status = skinning::check_source(source, blocks.layout.slot_count, first_changed);
       !status)
     return status;

@@ -40,7 +40,8 @@ Status reorder_vertices(Mesh& mesh, std::span<const std::uint32_t> old_from_new)
   const std::uint32_t count = mesh.vertex_count();
   if (old_from_new.size() != count)
     return Status::failure(StatusCode::size_mismatch, kNone,
-                           "the order has %zu vertices, the mesh %u", old_from_new.size(), count);
+                           "the order has %zu entries, the mesh has %u vertices",
+                           old_from_new.size(), count);
   std::vector<std::uint32_t> new_from_old(count, kNone);
   for (std::uint32_t v = 0; v < count; ++v) {
     const std::uint32_t old = old_from_new[v];

@@ -17,19 +17,20 @@ Status TornModel::State::resolve(WeightsOperation& wanted) const {
   if (Status status = validate_weights(wanted.weights); !status) return status;
   const auto done = static_cast<std::uint32_t>(history.done().size());
   if (wanted.first_operation >= done)
-    return Status::failure(StatusCode::not_found, wanted.first_operation,
-                           "weights are requested from operation %u on, there are %u operations",
-                           wanted.first_operation, done);
+    return Status::failure(
+        StatusCode::not_found, wanted.first_operation,
+        "weights are requested from operation %u on; the model has %u operations",
+        wanted.first_operation, done);
   if (wanted.operation_count == kNone) wanted.operation_count = done - wanted.first_operation;
   if (wanted.operation_count == 0 || wanted.operation_count > done - wanted.first_operation)
     return Status::failure(
         StatusCode::not_found, wanted.first_operation,
-        "weights are requested for %u operations from operation %u on, there are %u operations",
+        "weights are requested for %u operations from operation %u on; the model has %u operations",
         wanted.operation_count, wanted.first_operation, done);
   if (wanted.weights.policy != WeightPolicy::refit) return {};
   if (!std::isfinite(wanted.refit.smoothness) || wanted.refit.smoothness < 0)
     return Status::failure(StatusCode::invalid_argument, kNone,
-                           "the smoothness of a refit must be finite and >= 0, not %g",
+                           "the smoothness of a refit is %g; it must be finite and not below 0",
                            wanted.refit.smoothness);
   if (wanted.refit.is_coupled && !has_coupled_refit())
     return Status::failure(

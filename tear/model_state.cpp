@@ -24,7 +24,7 @@ TornModel::State::State(std::shared_ptr<const Character> from, const TornCapacit
 Status TornModel::State::may_begin() const {
   if (has_stroke)
     return Status::failure(StatusCode::invalid_argument, kNone,
-                           "a stroke is under way; end it first");
+                           "a stroke is in progress; end or cancel it first");
   return history.has_room() ? Status() : no_room({"operations"});
 }
 
@@ -116,14 +116,15 @@ Status validate_blade(const Blade& blade, std::uint32_t index) {
   if (blade.base.cwiseAbs().maxCoeff() > 1e60 || blade.tip.cwiseAbs().maxCoeff() > 1e60)
     return Status::failure(StatusCode::invalid_argument, index, "blade %u lies beyond 1e60", index);
   if (!(norm(blade.tip - blade.base) > 1e-30))
-    return Status::failure(StatusCode::invalid_argument, index, "blade %u has no length", index);
+    return Status::failure(StatusCode::invalid_argument, index,
+                           "blade %u has no length: its base equals its tip", index);
   return {};
 }
 
 Status validate_turn(const Blade& before, const Blade& blade, std::uint32_t index) {
   if (dot(normalized(blade.tip - blade.base), normalized(before.tip - before.base)) > 0) return {};
   return Status::failure(StatusCode::invalid_argument, index,
-                         "blade %u is turned by 90 degrees or more against the one before it: "
+                         "blade %u is turned by 90 degrees or more relative to the one before it; "
                          "sample the stroke more finely",
                          index);
 }
@@ -145,20 +146,21 @@ Status validate_weights(const WeightOptions& options) {
     return Status::failure(StatusCode::invalid_argument, kNone, "unknown weight policy %u",
                            static_cast<unsigned>(options.policy));
   if (options.policy == WeightPolicy::exact && options.maximum_influences != 0)
-    return Status::failure(StatusCode::invalid_argument, kNone,
-                           "policy 'exact' takes all influences, not the %u largest",
-                           options.maximum_influences);
+    return Status::failure(
+        StatusCode::invalid_argument, kNone,
+        "the policy 'exact' keeps all influences; maximum_influences is %u, it must be 0",
+        options.maximum_influences);
   return {};
 }
 
 Status validate_options(const TearOptions& options) {
   const auto is_length = [](double value) { return value >= 0 && value <= 1e30; };
   if (!is_length(options.width))
-    return Status::failure(StatusCode::invalid_argument, kNone, "a gap is 0 to 1e30 wide, not %g",
-                           options.width);
+    return Status::failure(StatusCode::invalid_argument, kNone,
+                           "the width of the gap is %g; it must be from 0 to 1e30", options.width);
   if (!is_length(options.wall_depth))
-    return Status::failure(StatusCode::invalid_argument, kNone, "a wall is 0 to 1e30 deep, not %g",
-                           options.wall_depth);
+    return Status::failure(StatusCode::invalid_argument, kNone,
+                           "the wall depth is %g; it must be from 0 to 1e30", options.wall_depth);
   if (options.weights)
     if (Status status = validate_weights(*options.weights); !status) return status;
   if (options.layers != Layers::nearest && options.layers != Layers::all)

@@ -14,7 +14,7 @@ Result<RefitJob> RefitJob::create(TornModel& model, const WeightsOperation& want
   if (Status status = state.may_begin(); !status) return status;
   if (wanted.weights.policy != WeightPolicy::refit)
     return Status::failure(StatusCode::invalid_argument, kNone,
-                           "a refit job requires the policy 'refit'");
+                           "a refit job needs the policy 'refit'");
   WeightsOperation resolved = wanted;
   if (Status status = state.resolve(resolved); !status) return status;
   resolved.pose = RestPose{};
@@ -57,7 +57,7 @@ Result<WeightReport> RefitJob::swap_in(TornModel& model, ChangeRecord* change) c
   if (task_->state == State::cancelled)
     return Status::failure(StatusCode::invalid_argument, kNone, "this refit was cancelled");
   if (task_->state != State::done)
-    return Status::failure(StatusCode::invalid_argument, kNone, "this refit is not done");
+    return Status::failure(StatusCode::invalid_argument, kNone, "this refit has not finished");
   const auto& done = of_model.history.done();
   for (std::size_t i = 0; i < task_->serials.size(); ++i)
     if (operation.first_operation + i >= done.size() ||

@@ -49,7 +49,7 @@ class Replay {
     return repeat(operation.count, model_.undo_count(), "undone", &TornModel::undo);
   }
   Result<TearReport> operator()(const RedoOperation& operation) const {
-    return repeat(operation.count, model_.redo_count(), "done again", &TornModel::redo);
+    return repeat(operation.count, model_.redo_count(), "redone", &TornModel::redo);
   }
 
  private:
@@ -57,7 +57,8 @@ class Replay {
                             Status (TornModel::*once)(ChangeRecord*)) const {
     if (count > available)
       return Status::failure(StatusCode::not_found, kNone,
-                             "%u operations are to be %s, there are %u", count, what, available);
+                             "%u operations are to be %s, but there are only %u", count, what,
+                             available);
     for (std::uint32_t i = 0; i < count; ++i)
       if (Status status = step([&](ChangeRecord* change) { return (model_.*once)(change); });
           !status)
@@ -72,9 +73,10 @@ class Replay {
       const auto& change = operation.pose_changes[i];
       const std::uint32_t after = i == 0 ? 0 : operation.pose_changes[i - 1].blade;
       if (change.blade <= after || change.blade >= operation.stroke.size())
-        return Status::failure(StatusCode::invalid_argument, change.blade,
-                               "pose change %zu at blade %u: they ascend from blade 1 on", i,
-                               change.blade);
+        return Status::failure(
+            StatusCode::invalid_argument, change.blade,
+            "pose change %zu is at blade %u; blades must ascend, from 1 to the last of the stroke",
+            i, change.blade);
       auto pose = make_pose(model_.character(), change.pose);
       if (!pose) return pose.error();
       poses.push_back(std::move(*pose));

@@ -27,10 +27,12 @@ bool same_bits(const ModelPose& a, const ModelPose& b) {
 Status validate_sampling(const StrokeSampling& sampling) {
   if (!(sampling.minimum_distance >= 0 && sampling.minimum_distance <= 1e30))
     return Status::failure(StatusCode::invalid_argument, kNone,
-                           "samples are 0 to 1e30 apart, not %g", sampling.minimum_distance);
+                           "minimum_distance is %g; it must be from 0 to 1e30",
+                           sampling.minimum_distance);
   if (!(sampling.minimum_seconds >= 0 && sampling.minimum_seconds <= 1e30))
     return Status::failure(StatusCode::invalid_argument, kNone,
-                           "samples are 0 to 1e30 seconds apart, not %g", sampling.minimum_seconds);
+                           "minimum_seconds is %g; it must be from 0 to 1e30",
+                           sampling.minimum_seconds);
   return {};
 }
 
@@ -176,13 +178,14 @@ Result<TearReport> TearStroke::extend(const ModelPose& pose, const Blade& blade,
                                       ChangeRecord* change) {
   State& state = *state_;
   if (state.has_ended)
-    return Status::failure(StatusCode::invalid_argument, kNone, "this stroke was ended");
+    return Status::failure(StatusCode::invalid_argument, kNone, "this stroke has ended");
   const auto index = static_cast<std::uint32_t>(state.operation.stroke.size());
   if (Status status = validate_blade(blade, index); !status) return status;
   if (!std::isfinite(seconds) || seconds < state.last_seconds)
-    return Status::failure(StatusCode::invalid_argument, index,
-                           "blade %u comes at %g s, after one at %g s", index, seconds,
-                           state.last_seconds);
+    return Status::failure(
+        StatusCode::invalid_argument, index,
+        "blade %u is at %g s; its time must be finite and not before the previous one, at %g s",
+        index, seconds, state.last_seconds);
   if (Status status = validate_turn(state.model->stroke.blade(), blade, index); !status)
     return status;
   if (!state.is_due(blade, seconds)) {
@@ -208,7 +211,7 @@ Result<TearReport> TearStroke::extend(const ModelPose& pose, const Blade& blade,
 Result<TearReport> TearStroke::end(ChangeRecord* change) {
   State& state = *state_;
   if (state.has_ended)
-    return Status::failure(StatusCode::invalid_argument, kNone, "this stroke was ended");
+    return Status::failure(StatusCode::invalid_argument, kNone, "this stroke has ended");
   TearReport total = state.total;
   const auto report = state.call(
       [&](tear::Outcome& outcome) -> Status {
@@ -234,7 +237,7 @@ Result<TearReport> TearStroke::end(ChangeRecord* change) {
 Status TearStroke::cancel(ChangeRecord* change) {
   State& state = *state_;
   if (state.has_ended)
-    return Status::failure(StatusCode::invalid_argument, kNone, "this stroke was ended");
+    return Status::failure(StatusCode::invalid_argument, kNone, "this stroke has ended");
   TornModel::State& model = *state.model;
   try {
     model.editor.scratch().reset();

@@ -22,15 +22,16 @@ constexpr std::size_t kMaximumTriangles = kNone / 6;
 
 Result<TornModel> TornModel::create(std::shared_ptr<const Character> source,
                                     const TornCapacity& capacity) {
-  if (!source) return Status::failure(StatusCode::empty_input, kNone, "no character");
+  if (!source) return Status::failure(StatusCode::empty_input, kNone, "the character is null");
   if (Status status = validate_character(*source); !status) return status;
   std::size_t triangles = capacity.triangles;
   for (const Mesh& mesh : source->meshes) triangles += mesh.triangles.size();
   if (triangles > kMaximumTriangles || capacity.vertices > kMaximumTriangles ||
       capacity.operations > kMaximumTriangles)
-    return Status::failure(StatusCode::limit_exceeded, kNone,
-                           "%zu triangles, with the capacity; at most %zu can be torn", triangles,
-                           kMaximumTriangles);
+    return Status::failure(
+        StatusCode::limit_exceeded, kNone,
+        "the model has %zu triangles, including the capacity; at most %zu are supported", triangles,
+        kMaximumTriangles);
   try {
     return TornModel(std::make_unique<State>(std::move(source), capacity));
   } catch (const std::bad_alloc&) {
@@ -130,7 +131,7 @@ Status TornModel::redo(ChangeRecord* change) {
   State& state = *state_;
   if (Status status = state.may_begin(); !status) return status;
   if (state.history.undone().empty())
-    return Status::failure(StatusCode::not_found, kNone, "there is nothing to do again");
+    return Status::failure(StatusCode::not_found, kNone, "there is nothing to redo");
   tear::History::Entry& last = *state.history.undone().back();
   ChangeRecord unwanted;
   ChangeRecord& record = change != nullptr ? *change : unwanted;

@@ -140,7 +140,7 @@ ExitCode run_demo(const DemoRequest& request) {
   if (const ExitCode code = write_results(request, place, *model, *demo); code != ExitCode::ok)
     return code;
   if (demo->outcome.has_missed) {
-    std::fprintf(stderr, "sunder: %s: the stroke missed\n", place.c_str());
+    std::fprintf(stderr, "sunder: %s: the stroke met no surface\n", place.c_str());
     return ExitCode::findings;
   }
 

@@ -13,10 +13,15 @@ namespace sunder::tools {
 namespace {
 
 constexpr const char* kExitCodes =
-    "Exit codes: 0 done, 1 done with findings, 2 invalid command line or operations, 3 a file "
-    "cannot "
-    "be read or written,\n"
-    "4 a limit was exceeded, 5 internal error. Data goes to stdout, messages go to stderr.";
+    "`sunder VERB --help` describes one verb; docs/command.md has all details.\n\n"
+    "Exit codes:\n"
+    "  0  done\n"
+    "  1  done, with findings\n"
+    "  2  the command line or the operations are invalid\n"
+    "  3  a file cannot be read or written\n"
+    "  4  a limit was exceeded: size, memory, time\n"
+    "  5  internal error; please report it\n"
+    "Data goes to stdout, messages go to stderr.";
 
 /// @param name  a result of weight_format_name().
 WeightFormat weight_format(const std::string& name) {
@@ -47,56 +52,62 @@ struct Requests {
 };
 
 CLI::App* add_info(CLI::App& app, InfoRequest& request) {
-  CLI::App* const verb = app.add_subcommand("info", "Describe a model and list its faults");
-  verb->add_option("MODEL", request.model, "glTF, GLB, FBX, COLLADA, X, B3D, OBJ, PLY, OFF ...")
+  CLI::App* const verb = app.add_subcommand(
+      "info", "Describe a model: meshes, bones, clips, topology, and faults that loading repaired");
+  verb->add_option("MODEL", request.model,
+                   "Model file: glTF, GLB, FBX, COLLADA, X, B3D, OBJ, PLY, OFF ...")
       ->required();
   verb->add_flag("--json", request.as_json, "Print one JSON object instead of text");
   verb->footer(
-      "Exit code 1 if loading had to repair or drop something.\n\nExample: sunder info fox.glb");
+      "Exit code 1 if loading repaired or dropped something.\n\nExample: sunder info fox.glb");
   return verb;
 }
 
 CLI::App* add_tear(CLI::App& app, TearRequest& request) {
   CLI::App* const verb = app.add_subcommand(
       "tear", "Apply a list of tears, cuts and bores to a model and save it as GLB");
-  verb->add_option("MODEL", request.model, "The model")->required();
-  verb->add_option("--ops", request.operations, "The operations, JSON; see docs/operation_log.md")
+  verb->add_option("MODEL", request.model, "Model file, as for `sunder info`")->required();
+  verb->add_option(
+          "--ops", request.operations,
+          "Operation log, JSON: the tears, cuts and bores to apply; see docs/operation_log.md")
       ->required();
-  verb->add_option("-o,--output", request.output, "The torn model, GLB")->required();
+  verb->add_option("-o,--output", request.output, "File for the torn model, GLB")->required();
   verb->add_option("--influences", request.save.maximum_influences,
-                   "Largest number of influences written per vertex; default: all")
+                   "Influences written per vertex: the 4 or 8 largest, renormalised; default: all")
       ->check(CLI::IsMember({4, 8}));
   verb->add_option_function<std::string>(
           "--weights-as",
           [&request](const std::string& name) { request.save.weights = weight_format(name); },
-          "Format of the weights; u16 and u8 are integers that sum to exactly one")
+          "Number format of the written weights; u16 and u8 are normalised integers that sum to "
+          "exactly one")
       ->check(CLI::IsMember({"float", "u16", "u8"}))
       ->default_str("float");
   verb->add_option_function<std::string>(
           "--weights",
           [&request](const std::string& name) { request.weights = weight_policy(name); },
-          "How new vertices are skinned where an operation does not say; --influences limits their "
-          "influences too")
+          "How new vertices are skinned if their operation has no 'weights'; see docs/weights.md. "
+          "--influences applies to them too")
       ->check(CLI::IsMember({"barycentric", "pose_exact", "refit", "exact"}))
       ->default_str("barycentric");
   verb->add_option_function<std::string>(
           "--refit-over",
           [&request](const std::string& name) { request.refit_over = refit_over(name); },
-          "The poses that --weights refit fits over; default: both, as far as the model has them")
+          "Poses to fit over, with --weights refit; default: both, or what the model has")
       ->check(CLI::IsMember({"clips", "range_of_motion", "both"}));
   verb->callback([&request] {
     if (request.refit_over && request.weights != WeightPolicy::refit)
-      throw CLI::ValidationError("--refit-over", "nothing is fitted without --weights refit");
+      throw CLI::ValidationError("--refit-over", "needs --weights refit");
   });
   verb->add_option("--report", request.report, "File for the JSON report; default: stdout");
+  verb->add_option("--picture", request.picture,
+                   "File for a picture (PNG) of the torn model, with lips and pieces pulled apart; "
+                   "needs f3d and Xvfb");
   verb->add_option(
-      "--picture", request.picture,
-      "File for a PNG of the torn model, with open lips and separated pieces; needs f3d and Xvfb");
-  verb->add_option("--save-log", request.log,
-                   "File for the operations that were played and not undone, with full poses");
+      "--save-log", request.log,
+      "File for the operation log of what was applied and not undone, with all bone matrices");
   verb->footer(
-      "If any operation fails, nothing is written. Exit code 1 if an operation missed or was "
-      "blocked.\n\n"
+      "If an operation fails, nothing is written. Exit code 1 if an operation met no surface or "
+      "could not tear some places (see the report), or if the picture could not be drawn.\n\n"
       "Example: sunder tear fox.glb --ops ops.json -o torn.glb --influences 4");
   return verb;
 }
@@ -104,19 +115,21 @@ CLI::App* add_tear(CLI::App& app, TearRequest& request) {
 CLI::App* add_demo(CLI::App& app, DemoRequest& request) {
   CLI::App* const verb = app.add_subcommand(
       "demo", "Tear a model in the middle of its animation and draw pictures of it");
-  verb->add_option("MODEL", request.model, "The model; default: a cactus");
-  verb->add_option("-o,--output", request.folder, "Folder for pictures, GLB and report")
+  verb->add_option("MODEL", request.model,
+                   "Model file, as for `sunder info`; default: a cactus that is generated by code");
+  verb->add_option("-o,--output", request.folder,
+                   "Folder for the pictures, the torn model, the operation log and the report")
       ->capture_default_str();
   verb->footer(
-      "Pictures are drawn with f3d under Xvfb; without these everything else is still written, and "
-      "the exit code is 1.\n\n"
+      "The pictures need f3d and Xvfb. Without these everything else is still written, and the "
+      "exit code is 1.\n\n"
       "Example: sunder demo fox.glb -o fox_demo");
   return verb;
 }
 
 int run(int argc, char** argv) {
   Requests requests;
-  CLI::App app("Tears rigged models while they are animated.", "sunder");
+  CLI::App app("Tears rigged, animated models.", "sunder");
   app.set_version_flag("--version", "sunder " SUNDER_VERSION);
   app.require_subcommand(1);
   app.footer(kExitCodes);
@@ -145,7 +158,7 @@ int main(int argc, char** argv) {
     std::fputs("sunder: out of memory\n", stderr);
     return static_cast<int>(ExitCode::limit_exceeded);
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "sunder: unexpected: %s\n", error.what());
+    std::fprintf(stderr, "sunder: internal error: %s\n", error.what());
     return static_cast<int>(ExitCode::internal_error);
   }
 }

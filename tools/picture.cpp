@@ -242,7 +242,7 @@ Status draw(const Character& still, const Camera& camera, int width, int height,
   const bool is_drawn = std::filesystem::exists(png, ignored);
   std::filesystem::remove(scene, ignored);
   return is_drawn ? Status()
-                  : Status::failure(StatusCode::internal_error, kNone, "f3d drew nothing");
+                  : Status::failure(StatusCode::internal_error, kNone, "f3d wrote no picture");
 }
 
 }  // namespace sunder::tools

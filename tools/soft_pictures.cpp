@@ -110,7 +110,7 @@ void draw_running(const std::string& folder) {
       std::printf(
           "running: step %d, stretch %.2f, %s at (%.3f %.3f %.3f) towards (%.2f %.2f %.2f), %.4f "
           "m\n",
-          i, report->greatest_stretch, report->is_from_tip ? "ran on" : "began",
+          i, report->greatest_stretch, report->is_from_tip ? "continued" : "began",
           report->place.x() - at.x(), report->place.y() - at.y(), report->place.z() - at.z(),
           report->direction.x(), report->direction.y(), report->direction.z(),
           report->tear.length_posed);

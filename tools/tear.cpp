@@ -88,8 +88,8 @@ bool draw_picture(const LoadedCharacter& loaded, const TornModel& model,
   const std::vector<Operation> history = model.history();
   Status status;
   if (history.empty())
-    status =
-        Status::failure(StatusCode::empty_input, kNone, "nothing was done that could be drawn");
+    status = Status::failure(StatusCode::empty_input, kNone,
+                             "the log has no operation that could be drawn");
   else if (!can_draw())
     status = Status::failure(
         StatusCode::not_found, kNone,

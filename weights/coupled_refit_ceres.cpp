@@ -471,18 +471,21 @@ Status check(std::span<const PointToRefit> points, std::span<const RefitNeighbou
              const CoupledRefitOptions& options, const PoseMoments& moments) {
   if (!std::isfinite(options.smoothness) || options.smoothness < 0)
     return Status::failure(StatusCode::invalid_argument, kNone,
-                           "the smoothness must be finite and >= 0, not %g", options.smoothness);
+                           "the smoothness is %g; it must be finite and not below 0",
+                           options.smoothness);
   if (moments.pose_count() == 0)
-    return Status::failure(StatusCode::empty_input, kNone, "the moments hold no pose");
+    return Status::failure(StatusCode::empty_input, kNone, "the moments contain no pose");
   for (std::size_t i = 0; i < neighbours.size(); ++i) {
     const RefitNeighbours& pair = neighbours[i];
     const auto index = static_cast<std::uint32_t>(i);
     for (const std::uint32_t point : {pair.a, pair.b == kNone ? pair.a : pair.b})
       if (point >= points.size())
         return Status::failure(StatusCode::index_out_of_range, index,
-                               "neighbours %u: point %u of %zu", index, point, points.size());
+                               "neighbours %u: point %u does not exist; there are %zu", index,
+                               point, points.size());
     if (!std::isfinite(pair.length) || pair.length < 0)
-      return Status::failure(StatusCode::invalid_argument, index, "neighbours %u: a length of %g",
+      return Status::failure(StatusCode::invalid_argument, index,
+                             "neighbours %u: their length is %g; it must be finite and not below 0",
                              index, pair.length);
   }
   return {};

@@ -38,7 +38,7 @@ std::vector<BoneBinding> bind_bones(const aiMesh& mesh, std::uint32_t mesh_node,
                                        : model_from_bone;
       binding.node = tree.add(0, valid_utf8(to_string(bone.mName)), root_from_bone, &bone.mName);
       notes.repaired(StatusCode::not_found, place,
-                     "bones without a node of their name; added below the root");
+                     "bones without a node of the same name; added below the root");
     }
     if (!usable) {
       offset = offset_at_rest(tree[binding.node].model_from_node, model_from_mesh);
@@ -52,7 +52,7 @@ std::vector<BoneBinding> bind_bones(const aiMesh& mesh, std::uint32_t mesh_node,
     const auto [known, is_new] = offset_of_node.emplace(binding.node, binding.bone_from_mesh);
     if (!is_new && known->second != binding.bone_from_mesh) {
       notes.repaired(StatusCode::malformed_file, place,
-                     "bones of one name with different bind matrices; the first one's taken");
+                     "bones of the same name with different bind matrices; the first one is used");
       binding.bone_from_mesh = known->second;
     }
   }

@@ -211,20 +211,22 @@ Status failure_of(Reading reading, int wait_status, const ChildLimits& limits,
                   const std::string& name) {
   const char* file = name.c_str();
   if (reading == Reading::timed_out)
-    return Status::failure(StatusCode::limit_exceeded, kNone, "%s: not imported within %g seconds",
-                           file, limits.seconds);
+    return Status::failure(StatusCode::limit_exceeded, kNone,
+                           "%s: not imported within %g seconds (LoadOptions::import_seconds)", file,
+                           limits.seconds);
   if (reading == Reading::too_large)
     return Status::failure(StatusCode::limit_exceeded, kNone,
-                           "%s: larger than %llu bytes once imported", file,
-                           static_cast<unsigned long long>(limits.maximum_reply));
+                           "%s: more than %llu bytes after import (LoadOptions::maximum_bytes)",
+                           file, static_cast<unsigned long long>(limits.maximum_reply));
   if (wait_status != -1 && WIFSIGNALED(wait_status)) {
     const int signal = WTERMSIG(wait_status);
     if (signal == SIGXCPU)
       return Status::failure(StatusCode::limit_exceeded, kNone,
-                             "%s: not imported within %g seconds", file, limits.seconds);
+                             "%s: not imported within %g seconds (LoadOptions::import_seconds)",
+                             file, limits.seconds);
     if (signal == SIGKILL)
       return Status::failure(StatusCode::limit_exceeded, kNone,
-                             "%s: the importer was killed, out of memory", file);
+                             "%s: the importer ran out of memory and was killed", file);
     return Status::failure(StatusCode::malformed_file, kNone,
                            "the importer crashed (signal %d) on %s", signal, file);
   }
@@ -233,7 +235,7 @@ Status failure_of(Reading reading, int wait_status, const ChildLimits& limits,
                            "%s: the importer ran out of its %llu MiB of memory", file,
                            static_cast<unsigned long long>(limits.additional_memory >> 20));
   return Status::failure(StatusCode::internal_error, kNone,
-                         "%s: the importer ended without an answer", file);
+                         "%s: the importer ended without a result", file);
 }
 
 }  // namespace
@@ -247,15 +249,15 @@ Result<ChildReply> run_in_child(const std::function<ChildReply()>& work, const C
                          std::chrono::duration<double>(std::min(limits.seconds, 1e8)));
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0)
-    return Status::failure(StatusCode::limit_exceeded, kNone, "no pipe for the importer: %s",
-                           std::strerror(errno));
+    return Status::failure(StatusCode::limit_exceeded, kNone,
+                           "cannot create a pipe to the importer: %s", std::strerror(errno));
   const pid_t child = fork();
   if (child < 0) {
     const int error = errno;
     close(ends[0]);
     close(ends[1]);
-    return Status::failure(StatusCode::limit_exceeded, kNone, "no process for the importer: %s",
-                           std::strerror(error));
+    return Status::failure(StatusCode::limit_exceeded, kNone,
+                           "cannot start a process for the importer: %s", std::strerror(error));
   }
   if (child == 0) run_child(work, limits, ends[1]);
   close(ends[1]);
@@ -273,8 +275,8 @@ Result<ChildReply> run_in_child(const std::function<ChildReply()>& work, const C
   const int wait_status = reap(child, give_up ? Clock::now() : deadline);
   close(ends[0]);
   if (out_of_memory)
-    return Status::failure(StatusCode::limit_exceeded, kNone, "%s: no memory for what was imported",
-                           name.c_str());
+    return Status::failure(StatusCode::limit_exceeded, kNone,
+                           "%s: out of memory while reading the imported model", name.c_str());
   if (reading != Reading::complete) return failure_of(reading, wait_status, limits, name);
   return reply;
 }

@@ -28,7 +28,7 @@ class ClipWriter {
         ticks_per_second_(source.mTicksPerSecond) {
     if (!(std::isfinite(ticks_per_second_) && ticks_per_second_ > 0.0)) {
       ticks_per_second_ = kAssumedTicksPerSecond;
-      notes_.inform(place_, "no tick rate given; 25 a second assumed");
+      notes_.inform(place_, "no tick rate; 25 ticks per second are assumed");
     }
   }
 
@@ -131,7 +131,7 @@ class ClipWriter {
     if (keys.times.empty()) return;
     if (!driven_.emplace(node, path).second) {
       notes_.dropped(StatusCode::malformed_file, place_,
-                     "channels that drive what another channel drives");
+                     "channels with the same target as an earlier channel");
       return;
     }
     const std::uint32_t input = input_of(keys.times);

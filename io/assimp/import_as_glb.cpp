@@ -23,7 +23,8 @@ namespace {
 
 Status check_file(const fs::path& file, const LoadOptions& options) {
   if (!(options.import_seconds > 0.0))
-    return Status::failure(StatusCode::invalid_argument, kNone, "import_seconds is not positive");
+    return Status::failure(StatusCode::invalid_argument, kNone,
+                           "LoadOptions::import_seconds must be above 0");
   const std::string name = file.filename().string();
   std::error_code error;
   const fs::file_status status = fs::status(file, error);
@@ -89,9 +90,10 @@ ChildReply answer(const fs::path& file, const LoadOptions& options) {
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::length_error&) {
-    return {encode_head(Status::failure(StatusCode::malformed_file, kNone,
-                                        "%s: announces impossible sizes", name.c_str()),
-                        {}),
+    return {encode_head(
+                Status::failure(StatusCode::malformed_file, kNone,
+                                "%s: an array is declared with an impossible size", name.c_str()),
+                {}),
             {}};
   } catch (const std::exception& error) {
     return {encode_head(Status::failure(StatusCode::malformed_file, kNone, "%s: %s", name.c_str(),

@@ -76,7 +76,8 @@ Json MaterialWriter::describe(std::uint32_t material) {
   source.Get(AI_MATKEY_OPACITY, opacity);
   double alpha = unit(color.a) * unit(opacity);
   if (alpha == 0.0) {
-    notes_.inform("materials", "wholly transparent, as importers misread many; made opaque");
+    notes_.inform("materials",
+                  "fully transparent, which is usually misread by the importer; made opaque");
     alpha = 1.0;
   }
   json["pbrMetallicRoughness"] = {

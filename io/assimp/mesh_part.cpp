@@ -43,8 +43,9 @@ void read_triangles(const aiMesh& mesh, MeshPart& part, Notes& notes) {
     for (unsigned k = 0; k < 3; ++k) {
       if (face.mIndices[k] >= mesh.mNumVertices)
         throw ImportFailure{Status::failure(StatusCode::index_out_of_range, f,
-                                            "%s: face %u: vertex %u of %u", part.place.c_str(), f,
-                                            face.mIndices[k], mesh.mNumVertices)};
+                                            "%s: face %u: vertex %u does not exist; there are %u",
+                                            part.place.c_str(), f, face.mIndices[k],
+                                            mesh.mNumVertices)};
     }
     part.triangles.push_back({face.mIndices[0], face.mIndices[1], face.mIndices[2]});
   }
@@ -165,7 +166,7 @@ void read_morph_target(const aiMesh& mesh, std::uint32_t target, MeshPart& part,
   const bool fits = shape.mNumVertices == mesh.mNumVertices;
   if (!fits)
     notes.repaired(StatusCode::size_mismatch, part.place,
-                   "morph targets of another vertex count, emptied");
+                   "morph targets with another number of vertices; emptied");
   add(
       "POSITION", fits ? shape.mVertices : nullptr, [](const aiVector3D& v) { return to_eigen(v); },
       [](unsigned) { return false; });

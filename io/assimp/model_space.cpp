@@ -45,7 +45,7 @@ ModelSpace fbx_space(const aiMetadata* metadata, Notes& notes) {
   double unit = number(metadata, "UnitScaleFactor").value_or(1.0);  // In centimetres.
   if (!std::isfinite(unit) || unit < 1e-6 || unit > 1e9) {
     notes.repaired(StatusCode::malformed_file, "settings",
-                   "unit scale unusable, centimetres assumed");
+                   "unit scale is not usable; centimetres are assumed");
     unit = 1.0;
   }
   space.model_from_scene.scale = Vec3d::Constant(unit * 0.01);
@@ -68,7 +68,8 @@ ModelSpace fbx_space(const aiMetadata* metadata, Notes& notes) {
                       space.model_from_scene.rotation.isApprox(Quatd::Identity());
 
   char text[128];
-  std::snprintf(text, sizeof text, "metres, y up; the file: unit %g cm, %s up", unit, up_name);
+  std::snprintf(text, sizeof text, "metres, y up; converted from units of %g cm, %s up", unit,
+                up_name);
   space.description = text;
   return space;
 }

@@ -71,7 +71,8 @@ void generate_missing_normals(std::span<MeshPart> parts, Notes& notes) {
     else
       notes.repaired(StatusCode::malformed_file, part.place,
                      "normals without direction; smooth ones generated", missing);
-    notes.inform(part.place, "vertices of no proper triangle; normal set to +y", undefined);
+    notes.inform(part.place, "vertices without a triangle of non-zero area; normal set to +y",
+                 undefined);
     part.vertices_without_normal.clear();
   }
 }

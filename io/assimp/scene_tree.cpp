@@ -76,7 +76,7 @@ std::uint32_t SceneTree::add_node(const aiNode& source, std::uint32_t parent, No
   if (node.name != readable) {
     node.json["extras"]["source_name"] = readable;
     notes.inform("node '" + readable + "'",
-                 "several nodes have this name; the later ones got a number");
+                 "several nodes have this name; a number was appended to the later ones");
   }
   node.source = &source;
   const std::string place = "node '" + node.name + "'";
@@ -103,7 +103,7 @@ std::uint32_t SceneTree::add_node(const aiNode& source, std::uint32_t parent, No
       helper.parent_from_node = parts.outer;
       parent = push(std::move(helper));
       node.parent_from_node = parts.inner;
-      notes.inform(place, "sheared; written as two nodes");
+      notes.inform(place, "transform has shear; written as two nodes");
     }
   }
   node.parent = parent;

@@ -77,7 +77,7 @@ void check_skin(const SkinSlots& skin, std::span<const MeshPart> parts, std::uin
 
   char text[128];
   std::snprintf(text, sizeof text,
-                "posed at bind the skin reproduces the mesh within %.1e of its size",
+                "in the bind pose the skin reproduces the mesh within %.1e of its size",
                 reproduction_error(skin, parts) / size);
   notes.inform(place, text);
 
@@ -98,7 +98,7 @@ void check_skin(const SkinSlots& skin, std::span<const MeshPart> parts, std::uin
     notes.inform(place, text);
   } else if (reference != nullptr && relative_difference(tree[mesh_node].model_from_node,
                                                          *reference, bounds) > kTolerance) {
-    notes.inform(place, "the mesh's own node stands elsewhere than its skin; the skin counts");
+    notes.inform(place, "node and skin place the mesh differently; the skin is used");
   }
 }
 

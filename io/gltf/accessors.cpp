@@ -29,7 +29,7 @@ std::size_t size_of(ComponentType type) {
 ComponentType read_component_type(const Cursor& at) {
   const std::uint64_t type = at.to_unsigned();
   if (type < 5120 || type > 5126 || type == 5124)
-    refuse(StatusCode::malformed_file, kNone, "%.120s: no component type %llu",
+    refuse(StatusCode::malformed_file, kNone, "%.120s: unknown component type %llu",
            at.pointer().c_str(), static_cast<Place>(type));
   return static_cast<ComponentType>(type);
 }
@@ -50,8 +50,8 @@ constexpr std::array<ElementType, 7> kElementTypes = {{{"SCALAR", 1, false},
 const ElementType& read_element_type(const Cursor& at) {
   for (const ElementType& type : kElementTypes)
     if (type.name == at.to_string()) return type;
-  refuse(StatusCode::malformed_file, kNone, "%.120s: no type '%.40s'", at.pointer().c_str(),
-         at.to_string().c_str());
+  refuse(StatusCode::malformed_file, kNone, "%.120s: unknown accessor type '%.40s'",
+         at.pointer().c_str(), at.to_string().c_str());
 }
 
 /// Refuses unless `count` elements of `size` bytes, `stride` apart, fit in `available` bytes from
@@ -63,7 +63,7 @@ void check_extent(const Cursor& at, std::uint64_t offset, std::uint64_t stride, 
                     (count == 1 || stride <= (available - offset - size) / (count - 1));
   if (!fits)
     refuse(StatusCode::index_out_of_range, kNone,
-           "%.120s: %llu elements of %llu bytes from byte %llu on do not fit in %llu bytes",
+           "%.120s: %llu elements of %llu bytes at offset %llu do not fit in %llu bytes",
            at.pointer().c_str(), static_cast<Place>(count), static_cast<Place>(size),
            static_cast<Place>(offset), static_cast<Place>(available));
 }
@@ -105,8 +105,9 @@ void decode_elements(const Accessor& accessor, std::span<Out> out, const Convert
                                 : index_size == 2 ? load<std::uint16_t>(at)
                                                   : load<std::uint32_t>(at);
     if (index >= accessor.count)
-      refuse(StatusCode::index_out_of_range, index, "/accessors/%u/sparse: index %u of %u elements",
-             accessor.index, index, accessor.count);
+      refuse(StatusCode::index_out_of_range, index,
+             "/accessors/%u/sparse: index %u; the accessor has %u elements", accessor.index, index,
+             accessor.count);
     element(accessor.sparse_values + i * components * sizeof(T), index);
   }
 }
@@ -128,16 +129,17 @@ void decode_unsigned(const Accessor& accessor, std::span<std::uint32_t> out) {
 void open_sparse(const SourceDocument& document, const Cursor& sparse, Accessor& accessor) {
   const std::uint64_t count = sparse.member("count").to_unsigned();
   if (count == 0 || count > accessor.count)
-    refuse(StatusCode::malformed_file, accessor.index, "%s/count: %llu of %u elements",
-           sparse.pointer().c_str(), static_cast<Place>(count), accessor.count);
+    refuse(StatusCode::malformed_file, accessor.index,
+           "%s/count: %llu; the accessor has %u elements", sparse.pointer().c_str(),
+           static_cast<Place>(count), accessor.count);
   const Cursor indices = sparse.member("indices");
   accessor.sparse_count = static_cast<std::uint32_t>(count);
   accessor.sparse_index_type = read_component_type(indices.member("componentType"));
   if (accessor.sparse_index_type != ComponentType::u8 &&
       accessor.sparse_index_type != ComponentType::u16 &&
       accessor.sparse_index_type != ComponentType::u32)
-    refuse(StatusCode::malformed_file, accessor.index, "%s/componentType: not unsigned",
-           indices.pointer().c_str());
+    refuse(StatusCode::malformed_file, accessor.index,
+           "%s/componentType: not an unsigned integer type", indices.pointer().c_str());
   accessor.sparse_indices =
       open_packed(document, indices, count, size_of(accessor.sparse_index_type));
   accessor.sparse_values = open_packed(document, sparse.member("values"), count,
@@ -165,7 +167,8 @@ Accessor AccessorReader::open(const Cursor& reference) const {
   const std::uint64_t count = at.member("count").to_unsigned();
   if (count == 0 || count >= kNone)
     refuse(count == 0 ? StatusCode::malformed_file : StatusCode::limit_exceeded, index,
-           "%s/count: %llu", at.pointer().c_str(), static_cast<Place>(count));
+           "%s/count: %llu; expected 1 to 4294967294", at.pointer().c_str(),
+           static_cast<Place>(count));
   accessor.count = static_cast<std::uint32_t>(count);
 
   const std::size_t element_size = accessor.components * size_of(accessor.component_type);
@@ -198,7 +201,7 @@ void AccessorReader::charge(const Accessor& accessor) {
   const std::uint64_t bytes = std::uint64_t{accessor.count} * accessor.components * sizeof(float);
   if (bytes > bytes_left_)
     refuse(StatusCode::limit_exceeded, accessor.index,
-           "%s: the file's arrays unfold to more than the %llu bytes that are allowed",
+           "%s: decoded, the file's arrays exceed %llu bytes (LoadOptions::maximum_bytes)",
            place(accessor).c_str(), static_cast<Place>(document_.maximum_bytes));
   bytes_left_ -= bytes;
 }

@@ -32,7 +32,7 @@ class AnimationReader {
       try {
         Channel channel = read_channel(animation, channels.element(i), place);
         if (!driven.insert({channel.target, channel.index}).second)
-          throw Unusable{"an earlier channel drives the same"};
+          throw Unusable{"an earlier channel has the same target"};
         clip.duration = std::max(clip.duration, channel.times.back());
         clip.channels.push_back(std::move(channel));
       } catch (const Unusable& unusable) {
@@ -61,7 +61,7 @@ class AnimationReader {
   void read_target(const Cursor& target, Channel& channel) const {
     const std::string& path = target.member("path").to_string();
     const auto node_at = target.find("node");
-    if (!node_at) throw Unusable{"it names no node"};
+    if (!node_at) throw Unusable{"its target has no node"};
     if (!node_at->json().is_number() || node_at->to_unsigned() >= nodes_.bone_from_node.size())
       throw Unusable{"its node does not exist"};
     const auto node = static_cast<std::uint32_t>(node_at->to_unsigned());
@@ -80,7 +80,7 @@ class AnimationReader {
       channel.width = morphs_of_node_[node].count;
       if (channel.width == 0) throw Unusable{"its node has no morph targets"};
     } else {
-      throw Unusable{"it drives '" + path.substr(0, 40) + "'"};
+      throw Unusable{"unknown target path '" + path.substr(0, 40) + "'"};
     }
     if (channel.target != ChannelTarget::morph_weights &&
         entry(reading_.json(), "nodes", node).find("matrix"))
@@ -122,7 +122,7 @@ class AnimationReader {
     const std::size_t expected =
         channel.times.size() * channel.width / components * (is_cubic(channel) ? 3 : 1);
     if (accessor.is_matrix || accessor.components != components || accessor.count != expected)
-      throw Unusable{"numbers of key times and values disagree"};
+      throw Unusable{"the number of values does not match the number of key times"};
     if (accessor.is_integer() && !accessor.normalized)
       throw Unusable{"its values are integers that are not normalised"};
     channel.values = reading_.accessors.read_floats(accessor);
@@ -179,7 +179,7 @@ std::vector<Clip> read_animations(Reading& reading, const NodeSkeleton& nodes,
   for (std::size_t i = 0; i < count; ++i)
     names.push_back(entry(reading.json(), "animations", i).name());
   if (const std::size_t renamed = make_unique(names, "clip"); renamed > 0)
-    reading.notes.inform("clips", "animations without a name of their own were given one",
+    reading.notes.inform("clips", "animations without a unique name were renamed",
                          static_cast<std::uint32_t>(renamed));
   AnimationReader reader(reading, nodes, morphs_of_node);
   std::vector<Clip> clips;

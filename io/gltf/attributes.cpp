@@ -48,8 +48,9 @@ AttributeReader::AttributeReader(Reading& reading, const Cursor& primitive, std:
 Accessor AttributeReader::open(const Cursor& at, const Mesh& mesh, std::uint32_t components) const {
   const Accessor accessor = reading_.accessors.open(at);
   if (accessor.is_matrix || accessor.components != components)
-    refuse(StatusCode::malformed_file, accessor.index, "%s: expected %u numbers a vertex, found %u",
-           at.pointer().c_str(), components, accessor.components);
+    refuse(StatusCode::malformed_file, accessor.index,
+           "%s: expected %u numbers per vertex, found %u", at.pointer().c_str(), components,
+           accessor.components);
   if (!mesh.positions.empty() && accessor.count != mesh.positions.size())
     refuse(StatusCode::size_mismatch, accessor.index, "%s: %u elements for %zu vertices",
            at.pointer().c_str(), accessor.count, mesh.positions.size());
@@ -107,9 +108,9 @@ void AttributeReader::read_tear_side_feature(Mesh& mesh, const Cursor& at) {
   const Accessor accessor = reading_.accessors.open(at);
   if (!accessor.is_matrix && accessor.components == 1)
     return read_custom(mesh, kTearSideAttribute, at);
-  reading_.notes.dropped(
-      StatusCode::malformed_file, accessor.index, place_,
-      std::string("attribute ") + kTearSideFeatureAttribute + " is not one number a vertex");
+  reading_.notes.dropped(StatusCode::malformed_file, accessor.index, place_,
+                         std::string("attribute ") + kTearSideFeatureAttribute +
+                             " does not have one number per vertex");
 }
 
 void AttributeReader::read_positions(Mesh& mesh) {
@@ -187,7 +188,7 @@ void AttributeReader::note_sets_beyond(const char* prefix, std::size_t used) {
     sets += item.key().compare(0, start.size(), start) == 0;
   if (sets > used)
     reading_.notes.dropped(StatusCode::malformed_file, kNone, place_,
-                           start + "n are not numbered 0, 1 …; those after the gap are left out",
+                           start + "n are not numbered 0, 1, 2 …; those after the gap were dropped",
                            static_cast<std::uint32_t>(sets - used));
 }
 
@@ -241,8 +242,8 @@ void AttributeReader::read_morph_targets(Mesh& mesh, const std::vector<std::stri
   }
   if (has_other)
     reading_.notes.dropped(StatusCode::unsupported_feature, kNone, place_,
-                           "morph targets move more than positions, normals and tangents; that "
-                           "stays in the file but not on a torn mesh");
+                           "morph targets with attributes other than positions, normals and "
+                           "tangents; these stay in the file but not on a torn mesh");
 }
 
 std::vector<InfluenceSet> AttributeReader::read_influences(const Mesh& mesh) {
@@ -253,17 +254,17 @@ std::vector<InfluenceSet> AttributeReader::read_influences(const Mesh& mesh) {
     if (!joints && !weights) return sets;
     if (!joints || !weights)
       refuse(StatusCode::size_mismatch, static_cast<std::uint32_t>(sets.size()),
-             "%s: JOINTS_%zu and WEIGHTS_%zu go together", attributes_.pointer().c_str(),
+             "%s: JOINTS_%zu and WEIGHTS_%zu must both be present", attributes_.pointer().c_str(),
              sets.size(), sets.size());
     const Accessor slots = open(*joints, mesh, 4), values = open(*weights, mesh, 4);
     if (slots.normalized || slots.component_type == ComponentType::u32)
-      refuse(StatusCode::malformed_file, slots.index, "%s: joints are 8 or 16-bit integers",
-             joints->pointer().c_str());
+      refuse(StatusCode::malformed_file, slots.index,
+             "%s: joints must be 8 or 16-bit unsigned integers", joints->pointer().c_str());
     if (values.is_integer() &&
         !(values.normalized && (values.component_type == ComponentType::u8 ||
                                 values.component_type == ComponentType::u16)))
       refuse(StatusCode::malformed_file, values.index,
-             "%s: weights are floats or normalised unsigned 8 or 16-bit integers",
+             "%s: weights must be floats or normalised unsigned 8 or 16-bit integers",
              weights->pointer().c_str());
     sets.push_back(
         {reading_.accessors.read_unsigned(slots), reading_.accessors.read_floats(values)});

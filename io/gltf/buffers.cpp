@@ -26,11 +26,11 @@ void resolve_buffer(SourceDocument& document, const Container& container, std::s
     bytes = container.binary;
   } else {
     refuse(StatusCode::unsupported_feature, static_cast<std::uint32_t>(index),
-           "%s: a buffer without data", buffer.pointer().c_str());
+           "%s: the buffer has no data", buffer.pointer().c_str());
   }
   if (claimed > bytes.size())
     refuse(StatusCode::malformed_file, static_cast<std::uint32_t>(index),
-           "%s/byteLength: claims %llu bytes, there are %zu", buffer.pointer().c_str(),
+           "%s/byteLength: %llu bytes declared, %zu found", buffer.pointer().c_str(),
            static_cast<Place>(claimed), bytes.size());
   document.buffers.push_back(bytes.first(claimed));
 }
@@ -52,8 +52,9 @@ void resolve_buffers(SourceDocument& document, const Container& container) {
     const std::uint64_t available = document.buffers[buffer].size();
     if (offset > available || length > available - offset)
       refuse(StatusCode::index_out_of_range, static_cast<std::uint32_t>(i),
-             "%s: bytes %llu + %llu of a buffer of %llu", view.pointer().c_str(),
-             static_cast<Place>(offset), static_cast<Place>(length), static_cast<Place>(available));
+             "%s: offset %llu and length %llu exceed the buffer of %llu bytes",
+             view.pointer().c_str(), static_cast<Place>(offset), static_cast<Place>(length),
+             static_cast<Place>(available));
   }
 }
 

@@ -27,13 +27,15 @@ std::uint32_t read_u32(std::span<const std::byte> bytes, std::size_t offset) {
 
 Container split_glb(std::span<const std::byte> content) {
   if (content.size() < kHeaderBytes)
-    refuse(StatusCode::malformed_file, kNone, "GLB: %zu bytes are no header", content.size());
+    refuse(StatusCode::malformed_file, kNone, "GLB: %zu bytes are too few for a header",
+           content.size());
   if (const std::uint32_t version = read_u32(content, 4); version != 2)
-    refuse(StatusCode::unsupported_format, kNone, "GLB version %u; only 2 is read", version);
+    refuse(StatusCode::unsupported_format, kNone, "GLB: version %u is not supported; expected 2",
+           version);
   const std::size_t claimed = read_u32(content, 8);
   if (claimed > content.size())
     refuse(StatusCode::malformed_file, kNone,
-           "GLB: its header claims %zu bytes, the file ends after %zu", claimed, content.size());
+           "GLB: the header declares %zu bytes, the file has %zu", claimed, content.size());
 
   Container container{true, {}, {}};
   bool has_json = false;
@@ -44,7 +46,7 @@ Container split_glb(std::span<const std::byte> content) {
     offset += kChunkHeaderBytes;
     if (length > claimed - offset)
       refuse(StatusCode::malformed_file, kNone,
-             "GLB: chunk %zu at byte %zu claims %zu bytes, %zu are left", chunk,
+             "GLB: chunk %zu at byte %zu declares %zu bytes, %zu are left", chunk,
              offset - kChunkHeaderBytes, length, claimed - offset);
     const auto data = content.subspan(offset, length);
     if (chunk == 0 && type == kJsonChunk) {
@@ -110,11 +112,11 @@ void check_version(const Cursor& document) {
   const Cursor asset = document.member("asset");
   const std::string& version = asset.member("version").to_string();
   if (version.substr(0, 2) != "2.")
-    refuse(StatusCode::unsupported_format, kNone, "/asset/version: glTF %.20s; only 2.x is read",
-           version.c_str());
+    refuse(StatusCode::unsupported_format, kNone,
+           "/asset/version: glTF %.20s is not supported; expected 2.x", version.c_str());
   if (const auto minimum = asset.find("minVersion"); minimum && minimum->to_string() != "2.0")
-    refuse(StatusCode::unsupported_format, kNone, "/asset/minVersion: %.20s; only 2.0 is read",
-           minimum->to_string().c_str());
+    refuse(StatusCode::unsupported_format, kNone,
+           "/asset/minVersion: %.20s is not supported; expected 2.0", minimum->to_string().c_str());
 }
 
 void check_required_extensions(const Cursor& document) {
@@ -124,7 +126,7 @@ void check_required_extensions(const Cursor& document) {
     const Cursor extension = required->element(i);
     if (!is_harmless(extension.to_string()))
       refuse(StatusCode::unsupported_feature, static_cast<std::uint32_t>(i),
-             "%s: the file cannot be read without %.100s", extension.pointer().c_str(),
+             "%s: the required extension %.100s is not supported", extension.pointer().c_str(),
              extension.to_string().c_str());
   }
 }
@@ -142,7 +144,8 @@ Container split_container(std::span<const std::byte> content) {
   if (text.substr(0, 3) == "\xEF\xBB\xBF") text.remove_prefix(3);
   const std::size_t start = text.find_first_not_of(" \t\r\n");
   if (start == std::string_view::npos || text[start] != '{')
-    refuse(StatusCode::unsupported_format, kNone, "neither GLB ('glTF') nor a JSON object");
+    refuse(StatusCode::unsupported_format, kNone,
+           "neither a GLB (no 'glTF' at the start) nor a JSON object");
   return {false, text, {}};
 }
 

@@ -34,7 +34,7 @@ std::size_t Cursor::size() const {
 Cursor Cursor::element(std::size_t index) const {
   if (index >= size())
     refuse(StatusCode::index_out_of_range, static_cast<std::uint32_t>(index),
-           "%.120s: element %zu of %zu", pointer_.c_str(), index, size());
+           "%.120s: element %zu does not exist; there are %zu", pointer_.c_str(), index, size());
   return Cursor((*value_)[index], pointer_ + "/" + std::to_string(index));
 }
 
@@ -52,7 +52,7 @@ std::uint32_t Cursor::to_index(std::size_t count, const char* what) const {
   const std::uint64_t index = to_unsigned();
   if (index >= count)
     refuse(StatusCode::index_out_of_range, static_cast<std::uint32_t>(index),
-           "%.120s: %s %llu, the file has %zu", pointer_.c_str(), what,
+           "%.120s: %s %llu does not exist; the file has %zu", pointer_.c_str(), what,
            static_cast<unsigned long long>(index), count);
   return static_cast<std::uint32_t>(index);
 }
@@ -61,7 +61,8 @@ float Cursor::to_float() const {
   if (!value_->is_number()) refuse_type(*this, "a number");
   const auto number = static_cast<float>(value_->get<double>());
   if (!std::isfinite(number))
-    refuse(StatusCode::non_finite_value, kNone, "%.120s: too large for a float", pointer_.c_str());
+    refuse(StatusCode::non_finite_value, kNone, "%.120s: number too large for a float",
+           pointer_.c_str());
   return number;
 }
 

@@ -126,7 +126,7 @@ std::vector<std::byte> GlbDraft::finish() {
   const std::size_t total = 12 + 8 + text.size() + (binary_.empty() ? 0 : 8 + binary_.size());
   if (total > std::numeric_limits<std::uint32_t>::max())
     refuse(StatusCode::limit_exceeded, kNone,
-           "the GLB would have %zu bytes; its format ends at 4 GiB", total);
+           "the GLB would have %zu bytes; the format's limit is 4 GiB", total);
 
   std::vector<std::byte> glb;
   glb.reserve(total);

@@ -30,10 +30,10 @@ std::string numbered(const char* name, std::size_t index) { return name + std::t
 void check_options(const SaveOptions& options) {
   const std::uint32_t maximum = options.maximum_influences;
   if (maximum != 0 && maximum != 4 && maximum != 8)
-    refuse(StatusCode::invalid_argument, kNone, "save_glb: maximum_influences is 0, 4 or 8, not %u",
-           maximum);
+    refuse(StatusCode::invalid_argument, kNone,
+           "save_glb: maximum_influences must be 0, 4 or 8, not %u", maximum);
   if (options.weights > WeightFormat::unorm8)
-    refuse(StatusCode::invalid_argument, kNone, "save_glb: %u is not a weight format",
+    refuse(StatusCode::invalid_argument, kNone, "save_glb: unknown weight format %u",
            static_cast<unsigned>(options.weights));
 }
 

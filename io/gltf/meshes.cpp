@@ -86,7 +86,7 @@ class MeshBuilder {
     if (!weights) weights = mesh.find("weights");
     if (weights && weights->size() != range.count)
       reading_.notes.repaired(StatusCode::size_mismatch, kNone, weights->pointer(),
-                              "as many weights as morph targets were expected");
+                              "the number of weights differs from the number of morph targets");
     for (std::uint32_t i = 0; i < range.count; ++i)
       all.push_back(weights && i < weights->size() ? weights->element(i).to_float() : 0.0f);
     return range;
@@ -110,7 +110,7 @@ class MeshBuilder {
     origin.repaired = read_faces(primitives, group, mesh);
     origin.repaired |= attributes.repaired();
     if (mesh.triangles.empty()) {
-      reading_.notes.dropped(StatusCode::empty_input, kNone, place, "it has no triangle");
+      reading_.notes.dropped(StatusCode::empty_input, kNone, place, "the mesh has no triangle");
       return;
     }
     read_skin(node_at, node, attributes, place, mesh, origin);
@@ -149,8 +149,8 @@ class MeshBuilder {
     const auto sets = skin_at ? attributes.read_influences(mesh) : std::vector<InfluenceSet>();
     if (sets.empty()) {
       if (skin_at)
-        reading_.notes.inform(place,
-                              "its node has a skin but it has no weights; it moves with the node");
+        reading_.notes.inform(
+            place, "its node has a skin, but the mesh has no weights; it moves with the node");
       mesh.skin = skins_.of_node(node);
       mesh.weights = rigid_weights(mesh.vertex_count());
       return;

@@ -32,7 +32,7 @@ void check_depths(const NodeTree& tree) {
     std::uint32_t on_cycle = node;  // count steps up lead from below onto the cycle.
     for (std::uint32_t step = 0; step < count; ++step) on_cycle = tree.parent[on_cycle];
     refuse(StatusCode::not_a_tree, on_cycle,
-           "/nodes/%u/children: node %u is its own ancestor, by its parent %u",
+           "/nodes/%u/children: node %u is its own ancestor through its parent %u",
            tree.parent[on_cycle], on_cycle, tree.parent[on_cycle]);
   }
 }
@@ -41,7 +41,9 @@ void check_depths(const NodeTree& tree) {
 
 NodeTree read_node_tree(const Json& document) {
   const std::size_t count = count_of(document, "nodes");
-  if (count >= kNone) refuse(StatusCode::limit_exceeded, kNone, "/nodes: %zu nodes", count);
+  if (count >= kNone)
+    refuse(StatusCode::limit_exceeded, kNone, "/nodes: %zu nodes; at most 4294967294 are supported",
+           count);
   NodeTree tree;
   tree.parent.assign(count, kNone);
   tree.children.resize(count);

@@ -35,7 +35,7 @@ std::vector<std::uint32_t> read_indices(Reading& reading, const Cursor& primitiv
   if (const auto at = primitive.find("indices")) {
     const Accessor accessor = reading.accessors.open(*at);
     if (accessor.components != 1 || accessor.normalized)
-      refuse(StatusCode::malformed_file, accessor.index, "%s: indices are unsigned scalars",
+      refuse(StatusCode::malformed_file, accessor.index, "%s: indices must be unsigned scalars",
              at->pointer().c_str());
     return reading.accessors.read_unsigned(accessor);
   }
@@ -72,17 +72,17 @@ std::vector<PrimitiveGroup> group_primitives(Reading& reading, const Cursor& mes
     const Cursor primitive = primitives.element(i);
     const std::uint64_t mode = primitive.unsigned_or("mode", kTriangles);
     if (mode > kFan)
-      refuse(StatusCode::malformed_file, i, "%s/mode: %llu", primitive.pointer().c_str(),
-             static_cast<unsigned long long>(mode));
+      refuse(StatusCode::malformed_file, i, "%s/mode: %llu; expected 0 to 6",
+             primitive.pointer().c_str(), static_cast<unsigned long long>(mode));
     if (mode < kTriangles) {
       reading.notes.dropped(StatusCode::unsupported_feature, i, primitive.pointer(),
-                            "points and lines cannot be torn and stay in the file only");
+                            "points and lines are not loaded; they stay in the file");
       continue;
     }
     const VertexKey key = vertex_key(primitive);
     if (key.front().count("POSITION") == 0) {
       reading.notes.dropped(StatusCode::malformed_file, i, primitive.pointer(),
-                            "a primitive without positions");
+                            "the primitive has no positions");
       continue;
     }
     const auto [found, is_new] = group_of_key.try_emplace(key, groups.size());
@@ -99,7 +99,7 @@ ReadTriangles read_triangles(Reading& reading, const Cursor& primitive,
   ReadTriangles result;
   if (mode == kTriangles && indices.size() % 3 != 0)
     reading.notes.repaired(StatusCode::malformed_file, kNone, primitive.pointer(),
-                           "the last triangle is incomplete and was left out");
+                           "the last triangle is incomplete and was dropped");
   result.triangles = assemble(indices, mode);
   const auto out_of_range = [&](const Triangle& triangle) {
     return std::any_of(triangle.begin(), triangle.end(),
@@ -111,10 +111,10 @@ ReadTriangles read_triangles(Reading& reading, const Cursor& primitive,
   const auto index = static_cast<std::uint32_t>(first_bad - result.triangles.begin());
   const std::size_t before = result.triangles.size();
   std::erase_if(result.triangles, out_of_range);
-  reading.notes.dropped(
-      StatusCode::index_out_of_range, index, primitive.pointer(),
-      "triangles name vertices that do not exist (first: triangle " + std::to_string(index) + ")",
-      static_cast<std::uint32_t>(before - result.triangles.size()));
+  reading.notes.dropped(StatusCode::index_out_of_range, index, primitive.pointer(),
+                        "triangles refer to vertices that do not exist (first: triangle " +
+                            std::to_string(index) + ")",
+                        static_cast<std::uint32_t>(before - result.triangles.size()));
   result.repaired = true;
   return result;
 }

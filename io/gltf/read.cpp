@@ -26,8 +26,9 @@ std::string scene_name(const Json& document) {
 LoadedCharacter read(std::span<const std::byte> content, const std::filesystem::path& folder,
                      const LoadOptions& options) {
   if (content.size() > options.maximum_bytes)
-    refuse(StatusCode::limit_exceeded, kNone, "the file has %zu bytes, %llu are allowed",
-           content.size(), static_cast<unsigned long long>(options.maximum_bytes));
+    refuse(StatusCode::limit_exceeded, kNone,
+           "the file has %zu bytes; the limit is %llu (LoadOptions::maximum_bytes)", content.size(),
+           static_cast<unsigned long long>(options.maximum_bytes));
   const auto document = std::make_shared<SourceDocument>();
   document->content.assign(content.begin(), content.end());
   document->maximum_bytes = options.maximum_bytes;
@@ -39,22 +40,22 @@ LoadedCharacter read(std::span<const std::byte> content, const std::filesystem::
 
   LoadedCharacter loaded;
   loaded.report.format = container.is_glb ? "glTF 2.0 binary" : "glTF 2.0 text";
-  loaded.report.space = "metres, y up, the file's scene space";
+  loaded.report.space = "metres, y up; the file's scene space";
   Reading reading{*document, AccessorReader(*document), Notes(loaded.report, options.strict)};
   const auto character = std::make_shared<Character>();
   character->name = scene_name(document->json);
   NodeSkeleton nodes = read_skeleton(reading);
   ReadMeshes meshes = read_meshes(reading, nodes, *character);
   if (character->meshes.empty())
-    refuse(StatusCode::empty_input, kNone, "the scene has no triangle");
+    refuse(StatusCode::empty_input, kNone, "the scene has no triangles");
   character->clips = read_animations(reading, nodes, meshes.morphs_of_node);
   character->skeleton = std::move(nodes.skeleton);
   document->mesh_origins = std::move(meshes.origins);
   if (!document->is_glb)
     document->content = {};  // The text is not needed again; buffers lie in other_files.
   if (const Status status = validate_character(*character); !status)
-    refuse(StatusCode::internal_error, status.index(), "the reader let through: %.200s",
-           status.text().data());
+    refuse(StatusCode::internal_error, status.index(),
+           "the reader produced an invalid character: %.200s", status.text().data());
 
   loaded.character = character;
   loaded.source = document;

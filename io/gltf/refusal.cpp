@@ -24,7 +24,8 @@ Status status_of_current_exception() {
   } catch (const std::bad_alloc&) {
     return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
   } catch (const std::exception& error) {
-    return Status::failure(StatusCode::internal_error, kNone, "unexpected: %s", error.what());
+    return Status::failure(StatusCode::internal_error, kNone, "unexpected exception: %s",
+                           error.what());
   } catch (...) {
     return Status::failure(StatusCode::internal_error, kNone, "unexpected exception");
   }

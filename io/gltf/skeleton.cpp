@@ -16,7 +16,7 @@ bool read_numbers(const Cursor& node, const char* key, std::array<float, N>& out
   const auto at = node.find(key);
   if (!at) return false;
   if (at->size() != N)
-    refuse(StatusCode::malformed_file, kNone, "%s: %zu numbers, expected %zu",
+    refuse(StatusCode::malformed_file, kNone, "%s: found %zu numbers, expected %zu",
            at->pointer().c_str(), at->size(), N);
   for (std::size_t i = 0; i < N; ++i) out[i] = at->element(i).to_float();
   return true;
@@ -136,7 +136,7 @@ NodeSkeleton read_skeleton(Reading& reading) {
   const auto outside = outside_joints(reading, result.scene_nodes, visited);
   for (const std::uint32_t joint : outside) append_tree(tree, tree.root_of(joint), visited, order);
   if (!outside.empty())
-    reading.notes.inform("skeleton", "joints outside the scene were taken in with their trees",
+    reading.notes.inform("skeleton", "joints outside the scene were added, with their whole trees",
                          static_cast<std::uint32_t>(outside.size()));
 
   result.bone_from_node.assign(tree.parent.size(), kNone);
@@ -161,9 +161,10 @@ NodeSkeleton read_skeleton(Reading& reading) {
   }
   if (sheared > 0)
     reading.notes.inform(
-        "skeleton", "matrices with shear were split over an extra bone '…#shear' each", sheared);
+        "skeleton", "matrices with shear were split into two bones, the second named '…#shear'",
+        sheared);
   if (const std::size_t renamed = make_unique(names, "bone"); renamed > 0)
-    reading.notes.inform("skeleton", "nodes without a name of their own were given one",
+    reading.notes.inform("skeleton", "nodes without a unique name were renamed",
                          static_cast<std::uint32_t>(renamed));
   for (std::size_t i = 0; i < names.size(); ++i)
     result.skeleton.bones[i].name = std::move(names[i]);

@@ -71,7 +71,8 @@ Skin SkinReader::read_skin(const Cursor& at) {
   skin.name = at.name();
   const Cursor joints = at.member("joints");
   if (joints.size() == 0)
-    refuse(StatusCode::malformed_file, kNone, "%s: empty", joints.pointer().c_str());
+    refuse(StatusCode::malformed_file, kNone, "%s: the skin has no joints",
+           joints.pointer().c_str());
   for (std::size_t i = 0; i < joints.size(); ++i)
     skin.bones.push_back(
         nodes_.bone_from_node[joints.element(i).to_index(nodes_.bone_from_node.size(), "node")]);
@@ -93,7 +94,7 @@ Skin SkinReader::read_skin(const Cursor& at) {
     if (is_singular(skin.bone_from_bind[slot])) ++singular;
   }
   if (singular > 0)
-    reading_.notes.inform(at.pointer(), "inverse bind matrices that have no inverse", singular);
+    reading_.notes.inform(at.pointer(), "inverse bind matrices that are not invertible", singular);
   return skin;
 }
 

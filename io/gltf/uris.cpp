@@ -79,7 +79,7 @@ std::filesystem::path resolve_uri(const std::string& uri, const std::filesystem:
     refuse(StatusCode::path_not_allowed, kNone, "%.80s: '%.80s' %s", place.c_str(), uri.c_str(),
            why);
   };
-  if (folder.empty()) refuse_path("refers to another file, which this source may not");
+  if (folder.empty()) refuse_path("refers to another file, which is not allowed here");
   const std::string decoded = percent_decoded(uri);
   if (decoded.empty() || decoded.find('\0') != std::string::npos) refuse_path("is not a file name");
   if (has_scheme(decoded)) refuse_path("is not a relative path");
@@ -90,13 +90,13 @@ std::filesystem::path resolve_uri(const std::string& uri, const std::filesystem:
   std::error_code error;
   const auto allowed = std::filesystem::canonical(folder, error);
   if (error)
-    refuse(StatusCode::file_not_found, kNone, "%.80s: the asset's folder cannot be opened",
+    refuse(StatusCode::file_not_found, kNone, "%.80s: the model's folder cannot be opened",
            place.c_str());
   const auto file = std::filesystem::weakly_canonical(allowed / relative, error);
   if (error)
     refuse(StatusCode::file_unreadable, kNone, "%.80s: '%.80s' cannot be resolved", place.c_str(),
            uri.c_str());
-  if (!is_inside(file, allowed)) refuse_path("lies outside the asset's folder");
+  if (!is_inside(file, allowed)) refuse_path("is outside the model's folder");
   return file;
 }
 
@@ -116,7 +116,8 @@ std::vector<std::byte> read_file(const std::filesystem::path& file, std::uint64_
     refuse(StatusCode::file_unreadable, kNone, "%.120s: '%.100s' cannot be read", place.c_str(),
            file.filename().c_str());
   if (size > maximum_bytes)
-    refuse(StatusCode::limit_exceeded, kNone, "%.80s: '%.80s' has %llu bytes, %llu are allowed",
+    refuse(StatusCode::limit_exceeded, kNone,
+           "%.80s: '%.80s' has %llu bytes; %llu are left of LoadOptions::maximum_bytes",
            place.c_str(), file.filename().c_str(), static_cast<unsigned long long>(size),
            static_cast<unsigned long long>(maximum_bytes));
   std::vector<std::byte> bytes(size);

@@ -85,11 +85,10 @@ void note(const Faults& faults, const std::string& place, Notes& notes) {
            "weights were negative and became zero");
   if (faults.out_of_range.count > 0)
     notes.dropped(StatusCode::index_out_of_range, faults.out_of_range.first_vertex, place,
-                  "influences named joints that the skin does not have (first: vertex " +
+                  "influences referred to joints that the skin does not have (first: vertex " +
                       std::to_string(faults.out_of_range.first_vertex) + ")",
                   faults.out_of_range.count);
-  repaired(faults.repeated, StatusCode::malformed_file,
-           "joints named twice by a vertex were merged");
+  repaired(faults.repeated, StatusCode::malformed_file, "repeated joints of a vertex were merged");
   repaired(faults.without_weight, StatusCode::weights_not_normalized,
            "vertices without weight were bound to the skin's root");
   char text[96];

@@ -16,30 +16,32 @@ using Origin = SourceDocument::MeshOrigin;
 
 void check_same_character(const Character& character, const LoadedCharacter& loaded) {
   if (loaded.character == nullptr || loaded.source == nullptr)
-    refuse(StatusCode::invalid_argument, kNone, "save_glb: nothing was loaded");
+    refuse(StatusCode::invalid_argument, kNone,
+           "save_glb: `loaded` has no character or no source document");
   const Character& source = *loaded.character;
   if (character.meshes.size() != source.meshes.size())
-    refuse(StatusCode::size_mismatch, kNone, "save_glb: %zu meshes, the source has %zu",
-           character.meshes.size(), source.meshes.size());
+    refuse(StatusCode::size_mismatch, kNone,
+           "save_glb: the character has %zu meshes, the source has %zu", character.meshes.size(),
+           source.meshes.size());
   if (&character == &source) return;
   if (character.skeleton != source.skeleton)
-    refuse(StatusCode::invalid_argument, kNone, "save_glb: the skeleton is not the source's");
+    refuse(StatusCode::invalid_argument, kNone, "save_glb: the skeleton differs from the source's");
   if (character.skins != source.skins)
-    refuse(StatusCode::invalid_argument, kNone, "save_glb: the skins are not the source's");
+    refuse(StatusCode::invalid_argument, kNone, "save_glb: the skins differ from the source's");
   if (character.clips != source.clips)
-    refuse(StatusCode::invalid_argument, kNone, "save_glb: the clips are not the source's");
+    refuse(StatusCode::invalid_argument, kNone, "save_glb: the clips differ from the source's");
   const std::size_t material_count = count_of(loaded.source->json, "materials");
   for (std::uint32_t i = 0; i < character.meshes.size(); ++i) {
     const Mesh &mesh = character.meshes[i], &before = source.meshes[i];
     if (mesh.skin != before.skin || mesh.first_morph_weight != before.first_morph_weight ||
         mesh.morph_targets.size() != before.morph_targets.size())
       refuse(StatusCode::invalid_argument, i,
-             "save_glb: mesh %u: its skin or its morph targets are not the source's", i);
+             "save_glb: mesh %u: its skin or its morph targets differ from the source's", i);
     for (const Submesh& submesh : mesh.submeshes)
       if (submesh.material != kNone && submesh.material >= material_count)
         refuse(StatusCode::index_out_of_range, i,
-               "save_glb: mesh %u: material %u, the source has %zu", i, submesh.material,
-               material_count);
+               "save_glb: mesh %u: material %u does not exist; the source has %zu", i,
+               submesh.material, material_count);
   }
   if (const Status status = validate_character(character); !status) throw Refusal{status};
 }

@@ -47,9 +47,11 @@ Json parse_json(std::string_view text) {
     const auto line =
         1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(offset), '\n');
     throw Fault{Status::failure(StatusCode::malformed_file, kNone,
-                                "not JSON: line %td, byte %zu: %s", line, offset, error.what())};
+                                "invalid JSON: line %td, byte %zu: %s", line, offset,
+                                error.what())};
   } catch (const Json::exception& error) {  // Numbers that no double can hold.
-    throw Fault{Status::failure(StatusCode::malformed_file, kNone, "not JSON: %s", error.what())};
+    throw Fault{
+        Status::failure(StatusCode::malformed_file, kNone, "invalid JSON: %s", error.what())};
   }
 }
 

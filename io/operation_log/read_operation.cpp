@@ -13,7 +13,7 @@ Layers read_layers(const Place& place) {
   if (name == "all") return Layers::all;
   if (name != "nearest")
     place.fail(StatusCode::unsupported_feature,
-               "layers '" + name + "'; 'nearest' and 'all' are known");
+               "unknown layers '" + name + "'; expected 'nearest' or 'all'");
   return Layers::nearest;
 }
 
@@ -25,9 +25,12 @@ void read_stroke(const Place& place, TearOperation& tear) {
     const Place blade = place.at(i);
     blade.check_fields({"base", "tip", "pose"});
     tear.stroke.push_back({read_vector<3>(blade.at("base")), read_vector<3>(blade.at("tip"))});
-    if (tear.stroke.back().base == tear.stroke.back().tip) blade.malformed("blade without length");
+    if (tear.stroke.back().base == tear.stroke.back().tip)
+      blade.malformed("base and tip of a blade must differ");
     if (!blade.has("pose")) continue;
-    if (i == 0) blade.at("pose").malformed("the first blade's pose is that of the operation");
+    if (i == 0)
+      blade.at("pose").malformed(
+          "the first blade cannot have a pose; give it as the operation's 'pose'");
     tear.pose_changes.push_back({i, read_pose(blade.at("pose"))});
   }
 }
@@ -104,7 +107,7 @@ Operation read_operation(const Place& place) {
   if (name == "undo") return read_steps<UndoOperation>(place);
   if (name == "redo") return read_steps<RedoOperation>(place);
   kind.fail(StatusCode::unsupported_feature,
-            "operation '" + name + "'; known are tear, cut, drill, weights, undo, redo");
+            "unknown operation '" + name + "'; expected tear, cut, drill, weights, undo or redo");
 }
 
 }  // namespace

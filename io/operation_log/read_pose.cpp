@@ -12,7 +12,7 @@ ClipPose read_clip_pose(const Place& place) {
   const Place clip = place.at("clip");
   if (clip.value.is_number_unsigned()) {
     const auto index = clip.value.get<std::uint64_t>();
-    if (index >= kNone) clip.malformed("clip index too large");
+    if (index >= kNone) clip.malformed("the clip index is too large");
     pose.clip = static_cast<std::uint32_t>(index);
   } else if (clip.value.is_string()) {
     pose.clip = clip.value.get<std::string>();
@@ -42,7 +42,7 @@ BonesPose read_bones_pose(const Place& place) {
   for (const auto& [name, unused] : bones.value.items()) {
     const Place bone = bones.at(name);
     bone.check_fields({"translation", "rotation", "scale"});
-    if (name.empty()) bone.malformed("a bone without name");
+    if (name.empty()) bone.malformed("a bone's name must not be empty");
     BonesPose::Bone read{.name = name, .translation = {}, .rotation = {}, .scale = {}};
     if (bone.has("translation"))
       read.translation = read_vector<3>(bone.at("translation")).cast<float>();

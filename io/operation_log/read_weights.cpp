@@ -13,8 +13,9 @@ WeightPolicy read_policy(const Place& place) {
   if (name == "refit") return WeightPolicy::refit;
   if (name == "exact") return WeightPolicy::exact;
   if (name != "barycentric")
-    place.fail(StatusCode::unsupported_feature,
-               "policy '" + name + "'; 'barycentric', 'pose_exact', 'refit' and 'exact' are known");
+    place.fail(
+        StatusCode::unsupported_feature,
+        "unknown policy '" + name + "'; expected 'barycentric', 'pose_exact', 'refit' or 'exact'");
   return WeightPolicy::barycentric;
 }
 
@@ -72,7 +73,8 @@ WeightOptions read_weight_options(const Place& place) {
   };
   read_if_given(place, "influences", read_influences, options.maximum_influences);
   if (options.policy == WeightPolicy::exact && options.maximum_influences != 0)
-    place.at("influences").malformed("the policy 'exact' takes all influences, which is 0");
+    place.at("influences")
+        .malformed("the policy 'exact' keeps all influences: leave this out or set it to 0");
   return options;
 }
 
@@ -86,9 +88,9 @@ WeightsOperation read_weights(const Place& place) {
   read_if_given(place, "count", read_operation_count, operation.operation_count);
   operation.weights = read_weight_options(place.at("weights"));
   if (place.has("pose") && operation.weights.policy != WeightPolicy::pose_exact)
-    place.at("pose").malformed("only the policy 'pose_exact' takes a pose");
+    place.at("pose").malformed("only the policy 'pose_exact' uses a pose");
   if (place.has("refit") && operation.weights.policy != WeightPolicy::refit)
-    place.at("refit").malformed("only the policy 'refit' is fitted");
+    place.at("refit").malformed("only the policy 'refit' has options of a fit");
   read_if_given(place, "pose", read_pose, operation.pose);
   read_if_given(place, "refit", read_refit, operation.refit);
   return operation;

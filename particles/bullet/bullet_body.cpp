@@ -28,7 +28,7 @@ Status check(const BulletBodyOptions& options) {
     return refuse("friction", options.friction, "finite and not below 0");
   if (!is_at_least_zero(options.weight))
     return refuse("weight", options.weight, "finite and not below 0");
-  if (options.collision_group == 0) return refuse("collision_group", 0, "another number than 0");
+  if (options.collision_group == 0) return refuse("collision_group", 0, "non-zero");
   return {};
 }
 
@@ -75,7 +75,7 @@ Status BulletBody::before_step(const ParticleSet& set, const ModelPose& pose, do
                                const Affine3d& world_from_model) {
   if (!(seconds >= 0) || !std::isfinite(seconds))
     return Status::failure(StatusCode::invalid_argument, kNone,
-                           "seconds is %g; it must be finite and not below 0", seconds);
+                           "the time step is %g s; it must be finite and not below 0", seconds);
   if (Status status = particles::check(world_from_model); !status) return status;
   try {
     return particles_->before_step(set, pose, seconds, world_from_model);

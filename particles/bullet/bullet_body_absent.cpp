@@ -13,8 +13,8 @@ namespace {
 
 Status absent() {
   return Status::failure(StatusCode::unsupported_feature, kNone,
-                         "this build cannot put particles into a Bullet world: it was made without "
-                         "Bullet (SUNDER_BULLET)");
+                         "this build cannot put particles into a Bullet world: it was configured "
+                         "without Bullet (SUNDER_BULLET)");
 }
 
 }  // namespace

@@ -2,7 +2,8 @@
 
 #include <BulletDynamics/ConstraintSolver/btTypedConstraint.h>
 
-static_assert(sizeof(btScalar) == sizeof(float), "the world of the host has single precision");
+static_assert(sizeof(btScalar) == sizeof(float),
+              "the host's Bullet world must have single precision");
 
 namespace sunder::particles {
 namespace {

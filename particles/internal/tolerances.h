@@ -30,8 +30,8 @@ inline constexpr double kFeltBoundRanges = 5e-3;
 inline constexpr double kQuietRangesPerSecond = 1e-3;
 inline constexpr double kQuietSeconds = 0.5;
 static_assert(kQuietRanges < kAtRestRanges && kAtRestRanges < kFeltRanges,
-              "what sleeps must not wake at once");
-static_assert(kQuietBoundRanges < kFeltBoundRanges, "what sleeps must not wake at once");
+              "a sleeping particle must not wake at once");
+static_assert(kQuietBoundRanges < kFeltBoundRanges, "a sleeping particle must not wake at once");
 
 // ---- Bodies in a Bullet world.
 

@@ -46,11 +46,11 @@ Status validate_cut(const PlaneCut& cut) {
                            "the plane of the cut lies beyond 1e60");
   if (!(norm(cut.normal) > 1e-30))
     return Status::failure(StatusCode::invalid_argument, kNone,
-                           "the plane of the cut has no normal");
+                           "the normal of the cut has no length");
   if (cut.bounds.empty()) return {};
   if (cut.bounds.size() < 3)
     return Status::failure(StatusCode::invalid_argument, kNone,
-                           "bounds of %zu corners; a polygon has three at least",
+                           "the bounds have %zu corners; a polygon needs at least three",
                            cut.bounds.size());
   for (Index i = 0; i < cut.bounds.size(); ++i) {
     if (!cut.bounds[i].allFinite())

@@ -63,16 +63,19 @@ Status validate_bore(const Bore& bore) {
                            "the axis of the bore lies beyond 1e60");
   if (!(norm(bore.direction) > 1e-30))
     return Status::failure(StatusCode::invalid_argument, kNone,
-                           "the axis of the bore has no direction");
+                           "the direction of the bore has no length");
   if (!(bore.radius > 1e-30 && bore.radius <= 1e30))
     return Status::failure(StatusCode::invalid_argument, kNone,
-                           "a bore has a radius above 0 and up to 1e30, not %g", bore.radius);
+                           "the radius of the bore is %g; it must be above 0 and at most 1e30",
+                           bore.radius);
   if (!(bore.depth > 1e-30 && bore.depth <= 1e30))
     return Status::failure(StatusCode::invalid_argument, kNone,
-                           "a bore has a depth above 0 and up to 1e30, not %g", bore.depth);
+                           "the depth of the bore is %g; it must be above 0 and at most 1e30",
+                           bore.depth);
   if (!(bore.chord_tolerance >= 0 && bore.chord_tolerance <= bore.radius))
     return Status::failure(StatusCode::invalid_argument, kNone,
-                           "a chord tolerance is 0 to the radius, not %g", bore.chord_tolerance);
+                           "the chord tolerance is %g; it must be from 0 to the radius",
+                           bore.chord_tolerance);
   return {};
 }
 

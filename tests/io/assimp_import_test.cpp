@@ -343,7 +343,7 @@ TEST(AssimpImport, FbxUnitAndAxesAreApplied) {
   if (test::assimp_models().empty()) GTEST_SKIP() << "needs Debian's assimp-testmodels";
   const auto imported = import_as_glb(test::assimp_models() / "FBX/embedded_ascii/box.FBX", {});
   ASSERT_TRUE(imported) << imported.error().text();
-  EXPECT_EQ(imported->report.space, "metres, y up; the file: unit 100 cm, z up");
+  EXPECT_EQ(imported->report.space, "metres, y up; converted from units of 100 cm, z up");
   const json root = Glb(*imported).document["nodes"][0];
   EXPECT_EQ(root["name"], "model_from_file");
   EXPECT_NEAR(root["rotation"][0].get<double>(), -0.70710678,

@@ -230,7 +230,7 @@ TEST(LoadGltfMesh, other_things_of_that_name_are_dropped) {
   ASSERT_TRUE(loaded.has_value()) << loaded.error().text();
   ASSERT_EQ(first_mesh(loaded).custom_attributes.size(), 1u);
   EXPECT_EQ(first_mesh(loaded).custom_attributes[0].name, "_FEATURE_ID_0");
-  EXPECT_TRUE(has_note(loaded->report, LoadNote::Kind::dropped, "not one number a vertex"));
+  EXPECT_TRUE(has_note(loaded->report, LoadNote::Kind::dropped, "not have one number per vertex"));
 }
 
 TEST(LoadGltfMesh, matrix_attributes_stay_in_the_file_only) {

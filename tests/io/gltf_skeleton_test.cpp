@@ -44,7 +44,7 @@ TEST(LoadGltfSkeleton, names_become_unique_and_originals_win) {
   std::vector<std::string> names;
   for (const Bone& bone : loaded->character->skeleton.bones) names.push_back(bone.name);
   EXPECT_EQ(names, (std::vector<std::string>{"body", "root", "tip", "tip#3", "bone 4", "tip#2"}));
-  EXPECT_TRUE(has_note(loaded->report, LoadNote::Kind::information, "without a name of their own"));
+  EXPECT_TRUE(has_note(loaded->report, LoadNote::Kind::information, "without a unique name"));
 }
 
 TEST(LoadGltfSkeleton, joints_outside_the_scene_come_with_their_tree) {
