@@ -20,7 +20,7 @@ Result<fs::path> AssetFolder::resolve(std::string_view reference) const {
   std::replace(text.begin(), text.end(), '\\', '/');
   std::error_code error;
   const fs::path file =
-      fs::weakly_canonical(folder_ / text, error);  // An absolute reference replaces the folder.
+      fs::weakly_canonical(folder_ / text, error);  // If `text` is absolute, the folder is ignored.
   if (error || folder_.empty())
     return Status::failure(StatusCode::file_not_found, kNone, "no file '%s'", text.c_str());
   const auto [end_of_folder, rest] =

@@ -12,18 +12,19 @@
 
 namespace sunder::assimp_import {
 
-/// The only place that an import reads from: regular files in the model's own folder and below,
-/// within a budget of bytes. Links are followed before the check, so none leads out.
+/// The only files that an import can read: regular files in the model's folder and below, within a
+/// limit of bytes. Links are resolved before the check, so none leads outside.
 class AssetFolder {
  public:
   AssetFolder(const std::filesystem::path& folder, std::uint64_t maximum_bytes);
 
-  /// The file behind a reference as model files write it: relative or absolute, with / or \.
-  /// @return file_not_found, path_not_allowed, limit_exceeded (the budget would be passed).
+  /// The file behind a reference of a model file, relative or absolute, with / or \.
+  /// @return file_not_found, path_not_allowed, limit_exceeded (the byte limit would be exceeded).
   [[nodiscard]] Result<std::filesystem::path> resolve(std::string_view reference) const;
-  /// Takes a file's size off the budget, once. @return limit_exceeded where it does not fit.
+  /// Subtracts a file's size from the limit, once per file. @return limit_exceeded if it does not
+  /// fit.
   [[nodiscard]] Status charge(const std::filesystem::path& file);
-  /// A whole file; none where resolve() refuses it.
+  /// The content of a file; empty if resolve() refuses it.
   [[nodiscard]] std::optional<std::vector<std::byte>> read(std::string_view reference);
 
  private:

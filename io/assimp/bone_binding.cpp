@@ -7,8 +7,8 @@
 namespace sunder::assimp_import {
 namespace {
 
-/// bone_from_mesh such that the bone at `model_from_bone` leaves the mesh where its own node puts
-/// it.
+/// The bone_from_mesh with which a bone at `model_from_bone` keeps the mesh where its own node
+/// places it.
 Mat4d offset_at_rest(const Mat4d& model_from_bone, const Mat4d& model_from_mesh) {
   if (!is_usable_bind(model_from_bone)) return Mat4d::Identity();
   return model_from_bone.inverse() * model_from_mesh;

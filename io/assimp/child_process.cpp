@@ -17,8 +17,7 @@
 #include <thread>
 #include <unistd.h>
 
-// Sanitizers reserve terabytes of address space, so a limit on it would end the child before it
-// begins.
+// Sanitizers reserve terabytes of address space, so a limit on it would kill the child at once.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define SUNDER_UNDER_SANITIZER 1
 #elif defined(__has_feature)
@@ -48,7 +47,6 @@ struct Header {
 bool in_child = false;
 
 // ---- in the child
-// -----------------------------------------------------------------------------------------------------------------
 
 void set_limit(int resource, std::uint64_t value) {
   rlimit limit{};
@@ -59,8 +57,8 @@ void set_limit(int resource, std::uint64_t value) {
   setrlimit(static_cast<decltype(RLIMIT_CPU)>(resource), &limit);
 }
 
-/// Address space in use: a limit must allow for what a large host already has, which the fork
-/// shares.
+/// Address space in use. The limit is added to it, because the fork shares the host's address
+/// space.
 [[maybe_unused]] std::uint64_t address_space_in_use() {
   unsigned long long pages = 0;
   if (std::FILE* statm = std::fopen("/proc/self/statm", "r")) {
@@ -80,7 +78,7 @@ void set_limits(const ChildLimits& limits) {
 #endif
 }
 
-/// The host's files, sockets and crash handlers are none of the importer's business.
+/// The importer must not reach the host's files, sockets and crash handlers.
 void leave_host(int pipe_end) {
   for (int signal = 1; signal < NSIG; ++signal) std::signal(signal, SIG_DFL);
   sigset_t none;
@@ -124,7 +122,7 @@ bool write_all(const void* data, std::size_t bytes) {
     const Header header{.head_bytes = reply.head.size(), .body_bytes = reply.body.size()};
     if (write_all(&header, sizeof header) && write_all(reply.head.data(), reply.head.size()))
       write_all(reply.body.data(), reply.body.size());
-    _exit(0);  // Neither the host's destructors nor assimp's own are to run here.
+    _exit(0);  // Neither the host's nor assimp's destructors may run here.
   } catch (const std::bad_alloc&) {
     _exit(kExitOutOfMemory);
   } catch (...) {
@@ -133,7 +131,6 @@ bool write_all(const void* data, std::size_t bytes) {
 }
 
 // ---- in the parent
-// ----------------------------------------------------------------------------------------------------------------
 
 enum class Reading { complete, ended, timed_out, too_large };
 
@@ -144,8 +141,8 @@ int remaining(Clock::time_point deadline) {
   return static_cast<int>(std::clamp<std::int64_t>(left, 0, 1'000'000));
 }
 
-/// Reads `bytes` bytes or less. The target grows with what arrives, not with what a header
-/// promises.
+/// Reads at most `bytes` bytes. The target grows with the bytes that arrive, not by a declared
+/// size.
 template <class Container>
 Reading read_some(int descriptor, std::uint64_t bytes, Clock::time_point deadline,
                   Container& target) {
@@ -190,8 +187,8 @@ Reading read_reply(int descriptor, const ChildLimits& limits, Clock::time_point 
              : reading;
 }
 
-/// waitpid() until `deadline`, then SIGKILL. @return the wait status, or -1 where the host's
-/// SIGCHLD setting swallowed it.
+/// waitpid() until `deadline`, then SIGKILL.
+/// @return the wait status, or -1 if the host ignores SIGCHLD and the status is lost.
 int reap(pid_t child, Clock::time_point deadline) {
   for (bool killed = false;;) {
     int status = 0;

@@ -13,7 +13,7 @@ namespace sunder::assimp_import {
 struct ChildLimits {
   double seconds = 120.0;  ///< Wall clock, and CPU time rounded up. > 0.
   std::uint64_t additional_memory = std::uint64_t{4}
-                                    << 30;  ///< Address space beyond what the parent has, bytes.
+                                    << 30;  ///< Address space in addition to the parent's, bytes.
   std::uint64_t maximum_reply = std::uint64_t{2} << 30;  ///< Bytes accepted from the child.
 };
 
@@ -23,19 +23,18 @@ struct ChildReply {
   std::vector<std::byte> body;
 };
 
-/// Runs `work` in a forked child and returns its reply. The child has no open files but the pipe,
-/// default signal handlers, no core dump, and may not write files; it is always reaped.
+/// Runs `work` in a forked child and returns its reply. The child has no open files except the
+/// pipe, default signal handlers, no core dump, and may not write files. It is always reaped.
 ///
-/// @param work   may crash, throw, hang or run out of memory; std::bad_alloc counts as the memory
-/// limit.
-/// @param name   of what is worked on, for the text.
-/// @return limit_exceeded (time, memory, reply size, no process to be had), malformed_file where
-/// the child crashed, internal_error
-///         where it ended without a reply.
+/// @param work  may crash, throw, hang or run out of memory; std::bad_alloc counts as the memory
+///         limit.
+/// @param name  of the file, for the error text.
+/// @return limit_exceeded (time, memory, reply size, no process), malformed_file if the child
+///         crashed, internal_error if it ended without a reply.
 [[nodiscard]] Result<ChildReply> run_in_child(const std::function<ChildReply()>& work,
                                               const ChildLimits& limits, const std::string& name);
 
-/// True in the child, from its first moment on.
+/// Whether this process is the child.
 [[nodiscard]] bool is_import_child();
 
 }  // namespace sunder::assimp_import

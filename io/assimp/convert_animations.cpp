@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kAssumedTicksPerSecond = 25.0;
 
-/// Key frames as glTF has them.
+/// Keyframes as in glTF.
 struct Keys {
   std::vector<float> times;
   std::vector<float> values;
@@ -49,8 +49,8 @@ class ClipWriter {
       const double length = rotation.norm();
       if (!std::isfinite(length) || length < 1e-6) return false;
       rotation.coeffs() /= length;
-      // q and -q are one rotation; staying close to the key before keeps every kind of
-      // interpolation on the short way.
+      // q and -q are the same rotation. The sign closer to the previous key makes every
+      // interpolation take the shorter way.
       if (const std::size_t size = values.size(); size >= 4) {
         const float* before = values.data() + size - 4;
         double cosine = 0.0;
@@ -68,7 +68,7 @@ class ClipWriter {
   }
 
   void add(const aiMeshMorphAnim& channel, std::span<const MorphedNode> morphed) {
-    // FBX: the node's name, an asterisk and a number; others the node's name alone.
+    // In FBX the node's name, an asterisk and a number; in other formats the node's name.
     std::string name = to_string(channel.mName);
     const auto carries = [&](const MorphedNode& one) { return one.source_name == name; };
     if (std::none_of(morphed.begin(), morphed.end(), carries))
@@ -94,11 +94,11 @@ class ClipWriter {
       notes_.dropped(StatusCode::not_found, place_, "morph channels of meshes that do not exist");
   }
 
-  /// The animation; empty where nothing is driven.
+  /// The animation; empty if it has no channel.
   [[nodiscard]] Json take() { return std::move(json_); }
 
  private:
-  /// `append_value` appends a key's floats and says whether they are usable.
+  /// `append_value` appends a key's floats and returns whether they are usable.
   template <class Key, class AppendValue>
   Keys collect(const Key* keys, unsigned count, const AppendValue& append_value) {
     Keys result;
@@ -142,14 +142,14 @@ class ClipWriter {
         {{"sampler", json_["samplers"].size() - 1}, {"target", {{"node", node}, {"path", path}}}});
   }
 
-  /// Channels mostly share their times; one accessor then serves them all.
+  /// Channels often have equal times; they then share one accessor.
   std::uint32_t input_of(const std::vector<float>& times) {
     const auto known = std::find_if(inputs_.rbegin(), inputs_.rend(),
                                     [&](const auto& input) { return input.first == times; });
     if (known != inputs_.rend()) return known->second;
     const std::uint32_t accessor = glb_.add_floats(times, 1, GlbBuilder::Use::plain, true);
     if (inputs_.size() < 16)
-      inputs_.emplace_back(times, accessor);  // Enough for the usual case, bounded for the others.
+      inputs_.emplace_back(times, accessor);  // A bound on the search for equal times.
     return accessor;
   }
 

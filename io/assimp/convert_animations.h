@@ -9,9 +9,9 @@
 
 namespace sunder::assimp_import {
 
-/// Writes every animation that drives something: node transforms and morph weights, linear, in
-/// seconds. Keys that do not come later than the one before, lie before zero or are not finite are
-/// dropped, never sorted.
+/// Writes every animation that has channels: node transforms and morph weights, linear, in seconds.
+/// Keys that are not later than the previous one, lie before zero or are not finite are dropped;
+/// keys are never sorted.
 void convert_animations(const aiScene& scene, const SceneTree& tree,
                         std::span<const MorphedNode> morphed, GlbBuilder& glb, Notes& notes);
 

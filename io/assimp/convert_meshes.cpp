@@ -22,13 +22,14 @@ std::vector<std::string> morph_names(const aiMesh& mesh) {
   return names;
 }
 
-/// Meshes of one node that can be one glTF mesh: all rigid, or on one skin; the same morph targets.
+/// Meshes of one node that can form one glTF mesh: all rigid or all on one skin, with the same
+/// morph targets.
 struct Group {
   bool is_skinned = false;
   std::vector<std::string> targets;
   std::map<std::uint32_t, Mat4f> bone_from_mesh_of_node;
   std::vector<std::pair<std::uint32_t, std::vector<BoneBinding>>>
-      meshes;  ///< aiMesh index, its bones.
+      meshes;  ///< Index of the aiMesh, and its bones.
 
   [[nodiscard]] bool accepts(bool skinned, const std::vector<std::string>& wanted_targets,
                              const std::vector<BoneBinding>& bones) const {
@@ -104,7 +105,8 @@ class Converter {
     return groups;
   }
 
-  /// @return whether the node now carries a mesh.
+  ///
+  /// @return whether the node has a mesh now.
   bool convert(const Group& group, std::uint32_t carrier, std::uint32_t source_node) {
     SkinSlots slots;
     for (const auto& [node, bone_from_mesh] : group.bone_from_mesh_of_node) {
@@ -117,7 +119,7 @@ class Converter {
     if (const auto known = mesh_of_sources_.find(key); known != mesh_of_sources_.end()) {
       if (known->second == kNone) return false;
       if (skin != kNone) {
-        // A skin ignores the node that carries it, so this one would coincide with the first.
+        // A skin ignores the transform of its node, so this instance would coincide with the first.
         notes_.dropped(StatusCode::unsupported_feature, "node '" + tree_[carrier].name + "'",
                        "a second instance of a skinned mesh");
         return false;
@@ -157,7 +159,7 @@ class Converter {
         std::vector<std::uint32_t> slot_of_bone(mesh.mNumBones, kNone);
         std::size_t next = 0;
         for (unsigned b = 0; b < mesh.mNumBones; ++b) {
-          if (mesh.mBones[b] == nullptr) continue;  // Such bones have no binding either.
+          if (mesh.mBones[b] == nullptr) continue;  // Such bones have no binding.
           const auto slot =
               std::lower_bound(slots.nodes.begin(), slots.nodes.end(), bones[next++].node);
           slot_of_bone[b] = static_cast<std::uint32_t>(slot - slots.nodes.begin());
@@ -214,7 +216,7 @@ class Converter {
     return primitive;
   }
 
-  /// JOINTS_n and WEIGHTS_n, four influences each, as many as the vertex with the most needs.
+  /// JOINTS_n and WEIGHTS_n, four influences each, as many sets as the largest vertex needs.
   void write_weights(const MeshPart& part, std::size_t joint_count, Json& attributes) {
     const std::uint32_t count = part.weights.vertex_count();
     std::size_t most = 1;
@@ -240,8 +242,8 @@ class Converter {
     Json weights = Json::array();
     for (unsigned i = 0; i < mesh.mNumAnimMeshes; ++i) {
       if (mesh.mAnimMeshes[i] == nullptr) continue;
-      // assimp's FBX loader says 1 for most channels, whatever the file says; FBX characters rest
-      // at 0.
+      // assimp's FBX loader returns 1 for most channels, whatever the file says; FBX files have 0
+      // at rest.
       const float weight = extension_ == "fbx" ? 0.0f : mesh.mAnimMeshes[i]->mWeight;
       weights.push_back(std::isfinite(weight) ? static_cast<double>(weight) : 0.0);
     }
@@ -268,7 +270,7 @@ class Converter {
   std::vector<SkinSlots> skins_;  ///< As written.
   std::map<std::vector<std::uint32_t>, std::uint32_t>
       mesh_of_sources_;  ///< glTF mesh by skin and aiMeshes; kNone: nothing to draw.
-  std::vector<std::uint32_t> part_mesh_;  ///< aiMesh of each part at hand.
+  std::vector<std::uint32_t> part_mesh_;  ///< Index of the aiMesh of each current part.
   std::vector<MorphedNode> morphed_;
 };
 

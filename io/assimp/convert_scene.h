@@ -9,7 +9,7 @@
 namespace sunder::assimp_import {
 
 /// The work of the child process: reads the file by assimp and converts the whole scene. Throws
-/// ImportFailure and whatever assimp throws.
+/// ImportFailure, and any exception of assimp.
 [[nodiscard]] ImportedGlb read_and_convert(const std::filesystem::path& file,
                                            const LoadOptions& options);
 

@@ -13,7 +13,8 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "glTF buffers are little-endian");
 
-constexpr int kByte = 5121, kShort = 5123, kInt = 5125, kFloat = 5126;  // Unsigned ones, and float.
+// Component types: unsigned ones, and float.
+constexpr int kByte = 5121, kShort = 5123, kInt = 5125, kFloat = 5126;
 constexpr int kArrayBuffer = 34962, kElementArrayBuffer = 34963;
 
 const char* vector_type(int components) {
@@ -42,7 +43,7 @@ std::uint32_t GlbBuilder::append(const char* list, Json value) {
 std::uint32_t GlbBuilder::add_bytes(std::span<const std::byte> bytes, int target) {
   binary_.resize((binary_.size() + 3) / 4 * 4);
   const std::size_t offset = binary_.size();
-  // A quarter GiB below what 32-bit chunk lengths can say is left to the JSON.
+  // Chunk lengths have 32 bits; a quarter of a GiB is reserved for the JSON.
   const std::uint64_t most = std::min<std::uint64_t>(maximum_bytes_, 0xF000'0000u);
   if (bytes.size() > most - std::min<std::uint64_t>(most, offset))
     throw ImportFailure{Status::failure(StatusCode::limit_exceeded, kNone,
@@ -85,7 +86,7 @@ std::uint32_t GlbBuilder::add_matrices(std::span<const Mat4f> matrices) {
 }
 
 std::uint32_t GlbBuilder::add_indices(std::span<const std::uint32_t> indices) {
-  // 65535 is not an index: it restarts a strip.
+  // Index 65535 is not available: it restarts a strip.
   if (indices.empty() || *std::max_element(indices.begin(), indices.end()) >= 0xFFFF)
     return add_accessor(std::as_bytes(indices), kElementArrayBuffer, kInt, "SCALAR",
                         indices.size());

@@ -13,30 +13,32 @@ namespace sunder::assimp_import {
 
 using Json = nlohmann::ordered_json;
 
-/// A glTF document in the making: its JSON, open to every converter, and its one binary buffer.
+/// A glTF document under construction: its JSON, which every converter changes directly, and one
+/// binary buffer.
 class GlbBuilder {
  public:
-  /// Throws ImportFailure (limit_exceeded) when the buffer would pass `maximum_bytes`.
+  /// Throws ImportFailure (limit_exceeded) if the buffer would exceed `maximum_bytes`.
   explicit GlbBuilder(std::uint64_t maximum_bytes) : maximum_bytes_(maximum_bytes) {}
 
   Json document;
 
   enum class Use { vertex_attribute, plain };
 
-  /// Each returns the new accessor's index. `components` is 1 to 4, a scalar or a vector.
+  /// Each function returns the index of the new accessor. `components` is 1 to 4: a scalar or a
+  /// vector.
   std::uint32_t add_floats(std::span<const float> values, int components, Use use,
                            bool with_bounds = false);
   std::uint32_t add_matrices(std::span<const Mat4f> matrices);
   std::uint32_t add_indices(std::span<const std::uint32_t> indices);
-  /// Four to a vertex; bytes where `joint_count` allows.
+  /// Four joints per vertex; bytes if `joint_count` allows.
   std::uint32_t add_joints(std::span<const std::uint16_t> joints, std::size_t joint_count);
-  /// Returns the new buffer view's index.
+  /// Returns the index of the new buffer view.
   std::uint32_t add_bytes(std::span<const std::byte> bytes, int target = 0);
 
   /// Appends `value` to the document's array `list` and returns its index there.
   std::uint32_t append(const char* list, Json value);
 
-  /// Header, JSON chunk, BIN chunk.
+  /// The finished GLB: header, JSON chunk, BIN chunk.
   [[nodiscard]] std::vector<std::byte> finish();
 
  private:

@@ -58,8 +58,8 @@ std::string encode_head(const Status& status, const LoadReport& report) {
   return head.dump(-1, ' ', false, json::error_handler_t::replace);
 }
 
-/// The child may have been led astray by the file, so its answer is read like any other input.
-/// Throws json::exception.
+/// A malicious file may control the child, so its reply is checked like any other input. Throws
+/// json::exception.
 Status decode_head(const std::string& text, LoadReport& report) {
   const json head = json::parse(text);
   report.format = head.at("format").get<std::string>();

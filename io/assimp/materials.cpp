@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kMaximumImageBytes = std::size_t{256} << 20;
 
-/// The MIME type that the first bytes tell; empty for what glTF does not carry.
+/// The MIME type according to the first bytes; empty if glTF does not support it.
 const char* image_type(std::span<const std::byte> bytes) {
   const std::string_view start(reinterpret_cast<const char*>(bytes.data()),
                                std::min<std::size_t>(bytes.size(), 8));
@@ -70,8 +70,8 @@ Json MaterialWriter::describe(std::uint32_t material) {
   aiColor4D color(1.0f, 1.0f, 1.0f, 1.0f);
   if (source.Get(AI_MATKEY_BASE_COLOR, color) != aiReturn_SUCCESS &&
       source.Get(AI_MATKEY_COLOR_DIFFUSE, color) == aiReturn_SUCCESS)
-    color.a = 1.0f;  // Opacity has its own key; the fourth number of a diffuse colour is often zero
-                     // or absent.
+    // Opacity has its own key; the fourth component of a diffuse colour is often zero or missing.
+    color.a = 1.0f;
   float opacity = 1.0f;
   source.Get(AI_MATKEY_OPACITY, opacity);
   double alpha = unit(color.a) * unit(opacity);
@@ -133,14 +133,14 @@ std::uint32_t MaterialWriter::image_of(const std::string& path) {
   std::span<const std::byte> bytes;
   if (const aiTexture* embedded = scene_.GetEmbeddedTexture(path.c_str());
       embedded != nullptr && embedded->pcData != nullptr) {
-    // A height of zero says: a whole image file of mWidth bytes. Bare texels would need an encoder.
+    // mHeight of zero means an image file of mWidth bytes. Raw texels would need an encoder.
     if (embedded->mHeight == 0)
       bytes = {reinterpret_cast<const std::byte*>(embedded->pcData), embedded->mWidth};
   } else {
     file = folder_.read(path);
     if (!file) {
-      // Absolute paths of the author's machine are common; the file itself is usually next to the
-      // model.
+      // Absolute paths are common and name folders of the author's machine; the file is usually
+      // next to the model.
       std::string flat = path;
       std::replace(flat.begin(), flat.end(), '\\', '/');
       file = folder_.read(std::filesystem::path(flat).filename().string());

@@ -15,22 +15,22 @@
 
 namespace sunder::assimp_import {
 
-/// Writes materials as primitives ask for them. Images are copied unparsed.
+/// Writes materials when primitives first request them. Images are copied without decoding.
 class MaterialWriter {
  public:
   MaterialWriter(const aiScene& scene, AssetFolder& folder, GlbBuilder& glb, Notes& notes)
       : scene_(scene), folder_(folder), glb_(glb), notes_(notes) {}
 
-  /// glTF's index of an assimp material for a primitive with these texture coordinates; a primitive
-  /// that lacks the ones a texture needs gets a copy without it. None where the material does not
-  /// exist.
+  /// glTF's index of an assimp material for a primitive with these texture coordinates. If the
+  /// primitive lacks coordinates that a texture needs, it gets a copy of the material without the
+  /// texture. kNone if the material does not exist.
   [[nodiscard]] std::optional<std::uint32_t> material_for(
       std::uint32_t material, std::span<const std::uint32_t> texcoord_of_channel);
 
  private:
   struct Texture {
     std::uint32_t index = kNone;  ///< kNone: no usable texture.
-    std::uint32_t channel = 0;    ///< Index of assimp's texture coordinates.
+    std::uint32_t channel = 0;    ///< Index of the texture coordinates in assimp.
   };
   const Texture& base_texture(std::uint32_t material);
   std::uint32_t texture_of(const std::string& path, int wrap_u, int wrap_v);
@@ -44,7 +44,7 @@ class MaterialWriter {
   std::map<std::uint32_t, Texture> texture_of_material_;
   std::map<std::string, std::uint32_t> image_of_path_;
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t>
-      written_;  ///< By material and TEXCOORD number, kNone without.
+      written_;  ///< By material and TEXCOORD number; kNone: without texture.
 };
 
 }  // namespace sunder::assimp_import

@@ -22,7 +22,7 @@ void append(std::vector<float>& values, const Vec3d& v) {
   for (int i = 0; i < 3; ++i) values.push_back(static_cast<float>(v[i]));
 }
 
-/// A unit vector of floats; zero where there is no direction.
+/// A unit vector of floats; zero if it has no direction.
 Vec3d direction_of(const aiVector3D& v) {
   if (!is_finite(v)) return Vec3d::Zero();
   const Vec3d wide = to_eigen(v);
@@ -77,8 +77,8 @@ void read_normals(const aiMesh& mesh, MeshPart& part) {
   part.streams.push_back(std::move(normals));
 }
 
-/// assimp's v grows upward, glTF's downward, but the bitangent follows the picture in both, so its
-/// sign stays.
+/// assimp's v grows upward, glTF's downward. The bitangent follows the image in both, so its sign
+/// stays.
 void read_tangents(const aiMesh& mesh, MeshPart& part, Notes& notes) {
   if (!mesh.HasTangentsAndBitangents() || !mesh.HasNormals() || !mesh.HasTextureCoords(0)) return;
   Stream tangents{.semantic = "TANGENT", .components = 4, .values = {}};
@@ -139,7 +139,7 @@ void read_colors(const aiMesh& mesh, MeshPart& part, Notes& notes) {
                  "colour components outside 0 to 1, clamped", clamped);
 }
 
-/// assimp stores a morph target's shape, glTF how it differs.
+/// assimp stores the shape of a morph target, glTF the difference.
 void read_morph_target(const aiMesh& mesh, std::uint32_t target, MeshPart& part, Notes& notes) {
   const aiAnimMesh& shape = *mesh.mAnimMeshes[target];
   std::uint32_t bad = 0;

@@ -11,15 +11,15 @@
 
 namespace sunder::assimp_import {
 
-/// Floats of one attribute, V x components.
+/// One attribute: V x components floats.
 struct Stream {
-  std::string semantic;  ///< glTF's: "POSITION", "TEXCOORD_0" …
+  std::string semantic;  ///< As in glTF: "POSITION", "TEXCOORD_0" …
   int components = 3;
   std::uint32_t target = kNone;  ///< The morph target that it displaces, or kNone.
   std::vector<float> values;
 };
 
-/// One aiMesh on its way to a glTF primitive.
+/// One aiMesh while it is converted to a glTF primitive.
 struct MeshPart {
   std::string place;            ///< For notes: "mesh 2 'Body'".
   std::vector<Stream> streams;  ///< POSITION first.
@@ -27,7 +27,7 @@ struct MeshPart {
   std::vector<Triangle> triangles;
   std::vector<std::uint32_t> vertices_without_normal;
   std::vector<std::uint32_t>
-      texcoord_of_channel;  ///< n of TEXCOORD_n for each assimp channel; kNone where it is empty.
+      texcoord_of_channel;  ///< The n of TEXCOORD_n per assimp channel; kNone for empty channels.
   std::uint32_t material = 0;
 
   [[nodiscard]] std::uint32_t vertex_count() const {
@@ -36,8 +36,9 @@ struct MeshPart {
   [[nodiscard]] Stream* find(const char* semantic, std::uint32_t target = kNone);
 };
 
-/// Triangles and attributes of a mesh, without weights. No triangles: nothing to convert. Throws
-/// ImportFailure where a position is not finite or a face names a vertex that does not exist.
+/// Triangles and attributes of a mesh, without weights. If there are no triangles, there is nothing
+/// to convert. Throws ImportFailure if a position is not finite or a face names a vertex that does
+/// not exist.
 [[nodiscard]] MeshPart read_part(const aiMesh& mesh, const std::string& place, Notes& notes);
 
 }  // namespace sunder::assimp_import

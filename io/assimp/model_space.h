@@ -9,15 +9,15 @@
 
 namespace sunder::assimp_import {
 
-/// How the scene that assimp hands over becomes model space: metres, y up, z to the front.
+/// The transform from the scene as assimp returns it to model space: metres, y up, z to the front.
 struct ModelSpace {
-  Trs model_from_scene;  ///< A rotation and one scale.
+  Trs model_from_scene;  ///< A rotation and a uniform scale.
   bool is_identity = true;
   std::string description;  ///< For LoadReport::space.
 };
 
-/// FBX: unit and axes from the file's settings, which assimp 5.2 reads but does not apply. COLLADA:
-/// assimp has applied both to the root node. Other formats say neither.
+/// FBX: unit and axes are read from the file's settings, which assimp 5.2 reads but does not apply.
+/// COLLADA: assimp has applied both to the root node. Other formats store neither.
 [[nodiscard]] ModelSpace model_space_of(const aiScene& scene, const std::string& extension,
                                         Notes& notes);
 

@@ -57,8 +57,8 @@ void generate_missing_normals(std::span<MeshPart> parts, Notes& notes) {
       if (length > 1e-300) {
         normal /= length;
       } else {
-        normal = Vec3d::UnitY();  // A vertex of no triangle, or of collapsed ones only: any
-                                  // direction is as good.
+        // The vertex has no triangle of non-zero area, so any direction is valid.
+        normal = Vec3d::UnitY();
         ++undefined;
       }
       for (int i = 0; i < 3; ++i)

@@ -6,9 +6,9 @@
 
 namespace sunder::assimp_import {
 
-/// Gives every vertex in `vertices_without_normal` a smooth one: the area-weighted mean over the
-/// triangles around all vertices of the same position and weights, across the parts, so that
-/// neither seams nor materials crease.
+/// Sets a smooth normal for every vertex in `vertices_without_normal`: the area-weighted mean over
+/// the triangles around all vertices with the same position and weights, in all parts, so that
+/// seams and material borders have no crease.
 void generate_missing_normals(std::span<MeshPart> parts, Notes& notes);
 
 }  // namespace sunder::assimp_import

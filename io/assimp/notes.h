@@ -8,18 +8,20 @@
 
 namespace sunder::assimp_import {
 
-/// Collects what the report will say; equal texts about one place are counted, not repeated.
+/// Collects the notes of the load report. Equal texts about the same place are counted, not
+/// repeated.
 class Notes {
  public:
   void inform(std::string_view place, std::string_view text, std::uint32_t count = 1);
-  /// @param fault  what a strict import fails with.
+  ///
+  /// @param fault  the failure of a strict import.
   void repaired(StatusCode fault, std::string_view place, std::string_view text,
                 std::uint32_t count = 1);
   void dropped(StatusCode fault, std::string_view place, std::string_view text,
                std::uint32_t count = 1);
 
   [[nodiscard]] const std::vector<LoadNote>& all() const { return notes_; }
-  /// The first repair or loss as a failure; ok where there is none.
+  /// The first note of a repair or loss as a failure; ok if there is none.
   [[nodiscard]] Status first_fault() const;
 
  private:
@@ -30,7 +32,7 @@ class Notes {
   std::vector<StatusCode> faults_;  ///< One a note.
 };
 
-/// `text` with everything that is not UTF-8 replaced by U+FFFD.
+/// `text` with all bytes that are not UTF-8 replaced by U+FFFD.
 [[nodiscard]] std::string valid_utf8(std::string_view text);
 
 }  // namespace sunder::assimp_import

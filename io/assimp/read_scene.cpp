@@ -23,10 +23,10 @@
 #include "io/assimp/child_process.h"
 #include "io/assimp/failure.h"
 
-// Debian builds assimp with its assertions on, and some valid files trip them. In the child an
-// assertion becomes an ordinary import error; elsewhere in the program, which may use assimp
-// itself, it stays what it was. Where the linker lets assimp keep its own version, the child aborts
-// and the parent reports that.
+// Debian builds assimp with assertions, and some valid files violate them. In the child a failed
+// assertion becomes an import error; in the rest of the program, which may use assimp itself, it
+// works as before. If the linker keeps assimp's own version of this function, the child aborts and
+// the parent reports that.
 namespace Assimp {
 __attribute__((visibility("default"))) void aiAssertViolation(const char* expression,
                                                               const char* file, int line) {
@@ -43,7 +43,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Lets assimp open what AssetFolder allows, and remembers the first refusal.
+/// Lets assimp open only files that AssetFolder allows, and stores the first refusal.
 class FolderIOSystem : public Assimp::DefaultIOSystem {
  public:
   explicit FolderIOSystem(AssetFolder& folder) : folder_(folder) {}
@@ -71,8 +71,7 @@ class FolderIOSystem : public Assimp::DefaultIOSystem {
   Status refusal_;
 };
 
-/// Whether a loader claims the file by the end of its name; some claim two-part ones such as
-/// ".mesh.xml".
+/// Whether the importer supports the file's extension; some have two parts, such as ".mesh.xml".
 bool claims(const aiImporterDesc* description, const std::string& lower_name) {
   if (description == nullptr || description->mFileExtensions == nullptr) return false;
   std::istringstream extensions(description->mFileExtensions);
@@ -81,8 +80,9 @@ bool claims(const aiImporterDesc* description, const std::string& lower_name) {
   return false;
 }
 
-/// Leaves only the loaders of the file's extension; the others would otherwise be tried on the
-/// content. They are not freed: the child exits. @return whether any is left.
+/// Removes all importers except those of the file's extension; assimp would otherwise try them on
+/// the content. They are not freed, because the child exits.
+/// @return whether any importer is left.
 bool keep_loaders_of(Assimp::Importer& importer, const std::string& lower_name) {
   for (std::size_t i = importer.GetImporterCount(); i-- > 0;)
     if (!claims(importer.GetImporterInfo(i), lower_name))
@@ -90,7 +90,7 @@ bool keep_loaders_of(Assimp::Importer& importer, const std::string& lower_name) 
   return importer.GetImporterCount() > 0;
 }
 
-/// How files of a format begin, or what their first kilobyte contains, where that is certain.
+/// The first bytes of a format, or a text within its first kilobyte, if the format prescribes one.
 void check_magic(const fs::path& file, const std::string& extension) {
   struct Magic {
     std::string_view extension, begins, contains;
@@ -147,7 +147,7 @@ bool is_de_indexed(const aiMesh& mesh) {
   }
   std::string text = importer.GetErrorString();
   if (text.empty()) text = "the importer gives no reason";
-  // assimp likes to name whole paths, which are nobody's business.
+  // assimp's texts often contain whole paths, which must not be shown.
   const std::string folder = file.parent_path().string() + "/";
   for (std::size_t at = text.find(folder); at != std::string::npos; at = text.find(folder, at))
     text.erase(at, folder.size());
@@ -170,12 +170,12 @@ ReadScene read_scene(Assimp::Importer& importer, const fs::path& file, AssetFold
                                         extension.c_str())};
   check_magic(file, extension);
 
-  auto* const system = new FolderIOSystem(folder);  // The importer owns it.
+  auto* const system = new FolderIOSystem(folder);  // The importer takes ownership.
   importer.SetIOHandler(system);
-  // Pivots stay nodes of their own: that is exact, where folding them loses animation (assimp
-  // issues 1068, 4005).
+  // Pivots stay separate nodes, which is exact; collapsing them loses animation (assimp issues
+  // 1068, 4005).
   importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, true);
-  // No made-up mesh around the bones of a file without meshes.
+  // Do not create a mesh around the bones of a file without meshes.
   importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
 
   const aiScene* scene = importer.ReadFile(file.string(), 0);
@@ -185,8 +185,8 @@ ReadScene read_scene(Assimp::Importer& importer, const fs::path& file, AssetFold
   for (unsigned i = 0; i < scene->mNumMeshes; ++i)
     result.is_de_indexed.push_back(is_de_indexed(*scene->mMeshes[i]));
 
-  // Joining vertices would heal tears and mix weights; every check that assimp's validation makes
-  // is made again on the result.
+  // Joining vertices would close tears and mix weights. All checks of assimp's validation are made
+  // on the result.
   result.scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
   if (result.scene == nullptr || result.scene->mNumMeshes != result.is_de_indexed.size())
     fail(importer, file);

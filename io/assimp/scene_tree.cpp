@@ -8,9 +8,9 @@ namespace sunder::assimp_import {
 namespace {
 
 constexpr std::uint32_t kMaximumDepth = 1024;
-/// Axes further from right angles than rounding explains, relative; what goes unnoticed below it
-/// moves no vertex by more than that part of its distance. Text formats round to four or five
-/// digits, and where shear has to go anyway that much is not worth a note.
+/// Largest relative deviation from right angles that counts as rounding. Ignoring it moves no
+/// vertex by more than this fraction of its distance. Text formats round to four or five digits, so
+/// where shear is removed anyway, this much is not noted.
 constexpr double kShear = 1e-5;
 constexpr double kNotedShear = 1e-4;
 
@@ -95,7 +95,7 @@ std::uint32_t SceneTree::add_node(const aiNode& source, std::uint32_t parent, No
         notes.repaired(StatusCode::unsupported_feature, place,
                        "shear removed from an animated node");
     } else {
-      // glTF nodes have no shear, but two of them in a row have.
+      // A glTF node cannot have shear, but the product of two nodes can.
       const ShearParts parts = split_shear(matrix);
       SceneNode helper;
       helper.name = unique_name(node.name + "$shear");

@@ -19,25 +19,26 @@ struct SceneNode {
   std::uint32_t parent = kNone;  ///< Smaller than the node's own index.
   Trs parent_from_node;
   Mat4d model_from_node = Mat4d::Identity();  ///< In the file's rest pose.
-  const aiNode* source = nullptr;             ///< None for nodes that the import adds.
+  const aiNode* source = nullptr;             ///< Null for nodes that the import added.
   Json json = Json::object();  ///< Properties that converters add: mesh, skin, extras.
 };
 
-/// All nodes of the scene, parents first, below a root that turns the file's space into model space
-/// where that is needed.
+/// All nodes of the scene, parents first. If necessary, the root transforms the file's space to
+/// model space.
 class SceneTree {
  public:
-  /// Throws ImportFailure: limit_exceeded where the tree is deeper than 1024 nodes.
+  /// Throws ImportFailure (limit_exceeded) if the tree has more than 1024 levels.
   SceneTree(const aiScene& scene, const ModelSpace& space, Notes& notes);
 
   [[nodiscard]] const std::vector<SceneNode>& nodes() const { return nodes_; }
   SceneNode& operator[](std::uint32_t node) { return nodes_[node]; }
   [[nodiscard]] const SceneNode& operator[](std::uint32_t node) const { return nodes_[node]; }
 
-  /// The node that assimp means by a name: the first in the file's order. kNone where there is
-  /// none.
+  /// The node that assimp identifies by a name: the first one in the file's order. kNone if there
+  /// is none.
   [[nodiscard]] std::uint32_t find(const aiString& name) const;
-  /// Adds a node; its name is made unique and, if `source_name` is given, found by it.
+  /// Adds a node. Its name is made unique; `source_name`, if given, is the name by which it is
+  /// found.
   std::uint32_t add(std::uint32_t parent, const std::string& name, const Mat4d& parent_from_node,
                     const aiString* source_name = nullptr);
 
@@ -49,7 +50,8 @@ class SceneTree {
   std::string unique_name(const std::string& wanted);
 
   std::vector<SceneNode> nodes_;
-  std::unordered_map<std::string, std::uint32_t> node_of_name_;  ///< By the file's own bytes.
+  /// Key: the name's bytes in the file.
+  std::unordered_map<std::string, std::uint32_t> node_of_name_;
   std::unordered_set<std::string> names_;
   std::unordered_map<std::string, std::uint32_t> name_uses_;
   std::unordered_set<std::string> animated_;

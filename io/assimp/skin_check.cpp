@@ -29,7 +29,8 @@ Vec3d apply(const Mat4d& matrix, const Vec3d& point) {
   return matrix.topLeftCorner<3, 3>() * point + matrix.topRightCorner<3, 1>();
 }
 
-/// Largest distance between a box's corners under two maps, relative to the box under the second.
+/// Largest distance between a box's corners under two maps, relative to the size of the box under
+/// the second.
 double relative_difference(const Mat4d& a, const Mat4d& b, const Eigen::AlignedBox3d& box) {
   double largest = 0.0;
   Eigen::AlignedBox3d mapped;
@@ -41,8 +42,8 @@ double relative_difference(const Mat4d& a, const Mat4d& b, const Eigen::AlignedB
   return largest / std::max(mapped.diagonal().norm(), std::numeric_limits<double>::min());
 }
 
-/// The mesh deformed with each bone at the inverse of its bind matrix, all in floats as at run
-/// time, against itself.
+/// Compares the mesh with its deformation when each bone is at the inverse of its bind matrix, all
+/// in float as at run time.
 double reproduction_error(const SkinSlots& skin, std::span<const MeshPart> parts) {
   std::vector<Mat4d> mesh_from_mesh;
   for (const Mat4f& bone_from_mesh : skin.bone_from_mesh) {
@@ -81,7 +82,7 @@ void check_skin(const SkinSlots& skin, std::span<const MeshPart> parts, std::uin
                 reproduction_error(skin, parts) / size);
   notes.inform(place, text);
 
-  // The rest pose is a bind pose where all bones agree on where the mesh is.
+  // The rest pose is a bind pose if all bones agree on the placement of the mesh.
   const Mat4d* reference = nullptr;
   std::vector<Mat4d> model_from_mesh(skin.nodes.size());
   double deviation = 0.0;

@@ -8,7 +8,7 @@
 namespace sunder::assimp_import {
 namespace {
 
-/// Deviations up to here are rounding, not worth a note.
+/// Smaller deviations are rounding and are not noted.
 constexpr double kRounding = 1e-5;
 
 struct Counts {
@@ -26,7 +26,7 @@ bool is_normalized(std::span<const Influence> influences) {
   return std::abs(sum_of(influences) - 1.0) <= 2e-7 * static_cast<double>(influences.size());
 }
 
-/// Adds up influences of one slot, sorts, scales to a sum of one.
+/// Merges influences of the same slot, sorts, and scales to a sum of one.
 void normalize(std::vector<Influence>& influences, Counts& counts) {
   std::stable_sort(influences.begin(), influences.end(),
                    [](const Influence& a, const Influence& b) { return a.slot < b.slot; });
@@ -51,7 +51,7 @@ void normalize(std::vector<Influence>& influences, Counts& counts) {
   for (Influence& influence : influences)
     influence.weight = static_cast<float>(static_cast<double>(influence.weight) / sum);
   std::erase_if(influences, [](const Influence& influence) { return !(influence.weight > 0.0f); });
-  // The remainder of rounding goes to the largest weight, where it matters least.
+  // The largest weight takes the rounding remainder, where it matters least.
   influences[0].weight =
       static_cast<float>(static_cast<double>(influences[0].weight) + (1.0 - sum_of(influences)));
 }
@@ -77,7 +77,7 @@ SkinWeights read_weights(const aiMesh& mesh, std::span<const std::uint32_t> slot
                          const std::string& place, Notes& notes) {
   Counts counts;
   std::vector<std::uint32_t> first(std::size_t{mesh.mNumVertices} + 1, 0);
-  // Two passes over the bones: count, then fill. A bad weight is counted in the first only.
+  // Two passes over the bones: count, then fill. Bad weights are counted in the first pass only.
   const auto for_each_weight = [&](auto&& use, Counts* bad) {
     for (unsigned b = 0; b < mesh.mNumBones; ++b) {
       if (mesh.mBones[b] == nullptr || slot_of_bone[b] == kNone ||

@@ -30,7 +30,8 @@ Trs decompose(const Mat4d& matrix) {
   trs.scale = axes.colwise().norm().transpose();
   if (axes.determinant() < 0.0) trs.scale = -trs.scale;
   const double longest = trs.scale.cwiseAbs().maxCoeff();
-  if (!(longest > 0.0)) return trs;  // Everything collapses; any rotation will do.
+  // The matrix maps everything to a point; any rotation is valid.
+  if (!(longest > 0.0)) return trs;
 
   int collapsed = 0, last_collapsed = 0;
   for (int i = 0; i < 3; ++i) {
@@ -51,7 +52,7 @@ Trs decompose(const Mat4d& matrix) {
     const Quatd turn = Quatd::FromTwoVectors(Mat3d::Identity().col(kept), axes.col(kept));
     axes = turn.toRotationMatrix();
   }
-  // The nearest rotation, so that axes which are not quite at right angles share the error.
+  // The nearest rotation, so that axes with small errors share them.
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(axes, Eigen::ComputeFullU | Eigen::ComputeFullV);
   Mat3d rotation = svd.matrixU() * svd.matrixV().transpose();
   if (rotation.determinant() < 0.0) rotation = -rotation;
@@ -72,7 +73,7 @@ ShearParts split_shear(const Mat4d& matrix) {
   Mat3d left = svd.matrixU();
   Mat3d right = svd.matrixV().transpose();
   Vec3d scale = svd.singularValues();
-  // A reflection moves from the rotations into the scale.
+  // Moves a reflection from the rotations to the scale.
   if (left.determinant() < 0.0) {
     left = -left;
     scale = -scale;
@@ -95,8 +96,7 @@ bool is_usable_bind(const Mat4d& matrix) {
   if ((matrix.row(3) - affine).cwiseAbs().maxCoeff() > 1e-6) return false;
   const Mat3d linear = matrix.topLeftCorner<3, 3>();
   const Vec3d lengths = linear.colwise().norm().transpose();
-  // Determinant of the unit axes: the sine-like measure of how far they are from lying in one
-  // plane.
+  // Determinant of the unit axes; near 0 if they lie in one plane.
   return lengths.minCoeff() > 1e-12 * lengths.maxCoeff() &&
          std::abs(linear.determinant()) > 1e-7 * lengths.prod();
 }

@@ -4,8 +4,9 @@
 
 namespace sunder::assimp_import {
 
-/// Merges vertices that agree bit for bit in every attribute, morph displacement and weight; the
-/// first of each stays, in order. O(size) expected. @return how many vertices went.
+/// Merges vertices that are equal, bit for bit, in every attribute, morph displacement and weight.
+/// The first of them stays; the order is kept. O(size) expected.
+/// @return number of removed vertices.
 std::uint32_t weld_identical(MeshPart& part);
 
 }  // namespace sunder::assimp_import

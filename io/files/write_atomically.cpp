@@ -12,7 +12,7 @@ Status write_atomically(const std::filesystem::path& file, std::span<const std::
     return Status::failure(StatusCode::file_unreadable, kNone, "'%.150s' cannot be written",
                            file.filename().c_str());
   };
-  // "x": never follows or overwrites what is there, so two writers cannot meet in one file.
+  // "x" neither follows nor overwrites an existing file, so two writers never use the same file.
   std::filesystem::path beside;
   std::FILE* stream = nullptr;
   for (int attempt = 0; attempt < 100 && stream == nullptr; ++attempt) {

@@ -8,7 +8,7 @@
 
 namespace sunder {
 
-/// Writes all bytes or nothing: to a new file in the same folder, which then replaces `file`.
+/// Writes all bytes or none: to a new file in the same folder, which then replaces `file`.
 /// @return file_unreadable.
 Status write_atomically(const std::filesystem::path& file, std::span<const std::byte> bytes);
 

@@ -54,11 +54,11 @@ const ElementType& read_element_type(const Cursor& at) {
          at.pointer().c_str(), at.to_string().c_str());
 }
 
-/// Refuses unless `count` elements of `size` bytes, `stride` apart, fit in `available` bytes from
-/// `offset` on.
+/// Refuses unless `count` elements of `size` bytes, `stride` bytes apart, fit in `available` bytes
+/// from `offset` on.
 void check_extent(const Cursor& at, std::uint64_t offset, std::uint64_t stride, std::uint64_t count,
                   std::uint64_t size, std::uint64_t available) {
-  // offset, stride < 2^53 and count < 2^32: compare by division, nothing can wrap.
+  // offset, stride < 2^53 and count < 2^32. The comparison divides, so nothing can overflow.
   const bool fits = offset <= available && size <= available - offset &&
                     (count == 1 || stride <= (available - offset - size) / (count - 1));
   if (!fits)
@@ -85,7 +85,7 @@ T load(const std::byte* from) {  // Files need not be aligned.
   return value;
 }
 
-/// Walks all elements' numbers, the sparse ones last; `convert` turns a T of the file into an Out.
+/// Visits all elements' numbers, sparse ones last; `convert` converts a T of the file to an Out.
 template <class T, class Out, class Convert>
 void decode_elements(const Accessor& accessor, std::span<Out> out, const Convert& convert) {
   const std::size_t components = accessor.components;
@@ -187,8 +187,8 @@ Accessor AccessorReader::open(const Cursor& reference) const {
     accessor.data = bytes.data() + offset;
     accessor.stride = stride;
   } else if (count > file_bytes_) {
-    // All zeros: the file holds none of it, so its own claim is all there is. Believe no more than
-    // the file could have held.
+    // All elements are zero and none is stored, so only the declared count limits the memory.
+    // Accept no more elements than the file has bytes.
     refuse(StatusCode::limit_exceeded, index,
            "%s/count: %llu elements without data in a file of %llu bytes", at.pointer().c_str(),
            static_cast<Place>(count), static_cast<Place>(file_bytes_));

@@ -16,16 +16,16 @@ enum class ComponentType : std::uint16_t {
   f32 = 5126
 };
 
-/// A typed view into the buffers, checked: every element lies inside them.
+/// A typed view into the buffers; all its elements are checked to lie inside them.
 struct Accessor {
   std::uint32_t index = 0;  ///< In /accessors.
   ComponentType component_type = ComponentType::f32;
-  std::uint32_t components = 1;  ///< Numbers an element; 4, 9, 16 for matrices.
+  std::uint32_t components = 1;  ///< Numbers per element; 4, 9, 16 for matrices.
   bool is_matrix = false;
   bool normalized = false;
   std::uint32_t count = 0;
   const std::byte* data =
-      nullptr;  ///< Element 0; null: all elements are zero except the sparse ones.
+      nullptr;  ///< First element; null: all elements are zero except the sparse ones.
   std::size_t stride = 0;
   std::uint32_t sparse_count = 0;
   ComponentType sparse_index_type = ComponentType::u32;
@@ -35,22 +35,22 @@ struct Accessor {
   [[nodiscard]] bool is_integer() const { return component_type != ComponentType::f32; }
 };
 
-/// Opens and decodes accessors. All that it decodes counts against one budget, so that a small file
-/// that is instanced a million times ends in limit_exceeded and not in swap.
+/// Opens and decodes accessors. The bytes of all decoded arrays share one limit, so that a small
+/// file with a million instances ends with limit_exceeded instead of exhausting the memory.
 class AccessorReader {
  public:
   explicit AccessorReader(const SourceDocument& document);
 
   [[nodiscard]] Accessor open(const Cursor& reference) const;
 
-  /// Decodes to floats (normalised integers to [-1, 1] or [0, 1], others by value). `out` has count
-  /// x components numbers.
+  /// Decodes to floats: normalised integers to [-1, 1] or [0, 1], others by value. `out` has count
+  /// x components entries.
   void read_floats(const Accessor& accessor, std::span<float> out) const;
   [[nodiscard]] std::vector<float> read_floats(const Accessor& accessor);
-  /// Unsigned integers as they are; refuses other component types.
+  /// Unsigned integers without conversion; refuses other component types.
   [[nodiscard]] std::vector<std::uint32_t> read_unsigned(const Accessor& accessor);
 
-  /// Elements that are small vectors of floats.
+  /// Elements that are vectors of two to four floats.
   template <class Vector>
   [[nodiscard]] std::vector<Vector> read_vectors(const Accessor& accessor) {
     charge(accessor);

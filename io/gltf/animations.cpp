@@ -10,8 +10,8 @@
 namespace sunder::gltf {
 namespace {
 
-/// Why a channel is left out. Thrown only inside this file: an animation's faults cost a channel,
-/// not the model.
+/// The reason why a channel is dropped. Thrown only inside this file: a fault in an animation drops
+/// a channel, not the model.
 struct Unusable {
   std::string reason;
 };
@@ -137,7 +137,7 @@ class AnimationReader {
     return std::size_t{channel.width} * (is_cubic(channel) ? 3 : 1);
   }
 
-  /// Keeps the last of the keys at one time: what a player shows from then on.
+  /// Of several keys at one time, keeps the last: a player shows that one from then on.
   void merge_equal_times(Channel& channel, const std::string& place) {
     const std::size_t key_floats = floats_per_key(channel);
     std::size_t kept = 0;

@@ -8,8 +8,7 @@
 
 namespace sunder::gltf {
 
-/// One clip an animation of the file, in its order. A channel that cannot be used is dropped, and
-/// noted.
+/// One clip per animation, in the file's order. Unusable channels are dropped, with a note.
 [[nodiscard]] std::vector<Clip> read_animations(Reading& reading, const NodeSkeleton& nodes,
                                                 const std::vector<MorphRange>& morphs_of_node);
 

@@ -8,8 +8,8 @@
 namespace sunder::gltf {
 namespace {
 
-// How far a quantised unit vector may be off: what KHR_mesh_quantization's bytes need, and what
-// validators accept.
+// Largest error of a quantised unit vector: required for the bytes of KHR_mesh_quantization, and
+// accepted by validators.
 constexpr float kUnitTolerance = 0.005f;
 
 std::string set_name(const char* prefix, std::size_t index) {
@@ -23,7 +23,7 @@ std::uint32_t first_non_finite(const std::vector<Vector>& values) {
   return found == values.end() ? kNone : static_cast<std::uint32_t>(found - values.begin());
 }
 
-/// Makes a direction of unit length if it is not. @return whether it was changed.
+/// Scales a direction to unit length, if necessary. @return whether it changed.
 template <class Direction>
 bool make_unit(Direction&& direction, const Vec3f& if_zero) {
   const float norm = direction.template cast<double>().norm() > 0
@@ -68,7 +68,7 @@ void AttributeReader::zero_non_finite(std::vector<Vector>& values, const char* w
       ++count;
     }
   repaired_ = true;
-  // Not dropped: materials name these sets by number, and the later ones would move up.
+  // The set is not dropped: materials refer to sets by number, and later ones would move up.
   reading_.notes.repaired(StatusCode::non_finite_value, first, place_,
                           std::string(what) + " were not finite and became zero (first: vertex " +
                               std::to_string(first) + ")",
@@ -102,7 +102,7 @@ void AttributeReader::read_streams(Mesh& mesh) {
   }
 }
 
-/// The copy of the tear sides, used if a tool dropped the attribute itself.
+/// The copy of the tear sides is used only if a tool dropped the attribute itself.
 void AttributeReader::read_tear_side_feature(Mesh& mesh, const Cursor& at) {
   if (attributes_.find(kTearSideAttribute)) return;
   const Accessor accessor = reading_.accessors.open(at);

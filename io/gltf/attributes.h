@@ -10,16 +10,16 @@
 
 namespace sunder::gltf {
 
-/// Reads a primitive's vertices into a mesh and keeps count of what it had to change.
+/// Reads a primitive's vertices into a mesh and records whether it changed any.
 class AttributeReader {
  public:
   /// @param place  names the mesh in notes.
   AttributeReader(Reading& reading, const Cursor& primitive, std::string place);
 
-  /// Everything but the weights and the morph targets.
+  /// Everything except weights and morph targets.
   void read_streams(Mesh& mesh);
   void read_morph_targets(Mesh& mesh, const std::vector<std::string>& names);
-  /// JOINTS_n with WEIGHTS_n, n = 0, 1 …; empty where the primitive has none.
+  /// JOINTS_n with WEIGHTS_n, n = 0, 1 …; empty if the primitive has none.
   [[nodiscard]] std::vector<InfluenceSet> read_influences(const Mesh& mesh);
 
   [[nodiscard]] const std::vector<std::uint32_t>& color_components() const {

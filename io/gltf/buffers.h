@@ -5,8 +5,8 @@
 
 namespace sunder::gltf {
 
-/// Fills document.buffers: the BIN chunk, data: URIs, and files of document.folder. Then checks
-/// that every /bufferViews entry lies in its buffer.
+/// Fills document.buffers from the BIN chunk, data: URIs, and files of document.folder. Then checks
+/// that every entry of /bufferViews lies in its buffer.
 void resolve_buffers(SourceDocument& document, const Container& container);
 
 /// The bytes of a buffer view that resolve_buffers() has checked.

@@ -14,8 +14,8 @@ namespace {
 constexpr std::size_t kHeaderBytes = 12, kChunkHeaderBytes = 8;
 constexpr std::uint32_t kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942;
 constexpr std::size_t kMaximumNesting = 256;
-// The JSON object keeps its members' order and looks them up one by one; without a limit, a hostile
-// object makes that quadratic.
+// The JSON object keeps the order of its members and searches them linearly, so without a limit a
+// hostile object takes quadratic time.
 constexpr std::size_t kMaximumMembers = 10'000;
 
 std::uint32_t read_u32(std::span<const std::byte> bytes, std::size_t offset) {
@@ -63,7 +63,7 @@ Container split_glb(std::span<const std::byte> content) {
 
 void check_nesting(std::string_view text) {
   std::vector<std::size_t>
-      members;  // One entry per open array or object; arrays are counted too but have no limit.
+      members;  // One entry per open array or object. Arrays are counted too, but not limited.
   std::vector<bool> is_object;
   bool in_string = false;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -84,7 +84,7 @@ void check_nesting(std::string_view text) {
       members.push_back(1);
       is_object.push_back(c == '{');
     } else if (c == '}' || c == ']') {
-      if (members.empty()) return;  // The parser says what is wrong.
+      if (members.empty()) return;  // The parser reports the fault.
       members.pop_back();
       is_object.pop_back();
     } else if (c == ',' && !members.empty() && ++members.back() > kMaximumMembers &&
@@ -95,8 +95,8 @@ void check_nesting(std::string_view text) {
   }
 }
 
-/// Extensions that a reader of geometry, skins and animation may ignore, and the one it
-/// understands.
+/// Extensions that a reader of geometry, skins and animation may ignore, and KHR_mesh_quantization,
+/// which it supports.
 bool is_harmless(std::string_view extension) {
   if (extension == "KHR_mesh_quantization") return true;
   constexpr std::array<std::string_view, 11> kAboutLooks = {

@@ -10,20 +10,19 @@
 
 namespace sunder::gltf {
 
-/// The parts of a glTF file; views into its content.
+/// The parts of a glTF file, as views into its content.
 struct Container {
   bool is_glb = false;
   std::string_view json;
-  std::span<const std::byte> binary;  ///< GLB's BIN chunk; empty where there is none.
+  std::span<const std::byte> binary;  ///< The BIN chunk of a GLB; empty if there is none.
 };
 
 [[nodiscard]] bool has_glb_magic(std::span<const std::byte> content);
 
-/// Finds the JSON and the BIN chunk. Every length that the file claims is checked against what is
-/// there.
+/// Finds the JSON and the BIN chunk. Every declared length is checked against the content.
 [[nodiscard]] Container split_container(std::span<const std::byte> content);
 
-/// Parses the JSON after checking its nesting, then its version and required extensions.
+/// Parses the JSON after checking its nesting; then checks its version and required extensions.
 [[nodiscard]] Json parse_document(std::string_view text);
 
 }  // namespace sunder::gltf

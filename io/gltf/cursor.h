@@ -12,8 +12,8 @@ namespace sunder::gltf {
 
 using Json = nlohmann::ordered_json;
 
-/// A place in the document that knows its JSON pointer. Every access checks presence, type and
-/// range, and refuses the file with the place in the text ("/accessors/4/bufferView: …").
+/// A value of the document that knows its JSON pointer. Every access checks presence, type and
+/// range; the error text names the place ("/accessors/4/bufferView: …").
 class Cursor {
  public:
   Cursor(const Json& value, std::string pointer) : value_(&value), pointer_(std::move(pointer)) {}
@@ -21,34 +21,34 @@ class Cursor {
   [[nodiscard]] const Json& json() const { return *value_; }
   [[nodiscard]] const std::string& pointer() const { return pointer_; }
 
-  /// A member of an object, if it is there.
+  /// A member of an object, or nothing.
   [[nodiscard]] std::optional<Cursor> find(const char* key) const;
   [[nodiscard]] Cursor member(const char* key) const;
-  /// Elements of an array.
+  /// Number of elements of an array.
   [[nodiscard]] std::size_t size() const;
   [[nodiscard]] Cursor element(std::size_t index) const;
 
-  /// A whole number in [0, 2^53]; "4.0" is one.
+  /// A whole number in [0, 2^53]; 4.0 is accepted.
   [[nodiscard]] std::uint64_t to_unsigned() const;
-  /// An index into a list of `count` things, whose kind `what` names in the refusal.
+  /// An index into a list of `count` elements; `what` is their kind, for the error text.
   [[nodiscard]] std::uint32_t to_index(std::size_t count, const char* what) const;
-  /// Finite as a float.
+  /// A number that is finite as a float.
   [[nodiscard]] float to_float() const;
   [[nodiscard]] bool to_bool() const;
   [[nodiscard]] const std::string& to_string() const;
 
-  // Optional members with their default.
+  // Optional members with a default.
   [[nodiscard]] std::uint64_t unsigned_or(const char* key, std::uint64_t otherwise) const;
   [[nodiscard]] bool bool_or(const char* key, bool otherwise) const;
   [[nodiscard]] std::string name()
-      const;  ///< Member "name"; empty where it is absent or not a string.
+      const;  ///< Member "name"; empty if it is absent or not a string.
 
  private:
   const Json* value_;
   std::string pointer_;
 };
 
-/// Length of a top-level list ("nodes"); 0 where it is absent.
+/// Length of a top-level list ("nodes"); 0 if it is absent.
 [[nodiscard]] std::size_t count_of(const Json& document, const char* list);
 /// One entry of a top-level list. `index` < count_of().
 [[nodiscard]] Cursor entry(const Json& document, const char* list, std::size_t index);

@@ -6,14 +6,14 @@
 
 namespace sunder::gltf {
 
-/// A transform as T * R * S, or, where it has shear, as two of them: first * second.
+/// A transform as T * R * S or, if it has shear, as the product of two of them: first * second.
 struct Decomposition {
   BoneTransform first;
   std::optional<BoneTransform> second;
 };
 
-/// One transform where that reproduces the matrix within 1e-6 of its largest number; else its
-/// singular value decomposition U S V^T, as T * U * S and V^T, which loses nothing.
+/// One transform if it reproduces the matrix within 1e-6 of its largest entry. Otherwise the
+/// singular value decomposition U S V^T gives T * U * S and V^T, which is exact.
 [[nodiscard]] Decomposition decompose(const Affine3d& matrix);
 
 }  // namespace sunder::gltf

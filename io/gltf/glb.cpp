@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kAlignment = 4;
 
-/// A list of the document, made if it is absent.
+/// A list of the document; added if it is absent.
 Json& list_of(Json& document, const char* name) {
   Json& list = document[name];
   if (list.is_null()) list = Json::array();
@@ -25,7 +25,7 @@ void append_u32(std::vector<std::byte>& bytes, std::size_t value) {
     bytes.push_back(static_cast<std::byte>(value >> shift & 0xFFu));
 }
 
-/// The media type of image bytes, of those that glTF and its extensions know; null for others.
+/// The media type of image bytes, if glTF or one of its extensions supports it; otherwise null.
 const char* media_type(std::span<const std::byte> bytes) {
   const std::string_view text{reinterpret_cast<const char*>(bytes.data()), bytes.size()};
   if (text.substr(0, 8) == "\x89PNG\r\n\x1A\n") return "image/png";
@@ -55,7 +55,8 @@ void GlbDraft::merge_buffers() {
   if (source_.buffers.empty()) return;
   Json& buffers = json["buffers"];
   Json merged =
-      buffers.size() == 1 ? buffers[0] : Json::object();  // Keeps a lone buffer's name and extras.
+      // A single buffer keeps its name and extras.
+      buffers.size() == 1 ? buffers[0] : Json::object();
   merged.erase("uri");
   buffers = Json::array({std::move(merged)});
   if (offset_of_buffer.size() == 1 || !json.contains("bufferViews")) return;
@@ -72,7 +73,7 @@ void GlbDraft::merge_buffers() {
   for (Json& view : json["bufferViews"]) {
     move(view);
     const auto packed = view.find(
-        "extensions");  // An optional, compressed form of the same bytes, in some buffer too.
+        "extensions");  // An optional compressed form of the same bytes, in another buffer.
     if (packed != view.end() && packed->is_object() && packed->contains("EXT_meshopt_compression"))
       if (Json& compressed = (*packed)["EXT_meshopt_compression"]; compressed.is_object())
         move(compressed);
@@ -104,7 +105,7 @@ void GlbDraft::embed_image(Json& image, std::uint64_t& bytes_left) {
   try {
     bytes = read_file(resolve_uri(uri, source_.folder, "image"), bytes_left, "image");
   } catch (const Refusal&) {
-    return;  // The reference stays as the source has it.
+    return;  // The reference stays as in the source.
   }
   const char* const type = media_type(bytes);
   if (type == nullptr) return;

@@ -8,11 +8,11 @@
 
 namespace sunder::gltf {
 
-/// A document on its way to a GLB: its JSON, and one BIN chunk that only grows. Indices of what it
-/// holds already do not change.
+/// A document that will be written as GLB: its JSON, and one BIN chunk that only grows, so existing
+/// indices stay valid.
 class GlbDraft {
  public:
-  /// Copies the document; all its buffers become one, all that they hold stays.
+  /// Copies the document and joins all its buffers into one.
   explicit GlbDraft(const SourceDocument& source);
 
   Json json;
@@ -20,13 +20,12 @@ class GlbDraft {
   enum class ViewTarget : std::uint16_t { none = 0, vertices = 34962, indices = 34963 };
 
   /// Appends bytes as a new buffer view. @return its index.
-  /// @param stride  bytes from one element to the next where that is not the element's size; else
-  /// 0.
+  /// @param stride  bytes from one element to the next if they are not packed; otherwise 0.
   std::uint32_t add_view(std::span<const std::byte> bytes, ViewTarget target,
                          std::uint32_t stride = 0);
 
-  /// Puts images of the source's folder into the chunk. Those that cannot be read, and other kinds
-  /// than glTF knows, keep their URI.
+  /// Embeds the images of the source's folder. Images that cannot be read, or whose kind glTF does
+  /// not support, keep their URI.
   void embed_images();
 
   /// The finished file.

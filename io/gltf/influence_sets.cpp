@@ -49,7 +49,7 @@ InfluenceSets<Weight> make_influence_sets(const SkinWeights& weights, std::uint3
       refuse(StatusCode::weights_not_normalized, v,
              "save_glb: vertex %u: its weights do not have a positive, finite sum", v);
     for (std::size_t i = 0; i < kept; ++i) {
-      if (written[i] == Weight{0}) continue;  // The joint of nothing is 0.
+      if (written[i] == Weight{0}) continue;  // The joint of a zero weight must be 0.
       sets.slots[i / 4][std::size_t{v} * 4 + i % 4] = influences[i].slot;
       sets.weights[i / 4][std::size_t{v} * 4 + i % 4] = written[i];
     }

@@ -7,17 +7,17 @@
 
 namespace sunder::gltf {
 
-/// A mesh's influences as JOINTS_n and WEIGHTS_n hold them: four a vertex and set. What is not used
-/// is slot 0 with weight 0.
+/// A mesh's influences as stored in JOINTS_n and WEIGHTS_n: four per vertex and set. Unused entries
+/// have slot 0 and weight 0.
 template <class Weight>
 struct InfluenceSets {
-  std::vector<std::vector<std::uint32_t>> slots;  ///< One array of V x 4 a set.
+  std::vector<std::vector<std::uint32_t>> slots;  ///< One array of V x 4 entries per set.
   std::vector<std::vector<Weight>> weights;       ///< Likewise.
 };
 
-/// Prunes every vertex to `maximum` influences (0: none is dropped) and, where Weight is an
-/// integer, quantises what is kept.
-/// @param weights  of a character that was validated.
+/// Prunes every vertex to `maximum` influences (0: all are kept) and, if Weight is an integer,
+/// quantises the weights.
+/// @param weights  of a valid character.
 template <class Weight>
 [[nodiscard]] InfluenceSets<Weight> make_influence_sets(const SkinWeights& weights,
                                                         std::uint32_t maximum);

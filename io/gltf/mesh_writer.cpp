@@ -87,7 +87,7 @@ std::uint32_t MeshWriter::add_integers(const std::vector<std::uint32_t>& values,
        {"type", kTypes[components]}});
 }
 
-/// Labels stay 16-bit integers: by that, who reads them knows that they do not interpolate.
+/// Labels stay 16-bit integers: readers recognise by this type that they must not be interpolated.
 std::uint32_t MeshWriter::add_labels(const CustomAttribute& attribute) {
   const auto [least, greatest] =
       std::minmax_element(attribute.values.begin(), attribute.values.end());
@@ -95,7 +95,7 @@ std::uint32_t MeshWriter::add_labels(const CustomAttribute& attribute) {
   const bool fits =
       is_signed ? *least >= -32768.0f && *greatest <= 32767.0f : *greatest <= 65535.0f;
   if (!fits) return add_floats(attribute.values, attribute.components);
-  // Vertex data is aligned to four bytes.
+  // glTF requires vertex data aligned to four bytes.
   const std::size_t components = attribute.components, stride = (components + 1) / 2 * 2,
                     count = attribute.values.size() / components;
   std::vector<std::uint16_t> labels(count * stride, 0);
@@ -135,8 +135,8 @@ MeshWriter::Vertices MeshWriter::add_vertices(const Mesh& mesh,
         has_alpha ? add_vectors(mesh.color_sets[i]) : add_vectors(rgb);
   }
   for (const CustomAttribute& attribute : mesh.custom_attributes) {
-    // Tools that merge equal vertices compare plain float attributes most reliably: tear sides are
-    // written as such.
+    // Tear sides are written as plain floats, because tools that merge equal vertices compare these
+    // most reliably.
     const bool as_floats = attribute.interpolates || attribute.name == kTearSideAttribute;
     attributes[attribute.name] =
         as_floats ? add_floats(attribute.values, attribute.components) : add_labels(attribute);
@@ -197,12 +197,13 @@ Json MeshWriter::add_targets(const Mesh& mesh) {
     Json deltas = Json::object();
     if (!target.position_deltas.empty())
       deltas["POSITION"] = add_vectors(target.position_deltas, Bounds::yes);
-    // Deltas of something that the mesh does not have are not valid glTF.
+    // Deltas of an attribute that the mesh does not have are not valid glTF.
     if (!target.normal_deltas.empty() && !mesh.normals.empty())
       deltas["NORMAL"] = add_vectors(target.normal_deltas);
     if (!target.tangent_deltas.empty() && !mesh.tangents.empty())
       deltas["TANGENT"] = add_vectors(target.tangent_deltas);
-    if (deltas.empty())  // Neither is a target without deltas; one of zeros takes no space.
+    // A target without deltas is not valid either; an accessor of zeros takes no space.
+    if (deltas.empty())
       deltas["POSITION"] =
           add_accessor({{"componentType", static_cast<std::uint32_t>(ComponentType::f32)},
                         {"count", mesh.positions.size()},
@@ -220,7 +221,7 @@ std::uint32_t MeshWriter::add_indices(const Mesh& mesh, std::uint32_t submesh) {
     if (mesh.triangle_submesh[t] == submesh && !is_retired(mesh.triangles[t]))
       indices.insert(indices.end(), mesh.triangles[t].begin(), mesh.triangles[t].end());
   if (indices.empty()) return kNone;
-  // The largest value of each width means "restart".
+  // The largest value of each integer type means "restart".
   return mesh.positions.size() < std::numeric_limits<std::uint16_t>::max()
              ? add_integers<std::uint16_t>(indices, 1, GlbDraft::ViewTarget::indices)
              : add_integers<std::uint32_t>(indices, 1, GlbDraft::ViewTarget::indices);

@@ -11,23 +11,23 @@ namespace sunder::gltf {
 /// Refuses options outside their documented range.
 void check_options(const SaveOptions& options);
 
-/// Appends core meshes to a draft as accessors.
+/// Appends meshes to a draft as accessors.
 class MeshWriter {
  public:
   MeshWriter(GlbDraft& draft, const SaveOptions& options) : draft_(draft), options_(options) {}
 
-  /// The parts of a glTF primitive that say what its vertices are; shared by all of the mesh's
-  /// submeshes.
+  /// The parts of a glTF primitive that describe its vertices; all submeshes of the mesh share
+  /// them.
   struct Vertices {
     Json attributes;
-    Json targets;  ///< null where the mesh has none.
+    Json targets;  ///< Null if the mesh has none.
   };
   [[nodiscard]] Vertices add_vertices(const Mesh& mesh, const SourceDocument::MeshOrigin& origin);
 
-  /// Whether anything of it is written: retired triangles are not.
+  /// Whether the mesh is written at all; retired triangles are not.
   [[nodiscard]] static bool has_triangles(const Mesh& mesh);
 
-  /// Indices of one submesh's triangles. @return their accessor; kNone where it has no triangle.
+  /// Indices of one submesh's triangles. @return their accessor; kNone if it has no triangle.
   [[nodiscard]] std::uint32_t add_indices(const Mesh& mesh, std::uint32_t submesh);
 
  private:

@@ -24,7 +24,7 @@ std::vector<std::string> target_names(const Cursor& mesh) {
   return names;
 }
 
-/// The field in which a primitive added by saving keeps a name that is not its material's.
+/// The field in which saving stores the name of a primitive, if it is not the material's.
 std::string name_in_extras(const Cursor& primitive) {
   const auto extras = primitive.find("extras");
   return extras && extras->json().is_object() ? extras->name() : std::string();

@@ -9,7 +9,7 @@
 
 namespace sunder::gltf {
 
-/// The run of Pose::morph_weights that a node's meshes share.
+/// The range in Pose::morph_weights that the meshes of a node share.
 struct MorphRange {
   std::uint32_t first = 0;
   std::uint32_t count = 0;
@@ -17,7 +17,7 @@ struct MorphRange {
 
 struct ReadMeshes {
   std::vector<SourceDocument::MeshOrigin> origins;  ///< One a mesh.
-  std::vector<MorphRange> morphs_of_node;           ///< One a node of the file.
+  std::vector<MorphRange> morphs_of_node;           ///< One per node of the file.
 };
 
 /// Appends the scene's meshes, their skins and rest morph weights to the character.

@@ -16,7 +16,7 @@
 namespace sunder::gltf {
 namespace {
 
-/// Linear RGB for submeshes in their order: leaf, blossom, clay, earth, sky, sand, plum, moss.
+/// Linear RGB colours for successive submeshes: leaf, blossom, clay, earth, sky, sand, plum, moss.
 constexpr std::array<std::array<double, 3>, 8> kColors = {{{0.30, 0.62, 0.22},
                                                            {0.92, 0.38, 0.52},
                                                            {0.78, 0.36, 0.20},
@@ -80,14 +80,14 @@ class NewDocument {
       if (rest.scale != Vec3f::Ones()) node["scale"] = numbers({rest.scale.data(), 3});
       append(draft_.json, "nodes", std::move(node));
     }
-    // glTF wants the joints of a skin below one root.
+    // glTF requires that the joints of a skin have a common root.
     if (roots.size() > 1)
       roots =
           Json::array({append(draft_.json, "nodes", {{"name", "Skeleton"}, {"children", roots}})});
     roots_ = std::move(roots);
   }
 
-  /// Its vertices are all moved by one bone, as that bone's node would move them.
+  /// All its vertices follow one bone, in the same way as a child of that bone's node.
   [[nodiscard]] bool hangs_on_its_bone(const Mesh& mesh) const {
     const Skin& skin = character_.skins[mesh.skin];
     if (skin.bones.size() != 1 || skin.bone_from_bind[0].matrix() != Affine3f::Identity().matrix())
@@ -163,7 +163,7 @@ class NewDocument {
 
   Index add_material(const Mesh& mesh, Index submesh) {
     const auto& color = kColors[list_of(draft_.json, "materials").size() % kColors.size()];
-    // Vertex colours are multiplied with the material's: it stays white below them.
+    // Vertex colours are multiplied by the material's colour, so that is white.
     const Json base_color = mesh.color_sets.empty() ? Json{color[0], color[1], color[2], 1.0}
                                                     : Json{1.0, 1.0, 1.0, 1.0};
     const std::string& name = mesh.submeshes[submesh].name;
@@ -191,7 +191,6 @@ class NewDocument {
   }
 
   // ---- Clips
-  // -------------------------------------------------------------------------------------------------------------------
 
   struct GltfTarget {
     Index node;
@@ -233,7 +232,8 @@ class NewDocument {
     animation["samplers"].push_back(std::move(sampler));
     Json entry = {{"sampler", animation["samplers"].size() - 1},
                   {"target", {{"node", target.node}, {"path", target.path}}}};
-    // A later channel of the same target wins, as it does in a pose; glTF allows but one.
+    // Of several channels with the same target the last one applies, as in a pose; glTF allows only
+    // one.
     const auto [found, is_new] = channel_of.try_emplace(
         {target.node, target.path}, static_cast<Index>(animation["channels"].size()));
     if (is_new)
@@ -242,8 +242,8 @@ class NewDocument {
       animation["channels"][found->second] = std::move(entry);
   }
 
-  /// A channel's values for the weights of one mesh, all of them, as glTF animates them; empty
-  /// where it drives none. What it does not drive stays at rest.
+  /// A channel's values for all weights of one mesh, as glTF requires; empty if it drives none of
+  /// them. Other weights keep their rest value.
   [[nodiscard]] std::vector<float> weights_of_mesh(const Channel& channel, const Mesh& mesh) const {
     const std::size_t first = mesh.first_morph_weight, count = mesh.morph_targets.size();
     if (first >= std::size_t{channel.index} + channel.width || first + count <= channel.index ||
@@ -264,7 +264,7 @@ class NewDocument {
     return values;
   }
 
-  /// Keys of unit length, which glTF asks for and a pose would make of them anyway. Tangents stay.
+  /// glTF requires keys of unit length; a pose would normalise them anyway. Tangents stay.
   static std::vector<float> unit_rotations(const Channel& channel) {
     std::vector<float> values = channel.values;
     const bool is_spline = channel.interpolation == Interpolation::cubic_spline;

@@ -4,9 +4,9 @@
 
 namespace sunder::gltf {
 
-/// See the save_glb() for characters without a source. A bone becomes a node of the same number; a
-/// rigid mesh whose bind is the identity hangs on its bone's node; other meshes get a node at the
-/// scene's root and a skin.
+/// Implements save_glb() for characters without a source. Each bone becomes a node with the same
+/// index. A rigid mesh whose bind matrix is the identity becomes a child of its bone's node; other
+/// meshes get a node at the scene's root, and a skin.
 [[nodiscard]] Status write_new_document(const std::filesystem::path& file,
                                         const Character& character, const SaveOptions& options);
 

@@ -7,7 +7,7 @@ namespace {
 
 constexpr std::uint32_t kMaximumDepth = 1024;
 
-/// Depth of every node, or refusal. A node that no root reaches is on a cycle, or below one.
+/// Depth of every node; refuses cycles. A node that no root reaches is on a cycle or below one.
 void check_depths(const NodeTree& tree) {
   const auto count = static_cast<std::uint32_t>(tree.parent.size());
   std::vector<std::uint32_t> depth(count, kNone), open;
@@ -29,7 +29,8 @@ void check_depths(const NodeTree& tree) {
   }
   for (std::uint32_t node = 0; node < count; ++node) {
     if (depth[node] != kNone) continue;
-    std::uint32_t on_cycle = node;  // count steps up lead from below onto the cycle.
+    // After `count` steps towards the root the node is on the cycle.
+    std::uint32_t on_cycle = node;
     for (std::uint32_t step = 0; step < count; ++step) on_cycle = tree.parent[on_cycle];
     refuse(StatusCode::not_a_tree, on_cycle,
            "/nodes/%u/children: node %u is its own ancestor through its parent %u",

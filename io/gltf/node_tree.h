@@ -8,9 +8,9 @@
 
 namespace sunder::gltf {
 
-/// The nodes' hierarchy, checked to be a forest of bounded depth.
+/// The hierarchy of nodes, checked to be a forest of limited depth.
 struct NodeTree {
-  std::vector<std::uint32_t> parent;  ///< One a node; kNone at roots.
+  std::vector<std::uint32_t> parent;  ///< One per node; kNone for roots.
   std::vector<std::vector<std::uint32_t>> children;
 
   [[nodiscard]] std::uint32_t root_of(std::uint32_t node) const {
@@ -19,9 +19,9 @@ struct NodeTree {
   }
 };
 
-/// @throws Refusal  not_a_tree, with both nodes named, where a node has two parents or is its own
-/// ancestor; limit_exceeded below level
-///         1024.
+///
+/// @throws Refusal  not_a_tree, with both nodes in the text, if a node has two parents or is its
+///         own ancestor; limit_exceeded below level 1024.
 [[nodiscard]] NodeTree read_node_tree(const Json& document);
 
 }  // namespace sunder::gltf

@@ -6,8 +6,8 @@
 
 namespace sunder::gltf {
 
-/// Collects the report's notes. In strict mode what would be noted as repaired or dropped refuses
-/// the file instead.
+/// Collects the notes of the load report. In strict mode, a repair or loss refuses the file
+/// instead.
 class Notes {
  public:
   Notes(LoadReport& report, bool strict) : report_(report), strict_(strict) {}

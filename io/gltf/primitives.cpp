@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint64_t kTriangles = 4, kStrip = 5, kFan = 6;
 
-/// The accessors of a primitive's vertices: equal keys mean equal vertices.
+/// The accessors of a primitive's vertices; equal keys mean equal vertices.
 using VertexKey = std::vector<std::map<std::string, std::uint64_t>>;
 
 VertexKey vertex_key(const Cursor& primitive) {
@@ -56,7 +56,7 @@ std::vector<Triangle> assemble(const std::vector<std::uint32_t>& indices, std::u
     Triangle triangle = {indices[i + 1], indices[i + 2], indices[0]};
     if (mode == kStrip) triangle = {indices[i], indices[i + 1 + i % 2], indices[i + 2 - i % 2]};
     const auto [a, b, c] = triangle;
-    // A repeated index in a strip only leads to its next part.
+    // A repeated index in a strip only connects it to its next part.
     if (a != b && b != c && c != a) triangles.push_back(triangle);
   }
   return triangles;

@@ -9,13 +9,13 @@
 
 namespace sunder::gltf {
 
-/// Primitives of one glTF mesh on the same vertices; they become the submeshes of one core mesh.
+/// Primitives of one glTF mesh that use the same vertices; they become the submeshes of one mesh.
 struct PrimitiveGroup {
-  std::vector<std::uint32_t> primitives;  ///< In the mesh's primitives.
+  std::vector<std::uint32_t> primitives;  ///< Indices in the mesh's primitives.
 };
 
-/// Sorts a mesh's primitives by their vertices. Those without triangles or positions are left out,
-/// and noted.
+/// Groups a mesh's primitives by their vertices. Primitives without triangles or positions are
+/// dropped, with a note.
 [[nodiscard]] std::vector<PrimitiveGroup> group_primitives(Reading& reading, const Cursor& mesh);
 
 struct ReadTriangles {
@@ -23,7 +23,7 @@ struct ReadTriangles {
   bool repaired = false;
 };
 
-/// A primitive's faces as single triangles, whatever its mode.
+/// A primitive's faces as separate triangles, for any mode.
 [[nodiscard]] ReadTriangles read_triangles(Reading& reading, const Cursor& primitive,
                                            std::uint32_t vertex_count);
 

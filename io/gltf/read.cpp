@@ -52,7 +52,7 @@ LoadedCharacter read(std::span<const std::byte> content, const std::filesystem::
   character->skeleton = std::move(nodes.skeleton);
   document->mesh_origins = std::move(meshes.origins);
   if (!document->is_glb)
-    document->content = {};  // The text is not needed again; buffers lie in other_files.
+    document->content = {};  // The text is no longer needed; buffers are stored in other_files.
   if (const Status status = validate_character(*character); !status)
     refuse(StatusCode::internal_error, status.index(),
            "the reader produced an invalid character: %.200s", status.text().data());

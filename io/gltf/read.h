@@ -8,8 +8,8 @@
 
 namespace sunder::gltf {
 
-/// Reads a glTF (JSON text) or GLB from memory. `folder`: where its relative URIs may point, itself
-/// and below; empty refuses every URI but data: ones.
+/// Reads a glTF (JSON text) or GLB from memory. Relative URIs may refer to files in `folder` and
+/// below; if it is empty, only data: URIs are allowed.
 [[nodiscard]] Result<LoadedCharacter> read_character(std::span<const std::byte> content,
                                                      const std::filesystem::path& folder,
                                                      const LoadOptions& options);

@@ -6,7 +6,7 @@
 
 namespace sunder::gltf {
 
-/// Shared by all parts of the reader: the document, its numbers, and the load report.
+/// State shared by all parts of the reader: the document, its numbers, and the load report.
 struct Reading {
   const SourceDocument& document;
   AccessorReader accessors;

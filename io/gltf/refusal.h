@@ -4,9 +4,9 @@
 
 namespace sunder::gltf {
 
-/// How code inside io/gltf gives up on a file: thrown where the fault is found, turned into its
-/// Status at the doors (read_character, save), never seen outside. Reading is all or nothing, so
-/// nobody in between has anything to add.
+/// The failure of code in io/gltf: thrown where the fault is found, and converted to a Status at
+/// the entry points (read_character, save). It never leaves io/gltf. Reading either succeeds
+/// completely or fails, so no code in between needs to handle it.
 struct Refusal {
   Status status;
 };
@@ -14,7 +14,7 @@ struct Refusal {
 [[noreturn]] void refuse(StatusCode code, std::uint32_t index, const char* format, ...)
     __attribute__((format(printf, 3, 4)));
 
-/// Runs `work` and turns whatever it or a third party throws into a Status.
+/// Runs `work` and converts any exception to a Status.
 template <class T, class Work>
 Result<T> without_exceptions(Work&& work);
 

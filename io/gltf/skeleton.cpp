@@ -34,7 +34,7 @@ Quatf read_rotation(Reading& reading, const Cursor& node, const std::array<float
   if (deviation > 1e-4)
     reading.notes.repaired(StatusCode::malformed_file, kNone, node.pointer(),
                            "a rotation that was not of unit length was normalised");
-  // A quaternion that is unit to float precision keeps its bits.
+  // A quaternion that has unit length in float precision keeps its bits.
   if (deviation <= 1e-6) return Quatf(xyzw[3], xyzw[0], xyzw[1], xyzw[2]);
   return rotation.normalized().cast<float>();
 }
@@ -101,7 +101,7 @@ std::vector<std::uint32_t> scene_roots(Reading& reading, const NodeTree& tree) {
   return roots;
 }
 
-/// Joints of the scene's skins that stand in no tree of the scene.
+/// Joints of the scene's skins that are in no tree of the scene.
 std::vector<std::uint32_t> outside_joints(Reading& reading,
                                           const std::vector<std::uint32_t>& scene_nodes,
                                           const std::vector<bool>& visited) {

@@ -10,12 +10,12 @@ namespace sunder::gltf {
 
 struct NodeSkeleton {
   Skeleton skeleton;
-  std::vector<std::uint32_t> bone_from_node;  ///< kNone for nodes outside.
+  std::vector<std::uint32_t> bone_from_node;  ///< kNone for nodes outside the scene.
   std::vector<std::uint32_t> scene_nodes;     ///< Nodes of the scene, parents first.
 };
 
-/// The nodes of the default scene as bones, and those trees outside it in which joints of its skins
-/// stand.
+/// The nodes of the default scene as bones, and the trees outside it that contain joints of its
+/// skins.
 [[nodiscard]] NodeSkeleton read_skeleton(Reading& reading);
 
 }  // namespace sunder::gltf

@@ -9,16 +9,17 @@
 
 namespace sunder::gltf {
 
-/// Makes the character's skins as meshes ask for them, one a glTF skin or rigid node.
+/// Creates the character's skins when meshes first request them: one per glTF skin or rigid node.
 class SkinReader {
  public:
   SkinReader(Reading& reading, const NodeSkeleton& nodes, std::vector<Skin>& skins);
 
+  ///
   /// @return index in the character's skins.
   std::uint32_t of_skin(std::uint32_t gltf_skin);
   std::uint32_t of_node(std::uint32_t node);
-  /// The slot for a vertex that the file binds to nothing: the skin's `skeleton` node where that is
-  /// a joint, else its first joint.
+  /// The slot for vertices without influences: the skin's `skeleton` node if that is a joint,
+  /// otherwise its first joint.
   [[nodiscard]] std::uint32_t root_slot(std::uint32_t gltf_skin) const;
 
  private:

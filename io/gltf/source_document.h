@@ -12,8 +12,8 @@
 
 namespace sunder {
 
-/// A loaded glTF as it was, and which of its parts each core mesh came from. Does not change after
-/// loading.
+/// A loaded glTF document as it was, and the parts of it from which each mesh was read. Immutable
+/// after loading.
 class SourceDocument {
  public:
   struct MeshOrigin {
@@ -21,11 +21,9 @@ class SourceDocument {
     std::uint32_t mesh = kNone;  ///< In /meshes.
     std::vector<std::uint32_t>
         primitives;  ///< Indices in /meshes/<mesh>/primitives, one per submesh.
-    std::vector<std::uint32_t> color_components;  ///< 3 or 4, one a colour set.
-    bool skinned =
-        false;  ///< false: its skin is the node alone, and the file has no weights for it.
-    bool repaired = false;  ///< The loaded mesh differs from the file, which therefore must not be
-                            ///< written again.
+    std::vector<std::uint32_t> color_components;  ///< 3 or 4, one per colour set.
+    bool skinned = false;   ///< false: the skin is the node alone, and the file has no weights.
+    bool repaired = false;  ///< The loaded mesh differs from the file, so saving must write it.
   };
 
   SourceDocument() = default;
@@ -33,15 +31,15 @@ class SourceDocument {
   SourceDocument& operator=(const SourceDocument&) = delete;
 
   gltf::Json json;
-  std::vector<std::byte> content;                   ///< The file's own bytes.
+  std::vector<std::byte> content;                   ///< The bytes of the file.
   bool is_glb = false;                              ///< `content` is a GLB, not text.
-  std::vector<std::vector<std::byte>> other_files;  ///< Bytes of data: URIs and external buffers.
+  std::vector<std::vector<std::byte>> other_files;  ///< Content of data: URIs and external buffers.
   std::vector<std::span<const std::byte>>
-      buffers;                   ///< One an entry of /buffers, in `content` or `other_files`.
-  std::filesystem::path folder;  ///< Absolute, or empty: where relative URIs may point.
-  std::uint64_t maximum_bytes =
-      0;  ///< LoadOptions::maximum_bytes, for the images that saving embeds.
-  std::vector<MeshOrigin> mesh_origins;  ///< One a mesh of the character.
+      buffers;  ///< One per entry of /buffers, in `content` or `other_files`.
+  /// Absolute: the folder to which relative URIs may point. Or empty.
+  std::filesystem::path folder;
+  std::uint64_t maximum_bytes = 0;  ///< LoadOptions::maximum_bytes, for images embedded on saving.
+  std::vector<MeshOrigin> mesh_origins;  ///< One per mesh of the character.
 };
 
 }  // namespace sunder

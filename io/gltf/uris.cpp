@@ -55,7 +55,7 @@ std::vector<std::byte> decode_data_uri(const std::string& uri, const std::string
       uri.compare(comma - kEncoding.size(), kEncoding.size(), kEncoding) != 0)
     refuse(StatusCode::malformed_file, kNone, "%.120s: a data URI that is not base64",
            place.c_str());
-  // tinygltf's decoder stops in silence at the first character that is not base64.
+  // tinygltf's decoder stops silently at the first character that is not base64.
   const std::size_t stop = uri.find_first_not_of(
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/", comma + 1);
   if (stop != std::string::npos && uri.find_first_not_of('=', stop) != std::string::npos)
@@ -63,8 +63,8 @@ std::vector<std::byte> decode_data_uri(const std::string& uri, const std::string
            "%.120s: character %zu is not base64", place.c_str(), stop);
   std::vector<unsigned char> decoded;
   std::string mime_type;
-  // It knows only some media types, and its answer to an empty payload is failure: give it the one
-  // that glTF names.
+  // The decoder supports only some media types and fails on an empty payload, so pass the type that
+  // glTF prescribes.
   tinygltf::DecodeDataURI(&decoded, mime_type,
                           "data:application/octet-stream;base64," + uri.substr(comma + 1), 0,
                           false);

@@ -8,7 +8,7 @@
 namespace sunder::gltf {
 namespace {
 
-/// Counts the vertices or influences that one fault befell.
+/// Counts the vertices or influences with a fault.
 struct Tally {
   std::uint32_t count = 0;
   std::uint32_t first_vertex = kNone;
@@ -21,7 +21,7 @@ struct Tally {
 struct Faults {
   Tally not_finite, negative, out_of_range, repeated, without_weight, not_normalized;
   double largest_deviation = 0.0;
-  bool changed = false;  ///< Also by what is too small to be noted.
+  bool changed = false;  ///< True also for changes that are too small for a note.
 };
 
 constexpr double kWorthNoting = 1e-5;
@@ -51,7 +51,7 @@ void collect(const InfluenceSet& set, std::uint32_t vertex, std::uint32_t slot_c
   }
 }
 
-/// Brings the sum to one if it is further off than rounding explains.
+/// Normalises the sum if its deviation is larger than rounding.
 void normalize(std::uint32_t vertex, bool is_already_noted, std::vector<Influence>& influences,
                Faults& faults) {
   double sum = 0.0;

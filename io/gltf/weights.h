@@ -9,7 +9,7 @@
 
 namespace sunder::gltf {
 
-/// One JOINTS_n with its WEIGHTS_n: four of each a vertex.
+/// One JOINTS_n with its WEIGHTS_n: four of each per vertex.
 struct InfluenceSet {
   std::vector<std::uint32_t> slots;
   std::vector<float> weights;
@@ -17,11 +17,11 @@ struct InfluenceSet {
 
 struct ReadWeights {
   SkinWeights weights;
-  bool repaired = false;  ///< They are not what the file says.
+  bool repaired = false;  ///< The influences differ from the file's.
 };
 
-/// Turns the file's fixed sets into what SkinWeights promises, and notes what had to be done for
-/// it. Weights that keep the promise already keep their bits; influences keep the file's order.
+/// Converts the file's sets to valid SkinWeights, and notes the repairs. Weights that are valid
+/// keep their bits; influences keep the file's order.
 [[nodiscard]] ReadWeights make_weights(const std::vector<InfluenceSet>& sets,
                                        std::uint32_t vertex_count, std::uint32_t slot_count,
                                        std::uint32_t root_slot, const std::string& place,

@@ -46,8 +46,7 @@ void check_same_character(const Character& character, const LoadedCharacter& loa
   if (const Status status = validate_character(character); !status) throw Refusal{status};
 }
 
-/// Meshes that have to be written: the torn ones and, in addition, those whose source is not valid
-/// as it stands.
+/// Meshes that must be written: torn meshes, and meshes whose source is not valid.
 std::vector<std::uint32_t> meshes_to_write(const Character& character,
                                            const LoadedCharacter& loaded) {
   std::vector<std::uint32_t> torn, torn_or_repaired;
@@ -81,7 +80,7 @@ class Patch {
     const Json& old_mesh = draft_.json["meshes"][mesh_index];
     const Json& old_primitives = old_mesh["primitives"];
 
-    // New primitive for each old one that a written mesh came from; null: it has no triangle left.
+    // A new primitive per old primitive of a written mesh; null if it has no triangle left.
     std::map<std::uint32_t, Json> rewritten;
     Json additional = Json::array();
     for (const std::uint32_t mesh : meshes)
@@ -95,7 +94,7 @@ class Patch {
     for (Json& primitive : additional) primitives.push_back(std::move(primitive));
 
     if (primitives.empty()) {
-      // Nothing is left of it. What remains of the node may not speak of a mesh.
+      // The mesh has no triangle left. The node must not refer to a mesh any more.
       for (const char* const key : {"mesh", "skin", "weights"}) node.erase(key);
       without_mesh_.insert(node_index);
       return;
@@ -104,7 +103,7 @@ class Patch {
       draft_.json["meshes"][mesh_index]["primitives"] = std::move(primitives);
       return;
     }
-    Json copy = old_mesh;  // Others show this mesh too, and are not torn.
+    Json copy = old_mesh;  // Other nodes use this mesh too, and are not torn.
     copy["primitives"] = std::move(primitives);
     Json& all = draft_.json["meshes"];
     all.push_back(std::move(copy));
@@ -140,7 +139,7 @@ class Patch {
     }
   }
 
-  /// Primitives have no name of their own: it is that of their material, or stands in their extras.
+  /// A primitive has no name in glTF: it is the material's name, or is stored in its extras.
   void write_name(const Submesh& submesh, Json& primitive) const {
     const bool has_material = submesh.material != kNone;
     const std::string of_material =
@@ -149,7 +148,7 @@ class Patch {
       primitive["extras"]["name"] = submesh.name;
   }
 
-  /// Those that hold a second form of the data that was replaced.
+  /// Extensions that contain a second form of the replaced data.
   static void remove_stale_extensions(Json& primitive) {
     const auto extensions = primitive.find("extensions");
     if (extensions == primitive.end() || !extensions->is_object()) return;
@@ -166,7 +165,7 @@ class Patch {
         }));
   }
 
-  /// Morph weights of a node that has lost its mesh can no longer be animated.
+  /// The morph weights of a node without a mesh can no longer be animated.
   void remove_unusable_channels() {
     if (without_mesh_.empty() || !draft_.json.contains("animations")) return;
     Json& animations = draft_.json["animations"];

@@ -8,8 +8,8 @@
 namespace sunder::operation_log {
 namespace {
 
-// Doubles are written as the shortest text that reads back to the same bits; floats as the doubles
-// they are.
+// Doubles are written as the shortest text that is read back to the same bits; floats are written
+// as doubles.
 
 template <class Scalar>
 Json numbers(std::span<const Scalar> values) {
@@ -92,7 +92,7 @@ Json refit_json(const RefitOptions& refit) {
           {"smoothness", refit.smoothness}};
 }
 
-/// The fields of an operation that stand on its first line.
+/// The fields of an operation that are on its first line.
 Json header(const TearOperation& tear) {
   Json json = {{"op", "tear"},
                {"pose", pose_json(tear.pose)},
@@ -142,7 +142,7 @@ Json header(const UndoOperation& operation) { return {{"op", "undo"}, {"count", 
 
 Json header(const RedoOperation& operation) { return {{"op", "redo"}, {"count", operation.count}}; }
 
-/// Names in files may be any bytes; JSON is UTF-8.
+/// Names in files may contain any bytes; JSON is UTF-8.
 std::string one_line(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
@@ -165,7 +165,7 @@ void append_operation(std::string& text, const Operation& operation) {
   text += one_line(std::visit([](const auto& kind) { return header(kind); }, operation));
   const auto* const tear = std::get_if<TearOperation>(&operation);
   if (tear == nullptr) return;
-  text.back() = ',';  // In place of the brace that closed it.
+  text.back() = ',';  // Replaces the closing brace.
   text += "\"stroke\":[";
   append_stroke(text, *tear);
   text += "]}";

@@ -6,7 +6,7 @@
 
 namespace sunder::operation_log {
 
-/// One operation as JSON on one line, except that each blade of a stroke takes a line of its own.
+/// One operation as JSON on one line, except that each blade of a stroke has its own line.
 void append_operation(std::string& text, const Operation& operation);
 
 }  // namespace sunder::operation_log

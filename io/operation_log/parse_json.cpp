@@ -9,7 +9,8 @@ namespace {
 
 constexpr std::size_t kMaximumDepth = 32;  ///< The format itself needs 9.
 
-/// Refuses, while parsing, what a tree of values can no longer show: nesting and repeated fields.
+/// Refuses, while parsing, faults that are not visible in the parsed tree: nesting and repeated
+/// fields.
 class ParseGuard {
  public:
   bool operator()(int depth, Json::parse_event_t event, const Json& value) {
@@ -49,7 +50,7 @@ Json parse_json(std::string_view text) {
     throw Fault{Status::failure(StatusCode::malformed_file, kNone,
                                 "invalid JSON: line %td, byte %zu: %s", line, offset,
                                 error.what())};
-  } catch (const Json::exception& error) {  // Numbers that no double can hold.
+  } catch (const Json::exception& error) {  // Numbers that do not fit into a double.
     throw Fault{
         Status::failure(StatusCode::malformed_file, kNone, "invalid JSON: %s", error.what())};
   }

@@ -9,8 +9,8 @@ namespace sunder::operation_log {
 
 constexpr std::size_t kMaximumBytes = std::size_t{64} << 20;
 
-/// Text to values; throws a Fault where it is too long, nested too deeply, not JSON, or names a
-/// field twice.
+/// Parses the text; throws a Fault if it is too long, nested too deeply, not JSON, or repeats a
+/// field.
 Json parse_json(std::string_view text);
 
 }  // namespace sunder::operation_log

@@ -15,7 +15,7 @@ std::string escaped(const std::string& key) {
 
 bool is_number_up_to(const Json& value, double largest) {
   return value.is_number() &&
-         std::abs(value.get<double>()) <= largest;  // Not so for what is not finite.
+         std::abs(value.get<double>()) <= largest;  // False for numbers that are not finite.
 }
 
 }  // namespace
@@ -93,8 +93,8 @@ void read_numbers(const Place& place, std::span<double> numbers, double largest)
   const Json& array = place.value;
   if (!array.is_array() || array.size() != numbers.size())
     place.expected(("an array of " + std::to_string(numbers.size()) + " numbers").c_str());
-  // Logs of strokes hold bone matrices by the million: places of single numbers are only made to be
-  // named in a failure.
+  // Logs of strokes contain millions of matrix entries, so the place of a single number is only
+  // built for an error.
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     if (!array[i].is_number()) place.at(i).expected("a number");
     if (!is_number_up_to(array[i], largest))

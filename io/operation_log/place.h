@@ -13,13 +13,13 @@
 
 namespace sunder::operation_log {
 
-using Json = nlohmann::ordered_json;  // Bones keep the order in which the log names them.
+using Json = nlohmann::ordered_json;  // Keeps the order of the bones in the log.
 
-constexpr double kLargest = 1e9;  ///< Largest number: metres, seconds, scale.
+constexpr double kLargest = 1e9;  ///< Largest absolute value of metres, seconds and scales.
 constexpr double kLargestMatrixEntry =
-    1e30;  ///< Largest entry of a bone matrix, which may hold any scale.
+    1e30;  ///< Largest absolute entry of a bone matrix; matrices may have any scale.
 
-/// Carries a fault out of the nested readers; never leaves io/operation_log.
+/// Carries a fault out of nested readers; never leaves io/operation_log.
 struct Fault {
   Status status;
 };
@@ -43,20 +43,20 @@ struct Place {
   void check_fields(std::initializer_list<std::string_view> known) const;
 };
 
-// Each checks its value and otherwise throws a Fault that names the place.
+// Each function checks its value; on failure it throws a Fault that names the place.
 
 double read_number(const Place& place);
 double read_number_at_least_zero(const Place& place);
 double read_number_above_zero(const Place& place);
 bool read_bool(const Place& place);
 std::string read_name(const Place& place);
-/// An index from 0, or how many of something.
-/// @param what  names it where it is refused.
+/// An index or a count.
+/// @param what  its name, for the error text.
 std::uint32_t read_integer(const Place& place, const char* what, std::uint32_t least = 0,
                            std::uint32_t most = kNone - 1);
 const Json& read_array(const Place& place, const char* what);
 
-/// All numbers of an array of that length.
+/// Reads all numbers of an array, which must have that length.
 void read_numbers(const Place& place, std::span<double> numbers, double largest = kLargest);
 
 template <int N>
@@ -66,10 +66,12 @@ Eigen::Matrix<double, N, 1, Eigen::DontAlign> read_vector(const Place& place) {
   return vector;
 }
 
-/// @param what  names it where it is refused.
+///
+/// @param what  its name, for the error text.
 Vec3d read_direction(const Place& place, const char* what);
 
-/// @param value  keeps what it is where the field is not given.
+///
+/// @param value  unchanged if the field is absent.
 template <class Read, class Value>
 void read_if_given(const Place& place, const char* key, Read read, Value& value) {
   if (place.has(key)) value = read(place.at(key));

@@ -115,7 +115,7 @@ Operation read_operation(const Place& place) {
 std::vector<Operation> read_log(const Json& log) {
   const Place root{log, ""};
   if (!log.is_object()) root.expected("an object");
-  // Before all else: a log of another version is to be called that, not wrong.
+  // The version is checked first, so that a log of another version is reported as such.
   const Place version = root.at("sunder_operations");
   if (!version.value.is_number_integer()) version.expected("the version, an integer");
   if (version.value != 1)

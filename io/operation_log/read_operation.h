@@ -8,7 +8,7 @@
 
 namespace sunder::operation_log {
 
-/// All of a log's operations. Throws a Fault.
+/// All operations of a log. Throws a Fault.
 std::vector<Operation> read_log(const Json& log);
 
 }  // namespace sunder::operation_log

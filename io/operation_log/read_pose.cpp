@@ -23,8 +23,8 @@ ClipPose read_clip_pose(const Place& place) {
   return pose;
 }
 
-/// Normalises, but leaves alone what was written by us: floats that are of unit length already must
-/// keep their bits.
+/// Normalises the rotation. Rotations of unit length keep their bits, so that logs are read back
+/// exactly.
 Quatf read_rotation(const Place& place) {
   const Quatd rotation(Vec4d(read_vector<4>(place)));
   if (rotation.norm() < 1e-9) place.malformed("rotation of zero length");

@@ -6,7 +6,7 @@
 
 namespace sunder::operation_log {
 
-// They throw a Fault.
+// Both throw a Fault.
 
 /// The field "weights" of an operation.
 WeightOptions read_weight_options(const Place& place);
@@ -14,7 +14,7 @@ WeightOptions read_weight_options(const Place& place);
 /// The operation "weights".
 WeightsOperation read_weights(const Place& place);
 
-/// How many operations, from 1.
+/// Number of operations, at least 1.
 std::uint32_t read_operation_count(const Place& place);
 
 }  // namespace sunder::operation_log
