@@ -1,5 +1,5 @@
-// Particles: what dividing a surface into them costs, following a tear, and a step of their motion.
-// One thread.
+// Measures particles on one thread: dividing a surface into particles, following a tear, and a step
+// of their motion.
 
 #include <cstdio>
 #include <cstring>
@@ -16,42 +16,36 @@ namespace {
 constexpr const char* kHelp =
     "bench_particles [--summary]\n"
     "\n"
-    "The bunny, its faces divided 1, 2, 3, 7 and 16 times an edge, on 64 bones. Medians, "
-    "candidates in turns, one thread.\n"
+    "The bunny with 1, 2, 3, 7 and 16 divisions per edge, on 64 bones. Medians, candidates in\n"
+    "turns, one thread.\n"
     "\n"
-    "Decomposition: ParticleSet::create(), all of it: posing, distances along the surface, "
-    "memberships, weights, neighbours, "
-    "rest\n"
-    "sums. Compared with nanoflann's tree and Eigen's scan of all points, which get posed points "
-    "and make clusters of the same radius "
-    "in\n"
-    "a straight line, nothing else; ours are more, because theirs cover what they reach and ours "
-    "the inner 85 per cent.\n"
-    "Repair: ParticleSet::follow() after a tear across about 100 faces, what settle() then does in "
-    "all its calls, and follow() "
+    "Decomposition: the whole of ParticleSet::create(): posing, distances along the surface,\n"
+    "memberships, weights, neighbours, rest sums. Compared with nanoflann's tree and Eigen's scan\n"
+    "of all points, which get posed points and only make clusters of the same radius in a "
+    "straight\n"
+    "line. Our particles are more, because a cluster covers all points within the radius, a\n"
+    "particle only those within 85 % of it.\n"
+    "Repair: ParticleSet::follow() after a tear across about 100 faces, all calls of settle() "
     "after\n"
-    "the undo; the tear itself is not counted. 'first': follow() after the first tear of a set, "
-    "once.\n"
-    "Steps: a SoftBody 60 times a second, every bone moving; what displacing all vertices adds to "
-    "skinning them is a column of "
-    "its\n"
-    "own.\n"
+    "it, and follow() after the undo; the tear itself is not counted. 'first': follow() after the\n"
+    "first tear of a set, once.\n"
+    "Steps: a SoftBody at 60 steps per second, every bone moving. The time that displacing all\n"
+    "vertices adds to skinning has a column of its own.\n"
     "\n"
     "Prints tables. --summary prints one JSON object instead.\n"
     "  bunny_decompose_ms      ParticleSet::create() of 3,485 points, range a tenth of the "
     "diagonal\n"
-    "  bunny_particles         its particles\n"
-    "  step_200_ms             a step of about 200 particles that are all awake, and displacing 14 "
-    "thousand vertices by them, "
-    "less\n"
-    "                          skinning alone\n"
-    "  repair_ms_900k          follow() at 892 thousand points, range a tenth of the diagonal; of "
-    "the same tear again and again,\n"
-    "                          so without what the first one allocates: see the table\n"
-    "  repair_growth_3k_900k   that by the same at 3.5 thousand\n"
-    "  asleep_us               a step of those 200 particles when all sleep, the pose as before\n"
-    "  vs_nanoflann            the first by nanoflann's time for its tree and clusters; null where "
-    "it was not built\n";
+    "  bunny_particles         number of its particles\n"
+    "  step_200_ms             a step of about 200 particles that are all awake, and displacing "
+    "14\n"
+    "                          thousand vertices by them, without skinning itself\n"
+    "  repair_ms_900k          follow() at 892 thousand points, range a tenth of the diagonal; "
+    "the\n"
+    "                          same tear again and again, so without first allocations\n"
+    "  repair_growth_3k_900k   that time / the same at 3.5 thousand points\n"
+    "  asleep_us               a step of those 200 particles when all sleep, in an unchanged pose\n"
+    "  vs_nanoflann            bunny_decompose_ms / nanoflann's time for its tree and clusters;\n"
+    "                          null if it is not built\n";
 
 constexpr double kMilliseconds = 1e3, kMicroseconds = 1e6, kNanoseconds = 1e9;
 
@@ -92,13 +86,13 @@ void print_decompositions() {
                                               : divisions == kLargest ? 3
                                                                       : 9));
   if (const auto cactus = measure_cactus(51)) print_decomposition(*cactus);
-  std::printf("memberships, bytes: a point; ns: a membership.\n\n");
+  std::printf("memberships, bytes: per point; ns: per membership.\n\n");
 }
 
 void print_repairs(double (*range)(int divisions)) {
   std::printf(
       "  points particles  members faces   follow us    first  settle us calls  longest  undo us  "
-      "bytes a point\n");
+      "bytes per point\n");
   std::vector<RepeatedRepair> repairs;
   std::vector<Candidate> candidates;
   for (const int divisions : kDivisions)
@@ -141,8 +135,8 @@ void print_tables() {
       kRange);
   print_repairs([](int divisions) { return kRange / divisions; });
   std::printf(
-      "A step, dt = 1/60, us. Awake: every particle, pushed every tenth frame. 'displace': what "
-      "that adds to skinning.\n");
+      "A step, dt = 1/60, us. Awake: every particle, pushed every tenth frame. 'displace': time "
+      "that it adds to skinning.\n");
   std::printf(
       "particles vertices neighbours      step    displace      both  plain skin.    asleep  "
       "asleep, moved\n");

@@ -1,5 +1,5 @@
-// Measures posing a character: ours, naive Eigen and touching as many bytes, in turns; with all
-// bones moving and with few.
+// Measures skinning: ours, naive Eigen, and reading and writing the same number of bytes, in turns;
+// with all bones moving and with few.
 
 #include <algorithm>
 #include <cstdio>
@@ -19,51 +19,44 @@ namespace {
 constexpr const char* kHelp =
     "bench_skinning [--summary]\n"
     "\n"
-    "Poses the bunny, its faces divided 1, 3, 7 and 16 times an edge, on 64 bones with up to four "
-    "smooth influences a vertex: "
-    "positions\n"
-    "and normals, nanoseconds a vertex, medians, candidates in turns. 'ordered': vertices in "
-    "order_for_skinning(), for every "
-    "candidate;\n"
-    "'file': in the file's order, which scatters them over the bones. 'warm': one character again "
-    "and again; 'crowd': so many in "
-    "turn\n"
-    "that none is left in a cache. Eigen and the touching of bytes are compiled for this machine "
-    "alone, ours for any.\n"
+    "Poses the bunny with 1, 3, 7 and 16 divisions per edge, on 64 bones, with up to four smooth\n"
+    "influences per vertex. Positions and normals; nanoseconds per vertex, medians, candidates\n"
+    "in turns.\n"
+    "  ordered   vertices in order_for_skinning(), for every candidate\n"
+    "  file      vertices in the file's order, which scatters them over the bones\n"
+    "  warm      the same character in every frame\n"
+    "  crowd     so many characters in turn that none stays in a cache\n"
+    "  touch     reads and writes the same number of bytes\n"
+    "Eigen and touch are compiled for this machine only, ours for any.\n"
     "\n"
-    "--summary prints one JSON object, of ordered vertices.\n"
-    "  vs_eigen_in_cache    naive Eigen's time by ours, warm, at the size up to 35 thousand "
-    "vertices where it is less\n"
+    "--summary prints one JSON object, for ordered vertices.\n"
+    "  vs_eigen_in_cache    time of naive Eigen / ours, warm; the lower one of the sizes up to\n"
+    "                       35 thousand vertices\n"
     "  vs_eigen_900k        the same at 892 thousand vertices\n"
-    "  vs_touch_900k        our time by that of touching the bytes that we read and write, the "
-    "faster of plain stores and stores\n"
-    "                       around the caches, each with and without asking for memory early; at "
-    "892 thousand vertices\n"
+    "  vs_touch_900k        our time / time of touch, at 892 thousand vertices; touch is the\n"
+    "                       fastest of plain and non-temporal stores, with and without prefetches\n"
     "  vs_touch             the same by size\n"
-    "  two_threads          time on one thread by that on two, by the sample's thread pool, at the "
-    "size from 31 thousand vertices "
-    "on\n"
-    "                       where it is least\n"
+    "  two_threads          time on one thread / time on two, with the sample's thread pool; the\n"
+    "                       lowest of the sizes from 31 thousand vertices on\n"
     "  two_threads_3k       the same at 3.5 thousand\n"
-    "  one_bone_overhead    a frame in which one of 64 bones moved: the mean part of a full "
-    "frame's time that it takes, less the "
-    "part\n"
-    "                       of the vertices that the bone moves; at the size where it is most\n"
-    "  idle_us              set() and deform() of a pose that did not change, at the size where "
-    "they take longest\n"
-    "  max_error_vs_double  metres, of a character 2 m across, at any size\n";
+    "  one_bone_overhead    a frame in which one of 64 bones moved: its mean time as a fraction "
+    "of\n"
+    "                       a full frame, minus the fraction of vertices that the bone moves; the\n"
+    "                       maximum over the sizes\n"
+    "  idle_us              set() and deform() of an unchanged pose, at the slowest size\n"
+    "  max_error_vs_double  metres, for a character of 2 m, at any size\n";
 
 constexpr std::array<int, 4> kDivisions = {1, 3, 7, 16};
 
-/// A way to pose all of a crowd, once.
+/// A way to pose the whole crowd once.
 struct Candidate {
   const char* name;
   std::function<void(std::size_t pose)> run;
   std::vector<double> ns_per_vertex = {};
 };
 
-/// Each in turns; a turn is as many frames as take some two milliseconds or more, after two that do
-/// not count.
+/// Runs the candidates in turns. A turn is as many frames as take about two milliseconds or more,
+/// after two frames that are not counted.
 void measure(std::vector<Candidate>& candidates, double vertices, int turns) {
   const int frames = std::max(6, static_cast<int>(2e6 / vertices));
   for (int turn = 0; turn < turns; ++turn)
@@ -83,7 +76,7 @@ double time_of(const std::vector<Candidate>& candidates, const char* name) {
   return 0;
 }
 
-/// The least of those whose name begins so.
+/// The minimum over the candidates whose name begins with the text.
 double least_time_of(const std::vector<Candidate>& candidates, const char* begin) {
   double least = 0;
   for (const Candidate& candidate : candidates)
@@ -108,7 +101,7 @@ void add_touching(std::vector<Candidate>& candidates, std::deque<CrowdMember>& c
   add("touch, around caches, early", Stores::around_caches, 8192);
 }
 
-/// The same by two threads, each part of the bytes at a time.
+/// The same on two threads, each with a part of the bytes.
 void add_touching_by(samples::ThreadPool& pool, std::vector<Candidate>& candidates,
                      std::deque<CrowdMember>& crowd) {
   static constexpr std::uint32_t kParts = 8;
@@ -163,11 +156,11 @@ Times measure_crowd(const SkinningScene& scene, std::deque<CrowdMember>& crowd, 
           least_time_of(candidates, "by two")};
 }
 
-/// Measures a frame in which little or nothing moved.
+/// Measures a frame in which nothing or one bone moved.
 struct Frames {
   double full_us = 0, set_us = 0, idle_us = 0;
-  double one_bone_share = 0;  ///< Mean part of a full frame.
-  double moved_share = 0;     ///< Mean part of the vertices that one bone moves.
+  double one_bone_share = 0;  ///< Mean, as a fraction of a full frame.
+  double moved_share = 0;     ///< Mean fraction of the vertices that one bone moves.
 };
 
 Frames measure_frames(const SkinningScene& scene, CrowdMember& member) {
@@ -209,7 +202,7 @@ Frames measure_frames(const SkinningScene& scene, CrowdMember& member) {
   return result;
 }
 
-/// Other attributes and layouts, ours alone.
+/// Other attributes and layouts, of our code only.
 std::vector<std::pair<const char*, double>> measure_variants(const SkinningScene& scene) {
   CrowdMember member(scene), twisting(scene, SkinningMethod::dual_quaternion);
   const std::uint32_t count = member.vertices;

@@ -1,6 +1,6 @@
 // Measures tears: the same stroke across about a hundred faces of one surface of 3.5 thousand to
-// 0.9 million points, compared with touching the memory alone, and with CGAL and VTK if they are
-// installed. Each time is the median of many runs; see tear_scene.h.
+// 0.9 million points, compared with reading and writing the memory alone, and with CGAL and VTK if
+// they are installed. Each time is the median of many runs; see tear_scene.h.
 #include <cstdio>
 #include <cstring>
 
@@ -30,7 +30,7 @@ const Scene& scene_in(const benchmark::State& state) {
   return scene_of(static_cast<int>(state.range(0)));
 }
 
-/// Reports the median of what `run` returns, in seconds.
+/// Prints the median of the seconds that `run` returns.
 template <class Run>
 void report_median(benchmark::State& state, const Effort& effort, Run run) {
   state.counters["points"] = scene_in(state).mesh().vertex_count();
@@ -71,8 +71,8 @@ void redo(benchmark::State& state) {
   report_median(state, kUsual, [&] { return tear.run_undo_and_redo().redo; });
 }
 
-/// Divides the time of a warm tear among its steps, measured on a surface of their own; the
-/// remainder is reported too. Both in turns.
+/// Divides the time of a warm tear among its steps, which are measured on a separate surface; the
+/// remainder is reported too. Both are measured in turns.
 void tear_in_stages(benchmark::State& state) {
   RepeatedOperation tear(scene_in(state), tear_along_stroke);
   StagedTear staged(scene_in(state));
@@ -98,8 +98,8 @@ void tear_in_stages(benchmark::State& state) {
   state.counters["us_rest"] = median(whole) * 1e6 - explained_us;
 }
 
-/// Measures finding where a stroke enters the surface in a fresh pose, compared with the pose
-/// alone.
+/// Measures the search for the place where a stroke enters the surface in a new pose, compared with
+/// taking in the pose alone.
 void entry_query(benchmark::State& state) {
   StagedTear staged(scene_in(state));
   std::vector<double> pose_us;
@@ -111,7 +111,7 @@ void entry_query(benchmark::State& state) {
   state.counters["us_pose"] = median(pose_us);
 }
 
-/// create() and the first tear together, and apart.
+/// create() and the first tear, together and separately.
 void create_and_first_tear(benchmark::State& state) {
   RepeatedOperation tear(scene_in(state), tear_along_stroke);
   tear.run();
@@ -148,7 +148,7 @@ void memory(benchmark::State& state) {
   }
 }
 
-/// Baseline: what memory alone costs a tear.
+/// Baseline: the memory accesses of a tear alone.
 template <Caches caches>
 void touch_memory(benchmark::State& state) {
   TouchBaseline baseline(scene_in(state));

@@ -26,8 +26,8 @@ using Attributes = SurfaceMesh::Property_map<Vertex, Floats>;
 
 Point to_point(const Vec3d& p) { return {p.x(), p.y(), p.z()}; }
 
-/// Gives each vertex that corefinement puts on an edge or into a face of the surface the mean of
-/// the corners' floats.
+/// For each vertex that corefinement adds on an edge or face of the surface, interpolates the
+/// floats of the corners.
 class Interpolation : public processing::Corefinement::Default_visitor<SurfaceMesh> {
  public:
   Interpolation(const SurfaceMesh& surface, Attributes attributes)
@@ -62,8 +62,8 @@ class Interpolation : public processing::Corefinement::Default_visitor<SurfaceMe
   }
 
  private:
-  /// Barycentric coordinates of a place in a triangle, or on its first side if the last two corners
-  /// coincide.
+  /// Barycentric coordinates of a position in a triangle, or on its first side if the last two
+  /// corners coincide.
   static std::array<double, 3> barycentric(const Point& a, const Point& b, const Point& c,
                                            const Point& at) {
     if (b == c) {

@@ -6,24 +6,25 @@
 
 namespace sunder::bench {
 
-/// CGAL on the scene's surface in its first pose: what a user of CGAL has next to a tear. Built
-/// where CGAL is.
+/// CGAL on the scene's surface in its first pose: the closest equivalent of a tear. Built if CGAL
+/// is found.
 class CgalPeer {
  public:
   explicit CgalPeer(const Scene& scene);
   ~CgalPeer();
 
-  /// Makes the edges in which the surface meets the rectangle that the stroke sweeps: corefine()
-  /// with exact predicates, and the eight floats of position, normal and texture coordinates of the
-  /// new vertices by its visitor. Weights are not interpolated, lips not opened, the copy of the
-  /// input and of the sheet not counted. @return seconds.
+  /// Creates the edges in which the surface meets the rectangle that the stroke sweeps: corefine()
+  /// with exact predicates, and a visitor that interpolates the eight floats of position, normal
+  /// and texture coordinates of new vertices. Weights are not interpolated and lips are not opened.
+  /// Copying the input and the sheet is not timed. @return seconds.
   double corefine();
-  /// New vertices of the last corefine().
+  /// Number of new vertices of the last corefine().
   [[nodiscard]] std::size_t new_vertices() const;
 
-  /// An AABB tree of the posed faces. @return seconds.
+  /// Builds an AABB tree of the posed faces. @return seconds.
   double build_tree();
-  /// All faces that the rectangle meets, by the tree that build_tree() left. @return seconds.
+  /// Finds all faces that the rectangle meets, by the tree that build_tree() built. @return
+  /// seconds.
   double query_tree();
 
  private:

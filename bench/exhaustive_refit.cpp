@@ -55,8 +55,8 @@ double ExhaustiveRefit::mean_square(std::span<const Influence> influences,
   return std::max(sum, 0.0) / (weights * weights);
 }
 
-/// The least w^T G w of sum one lies inside one of the faces of the simplex, where G w is the same
-/// for all bones of the face.
+/// The minimum of w^T G w with sum 1 lies inside one of the faces of the simplex, where G w is the
+/// same for all bones of the face.
 double ExhaustiveRefit::solve_weights(const Support& support, const Eigen::Vector3d& offset,
                                       double* weights) const {
   const Eigen::Vector4d at(offset.x(), offset.y(), offset.z(), 1);
@@ -128,7 +128,8 @@ double ExhaustiveRefit::least_mean_square(std::size_t maximum, const Vec3d& star
       if ((bits >> i & 1u) != 0) support.bones[support.count++] = i;
     std::vector<Eigen::Vector3d> starts = {Eigen::Vector3d::Zero(),
                                            Eigen::Vector3d(start) - position_};
-    // The place that each bone would give it with most of the weight, and that of equal weights.
+    // Start positions: one per bone, with most of the weight on that bone, and one with equal
+    // weights.
     for (std::size_t heavy = 0; heavy <= support.count; ++heavy) {
       double weights[8];
       for (std::size_t i = 0; i < support.count; ++i)

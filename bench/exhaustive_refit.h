@@ -9,10 +9,9 @@
 
 namespace sunder::bench {
 
-/// The best weights and bind position of a point that can be found with patience, by other means
-/// than `weights` has: every choice of bones, in each the weights by looking at all their subsets,
-/// in turns with the bind position, from several beginnings, without anything that holds the bind
-/// position back.
+/// A reference for the best weights and bind position of a point, by other means than `weights`
+/// has. For every choice of bones it alternates between the weights, by trying all subsets, and the
+/// bind position, from several starts, without regularisation of the bind position.
 class ExhaustiveRefit {
  public:
   /// @param palettes  model_from_bind in each pose.
@@ -23,7 +22,7 @@ class ExhaustiveRefit {
   [[nodiscard]] double mean_square(std::span<const Influence> influences,
                                    const Vec3d& position) const;
   /// Tries all supports of at most `maximum` bones, at most 8.
-  /// @param start  a bind position to begin from, in addition to others.
+  /// @param start  a bind position to start from, in addition to others.
   [[nodiscard]] double least_mean_square(std::size_t maximum, const Vec3d& start) const;
 
  private:
@@ -45,7 +44,8 @@ class ExhaustiveRefit {
   Eigen::Vector3d position_;
   std::vector<std::uint32_t> slots_;
   std::vector<Matrix>
-      moments_;  ///< Mean of N_i^T N_j, where N_i [offset; 1] is how far bone i alone would be off.
+      /// Mean of N_i^T N_j, where N_i [offset; 1] is the error if bone i had all the weight.
+      moments_;
 };
 
 }  // namespace sunder::bench

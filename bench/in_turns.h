@@ -7,16 +7,16 @@
 
 namespace sunder::bench {
 
-/// Something measured in turns with others.
+/// A candidate that is measured in turns with others.
 struct Candidate {
   std::function<double()> run;  ///< Returns seconds.
   Effort effort;                ///< Seconds of one turn.
   int turns = 10;               ///< It takes part in.
-  int warm_up = 3;              ///< Runs before each turn that do not count.
+  int warm_up = 3;              ///< Runs before each turn that are not counted.
   std::vector<double> seconds = {};
 };
 
-/// Each candidate in turn, round after round.
+/// Runs the candidates in turn, round after round.
 void measure_in_turns(std::vector<Candidate>& candidates);
 
 }  // namespace sunder::bench

@@ -15,7 +15,7 @@ class JsonObject {
   void add(const char* name, std::optional<double> value);
   void add(const char* name, const std::vector<std::pair<std::string, double>>& values);
   void add_text(const char* name,
-                const std::string& text);  ///< Without characters that JSON escapes.
+                const std::string& text);  ///< The text must not need escapes in JSON.
   void end();
 
  private:

@@ -17,8 +17,8 @@ namespace {
 constexpr std::uint32_t kBones = 64;  // one unit of height each
 constexpr int kSegments = 1000, kCompared = 20;
 
-/// From inside one side of the tube to inside the next; rising so that no turn of the helix meets
-/// the one before.
+/// From the inside of one side of the tube to the inside of the next side. It rises, so that no
+/// turn of the helix meets the previous one.
 Blade blade_at(int segment, std::uint32_t sides) {
   const double angle = 2 * std::numbers::pi * (segment + 0.4) / sides,
                height = 4 + 0.05 * segment * kBones / sides;

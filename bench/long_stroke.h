@@ -2,15 +2,16 @@
 
 namespace sunder::bench {
 
-/// Microseconds a segment of one stroke of a thousand.
+/// Microseconds per segment of one stroke with a thousand segments.
 struct LongStroke {
-  double first = 0;           ///< The one that enters.
+  double first = 0;           ///< The segment that enters the surface.
   double second_to_21st = 0;  ///< Mean.
   double last_20 = 0;         ///< Mean.
 };
 
-/// A helix on a tube at rest, as many points as a scene of this size; each segment is as long as a
-/// face is wide. What one costs should not depend on how many came before.
+/// The stroke is a helix on a tube at rest with as many points as a scene of this size; each
+/// segment is as long as a face is wide. The cost of a segment should not depend on the number of
+/// segments before it.
 [[nodiscard]] LongStroke time_long_stroke(int divisions);
 
 }  // namespace sunder::bench

@@ -19,7 +19,7 @@ void sweep_caches() {
 
 std::uint64_t bytes_in_use() {
   const struct mallinfo2 info = mallinfo2();
-  return info.uordblks + info.hblkhd;  // what lies in arenas, and what is mapped by itself
+  return info.uordblks + info.hblkhd;  // arenas, and blocks that are mapped separately
 }
 
 }  // namespace sunder::bench

@@ -17,8 +17,8 @@ double seconds_of(Work&& work) {
 
 [[nodiscard]] double median(std::vector<double> values);
 
-/// How often something is measured: `runs` times, or fewer where that takes longer than `seconds`,
-/// but `least_runs` at least.
+/// Number of measurements: `runs`, or fewer if they take longer than `seconds`, but at least
+/// `least_runs`.
 struct Effort {
   int runs = 300;
   double seconds = 10;
@@ -38,10 +38,10 @@ std::vector<double> sample(const Effort& effort, Run run) {
   return samples;
 }
 
-/// Walks 64 MB, so that nothing of what was used before is left in a cache.
+/// Reads 64 MB, so that no earlier data is left in a cache.
 void sweep_caches();
 
-/// Bytes that the process holds from malloc.
+/// Bytes allocated by malloc in this process.
 [[nodiscard]] std::uint64_t bytes_in_use();
 
 }  // namespace sunder::bench

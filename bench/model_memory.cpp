@@ -13,7 +13,7 @@ std::uint64_t bytes_of(const std::vector<T>& values) {
   return values.capacity() * sizeof(T);
 }
 
-/// All that grows with the model.
+/// All arrays that grow with the model.
 std::uint64_t bytes_of(const Mesh& mesh) {
   std::uint64_t bytes = bytes_of(mesh.positions) + bytes_of(mesh.normals) + bytes_of(mesh.tangents);
   for (const auto& uv : mesh.uv_sets) bytes += bytes_of(uv);

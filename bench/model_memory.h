@@ -4,11 +4,11 @@
 
 namespace sunder::bench {
 
-/// Bytes a point that a torn model holds beyond its copy of the character, after a first tear, as
-/// malloc counts them.
+/// Bytes per point that a torn model uses in addition to its copy of the character, after a first
+/// tear, as counted by malloc.
 struct BytesPerPoint {
-  double model = 0;         ///< Connectivity, what finds faces, births, what undo needs.
-  double posed_points = 0;  ///< The places of points in the pose.
+  double model = 0;         ///< Connectivity, search structures for faces, births, data for undo.
+  double posed_points = 0;  ///< Positions of the points in the pose.
 };
 [[nodiscard]] BytesPerPoint bytes_per_point(const Scene& scene);
 

@@ -9,7 +9,7 @@
 namespace sunder::bench {
 namespace {
 
-/// Points as nanoflann asks for them.
+/// The interface through which nanoflann reads points.
 struct Cloud {
   std::span<const Vec3f> points;
 

@@ -6,10 +6,10 @@ namespace sunder::bench {
 
 struct NanoflannClusters {
   RadiusClusters clusters;
-  double build = 0, search = 0;  ///< Seconds: of the tree, and of all else.
+  double build = 0, search = 0;  ///< Seconds: for the tree, and for the rest.
 };
 
-/// The clusters of cluster_by_scan() by nanoflann's k-d tree. Built where nanoflann is.
+/// The clusters of cluster_by_scan(), found by nanoflann's k-d tree. Built if nanoflann is found.
 [[nodiscard]] NanoflannClusters cluster_by_nanoflann(std::span<const Vec3f> points, float radius);
 
 }  // namespace sunder::bench

@@ -9,8 +9,8 @@ namespace sunder::bench {
 // exports nothing else.
 
 /// Naive skinning in Eigen: a 3 x 4 matrix blended from four influences, applied to a position and
-/// a normal, packed arrays.
-/// @param matrices  12 a slot, column after column.
+/// a normal; packed arrays.
+/// @param matrices  12 floats per slot, column by column.
 [[gnu::visibility("default")]] void skin_by_eigen(std::size_t vertices, const float* positions,
                                                   const float* normals, const std::uint16_t* slots,
                                                   const float* weights, const float* matrices,
@@ -18,9 +18,9 @@ namespace sunder::bench {
 
 enum class Stores { plain, around_caches };
 
-/// Reads every vector of `in` and writes every vector of two arrays: the least that any program
-/// needs for as many bytes. Arrays begin at cache lines; rests of less than a line are left out.
-/// @param ahead  bytes that it asks for in advance; 0: it leaves that to the machine.
+/// Reads every vector of `in` and writes every vector of two arrays: the minimum for a program that
+/// handles as many bytes. Arrays begin at cache lines; a remainder of less than a line is left out.
+/// @param ahead  distance of prefetches in bytes; 0: no prefetches.
 [[gnu::visibility("default")]] void touch(const float* in, std::size_t in_floats, float* out_a,
                                           float* out_b, std::size_t out_floats, Stores stores,
                                           std::size_t ahead);

@@ -13,14 +13,14 @@ namespace sunder::bench {
 struct DecompositionFigures {
   std::string name;
   DecompositionReport report;
-  double seconds = 0;  ///< ParticleSet::create(), all of it.
+  double seconds = 0;  ///< The whole of ParticleSet::create().
   double bytes = 0;    ///< Held by the set.
   struct Peer {
     double build = 0, search = 0;
     std::size_t clusters = 0, memberships = 0;
   };
-  Peer scan;                      ///< By Eigen, every point for every centre.
-  std::optional<Peer> nanoflann;  ///< Where it was built.
+  Peer scan;                      ///< By Eigen: every point against every centre.
+  std::optional<Peer> nanoflann;  ///< If it is built.
 
   /// Our time divided by nanoflann's.
   [[nodiscard]] std::optional<double> vs_nanoflann() const;
@@ -34,11 +34,11 @@ inline constexpr double kRange = 0.1;
                                                          const TornModel& model,
                                                          const ModelPose& pose, int runs);
 
-/// Measures a rigged character of about 3,000 points. None without SUNDER_IO or the file; stderr
-/// says so.
+/// Measures a rigged character of about 3,000 points. Nothing without SUNDER_IO or the file; this
+/// is reported on stderr.
 [[nodiscard]] std::optional<DecompositionFigures> measure_cactus(int runs);
 
-/// The particles of a model; ends the program where there are none.
+/// Creates the particles of a model; ends the program on failure.
 [[nodiscard]] std::unique_ptr<ParticleSet> decompose(const TornModel& model, const ModelPose& pose,
                                                      double range);
 

@@ -29,7 +29,8 @@ void require(const Status& status) {
   std::exit(1);
 }
 
-/// Particles in about the wanted number: as many as the square of the range is smaller, nearly.
+/// Chooses the range for about the requested number of particles, which is roughly proportional to
+/// 1 / range².
 std::unique_ptr<ParticleSet> decompose_into(const Scene& scene, std::uint32_t wanted) {
   double range = kRange;
   std::unique_ptr<ParticleSet> set;
@@ -48,7 +49,7 @@ SkinnedMesh make_mesh(const Scene& scene) {
   return std::move(*mesh);
 }
 
-/// Vertices as a frame poses them, displaced and not.
+/// Vertices posed as in a frame, with and without displacements.
 class Frame {
  public:
   explicit Frame(const Scene& scene)
@@ -59,7 +60,7 @@ class Frame {
   struct Seconds {
     double displaced = 0, plain = 0;
   };
-  /// The two one after the other; which is first alternates.
+  /// Measures both, one after the other, in alternating order.
   Seconds run(const TornModel& model, const ModelPose& pose, const ParticleSet& set,
               SoftBody& body) {
     require(palette_.set(skin_, pose));
@@ -105,7 +106,7 @@ std::uint32_t count(std::span<const IndexRange> ranges) {
   return sum;
 }
 
-/// Pushes every particle some other way, as far as a part of its range.
+/// Pushes every particle in another direction, by a fraction of its range.
 void push(const ParticleSet& set, const SoftMaterial& material, test::Random& random,
           SoftBody& body) {
   const double speed = 0.2 * std::sqrt(material.return_stiffness);  // times the range
@@ -134,7 +135,7 @@ StepFigures measure_steps(int divisions, std::uint32_t particles, int frames) {
   test::Random random(1);
   Frame frame(scene);
   std::vector<double> steps, displacing, sums, plain;
-  for (int i = -kFramesAPush; i < frames; ++i) {  // the first ones warm up
+  for (int i = -kFramesAPush; i < frames; ++i) {  // the first frames warm up
     if (i % kFramesAPush == 0) push(*set, materials[0], random, body);
     const ModelPose& pose = scene.next_pose();
     const double step = seconds_of([&] { require(body.step(model, pose, kStep)); });

@@ -1,8 +1,8 @@
 // Measures the faces of a model after a thousand random tears: their number, and their smallest
-// angles in bind space. Prints one JSON
-// object a run: tears without width, then tears of which every other has one.
+// angles in bind space. Prints one JSON object per run: one run of tears without width, one in
+// which every other tear has a width.
 //
-// bench_quality [model file]
+//   bench_quality [model file]
 #include <sunder/io/character_file.h>
 
 #include <chrono>
@@ -19,7 +19,7 @@ namespace {
 
 constexpr int kTears = 1000;
 
-/// The bunny is one rigid part; four bones along it make it bend.
+/// The bunny is one rigid part; four bones along it let it bend.
 Character model_or_ball(const std::string& file) {
   if (std::filesystem::exists(file)) {
     auto loaded = load_character(file);

@@ -4,7 +4,7 @@ namespace sunder::bench {
 
 RadiusClusters cluster_by_scan(std::span<const Vec3f> points, float radius) {
   const auto count = static_cast<Eigen::Index>(points.size());
-  // Coordinate by coordinate, so that Eigen's vectors are full.
+  // One array per coordinate, so that Eigen's vectors are full.
   const Eigen::Array<float, Eigen::Dynamic, 3> places =
       Eigen::Map<const Eigen::Array<float, Eigen::Dynamic, 3, Eigen::RowMajor>>(
           count == 0 ? nullptr : points[0].data(), count, 3);

@@ -8,12 +8,12 @@
 
 namespace sunder::bench {
 
-/// Clusters of points by distance in a straight line, which overlap: the first point that is in
-/// none becomes a centre, and all within the radius are its cluster.
+/// Overlapping clusters of points by straight-line distance: the first point that is in no cluster
+/// becomes a centre, and all points within the radius form its cluster.
 struct RadiusClusters {
   std::vector<std::uint32_t> centres;
   std::vector<std::uint32_t>
-      first;  ///< Per cluster its first entry in `members`, and at the end their number.
+      first;  ///< Per cluster the offset of its first entry in `members`; the total at the end.
   std::vector<std::uint32_t> members;  ///< In any order.
 };
 
@@ -34,7 +34,7 @@ RadiusClusters cluster_by_radius(std::size_t points, Search&& search) {
   return clusters;
 }
 
-/// Baseline: Eigen's distances of all points to each centre.
+/// Baseline: distances of all points to each centre, by Eigen.
 [[nodiscard]] RadiusClusters cluster_by_scan(std::span<const Vec3f> points, float radius);
 
 }  // namespace sunder::bench

@@ -6,11 +6,11 @@
 
 namespace sunder::bench {
 
-/// How the caches are before something is timed.
+/// State of the caches before the measured operation.
 enum class Caches : std::uint8_t { warm, swept };
 
-/// Does one operation and takes it back, again and again, on the scene's model and with one change
-/// record, each time in another pose.
+/// Repeats one operation and its undo on the scene's model, with one change record, each time in
+/// another pose.
 class RepeatedOperation {
  public:
   using Work = Result<TearReport> (*)(const Scene& scene, const ModelPose& pose,
@@ -18,19 +18,20 @@ class RepeatedOperation {
 
   RepeatedOperation(const Scene& scene, Work work) : scene_(scene), work_(work) {}
 
-  /// @return the seconds that the operation took; it is taken back outside of what is measured.
+  ///
+  /// @return seconds of the operation; its undo is not timed.
   double run(Caches caches = Caches::warm);
 
   struct Seconds {
     double undo = 0, redo = 0;
   };
-  /// Does the operation, takes it back, does it again and takes it back once more.
+  /// Does the operation, undoes, redoes and undoes it again.
   Seconds run_undo_and_redo();
 
   // Results of the last run.
   TearReport report;
-  std::uint64_t allocations = 0;       ///< By the operation alone.
-  std::uint64_t undo_allocations = 0;  ///< By taking it back.
+  std::uint64_t allocations = 0;       ///< By the operation.
+  std::uint64_t undo_allocations = 0;  ///< By its undo.
 
  private:
   void take_back();
@@ -48,10 +49,10 @@ Result<TearReport> cut_in_two(const Scene& scene, const ModelPose& pose, ChangeR
 Result<TearReport> cut_with_caps(const Scene& scene, const ModelPose& pose, ChangeRecord& change);
 Result<TearReport> drill_through(const Scene& scene, const ModelPose& pose, ChangeRecord& change);
 
-/// Seconds that a fresh model takes before it tears at full speed.
+/// Seconds until a new model tears at full speed.
 struct FirstTear {
   double create = 0;
-  double tear = 0;  ///< The first one, with whatever is built when it is first needed.
+  double tear = 0;  ///< The first tear, with all structures that are built on first use.
 };
 [[nodiscard]] FirstTear time_first_tear(const Scene& scene);
 

@@ -9,7 +9,7 @@
 
 namespace sunder::bench {
 
-/// Floats from the start of a cache line on.
+/// An array of floats that begins at a cache line.
 class LineFloats {
  public:
   explicit LineFloats(std::size_t count);
@@ -25,13 +25,14 @@ class LineFloats {
 /// The subdivided bunny on 64 bones, up to four influences per vertex, and poses in which every
 /// bone moved.
 struct SkinningScene {
-  /// @param ordered  whether its vertices are in order_for_skinning(); otherwise as the file has
-  /// them.
+  ///
+  /// @param ordered  whether its vertices are in order_for_skinning(); otherwise in the file's
+  ///         order.
   SkinningScene(int divisions, bool ordered);
 
   [[nodiscard]] const Mesh& mesh() const { return character.meshes[0]; }
   [[nodiscard]] std::uint32_t vertex_count() const { return mesh().vertex_count(); }
-  /// Two, so that each frame differs from the one before in all bones.
+  /// Two poses, so that each frame differs from the previous one in all bones.
   static constexpr std::size_t kPoses = 2;
 
   Character character;
@@ -39,24 +40,25 @@ struct SkinningScene {
   std::array<std::vector<Affine3f>, kPoses> matrices;
 };
 
-/// One of a crowd: all arrays its own, for ours, for Eigen and for the touching of bytes.
+/// One character of a crowd, with arrays of its own for our code, for Eigen and for the memory
+/// baseline.
 struct CrowdMember {
   CrowdMember(const SkinningScene& scene, SkinningMethod method = SkinningMethod::linear);
 
   void pose_by_eigen(const SkinningScene& scene, std::size_t pose);
-  /// Everything anew: the pose is another palette's.
+  /// Everything changes: the pose belongs to another palette.
   void pose_by_ours(std::size_t pose, PosedBuffer& buffer, const ParallelFor& parallel_for = {});
 
   std::uint32_t vertices;
   SkinnedMesh mesh;
-  std::vector<BonePalette> palettes;  ///< One a pose of the scene.
+  std::vector<BonePalette> palettes;  ///< One per pose of the scene.
   LineFloats in, positions, normals, tangents, interleaved, bind_positions, bind_normals;
   std::vector<std::uint16_t> slots;
   std::vector<float> weights;
   PosedBuffer buffer;  ///< Positions and normals, packed.
 };
 
-/// Maximum error against double, of a character 2 m across: in metres, and of unit normals.
+/// Maximum error against double, for a character of 2 m: in metres, and of unit normals.
 struct SkinningError {
   double position = 0, normal = 0;
 };

@@ -10,7 +10,7 @@
 namespace sunder::bench {
 namespace {
 
-/// Reads an OFF file of triangles. @return whether there was one.
+/// Reads an OFF file of triangles. @return whether the file exists.
 bool read_off(const std::string& file, Mesh& mesh) {
   std::ifstream stream(file);
   std::string word;
@@ -41,8 +41,8 @@ Character make_base() {
   return test::make_bumpy_ball(3486);
 }
 
-/// Numbers the points of subdivided triangles: corners first, then those inside edges, shared by
-/// both faces, and inside faces.
+/// Indices of the points of subdivided triangles: corners first, then points inside edges, which
+/// both faces share, then points inside faces.
 class Subdivision {
  public:
   Subdivision(const Mesh& base, int divisions, Mesh& mesh)
@@ -53,7 +53,7 @@ class Subdivision {
   void add(const Triangle& triangle) {
     const int n = divisions_;
     std::vector<std::uint32_t> row_before, row;
-    for (int i = 0; i <= n; ++i) {  // from the first corner to the far side
+    for (int i = 0; i <= n; ++i) {  // from the first corner to the opposite side
       row.clear();
       for (int j = 0; j <= i; ++j) row.push_back(point(triangle, n - i, i - j, j));
       for (int j = 0; i > 0 && j < i; ++j) {
@@ -65,7 +65,7 @@ class Subdivision {
   }
 
  private:
-  /// The point at parts / divisions of a triangle's corners.
+  /// The point of a triangle with barycentric coordinates parts / divisions.
   std::uint32_t point(const Triangle& t, int a, int b, int c) {
     if (a == divisions_) return t[0];
     if (b == divisions_) return t[1];
@@ -98,7 +98,7 @@ class Subdivision {
   std::map<std::array<std::uint32_t, 2>, std::uint32_t> first_on_edge_;
 };
 
-/// Unit normals, weighted by area, and texture coordinates that look along z.
+/// Unit normals, weighted by area, and texture coordinates projected along z.
 void add_normals_and_uvs(Mesh& mesh) {
   std::vector<Vec3d> sums(mesh.vertex_count(), Vec3d::Zero());
   for (const Triangle& t : mesh.triangles) {

@@ -19,7 +19,7 @@ constexpr std::uint32_t kBones = 64;
 constexpr std::uint32_t kWantedFaces = 100;
 constexpr std::size_t kPoses = 8;
 
-/// All bones turned alike, so that the chain is an arc of `angle` radians.
+/// All bones rotate by the same angle, so that the chain is an arc of `angle` radians.
 ModelPose bend(const Character& character, double angle) {
   Pose pose = local_rest_pose(character);
   const Quatd turn(Eigen::AngleAxisd(angle / kBones, Eigen::Vector3d::UnitY()));
@@ -30,12 +30,12 @@ ModelPose bend(const Character& character, double angle) {
   return result;
 }
 
-/// Parallel blades that reach from outside the box around the posed model to its middle, side by
-/// side along its flank.
+/// Parallel blades next to each other along the side of the posed model, from outside its box to
+/// its middle.
 Stroke stroke_of_length(const Eigen::AlignedBox3d& box, double length) {
   constexpr int kSegments = 4;
   constexpr double kSlope =
-      -25 * std::numbers::pi / 180;  // where the bunny's flank is longest and has no folds
+      -25 * std::numbers::pi / 180;  // where the bunny's side is longest and has no folds
   const Vec3d middle =
       box.min() + Eigen::Vector3d(box.sizes().cwiseProduct(Eigen::Vector3d(0.52, 0.3, 0.5)));
   const Vec3d along(std::cos(kSlope), std::sin(kSlope), 0), outwards(0, 0, -0.6 * box.sizes().z());
@@ -47,7 +47,7 @@ Stroke stroke_of_length(const Eigen::AlignedBox3d& box, double length) {
   return stroke;
 }
 
-/// Makes the stroke as long as it takes to cross the wanted number of faces in the first pose.
+/// Extends the stroke until it crosses the requested number of faces in the first pose.
 void fit_stroke(const Eigen::AlignedBox3d& box, Scene& scene) {
   double shorter = 0, longer = box.sizes().x();
   for (int i = 0;

@@ -13,28 +13,29 @@ namespace sunder::bench {
 inline constexpr std::array<int, 4> kDivisions = {1, 3, 7, 16};
 inline constexpr int kSmallest = kDivisions.front(), kLargest = kDivisions.back();
 
-/// "3k", "31k", "171k", "900k"; of two divisions "14k".
+/// "3k", "31k", "171k", "900k"; "14k" for two divisions.
 [[nodiscard]] std::string size_name(int divisions);
 
-/// One surface at one of four sizes, skinned to 64 bones, in a bend, and a stroke across about a
-/// hundred of its faces: at each size from the same place in the same direction, the shorter the
-/// smaller the faces are.
+/// One surface at one of four sizes, skinned to 64 bones and bent, and a stroke across about a
+/// hundred of its faces. The stroke has the same start and direction at each size, and is shorter
+/// if the faces are smaller.
 ///
-/// The surface is the Stanford bunny (../shared/models) or, where that is absent, a ball with bumps
-/// of about as many points. The stroke has four segments whose blades lie in one plane and are
-/// parallel, so what it sweeps is one rectangle.
+/// The surface is the Stanford bunny (../shared/models) or, if that is absent, a ball with bumps
+/// and about as many points. The stroke has four segments with parallel blades in one plane, so it
+/// sweeps a rectangle.
 struct Scene {
   std::shared_ptr<const Character> character;  ///< One mesh with normals and one UV set.
-  std::vector<ModelPose> poses;  ///< Bends that differ by less than a face is wide: the stroke
-                                 ///< crosses about the same faces.
+  /// Bends that differ by less than the width of a face, so that the stroke crosses about the same
+  /// faces.
+  std::vector<ModelPose> poses;
   Stroke stroke;
   std::uint32_t faces_crossed = 0;  ///< By the stroke, in the first pose.
   PlaneCut middle_plane;            ///< Through the mean of the points, across the longest axis.
 
   [[nodiscard]] const Mesh& mesh() const { return character->meshes[0]; }
-  /// Whoever does something with it takes it back.
+  /// Users must undo their changes.
   [[nodiscard]] TornModel& model() const { return *model_; }
-  /// A pose other than that of the call before.
+  /// Another pose than in the previous call.
   [[nodiscard]] const ModelPose& next_pose() const { return poses[++turn_ % poses.size()]; }
 
  private:
@@ -44,7 +45,7 @@ struct Scene {
   mutable std::size_t turn_ = 0;
 };
 
-/// The scene of a size; made when it is first asked for, then kept.
+/// The scene of a size; created on first use, then kept.
 [[nodiscard]] const Scene& scene_of(int divisions);
 
 /// Posed positions of the scene's mesh by the double-precision reference.

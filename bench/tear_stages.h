@@ -8,13 +8,12 @@ namespace sunder::bench {
 
 /// Seconds per stage of a tear.
 struct Stages {
-  double pose = 0;     ///< The new pose is taken in.
-  double query = 0;    ///< Finding where the stroke enters the surface.
-  double imprint = 0;  ///< Its path becomes edges; new vertices get their attributes.
-  double attributes =
-      0;               ///< A part of `imprint`: the attributes and weights of those vertices alone.
-  double open = 0;     ///< The surface opens along the edges.
-  double improve = 0;  ///< Turning edges along the tear.
+  double pose = 0;           ///< Taking in the new pose.
+  double query = 0;          ///< Finding where the stroke enters the surface.
+  double imprint = 0;        ///< Turning the path into edges, with attributes of new vertices.
+  double attributes = 0;     ///< Part of `imprint`: the attributes and weights of those vertices.
+  double open = 0;           ///< Opening the surface along the edges.
+  double improve = 0;        ///< Turning edges along the tear.
   double change_record = 0;  ///< Writing the change record.
 
   [[nodiscard]] double sum() const {
@@ -22,8 +21,7 @@ struct Stages {
   }
 };
 
-/// A tear in slow motion: the steps that a stroke takes, on a surface of its own, each timed
-/// and all taken back.
+/// The steps of a tear, on a separate surface, each timed; all are undone.
 class StagedTear {
  public:
   explicit StagedTear(const Scene& scene);
@@ -36,7 +34,7 @@ class StagedTear {
  private:
   void begin_pose(Stages& stages);
   void tear_segment(const Blade& from, const Blade& to, Stages& stages);
-  /// The interpolation of these births once more, on arrays of the model's size.
+  /// Interpolates these births again, on arrays of the model's size.
   double time_attributes();
 
   const Scene& scene_;

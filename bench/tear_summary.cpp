@@ -76,7 +76,7 @@ double measure_query() {
   return median(sample({100, 2}, [&] { return staged.run_query().query; }));
 }
 
-/// Seconds that a fresh model takes at the largest size until its first tear is done.
+/// Seconds until a new model has done its first tear, at the largest size.
 double measure_first_tear() {
   return median(sample({3, 20}, [] {
     const FirstTear first = time_first_tear(scene_of(kLargest));
@@ -106,11 +106,11 @@ void print_summary() {
   const double faces = scene_of(kLargest).mesh().triangle_count(), query = measure_query(),
                first = measure_first_tear();
   const std::optional<double> vtk = cut_by_vtk();
-  double nanoseconds_a_face = 0;
+  double nanoseconds_per_face = 0;
   Figures warm_us = {}, cold_us = {}, points = {};
   for (std::size_t i = 0; i < kDivisions.size(); ++i) {
-    nanoseconds_a_face =
-        std::max(nanoseconds_a_face, tears.warm[i] * kNanoseconds / tears.faces_crossed[i]);
+    nanoseconds_per_face =
+        std::max(nanoseconds_per_face, tears.warm[i] * kNanoseconds / tears.faces_crossed[i]);
     warm_us[i] = tears.warm[i] * kMicroseconds;
     cold_us[i] = tears.cold[i] * kMicroseconds;
     points[i] = scene_of(kDivisions[i]).mesh().vertex_count();
@@ -122,7 +122,7 @@ void print_summary() {
   object.add("warm_growth_3k_900k", tears.warm.back() / tears.warm.front());
   object.add("speedup_cgal_3k", by_tear(tears.cgal_smallest, tears.warm.front()));
   object.add("speedup_cgal_900k", by_tear(tears.cgal_largest, tears.warm.back()));
-  object.add("ns_per_crossed_face", nanoseconds_a_face);
+  object.add("ns_per_crossed_face", nanoseconds_per_face);
   object.add("build_ns_per_face", (first - tears.warm.back()) * kNanoseconds / faces);
   object.add("bytes_per_point", bytes.model);
   object.add("posed_bytes_per_point", bytes.posed_points);

@@ -2,7 +2,7 @@
 
 namespace sunder::bench {
 
-/// Measures in a few minutes what tears cost, all candidates in turns, and prints one JSON object
+/// Measures the cost of tears in a few minutes, all candidates in turns, and prints one JSON object
 /// to stdout.
 void print_summary();
 

@@ -4,9 +4,9 @@
 
 namespace sunder::bench {
 
-/// Lower bound of a tear: reads once what the faces crossed have, three vertices each with all
-/// attributes and weights, at random places in arrays of the model's size, and writes once the new
-/// vertices, two a face, and triangles.
+/// Lower bound for a tear: reads once the crossed faces, three vertices each with all attributes
+/// and weights, at random places in arrays of the model's size, and writes once the new vertices,
+/// two per face, and triangles.
 class TouchBaseline {
  public:
   explicit TouchBaseline(const Scene& scene);

@@ -7,8 +7,8 @@
 namespace sunder::bench {
 
 /// VTK on the scene's surface in its first pose: vtkPolyDataPlaneClipper keeps one side of the
-/// middle plane, on one thread, and interpolates normals and texture coordinates. Not weights; the
-/// cut stays without caps, its parts unnamed. Built where VTK is.
+/// middle plane, on one thread, and interpolates normals and texture coordinates. It does not
+/// interpolate weights, close the cut, or identify its parts. Built if VTK is found.
 class VtkPeer {
  public:
   explicit VtkPeer(const Scene& scene);

@@ -43,7 +43,7 @@ struct Squares {
   }
 };
 
-/// Solves a problem of N bones from the root of its start. @return the weights.
+/// Solves a problem of N bones, starting from the square root of its start. @return the weights.
 template <int N, class Solve>
 double mean_square_of(const WeightProblem& problem, Solve&& solve) {
   using Parameters = typename Squares<N>::Parameters;
@@ -115,7 +115,7 @@ SolverFigures run_ceres(const std::vector<WeightProblem>& problems) {
              []<int N>(const Squares<N>& residual, Eigen::Matrix<double, N, 1>& x) {
                ceres::Problem problem;
                problem.AddResidualBlock(new SquaresCost<N>(residual), nullptr,
-                                        x.data());  // which the problem owns
+                                        x.data());  // The problem takes ownership.
                ceres::Solver::Options options;
                options.linear_solver_type = ceres::DENSE_QR;
                options.logging_type = ceres::SILENT;

@@ -6,8 +6,8 @@
 
 namespace sunder::bench {
 
-/// Weights w >= 0 with sum 1, at most four, for which A w is closest to b: three rows per pose,
-/// sixteen poses, a column per bone.
+/// A problem: weights w >= 0 with sum 1, at most four of them, that minimise |A w - b|. A has three
+/// rows per pose, sixteen poses, and a column per bone.
 struct WeightProblem {
   static constexpr int kRows = 48;
   Eigen::Matrix<double, kRows, Eigen::Dynamic, 0, kRows, 4> matrix;  ///< A.
@@ -15,16 +15,17 @@ struct WeightProblem {
   Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 4, 1> start;           ///< w, all > 0.
 };
 
-/// The time that another solver takes for such problems, and the quality of its weights.
+/// The time of another solver for such problems, and the quality of its weights.
 struct SolverFigures {
   const char* name = "";
-  double microseconds = 0;           ///< A problem: the least of many runs over all of them.
-  std::vector<double> mean_squares;  ///< One a problem: |A w - b|^2 by the number of poses.
+  double microseconds = 0;  ///< Per problem; the minimum of many runs over all of them.
+  /// One per problem: |A w - b|^2 divided by the number of poses.
+  std::vector<double> mean_squares;
 };
 
-/// Those that were found when this was built: Levenberg-Marquardt by ceres::TinySolver, and by a
-/// ceres::Problem for each problem. Both with weights as squares by their sum, and derivatives by
-/// hand.
+/// The solvers found by the build: Levenberg-Marquardt by ceres::TinySolver, and by a
+/// ceres::Problem per problem. Both represent weights as squares divided by their sum, with
+/// analytic derivatives.
 [[nodiscard]] std::vector<SolverFigures> run_other_solvers(
     const std::vector<WeightProblem>& problems);
 

@@ -30,7 +30,7 @@ void undo(TornOnce& torn) {
   if (!torn.model.undo()) std::abort();
 }
 
-/// One a point and pose, in metres.
+/// One per point and pose, in metres.
 void append_errors(const TornModel& model, std::span<const ModelPose> poses,
                    std::vector<double>& errors) {
   for (const ModelPose& pose : poses)
@@ -59,8 +59,8 @@ PolicyErrors::OverPoses measure_over(WeightsModel& model, const WeightOptions& o
   return {statistics_of(fit, model.diagonal), statistics_of(held_out, model.diagonal)};
 }
 
-/// The largest error in the pose of the tear, without points for which solve_bind_position() has
-/// nothing.
+/// The largest error in the pose of the tear, without points for which solve_bind_position() has no
+/// solution.
 double largest_pop(const TornOnce& torn, bool is_pose_exact) {
   const Character& character = torn.model.character();
   const auto palettes = palettes_of(character, torn.pose);
@@ -75,7 +75,7 @@ double largest_pop(const TornOnce& torn, bool is_pose_exact) {
   return largest;
 }
 
-/// A mesh of a torn model, as an engine poses it.
+/// A mesh of a torn model, posed as in an engine.
 struct Posed {
   const Mesh* mesh;
   SkinnedMesh skinned;

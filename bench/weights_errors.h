@@ -18,16 +18,17 @@ struct PolicyErrors {
   };
   std::optional<OverPoses> clips;  ///< As WeightsModel::clips.
   OverPoses range_of_motion;
-  double pop = 0;  ///< The largest in the pose of the tear; of `pose_exact`, where it can be met.
-  std::uint32_t ill_conditioned = 0;  ///< Points of `pose_exact` that fell back.
+  /// The largest error in the pose of the tear; for `pose_exact`, of points that can meet the pose.
+  double pop = 0;
+  std::uint32_t ill_conditioned = 0;  ///< Number of points of `pose_exact` that fell back.
 };
 
-/// Weighs the points of all tears, measures, and takes it back. `refit` is fitted to the set of
-/// poses that it is measured on.
+/// Weighs the points of all tears, measures, and undoes this. `refit` is fitted to the same poses
+/// over which it is measured.
 [[nodiscard]] PolicyErrors measure_policy(WeightsModel& model, const WeightOptions& options);
 
-/// How far `exact` points of SkinnedMesh, which is in float, stand from where they belong, over all
-/// poses, in double: the largest, in parts of the diagonal.
+/// Largest distance of `exact` points in SkinnedMesh, which computes in float, from their exact
+/// positions over all poses, as a fraction of the diagonal.
 [[nodiscard]] double largest_runtime_error(WeightsModel& model);
 
 }  // namespace sunder::bench

@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t kSolverPoses = 16;
 constexpr std::size_t kExhaustivePoints = 60;
 constexpr std::size_t kExhaustiveBones = 8;
-/// Parts of the diagonal that are no more than this are rounding: positions are stored in float.
+/// Smaller errors, as fractions of the diagonal, are rounding: positions are stored in float.
 constexpr double kNothing = 1e-7;
 
 std::vector<WeightOptions> all_options() {
@@ -56,7 +56,8 @@ double measure_vs_exhaustive(const WeightsModel& model, const Poses& poses) {
              : 1.0;
 }
 
-/// A column a bone of the fit: how far it alone would be off, so that the target is zero.
+/// A column per bone of the fit: the error if that bone had all the weight, so that the target is
+/// zero.
 WeightProblem problem_of(const PointsToWeigh& points, std::size_t i,
                          std::span<const Influence> influences, double diagonal) {
   WeightProblem problem;
@@ -108,7 +109,7 @@ double middle_of(std::vector<double> values) {
   return 0.5 * (values[(values.size() - 1) / 2] + values[values.size() / 2]);
 }
 
-/// None where there is nothing to gain: where one bone moves all points.
+/// Nothing if there is nothing to gain, because one bone moves all points.
 std::optional<double> gain(double barycentric, double refit) {
   if (barycentric <= kNothing) return std::nullopt;
   return barycentric / std::max(refit, kNothing);

@@ -10,16 +10,17 @@ namespace sunder::bench {
 
 struct PolicyRow {
   WeightOptions options;
-  double microseconds = 0;  ///< A point; over the model's usual poses.
+  double microseconds = 0;  ///< Per point, over the model's usual poses.
   PolicyErrors errors;
 };
 
-/// The convex problems of a model's points, sixteen poses, weights alone, at most four: by
-/// PointRefit, and as others get them.
+/// The convex problems of a model's points (sixteen poses, weights only, at most four): solved by
+/// PointRefit, and in a form for other solvers.
 struct SolverInput {
   std::vector<WeightProblem>
-      problems;  ///< Points that keep more than one bone: these bones alone, with diagonal 1.
-  double microseconds = 0;           ///< PointRefit's for the same points, of all their bones.
+      /// Points that keep more than one bone: with these bones only, scaled to diagonal 1.
+      problems;
+  double microseconds = 0;           ///< PointRefit's time per point, with all its bones.
   std::vector<double> mean_squares;  ///< Results of PointRefit, one per problem.
 };
 
@@ -28,11 +29,12 @@ struct ModelFigures {
   std::size_t points = 0;
   double diagonal = 0;  ///< Metres.
   std::vector<PolicyRow> rows;
-  double runtime_error = 0;   ///< largest_runtime_error().
-  double vs_exhaustive = 0;   ///< Root mean square of fits by that of ExhaustiveRefit; of both sets
-                              ///< of poses, the larger one.
+  double runtime_error = 0;  ///< largest_runtime_error().
+  /// Root mean square error of fits, divided by that of ExhaustiveRefit; the larger one of both
+  /// pose sets.
+  double vs_exhaustive = 0;
   double barycentric_us = 0;  ///< K = 4.
-  double refit_us = 0;        ///< PointRefit alone: weights alone, K = 4, sixteen poses.
+  double refit_us = 0;        ///< PointRefit only: weights only, K = 4, sixteen poses.
   SolverInput solvers;
 
   [[nodiscard]] const PolicyRow& row(const WeightOptions& options) const;
@@ -40,7 +42,7 @@ struct ModelFigures {
   [[nodiscard]] std::optional<double> gain_range_of_motion() const;
 };
 
-/// All that is measured of a model.
+/// All measurements of a model.
 [[nodiscard]] ModelFigures measure_model(WeightsModel& model);
 
 struct Summary {

@@ -15,7 +15,7 @@ std::string number_of(std::uint32_t maximum) {
   return maximum == 0 ? "all" : std::to_string(maximum);
 }
 
-/// The median over models of what `figure` finds in one row of each.
+/// The median over models of the value that `figure` reads from one row of each.
 void print_median(const std::vector<ModelFigures>& models, std::size_t row,
                   const std::function<std::optional<double>(const PolicyRow&)>& figure) {
   std::vector<double> values;
@@ -36,7 +36,8 @@ void print_policies(const std::vector<ModelFigures>& models) {
   std::printf(
       "Medians over %zu models; errors in per cent of the diagonal, of clips and of a range of "
       "motion (ROM).\n\n"
-      "| policy | K | µs a point | clips: fit, RMS | held out, RMS | 95 %% | max | ROM: fit, RMS | "
+      "| policy | K | µs per point | clips: fit, RMS | held out, RMS | 95 %% | max | ROM: fit, RMS "
+      "| "
       "held out, RMS | 95 %% | max | "
       "pop | fell "
       "back |\n"
@@ -77,12 +78,12 @@ void print_gain(std::optional<double> gain) {
 
 void print_models(const std::vector<ModelFigures>& models) {
   std::printf(
-      "\nBy model, K = 4: gain is the RMS of barycentric weights by that of the refit, on poses "
-      "held out.\n\n"
-      "| model | points | gain, clips | gain, ROM | refit by exhaustive search | exact, in float, "
+      "\nBy model, K = 4: gain is the RMS of barycentric weights / that of the refit, on "
+      "held-out poses.\n\n"
+      "| model | points | gain, clips | gain, ROM | refit / exhaustive search | exact, in float, "
       "max of diagonal | barycentric, "
       "µs | refit of "
-      "weights alone, µs |\n"
+      "weights only, µs |\n"
       "|---|---|---|---|---|---|---|---|\n");
   for (const ModelFigures& model : models) {
     std::printf("| %s | %zu |", model.name.c_str(), model.points);
@@ -106,7 +107,8 @@ void print_solvers(const std::vector<ModelFigures>& models,
       "\nThe same %.0f convex problems, 16 poses, weights alone. PointRefit chooses up to four of "
       "all bones; the others get "
       "these.\n\n"
-      "| solver | µs a problem | RMS by PointRefit's |\n|---|---|---|\n| PointRefit | %.2f | 1 |\n",
+      "| solver | µs per problem | RMS / PointRefit's |\n|---|---|---|\n| PointRefit | %.2f | 1 "
+      "|\n",
       problems, microseconds / problems);
   for (const SolverFigures& solver : solvers) {
     double of_solver = 0;

@@ -30,7 +30,7 @@ struct LogAxis {
   }
 };
 
-/// Colours of Okabe and Ito, which those tell apart who do not see all of them.
+/// Colours of Okabe and Ito, which can be told apart with colour vision deficiencies.
 const char* colour_of(WeightPolicy policy) {
   switch (policy) {
     case WeightPolicy::barycentric: return "#000000";
@@ -57,7 +57,7 @@ void draw_mark(std::FILE* out, double x, double y, double size, const WeightOpti
                  y - 1.2 * size, 1.2 * size, 2.1 * size, -2.4 * size, colour, look);
 }
 
-/// Marks that lie on each other are all seen.
+/// Size of the mark of the median. It falls with K, so that coinciding marks are all visible.
 double median_size(std::uint32_t maximum) { return maximum == 4 ? 9.5 : maximum == 8 ? 7.5 : 5.5; }
 
 void draw_text(std::FILE* out, double x, double y, const char* anchor, const std::string& text,

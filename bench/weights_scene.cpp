@@ -57,8 +57,8 @@ TornPoint describe_point(const Character& source, const TornModel& model, std::u
   return point;
 }
 
-/// Strokes that miss, or tear what single bones move, of which no policy has to decide anything,
-/// are drawn again.
+/// Strokes are drawn again if they miss, or tear only places that a single bone moves, where all
+/// policies are equal.
 TornOnce tear_once(const std::shared_ptr<const Character>& character, test::Random& random) {
   for (int i = 0; i < 100; ++i) {
     auto model = TornModel::create(character);

@@ -12,7 +12,7 @@
 
 namespace sunder::bench {
 
-/// A point that a tear made between vertices of the source.
+/// A point that a tear created between vertices of the source.
 struct TornPoint {
   std::uint32_t mesh = 0, vertex = 0;      ///< The first of the vertices that share it.
   Triangle corners = {};                   ///< Vertices of the source.
@@ -22,14 +22,14 @@ struct TornPoint {
   AnimationPoint exact;            ///< Likewise.
 
   [[nodiscard]] Vec3d position() const;  ///< In bind space.
-  /// Its wanted place in a pose: between the posed corners.
+  /// Its exact position in a pose: between the posed corners.
   [[nodiscard]] Vec3d posed(const Character& source, std::span<const Affine3d> model_from_bind,
                             std::span<const float> morph_weights) const;
 };
 
 /// A model with one tear.
 struct TornOnce {
-  ModelPose pose;  ///< In which it was torn.
+  ModelPose pose;  ///< The pose in which it was torn.
   TornModel model;
   std::vector<TornPoint> points;
 };
@@ -44,18 +44,18 @@ struct WeightsModel {
   std::string name;
   std::shared_ptr<const Character> character;
   double diagonal =
-      0;  ///< Diagonal of the box around it at rest, metres. (Bind space may be in other units.)
+      0;  ///< Diagonal of the box around it at rest, metres. (Bind space may have another unit.)
   std::vector<TornOnce> tears;
-  std::optional<Poses> clips;  ///< None where the model has no clip that lasts.
+  std::optional<Poses> clips;  ///< Empty if the model has no clip of non-zero duration.
   Poses range_of_motion;
 
   [[nodiscard]] std::size_t point_count() const;
-  /// Its clips, or what it has instead.
+  /// Its clips, or a substitute.
   [[nodiscard]] const Poses& usual_poses() const { return clips ? *clips : range_of_motion; }
 };
 
-/// Each with five seeded tears, in poses of its clips or, without any, in random ones. A procedural
-/// rig, and six rigged files; those that are absent are left out, which is said on stderr.
+/// Models, each with five seeded tears in poses of its clips or, if it has none, in random poses: a
+/// procedural rig, and six rigged files. Absent files are left out, which is reported on stderr.
 [[nodiscard]] std::vector<WeightsModel> make_weights_models();
 
 /// model_from_bind of every skin.

@@ -14,7 +14,7 @@ namespace {
 
 constexpr Effort kEffort = {400, 0.5, 20};
 
-/// A value that no compiler may optimise away.
+/// A value that the compiler cannot optimise away.
 volatile double kept_alive;
 
 std::size_t mean_of(const TornPoint& point, std::size_t maximum, std::vector<Influence>& mean) {
@@ -43,7 +43,7 @@ PointsToWeigh::PointsToWeigh(const WeightsModel& model, std::span<const ModelPos
     const std::size_t count = mean_of(point, maximum, mean);
     return std::vector<Influence>(mean.begin(), mean.begin() + static_cast<std::ptrdiff_t>(count));
   };
-  std::map<std::uint32_t, std::pair<Eigen::Vector3d, double>> sums;  // of positions, by skin
+  std::map<std::uint32_t, std::pair<Eigen::Vector3d, double>> sums;  // positions by skin
   for (const TornOnce& torn : model.tears)
     for (const TornPoint& point : torn.points) {
       const std::uint32_t skin = character.meshes[point.mesh].skin;

@@ -9,7 +9,7 @@
 
 namespace sunder::bench {
 
-/// The points of all tears of a model, ready to be weighed over some poses by the functions of
+/// The points of all tears of a model, prepared for weighing over some poses by the functions of
 /// `weights`.
 class PointsToWeigh {
  public:
@@ -24,17 +24,16 @@ class PointsToWeigh {
   [[nodiscard]] std::span<const std::vector<Affine3d>> palettes(std::size_t i) const {
     return palettes_.at(points_[i].skin);
   }
-  /// A point with its barycentric influences, cut to a number of the largest; 0: all. Valid as long
-  /// as
+  /// A point with its barycentric influences, pruned to the given number; 0: all. Valid as long as
   /// this object.
   [[nodiscard]] PointToRefit to_refit(std::size_t i, std::size_t maximum) const;
 
-  /// Microseconds a point: the least of many runs over all of them. In each, corners, matrices and
-  /// moments are there; what a policy makes of them is made: the mean influences, pruned; for the
-  /// others the point's exact description too; and from it the bind position that meets the first
-  /// pose, or the fit.
+  /// Microseconds per point; the minimum of many runs over all points. Corners, matrices and
+  /// moments are inputs. Timed are the mean influences, pruned; for policies other than barycentric
+  /// also the point's exact description; and from it the bind position that meets the first pose,
+  /// or the fit.
   [[nodiscard]] double microseconds(const WeightOptions& options) const;
-  /// Times of the fits alone, for those points, over existing descriptions.
+  /// Times of the fits only, for these points, with existing descriptions.
   [[nodiscard]] double fit_microseconds(const PointRefit::Options& options,
                                         std::span<const std::size_t> points) const;
 
@@ -43,7 +42,7 @@ class PointsToWeigh {
     const TornPoint* torn;
     std::uint32_t skin;
     std::vector<Influence> barycentric;  ///< Largest first.
-    std::vector<Influence> pruned;       ///< The four largest, with sum one.
+    std::vector<Influence> pruned;       ///< The four largest weights, normalised.
     std::vector<Influence> pruned_to_8;
   };
   std::vector<Point> points_;
@@ -52,7 +51,7 @@ class PointsToWeigh {
       palettes_;  ///< Per skin, one per pose.
 };
 
-/// So many of the poses, evenly spread.
+/// This number of the poses, evenly spaced.
 [[nodiscard]] std::vector<ModelPose> some_of(std::span<const ModelPose> poses, std::size_t count);
 
 }  // namespace sunder::bench

@@ -1,5 +1,5 @@
-# The target sunder_third_party::bullet: rigid bodies of Bullet in single precision. CMake's own module finds variables only, and
-# an export needs a target; so this file is used here and installed beside SunderConfig.cmake.
+# The target sunder_third_party::bullet: Bullet's rigid bodies in single precision. CMake's own module only sets variables, but an
+# export needs a target. This file is used here and installed next to SunderConfig.cmake.
 if(NOT TARGET sunder_third_party::bullet)
   include(CMakeFindDependencyMacro)
   if(PROJECT_NAME STREQUAL "Sunder")

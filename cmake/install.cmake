@@ -1,4 +1,4 @@
-# find_package(Sunder CONFIG) gives the targets sunder::<module>.
+# find_package(Sunder CONFIG) provides the targets sunder::<module>.
 include(CMakePackageConfigHelpers)
 
 get_property(modules GLOBAL PROPERTY SUNDER_MODULES)
@@ -9,7 +9,8 @@ if(TARGET sunder)
   install(TARGETS sunder RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()
 
-# Shared libraries find one another, and the command finds them, wherever the prefix is moved.
+# Relative run paths: shared libraries find one another, and the command finds them, under any
+# prefix.
 if(BUILD_SHARED_LIBS AND UNIX AND NOT APPLE)
   set_target_properties(${modules} PROPERTIES INSTALL_RPATH "$ORIGIN")
   if(TARGET sunder)
@@ -18,7 +19,7 @@ if(BUILD_SHARED_LIBS AND UNIX AND NOT APPLE)
   endif()
 endif()
 
-# A static archive hands its private libraries on to whoever links it.
+# Programs that link a static archive also link its private libraries.
 set(SUNDER_STATIC_DEPENDENCIES "")
 if(SUNDER_HIGHWAY AND NOT BUILD_SHARED_LIBS)
   string(APPEND SUNDER_STATIC_DEPENDENCIES "find_dependency(hwy 1.0.3)\n")

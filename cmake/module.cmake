@@ -1,9 +1,9 @@
 # sunder_module(<name> [IN_FRAME] HEADERS <public headers, relative to include/> SOURCES <files> [LINK <modules below>]
 #               [PRIVATE_LINK <third parties>])
 #
-# IN_FRAME: runs within a frame. Release builds optimise it further, as by a tenth of a tear's time.
-# One static or shared library a module, `sunder::<name>`. Public headers live in include/sunder/<name>/ and are all that is
-# installed; every one of them is compiled alone (target all_verify_interface_header_sets).
+# Adds the static or shared library of a module, `sunder::<name>`. Only its public headers, include/sunder/<name>/, are
+# installed; each of them is compiled alone (target all_verify_interface_header_sets). IN_FRAME: the module runs within a
+# frame. Release builds optimise it further, which saves a tenth of the time of a tear.
 macro(sunder_header_module name)
   add_library(${target} INTERFACE)
   add_library(sunder::${name} ALIAS ${target})
@@ -54,8 +54,8 @@ function(sunder_module name)
   set_property(GLOBAL APPEND PROPERTY SUNDER_MODULES ${target})
 endfunction()
 
-# Warnings, and the same bits on every optimisation level: no fused multiply-add behind our back. Nobody reads errno, so square roots
-# need not be calls.
+# Warnings, and the same bits at every optimisation level: no fused multiply-add. errno is not used, so square roots need not be
+# calls.
 function(sunder_compile_options target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -ffp-contract=off
     -fno-math-errno)

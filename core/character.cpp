@@ -59,7 +59,7 @@ Status validate_skin(const Skin& skin, Index index, std::size_t bone_count) {
   return {};
 }
 
-/// Names the mesh in a failure.
+/// The name of the mesh, for error texts.
 struct MeshPlace {
   Index index;
   const char* name;

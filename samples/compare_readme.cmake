@@ -1,4 +1,5 @@
-# The README's C++ example is the marked part of a sample, line for line, so it compiles and runs.
+# Checks that the C++ example of the README equals the marked part of a sample, line by line, so
+# that it compiles and runs.
 file(READ ${README} readme)
 file(READ ${SAMPLE} sample)
 string(FIND "${sample}" "// README begins\n" begin)

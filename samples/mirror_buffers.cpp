@@ -1,6 +1,6 @@
-// An engine's side of tearing: vertex and index buffers of fixed capacity that follow a torn model
-// by its change records alone. Only what an operation changed is uploaded; undo shortens the
-// buffers. In the end they hold the same bits as the model.
+// The engine's side of tearing: vertex and index buffers of fixed capacity that follow a torn model
+// by its change records alone. Only changed elements are uploaded; undo shortens the buffers. In
+// the end they hold the same bits as the model.
 
 #include <sunder/tear/torn_model.h>
 
@@ -66,8 +66,8 @@ class MeshBuffers {
            change.first_triangle + change.triangle_count <= indices_.size();
   }
 
-  /// Appended and rewritten elements lie in the dirty ranges, and so do retired triangles, which
-  /// name one vertex three times and draw nothing. Elements that undo removes lie behind the ends.
+  /// The dirty ranges contain appended and rewritten elements, and retired triangles, which name
+  /// one vertex three times and draw nothing. Elements removed by undo lie beyond the ends.
   void apply(const sunder::MeshChange& change, const sunder::Mesh& mesh) {
     vertex_count_ = change.first_vertex + change.vertex_count;
     triangle_count_ = change.first_triangle + change.triangle_count;
@@ -204,7 +204,7 @@ int fail(const char* what, const sunder::Status& status) {
   return 1;
 }
 
-/// Plays the steps and uploads what each one changed.
+/// Plays the steps and uploads the changes of each.
 int play(const std::vector<Step>& steps, sunder::TornModel& model, Mirror& mirror) {
   for (const Step& step : steps) {
     sunder::ChangeRecord change;
@@ -226,8 +226,8 @@ int play(const std::vector<Step>& steps, sunder::TornModel& model, Mirror& mirro
   return 0;
 }
 
-/// Tears until the buffers are full. The tear that does not fit is undone, so the model fits its
-/// buffers again.
+/// Tears until the buffers are full. The tear that does not fit is undone, so that model and
+/// buffers agree again.
 int tear_until_full(const sunder::Character& character, sunder::TornModel& model, Mirror& mirror) {
   const sunder::ModelPose pose = samples::bent(character, 0.3f);
   for (int i = 0; i < 1000; ++i) {
@@ -238,7 +238,8 @@ int tear_until_full(const sunder::Character& character, sunder::TornModel& model
       return fail("tear", report.error());
     if (mirror.apply(change, model.character())) continue;
     std::printf("after %d more tears the buffers are full; the last one is taken back\n", i);
-    const sunder::Status status = model.undo();  // without a record: the buffers never had it
+    // Without a change record, because the buffers never had this tear.
+    const sunder::Status status = model.undo();
     return status ? 0 : fail("undo", status);
   }
   return std::puts("the buffers were never full"), 1;

@@ -63,7 +63,7 @@ sunder::ModelPose lifted(const sunder::Character& character, float angle) {
 }
 
 /// Lets the ball fall into the soft sheet for ten seconds.
-/// @return how far the sheet gave way at most, metres.
+/// @return the largest displacement of the sheet, metres.
 sunder::Result<float> catch_ball(const sunder::Character& sheet, const sunder::ParticleSet& set,
                                  const btRigidBody& ball, btDiscreteDynamicsWorld& world) {
   sunder::BulletBodyOptions options;
@@ -102,14 +102,14 @@ int fail(const sunder::Status& status) { return std::printf("%s\n", status.text(
 }  // namespace
 
 int main() {
-  // The engine has a world with something in it.
+  // The world of an engine, with a body in it.
   btDefaultCollisionConfiguration configuration;
   btCollisionDispatcher dispatcher(&configuration);
   btDbvtBroadphase broadphase;
   btSequentialImpulseConstraintSolver solver;
   btDiscreteDynamicsWorld world(&dispatcher, &broadphase, &solver, &configuration);
   world.setGravity({0, 0, -9.81f});
-  world.getSolverInfo().m_linearSlop = 1e-3f;  // lets a body on spheres come to rest
+  world.getSolverInfo().m_linearSlop = 1e-3f;  // lets a body come to rest on spheres
   constexpr float kRadius = 0.2f;
   btSphereShape shape(kRadius);
   btVector3 inertia;

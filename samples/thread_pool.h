@@ -9,9 +9,9 @@
 
 namespace samples {
 
-/// A plain thread pool for sunder::ParallelFor. An idle worker looks for work for some time before
-/// it sleeps: the next call of a frame comes soon, and waking a thread takes longer than posing a
-/// few thousand vertices.
+/// A plain thread pool for sunder::ParallelFor. An idle worker polls for some time before it
+/// sleeps: the next call of a frame comes soon, and waking a thread takes longer than posing a few
+/// thousand vertices.
 class ThreadPool {
  public:
   /// @param threads  number of threads, including the calling one.
@@ -46,15 +46,16 @@ class ThreadPool {
     while (pool.done_.load(std::memory_order_acquire) < count) std::this_thread::yield();
   }
 
-  /// A ticket holds the number of remaining tasks in its low half and the number of the job in its
-  /// high half, so a late worker notices that its job is over and drops what it read of it.
+  /// A ticket holds the number of remaining tasks in its low half and the index of the job in its
+  /// high half, so that a late worker notices that its job is over and discards what it read of it.
   void publish(std::uint32_t count) {
     const std::uint64_t job = (tickets_.load() >> 32u) + 1;
     tickets_.store(job << 32u | count);
     if (sleepers_.load() > 0) tickets_.notify_all();
   }
 
-  /// @return whether there was anything to do.
+  ///
+  /// @return whether there was a task.
   bool take_part() {
     bool worked = false;
     for (std::uint64_t tickets = tickets_.load(); (tickets & 0xFFFF'FFFFu) > 0;) {

@@ -13,10 +13,10 @@ namespace samples {
 struct TubeShape {
   std::uint32_t around = 16, along = 20;  ///< Squares.
   float radius = 0.15f;                   ///< Metres.
-  bool has_uvs = false;  ///< Repeats the first column of vertices where the texture closes.
+  bool has_uvs = false;  ///< Duplicates the first column of vertices at the seam of the texture.
 };
 
-/// A tube of one metre along y, open at both ends: what a mesh needs to be skinned and torn.
+/// A tube of one metre along y, open at both ends, with all arrays that skinning and tearing need.
 inline sunder::Mesh make_tube_mesh(const TubeShape& shape) {
   sunder::Mesh mesh;
   mesh.name = "Tube";

@@ -60,7 +60,7 @@ inline int wave_by(const char* name, const sunder::ParallelFor& parallel_for) {
     if (frame % 3 == 0) pose = wave(kBones, 0.1f * static_cast<float>(frame));
     if (frame % 3 == 1)
       pose[kBones / 2].translation().z() +=
-          0.01f;  // one bone moves; in every third frame nothing does
+          0.01f;  // one bone moves; in every third frame none does
     if (!palette.set(pose, {})) return 1;
     if (!skinned->deform(palette, of_one) || !skinned->deform(palette, of_all, parallel_for))
       return 1;

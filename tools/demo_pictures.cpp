@@ -17,8 +17,8 @@
 namespace sunder::tools {
 namespace {
 
-/// When in the clip a picture is taken, and how many steps the tissue has had to open since the one
-/// before, at least.
+/// The time of a picture in the clip, and the minimum number of steps for the tissue to open since
+/// the previous picture.
 struct Shot {
   const char* name;
   double clip_fraction;
@@ -30,8 +30,8 @@ constexpr Shot kShots[kDemoPictures] = {{"before", kTearFraction, false, 0},
                                         {"later_1", 0.65, true, 30},
                                         {"later_2", 0.95, true, 30}};
 constexpr int kPixels = 900;
-constexpr double kMostSteps = 600;    ///< Between two pictures; a clip may have any length.
-constexpr double kThickness = 0.006;  ///< Of the flesh, in parts of the diagonal.
+constexpr double kMostSteps = 600;    ///< Between two pictures, because a clip may have any length.
+constexpr double kThickness = 0.006;  ///< Thickness of the flesh, as a fraction of the diagonal.
 
 Result<std::vector<DeformedMesh>> posed_at(const Character& character, double fraction) {
   const Result<ModelPose> pose = make_pose(character, pose_at(character, fraction));
@@ -55,8 +55,8 @@ Wound wound_of(const std::vector<RimEdge>& rims, const std::vector<DeformedMesh>
   return wound;
 }
 
-/// The view of the moment of the tear. It is kept as long as the wound stays in sight; where the
-/// wound turns away, the eye goes with it.
+/// The view at the moment of the tear. It is kept while the wound is visible; if the wound turns
+/// away, the eye follows it.
 ViewFrame follow(const ViewFrame& frame, const Wound& then, const Wound& now) {
   if (now.outwards.dot(frame.towards_eye) > 0.45) return frame;
   ViewFrame turned;
@@ -103,7 +103,8 @@ Status play_on(CharacterInstance& instance, double from, double to, int least_st
   return {};
 }
 
-/// The torn model at a moment of the clip: its surface as the tissue has it, and walls of flesh.
+/// The torn model at a moment of the clip: its surface, displaced by the tissue, and walls of
+/// flesh.
 Result<Character> still_at(double clip_fraction, const DemoTear& tear,
                            const std::vector<RimEdge>& rims, const ViewFrame& frame,
                            const CharacterInstance& instance) {

@@ -12,13 +12,13 @@
 
 namespace sunder::tools {
 
-constexpr double kTearFraction = 0.40;    ///< When in the first clip the demo tears.
-constexpr std::size_t kDemoPictures = 4;  ///< How many pictures the demo takes.
+constexpr double kTearFraction = 0.40;    ///< Time of the tear, as a fraction of the first clip.
+constexpr std::size_t kDemoPictures = 4;  ///< Number of pictures.
 
-/// The pose of a character at a part of its first clip; at rest where it has none.
+/// The pose of a character at a fraction of its first clip; the rest pose if it has none.
 [[nodiscard]] PoseSpec pose_at(const Character& character, double fraction);
 
-/// What the demo tore, and from where it is seen.
+/// What the demo tore, and the view.
 struct DemoTear {
   std::shared_ptr<const Character> source;
   TornModel model;
@@ -27,9 +27,9 @@ struct DemoTear {
   Bounds bounds;  ///< At the moment of the tear.
 };
 
-/// Draws the moment before the tear, the tear, and two later moments of the clip. Lips open as
-/// those of soft tissue do.
-/// @param progress  its steps from `first_step` on are begun, one per picture.
+/// Draws the moment before the tear, the tear, and two later moments of the clip. Lips open like
+/// those of soft tissue.
+/// @param progress  begins one step per picture, from `first_step` on.
 [[nodiscard]] Status draw_demo(const DemoTear& tear, const std::filesystem::path& folder,
                                std::size_t first_step, ProgressBar& progress);
 

@@ -14,14 +14,14 @@ namespace sunder::tools {
 namespace {
 constexpr double kPi = std::numbers::pi;
 
-// ---- Shape: limbs are chains of capsules, melted together
-// --------------------------------------------------------------------
+// ---- Shape: limbs are chains of capsules, blended together
 
 struct Limb {
   std::vector<Vec3d> axis;  ///< Of the capsules, end to end, from the root outwards.
   double radius;
   int ribs;
-  Vec3d side;  ///< Perpendicular to all of `axis`: where the angle around it is zero.
+  /// Perpendicular to all of `axis`: the direction in which the angle around it is zero.
+  Vec3d side;
 };
 
 const std::vector<Limb>& limbs() {
@@ -84,7 +84,6 @@ double cactus_field(const Vec3d& position) {
 }
 
 // ---- Bones
-// -------------------------------------------------------------------------------------------------------------------
 
 struct BoneLine {
   const char* name;
@@ -133,7 +132,7 @@ Affine3f bone_from_bind(Index bone) {
 }
 
 /// Weights fall with the fourth power of the distance to the bones, in radii of their flesh. Small
-/// weights fade to zero, so that they are smooth and few.
+/// weights fade to zero, so that influences are smooth and few.
 std::vector<Influence> influences_at(const Vec3d& position) {
   std::vector<double> shares;
   for (const BoneLine& line : bone_lines()) {
@@ -160,7 +159,6 @@ std::vector<Influence> influences_at(const Vec3d& position) {
 }
 
 // ---- Mesh "Cactus"
-// -----------------------------------------------------------------------------------------------------------
 
 constexpr Index kFlesh = 0, kFlower = 1;
 
@@ -246,7 +244,6 @@ Mesh make_flesh(Index skin) {
 }
 
 // ---- Mesh "Pot"
-// --------------------------------------------------------------------------------------------------------------
 
 Mesh make_pot(Index skin) {
   // Radius and height of the outline of revolution, from the bottom of the axis to its top. Each
@@ -301,7 +298,6 @@ Mesh make_pot(Index skin) {
 }
 
 // ---- Clip "Sway"
-// -------------------------------------------------------------------------------------------------------------
 
 Channel make_sway(Index bone, const Vec3d& axis, double amplitude, double phase) {
   Channel channel;

@@ -62,8 +62,8 @@ Run longest_run(const DepthImage& image) {
   return best;
 }
 
-/// Places along the middle part of the run, which swing to both sides by `swing` of its length.
-/// Empty if they leave the surface.
+/// Places along the middle part of the run, swinging to both sides by `swing` of its length. Empty
+/// if they leave the surface.
 std::vector<Vec2d> places_along(const DepthImage& image, const Run& run, double swing) {
   const Vec2d along = run.end - run.begin, across(-along.y(), along.x());
   std::vector<Vec2d> places;
@@ -102,7 +102,7 @@ Stroke choose_stroke(const Character& character, const std::vector<DeformedMesh>
   Stroke stroke;
   for (const Vec2d& place : places) {
     const Vec3d hit = image.position(place.x(), place.y());
-    // From in front of everything visible to well below the surface: only the nearest layer is
+    // From in front of everything visible to well below the surface. Only the nearest layer is
     // torn, however deep the blade reaches.
     const double clearance =
         image.nearest_depth() - image.at(place.x(), place.y()).depth + 0.05 * diagonal;

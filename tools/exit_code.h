@@ -9,7 +9,7 @@ namespace sunder::tools {
 /// The exit codes of the command; see docs/command.md.
 enum class ExitCode : int {
   ok = 0,
-  findings = 1,          ///< Done, with findings that deserve attention.
+  findings = 1,          ///< Done, with findings that need attention.
   usage = 2,             ///< The command line or the operations are invalid.
   unreadable_input = 3,  ///< A file cannot be read or written.
   limit_exceeded = 4,

@@ -6,8 +6,8 @@
 
 namespace sunder::tools {
 
-/// The poses in which an operation is done: one for a tear, cut or bore; several for a tear while
-/// the model moves; for weights, the pose that they are to meet.
+/// The poses of an operation: one for a tear, cut or bore; several for a tear while the model
+/// moves; for weights, the pose that they meet.
 [[nodiscard]] Result<std::vector<ModelPose>> poses_of(const Operation& operation,
                                                       const Character& character);
 /// The poses of a model's whole history, in order.
@@ -15,8 +15,8 @@ namespace sunder::tools {
 
 /// How the points that one operation of a history created are skinned.
 struct PointsOfOperation {
-  bool are_there = false;  ///< Operations "weights", undo and redo create none.
-  WeightOptions weights;   ///< Of the operation, or of the newest "weights" after it.
+  bool are_there = false;  ///< False for the operations "weights", undo and redo.
+  WeightOptions weights;   ///< Of the operation, or of the most recent "weights" after it.
   bool are_reweighed = false;
 };
 /// One entry per operation.

@@ -77,7 +77,7 @@ Json info_json(const InfoRequest& request, const LoadedCharacter& loaded, const 
   return info;
 }
 
-/// Prints the same for people.
+/// Prints the same as text.
 void print_info(const Json& info) {
   const auto text = [](const Json& value) { return value.get<std::string>(); };
   const auto number = [](const Json& value) { return value.get<double>(); };

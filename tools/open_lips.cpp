@@ -6,8 +6,8 @@ namespace sunder::tools {
 namespace {
 
 constexpr double kRange =
-    0.075;  ///< Of particles, in parts of the diagonal: how far lips give way.
-constexpr double kTension = 1.3;  ///< Newtons per metre; balanced with the default material.
+    0.075;  ///< Range of particles, as a fraction of the diagonal: how far lips give way.
+constexpr double kTension = 1.3;  ///< Newtons per metre; tuned for the default material.
 constexpr int kMostSteps = 180;
 
 }  // namespace

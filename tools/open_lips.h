@@ -9,7 +9,7 @@
 
 namespace sunder::tools {
 
-constexpr double kPictureStep = 1.0 / 60;  ///< Seconds per step of tissue in pictures.
+constexpr double kPictureStep = 1.0 / 60;  ///< Seconds per step of the tissue in pictures.
 
 /// A character of soft tissue under an even tension, so that the lips of its tears open.
 [[nodiscard]] Result<CharacterInstance> make_gaping_instance(
@@ -18,7 +18,7 @@ constexpr double kPictureStep = 1.0 / 60;  ///< Seconds per step of tissue in pi
 /// Steps the tissue in one pose until nothing moves, or for three seconds.
 [[nodiscard]] Status open_lips(CharacterInstance& instance, const ModelPose& pose);
 
-/// Moves posed vertices to where the tissue has them after the last advance().
+/// Moves posed vertices by the displacements of the last advance().
 void displace(const CharacterInstance& instance, std::vector<DeformedMesh>& posed);
 
 }  // namespace sunder::tools

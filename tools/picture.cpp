@@ -41,8 +41,8 @@ void append_triangle(Mesh& mesh, const Triangle& triangle) {
   mesh.triangle_submesh.push_back(0);
 }
 
-/// Renderers light a surface by its normals and its winding. Where the two disagree, the normals
-/// count.
+/// Renderers shade a surface by its normals and its winding. Where the two disagree, the normals
+/// are used.
 void wind_by_normals(Mesh& mesh) {
   for (Triangle& triangle : mesh.triangles) {
     const Vec3f& a = mesh.positions[triangle[0]];
@@ -94,8 +94,8 @@ float outward_sign(const Mesh& mesh, const DeformedMesh& posed) {
   return flux < 0 ? -1.0f : 1.0f;
 }
 
-/// The inside of the surface, which is visible through openings. It lies deeper by `thickness`, or
-/// by less where the model is thin, so that it never shows on the side of the viewer.
+/// The inside of the surface, visible through openings. It lies deeper by `thickness`, or by less
+/// where the model is thin, so that it is never visible on the near side.
 Mesh make_inside(const Mesh& source, const DeformedMesh& posed, const DeformedMesh& closed,
                  const DepthImage& image, const ViewFrame& frame, double thickness) {
   const float outwards = outward_sign(source, closed);
@@ -235,8 +235,8 @@ Status draw(const Character& still, const Camera& camera, int width, int height,
       "--camera-view-angle=" + std::to_string(camera.view_angle_degrees)};
   std::error_code ignored;
   std::filesystem::remove(png, ignored);
-  // Two xvfb-run that start at the same time may choose the same display; the one that fails
-  // succeeds at its next attempt.
+  // Two xvfb-run that start at the same time may choose the same display; the one that fails is
+  // started again.
   for (int attempt = 0; attempt < 3 && !std::filesystem::exists(png, ignored); ++attempt)
     (void)run_program(arguments, std::chrono::seconds(120));
   const bool is_drawn = std::filesystem::exists(png, ignored);

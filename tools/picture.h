@@ -41,7 +41,7 @@ struct Camera {
 /// Gives a colour, linear RGBA, to all parts of a still scene that have none.
 void paint(Character& still, const Vec4f& color);
 
-/// Whether f3d and xvfb-run are installed, which draw.
+/// Whether f3d and xvfb-run, which draw the pictures, are installed.
 [[nodiscard]] bool can_draw();
 
 /// Draws a still scene into a PNG with f3d under Xvfb. Takes about a second.

@@ -17,7 +17,7 @@ void make_normals(const Mesh& mesh, DeformedMesh& posed) {
     normal = normal.norm() > 0.0f ? normal.normalized() : Vec3f::UnitY();
 }
 
-/// Whether more than a twentieth of the triangles have normals against their winding.
+/// Whether more than a twentieth of the triangles have normals that contradict their winding.
 bool has_wrong_normals(const Mesh& mesh, const DeformedMesh& posed) {
   std::size_t wrong = 0;
   for (const Triangle& triangle : mesh.triangles) {

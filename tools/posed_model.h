@@ -6,7 +6,7 @@
 
 namespace sunder::tools {
 
-/// All meshes of a character in a pose, model space, for drawing: a mesh without normals, or with
+/// All meshes of a character in a pose, model space, for drawing. A mesh without normals, or with
 /// many that contradict its winding, gets smooth ones.
 Result<std::vector<DeformedMesh>> pose_model(const Character& character, const ModelPose& pose);
 

@@ -13,20 +13,20 @@ namespace sunder::tools {
 
 using Json = nlohmann::ordered_json;
 
-/// What one operation did, and the topology of the surface before and after it.
+/// The results of one operation, and the topology of the surface before and after it.
 struct OperationOutcome {
-  const char* op = "";    ///< The name in a log.
-  const char* done = "";  ///< The status in the report, if it did not miss.
+  const char* op = "";    ///< Its name in a log.
+  const char* done = "";  ///< Its status in the report, if it did not miss.
   bool has_missed = false;
   TearReport tear;
   double seconds = 0;  ///< Duration of the operation alone.
-  /// Greatest distance of a new point from the surface as it was, in the poses of the operation;
+  /// Greatest distance of a new point from the untorn surface, in the poses of the operation;
   /// metres.
   double weight_error_max = 0;
   TopologyCounts before, after;
 };
 
-/// Performs an operation and describes what it did.
+/// Performs an operation and describes its results.
 /// @param before  the topology of the model.
 [[nodiscard]] Result<OperationOutcome> play(const Operation& operation,
                                             const TopologyCounts& before, TornModel& model);
@@ -52,7 +52,7 @@ template <class Vector>
 /// UTF-8 text, indented by two spaces. Bytes of names that are not UTF-8 are replaced.
 [[nodiscard]] std::string dump(const Json& json);
 
-/// A text file that appears under its name when it is committed, and otherwise leaves nothing.
+/// A text file that is renamed to its name when it is committed; otherwise no file is left.
 class StagedText {
  public:
   StagedText(std::filesystem::path file, const std::string& text);

@@ -1,4 +1,4 @@
-// Draws the pictures of docs/particles.md and prints what it measures: soft_pictures FOLDER.
+// Draws the pictures of docs/particles.md and prints its measurements: soft_pictures FOLDER.
 
 #include <algorithm>
 #include <cmath>
@@ -31,7 +31,7 @@ void draw_decomposition(const std::string& folder) {
   scene.draw_particles(folder + "/particles_decomposition.png");
 }
 
-/// The same point is pulled the same way before and after a tear beside it.
+/// The same point is pulled in the same way before and after a tear next to it.
 void draw_pull(const std::string& folder, bool is_torn) {
   SoftScene scene({SoftMaterial()}, kRange);
   std::uint32_t held = scene.point_at({0, 1.3, 0.16}), other = held;
@@ -74,7 +74,7 @@ void draw_running(const std::string& folder) {
   SoftMaterial weak = tough;
   weak.strength = 1.8;
   SoftScene scene({tough, weak}, 0.05);
-  // Only the front is weak: what is held must not tear out.
+  // Only the front is weak, so that the held parts do not tear out.
   for (std::uint32_t p = 0; p < scene.particles().particle_count(); ++p) {
     const Vec3f& seed = scene.particles().positions()[scene.particles().seed(p)];
     if (seed.x() > 0.0f && seed.z() > 0.0f) (void)scene.body().set_material(p, 1);

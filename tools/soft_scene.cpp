@@ -20,9 +20,9 @@ constexpr int kWidth = 480, kHeight = 360;
 constexpr double kStep = 1.0 / 60;
 constexpr int kMostSteps = 600;
 constexpr double kClipFraction = 0.40;
-constexpr double kThickness = 0.006;  ///< Of the flesh, of the diagonal.
+constexpr double kThickness = 0.006;  ///< Thickness of the flesh, as a fraction of the diagonal.
 const Vec4f kSurface(1.0f, 0.98f, 0.94f,
-                     1.0f);  // Linear RGBA, as the pictures of docs/tear.md have it.
+                     1.0f);  // Linear RGBA, as in the pictures of docs/tear.md.
 
 void check(const Status& status) {
   if (status) return;

@@ -12,25 +12,26 @@
 
 namespace sunder::tools {
 
-/// The cactus of the demo in a pose of its clip, soft: it can be torn, pulled and drawn. A failure
-/// ends the program.
+/// The cactus of the demo in a pose of its clip, as soft tissue that can be torn, pulled and drawn.
+/// A failure ends the program.
 class SoftScene {
  public:
-  /// @param range  of the particles, in parts of the diagonal.
+  ///
+  /// @param range  of the particles, as a fraction of the diagonal.
   SoftScene(const std::vector<SoftMaterial>& materials, double range);
 
-  /// Tears along places at rest that blades from the front pass one after another.
+  /// Tears along places at rest, with blades from the front.
   void tear(const std::vector<Vec2d>& path);
   Result<ForceTearingReport> tear_overstretched();
   void step();
-  /// Steps for ten seconds at most. @return the number of steps.
+  /// Steps until nothing moves, or for ten seconds. @return number of steps.
   int step_until_still();
 
   /// The point that is nearest to a place at rest.
   [[nodiscard]] std::uint32_t point_at(const Vec3d& rest_place) const;
   /// Current place of a point.
   [[nodiscard]] Vec3d place(std::uint32_t point) const;
-  /// The greatest distance of two points that were one before a tear.
+  /// The greatest distance between two points that were one before a tear.
   [[nodiscard]] double widest_gap() const;
   [[nodiscard]] double diagonal() const { return diagonal_; }
   [[nodiscard]] SoftBody& body() { return *instance.body(); }
@@ -40,8 +41,9 @@ class SoftScene {
   [[nodiscard]] std::vector<DeformedMesh> posed() const;      ///< By the bones alone.
   [[nodiscard]] std::vector<DeformedMesh> displaced() const;  ///< By bones and particles.
 
+  ///
   /// @param centre  of the picture, model space.
-  /// @param radius  of what is shown, metres.
+  /// @param radius  of the visible part, metres.
   void draw(const std::string& png, const ViewFrame& frame, const Vec3d& centre,
             double radius) const;
   void draw_particles(const std::string& png) const;
@@ -55,7 +57,7 @@ class SoftScene {
   double diagonal_ = 0;
 };
 
-/// A view from the front, turned sideways and upwards by degrees.
+/// A view from the front, rotated sideways and upwards by degrees.
 [[nodiscard]] ViewFrame look_from(double side, double above);
 
 }  // namespace sunder::tools

@@ -11,7 +11,7 @@ namespace sunder::tools {
 [[nodiscard]] bool is_program_there(const std::string& name);
 
 /// Runs a program of PATH with these arguments, the name first, without a shell. Its output is
-/// dropped. It is killed, with all processes that it started, if it takes longer than `limit`.
+/// discarded. It is killed, with all processes that it started, if it takes longer than `limit`.
 /// @return its exit code; nothing if it could not start, was killed or crashed.
 [[nodiscard]] std::optional<int> run_program(const std::vector<std::string>& arguments,
                                              std::chrono::seconds limit);

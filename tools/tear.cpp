@@ -22,8 +22,7 @@
 namespace sunder::tools {
 namespace {
 
-/// A text that is written before the model and appears under its name after it, so that a failure
-/// leaves neither.
+/// A text that is written before the model and renamed after it, so that a failure leaves neither.
 class TextBesideModel {
  public:
   /// Does nothing without a file.
@@ -38,7 +37,7 @@ class TextBesideModel {
   std::optional<StagedText> staged_;
 };
 
-/// How new points are weighed, from the command line.
+/// The options for weights of new points, from the command line.
 struct Weighing {
   WeightOptions options;
   std::optional<RefitOver> refit_over;  ///< For `refit`, if the model bends.
@@ -66,7 +65,7 @@ Json weighing_json(const Weighing& weighing) {
   return json;
 }
 
-/// Measures the weights of the model, and those of a file where it holds less.
+/// Measures the weights of the model, and the weights in the file if they differ.
 Result<Json> weight_errors_of(TornModel& model, const std::shared_ptr<const Character>& source) {
   const auto poses = poses_to_measure(model, source);
   if (!poses) return poses.error();
@@ -100,7 +99,7 @@ bool draw_picture(const LoadedCharacter& loaded, const TornModel& model,
   return static_cast<bool>(status);
 }
 
-/// A model on which operations are played, and what is reported of them.
+/// A model to which operations are applied, and their reports.
 struct TearRun {
   const TearRequest& request;
   const LoadedCharacter& loaded;
@@ -111,6 +110,7 @@ struct TearRun {
   bool has_findings = false;
 };
 
+///
 /// @return ok, or the exit code of the failure, which was reported.
 ExitCode play_operations(const std::vector<Operation>& operations, TearRun& run,
                          ProgressBar& progress) {

@@ -18,9 +18,9 @@ namespace {
 
 constexpr int kWidth = 480, kHeight = 360;
 const Vec4f kSurface(1.0f, 0.98f, 0.94f, 1.0f);  // Linear RGBA.
-// In parts of the diagonal of the model.
+// As a fraction of the diagonal of the model.
 constexpr double kThickness = 0.006;  ///< Of the flesh.
-constexpr double kApart = 0.05;       ///< By which the pieces of a cut are moved.
+constexpr double kApart = 0.05;       ///< Distance by which the pieces of a cut are moved.
 
 PoseSpec pose_of(const Operation& operation) {
   struct Visitor {
@@ -36,7 +36,7 @@ PoseSpec pose_of(const Operation& operation) {
   return std::visit(Visitor(), operation);
 }
 
-/// The newest operation that is visible: not one that only weighs points.
+/// The most recent operation that is visible: not one that only changes weights.
 const Operation& newest_of(std::span<const Operation> history) {
   const auto newest =
       std::find_if(history.rbegin(), history.rend(), [](const Operation& operation) {
@@ -45,7 +45,7 @@ const Operation& newest_of(std::span<const Operation> history) {
   return newest == history.rend() ? history.back() : *newest;
 }
 
-/// A view from where the operation came, a little from above and from the right. A cut is seen
+/// A view from the side of the operation, a little from above and from the right. A cut is seen
 /// along its plane.
 ViewFrame view_of(const Operation& operation, const Bounds& bounds) {
   ViewFrame frame = choose_view(bounds);
@@ -84,7 +84,7 @@ std::vector<Vec3d> wound_places(const TornModel& torn, const std::vector<RimEdge
   return places;
 }
 
-/// Shows the wound in the middle and its surroundings, at most the whole model.
+/// Shows the wound in the middle, with its surroundings; at most the whole model.
 Camera aim(const ViewFrame& frame, const std::vector<Vec3d>& wound, const Bounds& bounds,
            double surroundings) {
   Camera camera;

@@ -9,9 +9,9 @@
 
 namespace sunder::tools {
 
-/// Draws a torn model in the pose of its last operation, seen from where that came; 480 x 360
-/// pixels. Lips are pulled apart, the pieces of a cut are moved apart, the surface is light, its
-/// inside red.
+/// Draws a torn model in the pose of its last operation, seen from the side from which that came;
+/// 480 x 360 pixels. Lips are pulled apart, the pieces of a cut are moved apart, the surface is
+/// light, its inside red.
 ///
 /// @param history  at least one operation; all are valid for the source.
 [[nodiscard]] Status draw_torn(std::shared_ptr<const Character> source,

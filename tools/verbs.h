@@ -21,18 +21,18 @@ struct InfoRequest {
 struct TearRequest {
   std::filesystem::path model, operations, output;
   SaveOptions save;  ///< How influences are written.
-  /// For operations without weights of their own; none: barycentric, with all influences.
+  /// For operations without weights of their own; empty: barycentric, with all influences.
   std::optional<WeightPolicy> weights;
-  std::optional<RefitOver> refit_over;          ///< Only for `refit`; none: what the model has.
-  std::optional<std::filesystem::path> report;  ///< None: stdout.
-  std::optional<std::filesystem::path> log;     ///< Output file of the operations that were played.
-  std::optional<std::filesystem::path> picture;  ///< Output file of a picture.
+  std::optional<RefitOver> refit_over;  ///< Only for `refit`; empty: both, or what the model has.
+  std::optional<std::filesystem::path> report;  ///< Empty: stdout.
+  std::optional<std::filesystem::path> log;  ///< Output file for the log of the applied operations.
+  std::optional<std::filesystem::path> picture;  ///< Output file for a picture.
 };
 [[nodiscard]] ExitCode run_tear(const TearRequest& request);
 
 /// sunder demo: tears a model in the middle of its animation and draws it.
 struct DemoRequest {
-  std::optional<std::filesystem::path> model;  ///< None: the embedded one.
+  std::optional<std::filesystem::path> model;  ///< Empty: the embedded model.
   std::filesystem::path folder = "demo";
 };
 [[nodiscard]] ExitCode run_demo(const DemoRequest& request);

@@ -34,12 +34,12 @@ class DepthImage {
   [[nodiscard]] int height() const { return height_; }
   [[nodiscard]] double pixel_size() const { return pixel_size_; }  ///< Metres.
   [[nodiscard]] double nearest_depth() const { return nearest_depth_; }
-  /// Background outside the image.
+  /// The background pixel if it is outside the image.
   [[nodiscard]] Pixel at(double x, double y) const;
-  /// Distance of a place behind the nearest surface on its line of sight, metres; 0 if it lies in
-  /// front of it or nothing is there.
+  /// Distance of a position behind the nearest surface on its line of sight, metres; 0 if it lies
+  /// in front of it or if there is no surface.
   [[nodiscard]] double depth_behind_front(const Vec3d& position_model) const;
-  /// The place of the surface in model space; only where there is no background.
+  /// The position of the surface in model space; not for background pixels.
   [[nodiscard]] Vec3d position(double x, double y) const;
 
  private:

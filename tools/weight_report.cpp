@@ -13,10 +13,9 @@
 namespace sunder::tools {
 namespace {
 
-constexpr std::size_t kMostPoses =
-    200;  ///< Of a set, so that measuring takes no longer than a glance.
+constexpr std::size_t kMostPoses = 200;  ///< Per set, so that measuring stays short.
 
-/// The step that takes at most kMostPoses of `count` poses.
+/// The stride that selects at most kMostPoses of `count` poses.
 std::size_t step_through(std::size_t count) { return (count + kMostPoses - 1) / kMostPoses; }
 
 bool is_finite(const ModelPose& pose) {

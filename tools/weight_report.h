@@ -14,24 +14,24 @@ struct MeasuredPoses {
   std::vector<ModelPose> poses;
 };
 
-/// The poses of the model's history, of its clips and of its range of motion; of the latter two
-/// those to fit over and those held out. Each set has at most 200 poses: every n-th of larger ones.
+/// The poses of the model's history, of its clips and of its range of motion; the latter two as
+/// poses to fit over and held-out poses. Each set has at most 200 poses: every n-th of larger ones.
 /// Sets that the character does not have are left out.
 [[nodiscard]] Result<std::vector<MeasuredPoses>> poses_to_measure(
     const TornModel& model, std::shared_ptr<const Character> source);
 
-/// How far the points that operations created lie from the surface as it was: one object per set of
-/// poses. Empty if nothing was done.
+/// Distances of the points that operations created from the untorn surface: one object per set of
+/// poses. Empty if there are no such points.
 [[nodiscard]] Result<Json> weight_errors_json(const TornModel& model,
                                               const std::vector<MeasuredPoses>& sets);
 
-/// The same with the weights that a file holds: barycentric ones where the model has positions per
-/// influence; null if it has none.
+/// The same with the weights that a file can hold: barycentric ones if the model has positions per
+/// influence. Null if it has none.
 /// @param model  unchanged afterwards, except for its redo stack.
 [[nodiscard]] Result<Json> written_weight_errors_json(TornModel& model,
                                                       const std::vector<MeasuredPoses>& sets);
 
-/// The same as if one policy had been used for all points: one object per policy.
+/// The same for all policies, each applied to all points: one object per policy.
 /// @param pose   the pose that `pose_exact` meets.
 /// @param model  unchanged afterwards, except for its redo stack.
 [[nodiscard]] Result<Json> weight_errors_by_policy_json(TornModel& model,

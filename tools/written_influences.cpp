@@ -32,7 +32,7 @@ Status measure_mesh(const Mesh& mesh, const Skin& skin, const std::vector<ModelP
     const auto all = mesh.weights.of(v);
     if (all.size() <= maximum) continue;
     influences.assign(all.begin(), all.end());
-    if (!sort_influences(influences)) continue;  // Impossible: the model is valid.
+    if (!sort_influences(influences)) continue;  // Cannot fail: the model is valid.
     ++loss.vertices_pruned;
     loss.dropped_mass_max = std::max(loss.dropped_mass_max, dropped_mass(influences, maximum));
     for (std::size_t i = 0; i < poses.size(); ++i) {

@@ -9,7 +9,7 @@
 
 namespace sunder::tools {
 
-/// What pruning on writing costs the torn meshes.
+/// The effect of pruning on the written meshes.
 struct PruningLoss {
   std::uint64_t vertices_pruned = 0;
   double dropped_mass_max = 0;
@@ -25,7 +25,7 @@ struct PruningLoss {
 /// "float", "u16" or "u8", as --weights-as takes it.
 [[nodiscard]] const char* weight_format_name(WeightFormat format);
 
-/// How influences are written, and what that costs.
+/// How influences are written, and the resulting errors.
 [[nodiscard]] Json to_json(const PruningLoss& loss, const SaveOptions& options);
 
 }  // namespace sunder::tools

@@ -10,9 +10,9 @@ namespace sunder {
 
 // Sums of products in one written order: from the first coefficient to the last, ((a0 b0 + a1 b1) +
 // a2 b2) + …, matrices column by column. Eigen's own dot(), norm(), products and inverses add in an
-// order that depends on the vector instructions that the compiler may use, so that their last bit
-// differs between machines. What decides stored or reported numbers uses these instead. Sums,
-// differences, multiples and cross products of Eigen have only one order and need no substitute.
+// order that depends on the compiler's vector instructions, so their last bit differs between
+// machines. Code whose results are stored or reported uses these functions instead. Sums,
+// differences, multiples and cross products of Eigen have only one order and are used directly.
 
 namespace ordered {
 
@@ -43,7 +43,7 @@ EIGEN_STRONG_INLINE auto add(std::index_sequence<I...>, const Term& term) {
   return (... + term(I));
 }
 
-/// An expression that is read several times: itself where that is cheap, its values otherwise.
+/// Evaluates an expression that is read several times, unless reading it is cheap.
 template <class A, int times>
 using Nested = typename Eigen::internal::nested_eval<A, times>::type;
 
@@ -189,7 +189,7 @@ auto normalized(const Eigen::QuaternionBase<A>& quaternion) {
   return Eigen::Quaternion<typename A::Scalar, Eigen::DontAlign>(normalized(quaternion.coeffs()));
 }
 
-/// Hamilton's product: first `b` turns, then `a`.
+/// Hamilton product: rotates by `b` first, then by `a`.
 template <class A, class B>
 auto multiply(const Eigen::QuaternionBase<A>& a, const Eigen::QuaternionBase<B>& b) {
   return Eigen::Quaternion<typename A::Scalar, Eigen::DontAlign>(

@@ -2,7 +2,7 @@
 
 namespace sunder {
 
-/// Asks for memory that will be read soon. A hint, where the compiler knows how to give it.
+/// Prefetches memory that will be read soon. Does nothing if the compiler has no such instruction.
 inline void prefetch([[maybe_unused]] const void* address) {
 #if defined(__GNUC__)
   __builtin_prefetch(address);
