@@ -1,4 +1,4 @@
-# Thin: each target installs what is missing, configures, builds and runs. CMake and its presets do the work.
+# Shortcuts: each target installs missing packages, configures, builds and runs, using the CMake presets.
 .DEFAULT_GOAL := help
 .PHONY: help demo unit test bench stress format
 jobs := $(shell nproc)

@@ -60,7 +60,7 @@ struct CharacterInstance::State {
     return outcome;
   }
 
-  /// Makes a call that appends its records to a list. What was done before it failed is passed on
+  /// Makes a call that appends its records to a list. Records made before a failure are passed on
   /// too.
   template <class Call>
   auto change_all(std::vector<ChangeRecord>* wanted, Call call,

@@ -8,9 +8,9 @@ namespace {
 constexpr Index kInfluencesPerVertex =
     8;  ///< For which memory is reserved where the capacity is fixed.
 
-/// The first vertex whose bind position or weights a change touched. Operations append vertices and
-/// undo removes them from the end; vertices before `first_vertex` are dirty because of their tear
-/// side, which is not skinned. Only a change of weights touches vertices that stay; it changes no
+/// The first vertex whose bind position or weights changed. Operations append vertices and undo
+/// removes them from the end; vertices before `first_vertex` are dirty because of their tear side,
+/// which is not skinned. Only a change of weights affects existing vertices, and it changes no
 /// triangle.
 Index first_changed_vertex(const MeshChange& change) {
   const bool is_of_weights =

@@ -16,8 +16,7 @@ class PendingRanges {
   void add(const DirtyRanges& ranges) {
     pending_.insert(pending_.end(), ranges.begin(), ranges.end());
   }
-  /// Lists what was added since the last call, ascending and disjoint, as far as it lies below
-  /// `count`.
+  /// Lists the ranges added since the last call, ascending and disjoint, up to `count`.
   void publish(Index count);
   [[nodiscard]] std::span<const IndexRange> published() const { return published_; }
   [[nodiscard]] bool has_pending() const { return !pending_.empty(); }
@@ -32,10 +31,10 @@ class InstanceMesh {
   static Result<InstanceMesh> create(const Mesh& mesh, std::size_t slots,
                                      const CharacterInstanceOptions& options);
 
-  /// Notes what a call did to the mesh; the work is left to update(). @throws std::bad_alloc
+  /// Notes the changes of a call; update() applies them. @throws std::bad_alloc
   void note(const MeshChange& change);
-  /// Brings the skinning data and the buffers up to date with what was noted. O(what changed).
-  /// @throws std::bad_alloc
+  /// Applies the noted changes to the skinning data and the buffers. O(changes). @throws
+  /// std::bad_alloc
   Status update(const Mesh& mesh, const InfluencePositions& exact);
   /// Poses the vertices that changed. @param displacements  null: none. @throws std::bad_alloc
   Status deform(const BonePalette& palette, const ParallelFor& parallel_for,

@@ -5,9 +5,9 @@
 
 #include "skinning/skin_work.h"
 
-// SSSE3 alone is too rare to carry, and AVX3_DL has nothing more that is used here (with it,
-// Highway 1.0 does not compile for -march=native of a CPU that the compiler knows in part). SVE
-// vectors cannot be members of structs.
+// SSSE3 without later extensions is too rare to support, and AVX3_DL adds nothing that is used here
+// (with it, Highway 1.0 does not compile for -march=native of a CPU that the compiler knows only in
+// part). SVE vectors cannot be members of structs.
 #define HWY_DISABLED_TARGETS \
   (HWY_SSSE3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 #undef HWY_TARGET_INCLUDE

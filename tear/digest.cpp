@@ -64,7 +64,7 @@ std::uint64_t TornModel::digest() const {
       const Birth born = birth(m, vertex);
       digest.add(born.triangle);
       for (const double coordinate : born.barycentric) digest.add(coordinate);
-      // The mesh arrays of exact vertices look like those of interpolated ones.
+      // The mesh arrays of exact vertices equal those of interpolated ones.
       if (weight_policy(m, vertex) == WeightPolicy::exact) digest.add(vertex);
     }
   }

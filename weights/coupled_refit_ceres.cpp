@@ -147,7 +147,7 @@ class NeighbourCost final : public ceres::CostFunction {
   bool moves_ = false;
 };
 
-/// What a problem refers to and does not own.
+/// Objects that a problem refers to and does not own.
 struct Parts {
   std::map<int, std::unique_ptr<ceres::Manifold>> spheres;  ///< By dimension.
   std::deque<PointCost> point_costs;
@@ -242,8 +242,8 @@ double CoupledProblem::weight_before(std::size_t point, std::uint32_t slot) cons
 }
 
 /// The mean over the poses of A_i^T A_j for the bones i, j of the fit, where A_i = [linear part of
-/// M_i, M_i s - p] for the point's initial position s and the position p that it is to follow.
-/// Taken about those, because only differences from them matter.
+/// M_i, M_i s - p] for the point's initial position s and the position p that it should follow.
+/// Relative to s and p, because only differences from them matter.
 Eigen::MatrixXd CoupledProblem::gram_of(std::size_t point) const {
   using Vec4 = Eigen::Vector4d;
   const double per_pose = 1.0 / static_cast<double>(moments_.pose_count());
@@ -397,7 +397,7 @@ void CoupledProblem::couple(std::span<const RefitNeighbours> neighbours) {
   const auto is_fitted = [&](std::uint32_t point) {
     return point != kNone && unknowns_[point].count > 0;
   };
-  // All untorn neighbours of a point ask the same of it, so their costs add up.
+  // All untorn neighbours of a point cause the same kind of cost, so their costs are added.
   struct UntornCost {
     double offset = 0, change = 0;
   };

@@ -194,8 +194,9 @@ class Caps {
       }
   }
 
-  /// Rim points that should be collinear, as where a cut meets an older cap, are so in the pose
-  /// only nearly; stored, a triangle of three of them has no area. Its longest edge is turned.
+  /// Rim points that should be collinear, as where a cut meets an older cap, are so only
+  /// approximately in the pose. After rounding to float, a triangle of three of them has no area.
+  /// Its longest edge is flipped.
   void turn_flat_triangles(const std::vector<Index>& half_edges, Index mesh,
                            const std::vector<Index>& vertices,
                            std::vector<std::array<Index, 3>>& triangles) const {

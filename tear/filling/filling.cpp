@@ -110,8 +110,7 @@ bool Filling::connect(const std::vector<Index>& rim_half_edges) {
     rim_points.insert(surface.corner_point[Surface::next(h)]);
   }
   const auto is_joined_elsewhere = [&](Index from, Index to) {
-    const Index h =
-        surface.find_half_edge(from, to);  // of what was there before: nothing is connected yet
+    const Index h = surface.find_half_edge(from, to);  // Finds older half-edges only.
     if (h == kNone) return false;
     const auto known = half_edges.find({from, to});
     return known == half_edges.end() || known->second != h;

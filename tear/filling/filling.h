@@ -9,8 +9,8 @@
 
 namespace sunder::tear {
 
-/// Adds triangles that close what was opened. Their vertices take position and weights from the rim
-/// and have their own normals, tangents and texture coordinates.
+/// Adds triangles that close an opening. Their vertices take position and weights from the rim and
+/// have their own normals, tangents and texture coordinates.
 class Filling {
  public:
   /// @param name  of the submesh that each mesh gets for the filling.
@@ -26,8 +26,7 @@ class Filling {
     std::vector<Vec3d> morph_displacements;  ///< One per morph target.
   };
   [[nodiscard]] Index add_inner_vertex(Index mesh, Index like, const Inner& inner);
-  /// Sets the posed normal, the posed direction in which u grows, and the texture coordinates of a
-  /// vertex.
+  /// Sets the posed normal, the posed direction of u, and the texture coordinates of a vertex.
   void shade(Index mesh, Index vertex, const Vec3d& normal, const Vec3d& tangent, const Vec2d& uv);
   /// Linear part of the blended bone matrices of a vertex.
   [[nodiscard]] Mat3d blended(Index mesh, Index vertex) const;

@@ -159,7 +159,7 @@ void hang_strip(const Rim& rim, const std::vector<RimPlace>& places, double unit
   }
 }
 
-/// The places of a rim, one more than its half-edges; those of a closed rim end with the first.
+/// The places of a rim, one more than its half-edges; a closed rim ends with its first place.
 template <class Down>
 std::vector<RimPlace> places_of(const Rim& rim, Walls& walls, Down down) {
   std::vector<RimPlace> places;

@@ -32,7 +32,7 @@ struct Surface {
                                     ///< degenerate triangles use.
   std::vector<Index>
       source_side;  ///< Per point of the source, its value of _TEARSIDE; empty if all are 0.
-  std::vector<Index> appended_side;  ///< Per point after those of the source.
+  std::vector<Index> appended_side;  ///< One per point that the source does not have.
   std::vector<std::vector<bool>>
       is_shared_vertex;  ///< Per mesh: which source vertices are used by more than one fan.
   Index non_manifold_edges =

@@ -6,7 +6,7 @@
 
 namespace sunder::tear {
 
-/// Tears every layer that the sweep of one segment meets: the sweep is a sheet, as of a cut.
+/// Tears every layer that the sweep of one segment meets. The sweep is a sheet, like that of a cut.
 void tear_all_layers(const BladePlane& plane, const Workpiece& work, Outcome& outcome);
 
 }  // namespace sunder::tear

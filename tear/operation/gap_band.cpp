@@ -80,8 +80,8 @@ void GapBand::catch_up(const Workpiece& work, Outcome& outcome) {
   improve_faces(before, work.editor);
 }
 
-/// Follows the nearest layer along a segment without changing it, but for the points at which the
-/// path enters and ends. Moves the tip.
+/// Follows the nearest layer along a segment. Changes only the points where the path enters and
+/// ends. Moves the tip.
 GapBand::Pending GapBand::find_gap(const Segment& segment, const Workpiece& work, StrokeTip& tip,
                                    Outcome& outcome) const {
   const BladePlane& plane = segment.plane;
@@ -182,9 +182,9 @@ void GapBand::remove_pending(const HalfSpace& end, const Workpiece& work, Outcom
          kSides, *pending_, work, outcome);
 }
 
-/// The start of a gap that goes on from one which was closed square in another pose: the edge that
-/// this left at both sides of the tip, wherever that stands now, and a little before it, so that
-/// nothing is left standing between the two.
+/// The start of a gap that continues one which was closed square in another pose: the edge left on
+/// both sides of the tip, in its current place, and slightly before it, so that no strip remains
+/// between the two gaps.
 HalfSpace GapBand::start_from_rim(const BladePlane& plane, Index tip, const Workpiece& work) const {
   const Surface& surface = work.editor.surface();
   const Index first = surface.first_of_fan(surface.point_corner[tip]);
@@ -246,9 +246,9 @@ void GapBand::remove(const Cell& cell, std::span<const Side> sides, const Pendin
   has_removed_ |= removal.faces_removed > 0;
 }
 
-/// The lips of a sheet through all layers are told apart by the side of the plane, those of a path
-/// along the nearest layer as seen from outside: a layer that the blade meets from inside has its
-/// left side where the plane has its right.
+/// The lips of a sheet through all layers are distinguished by the side of the plane; those of a
+/// path along the nearest layer as seen from outside. In a layer that the blade meets from inside,
+/// left and right are exchanged.
 void GapBand::add_rim_points(const CellRim& rim, std::span<const Side> sides,
                              const BladePlane& plane, Outcome& outcome) const {
   for (const CellRim::Edge& edge : rim.edges) {

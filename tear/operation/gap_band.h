@@ -31,7 +31,7 @@ class GapBand {
 
   /// Begins another band, in the same memory.
   void begin(double width, Layers layers);
-  /// Finds the gap of a segment, and removes that of the segment before it.
+  /// Finds the gap of a segment, and removes that of the previous segment.
   void sweep(const Segment& segment, const Workpiece& work, StrokeTip& tip, Outcome& outcome);
   /// Removes the pending gap up to the end of its segment.
   void catch_up(const Workpiece& work, Outcome& outcome);

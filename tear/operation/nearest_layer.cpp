@@ -76,8 +76,8 @@ void NearestLayerSegment::make_openable(Path& path) {
   path.half_edges.clear();
 }
 
-/// Takes back the imprint of a piece that has no edge. A blade that moved by less than can be told
-/// goes on from the same point.
+/// Undoes the imprint of a piece that has no edge. A blade that moved by less than the resolution
+/// continues from the same point.
 double NearestLayerSegment::take_back(const Path& path, Index start, bool continues,
                                       const EditLog::Mark& before) {
   work_.editor.roll_back(before);
@@ -105,8 +105,8 @@ void NearestLayerSegment::open(const Path& path) {
   torn_edges_ += edges.size();
 }
 
-/// Where the surface ends, folds away or cannot be split, the sweep goes on to the next surface
-/// that it meets. Every turn passes at least one triangle.
+/// Where the surface ends, folds away or cannot be split, the sweep continues on the next surface
+/// that it meets. Every iteration passes at least one triangle.
 void NearestLayerSegment::tear() {
   double progress = 0;
   if (tip_.point != kNone) progress = std::max(0.0, tear_piece(tip_.point, work_.editor.mark()));

@@ -7,9 +7,9 @@
 
 namespace sunder::tear {
 
-/// Tears the layer that the sweep of one segment meets first, without width: the path goes on from
-/// the tip, or enters where the blade meets the surface, and is opened piece by piece.
-/// @param tip  where the tear stands; moved to where it stands afterwards.
+/// Tears the layer that the sweep of one segment meets first, without width. The path continues
+/// from the tip, or enters where the blade meets the surface, and is opened piece by piece.
+/// @param tip  the tip of the tear; moved to its new place.
 void tear_nearest_layer(const BladePlane& plane, const Workpiece& work, StrokeTip& tip,
                         Outcome& outcome);
 

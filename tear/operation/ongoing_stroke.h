@@ -19,7 +19,7 @@ class OngoingStroke {
   /// Begins another stroke, in the same memory.
   void begin(const Blade& first, const TearOptions& options);
 
-  /// Tears on to the next blade, in the pose that `work.posed` stands for.
+  /// Tears to the next blade, in the pose of `work.posed`.
   void extend(const Blade& to, const Workpiece& work, Outcome& outcome);
   /// To be called before the pose changes: the gap is finished in the pose in which it was swept.
   void leave_pose(const Workpiece& work, Outcome& outcome);

@@ -16,11 +16,11 @@ struct StrokeTip {
   /// it.
   std::optional<SurfaceHit> hit;
 
-  /// Whether the tear stands on a point that still has a face.
+  /// Whether the tear ends in a point that still has a face.
   [[nodiscard]] bool is_on_surface(const Workpiece& work) const;
 };
 
-/// Finds where the sweep of a segment meets the surface next, from `progress` on.
+/// Finds where the sweep of a segment next meets the surface, from `progress` on.
 [[nodiscard]] std::optional<SurfaceHit> find_contact(const BladePlane& plane, double progress,
                                                      const Workpiece& work, StrokeTip& tip);
 

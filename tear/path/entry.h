@@ -10,7 +10,8 @@
 
 namespace sunder::tear {
 
-/// The first place where a blade at rest meets the posed surface, from its base towards its tip.
+/// The first place where a blade that does not move meets the posed surface, from its base towards
+/// its tip.
 [[nodiscard]] std::optional<SurfaceHit> first_hit(const Blade& blade, const SurfaceEditor& editor,
                                                   PosedPoints& posed);
 

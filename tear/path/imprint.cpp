@@ -90,7 +90,7 @@ class GrowingPath {
     return true;
   }
 
-  /// Goes `fraction` of the way to the place of a step, within the face, unless that snaps to a
+  /// Moves by `fraction` of the way to the place of a step, within the face, unless that snaps to a
   /// place behind.
   void stop_within(const Step& step, double fraction) {
     SurfaceHit hit;

@@ -4,7 +4,7 @@
 
 namespace sunder::tear {
 
-/// A run of surface edges along which the surface is to open.
+/// A run of surface edges along which the surface will be opened.
 struct Path {
   explicit Path(ScratchMemory& scratch) : points(&scratch), half_edges(&scratch) {}
 
@@ -18,8 +18,8 @@ struct Path {
   PathEnd end = PathEnd::surface;
 };
 
-/// Makes the curve in which the plane meets the surface a run of edges: from `start` on, face to
-/// face, while it goes forward in the sweep and the blade reaches it.
+/// Turns the curve in which the plane meets the surface into a run of edges: from `start` from face
+/// to face, while it goes forward in the sweep and the blade reaches it.
 [[nodiscard]] Path imprint_path(const BladePlane& plane, Index start, SurfaceEditor& editor,
                                 PosedPoints& posed);
 

@@ -5,9 +5,9 @@
 
 namespace sunder::tear {
 
-/// Makes a place on the surface a point: an existing point if the place snaps to it, otherwise a
-/// new one by splitting an edge or a face. Where the face is too small to be split, the nearest end
-/// of the nearest edge. A new point is pinned where it was found in the pose.
+/// Turns a place on the surface into a point: an existing point if the place snaps to it, otherwise
+/// a new one by splitting an edge or a face. If the face is too small to be split, the nearest end
+/// of the nearest edge. A new point is pinned to its place in the pose.
 [[nodiscard]] Index imprint_point(const SurfaceHit& hit, Snapping snapping, SurfaceEditor& editor,
                                   PosedPoints& posed);
 

@@ -11,7 +11,7 @@ namespace sunder::tear {
 /// between these faces only belong to the triangulation that earlier tears left. They are flipped
 /// out of the way, because splitting them would add points that nothing needs.
 struct Leap {
-  /// The end: at a point, on an edge that has to be split, or where the reach of the blade ends.
+  /// The end: at a point, on an edge that must be split, or where the reach of the blade ends.
   SurfaceHit landing;
   Index edges = 0;      ///< Number of edges in the way.
   double progress = 0;  ///< Progress in the sweep at its end.

@@ -5,9 +5,9 @@
 
 namespace sunder::tear {
 
-/// Why a curve in which a blade's plane meets the surface ends.
+/// The reason why a curve in which a blade's plane meets the surface ends.
 enum class PathEnd : std::uint8_t {
-  blade,    ///< It reached the second blade: the next segment goes on from here.
+  blade,    ///< It reached the second blade: the next segment continues from here.
   surface,  ///< A border, a fold away from the blade, or the end of the blade's reach.
   blocked,  ///< A face that cannot be split.
 };

@@ -20,11 +20,11 @@ class FaceLines {
             std::span<const std::array<Index, 2>> children, SurfaceEditor& editor,
             PosedPoints& posed);
 
-  /// Makes a place in the face a point. @return kNone if the face has no area.
+  /// Turns a place in the face into a point. @return kNone if the face has no area.
   [[nodiscard]] Index imprint(const Vec3d& position);
 
-  /// Makes the straight line between two points of the face a chain of edges. Edges that cross it
-  /// are flipped where possible and split otherwise. Lines drawn earlier stay.
+  /// Turns the straight line between two points of the face into a chain of edges. Edges that cross
+  /// it are flipped where possible and split otherwise. Lines drawn earlier stay.
   /// @param edges  appended, in order from `from` to `to`.
   /// @return false if the faces are too small or degenerate; the edges made until then are
   ///         appended.

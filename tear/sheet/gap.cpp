@@ -73,7 +73,7 @@ std::vector<Sheet> sheets_of(const Cell& cell) {
   return sheets;
 }
 
-/// Retires faces (ascending) and gives each fan that remains at their points a point of its own.
+/// Retires faces (ascending) and gives each remaining fan at their points a point of its own.
 void remove_faces(const std::vector<Index>& faces, SurfaceEditor& editor, PosedPoints& posed) {
   const Surface& surface = editor.surface();
   const auto stays = [&](Index face) {

@@ -20,13 +20,13 @@ struct SheetImprint {
   Index blocked = 0;
 };
 
-/// Makes the lines in which sheets meet posed faces edges of the surface. Lines end where the
+/// Turns the lines in which sheets meet posed faces into edges of the surface. Lines end where the
 /// sheets end, also within a face; nothing beyond is split. Sheets that bound one another meet in
 /// corners. Afterwards each child of a face (Stage::ancestor) lies on one side of each sheet.
 ///
-/// @param faces  live faces, each once.
-/// O((faces + new points) x sheets). A crossing snaps to an end of its edge only if it would be
-/// stored as that end or is nearer to it than 1e-9 of the edge's length.
+/// @param faces  live faces, each once. O((faces + new points) x sheets). A crossing snaps to an
+///         end of its edge only if it would be stored as that end or is nearer to it than 1e-9 of
+///         the edge's length.
 [[nodiscard]] SheetImprint imprint_sheets(std::span<const Sheet> sheets,
                                           std::span<const Index> faces, SurfaceEditor& editor,
                                           PosedPoints& posed);

@@ -30,7 +30,7 @@ class Connectivity {
     const TriangleRef ref = columns_.surface.triangle(corner / 3);
     character_.meshes[ref.mesh].triangles[ref.triangle][corner % 3] = vertex;
   }
-  /// Makes two half-edges twins, or one a border where `b` is kNone.
+  /// Joins two half-edges as twins, or makes one a border if `b` is kNone.
   void join(Index a, Index b) {
     columns_.surface.twin[a] = b;
     if (b != kNone) columns_.surface.twin[b] = a;

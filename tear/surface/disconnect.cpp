@@ -11,7 +11,7 @@ class RemainingFans {
   RemainingFans(std::span<const Index> corners, const SurfaceEditor& editor)
       : corners_(corners), editor_(editor) {}
 
-  /// Whether faces other than those of the fan that moves use a vertex.
+  /// Whether faces outside the moved fan use a vertex.
   [[nodiscard]] bool use(Index mesh, Index vertex) const {
     const auto& is_shared = editor_.surface().is_shared_vertex[mesh];
     if (vertex < is_shared.size() && is_shared[vertex]) return true;

@@ -18,8 +18,8 @@ void cut_edge(Index half_edge, SurfaceEditor& editor);
 Index separate_fan(std::span<const Index> corners, std::span<const Index> remaining,
                    SurfaceEditor& editor);
 
-/// The half-edges of a path that was cut through a point: the one that arrives there, the one that
-/// leaves, and their former twins.
+/// The half-edges of a cut path at a point: the one that arrives there, the one that leaves, and
+/// their former twins.
 struct PathThroughPoint {
   Index arriving = kNone, leaving = kNone;
   Index across_arriving = kNone, across_leaving = kNone;

@@ -6,9 +6,9 @@
 
 namespace sunder::tear {
 
-/// Flips edges between parts of one origin where that improves the shape of the worse of the two
-/// faces, until no flip does. The surface stays what it is, and so do lips and borders.
-/// @param since  faces that changed since are looked at first. O(faces + edges flipped).
+/// Flips edges between parts of one origin while this improves the shape of the worse of the two
+/// faces. The shape of the surface, lips and borders do not change.
+/// @param since  starts with faces that changed since this mark. O(faces + edges flipped).
 void improve_faces(const EditLog::Mark& since, SurfaceEditor& editor);
 
 }  // namespace sunder::tear

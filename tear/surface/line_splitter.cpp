@@ -47,8 +47,8 @@ Index LineSplitter::go_on(Index half_edge, double fraction) {
   const FaceSplit& face = *last.face_ahead;
   make_room(face, half_edge, 2);
   append_vertices(face, half_edge, fraction, made);
-  // The face (u, v, w) is entered through p on u -> v. It loses a corner, v or u; what is left is
-  // cut from p to w, or from the new point q to the other one.
+  // The face (u, v, w) is entered through p on u -> v. It loses a corner, v or u; the rest is cut
+  // from p to w, or from the new point q to the opposite corner.
   const FaceSplit::Corner& p = last.of_ahead;
   const FaceSplit::Corner& q = made.of_behind;
   const Index entry = last.ahead;

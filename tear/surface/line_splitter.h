@@ -36,7 +36,7 @@ class LineSplitter {
   struct EdgeParts {
     Index to_point = kNone, from_point = kNone;
   };
-  /// A point on an edge, with what it is in the faces on both sides.
+  /// A point on an edge, with its role in the faces on both sides.
   struct NewPoint {
     Index mesh = 0;
     FaceSplit::Corner of_behind, of_ahead;

@@ -28,7 +28,7 @@ struct Corners {
   }
 };
 
-/// Unit length; where opposite directions cancel, that of the nearest corner.
+/// Unit length; if opposite directions cancel, the direction of the nearest corner.
 Eigen::Vector3d unit_direction(const Eigen::Vector3d& direction, const Vec3f& nearest) {
   const double length = norm(direction);
   return length > 1e-12 ? Eigen::Vector3d(direction / length)

@@ -4,7 +4,7 @@
 
 namespace sunder::tear {
 
-// Splitting faces: the surface stays what it is.
+// Splits faces; the shape of the surface does not change.
 
 /// Puts a new point on an edge, `fraction` of the way along the half-edge, and splits the faces on
 /// both sides of it.

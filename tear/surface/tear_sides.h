@@ -16,8 +16,7 @@ class TearSides {
   Index take_next() { return next_++; }
   void set_next(Index next) { next_ = next; }
 
-  /// Writes a value, and logs the one that was there. Adds the attribute to the mesh where that is
-  /// necessary.
+  /// Writes a value and logs the previous one. Adds the attribute to the mesh if necessary.
   void write(Index mesh, Index vertex, Index side);
   /// The same for a vertex that a roll back removes together with the value; nothing is logged.
   void write_to_new(Index mesh, Index vertex, Index side);

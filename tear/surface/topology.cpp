@@ -35,8 +35,8 @@ bool is_border(const Surface& surface, Index half_edge) {
   return surface.twin[half_edge] == kNone && !surface.has_repeated_point(half_edge / 3);
 }
 
-/// A border half-edge is followed by the one that leaves its end point; each point has one fan,
-/// hence at most one of them.
+/// The next half-edge on a border leaves the end point of this one; each point has one fan, hence
+/// at most one such half-edge.
 Index count_boundary_loops(const Surface& surface) {
   std::vector<bool> is_seen(surface.twin.size(), false);
   Index loops = 0;

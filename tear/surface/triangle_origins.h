@@ -45,7 +45,7 @@ class TriangleOrigins {
   /// Whether the faces on both sides of an edge are parts of one origin.
   [[nodiscard]] bool is_inner_edge(Index half_edge) const {
     const Index twin = surface().twin[half_edge];
-    // Of two triangles of one origin, at least one was appended.
+    // Of two triangles with the same origin, at least one was appended.
     if (twin == kNone || std::max(half_edge, twin) / 3 < source_triangles()) return false;
     const TriangleRef here = surface().triangle(half_edge / 3),
                       there = surface().triangle(twin / 3);

@@ -29,7 +29,7 @@ std::vector<VertexRef> interpolated_points(const VertexRanges& ranges,
 
 namespace {
 
-/// Appends the barycentric influences of a point, pruned to the wanted number.
+/// Appends the barycentric influences of a point, pruned to the requested number.
 PointWeights append_barycentric(const VertexRef& at, const WeightOptions& options,
                                 const SurfaceEditor& editor, WeightAssignment& assignment,
                                 WeightReport& report) {
