@@ -18,7 +18,7 @@ struct OuterForces {
   WindField wind;
   Tension tension;
   bool is_tension_stale = false;  ///< Whether Motion::lip_forces are to be computed anew.
-  double time = 0;                ///< Seconds of all steps: when the wind is asked for.
+  double time = 0;  ///< Seconds of all steps: the time at which the wind is asked for.
 };
 
 /// The motion that renderers read.
@@ -31,7 +31,7 @@ struct ShownMotion {
   MovedVertices moved_vertices;
 };
 
-/// Memory of a step that is used again.
+/// Scratch memory of a step.
 struct StepScratch {
   std::vector<Index> active, needed, changed;
   std::vector<std::uint8_t> is_needed;
@@ -42,7 +42,7 @@ struct StepScratch {
 /// The data of a SoftBody.
 struct BodyState {
   ParticleSet* set = nullptr;
-  std::uint64_t revision = 0;  ///< Of the set that all below follows.
+  std::uint64_t revision = 0;  ///< Revision of the set that all members below follow.
   SoftBodyOptions options;
   std::vector<SoftMaterial> materials;
 
@@ -58,9 +58,9 @@ struct BodyState {
   ShownMotion shown;
   StepScratch scratch;
 
-  /// Whether nothing moves, and nothing is set that a step would have to look at.
+  /// Whether nothing moves and no setting needs attention, so that a step has nothing to do.
   [[nodiscard]] bool is_idle() const;
-  /// Follows the set, if it changed. Where memory runs out, the next call does the rest. @throws
+  /// Follows the set, if it changed. If memory runs out, the next call completes it. @throws
   /// std::bad_alloc
   void follow_particles();
   void wake_around(Index particle);

@@ -20,7 +20,7 @@ bool BodyState::is_idle() const {
          contact.colliders().empty() && !outer.wind;
 }
 
-/// Lists the particles whose rest a step needs.
+/// Lists the particles whose rest the step needs.
 void BodyState::find_needed() {
   std::vector<Index>& needed = scratch.needed;
   needed.clear();
@@ -46,7 +46,7 @@ void BodyState::find_needed() {
     if (is_needed[p] != 0) needed.push_back(p);
 }
 
-/// Brings particles up to date with the pose, and carries them along or leaves them behind.
+/// Updates particles to the pose, and carries them along or lets them lag.
 void BodyState::follow_pose(double seconds) {
   find_needed();
   rests.update(*set, scratch.needed, seconds);
@@ -59,8 +59,7 @@ void BodyState::follow_pose(double seconds) {
         (*vectors)[p] = multiply(rests.turn_of_step(p), (*vectors)[p]);
     } else {
       motion.wake(p);
-      // Within the step the frame moves along with the rest; a step without time leaves it behind
-      // at once.
+      // During the step the frame moves with the rest; in a step of zero seconds it moves at once.
       if (seconds > 0)
         motion.velocities[p] -= rests.velocity(p);
       else
@@ -85,8 +84,8 @@ void BodyState::follow_forces(const TornModel& model, const ModelPose& pose) {
   holds.begin_step(model, pose, rests, materials, poses, motion);
 }
 
-/// Integrates the particles that are awake: each alone in closed form, then what their neighbours
-/// and holds add.
+/// Integrates the particles that are awake: each alone in closed form, then the corrections by
+/// neighbours and holds.
 void BodyState::integrate(double seconds) {
   std::vector<SpringStep>& steps = scratch.steps;
   steps.clear();
@@ -117,7 +116,7 @@ void BodyState::integrate(double seconds) {
   }
 }
 
-/// Writes what renderers read. @param is_posed  whether RestMotion::updated() is of this step.
+/// Writes the data for renderers. @param is_posed  whether RestMotion::updated() is of this step.
 void BodyState::publish(bool is_posed) {
   if (is_posed)
     for (const Index p : rests.updated()) shown.turns[p] = rests.turn(p).cast<float>();
@@ -138,8 +137,8 @@ void BodyState::publish(bool is_posed) {
 void BodyState::step(const TornModel& model, const ModelPose& pose, bool is_posed, double seconds) {
   outer.time += seconds;
   connect_springs();
-  // A body that lags moves in the room; between steps its velocity is kept relative to that of its
-  // rest.
+  // A body that lags moves relative to the world; between steps its velocity is stored relative to
+  // that of its rest.
   if (options.follow == Follow::lag)
     for (const Index p : rests.carried()) motion.velocities[p] += rests.velocity(p);
   if (is_posed)

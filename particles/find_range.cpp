@@ -10,15 +10,17 @@ namespace sunder {
 namespace {
 
 constexpr double kFirst = 0.1, kLeast = 1e-6,
-                 kMost = 4.0;  // diagonals; distances along a surface may be longer than that
+                 kMost = 4.0;  // diagonals; distances along a surface may be larger than that
 constexpr int kTrials = 12;
 
-/// The ranges known to be too small and too large, and the next one to try.
+/// The largest range known to be too small, the smallest known to be too large, and the next one to
+/// try.
 class Bracket {
  public:
   void add(double range, bool is_too_small) { (is_too_small ? small_ : large_) = range; }
   [[nodiscard]] bool is_closed() const { return large_ < 1.0001 * small_; }
-  /// @param guess  taken where it lies well between the two.
+  ///
+  /// @param guess  used if it is well between the two.
   [[nodiscard]] double next(double guess) const {
     if (guess > 1.02 * small_ && guess < 0.98 * large_) return guess;
     return std::sqrt(small_ * large_);
@@ -36,7 +38,7 @@ Result<ParticleSet> decompose(const TornModel& model, const ModelPose& pose, dou
   return ParticleSet::create(model, pose, options);
 }
 
-/// The shortest mean duration of a step among some batches, with all particles awake.
+/// The minimum over some batches of the mean duration of a step with all particles awake.
 Result<double> time_step(const TornModel& model, const ModelPose& pose, ParticleSet& set,
                          const SoftMaterial& material) {
   constexpr int kBatches = 5, kSteps = 8;
@@ -45,7 +47,7 @@ Result<double> time_step(const TornModel& model, const ModelPose& pose, Particle
   if (!body) return body.error();
   double least = std::numeric_limits<double>::infinity();
   for (int batch = 0; batch < kBatches; ++batch) {
-    // In different directions, so that no spring hangs slack.
+    // In different directions, so that every spring is stretched.
     for (std::uint32_t p = 0; p < set.particle_count(); ++p) {
       const Vec3d push = material.mass * set.range(p) *
                          Vec3d((p % 2 == 0) ? 1.0 : -1.0, (p % 3 == 0) ? 1.0 : -1.0, 0.5);

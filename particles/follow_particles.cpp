@@ -29,7 +29,8 @@ ParticleInfluences like_neighbours(const ParticleSet& set, Index particle,
 
 }  // namespace
 
-/// All memory that a body of so many particles needs in follow_particles(), but for its springs.
+/// Reserves all memory that a body with this many particles needs in follow_particles(), except for
+/// its springs.
 void BodyState::reserve(Index count) {
   motion.resize(count);
   contact.follow(count);
@@ -42,7 +43,7 @@ void BodyState::reserve(Index count) {
   scratch.is_needed.reserve(count);
 }
 
-/// Gives new particles the motion of those that they come from.
+/// Gives new particles the motion of their parents.
 void BodyState::inherit_motion() {
   std::vector<Index> orphans;
   orphans.reserve(motion.count());
@@ -52,20 +53,20 @@ void BodyState::inherit_motion() {
     inherit(set->parents(p), p, rests, motion);
     if (!(set->parents(p).weights[0] > 0)) orphans.push_back(p);
   }
-  // A particle without parents, such as one that undo brought back, moves as those around it: the
-  // tissue must not jump.
+  // A particle without parents, such as one that undo restored, moves like its neighbours, so that
+  // the tissue does not jump.
   for (const Index p : orphans) inherit(like_neighbours(*set, p, orphans), p, rests, motion);
 }
 
 void BodyState::follow_particles() {
-  if (set->is_broken()) throw std::bad_alloc();  // what it says is not consistent
+  if (set->is_broken()) throw std::bad_alloc();  // its data is not consistent
   if (set->revision() == revision) return;
   const Index count = set->particle_count();
   Index awake = 0;
   for (Index p = 0; p < std::min(count, motion.count()); ++p) awake += motion.awake[p];
   reserve(count);
   motion.awake_count = awake;
-  if (options.follow == Follow::lag) {  // in the room, where it stays
+  if (options.follow == Follow::lag) {  // keeps its place in the world
     for (const Index p : rests.carried())
       if (p < count) motion.velocities[p] += rests.velocity(p);
     rests.begin_still_step();

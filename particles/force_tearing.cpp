@@ -17,13 +17,13 @@ namespace sunder {
 namespace particles {
 namespace {
 
-/// Two neighbours that are farther apart than their materials bear.
+/// Two neighbours whose distance exceeds the strength of their materials.
 struct OverstretchedPair {
   Index a = 0, b = 0;
   double over = 0;  ///< Stretch over strength.
 };
 
-/// How many pairs are tried, where the surface cannot be torn at the first.
+/// Number of pairs that are tried if the surface cannot be torn at the first.
 constexpr std::size_t kMostAttempts = 8;
 
 Vec3d rest_place(const SoftBody& body, Index particle) {
@@ -43,8 +43,8 @@ double strength_of(const SoftBody& body, Index a, Index b) {
   return std::min(of_a, of_b);
 }
 
-/// Pairs beyond their strength, the worst first. @param greatest  raised to the greatest stretch of
-/// all pairs.
+/// Pairs beyond their strength, the worst first.
+/// @param greatest  raised to the greatest stretch of all pairs.
 std::vector<OverstretchedPair> find_overstretched(const SoftBody& body,
                                                   const ParticleSet& particles, double& greatest) {
   std::vector<OverstretchedPair> pairs;
@@ -65,10 +65,10 @@ std::vector<OverstretchedPair> find_overstretched(const SoftBody& body,
   return pairs;
 }
 
-/// The direction in which the tissue around two particles is stretched most, in the plane across
-/// `normal`: that of the linear map nearest to what happened to the vectors to their neighbours, so
-/// that neighbours that stand unevenly do not turn it. It is the direction in the tissue as it is
-/// now: at a tip, the lips move apart across it.
+/// The direction in which the tissue around two particles is stretched most, in the plane
+/// perpendicular to `normal`. It is that of the linear map that best describes the change of the
+/// vectors to their neighbours, so an uneven distribution of neighbours does not rotate it. It is
+/// the direction in the current tissue: at a tip, the lips move apart across it.
 Vec3d greatest_stretch_around(const SoftBody& body, const ParticleSet& particles,
                               const OverstretchedPair& pair, const Vec3d& normal) {
   Eigen::Matrix<double, 3, 2> plane;
@@ -97,7 +97,7 @@ Vec3d greatest_stretch_around(const SoftBody& body, const ParticleSet& particles
   return plane * solver.eigenvectors().col(1);
 }
 
-/// The point where a tear goes on or begins.
+/// The point where a tear continues or begins.
 struct Start {
   Index point = kNone;
   bool is_tip = false;
@@ -109,7 +109,8 @@ float weight_of(const ParticleInfluences& of, Index particle) {
   return 0.0f;
 }
 
-/// The tip nearest to the middle of a pair that one of the two holds, or kNone.
+/// The tip nearest to the middle of a pair among those with membership in one of the two; kNone if
+/// there is none.
 Index nearest_tip(const ParticleSet& particles, const OverstretchedPair& pair,
                   std::span<const Index> tips) {
   const auto is_of_pair = [&](const ParticleMembership& m) {
@@ -117,10 +118,11 @@ Index nearest_tip(const ParticleSet& particles, const OverstretchedPair& pair,
   };
   const std::span<const Vec3f> at = particles.positions();
   const Vec3f middle = 0.5f * (at[particles.seed(pair.a)] + at[particles.seed(pair.b)]);
-  float nearest = std::numeric_limits<float>::infinity();  // what a particle holds is near
+  float nearest = std::numeric_limits<float>::infinity();  // members of a particle are near
   Index found = kNone;
   for (const Index tip : tips) {
-    // Not by weights: where particles crowd at a tear, those of its tip do not name them all.
+    // Memberships and not weights: where particles crowd at a tear, those of its tip do not have
+    // weights of all of them.
     if (std::ranges::none_of(particles.memberships(tip), is_of_pair)) continue;
     const float distance = norm(at[tip] - middle);
     if (!(distance < nearest)) continue;
@@ -130,7 +132,7 @@ Index nearest_tip(const ParticleSet& particles, const OverstretchedPair& pair,
   return found;
 }
 
-/// The point that both particles of a pair hold most, or kNone.
+/// The point with the largest weight of both particles of a pair, or kNone.
 Index most_common_point(const ParticleSet& particles, const TornModel& model,
                         const OverstretchedPair& pair) {
   const auto members = particles.members(pair.a);
@@ -158,10 +160,10 @@ Start find_start(const ParticleSet& particles, const TornModel& model,
 struct ShortTear {
   Vec3d from = Vec3d::Zero();
   Vec3d direction = Vec3d::Zero();  ///< Unit length.
-  Vec3d normal = Vec3d::Zero();     ///< Of the surface; zero where there is none.
+  Vec3d normal = Vec3d::Zero();     ///< Of the surface; zero if there is none.
 };
 
-/// Turns the direction of a tear forward, away from the edges of the border that end at its tip.
+/// Orients the direction of a tear away from the border edges that end at its tip.
 void run_forward(const TornModel& model, const SurfacePose& posed, Index tip, ShortTear& tear) {
   const LipBorder border(model);
   Vec3d forward = tear.from - 0.5 * (posed.place(model, border.next(tip)) +
@@ -174,7 +176,7 @@ void run_forward(const TornModel& model, const SurfacePose& posed, Index tip, Sh
     tear.direction = normalized(tear.direction + forward);
 }
 
-/// Places a tear of some length at a point, across the direction of the greatest stretch.
+/// Places a tear of the given length at a point, across the direction of the greatest stretch.
 ShortTear place_tear(const SoftBody& body, const ParticleSet& particles, const TornModel& model,
                      const SurfacePose& posed, const OverstretchedPair& pair, const Start& start,
                      double length) {
@@ -199,7 +201,7 @@ Result<TearReport> run_tear(TornModel& model, const ModelPose& pose, const Short
 }
 
 /// Tears at the first of some pairs where the surface can be torn.
-/// @param change  written where it has torn.
+/// @param change  written if it was torn.
 Status tear_first(const SoftBody& body, ParticleSet& particles, TornModel& model,
                   const ModelPose& pose, std::span<const OverstretchedPair> pairs, double length,
                   ForceTearingReport& report, ChangeRecord& change) {
@@ -251,7 +253,8 @@ Result<ForceTearingReport> tear_overstretched(const SoftBody& body, ParticleSet&
   try {
     const auto pairs = particles::find_overstretched(body, particles, report.greatest_stretch);
     if (pairs.empty()) return report;
-    records.emplace_back();  // before the tear, which must not fail for its record
+    // Allocated before the tear, which must not fail because of its record.
+    records.emplace_back();
     const double length = options.length * particles.report().range;
     status =
         particles::tear_first(body, particles, model, pose, pairs, length, report, records.back());

@@ -159,7 +159,7 @@ std::span<const LipEdge> ParticleSet::lips() const { return structure_->lips; }
 std::uint64_t ParticleSet::revision() const { return structure_->revision; }
 
 DirtyRanges ParticleSet::dirty_points() const {
-  std::vector<Index>& dirty = structure_->dirty;  // their order means nothing
+  std::vector<Index>& dirty = structure_->dirty;  // their order has no meaning
   std::sort(dirty.begin(), dirty.end());
   return DirtyRanges::covering(dirty);
 }

@@ -187,7 +187,7 @@ Status SoftBody::set_gravity(const Vec3d& acceleration) {
 
 Status SoftBody::set_wind(WindField wind) {
   if (Status status = follow(*state_); !status) return status;
-  // The next step finds out which particles feel it: a wind that ends as much as one that begins.
+  // The next step finds the particles that feel it: the end of a wind as well as its beginning.
   if (!wind) state_->wake_all();
   state_->outer.wind = std::move(wind);
   return {};

@@ -9,7 +9,7 @@
 namespace sunder::particles {
 namespace {
 
-/// The length of a substep until the first one tells.
+/// The assumed length of a substep until the first one.
 constexpr double kLikelySubstepSeconds = 1.0 / 60;
 
 double scale_of(const Affine3d& world_from_model) {
@@ -66,7 +66,7 @@ Status BulletParticles::before_step(const ParticleSet& set, const ModelPose& pos
 }
 
 void BulletParticles::after_step() {
-  // stepSimulation() cleared what was left of them.
+  // stepSimulation() cleared the rest of them.
   of_particles_.given.setZero();
   read();
 }
@@ -78,7 +78,7 @@ void BulletParticles::updateAction(btCollisionWorld*, btScalar seconds) {
   pull(substep_);
 }
 
-/// For each particle of a set the index that it has had until now; kNone for new ones.
+/// For each particle of a set its previous index; kNone for new ones.
 std::vector<Index> BulletParticles::old_indices(const ParticleSet& set) const {
   std::unordered_map<std::uint64_t, Index> old_of_serial;
   for (Index i = 0; i < bodies_.count(); ++i) old_of_serial.emplace(of_particles_.serials[i], i);
@@ -103,8 +103,8 @@ BulletParticles::MotionColumns BulletParticles::inherit(const ParticleSet& set,
     if (old_of[i] != kNone) add_old(i, 1.0, old_of[i]);
   for (Index i = 0; i < count; ++i) {
     if (old_of[i] != kNone) continue;
-    // Parents have their indices before the tear. Of several tears between two calls, the later
-    // ones' may be new themselves.
+    // Parents have their indices before the tear. With several tears between two calls, parents of
+    // later tears may be new themselves.
     const ParticleInfluences& parents = set.parents(i);
     for (std::size_t k = 0; k < parents.particles.size(); ++k) {
       const double weight = double{parents.weights[k]};
@@ -144,8 +144,8 @@ void BulletParticles::make_room(Index count) {
   springs_.make_room(count);
 }
 
-/// Gives the particles of the set bodies. @param places  their rest places where the target has
-/// those of the particles until now.
+/// Gives the particles of the set bodies.
+/// @param places  their rest places, if the target still has those of the previous particles.
 void BulletParticles::match(const ParticleSet& set, const Columns& places) {
   const Index count = set.particle_count();
   const std::vector<Index> old_of = old_indices(set);
@@ -160,7 +160,7 @@ void BulletParticles::match(const ParticleSet& set, const Columns& places) {
   Columns rest = places - motion.lag;
   make_room(count);
 
-  // From here on nothing fails but Bullet.
+  // After this line only Bullet can fail.
   bodies_.follow(std::move(made), old_of);
   for (Index i = 0; i < count; ++i) {
     bodies_.put(i, rest.col(i) + motion.displacement.col(i));
@@ -180,10 +180,10 @@ double BulletParticles::still_speed(double range) const {
                   std::sqrt(options_.return_stiffness) / std::max(1.0, 2 * options_.damping_ratio));
 }
 
-/// Gives bodies their masses and weights for a substep. A load presses in by m k u where it rests,
-/// and Bullet adds its impulses after the springs': the body has the mass with which the spring's
-/// change of velocity makes that force. An implicit solver of both together would see about that
-/// mass, too.
+/// Gives bodies their masses and weights for a substep. A load that rests on a body displaced by u
+/// should press on it with the force m k u, and Bullet adds its impulses after those of the
+/// springs. So the body has the mass with which the spring's change of velocity corresponds to that
+/// force. An implicit solver for springs and contacts would use about that mass, too.
 void BulletParticles::weigh(double seconds) {
   const SubstepSpring& spring = springs_.return_spring();
   const double k = options_.return_stiffness, beta = spring.stiffness / (1 + spring.damping);
@@ -199,8 +199,7 @@ void BulletParticles::read_gravity() {
   bodies_.activate_all();
 }
 
-/// Puts the model at the target at once: displacements and the velocities relative to it turn with
-/// it.
+/// Moves the model to the target at once: displacements and velocities rotate with it.
 void BulletParticles::jump(const Affine3d& world_from_model) {
   const Mat3d turn = world_from_model.linear() * world_from_model_.linear().inverse();
   const bool turns = world_from_model.linear() != world_from_model_.linear();
@@ -216,9 +215,9 @@ void BulletParticles::jump(const Affine3d& world_from_model) {
   rest_.jump();
 }
 
-/// Gives the bodies the forces of the springs in the coming substep, in place of those that they
-/// were given last. Forces and not velocities, so that Bullet finds a body still that springs hold
-/// against a contact.
+/// Gives the bodies the forces of the springs in the coming substep, and removes the previous ones.
+/// Forces and not velocities, so that Bullet finds a body still if springs hold it against a
+/// contact.
 void BulletParticles::pull(double seconds) {
   const double part = rest_.part_of_way(seconds);
   if (!is_matched()) return;

@@ -18,14 +18,14 @@ class BulletParticles final : public btActionInterface {
   BulletParticles(const BulletParticles&) = delete;
   BulletParticles& operator=(const BulletParticles&) = delete;
 
-  /// As BulletBody::create() and BulletBody::before_step(), after arguments were checked. @throws
+  /// As BulletBody::create() and BulletBody::before_step(), with checked arguments. @throws
   /// std::bad_alloc
   Status create(const ParticleSet& set, const ModelPose& pose);
   Status before_step(const ParticleSet& set, const ModelPose& pose, double seconds,
                      const Affine3d& world_from_model);
   void after_step();
 
-  /// Bullet calls this at the end of every substep: what is done here is for the next one.
+  /// Bullet calls this at the end of every substep, so it prepares the next one.
   void updateAction(btCollisionWorld* world, btScalar seconds) override;
   void debugDraw(btIDebugDraw*) override {}
 
@@ -34,19 +34,19 @@ class BulletParticles final : public btActionInterface {
   [[nodiscard]] const ParticleBodies& bodies() const { return bodies_; }
 
  private:
-  /// Entries per particle that follow it when the set changes.
+  /// Entries per particle that keep their particle when the set changes.
   struct Columnwise {
     std::vector<std::uint64_t> serials;
     std::vector<double> still;  ///< Metres per second below which a particle is still.
     Columns rest_velocity;
-    Columns given;    ///< Newtons that the springs gave the bodies last.
-    Columns balance;  ///< The change of velocity that springs made when a body was last awake,
-                      ///< metres per second.
+    Columns given;  ///< Forces of the springs given to the bodies last, newtons.
+    /// The change of velocity by springs when a body was last awake, metres per second.
+    Columns balance;
   };
   /// The motion of a particle, which new ones inherit.
   struct MotionColumns {
     Columns displacement, velocity;
-    Columns lag;  ///< How far the rest place is behind its target.
+    Columns lag;  ///< Distance of the rest place from its target.
   };
 
   void match(const ParticleSet& set, const Columns& places);
@@ -56,7 +56,7 @@ class BulletParticles final : public btActionInterface {
   [[nodiscard]] Columnwise columns_for(const ParticleSet& set,
                                        const std::vector<Index>& old_of) const;
   void make_room(Index count);
-  /// False where memory ran out in match(): nothing pulls until the next before_step().
+  /// False if memory ran out in match(): no springs act until the next before_step().
   [[nodiscard]] bool is_matched() const { return scratch_.held.size() == bodies_.count(); }
   void jump(const Affine3d& world_from_model);
   void pull(double seconds);

@@ -8,7 +8,7 @@ static_assert(sizeof(btScalar) == sizeof(float),
 namespace sunder::particles {
 namespace {
 
-/// Removes the constraints on a body from the world; what hangs on it wakes.
+/// Removes the constraints on a body from the world; connected bodies wake.
 void remove_constraints(btDynamicsWorld& world, const btRigidBody& body) {
   for (int i = world.getNumConstraints(); i-- > 0;) {
     btTypedConstraint* constraint = world.getConstraint(i);
@@ -19,7 +19,7 @@ void remove_constraints(btDynamicsWorld& world, const btRigidBody& body) {
   }
 }
 
-/// Wakes what touches a body.
+/// Wakes the bodies that touch a body.
 void wake_touching(btDynamicsWorld& world, const btRigidBody& body) {
   btDispatcher* dispatcher = world.getDispatcher();
   for (int i = 0; i < dispatcher->getNumManifolds(); ++i) {
@@ -50,7 +50,7 @@ bool ParticleBodies::is_any_awake() const {
 ParticleBody ParticleBodies::make(double radius, double still_speed) const {
   ParticleBody made;
   made.shape = std::make_unique<btSphereShape>(static_cast<btScalar>(radius));
-  // Without inertia it does not turn.
+  // Without inertia the body does not rotate.
   btRigidBody::btRigidBodyConstructionInfo info(static_cast<btScalar>(options_.mass), nullptr,
                                                 made.shape.get());
   info.m_friction = static_cast<btScalar>(options_.friction);
@@ -96,7 +96,7 @@ void ParticleBodies::activate_all() {
   for (ParticleBody& of : bodies_) of.body->activate();
 }
 
-/// Takes a body out of the world, with what hangs on it; what lies on it wakes.
+/// Removes a body from the world, with its constraints; bodies that touch it wake.
 void ParticleBodies::leave(ParticleBody& leaving) {
   btRigidBody* body = leaving.body.get();
   if (body == nullptr || !body->isInWorld()) return;

@@ -16,7 +16,7 @@ inline btVector3 to_bullet(const Vec3d& v) {
   return {static_cast<btScalar>(v.x()), static_cast<btScalar>(v.y()), static_cast<btScalar>(v.z())};
 }
 
-/// A sphere that does not turn, for one particle.
+/// A sphere that does not rotate, for one particle.
 struct ParticleBody {
   std::unique_ptr<btSphereShape> shape;
   std::unique_ptr<btRigidBody> body;
@@ -27,7 +27,7 @@ class ParticleBodies {
  public:
   ParticleBodies(btDynamicsWorld& world, const BulletBodyOptions& options)
       : world_(&world), options_(options) {}
-  /// Takes all bodies out of the world.
+  /// Removes all bodies from the world.
   ~ParticleBodies();
   ParticleBodies(const ParticleBodies&) = delete;
   ParticleBodies& operator=(const ParticleBodies&) = delete;
@@ -40,15 +40,16 @@ class ParticleBodies {
   [[nodiscard]] Vec3d velocity(Index particle) const {
     return to_vec((*this)[particle].getLinearVelocity());
   }
-  /// Whether nothing moves a body but the host.
+  /// Whether only the host moves a body.
   [[nodiscard]] bool is_held(Index particle) const;
   [[nodiscard]] bool is_any_awake() const;
 
   /// Makes a body that is not in the world. @param radius  metres. @param still_speed  metres per
   /// second below which it may sleep.
   [[nodiscard]] ParticleBody make(double radius, double still_speed) const;
-  /// Replaces all bodies. @param bodies  new ones; where there is none, that of a particle until
-  /// now. @param old_of  its index.
+  /// Replaces all bodies.
+  /// @param bodies  new bodies; null: the particle keeps its previous one.
+  /// @param old_of  its previous index.
   void follow(std::vector<ParticleBody> bodies, const std::vector<Index>& old_of);
   /// Puts a new body into the world.
   void enter(Index particle, const Vec3d& velocity);

@@ -4,30 +4,31 @@
 
 namespace sunder::particles {
 
-/// Rest places of particles in world space, metres, on their way to where the pose has them.
+/// Rest places of particles in world space, metres, while they move to those of the pose.
 class RestPath {
  public:
   /// Evaluates the rest places of a pose. @return as ParticleSet::rest().
   Status evaluate(const ParticleSet& set, const ModelPose& pose, const Affine3d& world_from_model,
                   Columns& places);
 
-  /// The places as of the substep that Bullet reached, and where they are to be.
+  /// The places at the substep that Bullet reached, and their targets.
   [[nodiscard]] const Columns& places() const { return places_; }
   [[nodiscard]] const Columns& target() const { return target_; }
   [[nodiscard]] bool moves() const { return moves_; }
 
-  /// Replaces all places, of other particles than before.
+  /// Replaces all places, for another set of particles.
   void follow(Columns places) { places_ = std::move(places); }
-  /// Sets where the places are to be.
+  /// Sets the targets of the places.
   void set_target(const Columns& target);
-  /// Lets them move there evenly in some seconds more. @param substep  that Bullet may be behind.
+  /// Lets them move to the targets evenly within some seconds. @param substep  that Bullet may be
+  /// behind.
   void begin(double seconds, double substep);
-  /// Puts them there at once.
+  /// Moves them to the targets at once.
   void jump();
 
-  /// The fraction of the way to the target that they go in a substep.
+  /// The fraction of the way to the target per substep.
   [[nodiscard]] double part_of_way(double seconds) const;
-  /// Moves them by a substep.
+  /// Advances them by a substep.
   void advance(double seconds);
 
  private:

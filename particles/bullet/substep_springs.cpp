@@ -10,8 +10,8 @@ namespace sunder::particles {
 namespace {
 
 constexpr int kMostIterations = 64;
-/// Greatest decay of a spring per substep. Damping between neighbours that is ever so strong would
-/// make the system ill-conditioned.
+/// Greatest decay of a spring per substep. Stronger damping between neighbours would make the
+/// system ill-conditioned.
 constexpr double kMostDecay = 16, kMostDecayOfPairs = 2;
 
 /// The spring that goes exactly through the places of x'' = -f^2 x - 2 d f x', substep after
@@ -54,8 +54,8 @@ std::vector<SubstepSprings::Pair> SubstepSprings::pairs_of(const ParticleSet& se
       coupled[a] += coupling;
       coupled[neighbour.particle] += coupling;
     }
-  // Each spring moves a share of the masses that it joins, by its part in what pulls at them: no
-  // mass is moved twice, so that the sum of springs is bounded because each is.
+  // Each spring moves a share of the masses that it joins, in proportion to its part of the forces
+  // on them. No mass is moved twice, so the sum of springs is stable because each of them is.
   for (Pair& pair : pairs) {
     const double most = std::max(coupled[pair.a], coupled[pair.b]);
     pair.frequency = std::sqrt(2 * neighbour_stiffness_ * most);

@@ -6,7 +6,7 @@
 
 namespace sunder::particles {
 
-/// A column per particle.
+/// One column of values per particle.
 using Columns = Eigen::Matrix3Xd;
 
 /// A spring over one substep: (1 + damping) v' = v - stiffness x, then x' = x + h v'.
@@ -29,15 +29,16 @@ class SubstepSprings {
     SubstepSpring spring;  ///< Times the share.
   };
   [[nodiscard]] std::vector<Pair> pairs_of(const ParticleSet& set) const;
-  /// Makes room for a number of particles; the springs are as they were until connect(). @throws
+  /// Makes room for a number of particles; the springs do not change until connect(). @throws
   /// std::bad_alloc
   void make_room(Index count);
+  ///
   /// @param pairs  pairs_of() a set for whose particles there is room.
   void connect(std::vector<Pair> pairs);
 
-  /// Computes the springs for a substep. @return whether it is another one than before.
+  /// Computes the springs for a substep. @return whether its length differs from the previous one.
   bool set_substep(double seconds);
-  /// Lets the next set_substep() compute anew.
+  /// Makes the next set_substep() recompute the springs.
   void forget_substep() { springs_for_ = 0; }
   [[nodiscard]] const SubstepSpring& return_spring() const { return return_spring_; }
 

@@ -27,13 +27,13 @@ struct LipChain {
   std::vector<OfLip> particles;
 };
 
-/// The surface beside the lips of a tear, from the lips on, where particles of one side end at the
-/// other.
+/// The surface next to the lips of a tear, from the lips outwards, where particles of one side fade
+/// out towards the other.
 struct Band {
   Index tear = 0;
   std::vector<LipChain> chains;
   std::vector<Index>
-      to_grow;  ///< Particles to be grown anew from their seeds when the band is done; ascending.
+      to_grow;  ///< Particles to be regrown from their seeds when the band is complete; ascending.
 };
 
 }  // namespace sunder::particles

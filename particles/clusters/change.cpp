@@ -9,7 +9,7 @@ namespace sunder::particles {
 namespace {
 
 /// Moves the entries of an array from `count` on into `tail`, or appends those of `tail`.
-/// @param is_there  whether the array is to lose them.
+/// @param is_there  whether the array loses them.
 template <class T>
 void move_tail(std::vector<T>& values, std::size_t count, bool is_there, std::vector<T>& tail) {
   if (is_there) {
@@ -23,8 +23,7 @@ void move_tail(std::vector<T>& values, std::size_t count, bool is_there, std::ve
   }
 }
 
-/// Entries may be listed several times: they are undone from the last on, and redone from the first
-/// on.
+/// Entries may be listed several times: undo goes through them backwards, redo forwards.
 template <class T, class Exchange>
 void exchange_in_turn(std::vector<T>& changes, bool is_done, Exchange exchange_one) {
   if (is_done)

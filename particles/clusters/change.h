@@ -9,10 +9,10 @@ namespace sunder::particles {
 
 struct Structure;
 
-/// The changes of an operation to the structure: the values before it. exchange() swaps them with
-/// the present ones, which undoes the operation or redoes it.
+/// The changes of an operation to the structure, as previous values. exchange() swaps them with the
+/// current values, which undoes or redoes the operation.
 struct Change {
-  std::uint64_t operation = 0;  ///< TornModel::newest_operation() at its end; 0: under way.
+  std::uint64_t operation = 0;  ///< TornModel::newest_operation() at its end; 0: in progress.
   Index points = 0, particles = 0, lips = 0;  ///< Counts before.
   std::size_t memberships_before = 0, memberships_after = 0;
   std::vector<Index> vertices;  ///< Per mesh: the count before.

@@ -12,8 +12,8 @@
 namespace sunder::particles {
 namespace {
 
-/// All numbers below `count` once, each far from the one before: steps of about the golden section,
-/// which a seed shifts.
+/// All numbers below `count` once, each far from the previous one: steps of about the golden
+/// section, offset by a seed.
 class ScatteredOrder {
  public:
   ScatteredOrder(Index count, std::uint64_t seed) : count_(count) {
@@ -35,13 +35,13 @@ class ScatteredOrder {
   Index count_, at_, step_;
 };
 
-/// A membership as a front finds it.
+/// A membership found by a front.
 struct Visit {
   Index point;
   float distance;
 };
 
-/// The state of a point while seeds are taken.
+/// The state of a point while seeds are chosen.
 struct Found {
   float nearest;  ///< Distance to the nearest seed.
   Index count;    ///< Of memberships.
@@ -70,7 +70,7 @@ void grow_particle(Index seed, Rings& rings, Structure& structure, std::vector<V
   particle.member_count = static_cast<Index>(visits.size()) - structure.members.first.back();
 }
 
-/// Takes seeds until every point is near one. @return the members of all particles, particle after
+/// Chooses seeds until every point is near one. @return the members of all particles, particle by
 /// particle.
 std::vector<Visit> take_seeds(const Surface& surface, std::uint64_t seed_of_order,
                               Structure& structure, std::vector<Found>& found) {
@@ -79,8 +79,8 @@ std::vector<Visit> take_seeds(const Surface& surface, std::uint64_t seed_of_orde
   Rings rings(surface, structure.points.positions);
   std::vector<Visit> visits;
   visits.reserve(3 * std::size_t{points});
-  // Seeds first stand out of one another's range, then in the gaps that this leaves: fewer are
-  // needed than if they were as near from the beginning.
+  // Seeds are first placed outside one another's range, then in the remaining gaps. This takes
+  // fewer seeds than placing them at the smaller distance from the beginning.
   for (const float apart : {range, kSeedSpacingReach * range}) {
     ScatteredOrder order(points, seed_of_order);
     for (Index i = 0; i < points; ++i) {

@@ -4,8 +4,8 @@
 
 namespace sunder::particles {
 
-/// Divides all points into particles. The structure has its character, its vertices and positions.
-/// O(points + memberships).
+/// Divides all points into particles. The structure already has its character, vertices and
+/// positions. O(points + memberships).
 /// @throws std::bad_alloc, and std::length_error for more than kMaximumParticles.
 void decompose(const TornModel& model, const DecompositionOptions& options, Structure& structure);
 

@@ -7,9 +7,9 @@
 
 namespace sunder::particles {
 
-/// The decomposition's pose, which stays: where it puts vertices, in single precision. Distances
-/// along the surface need no more, and create() poses every point. Where points are in any other
-/// pose, in double, SurfacePose says.
+/// The pose of the decomposition, which does not change: positions of vertices in it, in single
+/// precision. That is enough for distances along the surface, and create() poses every point.
+/// SurfacePose computes positions in other poses, in double.
 class DecompositionPose {
  public:
   DecompositionPose() = default;
@@ -21,7 +21,7 @@ class DecompositionPose {
 
  private:
   using Column = Eigen::Array<float, 4, 1>;
-  /// The columns of an affine matrix, in whole packets, which three rows do not fill.
+  /// The columns of an affine matrix as whole packets of four; three rows would not fill them.
   using Columns = std::array<Column, 4>;
   std::vector<std::vector<Columns>> palettes_;  ///< Per skin and slot.
   std::vector<float> morph_weights_;

@@ -15,7 +15,8 @@ float weight_of(const ParticleInfluences& influences, Index particle) {
   return 0.0f;
 }
 
-/// Mean over the faces around a point, by area, of the gradients of what is linear in each.
+/// Mean over the faces around a point, weighted by area, of the gradients of functions that are
+/// linear in each face.
 ParticleGradients gradients_at(const Surface& surface, const Structure& structure, Index point) {
   ParticleGradients gradients;
   gradients.of_weights.fill(Vec3f::Zero());
@@ -98,7 +99,7 @@ std::span<const ParticleGradients> Gradients::of(const Surface& surface,
   const Index count = structure.points.count();
   const auto known = static_cast<Index>(is_known_.size());
   const std::size_t come = count > known ? count - known : 0;
-  // All memory first: what forget() notes later needs none.
+  // All memory is allocated first, so that forget() needs none.
   gradients_.reserve(count);
   unknown_.reserve(std::max<std::size_t>(unknown_.size() + come, count));
   is_known_.resize(count, false);

@@ -5,13 +5,13 @@
 
 namespace sunder::particles {
 
-/// Gradients of the weights of points along the surface. Those that changed since the last of() are
-/// computed anew there.
+/// Gradients of the weights of points along the surface. Gradients that changed since the last of()
+/// are recomputed there.
 class Gradients {
  public:
-  /// Forgets points whose weights changed, and those around them. No allocation.
+  /// Invalidates points whose weights changed, and their neighbours. No allocation.
   void forget(const Surface& surface, std::span<const Index> points);
-  /// Forgets the points of faces that changed. No allocation.
+  /// Invalidates the points of faces that changed. No allocation.
   void forget(const TornModel& model, const Structure& structure,
               std::span<const ChangeRecord> changes);
   /// One entry per point.
@@ -24,7 +24,7 @@ class Gradients {
   std::vector<ParticleGradients> gradients_;
   std::vector<bool> is_known_;
   std::vector<Index> unknown_;  ///< Has room for all points of `is_known_`.
-  bool is_wanted_ = false;      ///< Nothing is done before the first of().
+  bool is_wanted_ = false;      ///< Nothing is computed before the first of().
 };
 
 }  // namespace sunder::particles

@@ -5,8 +5,8 @@
 namespace sunder::particles {
 
 ParticleInfluences influences_from(std::span<const ParticleMembership> memberships) {
-  // The five largest shares, descending; of equal ones the lower particle first. The bits of a
-  // share and, below them, those of the particle are one number to sort by, without unpredictable
+  // The five largest shares, descending; among equal ones the lower particle first. The bits of a
+  // share and, below them, those of the particle form one number to sort by, without unpredictable
   // branches.
   std::uint64_t first = 0, second = 0, third = 0, fourth = 0, fifth = 0;
   for (const ParticleMembership& membership : memberships) {
@@ -28,7 +28,7 @@ ParticleInfluences influences_from(std::span<const ParticleMembership> membershi
   const std::array<Index, 4> particles = {~static_cast<Index>(first), ~static_cast<Index>(second),
                                           ~static_cast<Index>(third), ~static_cast<Index>(fourth)};
   ParticleInfluences influences;
-  // Five equal shares would leave nothing.
+  // With five equal shares nothing would be left.
   const float less = shares[0] > shares[4] ? shares[4] : 0.0f;
   float sum = 0;
   for (std::size_t i = 0; i < 4; ++i) sum += shares[i] - less;

@@ -4,15 +4,15 @@
 
 namespace sunder::particles {
 
-/// The share of a particle in a point, before the shares of the point are made to sum to one: (1 -
+/// The share of a particle in a point, before the shares of the point are normalised: (1 -
 /// reach^2)^2, which ends with slope zero.
 [[nodiscard]] inline float falloff(float reach) {
   const float rest = 1 - reach * reach;
   return rest * rest;
 }
 
-/// Influences from memberships: the four largest shares, each less the fifth, so that nothing jumps
-/// where another particle becomes the fourth.
+/// Influences from memberships: the four largest shares, each minus the fifth, so that weights are
+/// continuous where another particle becomes the fourth.
 [[nodiscard]] ParticleInfluences influences_from(std::span<const ParticleMembership> memberships);
 
 /// Calls visit(particle, weight) for each particle that moves a point.

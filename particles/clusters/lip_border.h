@@ -13,19 +13,18 @@ class LipBorder {
  public:
   explicit LipBorder(const TornModel& model) : surface_(model.surface()) {}
 
-  /// Whether a half-edge is a border: the surface is on its own side alone.
+  /// Whether a half-edge is a border: it has a face on its own side only.
   [[nodiscard]] bool has(Index half_edge) const {
     if (is_filling(half_edge / 3)) return false;
     const Index twin = surface_.twin[half_edge];
     return twin == kNone || is_filling(twin / 3);
   }
-  /// The half-edge of the border that leaves a point, or that arrives at it; kNone where there is
-  /// none.
+  /// The border half-edge that leaves a point, or that arrives at it; kNone if there is none.
   [[nodiscard]] Index leaving(Index point) const {
     return find(point, [](Index corner) { return corner; });
   }
   [[nodiscard]] Index arriving(Index point) const { return find(point, Surface::previous); }
-  /// The point after another on the border, and the one before it.
+  /// The next and the previous point on the border.
   [[nodiscard]] Index next(Index point) const {
     const Index half_edge = leaving(point);
     return half_edge == kNone ? kNone : surface_.corner_point[Surface::next(half_edge)];
@@ -36,7 +35,7 @@ class LipBorder {
   }
 
  private:
-  /// The first half-edge of the border among those of a point's corners.
+  /// The first border half-edge among those of a point's corners.
   template <class HalfEdgeOf>
   [[nodiscard]] Index find(Index point, HalfEdgeOf half_edge_of) const {
     const Index start = surface_.point_corner[point];

@@ -14,7 +14,8 @@ struct OnLip {
   Index tear = kNone;
   Side side = Side::left;
   Index older =
-      kNone;  ///< In PointTable::older_lips: the lip of an earlier tear on which the point is too.
+      /// In PointTable::older_lips: the lip of an earlier tear on which the point also lies.
+      kNone;
 };
 
 /// The newest lip of a point, if any, and the index of the lip edge that leaves the point.

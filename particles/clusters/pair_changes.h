@@ -5,11 +5,13 @@
 
 namespace sunder::particles {
 
-/// Changes the sums of neighbours by the pairs of influences that come and go. They are gathered in
-/// a small matrix first: the points around a tear have few pairs of particles, each many times.
+/// Updates the sums of neighbours by added and removed pairs of influences. The changes are first
+/// summed in a small matrix, because the points around a tear have few pairs of particles, each
+/// many times.
 class PairChanges {
  public:
-  /// @param sign    1 for influences that come, -1 for those that go.
+  ///
+  /// @param sign    1 for added influences, -1 for removed ones.
   /// @param change  called with the index of a particle before it changes; returns the particle.
   template <class ChangeParticle>
   void add(const ParticleInfluences& influences, int sign, ChangeParticle change) {
@@ -19,7 +21,7 @@ class PairChanges {
       if (count_ + 4 > kMost) apply(change);
       rows[count] = row_of(influences.particles[count]);
     }
-    // apply() may have given the rows to others.
+    // apply() may have reassigned the rows.
     for (std::size_t i = 0; i < count; ++i) rows[i] = row_of(influences.particles[i]);
     for (std::size_t i = 0; i < count; ++i) {
       weights_[rows[i]] += sign * double{influences.weights[i]};
@@ -32,7 +34,7 @@ class PairChanges {
     }
   }
 
-  /// Adds what was gathered to the particles.
+  /// Adds the summed changes to the particles.
   template <class ChangeParticle>
   void apply(ChangeParticle change) {
     for (std::size_t i = 0; i < count_; ++i) {

@@ -6,7 +6,7 @@
 namespace sunder::particles {
 namespace {
 
-/// A hash table of what pairs of particles have in common, with linear probing.
+/// A hash table of the sums of pairs of particles, with linear probing.
 class PairTable {
  public:
   struct Entry {
@@ -59,7 +59,8 @@ class PairTable {
 
 void sum_pairs(Structure& structure) {
   PairTable pairs(structure.particles.size());
-  // Gathered without branches first: the number of influences per point is unpredictable.
+  // Influences are collected without branches first, because their number per point is
+  // unpredictable.
   struct Common {
     std::uint64_t pair;
     double shared;

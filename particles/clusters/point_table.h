@@ -11,14 +11,14 @@ struct VertexRef {
   Index mesh = 0, vertex = kNone;
 };
 
-/// Gives an array room for `count` entries and an eighth more, where it has less. Arrays would
-/// double by themselves.
+/// Reserves room for `count` entries and an eighth more, if the array has less. By itself an array
+/// would double.
 template <class T>
 void reserve_eighth(std::vector<T>& values, std::size_t count) {
   if (values.capacity() < count) values.reserve(count + count / 8 + 1024);
 }
 
-/// Where the memberships of a point are, in PointTable::memberships.
+/// The range of a point's memberships in PointTable::memberships.
 struct MembershipSlab {
   Index first = 0, count = 0;
 };
@@ -33,7 +33,7 @@ struct PointColumns {
   std::vector<ParticleInfluences> influences;
   std::vector<LipPoint> lip_points;
 
-  /// Calls visit(column, column of `other`) for each column: a new column is added here alone.
+  /// Calls visit(column, column of `other`) for each column; the only place that lists them.
   template <class Visit>
   void for_each_column(PointColumns& other, Visit visit) {
     visit(positions, other.positions);
@@ -47,10 +47,10 @@ struct PointColumns {
 /// The points of the surface and the particles that they belong to.
 struct PointTable : PointColumns {
   /// The memberships of a point are contiguous, ascending by particle. A change appends the new
-  /// ones and leaves the old ones where they are, for undo.
+  /// ones and leaves the old ones in place, for undo.
   std::vector<ParticleMembership> memberships;
-  std::size_t memberships_end = 0;  ///< Those in use: changes that were undone have theirs behind.
-  std::vector<OnLip> older_lips;    ///< Grows only: redo may need what undo took back.
+  std::size_t memberships_end = 0;  ///< End of the used entries; those of undone changes follow.
+  std::vector<OnLip> older_lips;    ///< Only grows: redo may need entries of undone changes.
 
   [[nodiscard]] Index count() const { return static_cast<Index>(positions.size()); }
   [[nodiscard]] std::span<const ParticleMembership> memberships_of(Index point) const {

@@ -8,7 +8,7 @@
 namespace sunder::particles {
 namespace {
 
-/// The edge length is the mean of about so many edges, all over the surface.
+/// The edge length is the mean over about this many edges, spread over the surface.
 constexpr Index kEdgesMeasured = 1024;
 
 void read_vertices(const Character& character, const Surface& surface, Structure& structure) {

@@ -5,22 +5,22 @@
 
 namespace sunder::particles {
 
-/// Beside which entry of which chain a point of a band lies.
+/// The nearest entry of a chain to a point of a band.
 struct BesideLip {
   Index chain = 0, place = 0;
 };
 
-/// Memory that one repair leaves to the next.
+/// Memory that repairs reuse.
 struct RepairScratch {
   SurfaceFront front;             ///< From the seed of one particle.
   SurfaceFront band_front;        ///< From the lips: goes on from one settle() to the next.
   std::vector<BesideLip> beside;  ///< Per point that band_front has reached.
-  Marks worked;                   ///< Points that the call under way changes.
+  Marks worked;                   ///< Points that the current call changes.
   std::vector<Index> work_of;     ///< Per such point, its entry in StructureEdit.
-  Marks logged_points;            ///< Points that the change under way has noted.
+  Marks logged_points;            ///< Points that the current change has logged.
   Marks logged_particles;
   Marks seen, given;
-  Marks scored;  ///< Particles that are beside the lips.
+  Marks scored;  ///< Particles next to the lips.
   std::vector<Index> score_of;
 
   /// Makes room for new points, by an eighth at a time.

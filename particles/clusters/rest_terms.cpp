@@ -43,7 +43,7 @@ void RestOfVertex::set(const TornModel& model, std::span<const Index> first_slot
 void RestOfVertex::add_to(Particle& particle, double sign) {
   places_.resize(terms_.size(), 0);
   for (std::size_t i = 0; i < terms_.size(); ++i) {
-    // Mostly where the last particle had the same bone.
+    // Usually the previous particle had the same bone at this place.
     if (places_[i] >= particle.terms.size() || particle.terms[places_[i]].slot != terms_[i].slot) {
       places_[i] = 0;
       while (places_[i] < particle.terms.size() &&

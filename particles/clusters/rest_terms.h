@@ -5,12 +5,12 @@
 
 namespace sunder::particles {
 
-/// One vertex of a point: all of them are posed alike. No vertex for a point without a face.
+/// One vertex of a point, because all of them are posed alike. None for a point without a face.
 [[nodiscard]] VertexRef vertex_of(const TornModel& model, Index point);
 
 /// Calls visit(slot, w [v; 1]) for each bone that moves a vertex, and visit_morph(morph weight,
-/// slot, w delta) for each morph target and bone, as skinning does. Points of the policy `exact`
-/// have a position per influence in place of w v.
+/// slot, w delta) for each morph target and bone, as in skinning. Points of the policy `exact` have
+/// a position per influence in place of w v.
 /// @param first_slot  per skin: SurfacePose::first_slots().
 template <class Visit, class VisitMorph>
 void for_each_rest_term(const TornModel& model, std::span<const Index> first_slot,
@@ -43,7 +43,7 @@ void for_each_rest_term(const TornModel& model, std::span<const Index> first_slo
   }
 }
 
-/// The terms of one vertex, to be counted into particles and out of them.
+/// The terms of one vertex, to be added to particles or subtracted from them.
 class RestOfVertex {
  public:
   void set(const TornModel& model, std::span<const Index> first_slot, const VertexRef& of);
@@ -53,7 +53,7 @@ class RestOfVertex {
  private:
   std::vector<RestTerm> terms_;
   std::vector<RestMorphTerm> morph_terms_;
-  std::vector<std::size_t> places_;  ///< Where the last particle had each slot.
+  std::vector<std::size_t> places_;  ///< The place of each slot in the previous particle.
 };
 
 /// Sums the terms of particles' members.
@@ -63,14 +63,14 @@ class RestSums {
   RestSums(const TornModel& model, std::span<const Index> first_slot,
            std::span<const VertexRef> vertices);
 
-  /// Replaces the terms of a particle. O(members x influences).
+  /// Recomputes the terms of a particle. O(members x influences).
   void sum(std::span<const Index> members, Particle& particle);
 
  private:
   struct OfMesh {
     const Mesh* mesh;
     Index first_slot;
-    bool is_plain;  ///< Has neither morph targets nor exact points.
+    bool is_plain;  ///< The mesh has neither morph targets nor exact points.
   };
   struct OfSlot {
     Eigen::Vector4d sum = Eigen::Vector4d::Zero();

@@ -14,9 +14,9 @@ struct Band;
 class Gradients;
 class PairChanges;
 
-/// Data of the character that a structure was made of.
+/// Data of the character from which the structure was created.
 struct CharacterLink {
-  const Character* source = nullptr;  ///< Only to be compared.
+  const Character* source = nullptr;  ///< Only for comparison.
   std::vector<Skin> skins;
   std::size_t bone_count = 0, morph_weight_count = 0;
   DecompositionPose decomposition_pose;
@@ -25,18 +25,18 @@ struct CharacterLink {
 
 /// The members of all particles.
 struct MemberLists {
-  std::vector<Index> first, points;  ///< As the decomposition found them, particle after particle.
+  std::vector<Index> first, points;  ///< From the decomposition, particle by particle.
   std::vector<std::vector<Index>>
-      joined;  ///< Per particle: those that joined later. Some of both have left since.
+      /// Per particle: members that joined later. Members of both lists may have left since.
+      joined;
 };
 
-/// The operations that were followed. Each is a tear, whose number is the index of its change in
-/// `done`.
+/// The followed operations. Each is a tear, whose number is the index of its change in `done`.
 struct TearLog {
   std::vector<Change> done, undone;
-  std::unique_ptr<Band> band;  ///< What the last tear left to settle().
-  Index triangle_count = 0;    ///< Of the surface when it was followed last.
-  bool is_broken = false;      ///< Memory ran out half way.
+  std::unique_ptr<Band> band;  ///< Remaining work of the last tear, for settle().
+  Index triangle_count = 0;    ///< Of the surface when it was last followed.
+  bool is_broken = false;      ///< Memory ran out in the middle of an update.
 };
 
 /// The data of a ParticleSet.
@@ -58,12 +58,12 @@ struct Structure {
   std::vector<LipEdge> lips;
   TearLog tears;
 
-  // ---- Memory that is used again.
+  // ---- Scratch memory.
   RepairScratch scratch;
   std::unique_ptr<PairChanges> pairs;
   std::unique_ptr<Gradients> gradients;
 
-  /// Memory for the first tears, so that none of them pays for all points.
+  /// Scratch memory for the first tears, so that none of them has to allocate for all points.
   void prepare_for_tears(Index triangles);
   void make_room(std::size_t point_count);
   /// Points of a particle, ascending. O(members log members), allocates.

@@ -10,20 +10,20 @@
 
 namespace sunder::particles {
 
-/// A pose of the surface, in double: the one definition of where a pose puts points and particles.
-/// Both are sums of the terms of for_each_rest_term(): a point those of its vertex, a particle
-/// those of its members, which were added up beforehand.
+/// A pose of the surface, in double: the one definition of the positions of points and particles in
+/// a pose. Both are sums of the terms of for_each_rest_term(): for a point those of its vertex, for
+/// a particle those of its members, which are added up in advance.
 class SurfacePose {
  public:
   /// Makes room for the slots of a character's skins and for its morph weights. O(slots),
   /// allocates.
   void begin(std::span<const Skin> skins, std::size_t morph_weights);
-  /// Takes a pose; no allocation.
+  /// Sets the pose; no allocation.
   /// @param skins  those of begin().
   /// @return as compute_palette(). O(slots).
   [[nodiscard]] Status set(std::span<const Skin> skins, const ModelPose& pose);
 
-  /// Per skin, the index of its first slot; at the end the count of all.
+  /// Per skin, the index of its first slot; the total at the end.
   [[nodiscard]] std::span<const Index> first_slots() const { return first_slots_; }
   [[nodiscard]] const Affine3d& model_from_bind(Index slot) const { return palette_[slot]; }
 
@@ -33,13 +33,13 @@ class SurfacePose {
   [[nodiscard]] Vec3d posed_morph(Index morph_weight, Index slot, const Vec3d& term) const {
     return double{morph_weights_[morph_weight]} * multiply(palette_[slot].linear(), term);
   }
-  /// Where the pose puts a particle. O(bones of its members).
+  /// Position of a particle in the pose. O(bones of its members).
   [[nodiscard]] ParticleRest rest(const Particle& particle) const;
-  /// Where the pose puts a point: metres, model space. Zero for a point without a face.
+  /// Position of a point in the pose: metres, model space. Zero for a point without a face.
   /// O(influences of the point).
   [[nodiscard]] Vec3d place(const TornModel& model, Index point) const;
-  /// Unit normal of the posed surface at a point, which has a face; zero where the faces around it
-  /// have no area.
+  /// Unit normal of the posed surface at a point that has a face; zero if the faces around it have
+  /// no area.
   [[nodiscard]] Vec3d normal(const TornModel& model, Index point) const;
 
  private:

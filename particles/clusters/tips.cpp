@@ -10,8 +10,8 @@ namespace {
 /// A border between two lips that has more points than this is not the end of a gap.
 constexpr std::size_t kMostPointsOfEnd = 64;
 
-/// The middle of the border from the last point of a lip over the end of the tear to the first
-/// point of the other lip; kNone where the border leads elsewhere.
+/// The middle of the border from the last point of a lip across the end of the tear to the first
+/// point of the other lip; kNone if the border leads elsewhere.
 /// @param end  scratch.
 Index find_tip(const LipBorder& border, const PointTable& points, const LipPoint& lip, Index start,
                std::vector<Index>& end) {

@@ -12,8 +12,9 @@ namespace sunder::particles {
 /// The point of each vertex.
 struct VertexPoints {
   std::vector<std::vector<Index>>
-      of_mesh;  ///< Per mesh and vertex: the point; kNone where no face uses the vertex.
-  /// Vertices in which a surface touches itself have several points: all that they ever had.
+      of_mesh;  ///< Per mesh and vertex: the point; kNone if no face uses the vertex.
+  /// Vertices in which a surface touches itself have several points. Lists all points that they
+  /// ever had.
   std::map<std::pair<Index, Index>, std::vector<Index>> shared;
 
   void share(Index mesh, Index vertex, Index point, Index other) {

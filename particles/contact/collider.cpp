@@ -37,7 +37,7 @@ SurfaceDistance distance_in_frame(const Collider::Box& box, const Vec3d& p) {
   for (Eigen::Index axis = 0; axis < 3; ++axis)
     if (beyond[axis] > 0) away += signed_axis(axis, beyond[axis]);
   const double length = norm(away);
-  // So little outside that its square is nothing.
+  // Length 0: so close to the surface that the square of the distance underflows.
   return length > 0 ? SurfaceDistance{length, away / length}
                     : SurfaceDistance{0, signed_axis(nearest, 1)};
 }

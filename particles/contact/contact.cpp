@@ -10,7 +10,7 @@
 namespace sunder::particles {
 namespace {
 
-/// Most sweeps over the contacts of a step: over places, and over velocities.
+/// Maximum number of sweeps over the contacts of a step: over places, and over velocities.
 constexpr int kPlaceSweeps = 48, kVelocitySweeps = 4;
 
 Vec3d sum_of(const ParticleInfluences& whom, const std::vector<Vec3d>& values) {
@@ -82,7 +82,8 @@ void Contact::find(const World& world, const Motion& motion) {
   }
 }
 
-/// @param reach  how far contact points may be from the particle's rest place, metres.
+///
+/// @param reach  largest distance of contact points from the particle's rest place, metres.
 void Contact::find_near(const World& world, const Motion& motion, Index particle, double reach) {
   const double range = world.set.range(particle);
   const ContactPoints::Points* points = nullptr;
@@ -111,9 +112,10 @@ void Contact::add_touch(const World& world, const Motion& motion,
   touch.tolerance = kContactDepthRanges * range;
 }
 
-/// The part that friction takes back of how a point slid along its collider in this step, as far as
-/// the push allows.
-/// @param moved  displacement of the point. @param at  where it is in the collider.
+/// The part of a point's sliding along its collider in this step that friction undoes, limited by
+/// the push.
+/// @param moved  displacement of the point.
+/// @param at  its place in the collider.
 Vec3d Contact::drag_back(const World& world, const Motion& motion, Touch& touch, const Vec3d& moved,
                          const SurfaceDistance& at) const {
   const double friction = colliders_[touch.collider].friction;
@@ -129,7 +131,8 @@ Vec3d Contact::drag_back(const World& world, const Motion& motion, Touch& touch,
   return length > 0 ? Vec3d(back / length * slid) : Vec3d(Vec3d::Zero());
 }
 
-/// @return how deep the deepest point was, in tolerances.
+///
+/// @return the largest depth of a point, in tolerances.
 double Contact::push_once(const World& world, Motion& motion) {
   double deepest = 0;
   for (Touch& touch : touches_) {
@@ -153,9 +156,9 @@ double Contact::push_once(const World& world, Motion& motion) {
 }
 
 void Contact::slow_down(const World& world, Motion& motion) {
-  // A particle that was pushed back to where the step began is at rest, whatever pulled it away
-  // meanwhile. Conversely, one that was pushed far in a short step has not got that velocity: the
-  // lesser counts.
+  // A particle that was pushed back to its place at the beginning of the step is at rest, whatever
+  // pulled it away meanwhile. Conversely, a particle that was pushed far in a short step does not
+  // get that velocity. The smaller of the two applies.
   if (world.seconds > 0)
     for (Index p = 0; p < motion.count(); ++p) {
       if (motion.touched[p] == 0 || motion.awake[p] == 0) continue;

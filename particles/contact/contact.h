@@ -12,11 +12,11 @@ namespace sunder::particles {
 /// The colliders of a body, and how they push its particles.
 class Contact {
  public:
-  /// Replaces all colliders, or none where memory runs out. @throws std::bad_alloc
+  /// Replaces all colliders, or none if memory runs out. @throws std::bad_alloc
   void set(std::span<const Collider> colliders);
   void move(std::uint32_t collider, const Vec3d& place, const Quatd& turn);
   [[nodiscard]] std::span<const Collider> colliders() const { return colliders_; }
-  /// Whether any collider moved, came or went since the last step.
+  /// Whether any collider moved, was added or was removed since the last step.
   [[nodiscard]] bool is_changed() const { return is_changed_; }
   void follow(Index particles) { points_.follow(particles); }
 
@@ -32,15 +32,15 @@ class Contact {
   };
 
   /// Pushes contact points out of colliders, each by the particles that move it, in sweeps until
-  /// none is deeper inside than kContactDepthRanges; takes the velocity into the collider away, and
-  /// with friction some of that along it. Wakes the particles that it pushes. Position based, as
-  /// limit_stretch(). O(particles x colliders + contacts x sweeps); O(1) where nothing is awake,
-  /// moved or posed.
+  /// none is deeper inside than kContactDepthRanges. Removes the velocity into the collider and,
+  /// with friction, part of the velocity along it. Wakes the particles that it pushes. Position
+  /// based, as limit_stretch(). O(particles x colliders + contacts x sweeps); O(1) if nothing is
+  /// awake, moved or posed.
   void push_out(const World& world, Motion& motion);
   /// The report of the last push_out(); empty after skip_step().
   [[nodiscard]] const ContactReport& report() const { return report_; }
   void skip_step() { report_ = {}; }
-  /// Ends a step: the colliders' next velocities count from where they are now.
+  /// Ends a step: later velocities of the colliders are measured from their current places.
   void end_step();
 
  private:
@@ -52,8 +52,8 @@ class Contact {
     ParticleInfluences whom;
     double squares = 0;    ///< Sum of the squares of its weights.
     double tolerance = 0;  ///< Metres.
-    double dragged = 0;    ///< Metres by which friction took it back.
-    double depth = 0;      ///< Metres by which it was pushed in all.
+    double dragged = 0;    ///< Distance by which friction moved it back, metres.
+    double depth = 0;      ///< Total distance by which it was pushed, metres.
     Vec3d normal = Vec3d::Zero();
   };
 

@@ -8,7 +8,7 @@
 
 namespace sunder::particles {
 
-/// A set of marked indices. Forgetting all of them costs nothing.
+/// A set of marked indices. Clearing it costs nothing.
 class Marks {
  public:
   void begin(std::size_t count) {

@@ -10,14 +10,14 @@
 
 namespace sunder::particles {
 
-/// The state of a point in a front: its distance, where the front has reached it; else the length
-/// of the shortest path to it so far, negated (-0 for a path of no length).
+/// The state of a point in a front. Not negative: its distance, once the front has reached it.
+/// Negative: minus the length of the shortest path to it so far (-0 for length zero).
 using Known = float;
 
 inline constexpr Known kUnknown = -std::numeric_limits<float>::infinity();
 
 inline bool is_reached(Known known) { return !std::signbit(known); }
-/// The distance of a point; infinite where it is not reached.
+/// The distance of a point; infinite if it is not reached.
 inline float distance_of(Known known) {
   return is_reached(known) ? known : std::numeric_limits<float>::infinity();
 }
@@ -35,21 +35,22 @@ inline KnownBlock gather(const Known* known, const RingBlock& block) {
   return gathered;
 }
 
-/// The squared distance of a face's corner, from the distances of the other two: that of a source
-/// unfolded into the plane of the face, beyond the edge between those two. Infinite where the
-/// straight line from the source does not cross that edge, and for NaN.
-/// @param between, to_first, to_second  lengths of the face's edges; @param first, second distances
-/// of its corners.
+/// The squared distance of a face's corner, from the distances of the other two: the distance of a
+/// source unfolded into the plane of the face, on the other side of the edge between those two.
+/// Infinite if the straight line from the source does not cross that edge, and for NaN.
+/// @param between, to_first, to_second  lengths of the face's edges.
+/// @param first, second  distances of its corners.
 inline float square_across(float between, float to_first, float to_second, float first,
                            float second) {
   const float scale = 0.5f / between, squared = between * between;
-  // Where the corner and the source stand along the edge, and how far from it.
+  // Positions of the corner and the source along the edge, and their distances from it.
   const float along = scale * (squared + (to_first - to_second) * (to_first + to_second));
   const float source_along = scale * (squared + (first - second) * (first + second));
   const float height_squared = to_first * to_first - along * along,
               beyond_squared = first * first - source_along * source_along;
   const float product = std::sqrt(std::max(0.0f, height_squared) * std::max(0.0f, beyond_squared));
-  const float left = source_along * height_squared + along * product;  // both: times the height
+  // both multiplied by the height
+  const float left = source_along * height_squared + along * product;
   const float right = (between - source_along) * height_squared + (between - along) * product;
   if (!(height_squared > 0 && beyond_squared >= 0 && left >= 0 && right >= 0))
     return std::numeric_limits<float>::infinity();
@@ -57,7 +58,7 @@ inline float square_across(float between, float to_first, float to_second, float
   return across * across + (height_squared + beyond_squared + (product + product));
 }
 
-/// The distance of the point in the middle through the face that makes it least.
+/// The smallest distance of the point in the middle through any of the faces.
 inline float shortest_across(const KnownBlock& known, const RingBlock& block) {
   float least = std::numeric_limits<float>::infinity();
   for (std::size_t i = 0; i < kRingFaces; ++i)
@@ -67,8 +68,8 @@ inline float shortest_across(const KnownBlock& known, const RingBlock& block) {
   return std::sqrt(least);
 }
 
-/// The lanes to which the path through the point in the middle is shorter than what is known, and
-/// below a limit; one bit each.
+/// The lanes to which the path through the point in the middle is shorter than the known one, and
+/// below a limit; one bit per lane.
 /// @param distance  of the point in the middle.
 inline unsigned nearer_lanes(const KnownBlock& known, const RingBlock& block, float distance,
                              float limit) {
@@ -82,9 +83,9 @@ inline unsigned nearer_lanes(const KnownBlock& known, const RingBlock& block, fl
 
 }  // namespace one_by_one
 
-// The work of a front at each point, for all points around it at once. Which of them it has reached
-// is unpredictable, and mispredicted branches would cost most of its time.
-#if defined(EIGEN_VECTORIZE_SSE2)  // then Eigen has included what this needs
+// The work of a front at each point, for all points around it at once. It is unpredictable which of
+// them the front has reached, and mispredicted branches would take most of its time.
+#if defined(EIGEN_VECTORIZE_SSE2)  // Eigen has then included the intrinsics
 
 inline KnownBlock gather(const Known* known, const RingBlock& block) {
   const auto four = [&](std::size_t i) {

@@ -8,7 +8,7 @@
 namespace sunder::particles {
 namespace {
 
-/// Up to so many rings stay in a cache, wherever they are.
+/// Up to this number of rings stay in a cache, in any order.
 constexpr Index kFew = 8000;
 
 float distance_between(const Vec3f& a, const Vec3f& b) {
@@ -28,7 +28,7 @@ Index append_ring(const Surface& surface, std::span<const Vec3f> positions, Inde
   const std::size_t first_block = blocks.size();
   Index size = 0;
   std::size_t lane = kRingLanes;
-  Index previous = kNone;  // of the face between it and the next; none where that one is left out
+  Index previous = kNone;  // of the face between it and the next point; none if that is left out
   const auto add = [&](Index other) {
     if (other >= positions.size()) {  // it came since
       previous = kNone;
@@ -65,7 +65,7 @@ Index append_ring(const Surface& surface, std::span<const Vec3f> positions, Inde
   if (walk(start)) return size;
   const Index first = surface.first_of_fan(start);
   if (first == start) return size;
-  blocks.resize(first_block);  // it is open, and began in the middle
+  blocks.resize(first_block);  // the ring is open, and began in the middle
   size = 0;
   lane = kRingLanes;
   previous = kNone;

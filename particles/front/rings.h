@@ -15,18 +15,18 @@ using tear::Surface;
 /// Number of points, and of faces, in a RingBlock.
 inline constexpr std::size_t kRingLanes = 8, kRingFaces = kRingLanes - 1;
 
-/// Some of the points around one. Consecutive points share a face; the last one is repeated as the
-/// first of the next block. Lanes behind the last point hold the point in the middle at an infinite
-/// distance, so that loops over lanes have a fixed length.
+/// Some of the points around a point. Consecutive points share a face; the last one is repeated as
+/// the first of the next block. Lanes after the last point contain the point in the middle at an
+/// infinite distance, so that loops over lanes have a fixed length.
 struct alignas(32) RingBlock {
   std::array<Index, kRingLanes> points;
-  std::array<float, kRingLanes> lengths;   ///< Per lane: of the edge from the point in the middle.
-  std::array<float, kRingLanes> opposite;  ///< Of the edge to the next lane's point; not a number
-                                           ///< where no face is between them.
+  std::array<float, kRingLanes> lengths;  ///< Per lane: of the edge from the point in the middle.
+  /// Of the edge to the next lane's point; NaN if no face is between them.
+  std::array<float, kRingLanes> opposite;
 };
 
-/// The points around one, counter-clockwise; where they close a circle the first one is repeated at
-/// the end. Points without a position yet are left out.
+/// The points around a point, counter-clockwise; if they form a closed circle, the first one is
+/// repeated at the end. Points without a position yet are left out.
 class Ring {
  public:
   Ring(const RingBlock* blocks, std::size_t size) : blocks_(blocks), size_(size) {}
@@ -45,7 +45,7 @@ class Ring {
   [[nodiscard]] std::size_t block_count() const {
     return size_ < 2 ? size_ : (size_ + kRingFaces - 2) / kRingFaces;
   }
-  /// The very last point is only in a last lane.
+  /// Only a last lane contains the very last point.
   [[nodiscard]] std::size_t block_of(std::size_t i) const {
     return std::min(i / kRingFaces, block_count() - 1);
   }
@@ -55,11 +55,12 @@ class Ring {
   std::size_t size_;
 };
 
-/// The rings of all points of a surface. On large surfaces each is computed when it is first asked
-/// for, so that rings of neighbouring points are near in memory.
+/// The rings of all points of a surface. On large surfaces each is computed on first use, so that
+/// rings of neighbouring points are close in memory.
 class Rings {
  public:
-  /// @param surface, positions  must outlive it, as they are.
+  ///
+  /// @param surface, positions  must outlive this and not change.
   Rings(const Surface& surface, std::span<const Vec3f> positions);
   /// Prefetches the ring of a point.
   void expect(Index point) const {
@@ -88,7 +89,7 @@ class Rings {
   std::vector<RingBlock> blocks_;
 };
 
-/// The same, each computed whenever it is asked for.
+/// The same, computed in each call.
 class RingWalk {
  public:
   /// @param positions  may grow meanwhile.

@@ -9,21 +9,22 @@
 namespace sunder::particles {
 
 /// Distances along a surface, from near to far. Points are visited in the order of Dijkstra's paths
-/// along edges; each gets the distance of a source unfolded into the plane of the face through
+/// along edges. Each gets the distance of a source unfolded into the plane of the face through
 /// which the shortest path arrives (Novotni and Klein 2002, for the fast marching of Kimmel and
 /// Sethian 1998). Exact where the surface is flat, faces are not obtuse, and paths do not bend
-/// around borders. Paths do not cross tears. Memory is kept from one use to the next.
+/// around borders. Paths do not cross tears. Memory is reused.
 class SurfaceFront {
  public:
-  /// Forgets all distances. @param limit  how far the front goes. @param edge  typical length of
-  /// edges.
+  /// Clears all distances.
+  /// @param limit  largest distance.
+  /// @param edge  typical length of edges.
   void begin(std::size_t point_count, float limit, float edge) {
     for (const Entry& entry : entries_) known_[entry.point] = kUnknown;
     entries_.clear();
     grow(point_count);
     limit_ = limit;
-    // A path along edges is longer than the straight way through a face: by up to 0.6 of an edge
-    // beside the source, 0.3 farther away.
+    // A path along edges is longer than the straight path through a face: by up to 0.6 of an edge
+    // next to the source, and 0.3 farther away.
     const float beside = std::min(1.0f, 1.5f * edge / limit);
     path_limit_ = limit + (0.3f + 0.3f * beside * beside) * std::min(edge, limit);
     const float wanted = kBucketsAnEdge * limit / std::max(edge, 1e-3f * limit);
@@ -39,14 +40,14 @@ class SurfaceFront {
     if (known_.size() < point_count) known_.resize(point_count + point_count / 8 + 1024, kUnknown);
   }
 
-  /// Lets the front start at a point, or reach it, with some distance.
+  /// Starts the front at a point, or lets it reach a point, with some distance.
   void add(Index point, float distance) {
     if (distance < path_limit_ && distance < -known_[point]) put(point, distance, kNone);
   }
 
   /// Whether no point is left to reach.
   [[nodiscard]] bool is_done() const { return bucket_ >= buckets_.size(); }
-  /// The distance of a point; infinite where the front has not reached it.
+  /// The distance of a point; infinite if the front has not reached it.
   [[nodiscard]] float distance(Index point) const { return distance_of(known_[point]); }
 
   /// Calls visit(point, distance, the point from which it was reached) for each point nearer than
@@ -79,8 +80,8 @@ class SurfaceFront {
   }
 
  private:
-  /// The queue sorts distances into buckets this much finer than edges: points in one bucket hardly
-  /// depend on each other.
+  /// Buckets are finer than edges by this factor, so that points in one bucket hardly depend on
+  /// each other.
   static constexpr float kBucketsAnEdge = 6.0f, kMostBuckets = 4096.0f;
 
   struct Entry {
@@ -98,7 +99,7 @@ class SurfaceFront {
         {point, path, from, std::exchange(buckets_[bucket], static_cast<Index>(entries_.size()))});
   }
 
-  /// Queues the points around one to which the path through it is shorter.
+  /// Queues the neighbours of a point to which the path through it is shorter.
   void put_around(Index point, float distance, std::span<const RingBlock> around) {
     for (std::size_t b = 0; b < around.size(); ++b) {
       const RingBlock& block = around[b];
@@ -110,13 +111,12 @@ class SurfaceFront {
     }
   }
 
-  std::vector<Known> known_;    ///< Per point.
-  std::vector<Index> buckets_;  ///< The newest entry of each bucket.
-  std::vector<Entry> entries_;  ///< All that were put in: what begin() has to clear.
-  std::vector<KnownBlock>
-      around_;              ///< What is known of the ring of the point that is being reached.
-  std::size_t bucket_ = 0;  ///< Being emptied.
-  Index next_ = kNone;      ///< In the bucket that is being emptied.
+  std::vector<Known> known_;        ///< Per point.
+  std::vector<Index> buckets_;      ///< The newest entry of each bucket.
+  std::vector<Entry> entries_;      ///< All queued entries, which begin() has to clear.
+  std::vector<KnownBlock> around_;  ///< The known distances of the ring of the current point.
+  std::size_t bucket_ = 0;          ///< Being emptied.
+  Index next_ = kNone;              ///< Position in the current bucket.
   float limit_ = 0, path_limit_ = 0, per_bucket_ = 0;
 };
 

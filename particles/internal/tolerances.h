@@ -10,17 +10,17 @@ namespace sunder::particles {
 
 /// A point whose nearest seed of a lip is farther than this gets a lip particle.
 inline constexpr float kLipCoveredReach = 0.8f;
-/// Seeds are at least this far apart. Below 1, so that weights overlap and no point is left to one
-/// particle that fades there.
+/// Seeds are at least this far apart. Less than 1, so that weights overlap and every point has more
+/// than one particle where it fades.
 inline constexpr float kSeedSpacingReach = 0.85f;
-/// A point without a particle nearer than this gets one of its own: what moves it would fade where
-/// it stands.
+/// A point without a particle nearer than this gets one of its own; it would otherwise be where all
+/// its particles fade.
 inline constexpr float kUncoveredReach = 0.97f;
 static_assert(kLipCoveredReach < kSeedSpacingReach && kSeedSpacingReach < kUncoveredReach &&
               kUncoveredReach < 1);
 
 // ---- Sleep. Bound particles (held, touched, at a stretch limit) and their neighbours are pulled
-// away and pushed back in every step, so they move a little for ever.
+// away and pushed back in every step, so they never stop moving a little.
 
 inline constexpr double kQuietRanges = 1e-4;
 inline constexpr double kAtRestRanges = 2e-4;
@@ -47,15 +47,15 @@ static_assert(kBulletWakesStills > 1);
 inline constexpr double kContactDepthRanges = 1e-3;
 /// Points nearer to a collider than this may be pushed in by the contacts of their neighbours.
 inline constexpr double kContactMarginRanges = 0.25;
-/// How far members are from the centroid of all, per unit of RestMotion::size(), which is the root
-/// of 3 where the pose changes no length: at most two ranges.
+/// Upper bound of the distance of members from the centroid, per unit of RestMotion::size() (root
+/// of 3 where the pose changes no length): at most two ranges.
 inline constexpr double kMemberRanges = 1.2;
 static_assert(kContactDepthRanges < kContactMarginRanges && kContactMarginRanges < kMemberRanges);
 
 // ---- Stretch limits, relative to the length that a limit allows.
 
 inline constexpr double kStretchExcess = 1e-4;
-/// A particle that fell asleep at its limit feels only more than this.
+/// A particle that fell asleep at its limit wakes only for more than this.
 inline constexpr double kStretchWakesExcess = 1e-2;
 /// Sweeps over velocities end where pairs part slower than this fraction of the fastest pair.
 inline constexpr double kStretchStoppedFraction = 1e-3;
@@ -63,15 +63,17 @@ static_assert(kStretchExcess < kStretchWakesExcess);
 
 // ---- Tearing by force.
 
-/// Particles at a tear may be as good as in one place at rest. Their distance then counts as that
-/// of neighbouring seeds.
+/// Particles at a tear may nearly coincide at rest. Their distance then counts as that of
+/// neighbouring seeds.
 inline constexpr double kLeastApartRanges = 0.8;
-/// ParticleNeighbour::shared of particles that hang together. Splinters at a tear, of a few points
-/// that other particles hold too, would be torn in vain at the same place for ever.
+/// Minimum ParticleNeighbour::shared of particles that count as connected. Splinters at a tear, of
+/// a few points that other particles share, would otherwise be torn without effect at the same
+/// place again and again.
 inline constexpr double kLeastSharedPoints = 0.05;
-/// A tear runs on by at least this cosine of the angle between its last edge and its direction.
+/// A tear continues if the cosine of the angle between its last edge and its direction is at least
+/// this.
 inline constexpr double kLeastForwardCosine = 0.2;
-/// Neighbours stand in a row where the determinant of their moments is below this fraction of the
+/// Neighbours are in a row if the determinant of their moments is below this fraction of the
 /// squared trace.
 inline constexpr double kRowDeterminantFraction = 1e-4;
 
@@ -83,13 +85,13 @@ inline constexpr double kCouplingResidual = 1e-8;
 /// The square of the same for bodies in a Bullet world, which have single precision.
 inline constexpr double kBulletSquaredResidual = 1e-12;
 static_assert(kCouplingResidual * kCouplingResidual < kBulletSquaredResidual);
-/// A linear map of unit norm whose determinant is below this flattens: it has no rotation and no
+/// A linear map of unit norm whose determinant is below this is singular: it has no rotation and no
 /// inverse.
 inline constexpr double kFlatDeterminant = 1e-9;
 
 // ---- Steps.
 
-/// The square of a shorter step is too small to divide by, and forces do not show in it.
+/// The square of a shorter step is too small to divide by, and forces have no visible effect in it.
 inline constexpr double kShortestStepSeconds = 1e-100;
 inline constexpr double kLongestStepSeconds = 3600;
 static_assert(kShortestStepSeconds < kLongestStepSeconds);

@@ -10,16 +10,16 @@
 namespace sunder::particles {
 namespace {
 
-/// The damping of a spring, increased where the step does not resolve the spring: otherwise the end
-/// of each step is met, and the velocity there flips from step to step for ever.
+/// The damping of a spring, increased if the step does not resolve the spring: otherwise the place
+/// at the end of each step is met, but the velocity there alternates for ever.
 double damping_of(double stiffness, double damping, double frequency, double seconds) {
   if (frequency * seconds <= 2) return damping;
   return std::max(damping, stiffness * (seconds - 2 / frequency));
 }
 
-/// Velocity per distance moved, at the end of a step under a constant acceleration. Not above 0
-/// where the particle's own spring turns back within the step: then its end velocity says nothing
-/// about the force.
+/// Velocity per distance moved, at the end of a step under a constant acceleration. Not positive if
+/// the particle's own spring turns back within the step: then its end velocity does not reflect the
+/// force.
 double velocity_a_place(const SpringStep& step) {
   return step.place_from_acceleration > 0
              ? step.velocity_from_acceleration() / step.place_from_acceleration
@@ -53,7 +53,7 @@ void CouplingSolver::assemble(const Inputs& in) {
       const Index q = spring.other, column = row_of_[q];
       const double other_ratio = column == kNone ? ratio : ratios_[in.material_of[q]];
       const double greater = std::max(ratio, other_ratio);
-      // Nor does either end's say anything then of how fast the two part.
+      // If a ratio is not positive, the end velocity does not reflect how fast the two separate.
       const double damping =
           std::min(ratio, other_ratio) > 0
               ? damping_of(spring.stiffness, spring.damping, spring.frequency, in.seconds)
@@ -88,8 +88,8 @@ void CouplingSolver::assemble_pulls(const Inputs& in) {
       greatest = std::max(greatest, ratio);
     }
     if (!std::isfinite(least)) continue;
-    // As stiff as wanted and always well damped: at least critically, and as an implicit Euler step
-    // is where that is not resolved.
+    // The requested stiffness, always well damped: at least critically, and as in an implicit Euler
+    // step if that is not resolved.
     const double critical = pull.frequency > 0 ? 2 * pull.stiffness / pull.frequency : 0.0;
     const double damping = least > 0 ? std::max(critical, pull.stiffness * in.seconds) : 0.0;
     active.stiffness = pull.stiffness + damping * greatest;

@@ -34,19 +34,20 @@ class CouplingSolver {
   struct Inputs {
     const SpringGraph& graph;
     std::span<const Index>
-        active;  ///< Particles that move, ascending; the others stay where they are.
+        active;  ///< Particles that move, ascending; the others keep their places.
     std::span<const SpringStep> steps;  ///< Per material.
     std::span<const SoftMaterial> materials;
     std::span<const Index> material_of;  ///< Per particle.
     std::span<const Vec3d> places,
-        velocities;  ///< Per particle: p, q; where it does not move, u and 0.
+        velocities;  ///< Per particle: p, q; if it does not move, u and 0.
     std::span<const PointPull> pulls;
     double seconds = 0;
   };
 
-  /// @param corrections  per particle: x, found; the search begins with what is there.
+  ///
+  /// @param corrections  per particle: x, computed. Input: the start of the search.
   /// @return the number of iterations. O(iterations x springs of `active`); no allocation once
-  /// warm.
+  ///         warm.
   int solve(const Inputs& inputs, std::span<Vec3d> corrections);
 
  private:

@@ -38,8 +38,8 @@ SpringStep step_spring(double stiffness, double damping_ratio, double seconds) {
     step.place_from_acceleration = is_short ? short_response(stiffness, 2 * rate, seconds)
                                             : (1 - step.place_from_place) / stiffness;
   } else {
-    // Two decays; the slow one from the product of both, for their difference has no digits left
-    // where the fast one is very fast.
+    // Two decays. The slow one is computed from the product of both, because their difference loses
+    // all digits if the fast one is very fast.
     const double apart = frequency * std::sqrt((damping_ratio - 1) * (damping_ratio + 1));
     const double fast = rate + apart, slow = fast > 0 ? stiffness / fast : 0.0;
     const double slow_decay = std::exp(-slow * seconds), fast_decay = std::exp(-fast * seconds);

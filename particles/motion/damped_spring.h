@@ -11,7 +11,7 @@ struct SpringStep {
   double place_from_place = 1, place_from_velocity = 0, place_from_acceleration = 0;
   double velocity_from_place = 0, velocity_from_velocity = 1;
 
-  /// The response to a step is the integral of that to an impulse.
+  /// The response to a step is the integral of the response to an impulse.
   [[nodiscard]] double velocity_from_acceleration() const { return place_from_velocity; }
 };
 

@@ -4,10 +4,11 @@
 
 namespace sunder::particles {
 
-/// The surface in the pose of an epoch (RestMotion::epoch()), computed when it is first asked for.
+/// The surface in the pose of an epoch (RestMotion::epoch()), computed on first use.
 class EpochPose {
  public:
-  /// @param pose  that of the epoch; it was checked.
+  ///
+  /// @param pose  that of the epoch, checked.
   const SurfacePose& at(const TornModel& model, const ModelPose& pose, std::uint64_t epoch) {
     if (epoch_ == epoch) return pose_;
     const std::vector<Skin>& skins = model.character().skins;

@@ -19,12 +19,14 @@ class HoldList {
   HoldId add_point(const ParticleSet& set, Index point, const Vec3d& target, double stiffness);
   /// @return whether the hold exists.
   bool move(HoldId id, const Vec3d& target);
-  /// @param whom  written: what it held. @return whether the hold existed.
+  ///
+  /// @param whom  written: the held particle or point.
+  /// @return whether the hold existed.
   bool remove(HoldId id, ParticleInfluences& whom);
   [[nodiscard]] bool empty() const { return holds_.empty(); }
 
-  /// Drops holds of points and particles that vanished, and finds the particles that move the
-  /// others.
+  /// Drops holds of points and particles that no longer exist, and finds the particles that move
+  /// the others.
   void follow(const ParticleSet& set);
   /// Calls visit(particle) for each particle that is held.
   template <class Visit>
@@ -47,10 +49,10 @@ class HoldList {
     ParticleInfluences whom;
     Vec3d target = Vec3d::Zero();
     double stiffness = 0;
-    Vec3d last = Vec3d::Constant(
-        std::numeric_limits<double>::quiet_NaN());  // displacement to which it pulled
-    Vec3d rest = Vec3d::Zero();                     // place of the point
-    std::uint64_t epoch = 0;                        // of that place
+    Vec3d last =
+        Vec3d::Constant(std::numeric_limits<double>::quiet_NaN());  // displacement of the last pull
+    Vec3d rest = Vec3d::Zero();                                     // place of the point
+    std::uint64_t epoch = 0;                                        // of that place
   };
 
   std::vector<Hold> holds_;

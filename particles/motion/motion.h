@@ -4,11 +4,11 @@
 
 namespace sunder::particles {
 
-/// The state of particles that decides on sleep. One entry per particle in every array.
+/// The state of particles that determines sleep. One entry per particle in every array.
 struct Quiet {
-  std::vector<double> seconds;  ///< For how long the particle has been quiet.
-  std::vector<Vec3d> from;      ///< The displacement at which that began.
-  std::vector<Vec3d> pulls;     ///< The acceleration that was left when the particle fell asleep.
+  std::vector<double> seconds;  ///< Time for which the particle has been quiet.
+  std::vector<Vec3d> from;      ///< The displacement at which it became quiet.
+  std::vector<Vec3d> pulls;     ///< The remaining acceleration when the particle fell asleep.
 };
 
 /// The motion of particles. One entry per particle in every array.
@@ -16,25 +16,25 @@ struct Motion {
   std::vector<std::uint64_t> serials;
   std::vector<Index> material_of;
   std::vector<Vec3d>
-      displacements;               ///< From the rest place, along the axes of model space; metres.
-  std::vector<Vec3d> velocities;   ///< Of the displacement.
-  std::vector<Vec3d> starts;       ///< Displacements before the step.
-  std::vector<Vec3d> corrections;  ///< What neighbours and holds added in the last step: where the
-                                   ///< next search begins.
-  std::vector<Vec3d> forces;       ///< Newtons, of the caller.
-  std::vector<Vec3d> lip_forces;   ///< Newtons, in the decomposition's pose.
-  std::vector<Vec3d> winds;        ///< m/s^2.
+      displacements;              ///< From the rest place, along the axes of model space; metres.
+  std::vector<Vec3d> velocities;  ///< Of the displacement.
+  std::vector<Vec3d> starts;      ///< Displacements before the step.
+  /// Contribution of neighbours and holds in the last step: the start of the next search.
+  std::vector<Vec3d> corrections;
+  std::vector<Vec3d> forces;      ///< Newtons, set by the caller.
+  std::vector<Vec3d> lip_forces;  ///< Newtons, in the decomposition's pose.
+  std::vector<Vec3d> winds;       ///< m/s^2.
   std::vector<std::uint8_t> awake;
   std::vector<std::uint8_t> touched;  ///< By a collider.
-  /// Held, touched or at a stretch limit: forces need not be in balance for the particle to be at
-  /// rest.
+  /// Held, touched or at a stretch limit: the particle may be at rest without forces in balance.
   std::vector<std::uint8_t> bound;
   Quiet quiet;
   Index awake_count = 0;
 
   [[nodiscard]] Index count() const { return static_cast<Index>(displacements.size()); }
 
-  /// New entries are at rest, of the first material, asleep. All or nothing: memory first.
+  /// New entries are at rest, of the first material, asleep. Allocates first, so it changes all or
+  /// nothing.
   void resize(Index count) {
     serials.reserve(count);
     material_of.reserve(count);

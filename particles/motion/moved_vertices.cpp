@@ -9,8 +9,8 @@ namespace sunder::particles {
 
 namespace {
 
-/// Whether a particle is the first displaced one among those that move a point: each point is
-/// visited once.
+/// Whether a particle is the first displaced one among those that move a point, so that each point
+/// is visited once.
 bool is_first_displaced(const ParticleInfluences& of, Index particle,
                         std::span<const std::uint8_t> is_displaced) {
   for (std::size_t k = 0; k < 4 && of.weights[k] > 0; ++k)
@@ -18,7 +18,7 @@ bool is_first_displaced(const ParticleInfluences& of, Index particle,
   return false;
 }
 
-/// Joins ascending vertices, some of them repeated, to ranges.
+/// Joins ascending vertices, some of them repeated, into ranges.
 void join_ranges(std::span<const Index> vertices, std::vector<IndexRange>& ranges) {
   ranges.clear();
   for (const Index vertex : vertices) {
@@ -54,7 +54,7 @@ std::span<const IndexRange> MovedVertices::of(const ParticleSet& set, const Torn
         surface.for_each_in_fan(surface.point_corner[point], add);
   }
   std::sort(vertices_.begin(), vertices_.end());
-  found.key = 0;  // of none, until all is well
+  found.key = 0;  // invalid until the update is complete
   join_ranges(vertices_, found.ranges);
   found.key = key;
   return found.ranges;

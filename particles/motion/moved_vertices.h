@@ -6,7 +6,7 @@
 
 namespace sunder::particles {
 
-/// The vertices of each mesh that displaced particles move, kept until other particles are
+/// The vertices of each mesh that displaced particles move, cached until other particles are
 /// displaced.
 class MovedVertices {
  public:

@@ -11,7 +11,8 @@
 namespace sunder::particles {
 namespace {
 
-/// Compares bits, not values: 0 and -0 pose alike, and telling them apart only costs an evaluation.
+/// Compares bits, not values: 0 and -0 give the same pose, and distinguishing them only costs an
+/// evaluation.
 bool has_same_bits(const Affine3d& a, const Affine3d& b) {
   return std::memcmp(a.data(), b.data(), 12 * sizeof(double)) == 0;
 }

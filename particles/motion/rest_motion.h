@@ -4,14 +4,14 @@
 
 namespace sunder::particles {
 
-/// Where the pose puts particles, how it turns them and how fast it carries them. Computed only for
-/// particles that are asked for.
+/// Positions, rotations and velocities of particles at rest in the pose. Computed only for
+/// requested particles.
 class RestMotion {
  public:
   /// @return as ParticleSet::rest().
   Status begin(const ParticleSet& set, const ModelPose& pose);
-  /// Follows a changed set: evaluates all particles in the present pose. A move that only the set
-  /// made is no motion. @throws std::bad_alloc
+  /// Follows a changed set: evaluates all particles in the current pose. A move caused only by the
+  /// set is not a motion. @throws std::bad_alloc
   void follow(const ParticleSet& set);
 
   /// Whether a pose has the bits of the last one.
@@ -25,7 +25,7 @@ class RestMotion {
   /// Evaluates the particles that are not up to date with the pose. O(bones + such particles x
   /// their bones).
   void update(const ParticleSet& set, std::span<const Index> particles, double seconds);
-  /// Particles that the last update() found moved since the step before.
+  /// Particles that moved since the previous step, according to the last update().
   [[nodiscard]] std::span<const Index> moved() const { return moved_; }
   /// Particles that the last update() evaluated.
   [[nodiscard]] std::span<const Index> updated() const { return stale_; }
@@ -43,11 +43,11 @@ class RestMotion {
   /// For particles in moved(): how they moved.
   [[nodiscard]] const Vec3d& shift(Index p) const { return particles_[p].shift; }
   [[nodiscard]] const Mat3d& turn_of_step(Index p) const { return particles_[p].turn_of_step; }
-  /// A bound of how much the pose lengthens what a particle holds; 3^0.5 where it does not.
+  /// An upper bound of how much the pose lengthens the particle's members, times the root of 3.
   [[nodiscard]] double size(Index p) const { return particles_[p].size; }
   /// Particles with a velocity.
   [[nodiscard]] std::span<const Index> carried() const { return carried_; }
-  /// Number of the pose; grows.
+  /// Index of the pose; increasing.
   [[nodiscard]] std::uint64_t epoch() const { return epoch_; }
 
  private:
@@ -55,9 +55,9 @@ class RestMotion {
     Vec3d place = Vec3d::Zero(), velocity = Vec3d::Zero(), shift = Vec3d::Zero();
     Mat3d turn = Mat3d::Identity(), turn_of_step = Mat3d::Identity();
     Mat3d decomposition_from_bind =
-        Mat3d::Identity();  // inverse of its linear part there; zero where it has none
+        Mat3d::Identity();  // inverse of its linear part there; zero if it has none
     double size = 1;
-    std::uint64_t epoch = 0;  // of the pose that this is of
+    std::uint64_t epoch = 0;  // of its pose
   };
 
   void stop_all();

@@ -28,7 +28,7 @@ Pull pull_on(Index p, const SpringGraph& graph, std::span<const SoftMaterial> ma
 void Sleep::wake_if_pulled(const World& world, Index p, Motion& motion) {
   if (motion.awake[p] != 0) return;
   const Pull pull = pull_on(p, world.graph, world.materials, world.rests, world.gravity, motion);
-  // A particle that sleeps displaced by a pull must follow it all the way back when the pull goes.
+  // A particle that sleeps displaced by a pull must return completely when the pull ends.
   const double range = world.set.range(p), displaced = norm(motion.displacements[p]);
   double place = displaced > 0
                      ? std::clamp(0.1 * displaced, 0.1 * kAtRestRanges * range, kFeltRanges * range)
@@ -84,8 +84,8 @@ void Sleep::fall_asleep(const World& world, std::span<const Index> active, doubl
                  motion.quiet.seconds[spring.other] < kQuietSeconds;
         }))
       continue;
-    // Neighbours that creep back together hardly pull at one another: against the return spring
-    // alone there is still some way to go.
+    // Neighbours that creep back together hardly pull at one another, although the return spring
+    // alone still has to move them.
     const Pull pull = pull_on(p, world.graph, world.materials, world.rests, world.gravity, motion);
     const double own = world.materials[motion.material_of[p]].return_stiffness;
     const double balanced = kQuietRanges * world.set.range(p) * (own > 0 ? own : pull.stiffness);

@@ -5,11 +5,11 @@
 
 namespace sunder::particles {
 
-/// The acceleration of a particle, apart from damping.
+/// The acceleration of a particle, without damping.
 struct Pull {
   Vec3d acceleration = Vec3d::Zero();  ///< Sum over its springs, neighbours and outer forces;
                                        ///< without holds and colliders.
-  bool is_pushed = false;              ///< Whether anything but springs acts.
+  bool is_pushed = false;              ///< Whether anything except springs acts.
   double stiffness = 0;                ///< Of all springs, 1/s^2.
 };
 [[nodiscard]] Pull pull_on(Index particle, const SpringGraph& graph,
@@ -17,7 +17,7 @@ struct Pull {
                            const Vec3d& gravity, const Motion& motion);
 
 /// Decides which particles sleep and wake. Distances are relative to a particle's range, the scale
-/// at which displacements show.
+/// at which displacements are visible.
 class Sleep {
  public:
   struct World {
@@ -28,14 +28,14 @@ class Sleep {
     Vec3d gravity;
   };
 
-  /// Wakes a sleeping particle where the pull on it differs from that with which it fell asleep by
-  /// what would move it visibly.
+  /// Wakes a sleeping particle if the pull on it differs from that at which it fell asleep by
+  /// enough to move it visibly.
   static void wake_if_pulled(const World& world, Index particle, Motion& motion);
   /// The same for the sleeping neighbours of awake particles: motion spreads from neighbour to
-  /// neighbour while it is felt.
+  /// neighbour while it is visible.
   void wake_neighbours(const World& world, std::span<const Index> active, Motion& motion);
   /// Puts to sleep particles that, like their neighbours, have been quiet for kQuietSeconds. Those
-  /// that nothing pushes and that are nearly at rest are put to rest exactly.
+  /// without a push that are nearly at rest are put to rest exactly.
   void fall_asleep(const World& world, std::span<const Index> active, double seconds,
                    Motion& motion);
 
@@ -45,7 +45,7 @@ class Sleep {
                       Motion& motion);
 
   std::vector<Index> tired_;
-  std::vector<std::uint64_t> asked_;  // in which round a particle was asked
+  std::vector<std::uint64_t> asked_;  // round in which a particle was asked
   std::uint64_t round_ = 0;
 };
 

@@ -15,9 +15,9 @@ struct LimitedPair {
   Index p = 0, q = 0;
   Vec3d apart;        ///< From p to q.
   double length = 0;  ///< Of `apart`.
-  double most = 0;    ///< That the limit allows.
+  double most = 0;    ///< The largest distance within the limit.
   double mine = 0,
-         yours = 0;  ///< Parts of a correction that p and q take; 0 for q where it sleeps.
+         yours = 0;  ///< Fractions of a correction that p and q take; 0 for q if it sleeps.
 };
 
 /// Calls visit(pair) for each pair with a limit, once.
@@ -39,7 +39,7 @@ void for_each_limited(const StretchWorld& world, const Motion& motion, Visit vis
     }
 }
 
-/// Brings a pair within its limit. @return by how much it was beyond, relative to the limit.
+/// Brings a pair within its limit. @return the excess before, relative to the limit.
 double pull_together(const LimitedPair& pair, bool is_first_sweep, Motion& motion,
                      std::vector<Index>& pulled) {
   if (pair.length <= pair.most) return 0;
@@ -50,7 +50,8 @@ double pull_together(const LimitedPair& pair, bool is_first_sweep, Motion& motio
     motion.displacements[pair.q] -= pair.yours * by;
     motion.bound[pair.q] = 1;
   } else if (is_first_sweep) {
-    // A particle that fell asleep at its limit is pulled for ever, and feels only more than that.
+    // A particle that fell asleep at its limit is pulled permanently, and wakes only for more than
+    // that.
     const bool feels =
         motion.bound[pair.q] == 0 || pair.length > (1 + kStretchWakesExcess) * pair.most;
     if (feels) pulled.push_back(pair.q);
@@ -58,7 +59,8 @@ double pull_together(const LimitedPair& pair, bool is_first_sweep, Motion& motio
   return pair.length / pair.most - 1;
 }
 
-/// Stops a pair at its limit from parting. @return how fast it parted, metres per second.
+/// Stops a pair at its limit from separating. @return the speed at which it separated, metres per
+/// second.
 double stop_parting(const LimitedPair& pair, const RestMotion& rests, Motion& motion) {
   if (pair.length < pair.most * (1 - kStretchExcess)) return 0;
   const Vec3d along = pair.apart / pair.length;

@@ -9,10 +9,10 @@ namespace sunder::particles {
 
 namespace {
 
-/// Norms whose cubes neither vanish nor overflow.
+/// Norms whose cubes neither underflow nor overflow.
 constexpr double kLeastNorm = 1e-150, kMostNorm = 1e150;
-/// A squared change of the iterate below this is the last one: the next is below rounding, because
-/// it converges quadratically.
+/// If the squared change of the iterate is below this, the iteration ends: the next change is below
+/// rounding, because convergence is quadratic.
 constexpr double kSquaredChange = 1e-15;
 constexpr int kMostIterations = 40;
 
@@ -36,7 +36,7 @@ bool turn_of(const Mat3d& linear, Mat3d& turn) {
     if (!(determinant > kFlatDeterminant))
       return false;  // of a map of unit size; after the first round it is near 1
     const Matrix inverse_transposed = c / determinant;
-    // Uniform scales are gone after one step, others soon; then nothing is left to scale.
+    // Uniform scales vanish after one step, others soon; then scaling is not needed.
     const double scale = change > 1e-2 ? std::sqrt(norm(inverse_transposed) / norm(x)) : 1.0;
     const Matrix next = 0.5 * (scale * x + inverse_transposed / scale);
     change = squared_norm(next - x);

@@ -4,8 +4,8 @@
 
 namespace sunder::particles {
 
-/// Computes the rest terms of particles anew whose members got other weights, as by a refit. Calls
-/// that tear change no weights of vertices that were there.
+/// Recomputes the rest terms of particles whose members got other weights, as by a refit. Calls
+/// that tear do not change the weights of existing vertices.
 void follow_changed_weights(StructureEdit& edit, std::span<const ChangeRecord> changes);
 
 }  // namespace sunder::particles

@@ -7,7 +7,7 @@
 namespace sunder::particles {
 namespace {
 
-/// The influences on a point before the tear; for a point that came with it, those of a neighbour.
+/// The influences of a point before the tear; for a point created by it, those of a neighbour.
 ParticleInfluences influences_before(StructureEdit& edit, Index point) {
   const Change& change = edit.change();
   if (point < change.points) {

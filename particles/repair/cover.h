@@ -4,11 +4,11 @@
 
 namespace sunder::particles {
 
-/// Makes a particle at a point that has none near enough: at once, so that the result does not
-/// depend on where a call of settle() ends.
+/// Creates a particle at a point that has none near enough. This is not deferred, so that the
+/// result does not depend on where a call of settle() ends.
 void cover(StructureEdit& edit, Index point);
 
-/// The same for all points that were taken up.
+/// The same for all points of the edit.
 void cover_taken_up(StructureEdit& edit);
 
 }  // namespace sunder::particles

@@ -14,14 +14,14 @@ bool has_operation(std::span<const Change> changes, std::uint64_t operation) {
                              [&](const Change& change) { return change.operation == operation; });
 }
 
-/// Whether the changes done end with an operation; 0: whether there are none.
+/// Whether the changes that are done end with an operation; for 0, whether there are none.
 bool ends_with(std::span<const Change> done, std::uint64_t operation) {
   if (operation == 0 || done.empty()) return operation == 0 && done.empty();
   return done.back().operation == operation;
 }
 
-/// Exchanges changes of one stack, and moves them to the other, until the changes done end with an
-/// operation.
+/// Exchanges changes of one stack and moves them to the other, until the changes that are done end
+/// with an operation.
 void exchange_until(Structure& structure, std::uint64_t operation, std::vector<Change>& from,
                     std::vector<Change>& to) {
   while (!from.empty() && !ends_with(structure.tears.done, operation)) {
@@ -38,7 +38,7 @@ void follow_history(const TornModel& model, Structure& structure,
   TearLog& tears = structure.tears;
   const std::uint64_t newest = model.newest_operation();
   const bool is_undo = !model.is_in_stroke() && (newest == 0 || has_operation(tears.done, newest));
-  // A tear that is undone, with the points that it made, needs no completion.
+  // A tear that is undone, with the points that it created, need not be completed.
   if (is_undo && !ends_with(tears.done, newest)) tears.band.reset();
   if (tears.band) complete_band(model, structure);
   if (is_undo) {

@@ -4,9 +4,9 @@
 
 namespace sunder::particles {
 
-/// Brings a structure to the newest operation of its model: takes operations back, does them again,
-/// or follows new ones.
-/// @throws std::bad_alloc, half way.
+/// Updates a structure to the newest operation of its model: undoes operations, redoes them, or
+/// follows new ones.
+/// @throws std::bad_alloc, in the middle of an update.
 void follow_history(const TornModel& model, Structure& structure,
                     std::span<const ChangeRecord> changes);
 

@@ -7,8 +7,7 @@
 namespace sunder::particles {
 namespace {
 
-/// The member with a face that is nearest to the seed of a particle which lost its seed; the seed
-/// where there is none.
+/// If a particle lost its seed: the member with a face that is nearest to it. Otherwise the seed.
 Index nearest_member(const StructureEdit& edit, Index particle, std::span<const Index> members) {
   Index seed = edit.structure().particles[particle].seed;
   float nearest = std::numeric_limits<float>::infinity();

@@ -4,8 +4,8 @@
 
 namespace sunder::particles {
 
-/// Grows a particle from its seed again: points that it does not reach any more leave it. @return
-/// how many points it had.
+/// Regrows a particle from its seed: points that it no longer reaches leave it. @return its former
+/// number of points.
 Index grow_anew(StructureEdit& edit, Index particle);
 
 }  // namespace sunder::particles

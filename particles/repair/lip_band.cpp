@@ -11,7 +11,7 @@
 namespace sunder::particles {
 namespace {
 
-/// Points beside the lips that follow() goes through; settle() does the rest.
+/// Number of points next to the lips that follow() handles; settle() does the rest.
 constexpr Index kPointsAtOnce = 8;
 
 void sort_once(std::vector<Index>& values) {
@@ -19,7 +19,7 @@ void sort_once(std::vector<Index>& values) {
   values.erase(std::unique(values.begin(), values.end()), values.end());
 }
 
-/// Lists the particles that the tear passes, on the lips or beside them.
+/// Lists the particles that the tear passes, on the lips or next to them.
 std::vector<Index> particles_beside(StructureEdit& edit, std::span<const Index> lips) {
   std::vector<Index> particles;
   const PointTable& points = edit.structure().points;
@@ -38,7 +38,7 @@ void visit(StructureEdit& edit, const LipChain& chain, const BandPoint& at) {
   join_lip_particles(edit, chain, at);
 }
 
-/// Goes on with the front from the lips.
+/// Continues the front from the lips.
 void widen_front(StructureEdit& edit, Index points) {
   Structure& structure = edit.structure();
   std::unique_ptr<Band>& band = structure.tears.band;
@@ -58,7 +58,7 @@ void widen_front(StructureEdit& edit, Index points) {
   if (scratch.band_front.is_done() && band->to_grow.empty()) band.reset();
 }
 
-/// Sets how deep the band of each chain is. @return the greatest depth.
+/// Sets the depth of the band of each chain. @return the greatest depth.
 float set_depths(const Structure& structure, std::span<LipChain> chains) {
   const auto range = static_cast<float>(structure.report.range);
   float deepest = 0;
@@ -92,7 +92,7 @@ void begin_band(StructureEdit& edit, std::span<const Index> lips) {
       ++lip_count;
     }
   }
-  // What a tear without tips may have set free is in two pieces, however far from the lips.
+  // A particle that a tear without tips divides may be in two pieces at any distance from the lips.
   const bool may_part = std::ranges::any_of(
       band.chains, [](const LipChain& chain) { return !std::isfinite(chain.length); });
   if (may_part) band.to_grow = particles_beside(edit, lips);
@@ -110,7 +110,7 @@ void begin_hole(StructureEdit& edit) {
         band->to_grow.push_back(membership.particle);
   if (band->to_grow.empty()) return;
   sort_once(band->to_grow);
-  // A front without a source: it is done at once.
+  // A front without a source is complete at once.
   structure.scratch.band_front.begin(structure.points.count(), structure.edge_length,
                                      structure.edge_length);
   structure.tears.band = std::move(band);

@@ -13,7 +13,8 @@ constexpr float kNever = std::numeric_limits<float>::infinity();
 /// Walks along the lips of a tear.
 class LipWalk {
  public:
-  /// @param limit  metres of border beyond the points given after which a chain ends.
+  ///
+  /// @param limit  length of border beyond the given points after which a chain ends, metres.
   LipWalk(const LipBorder& border, Structure& structure, Index tear, float limit)
       : border_(border),
         points_(structure.points),
@@ -57,7 +58,7 @@ class LipWalk {
     return norm(points_.positions[b] - points_.positions[a]);
   }
 
-  /// The first point of a chain: the start itself where the chain is a circle.
+  /// The first point of a chain; the start itself if the chain is closed.
   [[nodiscard]] First walk_back(Index start) const {
     Index first = start;
     float beyond = 0;  // the points given

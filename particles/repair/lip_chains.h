@@ -6,10 +6,10 @@
 
 namespace sunder::particles {
 
-/// Puts the lips of a tear in order. A chain ends a range of particles beyond the points given, and
-/// tips are looked for as far.
-/// @param structure  says which points are on lips; its scratch memory is used.
-/// @param points     of the chains that are wanted.
+/// Orders the lips of a tear into chains. A chain ends a range of particles beyond the given
+/// points, and tips are searched equally far.
+/// @param structure  tells which points are on lips; its scratch memory is used.
+/// @param points     points of the requested chains.
 [[nodiscard]] std::vector<LipChain> find_lip_chains(const LipBorder& border, Structure& structure,
                                                     Index tear, std::span<const Index> points);
 

@@ -18,7 +18,7 @@ class LipEdges {
         points_(edit.structure().points),
         lips_(edit.structure().lips) {}
 
-  /// Empties the edge that leaves a point.
+  /// Removes the edge that leaves a point.
   void forget(Index point) {
     const Index edge = points_.lip_points[point].edge;
     if (edge == kNone || lips_[edge].points[0] == lips_[edge].points[1]) return;
@@ -26,8 +26,8 @@ class LipEdges {
     lips_[edge] = {{point, point}, Vec3f::Zero()};
   }
 
-  /// Keeps the edges of a border at a point that belong to a lip, or to the rim of a bore, which is
-  /// new all around.
+  /// Stores the border edges at a point that belong to a lip, or to the rim of a bore, which is new
+  /// all around.
   void renew(Index point) {
     const Index leaving = border_.leaving(point), arriving = border_.arriving(point);
     if (leaving == kNone || arriving == kNone) return;
@@ -64,8 +64,7 @@ class LipEdges {
     return inward;
   }
 
-  /// Keeps a half-edge of a border as an edge of a lip, in place of the edge that left its first
-  /// point.
+  /// Stores a border half-edge as an edge of a lip, in place of the edge that left its first point.
   void keep(Index half_edge) {
     const Index a = surface_.corner_point[half_edge],
                 b = surface_.corner_point[Surface::next(half_edge)];

@@ -4,8 +4,9 @@
 
 namespace sunder::particles {
 
-/// Brings Structure::lips up to date.
-/// @param lips  points that are new on lips. @param lost  points that have no face any more.
+/// Updates Structure::lips.
+/// @param lips  new points on lips.
+/// @param lost  points that no longer have a face.
 void renew_lip_edges(StructureEdit& edit, std::span<const Index> lips, std::span<const Index> lost);
 
 }  // namespace sunder::particles

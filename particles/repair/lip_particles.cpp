@@ -17,10 +17,10 @@ float smoothstep(float x) {
   return x * x * (3 - 2 * x);
 }
 
-/// Whether a particle that is left to the lip, or one of its own, is near enough to one of its
+/// Whether a particle that stayed on the lip, or one of its own, is near enough to one of its
 /// places.
 /// @param is_short  whether the tear is so short that the particles from before it are too large
-/// for it.
+///         for it.
 bool is_covered(const StructureEdit& edit, const LipChain& chain, const LipChain::Place& place,
                 bool is_short) {
   for (const LipChain::OfLip& of : chain.particles)
@@ -34,7 +34,7 @@ bool is_covered(const StructureEdit& edit, const LipChain& chain, const LipChain
   return false;
 }
 
-/// The reach of a particle of the other lip at a point, along the surface as it is now.
+/// The reach of a particle of the other lip at a point, along the current surface.
 float reach_around_tip(const ParticleMembership& membership, float range, const LipChain& chain,
                        const BandPoint& at) {
   const float to_tip = at.place.to_tip, straight = membership.reach * range;
@@ -42,7 +42,7 @@ float reach_around_tip(const ParticleMembership& membership, float range, const 
   if (to_tip < 2 * range)
     around =
         length_of(to_tip, at.distance) + length_of(to_tip, std::max(0.0f, straight - at.distance));
-  // Where the band ends sooner than the particle, nothing may jump.
+  // If the band ends before the particle, weights must still be continuous.
   if (chain.depth < range)
     around = std::min(around, 2 * range) +
              (straight - std::min(around, 2 * range)) * smoothstep(at.distance / chain.depth);

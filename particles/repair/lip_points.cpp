@@ -7,7 +7,7 @@
 namespace sunder::particles {
 namespace {
 
-/// Finds the lips of older tears that a new point on a border may be on: those of its neighbours on
+/// Finds the lips of older tears on which a new border point may lie: those of its neighbours on
 /// the border.
 class OlderLips {
  public:
@@ -26,7 +26,7 @@ class OlderLips {
   /// @param is_own  whether the point is on a lip of the new tear.
   void look_at(Index beside, Index other, bool is_own) {
     points_.for_each_lip(beside, [&](Index tear, Side side) {
-      // Where the new lip ends in an old one, that goes on to one side; elsewhere the old one
+      // If the new lip ends in an old one, the old one continues to one side; elsewhere the old one
       // passes by.
       const bool passes =
           is_own ? points_.lip_points[beside].tear != tear_ : points_.is_on_lip(other, tear, side);
@@ -51,7 +51,7 @@ void put_on_older_lips(PointTable& points, Index point, std::span<const Particle
   }
 }
 
-/// Points that a tear made on the lips of older tears are on those too.
+/// Points that a tear creates on the lips of older tears are on those too.
 void put_new_points_on_older_lips(StructureEdit& edit) {
   PointTable& points = edit.structure().points;
   const LipBorder& border = edit.border();

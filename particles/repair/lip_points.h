@@ -4,8 +4,8 @@
 
 namespace sunder::particles {
 
-/// Puts the points on lips that some calls made. @return points that are new on lips of the
-/// operation that is followed.
+/// Assigns points that some calls created to lips. @return new points on lips of the current
+/// operation.
 std::vector<Index> put_points_on_lips(StructureEdit& edit, std::span<const ChangeRecord> changes);
 
 }  // namespace sunder::particles

@@ -5,13 +5,13 @@
 namespace sunder::particles {
 namespace {
 
-/// How near the points of each lip are to the seed of a particle, as parts of its range.
+/// Distances of the points of each lip from the seed of a particle, as fractions of its range.
 struct SideScore {
   Index particle;
   std::array<float, 2> near = {};
 };
 
-/// Scores of the particles beside the lips, in the order in which they are found.
+/// Scores of the particles next to the lips, in the order in which they are found.
 class SideScores {
  public:
   explicit SideScores(Structure& structure) : scratch_(structure.scratch) {
@@ -45,8 +45,8 @@ void choose_sides(StructureEdit& edit, std::span<const Index> lips) {
   for (const Index point : lips) {
     const auto side = static_cast<std::size_t>(structure.points.lip_points[point].side);
     scores.add(edit.memberships(point), side);
-    // Both lips are equally near. The points beside them tell on which side the seed is, and know
-    // particles that pass them by.
+    // Both lips are equally near. The points next to them tell on which side the seed is, also for
+    // particles that only pass by.
     const Ring around = edit.ring()(point);
     for (std::size_t i = 0; i < around.size(); ++i)
       if (structure.points.lip_points[around.point(i)].tear != tear)
@@ -55,7 +55,7 @@ void choose_sides(StructureEdit& edit, std::span<const Index> lips) {
   for (const SideScore& score : scores.all()) {
     const Particle& particle = structure.particles[score.particle];
     if (particle.side_of(tear) != nullptr) continue;
-    // The seed itself may stand on a lip.
+    // The seed itself may be on a lip.
     const LipPoint& of_seed = structure.points.lip_points[particle.seed];
     Side side = score.near[0] >= score.near[1] ? Side::left : Side::right;
     if (of_seed.tear == tear) side = of_seed.side;

@@ -4,9 +4,9 @@
 
 namespace sunder::particles {
 
-/// Decides for each particle that a tear touches with which lip it stays: with that which is nearer
-/// to its seed.
-/// @param lips  points that are new on the lips.
+/// Decides for each particle that a tear touches with which lip it stays: the one that is nearer to
+/// its seed.
+/// @param lips  new points on the lips.
 void choose_sides(StructureEdit& edit, std::span<const Index> lips);
 
 }  // namespace sunder::particles

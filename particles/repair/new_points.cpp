@@ -8,10 +8,10 @@
 namespace sunder::particles {
 namespace {
 
-/// The distance of a point from a particle's seed, by a neighbour that belongs to the particle and,
-/// where there is one, by the face between that neighbour and the next one.
+/// The distance of a point from a particle's seed, through a neighbour that is a member and, if
+/// there is one, the face between that neighbour and the next one.
 /// @param i          the neighbour in the ring around the point.
-/// @param next       memberships of the next neighbour; empty where it has none yet.
+/// @param next       memberships of the next neighbour; empty if it has none yet.
 float distance_through(const Ring& around, std::size_t i, const ParticleMembership& membership,
                        float range, std::span<const ParticleMembership> next) {
   const float at = membership.reach * range;
@@ -30,7 +30,7 @@ float distance_through(const Ring& around, std::size_t i, const ParticleMembersh
 void spread_from(StructureEdit& edit, Index point, const Ring& around, std::size_t i, bool has_next,
                  Index undecided_tear) {
   const Index from = around.point(i);
-  // Read anew each time, because join() moves memberships.
+  // Read again in each iteration, because join() moves memberships.
   for (std::size_t m = 0; m < edit.memberships(from).size(); ++m) {
     const ParticleMembership membership = edit.memberships(from)[m];
     if (!edit.may_join(point, membership.particle, undecided_tear)) continue;
@@ -42,7 +42,7 @@ void spread_from(StructureEdit& edit, Index point, const Ring& around, std::size
   }
 }
 
-/// Gives a point the memberships of those around it that have theirs. @return false where none has.
+/// Gives a point the memberships of those neighbours that have some. @return false if none has.
 bool spread_to(StructureEdit& edit, Index point, Index undecided_tear) {
   const Marks& is_ready = edit.structure().scratch.seen;
   const Ring around = edit.ring()(point);

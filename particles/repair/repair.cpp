@@ -13,7 +13,7 @@
 namespace sunder::particles {
 namespace {
 
-/// Begins a change, unless the stroke under way has one.
+/// Begins a change, unless the current stroke has one.
 void begin_change(Structure& structure) {
   TearLog& tears = structure.tears;
   if (!tears.done.empty() && tears.done.back().operation == 0) return;

@@ -8,7 +8,7 @@
 namespace sunder::particles {
 namespace {
 
-/// Room for memberships that a point gets while it is worked on.
+/// Room for memberships that a point gets during the edit.
 constexpr Index kMoreMemberships = 4;
 
 }  // namespace
@@ -105,8 +105,8 @@ Index StructureEdit::make_particle(Index seed, float range, const ParticleInflue
   return index;
 }
 
-/// Counts a point out of the particles that it left and into those that it joined: both lists
-/// ascend.
+/// Removes a point from the sums of particles that it left and adds it to those that it joined;
+/// both lists ascend.
 void StructureEdit::count_members(Index point, std::span<const ParticleMembership> before,
                                   std::span<const ParticleMembership> now) {
   bool has_rest = false;

@@ -5,12 +5,13 @@
 
 namespace sunder::particles {
 
-/// One call's changes to a structure. Memberships of points that change are kept beside the
-/// structure and put back together, so that each point is counted out of its particles and into
-/// others once. All that changes is noted in a Change, for undo.
+/// One call's changes to a structure. Memberships of changing points are kept separately and
+/// written back together, so that each point is removed from the sums of its particles and added to
+/// others once. All changes are logged in a Change, for undo.
 class StructureEdit {
  public:
-  /// @param tear  the number of the operation that is followed.
+  ///
+  /// @param tear  index of the current operation.
   StructureEdit(const TornModel& model, Structure& structure, Change& change, Index tear);
 
   [[nodiscard]] const TornModel& model() const { return model_; }
@@ -19,9 +20,9 @@ class StructureEdit {
   [[nodiscard]] Structure& structure() const { return structure_; }
   [[nodiscard]] Change& change() const { return change_; }
   [[nodiscard]] Index tear() const { return tear_; }
-  /// Points from here on came with this call.
+  /// Points from this index on were created by this call.
   [[nodiscard]] Index first_new_point() const { return first_new_point_; }
-  /// The neighbours of points, and the same again for what begins while the first is in use.
+  /// Memory for neighbours of points, and a second one for use while the first is in use.
   [[nodiscard]] RingWalk& ring() { return ring_; }
   [[nodiscard]] RingWalk& other_ring() { return other_ring_; }
 
@@ -29,12 +30,12 @@ class StructureEdit {
 
   /// Memberships as they are to be. Valid until the next change.
   [[nodiscard]] std::span<const ParticleMembership> memberships(Index point) const;
-  /// Takes a point up, so that finish() looks at it.
+  /// Adds a point to the edit, so that finish() updates it.
   void take_up(Index point) { (void)work_of(point); }
   [[nodiscard]] std::size_t taken_up_count() const { return works_.size(); }
   [[nodiscard]] Index taken_up(std::size_t i) const { return works_[i].point; }
 
-  /// Adds a membership; of two of the same particle the nearer counts.
+  /// Adds a membership; of two of the same particle the nearer is kept.
   void join(Index point, const ParticleMembership& membership);
   /// Removes all memberships.
   void leave_all(Index point) { work_of(point).count = 0; }
@@ -53,21 +54,21 @@ class StructureEdit {
   /// gets that of the point.
   /// @param undecided_tear  whose sides choose_sides() decides later.
   [[nodiscard]] bool may_join(Index point, Index particle, Index undecided_tear = kNone);
-  /// Notes a point before its lips or influences change.
+  /// Logs a point before its lips or influences change.
   void log_point(Index point);
 
   // ---- Particles.
 
   /// @return its index.
   Index make_particle(Index seed, float range, const ParticleInfluences& parents);
-  /// Notes a particle before it changes. The reference is good until the next make_particle().
+  /// Logs a particle before it changes. The reference is valid until the next make_particle().
   Particle& change_particle(Index particle);
 
-  /// Ends the call: puts all changes into the structure.
+  /// Ends the call: writes all changes to the structure.
   void finish();
 
  private:
-  /// A point that changes, and its memberships in memberships_.
+  /// A point of the edit, and its range in memberships_.
   struct Work {
     Index point = 0;
     Index first = 0, count = 0, room = 0;

@@ -5,15 +5,14 @@
 namespace sunder::particles {
 namespace {
 
-/// Calls visit(vertex) for each corner of the triangles of a mesh that a call rewrote, as it was
-/// before.
+/// Calls visit(vertex) for each corner that the triangles rewritten by a call had before.
 template <class Visit>
 void for_each_corner_before(const MeshChange& of_mesh, Visit visit) {
   for (const RewrittenTriangle& rewritten : of_mesh.rewritten)
     for (const Index vertex : rewritten.before) visit(vertex);
 }
 
-/// A point that has no face any more belongs to nothing.
+/// A point without a face belongs to no particle.
 void leave_if_lost(StructureEdit& edit, Index point, std::vector<Index>& lost) {
   if (point >= edit.structure().points.count() || edit.surface().point_corner[point] != kNone)
     return;
@@ -29,7 +28,7 @@ void set_vertex_point(StructureEdit& edit, Index mesh, Index vertex, Index point
   known = point;
 }
 
-/// Whether a face around a point has it in a vertex.
+/// Whether one of the faces around a point uses a vertex for it.
 bool has_vertex(const StructureEdit& edit, Index point, Index mesh, Index vertex) {
   const Surface& surface = edit.surface();
   if (point >= surface.point_count() || surface.point_corner[point] == kNone) return false;
@@ -55,7 +54,7 @@ void renew_corner(StructureEdit& edit, Index corner) {
   set_vertex_point(edit, ref.mesh, vertex, now);
 }
 
-/// A vertex that several points share may have lost the one that it is at: then it gets another of
+/// A vertex that several points share may have lost its stored point; then it gets another one of
 /// them.
 void renew_shared_vertex(StructureEdit& edit, Index mesh, Index vertex, std::vector<Index>& lost) {
   VertexPoints& points = edit.structure().vertex_points;
@@ -91,7 +90,7 @@ void renew_vertex_points(StructureEdit& edit, std::span<const ChangeRecord> chan
   const Structure& structure = edit.structure();
   const Surface& surface = edit.surface();
   const auto renew = [&](Index corner) { renew_corner(edit, corner); };
-  // Vertices are new, or go along with a point that is.
+  // Vertices are either new, or belong to a new point.
   for (Index point = edit.first_new_point(); point < structure.points.count(); ++point)
     if (surface.point_corner[point] != kNone)
       surface.for_each_in_fan(surface.point_corner[point], renew);

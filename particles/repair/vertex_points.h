@@ -4,10 +4,10 @@
 
 namespace sunder::particles {
 
-/// Takes points out of all particles that a call left without a face. @return those points.
+/// Removes points without a face after a call from all particles. @return those points.
 std::vector<Index> leave_lost_points(StructureEdit& edit, std::span<const ChangeRecord> changes);
 
-/// Brings the points of vertices up to date. @param lost  appended: as leave_lost_points().
+/// Updates the points of vertices. @param lost  appended: as leave_lost_points().
 void renew_vertex_points(StructureEdit& edit, std::span<const ChangeRecord> changes,
                          std::vector<Index>& lost);
 
