@@ -1,4 +1,5 @@
-// The models of tests/data/rigged are what our own code makes, and have what tests use them for.
+// The models of tests/data/rigged equal those that our own code generates, and have the features
+// for which tests use them.
 #include "support/own_models.h"
 
 #include <sunder/io/character_file.h>

@@ -1,5 +1,5 @@
-// The whole path on every rigged file at hand: load, tear in two poses at three places each, check
-// every law in twenty other poses, save, validate, load again and compare in motion.
+// The whole path on every available rigged file: load, tear in two poses at three places each,
+// check every invariant in twenty other poses, save, validate, load again and compare in motion.
 #include <sunder/io/character_file.h>
 #include <sunder/skinning/deform.h>
 #include <sunder/skinning/pose.h>
@@ -27,7 +27,7 @@ namespace {
 using test::Random;
 using testing::IsEmpty;
 
-/// A place in a random clip, or where there is none a random pose.
+/// A random pose: a random time of a random clip or, without clips, random rotations.
 ModelPose some_pose(const Character& character, Random& random) {
   if (character.clips.empty() || random.index(4) == 0)
     return test::random_pose(character, random, 0.4, 1.1);
@@ -40,7 +40,7 @@ ModelPose some_pose(const Character& character, Random& random) {
   return model;
 }
 
-/// Triangles as a file has them: grouped by submesh, each in its order, without the retired ones.
+/// Triangles as a file stores them: grouped by submesh, in order, without retired ones.
 std::vector<Triangle> in_file_order(const Mesh& mesh) {
   std::vector<Triangle> triangles;
   for (std::uint32_t submesh = 0; submesh < mesh.submeshes.size(); ++submesh)
@@ -72,7 +72,7 @@ void expect_same_in_motion(const Character& memory, const Character& file, Rando
 
 void expect_valid_file(const std::filesystem::path& saved, const std::filesystem::path& source) {
   if (!test::has_gltf_validator()) return;
-  // All parts of the file except its torn meshes stay as they are, faults included.
+  // Saving keeps all parts of the file except torn meshes, including faults.
   const bool is_patch = source.extension() == ".glb" || source.extension() == ".gltf";
   const auto verdict = test::validate_glb(saved);
   EXPECT_LE(verdict.errors, verdict.errors > 0 && is_patch ? test::validate_glb(source).errors : 0)
@@ -80,8 +80,8 @@ void expect_valid_file(const std::filesystem::path& saved, const std::filesystem
   EXPECT_GE(verdict.errors, 0) << "the validator did not run";
 }
 
-/// Loads a file. Some of those at hand are broken on purpose: refusing them is right, and the error
-/// must say why.
+/// Loads a file. Some of the available files are broken on purpose: they must be refused, with a
+/// reason.
 std::optional<LoadedCharacter> load_or_refuse(const std::filesystem::path& file) {
   auto loaded = load_character(file);
   if (loaded) return std::move(*loaded);
@@ -219,7 +219,7 @@ void operate_and_undo(const std::filesystem::path& file, std::uint64_t seed) {
   EXPECT_EQ(model->character(), model->source());
 }
 
-/// The runtime agrees with the definition, in a frame at the character's middle, also after tears.
+/// SkinnedMesh agrees with the definition, in a frame at the character's middle, also after tears.
 void pose_by_runtime(const std::filesystem::path& file, std::uint64_t seed) {
   const auto loaded = load_or_refuse(file);
   if (!loaded) return;
@@ -269,8 +269,8 @@ void pose_by_runtime(const std::filesystem::path& file, std::uint64_t seed) {
   }
 }
 
-/// Torn in some poses and weighed by each policy: exact stays where the surface was, a fit is not
-/// worse than interpolation, and where the tears run does not depend on it.
+/// Torn in some poses and weighed by each policy: `exact` stays on the untorn surface, a fit is not
+/// worse than interpolation, and the path of the tears does not depend on the policy.
 void weigh_by_each_policy(const std::filesystem::path& file, std::uint64_t seed) {
   const auto loaded = load_or_refuse(file);
   if (!loaded) return;
@@ -299,15 +299,15 @@ void weigh_by_each_policy(const std::filesystem::path& file, std::uint64_t seed)
   const auto weigh = [&](const WeightsOperation& wanted) {
     const auto report = model->reweigh(wanted);
     ASSERT_TRUE(report) << report.error().text();
-    // A bind position that was moved is for other poses than that of bind: there, faces may be
-    // turned over.
+    // A fitted bind position is meant for other poses than the bind pose: there, faces may be
+    // inverted.
     const bool moves_bind = wanted.weights.policy == WeightPolicy::refit;
     if (!moves_bind) {
       ASSERT_THAT(test::broken_laws(*model), IsEmpty());
     }
   };
   const WeightErrors before = measured();
-  double reach = 0;  // posed places are rounded to what they are about
+  double reach = 0;  // posed positions are rounded relative to this
   for (const ModelPose& pose : poses)
     reach = std::max(reach, test::posed_diagonal(*loaded->character, pose));
   for (const Skin& skin : loaded->character->skins)
@@ -333,7 +333,7 @@ void weigh_by_each_policy(const std::filesystem::path& file, std::uint64_t seed)
   const WeightErrors pruned = measured();
   for (std::size_t i = 0; i < after.points.size(); ++i) {
     const bool has_morphs =
-        !loaded->character->rest_morph_weights.empty();  // which a fit takes as those of rest
+        !loaded->character->rest_morph_weights.empty();  // a fit assumes morph weights at rest
     EXPECT_LE(after.points[i].rms, pruned.points[i].rms + (has_morphs ? 1e-3 : 3e-7) * reach);
   }
 
@@ -378,7 +378,7 @@ TEST_P(RiggedFile, takes_every_operation_and_gives_it_back) {
 std::vector<std::filesystem::path> files() {
   auto found = test::rigged_models({".glb", ".gltf", ".fbx", ".dae", ".x", ".b3d"});
   if (!test::assimp_models().empty()) {
-    // Formats that can carry a skin; the rigid models among them are torn too.
+    // Formats that can contain a skin; the rigid models among them are torn too.
     const auto more =
         test::files_below(test::assimp_models(), {".glb", ".gltf", ".fbx", ".dae", ".x", ".b3d",
                                                   ".md5mesh", ".ms3d", ".smd", ".cob", ".mdl"});
@@ -394,7 +394,7 @@ INSTANTIATE_TEST_SUITE_P(all, RiggedFile, testing::ValuesIn(files()), [](const a
   return name;
 });
 
-/// Files that are broken on purpose end a test above early; our own and the shared ones are not.
+/// Files that are broken on purpose end a test above early; our own and the shared ones must not.
 TEST(RiggedFiles, can_be_loaded) {
   const auto rigged = test::rigged_models({".glb", ".gltf", ".fbx", ".dae", ".x", ".b3d"});
   EXPECT_GE(rigged.size(), test::shared_models().empty() ? 8u : 22u);

@@ -10,7 +10,7 @@
 namespace sunder::test {
 namespace {
 
-/// The source with comments and the contents of literals taken out; lines keep their places.
+/// The source without comments and contents of literals; line numbers are kept.
 std::string without_comments_and_literals(const std::string& source) {
   std::string bare;
   for (std::size_t i = 0; i < source.size(); ++i) {

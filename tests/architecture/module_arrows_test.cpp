@@ -1,4 +1,5 @@
-// Reads the `#include` lines of the tree and holds them to the arrows of docs/architecture.md.
+// Reads the `#include` lines of the repository and checks them against the arrows of
+// docs/architecture.md.
 
 #include <algorithm>
 #include <filesystem>
@@ -25,7 +26,7 @@ std::set<std::string> words_of(const std::string& text) {
   return words;
 }
 
-/// The modules that each folder may include by <sunder/…>, itself among them.
+/// The modules that each folder may include by <sunder/…>, including itself.
 const std::map<std::string, std::set<std::string>> kMayUse = {
     {"core", {"core"}},
     {"operation", {"core", "operation"}},
@@ -43,8 +44,8 @@ const std::map<std::string, std::set<std::string>> kMayUse = {
 /// Folders that may include <sunder/sunder.h>, which includes all modules.
 const std::set<std::string> kMayUseUmbrella = {"samples", "tools"};
 
-/// Folders with third parties; the others see the standard library and Eigen alone. Samples are
-/// programs of users, who have none of our private headers, and threads of their own.
+/// Folders that may include third parties; all others include only the standard library and Eigen.
+/// Samples are programs of users, without access to private headers, and may use threads.
 const std::map<std::string, std::set<std::string>> kThirdParties = {
     {"io", {"tiny_gltf.h", "assimp", "nlohmann"}},
     {"skinning", {"hwy"}},
@@ -79,7 +80,7 @@ const std::set<std::string> kStandardHeaders = words_of(R"(
 const std::set<std::string> kOperatingSystemHeaders = {"fcntl.h", "poll.h", "signal.h", "spawn.h",
                                                        "unistd.h"};
 
-/// Why `file`, of `module`, may not have this include; empty if it may.
+/// The reason why `file`, of `module`, may not have this include; empty if it may.
 std::string fault(const std::string& module, const std::string& file, bool is_public,
                   const Include& include) {
   const std::size_t slash = include.path.find('/');

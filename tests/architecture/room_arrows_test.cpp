@@ -1,4 +1,5 @@
-// Holds the arrows between the rooms (folders) inside a module, as the other test does for modules.
+// Checks the includes between the rooms (folders) inside a module, as module_arrows_test.cpp does
+// between modules.
 
 #include <algorithm>
 #include <filesystem>
@@ -88,7 +89,7 @@ std::vector<std::string> room_faults(const fs::path& root, const std::string& mo
   return faults;
 }
 
-/// The rooms from which some path of arrows leads back to them.
+/// The rooms that are on a cycle of arrows.
 std::vector<std::string> rooms_in_circles(const Rooms& rooms) {
   std::vector<std::string> found;
   for (const auto& [start, unused] : rooms) {
@@ -107,7 +108,7 @@ std::vector<std::string> rooms_in_circles(const Rooms& rooms) {
   return found;
 }
 
-/// Arrows of the table that lead to no room of it.
+/// Arrows of the table that lead to an unknown room.
 std::vector<std::string> unknown_rooms(const Rooms& rooms) {
   std::vector<std::string> found;
   for (const auto& [room, arrows] : rooms)

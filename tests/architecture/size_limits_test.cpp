@@ -1,5 +1,5 @@
-// Holds the sizes that keep the house readable: how many headers are installed, how many files
-// stand at a module's root, how long a function is and how many parameters it has.
+// Checks size limits: number of installed headers, number of files at a module's root, lines and
+// parameters of functions.
 
 #include <algorithm>
 #include <filesystem>
@@ -26,7 +26,7 @@ constexpr std::size_t kMostFilesAtRoot = 13;
 constexpr std::size_t kMostLines = 60;
 constexpr std::size_t kMostParameters = 8;
 
-/// Files of vector kernels, whose functions take their registers as parameters.
+/// Files of vector kernels, whose functions pass registers as parameters.
 const std::set<std::string> kVectorKernels = {"skinning/kernel-inl.h"};
 
 /// Functions above the limit and their lines today: they may become shorter, not longer.

@@ -1,5 +1,5 @@
-// Reads the table "to change … look in …" of docs/architecture.md and checks that each place it
-// names exists.
+// Checks that each place exists that the table "to change … look in …" of docs/architecture.md
+// names.
 
 #include <cstddef>
 #include <filesystem>
@@ -60,8 +60,8 @@ bool contains(const fs::path& file, const std::string& name) {
   return text_of(file).find(name) != std::string::npos;
 }
 
-/// What a row names that is not there. A text with a slash is a file or folder below `root`; any
-/// other is a name that stands in the file before it.
+/// The names in a row that do not exist. A text with a slash is a file or folder below `root`; any
+/// other is a name that must occur in the file before it.
 std::vector<std::string> missing_places(const fs::path& root, const Row& row) {
   std::vector<std::string> missing;
   fs::path file;

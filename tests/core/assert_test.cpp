@@ -6,7 +6,7 @@
 namespace sunder {
 namespace {
 
-// Documented preconditions stop debug builds; elsewhere nothing is promised, so nothing is tested.
+// Documented preconditions stop debug builds; other builds promise nothing, so nothing is tested.
 #if !defined(NDEBUG)
 
 TEST(AssertDeathTest, a_failed_result_has_no_value) {

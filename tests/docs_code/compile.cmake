@@ -1,4 +1,4 @@
-# Compiles what the pages show: cmake -D BUILD=… -D CONFIG=… -P compile.cmake
+# Compiles the C++ of the pages: cmake -D BUILD=… -D CONFIG=… -P compile.cmake
 execute_process(COMMAND ${CMAKE_COMMAND} --build ${BUILD} --config "${CONFIG}" --target docs_code RESULT_VARIABLE result)
 if(NOT result EQUAL 0)
   message(FATAL_ERROR "C++ shown in README.md or docs/*.md does not compile. The errors above name the page and the line. "

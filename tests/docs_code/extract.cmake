@@ -13,7 +13,7 @@ set(includes "#include <sunder/sunder.h>\n")
 set(code "")
 set(number 0)
 
-# Splits `text` before and after its first `mark`; `after` is empty where there is none.
+# Splits `text` before and after its first `mark`; `after` is empty if there is none.
 function(split text mark before after)
   string(FIND "${text}" "${mark}" at)
   if(at EQUAL -1)

@@ -71,7 +71,7 @@ bool has_note(const LoadReport& report, LoadNote::Kind kind, const char* part) {
   return false;
 }
 
-/// Children and descriptors that a call left behind.
+/// Child processes and descriptors that a call left open.
 class LeavesNothingBehind {
  public:
   LeavesNothingBehind() : descriptors_(open_descriptors()) {}
@@ -150,7 +150,7 @@ TEST(AssimpImport, XWithSkinAndAnimation) {
     if (channel["target"]["path"] != "rotation") continue;
     const json& sampler = clip["samplers"][channel["sampler"].get<std::size_t>()];
     EXPECT_EQ(glb.accessor<float>(sampler["input"].get<std::size_t>()),
-              (std::vector<float>{0.0f, 1.0f}));  // 10 ticks at 10 a second.
+              (std::vector<float>{0.0f, 1.0f}));  // 10 ticks at 10 per second.
   }
 }
 
@@ -172,8 +172,7 @@ TEST(AssimpImport, ColladaWithSixInfluencesUnitAndUpAxis) {
   EXPECT_NEAR(sum, 1.0, 6 * 2e-7);
   EXPECT_TRUE(has_note(imported->report, LoadNote::Kind::repaired, "off by up to 0.2"));
 
-  // Centimetres and z up are on the root; the whole chain is checked with poses in
-  // assimp_pose_test.cpp.
+  // The root converts centimetres and z up; assimp_pose_test.cpp checks the whole chain in poses.
   EXPECT_EQ(imported->report.space, "metres, y up; unit and up axis of the file applied");
 
   LoadOptions strict;
@@ -224,7 +223,7 @@ TEST(AssimpImport, ReadsNothingOutsideTheModelsFolder) {
       import_as_glb(folder.write("inside/square.obj", std::string_view(model)), {}).error().code(),
       StatusCode::path_not_allowed);
 
-  // A link leads out as much as a path does.
+  // A link that leads outside is refused like a path.
   fs::create_symlink(folder.path() / "square.mtl", folder.path() / "inside" / "square.mtl");
   EXPECT_EQ(import_as_glb(folder.write("inside/link.obj", std::string_view(test::kSquareObj)), {})
                 .error()
@@ -239,7 +238,7 @@ TEST(AssimpImport, LimitsHold) {
   LoadOptions options;
   options.maximum_bytes = 10;
   EXPECT_EQ(import_as_glb(file, options).error().code(), StatusCode::limit_exceeded);
-  options.maximum_bytes = 100;  // The file passes, the model does not.
+  options.maximum_bytes = 100;  // The file is within the limit, the model is not.
   EXPECT_EQ(import_as_glb(file, options).error().code(), StatusCode::limit_exceeded);
   options = {};
   options.import_seconds = 1e-6;
@@ -291,7 +290,8 @@ void expect_bad_shared_files_end_in_a_status() {
                             BadFile{"huge_counts.off", StatusCode::limit_exceeded},
                             BadFile{"empty_init_from.dae", StatusCode::malformed_file},
                             BadFile{"skinweights_oob.x", StatusCode::malformed_file}}) {
-    if (kIsSanitized && bad.code == StatusCode::limit_exceeded) continue;  // No memory limit there.
+    // There is no memory limit there.
+    if (kIsSanitized && bad.code == StatusCode::limit_exceeded) continue;
     const auto imported = import_as_glb(test::shared_models() / "bad" / bad.name, {});
     ASSERT_FALSE(imported) << bad.name;
     EXPECT_EQ(imported.error().code(), bad.code) << bad.name << ": " << imported.error().text();
@@ -321,7 +321,7 @@ TEST(AssimpImport, BadTextsEndInAStatus) {
   expect_bad_shared_files_end_in_a_status();
 }
 
-/// Judged by the glTF validator where it is installed.
+/// Checked by the glTF validator if it is installed.
 TEST(AssimpImport, RiggedModelsBecomeValidGltf) {
   const test::TemporaryFolder folder;
   const std::vector<fs::path> files = test::rigged_models({".fbx", ".dae", ".x", ".b3d"});
@@ -351,7 +351,8 @@ TEST(AssimpImport, FbxUnitAndAxesAreApplied) {
   EXPECT_FALSE(root.contains("scale"));
 }
 
-/// Every file of assimp's own collection, broken ones included, ends in a valid GLB or in a status.
+/// Every file of assimp's own collection, including broken ones, results in a valid GLB or in a
+/// status.
 TEST(AssimpImport, AssimpsOwnModels) {
   if (test::assimp_models().empty()) GTEST_SKIP() << "needs Debian's assimp-testmodels";
   const LeavesNothingBehind check;

@@ -1,5 +1,5 @@
-// Imported models, loaded and posed by us, against assimp's own scene evaluated by the definition:
-// the whole chain of units, axes, pivots, binds, weights, keys and welding.
+// Compares imported models, loaded and posed by our code, with assimp's own scene evaluated by the
+// definition: the whole chain of units, axes, pivots, binds, weights, keys and welding.
 
 #include <sunder/io/character_file.h>
 #include <sunder/skinning/deform.h>
@@ -26,12 +26,11 @@ namespace sunder {
 namespace {
 
 namespace fs = std::filesystem;
-using Corners = std::vector<Vec3d>;  ///< Three a triangle, model space.
+using Corners = std::vector<Vec3d>;  ///< Three per triangle, model space.
 
 constexpr double kRest = -1.0;
 
-// ---- assimp's scene, evaluated in its own terms
-// -----------------------------------------------------------------------------------
+// ---- assimp's scene, evaluated by its own definition
 
 template <class Key>
 std::pair<unsigned, double> locate(const Key* keys, unsigned count, double ticks) {
@@ -115,8 +114,7 @@ Corners assimp_corners(const aiScene& scene, unsigned clip, double seconds) {
   return corners;
 }
 
-// ---- ours
-// -------------------------------------------------------------------------------------------------------------------------
+// ---- our result
 
 Corners our_corners(const Character& character, std::size_t clip, double seconds) {
   Pose pose = local_rest_pose(character);
@@ -139,7 +137,7 @@ Corners our_corners(const Character& character, std::size_t clip, double seconds
 }
 
 /// Largest distance between corners of the two, relative to assimp's size. `model_from_scene` is
-/// what assimp itself did not apply.
+/// the part that assimp does not apply.
 void expect_same(const Corners& ours, const Corners& theirs, const Affine3d& model_from_scene,
                  double tolerance, const std::string& what) {
   ASSERT_EQ(ours.size(), theirs.size()) << what;

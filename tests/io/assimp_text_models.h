@@ -19,8 +19,9 @@ inline constexpr const char* kTornPly =
     "property list uchar int vertex_indices\nend_header\n"
     "0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 0\n1 1 0\n2 0 0\n3 0 1 2\n3 4 5 3\n3 1 6 2\n";
 
-/// A strip of two quads along y (every number has its point: assimp takes "1,0" for 1.0), skinned
-/// to two bones in a chain, the upper one turned by a quarter about z in one second.
+/// A strip of two quads along y, skinned to two bones in a chain, the upper one rotated by 90
+/// degrees about z within one second. (Every number has a decimal point: assimp reads "1,0" as
+/// 1.0.)
 inline const std::string kSkinnedX = R"(xof 0303txt 0032
 AnimTicksPerSecond { 10; }
 Frame Root {
@@ -53,8 +54,8 @@ AnimationSet Bend {
 }
 )";
 
-/// One triangle on six bones, all six on vertex 0, in centimetres and z up, with a weight sum
-/// of 1.2 there.
+/// One triangle on six bones, all of which move vertex 0 with a weight sum of 1.2; in centimetres
+/// and z up.
 inline const std::string kSixBoneCollada = [] {
   std::string joints, nodes, binds;
   for (int i = 0; i < 6; ++i) {

@@ -1,4 +1,4 @@
-// load_character() on glTF: whatever comes in, the answer is a clear refusal or a valid character.
+// load_character() on glTF: any input results in a clear refusal or a valid character.
 
 #include <algorithm>
 #include <random>

@@ -1,4 +1,4 @@
-// How save_glb() writes influences: SaveOptions in include/sunder/io/save_glb.h.
+// How save_glb() writes influences: SaveOptions in include/sunder/io/character_file.h.
 
 #include <sunder/io/character_file.h>
 
@@ -18,8 +18,8 @@ namespace {
 
 constexpr std::uint32_t kBones = 20;
 
-/// A strip whose vertices have up to so many influences, of twenty bones, some far too small for
-/// any integer.
+/// A strip whose vertices have up to the given number of influences, of twenty bones, some too
+/// small for any integer format.
 Character strip_with_influences(std::uint32_t most) {
   GltfBuilder builder = skinned_strip();
   Json joints = Json::array();
@@ -65,7 +65,7 @@ struct Saved {
     return attributes().contains(attribute);
   }
 
-  /// Component `c` of a vertex, as it stands in the file.
+  /// Component `c` of a vertex, as stored in the file.
   template <class T>
   [[nodiscard]] T value(const std::string& attribute, std::size_t vertex, std::size_t c) const {
     const Json& view = json["bufferViews"][accessor(attribute)["bufferView"].get<std::size_t>()];
@@ -100,12 +100,12 @@ Saved save(const Character& character, const SaveOptions& options) {
     const ValidatorReport report = validate_glb(file);
     EXPECT_EQ(report.errors, 0) << report.output;
     EXPECT_NE(report.output.find("\"warnings\":0"), std::string::npos)
-        << report.output;  // Such as joints without weight.
+        << report.output;  // For example, joints without weight.
   }
   return read_back(file);
 }
 
-/// The vertex' weights as the file holds them: they sum to one exactly, and slots without weight
+/// The vertex's weights as stored in the file: they sum to exactly one, and slots without weight
 /// are 0.
 template <class Integer>
 void expect_exact_sum(const Saved& saved, std::size_t vertex) {
@@ -121,7 +121,7 @@ void expect_exact_sum(const Saved& saved, std::size_t vertex) {
   EXPECT_EQ(sum, std::numeric_limits<Integer>::max()) << "vertex " << vertex;
 }
 
-/// The largest influences of a vertex over their sum, by slot.
+/// The largest influences of a vertex divided by their sum, by slot.
 std::map<std::uint32_t, double> largest(const Character& character, std::uint32_t vertex,
                                         std::uint32_t maximum) {
   const auto all = character.meshes[0].weights.of(vertex);

@@ -39,7 +39,7 @@ std::uint32_t append_copy(Mesh& mesh, std::uint32_t vertex) {
   return mesh.vertex_count() - 1;
 }
 
-/// Gives the first triangles vertices of their own and a tear side, as a tear would.
+/// Gives the first triangles vertices of their own and a tear side, as a tear does.
 void fake_tear(Mesh& mesh, std::size_t triangles = 2) {
   CustomAttribute side{kTearSideAttribute, 1, false,
                        std::vector<float>(mesh.positions.size(), 0.0f)};
@@ -168,7 +168,7 @@ TEST(SaveGlb, tear_sides_are_written_under_two_names_and_read_under_one) {
   EXPECT_EQ(json["accessors"][attributes[kTearSideAttribute].get<std::size_t>()]["componentType"],
             5126);
   EXPECT_EQ(saved.again->character->meshes[0].custom_attributes, torn.meshes[0].custom_attributes);
-  const Saved twice = save(torn, *saved.again);  // Neither name piles up.
+  const Saved twice = save(torn, *saved.again);  // Neither name is added twice.
   EXPECT_EQ(json_of(twice.bytes)["meshes"][0]["primitives"][0]["attributes"].size(),
             attributes.size());
 }
@@ -250,7 +250,7 @@ TEST(SaveGlb, a_node_whose_mesh_is_gone_keeps_no_trace_of_it) {
   EXPECT_FALSE(json.contains("animations"));
 }
 
-/// Takes a triangle away, as a gap does.
+/// Retires a triangle, as a gap does.
 void retire(Mesh& mesh, std::uint32_t triangle) {
   mesh.triangles[triangle].fill(mesh.triangles[triangle][0]);
 }
@@ -320,7 +320,7 @@ TEST(SaveGlb, a_model_without_any_triangle_left_is_a_valid_file) {
   }
 }
 
-/// Closes something with two triangles of vertices of their own.
+/// Closes an opening with two triangles that have their own vertices.
 void add_cap(Mesh& mesh, const Submesh& submesh) {
   mesh.submeshes.push_back(submesh);
   for (const std::uint32_t t : {1u, 2u}) {
@@ -357,7 +357,7 @@ TEST(SaveGlb, new_submeshes_become_primitives_of_the_same_vertices) {
   EXPECT_FALSE(primitives[1].contains("material"));
   EXPECT_EQ(primitives[1]["extras"], (Json{{"name", "cap"}}));
   EXPECT_EQ(primitives[2]["material"], 1);
-  EXPECT_FALSE(primitives[2].contains("extras"));  // Its material is named so.
+  EXPECT_FALSE(primitives[2].contains("extras"));  // Its material has that name.
   EXPECT_EQ(primitives[3]["material"], 0);
   EXPECT_EQ(primitives[3]["extras"], (Json{{"name", "wall"}}));
   EXPECT_FALSE(primitives[4].contains("extras"));
@@ -493,7 +493,7 @@ TEST(SaveGlb, weights_that_loading_repaired_are_written_when_anything_is_torn) {
   const LoadedCharacter loaded = loaded_strip(builder);
   Character torn = *loaded.character;
   fake_tear(torn.meshes[0]);
-  const Saved saved = save(torn, loaded);  // Among others: the validator finds no error.
+  const Saved saved = save(torn, loaded);  // Also checks that the validator finds no error.
   ASSERT_TRUE(saved.again.has_value());
   EXPECT_EQ(saved.again->character->meshes[1].weights, torn.meshes[1].weights);
   for (const LoadNote& note : saved.again->report.notes)
@@ -600,8 +600,8 @@ TEST(SaveGlb, rigged_models_come_back_torn) {
 }
 
 TEST(SaveGlb, the_validator_judges_what_the_tests_above_wrote) {
-  SUNDER_SKIP_WITHOUT_GLTF_VALIDATOR();  // They do it where they can; this says by name where they
-                                         // could not.
+  // The tests use the validator if it is installed; this one reports by name if it is not.
+  SUNDER_SKIP_WITHOUT_GLTF_VALIDATOR();
 }
 
 }  // namespace

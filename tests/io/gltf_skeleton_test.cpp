@@ -67,7 +67,7 @@ TEST(LoadGltfSkeleton, without_scenes_all_roots_are_taken) {
 
 TEST(LoadGltfSkeleton, a_matrix_without_shear_becomes_one_bone) {
   GltfBuilder builder = skinned_strip();
-  // A quarter turn about z, scale 2 3 4, mirrored in x.
+  // Rotated by 90 degrees about z, scale 2 3 4, mirrored in x.
   builder.json["nodes"][1]["matrix"] = {0, -2, 0, 0, -3, 0, 0, 0, 0, 0, 4, 0, 5, 6, 7, 1};
   const auto loaded = builder.load(strict());
   ASSERT_TRUE(loaded.has_value()) << loaded.error().text();

@@ -19,11 +19,10 @@ namespace {
 
 using test::Random;
 
-// ---- Operations of any bits
-// ------------------------------------------------------------------------------------------------
+// ---- Operations with random bits
 
-/// Any double up to `largest`: of all magnitudes, round ones and those that no short text names,
-/// zeros of both signs.
+/// Any double up to `largest`: of all magnitudes, round ones and ones without a short text, zeros
+/// of both signs.
 double any_number(Random& random, double largest = 1e9) {
   switch (random.index(8)) {
     case 0: return 0.0;
@@ -66,7 +65,7 @@ BonesPose any_bones_pose(Random& random) {
   BonesPose pose;
   for (std::uint32_t i = random.index(5); i > 0; --i) {
     BonesPose::Bone bone;
-    bone.name = std::to_string(i) + any_name(random);  // Not twice the same.
+    bone.name = std::to_string(i) + any_name(random);  // Names are unique.
     if (random.index(2) == 0) bone.translation = vector();
     if (random.index(2) == 0) {
       const Vec3d axis = random.direction();
@@ -197,9 +196,8 @@ Operation any_operation(Random& random) {
 }
 
 // ---- Their bits
-// ------------------------------------------------------------------------------------------------------------
 
-/// All bits of operations as text: two are equal if and only if these are.
+/// All bits of operations as text; two operations are equal if and only if these are.
 class Bits {
  public:
   std::string text;
@@ -283,7 +281,6 @@ std::string bits(const std::vector<Operation>& operations) {
 }
 
 // ---- Tests
-// -----------------------------------------------------------------------------------------------------------------
 
 class FormattedOperations : public testing::TestWithParam<std::uint64_t> {};
 

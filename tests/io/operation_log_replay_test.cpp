@@ -1,4 +1,4 @@
-// A history that was written and read gives the model again, whatever weighed its points.
+// A history that was written and read reproduces the model, under any weight policy.
 
 #include <sunder/io/operation_log.h>
 #include <sunder/tear/torn_model.h>

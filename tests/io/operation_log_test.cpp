@@ -24,18 +24,18 @@ std::string cut_with(const std::string& fields) {
   return log_of(R"({"op": "cut", "plane": {"point": [0,0,0], "normal": [0,0,1]}, )" + fields + "}");
 }
 
-/// A drill with other fields behind its axis.
+/// A drill with further fields after its axis.
 std::string drill_with(const std::string& fields) {
   return log_of(R"({"op": "drill", "axis": {"origin": [0,0,0], "direction": [0,0,1]}, )" + fields +
                 "}");
 }
 
-/// A tear with other fields than the stroke in front of it.
+/// A tear with further fields before the stroke.
 std::string tear_with(const std::string& fields) {
   return log_of(R"({"op": "tear", )" + fields + R"(, "stroke": )" + kBlades + "}");
 }
 
-/// Weights of operations with other fields behind them.
+/// Weights of operations, followed by further fields.
 std::string weights_with(const std::string& fields) {
   return log_of(R"({"op": "weights", "weights": )" + fields + "}");
 }
@@ -593,8 +593,7 @@ TEST(OperationLog, FromAFile) {
   EXPECT_EQ(load_operations(folder.path()).error().code(), StatusCode::file_unreadable);
 }
 
-/// The page and the schema are for people and other programs; what they show must be what the code
-/// takes.
+/// The code must accept what the documentation page and the schema show.
 TEST(OperationLog, DocumentedExamplesAreRead) {
   const std::filesystem::path docs = std::filesystem::path(SUNDER_SOURCE_DIR) / "docs";
   std::ifstream page(docs / "operation_log.md");

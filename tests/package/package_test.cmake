@@ -12,7 +12,7 @@ set(prefix ${WORK}/prefix)
 file(REMOVE_RECURSE ${prefix} ${WORK}/find_package)
 run(${CMAKE_COMMAND} --install ${SUNDER_BUILD} --config ${CONFIG} --prefix ${prefix})
 
-# What is installed below include/ is what stands in include/, file by file.
+# The installed headers are exactly the files of include/.
 file(GLOB_RECURSE written RELATIVE ${SUNDER_SOURCE}/include ${SUNDER_SOURCE}/include/*)
 file(GLOB_RECURSE installed RELATIVE ${prefix}/${INCLUDE_DIR} ${prefix}/${INCLUDE_DIR}/*)
 if(NOT WITH_IO)
@@ -35,8 +35,9 @@ run(${CMAKE_COMMAND} --build ${WORK}/find_package --config ${CONFIG})
 run(${CMAKE_CTEST_COMMAND} --test-dir ${WORK}/find_package -C ${CONFIG} --output-on-failure
   --no-tests=error)
 
-# The runtime with Eigen alone, as shared libraries: other packages are hidden from CMake, so needing
-# one fails. All of the runtime is configured; what the consumer needs is built.
+# The runtime with Eigen only, as shared libraries: other packages are hidden from CMake, so a
+# dependency on one fails. The whole runtime is configured; the parts that the consumer needs are
+# built.
 set(hidden "")
 foreach(package hwy TBB TinyGLTF assimp nlohmann_json CLI11 GTest benchmark Ceres Bullet)
   list(APPEND hidden -D CMAKE_DISABLE_FIND_PACKAGE_${package}=ON)

@@ -1,5 +1,5 @@
-// Counts what the whole process allocates: the ordinary forms of operator new, to which the others
-// lead.
+// Counts the allocations of the whole process: replaces the ordinary forms of operator new, which
+// the others call.
 #include "support/allocation_count.h"
 
 #include <atomic>
@@ -8,7 +8,8 @@
 #include <limits>
 #include <new>
 
-// The address sanitizer has operators of its own, and wants them all: with it nothing is counted.
+// The address sanitizer has operators of its own and needs all of them, so nothing is counted with
+// it.
 #if defined(__SANITIZE_ADDRESS__)
 #define SUNDER_COUNTS_ALLOCATIONS 0
 #elif defined(__has_feature)

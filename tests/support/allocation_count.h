@@ -4,11 +4,12 @@
 
 namespace sunder::test {
 
-/// How often this process asked operator new for memory. A program that asks this has its own
-/// operator new.
+/// Number of calls of operator new in this process. A program that links this has its own operator
+/// new.
 [[nodiscard]] std::uint64_t allocation_count();
 
-/// While one of these lives, operator new fails with std::bad_alloc after `count` further calls.
+/// During the lifetime of an object, operator new throws std::bad_alloc after `count` further
+/// calls.
 class FailingAllocations {
  public:
   explicit FailingAllocations(std::uint64_t count);

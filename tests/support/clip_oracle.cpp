@@ -55,7 +55,7 @@ std::vector<Polygon> clip_all(const std::vector<Polygon>& polygons,
 double area_of_union(const std::vector<Polygon>& polygons, std::span<const ConvexCell> cells) {
   double area = 0;
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    // The part in this cell, without the parts that it shares with later cells.
+    // The part in this cell, without the parts in later cells.
     const std::vector<Polygon> inside = clip_all(polygons, cells[i]);
     for (const Polygon& polygon : inside) area += area_of(polygon);
     if (!inside.empty()) area -= area_of_union(inside, cells.subspan(i + 1));

@@ -38,7 +38,7 @@ struct Posed {
     return sum;
   }
 
-  /// The longest of the vectors whose rounding a new vertex inherits.
+  /// The longest of the vectors whose rounding errors affect a new vertex.
   [[nodiscard]] double reach(const Triangle& parents) const {
     double reach = 0;
     for (const std::uint32_t parent : parents) {
@@ -83,8 +83,8 @@ std::vector<std::string> broken_closed_form(const TornModel& model, const ModelP
       const Birth birth = model.birth(m, v);
       if (birth.triangle >= source.triangle_count()) continue;  // of a wall or cap
       const double error = (posed.position(torn, v) - closed_form(posed, birth)).norm();
-      // Rounding of the stored floats, seen through the largest matrix: positions and weights carry
-      // 2^-24 each.
+      // Rounding of the stored floats, amplified by the largest matrix: positions and weights have
+      // a relative error of 2^-24 each.
       const double rounding =
           2e-6 * std::max(diagonal, posed.largest * posed.reach(source.triangles[birth.triangle]));
       if (!(error <= rounding))

@@ -6,7 +6,7 @@
 
 namespace sunder::test {
 
-/// The shape of a model's surface in bind space; retired triangles, walls and caps left out.
+/// The shape of a model's surface in bind space, without retired triangles, walls and caps.
 struct FaceQuality {
   std::vector<double> smallest_angles;  ///< One per face, degrees, ascending.
   std::size_t faces_without_area = 0;

@@ -15,7 +15,7 @@ namespace sunder::test {
 
 using Json = nlohmann::ordered_json;
 
-/// Small glTF files in code: change `json` as the test needs it, then load.
+/// Builds small glTF files in code: change `json` as required, then load.
 class GltfBuilder {
  public:
   GltfBuilder();
@@ -38,7 +38,7 @@ class GltfBuilder {
   [[nodiscard]] std::vector<std::byte> glb() const;
   /// As text with the buffer in a data: URI.
   [[nodiscard]] std::string text() const;
-  /// As text, with this as the buffer's URI.
+  /// As text, with the given URI for the buffer.
   [[nodiscard]] std::string text_with_uri(const std::string& uri) const;
   [[nodiscard]] const std::vector<std::byte>& binary() const { return binary_; }
 
@@ -65,10 +65,10 @@ class GltfBuilder {
   std::vector<std::byte> binary_;
 };
 
-/// A strip of 10 vertices and 8 triangles along y, on two joints (nodes 1 and 2 below node 0's
-/// sibling); the mesh is node 0. Weights go from joint 0 below to joint 1 above.
+/// A strip of 10 vertices and 8 triangles along y, on two joints (nodes 1 and 2, not below node 0);
+/// the mesh is node 0. Weights change from joint 0 below to joint 1 above.
 GltfBuilder skinned_strip();
-/// Its attributes, and its number of vertices.
+/// Attributes of the strip's primitive, and its number of vertices.
 Json& strip_attributes(GltfBuilder& builder);
 inline constexpr std::size_t kStripVertices = 10;
 
@@ -83,7 +83,7 @@ inline LoadOptions strict() {
   return options;
 }
 
-/// Whether some note's text contains this.
+/// Whether the text of some note contains this.
 bool has_note(const LoadReport& report, LoadNote::Kind kind, const std::string& text);
 
 }  // namespace sunder::test

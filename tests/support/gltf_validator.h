@@ -5,7 +5,7 @@
 
 namespace sunder::test {
 
-/// Whether node and the package are there.
+/// Whether node and the package are installed.
 bool has_gltf_validator();
 
 struct ValidatorReport {
@@ -13,12 +13,12 @@ struct ValidatorReport {
   std::string output;  ///< JSON, with the first messages.
 };
 
-/// The Khronos validator's opinion of a GLB.
+/// The result of the Khronos validator for a GLB.
 ValidatorReport validate_glb(const std::filesystem::path& file);
 
 }  // namespace sunder::test
 
-/// Ends a test that needs the validator where it is absent.
+/// Skips a test that needs the validator if it is absent.
 #define SUNDER_SKIP_WITHOUT_GLTF_VALIDATOR() \
   if (!::sunder::test::has_gltf_validator()) \
   GTEST_SKIP() << "needs node and gltf-validator: npm ci --prefix tests/npm"

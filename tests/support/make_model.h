@@ -9,7 +9,7 @@
 
 namespace sunder::test {
 
-/// A character that is known to be good, to be torn.
+/// A model of a valid character.
 inline TornModel make_model(Character character, const TornCapacity& capacity = {}) {
   auto model = TornModel::create(std::make_shared<const Character>(std::move(character)), capacity);
   EXPECT_TRUE(model) << model.error().text();

@@ -20,18 +20,18 @@ struct SplitCell {
   double volume = 0;
   int parts = 0;
 };
-/// By the sides of all planes: "+" where the normal points.
+/// One character per plane: "+" on the side of its normal.
 using SplitCells = std::map<std::string, SplitCell>;
 
-/// Whether node and manifold-3d are there.
+/// Whether node and manifold-3d are installed.
 bool has_manifold();
 
-/// The cells that Manifold finds for each task; empty if it could not be run.
+/// The cells that Manifold computes for each task; empty if it could not be run.
 std::vector<SplitCells> split_by_manifold(const std::vector<SplitTask>& tasks);
 
 }  // namespace sunder::test
 
-/// Ends a test that needs Manifold where it is absent.
+/// Skips a test that needs Manifold if it is absent.
 #define SUNDER_SKIP_WITHOUT_MANIFOLD() \
   if (!::sunder::test::has_manifold()) \
   GTEST_SKIP() << "needs node and manifold-3d: npm ci --prefix tests/npm"

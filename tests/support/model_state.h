@@ -7,7 +7,7 @@
 
 namespace sunder::test {
 
-/// All that a model tells about itself.
+/// All observable state of a model.
 struct ModelState {
   Character character;
   std::uint64_t digest = 0;
@@ -23,7 +23,7 @@ struct ModelState {
 
 ModelState state_of(const TornModel& model);
 
-/// Describes how two states differ, for a message; empty if they are equal.
+/// Describes the difference between two states; empty if they are equal.
 std::string difference(const ModelState& a, const ModelState& b);
 
 bool are_same(const Birth& a, const Birth& b);

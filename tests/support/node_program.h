@@ -15,7 +15,7 @@ struct ProgramRun {
 };
 
 /// Runs a program of tests/npm ("weld.mjs") by node; nothing if it could not be started.
-/// @param arguments  as the shell takes them.
+/// @param arguments  as for the shell.
 std::optional<ProgramRun> run_node_program(const std::string& program,
                                            const std::string& arguments);
 

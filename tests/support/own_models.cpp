@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::uint32_t kMostInfluences = 6;
 
-/// Cuts the texture of a sheet along its middle column: the vertices there become two each.
+/// Cuts the texture of a sheet along its middle column: each vertex there becomes two.
 void add_uv_seam(Mesh& mesh, std::uint32_t cells) {
   const std::uint32_t middle = cells / 2;
   const std::uint32_t first_copy = mesh.vertex_count();
@@ -125,7 +125,7 @@ Character make_tube_of_scaled_bones() {
   return character;
 }
 
-/// More bones than a byte with its sign counts, a mesh that is closed and has no texture.
+/// More bones than a signed byte can count, and a closed mesh without texture.
 Character make_ball_of_many_bones() {
   Character character = make_bumpy_ball(800);
   rig_along(character, 130);

@@ -27,7 +27,7 @@ std::uint32_t count_of(const ParticleInfluences& influences) {
   return count;
 }
 
-/// What particles must have counted, from memberships and influences alone.
+/// The sums of particles, computed from memberships and influences alone.
 struct Sums {
   std::vector<std::vector<std::uint32_t>> members;  ///< Ascending.
   std::vector<double> weights;
@@ -92,7 +92,7 @@ void check_point(const ParticleSet& set, std::uint32_t point, bool has_face,
       faults.push_back(say("point ", point, " follows particle ", influences.particles[i],
                            " to which it does not belong"));
   }
-  // The four largest shares less the fifth, by sorting all.
+  // The four largest shares minus the fifth, by sorting all.
   std::vector<double> shares(5, 0.0);
   for (const ParticleMembership& of : memberships)
     shares.push_back(std::pow(1 - double{of.reach} * double{of.reach}, 2));
@@ -146,8 +146,7 @@ void check_particle(const ParticleSet& set, std::uint32_t p, const Sums& sums,
   }
 }
 
-/// What moves a point, each by the slot of its skin: of every vertex that the point has, to be the
-/// same.
+/// The influences on a point, per slot of its skin. All vertices of the point must have the same.
 PosedPoint pose_vertex(const TornModel& model, std::uint32_t m, std::uint32_t vertex,
                        const std::vector<Affine3d>& palette, const ModelPose& pose) {
   const Mesh& mesh = model.character().meshes[m];
@@ -173,7 +172,7 @@ PosedPoint pose_vertex(const TornModel& model, std::uint32_t m, std::uint32_t ve
   return posed;
 }
 
-/// Half-edges that have the surface on one side alone, walls and caps left out.
+/// Half-edges with a face on their own side only, without walls and caps.
 class Borders {
  public:
   explicit Borders(const TornModel& model) : model_(model), surface_(model.surface()) {}
@@ -277,7 +276,7 @@ std::vector<std::string> broken_particles(const TornModel& model, const Particle
     if (!serials.insert(set.serial(p)).second)
       faults.push_back(say("the number of particle ", p, " is not its own"));
   }
-  // A vertex where a surface touches itself has several points, of which it is at one.
+  // A vertex where a surface touches itself has several points; it is listed at one of them.
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::set<std::uint32_t>> points_of_vertex;
   for (std::uint32_t t = 0; t < surface.triangle_count(); ++t) {
     const tear::TriangleRef of = surface.triangle(t);
@@ -428,7 +427,7 @@ std::vector<std::string> broken_lip_edges(const TornModel& model, const Particle
     if (!inward.allFinite())
       faults.push_back(say("the edge from point ", a, " to ", b, " is not finite"));
     const double length = edge.norm(), height = length > 0 ? edge.cross(across).norm() / length : 0;
-    // A needle's plane is lost in rounding.
+    // The plane of a needle-shaped face is lost in rounding.
     if (!(height > 1e-3 * across.norm()) || !(length > 100 * tolerance)) continue;
     if (std::abs(inward.dot(edge)) > 1e-3 * length * length)
       faults.push_back(say("the edge from point ", a, " to ", b, " pulls askew"));

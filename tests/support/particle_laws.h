@@ -7,34 +7,34 @@
 
 namespace sunder::test {
 
-/// The laws that particles must keep, whatever tore their model. Each returns what is broken, one
-/// sentence a fault; empty: nothing. All are computed from what ParticleSet and TornModel tell, not
-/// from the set's own sums.
+/// Invariants of particles after any operation. Each function returns the violations, one sentence
+/// per fault. All are computed from the public data of ParticleSet and TornModel, not from the
+/// set's own sums.
 
 /// Memberships, influences, members, neighbours and vertices agree with one another and with the
-/// model; every point of a face belongs to a particle, every other to none; weights are in [0, 1],
-/// descend, and add up to one; numbers of particles are apart.
+/// model; every point of a face belongs to a particle, every other point to none; weights are in
+/// [0, 1], descend, and sum to one; serial numbers of particles are unique.
 std::vector<std::string> broken_particles(const TornModel& model, const ParticleSet& set);
 
-/// No particle holds points of both lips, or of both sides of a gap, of one operation. @param
-/// changes  what it wrote, call by call.
+/// No particle has points of both lips, or of both sides of a gap, of one operation.
+/// @param changes  the records of the operation, call by call.
 std::vector<std::string> broken_sides(const ParticleSet& set,
                                       std::span<const ChangeRecord> changes);
 
-/// Every particle lies in one piece of the surface.
+/// Every particle lies in one connected component of the surface.
 std::vector<std::string> broken_pieces(const TornModel& model, const ParticleSet& set);
 
 /// Rest places and linear parts in a pose are those of the members, skinned one by one.
 std::vector<std::string> broken_rest(const TornModel& model, const ParticleSet& set,
                                      const ModelPose& pose);
 
-/// Lips are the borders of the surface, without walls and caps, that the source has not: each once,
-/// with a vector that is as long as the edge, at right angles to it, and points into the surface.
-/// For sets that were decomposed in the bind pose of a whole model.
+/// The lips are the borders of the surface, without walls and caps, that the source does not have.
+/// Each is listed once, with a vector that is as long as the edge, at right angles to it, and
+/// points into the surface. For sets decomposed in the bind pose of an untorn model.
 std::vector<std::string> broken_lip_edges(const TornModel& model, const ParticleSet& set);
 
-/// Where a member of a particle is by the reference, and the linear part that moved it. One a
-/// point; what no face uses is at zero.
+/// Position of each point by the reference, and the linear part that moved it. Points without a
+/// face are at zero.
 struct PosedPoint {
   Vec3d place = Vec3d::Zero();
   Mat3d linear = Mat3d::Zero();
@@ -42,11 +42,11 @@ struct PosedPoint {
 std::vector<PosedPoint> posed_points(const TornModel& model, const ParticleSet& set,
                                      const ModelPose& pose);
 
-/// Which piece of the surface each point is in; kNone for what no face uses.
+/// The connected component of each point; kNone for points without a face.
 std::vector<std::uint32_t> pieces_of(const TornModel& model);
 
-/// All that a set tells about itself, but for revisions and dirty points. What has no face any more
-/// has no place worth comparing.
+/// All observable state of a set, except revisions and dirty points. Positions of points without a
+/// face are not compared.
 struct ParticleState {
   struct Particle {
     std::uint64_t serial = 0;
@@ -67,11 +67,11 @@ struct ParticleState {
 };
 ParticleState state_of(const TornModel& model, const ParticleSet& set, const ModelPose& pose);
 
-/// How closely two states have to agree: sums that were gathered in another order differ in their
-/// last bits, and particles that were made anew have other numbers.
+/// How closely two states must agree: sums in another order differ in their last bits, and
+/// particles that were recreated have other serial numbers.
 enum class Sameness { bits, but_for_sums };
 
-/// What two states differ in, for a message; empty where they are the same.
+/// The difference between two states, as a text; empty if they are equal.
 std::string difference(const ParticleState& a, const ParticleState& b,
                        Sameness sameness = Sameness::bits);
 

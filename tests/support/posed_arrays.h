@@ -10,8 +10,7 @@
 
 namespace sunder::test {
 
-/// Arrays for posed vertices, each between margins that nobody may write to, filled with numbers
-/// that no pose gives.
+/// Arrays for posed vertices between guard margins, filled with numbers that no pose produces.
 class PosedArrays {
  public:
   /// @param padding  floats between vertices.
@@ -40,7 +39,7 @@ class PosedArrays {
     return {t[0], t[1], t[2], t[3]};
   }
 
-  /// Whether vertex `v` has the same bits as vertex `w` of others.
+  /// Whether vertex `v` has the same bits as vertex `w` of other arrays.
   [[nodiscard]] bool is_same(std::uint32_t v, const PosedArrays& others, std::uint32_t w) const {
     const auto same = [](const auto& a, const auto& b) {
       return std::memcmp(a.data(), b.data(), sizeof(a)) == 0;

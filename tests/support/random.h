@@ -7,7 +7,7 @@
 
 namespace sunder::test {
 
-/// Seeded, and the same on every standard library: only the engine is taken from it, not its
+/// Seeded, and the same with every standard library: it uses only the engine of <random>, not its
 /// distributions.
 class Random {
  public:
@@ -20,7 +20,7 @@ class Random {
   Vec3d direction() {
     for (;;) {
       const Vec3d v{uniform(-1, 1), uniform(-1, 1),
-                    uniform(-1, 1)};  // braces: in this order with every compiler
+                    uniform(-1, 1)};  // Braces evaluate in this order with every compiler.
       if (v.norm() > 0.1 && v.norm() < 1) return v / v.norm();
     }
   }

@@ -48,7 +48,7 @@ DrillOperation random_drill(const TornModel& model, Random& random) {
 Character random_character(Random& random) {
   if (random.index(2) == 0) return make_sheet(2 + random.index(10));
   const std::uint32_t rings = 3 + random.index(10),
-                      sides = 5 + random.index(10);  // in this order with every compiler
+                      sides = 5 + random.index(10);  // evaluated in this order by every compiler
   return make_tube(rings, sides, 2 + random.index(4));
 }
 

@@ -6,17 +6,17 @@
 
 namespace sunder::test {
 
-/// A sheet or a tube, of any fineness.
+/// A random sheet or tube.
 Character random_character(Random& random);
 
-/// A tear with or without width, a cut or a bore, somewhere on the surface of a model's source, in
-/// a random pose that is given in full.
+/// A random tear with or without width, cut or bore somewhere on the surface of a model's source,
+/// in a random pose given by matrices.
 Operation random_operation(const TornModel& model, Random& random);
 
 /// A tear along a random stroke in a random pose; with or without width.
 TearOperation random_tear(const TornModel& model, Random& random, bool has_width);
 
-/// Calls what an operation of random_operation() or random_tear() stands for.
+/// Performs an operation of random_operation() or random_tear().
 Result<TearReport> play(TornModel& model, const Operation& operation,
                         ChangeRecord* change = nullptr);
 

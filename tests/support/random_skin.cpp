@@ -51,8 +51,8 @@ Mesh make_random_skin(Random& random, const RandomSkin& wanted) {
     MorphTarget& target = mesh.morph_targets[j];
     target.name = "target";
     for (std::uint32_t v = 0; v < wanted.vertices; ++v) {
-      const bool moves = v * (j + 2) / std::max(1u, wanted.vertices) % 2 ==
-                         0;  // whole stretches that it leaves alone
+      const bool moves =
+          v * (j + 2) / std::max(1u, wanted.vertices) % 2 == 0;  // leaves long ranges unchanged
       target.position_deltas.push_back(moves ? random_vector(random, 0.1) : Vec3f(Vec3f::Zero()));
       if (j % 2 == 0)
         target.normal_deltas.push_back(moves ? random_vector(random, 0.1) : Vec3f(Vec3f::Zero()));

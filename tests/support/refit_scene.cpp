@@ -8,7 +8,7 @@ namespace {
 
 double joint_x(std::uint32_t slot, std::uint32_t slots) { return 2.0 * slot / slots - 1; }
 
-/// Up to four bones, those whose middle is nearest, by chance a little more or less.
+/// Up to four bones whose middles are nearest, with some randomness.
 std::vector<Influence> influences_at(double x, std::uint32_t slots, Random& random) {
   std::vector<Influence> influences;
   const double reach = 6.0 / slots;
@@ -92,8 +92,7 @@ double Lip::mean_square(std::size_t point, std::span<const Influence> influences
   double sum = 0, weight_sum = 0;
   for (const Influence& influence : influences) weight_sum += static_cast<double>(influence.weight);
   for (std::size_t pose = 0; pose < palettes.size(); ++pose) {
-    // Differences from where it is to be, so that far from the origin no more is lost than has to
-    // be.
+    // Differences from the exact position, so that no precision is lost far from the origin.
     const Vec3d wanted = target(point, pose);
     Eigen::Vector3d difference = Eigen::Vector3d::Zero();
     for (const Influence& influence : influences)

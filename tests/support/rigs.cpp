@@ -30,7 +30,7 @@ void add_chain(Character& character, std::uint32_t bone_count, const Vec3f& step
   character.skins.push_back(skin);
 }
 
-/// Weights of a chain whose bones start at 0, 1, 2 …: smooth, up to four a vertex.
+/// Weights of a chain whose bones start at 0, 1, 2 …: smooth, up to four per vertex.
 std::vector<Influence> chain_influences(double along, std::uint32_t bone_count) {
   std::vector<std::pair<double, std::uint32_t>> raw;
   for (std::uint32_t i = 0; i < bone_count; ++i) {
@@ -188,7 +188,7 @@ void rig_along(Character& character, std::uint32_t bone_count) {
 }
 
 Character make_bumpy_ball(std::uint32_t points) {
-  // The faces of an octahedron in n x n parts each: 4 n^2 + 2 points.
+  // The faces of an octahedron, each divided into n x n: 4 n^2 + 2 points.
   const auto n = static_cast<int>(std::lround(std::sqrt(std::max(points, 6u) / 4.0)));
   Character character;
   character.name = "ball";
@@ -252,7 +252,7 @@ Character make_soup(Random& random) {
   const std::uint32_t vertex_count = 4 + random.index(40);
   for (std::uint32_t v = 0; v < vertex_count; ++v) {
     const std::uint32_t z = random.index(grid), y = random.index(grid),
-                        x = random.index(grid);  // in this order with every compiler
+                        x = random.index(grid);  // evaluated in this order by every compiler
     mesh.positions.emplace_back(static_cast<float>(x), static_cast<float>(y),
                                 static_cast<float>(z));
     const float weight = 0.25f * static_cast<float>(random.index(5));
@@ -260,7 +260,7 @@ Character make_soup(Random& random) {
                             : weight == 1.0f
                                 ? std::vector<Influence>{{2, 1.0f}}
                                 : std::vector<Influence>{{0, 1.0f - weight}, {2, weight}};
-    // Coincident vertices mostly agree, so that they weld.
+    // Most coincident vertices agree, so that they share a point.
     mesh.weights.append(random.index(4) == 0 ? influences : std::vector<Influence>{{1, 1.0f}});
   }
   const std::uint32_t triangle_count = 1 + random.index(60);

@@ -5,7 +5,7 @@
 
 namespace sunder::test {
 
-/// Its arguments, one after another.
+/// The concatenation of its arguments.
 template <class... Parts>
 std::string say(const Parts&... parts) {
   std::ostringstream text;

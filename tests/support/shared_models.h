@@ -6,14 +6,14 @@
 
 namespace sunder::test {
 
-/// The folder of the shared test models (next to the checkout, or the one that SUNDER_MODELS
-/// names); empty if it is absent.
+/// The folder of the shared test models (next to the checkout, or named by SUNDER_MODELS); empty if
+/// it is absent.
 std::filesystem::path shared_models();
 
 /// Debian's assimp-testmodels; empty if the package is not installed.
 std::filesystem::path assimp_models();
 
-/// tests/data: the models of our own making, which every clone has.
+/// tests/data: our own models, which are part of the repository.
 std::filesystem::path own_data();
 
 /// All files below a folder with one of these extensions (".glb"), sorted.
@@ -29,7 +29,7 @@ std::vector<std::filesystem::path> rigged_gltf_models();
 
 }  // namespace sunder::test
 
-/// Ends a test that needs the shared models if they are absent.
+/// Skips a test that needs the shared models if they are absent.
 #define SUNDER_SKIP_WITHOUT_SHARED_MODELS()    \
   if (::sunder::test::shared_models().empty()) \
   GTEST_SKIP() << "needs the folder ../shared/models next to the checkout, or SUNDER_MODELS"

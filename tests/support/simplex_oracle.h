@@ -11,8 +11,8 @@ struct SimplexOptimum {
   double value = 0;
 };
 
-/// The least of w^T G w - 2 c^T w over weights >= 0 with sum 1, no more than `maximum` of them not
-/// zero: every support is tried.
+/// The minimum of w^T G w - 2 c^T w over weights >= 0 with sum 1 and at most `maximum` non-zero
+/// entries, by trying every support.
 SimplexOptimum best_on_simplex(const Eigen::MatrixXd& gram, const Eigen::VectorXd& linear,
                                std::size_t maximum);
 

@@ -11,7 +11,7 @@ namespace {
 
 using Place = std::array<double, 3>;
 
-/// One mesh of a model, and the triangles that those of it are parts of.
+/// One mesh of a model, and the origins of its triangles.
 class TornMesh {
  public:
   TornMesh(const TornModel& model, std::uint32_t mesh)
@@ -31,14 +31,14 @@ class TornMesh {
   [[nodiscard]] bool is_filling(std::uint32_t origin) const {
     return origin >= source_.triangle_count();
   }
-  /// The vertices of the source keep their numbers, so those of either kind of origin are vertices
-  /// of the torn mesh.
+  /// The vertices of the source keep their indices, so the corners of all origins are vertices of
+  /// the torn mesh.
   [[nodiscard]] Triangle vertices_of_origin(std::uint32_t origin) const {
     return is_filling(origin) ? fillings_[origin - source_.triangle_count()]
                               : source_.triangles[origin];
   }
 
-  /// The place of a vertex in a triangle, or nothing if it does not belong to it.
+  /// The barycentric position of a vertex in a triangle, or nothing if it does not belong to it.
   [[nodiscard]] std::optional<Place> place_in(const Triangle& in, std::uint32_t vertex) const {
     Place place = {0, 0, 0};
     const auto add = [&](std::uint32_t parent, double part) {
@@ -72,16 +72,16 @@ class TornMesh {
   std::span<const Triangle> fillings_;
 };
 
-/// The fraction of the whole that a triangle with these corners covers; negative if it is turned
-/// over.
+/// The fraction of the origin that a triangle with these corners covers; negative if it is
+/// inverted.
 double area_of(const std::array<Place, 3>& p) {
   return p[0][0] * (p[1][1] * p[2][2] - p[1][2] * p[2][1]) -
          p[0][1] * (p[1][0] * p[2][2] - p[1][2] * p[2][0]) +
          p[0][2] * (p[1][0] * p[2][1] - p[1][1] * p[2][0]);
 }
 
-/// Whether a part faces where the whole does. A whole without area has no such direction, unless it
-/// was made by tearing.
+/// Whether a part has the orientation of its origin. An origin without area has none, unless it was
+/// created by tearing.
 bool faces_as(const TornMesh& mesh, const Triangle& part, std::uint32_t origin) {
   const Eigen::Vector3d whole = mesh.cross(mesh.vertices_of_origin(origin));
   if (whole.isZero(0)) return !mesh.is_filling(origin);

@@ -4,7 +4,7 @@
 
 namespace sunder::test {
 
-/// How many random cases to run: `usual`, or with SUNDER_STRESS set `times` as many.
+/// The number of random cases to run: `usual`, multiplied by `times` if SUNDER_STRESS is set.
 inline int stressed(int usual, int times) {
   return std::getenv("SUNDER_STRESS") != nullptr ? times * usual : usual;
 }

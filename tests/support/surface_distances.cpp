@@ -13,10 +13,10 @@ using tear::Surface;
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
-/// Nodes and what each face joins.
+/// The nodes on the edges, and the faces between them.
 struct Graph {
   std::vector<Vec3d> places;
-  std::vector<std::vector<std::uint32_t>> faces;  ///< The nodes on the border of each.
+  std::vector<std::vector<std::uint32_t>> faces;  ///< Per face the nodes on its border.
 };
 
 std::vector<double> shortest(const Graph& graph, std::uint32_t source) {

@@ -17,7 +17,7 @@ using tear::SweepCoordinates;
 
 using Corners = std::array<Vec3d, 3>;
 
-/// Calls visit(face, corners) for all live faces, by their numbers.
+/// Calls visit(face, corners) for all live faces, in order.
 template <class Visit>
 void for_each_face(const tear::SurfaceEditor& editor, tear::PosedPoints& posed, Visit visit) {
   for (Index t = 0; t < editor.surface().triangle_count(); ++t) {
@@ -29,8 +29,8 @@ void for_each_face(const tear::SurfaceEditor& editor, tear::PosedPoints& posed, 
   }
 }
 
-/// Cuts [begin, end] of the line from a to b to where `value` is not negative; false where nothing
-/// is left.
+/// Clips [begin, end] of the line from a to b to where `value` is not negative; false if nothing is
+/// left.
 bool clip(double at_a, double at_b, double& begin, double& end) {
   if (at_a < 0 && at_b < 0) return false;
   if (at_a < 0) begin = std::max(begin, at_a / (at_a - at_b));
@@ -88,8 +88,8 @@ std::vector<Contact> all_contacts(const BladePlane& plane, double progress,
 std::optional<SurfaceHit> scan_for_hit(const Blade& blade, const tear::SurfaceEditor& editor,
                                        tear::PosedPoints& posed) {
   const Vec3d direction = blade.tip - blade.base;
-  // Along a face's plane the place is rounding alone: what counts is what of it lies in the face's
-  // box along the blade.
+  // In the plane of a face the position is only rounding, so compare with the face's box along the
+  // blade.
   const tear::Frame frame = posed.frame_along(tear::axes_along(direction), editor);
   const Vec3d base_in_axes = frame.place_of(blade.base), direction_in_axes = frame.axes * direction;
   const double reach =

@@ -6,7 +6,7 @@
 
 namespace sunder::test {
 
-// The queries of tear/ by looking at every face there is: what their answers are.
+// The queries of tear/, answered by testing every face.
 
 std::optional<tear::SurfaceHit> scan_for_hit(const Blade& blade, const tear::SurfaceEditor& editor,
                                              tear::PosedPoints& posed);

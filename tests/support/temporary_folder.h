@@ -8,7 +8,7 @@
 
 namespace sunder::test {
 
-/// A folder of its own, removed with all its content when it goes out of scope.
+/// A new folder that is removed with all its content at the end of the scope.
 class TemporaryFolder {
  public:
   TemporaryFolder();

@@ -46,8 +46,8 @@ bool keeps_source_vertices(const Mesh& torn, const Mesh& source) {
   return same;
 }
 
-/// The parts of each triangle of the source, and of each wall and cap as it was created, cover all
-/// of it that was not removed.
+/// The parts of each triangle of the source, and of each wall and cap as created, cover all of it
+/// that was not removed.
 void check_cover(const TornModel& model, std::uint32_t m, std::vector<std::string>& faults) {
   const Cover cover = cover_of(model, m);
   for (const std::string& fault : cover.faults) faults.push_back(say("mesh ", m, ": ", fault));
@@ -57,8 +57,8 @@ void check_cover(const TornModel& model, std::uint32_t m, std::vector<std::strin
           say("mesh ", m, ": parts of triangle ", t, " cover ", cover.part[t], " of it"));
 }
 
-/// Triangles of the source stay what they are parts of; parts have the submesh of the whole, walls
-/// and caps submeshes of their own.
+/// Origins of triangles do not change; parts have the submesh of their origin, walls and caps have
+/// submeshes of their own.
 void check_origins(const TornModel& model, std::uint32_t m, std::vector<std::string>& faults) {
   const Mesh &torn = model.character().meshes[m], &source = model.source().meshes[m];
   std::vector<std::uint32_t> submesh = source.triangle_submesh;
@@ -68,7 +68,7 @@ void check_origins(const TornModel& model, std::uint32_t m, std::vector<std::str
     faults.push_back(say("mesh ", m, ": a submesh of the source changed"));
   for (std::uint32_t t = 0; t < torn.triangle_count(); ++t) {
     const std::uint32_t origin = model.source_triangle(m, t);
-    if (origin >= submesh.size()) continue;  // said by check_cover()
+    if (origin >= submesh.size()) continue;  // reported by check_cover()
     if (t < source.triangle_count() && origin != t)
       faults.push_back(say("mesh ", m, ": triangle ", t, " changed its source"));
     if (submesh[origin] == kNone) submesh[origin] = torn.triangle_submesh[t];
@@ -80,7 +80,7 @@ void check_origins(const TornModel& model, std::uint32_t m, std::vector<std::str
   }
 }
 
-/// The vertices of walls and caps were born as corners of them.
+/// Vertices of walls and caps are born as their corners.
 void check_fillings(const TornModel& model, std::uint32_t m, std::vector<std::string>& faults) {
   const Mesh &torn = model.character().meshes[m], &source = model.source().meshes[m];
   const auto fillings = model.fillings(m);
@@ -102,7 +102,7 @@ void check_fillings(const TornModel& model, std::uint32_t m, std::vector<std::st
             say("mesh ", m, ": vertex ", vertex, " of filling ", f, " is not its own"));
 }
 
-/// Triangles with a vertex twice, other than those that the source has.
+/// Triangles with a repeated vertex that the source does not have.
 void check_vertices_differ(const TornModel& model, std::uint32_t m,
                            std::vector<std::string>& faults) {
   const Mesh &torn = model.character().meshes[m], &source = model.source().meshes[m];
@@ -114,7 +114,7 @@ void check_vertices_differ(const TornModel& model, std::uint32_t m,
   }
 }
 
-/// Surface points that a triangle has. Points that lost all their triangles keep their numbers.
+/// Surface points that have a triangle. Points that lost all their triangles keep their indices.
 std::size_t live_point_count(const TornModel& model) {
   std::set<std::uint32_t> points;
   for (std::uint32_t m = 0; m < model.character().meshes.size(); ++m) {
@@ -160,8 +160,8 @@ std::vector<std::string> broken_surface(const TornModel& model) {
   if (after.non_manifold_edges > before.non_manifold_edges)
     faults.push_back(
         say("non-manifold edges: ", before.non_manifold_edges, " -> ", after.non_manifold_edges));
-  // The surface that the arrays describe is the one that the kernel kept. Where a source edge has
-  // many faces, splitting some of them leaves others that join when looked at afresh.
+  // The surface read from the arrays equals the one of the kernel. If a source edge has many faces,
+  // splitting some of them leaves others that would now be joined.
   if (const std::size_t live = live_point_count(model);
       before.non_manifold_edges == 0 && after.points != live)
     faults.push_back(say("arrays describe ", after.points, " points, the kernel has ", live));

@@ -64,7 +64,7 @@ std::string key_of(const Mesh& mesh, std::uint32_t vertex, float tolerance) {
   return key.bytes();
 }
 
-/// Keeps `width` values per vertex of those vertices alone.
+/// Keeps `width` values per vertex of only those vertices.
 template <class Value>
 void keep(std::vector<Value>& values, const std::vector<std::uint32_t>& old_from_new,
           std::size_t width = 1) {

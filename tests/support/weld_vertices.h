@@ -4,10 +4,9 @@
 
 namespace sunder::test {
 
-/// Merges the vertices of each mesh that agree in all attributes, as the tools do that users run on
-/// files.
-/// @param tolerance  0: the attributes agree bit for bit; otherwise they agree when rounded to
-///                   multiples of it, as three.js's mergeVertices() compares them.
+/// Merges the vertices of each mesh that agree in all attributes, as common tools do.
+/// @param tolerance  0: the attributes must be equal bit for bit; otherwise equal after rounding to
+///         multiples of it, as in three.js's mergeVertices().
 Character weld_vertices(const Character& character, float tolerance);
 
 }  // namespace sunder::test

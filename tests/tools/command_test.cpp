@@ -1,4 +1,4 @@
-// The built command, from the outside: exit codes, JSON, words, and what it leaves on disk.
+// Tests the built command from the outside: exit codes, JSON, messages, and written files.
 
 #include <sunder/io/character_file.h>
 #include <sunder/skinning/deform.h>
@@ -39,7 +39,7 @@ const char* const kMiss = R"({"sunder_operations": 1, "operations": [
   {"op": "tear", "stroke": [{"base": [9, 9, 2], "tip": [9, 9, 0]}, {"base": [9, 10, 2], "tip": [9, 10, 0]}]}]})";
 
 /// Every operation: a tear that opens, one with a gap, one while the cactus sways, a cut through
-/// its trunk, a bore, what is taken back, and misses.
+/// its trunk, a bore, undone ones, and misses.
 const char* const kAll = R"({"sunder_operations": 1, "operations": [
   {"op": "tear", "pose": {"clip": "Sway", "time": 0.8},
    "stroke": [{"base": [-0.1, 1.15, 2], "tip": [-0.1, 1.15, 0]}, {"base": [-0.12, 1.25, 2], "tip": [-0.12, 1.25, 0]}]},
@@ -173,7 +173,7 @@ TEST_F(Command, tear_reports_what_it_did) {
   EXPECT_EQ(json::parse(info.out)["topology"]["boundary_loops"], 1);
 }
 
-/// How far apart the vertices of two models are in a pose, at most.
+/// The largest distance between vertices of two models in a pose.
 double greatest_distance(const Character& a, const Character& b, const PoseSpec& spec) {
   const auto pose = make_pose(a, spec);
   EXPECT_TRUE(pose && a.meshes.size() == b.meshes.size());
@@ -244,7 +244,7 @@ TEST_F(Command, tear_plays_every_operation) {
   EXPECT_THAT(report["result"]["digest"].get<std::string>(), testing::MatchesRegex("[0-9a-f]{16}"));
   EXPECT_EQ(report["result"]["non_manifold_edges"], 0);
 
-  // What is written is the model, without the triangles that are gone.
+  // The written model equals the model without the retired triangles.
   const CommandResult info = run_sunder({"info", path("all.glb"), "--json"});
   ASSERT_EQ(info.exit_code, 0) << info.err;
   for (const char* const count :
@@ -429,8 +429,8 @@ TEST_F(Command, a_model_that_does_not_bend_needs_no_refit) {
   EXPECT_LT(report["weight_errors"]["operations"]["maximum"].get<double>(), 1e-6);
 }
 
-/// One tear and bores whose weights the log gives them, of which the last waits for a fit; then
-/// weights of the first.
+/// One tear and bores with weights of their own in the log, the last of which waits for a fit; then
+/// weights for the first.
 const char* const kWeighed = R"({"sunder_operations": 1, "operations": [
   {"op": "tear", "pose": {"clip": "Sway", "time": 0.8}, "weights": {"policy": "refit"},
    "stroke": [{"base": [-0.1, 1.15, 2], "tip": [-0.1, 1.15, 0]}, {"base": [-0.12, 1.25, 2], "tip": [-0.12, 1.25, 0]}]},
@@ -458,7 +458,7 @@ TEST_F(Command, weights_of_the_log_win) {
   EXPECT_EQ(operations[5]["weights"], operations[4]["weights"]);
 }
 
-/// Plays a log, then the log that it saved, and expects the same model.
+/// Applies a log, then the log that it saved, and expects the same model.
 void expect_replay(const std::string& model, const std::string& operations, const std::string& stem,
                    const std::string& weights = "barycentric") {
   const CommandResult played = run_sunder({"tear", model, "--ops", operations, "-o", stem + "1.glb",
@@ -477,7 +477,7 @@ TEST_F(Command, a_saved_log_gives_the_same_model) {
   expect_replay(model(), write("all.json", kAll), path("replay"));
   std::ifstream stream(path("replay1.json"));
   const json log = json::parse(stream);
-  EXPECT_EQ(log["operations"].size(), 4u);  // undone and missed ones are not history
+  EXPECT_EQ(log["operations"].size(), 4u);  // The history has no undone and missed operations.
   for (const json& operation : log["operations"])
     EXPECT_TRUE(operation["pose"].contains("matrices"));
 }
@@ -521,7 +521,7 @@ TEST_F(Command, a_log_that_cannot_be_saved_leaves_nothing) {
   EXPECT_FALSE(exists("unlogged.json"));
 }
 
-/// By our own reader and, where it is installed, by the Khronos validator.
+/// Checked by our own reader and, if it is installed, by the Khronos validator.
 TEST_F(Command, what_tear_writes_is_valid) {
   for (const char* const influences : {"4", "8"})
     for (const char* const format : {"float", "u16", "u8"}) {
@@ -662,7 +662,7 @@ TEST_F(Command, demo_without_a_renderer_leaves_all_but_the_pictures) {
   EXPECT_LT(errors["refit"]["clips"]["rms"], errors["barycentric"]["clips"]["rms"]);
   EXPECT_LT(errors["exact"]["range_of_motion"]["maximum"].get<double>(), 1e-6);
 
-  // The demo's own log makes its tear again.
+  // The demo's own log repeats its tear.
   ASSERT_EQ(run_sunder({"tear", path("demo/cactus.glb"), "--ops", path("demo/ops.json"), "-o",
                         path("again.glb"), "--report", path("again.json")})
                 .exit_code,

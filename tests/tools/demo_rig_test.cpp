@@ -22,7 +22,7 @@ TEST(DemoRig, is_one_closed_manifold_surface_in_a_pot) {
   EXPECT_EQ(counts.boundary_edges, 0u);
   EXPECT_EQ(counts.non_manifold_edges, 0u);
   EXPECT_EQ(counts.degenerate_triangles, 0u);
-  // Without handles: Euler's number of two spheres.
+  // Without handles: the Euler characteristic of two spheres.
   EXPECT_EQ(counts.points + counts.triangles, counts.edges + 4);
 }
 

@@ -1,4 +1,4 @@
-// Writing a character anew, on the one that has everything.
+// Writing a character without a source document, with a character that has all features.
 
 #include <sunder/io/character_file.h>
 #include <sunder/skinning/deform.h>
@@ -49,7 +49,7 @@ class NewDocument : public testing::Test {
   const Character cactus_ = tools::make_cactus();
 };
 
-/// By our own reader and, where it is installed, by the Khronos validator.
+/// Checked by our own reader and, if it is installed, by the Khronos validator.
 TEST_F(NewDocument, is_valid) {
   for (const std::uint32_t influences : {0u, 4u, 8u}) {
     SaveOptions options;

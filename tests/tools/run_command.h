@@ -11,8 +11,7 @@ struct CommandResult {
   std::string out, err;
 };
 
-/// Runs the built `sunder` with these arguments, and with these variables in place of the
-/// environment's.
+/// Runs the built `sunder` with these arguments; these variables replace those of the environment.
 CommandResult run_sunder(const std::vector<std::string>& arguments,
                          const std::vector<std::pair<std::string, std::string>>& environment = {});
 
