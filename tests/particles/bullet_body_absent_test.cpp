@@ -6,7 +6,7 @@
 
 #include "support/rigs.h"
 
-// Its name is known here, and nothing else of it.
+// In this build only its name is declared.
 class btDynamicsWorld {};
 
 namespace sunder {

@@ -20,7 +20,7 @@ namespace {
 constexpr double kStep = 1.0 / 60;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-/// A world that can be asked for its actions.
+/// A world that exposes its actions.
 class CountedWorld final : public btDiscreteDynamicsWorld {
  public:
   using btDiscreteDynamicsWorld::btDiscreteDynamicsWorld;
@@ -177,7 +177,7 @@ TEST_F(BulletBodyTest, a_pulled_particle_swings_as_it_must) {
               .neighbour_stiffness = 0});
       const std::uint32_t pulled = particle_next_to({0.5, 0.5, 0});
       pull(pulled, {0, 0, 0.1});
-      // Where it goes through rest, and how far it comes between.
+      // The time at which it passes through rest, and the extreme displacement between two passes.
       std::vector<double> crossings, peaks;
       double before = 0.1, before_that = 0.1, most = 0;
       for (int i = 1; i * substep < 2; ++i) {
@@ -219,7 +219,7 @@ TEST_F(BulletBodyTest, neighbours_come_along) {
   pull(held, {0, 0, 0.2});
   run(300);
   EXPECT_NEAR(body_->displacements()[held].z(), 0.2f, 1e-5f);
-  // At rest each is where its springs balance.
+  // At rest each particle is where its springs balance.
   const auto u = body_->displacements();
   for (std::uint32_t i = 0; i < set_->particle_count(); ++i) {
     if (i == held) continue;
@@ -273,8 +273,8 @@ TEST_F(BulletBodyTest, what_is_in_the_way_pushes_and_when_it_goes_they_return) {
 
 TEST_F(BulletBodyTest, a_ball_that_falls_is_carried_by_the_springs) {
   load(test::make_sheet(20));
-  // Spheres that Bullet parts to the last bit have no contact in the next substep, and what they
-  // carried falls a little.
+  // Spheres that Bullet separates by the last bit have no contact in the next substep, and the
+  // bodies on them fall slightly.
   world_.getSolverInfo().m_linearSlop = 1e-3f;
   constexpr double kBall = 0.5, kStiffness = 200, kMass = 0.1;
   create({.return_stiffness = kStiffness,
@@ -290,12 +290,12 @@ TEST_F(BulletBodyTest, a_ball_that_falls_is_carried_by_the_springs) {
   run(540);
   EXPECT_LT(ball.getLinearVelocity().length(), 0.02f);
   EXPECT_GT(ball.getWorldTransform().getOrigin().z(), 0.0f);
-  // In balance: pairs pull at one another, so what return springs give in all is what the ball
-  // weighs.
+  // In balance: forces between pairs cancel, so the sum of the return springs' forces is the weight
+  // of the ball.
   double given = 0;
   for (const Vec4f& u : body_->displacements()) given -= kMass * kStiffness * double{u.z()};
   EXPECT_NEAR(given, 10 * kBall, 0.05 * 10 * kBall);
-  // And when nothing moves, all sleep; ball and particles wake together.
+  // When nothing moves, all sleep; ball and particles wake together.
   run(600);
   EXPECT_EQ(awake(), 0);
   EXPECT_FALSE(ball.isActive());
@@ -406,7 +406,7 @@ TEST_F(BulletBodyTest, bodies_follow_the_set) {
   const Vec3d at = place(0), rest = rests()[0].place;
   const Vec4f displaced = body_->displacements()[0];
   const btRigidBody* const first = &body_->body(0);
-  // Another number of particles, of which those of known serials stay.
+  // Another set of particles, in which those with known serial numbers stay.
   const std::uint32_t count = set_->particle_count();
   ParticleSet coarse = decompose(0.2);
   ASSERT_LT(coarse.particle_count(), count);
@@ -444,7 +444,7 @@ TEST_F(BulletBodyTest, nothing_stays_in_the_world) {
   auto other = BulletBody::create(*set_, world_, pose_);
   ASSERT_TRUE(other);
   EXPECT_EQ(world_.actions(), 2);
-  *other = std::move(moved);  // what `other` had goes
+  *other = std::move(moved);  // the former contents of `other` are gone
   EXPECT_EQ(world_.actions(), 1);
   EXPECT_EQ(world_.getNumCollisionObjects(), static_cast<int>(set_->particle_count()) + 1);
   body_.emplace(std::move(*other));

@@ -16,7 +16,7 @@ Quatd random_turn(test::Random& random) {
   return Quatd(Eigen::AngleAxisd{random.uniform(-3, 3), random.direction()});
 }
 
-/// The surface of a collider by its definition: so many places on it.
+/// The surface of a collider by its definition: samples on it.
 std::vector<Vec3d> places_on(const Collider& collider, test::Random& random, int count) {
   std::vector<Vec3d> places;
   for (int i = 0; i < count; ++i) {
@@ -61,8 +61,8 @@ TEST(collider, distances_are_those_of_its_surface) {
       EXPECT_NEAR(std::abs(found.distance), nearest, 0.03);
       EXPECT_LE(std::abs(found.distance), nearest + 1e-12);
       EXPECT_NEAR(found.normal.norm(), 1, 1e-12);
-      // One step along the normal and one is on the surface; a little farther and one is outside, a
-      // little less and inside.
+      // One step along the normal leads to the surface; a little farther is outside, a little less
+      // is inside.
       const Vec3d at = place - found.distance * found.normal;
       EXPECT_NEAR(distance_to(collider, at).distance, 0, 1e-9);
       EXPECT_GT(distance_to(collider, at + 1e-3 * found.normal).distance, 0);
@@ -102,7 +102,7 @@ TEST(collider, is_checked) {
             StatusCode::invalid_argument);
 }
 
-/// Where a point is, skinned anew and displaced by what the body says.
+/// The position of a point, skinned by the reference and displaced by the body's results.
 Vec3d place_of(const SoftScene& scene, std::uint32_t vertex) {
   const Mesh& mesh = scene.model->character().meshes[0];
   std::vector<Affine3d> palette(scene.character->skins[mesh.skin].bones.size());
@@ -111,7 +111,7 @@ Vec3d place_of(const SoftScene& scene, std::uint32_t vertex) {
          scene.body->point_displacement(scene.set->vertex_points(0)[vertex]);
 }
 
-/// How deep any contact point is inside any collider, in ranges of its particle.
+/// The largest depth of a contact point inside a collider, in ranges of its particle.
 double deepest(const SoftScene& scene) {
   particles::ContactPoints points;
   particles::EpochPose poses;
@@ -153,7 +153,8 @@ TEST(collider, a_ball_pressed_into_a_tube_leaves_no_mark) {
     EXPECT_EQ(scene.body->displacement(far), Vec3d::Zero());
     scene.run(4);
     EXPECT_LT(deepest(scene), 5e-3);
-    if (friction == 0) {  // held: it goes to sleep in contact; what rubs slides on for a while
+    // held: it falls asleep in contact; with friction it slides on for a while
+    if (friction == 0) {
       EXPECT_EQ(scene.body->awake_count(), 0u);
       const Vec3d dented = scene.body->displacement(scene.nearest({0.3, 3, 0}));
       scene.run(1);

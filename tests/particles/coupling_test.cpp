@@ -119,7 +119,7 @@ TEST(coupling, solves_what_it_says) {
     std::vector<SpringStep> steps;
     for (const SoftMaterial& m : network.materials)
       steps.push_back(particles::step_spring(m.return_stiffness, m.damping_ratio, h));
-    // The dense matrix column by column: where one particle is displaced, by the definition of the
+    // The dense matrix column by column: displaces one particle at a time, by the definition of the
     // forces.
     const auto force_on = [&](const std::vector<Vec3d>& u, const std::vector<Vec3d>& v,
                               bool has_target) {
@@ -208,8 +208,8 @@ TEST(coupling, is_bounded_and_comes_to_rest_at_any_step_and_stiffness) {
       ASSERT_LT(network.farthest(), 4) << trial << " h " << h << " step " << i;
     }
     worst_growth = std::max(worst_growth, most / before);
-    // The slowest of all motions: the return spring of the softest particle; after so many of its
-    // times nothing is left.
+    // The slowest of all motions is the return spring of the softest particle; after several of its
+    // time constants nothing is left.
     double slowest = 1e300;
     for (const SoftMaterial& m : network.materials) {
       const double w = std::sqrt(m.return_stiffness), r = m.damping_ratio;

@@ -24,7 +24,7 @@ State advance(const SpringStep& step, const State& from, double acceleration) {
               step.velocity_from_acceleration() * acceleration};
 }
 
-/// Runge-Kutta of fourth order, by steps that resolve everything.
+/// Runge-Kutta of fourth order, with steps that resolve all time constants.
 State integrate(double stiffness, double ratio, double acceleration, State at, double seconds) {
   const double rate = 2 * ratio * std::sqrt(stiffness);
   const auto steps = static_cast<int>(std::ceil(seconds * (std::sqrt(stiffness) + rate + 1) * 200));
@@ -100,7 +100,7 @@ TEST(damped_spring, never_gains_energy) {
 
 TEST(damped_spring, response_to_a_force_keeps_its_digits) {
   // At the border between the power series and the closed form both must agree: g(2h) from g(h) by
-  // the semigroup.
+  // the semigroup property.
   test::Random random(2);
   for (int i = 0; i < 20000; ++i) {
     const double stiffness = std::pow(10.0, random.uniform(-6, 12)),

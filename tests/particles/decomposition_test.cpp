@@ -1,4 +1,4 @@
-// Which points a decomposition puts into which particles, held against distances of other origin.
+// Compares the points of particles with distances from independent methods.
 #include <sunder/particles/particle_set.h>
 #include <sunder/skinning/deform.h>
 #include <sunder/skinning/pose.h>
@@ -27,7 +27,7 @@ using test::Random;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-/// At which part of its range a particle covers points: kSeedSpacingReach of
+/// The fraction of its range within which a particle covers points: kSeedSpacingReach of
 /// particles/internal/tolerances.h.
 constexpr double kCovers = 0.85;
 
@@ -42,8 +42,8 @@ bool is_member(const ParticleSet& set, std::uint32_t point, std::uint32_t partic
                              [&](const ParticleMembership& of) { return of.particle == particle; });
 }
 
-/// Calls distances(seed) for the true ones from a seed, and compares. @param error  relative, of
-/// what the distances are worth.
+/// Calls distances(seed) for the true distances from a seed, and compares.
+/// @param error  relative accuracy of the distances.
 template <class Distances>
 void expect_ranges(const ParticleSet& set, Distances distances, double error) {
   std::vector<double> nearest_seed(set.point_count(), std::numeric_limits<double>::infinity());
@@ -130,7 +130,7 @@ TEST(Decomposition, takes_what_is_within_range_on_an_unrolled_tube) {
   for (const std::uint32_t sides : {10u, 24u}) {
     SCOPED_TRACE(sides);
     Character tube = test::make_tube(3 * sides, sides, 6);
-    auto& triangles = tube.meshes[0].triangles;  // without its caps: these are no way round
+    auto& triangles = tube.meshes[0].triangles;  // without its caps, over which paths could lead
     auto& submesh = tube.meshes[0].triangle_submesh;
     triangles.resize(static_cast<std::size_t>(std::ranges::find(submesh, 1u) - submesh.begin()));
     submesh.resize(triangles.size());
@@ -254,8 +254,8 @@ TEST(Decomposition, is_the_same_for_the_same_seed_only) {
   EXPECT_EQ(others, 20u);
 }
 
-/// The largest difference of a particle's weight between the two ends of an edge, and the mean over
-/// the edges of the largest.
+/// The largest difference of a particle's weight between the ends of an edge, and the mean over the
+/// edges of the largest difference.
 struct Steps {
   double most = 0, mean = 0;
 };
@@ -286,7 +286,8 @@ Steps steps_between_neighbours(std::uint32_t cells, std::uint64_t seed) {
 }
 
 TEST(Decomposition, has_weights_that_do_not_jump) {
-  // Where the fifth particle becomes the fourth, or one ends, a jump would not fall with the edges.
+  // Where the fifth particle becomes the fourth, or one ends, a jump would not decrease with the
+  // edge length.
   for (std::uint64_t seed = 0; seed < 3; ++seed) {
     SCOPED_TRACE(seed);
     Steps before;
@@ -303,8 +304,8 @@ TEST(Decomposition, has_weights_that_do_not_jump) {
 }
 
 TEST(Decomposition, has_weights_that_end_with_slope_zero) {
-  // A share of (1 - reach^2)^2 <= 4 (1 - reach)^2, over that of a seed which is as far as one may
-  // be.
+  // A share of (1 - reach^2)^2 <= 4 (1 - reach)^2, divided by that of a seed at the largest
+  // possible distance.
   const double steepest = 1.1 * 4 / std::pow(1 - kCovers * kCovers, 2);
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     const TornModel model = make_model(test::make_sheet(60));
@@ -312,7 +313,7 @@ TEST(Decomposition, has_weights_that_end_with_slope_zero) {
     std::size_t looked_at = 0;
     for (std::uint32_t point = 0; point < set.point_count(); ++point) {
       const auto memberships = set.memberships(point);
-      if (memberships.size() > 4) continue;  // the fifth is taken off
+      if (memberships.size() > 4) continue;  // the fifth is subtracted
       for (const ParticleMembership& of : memberships) {
         if (!(of.reach > 0.9f)) continue;
         const ParticleInfluences& influences = set.influences()[point];

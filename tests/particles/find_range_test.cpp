@@ -50,7 +50,7 @@ TEST(FindRange, keeps_to_a_time) {
   ASSERT_TRUE(generous) << generous.error().text();
   EXPECT_LE(generous->step_seconds, 10.0);
   EXPECT_GT(generous->step_seconds, 0.0);
-  EXPECT_GT(generous->particles, 500u);  // as fine as the surface is
+  EXPECT_GT(generous->particles, 500u);  // as fine as the surface
   EXPECT_EQ(
       find_range_for_step(scene.model, scene.pose, 1e-12, *find_material("fat")).error().code(),
       StatusCode::not_found);

@@ -1,4 +1,4 @@
-// The whole chain: a tear, particles that follow it, a body whose lips part, and tissue that tears
+// The whole chain: a tear, particles that follow it, a body whose lips open, and tissue that tears
 // by itself.
 
 #include <sunder/particles/force_tearing.h>
@@ -28,7 +28,8 @@ using test::state_of;
 constexpr double kStep = 1.0 / 60, kRange = 0.06;
 constexpr double kDiagonal = 1.4142135623730951;  ///< Of the sheet.
 
-/// @param return_stiffness  0: what is pulled is stretched evenly.
+///
+/// @param return_stiffness  0: pulled tissue is stretched evenly.
 SoftMaterial tissue(double strength, double return_stiffness = 0) {
   SoftMaterial material;
   material.return_stiffness = return_stiffness;
@@ -36,7 +37,7 @@ SoftMaterial tissue(double strength, double return_stiffness = 0) {
   return material;
 }
 
-/// Held along both sides that a pull along x parts; only the middle can tear.
+/// Held along both sides, which a pull along x separates; only the middle can tear.
 struct Pulled : SoftScene {
   explicit Pulled(double strength)
       : SoftScene(make_sheet(40), {tissue(0), tissue(strength)}, kRange, {}) {
@@ -63,7 +64,7 @@ struct Pulled : SoftScene {
     return report ? *report : ForceTearingReport();
   }
 
-  /// Pulled farther and farther, for so many calls.
+  /// Pulled farther and farther, for the given number of calls.
   std::vector<ForceTearingReport> tear_apart(int calls, double speed = 0.003) {
     std::vector<ForceTearingReport> torn;
     for (int i = 1; i <= calls; ++i) {
@@ -81,7 +82,7 @@ struct Pulled : SoftScene {
   std::vector<ChangeRecord> changes;
 };
 
-/// Torn along y at x = 0.5, from one height to another, as tears are: the particles follow.
+/// Torn along y at x = 0.5, from one height to another; the particles follow.
 std::vector<LipPair> tear_down(SoftScene& scene, double from, double to, double x = 0.503) {
   ChangeRecord change;
   const std::array<Blade, 2> stroke = {down_at(x, from), down_at(x, to)};
@@ -226,7 +227,7 @@ TEST(Lips, move_apart_from_each_other_once_torn) {
         best = p;
     return best;
   };
-  // What is just across the line to be torn moves along.
+  // Tissue just across the future tear moves along.
   const std::uint32_t here = point_near({0.5, 0.5, 0}),
                       there = point_near({0.5 + 1.0 / 60, 0.5, 0});
   const auto hold = scene.body->hold_point(here, {0.5, 0.5, 0.05});
@@ -269,7 +270,7 @@ TEST(Lips, do_not_jump_when_they_are_torn) {
     jump = std::max(jump, (after[i] - before[i]).norm());
     most = std::max(most, before[i].norm());
   }
-  EXPECT_LT(jump, 0.15 * most);  // what two particles beside one another differ by
+  EXPECT_LT(jump, 0.15 * most);  // the difference between two neighbouring particles
 }
 
 }  // namespace

@@ -23,8 +23,8 @@ float weight_of(const ParticleSet& set, std::uint32_t point, std::uint32_t parti
   return 0.0f;
 }
 
-/// What the gradient of one weight is: of each face that which has the rises along its two edges;
-/// their mean by area.
+/// The gradient of a weight by its definition: per face the gradient with the differences along its
+/// two edges; the mean by area.
 Vec3d gradient_by_faces(const TornModel& model, const ParticleSet& set, std::uint32_t point,
                         std::size_t i) {
   const tear::Surface& surface = model.surface();
@@ -50,8 +50,8 @@ Vec3d gradient_by_faces(const TornModel& model, const ParticleSet& set, std::uin
   return areas > 0 ? Vec3d(sum / areas) : Vec3d(Vec3d::Zero());
 }
 
-/// Mean error of what gradients say of the weights of neighbouring points, of the mean difference
-/// of these.
+/// Mean error of the weights of neighbouring points as predicted by gradients, relative to the mean
+/// difference of these weights.
 double error_of(std::uint32_t cells) {
   const auto source = std::make_shared<const Character>(make_sheet(cells));
   TornModel model = std::move(*TornModel::create(source));

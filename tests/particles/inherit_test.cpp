@@ -26,7 +26,8 @@ struct Torn {
 
 TEST(inherit, a_new_particle_moves_as_what_it_was_torn_from) {
   Torn torn;
-  torn.motion.forces[4] = torn.motion.displacements[4] = {9, 9, 9};  // of one that undo took back
+  // of a particle that undo removed
+  torn.motion.forces[4] = torn.motion.displacements[4] = {9, 9, 9};
   particles::inherit({{2, 1, 0}, {0.5f, 0.25f, 0.25f}}, 4, torn.rests, torn.motion);
   EXPECT_EQ(torn.motion.displacements[4], Vec3d(2.25, 0, 0));
   EXPECT_EQ(torn.motion.velocities[4], Vec3d(0, 2.25, 0));

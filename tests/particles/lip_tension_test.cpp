@@ -8,7 +8,7 @@
 namespace sunder {
 namespace {
 
-/// A slit along x of two edges a lip, its lips at y = 0, seen by three particles a side.
+/// A slit along x with two edges per lip, its lips at y = 0, and three particles per side.
 struct Slit {
   std::vector<Vec3f> positions = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
   std::vector<LipEdge> lips = {

@@ -1,5 +1,5 @@
-// No exception leaves the API of particles: where memory runs out a call says so, or answers
-// nothing, and works again later.
+// No exception leaves the API of particles: if memory runs out, a call returns a failure or an
+// empty result, and works again later.
 
 #include <sunder/particles/force_tearing.h>
 
@@ -34,7 +34,7 @@ struct TornSheet : SoftScene {
   ChangeRecord change;
 };
 
-/// What a call answered that had too little memory, or enough.
+/// The result of a call with too little memory, or with enough.
 enum class Answer { refused, done, wrong };
 
 Answer answer_of(const Status& status) {
@@ -43,8 +43,8 @@ Answer answer_of(const Status& status) {
 }
 
 /// Calls on a new scene, with memory for 0, 1, 2 … allocations, until there is enough.
-/// @param call  called with the scene; its answer is to be `refused` until it is `done`.
-/// @param then  called with the scene and memory enough, after each call.
+/// @param call  called with the scene; must return `refused` until it returns `done`.
+/// @param then  called with the scene and enough memory, after each call.
 template <class MakeScene, class Call, class Then>
 void starve(MakeScene make_scene, Call call, Then then) {
   if (!FailingAllocations::are_possible())
@@ -205,7 +205,8 @@ TEST(OutOfMemory, a_step_is_refused_and_the_next_one_goes_on) {
       busy,
       [](TornSheet& scene) { return answer_of(scene.body->step(*scene.model, scene.pose, kStep)); },
       [](TornSheet& scene) {
-        // Where settle() had too little memory the set is broken; the body does what it can.
+        // If settle() had too little memory, the set is broken; the body continues as far as
+        // possible.
         (void)scene.body->step(*scene.model, scene.pose, kStep);
         for (const Vec4f& u : scene.body->displacements()) EXPECT_TRUE(u.allFinite());
       });

@@ -1,4 +1,4 @@
-// Particles of every rigged file at hand: decomposed coarsely and finely, torn, and taken back.
+// Particles of every available rigged file: decomposed coarsely and finely, torn, and undone.
 #include <sunder/io/character_file.h>
 #include <sunder/particles/particle_set.h>
 #include <sunder/skinning/deform.h>
@@ -52,7 +52,8 @@ void tear_and_undo(const LoadedCharacter& loaded, double range) {
   EXPECT_EQ(test::difference(test::state_of(*model, *set, pose), before), "");
 }
 
-/// @return how many of the files could be loaded; some of assimp's are broken on purpose.
+///
+/// @return number of files that could be loaded; some of assimp's are broken on purpose.
 std::size_t tear_and_undo_all(const std::vector<std::filesystem::path>& files) {
   std::size_t loaded_count = 0;
   for (const auto& file : files) {

@@ -1,4 +1,4 @@
-// Particles follow whatever is done to their model, and undo gives back every bit of them.
+// Particles follow every change of their model, and undo restores every bit of them.
 #include <sunder/particles/particle_set.h>
 #include <sunder/skinning/deform.h>
 #include <sunder/skinning/pose.h>
@@ -51,7 +51,7 @@ void settle(const TornModel& model, ParticleSet& set, std::uint32_t points = 500
   }
 }
 
-/// A model, its particles, and what operations told that are not taken back.
+/// A model, its particles, and the records of the operations that are not undone.
 struct Followed {
   TornModel model;
   ParticleSet set;
@@ -85,7 +85,7 @@ struct Followed {
     for (std::uint32_t point = 0; point < set.point_count(); ++point) {
       if (point < before.size() && set.influences()[point] == before[point]) continue;
       if (point >= before.size() && model.surface().point_corner[point] == kNone)
-        continue;  // was taken away again
+        continue;  // was retired in the meantime
       ASSERT_TRUE(std::ranges::any_of(set.dirty_points(),
                                       [&](const IndexRange& range) {
                                         return point >= range.first &&
@@ -102,9 +102,9 @@ struct Followed {
   }
 };
 
-/// Points as far from all that an operation told or made that nothing reaches them keep every bit:
-/// particles beside it reach a range to either side of their seeds, and a point that one leaves
-/// bare gets another.
+/// Points far enough from all recorded changes keep every bit. Far enough means: particles next to
+/// the change reach a range to either side of their seeds, and a point that one of them leaves bare
+/// gets another.
 void expect_far_points_kept(const Followed& followed, const ParticleState& before) {
   const ParticleSet& set = followed.set;
   const auto first_new = static_cast<std::uint32_t>(before.memberships.size());
@@ -118,7 +118,7 @@ void expect_far_points_kept(const Followed& followed, const ParticleState& befor
   for (std::uint32_t point = 0; point < first_new; ++point)
     if (followed.model.surface().point_corner[point] == kNone)
       torn.push_back(set.positions()[point]);
-  // What is beside a lip belongs to what the tear passes, as what is on it does.
+  // Points next to a lip, as those on it, belong to particles that the tear passes.
   const tear::Surface& surface = followed.model.surface();
   float longest = 0;
   for (std::uint32_t c = 0; c < surface.corner_point.size(); ++c) {
@@ -171,19 +171,19 @@ void follow_at_random(std::uint64_t seed) {
     for (std::uint32_t step = 0; step < steps; ++step)
       ASSERT_TRUE(back ? followed.model.undo() : followed.model.redo());
     at = back ? at - steps : at + steps;
-    ChangeRecord change;  // what undo and redo told is not looked at
+    ChangeRecord change;  // records of undo and redo are not used
     ASSERT_TRUE(followed.set.follow(followed.model, {&change, 1}));
     ASSERT_EQ(difference(state_of(followed.model, followed.set, pose), states[at]), "")
         << "at operation " << at;
   };
   while (at > 0) ASSERT_NO_FATAL_FAILURE(go(1, true));
   while (at + 1 < states.size()) ASSERT_NO_FATAL_FAILURE(go(1, false));
-  for (int i = 0; i < 10 && states.size() > 1; ++i) {  // to and fro, several steps at once
+  for (int i = 0; i < 10 && states.size() > 1; ++i) {  // back and forth, several steps at once
     const bool back = at + 1 == states.size() || (at > 0 && random.index(2) == 0);
     const auto most = static_cast<std::uint32_t>(back ? at : states.size() - 1 - at);
     ASSERT_NO_FATAL_FAILURE(go(1 + random.index(most), back));
   }
-  // What comes after an undo has numbers of its own.
+  // Operations after an undo have new serial numbers.
   const std::size_t particles = followed.set.particle_count();
   followed.told.resize(at);
   const std::size_t done = followed.told.size();
@@ -206,7 +206,7 @@ TEST_P(RandomRepair, keeps_the_laws_and_undo_gives_back_every_bit) {
 
 INSTANTIATE_TEST_SUITE_P(seeds, RandomRepair, testing::Range(0, 100));
 
-/// Calls come one after another, and no frame between them settles anything, or not all.
+/// Calls follow one another, without frames that settle all the work between them.
 void hurry_at_random(std::uint64_t seed) {
   SCOPED_TRACE(seed);
   Random random(seed);
@@ -456,7 +456,7 @@ TEST(Follow, takes_tears_that_cross_or_meet) {
           options.width = width;
           follow_strokes(followed, all[i], options);
           if (HasFatalFailure()) return;
-          if (i >= 3 && i <= 4) {  // what is free holds nothing of the rest
+          if (i >= 3 && i <= 4) {  // a free piece shares no particle with the rest
             const std::vector<std::uint32_t> pieces = test::pieces_of(followed.model);
             std::set<std::uint32_t> apart(pieces.begin(), pieces.end());
             apart.erase(kNone);
@@ -590,7 +590,7 @@ TEST(Lips, of_a_flat_tear_pull_apart_evenly) {
       Vec3d sum = Vec3d::Zero();
       for (const LipEdge& lip : followed.set.lips()) sum += lip.inward.cast<double>();
       EXPECT_LT(sum.norm(), 1e-5);
-      // Edge by edge: from b on the one lip to a on the other, as from a to b.
+      // Edge by edge: from b on one lip to a on the other, as from a to b.
       std::map<std::uint32_t, std::set<std::uint32_t>> across;
       for (const auto& changes : followed.told)
         for (const ChangeRecord& change : changes)

@@ -1,4 +1,4 @@
-// Where particles rest in a pose, held against their members skinned one by one.
+// Compares the rest of particles in a pose with their members skinned one by one.
 #include <sunder/particles/particle_set.h>
 #include <sunder/skinning/deform.h>
 #include <sunder/skinning/pose.h>

@@ -19,7 +19,7 @@ SoftScene make_tube_scene(const SoftMaterial& material = {}, const SoftBodyOptio
   return SoftScene(test::make_tube(60, 16, 6), material, 0.1, options);
 }
 
-/// Everything that a body answers, as bits.
+/// All results of a body, as bits.
 std::vector<double> bits_of(const SoftScene& scene) {
   std::vector<double> bits;
   for (std::uint32_t p = 0; p < scene.count(); ++p) {
@@ -129,13 +129,13 @@ TEST(soft_body, is_stable_at_any_step_and_stiffness) {
     for (int i = 0; i < 60; ++i) {
       scene.step(h);
       ASSERT_LT(scene.farthest(), 400)
-          << trial;  // a soft particle with a little weight goes far for a point
+          << trial;  // a soft particle with a small weight moves far for a point
     }
     ASSERT_TRUE(scene.body->release(*held));
     for (int i = 0; i < 60; ++i) {
       scene.step(h);
       ASSERT_LT(scene.farthest(), 400)
-          << trial;  // a soft particle with a little weight goes far for a point
+          << trial;  // a soft particle with a small weight moves far for a point
     }
   }
 }
@@ -224,7 +224,8 @@ TEST(soft_body, lags_behind_the_pose) {
   const Vec3d before = scene.body->place(7);
   scene.pose = test::moved(scene.pose, test::shift_by({0.5, 0, 0}));
   scene.step(0);
-  EXPECT_LT((scene.body->place(7) - before).norm(), 1e-7);  // without time it has not moved
+  // in a step of zero seconds it does not move
+  EXPECT_LT((scene.body->place(7) - before).norm(), 1e-7);
   EXPECT_NEAR(scene.body->displacement(7).x(), -0.5, 1e-7);
   scene.run(6);
   EXPECT_EQ(scene.farthest(), 0);
@@ -232,8 +233,8 @@ TEST(soft_body, lags_behind_the_pose) {
 }
 
 TEST(soft_body, what_lags_does_not_depend_on_the_step) {
-  // The rest moves evenly, then stands: an oscillator in a frame that moves along, and one that
-  // does not.
+  // The rest moves at constant speed, then stops: an oscillator in a frame that moves with it, and
+  // one in a fixed frame.
   SoftBodyOptions options;
   options.follow = Follow::lag;
   SoftMaterial material;
@@ -480,7 +481,7 @@ TEST(soft_body, nothing_breaks_it) {
               }));
           break;
         default:
-          // Also poses that mirror, flatten, and shrink everything to a point.
+          // Also poses that mirror, flatten, and collapse everything to a point.
           scene.pose =
               random.index(3) == 0 ? rest : test::random_pose(*scene.character, random, 0.5, 1.3);
           if (random.index(3) == 0)

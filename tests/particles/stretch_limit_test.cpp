@@ -7,7 +7,7 @@ namespace {
 
 using test::SoftScene;
 
-/// Greatest distance of two neighbours over that at rest.
+/// Greatest distance between two neighbours, relative to that at rest.
 double worst_stretch(const SoftScene& scene) {
   double worst = 0;
   for (std::uint32_t p = 0; p < scene.count(); ++p)

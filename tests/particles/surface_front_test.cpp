@@ -1,4 +1,4 @@
-// Distances along surfaces whose shortest paths are known.
+// Distances along surfaces on which the shortest paths are known.
 #include "particles/front/surface_front.h"
 
 #include <sunder/skinning/deform.h>
@@ -34,7 +34,7 @@ double edge_length_of(const Surface& surface, const std::vector<Vec3f>& position
   return sum / static_cast<double>(surface.corner_point.size());
 }
 
-/// Infinite where the front does not come.
+/// Infinite for points that the front does not reach.
 std::vector<float> front_distances(const Surface& surface, const std::vector<Vec3f>& positions,
                                    Index source, float limit) {
   SurfaceFront front;
@@ -54,7 +54,7 @@ std::vector<float> front_distances(const Surface& surface, const std::vector<Vec
 }
 
 /// The largest relative errors against true distances, of points nearer than the limit; farther
-/// ones are not reached, but for the error.
+/// ones are not reached, except within the error.
 struct Errors {
   double below = 0, above = 0;  ///< Relative.
   double sum = 0;
@@ -86,7 +86,7 @@ Index point_nearest(const std::vector<Vec3f>& positions, const Vec3f& place) {
   return nearest;
 }
 
-/// A sheet whose inner points are moved about.
+/// A sheet with inner points moved at random.
 Character irregular_sheet(std::uint32_t cells, double by, Random& random) {
   Character sheet = test::make_sheet(cells);
   for (Vec3f& position : sheet.meshes[0].positions) {
@@ -127,7 +127,7 @@ TEST(SurfaceFront, is_straight_on_a_flat_sheet) {
   expect_straight(0.0, 0.01, 0.001);
   expect_straight(0.1, 0.1, 0.002);
   expect_straight(0.2, 0.2,
-                  0.005);  // the more faces are obtuse, the more paths are those along edges
+                  0.005);  // more obtuse faces mean more paths along edges
 }
 
 TEST(SurfaceFront, goes_around_the_tip_of_a_slit) {
@@ -145,7 +145,7 @@ TEST(SurfaceFront, goes_around_the_tip_of_a_slit) {
       const Vec3d to = positions[p].cast<double>();
       bool is_hidden = to.x() > x + 1e-5;
       if (std::abs(to.x() - x) <= 1e-5 &&
-          to.y() < y - 1e-5) {  // on a lip: which one, its face says
+          to.y() < y - 1e-5) {  // on a lip: its face tells which one
         Vec3d centre = Vec3d::Zero();
         const Index t = surface.point_corner[p] / 3;
         for (Index k = 0; k < 3; ++k)
@@ -159,7 +159,7 @@ TEST(SurfaceFront, goes_around_the_tip_of_a_slit) {
     Errors errors;
     errors.compare(front_distances(surface, positions, source, 1.5f), truth, 1.5);
     EXPECT_LT(errors.below, 0.01);
-    EXPECT_LT(errors.above, 0.06);  // what stands behind the tip has no one source to unfold
+    EXPECT_LT(errors.above, 0.06);  // points behind the tip have no single source to unfold
     EXPECT_LT(errors.sum / static_cast<double>(errors.points), 0.01);
   }
 }
@@ -178,7 +178,7 @@ TEST(SurfaceFront, is_straight_on_an_unrolled_tube) {
       return std::round(angle / (2 * std::numbers::pi) * sides) * chord;
     };
     std::vector<double> truth;
-    const double limit = 0.9;  // no way over the caps is as short
+    const double limit = 0.9;  // no path over the caps is as short
     for (Index p = 0; p < positions.size(); ++p) {
       double beside = std::abs(unrolled(p) - unrolled(source));
       beside = std::min(beside, around - beside);
@@ -309,7 +309,8 @@ TEST(Rings, go_around_every_point) {
       }
       const std::size_t last = ring.size() - 1;
       EXPECT_TRUE(std::isnan(ring.opposite(last)));
-      for (std::size_t i = 0; i < last; ++i) {  // each two with the point are a face, in its order
+      // each pair of neighbours forms a face with the point, in its orientation
+      for (std::size_t i = 0; i < last; ++i) {
         const Index half_edge = surface.find_half_edge(p, ring.point(i));
         ASSERT_NE(half_edge, kNone);
         EXPECT_EQ(surface.corner_point[Surface::previous(half_edge)], ring.point(i + 1));
@@ -322,7 +323,7 @@ TEST(Rings, go_around_every_point) {
   }
 }
 
-/// All faces of a block, one after the other, as a front sees them at once.
+/// All faces of a block, one after the other; the front computes them at once.
 TEST(RingLanes, are_what_one_lane_after_the_other_is) {
   Random random(5);
   const auto length = [&] { return static_cast<float>(random.uniform(0.2, 2.0)); };

@@ -1,4 +1,4 @@
-// An instance does what the same calls do that are made on its parts, bit for bit.
+// An instance gives the same results, bit for bit, as the same calls on its parts.
 
 #include <sunder/scene/character_instance.h>
 #include <sunder/skinning/pose.h>
@@ -151,7 +151,7 @@ class Parts {
   std::vector<std::unique_ptr<OfMesh>> meshes_;
 };
 
-/// Buffers of an engine that uploads the dirty ranges and nothing else.
+/// Buffers of an engine that uploads only the dirty ranges.
 class Mirror {
  public:
   void upload(const PosedMesh& mesh, const Mesh& attributes) {
@@ -191,7 +191,7 @@ class Mirror {
   std::vector<Vec2f> uvs_;
 };
 
-/// Calls on an instance and on the parts by hand: the same ones, at random.
+/// Random calls, the same on an instance and on the parts.
 class Duel {
  public:
   Duel(const std::shared_ptr<const Character>& character, bool is_soft, std::uint64_t seed)

@@ -196,8 +196,8 @@ Channel rotation_of(std::uint32_t bone, std::vector<float> times, float angle) {
 
 TEST(PoseSet, clips_are_fitted_in_the_middles_of_intervals_and_held_out_between) {
   Character character = make_crooked_tube(4);
-  // Bones in random order, two channels of one part, of which the later one counts, and morph
-  // weights between them.
+  // Bones in random order, two channels with the same target, of which the later one applies, and
+  // morph weights between them.
   Clip wild{"wild", 3.0f, {}};
   wild.channels.push_back(rotation_of(3, {0, 1, 3}, 0.4f));
   wild.channels.push_back(

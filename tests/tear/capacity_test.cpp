@@ -1,4 +1,4 @@
-// A model of fixed capacity: warm operations allocate nothing, and where room runs out nothing
+// A model of fixed capacity: warm operations allocate nothing, and if room runs out nothing
 // changes.
 #include <sunder/skinning/deform.h>
 #include <sunder/skinning/pose.h>
@@ -37,19 +37,19 @@ TEST(Capacity, tears_of_a_warm_model_allocate_nothing) {
     const std::uint32_t blades = 2 + random.index(4);
     const Stroke stroke = test::random_stroke(tube, pose, random, 1.5, blades),
                  next = test::random_stroke(tube, other, random, 1.5, 2);
-    ASSERT_TRUE(model.tear(pose, stroke));  // builds what is built lazily
+    ASSERT_TRUE(model.tear(pose, stroke));  // builds what is built on first use
 
     // Another tear in another pose.
     const std::uint64_t before = test::allocation_count();
     const auto report = model.tear(other, next);
     const std::uint64_t allocations = test::allocation_count() - before;
     ASSERT_TRUE(report) << report.error().text();
-    if (report->pieces.empty()) {  // which are lists of their own
+    if (report->pieces.empty()) {  // whose lists are allocated
       EXPECT_EQ(allocations, 0u);
     }
     torn += report->runs > 0 && report->pieces.empty() ? 1 : 0;
 
-    // With a record that had room for it.
+    // With a record that has enough memory.
     ChangeRecord change;
     ASSERT_TRUE(model.undo());
     ASSERT_TRUE(model.tear(other, next, {}, &change));

@@ -1,4 +1,4 @@
-// Caps of cuts: what is cut stays closed.
+// Caps of cuts close the pieces.
 #include <sunder/skinning/deform.h>
 #include <sunder/skinning/pose.h>
 #include <sunder/tear/topology.h>
@@ -20,8 +20,8 @@ using test::make_model;
 using test::Random;
 using testing::IsEmpty;
 
-/// Posed volume inside some triangles, by the divergence theorem; the whole mesh's where none are
-/// given.
+/// Posed volume enclosed by some triangles, by the divergence theorem; by default by the whole
+/// mesh.
 double volume_of(const TornModel& model, const ModelPose& pose, const TornPiece* piece = nullptr) {
   double volume = 0;
   for (std::uint32_t m = 0; m < model.character().meshes.size(); ++m) {

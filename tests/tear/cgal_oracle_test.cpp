@@ -1,5 +1,5 @@
-// Cuts, gaps and bores against CGAL's corefinement of the posed surface: exact predicates, a method
-// of its own, nothing shared. Built where CGAL is (scripts/setup oracle).
+// Compares cuts, gaps and bores with CGAL's corefinement of the posed surface, an independent
+// method with exact predicates. Built if CGAL is found (scripts/setup oracle).
 #include <sunder/tear/topology.h>
 #include <sunder/tear/torn_model.h>
 
@@ -37,8 +37,8 @@ using test::make_model;
 using test::Random;
 using testing::IsEmpty;
 
-/// Of what CGAL or Sunder may round a place to, as a part of the model's diagonal; areas by its
-/// square.
+/// Largest rounding of a position by CGAL or Sunder, as a fraction of the model's diagonal; for
+/// areas, of its square.
 constexpr double kRounding = 1e-9;
 
 int count_of_cases(int usual) { return test::stressed(usual, 20); }
@@ -46,7 +46,7 @@ int count_of_cases(int usual) { return test::stressed(usual, 20); }
 Point to_judge(const Vec3d& p) { return {p.x(), p.y(), p.z()}; }
 Vec3d from_judge(const Point& p) { return {p.x(), p.y(), p.z()}; }
 
-/// The surface of a model that is not torn yet, as it stands in a pose.
+/// The surface of an untorn model in a pose.
 Judge posed_surface(const TornModel& model, const ModelPose& pose) {
   Judge surface;
   std::vector<Judge::Vertex_index> vertex_of_point(model.point_count());
@@ -67,10 +67,10 @@ Judge posed_surface(const TornModel& model, const ModelPose& pose) {
   return surface;
 }
 
-/// What is left of a surface that CGAL has split.
+/// The rest of a surface that CGAL has split.
 struct Parts {
   std::vector<double> areas;   ///< Of each part.
-  std::vector<Vec3d> middles;  ///< Of one face of each: of its largest.
+  std::vector<Vec3d> middles;  ///< Of the largest face of each part.
   std::vector<Vec3d> section;  ///< Points on borders.
   double border_length = 0;
 };
@@ -105,8 +105,8 @@ Parts parts_of(const Judge& surface) {
   return parts;
 }
 
-/// Each place once: both lips have it, and a line through a vertex crosses all the edges there in
-/// places nearer than `distance`.
+/// Each place once: both lips have it, and a line through a vertex crosses all its edges at places
+/// closer than `distance`.
 std::vector<Vec3d> distinct(const std::vector<Vec3d>& places, double distance) {
   std::vector<Vec3d> kept;
   for (const Vec3d& place : places)
@@ -122,8 +122,8 @@ double distance_to(const std::vector<Vec3d>& places, const Vec3d& place) {
   return least;
 }
 
-/// Where the points that a call opened lie on the posed source: by their births, into which no
-/// interpolation of weights enters.
+/// Positions of the points that a call opened, on the posed source: by their births, so that
+/// interpolation of weights does not matter.
 std::vector<Vec3d> opened_places(const TornModel& model, const ModelPose& pose,
                                  const ChangeRecord& change) {
   std::map<std::uint32_t, Vec3d> place_of_point;
@@ -154,7 +154,7 @@ std::vector<double> sorted(std::vector<double> values) {
   return values;
 }
 
-/// A body and a place on it, in a pose in which it does not pass through itself.
+/// A body and a place on it, in a pose in which it does not intersect itself.
 struct Subject {
   Character character;
   ModelPose pose;
@@ -172,7 +172,7 @@ Subject random_tube(Random& random) {
   }
 }
 
-/// The Stanford bunny on two bones, or nothing where it is absent.
+/// The Stanford bunny on two bones, or nothing if it is absent.
 Character make_bunny() {
   Judge bunny;
   const auto file = test::shared_models() / "static" / "bunny_3485.off";
@@ -208,8 +208,8 @@ PlaneCut random_cut(const Subject& subject, Random& random) {
   return cut;
 }
 
-/// One triangle that reaches all of a body: two would add places where their common side passes
-/// through faces.
+/// One triangle that reaches beyond the body: two would add points where their common side crosses
+/// faces.
 Judge sheet_of(const PlaneCut& cut, double diagonal) {
   const Vec3d normal = cut.normal.normalized(), right = normal.unitOrthogonal(),
               up = normal.cross(right);
@@ -224,7 +224,7 @@ Judge sheet_of(const PlaneCut& cut, double diagonal) {
 
 int compared_cuts = 0;
 
-/// Cuts a closed body as Sunder does and as CGAL does.
+/// Cuts a closed body with Sunder and with CGAL.
 void compare_cut(const Subject& subject, const PlaneCut& cut, double snap = 0) {
   TornModel model = make_model(subject.character);
   const double diagonal = test::posed_diagonal(subject.character, subject.pose);
@@ -240,12 +240,12 @@ void compare_cut(const Subject& subject, const PlaneCut& cut, double snap = 0) {
   EXPECT_EQ(report->blocked, 0u);
   EXPECT_THAT(test::broken_laws(model), IsEmpty());
   EXPECT_THAT(test::broken_surface(model), IsEmpty());
-  // A corner that the plane cuts off nearer than anyone rounds is not a piece.
+  // A corner that the plane cuts off by less than rounding does not count as a piece.
   if (*std::min_element(parts.areas.begin(), parts.areas.end()) <
       std::max(snap, kRounding * diagonal) * diagonal)
     return;
   const std::size_t components = count_topology(model.character()).components;
-  // A bridge no wider than the rounding may hold two parts together or not.
+  // A bridge that is not wider than the rounding may or may not connect two parts.
   if (snap == 0) {
     EXPECT_EQ(components, parts.areas.size());
   }
@@ -295,8 +295,8 @@ TEST(CgalOracle, agrees_about_cuts_of_the_bunny) {
   }
 }
 
-/// Through vertices, to the last bit and beside them: a place that would be stored as the end of
-/// its edge is that end.
+/// Through vertices, exactly and very close to them: a point that would be stored as the end of its
+/// edge is that end.
 TEST(CgalOracle, agrees_about_cuts_through_vertices) {
   Random random(3);
   compared_cuts = 0;
@@ -314,7 +314,7 @@ TEST(CgalOracle, agrees_about_cuts_through_vertices) {
   EXPECT_GT(compared_cuts, count_of_cases(20));
 }
 
-/// The surface split by a convex body: what of it lies inside, and in how many parts the rest is.
+/// The surface split by a convex body: its part inside, and the number of parts outside.
 struct Removal {
   double area_inside = 0;
   std::size_t parts_outside = 0;
@@ -341,7 +341,7 @@ Removal remove_body(Judge surface, const std::vector<Vec3d>& corners,
   return removal;
 }
 
-/// The half-spaces on whose borders the sides of a convex hull lie.
+/// The half-spaces of the sides of a convex hull.
 test::ConvexCell cell_around(const std::vector<Vec3d>& corners) {
   std::vector<Point> points;
   for (const Vec3d& corner : corners) points.push_back(to_judge(corner));
@@ -407,8 +407,8 @@ TEST(CgalOracle, agrees_about_gaps_of_the_bunny) {
   }
 }
 
-/// A bore of which is only promised that it stays within the tolerance of the circle lies between
-/// two prisms.
+/// A bore is only guaranteed to be within the tolerance of the circle, so it lies between two
+/// prisms.
 void compare_bore(const Subject& subject, Random& random) {
   TornModel model = make_model(subject.character);
   const double diagonal = test::posed_diagonal(subject.character, subject.pose);

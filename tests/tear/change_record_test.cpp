@@ -1,5 +1,5 @@
-// What an engine can rely on: buffers that are changed only where a record says so stay equal to
-// the model.
+// Checks what an engine relies on: buffers that are changed only in the ranges of the record stay
+// equal to the model.
 #include <sunder/skinning/deform.h>
 #include <sunder/skinning/pose.h>
 #include <sunder/tear/change_record.h>
@@ -22,8 +22,8 @@ namespace {
 using test::make_model;
 using test::Random;
 
-/// All attributes of a vertex one after another, as bits. The tear side is 0 where the mesh has
-/// none yet.
+/// All attributes of a vertex one after another, as bits. The tear side is 0 if the mesh has none
+/// yet.
 class VertexBits {
  public:
   VertexBits(const Mesh& mesh, std::uint32_t v) : vertex_(v) {
@@ -120,7 +120,7 @@ class Mirror {
     upload(change, mesh);
   }
 
-  /// What grows begins where the buffer ended; what shrinks does not grow.
+  /// A range that grows begins at the end of the buffer; arrays that shrink do not grow.
   void expect_end_fits(const MeshChange& change) {
     const MirroredMesh& before = meshes_[change.mesh];
     EXPECT_LE(change.first_vertex, before.vertices.size());
@@ -165,7 +165,7 @@ class Mirror {
   }
 
   void upload(const MeshChange& change, const Mesh& mesh) {
-    // What stands in a buffer beyond its old end is nothing that the model has.
+    // The values beyond the old end of a buffer are arbitrary.
     MirroredMesh& mirrored = meshes_[change.mesh];
     mirrored.vertices.resize(mesh.vertex_count(), VertexBits(mesh, 0));
     mirrored.triangles.resize(mesh.triangle_count(), {kNone, kNone, kNone});
@@ -183,7 +183,7 @@ class Mirror {
   std::vector<MirroredMesh> meshes_;
 };
 
-/// What a report says in sum, the record says in full.
+/// The sums in the report equal those of the record.
 void expect_report_agrees(const TearReport& report, const ChangeRecord& change) {
   std::uint32_t vertices = 0, triangles = 0, retired = 0;
   for (const MeshChange& of_mesh : change.meshes) {
@@ -206,7 +206,7 @@ void mirror_at_random(std::uint64_t seed) {
   for (int i = 0; i < 12; ++i) {
     SCOPED_TRACE(i);
     ChangeRecord change;
-    change.meshes.resize(3);  // whatever was in it before
+    change.meshes.resize(3);  // whatever it contained before
     change.lips.resize(3);
     const std::uint32_t what = random.index(5);
     if (what == 0 && model.undo_count() > 0) {

@@ -1,4 +1,4 @@
-// The measure of what gaps and bores remove, held against areas that are known.
+// Checks the reference for gaps and bores on areas that are known.
 #include "support/clip_oracle.h"
 
 #include <sunder/skinning/deform.h>
@@ -58,8 +58,8 @@ TEST(ClipOracle, of_a_union_counts_what_cells_share_once) {
       box({0.4, 0.1, -1}, {0.6, 0.9, 1}), box({0.7, 0.3, -1}, {0.8, 0.7, 1})};
   EXPECT_NEAR(test::clipped_area_of_union(sheet, pose, std::span(cells, 1)), 0.16, 1e-6);
   EXPECT_NEAR(test::clipped_area_of_union(sheet, pose, std::span(cells, 2)), 0.28, 1e-6);
-  // The third box adds its own 0.16 but for 0.1 x 0.4 in the first and 0.2 x 0.4 in the second, of
-  // which they share 0.1 x 0.2.
+  // The third box adds its own 0.16 except 0.1 x 0.4 in the first and 0.2 x 0.4 in the second,
+  // which overlap in 0.1 x 0.2.
   EXPECT_NEAR(test::clipped_area_of_union(sheet, pose, std::span(cells, 3)),
               0.28 + 0.16 - 0.04 - 0.08 + 0.02, 1e-6);
   EXPECT_NEAR(test::clipped_area_of_union(sheet, pose, cells), 0.34 + 0.04, 1e-6)

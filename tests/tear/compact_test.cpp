@@ -15,7 +15,7 @@ namespace {
 
 using test::Random;
 
-/// Any array of floats or of vectors of floats, with any bits but those of NaN.
+/// Any array of floats or of vectors of floats, with random bits except NaN.
 template <class Value>
 void fill(std::vector<Value>& values, std::size_t count, Random& random) {
   values.resize(count);
@@ -32,8 +32,8 @@ std::vector<Influence> random_influences(Random& random) {
   }
 }
 
-/// A mesh with every kind of array, or with as few as may be; some of its triangles retired, some
-/// vertices without a triangle.
+/// A mesh with every kind of array, or with as few as possible; some of its triangles are retired,
+/// some vertices have no triangle.
 Mesh random_mesh(Random& random, bool is_full) {
   Mesh mesh;
   mesh.name = is_full ? "full" : "bare";
@@ -126,7 +126,7 @@ void expect_ascending(const std::vector<std::uint32_t>& map) {
   EXPECT_TRUE(std::adjacent_find(map.begin(), map.end(), std::greater_equal<>()) == map.end());
 }
 
-/// All that should stay does, and nothing else.
+/// Everything that should stay does, and nothing else.
 void expect_nothing_superfluous(const Mesh& after, const Mesh& before) {
   std::vector<bool> is_used(after.vertex_count(), false);
   for (const Triangle& triangle : after.triangles) {

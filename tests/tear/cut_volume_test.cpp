@@ -1,5 +1,5 @@
-// Closed bodies cut with caps: pieces are closed bodies whose volumes add up to the whole, and are
-// what Manifold makes of the cut.
+// Closed bodies cut with caps: pieces are closed bodies whose volumes add up to the whole, and
+// equal those that Manifold computes.
 #include <sunder/skinning/deform.h>
 #include <sunder/skinning/pose.h>
 #include <sunder/tear/topology.h>
@@ -120,7 +120,7 @@ void add_box(const Vec3f& low, const Vec3f& high, bool inwards, std::vector<Vec3
   }
 }
 
-/// A box with a hollow in it, in which there is a box.
+/// A box with a cavity that contains a box.
 Character make_nested_boxes() {
   std::vector<Vec3f> positions;
   std::vector<Triangle> triangles;
@@ -132,7 +132,7 @@ Character make_nested_boxes() {
 
 Character random_body(Random& random) {
   const std::uint32_t a = random.index(16),
-                      b = random.index(16);  // in this order with every compiler
+                      b = random.index(16);  // evaluated in this order by every compiler
   switch (random.index(4)) {
     case 0: return make_torus(5 + a, 4 + b);
     case 1: return make_ball(3 + a, 4 + b);
@@ -141,10 +141,10 @@ Character random_body(Random& random) {
   }
 }
 
-// ---- What is there after cuts.
+// ---- The bodies after cuts.
 
-/// Places of a torn body's points on the posed source and in the planes of its cuts, in double: no
-/// stored position is in it but the source's.
+/// Positions of a torn body's points on the posed source and in the planes of its cuts, in double;
+/// the only stored positions used are the source's.
 class Places {
  public:
   Places(const TornModel& model, const ModelPose& pose) : model_(model), pose_(pose) {
@@ -163,7 +163,7 @@ class Places {
                  ? model_.source().meshes[0].triangles[birth.triangle][k]
                  : model_.fillings(0)[birth.triangle - source_triangles][k];
     };
-    const auto is_own = [&](std::uint32_t vertex) {  // a corner of a cap as it was made
+    const auto is_own = [&](std::uint32_t vertex) {  // a corner of a cap as created
       if (vertex < source_vertices) return false;
       const Birth birth = model_.birth(0, vertex);
       for (std::size_t k = 0; k < 3; ++k)
@@ -209,7 +209,7 @@ class Places {
   std::vector<Vec3d> of_vertex_;
 };
 
-/// What hangs together across edges, by the kernel's points.
+/// The connected components across edges, by the kernel's points.
 struct Body {
   std::vector<std::uint32_t> triangles;
   bool is_closed = true;  ///< Each edge has one face on each side.
@@ -282,7 +282,7 @@ SplitTask task_of(const Character& source, const ModelPose& pose) {
   return task;
 }
 
-/// Sides of all planes on which a body lies, by its farthest point from each.
+/// For each body, its side of all planes, determined by its farthest point from each.
 SplitCells cells_of(const TornModel& model, const std::vector<Body>& bodies, const SplitTask& task,
                     const std::function<Vec3d(std::uint32_t)>& place) {
   SplitCells cells;
@@ -331,11 +331,12 @@ Vec3d somewhere_in(const Character& character, const ModelPose& pose, Random& ra
   return place;
 }
 
-/// A cut's places are known in double. Those of a later one's rim lie in its plane only as exactly
-/// as positions are stored, and so does a vertex to which the plane is nearer than that.
+/// The positions of a cut are known in double. Rim points of a later cut lie in its plane only
+/// within the precision of stored positions, and so does a vertex that is closer to the plane than
+/// that.
 constexpr double kExact = 1e-12, kStored = 1e-6;
 
-/// Cuts a copy of the body and looks at what came of it.
+/// Cuts a copy of the body and checks the result.
 struct CutBody {
   SplitTask task;
   SplitCells cells;
@@ -343,8 +344,9 @@ struct CutBody {
   bool is_capped = true;  ///< Everywhere.
 };
 
-/// @param rounding   of the volume, as a part of it.
-/// @param may_touch  the section may touch itself; what does gets no cap.
+///
+/// @param rounding   of the volume, as a fraction of it.
+/// @param may_touch  the section may touch itself; such parts get no cap.
 CutBody cut_and_check(const Character& character, const ModelPose& pose,
                       const std::vector<PlaneCut>& cuts, double rounding, bool may_touch = false) {
   CutBody result;
@@ -368,7 +370,7 @@ CutBody cut_and_check(const Character& character, const ModelPose& pose,
   }
   const std::vector<Body> bodies = bodies_of(model, place);
   for (const Body& body : bodies) EXPECT_TRUE(body.is_closed || !result.is_capped);
-  // What the kernel's points say is what the arrays say.
+  // The kernel's points agree with the arrays.
   const TopologyCounts counts = count_topology(model.character());
   EXPECT_EQ(counts.components, bodies.size());
   EXPECT_EQ(counts.boundary_edges == 0, result.is_capped);
@@ -388,7 +390,7 @@ CutBody cut_and_check(const Character& character, const ModelPose& pose,
   return result;
 }
 
-/// Compares with Manifold where it is installed.
+/// Compares with Manifold if it is installed.
 void compare(const std::vector<CutBody>& bodies) {
   ASSERT_FALSE(bodies.empty());
   if (!test::has_manifold()) return;
@@ -452,8 +454,8 @@ TEST(CutVolume, of_many_cuts_adds_up) {
   compare(bodies);
 }
 
-/// Whether a plane so nearly passes a face, the farthest point of a body or a saddle of it that
-/// stored positions cannot tell it from them: there pieces without volume come off, or the section
+/// Whether a plane passes so close to a face, the farthest point of a body or a saddle point that
+/// stored positions cannot tell them apart: there pieces without volume come off, or the section
 /// touches itself and gets no cap.
 bool grazes(const Character& character, const PlaneCut& cut) {
   constexpr double kNear = 2e-3;
@@ -511,7 +513,7 @@ TEST(CutVolume, of_cuts_through_what_is_modelled_adds_up) {
   compare(bodies);
 }
 
-/// The tests above compare with it where they can; this says by name where they could not.
+/// The tests above compare with Manifold if it is installed; this one reports by name if it is not.
 TEST(CutVolume, is_compared_with_manifold) { SUNDER_SKIP_WITHOUT_MANIFOLD(); }
 
 }  // namespace

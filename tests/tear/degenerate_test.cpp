@@ -1,5 +1,5 @@
-// Every operation on what is hard for it: soups, collapsed and mirrored bones, planes in faces,
-// blades far smaller and far larger than what they meet, tears along, across and into one another.
+// Every operation on difficult input: soups, collapsed and mirrored bones, planes in faces, blades
+// far smaller and far larger than the surface, tears along, across and into one another.
 #include <sunder/skinning/deform.h>
 #include <sunder/skinning/pose.h>
 #include <sunder/tear/tear_stroke.h>
@@ -34,7 +34,7 @@ int count_of_cases(int usual) { return test::stressed(usual, 40); }
 
 Character make_subject(Random& random) {
   const std::uint32_t a = random.index(10),
-                      b = random.index(10);  // in this order with every compiler
+                      b = random.index(10);  // evaluated in this order by every compiler
   switch (random.index(5)) {
     case 0: return test::make_sheet(1 + a);
     case 1: return test::make_tube(2 + a, 3 + b, 3);
@@ -43,7 +43,7 @@ Character make_subject(Random& random) {
   }
 }
 
-/// A pose with bones that are collapsed, mirrored or sheared, or all of them as they are bound.
+/// A pose with bones that are collapsed, mirrored or sheared, or all of them at bind.
 ModelPose hard_pose(const Character& character, Random& random) {
   ModelPose pose =
       random.index(3) == 0 ? bind_pose(character) : test::random_pose(character, random, 0.6, 1.3);
@@ -52,7 +52,7 @@ ModelPose hard_pose(const Character& character, Random& random) {
     Mat3d change = Mat3d::Identity();
     const auto any_entry = [&]() -> double& {
       const std::uint32_t column = random.index(3),
-                          row = random.index(3);  // in this order with every compiler
+                          row = random.index(3);  // evaluated in this order by every compiler
       return change(row, column);
     };
     switch (random.index(6)) {
@@ -68,7 +68,7 @@ ModelPose hard_pose(const Character& character, Random& random) {
   return pose;
 }
 
-/// Where operations are aimed at: the posed surface, its vertices above all.
+/// Targets of operations: the posed surface, mainly its vertices.
 struct Target {
   std::vector<Vec3d> vertices;
   std::vector<std::array<Vec3d, 3>> faces;
@@ -223,7 +223,7 @@ std::string describe(const Bore& bore) {
   return text.str();
 }
 
-/// Processor time that an operation may take on models of some hundred faces.
+/// Limit for the processor time of an operation on models of some hundred faces.
 #if defined(__SANITIZE_ADDRESS__)
 constexpr double kSeconds = 20;
 #else
@@ -237,7 +237,7 @@ class Subject {
         is_clear_(test::is_clear_of_itself(model.source())),
         begin_(test::state_of(model)) {}
 
-  /// Runs one operation and holds the laws against it. Refusals of bad strokes are fine.
+  /// Runs one operation and checks the invariants. Refusals of invalid strokes are accepted.
   template <class Operation>
   void run(const std::string& what, Operation operation) {
     SCOPED_TRACE(what);
@@ -269,8 +269,8 @@ class Subject {
   int done = 0;
 
  private:
-  /// Each piece is all that hangs together with any triangle of it. Triangles that have a point
-  /// twice hang together with none.
+  /// Each piece is the whole connected component of any of its triangles. Triangles with a repeated
+  /// point are connected to none.
   void expect_pieces_are_components(const TearReport& report) {
     if (report.pieces.empty() || !is_clear_) return;
     using Face = std::array<std::uint32_t, 2>;  // mesh, triangle
@@ -342,7 +342,8 @@ void run_hard_operation(Subject& subject, const ModelPose& pose, Random& random)
   }
 }
 
-/// @return how many operations met the surface.
+///
+/// @return number of operations that met the surface.
 int run_hard_operations(std::uint64_t seed) {
   SCOPED_TRACE(seed);
   Random random(seed);
@@ -366,8 +367,8 @@ TEST(Degenerate, operations_on_hard_subjects_in_hard_poses_keep_every_law) {
   EXPECT_GT(done, count);
 }
 
-/// Rings of a bore whose points one face joins; caps back to back with a single face, which the
-/// next cut goes through.
+/// Rings of a bore whose points one face connects; caps back to back with a single face, which the
+/// next cut crosses.
 TEST(Degenerate, walls_and_caps_give_no_edge_a_third_face) {
   for (const std::uint64_t seed : {6367u, 7589u, 9340u, 15940u})
     EXPECT_GT(run_hard_operations(seed), 0);
@@ -377,7 +378,7 @@ TEST(Degenerate, triangles_with_a_point_twice_are_of_no_piece) {
   for (const std::uint64_t seed : {9558u, 13692u, 15125u}) EXPECT_GT(run_hard_operations(seed), 0);
 }
 
-/// Where the surface of a collapsed bone bends away, the plane of two blades leads back past the
+/// Where the surface of a collapsed bone bends away, the plane of two blades leads back behind the
 /// first of them.
 TEST(Degenerate, a_tear_that_could_go_on_before_its_first_blade_comes_to_an_end) {
   Subject subject(test::make_sheet(10));
@@ -440,7 +441,7 @@ TEST(Degenerate, tears_meet_older_tears_in_every_way) {
     const Stroke first = stroke_along({a, middle, b});
     tear(first, any_width(random));
     switch (random.index(8)) {
-      case 0: tear(first, any_width(random)); break;                         // the same once more
+      case 0: tear(first, any_width(random)); break;                         // the same again
       case 1: tear(stroke_along({b, middle, a}), any_width(random)); break;  // and back
       case 2:
         tear(stroke_along({a - 0.3 * (b - a), b + 0.3 * (b - a)}), any_width(random));
@@ -477,7 +478,7 @@ void tear_ring_in_sheet(std::uint64_t seed) {
   Subject subject(test::make_sheet(cells));
   const ModelPose pose = bind_pose(subject.model.source());
   const double y = random.uniform(0.4, 0.6),
-               x = random.uniform(0.4, 0.6);  // in this order with every compiler
+               x = random.uniform(0.4, 0.6);  // evaluated in this order by every compiler
   const Vec2d center(x, y);
   const double radius = random.uniform(0.1, 0.35), begin = random.uniform(0, 6),
                turn = random.index(2) == 0 ? 1 : -1;
@@ -501,12 +502,12 @@ void tear_ring_in_sheet(std::uint64_t seed) {
   const double area = 0.5 * corners * radius * radius * std::sin(2 * std::numbers::pi / corners);
   EXPECT_EQ(count_topology(subject.model.character()).components, 2u);
   ASSERT_EQ(report.pieces.size(), 1u) << describe(stroke, options);
-  // The larger part in faces is what is left, be it the flap.
+  // The part with more faces is the rest, even if it is the flap.
   const double free = report.pieces[0].area_posed, rest = 1 - report.area_removed_posed - free;
   const double perimeter = 2 * corners * radius * std::sin(std::numbers::pi / corners);
   const double rim = 0.5 * options.width * perimeter;
-  // On edges that tears made, places snap by up to 3 % of the faces' longest side: some of them, to
-  // either side.
+  // On edges created by tears, points snap by up to 3 % of the faces' longest side, so some of them
+  // are displaced to either side.
   const double snapped = 0.2 * 0.03 * std::numbers::sqrt2 / cells * perimeter;
   EXPECT_LE(std::min(std::abs(free - area), std::abs(rest - area)), 1.1 * rim + snapped)
       << describe(stroke, options);
@@ -518,7 +519,7 @@ TEST(Degenerate, a_ring_sets_free_what_is_in_it) {
     tear_ring_in_sheet(static_cast<std::uint64_t>(seed));
 }
 
-/// Where the path back snaps beside the place where it began.
+/// The path back snaps next to the place where it began.
 TEST(Degenerate, a_ring_meets_its_begin) {
   for (const std::uint64_t seed : {394u, 2484u, 4306u, 5099u, 5137u, 6481u})
     tear_ring_in_sheet(seed);
@@ -559,15 +560,15 @@ TEST(Degenerate, a_ring_around_a_tube_takes_it_apart) {
     tear_ring_around_tube(static_cast<std::uint64_t>(seed));
 }
 
-/// Where the middle of the gap runs along an edge, nearer to it than stored coordinates tell apart,
-/// or meets edges at a slant there.
+/// The middle of the gap runs along an edge, closer to it than stored coordinates can resolve, or
+/// meets edges there at a small angle.
 TEST(Degenerate, a_gap_along_an_edge_is_not_blocked) {
   for (const std::uint64_t seed : {932u, 1714u, 1983u, 2170u, 4049u, 8188u, 9529u, 10878u})
     tear_ring_around_tube(seed);
 }
 
-/// Where the second of two blades at an edge of the tube sees the face that the tear comes from at
-/// a slant from behind.
+/// The second of two blades at an edge of the tube sees the face from which the tear comes
+/// obliquely from behind.
 TEST(Degenerate, a_gap_goes_across_faces_that_turn_away_from_the_blade) {
   for (const std::uint64_t seed : {779u, 3858u, 7523u}) tear_ring_around_tube(seed);
 }

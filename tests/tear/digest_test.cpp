@@ -1,4 +1,4 @@
-// The digest stands for all bits of a model.
+// The digest depends on all bits of a model.
 
 #include <sunder/tear/torn_model.h>
 
@@ -15,7 +15,7 @@ namespace {
 
 using test::make_model;
 
-/// Makes the least change that a float can have.
+/// Makes the smallest change of a float.
 void flip_last_bit(float& value) {
   value = std::bit_cast<float>(std::bit_cast<std::uint32_t>(value) ^ 1u);
 }
@@ -72,9 +72,8 @@ TEST(Digest, is_restored_by_undo_and_redo) {
   }
 }
 
-/// The same bits from every compiler, at every optimisation level: the only test that can say so is
-/// one number that all builds must find. It changes only with a change that means to change what
-/// operations give.
+/// The same bits from every compiler, at every optimisation level. Only a number that all builds
+/// must reproduce can test this. It changes only when the results of operations change on purpose.
 TEST(Digest, of_a_fixed_history_is_the_same_in_every_build) {
   TornModel model = make_model(test::make_tube(12, 16, 3));
   ModelPose pose{{model.source().skeleton.bones.size(), Affine3d::Identity()},

@@ -31,8 +31,8 @@ std::vector<std::uint32_t> random_elements(Random& random, std::uint32_t size, d
   return elements;
 }
 
-/// The fewest elements that `ranges` ranges cover: each way to cut the runs into groups, by
-/// recursion over where the first ends.
+/// The smallest number of elements that `ranges` ranges can cover: tries each way to divide the
+/// runs into groups, by recursion over the end of the first group.
 std::uint32_t least_cover(std::span<const IndexRange> runs, std::size_t ranges) {
   if (runs.empty()) return 0;
   if (ranges == 0) return kNone;

@@ -1,4 +1,4 @@
-// Areas of gaps and bores against formulas and against clipping triangle by triangle.
+// Compares areas of gaps and bores with formulas and with clipping triangle by triangle.
 #include <sunder/skinning/deform.h>
 #include <sunder/skinning/pose.h>
 #include <sunder/tear/topology.h>
@@ -72,7 +72,7 @@ TEST(Gap, of_a_turning_stroke_is_mitred) {
       stroke.push_back(down_at(x, y));
       x += 0.09 * std::cos(heading);
       y += 0.09 * std::sin(heading);
-      // Back to the middle before it leaves the sheet.
+      // Returns to the middle before it leaves the sheet.
       heading = std::clamp(heading + random.uniform(y < 0.3 ? 0.0 : -1.5, y > 0.7 ? 0.0 : 1.5),
                            -1.2, 1.2);
     }
@@ -112,7 +112,7 @@ TEST(Gap, at_a_sharp_turn_is_bevelled_and_has_no_spike) {
   }
 }
 
-/// The cell that a blade of some thickness sweeps when it moves without turning.
+/// The cell that a blade of the given thickness sweeps when it moves without turning.
 test::ConvexCell band_cell(const Stroke& stroke, double width) {
   const Vec3d blade = stroke[0].tip - stroke[0].base, motion = stroke[1].base - stroke[0].base;
   const Vec3d normal = motion.cross(blade).normalized();
@@ -151,7 +151,7 @@ TEST(Gap, is_what_clipping_each_face_finds_in_any_pose) {
     const auto report = model.tear(pose, stroke, options);
     ASSERT_TRUE(report);
     expect_sound(model);
-    // The nearest layer may be all or part of what the cell holds.
+    // The nearest layer is all or a part of the surface in the cell.
     if (options.layers == Layers::nearest && report->area_removed_posed < 0.999 * inside) continue;
     ++compared;
     EXPECT_NEAR(report->area_removed_posed, inside, 1e-6 * inside);
@@ -179,7 +179,7 @@ TEST(Bore, is_what_clipping_each_face_finds_in_any_pose) {
     const auto report = model.drill(pose, bore);
     ASSERT_TRUE(report);
     expect_sound(model);
-    // The prism stands in the cylinder and is at most the tolerance thinner.
+    // The prism is inside the cylinder and at most thinner by the tolerance.
     const auto cylinder = [&](double radius) {
       return test::clipped_area(model.source(), pose,
                                 test::prism(bore.origin, bore.direction, radius, bore.depth, 720));

@@ -1,4 +1,4 @@
-// Faces that are crossed in one pass, without a tear around it.
+// Faces that are crossed in one pass, without a complete tear.
 #include "tear/surface/line_splitter.h"
 
 #include <map>
@@ -29,7 +29,7 @@ Character some_rig(Random& random) {
   }
 }
 
-/// What is wrong with how faces and points know one another.
+/// Faults in the references between faces and points.
 std::vector<std::string> broken_connections(const SurfaceEditor& editor) {
   std::vector<std::string> broken;
   const Surface& surface = editor.surface();
@@ -60,7 +60,7 @@ std::vector<std::string> broken_connections(const SurfaceEditor& editor) {
   return broken;
 }
 
-/// Of each origin of mesh 0 and up: how much of it its parts cover.
+/// Per origin of mesh 0 and later meshes: the fraction that its parts cover.
 std::map<std::array<Index, 2>, double> cover(const SurfaceEditor& editor) {
   std::map<std::array<Index, 2>, double> covered;
   for (Index face = 0; face < editor.surface().triangle_count(); ++face) {
@@ -136,7 +136,7 @@ TEST(LineSplitter, splits_faces_and_keeps_the_surface) {
       for (std::size_t i = 1; i < path.size(); ++i)
         ASSERT_NE(surface.find_half_edge(path[i - 1], path[i]), kNone);
 
-      // The other diagonal of what a face has beside the lost corner is not better.
+      // The other diagonal of the quadrilateral next to the lost corner is not better.
       for (const Index face : in_three)
         for (Index h = 3 * face; h < 3 * face + 3; ++h) {
           const Index other = surface.twin[h];

@@ -1,5 +1,5 @@
 // Prints digests of torn models, one per line. tests/CMakeLists.txt builds this program twice, with
-// and without the vector instructions of Eigen, and compares what the two print.
+// and without Eigen's vector instructions, and compares the outputs.
 
 #include <sunder/tear/torn_model.h>
 
@@ -18,8 +18,8 @@ using test::Random;
 
 constexpr std::uint32_t kBones = 3;
 
-/// Matrices with random entries near those at rest. Random bits alone: what they are computed with
-/// must not depend on the build.
+/// Matrices with random entries near those at rest. Their computation must not depend on the build,
+/// so they consist of random bits only.
 ModelPose make_pose(const Character& character, Random& random) {
   ModelPose pose{{character.skeleton.bones.size(), Affine3d::Identity()},
                  character.rest_morph_weights};

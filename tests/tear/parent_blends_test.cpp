@@ -16,7 +16,7 @@
 namespace sunder {
 namespace {
 
-/// What the pass of docs/weights.md does.
+/// The computation of the pass in docs/weights.md.
 void blend(const ParentBlends& parents, std::vector<Vec3f>& positions) {
   for (std::size_t level = 0; level + 1 < parents.level_begin.size(); ++level)
     for (std::uint32_t i = parents.level_begin[level]; i < parents.level_begin[level + 1]; ++i) {

@@ -1,5 +1,5 @@
-// Where a pose may put patches of the surface holds in every pose, and queries that rely on it find
-// what looking at every face finds.
+// The bounds of surface patches hold in every pose, and queries that rely on them find the same as
+// testing every face.
 #include "tear/posed/patch_forest.h"
 
 #include <sunder/skinning/deform.h>
@@ -36,7 +36,7 @@ std::uint64_t count_of_cases(std::uint64_t usual) {
   return std::getenv("SUNDER_STRESS") != nullptr ? 40 * usual : usual;
 }
 
-/// A model that is torn from within.
+/// A model with random tears.
 class Torn {
  public:
   explicit Torn(Character of)
@@ -50,7 +50,7 @@ class Torn {
   }
 
   void operate(Random& random) {
-    if (!has_area()) return;  // then there is no place for a stroke
+    if (!has_area()) return;  // then a stroke has no target
     const auto model = TornModel::create(std::make_shared<const Character>(source));
     const Operation operation = test::random_operation(*model, random);
     const EditLog::Mark begin = editor.mark();
@@ -128,11 +128,12 @@ Character some_rig(Random& random) {
     case 3: character = test::make_bumpy_ball(100 + random.index(500)); break;
     default: {
       const std::uint32_t rings = 3 + random.index(20),
-                          sides = 5 + random.index(20);  // in this order with every compiler
+                          // evaluated in this order by every compiler
+          sides = 5 + random.index(20);
       character = test::make_tube(rings, sides, 2 + random.index(9));
     }
   }
-  // More targets, of which one moves nothing and one only a part.
+  // More targets, one of which moves nothing and one only a part.
   Mesh& mesh = character.meshes[0];
   for (const char* name : {"none", "some", "much"}) {
     MorphTarget target{name, std::vector<Vec3f>(mesh.vertex_count(), Vec3f::Zero()), {}, {}};
@@ -191,8 +192,8 @@ bool holds(const Shadow& shadow, const Vec3d& point) {
   return is_held;
 }
 
-/// A live face that is not found in just one patch, or a posed point outside of a box that should
-/// hold it.
+/// Reports a live face that is not in exactly one patch, or a posed point outside a box that should
+/// contain it.
 std::vector<std::string> broken_bounds(Torn& torn, Random& random) {
   std::vector<std::string> broken;
   PatchForest& forest = torn.posed.forest();
@@ -347,7 +348,7 @@ TEST(PatchForest, finds_what_looking_at_every_face_finds) {
             << say_hit(found) << " instead of " << say_hit(expected);
         hits += found ? 1 : 0;
 
-        // A second blade that is turned and moved against the first.
+        // A second blade that is rotated and moved relative to the first.
         const Vec3d along = blade.tip - blade.base,
                     aside = random.uniform(0.01, 1) * along.norm() * random.direction();
         const Vec3d turn = random.uniform(0, 0.6) * along.norm() * random.direction();
@@ -363,7 +364,7 @@ TEST(PatchForest, finds_what_looking_at_every_face_finds) {
           contacts += contact ? 1 : 0;
         }
 
-        // A box, of which some sides may be left out.
+        // A box, some sides of which may be missing.
         const Mat3d box = axes_along(along, random.direction());
         Cell cell;
         for (int k = 0; k < 3; ++k)
@@ -418,7 +419,7 @@ TEST(PatchForest, a_sweep_in_one_plane_begins_where_its_blade_stands) {
       const auto plane = BladePlane::through(hit->position, from, to);
       ASSERT_TRUE(plane);
       const auto contact = contact_at(*hit, *plane, torn.editor, torn.posed);
-      if (!contact) continue;  // the sweep goes on across another face
+      if (!contact) continue;  // the sweep continues on another face
       const auto expected = test::scan_for_contact(*plane, 0, torn.editor, torn.posed);
       ASSERT_TRUE(expected);
       EXPECT_LT((contact->position - hit->position).norm(), 1e-6 * size);

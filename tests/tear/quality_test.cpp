@@ -1,4 +1,4 @@
-// What many tears on top of one another leave of the faces.
+// The quality of faces after many tears on top of one another.
 #include <sunder/tear/torn_model.h>
 
 #include <cmath>
@@ -34,8 +34,8 @@ TEST_P(FaceQuality, stays_above_what_snapping_leaves) {
         test::random_stroke(model->source(), pose, random, length, 1 + random.index(6));
     const auto report = model->tear(pose, stroke);
     ASSERT_TRUE(report);
-    // A face crossed is split in two at each of the edges that the path passes; an end inside a
-    // face takes two more at most, and so does the point in the middle of a tear of one edge.
+    // A crossed face is split in two at each edge that the path passes; an end inside a face adds
+    // at most two faces, and so does the point in the middle of a tear of one edge.
     EXPECT_LE(report->triangles_added,
               2 * report->faces_crossed + 2 * (report->segments + 2 * report->runs))
         << "tear " << i;
@@ -45,11 +45,11 @@ TEST_P(FaceQuality, stays_above_what_snapping_leaves) {
   EXPECT_THAT(test::broken_laws(*model), IsEmpty());
   EXPECT_THAT(test::broken_surface(*model), IsEmpty());
 
-  // A path keeps away from the ends of edges that tears made by kSliver of the longest side. A face
-  // that it leaves there has a side as short as that between two long ones; where these meet the
-  // source's smallest angle, its own is that angle's sine times kSliver. Nearer than that come
-  // tips, edges of the source that are crossed for the first time, and lips that meet: half of the
-  // floor is for them.
+  // A path keeps away from the ends of edges created by tears by kSliver of the longest side. A
+  // face that it leaves there has such a short side between two long ones. If these meet at the
+  // source's smallest angle, its own angle is the sine of that times kSliver. Tips, edges of the
+  // source that are crossed for the first time, and lips that meet may be closer: half of the floor
+  // allows for them.
   const test::FaceQuality quality = test::face_quality(*model);
   EXPECT_EQ(quality.faces_without_area, 0u);
   EXPECT_GT(quality.angle_at(0.01), 0.5 * tear::kSliver *

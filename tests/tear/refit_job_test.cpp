@@ -1,4 +1,4 @@
-// Weights fitted beside the frame.
+// Weights fitted in the background.
 
 #include <sunder/skinning/pose.h>
 #include <sunder/tear/refit_job.h>

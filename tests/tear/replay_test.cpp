@@ -30,7 +30,7 @@ TornModel replay(const Character& source, const std::vector<Operation>& history)
   return model;
 }
 
-/// A stroke whose character moves on with every blade.
+/// A stroke on a character that moves between the blades.
 void tear_in_motion(TornModel& model, Random& random, bool has_width) {
   TearOperation tear = test::random_tear(model, random, has_width);
   auto stroke =

@@ -1,4 +1,4 @@
-// The sides of gaps in a change record, and what a record says when an operation is done again.
+// The sides of gaps in a change record, and the record of a repeated operation.
 #include <sunder/skinning/deform.h>
 #include <sunder/skinning/pose.h>
 #include <sunder/tear/change_record.h>
@@ -23,7 +23,7 @@ using test::down_at;
 using test::make_model;
 using test::Random;
 
-/// Where the points that have a face stand in a pose.
+/// Posed positions of the points that have a face.
 std::map<std::uint32_t, Vec3d> posed_points(const TornModel& model, const ModelPose& pose) {
   std::map<std::uint32_t, Vec3d> places;
   for (std::uint32_t m = 0; m < model.character().meshes.size(); ++m) {
@@ -36,7 +36,7 @@ std::map<std::uint32_t, Vec3d> posed_points(const TornModel& model, const ModelP
   return places;
 }
 
-/// The middle of the faces that a point has.
+/// The mean of the centres of a point's faces.
 Vec3d middle_of_fan(std::uint32_t point, const TornModel& model,
                     const std::map<std::uint32_t, Vec3d>& places) {
   const tear::Surface& surface = model.surface();
@@ -69,7 +69,7 @@ void expect_listed_well(const Rims& rims, const TornModel& model, bool has_wall 
   }
 }
 
-/// A straight segment that a blade sweeps without turning, and the plane of it.
+/// A straight segment that a blade sweeps without turning, and its plane.
 struct Segment {
   Stroke stroke;
   Vec3d left;
@@ -102,8 +102,8 @@ TEST(Rims, are_the_border_at_half_the_width_of_a_segment) {
     const std::uint32_t cells = 2 + random.index(12), sides = 5 + random.index(12);
     TornModel model =
         make_model(is_sheet ? test::make_sheet(cells) : test::make_tube(cells + 2, sides, 3));
-    // Where bones turn apart, points of the older tear stand elsewhere than the surface that the
-    // gap is found on.
+    // Where bones turn apart, points of the older tear are off the surface on which the gap is
+    // found.
     const bool is_torn_before = random.index(2) == 0;
     const ModelPose pose = is_torn_before ? test::random_pose(model.source(), random, 0.0, 1.0)
                                           : test::random_pose(model.source(), random, 0.6, 1.2);
@@ -160,9 +160,9 @@ TEST(Rims, are_the_border_at_half_the_width_of_a_segment) {
   EXPECT_GT(within, 30);
 }
 
-/// Of the lips of a tear without width: whether the left ones have their faces left of the segment,
-/// in the sense of Segment::left.
-/// @return +1, -1, or 0 where some do and some do not.
+/// For the lips of a tear without width: whether the left ones have their faces left of the
+/// segment, in the sense of Segment::left.
+/// @return +1, -1, or 0 if they are on both sides.
 int side_of_left_lips(const ChangeRecord& change, const TornModel& model, const ModelPose& pose,
                       const Segment& segment) {
   const auto places = posed_points(model, pose);
@@ -204,8 +204,8 @@ TEST(Rims, have_the_sides_of_the_lips_that_the_stroke_makes_without_width) {
   const Segment from_below({{0.2, 0.41, -0.5}, {0.2, 0.41, 0.5}}, {0.5, 0.13, 0});
   expect_sides_of_lips(sheet, flat, from_above, Layers::nearest, 0.04, 1);
   expect_sides_of_lips(sheet, flat, from_above, Layers::all, 0.04, 1);
-  // Seen from outside, left of such a stroke is where the blade has its right; a sheet through all
-  // layers goes by the blade.
+  // Seen from outside, the left of such a stroke is the blade's right; a sheet through all layers
+  // uses the blade's sides.
   expect_sides_of_lips(sheet, flat, from_below, Layers::nearest, 0.04, -1);
   expect_sides_of_lips(sheet, flat, from_below, Layers::all, 0.04, 1);
   const Character tube = test::make_tube(9, 12, 3);
@@ -214,9 +214,9 @@ TEST(Rims, have_the_sides_of_the_lips_that_the_stroke_makes_without_width) {
   expect_sides_of_lips(tube, bind_pose(tube), across, Layers::all, 0.05, 1);
 }
 
-/// Walks each border loop that has points of rims: it goes along one side, then along the other,
-/// with nothing between but the ends.
-/// @return how many such loops there are.
+/// Walks each border loop that has points of rims: it must follow one side, then the other, with
+/// only the ends between them.
+/// @return number of such loops.
 int count_loops_of_two_sides(const Rims& rims, const TornModel& model) {
   const tear::Surface& surface = model.surface();
   std::map<std::uint32_t, std::uint32_t> next;
@@ -225,7 +225,7 @@ int count_loops_of_two_sides(const Rims& rims, const TornModel& model) {
       next[surface.corner_point[h]] = surface.corner_point[tear::Surface::next(h)];
   int loops = 0;
   while (!next.empty()) {
-    std::string sides;  // l, r and - for neither, each run once
+    std::string sides;  // a run each: l, r, or - for neither
     const std::uint32_t first = next.begin()->first;
     for (std::uint32_t point = first; next.contains(point);) {
       const char side = std::ranges::binary_search(rims.left, point)    ? 'l'
@@ -238,8 +238,8 @@ int count_loops_of_two_sides(const Rims& rims, const TornModel& model) {
     }
     if (sides == "-") continue;
     ++loops;
-    // An end is the straight edge between two corners, or has points of the surface's own edges in
-    // it.
+    // An end is the straight edge between two corners, or contains points of the surface's own
+    // edges.
     std::erase(sides, '-');
     sides.erase(std::unique(sides.begin(), sides.end()), sides.end());
     if (sides.size() > 1 && sides.front() == sides.back()) sides.pop_back();
@@ -288,7 +288,7 @@ TEST(Rims, go_around_a_bevel_on_the_outer_side) {
     ASSERT_TRUE(model.tear(pose, stroke, options, &change));
     expect_listed_well(change.rims, model);
     EXPECT_EQ(count_loops_of_two_sides(change.rims, model), 1);
-    // What is beyond the turn is outer.
+    // Points beyond the turn are on the outer side.
     const auto& outer = degrees > 0 ? change.rims.right : change.rims.left;
     const auto& inner = degrees > 0 ? change.rims.left : change.rims.right;
     const auto places = posed_points(model, pose);
@@ -300,7 +300,7 @@ TEST(Rims, go_around_a_bevel_on_the_outer_side) {
   }
 }
 
-/// Sides as several records tell them, one after another: of each point that has a face in the end.
+/// Sides from several records in order, for each point that still has a face at the end.
 Rims sum_of(const std::vector<ChangeRecord>& changes, const TornModel& model) {
   std::map<std::uint32_t, bool> is_left;
   for (const ChangeRecord& change : changes) {
@@ -327,7 +327,7 @@ void expect_told(const ChangeRecord& change, const std::vector<LipPair>& lips, c
   EXPECT_EQ(change.rims.right, rims.right);
 }
 
-/// Tears blade by blade. @param other  where given, the pose of every second blade.
+/// Tears blade by blade. @param other  if given, the pose of every second blade.
 std::vector<ChangeRecord> tear_by_calls(TornModel& model, const TearOperation& tear,
                                         const ModelPose* other = nullptr) {
   const auto& pose = std::get<ModelPose>(tear.pose);
@@ -367,7 +367,7 @@ TEST(Rims, of_a_stroke_by_calls_are_in_sum_those_of_the_tear) {
   EXPECT_GT(told, 150);
 }
 
-/// What an operation said when it was done.
+/// The records of an operation when it was done.
 struct Said {
   std::vector<LipPair> lips;
   Rims rims;

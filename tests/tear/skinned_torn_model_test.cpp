@@ -1,4 +1,4 @@
-// A runtime mesh that follows a torn model: by what changed, and to the bits of one made anew.
+// A SkinnedMesh that follows a torn model by its changes has the bits of a new one.
 
 #include <sunder/skinning/skinned_mesh.h>
 #include <sunder/tear/torn_model.h>
@@ -14,7 +14,7 @@
 namespace sunder {
 namespace {
 
-/// A mesh's buffers with room for more.
+/// A mesh's buffers with additional room.
 struct Runtime {
   explicit Runtime(const Character& character)
       : made(std::move(
@@ -74,8 +74,8 @@ TEST(SkinnedTornModel, follows_tears_undo_and_redo_and_lips_stay_closed) {
         runtime.follow(model->character(), of_mesh.first_vertex);
       runtime.frame(model->character(), test::random_pose(*source, random));
       runtime.expect_as_made_anew(model->character());
-      // Wherever two vertices are one point of the bind surface with the same weights, the pose
-      // keeps them together, bit for bit.
+      // Vertices that are one point of the bind surface with the same weights stay together in the
+      // pose, bit for bit.
       for (const MeshChange& of_mesh : change.meshes) {
         const Mesh& mesh = model->character().meshes[0];
         for (std::uint32_t v = of_mesh.first_vertex; v < mesh.vertex_count(); ++v)
@@ -106,7 +106,7 @@ TEST(SkinnedTornModel, frames_and_updates_with_room_do_not_allocate) {
   std::vector<ModelPose> poses;
   for (int i = 0; i < 10; ++i) poses.push_back(test::random_pose(*source, random));
   runtime.frame(*source, poses[0]);
-  runtime.frame(*source, poses[1]);  // the first that writes only what changed
+  runtime.frame(*source, poses[1]);  // the first that writes only changed vertices
   for (int i = 0; i < 10; ++i) {
     ChangeRecord change;
     (void)model->tear(poses[0], test::random_stroke(model->character(), poses[0], random), {},

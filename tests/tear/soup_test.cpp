@@ -1,6 +1,5 @@
-// Surfaces that nobody would model: random triangles on a coarse grid, with edges of many faces,
-// duplicate and flipped faces, faces without area, vertices that nothing uses. Tearing them must do
-// no harm.
+// Triangle soups: random triangles on a coarse grid, with edges of many faces, duplicate and
+// flipped faces, faces without area, unused vertices. Tearing them must keep the invariants.
 #include <sunder/tear/topology.h>
 #include <sunder/tear/torn_model.h>
 
@@ -35,7 +34,7 @@ TEST(Soup, tears_do_no_harm) {
         return on_grid ? random.index(5) * 0.5 : random.uniform(-0.5, 3);
       };
       Vec3d at{coordinate(), coordinate(),
-               coordinate()};  // braces: in this order with every compiler
+               coordinate()};  // Braces evaluate in this order with every compiler.
       const Vec3d blade = on_grid ? Vec3d(Vec3d::Unit(random.index(3))) : random.direction();
       for (std::uint32_t b = 0; b < 2 + random.index(3); ++b) {
         stroke.push_back({at + 3 * blade, at - random.uniform(0, 3) * blade});

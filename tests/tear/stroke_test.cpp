@@ -174,8 +174,8 @@ TEST(TearStroke, bad_options_are_refused_at_its_begin) {
       << "none of these is under way";
 }
 
-/// Blades and their times; extends a stroke by them, and expects those at `taken`, and the last
-/// one, to be all that is torn.
+/// Extends a stroke by blades at some times, and expects that exactly the blades at `taken`, and
+/// the last one, are torn.
 void expect_taken(const std::vector<std::pair<Blade, double>>& blades,
                   const StrokeSampling& sampling, const std::vector<std::size_t>& taken,
                   double width) {
@@ -342,7 +342,7 @@ TEST(TearStroke, is_one_operation_to_undo) {
   }
 }
 
-/// A blade at a place (u, v) of the posed sheet of `cells` squares, along its normal there.
+/// A blade at position (u, v) of the posed sheet of `cells` squares, along its normal there.
 Blade on_posed_sheet(const Character& sheet, const ModelPose& pose, std::uint32_t cells, double u,
                      double v) {
   const auto positions = test::posed_positions(sheet, 0, pose);
@@ -374,7 +374,7 @@ TEST_P(StrokesInMotion, go_on_from_the_tip_and_leave_no_bridge) {
       begin(model, first, on_posed_sheet(model.source(), first, cells, 0.2, height(0.2)), options);
   for (int i = 1; i <= 6; ++i) {
     const ModelPose now =
-        i == 1 ? first : pose();  // until something is torn there is no tip to go on from
+        i == 1 ? first : pose();  // until something is torn there is no tip to continue from
     const double u = 0.2 + 0.1 * i;
     const auto report =
         stroke.extend(now, on_posed_sheet(model.source(), now, cells, u, height(u)));
@@ -407,7 +407,7 @@ TEST(TearStroke, goes_on_where_its_character_leaps_farther_than_the_blade_reache
     TearStroke stroke = begin(model, pose, down_at(0.2, 0.3), options);
     for (int i = 1; i <= 5; ++i) {
       Affine3d leap = Affine3d::Identity();
-      if (i > 1) {  // until something is torn there is no tip to go on from
+      if (i > 1) {  // until something is torn there is no tip to continue from
         leap = Eigen::AngleAxisd{random.uniform(-0.3, 0.3), random.direction()};
         leap.pretranslate(Vec3d(3 * random.direction()));
       }

@@ -7,7 +7,7 @@
 namespace sunder {
 namespace {
 
-/// Triangles of one rigid bone, each corner a vertex of its own: what is joined is joined by
+/// Triangles on one rigid bone, each corner with its own vertex, so that they are joined only by
 /// position.
 Character make_soup(const std::vector<std::array<Vec3f, 3>>& triangles) {
   Character character = test::make_sheet(1);
@@ -75,7 +75,7 @@ TEST(Topology, coincident_points_with_other_weights_sides_or_morphs_are_separate
     change(character.meshes[0]);
     return count_topology(character).boundary_edges;
   };
-  const std::uint32_t first = 0, last = 8;  // the first ring's two ends of the seam
+  const std::uint32_t first = 0, last = 8;  // the two ends of the first ring, at the seam
   EXPECT_EQ(borders_after([](Mesh&) {}), 0u);
   EXPECT_GT(borders_after([&](Mesh& mesh) { mesh.morph_targets[0].position_deltas[last] *= 2.0f; }),
             0u);

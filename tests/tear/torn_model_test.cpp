@@ -191,7 +191,7 @@ TEST(TornModel, tears_in_a_pose_with_a_collapsed_bone_without_harm) {
 
 TEST(TornModel, keeps_every_law_at_any_scale_and_far_from_the_origin) {
   Random random(31);
-  // The last of each scale rounds the mesh to a few hundred float steps across.
+  // The last scale of each rounds the mesh to a size of a few hundred float steps.
   for (const auto& [scale, offset] : {std::pair{1e-5f, 0.0f},
                                       {1e-5f, 0.2f},
                                       {1e-2f, 1e2f},
@@ -233,13 +233,13 @@ TEST(TornModel, the_same_tears_give_the_same_bits) {
 }
 
 /// The section of a posed mesh with the parallelogram that a blade sweeps when it moves without
-/// turning: clipped triangle by triangle, independent of the kernel. Intervals are in [0, 1] along
-/// the motion.
+/// turning: clipped triangle by triangle, independently of the kernel. Intervals are in [0, 1]
+/// along the motion.
 struct Section {
   double length = 0;
   std::vector<std::array<double, 2>> intervals;
 
-  /// Whether the blade meets one layer at most at any time.
+  /// Whether the blade meets at most one layer at any time.
   [[nodiscard]] bool is_single_layer() {
     std::sort(intervals.begin(), intervals.end());
     for (std::size_t i = 0; i + 1 < intervals.size(); ++i)
@@ -296,7 +296,7 @@ TEST(TornModel, tears_the_whole_section_of_surface_and_sweep) {
     const Vec3d motion = around[1].base - around[0].base;
     const Stroke stroke = {around[0], {around[0].base + motion, around[0].tip + motion}};
     Section section = section_of(character, pose, stroke[0], motion);
-    if (!section.is_single_layer()) continue;  // there, what is nearest decides
+    if (!section.is_single_layer()) continue;  // the result depends on which layer is nearest
     TornModel model = make_model(character);
     const auto report = model.tear(pose, stroke);
     ASSERT_TRUE(report);

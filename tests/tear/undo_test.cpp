@@ -25,14 +25,14 @@ using test::Random;
 using test::state_of;
 using testing::IsEmpty;
 
-/// Plays random operations. @return the state before each that can be taken back, and the last.
+/// Applies random operations. @return the state before each that can be undone, and the last state.
 std::vector<ModelState> play_random(TornModel& model, Random& random, int count) {
   std::vector<ModelState> states = {state_of(model)};
   for (int i = 0; i < count; ++i) {
     const std::uint32_t before = model.undo_count();
     const auto report = test::play(model, test::random_operation(model, random));
     EXPECT_TRUE(report) << report.error().text();
-    if (model.undo_count() == before)  // a miss need not be remembered
+    if (model.undo_count() == before)  // a miss need not be recorded
       EXPECT_EQ(difference(state_of(model), states.back()), "");
     else
       states.push_back(state_of(model));

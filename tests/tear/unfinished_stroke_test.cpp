@@ -1,4 +1,4 @@
-// Strokes whose calls fail for want of room, that are cancelled, or that nobody ends.
+// Strokes whose calls fail because there is no room, that are cancelled, or that are never ended.
 #include <sunder/skinning/deform.h>
 #include <sunder/skinning/pose.h>
 #include <sunder/tear/tear_stroke.h>
@@ -25,7 +25,7 @@ using test::Random;
 using test::state_of;
 using testing::IsEmpty;
 
-/// A stroke to be torn blade by blade, and the pose in which each blade comes.
+/// A stroke to be torn blade by blade, and the pose of each blade.
 struct MovingStroke {
   TearOptions options;
   StrokeSampling sampling;
@@ -33,8 +33,8 @@ struct MovingStroke {
   std::vector<ModelPose> poses;
 };
 
-/// With a width, walls, both or neither, over one layer or all, in one pose or several; some hold
-/// blades back.
+/// With a width, walls, both or neither, on one layer or all, in one pose or several; some skip
+/// blades.
 MovingStroke random_moving_stroke(const Character& source, Random& random) {
   MovingStroke stroke;
   const ModelPose first = test::random_pose(source, random, 0.3, 1.0);
@@ -60,8 +60,8 @@ Result<TearStroke> begin(TornModel& model, const MovingStroke& stroke) {
                             stroke.sampling);
 }
 
-/// A model with an operation to undo and one to redo, and what it has to be again once a stroke was
-/// taken back.
+/// A model with an operation to undo and one to redo, and its state, to which it must return when a
+/// stroke is cancelled.
 struct Stage {
   TornModel model;
   test::ModelState before;
@@ -88,7 +88,8 @@ struct Stage {
     EXPECT_THAT(test::broken_surface(model), IsEmpty());
   }
 
-  /// As before, and every later call does what it does on `other`, on which there was no stroke.
+  /// Equals the state before, and every later call has the same result as on `other`, which had no
+  /// stroke.
   void expect_as_if_there_was_no_stroke(Stage& other, Random& random) {
     expect_as_before();
     const auto expect_same = [&] { EXPECT_EQ(model.digest(), other.model.digest()); };
@@ -112,12 +113,12 @@ struct Stage {
   }
 };
 
-/// How often the calls of the strokes below failed, so that no test passes without one that did.
+/// The number of failed calls of the strokes below, so that no test passes without a failure.
 struct Failures {
   int extensions = 0, ends = 0, ended = 0, went_on = 0;  ///< `went_on`: ended after a failure.
 };
 
-/// Fine enough for a stroke to need hundreds of vertices.
+/// Fine enough for strokes that need hundreds of vertices.
 Character fine_character(Random& random) {
   if (random.index(2) == 0) return test::make_sheet(8 + random.index(17));
   const std::uint32_t rings = 8 + random.index(9), sides = 10 + random.index(11);
@@ -135,7 +136,7 @@ void run_out_of_room(std::uint64_t seed, Failures& failures) {
   }
   const MovingStroke tear = random_moving_stroke(character, random);
   const TornCapacity ample{100000, 100000, 10};
-  // Room for what came before, and for 20 to 300 vertices of what comes.
+  // Room for the earlier operations, and for 20 to 300 vertices of later ones.
   Stage other(character, operations, ample);
   if (other.model.redo_count() > 0) (void)other.model.redo();
   TornCapacity room{20 + random.index(seed % 2 == 0 ? 60 : 281), 0, 10};

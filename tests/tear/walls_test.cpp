@@ -53,7 +53,7 @@ TEST(Walls, of_a_tear_hang_from_its_lips) {
     ASSERT_TRUE(without.tear(pose, along_tube(), {width, Layers::nearest, 0.0}));
     const TopologyCounts counts = count_topology(model.character()),
                          bare = count_topology(without.character());
-    // Two triangles on each border edge, whose lower edges are a border as long.
+    // Two triangles per border edge, whose lower edges form a border of the same length.
     EXPECT_EQ(counts.triangles, bare.triangles + 2 * bare.boundary_edges);
     EXPECT_EQ(counts.boundary_edges, bare.boundary_edges);
     EXPECT_EQ(counts.boundary_loops, 1u);
@@ -63,7 +63,7 @@ TEST(Walls, of_a_tear_hang_from_its_lips) {
     EXPECT_EQ(mesh.submeshes.back().name, "wall");
     EXPECT_EQ(mesh.submeshes.size(), model.source().meshes[0].submeshes.size() + 1);
     // Everything lies within the depth below the surface of the tube (radius about 0.5), and
-    // something lies that deep.
+    // something lies at that depth.
     const auto radius = [&](std::uint32_t v) {
       return std::hypot(mesh.positions[v].x(), mesh.positions[v].z());
     };

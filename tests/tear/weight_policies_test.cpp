@@ -1,5 +1,4 @@
-// Points weighed by each policy: where they stand, what does not depend on it, and what is given
-// back.
+// Points weighed by each policy: their positions, independence of the topology, and undo.
 
 #include <sunder/skinning/deform.h>
 #include <sunder/skinning/skinned_mesh.h>

@@ -1,4 +1,4 @@
-// Compares signs with integer arithmetic, on points that are on one line or circle up to the last
+// Compares signs with integer arithmetic, on points that are on one line or circle within the last
 // bit.
 #include "tear/section/exact_predicates.h"
 

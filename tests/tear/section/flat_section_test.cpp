@@ -1,5 +1,5 @@
-// Flat regions of all shapes, in seeded random order of badness: what comes back is a constrained
-// Delaunay triangulation or nothing.
+// Flat regions of all shapes, random and degenerate: the result is a constrained Delaunay
+// triangulation or nothing.
 #include "tear/section/flat_section.h"
 
 #include <algorithm>
@@ -40,7 +40,7 @@ Vec2d polar(double angle, double radius) {
   return {radius * std::cos(angle), radius * std::sin(angle)};
 }
 
-/// Around `centre`, between 0.6 and 1 of `radius` away from it.
+/// Around `centre`, at a distance between 0.6 and 1 of `radius`.
 FlatLoop star(Random& random, std::uint32_t count, const Vec2d& centre, double radius) {
   FlatLoop loop;
   const bool is_smooth = random.index(2) == 0;
@@ -84,7 +84,7 @@ FlatLoop comb(int teeth, double depth) {
   return loop;
 }
 
-/// Puts points on the edges: exactly on one line with their ends where coordinates allow it.
+/// Adds points on the edges: exactly collinear if coordinates allow it.
 FlatLoop refined(const FlatLoop& loop, int parts) {
   FlatLoop result;
   for (std::size_t i = 0; i < loop.size(); ++i)
@@ -158,7 +158,7 @@ double distance_to_segment(const Vec2d& p, const Vec2d& a, const Vec2d& b) {
   return (a + t * (b - a) - p).norm();
 }
 
-/// Checks what the header of triangulate() promises.
+/// Checks the guarantees in the header of triangulate().
 void expect_constrained_delaunay(std::span<const FlatLoop> loops, const FlatRegion& region,
                                  const FlatMesh& mesh) {
   const std::vector<Vec2d> points = all_points(loops, region, mesh);
@@ -255,7 +255,7 @@ bool is_inside(const FlatLoop& loop, const Vec2d& p) {
   return inside;
 }
 
-/// Turns the loops so that holes run against what is around them.
+/// Orients the loops so that holes are opposite to the loop around them.
 std::vector<FlatLoop> alternated(std::vector<FlatLoop> loops) {
   std::vector<int> depths(loops.size(), 0);
   for (std::size_t i = 0; i < loops.size(); ++i)
@@ -413,7 +413,7 @@ TEST(Triangulate, slivers_and_points_almost_on_one_line) {
     for (int i = 100; i >= 0; --i) wave.emplace_back(0.01 * i, height * random.uniform(0.1, 1));
     expect_regions_triangulate({wave}, 0.1);
   }
-  FlatLoop fan;  // long edges that end next to one another
+  FlatLoop fan;  // long edges whose ends are close together
   for (int i = 0; i < 40; ++i)
     fan.insert(fan.end(), {{1e-9 * i, 0}, {0.5 * i - 10, 10}, {1e-9 * i + 5e-10, 1e-6}});
   const auto mesh = triangulate(std::vector<FlatLoop>{fan}, {0, {}}, 0.5);
@@ -421,8 +421,8 @@ TEST(Triangulate, slivers_and_points_almost_on_one_line) {
 }
 
 TEST(Triangulate, long_edges_across_many_points) {
-  // A zigzag of fine teeth on both sides of a channel that long edges follow: forcing them in
-  // crosses hundreds of edges.
+  // A zigzag of fine teeth on both sides of a channel with long edges, each of which crosses
+  // hundreds of edges when it is inserted.
   for (const int count : {10, 300}) {
     std::vector<FlatLoop> loops{{{-1, -1}, {count + 1.0, -1}, {count + 1.0, 1}, {-1, 1}}};
     FlatLoop needle{{-0.5, 0}, {count + 0.5, 1e-4}, {count + 0.5, 2e-4}};
@@ -485,7 +485,7 @@ TEST(Triangulate, refuses_what_cannot_be_triangulated) {
       {{{0, 0}, {1, 0}, {nan, 1}}},
       {{{0, 0}, {1, 0}, {infinity, 1}}},
       {{{0, 0}, {1e70, 0}, {0, 1e70}}},
-      {square, {{0, 0}, {2, 1}, {1, 2}}},  // a hole at a corner
+      {square, {{0, 0}, {2, 1}, {1, 2}}},  // a hole that touches a corner
       {square, {{2, 0}, {3, 1}, {1, 1}}},  // a hole at an edge
       {square, {{1, 1}, {3, 1}, {2, 5}}},  // a hole that crosses
       {square, {{5, 5}, {6, 5}, {5, 6}}},  // a hole next to it
@@ -524,7 +524,7 @@ TEST(Triangulate, spacing_is_kept_or_enlarged) {
     ASSERT_TRUE(mesh);
     expect_constrained_delaunay(strip, {0, {}}, *mesh);
   }
-  std::vector<FlatLoop> far = square;  // where the spacing is below the distance of doubles
+  std::vector<FlatLoop> far = square;  // the spacing is below the resolution of double
   for (Vec2d& p : far[0]) p = 1e-13 * p + Vec2d(1, 1);
   const auto mesh = triangulate(far, {0, {}}, 1e-15);
   if (mesh) expect_constrained_delaunay(far, {0, {}}, *mesh);
