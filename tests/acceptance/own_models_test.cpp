@@ -48,7 +48,7 @@ void expect_same(const Character& file, const Character& made) {
   }
 }
 
-TEST(OwnModels, are_what_our_code_makes) {
+TEST(OwnModels, equal_those_generated_by_our_code) {
   const auto models = test::make_own_models();
   ASSERT_GE(models.size(), 8u);
   const test::TemporaryFolder folder;
@@ -63,7 +63,7 @@ TEST(OwnModels, are_what_our_code_makes) {
   }
 }
 
-TEST(OwnModels, differ_in_what_files_may_have) {
+TEST(OwnModels, have_different_features) {
   EXPECT_EQ(load_own("two_skins.glb").skins.size(), 2u);
   EXPECT_EQ(load_own("two_skins.glb").meshes.size(), 2u);
   EXPECT_EQ(most_influences(load_own("six_influences.glb").meshes[0]), 6u);

@@ -133,7 +133,7 @@ class StaysTorn : public testing::TestWithParam<Model> {
   Random random_{std::hash<std::string>()(GetParam().name)};
 };
 
-TEST_P(StaysTorn, whatever_merges_equal_vertices) {
+TEST_P(StaysTorn, after_merging_equal_vertices) {
   const auto expect_unchanged = [&](const std::string& tool,
                                     const std::optional<TopologyCounts>& after) {
     ASSERT_TRUE(after) << tool;
@@ -149,7 +149,7 @@ TEST_P(StaysTorn, whatever_merges_equal_vertices) {
 
 /// Tools with a tolerance also merge neighbours on one lip, which makes triangles degenerate, and
 /// borders of the source; but they must not close a tear.
-TEST_P(StaysTorn, whatever_merges_near_vertices) {
+TEST_P(StaysTorn, after_merging_near_vertices) {
   const auto expect_torn = [&](const std::string& tool, const std::optional<TopologyCounts>& after,
                                const std::optional<TopologyCounts>& untorn_after) {
     ASSERT_TRUE(after && untorn_after) << tool;

@@ -65,7 +65,7 @@ TEST(SizeLimits, few_headers_are_installed) {
   EXPECT_LE(headers.size(), kMostInstalledHeaders);
 }
 
-TEST(SizeLimits, few_files_stand_at_the_roots_of_large_modules) {
+TEST(SizeLimits, few_files_are_at_the_roots_of_large_modules) {
   for (const char* const module : {"tear", "particles"}) {
     const std::size_t count = sources_at_root(fs::path(SUNDER_SOURCE_DIR) / module);
     EXPECT_GT(count, 0u) << module;

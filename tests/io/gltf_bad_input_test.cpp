@@ -18,7 +18,7 @@ void overwrite_u32(std::vector<std::byte>& bytes, std::size_t offset, std::uint3
   std::memcpy(bytes.data() + offset, &value, 4);
 }
 
-TEST(LoadGltfBadInput, what_is_not_gltf_is_refused) {
+TEST(LoadGltfBadInput, other_content_than_gltf_is_refused) {
   const TemporaryFolder folder;
   const auto code_of = [&](const char* name, const std::string& content) {
     return load_character(folder.write(name, content)).error().code();

@@ -223,7 +223,7 @@ TEST(SaveGlb, a_submesh_without_triangles_disappears) {
   EXPECT_EQ(json["meshes"][0]["primitives"][0]["material"], 1);
 }
 
-TEST(SaveGlb, a_node_whose_mesh_is_gone_keeps_no_trace_of_it) {
+TEST(SaveGlb, a_node_without_its_mesh_keeps_no_trace_of_it) {
   GltfBuilder builder = skinned_strip();
   builder.json["nodes"].push_back({{"name", "other"}, {"mesh", 1}, {"weights", {0.5}}});
   builder.json["scenes"][0]["nodes"].push_back(3);
@@ -367,7 +367,7 @@ TEST(SaveGlb, new_submeshes_become_primitives_of_the_same_vertices) {
   }
 }
 
-TEST(SaveGlb, a_file_written_anew_has_new_submeshes_and_no_retired_triangles) {
+TEST(SaveGlb, a_new_document_has_new_submeshes_and_no_retired_triangles) {
   Character torn = *loaded_strip().character;
   fake_tear(torn.meshes[0]);
   add_cap(torn.meshes[0], {"cap", kNone});
@@ -599,7 +599,7 @@ TEST(SaveGlb, rigged_models_come_back_torn) {
   }
 }
 
-TEST(SaveGlb, the_validator_judges_what_the_tests_above_wrote) {
+TEST(SaveGlb, the_validator_checks_the_files_written_above) {
   // The tests use the validator if it is installed; this one reports by name if it is not.
   SUNDER_SKIP_WITHOUT_GLTF_VALIDATOR();
 }

@@ -91,7 +91,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Weighed{"exact", {WeightPolicy::exact, 0}}),
     [](const auto& instance) { return std::string(instance.param.name); });
 
-TEST(LoggedDefaults, of_a_model_stand_in_the_log_of_what_it_made) {
+TEST(LoggedDefaults, of_a_model_are_in_the_log_of_its_operations) {
   const Character tube = test::make_tube(9, 10, 3);
   TornModel model = test::make_model(tube);
   ASSERT_TRUE(model.set_weights({WeightPolicy::exact, 0}));

@@ -12,7 +12,7 @@ class btDynamicsWorld {};
 namespace sunder {
 namespace {
 
-TEST(BulletBodyAbsent, says_so) {
+TEST(BulletBodyAbsent, create_returns_unsupported_feature) {
   EXPECT_FALSE(has_bullet_body());
   const auto sheet = std::make_shared<const Character>(test::make_sheet(4));
   const auto model = TornModel::create(sheet);

@@ -254,7 +254,7 @@ TEST_F(BulletBodyTest, springs_of_any_stiffness_stay_bounded) {
       }
 }
 
-TEST_F(BulletBodyTest, what_is_in_the_way_pushes_and_when_it_goes_they_return) {
+TEST_F(BulletBodyTest, an_obstacle_pushes_particles_and_they_return_without_it) {
   load(test::make_sheet(12));
   create({.radius = 0.2});
   constexpr double kRadius = 0.3;
@@ -375,7 +375,7 @@ TEST_F(BulletBodyTest, a_model_that_is_put_elsewhere_takes_displacements_along) 
   EXPECT_LT((place(pulled) - rest).norm(), 1e-3);
 }
 
-TEST_F(BulletBodyTest, asking_twice_before_a_step_is_as_asking_once) {
+TEST_F(BulletBodyTest, two_calls_before_a_step_equal_one) {
   load(test::make_sheet(10));
   std::vector<Vec4f> once;
   for (const int times : {1, 3}) {
@@ -501,7 +501,7 @@ TEST_F(BulletBodyTest, bad_arguments_are_refused_by_name) {
   EXPECT_LT(most_displacement(), 1e-5);
 }
 
-TEST_F(BulletBodyTest, follows_tears_and_what_undoes_them) {
+TEST_F(BulletBodyTest, follows_tears_and_their_undo) {
   load(test::make_sheet(20));
   create();
   run(3);

@@ -202,7 +202,7 @@ TEST(collider, every_shape_is_left_at_any_step) {
     }
 }
 
-TEST(collider, a_floor_carries_what_falls) {
+TEST(collider, a_floor_carries_falling_tissue) {
   SoftMaterial material;
   material.return_stiffness = 20;
   material.neighbour_stiffness = 200;

@@ -106,7 +106,7 @@ SoftMaterial random_material(test::Random& random, double least = -3, double mos
   return m;
 }
 
-TEST(coupling, solves_what_it_says) {
+TEST(coupling, solves_its_equations) {
   test::Random random(3);
   for (int trial = 0; trial < 40; ++trial) {
     Network network(30);

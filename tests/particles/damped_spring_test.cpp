@@ -45,7 +45,7 @@ State integrate(double stiffness, double ratio, double acceleration, State at, d
 
 const std::vector<double> kRatios = {0.0, 0.05, 0.7, 1 - 1e-9, 1.0, 1 + 1e-9, 1 + 1e-5, 1.3, 20.0};
 
-TEST(damped_spring, is_what_a_fine_integration_finds) {
+TEST(damped_spring, equals_a_fine_integration) {
   for (const double stiffness : {0.0, 1e-3, 1.0, 400.0, 9e3})
     for (const double ratio : kRatios)
       for (const double seconds : {1e-5, 1e-3, 1.0 / 60, 0.3, 1.0}) {

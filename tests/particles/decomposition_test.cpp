@@ -79,7 +79,7 @@ void expect_ranges(const ParticleSet& set, Distances distances, double error) {
   }
 }
 
-TEST(Decomposition, takes_what_is_within_range_on_a_flat_sheet) {
+TEST(Decomposition, takes_points_within_range_on_a_flat_sheet) {
   for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(test::stressed(12, 50)); ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed);
@@ -96,7 +96,7 @@ TEST(Decomposition, takes_what_is_within_range_on_a_flat_sheet) {
   }
 }
 
-TEST(Decomposition, takes_what_is_within_range_on_a_folded_sheet) {
+TEST(Decomposition, takes_points_within_range_on_a_folded_sheet) {
   // Two layers, a cell apart; unfolded it is flat.
   for (const std::uint32_t cells : {11u, 21u, 41u}) {
     SCOPED_TRACE(cells);
@@ -126,7 +126,7 @@ TEST(Decomposition, takes_what_is_within_range_on_a_folded_sheet) {
   }
 }
 
-TEST(Decomposition, takes_what_is_within_range_on_an_unrolled_tube) {
+TEST(Decomposition, takes_points_within_range_on_an_unrolled_tube) {
   for (const std::uint32_t sides : {10u, 24u}) {
     SCOPED_TRACE(sides);
     Character tube = test::make_tube(3 * sides, sides, 6);
@@ -159,7 +159,7 @@ TEST(Decomposition, takes_what_is_within_range_on_an_unrolled_tube) {
   }
 }
 
-TEST(Decomposition, takes_what_is_within_range_on_a_bumpy_ball) {
+TEST(Decomposition, takes_points_within_range_on_a_bumpy_ball) {
   for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(test::stressed(3, 10)); ++seed) {
     SCOPED_TRACE(seed);
     const TornModel model = make_model(test::make_bumpy_ball(700));
@@ -344,7 +344,7 @@ TEST(Decomposition, takes_ranges_as_a_part_of_the_diagonal_or_in_metres) {
   EXPECT_TRUE(one.neighbours(0).empty());
 }
 
-TEST(Decomposition, reports_what_it_made) {
+TEST(Decomposition, reports_its_results) {
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     Random random(seed);
     const TornModel model =

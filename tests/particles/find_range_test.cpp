@@ -56,7 +56,7 @@ TEST(FindRange, keeps_to_a_time) {
       StatusCode::not_found);
 }
 
-TEST(FindRange, says_what_cannot_be) {
+TEST(FindRange, refuses_impossible_requests) {
   const Scene scene(make_sheet(4));
   EXPECT_EQ(find_range_for_particles(scene.model, scene.pose, 0).error().code(),
             StatusCode::invalid_argument);

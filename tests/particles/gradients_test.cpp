@@ -76,7 +76,7 @@ double error_of(std::uint32_t cells) {
   return error / difference;
 }
 
-TEST(Gradients, say_what_the_weights_of_neighbours_are) {
+TEST(Gradients, predict_the_weights_of_neighbours) {
   const double coarse = error_of(32), fine = error_of(64);
   EXPECT_LT(coarse, 0.25);
   EXPECT_LT(fine, 0.65 * coarse);  // of first order

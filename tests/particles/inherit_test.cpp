@@ -24,7 +24,7 @@ struct Torn {
   }
 };
 
-TEST(inherit, a_new_particle_moves_as_what_it_was_torn_from) {
+TEST(inherit, a_new_particle_moves_like_its_parents) {
   Torn torn;
   // of a particle that undo removed
   torn.motion.forces[4] = torn.motion.displacements[4] = {9, 9, 9};

@@ -34,7 +34,7 @@ TEST(lip_tension, none_is_no_force) {
   for (const Vec3d& force : Slit().forces({})) EXPECT_EQ(force, Vec3d::Zero());
 }
 
-TEST(lip_tension, along_a_direction_only_what_it_crosses) {
+TEST(lip_tension, along_a_direction_pulls_only_lips_across_it) {
   const auto along = [](const Vec3d& direction) {
     return Slit().forces({2.0, [=](const Vec3d&) { return direction; }});
   };

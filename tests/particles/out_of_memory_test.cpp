@@ -83,7 +83,7 @@ TEST(OutOfMemory, create_is_refused) {
   });
 }
 
-TEST(OutOfMemory, follow_says_so_and_nothing_breaks_afterwards) {
+TEST(OutOfMemory, follow_reports_it_and_nothing_breaks_afterwards) {
   starve(
       unfollowed,
       [](TornSheet& scene) {
@@ -160,7 +160,7 @@ TEST(OutOfMemory, accessors_that_do_not_list_need_none) {
   EXPECT_EQ(test::allocation_count(), before);
 }
 
-TEST(OutOfMemory, what_acts_on_a_body_is_refused_and_changes_nothing) {
+TEST(OutOfMemory, actions_on_a_body_are_refused_and_change_nothing) {
   const auto has_none = [](TornSheet& scene) {
     scene.step(kStep);
     EXPECT_LE(scene.body->colliders().size(), 1u);
@@ -192,7 +192,7 @@ TEST(OutOfMemory, what_acts_on_a_body_is_refused_and_changes_nothing) {
       has_none);
 }
 
-TEST(OutOfMemory, a_step_is_refused_and_the_next_one_goes_on) {
+TEST(OutOfMemory, a_step_is_refused_and_the_next_one_continues) {
   const Collider ball{Collider::Sphere{0.1}, {0.5, 0.5, 0}};
   const auto busy = [&] {
     auto scene = followed();

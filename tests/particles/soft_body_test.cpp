@@ -187,7 +187,7 @@ TEST(soft_body, wind_pushes_where_it_blows) {
   EXPECT_EQ(scene.farthest(), 0);
 }
 
-TEST(soft_body, a_gust_wakes_who_sleeps_and_madness_counts_as_none) {
+TEST(soft_body, a_gust_wakes_sleeping_particles_and_invalid_wind_counts_as_none) {
   SoftScene scene = make_tube_scene();
   ASSERT_TRUE(scene.body->set_wind([](const Vec3d&, double seconds) {
     return seconds > 1 ? Vec3d(0, 0, 5) : Vec3d(kNaN, 0, 0);
@@ -232,7 +232,7 @@ TEST(soft_body, lags_behind_the_pose) {
   EXPECT_EQ(scene.body->awake_count(), 0u);
 }
 
-TEST(soft_body, what_lags_does_not_depend_on_the_step) {
+TEST(soft_body, lag_does_not_depend_on_the_step) {
   // The rest moves at constant speed, then stops: an oscillator in a frame that moves with it, and
   // one in a fixed frame.
   SoftBodyOptions options;
@@ -284,7 +284,7 @@ TEST(soft_body, velocities_inherit_the_motion_of_the_pose) {
   }
 }
 
-TEST(soft_body, what_is_far_away_sleeps_on) {
+TEST(soft_body, distant_particles_stay_asleep) {
   SoftScene scene(test::make_tube(160, 16, 16), find_material("fat").value(), 0.05);
   const std::uint32_t near = scene.nearest({0.5, 8, 0}), far = scene.nearest({0.5, 15, 0}),
                       farthest = scene.nearest({0.5, 1, 0});
@@ -515,7 +515,7 @@ TEST(soft_body, nothing_breaks_it) {
   }
 }
 
-TEST(soft_body, bad_input_is_named_and_changes_nothing) {
+TEST(soft_body, invalid_input_is_named_and_changes_nothing) {
   SoftScene scene = make_tube_scene();
   ASSERT_TRUE(scene.body->add_impulse(3, {0.01, 0, 0}));
   const auto hold = scene.body->hold_point(30, {1, 1, 1});

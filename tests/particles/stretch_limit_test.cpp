@@ -50,7 +50,7 @@ TEST(stretch_limit, keeps_neighbours_together) {
   EXPECT_LT(stretch[1], 1.3 * 1.01);
 }
 
-TEST(stretch_limit, changes_no_bit_where_it_is_not_reached) {
+TEST(stretch_limit, changes_no_bit_if_it_is_not_reached) {
   std::vector<double> found[2];
   for (const bool is_limited : {false, true}) {
     SoftScene scene(test::make_tube(60, 16, 6), soft_material(is_limited ? 3.0 : 0.0), 0.1);

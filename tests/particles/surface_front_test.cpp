@@ -251,7 +251,7 @@ struct Visited {
   bool operator==(const Visited&) const = default;
 };
 
-TEST(SurfaceFront, goes_on_after_a_stop_as_if_it_had_not_stopped_and_by_either_ring) {
+TEST(SurfaceFront, continues_after_a_stop_with_the_same_result_by_either_ring) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed);
@@ -324,7 +324,7 @@ TEST(Rings, go_around_every_point) {
 }
 
 /// All faces of a block, one after the other; the front computes them at once.
-TEST(RingLanes, are_what_one_lane_after_the_other_is) {
+TEST(RingLanes, equal_the_lanes_computed_one_by_one) {
   Random random(5);
   const auto length = [&] { return static_cast<float>(random.uniform(0.2, 2.0)); };
   std::size_t found = 0, nearer = 0;

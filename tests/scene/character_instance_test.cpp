@@ -351,7 +351,7 @@ TEST(character_instance, frames_without_a_tear_do_not_allocate) {
   }
 }
 
-TEST(character_instance, what_did_not_change_is_not_written) {
+TEST(character_instance, unchanged_data_is_not_written) {
   TornTube tube(true);
   for (int i = 0; i < 600; ++i)
     ASSERT_TRUE(tube.instance.advance(tube.poses[0], kFrame));  // comes to rest
@@ -490,7 +490,7 @@ TEST(character_instance, a_refit_is_swapped_in) {
   EXPECT_FALSE(tube.instance.mesh(0).dirty_attributes.empty());
 }
 
-TEST(character_instance, refuses_what_its_parts_refuse) {
+TEST(character_instance, refuses_the_same_calls_as_its_parts) {
   EXPECT_EQ(CharacterInstance::create(nullptr).error().code(), StatusCode::empty_input);
   const auto sheet = std::make_shared<const Character>(test::make_sheet(4));
   CharacterInstanceOptions options;

@@ -52,7 +52,7 @@ TEST(BonePalette, a_pose_gives_the_matrices_of_compute_palette) {
   EXPECT_GT(palette.revision(), revision);
 }
 
-TEST(BonePalette, a_character_that_only_travels_does_not_change) {
+TEST(BonePalette, a_character_that_only_moves_in_the_world_does_not_change) {
   // By whole metres and quarter turns, so that the products are exact.
   const Character character = test::make_tube(6, 8, 4);
   ModelPose pose = bind_pose(character);
@@ -67,7 +67,7 @@ TEST(BonePalette, a_character_that_only_travels_does_not_change) {
   EXPECT_EQ(palette.revision(), revision);
 }
 
-TEST(BonePalette, refuses_what_does_not_fit_and_takes_nothing) {
+TEST(BonePalette, refuses_invalid_poses_and_changes_nothing) {
   const Character character = test::make_tube(6, 8, 4);
   ModelPose pose = bind_pose(character);
   BonePalette palette(4, pose.morph_weights.size());

@@ -65,7 +65,7 @@ TEST(DualQuaternion, agrees_with_the_definition_in_double) {
   }
 }
 
-TEST(DualQuaternion, with_one_influence_is_the_matrix_whatever_it_does) {
+TEST(DualQuaternion, with_one_influence_equals_its_matrix) {
   test::Random random(2);
   const Mesh mesh = test::make_random_skin(random, {300, 10, 1, 0, true, 10});
   const auto matrices =

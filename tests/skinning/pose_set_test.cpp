@@ -364,7 +364,7 @@ TEST(PoseSet, limits_that_do_not_reach_to_both_sides_of_rest_are_kept) {
   }
 }
 
-TEST(PoseSet, limits_hold_beside_a_neighbour_too) {
+TEST(PoseSet, limits_hold_with_a_rotating_neighbour_too) {
   // A knee below a hip: the knee bends one way, the hip about two axes.
   const Character character = make_crooked_tube(4);
   const Vec3d x = Vec3d::UnitX(), y = Vec3d::UnitY();
@@ -417,7 +417,7 @@ TEST(PoseSet, two_joints_of_one_angle_each_have_one_pose_together) {
   EXPECT_EQ(set.size(Role::held_out), 0u);
 }
 
-TEST(PoseSet, limits_of_bones_that_change_no_shape_are_passed_over) {
+TEST(PoseSet, limits_of_bones_that_change_no_shape_are_ignored) {
   const Character character = make_crooked_tube(3);
   const PoseSet set = make_set(
       share(character), limits_only({{0, Vec3d::UnitX(), -1, 1}, {2, Vec3d::UnitX(), -1, 1}}));
@@ -518,7 +518,7 @@ TEST(PoseSet, refuses_faulty_characters) {
   EXPECT_EQ(fault.index(), 1u);
 }
 
-TEST(PoseSet, refuses_faulty_limits_and_says_which) {
+TEST(PoseSet, refuses_faulty_limits_and_names_them) {
   const Character character = make_crooked_tube(3);
   const JointLimit good{1, Vec3d::UnitX(), -1, 1};
   const Vec3d x = Vec3d::UnitX();
@@ -541,7 +541,7 @@ TEST(PoseSet, refuses_faulty_limits_and_says_which) {
   }
 }
 
-TEST(PoseSet, refuses_faulty_given_poses_and_says_which) {
+TEST(PoseSet, refuses_faulty_given_poses_and_names_them) {
   const Character character = make_crooked_tube(3);
   ModelPose other = posed(test::make_sheet(1), RestPose{});
   ModelPose no_number = posed(character, RestPose{});

@@ -69,7 +69,7 @@ TEST(SampleClip, drives_morph_weights) {
   EXPECT_FLOAT_EQ(pose.morph_weights[0], 0.25f);
 }
 
-TEST(SampleClip, leaves_what_it_does_not_drive) {
+TEST(SampleClip, leaves_undriven_values_unchanged) {
   const Character character = test::make_tube(2, 4, 3);
   Pose pose = local_rest_pose(character);
   ASSERT_TRUE(sample_clip(character.clips[0], 0.5, pose));

@@ -109,7 +109,7 @@ TEST(SkinnedMesh, tangents_go_by_the_linear_part_and_keep_w) {
   }
 }
 
-TEST(SkinnedMesh, a_vertex_has_the_same_bits_wherever_it_stands) {
+TEST(SkinnedMesh, a_vertex_has_the_same_bits_at_any_index) {
   // The lips of a tear and the sides of a seam are coincident vertices, far apart in their buffers;
   // they must not crack.
   Random random(13);
@@ -287,7 +287,7 @@ void expect_ranges_cover(std::span<const IndexRange> ranges, std::uint32_t verti
     ASSERT_TRUE(covered[v] || !changed[v]) << "vertex " << v << " changed unreported";
 }
 
-TEST(SkinnedMesh, writing_what_moved_equals_writing_everything) {
+TEST(SkinnedMesh, writing_moved_vertices_equals_writing_all) {
   for (int seed = 1; seed <= test::stressed(6, 30); ++seed) {
     Random random(static_cast<std::uint64_t>(seed));
     for (const SkinningMethod method : {SkinningMethod::linear, SkinningMethod::dual_quaternion})
@@ -324,7 +324,7 @@ TEST(SkinnedMesh, writing_what_moved_equals_writing_everything) {
   }
 }
 
-TEST(SkinnedMesh, what_did_not_move_is_not_written) {
+TEST(SkinnedMesh, vertices_that_did_not_move_are_not_written) {
   Random random(18);
   const RandomSkin kind = {2000, 50, 3, 1, false, 4};
   const Mesh mesh = test::make_random_skin(random, kind);
@@ -380,7 +380,7 @@ TEST(SkinnedMesh, ranges_ascend_where_the_first_vertices_are_gathered_last) {
   expect_ranges_cover(buffer.dirty_vertices(), 304, changed);
 }
 
-TEST(SkinnedMesh, a_buffer_that_was_written_from_elsewhere_is_written_anew) {
+TEST(SkinnedMesh, a_buffer_written_by_another_mesh_is_rewritten) {
   Random random(19);
   const Mesh mesh = test::make_random_skin(random, {100, 6, 4, 0, false, 6});
   const SkinnedMesh made = skinned(mesh, 6), same = skinned(mesh, 6);
@@ -484,7 +484,7 @@ TEST(SkinnedMesh, a_thousand_kilometres_away_nothing_changes) {
               1e-6);
 }
 
-TEST(SkinnedMesh, refuses_what_does_not_fit_and_writes_nothing) {
+TEST(SkinnedMesh, refuses_mismatching_arguments_and_writes_nothing) {
   Random random(21);
   const Mesh mesh = test::make_random_skin(random, {50, 6, 4, 1, false, 6});
   const SkinnedMesh made = skinned(mesh, 6);
@@ -567,7 +567,7 @@ TEST(SkinnedMesh, bad_vertices_are_named) {
   EXPECT_EQ(posed.first_difference(expected), kNone) << "a failing update changed something";
 }
 
-TEST(SkinnedMesh, nothing_is_a_mesh_too) {
+TEST(SkinnedMesh, an_empty_mesh_is_valid) {
   const SkinnedMesh made = skinned(Mesh(), 3);
   BonePalette palette(3, 0);
   ASSERT_TRUE(palette.set(std::vector<Affine3f>(3, Affine3f::Identity()), {}));

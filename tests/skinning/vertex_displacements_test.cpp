@@ -199,7 +199,7 @@ void expect_ranges_cover(std::span<const IndexRange> ranges, const std::vector<b
     ASSERT_TRUE(covered[v] || !changed[v]) << "vertex " << v << " changed unreported";
 }
 
-TEST(VertexDisplacements, have_the_same_bits_whatever_was_displaced_before) {
+TEST(VertexDisplacements, have_the_same_bits_after_any_earlier_displacement) {
   for (int seed = 1; seed <= test::stressed(3, 30); ++seed) {
     Random random(static_cast<std::uint64_t>(seed));
     for (const SkinningMethod method : {SkinningMethod::linear, SkinningMethod::dual_quaternion})

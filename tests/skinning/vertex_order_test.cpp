@@ -61,7 +61,7 @@ TEST(VertexOrder, renumbers_everything_that_a_vertex_has) {
       ASSERT_EQ(order[mesh.triangles[t][k]], before.triangles[t][k]);
 }
 
-TEST(VertexOrder, refuses_what_is_not_an_order) {
+TEST(VertexOrder, refuses_an_invalid_order) {
   test::Random random(3);
   Mesh mesh = test::make_random_skin(random, {5, 2, 2, 0, false, 2});
   const Mesh before = mesh;

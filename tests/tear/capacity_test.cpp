@@ -64,7 +64,7 @@ TEST(Capacity, tears_of_a_warm_model_allocate_nothing) {
   EXPECT_GT(torn, 20);
 }
 
-TEST(Capacity, a_stroke_that_goes_on_allocates_nothing) {
+TEST(Capacity, extending_a_stroke_allocates_nothing) {
   const Character sheet = test::make_sheet(40);
   TornModel model = make_model(sheet, kRoom);
   const ModelPose pose = bind_pose(sheet);
@@ -143,7 +143,7 @@ TEST(Capacity, gives_the_same_model_as_one_that_grows) {
   }
 }
 
-TEST(Capacity, an_operation_taken_back_makes_room) {
+TEST(Capacity, undoing_an_operation_makes_room) {
   const Character tube = test::make_tube(10, 12, 4);
   TornModel model = make_model(tube, {2000, 2000, 1});
   Random random(1);

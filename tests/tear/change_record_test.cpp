@@ -235,9 +235,7 @@ TEST_P(RandomChanges, keep_a_mirror_equal) {
 
 INSTANTIATE_TEST_SUITE_P(seeds, RandomChanges, testing::Range(0, 100));
 
-TEST(ChangeRecord, comes_with_a_run_where_the_first_segment_was_too_short_to_tear) {
-  mirror_at_random(431);
-}
+TEST(ChangeRecord, has_a_run_if_the_first_segment_was_too_short_to_tear) { mirror_at_random(431); }
 
 TEST(ChangeRecord, of_a_strokes_pieces_keep_a_mirror_equal) {
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
@@ -268,7 +266,7 @@ TEST(ChangeRecord, of_a_strokes_pieces_keep_a_mirror_equal) {
   }
 }
 
-TEST(ChangeRecord, of_a_cancelled_stroke_takes_a_mirror_back) {
+TEST(ChangeRecord, of_a_cancelled_stroke_restores_a_mirror) {
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed);
@@ -290,7 +288,7 @@ TEST(ChangeRecord, of_a_cancelled_stroke_takes_a_mirror_back) {
   }
 }
 
-TEST(ChangeRecord, tells_lips_in_the_order_of_the_stroke) {
+TEST(ChangeRecord, lists_lips_in_the_order_of_the_stroke) {
   TornModel model = make_model(test::make_tube(12, 24, 3));
   // Upwards across the seam on the tube's +x side.
   Stroke stroke;

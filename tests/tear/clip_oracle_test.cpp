@@ -50,7 +50,7 @@ TEST(ClipOracle, of_a_flat_sheet_is_the_area_in_the_cell) {
       << "too short";
 }
 
-TEST(ClipOracle, of_a_union_counts_what_cells_share_once) {
+TEST(ClipOracle, of_a_union_counts_shared_parts_once) {
   const Character sheet = test::make_sheet(6);
   const ModelPose pose = bind_pose(sheet);
   const ConvexCell cells[] = {
@@ -66,7 +66,7 @@ TEST(ClipOracle, of_a_union_counts_what_cells_share_once) {
       << "the last one only touches";
 }
 
-TEST(ClipOracle, of_a_cell_and_its_complement_is_all_in_any_pose) {
+TEST(ClipOracle, of_a_cell_and_its_complement_is_the_whole_area_in_any_pose) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     Random random(seed);
     const Character tube = test::make_tube(9, 11, 3);

@@ -139,7 +139,7 @@ void expect_nothing_superfluous(const Mesh& after, const Mesh& before) {
                 std::count_if(before.triangles.begin(), before.triangles.end(), is_retired));
 }
 
-TEST(Compact, keeps_every_bit_of_what_stays) {
+TEST(Compact, keeps_every_bit_of_remaining_elements) {
   for (std::uint64_t seed = 0; seed < 300; ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed);
@@ -174,7 +174,7 @@ TEST(Compact, a_second_time_changes_nothing) {
   }
 }
 
-TEST(Compact, changes_no_count_but_that_of_vertices) {
+TEST(Compact, changes_only_the_number_of_vertices) {
   Random random(7);
   Character character = test::make_tube(8, 9, 3);
   for (Triangle& triangle : character.meshes[0].triangles)

@@ -488,7 +488,7 @@ bool grazes(const Character& character, const PlaneCut& cut) {
 }
 
 /// Along the axes, through vertices and along edges.
-TEST(CutVolume, of_cuts_through_what_is_modelled_adds_up) {
+TEST(CutVolume, of_cuts_through_vertices_and_edges_adds_up) {
   Random random(4);
   std::vector<CutBody> bodies;
   for (int i = 0; i < count_of_cases(150); ++i) {

@@ -514,7 +514,7 @@ void tear_ring_in_sheet(std::uint64_t seed) {
   subject.undo_everything();
 }
 
-TEST(Degenerate, a_ring_sets_free_what_is_in_it) {
+TEST(Degenerate, a_ring_separates_the_piece_inside) {
   for (int seed = 0; seed < count_of_cases(300) && !testing::Test::HasFailure(); ++seed)
     tear_ring_in_sheet(static_cast<std::uint64_t>(seed));
 }
@@ -555,7 +555,7 @@ void tear_ring_around_tube(std::uint64_t seed) {
   subject.undo_everything();
 }
 
-TEST(Degenerate, a_ring_around_a_tube_takes_it_apart) {
+TEST(Degenerate, a_ring_around_a_tube_divides_it) {
   for (int seed = 0; seed < count_of_cases(100) && !testing::Test::HasFailure(); ++seed)
     tear_ring_around_tube(static_cast<std::uint64_t>(seed));
 }

@@ -129,7 +129,7 @@ test::ConvexCell band_cell(const Stroke& stroke, double width) {
   return cell;
 }
 
-TEST(Gap, is_what_clipping_each_face_finds_in_any_pose) {
+TEST(Gap, equals_clipping_of_each_face_in_any_pose) {
   Random random(3);
   int compared = 0;
   for (int i = 0; i < 400; ++i) {
@@ -160,7 +160,7 @@ TEST(Gap, is_what_clipping_each_face_finds_in_any_pose) {
   EXPECT_GT(compared, 250);
 }
 
-TEST(Bore, is_what_clipping_each_face_finds_in_any_pose) {
+TEST(Bore, equals_clipping_of_each_face_in_any_pose) {
   Random random(4);
   for (int i = 0; i < 100; ++i) {
     SCOPED_TRACE(i);

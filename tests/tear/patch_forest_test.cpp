@@ -328,7 +328,7 @@ double size_of(Torn& torn) {
   return box.isEmpty() ? 1.0 : std::max(1e-3, box.diagonal().norm());
 }
 
-TEST(PatchForest, finds_what_looking_at_every_face_finds) {
+TEST(PatchForest, finds_the_same_as_testing_every_face) {
   int hits = 0, contacts = 0, faces_in_cells = 0, faces_across_sheets = 0;
   for (std::uint64_t seed = 0; seed < count_of_cases(60); ++seed) {
     Random random(1000 + seed);
@@ -393,7 +393,7 @@ TEST(PatchForest, finds_what_looking_at_every_face_finds) {
   EXPECT_GT(faces_across_sheets, 2000);
 }
 
-TEST(PatchForest, a_sweep_in_one_plane_begins_where_its_blade_stands) {
+TEST(PatchForest, a_sweep_in_one_plane_begins_at_its_blade) {
   int entries = 0;
   for (std::uint64_t seed = 0; seed < count_of_cases(60); ++seed) {
     Random random(2000 + seed);

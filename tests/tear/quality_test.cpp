@@ -20,7 +20,7 @@ using testing::IsEmpty;
 
 class FaceQuality : public testing::TestWithParam<int> {};
 
-TEST_P(FaceQuality, stays_above_what_snapping_leaves) {
+TEST_P(FaceQuality, stays_above_the_limit_set_by_snapping) {
   const int tears = test::stressed(200, 5);
   auto model = TornModel::create(std::make_shared<const Character>(test::make_bumpy_ball(1000)));
   ASSERT_TRUE(model);

@@ -81,7 +81,7 @@ TEST(RefitJob, is_never_worse_than_interpolation_over_the_poses_that_it_was_fitt
     }
 }
 
-TEST(RefitJob, beside_the_frame_gives_the_bits_that_it_gives_at_once) {
+TEST(RefitJob, in_the_background_gives_the_same_bits) {
   Torn beside(3), at_once(3);
   const auto job = RefitJob::create(beside.model, refit_over_clips());
   ASSERT_TRUE(job) << job.error().text();
@@ -125,7 +125,7 @@ TEST(RefitJob, the_model_may_be_torn_on_meanwhile) {
   EXPECT_EQ(again->digest(), torn.model.digest());
 }
 
-TEST(RefitJob, undo_of_what_is_fitted_cancels_it) {
+TEST(RefitJob, undo_of_a_fitted_operation_cancels_it) {
   Torn torn(5);
   const auto job = RefitJob::create(torn.model, refit_over_clips());
   ASSERT_TRUE(job);
@@ -160,7 +160,7 @@ TEST(RefitJob, of_another_model_is_refused) {
   EXPECT_FALSE(job->swap_in(a.model));
 }
 
-TEST(RefitJob, what_cannot_be_fitted_is_refused) {
+TEST(RefitJob, requests_that_cannot_be_fitted_are_refused) {
   Torn torn(7);
   WeightsOperation wanted = refit_over_clips();
   wanted.weights.policy = WeightPolicy::exact;

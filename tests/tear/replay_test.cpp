@@ -45,7 +45,7 @@ void tear_in_motion(TornModel& model, Random& random, bool has_width) {
 
 class RandomReplay : public testing::TestWithParam<int> {};
 
-TEST_P(RandomReplay, of_the_history_gives_the_model_again) {
+TEST_P(RandomReplay, of_the_history_reproduces_the_model) {
   Random random(static_cast<std::uint64_t>(GetParam()));
   TornModel model = make_model(test::random_character(random));
   for (int i = 0; i < 6; ++i) {
@@ -166,7 +166,7 @@ TEST(Replay, clips_and_bones_that_do_not_exist_are_not_found) {
   EXPECT_EQ(difference(state_of(model), before), "");
 }
 
-TEST(Replay, undo_and_redo_of_more_than_there_is_take_back_nothing) {
+TEST(Replay, undo_and_redo_of_too_many_operations_change_nothing) {
   TornModel model = make_model(test::make_sheet(6));
   const ModelPose pose = bind_pose(model.source());
   const auto initial = state_of(model);
@@ -183,7 +183,7 @@ TEST(Replay, undo_and_redo_of_more_than_there_is_take_back_nothing) {
   EXPECT_EQ(difference(state_of(model), torn), "");
 }
 
-TEST(Replay, compacting_begins_anew) {
+TEST(Replay, compacting_starts_a_new_history) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed);

@@ -345,7 +345,7 @@ std::vector<ChangeRecord> tear_by_calls(TornModel& model, const TearOperation& t
   return changes;
 }
 
-TEST(Rims, of_a_stroke_by_calls_are_in_sum_those_of_the_tear) {
+TEST(Rims, of_a_stroke_in_several_calls_are_those_of_the_tear) {
   int told = 0;
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     SCOPED_TRACE(seed);
@@ -437,7 +437,7 @@ void redo_at_random(TornModel& model, Random& random) {
 
 class RandomRedo : public testing::TestWithParam<int> {};
 
-TEST_P(RandomRedo, says_what_the_operation_said) {
+TEST_P(RandomRedo, gives_the_record_of_the_operation) {
   Random random(static_cast<std::uint64_t>(GetParam()));
   TornModel model = make_model(test::random_character(random));
   redo_at_random(model, random);
@@ -445,7 +445,7 @@ TEST_P(RandomRedo, says_what_the_operation_said) {
 
 INSTANTIATE_TEST_SUITE_P(seeds, RandomRedo, testing::Range(0, 60));
 
-TEST(Redo, says_what_the_operation_said_in_a_model_of_fixed_capacity) {
+TEST(Redo, gives_the_record_of_the_operation_in_a_model_of_fixed_capacity) {
   for (std::uint64_t seed = 0; seed < 20 && !HasFailure(); ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed);

@@ -113,7 +113,7 @@ TEST(TearStroke, figures_of_its_pieces_add_up) {
   EXPECT_NEAR(report->length_posed, sum.length_posed, 1e-12);
 }
 
-TEST(TearStroke, a_miss_says_so_and_changes_nothing) {
+TEST(TearStroke, a_miss_is_reported_and_changes_nothing) {
   for (const double width : {0.0, 0.05}) {
     TornModel model = make_model(test::make_sheet(5));
     const ModelPose pose = bind_pose(model.source());
@@ -137,7 +137,7 @@ TEST(TearStroke, a_miss_says_so_and_changes_nothing) {
   }
 }
 
-TEST(TearStroke, a_piece_that_fails_changes_nothing_and_the_stroke_goes_on) {
+TEST(TearStroke, a_failing_call_changes_nothing_and_the_stroke_continues) {
   TornModel model = make_model(test::make_sheet(6)), straight = make_model(test::make_sheet(6));
   const ModelPose pose = bind_pose(model.source());
   TearStroke stroke = begin(model, pose, down_at(0.2, 0.3));
@@ -288,7 +288,7 @@ TEST(TearStroke, that_goes_out_of_scope_is_cancelled_but_not_when_it_was_moved) 
   EXPECT_EQ(model.character(), model.source());
 }
 
-TEST(TearStroke, goes_on_where_its_model_was_moved) {
+TEST(TearStroke, continues_if_its_model_was_moved) {
   TornModel model = make_model(test::make_sheet(6)), straight = make_model(model.source());
   const ModelPose pose = bind_pose(model.source());
   TearStroke stroke = begin(model, pose, down_at(0.2, 0.3));
@@ -396,7 +396,7 @@ TEST_P(StrokesInMotion, go_on_from_the_tip_and_leave_no_bridge) {
 
 INSTANTIATE_TEST_SUITE_P(seeds, StrokesInMotion, testing::Range(0, 100));
 
-TEST(TearStroke, goes_on_where_its_character_leaps_farther_than_the_blade_reaches) {
+TEST(TearStroke, continues_if_the_character_moves_farther_than_the_blade_reaches) {
   for (std::uint64_t seed = 0; seed < 50; ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed);

@@ -110,7 +110,7 @@ TEST(Topology, faces_that_share_their_vertices_stay_together_on_an_edge_of_many)
   EXPECT_EQ(count_topology(character).components, 2u);
 }
 
-TEST(Topology, surfaces_that_touch_in_a_point_are_apart) {
+TEST(Topology, surfaces_that_touch_in_a_point_are_separate) {
   const TopologyCounts counts = count_topology(make_soup({{kA, kB, kC}, {kA, kD, -kE}}));
   EXPECT_EQ(counts.components, 2u);
   EXPECT_EQ(counts.points, 6u) << "the shared place is a point of each";
@@ -123,7 +123,7 @@ TEST(Topology, degenerate_triangles_are_counted_and_join_nothing) {
   EXPECT_EQ(counts.degenerate_triangles, 2u);
 }
 
-TEST(Topology, retired_triangles_and_what_only_they_use_count_for_nothing) {
+TEST(Topology, retired_triangles_and_vertices_used_only_by_them_do_not_count) {
   Character character = make_soup({{kA, kB, kC}, {kB, kA, kD}, {kE, 2 * kE, 3 * kD}});
   const TopologyCounts before = count_topology(character);
   EXPECT_EQ(before.points, 7u);

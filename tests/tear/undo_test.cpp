@@ -96,7 +96,7 @@ TEST(Undo, of_nothing_is_not_found) {
   EXPECT_EQ(difference(state_of(model), before), "");
 }
 
-TEST(Undo, what_was_taken_back_is_forgotten_after_a_new_operation) {
+TEST(Undo, a_new_operation_clears_the_redo_stack) {
   TornModel model = make_model(test::make_sheet(6));
   const ModelPose pose = bind_pose(model.source());
   ASSERT_TRUE(model.tear(pose, Stroke{down_at(0.2, 0.2), down_at(0.4, 0.3)}));
@@ -109,7 +109,7 @@ TEST(Undo, what_was_taken_back_is_forgotten_after_a_new_operation) {
   EXPECT_EQ(model.redo().code(), StatusCode::not_found);
 }
 
-TEST(Undo, what_follows_an_undo_is_as_if_the_undone_had_never_been) {
+TEST(Undo, operations_after_an_undo_do_not_depend_on_it) {
   for (std::uint64_t seed = 0; seed < 30; ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed);

@@ -215,7 +215,7 @@ TEST(UnfinishedStroke, that_runs_out_of_room_is_as_it_was_before_the_call) {
   EXPECT_GT(failures.went_on, 3);
 }
 
-TEST(UnfinishedStroke, cancelled_or_destroyed_is_taken_back_bit_for_bit) {
+TEST(UnfinishedStroke, cancelled_or_destroyed_is_undone_bit_for_bit) {
   int torn = 0;
   for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(test::stressed(200, 20)); ++seed) {
     SCOPED_TRACE(seed);

@@ -42,7 +42,7 @@ Stroke along_tube() {
           {{0.2, 1.8, 0.8}, {0.2, 1.8, 0.2}}};
 }
 
-TEST(Walls, of_a_tear_hang_from_its_lips) {
+TEST(Walls, of_a_tear_start_at_its_lips) {
   for (const double width : {0.0, 0.1}) {
     SCOPED_TRACE(width);
     TornModel model = make_model(test::make_tube(10, 12, 3));
@@ -122,7 +122,7 @@ TEST(Walls, of_a_blind_bore_have_a_floor) {
   expect_sound(model);
 }
 
-TEST(Walls, of_random_operations_keep_every_law) {
+TEST(Walls, of_random_operations_keep_every_invariant) {
   Random random(21);
   for (int i = 0; i < 60; ++i) {
     SCOPED_TRACE(i);

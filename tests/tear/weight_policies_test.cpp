@@ -106,7 +106,7 @@ TEST_P(WeightPolicies, keep_the_laws) {
   }
 }
 
-TEST_P(WeightPolicies, exact_points_stand_where_the_surface_was_in_every_pose) {
+TEST_P(WeightPolicies, exact_points_are_on_the_untorn_surface_in_every_pose) {
   const Case of(GetParam());
   const TornModel model = torn(of.source, of.operations, kExact);
   if (model.undo_count() == 0) return;
@@ -157,7 +157,7 @@ TEST_P(WeightPolicies, exact_points_are_posed_by_the_runtime) {
   }
 }
 
-TEST_P(WeightPolicies, pose_exact_points_stand_where_the_surface_was_in_the_pose_of_the_tear) {
+TEST_P(WeightPolicies, pose_exact_points_are_on_the_untorn_surface_in_the_pose_of_the_tear) {
   test::Random random(static_cast<std::uint64_t>(GetParam()));
   const auto source = std::make_shared<const Character>(test::make_tube(16, 20, 5));
   for (const WeightOptions& weights : {kPoseExact, kPoseExact4}) {
@@ -222,7 +222,7 @@ TEST_P(WeightPolicies, history_gives_the_model_again) {
   }
 }
 
-TEST_P(WeightPolicies, points_are_weighed_anew_as_if_they_had_been_from_the_start) {
+TEST_P(WeightPolicies, reweighing_equals_weighing_from_the_start) {
   const Case of(GetParam());
   for (const WeightOptions& from : kAll)
     for (const WeightOptions& to : {kBarycentric, kBarycentric4, kExact}) {
@@ -247,7 +247,7 @@ TEST_P(WeightPolicies, points_are_weighed_anew_as_if_they_had_been_from_the_star
     }
 }
 
-TEST_P(WeightPolicies, later_operations_do_not_see_what_points_were_weighed_to) {
+TEST_P(WeightPolicies, later_operations_do_not_depend_on_weights) {
   const Case of(GetParam());
   for (const WeightOptions& weights : {kPoseExact4, kExact}) {
     auto model = TornModel::create(of.source);
@@ -288,7 +288,7 @@ TEST(WeightPolicy, lips_have_the_same_bits) {
   }
 }
 
-TEST(WeightPolicy, of_one_operation_stands_above_that_of_the_model) {
+TEST(WeightPolicy, of_an_operation_overrides_that_of_the_model) {
   test::Random random(2);
   auto model = test::make_model(test::make_tube(20, 24, 6));
   ASSERT_TRUE(model.set_weights(kExact));
@@ -326,7 +326,7 @@ TEST(WeightPolicy, a_stroke_blade_by_blade_is_that_of_all_its_blades) {
   }
 }
 
-TEST(WeightPolicy, what_cannot_be_is_refused_and_changes_nothing) {
+TEST(WeightPolicy, invalid_options_are_refused_and_change_nothing) {
   test::Random random(3);
   auto model = test::make_model(test::make_tube(12, 12, 4));
   const ModelPose pose = test::random_pose(model.source(), random);
@@ -365,7 +365,7 @@ TEST(WeightPolicy, what_cannot_be_is_refused_and_changes_nothing) {
             StatusCode::non_finite_value);
 }
 
-TEST(WeightPolicy, exact_and_interpolated_models_are_told_apart) {
+TEST(WeightPolicy, exact_and_interpolated_models_have_different_digests) {
   test::Random random(3);
   const auto source = std::make_shared<const Character>(test::make_tube(12, 12, 4));
   const ModelPose pose = test::random_pose(*source, random);

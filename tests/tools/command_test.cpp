@@ -112,7 +112,7 @@ TEST_F(Command, a_wrong_command_line_exits_with_2) {
   EXPECT_FALSE(exists("x.glb"));
 }
 
-TEST_F(Command, info_counts_what_is_there) {
+TEST_F(Command, info_counts_the_parts_of_a_model) {
   const CommandResult result = run_sunder({"info", model(), "--json"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const json info = json::parse(result.out);
@@ -146,7 +146,7 @@ TEST_F(Command, an_unreadable_model_exits_with_3) {
   }
 }
 
-TEST_F(Command, tear_reports_what_it_did) {
+TEST_F(Command, tear_reports_its_results) {
   const CommandResult result =
       run_sunder({"tear", model(), "--ops", write("a.json", kOneTear), "-o", path("torn.glb")});
   ASSERT_EQ(result.exit_code, 0) << result.err;
@@ -253,7 +253,7 @@ TEST_F(Command, tear_plays_every_operation) {
         << count;
 }
 
-TEST_F(Command, tear_says_what_it_writes_of_the_influences) {
+TEST_F(Command, tear_reports_the_written_influences) {
   const std::string operations = write("a.json", kOneTear);
   const json all = json::parse(
       run_sunder({"tear", model(), "--ops", operations, "-o", path("all_kept.glb")}).out);
@@ -289,7 +289,7 @@ TEST_F(Command, tear_says_what_it_writes_of_the_influences) {
   }
 }
 
-TEST_F(Command, tear_weighs_new_points_as_it_is_told) {
+TEST_F(Command, tear_weighs_new_points_by_the_requested_policy) {
   const std::string operations = write("a.json", kOneTear);
   std::map<std::string, json> reports;
   for (const char* const policy : {"barycentric", "pose_exact", "refit", "exact"}) {
@@ -357,7 +357,7 @@ TEST_F(Command, influences_are_kept_in_weights_too) {
   }
 }
 
-TEST_F(Command, a_refit_is_over_what_it_is_told) {
+TEST_F(Command, a_refit_uses_the_requested_poses) {
   const std::string operations = write("a.json", kOneTear);
   for (const char* const over : {"clips", "range_of_motion", "both"}) {
     const CommandResult result =
@@ -522,7 +522,7 @@ TEST_F(Command, a_log_that_cannot_be_saved_leaves_nothing) {
 }
 
 /// Checked by our own reader and, if it is installed, by the Khronos validator.
-TEST_F(Command, what_tear_writes_is_valid) {
+TEST_F(Command, tear_writes_valid_files) {
   for (const char* const influences : {"4", "8"})
     for (const char* const format : {"float", "u16", "u8"}) {
       ASSERT_EQ(run_sunder({"tear", model(), "--ops", write("a.json", kOneTear), "-o",
@@ -646,7 +646,7 @@ TEST_F(Command, an_output_that_cannot_be_written_exits_with_3) {
   EXPECT_THAT(result.out, IsEmpty());
 }
 
-TEST_F(Command, demo_without_a_renderer_leaves_all_but_the_pictures) {
+TEST_F(Command, demo_without_a_renderer_writes_everything_except_pictures) {
   const CommandResult result = run_sunder({"demo", "-o", path("demo")}, {{"PATH", "/nonexistent"}});
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_THAT(result.err, HasSubstr("f3d"));
@@ -684,7 +684,7 @@ TEST_F(Command, demo_draws_four_pictures) {
         << name;
 }
 
-TEST_F(Command, tear_draws_what_is_left) {
+TEST_F(Command, tear_draws_a_picture_of_the_result) {
   if (std::system("command -v f3d xvfb-run >/dev/null 2>&1") != 0)
     GTEST_SKIP() << "needs f3d and xvfb-run";
   for (const char* const operations : {kOneTear, kAll}) {

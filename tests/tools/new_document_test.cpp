@@ -105,7 +105,7 @@ TEST_F(NewDocument, keeps_the_largest_influences_that_are_asked_for) {
     ASSERT_LE(flesh.weights.of(v).size(), 4u);
 }
 
-TEST_F(NewDocument, refuses_what_is_not_valid_and_leaves_no_file) {
+TEST_F(NewDocument, refuses_invalid_characters_and_leaves_no_file) {
   Character broken = cactus_;
   broken.meshes[0].triangles[7][1] = 1'000'000;
   EXPECT_EQ(save_glb(file_, broken).code(), StatusCode::index_out_of_range);

@@ -46,7 +46,7 @@ Mesh many_influences(test::Random& random) {
   return test::make_random_skin(random, wanted);
 }
 
-TEST(Prune, keeps_the_largest_and_what_is_dropped_follows) {
+TEST(Prune, keeps_the_largest_followed_by_dropped_ones) {
   Influences influences = {{7, 0.125f}, {3, 0.25f}, {5, 0.0625f}, {1, 0.5f}, {2, 0.0625f}};
   ASSERT_EQ(prune_influences(influences, 2), 2u);
   EXPECT_EQ(influences, (Influences{{1, static_cast<float>(0.5 / 0.75)},
@@ -74,7 +74,7 @@ TEST(Prune, a_maximum_of_zero_keeps_all_in_their_order) {
   EXPECT_EQ(pruned, influences);
 }
 
-TEST(Prune, what_fits_is_sorted_and_keeps_its_bits) {
+TEST(Prune, influences_within_the_maximum_are_sorted_and_keep_their_bits) {
   for (const std::size_t maximum : {3u, 4u, 100u}) {
     Influences pruned = {{7, 0.1f}, {3, 0.2f}, {5, 0.7f}};
     EXPECT_EQ(prune_influences(pruned, maximum), 3u);
@@ -82,7 +82,7 @@ TEST(Prune, what_fits_is_sorted_and_keeps_its_bits) {
   }
 }
 
-TEST(Prune, what_is_kept_sums_to_one_largest_first) {
+TEST(Prune, kept_weights_sum_to_one_largest_first) {
   test::Random random(3);
   const Mesh mesh = many_influences(random);
   for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v)
@@ -120,7 +120,7 @@ TEST(Prune, the_displacement_is_that_of_linear_blend_skinning) {
   }
 }
 
-TEST(Prune, the_displacement_holds_for_what_is_stored_but_for_its_rounding) {
+TEST(Prune, the_displacement_holds_for_stored_weights_within_rounding) {
   test::Random random(9);
   Mesh mesh = many_influences(random);
   const Mesh unpruned = mesh;
@@ -158,7 +158,7 @@ TEST(Prune, nothing_dropped_moves_nothing) {
   EXPECT_EQ(pruning_displacement(Vec3d(1, 2, 3), without_weight, 1, palette), Vec3d(Vec3d::Zero()));
 }
 
-TEST(Prune, what_are_no_weights_stay_as_they_are) {
+TEST(Prune, invalid_weights_stay_as_they_are) {
   const float nan = std::numeric_limits<float>::quiet_NaN(),
               infinity = std::numeric_limits<float>::infinity();
   for (const Influences& bad : {Influences{},

@@ -123,7 +123,7 @@ TYPED_TEST(Quantise, more_influences_than_units) {
   EXPECT_LE(equal.front() - equal.back(), 1);
 }
 
-TYPED_TEST(Quantise, what_are_no_weights_is_refused_and_nothing_is_written) {
+TYPED_TEST(Quantise, invalid_weights_are_refused_and_nothing_is_written) {
   const float nan = std::numeric_limits<float>::quiet_NaN(),
               infinity = std::numeric_limits<float>::infinity();
   const auto expect_refused = [](const Influences& influences, std::size_t size) {

@@ -65,7 +65,7 @@ void expect_on_simplex(const std::vector<double>& weights) {
   EXPECT_NEAR(std::accumulate(weights.begin(), weights.end(), 0.0), 1, 1e-12);
 }
 
-TEST(SimplexSolver, finds_what_trying_every_support_finds) {
+TEST(SimplexSolver, finds_the_same_as_trying_every_support) {
   test::Random random(1);
   weights::SimplexSolver solver;
   for (int i = 0; i < test::stressed(2000, 20); ++i) {

@@ -110,7 +110,7 @@ TEST(ExactPredicates, in_circle_changes_sign_when_two_points_change_places) {
   }
 }
 
-TEST(ExactPredicates, range_is_what_products_can_bear) {
+TEST(ExactPredicates, range_ends_where_products_overflow) {
   EXPECT_FALSE(exact_range({std::nan(""), 0}));
   EXPECT_FALSE(exact_range({0, -HUGE_VAL}));
   EXPECT_FALSE(exact_range({1e61, 0}));

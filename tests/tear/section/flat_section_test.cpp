@@ -304,7 +304,7 @@ TEST(FindRegions, alternates_outlines_and_holes) {
   EXPECT_EQ(regions[3].outline, 5u);
 }
 
-TEST(FindRegions, covers_what_an_odd_number_of_loops_holds) {
+TEST(FindRegions, covers_points_inside_an_odd_number_of_loops) {
   for (int seed = 0; seed < case_count(200); ++seed) {
     SCOPED_TRACE(seed);
     Random random(static_cast<std::uint64_t>(seed));
@@ -469,7 +469,7 @@ TEST(Triangulate, self_crossing_loops_give_nothing_or_a_triangulation) {
   EXPECT_GT(refused, 1000);
 }
 
-TEST(Triangulate, refuses_what_cannot_be_triangulated) {
+TEST(Triangulate, refuses_loops_that_cannot_be_triangulated) {
   const double nan = std::numeric_limits<double>::quiet_NaN(),
                infinity = std::numeric_limits<double>::infinity();
   const FlatLoop square{{0, 0}, {4, 0}, {4, 4}, {0, 4}};
