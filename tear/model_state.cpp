@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/internal/ordered.h"
+#include "tear/geometry/tolerances.h"
 #include "tear/pieces/pieces.h"
 #include "tear/surface/describe_change.h"
 #include "tear/weights/assign_weights.h"
@@ -112,10 +113,10 @@ void TornModel::State::record(const tear::EditLog::Mark& begin) {
 Status validate_blade(const Blade& blade, std::uint32_t index) {
   if (!blade.base.allFinite() || !blade.tip.allFinite())
     return Status::failure(StatusCode::non_finite_value, index, "blade %u is not finite", index);
-  // Products of four coordinates must stay finite.
-  if (blade.base.cwiseAbs().maxCoeff() > 1e60 || blade.tip.cwiseAbs().maxCoeff() > 1e60)
+  if (blade.base.cwiseAbs().maxCoeff() > tear::kFarthestMetres ||
+      blade.tip.cwiseAbs().maxCoeff() > tear::kFarthestMetres)
     return Status::failure(StatusCode::invalid_argument, index, "blade %u lies beyond 1e60", index);
-  if (!(norm(blade.tip - blade.base) > 1e-30))
+  if (!(norm(blade.tip - blade.base) > tear::kShortestMetres))
     return Status::failure(StatusCode::invalid_argument, index, "blade %u has no length", index);
   return {};
 }
@@ -152,7 +153,7 @@ Status validate_weights(const WeightOptions& options) {
 }
 
 Status validate_options(const TearOptions& options) {
-  const auto is_length = [](double value) { return value >= 0 && value <= 1e30; };
+  const auto is_length = [](double value) { return value >= 0 && value <= tear::kLongestMetres; };
   if (!is_length(options.width))
     return Status::failure(StatusCode::invalid_argument, kNone, "a gap is 0 to 1e30 wide, not %g",
                            options.width);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/internal/ordered.h"
+#include "tear/geometry/tolerances.h"
 #include "tear/model_state.h"
 #include "tear/operation/ongoing_stroke.h"
 #include "tear/surface/describe_change.h"
@@ -25,10 +26,10 @@ bool same_bits(const ModelPose& a, const ModelPose& b) {
 }
 
 Status validate_sampling(const StrokeSampling& sampling) {
-  if (!(sampling.minimum_distance >= 0 && sampling.minimum_distance <= 1e30))
+  if (!(sampling.minimum_distance >= 0 && sampling.minimum_distance <= tear::kLongestMetres))
     return Status::failure(StatusCode::invalid_argument, kNone,
                            "samples are 0 to 1e30 apart, not %g", sampling.minimum_distance);
-  if (!(sampling.minimum_seconds >= 0 && sampling.minimum_seconds <= 1e30))
+  if (!(sampling.minimum_seconds >= 0 && sampling.minimum_seconds <= tear::kLongestSeconds))
     return Status::failure(StatusCode::invalid_argument, kNone,
                            "samples are 0 to 1e30 seconds apart, not %g", sampling.minimum_seconds);
   return {};

@@ -5,6 +5,7 @@
 
 #include "core/internal/ordered.h"
 #include "tear/geometry/half_space.h"
+#include "tear/geometry/tolerances.h"
 
 namespace sunder::tear {
 
@@ -35,7 +36,7 @@ struct Box {
   /// corners and from coordinates up to `reach`. The margin of a box inside another one is not
   /// greater.
   [[nodiscard]] double margin(double reach) const {
-    return 1e-9 * (high - low).maxCoeff() + 1e-12 * (largest_coordinate() + reach);
+    return kBoxSizes * (high - low).maxCoeff() + kPosedCoordinates * (largest_coordinate() + reach);
   }
   [[nodiscard]] Box widened(double reach) const {
     const Vec3d all_around = Vec3d::Constant(margin(reach));
@@ -72,7 +73,7 @@ class FramedHalfSpace {
   [[nodiscard]] bool is_beside(const Box& box) const {
     const Vec3d middle = box.middle(), half = box.half_size();
     const double greatest = inside_.value(middle) + dot(steepness_, half);
-    return greatest < -1e-12 * (magnitude_ + dot(steepness_, middle.cwiseAbs() + half));
+    return greatest < -kPosedCoordinates * (magnitude_ + dot(steepness_, middle.cwiseAbs() + half));
   }
 
  private:

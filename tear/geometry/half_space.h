@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/internal/ordered.h"
+#include "tear/geometry/tolerances.h"
 
 namespace sunder::tear {
 
@@ -23,7 +24,7 @@ struct HalfSpace {
   [[nodiscard]] bool contains(const Vec3d& point) const {
     const double rounding = std::abs(normal.x() * point.x()) + std::abs(normal.y() * point.y()) +
                             std::abs(normal.z() * point.z()) + std::abs(offset);
-    return value(point) >= -2e-15 * rounding;
+    return value(point) >= -kOnPlaneTerms * rounding;
   }
 };
 

@@ -2,15 +2,14 @@
 
 #include "core/internal/ordered.h"
 #include "tear/filling/caps.h"
+#include "tear/geometry/tolerances.h"
 #include "tear/sheet/open_sheet.h"
 #include "tear/surface/improve.h"
 
 namespace sunder::tear {
 namespace {
 
-constexpr double kFar = 1e60;  ///< Products of four coordinates must stay finite.
-
-bool is_near(const Vec3d& vector) { return vector.cwiseAbs().maxCoeff() <= kFar; }
+bool is_near(const Vec3d& vector) { return vector.cwiseAbs().maxCoeff() <= kFarthestMetres; }
 
 /// The half-spaces bounded by the sides of a polygon in the plane. Empty if the polygon is not
 /// convex or has no area.
@@ -30,9 +29,10 @@ std::vector<HalfSpace> sides_of(const std::vector<Vec3d>& bounds, const Vec3d& n
   for (const Vec3d& corner : bounds) size = std::max(size, norm(corner - bounds[0]));
   for (const HalfSpace& side : sides)
     for (const Vec3d& corner : bounds)
-      if (side.value(corner) < -1e-9 * size) return {};
-  return std::abs(dot(doubled_area, normal)) > 1e-12 * size * size ? sides
-                                                                   : std::vector<HalfSpace>{};
+      if (side.value(corner) < -kConvexSizes * size) return {};
+  return std::abs(dot(doubled_area, normal)) > kFlatSquaredSizes * size * size
+             ? sides
+             : std::vector<HalfSpace>{};
 }
 
 }  // namespace
@@ -44,7 +44,7 @@ Status validate_cut(const PlaneCut& cut) {
   if (!is_near(cut.point) || !is_near(cut.normal))
     return Status::failure(StatusCode::invalid_argument, kNone,
                            "the plane of the cut lies beyond 1e60");
-  if (!(norm(cut.normal) > 1e-30))
+  if (!(norm(cut.normal) > kShortestDirection))
     return Status::failure(StatusCode::invalid_argument, kNone,
                            "the plane of the cut has no normal");
   if (cut.bounds.empty()) return {};

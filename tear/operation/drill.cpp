@@ -4,6 +4,7 @@
 
 #include "core/internal/ordered.h"
 #include "tear/filling/walls.h"
+#include "tear/geometry/tolerances.h"
 #include "tear/sheet/gap.h"
 #include "tear/surface/improve.h"
 
@@ -58,16 +59,17 @@ Status validate_bore(const Bore& bore) {
   if (!bore.origin.allFinite() || !bore.direction.allFinite())
     return Status::failure(StatusCode::non_finite_value, kNone,
                            "the axis of the bore is not finite");
-  if (bore.origin.cwiseAbs().maxCoeff() > 1e60 || bore.direction.cwiseAbs().maxCoeff() > 1e60)
+  if (bore.origin.cwiseAbs().maxCoeff() > kFarthestMetres ||
+      bore.direction.cwiseAbs().maxCoeff() > kFarthestMetres)
     return Status::failure(StatusCode::invalid_argument, kNone,
                            "the axis of the bore lies beyond 1e60");
-  if (!(norm(bore.direction) > 1e-30))
+  if (!(norm(bore.direction) > kShortestDirection))
     return Status::failure(StatusCode::invalid_argument, kNone,
                            "the axis of the bore has no direction");
-  if (!(bore.radius > 1e-30 && bore.radius <= 1e30))
+  if (!(bore.radius > kShortestMetres && bore.radius <= kLongestMetres))
     return Status::failure(StatusCode::invalid_argument, kNone,
                            "a bore has a radius above 0 and up to 1e30, not %g", bore.radius);
-  if (!(bore.depth > 1e-30 && bore.depth <= 1e30))
+  if (!(bore.depth > kShortestMetres && bore.depth <= kLongestMetres))
     return Status::failure(StatusCode::invalid_argument, kNone,
                            "a bore has a depth above 0 and up to 1e30, not %g", bore.depth);
   if (!(bore.chord_tolerance >= 0 && bore.chord_tolerance <= bore.radius))

@@ -69,7 +69,7 @@ class Segment {
         per_step_(direction_in_frame_.cwiseInverse()),
         reach_(std::max(
             {frame.reach(), base_.cwiseAbs().maxCoeff(), blade.tip.cwiseAbs().maxCoeff()})),
-        rounding_(1e-12 * reach_) {}
+        rounding_(kPosedCoordinates * reach_) {}
 
   struct Part {
     double begin = 0, end = 1;
@@ -102,15 +102,15 @@ class Segment {
     const Vec3d ab = corners[1] - corners[0], ac = corners[2] - corners[0];
     const Vec3d h = direction_.cross(ac);
     const double determinant = dot(ab, h);
-    if (!(std::abs(determinant) > 1e-14 * norm(ab) * norm(ac) * norm(direction_)))
+    if (!(std::abs(determinant) > kAlongFaceLengths * norm(ab) * norm(ac) * norm(direction_)))
       return std::nullopt;
     const Vec3d from_corner = base_ - corners[0];
     const double u = dot(from_corner, h) / determinant;
     const Vec3d q = from_corner.cross(ab);
     const double v = dot(direction_, q) / determinant;
     depth = dot(ac, q) / determinant;
-    constexpr double kEdge = 1e-12;
-    if (u < -kEdge || v < -kEdge || u + v > 1 + kEdge || depth < 0 || depth > 1)
+    if (u < -kHitBarycentric || v < -kHitBarycentric || u + v > 1 + kHitBarycentric || depth < 0 ||
+        depth > 1)
       return std::nullopt;
     // If the segment runs along the triangle's plane, rounding may give places outside the
     // triangle.
@@ -164,7 +164,7 @@ std::optional<Contact> contact_with(Index triangle, const Corners& corners, cons
   bool is_reached = clip(not_before, a, b, begin, end);
   for (const auto& half_plane : plane.reach())
     is_reached = is_reached && clip(half_plane, a, b, begin, end);
-  if (!is_reached || end - begin < kSnap)
+  if (!is_reached || end - begin < kSnapEdges)
     return std::nullopt;  // a remnant of a triangle whose neighbour's end was snapped
 
   const SweepCoordinates at_begin = plane.sweep_coordinates(a + begin * (b - a));
@@ -172,7 +172,7 @@ std::optional<Contact> contact_with(Index triangle, const Corners& corners, cons
   const bool forward = at_begin.progress <= at_end.progress;
   const SweepCoordinates& low = forward ? at_begin : at_end;
   const SweepCoordinates& high = forward ? at_end : at_begin;
-  if (!(high.progress > std::max(low.progress, progress) + kSamePlace)) return std::nullopt;
+  if (!(high.progress > std::max(low.progress, progress) + kSamePlaceSweeps)) return std::nullopt;
   const double at = forward ? begin : end;
   Contact contact{{triangle, {}, Vec3d::Zero(), high.progress}, low};
   for (std::size_t k = 0; k < 3; ++k) {
@@ -214,7 +214,7 @@ class Sweep {
     narrow.high[0] = std::min(narrow.high[0], shadow.high);
     for (std::size_t k = 0; k < 3; ++k) {
       const double steepness = shadow.normal[k].x();
-      if (!(std::abs(steepness) > 1e-6)) continue;
+      if (!(std::abs(steepness) > kSteepSine)) continue;
       const double from = (shadow.from[k] - margin - shadow.normal[k].y() * at_plane) / steepness;
       const double to = (shadow.to[k] + margin - shadow.normal[k].y() * at_plane) / steepness;
       narrow.low[1] = std::max(narrow.low[1], std::min(from, to) - margin / std::abs(steepness));
@@ -285,10 +285,10 @@ std::optional<SurfaceHit> first_contact(const BladePlane& plane, double progress
   double least = std::numeric_limits<double>::max(), least_depth = least;
   std::optional<Contact> nearest;
   const auto is_there = [&](const Contact& contact) {
-    return contact.low.progress < least + kSamePlace;
+    return contact.low.progress < least + kSamePlaceSweeps;
   };
   const auto choose = [&](const Contact& contact) {
-    if (is_there(contact) && contact.low.depth <= least_depth + kSamePlace &&
+    if (is_there(contact) && contact.low.depth <= least_depth + kSamePlaceSweeps &&
         (!nearest || contact.hit.triangle < nearest->hit.triangle))
       nearest = contact;
   };
@@ -305,7 +305,7 @@ std::optional<SurfaceHit> first_contact(const BladePlane& plane, double progress
       are_all_near_kept = are_all_near_kept && count < near.size();
       if (are_all_near_kept) near[count++] = contact;
     }
-    return least + kSamePlace;
+    return least + kSamePlaceSweeps;
   });
   if (are_all_near_kept) {
     for (const Contact& contact : std::span(near).first(count))
@@ -314,11 +314,11 @@ std::optional<SurfaceHit> first_contact(const BladePlane& plane, double progress
   } else {  // many faces around one point: two more passes
     for_each_contact(plane, progress, editor, posed, [&](const Contact& contact) {
       if (is_there(contact)) least_depth = std::min(least_depth, contact.low.depth);
-      return least + kSamePlace;
+      return least + kSamePlaceSweeps;
     });
     for_each_contact(plane, progress, editor, posed, [&](const Contact& contact) {
       choose(contact);
-      return least + kSamePlace;
+      return least + kSamePlaceSweeps;
     });
   }
   return nearest ? std::optional(nearest->hit) : std::nullopt;
@@ -328,8 +328,8 @@ std::optional<SurfaceHit> contact_at(const SurfaceHit& hit, const BladePlane& pl
                                      const SurfaceEditor& editor, PosedPoints& posed) {
   const auto contact = contact_with(hit.triangle, posed_corners(editor, posed, hit.triangle), plane,
                                     0, plane.not_before());
-  return contact && contact->low.progress <= kSamePlace ? std::optional(contact->hit)
-                                                        : std::nullopt;
+  return contact && contact->low.progress <= kSamePlaceSweeps ? std::optional(contact->hit)
+                                                              : std::nullopt;
 }
 
 }  // namespace sunder::tear

@@ -5,21 +5,13 @@
 #include <unordered_set>
 
 #include "core/internal/ordered.h"
+#include "tear/geometry/tolerances.h"
 #include "tear/internal/surface.h"
 #include "tear/surface/disconnect.h"
 #include "tear/surface/disjoint_sets.h"
 
 namespace sunder::tear {
 namespace {
-
-/// The search goes from face to face across an edge if more than this fraction of it is inside the
-/// cell.
-constexpr double kLeast = 1e-9;
-
-/// The distance by which an edge of the rim may miss its plane, as a fraction of its length and of
-/// the largest coordinate.
-constexpr double kOnSide = 1e-2;
-constexpr double kRounding = 1e-6;
 
 using Corners = std::array<Vec3d, 3>;
 
@@ -37,7 +29,7 @@ bool is_edge_in_cell(const Cell& cell, const Vec3d& a, const Vec3d& b) {
     if (at_a < 0) begin = std::max(begin, at_a / (at_a - at_b));
     if (at_b < 0) end = std::min(end, at_a / (at_a - at_b));
   }
-  return end - begin > kLeast;
+  return end - begin > kInCellEdges;
 }
 
 /// Whether the intersection of a triangle and a cell is more than a border. Sutherland and Hodgman
@@ -133,7 +125,7 @@ Index side_of_edge(const Cell& cell, const Vec3d& a, const Vec3d& b) {
   // An end may be off the plane by the distance of snapping, where a face was too small for a new
   // point.
   const double rounding = std::max(a.cwiseAbs().maxCoeff(), b.cwiseAbs().maxCoeff());
-  return least <= kOnSide * norm(b - a) + kRounding * rounding ? nearest : kNone;
+  return least <= kOnSideEdges * norm(b - a) + kOnSideCoordinates * rounding ? nearest : kNone;
 }
 
 /// The border between removed and remaining faces. It is collected before the removal and described

@@ -150,8 +150,9 @@ class Imprint {
     Index last = from;
     double last_fraction = 0;
     for (Crossing* crossing : along) {
-      const double snap = std::min(
-          0.25, stored * crossing->slant);  // ends nearer than this are stored on the sheet
+      const double snap =
+          std::min(kFarthestSnapEdges,
+                   stored * crossing->slant);  // ends nearer than this are stored on the sheet
       if (crossing->fraction - last_fraction <= snap) {
         crossing->point = last;
       } else if (crossing->fraction >= 1 - snap) {
@@ -168,7 +169,7 @@ class Imprint {
         if (point == kNone) {
           // The faces are too small for another point. An end nearby is used instead; one that is
           // far off is not on the line, and the crossing is blocked.
-          const double near = std::max(kSnap, 4 * snap);
+          const double near = std::max(kSnapEdges, 4 * snap);
           if (fraction <= near || fraction >= 1 - near)
             crossing->point = fraction < 0.5 ? last : to;
           continue;

@@ -11,7 +11,7 @@ namespace {
 
 using tear::BladePlane;
 using tear::HalfSpace;
-using tear::kSamePlace;
+using tear::kSamePlaceSweeps;
 using tear::SurfaceHit;
 using tear::SweepCoordinates;
 
@@ -66,12 +66,12 @@ std::vector<Contact> all_contacts(const BladePlane& plane, double progress,
     bool is_reached = clip(not_before.value(a), not_before.value(b), begin, end);
     for (const auto& side : plane.reach())
       is_reached = is_reached && clip(side.value(a), side.value(b), begin, end);
-    if (!is_reached || end - begin < tear::kSnap) return;
+    if (!is_reached || end - begin < tear::kSnapEdges) return;
     const SweepCoordinates at_begin = plane.sweep_coordinates(a + begin * (b - a));
     const SweepCoordinates at_end = plane.sweep_coordinates(a + end * (b - a));
     const bool forward = at_begin.progress <= at_end.progress;
     const SweepCoordinates low = forward ? at_begin : at_end, high = forward ? at_end : at_begin;
-    if (!(high.progress > std::max(low.progress, progress) + kSamePlace)) return;
+    if (!(high.progress > std::max(low.progress, progress) + kSamePlaceSweeps)) return;
     Contact contact{{triangle, {}, Vec3d::Zero(), high.progress}, low};
     const double at = forward ? begin : end;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -146,10 +146,11 @@ std::optional<SurfaceHit> scan_for_contact(const BladePlane& plane, double progr
   double least = std::numeric_limits<double>::max(), least_depth = least;
   for (const Contact& contact : contacts) least = std::min(least, contact.low.progress);
   for (const Contact& contact : contacts)
-    if (contact.low.progress < least + kSamePlace)
+    if (contact.low.progress < least + kSamePlaceSweeps)
       least_depth = std::min(least_depth, contact.low.depth);
   for (const Contact& contact : contacts)
-    if (contact.low.progress < least + kSamePlace && contact.low.depth <= least_depth + kSamePlace)
+    if (contact.low.progress < least + kSamePlaceSweeps &&
+        contact.low.depth <= least_depth + kSamePlaceSweeps)
       return contact.hit;
   return std::nullopt;
 }

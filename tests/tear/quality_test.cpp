@@ -45,14 +45,14 @@ TEST_P(FaceQuality, stays_above_what_snapping_leaves) {
   EXPECT_THAT(test::broken_laws(*model), IsEmpty());
   EXPECT_THAT(test::broken_surface(*model), IsEmpty());
 
-  // A path keeps away from the ends of edges that tears made by kSliver of the longest side. A face
-  // that it leaves there has a side as short as that between two long ones; where these meet the
-  // source's smallest angle, its own is that angle's sine times kSliver. Nearer than that come
-  // tips, edges of the source that are crossed for the first time, and lips that meet: half of the
-  // floor is for them.
+  // A path keeps away from the ends of edges that tears made by kSliverSizes of the longest side. A
+  // face that it leaves there has a side as short as that between two long ones; where these meet
+  // the source's smallest angle, its own is that angle's sine times kSliverSizes. Nearer than that
+  // come tips, edges of the source that are crossed for the first time, and lips that meet: half of
+  // the floor is for them.
   const test::FaceQuality quality = test::face_quality(*model);
   EXPECT_EQ(quality.faces_without_area, 0u);
-  EXPECT_GT(quality.angle_at(0.01), 0.5 * tear::kSliver *
+  EXPECT_GT(quality.angle_at(0.01), 0.5 * tear::kSliverSizes *
                                         std::sin(smallest_of_source * std::numbers::pi / 180) *
                                         180 / std::numbers::pi);
 }
