@@ -101,7 +101,7 @@ Mat3d BladePlane::axes() const {
   return axes;
 }
 
-double BladePlane::least_progress(const Box& box) const {
+double BladePlane::least_progress(const FrameBox& box) const {
   // As in sweep_coordinates(), a point p is ahead of the blade at progress s where cross(p -
   // base(s), direction(s)) > 0, which is quadratic in s and linear in p. The least value over the
   // box is the value at its middle minus a radius. The radius is convex in s, so it is at most the

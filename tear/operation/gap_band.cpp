@@ -29,7 +29,7 @@ double depth_at(const std::vector<Vec2d>& section, double x) {
 }
 
 /// The half-space of the places that lie farther along `direction` than `at`, by `distance`.
-HalfSpace from_place(const Vec3d& at, const Vec3d& direction, double distance) {
+PlaneSide from_place(const Vec3d& at, const Vec3d& direction, double distance) {
   return {direction, dot(direction, at) + distance};
 }
 
@@ -171,7 +171,7 @@ void GapBand::close_corner(const Vec3d& at, const Workpiece& work, const Pending
   remove(wedge, sides, next, work, outcome);
 }
 
-void GapBand::remove_pending(const HalfSpace& end, const Workpiece& work, Outcome& outcome) {
+void GapBand::remove_pending(const PlaneSide& end, const Workpiece& work, Outcome& outcome) {
   const BladePlane& plane = pending_->plane;
   const double half = 0.5 * width_;
   // The cell lies left of the right side, and right of the left one.
@@ -185,7 +185,7 @@ void GapBand::remove_pending(const HalfSpace& end, const Workpiece& work, Outcom
 /// The start of a gap that goes on from one which was closed square in another pose: the edge that
 /// this left at both sides of the tip, wherever that stands now, and a little before it, so that
 /// nothing is left standing between the two.
-HalfSpace GapBand::start_from_rim(const BladePlane& plane, Index tip, const Workpiece& work) const {
+PlaneSide GapBand::start_from_rim(const BladePlane& plane, Index tip, const Workpiece& work) const {
   const Surface& surface = work.editor.surface();
   const Index first = surface.first_of_fan(surface.point_corner[tip]);
   Index last = first;

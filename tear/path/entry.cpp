@@ -81,10 +81,10 @@ class Segment {
   /// The part of the segment inside a box of the surface, conservative under rounding. The boxes
   /// already include a margin for rounding in the frame, so only the rounding of model coordinates
   /// is added here.
-  [[nodiscard]] Part part_in(const Box& box) const { return part_in(box, rounding_); }
+  [[nodiscard]] Part part_in(const FrameBox& box) const { return part_in(box, rounding_); }
 
   /// The part inside a shadow. Its box was tested before.
-  [[nodiscard]] Part part_in(const Box&, const Shadow& shadow) const {
+  [[nodiscard]] Part part_in(const FrameBox&, const Shadow& shadow) const {
     for (std::size_t k = 0; k < 3; ++k) {
       const double at =
           shadow.normal[k].x() * base_in_frame_.y() + shadow.normal[k].y() * base_in_frame_.z();
@@ -116,7 +116,7 @@ class Segment {
     // triangle.
     const Vec3d a = frame_.place_of(corners[0]), b = frame_.place_of(corners[1]),
                 c = frame_.place_of(corners[2]);
-    const Box box{a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)};
+    const FrameBox box{a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)};
     const Part part = part_in(box, box.margin(reach_));
     if (part.is_empty()) return std::nullopt;
     depth = std::clamp(depth, part.begin, part.end);
@@ -132,7 +132,7 @@ class Segment {
   Vec3d base_in_frame_, direction_in_frame_, per_step_;
   double reach_, rounding_;
 
-  [[nodiscard]] Part part_in(const Box& box, double margin) const {
+  [[nodiscard]] Part part_in(const FrameBox& box, double margin) const {
     Part part;
     for (int k = 0; k < 3; ++k) {
       const double to_low = box.low[k] - margin - base_in_frame_[k],
@@ -190,26 +190,26 @@ class Sweep {
   Sweep(const BladePlane& plane, const BladePlane::HalfPlane& not_before, const Frame& frame)
       : plane_(plane),
         origin_in_frame_(frame.place_of(plane.origin())),
-        within_{FramedHalfSpace(frame, plane.left_of(0)),
-                FramedHalfSpace(frame, plane.right_of(0)),
-                FramedHalfSpace(frame, plane.standing_on(plane.reach()[0])),
-                FramedHalfSpace(frame, plane.standing_on(plane.reach()[1])),
-                FramedHalfSpace(frame, plane.standing_on(plane.reach()[2])),
-                FramedHalfSpace(frame, plane.standing_on(not_before))},
+        within_{FramedPlaneSide(frame, plane.left_of(0)),
+                FramedPlaneSide(frame, plane.right_of(0)),
+                FramedPlaneSide(frame, plane.standing_on(plane.reach()[0])),
+                FramedPlaneSide(frame, plane.standing_on(plane.reach()[1])),
+                FramedPlaneSide(frame, plane.standing_on(plane.reach()[2])),
+                FramedPlaneSide(frame, plane.standing_on(not_before))},
         reach_(std::max(frame.reach(), plane.origin().cwiseAbs().maxCoeff())) {}
 
-  [[nodiscard]] double least_progress(const Box& box) const {
+  [[nodiscard]] double least_progress(const FrameBox& box) const {
     if (std::any_of(within_.begin(), within_.end(),
-                    [&](const FramedHalfSpace& side) { return side.is_beside(box); }))
+                    [&](const FramedPlaneSide& side) { return side.is_beside(box); }))
       return std::numeric_limits<double>::infinity();
-    const Box wide = box.widened(reach_);
+    const FrameBox wide = box.widened(reach_);
     return plane_.least_progress({wide.low - origin_in_frame_, wide.high - origin_in_frame_});
   }
   /// The same for the contents of both a box and a shadow.
-  [[nodiscard]] double least_progress(const Box& box, const Shadow& shadow) const {
+  [[nodiscard]] double least_progress(const FrameBox& box, const Shadow& shadow) const {
     // In the plane, a pair of parallel lines bounds an interval across the blade.
     const double margin = box.margin(reach_), at_plane = origin_in_frame_.z();
-    Box narrow = box;
+    FrameBox narrow = box;
     narrow.low[0] = std::max(narrow.low[0], shadow.low);
     narrow.high[0] = std::min(narrow.high[0], shadow.high);
     for (std::size_t k = 0; k < 3; ++k) {
@@ -228,7 +228,7 @@ class Sweep {
  private:
   const BladePlane& plane_;
   Vec3d origin_in_frame_;
-  std::array<FramedHalfSpace, 6> within_;
+  std::array<FramedPlaneSide, 6> within_;
   double reach_;
 };
 
@@ -240,7 +240,7 @@ void for_each_contact(const BladePlane& plane, double progress, const SurfaceEdi
   const BladePlane::HalfPlane not_before = plane.from_progress(progress);
   const Frame frame = posed.frame_along(plane.axes(), editor);
   const Sweep sweep(plane, not_before, frame);
-  const auto least_progress = [&](const Box& box, const auto&... shadow) {
+  const auto least_progress = [&](const FrameBox& box, const auto&... shadow) {
     return sweep.least_progress(box, shadow...);
   };
   double limit = std::numeric_limits<double>::max();
@@ -260,7 +260,7 @@ std::optional<SurfaceHit> first_hit(const Blade& blade, const SurfaceEditor& edi
   const Segment segment(blade, frame);
   std::optional<SurfaceHit> nearest;
   double nearest_depth = 1.0;
-  const auto least_depth = [&](const Box& box, const auto&... shadow) {
+  const auto least_depth = [&](const FrameBox& box, const auto&... shadow) {
     return segment.part_in(box, shadow...).begin_or_infinity();
   };
   posed.visit_faces(editor, frame, least_depth, [&](Index triangle) {

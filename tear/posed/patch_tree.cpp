@@ -412,7 +412,7 @@ class PatchTree::Bound {
     return count;
   }
 
-  static Box box(const Interval& interval) {
+  static FrameBox box(const Interval& interval) {
     return {interval.low.head<3>().cast<double>(), interval.high.head<3>().cast<double>()};
   }
 
@@ -468,7 +468,7 @@ PatchTree::FloatBox PatchTree::compute_posed_box(Index node, const MeshPose& pos
 }
 
 Index PatchTree::compute_posed_patches(Index group, const MeshPose& pose,
-                                       std::array<Box, kPatchesPerGroup>& boxes) const {
+                                       std::array<FrameBox, kPatchesPerGroup>& boxes) const {
   std::array<Bound::Mean, kPatchesPerGroup> means;
   const Bound bound(*this, group, pose);
   const auto bone_of = [&](Index slot) -> const PosedBones::Bone& { return pose.bones.at(slot); };

@@ -23,7 +23,7 @@ Corners posed_corners(Index face, const SurfaceEditor& editor, PosedPoints& pose
 
 bool is_edge_in_cell(const Cell& cell, const Vec3d& a, const Vec3d& b) {
   double begin = 0, end = 1;
-  for (const HalfSpace& side : cell) {
+  for (const PlaneSide& side : cell) {
     const double at_a = side.value(a), at_b = side.value(b);
     if (at_a < 0 && at_b < 0) return false;
     if (at_a < 0) begin = std::max(begin, at_a / (at_a - at_b));
@@ -36,12 +36,12 @@ bool is_edge_in_cell(const Cell& cell, const Vec3d& a, const Vec3d& b) {
 /// 1974.
 bool is_face_in_cell(const Cell& cell, const Corners& corners, std::vector<Vec3d>& polygon,
                      std::vector<Vec3d>& clipped) {
-  for (const HalfSpace& side : cell)
+  for (const PlaneSide& side : cell)
     if (std::none_of(corners.begin(), corners.end(),
                      [&](const Vec3d& corner) { return side.value(corner) > 0; }))
       return false;
   polygon.assign(corners.begin(), corners.end());
-  for (const HalfSpace& side : cell) {
+  for (const PlaneSide& side : cell) {
     clipped.clear();
     for (std::size_t i = 0; i < polygon.size(); ++i) {
       const Vec3d &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
@@ -189,11 +189,11 @@ std::vector<Index> faces_in_cell(const Cell& cell, const SurfaceEditor& editor,
   const Frame frame = posed.frame_along(
       cell.size() < 2 ? axes_along(Vec3d::Zero()) : axes_along(cell[0].normal, cell[1].normal),
       editor);
-  std::vector<FramedHalfSpace> sides;
-  for (const HalfSpace& side : cell) sides.emplace_back(frame, side);
-  const auto may_hold_any = [&](const Box& box) {
+  std::vector<FramedPlaneSide> sides;
+  for (const PlaneSide& side : cell) sides.emplace_back(frame, side);
+  const auto may_hold_any = [&](const FrameBox& box) {
     return std::none_of(sides.begin(), sides.end(),
-                        [&](const FramedHalfSpace& side) { return side.is_beside(box); });
+                        [&](const FramedPlaneSide& side) { return side.is_beside(box); });
   };
   posed.for_each_face(editor, frame, may_hold_any, [&](Index face) {
     if (is_face_in_cell(cell, posed_corners(face, editor, posed), polygon, clipped))
@@ -249,7 +249,7 @@ GapRemoval remove_cell(const Cell& cell, const std::vector<Index>& faces, Surfac
     const Corners corners = posed_corners(face, editor, posed);
     const Vec3d middle = (corners[0] + corners[1] + corners[2]) / 3;
     if (!std::all_of(cell.begin(), cell.end(),
-                     [&](const HalfSpace& half_space) { return half_space.value(middle) > 0; }))
+                     [&](const PlaneSide& side) { return side.value(middle) > 0; }))
       continue;
     inside.push_back(face);
     removal.area_posed += 0.5 * norm((corners[1] - corners[0]).cross(corners[2] - corners[0]));

@@ -12,7 +12,7 @@
 namespace sunder::tear {
 
 /// One side of a plane in model space: normal . p >= offset.
-struct HalfSpace {
+struct PlaneSide {
   Vec3d normal = Vec3d::Zero();
   double offset = 0;
 
@@ -33,14 +33,14 @@ struct HalfSpace {
 struct Sheet {
   /// A limit of the sheet. If it is another sheet of the same figure, the two meet in corners.
   struct Bound {
-    HalfSpace half_space;
+    PlaneSide side;
     std::uint32_t sheet = kNone;
   };
-  HalfSpace plane;
+  PlaneSide plane;
   std::vector<Bound> bounds;
 };
 
 /// A convex cell: the intersection of its half-spaces.
-using Cell = std::vector<HalfSpace>;
+using Cell = std::vector<PlaneSide>;
 
 }  // namespace sunder::tear
