@@ -15,7 +15,7 @@ namespace sunder::tear {
 
 Vec3d to_bind(const Mat3d& posed_from_bind, const Vec3d& posed, const Vec3d& fallback) {
   const double size = norm(posed_from_bind);
-  if (!(std::abs(determinant(posed_from_bind)) > kFlatDeterminant * size * size * size))
+  if (!(std::abs(determinant(posed_from_bind)) > kNoInverseDeterminant * size * size * size))
     return fallback;
   return multiply(inverse(posed_from_bind), posed);
 }

@@ -21,10 +21,10 @@ namespace sunder::tear {
 
 /// Blades, planes and bores lie within it: products of four coordinates stay finite.
 inline constexpr double kFarthestMetres = 1e60;
-/// Widths, depths, radii and distances of samples: their squares and cubes stay finite.
+/// Widths, depths, radii and distances of samples: their products with coordinates stay finite.
 inline constexpr double kLongestMetres = 1e30;
 inline constexpr double kLongestSeconds = 1e30;
-/// A shorter blade, radius or depth is none: its square could not be divided by.
+/// A shorter blade, radius or depth is none: products of lengths do not underflow.
 inline constexpr double kShortestMetres = 1e-30;
 /// The same for vectors that only give a direction, whatever their length.
 inline constexpr double kShortestDirection = 1e-30;
@@ -61,7 +61,7 @@ inline constexpr double kAxisSine = 1e-3;
 
 /// Outlines of gaps: less than rounding shows.
 inline constexpr double kTightSnapEdges = 1e-9;
-/// A path on edges of the source: it moves by less than is visible.
+/// A path on edges of the source, and on heights of its faces: it moves by less than is visible.
 inline constexpr double kSnapEdges = 1e-3;
 /// A path on edges that tears made; the size is that of the adjacent faces. A nearer place would
 /// leave a sliver. Tears made these faces small, so the path still moves by little.
@@ -118,7 +118,7 @@ inline constexpr double kOtherLayerWidths = 2;
 /// Smaller weights of inner points are left out: near the rounding of a sum of weights.
 inline constexpr double kLeastCapWeight = 1e-6;
 /// A linear map whose determinant is below this fraction of its cubed norm has no inverse.
-inline constexpr double kFlatDeterminant = 1e-6;
+inline constexpr double kNoInverseDeterminant = 1e-6;
 /// A wall is smooth along its lip unless it turns by more than the angle of this cosine.
 inline constexpr double kSmoothWallCosine = 0.5;
 /// A closed rim goes round the axis of a bore if its turn differs from a full one by less.
