@@ -129,18 +129,6 @@ Status validate_turn(const Blade& before, const Blade& blade, std::uint32_t inde
                          index);
 }
 
-Status validate_stroke(std::span<const Blade> stroke) {
-  if (stroke.size() < 2)
-    return Status::failure(StatusCode::invalid_argument, kNone,
-                           "a stroke needs at least two blades, this one has %zu", stroke.size());
-  for (std::uint32_t i = 0; i < stroke.size(); ++i) {
-    if (Status status = validate_blade(stroke[i], i); !status) return status;
-    if (i == 0) continue;
-    if (Status status = validate_turn(stroke[i - 1], stroke[i], i); !status) return status;
-  }
-  return {};
-}
-
 Status validate_weights(const WeightOptions& options) {
   if (options.policy > WeightPolicy::exact)
     return Status::failure(StatusCode::invalid_argument, kNone, "unknown weight policy %u",
@@ -165,6 +153,19 @@ Status validate_options(const TearOptions& options) {
   if (options.layers != Layers::nearest && options.layers != Layers::all)
     return Status::failure(StatusCode::invalid_argument, kNone, "unknown layers %u",
                            static_cast<unsigned>(options.layers));
+  return {};
+}
+
+Status validate_tear(std::span<const Blade> stroke, const TearOptions& options) {
+  if (stroke.size() < 2)
+    return Status::failure(StatusCode::invalid_argument, kNone,
+                           "a stroke needs at least two blades, this one has %zu", stroke.size());
+  if (Status status = validate_options(options); !status) return status;
+  for (std::uint32_t i = 0; i < stroke.size(); ++i) {
+    if (Status status = validate_blade(stroke[i], i); !status) return status;
+    if (i == 0) continue;
+    if (Status status = validate_turn(stroke[i - 1], stroke[i], i); !status) return status;
+  }
   return {};
 }
 

@@ -160,9 +160,10 @@ struct TornModel::State {
 /// The checks of a stroke that do not need the surface.
 [[nodiscard]] Status validate_blade(const Blade& blade, std::uint32_t index);
 [[nodiscard]] Status validate_turn(const Blade& before, const Blade& blade, std::uint32_t index);
-[[nodiscard]] Status validate_stroke(std::span<const Blade> stroke);
-[[nodiscard]] Status validate_options(const TearOptions& options);
 [[nodiscard]] Status validate_weights(const WeightOptions& options);
+[[nodiscard]] Status validate_options(const TearOptions& options);
+/// A whole stroke: first the number of blades, then the options, then blade after blade.
+[[nodiscard]] Status validate_tear(std::span<const Blade> stroke, const TearOptions& options);
 /// The options to record with an operation: none if they are the defaults of a new model.
 [[nodiscard]] inline std::optional<WeightOptions> recorded(const WeightOptions& options) {
   return options == WeightOptions{} ? std::nullopt : std::optional(options);

@@ -47,8 +47,7 @@ Result<TearReport> TornModel::tear(const ModelPose& pose, std::span<const Blade>
                                    const TearOptions& options, ChangeRecord* change) {
   State& state = *state_;
   if (Status status = state.may_begin(); !status) return status;
-  if (Status status = validate_options(options); !status) return status;
-  if (Status status = validate_stroke(stroke); !status) return status;
+  if (Status status = validate_tear(stroke, options); !status) return status;
   const WeightOptions weights = options.weights.value_or(state.weights);
   const auto write_entry = [&](TearOperation& entry) {
     entry.stroke.assign(stroke.begin(), stroke.end());
