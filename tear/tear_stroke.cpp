@@ -1,12 +1,12 @@
 #include <sunder/tear/tear_stroke.h>
 
 #include <cmath>
-#include <cstring>
 #include <new>
 #include <unordered_set>
 #include <utility>
 
 #include "core/internal/ordered.h"
+#include "skinning/internal/same_bits.h"
 #include "tear/geometry/tolerances.h"
 #include "tear/model_state.h"
 #include "tear/operation/ongoing_stroke.h"
@@ -19,9 +19,7 @@ bool same_bits(const ModelPose& a, const ModelPose& b) {
   if (a.model_from_bone.size() != b.model_from_bone.size() || a.morph_weights != b.morph_weights)
     return false;
   for (std::size_t i = 0; i < a.model_from_bone.size(); ++i)
-    if (std::memcmp(a.model_from_bone[i].data(), b.model_from_bone[i].data(),
-                    12 * sizeof(double)) != 0)
-      return false;
+    if (!has_same_bits(a.model_from_bone[i], b.model_from_bone[i])) return false;
   return true;
 }
 

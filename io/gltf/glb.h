@@ -8,6 +8,9 @@
 
 namespace sunder::gltf {
 
+/// A list of a JSON object, made if it is absent.
+Json& list_of(Json& object, const char* name);
+
 /// A document on its way to a GLB: its JSON, and one BIN chunk that only grows. Indices of what it
 /// holds already do not change.
 class GlbDraft {

@@ -4,12 +4,11 @@
 #include <limits>
 
 #include "core/internal/ordered.h"
+#include "tear/geometry/cross.h"
 #include "tear/geometry/tolerances.h"
 
 namespace sunder::tear {
 namespace {
-
-double cross(const Vec2d& a, const Vec2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 /// The half-plane bounded by the line through a and b that holds `inside`. A line that has no
 /// direction, or that passes through `inside`, is replaced by the one through a at right angles to

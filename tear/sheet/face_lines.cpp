@@ -3,17 +3,13 @@
 #include <algorithm>
 
 #include "core/internal/ordered.h"
+#include "tear/geometry/cross.h"
 #include "tear/geometry/tolerances.h"
 #include "tear/internal/surface.h"
 #include "tear/path/imprint_point.h"
 #include "tear/surface/flip_edge.h"
 
 namespace sunder::tear {
-namespace {
-
-double cross(const Vec2d& a, const Vec2d& b) { return a.x() * b.y() - a.y() * b.x(); }
-
-}  // namespace
 
 FaceLines::FaceLines(Index face, const std::array<Index, 3>& points,
                      std::span<const std::array<Index, 2>> children, SurfaceEditor& editor,
