@@ -214,9 +214,11 @@ Result<CompactMaps> TornModel::compact() {
   try {
     auto source = std::make_shared<Character>(state_->character);
     CompactMaps maps = sunder::compact(*source);
+    auto compacted = std::make_unique<State>(std::move(source), state_->capacity);
+    compacted->weights = state_->weights;
     for (const auto& refit : state_->refits)
       if (const auto work = refit.lock()) work->cancel();
-    state_ = std::make_unique<State>(std::move(source), state_->capacity);
+    state_ = std::move(compacted);
     return maps;
   } catch (const std::bad_alloc&) {
     return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
