@@ -34,15 +34,18 @@ struct CharacterInstance::State {
   std::optional<SoftBody> body;       // refers to the particles
   std::vector<BonePalette> palettes;  ///< One per skin.
   std::vector<scene::InstanceMesh> meshes;
-  ParallelFor parallel_for;
+  CharacterInstanceOptions options;
   ModelPose pose;
   ChangeRecord scratch;    ///< For callers that want no record.
   bool is_broken = false;  ///< Memory ran out between two parts, which no longer agree.
 
-  explicit State(TornModel made) : model(std::move(made)) {}
+  State(TornModel made, const CharacterInstanceOptions& wanted)
+      : model(std::move(made)), options(wanted) {}
 
+  /// Makes all parts but the model, for the model as it is.
+  Status make_parts();
   Status make_soft(const SoftTissue& soft);
-  Status make_meshes(const CharacterInstanceOptions& options);
+  Status make_meshes();
   /// Lets the meshes know.
   Status note(std::span<const ChangeRecord> changes);
   /// Lets the meshes and the particles know.
@@ -83,10 +86,16 @@ struct CharacterInstance::State {
   }
 };
 
+Status CharacterInstance::State::make_parts() {
+  if (Status status = make_meshes(); !status) return status;
+  return options.soft ? make_soft(*options.soft) : Status();
+}
+
 Status CharacterInstance::State::make_soft(const SoftTissue& soft) {
   const ModelPose bind = bind_pose(model.character());
   Result<ParticleSet> divided = ParticleSet::create(model, bind, soft.decomposition);
   if (!divided) return divided.error();
+  body.reset();
   particles.emplace(std::move(*divided));
   Result<SoftBody> made = SoftBody::create(*particles, bind, soft.materials, soft.body);
   if (!made) return made.error();
@@ -94,8 +103,10 @@ Status CharacterInstance::State::make_soft(const SoftTissue& soft) {
   return {};
 }
 
-Status CharacterInstance::State::make_meshes(const CharacterInstanceOptions& options) {
+Status CharacterInstance::State::make_meshes() {
   const Character& character = model.character();
+  palettes.clear();
+  meshes.clear();
   for (const Skin& skin : character.skins)
     palettes.emplace_back(skin.bones.size(), character.rest_morph_weights.size(), options.method);
   for (const Mesh& mesh : character.meshes) {
@@ -132,7 +143,7 @@ Status CharacterInstance::State::deform(Index mesh) {
   const BonePalette& palette = palettes[torn.skin];
   const std::span<const IndexRange> moved =
       body ? body->moved_vertices(model, mesh) : std::span<const IndexRange>();
-  if (moved.empty()) return posed.deform(palette, parallel_for, nullptr);
+  if (moved.empty()) return posed.deform(palette, options.parallel_for, nullptr);
   VertexDisplacements displaced{particles->vertex_points(mesh),
                                 particles->influences(),
                                 body->displacements(),
@@ -140,7 +151,7 @@ Status CharacterInstance::State::deform(Index mesh) {
                                 {},
                                 body->rotations()};
   if (posed.has_directions()) displaced.gradients = particles->gradients(model);
-  return posed.deform(palette, parallel_for, &displaced);
+  return posed.deform(palette, options.parallel_for, &displaced);
 }
 
 CharacterInstance::CharacterInstance(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -154,11 +165,8 @@ Result<CharacterInstance> CharacterInstance::create(std::shared_ptr<const Charac
     Result<TornModel> model = TornModel::create(std::move(character), options.capacity);
     if (!model) return model.error();
     if (Status status = model->set_weights(options.weights); !status) return status;
-    auto state = std::make_unique<State>(std::move(*model));
-    state->parallel_for = options.parallel_for;
-    if (Status status = state->make_meshes(options); !status) return status;
-    if (options.soft)
-      if (Status status = state->make_soft(*options.soft); !status) return status;
+    auto state = std::make_unique<State>(std::move(*model), options);
+    if (Status status = state->make_parts(); !status) return status;
     return CharacterInstance(std::move(state));
   } catch (const std::bad_alloc&) {
     return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
@@ -260,6 +268,21 @@ Result<RefitJob> CharacterInstance::begin_refit(const WeightsOperation& wanted) 
 Result<WeightReport> CharacterInstance::swap_in(const RefitJob& job, ChangeRecord* change) {
   return state_->change(change,
                         [&](ChangeRecord* record) { return job.swap_in(state_->model, record); });
+}
+
+Result<CompactMaps> CharacterInstance::compact() {
+  State& state = *state_;
+  if (state.is_broken) return out_of_memory();
+  Result<CompactMaps> maps = state.model.compact();
+  if (!maps) return maps;
+  state.is_broken = true;  // until all parts agree again
+  try {
+    if (Status status = state.make_parts(); !status) return status;
+    state.is_broken = false;
+    return maps;
+  } catch (const std::bad_alloc&) {
+    return out_of_memory();
+  }
 }
 
 // ---- Frames.

@@ -8,6 +8,7 @@
 
 #include "core/internal/ordered.h"
 #include "skinning/identity.h"
+#include "skinning/internal/same_bits.h"
 #include "skinning/normal_matrix.h"
 #include "skinning/palette_data.h"
 
@@ -116,10 +117,6 @@ Status check_sizes(const PaletteData& data, std::size_t slots, std::size_t morph
   return {};
 }
 
-bool is_same(const Affine3d& a, const Affine3d& b) {
-  return std::memcmp(a.data(), b.data(), 12 * sizeof(double)) == 0;
-}
-
 }  // namespace
 }  // namespace skinning
 
@@ -160,11 +157,11 @@ Status BonePalette::set(const Skin& skin, const ModelPose& pose,
                              skin.bones[slot], pose.model_from_bone.size());
 
   const bool same_frame = data.last.skin == &skin &&
-                          skinning::is_same(data.last.model_from_character, model_from_character);
+                          has_same_bits(data.last.model_from_character, model_from_character);
   bool is_unchanged = same_frame;
   for (std::size_t slot = 0; is_unchanged && slot < data.slots; ++slot)
     is_unchanged =
-        skinning::is_same(data.last.model_from_bone[slot], pose.model_from_bone[skin.bones[slot]]);
+        has_same_bits(data.last.model_from_bone[slot], pose.model_from_bone[skin.bones[slot]]);
   if (is_unchanged &&
       std::equal(pose.morph_weights.begin(), pose.morph_weights.end(), data.morph_weights.begin()))
     return {};

@@ -13,7 +13,6 @@ namespace sunder::skinning {
 class MoverRuns {
  public:
   void resize(std::size_t movers) { newest_.assign(movers, kNoRun); }
-  [[nodiscard]] std::size_t mover_count() const { return newest_.size(); }
 
   /// Records that `mover` moves `block`. The last block is not exceeded by earlier ones.
   void append(std::uint32_t mover, std::uint32_t block);

@@ -307,7 +307,7 @@ Status SkinnedMesh::deform(const BonePalette& palette, PosedBuffer& buffer,
                            const VertexDisplacements* displacements) const {
   using namespace skinning;
   const Blocks& blocks = *blocks_;
-  const PaletteData& data = palette.data();
+  const PaletteData& data = *palette.data_;
   if (const Status status = check_target(blocks, data, buffer.target_); !status) return status;
   if (displacements != nullptr)
     if (const Status status = check_displacements(*displacements, blocks.vertex_count); !status)

@@ -76,23 +76,17 @@ Vec3d error_of(const tear::SurfaceEditor& editor, const tear::VertexRef& at,
   return position - exact.posed(palette);
 }
 
-}  // namespace
-
-double TornModel::State::rest_diagonal() const {
-  std::call_once(has_rest_diagonal_, [&] {
-    const auto rest = make_pose(*source, RestPose{});
-    Eigen::AlignedBox3d box;
-    for (const Mesh& mesh : source->meshes) {
-      std::vector<Affine3d> palette(source->skins[mesh.skin].bones.size());
-      if (!rest || !compute_palette(source->skins[mesh.skin], *rest, palette)) return;
-      for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v)
-        box.extend(Eigen::Vector3d(
-            deform_position_reference(mesh, v, palette, source->rest_morph_weights)));
-    }
-    rest_diagonal_ = box.isEmpty() ? 0.0 : norm(box.diagonal());
-  });
-  return rest_diagonal_;
+/// Diagonal of the bounding box of a source in its rest pose.
+double diagonal_of(const Character& source, const CharacterPose& rest) {
+  Eigen::AlignedBox3d box;
+  for (const Mesh& mesh : source.meshes)
+    for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v)
+      box.extend(Eigen::Vector3d(
+          deform_position_reference(mesh, v, rest.palette(mesh.skin), source.rest_morph_weights)));
+  return box.isEmpty() ? 0.0 : norm(box.diagonal());
 }
+
+}  // namespace
 
 Result<WeightErrors> measure_weight_errors(const TornModel& model, std::uint32_t first_operation,
                                            std::uint32_t operation_count,
@@ -113,6 +107,7 @@ Result<WeightErrors> measure_weight_errors(const TornModel& model, std::uint32_t
     const auto rest = make_pose(*state.source, RestPose{});
     if (!rest) return rest.error();
     if (Status status = stand.set(state.character, *rest); !status) return status;
+    const double diagonal = diagonal_of(*state.source, stand);
     for (const auto& at : points)
       errors.points.push_back({at.mesh, at.vertex, 0, 0, mean_edge(editor, at, stand)});
     std::vector<double> metres, of_edge;
@@ -132,7 +127,6 @@ Result<WeightErrors> measure_weight_errors(const TornModel& model, std::uint32_t
     errors.metres = statistics_of(metres);
     errors.of_edge = statistics_of(of_edge);
     errors.of_diagonal = errors.metres;
-    const double diagonal = state.rest_diagonal();
     for (double* value :
          {&errors.of_diagonal.rms, &errors.of_diagonal.percentile95, &errors.of_diagonal.maximum})
       *value = diagonal > 0 ? *value / diagonal : 0.0;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/internal/ordered.h"
+#include "tear/geometry/tolerances.h"
 #include "tear/pieces/pieces.h"
 #include "tear/surface/describe_change.h"
 #include "tear/weights/assign_weights.h"
@@ -112,10 +113,10 @@ void TornModel::State::record(const tear::EditLog::Mark& begin) {
 Status validate_blade(const Blade& blade, std::uint32_t index) {
   if (!blade.base.allFinite() || !blade.tip.allFinite())
     return Status::failure(StatusCode::non_finite_value, index, "blade %u is not finite", index);
-  // Products of four coordinates must stay finite.
-  if (blade.base.cwiseAbs().maxCoeff() > 1e60 || blade.tip.cwiseAbs().maxCoeff() > 1e60)
+  if (blade.base.cwiseAbs().maxCoeff() > tear::kFarthestMetres ||
+      blade.tip.cwiseAbs().maxCoeff() > tear::kFarthestMetres)
     return Status::failure(StatusCode::invalid_argument, index, "blade %u lies beyond 1e60", index);
-  if (!(norm(blade.tip - blade.base) > 1e-30))
+  if (!(norm(blade.tip - blade.base) > tear::kShortestMetres))
     return Status::failure(StatusCode::invalid_argument, index,
                            "blade %u has no length: its base equals its tip", index);
   return {};
@@ -127,18 +128,6 @@ Status validate_turn(const Blade& before, const Blade& blade, std::uint32_t inde
                          "blade %u is turned by 90 degrees or more relative to the one before it; "
                          "sample the stroke more finely",
                          index);
-}
-
-Status validate_stroke(std::span<const Blade> stroke) {
-  if (stroke.size() < 2)
-    return Status::failure(StatusCode::invalid_argument, kNone,
-                           "a stroke needs at least two blades, this one has %zu", stroke.size());
-  for (std::uint32_t i = 0; i < stroke.size(); ++i) {
-    if (Status status = validate_blade(stroke[i], i); !status) return status;
-    if (i == 0) continue;
-    if (Status status = validate_turn(stroke[i - 1], stroke[i], i); !status) return status;
-  }
-  return {};
 }
 
 Status validate_weights(const WeightOptions& options) {
@@ -154,7 +143,7 @@ Status validate_weights(const WeightOptions& options) {
 }
 
 Status validate_options(const TearOptions& options) {
-  const auto is_length = [](double value) { return value >= 0 && value <= 1e30; };
+  const auto is_length = [](double value) { return value >= 0 && value <= tear::kLongestMetres; };
   if (!is_length(options.width))
     return Status::failure(StatusCode::invalid_argument, kNone,
                            "the width of the gap is %g; it must be from 0 to 1e30", options.width);
@@ -166,6 +155,19 @@ Status validate_options(const TearOptions& options) {
   if (options.layers != Layers::nearest && options.layers != Layers::all)
     return Status::failure(StatusCode::invalid_argument, kNone, "unknown layers %u",
                            static_cast<unsigned>(options.layers));
+  return {};
+}
+
+Status validate_tear(std::span<const Blade> stroke, const TearOptions& options) {
+  if (stroke.size() < 2)
+    return Status::failure(StatusCode::invalid_argument, kNone,
+                           "a stroke needs at least two blades, this one has %zu", stroke.size());
+  if (Status status = validate_options(options); !status) return status;
+  for (std::uint32_t i = 0; i < stroke.size(); ++i) {
+    if (Status status = validate_blade(stroke[i], i); !status) return status;
+    if (i == 0) continue;
+    if (Status status = validate_turn(stroke[i - 1], stroke[i], i); !status) return status;
+  }
   return {};
 }
 

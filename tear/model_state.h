@@ -2,7 +2,6 @@
 
 #include <sunder/tear/torn_model.h>
 
-#include <mutex>
 #include <new>
 
 #include "tear/history.h"
@@ -139,9 +138,6 @@ struct TornModel::State {
   tear::OngoingStroke stroke;  ///< The stroke under way, or the last one.
   tear::History history;
   std::vector<std::weak_ptr<tear::RefitTask>> refits;  ///< All refits that were submitted.
-  /// Diagonal of the bounding box of the source in the rest pose. Computed by the first call,
-  /// O(vertices). Thread-safe.
-  [[nodiscard]] double rest_diagonal() const;
 
  private:
   void begin_call();
@@ -153,16 +149,15 @@ struct TornModel::State {
   tear::EditLog::Mark begin_of_call_;
   /// Borders of the call under way, and of the earlier calls of the same operation.
   tear::OpenedBorders borders_of_call_, borders_;
-  mutable std::once_flag has_rest_diagonal_;
-  mutable double rest_diagonal_ = 0;
 };
 
 /// The checks of a stroke that do not need the surface.
 [[nodiscard]] Status validate_blade(const Blade& blade, std::uint32_t index);
 [[nodiscard]] Status validate_turn(const Blade& before, const Blade& blade, std::uint32_t index);
-[[nodiscard]] Status validate_stroke(std::span<const Blade> stroke);
-[[nodiscard]] Status validate_options(const TearOptions& options);
 [[nodiscard]] Status validate_weights(const WeightOptions& options);
+[[nodiscard]] Status validate_options(const TearOptions& options);
+/// A whole stroke: first the number of blades, then the options, then blade after blade.
+[[nodiscard]] Status validate_tear(std::span<const Blade> stroke, const TearOptions& options);
 /// The options to record with an operation: none if they are the defaults of a new model.
 [[nodiscard]] inline std::optional<WeightOptions> recorded(const WeightOptions& options) {
   return options == WeightOptions{} ? std::nullopt : std::optional(options);

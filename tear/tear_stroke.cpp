@@ -1,12 +1,13 @@
 #include <sunder/tear/tear_stroke.h>
 
 #include <cmath>
-#include <cstring>
 #include <new>
 #include <unordered_set>
 #include <utility>
 
 #include "core/internal/ordered.h"
+#include "skinning/internal/same_bits.h"
+#include "tear/geometry/tolerances.h"
 #include "tear/model_state.h"
 #include "tear/operation/ongoing_stroke.h"
 #include "tear/surface/describe_change.h"
@@ -18,18 +19,16 @@ bool same_bits(const ModelPose& a, const ModelPose& b) {
   if (a.model_from_bone.size() != b.model_from_bone.size() || a.morph_weights != b.morph_weights)
     return false;
   for (std::size_t i = 0; i < a.model_from_bone.size(); ++i)
-    if (std::memcmp(a.model_from_bone[i].data(), b.model_from_bone[i].data(),
-                    12 * sizeof(double)) != 0)
-      return false;
+    if (!has_same_bits(a.model_from_bone[i], b.model_from_bone[i])) return false;
   return true;
 }
 
 Status validate_sampling(const StrokeSampling& sampling) {
-  if (!(sampling.minimum_distance >= 0 && sampling.minimum_distance <= 1e30))
+  if (!(sampling.minimum_distance >= 0 && sampling.minimum_distance <= tear::kLongestMetres))
     return Status::failure(StatusCode::invalid_argument, kNone,
                            "minimum_distance is %g; it must be from 0 to 1e30",
                            sampling.minimum_distance);
-  if (!(sampling.minimum_seconds >= 0 && sampling.minimum_seconds <= 1e30))
+  if (!(sampling.minimum_seconds >= 0 && sampling.minimum_seconds <= tear::kLongestSeconds))
     return Status::failure(StatusCode::invalid_argument, kNone,
                            "minimum_seconds is %g; it must be from 0 to 1e30",
                            sampling.minimum_seconds);

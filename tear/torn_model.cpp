@@ -48,8 +48,7 @@ Result<TearReport> TornModel::tear(const ModelPose& pose, std::span<const Blade>
                                    const TearOptions& options, ChangeRecord* change) {
   State& state = *state_;
   if (Status status = state.may_begin(); !status) return status;
-  if (Status status = validate_options(options); !status) return status;
-  if (Status status = validate_stroke(stroke); !status) return status;
+  if (Status status = validate_tear(stroke, options); !status) return status;
   const WeightOptions weights = options.weights.value_or(state.weights);
   const auto write_entry = [&](TearOperation& entry) {
     entry.stroke.assign(stroke.begin(), stroke.end());
@@ -216,9 +215,11 @@ Result<CompactMaps> TornModel::compact() {
   try {
     auto source = std::make_shared<Character>(state_->character);
     CompactMaps maps = sunder::compact(*source);
+    auto compacted = std::make_unique<State>(std::move(source), state_->capacity);
+    compacted->weights = state_->weights;
     for (const auto& refit : state_->refits)
       if (const auto work = refit.lock()) work->cancel();
-    state_ = std::make_unique<State>(std::move(source), state_->capacity);
+    state_ = std::move(compacted);
     return maps;
   } catch (const std::bad_alloc&) {
     return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");

@@ -1,5 +1,6 @@
 #include "tools/surface_nets.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -69,6 +70,20 @@ bool mean_crossing(const Grid& grid, Index x, Index y, Index z, Vec3d& mean) {
   return count > 0;
 }
 
+/// The points in the four cubes that share the edge from a node along an axis, once around it.
+std::array<Index, 4> points_around(const Grid& grid, const std::vector<Index>& point_of_cube,
+                                   const std::array<Index, 3>& node, Index axis) {
+  std::array<Index, 4> points = {};
+  for (Index side = 0; side < 4; ++side) {
+    std::array<Index, 3> cube = node;
+    const Index around = side ^ (side >> 1u);  // 0, 1, 3, 2
+    cube[(axis + 1) % 3] -= 1 - (around & 1u);
+    cube[(axis + 2) % 3] -= 1 - (around >> 1u);
+    points[side] = point_of_cube[grid.node(cube[0], cube[1], cube[2])];
+  }
+  return points;
+}
+
 void append_quad(PointSurface& surface, const std::array<Index, 4>& corners) {
   const auto squared_diagonal = [&](int a, int b) {
     return (surface.positions[corners[a]] - surface.positions[corners[b]]).squaredNorm();
@@ -79,6 +94,20 @@ void append_quad(PointSurface& surface, const std::array<Index, 4>& corners) {
   } else {
     surface.triangles.push_back({corners[0], corners[1], corners[3]});
     surface.triangles.push_back({corners[1], corners[2], corners[3]});
+  }
+}
+
+/// A grid edge that the surface crosses is shared by four cubes: their points make a quad.
+void append_quads(PointSurface& surface, const Grid& grid, const std::vector<Index>& point_of_cube,
+                  const std::array<Index, 3>& node) {
+  const bool begins_inside = grid.values[grid.node(node[0], node[1], node[2])] < 0;
+  for (Index axis = 0; axis < 3; ++axis) {
+    std::array<Index, 3> end = node;
+    ++end[axis];
+    if (begins_inside == (grid.values[grid.node(end[0], end[1], end[2])] < 0)) continue;
+    std::array<Index, 4> quad = points_around(grid, point_of_cube, node, axis);
+    if (!begins_inside) std::reverse(quad.begin(), quad.end());
+    append_quad(surface, quad);
   }
 }
 
@@ -106,26 +135,10 @@ PointSurface surface_nets(const Field& field, const Vec3d& box_min, const Vec3d&
         surface.positions.push_back(position);
       }
 
-  // A grid edge that the surface crosses is shared by four cubes: their points make a quad.
   for (Index z = 1; z + 1 < grid.nodes[2]; ++z)
     for (Index y = 1; y + 1 < grid.nodes[1]; ++y)
       for (Index x = 1; x + 1 < grid.nodes[0]; ++x)
-        for (Index axis = 0; axis < 3; ++axis) {
-          std::array<Index, 3> end = {x, y, z};
-          ++end[axis];
-          const bool begins_inside = grid.values[grid.node(x, y, z)] < 0;
-          if (begins_inside == (grid.values[grid.node(end[0], end[1], end[2])] < 0)) continue;
-          std::array<Index, 4> quad = {};
-          for (Index side = 0; side < 4; ++side) {
-            std::array<Index, 3> cube = {x, y, z};
-            const Index around = side ^ (side >> 1u);  // 0, 1, 3, 2: once around the edge.
-            cube[(axis + 1) % 3] -= 1 - (around & 1u);
-            cube[(axis + 2) % 3] -= 1 - (around >> 1u);
-            quad[begins_inside ? side : 3 - side] =
-                point_of_cube[grid.node(cube[0], cube[1], cube[2])];
-          }
-          append_quad(surface, quad);
-        }
+        append_quads(surface, grid, point_of_cube, {x, y, z});
   return surface;
 }
 

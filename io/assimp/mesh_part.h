@@ -33,6 +33,10 @@ struct MeshPart {
   [[nodiscard]] std::uint32_t vertex_count() const {
     return static_cast<std::uint32_t>(streams[0].values.size() / 3);
   }
+  [[nodiscard]] Vec3d position(std::uint32_t vertex) const {
+    const float* p = streams[0].values.data() + std::size_t{vertex} * 3;
+    return {static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])};
+  }
   [[nodiscard]] Stream* find(const char* semantic, std::uint32_t target = kNone);
 };
 

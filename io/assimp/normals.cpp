@@ -22,11 +22,6 @@ std::string point_key(const MeshPart& part, std::uint32_t vertex) {
   return key;
 }
 
-Vec3d position(const MeshPart& part, std::uint32_t vertex) {
-  const float* p = part.streams[0].values.data() + std::size_t{vertex} * 3;
-  return {static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])};
-}
-
 }  // namespace
 
 void generate_missing_normals(std::span<MeshPart> parts, Notes& notes) {
@@ -37,9 +32,9 @@ void generate_missing_normals(std::span<MeshPart> parts, Notes& notes) {
   std::unordered_map<std::string, Vec3d> normal_of_point;
   for (const MeshPart& part : parts) {
     for (const Triangle& triangle : part.triangles) {
-      const Vec3d a = position(part, triangle[0]);
+      const Vec3d a = part.position(triangle[0]);
       const Vec3d twice_area =
-          (position(part, triangle[1]) - a).cross(position(part, triangle[2]) - a);
+          (part.position(triangle[1]) - a).cross(part.position(triangle[2]) - a);
       for (const std::uint32_t vertex : triangle)
         normal_of_point.try_emplace(point_key(part, vertex), Vec3d::Zero()).first->second +=
             twice_area;

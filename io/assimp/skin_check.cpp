@@ -12,16 +12,11 @@ namespace {
 
 constexpr double kTolerance = 1e-4;  ///< Fraction of the mesh's size.
 
-Vec3d position(const MeshPart& part, std::uint32_t vertex) {
-  const float* p = part.streams[0].values.data() + std::size_t{vertex} * 3;
-  return {static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])};
-}
-
 Eigen::AlignedBox3d bounds_of(std::span<const MeshPart> parts) {
   Eigen::AlignedBox3d bounds;
   for (const MeshPart& part : parts)
     for (std::uint32_t v = 0; v < part.vertex_count(); ++v)
-      bounds.extend(Eigen::Vector3d(position(part, v)));
+      bounds.extend(Eigen::Vector3d(part.position(v)));
   return bounds;
 }
 
@@ -54,7 +49,7 @@ double reproduction_error(const SkinSlots& skin, std::span<const MeshPart> parts
   double largest = 0.0;
   for (const MeshPart& part : parts) {
     for (std::uint32_t v = 0; v < part.vertex_count(); ++v) {
-      const Vec3d at = position(part, v);
+      const Vec3d at = part.position(v);
       Vec3d posed = Vec3d::Zero();
       for (const Influence& influence : part.weights.of(v))
         posed += static_cast<double>(influence.weight) * apply(mesh_from_mesh[influence.slot], at);

@@ -71,40 +71,43 @@ void report(const Counts& counts, const std::string& place, Notes& notes) {
                  "vertices without weights; bound to the skin's first bone", counts.unweighted);
 }
 
+/// Calls use(vertex, influence) for each weight above zero, and counts the bad ones.
+template <class Use>
+void for_each_weight(const aiMesh& mesh, std::span<const std::uint32_t> slot_of_bone, Counts& bad,
+                     Use use) {
+  for (unsigned b = 0; b < mesh.mNumBones; ++b) {
+    const aiBone* const bone = mesh.mBones[b];
+    if (bone == nullptr || slot_of_bone[b] == kNone || bone->mWeights == nullptr) continue;
+    for (const aiVertexWeight& weight : std::span(bone->mWeights, bone->mNumWeights)) {
+      if (weight.mVertexId >= mesh.mNumVertices)
+        ++bad.out_of_range;
+      else if (!std::isfinite(weight.mWeight))
+        ++bad.not_finite;
+      else if (weight.mWeight < 0.0f)
+        ++bad.negative;
+      else if (weight.mWeight > 0.0f)
+        use(weight.mVertexId,
+            Influence{slot_of_bone[b], std::min(weight.mWeight, 1e30f)});  // Sums stay finite.
+    }
+  }
+}
+
 }  // namespace
 
 SkinWeights read_weights(const aiMesh& mesh, std::span<const std::uint32_t> slot_of_bone,
                          const std::string& place, Notes& notes) {
   Counts counts;
   std::vector<std::uint32_t> first(std::size_t{mesh.mNumVertices} + 1, 0);
-  // Two passes over the bones: count, then fill. Bad weights are counted in the first pass only.
-  const auto for_each_weight = [&](auto&& use, Counts* bad) {
-    for (unsigned b = 0; b < mesh.mNumBones; ++b) {
-      if (mesh.mBones[b] == nullptr || slot_of_bone[b] == kNone ||
-          mesh.mBones[b]->mWeights == nullptr)
-        continue;
-      for (unsigned k = 0; k < mesh.mBones[b]->mNumWeights; ++k) {
-        const aiVertexWeight& weight = mesh.mBones[b]->mWeights[k];
-        if (weight.mVertexId >= mesh.mNumVertices) {
-          if (bad != nullptr) ++bad->out_of_range;
-        } else if (!std::isfinite(weight.mWeight)) {
-          if (bad != nullptr) ++bad->not_finite;
-        } else if (weight.mWeight < 0.0f) {
-          if (bad != nullptr) ++bad->negative;
-        } else if (weight.mWeight > 0.0f) {
-          use(weight.mVertexId,
-              Influence{slot_of_bone[b], std::min(weight.mWeight, 1e30f)});  // Sums stay finite.
-        }
-      }
-    }
-  };
-  for_each_weight([&](unsigned vertex, const Influence&) { ++first[vertex + 1]; }, &counts);
+  // Two passes over the bones: count, then fill. A bad weight is counted in the first only.
+  for_each_weight(mesh, slot_of_bone, counts,
+                  [&](unsigned vertex, const Influence&) { ++first[vertex + 1]; });
   for (std::size_t i = 1; i < first.size(); ++i) first[i] += first[i - 1];
   std::vector<Influence> all(first.back());
   std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
+  Counts counted_before;
   for_each_weight(
-      [&](unsigned vertex, const Influence& influence) { all[next[vertex]++] = influence; },
-      nullptr);
+      mesh, slot_of_bone, counted_before,
+      [&](unsigned vertex, const Influence& influence) { all[next[vertex]++] = influence; });
 
   SkinWeights weights;
   weights.first.reserve(first.size());

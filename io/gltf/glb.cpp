@@ -9,16 +9,16 @@
 #include "io/gltf/uris.h"
 
 namespace sunder::gltf {
-namespace {
 
-constexpr std::size_t kAlignment = 4;
-
-/// A list of the document; added if it is absent.
-Json& list_of(Json& document, const char* name) {
-  Json& list = document[name];
+Json& list_of(Json& object, const char* name) {
+  Json& list = object[name];
   if (list.is_null()) list = Json::array();
   return list;
 }
+
+namespace {
+
+constexpr std::size_t kAlignment = 4;
 
 void append_u32(std::vector<std::byte>& bytes, std::size_t value) {
   for (int shift = 0; shift < 32; shift += 8)

@@ -8,6 +8,9 @@
 
 namespace sunder::gltf {
 
+/// A list of a JSON object; added if it is absent.
+Json& list_of(Json& object, const char* name);
+
 /// A document that will be written as GLB: its JSON, and one BIN chunk that only grows, so existing
 /// indices stay valid.
 class GlbDraft {

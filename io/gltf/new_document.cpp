@@ -32,12 +32,6 @@ Json numbers(std::span<const float> values) {
   return array;
 }
 
-Json& list_of(Json& document, const char* name) {
-  Json& list = document[name];
-  if (list.is_null()) list = Json::array();
-  return list;
-}
-
 Index append(Json& document, const char* list_name, Json entry) {
   Json& list = list_of(document, list_name);
   list.push_back(std::move(entry));

@@ -7,15 +7,10 @@
 #include "core/internal/ordered.h"
 #include "particles/internal/tolerances.h"
 #include "particles/motion/turn_of.h"
+#include "skinning/internal/same_bits.h"
 
 namespace sunder::particles {
 namespace {
-
-/// Compares bits, not values: 0 and -0 give the same pose, and distinguishing them only costs an
-/// evaluation.
-bool has_same_bits(const Affine3d& a, const Affine3d& b) {
-  return std::memcmp(a.data(), b.data(), 12 * sizeof(double)) == 0;
-}
 
 Mat3d inverse_or_zero(const Mat3d& m) {
   const double size = norm(m), volume = determinant(m);

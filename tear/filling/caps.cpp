@@ -5,6 +5,7 @@
 
 #include "core/internal/ordered.h"
 #include "tear/filling/filling.h"
+#include "tear/geometry/tolerances.h"
 #include "tear/internal/surface.h"
 #include "tear/section/flat_section.h"
 #include "tear/surface/rim.h"
@@ -212,10 +213,9 @@ class Caps {
         triangle_at[{triangles[t][k], triangles[t][(k + 1) % 3]}] = t;
     };
     for (std::size_t t = 0; t < triangles.size(); ++t) enter(t);
-    constexpr double kStored = 0x1p-22;  // four units in the last place
     for (std::size_t t = 0; t < triangles.size(); ++t) {
       const std::array<Index, 3> flat = triangles[t];
-      if (height_of(flat) > kStored * at(flat[0]).cwiseAbs().maxCoeff()) continue;
+      if (height_of(flat) > kStoredCoordinates * at(flat[0]).cwiseAbs().maxCoeff()) continue;
       std::size_t k = 0;
       for (std::size_t i = 1; i < 3; ++i)
         if (norm(at(flat[(i + 1) % 3]) - at(flat[i])) > norm(at(flat[(k + 1) % 3]) - at(flat[k])))
@@ -289,11 +289,9 @@ class Caps {
       Filling::Inner made;
       made.bind_position = inner.block<1, 3>(i, 0).transpose();
       double sum = 0;
-      constexpr double kLeastWeight =
-          1e-6;  // below it, less than a stored weight's rounding of the sum
       for (std::size_t s = 0; s < slots.size(); ++s) {
         const double weight = inner(i, 3 + static_cast<Eigen::Index>(s));
-        if (weight < kLeastWeight) continue;
+        if (weight < kLeastCapWeight) continue;
         made.influences.push_back({slots[s], static_cast<float>(weight)});
         sum += static_cast<double>(made.influences.back().weight);
       }

@@ -6,6 +6,7 @@
 #include <unordered_set>
 
 #include "core/internal/ordered.h"
+#include "tear/geometry/tolerances.h"
 #include "tear/internal/surface.h"
 #include "tear/surface/append_filling.h"
 #include "tear/surface/mesh_vertices.h"
@@ -14,7 +15,8 @@ namespace sunder::tear {
 
 Vec3d to_bind(const Mat3d& posed_from_bind, const Vec3d& posed, const Vec3d& fallback) {
   const double size = norm(posed_from_bind);
-  if (!(std::abs(determinant(posed_from_bind)) > 1e-6 * size * size * size)) return fallback;
+  if (!(std::abs(determinant(posed_from_bind)) > kNoInverseDeterminant * size * size * size))
+    return fallback;
   return multiply(inverse(posed_from_bind), posed);
 }
 
@@ -54,10 +56,12 @@ void Filling::shade(Index mesh, Index vertex, const Vec3d& normal, const Vec3d& 
         static_cast<double>(influence.weight) *
         compute_normal_matrix(work_.posed.pose().palette(of.skin)[influence.slot].linear());
   Vec3d bind_normal = to_bind(posed_from_bind_of_normals, normal, normal);
-  bind_normal = norm(bind_normal) > 1e-30 ? Vec3d(bind_normal / norm(bind_normal)) : normal;
+  bind_normal =
+      norm(bind_normal) > kShortestDirection ? Vec3d(bind_normal / norm(bind_normal)) : normal;
   Vec3d bind_tangent = to_bind(posed_from_bind, tangent, tangent);
   bind_tangent -= dot(bind_normal, bind_tangent) * bind_normal;
-  if (!(norm(bind_tangent) > 1e-12 * norm(tangent))) bind_tangent = bind_normal.unitOrthogonal();
+  if (!(norm(bind_tangent) > kDirectionLengths * norm(tangent)))
+    bind_tangent = bind_normal.unitOrthogonal();
   bind_tangent /= norm(bind_tangent);
   if (!of.normals.empty()) of.normals[vertex] = bind_normal.cast<float>();
   if (!of.tangents.empty()) {

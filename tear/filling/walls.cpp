@@ -5,6 +5,7 @@
 
 #include "core/internal/ordered.h"
 #include "tear/filling/filling.h"
+#include "tear/geometry/tolerances.h"
 #include "tear/internal/surface.h"
 #include "tear/section/flat_section.h"
 #include "tear/surface/rim.h"
@@ -91,7 +92,7 @@ class Walls {
 
 Vec3d unit_or(const Vec3d& vector, const Vec3d& otherwise) {
   const double length = norm(vector);
-  return length > 1e-30 ? Vec3d(vector / length) : otherwise;
+  return length > kShortestDirection ? Vec3d(vector / length) : otherwise;
 }
 
 double squared_distance(const Blade& blade, const Vec3d& point) {
@@ -142,7 +143,7 @@ void hang_strip(const Rim& rim, const std::vector<RimPlace>& places, double unit
       const Vec3d own = unit_or(wall_normal(i), Vec3d::UnitZ());
       const Vec3d mean =
           unit_or(Vec3d(unit_or(wall_normal(before), own) + unit_or(wall_normal(after), own)), own);
-      const Vec3d normal = dot(mean, own) > 0.5 ? mean : own;
+      const Vec3d normal = dot(mean, own) > kSmoothWallCosine ? mean : own;
       const Vec3d tangent = unit_or(Vec3d(places[i + 1].at - places[i].at), own.unitOrthogonal());
       walls.shade(mesh, top, normal, tangent, {places[at].along / unit, 0});
       walls.shade(mesh, bottom, normal, tangent,
@@ -328,7 +329,7 @@ Index add_bore_wall(const std::vector<Index>& half_edges, const Vec3d& origin, c
       around += turn(axis.angle(a), axis.angle(b));
       height += axis.height(a) / static_cast<double>(rim.half_edges.size());
     }
-    const bool is_ring = rim.is_closed && std::abs(std::abs(around) - kTurn) < 0.1;
+    const bool is_ring = rim.is_closed && std::abs(std::abs(around) - kTurn) < kRingQuarterTurns;
     if (is_ring)
       rings.push_back({std::move(rim), around > 0, height});
     else

@@ -4,11 +4,11 @@
 #include <limits>
 
 #include "core/internal/ordered.h"
+#include "tear/geometry/cross.h"
+#include "tear/geometry/tolerances.h"
 
 namespace sunder::tear {
 namespace {
-
-double cross(const Vec2d& a, const Vec2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 /// The half-plane bounded by the line through a and b that holds `inside`. A line that has no
 /// direction, or that passes through `inside`, is replaced by the one through a at right angles to
@@ -18,7 +18,8 @@ BladePlane::HalfPlane beside(const Vec2d& a, const Vec2d& b, const Vec2d& inside
   Vec2d normal{-(b - a).y(), (b - a).x()};
   const double length = norm(normal);
   const double side = dot(normal, inside - a);
-  if (!(length > 1e-12 * norm(fallback)) || !(std::abs(side) > 1e-12 * length * norm(fallback)))
+  if (!(length > kDirectionLengths * norm(fallback)) ||
+      !(std::abs(side) > kDirectionLengths * length * norm(fallback)))
     normal = fallback;
   else if (side < 0)
     normal = -normal;
@@ -37,7 +38,7 @@ std::optional<BladePlane> BladePlane::through(const Vec3d& anchor, const Blade& 
   const Vec3d offset = to.base - anchor;
   const Vec3d across = offset - dot(plane.along_, offset) * plane.along_;
   const double distance = norm(across);
-  if (!(distance > 1e-9 * (norm(blade) + norm(offset)))) return std::nullopt;
+  if (!(distance > kSweptLengths * (norm(blade) + norm(offset)))) return std::nullopt;
   plane.across_ = across / distance;
   // A second time, because subtracting nearly parallel vectors loses the right angle.
   plane.across_ -= dot(plane.along_, plane.across_) * plane.along_;
@@ -69,7 +70,7 @@ double BladePlane::progress(const Vec2d& point) const {
   const double b = cross(p, g_) - cross_e_d_;
   const double c = cross(p, d_);
   const double discriminant = b * b - 4 * a_ * c;
-  if (std::abs(a_ * c) <= 1e-14 * b * b || discriminant < 0) return b != 0 ? -c / b : 0.0;
+  if (std::abs(a_ * c) <= kLinearSquares * b * b || discriminant < 0) return b != 0 ? -c / b : 0.0;
   const auto distance_from_sweep = [](double s) { return s < 0 ? -s : s > 1 ? s - 1 : 0.0; };
   const double q = -0.5 * (b + std::copysign(std::sqrt(discriminant), b));
   const double one = q / a_;
@@ -99,7 +100,7 @@ Mat3d BladePlane::axes() const {
   return axes;
 }
 
-double BladePlane::least_progress(const Box& box) const {
+double BladePlane::least_progress(const FrameBox& box) const {
   // As in sweep_coordinates(), a point p is ahead of the blade at progress s where cross(p -
   // base(s), direction(s)) > 0, which is quadratic in s and linear in p. The least value over the
   // box is the value at its middle minus a radius. The radius is convex in s, so it is at most the
@@ -107,7 +108,6 @@ double BladePlane::least_progress(const Box& box) const {
   // is ahead of the blade. A point that is ahead of the first blade and within reach of the second
   // has exactly one progress in [0, 1], so that root is the one meant.
   constexpr double kUnknown = -std::numeric_limits<double>::infinity();
-  constexpr double kMargin = 1e-7;  // bound of the error of the roots
   const Vec3d half = box.half_size(), middle = box.middle();
   const Vec2d e = to_base_ - from_base_, d = from_tip_ - from_base_, g = (to_tip_ - to_base_) - d;
   const auto radius = [&](const Vec2d& direction) {
@@ -130,7 +130,7 @@ double BladePlane::least_progress(const Box& box) const {
   } else if (!(discriminant < 0)) {
     return kUnknown;
   }
-  return first - kMargin;
+  return first - kRootSweeps;
 }
 
 }  // namespace sunder::tear

@@ -56,7 +56,7 @@ class BladePlane {
   [[nodiscard]] Mat3d axes() const;
   /// Lower bound of the progress of all points of a box that lie in the plane and within reach;
   /// minus infinity where none is known. The box is given along axes() from the origin.
-  [[nodiscard]] double least_progress(const Box& box) const;
+  [[nodiscard]] double least_progress(const FrameBox& box) const;
 
   /// Unit vectors. The normal points to the left of the stroke, seen from where the blade comes;
   /// `across` points forwards across the second blade, `along` from its base to its tip.
@@ -64,15 +64,15 @@ class BladePlane {
   [[nodiscard]] const Vec3d& across() const { return across_; }
   [[nodiscard]] const Vec3d& along() const { return along_; }
   /// The half-space that stands on a half-plane of the figure, at right angles to the plane.
-  [[nodiscard]] HalfSpace standing_on(const HalfPlane& half_plane) const {
+  [[nodiscard]] PlaneSide standing_on(const HalfPlane& half_plane) const {
     const Vec3d normal = half_plane.normal.x() * across_ + half_plane.normal.y() * along_;
     return {normal, half_plane.offset + dot(normal, origin_)};
   }
   /// The half-spaces on both sides of the plane after it is moved to its left by `distance`.
-  [[nodiscard]] HalfSpace left_of(double distance) const {
+  [[nodiscard]] PlaneSide left_of(double distance) const {
     return {normal_, dot(normal_, origin_) + distance};
   }
-  [[nodiscard]] HalfSpace right_of(double distance) const {
+  [[nodiscard]] PlaneSide right_of(double distance) const {
     return {-normal_, -(dot(normal_, origin_) + distance)};
   }
 

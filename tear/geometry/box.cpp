@@ -1,6 +1,7 @@
 #include "tear/geometry/box.h"
 
 #include "core/internal/ordered.h"
+#include "tear/geometry/tolerances.h"
 
 namespace sunder::tear {
 namespace {
@@ -20,7 +21,7 @@ Mat3d axes_along(const Vec3d& first, const Vec3d& second) {
   if (x.isZero(0)) return Mat3d::Identity();
   const Vec3d towards = unit_or_zero(second);
   const Vec3d across = towards - dot(x, towards) * x;
-  Vec3d y = norm(across) > 1e-3 ? Vec3d(across / norm(across)) : Vec3d(x.unitOrthogonal());
+  Vec3d y = norm(across) > kAxisSine ? Vec3d(across / norm(across)) : Vec3d(x.unitOrthogonal());
   y -= dot(x, y) * x;
   y /= norm(y);
   Mat3d axes;

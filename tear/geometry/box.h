@@ -4,7 +4,8 @@
 #include <array>
 
 #include "core/internal/ordered.h"
-#include "tear/geometry/half_space.h"
+#include "tear/geometry/plane_side.h"
+#include "tear/geometry/tolerances.h"
 
 namespace sunder::tear {
 
@@ -21,7 +22,7 @@ struct Frame {
 };
 
 /// A box in a frame; infinite where no bound is known.
-struct Box {
+struct FrameBox {
   Vec3d low = Vec3d::Zero(), high = Vec3d::Zero();
 
   [[nodiscard]] Vec3d middle() const { return 0.5 * (low + high); }
@@ -35,9 +36,9 @@ struct Box {
   /// corners and from coordinates up to `reach`. The margin of a box inside another one is not
   /// greater.
   [[nodiscard]] double margin(double reach) const {
-    return 1e-9 * (high - low).maxCoeff() + 1e-12 * (largest_coordinate() + reach);
+    return kBoxSizes * (high - low).maxCoeff() + kPosedCoordinates * (largest_coordinate() + reach);
   }
-  [[nodiscard]] Box widened(double reach) const {
+  [[nodiscard]] FrameBox widened(double reach) const {
     const Vec3d all_around = Vec3d::Constant(margin(reach));
     return {low - all_around, high + all_around};
   }
@@ -59,24 +60,22 @@ struct Shadow {
 [[nodiscard]] Mat3d axes_along(const Vec3d& first, const Vec3d& second = Vec3d::Zero());
 
 /// A half-space in a frame.
-class FramedHalfSpace {
+class FramedPlaneSide {
  public:
-  FramedHalfSpace(const Frame& frame, const HalfSpace& half_space)
-      : inside_{multiply(frame.axes, half_space.normal),
-                half_space.offset - dot(half_space.normal, frame.origin)},
+  FramedPlaneSide(const Frame& frame, const PlaneSide& side)
+      : inside_{multiply(frame.axes, side.normal), side.offset - dot(side.normal, frame.origin)},
         steepness_(inside_.normal.cwiseAbs()),
-        magnitude_(std::abs(half_space.offset) +
-                   dot(half_space.normal.cwiseAbs(), frame.origin.cwiseAbs())) {}
+        magnitude_(std::abs(side.offset) + dot(side.normal.cwiseAbs(), frame.origin.cwiseAbs())) {}
 
   /// Whether the box is certainly outside the half-space, whatever rounding does to either.
-  [[nodiscard]] bool is_beside(const Box& box) const {
+  [[nodiscard]] bool is_beside(const FrameBox& box) const {
     const Vec3d middle = box.middle(), half = box.half_size();
     const double greatest = inside_.value(middle) + dot(steepness_, half);
-    return greatest < -1e-12 * (magnitude_ + dot(steepness_, middle.cwiseAbs() + half));
+    return greatest < -kPosedCoordinates * (magnitude_ + dot(steepness_, middle.cwiseAbs() + half));
   }
 
  private:
-  HalfSpace inside_;
+  PlaneSide inside_;
   Vec3d steepness_;
   double magnitude_;  ///< Sum of the magnitudes of the terms, in model space.
 };

@@ -40,8 +40,4 @@ inline double shape_squared(const Place& a, const Place& b, const Place& c) {
   return shape_squared(a, b, c, normal(a, b, c));
 }
 
-/// The factor by which another diagonal has to be better, so that rounding does not flip edges to
-/// and fro.
-inline constexpr double kBetterShape = 1.0001;
-
 }  // namespace sunder::tear

@@ -2,24 +2,23 @@
 
 #include "core/internal/ordered.h"
 #include "tear/filling/caps.h"
+#include "tear/geometry/tolerances.h"
 #include "tear/sheet/open_sheet.h"
 #include "tear/surface/improve.h"
 
 namespace sunder::tear {
 namespace {
 
-constexpr double kFar = 1e60;  ///< Products of four coordinates must stay finite.
-
-bool is_near(const Vec3d& vector) { return vector.cwiseAbs().maxCoeff() <= kFar; }
+bool is_near(const Vec3d& vector) { return vector.cwiseAbs().maxCoeff() <= kFarthestMetres; }
 
 /// The half-spaces bounded by the sides of a polygon in the plane. Empty if the polygon is not
 /// convex or has no area.
-std::vector<HalfSpace> sides_of(const std::vector<Vec3d>& bounds, const Vec3d& normal) {
+std::vector<PlaneSide> sides_of(const std::vector<Vec3d>& bounds, const Vec3d& normal) {
   Vec3d doubled_area = Vec3d::Zero();
   for (std::size_t i = 0; i < bounds.size(); ++i)
     doubled_area += (bounds[i] - bounds[0]).cross(bounds[(i + 1) % bounds.size()] - bounds[0]);
   const double turn = dot(doubled_area, normal) < 0 ? -1.0 : 1.0;
-  std::vector<HalfSpace> sides;
+  std::vector<PlaneSide> sides;
   for (std::size_t i = 0; i < bounds.size(); ++i) {
     const Vec3d inward = turn * normal.cross(Vec3d(bounds[(i + 1) % bounds.size()] - bounds[i]));
     const double length = norm(inward);
@@ -28,11 +27,12 @@ std::vector<HalfSpace> sides_of(const std::vector<Vec3d>& bounds, const Vec3d& n
   }
   double size = 0;
   for (const Vec3d& corner : bounds) size = std::max(size, norm(corner - bounds[0]));
-  for (const HalfSpace& side : sides)
+  for (const PlaneSide& side : sides)
     for (const Vec3d& corner : bounds)
-      if (side.value(corner) < -1e-9 * size) return {};
-  return std::abs(dot(doubled_area, normal)) > 1e-12 * size * size ? sides
-                                                                   : std::vector<HalfSpace>{};
+      if (side.value(corner) < -kConvexSizes * size) return {};
+  return std::abs(dot(doubled_area, normal)) > kFlatSquaredSizes * size * size
+             ? sides
+             : std::vector<PlaneSide>{};
 }
 
 }  // namespace
@@ -44,7 +44,7 @@ Status validate_cut(const PlaneCut& cut) {
   if (!is_near(cut.point) || !is_near(cut.normal))
     return Status::failure(StatusCode::invalid_argument, kNone,
                            "the plane of the cut lies beyond 1e60");
-  if (!(norm(cut.normal) > 1e-30))
+  if (!(norm(cut.normal) > kShortestDirection))
     return Status::failure(StatusCode::invalid_argument, kNone,
                            "the normal of the cut has no length");
   if (cut.bounds.empty()) return {};
@@ -71,7 +71,7 @@ void cut_surface(const PlaneCut& cut, const Workpiece& work, Outcome& outcome) {
   const EditLog::Mark before = work.editor.mark();
   const Vec3d normal = cut.normal / norm(cut.normal);
   Sheet sheet{{normal, dot(normal, cut.point)}, {}};
-  for (const HalfSpace& side : sides_of(cut.bounds, normal)) sheet.bounds.push_back({side, kNone});
+  for (const PlaneSide& side : sides_of(cut.bounds, normal)) sheet.bounds.push_back({side, kNone});
   const SheetOpening opening = open_sheet(sheet, work, outcome.borders.lips);
   report.runs = opening.runs;
   report.faces_crossed = opening.faces_crossed;

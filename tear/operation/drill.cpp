@@ -4,6 +4,7 @@
 
 #include "core/internal/ordered.h"
 #include "tear/filling/walls.h"
+#include "tear/geometry/tolerances.h"
 #include "tear/sheet/gap.h"
 #include "tear/surface/improve.h"
 
@@ -58,17 +59,18 @@ Status validate_bore(const Bore& bore) {
   if (!bore.origin.allFinite() || !bore.direction.allFinite())
     return Status::failure(StatusCode::non_finite_value, kNone,
                            "the axis of the bore is not finite");
-  if (bore.origin.cwiseAbs().maxCoeff() > 1e60 || bore.direction.cwiseAbs().maxCoeff() > 1e60)
+  if (bore.origin.cwiseAbs().maxCoeff() > kFarthestMetres ||
+      bore.direction.cwiseAbs().maxCoeff() > kFarthestMetres)
     return Status::failure(StatusCode::invalid_argument, kNone,
                            "the axis of the bore lies beyond 1e60");
-  if (!(norm(bore.direction) > 1e-30))
+  if (!(norm(bore.direction) > kShortestDirection))
     return Status::failure(StatusCode::invalid_argument, kNone,
                            "the direction of the bore has no length");
-  if (!(bore.radius > 1e-30 && bore.radius <= 1e30))
+  if (!(bore.radius > kShortestMetres && bore.radius <= kLongestMetres))
     return Status::failure(StatusCode::invalid_argument, kNone,
                            "the radius of the bore is %g; it must be above 0 and at most 1e30",
                            bore.radius);
-  if (!(bore.depth > 1e-30 && bore.depth <= 1e30))
+  if (!(bore.depth > kShortestMetres && bore.depth <= kLongestMetres))
     return Status::failure(StatusCode::invalid_argument, kNone,
                            "the depth of the bore is %g; it must be above 0 and at most 1e30",
                            bore.depth);

@@ -29,7 +29,7 @@ double depth_at(const std::vector<Vec2d>& section, double x) {
 }
 
 /// The half-space of the places that lie farther along `direction` than `at`, by `distance`.
-HalfSpace from_place(const Vec3d& at, const Vec3d& direction, double distance) {
+PlaneSide from_place(const Vec3d& at, const Vec3d& direction, double distance) {
   return {direction, dot(direction, at) + distance};
 }
 
@@ -95,7 +95,7 @@ GapBand::Pending GapBand::find_gap(const Segment& segment, const Workpiece& work
     const std::size_t seeds = gap.seeds.size();
     const Index start = imprint_point(*contact, Snapping::tight, work.editor, work.posed);
     const double reached = trace_gap(start, work, tip, gap, outcome);
-    const bool has_advanced = gap.seeds.size() > seeds && reached > progress + kSamePlace;
+    const bool has_advanced = gap.seeds.size() > seeds && reached > progress + kSamePlaceSweeps;
     progress = std::max(progress, reached);
     if (has_advanced) continue;
     if (gap.seeds.size() == seeds) {
@@ -163,7 +163,7 @@ void GapBand::close_corner(const Vec3d& at, const Workpiece& work, const Pending
     wedge.push_back(from_place(at, -outer * normal_after, -half));
   } else {
     const Vec3d bevel = outer * (normal_before + normal_after);
-    if (!(norm(bevel) > 1e-6)) return;  // straight back
+    if (!(norm(bevel) > kStraightBackRadians)) return;  // straight back
     wedge.push_back(from_place(at, -bevel / norm(bevel),
                                -half * outer * dot(normal_before, bevel) / norm(bevel)));
   }
@@ -171,7 +171,7 @@ void GapBand::close_corner(const Vec3d& at, const Workpiece& work, const Pending
   remove(wedge, sides, next, work, outcome);
 }
 
-void GapBand::remove_pending(const HalfSpace& end, const Workpiece& work, Outcome& outcome) {
+void GapBand::remove_pending(const PlaneSide& end, const Workpiece& work, Outcome& outcome) {
   const BladePlane& plane = pending_->plane;
   const double half = 0.5 * width_;
   // The cell lies left of the right side, and right of the left one.
@@ -185,7 +185,7 @@ void GapBand::remove_pending(const HalfSpace& end, const Workpiece& work, Outcom
 /// The start of a gap that continues one which was closed square in another pose: the edge left on
 /// both sides of the tip, in its current place, and slightly before it, so that no strip remains
 /// between the two gaps.
-HalfSpace GapBand::start_from_rim(const BladePlane& plane, Index tip, const Workpiece& work) const {
+PlaneSide GapBand::start_from_rim(const BladePlane& plane, Index tip, const Workpiece& work) const {
   const Surface& surface = work.editor.surface();
   const Index first = surface.first_of_fan(surface.point_corner[tip]);
   Index last = first;
@@ -199,9 +199,10 @@ HalfSpace GapBand::start_from_rim(const BladePlane& plane, Index tip, const Work
   if (dot(forward, plane.across()) < 0) forward = -forward;
   const double length = norm(forward);
   // A rim that does not lie across the way says nothing.
-  forward = length > 0 && dot(forward, plane.across()) > 0.5 * length ? Vec3d(forward / length)
-                                                                      : plane.across();
-  return {forward, dot(forward, at) - 0.1 * width_};
+  forward = length > 0 && dot(forward, plane.across()) > kRimAcrossCosine * length
+                ? Vec3d(forward / length)
+                : plane.across();
+  return {forward, dot(forward, at) - kOverlapWidths * width_};
 }
 
 /// The faces of the torn layers that a cell holds a part of.
@@ -228,7 +229,7 @@ std::vector<Index> GapBand::faces_to_remove(const Cell& cell, const Pending& gap
     const Vec3d normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
     if (dot(normal, gap.plane.along()) <= 0) return true;
     const Vec2d middle = gap.plane.project((corners[0] + corners[1] + corners[2]) / 3);
-    return middle.y() - depth_at(gap.section, middle.x()) < 2 * width_;
+    return middle.y() - depth_at(gap.section, middle.x()) < kOtherLayerWidths * width_;
   };
   return faces_in_cell(cell, seeds, is_same_layer, work.editor, work.posed);
 }

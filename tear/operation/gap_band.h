@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "tear/geometry/blade_plane.h"
-#include "tear/geometry/half_space.h"
+#include "tear/geometry/plane_side.h"
 #include "tear/operation/outcome.h"
 #include "tear/operation/stroke_tip.h"
 #include "tear/posed/workpiece.h"
@@ -42,7 +42,7 @@ class GapBand {
   /// A segment whose gap is still to be removed.
   struct Pending {
     BladePlane plane;
-    HalfSpace start;
+    PlaneSide start;
     std::vector<Index> seeds;    ///< Points at which the tear entered the surface.
     std::vector<Index> faces;    ///< Faces that the middle of the gap crosses.
     std::vector<Vec2d> section;  ///< The middle of the gap in the plane, by ascending x.
@@ -57,8 +57,8 @@ class GapBand {
                                  Outcome& outcome) const;
   void join(const Vec3d& at, const Workpiece& work, Pending& next, Outcome& outcome);
   void close_corner(const Vec3d& at, const Workpiece& work, const Pending& next, Outcome& outcome);
-  void remove_pending(const HalfSpace& end, const Workpiece& work, Outcome& outcome);
-  [[nodiscard]] HalfSpace start_from_rim(const BladePlane& plane, Index tip,
+  void remove_pending(const PlaneSide& end, const Workpiece& work, Outcome& outcome);
+  [[nodiscard]] PlaneSide start_from_rim(const BladePlane& plane, Index tip,
                                          const Workpiece& work) const;
   [[nodiscard]] std::vector<Index> faces_to_remove(const Cell& cell, const Pending& gap,
                                                    const Workpiece& work) const;

@@ -117,7 +117,7 @@ void NearestLayerSegment::tear() {
     const std::size_t edges = torn_edges_;
     const Index start = imprint_point(*contact, Snapping::by_shape, work_.editor, work_.posed);
     const double reached = tear_piece(start, before);
-    const bool has_advanced = torn_edges_ > edges && reached > progress + kSamePlace;
+    const bool has_advanced = torn_edges_ > edges && reached > progress + kSamePlaceSweeps;
     progress = std::max(progress, reached);
     if (has_advanced) continue;
     progress = std::max(progress, contact->progress_beyond);

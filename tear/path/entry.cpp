@@ -69,7 +69,7 @@ class Segment {
         per_step_(direction_in_frame_.cwiseInverse()),
         reach_(std::max(
             {frame.reach(), base_.cwiseAbs().maxCoeff(), blade.tip.cwiseAbs().maxCoeff()})),
-        rounding_(1e-12 * reach_) {}
+        rounding_(kPosedCoordinates * reach_) {}
 
   struct Part {
     double begin = 0, end = 1;
@@ -81,10 +81,10 @@ class Segment {
   /// The part of the segment inside a box of the surface, conservative under rounding. The boxes
   /// already include a margin for rounding in the frame, so only the rounding of model coordinates
   /// is added here.
-  [[nodiscard]] Part part_in(const Box& box) const { return part_in(box, rounding_); }
+  [[nodiscard]] Part part_in(const FrameBox& box) const { return part_in(box, rounding_); }
 
   /// The part inside a shadow. Its box was tested before.
-  [[nodiscard]] Part part_in(const Box&, const Shadow& shadow) const {
+  [[nodiscard]] Part part_in(const FrameBox&, const Shadow& shadow) const {
     for (std::size_t k = 0; k < 3; ++k) {
       const double at =
           shadow.normal[k].x() * base_in_frame_.y() + shadow.normal[k].y() * base_in_frame_.z();
@@ -102,21 +102,21 @@ class Segment {
     const Vec3d ab = corners[1] - corners[0], ac = corners[2] - corners[0];
     const Vec3d h = direction_.cross(ac);
     const double determinant = dot(ab, h);
-    if (!(std::abs(determinant) > 1e-14 * norm(ab) * norm(ac) * norm(direction_)))
+    if (!(std::abs(determinant) > kAlongFaceLengths * norm(ab) * norm(ac) * norm(direction_)))
       return std::nullopt;
     const Vec3d from_corner = base_ - corners[0];
     const double u = dot(from_corner, h) / determinant;
     const Vec3d q = from_corner.cross(ab);
     const double v = dot(direction_, q) / determinant;
     depth = dot(ac, q) / determinant;
-    constexpr double kEdge = 1e-12;
-    if (u < -kEdge || v < -kEdge || u + v > 1 + kEdge || depth < 0 || depth > 1)
+    if (u < -kHitBarycentric || v < -kHitBarycentric || u + v > 1 + kHitBarycentric || depth < 0 ||
+        depth > 1)
       return std::nullopt;
     // If the segment runs along the triangle's plane, rounding may give places outside the
     // triangle.
     const Vec3d a = frame_.place_of(corners[0]), b = frame_.place_of(corners[1]),
                 c = frame_.place_of(corners[2]);
-    const Box box{a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)};
+    const FrameBox box{a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)};
     const Part part = part_in(box, box.margin(reach_));
     if (part.is_empty()) return std::nullopt;
     depth = std::clamp(depth, part.begin, part.end);
@@ -132,7 +132,7 @@ class Segment {
   Vec3d base_in_frame_, direction_in_frame_, per_step_;
   double reach_, rounding_;
 
-  [[nodiscard]] Part part_in(const Box& box, double margin) const {
+  [[nodiscard]] Part part_in(const FrameBox& box, double margin) const {
     Part part;
     for (int k = 0; k < 3; ++k) {
       const double to_low = box.low[k] - margin - base_in_frame_[k],
@@ -164,7 +164,7 @@ std::optional<Contact> contact_with(Index triangle, const Corners& corners, cons
   bool is_reached = clip(not_before, a, b, begin, end);
   for (const auto& half_plane : plane.reach())
     is_reached = is_reached && clip(half_plane, a, b, begin, end);
-  if (!is_reached || end - begin < kSnap)
+  if (!is_reached || end - begin < kSnapEdges)
     return std::nullopt;  // a remnant of a triangle whose neighbour's end was snapped
 
   const SweepCoordinates at_begin = plane.sweep_coordinates(a + begin * (b - a));
@@ -172,7 +172,7 @@ std::optional<Contact> contact_with(Index triangle, const Corners& corners, cons
   const bool forward = at_begin.progress <= at_end.progress;
   const SweepCoordinates& low = forward ? at_begin : at_end;
   const SweepCoordinates& high = forward ? at_end : at_begin;
-  if (!(high.progress > std::max(low.progress, progress) + kSamePlace)) return std::nullopt;
+  if (!(high.progress > std::max(low.progress, progress) + kSamePlaceSweeps)) return std::nullopt;
   const double at = forward ? begin : end;
   Contact contact{{triangle, {}, Vec3d::Zero(), high.progress}, low};
   for (std::size_t k = 0; k < 3; ++k) {
@@ -190,31 +190,31 @@ class Sweep {
   Sweep(const BladePlane& plane, const BladePlane::HalfPlane& not_before, const Frame& frame)
       : plane_(plane),
         origin_in_frame_(frame.place_of(plane.origin())),
-        within_{FramedHalfSpace(frame, plane.left_of(0)),
-                FramedHalfSpace(frame, plane.right_of(0)),
-                FramedHalfSpace(frame, plane.standing_on(plane.reach()[0])),
-                FramedHalfSpace(frame, plane.standing_on(plane.reach()[1])),
-                FramedHalfSpace(frame, plane.standing_on(plane.reach()[2])),
-                FramedHalfSpace(frame, plane.standing_on(not_before))},
+        within_{FramedPlaneSide(frame, plane.left_of(0)),
+                FramedPlaneSide(frame, plane.right_of(0)),
+                FramedPlaneSide(frame, plane.standing_on(plane.reach()[0])),
+                FramedPlaneSide(frame, plane.standing_on(plane.reach()[1])),
+                FramedPlaneSide(frame, plane.standing_on(plane.reach()[2])),
+                FramedPlaneSide(frame, plane.standing_on(not_before))},
         reach_(std::max(frame.reach(), plane.origin().cwiseAbs().maxCoeff())) {}
 
-  [[nodiscard]] double least_progress(const Box& box) const {
+  [[nodiscard]] double least_progress(const FrameBox& box) const {
     if (std::any_of(within_.begin(), within_.end(),
-                    [&](const FramedHalfSpace& side) { return side.is_beside(box); }))
+                    [&](const FramedPlaneSide& side) { return side.is_beside(box); }))
       return std::numeric_limits<double>::infinity();
-    const Box wide = box.widened(reach_);
+    const FrameBox wide = box.widened(reach_);
     return plane_.least_progress({wide.low - origin_in_frame_, wide.high - origin_in_frame_});
   }
   /// The same for the contents of both a box and a shadow.
-  [[nodiscard]] double least_progress(const Box& box, const Shadow& shadow) const {
+  [[nodiscard]] double least_progress(const FrameBox& box, const Shadow& shadow) const {
     // In the plane, a pair of parallel lines bounds an interval across the blade.
     const double margin = box.margin(reach_), at_plane = origin_in_frame_.z();
-    Box narrow = box;
+    FrameBox narrow = box;
     narrow.low[0] = std::max(narrow.low[0], shadow.low);
     narrow.high[0] = std::min(narrow.high[0], shadow.high);
     for (std::size_t k = 0; k < 3; ++k) {
       const double steepness = shadow.normal[k].x();
-      if (!(std::abs(steepness) > 1e-6)) continue;
+      if (!(std::abs(steepness) > kSteepSine)) continue;
       const double from = (shadow.from[k] - margin - shadow.normal[k].y() * at_plane) / steepness;
       const double to = (shadow.to[k] + margin - shadow.normal[k].y() * at_plane) / steepness;
       narrow.low[1] = std::max(narrow.low[1], std::min(from, to) - margin / std::abs(steepness));
@@ -228,7 +228,7 @@ class Sweep {
  private:
   const BladePlane& plane_;
   Vec3d origin_in_frame_;
-  std::array<FramedHalfSpace, 6> within_;
+  std::array<FramedPlaneSide, 6> within_;
   double reach_;
 };
 
@@ -240,7 +240,7 @@ void for_each_contact(const BladePlane& plane, double progress, const SurfaceEdi
   const BladePlane::HalfPlane not_before = plane.from_progress(progress);
   const Frame frame = posed.frame_along(plane.axes(), editor);
   const Sweep sweep(plane, not_before, frame);
-  const auto least_progress = [&](const Box& box, const auto&... shadow) {
+  const auto least_progress = [&](const FrameBox& box, const auto&... shadow) {
     return sweep.least_progress(box, shadow...);
   };
   double limit = std::numeric_limits<double>::max();
@@ -260,7 +260,7 @@ std::optional<SurfaceHit> first_hit(const Blade& blade, const SurfaceEditor& edi
   const Segment segment(blade, frame);
   std::optional<SurfaceHit> nearest;
   double nearest_depth = 1.0;
-  const auto least_depth = [&](const Box& box, const auto&... shadow) {
+  const auto least_depth = [&](const FrameBox& box, const auto&... shadow) {
     return segment.part_in(box, shadow...).begin_or_infinity();
   };
   posed.visit_faces(editor, frame, least_depth, [&](Index triangle) {
@@ -285,10 +285,10 @@ std::optional<SurfaceHit> first_contact(const BladePlane& plane, double progress
   double least = std::numeric_limits<double>::max(), least_depth = least;
   std::optional<Contact> nearest;
   const auto is_there = [&](const Contact& contact) {
-    return contact.low.progress < least + kSamePlace;
+    return contact.low.progress < least + kSamePlaceSweeps;
   };
   const auto choose = [&](const Contact& contact) {
-    if (is_there(contact) && contact.low.depth <= least_depth + kSamePlace &&
+    if (is_there(contact) && contact.low.depth <= least_depth + kSamePlaceSweeps &&
         (!nearest || contact.hit.triangle < nearest->hit.triangle))
       nearest = contact;
   };
@@ -305,7 +305,7 @@ std::optional<SurfaceHit> first_contact(const BladePlane& plane, double progress
       are_all_near_kept = are_all_near_kept && count < near.size();
       if (are_all_near_kept) near[count++] = contact;
     }
-    return least + kSamePlace;
+    return least + kSamePlaceSweeps;
   });
   if (are_all_near_kept) {
     for (const Contact& contact : std::span(near).first(count))
@@ -314,11 +314,11 @@ std::optional<SurfaceHit> first_contact(const BladePlane& plane, double progress
   } else {  // many faces around one point: two more passes
     for_each_contact(plane, progress, editor, posed, [&](const Contact& contact) {
       if (is_there(contact)) least_depth = std::min(least_depth, contact.low.depth);
-      return least + kSamePlace;
+      return least + kSamePlaceSweeps;
     });
     for_each_contact(plane, progress, editor, posed, [&](const Contact& contact) {
       choose(contact);
-      return least + kSamePlace;
+      return least + kSamePlaceSweeps;
     });
   }
   return nearest ? std::optional(nearest->hit) : std::nullopt;
@@ -328,8 +328,8 @@ std::optional<SurfaceHit> contact_at(const SurfaceHit& hit, const BladePlane& pl
                                      const SurfaceEditor& editor, PosedPoints& posed) {
   const auto contact = contact_with(hit.triangle, posed_corners(editor, posed, hit.triangle), plane,
                                     0, plane.not_before());
-  return contact && contact->low.progress <= kSamePlace ? std::optional(contact->hit)
-                                                        : std::nullopt;
+  return contact && contact->low.progress <= kSamePlaceSweeps ? std::optional(contact->hit)
+                                                              : std::nullopt;
 }
 
 }  // namespace sunder::tear

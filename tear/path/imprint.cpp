@@ -50,11 +50,11 @@ class GrowingPath {
     // The progress at which the curve ends; the path may snap to a point before it.
     come_to(plane_.progress(Vec3d(here_ + reach.fraction * (step.position - here_))));
     if (reach.fraction == 1) come_to(step.crossing_progress);
-    if (reach.fraction < kSnap) return end(reach.end());
+    if (reach.fraction < kSnapEdges) return end(reach.end());
     const bool crosses_face = step.end_corner() == kNone;
     if (crosses_face) ++path.faces_crossed;
     if (crosses_face && reach.is_whole() && leap(step)) return;
-    if (reach.fraction < 1 - kSnap && !stops_short_of_border(step, reach, editor_, posed_)) {
+    if (reach.fraction < 1 - kSnapEdges && !stops_short_of_border(step, reach, editor_, posed_)) {
       stop_within(step, reach.fraction);
       return end(reach.end());
     }
@@ -143,13 +143,13 @@ class GrowingPath {
     const Index entry = splitter.ahead();
     if (entry == kNone || !editor_.origins.is_whole(entry / 3)) return false;
     const EdgeCrossing exit = find_exit(plane_, entry, editor_, posed_);
-    if (!(exit.fraction > kSnap && exit.fraction < 1 - kSnap)) return false;
+    if (!(exit.fraction > kSnapEdges && exit.fraction < 1 - kSnapEdges)) return false;
     const Index after = editor_.surface().twin[exit.half_edge];
     if (after != kNone) editor_.fetch(after / 3);
     const Reach reach = reach_between(plane_, here_, exit.position);
     if (reach.fraction < 1 || reach.ends_at_blade) return false;
     const double progress = progress_towards(plane_, here_, exit.position, reach);
-    if (!(progress > progress_here + kLeastAdvance)) return false;
+    if (!(progress > progress_here + kLeastAdvanceSweeps)) return false;
     const Index made = splitter.go_on(exit.half_edge, exit.fraction);
     if (made == kNone) return false;
     if (after != kNone)

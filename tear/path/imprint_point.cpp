@@ -24,7 +24,7 @@ Index imprint_point(const SurfaceHit& hit, Snapping snapping, SurfaceEditor& edi
   std::array<double, 3> weight = hit.barycentric;
   double sum = 0;
   for (Index k = 0; k < 3; ++k) {
-    if (weight[k] < (snapping == Snapping::tight ? stored_height(first + k, editor) : kSnap))
+    if (weight[k] < (snapping == Snapping::tight ? stored_height(first + k, editor) : kSnapEdges))
       weight[k] = 0;
     sum += weight[k];
   }

@@ -17,7 +17,8 @@ Leap find_leap(const BladePlane& plane, const Step& step, const SurfaceEditor& e
   while (editor.origins.is_inner_edge(at.half_edge)) {
     const EdgeCrossing entry = at.from_across(editor.surface());
     const EdgeCrossing exit = find_exit(plane, entry.half_edge, editor, posed);
-    if (!(plane.progress(exit.position) > plane.progress(entry.position) + kLeastAdvance)) break;
+    if (!(plane.progress(exit.position) > plane.progress(entry.position) + kLeastAdvanceSweeps))
+      break;
     ++leap.edges;
     const Reach reach = reach_between(plane, entry.position, exit.position);
     leap.landing = place_between(entry.place(), exit.place(), reach.fraction);

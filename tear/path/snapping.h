@@ -6,9 +6,9 @@ namespace sunder::tear {
 
 /// How far places move onto points and edges that exist already.
 enum class Snapping : std::uint8_t {
-  by_shape,  ///< kSnap and kSliver.
-  near,      ///< kSnap, at the end of a path: its tip is where the blade was.
-  tight,     ///< The least distance at which two places are stored apart, and kTightSnap.
+  by_shape,  ///< kSnapEdges and kSliverSizes.
+  near,      ///< kSnapEdges, at the end of a path: its tip is where the blade was.
+  tight,     ///< The least distance at which two places are stored apart, and kTightSnapEdges.
 };
 
 /// The fraction of an edge, from either end, within which a place snaps to that end.

@@ -39,7 +39,7 @@ double progress_towards(const BladePlane& plane, const Vec3d& from, const Vec3d&
   const double at_a = plane.not_before().value(a);
   if (at_b < 0 && at_b < at_a && at_a / (at_a - at_b) < part)
     return -std::numeric_limits<double>::infinity();
-  return plane.progress(Vec2d(a + std::max(part, kSnap) * (b - a)));
+  return plane.progress(Vec2d(a + std::max(part, kSnapEdges) * (b - a)));
 }
 
 namespace {
@@ -64,7 +64,7 @@ class StepChoice {
   void consider(Index corner, const EdgeEnd& a, const EdgeEnd& b) {
     const Step step = step_across(corner, a, b);
     const double progress = progress_towards(plane_, from_, step.position) - progress_here_;
-    if (!(progress > kLeastAdvance)) return;
+    if (!(progress > kLeastAdvanceSweeps)) return;
     if (best_.corner != kNone && slope(step, progress) >= slope(best_, best_progress_)) return;
     best_ = step;
     best_progress_ = progress;
@@ -87,7 +87,7 @@ class StepChoice {
   }
 
   [[nodiscard]] bool snaps(const Step& step, const Vec3d& nearer_end) {
-    if (std::min(step.fraction, 1 - step.fraction) < kTightSnap) return true;
+    if (std::min(step.fraction, 1 - step.fraction) < kTightSnapEdges) return true;
     const double snap = snapped_part(Surface::next(step.corner), snapping_, editor_, posed_);
     if (!(step.fraction < snap || step.fraction > 1 - snap)) return false;
     // In a sliver an end may be near but lie in another direction, such as the one from which the
@@ -98,7 +98,7 @@ class StepChoice {
 
   /// Change of depth per progress.
   [[nodiscard]] double slope(const Step& step, double progress) const {
-    const double part = std::max(reach_between(plane_, from_, step.position).fraction, kSnap);
+    const double part = std::max(reach_between(plane_, from_, step.position).fraction, kSnapEdges);
     const Vec3d reached = from_ + part * (step.position - from_);
     return (plane_.sweep_coordinates(plane_.project(reached)).depth -
             plane_.sweep_coordinates(plane_.project(from_)).depth) /

@@ -43,7 +43,7 @@ Trace trace_path(const BladePlane& plane, Index start, const SurfaceEditor& edit
     const EdgeCrossing entry = exit.from_across(surface);
     from = entry.place();
     exit = find_exit(plane, entry.half_edge, editor, posed);
-    if (!(progress_towards(plane, here, exit.position) - progress_at(here) > -kLeastAdvance))
+    if (!(progress_towards(plane, here, exit.position) - progress_at(here) > -kLeastAdvanceSweeps))
       return trace;  // the surface folds away from the blade
   }
   return trace;

@@ -22,9 +22,9 @@ class PatchForest {
   /// Visits the live faces of the patches in which something may be found, roughly the nearest
   /// first. Boxes are cached until the pose or the frame changes.
   /// @param frame   axes of the boxes; fewer boxes are met if the axes are aligned with the query.
-  /// @param bound   bound(const Box&): a lower bound, over the box, of the value that is minimised,
+  /// @param bound   bound(const FrameBox&): a lower bound, over the box, of what is minimised,
   ///         such as a distance; infinity if nothing can be found there. A query along the first
-  ///         axis may also accept (const Box&, const Shadow&), for objects inside both.
+  ///         axis may also accept (const FrameBox&, const Shadow&), for objects inside both.
   /// @param expect  expect(mesh, origins): faces of these source triangles will be visited next.
   /// @param visit   visit(face): returns the greatest value still of interest. It must not call
   ///         this function.
@@ -66,7 +66,7 @@ class PatchForest {
 
   /// Memory for the bounds of the patches of a group.
   struct GroupBounds {
-    std::array<Box, PatchTree::kPatchesPerGroup> boxes;
+    std::array<FrameBox, PatchTree::kPatchesPerGroup> boxes;
     std::array<Shadow, PatchTree::kPatchesPerGroup> shadows;
   };
 
@@ -77,13 +77,17 @@ class PatchForest {
     for (auto& of_mesh : fillings_)
       for (Covered& covered : of_mesh) visit(covered);
   }
+  /// Calls visit(face) for the faces of a patch.
+  template <class Visit>
+  static void for_each_face(const SurfaceEditor& editor, const Covered& covered, Index patch,
+                            Visit visit);
   /// Calls visit(bound, patch) for the patches of a group.
   template <class Bound, class Visit>
   void for_each_patch(PatchTree& tree, Index group, const MeshPose& pose, Bound& bound,
                       GroupBounds& patches, Visit visit) const {
     const Index first = PatchTree::kPatchesPerGroup * group;
-    if constexpr (std::is_invocable_v<Bound&, const Box&, const Shadow&>) {
-      const Box box = tree.posed_box(0, group, pose, epoch_);
+    if constexpr (std::is_invocable_v<Bound&, const FrameBox&, const Shadow&>) {
+      const FrameBox box = tree.posed_box(0, group, pose, epoch_);
       const Index count = tree.compute_posed_patches(group, pose, patches.shadows);
       for (Index i = 0; i < count; ++i) visit(bound(box, patches.shadows[i]), first + i);
     } else {
@@ -104,6 +108,13 @@ class PatchForest {
   std::uint32_t epoch_ = 1;
   bool is_built_ = false;
 };
+
+template <class Visit>
+void PatchForest::for_each_face(const SurfaceEditor& editor, const Covered& covered, Index patch,
+                                Visit visit) {
+  for (const Index origin : covered.tree.origins(patch))
+    if (origin < covered.end) editor.origins.for_each_part(covered.mesh, origin, visit);
+}
 
 template <class Bound, class Expect, class Visit>
 void PatchForest::visit_faces(const SurfaceEditor& editor, const CharacterPose& pose,
@@ -133,12 +144,8 @@ void PatchForest::visit_faces(const SurfaceEditor& editor, const CharacterPose& 
     if (node.bound > limit) continue;
     Covered& covered = *node.covered;
     if (node.height == 0) {
-      const std::span<const Index> origins = covered.tree.origins(node.number);
-      expect(covered.mesh, origins);
-      for (const Index origin : origins)
-        if (origin < covered.end)
-          editor.origins.for_each_part(covered.mesh, origin,
-                                       [&](Index face) { limit = visit(face); });
+      expect(covered.mesh, covered.tree.origins(node.number));
+      for_each_face(editor, covered, node.number, [&](Index face) { limit = visit(face); });
       continue;
     }
     const MeshPose mesh_pose = pose_of(meshes[covered.mesh], pose);

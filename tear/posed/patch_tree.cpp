@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "core/internal/ordered.h"
+#include "tear/geometry/tolerances.h"
 #include "tear/posed/byte_lanes.h"
 #include "tear/posed/hilbert_curve.h"
 
@@ -15,10 +16,6 @@ constexpr float kBoxParts = 255;
 /// If more bones move a node, ranges of weights do not improve on the hull.
 constexpr std::size_t kFewBones = 12;
 constexpr std::size_t kMaximumSlots = std::size_t{1} << 16;
-
-/// Relative deviation of the stored positions and weights of new vertices from those of their
-/// source triangle: each is rounded to float once, and a wall on a wall is rounded again.
-constexpr float kRounding = 0x1p-20f;
 
 /// A box as its low corner and its negated high corner, each with a fourth lane, so that both grow
 /// by taking the minimum.
@@ -37,7 +34,7 @@ struct GrowingBox {
     return std::all_of(least.begin(), least.end(), [](float value) { return value == 0.0f; });
   }
   void widen() {
-    for (float& value : least) value -= kRounding * std::abs(value);
+    for (float& value : least) value -= kNewVertexCoordinates * std::abs(value);
   }
 };
 
@@ -128,7 +125,7 @@ class PatchTree::Builder {
         }
       }
     }
-    const double slack = 2e-7 * static_cast<double>(most_influences + 1);
+    const double slack = kWeightSumPerInfluence * static_cast<double>(most_influences + 1);
     tree_.weight_slack_ = std::max(tree_.weight_slack_, static_cast<float>(slack));
     const std::size_t patch_count = (order.size() + kPatchSize - 1) / kPatchSize;
     for (GrowingBox& patch : std::span(patches).first(patch_count)) {
@@ -336,8 +333,8 @@ class PatchTree::Bound {
     largest_ = low.abs().max(high.abs());
     whole_ = {0.5f * low + 0.5f * high, 0.5f * (high - low)};
     if (!tree.first_morph_.empty()) add_morphs(node, pose);
-    is_bounded_ = is_bounded_ && largest_.maxCoeff() < PosedBones::kLargest;
-    whole_.half += kRoundingOfSums * largest_;
+    is_bounded_ = is_bounded_ && largest_.maxCoeff() < kLargestPosedMetres;
+    whole_.half += kFloatSumCoordinates * largest_;
   }
 
   using Lanes = PosedBones::Lanes;
@@ -389,7 +386,7 @@ class PatchTree::Bound {
       return {Lanes::Constant(-kInfinity), Lanes::Constant(kInfinity)};
     const auto terms = static_cast<float>(bones_.size() + 4);
     const Lanes slack = tree_.weight_slack_ * (largest + reach_) +
-                        terms * 1e-7f * (largest + terms * (mean.hull.high - mean.hull.low));
+                        terms * kFloatTerms * (largest + terms * (mean.hull.high - mean.hull.low));
     return {mean.hull.low.max(mean.sum.low) - slack, mean.hull.high.min(mean.sum.high) + slack};
   }
 
@@ -415,14 +412,11 @@ class PatchTree::Bound {
     return count;
   }
 
-  static Box box(const Interval& interval) {
+  static FrameBox box(const Interval& interval) {
     return {interval.low.head<3>().cast<double>(), interval.high.head<3>().cast<double>()};
   }
 
  private:
-  /// Rounding of a sum of a few products in float, with a wide margin.
-  static constexpr float kRoundingOfSums = 2e-6f;
-
   void add_morphs(Index node, const MeshPose& pose) {
     std::array<double, 3> middle{}, half{}, largest{};
     for (Index i = tree_.first_morph_[node]; i < tree_.first_morph_[node + 1]; ++i) {
@@ -437,8 +431,8 @@ class PatchTree::Bound {
     }
     for (std::size_t k = 0; k < 3; ++k) {
       const auto lane = static_cast<Eigen::Index>(k);
-      largest_[lane] += static_cast<float>(std::min(largest[k], 1e30));
-      if (!(largest[k] < 1e30)) continue;
+      largest_[lane] += static_cast<float>(std::min(largest[k], kLargestMorphMetres));
+      if (!(largest[k] < kLargestMorphMetres)) continue;
       whole_.middle[lane] += static_cast<float>(middle[k]);
       whole_.half[lane] += static_cast<float>(half[k]);
     }
@@ -474,7 +468,7 @@ PatchTree::FloatBox PatchTree::compute_posed_box(Index node, const MeshPose& pos
 }
 
 Index PatchTree::compute_posed_patches(Index group, const MeshPose& pose,
-                                       std::array<Box, kPatchesPerGroup>& boxes) const {
+                                       std::array<FrameBox, kPatchesPerGroup>& boxes) const {
   std::array<Bound::Mean, kPatchesPerGroup> means;
   const Bound bound(*this, group, pose);
   const auto bone_of = [&](Index slot) -> const PosedBones::Bone& { return pose.bones.at(slot); };
@@ -493,8 +487,9 @@ Index PatchTree::compute_posed_patches(Index group, const MeshPose& pose,
   for (std::size_t k = 0; k < 3; ++k) {
     const Vec2f across(-(*edges[k])[2], (*edges[k])[1]);
     const float length = norm(across);
-    normal[k] = length > 1e-15f && length < 1e15f ? Vec2f(across / length)
-                                                  : Vec2f(k == 0 ? 1 : 0, k == 0 ? 0 : 1);
+    normal[k] = length > kShortestSideMetres && length < kLongestSideMetres
+                    ? Vec2f(across / length)
+                    : Vec2f(k == 0 ? 1 : 0, k == 0 ? 0 : 1);
   }
   const Bound::Lanes along(1, 0, 0, 0), second(0, normal[0].x(), normal[1].x(), normal[2].x()),
       third(0, normal[0].y(), normal[1].y(), normal[2].y());
@@ -515,7 +510,8 @@ Index PatchTree::compute_posed_patches(Index group, const MeshPose& pose,
     const Bound::Lanes reach = bone.translation.abs() + bone.size_of_x * bound.largest()[0] +
                                bone.size_of_y * bound.largest()[1] +
                                bone.size_of_z * bound.largest()[2];
-    seen.rounding.setConstant(2 * bone.rounding.maxCoeff() + 1e-6f * reach.head<3>().sum());
+    seen.rounding.setConstant(2 * bone.rounding.maxCoeff() +
+                              kFloatCoordinates * reach.head<3>().sum());
     return seen;
   };
   std::array<Bound::Mean, kPatchesPerGroup> means;

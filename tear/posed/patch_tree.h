@@ -53,8 +53,8 @@ class PatchTree {
   }
 
   /// The bound of a posed node, in the frame of the pose's bones. Cached per epoch.
-  [[nodiscard]] Box posed_box(Index level, Index number, const MeshPose& pose,
-                              std::uint32_t epoch) {
+  [[nodiscard]] FrameBox posed_box(Index level, Index number, const MeshPose& pose,
+                                   std::uint32_t epoch) {
     const Index node = first_of_level_[level] + number;
     if (posed_since_[node] != epoch) {
       posed_[node] = compute_posed_box(node, pose);
@@ -67,7 +67,7 @@ class PatchTree {
   }
   /// The same for the patches of a group. @return their number.
   Index compute_posed_patches(Index group, const MeshPose& pose,
-                              std::array<Box, kPatchesPerGroup>& boxes) const;
+                              std::array<FrameBox, kPatchesPerGroup>& boxes) const;
   Index compute_posed_patches(Index group, const MeshPose& pose,
                               std::array<Shadow, kPatchesPerGroup>& shadows) const;
   /// Invalidates all cached boxes, so that epoch numbers can be reused; 0 is never used.

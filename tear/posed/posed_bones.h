@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "tear/geometry/box.h"
+#include "tear/geometry/tolerances.h"
 
 namespace sunder::tear {
 
@@ -18,9 +19,6 @@ class PosedBones {
     Lanes size_of_x, size_of_y, size_of_z;  ///< Upper bounds of the absolute values of the columns.
     Lanes rounding;  ///< Rounding error of a posed point that does not depend on its bind position.
   };
-  /// Larger coordinates are treated as infinite. Below it, neither products nor sums of them
-  /// overflow.
-  static constexpr float kLargest = 1e18f;
   /// Rounding of a bone with a larger matrix, which bounds nothing.
   static constexpr float kEverywhere = 1e37f;
 
@@ -63,7 +61,7 @@ class PosedBones {
     const double in_model =
         std::max({std::abs(from[9]), std::abs(from[10]), std::abs(from[11])}) + reach_;
     const Doubles largest = x.abs().max(y.abs()).max(z.abs()).max(translation.abs());
-    if (!(largest.maxCoeff() < kLargest && in_model < 1e28)) {
+    if (!(largest.maxCoeff() < kLargestPosedMetres && in_model < kFarthestPosedMetres)) {
       bone = {Lanes::Zero(), Lanes::Zero(), Lanes::Zero(), Lanes::Zero(),
               Lanes::Zero(), Lanes::Zero(), Lanes::Zero(), Lanes::Constant(kEverywhere)};
       return;
@@ -74,13 +72,13 @@ class PosedBones {
     bone.translation = translation.cast<float>();
     // The rounding of doubles may leave an arbitrary rest in a component that cancelled.
     const auto size_of = [](const Lanes& column) -> Lanes {
-      return column.abs() + 1e-8f * column.abs().sum();
+      return column.abs() + kCancelledTerms * column.abs().sum();
     };
     bone.size_of_x = size_of(bone.x);
     bone.size_of_y = size_of(bone.y);
     bone.size_of_z = size_of(bone.z);
-    bone.rounding =
-        1e-6f * bone.translation.abs() + (static_cast<float>(1e-13 * in_model) + 1e-30f);
+    bone.rounding = kFloatCoordinates * bone.translation.abs() +
+                    (static_cast<float>(kTranslationCoordinates * in_model) + kLeastRoundingMetres);
   }
 
   std::span<const Affine3d> palette_;

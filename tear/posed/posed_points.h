@@ -63,7 +63,7 @@ class PosedPoints {
   template <class MayHold, class Visit>
   void for_each_face(const SurfaceEditor& editor, const Frame& frame, MayHold may_hold,
                      Visit visit) {
-    const auto bound = [&](const Box& box) {
+    const auto bound = [&](const FrameBox& box) {
       return may_hold(box) ? 0.0 : std::numeric_limits<double>::infinity();
     };
     visit_faces(editor, frame, bound, [&](Index face) {

@@ -116,7 +116,7 @@ int exact_in_circle(const Vec2d& a, const Vec2d& b, const Vec2d& c, const Vec2d&
   return result.sign();
 }
 
-constexpr double kRounding = 0x1p-53;
+constexpr double kUnitRoundoff = 0x1p-53;
 
 int sign_of(double value) { return value > 0 ? 1 : value < 0 ? -1 : 0; }
 
@@ -135,7 +135,8 @@ int orientation(const Vec2d& a, const Vec2d& b, const Vec2d& c) {
   const double left = (a.x() - c.x()) * (b.y() - c.y());
   const double right = (a.y() - c.y()) * (b.x() - c.x());
   const double value = left - right;
-  if (std::abs(value) > (3 + 16 * kRounding) * kRounding * (std::abs(left) + std::abs(right)))
+  if (std::abs(value) >
+      (3 + 16 * kUnitRoundoff) * kUnitRoundoff * (std::abs(left) + std::abs(right)))
     return sign_of(value);
   if (left == 0 && right == 0)
     return 0;  // exact: a difference is zero only where it is, and no product underflows
@@ -152,7 +153,8 @@ int in_circle(const Vec2d& a, const Vec2d& b, const Vec2d& c, const Vec2d& d) {
   const double magnitude = a2 * (std::abs(bx * cy) + std::abs(by * cx)) +
                            b2 * (std::abs(cx * ay) + std::abs(cy * ax)) +
                            c2 * (std::abs(ax * by) + std::abs(ay * bx));
-  if (std::abs(value) > (10 + 96 * kRounding) * kRounding * magnitude) return sign_of(value);
+  if (std::abs(value) > (10 + 96 * kUnitRoundoff) * kUnitRoundoff * magnitude)
+    return sign_of(value);
   return exact_in_circle(a, b, c, d);
 }
 
@@ -164,7 +166,7 @@ int area_sign(std::span<const Vec2d> loop) {
     area += a.x() * b.y() - a.y() * b.x();
     magnitude += std::abs(a.x() * b.y()) + std::abs(a.y() * b.x());
   }
-  if (std::abs(area) > 2 * static_cast<double>(loop.size() + 8) * kRounding * magnitude)
+  if (std::abs(area) > 2 * static_cast<double>(loop.size() + 8) * kUnitRoundoff * magnitude)
     return sign_of(area);
   Expansion<1024>
       exact;  // more bits than lie between the smallest and the largest product in range

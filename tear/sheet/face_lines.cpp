@@ -3,19 +3,13 @@
 #include <algorithm>
 
 #include "core/internal/ordered.h"
+#include "tear/geometry/cross.h"
+#include "tear/geometry/tolerances.h"
 #include "tear/internal/surface.h"
 #include "tear/path/imprint_point.h"
 #include "tear/surface/flip_edge.h"
 
 namespace sunder::tear {
-namespace {
-
-double cross(const Vec2d& a, const Vec2d& b) { return a.x() * b.y() - a.y() * b.x(); }
-
-/// A point is on a line if it is nearer to it than this fraction of the face's size.
-constexpr double kOnLine = 1e-10;
-
-}  // namespace
 
 FaceLines::FaceLines(Index face, const std::array<Index, 3>& points,
                      std::span<const std::array<Index, 2>> children, SurfaceEditor& editor,
@@ -29,7 +23,7 @@ FaceLines::FaceLines(Index face, const std::array<Index, 3>& points,
   const Vec3d normal = ab.cross(ac);
   const double longest =
       std::sqrt(std::max({squared_norm(ab), squared_norm(ac), squared_norm(ac - ab)}));
-  if (!(norm(normal) > 1e-12 * longest * longest)) return;
+  if (!(norm(normal) > kFlatSquaredSizes * longest * longest)) return;
   size_ = longest;
   x_ = norm(ab) > norm(ac) ? Vec3d(ab / norm(ab)) : Vec3d(ac / norm(ac));
   y_ = (normal / norm(normal)).cross(x_);
@@ -68,7 +62,7 @@ Index FaceLines::imprint(const Vec3d& position) {
     best = {child, barycentric, position, 0};
     best_least = least;
   }
-  if (best.triangle == kNone || best_least < -1e-6) return kNone;
+  if (best.triangle == kNone || best_least < -kInFaceBarycentric) return kNone;
   return imprint_point(best, Snapping::tight, editor_, posed_);
 }
 
@@ -79,7 +73,7 @@ bool FaceLines::turn(Index half_edge) {
               d = place(surface.corner_point[Surface::next(half_edge)]);
   const Vec2d a = place(surface.corner_point[Surface::previous(half_edge)]),
               e = place(surface.corner_point[Surface::previous(twin)]);
-  const double least = kOnLine * size_ * norm(e - a);
+  const double least = kOnLineSizes * size_ * norm(e - a);
   return cross(e - a, c - a) < -least && cross(e - a, d - a) > least &&
          flip_edge(half_edge, editor_);
 }
@@ -112,7 +106,7 @@ bool FaceLines::draw(Index from, Index to, std::vector<PointEdge>& edges) {
                   d = surface.corner_point[Surface::previous(corner)];
       for (const Index point : {c, d}) {
         const double along = dot(way, place(point) - begin) / length;
-        if (std::abs(left_of_line(point)) <= kOnLine * size_ && along > 0 && along < length)
+        if (std::abs(left_of_line(point)) <= kOnLineSizes * size_ && along > 0 && along < length)
           through = point;
       }
       if (left_of_line(c) < 0 && left_of_line(d) > 0) crossed = Surface::next(corner);

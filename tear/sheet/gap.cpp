@@ -5,21 +5,13 @@
 #include <unordered_set>
 
 #include "core/internal/ordered.h"
+#include "tear/geometry/tolerances.h"
 #include "tear/internal/surface.h"
 #include "tear/surface/disconnect.h"
 #include "tear/surface/disjoint_sets.h"
 
 namespace sunder::tear {
 namespace {
-
-/// The search goes from face to face across an edge if more than this fraction of it is inside the
-/// cell.
-constexpr double kLeast = 1e-9;
-
-/// The distance by which an edge of the rim may miss its plane, as a fraction of its length and of
-/// the largest coordinate.
-constexpr double kOnSide = 1e-2;
-constexpr double kRounding = 1e-6;
 
 using Corners = std::array<Vec3d, 3>;
 
@@ -31,25 +23,25 @@ Corners posed_corners(Index face, const SurfaceEditor& editor, PosedPoints& pose
 
 bool is_edge_in_cell(const Cell& cell, const Vec3d& a, const Vec3d& b) {
   double begin = 0, end = 1;
-  for (const HalfSpace& side : cell) {
+  for (const PlaneSide& side : cell) {
     const double at_a = side.value(a), at_b = side.value(b);
     if (at_a < 0 && at_b < 0) return false;
     if (at_a < 0) begin = std::max(begin, at_a / (at_a - at_b));
     if (at_b < 0) end = std::min(end, at_a / (at_a - at_b));
   }
-  return end - begin > kLeast;
+  return end - begin > kInCellEdges;
 }
 
 /// Whether the intersection of a triangle and a cell is more than a border. Sutherland and Hodgman
 /// 1974.
 bool is_face_in_cell(const Cell& cell, const Corners& corners, std::vector<Vec3d>& polygon,
                      std::vector<Vec3d>& clipped) {
-  for (const HalfSpace& side : cell)
+  for (const PlaneSide& side : cell)
     if (std::none_of(corners.begin(), corners.end(),
                      [&](const Vec3d& corner) { return side.value(corner) > 0; }))
       return false;
   polygon.assign(corners.begin(), corners.end());
-  for (const HalfSpace& side : cell) {
+  for (const PlaneSide& side : cell) {
     clipped.clear();
     for (std::size_t i = 0; i < polygon.size(); ++i) {
       const Vec3d &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
@@ -133,7 +125,7 @@ Index side_of_edge(const Cell& cell, const Vec3d& a, const Vec3d& b) {
   // An end may be off the plane by the distance of snapping, where a face was too small for a new
   // point.
   const double rounding = std::max(a.cwiseAbs().maxCoeff(), b.cwiseAbs().maxCoeff());
-  return least <= kOnSide * norm(b - a) + kRounding * rounding ? nearest : kNone;
+  return least <= kOnSideEdges * norm(b - a) + kOnSideCoordinates * rounding ? nearest : kNone;
 }
 
 /// The border between removed and remaining faces. It is collected before the removal and described
@@ -197,11 +189,11 @@ std::vector<Index> faces_in_cell(const Cell& cell, const SurfaceEditor& editor,
   const Frame frame = posed.frame_along(
       cell.size() < 2 ? axes_along(Vec3d::Zero()) : axes_along(cell[0].normal, cell[1].normal),
       editor);
-  std::vector<FramedHalfSpace> sides;
-  for (const HalfSpace& side : cell) sides.emplace_back(frame, side);
-  const auto may_hold_any = [&](const Box& box) {
+  std::vector<FramedPlaneSide> sides;
+  for (const PlaneSide& side : cell) sides.emplace_back(frame, side);
+  const auto may_hold_any = [&](const FrameBox& box) {
     return std::none_of(sides.begin(), sides.end(),
-                        [&](const FramedHalfSpace& side) { return side.is_beside(box); });
+                        [&](const FramedPlaneSide& side) { return side.is_beside(box); });
   };
   posed.for_each_face(editor, frame, may_hold_any, [&](Index face) {
     if (is_face_in_cell(cell, posed_corners(face, editor, posed), polygon, clipped))
@@ -257,7 +249,7 @@ GapRemoval remove_cell(const Cell& cell, const std::vector<Index>& faces, Surfac
     const Corners corners = posed_corners(face, editor, posed);
     const Vec3d middle = (corners[0] + corners[1] + corners[2]) / 3;
     if (!std::all_of(cell.begin(), cell.end(),
-                     [&](const HalfSpace& half_space) { return half_space.value(middle) > 0; }))
+                     [&](const PlaneSide& side) { return side.value(middle) > 0; }))
       continue;
     inside.push_back(face);
     removal.area_posed += 0.5 * norm((corners[1] - corners[0]).cross(corners[2] - corners[0]));

@@ -92,7 +92,7 @@ class Imprint {
     const Index from = face.points[face.is_reversed[k] ? (k + 1) % 3 : k],
                 to = face.points[face.is_reversed[k] ? k : (k + 1) % 3];
     const Vec3d at_from = posed_.position(editor_, from), at_to = posed_.position(editor_, to);
-    const HalfSpace& plane = sheets_[sheet].plane;
+    const PlaneSide& plane = sheets_[sheet].plane;
     if (plane.contains(at_from) == plane.contains(at_to)) return false;
     const double value_from = plane.value(at_from), value_to = plane.value(at_to);
     const double fraction =
@@ -106,9 +106,8 @@ class Imprint {
 
   bool is_within_bounds(Index sheet, const Vec3d& position) const {
     const auto& bounds = sheets_[sheet].bounds;
-    return std::all_of(bounds.begin(), bounds.end(), [&](const Sheet::Bound& bound) {
-      return bound.half_space.contains(position);
-    });
+    return std::all_of(bounds.begin(), bounds.end(),
+                       [&](const Sheet::Bound& bound) { return bound.side.contains(position); });
   }
 
   void split_edges() {
@@ -150,8 +149,9 @@ class Imprint {
     Index last = from;
     double last_fraction = 0;
     for (Crossing* crossing : along) {
-      const double snap = std::min(
-          0.25, stored * crossing->slant);  // ends nearer than this are stored on the sheet
+      const double snap =
+          std::min(kFarthestSnapEdges,
+                   stored * crossing->slant);  // ends nearer than this are stored on the sheet
       if (crossing->fraction - last_fraction <= snap) {
         crossing->point = last;
       } else if (crossing->fraction >= 1 - snap) {
@@ -168,7 +168,7 @@ class Imprint {
         if (point == kNone) {
           // The faces are too small for another point. An end nearby is used instead; one that is
           // far off is not on the line, and the crossing is blocked.
-          const double near = std::max(kSnap, 4 * snap);
+          const double near = std::max(kSnapEdges, 4 * snap);
           if (fraction <= near || fraction >= 1 - near)
             crossing->point = fraction < 0.5 ? last : to;
           continue;
@@ -200,7 +200,7 @@ class Imprint {
   /// left.
   bool find_line(const Face& face, Index sheet, LineEnd& from, LineEnd& to) {
     bool is_found = false;
-    const HalfSpace& plane = sheets_[sheet].plane;
+    const PlaneSide& plane = sheets_[sheet].plane;
     for (Index k = 0; k < 3; ++k) {
       Crossing crossing;
       if (!cross(face, k, sheet, crossing)) continue;
@@ -213,11 +213,11 @@ class Imprint {
     double first = 0, last = 1;
     const auto& bounds = sheets_[sheet].bounds;
     for (Index i = 0; i < bounds.size(); ++i) {
-      const HalfSpace& half_space = bounds[i].half_space;
-      const bool has_begin = half_space.contains(begin), has_end = half_space.contains(begin + way);
+      const PlaneSide& side = bounds[i].side;
+      const bool has_begin = side.contains(begin), has_end = side.contains(begin + way);
       if (has_begin && has_end) continue;
       if (!has_begin && !has_end) return false;
-      const double at_begin = half_space.value(begin), at_end = half_space.value(begin + way);
+      const double at_begin = side.value(begin), at_end = side.value(begin + way);
       const double at =
           at_begin == at_end ? 0.0 : std::clamp(at_begin / (at_begin - at_end), 0.0, 1.0);
       if (!has_begin && at >= first) {

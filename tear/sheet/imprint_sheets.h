@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "tear/geometry/half_space.h"
+#include "tear/geometry/plane_side.h"
 #include "tear/posed/posed_points.h"
 #include "tear/surface/open.h"
 

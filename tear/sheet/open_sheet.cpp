@@ -61,23 +61,23 @@ std::vector<Index> faces_across(const Sheet& sheet, const SurfaceEditor& editor,
   const Surface& surface = editor.surface();
   const Frame frame = posed.frame_along(
       axes_along(sheet.plane.normal,
-                 sheet.bounds.empty() ? Vec3d(Vec3d::Zero()) : sheet.bounds[0].half_space.normal),
+                 sheet.bounds.empty() ? Vec3d(Vec3d::Zero()) : sheet.bounds[0].side.normal),
       editor);
-  std::vector<FramedHalfSpace> sides = {{frame, sheet.plane},
+  std::vector<FramedPlaneSide> sides = {{frame, sheet.plane},
                                         {frame, {-sheet.plane.normal, -sheet.plane.offset}}};
-  for (const Sheet::Bound& bound : sheet.bounds) sides.emplace_back(frame, bound.half_space);
-  const auto may_meet = [&](const Box& box) {
+  for (const Sheet::Bound& bound : sheet.bounds) sides.emplace_back(frame, bound.side);
+  const auto may_meet = [&](const FrameBox& box) {
     return std::none_of(sides.begin(), sides.end(),
-                        [&](const FramedHalfSpace& side) { return side.is_beside(box); });
+                        [&](const FramedPlaneSide& side) { return side.is_beside(box); });
   };
   std::vector<Index> faces;
   posed.for_each_face(editor, frame, may_meet, [&](Index face) {
     std::array<Vec3d, 3> corners;
     for (Index k = 0; k < 3; ++k)
       corners[k] = posed.position(editor, surface.corner_point[3 * face + k]);
-    const auto has_corner_in = [&](const HalfSpace& half_space) {
+    const auto has_corner_in = [&](const PlaneSide& side) {
       return std::any_of(corners.begin(), corners.end(),
-                         [&](const Vec3d& corner) { return half_space.contains(corner); });
+                         [&](const Vec3d& corner) { return side.contains(corner); });
     };
     const bool is_across = has_corner_in(sheet.plane) &&
                            std::any_of(corners.begin(), corners.end(), [&](const Vec3d& corner) {
@@ -85,7 +85,7 @@ std::vector<Index> faces_across(const Sheet& sheet, const SurfaceEditor& editor,
                            });
     if (is_across &&
         std::all_of(sheet.bounds.begin(), sheet.bounds.end(),
-                    [&](const Sheet::Bound& bound) { return has_corner_in(bound.half_space); }))
+                    [&](const Sheet::Bound& bound) { return has_corner_in(bound.side); }))
       faces.push_back(face);
   });
   std::sort(faces.begin(), faces.end());

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "tear/geometry/half_space.h"
+#include "tear/geometry/plane_side.h"
 #include "tear/posed/workpiece.h"
 #include "tear/surface/open.h"
 

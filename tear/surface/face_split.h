@@ -1,14 +1,11 @@
 #pragma once
 
 #include "tear/geometry/face_shape.h"
+#include "tear/geometry/tolerances.h"
 #include "tear/internal/surface.h"
 #include "tear/surface/surface_editor.h"
 
 namespace sunder::tear {
-
-/// Smaller parts of an origin are not made: rounding of barycentric coordinates could turn them
-/// over.
-inline constexpr double kLeastPart = 1e-14;
 
 /// The fraction of a triangle's area that lies between three places in it, given by barycentric
 /// coordinates.
@@ -87,7 +84,8 @@ class FaceSplit {
   /// Whether a part of the face has the winding of the face. @param after  the normal of the part.
   [[nodiscard]] bool keeps_winding(const Corner& a, const Corner& b, const Corner& c,
                                    const Place& after) const {
-    if (!(covered_part(a.barycentric, b.barycentric, c.barycentric) > kLeastPart)) return false;
+    if (!(covered_part(a.barycentric, b.barycentric, c.barycentric) > kLeastOriginAreas))
+      return false;
     // A face without area has no winding to lose; its parts must only keep their corners apart.
     if (normal_squared_ == 0.0) {
       const auto is_apart = [](const Place& p, const Place& q) {
@@ -95,7 +93,7 @@ class FaceSplit {
       };
       return is_apart(a.at, b.at) && is_apart(a.at, c.at);
     }
-    if (!(dot(after, normal_) > 1e-9 * normal_squared_)) return false;
+    if (!(dot(after, normal_) > kLeastFaceAreas * normal_squared_)) return false;
     // Rounding of stored positions turns the normals of slivers: parts of parts must not end up
     // facing away.
     return !has_origin_area_ || dot(after, normal_of_origin_) > 0;

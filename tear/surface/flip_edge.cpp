@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tear/geometry/tolerances.h"
 #include "tear/surface/face_split.h"
 
 namespace sunder::tear {
@@ -29,7 +30,7 @@ bool leaves_sound_faces(const Quadrilateral& at, const SurfaceEditor& editor) {
              place_c = editor.source_barycentric(at.ca), place_d = editor.source_barycentric(at.db);
   const double whole =
       covered_part(place_a, place_b, place_c) + covered_part(place_b, place_a, place_d);
-  const double least_part = std::max(kLeastPart, 1e-9 * whole);
+  const double least_part = std::max(kLeastOriginAreas, kLeastFaceAreas * whole);
   if (!(covered_part(place_a, place_d, place_c) > least_part) ||
       !(covered_part(place_b, place_c, place_d) > least_part))
     return false;
@@ -42,7 +43,7 @@ bool leaves_sound_faces(const Quadrilateral& at, const SurfaceEditor& editor) {
   const Place of_origin =
       normal_of(editor.fillings.origin_triangle(face.mesh, face.source_triangle));
   const Place before = normal_of({a, b, c});
-  const double least = 1e-9 * std::sqrt(dot(before, before) * dot(of_origin, of_origin));
+  const double least = kLeastFaceAreas * std::sqrt(dot(before, before) * dot(of_origin, of_origin));
   return dot(normal_of({a, d, c}), of_origin) > least &&
          dot(normal_of({b, c, d}), of_origin) > least;
 }

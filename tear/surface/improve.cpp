@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "tear/geometry/face_shape.h"
+#include "tear/geometry/tolerances.h"
 #include "tear/internal/surface.h"
 #include "tear/surface/flip_edge.h"
 
@@ -46,7 +47,7 @@ void improve_faces(const EditLog::Mark& since, SurfaceEditor& editor) {
   while (!open.empty() && turns_left > 0) {
     const Index h = open.back();
     open.pop_back();
-    if (!editor.origins.is_inner_edge(h) || !(gain(h, editor) > kBetterShape)) continue;
+    if (!editor.origins.is_inner_edge(h) || !(gain(h, editor) > kBetterShapeFactor)) continue;
     const Index twin = surface.twin[h];
     if (!flip_edge(h, editor)) continue;
     --turns_left;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "tear/geometry/face_shape.h"
+#include "tear/geometry/tolerances.h"
 #include "tear/internal/surface.h"
 #include "tear/surface/mesh_vertices.h"
 
@@ -66,7 +67,7 @@ Index LineSplitter::go_on(Index half_edge, double fraction) {
   const auto are_sound = [&](const std::array<Part, 2>& parts) {
     return parts[0].is_sound(face) && parts[1].is_sound(face);
   };
-  const bool is_better_from_q = shape(from_q) > kBetterShape * shape(from_p);
+  const bool is_better_from_q = shape(from_q) > kBetterShapeFactor * shape(from_p);
   const bool cuts_as_better = are_sound(is_better_from_q ? from_q : from_p);
   if (!made.is_sound || !lost.is_sound(face) ||
       !(cuts_as_better || are_sound(is_better_from_q ? from_p : from_q))) {

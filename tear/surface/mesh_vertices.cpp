@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/internal/ordered.h"
+#include "tear/geometry/tolerances.h"
 
 namespace sunder {
 namespace {
@@ -31,8 +32,8 @@ struct Corners {
 /// Unit length; if opposite directions cancel, the direction of the nearest corner.
 Eigen::Vector3d unit_direction(const Eigen::Vector3d& direction, const Vec3f& nearest) {
   const double length = norm(direction);
-  return length > 1e-12 ? Eigen::Vector3d(direction / length)
-                        : Eigen::Vector3d(nearest.cast<double>());
+  return length > tear::kDirectionLengths ? Eigen::Vector3d(direction / length)
+                                          : Eigen::Vector3d(nearest.cast<double>());
 }
 
 template <int N>

@@ -54,9 +54,9 @@ class SurfaceEditor {
   /// Sets a mark to which the surface can be rolled back. O(1).
   [[nodiscard]] EditLog::Mark mark() { return log.mark(sides.next()); }
   void roll_back(const EditLog::Mark& to);
+  struct Redo;
   /// Reverts the most recent operation, which began at `begin`.
   /// @param redo  written: the input of redo(). @param change  written, except lips and rims.
-  struct Redo;
   void undo(const EditLog::Mark& begin, Redo& redo, ChangeRecord& change);
   /// Reapplies an operation. @param change  written, except lips and rims.
   void redo(const Redo& redo, ChangeRecord& change);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/internal/ordered.h"
+#include "tear/geometry/tolerances.h"
 #include "tear/internal/surface.h"
 
 namespace sunder {
@@ -61,7 +62,7 @@ bool has_no_area(const Mesh& mesh, const Triangle& triangle) {
                         ac = mesh.positions[triangle[2]].cast<double>() - a;
   const double longest_squared =
       std::max({squared_norm(ab), squared_norm(ac), squared_norm(ac - ab)});
-  return norm(ab.cross(ac)) <= 1e-12 * longest_squared;
+  return norm(ab.cross(ac)) <= tear::kFlatSquaredSizes * longest_squared;
 }
 
 void count_triangles_and_points(const Character& character, const Surface& surface,

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "core/internal/ordered.h"
+#include "tear/geometry/tolerances.h"
 #include "tear/internal/surface.h"
 #include "tear/surface/morph_displacement.h"
 
@@ -117,9 +118,9 @@ template <class Fit>
 void RefitTask::take(std::size_t i, const Fit& fit) {
   // The fit must be better by more than it may lose when it is stored: the rounding of coordinates
   // and weights.
-  constexpr double kStored = 1.5e-7;
-  const bool is_taken = fit.is_better && std::sqrt(fit.mean_square) + kStored * norm(fit.position) <
-                                             std::sqrt(fit.barycentric_mean_square);
+  const bool is_taken =
+      fit.is_better && std::sqrt(fit.mean_square) + kStoredFitLengths * norm(fit.position) <
+                           std::sqrt(fit.barycentric_mean_square);
   PointWeights& point = assignment.points[i];
   const auto kept = std::span<const Influence>(assignment.influences)
                         .subspan(point.first_influence, point.influence_count);

@@ -7,38 +7,11 @@
 #include <sstream>
 #include <string_view>
 
+#include "architecture/bare_source.h"
+#include "architecture/nesting.h"
+
 namespace sunder::test {
 namespace {
-
-/// The source without comments and contents of literals; line numbers are kept.
-std::string without_comments_and_literals(const std::string& source) {
-  std::string bare;
-  for (std::size_t i = 0; i < source.size(); ++i) {
-    if (source.compare(i, 2, "//") == 0) {
-      while (i < source.size() && source[i] != '\n') ++i;
-      if (i < source.size()) bare += '\n';
-    } else if (source.compare(i, 3, "R\"(") == 0) {
-      const std::size_t end = std::min(source.find(")\"", i), source.size());
-      bare.append(static_cast<std::size_t>(
-                      std::count(source.begin() + static_cast<std::ptrdiff_t>(i),
-                                 source.begin() + static_cast<std::ptrdiff_t>(end), '\n')),
-                  '\n');
-      i = end + 1;
-    } else if (source[i] == '"') {
-      for (++i; i < source.size() && source[i] != '"' && source[i] != '\n'; ++i)
-        if (source[i] == '\\') ++i;
-      bare += "\"\"";
-    } else if (source[i] == '\'' &&
-               (bare.empty() || std::isalnum(static_cast<unsigned char>(bare.back())) == 0)) {
-      for (++i; i < source.size() && source[i] != '\'' && source[i] != '\n'; ++i)
-        if (source[i] == '\\') ++i;
-      bare += "''";
-    } else {
-      bare += source[i];
-    }
-  }
-  return bare;
-}
 
 std::vector<std::string> lines_of(const std::string& text) {
   std::vector<std::string> lines;
@@ -131,8 +104,11 @@ std::vector<ScannedFunction> scan_functions(const std::string& source) {
     const std::string closing = std::string(column, ' ') + '}';
     std::size_t end = signature->last_line + 1;
     while (end < lines.size() && !lines[end].starts_with(closing)) ++end;
-    functions.push_back(
-        {name_in(signature->text), i + 1, end - i + 1, count_parameters(signature->text)});
+    std::string body;
+    for (std::size_t k = signature->last_line + 1; k < std::min(end, lines.size()); ++k)
+      body += lines[k] + '\n';
+    functions.push_back({name_in(signature->text), i + 1, end - i + 1,
+                         count_parameters(signature->text), nesting_of(body)});
     i = end;
   }
   return functions;

@@ -27,13 +27,13 @@ using Rooms = std::map<std::string, std::set<std::string>>;
 
 const std::map<std::string, Rooms> kRooms = {
     {"tear",
-     {{".", {"operation", "pieces", "posed", "surface", "weights"}},
+     {{".", {"operation", "pieces", "posed", "surface", "weights", "geometry"}},
       {"operation", {"filling", "path", "sheet", "posed", "surface", "geometry"}},
-      {"filling", {"section", "sheet", "posed", "surface"}},
+      {"filling", {"section", "sheet", "posed", "surface", "geometry"}},
       {"sheet", {"path", "posed", "surface", "geometry"}},
       {"path", {"posed", "surface", "geometry"}},
       {"pieces", {"posed", "surface"}},
-      {"weights", {"surface"}},
+      {"weights", {"surface", "geometry"}},
       {"posed", {"surface", "geometry"}},
       {"section", {}},
       {"surface", {"geometry"}},

@@ -412,6 +412,50 @@ TEST(character_instance, a_failing_call_changes_nothing) {
   }
 }
 
+TEST(character_instance, compacted_is_as_one_made_of_what_is_left) {
+  for (const bool is_soft : {false, true}) {
+    TornTube tube(is_soft);
+    CharacterInstance& instance = tube.instance;
+    const Stroke stroke = test::random_stroke(*tube.character, tube.poses[1], tube.random);
+    TearOptions gap;
+    gap.width = 0.05;
+    ASSERT_TRUE(instance.begin_stroke(tube.poses[1], stroke[0], gap));
+    EXPECT_EQ(instance.compact().error().code(), StatusCode::invalid_argument);
+    ASSERT_TRUE(instance.cancel_stroke());
+    ASSERT_TRUE(instance.tear(tube.poses[1], stroke, gap));
+    const std::uint32_t triangles = instance.model().character().meshes[0].triangle_count();
+    const auto maps = instance.compact();
+    ASSERT_TRUE(maps);
+    EXPECT_LT(maps->meshes.at(0).triangle_old_from_new.size(), triangles);
+    EXPECT_EQ(instance.model().undo_count(), 0u);
+    EXPECT_TRUE(instance.mesh(0).positions.empty());  // nothing to draw before the next frame
+
+    CharacterInstance made =
+        make_instance(std::make_shared<const Character>(instance.model().character()), is_soft);
+    const auto expect_same = [&] {
+      const PosedMesh a = instance.mesh(0), b = made.mesh(0);
+      ASSERT_FALSE(a.positions.empty());
+      EXPECT_TRUE(same_bits(a.positions, b.positions));
+      EXPECT_TRUE(same_bits(a.normals, b.normals));
+      EXPECT_TRUE(same_bits(a.triangles, b.triangles));
+      EXPECT_EQ(instance.model().digest(), made.model().digest());
+    };
+    const Stroke again = test::random_stroke(*tube.character, tube.poses[2], tube.random);
+    for (CharacterInstance* of : {&instance, &made}) {
+      if (is_soft) {
+        ASSERT_TRUE(of->body()->add_impulse(0, {0, 0, 1}));
+      }
+      ASSERT_TRUE(of->advance(tube.poses[2], kFrame));
+    }
+    expect_same();
+    for (CharacterInstance* of : {&instance, &made}) {
+      ASSERT_TRUE(of->tear(tube.poses[2], again));
+      ASSERT_TRUE(of->advance(tube.poses[3], kFrame));
+    }
+    expect_same();
+  }
+}
+
 TEST(character_instance, buffers_of_fixed_capacity_stay_where_they_are) {
   TornTube tube(true, {4000, 8000, 40});
   const Vec3f* const data = tube.instance.mesh(0).positions.data();

@@ -8,11 +8,11 @@
 #include <cmath>
 #include <cstring>
 #include <numeric>
-#include <thread>
 
 #include <gtest/gtest.h>
 
 #include "skinning/internal/reference.h"
+#include "support/backward_threads.h"
 #include "support/posed_arrays.h"
 #include "support/random_skin.h"
 #include "support/stress.h"
@@ -139,24 +139,6 @@ TEST(SkinnedMesh, a_vertex_has_the_same_bits_at_any_index) {
     }
 }
 
-/// Runs tasks from the last to the first, as if on a given number of threads.
-struct BackwardThreads {
-  std::uint32_t threads;
-  std::uint32_t calls = 0;
-  ParallelFor hook() { return {&BackwardThreads::run, this, threads}; }
-  static void run(void* context, std::uint32_t count, ParallelFor::Task task, const void* work) {
-    BackwardThreads& self = *static_cast<BackwardThreads*>(context);
-    ++self.calls;
-    std::vector<std::thread> threads;
-    for (std::uint32_t t = 0; t < self.threads; ++t)
-      threads.emplace_back([&, t] {
-        for (std::uint32_t i = count; i-- > 0;)
-          if (i % self.threads == t) task(work, i);
-      });
-    for (std::thread& thread : threads) thread.join();
-  }
-};
-
 TEST(SkinnedMesh, has_the_same_bits_at_every_number_of_tasks) {
   Random random(14);
   const RandomSkin kind = {40000, 64, 4, 0, false, 8};
@@ -168,7 +150,7 @@ TEST(SkinnedMesh, has_the_same_bits_at_every_number_of_tasks) {
   PosedBuffer buffer(alone.target());
   write(made, palette, buffer);
   for (const std::uint32_t threads : {1u, 2u, 4u, 8u}) {
-    BackwardThreads pool{threads};
+    test::BackwardThreads pool{threads};
     PosedArrays posed(mesh);
     PosedBuffer of_threads(posed.target());
     write(made, palette, of_threads, pool.hook());
@@ -181,7 +163,7 @@ TEST(SkinnedMesh, has_the_same_bits_at_every_number_of_tasks) {
 TEST(SkinnedMesh, a_small_mesh_does_not_ask_for_threads) {
   Random random(15);
   const Mesh mesh = test::make_random_skin(random, {3000, 20, 4, 0, false, 6});
-  BackwardThreads pool{4};
+  test::BackwardThreads pool{4};
   PosedArrays posed(mesh);
   PosedBuffer buffer(posed.target());
   write(skinned(mesh, 20), palette_of(test::in_float(test::random_palette(random, 20)), {}), buffer,

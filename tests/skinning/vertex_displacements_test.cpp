@@ -8,12 +8,12 @@
 #include <cmath>
 #include <cstring>
 #include <numbers>
-#include <thread>
 
 #include <gtest/gtest.h>
 
 #include "skinning/internal/reference.h"
 #include "support/allocation_count.h"
+#include "support/backward_threads.h"
 #include "support/posed_arrays.h"
 #include "support/random_skin.h"
 #include "support/stress.h"
@@ -288,24 +288,6 @@ TEST(VertexDisplacements, follow_vertices_that_come_and_go) {
   }
 }
 
-/// Runs tasks from the last to the first, as if on a given number of threads.
-struct BackwardThreads {
-  std::uint32_t threads;
-  std::uint32_t calls = 0;
-  ParallelFor hook() { return {&BackwardThreads::run, this, threads}; }
-  static void run(void* context, std::uint32_t count, ParallelFor::Task task, const void* work) {
-    BackwardThreads& self = *static_cast<BackwardThreads*>(context);
-    ++self.calls;
-    std::vector<std::thread> threads;
-    for (std::uint32_t t = 0; t < self.threads; ++t)
-      threads.emplace_back([&, t] {
-        for (std::uint32_t i = count; i-- > 0;)
-          if (i % self.threads == t) task(work, i);
-      });
-    for (std::thread& thread : threads) thread.join();
-  }
-};
-
 TEST(VertexDisplacements, have_the_same_bits_at_every_number_of_tasks) {
   Random random(4);
   const RandomSkin kind = {40000, 64, 4, 0, true, 8};
@@ -320,7 +302,7 @@ TEST(VertexDisplacements, have_the_same_bits_at_every_number_of_tasks) {
   PosedBuffer buffer(alone.target());
   ASSERT_TRUE(made.deform(palette, buffer, {}, &view));
   for (const std::uint32_t threads : {1u, 2u, 4u, 8u}) {
-    BackwardThreads pool{threads};
+    test::BackwardThreads pool{threads};
     PosedArrays posed(mesh);
     PosedBuffer of_threads(posed.target());
     ASSERT_TRUE(made.deform(palette, of_threads, pool.hook(), &view));

@@ -1,5 +1,6 @@
 #include "support/random_operations.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
@@ -74,6 +75,20 @@ Operation random_operation(const TornModel& model, Random& random) {
     case 2: return random_tear(model, random, true);
     default: return random_tear(model, random, false);
   }
+}
+
+Stroke turning_stroke(Random& random) {
+  Stroke stroke;
+  double x = 0.15, y = 0.5, heading = random.uniform(-0.3, 0.3);
+  for (int k = 0; k < 8; ++k) {
+    stroke.push_back(down_at(x, y));
+    x += 0.09 * std::cos(heading);
+    y += 0.09 * std::sin(heading);
+    // Back to the middle before it leaves the sheet.
+    heading =
+        std::clamp(heading + random.uniform(y < 0.3 ? 0.0 : -1.5, y > 0.7 ? 0.0 : 1.5), -1.2, 1.2);
+  }
+  return stroke;
 }
 
 Result<TearReport> play(TornModel& model, const Operation& operation, ChangeRecord* change) {

@@ -16,6 +16,10 @@ Operation random_operation(const TornModel& model, Random& random);
 /// A tear along a random stroke in a random pose; with or without width.
 TearOperation random_tear(const TornModel& model, Random& random, bool has_width);
 
+/// Blades that go down through the sheet of make_sheet(), along a path that turns at random and
+/// stays on the sheet.
+Stroke turning_stroke(Random& random);
+
 /// Performs an operation of random_operation() or random_tear().
 Result<TearReport> play(TornModel& model, const Operation& operation,
                         ChangeRecord* change = nullptr);

@@ -10,8 +10,8 @@ namespace sunder::test {
 namespace {
 
 using tear::BladePlane;
-using tear::HalfSpace;
-using tear::kSamePlace;
+using tear::kSamePlaceSweeps;
+using tear::PlaneSide;
 using tear::SurfaceHit;
 using tear::SweepCoordinates;
 
@@ -66,12 +66,12 @@ std::vector<Contact> all_contacts(const BladePlane& plane, double progress,
     bool is_reached = clip(not_before.value(a), not_before.value(b), begin, end);
     for (const auto& side : plane.reach())
       is_reached = is_reached && clip(side.value(a), side.value(b), begin, end);
-    if (!is_reached || end - begin < tear::kSnap) return;
+    if (!is_reached || end - begin < tear::kSnapEdges) return;
     const SweepCoordinates at_begin = plane.sweep_coordinates(a + begin * (b - a));
     const SweepCoordinates at_end = plane.sweep_coordinates(a + end * (b - a));
     const bool forward = at_begin.progress <= at_end.progress;
     const SweepCoordinates low = forward ? at_begin : at_end, high = forward ? at_end : at_begin;
-    if (!(high.progress > std::max(low.progress, progress) + kSamePlace)) return;
+    if (!(high.progress > std::max(low.progress, progress) + kSamePlaceSweeps)) return;
     Contact contact{{triangle, {}, Vec3d::Zero(), high.progress}, low};
     const double at = forward ? begin : end;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -97,8 +97,8 @@ std::optional<SurfaceHit> scan_for_hit(const Blade& blade, const tear::SurfaceEd
   const auto clamp_to_box = [&](const Corners& corners, double& depth) {
     const Vec3d a = frame.place_of(corners[0]), b = frame.place_of(corners[1]),
                 c = frame.place_of(corners[2]);
-    const tear::Box box =
-        tear::Box{a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)}.widened(reach);
+    const tear::FrameBox box =
+        tear::FrameBox{a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)}.widened(reach);
     double begin = 0, end = 1;
     for (int k = 0; k < 3; ++k) {
       if (direction_in_axes[k] == 0 &&
@@ -146,10 +146,11 @@ std::optional<SurfaceHit> scan_for_contact(const BladePlane& plane, double progr
   double least = std::numeric_limits<double>::max(), least_depth = least;
   for (const Contact& contact : contacts) least = std::min(least, contact.low.progress);
   for (const Contact& contact : contacts)
-    if (contact.low.progress < least + kSamePlace)
+    if (contact.low.progress < least + kSamePlaceSweeps)
       least_depth = std::min(least_depth, contact.low.depth);
   for (const Contact& contact : contacts)
-    if (contact.low.progress < least + kSamePlace && contact.low.depth <= least_depth + kSamePlace)
+    if (contact.low.progress < least + kSamePlaceSweeps &&
+        contact.low.depth <= least_depth + kSamePlaceSweeps)
       return contact.hit;
   return std::nullopt;
 }
@@ -159,12 +160,12 @@ std::vector<Index> scan_for_faces_in(const tear::Cell& cell, const tear::Surface
   std::vector<Index> faces;
   std::vector<Vec3d> clipped;
   for_each_face(editor, posed, [&](Index face, const Corners& corners) {
-    for (const HalfSpace& side : cell)
+    for (const PlaneSide& side : cell)
       if (std::none_of(corners.begin(), corners.end(),
                        [&](const Vec3d& corner) { return side.value(corner) > 0; }))
         return;
     std::vector<Vec3d> polygon(corners.begin(), corners.end());
-    for (const HalfSpace& side : cell) {
+    for (const PlaneSide& side : cell) {
       clipped.clear();
       for (std::size_t i = 0; i < polygon.size(); ++i) {
         const Vec3d &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
@@ -185,15 +186,14 @@ std::vector<Index> scan_for_faces_across(const tear::Sheet& sheet,
                                          tear::PosedPoints& posed) {
   std::vector<Index> faces;
   for_each_face(editor, posed, [&](Index face, const Corners& corners) {
-    const auto count_in = [&](const HalfSpace& half_space) {
+    const auto count_in = [&](const PlaneSide& side) {
       return std::count_if(corners.begin(), corners.end(),
-                           [&](const Vec3d& corner) { return half_space.contains(corner); });
+                           [&](const Vec3d& corner) { return side.contains(corner); });
     };
     const auto in_front = count_in(sheet.plane);
     if (in_front > 0 && in_front < 3 &&
-        std::all_of(sheet.bounds.begin(), sheet.bounds.end(), [&](const tear::Sheet::Bound& bound) {
-          return count_in(bound.half_space) > 0;
-        }))
+        std::all_of(sheet.bounds.begin(), sheet.bounds.end(),
+                    [&](const tear::Sheet::Bound& bound) { return count_in(bound.side) > 0; }))
       faces.push_back(face);
   });
   return faces;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "tear/geometry/half_space.h"
+#include "tear/geometry/plane_side.h"
 #include "tear/path/entry.h"
 #include "tear/posed/posed_points.h"
 

@@ -206,5 +206,15 @@ TEST(Compact, a_mesh_may_lose_everything) {
   EXPECT_TRUE(validate_character(character)) << validate_character(character).text();
 }
 
+TEST(Compact, a_model_keeps_its_weight_options) {
+  auto model = TornModel::create(std::make_shared<const Character>(test::make_sheet(3)));
+  ASSERT_TRUE(model);
+  WeightOptions two;
+  two.maximum_influences = 2;
+  ASSERT_TRUE(model->set_weights(two));
+  ASSERT_TRUE(model->compact());
+  EXPECT_EQ(model->weights(), two);
+}
+
 }  // namespace
 }  // namespace sunder

@@ -408,50 +408,45 @@ void compare(const std::vector<CutBody>& bodies) {
   }
 }
 
-TEST(CutVolume, of_one_random_cut_adds_up) {
-  Random random(1);
-  std::vector<CutBody> bodies;
-  for (int i = 0; i < count_of_cases(100); ++i) {
-    SCOPED_TRACE(i);
-    const Character character = random_body(random);
-    const ModelPose pose = bind_pose(character);
-    const Vec3d point = somewhere_in(character, pose, random);
-    bodies.push_back(cut_and_check(character, pose, {cut_at(point, random.direction())}, kExact));
-    if (testing::Test::HasFailure()) return;
-  }
-  compare(bodies);
-}
+using MakePose = std::function<ModelPose(const Character&, Random&)>;
 
-TEST(CutVolume, of_one_cut_in_a_bent_pose_adds_up) {
-  Random random(2);
+/// Cuts random bodies one after another, checks the pieces of each and compares them all.
+void cut_random_bodies(std::uint64_t seed, int cases, const MakePose& make_pose,
+                       const std::function<std::size_t(Random&)>& count_of_cuts, double tolerance) {
+  Random random(seed);
   std::vector<CutBody> bodies;
-  for (int i = 0; i < count_of_cases(60); ++i) {
+  for (int i = 0; i < cases; ++i) {
     SCOPED_TRACE(i);
     const Character character = random_body(random);
-    const ModelPose pose = test::random_pose(character, random, 0.3, 1.2);
-    const Vec3d point = somewhere_in(character, pose, random);
-    bodies.push_back(cut_and_check(character, pose, {cut_at(point, random.direction())}, kExact));
-    if (testing::Test::HasFailure()) return;
-  }
-  compare(bodies);
-}
-
-TEST(CutVolume, of_many_cuts_adds_up) {
-  Random random(3);
-  std::vector<CutBody> bodies;
-  for (int i = 0; i < count_of_cases(60); ++i) {
-    SCOPED_TRACE(i);
-    const Character character = random_body(random);
-    const ModelPose pose = bind_pose(character);
-    std::vector<PlaneCut> cuts(2 + random.index(5));
+    const ModelPose pose = make_pose(character, random);
+    std::vector<PlaneCut> cuts(count_of_cuts(random));
     for (PlaneCut& cut : cuts) {
       const Vec3d point = somewhere_in(character, pose, random);
       cut = cut_at(point, random.direction());
     }
-    bodies.push_back(cut_and_check(character, pose, cuts, kStored));
+    bodies.push_back(cut_and_check(character, pose, cuts, tolerance));
     if (testing::Test::HasFailure()) return;
   }
   compare(bodies);
+}
+
+ModelPose in_bind_pose(const Character& character, Random&) { return bind_pose(character); }
+ModelPose bent(const Character& character, Random& random) {
+  return test::random_pose(character, random, 0.3, 1.2);
+}
+std::size_t one(Random&) { return 1; }
+std::size_t several(Random& random) { return 2 + random.index(5); }
+
+TEST(CutVolume, of_one_random_cut_adds_up) {
+  cut_random_bodies(1, count_of_cases(100), in_bind_pose, one, kExact);
+}
+
+TEST(CutVolume, of_one_cut_in_a_bent_pose_adds_up) {
+  cut_random_bodies(2, count_of_cases(60), bent, one, kExact);
+}
+
+TEST(CutVolume, of_many_cuts_adds_up) {
+  cut_random_bodies(3, count_of_cases(60), in_bind_pose, several, kStored);
 }
 
 /// Whether a plane passes so close to a face, the farthest point of a body or a saddle point that

@@ -12,6 +12,7 @@
 
 #include "support/clip_oracle.h"
 #include "support/make_model.h"
+#include "support/random_operations.h"
 #include "support/rigs.h"
 #include "support/source_cover.h"
 #include "support/torn_invariants.h"
@@ -66,16 +67,7 @@ TEST(Gap, of_a_turning_stroke_is_mitred) {
     const ModelPose pose = bind_pose(model.source());
     TearOptions options;
     options.width = random.uniform(0.001, 0.02);
-    Stroke stroke;
-    double x = 0.15, y = 0.5, heading = random.uniform(-0.3, 0.3);
-    for (int k = 0; k < 8; ++k) {
-      stroke.push_back(down_at(x, y));
-      x += 0.09 * std::cos(heading);
-      y += 0.09 * std::sin(heading);
-      // Returns to the middle before it leaves the sheet.
-      heading = std::clamp(heading + random.uniform(y < 0.3 ? 0.0 : -1.5, y > 0.7 ? 0.0 : 1.5),
-                           -1.2, 1.2);
-    }
+    const Stroke stroke = test::turning_stroke(random);
     const auto report = model.tear(pose, stroke, options);
     ASSERT_TRUE(report);
     EXPECT_EQ(report->runs, 1u);

@@ -11,6 +11,7 @@
 #include "support/rigs.h"
 #include "support/say.h"
 #include "tear/geometry/face_shape.h"
+#include "tear/geometry/tolerances.h"
 #include "tear/internal/surface.h"
 #include "tear/surface/flip_edge.h"
 #include "tear/surface/split.h"
@@ -152,7 +153,7 @@ TEST(LineSplitter, splits_faces_and_keeps_the_surface) {
           const double shape = worse_shape(h, editor);
           const EditLog::Mark turned = editor.mark();
           if (!flip_edge(h, editor)) continue;
-          EXPECT_LE(worse_shape(Surface::next(h), editor), 1.001 * kBetterShape * shape);
+          EXPECT_LE(worse_shape(Surface::next(h), editor), 1.001 * kBetterShapeFactor * shape);
           ++other_diagonals;
           editor.roll_back(turned);
         }

@@ -179,7 +179,7 @@ ModelPose some_pose(const Character& character, Random& random) {
   return random.index(2) == 0 ? hard_pose(character, random) : test::random_pose(character, random);
 }
 
-bool holds(const Box& box, const Vec3d& point) {
+bool holds(const FrameBox& box, const Vec3d& point) {
   return (box.low.array() <= point.array()).all() && (point.array() <= box.high.array()).all();
 }
 
@@ -207,13 +207,13 @@ std::vector<std::string> broken_bounds(Torn& torn, Random& random) {
     PatchTree& tree = covered->tree;
     Mesh& mesh = meshes[covered->mesh];
     const MeshPose mesh_pose = forest.pose_of(mesh, pose);
-    std::array<Box, PatchTree::kPatchesPerGroup> patches;
+    std::array<FrameBox, PatchTree::kPatchesPerGroup> patches;
     std::array<Shadow, PatchTree::kPatchesPerGroup> shadows;
     for (Index group = 0; group < tree.node_count(0); ++group) {
       const Index count = tree.compute_posed_patches(group, mesh_pose, patches);
       EXPECT_EQ(tree.compute_posed_patches(group, mesh_pose, shadows), count);
       for (Index i = 0; i < count; ++i) {
-        std::vector<Box> boxes = {patches[i]};
+        std::vector<FrameBox> boxes = {patches[i]};
         for (Index level = 0, number = group; level < tree.level_count();
              ++level, number /= PatchTree::kFanOut)
           boxes.push_back(tree.posed_box(level, number, mesh_pose, forest.epoch()));
@@ -480,7 +480,7 @@ TEST(PatchForest, bounds_a_bent_tube_closely) {
     forest.stand_in(torn.editor, pose, torn.posed.frame_along(Mat3d::Identity(), torn.editor));
     PatchTree& tree = forest.trees(torn.editor)[0]->tree;
     std::vector<double> ratios;
-    std::array<Box, PatchTree::kPatchesPerGroup> patches;
+    std::array<FrameBox, PatchTree::kPatchesPerGroup> patches;
     for (Index group = 0; group < tree.node_count(0); ++group) {
       const Index count =
           tree.compute_posed_patches(group, forest.pose_of(torn.source.meshes[0], pose), patches);

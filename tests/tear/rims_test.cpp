@@ -255,15 +255,7 @@ TEST(Rims, of_a_turning_stroke_are_two_runs) {
     TornModel model = make_model(test::make_sheet(1 + random.index(20)));
     TearOptions options;
     options.width = random.uniform(0.001, 0.02);
-    Stroke stroke;
-    double x = 0.15, y = 0.5, heading = random.uniform(-0.3, 0.3);
-    for (int k = 0; k < 8; ++k) {
-      stroke.push_back(down_at(x, y));
-      x += 0.09 * std::cos(heading);
-      y += 0.09 * std::sin(heading);
-      heading = std::clamp(heading + random.uniform(y < 0.3 ? 0.0 : -1.5, y > 0.7 ? 0.0 : 1.5),
-                           -1.2, 1.2);
-    }
+    const Stroke stroke = test::turning_stroke(random);
     ChangeRecord change;
     ASSERT_TRUE(model.tear(bind_pose(model.source()), stroke, options, &change));
     expect_listed_well(change.rims, model);

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -23,6 +24,7 @@ namespace {
 using test::down_at;
 using test::make_model;
 using test::Random;
+using testing::HasSubstr;
 using testing::IsEmpty;
 
 ModelPose rest(const Character& character) {
@@ -174,6 +176,19 @@ TEST(TornModel, refuses_bad_strokes_and_poses_and_stays_as_it_was) {
   nan_pose.model_from_bone[1].translation().x() = nan;
   EXPECT_EQ(code_of(nan_pose, {down_at(0.2, 0.5), down_at(0.6, 0.5)}),
             StatusCode::non_finite_value);
+}
+
+TEST(TornModel, names_the_number_of_blades_before_the_options_and_these_before_a_blade) {
+  TornModel model = make_model(test::make_sheet(4));
+  const ModelPose pose = rest(model.source());
+  TearOptions too_narrow;
+  too_narrow.width = -1;
+  const auto message = [&](const Stroke& stroke) {
+    return std::string(model.tear(pose, stroke, too_narrow).error().text());
+  };
+  const Blade without_length = {{0.5, 0.5, 0}, {0.5, 0.5, 0}};
+  EXPECT_THAT(message({without_length}), HasSubstr("at least two blades"));
+  EXPECT_THAT(message({without_length, without_length}), HasSubstr("wide"));
 }
 
 TEST(TornModel, tears_in_a_pose_with_a_collapsed_bone_without_harm) {

@@ -68,9 +68,10 @@ class SUNDER_API CharacterInstance {
   CharacterInstance(CharacterInstance&&) noexcept;
   CharacterInstance& operator=(CharacterInstance&&) noexcept;
 
-  // ---- Operations, as those of TornModel. `change` is written where given. Their effect is drawn
-  // after the next advance(). All return what TornModel returns; also limit_exceeded if the
-  // particles cannot follow without enough memory, after which only a new instance helps.
+  // ---- Operations: each is the call of TornModel of its name, documented there. The particles
+  // follow at once; the next advance() draws the effect. All return what TornModel returns; also
+  // limit_exceeded if the particles cannot follow without enough memory, after which only a new
+  // instance helps.
 
   Result<TearReport> tear(const ModelPose& pose, std::span<const Blade> stroke,
                           const TearOptions& options = {}, ChangeRecord* change = nullptr);
@@ -79,23 +80,25 @@ class SUNDER_API CharacterInstance {
   Result<TearReport> drill(const ModelPose& pose, const Bore& bore, ChangeRecord* change = nullptr);
   Status undo(ChangeRecord* change = nullptr);
   Status redo(ChangeRecord* change = nullptr);
-  /// Any operation of a log. @param changes  appended to where given.
+  /// As apply_operation(): any operation of a log. @param changes  appended to where given.
   Result<TearReport> apply(const Operation& operation,
                            std::vector<ChangeRecord>* changes = nullptr);
 
-  // ---- A stroke over several frames, as a TearStroke. At most one at a time; other operations are
-  // refused meanwhile.
+  /// As TornModel::compact(). All other parts are made anew: the next advance() draws everything,
+  /// and tissue is at rest, without the forces, holds, colliders and materials that were set.
+  Result<CompactMaps> compact();
+
+  // ---- A stroke over several frames: each is the call of TearStroke of its name. At most one
+  // stroke at a time; other operations are refused meanwhile.
 
   Status begin_stroke(const ModelPose& pose, const Blade& blade, const TearOptions& options = {},
                       const StrokeSampling& sampling = {});
   Result<TearReport> extend_stroke(const ModelPose& pose, const Blade& blade, double seconds = 0.0,
                                    ChangeRecord* change = nullptr);
   Result<TearReport> end_stroke(ChangeRecord* change = nullptr);
-  /// Takes the whole stroke back.
   Status cancel_stroke(ChangeRecord* change = nullptr);
 
-  /// Tears the tissue where it is stretched beyond its strength; see sunder::tear_overstretched().
-  /// To be called after advance().
+  /// As sunder::tear_overstretched(), in the pose of the last advance().
   /// @return also invalid_argument for an instance that is not soft, or before the first advance().
   Result<ForceTearingReport> tear_overstretched(const ForceTearingOptions& options = {},
                                                 std::vector<ChangeRecord>* changes = nullptr);

@@ -13,6 +13,8 @@ namespace skinning {
 struct PaletteData;
 }
 
+class SkinnedMesh;
+
 enum class SkinningMethod : std::uint8_t {
   linear,           ///< Blends matrices: p = sum_k w_k M_k v. Loses volume at strong twists.
   dual_quaternion,  ///< Blends rigid motions after the blended stretch of non-rigid bones. Keeps
@@ -60,11 +62,9 @@ class SUNDER_API BonePalette {
   /// The revision at which the matrix of a slot last changed. @param slot  unchecked.
   [[nodiscard]] std::uint64_t revision_of(std::size_t slot) const;
 
-  [[nodiscard]] const skinning::PaletteData& data() const {  ///< For the library itself.
-    return *data_;
-  }  ///< For the library itself.
-
  private:
+  friend class SkinnedMesh;
+
   std::unique_ptr<skinning::PaletteData> data_;
 };
 

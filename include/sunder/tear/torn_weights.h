@@ -58,8 +58,8 @@ struct WeightErrors {
 /// @param operation_count  kNone: all operations from there on.
 /// @param poses            all finite; without poses, all figures are zero.
 /// @return not_found if there are no such operations; size_mismatch or non_finite_value with the
-/// pose. O(points x poses), and O(vertices of the source) the first time; allocates. Reentrant
-/// while the model is not changed.
+/// pose. O(points x poses + vertices of the source); allocates. Reentrant while the model is not
+/// changed.
 [[nodiscard]] SUNDER_API Result<WeightErrors> measure_weight_errors(
     const TornModel& model, std::uint32_t first_operation, std::uint32_t operation_count,
     std::span<const ModelPose> poses);

@@ -7,11 +7,12 @@
 #include <vector>
 
 #include "core/internal/ordered.h"
+#include "tear/geometry/tolerances.h"
 
 namespace sunder::tear {
 
 /// One side of a plane in model space: normal . p >= offset.
-struct HalfSpace {
+struct PlaneSide {
   Vec3d normal = Vec3d::Zero();
   double offset = 0;
 
@@ -23,7 +24,7 @@ struct HalfSpace {
   [[nodiscard]] bool contains(const Vec3d& point) const {
     const double rounding = std::abs(normal.x() * point.x()) + std::abs(normal.y() * point.y()) +
                             std::abs(normal.z() * point.z()) + std::abs(offset);
-    return value(point) >= -2e-15 * rounding;
+    return value(point) >= -kOnPlaneTerms * rounding;
   }
 };
 
@@ -32,14 +33,14 @@ struct HalfSpace {
 struct Sheet {
   /// A limit of the sheet. If it is another sheet of the same figure, the two meet in corners.
   struct Bound {
-    HalfSpace half_space;
+    PlaneSide side;
     std::uint32_t sheet = kNone;
   };
-  HalfSpace plane;
+  PlaneSide plane;
   std::vector<Bound> bounds;
 };
 
 /// A convex cell: the intersection of its half-spaces.
-using Cell = std::vector<HalfSpace>;
+using Cell = std::vector<PlaneSide>;
 
 }  // namespace sunder::tear
