@@ -12,13 +12,18 @@ namespace sunder::scene {
 /// Collects the ranges that several operations changed, for the frame that draws them.
 class PendingRanges {
  public:
-  void add(const IndexRange& range) { pending_.push_back(range); }
-  void add(const DirtyRanges& ranges) {
-    pending_.insert(pending_.end(), ranges.begin(), ranges.end());
+  PendingRanges() { pending_.reserve(1); }
+
+  /// Where memory runs out, one range takes in all of them.
+  void add(const IndexRange& range) noexcept;
+  void add(const DirtyRanges& ranges) noexcept {
+    for (const IndexRange& range : ranges) add(range);
   }
+  /// Makes room for publish(). @throws std::bad_alloc
+  void prepare() { published_.reserve(pending_.size()); }
   /// Lists what was added since the last call, ascending and disjoint, as far as it lies below
-  /// `count`.
-  void publish(Index count);
+  /// `count`. To be called after prepare().
+  void publish(Index count) noexcept;
   [[nodiscard]] std::span<const IndexRange> published() const { return published_; }
   [[nodiscard]] bool has_pending() const { return !pending_.empty(); }
 
@@ -32,14 +37,18 @@ class InstanceMesh {
   static Result<InstanceMesh> create(const Mesh& mesh, std::size_t slots,
                                      const CharacterInstanceOptions& options);
 
-  /// Notes what a call did to the mesh; the work is left to update(). @throws std::bad_alloc
-  void note(const MeshChange& change);
+  /// Notes what a call did to the mesh; the work is left to update().
+  void note(const MeshChange& change) noexcept;
   /// Brings the skinning data and the buffers up to date with what was noted. O(what changed).
-  /// @throws std::bad_alloc
+  /// @throws std::bad_alloc; what was noted stays noted
   Status update(const Mesh& mesh, const InfluencePositions& exact);
-  /// Poses the vertices that changed. @param displacements  null: none. @throws std::bad_alloc
+  /// Poses the vertices that changed. @param displacements  null: none.
   Status deform(const BonePalette& palette, const ParallelFor& parallel_for,
                 const VertexDisplacements* displacements);
+  /// Ends a frame in which all meshes were posed: lists what it changed.
+  void publish(const Mesh& mesh) noexcept;
+  /// Ends a frame that failed: the next one poses every vertex.
+  void forget() noexcept { buffer_.set_target(buffer_.target()); }
 
   /// Whether normals or tangents are posed.
   [[nodiscard]] bool has_directions() const { return has_normals_ || has_tangents_; }

@@ -369,7 +369,7 @@ CutBody cut_and_check(const Character& character, const ModelPose& pose,
   const std::vector<Body> bodies = bodies_of(model, place);
   for (const Body& body : bodies) EXPECT_TRUE(body.is_closed || !result.is_capped);
   // What the kernel's points say is what the arrays say.
-  const TopologyCounts counts = count_topology(model.character());
+  const TopologyCounts counts = *count_topology(model.character());
   EXPECT_EQ(counts.components, bodies.size());
   EXPECT_EQ(counts.boundary_edges == 0, result.is_capped);
   EXPECT_EQ(counts.non_manifold_edges, 0u);
@@ -412,7 +412,7 @@ TEST(CutVolume, of_one_random_cut_adds_up) {
   for (int i = 0; i < count_of_cases(100); ++i) {
     SCOPED_TRACE(i);
     const Character character = random_body(random);
-    const ModelPose pose = bind_pose(character);
+    const ModelPose pose = *bind_pose(character);
     const Vec3d point = somewhere_in(character, pose, random);
     bodies.push_back(cut_and_check(character, pose, {cut_at(point, random.direction())}, kExact));
     if (testing::Test::HasFailure()) return;
@@ -440,7 +440,7 @@ TEST(CutVolume, of_many_cuts_adds_up) {
   for (int i = 0; i < count_of_cases(60); ++i) {
     SCOPED_TRACE(i);
     const Character character = random_body(random);
-    const ModelPose pose = bind_pose(character);
+    const ModelPose pose = *bind_pose(character);
     std::vector<PlaneCut> cuts(2 + random.index(5));
     for (PlaneCut& cut : cuts) {
       const Vec3d point = somewhere_in(character, pose, random);
@@ -457,7 +457,7 @@ TEST(CutVolume, of_many_cuts_adds_up) {
 /// touches itself and gets no cap.
 bool grazes(const Character& character, const PlaneCut& cut) {
   constexpr double kNear = 2e-3;
-  const SplitTask task = task_of(character, bind_pose(character));
+  const SplitTask task = task_of(character, *bind_pose(character));
   std::vector<int> side;
   for (const auto& [x, y, z] : task.positions) {
     const double distance = cut.normal.normalized().dot(Vec3d(x, y, z) - cut.point);
@@ -492,7 +492,7 @@ TEST(CutVolume, of_cuts_through_what_is_modelled_adds_up) {
   for (int i = 0; i < count_of_cases(150); ++i) {
     SCOPED_TRACE(i);
     const Character character = random_body(random);
-    const ModelPose pose = bind_pose(character);
+    const ModelPose pose = *bind_pose(character);
     std::vector<PlaneCut> cuts(1 + random.index(3));
     for (PlaneCut& cut : cuts) {
       const Mesh& mesh = character.meshes[0];

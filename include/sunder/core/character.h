@@ -29,8 +29,7 @@ struct Character {
 /// degenerate or non-manifold; tearing copes with those.
 ///
 /// @return the first fault, with its index and, in the text, its place ("mesh 2 'Body': vertex 812:
-/// …"). O(size), no allocation
-///         but a set of bone names.
+/// …"); limit_exceeded: out of memory. O(size), no allocation but a set of bone names.
 [[nodiscard]] SUNDER_API Status validate_character(const Character& character);
 
 }  // namespace sunder
