@@ -166,7 +166,7 @@ struct Frames {
 Frames measure_frames(const SkinningScene& scene, CrowdMember& member) {
   const Skin& skin = scene.character.skins[0];
   const std::size_t slots = skin.bones.size();
-  BonePalette palette(slots, scene.poses[0].morph_weights.size());
+  BonePalette palette = *BonePalette::create(slots, scene.poses[0].morph_weights.size());
   std::array<std::vector<double>, 3> seconds;  // full, set, idle
   std::vector<double> shares(slots);
   for (const Influence& influence : scene.mesh().weights.influences)

@@ -55,7 +55,8 @@ class Frame {
   explicit Frame(const Scene& scene)
       : skin_(scene.character->skins[0]),
         mesh_(make_mesh(scene)),
-        palette_(skin_.bones.size(), scene.character->rest_morph_weights.size()) {}
+        palette_(
+            *BonePalette::create(skin_.bones.size(), scene.character->rest_morph_weights.size())) {}
 
   struct Seconds {
     double displaced = 0, plain = 0;

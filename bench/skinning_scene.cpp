@@ -37,7 +37,7 @@ LineFloats::LineFloats(std::size_t count)
 SkinningScene::SkinningScene(int divisions, bool ordered)
     : character(make_subdivided_model(divisions, 64)) {
   Mesh& mesh = character.meshes[0];
-  if (ordered) require(reorder_vertices(mesh, order_for_skinning(mesh)));
+  if (ordered) require(reorder_vertices(mesh, *order_for_skinning(mesh)));
   test::Random random(1);
   for (std::size_t i = 0; i < kPoses; ++i) {
     poses[i] = test::random_pose(character, random, 0.6, 1.0);
@@ -60,8 +60,8 @@ CrowdMember::CrowdMember(const SkinningScene& scene, SkinningMethod method)
       weights(4 * vertices),
       buffer({vertices, {positions.data()}, {normals.data()}, {}}) {
   for (std::size_t i = 0; i < SkinningScene::kPoses; ++i) {
-    palettes.emplace_back(scene.character.skins[0].bones.size(),
-                          scene.character.rest_morph_weights.size(), method);
+    palettes.push_back(*BonePalette::create(scene.character.skins[0].bones.size(),
+                                            scene.character.rest_morph_weights.size(), method));
     require(palettes.back().set(scene.character.skins[0], scene.poses[i]));
   }
   for (std::uint32_t v = 0; v < vertices; ++v) {

@@ -21,7 +21,7 @@ constexpr std::size_t kPoses = 8;
 
 /// All bones rotate by the same angle, so that the chain is an arc of `angle` radians.
 ModelPose bend(const Character& character, double angle) {
-  Pose pose = local_rest_pose(character);
+  Pose pose = *local_rest_pose(character);
   const Quatd turn(Eigen::AngleAxisd(angle / kBones, Eigen::Vector3d::UnitY()));
   for (BoneTransform& bone : pose.parent_from_bone)
     bone.rotation = Quatf((bone.rotation.cast<double>() * turn).normalized().cast<float>());

@@ -86,7 +86,8 @@ struct Posed {
   Posed(const Character& character, const Mesh& of, const InfluencePositions& exact)
       : mesh(&of),
         skinned(skin(character, of, exact)),
-        palette(character.skins[of.skin].bones.size(), character.rest_morph_weights.size()),
+        palette(*BonePalette::create(character.skins[of.skin].bones.size(),
+                                     character.rest_morph_weights.size())),
         positions(3 * std::size_t{of.vertex_count()}),
         buffer({of.vertex_count(), {positions.data()}, {}, {}}) {}
 

@@ -6,6 +6,7 @@
 #include <unordered_set>
 
 #include "core/internal/ordered.h"
+#include "core/internal/out_of_memory.h"
 
 namespace sunder {
 namespace {
@@ -238,9 +239,7 @@ Status validate_channel(const Character& character, const Channel& channel, Inde
   return {};
 }
 
-}  // namespace
-
-Status validate_character(const Character& character) {
+Status validate(const Character& character) {
   if (character.meshes.empty())
     return Status::failure(StatusCode::empty_input, kNone, "the character has no mesh");
   if (Status status = validate_skeleton(character.skeleton); !status) return status;
@@ -260,6 +259,12 @@ Status validate_character(const Character& character) {
           !status)
         return status;
   return {};
+}
+
+}  // namespace
+
+Status validate_character(const Character& character) {
+  return or_out_of_memory([&] { return validate(character); });
 }
 
 }  // namespace sunder

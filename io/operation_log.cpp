@@ -50,6 +50,16 @@ std::string read_text(const std::filesystem::path& file) {
   return text;
 }
 
+std::string write_text(std::span<const Operation> operations) {
+  std::string text = "{\n  \"sunder_operations\": 1,\n  \"operations\": [";
+  for (std::size_t i = 0; i < operations.size(); ++i) {
+    text += i == 0 ? "\n    " : ",\n    ";
+    operation_log::append_operation(text, operations[i]);
+  }
+  text += operations.empty() ? "]\n}\n" : "\n  ]\n}\n";
+  return text;
+}
+
 }  // namespace
 
 Result<std::vector<Operation>> parse_operations(std::string_view json) {
@@ -68,19 +78,17 @@ Result<std::vector<Operation>> load_operations(const std::filesystem::path& file
   }
 }
 
-std::string format_operations(std::span<const Operation> operations) {
-  std::string text = "{\n  \"sunder_operations\": 1,\n  \"operations\": [";
-  for (std::size_t i = 0; i < operations.size(); ++i) {
-    text += i == 0 ? "\n    " : ",\n    ";
-    operation_log::append_operation(text, operations[i]);
+Result<std::string> format_operations(std::span<const Operation> operations) {
+  try {
+    return write_text(operations);
+  } catch (...) {
+    return status_of_current_exception();
   }
-  text += operations.empty() ? "]\n}\n" : "\n  ]\n}\n";
-  return text;
 }
 
 Status save_operations(const std::filesystem::path& file, std::span<const Operation> operations) {
   try {
-    const std::string text = format_operations(operations);
+    const std::string text = write_text(operations);
     return write_atomically(file, std::as_bytes(std::span<const char>(text)));
   } catch (...) {
     return status_of_current_exception();

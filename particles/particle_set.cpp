@@ -102,19 +102,24 @@ std::uint32_t ParticleSet::particle_count() const {
   return static_cast<Index>(structure_->particles.size());
 }
 std::uint64_t ParticleSet::serial(std::uint32_t particle) const {
+  SUNDER_ASSERT(particle < particle_count());
   return structure_->particles[particle].serial;
 }
 std::uint32_t ParticleSet::seed(std::uint32_t particle) const {
+  SUNDER_ASSERT(particle < particle_count());
   return structure_->particles[particle].seed;
 }
 double ParticleSet::range(std::uint32_t particle) const {
+  SUNDER_ASSERT(particle < particle_count());
   return double{structure_->particles[particle].range};
 }
 std::uint32_t ParticleSet::member_count(std::uint32_t particle) const {
+  SUNDER_ASSERT(particle < particle_count());
   return structure_->particles[particle].member_count;
 }
 
 Result<std::vector<std::uint32_t>> ParticleSet::members(std::uint32_t particle) const {
+  SUNDER_ASSERT(particle < particle_count());
   try {
     return structure_->members_of(particle);
   } catch (const std::bad_alloc&) {
@@ -123,20 +128,24 @@ Result<std::vector<std::uint32_t>> ParticleSet::members(std::uint32_t particle) 
 }
 
 std::span<const ParticleNeighbour> ParticleSet::neighbours(std::uint32_t particle) const {
+  SUNDER_ASSERT(particle < particle_count());
   return structure_->particles[particle].neighbours;
 }
 
 double ParticleSet::coupling(std::uint32_t particle, const ParticleNeighbour& neighbour) const {
+  SUNDER_ASSERT(particle < particle_count() && neighbour.particle < particle_count());
   const double least = std::min(structure_->particles[particle].weight,
                                 structure_->particles[neighbour.particle].weight);
   return least > 0 ? std::min(1.0, neighbour.shared / least) : 0.0;
 }
 
 const ParticleInfluences& ParticleSet::parents(std::uint32_t particle) const {
+  SUNDER_ASSERT(particle < particle_count());
   return structure_->particles[particle].parents;
 }
 std::uint32_t ParticleSet::point_count() const { return structure_->points.count(); }
 std::span<const ParticleMembership> ParticleSet::memberships(std::uint32_t point) const {
+  SUNDER_ASSERT(point < point_count());
   return structure_->points.memberships_of(point);
 }
 std::span<const ParticleInfluences> ParticleSet::influences() const {
@@ -152,6 +161,7 @@ std::span<const ParticleGradients> ParticleSet::gradients(const TornModel& model
 bool ParticleSet::is_broken() const { return structure_->tears.is_broken; }
 bool ParticleSet::is_settled() const { return structure_->tears.band == nullptr; }
 std::span<const std::uint32_t> ParticleSet::vertex_points(std::uint32_t mesh) const {
+  SUNDER_ASSERT(mesh < structure_->vertex_points.of_mesh.size());
   return structure_->vertex_points.of_mesh[mesh];
 }
 std::span<const Vec3f> ParticleSet::positions() const { return structure_->points.positions; }
@@ -181,8 +191,10 @@ Status ParticleSet::rest(const ModelPose& pose, std::span<const std::uint32_t> p
                            "%zu particles are requested, but the output has %zu entries",
                            particles.size(), rest.size());
   if (Status status = character.pose.set(character.skins, pose); !status) return status;
-  for (std::size_t i = 0; i < particles.size(); ++i)
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    SUNDER_ASSERT(particles[i] < particle_count());
     rest[i] = character.pose.rest(structure_->particles[particles[i]]);
+  }
   return {};
 }
 

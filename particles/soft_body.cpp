@@ -138,6 +138,7 @@ Status SoftBody::change_material(std::uint32_t material, const SoftMaterial& to)
 }
 
 std::uint32_t SoftBody::material_of(std::uint32_t particle) const {
+  SUNDER_ASSERT(particle < particle_count());
   return state_->motion.material_of[particle];
 }
 std::span<const SoftMaterial> SoftBody::materials() const { return state_->materials; }
@@ -322,6 +323,7 @@ std::span<const Mat3f> SoftBody::rotations() {
 }
 
 std::span<const IndexRange> SoftBody::moved_vertices(const TornModel& model, std::uint32_t mesh) {
+  SUNDER_ASSERT(mesh < model.character().meshes.size());
   try {
     state_->follow_particles();
     particles::ShownMotion& shown = state_->shown;
@@ -333,16 +335,20 @@ std::span<const IndexRange> SoftBody::moved_vertices(const TornModel& model, std
 }
 
 Vec3d SoftBody::place(std::uint32_t particle) const {
+  SUNDER_ASSERT(particle < particle_count());
   return state_->rests.place(particle) + state_->motion.displacements[particle];
 }
 Vec3d SoftBody::displacement(std::uint32_t particle) const {
+  SUNDER_ASSERT(particle < particle_count());
   return state_->motion.displacements[particle];
 }
 Vec3d SoftBody::velocity(std::uint32_t particle) const {
+  SUNDER_ASSERT(particle < particle_count());
   return state_->motion.velocities[particle] + state_->rests.velocity(particle);
 }
 
 Vec3d SoftBody::point_displacement(std::uint32_t point) const {
+  SUNDER_ASSERT(point < state_->set->point_count());
   Vec3d sum = Vec3d::Zero();
   for_each_influence(state_->set->influences()[point],
                      [&](Index p, double weight) { sum += weight * displacement(p); });
@@ -350,6 +356,7 @@ Vec3d SoftBody::point_displacement(std::uint32_t point) const {
 }
 
 Vec3d SoftBody::point_velocity(std::uint32_t point) const {
+  SUNDER_ASSERT(point < state_->set->point_count());
   Vec3d sum = Vec3d::Zero();
   for_each_influence(state_->set->influences()[point],
                      [&](Index p, double weight) { sum += weight * velocity(p); });
@@ -358,6 +365,7 @@ Vec3d SoftBody::point_velocity(std::uint32_t point) const {
 
 std::uint32_t SoftBody::particle_count() const { return state_->motion.count(); }
 bool SoftBody::is_awake(std::uint32_t particle) const {
+  SUNDER_ASSERT(particle < particle_count());
   return state_->motion.awake[particle] != 0;
 }
 std::uint32_t SoftBody::awake_count() const { return state_->motion.awake_count; }

@@ -32,7 +32,7 @@ sunder::Status play(const char* model_file, const sunder::Stroke& stroke) {
   if (!instance) return instance.error();
 
   std::vector<DrawBuffers> buffers(character.meshes.size());
-  sunder::Pose pose = sunder::local_rest_pose(character);
+  sunder::Pose pose = *sunder::local_rest_pose(character);
   sunder::ModelPose model_pose;
   for (int frame = 0; frame < 120; ++frame) {
     sunder::Status status = sunder::sample_clip(character.clips.at(0), frame / 60.0, pose);

@@ -12,7 +12,7 @@ sunder::Status tear_file(const char* model_file, const char* torn_file,
   if (!loaded) return loaded.error();
   const sunder::Character& character = *loaded->character;
 
-  sunder::Pose pose = sunder::local_rest_pose(character);  // Or what your engine plays.
+  sunder::Pose pose = *sunder::local_rest_pose(character);  // Or what your engine plays.
   if (!character.clips.empty())
     if (const auto status = sunder::sample_clip(character.clips[0], 0.8, pose); !status)
       return status;

@@ -22,8 +22,8 @@ int main() {
   const auto report = torn->tear(samples::bent(*character, 0.8), stroke);
   if (!report) return std::printf("%s\n", report.error().text().data()), 1;
 
-  const sunder::TopologyCounts before = count_topology(*character);
-  const sunder::TopologyCounts after = count_topology(torn->character());
+  const sunder::TopologyCounts before = *count_topology(*character);
+  const sunder::TopologyCounts after = *count_topology(torn->character());
   std::printf("segments %u, faces crossed %u, length %.3f m\n", report->segments,
               report->faces_crossed, report->length_posed);
   std::printf("points %u -> %u, triangles %u -> %u, boundary loops %u -> %u\n", before.points,

@@ -66,7 +66,7 @@ inline sunder::Character make_tube(const TubeShape& shape = {}) {
 
 /// The tube bent forward at its joint; radians.
 inline sunder::ModelPose bent(const sunder::Character& tube, double angle) {
-  sunder::Pose pose = local_rest_pose(tube);
+  sunder::Pose pose = *local_rest_pose(tube);
   pose.parent_from_bone[1].rotation =
       sunder::Quatf(Eigen::AngleAxisf(static_cast<float>(angle), Eigen::Vector3f::UnitX()));
   sunder::ModelPose model_pose;

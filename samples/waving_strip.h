@@ -54,7 +54,7 @@ inline int wave_by(const char* name, const sunder::ParallelFor& parallel_for) {
     return sunder::VertexTarget{count, {to[0].data()}, {to[count].data()}, {}};
   };
   sunder::PosedBuffer of_one(target(alone)), of_all(target(together));
-  sunder::BonePalette palette(kBones, 0);
+  sunder::BonePalette palette = *sunder::BonePalette::create(kBones, 0);
   std::vector<sunder::Affine3f> pose = wave(kBones, 0);
   for (int frame = 0; frame < 60; ++frame) {
     if (frame % 3 == 0) pose = wave(kBones, 0.1f * static_cast<float>(frame));

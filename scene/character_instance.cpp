@@ -47,10 +47,11 @@ struct CharacterInstance::State {
   Status make_soft(const SoftTissue& soft);
   Status make_meshes();
   /// Lets the meshes know.
-  Status note(std::span<const ChangeRecord> changes);
+  void note(std::span<const ChangeRecord> changes) noexcept;
   /// Lets the meshes and the particles know.
   Status follow(std::span<const ChangeRecord> changes);
   Status deform(Index mesh);
+  Status pose_meshes(const ModelPose& wanted);
 
   /// Makes one call that tears, and passes its record on to the particles and the meshes.
   template <class Call>
@@ -65,24 +66,18 @@ struct CharacterInstance::State {
 
   /// Makes a call that appends its records to a list. Records made before a failure are passed on
   /// too.
-  template <class Call>
-  auto change_all(std::vector<ChangeRecord>* wanted, Call call,
-                  Status (State::*pass_on)(std::span<const ChangeRecord>))
+  template <class Call, class PassOn>
+  auto change_all(std::vector<ChangeRecord>* wanted, Call call, PassOn pass_on)
       -> decltype(call(wanted)) {
     if (is_broken) return out_of_memory();
     std::vector<ChangeRecord> unwanted;
     std::vector<ChangeRecord>& records = wanted != nullptr ? *wanted : unwanted;
     const std::size_t before = records.size();
-    try {
-      auto outcome = call(&records);
-      const auto made = std::span<const ChangeRecord>(records).subspan(before);
-      if (outcome || !made.empty())
-        if (Status status = (this->*pass_on)(made); !status) return status;
-      return outcome;
-    } catch (const std::bad_alloc&) {
-      is_broken = true;
-      return out_of_memory();
-    }
+    auto outcome = call(&records);
+    const auto made = std::span<const ChangeRecord>(records).subspan(before);
+    if (outcome || !made.empty())
+      if (Status status = pass_on(made); !status) return status;
+    return outcome;
   }
 };
 
@@ -92,12 +87,13 @@ Status CharacterInstance::State::make_parts() {
 }
 
 Status CharacterInstance::State::make_soft(const SoftTissue& soft) {
-  const ModelPose bind = bind_pose(model.character());
-  Result<ParticleSet> divided = ParticleSet::create(model, bind, soft.decomposition);
+  const Result<ModelPose> bind = bind_pose(model.character());
+  if (!bind) return bind.error();
+  Result<ParticleSet> divided = ParticleSet::create(model, *bind, soft.decomposition);
   if (!divided) return divided.error();
   body.reset();
   particles.emplace(std::move(*divided));
-  Result<SoftBody> made = SoftBody::create(*particles, bind, soft.materials, soft.body);
+  Result<SoftBody> made = SoftBody::create(*particles, *bind, soft.materials, soft.body);
   if (!made) return made.error();
   body.emplace(std::move(*made));
   return {};
@@ -107,8 +103,12 @@ Status CharacterInstance::State::make_meshes() {
   const Character& character = model.character();
   palettes.clear();
   meshes.clear();
-  for (const Skin& skin : character.skins)
-    palettes.emplace_back(skin.bones.size(), character.rest_morph_weights.size(), options.method);
+  for (const Skin& skin : character.skins) {
+    Result<BonePalette> made =
+        BonePalette::create(skin.bones.size(), character.rest_morph_weights.size(), options.method);
+    if (!made) return made.error();
+    palettes.push_back(std::move(*made));
+  }
   for (const Mesh& mesh : character.meshes) {
     Result<scene::InstanceMesh> made =
         scene::InstanceMesh::create(mesh, character.skins[mesh.skin].bones.size(), options);
@@ -118,19 +118,14 @@ Status CharacterInstance::State::make_meshes() {
   return {};
 }
 
-Status CharacterInstance::State::note(std::span<const ChangeRecord> changes) {
-  try {
-    for (const ChangeRecord& change : changes)
-      for (const MeshChange& of_mesh : change.meshes) meshes[of_mesh.mesh].note(of_mesh);
-    return {};
-  } catch (const std::bad_alloc&) {
-    is_broken = true;
-    return out_of_memory();
-  }
+void CharacterInstance::State::note(std::span<const ChangeRecord> changes) noexcept {
+  for (const ChangeRecord& change : changes)
+    for (const MeshChange& of_mesh : change.meshes) meshes[of_mesh.mesh].note(of_mesh);
 }
 
 Status CharacterInstance::State::follow(std::span<const ChangeRecord> changes) {
-  if (Status status = note(changes); !status || !particles) return status;
+  note(changes);
+  if (!particles) return {};
   Status status = particles->follow(model, changes);
   is_broken = !status;
   return status;
@@ -152,6 +147,21 @@ Status CharacterInstance::State::deform(Index mesh) {
                                 body->rotations()};
   if (posed.has_directions()) displaced.gradients = particles->gradients(model);
   return posed.deform(palette, options.parallel_for, &displaced);
+}
+
+Status CharacterInstance::State::pose_meshes(const ModelPose& wanted) {
+  try {
+    pose.model_from_bone.reserve(wanted.model_from_bone.size());
+    pose.morph_weights.reserve(wanted.morph_weights.size());
+    for (Index mesh = 0; mesh < meshes.size(); ++mesh)
+      if (Status status = deform(mesh); !status) return status;
+    pose = wanted;
+    for (Index mesh = 0; mesh < meshes.size(); ++mesh)
+      meshes[mesh].publish(model.character().meshes[mesh]);
+    return {};
+  } catch (const std::bad_alloc&) {
+    return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
+  }
 }
 
 CharacterInstance::CharacterInstance(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -207,7 +217,8 @@ Result<TearReport> CharacterInstance::apply(const Operation& operation,
   const auto play = [&](std::vector<ChangeRecord>* records) {
     return apply_operation(state_->model, operation, records);
   };
-  return state_->change_all(changes, play, &State::follow);
+  return state_->change_all(
+      changes, play, [&](std::span<const ChangeRecord> made) { return state_->follow(made); });
 }
 
 Status CharacterInstance::begin_stroke(const ModelPose& pose, const Blade& blade,
@@ -258,7 +269,10 @@ Result<ForceTearingReport> CharacterInstance::tear_overstretched(
     return sunder::tear_overstretched(*state.body, *state.particles, state.model, state.pose,
                                       options, records);
   };
-  return state.change_all(changes, tear, &State::note);  // the particles have followed
+  return state.change_all(changes, tear, [&](std::span<const ChangeRecord> made) -> Status {
+    state.note(made);  // the particles have followed
+    return {};
+  });
 }
 
 Result<RefitJob> CharacterInstance::begin_refit(const WeightsOperation& wanted) {
@@ -296,21 +310,16 @@ Status CharacterInstance::advance(const ModelPose& pose, double seconds) {
   // them half set.
   for (std::size_t i = 0; i < skins.size(); ++i)
     if (Status status = state.palettes[i].set(skins[i], pose); !status) return status;
-  try {
-    if (state.body)
-      if (Status status = state.body->step(state.model, pose, seconds); !status) return status;
-    state.is_broken = true;  // until all parts agree again
-    state.pose = pose;
-    for (Index mesh = 0; mesh < state.meshes.size(); ++mesh)
-      if (Status status = state.deform(mesh); !status) return status;
-    state.is_broken = false;
-    return {};
-  } catch (const std::bad_alloc&) {
-    return out_of_memory();
-  }
+  if (state.body)
+    if (Status status = state.body->step(state.model, pose, seconds); !status) return status;
+  Status status = state.pose_meshes(pose);
+  if (!status)
+    for (scene::InstanceMesh& mesh : state.meshes) mesh.forget();
+  return status;
 }
 
 PosedMesh CharacterInstance::mesh(std::uint32_t mesh) const {
+  SUNDER_ASSERT(mesh < state_->meshes.size());
   return state_->meshes[mesh].posed(state_->model.character().meshes[mesh]);
 }
 

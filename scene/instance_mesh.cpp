@@ -1,6 +1,7 @@
 #include "scene/instance_mesh.h"
 
 #include <algorithm>
+#include <new>
 
 namespace sunder::scene {
 namespace {
@@ -26,7 +27,20 @@ StridedFloats<float> floats_of(std::vector<Vector>& values) {
 
 }  // namespace
 
-void PendingRanges::publish(Index count) {
+void PendingRanges::add(const IndexRange& range) noexcept {
+  try {
+    pending_.push_back(range);
+  } catch (const std::bad_alloc&) {
+    Index first = range.first, end = range.first + range.count;
+    for (const IndexRange& pending : pending_) {
+      first = std::min(first, pending.first);
+      end = std::max(end, pending.first + pending.count);
+    }
+    pending_.assign(1, {first, end - first});
+  }
+}
+
+void PendingRanges::publish(Index count) noexcept {
   published_.clear();
   std::sort(pending_.begin(), pending_.end(),
             [](const IndexRange& a, const IndexRange& b) { return a.first < b.first; });
@@ -54,7 +68,9 @@ Result<InstanceMesh> InstanceMesh::create(const Mesh& mesh, std::size_t slots,
   if (made.has_normals_) made.normals_.reserve(most);
   if (made.has_tangents_) made.tangents_.reserve(most);
   if (options.capacity.vertices > 0)
-    made.skinned_.reserve(options.capacity.vertices, kInfluencesPerVertex);
+    if (Status status = made.skinned_.reserve(options.capacity.vertices, kInfluencesPerVertex);
+        !status)
+      return status;
   made.resize(mesh.vertex_count());
   // The first frame draws everything.
   made.triangles_.add(IndexRange{0, mesh.triangle_count()});
@@ -62,7 +78,7 @@ Result<InstanceMesh> InstanceMesh::create(const Mesh& mesh, std::size_t slots,
   return made;
 }
 
-void InstanceMesh::note(const MeshChange& change) {
+void InstanceMesh::note(const MeshChange& change) noexcept {
   triangles_.add(change.dirty_triangles);
   attributes_.add(change.dirty_vertices);
   first_changed_ = std::min(first_changed_, first_changed_vertex(change));
@@ -83,8 +99,8 @@ void InstanceMesh::resize(Index vertex_count) {
 }
 
 Status InstanceMesh::update(const Mesh& mesh, const InfluencePositions& exact) {
-  triangles_.publish(mesh.triangle_count());
-  attributes_.publish(mesh.vertex_count());
+  triangles_.prepare();
+  attributes_.prepare();
   if (first_changed_ == kNone) return {};
   VertexSource source = source_of(mesh);
   if (!exact.vertices.empty()) source.per_influence = &exact;
@@ -97,6 +113,11 @@ Status InstanceMesh::update(const Mesh& mesh, const InfluencePositions& exact) {
 Status InstanceMesh::deform(const BonePalette& palette, const ParallelFor& parallel_for,
                             const VertexDisplacements* displacements) {
   return skinned_.deform(palette, buffer_, parallel_for, displacements);
+}
+
+void InstanceMesh::publish(const Mesh& mesh) noexcept {
+  triangles_.publish(mesh.triangle_count());
+  attributes_.publish(mesh.vertex_count());
 }
 
 PosedMesh InstanceMesh::posed(const Mesh& mesh) const {

@@ -12,12 +12,18 @@ namespace sunder::scene {
 /// Collects the ranges that several operations changed, for the frame that draws them.
 class PendingRanges {
  public:
-  void add(const IndexRange& range) { pending_.push_back(range); }
-  void add(const DirtyRanges& ranges) {
-    pending_.insert(pending_.end(), ranges.begin(), ranges.end());
+  PendingRanges() { pending_.reserve(1); }
+
+  /// Where memory runs out, one range takes in all of them.
+  void add(const IndexRange& range) noexcept;
+  void add(const DirtyRanges& ranges) noexcept {
+    for (const IndexRange& range : ranges) add(range);
   }
-  /// Lists the ranges added since the last call, ascending and disjoint, up to `count`.
-  void publish(Index count);
+  /// Makes room for publish(). @throws std::bad_alloc
+  void prepare() { published_.reserve(pending_.size()); }
+  /// Lists the ranges added since the last call, ascending and disjoint, up to `count`. Call
+  /// prepare() first.
+  void publish(Index count) noexcept;
   [[nodiscard]] std::span<const IndexRange> published() const { return published_; }
   [[nodiscard]] bool has_pending() const { return !pending_.empty(); }
 
@@ -31,14 +37,18 @@ class InstanceMesh {
   static Result<InstanceMesh> create(const Mesh& mesh, std::size_t slots,
                                      const CharacterInstanceOptions& options);
 
-  /// Notes the changes of a call; update() applies them. @throws std::bad_alloc
-  void note(const MeshChange& change);
+  /// Notes the changes of a call; update() applies them.
+  void note(const MeshChange& change) noexcept;
   /// Applies the noted changes to the skinning data and the buffers. O(changes). @throws
-  /// std::bad_alloc
+  /// std::bad_alloc; the changes stay noted then.
   Status update(const Mesh& mesh, const InfluencePositions& exact);
-  /// Poses the vertices that changed. @param displacements  null: none. @throws std::bad_alloc
+  /// Poses the vertices that changed. @param displacements  null: none.
   Status deform(const BonePalette& palette, const ParallelFor& parallel_for,
                 const VertexDisplacements* displacements);
+  /// Ends a frame in which all meshes were posed: lists what it changed.
+  void publish(const Mesh& mesh) noexcept;
+  /// Ends a frame that failed: the next one poses every vertex.
+  void forget() noexcept { buffer_.set_target(buffer_.target()); }
 
   /// Whether normals or tangents are posed.
   [[nodiscard]] bool has_directions() const { return has_normals_ || has_tangents_; }

@@ -148,6 +148,10 @@ Status check_source(const VertexSource& source, std::size_t slot_count, std::uin
   return {};
 }
 
+std::size_t most_weights(std::size_t blocks, std::size_t influences) {
+  return kSparseFrom * (blocks * kLanes + influences);
+}
+
 BlockBuilder::BlockBuilder(const VertexSource& source, Blocks& blocks)
     : source_(source), blocks_(blocks), slots_(blocks.scratch) {
   if (source.per_influence == nullptr) return;

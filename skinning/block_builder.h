@@ -12,6 +12,9 @@ namespace sunder::skinning {
 [[nodiscard]] Status check_source(const VertexSource& source, std::size_t slot_count,
                                   std::uint32_t first);
 
+/// The largest number of weights that blocks may store.
+[[nodiscard]] std::size_t most_weights(std::size_t blocks, std::size_t influences);
+
 /// Makes blocks of checked vertices and appends them.
 class BlockBuilder {
  public:

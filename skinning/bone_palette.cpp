@@ -7,6 +7,7 @@
 #include <Eigen/SVD>
 
 #include "core/internal/ordered.h"
+#include "core/internal/out_of_memory.h"
 #include "skinning/identity.h"
 #include "skinning/internal/same_bits.h"
 #include "skinning/normal_matrix.h"
@@ -120,23 +121,29 @@ Status check_sizes(const PaletteData& data, std::size_t slots, std::size_t morph
 }  // namespace
 }  // namespace skinning
 
-BonePalette::BonePalette(std::size_t slots, std::size_t morph_weights, SkinningMethod method)
-    : data_(std::make_unique<skinning::PaletteData>()) {
-  data_->method = method;
-  data_->id = skinning::new_identity();
-  data_->slots = slots;
-  data_->matrices.resize(12 * slots);
-  data_->normal_matrices.resize(9 * slots);
-  data_->is_uneven.resize(slots);
-  data_->morph_weights.resize(morph_weights);
-  data_->revisions.resize(slots + morph_weights);
-  data_->last.model_from_bone.resize(slots);
-  data_->fresh.resize(slots);
-  if (method == SkinningMethod::dual_quaternion) {
-    data_->dual.motions.resize(8 * slots);
-    data_->dual.stretches.resize(18 * slots);
-    data_->dual.is_stretched.resize(slots);
-  }
+BonePalette::BonePalette(std::unique_ptr<skinning::PaletteData> data) : data_(std::move(data)) {}
+
+Result<BonePalette> BonePalette::create(std::size_t slots, std::size_t morph_weights,
+                                        SkinningMethod method) {
+  return or_out_of_memory([&]() -> Result<BonePalette> {
+    auto data = std::make_unique<skinning::PaletteData>();
+    data->method = method;
+    data->id = skinning::new_identity();
+    data->slots = slots;
+    data->matrices.resize(12 * slots);
+    data->normal_matrices.resize(9 * slots);
+    data->is_uneven.resize(slots);
+    data->morph_weights.resize(morph_weights);
+    data->revisions.resize(slots + morph_weights);
+    data->last.model_from_bone.resize(slots);
+    data->fresh.resize(slots);
+    if (method == SkinningMethod::dual_quaternion) {
+      data->dual.motions.resize(8 * slots);
+      data->dual.stretches.resize(18 * slots);
+      data->dual.is_stretched.resize(slots);
+    }
+    return BonePalette(std::move(data));
+  });
 }
 
 BonePalette::~BonePalette() = default;
@@ -198,6 +205,9 @@ Status BonePalette::set(std::span<const Affine3f> character_from_bind,
 
 SkinningMethod BonePalette::method() const { return data_->method; }
 std::uint64_t BonePalette::revision() const { return data_->revision; }
-std::uint64_t BonePalette::revision_of(std::size_t slot) const { return data_->revisions[slot]; }
+std::uint64_t BonePalette::revision_of(std::size_t slot) const {
+  SUNDER_ASSERT(slot < data_->slots);
+  return data_->revisions[slot];
+}
 
 }  // namespace sunder

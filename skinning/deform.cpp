@@ -1,6 +1,10 @@
 #include <sunder/skinning/deform.h>
 #include <sunder/skinning/skinned_mesh.h>
 
+#include <utility>
+
+#include "core/internal/out_of_memory.h"
+
 namespace sunder {
 
 Status deform_mesh(const Mesh& mesh, std::span<const Affine3f> model_from_bind,
@@ -17,20 +21,26 @@ Status deform_mesh(const Mesh& mesh, std::span<const Affine3f> model_from_bind,
                              mesh.name.c_str(), influence.slot, model_from_bind.size());
   const Result<SkinnedMesh> skinned = SkinnedMesh::create(source_of(mesh), model_from_bind.size());
   if (!skinned) return skinned.error();
-  BonePalette palette(model_from_bind.size(), morph_weights.size());
-  if (const Status status = palette.set(model_from_bind, morph_weights); !status) return status;
+  Result<BonePalette> palette = BonePalette::create(model_from_bind.size(), morph_weights.size());
+  if (!palette) return palette.error();
+  if (const Status status = palette->set(model_from_bind, morph_weights); !status) return status;
 
-  VertexTarget target;
-  target.vertex_count = mesh.vertex_count();
-  target.unit_length = true;
-  out.positions.resize(mesh.positions.size());
-  out.normals.resize(mesh.normals.size());
-  out.tangents.resize(mesh.tangents.size());
-  if (!out.positions.empty()) target.positions.data = out.positions[0].data();
-  if (!out.normals.empty()) target.normals.data = out.normals[0].data();
-  if (!out.tangents.empty()) target.tangents.data = out.tangents[0].data();
-  PosedBuffer buffer(target);
-  return skinned->deform(palette, buffer);
+  return or_out_of_memory([&]() -> Status {
+    DeformedMesh made;
+    made.positions.resize(mesh.positions.size());
+    made.normals.resize(mesh.normals.size());
+    made.tangents.resize(mesh.tangents.size());
+    VertexTarget target;
+    target.vertex_count = mesh.vertex_count();
+    target.unit_length = true;
+    if (!made.positions.empty()) target.positions.data = made.positions[0].data();
+    if (!made.normals.empty()) target.normals.data = made.normals[0].data();
+    if (!made.tangents.empty()) target.tangents.data = made.tangents[0].data();
+    PosedBuffer buffer(target);
+    if (const Status status = skinned->deform(*palette, buffer); !status) return status;
+    out = std::move(made);
+    return {};
+  });
 }
 
 }  // namespace sunder

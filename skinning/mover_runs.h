@@ -2,6 +2,7 @@
 
 #include <sunder/core/index.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -24,7 +25,11 @@ class MoverRuns {
     for (std::uint32_t i = newest_[mover]; i != kNoRun; i = runs_[i].older) visit(runs_[i].blocks);
   }
 
-  void reserve(std::size_t more_runs) { runs_.reserve(runs_.size() + more_runs); }
+  /// Makes room for that many more runs.
+  void make_room(std::size_t more_runs) {
+    if (runs_.capacity() - runs_.size() < more_runs)
+      runs_.reserve(runs_.size() + std::max(more_runs, runs_.size() / 8));
+  }
 
  private:
   static constexpr std::uint32_t kNoRun = 0xFFFF'FFFFu;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/internal/ordered.h"
+#include "core/internal/out_of_memory.h"
 #include "skinning/bone_tree.h"
 #include "skinning/normal_matrix.h"
 
@@ -36,33 +37,7 @@ Status write_palette(const Skin& skin, const ModelPose& pose, std::span<Affine> 
   return {};
 }
 
-}  // namespace
-
-Status compute_model_pose(const Skeleton& skeleton, const Pose& pose, ModelPose& model_pose) {
-  const std::size_t count = skeleton.bones.size();
-  if (pose.parent_from_bone.size() != count)
-    return Status::failure(StatusCode::size_mismatch, kNone,
-                           "the pose has %zu bones, the skeleton has %zu",
-                           pose.parent_from_bone.size(), count);
-  model_pose.model_from_bone.resize(count);
-  skinning::multiply_down(
-      skeleton, [&](std::size_t bone) { return pose.parent_from_bone[bone]; },
-      model_pose.model_from_bone);
-  model_pose.morph_weights = pose.morph_weights;
-  return {};
-}
-
-ModelPose rest_pose(const Character& character) {
-  ModelPose pose;
-  pose.morph_weights = character.rest_morph_weights;
-  const auto& bones = character.skeleton.bones;
-  pose.model_from_bone.resize(bones.size());
-  skinning::multiply_down(
-      character.skeleton, [&](std::size_t bone) { return bones[bone].rest; }, pose.model_from_bone);
-  return pose;
-}
-
-ModelPose bind_pose(const Character& character) {
+ModelPose find_bind_pose(const Character& character) {
   const auto& bones = character.skeleton.bones;
   ModelPose pose;
   pose.morph_weights = character.rest_morph_weights;
@@ -91,6 +66,42 @@ ModelPose bind_pose(const Character& character) {
       pose.model_from_bone[i] = multiply(pose.model_from_bone[bones[i].parent], parent_from_bone);
   }
   return pose;
+}
+
+}  // namespace
+
+Status compute_model_pose(const Skeleton& skeleton, const Pose& pose, ModelPose& model_pose) {
+  const std::size_t count = skeleton.bones.size();
+  if (pose.parent_from_bone.size() != count)
+    return Status::failure(StatusCode::size_mismatch, kNone,
+                           "the pose has %zu bones, the skeleton has %zu",
+                           pose.parent_from_bone.size(), count);
+  return or_out_of_memory([&]() -> Status {
+    model_pose.morph_weights.reserve(pose.morph_weights.size());
+    model_pose.model_from_bone.resize(count);
+    skinning::multiply_down(
+        skeleton, [&](std::size_t bone) { return pose.parent_from_bone[bone]; },
+        model_pose.model_from_bone);
+    model_pose.morph_weights = pose.morph_weights;
+    return {};
+  });
+}
+
+Result<ModelPose> rest_pose(const Character& character) {
+  return or_out_of_memory([&]() -> Result<ModelPose> {
+    ModelPose pose;
+    pose.morph_weights = character.rest_morph_weights;
+    const auto& bones = character.skeleton.bones;
+    pose.model_from_bone.resize(bones.size());
+    skinning::multiply_down(
+        character.skeleton, [&](std::size_t bone) { return bones[bone].rest; },
+        pose.model_from_bone);
+    return pose;
+  });
+}
+
+Result<ModelPose> bind_pose(const Character& character) {
+  return or_out_of_memory([&]() -> Result<ModelPose> { return find_bind_pose(character); });
 }
 
 Status compute_palette(const Skin& skin, const ModelPose& pose,

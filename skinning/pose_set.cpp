@@ -4,6 +4,7 @@
 #include <new>
 #include <utility>
 
+#include "core/internal/out_of_memory.h"
 #include "skinning/clip_sampler.h"
 #include "skinning/joint_sweeps.h"
 
@@ -92,6 +93,19 @@ struct PoseSet::State {
     return role == Role::fit ? given[index + index / 3] : given[4 * index + 3];
   }
 
+  void compute(Role role, std::size_t index, ModelPose& pose) const {
+    const auto& clip_times = times(role);
+    if (index < clip_times.size()) {
+      const auto [clip, time] = clip_times[index];
+      return samplers[clip].sample(*character, character->clips[clip], time, pose);
+    }
+    index -= clip_times.size();
+    const auto& of_role = sweeps_of(role);
+    if (index < of_role.size())
+      return skinning::compute_sweep(*character, sweeps, of_role[index], pose);
+    pose = given_of(role, index - of_role.size());
+  }
+
   std::shared_ptr<const Character> character;
   std::vector<skinning::ClipSampler> samplers;  // per clip, if clips are sampled
   std::vector<ClipTime> fit_times, held_out_times;
@@ -133,7 +147,7 @@ Result<PoseSet> PoseSet::create(std::shared_ptr<const Character> character,
         "no pose to fit over: %u samples per clip, %zu clips, no joint that rotates, no given pose",
         spec.clip_samples, state->character->clips.size());
   } catch (const std::bad_alloc&) {
-    return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
+    return out_of_memory();
   }
 }
 
@@ -141,18 +155,15 @@ std::size_t PoseSet::size(Role role) const {
   return state_->times(role).size() + state_->sweeps_of(role).size() + state_->given_count(role);
 }
 
-void PoseSet::compute(Role role, std::size_t index, ModelPose& pose) const {
+Status PoseSet::compute(Role role, std::size_t index, ModelPose& pose) const {
   const State& state = *state_;
-  const auto& times = state.times(role);
-  if (index < times.size()) {
-    const auto [clip, time] = times[index];
-    return state.samplers[clip].sample(*state.character, state.character->clips[clip], time, pose);
-  }
-  index -= times.size();
-  const auto& sweeps = state.sweeps_of(role);
-  if (index < sweeps.size())
-    return skinning::compute_sweep(*state.character, state.sweeps, sweeps[index], pose);
-  pose = state.given_of(role, index - sweeps.size());
+  SUNDER_ASSERT(index < size(role));
+  return or_out_of_memory([&]() -> Status {
+    pose.model_from_bone.reserve(state.character->skeleton.bones.size());
+    pose.morph_weights.reserve(state.character->rest_morph_weights.size());
+    state.compute(role, index, pose);
+    return {};
+  });
 }
 
 }  // namespace sunder

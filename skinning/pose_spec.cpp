@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "core/internal/out_of_memory.h"
+
 namespace sunder {
 namespace {
 
@@ -70,12 +72,13 @@ Result<ModelPose> make_pose(const Character& character, const PoseSpec& spec) {
       return Status::failure(StatusCode::size_mismatch, kNone,
                              "the pose has %zu morph weights, the character has %zu",
                              given->morph_weights.size(), character.rest_morph_weights.size());
-    return *given;
+    return or_out_of_memory([&]() -> Result<ModelPose> { return *given; });
   }
-  Pose pose = local_rest_pose(character);
-  if (const Status status = std::visit(ApplyTo(character, pose), spec); !status) return status;
+  Result<Pose> pose = local_rest_pose(character);
+  if (!pose) return pose.error();
+  if (const Status status = std::visit(ApplyTo(character, *pose), spec); !status) return status;
   ModelPose model_pose;
-  if (const Status status = compute_model_pose(character.skeleton, pose, model_pose); !status)
+  if (const Status status = compute_model_pose(character.skeleton, *pose, model_pose); !status)
     return status;
   return model_pose;
 }

@@ -2,16 +2,19 @@
 
 #include <cmath>
 
+#include "core/internal/out_of_memory.h"
 #include "skinning/sample_channel.h"
 
 namespace sunder {
 
-Pose local_rest_pose(const Character& character) {
-  Pose pose;
-  pose.parent_from_bone.reserve(character.skeleton.bones.size());
-  for (const Bone& bone : character.skeleton.bones) pose.parent_from_bone.push_back(bone.rest);
-  pose.morph_weights = character.rest_morph_weights;
-  return pose;
+Result<Pose> local_rest_pose(const Character& character) {
+  return or_out_of_memory([&]() -> Result<Pose> {
+    Pose pose;
+    pose.parent_from_bone.reserve(character.skeleton.bones.size());
+    for (const Bone& bone : character.skeleton.bones) pose.parent_from_bone.push_back(bone.rest);
+    pose.morph_weights = character.rest_morph_weights;
+    return pose;
+  });
 }
 
 Status sample_clip(const Clip& clip, double time, Pose& pose) {

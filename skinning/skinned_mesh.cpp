@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
+#include "core/internal/out_of_memory.h"
 #include "skinning/block_builder.h"
+#include "skinning/block_room.h"
 #include "skinning/blocks_to_write.h"
 #include "skinning/displace.h"
 #include "skinning/identity.h"
@@ -228,21 +230,23 @@ SkinnedMesh& SkinnedMesh::operator=(SkinnedMesh&&) noexcept = default;
 
 Result<SkinnedMesh> SkinnedMesh::create(const VertexSource& source, std::size_t slots) {
   if (const Status status = skinning::check_source(source, slots, 0); !status) return status;
-  auto blocks = std::make_unique<skinning::Blocks>();
-  blocks->id = skinning::new_identity();
-  blocks->layout.slot_count = slots;
-  blocks->layout.has_normals = source.normals.data != nullptr;
-  blocks->layout.has_tangents = source.tangents.data != nullptr;
-  blocks->layout.first_morph_weight = source.first_morph_weight;
-  blocks->layout.morph_count = static_cast<std::uint32_t>(source.morph_targets.size());
-  blocks->movers.resize(slots + source.morph_targets.size());
-  skinning::BlockBuilder builder(source, *blocks);
-  for (std::uint32_t v = 0; v < source.vertex_count; v += skinning::kWindow)
-    builder.append_gathered(v, std::min(source.vertex_count, v + skinning::kWindow));
-  blocks->vertex_count = source.vertex_count;
-  blocks->stream.shrink_to_fit();
-  blocks->morphs.stream.shrink_to_fit();
-  return SkinnedMesh(std::move(blocks));
+  return or_out_of_memory([&]() -> Result<SkinnedMesh> {
+    auto blocks = std::make_unique<skinning::Blocks>();
+    blocks->id = skinning::new_identity();
+    blocks->layout.slot_count = slots;
+    blocks->layout.has_normals = source.normals.data != nullptr;
+    blocks->layout.has_tangents = source.tangents.data != nullptr;
+    blocks->layout.first_morph_weight = source.first_morph_weight;
+    blocks->layout.morph_count = static_cast<std::uint32_t>(source.morph_targets.size());
+    blocks->movers.resize(slots + source.morph_targets.size());
+    skinning::BlockBuilder builder(source, *blocks);
+    for (std::uint32_t v = 0; v < source.vertex_count; v += skinning::kWindow)
+      builder.append_gathered(v, std::min(source.vertex_count, v + skinning::kWindow));
+    blocks->vertex_count = source.vertex_count;
+    blocks->stream.shrink_to_fit();
+    blocks->morphs.stream.shrink_to_fit();
+    return SkinnedMesh(std::move(blocks));
+  });
 }
 
 std::uint32_t SkinnedMesh::vertex_count() const { return blocks_->vertex_count; }
@@ -273,33 +277,44 @@ Status SkinnedMesh::update(const VertexSource& source, std::uint32_t first_chang
       !status)
     return status;
   if (first_changed == source.vertex_count && first_changed == blocks.vertex_count) return {};
-  const std::uint32_t first_block = skinning::first_block_to_replace(blocks, first_changed);
-  ++blocks.revision;
-  skinning::truncate(blocks, first_block);
-  skinning::BlockBuilder(source, blocks).append_in_order(blocks.vertex_count, source.vertex_count);
-  blocks.vertex_count = source.vertex_count;
-  return {};
+  const std::uint32_t first_block = skinning::first_block_to_replace(blocks, first_changed),
+                      first_vertex = first_block < blocks.block_count()
+                                         ? blocks.window(blocks.blocks[first_block])
+                                         : blocks.vertex_count;
+  return or_out_of_memory([&]() -> Status {
+    skinning::make_room(source, first_vertex, source.vertex_count, blocks);
+    skinning::BlockBuilder builder(source, blocks);
+    ++blocks.revision;  // from here on nothing allocates
+    skinning::truncate(blocks, first_block);
+    builder.append_in_order(first_vertex, source.vertex_count);
+    blocks.vertex_count = source.vertex_count;
+    return {};
+  });
 }
 
-void SkinnedMesh::reserve(std::uint32_t more_vertices, std::uint32_t influences) {
-  skinning::Blocks& b = *blocks_;
-  const auto add = [](auto& array, std::size_t more) { array.reserve(array.size() + more); };
-  const std::size_t blocks = more_vertices / skinning::kLanes + 2;
-  // Neighbours along a tear share most of their bones: a quarter of the slots that they would need
-  // otherwise.
-  const std::size_t slots = blocks * influences * skinning::kLanes / 4;
-  add(b.stream, blocks * skinning::kLanes * b.layout.attribute_floats() + slots * skinning::kLanes);
-  add(b.blocks, blocks);
-  add(b.revisions, blocks);
-  add(b.slots, slots);
-  add(b.scratch, skinning::kLanes * influences);
-  add(b.extras, blocks);
-  add(b.sparse.influences, std::size_t{more_vertices} * influences);
-  add(b.sparse.lane_ends, blocks * skinning::kLanes);
-  add(b.morphs.parts, blocks * b.layout.morph_count);
-  add(b.morphs.stream,
-      blocks * b.layout.morph_count * skinning::kLanes * b.layout.displacement_floats());
-  b.movers.reserve(slots + blocks * b.layout.morph_count);
+Status SkinnedMesh::reserve(std::uint32_t more_vertices, std::uint32_t influences) {
+  return or_out_of_memory([&]() -> Status {
+    skinning::Blocks& b = *blocks_;
+    const auto add = [](auto& array, std::size_t more) { array.reserve(array.size() + more); };
+    const std::size_t blocks = more_vertices / skinning::kLanes + 2;
+    // Neighbours along a tear share most of their bones: a quarter of the slots that they would
+    // need otherwise.
+    const std::size_t slots = blocks * influences * skinning::kLanes / 4;
+    add(b.stream,
+        blocks * skinning::kLanes * b.layout.attribute_floats() + slots * skinning::kLanes);
+    add(b.blocks, blocks);
+    add(b.revisions, blocks);
+    add(b.slots, slots);
+    add(b.scratch, skinning::kLanes * influences);
+    add(b.extras, blocks);
+    add(b.sparse.influences, std::size_t{more_vertices} * influences);
+    add(b.sparse.lane_ends, blocks * skinning::kLanes);
+    add(b.morphs.parts, blocks * b.layout.morph_count);
+    add(b.morphs.stream,
+        blocks * b.layout.morph_count * skinning::kLanes * b.layout.displacement_floats());
+    b.movers.make_room(slots + blocks * b.layout.morph_count);
+    return {};
+  });
 }
 
 Status SkinnedMesh::deform(const BonePalette& palette, PosedBuffer& buffer,
@@ -320,13 +335,21 @@ Status SkinnedMesh::deform(const BonePalette& palette, PosedBuffer& buffer,
       buffer.mesh_revision_ == blocks.revision && moved.empty() && buffer.displaced_.empty())
     return {};
 
-  buffer.marks_.assign((blocks.block_count() + 63) / 64, 0);
-  if (is_known)
-    mark_changed(blocks, data, buffer.palette_revision_, buffer.mesh_revision_, buffer.marks_);
-  else
-    mark({0, blocks.block_count()}, buffer.marks_);
-  mark_displaced(blocks, moved, buffer.displaced_, buffer.marks_);
-  list_runs(blocks, buffer.marks_, buffer.blocks_to_write_);
+  try {
+    buffer.marks_.assign((blocks.block_count() + 63) / 64, 0);
+    if (is_known)
+      mark_changed(blocks, data, buffer.palette_revision_, buffer.mesh_revision_, buffer.marks_);
+    else
+      mark({0, blocks.block_count()}, buffer.marks_);
+    mark_displaced(blocks, moved, buffer.displaced_, buffer.marks_);
+    list_runs(blocks, buffer.marks_, buffer.blocks_to_write_);
+    if (!buffer.blocks_to_write_.empty())
+      list_vertices(blocks, buffer.blocks_to_write_, buffer.dirty_);
+  } catch (const std::bad_alloc&) {
+    buffer.dirty_.clear();
+    buffer.palette_ = buffer.mesh_ = 0;  // which blocks were displaced is lost: write all next time
+    return out_of_memory();
+  }
   if (!buffer.blocks_to_write_.empty()) {
     std::uint32_t block_count = 0;
     for (const IndexRange& range : buffer.blocks_to_write_) block_count += range.count;
@@ -347,7 +370,6 @@ Status SkinnedMesh::deform(const BonePalette& palette, PosedBuffer& buffer,
     tasks.displacements = displacements;
     tasks.run(buffer.blocks_to_write_, kBlocksPerTask, &Tasks::pose, parallel_for);
     if (!moved.empty()) tasks.run(moved, kVerticesPerTask, &Tasks::displace, parallel_for);
-    list_vertices(blocks, buffer.blocks_to_write_, buffer.dirty_);
   }
   buffer.palette_ = data.id;
   buffer.mesh_ = blocks.id;

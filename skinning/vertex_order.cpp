@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/internal/out_of_memory.h"
+
 namespace sunder {
 namespace {
 
@@ -15,9 +17,7 @@ void reorder(std::vector<T>& values, std::size_t components,
                 values.begin() + static_cast<std::ptrdiff_t>(components * v));
 }
 
-}  // namespace
-
-std::vector<std::uint32_t> order_for_skinning(const Mesh& mesh) {
+std::vector<std::uint32_t> find_order(const Mesh& mesh) {
   std::vector<std::uint32_t> slots;  // per vertex, ascending
   for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
     for (const Influence& influence : mesh.weights.of(v)) slots.push_back(influence.slot);
@@ -36,20 +36,10 @@ std::vector<std::uint32_t> order_for_skinning(const Mesh& mesh) {
   return old_from_new;
 }
 
-Status reorder_vertices(Mesh& mesh, std::span<const std::uint32_t> old_from_new) {
-  const std::uint32_t count = mesh.vertex_count();
-  if (old_from_new.size() != count)
-    return Status::failure(StatusCode::size_mismatch, kNone,
-                           "the order has %zu entries, the mesh has %u vertices",
-                           old_from_new.size(), count);
-  std::vector<std::uint32_t> new_from_old(count, kNone);
-  for (std::uint32_t v = 0; v < count; ++v) {
-    const std::uint32_t old = old_from_new[v];
-    if (old >= count || new_from_old[old] != kNone)
-      return Status::failure(StatusCode::index_out_of_range, v,
-                             "entry %u: vertex %u does not exist or occurs twice", v, old);
-    new_from_old[old] = v;
-  }
+/// A copy of the mesh in another order.
+Mesh reordered(const Mesh& from, std::span<const std::uint32_t> old_from_new,
+               std::span<const std::uint32_t> new_from_old) {
+  Mesh mesh = from;
   reorder(mesh.positions, 1, old_from_new);
   reorder(mesh.normals, 1, old_from_new);
   reorder(mesh.tangents, 1, old_from_new);
@@ -64,12 +54,38 @@ Status reorder_vertices(Mesh& mesh, std::span<const std::uint32_t> old_from_new)
   }
   SkinWeights weights;
   weights.influences.reserve(mesh.weights.influences.size());
-  weights.first.reserve(count + 1);
-  for (const std::uint32_t old : old_from_new) weights.append(mesh.weights.of(old));
+  weights.first.reserve(old_from_new.size() + 1);
+  for (const std::uint32_t old : old_from_new) weights.append(from.weights.of(old));
   mesh.weights = std::move(weights);
   for (Triangle& triangle : mesh.triangles)
     for (std::uint32_t& vertex : triangle) vertex = new_from_old[vertex];
-  return {};
+  return mesh;
+}
+
+}  // namespace
+
+Result<std::vector<std::uint32_t>> order_for_skinning(const Mesh& mesh) {
+  return or_out_of_memory([&]() -> Result<std::vector<std::uint32_t>> { return find_order(mesh); });
+}
+
+Status reorder_vertices(Mesh& mesh, std::span<const std::uint32_t> old_from_new) {
+  const std::uint32_t count = mesh.vertex_count();
+  if (old_from_new.size() != count)
+    return Status::failure(StatusCode::size_mismatch, kNone,
+                           "the order has %zu entries, the mesh has %u vertices",
+                           old_from_new.size(), count);
+  return or_out_of_memory([&]() -> Status {
+    std::vector<std::uint32_t> new_from_old(count, kNone);
+    for (std::uint32_t v = 0; v < count; ++v) {
+      const std::uint32_t old = old_from_new[v];
+      if (old >= count || new_from_old[old] != kNone)
+        return Status::failure(StatusCode::index_out_of_range, v,
+                               "entry %u: vertex %u does not exist or occurs twice", v, old);
+      new_from_old[old] = v;
+    }
+    mesh = reordered(mesh, old_from_new, new_from_old);
+    return {};
+  });
 }
 
 }  // namespace sunder

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <new>
 
+#include "core/internal/out_of_memory.h"
 #include "skinning/internal/character_pose.h"
 #include "tear/model_state.h"
 #include "tear/surface/weight_change.h"
@@ -69,7 +70,7 @@ Status TornModel::State::reweigh(const WeightsOperation& resolved,
     return no_room(exceeded);
   } catch (const std::bad_alloc&) {
     editor.roll_back(begin);
-    return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
+    return out_of_memory();
   }
   history.push({});
   return {};
@@ -85,23 +86,23 @@ Result<WeightReport> TornModel::reweigh(const WeightsOperation& wanted, ChangeRe
   }
   State& state = *state_;
   if (Status status = state.may_begin(); !status) return status;
-  WeightsOperation resolved = wanted;
-  if (Status status = state.resolve(resolved); !status) return status;
-  auto pose = make_pose(state.character, wanted.pose);
-  if (!pose) return pose.error();
-  CharacterPose palettes;
-  if (Status status = palettes.set(state.character, *pose); !status) return status;
-  resolved.pose = std::move(*pose);
-  WeightReport report;
   try {
+    WeightsOperation resolved = wanted;
+    if (Status status = state.resolve(resolved); !status) return status;
+    auto pose = make_pose(state.character, wanted.pose);
+    if (!pose) return pose.error();
+    CharacterPose palettes;
+    if (Status status = palettes.set(state.character, *pose); !status) return status;
+    resolved.pose = std::move(*pose);
+    WeightReport report;
     const auto points = tear::interpolated_points(state.vertices_of(resolved), state.editor);
     const tear::WeightAssignment assignment =
         tear::compute_weights(points, wanted.weights, palettes, state.editor, report);
     if (Status status = state.reweigh(resolved, assignment, change); !status) return status;
+    return report;
   } catch (const std::bad_alloc&) {
-    return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
+    return out_of_memory();
   }
-  return report;
 }
 
 }  // namespace sunder

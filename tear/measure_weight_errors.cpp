@@ -7,6 +7,7 @@
 #include <new>
 
 #include "core/internal/ordered.h"
+#include "core/internal/out_of_memory.h"
 #include "skinning/internal/character_pose.h"
 #include "tear/model_state.h"
 
@@ -132,7 +133,7 @@ Result<WeightErrors> measure_weight_errors(const TornModel& model, std::uint32_t
       *value = diagonal > 0 ? *value / diagonal : 0.0;
     return errors;
   } catch (const std::bad_alloc&) {
-    return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
+    return out_of_memory();
   }
 }
 

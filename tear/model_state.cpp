@@ -37,9 +37,15 @@ Status TornModel::State::no_room(const tear::CapacityExceeded& exceeded) const {
 }
 
 Status TornModel::State::stand_in(const ModelPose& wanted) {
-  if (Status status = posed.begin(character, wanted); !status) return status;
-  pose = wanted;
-  return {};
+  try {
+    pose.model_from_bone.reserve(wanted.model_from_bone.size());
+    pose.morph_weights.reserve(wanted.morph_weights.size());
+    if (Status status = posed.begin(character, wanted); !status) return status;
+    pose = wanted;
+    return {};
+  } catch (const std::bad_alloc&) {
+    return out_of_memory();
+  }
 }
 
 void TornModel::State::cancel_refits_of(std::uint64_t serial) const {

@@ -4,6 +4,7 @@
 
 #include <new>
 
+#include "core/internal/out_of_memory.h"
 #include "tear/history.h"
 #include "tear/operation/ongoing_stroke.h"
 #include "tear/operation/outcome.h"
@@ -54,7 +55,7 @@ struct TornModel::State {
       return no_room(exceeded);
     } catch (const std::bad_alloc&) {
       take_back();
-      return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
+      return out_of_memory();
     }
     return std::move(report);
   }
@@ -108,7 +109,8 @@ struct TornModel::State {
   /// @return an error while a stroke is under way, or if there is no room for another operation.
   [[nodiscard]] Status may_begin() const;
   [[nodiscard]] Status no_room(const tear::CapacityExceeded& exceeded) const;
-  /// Sets the pose in which points are evaluated. On failure the old pose stays.
+  /// Sets the pose in which points are evaluated. On failure the old pose stays. Fails only for a
+  /// pose that does not fit, once the model stood in one.
   [[nodiscard]] Status stand_in(const ModelPose& pose);
   /// Records the operation that began at `begin` and is described by history.next(), so that it can
   /// be undone. An operation that changed nothing is not recorded.

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <map>
+#include <new>
 
+#include "core/internal/out_of_memory.h"
 #include "tear/model_state.h"
 
 namespace sunder {
@@ -57,27 +59,31 @@ ParentBlend blend_of(const tear::SurfaceEditor& editor, std::uint32_t mesh, std:
 
 }  // namespace
 
-ParentBlends parent_blends(const TornModel& model, std::uint32_t mesh) {
+Result<ParentBlends> parent_blends(const TornModel& model, std::uint32_t mesh) {
   const tear::SurfaceEditor& editor = model.state_->editor;
-  ParentBlends result;
-  std::map<std::uint32_t, std::size_t> level_of;  // per exact vertex
-  std::vector<std::vector<ParentBlend>> levels;
-  for (const std::uint32_t vertex : editor.exact.of(mesh).vertices) {
-    const ParentBlend blend = blend_of(editor, mesh, vertex);
-    std::size_t level = 0;
-    for (const std::uint32_t parent : blend.parents)
-      if (const auto known = level_of.find(parent); known != level_of.end())
-        level = std::max(level, known->second + 1);
-    level_of.emplace(vertex, level);
-    if (level >= levels.size()) levels.resize(level + 1);
-    levels[level].push_back(blend);
-  }
-  for (const auto& of_level : levels) {
+  try {
+    ParentBlends result;
+    std::map<std::uint32_t, std::size_t> level_of;  // per exact vertex
+    std::vector<std::vector<ParentBlend>> levels;
+    for (const std::uint32_t vertex : editor.exact.of(mesh).vertices) {
+      const ParentBlend blend = blend_of(editor, mesh, vertex);
+      std::size_t level = 0;
+      for (const std::uint32_t parent : blend.parents)
+        if (const auto known = level_of.find(parent); known != level_of.end())
+          level = std::max(level, known->second + 1);
+      level_of.emplace(vertex, level);
+      if (level >= levels.size()) levels.resize(level + 1);
+      levels[level].push_back(blend);
+    }
+    for (const auto& of_level : levels) {
+      result.level_begin.push_back(static_cast<std::uint32_t>(result.blends.size()));
+      result.blends.insert(result.blends.end(), of_level.begin(), of_level.end());
+    }
     result.level_begin.push_back(static_cast<std::uint32_t>(result.blends.size()));
-    result.blends.insert(result.blends.end(), of_level.begin(), of_level.end());
+    return result;
+  } catch (const std::bad_alloc&) {
+    return out_of_memory();
   }
-  result.level_begin.push_back(static_cast<std::uint32_t>(result.blends.size()));
-  return result;
 }
 
 }  // namespace sunder

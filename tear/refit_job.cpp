@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <new>
 
+#include "core/internal/out_of_memory.h"
 #include "tear/model_state.h"
 
 namespace sunder {
@@ -15,12 +16,12 @@ Result<RefitJob> RefitJob::create(TornModel& model, const WeightsOperation& want
   if (wanted.weights.policy != WeightPolicy::refit)
     return Status::failure(StatusCode::invalid_argument, kNone,
                            "a refit job needs the policy 'refit'");
-  WeightsOperation resolved = wanted;
-  if (Status status = state.resolve(resolved); !status) return status;
-  resolved.pose = RestPose{};
-  auto poses = PoseSet::create(state.source, wanted.refit.poses);
-  if (!poses) return poses.error();
   try {
+    WeightsOperation resolved = wanted;
+    if (Status status = state.resolve(resolved); !status) return status;
+    resolved.pose = RestPose{};
+    auto poses = PoseSet::create(state.source, wanted.refit.poses);
+    if (!poses) return poses.error();
     const tear::VertexRanges ranges = state.vertices_of(resolved);
     const auto points = tear::interpolated_points(ranges, state.editor);
     WeightReport report;
@@ -38,7 +39,7 @@ Result<RefitJob> RefitJob::create(TornModel& model, const WeightsOperation& want
     state.refits.push_back(task);
     return RefitJob(std::move(task));
   } catch (const std::bad_alloc&) {
-    return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
+    return out_of_memory();
   }
 }
 

@@ -2,6 +2,8 @@
 #include <sunder/tear/tear_stroke.h>
 #include <sunder/tear/torn_model.h>
 
+#include "core/internal/out_of_memory.h"
+
 namespace sunder {
 namespace {
 
@@ -9,9 +11,10 @@ class Replay {
   /// Runs one call of the model and keeps its record.
   template <class Call>
   auto step(Call call) const {
-    ChangeRecord change;
-    auto outcome = call(changes_ != nullptr ? &change : nullptr);
-    if (outcome && changes_ != nullptr) changes_->push_back(std::move(change));
+    if (changes_ == nullptr) return call(nullptr);
+    changes_->emplace_back();  // first, so that nothing fails after the call
+    auto outcome = call(&changes_->back());
+    if (!outcome) changes_->pop_back();
     return outcome;
   }
 
@@ -46,24 +49,35 @@ class Replay {
     return report;
   }
   Result<TearReport> operator()(const UndoOperation& operation) const {
-    return repeat(operation.count, model_.undo_count(), "undone", &TornModel::undo);
+    return repeat(operation.count, model_.undo_count(), "undone", &TornModel::undo,
+                  &TornModel::redo);
   }
   Result<TearReport> operator()(const RedoOperation& operation) const {
-    return repeat(operation.count, model_.redo_count(), "redone", &TornModel::redo);
+    return repeat(operation.count, model_.redo_count(), "redone", &TornModel::redo,
+                  &TornModel::undo);
   }
 
  private:
+  using Step = Status (TornModel::*)(ChangeRecord*);
+
+  /// @param back  reverts what `once` does; it needs no memory right after it.
   Result<TearReport> repeat(std::uint32_t count, std::uint32_t available, const char* what,
-                            Status (TornModel::*once)(ChangeRecord*)) const {
+                            Step once, Step back) const {
     if (count > available)
       return Status::failure(StatusCode::not_found, kNone,
                              "%u operations are to be %s, but there are only %u", count, what,
                              available);
     for (std::uint32_t i = 0; i < count; ++i)
-      if (Status status = step([&](ChangeRecord* change) { return (model_.*once)(change); });
-          !status)
+      if (Status status = try_step(once); !status) {
+        for (; i > 0; --i) (void)(model_.*back)(nullptr);
         return status;
+      }
     return TearReport{};
+  }
+
+  [[nodiscard]] Status try_step(Step once) const {
+    return or_out_of_memory(
+        [&] { return step([&](ChangeRecord* change) { return (model_.*once)(change); }); });
   }
 
   Result<TearReport> tear_while_moving(const ModelPose& first_pose,
@@ -84,15 +98,12 @@ class Replay {
     if (operation.stroke.size() < 2)
       return Status::failure(StatusCode::invalid_argument, kNone,
                              "a stroke needs at least two blades");
-    const std::size_t changes_before = changes_ != nullptr ? changes_->size() : 0;
     auto stroke =
         TearStroke::create(model_, first_pose, operation.stroke.front(), operation.options);
     if (!stroke) return stroke.error();
     auto report = tear_blade_by_blade(*stroke, first_pose, poses, operation);
     if (report) return report;
-    // A stroke that fails midway is cancelled as a whole.
-    (void)stroke->cancel();
-    if (changes_ != nullptr) changes_->resize(changes_before);
+    (void)stroke->cancel();  // a stroke that fails midway is cancelled as a whole
     return report;
   }
 
@@ -121,7 +132,10 @@ class Replay {
 
 Result<TearReport> apply_operation(TornModel& model, const Operation& operation,
                                    std::vector<ChangeRecord>* changes) {
-  return std::visit(Replay(model, changes), operation);
+  const std::size_t changes_before = changes != nullptr ? changes->size() : 0;
+  auto report = or_out_of_memory([&] { return std::visit(Replay(model, changes), operation); });
+  if (!report && changes != nullptr) changes->resize(changes_before);
+  return report;
 }
 
 }  // namespace sunder

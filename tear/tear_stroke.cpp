@@ -2,10 +2,10 @@
 
 #include <cmath>
 #include <new>
-#include <unordered_set>
 #include <utility>
 
 #include "core/internal/ordered.h"
+#include "core/internal/out_of_memory.h"
 #include "skinning/internal/same_bits.h"
 #include "tear/geometry/tolerances.h"
 #include "tear/model_state.h"
@@ -73,7 +73,6 @@ struct TearStroke::State {
   ModelPose pose_before = {};
   /// Points with their posed positions in that pose, if the pose was left.
   std::vector<std::pair<Index, Vec3d>> found_before = {};
-  std::unordered_set<Index> opened_before = {};  ///< The opened edges of the editor.
   /// Once it is true the model is not used any more: it may be destroyed or have another stroke.
   bool has_ended = false;
 
@@ -117,9 +116,8 @@ struct TearStroke::State {
     try {
       stroke_before = model->stroke;
       pose_before = model->pose;
-      opened_before = model->editor.opened_edges.half_edges();
     } catch (const std::bad_alloc&) {
-      return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
+      return out_of_memory();
     }
     found_before.clear();
     const Index first_before = first_in_pose;
@@ -131,7 +129,6 @@ struct TearStroke::State {
     operation.stroke.resize(blades);
     operation.pose_changes.resize(poses);
     first_in_pose = first_before;
-    model->editor.opened_edges.restore(opened_before);
     if (!same_bits(pose_before, model->pose)) {
       (void)model->stand_in(pose_before);
       for (const auto& [point, found] : found_before) model->posed.pin(point, found);
@@ -169,7 +166,7 @@ Result<TearStroke> TearStroke::create(TornModel& model, const ModelPose& pose, c
     of_model.has_stroke = true;
     return TearStroke(std::move(state));
   } catch (const std::bad_alloc&) {
-    return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
+    return out_of_memory();
   }
 }
 
@@ -192,7 +189,7 @@ Result<TearReport> TearStroke::extend(const ModelPose& pose, const Blade& blade,
     try {
       state.held = State::Held{pose, blade};
     } catch (const std::bad_alloc&) {
-      return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
+      return out_of_memory();
     }
     if (change != nullptr) *change = {};
     return TearReport{};
@@ -244,7 +241,7 @@ Status TearStroke::cancel(ChangeRecord* change) {
   } catch (const tear::CapacityExceeded& exceeded) {
     return model.no_room(exceeded);
   } catch (const std::bad_alloc&) {
-    return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
+    return out_of_memory();
   }
   model.editor.roll_back(state.begin);
   model.posed.forget_from(state.begin.points);

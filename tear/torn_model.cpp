@@ -4,6 +4,7 @@
 #include <new>
 #include <utility>
 
+#include "core/internal/out_of_memory.h"
 #include "tear/internal/surface.h"
 #include "tear/model_state.h"
 #include "tear/operation/cut.h"
@@ -35,7 +36,7 @@ Result<TornModel> TornModel::create(std::shared_ptr<const Character> source,
   try {
     return TornModel(std::make_unique<State>(std::move(source), capacity));
   } catch (const std::bad_alloc&) {
-    return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
+    return out_of_memory();
   }
 }
 
@@ -105,21 +106,19 @@ Status TornModel::undo(ChangeRecord* change) {
   if (state.history.done().empty())
     return Status::failure(StatusCode::not_found, kNone, "there is nothing to undo");
   tear::History::Entry& last = *state.history.done().back();
-  ChangeRecord unwanted;
-  ChangeRecord& record = change != nullptr ? *change : unwanted;
   try {
     state.editor.scratch().reset();
     state.history.make_room_to_undo();
     if (std::holds_alternative<WeightsOperation>(last.operation)) {
-      tear::describe_weights(last.weights, state.editor, record);
+      if (change != nullptr) tear::describe_weights(last.weights, state.editor, *change);
       tear::exchange_weights(last.weights, state.editor);
     } else {
-      state.editor.undo(last.begin, last.redo, record);
+      state.editor.undo(last.begin, last.redo, change);
     }
   } catch (const tear::CapacityExceeded& exceeded) {
     return state.no_room(exceeded);
   } catch (const std::bad_alloc&) {
-    return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
+    return out_of_memory();
   }
   state.cancel_refits_of(last.serial);
   state.history.move_to_undone();
@@ -132,8 +131,6 @@ Status TornModel::redo(ChangeRecord* change) {
   if (state.history.undone().empty())
     return Status::failure(StatusCode::not_found, kNone, "there is nothing to redo");
   tear::History::Entry& last = *state.history.undone().back();
-  ChangeRecord unwanted;
-  ChangeRecord& record = change != nullptr ? *change : unwanted;
   try {
     // The memory for lips and rims is reserved before anything changes.
     std::vector<tear::RimPoint> rim_points;
@@ -141,23 +138,23 @@ Status TornModel::redo(ChangeRecord* change) {
       const auto lips = state.history.lips_of(last);
       const auto told = state.history.rim_points_of(last);
       rim_points.assign(told.begin(), told.end());
-      record.lips.assign(lips.begin(), lips.end());
-      record.rims.left.reserve(told.size());
-      record.rims.right.reserve(told.size());
+      change->lips.assign(lips.begin(), lips.end());
+      change->rims.left.reserve(told.size());
+      change->rims.right.reserve(told.size());
     }
     state.editor.scratch().reset();
     last.begin = state.editor.mark();
     if (std::holds_alternative<WeightsOperation>(last.operation)) {
-      tear::describe_weights(last.weights, state.editor, record);
+      if (change != nullptr) tear::describe_weights(last.weights, state.editor, *change);
       tear::exchange_weights(last.weights, state.editor);
     } else {
-      state.editor.redo(last.redo, record);
-      tear::settle_rims(rim_points, state.editor.surface(), record.rims);
+      state.editor.redo(last.redo, change);
+      if (change != nullptr) tear::settle_rims(rim_points, state.editor.surface(), change->rims);
     }
   } catch (const tear::CapacityExceeded& exceeded) {
     return state.no_room(exceeded);
   } catch (const std::bad_alloc&) {
-    return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
+    return out_of_memory();
   }
   state.history.move_to_done();
   return {};
@@ -204,10 +201,14 @@ std::uint64_t TornModel::newest_operation() const {
 
 bool TornModel::is_in_stroke() const { return state_->has_stroke; }
 
-std::vector<Operation> TornModel::history() const {
-  std::vector<Operation> operations;
-  for (const auto& entry : state_->history.done()) operations.push_back(entry->operation);
-  return operations;
+Result<std::vector<Operation>> TornModel::history() const {
+  try {
+    std::vector<Operation> operations;
+    for (const auto& entry : state_->history.done()) operations.push_back(entry->operation);
+    return operations;
+  } catch (const std::bad_alloc&) {
+    return out_of_memory();
+  }
 }
 
 Result<CompactMaps> TornModel::compact() {
@@ -222,7 +223,7 @@ Result<CompactMaps> TornModel::compact() {
     state_ = std::move(compacted);
     return maps;
   } catch (const std::bad_alloc&) {
-    return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
+    return out_of_memory();
   }
 }
 

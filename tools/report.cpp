@@ -119,7 +119,7 @@ Result<OperationOutcome> play(const Operation& operation, const TopologyCounts& 
   OperationOutcome outcome{names.op,        names.done, has_missed, *report,
                            elapsed.count(), 0.0,        before,     before};
   if (has_missed) return outcome;
-  outcome.after = count_topology(model.character());
+  outcome.after = *count_topology(model.character());
   if (!names.can_miss) return outcome;  // It created no points.
   const Result<double> error = greatest_weight_error(model, operation);
   if (!error) return error.error();

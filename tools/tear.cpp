@@ -84,7 +84,7 @@ Result<Json> weight_errors_of(TornModel& model, const std::shared_ptr<const Char
 /// @return false if there is no picture, which is reported.
 bool draw_picture(const LoadedCharacter& loaded, const TornModel& model,
                   const std::filesystem::path& png) {
-  const std::vector<Operation> history = model.history();
+  const std::vector<Operation> history = *model.history();
   Status status;
   if (history.empty())
     status = Status::failure(StatusCode::empty_input, kNone,
@@ -126,7 +126,7 @@ ExitCode play_operations(const std::vector<Operation>& operations, TearRun& run,
   }
   progress.begin_step(operations.size() + 1, "weighing");
   if (!run.weighing.refit_over) return ExitCode::ok;
-  for (const WeightsOperation& refit : refits_of(run.model.history(), *run.weighing.refit_over)) {
+  for (const WeightsOperation& refit : refits_of(*run.model.history(), *run.weighing.refit_over)) {
     const Result<OperationOutcome> outcome = play(refit, run.current, run.model);
     if (!outcome)
       return complain(run.request.model.string() + ": --weights refit", outcome.error(),
@@ -162,7 +162,7 @@ ExitCode write_files(const TearRun& run, const std::string& report) {
   if (const Status status = report_file.status(); !status)
     return complain(request.report->string(), status, ExitCode::unreadable_input);
   TextBesideModel log_file(request.log,
-                           request.log ? format_operations(run.model.history()) : std::string());
+                           request.log ? *format_operations(*run.model.history()) : std::string());
   if (const Status status = log_file.status(); !status)
     return complain(request.log->string(), status, ExitCode::unreadable_input);
   if (const Status status =
@@ -195,7 +195,7 @@ ExitCode run_tear(const TearRequest& request) {
   if (const Status status = model->set_weights(weighing->options); !status)
     return complain("--weights", status, ExitCode::usage);
 
-  const TopologyCounts counts = count_topology(*loaded->character);
+  const TopologyCounts counts = *count_topology(*loaded->character);
   TearRun run{request, *loaded, std::move(*model), *weighing, counts, counts};
   if (const ExitCode code = play_operations(*operations, run, progress); code != ExitCode::ok)
     return code;

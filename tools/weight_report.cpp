@@ -110,7 +110,7 @@ Result<Json> weight_errors_json(const TornModel& model, const std::vector<Measur
 }
 
 Result<Json> written_weight_errors_json(TornModel& model, const std::vector<MeasuredPoses>& sets) {
-  const std::vector<PointsOfOperation> points = points_of_history(model.history());
+  const std::vector<PointsOfOperation> points = points_of_history(*model.history());
   std::vector<WeightsOperation> as_written;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!points[i].are_there || points[i].weights.policy != WeightPolicy::exact) continue;
@@ -137,7 +137,7 @@ Result<Json> weight_errors_by_policy_json(TornModel& model, std::shared_ptr<cons
     operation.pose = pose;
     if (policy == WeightPolicy::refit) {
       if (!*over) continue;
-      operation.refit.poses = pose_set_of(**over);
+      operation.refit.poses = pose_set_of(*over);
     }
     Result<Json> errors = measure_as({operation}, *sets, model);
     if (!errors) return errors.error();

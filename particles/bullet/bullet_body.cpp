@@ -88,6 +88,7 @@ void BulletBody::after_step() { particles_->after_step(); }
 std::span<const Vec4f> BulletBody::displacements() const { return particles_->displacements(); }
 std::uint32_t BulletBody::particle_count() const { return particles_->bodies().count(); }
 btRigidBody& BulletBody::body(std::uint32_t particle) const {
+  SUNDER_ASSERT(particle < particle_count());
   return particles_->bodies()[particle];
 }
 

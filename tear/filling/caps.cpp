@@ -8,6 +8,7 @@
 #include "tear/geometry/tolerances.h"
 #include "tear/internal/surface.h"
 #include "tear/section/flat_section.h"
+#include "tear/surface/append_filling.h"
 #include "tear/surface/rim.h"
 
 namespace sunder::tear {
@@ -305,7 +306,7 @@ class Caps {
         made.morph_displacements.emplace_back(
             inner.block<1, 3>(i, first_morph + 3 * t).transpose());
       vertices.push_back(filling_.add_inner_vertex(mesh, vertices.front(), made));
-      points.push_back(work_.editor.connectivity.append_point());
+      points.push_back(append_filling_point(work_.editor));
       work_.posed.pin(points.back(), frame_.lift(places[rim_count + static_cast<std::size_t>(i)]));
     }
   }

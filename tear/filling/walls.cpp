@@ -8,6 +8,7 @@
 #include "tear/geometry/tolerances.h"
 #include "tear/internal/surface.h"
 #include "tear/section/flat_section.h"
+#include "tear/surface/append_filling.h"
 #include "tear/surface/rim.h"
 
 namespace sunder::tear {
@@ -64,7 +65,7 @@ class Walls {
     return {point, vertex};
   }
   [[nodiscard]] Index add_point(const Vec3d& at) {
-    const Index point = work_.editor.connectivity.append_point();
+    const Index point = append_filling_point(work_.editor);
     work_.posed.pin(point, at);
     return point;
   }

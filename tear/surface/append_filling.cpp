@@ -7,6 +7,11 @@ Index append_submesh(Index mesh, const std::string& name, Index material, Surfac
   return editor.fillings.append_submesh(mesh, name, material);
 }
 
+Index append_filling_point(SurfaceEditor& editor) {
+  editor.room.make_for_point();
+  return editor.connectivity.append_point();
+}
+
 Index append_filling(Index mesh, Index submesh, const std::array<Index, 3>& points,
                      const Triangle& vertices, SurfaceEditor& editor) {
   editor.room.make_for_triangles(mesh, 1);

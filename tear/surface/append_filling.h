@@ -12,6 +12,9 @@ namespace sunder::tear {
 [[nodiscard]] Index append_submesh(Index mesh, const std::string& name, Index material,
                                    SurfaceEditor& editor);
 
+/// Appends a point of a wall or cap. @return the point, which has no corner yet.
+[[nodiscard]] Index append_filling_point(SurfaceEditor& editor);
+
 /// Appends a triangle that no triangle of the source covers. It is not connected, see connect().
 /// @return the triangle of the surface.
 Index append_filling(Index mesh, Index submesh, const std::array<Index, 3>& points,

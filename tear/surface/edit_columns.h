@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <iterator>
 #include <vector>
 
 #include "tear/internal/surface.h"
@@ -63,6 +64,12 @@ struct MeshColumns {
   std::vector<Index> surface_triangles;        ///< Per appended triangle: its index in the surface.
   std::vector<Triangle> fillings;              ///< Per triangle of a wall or cap, as it was made.
   std::vector<std::uint64_t> filling_serials;  ///< Per filling.
+  /// Per origin (triangles of the source, then fillings): its part that was appended last.
+  std::vector<Index> newest_part;
+  /// Index of _TEARSIDE in the mesh's custom attributes; kNone if it has none.
+  Index tear_side = kNone;
+  /// Memory for the values of _TEARSIDE while the mesh lacks it, all zero.
+  std::vector<float> spare_sides;
 };
 
 /// Everything that operations append to, apart from the meshes of the character.
@@ -168,6 +175,7 @@ void for_each_mesh_column(Index mesh, Visit visit, Tables&... of) {
   visit(Column{Rows::mesh_triangles}, of.edit.meshes[mesh].surface_triangles...);
   visit(Column{Rows::mesh_fillings}, of.edit.meshes[mesh].fillings...);
   visit(Column{Rows::mesh_fillings, 1, false}, of.edit.meshes[mesh].filling_serials...);
+  visit(Column{Rows::mesh_fillings, 1, false}, of.edit.meshes[mesh].newest_part...);
   visit(Column{Rows::mesh_submeshes}, of.meshes[mesh].submeshes...);
 }
 
@@ -189,11 +197,13 @@ inline void copy_last(std::size_t count, MeshVertices<Mesh> of, MeshVertices<Mes
   tail.mesh = copy_vertices_from(of.mesh.vertex_count() - static_cast<Index>(count), of.mesh);
 }
 
+/// Moves the rows, because copies of names may need memory. There must be room.
 template <class Value>
-void append_all(const std::vector<Value>& tail, std::vector<Value>& values) {
-  values.insert(values.end(), tail.begin(), tail.end());
+void append_all(std::vector<Value>& tail, std::vector<Value>& values) {
+  values.insert(values.end(), std::make_move_iterator(tail.begin()),
+                std::make_move_iterator(tail.end()));
 }
-inline void append_all(MeshVertices<const Mesh> tail, MeshVertices<Mesh> of) {
+inline void append_all(MeshVertices<Mesh> tail, MeshVertices<Mesh> of) {
   append_vertices(tail.mesh, of.mesh);
 }
 

@@ -2,7 +2,7 @@
 
 namespace sunder::tear {
 
-EditLog::Mark EditLog::mark(Index next_side) {
+EditLog::Mark EditLog::mark(Index next_side, Index opened_changes) {
   newest_mark_ = {columns_.surface.point_count(),
                   columns_.surface.triangle_count(),
                   static_cast<Index>(columns_.vertex_mesh.size()),
@@ -10,7 +10,8 @@ EditLog::Mark EditLog::mark(Index next_side) {
                   static_cast<Index>(columns_.kept_births.size()),
                   next_side,
                   static_cast<Index>(columns_.triangle_changes.size()),
-                  static_cast<Index>(columns_.side_changes.size())};
+                  static_cast<Index>(columns_.side_changes.size()),
+                  opened_changes};
   return newest_mark_;
 }
 
@@ -29,9 +30,10 @@ TriangleChange EditLog::describe(Index triangle) const {
 }
 
 void EditLog::append(Index triangle, Index previous) {
-  columns_.newest_change[triangle] = static_cast<Index>(columns_.triangle_changes.size());
-  columns_.triangle_changes.push_back(describe(triangle));
-  columns_.triangle_changes.back().previous = previous;
+  auto& changes = columns_.triangle_changes;
+  changes.push_back(describe(triangle));
+  changes.back().previous = previous;
+  columns_.newest_change[triangle] = static_cast<Index>(changes.size() - 1);
 }
 
 void EditLog::restore(const TriangleChange& change) {

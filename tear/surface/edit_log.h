@@ -21,6 +21,9 @@ class EditLog {
     Index next_side = 1;
     Index triangle_changes = 0;
     Index side_changes = 0;
+    Index opened_changes = 0;  ///< OpenedEdges::change_count().
+
+    bool operator==(const Mark&) const = default;
   };
 
   EditLog(Character& character, EditColumns& columns)
@@ -28,7 +31,7 @@ class EditLog {
 
   /// Sets a new mark. Triangles that were logged or appended earlier are logged again when they
   /// change. O(1).
-  Mark mark(Index next_side);
+  Mark mark(Index next_side, Index opened_changes);
   /// Sets the mark after a roll back.
   void set_mark(const Mark& mark) { newest_mark_ = mark; }
 

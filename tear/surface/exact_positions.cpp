@@ -117,11 +117,20 @@ void ExactPositions::forget_from(Index mesh, Index first) {
 
 void ExactPositions::update_from(Index mesh, Index first) {
   forget_from(mesh, first);
+  const Mesh& of = character_.meshes[mesh];
   const Index source_count = source_.meshes[mesh].vertex_count();
-  for (Index vertex = std::max(first, source_count);
-       vertex < character_.meshes[mesh].vertex_count(); ++vertex)
-    if (columns_.meshes[mesh].records[vertex - source_count].policy == WeightPolicy::exact)
-      append(mesh, vertex);
+  const auto for_each_exact = [&](auto visit) {
+    for (Index vertex = std::max(first, source_count); vertex < of.vertex_count(); ++vertex)
+      if (columns_.meshes[mesh].records[vertex - source_count].policy == WeightPolicy::exact)
+        visit(vertex);
+  };
+  std::size_t vertices = 0, influences = 0;
+  for_each_exact([&](Index vertex) {
+    ++vertices;
+    influences += of.weights.of(vertex).size();
+  });
+  reserve(mesh, vertices, influences);  // so that no vertex is left half appended
+  for_each_exact([&](Index vertex) { append(mesh, vertex); });
 }
 
 }  // namespace sunder::tear

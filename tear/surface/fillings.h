@@ -37,7 +37,7 @@ class Fillings {
         source_.meshes[mesh].triangle_count() + static_cast<Index>(fillings.size());
     fillings.push_back(vertices);
     columns_.additions.push_back({Addition::Kind::filling, mesh});
-    give_serials(mesh);
+    complete(mesh);
     return origin;
   }
   /// @return the index of the new submesh. There must be room.
@@ -47,11 +47,13 @@ class Fillings {
     columns_.additions.push_back({Addition::Kind::submesh, mesh});
     return static_cast<Index>(submeshes.size() - 1);
   }
-  /// Assigns serials to the fillings that have none.
-  void give_serials(Index mesh) {
+  /// Appends the rows of the newest fillings that redo recomputes: new serials, and no parts.
+  void complete(Index mesh) {
     MeshColumns& of = columns_.meshes[mesh];
-    while (of.filling_serials.size() < of.fillings.size())
+    while (of.filling_serials.size() < of.fillings.size()) {
       of.filling_serials.push_back(next_serial_++);
+      of.newest_part.push_back(kNone);
+    }
   }
 
  private:

@@ -94,8 +94,9 @@ void LineSplitter::make_room(const FaceSplit& behind, Index half_edge, Index tri
   const Index twin = editor_.surface().twin[half_edge];
   const Index mesh_ahead = twin == kNone ? mesh : editor_.surface().triangle(twin / 3).mesh;
   if (mesh_ahead == mesh) return;
-  editor_.room.make_for_vertices(mesh_ahead, 1, influences);
-  editor_.room.make_for_triangles(mesh_ahead, 1);
+  // The columns that all meshes share need room for the rows of both.
+  editor_.room.make_for_vertices(mesh_ahead, 3, influences);
+  editor_.room.make_for_triangles(mesh_ahead, triangles + 2);
 }
 
 void LineSplitter::append_vertices(const FaceSplit& behind, Index half_edge, double fraction,

@@ -27,6 +27,10 @@ bool comes_with_triangles(Rows rows) {
 template <class Values>
 constexpr bool kIsMeshVertices = std::is_same_v<std::remove_cvref_t<Values>, MeshVertices<Mesh>>;
 
+std::size_t room_for_influences(const Mesh& mesh) {
+  return mesh.weights.influences.capacity() - mesh.weights.influences.size();
+}
+
 /// Number of rows of a column for which a model of fixed capacity reserves memory.
 std::size_t fixed_rows(Rows rows, const TornCapacity& capacity, std::size_t mesh_count) {
   if (comes_with_vertices(rows)) return capacity.vertices;
@@ -56,8 +60,19 @@ void Room::reserve(const TornCapacity& capacity) {
     }
   };
   for_each_common_column(reserve_column, columns_);
-  for (Index m = 0; m < columns_.meshes.size(); ++m)
+  for (Index m = 0; m < columns_.meshes.size(); ++m) {
     for_each_mesh_column(m, reserve_column, columns_);
+    if (is_fixed_) make_for_tear_sides(m, capacity.vertices);
+  }
+}
+
+/// Makes room for the values of _TEARSIDE of all vertices and of `count` more, where a mesh lacks
+/// the attribute: it is added in the middle of an edit.
+void Room::make_for_tear_sides(Index mesh, std::size_t count) {
+  MeshColumns& columns = columns_.edit.meshes[mesh];
+  const std::size_t vertices = columns_.meshes[mesh].vertex_count();
+  if (columns.tear_side == kNone && columns.spare_sides.capacity() < vertices + count)
+    columns.spare_sides.reserve(vertices + (is_fixed_ ? count : growth(vertices, count)));
 }
 
 template <class Value>
@@ -87,19 +102,26 @@ std::size_t Room::make_in_columns(Index mesh, std::size_t count, const char* wha
 }
 
 void Room::find_for_vertices(Index mesh, Index count, Index influences) {
+  make_in_mesh(mesh, count, influences);
+  make_for_tear_sides(mesh, count);
+  const std::size_t room = make_in_columns(mesh, count, "vertices", comes_with_vertices);
+  const Mesh& of = columns_.meshes[mesh];
+  const MeshColumns& columns = columns_.edit.meshes[mesh];
+  known_.vertices_of = mesh;
+  known_.vertices = std::min(room, room_for_vertices(of));
+  if (columns.tear_side == kNone)
+    known_.vertices = std::min(known_.vertices, columns.spare_sides.capacity() - of.vertex_count());
+  known_.influences = room_for_influences(of);
+}
+
+/// Makes room in the arrays of a mesh.
+void Room::make_in_mesh(Index mesh, std::size_t count, std::size_t influences) {
   Mesh& of = columns_.meshes[mesh];
-  const auto room_for_influences = [&] {
-    return of.weights.influences.capacity() - of.weights.influences.size();
-  };
-  if (room_for_vertices(of) < count || room_for_influences() < influences) {
+  if (room_for_vertices(of) < count || room_for_influences(of) < influences) {
     if (is_fixed_) throw CapacityExceeded{"vertices"};
     reserve_vertices(growth(of.vertex_count(), count),
                      growth(of.weights.influences.size(), influences), of);
   }
-  const std::size_t room = make_in_columns(mesh, count, "vertices", comes_with_vertices);
-  known_.vertices_of = mesh;
-  known_.vertices = std::min(room, room_for_vertices(of));
-  known_.influences = room_for_influences();
 }
 
 void Room::find_for_triangles(Index mesh, Index count) {
@@ -123,6 +145,41 @@ void Room::make_for_kept_birth(std::size_t influences) {
 void Room::make_for_influences(Index mesh, std::size_t more) {
   auto& influences = columns_.meshes[mesh].weights.influences;
   if (influences.capacity() - influences.size() < more) grow(influences, more, "influences");
+}
+
+void Room::make_for_point() {
+  make_in_columns(0, 1, "points", [](Rows rows) { return rows == Rows::points; });
+}
+
+void Room::make_for_tails(const ColumnTails& tails) {
+  // Rows that a model of fixed capacity had before an undo fit again; others are not limited.
+  const auto make = [](std::size_t more, auto& values) {
+    if (values.capacity() - values.size() < more)
+      values.reserve(values.size() + growth(values.size(), more));
+  };
+  for_each_common_column(
+      [&](const Column& column, auto&& values, auto&& tail) {
+        if (column.is_kept) make(tail.size(), values);
+      },
+      columns_, tails);
+  make(tails.edit.surface.appended.size(), columns_.edit.older_part);
+  make(tails.edit.surface.appended.size(), columns_.edit.newest_change);
+  for (Index m = 0; m < columns_.meshes.size(); ++m) {
+    const MeshColumns& tail_of_mesh = tails.edit.meshes[m];
+    make_in_mesh(m, tail_of_mesh.records.size(), tails.meshes[m].weights.influences.size());
+    for_each_mesh_column(
+        m,
+        [&](const Column& column, auto&& values, auto&& tail) {
+          if constexpr (!kIsMeshVertices<decltype(values)>)
+            if (column.is_kept) make(tail.size(), values);
+        },
+        columns_, tails);
+    make(tail_of_mesh.fillings.size(), columns_.edit.meshes[m].filling_serials);
+    make(tail_of_mesh.fillings.size(), columns_.edit.meshes[m].newest_part);
+  }
+  for (const Addition& addition : tails.edit.additions)
+    if (addition.kind == Addition::Kind::tear_sides)
+      make_for_tear_sides(addition.mesh, tails.edit.meshes[addition.mesh].records.size());
 }
 
 Index Room::influence_count(Index mesh, const Triangle& of) const {

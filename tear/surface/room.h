@@ -42,6 +42,10 @@ class Room {
   /// the number of vertices is limited.
   void make_for_kept_birth(std::size_t influences);
   void make_for_influences(Index mesh, std::size_t more);
+  /// Makes room for a point without a vertex.
+  void make_for_point();
+  /// Makes room for the rows that undo kept, and for those that redo recomputes.
+  void make_for_tails(const ColumnTails& tails);
   /// To be called after columns grew in another way.
   void forget() { known_ = {}; }
 
@@ -56,6 +60,8 @@ class Room {
   };
 
   void find_for_vertices(Index mesh, Index count, Index influences);
+  void make_for_tear_sides(Index mesh, std::size_t count);
+  void make_in_mesh(Index mesh, std::size_t count, std::size_t influences);
   void find_for_triangles(Index mesh, Index count);
   template <class IsMeant>
   std::size_t make_in_columns(Index mesh, std::size_t count, const char* what, IsMeant is_meant);

@@ -14,6 +14,8 @@ EditColumns columns_of(const Character& character) {
   columns.surface = build_surface(character);
   columns.meshes.resize(character.meshes.size());
   columns.newest_change.assign(columns.surface.triangle_count(), kNone);
+  for (std::size_t m = 0; m < columns.meshes.size(); ++m)
+    columns.meshes[m].newest_part.assign(character.meshes[m].triangle_count(), kNone);
   return columns;
 }
 
@@ -47,12 +49,12 @@ void SurfaceEditor::fetch(Index triangle) const {
 }
 
 void SurfaceEditor::reserve(const TornCapacity& capacity) {
+  sides.reserve();
   room.reserve(capacity);
-  sides.reserve(room.is_fixed() ? capacity.vertices : 0);
   if (room.is_fixed()) scratch_.fix(kScratchPerTriangle * capacity.triangles + kLeastScratch);
 }
 
-void SurfaceEditor::roll_back(const EditLog::Mark& to) {
+void SurfaceEditor::roll_back(const EditLog::Mark& to) noexcept {
   log.restore_since(to);
   auto& side_changes = columns_.side_changes;
   for (; side_changes.size() > to.side_changes; side_changes.pop_back())
@@ -79,6 +81,7 @@ void SurfaceEditor::roll_back(const EditLog::Mark& to) {
         remove_last(column.per_row * rows[column.rows], values);
       },
       all);
+  opened_edges.roll_back(to.opened_changes);
   sides.set_next(to.next_side);
   log.set_mark(to);
   stage.roll_back(to.triangles);

@@ -4,6 +4,8 @@
 #include <sunder/tear/change_record.h>
 #include <sunder/tear/torn_model.h>
 
+#include <optional>
+
 #include "tear/surface/births.h"
 #include "tear/surface/connectivity.h"
 #include "tear/surface/edit_columns.h"
@@ -52,20 +54,29 @@ class SurfaceEditor {
   /// Sets the capacity for operations.
   void reserve(const TornCapacity& capacity);
   /// Sets a mark to which the surface can be rolled back. O(1).
-  [[nodiscard]] EditLog::Mark mark() { return log.mark(sides.next()); }
-  void roll_back(const EditLog::Mark& to);
+  [[nodiscard]] EditLog::Mark mark() { return log.mark(sides.next(), opened_edges.change_count()); }
+  /// Restores the state at a mark. Does not allocate.
+  void roll_back(const EditLog::Mark& to) noexcept;
   struct Redo;
-  /// Reverts the most recent operation, which began at `begin`.
-  /// @param redo  written: the input of redo(). @param change  written, except lips and rims.
-  void undo(const EditLog::Mark& begin, Redo& redo, ChangeRecord& change);
-  /// Reapplies an operation. @param change  written, except lips and rims.
-  void redo(const Redo& redo, ChangeRecord& change);
+  /// Reverts the most recent operation, which began at `begin`. Does not allocate without `change`
+  /// if the operation is as redo() left it.
+  /// @param redo    written: the input of redo().
+  /// @param change  optional; written, except lips and rims.
+  /// @throws std::bad_alloc before anything is changed
+  void undo(const EditLog::Mark& begin, Redo& redo, ChangeRecord* change);
+  /// Reapplies an operation. Does not allocate without `change` if nothing was changed since
+  /// undo().
+  /// @param change  optional; written, except lips and rims.
+  /// @throws std::bad_alloc before anything is changed
+  void redo(Redo& redo, ChangeRecord* change);
 
  private:
   [[nodiscard]] ModelColumns all_columns() { return {columns_, character_.meshes}; }
   void keep_rows(const EditLog::Mark& begin, Redo& redo);
   void keep_changes(const EditLog::Mark& begin, Redo& redo);
-  void append_rows(const Redo& redo);
+  void make_room_for(const Redo& redo);
+  void append_rows(Redo& redo);
+  void keep_names(Redo& redo) noexcept;
 
   const Character& source_;
   Character& character_;
@@ -93,6 +104,8 @@ struct SurfaceEditor::Redo {
   /// Old points, with their `point_corner` as the operation left it.
   std::vector<std::array<Index, 2>> known_corners;
   std::vector<SideChange> sides;  ///< Values of _TEARSIDE as the operation left them.
+  /// The state that redo() restored. While nothing was appended to it, the rest is up to date.
+  std::optional<EditLog::Mark> end;
 };
 
 }  // namespace sunder::tear

@@ -5,47 +5,48 @@
 namespace sunder::tear {
 
 TearSides::TearSides(Character& character, EditColumns& columns)
-    : character_(character), columns_(columns), spare_(character.meshes.size()) {
+    : character_(character), columns_(columns) {
   for (const Index side : columns.surface.source_side) next_ = std::max(next_, side + 1);
-  for (const Mesh& mesh : character.meshes) {
-    const auto& attributes = mesh.custom_attributes;
+  for (std::size_t m = 0; m < character.meshes.size(); ++m) {
+    const auto& attributes = character.meshes[m].custom_attributes;
     const auto found = std::find_if(
         attributes.begin(), attributes.end(),
         [](const CustomAttribute& a) { return a.name == kTearSideAttribute && a.components == 1; });
-    attribute_.push_back(
-        found == attributes.end() ? kNone : static_cast<Index>(found - attributes.begin()));
+    if (found != attributes.end())
+      columns.meshes[m].tear_side = static_cast<Index>(found - attributes.begin());
   }
 }
 
 void TearSides::add_to(Index mesh) {
   Mesh& of = character_.meshes[mesh];
-  attribute_[mesh] = static_cast<Index>(of.custom_attributes.size());
-  of.custom_attributes.push_back({kTearSideAttribute, 1, false, std::move(spare_[mesh])});
-  of.custom_attributes.back().values.resize(of.vertex_count(), 0.0f);
+  MeshColumns& columns = columns_.meshes[mesh];
+  columns.spare_sides.resize(of.vertex_count(), 0.0f);
+  of.custom_attributes.push_back({kTearSideAttribute, 1, false, std::move(columns.spare_sides)});
+  columns.tear_side = static_cast<Index>(of.custom_attributes.size() - 1);
 }
 
 void TearSides::remove_from(Index mesh) {
   auto& attributes = character_.meshes[mesh].custom_attributes;
-  spare_[mesh] = std::move(attributes.back().values);
+  columns_.meshes[mesh].spare_sides = std::move(attributes.back().values);
   attributes.pop_back();
-  attribute_[mesh] = kNone;
+  columns_.meshes[mesh].tear_side = kNone;
 }
 
-void TearSides::reserve(std::size_t vertices) {
-  for (std::size_t m = 0; m < spare_.size(); ++m) {
-    Mesh& mesh = character_.meshes[m];
+void TearSides::reserve() {
+  for (Mesh& mesh : character_.meshes)
     mesh.custom_attributes.reserve(mesh.custom_attributes.size() + 1);
-    if (vertices > 0) spare_[m].reserve(mesh.vertex_count() + vertices);
-  }
 }
 
 void TearSides::add_for_operation(Index mesh) {
+  // Memory first: a roll back removes the attribute if, and only if, this addition is listed.
+  auto& additions = columns_.additions;
+  if (additions.size() == additions.capacity()) additions.reserve(2 * additions.size() + 8);
   add_to(mesh);
-  columns_.additions.push_back({Addition::Kind::tear_sides, mesh});
+  additions.push_back({Addition::Kind::tear_sides, mesh});
 }
 
 void TearSides::write(Index mesh, Index vertex, Index side) {
-  if (attribute_[mesh] == kNone) {
+  if (columns_.meshes[mesh].tear_side == kNone) {
     if (side == 0) return;
     add_for_operation(mesh);
   }
@@ -56,7 +57,7 @@ void TearSides::write(Index mesh, Index vertex, Index side) {
 }
 
 void TearSides::write_to_new(Index mesh, Index vertex, Index side) {
-  if (attribute_[mesh] == kNone) add_for_operation(mesh);
+  if (columns_.meshes[mesh].tear_side == kNone) add_for_operation(mesh);
   at(mesh, vertex) = static_cast<float>(side);
 }
 

@@ -23,24 +23,22 @@ class TearSides {
 
   /// The value of a vertex, in a mesh that has the attribute.
   [[nodiscard]] float& at(Index mesh, Index vertex) {
-    return character_.meshes[mesh].custom_attributes[attribute_[mesh]].values[vertex];
+    const Index attribute = columns_.meshes[mesh].tear_side;
+    return character_.meshes[mesh].custom_attributes[attribute].values[vertex];
   }
-  /// Gives a mesh the attribute, all zero.
+  /// Gives a mesh the attribute, all zero. Where memory runs out, nothing changes.
   void add_to(Index mesh);
   /// Removes the attribute; its memory is kept for the next time. All values must be zero.
   void remove_from(Index mesh);
-  /// Reserves room for the attribute with `vertices` more vertices per mesh.
-  void reserve(std::size_t vertices);
+  /// Reserves memory, so that add_to() fails only for want of memory for the values, which Room
+  /// makes room for.
+  void reserve();
 
  private:
   void add_for_operation(Index mesh);
 
   Character& character_;
   EditColumns& columns_;
-  /// Per mesh: index in its custom attributes; kNone if there is none.
-  std::vector<Index> attribute_;
-  /// Per mesh: memory of an attribute that was removed, all zero.
-  std::vector<std::vector<float>> spare_;
   Index next_ = 1;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/internal/ordered.h"
+#include "core/internal/out_of_memory.h"
 #include "tear/geometry/tolerances.h"
 #include "tear/internal/surface.h"
 
@@ -80,9 +81,7 @@ void count_triangles_and_points(const Character& character, const Surface& surfa
   counts.points = static_cast<Index>(std::count(is_used.begin(), is_used.end(), true));
 }
 
-}  // namespace
-
-TopologyCounts count_topology(const Character& character) {
+TopologyCounts count(const Character& character) {
   const Surface surface = tear::build_surface(character);
   TopologyCounts counts;
   for (const Mesh& mesh : character.meshes) counts.vertices += mesh.vertex_count();
@@ -98,6 +97,12 @@ TopologyCounts count_topology(const Character& character) {
   counts.boundary_loops = count_boundary_loops(surface);
   counts.components = count_components(surface);
   return counts;
+}
+
+}  // namespace
+
+Result<TopologyCounts> count_topology(const Character& character) {
+  return or_out_of_memory([&]() -> Result<TopologyCounts> { return count(character); });
 }
 
 }  // namespace sunder

@@ -10,10 +10,7 @@ namespace sunder::tear {
 class TriangleOrigins {
  public:
   TriangleOrigins(const Character& source, const Character& character, EditColumns& columns)
-      : source_(source),
-        character_(character),
-        columns_(columns),
-        newest_part_(character.meshes.size()) {}
+      : source_(source), character_(character), columns_(columns) {}
 
   /// Index in the surface of a triangle of a mesh. Appended triangles are numbered in the order in
   /// which they were made, over all meshes.
@@ -30,8 +27,7 @@ class TriangleOrigins {
     };
     if (origin < source_.meshes[mesh].triangle_count())
       visit_face(surface().first_triangle[mesh] + origin);
-    if (origin >= newest_part_[mesh].size()) return;
-    for (Index part = newest_part_[mesh][origin]; part != kNone;
+    for (Index part = columns_.meshes[mesh].newest_part[origin]; part != kNone;
          part = columns_.older_part[part - source_triangles()])
       visit_face(part);
   }
@@ -61,8 +57,7 @@ class TriangleOrigins {
   [[nodiscard]] bool is_settled(Index triangle) const {
     if (triangle < source_triangles()) {
       const TriangleRef ref = surface().triangle(triangle);
-      if (ref.source_triangle >= newest_part_[ref.mesh].size()) return false;
-      triangle = newest_part_[ref.mesh][ref.source_triangle];
+      triangle = columns_.meshes[ref.mesh].newest_part[ref.source_triangle];
       if (triangle == kNone) return false;
     }
     const Index parent = columns_.parents[triangle - source_triangles()];
@@ -71,17 +66,14 @@ class TriangleOrigins {
   /// Marks the newest triangle as settled.
   void settle_newest() { columns_.parents.back() |= kSettled; }
 
-  /// Links appended triangles into the lists of their origins' parts.
+  /// Links appended triangles into the lists of their origins' parts. There must be room.
   void link_new_parts() {
     for (Index t = source_triangles() + static_cast<Index>(columns_.older_part.size());
          t < surface().triangle_count(); ++t) {
       const TriangleRef ref = surface().triangle(t);
-      std::vector<Index>& newest = newest_part_[ref.mesh];
-      const Index source_count = source_.meshes[ref.mesh].triangle_count();
-      if (ref.source_triangle >= newest.size())
-        newest.resize(std::max(source_count, ref.source_triangle + 1), kNone);
-      columns_.older_part.push_back(newest[ref.source_triangle]);
-      newest[ref.source_triangle] = t;
+      Index& newest = columns_.meshes[ref.mesh].newest_part[ref.source_triangle];
+      columns_.older_part.push_back(newest);
+      newest = t;
     }
   }
   /// Removes the triangles from `first` on from the lists; to be called before their rows are
@@ -89,11 +81,11 @@ class TriangleOrigins {
   void unlink_parts_from(Index first) {
     for (std::size_t i = columns_.older_part.size(); source_triangles() + i > first; --i) {
       const TriangleRef ref = surface().appended[i - 1];
-      newest_part_[ref.mesh][ref.source_triangle] = columns_.older_part[i - 1];
+      columns_.meshes[ref.mesh].newest_part[ref.source_triangle] = columns_.older_part[i - 1];
     }
   }
   void fetch_newest_part(const TriangleRef& of) const {
-    if (of.triangle < newest_part_[of.mesh].size()) prefetch(&newest_part_[of.mesh][of.triangle]);
+    prefetch(&columns_.meshes[of.mesh].newest_part[of.triangle]);
   }
 
  private:
@@ -106,8 +98,6 @@ class TriangleOrigins {
   const Character& source_;
   const Character& character_;
   EditColumns& columns_;
-  /// Per mesh, per origin: its part that was appended last.
-  std::vector<std::vector<Index>> newest_part_;
 };
 
 }  // namespace sunder::tear

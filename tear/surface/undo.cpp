@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <iterator>
 
 #include "tear/surface/describe_change.h"
 #include "tear/surface/surface_editor.h"
@@ -41,15 +42,42 @@ void SurfaceEditor::keep_changes(const EditLog::Mark& begin, Redo& redo) {
         redo.known_corners.push_back({point, surface().point_corner[point]});
 }
 
-void SurfaceEditor::undo(const EditLog::Mark& begin, Redo& redo, ChangeRecord& change) {
-  redo = {};
-  keep_rows(begin, redo);
-  keep_changes(begin, redo);
-  describe_roll_back(begin, *this, change);
+void SurfaceEditor::undo(const EditLog::Mark& begin, Redo& redo, ChangeRecord* change) {
+  if (redo.end != log.mark(sides.next(), 0)) {
+    redo = {};
+    keep_rows(begin, redo);
+    keep_changes(begin, redo);
+  }
+  if (change != nullptr) describe_roll_back(begin, *this, *change);
+  keep_names(redo);
   roll_back(begin);
 }
 
-void SurfaceEditor::append_rows(const Redo& redo) {
+/// Moves the names of submeshes back to where redo() took them from.
+void SurfaceEditor::keep_names(Redo& redo) noexcept {
+  for (std::size_t m = 0; m < redo.tails.meshes.size(); ++m) {
+    auto& tail = redo.tails.meshes[m].submeshes;
+    auto& of_mesh = character_.meshes[m].submeshes;
+    std::move(of_mesh.end() - std::ssize(tail), of_mesh.end(), tail.begin());
+  }
+}
+
+/// Makes room for everything that redo() appends.
+void SurfaceEditor::make_room_for(const Redo& redo) {
+  room.make_for_tails(redo.tails);
+  for (Index m = 0; m < character_.meshes.size(); ++m) {
+    const auto& records = redo.tails.edit.meshes[m].records;
+    std::size_t vertices = 0, influences = 0;
+    for (Index v = 0; v < records.size(); ++v)
+      if (records[v].policy == WeightPolicy::exact) {
+        ++vertices;
+        influences += redo.tails.meshes[m].weights.of(v).size();
+      }
+    exact.reserve(m, vertices, influences);
+  }
+}
+
+void SurfaceEditor::append_rows(Redo& redo) {
   ModelColumns all = all_columns();
   for (const Addition& addition : redo.tails.edit.additions)
     if (addition.kind == Addition::Kind::tear_sides) sides.add_to(addition.mesh);
@@ -60,13 +88,14 @@ void SurfaceEditor::append_rows(const Redo& redo) {
   for (Index m = 0; m < all.meshes.size(); ++m) for_each_mesh_column(m, append, all, redo.tails);
 }
 
-void SurfaceEditor::redo(const Redo& redo, ChangeRecord& change) {
-  describe_redo(redo, *this, change);
-  append_rows(redo);
+void SurfaceEditor::redo(Redo& redo, ChangeRecord* change) {
+  if (change != nullptr) describe_redo(redo, *this, *change);
+  make_room_for(redo);
+  append_rows(redo);  // from here on nothing allocates
   room.forget();
 
   // The remaining columns are recomputed.
-  for (Index m = 0; m < columns_.meshes.size(); ++m) fillings.give_serials(m);
+  for (Index m = 0; m < columns_.meshes.size(); ++m) fillings.complete(m);
   columns_.newest_change.resize(surface().triangle_count(), kNone);
   origins.link_new_parts();
   const auto& changes = columns_.triangle_changes;
@@ -83,6 +112,7 @@ void SurfaceEditor::redo(const Redo& redo, ChangeRecord& change) {
     exact.update_from(m, character_.meshes[m].vertex_count() -
                              static_cast<Index>(redo.tails.edit.meshes[m].records.size()));
   stage.begin();
+  redo.end = log.mark(sides.next(), 0);
 }
 
 }  // namespace sunder::tear

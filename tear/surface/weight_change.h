@@ -17,9 +17,13 @@ struct WeightChange {
   /// Ascending by mesh, then by vertex; only appended vertices.
   std::vector<VertexWeights> vertices;
   std::vector<Influence> influences;
+  /// Memory of the weights that the last exchange put in place, for the next one.
+  std::vector<VertexWeights> spare_vertices;
+  std::vector<Influence> spare_influences;
 };
 
-/// Exchanges the weights of vertices with those in `change`. A second call restores them.
+/// Exchanges the weights of vertices with those in `change`. A second call restores them, and does
+/// not allocate.
 /// @throws CapacityExceeded, std::bad_alloc before anything is changed
 void exchange_weights(WeightChange& change, SurfaceEditor& editor);
 

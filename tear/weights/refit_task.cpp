@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "core/internal/ordered.h"
+#include "core/internal/out_of_memory.h"
 #include "tear/geometry/tolerances.h"
 #include "tear/internal/surface.h"
 #include "tear/surface/morph_displacement.h"
@@ -99,7 +100,7 @@ void RefitTask::run() {
         failure = fit(skin);
     assignment.influences.swap(fitted_);
   } catch (const std::bad_alloc&) {
-    failure = Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
+    failure = out_of_memory();
   }
   expected = State::running;
   state.compare_exchange_strong(expected, is_cancelled ? State::cancelled
@@ -161,7 +162,7 @@ Status RefitTask::add_poses(Index skin, PoseMoments& moments) const {
   std::vector<Affine3d> palette(source->skins[skin].bones.size());
   ModelPose pose;
   for (std::size_t i = 0; i < poses.size(PoseSet::Role::fit) && !is_cancelled; ++i) {
-    poses.compute(PoseSet::Role::fit, i, pose);
+    if (Status status = poses.compute(PoseSet::Role::fit, i, pose); !status) return status;
     if (Status status = compute_palette(source->skins[skin], pose, palette); !status) return status;
     moments.add(palette);
   }

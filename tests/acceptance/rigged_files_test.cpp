@@ -33,7 +33,7 @@ ModelPose some_pose(const Character& character, Random& random) {
     return test::random_pose(character, random, 0.4, 1.1);
   const Clip& clip =
       character.clips[random.index(static_cast<std::uint32_t>(character.clips.size()))];
-  Pose pose = local_rest_pose(character);
+  Pose pose = *local_rest_pose(character);
   EXPECT_TRUE(sample_clip(clip, random.uniform(0, static_cast<double>(clip.duration)), pose));
   ModelPose model;
   EXPECT_TRUE(compute_model_pose(character.skeleton, pose, model));
@@ -126,8 +126,8 @@ void tear_and_save(const std::filesystem::path& file, std::uint64_t seed) {
     const auto again = load_character(saved);
     ASSERT_TRUE(again) << again.error().text();
     expect_same_in_motion(model->character(), *again->character, random);
-    const TopologyCounts in_memory = count_topology(model->character()),
-                         in_file = count_topology(*again->character);
+    const TopologyCounts in_memory = *count_topology(model->character()),
+                         in_file = *count_topology(*again->character);
     EXPECT_EQ(in_memory.components, in_file.components);
     EXPECT_EQ(in_memory.boundary_loops, in_file.boundary_loops);
   }
@@ -177,7 +177,7 @@ void operate_and_undo(const std::filesystem::path& file, std::uint64_t seed) {
   Random random(seed);
   auto model = TornModel::create(loaded->character);
   ASSERT_TRUE(model) << model.error().text();
-  const std::uint32_t non_manifold = count_topology(*loaded->character).non_manifold_edges;
+  const std::uint32_t non_manifold = count_topology(*loaded->character)->non_manifold_edges;
   const bool is_clear = test::is_clear_of_itself(*loaded->character);
   std::vector<std::uint64_t> digests = {model->digest()};
   for (const Operation& operation : one_of_each(*loaded->character, random)) {
@@ -187,7 +187,7 @@ void operate_and_undo(const std::filesystem::path& file, std::uint64_t seed) {
     ASSERT_TRUE(report) << report.error().text();
     ASSERT_THAT(test::broken_laws(*model), IsEmpty());
     if (is_clear) {
-      ASSERT_LE(count_topology(model->character()).non_manifold_edges, non_manifold);
+      ASSERT_LE(count_topology(model->character())->non_manifold_edges, non_manifold);
     }
     if (model->undo_count() > done) digests.push_back(model->digest());
   }
@@ -199,15 +199,15 @@ void operate_and_undo(const std::filesystem::path& file, std::uint64_t seed) {
   const auto again = load_character(saved);
   ASSERT_TRUE(again) << again.error().text();
   if (is_clear) {
-    const TopologyCounts in_memory = count_topology(model->character()),
-                         in_file = count_topology(*again->character);
+    const TopologyCounts in_memory = *count_topology(model->character()),
+                         in_file = *count_topology(*again->character);
     EXPECT_EQ(in_memory.components, in_file.components);
     EXPECT_EQ(in_memory.boundary_edges, in_file.boundary_edges);
   }
 
   auto replayed = TornModel::create(loaded->character);
   ASSERT_TRUE(replayed);
-  for (const Operation& operation : model->history())
+  for (const Operation& operation : *model->history())
     ASSERT_TRUE(apply_operation(*replayed, operation));
   EXPECT_EQ(replayed->digest(), digests.back());
   for (std::size_t i = digests.size(); i-- > 0;) {
@@ -252,7 +252,7 @@ void pose_by_runtime(const std::filesystem::path& file, std::uint64_t seed) {
       Affine3d model_from_character = Affine3d::Identity();
       for (const Vec3d& position : expected)
         model_from_character.translation() += position / static_cast<double>(expected.size());
-      BonePalette palette(skin.bones.size(), pose.morph_weights.size());
+      BonePalette palette = *BonePalette::create(skin.bones.size(), pose.morph_weights.size());
       ASSERT_TRUE(palette.set(skin, pose, model_from_character));
       std::vector<Vec3f> posed(mesh.vertex_count());
       PosedBuffer buffer(

@@ -74,7 +74,7 @@ std::optional<TopologyCounts> counts_of(const std::filesystem::path& file) {
   const auto loaded = load_character(file);
   EXPECT_TRUE(loaded) << file << ": " << loaded.error().text();
   if (!loaded) return {};
-  return count_topology(*loaded->character);
+  return *count_topology(*loaded->character);
 }
 
 struct Model {
@@ -100,7 +100,7 @@ class StaysTorn : public testing::TestWithParam<Model> {
   static std::optional<TopologyCounts> welded(float tolerance, const std::filesystem::path& file) {
     const auto loaded = load_character(file);
     if (!loaded) return {};
-    return count_topology(test::weld_vertices(*loaded->character, tolerance));
+    return *count_topology(test::weld_vertices(*loaded->character, tolerance));
   }
 
   /// The topology of a file after merging by a tool.

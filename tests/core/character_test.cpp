@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "support/rigs.h"
+#include "support/starve.h"
 
 namespace sunder {
 namespace {
@@ -102,6 +103,12 @@ TEST(ValidateCharacterIndex, names_the_first_offender) {
   const Status status = validate_character(character);
   EXPECT_EQ(status.index(), 17u);
   EXPECT_NE(status.text().find("vertex 17"), std::string_view::npos) << status.text();
+}
+
+TEST(ValidateCharacter, says_where_memory_runs_out) {
+  test::starve([] { return std::make_unique<Character>(test::make_tube(4, 6, 3)); },
+               [](const Character& character) { return validate_character(character); },
+               [](const Character&, const Status&) {});
 }
 
 TEST(Status, cuts_long_texts_and_keeps_the_cause) {

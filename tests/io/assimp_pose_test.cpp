@@ -117,7 +117,7 @@ Corners assimp_corners(const aiScene& scene, unsigned clip, double seconds) {
 // ---- our result
 
 Corners our_corners(const Character& character, std::size_t clip, double seconds) {
-  Pose pose = local_rest_pose(character);
+  Pose pose = *local_rest_pose(character);
   if (seconds != kRest) {
     EXPECT_TRUE(sample_clip(character.clips[clip], seconds, pose));
   }

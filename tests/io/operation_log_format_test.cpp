@@ -289,11 +289,11 @@ TEST_P(FormattedOperations, AreReadBackToTheSameBits) {
   for (int log = 0; log < 60; ++log) {
     std::vector<Operation> operations;
     for (std::uint32_t i = random.index(8); i > 0; --i) operations.push_back(any_operation(random));
-    const std::string text = format_operations(operations);
+    const std::string text = *format_operations(operations);
     const auto again = parse_operations(text);
     ASSERT_TRUE(again) << again.error().text() << "\n" << text;
     ASSERT_EQ(bits(*again), bits(operations)) << text;
-    ASSERT_EQ(format_operations(*again), text);
+    ASSERT_EQ(*format_operations(*again), text);
   }
 }
 
@@ -306,14 +306,14 @@ TEST(FormatOperations, TakesALineForAnOperationAndOneForEachBlade) {
   tear.stroke.assign(5, {{0, 0, 1}, {0, 0, 0}});
   tear.pose_changes = {{3, pose}};
   const std::string text =
-      format_operations(std::vector<Operation>{tear, UndoOperation{}, CutOperation{pose, {}}});
+      *format_operations(std::vector<Operation>{tear, UndoOperation{}, CutOperation{pose, {}}});
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 4 + 1 + 5 + 1 + 1 + 1);
   EXPECT_NE(text.find("\n    {\"op\":\"undo\",\"count\":1},\n"), std::string::npos) << text;
 }
 
 TEST(FormatOperations, OfWeightsOnlyWhatHasAMeaningIsWritten) {
   const auto text_of = [](const WeightsOperation& operation) {
-    return format_operations(std::vector<Operation>{operation});
+    return *format_operations(std::vector<Operation>{operation});
   };
   WeightsOperation operation;
   operation.pose = BindPose{};
@@ -333,12 +333,12 @@ TEST(FormatOperations, OfWeightsOnlyWhatHasAMeaningIsWritten) {
   EXPECT_EQ(text_of(operation).find("bind\"}"), std::string::npos) << text_of(operation);
   EXPECT_NE(text_of(operation).find(R"("refit":{"poses":{"clip_samples":8,)"), std::string::npos)
       << text_of(operation);
-  EXPECT_EQ(format_operations(std::vector<Operation>{CutOperation{}}).find("weights"),
+  EXPECT_EQ(format_operations(std::vector<Operation>{CutOperation{}})->find("weights"),
             std::string::npos);
 }
 
 TEST(FormatOperations, AnEmptyLogIsOne) {
-  const auto operations = parse_operations(format_operations({}));
+  const auto operations = parse_operations(*format_operations({}));
   ASSERT_TRUE(operations) << operations.error().text();
   EXPECT_TRUE(operations->empty());
 }
@@ -349,7 +349,7 @@ TEST(FormatOperations, NamesThatAreNoUtf8AreMendedForAValidLog) {
       "W\xFF"
       "alk",
       0.0};
-  EXPECT_TRUE(parse_operations(format_operations(std::vector<Operation>{cut})));
+  EXPECT_TRUE(parse_operations(*format_operations(std::vector<Operation>{cut})));
 }
 
 TEST(SaveOperations, IsLoadedAgain) {

@@ -71,13 +71,13 @@ TEST_P(LoggedWeights, give_the_model_again) {
     std::vector<Operation> operations = before;
     operations.push_back(reweighed[i]);
     const TornModel model = played(tube, operations);
-    ASSERT_EQ(model.history().size(), 4u);
-    const std::string log = format_operations(model.history());
+    ASSERT_EQ(model.history()->size(), 4u);
+    const std::string log = *format_operations(*model.history());
     const auto read = parse_operations(log);
     ASSERT_TRUE(read) << read.error().text() << log;
     const TornModel again = played(tube, *read);
     expect_the_same(again, model);
-    EXPECT_EQ(format_operations(again.history()), log);
+    EXPECT_EQ(*format_operations(*again.history()), log);
   }
 }
 
@@ -102,7 +102,7 @@ TEST(LoggedDefaults, of_a_model_are_in_the_log_of_its_operations) {
   cut.cut.normal = {0.1, 1, 0};
   ASSERT_TRUE(apply_operation(model, tear));
   ASSERT_TRUE(apply_operation(model, cut));
-  const auto read = parse_operations(format_operations(model.history()));
+  const auto read = parse_operations(*format_operations(*model.history()));
   ASSERT_TRUE(read) << read.error().text();
   EXPECT_EQ(std::get<TearOperation>(read->at(0)).options.weights,
             (WeightOptions{WeightPolicy::exact, 0}));

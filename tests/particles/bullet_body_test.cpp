@@ -41,11 +41,11 @@ class BulletBodyTest : public testing::Test {
     character_ = std::make_shared<const Character>(std::move(character));
     model_.emplace(std::move(*TornModel::create(character_)));
     set_.emplace(decompose(range));
-    pose_ = bind_pose(*character_);
+    pose_ = *bind_pose(*character_);
   }
 
   [[nodiscard]] ParticleSet decompose(double range) const {
-    auto set = ParticleSet::create(*model_, bind_pose(*character_), {.range = range});
+    auto set = ParticleSet::create(*model_, *bind_pose(*character_), {.range = range});
     EXPECT_TRUE(set) << set.error().text();
     return std::move(*set);
   }
@@ -131,7 +131,7 @@ class BulletBodyTest : public testing::Test {
   }
 
   void bend(double angle) {
-    Pose pose = local_rest_pose(*character_);
+    Pose pose = *local_rest_pose(*character_);
     for (std::size_t bone = 1; bone < pose.parent_from_bone.size(); ++bone)
       pose.parent_from_bone[bone].rotation =
           Quatf(Eigen::AngleAxisf(static_cast<float>(angle), Eigen::Vector3f::UnitX()));

@@ -32,7 +32,7 @@ using testing::IsEmpty;
 constexpr double kCovers = 0.85;
 
 ParticleSet decompose(const TornModel& model, const DecompositionOptions& options) {
-  auto set = ParticleSet::create(model, bind_pose(model.source()), options);
+  auto set = ParticleSet::create(model, *bind_pose(model.source()), options);
   EXPECT_TRUE(set) << set.error().text();
   return std::move(*set);
 }
@@ -242,7 +242,7 @@ TEST(Decomposition, keeps_the_laws_on_anything) {
 
 TEST(Decomposition, is_the_same_for_the_same_seed_only) {
   const TornModel model = make_model(test::make_tube(20, 20, 3));
-  const ModelPose pose = bind_pose(model.source());
+  const ModelPose pose = *bind_pose(model.source());
   const auto state = [&](std::uint64_t seed) {
     return test::state_of(model, decompose(model, {0.1, true, seed}), pose);
   };
@@ -375,7 +375,7 @@ TEST(Decomposition, refuses_ranges_that_are_none) {
                              std::numeric_limits<double>::infinity()})
     for (const bool is_fraction : {true, false}) {
       const auto set =
-          ParticleSet::create(model, bind_pose(model.source()), {range, is_fraction, 0});
+          ParticleSet::create(model, *bind_pose(model.source()), {range, is_fraction, 0});
       ASSERT_FALSE(set);
       EXPECT_EQ(set.error().code(), StatusCode::invalid_argument);
       EXPECT_THAT(std::string(set.error().text()), HasSubstr("range"));
@@ -388,7 +388,7 @@ TEST(Decomposition, refuses_extreme_ranges_or_takes_them) {
     for (const bool is_fraction : {true, false}) {
       SCOPED_TRACE(range);
       const auto set =
-          ParticleSet::create(model, bind_pose(model.source()), {range, is_fraction, 0});
+          ParticleSet::create(model, *bind_pose(model.source()), {range, is_fraction, 0});
       if (set) {
         EXPECT_THAT(test::broken_particles(model, *set), IsEmpty());
       } else {
@@ -404,20 +404,20 @@ TEST(Decomposition, refuses_poses_that_do_not_fit) {
     EXPECT_FALSE(set);
     return set.error();
   };
-  ModelPose pose = bind_pose(model.source());
+  ModelPose pose = *bind_pose(model.source());
   pose.model_from_bone.pop_back();
   EXPECT_EQ(error(pose).code(), StatusCode::size_mismatch);
   EXPECT_THAT(std::string(error(pose).text()), HasSubstr("bones"));
-  pose = bind_pose(model.source());
+  pose = *bind_pose(model.source());
   pose.morph_weights.push_back(0);
   EXPECT_EQ(error(pose).code(), StatusCode::size_mismatch);
   EXPECT_THAT(std::string(error(pose).text()), HasSubstr("morph"));
-  pose = bind_pose(model.source());
+  pose = *bind_pose(model.source());
   pose.model_from_bone[1](0, 2) = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(error(pose).code(), StatusCode::non_finite_value);
   EXPECT_EQ(error(pose).index(), 1u);
   EXPECT_THAT(std::string(error(pose).text()), HasSubstr("bone 1"));
-  pose = bind_pose(model.source());
+  pose = *bind_pose(model.source());
   pose.morph_weights[0] = std::numeric_limits<float>::infinity();
   EXPECT_EQ(error(pose).code(), StatusCode::non_finite_value);
   EXPECT_EQ(error(pose).index(), 0u);
@@ -429,8 +429,8 @@ TEST(Decomposition, refuses_a_model_without_a_face) {
   bore.origin = {0.5, 0.5, 1.0};
   bore.radius = 3.0;
   bore.depth = 2.0;
-  ASSERT_TRUE(model.drill(bind_pose(model.source()), bore));
-  const auto set = ParticleSet::create(model, bind_pose(model.source()));
+  ASSERT_TRUE(model.drill(*bind_pose(model.source()), bore));
+  const auto set = ParticleSet::create(model, *bind_pose(model.source()));
   ASSERT_FALSE(set);
   EXPECT_EQ(set.error().code(), StatusCode::empty_input);
   EXPECT_THAT(std::string(set.error().text()), HasSubstr("face"));
@@ -438,7 +438,7 @@ TEST(Decomposition, refuses_a_model_without_a_face) {
 
 TEST(Decomposition, refuses_more_particles_than_there_may_be) {
   const TornModel model = make_model(test::make_sheet(1030));
-  const auto set = ParticleSet::create(model, bind_pose(model.source()), {1e-7, true, 0});
+  const auto set = ParticleSet::create(model, *bind_pose(model.source()), {1e-7, true, 0});
   ASSERT_FALSE(set);
   EXPECT_EQ(set.error().code(), StatusCode::limit_exceeded);
   EXPECT_THAT(std::string(set.error().text()), HasSubstr("1048576"));
@@ -446,7 +446,7 @@ TEST(Decomposition, refuses_more_particles_than_there_may_be) {
 
 TEST(Decomposition, of_a_torn_model_goes_around_the_tear) {
   TornModel model = make_model(test::make_sheet(15));
-  const ModelPose pose = bind_pose(model.source());
+  const ModelPose pose = *bind_pose(model.source());
   ChangeRecord change;
   ASSERT_TRUE(
       model.tear(pose, Stroke{test::down_at(0.52, -0.2), test::down_at(0.52, 1.2)}, {}, &change));

@@ -15,7 +15,7 @@ struct Scene {
   explicit Scene(Character character)
       : source(std::make_shared<const Character>(std::move(character))),
         model(std::move(*TornModel::create(source))),
-        pose(bind_pose(*source)) {}
+        pose(*bind_pose(*source)) {}
 
   std::shared_ptr<const Character> source;
   TornModel model;

@@ -117,7 +117,7 @@ TEST(ForceTearing, holds_below_the_strength_and_without_one) {
   EXPECT_GT(strong.tear().greatest_stretch, 1.05);
   Pulled any(0.0);
   EXPECT_TRUE(any.tear_apart(60).empty());
-  EXPECT_EQ(any.model->history().size(), 0u);
+  EXPECT_EQ(any.model->history()->size(), 0u);
 }
 
 TEST(ForceTearing, stands_in_the_history_and_is_undone_and_replayed) {
@@ -125,12 +125,12 @@ TEST(ForceTearing, stands_in_the_history_and_is_undone_and_replayed) {
   const auto before = state_of(*scene.model);
   const auto torn = scene.tear_apart(50);
   ASSERT_FALSE(torn.empty());
-  ASSERT_EQ(scene.model->history().size(), torn.size());
+  ASSERT_EQ(scene.model->history()->size(), torn.size());
   ASSERT_EQ(scene.changes.size(), torn.size());
 
   auto again = TornModel::create(scene.character);
   ASSERT_TRUE(again);
-  for (const Operation& operation : scene.model->history())
+  for (const Operation& operation : *scene.model->history())
     ASSERT_TRUE(apply_operation(*again, operation));
   EXPECT_EQ(again->digest(), scene.model->digest());
 

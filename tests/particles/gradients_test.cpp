@@ -57,7 +57,7 @@ double error_of(std::uint32_t cells) {
   TornModel model = std::move(*TornModel::create(source));
   DecompositionOptions options;
   options.range = 0.2;
-  ParticleSet set = std::move(*ParticleSet::create(model, bind_pose(*source), options));
+  ParticleSet set = std::move(*ParticleSet::create(model, *bind_pose(*source), options));
   const std::span<const ParticleGradients> gradients = set.gradients(model);
   double error = 0, difference = 0;
   const tear::Surface& surface = model.surface();
@@ -85,7 +85,7 @@ TEST(Gradients, predict_the_weights_of_neighbours) {
 TEST(Gradients, lie_in_the_surface_and_cancel) {
   const auto source = std::make_shared<const Character>(make_sheet(24));
   TornModel model = std::move(*TornModel::create(source));
-  ParticleSet set = std::move(*ParticleSet::create(model, bind_pose(*source), {}));
+  ParticleSet set = std::move(*ParticleSet::create(model, *bind_pose(*source), {}));
   for (const ParticleGradients& of : set.gradients(model))
     for (const Vec3f& gradient : of.of_weights) EXPECT_NEAR(gradient.z(), 0.0f, 1e-4f);
 }
@@ -97,7 +97,7 @@ TEST(Gradients, are_brought_up_to_date_by_tears) {
     const auto source = std::make_shared<const Character>(random_character(random));
     auto model = TornModel::create(source);
     ASSERT_TRUE(model);
-    ParticleSet set = std::move(*ParticleSet::create(*model, bind_pose(*source), {}));
+    ParticleSet set = std::move(*ParticleSet::create(*model, *bind_pose(*source), {}));
     (void)set.gradients(*model);
     const auto expect_same_as_afresh = [&] {
       const std::span<const ParticleGradients> kept = set.gradients(*model);

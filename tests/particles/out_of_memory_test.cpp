@@ -236,7 +236,7 @@ TEST(OutOfMemory, a_tear_by_force_is_refused_or_recorded) {
         if (report && !report->has_torn) return Answer::wrong;
         return answer_of(report.error());
       },
-      [&](SoftScene& scene) { EXPECT_EQ(changes.size(), scene.model->history().size()); });
+      [&](SoftScene& scene) { EXPECT_EQ(changes.size(), scene.model->history()->size()); });
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ void tear_and_undo(const LoadedCharacter& loaded, double range) {
   ASSERT_TRUE(model) << model.error().text();
   Random random(3);
   const ModelPose pose = test::random_pose(*loaded.character, random, 0.4, 1.1);
-  auto set = ParticleSet::create(*model, bind_pose(*loaded.character), {range});
+  auto set = ParticleSet::create(*model, *bind_pose(*loaded.character), {range});
   ASSERT_TRUE(set) << set.error().text();
   ASSERT_THAT(test::broken_particles(*model, *set), IsEmpty());
   EXPECT_EQ(set->report().covered, set->report().points);

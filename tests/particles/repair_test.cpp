@@ -41,7 +41,7 @@ Character some_character(Random& random) {
 }
 
 ParticleSet decompose(const TornModel& model, double range, std::uint64_t seed = 0) {
-  auto set = ParticleSet::create(model, bind_pose(model.source()), {range, true, seed});
+  auto set = ParticleSet::create(model, *bind_pose(model.source()), {range, true, seed});
   EXPECT_TRUE(set) << set.error().text();
   return std::move(*set);
 }
@@ -331,7 +331,7 @@ TEST(Follow, takes_a_stroke_that_is_cancelled) {
     Followed followed(test::make_sheet(12), 0.2, 0);
     TornModel& model = followed.model;
     ParticleSet& set = followed.set;
-    const ModelPose pose = rest_pose(model.source());
+    const ModelPose pose = *rest_pose(model.source());
     if (!is_first) {
       ChangeRecord change;
       const std::array<Blade, 2> blades = {test::down_at(0.203, 0.3), test::down_at(0.203, 0.7)};
@@ -386,7 +386,7 @@ TEST(Follow, takes_layers_walls_and_caps) {
     Random random(seed);
     Followed followed(test::make_tube(8 + random.index(12), 8 + random.index(12), 3), 0.15, seed);
     const Character& source = followed.model.source();
-    const ModelPose pose = bind_pose(source);
+    const ModelPose pose = *bind_pose(source);
     const double diagonal = test::posed_diagonal(source, pose);
     for (const Layers layers : {Layers::nearest, Layers::all})
       for (const double width : {0.0, 0.02})
@@ -424,7 +424,7 @@ void follow_strokes(Followed& followed, const std::vector<Stroke>& strokes,
                     const TearOptions& options) {
   for (const Stroke& stroke : strokes) {
     ASSERT_NO_FATAL_FAILURE(
-        followed.play(TearOperation{bind_pose(followed.model.source()), stroke, {}, options}));
+        followed.play(TearOperation{*bind_pose(followed.model.source()), stroke, {}, options}));
     ASSERT_NO_FATAL_FAILURE(followed.expect_laws());
     settle(followed.model, followed.set, 40);
     ASSERT_NO_FATAL_FAILURE(followed.expect_laws());
@@ -500,10 +500,10 @@ TEST(Follow, takes_other_weights) {
 
 TEST(Follow, refuses_another_model_and_one_that_was_compacted) {
   Followed followed(test::make_sheet(8), 0.2);
-  ASSERT_NO_FATAL_FAILURE(followed.play(
-      TearOperation{bind_pose(followed.model.source()), along({{0.2, 0.5}, {0.7, 0.52}}), {}, {}}));
+  ASSERT_NO_FATAL_FAILURE(followed.play(TearOperation{
+      *bind_pose(followed.model.source()), along({{0.2, 0.5}, {0.7, 0.52}}), {}, {}}));
   settle(followed.model, followed.set);
-  const ModelPose pose = bind_pose(followed.model.source());
+  const ModelPose pose = *bind_pose(followed.model.source());
   const ParticleState before = state_of(followed.model, followed.set, pose);
   const std::uint64_t revision = followed.set.revision();
   TornModel other = make_model(test::make_sheet(8));
@@ -527,7 +527,7 @@ TEST(Follow, refuses_another_model_and_one_that_was_compacted) {
 
 TEST(Follow, of_a_call_that_did_nothing_changes_no_influence) {
   Followed followed(test::make_sheet(8), 0.2);
-  const ModelPose pose = bind_pose(followed.model.source());
+  const ModelPose pose = *bind_pose(followed.model.source());
   ASSERT_NO_FATAL_FAILURE(
       followed.play(TearOperation{pose, along({{0.2, 0.5}, {0.7, 0.52}}), {}, {}}));
   settle(followed.model, followed.set);
@@ -547,7 +547,7 @@ TEST(Settle, leaves_no_particle_in_two_pieces) {
                       : seed % 3 == 1 ? test::make_tube(fineness, fineness, 3)
                                       : test::make_bumpy_ball(20 * fineness),
                       random.uniform(0.06, 0.4), seed);
-    const ModelPose pose = bind_pose(followed.model.source());
+    const ModelPose pose = *bind_pose(followed.model.source());
     const std::vector<Vec3d> positions = test::posed_positions(followed.model.source(), 0, pose);
     CutOperation cut{pose, {}};
     cut.cut.point = positions[random.index(static_cast<std::uint32_t>(positions.size()))];
@@ -580,7 +580,7 @@ TEST(Lips, of_a_flat_tear_pull_apart_evenly) {
   for (const std::uint32_t cells : {4u, 9u, 25u}) {
     SCOPED_TRACE(cells);
     Followed followed(test::make_sheet(cells), 0.2);
-    const ModelPose pose = bind_pose(followed.model.source());
+    const ModelPose pose = *bind_pose(followed.model.source());
     const std::vector<Stroke> strokes = {along({{0.21, 0.5}, {0.72, 0.53}}),
                                          along({{-0.1, 0.2}, {0.6, 0.27}}),
                                          along({{0.45, 0.81}, {0.47, 0.12}})};

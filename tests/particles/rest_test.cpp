@@ -43,7 +43,7 @@ void rest_at_random(std::uint64_t seed) {
     for (int i = 0; i < 3; ++i)
       ASSERT_THAT(test::broken_rest(model, set, test::random_pose(source, random, 1.5, 1.6)),
                   IsEmpty());
-    ASSERT_THAT(test::broken_rest(model, set, bind_pose(source)), IsEmpty());
+    ASSERT_THAT(test::broken_rest(model, set, *bind_pose(source)), IsEmpty());
   };
   const auto follow = [&](const ChangeRecord& change) {
     ASSERT_TRUE(set.follow(model, {&change, 1}));
@@ -97,7 +97,7 @@ INSTANTIATE_TEST_SUITE_P(seeds, RandomRest, testing::Range(0, 40));
 
 TEST(Rest, is_the_same_after_a_refit) {
   TornModel model = make_model(test::make_tube(8, 8, 3));
-  const ModelPose pose = bind_pose(model.source());
+  const ModelPose pose = *bind_pose(model.source());
   ParticleSet set = decompose(model, pose, 0.15);
   Random random(4);
   ChangeRecord change;
@@ -118,7 +118,7 @@ TEST(Rest, is_the_same_after_a_refit) {
 
 TEST(Rest, goes_along_with_a_rigid_motion) {
   TornModel model = make_model(test::make_tube(8, 8, 3));
-  const ModelPose bind = bind_pose(model.source());
+  const ModelPose bind = *bind_pose(model.source());
   const ParticleSet set = decompose(model, bind, 0.2);
   Affine3d motion = Affine3d::Identity();
   motion.translate(Vec3d(1, 2, 3)).rotate(Eigen::AngleAxisd(0.7, Eigen::Vector3d(0, 0.6, 0.8)));
@@ -142,7 +142,7 @@ TEST(Rest, goes_along_with_a_rigid_motion) {
 
 TEST(Rest, refuses_poses_that_do_not_fit) {
   const TornModel model = make_model(test::make_tube(5, 6, 3));
-  const ParticleSet set = decompose(model, bind_pose(model.source()), 0.2);
+  const ParticleSet set = decompose(model, *bind_pose(model.source()), 0.2);
   const std::vector<std::uint32_t> particles = {0, 1};
   const auto expect_refused = [&](const ModelPose& pose, std::size_t room, StatusCode code) {
     std::vector<ParticleRest> rest(room);
@@ -152,17 +152,17 @@ TEST(Rest, refuses_poses_that_do_not_fit) {
     EXPECT_FALSE(status.text().empty());
     EXPECT_EQ(rest[0].place, Vec3d(7, 7, 7));
   };
-  ModelPose pose = bind_pose(model.source());
+  ModelPose pose = *bind_pose(model.source());
   expect_refused(pose, 1, StatusCode::size_mismatch);
   pose.model_from_bone.pop_back();
   expect_refused(pose, 2, StatusCode::size_mismatch);
-  pose = bind_pose(model.source());
+  pose = *bind_pose(model.source());
   pose.morph_weights.clear();
   expect_refused(pose, 2, StatusCode::size_mismatch);
-  pose = bind_pose(model.source());
+  pose = *bind_pose(model.source());
   pose.model_from_bone[2](1, 3) = std::numeric_limits<double>::infinity();
   expect_refused(pose, 2, StatusCode::non_finite_value);
-  pose = bind_pose(model.source());
+  pose = *bind_pose(model.source());
   pose.morph_weights[0] = std::numeric_limits<float>::quiet_NaN();
   expect_refused(pose, 2, StatusCode::non_finite_value);
 }

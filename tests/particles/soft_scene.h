@@ -31,7 +31,7 @@ struct SoftScene {
     Result<TornModel> made = TornModel::create(character);
     EXPECT_TRUE(made) << made.error().text();
     model = std::make_unique<TornModel>(std::move(*made));
-    pose = bind_pose(*character);
+    pose = *bind_pose(*character);
     DecompositionOptions decomposition;
     decomposition.range = range;
     Result<ParticleSet> divided = ParticleSet::create(*model, pose, decomposition);

@@ -135,7 +135,7 @@ TEST(SurfaceFront, goes_around_the_tip_of_a_slit) {
     SCOPED_TRACE(cells);
     TornModel model = make_model(test::make_sheet(cells));
     const double x = 0.5 + 0.3 / cells, y = 0.5 + 0.3 / cells;
-    ASSERT_TRUE(model.tear(bind_pose(model.source()), Stroke{down_at(x, -0.2), down_at(x, y)}));
+    ASSERT_TRUE(model.tear(*bind_pose(model.source()), Stroke{down_at(x, -0.2), down_at(x, y)}));
     const Surface& surface = model.surface();
     const std::vector<Vec3f> positions = bind_positions(model.character(), surface);
     const Index source = point_nearest(positions, {0.3f, 0.3f, 0.0f});

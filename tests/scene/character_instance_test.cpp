@@ -53,9 +53,9 @@ class Parts {
     if (is_soft) {
       const SoftTissue soft = coarse_tissue();
       set = std::make_unique<ParticleSet>(
-          value_of(ParticleSet::create(model, bind_pose(*character), soft.decomposition)));
+          value_of(ParticleSet::create(model, *bind_pose(*character), soft.decomposition)));
       body = std::make_unique<SoftBody>(
-          value_of(SoftBody::create(*set, bind_pose(*character), soft.materials)));
+          value_of(SoftBody::create(*set, *bind_pose(*character), soft.materials)));
     }
     for (const Mesh& mesh : character->meshes) {
       const std::size_t slots = character->skins[mesh.skin].bones.size();
@@ -118,7 +118,7 @@ class Parts {
   struct OfMesh {
     OfMesh(const Mesh& mesh, std::size_t slots, std::size_t morph_weights)
         : skinned(value_of(SkinnedMesh::create(source_of(mesh), slots))),
-          palette(slots, morph_weights),
+          palette(*BonePalette::create(slots, morph_weights)),
           buffer(VertexTarget()) {
       resize(mesh);
     }
@@ -282,7 +282,7 @@ class Duel {
 
   void frame() {
     if (random_.index(3) > 0) pose_ = test::random_pose(parts_.model.source(), random_, 0.1);
-    if (pose_.model_from_bone.empty()) pose_ = rest_pose(parts_.model.source());
+    if (pose_.model_from_bone.empty()) pose_ = *rest_pose(parts_.model.source());
     const double seconds = random_.index(4) == 0 ? 0.0 : kFrame;
     parts_.frame(pose_, seconds);
     const Status status = instance_.advance(pose_, seconds);
@@ -363,7 +363,7 @@ TEST(character_instance, unchanged_data_is_not_written) {
 
   const auto two = std::make_shared<const Character>(test::make_two_tubes(10, 10));
   CharacterInstance instance = make_instance(two, false);
-  const ModelPose rest = rest_pose(*two);
+  const ModelPose rest = *rest_pose(*two);
   ASSERT_TRUE(instance.advance(rest, kFrame));
   EXPECT_EQ(instance.mesh(0).dirty_triangles.size(), 1u);  // the first frame draws everything
   test::Random random(5);
@@ -501,7 +501,7 @@ TEST(character_instance, tears_where_tissue_is_stretched) {
   options.soft->materials[0].strength = 1.3;
   CharacterInstance instance = value_of(CharacterInstance::create(sheet, options));
   EXPECT_FALSE(instance.tear_overstretched());  // no pose yet
-  const ModelPose rest = rest_pose(*sheet);
+  const ModelPose rest = *rest_pose(*sheet);
   for (const double side : {-1.0, 1.0})
     for (Index p = 0; p < instance.particles()->particle_count(); ++p) {
       const Vec3f& seed = instance.particles()->positions()[instance.particles()->seed(p)];

@@ -15,7 +15,7 @@ namespace {
 TEST(BonePalette, knows_which_bones_changed_and_when) {
   test::Random random(1);
   auto matrices = test::in_float(test::random_palette(random, 5));
-  BonePalette palette(5, 2);
+  BonePalette palette = *BonePalette::create(5, 2);
   EXPECT_EQ(palette.revision(), 0u);
   ASSERT_TRUE(palette.set(matrices, std::vector<float>{0, 1}));
   const std::uint64_t first = palette.revision();
@@ -39,7 +39,7 @@ TEST(BonePalette, a_pose_gives_the_matrices_of_compute_palette) {
   const ModelPose pose = test::random_pose(character, random, 1.0, 1.3);
   std::vector<Affine3f> matrices(4);
   ASSERT_TRUE(compute_palette(character.skins[0], pose, std::span(matrices)));
-  BonePalette palette(4, pose.morph_weights.size());
+  BonePalette palette = *BonePalette::create(4, pose.morph_weights.size());
   ASSERT_TRUE(palette.set(character.skins[0], pose));
   const std::uint64_t revision = palette.revision();
   ASSERT_TRUE(palette.set(matrices, pose.morph_weights));
@@ -55,8 +55,8 @@ TEST(BonePalette, a_pose_gives_the_matrices_of_compute_palette) {
 TEST(BonePalette, a_character_that_only_moves_in_the_world_does_not_change) {
   // By whole metres and quarter turns, so that the products are exact.
   const Character character = test::make_tube(6, 8, 4);
-  ModelPose pose = bind_pose(character);
-  BonePalette palette(4, pose.morph_weights.size());
+  ModelPose pose = *bind_pose(character);
+  BonePalette palette = *BonePalette::create(4, pose.morph_weights.size());
   ASSERT_TRUE(palette.set(character.skins[0], pose));
   const std::uint64_t revision = palette.revision();
   Affine3d travel = Affine3d::Identity();
@@ -69,8 +69,8 @@ TEST(BonePalette, a_character_that_only_moves_in_the_world_does_not_change) {
 
 TEST(BonePalette, refuses_invalid_poses_and_changes_nothing) {
   const Character character = test::make_tube(6, 8, 4);
-  ModelPose pose = bind_pose(character);
-  BonePalette palette(4, pose.morph_weights.size());
+  ModelPose pose = *bind_pose(character);
+  BonePalette palette = *BonePalette::create(4, pose.morph_weights.size());
   ASSERT_TRUE(palette.set(character.skins[0], pose));
   const std::uint64_t revision = palette.revision();
   const auto expect_fault = [&](const ModelPose& of, StatusCode code, std::uint32_t index) {

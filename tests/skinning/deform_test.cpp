@@ -56,7 +56,7 @@ TEST(Deform, agrees_with_the_double_precision_reference) {
 
 TEST(Deform, a_rigid_motion_of_all_bones_moves_the_skin_rigidly) {
   const Character character = test::make_tube(6, 8, 3);
-  ModelPose pose = bind_pose(character);
+  ModelPose pose = *bind_pose(character);
   const Eigen::Affine3d motion = Eigen::Translation3d(1, -2, 3) *
                                  Eigen::AngleAxisd(1.1, Eigen::Vector3d(1, 2, 3).normalized());
   for (Affine3d& bone : pose.model_from_bone) bone = motion * bone;
@@ -76,7 +76,7 @@ TEST(Deform, a_rigid_motion_of_all_bones_moves_the_skin_rigidly) {
 
 TEST(Deform, normals_stay_across_the_surface_under_uneven_scale_and_outward_under_mirrors) {
   const Character character = test::make_sheet(1);
-  ModelPose pose = bind_pose(character);
+  ModelPose pose = *bind_pose(character);
   Mat3d linear;
   linear << -2, 0, 0, 0, 0.5, 0, 0.7, 0, 1;  // mirrored in x, sheared
   for (Affine3d& bone : pose.model_from_bone) bone.linear() = linear * bone.linear();
@@ -89,7 +89,7 @@ TEST(Deform, normals_stay_across_the_surface_under_uneven_scale_and_outward_unde
 
 TEST(Deform, a_collapsed_bone_gives_finite_results) {
   const Character character = test::make_sheet(2);
-  ModelPose pose = bind_pose(character);
+  ModelPose pose = *bind_pose(character);
   for (Affine3d& bone : pose.model_from_bone) bone.linear().setZero();
   DeformedMesh deformed;
   ASSERT_TRUE(
@@ -99,7 +99,7 @@ TEST(Deform, a_collapsed_bone_gives_finite_results) {
 
 TEST(Deform, morph_targets_come_before_bones) {
   const Character character = test::make_tube(4, 6, 2);
-  ModelPose pose = bind_pose(character);
+  ModelPose pose = *bind_pose(character);
   pose.morph_weights[0] = 1.0f;
   const Mesh& mesh = character.meshes[0];
   const auto palette = palette_of(character, pose);
@@ -114,7 +114,7 @@ TEST(Deform, morph_targets_come_before_bones) {
 
 TEST(Deform, refuses_palettes_and_weights_that_do_not_fit) {
   const Character character = test::make_tube(4, 6, 3);
-  const ModelPose pose = bind_pose(character);
+  const ModelPose pose = *bind_pose(character);
   auto palette = palette_of(character, pose);
   DeformedMesh deformed;
   EXPECT_EQ(deform_mesh(character.meshes[0], in_float(palette), {}, deformed).code(),

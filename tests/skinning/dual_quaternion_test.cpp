@@ -39,7 +39,7 @@ void pose(const Mesh& mesh, const std::vector<Affine3f>& matrices, const VertexT
           SkinningMethod method = SkinningMethod::dual_quaternion) {
   const auto made = SkinnedMesh::create(source_of(mesh), matrices.size());
   ASSERT_TRUE(made) << made.error().text();
-  BonePalette palette(matrices.size(), 0, method);
+  BonePalette palette = *BonePalette::create(matrices.size(), 0, method);
   ASSERT_TRUE(palette.set(matrices, {}));
   PosedBuffer buffer(target);
   ASSERT_TRUE(made->deform(palette, buffer));

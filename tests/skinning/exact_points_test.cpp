@@ -84,7 +84,7 @@ TEST(ExactPoints, stay_on_their_triangle_in_every_pose) {
     source.per_influence = &exact;
     const auto made = SkinnedMesh::create(source, slots);
     ASSERT_TRUE(made) << made.error().text();
-    BonePalette palette(slots, 2);
+    BonePalette palette = *BonePalette::create(slots, 2);
     test::PosedArrays posed(mesh);
     PosedBuffer buffer(posed.target());
     double without = 0;

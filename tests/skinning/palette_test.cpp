@@ -10,7 +10,7 @@ namespace {
 
 TEST(Palette, model_matrices_multiply_down_the_tree) {
   const Character character = test::make_tube(2, 4, 3);
-  Pose pose = local_rest_pose(character);
+  Pose pose = *local_rest_pose(character);
   pose.parent_from_bone[0].rotation = Quatf(Eigen::AngleAxisf(0.5f, Eigen::Vector3f::UnitZ()));
   pose.parent_from_bone[1].scale = {2, 1, 0.5};
   ModelPose model;
@@ -32,7 +32,7 @@ TEST(Palette, skin_in_bind_pose_reproduces_its_mesh) {
                Eigen::Translation3d(random.uniform(-1, 1), 1, 0) *
                Eigen::Scaling(random.uniform(0.5, 2)))
                .cast<float>();
-  const ModelPose bind = bind_pose(character);
+  const ModelPose bind = *bind_pose(character);
   const auto positions = test::posed_positions(character, 0, bind);
   for (std::uint32_t v = 0; v < positions.size(); ++v)
     EXPECT_LT((positions[v] - character.meshes[0].positions[v].cast<double>()).norm(), 1e-5);
@@ -43,7 +43,7 @@ TEST(Palette, rigid_parts_stand_at_rest_in_bind_pose) {
   character.skeleton.bones[1].rest.translation = {5, 6, 7};
   character.skins[0] = {"rigid", {1}, {Affine3f::Identity()}};
   for (Influence& influence : character.meshes[0].weights.influences) influence = {0, 1.0f};
-  EXPECT_EQ(bind_pose(character).model_from_bone[1].translation(), Eigen::Vector3d(5, 6, 7));
+  EXPECT_EQ(bind_pose(character)->model_from_bone[1].translation(), Eigen::Vector3d(5, 6, 7));
 }
 
 TEST(Palette, sizes_are_checked) {
@@ -51,7 +51,7 @@ TEST(Palette, sizes_are_checked) {
   ModelPose model;
   EXPECT_EQ(compute_model_pose(character.skeleton, {}, model).code(), StatusCode::size_mismatch);
   std::vector<Affine3d> palette(1);
-  EXPECT_EQ(compute_palette(character.skins[0], bind_pose(character), palette).code(),
+  EXPECT_EQ(compute_palette(character.skins[0], *bind_pose(character), palette).code(),
             StatusCode::size_mismatch);
   palette.resize(2);
   EXPECT_EQ(compute_palette(character.skins[0], model, palette).code(),

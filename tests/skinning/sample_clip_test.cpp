@@ -19,7 +19,7 @@ Channel translation(Interpolation interpolation, std::vector<float> times,
 
 Vec3f translation_at(const Clip& clip, double time) {
   const Character character = test::make_sheet(1);
-  Pose pose = local_rest_pose(character);
+  Pose pose = *local_rest_pose(character);
   EXPECT_TRUE(sample_clip(clip, time, pose));
   return pose.parent_from_bone[1].translation;
 }
@@ -53,7 +53,7 @@ TEST(SampleClip, rotations_take_the_short_way_at_even_speed) {
   const float h = std::sqrt(0.5f);
   Channel channel{ChannelTarget::rotation,   1, 4, Interpolation::linear, {0, 1},
                   {0, 0, 0, 1, 0, 0, -h, -h}};  // 90 degrees, sign flipped
-  Pose pose = local_rest_pose(test::make_sheet(1));
+  Pose pose = *local_rest_pose(test::make_sheet(1));
   ASSERT_TRUE(sample_clip(one_channel(channel), 1.0 / 3, pose));
   const Quatd rotation = pose.parent_from_bone[1].rotation.cast<double>();
   EXPECT_NEAR(2 * std::atan2(std::abs(rotation.z()), std::abs(rotation.w())), M_PI / 6, 1e-6);
@@ -62,7 +62,7 @@ TEST(SampleClip, rotations_take_the_short_way_at_even_speed) {
 
 TEST(SampleClip, drives_morph_weights) {
   const Character character = test::make_tube(2, 4, 2);
-  Pose pose = local_rest_pose(character);
+  Pose pose = *local_rest_pose(character);
   const Clip clip =
       one_channel({ChannelTarget::morph_weights, 0, 1, Interpolation::linear, {0, 1}, {0, 1}});
   ASSERT_TRUE(sample_clip(clip, 0.25, pose));
@@ -71,7 +71,7 @@ TEST(SampleClip, drives_morph_weights) {
 
 TEST(SampleClip, leaves_undriven_values_unchanged) {
   const Character character = test::make_tube(2, 4, 3);
-  Pose pose = local_rest_pose(character);
+  Pose pose = *local_rest_pose(character);
   ASSERT_TRUE(sample_clip(character.clips[0], 0.5, pose));
   EXPECT_EQ(pose.parent_from_bone[0], character.skeleton.bones[0].rest);
   EXPECT_EQ(pose.parent_from_bone[1].translation, character.skeleton.bones[1].rest.translation);
@@ -81,7 +81,7 @@ TEST(SampleClip, leaves_undriven_values_unchanged) {
 
 TEST(SampleClip, refuses_a_pose_of_another_character_and_writes_nothing) {
   const Character character = test::make_tube(2, 4, 3);
-  Pose pose = local_rest_pose(test::make_sheet(1));
+  Pose pose = *local_rest_pose(test::make_sheet(1));
   const Pose before = pose;
   EXPECT_EQ(sample_clip(character.clips[0], 0.5, pose).code(), StatusCode::size_mismatch);
   EXPECT_EQ(pose.parent_from_bone, before.parent_from_bone);

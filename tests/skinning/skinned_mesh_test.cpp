@@ -46,7 +46,7 @@ void write(const SkinnedMesh& mesh, const BonePalette& palette, PosedBuffer& buf
 BonePalette palette_of(const std::vector<Affine3f>& matrices,
                        const std::vector<float>& morph_weights,
                        SkinningMethod method = SkinningMethod::linear) {
-  BonePalette palette(matrices.size(), morph_weights.size(), method);
+  BonePalette palette = *BonePalette::create(matrices.size(), morph_weights.size(), method);
   EXPECT_TRUE(palette.set(matrices, morph_weights));
   return palette;
 }
@@ -127,7 +127,7 @@ TEST(SkinnedMesh, a_vertex_has_the_same_bits_at_any_index) {
       std::iota(shuffle.begin(), shuffle.end(), 0u);
       for (std::uint32_t i = 0; i + 1 < mesh.vertex_count(); ++i)
         std::swap(shuffle[i], shuffle[i + random.index(mesh.vertex_count() - i)]);
-      for (const auto& order : {shuffle, order_for_skinning(mesh)}) {
+      for (const auto& order : {shuffle, *order_for_skinning(mesh)}) {
         Mesh other = mesh;
         ASSERT_TRUE(reorder_vertices(other, order));
         PosedArrays other_posed(other);
@@ -278,7 +278,7 @@ TEST(SkinnedMesh, writing_moved_vertices_equals_writing_all) {
         const SkinnedMesh made = skinned(mesh, kind.slots);
         auto matrices = test::in_float(test::random_palette(random, kind.slots, 1.2));
         auto weights = random_morph_weights(random, kind.morph_targets);
-        BonePalette palette(kind.slots, kind.morph_targets, method);
+        BonePalette palette = *BonePalette::create(kind.slots, kind.morph_targets, method);
         PosedArrays posed(mesh), before(mesh);
         PosedBuffer buffer(posed.target()), to_before(before.target());
         for (int frame = 0; frame < 8; ++frame) {
@@ -452,7 +452,8 @@ TEST(SkinnedMesh, a_thousand_kilometres_away_nothing_changes) {
     near.model_from_bone.push_back(pose[slot]);
     far.model_from_bone.push_back(model_from_character * pose[slot]);
   }
-  BonePalette at_home(kind.slots, 0), away(kind.slots, 0);
+  BonePalette at_home = *BonePalette::create(kind.slots, 0),
+              away = *BonePalette::create(kind.slots, 0);
   ASSERT_TRUE(at_home.set(skin, near));
   ASSERT_TRUE(away.set(skin, far, model_from_character));
   const SkinnedMesh made = skinned(mesh, kind.slots);
@@ -482,7 +483,7 @@ TEST(SkinnedMesh, refuses_mismatching_arguments_and_writes_nothing) {
   EXPECT_EQ(
       code_of(palette_of(test::in_float(test::random_palette(random, 6)), {}), posed.target()),
       StatusCode::size_mismatch);
-  EXPECT_EQ(code_of(BonePalette(6, 1), posed.target()), StatusCode::invalid_argument);
+  EXPECT_EQ(code_of(*BonePalette::create(6, 1), posed.target()), StatusCode::invalid_argument);
   VertexTarget target = posed.target();
   target.vertex_count = 49;
   EXPECT_EQ(code_of(palette, target), StatusCode::size_mismatch);
@@ -551,7 +552,7 @@ TEST(SkinnedMesh, bad_vertices_are_named) {
 
 TEST(SkinnedMesh, an_empty_mesh_is_valid) {
   const SkinnedMesh made = skinned(Mesh(), 3);
-  BonePalette palette(3, 0);
+  BonePalette palette = *BonePalette::create(3, 0);
   ASSERT_TRUE(palette.set(std::vector<Affine3f>(3, Affine3f::Identity()), {}));
   PosedBuffer buffer({});
   EXPECT_TRUE(made.deform(palette, buffer));

@@ -39,7 +39,7 @@ TEST(Vectors, all_kinds_give_the_same_bits) {
           const Mesh mesh = test::make_random_skin(random, kind);
           const auto made = SkinnedMesh::create(source_of(mesh), kind.slots);
           ASSERT_TRUE(made);
-          BonePalette palette(kind.slots, kind.morph_targets, method);
+          BonePalette palette = *BonePalette::create(kind.slots, kind.morph_targets, method);
           ASSERT_TRUE(palette.set(test::in_float(test::random_palette(random, kind.slots, scale)),
                                   std::vector<float>(kind.morph_targets, 0.7f)));
           const auto pose_into = [&](test::PosedArrays& posed) {

@@ -154,7 +154,7 @@ TEST(VertexDisplacements, agree_with_the_definition_in_double) {
       const Mesh mesh = test::make_random_skin(random, kind);
       const auto exact = test::random_palette(random, kind.slots);
       const std::vector<float> weights(kind.morph_targets, 0.4f);
-      BonePalette palette(kind.slots, kind.morph_targets);
+      BonePalette palette = *BonePalette::create(kind.slots, kind.morph_targets);
       ASSERT_TRUE(palette.set(test::in_float(exact), weights));
       const SkinnedMesh made = skinned(mesh, kind.slots);
       Soft soft = make_soft(random, kind.vertices);
@@ -209,7 +209,7 @@ TEST(VertexDisplacements, have_the_same_bits_after_any_earlier_displacement) {
         const SkinnedMesh made = skinned(mesh, kind.slots);
         auto matrices = test::in_float(test::random_palette(random, kind.slots, 1.2));
         const std::vector<float> weights(kind.morph_targets, 0.4f);
-        BonePalette palette(kind.slots, kind.morph_targets, method);
+        BonePalette palette = *BonePalette::create(kind.slots, kind.morph_targets, method);
         ASSERT_TRUE(palette.set(matrices, weights));
         Soft soft = make_soft(random, kind.vertices);
         const std::size_t padding = random.index(2) == 0 ? 0 : 2;
@@ -260,7 +260,7 @@ TEST(VertexDisplacements, follow_vertices_that_come_and_go) {
         mesh.weights.influences.resize(mesh.weights.first[count]);
         return mesh;
       };
-      BonePalette palette(kind.slots, 0);
+      BonePalette palette = *BonePalette::create(kind.slots, 0);
       ASSERT_TRUE(palette.set(test::in_float(test::random_palette(random, kind.slots)), {}));
       std::uint32_t count = 600;
       SkinnedMesh made = skinned(first_vertices(count), kind.slots);
@@ -293,7 +293,7 @@ TEST(VertexDisplacements, have_the_same_bits_at_every_number_of_tasks) {
   const RandomSkin kind = {40000, 64, 4, 0, true, 8};
   const Mesh mesh = test::make_random_skin(random, kind);
   const SkinnedMesh made = skinned(mesh, kind.slots);
-  BonePalette palette(kind.slots, 0);
+  BonePalette palette = *BonePalette::create(kind.slots, 0);
   ASSERT_TRUE(palette.set(test::in_float(test::random_palette(random, kind.slots)), {}));
   Soft soft = make_soft(random, kind.vertices, 500);
   soft.moved = {{5, 1}, {6, 20000}, {25000, 0}, {30001, 9999}};
@@ -318,7 +318,7 @@ TEST(VertexDisplacements, only_blocks_that_are_displaced_or_were_are_written) {
        {RandomSkin{2000, 50, 3, 0, false, 4}, RandomSkin{9000, 12, 1, 0, false, 12}}) {
     const Mesh mesh = test::make_random_skin(random, kind);
     const SkinnedMesh made = skinned(mesh, kind.slots);
-    BonePalette palette(kind.slots, 0);
+    BonePalette palette = *BonePalette::create(kind.slots, 0);
     ASSERT_TRUE(palette.set(test::in_float(test::random_palette(random, kind.slots)), {}));
     PosedArrays posed(mesh);
     PosedBuffer buffer(posed.target());
@@ -352,7 +352,7 @@ TEST(VertexDisplacements, frames_allocate_nothing_once_warm) {
   const RandomSkin kind = {9000, 12, 1, 0, false, 12};
   const Mesh mesh = test::make_random_skin(random, kind);
   const SkinnedMesh made = skinned(mesh, kind.slots);
-  BonePalette palette(kind.slots, 0);
+  BonePalette palette = *BonePalette::create(kind.slots, 0);
   ASSERT_TRUE(palette.set(test::in_float(test::random_palette(random, kind.slots)), {}));
   PosedArrays posed(mesh);
   PosedBuffer buffer(posed.target());
@@ -439,7 +439,7 @@ TEST(VertexDisplacements, turn_normals_as_the_displaced_surface_turns_to_first_o
       Affine3d bone = test::random_palette(random, 1)[0];
       if (round % 2 == 1) bone.linear() = bone.linear() * Mat3d(Vec3d(1.3, 0.8, 1.1).asDiagonal());
       sheet.turn = bone.linear();
-      BonePalette palette(1, 0);
+      BonePalette palette = *BonePalette::create(1, 0);
       ASSERT_TRUE(palette.set(test::in_float({bone}), {}));
       const SkinnedMesh made = skinned(sheet.mesh, 1);
       sheet.soft.matrices.assign(4, Mat3d(bone.linear().inverse().transpose()).cast<float>());
@@ -485,7 +485,7 @@ TEST(VertexDisplacements, gradients_are_turned_by_the_mean_of_the_particles) {
   const RandomSkin kind = {300, 20, 4, 0, true, 6};
   const Mesh mesh = test::make_random_skin(random, kind);
   const SkinnedMesh made = skinned(mesh, kind.slots);
-  BonePalette palette(kind.slots, 0);
+  BonePalette palette = *BonePalette::create(kind.slots, 0);
   ASSERT_TRUE(palette.set(test::in_float(test::random_palette(random, kind.slots)), {}));
   Soft soft = make_soft(random, kind.vertices);
   soft.moved = {{0, kind.vertices}};
@@ -523,7 +523,7 @@ TEST(VertexDisplacements, that_do_not_fit_are_refused_and_nothing_is_written) {
   const RandomSkin kind = {50, 6, 4, 0, false, 6};
   const Mesh mesh = test::make_random_skin(random, kind);
   const SkinnedMesh made = skinned(mesh, kind.slots);
-  BonePalette palette(kind.slots, 0);
+  BonePalette palette = *BonePalette::create(kind.slots, 0);
   ASSERT_TRUE(palette.set(test::in_float(test::random_palette(random, kind.slots)), {}));
   Soft good = make_soft(random, kind.vertices);
   good.moved = {{0, 10}, {10, 40}};
@@ -565,7 +565,7 @@ TEST(VertexDisplacements, that_do_not_fit_are_refused_and_nothing_is_written) {
   EXPECT_EQ(posed.first_difference(expected), kNone);
 
   const SkinnedMesh empty = skinned(Mesh(), 3);
-  BonePalette of_empty(3, 0);
+  BonePalette of_empty = *BonePalette::create(3, 0);
   ASSERT_TRUE(of_empty.set(std::vector<Affine3f>(3, Affine3f::Identity()), {}));
   PosedBuffer nothing({});
   Soft none;

@@ -13,7 +13,7 @@ namespace {
 TEST(VertexOrder, puts_vertices_of_the_same_bones_together_and_keeps_the_order_among_them) {
   test::Random random(1);
   const Mesh mesh = test::make_random_skin(random, {1000, 10, 3, 0, false, 10});
-  const auto old_from_new = order_for_skinning(mesh);
+  const auto old_from_new = *order_for_skinning(mesh);
   const auto slots_of = [&](std::uint32_t v) {
     std::vector<std::uint32_t> slots;
     for (const Influence& influence : mesh.weights.of(v)) slots.push_back(influence.slot);
@@ -39,7 +39,7 @@ TEST(VertexOrder, renumbers_everything_that_a_vertex_has) {
     mesh.color_sets[0].emplace_back(static_cast<float>(v), 0.0f, 0.0f, 1.0f);
   ASSERT_TRUE(validate_character(character));
   const Mesh before = mesh;
-  const auto order = order_for_skinning(mesh);
+  const auto order = *order_for_skinning(mesh);
   ASSERT_TRUE(reorder_vertices(mesh, order));
   EXPECT_TRUE(validate_character(character));
   for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {

@@ -378,7 +378,7 @@ std::vector<std::string> broken_rest(const TornModel& model, const ParticleSet& 
   if (const Status status = set.rest(pose, all, rest); !status) return {std::string(status.text())};
   const std::vector<PosedPoint> points = posed_points(model, set, pose);
   const double diagonal = std::max(posed_diagonal(model.character(), pose),
-                                   posed_diagonal(model.source(), bind_pose(model.source())));
+                                   posed_diagonal(model.source(), *bind_pose(model.source())));
   for (const std::uint32_t p : all) {
     const std::vector<std::uint32_t> members = set.members(p).value();
     if (members.empty()) continue;
@@ -402,7 +402,7 @@ std::vector<std::string> broken_lip_edges(const TornModel& model, const Particle
   const Surface& surface = model.surface();
   const Borders borders(model);
   const SourceBorder source(model.source());
-  const double tolerance = 1e-6 * posed_diagonal(model.source(), bind_pose(model.source()));
+  const double tolerance = 1e-6 * posed_diagonal(model.source(), *bind_pose(model.source()));
   const auto at = [&](std::uint32_t point) { return Vec3d(set.positions()[point].cast<double>()); };
   std::set<std::uint32_t> listed;
   for (const LipEdge& lip : set.lips()) {

@@ -274,7 +274,7 @@ Character make_soup(Random& random) {
 }
 
 ModelPose random_pose(const Character& character, Random& random, double angle, double scale) {
-  Pose pose = local_rest_pose(character);
+  Pose pose = *local_rest_pose(character);
   for (BoneTransform& bone : pose.parent_from_bone) {
     const Quatd turn(Eigen::AngleAxisd{random.uniform(-angle, angle), random.direction()});
     bone.rotation = Quatf((bone.rotation.cast<double>() * turn).normalized().cast<float>());

@@ -155,8 +155,8 @@ std::vector<std::string> broken_laws(const TornModel& model) {
 
 std::vector<std::string> broken_surface(const TornModel& model) {
   std::vector<std::string> faults;
-  const TopologyCounts before = count_topology(model.source()),
-                       after = count_topology(model.character());
+  const TopologyCounts before = *count_topology(model.source()),
+                       after = *count_topology(model.character());
   if (after.non_manifold_edges > before.non_manifold_edges)
     faults.push_back(
         say("non-manifold edges: ", before.non_manifold_edges, " -> ", after.non_manifold_edges));
@@ -176,14 +176,14 @@ bool is_clear_of_itself(const Character& source) {
         const Vec3f& position = mesh.positions[triangle[k]];
         places.insert({position.x() + 0.0f, position.y() + 0.0f, position.z() + 0.0f});
       }
-  const TopologyCounts counts = count_topology(source);
+  const TopologyCounts counts = *count_topology(source);
   return counts.non_manifold_edges == 0 && counts.points == places.size();
 }
 
 std::vector<std::string> broken_closure(const TornModel& model) {
   std::vector<std::string> faults;
-  const TopologyCounts before = count_topology(model.source()),
-                       closed = count_topology(with_lips_closed(model.character()));
+  const TopologyCounts before = *count_topology(model.source()),
+                       closed = *count_topology(with_lips_closed(model.character()));
   if (closed.components != before.components || closed.boundary_loops != before.boundary_loops ||
       closed.non_manifold_edges != before.non_manifold_edges)
     faults.push_back(say("with lips closed: components ", before.components, " -> ",

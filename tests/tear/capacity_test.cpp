@@ -67,7 +67,7 @@ TEST(Capacity, tears_of_a_warm_model_allocate_nothing) {
 TEST(Capacity, extending_a_stroke_allocates_nothing) {
   const Character sheet = test::make_sheet(40);
   TornModel model = make_model(sheet, kRoom);
-  const ModelPose pose = bind_pose(sheet);
+  const ModelPose pose = *bind_pose(sheet);
   const auto blade = [](int i) {
     const double x = 0.1 + 0.01 * i, y = 0.5 + 0.1 * std::sin(0.1 * i);
     return Blade{{x, y, 0.5}, {x, y, -0.5}};
@@ -147,7 +147,7 @@ TEST(Capacity, undoing_an_operation_makes_room) {
   const Character tube = test::make_tube(10, 12, 4);
   TornModel model = make_model(tube, {2000, 2000, 1});
   Random random(1);
-  const ModelPose pose = bind_pose(tube);
+  const ModelPose pose = *bind_pose(tube);
   const Stroke stroke = test::random_stroke(tube, pose, random, 1.0, 3);
   for (int i = 0; i < 20; ++i) {
     const auto report = model.tear(pose, stroke);

@@ -53,13 +53,13 @@ PlaneCut cut_through(const Vec3d& point, const Vec3d& normal) {
 
 TEST(Caps, close_both_halves_of_a_tube) {
   TornModel model = make_model(test::make_tube(10, 12, 3));
-  const ModelPose pose = bind_pose(model.source());
+  const ModelPose pose = *bind_pose(model.source());
   const double whole = volume_of(model, pose);
   const auto report = model.cut(pose, cut_through({0, 1.53, 0}, {0.2, 1, 0.1}));
   ASSERT_TRUE(report) << report.error().text();
   EXPECT_EQ(report->caps, 2u);
   EXPECT_EQ(report->open_sections, 0u);
-  const TopologyCounts counts = count_topology(model.character());
+  const TopologyCounts counts = *count_topology(model.character());
   EXPECT_EQ(counts.components, 2u);
   EXPECT_EQ(counts.boundary_edges, 0u);
   EXPECT_EQ(counts.non_manifold_edges, 0u);
@@ -87,8 +87,8 @@ TEST(Caps, of_random_cuts_in_random_poses_leave_no_border) {
       const auto report = model.cut(pose, cut_through(middle, random.direction()));
       ASSERT_TRUE(report) << report.error().text();
       ASSERT_EQ(report->open_sections, 0u) << "cut " << k;
-      ASSERT_EQ(count_topology(model.character()).boundary_edges, 0u) << "cut " << k;
-      ASSERT_EQ(count_topology(model.character()).non_manifold_edges, 0u) << "cut " << k;
+      ASSERT_EQ(count_topology(model.character())->boundary_edges, 0u) << "cut " << k;
+      ASSERT_EQ(count_topology(model.character())->non_manifold_edges, 0u) << "cut " << k;
       ASSERT_THAT(test::broken_laws(model), IsEmpty()) << "cut " << k;
     }
     while (model.undo_count() > 0) ASSERT_TRUE(model.undo());

@@ -244,7 +244,7 @@ void compare_cut(const Subject& subject, const PlaneCut& cut, double snap = 0) {
   if (*std::min_element(parts.areas.begin(), parts.areas.end()) <
       std::max(snap, kRounding * diagonal) * diagonal)
     return;
-  const std::size_t components = count_topology(model.character()).components;
+  const std::size_t components = count_topology(model.character())->components;
   // A bridge that is not wider than the rounding may or may not connect two parts.
   if (snap == 0) {
     EXPECT_EQ(components, parts.areas.size());
@@ -383,7 +383,7 @@ void compare_gap(const Subject& subject, Random& random) {
   ASSERT_TRUE(report) << report.error().text();
   EXPECT_EQ(report->blocked, 0u);
   EXPECT_NEAR(report->area_removed_posed, expected.area_inside, kRounding * diagonal * diagonal);
-  EXPECT_EQ(count_topology(model.character()).components, expected.parts_outside);
+  EXPECT_EQ(count_topology(model.character())->components, expected.parts_outside);
   EXPECT_THAT(test::broken_laws(model), IsEmpty());
   EXPECT_THAT(test::broken_surface(model), IsEmpty());
 }
@@ -440,7 +440,7 @@ void compare_bore(const Subject& subject, Random& random) {
   EXPECT_GE(report->area_removed_posed, inner.area_inside - kRounding * diagonal * diagonal);
   EXPECT_LE(report->area_removed_posed, outer.area_inside + kRounding * diagonal * diagonal);
   if (inner.parts_outside == outer.parts_outside) {
-    EXPECT_EQ(count_topology(model.character()).components, inner.parts_outside);
+    EXPECT_EQ(count_topology(model.character())->components, inner.parts_outside);
   }
   EXPECT_THAT(test::broken_laws(model), IsEmpty());
   EXPECT_THAT(test::broken_surface(model), IsEmpty());

@@ -297,7 +297,7 @@ TEST(ChangeRecord, lists_lips_in_the_order_of_the_stroke) {
     stroke.push_back({{3, 0.23 + 1.4 * part, z}, {0.2, 0.23 + 1.4 * part, z}});
   }
   ChangeRecord change;
-  const auto report = model.tear(bind_pose(model.source()), stroke, {}, &change);
+  const auto report = model.tear(*bind_pose(model.source()), stroke, {}, &change);
   ASSERT_TRUE(report) << report.error().text();
   ASSERT_EQ(report->runs, 1u);
   ASSERT_GT(change.lips.size(), 15u);

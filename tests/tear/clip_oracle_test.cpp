@@ -33,7 +33,7 @@ ConvexCell box(const Vec3d& low, const Vec3d& high) {
 
 TEST(ClipOracle, of_a_flat_sheet_is_the_area_in_the_cell) {
   const Character sheet = test::make_sheet(7);
-  const ModelPose pose = bind_pose(sheet);
+  const ModelPose pose = *bind_pose(sheet);
   EXPECT_NEAR(whole_area(sheet, pose), 1.0, 1e-6);
   EXPECT_NEAR(test::clipped_area(sheet, pose, box({0.13, 0.2, -1}, {0.55, 0.9, 1})), 0.42 * 0.7,
               1e-6);
@@ -52,7 +52,7 @@ TEST(ClipOracle, of_a_flat_sheet_is_the_area_in_the_cell) {
 
 TEST(ClipOracle, of_a_union_counts_shared_parts_once) {
   const Character sheet = test::make_sheet(6);
-  const ModelPose pose = bind_pose(sheet);
+  const ModelPose pose = *bind_pose(sheet);
   const ConvexCell cells[] = {
       box({0.1, 0.1, -1}, {0.5, 0.5, 1}), box({0.3, 0.3, -1}, {0.7, 0.7, 1}),
       box({0.4, 0.1, -1}, {0.6, 0.9, 1}), box({0.7, 0.3, -1}, {0.8, 0.7, 1})};

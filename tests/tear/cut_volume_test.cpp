@@ -371,7 +371,7 @@ CutBody cut_and_check(const Character& character, const ModelPose& pose,
   const std::vector<Body> bodies = bodies_of(model, place);
   for (const Body& body : bodies) EXPECT_TRUE(body.is_closed || !result.is_capped);
   // The kernel's points agree with the arrays.
-  const TopologyCounts counts = count_topology(model.character());
+  const TopologyCounts counts = *count_topology(model.character());
   EXPECT_EQ(counts.components, bodies.size());
   EXPECT_EQ(counts.boundary_edges == 0, result.is_capped);
   EXPECT_EQ(counts.non_manifold_edges, 0u);
@@ -430,7 +430,7 @@ void cut_random_bodies(std::uint64_t seed, int cases, const MakePose& make_pose,
   compare(bodies);
 }
 
-ModelPose in_bind_pose(const Character& character, Random&) { return bind_pose(character); }
+ModelPose in_bind_pose(const Character& character, Random&) { return *bind_pose(character); }
 ModelPose bent(const Character& character, Random& random) {
   return test::random_pose(character, random, 0.3, 1.2);
 }
@@ -454,7 +454,7 @@ TEST(CutVolume, of_many_cuts_adds_up) {
 /// touches itself and gets no cap.
 bool grazes(const Character& character, const PlaneCut& cut) {
   constexpr double kNear = 2e-3;
-  const SplitTask task = task_of(character, bind_pose(character));
+  const SplitTask task = task_of(character, *bind_pose(character));
   std::vector<int> side;
   for (const auto& [x, y, z] : task.positions) {
     const double distance = cut.normal.normalized().dot(Vec3d(x, y, z) - cut.point);
@@ -489,7 +489,7 @@ TEST(CutVolume, of_cuts_through_vertices_and_edges_adds_up) {
   for (int i = 0; i < count_of_cases(150); ++i) {
     SCOPED_TRACE(i);
     const Character character = random_body(random);
-    const ModelPose pose = bind_pose(character);
+    const ModelPose pose = *bind_pose(character);
     std::vector<PlaneCut> cuts(1 + random.index(3));
     for (PlaneCut& cut : cuts) {
       const Mesh& mesh = character.meshes[0];

@@ -46,7 +46,7 @@ Character make_subject(Random& random) {
 /// A pose with bones that are collapsed, mirrored or sheared, or all of them at bind.
 ModelPose hard_pose(const Character& character, Random& random) {
   ModelPose pose =
-      random.index(3) == 0 ? bind_pose(character) : test::random_pose(character, random, 0.6, 1.3);
+      random.index(3) == 0 ? *bind_pose(character) : test::random_pose(character, random, 0.6, 1.3);
   if (random.index(2) == 0) return pose;
   for (Affine3d& bone : pose.model_from_bone) {
     Mat3d change = Mat3d::Identity();
@@ -382,7 +382,7 @@ TEST(Degenerate, triangles_with_a_point_twice_are_of_no_piece) {
 /// first of them.
 TEST(Degenerate, a_tear_that_could_go_on_before_its_first_blade_comes_to_an_end) {
   Subject subject(test::make_sheet(10));
-  ModelPose pose = bind_pose(subject.model.source());
+  ModelPose pose = *bind_pose(subject.model.source());
   pose.model_from_bone[0].linear().setZero();
   const Stroke stroke = {{{0.14436965948727123, 0.24107710487067946, 0.5},
                           {0.14436965948727123, 0.24107710487067946, -0.05}},
@@ -425,7 +425,7 @@ TEST(Degenerate, tears_meet_older_tears_in_every_way) {
     Random random(static_cast<std::uint64_t>(seed));
     const std::uint32_t cells = 1 + random.index(12);
     Subject subject(test::make_sheet(cells));
-    const ModelPose pose = bind_pose(subject.model.source());
+    const ModelPose pose = *bind_pose(subject.model.source());
     const auto tear = [&](const Stroke& stroke, const TearOptions& options) {
       if (random.index(3) == 0)
         subject.run(test::say(describe(stroke, options), " blade by blade"), [&](ChangeRecord&) {
@@ -476,7 +476,7 @@ void tear_ring_in_sheet(std::uint64_t seed) {
   Random random(seed);
   const std::uint32_t cells = 1 + random.index(16), corners = 3 + random.index(12);
   Subject subject(test::make_sheet(cells));
-  const ModelPose pose = bind_pose(subject.model.source());
+  const ModelPose pose = *bind_pose(subject.model.source());
   const double y = random.uniform(0.4, 0.6),
                x = random.uniform(0.4, 0.6);  // evaluated in this order by every compiler
   const Vec2d center(x, y);
@@ -500,7 +500,7 @@ void tear_ring_in_sheet(std::uint64_t seed) {
     return result;
   });
   const double area = 0.5 * corners * radius * radius * std::sin(2 * std::numbers::pi / corners);
-  EXPECT_EQ(count_topology(subject.model.character()).components, 2u);
+  EXPECT_EQ(count_topology(subject.model.character())->components, 2u);
   ASSERT_EQ(report.pieces.size(), 1u) << describe(stroke, options);
   // The part with more faces is the rest, even if it is the flap.
   const double free = report.pieces[0].area_posed, rest = 1 - report.area_removed_posed - free;
@@ -531,7 +531,7 @@ void tear_ring_around_tube(std::uint64_t seed) {
   const std::uint32_t rings = 3 + random.index(12), sides = 3 + random.index(14),
                       blades = 5 + random.index(20);
   Subject subject(test::make_tube(rings, sides, 3));
-  const ModelPose pose = bind_pose(subject.model.source());
+  const ModelPose pose = *bind_pose(subject.model.source());
   const double height =
       random.index(2) == 0 ? random.uniform(0.5, 2.5) : 3.0 * (1 + random.index(rings - 1)) / rings;
   const double begin = random.index(2) == 0 ? 0.0 : random.uniform(0, 6);
@@ -550,7 +550,7 @@ void tear_ring_around_tube(std::uint64_t seed) {
     if (result) report = *result;
     return result;
   });
-  EXPECT_EQ(count_topology(subject.model.character()).components, 2u) << describe(stroke, options);
+  EXPECT_EQ(count_topology(subject.model.character())->components, 2u) << describe(stroke, options);
   EXPECT_EQ(report.pieces.size(), 1u) << describe(stroke, options);
   subject.undo_everything();
 }

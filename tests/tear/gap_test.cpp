@@ -42,7 +42,7 @@ TEST(Gap, of_a_straight_stroke_on_a_plane_is_width_times_length) {
   for (int i = 0; i < 200; ++i) {
     SCOPED_TRACE(i);
     TornModel model = make_model(test::make_sheet(1 + random.index(20)));
-    const ModelPose pose = bind_pose(model.source());
+    const ModelPose pose = *bind_pose(model.source());
     TearOptions options;
     options.width = random.uniform(0.001, 0.1);
     const Vec2d from{random.uniform(0.1, 0.9), random.uniform(0.1, 0.9)},
@@ -53,7 +53,7 @@ TEST(Gap, of_a_straight_stroke_on_a_plane_is_width_times_length) {
     const double expected = options.width * length_of(stroke);
     EXPECT_NEAR(report->area_removed_posed, expected, 1e-6 * expected);
     EXPECT_NEAR(test::removed_area(model, pose), expected, 1e-6 * expected);
-    EXPECT_EQ(count_topology(model.character()).boundary_loops, 2u);
+    EXPECT_EQ(count_topology(model.character())->boundary_loops, 2u);
     expect_sound(model);
   }
 }
@@ -64,7 +64,7 @@ TEST(Gap, of_a_turning_stroke_is_mitred) {
   for (int i = 0; i < 200; ++i) {
     SCOPED_TRACE(i);
     TornModel model = make_model(test::make_sheet(1 + random.index(20)));
-    const ModelPose pose = bind_pose(model.source());
+    const ModelPose pose = *bind_pose(model.source());
     TearOptions options;
     options.width = random.uniform(0.001, 0.02);
     const Stroke stroke = test::turning_stroke(random);
@@ -74,7 +74,7 @@ TEST(Gap, of_a_turning_stroke_is_mitred) {
     const double expected = options.width * length_of(stroke);
     EXPECT_NEAR(report->area_removed_posed, expected, 1e-6 * expected);
     EXPECT_NEAR(test::removed_area(model, pose), expected, 1e-6 * expected);
-    EXPECT_EQ(count_topology(model.character()).boundary_loops, 2u)
+    EXPECT_EQ(count_topology(model.character())->boundary_loops, 2u)
         << "one gap, no notch, nothing left inside";
     expect_sound(model);
   }
@@ -82,7 +82,7 @@ TEST(Gap, of_a_turning_stroke_is_mitred) {
 
 TEST(Gap, at_a_sharp_turn_is_bevelled_and_has_no_spike) {
   TornModel model = make_model(test::make_sheet(12));
-  const ModelPose pose = bind_pose(model.source());
+  const ModelPose pose = *bind_pose(model.source());
   TearOptions options;
   options.width = 0.04;
   const double turn = 170.0 / 180.0 * std::numbers::pi;
@@ -90,7 +90,7 @@ TEST(Gap, at_a_sharp_turn_is_bevelled_and_has_no_spike) {
                          down_at(0.6 + 0.3 * std::cos(turn), 0.5 + 0.3 * std::sin(turn))};
   const auto report = model.tear(pose, stroke, options);
   ASSERT_TRUE(report);
-  EXPECT_EQ(count_topology(model.character()).boundary_loops, 2u);
+  EXPECT_EQ(count_topology(model.character())->boundary_loops, 2u);
   expect_sound(model);
   for (const Triangle& triangle : model.character().meshes[0].triangles) {
     if (is_retired(triangle)) continue;
@@ -191,10 +191,10 @@ TEST(Bore, of_a_coarse_plane_has_a_round_rim) {
   bore.radius = 0.2;
   bore.depth = 2;
   bore.chord_tolerance = 0.0005;
-  const auto report = model.drill(bind_pose(model.source()), bore);
+  const auto report = model.drill(*bind_pose(model.source()), bore);
   ASSERT_TRUE(report);
   expect_sound(model);
-  EXPECT_EQ(count_topology(model.character()).boundary_loops, 2u);
+  EXPECT_EQ(count_topology(model.character())->boundary_loops, 2u);
   EXPECT_NEAR(report->area_removed_posed, std::numbers::pi * 0.04,
               std::numbers::pi * 0.04 * 2 * 0.0005 / 0.2);
 }

@@ -30,7 +30,7 @@ void blend(const ParentBlends& parents, std::vector<Vec3f>& positions) {
 std::vector<Vec3f> skinned(const VertexSource& source, const Skin& skin, const ModelPose& pose) {
   const auto runtime = SkinnedMesh::create(source, skin.bones.size());
   EXPECT_TRUE(runtime);
-  BonePalette palette(skin.bones.size(), pose.morph_weights.size());
+  BonePalette palette = *BonePalette::create(skin.bones.size(), pose.morph_weights.size());
   EXPECT_TRUE(palette.set(skin, pose));
   std::vector<Vec3f> positions(source.vertex_count);
   VertexTarget target;
@@ -51,7 +51,7 @@ TEST(ParentBlends, pose_as_influence_positions_do_in_every_pose) {
       ASSERT_TRUE(test::play(model, test::random_operation(model, random)));
     const Mesh& mesh = model.character().meshes[0];
     const Skin& skin = model.character().skins[0];
-    const ParentBlends parents = parent_blends(model, 0);
+    const ParentBlends parents = *parent_blends(model, 0);
     const InfluencePositions& exact = model.influence_positions(0);
     ASSERT_EQ(parents.blends.size(), exact.vertices.size());
     levels = std::max(levels, parents.level_begin.size() - 1);
@@ -89,7 +89,7 @@ TEST(ParentBlends, lips_stay_closed_bit_for_bit) {
     const Mesh& mesh = model.character().meshes[0];
     const ModelPose other = test::random_pose(model.source(), random, 0.9);
     std::vector<Vec3f> positions = skinned(source_of(mesh), model.character().skins[0], other);
-    blend(parent_blends(model, 0), positions);
+    blend(*parent_blends(model, 0), positions);
     std::map<std::uint32_t, std::vector<std::uint32_t>> vertices_of_point;
     for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t)
       for (std::uint32_t k = 0; k < 3; ++k)

@@ -41,7 +41,7 @@ class Torn {
  public:
   explicit Torn(Character of)
       : source(std::move(of)), character(source), editor(source, character) {
-    stand_in(bind_pose(source));
+    stand_in(*bind_pose(source));
   }
 
   void stand_in(const ModelPose& wanted) {
@@ -78,16 +78,14 @@ class Torn {
   }
   void undo() {
     if (done.empty()) return;
-    ChangeRecord change;
-    editor.undo(done.back(), undone.emplace_back(), change);
+    editor.undo(done.back(), undone.emplace_back(), nullptr);
     done.pop_back();
     stand_in(pose);
   }
   void redo() {
     if (undone.empty()) return;
-    ChangeRecord change;
     done.push_back(editor.mark());
-    editor.redo(undone.back(), change);
+    editor.redo(undone.back(), nullptr);
     undone.pop_back();
     stand_in(pose);
   }

@@ -52,7 +52,7 @@ std::vector<ModelPose> all_poses(const std::shared_ptr<const Character>& source,
                                  const PoseSetSpec& spec, PoseSet::Role role) {
   const auto set = PoseSet::create(source, spec);
   std::vector<ModelPose> poses(set->size(role));
-  for (std::size_t i = 0; i < poses.size(); ++i) set->compute(role, i, poses[i]);
+  for (std::size_t i = 0; i < poses.size(); ++i) EXPECT_TRUE(set->compute(role, i, poses[i]));
   return poses;
 }
 
@@ -116,7 +116,7 @@ TEST(RefitJob, the_model_may_be_torn_on_meanwhile) {
   EXPECT_EQ(test::broken_laws(torn.model), std::vector<std::string>());
   EXPECT_EQ(test::broken_surface(torn.model), std::vector<std::string>());
   auto again = TornModel::create(torn.source);
-  for (const Operation& operation : torn.model.history())
+  for (const Operation& operation : *torn.model.history())
     ASSERT_TRUE(apply_operation(*again, operation));
   EXPECT_EQ(again->digest(), torn.model.digest())
       << "the history says what was fitted, and when it came";
@@ -198,7 +198,7 @@ TEST(RefitJob, fits_neighbours_together) {
     EXPECT_LE(of_coupled->points[i].rms, before->points[i].rms + 1e-7);
   EXPECT_EQ(test::broken_laws(coupled.model), std::vector<std::string>());
   auto again = TornModel::create(coupled.source);
-  for (const Operation& operation : coupled.model.history())
+  for (const Operation& operation : *coupled.model.history())
     ASSERT_TRUE(apply_operation(*again, operation));
   EXPECT_EQ(again->digest(), coupled.model.digest());
 }

@@ -56,8 +56,8 @@ TEST_P(RandomReplay, of_the_history_reproduces_the_model) {
       ASSERT_NO_FATAL_FAILURE(tear_in_motion(model, random, random.index(2) == 0));
     else
       ASSERT_TRUE(test::play(model, test::random_operation(model, random)));
-    ASSERT_EQ(model.history().size(), model.undo_count());
-    ASSERT_EQ(difference(state_of(replay(model.source(), model.history())), state_of(model)), "")
+    ASSERT_EQ(model.history()->size(), model.undo_count());
+    ASSERT_EQ(difference(state_of(replay(model.source(), *model.history())), state_of(model)), "")
         << "operation " << i;
   }
 }
@@ -66,8 +66,8 @@ INSTANTIATE_TEST_SUITE_P(seeds, RandomReplay, testing::Range(0, 100));
 
 TEST(Replay, history_is_shorter_after_undo_and_longer_after_redo) {
   TornModel model = make_model(test::make_sheet(6));
-  EXPECT_TRUE(model.history().empty());
-  const ModelPose pose = bind_pose(model.source());
+  EXPECT_TRUE(model.history()->empty());
+  const ModelPose pose = *bind_pose(model.source());
   const Stroke first = {down_at(0.2, 0.2), down_at(0.4, 0.3)},
                second = {down_at(0.6, 0.6), down_at(0.8, 0.7)};
   ASSERT_TRUE(model.tear(pose, first));
@@ -75,16 +75,16 @@ TEST(Replay, history_is_shorter_after_undo_and_longer_after_redo) {
   TearOptions options;
   options.width = 0.03;
   ASSERT_TRUE(model.tear(pose, second, options));
-  ASSERT_EQ(model.history().size(), 2u);
+  ASSERT_EQ(model.history()->size(), 2u);
   ASSERT_TRUE(model.undo());
-  const std::vector<Operation> history = model.history();
+  const std::vector<Operation> history = *model.history();
   ASSERT_EQ(history.size(), 1u);
   EXPECT_EQ(std::get<TearOperation>(history[0]).stroke, first);
   EXPECT_EQ(replay(model.source(), history).digest(), after_first);
   ASSERT_TRUE(model.redo());
-  ASSERT_EQ(model.history().size(), 2u);
-  EXPECT_EQ(std::get<TearOperation>(model.history()[1]).stroke, second);
-  EXPECT_EQ(std::get<TearOperation>(model.history()[1]).options, options);
+  ASSERT_EQ(model.history()->size(), 2u);
+  EXPECT_EQ(std::get<TearOperation>((*model.history())[1]).stroke, second);
+  EXPECT_EQ(std::get<TearOperation>((*model.history())[1]).options, options);
 }
 
 TEST(Replay, a_stroke_in_motion_is_one_operation_with_the_poses_it_was_torn_in) {
@@ -102,8 +102,8 @@ TEST(Replay, a_stroke_in_motion_is_one_operation_with_the_poses_it_was_torn_in) 
   for (std::size_t i = 1; i < tear.stroke.size(); ++i)
     ASSERT_TRUE(stroke->extend(i < 3 ? first_pose : later_pose, tear.stroke[i]));
   ASSERT_TRUE(stroke->end());
-  ASSERT_EQ(model.history().size(), 1u);
-  const auto played = std::get<TearOperation>(model.history()[0]);
+  ASSERT_EQ(model.history()->size(), 1u);
+  const auto played = std::get<TearOperation>((*model.history())[0]);
   EXPECT_EQ(played.stroke, tear.stroke);
   std::uint32_t previous = 0;
   for (const auto& change : played.pose_changes) {
@@ -112,7 +112,7 @@ TEST(Replay, a_stroke_in_motion_is_one_operation_with_the_poses_it_was_torn_in) 
   }
   ASSERT_FALSE(played.pose_changes.empty());
   EXPECT_EQ(played.pose_changes.back().blade, 3u);
-  EXPECT_EQ(difference(state_of(replay(model.source(), model.history())), state_of(model)), "");
+  EXPECT_EQ(difference(state_of(replay(model.source(), *model.history())), state_of(model)), "");
 }
 
 TEST(Replay, poses_are_looked_up_by_name) {
@@ -140,7 +140,7 @@ TEST(Replay, poses_are_looked_up_by_name) {
     ASSERT_TRUE(given.tear(*pose, stroke));
     EXPECT_EQ(difference(state_of(named), state_of(given)), "");
     EXPECT_TRUE(
-        std::holds_alternative<ModelPose>(std::get<TearOperation>(named.history()[0]).pose));
+        std::holds_alternative<ModelPose>(std::get<TearOperation>((*named.history())[0]).pose));
   }
 }
 
@@ -168,7 +168,7 @@ TEST(Replay, clips_and_bones_that_do_not_exist_are_not_found) {
 
 TEST(Replay, undo_and_redo_of_too_many_operations_change_nothing) {
   TornModel model = make_model(test::make_sheet(6));
-  const ModelPose pose = bind_pose(model.source());
+  const ModelPose pose = *bind_pose(model.source());
   const auto initial = state_of(model);
   ASSERT_TRUE(model.tear(pose, Stroke{down_at(0.2, 0.2), down_at(0.4, 0.3)}));
   ASSERT_TRUE(model.tear(pose, Stroke{down_at(0.6, 0.6), down_at(0.8, 0.7)}));
@@ -202,7 +202,7 @@ TEST(Replay, compacting_starts_a_new_history) {
     EXPECT_EQ(model.source(), expected);
     EXPECT_EQ(model.undo_count(), 0u);
     EXPECT_EQ(model.redo_count(), 0u);
-    EXPECT_TRUE(model.history().empty());
+    EXPECT_TRUE(model.history()->empty());
     EXPECT_EQ(difference(state_of(model), state_of(make_model(expected))), "");
     ASSERT_TRUE(test::play(model, test::random_operation(model, random)));
   }

@@ -199,7 +199,7 @@ void expect_sides_of_lips(const Character& character, const ModelPose& pose, con
 
 TEST(Rims, have_the_sides_of_the_lips_that_the_stroke_makes_without_width) {
   const Character sheet = test::make_sheet(7);
-  const ModelPose flat = bind_pose(sheet);
+  const ModelPose flat = *bind_pose(sheet);
   const Segment from_above({{0.2, 0.41, 0.5}, {0.2, 0.41, -0.5}}, {0.5, 0.13, 0});
   const Segment from_below({{0.2, 0.41, -0.5}, {0.2, 0.41, 0.5}}, {0.5, 0.13, 0});
   expect_sides_of_lips(sheet, flat, from_above, Layers::nearest, 0.04, 1);
@@ -210,8 +210,8 @@ TEST(Rims, have_the_sides_of_the_lips_that_the_stroke_makes_without_width) {
   expect_sides_of_lips(sheet, flat, from_below, Layers::all, 0.04, 1);
   const Character tube = test::make_tube(9, 12, 3);
   const Segment across({{1, 1.13, 0.07}, {-1, 1.13, 0.07}}, {0, 0.5, 0.11});
-  expect_sides_of_lips(tube, bind_pose(tube), across, Layers::nearest, 0.05, 1);
-  expect_sides_of_lips(tube, bind_pose(tube), across, Layers::all, 0.05, 1);
+  expect_sides_of_lips(tube, *bind_pose(tube), across, Layers::nearest, 0.05, 1);
+  expect_sides_of_lips(tube, *bind_pose(tube), across, Layers::all, 0.05, 1);
 }
 
 /// Walks each border loop that has points of rims: it must follow one side, then the other, with
@@ -257,7 +257,7 @@ TEST(Rims, of_a_turning_stroke_are_two_runs) {
     options.width = random.uniform(0.001, 0.02);
     const Stroke stroke = test::turning_stroke(random);
     ChangeRecord change;
-    ASSERT_TRUE(model.tear(bind_pose(model.source()), stroke, options, &change));
+    ASSERT_TRUE(model.tear(*bind_pose(model.source()), stroke, options, &change));
     expect_listed_well(change.rims, model);
     EXPECT_EQ(count_loops_of_two_sides(change.rims, model), 1);
     EXPECT_GE(change.rims.left.size(), stroke.size());
@@ -276,7 +276,7 @@ TEST(Rims, go_around_a_bevel_on_the_outer_side) {
     const Stroke stroke = {down_at(0.2, 0.5), down_at(0.6, 0.5),
                            down_at(0.6 + 0.3 * std::cos(turn), 0.5 + 0.3 * std::sin(turn))};
     ChangeRecord change;
-    const ModelPose pose = bind_pose(model.source());
+    const ModelPose pose = *bind_pose(model.source());
     ASSERT_TRUE(model.tear(pose, stroke, options, &change));
     expect_listed_well(change.rims, model);
     EXPECT_EQ(count_loops_of_two_sides(change.rims, model), 1);
@@ -396,7 +396,7 @@ void redo_at_random(TornModel& model, Random& random) {
         WeightsOperation wanted;
         wanted.weights.policy =
             random.index(2) == 0 ? WeightPolicy::pose_exact : WeightPolicy::barycentric;
-        wanted.pose = bind_pose(model.source());
+        wanted.pose = *bind_pose(model.source());
         ASSERT_TRUE(model.reweigh(wanted, &change));
         expect_told(change, {}, {});
         done.emplace_back();
@@ -454,7 +454,7 @@ TEST(Rims, of_a_bore_are_none) {
   bore.depth = 2;
   ChangeRecord change;
   change.rims.left = {1, 2};
-  ASSERT_TRUE(model.drill(bind_pose(model.source()), bore, &change));
+  ASSERT_TRUE(model.drill(*bind_pose(model.source()), bore, &change));
   EXPECT_TRUE(change.rims == Rims{});
 }
 

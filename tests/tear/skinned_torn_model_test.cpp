@@ -19,7 +19,8 @@ struct Runtime {
   explicit Runtime(const Character& character)
       : made(std::move(
             *SkinnedMesh::create(source_of(character.meshes[0]), character.skins[0].bones.size()))),
-        palette(character.skins[0].bones.size(), character.rest_morph_weights.size()),
+        palette(*BonePalette::create(character.skins[0].bones.size(),
+                                     character.rest_morph_weights.size())),
         positions(20000),
         normals(20000),
         buffer(
@@ -102,7 +103,7 @@ TEST(SkinnedTornModel, frames_and_updates_with_room_do_not_allocate) {
   auto model = TornModel::create(source);
   ASSERT_TRUE(model);
   Runtime runtime(*source);
-  runtime.made.reserve(4000, 8);
+  ASSERT_TRUE(runtime.made.reserve(4000, 8));
   std::vector<ModelPose> poses;
   for (int i = 0; i < 10; ++i) poses.push_back(test::random_pose(*source, random));
   runtime.frame(*source, poses[0]);

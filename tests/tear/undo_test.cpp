@@ -98,7 +98,7 @@ TEST(Undo, of_nothing_is_not_found) {
 
 TEST(Undo, a_new_operation_clears_the_redo_stack) {
   TornModel model = make_model(test::make_sheet(6));
-  const ModelPose pose = bind_pose(model.source());
+  const ModelPose pose = *bind_pose(model.source());
   ASSERT_TRUE(model.tear(pose, Stroke{down_at(0.2, 0.2), down_at(0.4, 0.3)}));
   ASSERT_TRUE(model.tear(pose, Stroke{down_at(0.6, 0.6), down_at(0.8, 0.7)}));
   ASSERT_TRUE(model.undo());
@@ -133,7 +133,7 @@ TEST(Undo, operations_after_an_undo_do_not_depend_on_it) {
 
 TEST(Undo, an_operation_that_fails_changes_nothing) {
   TornModel model = make_model(test::make_sheet(6));
-  const ModelPose pose = bind_pose(model.source());
+  const ModelPose pose = *bind_pose(model.source());
   const Stroke stroke = {down_at(0.2, 0.2), down_at(0.4, 0.3)};
   ASSERT_TRUE(model.tear(pose, stroke));
   ASSERT_TRUE(model.tear(pose, Stroke{down_at(0.6, 0.6), down_at(0.8, 0.7)}));

@@ -181,7 +181,7 @@ void run_out_of_room(std::uint64_t seed, Failures& failures) {
     ++failures.ended;
     failures.went_on += failures.extensions > extensions_before ? 1 : 0;
     TornModel replayed = make_model(character);
-    for (const Operation& operation : model.history())
+    for (const Operation& operation : *model.history())
       ASSERT_TRUE(apply_operation(replayed, operation));
     EXPECT_EQ(replayed.digest(), model.digest());
     return;

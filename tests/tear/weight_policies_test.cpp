@@ -130,7 +130,8 @@ TEST_P(WeightPolicies, exact_points_are_posed_by_the_runtime) {
     vertices.per_influence = &model.influence_positions(m);
     const auto runtime = SkinnedMesh::create(vertices, skin.bones.size());
     ASSERT_TRUE(runtime) << runtime.error().text();
-    BonePalette palette(skin.bones.size(), of.source->rest_morph_weights.size());
+    BonePalette palette =
+        *BonePalette::create(skin.bones.size(), of.source->rest_morph_weights.size());
     std::vector<Vec3f> positions(mesh.vertex_count());
     VertexTarget target;
     target.vertex_count = mesh.vertex_count();
@@ -217,7 +218,7 @@ TEST_P(WeightPolicies, history_gives_the_model_again) {
     wanted.weights = kPoseExact4;
     wanted.pose = of.poses[0];
     ASSERT_TRUE(model.reweigh(wanted));
-    const TornModel again = torn(of.source, model.history(), kBarycentric);
+    const TornModel again = torn(of.source, *model.history(), kBarycentric);
     EXPECT_EQ(again.digest(), model.digest());
   }
 }

@@ -22,7 +22,7 @@ const Mesh& mesh_named(const Character& character, const std::string& name) {
 }
 
 std::vector<Vec3f> posed_positions(const Character& character, const Mesh& mesh, double time) {
-  Pose pose = local_rest_pose(character);
+  Pose pose = *local_rest_pose(character);
   EXPECT_TRUE(sample_clip(character.clips.at(0), time, pose));
   ModelPose model_pose;
   EXPECT_TRUE(compute_model_pose(character.skeleton, pose, model_pose));

@@ -30,7 +30,8 @@ struct Character {
 ///
 /// O(size); allocates only a set of bone names.
 ///
-/// @return the first fault: its index, and in the text its place ("mesh 2 'Body': vertex 812: …").
+/// @return the first fault: its index, and in the text its place ("mesh 2 'Body': vertex 812: …");
+/// limit_exceeded: out of memory.
 [[nodiscard]] SUNDER_API Status validate_character(const Character& character);
 
 }  // namespace sunder

@@ -70,13 +70,18 @@ class [[nodiscard]] Result {
   /// Precondition: has_value().
   [[nodiscard]] T& value() { return **this; }
   [[nodiscard]] const T& value() const { return **this; }
-  T& operator*() {
+  T& operator*() & {
     SUNDER_ASSERT(has_value());
     return *value_;
   }
-  const T& operator*() const {
+  const T& operator*() const& {
     SUNDER_ASSERT(has_value());
     return *value_;
+  }
+  /// Moves out of a result that is not kept, so that nothing refers to it: `for (x : *call())`.
+  T operator*() && {
+    SUNDER_ASSERT(has_value());
+    return std::move(*value_);
   }
   T* operator->() { return &**this; }
   const T* operator->() const { return &**this; }

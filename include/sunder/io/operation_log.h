@@ -22,7 +22,9 @@ namespace sunder {
     const std::filesystem::path& file);
 
 /// The log as text; parse_operations() gives back operations with the same bits.
-[[nodiscard]] SUNDER_API std::string format_operations(std::span<const Operation> operations);
+/// @return limit_exceeded: out of memory.
+[[nodiscard]] SUNDER_API Result<std::string> format_operations(
+    std::span<const Operation> operations);
 
 /// Writes format_operations() to a file. A failing call leaves an existing file as it was.
 /// @return file_unreadable.

@@ -114,7 +114,8 @@ class SUNDER_API CharacterInstance {
   /// @param pose     one matrix per bone, one weight per morph weight.
   /// @param seconds  since the last call, >= 0; time that passes for the soft body.
   /// @return size_mismatch, index_out_of_range, non_finite_value, invalid_argument (nothing is
-  ///         changed); limit_exceeded without enough memory.
+  ///         changed); limit_exceeded without enough memory: mesh() is not to be drawn until a
+  ///         later call succeeds, and the time may have passed for the soft body.
   ///
   /// O(bones + vertices that moved + what was torn since the last call), and the step of the soft
   /// body. If nothing was torn, no allocation once warm; what did not change is neither computed

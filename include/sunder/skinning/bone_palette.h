@@ -31,9 +31,9 @@ class SUNDER_API BonePalette {
  public:
   /// @param slots          number of slots of the skin.
   /// @param morph_weights  number of morph weights of the pose.
-  /// Allocates all memory that the palette ever needs.
-  BonePalette(std::size_t slots, std::size_t morph_weights,
-              SkinningMethod method = SkinningMethod::linear);
+  /// @return limit_exceeded: out of memory. Allocates all memory that the palette ever needs.
+  [[nodiscard]] static Result<BonePalette> create(std::size_t slots, std::size_t morph_weights,
+                                                  SkinningMethod method = SkinningMethod::linear);
   ~BonePalette();
   BonePalette(BonePalette&&) noexcept;
   BonePalette& operator=(BonePalette&&) noexcept;
@@ -65,6 +65,7 @@ class SUNDER_API BonePalette {
  private:
   friend class SkinnedMesh;
 
+  explicit BonePalette(std::unique_ptr<skinning::PaletteData> data);
   std::unique_ptr<skinning::PaletteData> data_;
 };
 

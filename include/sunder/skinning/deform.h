@@ -37,9 +37,10 @@ struct DeformedMesh {
 /// @param model_from_bind  one matrix per slot of the mesh's skin; may hold scale, shear, mirrors.
 /// @param morph_weights    all weights of the pose (ModelPose::morph_weights).
 /// @param out              resized to fit.
-/// @return ok; size_mismatch, non_finite_value, and the failures of SkinnedMesh::create() (nothing
-/// is written). O(V x (influences + morph targets)), allocates. Reentrant.
-/// Source: Magnenat-Thalmann et al. 1988 [magnenat1988joint]; normals: docs/skinning.md.
+/// @return ok; size_mismatch, non_finite_value, the failures of SkinnedMesh::create(), and
+/// limit_exceeded, out of memory (nothing is written). O(V x (influences + morph targets)),
+/// allocates. Reentrant. Source: Magnenat-Thalmann et al. 1988 [magnenat1988joint]; normals:
+/// docs/skinning.md.
 [[nodiscard]] SUNDER_API Status deform_mesh(const Mesh& mesh,
                                             std::span<const Affine3f> model_from_bind,
                                             std::span<const float> morph_weights,

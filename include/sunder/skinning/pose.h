@@ -11,7 +11,8 @@ namespace sunder {
 
 /// The rest transforms of all bones, each relative to its parent, and the rest morph weights: the
 /// start for sample_clip().
-[[nodiscard]] SUNDER_API Pose local_rest_pose(const Character& character);
+/// @return limit_exceeded: out of memory. O(bones), allocates.
+[[nodiscard]] SUNDER_API Result<Pose> local_rest_pose(const Character& character);
 
 /// Overwrites the parts of `pose` that `clip` animates with their values at `time`. Start from
 /// local_rest_pose().
@@ -25,23 +26,25 @@ namespace sunder {
 
 /// Computes model_from_bone of every bone: local transforms multiplied down the tree, in double.
 /// @param model_pose  resized to fit; does not allocate if it already fits.
-/// @return ok, or size_mismatch (nothing is written). O(bones), reentrant.
+/// @return ok, or size_mismatch or limit_exceeded, out of memory (nothing is written). O(bones),
+/// reentrant.
 [[nodiscard]] SUNDER_API Status compute_model_pose(const Skeleton& skeleton, const Pose& pose,
                                                    ModelPose& model_pose);
 
 /// The pose in the file: rest transforms multiplied down the tree, and rest morph weights.
-/// O(bones), allocates.
-[[nodiscard]] SUNDER_API ModelPose rest_pose(const Character& character);
+/// @return limit_exceeded: out of memory. O(bones), allocates.
+[[nodiscard]] SUNDER_API Result<ModelPose> rest_pose(const Character& character);
 
 /// The pose in which the skins were attached: model_from_bone = inverse(bone_from_bind), so that
 /// each skin reproduces its mesh. If several skins bind a bone differently, the first one counts. A
 /// bone that no skin binds, or that is bound by a singular matrix, keeps its rest transform
-/// relative to its parent. Morph weights are those of rest. O(slots), allocates.
-[[nodiscard]] SUNDER_API ModelPose bind_pose(const Character& character);
+/// relative to its parent. Morph weights are those of rest.
+/// @return limit_exceeded: out of memory. O(slots), allocates.
+[[nodiscard]] SUNDER_API Result<ModelPose> bind_pose(const Character& character);
 
 /// The pose that a spec names.
 /// @return not_found for a clip or bone that the character does not have; size_mismatch if the
-/// number of given matrices is wrong.
+/// number of given matrices is wrong; limit_exceeded: out of memory.
 [[nodiscard]] SUNDER_API Result<ModelPose> make_pose(const Character& character,
                                                      const PoseSpec& spec);
 
@@ -72,8 +75,9 @@ class SUNDER_API PoseSet {
   /// Computes a pose. Returns the same bits each time.
   /// @param index  below size(role), unchecked.
   /// @param pose   resized to fit; does not allocate if it already fits.
-  /// O(bones + channels log keys), reentrant.
-  void compute(Role role, std::size_t index, ModelPose& pose) const;
+  /// @return limit_exceeded: out of memory (nothing is written). O(bones + channels log keys),
+  /// reentrant.
+  Status compute(Role role, std::size_t index, ModelPose& pose) const;
 
  private:
   struct State;

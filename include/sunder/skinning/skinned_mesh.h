@@ -63,7 +63,7 @@ class SUNDER_API SkinnedMesh {
   /// @param slots   number of slots of the skin.
   /// @return size_mismatch, index_out_of_range, non_finite_value, weights_not_normalized (by more
   /// than 1 %), with the vertex; empty_input without positions or influences; invalid_argument for
-  /// strides; limit_exceeded above 65,536 slots. O(V x influences), allocates.
+  /// strides; limit_exceeded above 65,536 slots or out of memory. O(V x influences), allocates.
   [[nodiscard]] static Result<SkinnedMesh> create(const VertexSource& source, std::size_t slots);
   ~SkinnedMesh();
   SkinnedMesh(SkinnedMesh&&) noexcept;
@@ -79,7 +79,8 @@ class SUNDER_API SkinnedMesh {
   /// O(vertices from `first_changed` on). Allocates unless reserve() made room.
   [[nodiscard]] Status update(const VertexSource& source, std::uint32_t first_changed);
   /// Makes room for that many more vertices, with `influences` influences each on average.
-  void reserve(std::uint32_t more_vertices, std::uint32_t influences);
+  /// @return limit_exceeded: out of memory.
+  Status reserve(std::uint32_t more_vertices, std::uint32_t influences);
 
   /// Writes the vertices of `buffer` that changed since it was last written: those moved by a
   /// changed bone or morph target, those changed by update(), and those that are or were displaced.
@@ -87,7 +88,8 @@ class SUNDER_API SkinnedMesh {
   /// @param displacements  displacements added to the posed vertices; null: none.
   /// @return size_mismatch if palette, mesh, buffer and displacements do not fit together;
   /// index_out_of_range with the range of displaced vertices; invalid_argument if the palette has
-  /// no pose or the mesh lacks a requested attribute. Nothing is written then.
+  /// no pose or the mesh lacks a requested attribute; limit_exceeded: out of memory. Nothing is
+  /// written then.
   ///
   /// O(vertices moved or displaced + blocks / 64); O(1) if nothing moved. Allocates only if the
   /// buffer sees a larger mesh, or displaced vertices, for the first time. Deterministic: the same
@@ -103,13 +105,13 @@ class SUNDER_API SkinnedMesh {
 
 /// An order of the vertices in which neighbours are moved by the same bones, for asset pipelines
 /// that may still renumber vertices. Stable among vertices with the same bones.
-/// @return old_from_new. O(V log V), allocates. Reentrant.
-[[nodiscard]] SUNDER_API std::vector<std::uint32_t> order_for_skinning(const Mesh& mesh);
+/// @return old_from_new; limit_exceeded: out of memory. O(V log V), allocates. Reentrant.
+[[nodiscard]] SUNDER_API Result<std::vector<std::uint32_t>> order_for_skinning(const Mesh& mesh);
 
 /// Renumbers the vertices of a mesh: all attributes, weights, morph targets, and triangles.
 /// @param old_from_new  each vertex once.
-/// @return size_mismatch or index_out_of_range (the mesh is unchanged). O(size of the mesh),
-/// allocates.
+/// @return size_mismatch, index_out_of_range, or limit_exceeded, out of memory (the mesh is
+/// unchanged). O(size of the mesh), allocates.
 [[nodiscard]] SUNDER_API Status reorder_vertices(Mesh& mesh,
                                                  std::span<const std::uint32_t> old_from_new);
 

@@ -24,6 +24,7 @@ struct TopologyCounts {
 };
 
 /// Counts from the arrays alone. O(vertices + triangles), allocates. Reentrant.
-[[nodiscard]] SUNDER_API TopologyCounts count_topology(const Character& character);
+/// @return limit_exceeded: out of memory.
+[[nodiscard]] SUNDER_API Result<TopologyCounts> count_topology(const Character& character);
 
 }  // namespace sunder

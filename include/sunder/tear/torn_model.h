@@ -47,7 +47,7 @@ class TornModel;
 struct ParentBlends;
 struct WeightErrors;
 // Friends of TornModel, documented in <sunder/tear/torn_weights.h>.
-SUNDER_API ParentBlends parent_blends(const TornModel& model, std::uint32_t mesh);
+SUNDER_API Result<ParentBlends> parent_blends(const TornModel& model, std::uint32_t mesh);
 SUNDER_API Result<WeightErrors> measure_weight_errors(const TornModel& model,
                                                       std::uint32_t first_operation,
                                                       std::uint32_t operation_count,
@@ -137,7 +137,8 @@ class SUNDER_API TornModel {
 
   /// The operations that are done and not undone, oldest first, with all bone matrices of their
   /// poses. Played on the source they give this model again, bit for bit.
-  [[nodiscard]] std::vector<Operation> history() const;
+  /// @return limit_exceeded: out of memory. O(size of the operations), allocates.
+  [[nodiscard]] Result<std::vector<Operation>> history() const;
 
   /// Removes retired triangles and unused vertices. The result becomes the model's source: births
   /// start over and there is nothing to undo. O(size of the model).
@@ -177,7 +178,7 @@ class SUNDER_API TornModel {
   friend class RefitJob;
   friend Result<WeightErrors> measure_weight_errors(const TornModel&, std::uint32_t, std::uint32_t,
                                                     std::span<const ModelPose>);
-  friend ParentBlends parent_blends(const TornModel&, std::uint32_t);
+  friend Result<ParentBlends> parent_blends(const TornModel&, std::uint32_t);
   struct State;
   explicit TornModel(std::unique_ptr<State> state);
   std::unique_ptr<State> state_;

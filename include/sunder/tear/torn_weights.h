@@ -29,9 +29,10 @@ struct ParentBlends {
 /// @param mesh  unchecked.
 /// @return the blends of all `exact` vertices. A vertex on the rim of a cap over several meshes, at
 /// a point of another mesh, is its own parent. Vertices that share a point have the same parts of
-/// coincident parents, bit for bit.
+/// coincident parents, bit for bit. limit_exceeded: out of memory.
 /// O(vertices appended), allocates. Reentrant while the model is not changed.
-[[nodiscard]] SUNDER_API ParentBlends parent_blends(const TornModel& model, std::uint32_t mesh);
+[[nodiscard]] SUNDER_API Result<ParentBlends> parent_blends(const TornModel& model,
+                                                            std::uint32_t mesh);
 
 /// The distances, over some poses, between torn points and the places on the untorn surface where
 /// they were created.

@@ -16,14 +16,14 @@ int main() {
   for (int v = 0; v < 4; ++v) mesh.weights.append({&all_of_root, 1});
   sheet.meshes.push_back(mesh);
 
-  const sunder::ModelPose pose = sunder::bind_pose(sheet);
+  const sunder::ModelPose pose = *sunder::bind_pose(sheet);
   auto torn = sunder::CharacterInstance::create(std::make_shared<const sunder::Character>(sheet));
   if (!torn) return std::printf("%s\n", torn.error().text().data()), 1;
   const auto report = torn->tear(
       pose, sunder::Stroke{{{0.6, 0.2, 1}, {0.6, 0.2, -1}}, {{0.4, 0.8, 1}, {0.4, 0.8, -1}}});
   if (!report) return std::printf("%s\n", report.error().text().data()), 1;
   const sunder::Character& character = torn->model().character();
-  if (report->runs != 1 || sunder::count_topology(character).boundary_loops != 2) return 1;
+  if (report->runs != 1 || sunder::count_topology(character)->boundary_loops != 2) return 1;
   if (!torn->advance(pose, 0.0)) return 1;
   if (torn->mesh(0).positions.size() != character.meshes[0].positions.size()) return 1;
 
