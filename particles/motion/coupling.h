@@ -33,13 +33,13 @@ class CouplingSolver {
  public:
   struct Inputs {
     const SpringGraph& graph;
-    std::span<const Index>
-        active;  ///< Particles that move, ascending; the others keep their places.
+    /// Particles that move, ascending; the others keep their places.
+    std::span<const Index> active;
     std::span<const SpringStep> steps;  ///< Per material.
     std::span<const SoftMaterial> materials;
     std::span<const Index> material_of;  ///< Per particle.
-    std::span<const Vec3d> places,
-        velocities;  ///< Per particle: p, q; if it does not move, u and 0.
+    /// Per particle: p, q; if it does not move, u and 0.
+    std::span<const Vec3d> places, velocities;
     std::span<const PointPull> pulls;
     double seconds = 0;
   };
