@@ -12,8 +12,8 @@ namespace sunder::bench {
 /// becomes a centre, and all points within the radius form its cluster.
 struct RadiusClusters {
   std::vector<std::uint32_t> centres;
-  std::vector<std::uint32_t>
-      first;  ///< Per cluster the offset of its first entry in `members`; the total at the end.
+  /// Per cluster the offset of its first entry in `members`; the total at the end.
+  std::vector<std::uint32_t> first;
   std::vector<std::uint32_t> members;  ///< In any order.
 };
 

@@ -43,8 +43,8 @@ struct Poses {
 struct WeightsModel {
   std::string name;
   std::shared_ptr<const Character> character;
-  double diagonal =
-      0;  ///< Diagonal of the box around it at rest, metres. (Bind space may have another unit.)
+  /// Diagonal of the box around it at rest, metres. (Bind space may have another unit.)
+  double diagonal = 0;
   std::vector<TornOnce> tears;
   std::optional<Poses> clips;  ///< Empty if the model has no clip of non-zero duration.
   Poses range_of_motion;

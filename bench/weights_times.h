@@ -47,8 +47,8 @@ class PointsToWeigh {
   };
   std::vector<Point> points_;
   std::map<std::uint32_t, PoseMoments> moments_;  ///< By skin.
-  std::map<std::uint32_t, std::vector<std::vector<Affine3d>>>
-      palettes_;  ///< Per skin, one per pose.
+  /// Per skin, one per pose.
+  std::map<std::uint32_t, std::vector<std::vector<Affine3d>>> palettes_;
 };
 
 /// This number of the poses, evenly spaced.

@@ -17,7 +17,7 @@ struct OuterForces {
   Vec3d gravity = Vec3d::Zero();
   WindField wind;
   Tension tension;
-  bool is_tension_stale = false;  ///< Whether Motion::lip_forces are to be computed anew.
+  bool is_tension_stale = false;  ///< Whether Motion::lip_forces must be recomputed.
   double time = 0;  ///< Seconds of all steps: the time at which the wind is asked for.
 };
 

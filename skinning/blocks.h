@@ -43,8 +43,8 @@ struct BlockExtra {
   std::uint32_t last_vertex = 0;  ///< The largest.
   std::uint32_t window = 0;       ///< First of the vertices that it was gathered from.
   std::uint32_t influences = 0;   ///< Of lane 0, in Blocks::Sparse::influences.
-  std::uint32_t lane_ends =
-      0;  ///< kLanes ends in Blocks::Sparse::lane_ends, relative to `influences`.
+  /// kLanes ends in Blocks::Sparse::lane_ends, relative to `influences`.
+  std::uint32_t lane_ends = 0;
   std::uint32_t morphs = 0, morph_count = 0;       ///< In Blocks::Morphs::parts.
   std::uint32_t exact_lanes = 0, exact_count = 0;  ///< In Blocks::Exact::lanes.
 };

@@ -13,8 +13,8 @@ struct SkinWork {
   VertexTarget target;  ///< Its strides are not 0; no data for attributes that are not wanted.
   std::uint32_t attribute_floats = 0;  ///< Of the mesh.
   bool is_common = false;              ///< Linear blending, and no tangents are wanted.
-  bool is_beyond_cache =
-      false;  ///< The outputs are so large that they are written around the caches.
+  /// The outputs are so large that they are written around the caches.
+  bool is_beyond_cache = false;
 };
 
 /// Poses blocks [first, end) with the best vectors of the CPU, or with scalar code in builds

@@ -18,7 +18,7 @@ constexpr std::size_t kDemoPictures = 4;  ///< Number of pictures.
 /// The pose of a character at a fraction of its first clip; the rest pose if it has none.
 [[nodiscard]] PoseSpec pose_at(const Character& character, double fraction);
 
-/// What the demo tore, and the view.
+/// The model and the tear of the demo, and the view.
 struct DemoTear {
   std::shared_ptr<const Character> source;
   TornModel model;

@@ -27,8 +27,9 @@ class AssetFolder {
   /// The content of a file; empty if resolve() refuses it.
   [[nodiscard]] std::optional<std::vector<std::byte>> read(std::string_view reference);
 
+  /// Canonical.
  private:
-  std::filesystem::path folder_;  ///< Canonical.
+  std::filesystem::path folder_;
   std::uint64_t budget_;
   std::set<std::filesystem::path> charged_;
 };

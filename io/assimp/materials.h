@@ -43,8 +43,8 @@ class MaterialWriter {
   Notes& notes_;
   std::map<std::uint32_t, Texture> texture_of_material_;
   std::map<std::string, std::uint32_t> image_of_path_;
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t>
-      written_;  ///< By material and TEXCOORD number; kNone: without texture.
+  /// By material and TEXCOORD number; kNone: without texture.
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> written_;
 };
 
 }  // namespace sunder::assimp_import

@@ -26,8 +26,8 @@ struct MeshPart {
   SkinWeights weights;          ///< V, or none for a rigid part.
   std::vector<Triangle> triangles;
   std::vector<std::uint32_t> vertices_without_normal;
-  std::vector<std::uint32_t>
-      texcoord_of_channel;  ///< The n of TEXCOORD_n per assimp channel; kNone for empty channels.
+  /// The n of TEXCOORD_n per assimp channel; kNone for empty channels.
+  std::vector<std::uint32_t> texcoord_of_channel;
   std::uint32_t material = 0;
 
   [[nodiscard]] std::uint32_t vertex_count() const {

@@ -24,8 +24,8 @@ struct Accessor {
   bool is_matrix = false;
   bool normalized = false;
   std::uint32_t count = 0;
-  const std::byte* data =
-      nullptr;  ///< First element; null: all elements are zero except the sparse ones.
+  /// First element; null: all elements are zero except the sparse ones.
+  const std::byte* data = nullptr;
   std::size_t stride = 0;
   std::uint32_t sparse_count = 0;
   ComponentType sparse_index_type = ComponentType::u32;

@@ -19,8 +19,8 @@ class SourceDocument {
   struct MeshOrigin {
     std::uint32_t node = kNone;
     std::uint32_t mesh = kNone;  ///< In /meshes.
-    std::vector<std::uint32_t>
-        primitives;  ///< Indices in /meshes/<mesh>/primitives, one per submesh.
+    /// Indices in /meshes/<mesh>/primitives, one per submesh.
+    std::vector<std::uint32_t> primitives;
     std::vector<std::uint32_t> color_components;  ///< 3 or 4, one per colour set.
     bool skinned = false;   ///< false: the skin is the node alone, and the file has no weights.
     bool repaired = false;  ///< The loaded mesh differs from the file, so saving must write it.
@@ -34,8 +34,8 @@ class SourceDocument {
   std::vector<std::byte> content;                   ///< The bytes of the file.
   bool is_glb = false;                              ///< `content` is a GLB, not text.
   std::vector<std::vector<std::byte>> other_files;  ///< Content of data: URIs and external buffers.
-  std::vector<std::span<const std::byte>>
-      buffers;  ///< One per entry of /buffers, in `content` or `other_files`.
+  /// One per entry of /buffers, in `content` or `other_files`.
+  std::vector<std::span<const std::byte>> buffers;
   /// Absolute: the folder to which relative URIs may point. Or empty.
   std::filesystem::path folder;
   std::uint64_t maximum_bytes = 0;  ///< LoadOptions::maximum_bytes, for images embedded on saving.

@@ -32,8 +32,8 @@ struct LipChain {
 struct Band {
   Index tear = 0;
   std::vector<LipChain> chains;
-  std::vector<Index>
-      to_grow;  ///< Particles to be regrown from their seeds when the band is complete; ascending.
+  /// Particles to be regrown from their seeds when the band is complete; ascending.
+  std::vector<Index> to_grow;
 };
 
 }  // namespace sunder::particles

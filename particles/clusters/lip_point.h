@@ -13,9 +13,8 @@ enum class Side : std::uint8_t { left, right };
 struct OnLip {
   Index tear = kNone;
   Side side = Side::left;
-  Index older =
-      /// In PointTable::older_lips: the lip of an earlier tear on which the point also lies.
-      kNone;
+  /// In PointTable::older_lips: the lip of an earlier tear on which the point also lies.
+  Index older = kNone;
 };
 
 /// The newest lip of a point, if any, and the index of the lip edge that leaves the point.

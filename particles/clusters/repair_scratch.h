@@ -13,7 +13,7 @@ struct BesideLip {
 /// Memory that repairs reuse.
 struct RepairScratch {
   SurfaceFront front;             ///< From the seed of one particle.
-  SurfaceFront band_front;        ///< From the lips: goes on from one settle() to the next.
+  SurfaceFront band_front;        ///< From the lips: each settle() continues it.
   std::vector<BesideLip> beside;  ///< Per point that band_front has reached.
   Marks worked;                   ///< Points that the current call changes.
   std::vector<Index> work_of;     ///< Per such point, its entry in StructureEdit.

@@ -11,8 +11,8 @@ namespace sunder::particles {
 
 /// The point of each vertex.
 struct VertexPoints {
-  std::vector<std::vector<Index>>
-      of_mesh;  ///< Per mesh and vertex: the point; kNone if no face uses the vertex.
+  /// Per mesh and vertex: the point; kNone if no face uses the vertex.
+  std::vector<std::vector<Index>> of_mesh;
   /// Vertices in which a surface touches itself have several points. Lists all points that they
   /// ever had.
   std::map<std::pair<Index, Index>, std::vector<Index>> shared;

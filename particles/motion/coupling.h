@@ -16,30 +16,30 @@ struct PointPull {
   Vec3d target = Vec3d::Zero();        ///< Of the weighted sum, metres.
 };
 
-/// Solves for what springs between particles, and pulls on points, add to a step in which each
-/// particle hangs on a spring of its own.
+/// Solves for the contribution of springs between particles, and of pulls on points, to a step in
+/// which each particle has a return spring of its own.
 ///
-/// Alone, a particle ends the step by the closed form (SpringStep): place p, velocity q. Forces F
-/// of neighbours and pulls act during the step as constants, taken at its end: the place becomes p
-/// + x, x = G F / m, the velocity q + (S / G) x, where G and S are the particle's responses to an
-/// acceleration. With K and D the stiffness and damping of all springs that is
+/// Without these, a particle ends the step by the closed form (SpringStep): place p, velocity q.
+/// Forces F of neighbours and pulls are constant during the step, with their values at its end. The
+/// place becomes p + x with x = G F / m, the velocity q + (S / G) x, where G and S are the
+/// particle's responses to an acceleration. With K and D the stiffness and damping of all springs,
 ///
 ///   (m / G + K + D S / G) x = -(K p + D q),
 ///
-/// symmetric and positive definite whatever the step, and exact for the particles' own springs.
-/// Where two particles have other responses, the greater S / G of both stands for their spring.
-/// Solved by conjugate gradients from the last step's answer.
+/// which is symmetric and positive definite for any step, and exact for the return springs. If two
+/// particles have different responses, their spring uses the greater S / G of both. Solved by
+/// conjugate gradients, starting from the solution of the last step.
 class CouplingSolver {
  public:
   struct Inputs {
     const SpringGraph& graph;
-    std::span<const Index>
-        active;  ///< Particles that move, ascending; the others keep their places.
+    /// Particles that move, ascending; the others keep their places.
+    std::span<const Index> active;
     std::span<const SpringStep> steps;  ///< Per material.
     std::span<const SoftMaterial> materials;
     std::span<const Index> material_of;  ///< Per particle.
-    std::span<const Vec3d> places,
-        velocities;  ///< Per particle: p, q; if it does not move, u and 0.
+    /// Per particle: p, q; if it does not move, u and 0.
+    std::span<const Vec3d> places, velocities;
     std::span<const PointPull> pulls;
     double seconds = 0;
   };

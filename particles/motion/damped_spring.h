@@ -2,8 +2,8 @@
 
 namespace sunder::particles {
 
-/// The response of a damped spring over a step, under a constant acceleration a: with x the place
-/// relative to its rest,
+/// The response of a damped spring over a step, under a constant acceleration a, where x is the
+/// place relative to the rest:
 ///
 ///   x(end) = place_from_place x + place_from_velocity v + place_from_acceleration a
 ///   v(end) = velocity_from_place x + velocity_from_velocity v + velocity_from_acceleration() a

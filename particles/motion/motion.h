@@ -15,8 +15,8 @@ struct Quiet {
 struct Motion {
   std::vector<std::uint64_t> serials;
   std::vector<Index> material_of;
-  std::vector<Vec3d>
-      displacements;              ///< From the rest place, along the axes of model space; metres.
+  /// From the rest place, along the axes of model space; metres.
+  std::vector<Vec3d> displacements;
   std::vector<Vec3d> velocities;  ///< Of the displacement.
   std::vector<Vec3d> starts;      ///< Displacements before the step.
   /// Contribution of neighbours and holds in the last step: the start of the next search.

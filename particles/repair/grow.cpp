@@ -37,9 +37,9 @@ Index grow_anew(StructureEdit& edit, Index particle) {
   front.run(edit.ring(), [](Index, float, Index) { return true; });
   std::vector<Index> left;
   for (const Index point : members) {
-    if (front.distance(point) < range) continue;  // it belongs there still, as it did
-    // What an operation took since, which is to be followed next, it may give back. So it stays a
-    // member till then.
+    if (front.distance(point) < range) continue;  // still a member, at the same distance
+    // A point without a face, which a later operation removed, may return when that operation is
+    // followed. It stays a member until then.
     if (edit.surface().point_corner[point] == kNone) continue;
     left.push_back(point);
     edit.keep_if(point, [&](const ParticleMembership& membership) {

@@ -28,7 +28,7 @@ class StructureEdit {
 
   // ---- Points.
 
-  /// Memberships as they are to be. Valid until the next change.
+  /// The memberships of a point in this edit. Valid until the next change.
   [[nodiscard]] std::span<const ParticleMembership> memberships(Index point) const;
   /// Adds a point to the edit, so that finish() updates it.
   void take_up(Index point) { (void)work_of(point); }

@@ -37,8 +37,9 @@ class SUNDER_API CharacterPose {
                                      morph_weights_);
   }
 
+  /// One per skin.
  private:
-  std::vector<std::vector<Affine3d>> palettes_;  ///< One per skin.
+  std::vector<std::vector<Affine3d>> palettes_;
   std::vector<float> morph_weights_;
 };
 

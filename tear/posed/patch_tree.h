@@ -27,8 +27,9 @@ struct MeshPose {
 /// of them. The first bound is loose if a distant bone has a tiny weight, the second if the weights
 /// vary much; the bound of a node is their intersection.
 class PatchTree {
+  /// Triangles per patch, except for the last one.
  public:
-  static constexpr Index kPatchSize = 8;        ///< Triangles per patch, except for the last one.
+  static constexpr Index kPatchSize = 8;
   static constexpr Index kPatchesPerGroup = 4;  ///< They share the ranges of weights.
   static constexpr Index kFanOut = 4;           ///< Children per node above the groups.
   static constexpr Index kGroupSize = kPatchSize * kPatchesPerGroup;

@@ -11,8 +11,9 @@ namespace sunder::tear {
 
 /// The matrices of a posed skin in the frame of a query, each computed on demand.
 class PosedBones {
+  /// x, y, z, and an unused one.
  public:
-  using Lanes = Eigen::Array<float, 4, 1>;  ///< x, y, z, and an unused one.
+  using Lanes = Eigen::Array<float, 4, 1>;
 
   struct Bone {
     Lanes x, y, z, translation;             ///< Columns.

@@ -38,8 +38,8 @@ struct FlatRegion {
 /// holes in the given order, then `inner`.
 struct FlatMesh {
   std::vector<Vec2d> inner;
-  std::vector<std::array<Index, 3>>
-      triangles;  ///< Counter-clockwise, with an area that is exactly positive.
+  /// Counter-clockwise, with an area that is exactly positive.
+  std::vector<std::array<Index, 3>> triangles;
 };
 
 /// Constrained Delaunay triangulation of a region, with inner points where it is wide, so that it

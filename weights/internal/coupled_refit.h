@@ -12,8 +12,8 @@ namespace sunder {
 /// Two neighbours on the surface whose weights and bind positions should change alike.
 struct RefitNeighbours {
   std::uint32_t a = 0;
-  std::uint32_t b =
-      kNone;  ///< Another point; kNone: a vertex of the untorn surface, which is not fitted.
+  /// Another point; kNone: a vertex of the untorn surface, which is not fitted.
+  std::uint32_t b = kNone;
   double length = 0;  ///< Length of their common edge in bind space, metres.
 };
 

@@ -35,8 +35,8 @@ class SUNDER_API PointRefit {
     bool moves_bind = true;              ///< Whether the bind position is fitted too.
   };
   struct Fit {
-    std::span<const Influence>
-        influences;  ///< By descending weight, sum 1. Valid until the next fit.
+    /// By descending weight, sum 1. Valid until the next fit.
+    std::span<const Influence> influences;
     Vec3d position = Vec3d::Zero();
     double mean_square = 0;              ///< Of the distance, in square metres.
     double barycentric_mean_square = 0;  ///< The same for the barycentric start.

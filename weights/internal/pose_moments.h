@@ -54,8 +54,8 @@ class SUNDER_API PoseMoments {
   };
 
   Vec3d centre_;
-  std::vector<std::vector<Entry>>
-      rows_;  ///< Per slot: the slots from itself up with which it is paired.
+  /// Per slot: the slots from itself up with which it is paired.
+  std::vector<std::vector<Entry>> rows_;
   std::vector<Pair> pairs_;
   std::vector<std::uint32_t> slots_;  ///< The slots that are in a pair.
   std::vector<Matrix> moments_;       ///< Sums over the poses, one per pair.

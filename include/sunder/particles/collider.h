@@ -8,7 +8,7 @@
 
 namespace sunder {
 
-/// A rigid shape that pushes a SoftBody away. A value: copies may be used by different threads.
+/// A rigid shape that pushes a SoftBody away. A plain value.
 struct Collider {
   /// A ball about the origin of the collider's frame.
   struct Sphere {
@@ -20,11 +20,11 @@ struct Collider {
     double radius = 1.0;       ///< Metres, > 0.
     double half_length = 1.0;  ///< Metres, >= 0.
   };
-  /// A box about the origin of the frame, along its axes.
+  /// A box around the origin of the frame, along its axes.
   struct Box {
     Vec3d half_size = Vec3d::Ones();  ///< Metres, each > 0.
   };
-  /// Everything below the frame's plane y = 0.
+  /// The half-space below the frame's plane y = 0.
   struct HalfSpace {};
 
   std::variant<Sphere, Capsule, Box, HalfSpace> shape;
@@ -34,16 +34,17 @@ struct Collider {
 };
 
 struct SurfaceDistance {
-  double distance = 0.0;          ///< Metres to the collider's surface; below 0 inside.
-  Vec3d normal = Vec3d::UnitY();  ///< Outward unit normal at the nearest place; where several are
-                                  ///< as near, of any of them.
+  double distance = 0.0;  ///< Metres to the collider's surface; below 0 inside.
+  /// Outward unit normal at the nearest place; if there are several, at any of them.
+  Vec3d normal = Vec3d::UnitY();
 };
 
 /// The distance of a place in model space from a collider, exact outside and inside. The collider
 /// is unchecked. Thread-safe.
 [[nodiscard]] SUNDER_API SurfaceDistance distance_to(const Collider& collider, const Vec3d& place);
 
-/// @return non_finite_value or invalid_argument, whose text says what is wrong. Thread-safe.
+///
+/// @return non_finite_value or invalid_argument; the text names the fault. Thread-safe.
 [[nodiscard]] SUNDER_API Status validate_collider(const Collider& collider);
 
 }  // namespace sunder

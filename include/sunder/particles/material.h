@@ -13,26 +13,27 @@ namespace sunder {
 /// kilogram.
 struct SoftMaterial {
   std::string name;
-  double return_stiffness = 400.0;  ///< 1/s^2, of the spring to the rest place; its root is in
-                                    ///< radians per second. [0, 1e12].
-  double damping_ratio =
-      0.7;  ///< Of that spring and of those to neighbours; 1: critical. [0, 1e6].
+  /// Of the spring to the rest, 1/s^2; its root is the frequency in radians per second. [0, 1e12].
+  double return_stiffness = 400.0;
+  /// Of that spring and of those to neighbours; 1: critical. [0, 1e6].
+  double damping_ratio = 0.7;
   double neighbour_stiffness = 400.0;  ///< 1/s^2, times ParticleSet::coupling(). [0, 1e12].
   double mass = 0.01;                  ///< Kilograms per particle. [1e-12, 1e12].
-  double range =
-      0.1;  ///< Suggested DecompositionOptions::range, a fraction of the diagonal. (0, 1].
-  double stretch_limit =
-      0.0;  ///< Greatest distance of two neighbours relative to rest; >= 1, or 0: none.
+  /// Suggested DecompositionOptions::range, a fraction of the diagonal. (0, 1].
+  double range = 0.1;
+  /// Limit for the distance of two neighbours, relative to rest; >= 1, or 0: none.
+  double stretch_limit = 0.0;
   double strength = 0.0;  ///< Stretch at which the tissue tears; > 1, or 0: it never does.
 
   bool operator==(const SoftMaterial&) const = default;
 };
 
-/// @return non_finite_value or invalid_argument, whose text names the material and the field.
-/// Thread-safe.
+///
+/// @return non_finite_value or invalid_argument; the text names the material and the field.
+///         Thread-safe.
 [[nodiscard]] SUNDER_API Status validate_material(const SoftMaterial& material);
 
-/// Materials to begin with: "skin", "fat", "muscle", "rubber", "sponge", "jelly". Thread-safe.
+/// Presets: "skin", "fat", "muscle", "rubber", "sponge", "jelly". Thread-safe.
 [[nodiscard]] SUNDER_API std::span<const SoftMaterial> material_presets();
 
 /// A preset by its name. @return not_found. Thread-safe.

@@ -17,16 +17,16 @@ struct Structure;
 
 /// How a surface is divided into particles.
 struct DecompositionOptions {
-  double range = 0.1;  ///< How far along the surface a particle reaches from its seed; > 0.
-  bool is_fraction =
-      true;  ///< `range` is a fraction of the diagonal of the box around the surface; else metres.
-  std::uint64_t seed = 0;  ///< Chooses which points become seeds.
+  double range = 0.1;  ///< Radius of a particle, from its seed along the surface; > 0.
+  /// Whether `range` is a fraction of the diagonal of the box around the surface; otherwise metres.
+  bool is_fraction = true;
+  std::uint64_t seed = 0;  ///< Seed of the scattered order in which points become seeds.
 };
 
 struct DecompositionReport {
   std::uint32_t particles = 0;
-  std::uint32_t points = 0;            ///< Points with a face: those that can be moved.
-  std::uint32_t covered = 0;           ///< Points that belong to a particle: all with a face.
+  std::uint32_t points = 0;            ///< Points with a face; only these can be moved.
+  std::uint32_t covered = 0;           ///< Points that belong to a particle: all that have a face.
   std::uint64_t memberships = 0;       ///< Pairs of a point and a particle.
   std::uint32_t most_memberships = 0;  ///< Greatest number of particles per point.
   double range = 0.0;                  ///< Metres.
@@ -40,46 +40,44 @@ struct ParticleMembership {
                        ///< particle's range; in [0, 1).
 };
 
-/// A particle that has points in common with another one, which it pulls.
+/// A particle that shares points with another one and is coupled to it.
 struct ParticleNeighbour {
   std::uint32_t particle = 0;
-  std::uint32_t points = 0;  ///< Number of points whose influences name both.
+  std::uint32_t points = 0;  ///< Number of points with influences of both.
   double shared = 0.0;       ///< Sum over those points of the product of the two weights.
 };
 
-/// Where a particle is when only the pose moves it, and how the pose turns it.
+/// The position and linear map of a particle by the pose alone.
 struct ParticleRest {
   Vec3d place = Vec3d::Zero();  ///< Posed centroid of its members, model space, metres.
-  Mat3d linear =
-      Mat3d::Identity();  ///< Mean of the members' blended linear parts, relative to bind space.
+  /// Mean of the members' blended linear parts, relative to bind space.
+  Mat3d linear = Mat3d::Identity();
 };
 
-/// An edge of a border that a tear, cut or bore made.
+/// A border edge that a tear, cut or bore created.
 struct LipEdge {
   std::array<std::uint32_t, 2> points = {};
   /// Length of the edge times its conormal, which lies in the surface and points away from the
-  /// opening; metres, in the decomposition's pose. The tissue beyond the edge pulled with the
-  /// tension (N/m) times the opposite of this.
+  /// opening; metres, in the decomposition's pose. The tissue across the edge pulled with minus
+  /// this times the tension (N/m).
   Vec3f inward = Vec3f::Zero();
 };
 
 /// The surface of a torn model, divided into overlapping clusters of points that follow its pose
-/// and its tears. This is their structure; SoftBody or a physics engine moves them.
+/// and its tears. This is their structure; SoftBody or a physics engine moves them. A particle
+/// consists of the points within its range of its seed, along the surface; its rest is their posed
+/// centroid, computed from bones alone. After Kamarianakis, Protopsaltis, Tamiolakis, Papagiannakis
+/// 2022 [kamarianakis2022tearing]; see docs/particles.md.
 ///
-/// Every point within a particle's range of its seed, along the surface, belongs to the particle.
-/// Its rest place is the posed centroid of its members, evaluated from bones alone. After
-/// Kamarianakis, Protopsaltis, Tamiolakis, Papagiannakis 2022 [kamarianakis2022tearing]; see
-/// docs/particles.md.
-///
-/// Not thread-safe: one thread at a time per set, const calls included where the text says so.
+/// Not thread-safe: one thread at a time per set, including const calls where the text says so.
 /// Different sets are independent.
 class SUNDER_API ParticleSet {
  public:
-  /// @param pose  in which distances along the surface are measured, e.g. the rest pose.
+  ///
+  /// @param pose  the pose in which distances along the surface are measured, e.g. the rest pose.
   /// @return invalid_argument for the options; size_mismatch or non_finite_value for the pose;
-  /// empty_input for a model without a
-  ///         face; limit_exceeded for more than 2^20 particles, or out of memory.
-  /// O(points + memberships).
+  ///         empty_input for a model without a face; limit_exceeded for more than 2^20 particles,
+  ///         or if out of memory. O(points + memberships).
   static Result<ParticleSet> create(const TornModel& model, const ModelPose& pose,
                                     const DecompositionOptions& options = {});
 
@@ -93,8 +91,7 @@ class SUNDER_API ParticleSet {
   // ---- Particles. Indices are unchecked.
 
   [[nodiscard]] std::uint32_t particle_count() const;
-  /// A number that no other particle of the set ever had: undo removes particles, and later tears
-  /// reuse their indices.
+  /// A number that no other particle of the set ever had. (Indices are reused after undo.)
   [[nodiscard]] std::uint64_t serial(std::uint32_t particle) const;
   /// The point from which the particle was grown.
   [[nodiscard]] std::uint32_t seed(std::uint32_t particle) const;
@@ -104,13 +101,13 @@ class SUNDER_API ParticleSet {
   /// out of memory.
   [[nodiscard]] Result<std::vector<std::uint32_t>> members(std::uint32_t particle) const;
   [[nodiscard]] std::uint32_t member_count(std::uint32_t particle) const;
-  /// Particles with which it has points in common, ascending.
+  /// Particles that share points with it, ascending.
   [[nodiscard]] std::span<const ParticleNeighbour> neighbours(std::uint32_t particle) const;
-  /// How much of two neighbours is common: `shared` over the lesser sum of weights of the two; in
+  /// The coupling of two neighbours: `shared` divided by the smaller of their sums of weights; in
   /// [0, 1].
   [[nodiscard]] double coupling(std::uint32_t particle, const ParticleNeighbour& neighbour) const;
-  /// For a particle that a tear made: the influences on its seed before the tear, from which its
-  /// displacement and velocity come. Weights are all 0 for a particle of the decomposition.
+  /// For a particle created by a tear: the influences on its seed before the tear, which determine
+  /// its displacement and velocity. Weights are all 0 for a particle of the decomposition.
   [[nodiscard]] const ParticleInfluences& parents(std::uint32_t particle) const;
 
   // ---- Points. Indices are unchecked.
@@ -120,15 +117,14 @@ class SUNDER_API ParticleSet {
   /// Per point.
   [[nodiscard]] std::span<const ParticleInfluences> influences() const;
   /// Per point: gradients of its influences' weights along the surface, in the decomposition's
-  /// pose; for normals, see VertexDisplacements. Empty where memory ran out. Valid until the next
-  /// call that changes the set. O(points) at first, then O(points changed since).
+  /// pose; for normals, see VertexDisplacements. Empty if out of memory. Valid until the next call
+  /// that changes the set. O(points) in the first call, then O(points changed since).
   [[nodiscard]] std::span<const ParticleGradients> gradients(const TornModel& model);
-  /// Per vertex of a mesh: its point; kNone where no face uses the vertex.
+  /// Per vertex of a mesh: its point; kNone if no face uses the vertex.
   [[nodiscard]] std::span<const std::uint32_t> vertex_points(std::uint32_t mesh) const;
-  /// Per point: its place in the decomposition's pose, model space, metres.
+  /// Per point: its position in the decomposition's pose, model space, metres.
   [[nodiscard]] std::span<const Vec3f> positions() const;
-  /// Edges of borders that operations made and have not closed again, in the order in which they
-  /// were made.
+  /// Border edges that operations created and that are still open, in order of creation.
   [[nodiscard]] std::span<const LipEdge> lips() const;
 
   /// Points where the two lips of a tear meet; for a gap, the middle of its end. Ascending. O(edges
@@ -139,42 +135,44 @@ class SUNDER_API ParticleSet {
 
   // ---- Poses.
 
-  /// Evaluates the rest of some particles in a pose. Not to be called by two threads at once: it
-  /// uses memory of the set.
-  /// @param particles  in any order, unchecked. @param rest  one entry for each of them, written.
-  /// @return size_mismatch or non_finite_value for the pose (nothing is written).
-  /// O(bones + particles x their bones); no allocation.
+  /// Evaluates the rest of some particles in a pose. Not for concurrent use: it uses memory of the
+  /// set.
+  ///
+  /// @param particles  in any order, unchecked.
+  /// @param rest  one entry for each of them, written.
+  /// @return size_mismatch or non_finite_value for the pose (nothing is written). O(bones +
+  ///         particles x their bones); no allocation.
   [[nodiscard]] Status rest(const ModelPose& pose, std::span<const std::uint32_t> particles,
                             std::span<ParticleRest> rest) const;
 
   // ---- Tears.
 
-  /// Follows what a call did to the model: an operation, an extension of a stroke, undo, redo,
-  /// other weights. To be called once after each of them, with the records that it wrote. No
-  /// particle then holds points of both lips, except at the tips; undo restores every bit.
+  /// Follows a call that changed the model: an operation, an extension of a stroke, undo, redo,
+  /// other weights. Call it once after each of them, with its records. Afterwards no particle has
+  /// points of both lips, except at the tips; undo restores every bit. O(faces torn); settle() does
+  /// the work farther from the lips. Allocates the data for undo.
+  ///
   /// @return invalid_argument for another model, or one that was compacted: nothing is changed,
-  /// decompose again. limit_exceeded out
-  ///         of memory: see is_broken().
-  /// O(faces torn): what lies farther from the lips is left to settle(). Allocates what undo
-  /// restores.
+  ///         create a new set. limit_exceeded if out of memory: see is_broken().
   Status follow(const TornModel& model, std::span<const ChangeRecord> changes);
 
-  /// Continues what follow() left, for at most `points` points: particles that a long tear passes
-  /// are separated all the way. To be called once per frame; SoftBody::step() does. follow()
-  /// completes it before it begins.
-  /// @return whether there is more to do.
+  /// Continues the work of follow(), for at most `points` points: particles that a long tear passes
+  /// are separated completely. Call it once per frame; SoftBody::step() does. follow() completes it
+  /// first.
+  ///
+  /// @return whether work remains.
   bool settle(const TornModel& model, std::uint32_t points = 2000);
 
-  /// Whether memory ran out in follow() or settle(): decompose again. What the set says of
-  /// particles and points is incomplete then, and a SoftBody of it answers limit_exceeded.
+  /// Whether memory ran out in follow() or settle(). The data of particles and points is then
+  /// incomplete, and a SoftBody of the set returns limit_exceeded: create a new set.
   [[nodiscard]] bool is_broken() const;
-  /// Whether follow() left nothing to settle().
+  /// Whether no work remains for settle().
   [[nodiscard]] bool is_settled() const;
 
-  /// Grows whenever anything changed.
+  /// Increases with every change.
   [[nodiscard]] std::uint64_t revision() const;
-  /// Points whose influences the last follow() or settle() changed, to be uploaded again: at most
-  /// eight ranges. Not to be called by two threads at once. O(changed points x log).
+  /// Points whose influences the last follow() or settle() changed, to be uploaded: at most eight
+  /// ranges. Not for concurrent use. O(changed points x log).
   [[nodiscard]] DirtyRanges dirty_points() const;
 
  private:
@@ -182,29 +180,31 @@ class SUNDER_API ParticleSet {
   std::unique_ptr<particles::Structure> structure_;
 };
 
-/// A range that fits what was wanted.
+/// The result of a search for a range.
 struct FoundRange {
   double range = 0.0;           ///< A fraction of the diagonal, for DecompositionOptions.
-  std::uint32_t particles = 0;  ///< Number of particles that it makes.
-  double step_seconds = 0.0;  ///< Measured duration of SoftBody::step() with all of them awake in a
-                              ///< still pose; 0: not measured.
+  std::uint32_t particles = 0;  ///< Number of particles with that range.
+  /// Measured duration of SoftBody::step() with all particles awake in a constant pose; 0: not
+  /// measured.
+  double step_seconds = 0.0;
 };
 
-/// Searches the range that makes about as many particles as wanted: within 2 %, or as near as
-/// ranges come. Deterministic; safe to call from several threads on one model.
-/// @param wanted  >= 1; at most as many as the model has points.
-/// @return invalid_argument, and the errors of ParticleSet::create(). At most a dozen
+/// Searches the range that gives the requested number of particles: within 2 %, or as close as
+/// possible. Deterministic; may be called by several threads on one model. At most a dozen
 /// decompositions.
+///
+/// @param wanted  >= 1; at most the number of points of the model.
+/// @return invalid_argument, and the errors of ParticleSet::create().
 SUNDER_API Result<FoundRange> find_range_for_particles(const TornModel& model,
                                                        const ModelPose& pose, std::uint32_t wanted,
                                                        std::uint64_t seed = 0);
 
-/// Searches the smallest range, and so the finest motion, whose steps take no longer than wanted.
-/// Each trial is timed on this machine, so the result varies.
+/// Searches the smallest range, which gives the finest motion, whose steps do not take longer than
+/// requested. Measures on the current machine, so the result varies. Takes a few decompositions,
+/// and some milliseconds of steps for each.
+///
 /// @param seconds  for one step with all particles awake; > 0.
-/// @return not_found where no range is fast enough; else as find_range_for_particles(). A few
-/// decompositions and some milliseconds
-///         of steps for each.
+/// @return not_found if no range is fast enough; otherwise as find_range_for_particles().
 SUNDER_API Result<FoundRange> find_range_for_step(const TornModel& model, const ModelPose& pose,
                                                   double seconds, const SoftMaterial& material,
                                                   std::uint64_t seed = 0);

@@ -17,37 +17,38 @@ namespace particles {
 struct BodyState;
 }
 
-/// The frame in which the displacement of a particle stays while bones move.
+/// The frame in which the displacement of a particle is constant while bones move.
 enum class Follow : std::uint8_t {
-  ride,  ///< The particle's own frame: the pose turns and carries it, and bones alone never excite
-         ///< it.
-  lag,   ///< Model space: the particle has inertia, and its rest place moves away from it.
+  /// The particle's own frame: displacements move and rotate with the pose, and bones alone never
+  /// cause any.
+  ride,
+  lag,  ///< Model space: the particle has inertia, and its rest moves away from it.
 };
 
 struct SoftBodyOptions {
   Follow follow = Follow::ride;
-  /// Whether a body that sleeps under `ride` still evaluates the pose in each step, so that
-  /// velocity() and place() of its particles are those of the pose. O(particles) per step then.
+  /// Whether a body that sleeps under `ride` evaluates the pose in each step, so that velocity()
+  /// and place() of its particles are those of the pose. Costs O(particles) per step.
   bool tracks_rest = false;
 };
 
-/// An acceleration, m/s^2, at a place in model space and at a time, in seconds of all steps. Values
+/// An acceleration, m/s^2, at a position in model space and a time, in seconds of all steps. Values
 /// that are not finite count as zero. Must not throw.
 using WindField = std::function<Vec3d(const Vec3d& place, double seconds)>;
 
-/// Tension in the skin, which parts the lips of a tear. It acts at lips only: elsewhere it is in
-/// balance.
+/// Tension in the skin, which pulls the lips of a tear apart. It acts at lips only; elsewhere it is
+/// balanced.
 struct Tension {
   double newtons_per_metre = 0.0;  ///< >= 0.
-  /// Optional: the unit direction, at a place in the decomposition's pose, along which alone the
-  /// tissue is under tension, as along Langer's lines of skin. Values that are not finite count as
+  /// Optional: the unit direction, at a position in the decomposition's pose, of a tension in one
+  /// direction only, such as along Langer's lines of skin. Values that are not finite count as
   /// none. Must not throw.
   std::function<Vec3d(const Vec3d& place)> direction;
 };
 
 struct HoldOptions {
-  double stiffness =
-      1e6;  ///< 1/s^2, in (0, 1e12]: newtons per metre, for each kilogram that is held.
+  /// 1/s^2, in (0, 1e12]: newtons per metre, for each kilogram that is held.
+  double stiffness = 1e6;
 };
 
 using HoldId = std::uint64_t;
@@ -55,28 +56,26 @@ using HoldId = std::uint64_t;
 /// The effect of colliders in the last step.
 struct ContactReport {
   std::uint32_t points = 0;  ///< Number of contact points that were pushed out.
-  double deepest = 0.0;      ///< Metres by which a contact point is still inside a collider.
+  double deepest = 0.0;      ///< Largest depth of a contact point inside a collider, metres.
 };
 
 /// The motion of a ParticleSet: each particle has a displacement and a velocity relative to its
-/// rest place, to which a damped spring pulls it; its neighbours pull at it, too. The return spring
-/// is integrated in closed form; neighbours and holds are solved for together, implicitly: any step
-/// and any stiffness is stable. Quiet particles sleep: they keep their displacement and cost
-/// nothing.
+/// rest. A damped spring pulls it to its rest, and its neighbours pull at it. The return spring is
+/// integrated in closed form, neighbours and holds implicitly, so any step and any stiffness is
+/// stable. Quiet particles sleep: they keep their displacement and cost nothing.
 ///
-/// Deterministic: the same calls give the same bits. Method: docs/particles.md.
-/// Not thread-safe: one thread at a time per body and its set; different bodies on different sets
-/// are independent.
+/// Deterministic: the same calls give the same bits. Method: docs/particles.md. Not thread-safe:
+/// one thread at a time per body and its set; different bodies on different sets are independent.
 class SUNDER_API SoftBody {
  public:
-  /// A body at rest, asleep, of the first material throughout.
-  /// @param particles  followed: what is torn shows in the next call. Outlives the body, and is not
-  /// moved.
+  /// A body at rest, asleep, with the first material for all particles. O(particles + pairs of
+  /// neighbours).
+  ///
+  /// @param particles  the set that it follows; must outlive the body and must not be moved.
   /// @param pose       that of ParticleSet::create().
   /// @param materials  at least one.
   /// @return as ParticleSet::rest() for the pose; empty_input without material; the fault of a
-  /// material, with its index;
-  ///         limit_exceeded out of memory. O(particles + pairs of neighbours).
+  ///         material, with its index; limit_exceeded if out of memory.
   static Result<SoftBody> create(ParticleSet& particles, const ModelPose& pose,
                                  std::span<const SoftMaterial> materials,
                                  const SoftBodyOptions& options = {});
@@ -84,9 +83,9 @@ class SUNDER_API SoftBody {
   SoftBody(SoftBody&&) noexcept;
   SoftBody& operator=(SoftBody&&) noexcept;
 
-  // ---- Materials. A new particle has that of its greatest parent. Functions below that return a
-  // Status or Result answer index_out_of_range, non_finite_value, invalid_argument, or
-  // limit_exceeded out of memory, and change nothing then.
+  // ---- Materials. A new particle has the material of its parent with the largest weight.
+  // Functions below that return a Status or Result may return index_out_of_range, non_finite_value,
+  // invalid_argument or limit_exceeded (out of memory), and change nothing then.
 
   Status set_material(std::uint32_t particle, std::uint32_t material);
   /// Changes a material wherever it is used. @return also the fault of the material.
@@ -96,70 +95,71 @@ class SUNDER_API SoftBody {
 
   // ---- Forces.
 
-  /// Newton seconds, at once. To a point: distributed by its influences.
+  /// Newton seconds, applied at once. On a point: distributed by its influences.
   Status add_impulse(std::uint32_t particle, const Vec3d& newton_seconds);
   Status add_point_impulse(std::uint32_t point, const Vec3d& newton_seconds);
-  /// Newtons, until it is set again.
+  /// Newtons, constant until it is set again.
   Status set_force(std::uint32_t particle, const Vec3d& newtons);
   /// m/s^2; initially zero.
   Status set_gravity(const Vec3d& acceleration);
-  /// Called for every particle in every step. An empty function: no wind.
+  /// Called for every particle in every step. Empty: no wind.
   Status set_wind(WindField wind);
   Status set_tension(Tension tension);
 
   /// Pulls a particle, or a point by its influences, to a place in model space. A moving target is
-  /// followed one step behind. A hold on what vanishes is released. @return also invalid_argument
-  /// for a point that no particle moves.
+  /// followed with a delay of one step. A hold on a particle or point that vanishes is released.
+  /// @return also invalid_argument for a point that belongs to no particle.
   Result<HoldId> hold(std::uint32_t particle, const Vec3d& target, const HoldOptions& options = {});
   Result<HoldId> hold_point(std::uint32_t point, const Vec3d& target,
                             const HoldOptions& options = {});
+  ///
   /// @return not_found for a hold that does not exist, or was released.
   Status move_hold(HoldId hold, const Vec3d& target);
   Status release(HoldId hold);
 
-  /// Replaces all colliders; they begin without velocity. @return the fault of a collider, with its
+  /// Replaces all colliders; they start without velocity. @return the fault of a collider, with its
   /// index.
   Status set_colliders(std::span<const Collider> colliders);
-  /// Sets where a collider is at the end of the next step. Its velocity is that of moving there
-  /// from where it was after the last one.
+  /// Sets the position of a collider at the end of the next step. Its velocity follows from its
+  /// position after the previous step.
   Status move_collider(std::uint32_t collider, const Vec3d& place, const Quatd& turn);
   [[nodiscard]] std::span<const Collider> colliders() const;
 
   // ---- Motion.
 
-  /// Advances in time.
-  /// @param model    the one that was decomposed, as ParticleSet::follow() left it.
-  /// @param pose     at the end of the step. Bones move evenly within the step.
-  /// @param seconds  >= 0; more than an hour is taken for an hour.
+  /// Advances by a time step. O(awake particles x neighbours x iterations); with colliders, wind or
+  /// lag also O(particles); asleep O(1). No allocation once warm.
+  ///
+  /// @param model    the model of the set, as ParticleSet::follow() left it.
+  /// @param pose     at the end of the step. Bones move at constant speed within the step.
+  /// @param seconds  >= 0; more than an hour counts as an hour.
   /// @return non_finite_value or invalid_argument for `seconds` and the model, and as
-  /// ParticleSet::rest() for the pose: nothing is
-  ///         changed. A body that sleeps under `ride`, with nothing set that could wake it, checks
-  ///         neither. limit_exceeded out of memory: the step may be half done.
-  /// O(awake particles x neighbours x iterations), with colliders, wind or lag O(particles) too;
-  /// asleep O(1). No allocation once warm.
+  ///         ParticleSet::rest() for the pose: nothing is changed. A body that sleeps under `ride`,
+  ///         without settings that could wake it, checks neither. limit_exceeded if out of memory:
+  ///         the step may be incomplete.
   Status step(const TornModel& model, const ModelPose& pose, double seconds);
 
-  /// Per particle, as ParticleSet::follow() left them: x y z of the displacement in metres, model
+  /// Displacement of each particle, as ParticleSet::follow() left them: x, y, z in metres, model
   /// space, and 0; for SkinnedMesh and shaders. Valid until the next call that is not const. Empty
-  /// where memory ran out, as are the two below.
+  /// if out of memory, like the next two.
   [[nodiscard]] std::span<const Vec4f> displacements();
-  /// Per particle: how the pose turns what it holds, from the decomposition's pose to the last
-  /// step's. Up to date for every displaced particle. A particle whose members are mirrored or
-  /// flattened keeps its last turn.
+  /// Per particle: its rotation from the decomposition's pose to that of the last step. Up to date
+  /// for every displaced particle. A particle whose members are mirrored or flattened keeps its
+  /// last rotation.
   [[nodiscard]] std::span<const Mat3f> rotations();
-  /// Vertices of a mesh that displaced particles move: ascending ranges that do not touch. Valid
-  /// until the next call that is not const. O(points of displaced particles) where other particles
-  /// are displaced than at the last call, else O(1).
+  /// Vertices of a mesh that displaced particles move, as ascending, separate ranges. Valid until
+  /// the next call that is not const. O(points of displaced particles) if other particles are
+  /// displaced than in the last call, otherwise O(1).
   [[nodiscard]] std::span<const IndexRange> moved_vertices(const TornModel& model,
                                                            std::uint32_t mesh);
 
   /// After the last step, model space, metres and metres per second; indices are unchecked. The
-  /// velocity includes that of the rest place. Particles that slept through the last steps have the
-  /// place of the last pose evaluated, and velocity 0.
+  /// velocity includes that of the rest. Particles that slept through the last steps have the
+  /// position in the last evaluated pose, and velocity 0.
   [[nodiscard]] Vec3d place(std::uint32_t particle) const;
   [[nodiscard]] Vec3d displacement(std::uint32_t particle) const;
   [[nodiscard]] Vec3d velocity(std::uint32_t particle) const;
-  /// Mean of the particles that move a point, by its influences.
+  /// Mean over the particles of a point, by its influences.
   [[nodiscard]] Vec3d point_displacement(std::uint32_t point) const;
   [[nodiscard]] Vec3d point_velocity(std::uint32_t point) const;
 

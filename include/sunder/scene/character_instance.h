@@ -14,7 +14,7 @@
 
 namespace sunder {
 
-/// How the surface of a CharacterInstance is made soft. It is decomposed in the bind pose.
+/// Options of a soft surface. It is decomposed in the bind pose.
 struct SoftTissue {
   DecompositionOptions decomposition;
   /// At least one; all particles start with the first.
@@ -23,25 +23,26 @@ struct SoftTissue {
 };
 
 struct CharacterInstanceOptions {
-  TornCapacity capacity;  ///< What operations may append. Default: the instance grows as needed.
-  WeightOptions weights;  ///< How new vertices are skinned, where an operation does not say.
-  std::optional<SoftTissue> soft;  ///< None: the surface follows its bones and nothing else.
+  TornCapacity capacity;  ///< Room for operations. Default: the instance grows as needed.
+  /// How new vertices are skinned, if an operation has no options of its own.
+  WeightOptions weights;
+  std::optional<SoftTissue> soft;  ///< Empty: the surface follows its bones only.
   SkinningMethod method = SkinningMethod::linear;
-  bool has_normals = true;   ///< Whether normals are posed, where a mesh has them.
+  bool has_normals = true;   ///< Whether normals are posed, if a mesh has them.
   bool has_tangents = true;  ///< Likewise for tangents.
   bool unit_length = false;  ///< Whether they are normalised; see VertexTarget::unit_length.
   ParallelFor parallel_for;  ///< Used by advance().
 };
 
-/// One mesh as it is to be drawn, after CharacterInstance::advance(). All spans are valid until the
-/// next call that is not const.
+/// One mesh for drawing, after CharacterInstance::advance(). All spans are valid until the next
+/// call that is not const.
 struct PosedMesh {
   std::span<const Vec3f> positions;  ///< One per vertex; model space, metres.
   std::span<const Vec3f> normals;    ///< One per vertex, or empty.
   std::span<const Vec4f> tangents;   ///< One per vertex, or empty; w is the bitangent's sign.
   std::span<const Triangle> triangles;
-  /// Ranges that the last advance() changed, to be uploaded again; ascending and disjoint. A buffer
-  /// that grew is listed as a whole.
+  /// Ranges that the last advance() changed, to be uploaded; ascending and disjoint. A buffer that
+  /// grew is listed as a whole.
   std::span<const IndexRange> dirty_vertices;
   std::span<const IndexRange> dirty_triangles;
   /// Vertices whose other attributes (texture coordinates, colours, weights) are new; read them
@@ -51,12 +52,11 @@ struct PosedMesh {
 
 /// One animated, soft, tearable copy of a character, with the posed vertices that an engine draws.
 /// It owns the parts (TornModel, ParticleSet, SoftBody, SkinnedMesh, BonePalette, PosedBuffer) and
-/// calls them in the right order: a call that tears updates the particles at once and notes what to
-/// update of the meshes; advance() does the rest. Several instances may share one Character.
+/// calls them in the right order: a call that tears updates the particles at once, and advance()
+/// updates the meshes. Several instances may share one Character.
 ///
-/// The results have the same bits as the same calls made on the parts. One thread at a time per
-/// instance; different instances are independent of each other. A failing call changes nothing. See
-/// docs/frame.md.
+/// Results have the same bits as the same calls on the parts. One thread at a time per instance;
+/// different instances are independent. A failing call changes nothing. See docs/frame.md.
 class SUNDER_API CharacterInstance {
  public:
   /// @param character  satisfies validate_character(); kept.
@@ -80,7 +80,7 @@ class SUNDER_API CharacterInstance {
   Result<TearReport> drill(const ModelPose& pose, const Bore& bore, ChangeRecord* change = nullptr);
   Status undo(ChangeRecord* change = nullptr);
   Status redo(ChangeRecord* change = nullptr);
-  /// As apply_operation(): any operation of a log. @param changes  appended to where given.
+  /// As apply_operation(): any operation of a log. @param changes  optional; records are appended.
   Result<TearReport> apply(const Operation& operation,
                            std::vector<ChangeRecord>* changes = nullptr);
 
@@ -109,29 +109,27 @@ class SUNDER_API CharacterInstance {
   /// @return as RefitJob::swap_in().
   Result<WeightReport> swap_in(const RefitJob& job, ChangeRecord* change = nullptr);
 
-  /// Moves on to a pose: steps the soft body, updates the meshes that were torn since the last
-  /// call, and poses every vertex that changed.
-  /// @param pose     one matrix per bone, one weight per morph weight.
-  /// @param seconds  since the last call, >= 0; time that passes for the soft body.
-  /// @return size_mismatch, index_out_of_range, non_finite_value, invalid_argument (nothing is
-  ///         changed); limit_exceeded without enough memory: mesh() is not to be drawn until a
-  ///         later call succeeds, and the time may have passed for the soft body.
+  /// Advances to a pose: steps the soft body, updates the meshes that were torn since the last
+  /// call, and poses every vertex that changed. O(bones + vertices that moved + changes by tears),
+  /// and the step of the soft body. Without a tear, no allocation once warm.
   ///
-  /// O(bones + vertices that moved + what was torn since the last call), and the step of the soft
-  /// body. If nothing was torn, no allocation once warm; what did not change is neither computed
-  /// nor written.
+  /// @param pose     one matrix per bone, one weight per morph weight.
+  /// @param seconds  since the last call, >= 0; the time step of the soft body.
+  /// @return size_mismatch, index_out_of_range, non_finite_value, invalid_argument (nothing is
+  ///         changed); limit_exceeded without enough memory: do not draw mesh() until a later call
+  ///         succeeds; the time may have passed for the soft body.
   Status advance(const ModelPose& pose, double seconds);
 
   /// One mesh of model().character(), unchecked. Empty before the first advance(), and between an
   /// operation that changed it and the next advance().
   [[nodiscard]] PosedMesh mesh(std::uint32_t mesh) const;
 
-  /// The torn model: to be read; it changes through the calls above.
+  /// The torn model, read-only; it changes through the calls above.
   [[nodiscard]] const TornModel& model() const;
-  /// That of the last advance(); empty before it.
+  /// The pose of the last advance(); empty before it.
   [[nodiscard]] const ModelPose& pose() const;
-  /// Takes forces, holds, colliders and materials; advance() steps it. Null for an instance that is
-  /// not soft.
+  /// The soft body, for forces, holds, colliders and materials; advance() steps it. Null for an
+  /// instance that is not soft.
   [[nodiscard]] SoftBody* body();
   [[nodiscard]] const SoftBody* body() const;
   /// Null for an instance that is not soft.

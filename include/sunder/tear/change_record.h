@@ -77,9 +77,9 @@ struct LipPair {
 };
 
 /// The surface points on the two sides of a gap, each side ascending. Left and right are those of
-/// LipPair. A corner where a side meets an end belongs to the side; points between the corners of
-/// an end are in neither. No point is in both: where a stroke crosses its own gap, the later
-/// segment decides.
+/// LipPair. A corner between a side and an end belongs to the side; points between the corners of
+/// an end are in neither. No point is in both: if a stroke crosses its own gap, the later segment
+/// decides.
 struct Rims {
   std::vector<std::uint32_t> left;
   std::vector<std::uint32_t> right;
@@ -94,8 +94,8 @@ struct ChangeRecord {
   /// In order along the tear. Gaps, cuts and bores list only the pairs of opened edges. Tips are
   /// single points and not listed.
   std::vector<LipPair> lips;
-  /// For a gap: the points that the call left on its two sides. All have a face, and lie on a
-  /// border or on a rim from which a wall hangs. Empty for a bore, which has one rim and no sides.
+  /// For a gap: the points on its two sides. All have a face, and lie on a border or on a rim at
+  /// which a wall starts. Empty for a bore, which has one rim and no sides.
   Rims rims;
 };
 

@@ -57,9 +57,9 @@ struct TearReport {
   std::uint32_t caps = 0;
   /// Rims of a cut or bore that got no cap or wall, for example because they do not close.
   std::uint32_t open_sections = 0;
-  /// The pieces that came free. For a tear or bore: the connected components that were part of a
-  /// larger one before, except the one with the most faces. For a cut: every component with an edge
-  /// on the cut, if the cut separated any.
+  /// The separated pieces. For a tear or bore: the connected components that were part of a larger
+  /// one before, except the one with the most faces. For a cut: every component with an edge on the
+  /// cut, if the cut separated any.
   std::vector<TornPiece> pieces;
 };
 

@@ -15,12 +15,12 @@ struct TopologyCounts {
   std::uint32_t triangles = 0;
   std::uint32_t edges = 0;
   std::uint32_t boundary_edges = 0;  ///< With one face.
-  std::uint32_t non_manifold_edges =
-      0;  ///< With more than two faces, or with two that disagree in winding.
+  /// With more than two faces, or with two that disagree in winding.
+  std::uint32_t non_manifold_edges = 0;
   std::uint32_t boundary_loops = 0;
   std::uint32_t components = 0;  ///< Sets of triangles connected across edges.
-  std::uint32_t degenerate_triangles =
-      0;  ///< With a repeated point, or without area in bind space.
+  /// With a repeated point, or without area in bind space.
+  std::uint32_t degenerate_triangles = 0;
 };
 
 /// Counts from the arrays alone. O(vertices + triangles), allocates. Reentrant.

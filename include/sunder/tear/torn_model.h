@@ -86,8 +86,8 @@ class SUNDER_API TornModel {
   Result<TearReport> tear(const ModelPose& pose, std::span<const Blade> stroke,
                           const TearOptions& options = {}, ChangeRecord* change = nullptr);
 
-  /// Cuts all layers of the posed surface by a plane. The lips coincide, as those of a tear.
-  /// @return as tear(). O(faces crossed), and O(all faces) if pieces come free.
+  /// Cuts all layers of the posed surface by a plane. The lips coincide, like those of a tear.
+  /// @return as tear(). O(faces crossed), and O(all faces) if pieces are separated.
   Result<TearReport> cut(const ModelPose& pose, const PlaneCut& cut,
                          ChangeRecord* change = nullptr);
 
@@ -132,11 +132,11 @@ class SUNDER_API TornModel {
   /// A number that identifies the most recent operation among those of all models. undo() and
   /// redo() keep it. 0 if no operation is done.
   [[nodiscard]] std::uint64_t newest_operation() const;
-  /// Whether a TearStroke is under way.
+  /// Whether a TearStroke is in progress.
   [[nodiscard]] bool is_in_stroke() const;
 
   /// The operations that are done and not undone, oldest first, with all bone matrices of their
-  /// poses. Played on the source they give this model again, bit for bit.
+  /// poses. Applied to the source they reproduce this model, bit for bit.
   /// @return limit_exceeded: out of memory. O(size of the operations), allocates.
   [[nodiscard]] Result<std::vector<Operation>> history() const;
 
@@ -163,13 +163,13 @@ class SUNDER_API TornModel {
   /// The point at a corner (0, 1, 2) of a triangle of a mesh. Indices are unchecked.
   [[nodiscard]] std::uint32_t point_at(std::uint32_t mesh, std::uint32_t triangle,
                                        std::uint32_t corner) const;
-  /// Where an appended vertex came from; vertices of the source have no birth. A duplicate of one
-  /// was born in a corner of its triangle. Indices are unchecked.
+  /// The birth of an appended vertex; vertices of the source have none. A duplicate of one was born
+  /// in a corner of its triangle. Indices are unchecked.
   [[nodiscard]] Birth birth(std::uint32_t mesh, std::uint32_t vertex) const;
   /// The source triangle that a triangle is a part of. Values from the source's triangle count on
   /// denote triangles of walls and caps; see fillings(). Indices are unchecked.
   [[nodiscard]] std::uint32_t source_triangle(std::uint32_t mesh, std::uint32_t triangle) const;
-  /// Vertices of the triangles of walls and caps as they were made. Births and source_triangle()
+  /// Vertices of the triangles of walls and caps as they were created. Births and source_triangle()
   /// number these triangles after those of the source.
   [[nodiscard]] std::span<const Triangle> fillings(std::uint32_t mesh) const;
 
@@ -184,9 +184,10 @@ class SUNDER_API TornModel {
   std::unique_ptr<State> state_;
 };
 
-/// Plays one operation on a model; poses are looked up in the model's skeleton and clips.
+/// Applies one operation to a model; poses are looked up in the model's skeleton and clips.
+///
 /// @param changes  optional; one record per step is appended, in order. Undo and redo of several
-///                 operations and strokes in several poses have several steps.
+///         operations, and strokes in several poses, have several steps.
 /// @return as the operation's own call; not_found for an unknown clip or bone, and for more undos
 ///         or redos than there are (then none is done). A failing stroke changes nothing.
 SUNDER_API Result<TearReport> apply_operation(TornModel& model, const Operation& operation,
