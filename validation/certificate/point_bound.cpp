@@ -36,23 +36,40 @@ double with_safety(const JointTree::State& tree, std::span<const SkinTerm> terms
 class RefinedBound {
  public:
   RefinedBound(const JointTree::State& tree, std::span<const SkinTerm> terms)
-      : tree_(tree), path_(make_path(tree, terms)), balls_(path_.size()), s_(path_.size(), 1.0) {}
+      : tree_(tree), path_(make_path(tree, terms)), balls_(path_.size()) {
+    for (const PathJoint& joint : path_) turns_.emplace_back(tree.nodes[joint.node]);
+  }
 
   /// Minimises joint by joint from several starts. Any s in [0, 1] is valid, so is the result.
   double minimise() {
     double least = kInfinity;
     for (const double part : {0.0, 0.5, 1.0}) {
-      for (std::size_t i = 0; i < path_.size(); ++i) {
-        const PreparedJoint& joint = tree_.nodes[path_[i].node];
-        const double cosine = std::cos(std::min(joint.half_range(), std::numbers::pi));
-        s_[i] = 1.0 - part * (1.0 - std::max(0.0, cosine));
-      }
+      for (Turn& turn : turns_) turn.s = 1.0 - part * (1.0 - std::max(0.0, turn.cosine));
       least = std::min(least, descend());
     }
     return least;
   }
 
  private:
+  /// A joint's turn as a function of s, without trigonometric functions.
+  struct Turn {
+    explicit Turn(const PreparedJoint& joint)
+        : cosine(std::cos(std::min(joint.half_range(), std::numbers::pi))),
+          squared_chord(
+              std::pow(distance_to_shrunk(1.0, std::min(joint.half_range(), std::numbers::pi)), 2)),
+          middle_cosine(std::cos(joint.middle())),
+          middle_sine(std::sin(joint.middle())) {}
+
+    [[nodiscard]] JointTurn<1> at_s() const {
+      return {{s * middle_cosine},
+              {s * middle_sine},
+              {std::sqrt((1.0 - s) * (1.0 - s) + s * squared_chord)}};
+    }
+
+    double s = 1.0;
+    double cosine, squared_chord, middle_cosine, middle_sine;
+  };
+
   double descend() {
     double value = evaluate();
     for (int sweep = 0; sweep < kSweeps; ++sweep) {
@@ -66,10 +83,10 @@ class RefinedBound {
   /// Golden section over s of one joint. Keeps the old s if it is better.
   double minimise_along(std::size_t joint, double value) {
     constexpr double kGolden = 0.6180339887498949;
-    const double old = s_[joint];
+    const double old = turns_[joint].s;
     double low = 0, high = 1;
     const auto at = [&](double s) {
-      s_[joint] = s;
+      turns_[joint].s = s;
       return evaluate();
     };
     double left = high - kGolden * (high - low), right = low + kGolden * (high - low);
@@ -92,7 +109,7 @@ class RefinedBound {
     const double best = of_left < of_right ? left : right;
     const double found = at(best);
     if (found < value) return found;
-    s_[joint] = old;
+    turns_[joint].s = old;
     return value;
   }
 
@@ -102,12 +119,7 @@ class RefinedBound {
       balls_[i] = {path_[i].node, path_[i].m, {x.x()}, {x.y()}, {x.z()}, {0.0}};
     }
     for (std::size_t i = 0; i + 1 < path_.size(); ++i) {
-      const PreparedJoint& joint = tree_.nodes[path_[i].node];
-      const double half = std::min(joint.half_range(), std::numbers::pi), middle = joint.middle();
-      const JointTurn<1> turn{{s_[i] * std::cos(middle)},
-                              {s_[i] * std::sin(middle)},
-                              {distance_to_shrunk(s_[i], half)}};
-      cross_joint(joint, turn, balls_[i]);
+      cross_joint(tree_.nodes[path_[i].node], turns_[i].at_s(), balls_[i]);
       SubtreeBall<1>& sum = balls_[path_[i].parent];
       sum.m += balls_[i].m;
       sum.x[0] += balls_[i].x[0];
@@ -121,7 +133,7 @@ class RefinedBound {
   const JointTree::State& tree_;
   std::vector<PathJoint> path_;
   std::vector<SubtreeBall<1>> balls_;
-  std::vector<double> s_;  // per joint of the path
+  std::vector<Turn> turns_;  // per joint of the path
 };
 
 }  // namespace

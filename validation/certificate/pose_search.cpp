@@ -145,7 +145,8 @@ void PoseSearch::slide(std::size_t i, const Vec3d& rest) {
   const bool is_first =
       squared_norm(Vec3d(rest + m_[i] * first)) > squared_norm(Vec3d(rest + m_[i] * last));
   const Vec3d end = is_first ? first : last;
-  const Vec3d direction = normalized(Vec3d(rest + m_[i] * end));
+  Vec3d direction = normalized(Vec3d(rest + m_[i] * end));
+  if (direction.isZero(0)) direction = Vec3d::UnitX();  // all are alike
   motions_[i].slide = end + std::copysign(joint.slide_radius, m_[i]) * direction;
 }
 
