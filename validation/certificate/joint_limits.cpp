@@ -174,13 +174,26 @@ bool stretch_of_rows(const Mat3d& scaled, const LocalRange& range, JointFrame& f
   return skew <= kRegular;
 }
 
+/// Bounds the stretch of (parent R scale bone^-1) for all rotations R, by the singular values of
+/// its factors. Where it may mirror, the lower bound is 0.
+void set_any_stretch(const Polar& parent, const Polar& bone_inverse, const LocalRange& range,
+                     bool keeps_side, JointFrame& frame) {
+  const Vec3d a = range.scale_lower.cwiseAbs(), b = range.scale_upper.cwiseAbs();
+  frame.scale_upper =
+      (1 + kFloatShare) * parent.largest * a.cwiseMax(b).maxCoeff() * bone_inverse.largest;
+  frame.scale_lower = 0;
+  if (keeps_side && (range.scale_lower.array() * range.scale_upper.array() > 0).all())
+    frame.scale_lower =
+        (1 - kFloatShare) * parent.least * a.cwiseMin(b).minCoeff() * bone_inverse.least;
+}
+
 JointFrame joint_frame(const Mat3d& parent, const Mat3d& bone, const LocalRange& range) {
   JointFrame frame;
   const Mat3d square = parent.transpose() * parent;
   const double size = std::sqrt(trace(square) / 3);
   double skew = norm(Mat3d(square / (size * size) - Mat3d::Identity()));
   const Mat3d scaled = size * Mat3d(bone.inverse());
-  Mat3d rotation;
+  Mat3d rotation = Mat3d::Identity();
   bool is_regular = skew <= kRegular;
   if (range.scale_lower == range.scale_upper) {
     const Polar stretch = polar(Mat3d(range.scale_lower.asDiagonal() * scaled));
@@ -194,7 +207,7 @@ JointFrame joint_frame(const Mat3d& parent, const Mat3d& bone, const LocalRange&
     skew += of_rows;
   }
   const Mat3d at_bind = Mat3d(polar(parent).rotation.transpose()) * rotation.transpose();
-  frame.is_regular = is_regular && at_bind.determinant() > 0;
+  frame.is_regular = is_regular && determinant(at_bind) > 0;
   if (frame.is_regular) {
     frame.at_bind = normalized(Quatd(at_bind));
     frame.slack = 2 * skew + kFloatTurn;
@@ -202,17 +215,15 @@ JointFrame joint_frame(const Mat3d& parent, const Mat3d& bone, const LocalRange&
     frame.scale_upper *= 1 + 2 * skew + kFloatShare;
     return frame;
   }
-  const Vec3d largest = range.scale_lower.cwiseAbs().cwiseMax(range.scale_upper.cwiseAbs());
-  frame.scale_lower = 0;
-  frame.scale_upper = (1 + kFloatShare) * polar(parent).largest * largest.maxCoeff() *
-                      polar(Mat3d(bone.inverse())).largest;
+  const bool keeps_side = determinant(parent) * determinant(bone) * range.scale_lower.prod() > 0;
+  set_any_stretch(polar(parent), polar(Mat3d(bone.inverse())), range, keeps_side, frame);
   return frame;
 }
 
 /// A bone that no clip turns or scales, below a parent whose axes are not at right angles.
 void set_constant_motion(const Mat3d& motion, JointRange& joint) {
   const Polar parts = polar(motion);
-  if (!(parts.rotation.determinant() > 0)) return;
+  if (!(determinant(parts.rotation) > 0)) return;
   joint.angle = 2 * std::acos(std::min(1.0, std::abs(Quatd(parts.rotation).w()))) + kFloatTurn;
   joint.scale_lower = parts.least * (1 - kFloatShare);
   joint.scale_upper = parts.largest * (1 + kFloatShare);

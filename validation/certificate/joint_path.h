@@ -16,7 +16,25 @@ template <int lanes>
 struct SubtreeBall {
   std::uint32_t node = 0;
   double m = 0.0;
-  std::array<double, lanes> x{}, y{}, z{}, radius{};
+  Lanes<lanes> x, y, z, radius;
+
+  /// A ball without extent.
+  void set(std::uint32_t at, double weight, const Vec3d& position) {
+    node = at;
+    m = weight;
+    x.setConstant(position.x());
+    y.setConstant(position.y());
+    z.setConstant(position.z());
+    radius.setZero();
+  }
+  SubtreeBall& operator+=(const SubtreeBall& other) {
+    m += other.m;
+    x += other.x;
+    y += other.y;
+    z += other.z;
+    radius += other.radius;
+    return *this;
+  }
 };
 
 /// Adds the motion of the joint of `ball.node`: after it the ball is seen from the joint's parent.
@@ -24,30 +42,24 @@ template <int lanes>
 void cross_joint(const PreparedJoint& joint, const JointTurn<lanes>& turn,
                  SubtreeBall<lanes>& ball) {
   const double m = ball.m, k = joint.scale(), h = joint.scale_half();
-  const double growth = joint.scale_upper, sliding = std::abs(m) * joint.slide_reach;
   const Vec3d from = m * joint.centre, to = m * (joint.centre + joint.slide), a = joint.axis;
-  for (std::size_t i = 0; i < lanes; ++i) {
-    const double x = ball.x[i] - from.x(), y = ball.y[i] - from.y(), z = ball.z[i] - from.z();
-    const double length = std::sqrt(x * x + y * y + z * z);
-    double cx = 0, cy = 0, cz = 0, moved = length;
-    if (joint.is_hinge) {
-      const double along = a.x() * x + a.y() * y + a.z() * z;
-      const double px = x - along * a.x(), py = y - along * a.y(), pz = z - along * a.z();
-      const double cosine = turn.cosine[i], sine = turn.sine[i];
-      cx = along * a.x() + cosine * px + sine * (a.y() * z - a.z() * y);
-      cy = along * a.y() + cosine * py + sine * (a.z() * x - a.x() * z);
-      cz = along * a.z() + cosine * pz + sine * (a.x() * y - a.y() * x);
-      moved = std::sqrt(px * px + py * py + pz * pz);
-    } else {
-      cx = turn.cosine[i] * x;
-      cy = turn.cosine[i] * y;
-      cz = turn.cosine[i] * z;
-    }
-    ball.x[i] = to.x() + k * cx;
-    ball.y[i] = to.y() + k * cy;
-    ball.z[i] = to.z() + k * cz;
-    ball.radius[i] = growth * ball.radius[i] + h * length + k * turn.radius[i] * moved + sliding;
+  const Lanes<lanes> x = ball.x - from.x(), y = ball.y - from.y(), z = ball.z - from.z();
+  const Lanes<lanes> length = (x * x + y * y + z * z).sqrt();
+  const Lanes<lanes> grown =
+      joint.scale_upper * ball.radius + h * length + std::abs(m) * joint.slide_reach;
+  if (!joint.is_hinge) {
+    ball.x = to.x() + k * turn.cosine * x;
+    ball.y = to.y() + k * turn.cosine * y;
+    ball.z = to.z() + k * turn.cosine * z;
+    ball.radius = grown + k * turn.radius * length;
+    return;
   }
+  const Lanes<lanes> along = a.x() * x + a.y() * y + a.z() * z;
+  const Lanes<lanes> px = x - along * a.x(), py = y - along * a.y(), pz = z - along * a.z();
+  ball.x = to.x() + k * (along * a.x() + turn.cosine * px + turn.sine * (a.y() * z - a.z() * y));
+  ball.y = to.y() + k * (along * a.y() + turn.cosine * py + turn.sine * (a.z() * x - a.x() * z));
+  ball.z = to.z() + k * (along * a.z() + turn.cosine * pz + turn.sine * (a.x() * y - a.y() * x));
+  ball.radius = grown + k * turn.radius * (px * px + py * py + pz * pz).sqrt();
 }
 
 /// A joint that lies between the terms of a point and the lowest joint that has all of them below.

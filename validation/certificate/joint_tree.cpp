@@ -52,12 +52,11 @@ void fill_turn(PreparedJoint& joint) {
   const double half = std::min(joint.half_range(), kPi);
   const double middle = joint.middle();
   for (int lane = 0; lane < kLanes; ++lane) {
-    const auto i = static_cast<std::size_t>(lane);
     const double part = static_cast<double>(lane) / (kLanes - 1);
     const double s = 1.0 - part * (1.0 - std::max(0.0, std::cos(half)));
-    joint.turn.cosine[i] = s * std::cos(middle);
-    joint.turn.sine[i] = s * std::sin(middle);
-    joint.turn.radius[i] = distance_to_shrunk(s, half);
+    joint.turn.cosine[lane] = s * std::cos(middle);
+    joint.turn.sine[lane] = s * std::sin(middle);
+    joint.turn.radius[lane] = distance_to_shrunk(s, half);
   }
   joint.largest_turn = std::min(std::max(std::abs(joint.lower), std::abs(joint.upper)), kPi);
   joint.turn.cosine[0] = 1.0;

@@ -2,9 +2,10 @@
 
 #include <sunder/validation/certificate.h>
 
-#include <array>
 #include <cstdint>
 #include <vector>
+
+#include <Eigen/Core>
 
 namespace sunder {
 namespace validation {
@@ -15,11 +16,14 @@ inline constexpr int kLanes = 6;
 /// How far from their common sum two sums of weights may be and count as equal.
 inline constexpr double kSumTolerance = 4e-6;
 
+template <int lanes>
+using Lanes = Eigen::Array<double, lanes, 1>;
+
 /// How a ball crosses a joint: y goes to along * s * y, and y across the axis to
 /// cosine * y + sine * (axis x y), both known up to `radius` * |y|. One entry per lane.
 template <int lanes>
 struct JointTurn {
-  std::array<double, lanes> cosine, sine, radius;
+  Lanes<lanes> cosine, sine, radius;
 };
 
 /// A joint with its range, in model space of the bind pose.

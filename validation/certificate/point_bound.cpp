@@ -15,14 +15,9 @@ constexpr int kSectionSteps = 14;
 
 template <int lanes>
 double distance_at_top(const PreparedJoint& top, const SubtreeBall<lanes>& ball) {
-  double least = kInfinity;
   const Vec3d origin = ball.m * top.centre;
-  for (std::size_t i = 0; i < lanes; ++i) {
-    const double distance =
-        norm(Vec3d(Vec3d(ball.x[i], ball.y[i], ball.z[i]) - origin)) + ball.radius[i];
-    least = std::min(least, distance);
-  }
-  return top.growth_above * least;
+  const Lanes<lanes> x = ball.x - origin.x(), y = ball.y - origin.y(), z = ball.z - origin.z();
+  return top.growth_above * ((x * x + y * y + z * z).sqrt() + ball.radius).minCoeff();
 }
 
 double with_safety(const JointTree::State& tree, std::span<const SkinTerm> terms, double bound) {
@@ -61,9 +56,11 @@ class RefinedBound {
           middle_sine(std::sin(joint.middle())) {}
 
     [[nodiscard]] JointTurn<1> at_s() const {
-      return {{s * middle_cosine},
-              {s * middle_sine},
-              {std::sqrt((1.0 - s) * (1.0 - s) + s * squared_chord)}};
+      JointTurn<1> turn;
+      turn.cosine[0] = s * middle_cosine;
+      turn.sine[0] = s * middle_sine;
+      turn.radius[0] = std::sqrt((1.0 - s) * (1.0 - s) + s * squared_chord);
+      return turn;
     }
 
     double s = 1.0;
@@ -114,18 +111,11 @@ class RefinedBound {
   }
 
   double evaluate() {
-    for (std::size_t i = 0; i < path_.size(); ++i) {
-      const Vec3d& x = path_[i].x;
-      balls_[i] = {path_[i].node, path_[i].m, {x.x()}, {x.y()}, {x.z()}, {0.0}};
-    }
+    for (std::size_t i = 0; i < path_.size(); ++i)
+      balls_[i].set(path_[i].node, path_[i].m, path_[i].x);
     for (std::size_t i = 0; i + 1 < path_.size(); ++i) {
       cross_joint(tree_.nodes[path_[i].node], turns_[i].at_s(), balls_[i]);
-      SubtreeBall<1>& sum = balls_[path_[i].parent];
-      sum.m += balls_[i].m;
-      sum.x[0] += balls_[i].x[0];
-      sum.y[0] += balls_[i].y[0];
-      sum.z[0] += balls_[i].z[0];
-      sum.radius[0] += balls_[i].radius[0];
+      balls_[path_[i].parent] += balls_[i];
     }
     return distance_at_top(tree_.nodes[path_.back().node], balls_.back());
   }
@@ -149,14 +139,7 @@ void PointBound::add(const Ball& ball) {
     open_.insert(open_.begin() + static_cast<std::ptrdiff_t>(at), ball);
     return;
   }
-  Ball& sum = open_[at - 1];
-  sum.m += ball.m;
-  for (std::size_t i = 0; i < kLanes; ++i) {
-    sum.x[i] += ball.x[i];
-    sum.y[i] += ball.y[i];
-    sum.z[i] += ball.z[i];
-    sum.radius[i] += ball.radius[i];
-  }
+  open_[at - 1] += ball;
 }
 
 double PointBound::without_safety(std::span<const SkinTerm> terms) {
@@ -164,11 +147,7 @@ double PointBound::without_safety(std::span<const SkinTerm> terms) {
   double sum = 0;
   for (const SkinTerm& term : terms) {
     Ball ball;
-    ball.node = tree_->node_of_bone[term.bone];
-    ball.m = term.m;
-    ball.x.fill(term.x.x());
-    ball.y.fill(term.x.y());
-    ball.z.fill(term.x.z());
+    ball.set(tree_->node_of_bone[term.bone], term.m, term.x);
     add(ball);
     sum += term.m;
   }
