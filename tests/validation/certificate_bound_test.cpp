@@ -118,7 +118,7 @@ TEST(DeviationBound, no_random_pose_exceeds_it) {
     kind.most_angle = rigs % 5 == 0 ? 0.3 : 3.2;
     const Scene scene(random, kind, 10);
     const DeviationCertificate coarse = certify(scene.rig, scene.rows, {0, 0});
-    const DeviationCertificate refined = certify(scene.rig, scene.rows);
+    const DeviationCertificate refined = certify(scene.rig, scene.rows, {0, 3});
     ASSERT_TRUE(refined.gaps.empty());
     for (int poses = 0; poses < 5; ++poses) {
       const auto pose = test::random_pose_within(random, scene.rig);

@@ -61,8 +61,10 @@ Affine3d random_motion(Random& random, const JointRange& range, const Affine3d& 
     angle = extreme(random, range.lower, range.upper);
   }
   const double part = extreme(random, 0, 1);
-  const Vec3d slide = axes * ((1 - part) * range.slide_from + part * range.slide_to) +
-                      extreme(random, 0, range.slide_radius) * random.direction();
+  const Vec3d slide =
+      axes * ((1 - part) * range.slide_from + part * range.slide_to) +
+      extreme(random, 0, std::isfinite(range.slide_radius) ? range.slide_radius : 0) *
+          random.direction();
   const Mat3d turn =
       Eigen::AngleAxisd(random.uniform(0, kPi), random.direction()).toRotationMatrix();
   const Vec3d stretch(extreme(random, range.scale_lower, range.scale_upper),

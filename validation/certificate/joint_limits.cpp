@@ -26,7 +26,7 @@ constexpr int kSplineDepth = 16;
 
 using ControlPoints = std::array<Vec4d, 4>;
 
-/// What rest and clips do with a bone, relative to its parent.
+/// Transforms of a bone in rest and clips, relative to its parent.
 struct LocalRange {
   std::vector<Vec3d> translations;  // their convex hull holds all translations
   Vec3d scale_lower, scale_upper;

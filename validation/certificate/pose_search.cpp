@@ -109,7 +109,7 @@ void PoseSearch::start_at_random(std::mt19937_64& random) {
   }
 }
 
-/// What the subtree of a joint adds to that of its parent.
+/// The part that the subtree of a joint adds to that of its parent.
 Vec3d PoseSearch::posed(std::size_t i) const {
   const Vec3d& centre = tree_.nodes[path_[i].node].centre;
   const JointMotion& motion = motions_[i];

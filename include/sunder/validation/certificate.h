@@ -64,7 +64,7 @@ struct JointRange {
   double scale_upper = 1.0;           ///< Infinity: no range is known.
 };
 
-/// What each bone may do. Callers fill it from a file or a robot description, or use a function.
+/// Ranges of all bones. Callers fill it from a file or a robot description, or use a function.
 struct JointLimits {
   std::vector<JointRange> of_bone;  ///< One per bone of the skeleton.
 };
@@ -143,7 +143,7 @@ struct CertificateOptions {
 [[nodiscard]] SUNDER_API std::vector<std::uint32_t> worst_points(
     const DeviationCertificate& certificate, std::size_t count);
 
-/// What a bone does in a pose, relative to its parent and to bind:
+/// The motion of a bone in a pose, relative to its parent and to bind:
 /// x -> centre + slide + scale * rotation * (x - centre), in model space of the bind pose.
 struct BoneMotion {
   std::uint32_t bone = 0;
@@ -189,7 +189,7 @@ struct SearchOptions {
                                                               std::uint32_t point,
                                                               const SearchOptions& options = {});
 
-/// Which changes of weights certified_influences() may make.
+/// The changes of weights that certified_influences() may make.
 struct InfluenceBudget {
   double maximum_error = 1e-4;        ///< Metres, in every pose within the limits.
   std::uint32_t most_influences = 0;  ///< 0: no limit.
