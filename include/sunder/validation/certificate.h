@@ -92,7 +92,7 @@ class SUNDER_API JointTree {
   /// invalid_argument with the bone: a range outside of what JointRange documents. O(bones).
   [[nodiscard]] static Result<JointTree> create(const Skeleton& skeleton, const ModelPose& bind,
                                                 const JointLimits& limits);
-  struct State;
+  struct State;  ///< For the library alone.
   [[nodiscard]] const State& state() const { return *state_; }
 
  private:
