@@ -182,4 +182,20 @@ Result<BoneMatch> match_bones(const Skeleton& source, const Skeleton& target,
 
 int side_of_name(const std::string& name) { return side_of_words(words_of(name)); }
 
+std::vector<Index> mirrored_bones(const Skeleton& skeleton) {
+  const std::vector<std::string> keys = fuzzy_keys(skeleton);
+  std::map<std::string_view, std::vector<Index>> holders;
+  for (Index i = 0; i < keys.size(); ++i) holders[keys[i]].push_back(i);
+  std::vector<Index> mirrored(keys.size(), kNone);
+  for (Index i = 0; i < keys.size(); ++i) {
+    if (keys[i].empty() || (keys[i].back() != '<' && keys[i].back() != '>')) continue;
+    std::string other = keys[i];
+    other.back() = other.back() == '<' ? '>' : '<';
+    const auto found = holders.find(other);
+    if (found != holders.end() && found->second.size() == 1 && holders[keys[i]].size() == 1)
+      mirrored[i] = found->second[0];
+  }
+  return mirrored;
+}
+
 }  // namespace sunder::validation

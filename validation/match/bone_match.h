@@ -2,10 +2,10 @@
 
 #include <sunder/core/skeleton.h>
 #include <sunder/core/status.h>
+#include <sunder/validation/transfer.h>
 
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace sunder::validation {
@@ -16,11 +16,6 @@ enum class BoneMatchKind : std::uint8_t {
   mapping,  ///< The caller named the pair.
   exact,    ///< Same name.
   fuzzy,    ///< Names that differ in case, separators, prefix or in how they say left and right.
-};
-
-/// A bone of the target and the bone of the source that it corresponds to, by name.
-struct BoneNames {
-  std::string target, source;
 };
 
 /// The bones of a target and their counterparts in a source.
@@ -45,5 +40,9 @@ struct BoneMatch {
 
 /// The side that a name tells: -1 left, +1 right, 0 neither. "Arm.L", "arm_l", "LeftArm", "lArm".
 [[nodiscard]] int side_of_name(const std::string& name);
+
+/// Per bone: the bone whose name differs in its side alone; kNone: there is none, or it is
+/// ambiguous.
+[[nodiscard]] std::vector<Index> mirrored_bones(const Skeleton& skeleton);
 
 }  // namespace sunder::validation

@@ -106,7 +106,7 @@ struct SurfaceSearch::Tree {
 };
 
 SurfaceSearch::Tree::Tree(const BindSurface& of, std::span<const Index> triangles)
-    : surface(of), vertices(of.positions.size()) {
+    : surface(of), vertices(std::min(of.positions.size(), 3 * triangles.size())) {
   std::vector<bool> is_known(of.positions.size(), false);
   for (const Index t : triangles) {
     if (!of.has_area[t]) continue;
