@@ -42,6 +42,7 @@ class SourceDocument {
   std::uint64_t maximum_bytes =
       0;  ///< LoadOptions::maximum_bytes, for the images that saving embeds.
   std::vector<MeshOrigin> mesh_origins;  ///< One a mesh of the character.
+  std::vector<std::uint32_t> node_of_bone;  ///< kNone for bones that loading added.
 };
 
 }  // namespace sunder

@@ -58,8 +58,9 @@ class Finish {
       add(mixed, 1 - rules_.mix, in_.own[point]);
       return remove(row = mixed, [](const BoneWeight& entry) { return !(entry.weight > 0); });
     });
-    step("small", [&](std::size_t, WeightRow& row) {
-      return remove(row, [](const BoneWeight& entry) { return entry.weight < kNegligible; });
+    step("small", [&](std::size_t point, WeightRow& row) {
+      return !in_.is_filled[point] ||
+             remove(row, [](const BoneWeight& entry) { return entry.weight < kNegligible; });
     });
     step("limit", [&](std::size_t, WeightRow& row) {
       if (rules_.maximum_influences > 0) limit(row, rules_.maximum_influences);

@@ -14,6 +14,7 @@ struct UnfinishedRows {
   std::vector<WeightRow> fallback;  ///< Where nothing is left of a row: those of the closest place.
   std::vector<WeightRow> own;       ///< That the target had.
   std::vector<int> side;            ///< -1 left, +1 right, 0 neither.
+  std::vector<bool> is_filled;      ///< Not as matched: continued or smoothed.
   std::vector<bool> is_locked;      ///< Not touched.
 };
 
@@ -29,9 +30,9 @@ struct FinishedRows {
   std::vector<TransferStep> steps;
 };
 
-/// Removes negative weights, weights of the other side and weights below 1e-4 that are no bone's
-/// largest share of anything, puts back what is not to be replaced, and limits the influences. Rows
-/// are normalised after each step, and the change that each makes is measured.
+/// Removes negative weights, weights of the other side and, of filled points, weights below 1e-4;
+/// puts back what is not to be replaced, and limits the influences. Rows are normalised after each
+/// step, and the change that each makes is measured.
 [[nodiscard]] FinishedRows finish_rows(UnfinishedRows unfinished, const FinishRules& rules);
 
 }  // namespace sunder::validation

@@ -4,6 +4,7 @@
 #include <sunder/weights/influences.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <string>
 
@@ -72,17 +73,49 @@ Affine3d model_from_mesh(const Skin& skin, const TargetBones& bones) {
                   Affine3d(skin.bone_from_bind[0].cast<double>()));
 }
 
-/// The skin of a mesh with slots for all bones wanted.
-Skin extended_skin(const Skin& skin, const TargetBones& bones, const std::set<Index>& wanted) {
+/// The bones that move the vertices of a mesh after a transfer.
+void add_wanted(const Mesh& mesh, const Skin& skin, const std::vector<WeightRow>& rows,
+                std::set<Index>& wanted) {
+  for (Index v = 0; v < rows.size(); ++v) {
+    for (const BoneWeight& entry : rows[v])
+      if (static_cast<float>(entry.weight) > 0.0f) wanted.insert(entry.bone);
+    if (rows[v].empty())
+      for (const Influence& influence : mesh.weights.of(v))
+        wanted.insert(skin.bones[influence.slot]);
+  }
+}
+
+/// The skin with slots for all bones wanted. A skin of one bone, that of a rigid mesh, loses it
+/// where it is no longer needed, because it may stand in another tree.
+Skin extended_skin(const Skin& skin, const TargetBones& bones, std::set<Index> wanted) {
   Skin extended = skin;
+  for (const Index bone : skin.bones)
+    if (wanted.erase(bone) == 0 && skin.bones.size() == 1 && !wanted.empty())
+      extended = {skin.name, {}, {}};
   const Affine3d of_mesh = model_from_mesh(skin, bones);
   for (const Index bone : wanted) {
-    if (std::ranges::find(skin.bones, bone) != skin.bones.end()) continue;
     extended.bones.push_back(bone);
     const Affine3d bone_from_bind = multiply(inverse(bones.model_from_bone[bone]), of_mesh);
     extended.bone_from_bind.push_back(Affine3f(bone_from_bind.cast<float>()));
   }
   return extended;
+}
+
+void write_mesh(const Skin& skin, const std::vector<WeightRow>& rows, Mesh& mesh) {
+  std::map<Index, Index> slot_of;
+  for (Index slot = 0; slot < skin.bones.size(); ++slot)
+    slot_of.try_emplace(skin.bones[slot], slot);
+  SkinWeights written;
+  std::vector<Influence> influences;
+  for (Index v = 0; v < rows.size(); ++v) {
+    influences.clear();
+    for (const BoneWeight& entry : rows[v])
+      if (const auto weight = static_cast<float>(entry.weight); weight > 0.0f)
+        influences.push_back({slot_of.at(entry.bone), weight});
+    (void)sort_influences(influences);
+    written.append(influences.empty() ? mesh.weights.of(v) : influences);
+  }
+  mesh.weights = std::move(written);
 }
 
 }  // namespace
@@ -128,33 +161,27 @@ std::vector<WeightRow> rows_of(const Character& character, Index mesh,
   return rows;
 }
 
-void write_rows(const TargetBones& bones, Index mesh, const std::vector<WeightRow>& rows,
+void write_rows(const TargetBones& bones, const std::vector<std::vector<WeightRow>>& rows,
                 Character& character) {
-  Mesh& of = character.meshes[mesh];
-  std::set<Index> wanted;
-  for (const WeightRow& row : rows)
-    for (const BoneWeight& entry : row)
-      if (static_cast<float>(entry.weight) > 0.0f) wanted.insert(entry.bone);
-  const Skin skin = extended_skin(character.skins[of.skin], bones, wanted);
-  if (skin.bones.size() != character.skins[of.skin].bones.size()) {
-    const auto known = std::ranges::find(character.skins, skin);
-    of.skin = static_cast<Index>(known - character.skins.begin());
-    if (known == character.skins.end()) character.skins.push_back(skin);
+  const auto skin_count = static_cast<Index>(character.skins.size());
+  std::vector<std::set<Index>> wanted(skin_count);
+  for (Index m = 0; m < character.meshes.size(); ++m) {
+    const Mesh& mesh = character.meshes[m];
+    add_wanted(mesh, character.skins[mesh.skin], rows[m], wanted[mesh.skin]);
   }
-  std::vector<Index> slot_of(bones.skeleton.bones.size(), kNone);
-  for (Index slot = static_cast<Index>(skin.bones.size()); slot-- > 0;)
-    slot_of[skin.bones[slot]] = slot;
-  SkinWeights written;
-  std::vector<Influence> influences;
-  for (Index v = 0; v < rows.size(); ++v) {
-    influences.clear();
-    for (const BoneWeight& entry : rows[v])
-      if (const auto weight = static_cast<float>(entry.weight); weight > 0.0f)
-        influences.push_back({slot_of[entry.bone], weight});
-    (void)sort_influences(influences);
-    written.append(influences.empty() ? of.weights.of(v) : influences);
+  std::vector<Index> new_skin;
+  for (Index i = 0; i < skin_count; ++i) {
+    new_skin.push_back(i);
+    Skin skin = extended_skin(character.skins[i], bones, wanted[i]);
+    if (skin == character.skins[i]) continue;
+    new_skin[i] = static_cast<Index>(character.skins.size());
+    character.skins.push_back(std::move(skin));
   }
-  of.weights = std::move(written);
+  for (Index m = 0; m < character.meshes.size(); ++m) {
+    Mesh& mesh = character.meshes[m];
+    mesh.skin = new_skin[mesh.skin];
+    write_mesh(character.skins[mesh.skin], rows[m], mesh);
+  }
 }
 
 }  // namespace sunder::validation

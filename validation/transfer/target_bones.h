@@ -30,10 +30,10 @@ struct TargetBones {
 [[nodiscard]] std::vector<WeightRow> rows_of(const Character& character, Index mesh,
                                              const std::vector<Index>& bone_of);
 
-/// Writes weights into a mesh. Its skin stays if it has all bones; otherwise the mesh gets a skin
-/// of its own with those it lacks.
-/// @param rows  per vertex; an empty one keeps the vertex as it is.
-void write_rows(const TargetBones& bones, Index mesh, const std::vector<WeightRow>& rows,
+/// Writes weights into the meshes of a target. A skin that has all bones wanted stays; meshes of
+/// another one get a skin with those that it lacks, one for all of them.
+/// @param rows  per mesh and vertex; an empty row keeps the vertex as it is.
+void write_rows(const TargetBones& bones, const std::vector<std::vector<WeightRow>>& rows,
                 Character& character);
 
 }  // namespace sunder::validation

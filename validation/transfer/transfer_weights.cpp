@@ -93,6 +93,7 @@ class Transfer {
   void match();
   Status refuse_nothing() const;
   void choose_states();
+  [[nodiscard]] std::vector<Vec3d> unit_positions() const;
   bool fill();
   [[nodiscard]] UnfinishedRows unfinished_rows();
   [[nodiscard]] FinishRules finish_rules() const;
@@ -133,7 +134,8 @@ class Transfer {
   std::vector<bool> is_point_locked_, part_has_match_;
   std::vector<PointState> states_;
   std::vector<WeightRow> rows_;  ///< Per point.
-  Laplacian laplacian_;
+  std::vector<bool> is_filled_;  ///< Per point: continued or smoothed.
+  Laplacian laplacian_;          ///< Empty where nothing is filled.
 };
 
 Status Transfer::choose_sides() {
@@ -267,23 +269,33 @@ void Transfer::choose_states() {
     if (is_locked(v)) rows_[points_.point_of_vertex[v]] = own_row(v);
 }
 
-/// In units of the target's diagonal, so that the balance of the two terms does not depend on the
-/// unit.
-bool Transfer::fill() {
+/// The places of the points in units of the target's diagonal, so that the balance of the two terms
+/// of the energy does not depend on the unit.
+std::vector<Vec3d> Transfer::unit_positions() const {
   std::vector<Vec3d> positions = points_.positions;
   for (Vec3d& position : positions) position /= to_.diagonal > 0 ? to_.diagonal : 1.0;
+  return positions;
+}
+
+bool Transfer::fill() {
+  is_filled_.assign(points_.count(), false);
+  if (laplacian_.mass.empty()) return true;
   if (!inpaint(laplacian_, options_.smoothness, states_, rows_)) return false;
+  for (Index point = 0; point < points_.count(); ++point)
+    is_filled_[point] = states_[point] == PointState::unknown;
   if (options_.smoothing_sweeps == 0) return true;
   std::vector<bool> is_smoothed =
-      points_near_unknown(laplacian_, positions, states_, options_.distance);
-  for (Index point = 0; point < points_.count(); ++point)
+      points_near_unknown(laplacian_, unit_positions(), states_, options_.distance);
+  for (Index point = 0; point < points_.count(); ++point) {
     if (is_point_locked_[point]) is_smoothed[point] = false;
+    if (is_smoothed[point]) is_filled_[point] = true;
+  }
   smooth(laplacian_, is_smoothed, options_.smoothing_sweeps, options_.smoothing_strength, rows_);
   return true;
 }
 
 UnfinishedRows Transfer::unfinished_rows() {
-  UnfinishedRows unfinished{std::move(rows_), {}, {}, {}, is_point_locked_};
+  UnfinishedRows unfinished{std::move(rows_), {}, {}, {}, is_filled_, is_point_locked_};
   for (Index point = 0; point < points_.count(); ++point) {
     unfinished.fallback.push_back(matched_rows_[representative_[point]]);
     unfinished.own.push_back(own_row(representative_[point]));
@@ -308,12 +320,11 @@ FinishRules Transfer::finish_rules() const {
 void Transfer::write(const std::vector<WeightRow>& rows, Character& character) const {
   character = target_;
   character.skeleton = bones_.skeleton;
-  for (Index m = 0; m < target_.meshes.size(); ++m) {
-    std::vector<WeightRow> of_mesh;
+  std::vector<std::vector<WeightRow>> of_meshes(target_.meshes.size());
+  for (Index m = 0; m < target_.meshes.size(); ++m)
     for (Index v = to_.first_vertex[m]; v < to_.first_vertex[m + 1]; ++v)
-      of_mesh.push_back(is_locked(v) ? WeightRow() : rows[points_.point_of_vertex[v]]);
-    write_rows(bones_, m, of_mesh, character);
-  }
+      of_meshes[m].push_back(is_locked(v) ? WeightRow() : rows[points_.point_of_vertex[v]]);
+  write_rows(bones_, of_meshes, character);
 }
 
 void Transfer::describe_vertices(TransferResult& result) const {
@@ -344,9 +355,8 @@ void Transfer::describe_vertices(TransferResult& result) const {
 }
 
 TransferResult Transfer::describe() {
-  std::vector<Vec3d> positions = points_.positions;
-  for (Vec3d& position : positions) position /= to_.diagonal > 0 ? to_.diagonal : 1.0;
-  laplacian_ = make_laplacian(positions, points_.triangles);
+  if (std::ranges::count(states_, PointState::unknown) > 0)
+    laplacian_ = make_laplacian(unit_positions(), points_.triangles);
   TransferResult result;
   result.vertices = to_.vertex_count();
   describe_vertices(result);

@@ -85,7 +85,7 @@ struct TransferResult {
   std::uint32_t points = 0;  ///< Solved once each: vertices that seams duplicate are one point.
   std::uint32_t parts = 0;   ///< Connected parts of the target.
   std::uint32_t parts_without_match = 0;
-  std::uint32_t edges = 0;
+  std::uint32_t edges = 0;           ///< 0 where nothing is inpainted, as the next two.
   std::uint32_t clamped_edges = 0;   ///< Whose cotangent weight was negative, tiny or huge.
   std::uint32_t floored_points = 0;  ///< With hardly any area around them.
   std::vector<TransferStep> steps;
