@@ -9,6 +9,7 @@ namespace {
 
 bool is_upper(char letter) { return letter >= 'A' && letter <= 'Z'; }
 bool is_lower(char letter) { return letter >= 'a' && letter <= 'z'; }
+bool is_digit(char letter) { return letter >= '0' && letter <= '9'; }
 bool is_separator(char letter) {
   return std::string_view(" ._-/").find(letter) != std::string_view::npos;
 }
@@ -59,6 +60,13 @@ std::string common_prefix(const std::vector<std::vector<std::string>>& names) {
   return {};
 }
 
+/// Whether a name would still be one without its first word.
+bool has_own_words(const std::vector<std::string>& words) {
+  return std::any_of(words.begin() + 1, words.end(), [](const std::string& word) {
+    return side_of_word(word) == 0 && !std::ranges::all_of(word, is_digit);
+  });
+}
+
 /// A key per bone in which fuzzily equal names agree.
 std::vector<std::string> fuzzy_keys(const Skeleton& skeleton) {
   std::vector<std::vector<std::string>> names;
@@ -70,7 +78,7 @@ std::vector<std::string> fuzzy_keys(const Skeleton& skeleton) {
     std::string& key = keys.emplace_back();
     bool has_side = false;
     for (std::size_t i = 0; i < words.size(); ++i) {
-      if (i == 0 && words.size() > 1 && words[0] == prefix) continue;
+      if (i == 0 && words[0] == prefix && has_own_words(words)) continue;
       if (!has_side && side_of_word(words[i]) != 0)
         has_side = true;
       else

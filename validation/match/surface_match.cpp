@@ -17,9 +17,9 @@
 namespace sunder::validation {
 namespace {
 
-constexpr double kTie = 1e-10;       ///< Of the diagonal: equally close.
-constexpr double kOnSurface = 1e-6;  ///< Of the diagonal: what float positions may be off.
-constexpr double kSameCosine = 1e-6;
+constexpr double kTie = 2e-7;         ///< Of the diagonal: equally close, for float positions.
+constexpr double kOnSurface = 1e-6;   ///< Of the diagonal: what float positions may be off.
+constexpr double kSameCosine = 0.05;  ///< Normals that agree equally well.
 
 /// A place that competes to be the match of a vertex.
 struct Candidate {

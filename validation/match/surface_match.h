@@ -49,9 +49,10 @@ struct SurfaceMatches {
 };
 
 /// Finds the closest places on a surface. A vertex at the very place is found by a hash table, all
-/// else by a tree of boxes (Eigen's KdBVH). Places that are equally close (within 1e-10 of the
-/// diagonal) are told apart by better agreeing normals, then by the same tear side, the same number
-/// in the same region, the same region, and last by the smallest triangle, so that the result does
+/// else by a tree of boxes (Eigen's KdBVH). Places that are equally close (within 2e-7 of the
+/// diagonal) are told apart by better agreeing normals (cosines that differ by more than 0.05),
+/// then by the same tear side, the same number in the same region, the same region, and last by the
+/// smallest triangle, so that the result does
 /// not depend on the order of the search. Reentrant.
 class SurfaceSearch {
  public:

@@ -171,12 +171,13 @@ MatchRegions Transfer::regions() const {
       regions.target_part.push_back(of_target.of[point]);
   }
   if (!plane_) return regions;
-  std::vector<int> side_of_vertex;
+  std::vector<int> side_of_bone, side_of_vertex;
+  for (const Bone& bone : source_.skeleton.bones) side_of_bone.push_back(side_of_name(bone.name));
   for (Index m = 0; m < source_.meshes.size(); ++m)
     for (const WeightRow& row : rows_of(source_, m, {})) {
       double balance[3] = {0, 0, 0};
       for (const BoneWeight& entry : row)
-        balance[1 + side_of_name(source_.skeleton.bones[entry.bone].name)] += entry.weight;
+        balance[1 + side_of_bone[entry.bone]] += entry.weight;
       side_of_vertex.push_back(balance[0] > 0.5 ? -1 : balance[2] > 0.5 ? 1 : 0);
     }
   for (const auto& [a, b, c] : from_.triangles) {
