@@ -1,9 +1,11 @@
 #pragma once
 
 #include <sunder/io/character_file.h>
+#include <sunder/validation/transfer.h>
 
 #include <filesystem>
 #include <optional>
+#include <string>
 
 #include "tools/exit_code.h"
 #include "tools/refit.h"
@@ -36,5 +38,19 @@ struct DemoRequest {
   std::filesystem::path folder = "demo";
 };
 [[nodiscard]] ExitCode run_demo(const DemoRequest& request);
+
+/// sunder transfer: gives a model the skin of another one.
+struct TransferRequest {
+  std::filesystem::path source, target, output;
+  TransferOptions options;  ///< But for what the files below say.
+  SaveOptions save;
+  std::optional<std::filesystem::path>
+      bone_names;  ///< JSON: {"bone of the target": "of the source"}.
+  std::optional<std::filesystem::path>
+      vertices;                     ///< JSON: {"mesh": [vertex, …]}; others are locked.
+  std::optional<std::string> lock;  ///< Attribute of the target's vertices.
+  std::optional<std::filesystem::path> report;
+};
+[[nodiscard]] ExitCode run_transfer(const TransferRequest& request);
 
 }  // namespace sunder::tools

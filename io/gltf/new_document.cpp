@@ -12,6 +12,7 @@
 #include "io/gltf/glb.h"
 #include "io/gltf/mesh_writer.h"
 #include "io/gltf/refusal.h"
+#include "io/gltf/rig_writer.h"
 
 namespace sunder::gltf {
 namespace {
@@ -64,14 +65,9 @@ class NewDocument {
       (parent == kNone ? roots : children[parent]).push_back(bone);
     }
     for (Index bone = 0; bone < children.size(); ++bone) {
-      const BoneTransform& rest = character_.skeleton.bones[bone].rest;
-      Json node = {{"name", character_.skeleton.bones[bone].name}};
+      Json node = bone_node(character_.skeleton.bones[bone]);
       if (!children[bone].empty()) node["children"] = children[bone];
-      if (!rest.translation.isZero(0)) node["translation"] = numbers({rest.translation.data(), 3});
-      const Quatf rotation = rest.rotation.normalized();
-      if (rotation.coeffs() != Quatf::Identity().coeffs())
-        node["rotation"] = numbers({rotation.coeffs().data(), 4});
-      if (rest.scale != Vec3f::Ones()) node["scale"] = numbers({rest.scale.data(), 3});
+      node_of_bone_.push_back(bone);
       append(draft_.json, "nodes", std::move(node));
     }
     // glTF requires that the joints of a skin have a common root.
@@ -134,25 +130,15 @@ class NewDocument {
   Index add_skinned_node(const Mesh& mesh, Index gltf_mesh) {
     const Index node =
         append(draft_.json, "nodes",
-               {{"name", mesh.name}, {"mesh", gltf_mesh}, {"skin", add_skin(mesh.skin)}});
+               {{"name", mesh.name}, {"mesh", gltf_mesh}, {"skin", skin_of(mesh.skin)}});
     roots_.push_back(node);
     return node;
   }
 
-  Index add_skin(Index index) {
+  Index skin_of(Index index) {
     const auto [entry, is_new] = gltf_skin_of_.try_emplace(index, 0);
-    if (!is_new) return entry->second;
-    const Skin& skin = character_.skins[index];
-    std::vector<float> matrices;
-    for (const Affine3f& bone_from_bind : skin.bone_from_bind) {
-      const Eigen::Matrix4f full =
-          Eigen::Transform<float, 3, Eigen::Affine>(bone_from_bind).matrix();
-      matrices.insert(matrices.end(), full.data(), full.data() + 16);
-    }
-    Json gltf_skin = {{"inverseBindMatrices", add_floats(matrices, "MAT4", 16)},
-                      {"joints", skin.bones}};
-    if (!skin.name.empty()) gltf_skin["name"] = skin.name;
-    return entry->second = append(draft_.json, "skins", std::move(gltf_skin));
+    if (is_new) entry->second = add_skin(draft_, character_.skins[index], node_of_bone_);
+    return entry->second;
   }
 
   Index add_material(const Mesh& mesh, Index submesh) {
@@ -275,6 +261,7 @@ class NewDocument {
   GlbDraft draft_;
   MeshWriter meshes_;
   Json roots_;
+  std::vector<Index> node_of_bone_;
   std::map<Index, Index> gltf_skin_of_;
   std::map<Index, Index> node_of_mesh_;
 };

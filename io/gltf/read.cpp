@@ -49,6 +49,10 @@ LoadedCharacter read(std::span<const std::byte> content, const std::filesystem::
   if (character->meshes.empty())
     refuse(StatusCode::empty_input, kNone, "the scene has no triangles");
   character->clips = read_animations(reading, nodes, meshes.morphs_of_node);
+  document->node_of_bone.assign(nodes.skeleton.bones.size(), kNone);
+  for (std::uint32_t node = 0; node < nodes.bone_from_node.size(); ++node)
+    if (nodes.bone_from_node[node] != kNone)
+      document->node_of_bone[nodes.bone_from_node[node]] = node;
   character->skeleton = std::move(nodes.skeleton);
   document->mesh_origins = std::move(meshes.origins);
   if (!document->is_glb)

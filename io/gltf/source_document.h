@@ -40,6 +40,7 @@ class SourceDocument {
   std::filesystem::path folder;
   std::uint64_t maximum_bytes = 0;  ///< LoadOptions::maximum_bytes, for images embedded on saving.
   std::vector<MeshOrigin> mesh_origins;  ///< One per mesh of the character.
+  std::vector<std::uint32_t> node_of_bone;  ///< kNone for bones that loading added.
 };
 
 }  // namespace sunder

@@ -8,11 +8,34 @@
 #include "io/gltf/glb.h"
 #include "io/gltf/mesh_writer.h"
 #include "io/gltf/refusal.h"
+#include "io/gltf/rig_writer.h"
 
 namespace sunder::gltf {
 namespace {
 
 using Origin = SourceDocument::MeshOrigin;
+
+template <class T>
+bool begins_with(const std::vector<T>& list, const std::vector<T>& beginning) {
+  return list.size() >= beginning.size() &&
+         std::equal(beginning.begin(), beginning.end(), list.begin());
+}
+
+/// A node has one skin, also where its primitives became several meshes.
+void check_skins_of_nodes(const Character& character, const Character& before,
+                          const SourceDocument& source) {
+  std::map<std::uint32_t, std::uint32_t> first_on_node;
+  for (std::uint32_t i = 0; i < character.meshes.size(); ++i) {
+    const auto [first, is_new] = first_on_node.try_emplace(source.mesh_origins[i].node, i);
+    const bool has_changed =
+        character.meshes[i].skin != before.meshes[i].skin ||
+        character.meshes[first->second].skin != before.meshes[first->second].skin;
+    if (has_changed && character.meshes[i].skin != character.meshes[first->second].skin)
+      refuse(StatusCode::invalid_argument, i,
+             "save_glb: meshes %u and %u are of one node, but have different skins", first->second,
+             i);
+  }
+}
 
 void check_same_character(const Character& character, const LoadedCharacter& loaded) {
   if (loaded.character == nullptr || loaded.source == nullptr)
@@ -24,16 +47,19 @@ void check_same_character(const Character& character, const LoadedCharacter& loa
            "save_glb: the character has %zu meshes, the source has %zu", character.meshes.size(),
            source.meshes.size());
   if (&character == &source) return;
-  if (character.skeleton != source.skeleton)
-    refuse(StatusCode::invalid_argument, kNone, "save_glb: the skeleton differs from the source's");
-  if (character.skins != source.skins)
-    refuse(StatusCode::invalid_argument, kNone, "save_glb: the skins differ from the source's");
+  if (!begins_with(character.skeleton.bones, source.skeleton.bones))
+    refuse(StatusCode::invalid_argument, kNone,
+           "save_glb: the skeleton does not begin with the source's");
+  if (!begins_with(character.skins, source.skins))
+    refuse(StatusCode::invalid_argument, kNone,
+           "save_glb: the skins do not begin with the source's");
   if (character.clips != source.clips)
     refuse(StatusCode::invalid_argument, kNone, "save_glb: the clips differ from the source's");
   const std::size_t material_count = count_of(loaded.source->json, "materials");
   for (std::uint32_t i = 0; i < character.meshes.size(); ++i) {
     const Mesh &mesh = character.meshes[i], &before = source.meshes[i];
-    if (mesh.skin != before.skin || mesh.first_morph_weight != before.first_morph_weight ||
+    if ((mesh.skin != before.skin && mesh.skin < source.skins.size()) ||
+        mesh.first_morph_weight != before.first_morph_weight ||
         mesh.morph_targets.size() != before.morph_targets.size())
       refuse(StatusCode::invalid_argument, i,
              "save_glb: mesh %u: its skin or its morph targets differ from the source's", i);
@@ -44,6 +70,7 @@ void check_same_character(const Character& character, const LoadedCharacter& loa
                submesh.material, material_count);
   }
   if (const Status status = validate_character(character); !status) throw Refusal{status};
+  check_skins_of_nodes(character, source, *loaded.source);
 }
 
 /// Meshes that must be written: torn meshes, and meshes whose source is not valid.
@@ -61,9 +88,15 @@ std::vector<std::uint32_t> meshes_to_write(const Character& character,
 
 class Patch {
  public:
-  Patch(GlbDraft& draft, const Character& character, const SourceDocument& source,
+  Patch(GlbDraft& draft, const Character& character, const LoadedCharacter& loaded,
         const SaveOptions& options)
-      : draft_(draft), character_(character), source_(source), writer_(draft, options) {}
+      : draft_(draft),
+        character_(character),
+        before_(*loaded.character),
+        source_(*loaded.source),
+        writer_(draft, options),
+        rig_(draft, character, source_, static_cast<std::uint32_t>(before_.skeleton.bones.size())) {
+  }
 
   void apply(const std::vector<std::uint32_t>& meshes) {
     std::map<std::uint32_t, std::vector<std::uint32_t>> meshes_of_node;
@@ -75,6 +108,10 @@ class Patch {
 
  private:
   void patch_node(std::uint32_t node_index, const std::vector<std::uint32_t>& meshes) {
+    if (has_new_skin(meshes.front())) {
+      const std::uint32_t skin = rig_.skin(character_.meshes[meshes.front()].skin);
+      draft_.json["nodes"][node_index]["skin"] = skin;
+    }
     Json& node = draft_.json["nodes"][node_index];
     const auto mesh_index = node["mesh"].get<std::size_t>();
     const Json& old_mesh = draft_.json["meshes"][mesh_index];
@@ -113,7 +150,8 @@ class Patch {
   void rewrite_primitives(std::uint32_t mesh_index, const Json& old_primitives,
                           std::map<std::uint32_t, Json>& rewritten, Json& additional) {
     const Mesh& mesh = character_.meshes[mesh_index];
-    const Origin& origin = source_.mesh_origins[mesh_index];
+    Origin origin = source_.mesh_origins[mesh_index];
+    origin.skinned |= has_new_skin(mesh_index);
     for (const std::uint32_t primitive : origin.primitives) rewritten[primitive] = nullptr;
     if (!MeshWriter::has_triangles(mesh)) return;
     const MeshWriter::Vertices vertices = writer_.add_vertices(mesh, origin);
@@ -156,6 +194,10 @@ class Patch {
     if (extensions->empty()) primitive.erase("extensions");
   }
 
+  [[nodiscard]] bool has_new_skin(std::uint32_t mesh) const {
+    return character_.meshes[mesh].skin != before_.meshes[mesh].skin;
+  }
+
   std::size_t use_count(std::size_t mesh) const {
     const Json& nodes = draft_.json["nodes"];
     return static_cast<std::size_t>(
@@ -192,8 +234,10 @@ class Patch {
 
   GlbDraft& draft_;
   const Character& character_;
+  const Character& before_;
   const SourceDocument& source_;
   MeshWriter writer_;
+  AppendedRig rig_;
   std::set<std::uint32_t> without_mesh_;
 };
 
@@ -205,7 +249,7 @@ Status write(const std::filesystem::path& file, const Character& character,
   const std::vector<std::uint32_t> meshes = meshes_to_write(character, loaded);
   if (meshes.empty() && source.is_glb) return write_atomically(file, source.content);
   GlbDraft draft(source);
-  Patch(draft, character, source, options).apply(meshes);
+  Patch(draft, character, loaded, options).apply(meshes);
   draft.embed_images();
   return write_atomically(file, draft.finish());
 }

@@ -60,6 +60,7 @@ const std::map<std::string, std::set<std::string>> kThirdParties = {
 /// Third parties that a single room may include.
 const std::map<std::string, std::set<std::string>> kThirdPartyOfRoom = {
     {"particles/bullet", {"BulletCollision", "BulletDynamics"}},
+    {"validation/match", {"unsupported"}},  // the tree of boxes in Eigen's package
 };
 
 /// Third parties that a single file may include.

@@ -83,7 +83,7 @@ class Command : public testing::Test {
 test::TemporaryFolder* Command::folder_ = nullptr;
 
 TEST_F(Command, help_has_an_example_for_each_verb) {
-  for (const char* const verb : {"info", "tear", "demo"}) {
+  for (const char* const verb : {"info", "tear", "transfer", "demo"}) {
     const CommandResult result = run_sunder({verb, "--help"});
     EXPECT_EQ(result.exit_code, 0);
     EXPECT_THAT(result.out, HasSubstr(std::string("Example: sunder ") + verb));

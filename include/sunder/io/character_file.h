@@ -67,13 +67,13 @@ struct SaveOptions {
   WeightFormat weights = WeightFormat::float32;
 };
 
-/// Writes `character`, which is `loaded.character` changed by tearing, as a GLB: the source
-/// document with new accessors for the meshes that differ and, if any does, for those that loading
-/// repaired. Everything else (materials, textures, extras, animations, other meshes) stays as it
-/// was. If nothing differs and the source was a GLB, the result is the source, byte for byte.
-/// Thread-safe.
+/// Writes `character`, which is `loaded.character` changed by tearing or with other weights, as a
+/// GLB: the source document with new accessors for the meshes that differ and, if any does, for
+/// those that loading repaired. Appended bones become nodes, and a mesh may take an appended skin.
+/// Everything else (materials, textures, extras, animations, other meshes) stays as it was. If
+/// nothing differs and the source was a GLB, the result is the source, byte for byte. Thread-safe.
 ///
-/// @param character  skeleton, skins and clips as in `loaded.character`.
+/// @param character  skeleton and skins begin with those of `loaded.character`; same clips.
 /// @return invalid_argument, size_mismatch (not the same character), file_unreadable (cannot
 /// write).
 ///         A failing call leaves no file behind and an existing file as it was.

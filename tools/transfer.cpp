@@ -1,0 +1,164 @@
+#include <sunder/io/character_file.h>
+#include <sunder/validation/transfer.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include "tools/report.h"
+#include "tools/transfer_report.h"
+#include "tools/verbs.h"
+
+namespace sunder::tools {
+namespace {
+
+constexpr float kLocked = 0.5f;
+
+/// The input that an output file would overwrite; empty if there is none.
+std::string overwritten_input(const TransferRequest& request) {
+  std::vector<std::filesystem::path> outputs, inputs = {request.source, request.target};
+  if (!request.options.dry_run) outputs.push_back(request.output);
+  if (request.report) outputs.push_back(*request.report);
+  for (const auto& file : {request.bone_names, request.vertices})
+    if (file) inputs.push_back(*file);
+  for (const auto& output : outputs)
+    for (const auto& input : inputs) {
+      std::error_code error;
+      if (std::filesystem::equivalent(output, input, error)) return input.string();
+    }
+  return {};
+}
+
+Result<Json> read_object(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  if (!stream) return Status::failure(StatusCode::file_unreadable, kNone, "cannot be read");
+  Json json = Json::parse(text.str(), nullptr, false);
+  if (!json.is_object())
+    return Status::failure(StatusCode::malformed_file, kNone, "not a JSON object");
+  return json;
+}
+
+Status read_bone_names(const std::filesystem::path& file, TransferOptions& options) {
+  const Result<Json> pairs = read_object(file);
+  if (!pairs) return pairs.error();
+  for (const auto& [target, source] : pairs->items()) {
+    if (!source.is_string())
+      return Status::failure(StatusCode::malformed_file, kNone, "'%.80s': not a name",
+                             target.c_str());
+    options.bone_names.push_back({target, source.get<std::string>()});
+  }
+  return {};
+}
+
+std::vector<std::vector<bool>> mask(const Character& character, bool value) {
+  std::vector<std::vector<bool>> mask;
+  for (const Mesh& mesh : character.meshes) mask.emplace_back(mesh.vertex_count(), value);
+  return mask;
+}
+
+/// Locks all vertices but those listed, as {"mesh": [vertex, …]}.
+Status lock_others(const std::filesystem::path& file, const Character& target,
+                   TransferOptions& options) {
+  const Result<Json> lists = read_object(file);
+  if (!lists) return lists.error();
+  options.locked = mask(target, true);
+  for (const auto& [name, vertices] : lists->items()) {
+    const auto mesh = std::ranges::find(target.meshes, name, &Mesh::name);
+    if (mesh == target.meshes.end())
+      return Status::failure(StatusCode::not_found, kNone, "the target has no mesh '%.80s'",
+                             name.c_str());
+    auto& locked = options.locked[static_cast<std::size_t>(mesh - target.meshes.begin())];
+    for (const Json& vertex : vertices) {
+      if (!vertex.is_number_unsigned() || vertex.get<std::uint64_t>() >= locked.size())
+        return Status::failure(StatusCode::index_out_of_range, kNone,
+                               "mesh '%.80s': not a vertex below %zu", name.c_str(), locked.size());
+      locked[vertex.get<std::size_t>()] = false;
+    }
+  }
+  return {};
+}
+
+/// Locks the vertices with a value of at least 0.5 in an attribute.
+Status lock_by_attribute(const std::string& name, const Character& target,
+                         TransferOptions& options) {
+  if (options.locked.empty()) options.locked = mask(target, false);
+  bool is_known = false;
+  for (std::size_t m = 0; m < target.meshes.size(); ++m)
+    for (const CustomAttribute& attribute : target.meshes[m].custom_attributes) {
+      if (attribute.name != name) continue;
+      is_known = true;
+      for (std::size_t v = 0; v < options.locked[m].size(); ++v)
+        if (attribute.values[v * attribute.components] >= kLocked) options.locked[m][v] = true;
+    }
+  if (is_known) return {};
+  return Status::failure(StatusCode::not_found, kNone, "no mesh of the target has '%.80s'",
+                         name.c_str());
+}
+
+/// @return ok, or the exit code of the failure, which was reported.
+ExitCode read_rules(const TransferRequest& request, const Character& target,
+                    TransferOptions& options) {
+  if (request.bone_names)
+    if (const Status status = read_bone_names(*request.bone_names, options); !status)
+      return complain(request.bone_names->string(), status, ExitCode::usage);
+  if (request.vertices)
+    if (const Status status = lock_others(*request.vertices, target, options); !status)
+      return complain(request.vertices->string(), status, ExitCode::usage);
+  if (request.lock)
+    if (const Status status = lock_by_attribute(*request.lock, target, options); !status)
+      return complain("--lock", status, ExitCode::usage);
+  return ExitCode::ok;
+}
+
+/// Writes the model and its report: both, or none.
+ExitCode write_files(const TransferRequest& request, const LoadedCharacter& target,
+                     const TransferResult& result) {
+  std::optional<StagedText> report;
+  if (request.report) {
+    report.emplace(*request.report, dump(transfer_json(request, result)));
+    if (!report->status())
+      return complain(request.report->string(), report->status(), ExitCode::unreadable_input);
+  }
+  if (!request.options.dry_run)
+    if (const Status status = save_glb(request.output, result.character, target, request.save);
+        !status)
+      return complain(request.output.string(), status, ExitCode::internal_error);
+  if (report)
+    if (const Status status = report->commit(); !status)
+      return complain(request.report->string(), status, ExitCode::unreadable_input);
+  return ExitCode::ok;
+}
+
+}  // namespace
+
+ExitCode run_transfer(const TransferRequest& request) {
+  if (const std::string input = overwritten_input(request); !input.empty())
+    return complain(input,
+                    Status::failure(StatusCode::invalid_argument, kNone,
+                                    "the output would overwrite this input"),
+                    ExitCode::usage);
+  const Result<LoadedCharacter> source = load_character(request.source);
+  if (!source) return complain(request.source.string(), source.error(), ExitCode::unreadable_input);
+  const Result<LoadedCharacter> target = load_character(request.target);
+  if (!target) return complain(request.target.string(), target.error(), ExitCode::unreadable_input);
+  TransferOptions options = request.options;
+  if (const ExitCode code = read_rules(request, *target->character, options); code != ExitCode::ok)
+    return code;
+  const Result<TransferResult> result =
+      transfer_weights(*source->character, *target->character, options);
+  if (!result) return complain(request.target.string(), result.error(), ExitCode::usage);
+  if (const ExitCode code = write_files(request, *target, *result); code != ExitCode::ok)
+    return code;
+  std::fputs(transfer_table(request, *result).c_str(), stdout);
+  const bool has_findings = std::ranges::any_of(
+      result->findings, [](const Finding& finding) { return finding.severity != Severity::note; });
+  return has_findings ? ExitCode::findings : ExitCode::ok;
+}
+
+}  // namespace sunder::tools

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <sunder/validation/transfer.h>
+
+#include <vector>
+
+#include "validation/transfer/target_bones.h"
+#include "validation/transfer/target_points.h"
+
+namespace sunder::validation {
+
+/// What the findings of a transfer are read from.
+struct TransferFacts {
+  const Character& source;
+  const Character& target;
+  const TargetBones& bones;
+  const BindSurface& surface;  ///< Of the target.
+  const TargetPoints& points;
+  const Parts& parts;
+  const std::vector<bool>& part_has_match;
+};
+
+/// Appends the findings to a result whose counts are complete.
+void add_findings(const TransferFacts& facts, TransferResult& result);
+
+}  // namespace sunder::validation
