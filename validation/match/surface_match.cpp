@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <mutex>
 #include <numeric>
 #include <tuple>
 #include <unsupported/Eigen/BVH>
@@ -88,32 +89,44 @@ struct ClosestTriangles {
 struct SurfaceSearch::Tree {
   const BindSurface& surface;
   PositionTable vertices;
-  Eigen::KdBVH<double, 3, Index> boxes;
+  std::vector<Index> usable;  ///< Triangles.
 
   Tree(const BindSurface& of, std::span<const Index> triangles);
 
+  /// Built when the first vertex is sought that coincides with none.
+  [[nodiscard]] const Eigen::KdBVH<double, 3, Index>& boxes() const;
   /// Members of a candidate that do not depend on its distance.
   void describe(const Query& query, const MatchLimits& limits, Candidate& candidate) const;
   [[nodiscard]] Candidate coincident(const Query& query, const MatchLimits& limits) const;
   [[nodiscard]] Candidate nearest(const Query& query, const MatchLimits& limits) const;
+
+ private:
+  mutable std::once_flag are_boxes_built_;
+  mutable Eigen::KdBVH<double, 3, Index> boxes_;
 };
 
 SurfaceSearch::Tree::Tree(const BindSurface& of, std::span<const Index> triangles)
     : surface(of), vertices(of.positions.size()) {
-  std::vector<Index> usable;
-  std::vector<Eigen::AlignedBox3d> around;
   std::vector<bool> is_known(of.positions.size(), false);
   for (const Index t : triangles) {
     if (!of.has_area[t]) continue;
     usable.push_back(t);
-    Eigen::AlignedBox3d& box = around.emplace_back();
     for (const Index vertex : of.triangles[t]) {
-      box.extend(Eigen::Vector3d(of.positions[vertex]));
       if (!is_known[vertex]) vertices.insert(of.positions[vertex], vertex);
       is_known[vertex] = true;
     }
   }
-  boxes.init(usable.begin(), usable.end(), around.begin(), around.end());
+}
+
+const Eigen::KdBVH<double, 3, Index>& SurfaceSearch::Tree::boxes() const {
+  std::call_once(are_boxes_built_, [this] {
+    std::vector<Eigen::AlignedBox3d> around(usable.size());
+    for (std::size_t i = 0; i < usable.size(); ++i)
+      for (const Index vertex : surface.triangles[usable[i]])
+        around[i].extend(Eigen::Vector3d(surface.positions[vertex]));
+    boxes_.init(usable.begin(), usable.end(), around.begin(), around.end());
+  });
+  return boxes_;
 }
 
 void SurfaceSearch::Tree::describe(const Query& query, const MatchLimits& limits,
@@ -148,7 +161,7 @@ Candidate SurfaceSearch::Tree::coincident(const Query& query, const MatchLimits&
 
 Candidate SurfaceSearch::Tree::nearest(const Query& query, const MatchLimits& limits) const {
   ClosestTriangles closest{surface, Eigen::Vector3d(query.position()), kTie * surface.diagonal, {}};
-  Eigen::BVMinimize(boxes, closest);
+  Eigen::BVMinimize(boxes(), closest);
   // In the order of the triangles, so that the order in which they were found does not matter.
   std::erase_if(closest.found, [&](const Candidate& candidate) {
     return candidate.distance > closest.least + closest.tie;
