@@ -1,0 +1,186 @@
+#include "validation/certificate/point_bound.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace sunder::validation {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kSafety = 1.0 + 1e-10;
+constexpr double kRounding = 1e-13;  // of the terms' lengths, for sums that cancel
+constexpr int kSweeps = 6;
+constexpr int kSectionSteps = 14;
+
+template <int lanes>
+double distance_at_top(const PreparedJoint& top, const SubtreeBall<lanes>& ball) {
+  double least = kInfinity;
+  const Vec3d origin = ball.m * top.centre;
+  for (std::size_t i = 0; i < lanes; ++i) {
+    const double distance =
+        norm(Vec3d(Vec3d(ball.x[i], ball.y[i], ball.z[i]) - origin)) + ball.radius[i];
+    least = std::min(least, distance);
+  }
+  return top.growth_above * least;
+}
+
+double with_safety(const JointTree::State& tree, std::span<const SkinTerm> terms, double bound) {
+  double length = 0;
+  for (const SkinTerm& term : terms)
+    length += term.x.cwiseAbs().sum() + std::abs(term.m) * tree.extent;
+  return kSafety * bound + kRounding * length;
+}
+
+/// A point's bound as a function of s at each of its joints. Any s in [0, 1] gives a valid one.
+class RefinedBound {
+ public:
+  RefinedBound(const JointTree::State& tree, std::span<const SkinTerm> terms)
+      : tree_(tree), path_(make_path(tree, terms)), balls_(path_.size()), s_(path_.size(), 1.0) {}
+
+  /// Minimises joint by joint from several starts. Any s in [0, 1] is valid, so is the result.
+  double minimise() {
+    double least = kInfinity;
+    for (const double part : {0.0, 0.5, 1.0}) {
+      for (std::size_t i = 0; i < path_.size(); ++i) {
+        const PreparedJoint& joint = tree_.nodes[path_[i].node];
+        const double cosine = std::cos(std::min(joint.half_range(), std::numbers::pi));
+        s_[i] = 1.0 - part * (1.0 - std::max(0.0, cosine));
+      }
+      least = std::min(least, descend());
+    }
+    return least;
+  }
+
+ private:
+  double descend() {
+    double value = evaluate();
+    for (int sweep = 0; sweep < kSweeps; ++sweep) {
+      const double before = value;
+      for (std::size_t i = 0; i + 1 < path_.size(); ++i) value = minimise_along(i, value);
+      if (value > before * (1 - 1e-5)) break;
+    }
+    return value;
+  }
+
+  /// Golden section over s of one joint. Keeps the old s if it is better.
+  double minimise_along(std::size_t joint, double value) {
+    constexpr double kGolden = 0.6180339887498949;
+    const double old = s_[joint];
+    double low = 0, high = 1;
+    const auto at = [&](double s) {
+      s_[joint] = s;
+      return evaluate();
+    };
+    double left = high - kGolden * (high - low), right = low + kGolden * (high - low);
+    double of_left = at(left), of_right = at(right);
+    for (int step = 0; step < kSectionSteps; ++step) {
+      if (of_left < of_right) {
+        high = right;
+        right = left;
+        of_right = of_left;
+        left = high - kGolden * (high - low);
+        of_left = at(left);
+      } else {
+        low = left;
+        left = right;
+        of_left = of_right;
+        right = low + kGolden * (high - low);
+        of_right = at(right);
+      }
+    }
+    const double best = of_left < of_right ? left : right;
+    const double found = at(best);
+    if (found < value) return found;
+    s_[joint] = old;
+    return value;
+  }
+
+  double evaluate() {
+    for (std::size_t i = 0; i < path_.size(); ++i) {
+      const Vec3d& x = path_[i].x;
+      balls_[i] = {path_[i].node, path_[i].m, {x.x()}, {x.y()}, {x.z()}, {0.0}};
+    }
+    for (std::size_t i = 0; i + 1 < path_.size(); ++i) {
+      const PreparedJoint& joint = tree_.nodes[path_[i].node];
+      const double half = std::min(joint.half_range(), std::numbers::pi), middle = joint.middle();
+      const JointTurn<1> turn{{s_[i] * std::cos(middle)},
+                              {s_[i] * std::sin(middle)},
+                              {distance_to_shrunk(s_[i], half)}};
+      cross_joint(joint, turn, balls_[i]);
+      SubtreeBall<1>& sum = balls_[path_[i].parent];
+      sum.m += balls_[i].m;
+      sum.x[0] += balls_[i].x[0];
+      sum.y[0] += balls_[i].y[0];
+      sum.z[0] += balls_[i].z[0];
+      sum.radius[0] += balls_[i].radius[0];
+    }
+    return distance_at_top(tree_.nodes[path_.back().node], balls_.back());
+  }
+
+  const JointTree::State& tree_;
+  std::vector<PathJoint> path_;
+  std::vector<SubtreeBall<1>> balls_;
+  std::vector<double> s_;  // per joint of the path
+};
+
+}  // namespace
+
+PointBound::PointBound(const JointTree::State& tree, std::size_t most_terms) : tree_(&tree) {
+  open_.reserve(most_terms + 1);
+}
+
+void PointBound::add(const Ball& ball) {
+  std::size_t at = open_.size();
+  while (at > 0 && open_[at - 1].node > ball.node) --at;
+  if (at == 0 || open_[at - 1].node != ball.node) {
+    open_.insert(open_.begin() + static_cast<std::ptrdiff_t>(at), ball);
+    return;
+  }
+  Ball& sum = open_[at - 1];
+  sum.m += ball.m;
+  for (std::size_t i = 0; i < kLanes; ++i) {
+    sum.x[i] += ball.x[i];
+    sum.y[i] += ball.y[i];
+    sum.z[i] += ball.z[i];
+    sum.radius[i] += ball.radius[i];
+  }
+}
+
+double PointBound::without_safety(std::span<const SkinTerm> terms) {
+  open_.clear();
+  double sum = 0;
+  for (const SkinTerm& term : terms) {
+    Ball ball;
+    ball.node = tree_->node_of_bone[term.bone];
+    ball.m = term.m;
+    ball.x.fill(term.x.x());
+    ball.y.fill(term.x.y());
+    ball.z.fill(term.x.z());
+    add(ball);
+    sum += term.m;
+  }
+  if (!(std::abs(sum) <= kSumTolerance)) return kInfinity;
+  while (open_.size() > 1) {
+    Ball ball = open_.back();
+    open_.pop_back();
+    const PreparedJoint& joint = tree_->nodes[ball.node];
+    if (!joint.has_scale_range) return kInfinity;
+    if (!joint.has_slide_range && std::abs(ball.m) > kSumTolerance) return kInfinity;
+    cross_joint(joint, joint.turn, ball);
+    ball.node = joint.parent;
+    add(ball);
+  }
+  const PreparedJoint& top = tree_->nodes[open_.back().node];
+  return top.unscaled_bone == kNone ? distance_at_top(top, open_.back()) : kInfinity;
+}
+
+double PointBound::of(std::span<const SkinTerm> terms) {
+  return terms.empty() ? 0.0 : with_safety(*tree_, terms, without_safety(terms));
+}
+
+double refined_bound(const JointTree::State& tree, std::span<const SkinTerm> terms) {
+  return terms.empty() ? 0.0 : with_safety(tree, terms, RefinedBound(tree, terms).minimise());
+}
+
+}  // namespace sunder::validation
