@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "validation/checks/attribute_checks.h"
+#include "validation/checks/certificate_checks.h"
 #include "validation/checks/cracks.h"
 #include "validation/checks/deviation.h"
 #include "validation/checks/inherited.h"
@@ -82,7 +83,7 @@ class Validation {
 
  private:
   void begin(std::string_view stage) {
-    constexpr double kStages = 7.0;
+    constexpr double kStages = 8.0;
     if (options_.progress) options_.progress(stage, stage_ / kStages);
     stage_ += 1.0;
   }
@@ -192,9 +193,11 @@ void Validation::check_poses(const RowReader& reader) {
   check_deviation(reader, points, differences, batches,
                   options_.maximum_deviation * report_.diagonal, *findings_);
   check_shapes(reader, points, differences, batches.back(), *findings_);
-  check_cracks(reader, points, batches, *findings_);
+  const CrackRows cracks = check_cracks(reader, points, batches, *findings_);
   check_profile(reader, points, batches, options_.profile, *findings_);
   report_.papers = measure_for_papers(reader, points, differences, batches.back());
+  begin("certificate");
+  check_certificates(reader, {points, differences, cracks}, options_, report_, *findings_);
 }
 
 void Validation::check_lips() {
@@ -214,6 +217,7 @@ ValidationReport Validation::run() {
   source_.emplace(*source_character_, options_.stored_source);
   target_.emplace(*target_character_, options_.stored_target);
   report_.diagonal = source_->surface.diagonal;
+  report_.source_bone_of_target = bones_.source_of_target;
   replayed_ = check_pops(source_character_, options_.operations, report_.diagonal, *findings_);
   begin("matching");
   match();

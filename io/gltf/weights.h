@@ -1,6 +1,7 @@
 #pragma once
 
 #include <sunder/core/skin.h>
+#include <sunder/weights/influences.h>
 
 #include <string>
 #include <vector>

@@ -185,14 +185,32 @@ Places places_of(const Skinned& skin, std::span<const Crack> cracks) {
   return places;
 }
 
-void check_kind(const RowReader& reader, const SkinPoints& points,
-                std::span<const PoseBatch> batches, Code code,
-                std::vector<Crack> (*find)(const Skinned&), FindingList& findings) {
+/// A kind of crack and the search for it.
+struct CrackKind {
+  Code code;
+  std::vector<Crack> (*find)(const Skinned&);
+};
+
+/// What cracks are posed by.
+struct Posing {
+  const SkinPoints& points;
+  std::span<const PoseBatch> batches;
+};
+
+void check_kind(const RowReader& reader, const Posing& posing, const CrackKind& kind,
+                CrackRows& all, FindingList& findings) {
+  const auto [code, find] = kind;
   const std::vector<Crack> cracks = find(reader.target());
   if (cracks.empty()) return findings.add(code, {});
-  const SkinDifferences rows = rows_of_cracks(reader, points, cracks);
+  const SkinDifferences rows = rows_of_cracks(reader, posing.points, cracks);
+  for (std::size_t i = 0; i < cracks.size(); ++i) {
+    const auto terms = terms_of(rows, i);
+    all.vertices.push_back(cracks[i].vertex);
+    all.rows.terms.insert(all.rows.terms.end(), terms.begin(), terms.end());
+    all.rows.first.push_back(static_cast<Index>(all.rows.terms.size()));
+  }
   std::vector<double> widths(cracks.size(), 0.0);
-  for (const PoseBatch& batch : batches) raise_largest(rows, batch, widths);
+  for (const PoseBatch& batch : posing.batches) raise_largest(rows, batch, widths);
   const double least = kind_of(code).threshold * reader.source().surface.diagonal;
   Places places;
   for (std::size_t i = 0; i < cracks.size(); ++i)
@@ -205,10 +223,12 @@ void check_kind(const RowReader& reader, const SkinPoints& points,
 
 }  // namespace
 
-void check_cracks(const RowReader& reader, const SkinPoints& points,
-                  std::span<const PoseBatch> batches, FindingList& findings) {
-  check_kind(reader, points, batches, Code::crack, find_unequal_copies, findings);
-  check_kind(reader, points, batches, Code::t_junction, find_t_junctions, findings);
+CrackRows check_cracks(const RowReader& reader, const SkinPoints& points,
+                       std::span<const PoseBatch> batches, FindingList& findings) {
+  CrackRows all;
+  check_kind(reader, {points, batches}, {Code::crack, find_unequal_copies}, all, findings);
+  check_kind(reader, {points, batches}, {Code::t_junction, find_t_junctions}, all, findings);
+  return all;
 }
 
 Places find_welded_lips(const Skinned& reference, const Skinned& target) {

@@ -14,6 +14,12 @@ struct Crack {
   double t = 0.0;                ///< Place between the ends.
 };
 
+/// Cracks as terms of the source's skeleton.
+struct CrackRows {
+  std::vector<Index> vertices;  ///< Of the target's surface, one per row.
+  SkinDifferences rows;
+};
+
 /// Copies of one point (and the lips of a tear at one place) with different weights.
 [[nodiscard]] std::vector<Crack> find_unequal_copies(const Skinned& skin);
 /// Border vertices on the inside of border edges of the same part of the surface.
@@ -26,7 +32,8 @@ struct Crack {
                                              std::span<const Crack> cracks);
 /// Both searches on target and source: what opens, how wide over the poses. Cracks that the source
 /// has at the same place are inherited.
-void check_cracks(const RowReader& reader, const SkinPoints& points,
-                  std::span<const PoseBatch> batches, FindingList& findings);
+/// @return all of them as terms, for a certificate.
+[[nodiscard]] CrackRows check_cracks(const RowReader& reader, const SkinPoints& points,
+                                     std::span<const PoseBatch> batches, FindingList& findings);
 
 }  // namespace sunder::validation

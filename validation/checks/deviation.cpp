@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 
 namespace sunder::validation {
 
@@ -71,21 +72,24 @@ struct Worst {
 };
 
 PosedFigures figures_of(const PoseBatch& batch, const SkinDifferences& differences,
-                        std::span<const MovedVertex> moved, std::uint32_t samples, Worst& worst) {
+                        std::span<const MovedVertex> moved, std::vector<float>& largest,
+                        Worst& worst) {
   PosedFigures figures;
+  for (const float value : largest) figures.sample_count += !std::isnan(value);
   figures.poses = batch.name;
   figures.pose_count = static_cast<std::uint32_t>(batch.poses.size());
-  figures.sample_count = samples;
   if (batch.poses.empty()) return figures;
   Spread spread;
   for (std::size_t pose = 0; pose < batch.poses.size(); ++pose)
     for (const MovedVertex& of : moved) {
       const double length = norm(posed(terms_of(differences, of.vertex), batch.poses[pose]));
       spread.add(length);
-      if (of.edge > 0.0) figures.maximum_of_edge = std::max(figures.maximum_of_edge, length / of.edge);
+      if (of.edge > 0.0)
+        figures.maximum_of_edge = std::max(figures.maximum_of_edge, length / of.edge);
+      largest[of.vertex] = std::max(largest[of.vertex], static_cast<float>(length));
       if (length > worst.value) worst = {of.vertex, pose, length};
     }
-  spread.add_zeros((samples - moved.size()) * batch.poses.size());
+  spread.add_zeros((figures.sample_count - moved.size()) * batch.poses.size());
   figures.mean = spread.mean();
   figures.rms = spread.rms();
   figures.p95 = spread.percentile95();
@@ -101,12 +105,18 @@ void measure_deviation(const RowReader& reader, const SkinDifferences& differenc
                        std::span<const PoseBatch> batches, const ModelPose& bind,
                        ValidationReport& report) {
   const std::vector<MovedVertex> moved = moved_vertices(reader, differences);
-  const std::uint32_t samples = report.matching.target_samples - report.matching.target_unmatched;
+  const Skinned& target = reader.target();
+  report.vertex_deviation.assign(target.surface.vertex_count(),
+                                 std::numeric_limits<float>::quiet_NaN());
+  for (Index mesh = 0; mesh < target.character.meshes.size(); ++mesh)
+    for (Index v = 0; v < target.character.meshes[mesh].vertex_count(); ++v)
+      if (reader.match(mesh, v).is_accepted)
+        report.vertex_deviation[target.surface.first_vertex[mesh] + v] = 0.0f;
   double largest = 0.0;
   report.worst_pose = bind;
   for (const PoseBatch& batch : batches) {
     Worst worst;
-    PosedFigures figures = figures_of(batch, differences, moved, samples, worst);
+    PosedFigures figures = figures_of(batch, differences, moved, report.vertex_deviation, worst);
     if (report.diagonal > 0.0) figures.maximum_of_diagonal = figures.maximum / report.diagonal;
     if (worst.vertex != kNone) {
       figures.worst = reader.target().place(worst.vertex, kNone, worst.value);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <sunder/core/character.h>
+#include <sunder/weights/influences.h>
 
 #include <filesystem>
 #include <memory>

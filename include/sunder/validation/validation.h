@@ -5,6 +5,7 @@
 #include <sunder/operation/operation.h>
 #include <sunder/validation/certificate.h>
 #include <sunder/validation/finding.h>
+#include <sunder/weights/influences.h>
 
 #include <functional>
 #include <memory>
@@ -38,6 +39,13 @@ enum class TargetProfile : std::uint8_t {
   webxr,    ///< 4 influences, 16 bits.
 };
 
+/// Where the limits of joints come from, for certificates.
+enum class LimitsFrom : std::uint8_t {
+  none,   ///< All joints are free: free_joint_limits().
+  clips,  ///< What the source's clips reach: joint_limits_of_clips().
+  given,  ///< ValidationOptions::limits.
+};
+
 struct ValidationOptions {
   /// What the files store, one per mesh; empty: checks of stored weights are not made.
   std::span<const StoredInfluences> stored_source = {}, stored_target = {};
@@ -51,6 +59,9 @@ struct ValidationOptions {
   std::uint64_t seed = 1;
   /// From here on a deviation is reported; share of the diagonal of the source's box.
   double maximum_deviation = 1e-3;
+  LimitsFrom limits_from = LimitsFrom::none;
+  double clip_margin = 0.0872664625997165;  ///< Radians, for LimitsFrom::clips.
+  JointLimits limits;                       ///< Of the source's bones, for LimitsFrom::given.
   /// Called before each stage with its name and the share of stages done.
   std::function<void(std::string_view, double)> progress;
 };
@@ -82,6 +93,17 @@ struct PaperFigures {
   std::uint32_t points = 0, frames = 0;
 };
 
+/// What holds in every pose within the limits: no vertex strays farther than `certified`, and in
+/// `pose` one strays by `found`.
+struct DeviationBracket {
+  bool is_tested = false;
+  std::string why;  ///< Where it was not tested, and points without a certificate.
+  double found = 0.0, certified = 0.0;  ///< Metres.
+  FindingPlace worst;
+  ModelPose pose;                ///< Of the source's skeleton.
+  std::uint32_t uncertified = 0;  ///< Vertices without a certificate.
+};
+
 /// How the two surfaces were matched.
 struct MatchFigures {
   std::uint32_t target_samples = 0;  ///< Vertices of the target looked up on the source.
@@ -104,6 +126,7 @@ struct ValidationReport {
   std::vector<Finding> findings;      ///< By severity, then in the order of the table.
   std::vector<CodeVerdict> verdicts;  ///< One per row of the table. A note is no failure.
   std::vector<PosedFigures> posed;
+  DeviationBracket bracket;
   PaperFigures papers;
   MatchFigures matching;
   double diagonal = 0.0;  ///< Of the source's box in the bind pose, metres.
@@ -111,6 +134,12 @@ struct ValidationReport {
   std::vector<std::uint64_t> influence_histogram;  ///< Vertices of the target by influence count.
   /// The pose of the source's skeleton in which the largest deviation was found.
   ModelPose worst_pose;
+  /// Per vertex of the target, all meshes one after the other: the largest deviation from the
+  /// source surface over all poses tried, and the bound for all poses within the limits. Metres;
+  /// NaN: no match, or no certificate.
+  std::vector<float> vertex_deviation, vertex_bound;
+  /// Per bone of the target: its counterpart in the source, or kNone.
+  std::vector<std::uint32_t> source_bone_of_target;
 };
 
 /// Compares the skin of a target with that of its source: what is stored, how both deform, and how
