@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/SVD>
+#include <Eigen/Eigenvalues>
 
 namespace sunder::validation {
 namespace {
@@ -68,8 +68,9 @@ double least_stretch(const Mat3d& m) {
   const double determinant = m.determinant(), square = squared_norm(m);
   const double bound = square > 0.0 ? 2.0 * std::abs(determinant) / square : 0.0;
   if (bound > 0.25) return std::copysign(bound, determinant);
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd{Eigen::Matrix3d(m)};
-  return std::copysign(svd.singularValues()[2], determinant);
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> squares;
+  squares.computeDirect(multiply(m.transpose(), m), Eigen::EigenvaluesOnly);
+  return std::copysign(std::sqrt(std::max(squares.eigenvalues()[0], 0.0)), determinant);
 }
 
 /// Worst values of the active set over the poses.

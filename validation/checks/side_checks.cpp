@@ -107,12 +107,15 @@ Places find_wrong_sides(const Skinned& skin, const MirrorPlane& plane) {
       const Vec3d& place = skin.surface.positions[skin.surface.first_vertex[mesh] + v];
       const double height = dot(place - plane.point, plane.normal);
       if (std::abs(height) < beyond) continue;
+      FindingPlace worst = skin.place(mesh, v, kNone, 0.0);
       for (const Influence& influence : skin.influences(mesh, v)) {
         const Index bone = skin.bone(mesh, influence.slot);
         const auto weight = static_cast<double>(influence.weight);
-        if (weight >= least && plane.side_of_bone[bone] == (height > 0 ? 1 : -1))
-          places.push_back(skin.place(mesh, v, bone, weight));
+        if (weight <= worst.value || plane.side_of_bone[bone] != (height > 0 ? 1 : -1)) continue;
+        worst.bone = bone;
+        worst.value = weight;
       }
+      if (worst.value >= least) places.push_back(worst);
     }
   return places;
 }

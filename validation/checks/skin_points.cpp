@@ -1,3 +1,5 @@
+#include <sunder/validation/finding.h>
+#include <sunder/weights/influences.h>
 #include "validation/checks/skin_points.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+#include <sunder/weights/influences.h>
 #include "validation/checks/stored_checks.h"
 
 #include <sunder/weights/influences.h>
@@ -100,7 +101,7 @@ std::uint32_t units_of_one(WeightFormat format) {
 
 std::uint32_t units_of(float weight, WeightFormat format) {
   return static_cast<std::uint32_t>(
-      std::lround(static_cast<double>(weight) * double{units_of_one(format)}));
+      std::lround(static_cast<double>(weight) * static_cast<double>(units_of_one(format))));
 }
 
 StoredFaults find_stored_faults(const Skinned& skin) {

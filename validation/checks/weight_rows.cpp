@@ -1,3 +1,5 @@
+#include <sunder/validation/finding.h>
+#include <sunder/weights/influences.h>
 #include "validation/checks/weight_rows.h"
 
 #include <algorithm>
