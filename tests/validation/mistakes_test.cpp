@@ -59,7 +59,9 @@ TEST_P(Mistakes, are_found_under_their_own_code_at_the_right_places) {
       EXPECT_TRUE(planted_.touched.contains({place.mesh, place.vertex}))
           << planted_.code << ": vertex " << place.vertex;
     }
-    if (!planted_.bones.empty()) EXPECT_TRUE(planted_.bones.contains(place.bone)) << place.bone;
+    if (!planted_.bones.empty()) {
+      EXPECT_TRUE(planted_.bones.contains(place.bone)) << place.bone;
+    }
   }
   EXPECT_GE(finding->count, planted_.must.size()) << finding->text;
   EXPECT_LE(finding->count, std::max(planted_.touched.size(), planted_.bones.size()))
@@ -70,10 +72,11 @@ INSTANTIATE_TEST_SUITE_P(OnThreeModels, Mistakes,
                          testing::Combine(testing::Range(0, kMistakes),
                                           testing::Values("seamed_sheet.glb", "six_influences.glb",
                                                           "two_clips.glb")),
-                         [](const auto& info) {
-                           std::string name = std::get<1>(info.param);
-                           name.resize(name.find('.'));
-                           return "mistake_" + std::to_string(std::get<0>(info.param)) + "_" + name;
+                         [](const auto& instance) {
+                           const auto& [mistake, file] = instance.param;
+                           const std::string name = file;
+                           return "mistake_" + std::to_string(mistake) + "_" +
+                                  name.substr(0, name.find('.'));
                          });
 
 void expect_no_alarm(const ValidationReport& report, const std::string& what) {
