@@ -45,6 +45,7 @@ Result<LoadedCharacter> load_by_assimp(const std::filesystem::path& file,
   LoadReport& report = loaded->report;
   report.format = std::move(imported->report.format);
   report.space = std::move(imported->report.space);
+  loaded->stored.clear();  // the file's own weights are not known
   report.notes.insert(report.notes.begin(), std::make_move_iterator(imported->report.notes.begin()),
                       std::make_move_iterator(imported->report.notes.end()));
   return loaded;

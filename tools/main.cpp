@@ -50,6 +50,7 @@ struct Requests {
   TearRequest tear;
   DemoRequest demo;
   TransferRequest transfer;
+  ValidateRequest validate;
 };
 
 CLI::App* add_info(CLI::App& app, InfoRequest& request) {
@@ -207,6 +208,42 @@ CLI::App* add_transfer(CLI::App& app, TransferRequest& request) {
   return verb;
 }
 
+CLI::App* add_validate(CLI::App& app, ValidateRequest& request) {
+  CLI::App* const verb =
+      app.add_subcommand("validate", "Compare how the skins of a source and a target deform");
+  CLI::Option* const source = verb->add_option("SOURCE", request.source, "The model as it was");
+  CLI::Option* const target =
+      verb->add_option("TARGET", request.target, "The model that a tool made of it");
+  source->needs(target);
+  verb->add_option("--ops", request.operations, "The operation log that made the target");
+  verb->add_option("--bones", request.bones, "Mapping of bone names, JSON");
+  verb->add_option("--profile", request.profile, "Simulate the limits of a platform")
+      ->check(CLI::IsMember({"unity4", "unreal8", "gltf4", "gltf8", "webxr"}));
+  verb->add_option("--limits", request.limits,
+                   "Limits of joints for the certificate: none, clips or a JSON file")
+      ->capture_default_str();
+  verb->add_option("--fail-on", request.fail_on, "Least severity for exit code 1")
+      ->check(CLI::IsMember({"error", "warning", "note"}))
+      ->capture_default_str();
+  verb->add_option("--report", request.report, "File for the JSON report");
+  CLI::Option* const manifest =
+      verb->add_option("--manifest", request.manifest, "Many pairs, JSON; see docs/validation.md");
+  verb->add_option("--jobs", request.jobs, "Pairs of a manifest at a time")
+      ->check(CLI::Range(1, 256))
+      ->capture_default_str();
+  verb->add_flag("--json-lines", request.as_json_lines,
+                 "Print progress and results as one JSON object per line");
+  manifest->excludes(source)->excludes(target);
+  verb->callback([source, target, manifest] {
+    if (!*manifest && (!*source || !*target))
+      throw CLI::RequiredError("SOURCE and TARGET, or --manifest");
+  });
+  verb->footer(
+      "Exit code 1 if there is a finding at or above --fail-on.\n\n"
+      "Example: sunder validate fox.glb torn.glb --ops ops.json --limits clips");
+  return verb;
+}
+
 int run(int argc, char** argv) {
   Requests requests;
   CLI::App app("Tears rigged, animated models.", "sunder");
@@ -216,6 +253,7 @@ int run(int argc, char** argv) {
   const CLI::App* const info = add_info(app, requests.info);
   const CLI::App* const tear = add_tear(app, requests.tear);
   const CLI::App* const transfer = add_transfer(app, requests.transfer);
+  const CLI::App* const validate = add_validate(app, requests.validate);
   add_demo(app, requests.demo);
   try {
     app.parse(argc, argv);
@@ -226,6 +264,7 @@ int run(int argc, char** argv) {
   if (info->parsed()) return static_cast<int>(run_info(requests.info));
   if (tear->parsed()) return static_cast<int>(run_tear(requests.tear));
   if (transfer->parsed()) return static_cast<int>(run_transfer(requests.transfer));
+  if (validate->parsed()) return static_cast<int>(run_validate(requests.validate));
   return static_cast<int>(run_demo(requests.demo));
 }
 

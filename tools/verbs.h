@@ -53,4 +53,16 @@ struct TransferRequest {
 };
 [[nodiscard]] ExitCode run_transfer(const TransferRequest& request);
 
+/// sunder validate: compares how the skins of two models deform.
+struct ValidateRequest {
+  std::filesystem::path source, target;
+  std::optional<std::filesystem::path> operations, bones;
+  std::string profile, limits = "none", fail_on = "error";
+  std::optional<std::filesystem::path> report;    ///< Output file of the JSON report.
+  std::optional<std::filesystem::path> manifest;  ///< Many pairs instead of source and target.
+  unsigned jobs = 1;                              ///< Pairs of a manifest at a time.
+  bool as_json_lines = false;                     ///< Progress and results on stdout.
+};
+[[nodiscard]] ExitCode run_validate(const ValidateRequest& request);
+
 }  // namespace sunder::tools

@@ -37,6 +37,11 @@ bool make_unit(Direction&& direction, const Vec3f& if_zero) {
   return true;
 }
 
+WeightFormat weight_format(ComponentType type) {
+  if (type == ComponentType::u8) return WeightFormat::unorm8;
+  return type == ComponentType::u16 ? WeightFormat::unorm16 : WeightFormat::float32;
+}
+
 }  // namespace
 
 AttributeReader::AttributeReader(Reading& reading, const Cursor& primitive, std::string place)
@@ -266,8 +271,8 @@ std::vector<InfluenceSet> AttributeReader::read_influences(const Mesh& mesh) {
       refuse(StatusCode::malformed_file, values.index,
              "%s: weights must be floats or normalised unsigned 8 or 16-bit integers",
              weights->pointer().c_str());
-    sets.push_back(
-        {reading_.accessors.read_unsigned(slots), reading_.accessors.read_floats(values)});
+    sets.push_back({reading_.accessors.read_unsigned(slots), reading_.accessors.read_floats(values),
+                    weight_format(values.component_type)});
   }
 }
 

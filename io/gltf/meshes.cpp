@@ -147,6 +147,11 @@ class MeshBuilder {
                  const std::string& place, Mesh& mesh, SourceDocument::MeshOrigin& origin) {
     const auto skin_at = node_at.find("skin");
     const auto sets = skin_at ? attributes.read_influences(mesh) : std::vector<InfluenceSet>();
+    if (reading_.keep_stored_influences)
+      result_.stored.push_back(stored_influences(sets, mesh.vertex_count(),
+                                                 "/meshes/" + std::to_string(origin.mesh) +
+                                                     "/primitives/" +
+                                                     std::to_string(origin.primitives.front())));
     if (sets.empty()) {
       if (skin_at)
         reading_.notes.inform(

@@ -18,6 +18,7 @@ struct MorphRange {
 struct ReadMeshes {
   std::vector<SourceDocument::MeshOrigin> origins;  ///< One a mesh.
   std::vector<MorphRange> morphs_of_node;           ///< One per node of the file.
+  std::vector<StoredInfluences> stored;             ///< One per mesh, if they are kept.
 };
 
 /// Appends the scene's meshes, their skins and rest morph weights to the character.

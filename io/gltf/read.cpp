@@ -41,7 +41,8 @@ LoadedCharacter read(std::span<const std::byte> content, const std::filesystem::
   LoadedCharacter loaded;
   loaded.report.format = container.is_glb ? "glTF 2.0 binary" : "glTF 2.0 text";
   loaded.report.space = "metres, y up; the file's scene space";
-  Reading reading{*document, AccessorReader(*document), Notes(loaded.report, options.strict)};
+  Reading reading{*document, AccessorReader(*document), Notes(loaded.report, options.strict),
+                  options.keep_stored_influences};
   const auto character = std::make_shared<Character>();
   character->name = scene_name(document->json);
   NodeSkeleton nodes = read_skeleton(reading);
@@ -55,6 +56,7 @@ LoadedCharacter read(std::span<const std::byte> content, const std::filesystem::
       document->node_of_bone[nodes.bone_from_node[node]] = node;
   character->skeleton = std::move(nodes.skeleton);
   document->mesh_origins = std::move(meshes.origins);
+  loaded.stored = std::move(meshes.stored);
   if (!document->is_glb)
     document->content = {};  // The text is no longer needed; buffers are stored in other_files.
   if (const Status status = validate_character(*character); !status)

@@ -11,6 +11,7 @@ struct Reading {
   const SourceDocument& document;
   AccessorReader accessors;
   Notes notes;
+  bool keep_stored_influences = false;
 
   [[nodiscard]] const Json& json() const { return document.json; }
 };

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <utility>
 
 namespace sunder::gltf {
 namespace {
@@ -99,6 +100,28 @@ void note(const Faults& faults, const std::string& place, Notes& notes) {
 }
 
 }  // namespace
+
+StoredInfluences stored_influences(const std::vector<InfluenceSet>& sets,
+                                   std::uint32_t vertex_count, std::string place) {
+  StoredInfluences stored;
+  stored.place = std::move(place);
+  stored.per_vertex = static_cast<std::uint32_t>(4 * sets.size());
+  if (sets.empty()) return stored;
+  stored.format = sets.front().format;
+  for (const InfluenceSet& set : sets)  // integers of several sizes have no common exact sum
+    if (set.format != stored.format) stored.format = WeightFormat::float32;
+  stored.slots.reserve(std::size_t{vertex_count} * stored.per_vertex);
+  stored.weights.reserve(stored.slots.capacity());
+  for (std::size_t vertex = 0; vertex < vertex_count; ++vertex)
+    for (const InfluenceSet& set : sets) {
+      const auto first = static_cast<std::ptrdiff_t>(vertex * 4);
+      stored.slots.insert(stored.slots.end(), set.slots.begin() + first,
+                          set.slots.begin() + first + 4);
+      stored.weights.insert(stored.weights.end(), set.weights.begin() + first,
+                            set.weights.begin() + first + 4);
+    }
+  return stored;
+}
 
 ReadWeights make_weights(const std::vector<InfluenceSet>& sets, std::uint32_t vertex_count,
                          std::uint32_t slot_count, std::uint32_t root_slot,

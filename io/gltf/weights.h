@@ -1,6 +1,7 @@
 #pragma once
 
 #include <sunder/core/skin.h>
+#include <sunder/weights/influences.h>
 
 #include <string>
 #include <vector>
@@ -13,7 +14,12 @@ namespace sunder::gltf {
 struct InfluenceSet {
   std::vector<std::uint32_t> slots;
   std::vector<float> weights;
+  WeightFormat format = WeightFormat::float32;
 };
+
+/// The sets side by side, as the file has them.
+[[nodiscard]] StoredInfluences stored_influences(const std::vector<InfluenceSet>& sets,
+                                                 std::uint32_t vertex_count, std::string place);
 
 struct ReadWeights {
   SkinWeights weights;

@@ -46,6 +46,8 @@ const std::map<std::string, Rooms> kRooms = {
       {"repair", {"clusters", "front"}},
       {"clusters", {"front"}},
       {"front", {}}}},
+    {"validation",
+     {{".", {"checks", "match"}}, {"checks", {"match"}}, {"match", {}}, {"certificate", {}}}},
     {"io",
      {{".", {"assimp", "gltf", "operation_log", "files"}},
       {"assimp", {}},

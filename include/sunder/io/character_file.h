@@ -1,6 +1,7 @@
 #pragma once
 
 #include <sunder/core/character.h>
+#include <sunder/weights/influences.h>
 
 #include <filesystem>
 #include <memory>
@@ -34,12 +35,16 @@ struct LoadOptions {
   std::uint64_t maximum_bytes = std::uint64_t{2} << 30;
   /// Time limit for formats that are read in a child process. > 0.
   double import_seconds = 120.0;
+  /// Fills LoadedCharacter::stored, for validation. glTF and GLB only.
+  bool keep_stored_influences = false;
 };
 
 struct LoadedCharacter {
   std::shared_ptr<const Character> character;    ///< Satisfies validate_character().
   std::shared_ptr<const SourceDocument> source;  ///< For save_glb().
   LoadReport report;
+  /// One per mesh, with LoadOptions::keep_stored_influences; empty for formats other than glTF.
+  std::vector<StoredInfluences> stored;
 };
 
 /// Reads all meshes of a model's scene, skinned or rigid, on one skeleton: glTF and GLB directly,
@@ -52,11 +57,6 @@ struct LoadedCharacter {
 ///         with options.strict also the first fault that would have been repaired.
 [[nodiscard]] SUNDER_API Result<LoadedCharacter> load_character(const std::filesystem::path& file,
                                                                 const LoadOptions& options = {});
-
-/// How a file stores the weights of influences. Integers are normalised as in glTF; those of a
-/// vertex sum to exactly 65535 or 255 over all its WEIGHTS_n, each less than one unit from its
-/// weight.
-enum class WeightFormat : std::uint8_t { float32, unorm16, unorm8 };
 
 /// How the influences of the meshes that are written are stored. Meshes that stay as they are in
 /// the source document keep theirs.

@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
+#include <vector>
 
 namespace sunder {
 
@@ -62,5 +64,20 @@ namespace sunder {
                                                std::span<std::uint8_t> quantised);
 [[nodiscard]] SUNDER_API bool quantise_weights(std::span<const Influence> influences,
                                                std::span<std::uint16_t> quantised);
+
+/// How a file stores the weights of influences. Integers are normalised as in glTF; those of a
+/// vertex sum to exactly 65535 or 255 over all its WEIGHTS_n, each less than one unit from its
+/// weight.
+enum class WeightFormat : std::uint8_t { float32, unorm16, unorm8 };
+
+/// The influences of a mesh exactly as its file stores them, before anything was repaired: any
+/// weight, any slot, with the unused entries of weight zero.
+struct StoredInfluences {
+  WeightFormat format = WeightFormat::float32;
+  std::uint32_t per_vertex = 0;      ///< Entries per vertex; 0: the file stores none for this mesh.
+  std::vector<std::uint32_t> slots;  ///< V x per_vertex, in Skin::bones.
+  std::vector<float> weights;        ///< V x per_vertex; integers divided by 65535 or 255.
+  std::string place;                 ///< JSON pointer of the mesh's first primitive in the file.
+};
 
 }  // namespace sunder

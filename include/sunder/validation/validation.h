@@ -1,0 +1,159 @@
+#pragma once
+
+#include <sunder/core/character.h>
+#include <sunder/core/skeleton.h>
+#include <sunder/operation/operation.h>
+#include <sunder/validation/certificate.h>
+#include <sunder/validation/finding.h>
+#include <sunder/weights/influences.h>
+
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace sunder {
+
+/// One row of the table of codes; docs/validation.md has the same rows.
+struct FindingKind {
+  std::string_view code;
+  Severity severity = Severity::note;
+  std::string_view unit;
+  double threshold = 0.0;
+  std::string_view meaning;
+  std::string_view advice;
+  std::string_view gltf_code;
+};
+[[nodiscard]] SUNDER_API std::span<const FindingKind> finding_kinds();
+
+/// Platforms whose limits on influences can be simulated.
+enum class TargetProfile : std::uint8_t {
+  none,
+  unity4,   ///< 4 influences, floats.
+  unreal8,  ///< 8 influences, 8 bits.
+  gltf4,    ///< 4 influences, 8 bits.
+  gltf8,    ///< 8 influences, 16 bits.
+  webxr,    ///< 4 influences, 16 bits.
+};
+
+/// Where the limits of joints come from, for certificates.
+enum class LimitsFrom : std::uint8_t {
+  none,   ///< All joints are free: free_joint_limits().
+  clips,  ///< What the source's clips reach: joint_limits_of_clips().
+  given,  ///< ValidationOptions::limits.
+};
+
+struct ValidationOptions {
+  /// What the files store, one per mesh; empty: checks of stored weights are not made.
+  std::span<const StoredInfluences> stored_source = {}, stored_target = {};
+  /// Bones of the source and the target that belong together although their names differ.
+  std::vector<std::pair<std::string, std::string>> bones;
+  /// The log that made the target from the source; empty: unknown.
+  std::span<const Operation> operations = {};
+  TargetProfile profile = TargetProfile::none;
+  std::uint32_t random_poses = 64;
+  double random_angle = 1.0471975511965976;  ///< Largest turn of a bone from bind, radians.
+  std::uint64_t seed = 1;
+  /// From here on a deviation is reported; share of the diagonal of the source's box.
+  double maximum_deviation = 1e-3;
+  LimitsFrom limits_from = LimitsFrom::none;
+  double clip_margin = 0.0872664625997165;  ///< Radians, for LimitsFrom::clips.
+  JointLimits limits;                       ///< Of the source's bones, for LimitsFrom::given.
+  /// Called before each stage with its name and the share of stages done.
+  std::function<void(std::string_view, double)> progress;
+};
+
+/// Deviation of the target from the source surface over one set of poses.
+struct PosedFigures {
+  std::string_view poses;        ///< "clips", "range of motion", "random".
+  std::uint32_t pose_count = 0;  ///< 0: not tested.
+  std::uint32_t sample_count = 0;  ///< Vertices compared in each pose.
+  double mean = 0.0, rms = 0.0, p95 = 0.0, maximum = 0.0;  ///< Metres.
+  double maximum_of_diagonal = 0.0;                        ///< Share.
+  double maximum_of_edge = 0.0;   ///< Share of the mean edge at the vertex.
+  /// Share of all poses of this distribution that `maximum` covers, with confidence 0.95 (Wilks).
+  /// 0 unless the poses are independent samples.
+  double covered_share = 0.0;
+  FindingPlace worst;
+};
+
+/// Figures by the definitions of papers, over the random poses; docs/validation.md has the formulas.
+struct PaperFigures {
+  bool is_tested = false;
+  double kg_error = 0.0;            ///< 100 |A - B| / |A - centroid of each frame|.
+  double rms_1000 = 0.0;            ///< 1000 |A - B| / sqrt(3 N F), in units of the diagonal.
+  double rms = 0.0;                 ///< |A - B| / sqrt(N F), metres.
+  double distance_mean = 0.0;       ///< Over the first 10 random poses, metres.
+  double distance_maximum = 0.0;    ///< Over the first 10 random poses, metres.
+  double influence_precision = 1.0, influence_recall = 1.0;  ///< Weights above 1e-4.
+  double weight_l1 = 0.0;           ///< Mean over vertices.
+  std::uint32_t points = 0, frames = 0;
+};
+
+/// What holds in every pose within the limits: no vertex strays farther than `certified`, and in
+/// `pose` one strays by `found`.
+struct DeviationBracket {
+  bool is_tested = false;
+  std::string why;  ///< Where it was not tested, and points without a certificate.
+  double found = 0.0, certified = 0.0;  ///< Metres.
+  FindingPlace worst;
+  ModelPose pose;                ///< Of the source's skeleton.
+  std::uint32_t uncertified = 0;  ///< Vertices without a certificate.
+};
+
+/// How the two surfaces were matched.
+struct MatchFigures {
+  std::uint32_t target_samples = 0;  ///< Vertices of the target looked up on the source.
+  std::uint32_t target_unmatched = 0;
+  double target_distance = 0.0;      ///< The largest, metres.
+  std::uint32_t source_samples = 0;  ///< Vertices of the source looked up on the target.
+  std::uint32_t source_unmatched = 0;
+  double source_distance = 0.0;
+};
+
+enum class Verdict : std::uint8_t { pass, fail, not_tested };
+
+struct CodeVerdict {
+  std::string_view code;
+  Verdict verdict = Verdict::pass;
+  std::string why;  ///< Where it was not tested.
+};
+
+struct ValidationReport {
+  std::vector<Finding> findings;      ///< By severity, then in the order of the table.
+  std::vector<CodeVerdict> verdicts;  ///< One per row of the table. A note is no failure.
+  std::vector<PosedFigures> posed;
+  DeviationBracket bracket;
+  PaperFigures papers;
+  MatchFigures matching;
+  double diagonal = 0.0;  ///< Of the source's box in the bind pose, metres.
+  double scale = 1.0;     ///< The target was divided by this before it was compared.
+  std::vector<std::uint64_t> influence_histogram;  ///< Vertices of the target by influence count.
+  /// The pose of the source's skeleton in which the largest deviation was found.
+  ModelPose worst_pose;
+  /// Per vertex of the target, all meshes one after the other: the largest deviation from the
+  /// source surface over all poses tried, and the bound for all poses within the limits. Metres;
+  /// NaN: no match, or no certificate.
+  std::vector<float> vertex_deviation, vertex_bound;
+  /// Per bone of the target: its counterpart in the source, or kNone.
+  std::vector<std::uint32_t> source_bone_of_target;
+};
+
+/// Compares the skin of a target with that of its source: what is stored, how both deform, and how
+/// the weights lie on the surface. A fault that the source has at the same place is a note.
+///
+/// @param source, target  satisfy validate_character().
+/// @return the first fault of a character; size_mismatch for stored influences of other meshes;
+///         not_found for a bone of the mapping; limit_exceeded (out of memory).
+/// O((vertices + triangles) x poses), allocates. Reentrant; the same bits each time.
+[[nodiscard]] SUNDER_API Result<ValidationReport> validate_skin(
+    const std::shared_ptr<const Character>& source, const std::shared_ptr<const Character>& target,
+    const ValidationOptions& options = {});
+
+/// What a code means by its consequence: "note", "warning", "error".
+[[nodiscard]] SUNDER_API std::string_view severity_name(Severity severity);
+
+}  // namespace sunder

@@ -1,0 +1,197 @@
+// validate_skin(): figures against independent oracles, refusals, and the table of codes.
+
+#include <sunder/skinning/deform.h>
+#include <sunder/skinning/pose.h>
+#include <sunder/validation/validation.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <memory>
+#include <set>
+#include <sstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "support/rigs.h"
+
+namespace sunder::test {
+namespace {
+
+using testing::HasSubstr;
+using Shared = std::shared_ptr<const Character>;
+
+Shared share(Character character) {
+  return std::make_shared<const Character>(std::move(character));
+}
+
+/// A tube and a copy whose first bone lost a tenth of its weight to the second one.
+std::pair<Character, Character> tube_and_copy() {
+  Character source = make_tube(16, 12, 4), target = source;
+  SkinWeights weights;
+  for (Index v = 0; v < target.meshes[0].vertex_count(); ++v) {
+    std::vector<Influence> influences(target.meshes[0].weights.of(v).begin(),
+                                      target.meshes[0].weights.of(v).end());
+    if (influences.size() > 1) {
+      const float moved = 0.1f * influences[0].weight;
+      influences[0].weight -= moved;
+      influences[1].weight += moved;
+    }
+    weights.append(influences);
+  }
+  target.meshes[0].weights = weights;
+  return {source, target};
+}
+
+TEST(ValidateSkin, the_worst_pose_shows_the_largest_deviation) {
+  const auto [source, target] = tube_and_copy();
+  const auto report = validate_skin(share(source), share(target));
+  ASSERT_TRUE(report) << report.error().text();
+  double largest = 0;
+  for (const PosedFigures& figures : report->posed) largest = std::max(largest, figures.maximum);
+  ASSERT_GT(largest, 0.0);
+  const auto a = posed_positions(source, 0, report->worst_pose),
+             b = posed_positions(target, 0, report->worst_pose);
+  double far = 0;
+  for (std::size_t v = 0; v < a.size(); ++v) far = std::max(far, (a[v] - b[v]).norm());
+  EXPECT_NEAR(far, largest, 1e-5 * largest);
+  // The pose of the bracket shows what was found, and nothing sampled is beyond the certificate.
+  const auto c = posed_positions(source, 0, report->bracket.pose),
+             d = posed_positions(target, 0, report->bracket.pose);
+  const Index worst = report->bracket.worst.vertex;
+  EXPECT_NEAR((c[worst] - d[worst]).norm(), report->bracket.found, 1e-5 * report->bracket.found);
+  EXPECT_LE(report->bracket.found, report->bracket.certified * (1 + 1e-9));
+  EXPECT_LE(far, report->bracket.certified * (1 + 1e-5));
+}
+
+TEST(ValidateSkin, statistics_are_ordered_and_the_covered_share_is_that_of_wilks) {
+  const auto [source, target] = tube_and_copy();
+  for (const std::uint32_t n : {59u, 64u, 299u}) {
+    ValidationOptions options;
+    options.random_poses = n;
+    const auto report = validate_skin(share(source), share(target), options);
+    ASSERT_TRUE(report) << report.error().text();
+    const PosedFigures& random = report->posed.back();
+    EXPECT_EQ(random.poses, "random");
+    EXPECT_EQ(random.pose_count, n);
+    EXPECT_LE(random.mean, random.rms);
+    EXPECT_LE(random.rms, random.maximum);
+    EXPECT_LE(random.p95, random.maximum);
+    EXPECT_GE(1.0 - std::pow(random.covered_share, n), 0.95 - 1e-9);
+    if (n == 59) EXPECT_GE(random.covered_share, 0.95);
+    if (n == 299) EXPECT_GE(random.covered_share, 0.99);
+  }
+}
+
+TEST(ValidateSkin, figures_of_papers_follow_their_formulas) {
+  const auto [source, target] = tube_and_copy();
+  ValidationOptions options;
+  options.random_poses = 10;
+  const auto report = validate_skin(share(source), share(target), options);
+  ASSERT_TRUE(report) << report.error().text();
+  const PaperFigures& papers = report->papers;
+  ASSERT_TRUE(papers.is_tested);
+  EXPECT_EQ(papers.frames, 10u);
+  const PosedFigures& random = report->posed.back();
+  EXPECT_NEAR(papers.rms, random.rms, 1e-9 * random.rms);
+  EXPECT_NEAR(papers.distance_maximum, random.maximum, 1e-9 * random.maximum);
+  EXPECT_NEAR(papers.distance_mean, random.mean, 1e-9 * random.mean);
+  EXPECT_NEAR(papers.rms_1000, 1000 * papers.rms / std::sqrt(3.0) / report->diagonal,
+              1e-9 * papers.rms_1000);
+  EXPECT_GT(papers.kg_error, 0.0);
+  EXPECT_EQ(papers.influence_precision, 1.0);
+  EXPECT_GT(papers.weight_l1, 0.0);
+}
+
+TEST(ValidateSkin, wrong_input_is_refused) {
+  const Shared tube = share(make_tube(8, 8, 3));
+  EXPECT_EQ(validate_skin(nullptr, tube).error().code(), StatusCode::empty_input);
+  ValidationOptions options;
+  const std::vector<StoredInfluences> two(2);
+  options.stored_target = two;
+  EXPECT_EQ(validate_skin(tube, tube, options).error().code(), StatusCode::size_mismatch);
+  options = {};
+  options.bones = {{"no such bone", "bone"}};
+  EXPECT_FALSE(validate_skin(tube, tube, options));
+  Character broken = *tube;
+  broken.meshes[0].weights.influences[0].weight = -1.0f;
+  EXPECT_EQ(validate_skin(tube, share(broken)).error().code(), StatusCode::weights_not_normalized);
+}
+
+TEST(ValidateSkin, the_result_has_the_same_bits_each_time) {
+  const auto [source, target] = tube_and_copy();
+  const auto first = validate_skin(share(source), share(target)),
+             second = validate_skin(share(source), share(target));
+  ASSERT_TRUE(first && second);
+  ASSERT_EQ(first->findings.size(), second->findings.size());
+  for (std::size_t i = 0; i < first->findings.size(); ++i) {
+    EXPECT_EQ(first->findings[i].text, second->findings[i].text);
+    EXPECT_EQ(first->findings[i].value, second->findings[i].value);
+  }
+  EXPECT_EQ(first->bracket.certified, second->bracket.certified);
+}
+
+TEST(ValidateSkin, a_profile_that_keeps_all_costs_nothing_and_bytes_cost_something) {
+  const Shared tube = share(make_tube(16, 12, 4));
+  ValidationOptions options;
+  options.profile = TargetProfile::unity4;
+  const auto kept = validate_skin(tube, tube, options);
+  ASSERT_TRUE(kept);
+  options.profile = TargetProfile::gltf4;
+  const auto bytes = validate_skin(tube, tube, options);
+  ASSERT_TRUE(bytes);
+  const auto cost = [](const ValidationReport& report) {
+    const auto found =
+        std::ranges::find(report.findings, std::string_view("SUNDER_W_PROFILE"), &Finding::code);
+    return found == report.findings.end() ? -1.0 : found->value;
+  };
+  EXPECT_EQ(cost(*kept), 0.0);
+  EXPECT_GT(cost(*bytes), 0.0);
+}
+
+TEST(FindingKinds, codes_are_unique_and_every_one_has_a_verdict) {
+  std::set<std::string_view> codes;
+  for (const FindingKind& kind : finding_kinds()) {
+    EXPECT_TRUE(kind.code.starts_with("SUNDER_W_"));
+    EXPECT_TRUE(codes.insert(kind.code).second) << kind.code;
+    EXPECT_TRUE(kind.advice.ends_with('.')) << kind.code;
+  }
+  const Shared tube = share(make_tube(8, 8, 3));
+  const auto report = validate_skin(tube, tube);
+  ASSERT_TRUE(report);
+  ASSERT_EQ(report->verdicts.size(), finding_kinds().size());
+  for (const CodeVerdict& verdict : report->verdicts) {
+    EXPECT_NE(verdict.verdict, Verdict::fail) << verdict.code;
+    if (verdict.verdict == Verdict::not_tested) EXPECT_FALSE(verdict.why.empty()) << verdict.code;
+  }
+}
+
+/// The row of the table in docs/validation.md.
+std::string row_of(const FindingKind& kind) {
+  std::ostringstream row;
+  row << "| `" << kind.code << "` | " << severity_name(kind.severity) << " | " << kind.threshold
+      << ' ' << kind.unit << " | " << kind.meaning << " | " << kind.advice << " | "
+      << (kind.gltf_code.empty() ? "" : "`" + std::string(kind.gltf_code) + "`") << " |";
+  return row.str();
+}
+
+TEST(FindingKinds, the_documentation_has_the_same_table) {
+  std::ostringstream text;
+  text << std::ifstream(SUNDER_SOURCE_DIR "/docs/validation.md").rdbuf();
+  std::size_t at = 0;
+  for (const FindingKind& kind : finding_kinds()) {
+    const std::size_t found = text.str().find(row_of(kind), at);
+    ASSERT_NE(found, std::string::npos) << row_of(kind);
+    at = found;
+  }
+  const std::string all = text.str();
+  std::size_t rows = 0;
+  for (std::size_t i = all.find("\n| `SUNDER_W_"); i != std::string::npos;
+       i = all.find("\n| `SUNDER_W_", i + 1))
+    ++rows;
+  EXPECT_EQ(rows, finding_kinds().size());
+}
+
+}  // namespace
+}  // namespace sunder::test

@@ -1,0 +1,210 @@
+#include <sunder/io/operation_log.h>
+#include <sunder/skinning/pose.h>
+
+#include <algorithm>
+#include <fstream>
+#include <map>
+#include <numbers>
+#include <sstream>
+#include <utility>
+
+#include "tools/validate.h"
+
+namespace sunder::tools {
+namespace {
+
+Result<Json> read_json(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream)
+    return Status::failure(StatusCode::file_not_found, kNone, "cannot read this file");
+  std::ostringstream text;
+  text << stream.rdbuf();
+  Json json = Json::parse(text.str(), nullptr, false);
+  if (json.is_discarded() || !json.is_object())
+    return Status::failure(StatusCode::malformed_file, kNone, "expected one JSON object");
+  return json;
+}
+
+/// {"bones": {"name in the target": "name in the source"}}
+Result<std::vector<std::pair<std::string, std::string>>> read_bones(
+    const std::filesystem::path& file) {
+  const Result<Json> json = read_json(file);
+  if (!json) return json.error();
+  const auto bones = json->find("bones");
+  if (bones == json->end() || !bones->is_object())
+    return Status::failure(StatusCode::malformed_file, kNone, "/bones: expected an object");
+  std::vector<std::pair<std::string, std::string>> pairs;
+  for (const auto& [target, source] : bones->items()) {
+    if (!source.is_string())
+      return Status::failure(StatusCode::malformed_file, kNone, "/bones/%.80s: expected a name",
+                             target.c_str());
+    pairs.emplace_back(source.get<std::string>(), target);
+  }
+  return pairs;
+}
+
+double radians(const Json& degrees) { return degrees.get<double>() * std::numbers::pi / 180.0; }
+
+/// A limit in degrees: {"angle": 60} for a ball, {"axis": [0, 0, 1], "lower": -10, "upper": 90}
+/// for a hinge.
+Status read_range(const Json& json, const std::string& bone, JointRange& range) {
+  const auto is_number = [&](const char* name) {
+    return json.contains(name) && json[name].is_number();
+  };
+  if (json.is_object() && is_number("angle")) {
+    range.turn = JointRange::Turn::ball;
+    range.angle = radians(json["angle"]);
+    return {};
+  }
+  if (!json.is_object() || !is_number("lower") || !is_number("upper") || !json.contains("axis") ||
+      !json["axis"].is_array() || json["axis"].size() != 3 ||
+      !std::ranges::all_of(json["axis"], [](const Json& value) { return value.is_number(); }))
+    return Status::failure(StatusCode::malformed_file, kNone,
+                           "/limits/%.80s: expected angle, or axis, lower and upper",
+                           bone.c_str());
+  range.turn = JointRange::Turn::hinge;
+  for (int i = 0; i < 3; ++i) range.axis[i] = json["axis"][static_cast<std::size_t>(i)];
+  range.lower = radians(json["lower"]);
+  range.upper = radians(json["upper"]);
+  return {};
+}
+
+/// Bones that the file does not name keep their free limits.
+Result<JointLimits> read_limits(const std::filesystem::path& file, const Character& source) {
+  const Result<Json> json = read_json(file);
+  if (!json) return json.error();
+  Result<JointLimits> limits = free_joint_limits(source, bind_pose(source));
+  if (!limits) return limits.error();
+  const auto of_bones = json->find("limits");
+  if (of_bones == json->end() || !of_bones->is_object())
+    return Status::failure(StatusCode::malformed_file, kNone, "/limits: expected an object");
+  for (const auto& [name, range] : of_bones->items()) {
+    const auto bone = std::ranges::find(source.skeleton.bones, name, &Bone::name);
+    if (bone == source.skeleton.bones.end())
+      return Status::failure(StatusCode::not_found, kNone, "/limits: no bone '%.80s'",
+                             name.c_str());
+    const auto index = static_cast<std::size_t>(bone - source.skeleton.bones.begin());
+    if (const Status status = read_range(range, name, limits->of_bone[index]); !status)
+      return status;
+  }
+  return limits;
+}
+
+/// Notes about weights: what the file stores is judged itself.
+bool is_about_weights(const LoadNote& note) {
+  for (const char* const text : {"weights", "joints named twice", "influences named joints",
+                                 "vertices without weight"})
+    if (note.text.find(text) != std::string::npos) return true;
+  return false;
+}
+
+const FindingKind& kind_named(std::string_view code) {
+  return *std::ranges::find(finding_kinds(), code, &FindingKind::code);
+}
+
+/// What loading the target repaired or dropped; a note where loading the source did the same.
+void add_load_notes(ValidatedPair& pair) {
+  const bool stored = !pair.target.stored.empty();
+  for (const LoadNote& note : pair.target.report.notes) {
+    if (note.kind == LoadNote::Kind::information || (stored && is_about_weights(note))) continue;
+    const bool repaired = note.kind == LoadNote::Kind::repaired;
+    const FindingKind& kind = kind_named(repaired ? "SUNDER_W_REPAIRED" : "SUNDER_W_DROPPED");
+    const bool inherited = std::ranges::any_of(pair.source.report.notes, [&](const LoadNote& other) {
+      return other.kind == note.kind && other.text == note.text && other.count >= note.count;
+    });
+    Finding finding;
+    finding.code = kind.code;
+    finding.severity = inherited ? Severity::note : kind.severity;
+    finding.text = std::to_string(note.count) + ": " + note.place + ": " + note.text + "." +
+                   (inherited ? " Inherited: the source has the same." : "");
+    finding.advice = kind.advice;
+    finding.value = note.count;
+    finding.unit = kind.unit;
+    finding.count = note.count;
+    const auto after = std::ranges::find_if(pair.report.findings, [&](const Finding& other) {
+      return other.severity < finding.severity;
+    });
+    pair.report.findings.insert(after, std::move(finding));
+  }
+  for (CodeVerdict& verdict : pair.report.verdicts)
+    if (verdict.code == "SUNDER_W_REPAIRED" || verdict.code == "SUNDER_W_DROPPED") {
+      const bool fails = std::ranges::any_of(pair.report.findings, [&](const Finding& finding) {
+        return finding.code == verdict.code && finding.severity > Severity::note;
+      });
+      verdict = {verdict.code, fails ? Verdict::fail : Verdict::pass, {}};
+    }
+}
+
+std::optional<LoadedCharacter> load(const std::filesystem::path& file, ValidateFailure& failure) {
+  LoadOptions options;
+  options.keep_stored_influences = true;
+  Result<LoadedCharacter> loaded = load_character(file, options);
+  if (loaded) return std::move(*loaded);
+  failure = {file.string(), loaded.error(), ExitCode::unreadable_input};
+  return {};
+}
+
+/// Fills the options from the files that the command line names.
+bool read_options(const ValidatePair& pair, const Character& source,
+                  std::vector<Operation>& operations, ValidationOptions& options,
+                  ValidateFailure& failure) {
+  if (pair.operations) {
+    Result<std::vector<Operation>> log = load_operations(*pair.operations);
+    if (!log) failure = {pair.operations->string(), log.error(), ExitCode::usage};
+    if (!log) return false;
+    operations = std::move(*log);
+    options.operations = operations;
+  }
+  if (pair.bones) {
+    auto bones = read_bones(*pair.bones);
+    if (!bones) failure = {pair.bones->string(), bones.error(), ExitCode::usage};
+    if (!bones) return false;
+    options.bones = std::move(*bones);
+  }
+  if (pair.limits == "none") return true;
+  if (pair.limits == "clips") {
+    options.limits_from = LimitsFrom::clips;
+    return true;
+  }
+  Result<JointLimits> limits = read_limits(pair.limits, source);
+  if (!limits) failure = {pair.limits, limits.error(), ExitCode::usage};
+  if (!limits) return false;
+  options.limits_from = LimitsFrom::given;
+  options.limits = std::move(*limits);
+  return true;
+}
+
+}  // namespace
+
+std::optional<ValidatedPair> validate_pair(
+    const ValidatePair& pair, const std::function<void(std::string_view, double)>& progress,
+    ValidateFailure& failure) {
+  auto source = load(pair.source, failure);
+  if (!source) return {};
+  auto target = load(pair.target, failure);
+  if (!target) return {};
+  ValidationOptions options;
+  options.stored_source = source->stored;
+  options.stored_target = target->stored;
+  options.profile = pair.profile;
+  options.progress = progress;
+  std::vector<Operation> operations;
+  if (!read_options(pair, *source->character, operations, options, failure)) return {};
+  Result<ValidationReport> report =
+      validate_skin(source->character, target->character, options);
+  if (!report) {
+    failure = {pair.target.string(), report.error(), ExitCode::usage};
+    return {};
+  }
+  ValidatedPair result{pair.source, pair.target, std::move(*source), std::move(*target),
+                       std::move(*report)};
+  add_load_notes(result);
+  return result;
+}
+
+bool has_findings(const ValidationReport& report, Severity severity) {
+  return std::ranges::any_of(
+      report.findings, [&](const Finding& finding) { return finding.severity >= severity; });
+}
+
+}  // namespace sunder::tools

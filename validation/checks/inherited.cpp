@@ -1,0 +1,57 @@
+#include "validation/checks/inherited.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+
+namespace sunder::validation {
+
+Places take_inherited(const RowReader& reader, Places& of_target, const Places& of_source) {
+  std::set<std::array<Index, 3>> known;  // mesh, vertex, bone
+  for (const FindingPlace& place : of_source) known.insert({place.mesh, place.vertex, place.bone});
+  Places inherited;
+  std::erase_if(of_target, [&](const FindingPlace& place) {
+    const SurfaceMatch& match = reader.match(place.mesh, place.vertex);
+    if (match.mesh == kNone) return false;
+    const Index bone =
+        place.bone == kNone ? kNone : reader.bones().source_of_target[place.bone];
+    const Triangle& corners =
+        reader.source().character.meshes[match.mesh].triangles[match.triangle];
+    for (std::size_t k = 0; k < 3; ++k)
+      if (match.barycentric[k] > 0 && known.contains({match.mesh, corners[k], bone})) {
+        inherited.push_back(place);
+        return true;
+      }
+    return false;
+  });
+  return inherited;
+}
+
+Places take_inherited_weights(const RowReader& reader, Places& of_target) {
+  constexpr double kSame = 0.02;  // what rounding to bytes explains
+  WeightRow actual, expected;
+  Places inherited;
+  std::erase_if(of_target, [&](const FindingPlace& place) {
+    const SurfaceMatch& match = reader.match(place.mesh, place.vertex);
+    if (!match.is_accepted) return false;
+    reader.actual(place.mesh, place.vertex, actual);
+    reader.expected(match, match.barycentric, expected);
+    double difference = distance_of(actual, expected);
+    if (place.bone != kNone) {
+      const Index bone = reader.bones().source_of_target[place.bone];
+      if (bone == kNone) return false;
+      difference = std::abs(weight_of(actual, bone) - weight_of(expected, bone));
+    }
+    if (difference <= kSame) inherited.push_back(place);
+    return difference <= kSame;
+  });
+  return inherited;
+}
+
+void add_new_weights(const RowReader& reader, Code code, Places places, FindingList& findings) {
+  const Places inherited = take_inherited_weights(reader, places);
+  findings.add_new(code, std::move(places), inherited);
+}
+
+}  // namespace sunder::validation

@@ -1,0 +1,107 @@
+#include <sunder/validation/finding.h>
+#include <sunder/weights/influences.h>
+#include "validation/checks/skinned.h"
+
+#include <algorithm>
+
+#include "core/internal/ordered.h"
+
+namespace sunder::validation {
+namespace {
+
+std::vector<PointGraph::Edge> collect_edges(const BindSurface& surface) {
+  std::vector<std::uint64_t> keys;
+  keys.reserve(surface.triangles.size() * 3);
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    if (!surface.has_area[t]) continue;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Index a = surface.weld.point_of_vertex[surface.triangles[t][k]],
+                  b = surface.weld.point_of_vertex[surface.triangles[t][(k + 1) % 3]];
+      if (a != b) keys.push_back(std::uint64_t{std::min(a, b)} << 32 | std::max(a, b));
+    }
+  }
+  std::sort(keys.begin(), keys.end());
+  std::vector<PointGraph::Edge> edges;
+  edges.reserve(keys.size() / 2 + 1);
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    if (i > 0 && keys[i] == keys[i - 1])
+      ++edges.back().faces;
+    else
+      edges.push_back({static_cast<Index>(keys[i] >> 32), static_cast<Index>(keys[i]), 1});
+  }
+  return edges;
+}
+
+void join_neighbours(const BindSurface& surface, PointGraph& graph) {
+  const Index count = surface.weld.point_count;
+  graph.first.assign(std::size_t{count} + 1, 0);
+  for (const auto& edge : graph.edges) {
+    ++graph.first[edge.a + 1];
+    ++graph.first[edge.b + 1];
+  }
+  for (Index p = 0; p < count; ++p) graph.first[p + 1] += graph.first[p];
+  graph.neighbours.resize(graph.edges.size() * 2);
+  graph.lengths.resize(graph.edges.size() * 2);
+  std::vector<Index> next(graph.first.begin(), graph.first.end() - 1);
+  for (const auto& edge : graph.edges) {
+    const double length = norm(surface.positions[graph.vertex_of_point[edge.a]] -
+                               surface.positions[graph.vertex_of_point[edge.b]]);
+    for (const auto& [from, to] : {std::pair(edge.a, edge.b), std::pair(edge.b, edge.a)}) {
+      graph.neighbours[next[from]] = to;
+      graph.lengths[next[from]++] = static_cast<float>(length);
+    }
+  }
+}
+
+void number_shells(PointGraph& graph) {
+  graph.shell_of_point.assign(graph.point_count(), kNone);
+  std::vector<Index> open;
+  for (Index start = 0; start < graph.point_count(); ++start) {
+    if (graph.shell_of_point[start] != kNone) continue;
+    graph.shell_of_point[start] = graph.shell_count;
+    open.push_back(start);
+    while (!open.empty()) {
+      const Index point = open.back();
+      open.pop_back();
+      for (const Index next : graph.around(point)) {
+        if (graph.shell_of_point[next] != kNone) continue;
+        graph.shell_of_point[next] = graph.shell_count;
+        open.push_back(next);
+      }
+    }
+    ++graph.shell_count;
+  }
+}
+
+}  // namespace
+
+double PointGraph::mean_length(Index point) const {
+  double sum = 0.0;
+  const auto of_point = lengths_around(point);
+  for (const float length : of_point) sum += static_cast<double>(length);
+  return of_point.empty() ? 0.0 : sum / static_cast<double>(of_point.size());
+}
+
+bool PointGraph::has_edge(Index a, Index b) const {
+  const auto of_a = around(a);
+  return std::find(of_a.begin(), of_a.end(), b) != of_a.end();
+}
+
+PointGraph make_point_graph(const BindSurface& surface) {
+  PointGraph graph;
+  graph.vertex_of_point.assign(surface.weld.point_count, kNone);
+  for (Index v = surface.vertex_count(); v-- > 0;)
+    graph.vertex_of_point[surface.weld.point_of_vertex[v]] = v;
+  graph.edges = collect_edges(surface);
+  join_neighbours(surface, graph);
+  number_shells(graph);
+  return graph;
+}
+
+Skinned::Skinned(const Character& of, std::span<const StoredInfluences> stored_influences)
+    : character(of),
+      stored(stored_influences),
+      surface(make_bind_surface(of)),
+      graph(make_point_graph(surface)) {}
+
+}  // namespace sunder::validation
