@@ -1,11 +1,12 @@
 // Opens a page of `sunder validate --html` in headless Chromium, uses it, and prints what happened
 // as JSON. Usage: node validation_page.mjs <page.html> [<picture.png>]
+import { execSync } from 'node:child_process';
 import { pathToFileURL } from 'node:url';
 import puppeteer from 'puppeteer-core';
 
 const [file, picture] = process.argv.slice(2);
 const browser = await puppeteer.launch({
-  executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
+  executablePath: execSync('command -v chromium').toString().trim(),
   // Pictures by software: there is no graphics card where tests run.
   args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'],
 });

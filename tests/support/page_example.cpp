@@ -142,7 +142,8 @@ Finding make_deviation(const PageExample& example) {
   for (const float value : values)
     if (static_cast<double>(value) > kThreshold) ++finding.count;
   char text[128];
-  std::snprintf(text, sizeof text, "%u vertices leave the source by up to %.1f mm in %d random poses.",
+  std::snprintf(text, sizeof text,
+                "%u vertices leave the source by up to %.1f mm in %d random poses.",
                 static_cast<unsigned>(finding.count), 1000 * finding.value, kRandomPoses);
   finding.text = text;
   return finding;
@@ -168,7 +169,8 @@ Finding make_dropped(const PageExample& example) {
   finding.value = finding.places.front().value;
   for (const float mass : dropped)
     if (static_cast<double>(mass) > finding.threshold) ++finding.count;
-  finding.text = std::to_string(finding.count) + " vertices lost influences: the source has up to "
+  finding.text = std::to_string(finding.count) +
+                 " vertices lost influences: the source has up to "
                  "six per vertex, the target two.";
   return finding;
 }
@@ -192,9 +194,8 @@ std::vector<Index> bones_by_name(const Skeleton& source, const Skeleton& target)
   for (const Bone& bone : target.bones) {
     const auto match = std::find_if(source.bones.begin(), source.bones.end(),
                                     [&](const Bone& other) { return other.name == bone.name; });
-    matches.push_back(match == source.bones.end()
-                          ? kNone
-                          : static_cast<Index>(match - source.bones.begin()));
+    matches.push_back(
+        match == source.bones.end() ? kNone : static_cast<Index>(match - source.bones.begin()));
   }
   return matches;
 }

@@ -173,13 +173,12 @@ TEST_F(PageData, poses_both_models_as_the_library_does) {
     const json page = decoded(pair.input, time);
     const ModelPose pose = at_time(pair.source, time);
     expect_near(page["source"]["posed_by_clip"], all_posed_positions(pair.source, pose), 1e-4);
-    const ModelPose target =
-        retargeted(pair.target, pose, pair.input.source_bone_from_target);
+    const ModelPose target = retargeted(pair.target, pose, pair.input.source_bone_from_target);
     expect_near(page["target"]["posed_by_clip"], all_posed_positions(pair.target, target), 1e-4);
   }
   const ModelPose given{pair.input.poses[0].model_from_bone, pair.source.rest_morph_weights};
-  expect_near(decoded(pair.input, 0)["source"]["posed"][0],
-              all_posed_positions(pair.source, given), 1e-4);
+  expect_near(decoded(pair.input, 0)["source"]["posed"][0], all_posed_positions(pair.source, given),
+              1e-4);
 }
 
 TEST_F(PageData, a_bone_without_a_source_follows_its_parent) {
@@ -192,8 +191,7 @@ TEST_F(PageData, a_bone_without_a_source_follows_its_parent) {
   ASSERT_NE(parent, kNone);
   pair.input.source_bone_from_target[last] = kNone;
   const ModelPose given{pair.input.poses[0].model_from_bone, pair.source.rest_morph_weights};
-  ModelPose expected =
-      retargeted(pair.target, given, pair.input.source_bone_from_target);
+  ModelPose expected = retargeted(pair.target, given, pair.input.source_bone_from_target);
   const ModelPose bind = bind_pose(pair.target);
   expected.model_from_bone[last] = expected.model_from_bone[parent] *
                                    bind.model_from_bone[parent].inverse() *

@@ -18,12 +18,14 @@ struct Part {
   const char* name;
   std::size_t first, width;
 };
-constexpr std::array<Part, 3> kParts = {{{"translation", 0, 3}, {"rotation", 3, 4}, {"scale", 7, 3}}};
+constexpr std::array<Part, 3> kParts = {
+    {{"translation", 0, 3}, {"rotation", 3, 4}, {"scale", 7, 3}}};
 
 Parts parts_of(const BoneTransform& transform) {
   Parts parts{};
   for (int i = 0; i < 3; ++i) parts[static_cast<std::size_t>(i)] = transform.translation[i];
-  for (int i = 0; i < 4; ++i) parts[static_cast<std::size_t>(3 + i)] = transform.rotation.coeffs()[i];
+  for (int i = 0; i < 4; ++i)
+    parts[static_cast<std::size_t>(3 + i)] = transform.rotation.coeffs()[i];
   for (int i = 0; i < 3; ++i) parts[static_cast<std::size_t>(7 + i)] = transform.scale[i];
   return parts;
 }
@@ -39,9 +41,9 @@ Result<std::vector<Parts>> sample_parts(const Character& character, const Clip& 
   std::vector<Parts> all;
   Pose pose = local_rest_pose(character);
   for (std::size_t sample = 0; sample < samples; ++sample) {
-    const double time =
-        samples == 1 ? 0.0
-                     : clip.duration * static_cast<double>(sample) / static_cast<double>(samples - 1);
+    const double time = samples == 1 ? 0.0
+                                     : clip.duration * static_cast<double>(sample) /
+                                           static_cast<double>(samples - 1);
     if (Status status = sample_clip(clip, time, pose); !status) return status;
     for (const BoneTransform& transform : pose.parent_from_bone) all.push_back(parts_of(transform));
   }

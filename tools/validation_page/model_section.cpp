@@ -12,11 +12,11 @@ namespace {
 
 /// The vertices of all meshes, back to back.
 struct Surface {
-  std::vector<float> positions;        ///< 3 V, bind space.
-  std::vector<std::int16_t> normals;   ///< 3 V, normalised; zeros: the page makes its own.
-  std::vector<std::uint32_t> indices;  ///< 3 per triangle.
-  std::vector<std::uint8_t> influence_counts;    ///< V.
-  std::vector<std::uint16_t> influence_slots;    ///< Of all slots of the character.
+  std::vector<float> positions;                ///< 3 V, bind space.
+  std::vector<std::int16_t> normals;           ///< 3 V, normalised; zeros: the page makes its own.
+  std::vector<std::uint32_t> indices;          ///< 3 per triangle.
+  std::vector<std::uint8_t> influence_counts;  ///< V.
+  std::vector<std::uint16_t> influence_slots;  ///< Of all slots of the character.
   std::vector<std::uint16_t> influence_weights;  ///< Normalised; a vertex' sum to 65535.
 };
 
@@ -112,8 +112,7 @@ std::vector<DrivenSlot> driven_slots(const Character& character,
       if (ancestor != kNone) {
         driven.source_bone = source_bone[ancestor];
         if (ancestor != bone)
-          driven.bone_from_bind =
-              bind.model_from_bone[ancestor].inverse() * driven.bone_from_bind;
+          driven.bone_from_bind = bind.model_from_bone[ancestor].inverse() * driven.bone_from_bind;
       }
       slots.push_back(driven);
     }

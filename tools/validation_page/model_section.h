@@ -26,7 +26,6 @@ struct DrivenSlot {
 /// Describes the meshes and skins of a character, with morph targets applied as at rest.
 /// @return limit_exceeded beyond 65,536 slots or 255 influences of a vertex.
 [[nodiscard]] Result<Json> model_section(const Character& character, const std::string& title,
-                                         const std::vector<Index>& source_bone,
-                                         DataArrays& arrays);
+                                         const std::vector<Index>& source_bone, DataArrays& arrays);
 
 }  // namespace sunder::tools

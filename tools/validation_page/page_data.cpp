@@ -43,8 +43,8 @@ Status check(const PageInput& input) {
       return size_fault("pose", pose.name, pose.model_from_bone.size(), source_bones);
   for (const PageSeries& series : input.series) {
     if (series.clip >= input.source->clips.size())
-      return Status::failure(StatusCode::index_out_of_range, series.clip,
-                             "series '%s': no clip %u", series.name.c_str(), series.clip);
+      return Status::failure(StatusCode::index_out_of_range, series.clip, "series '%s': no clip %u",
+                             series.name.c_str(), series.clip);
     if (series.values.size() != series.times.size())
       return size_fault("series", series.name, series.values.size(), series.times.size());
   }
@@ -163,8 +163,7 @@ std::vector<std::byte> joined(const Json& json, const DataArrays& arrays) {
 Result<std::vector<std::byte>> page_data(const PageInput& input) {
   if (Status status = check(input); !status) return status;
   DataArrays arrays;
-  auto source =
-      model_section(*input.source, input.source_title, own_bones(*input.source), arrays);
+  auto source = model_section(*input.source, input.source_title, own_bones(*input.source), arrays);
   if (!source) return source.error();
   auto target =
       model_section(*input.target, input.target_title, input.source_bone_from_target, arrays);

@@ -18,8 +18,8 @@ inline constexpr std::size_t kPageMostSamples = 900;
 /// little-endian. page/src/decode.js reads it; docs/validation_page.md describes it.
 ///
 /// @return size_mismatch, index_out_of_range or non_finite_value if an array does not fit its
-/// model; limit_exceeded beyond 65,536 slots or 255 influences per vertex. Morph targets are applied
-/// as at rest.
+/// model; limit_exceeded beyond 65,536 slots or 255 influences per vertex. Morph targets are
+/// applied as at rest.
 [[nodiscard]] Result<std::vector<std::byte>> page_data(const PageInput& input);
 
 }  // namespace sunder::tools

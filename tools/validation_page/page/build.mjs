@@ -48,6 +48,7 @@ const html = readFileSync(join(here, 'src', 'index.html'), 'utf8')
   .replace('/* LICENCES */', () => `/*\n${licences()}\n*/`)
   .replace('/* STYLE */', () => style)
   .replace('/* SCRIPT */', () => script);
+if (html.split('SUNDER_PAGE_DATA').length !== 2) throw new Error('The data needs exactly one place.');
 writeFileSync(htmlFile, html);
 writeFileSync(cppFile, `#include "tools/validation_page/page_template.h"
 

@@ -4,6 +4,8 @@ import { plural, quantity } from './format.js';
 
 const ORDER = ['error', 'warning', 'note'];
 
+const GLYPH = { error: '!', warning: '!', note: 'i' };
+
 const EVIDENCE = {
   exact: 'exact', certified: 'certified for all poses', sampled: 'largest of the poses tried',
   not_tested: 'not tested',
@@ -28,33 +30,40 @@ function facts(finding) {
     [html('dt', {}, name), html('dd', {}, text)]));
 }
 
+function placesTitle(finding) {
+  const [place] = finding.places;
+  if (!place) return '';
+  const kind = place.vertex !== null ? 'Vertices' : place.bone !== null ? 'Bones' : 'Places';
+  return html('h3', {}, `${kind}, worst first`);
+}
+
 function placeName(place, model) {
-  if (place.vertex !== null) return `vertex ${place.vertex}`;
+  if (place.vertex !== null) return String(place.vertex);
   return place.bone !== null ? model.bones[place.bone] : 'place';
 }
 
 function places(finding, model, onPlace) {
   const buttons = finding.places.map((place, i) => html('li', {}, html('button', {
     class: 'place', onclick: () => onPlace(finding, i),
-  }, `${i + 1}  ${placeName(place, model)}`,
-  html('span', {}, quantity(place.value, finding.unit)))));
+  }, html('b', {}, `${i + 1} · ${placeName(place, model)}`), html('span', {}, quantity(place.value, finding.unit)))));
   return html('ol', { class: 'places' }, ...buttons);
 }
 
 /** @param onOpen  (finding or null), @param onPlace  (finding, number of the place) */
 export function listFindings(holder, findings, model, { onOpen, onPlace }) {
   if (!findings.length) holder.append(html('p', { class: 'none' }, 'No findings.'));
-  const sorted = findings.toSorted((a, b) => ORDER.indexOf(a.severity) - ORDER.indexOf(b.severity));
+  const sorted = [...findings].sort((a, b) => ORDER.indexOf(a.severity) - ORDER.indexOf(b.severity));
   for (const finding of sorted) {
     const details = html('details', { name: 'finding', class: finding.severity, ontoggle: () => {
       if (details.open) onOpen(finding);
       else if (!holder.querySelector('details[open]')) onOpen(null);
     } },
-    html('summary', {}, severitySign(finding.severity),
+    html('summary', {}, severitySign(finding.severity, GLYPH[finding.severity]),
       html('span', { class: 'head' }, html('b', {}, finding.severity), html('code', {}, finding.code),
-        finding.count ? html('span', { class: 'count' }, finding.count.toLocaleString('en')) : ''),
+        finding.count ? html('span', { class: 'count', title: 'vertices, bones or edges concerned' },
+          `${finding.count.toLocaleString('en')} ×`) : ''),
       html('span', { class: 'text' }, finding.text)),
-    html('p', { class: 'advice' }, finding.advice), facts(finding),
+    html('p', { class: 'advice' }, finding.advice), facts(finding), placesTitle(finding),
     places(finding, model, onPlace));
     holder.append(details);
   }

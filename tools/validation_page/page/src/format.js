@@ -5,19 +5,22 @@ const LENGTHS = [[1, 'm'], [1e-3, 'mm'], [1e-6, 'µm'], [1e-9, 'nm']];
 function digits(value) {
   if (value === 0) return '0';
   const size = Math.abs(value);
-  if (size >= 1e6 || size < 1e-3) return value.toExponential(1).replace('e+', 'e');
+  if (size >= 1e6 || size < 1e-3) return value.toExponential(1).replace('e+', 'e').replace('e-', 'e−');
   if (size >= 100) return Math.round(value).toString();
   return Number(value.toPrecision(3)).toString();
 }
 
+/** With a minus sign in place of the hyphen. */
+const signed = (text) => text.replace('-', '−');
+
 /** "2.31 mm", "42 %", "17". */
 export function quantity(value, unit) {
   if (value === null || value === undefined || Number.isNaN(value)) return 'no value';
-  if (unit === 'share') return `${digits(value * 100)} %`;
-  if (unit === 'count' || !unit) return digits(value);
-  if (unit !== 'm' || value === 0) return `${digits(value)} ${unit}`;
+  if (unit === 'share') return signed(`${digits(value * 100)} %`);
+  if (unit === 'count' || !unit) return signed(digits(value));
+  if (unit !== 'm' || value === 0) return signed(`${digits(value)} ${unit}`);
   const [size, name] = LENGTHS.find(([length]) => Math.abs(value) >= length) ?? LENGTHS.at(-1);
-  return `${digits(value / size)} ${name}`;
+  return signed(`${digits(value / size)} ${name}`);
 }
 
 /** "1 error", "2 errors". */

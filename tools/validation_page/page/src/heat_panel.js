@@ -1,4 +1,5 @@
 // The controls of the heat map: what it shows, its scale, the worst vertices.
+import { niceTop } from './colours.js';
 import { byId, html } from './elements.js';
 import { vertexInMesh } from './decode.js';
 import { quantity } from './format.js';
@@ -54,7 +55,7 @@ export class HeatPanel {
   rescale() {
     byId('legend').hidden = !this.shown;
     if (!this.shown) return this.onShown(null);
-    const top = this.tops.most * 10 ** (3 * (Number(this.top.value) - 1));
+    const top = niceTop(this.tops.most * 10 ** (3 * (Number(this.top.value) - 1)));
     const scale = scaleOf(this.shown, top, this.log.checked);
     byId('top-value').textContent = quantity(top, this.shown.unit);
     drawLegend(byId('legend'), this.shown, scale);
@@ -66,7 +67,7 @@ export class HeatPanel {
     this.buttons = this.worst.map((vertex, i) => {
       const { number } = vertexInMesh(this.data.target, vertex);
       return html('button', { class: 'place', onclick: () => this.goTo(i) },
-        `vertex ${number}`, html('span', {}, this.label(vertex)));
+        html('b', {}, `vertex ${number}`), html('span', {}, this.label(vertex)));
     });
     byId('worst').replaceChildren(...this.buttons.map((button) => html('li', {}, button)));
     this.current = -1;

@@ -54,7 +54,7 @@ function ticks(shown, scale) {
   return values.map((value, i) => svg('text', {
     x: scale.fraction(value) * RAMP_WIDTH, y: BARS + RAMP + 15,
     'text-anchor': i === 0 ? 'start' : i === values.length - 1 ? 'end' : 'middle',
-  }, quantity(value, shown.unit)));
+  }, value === 0 ? '0' : quantity(value, shown.unit)));
 }
 
 /** Draws the legend into a figure. */
@@ -71,7 +71,7 @@ export function drawLegend(figure, shown, scale) {
     svg('rect', { width: 6, height: 6, fill: BEYOND }),
     svg('rect', { width: 3, height: 6, fill: '#000', 'fill-opacity': 0.28 }))),
   ...bars(counted, scale),
-  svg('rect', { x: 0, y: BARS, width: RAMP_WIDTH, height: RAMP, fill: 'url(#ramp)' }),
+  svg('rect', { x: 0, y: BARS, width: RAMP_WIDTH, height: RAMP, fill: 'url(#ramp)', class: 'ramp' }),
   svg('rect', { x: RAMP_WIDTH + GAP, y: BARS, width: BEYOND_WIDTH, height: RAMP,
     fill: 'url(#hatch)' }),
   ...thresholds.flatMap((value) => thresholdMark(value, shown, scale)),

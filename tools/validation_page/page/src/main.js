@@ -1,5 +1,5 @@
 // The page of `sunder validate --html`: joins the data, the stage and the panels.
-import { boundingSphere } from './bounds.js';
+import { radiusOf } from './bounds.js';
 import { bytesOf, decode } from './decode.js';
 import { byId, html, severitySign } from './elements.js';
 import { listFindings, verdict } from './findings_list.js';
@@ -15,9 +15,10 @@ import { TimeBar } from './time_bar.js';
 
 const data = decode(bytesOf(byId('data').textContent));
 const player = new Player(data);
-const sphere = boundingSphere([[data.source, player.source], [data.target, player.target]]);
+const radius = Math.max(...[data.source, data.target].map(
+  (model) => radiusOf(model.positions, model.indices)));
 const stage = new Stage(byId('canvas'));
-stage.setBounds(sphere.centre, sphere.radius);
+stage.setSize(radius);
 const models = new Models(data, stage, player);
 const readout = new Readout(byId('readout'), stage, () => models.viewports());
 const markers = new Markers(byId('markers'), stage, (place) => models.poseOf(place));
@@ -25,7 +26,7 @@ const time = new TimeBar(data, player, () => {
   models.setPose();
   readout.request();
 });
-const heat = new HeatPanel(data, sphere.radius, {
+const heat = new HeatPanel(data, radius, {
   onShown: (shown, scale) => models.setShown(shown, scale),
   onWorst: (place, label) => flyTo(place, label),
 });
@@ -34,7 +35,12 @@ function flyTo(place, label) {
   const { position, normal } = models.poseOf(place);
   markers.choose(place, label);
   const direction = normal ?? stage.camera.position.clone().sub(stage.controls.target).toArray();
-  stage.goTo(position, direction, 0.9 * sphere.radius);
+  stage.goTo(position, direction, 0.9 * radius);
+}
+
+function fit() {
+  const drawn = models.viewports().flat().map((shown) => shown.positions());
+  stage.fit(drawn.flatMap((positions) => Array.from(positions)));
 }
 
 function showFinding(finding) {
@@ -61,7 +67,7 @@ function arrange(layout) {
   byId('captions').replaceChildren(...(layout === 'beside'
     ? [html('span', {}, 'Source'), html('span', {}, 'Target')]
     : [html('span', {}, 'Target, with the source as a ghost')]));
-  stage.fit();
+  fit();
 }
 
 function toggleBox(id, action) {
@@ -73,12 +79,12 @@ function listen() {
   for (const input of document.querySelectorAll('input[name=layout]'))
     input.addEventListener('change', () => arrange(input.value));
   byId('bones').addEventListener('change', (event) => models.showBones(event.target.checked));
-  byId('frame').addEventListener('click', () => stage.fit());
+  byId('frame').addEventListener('click', fit);
   byId('help').addEventListener('click', () => byId('keys').showModal());
   listenToKeys(byId('canvas'), {
     ' ': () => time.togglePlay(), ',': () => time.step(-1), '.': () => time.step(1),
     w: () => time.togglePose(0), n: () => heat.step(1), p: () => heat.step(-1),
-    f: () => stage.fit(), h: () => heat.toggle(), l: () => heat.toggleLog(),
+    f: fit, h: () => heat.toggle(), l: () => heat.toggleLog(),
     b: () => toggleBox('bones', (isShown) => models.showBones(isShown)),
     v: () => document.querySelector('input[name=layout]:not(:checked)').click(),
     '?': () => byId('keys').showModal(),
@@ -103,8 +109,8 @@ writeHeader();
 listFindings(byId('findings'), data.findings, data.target,
   { onOpen: showFinding, onPlace: goToPlace });
 listen();
-arrange('beside');
 if (data.poses.length) time.togglePose(0);
+arrange('beside');
 // For scripts in the console of the browser, and for tests.
 globalThis.sunder = { data, stage, models, player };
 document.documentElement.dataset.ready = 'true';

@@ -3,10 +3,10 @@ import { BoneLines } from './bone_lines.js';
 import { posePositions, poseVertex } from './skin.js';
 import { Surface } from './surface.js';
 
-const CLAY = { light: [0.80, 0.79, 0.77], dark: [0.55, 0.56, 0.58] };
+const CLAY = { light: [0.80, 0.79, 0.77], dark: [0.58, 0.59, 0.61] };
 const GHOST = { light: [0.15, 0.35, 0.75], dark: [0.65, 0.80, 1.0] };
-const BACKGROUND = { light: [0.955, 0.957, 0.962], dark: [0.085, 0.092, 0.105] };
-const BONE = { light: [0.1, 0.1, 0.1], dark: [0.95, 0.95, 0.95] };
+const BACKGROUND = { light: [0.955, 0.957, 0.962], dark: [0.135, 0.145, 0.165] };
+const BONE = [1, 0.58, 0.1];
 const CHOSEN_BONE = [1, 0.18, 0.57];
 
 export class Models {
@@ -43,7 +43,7 @@ export class Models {
     this.target.setClay(...CLAY[theme]);
     this.source.setClay(...(this.layout === 'beside' ? CLAY : GHOST)[theme]);
     this.source.setValues(this.layout === 'beside' ? this.shown?.source ?? null : null);
-    this.bones.select(this.shown?.bone, BONE[theme], CHOSEN_BONE);
+    this.bones.select(this.shown?.bone, BONE, CHOSEN_BONE);
     this.stage.requestFrame();
   }
 

@@ -4,10 +4,12 @@ import { Color, LinearSRGBColorSpace, MathUtils, PerspectiveCamera, Scene, Vecto
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 
 const FLIGHT_SECONDS = 0.45;
+
+/** The share of a viewport that "Fit" fills. */
+const FILLED = 0.84;
 const prefersStillness = matchMedia('(prefers-reduced-motion: reduce)');
 
 export class Stage {
-  /** @param views  lists of objects, one list per viewport. */
   constructor(canvas) {
     this.canvas = canvas;
     this.renderer = new WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: true });
@@ -71,10 +73,8 @@ export class Stage {
     for (const object of objects) object.visible = shown.get(object);
   }
 
-  /** Sets the sphere that "Fit" shows, and the distances at which things are cut off. */
-  setBounds(centre, radius) {
-    this.centre = new Vector3(...centre);
-    this.radius = radius;
+  /** Sets the distances at which things are cut off, by the size of what is shown. */
+  setSize(radius) {
     this.camera.near = radius / 200;
     this.camera.far = radius * 40;
     this.controls.minDistance = radius / 50;
@@ -82,20 +82,41 @@ export class Stage {
     this.camera.updateProjectionMatrix();
   }
 
-  fit(direction = new Vector3(0.34, 0.16, 1)) {
-    const half = MathUtils.degToRad(this.camera.fov / 2);
-    const narrow = Math.atan(Math.tan(half) * Math.min(1, this.camera.aspect));
-    this.goTo(this.centre, direction, (1.02 * this.radius) / Math.sin(narrow));
+  /** Moves the camera so that all points fill its view. @param points  3 numbers per point */
+  fit(points, towardsEye = [0.34, 0.16, 1]) {
+    const z = new Vector3(...towardsEye).normalize();
+    const x = new Vector3().crossVectors(this.camera.up, z).normalize();
+    const y = new Vector3().crossVectors(z, x);
+    const point = new Vector3();
+    const seen = [];
+    for (let i = 0; i < points.length; i += 3) {
+      point.fromArray(points, i);
+      seen.push([point.dot(x), point.dot(y), point.dot(z)]);
+    }
+    const middle = [0, 1, 2].map((k) => {
+      const [least, most] = seen.reduce(
+        ([low, high], p) => [Math.min(low, p[k]), Math.max(high, p[k])], [Infinity, -Infinity]);
+      return (least + most) / 2;
+    });
+    const tall = Math.tan(MathUtils.degToRad(this.camera.fov / 2)) * FILLED;
+    const wide = tall * this.camera.aspect;
+    const distance = seen.reduce((most, p) => Math.max(most,
+      p[2] - middle[2] + Math.max(Math.abs(p[0] - middle[0]) / wide,
+        Math.abs(p[1] - middle[1]) / tall)), 0);
+    const target = new Vector3().addScaledVector(x, middle[0]).addScaledVector(y, middle[1])
+      .addScaledVector(z, middle[2]);
+    this.goTo(target, z, distance);
   }
 
   /** Moves the camera so that it looks at a point from a direction. */
   goTo(target, direction, distance) {
-    const to = new Vector3(...direction).normalize().multiplyScalar(distance).add(target);
+    const toTarget = new Vector3(...target);
+    const toEye = new Vector3(...direction).normalize().multiplyScalar(distance).add(toTarget);
     const first = this.camera.position.length() === 0;
     this.flight = {
       start: null, seconds: first || prefersStillness.matches ? 0 : FLIGHT_SECONDS,
       fromEye: this.camera.position.clone(), fromTarget: this.controls.target.clone(),
-      toEye: to, toTarget: new Vector3(...target),
+      toEye, toTarget,
     };
     this.requestFrame();
   }

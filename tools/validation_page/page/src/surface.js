@@ -58,47 +58,50 @@ uniform float top;
 uniform float threshold;  // 0: none
 uniform vec3 clay;
 uniform vec3 beyond;
-uniform float opacity;
+uniform bool isGhost;
 in vec3 viewNormal;
 in vec3 viewPosition;
 in float shownValue;
 out vec4 colour;
 
-float light(vec3 normal) {
+/** Dark colours of a ramp would hide the shape, so that light is added as well as multiplied. */
+vec3 lit(vec3 surface, vec3 normal) {
   float key = max(dot(normal, normalize(vec3(-0.35, 0.6, 0.72))), 0.0);
+  float sheen = pow(max(dot(normal, normalize(vec3(-0.2, 0.35, 0.92))), 0.0), 24.0);
   float rim = pow(1.0 - abs(normal.z), 3.0);
-  return 0.66 + 0.36 * key - 0.12 * rim;
+  return surface * (0.68 + 0.32 * key) + 0.07 * sheen + 0.10 * rim;
 }
 
-/** 1 on a line about two pixels wide where the value is \`at\`. */
+/** 1 on a thin line where the value is \`at\`; none where the values of a pixel span the scale. */
 float isoline(float at) {
   float width = max(fwidth(shownValue), 1e-20);
-  return 1.0 - smoothstep(0.8, 1.6, abs(shownValue - at) / width);
+  float steep = smoothstep(0.1, 0.25, width / top);
+  return (1.0 - smoothstep(0.5, 1.3, abs(shownValue - at) / width)) * (1.0 - steep);
 }
 
 void main() {
   vec3 normal = normalize(viewNormal);
   if (!gl_FrontFacing) normal = -normal;
-  float lit = light(normal);
   if (!shows || shownValue < ${MISSING.toExponential()} * 1e-3) {
-    colour = vec4(clay * lit, opacity);
+    float rim = 1.0 - abs(normal.z);
+    colour = vec4(lit(clay, normal), isGhost ? 0.05 + 0.75 * rim * rim : 1.0);
     return;
   }
   float fraction = isLog ? (shownValue > 0.0 ? log(shownValue / bottom) / log(top / bottom) : 0.0)
                          : (shownValue - bottom) / (top - bottom);
   if (fraction > 1.0001 || (isSigned && fraction < -0.0001)) {
     float stripe = step(0.5, fract((gl_FragCoord.x + gl_FragCoord.y) / 8.0));
-    colour = vec4(mix(beyond, beyond * 0.72, stripe), opacity);
+    colour = vec4(mix(beyond, beyond * 0.72, stripe), 1.0);
     return;
   }
   vec3 shade = texture(ramp, vec2(clamp(fraction, 0.0, 1.0) * 255.0 / 256.0 + 0.5 / 256.0, 0.5)).rgb;
-  shade *= lit;
+  shade = lit(shade, normal);
   if (threshold > 0.0) {
     float line = isoline(threshold);
     if (isSigned) line = max(line, isoline(-threshold));
     shade = mix(shade, vec3(1.0), 0.9 * line);
   }
-  colour = vec4(shade, opacity);
+  colour = vec4(shade, 1.0);
 }`;
 
 function floatTexture(values, width, perTexel, format) {
@@ -156,7 +159,7 @@ export class Surface {
       threshold: { value: 0 },
       clay: { value: new Color(0.72, 0.72, 0.72) },
       beyond: { value: new Color().setStyle(BEYOND, 'srgb-linear') },
-      opacity: { value: 1 },
+      isGhost: { value: false },
     };
     this.material = new ShaderMaterial({
       vertexShader, fragmentShader, uniforms: this.uniforms, glslVersion: GLSL3, side: DoubleSide,
@@ -198,9 +201,9 @@ export class Surface {
     this.uniforms.clay.value.setRGB(r, g, b);
   }
 
-  /** A ghost is drawn over what else there is. */
+  /** A ghost is drawn over what else there is, and clear where it faces the eye. */
   setGhost(isGhost) {
-    this.uniforms.opacity.value = isGhost ? 0.28 : 1;
+    this.uniforms.isGhost.value = isGhost;
     this.material.transparent = isGhost;
     this.material.depthWrite = !isGhost;
     this.mesh.renderOrder = isGhost ? 1 : 0;

@@ -20,6 +20,11 @@ export class TimeBar {
       player.play(false);
       player.seek(Number(this.seek.value));
     }));
+    byId('chart').addEventListener('pointerdown', (event) => this.change(() => {
+      const { left, width } = byId('chart').getBoundingClientRect();
+      player.play(false);
+      player.seek(((event.clientX - left) / width) * player.duration);
+    }));
     byId('play').disabled = this.seek.disabled = !data.clips.some((clip) => clip.duration > 0);
     this.drawClip();
   }
@@ -66,6 +71,6 @@ export class TimeBar {
     const value = this.series && player.pose === null
       ? `${quantity(valueAt(this.series, player.time), this.series.unit)} at ` : '';
     byId('clock').textContent = player.pose === null
-      ? `${value}${player.time.toFixed(2)} s` : 'given pose';
+      ? `${value}${player.time.toFixed(2)} s` : this.data.poses[player.pose].name;
   }
 }
