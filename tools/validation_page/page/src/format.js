@@ -16,8 +16,10 @@ const signed = (text) => text.replace('-', '−');
 /** "2.31 mm", "42 %", "17". */
 export function quantity(value, unit) {
   if (value === null || value === undefined || Number.isNaN(value)) return 'no value';
+  if (!Number.isFinite(value)) return 'unbounded';
   if (unit === 'share') return signed(`${digits(value * 100)} %`);
-  if (unit === 'count' || !unit) return signed(digits(value));
+  if (unit === 'count') return signed(value.toLocaleString('en'));
+  if (!unit) return signed(digits(value));
   if (unit !== 'm' || value === 0) return signed(`${digits(value)} ${unit}`);
   const [size, name] = LENGTHS.find(([length]) => Math.abs(value) >= length) ?? LENGTHS.at(-1);
   return signed(`${digits(value / size)} ${name}`);

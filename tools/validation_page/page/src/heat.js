@@ -38,7 +38,8 @@ export function weighingBones(model) {
 /** The largest size of a value, and one that shows most: outliers are beyond the scale. */
 export function topsOf(shown) {
   if (shown.isWeight) return { most: 1, wanted: 1 };
-  const sizes = Array.from(shown.target, Math.abs).filter((size) => size > 0).sort((a, b) => a - b);
+  const sizes = Array.from(shown.target, Math.abs)
+    .filter((size) => size > 0 && Number.isFinite(size)).sort((a, b) => a - b);
   if (!sizes.length) return { most: shown.threshold || 1, wanted: shown.threshold || 1 };
   const most = sizes.at(-1);
   const usual = sizes[Math.floor(0.99 * (sizes.length - 1))];

@@ -1,7 +1,6 @@
-// Keys of the page; inputs, lists and buttons keep theirs.
+// Keys of the page; lists keep their letters, and what space activates keeps that.
 
-const OWN_KEYS = new Set(['INPUT', 'SELECT', 'TEXTAREA']);
-const ACTIVATED = new Set(['BUTTON', 'SUMMARY']);
+const ACTIVATED = 'button, summary, input[type=checkbox], input[type=radio]';
 
 /** @param actions  {key: function}; @param onCanvas  the same, while the canvas has the focus */
 export function listenToKeys(canvas, actions, onCanvas) {
@@ -9,8 +8,7 @@ export function listenToKeys(canvas, actions, onCanvas) {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     const { target } = event;
     if (document.querySelector('dialog[open]')) return;
-    if (OWN_KEYS.has(target.tagName) && target.type !== 'checkbox') return;
-    if (event.key === ' ' && (ACTIVATED.has(target.tagName) || target.type === 'checkbox')) return;
+    if (target.matches('select') || (event.key === ' ' && target.matches(ACTIVATED))) return;
     const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
     const action = (target === canvas && onCanvas[key]) || actions[key];
     if (!action) return;

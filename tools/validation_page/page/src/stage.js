@@ -21,6 +21,9 @@ export class Stage {
     this.camera = new PerspectiveCamera(32, 1, 0.01, 100);
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.addEventListener('change', () => this.requestFrame());
+    this.controls.addEventListener('start', () => {
+      this.flight = null;
+    });
     this.views = [];
     this.flight = null;
     this.beforeFrame = () => {};
