@@ -15,6 +15,7 @@
 #include "tools/posed_model.h"
 #include "tools/progress_bar.h"
 #include "tools/report.h"
+#include "tools/text_file.h"
 #include "tools/verbs.h"
 #include "tools/weight_report.h"
 

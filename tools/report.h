@@ -52,23 +52,4 @@ template <class Vector>
 /// UTF-8 text, indented by two spaces. Bytes of names that are not UTF-8 are replaced.
 [[nodiscard]] std::string dump(const Json& json);
 
-/// A text file that is renamed to its name when it is committed; otherwise no file is left.
-class StagedText {
- public:
-  StagedText(std::filesystem::path file, const std::string& text);
-  ~StagedText();
-  StagedText(const StagedText&) = delete;
-  StagedText& operator=(const StagedText&) = delete;
-
-  [[nodiscard]] const Status& status() const { return status_; }
-  [[nodiscard]] Status commit();
-
- private:
-  std::filesystem::path file_, partial_;
-  Status status_;
-};
-
-/// Writes the whole text or nothing.
-[[nodiscard]] Status write_text(const std::filesystem::path& file, const std::string& text);
-
 }  // namespace sunder::tools

@@ -14,6 +14,7 @@
 #include "tools/progress_bar.h"
 #include "tools/refit.h"
 #include "tools/report.h"
+#include "tools/text_file.h"
 #include "tools/torn_picture.h"
 #include "tools/verbs.h"
 #include "tools/weight_report.h"

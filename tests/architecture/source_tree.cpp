@@ -30,9 +30,11 @@ std::vector<Include> includes_of(const fs::path& file) {
 std::vector<fs::path> source_files(const fs::path& folder) {
   std::vector<fs::path> files;
   if (!fs::is_directory(folder)) return files;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    const std::string extension = entry.path().extension().string();
-    if (extension == ".h" || extension == ".cpp") files.push_back(entry.path());
+  for (auto entry = fs::recursive_directory_iterator(folder);
+       entry != fs::recursive_directory_iterator(); ++entry) {
+    if (entry->path().filename() == "node_modules") entry.disable_recursion_pending();
+    const std::string extension = entry->path().extension().string();
+    if (extension == ".h" || extension == ".cpp") files.push_back(entry->path());
   }
   std::sort(files.begin(), files.end());
   return files;

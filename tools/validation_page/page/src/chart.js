@@ -1,0 +1,51 @@
+// A series over the time of a clip, above the slider of the time.
+import { svg } from './elements.js';
+import { quantity } from './format.js';
+
+const WIDTH = 1000, HEIGHT = 64;
+
+function path(series, duration, top) {
+  return Array.from(series.times, (time, i) => {
+    const x = (time / duration) * WIDTH;
+    const y = HEIGHT - (series.values[i] / top) * (HEIGHT - 4);
+    return `${i ? 'L' : 'M'}${x.toFixed(1)} ${y.toFixed(2)}`;
+  }).join('');
+}
+
+/** Draws the series of a clip, or nothing; returns what says the time: f(seconds). */
+export function drawChart(holder, title, series, clip) {
+  title.textContent = '';
+  holder.replaceChildren();
+  holder.hidden = !series || !clip || !(clip.duration > 0);
+  if (holder.hidden) return () => {};
+  const most = series.values.reduce((a, b) => Math.max(a, b), 0);
+  const top = Math.max(most, series.threshold ?? 0) * 1.08 || 1;
+  const line = path(series, clip.duration, top);
+  const cursor = svg('line', { class: 'cursor', y1: 0, y2: HEIGHT });
+  const children = [
+    svg('path', { class: 'area', d: `${line}V${HEIGHT}H0Z` }),
+    svg('path', { class: 'line', d: line }),
+  ];
+  if (series.threshold) {
+    const y = HEIGHT - (series.threshold / top) * (HEIGHT - 4);
+    children.push(svg('line', { class: 'threshold', x1: 0, x2: WIDTH, y1: y, y2: y }));
+  }
+  holder.append(svg('svg', { viewBox: `0 0 ${WIDTH} ${HEIGHT}`, preserveAspectRatio: 'none' },
+    ...children, cursor));
+  const limit = series.threshold ? `, threshold ${quantity(series.threshold, series.unit)}` : '';
+  title.textContent = `${series.name}: at most ${quantity(most, series.unit)}${limit}`;
+  return (time) => {
+    const x = (time / clip.duration) * WIDTH;
+    cursor.setAttribute('x1', x);
+    cursor.setAttribute('x2', x);
+  };
+}
+
+/** The value of a series at a time. */
+export function valueAt(series, time) {
+  const { times, values } = series;
+  const after = times.findIndex((other) => other >= time);
+  if (after <= 0) return values[after === 0 ? 0 : values.length - 1];
+  const t = (time - times[after - 1]) / (times[after] - times[after - 1]);
+  return (1 - t) * values[after - 1] + t * values[after];
+}

@@ -1,0 +1,38 @@
+// Small pieces of HTML and SVG.
+
+const SVG = 'http://www.w3.org/2000/svg';
+
+function filled(node, attributes, children) {
+  for (const [name, value] of Object.entries(attributes))
+    if (name.startsWith('on')) node.addEventListener(name.slice(2), value);
+    else if (value !== null && value !== false) node.setAttribute(name, value === true ? '' : value);
+  node.append(...children);
+  return node;
+}
+
+/** html('button', {class: 'x', onclick: f}, 'text', child) */
+export function html(tag, attributes = {}, ...children) {
+  return filled(document.createElement(tag), attributes, children);
+}
+
+export function svg(tag, attributes = {}, ...children) {
+  return filled(document.createElementNS(SVG, tag), attributes, children);
+}
+
+export const byId = (id) => document.getElementById(id);
+
+const SHAPES = {
+  error: ['polygon', { points: '6,1 14,1 19,6 19,14 14,19 6,19 1,14 1,6' }],
+  warning: ['polygon', { points: '10,1 19.5,18.5 0.5,18.5' }],
+  note: ['circle', { cx: 10, cy: 10, r: 9 }],
+};
+
+/** A sign that differs in shape and colour; @param text  one or two characters in it. */
+export function severitySign(severity, text) {
+  const [tag, attributes] = SHAPES[severity];
+  const label = text === undefined ? [] : [svg('text', {
+    x: 10, y: severity === 'warning' ? 16 : 14.2, 'text-anchor': 'middle',
+  }, String(text))];
+  return svg('svg', { class: `sign ${severity}`, viewBox: '0 0 20 20', 'aria-hidden': 'true' },
+    svg(tag, attributes), ...label);
+}

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <sunder/core/status.h>
+
+#include <filesystem>
+
+#include "tools/validation_page/page_input.h"
+
+namespace sunder::tools {
+
+/// Writes one HTML file that holds the viewer and all data, and opens offline.
+///
+/// @return unsupported_feature if this build has no page (scripts/setup page installs what builds
+/// it); the failures of page_data(); file_unreadable if the file cannot be written. Nothing is
+/// written then. docs/validation_page.md describes the page.
+[[nodiscard]] Status write_validation_page(const std::filesystem::path& file,
+                                           const PageInput& input);
+
+}  // namespace sunder::tools
