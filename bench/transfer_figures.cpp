@@ -19,7 +19,7 @@ Character torn(const Character& source) {
   auto model = TornModel::create(std::make_shared<const Character>(source));
   if (!model) std::abort();
   test::Random random(1);
-  const ModelPose pose = rest_pose(source);
+  const ModelPose pose = *rest_pose(source);
   for (int i = 0; i < 8; ++i)
     (void)model->tear(pose, test::random_stroke(source, pose, random), {});
   return model->character();
@@ -76,7 +76,7 @@ TransferFigures measure_transfer(const Character& source, const Character& truth
     squares += squared_distances(found, truth, pose);
   }
   figures.rms =
-      std::sqrt(squares / (kPoses * count)) / test::posed_diagonal(truth, rest_pose(truth));
+      std::sqrt(squares / (kPoses * count)) / test::posed_diagonal(truth, *rest_pose(truth));
   return figures;
 }
 

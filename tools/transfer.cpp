@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "tools/report.h"
+#include "tools/text_file.h"
 #include "tools/transfer_report.h"
 #include "tools/verbs.h"
 

@@ -57,7 +57,7 @@ void add_clip(PageExample& example) {
   const Clip& clip = example.source.clips.at(0);
   tools::PageSeries series{"Largest deviation", "m", kThreshold, 0, {}, {}};
   tools::PageArray array{"Largest deviation over the clips", "m", false, kThreshold, {}};
-  Pose pose = local_rest_pose(example.source);
+  Pose pose = *local_rest_pose(example.source);
   ModelPose model_pose;
   for (int i = 0; i <= 60; ++i) {
     series.times.push_back(static_cast<double>(clip.duration) * i / 60.0);

@@ -84,7 +84,7 @@ json decoded(const tools::PageInput& input, double time) {
 }
 
 ModelPose at_time(const Character& character, double time) {
-  Pose pose = local_rest_pose(character);
+  Pose pose = *local_rest_pose(character);
   EXPECT_TRUE(sample_clip(character.clips.at(0), time, pose));
   ModelPose model_pose;
   EXPECT_TRUE(compute_model_pose(character.skeleton, pose, model_pose));
@@ -95,7 +95,7 @@ ModelPose at_time(const Character& character, double time) {
 /// The pose of the source on the bones of the target.
 ModelPose retargeted(const Character& target, const ModelPose& pose,
                      const std::vector<Index>& source_bone) {
-  ModelPose result = bind_pose(target);
+  ModelPose result = *bind_pose(target);
   for (std::size_t bone = 0; bone < source_bone.size(); ++bone)
     if (source_bone[bone] != kNone)
       result.model_from_bone[bone] = pose.model_from_bone[source_bone[bone]];
@@ -192,7 +192,7 @@ TEST_F(PageData, a_bone_without_a_source_follows_its_parent) {
   pair.input.source_bone_from_target[last] = kNone;
   const ModelPose given{pair.input.poses[0].model_from_bone, pair.source.rest_morph_weights};
   ModelPose expected = retargeted(pair.target, given, pair.input.source_bone_from_target);
-  const ModelPose bind = bind_pose(pair.target);
+  const ModelPose bind = *bind_pose(pair.target);
   expected.model_from_bone[last] = expected.model_from_bone[parent] *
                                    bind.model_from_bone[parent].inverse() *
                                    bind.model_from_bone[last];

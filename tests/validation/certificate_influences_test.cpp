@@ -37,7 +37,7 @@ struct SkinnedScene {
 SkinnedScene tube(double angle) {
   SkinnedScene scene;
   scene.character = test::make_tube(24, 12, 6);
-  scene.bind = bind_pose(scene.character);
+  scene.bind = *bind_pose(scene.character);
   scene.limits.of_bone.resize(scene.character.skeleton.bones.size());
   for (JointRange& range : scene.limits.of_bone) range.angle = angle;
   return scene;

@@ -106,7 +106,7 @@ AnimatedRig random_animated_rig(Random& random, Scales scales, double angle, boo
 }
 
 ModelPose pose_at(const Character& character, const Clip& clip, double time) {
-  Pose local = local_rest_pose(character);
+  Pose local = *local_rest_pose(character);
   EXPECT_TRUE(sample_clip(clip, time, local));
   ModelPose pose;
   EXPECT_TRUE(compute_model_pose(character.skeleton, local, pose));

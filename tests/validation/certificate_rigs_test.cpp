@@ -50,7 +50,7 @@ CutRig load_cut(const std::filesystem::path& file, std::size_t influences) {
   EXPECT_TRUE(loaded) << file << ": " << loaded.error().text();
   if (!loaded) return rig;
   rig.character = *loaded->character;
-  rig.bind = bind_pose(rig.character);
+  rig.bind = *bind_pose(rig.character);
   Vec3d low = Vec3d::Constant(1e30), high = -low;
   for (std::uint32_t mesh = 0; mesh < rig.character.meshes.size(); ++mesh) {
     const std::size_t first = rig.rows.first.size() - 1;
@@ -192,7 +192,7 @@ TEST(CertificateOfRigs, holds_in_every_clip) {
     const auto worst = worst_points(*certificate, 100);
     for (const Clip& clip : rig.character.clips)
       for (int i = 0; i < 10; ++i) {
-        Pose local = local_rest_pose(rig.character);
+        Pose local = *local_rest_pose(rig.character);
         ASSERT_TRUE(
             sample_clip(clip, random.uniform(0, static_cast<double>(clip.duration)), local));
         ModelPose pose;

@@ -258,7 +258,7 @@ TEST(SurfaceMatching, births_agree_with_the_closest_places) {
 /// The posed difference of a row.
 Vec3d posed(const SkinDifferences& differences, Index row, const Character& source,
             const ModelPose& pose) {
-  const ModelPose bind = bind_pose(source);
+  const ModelPose bind = *bind_pose(source);
   Vec3d sum = Vec3d::Zero();
   for (Index i = differences.first[row]; i < differences.first[row + 1]; ++i) {
     const SkinTerm& term = differences.terms[i];
@@ -327,7 +327,7 @@ TEST(SkinDifference, a_stale_bind_matrix_shows) {
     for (const Influence& influence : target.meshes[0].weights.of(v))
       if (influence.slot == 2) weight += static_cast<double>(influence.weight);
     EXPECT_EQ(differences.first[v + 1] > differences.first[v], weight > 0);
-    EXPECT_NEAR(posed(differences, v, source, bind_pose(source)).x(), 0.1 * weight, 1e-6);
+    EXPECT_NEAR(posed(differences, v, source, *bind_pose(source)).x(), 0.1 * weight, 1e-6);
   }
 }
 

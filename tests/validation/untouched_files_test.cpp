@@ -17,8 +17,8 @@ namespace {
 
 void expect_no_alarm(const ValidationReport& report, const std::string& what) {
   for (const Finding& finding : report.findings)
-    EXPECT_EQ(finding.severity, Severity::note) << what << ": " << finding.code << ": "
-                                                << finding.text;
+    EXPECT_EQ(finding.severity, Severity::note)
+        << what << ": " << finding.code << ": " << finding.text;
 }
 
 LoadOptions keep_stored() {
@@ -46,7 +46,8 @@ std::vector<Operation> some_operations(const Character& character, Random& rando
   std::vector<Operation> operations;
   for (int i = 0; i < 3; ++i) {
     TearOperation tear;
-    const ModelPose pose = i == 0 ? rest_pose(character) : random_pose(character, random, 0.3, 1.0);
+    const ModelPose pose =
+        i == 0 ? *rest_pose(character) : random_pose(character, random, 0.3, 1.0);
     tear.pose = pose;
     tear.stroke = random_stroke(character, pose, random);
     tear.options.width = i == 2 ? 0.01 * posed_diagonal(character, pose) : 0.0;

@@ -39,7 +39,7 @@ std::size_t sample_count(const Clip& clip) {
 Result<std::vector<Parts>> sample_parts(const Character& character, const Clip& clip) {
   const std::size_t samples = sample_count(clip);
   std::vector<Parts> all;
-  Pose pose = local_rest_pose(character);
+  Pose pose = *local_rest_pose(character);
   for (std::size_t sample = 0; sample < samples; ++sample) {
     const double time = samples == 1 ? 0.0
                                      : clip.duration * static_cast<double>(sample) /

@@ -97,7 +97,7 @@ void add_slots(const Character& character, const std::vector<Index>& source_bone
 
 std::vector<DrivenSlot> driven_slots(const Character& character,
                                      const std::vector<Index>& source_bone) {
-  const ModelPose bind = bind_pose(character);
+  const ModelPose bind = *bind_pose(character);
   std::vector<DrivenSlot> slots;
   for (const Skin& skin : character.skins)
     for (std::size_t slot = 0; slot < skin.bones.size(); ++slot) {

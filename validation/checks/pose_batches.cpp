@@ -5,6 +5,7 @@
 #include <random>
 
 #include "core/internal/ordered.h"
+#include "validation/or_throw.h"
 
 namespace sunder::validation {
 namespace {
@@ -52,14 +53,15 @@ std::vector<Affine3d> bones_from_model(const ModelPose& bind) {
 PoseBatch take_poses(std::string_view name, const PoseSet& set,
                      const std::vector<Affine3d>& bone_from_model, std::size_t most) {
   PoseBatch batch{name, false, {}};
-  const std::size_t fit = set.size(PoseSet::Role::fit), all = fit + set.size(PoseSet::Role::held_out);
+  const std::size_t fit = set.size(PoseSet::Role::fit),
+                    all = fit + set.size(PoseSet::Role::held_out);
   const std::size_t step = all / most + (all % most != 0);
   ModelPose pose;
   for (std::size_t i = 0; i < all; i += std::max<std::size_t>(step, 1)) {
     if (i < fit)
-      set.compute(PoseSet::Role::fit, i, pose);
+      or_throw(set.compute(PoseSet::Role::fit, i, pose));
     else
-      set.compute(PoseSet::Role::held_out, i - fit, pose);
+      or_throw(set.compute(PoseSet::Role::held_out, i - fit, pose));
     auto& matrices = batch.poses.emplace_back();
     for (std::size_t bone = 0; bone < bone_from_model.size(); ++bone)
       matrices.push_back(multiply(pose.model_from_bone[bone], bone_from_model[bone]));
@@ -89,8 +91,8 @@ PoseBatch make_random_poses(const Character& source, const ModelPose& bind,
       const double angle = at_limit ? options.random_angle : options.random_angle * uniform();
       const Vec3d center = bind.model_from_bone[bone].translation();
       const Affine3d turn = turn_about(center, axis, angle);
-      matrices[bone] = bones[bone].parent == kNone ? turn
-                                                   : multiply(matrices[bones[bone].parent], turn);
+      matrices[bone] =
+          bones[bone].parent == kNone ? turn : multiply(matrices[bones[bone].parent], turn);
     }
   }
   return batch;

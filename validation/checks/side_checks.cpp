@@ -10,6 +10,7 @@
 #include "core/internal/ordered.h"
 #include "validation/checks/inherited.h"
 #include "validation/match/position_table.h"
+#include "validation/or_throw.h"
 
 namespace sunder::validation {
 namespace {
@@ -52,8 +53,8 @@ std::vector<std::pair<Index, Index>> find_pairs(const Skeleton& skeleton) {
     const std::string& name = skeleton.bones[bone].name;
     const int side = side_of_name(name);
     if (side == 0) continue;
-    auto& pair = by_name.try_emplace(name_without_side(name), std::array{kNone, kNone})
-                     .first->second;
+    auto& pair =
+        by_name.try_emplace(name_without_side(name), std::array{kNone, kNone}).first->second;
     pair[side < 0 ? 0 : 1] = bone;
   }
   std::vector<std::pair<Index, Index>> pairs;
@@ -67,7 +68,7 @@ std::vector<std::pair<Index, Index>> find_pairs(const Skeleton& skeleton) {
 MirrorPlane find_mirror_plane(const Skinned& skin) {
   const Skeleton& skeleton = skin.character.skeleton;
   const auto pairs = find_pairs(skeleton);
-  const ModelPose bind = bind_pose(skin.character);
+  const ModelPose bind = or_throw(bind_pose(skin.character));
   MirrorPlane plane;
   plane.side_of_bone.assign(skeleton.bones.size(), 0);
   for (Index bone = 0; bone < skeleton.bones.size(); ++bone) plane.mirrored_bone.push_back(bone);
@@ -161,13 +162,13 @@ Places find_across_tears(const RowReader& reader) {
   const Skinned &source = reader.source(), &target = reader.target();
   PositionTable table(source.surface.positions.size());
   for (Index v = 0; v < source.surface.vertex_count(); ++v)
-    if (source.surface.triangle_of_vertex[v] != kNone)
-      table.insert(source.surface.positions[v], v);
+    if (source.surface.triangle_of_vertex[v] != kNone) table.insert(source.surface.positions[v], v);
   Places places;
   WeightRow actual, expected, other_row;
   for (Index v = 0; v < target.surface.vertex_count(); ++v) {
     if (target.surface.tear_side[v] == 0.0f) continue;
-    const Index mesh = target.surface.mesh_of_vertex(v), own = v - target.surface.first_vertex[mesh];
+    const Index mesh = target.surface.mesh_of_vertex(v),
+                own = v - target.surface.first_vertex[mesh];
     const SurfaceMatch& match = reader.match(mesh, own);
     if (!match.is_accepted) continue;
     reader.actual(mesh, own, actual);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/internal/ordered.h"
+#include "validation/or_throw.h"
 
 namespace sunder::validation {
 namespace {
@@ -71,7 +72,7 @@ std::vector<double> bind_differences(const RowReader& reader, double reach) {
 void check_binds(const RowReader& reader, const std::vector<double>& differences,
                  FindingList& findings) {
   const double least = kind_of(Code::bind).threshold * reader.source().surface.diagonal;
-  const ModelPose bind = bind_pose(reader.target().character);
+  const ModelPose bind = or_throw(bind_pose(reader.target().character));
   Places places;
   for (Index bone = 0; bone < differences.size(); ++bone)
     if (differences[bone] > least) places.push_back(place_of_bone(bone, bind, differences[bone]));
@@ -90,7 +91,7 @@ Affine3d affine_of(const BoneTransform& transform) {
 void check_default_pose(const RowReader& reader, double reach, FindingList& findings) {
   const Character &source = reader.source().character, &target = reader.target().character;
   const double least = kind_of(Code::default_pose).threshold * reader.source().surface.diagonal;
-  const ModelPose of_source = rest_pose(source), of_target = rest_pose(target);
+  const ModelPose of_source = or_throw(rest_pose(source)), of_target = or_throw(rest_pose(target));
   Places places;
   for (Index bone = 0; bone < target.skeleton.bones.size(); ++bone) {
     const Index counterpart = reader.bones().source_of_target[bone];
@@ -100,11 +101,10 @@ void check_default_pose(const RowReader& reader, double reach, FindingList& find
     const bool same_parent =
         parent == kNone ? other == kNone : reader.bones().source_of_target[parent] == other;
     const double difference =
-        same_parent
-            ? distance_between(affine_of(target.skeleton.bones[bone].rest),
-                               affine_of(source.skeleton.bones[counterpart].rest), reach)
-            : distance_between(of_target.model_from_bone[bone],
-                               of_source.model_from_bone[counterpart], reach);
+        same_parent ? distance_between(affine_of(target.skeleton.bones[bone].rest),
+                                       affine_of(source.skeleton.bones[counterpart].rest), reach)
+                    : distance_between(of_target.model_from_bone[bone],
+                                       of_source.model_from_bone[counterpart], reach);
     if (difference > least) places.push_back(place_of_bone(bone, of_target, difference));
   }
   findings.add(Code::default_pose, std::move(places));
@@ -114,10 +114,10 @@ void check_default_pose(const RowReader& reader, double reach, FindingList& find
 double clip_difference(const RowReader& reader, const Clip& source, const Clip& target) {
   constexpr int kSamples = 8;
   const Character &a = reader.source().character, &b = reader.target().character;
-  Pose pose_a = local_rest_pose(a), pose_b = local_rest_pose(b);
+  Pose pose_a = or_throw(local_rest_pose(a)), pose_b = or_throw(local_rest_pose(b));
   ModelPose model_a, model_b;
   const auto start = [](const Character& of, ModelPose& model) {
-    return compute_model_pose(of.skeleton, local_rest_pose(of), model).is_ok();
+    return compute_model_pose(of.skeleton, or_throw(local_rest_pose(of)), model).is_ok();
   };
   if (!start(a, model_a) || !start(b, model_b)) return 0.0;
   const ModelPose rest_a = model_a, rest_b = model_b;
@@ -176,7 +176,8 @@ double find_scale(const Character& source, const Character& target, const BoneMa
   const double scale = of_target / of_source;
   const double limit = kind_of(Code::scale).threshold;
   if (scale < limit && scale > 1.0 / limit) return 1.0;
-  const ModelPose bind_source = bind_pose(source), bind_target = bind_pose(target);
+  const ModelPose bind_source = or_throw(bind_pose(source)),
+                  bind_target = or_throw(bind_pose(target));
   std::vector<Vec3d> places_source, places_target;
   for (Index bone = 0; bone < target.skeleton.bones.size(); ++bone) {
     if (bones.source_of_target[bone] == kNone) continue;

@@ -1,8 +1,10 @@
-#include <sunder/validation/finding.h>
-#include <sunder/weights/influences.h>
 #include "validation/checks/skin_points.h"
 
+#include <sunder/skinning/pose.h>
+
 #include <algorithm>
+
+#include "validation/or_throw.h"
 
 namespace sunder::validation {
 
@@ -18,7 +20,7 @@ void TermSum::finish(SkinDifferences& points) {
 }
 
 SkinPoints::SkinPoints(const RowReader& reader)
-    : reader_(reader), bind_(bind_pose(reader.source().character)) {
+    : reader_(reader), bind_(or_throw(bind_pose(reader.source().character))) {
   const Character &source = reader.source().character, &target = reader.target().character;
   const auto palettes = bind_palettes(source, bind_);
   for (std::size_t skin = 0; skin < source.skins.size(); ++skin) {
@@ -26,14 +28,13 @@ SkinPoints::SkinPoints(const RowReader& reader)
     for (std::size_t i = 0; i < source.skins[skin].bones.size(); ++i)
       slots.push_back({source.skins[skin].bones[i], palettes[skin][i]});
   }
-  const ModelPose own = bind_pose(target);
+  const ModelPose own = or_throw(bind_pose(target));
   for (const Skin& skin : target.skins) {
     auto& slots = of_target_.emplace_back();
     for (std::size_t i = 0; i < skin.bones.size(); ++i) {
       const Index counterpart = reader.bones().source_of_target[skin.bones[i]];
-      const Affine3d& model_from_bone = counterpart != kNone
-                                            ? bind_.model_from_bone[counterpart]
-                                            : own.model_from_bone[skin.bones[i]];
+      const Affine3d& model_from_bone = counterpart != kNone ? bind_.model_from_bone[counterpart]
+                                                             : own.model_from_bone[skin.bones[i]];
       slots.push_back({reader.bones().driver_of_target[skin.bones[i]],
                        multiply(model_from_bone, Affine3d(skin.bone_from_bind[i].cast<double>()))});
     }

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "core/internal/ordered.h"
+#include "validation/or_throw.h"
 
 namespace sunder::validation {
 namespace {
@@ -121,7 +122,7 @@ std::vector<std::vector<Affine3d>> bind_palettes(const Character& character,
 }
 
 BindSurface make_bind_surface(const Character& character) {
-  const auto palettes = bind_palettes(character, bind_pose(character));
+  const auto palettes = bind_palettes(character, or_throw(bind_pose(character)));
   BindSurface surface;
   for (const Mesh& mesh : character.meshes) append_mesh(mesh, palettes[mesh.skin], surface);
   surface.weld = weld_vertices(character, surface.positions);

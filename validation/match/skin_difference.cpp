@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/internal/ordered.h"
+#include "validation/or_throw.h"
 
 namespace sunder::validation {
 namespace {
@@ -26,7 +27,7 @@ std::vector<std::vector<Slot>> slots_of_source(const Character& source, const Mo
 
 std::vector<std::vector<Slot>> slots_of_target(const Character& target, const BoneMatch& bones,
                                                const ModelPose& source_bind) {
-  const ModelPose own_bind = bind_pose(target);
+  const ModelPose own_bind = or_throw(bind_pose(target));
   std::vector<std::vector<Slot>> slots(target.skins.size());
   for (std::size_t skin = 0; skin < slots.size(); ++skin)
     for (std::size_t i = 0; i < target.skins[skin].bones.size(); ++i) {
@@ -83,7 +84,7 @@ class Row {
 
 SkinDifferences difference_of(const Character& source, const Character& target,
                               const SurfaceMatches& matches, const BoneMatch& bones) {
-  const ModelPose bind = bind_pose(source);
+  const ModelPose bind = or_throw(bind_pose(source));
   const auto source_slots = slots_of_source(source, bind);
   const auto target_slots = slots_of_target(target, bones, bind);
   SkinDifferences differences;

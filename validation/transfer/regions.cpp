@@ -8,6 +8,7 @@
 
 #include "core/internal/ordered.h"
 #include "validation/match/bone_match.h"
+#include "validation/or_throw.h"
 
 namespace sunder::validation {
 namespace {
@@ -71,7 +72,7 @@ int MirrorPlane::side_of(const Vec3d& position, double band) const {
 }
 
 std::optional<MirrorPlane> find_mirror_plane(const Character& character) {
-  const ModelPose bind = bind_pose(character);
+  const ModelPose bind = or_throw(bind_pose(character));
   const std::vector<Index> mirrored = mirrored_bones(character.skeleton);
   MirrorPlane plane;
   double count = 0;

@@ -10,6 +10,7 @@
 
 #include "core/internal/ordered.h"
 #include "validation/match/bind_surface.h"
+#include "validation/or_throw.h"
 
 namespace sunder::validation {
 namespace {
@@ -39,7 +40,7 @@ void adopt(const Character& source, TargetBones& bones) {
   std::set<std::string> names;
   for (const Bone& bone : bones.skeleton.bones) names.insert(bone.name);
   const std::vector<bool> is_needed = skinned_trees(source);
-  const ModelPose bind = bind_pose(source);
+  const ModelPose bind = or_throw(bind_pose(source));
   bones.has_adopted = true;
   for (Index i = 0; i < source.skeleton.bones.size(); ++i) {
     if (!is_needed[i]) continue;
@@ -121,7 +122,7 @@ void write_mesh(const Skin& skin, const std::vector<WeightRow>& rows, Mesh& mesh
 }  // namespace
 
 TargetBones choose_bones(const Character& source, const Character& target, const BoneMatch& match) {
-  TargetBones bones{target.skeleton, bind_pose(target).model_from_bone, {}, {}};
+  TargetBones bones{target.skeleton, or_throw(bind_pose(target)).model_from_bone, {}, {}};
   bones.of_source.assign(source.skeleton.bones.size(), kNone);
   const std::vector<bool> in_source = weighted_bones(source), in_target = weighted_bones(target);
   bool keeps = false;

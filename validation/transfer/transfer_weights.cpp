@@ -4,6 +4,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "core/internal/out_of_memory.h"
 #include "validation/match/skin_difference.h"
 #include "validation/transfer/finish_rows.h"
 #include "validation/transfer/inpaint.h"
@@ -176,8 +177,7 @@ MatchRegions Transfer::regions() const {
   for (Index m = 0; m < source_.meshes.size(); ++m)
     for (const WeightRow& row : rows_of(source_, m, {})) {
       double balance[3] = {0, 0, 0};
-      for (const BoneWeight& entry : row)
-        balance[1 + side_of_bone[entry.bone]] += entry.weight;
+      for (const BoneWeight& entry : row) balance[1 + side_of_bone[entry.bone]] += entry.weight;
       side_of_vertex.push_back(balance[0] > 0.5 ? -1 : balance[2] > 0.5 ? 1 : 0);
     }
   for (const auto& [a, b, c] : from_.triangles) {
@@ -382,14 +382,17 @@ TransferResult Transfer::describe() {
 
 Result<TransferResult> transfer_weights(const Character& source, const Character& target,
                                         const TransferOptions& options) {
-  for (const Character* const character : {&source, &target})
-    if (const Status status = validate_character(*character); !status) return status;
-  if (const Status status = check_options(options, target); !status) return status;
-  const Result<BoneMatch> match = match_bones(source.skeleton, target.skeleton, options.bone_names);
-  if (!match) return match.error();
-  const Result<std::vector<bool>> chosen = chosen_bones(source, options);
-  if (!chosen) return chosen.error();
-  return Transfer(source, target, options, *match, *chosen).run();
+  return or_out_of_memory([&]() -> Result<TransferResult> {
+    for (const Character* const character : {&source, &target})
+      if (const Status status = validate_character(*character); !status) return status;
+    if (const Status status = check_options(options, target); !status) return status;
+    const Result<BoneMatch> match =
+        match_bones(source.skeleton, target.skeleton, options.bone_names);
+    if (!match) return match.error();
+    const Result<std::vector<bool>> chosen = chosen_bones(source, options);
+    if (!chosen) return chosen.error();
+    return Transfer(source, target, options, *match, *chosen).run();
+  });
 }
 
 }  // namespace sunder

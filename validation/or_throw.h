@@ -1,0 +1,22 @@
+#pragma once
+
+#include <sunder/core/status.h>
+
+#include <new>
+#include <utility>
+
+namespace sunder::validation {
+
+/// The value of a call that can only run out of memory. The public functions of this module turn
+/// the exception into a status again.
+/// @throws std::bad_alloc
+template <class T>
+[[nodiscard]] T or_throw(Result<T> result) {
+  if (!result) throw std::bad_alloc();
+  return std::move(*result);
+}
+inline void or_throw(const Status& status) {
+  if (!status) throw std::bad_alloc();
+}
+
+}  // namespace sunder::validation
