@@ -35,7 +35,8 @@ Status add_poses(std::shared_ptr<const Character> source, const PoseSetSpec& spe
     const std::size_t count = set->size(role);
     MeasuredPoses measured{name, {}};
     for (std::size_t i = 0; i < count; i += step_through(count)) {
-      set->compute(role, i, measured.poses.emplace_back());
+      if (const Status status = set->compute(role, i, measured.poses.emplace_back()); !status)
+        return status;
       if (!is_finite(measured.poses.back())) measured.poses.pop_back();
     }
     if (!measured.poses.empty()) sets.push_back(std::move(measured));
