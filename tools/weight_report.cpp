@@ -138,7 +138,7 @@ Result<Json> weight_errors_by_policy_json(TornModel& model, std::shared_ptr<cons
     operation.pose = pose;
     if (policy == WeightPolicy::refit) {
       if (!*over) continue;
-      operation.refit.poses = pose_set_of(*over);
+      operation.refit.poses = pose_set_of(**over);
     }
     Result<Json> errors = measure_as({operation}, *sets, model);
     if (!errors) return errors.error();
