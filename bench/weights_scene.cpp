@@ -87,7 +87,8 @@ std::optional<Poses> make_poses(const std::shared_ptr<const Character>& characte
   Poses poses{spec, {}, {}};
   for (const auto& [role, into] : {std::pair(PoseSet::Role::fit, &poses.fit),
                                    std::pair(PoseSet::Role::held_out, &poses.held_out)})
-    for (std::size_t i = 0; i < set->size(role); ++i) set->compute(role, i, into->emplace_back());
+    for (std::size_t i = 0; i < set->size(role); ++i)
+      if (!set->compute(role, i, into->emplace_back())) return std::nullopt;
   return poses;
 }
 

@@ -59,6 +59,7 @@ void History::push(const OpenedBorders& borders) {
   };
   Entry& entry = *spare_.back();
   entry.serial = ++newest_serial;
+  entry.redo.end.reset();  // that of an operation that was here before
   entry.lips = append(borders.lips, next_lips(), borders_.lips);
   entry.rim_points = append(borders.rim_points, next_rim_points(), borders_.rim_points);
   done_.push_back(std::move(spare_.back()));

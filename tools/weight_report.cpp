@@ -35,7 +35,8 @@ Status add_poses(std::shared_ptr<const Character> source, const PoseSetSpec& spe
     const std::size_t count = set->size(role);
     MeasuredPoses measured{name, {}};
     for (std::size_t i = 0; i < count; i += step_through(count)) {
-      set->compute(role, i, measured.poses.emplace_back());
+      if (const Status status = set->compute(role, i, measured.poses.emplace_back()); !status)
+        return status;
       if (!is_finite(measured.poses.back())) measured.poses.pop_back();
     }
     if (!measured.poses.empty()) sets.push_back(std::move(measured));
@@ -137,7 +138,7 @@ Result<Json> weight_errors_by_policy_json(TornModel& model, std::shared_ptr<cons
     operation.pose = pose;
     if (policy == WeightPolicy::refit) {
       if (!*over) continue;
-      operation.refit.poses = pose_set_of(*over);
+      operation.refit.poses = pose_set_of(**over);
     }
     Result<Json> errors = measure_as({operation}, *sets, model);
     if (!errors) return errors.error();

@@ -290,7 +290,8 @@ void weigh_by_each_policy(const std::filesystem::path& file, std::uint64_t seed)
   const auto set = PoseSet::create(loaded->character, spec);
   ASSERT_TRUE(set) << set.error().text();
   std::vector<ModelPose> poses(set->size(PoseSet::Role::fit));
-  for (std::size_t i = 0; i < poses.size(); ++i) set->compute(PoseSet::Role::fit, i, poses[i]);
+  for (std::size_t i = 0; i < poses.size(); ++i)
+    ASSERT_TRUE(set->compute(PoseSet::Role::fit, i, poses[i]));
   const auto measured = [&] {
     auto errors = measure_weight_errors(*model, 0, 1, poses);
     EXPECT_TRUE(errors) << errors.error().text();

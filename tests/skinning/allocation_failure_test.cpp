@@ -1,6 +1,7 @@
 // Where memory runs out, a call of skinning says so, and what it was to change is as before.
 
 #include <sunder/skinning/deform.h>
+#include <sunder/skinning/pose.h>
 #include <sunder/skinning/skinned_mesh.h>
 
 #include <gtest/gtest.h>

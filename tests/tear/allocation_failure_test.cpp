@@ -28,9 +28,10 @@ using test::status_of;
 /// A model, and what refers to it.
 struct Subject {
   explicit Subject(std::shared_ptr<const Character> source)
-      : model(std::move(*TornModel::create(std::move(source)))) {}
+      : model(*TornModel::create(std::move(source))), bind(*bind_pose(model.source())) {}
 
   TornModel model;
+  ModelPose bind;
   std::optional<TearStroke> stroke;
   std::optional<RefitJob> job;
   ChangeRecord change;
@@ -109,8 +110,6 @@ std::shared_ptr<const Character> tubes() {
   return character;
 }
 
-ModelPose bind_of(const Subject& subject) { return *bind_pose(subject.model.source()); }
-
 const Stroke kAcross = {test::down_at(0.31, -0.1), test::down_at(0.36, 0.5),
                         test::down_at(0.63, 0.7)};
 const Stroke kAlong = {test::down_at(0.05, 0.43), test::down_at(0.93, 0.52)};
@@ -118,12 +117,12 @@ const Stroke kAlong = {test::down_at(0.05, 0.43), test::down_at(0.93, 0.52)};
 void nothing(Subject&) {}
 
 void torn_once(Subject& subject) {
-  ASSERT_TRUE(subject.model.tear(bind_of(subject), kAlong, {.width = 0.04}));
+  ASSERT_TRUE(subject.model.tear(subject.bind, kAlong, {.width = 0.04}));
 }
 
 Call tear_with(const TearOptions& options) {
   return [=](Subject& subject) {
-    return status_of(subject.model.tear(bind_of(subject), kAcross, options, &subject.change));
+    return status_of(subject.model.tear(subject.bind, kAcross, options, &subject.change));
   };
 }
 
@@ -147,11 +146,11 @@ TEST(AllocationFailure, tears_with_other_weights_change_nothing) {
 
 TEST(AllocationFailure, cuts_and_bores_change_nothing) {
   const auto cut = [](Subject& subject) {
-    PlaneCut cut;
-    cut.point = Vec3d(0.0, 0.9, 0.0);
-    cut.normal = Vec3d(0.2, 1.0, 0.1);
-    cut.caps = true;
-    return status_of(subject.model.cut(bind_of(subject), cut, &subject.change));
+    PlaneCut plane;
+    plane.point = Vec3d(0.0, 0.9, 0.0);
+    plane.normal = Vec3d(0.2, 1.0, 0.1);
+    plane.caps = true;
+    return status_of(subject.model.cut(subject.bind, plane, &subject.change));
   };
   ASSERT_NO_FATAL_FAILURE(starve_model(tubes(), nothing, cut));
   const auto drill = [](Subject& subject) {
@@ -160,7 +159,7 @@ TEST(AllocationFailure, cuts_and_bores_change_nothing) {
     bore.radius = 0.2;
     bore.depth = 1.0;
     bore.wall = true;
-    return status_of(subject.model.drill(bind_of(subject), bore, &subject.change));
+    return status_of(subject.model.drill(subject.bind, bore, &subject.change));
   };
   ASSERT_NO_FATAL_FAILURE(starve_model(sheet(), torn_once, drill));
 }
@@ -224,15 +223,16 @@ TEST(AllocationFailure, replay_changes_nothing) {
   test::Random random(3);
   moving.pose = test::random_pose(*sheet(), random, 0.1, 1.05);
   moving.pose_changes.push_back({2, test::random_pose(*sheet(), random, 0.1, 1.05)});
+  const Operation operation = moving;
   ASSERT_NO_FATAL_FAILURE(starve_model(sheet(), torn_once, [&](Subject& subject) {
-    return status_of(apply_operation(subject.model, moving, &subject.changes));
+    return status_of(apply_operation(subject.model, operation, &subject.changes));
   }));
 }
 
 TEST(AllocationFailure, strokes_change_nothing) {
   const TearOptions options{.width = 0.05, .wall_depth = 0.04};
   const auto begin = [=](Subject& subject) -> Status {
-    auto stroke = TearStroke::create(subject.model, bind_of(subject), kAcross[0], options);
+    auto stroke = TearStroke::create(subject.model, subject.bind, kAcross[0], options);
     if (!stroke) return stroke.error();
     subject.stroke.emplace(std::move(*stroke));
     return {};
@@ -274,11 +274,11 @@ TEST(AllocationFailure, a_stroke_is_cancelled_without_memory) {
   Subject subject(sheet());
   torn_once(subject);
   const Whole before(subject);
-  auto stroke = TearStroke::create(subject.model, bind_of(subject), kAcross[0],
+  auto stroke = TearStroke::create(subject.model, subject.bind, kAcross[0],
                                    {.width = 0.05, .wall_depth = 0.04});
   ASSERT_TRUE(stroke);
   for (std::size_t i = 1; i < kAcross.size(); ++i)
-    ASSERT_TRUE(stroke->extend(bind_of(subject), kAcross[i]));
+    ASSERT_TRUE(stroke->extend(subject.bind, kAcross[i]));
   {
     const FailingAllocations failing(0);
     EXPECT_TRUE(stroke->cancel());
@@ -352,7 +352,8 @@ TEST(AllocationFailure, a_model_that_often_lacks_memory_ends_as_one_that_never_d
     if (i % 6 == 4) operation = UndoOperation{std::min(2u, fed->undo_count())};
     if (i % 6 == 5) operation = RedoOperation{std::min(2u, fed->redo_count())};
     const auto wanted = apply_operation(*fed, operation);
-    for (std::uint64_t budget = 0;; budget = 1 + budget + random.index(1 + budget / 4)) {
+    for (std::uint64_t budget = 0;;
+         budget = 1 + budget + random.index(1 + static_cast<std::uint32_t>(budget / 4))) {
       const std::uint64_t digest = starved->digest();
       Status status;
       ASSERT_NO_THROW({

@@ -178,5 +178,30 @@ TEST(Undo, an_operation_that_fails_changes_nothing) {
   expect_refused(model.drill(pose, bore), StatusCode::invalid_argument);
 }
 
+TEST(Undo, an_operation_does_not_get_what_redo_kept_of_another_one) {
+  TornModel model = test::make_model(test::make_sheet(6));
+  const ModelPose pose = *bind_pose(model.source());
+  const auto tear_at = [&](double x) {
+    ASSERT_TRUE(model.tear(pose, Stroke{down_at(x, 0.21), down_at(x, 0.63)}));
+  };
+  tear_at(0.2);
+  const std::uint32_t vertices = model.character().meshes[0].vertex_count();
+  for (const bool redoes : {true, false}) {
+    ASSERT_TRUE(model.undo());
+    if (redoes) {
+      ASSERT_TRUE(model.redo());
+    }
+  }
+  tear_at(0.7);  // the entry of the first tear is free now, and the next one gets it
+  ASSERT_TRUE(model.undo());
+  tear_at(0.2 + 1.0 / 6);
+  ASSERT_EQ(model.character().meshes[0].vertex_count(), vertices) << "not the same shape";
+  const ModelState torn = state_of(model);
+  ASSERT_TRUE(model.undo());
+  ASSERT_EQ(model.character(), model.source());
+  ASSERT_TRUE(model.redo());
+  EXPECT_EQ(difference(state_of(model), torn), "");
+}
+
 }  // namespace
 }  // namespace sunder
