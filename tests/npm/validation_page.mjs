@@ -5,7 +5,10 @@ import { pathToFileURL } from 'node:url';
 import puppeteer from 'puppeteer-core';
 
 const [file, picture] = process.argv.slice(2);
+const PATIENCE = 240000;  // ms; a busy machine is no failure
 const browser = await puppeteer.launch({
+  timeout: PATIENCE,
+  protocolTimeout: PATIENCE,
   executablePath: execSync('command -v chromium').toString().trim(),
   // Pictures by software: there is no graphics card where tests run.
   args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'],
@@ -15,6 +18,7 @@ const facts = { errors: [], requests: [] };
 /** Opens the page anew. */
 async function open(colourScheme = 'light') {
   const page = await browser.newPage();
+  page.setDefaultTimeout(PATIENCE);
   await page.setViewport({ width: 1440, height: 900 });
   await page.emulateMediaFeatures([{ name: 'prefers-color-scheme', value: colourScheme },
     { name: 'prefers-reduced-motion', value: 'reduce' }]);
@@ -27,7 +31,7 @@ async function open(colourScheme = 'light') {
   });
   await page.setOfflineMode(true);
   await page.goto(pathToFileURL(file).href);
-  await page.waitForSelector('[data-ready=true]', { timeout: 60000 });
+  await page.waitForSelector('[data-ready=true]');
   await settle(page);
   return page;
 }
@@ -143,7 +147,7 @@ facts.worst = await page.evaluate(() => {
 });
 const canvas = await (await page.$('#canvas')).boundingBox();
 await page.mouse.move(canvas.x + 0.75 * canvas.width, canvas.y + canvas.height / 2);
-await page.waitForSelector('#readout:not([hidden])', { timeout: 5000 });
+await page.waitForSelector('#readout:not([hidden])');
 facts.readout = await page.$eval('#readout', (output) => output.innerText);
 
 facts.changed_by_heat_map = await changedBy(page, () => page.keyboard.press('h'));
@@ -155,7 +159,7 @@ facts.viewports_overlaid = await page.evaluate(() => sunder.stage.views.length);
 facts.pose_given = await page.evaluate(() => sunder.player.pose);
 await page.focus('#canvas');
 await page.keyboard.press('Space');
-await page.waitForFunction(() => sunder.player.time > 0.1, { timeout: 20000 });
+await page.waitForFunction(() => sunder.player.time > 0.1);
 await page.keyboard.press('Space');
 facts.is_playing = await page.evaluate(() => sunder.player.isPlaying);
 await page.click('#findings summary');
