@@ -176,8 +176,7 @@ MatchRegions Transfer::regions() const {
   for (Index m = 0; m < source_.meshes.size(); ++m)
     for (const WeightRow& row : rows_of(source_, m, {})) {
       double balance[3] = {0, 0, 0};
-      for (const BoneWeight& entry : row)
-        balance[1 + side_of_bone[entry.bone]] += entry.weight;
+      for (const BoneWeight& entry : row) balance[1 + side_of_bone[entry.bone]] += entry.weight;
       side_of_vertex.push_back(balance[0] > 0.5 ? -1 : balance[2] > 0.5 ? 1 : 0);
     }
   for (const auto& [a, b, c] : from_.triangles) {
