@@ -171,7 +171,8 @@ void add_weight_rules(CLI::App& verb, TransferRequest& request) {
   verb.add_option("--bone-names", request.bone_names,
                   "JSON file of bones whose names differ: {\"of the target\": \"of the source\"}");
   verb.add_option("--bones", options.bones, "Only these bones of the source, separated by commas")
-      ->delimiter(',');
+      ->delimiter(',')
+      ->allow_extra_args(false);
   verb.add_option("--mix", options.mix, "Share of the new weights; the rest are the target's own")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();

@@ -17,9 +17,10 @@
 namespace sunder::validation {
 namespace {
 
-constexpr double kTie = 2e-7;         ///< Of the diagonal: equally close, for float positions.
-constexpr double kOnSurface = 1e-6;   ///< Of the diagonal: what float positions may be off.
-constexpr double kSameCosine = 0.05;  ///< Normals that agree equally well.
+constexpr double kTie = 2e-7;           ///< Of the diagonal: equally close, for float positions.
+constexpr double kOnSurface = 1e-6;     ///< Of the diagonal: what float positions may be off.
+constexpr double kRoughlyAgrees = 0.5;  ///< Cosine.
+constexpr double kSameCosine = 0.05;    ///< Normals that agree equally well.
 
 /// A place that competes to be the match of a vertex.
 struct Candidate {
@@ -27,14 +28,18 @@ struct Candidate {
   std::array<double, 3> barycentric = {1.0, 0, 0};
   double distance = 0;
   double cosine = 1;
+  bool agrees = false;  ///< Roughly: normals of flat and bent neighbours do.
   bool same_side = false, same_number = false, same_region = false;
 };
 
 /// Whether `a` is the better of two that are equally close.
 bool is_better(const Candidate& a, const Candidate& b) {
+  const auto rank = [](const Candidate& of) {
+    return std::tuple(!of.agrees, !of.same_side, !of.same_number, !of.same_region);
+  };
+  if (rank(a) != rank(b)) return rank(a) < rank(b);
   if (std::abs(a.cosine - b.cosine) > kSameCosine) return a.cosine > b.cosine;
-  return std::tuple(!a.same_side, !a.same_number, !a.same_region, a.triangle) <
-         std::tuple(!b.same_side, !b.same_number, !b.same_region, b.triangle);
+  return a.triangle < b.triangle;
 }
 
 /// The vertex whose match is sought.
@@ -140,6 +145,7 @@ void SurfaceSearch::Tree::describe(const Query& query, const MatchLimits& limits
     candidate.same_side &= surface.tear_side[vertex] == query.of.tear_side[query.vertex];
   }
   candidate.cosine = cosine_of(query.of.normals[query.vertex], normal, limits.either_side);
+  candidate.agrees = candidate.cosine >= std::max(kRoughlyAgrees, limits.cosine);
   candidate.same_region = query.shares_region(surface, candidate.triangle);
 }
 
@@ -194,7 +200,8 @@ SurfaceMatch SurfaceSearch::closest(const BindSurface& of, Index vertex,
   const BindSurface& surface = tree_->surface;
   const Query query{of, vertex};
   Candidate best = tree_->coincident(query, limits);
-  if (best.triangle == kNone) best = tree_->nearest(query, limits);
+  const bool is_vertex = best.triangle != kNone;
+  if (!is_vertex) best = tree_->nearest(query, limits);
   SurfaceMatch match;
   if (best.triangle == kNone) return match;
   match.mesh = surface.mesh_of_triangle(best.triangle);
@@ -202,9 +209,10 @@ SurfaceMatch SurfaceSearch::closest(const BindSurface& of, Index vertex,
   match.barycentric = best.barycentric;
   match.distance = best.distance;
   match.cosine = best.cosine;
-  const bool is_on_surface = best.distance <= kOnSurface * surface.diagonal;
-  match.is_accepted =
-      is_on_surface || (best.distance <= limits.distance && best.cosine >= limits.cosine);
+  const bool is_near = best.distance <= limits.distance && best.cosine >= limits.cosine;
+  const bool is_on_surface = best.distance <= kOnSurface * surface.diagonal &&
+                             (is_vertex || best.cosine >= kRoughlyAgrees);
+  match.is_accepted = is_near || is_on_surface;
   return match;
 }
 

@@ -21,8 +21,8 @@ struct SurfaceMatch {
   bool is_accepted = false;
 };
 
-/// A match is accepted if it is near enough and its normal agrees. Places that lie on the surface
-/// (within 1e-6 of its diagonal) are accepted whatever their normal.
+/// A match is accepted if it is near enough and its normal agrees. Places on the surface (within
+/// 1e-6 of its diagonal) are accepted up to 60 degrees, vertices at one place always.
 struct MatchLimits {
   double distance = 0;       ///< Largest, metres.
   double cosine = -1;        ///< Smallest.
@@ -50,10 +50,10 @@ struct SurfaceMatches {
 
 /// Finds the closest places on a surface. A vertex at the very place is found by a hash table, all
 /// else by a tree of boxes (Eigen's KdBVH). Places that are equally close (within 2e-7 of the
-/// diagonal) are told apart by better agreeing normals (cosines that differ by more than 0.05),
-/// then by the same tear side, the same number in the same region, the same region, and last by the
-/// smallest triangle, so that the result does
-/// not depend on the order of the search. Reentrant.
+/// diagonal) are told apart by roughly agreeing normals (60 degrees, or the limit), the same tear
+/// side, the same number in the same region, the same region, clearly better agreeing normals, and
+/// last by the smallest triangle, so that the result does not depend on the order of the search.
+/// Reentrant.
 class SurfaceSearch {
  public:
   /// @param surface    outlives the search.
