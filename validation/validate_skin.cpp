@@ -83,7 +83,7 @@ class Validation {
 
  private:
   void begin(std::string_view stage) {
-    constexpr double kStages = 8.0;
+    constexpr double kStages = 7.0;
     if (options_.progress) options_.progress(stage, stage_ / kStages);
     stage_ += 1.0;
   }
@@ -95,6 +95,7 @@ class Validation {
   void check_lips();
 
   std::shared_ptr<const Character> source_character_, target_character_;
+  std::shared_ptr<const Character> named_ = target_character_;  ///< Kept for the findings.
   const ValidationOptions& options_;
   BoneMatch bones_;
   double stage_ = 0.0;
@@ -106,7 +107,7 @@ class Validation {
 };
 
 void Validation::bring_to_scale() {
-  report_.scale = find_scale(*source_character_, *target_character_, bones_);
+  report_.scale = find_scale(*source_, *target_, bones_);
   if (report_.scale == 1.0) return findings_->add(Code::scale, {});
   char text[160];
   std::snprintf(text, sizeof text,
@@ -117,6 +118,7 @@ void Validation::bring_to_scale() {
                          report_.scale);
   target_character_ =
       std::make_shared<const Character>(divided_by(*target_character_, report_.scale));
+  target_.emplace(*target_character_, options_.stored_target);
 }
 
 void Validation::match() {
@@ -190,7 +192,7 @@ void Validation::check_poses(const RowReader& reader) {
   const SkinDifferences differences =
       difference_of(*source_character_, *target_character_, matches_, bones_);
   measure_deviation(reader, differences, batches, points.bind(), report_);
-  check_deviation(reader, points, differences, batches,
+  check_deviation(reader, points, differences, batches, report_,
                   options_.maximum_deviation * report_.diagonal, *findings_);
   check_shapes(reader, points, differences, batches.back(), *findings_);
   const CrackRows cracks = check_cracks(reader, points, batches, *findings_);
@@ -211,11 +213,10 @@ void Validation::check_lips() {
 
 ValidationReport Validation::run() {
   findings_.emplace(*target_character_);
-  begin("scale");
-  bring_to_scale();
   begin("surfaces");
   source_.emplace(*source_character_, options_.stored_source);
   target_.emplace(*target_character_, options_.stored_target);
+  bring_to_scale();
   report_.diagonal = source_->surface.diagonal;
   report_.source_bone_of_target = bones_.source_of_target;
   replayed_ = check_pops(source_character_, options_.operations, report_.diagonal, *findings_);

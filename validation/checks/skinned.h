@@ -1,6 +1,8 @@
 #pragma once
 
 #include <sunder/core/character.h>
+#include <sunder/validation/finding.h>
+#include <sunder/weights/influences.h>
 
 #include <span>
 #include <vector>

@@ -1,4 +1,3 @@
-#include <sunder/weights/influences.h>
 #include "validation/checks/stored_checks.h"
 
 #include <sunder/weights/influences.h>
