@@ -15,8 +15,7 @@ namespace {
 
 Result<Json> read_json(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
-  if (!stream)
-    return Status::failure(StatusCode::file_not_found, kNone, "cannot read this file");
+  if (!stream) return Status::failure(StatusCode::file_not_found, kNone, "cannot read this file");
   std::ostringstream text;
   text << stream.rdbuf();
   Json json = Json::parse(text.str(), nullptr, false);
@@ -58,12 +57,13 @@ Status read_range(const Json& json, const std::string& bone, JointRange& range) 
   }
   if (!json.is_object() || !is_number("lower") || !is_number("upper") || !json.contains("axis") ||
       !json["axis"].is_array() || json["axis"].size() != 3 ||
-      !std::ranges::all_of(json["axis"], [](const Json& value) { return value.is_number(); }))
+      !std::all_of(json["axis"].begin(), json["axis"].end(),
+                   [](const Json& value) { return value.is_number(); }))
     return Status::failure(StatusCode::malformed_file, kNone,
-                           "/limits/%.80s: expected angle, or axis, lower and upper",
-                           bone.c_str());
+                           "/limits/%.80s: expected angle, or axis, lower and upper", bone.c_str());
   range.turn = JointRange::Turn::hinge;
-  for (int i = 0; i < 3; ++i) range.axis[i] = json["axis"][static_cast<std::size_t>(i)];
+  for (int i = 0; i < 3; ++i)
+    range.axis[i] = json["axis"][static_cast<std::size_t>(i)].get<double>();
   range.lower = radians(json["lower"]);
   range.upper = radians(json["upper"]);
   return {};
@@ -92,8 +92,8 @@ Result<JointLimits> read_limits(const std::filesystem::path& file, const Charact
 
 /// Notes about weights: what the file stores is judged itself.
 bool is_about_weights(const LoadNote& note) {
-  for (const char* const text : {"weights", "joints named twice", "influences named joints",
-                                 "vertices without weight"})
+  for (const char* const text :
+       {"weights", "joints named twice", "influences named joints", "vertices without weight"})
     if (note.text.find(text) != std::string::npos) return true;
   return false;
 }
@@ -109,9 +109,10 @@ void add_load_notes(ValidatedPair& pair) {
     if (note.kind == LoadNote::Kind::information || (stored && is_about_weights(note))) continue;
     const bool repaired = note.kind == LoadNote::Kind::repaired;
     const FindingKind& kind = kind_named(repaired ? "SUNDER_W_REPAIRED" : "SUNDER_W_DROPPED");
-    const bool inherited = std::ranges::any_of(pair.source.report.notes, [&](const LoadNote& other) {
-      return other.kind == note.kind && other.text == note.text && other.count >= note.count;
-    });
+    const bool inherited =
+        std::ranges::any_of(pair.source.report.notes, [&](const LoadNote& other) {
+          return other.kind == note.kind && other.text == note.text && other.count >= note.count;
+        });
     Finding finding;
     finding.code = kind.code;
     finding.severity = inherited ? Severity::note : kind.severity;
@@ -190,8 +191,7 @@ std::optional<ValidatedPair> validate_pair(
   options.progress = progress;
   std::vector<Operation> operations;
   if (!read_options(pair, *source->character, operations, options, failure)) return {};
-  Result<ValidationReport> report =
-      validate_skin(source->character, target->character, options);
+  Result<ValidationReport> report = validate_skin(source->character, target->character, options);
   if (!report) {
     failure = {pair.target.string(), report.error(), ExitCode::usage};
     return {};
@@ -203,8 +203,8 @@ std::optional<ValidatedPair> validate_pair(
 }
 
 bool has_findings(const ValidationReport& report, Severity severity) {
-  return std::ranges::any_of(
-      report.findings, [&](const Finding& finding) { return finding.severity >= severity; });
+  return std::ranges::any_of(report.findings,
+                             [&](const Finding& finding) { return finding.severity >= severity; });
 }
 
 }  // namespace sunder::tools

@@ -272,7 +272,8 @@ std::pair<Index, Index> two_slots(const Mesh& mesh) {
   return {std::min(first, second), std::max(first, second)};
 }
 
-/// Changes the rows of the first mesh. @param change  of a row; vertices that it alters are touched.
+/// Changes the rows of the first mesh. @param change  of a row; vertices that it alters are
+/// touched.
 template <class Change>
 PlantedMistake in_first_mesh(const char* code, const Character& model, const Change& change) {
   PlantedMistake planted{code, model, model, {}, {}, {}, {}, {}};
@@ -330,8 +331,8 @@ PlantedMistake unmap_bone(const Character& model) {
 /// The source is the torn model, the target has its lips as one.
 PlantedMistake weld_lips(const Character& model) {
   const TornModel torn = cut_in_two(model);
-  PlantedMistake planted{"SUNDER_W_LIP_WELDED", torn.character(), torn.character(), {}, {}, {}, {},
-                         {}};
+  PlantedMistake planted{
+      "SUNDER_W_LIP_WELDED", torn.character(), torn.character(), {}, {}, {}, {}, {}};
   for (Index m = 0; m < planted.target.meshes.size(); ++m) {
     Mesh& mesh = planted.target.meshes[m];
     std::map<std::array<float, 3>, Index> first;
@@ -422,8 +423,8 @@ PlantedMistake lose_morphs(const Character& model) {
     std::erase_if(clip.channels, [](const Channel& channel) {
       return channel.target == ChannelTarget::morph_weights;
     });
-  PlantedMistake planted{"SUNDER_W_MORPH_LOST", source, cut_in_two(source).character(), {}, {}, {},
-                         {}, {}};
+  PlantedMistake planted{
+      "SUNDER_W_MORPH_LOST", source, cut_in_two(source).character(), {}, {}, {}, {}, {}};
   for (Index m = 0; m < source.meshes.size(); ++m) {
     auto& deltas = planted.target.meshes[m].morph_targets[0].position_deltas;
     for (Index v = source.meshes[m].vertex_count(); v < deltas.size(); ++v) {
@@ -516,8 +517,7 @@ Character make_two_sided(const Character& model) {
     for (std::size_t slot = 0; slot < skin.bones.size(); ++slot) {
       Affine3f shifted = Affine3f::Identity();
       shifted.translate(Eigen::Vector3f(shift, 0, 0));
-      Affine3f model_from_bone =
-          shifted * bind.model_from_bone[skin.bones[slot]].cast<float>();
+      Affine3f model_from_bone = shifted * bind.model_from_bone[skin.bones[slot]].cast<float>();
       Affine3f bone_from_bind = skin.bone_from_bind[slot] * shifted.inverse();
       if (right) {
         model_from_bone = reflected(model_from_bone);

@@ -17,8 +17,8 @@ namespace {
 
 void expect_no_alarm(const ValidationReport& report, const std::string& what) {
   for (const Finding& finding : report.findings)
-    EXPECT_EQ(finding.severity, Severity::note) << what << ": " << finding.code << ": "
-                                                << finding.text;
+    EXPECT_EQ(finding.severity, Severity::note)
+        << what << ": " << finding.code << ": " << finding.text;
 }
 
 LoadOptions keep_stored() {

@@ -38,8 +38,7 @@ double Spread::percentile95() const {
   return 0.0;
 }
 
-void raise_largest(const SkinDifferences& rows, const PoseBatch& batch,
-                   std::span<double> largest) {
+void raise_largest(const SkinDifferences& rows, const PoseBatch& batch, std::span<double> largest) {
   for (const auto& matrices : batch.poses)
     for (std::size_t row = 0; row < largest.size(); ++row) {
       const auto terms = terms_of(rows, row);
@@ -158,10 +157,10 @@ void check_deviation(const RowReader& reader, const SkinPoints& points,
   }
   for (std::size_t i = 0; i < vertices.size(); ++i)
     if (largest[i] > threshold) places.push_back(target.place(vertices[i], kNone, largest[i]));
-  findings.add(Code::deviation, std::move(places),
-               "Over " + std::to_string(poses) + " poses; the limit is " +
-                   std::to_string(threshold) + " m.",
-               Evidence::sampled);
+  findings.add(
+      Code::deviation, std::move(places),
+      "Over " + std::to_string(poses) + " poses; the limit is " + std::to_string(threshold) + " m.",
+      Evidence::sampled);
 }
 
 }  // namespace sunder::validation

@@ -52,7 +52,8 @@ std::vector<Affine3d> bones_from_model(const ModelPose& bind) {
 PoseBatch take_poses(std::string_view name, const PoseSet& set,
                      const std::vector<Affine3d>& bone_from_model, std::size_t most) {
   PoseBatch batch{name, false, {}};
-  const std::size_t fit = set.size(PoseSet::Role::fit), all = fit + set.size(PoseSet::Role::held_out);
+  const std::size_t fit = set.size(PoseSet::Role::fit),
+                    all = fit + set.size(PoseSet::Role::held_out);
   const std::size_t step = all / most + (all % most != 0);
   ModelPose pose;
   for (std::size_t i = 0; i < all; i += std::max<std::size_t>(step, 1)) {
@@ -89,8 +90,8 @@ PoseBatch make_random_poses(const Character& source, const ModelPose& bind,
       const double angle = at_limit ? options.random_angle : options.random_angle * uniform();
       const Vec3d center = bind.model_from_bone[bone].translation();
       const Affine3d turn = turn_about(center, axis, angle);
-      matrices[bone] = bones[bone].parent == kNone ? turn
-                                                   : multiply(matrices[bones[bone].parent], turn);
+      matrices[bone] =
+          bones[bone].parent == kNone ? turn : multiply(matrices[bones[bone].parent], turn);
     }
   }
   return batch;

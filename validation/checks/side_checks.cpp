@@ -52,8 +52,8 @@ std::vector<std::pair<Index, Index>> find_pairs(const Skeleton& skeleton) {
     const std::string& name = skeleton.bones[bone].name;
     const int side = side_of_name(name);
     if (side == 0) continue;
-    auto& pair = by_name.try_emplace(name_without_side(name), std::array{kNone, kNone})
-                     .first->second;
+    auto& pair =
+        by_name.try_emplace(name_without_side(name), std::array{kNone, kNone}).first->second;
     pair[side < 0 ? 0 : 1] = bone;
   }
   std::vector<std::pair<Index, Index>> pairs;
@@ -161,13 +161,13 @@ Places find_across_tears(const RowReader& reader) {
   const Skinned &source = reader.source(), &target = reader.target();
   PositionTable table(source.surface.positions.size());
   for (Index v = 0; v < source.surface.vertex_count(); ++v)
-    if (source.surface.triangle_of_vertex[v] != kNone)
-      table.insert(source.surface.positions[v], v);
+    if (source.surface.triangle_of_vertex[v] != kNone) table.insert(source.surface.positions[v], v);
   Places places;
   WeightRow actual, expected, other_row;
   for (Index v = 0; v < target.surface.vertex_count(); ++v) {
     if (target.surface.tear_side[v] == 0.0f) continue;
-    const Index mesh = target.surface.mesh_of_vertex(v), own = v - target.surface.first_vertex[mesh];
+    const Index mesh = target.surface.mesh_of_vertex(v),
+                own = v - target.surface.first_vertex[mesh];
     const SurfaceMatch& match = reader.match(mesh, own);
     if (!match.is_accepted) continue;
     reader.actual(mesh, own, actual);

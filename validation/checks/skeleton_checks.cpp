@@ -93,11 +93,10 @@ void check_default_pose(const RowReader& reader, double reach, FindingList& find
     const bool same_parent =
         parent == kNone ? other == kNone : reader.bones().source_of_target[parent] == other;
     const double difference =
-        same_parent
-            ? distance_between(affine_of(target.skeleton.bones[bone].rest),
-                               affine_of(source.skeleton.bones[counterpart].rest), reach)
-            : distance_between(of_target.model_from_bone[bone],
-                               of_source.model_from_bone[counterpart], reach);
+        same_parent ? distance_between(affine_of(target.skeleton.bones[bone].rest),
+                                       affine_of(source.skeleton.bones[counterpart].rest), reach)
+                    : distance_between(of_target.model_from_bone[bone],
+                                       of_source.model_from_bone[counterpart], reach);
     if (difference > least) places.push_back(place_of_bone(bone, of_target, difference));
   }
   findings.add(Code::default_pose, std::move(places));

@@ -29,9 +29,8 @@ SkinPoints::SkinPoints(const RowReader& reader)
     auto& slots = of_target_.emplace_back();
     for (std::size_t i = 0; i < skin.bones.size(); ++i) {
       const Index counterpart = reader.bones().source_of_target[skin.bones[i]];
-      const Affine3d& model_from_bone = counterpart != kNone
-                                            ? bind_.model_from_bone[counterpart]
-                                            : own.model_from_bone[skin.bones[i]];
+      const Affine3d& model_from_bone = counterpart != kNone ? bind_.model_from_bone[counterpart]
+                                                             : own.model_from_bone[skin.bones[i]];
       slots.push_back({reader.bones().driver_of_target[skin.bones[i]],
                        multiply(model_from_bone, Affine3d(skin.bone_from_bind[i].cast<double>()))});
     }
