@@ -1,7 +1,5 @@
 #include "tools/validate.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <atomic>
 #include <cstdio>
@@ -10,6 +8,7 @@
 #include <mutex>
 #include <sstream>
 #include <thread>
+#include <unistd.h>
 
 #include "tools/verbs.h"
 
@@ -24,8 +23,10 @@ struct Job {
 
 TargetProfile profile_named(const std::string& name) {
   constexpr std::pair<const char*, TargetProfile> kProfiles[] = {
-      {"unity4", TargetProfile::unity4}, {"unreal8", TargetProfile::unreal8},
-      {"gltf4", TargetProfile::gltf4},   {"gltf8", TargetProfile::gltf8},
+      {"unity4", TargetProfile::unity4},
+      {"unreal8", TargetProfile::unreal8},
+      {"gltf4", TargetProfile::gltf4},
+      {"gltf8", TargetProfile::gltf8},
       {"webxr", TargetProfile::webxr}};
   for (const auto& [of, profile] : kProfiles)
     if (name == of) return profile;
@@ -88,8 +89,8 @@ class Output {
 ExitCode run_job(const Job& job, Severity fail_on, Output& output) {
   ValidateFailure failure;
   const auto pair = validate_pair(
-      job.pair,
-      [&](std::string_view stage, double share) { output.progress(job, stage, share); }, failure);
+      job.pair, [&](std::string_view stage, double share) { output.progress(job, stage, share); },
+      failure);
   if (!pair) return output.failure(job, failure);
   if (job.report)
     if (const Status status = write_text(*job.report, dump(validation_json(*pair))); !status)

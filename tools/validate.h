@@ -25,7 +25,7 @@ struct ValidatePair {
   std::optional<std::filesystem::path> operations;  ///< The log that made the target.
   std::optional<std::filesystem::path> bones;       ///< Mapping of bone names.
   TargetProfile profile = TargetProfile::none;
-  std::string limits = "none";                      ///< "none", "clips" or a file.
+  std::string limits = "none";  ///< "none", "clips" or a file.
 };
 
 /// A failure and the file that it is about.

@@ -125,8 +125,8 @@ Json matching_json(const MatchFigures& matching) {
   const auto direction = [](Index samples, Index unmatched, double distance) {
     return Json{{"samples", samples}, {"unmatched", unmatched}, {"max_distance", distance}};
   };
-  return {{"target_on_source", direction(matching.target_samples, matching.target_unmatched,
-                                         matching.target_distance)},
+  return {{"target_on_source",
+           direction(matching.target_samples, matching.target_unmatched, matching.target_distance)},
           {"source_on_target", direction(matching.source_samples, matching.source_unmatched,
                                          matching.source_distance)}};
 }

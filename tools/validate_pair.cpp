@@ -57,11 +57,13 @@ Status read_range(const Json& json, const std::string& bone, JointRange& range) 
   }
   if (!json.is_object() || !is_number("lower") || !is_number("upper") || !json.contains("axis") ||
       !json["axis"].is_array() || json["axis"].size() != 3 ||
-      !std::ranges::all_of(json["axis"], [](const Json& value) { return value.is_number(); }))
+      !std::all_of(json["axis"].begin(), json["axis"].end(),
+                   [](const Json& value) { return value.is_number(); }))
     return Status::failure(StatusCode::malformed_file, kNone,
                            "/limits/%.80s: expected angle, or axis, lower and upper", bone.c_str());
   range.turn = JointRange::Turn::hinge;
-  for (int i = 0; i < 3; ++i) range.axis[i] = json["axis"][static_cast<std::size_t>(i)];
+  for (int i = 0; i < 3; ++i)
+    range.axis[i] = json["axis"][static_cast<std::size_t>(i)].get<double>();
   range.lower = radians(json["lower"]);
   range.upper = radians(json["upper"]);
   return {};

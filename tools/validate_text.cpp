@@ -34,11 +34,12 @@ std::string posed_lines(const ValidationReport& report) {
       text += print("%-16s not tested\n", std::string(figures.poses).c_str());
       continue;
     }
-    text += print("%-16s %4u poses  mean %.3g  rms %.3g  p95 %.3g  max %.3g m (%.3g %% of the "
-                  "diagonal, %.3g %% of an edge)\n",
-                  std::string(figures.poses).c_str(), figures.pose_count, figures.mean, figures.rms,
-                  figures.p95, figures.maximum, 100.0 * figures.maximum_of_diagonal,
-                  100.0 * figures.maximum_of_edge);
+    text += print(
+        "%-16s %4u poses  mean %.3g  rms %.3g  p95 %.3g  max %.3g m (%.3g %% of the "
+        "diagonal, %.3g %% of an edge)\n",
+        std::string(figures.poses).c_str(), figures.pose_count, figures.mean, figures.rms,
+        figures.p95, figures.maximum, 100.0 * figures.maximum_of_diagonal,
+        100.0 * figures.maximum_of_edge);
     if (figures.covered_share > 0.0)
       text += print("%-16s no more than this max in %.1f %% of such poses, with confidence 95 %%\n",
                     "", 100.0 * figures.covered_share);
@@ -60,19 +61,17 @@ std::string validation_text(const ValidatedPair& pair, bool in_colour) {
   for (const Finding& finding : report.findings) {
     text += label(finding.severity, in_colour) + " " + std::string(finding.code) + "\n         " +
             finding.text + "\n";
-    if (finding.severity > Severity::note)
-      text += "         " + std::string(finding.advice) + "\n";
+    if (finding.severity > Severity::note) text += "         " + std::string(finding.advice) + "\n";
   }
   text += print("%-16s %u of %u vertices unmatched; of the source %u of %u\n", "matching",
                 report.matching.target_unmatched, report.matching.target_samples,
                 report.matching.source_unmatched, report.matching.source_samples);
   text += posed_lines(report) + bracket_line(report.bracket);
   const auto count = [&](Severity severity) {
-    return static_cast<unsigned>(
-        std::ranges::count(report.findings, severity, &Finding::severity));
+    return static_cast<unsigned>(std::ranges::count(report.findings, severity, &Finding::severity));
   };
-  const auto untested = std::ranges::count(report.verdicts, Verdict::not_tested,
-                                           &CodeVerdict::verdict);
+  const auto untested =
+      std::ranges::count(report.verdicts, Verdict::not_tested, &CodeVerdict::verdict);
   text += print("%-16s %u errors, %u warnings, %u notes; %u of %zu checks not tested\n", "verdict",
                 count(Severity::error), count(Severity::warning), count(Severity::note),
                 static_cast<unsigned>(untested), report.verdicts.size());

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cstdio>
 #include <new>
+#include <numeric>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "validation/checks/attribute_checks.h"
@@ -62,6 +64,43 @@ Places unaccepted(const Skinned& from, const SurfaceMatches& matches) {
   return places;
 }
 
+/// The mesh of the source with the name of a target's mesh: the one of the same number, else the
+/// only one. kNone: there is none, or several.
+Index counterpart_of(Index target_mesh, const Character& source, const std::string& name) {
+  if (target_mesh < source.meshes.size() && source.meshes[target_mesh].name == name)
+    return target_mesh;
+  Index found = kNone;
+  for (Index mesh = 0; mesh < source.meshes.size(); ++mesh) {
+    if (source.meshes[mesh].name != name) continue;
+    if (found != kNone) return kNone;
+    found = mesh;
+  }
+  return found;
+}
+
+/// Where meshes touch, a closest place may lie on the wrong one. Such matches are looked up again
+/// on the mesh of the same name, and taken there if that is as close.
+void keep_to_meshes(const Skinned& source, const Skinned& target, const MatchLimits& limits,
+                    SurfaceMatches& matches) {
+  const double as_close = 1e-6 * source.surface.diagonal;
+  for (Index mesh = 0; mesh < target.character.meshes.size(); ++mesh) {
+    const Index named = counterpart_of(mesh, source.character, target.character.meshes[mesh].name);
+    if (named == kNone) continue;
+    std::optional<SurfaceSearch> search;
+    for (Index v = matches.first_vertex[mesh]; v < matches.first_vertex[mesh + 1]; ++v) {
+      SurfaceMatch& match = matches.matches[v];
+      if (match.mesh == named || match.mesh == kNone) continue;
+      if (!search) {
+        std::vector<Index> triangles(source.character.meshes[named].triangle_count());
+        std::iota(triangles.begin(), triangles.end(), source.surface.first_triangle[named]);
+        search.emplace(source.surface, triangles);
+      }
+      const SurfaceMatch other = search->closest(target.surface, v, limits);
+      if (other.is_accepted && other.distance <= match.distance + as_close) match = other;
+    }
+  }
+}
+
 double largest_distance(const SurfaceMatches& matches) {
   double largest = 0.0;
   for (const SurfaceMatch& match : matches.matches)
@@ -83,7 +122,7 @@ class Validation {
 
  private:
   void begin(std::string_view stage) {
-    constexpr double kStages = 8.0;
+    constexpr double kStages = 7.0;
     if (options_.progress) options_.progress(stage, stage_ / kStages);
     stage_ += 1.0;
   }
@@ -95,6 +134,7 @@ class Validation {
   void check_lips();
 
   std::shared_ptr<const Character> source_character_, target_character_;
+  std::shared_ptr<const Character> named_ = target_character_;  ///< Kept for the findings.
   const ValidationOptions& options_;
   BoneMatch bones_;
   double stage_ = 0.0;
@@ -106,7 +146,7 @@ class Validation {
 };
 
 void Validation::bring_to_scale() {
-  report_.scale = find_scale(*source_character_, *target_character_, bones_);
+  report_.scale = find_scale(*source_, *target_, bones_);
   if (report_.scale == 1.0) return findings_->add(Code::scale, {});
   char text[160];
   std::snprintf(text, sizeof text,
@@ -117,13 +157,17 @@ void Validation::bring_to_scale() {
                          report_.scale);
   target_character_ =
       std::make_shared<const Character>(divided_by(*target_character_, report_.scale));
+  target_.emplace(*target_character_, options_.stored_target);
 }
 
 void Validation::match() {
   const MatchLimits limits{kMatchDistance * source_->surface.diagonal, kMatchCosine, false};
-  matches_ = replayed_ && has_vertices_of(*target_character_, replayed_->character())
-                 ? matches_from_births(*replayed_)
-                 : match_surfaces(target_->surface, source_->surface, limits);
+  if (replayed_ && has_vertices_of(*target_character_, replayed_->character())) {
+    matches_ = matches_from_births(*replayed_);
+  } else {
+    matches_ = match_surfaces(target_->surface, source_->surface, limits);
+    keep_to_meshes(*source_, *target_, limits, matches_);
+  }
   const SurfaceMatches back = match_surfaces(source_->surface, target_->surface, limits);
   Places missing = unaccepted(*source_, back);
   Places unmatched = unaccepted(*target_, matches_);
@@ -134,9 +178,9 @@ void Validation::match() {
   figures.source_unmatched = static_cast<Index>(missing.size());
   figures.target_distance = largest_distance(matches_);
   figures.source_distance = largest_distance(back);
-  const std::string holes =
-      std::to_string(missing.size()) + " of " + std::to_string(figures.source_samples) +
-      " vertices of the source have no counterpart on the target.";
+  const std::string holes = std::to_string(missing.size()) + " of " +
+                            std::to_string(figures.source_samples) +
+                            " vertices of the source have no counterpart on the target.";
   if (unmatched.empty() && !missing.empty())
     findings_->add_finding(Code::unmatched, Severity::note, Evidence::exact, holes, {},
                            static_cast<double>(missing.size()));
@@ -147,9 +191,9 @@ void Validation::match() {
 void Validation::check_stored_weights(const RowReader& reader) {
   StoredFaults of_target = find_stored_faults(*target_);
   if (!of_target.is_tested) {
-    for (const Code code : {Code::sum, Code::sum_integer, Code::rounding, Code::negative,
-                            Code::not_finite, Code::duplicate, Code::out_of_range,
-                            Code::unweighted, Code::unsorted, Code::zero_joint})
+    for (const Code code :
+         {Code::sum, Code::sum_integer, Code::rounding, Code::negative, Code::not_finite,
+          Code::duplicate, Code::out_of_range, Code::unweighted, Code::unsorted, Code::zero_joint})
       findings_->not_tested(code, "the weights that the file stores are not known");
     return;
   }
@@ -190,7 +234,7 @@ void Validation::check_poses(const RowReader& reader) {
   const SkinDifferences differences =
       difference_of(*source_character_, *target_character_, matches_, bones_);
   measure_deviation(reader, differences, batches, points.bind(), report_);
-  check_deviation(reader, points, differences, batches,
+  check_deviation(reader, points, differences, batches, report_,
                   options_.maximum_deviation * report_.diagonal, *findings_);
   check_shapes(reader, points, differences, batches.back(), *findings_);
   const CrackRows cracks = check_cracks(reader, points, batches, *findings_);
@@ -211,11 +255,10 @@ void Validation::check_lips() {
 
 ValidationReport Validation::run() {
   findings_.emplace(*target_character_);
-  begin("scale");
-  bring_to_scale();
   begin("surfaces");
   source_.emplace(*source_character_, options_.stored_source);
   target_.emplace(*target_character_, options_.stored_target);
+  bring_to_scale();
   report_.diagonal = source_->surface.diagonal;
   report_.source_bone_of_target = bones_.source_of_target;
   replayed_ = check_pops(source_character_, options_.operations, report_.diagonal, *findings_);

@@ -81,8 +81,8 @@ TEST_F(Validate, a_model_beside_itself_has_no_finding_above_a_note) {
 }
 
 TEST_F(Validate, sums_that_loading_would_repair_are_found_as_stored) {
-  const auto result = run_sunder(
-      {"validate", path("model.glb"), path("spoiled.glb"), "--report", path("r.json")});
+  const auto result =
+      run_sunder({"validate", path("model.glb"), path("spoiled.glb"), "--report", path("r.json")});
   EXPECT_EQ(result.exit_code, 1) << result.out << result.err;
   const json report = read_report(path("r.json"));
   const json& finding = report["findings"][0];
@@ -98,8 +98,8 @@ TEST_F(Validate, sums_that_loading_would_repair_are_found_as_stored) {
 }
 
 TEST_F(Validate, a_fault_that_the_source_has_too_is_inherited) {
-  const auto result = run_sunder({"validate", path("spoiled.glb"), path("spoiled.glb"),
-                                  "--fail-on", "warning"});
+  const auto result =
+      run_sunder({"validate", path("spoiled.glb"), path("spoiled.glb"), "--fail-on", "warning"});
   EXPECT_EQ(result.exit_code, 0) << result.out;
   EXPECT_THAT(result.out, HasSubstr("SUNDER_W_SUM_INTEGER"));
   EXPECT_THAT(result.out, HasSubstr("Inherited"));
@@ -126,11 +126,11 @@ TEST_F(Validate, a_manifest_compares_many_pairs_and_the_worst_exit_code_counts) 
 
 TEST_F(Validate, wrong_command_lines_and_files_have_their_exit_codes) {
   const std::string model = path("model.glb");
-  for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
-           {"validate"},
-           {"validate", model},
-           {"validate", model, model, "--fail-on", "never"},
-           {"validate", model, model, "--profile", "ps1"}}) {
+  for (const std::vector<std::string>& arguments :
+       std::vector<std::vector<std::string>>{{"validate"},
+                                             {"validate", model},
+                                             {"validate", model, model, "--fail-on", "never"},
+                                             {"validate", model, model, "--profile", "ps1"}}) {
     const auto result = run_sunder(arguments);
     EXPECT_EQ(result.exit_code, 2) << result.err;
     EXPECT_THAT(result.out, IsEmpty());

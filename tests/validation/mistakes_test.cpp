@@ -16,7 +16,9 @@ namespace {
 
 using Shared = std::shared_ptr<const Character>;
 
-Shared share(Character character) { return std::make_shared<const Character>(std::move(character)); }
+Shared share(Character character) {
+  return std::make_shared<const Character>(std::move(character));
+}
 
 const Finding* find_code(const ValidationReport& report, const std::string& code) {
   const auto found = std::ranges::find(report.findings, code, &Finding::code);
@@ -41,8 +43,8 @@ const OwnModel& model_named(const std::string& file) {
 
 class Mistakes : public testing::TestWithParam<std::tuple<int, const char*>> {
  protected:
-  PlantedMistake planted_ =
-      plant(static_cast<Mistake>(std::get<0>(GetParam())), model_named(std::get<1>(GetParam())).character);
+  PlantedMistake planted_ = plant(static_cast<Mistake>(std::get<0>(GetParam())),
+                                  model_named(std::get<1>(GetParam())).character);
 };
 
 TEST_P(Mistakes, are_found_under_their_own_code_at_the_right_places) {

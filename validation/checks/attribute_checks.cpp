@@ -22,8 +22,7 @@ const MorphTarget* counterpart(const Mesh& source, const Mesh& target, std::size
 Vec3d interpolated(const std::vector<Vec3f>& values, const Triangle& triangle,
                    const std::array<double, 3>& barycentric) {
   Vec3d sum = Vec3d::Zero();
-  for (std::size_t k = 0; k < 3; ++k)
-    sum += barycentric[k] * values[triangle[k]].cast<double>();
+  for (std::size_t k = 0; k < 3; ++k) sum += barycentric[k] * values[triangle[k]].cast<double>();
   return sum;
 }
 
@@ -98,7 +97,8 @@ Places different_vertices(const RowReader& reader, const PositionTable& table,
   const Skinned &source = reader.source(), &target = reader.target();
   Places places;
   for (Index v = 0; v < target.surface.vertex_count(); ++v) {
-    const Index mesh = target.surface.mesh_of_vertex(v), own = v - target.surface.first_vertex[mesh];
+    const Index mesh = target.surface.mesh_of_vertex(v),
+                own = v - target.surface.first_vertex[mesh];
     std::optional<double> least;
     table.find(target.surface.positions[v], [&](Index other) {
       const Index of = source.surface.mesh_of_vertex(other);

@@ -24,8 +24,7 @@ class BoneMasses {
     for (const auto& [bone, weight] : expected) source_[bone] += weight;
     for (const auto& [bone, weight] : actual) target_[bone] += weight;
     for (const auto& [a, of_source] : expected)
-      for (const auto& [b, of_target] : actual)
-        overlap_[{a, b}] += std::min(of_source, of_target);
+      for (const auto& [b, of_target] : actual) overlap_[{a, b}] += std::min(of_source, of_target);
     for (const auto& [a, of_source] : expected) {
       if (weight_of(actual, a) > 0.0) continue;
       for (const auto& [b, of_target] : actual)
@@ -135,8 +134,8 @@ void check_moved(const RowReader& reader, std::span<const DifferentRow> rows,
     if (heir == kNone || share < kind_of(Code::moved_to_first).threshold) continue;
     if (masses.agreement(heir, a) > 0.9 || !is_first_bone(reader, heir)) continue;
     is_moved[a] = true;
-    pairs += (pairs.empty() ? "From " : ", from ") + name_of(reader, a) + " to " +
-             name_of(reader, heir);
+    pairs +=
+        (pairs.empty() ? "From " : ", from ") + name_of(reader, a) + " to " + name_of(reader, heir);
   }
   findings.add(Code::moved_to_first, places_of_bones(reader, rows, is_moved),
                pairs.empty() ? pairs : pairs + ".");
@@ -154,8 +153,7 @@ void check_missing(const RowReader& reader, FindingList& findings) {
         const Index bone = target.bone(mesh, influence.slot);
         is_weighted[bone] = true;
         if (reader.bones().source_of_target[bone] == kNone && influence.weight > 0.0f)
-          of_target.push_back(
-              target.place(mesh, v, bone, static_cast<double>(influence.weight)));
+          of_target.push_back(target.place(mesh, v, bone, static_cast<double>(influence.weight)));
       }
   for (Index bone = 0; bone < is_weighted.size(); ++bone) {
     FindingPlace place;

@@ -97,16 +97,15 @@ void certify_cracks(const RowReader& reader, const JointTree& tree, const CrackR
   Places places;
   for (std::size_t i = 0; i < certificate->bound.size(); ++i)
     if (std::isfinite(certificate->bound[i]) && certificate->bound[i] > 0.0)
-      places.push_back(
-          reader.target().place(cracks.vertices[i], kNone, certificate->bound[i]));
+      places.push_back(reader.target().place(cracks.vertices[i], kNone, certificate->bound[i]));
   double found = 0.0;
   if (certificate->worst != kNone)
     if (const auto pose = find_worst_pose(tree, cracks.rows, certificate->worst))
       found = pose->found;
-  findings.add_finding(Code::cert_crack, Severity::note, Evidence::certified,
-                       text_of_bracket(found, certificate->maximum) +
-                           text_of_gaps(reader, certificate->gaps),
-                       std::move(places), certificate->maximum);
+  findings.add_finding(
+      Code::cert_crack, Severity::note, Evidence::certified,
+      text_of_bracket(found, certificate->maximum) + text_of_gaps(reader, certificate->gaps),
+      std::move(places), certificate->maximum);
 }
 
 /// The vertices whose deviation has the largest bounds, as skinned points of their own.
@@ -138,8 +137,7 @@ void certify_blends(const RowReader& reader, const JointTree& tree, const Certif
   const SkinDifferences points = worst_vertices(reader, rows, report, vertices);
   if (vertices.empty()) return findings.add(Code::cert_collapse, {});
   const Result<std::vector<double>> bounds = certify_blend(tree, points);
-  if (!bounds)
-    return findings.not_tested(Code::cert_collapse, std::string(bounds.error().text()));
+  if (!bounds) return findings.not_tested(Code::cert_collapse, std::string(bounds.error().text()));
   Places places;
   Index worst = 0;
   for (Index i = 0; i < vertices.size(); ++i) {
@@ -161,8 +159,7 @@ void certify_blends(const RowReader& reader, const JointTree& tree, const Certif
 void check_certificates(const RowReader& reader, const CertifiedRows& rows,
                         const ValidationOptions& options, ValidationReport& report,
                         FindingList& findings) {
-  const Result<JointTree> tree =
-      make_tree(reader.source().character, rows.points.bind(), options);
+  const Result<JointTree> tree = make_tree(reader.source().character, rows.points.bind(), options);
   if (!tree) {
     report.bracket.why = tree.error().text();
     for (const Code code : {Code::cert_deviation, Code::cert_crack, Code::cert_collapse})

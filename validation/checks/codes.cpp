@@ -10,8 +10,8 @@ constexpr auto kError = Severity::error;
 constexpr auto kWarning = Severity::warning;
 constexpr auto kNote = Severity::note;
 
-/// One row per code, in the order of Code: code, severity, unit, threshold, meaning, advice, code of
-/// the glTF Validator. docs/validation.md has the same rows.
+/// One row per code, in the order of Code: code, severity, unit, threshold, meaning, advice, code
+/// of the glTF Validator. docs/validation.md has the same rows.
 constexpr std::array kTable = {
     FindingKind{"SUNDER_W_SUM", kError, "m/m", 2e-7,
                 "weights that do not sum to one; a vertex strays by this many metres per metre of "
@@ -96,8 +96,7 @@ constexpr std::array kTable = {
     FindingKind{"SUNDER_W_POP", kNote, "m", 1e-3,
                 "movement of the posed surface at the moment of an operation",
                 "Use the weights policy exact or pose_exact, or split the edges finer.", ""},
-    FindingKind{"SUNDER_W_CRACK", kWarning, "m", 1e-5,
-                "coincident vertices that part in a pose",
+    FindingKind{"SUNDER_W_CRACK", kWarning, "m", 1e-5, "coincident vertices that part in a pose",
                 "Give all copies of a point the same weights and morph displacements.", ""},
     FindingKind{"SUNDER_W_LIP_WELDED", kError, "count", 0.0,
                 "edges of a tear whose lips were welded together",
@@ -147,8 +146,7 @@ constexpr std::array kTable = {
     FindingKind{"SUNDER_W_CLIPS", kWarning, "count", 0.0,
                 "clips that are missing or move bones otherwise than the source's",
                 "Export the clips again.", ""},
-    FindingKind{"SUNDER_W_SCALE", kError, "ratio", 1.05,
-                "files whose units differ",
+    FindingKind{"SUNDER_W_SCALE", kError, "ratio", 1.05, "files whose units differ",
                 "Set the unit of the export; metres in glTF.", ""},
     FindingKind{"SUNDER_W_PROFILE", kNote, "m", 1e-3,
                 "vertices that the target platform's limits move in a pose",

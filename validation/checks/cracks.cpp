@@ -151,10 +151,9 @@ std::vector<Crack> find_t_junctions(const Skinned& skin) {
     if (inside.empty() || !is_chain(skin.graph, edge, inside)) continue;
     for (const OnEdge& of : inside)
       if (!is_lip(skin, edge, of.point))
-        cracks.push_back(
-            {skin.graph.vertex_of_point[of.point],
-             {skin.graph.vertex_of_point[edge.a], skin.graph.vertex_of_point[edge.b]},
-             of.t});
+        cracks.push_back({skin.graph.vertex_of_point[of.point],
+                          {skin.graph.vertex_of_point[edge.a], skin.graph.vertex_of_point[edge.b]},
+                          of.t});
   }
   return cracks;
 }

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "validation/checks/pose_batches.h"
 #include "validation/checks/finding_list.h"
+#include "validation/checks/pose_batches.h"
 #include "validation/checks/skin_points.h"
 
 namespace sunder::validation {
@@ -9,9 +9,9 @@ namespace sunder::validation {
 /// Two vertices at one place that have other weights, or a vertex on the inside of an edge: what
 /// opens in a pose.
 struct Crack {
-  Index vertex = 0;              ///< In the surface, all meshes one after the other.
+  Index vertex = 0;                ///< In the surface, all meshes one after the other.
   std::array<Index, 2> ends = {};  ///< Vertices; twice the same one for copies.
-  double t = 0.0;                ///< Place between the ends.
+  double t = 0.0;                  ///< Place between the ends.
 };
 
 /// Cracks as terms of the source's skeleton.

@@ -38,8 +38,7 @@ double Spread::percentile95() const {
   return 0.0;
 }
 
-void raise_largest(const SkinDifferences& rows, const PoseBatch& batch,
-                   std::span<double> largest) {
+void raise_largest(const SkinDifferences& rows, const PoseBatch& batch, std::span<double> largest) {
   for (const auto& matrices : batch.poses)
     for (std::size_t row = 0; row < largest.size(); ++row) {
       const auto terms = terms_of(rows, row);
@@ -129,15 +128,22 @@ void measure_deviation(const RowReader& reader, const SkinDifferences& differenc
 
 void check_deviation(const RowReader& reader, const SkinPoints& points,
                      const SkinDifferences& differences, std::span<const PoseBatch> batches,
-                     double threshold, FindingList& findings) {
+                     const ValidationReport& report, double threshold, FindingList& findings) {
   const Skinned& target = reader.target();
   SkinDifferences strays;
   std::vector<Index> vertices;
+  Places places;
   TermSum sum = points.make_sum();
   for (Index mesh = 0; mesh < target.character.meshes.size(); ++mesh)
     for (Index v = 0; v < target.character.meshes[mesh].vertex_count(); ++v) {
       const Index vertex = target.surface.first_vertex[mesh] + v;
+      const double on_surface = static_cast<double>(report.vertex_deviation[vertex]);
       if (terms_of(differences, vertex).empty()) continue;
+      const SurfaceMatch& match = reader.match(mesh, v);
+      if (match.distance == 0.0 && corner_of(match) < 3) {  // on a vertex: nothing to interpolate
+        if (on_surface > threshold) places.push_back(target.place(vertex, kNone, on_surface));
+        continue;
+      }
       points.add_target(mesh, v, 1.0, sum);
       points.add_expected(mesh, v, -1.0, sum);
       sum.finish(strays);
@@ -149,13 +155,12 @@ void check_deviation(const RowReader& reader, const SkinPoints& points,
     raise_largest(strays, batch, largest);
     poses += batch.poses.size();
   }
-  Places places;
   for (std::size_t i = 0; i < vertices.size(); ++i)
     if (largest[i] > threshold) places.push_back(target.place(vertices[i], kNone, largest[i]));
-  findings.add(Code::deviation, std::move(places),
-               "Over " + std::to_string(poses) + " poses; the limit is " +
-                   std::to_string(threshold) + " m.",
-               Evidence::sampled);
+  findings.add(
+      Code::deviation, std::move(places),
+      "Over " + std::to_string(poses) + " poses; the limit is " + std::to_string(threshold) + " m.",
+      Evidence::sampled);
 }
 
 }  // namespace sunder::validation

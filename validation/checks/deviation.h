@@ -22,15 +22,14 @@ class Spread {
 
  private:
   static constexpr int kLowest = -60, kOctaves = 76, kPerOctave = 64;
-  std::array<std::uint64_t, kOctaves * kPerOctave> bins_ = {};
+  std::array<std::uint64_t, kOctaves* kPerOctave> bins_ = {};
   std::uint64_t count_ = 0;
   double sum_ = 0.0, square_ = 0.0, maximum_ = 0.0;
 };
 
 /// Largest distance of each row over all poses of some batches.
 /// @param largest  one per row; raised.
-void raise_largest(const SkinDifferences& rows, const PoseBatch& batch,
-                   std::span<double> largest);
+void raise_largest(const SkinDifferences& rows, const PoseBatch& batch, std::span<double> largest);
 
 /// How far the target strays from the source surface, per batch. Written to `report`: the figures
 /// and the worst pose.
@@ -42,6 +41,6 @@ void measure_deviation(const RowReader& reader, const SkinDifferences& differenc
 /// new vertices on the source's faces, which even perfect weights have, is not counted.
 void check_deviation(const RowReader& reader, const SkinPoints& points,
                      const SkinDifferences& differences, std::span<const PoseBatch> batches,
-                     double threshold, FindingList& findings);
+                     const ValidationReport& report, double threshold, FindingList& findings);
 
 }  // namespace sunder::validation

@@ -14,8 +14,7 @@ Places take_inherited(const RowReader& reader, Places& of_target, const Places& 
   std::erase_if(of_target, [&](const FindingPlace& place) {
     const SurfaceMatch& match = reader.match(place.mesh, place.vertex);
     if (match.mesh == kNone) return false;
-    const Index bone =
-        place.bone == kNone ? kNone : reader.bones().source_of_target[place.bone];
+    const Index bone = place.bone == kNone ? kNone : reader.bones().source_of_target[place.bone];
     const Triangle& corners =
         reader.source().character.meshes[match.mesh].triangles[match.triangle];
     for (std::size_t k = 0; k < 3; ++k)

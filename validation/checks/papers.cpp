@@ -6,13 +6,13 @@
 namespace sunder::validation {
 namespace {
 
-constexpr std::size_t kFrames = 10;     ///< As RigNet's evaluation.
-constexpr double kInfluence = 1e-4;     ///< Weights above are influences.
+constexpr std::size_t kFrames = 10;  ///< As RigNet's evaluation.
+constexpr double kInfluence = 1e-4;  ///< Weights above are influences.
 
 /// Sums over all points and frames.
 struct Sums {
-  double error = 0.0;       ///< |A - B|^2.
-  double distance = 0.0;    ///< |A - B|.
+  double error = 0.0;     ///< |A - B|^2.
+  double distance = 0.0;  ///< |A - B|.
   double farthest = 0.0;
   double from_center = 0.0;  ///< |A - centroid of the frame|^2.
 };
@@ -78,8 +78,8 @@ SkinDifferences matched_points(const RowReader& reader, const SkinPoints& points
   return rows;
 }
 
-Sums sum_over(const RowReader& reader, const SkinPoints& points,
-              const SkinDifferences& differences, const PoseBatch& random, std::size_t frames) {
+Sums sum_over(const RowReader& reader, const SkinPoints& points, const SkinDifferences& differences,
+              const PoseBatch& random, std::size_t frames) {
   std::vector<Index> vertices;
   const SkinDifferences rows = matched_points(reader, points, vertices);
   Sums sums;
@@ -87,8 +87,7 @@ Sums sum_over(const RowReader& reader, const SkinPoints& points,
     Frame of_source;
     for (std::size_t i = 0; i < vertices.size(); ++i) {
       const auto terms = terms_of(differences, vertices[i]);
-      const Vec3d error =
-          terms.empty() ? Vec3d(Vec3d::Zero()) : posed(terms, random.poses[frame]);
+      const Vec3d error = terms.empty() ? Vec3d(Vec3d::Zero()) : posed(terms, random.poses[frame]);
       of_source.add(posed(terms_of(rows, i), random.poses[frame]) - error);
       const double square = squared_norm(error), distance = std::sqrt(square);
       sums.error += square;
@@ -112,8 +111,7 @@ PaperFigures measure_for_papers(const RowReader& reader, const SkinPoints& point
   if (frames == 0 || figures.points == 0 || differences.terms.empty()) return figures;
   const Sums sums = sum_over(reader, points, differences, random, frames);
   const double samples = static_cast<double>(figures.points) * static_cast<double>(frames);
-  if (sums.from_center > 0.0)
-    figures.kg_error = 100.0 * std::sqrt(sums.error / sums.from_center);
+  if (sums.from_center > 0.0) figures.kg_error = 100.0 * std::sqrt(sums.error / sums.from_center);
   figures.rms = std::sqrt(sums.error / samples);
   if (const double diagonal = reader.source().surface.diagonal; diagonal > 0.0)
     figures.rms_1000 = 1000.0 * std::sqrt(sums.error / (3.0 * samples)) / diagonal;

@@ -47,8 +47,8 @@ std::optional<TornModel> check_pops(const std::shared_ptr<const Character>& sour
   for (std::size_t i = 0; i < operations.size(); ++i) {
     const Result<TearReport> report = apply_operation(*model, operations[i]);
     if (!report) {
-      findings.not_tested(Code::pop, "operation " + std::to_string(i) + ": " +
-                                         std::string(report.error().text()));
+      findings.not_tested(
+          Code::pop, "operation " + std::to_string(i) + ": " + std::string(report.error().text()));
       return {};
     }
     const PoseSpec* const spec = pose_of(operations[i]);

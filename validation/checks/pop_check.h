@@ -1,8 +1,9 @@
 #pragma once
 
+#include <sunder/tear/torn_model.h>
+
 #include <memory>
 #include <optional>
-#include <sunder/tear/torn_model.h>
 
 #include "validation/checks/finding_list.h"
 

@@ -11,7 +11,7 @@ namespace sunder::validation {
 namespace {
 
 constexpr std::uint32_t kClipSamples = 8;
-constexpr std::size_t kMostOfMotion = 96;  ///< Poses of a range of motion.
+constexpr std::size_t kMostOfMotion = 48;  ///< Poses of a range of motion.
 constexpr std::size_t kMostOfClips = 256;
 
 /// Numbers in [0, 1) that are the same with every standard library.

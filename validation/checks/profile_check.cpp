@@ -16,7 +16,8 @@ void round_to(std::span<Influence> kept) {
   std::vector<Integer> units(kept.size());
   if (!quantise_weights(kept, std::span<Integer>(units))) return;
   for (std::size_t i = 0; i < kept.size(); ++i)
-    kept[i].weight = static_cast<float>(static_cast<double>(units[i]) / std::numeric_limits<Integer>::max());
+    kept[i].weight =
+        static_cast<float>(static_cast<double>(units[i]) / std::numeric_limits<Integer>::max());
 }
 
 /// The influences as the platform keeps them.

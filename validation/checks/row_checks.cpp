@@ -13,7 +13,7 @@ constexpr double kDiffers = 0.02;  ///< L1; below, rounding to bytes explains it
 /// How near weights have to be to a mistaken row to count as made by that mistake.
 double tolerance_of(const Skinned& target, Index mesh) {
   return !target.stored.empty() && target.stored[mesh].format == WeightFormat::unorm8 ? 0.016
-                                                                                     : 1e-3;
+                                                                                      : 1e-3;
 }
 
 /// Rows of a vertex, reused between vertices.

@@ -9,10 +9,11 @@ namespace sunder::validation {
 namespace {
 
 constexpr std::size_t kPoses = 16;
+constexpr double kCollapsed = 0.25;  ///< Of the area at bind.
 
 /// A vertex near a difference: as the target has it and as the matched weights would have it.
 struct ActiveSet {
-  std::vector<Index> vertices;      ///< In the surface.
+  std::vector<Index> vertices;       ///< In the surface.
   std::vector<Index> row_of_vertex;  ///< kNone: not active.
   std::vector<bool> differs;         ///< Per active vertex.
   SkinDifferences actual, expected;
@@ -97,8 +98,13 @@ void judge_faces(const Skinned& target, const ActiveSet& set, std::span<const Ve
     }
     const Vec3d normal_a = (a[1] - a[0]).cross(a[2] - a[0]),
                 normal_e = (e[1] - e[0]).cross(e[2] - e[0]);
-    shapes.turn[i] = std::max(shapes.turn[i], std::atan2(norm(normal_a.cross(normal_e)),
-                                                         dot(normal_a, normal_e)));
+    const Vec3d at_bind =
+        (target.surface.positions[face[1]] - target.surface.positions[face[0]])
+            .cross(target.surface.positions[face[2]] - target.surface.positions[face[0]]);
+    // The normal of a face that collapses in the source too says nothing.
+    if (squared_norm(normal_e) > kCollapsed * kCollapsed * squared_norm(at_bind))
+      shapes.turn[i] = std::max(
+          shapes.turn[i], std::atan2(norm(normal_a.cross(normal_e)), dot(normal_a, normal_e)));
   }
 }
 
@@ -129,8 +135,7 @@ Places places_of_faces(const Skinned& target, const ActiveSet& set, std::span<co
   Places places;
   for (std::size_t i = 0; i < values.size(); ++i)
     if (values[i] > threshold)
-      places.push_back(
-          target.place(target.surface.triangles[set.faces[i]][0], kNone, values[i]));
+      places.push_back(target.place(target.surface.triangles[set.faces[i]][0], kNone, values[i]));
   return places;
 }
 

@@ -14,8 +14,8 @@ void check_sides(const RowReader& reader, FindingList& findings);
 struct MirrorPlane {
   Vec3d normal = Vec3d::Zero();  ///< To the left. Zero: the rig has no pairs, or is not symmetric.
   Vec3d point = Vec3d::Zero();
-  std::vector<int> side_of_bone;        ///< -1 left, +1 right, 0 neither.
-  std::vector<Index> mirrored_bone;     ///< Its own number where a bone has no pair.
+  std::vector<int> side_of_bone;     ///< -1 left, +1 right, 0 neither.
+  std::vector<Index> mirrored_bone;  ///< Its own number where a bone has no pair.
 };
 [[nodiscard]] MirrorPlane find_mirror_plane(const Skinned& skin);
 

@@ -22,13 +22,6 @@ double spread_of(const std::vector<Vec3d>& places) {
   return std::sqrt(square / static_cast<double>(places.size()));
 }
 
-double diagonal_of(const Character& character) {
-  Eigen::AlignedBox3d box;
-  for (const Vec3d& place : make_bind_surface(character).positions)
-    box.extend(Eigen::Vector3d(place));
-  return box.isEmpty() ? 0.0 : norm(box.diagonal());
-}
-
 /// How far two transforms move a point at a distance `reach` from their origin apart.
 double distance_between(const Affine3d& a, const Affine3d& b, double reach) {
   return norm(a.translation() - b.translation()) + reach * norm(a.linear() - b.linear());
@@ -170,16 +163,16 @@ void check_clips(const RowReader& reader, FindingList& findings) {
 
 }  // namespace
 
-double find_scale(const Character& source, const Character& target, const BoneMatch& bones) {
-  const double of_source = diagonal_of(source), of_target = diagonal_of(target);
+double find_scale(const Skinned& source, const Skinned& target, const BoneMatch& bones) {
+  const double of_source = source.surface.diagonal, of_target = target.surface.diagonal;
   if (!(of_source > 0.0) || !(of_target > 0.0)) return 1.0;
   const double scale = of_target / of_source;
   const double limit = kind_of(Code::scale).threshold;
   if (scale < limit && scale > 1.0 / limit) return 1.0;
-  const ModelPose bind_source = or_throw(bind_pose(source)),
-                  bind_target = or_throw(bind_pose(target));
+  const ModelPose bind_source = or_throw(bind_pose(source.character)),
+                  bind_target = or_throw(bind_pose(target.character));
   std::vector<Vec3d> places_source, places_target;
-  for (Index bone = 0; bone < target.skeleton.bones.size(); ++bone) {
+  for (Index bone = 0; bone < target.character.skeleton.bones.size(); ++bone) {
     if (bones.source_of_target[bone] == kNone) continue;
     places_source.emplace_back(
         bind_source.model_from_bone[bones.source_of_target[bone]].translation());

@@ -7,7 +7,7 @@ namespace sunder::validation {
 
 /// The factor by which the target is larger than the source, if meshes and skeletons agree on one
 /// other than 1; else 1.
-[[nodiscard]] double find_scale(const Character& source, const Character& target,
+[[nodiscard]] double find_scale(const Skinned& source, const Skinned& target,
                                 const BoneMatch& bones);
 
 /// The character with all its lengths divided.

@@ -18,7 +18,7 @@ class TermSum {
   explicit TermSum(std::size_t bone_count) : sums_(bone_count, Vec4d::Zero()) {}
 
   void add(Index bone, double m, const Vec3d& x) {
-    if (!std::ranges::count(used_, bone)) used_.push_back(bone);
+    if (std::find(used_.begin(), used_.end(), bone) == used_.end()) used_.push_back(bone);
     sums_[bone].head<3>() += x;
     sums_[bone][3] += m;
   }

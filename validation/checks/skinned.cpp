@@ -1,5 +1,3 @@
-#include <sunder/validation/finding.h>
-#include <sunder/weights/influences.h>
 #include "validation/checks/skinned.h"
 
 #include <algorithm>

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <sunder/core/character.h>
+#include <sunder/validation/finding.h>
+#include <sunder/weights/influences.h>
 
 #include <span>
 #include <vector>
@@ -12,16 +14,16 @@ namespace sunder::validation {
 /// The points of a surface as a graph. Points are those of BindSurface::weld.
 struct PointGraph {
   struct Edge {
-    Index a = 0, b = 0;      ///< a < b.
+    Index a = 0, b = 0;  ///< a < b.
     std::uint32_t faces = 0;
   };
 
-  std::vector<Edge> edges;  ///< Ascending.
+  std::vector<Edge> edges;         ///< Ascending.
   std::vector<Index> first = {0};  ///< Per point and the end, in `neighbours`.
   std::vector<Index> neighbours;
-  std::vector<float> lengths;            ///< Metres, as `neighbours`.
-  std::vector<Index> vertex_of_point;    ///< The first one.
-  std::vector<Index> shell_of_point;     ///< Connected part of the surface.
+  std::vector<float> lengths;          ///< Metres, as `neighbours`.
+  std::vector<Index> vertex_of_point;  ///< The first one.
+  std::vector<Index> shell_of_point;   ///< Connected part of the surface.
   Index shell_count = 0;
 
   [[nodiscard]] Index point_count() const { return static_cast<Index>(first.size() - 1); }

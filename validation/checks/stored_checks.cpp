@@ -1,4 +1,3 @@
-#include <sunder/weights/influences.h>
 #include "validation/checks/stored_checks.h"
 
 #include <sunder/weights/influences.h>
@@ -57,8 +56,8 @@ VertexFaults judge(const Entries& entries, Index slot_count, WeightFormat format
   return faults;
 }
 
-void judge_sum(const FindingPlace& at, const VertexFaults& faults,
-               WeightFormat format, StoredFaults& found) {
+void judge_sum(const FindingPlace& at, const VertexFaults& faults, WeightFormat format,
+               StoredFaults& found) {
   FindingPlace place = at;
   place.value = std::abs(faults.sum - 1.0);
   if (faults.used == 0 || faults.sum == 0.0) {
@@ -127,8 +126,8 @@ InfluenceFigures count_influences(const Skinned& skin, std::size_t kept) {
           influences.begin(), influences.end(),
           [](const Influence& a, const Influence& b) { return a.weight < b.weight; });
       if (static_cast<double>(least->weight) < kPrunable)
-        figures.prunable.push_back(skin.place(mesh, v, skin.bone(mesh, least->slot),
-                                              static_cast<double>(least->weight)));
+        figures.prunable.push_back(
+            skin.place(mesh, v, skin.bone(mesh, least->slot), static_cast<double>(least->weight)));
       if (influences.size() <= kept) continue;
       sorted.assign(influences.begin(), influences.end());
       if (sort_influences(sorted))

@@ -79,7 +79,8 @@ Supports collect_supports(const PointWeights& weights) {
     }
   };
   visit([&](Index bone, const Supports::Entry&) { ++supports.first[bone + 1]; });
-  for (std::size_t i = 1; i < supports.first.size(); ++i) supports.first[i] += supports.first[i - 1];
+  for (std::size_t i = 1; i < supports.first.size(); ++i)
+    supports.first[i] += supports.first[i - 1];
   supports.entries.resize(supports.first.back());
   std::vector<Index> next(supports.first.begin(), supports.first.end() - 1);
   visit([&](Index bone, const Supports::Entry& entry) { supports.entries[next[bone]++] = entry; });
@@ -90,8 +91,7 @@ Supports collect_supports(const PointWeights& weights) {
 /// reached is reset.
 class Front {
  public:
-  explicit Front(const PointGraph& graph)
-      : graph_(graph), distance_(graph.point_count(), kFar) {}
+  explicit Front(const PointGraph& graph) : graph_(graph), distance_(graph.point_count(), kFar) {}
 
   void start(Index point) { push(point, 0.0); }
   /// @param may_enter  of a point.
@@ -147,9 +147,9 @@ class BleedSearch {
     std::vector<Index> far = beyond_support(support);
     if (!far.empty()) far = beyond_surface(support, far);
     for (const Index point : far)
-      places.push_back(skin_.place(skin_.graph.vertex_of_point[point], bone,
-                                   static_cast<double>(far.size()) /
-                                       static_cast<double>(support.size())));
+      places.push_back(
+          skin_.place(skin_.graph.vertex_of_point[point], bone,
+                      static_cast<double>(far.size()) / static_cast<double>(support.size())));
   }
 
  private:

@@ -68,28 +68,29 @@ struct ValidationOptions {
 
 /// Deviation of the target from the source surface over one set of poses.
 struct PosedFigures {
-  std::string_view poses;        ///< "clips", "range of motion", "random".
-  std::uint32_t pose_count = 0;  ///< 0: not tested.
+  std::string_view poses;          ///< "clips", "range of motion", "random".
+  std::uint32_t pose_count = 0;    ///< 0: not tested.
   std::uint32_t sample_count = 0;  ///< Vertices compared in each pose.
   double mean = 0.0, rms = 0.0, p95 = 0.0, maximum = 0.0;  ///< Metres.
   double maximum_of_diagonal = 0.0;                        ///< Share.
-  double maximum_of_edge = 0.0;   ///< Share of the mean edge at the vertex.
+  double maximum_of_edge = 0.0;  ///< Share of the mean edge at the vertex.
   /// Share of all poses of this distribution that `maximum` covers, with confidence 0.95 (Wilks).
   /// 0 unless the poses are independent samples.
   double covered_share = 0.0;
   FindingPlace worst;
 };
 
-/// Figures by the definitions of papers, over the random poses; docs/validation.md has the formulas.
+/// Figures by the definitions of papers, over the random poses; docs/validation.md has the
+/// formulas.
 struct PaperFigures {
   bool is_tested = false;
-  double kg_error = 0.0;            ///< 100 |A - B| / |A - centroid of each frame|.
-  double rms_1000 = 0.0;            ///< 1000 |A - B| / sqrt(3 N F), in units of the diagonal.
-  double rms = 0.0;                 ///< |A - B| / sqrt(N F), metres.
-  double distance_mean = 0.0;       ///< Over the first 10 random poses, metres.
-  double distance_maximum = 0.0;    ///< Over the first 10 random poses, metres.
+  double kg_error = 0.0;          ///< 100 |A - B| / |A - centroid of each frame|.
+  double rms_1000 = 0.0;          ///< 1000 |A - B| / sqrt(3 N F), in units of the diagonal.
+  double rms = 0.0;               ///< |A - B| / sqrt(N F), metres.
+  double distance_mean = 0.0;     ///< Over the first 10 random poses, metres.
+  double distance_maximum = 0.0;  ///< Over the first 10 random poses, metres.
   double influence_precision = 1.0, influence_recall = 1.0;  ///< Weights above 1e-4.
-  double weight_l1 = 0.0;           ///< Mean over vertices.
+  double weight_l1 = 0.0;                                    ///< Mean over vertices.
   std::uint32_t points = 0, frames = 0;
 };
 
@@ -100,7 +101,7 @@ struct DeviationBracket {
   std::string why;  ///< Where it was not tested, and points without a certificate.
   double found = 0.0, certified = 0.0;  ///< Metres.
   FindingPlace worst;
-  ModelPose pose;                ///< Of the source's skeleton.
+  ModelPose pose;                 ///< Of the source's skeleton.
   std::uint32_t uncertified = 0;  ///< Vertices without a certificate.
 };
 
