@@ -217,7 +217,8 @@ CLI::App* add_validate(CLI::App& app, ValidateRequest& request) {
       verb->add_option("TARGET", request.target, "The model that a tool made of it");
   source->needs(target);
   verb->add_option("--ops", request.operations, "The operation log that made the target");
-  verb->add_option("--bones", request.bones, "Mapping of bone names, JSON");
+  verb->add_option("--bone-names", request.bone_names,
+                   "JSON file of bones whose names differ: {\"of the target\": \"of the source\"}");
   verb->add_option("--profile", request.profile, "Simulate the limits of a platform")
       ->check(CLI::IsMember({"unity4", "unreal8", "gltf4", "gltf8", "webxr"}));
   verb->add_option("--limits", request.limits,
@@ -227,6 +228,7 @@ CLI::App* add_validate(CLI::App& app, ValidateRequest& request) {
       ->check(CLI::IsMember({"error", "warning", "note"}))
       ->capture_default_str();
   verb->add_option("--report", request.report, "File for the JSON report");
+  verb->add_option("--html", request.html, "File for a page with both models, which opens offline");
   CLI::Option* const manifest =
       verb->add_option("--manifest", request.manifest, "Many pairs, JSON; see docs/validation.md");
   verb->add_option("--jobs", request.jobs, "Pairs of a manifest at a time")

@@ -9,6 +9,8 @@
 #include <system_error>
 #include <utility>
 
+#include "tools/bone_names.h"
+#include "tools/json_file.h"
 #include "tools/report.h"
 #include "tools/text_file.h"
 #include "tools/transfer_report.h"
@@ -34,29 +36,6 @@ std::string overwritten_input(const TransferRequest& request) {
   return {};
 }
 
-Result<Json> read_object(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  if (!stream) return Status::failure(StatusCode::file_unreadable, kNone, "cannot be read");
-  Json json = Json::parse(text.str(), nullptr, false);
-  if (!json.is_object())
-    return Status::failure(StatusCode::malformed_file, kNone, "not a JSON object");
-  return json;
-}
-
-Status read_bone_names(const std::filesystem::path& file, TransferOptions& options) {
-  const Result<Json> pairs = read_object(file);
-  if (!pairs) return pairs.error();
-  for (const auto& [target, source] : pairs->items()) {
-    if (!source.is_string())
-      return Status::failure(StatusCode::malformed_file, kNone, "'%.80s': not a name",
-                             target.c_str());
-    options.bone_names.push_back({target, source.get<std::string>()});
-  }
-  return {};
-}
-
 std::vector<std::vector<bool>> mask(const Character& character, bool value) {
   std::vector<std::vector<bool>> mask;
   for (const Mesh& mesh : character.meshes) mask.emplace_back(mesh.vertex_count(), value);
@@ -66,7 +45,7 @@ std::vector<std::vector<bool>> mask(const Character& character, bool value) {
 /// Locks all vertices but those listed, as {"mesh": [vertex, …]}.
 Status lock_others(const std::filesystem::path& file, const Character& target,
                    TransferOptions& options) {
-  const Result<Json> lists = read_object(file);
+  const Result<Json> lists = read_json_object(file);
   if (!lists) return lists.error();
   options.locked = mask(target, true);
   for (const auto& [name, vertices] : lists->items()) {
@@ -105,9 +84,11 @@ Status lock_by_attribute(const std::string& name, const Character& target,
 /// @return ok, or the exit code of the failure, which was reported.
 ExitCode read_rules(const TransferRequest& request, const Character& target,
                     TransferOptions& options) {
-  if (request.bone_names)
-    if (const Status status = read_bone_names(*request.bone_names, options); !status)
-      return complain(request.bone_names->string(), status, ExitCode::usage);
+  if (request.bone_names) {
+    Result<std::vector<BoneNames>> names = read_bone_names(*request.bone_names);
+    if (!names) return complain(request.bone_names->string(), names.error(), ExitCode::usage);
+    options.bone_names = std::move(*names);
+  }
   if (request.vertices)
     if (const Status status = lock_others(*request.vertices, target, options); !status)
       return complain(request.vertices->string(), status, ExitCode::usage);

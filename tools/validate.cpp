@@ -4,21 +4,23 @@
 #include <atomic>
 #include <cstdio>
 #include <cstdlib>
-#include <fstream>
 #include <mutex>
-#include <sstream>
 #include <thread>
 #include <unistd.h>
 
+#include "tools/json_file.h"
+#include "tools/text_file.h"
+#include "tools/validate_page.h"
+#include "tools/validation_page/write_page.h"
 #include "tools/verbs.h"
 
 namespace sunder::tools {
 namespace {
 
-/// One comparison of a run, with the file for its report.
+/// One comparison of a run, with the files that it writes.
 struct Job {
   ValidatePair pair;
-  std::optional<std::filesystem::path> report;
+  std::optional<std::filesystem::path> report, html;
 };
 
 TargetProfile profile_named(const std::string& name) {
@@ -95,6 +97,9 @@ ExitCode run_job(const Job& job, Severity fail_on, Output& output) {
   if (job.report)
     if (const Status status = write_text(*job.report, dump(validation_json(*pair))); !status)
       return output.failure(job, {job.report->string(), status, ExitCode::unreadable_input});
+  if (job.html)
+    if (const Status status = write_validation_page(*job.html, page_input(*pair)); !status)
+      return output.failure(job, {job.html->string(), status, ExitCode::unreadable_input});
   output.result(job, *pair);
   return has_findings(pair->report, fail_on) ? ExitCode::findings : ExitCode::ok;
 }
@@ -107,27 +112,26 @@ std::optional<std::filesystem::path> file_of(const Json& pair, const char* name,
   return folder / found->get<std::string>();
 }
 
-/// {"pairs": [{"source": …, "target": …, "ops": …, "bones": …, "profile": …, "limits": …,
-/// "report": …}]}
+/// {"pairs": [{"source": …, "target": …, "ops": …, "bone_names": …, "profile": …, "limits": …,
+/// "report": …, "html": …}]}
 Status read_manifest(const std::filesystem::path& file, const ValidateRequest& request,
                      std::vector<Job>& jobs) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) return Status::failure(StatusCode::file_not_found, kNone, "cannot read this file");
-  std::ostringstream text;
-  text << stream.rdbuf();
-  const Json json = Json::parse(text.str(), nullptr, false);
-  if (!json.is_object() || !json.contains("pairs") || !json["pairs"].is_array())
+  const Result<Json> json = read_json_object(file);
+  if (!json) return json.error();
+  const auto pairs = json->find("pairs");
+  if (pairs == json->end() || !pairs->is_array())
     return Status::failure(StatusCode::malformed_file, kNone, "/pairs: expected an array");
   const std::filesystem::path folder = file.parent_path();
-  for (const Json& pair : json["pairs"]) {
+  for (const Json& pair : *pairs) {
     const auto index = static_cast<std::uint32_t>(jobs.size());
     const auto source = file_of(pair, "source", folder), target = file_of(pair, "target", folder);
     if (!pair.is_object() || !source || !target)
       return Status::failure(StatusCode::malformed_file, index,
                              "/pairs/%u: expected source and target", index);
-    Job job{{*source, *target, file_of(pair, "ops", folder), file_of(pair, "bones", folder),
+    Job job{{*source, *target, file_of(pair, "ops", folder), file_of(pair, "bone_names", folder),
              profile_named(request.profile), request.limits},
-            file_of(pair, "report", folder)};
+            file_of(pair, "report", folder),
+            file_of(pair, "html", folder)};
     if (const auto profile = pair.find("profile"); profile != pair.end() && profile->is_string())
       job.pair.profile = profile_named(profile->get<std::string>());
     if (const auto limits = pair.find("limits"); limits != pair.end() && limits->is_string()) {
@@ -172,9 +176,10 @@ ExitCode run_validate(const ValidateRequest& request) {
     if (const Status status = read_manifest(*request.manifest, request, jobs); !status)
       return complain(request.manifest->string(), status, ExitCode::usage);
   } else {
-    jobs.push_back({{request.source, request.target, request.operations, request.bones,
+    jobs.push_back({{request.source, request.target, request.operations, request.bone_names,
                      profile_named(request.profile), request.limits},
-                    request.report});
+                    request.report,
+                    request.html});
   }
   Output output(request);
   return run_jobs(jobs, request.jobs, fail_on, output);

@@ -4,6 +4,7 @@
 #include <sunder/validation/validation.h>
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -23,7 +24,7 @@ struct ValidatedPair {
 struct ValidatePair {
   std::filesystem::path source, target;
   std::optional<std::filesystem::path> operations;  ///< The log that made the target.
-  std::optional<std::filesystem::path> bones;       ///< Mapping of bone names.
+  std::optional<std::filesystem::path> bone_names;  ///< Bones whose names differ.
   TargetProfile profile = TargetProfile::none;
   std::string limits = "none";  ///< "none", "clips" or a file.
 };

@@ -2,45 +2,15 @@
 #include <sunder/skinning/pose.h>
 
 #include <algorithm>
-#include <fstream>
-#include <map>
 #include <numbers>
-#include <sstream>
 #include <utility>
 
+#include "tools/bone_names.h"
+#include "tools/json_file.h"
 #include "tools/validate.h"
 
 namespace sunder::tools {
 namespace {
-
-Result<Json> read_json(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) return Status::failure(StatusCode::file_not_found, kNone, "cannot read this file");
-  std::ostringstream text;
-  text << stream.rdbuf();
-  Json json = Json::parse(text.str(), nullptr, false);
-  if (json.is_discarded() || !json.is_object())
-    return Status::failure(StatusCode::malformed_file, kNone, "expected one JSON object");
-  return json;
-}
-
-/// {"bones": {"name in the target": "name in the source"}}
-Result<std::vector<std::pair<std::string, std::string>>> read_bones(
-    const std::filesystem::path& file) {
-  const Result<Json> json = read_json(file);
-  if (!json) return json.error();
-  const auto bones = json->find("bones");
-  if (bones == json->end() || !bones->is_object())
-    return Status::failure(StatusCode::malformed_file, kNone, "/bones: expected an object");
-  std::vector<std::pair<std::string, std::string>> pairs;
-  for (const auto& [target, source] : bones->items()) {
-    if (!source.is_string())
-      return Status::failure(StatusCode::malformed_file, kNone, "/bones/%.80s: expected a name",
-                             target.c_str());
-    pairs.emplace_back(source.get<std::string>(), target);
-  }
-  return pairs;
-}
 
 double radians(const Json& degrees) { return degrees.get<double>() * std::numbers::pi / 180.0; }
 
@@ -71,7 +41,7 @@ Status read_range(const Json& json, const std::string& bone, JointRange& range) 
 
 /// Bones that the file does not name keep their free limits.
 Result<JointLimits> read_limits(const std::filesystem::path& file, const Character& source) {
-  const Result<Json> json = read_json(file);
+  const Result<Json> json = read_json_object(file);
   if (!json) return json.error();
   Result<JointLimits> limits = free_joint_limits(source, *bind_pose(source));
   if (!limits) return limits.error();
@@ -156,11 +126,11 @@ bool read_options(const ValidatePair& pair, const Character& source,
     operations = std::move(*log);
     options.operations = operations;
   }
-  if (pair.bones) {
-    auto bones = read_bones(*pair.bones);
-    if (!bones) failure = {pair.bones->string(), bones.error(), ExitCode::usage};
-    if (!bones) return false;
-    options.bones = std::move(*bones);
+  if (pair.bone_names) {
+    Result<std::vector<BoneNames>> names = read_bone_names(*pair.bone_names);
+    if (!names) failure = {pair.bone_names->string(), names.error(), ExitCode::usage};
+    if (!names) return false;
+    options.bone_names = std::move(*names);
   }
   if (pair.limits == "none") return true;
   if (pair.limits == "clips") {

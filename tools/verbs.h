@@ -56,9 +56,10 @@ struct TransferRequest {
 /// sunder validate: compares how the skins of two models deform.
 struct ValidateRequest {
   std::filesystem::path source, target;
-  std::optional<std::filesystem::path> operations, bones;
+  std::optional<std::filesystem::path> operations, bone_names;
   std::string profile, limits = "none", fail_on = "error";
   std::optional<std::filesystem::path> report;    ///< Output file of the JSON report.
+  std::optional<std::filesystem::path> html;      ///< Output file of the page.
   std::optional<std::filesystem::path> manifest;  ///< Many pairs instead of source and target.
   unsigned jobs = 1;                              ///< Pairs of a manifest at a time.
   bool as_json_lines = false;                     ///< Progress and results on stdout.

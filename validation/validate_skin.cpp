@@ -298,10 +298,7 @@ Result<ValidationReport> validate_skin(const std::shared_ptr<const Character>& s
       return status;
     if (const Status status = check_stored(*target, options.stored_target, "target"); !status)
       return status;
-    std::vector<BoneNames> mapping;
-    for (const auto& [of_source, of_target] : options.bones)
-      mapping.push_back({of_target, of_source});
-    Result<BoneMatch> bones = match_bones(source->skeleton, target->skeleton, mapping);
+    Result<BoneMatch> bones = match_bones(source->skeleton, target->skeleton, options.bone_names);
     if (!bones) return bones.error();
     return Validation(source, target, options, std::move(*bones)).run();
   } catch (const std::bad_alloc&) {

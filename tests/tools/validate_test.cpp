@@ -140,8 +140,8 @@ TEST_F(Validate, wrong_command_lines_and_files_have_their_exit_codes) {
   const auto limits = run_sunder({"validate", model, model, "--limits", path("limits.json")});
   EXPECT_EQ(limits.exit_code, 2);
   EXPECT_THAT(limits.err, HasSubstr("no such bone"));
-  std::ofstream(path("bones.json")) << R"({"bones": {"x": 3}})";
-  EXPECT_EQ(run_sunder({"validate", model, model, "--bones", path("bones.json")}).exit_code, 2);
+  std::ofstream(path("bones.json")) << R"({"x": 3})";
+  EXPECT_EQ(run_sunder({"validate", model, model, "--bone-names", path("bones.json")}).exit_code, 2);
 }
 
 }  // namespace

@@ -112,7 +112,7 @@ TEST(ValidateSkin, wrong_input_is_refused) {
   options.stored_target = two;
   EXPECT_EQ(validate_skin(tube, tube, options).error().code(), StatusCode::size_mismatch);
   options = {};
-  options.bones = {{"no such bone", "bone"}};
+  options.bone_names = {{"bone", "no such bone"}};
   EXPECT_FALSE(validate_skin(tube, tube, options));
   Character broken = *tube;
   broken.meshes[0].weights.influences[0].weight = -1.0f;

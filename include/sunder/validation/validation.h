@@ -5,6 +5,7 @@
 #include <sunder/operation/operation.h>
 #include <sunder/validation/certificate.h>
 #include <sunder/validation/finding.h>
+#include <sunder/validation/transfer.h>
 #include <sunder/weights/influences.h>
 
 #include <functional>
@@ -12,7 +13,6 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 namespace sunder {
@@ -50,7 +50,7 @@ struct ValidationOptions {
   /// What the files store, one per mesh; empty: checks of stored weights are not made.
   std::span<const StoredInfluences> stored_source = {}, stored_target = {};
   /// Bones of the source and the target that belong together although their names differ.
-  std::vector<std::pair<std::string, std::string>> bones;
+  std::vector<BoneNames> bone_names;
   /// The log that made the target from the source; empty: unknown.
   std::span<const Operation> operations = {};
   TargetProfile profile = TargetProfile::none;
