@@ -335,7 +335,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"unknown part of a bone", tear_with(R"("pose": {"bones": {"A/B": {"shear": 1}}})"),
                 kMalformed, "/pose/bones/A~1B"},
         Refusal{"bone without name", tear_with(R"("pose": {"bones": {"": {}}})"), kMalformed,
-                "without name"},
+                "must not be empty"},
         Refusal{"rotation of zero length",
                 tear_with(R"("pose": {"bones": {"A": {"rotation": [0,0,0,0]}}})"), kMalformed,
                 "/A/rotation"},
@@ -479,7 +479,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "/operations/0/weights: unknown field 'refit'"},
         Refusal{"unknown policy",
                 drill_with(R"("radius": 1, "depth": 1, "weights": {"policy": "linear"})"),
-                kUnsupported, "/operations/0/weights/policy: policy 'linear'"},
+                kUnsupported, "/operations/0/weights/policy: unknown policy 'linear'"},
         Refusal{"policy as number", tear_with(R"("weights": {"policy": 3})"), kMalformed,
                 "/operations/0/weights/policy: expected a string"},
         Refusal{

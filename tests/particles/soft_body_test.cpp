@@ -564,7 +564,8 @@ TEST(soft_body, invalid_input_is_named_and_changes_nothing) {
   expect(body.move_collider(0, {0, 0, 0}, Quatd::Identity()), StatusCode::index_out_of_range, 0,
          "collider");
   expect(body.step(*scene.model, scene.pose, -0.1), StatusCode::invalid_argument, kNone, "-0.1");
-  expect(body.step(*scene.model, scene.pose, kNaN), StatusCode::non_finite_value, kNone, "seconds");
+  expect(body.step(*scene.model, scene.pose, kNaN), StatusCode::non_finite_value, kNone,
+         "time step");
   ModelPose wrong = scene.pose;
   wrong.model_from_bone.pop_back();
   expect(body.step(*scene.model, wrong, 0.1), StatusCode::size_mismatch, kNone, "bones");

@@ -327,12 +327,13 @@ TEST(AllocationFailure, accessors_say_so) {
         return measure_weight_errors(subject.model, 0, kNone, std::span(&pose, 1));
       },
       unchanged);
+  const std::shared_ptr<const Character> source = tubes();
   starve(
-      made, [](Subject&) { return TornModel::create(tubes()); }, unchanged);
+      made, [&](Subject&) { return TornModel::create(source); }, unchanged);
   starve(
       made,
-      [](Subject&) {
-        return TornModel::create(tubes(), {100, 100, 2});
+      [&](Subject&) {
+        return TornModel::create(source, {100, 100, 2});
       },
       unchanged);
 }

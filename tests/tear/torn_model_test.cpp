@@ -188,7 +188,7 @@ TEST(TornModel, names_the_number_of_blades_before_the_options_and_these_before_a
   };
   const Blade without_length = {{0.5, 0.5, 0}, {0.5, 0.5, 0}};
   EXPECT_THAT(message({without_length}), HasSubstr("at least two blades"));
-  EXPECT_THAT(message({without_length, without_length}), HasSubstr("wide"));
+  EXPECT_THAT(message({without_length, without_length}), HasSubstr("width"));
 }
 
 TEST(TornModel, tears_in_a_pose_with_a_collapsed_bone_without_harm) {
