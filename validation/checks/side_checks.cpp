@@ -7,10 +7,10 @@
 #include <cmath>
 #include <map>
 
+#include "core/internal/or_throw.h"
 #include "core/internal/ordered.h"
 #include "validation/checks/inherited.h"
 #include "validation/match/position_table.h"
-#include "validation/or_throw.h"
 
 namespace sunder::validation {
 namespace {

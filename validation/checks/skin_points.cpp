@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "validation/or_throw.h"
+#include "core/internal/or_throw.h"
 
 namespace sunder::validation {
 

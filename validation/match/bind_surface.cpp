@@ -6,8 +6,8 @@
 #include <cmath>
 #include <string_view>
 
+#include "core/internal/or_throw.h"
 #include "core/internal/ordered.h"
-#include "validation/or_throw.h"
 
 namespace sunder::validation {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "core/internal/or_throw.h"
 #include "core/internal/ordered.h"
-#include "validation/or_throw.h"
 
 namespace sunder::validation {
 namespace {

@@ -6,9 +6,9 @@
 #include <map>
 #include <utility>
 
+#include "core/internal/or_throw.h"
 #include "core/internal/ordered.h"
 #include "validation/match/bone_match.h"
-#include "validation/or_throw.h"
 
 namespace sunder::validation {
 namespace {

@@ -8,9 +8,9 @@
 #include <set>
 #include <string>
 
+#include "core/internal/or_throw.h"
 #include "core/internal/ordered.h"
 #include "validation/match/bind_surface.h"
-#include "validation/or_throw.h"
 
 namespace sunder::validation {
 namespace {

@@ -5,10 +5,10 @@
 #include <new>
 #include <utility>
 
-namespace sunder::validation {
+namespace sunder {
 
-/// The value of a call that can only run out of memory. The public functions of this module turn
-/// the exception into a status again.
+/// The value of a call that can only run out of memory. Public functions turn
+/// the exception into a status again: or_out_of_memory().
 /// @throws std::bad_alloc
 template <class T>
 [[nodiscard]] T or_throw(Result<T> result) {
@@ -19,4 +19,4 @@ inline void or_throw(const Status& status) {
   if (!status) throw std::bad_alloc();
 }
 
-}  // namespace sunder::validation
+}  // namespace sunder
