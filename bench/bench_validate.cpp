@@ -1,6 +1,7 @@
 // Measures the comparison of two skins: time and memory, whether certificates hold and how tight
 // they are, and how well weights are transferred.
 
+#include <sunder/skinning/pose.h>
 #include <sunder/validation/validation.h>
 
 #include <algorithm>
