@@ -70,16 +70,17 @@ TEST_P(Mistakes, are_found_under_their_own_code_at_the_right_places) {
       << finding->text;
 }
 
+std::string name_of(const testing::TestParamInfo<std::tuple<int, const char*>>& instance) {
+  const auto& [mistake, file] = instance.param;
+  const std::string name = file;
+  return "mistake_" + std::to_string(mistake) + "_" + name.substr(0, name.find('.'));
+}
+
 INSTANTIATE_TEST_SUITE_P(OnThreeModels, Mistakes,
                          testing::Combine(testing::Range(0, kMistakes),
                                           testing::Values("seamed_sheet.glb", "six_influences.glb",
                                                           "two_clips.glb")),
-                         [](const auto& instance) {
-                           const auto& [mistake, file] = instance.param;
-                           const std::string name = file;
-                           return "mistake_" + std::to_string(mistake) + "_" +
-                                  name.substr(0, name.find('.'));
-                         });
+                         name_of);
 
 void expect_no_alarm(const ValidationReport& report, const std::string& what) {
   EXPECT_EQ(alarms(report), "") << what;
