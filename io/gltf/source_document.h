@@ -41,7 +41,7 @@ class SourceDocument {
   std::filesystem::path folder;  ///< Absolute, or empty: where relative URIs may point.
   std::uint64_t maximum_bytes =
       0;  ///< LoadOptions::maximum_bytes, for the images that saving embeds.
-  std::vector<MeshOrigin> mesh_origins;  ///< One a mesh of the character.
+  std::vector<MeshOrigin> mesh_origins;     ///< One a mesh of the character.
   std::vector<std::uint32_t> node_of_bone;  ///< kNone for bones that loading added.
 };
 
