@@ -241,12 +241,12 @@ Status Transfer::refuse_nothing() const {
                            "the source has no triangle with an area");
   double nearest = matches_.matches[0].distance;
   for (const SurfaceMatch& match : matches_.matches) nearest = std::min(nearest, match.distance);
-  return Status::failure(StatusCode::not_found, kNone,
-                         "no vertex of the target matches the source: %u are farther than %g m "
-                         "(the nearest by %g m), %u have normals that disagree; are both in the "
-                         "same place and unit?",
-                         matches_.counts.too_far, limits_.distance, nearest,
-                         matches_.counts.turned_away);
+  return Status::failure(
+      StatusCode::not_found, kNone,
+      "no vertex of the target matches the source: %u are farther than %g m "
+      "(the nearest is %g m away), %u have normals that disagree; are both in the "
+      "same place and unit?",
+      matches_.counts.too_far, limits_.distance, nearest, matches_.counts.turned_away);
 }
 
 void Transfer::choose_states() {
