@@ -27,16 +27,28 @@ bool same_weights(std::span<const Influence> a, std::span<const Influence> b) {
       a, [&](const Influence& influence) { return std::ranges::count(b, influence) == 1; });
 }
 
-/// Border edges, each with its points in `first` by falling size of cells; see find_t_junctions().
+/// The points of border edges by cells of space.
 struct BorderGrid {
-  double cell = 0.0;
-  std::map<std::array<std::int64_t, 3>, std::vector<Index>> points;
+  using Cell = std::array<std::int64_t, 3>;
+  double size = 0.0;  ///< Of a cell, metres.
+  std::map<Cell, std::vector<Index>> points;
 
-  [[nodiscard]] std::array<std::int64_t, 3> key(const Vec3d& place) const {
-    std::array<std::int64_t, 3> cells;
+  [[nodiscard]] Cell cell_at(const Vec3d& place) const {
+    Cell cell;
     for (std::size_t i = 0; i < 3; ++i)
-      cells[i] = static_cast<std::int64_t>(std::floor(place[static_cast<int>(i)] / cell));
-    return cells;
+      cell[i] = static_cast<std::int64_t>(std::floor(place[static_cast<int>(i)] / size));
+    return cell;
+  }
+  /// Calls visit(point) for all points in the cells from low to high. A box of more cells than are
+  /// in use costs no more than a walk over those.
+  template <class Visit>
+  void visit_box(const Cell& low, const Cell& high, Visit visit) const {
+    for (auto column = points.lower_bound(low); column != points.end() && column->first <= high;
+         ++column) {
+      const Cell& cell = column->first;
+      if (cell[1] < low[1] || cell[1] > high[1] || cell[2] < low[2] || cell[2] > high[2]) continue;
+      for (const Index point : column->second) visit(point);
+    }
   }
 };
 
@@ -60,11 +72,12 @@ BorderGrid make_grid(const Skinned& skin, std::span<const PointGraph::Edge> bord
     points.push_back(edge.a);
     points.push_back(edge.b);
   }
-  grid.cell = std::max(2.0 * sum / static_cast<double>(std::max<std::size_t>(borders.size(), 1)),
+  grid.size = std::max(2.0 * sum / static_cast<double>(std::max<std::size_t>(borders.size(), 1)),
                        1e-9 + 1e-3 * skin.surface.diagonal);
   std::ranges::sort(points);
   points.erase(std::unique(points.begin(), points.end()), points.end());
-  for (const Index point : points) grid.points[grid.key(place_of(skin, point))].push_back(point);
+  for (const Index point : points)
+    grid.points[grid.cell_at(place_of(skin, point))].push_back(point);
   return grid;
 }
 
@@ -80,21 +93,13 @@ std::vector<OnEdge> points_on(const Skinned& skin, const BorderGrid& grid,
   const Vec3d &a = place_of(skin, edge.a), &b = place_of(skin, edge.b);
   const double tolerance = kOnEdge * skin.surface.diagonal, square = squared_norm(b - a);
   std::vector<OnEdge> found;
-  const auto low = grid.key(a.cwiseMin(b)), high = grid.key(a.cwiseMax(b));
-  for (auto x = low[0]; x <= high[0]; ++x)
-    for (auto y = low[1]; y <= high[1]; ++y)
-      for (auto z = low[2]; z <= high[2]; ++z) {
-        const auto cell = grid.points.find({x, y, z});
-        if (cell == grid.points.end()) continue;
-        for (const Index point : cell->second) {
-          const Vec3d& p = place_of(skin, point);
-          const double t = dot(p - a, b - a) / square;
-          const Vec3d foot = a + t * (b - a);
-          if (t <= 0.0 || t >= 1.0 || norm(p - foot) > tolerance) continue;
-          if (norm(p - a) > 2 * tolerance && norm(p - b) > 2 * tolerance)
-            found.push_back({t, point});
-        }
-      }
+  grid.visit_box(grid.cell_at(a.cwiseMin(b)), grid.cell_at(a.cwiseMax(b)), [&](Index point) {
+    const Vec3d& p = place_of(skin, point);
+    const double t = dot(p - a, b - a) / square;
+    const Vec3d foot = a + t * (b - a);
+    if (t <= 0.0 || t >= 1.0 || norm(p - foot) > tolerance) return;
+    if (norm(p - a) > 2 * tolerance && norm(p - b) > 2 * tolerance) found.push_back({t, point});
+  });
   std::ranges::sort(found, {}, &OnEdge::t);
   return found;
 }

@@ -90,21 +90,18 @@ SkinDifferences difference_of(const Character& source, const Character& target,
   SkinDifferences differences;
   differences.first.reserve(matches.matches.size() + 1);
   Row row(source.skeleton.bones.size());
-  for (Index m = 0; m < target.meshes.size(); ++m) {
-    const Mesh& mesh = target.meshes[m];
-    for (Index v = 0; v < mesh.vertex_count(); ++v) {
-      const SurfaceMatch& match = matches.of(m, v);
-      if (match.is_accepted) {
-        const Mesh& of = source.meshes[match.mesh];
-        row.add(1.0, mesh, v, target_slots[mesh.skin]);
-        for (std::size_t k = 0; k < 3; ++k)
-          if (match.barycentric[k] > 0)
-            row.add(-match.barycentric[k], of, of.triangles[match.triangle][k],
-                    source_slots[of.skin]);
-      }
+  const auto add = [&](const Mesh& mesh, Index v, const SurfaceMatch& match) {
+    const Mesh& of = source.meshes[match.mesh];
+    row.add(1.0, mesh, v, target_slots[mesh.skin]);
+    for (std::size_t k = 0; k < 3; ++k)
+      if (match.barycentric[k] > 0)
+        row.add(-match.barycentric[k], of, of.triangles[match.triangle][k], source_slots[of.skin]);
+  };
+  for (Index m = 0; m < target.meshes.size(); ++m)
+    for (Index v = 0; v < target.meshes[m].vertex_count(); ++v) {
+      if (matches.of(m, v).is_accepted) add(target.meshes[m], v, matches.of(m, v));
       row.finish(differences);
     }
-  }
   return differences;
 }
 
