@@ -259,7 +259,7 @@ ValidationReport Validation::run() {
   source_.emplace(*source_character_, options_.stored_source);
   target_.emplace(*target_character_, options_.stored_target);
   bring_to_scale();
-  report_.diagonal = source_->surface.diagonal;
+  report_.diagonal = source_->rest_diagonal;
   report_.source_bone_of_target = bones_.source_of_target;
   replayed_ = check_pops(source_character_, options_.operations, report_.diagonal, *findings_);
   begin("matching");

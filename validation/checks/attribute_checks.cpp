@@ -162,8 +162,7 @@ void check_attributes(const RowReader& reader, FindingList& findings) {
   check_morphs(reader, findings);
   const BindSurface& source = reader.source().surface;
   PositionTable table(source.positions.size());
-  for (Index v = 0; v < source.vertex_count(); ++v)
-    if (source.triangle_of_vertex[v] != kNone) table.insert(source.positions[v], v);
+  for (Index v = 0; v < source.vertex_count(); ++v) table.insert(source.positions[v], v);
   for (const Attribute& attribute : kAttributes) {
     Places places = different_vertices(reader, table, attribute);
     const Places incomplete = incomplete_meshes(reader, attribute);

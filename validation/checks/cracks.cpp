@@ -39,15 +39,24 @@ struct BorderGrid {
       cell[i] = static_cast<std::int64_t>(std::floor(place[static_cast<int>(i)] / size));
     return cell;
   }
-  /// Calls visit(point) for all points in the cells from low to high. A box of more cells than are
-  /// in use costs no more than a walk over those.
+  /// Calls visit(point) for all points in the cells from low to high, in the order of the cells.
+  /// Skips cells outside, so that long edges in a fine grid cost only the columns in use.
   template <class Visit>
   void visit_box(const Cell& low, const Cell& high, Visit visit) const {
-    for (auto column = points.lower_bound(low); column != points.end() && column->first <= high;
-         ++column) {
-      const Cell& cell = column->first;
-      if (cell[1] < low[1] || cell[1] > high[1] || cell[2] < low[2] || cell[2] > high[2]) continue;
-      for (const Index point : column->second) visit(point);
+    for (auto at = points.lower_bound(low); at != points.end() && at->first <= high;) {
+      const auto& [x, y, z] = at->first;
+      if (y < low[1] || (y == low[1] && z < low[2])) {
+        at = points.lower_bound({x, low[1], low[2]});
+      } else if (y > high[1]) {
+        at = points.lower_bound({x + 1, low[1], low[2]});
+      } else if (z < low[2]) {
+        at = points.lower_bound({x, y, low[2]});
+      } else if (z > high[2]) {
+        at = points.lower_bound({x, y + 1, low[2]});
+      } else {
+        for (const Index point : at->second) visit(point);
+        ++at;
+      }
     }
   }
 };
@@ -215,7 +224,7 @@ void check_kind(const RowReader& reader, const Posing& posing, const CrackKind& 
   }
   std::vector<double> widths(cracks.size(), 0.0);
   for (const PoseBatch& batch : posing.batches) raise_largest(rows, batch, widths);
-  const double least = kind_of(code).threshold * reader.source().surface.diagonal;
+  const double least = kind_of(code).threshold * reader.source().rest_diagonal;
   Places places;
   for (std::size_t i = 0; i < cracks.size(); ++i)
     if (widths[i] >= least)

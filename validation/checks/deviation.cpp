@@ -58,9 +58,11 @@ std::vector<MovedVertex> moved_vertices(const RowReader& reader,
                                         const SkinDifferences& differences) {
   std::vector<MovedVertex> moved;
   const Skinned& target = reader.target();
+  // Edges are measured at bind, which may be of another unit than the poses.
+  const double unit = target.rest_diagonal / std::max(target.surface.diagonal, 1e-300);
   for (Index v = 0; v < target.surface.vertex_count(); ++v)
     if (!terms_of(differences, v).empty())
-      moved.push_back({v, target.graph.mean_length(target.surface.weld.point_of_vertex[v])});
+      moved.push_back({v, unit * target.graph.mean_length(target.surface.weld.point_of_vertex[v])});
   return moved;
 }
 

@@ -4,25 +4,37 @@
 #include <array>
 #include <cmath>
 #include <set>
+#include <tuple>
 
 namespace sunder::validation {
 
 Places take_inherited(const RowReader& reader, Places& of_target, const Places& of_source) {
-  std::set<std::array<Index, 3>> known;  // mesh, vertex, bone
-  for (const FindingPlace& place : of_source) known.insert({place.mesh, place.vertex, place.bone});
-  Places inherited;
-  std::erase_if(of_target, [&](const FindingPlace& place) {
+  std::set<std::array<Index, 3>> corners_with_fault;  // mesh, vertex, bone
+  // Faces without area are not matched, but stand where they stood.
+  std::set<std::tuple<double, double, double, Index>> places_with_fault;
+  const auto key = [](const FindingPlace& place, Index bone) {
+    return std::tuple(place.position.x(), place.position.y(), place.position.z(), bone);
+  };
+  for (const FindingPlace& place : of_source) {
+    corners_with_fault.insert({place.mesh, place.vertex, place.bone});
+    places_with_fault.insert(key(place, place.bone));
+  }
+  const auto is_at_corner = [&](const FindingPlace& place, Index bone) {
     const SurfaceMatch& match = reader.match(place.mesh, place.vertex);
     if (match.mesh == kNone) return false;
-    const Index bone = place.bone == kNone ? kNone : reader.bones().source_of_target[place.bone];
     const Triangle& corners =
         reader.source().character.meshes[match.mesh].triangles[match.triangle];
     for (std::size_t k = 0; k < 3; ++k)
-      if (match.barycentric[k] > 0 && known.contains({match.mesh, corners[k], bone})) {
-        inherited.push_back(place);
+      if (match.barycentric[k] > 0 && corners_with_fault.contains({match.mesh, corners[k], bone}))
         return true;
-      }
     return false;
+  };
+  Places inherited;
+  std::erase_if(of_target, [&](const FindingPlace& place) {
+    const Index bone = place.bone == kNone ? kNone : reader.bones().source_of_target[place.bone];
+    if (!places_with_fault.contains(key(place, bone)) && !is_at_corner(place, bone)) return false;
+    inherited.push_back(place);
+    return true;
   });
   return inherited;
 }

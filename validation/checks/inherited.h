@@ -7,8 +7,8 @@
 
 namespace sunder::validation {
 
-/// Takes out of `of_target` the places where the source has the same fault: at a corner of the
-/// matched triangle, with the same bone where a bone is named.
+/// Takes out of `of_target` the places where the source has the same fault: at the same position or
+/// at a corner of the matched triangle, with the same bone where a bone is named.
 /// @return what was taken out.
 [[nodiscard]] Places take_inherited(const RowReader& reader, Places& of_target,
                                     const Places& of_source);

@@ -113,7 +113,7 @@ PaperFigures measure_for_papers(const RowReader& reader, const SkinPoints& point
   const double samples = static_cast<double>(figures.points) * static_cast<double>(frames);
   if (sums.from_center > 0.0) figures.kg_error = 100.0 * std::sqrt(sums.error / sums.from_center);
   figures.rms = std::sqrt(sums.error / samples);
-  if (const double diagonal = reader.source().surface.diagonal; diagonal > 0.0)
+  if (const double diagonal = reader.source().rest_diagonal; diagonal > 0.0)
     figures.rms_1000 = 1000.0 * std::sqrt(sums.error / (3.0 * samples)) / diagonal;
   figures.distance_mean = sums.distance / samples;
   figures.distance_maximum = sums.farthest;

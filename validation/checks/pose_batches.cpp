@@ -78,11 +78,33 @@ PoseBatch poses_of(std::string_view name, const std::shared_ptr<const Character>
 
 }  // namespace
 
+namespace {
+
+/// How each bone stands in the rest pose relative to its parent and to bind: the identity where the
+/// rest pose is that of bind. Bones below a scale of zero count as not moved.
+std::vector<Affine3d> rest_motions(const Character& source, const ModelPose& bind) {
+  const ModelPose rest = or_throw(rest_pose(source));
+  const std::vector<Affine3d> bone_from_model = bones_from_model(bind);
+  const auto& bones = source.skeleton.bones;
+  std::vector<Affine3d> motions(bones.size(), Affine3d::Identity()), from_bind = motions;
+  for (std::size_t bone = 0; bone < bones.size(); ++bone) {
+    from_bind[bone] = multiply(rest.model_from_bone[bone], bone_from_model[bone]);
+    motions[bone] = bones[bone].parent == kNone
+                        ? from_bind[bone]
+                        : multiply(inverse(from_bind[bones[bone].parent]), from_bind[bone]);
+    if (!motions[bone].matrix().allFinite()) motions[bone].setIdentity();
+  }
+  return motions;
+}
+
+}  // namespace
+
 PoseBatch make_random_poses(const Character& source, const ModelPose& bind,
                             const ValidationOptions& options) {
   PoseBatch batch{"random", true, {}};
   Uniform uniform(options.seed);
   const auto& bones = source.skeleton.bones;
+  const std::vector<Affine3d> rest = rest_motions(source, bind);
   for (std::uint32_t i = 0; i < options.random_poses; ++i) {
     auto& matrices = batch.poses.emplace_back(bones.size(), Affine3d::Identity());
     for (std::size_t bone = 0; bone < bones.size(); ++bone) {
@@ -90,7 +112,7 @@ PoseBatch make_random_poses(const Character& source, const ModelPose& bind,
       const bool at_limit = uniform() < 0.5;
       const double angle = at_limit ? options.random_angle : options.random_angle * uniform();
       const Vec3d center = bind.model_from_bone[bone].translation();
-      const Affine3d turn = turn_about(center, axis, angle);
+      const Affine3d turn = multiply(rest[bone], turn_about(center, axis, angle));
       matrices[bone] =
           bones[bone].parent == kNone ? turn : multiply(matrices[bones[bone].parent], turn);
     }

@@ -22,8 +22,8 @@ struct PoseBatch {
     const std::shared_ptr<const Character>& source, const ModelPose& bind,
     const ValidationOptions& options);
 
-/// The random poses alone: every bone turns about its origin at bind by an angle up to
-/// `options.random_angle`, half of the time by exactly that angle.
+/// The random poses alone: every bone turns about its origin, from its place in the rest pose, by
+/// an angle up to `options.random_angle`, half of the time by exactly that angle.
 [[nodiscard]] PoseBatch make_random_poses(const Character& source, const ModelPose& bind,
                                           const ValidationOptions& options);
 

@@ -70,13 +70,13 @@ void check_profile(const RowReader& reader, const SkinPoints& points,
     }
   std::vector<double> largest(target.surface.vertex_count(), 0.0);
   for (const PoseBatch& batch : batches) raise_largest(rows, batch, largest);
-  const double least = kind_of(Code::profile).threshold * reader.source().surface.diagonal;
+  const double least = kind_of(Code::profile).threshold * reader.source().rest_diagonal;
   const double most = largest.empty() ? 0.0 : *std::ranges::max_element(largest);
   char text[160];
   std::snprintf(text, sizeof text,
                 "Profile %.*s moves vertices by up to %.3g m (%.3g %% of the diagonal).",
                 static_cast<int>(limits.name.size()), limits.name.data(), most,
-                100.0 * most / std::max(reader.source().surface.diagonal, 1e-300));
+                100.0 * most / std::max(reader.source().rest_diagonal, 1e-300));
   Places places = moved_places(target, largest, least);
   const Severity severity = places.empty() ? Severity::note : Severity::warning;
   findings.add_finding(Code::profile, severity, Evidence::sampled, text, std::move(places), most);

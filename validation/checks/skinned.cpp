@@ -1,8 +1,14 @@
 #include "validation/checks/skinned.h"
 
-#include <algorithm>
+#include <sunder/skinning/deform.h>
+#include <sunder/skinning/pose.h>
 
+#include <algorithm>
+#include <cmath>
+
+#include "core/internal/or_throw.h"
 #include "core/internal/ordered.h"
+#include "skinning/internal/reference.h"
 
 namespace sunder::validation {
 namespace {
@@ -96,10 +102,31 @@ PointGraph make_point_graph(const BindSurface& surface) {
   return graph;
 }
 
+namespace {
+
+double diagonal_at_rest(const Character& character) {
+  const ModelPose rest = or_throw(rest_pose(character));
+  Eigen::AlignedBox3d box;
+  for (const Mesh& mesh : character.meshes) {
+    const Skin& skin = character.skins[mesh.skin];
+    std::vector<Affine3d> palette(skin.bones.size());
+    if (!compute_palette(skin, rest, palette)) return 0.0;
+    for (Index v = 0; v < mesh.vertex_count(); ++v)
+      box.extend(Eigen::Vector3d(
+          deform_position_reference(mesh, v, palette, character.rest_morph_weights)));
+  }
+  return box.isEmpty() ? 0.0 : norm(box.diagonal());
+}
+
+}  // namespace
+
 Skinned::Skinned(const Character& of, std::span<const StoredInfluences> stored_influences)
     : character(of),
       stored(stored_influences),
       surface(make_bind_surface(of)),
-      graph(make_point_graph(surface)) {}
+      graph(make_point_graph(surface)),
+      rest_diagonal(diagonal_at_rest(of)) {
+  if (!(rest_diagonal > 0.0) || !std::isfinite(rest_diagonal)) rest_diagonal = surface.diagonal;
+}
 
 }  // namespace sunder::validation

@@ -48,6 +48,8 @@ struct Skinned {
   std::span<const StoredInfluences> stored;  ///< One per mesh, or none.
   BindSurface surface;
   PointGraph graph;
+  /// Of the box in the rest pose, metres. It may be of another unit than bind space.
+  double rest_diagonal = 0.0;
 
   /// @param of  outlives this, as do the stored influences.
   Skinned(const Character& of, std::span<const StoredInfluences> stored_influences);

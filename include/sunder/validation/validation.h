@@ -55,7 +55,7 @@ struct ValidationOptions {
   std::span<const Operation> operations = {};
   TargetProfile profile = TargetProfile::none;
   std::uint32_t random_poses = 64;
-  double random_angle = 1.0471975511965976;  ///< Largest turn of a bone from bind, radians.
+  double random_angle = 1.0471975511965976;  ///< Largest turn of a bone from rest, radians.
   std::uint64_t seed = 1;
   /// From here on a deviation is reported; share of the diagonal of the source's box.
   double maximum_deviation = 1e-3;
@@ -130,7 +130,7 @@ struct ValidationReport {
   DeviationBracket bracket;
   PaperFigures papers;
   MatchFigures matching;
-  double diagonal = 0.0;  ///< Of the source's box in the bind pose, metres.
+  double diagonal = 0.0;  ///< Of the source's box in the rest pose, metres.
   double scale = 1.0;     ///< The target was divided by this before it was compared.
   std::vector<std::uint64_t> influence_histogram;  ///< Vertices of the target by influence count.
   /// The pose of the source's skeleton in which the largest deviation was found.
