@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "core/internal/ordered.h"
 #include "particles/internal/tolerances.h"
 
 namespace sunder::particles {
@@ -27,6 +26,10 @@ double velocity_a_place(const SpringStep& step) {
 }
 
 Eigen::Vector4d padded(const Vec3d& v) { return {v.x(), v.y(), v.z(), 0.0}; }
+
+/// Inner products of all rows are summed per coordinate, which has one order with any vector
+/// instructions, and by this in the end.
+double total(const Eigen::Vector4d& sums) { return sums.x() + sums.y() + sums.z(); }
 
 }  // namespace
 
@@ -131,35 +134,39 @@ int CouplingSolver::solve(const Inputs& in, std::span<Vec3d> corrections) {
   direction_.resize(rows);
   product_.resize(rows);
 
-  double scale = 0;
-  for (std::size_t i = 0; i < rows; ++i) scale += inverse_[i] * dot(right_[i], right_[i]);
+  Vec4 sums = Vec4::Zero();
+  for (std::size_t i = 0; i < rows; ++i) sums += inverse_[i] * right_[i].cwiseProduct(right_[i]);
+  const double scale = total(sums);
   if (!(scale > 0)) {
     for (const Index p : in.active) corrections[p].setZero();
     return 0;
   }
   for (std::size_t i = 0; i < rows; ++i) x_[i] = padded(corrections[in.active[i]]);
   multiply(x_, product_);
-  double error = 0;
+  sums.setZero();
   for (std::size_t i = 0; i < rows; ++i) {
     residual_[i] = right_[i] - product_[i];
     direction_[i] = inverse_[i] * residual_[i];
-    error += dot(residual_[i], direction_[i]);
+    sums += residual_[i].cwiseProduct(direction_[i]);
   }
+  double error = total(sums);
   const double enough = kCouplingResidual * kCouplingResidual * scale;
   const int most = 60 + 3 * static_cast<int>(rows);
   int iterations = 0;
   for (; iterations < most && error > enough; ++iterations) {
     multiply(direction_, product_);
-    double along = 0;
-    for (std::size_t i = 0; i < rows; ++i) along += dot(direction_[i], product_[i]);
+    sums.setZero();
+    for (std::size_t i = 0; i < rows; ++i) sums += direction_[i].cwiseProduct(product_[i]);
+    const double along = total(sums);
     if (!(along > 0)) break;
     const double by = error / along;
-    double next = 0;
+    sums.setZero();
     for (std::size_t i = 0; i < rows; ++i) {
       x_[i] += by * direction_[i];
       residual_[i] -= by * product_[i];
-      next += inverse_[i] * dot(residual_[i], residual_[i]);
+      sums += inverse_[i] * residual_[i].cwiseProduct(residual_[i]);
     }
+    const double next = total(sums);
     const double keep = next / error;
     error = next;
     for (std::size_t i = 0; i < rows; ++i)
