@@ -125,7 +125,11 @@ TargetBones choose_bones(const Character& source, const Character& target, const
   TargetBones bones{target.skeleton, or_throw(bind_pose(target)).model_from_bone, {}, {}};
   bones.of_source.assign(source.skeleton.bones.size(), kNone);
   const std::vector<bool> in_source = weighted_bones(source), in_target = weighted_bones(target);
-  bool keeps = false;
+  // The skeleton is the source's if it has all bones that the source's weights need, or if its own
+  // weights are on some of them; one bone of the same name is not enough.
+  bool keeps = true;
+  for (Index i = 0; i < in_source.size(); ++i)
+    keeps = keeps && (!in_source[i] || match.target_of_source[i] != kNone);
   for (Index i = 0; i < in_target.size(); ++i)
     keeps |=
         in_target[i] && match.source_of_target[i] != kNone && in_source[match.source_of_target[i]];
