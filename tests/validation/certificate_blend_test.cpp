@@ -1,6 +1,6 @@
 // Bounds of the blended matrix: where it can never collapse.
 
-#include <sunder/validation/certificate.h>
+#include <sunder/certificate/certificate.h>
 
 #include <algorithm>
 #include <cmath>

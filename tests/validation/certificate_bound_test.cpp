@@ -1,6 +1,6 @@
 // Bounds of deviations, against points that are posed directly.
 
-#include <sunder/validation/certificate.h>
+#include <sunder/certificate/certificate.h>
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 
 #include <sunder/io/character_file.h>
 #include <sunder/skinning/pose.h>
-#include <sunder/validation/certificate.h>
+#include <sunder/certificate/certificate.h>
 #include <sunder/weights/influences.h>
 
 #include <algorithm>

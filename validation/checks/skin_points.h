@@ -1,7 +1,7 @@
 #pragma once
 
 #include <sunder/skinning/pose.h>
-#include <sunder/validation/certificate.h>
+#include <sunder/certificate/certificate.h>
 
 #include <algorithm>
 #include <span>

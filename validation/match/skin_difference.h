@@ -1,6 +1,6 @@
 #pragma once
 
-#include <sunder/validation/certificate.h>
+#include <sunder/certificate/certificate.h>
 
 #include "validation/match/bone_match.h"
 #include "validation/match/surface_match.h"

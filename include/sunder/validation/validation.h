@@ -3,7 +3,7 @@
 #include <sunder/core/character.h>
 #include <sunder/core/skeleton.h>
 #include <sunder/operation/operation.h>
-#include <sunder/validation/certificate.h>
+#include <sunder/certificate/certificate.h>
 #include <sunder/validation/finding.h>
 #include <sunder/validation/transfer.h>
 #include <sunder/weights/influences.h>

@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "validation/certificate/joint_path.h"
+#include "certificate/joint_path.h"
 
-namespace sunder::validation {
+namespace sunder::certificate {
 
 /// The motion of a joint, about its centre, in model space of the bind pose.
 struct JointMotion {
@@ -61,4 +61,4 @@ class PoseSearch {
   std::vector<Vec3d> rest_;           // what the other terms add to it, seen from there
 };
 
-}  // namespace sunder::validation
+}  // namespace sunder::certificate

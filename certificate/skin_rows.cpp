@@ -1,4 +1,4 @@
-#include "validation/certificate/skin_rows.h"
+#include "certificate/skin_rows.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include "core/internal/ordered.h"
 
 namespace sunder {
-namespace validation {
+namespace certificate {
 
 void add_point(const Skin& skin, const ModelPose& bind, const Vec3d& position,
                std::span<const Influence> influences, double share, std::vector<SkinTerm>& terms) {
@@ -76,11 +76,11 @@ Status check_mesh(const Character& character, const ModelPose& bind, std::uint32
   return {};
 }
 
-}  // namespace validation
+}  // namespace certificate
 
 Status append_difference(const Character& character, const ModelPose& bind, std::uint32_t mesh,
                          std::span<const VertexShare> shares, SkinDifferences& differences) {
-  using namespace validation;
+  using namespace certificate;
   if (const Status status = check_mesh(character, bind, mesh); !status) return status;
   const Mesh& of = character.meshes[mesh];
   const Skin& skin = character.skins[of.skin];

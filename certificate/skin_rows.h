@@ -1,11 +1,11 @@
 #pragma once
 
-#include <sunder/validation/certificate.h>
+#include <sunder/certificate/certificate.h>
 
 #include <span>
 #include <vector>
 
-namespace sunder::validation {
+namespace sunder::certificate {
 
 /// Faults of a mesh of a character, and of one of its vertices, that append_difference() names.
 [[nodiscard]] Status check_mesh(const Character& character, const ModelPose& bind,
@@ -20,4 +20,4 @@ void add_point(const Skin& skin, const ModelPose& bind, const Vec3d& position,
 /// Sorts by bone, adds the terms of a bone in the order given and drops those that are zero.
 void merge_terms(std::vector<SkinTerm>& terms);
 
-}  // namespace sunder::validation
+}  // namespace sunder::certificate

@@ -1,9 +1,9 @@
-#include "validation/certificate/joint_path.h"
+#include "certificate/joint_path.h"
 
 #include <algorithm>
 #include <queue>
 
-namespace sunder::validation {
+namespace sunder::certificate {
 
 std::vector<PathJoint> make_path(const JointTree::State& tree, std::span<const SkinTerm> terms) {
   std::priority_queue<std::uint32_t> open;  // the largest node first
@@ -79,4 +79,4 @@ Status check_rows(const JointTree::State& tree, const SkinDifferences& rows) {
   return {};
 }
 
-}  // namespace sunder::validation
+}  // namespace sunder::certificate

@@ -1,14 +1,14 @@
-#include <sunder/validation/certificate.h>
+#include <sunder/certificate/certificate.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <new>
 
-#include "validation/certificate/point_bound.h"
+#include "certificate/point_bound.h"
 
 namespace sunder {
-namespace validation {
+namespace certificate {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -105,13 +105,13 @@ void summarise(const JointTree::State& tree, const SkinDifferences& rows,
 }
 
 }  // namespace
-}  // namespace validation
+}  // namespace certificate
 
 Result<DeviationCertificate> certify_deviation(const JointTree& tree,
                                                const SkinDifferences& differences,
                                                const CertificateOptions& options,
                                                const ParallelFor& parallel_for) {
-  using namespace validation;
+  using namespace certificate;
   if (const Status status = check_rows(tree.state(), differences); !status) return status;
   if (!(options.rounding >= 0) || !std::isfinite(options.rounding))
     return Status::failure(StatusCode::invalid_argument, kNone,

@@ -3,9 +3,9 @@
 #include <span>
 #include <vector>
 
-#include "validation/certificate/joint_path.h"
+#include "certificate/joint_path.h"
 
-namespace sunder::validation {
+namespace sunder::certificate {
 
 /// Certified bounds of single points, without allocation. Not shared between threads.
 class PointBound {
@@ -29,4 +29,4 @@ class PointBound {
 /// matter most. The terms have no gap. Allocates.
 [[nodiscard]] double refined_bound(const JointTree::State& tree, std::span<const SkinTerm> terms);
 
-}  // namespace sunder::validation
+}  // namespace sunder::certificate

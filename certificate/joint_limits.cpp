@@ -1,6 +1,6 @@
 // Joint ranges from the rest pose and the clips of a character, measured from bind.
 
-#include <sunder/validation/certificate.h>
+#include <sunder/certificate/certificate.h>
 
 #include <algorithm>
 #include <array>
@@ -14,7 +14,7 @@
 #include "core/internal/ordered.h"
 
 namespace sunder {
-namespace validation {
+namespace certificate {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -337,10 +337,10 @@ Result<JointLimits> make_limits(const Character& character, const ModelPose& bin
 }
 
 }  // namespace
-}  // namespace validation
+}  // namespace certificate
 
 Result<JointLimits> free_joint_limits(const Character& character, const ModelPose& bind) {
-  return validation::make_limits(character, bind, 0.0, true);
+  return certificate::make_limits(character, bind, 0.0, true);
 }
 
 Result<JointLimits> joint_limits_of_clips(const Character& character, const ModelPose& bind,
@@ -348,7 +348,7 @@ Result<JointLimits> joint_limits_of_clips(const Character& character, const Mode
   if (!(margin >= 0) || !std::isfinite(margin))
     return Status::failure(StatusCode::invalid_argument, kNone,
                            "the margin is %g radians; it must be finite and not negative", margin);
-  return validation::make_limits(character, bind, margin, false);
+  return certificate::make_limits(character, bind, margin, false);
 }
 
 }  // namespace sunder

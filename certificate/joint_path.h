@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "core/internal/ordered.h"
-#include "validation/certificate/joint_tree.h"
+#include "certificate/joint_tree.h"
 
-namespace sunder::validation {
+namespace sunder::certificate {
 
 /// The sum of a subtree's terms, seen from the joint at its top: weight m, and a ball that holds
 /// the position in every pose. One ball per lane.
@@ -93,4 +93,4 @@ struct PathGap {
   return {rows.terms.data() + rows.first[point], rows.first[point + 1] - rows.first[point]};
 }
 
-}  // namespace sunder::validation
+}  // namespace sunder::certificate

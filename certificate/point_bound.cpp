@@ -1,10 +1,10 @@
-#include "validation/certificate/point_bound.h"
+#include "certificate/point_bound.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-namespace sunder::validation {
+namespace sunder::certificate {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -174,4 +174,4 @@ double refined_bound(const JointTree::State& tree, std::span<const SkinTerm> ter
   return terms.empty() ? 0.0 : with_safety(tree, terms, RefinedBound(tree, terms).minimise());
 }
 
-}  // namespace sunder::validation
+}  // namespace sunder::certificate

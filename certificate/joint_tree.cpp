@@ -1,4 +1,4 @@
-#include "validation/certificate/joint_tree.h"
+#include "certificate/joint_tree.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 #include "core/internal/ordered.h"
 
 namespace sunder {
-namespace validation {
+namespace certificate {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -126,13 +126,13 @@ double distance_to_shrunk(double s, double angle) {
   return std::sqrt((1.0 - s) * (1.0 - s) + 4.0 * s * sine * sine);
 }
 
-}  // namespace validation
+}  // namespace certificate
 
 JointTree::JointTree(std::shared_ptr<const State> state) : state_(std::move(state)) {}
 
 Result<JointTree> JointTree::create(const Skeleton& skeleton, const ModelPose& bind,
                                     const JointLimits& limits) {
-  using namespace validation;
+  using namespace certificate;
   if (const Status status = check_sizes(skeleton, bind, limits); !status) return status;
   const auto count = static_cast<std::uint32_t>(skeleton.bones.size());
   try {

@@ -1,15 +1,15 @@
 // Bounds of the blended matrix, over the skeleton as a metric tree whose lengths are angles.
 
-#include <sunder/validation/certificate.h>
+#include <sunder/certificate/certificate.h>
 
 #include <algorithm>
 #include <cmath>
 #include <new>
 
-#include "validation/certificate/joint_path.h"
+#include "certificate/joint_path.h"
 
 namespace sunder {
-namespace validation {
+namespace certificate {
 namespace {
 
 constexpr double kSafety = 1e-10;
@@ -129,11 +129,11 @@ Status check_weights(const SkinDifferences& points) {
 }
 
 }  // namespace
-}  // namespace validation
+}  // namespace certificate
 
 Result<std::vector<double>> certify_blend(const JointTree& tree, const SkinDifferences& points,
                                           const ParallelFor& parallel_for) {
-  using namespace validation;
+  using namespace certificate;
   if (const Status status = check_rows(tree.state(), points); !status) return status;
   if (const Status status = check_weights(points); !status) return status;
   try {

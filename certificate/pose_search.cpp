@@ -1,9 +1,9 @@
-#include "validation/certificate/pose_search.h"
+#include "certificate/pose_search.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace sunder::validation {
+namespace sunder::certificate {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -249,4 +249,4 @@ double PoseSearch::measure(std::span<const SkinTerm> terms) const {
   return norm(Vec3d(sum - m * transform(matrices[top], tree_.nodes[top + 1].centre)));
 }
 
-}  // namespace sunder::validation
+}  // namespace sunder::certificate

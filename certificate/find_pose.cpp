@@ -1,6 +1,6 @@
 // Poses that come close to what is certified.
 
-#include <sunder/validation/certificate.h>
+#include <sunder/certificate/certificate.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,10 +10,10 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "validation/certificate/pose_search.h"
+#include "certificate/pose_search.h"
 
 namespace sunder {
-namespace validation {
+namespace certificate {
 namespace {
 
 constexpr int kRounds = 12;
@@ -98,11 +98,11 @@ std::uint32_t unscaled_bone(const JointTree::State& tree, std::span<const SkinTe
 }
 
 }  // namespace
-}  // namespace validation
+}  // namespace certificate
 
 Result<FoundPose> find_worst_pose(const JointTree& tree, const SkinDifferences& differences,
                                   std::uint32_t point, const SearchOptions& options) {
-  using namespace validation;
+  using namespace certificate;
   try {
     if (const Status status = check_point(tree.state(), differences, point); !status) return status;
     const auto terms = row_of(differences, point);
@@ -121,7 +121,7 @@ Result<FoundPose> find_worst_pose(const JointTree& tree, const SkinDifferences& 
 
 Result<FoundPose> find_collapse_pose(const JointTree& tree, const SkinDifferences& points,
                                      std::uint32_t point, const SearchOptions& options) {
-  using namespace validation;
+  using namespace certificate;
   try {
     if (const Status status = check_point(tree.state(), points, point); !status) return status;
     const auto terms = row_of(points, point);

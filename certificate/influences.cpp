@@ -1,6 +1,6 @@
 // Fewer influences and fewer bits, with a certificate of what they change.
 
-#include <sunder/validation/certificate.h>
+#include <sunder/certificate/certificate.h>
 #include <sunder/weights/influences.h>
 
 #include <algorithm>
@@ -8,11 +8,11 @@
 #include <limits>
 #include <new>
 
-#include "validation/certificate/point_bound.h"
-#include "validation/certificate/skin_rows.h"
+#include "certificate/point_bound.h"
+#include "certificate/skin_rows.h"
 
 namespace sunder {
-namespace validation {
+namespace certificate {
 namespace {
 
 /// Weights for a vertex, and the certificate of their difference from the original.
@@ -120,12 +120,12 @@ Status check_vertices(const Character& character, const ModelPose& bind, const J
 }
 
 }  // namespace
-}  // namespace validation
+}  // namespace certificate
 
 Result<CertifiedInfluences> certified_influences(const Character& character, const ModelPose& bind,
                                                  const JointTree& tree, std::uint32_t mesh,
                                                  const InfluenceBudget& budget) {
-  using namespace validation;
+  using namespace certificate;
   try {
     if (const Status status = check_budget(budget); !status) return status;
     if (const Status status = check_vertices(character, bind, tree, mesh); !status) return status;

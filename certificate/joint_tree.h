@@ -1,6 +1,6 @@
 #pragma once
 
-#include <sunder/validation/certificate.h>
+#include <sunder/certificate/certificate.h>
 
 #include <cstdint>
 #include <vector>
@@ -8,7 +8,7 @@
 #include <Eigen/Core>
 
 namespace sunder {
-namespace validation {
+namespace certificate {
 
 /// Numbers of parts of the way (of s from 1 down to the cosine) that are tried for all points.
 inline constexpr int kLanes = 6;
@@ -56,12 +56,12 @@ struct PreparedJoint {
 /// `angle`: sqrt(s^2 - 2 s cos(angle) + 1), stable for small angles. s >= 0.
 [[nodiscard]] double distance_to_shrunk(double s, double angle);
 
-}  // namespace validation
+}  // namespace certificate
 
 /// Nodes: 0 is the virtual root, bone + 1 the bone. Bones that cannot move are merged with the
 /// closest ancestor that can.
 struct JointTree::State {
-  std::vector<validation::PreparedJoint> nodes;
+  std::vector<certificate::PreparedJoint> nodes;
   std::vector<std::uint32_t> node_of_bone;
   std::vector<std::uint32_t> parents;  ///< Of the skeleton's bones.
   ModelPose bind;
