@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/internal/out_of_memory.h"
+#include "skinning/clip_motion.h"
 #include "skinning/clip_sampler.h"
 #include "skinning/joint_sweeps.h"
 
@@ -17,20 +18,6 @@ struct ClipTime {
   Index clip = 0;
   double time = 0;  // seconds
 };
-
-/// The middles of equal intervals are fitted, their beginnings are held out. A clip of zero
-/// duration gives one pose.
-void add_clip_times(Index clip, double duration, Index samples, std::vector<ClipTime>& fit,
-                    std::vector<ClipTime>& held_out) {
-  if (!(duration > 0)) {
-    fit.push_back({clip, 0});
-    return;
-  }
-  for (Index i = 0; i < samples; ++i) {
-    fit.push_back({clip, (i + 0.5) / samples * duration});
-    held_out.push_back({clip, static_cast<double>(i) / samples * duration});
-  }
-}
 
 Status validate_limit(const JointLimit& limit, Index index, std::size_t bone_count) {
   if (limit.bone >= bone_count)
@@ -72,10 +59,11 @@ struct PoseSet::State {
   State(std::shared_ptr<const Character> from, const PoseSetSpec& spec)
       : character(std::move(from)), sweeps(skinning::make_joint_sweeps(*character, spec)) {
     if (spec.clip_samples == 0) return;
+    const auto times_of = skinning::times_of_clips(*character, spec.clip_samples);
     for (Index clip = 0; clip < character->clips.size(); ++clip) {
       samplers.emplace_back(character->clips[clip]);
-      add_clip_times(clip, static_cast<double>(character->clips[clip].duration), spec.clip_samples,
-                     fit_times, held_out_times);
+      for (const double time : times_of[clip].fit) fit_times.push_back({clip, time});
+      for (const double time : times_of[clip].held_out) held_out_times.push_back({clip, time});
     }
   }
 
@@ -115,24 +103,40 @@ struct PoseSet::State {
 
 PoseSet::PoseSet(std::shared_ptr<const State> state) : state_(std::move(state)) {}
 
-Result<PoseSet> PoseSet::create(std::shared_ptr<const Character> character,
-                                const PoseSetSpec& spec) {
-  if (!character) return Status::failure(StatusCode::empty_input, kNone, "the character is null");
-  if (const Status status = validate_character(*character); !status) return status;
+Status PoseSet::check(const Character& character, const PoseSetSpec& spec) {
   if (spec.clip_samples > kMaximumClipSamples)
     return Status::failure(StatusCode::limit_exceeded, kNone,
                            "%u samples per clip; the maximum is %u", spec.clip_samples,
                            kMaximumClipSamples);
   for (Index i = 0; i < spec.joint_limits.size(); ++i)
     if (const Status status =
-            validate_limit(spec.joint_limits[i], i, character->skeleton.bones.size());
+            validate_limit(spec.joint_limits[i], i, character.skeleton.bones.size());
         !status)
       return status;
-  for (Index clip = 0; clip < character->clips.size(); ++clip)
-    if (!std::isfinite(character->clips[clip].duration))
+  for (Index clip = 0; clip < character.clips.size(); ++clip)
+    if (!std::isfinite(character.clips[clip].duration))
       return Status::failure(StatusCode::non_finite_value, clip,
                              "clip %u '%.80s': its duration is not finite", clip,
-                             character->clips[clip].name.c_str());
+                             character.clips[clip].name.c_str());
+  return or_out_of_memory([&]() -> Status {
+    for (Index i = 0; i < spec.poses.size(); ++i)
+      if (const auto pose = make_given_pose(character, spec.poses[i], i); !pose)
+        return pose.error();
+    if (!spec.poses.empty() || (spec.clip_samples > 0 && !character.clips.empty()) ||
+        !skinning::make_joint_sweeps(character, spec).fit.empty())
+      return {};
+    return Status::failure(
+        StatusCode::empty_input, kNone,
+        "no pose to fit over: %u samples per clip, %zu clips, no joint that rotates, no given pose",
+        spec.clip_samples, character.clips.size());
+  });
+}
+
+Result<PoseSet> PoseSet::create(std::shared_ptr<const Character> character,
+                                const PoseSetSpec& spec) {
+  if (!character) return Status::failure(StatusCode::empty_input, kNone, "the character is null");
+  if (const Status status = validate_character(*character); !status) return status;
+  if (const Status status = check(*character, spec); !status) return status;
   try {
     const auto state = std::make_shared<State>(std::move(character), spec);
     for (Index i = 0; i < spec.poses.size(); ++i) {
@@ -140,12 +144,7 @@ Result<PoseSet> PoseSet::create(std::shared_ptr<const Character> character,
       if (!pose) return pose.error();
       state->given.push_back(std::move(*pose));
     }
-    PoseSet set(state);
-    if (set.size(Role::fit) > 0) return set;
-    return Status::failure(
-        StatusCode::empty_input, kNone,
-        "no pose to fit over: %u samples per clip, %zu clips, no joint that rotates, no given pose",
-        spec.clip_samples, state->character->clips.size());
+    return PoseSet(state);
   } catch (const std::bad_alloc&) {
     return out_of_memory();
   }
@@ -153,6 +152,25 @@ Result<PoseSet> PoseSet::create(std::shared_ptr<const Character> character,
 
 std::size_t PoseSet::size(Role role) const {
   return state_->times(role).size() + state_->sweeps_of(role).size() + state_->given_count(role);
+}
+
+PoseSet::Group PoseSet::group_of(Role role, std::size_t index) const {
+  SUNDER_ASSERT(index < size(role));
+  const auto& clip_times = state_->times(role);
+  if (index < clip_times.size()) return {Source::clip, clip_times[index].clip};
+  return {
+      index - clip_times.size() < state_->sweeps_of(role).size() ? Source::joints : Source::given,
+      kNone};
+}
+
+std::array<std::uint32_t, 2> PoseSet::turned_bones(Role role, std::size_t index) const {
+  SUNDER_ASSERT(group_of(role, index).source == Source::joints);
+  const State& state = *state_;
+  const skinning::Sweep& sweep = state.sweeps_of(role)[index - state.times(role).size()];
+  const auto bone_of = [&](const skinning::Turn& turn) {
+    return turn.hinge == kNone ? kNone : state.sweeps.hinges[turn.hinge].bone;
+  };
+  return {bone_of(sweep.bone), bone_of(sweep.parent)};
 }
 
 Status PoseSet::compute(Role role, std::size_t index, ModelPose& pose) const {

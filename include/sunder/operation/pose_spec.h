@@ -43,9 +43,10 @@ struct JointLimit {
 
 /// The poses over which weights are fitted, and the held-out poses that measure their error.
 struct PoseSetSpec {
-  /// Number of poses sampled from each clip of non-zero duration; the same number, sampled halfway
-  /// between them, is held out. At most 65,536; 0: no clips.
-  std::uint32_t clip_samples = 8;
+  /// Largest number of poses taken from each clip: one for every 15 degrees that a bone turns, at
+  /// least two, at equal steps of motion, and one from a clip that does not move. Many clips share
+  /// 768 poses. The same number, halfway between them, is held out. At most 65,536; 0: no clips.
+  std::uint32_t clip_samples = 32;
   /// Adds poses that turn each bone that changes a mesh's shape, alone and with its parent.
   bool range_of_motion = false;
   /// Bones listed here turn within their limits only, and turn also without `range_of_motion`.

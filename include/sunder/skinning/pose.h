@@ -3,6 +3,7 @@
 #include <sunder/core/character.h>
 #include <sunder/operation/pose_spec.h>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -59,6 +60,18 @@ class SUNDER_API PoseSet {
     fit,       ///< Weights are fitted over these poses.
     held_out,  ///< Errors are measured over these poses. There may be none.
   };
+  /// What a pose is taken from.
+  enum class Source : std::uint8_t {
+    clip,
+    joints,  ///< A range of motion or limited joints.
+    given,
+  };
+  struct Group {
+    Source source = Source::given;
+    std::uint32_t clip = kNone;  ///< If it is from a clip: which one.
+
+    bool operator==(const Group&) const = default;
+  };
 
   /// Lists clip samples first, then joint rotations, then the given poses; see docs/skinning.md.
   ///
@@ -69,8 +82,17 @@ class SUNDER_API PoseSet {
   /// character or without a pose to fit over.
   [[nodiscard]] static Result<PoseSet> create(std::shared_ptr<const Character> character,
                                               const PoseSetSpec& spec);
+  /// Whether create() would succeed with a character that satisfies validate_character(): its other
+  /// failures. Does not sample the clips, so it is much cheaper. Allocates.
+  [[nodiscard]] static Status check(const Character& character, const PoseSetSpec& spec);
 
   [[nodiscard]] std::size_t size(Role role) const;
+
+  /// What a pose is taken from. @param index  below size(role), unchecked.
+  [[nodiscard]] Group group_of(Role role, std::size_t index) const;
+  /// The one or two bones that a pose of Source::joints turns; kNone for no bone.
+  /// @param index  that of such a pose, unchecked.
+  [[nodiscard]] std::array<std::uint32_t, 2> turned_bones(Role role, std::size_t index) const;
 
   /// Computes a pose. Returns the same bits each time.
   /// @param index  below size(role), unchecked.
