@@ -1,4 +1,4 @@
-#include "weights/refit_terms.h"
+#include "weights/internal/refit_terms.h"
 
 #include <algorithm>
 
@@ -24,15 +24,16 @@ void centre_terms(const AnimationPoint& point, const PoseMoments& moments,
 }
 
 Restraint restraint_of(std::span<const AnimationPoint::Term> terms, const Eigen::Vector3d& position,
-                       const PoseMoments& moments) {
+                       const PoseMoments& moments, std::size_t group) {
   double scale_square = 0, spread_square = 0;
   for (const auto& term : terms) {
     if (!(term.q.w() > 0)) continue;
-    scale_square += term.q.w() * trace(moments.of(term.slot, term.slot).topLeftCorner<3, 3>()) / 3;
+    scale_square +=
+        term.q.w() * trace(moments.of(term.slot, term.slot, group).topLeftCorner<3, 3>()) / 3;
     spread_square +=
         squared_norm(Eigen::Vector3d(term.q.head<3>()) - term.q.w() * position) / term.q.w();
   }
-  scale_square /= static_cast<double>(std::max<std::size_t>(moments.pose_count(), 1));
+  scale_square /= static_cast<double>(std::max<std::size_t>(moments.pose_count(group), 1));
   return {kStiffness * scale_square, kInertia * scale_square * spread_square};
 }
 
@@ -60,9 +61,8 @@ void store_weights(std::span<const AnimationPoint::Term> terms, std::span<const 
   });
 }
 
-double mean_square(std::span<const AnimationPoint::Term> terms, std::span<const double> of_terms,
-                   const Eigen::Vector3d& position, const PoseMoments& moments,
-                   std::vector<AnimationPoint::Term>& difference) {
+void differences(std::span<const AnimationPoint::Term> terms, std::span<const double> of_terms,
+                 const Eigen::Vector3d& position, std::vector<AnimationPoint::Term>& difference) {
   difference.resize(terms.size());
   for (std::size_t i = 0; i < terms.size(); ++i) {
     difference[i].slot = terms[i].slot;
@@ -70,7 +70,23 @@ double mean_square(std::span<const AnimationPoint::Term> terms, std::span<const 
     difference[i].q.head<3>() += of_terms[i] * position;
     difference[i].q.w() += of_terms[i];
   }
-  return moments.mean_square(difference);
+}
+
+bool exceeds_bounds(const PointToRefit& point, const PoseMoments& moments,
+                    std::span<const AnimationPoint::Term> difference, std::vector<double>& excess) {
+  const std::size_t shared = point.allowed.size(), own = point.own_poses != nullptr ? 1 : 0;
+  excess.resize(shared + own);
+  moments.mean_squares(difference, std::span(excess).first(shared));
+  for (std::size_t i = 0; i < shared; ++i) excess[i] /= point.allowed[i];
+  if (own != 0) excess[shared] = point.own_poses->mean_square(difference) / point.own_allowed;
+  return std::any_of(excess.begin(), excess.end(), [](double share) { return !(share <= 1); });
+}
+
+double mean_square(std::span<const AnimationPoint::Term> terms, std::span<const double> of_terms,
+                   const Eigen::Vector3d& position, const PoseMoments& moments, std::size_t group,
+                   std::vector<AnimationPoint::Term>& difference) {
+  differences(terms, of_terms, position, difference);
+  return moments.mean_square(difference, group);
 }
 
 }  // namespace sunder::weights

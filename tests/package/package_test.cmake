@@ -18,6 +18,9 @@ file(GLOB_RECURSE installed RELATIVE ${prefix}/${INCLUDE_DIR} ${prefix}/${INCLUD
 if(NOT WITH_IO)
   list(FILTER written EXCLUDE REGEX "^sunder/io/")
 endif()
+if(NOT WITH_CERES)
+  list(FILTER written EXCLUDE REGEX "^sunder/coupled_refit/")
+endif()
 list(SORT written)
 list(SORT installed)
 if(NOT written STREQUAL installed)
@@ -30,7 +33,8 @@ set(common -G ${GENERATOR} -D CMAKE_CXX_COMPILER=${CXX_COMPILER} "-DCMAKE_CXX_FL
   -D CMAKE_CXX_COMPILER_LAUNCHER=${CXX_COMPILER_LAUNCHER} -D CMAKE_BUILD_TYPE=${CONFIG})
 
 run(${CMAKE_COMMAND} -S ${consumer} -B ${WORK}/find_package ${common}
-  -D CMAKE_PREFIX_PATH=${prefix} -D CONSUMER_IO=${WITH_IO})
+  -D CMAKE_PREFIX_PATH=${prefix} -D CONSUMER_IO=${WITH_IO}
+  -D CONSUMER_COUPLED_REFIT=${WITH_CERES})
 run(${CMAKE_COMMAND} --build ${WORK}/find_package --config ${CONFIG})
 run(${CMAKE_CTEST_COMMAND} --test-dir ${WORK}/find_package -C ${CONFIG} --output-on-failure
   --no-tests=error)

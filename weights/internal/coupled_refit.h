@@ -34,13 +34,10 @@ struct CoupledFit {
   bool is_better = false;              ///< If false, the result is the barycentric start.
 };
 
-/// Whether this build can fit points together. It requires Ceres, which is optional (SUNDER_CERES).
-[[nodiscard]] SUNDER_API bool has_coupled_refit();
-
 /// Fits each point alone, then all of them together: least squares over their weights and bind
 /// positions plus the costs of neighbours that differ (a Laplacian along the lips and towards the
-/// untorn surface). Deterministic. A point that ends up worse than with its barycentric weights
-/// keeps those.
+/// untorn surface). Deterministic. A point that ends up worse than with its barycentric weights, or
+/// beyond its bounds, keeps those.
 ///
 /// @return one fit per point; unsupported_feature if has_coupled_refit() is false;
 /// index_out_of_range for a neighbour that is no point; invalid_argument for a smoothness or length
@@ -48,5 +45,13 @@ struct CoupledFit {
 [[nodiscard]] SUNDER_API Result<std::vector<CoupledFit>> refit_coupled(
     std::span<const PointToRefit> points, std::span<const RefitNeighbours> neighbours,
     const CoupledRefitOptions& options, const PoseMoments& moments);
+
+/// The function behind refit_coupled(). It is in a library of its own, sunder::coupled_refit, so
+/// that programs without coupled fits do not link Ceres.
+using CoupledSolver = decltype(&refit_coupled);
+/// Called by use_coupled_refit().
+SUNDER_API void set_coupled_solver(CoupledSolver solver);
+/// Whether it was.
+[[nodiscard]] SUNDER_API bool has_coupled_refit();
 
 }  // namespace sunder

@@ -11,10 +11,10 @@
 
 namespace sunder {
 
-/// The second moments of a set of poses: for two bones i, j of a skin the mean over the poses of
-/// M_i^T M_j, a 4 x 4 matrix H_ij. The mean squared length of sum_i M_i d_i is sum_ij d_i^T H_ij
-/// d_j, at a cost independent of the number of poses. It requires that the last components of the
-/// d_i add up to zero, as they do for differences of points.
+/// The second moments of groups of poses: for two bones i, j of a skin and each group the mean over
+/// its poses of M_i^T M_j, a 4 x 4 matrix H_ij. The mean squared length of sum_i M_i d_i is sum_ij
+/// d_i^T H_ij d_j, at a cost independent of the number of poses. It requires that the last
+/// components of the d_i add up to zero, as they do for differences of points.
 ///
 /// Matrices are taken about `centre` in bind space and about its image in each pose, so that a
 /// character far from the origin loses no precision.
@@ -22,28 +22,39 @@ class SUNDER_API PoseMoments {
  public:
   using Matrix = Eigen::Matrix<double, 4, 4, Eigen::DontAlign>;
 
-  /// @param slots  number of slots of the skin.
-  PoseMoments(std::size_t slots, const Vec3d& centre);
+  /// @param slots   number of slots of the skin.
+  /// @param groups  number of groups of poses, at least 1.
+  PoseMoments(std::size_t slots, const Vec3d& centre, std::size_t groups = 1);
 
   /// Requests the pairs of slots that move a point. All calls precede the first add(). O(terms
   /// squared).
   void want(const AnimationPoint& point);
-  /// Adds a pose. O(pairs).
-  void add(std::span<const Affine3d> model_from_bind);
+  /// Adds a pose to a group. O(pairs).
+  void add(std::span<const Affine3d> model_from_bind, std::size_t group = 0);
+  /// Replaces a group by the weighted sum of the means of the other ones, as if it had one pose.
+  /// @param factors  one per group; that of `into` is not read. O(pairs x groups).
+  void combine(std::span<const double> factors, std::size_t into);
 
-  [[nodiscard]] std::size_t pose_count() const { return pose_count_; }
+  [[nodiscard]] std::size_t group_count() const { return pose_counts_.size(); }
+  [[nodiscard]] std::size_t pose_count(std::size_t group = 0) const { return pose_counts_[group]; }
   [[nodiscard]] std::size_t pair_count() const { return pairs_.size(); }
   [[nodiscard]] const Vec3d& centre() const { return centre_; }
-  /// The sum of H_ij for a requested pair. @return the matrix of {low, high}; transpose it if i >
-  /// j.
-  [[nodiscard]] const Matrix& of(std::uint32_t low, std::uint32_t high) const {
-    const Entry* entry = rows_[low].data();
-    while (entry->slot != high) ++entry;
-    return moments_[entry->pair];
+  /// Whether a slot is that of a requested point.
+  [[nodiscard]] bool has(std::uint32_t slot) const { return !rows_[slot].empty(); }
+  /// The sum of H_ij over the poses of a group for a requested pair. @return the matrix of {low,
+  /// high}; transpose it if i > j.
+  [[nodiscard]] const Matrix& of(std::uint32_t low, std::uint32_t high,
+                                 std::size_t group = 0) const {
+    return moments_[group * pairs_.size() + pair_of(low, high)];
   }
-  /// sum_ij d_i^T H_ij d_j divided by the number of poses; the q of the terms are the d_i, about
-  /// the centre.
-  [[nodiscard]] double mean_square(std::span<const AnimationPoint::Term> difference) const;
+  /// sum_ij d_i^T H_ij d_j divided by the number of poses of a group; 0 without poses. The q of the
+  /// terms are the d_i, about the centre.
+  [[nodiscard]] double mean_square(std::span<const AnimationPoint::Term> difference,
+                                   std::size_t group = 0) const;
+  /// The same for the first groups at once. @param of_groups  one per group, overwritten.
+  /// O(terms squared x groups).
+  void mean_squares(std::span<const AnimationPoint::Term> difference,
+                    std::span<double> of_groups) const;
 
  private:
   struct Entry {
@@ -52,15 +63,21 @@ class SUNDER_API PoseMoments {
   struct Pair {
     std::uint32_t low, high;
   };
+  [[nodiscard]] std::size_t pair_of(std::uint32_t low, std::uint32_t high) const {
+    const Entry* entry = rows_[low].data();
+    while (entry->slot != high) ++entry;
+    return entry->pair;
+  }
 
   Vec3d centre_;
   /// Per slot: the slots from itself up with which it is paired.
   std::vector<std::vector<Entry>> rows_;
   std::vector<Pair> pairs_;
   std::vector<std::uint32_t> slots_;  ///< The slots that are in a pair.
-  std::vector<Matrix> moments_;       ///< Sums over the poses, one per pair.
+  /// Sums over the poses: all pairs of the first group, then those of the next.
+  std::vector<Matrix> moments_;
   std::vector<Eigen::Matrix<double, 3, 4, Eigen::DontAlign>> centred_;
-  std::size_t pose_count_ = 0;
+  std::vector<std::size_t> pose_counts_;  ///< Per group.
 };
 
 }  // namespace sunder

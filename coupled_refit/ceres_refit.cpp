@@ -1,3 +1,5 @@
+#include <sunder/coupled_refit/use.h>
+
 #include <algorithm>
 #include <cmath>
 #include <deque>
@@ -13,7 +15,7 @@
 #include <ceres/types.h>
 
 #include "weights/internal/coupled_refit.h"
-#include "weights/refit_terms.h"
+#include "weights/internal/refit_terms.h"
 
 namespace sunder {
 namespace {
@@ -182,6 +184,8 @@ class CoupledProblem {
   std::vector<double> values_;
   std::vector<Unknowns> unknowns_;
   std::vector<AnimationPoint::Term> terms_, difference_;
+  std::vector<double> excess_;
+  bool moves_bind_ = true;  ///< Either all points move or none, because neighbours are compared.
   std::vector<double> of_terms_;
   /// Scale of the residuals. It makes the sum of squares one with barycentric weights, so that
   /// tolerances have a meaning.
@@ -207,6 +211,9 @@ CoupledProblem::CoupledProblem(std::span<const PointToRefit> points,
       moments_(moments),
       unknowns_(points.size()),
       problem_(std::make_unique<ceres::Problem>(problem_options())) {
+  moves_bind_ = options.point.moves_bind &&
+                std::all_of(points.begin(), points.end(),
+                            [](const PointToRefit& point) { return point.may_move; });
   PointRefit refit;
   std::size_t value_count = 0;
   double sum = 0;
@@ -246,10 +253,10 @@ double CoupledProblem::weight_before(std::size_t point, std::uint32_t slot) cons
 /// Relative to s and p, because only differences from them matter.
 Eigen::MatrixXd CoupledProblem::gram_of(std::size_t point) const {
   using Vec4 = Eigen::Vector4d;
-  const double per_pose = 1.0 / static_cast<double>(moments_.pose_count());
+  const double per_pose = 1.0 / static_cast<double>(moments_.pose_count(options_.point.group));
   const auto moment = [&](std::uint32_t i, std::uint32_t j) -> Eigen::Matrix4d {
-    if (i <= j) return per_pose * moments_.of(i, j);
-    return per_pose * moments_.of(j, i).transpose();
+    if (i <= j) return per_pose * moments_.of(i, j, options_.point.group);
+    return per_pose * moments_.of(j, i, options_.point.group).transpose();
   };
   Eigen::Matrix4d about_place = Eigen::Matrix4d::Identity();
   about_place.topRightCorner<3, 1>() = points_[point].position - moments_.centre();
@@ -290,8 +297,8 @@ Eigen::MatrixXd CoupledProblem::gram_of(std::size_t point) const {
 /// the regularisation can be charged bone by bone.
 void CoupledProblem::add_restraint(std::size_t point, Eigen::MatrixXd& gram) {
   const Unknowns& unknowns = unknowns_[point];
-  const weights::Restraint restraint =
-      weights::restraint_of(terms_, points_[point].position - moments_.centre(), moments_);
+  const weights::Restraint restraint = weights::restraint_of(
+      terms_, points_[point].position - moments_.centre(), moments_, options_.point.group);
   weights::weights_of_terms(terms_, points_[point].barycentric, of_terms_);
   const auto before = [&](int i) {
     for (std::size_t k = 0; k < terms_.size(); ++k)
@@ -345,7 +352,7 @@ void CoupledProblem::add_point(std::size_t point) {
   for (const Influence& influence : fit.influences)
     values_.push_back(std::sqrt(static_cast<double>(influence.weight) / sum));
   unknowns.roots = values;
-  if (options_.point.moves_bind) {
+  if (moves_bind_) {
     const Eigen::Vector3d offset = fit.position - points_[point].position;
     values_.insert(values_.end(), offset.begin(), offset.end());
     unknowns.offset = values + unknowns.count;
@@ -458,8 +465,10 @@ void CoupledProblem::take_solution() {
       fit.position += Eigen::Map<const Eigen::Vector3d>(unknowns.offset);
     weights::weights_of_terms(terms_, fit.influences, of_terms_);
     fit.mean_square = weights::mean_square(terms_, of_terms_, fit.position - moments_.centre(),
-                                           moments_, difference_);
-    fit.is_better = fit.mean_square < fit.barycentric_mean_square;
+                                           moments_, options_.point.group, difference_);
+    weights::differences(terms_, of_terms_, fit.position - moments_.centre(), difference_);
+    fit.is_better = fit.mean_square < fit.barycentric_mean_square &&
+                    !weights::exceeds_bounds(points_[point], moments_, difference_, excess_);
     if (fit.is_better) continue;
     fit.influences.assign(points_[point].barycentric.begin(), points_[point].barycentric.end());
     fit.position = points_[point].position;
@@ -473,7 +482,7 @@ Status check(std::span<const PointToRefit> points, std::span<const RefitNeighbou
     return Status::failure(StatusCode::invalid_argument, kNone,
                            "the smoothness is %g; it must be finite and not below 0",
                            options.smoothness);
-  if (moments.pose_count() == 0)
+  if (moments.pose_count(options.point.group) == 0)
     return Status::failure(StatusCode::empty_input, kNone, "the moments contain no pose");
   for (std::size_t i = 0; i < neighbours.size(); ++i) {
     const RefitNeighbours& pair = neighbours[i];
@@ -491,11 +500,8 @@ Status check(std::span<const PointToRefit> points, std::span<const RefitNeighbou
   return {};
 }
 
-}  // namespace
-
-bool has_coupled_refit() { return true; }
-
-Result<std::vector<CoupledFit>> refit_coupled(std::span<const PointToRefit> points,
+/// As refit_coupled().
+Result<std::vector<CoupledFit>> solve_coupled(std::span<const PointToRefit> points,
                                               std::span<const RefitNeighbours> neighbours,
                                               const CoupledRefitOptions& options,
                                               const PoseMoments& moments) {
@@ -509,5 +515,9 @@ Result<std::vector<CoupledFit>> refit_coupled(std::span<const PointToRefit> poin
     return Status::failure(StatusCode::internal_error, kNone, "Ceres: %s", error.what());
   }
 }
+
+}  // namespace
+
+void use_coupled_refit() { set_coupled_solver(&solve_coupled); }
 
 }  // namespace sunder
