@@ -34,9 +34,7 @@ Status TornModel::State::resolve(WeightsOperation& wanted) const {
                            "the smoothness of a refit is %g; it must be finite and not below 0",
                            wanted.refit.smoothness);
   if (wanted.refit.is_coupled && !has_coupled_refit())
-    return Status::failure(
-        StatusCode::unsupported_feature, kNone,
-        "a coupled refit requires Ceres; this build is without it (SUNDER_CERES)");
+    return refit_coupled({}, {}, {}, PoseMoments(1, Vec3d::Zero())).error();
   return {};
 }
 

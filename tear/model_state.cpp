@@ -50,7 +50,9 @@ Status TornModel::State::stand_in(const ModelPose& wanted) {
 
 void TornModel::State::cancel_refits_of(std::uint64_t serial) const {
   for (const auto& refit : refits)
-    if (const auto work = refit.lock(); work && std::ranges::count(work->serials, serial) > 0)
+    if (const auto work = refit.lock();
+        work &&
+        std::ranges::any_of(work->operations, [&](const auto& of) { return of.serial == serial; }))
       work->cancel();
 }
 

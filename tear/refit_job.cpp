@@ -5,6 +5,7 @@
 
 #include "core/internal/out_of_memory.h"
 #include "tear/model_state.h"
+#include "tear/weights/refit_poses.h"
 
 namespace sunder {
 
@@ -20,20 +21,23 @@ Result<RefitJob> RefitJob::create(TornModel& model, const WeightsOperation& want
     WeightsOperation resolved = wanted;
     if (Status status = state.resolve(resolved); !status) return status;
     resolved.pose = RestPose{};
-    auto poses = PoseSet::create(state.source, wanted.refit.poses);
-    if (!poses) return poses.error();
+    if (Status status = tear::RefitPoses::check(*state.source, wanted.refit); !status)
+      return status;
     const tear::VertexRanges ranges = state.vertices_of(resolved);
     const auto points = tear::interpolated_points(ranges, state.editor);
     WeightReport report;
     tear::WeightAssignment assignment =
         tear::compute_weights(points, wanted.weights, {}, state.editor, report);
     auto task = std::make_shared<tear::RefitTask>(
-        state.source, std::move(resolved), std::move(*poses), std::move(assignment),
+        state.source, std::move(resolved), std::move(assignment),
         state.history.done()[wanted.first_operation]->begin, state.editor);
     task->report = report;
     const auto& done = state.history.done();
-    for (std::uint32_t i = 0; i < task->operation.operation_count; ++i)
-      task->serials.push_back(done[task->operation.first_operation + i]->serial);
+    for (std::uint32_t i = 0; i < task->operation.operation_count; ++i) {
+      const tear::History::Entry& entry = *done[task->operation.first_operation + i];
+      task->add_operation(entry.operation, entry.serial,
+                          state.editor.log.vertex_counts_at(entry.begin));
+    }
     std::erase_if(state.refits,
                   [](const std::weak_ptr<tear::RefitTask>& refit) { return refit.expired(); });
     state.refits.push_back(task);
@@ -60,9 +64,9 @@ Result<WeightReport> RefitJob::swap_in(TornModel& model, ChangeRecord* change) c
   if (task_->state != State::done)
     return Status::failure(StatusCode::invalid_argument, kNone, "this refit has not finished");
   const auto& done = of_model.history.done();
-  for (std::size_t i = 0; i < task_->serials.size(); ++i)
+  for (std::size_t i = 0; i < task_->operations.size(); ++i)
     if (operation.first_operation + i >= done.size() ||
-        done[operation.first_operation + i]->serial != task_->serials[i])
+        done[operation.first_operation + i]->serial != task_->operations[i].serial)
       return Status::failure(
           StatusCode::invalid_argument, kNone,
           "this refit belongs to another model or to operations that were undone");

@@ -5,6 +5,10 @@
 
 #include <CLI/CLI.hpp>
 
+#if SUNDER_COUPLED_REFIT
+#include <sunder/coupled_refit/use.h>
+#endif
+
 #include "tools/verbs.h"
 #include "tools/weight_report.h"
 #include "tools/written_influences.h"
@@ -36,13 +40,6 @@ WeightPolicy weight_policy(const std::string& name) {
        {WeightPolicy::pose_exact, WeightPolicy::refit, WeightPolicy::exact})
     if (name == weight_policy_name(policy)) return policy;
   return WeightPolicy::barycentric;
-}
-
-/// @param name  a result of refit_over_name().
-RefitOver refit_over(const std::string& name) {
-  for (const RefitOver over : {RefitOver::range_of_motion, RefitOver::both})
-    if (name == refit_over_name(over)) return over;
-  return RefitOver::clips;
 }
 
 struct Requests {
@@ -93,12 +90,26 @@ CLI::App* add_tear(CLI::App& app, TearRequest& request) {
       ->default_str("barycentric");
   verb->add_option_function<std::string>(
           "--refit-over",
-          [&request](const std::string& name) { request.refit_over = refit_over(name); },
-          "Poses to fit over, with --weights refit; default: both, or what the model has")
-      ->check(CLI::IsMember({"clips", "range_of_motion", "both"}));
-  verb->callback([&request] {
-    if (request.refit_over && request.weights != WeightPolicy::refit)
-      throw CLI::ValidationError("--refit-over", "needs --weights refit");
+          [&request](const std::string& text) {
+            const auto options = parse_refit_over(text);
+            if (!options)
+              throw CLI::ValidationError("--refit-over", std::string(options.error().text()));
+            request.refit_over = *options;
+          },
+          "Poses to fit over, with --weights refit: clips, clips:NAME=FACTOR, range_of_motion, "
+          "separated by commas; default: clips,range_of_motion, or what the model has")
+      ->type_name("POSES");
+  const CLI::Option* const bound =
+      verb->add_option("--refit-bound", request.refit_bound,
+                       "Largest growth of the certified worst deviation by a refit; 0: any")
+          ->check(CLI::Range(0.0, 1e9))
+          ->capture_default_str();
+  verb->callback([&request, bound] {
+    if (request.weights != WeightPolicy::refit && (request.refit_over || *bound))
+      throw CLI::ValidationError(request.refit_over ? "--refit-over" : "--refit-bound",
+                                 "needs --weights refit");
+    if (request.refit_bound > 0 && request.refit_bound < 1)
+      throw CLI::ValidationError("--refit-bound", "expected a factor of at least 1, or 0");
   });
   verb->add_option("--report", request.report, "File for the JSON report; default: stdout");
   verb->add_option("--picture", request.picture,
@@ -248,6 +259,9 @@ CLI::App* add_validate(CLI::App& app, ValidateRequest& request) {
 }
 
 int run(int argc, char** argv) {
+#if SUNDER_COUPLED_REFIT
+  use_coupled_refit();
+#endif
   Requests requests;
   CLI::App app("Tears rigged, animated models.", "sunder");
   app.set_version_flag("--version", "sunder " SUNDER_VERSION);

@@ -5,30 +5,30 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace sunder::tools {
 
-/// The poses of the option --refit-over.
-enum class RefitOver { clips, range_of_motion, both };
+/// Reads the value of --refit-over: poses separated by commas, each `clips`, `clips:NAME` or
+/// `range_of_motion`, with `=FACTOR` after it if it counts more or less than 1. A clip that is
+/// named has its factor among the clips, which all count.
+/// @return the options of a fit over these poses; invalid_argument that names the part at fault.
+[[nodiscard]] Result<RefitOptions> parse_refit_over(const std::string& text);
 
-/// "clips", "range_of_motion" or "both", as --refit-over takes it.
-[[nodiscard]] const char* refit_over_name(RefitOver over);
+/// The same text for options of a fit.
+[[nodiscard]] std::string refit_over_text(const RefitOptions& options);
 
-/// The pose set of the option.
-[[nodiscard]] PoseSetSpec pose_set_of(RefitOver over);
-
-///
-/// @param asked  if empty: both, or what the character has.
+/// @param asked  if empty: over the clips and the range of motion, or what the character has.
 /// @return empty if nothing was asked for and the character has neither: it does not bend, so there
 ///         is nothing to fit.
-[[nodiscard]] Result<std::optional<RefitOver>> choose_poses(
-    std::shared_ptr<const Character> character, std::optional<RefitOver> asked);
+[[nodiscard]] Result<std::optional<RefitOptions>> choose_refit(
+    const Character& character, const std::optional<RefitOptions>& asked);
 
 /// The operations that fit all points of a history that are not fitted yet: points of the policy
 /// `refit` that no later operation reweighed. Successive operations with the same weights are
 /// fitted together.
 [[nodiscard]] std::vector<WeightsOperation> refits_of(const std::vector<Operation>& history,
-                                                      RefitOver over);
+                                                      const RefitOptions& options);
 
 }  // namespace sunder::tools

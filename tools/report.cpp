@@ -62,6 +62,9 @@ Json weights_json(const WeightReport& weights, double error_max) {
           {"pruned", weights.pruned},
           {"ill_conditioned", weights.ill_conditioned},
           {"refitted", weights.refitted},
+          {"certified_barycentric", weights.certified_barycentric},
+          {"certified", weights.certified},
+          {"uncertified", weights.uncertified},
           {"error_max", error_max}};
 }
 

@@ -41,7 +41,7 @@ class TextBesideModel {
 /// The options for weights of new points, from the command line.
 struct Weighing {
   WeightOptions options;
-  std::optional<RefitOver> refit_over;  ///< For `refit`, if the model bends.
+  std::optional<RefitOptions> refit;  ///< For `refit`, if the model bends.
 };
 
 Result<Weighing> choose_weighing(const TearRequest& request,
@@ -52,9 +52,10 @@ Result<Weighing> choose_weighing(const TearRequest& request,
   if (*request.weights != WeightPolicy::exact)
     weighing.options.maximum_influences = request.save.maximum_influences;
   if (*request.weights != WeightPolicy::refit) return weighing;
-  const auto over = choose_poses(character, request.refit_over);
-  if (!over) return over.error();
-  weighing.refit_over = *over;
+  auto refit = choose_refit(*character, request.refit_over);
+  if (!refit) return refit.error();
+  weighing.refit = std::move(*refit);
+  if (weighing.refit) weighing.refit->bound = request.refit_bound;
   return weighing;
 }
 
@@ -62,7 +63,7 @@ Json weighing_json(const Weighing& weighing) {
   Json json = {{"policy", weight_policy_name(weighing.options.policy)},
                {"influences", weighing.options.maximum_influences},
                {"refit_over", nullptr}};
-  if (weighing.refit_over) json["refit_over"] = refit_over_name(*weighing.refit_over);
+  if (weighing.refit) json["refit_over"] = refit_over_text(*weighing.refit);
   return json;
 }
 
@@ -126,8 +127,8 @@ ExitCode play_operations(const std::vector<Operation>& operations, TearRun& run,
     run.reports.push_back(to_json(*outcome, run.model.character()));
   }
   progress.begin_step(operations.size() + 1, "weighing");
-  if (!run.weighing.refit_over) return ExitCode::ok;
-  for (const WeightsOperation& refit : refits_of(*run.model.history(), *run.weighing.refit_over)) {
+  if (!run.weighing.refit) return ExitCode::ok;
+  for (const WeightsOperation& refit : refits_of(*run.model.history(), *run.weighing.refit)) {
     const Result<OperationOutcome> outcome = play(refit, run.current, run.model);
     if (!outcome)
       return complain(run.request.model.string() + ": --weights refit", outcome.error(),

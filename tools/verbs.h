@@ -25,7 +25,9 @@ struct TearRequest {
   SaveOptions save;  ///< How influences are written.
   /// For operations without weights of their own; empty: barycentric, with all influences.
   std::optional<WeightPolicy> weights;
-  std::optional<RefitOver> refit_over;  ///< Only for `refit`; empty: both, or what the model has.
+  /// Only for `refit`; empty: clips and range of motion, or what the model has.
+  std::optional<RefitOptions> refit_over;
+  double refit_bound = RefitOptions{}.bound;  ///< RefitOptions::bound.
   std::optional<std::filesystem::path> report;  ///< Empty: stdout.
   std::optional<std::filesystem::path> log;  ///< Output file for the log of the applied operations.
   std::optional<std::filesystem::path> picture;  ///< Output file for a picture.

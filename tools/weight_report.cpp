@@ -129,16 +129,16 @@ Result<Json> weight_errors_by_policy_json(TornModel& model, std::shared_ptr<cons
   if (model.undo_count() == 0) return json;
   const auto sets = poses_to_measure(model, source);
   if (!sets) return sets.error();
-  const auto over = choose_poses(std::move(source), {});
-  if (!over) return over.error();
+  const auto refit = choose_refit(*source, {});
+  if (!refit) return refit.error();
   for (const WeightPolicy policy : {WeightPolicy::barycentric, WeightPolicy::pose_exact,
                                     WeightPolicy::refit, WeightPolicy::exact}) {
     WeightsOperation operation;
     operation.weights.policy = policy;
     operation.pose = pose;
     if (policy == WeightPolicy::refit) {
-      if (!*over) continue;
-      operation.refit.poses = pose_set_of(**over);
+      if (!*refit) continue;
+      operation.refit = **refit;
     }
     Result<Json> errors = measure_as({operation}, *sets, model);
     if (!errors) return errors.error();

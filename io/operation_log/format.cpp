@@ -85,8 +85,20 @@ Json pose_set_json(const PoseSetSpec& set) {
           {"poses", std::move(poses)}};
 }
 
+Json importance_json(const RefitImportance& importance) {
+  Json of_clip = Json::array();
+  for (const RefitImportance::OfClip& of : importance.of_clip)
+    of_clip.push_back({{"clip", of.clip}, {"factor", of.factor}});
+  return {{"clips", importance.clips},
+          {"of_clip", std::move(of_clip)},
+          {"range_of_motion", importance.range_of_motion},
+          {"poses", importance.poses}};
+}
+
 Json refit_json(const RefitOptions& refit) {
   return {{"poses", pose_set_json(refit.poses)},
+          {"importance", importance_json(refit.importance)},
+          {"bound", refit.bound},
           {"moves_bind", refit.moves_bind},
           {"coupled", refit.is_coupled},
           {"smoothness", refit.smoothness}};

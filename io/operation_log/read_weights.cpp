@@ -52,10 +52,34 @@ PoseSetSpec read_pose_set(const Place& place) {
   return poses;
 }
 
+RefitImportance::OfClip read_importance_of_clip(const Place& place) {
+  place.check_fields({"clip", "factor"});
+  return {read_name(place.at("clip")), read_number_at_least_zero(place.at("factor"))};
+}
+
+RefitImportance read_importance(const Place& place) {
+  place.check_fields({"clips", "of_clip", "range_of_motion", "poses"});
+  RefitImportance importance;
+  read_if_given(place, "clips", read_number_at_least_zero, importance.clips);
+  read_if_given(place, "of_clip", read_list<RefitImportance::OfClip, read_importance_of_clip>,
+                importance.of_clip);
+  read_if_given(place, "range_of_motion", read_number_at_least_zero, importance.range_of_motion);
+  read_if_given(place, "poses", read_number_at_least_zero, importance.poses);
+  return importance;
+}
+
+double read_bound(const Place& place) {
+  const double bound = read_number_at_least_zero(place);
+  if (bound > 0 && bound < 1) place.malformed("expected a factor of at least 1, or 0");
+  return bound;
+}
+
 RefitOptions read_refit(const Place& place) {
-  place.check_fields({"poses", "moves_bind", "coupled", "smoothness"});
+  place.check_fields({"poses", "importance", "bound", "moves_bind", "coupled", "smoothness"});
   RefitOptions refit;
   read_if_given(place, "poses", read_pose_set, refit.poses);
+  read_if_given(place, "importance", read_importance, refit.importance);
+  read_if_given(place, "bound", read_bound, refit.bound);
   read_if_given(place, "moves_bind", read_bool, refit.moves_bind);
   read_if_given(place, "coupled", read_bool, refit.is_coupled);
   read_if_given(place, "smoothness", read_number_at_least_zero, refit.smoothness);

@@ -6,12 +6,21 @@
 
 #include <atomic>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "tear/weights/assign_weights.h"
 #include "weights/internal/coupled_refit.h"
 
 namespace sunder::tear {
+
+/// The fit of a point.
+struct PointFit {
+  std::size_t point = 0;  ///< In RefitTask::points.
+  bool is_taken = false;  ///< If false, the point keeps its barycentric weights.
+  std::vector<Influence> influences;
+  Vec3d position = Vec3d::Zero();
+};
 
 /// A refit that runs in the background: a copy of its input, and its result. Other threads may
 /// access only `state` and `is_cancelled` while it runs.
@@ -22,40 +31,46 @@ struct RefitTask {
     Vec3d position = Vec3d::Zero();  ///< Bind position with the rest morph displacement.
     Vec3d morph = Vec3d::Zero();     ///< The rest morph displacement.
     Index skin = 0;
+    Index operation = 0;  ///< In `operations`.
+    /// How far the bind position may move, metres in bind space: if no point moves farther, no face
+    /// is turned over and no point leaves the faces around it.
+    double reach = 0;
+  };
+  /// An operation that created points.
+  struct OfOperation {
+    std::uint64_t serial = 0;
+    std::vector<ModelPose> poses;  ///< In which it was made; of a long stroke, some of them.
   };
 
   /// @param assignment  barycentric weights of points of the editor's model.
   /// @param since       where the first of their operations began.
-  RefitTask(std::shared_ptr<const Character> source, WeightsOperation operation, PoseSet poses,
+  RefitTask(std::shared_ptr<const Character> source, WeightsOperation operation,
             WeightAssignment assignment, const EditLog::Mark& since, const SurfaceEditor& editor);
 
+  /// Adds an operation of the history, oldest first.
+  /// @param first_vertices  the vertex counts of the meshes when it began.
+  void add_operation(const Operation& of, std::uint64_t serial,
+                     std::span<const Index> first_vertices);
   void run();
   void cancel();
+  /// The influences with which a point started. Until the fits are stored.
+  [[nodiscard]] std::span<const Influence> barycentric(std::size_t point) const;
 
   std::shared_ptr<const Character> source;
-  WeightsOperation operation;  ///< Resolved.
-  PoseSet poses;
+  WeightsOperation operation;   ///< Resolved.
   WeightAssignment assignment;  ///< In: barycentric. Out: fitted.
   WeightReport report;
   std::vector<Point> points;
   std::vector<RefitNeighbours> neighbours;  ///< If the points are fitted together.
-  std::vector<std::uint64_t> serials;       ///< Serials of the operations.
+  std::vector<OfOperation> operations;
   Status failure;
   std::atomic<RefitJob::State> state = RefitJob::State::waiting;
   std::atomic<bool> is_cancelled = false;
 
  private:
-  [[nodiscard]] Status fit(Index skin);
-  [[nodiscard]] Status add_poses(Index skin, PoseMoments& moments) const;
-  [[nodiscard]] Status fit_together(std::span<const std::size_t> of_skin,
-                                    const PoseMoments& moments);
-  [[nodiscard]] PointRefit::Options options() const;
-  [[nodiscard]] PointToRefit to_refit(std::size_t point) const;
-  /// Stores the fit of a point, or keeps its weights if the fit is not better.
-  template <class Fit>
-  void take(std::size_t point, const Fit& fit);
-
-  std::vector<Influence> fitted_;
+  [[nodiscard]] Result<std::vector<PointFit>> fit(Index skin) const;
+  void keep_bound(std::vector<PointFit>& fits);
+  void store(const std::vector<PointFit>& fits);
 };
 
 }  // namespace sunder::tear

@@ -9,10 +9,10 @@
 
 #include <gtest/gtest.h>
 
+#include "support/coupled.h"
 #include "support/make_model.h"
 #include "support/rigs.h"
 #include "support/torn_invariants.h"
-#include "weights/internal/coupled_refit.h"
 
 namespace sunder {
 namespace {
@@ -179,7 +179,7 @@ TEST(RefitJob, requests_that_cannot_be_fitted_are_refused) {
 }
 
 TEST(RefitJob, fits_neighbours_together) {
-  if (!has_coupled_refit()) GTEST_SKIP() << "built without Ceres";
+  if (!test::use_coupled_refit()) GTEST_SKIP() << "built without Ceres (SUNDER_CERES)";
   Torn coupled(8), single(8);
   WeightsOperation wanted = refit_over_clips();
   const auto poses = all_poses(single.source, wanted.refit.poses, PoseSet::Role::fit);

@@ -3,6 +3,8 @@
 #include <sunder/operation/pose_spec.h>
 
 #include <cstdint>
+#include <string>
+#include <vector>
 
 namespace sunder {
 
@@ -39,9 +41,31 @@ struct WeightOptions {
   bool operator==(const WeightOptions&) const = default;
 };
 
-/// How the policy `refit` fits weights.
+/// How much the errors over a group of poses count in a fit, relative to the other groups. Each
+/// number is >= 0; 0: the group is only held to what barycentric weights have there.
+struct RefitImportance {
+  struct OfClip {
+    std::string clip;  ///< Its name.
+    double factor = 1;
+
+    bool operator==(const OfClip&) const = default;
+  };
+  double clips = 1;             ///< Of all clips together; each clip is a group of its own.
+  std::vector<OfClip> of_clip;  ///< Factors of single clips within `clips`; others have 1.
+  double range_of_motion = 1;   ///< Of the range of motion or the limited joints.
+  double poses = 1;             ///< Of the given poses.
+
+  bool operator==(const RefitImportance&) const = default;
+};
+
+/// How the policy `refit` fits weights. Over no clip, nor the rest pose, the pose of the operation,
+/// the range of motion or the given poses is a point worse than with barycentric weights.
 struct RefitOptions {
-  PoseSetSpec poses;         ///< The poses to fit over.
+  PoseSetSpec poses;  ///< The poses over which errors are reduced.
+  RefitImportance importance;
+  /// The worst deviation in all poses, as the certificate of docs/certificate.md bounds it with
+  /// free joints, may grow by this factor over that of barycentric weights; >= 1. 0: by any.
+  double bound = 1.25;
   bool moves_bind = true;    ///< Whether bind positions are fitted too.
   bool is_coupled = false;   ///< Whether neighbours are fitted together. Needs a build with Ceres.
   double smoothness = 0.01;  ///< Smoothness of coupled fits, >= 0; see docs/weights.md.

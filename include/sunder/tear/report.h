@@ -31,6 +31,11 @@ struct WeightReport {
   std::uint32_t refitted = 0;
   /// Points that lost influences to WeightOptions::maximum_influences.
   std::uint32_t pruned = 0;
+  /// `refit`: no pose moves a point farther from its exact place than this, metres: with
+  /// barycentric weights and as they were fitted. Joints are free, and only points with a
+  /// certificate count; see docs/certificate.md.
+  double certified_barycentric = 0, certified = 0;
+  std::uint32_t uncertified = 0;  ///< `refit`: points without a certificate.
 };
 
 /// Figures of one operation. Fields that do not apply to the operation are zero.
