@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "tools/certified_weights.h"
 #include "tools/exit_code.h"
 #include "tools/refit.h"
 
@@ -23,6 +24,8 @@ struct InfoRequest {
 struct TearRequest {
   std::filesystem::path model, operations, output;
   SaveOptions save;  ///< How influences are written.
+  /// Chooses influences and formats in place of `save`.
+  std::optional<MaximumError> maximum_error;
   /// For operations without weights of their own; empty: barycentric, with all influences.
   std::optional<WeightPolicy> weights;
   std::optional<RefitOver> refit_over;  ///< Only for `refit`; empty: both, or what the model has.
@@ -44,6 +47,7 @@ struct TransferRequest {
   std::filesystem::path source, target, output;
   TransferOptions options;  ///< But for what the files below say.
   SaveOptions save;
+  std::optional<MaximumError> maximum_error;  ///< As in TearRequest.
   std::optional<std::filesystem::path>
       bone_names;  ///< JSON: {"bone of the target": "of the source"}.
   std::optional<std::filesystem::path>
