@@ -25,18 +25,19 @@ struct DrawBuffers {
 sunder::Status play(const char* model_file, const sunder::Stroke& stroke) {
   const auto loaded = sunder::load_character(model_file);
   if (!loaded) return loaded.error();
-  const sunder::Character& character = *loaded->character;
+  const sunder::Character& model = *loaded->character;
   sunder::CharacterInstanceOptions options;
   options.soft.emplace();  // Soft tissue of the default material.
   auto instance = sunder::CharacterInstance::create(loaded->character, options);
   if (!instance) return instance.error();
-
-  std::vector<DrawBuffers> buffers(character.meshes.size());
-  sunder::Pose pose = *sunder::local_rest_pose(character);
+  std::vector<DrawBuffers> buffers(model.meshes.size());
+  auto pose = sunder::local_rest_pose(model);
+  if (!pose) return pose.error();
   sunder::ModelPose model_pose;
   for (int frame = 0; frame < 120; ++frame) {
-    sunder::Status status = sunder::sample_clip(character.clips.at(0), frame / 60.0, pose);
-    if (status) status = sunder::compute_model_pose(character.skeleton, pose, model_pose);
+    sunder::Status status;
+    if (!model.clips.empty()) status = sunder::sample_clip(model.clips[0], frame / 60.0, *pose);
+    if (status) status = sunder::compute_model_pose(model.skeleton, *pose, model_pose);
     if (!status) return status;
     if (frame == 30) {
       const auto report = instance->tear(model_pose, stroke);

@@ -123,7 +123,9 @@ int main() {
   const auto sheet = make_sheet();
   const auto model = sunder::TornModel::create(sheet);
   if (!model) return fail(model.error());
-  const auto set = sunder::ParticleSet::create(*model, *sunder::bind_pose(*sheet), {.range = 0.08});
+  const auto bind = sunder::bind_pose(*sheet);
+  if (!bind) return fail(bind.error());
+  const auto set = sunder::ParticleSet::create(*model, *bind, {.range = 0.08});
   if (!set) return fail(set.error());
   const auto deepest = catch_ball(*sheet, *set, ball, world);
   if (!deepest) return fail(deepest.error());

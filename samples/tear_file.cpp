@@ -12,12 +12,14 @@ sunder::Status tear_file(const char* model_file, const char* torn_file,
   if (!loaded) return loaded.error();
   const sunder::Character& character = *loaded->character;
 
-  sunder::Pose pose = *sunder::local_rest_pose(character);  // Or what your engine plays.
+  auto pose = sunder::local_rest_pose(character);  // Or what your engine plays.
+  if (!pose) return pose.error();
   if (!character.clips.empty())
-    if (const auto status = sunder::sample_clip(character.clips[0], 0.8, pose); !status)
+    if (const auto status = sunder::sample_clip(character.clips[0], 0.8, *pose); !status)
       return status;
   sunder::ModelPose model_pose;
-  if (const auto status = sunder::compute_model_pose(character.skeleton, pose, model_pose); !status)
+  if (const auto status = sunder::compute_model_pose(character.skeleton, *pose, model_pose);
+      !status)
     return status;
 
   auto torn = sunder::TornModel::create(loaded->character);

@@ -22,12 +22,12 @@ int main() {
   const auto report = torn->tear(samples::bent(*character, 0.8), stroke);
   if (!report) return std::printf("%s\n", report.error().text().data()), 1;
 
-  const sunder::TopologyCounts before = *count_topology(*character);
-  const sunder::TopologyCounts after = *count_topology(torn->character());
+  const auto before = count_topology(*character), after = count_topology(torn->character());
+  if (!before || !after) return std::puts("out of memory"), 1;
   std::printf("segments %u, faces crossed %u, length %.3f m\n", report->segments,
               report->faces_crossed, report->length_posed);
-  std::printf("points %u -> %u, triangles %u -> %u, boundary loops %u -> %u\n", before.points,
-              after.points, before.triangles, after.triangles, before.boundary_loops,
-              after.boundary_loops);
-  return report->runs > 0 && after.boundary_loops == before.boundary_loops + 1 ? 0 : 1;
+  std::printf("points %u -> %u, triangles %u -> %u, boundary loops %u -> %u\n", before->points,
+              after->points, before->triangles, after->triangles, before->boundary_loops,
+              after->boundary_loops);
+  return report->runs > 0 && after->boundary_loops == before->boundary_loops + 1 ? 0 : 1;
 }

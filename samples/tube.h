@@ -66,11 +66,12 @@ inline sunder::Character make_tube(const TubeShape& shape = {}) {
 
 /// The tube bent forward at its joint; radians.
 inline sunder::ModelPose bent(const sunder::Character& tube, double angle) {
-  sunder::Pose pose = *local_rest_pose(tube);
-  pose.parent_from_bone[1].rotation =
+  auto pose = local_rest_pose(tube);
+  if (!pose) std::abort();
+  pose->parent_from_bone[1].rotation =
       sunder::Quatf(Eigen::AngleAxisf(static_cast<float>(angle), Eigen::Vector3f::UnitX()));
   sunder::ModelPose model_pose;
-  if (!compute_model_pose(tube.skeleton, pose, model_pose)) std::abort();
+  if (!compute_model_pose(tube.skeleton, *pose, model_pose)) std::abort();
   return model_pose;
 }
 

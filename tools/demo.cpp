@@ -81,7 +81,9 @@ Result<TornDemo> tear_mid_clip(const std::shared_ptr<const Character>& character
 
   Result<TornModel> model = TornModel::create(character);
   if (!model) return model.error();
-  const Result<OperationOutcome> outcome = play(tear, *count_topology(*character), *model);
+  const Result<TopologyCounts> before = count_topology(*character);
+  if (!before) return before.error();
+  const Result<OperationOutcome> outcome = play(tear, *before, *model);
   if (!outcome) return outcome.error();
   return TornDemo{DemoTear{character, std::move(*model), tear, frame, bounds}, *outcome};
 }

@@ -38,8 +38,10 @@ Result<std::vector<ModelPose>> poses_of(const Operation& operation, const Charac
 }
 
 Result<std::vector<ModelPose>> poses_of_history(const TornModel& model) {
+  const Result<std::vector<Operation>> history = model.history();
+  if (!history) return history.error();
   std::vector<ModelPose> poses;
-  for (const Operation& operation : *model.history()) {
+  for (const Operation& operation : *history) {
     Result<std::vector<ModelPose>> of_operation = poses_of(operation, model.source());
     if (!of_operation) return of_operation.error();
     std::ranges::move(*of_operation, std::back_inserter(poses));

@@ -10,6 +10,7 @@
 #include "tools/model_check.h"
 #include "tools/posed_model.h"
 #include "tools/report.h"
+#include "tools/value_of.h"
 #include "tools/verbs.h"
 
 namespace sunder::tools {
@@ -22,7 +23,7 @@ std::uint32_t point_count(const Character& character, const Mesh& mesh) {
   alone.skins = character.skins;
   alone.rest_morph_weights = character.rest_morph_weights;
   alone.meshes = {mesh};
-  return count_topology(alone)->points;
+  return value_of(count_topology(alone)).points;
 }
 
 Json mesh_json(const Character& character, const Mesh& mesh) {
@@ -73,7 +74,7 @@ Json info_json(const InfoRequest& request, const LoadedCharacter& loaded, const 
   const ModelCheck check = check_model(character);
   info["weight_sum_min"] = check.least_weight_sum;
   info["weight_sum_max"] = check.greatest_weight_sum;
-  info["topology"] = to_json(*count_topology(character));
+  info["topology"] = to_json(value_of(count_topology(character)));
   return info;
 }
 

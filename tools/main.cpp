@@ -9,6 +9,7 @@
 #include <sunder/coupled_refit/use.h>
 #endif
 
+#include "tools/length.h"
 #include "tools/verbs.h"
 #include "tools/weight_report.h"
 #include "tools/written_influences.h"
@@ -40,6 +41,33 @@ WeightPolicy weight_policy(const std::string& name) {
        {WeightPolicy::pose_exact, WeightPolicy::refit, WeightPolicy::exact})
     if (name == weight_policy_name(policy)) return policy;
   return WeightPolicy::barycentric;
+}
+
+/// `--max-error` and its limits, which exclude that the caller chooses influences and format.
+void add_maximum_error(CLI::App& verb, std::optional<MaximumError>& wanted) {
+  CLI::Option* const length =
+      verb.add_option_function<std::string>(
+              "--max-error",
+              [&wanted](const std::string& text) { wanted = MaximumError{*parse_length(text)}; },
+              "Write as few influences and bits as keep every vertex within this distance of the "
+              "unpruned skin in every pose: 0.1mm, 1cm, or metres")
+          ->check(CLI::Validator(
+              [](const std::string& text) {
+                return parse_length(text)
+                           ? std::string()
+                           : "'" + text + "' is no length; expected 0.1mm, 1cm, 20um or metres";
+              },
+              "LENGTH"));
+  for (const char* const other : {"--influences", "--weights-as"})
+    length->excludes(verb.get_option(other));
+  verb.add_option_function<std::string>(
+          "--limits",
+          [&wanted](const std::string& limits) {
+            if (wanted) wanted->limits = limits;  // else refused: needs --max-error
+          },
+          "Joint limits for --max-error: none, clips or a JSON file")
+      ->needs(length)
+      ->default_str("none");
 }
 
 struct Requests {
@@ -111,6 +139,7 @@ CLI::App* add_tear(CLI::App& app, TearRequest& request) {
     if (request.refit_bound > 0 && request.refit_bound < 1)
       throw CLI::ValidationError("--refit-bound", "expected a factor of at least 1, or 0");
   });
+  add_maximum_error(*verb, request.maximum_error);
   verb->add_option("--report", request.report, "File for the JSON report; default: stdout");
   verb->add_option("--picture", request.picture,
                    "File for a picture (PNG) of the torn model, with lips and pieces pulled apart; "
@@ -209,8 +238,11 @@ CLI::App* add_transfer(CLI::App& app, TransferRequest& request) {
           "Format of the weights; u16 and u8 are integers that sum to exactly one")
       ->check(CLI::IsMember({"float", "u16", "u8"}))
       ->default_str("float");
+  add_maximum_error(*verb, request.maximum_error);
   verb->add_option("--report", request.report, "File for a JSON report");
   verb->callback([&request, output] {
+    if (request.options.dry_run && request.maximum_error)
+      throw CLI::ValidationError("--max-error", "needs a model to write: not with --dry-run");
     if (request.options.dry_run == (output->count() > 0))
       throw CLI::ValidationError("--output", "is needed without --dry-run, and only then");
   });

@@ -61,7 +61,7 @@ Vec4f color_of(std::uint32_t particle) {
 SoftScene::SoftScene(const std::vector<SoftMaterial>& materials, double range)
     : source(std::make_shared<const Character>(make_cactus())),
       instance(check(CharacterInstance::create(source, soft_options(materials, range)))),
-      rest(*bind_pose(*source)),
+      rest(check(bind_pose(*source))),
       pose(check(make_pose(
           *source, ClipPose{std::uint32_t{0},
                             kClipFraction * static_cast<double>(source->clips[0].duration)}))),

@@ -10,12 +10,15 @@
 #include <utility>
 #include <vector>
 
+#include "tools/certified_report.h"
+#include "tools/certified_weights.h"
 #include "tools/picture.h"
 #include "tools/progress_bar.h"
 #include "tools/refit.h"
 #include "tools/report.h"
 #include "tools/text_file.h"
 #include "tools/torn_picture.h"
+#include "tools/value_of.h"
 #include "tools/verbs.h"
 #include "tools/weight_report.h"
 #include "tools/written_influences.h"
@@ -86,7 +89,7 @@ Result<Json> weight_errors_of(TornModel& model, const std::shared_ptr<const Char
 /// @return false if there is no picture, which is reported.
 bool draw_picture(const LoadedCharacter& loaded, const TornModel& model,
                   const std::filesystem::path& png) {
-  const std::vector<Operation> history = *model.history();
+  const std::vector<Operation> history = value_of(model.history());
   Status status;
   if (history.empty())
     status = Status::failure(StatusCode::empty_input, kNone,
@@ -109,6 +112,7 @@ struct TearRun {
   Weighing weighing;
   TopologyCounts source, current;
   Json reports = Json::array();
+  std::optional<CertifiedWeights> certified = {};  ///< With --max-error.
   bool has_findings = false;
 };
 
@@ -128,7 +132,8 @@ ExitCode play_operations(const std::vector<Operation>& operations, TearRun& run,
   }
   progress.begin_step(operations.size() + 1, "weighing");
   if (!run.weighing.refit) return ExitCode::ok;
-  for (const WeightsOperation& refit : refits_of(*run.model.history(), *run.weighing.refit)) {
+  for (const WeightsOperation& refit :
+       refits_of(value_of(run.model.history()), *run.weighing.refit)) {
     const Result<OperationOutcome> outcome = play(refit, run.current, run.model);
     if (!outcome)
       return complain(run.request.model.string() + ": --weights refit", outcome.error(),
@@ -138,13 +143,25 @@ ExitCode play_operations(const std::vector<Operation>& operations, TearRun& run,
   return ExitCode::ok;
 }
 
+/// How the influences are written, and what that changes.
+Result<Json> influences_written_json(const TearRun& run) {
+  if (run.certified)
+    return Json{{"maximum", 0},
+                {"format", "certified"},
+                {"certificate", certificate_json(*run.certified, run.model.character(),
+                                                 *run.request.maximum_error)}};
+  const Result<PruningLoss> loss = measure_pruning(run.model, run.request.save.maximum_influences);
+  if (!loss) return loss.error();
+  return to_json(*loss, run.request.save);
+}
+
 Result<Json> report_json(TearRun& run) {
   const TearRequest& request = run.request;
   const Json result = result_json(run.model, run.source, run.current);
   const Result<Json> weight_errors = weight_errors_of(run.model, run.loaded.character);
   if (!weight_errors) return weight_errors;
-  const Result<PruningLoss> loss = measure_pruning(run.model, request.save.maximum_influences);
-  if (!loss) return loss.error();
+  const Result<Json> written = influences_written_json(run);
+  if (!written) return written;
   return Json{{"sunder_report", 1},
               {"model", request.model.string()},
               {"output", request.output.string()},
@@ -153,8 +170,20 @@ Result<Json> report_json(TearRun& run) {
               {"weights", weighing_json(run.weighing)},
               {"weight_errors", *weight_errors},
               {"influences_written_max", request.save.maximum_influences},
-              {"influences_written", to_json(*loss, request.save)},
+              {"influences_written", *written},
               {"result", result}};
+}
+
+/// With --max-error, chooses what is written of the torn model's weights.
+/// @return ok, or the exit code of the failure, which was reported.
+ExitCode choose_influences(TearRun& run) {
+  const std::optional<MaximumError>& wanted = run.request.maximum_error;
+  if (!wanted) return ExitCode::ok;
+  Result<CertifiedWeights> certified = certify_weights(run.model.character(), run.loaded, *wanted);
+  if (!certified)
+    return complain("--max-error, --limits " + wanted->limits, certified.error(), ExitCode::usage);
+  run.certified = std::move(*certified);
+  return ExitCode::ok;
 }
 
 /// Writes the model, its report and its log: all of them, or none.
@@ -163,13 +192,15 @@ ExitCode write_files(const TearRun& run, const std::string& report) {
   TextBesideModel report_file(request.report, report);
   if (const Status status = report_file.status(); !status)
     return complain(request.report->string(), status, ExitCode::unreadable_input);
-  TextBesideModel log_file(request.log,
-                           request.log ? *format_operations(*run.model.history()) : std::string());
+  TextBesideModel log_file(
+      request.log,
+      request.log ? value_of(format_operations(value_of(run.model.history()))) : std::string());
   if (const Status status = log_file.status(); !status)
     return complain(request.log->string(), status, ExitCode::unreadable_input);
-  if (const Status status =
-          save_glb(request.output, run.model.character(), run.loaded, request.save);
-      !status)
+  SaveOptions save = request.save;
+  if (run.certified) save.weights_of_mesh = run.certified->formats;
+  const Character& character = run.certified ? run.certified->character : run.model.character();
+  if (const Status status = save_glb(request.output, character, run.loaded, save); !status)
     return complain(request.output.string(), status, ExitCode::internal_error);
   if (const Status status = log_file.commit(); !status)
     return complain(request.log->string(), status, ExitCode::unreadable_input);
@@ -188,7 +219,9 @@ ExitCode run_tear(const TearRequest& request) {
   ProgressBar progress(operations->size() + 3);
   progress.begin_step(0, "reading");
   const std::string place = request.model.string();
-  const Result<LoadedCharacter> loaded = load_character(request.model);
+  LoadOptions load;
+  load.keep_stored_influences = request.maximum_error.has_value();
+  const Result<LoadedCharacter> loaded = load_character(request.model, load);
   if (!loaded) return complain(place, loaded.error(), ExitCode::unreadable_input);
   Result<TornModel> model = TornModel::create(loaded->character);
   if (!model) return complain(place, model.error(), ExitCode::internal_error);
@@ -197,11 +230,13 @@ ExitCode run_tear(const TearRequest& request) {
   if (const Status status = model->set_weights(weighing->options); !status)
     return complain("--weights", status, ExitCode::usage);
 
-  const TopologyCounts counts = *count_topology(*loaded->character);
-  TearRun run{request, *loaded, std::move(*model), *weighing, counts, counts};
+  const Result<TopologyCounts> counts = count_topology(*loaded->character);
+  if (!counts) return complain(place, counts.error(), ExitCode::internal_error);
+  TearRun run{request, *loaded, std::move(*model), *weighing, *counts, *counts};
   if (const ExitCode code = play_operations(*operations, run, progress); code != ExitCode::ok)
     return code;
   progress.begin_step(operations->size() + 2, "writing");
+  if (const ExitCode code = choose_influences(run); code != ExitCode::ok) return code;
   const Result<Json> json = report_json(run);
   if (!json) return complain(request.output.string(), json.error(), ExitCode::internal_error);
   const std::string report = dump(*json);
@@ -210,6 +245,8 @@ ExitCode run_tear(const TearRequest& request) {
                       run.current.degenerate_triangles > run.source.degenerate_triangles;
   if (request.picture) run.has_findings |= !draw_picture(*loaded, run.model, *request.picture);
   if (!request.report) std::fputs(report.c_str(), stdout);
+  if (run.certified)
+    std::fputs(certificate_line(*run.certified, *request.maximum_error).c_str(), stderr);
   return run.has_findings ? ExitCode::findings : ExitCode::ok;
 }
 

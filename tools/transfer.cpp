@@ -10,6 +10,8 @@
 #include <utility>
 
 #include "tools/bone_names.h"
+#include "tools/certified_report.h"
+#include "tools/certified_weights.h"
 #include "tools/json_file.h"
 #include "tools/report.h"
 #include "tools/text_file.h"
@@ -99,17 +101,24 @@ ExitCode read_rules(const TransferRequest& request, const Character& target,
 }
 
 /// Writes the model and its report: both, or none.
+/// @param certified  the weights to write, with --max-error.
 ExitCode write_files(const TransferRequest& request, const LoadedCharacter& target,
-                     const TransferResult& result) {
+                     const TransferResult& result,
+                     const std::optional<CertifiedWeights>& certified) {
   std::optional<StagedText> report;
   if (request.report) {
-    report.emplace(*request.report, dump(transfer_json(request, result)));
+    Json json = transfer_json(request, result);
+    if (certified)
+      json["certificate"] = certificate_json(*certified, result.character, *request.maximum_error);
+    report.emplace(*request.report, dump(json));
     if (!report->status())
       return complain(request.report->string(), report->status(), ExitCode::unreadable_input);
   }
+  SaveOptions save = request.save;
+  if (certified) save.weights_of_mesh = certified->formats;
+  const Character& character = certified ? certified->character : result.character;
   if (!request.options.dry_run)
-    if (const Status status = save_glb(request.output, result.character, target, request.save);
-        !status)
+    if (const Status status = save_glb(request.output, character, target, save); !status)
       return complain(request.output.string(), status, ExitCode::internal_error);
   if (report)
     if (const Status status = report->commit(); !status)
@@ -127,7 +136,9 @@ ExitCode run_transfer(const TransferRequest& request) {
                     ExitCode::usage);
   const Result<LoadedCharacter> source = load_character(request.source);
   if (!source) return complain(request.source.string(), source.error(), ExitCode::unreadable_input);
-  const Result<LoadedCharacter> target = load_character(request.target);
+  LoadOptions load;
+  load.keep_stored_influences = request.maximum_error.has_value();
+  const Result<LoadedCharacter> target = load_character(request.target, load);
   if (!target) return complain(request.target.string(), target.error(), ExitCode::unreadable_input);
   TransferOptions options = request.options;
   if (const ExitCode code = read_rules(request, *target->character, options); code != ExitCode::ok)
@@ -135,9 +146,17 @@ ExitCode run_transfer(const TransferRequest& request) {
   const Result<TransferResult> result =
       transfer_weights(*source->character, *target->character, options);
   if (!result) return complain(request.target.string(), result.error(), ExitCode::usage);
-  if (const ExitCode code = write_files(request, *target, *result); code != ExitCode::ok)
+  std::optional<CertifiedWeights> certified;
+  if (const std::optional<MaximumError>& wanted = request.maximum_error) {
+    Result<CertifiedWeights> weights = certify_weights(result->character, *target, *wanted);
+    if (!weights)
+      return complain("--max-error, --limits " + wanted->limits, weights.error(), ExitCode::usage);
+    certified = std::move(*weights);
+  }
+  if (const ExitCode code = write_files(request, *target, *result, certified); code != ExitCode::ok)
     return code;
   std::fputs(transfer_table(request, *result).c_str(), stdout);
+  if (certified) std::fputs(certificate_line(*certified, *request.maximum_error).c_str(), stdout);
   const bool has_findings = std::ranges::any_of(
       result->findings, [](const Finding& finding) { return finding.severity != Severity::note; });
   return has_findings ? ExitCode::findings : ExitCode::ok;

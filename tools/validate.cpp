@@ -181,6 +181,12 @@ ExitCode run_validate(const ValidateRequest& request) {
                     request.report,
                     request.html});
   }
+  for (Job& job : jobs) {
+    if (!job.html) continue;
+    job.pair.over_time = true;
+    if (const Status status = has_page(); !status)
+      return complain("--html", status, ExitCode::usage);
+  }
   Output output(request);
   return run_jobs(jobs, request.jobs, fail_on, output);
 }

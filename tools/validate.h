@@ -27,6 +27,7 @@ struct ValidatePair {
   std::optional<std::filesystem::path> bone_names;  ///< Bones whose names differ.
   TargetProfile profile = TargetProfile::none;
   std::string limits = "none";  ///< "none", "clips" or a file.
+  bool over_time = false;       ///< Also measures the deviation over the time of each clip.
 };
 
 /// A failure and the file that it is about.

@@ -17,6 +17,11 @@ PageInput page_input(const ValidatedPair& pair) {
   };
   add_array("Largest deviation over the poses tried", report.vertex_deviation);
   add_array("Bound for all poses within the limits", report.vertex_bound);
+  for (const ClipDeviation& clip : report.over_time) {
+    input.series.push_back(
+        {"Largest deviation", "m", threshold, clip.clip, clip.times, clip.maximum});
+    input.series.push_back({"RMS", "m", {}, clip.clip, clip.times, clip.rms});
+  }
   const auto add_pose = [&](const char* name, const ModelPose& pose) {
     if (!pose.model_from_bone.empty()) input.poses.push_back({name, pose.model_from_bone});
   };

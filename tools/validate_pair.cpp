@@ -1,64 +1,16 @@
 #include <sunder/io/operation_log.h>
-#include <sunder/skinning/pose.h>
 
 #include <algorithm>
-#include <numbers>
 #include <utility>
 
 #include "tools/bone_names.h"
-#include "tools/json_file.h"
+#include "tools/joint_limits_file.h"
 #include "tools/validate.h"
 
 namespace sunder::tools {
 namespace {
 
-double radians(const Json& degrees) { return degrees.get<double>() * std::numbers::pi / 180.0; }
-
-/// A limit in degrees: {"angle": 60} for a ball, {"axis": [0, 0, 1], "lower": -10, "upper": 90}
-/// for a hinge.
-Status read_range(const Json& json, const std::string& bone, JointRange& range) {
-  const auto is_number = [&](const char* name) {
-    return json.contains(name) && json[name].is_number();
-  };
-  if (json.is_object() && is_number("angle")) {
-    range.turn = JointRange::Turn::ball;
-    range.angle = radians(json["angle"]);
-    return {};
-  }
-  if (!json.is_object() || !is_number("lower") || !is_number("upper") || !json.contains("axis") ||
-      !json["axis"].is_array() || json["axis"].size() != 3 ||
-      !std::all_of(json["axis"].begin(), json["axis"].end(),
-                   [](const Json& value) { return value.is_number(); }))
-    return Status::failure(StatusCode::malformed_file, kNone,
-                           "/limits/%.80s: expected angle, or axis, lower and upper", bone.c_str());
-  range.turn = JointRange::Turn::hinge;
-  for (int i = 0; i < 3; ++i)
-    range.axis[i] = json["axis"][static_cast<std::size_t>(i)].get<double>();
-  range.lower = radians(json["lower"]);
-  range.upper = radians(json["upper"]);
-  return {};
-}
-
-/// Bones that the file does not name keep their free limits.
-Result<JointLimits> read_limits(const std::filesystem::path& file, const Character& source) {
-  const Result<Json> json = read_json_object(file);
-  if (!json) return json.error();
-  Result<JointLimits> limits = free_joint_limits(source, *bind_pose(source));
-  if (!limits) return limits.error();
-  const auto of_bones = json->find("limits");
-  if (of_bones == json->end() || !of_bones->is_object())
-    return Status::failure(StatusCode::malformed_file, kNone, "/limits: expected an object");
-  for (const auto& [name, range] : of_bones->items()) {
-    const auto bone = std::ranges::find(source.skeleton.bones, name, &Bone::name);
-    if (bone == source.skeleton.bones.end())
-      return Status::failure(StatusCode::not_found, kNone, "/limits: no bone '%.80s'",
-                             name.c_str());
-    const auto index = static_cast<std::size_t>(bone - source.skeleton.bones.begin());
-    if (const Status status = read_range(range, name, limits->of_bone[index]); !status)
-      return status;
-  }
-  return limits;
-}
+constexpr std::uint32_t kTimesPerClip = 240;
 
 /// Notes about weights: what the file stores is judged itself.
 bool is_about_weights(const LoadNote& note) {
@@ -137,7 +89,7 @@ bool read_options(const ValidatePair& pair, const Character& source,
     options.limits_from = LimitsFrom::clips;
     return true;
   }
-  Result<JointLimits> limits = read_limits(pair.limits, source);
+  Result<JointLimits> limits = read_joint_limits(pair.limits, source);
   if (!limits) failure = {pair.limits, limits.error(), ExitCode::usage};
   if (!limits) return false;
   options.limits_from = LimitsFrom::given;
@@ -158,6 +110,7 @@ std::optional<ValidatedPair> validate_pair(
   options.stored_source = source->stored;
   options.stored_target = target->stored;
   options.profile = pair.profile;
+  if (pair.over_time) options.times_per_clip = kTimesPerClip;
   options.progress = progress;
   std::vector<Operation> operations;
   if (!read_options(pair, *source->character, operations, options, failure)) return {};

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "tools/certified_weights.h"
 #include "tools/exit_code.h"
 #include "tools/refit.h"
 
@@ -23,11 +24,13 @@ struct InfoRequest {
 struct TearRequest {
   std::filesystem::path model, operations, output;
   SaveOptions save;  ///< How influences are written.
+  /// Chooses influences and formats in place of `save`.
+  std::optional<MaximumError> maximum_error;
   /// For operations without weights of their own; empty: barycentric, with all influences.
   std::optional<WeightPolicy> weights;
   /// Only for `refit`; empty: clips and range of motion, or what the model has.
   std::optional<RefitOptions> refit_over;
-  double refit_bound = RefitOptions{}.bound;  ///< RefitOptions::bound.
+  double refit_bound = RefitOptions{}.bound;    ///< RefitOptions::bound.
   std::optional<std::filesystem::path> report;  ///< Empty: stdout.
   std::optional<std::filesystem::path> log;  ///< Output file for the log of the applied operations.
   std::optional<std::filesystem::path> picture;  ///< Output file for a picture.
@@ -46,6 +49,7 @@ struct TransferRequest {
   std::filesystem::path source, target, output;
   TransferOptions options;  ///< But for what the files below say.
   SaveOptions save;
+  std::optional<MaximumError> maximum_error;  ///< As in TearRequest.
   std::optional<std::filesystem::path>
       bone_names;  ///< JSON: {"bone of the target": "of the source"}.
   std::optional<std::filesystem::path>

@@ -9,6 +9,7 @@
 
 #include "tools/history.h"
 #include "tools/refit.h"
+#include "tools/value_of.h"
 
 namespace sunder::tools {
 namespace {
@@ -111,7 +112,7 @@ Result<Json> weight_errors_json(const TornModel& model, const std::vector<Measur
 }
 
 Result<Json> written_weight_errors_json(TornModel& model, const std::vector<MeasuredPoses>& sets) {
-  const std::vector<PointsOfOperation> points = points_of_history(*model.history());
+  const std::vector<PointsOfOperation> points = points_of_history(value_of(model.history()));
   std::vector<WeightsOperation> as_written;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!points[i].are_there || points[i].weights.policy != WeightPolicy::exact) continue;

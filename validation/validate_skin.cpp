@@ -12,6 +12,7 @@
 #include "validation/checks/certificate_checks.h"
 #include "validation/checks/cracks.h"
 #include "validation/checks/deviation.h"
+#include "validation/checks/deviation_over_time.h"
 #include "validation/checks/inherited.h"
 #include "validation/checks/papers.h"
 #include "validation/checks/pop_check.h"
@@ -234,6 +235,10 @@ void Validation::check_poses(const RowReader& reader) {
   const SkinDifferences differences =
       difference_of(*source_character_, *target_character_, matches_, bones_);
   measure_deviation(reader, differences, batches, points.bind(), report_);
+  if (options_.times_per_clip > 1)
+    report_.over_time =
+        deviation_over_time(*source_character_, points.bind(), differences,
+                            report_.posed.front().sample_count, options_.times_per_clip);
   check_deviation(reader, points, differences, batches, report_,
                   options_.maximum_deviation * report_.diagonal, *findings_);
   check_shapes(reader, points, differences, batches.back(), *findings_);

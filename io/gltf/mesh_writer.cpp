@@ -27,14 +27,26 @@ std::string numbered(const char* name, std::size_t index) { return name + std::t
 
 }  // namespace
 
-void check_options(const SaveOptions& options) {
+void check_options(const SaveOptions& options, std::size_t mesh_count) {
   const std::uint32_t maximum = options.maximum_influences;
   if (maximum != 0 && maximum != 4 && maximum != 8)
     refuse(StatusCode::invalid_argument, kNone,
            "save_glb: maximum_influences must be 0, 4 or 8, not %u", maximum);
-  if (options.weights > WeightFormat::unorm8)
-    refuse(StatusCode::invalid_argument, kNone, "save_glb: unknown weight format %u",
-           static_cast<unsigned>(options.weights));
+  const auto check_format = [](WeightFormat format) {
+    if (format > WeightFormat::unorm8)
+      refuse(StatusCode::invalid_argument, kNone, "save_glb: unknown weight format %u",
+             static_cast<unsigned>(format));
+  };
+  check_format(options.weights);
+  if (!options.weights_of_mesh.empty() && options.weights_of_mesh.size() != mesh_count)
+    refuse(StatusCode::size_mismatch, kNone,
+           "save_glb: weight formats of %zu meshes, the character has %zu",
+           options.weights_of_mesh.size(), mesh_count);
+  for (const WeightFormat format : options.weights_of_mesh) check_format(format);
+}
+
+WeightFormat weight_format_of(const SaveOptions& options, std::uint32_t mesh) {
+  return options.weights_of_mesh.empty() ? options.weights : options.weights_of_mesh[mesh];
 }
 
 std::uint32_t MeshWriter::add_accessor(Json accessor) {
@@ -118,7 +130,8 @@ bool MeshWriter::has_triangles(const Mesh& mesh) {
 }
 
 MeshWriter::Vertices MeshWriter::add_vertices(const Mesh& mesh,
-                                              const SourceDocument::MeshOrigin& origin) {
+                                              const SourceDocument::MeshOrigin& origin,
+                                              WeightFormat format) {
   Vertices vertices{Json::object(), nullptr};
   Json& attributes = vertices.attributes;
   attributes["POSITION"] = add_vectors(mesh.positions, Bounds::yes);
@@ -145,14 +158,14 @@ MeshWriter::Vertices MeshWriter::add_vertices(const Mesh& mesh,
     const Json accessor = *sides;  // The insertion moves it.
     attributes[kTearSideFeatureAttribute] = accessor;
   }
-  if (origin.skinned) add_influences(mesh.weights, attributes);
+  if (origin.skinned) add_influences(mesh.weights, format, attributes);
   if (!mesh.morph_targets.empty()) vertices.targets = add_targets(mesh);
   return vertices;
 }
 
-void MeshWriter::add_influences(const SkinWeights& weights, Json& attributes) {
+void MeshWriter::add_influences(const SkinWeights& weights, WeightFormat format, Json& attributes) {
   const std::uint32_t maximum = options_.maximum_influences;
-  switch (options_.weights) {
+  switch (format) {
     case WeightFormat::float32:
       return add_sets(make_influence_sets<float>(weights, maximum), attributes);
     case WeightFormat::unorm16:

@@ -9,7 +9,11 @@
 namespace sunder::gltf {
 
 /// Refuses options outside their documented range.
-void check_options(const SaveOptions& options);
+/// @param mesh_count  of the character that is written.
+void check_options(const SaveOptions& options, std::size_t mesh_count);
+
+/// The number format of the weights of a mesh.
+[[nodiscard]] WeightFormat weight_format_of(const SaveOptions& options, std::uint32_t mesh);
 
 /// Appends meshes to a draft as accessors.
 class MeshWriter {
@@ -22,7 +26,8 @@ class MeshWriter {
     Json attributes;
     Json targets;  ///< Null if the mesh has none.
   };
-  [[nodiscard]] Vertices add_vertices(const Mesh& mesh, const SourceDocument::MeshOrigin& origin);
+  [[nodiscard]] Vertices add_vertices(const Mesh& mesh, const SourceDocument::MeshOrigin& origin,
+                                      WeightFormat format);
 
   /// Whether the mesh is written at all; retired triangles are not.
   [[nodiscard]] static bool has_triangles(const Mesh& mesh);
@@ -41,7 +46,7 @@ class MeshWriter {
                              GlbDraft::ViewTarget target);
   std::uint32_t add_labels(const CustomAttribute& attribute);
   std::uint32_t add_accessor(Json accessor);
-  void add_influences(const SkinWeights& weights, Json& attributes);
+  void add_influences(const SkinWeights& weights, WeightFormat format, Json& attributes);
   template <class Weight>
   void add_sets(const InfluenceSets<Weight>& sets, Json& attributes);
   template <class Weight>

@@ -42,7 +42,7 @@ Index append(Json& document, const char* list_name, Json entry) {
 class NewDocument {
  public:
   NewDocument(const Character& character, const SaveOptions& options)
-      : character_(character), draft_(nothing_), meshes_(draft_, options) {}
+      : character_(character), options_(options), draft_(nothing_), meshes_(draft_, options) {}
 
   std::vector<std::byte> write() {
     draft_.json = {{"asset", {{"version", "2.0"}, {"generator", "Sunder"}}},
@@ -92,7 +92,8 @@ class NewDocument {
     const bool rigid = hangs_on_its_bone(mesh);
     SourceDocument::MeshOrigin form;
     form.skinned = !rigid;
-    const MeshWriter::Vertices vertices = meshes_.add_vertices(mesh, form);
+    const MeshWriter::Vertices vertices =
+        meshes_.add_vertices(mesh, form, weight_format_of(options_, index));
 
     Json gltf_mesh = {{"name", mesh.name}, {"primitives", Json::array()}};
     for (Index submesh = 0; submesh < mesh.submeshes.size(); ++submesh) {
@@ -257,6 +258,7 @@ class NewDocument {
   }
 
   const Character& character_;
+  const SaveOptions& options_;
   const SourceDocument nothing_;
   GlbDraft draft_;
   MeshWriter meshes_;
@@ -271,7 +273,7 @@ class NewDocument {
 Status write_new_document(const std::filesystem::path& file, const Character& character,
                           const SaveOptions& options) {
   try {
-    check_options(options);
+    check_options(options, character.meshes.size());
     if (const Status status = validate_character(character); !status) return status;
     return write_atomically(file, NewDocument(character, options).write());
   } catch (...) {

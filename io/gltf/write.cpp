@@ -94,6 +94,7 @@ class Patch {
         character_(character),
         before_(*loaded.character),
         source_(*loaded.source),
+        options_(options),
         writer_(draft, options),
         rig_(draft, character, source_, static_cast<std::uint32_t>(before_.skeleton.bones.size())) {
   }
@@ -154,7 +155,8 @@ class Patch {
     origin.skinned |= has_new_skin(mesh_index);
     for (const std::uint32_t primitive : origin.primitives) rewritten[primitive] = nullptr;
     if (!MeshWriter::has_triangles(mesh)) return;
-    const MeshWriter::Vertices vertices = writer_.add_vertices(mesh, origin);
+    const MeshWriter::Vertices vertices =
+        writer_.add_vertices(mesh, origin, weight_format_of(options_, mesh_index));
     for (std::uint32_t submesh = 0; submesh < mesh.submeshes.size(); ++submesh) {
       const std::uint32_t indices = writer_.add_indices(mesh, submesh);
       if (indices == kNone) continue;
@@ -236,6 +238,7 @@ class Patch {
   const Character& character_;
   const Character& before_;
   const SourceDocument& source_;
+  const SaveOptions& options_;
   MeshWriter writer_;
   AppendedRig rig_;
   std::set<std::uint32_t> without_mesh_;
@@ -243,7 +246,7 @@ class Patch {
 
 Status write(const std::filesystem::path& file, const Character& character,
              const LoadedCharacter& loaded, const SaveOptions& options) {
-  check_options(options);
+  check_options(options, character.meshes.size());
   check_same_character(character, loaded);
   const SourceDocument& source = *loaded.source;
   const std::vector<std::uint32_t> meshes = meshes_to_write(character, loaded);

@@ -212,12 +212,33 @@ TEST(SaveInfluences, of_meshes_that_stay_are_not_touched) {
   EXPECT_EQ(saved.again.character->meshes[1].weights, changed.meshes[1].weights);
 }
 
+TEST(SaveInfluences, each_mesh_may_have_a_format_of_its_own) {
+  Character character = strip_with_influences(4);
+  for (int i = 0; i < 2; ++i) character.meshes.push_back(character.meshes[0]);
+  SaveOptions options;
+  options.weights_of_mesh = {WeightFormat::unorm16, WeightFormat::float32, WeightFormat::unorm8};
+  const Saved saved = save(character, options);
+  const std::uint32_t types[] = {5123, 5126, 5121};
+  for (std::size_t mesh = 0; mesh < 3; ++mesh) {
+    const Json& attributes = saved.json["meshes"][mesh]["primitives"][0]["attributes"];
+    const Json& accessor = saved.json["accessors"][attributes["WEIGHTS_0"].get<std::size_t>()];
+    EXPECT_EQ(accessor["componentType"], types[mesh]) << mesh;
+  }
+}
+
 TEST(SaveInfluences, refuses_a_format_that_does_not_exist) {
   const TemporaryFolder folder;
   SaveOptions options;
   options.weights = static_cast<WeightFormat>(3);
-  EXPECT_EQ(save_glb(folder.path() / "a.glb", strip_with_influences(4), options).code(),
-            StatusCode::invalid_argument);
+  const auto code = [&] {
+    return save_glb(folder.path() / "a.glb", strip_with_influences(4), options).code();
+  };
+  EXPECT_EQ(code(), StatusCode::invalid_argument);
+  options.weights = WeightFormat::float32;
+  options.weights_of_mesh = {static_cast<WeightFormat>(3)};
+  EXPECT_EQ(code(), StatusCode::invalid_argument);
+  options.weights_of_mesh = {WeightFormat::unorm8, WeightFormat::unorm8};
+  EXPECT_EQ(code(), StatusCode::size_mismatch);
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 

@@ -157,6 +157,22 @@ facts.changed_by_bone = await changedBy(page, () => page.select('#shown', 'bone 
 facts.changed_by_layout = await changedBy(page, () => page.keyboard.press('v'));
 facts.viewports_overlaid = await page.evaluate(() => sunder.stage.views.length);
 facts.pose_given = await page.evaluate(() => sunder.player.pose);
+// The chart: a click seeks the clip to that time and leaves the given pose.
+facts.chart = await page.evaluate(() => ({
+  lines: document.querySelectorAll('#chart path.line').length,
+  thresholds: document.querySelectorAll('#chart .threshold').length,
+  title: document.querySelector('#chart-title').textContent,
+}));
+const chart = await (await page.$('#chart')).boundingBox();
+await page.mouse.click(chart.x + 0.25 * chart.width, chart.y + chart.height / 2);
+await settle(page);
+facts.sought = await page.evaluate(() => {
+  const { player } = sunder;
+  const cursor = document.querySelector('#chart .cursor');
+  return { share: player.time / player.duration, pose: player.pose, is_playing: player.isPlaying,
+    cursor: Number(cursor.getAttribute('x1')) / 1000, clock: document.querySelector('#clock').value };
+});
+await page.evaluate(() => sunder.player.seek(0));
 await page.focus('#canvas');
 await page.keyboard.press('Space');
 await page.waitForFunction(() => sunder.player.time > 0.1);

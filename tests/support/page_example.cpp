@@ -4,6 +4,7 @@
 #include <sunder/weights/influences.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <limits>
 #include <string>
@@ -57,6 +58,7 @@ void add_clip(PageExample& example) {
   const Clip& clip = example.source.clips.at(0);
   tools::PageSeries series{"Largest deviation", "m", kThreshold, 0, {}, {}};
   tools::PageArray array{"Largest deviation over the clips", "m", false, kThreshold, {}};
+  tools::PageSeries rms{"RMS", "m", {}, 0, {}, {}};
   Pose pose = *local_rest_pose(example.source);
   ModelPose model_pose;
   for (int i = 0; i <= 60; ++i) {
@@ -65,9 +67,14 @@ void add_clip(PageExample& example) {
     EXPECT_TRUE(compute_model_pose(example.source.skeleton, pose, model_pose));
     const auto distances = deviations(example, model_pose);
     series.values.push_back(largest(distances));
+    rms.times.push_back(series.times.back());
+    double square = 0;
+    for (const double distance : distances) square += distance * distance;
+    rms.values.push_back(std::sqrt(square / static_cast<double>(distances.size())));
     keep_larger(array.values, distances);
   }
   example.input.series.push_back(std::move(series));
+  example.input.series.push_back(std::move(rms));
   example.input.arrays.push_back(std::move(array));
 }
 

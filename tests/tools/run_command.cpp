@@ -27,9 +27,18 @@ void redirect(int descriptor, const std::filesystem::path& file) {
 
 CommandResult run_sunder(const std::vector<std::string>& arguments,
                          const std::vector<std::pair<std::string, std::string>>& environment) {
+  return run_program(SUNDER_COMMAND, arguments, environment);
+}
+
+CommandResult run_sunder_without_page(const std::vector<std::string>& arguments) {
+  return run_program(SUNDER_COMMAND_WITHOUT_PAGE, arguments);
+}
+
+CommandResult run_program(const char* program, const std::vector<std::string>& arguments,
+                          const std::vector<std::pair<std::string, std::string>>& environment) {
   const TemporaryFolder folder;
   const auto out = folder.path() / "out", err = folder.path() / "err";
-  std::vector<char*> argv = {const_cast<char*>(SUNDER_COMMAND)};
+  std::vector<char*> argv = {const_cast<char*>(program)};
   for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
   argv.push_back(nullptr);
 
@@ -38,7 +47,7 @@ CommandResult run_sunder(const std::vector<std::string>& arguments,
     redirect(STDOUT_FILENO, out);
     redirect(STDERR_FILENO, err);
     for (const auto& [name, value] : environment) setenv(name.c_str(), value.c_str(), 1);
-    execv(SUNDER_COMMAND, argv.data());
+    execv(program, argv.data());
     _exit(127);
   }
   int state = 0;

@@ -11,7 +11,13 @@ struct CommandResult {
   std::string out, err;
 };
 
-/// Runs the built `sunder` with these arguments; these variables replace those of the environment.
+/// Runs a program with these arguments; these variables replace those of the environment.
+CommandResult run_program(const char* program, const std::vector<std::string>& arguments,
+                          const std::vector<std::pair<std::string, std::string>>& environment = {});
+
+/// The same with the built `sunder`, and with one that was built without the page of `sunder
+/// validate`.
+CommandResult run_sunder_without_page(const std::vector<std::string>& arguments);
 CommandResult run_sunder(const std::vector<std::string>& arguments,
                          const std::vector<std::pair<std::string, std::string>>& environment = {});
 

@@ -1,31 +1,14 @@
 // `sunder transfer` from the outside: exit codes, words, JSON, and what it leaves on disk.
 
-#include <sunder/io/character_file.h>
 #include <sunder/validation/transfer.h>
 
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
-#include <string>
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include "support/gltf_validator.h"
-#include "support/shared_models.h"
-#include "support/temporary_folder.h"
-#include "tools/demo_rig.h"
-#include "tools/run_command.h"
+#include "tools/command_fixture.h"
 
-namespace sunder {
+namespace sunder::command_test {
 namespace {
-
-using nlohmann::json;
-using test::CommandResult;
-using test::run_sunder;
-using testing::HasSubstr;
-using testing::IsEmpty;
 
 /// The cactus as one rigid model: no bone moves it.
 Character stiff_cactus() {
@@ -48,34 +31,21 @@ Character stiff_cactus() {
   return character;
 }
 
-class TransferCommand : public testing::Test {
+class TransferCommand : public CommandSuite {
  protected:
   static void SetUpTestSuite() {
-    folder_ = new test::TemporaryFolder;
+    CommandSuite::SetUpTestSuite();
     ASSERT_TRUE(save_glb(source(), tools::make_cactus()));
     ASSERT_TRUE(save_glb(stiff(), stiff_cactus()));
   }
-  static void TearDownTestSuite() {
-    delete folder_;
-    folder_ = nullptr;
-  }
-  static std::string path(const std::string& name) { return (folder_->path() / name).string(); }
   static std::string source() { return path("source.glb"); }
   static std::string stiff() { return path("stiff.glb"); }
-  static bool exists(const std::string& name) { return std::filesystem::exists(path(name)); }
-  static std::string write(const std::string& name, const std::string& text) {
-    std::ofstream(path(name)) << text;
-    return path(name);
-  }
   static Character load(const std::string& name) {
     const auto loaded = load_character(path(name));
     EXPECT_TRUE(loaded) << loaded.error().text();
     return loaded ? *loaded->character : Character();
   }
-
-  static test::TemporaryFolder* folder_;
 };
-test::TemporaryFolder* TransferCommand::folder_ = nullptr;
 
 TEST_F(TransferCommand, a_stiff_model_gets_skeleton_and_skin_and_keeps_its_look) {
   const CommandResult result = run_sunder(
@@ -84,8 +54,7 @@ TEST_F(TransferCommand, a_stiff_model_gets_skeleton_and_skin_and_keeps_its_look)
   EXPECT_THAT(result.out, HasSubstr("coincident"));
   EXPECT_THAT(result.out, HasSubstr("SUNDER_T_SKELETON"));
   EXPECT_THAT(result.err, IsEmpty());
-  std::ifstream stream(path("r.json"));
-  const json report = json::parse(stream);
+  const json report = read_json("r.json");
   EXPECT_EQ(report["sunder_transfer"], 1);
   EXPECT_EQ(report["matched_share"], 1.0);
   EXPECT_EQ(report["findings"][0]["code"], "SUNDER_T_SKELETON");
@@ -177,8 +146,7 @@ TEST_F(TransferCommand, masks_and_names_come_from_files) {
                         vertices, "--report", path("three.json")})
                 .exit_code,
             0);
-  std::ifstream stream(path("three.json"));
-  const json report = json::parse(stream);
+  const json report = read_json("three.json");
   EXPECT_EQ(report["coincident"], 3);
   EXPECT_EQ(report["locked"], report["vertices"].get<int>() - 3);
   EXPECT_EQ(run_sunder({"transfer", source(), stiff(), "-o", path("no.glb"), "--vertices",
@@ -192,4 +160,4 @@ TEST_F(TransferCommand, masks_and_names_come_from_files) {
 }
 
 }  // namespace
-}  // namespace sunder
+}  // namespace sunder::command_test

@@ -2,6 +2,7 @@
 
 #include <sunder/io/character_file.h>
 
+#include <algorithm>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -12,6 +13,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "support/node_program.h"
 #include "support/temporary_folder.h"
 #include "tools/demo_rig.h"
 #include "tools/run_command.h"
@@ -124,6 +126,57 @@ TEST_F(Validate, a_manifest_compares_many_pairs_and_the_worst_exit_code_counts) 
   EXPECT_EQ(read_report(path("b.json"))["counts"]["error"], 1);
 }
 
+TEST_F(Validate, the_page_has_the_deviation_over_the_time_of_each_clip) {
+  ASSERT_TRUE(save_glb(path("four.glb"), tools::make_cactus(), {4, WeightFormat::float32}));
+  const auto result = run_sunder({"validate", path("model.glb"), path("four.glb"), "--report",
+                                  path("r.json"), "--html", path("r.html")});
+  if (result.err.find("scripts/setup page") != std::string::npos || !test::has_node_packages({}))
+    GTEST_SKIP() << "needs node and a build with the page (scripts/setup page)";
+  ASSERT_LE(result.exit_code, 1) << result.err;
+  std::ostringstream html;
+  html << std::ifstream(path("r.html")).rdbuf();
+  const std::string page = html.str(), mark = "<script id=\"data\" type=\"text/plain\">";
+  const std::size_t first = page.find(mark) + mark.size();
+  std::ofstream(path("data")) << page.substr(first, page.find("</script>", first) - first);
+  const auto decoded = test::run_node_program("decode_page.mjs", "'" + path("data") + "' 0 0");
+  ASSERT_TRUE(decoded && decoded->succeeded) << (decoded ? decoded->output : "");
+  const json series = json::parse(decoded->output)["series"];
+  ASSERT_EQ(series.size(), 2u);
+  EXPECT_EQ(series[0]["name"], "Largest deviation");
+  EXPECT_EQ(series[1]["name"], "RMS");
+  double largest = 0;
+  for (std::size_t i = 0; i < series[0]["times"].size(); ++i) {
+    const double maximum = series[0]["values"][i].get<double>();
+    EXPECT_LE(series[1]["values"][i].get<double>(), maximum);
+    largest = std::max(largest, maximum);
+  }
+  // The report samples the same clip at fewer times.
+  const json report = read_report(path("r.json"));
+  const json& of_clips = report["posed"][0];
+  EXPECT_EQ(of_clips["poses"], "clips");
+  EXPECT_NEAR(largest, of_clips["max"].get<double>(), 0.05 * largest);
+  EXPECT_GT(largest, 1e-4);
+}
+
+TEST_F(Validate, a_build_without_the_page_refuses_html_before_it_compares) {
+  const auto result =
+      test::run_sunder_without_page({"validate", path("model.glb"), path("model.glb"), "--report",
+                                     path("r.json"), "--html", path("r.html")});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.out, IsEmpty());
+  EXPECT_THAT(result.err, HasSubstr("--html"));
+  EXPECT_THAT(result.err, HasSubstr("scripts/setup page"));
+  EXPECT_FALSE(std::filesystem::exists(path("r.html")));
+  EXPECT_FALSE(std::filesystem::exists(path("r.json")));
+  std::ofstream(path("pairs.json"))
+      << R"({"pairs": [{"source": "model.glb", "target": "model.glb", "html": "r.html"}]})";
+  EXPECT_EQ(test::run_sunder_without_page({"validate", "--manifest", path("pairs.json")}).exit_code,
+            2);
+  EXPECT_EQ(
+      test::run_sunder_without_page({"validate", path("model.glb"), path("model.glb")}).exit_code,
+      0);
+}
+
 TEST_F(Validate, wrong_command_lines_and_files_have_their_exit_codes) {
   const std::string model = path("model.glb");
   for (const std::vector<std::string>& arguments :
@@ -141,7 +194,8 @@ TEST_F(Validate, wrong_command_lines_and_files_have_their_exit_codes) {
   EXPECT_EQ(limits.exit_code, 2);
   EXPECT_THAT(limits.err, HasSubstr("no such bone"));
   std::ofstream(path("bones.json")) << R"({"x": 3})";
-  EXPECT_EQ(run_sunder({"validate", model, model, "--bone-names", path("bones.json")}).exit_code, 2);
+  EXPECT_EQ(run_sunder({"validate", model, model, "--bone-names", path("bones.json")}).exit_code,
+            2);
 }
 
 }  // namespace

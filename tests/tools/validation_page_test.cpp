@@ -221,20 +221,6 @@ TEST(PageDataFaults, arrays_that_do_not_fit_are_refused) {
             StatusCode::index_out_of_range);
 }
 
-TEST(ValidationPage, fails_by_name_where_the_build_has_no_page) {
-  const Pair pair;
-  const TemporaryFolder folder;
-  const auto file = folder.path() / "page.html";
-  const Status status = tools::write_validation_page(file, pair.input);
-  if (!tools::page_template().empty()) {
-    EXPECT_TRUE(status) << status.text();
-    return;
-  }
-  EXPECT_EQ(status.code(), StatusCode::unsupported_feature);
-  EXPECT_THAT(std::string(status.text()), HasSubstr("scripts/setup page"));
-  EXPECT_FALSE(std::filesystem::exists(file));
-}
-
 bool has_chromium() { return std::system("command -v chromium > /dev/null 2>&1") == 0; }
 
 TEST(ValidationPage, works_in_a_browser) {
@@ -269,6 +255,15 @@ TEST(ValidationPage, works_in_a_browser) {
   EXPECT_GT(facts["changed_by_layout"], 0.02);
   EXPECT_EQ(facts["viewports_overlaid"], 1);
   EXPECT_EQ(facts["pose_given"], 0) << "the worst pose is shown first";
+  EXPECT_EQ(facts["chart"]["lines"], 2) << "largest deviation and RMS";
+  EXPECT_EQ(facts["chart"]["thresholds"], 1);
+  EXPECT_THAT(facts["chart"]["title"].get<std::string>(), HasSubstr("RMS up to"));
+  const json& sought = facts["sought"];
+  EXPECT_NEAR(sought["share"].get<double>(), 0.25, 0.01);
+  EXPECT_NEAR(sought["cursor"].get<double>(), sought["share"].get<double>(), 1e-6);
+  EXPECT_TRUE(sought["pose"].is_null()) << "the clip is shown, not the worst pose";
+  EXPECT_EQ(sought["is_playing"], false);
+  EXPECT_THAT(sought["clock"].get<std::string>(), HasSubstr(" at 0.50 s"));
   EXPECT_EQ(facts["is_playing"], false);
   EXPECT_EQ(facts["markers"], 8);
   EXPECT_EQ(facts["dark"], true);

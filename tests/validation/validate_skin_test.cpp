@@ -83,6 +83,44 @@ TEST(ValidateSkin, statistics_are_ordered_and_the_covered_share_is_that_of_wilks
   }
 }
 
+TEST(ValidateSkin, deviation_over_time_is_that_of_each_sampled_pose) {
+  auto [source, target] = tube_and_copy();
+  Clip still;
+  still.name = "Still";
+  source.clips.insert(source.clips.begin(), still);
+  EXPECT_TRUE(validate_skin(share(source), share(target))->over_time.empty());
+  for (const std::uint32_t most : {2u, 25u, 1000u}) {
+    ValidationOptions options;
+    options.times_per_clip = most;
+    const auto report = validate_skin(share(source), share(target), options);
+    ASSERT_TRUE(report) << report.error().text();
+    ASSERT_EQ(report->over_time.size(), 1u) << "a clip without duration has no times";
+    const ClipDeviation& deviation = report->over_time[0];
+    const Clip& clip = source.clips[1];
+    EXPECT_EQ(deviation.clip, 1u);
+    ASSERT_EQ(deviation.times.size(), std::min(most, 61u)) << "two seconds";
+    EXPECT_EQ(deviation.times.front(), 0.0);
+    EXPECT_EQ(deviation.times.back(), static_cast<double>(clip.duration));
+    Pose pose = *local_rest_pose(source);
+    ModelPose model_pose;
+    for (std::size_t i = 0; i < deviation.times.size(); ++i) {
+      ASSERT_TRUE(sample_clip(clip, deviation.times[i], pose));
+      ASSERT_TRUE(compute_model_pose(source.skeleton, pose, model_pose));
+      model_pose.morph_weights.assign(source.rest_morph_weights.size(), 0.0f);
+      const auto a = posed_positions(source, 0, model_pose),
+                 b = posed_positions(target, 0, model_pose);
+      double maximum = 0, square = 0;
+      for (std::size_t v = 0; v < a.size(); ++v) {
+        maximum = std::max(maximum, (a[v] - b[v]).norm());
+        square += (a[v] - b[v]).squaredNorm();
+      }
+      EXPECT_NEAR(deviation.maximum[i], maximum, 1e-6);
+      EXPECT_NEAR(deviation.rms[i], std::sqrt(square / static_cast<double>(a.size())), 1e-6);
+    }
+    EXPECT_GT(*std::ranges::max_element(deviation.maximum), 1e-3);
+  }
+}
+
 TEST(ValidateSkin, figures_of_papers_follow_their_formulas) {
   const auto [source, target] = tube_and_copy();
   ValidationOptions options;

@@ -39,13 +39,15 @@ std::size_t sample_count(const Clip& clip) {
 Result<std::vector<Parts>> sample_parts(const Character& character, const Clip& clip) {
   const std::size_t samples = sample_count(clip);
   std::vector<Parts> all;
-  Pose pose = *local_rest_pose(character);
+  Result<Pose> pose = local_rest_pose(character);
+  if (!pose) return pose.error();
   for (std::size_t sample = 0; sample < samples; ++sample) {
     const double time = samples == 1 ? 0.0
                                      : clip.duration * static_cast<double>(sample) /
                                            static_cast<double>(samples - 1);
-    if (Status status = sample_clip(clip, time, pose); !status) return status;
-    for (const BoneTransform& transform : pose.parent_from_bone) all.push_back(parts_of(transform));
+    if (Status status = sample_clip(clip, time, *pose); !status) return status;
+    for (const BoneTransform& transform : pose->parent_from_bone)
+      all.push_back(parts_of(transform));
   }
   return all;
 }

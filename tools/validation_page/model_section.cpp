@@ -77,13 +77,15 @@ Json bone_names(const Skeleton& skeleton) {
   return names;
 }
 
-void add_slots(const Character& character, const std::vector<Index>& source_bone,
-               DataArrays& arrays, Json& section) {
+Status add_slots(const Character& character, const std::vector<Index>& source_bone,
+                 DataArrays& arrays, Json& section) {
+  const Result<std::vector<DrivenSlot>> slots = driven_slots(character, source_bone);
+  if (!slots) return slots.error();
   std::vector<std::uint32_t> bones, source_bones;
   for (const Skin& skin : character.skins)
     bones.insert(bones.end(), skin.bones.begin(), skin.bones.end());
   std::vector<float> matrices;
-  for (const DrivenSlot& slot : driven_slots(character, source_bone)) {
+  for (const DrivenSlot& slot : *slots) {
     source_bones.push_back(slot.source_bone);
     for (Eigen::Index i = 0; i < 12; ++i)
       matrices.push_back(static_cast<float>(slot.bone_from_bind.matrix().data()[i]));
@@ -91,13 +93,15 @@ void add_slots(const Character& character, const std::vector<Index>& source_bone
   section["slot_bones"] = arrays.add(bones);
   section["slot_source_bones"] = arrays.add(source_bones);
   section["slot_matrices"] = arrays.add(matrices);
+  return {};
 }
 
 }  // namespace
 
-std::vector<DrivenSlot> driven_slots(const Character& character,
-                                     const std::vector<Index>& source_bone) {
-  const ModelPose bind = *bind_pose(character);
+Result<std::vector<DrivenSlot>> driven_slots(const Character& character,
+                                             const std::vector<Index>& source_bone) {
+  const Result<ModelPose> bind = bind_pose(character);
+  if (!bind) return bind.error();
   std::vector<DrivenSlot> slots;
   for (const Skin& skin : character.skins)
     for (std::size_t slot = 0; slot < skin.bones.size(); ++slot) {
@@ -108,11 +112,11 @@ std::vector<DrivenSlot> driven_slots(const Character& character,
       DrivenSlot driven;
       driven.bone_from_bind = skin.bone_from_bind[slot].cast<double>();
       if (ancestor != bone)  // rigid with its ancestor, or where it stands
-        driven.bone_from_bind = bind.model_from_bone[bone] * driven.bone_from_bind;
+        driven.bone_from_bind = bind->model_from_bone[bone] * driven.bone_from_bind;
       if (ancestor != kNone) {
         driven.source_bone = source_bone[ancestor];
         if (ancestor != bone)
-          driven.bone_from_bind = bind.model_from_bone[ancestor].inverse() * driven.bone_from_bind;
+          driven.bone_from_bind = bind->model_from_bone[ancestor].inverse() * driven.bone_from_bind;
       }
       slots.push_back(driven);
     }
@@ -152,7 +156,8 @@ Result<Json> model_section(const Character& character, const std::string& title,
                   {"influence_counts", arrays.add(surface.influence_counts)},
                   {"influence_slots", arrays.add(surface.influence_slots)},
                   {"influence_weights", arrays.add(surface.influence_weights)}};
-  add_slots(character, source_bone, arrays, section);
+  if (const Status status = add_slots(character, source_bone, arrays, section); !status)
+    return status;
   return section;
 }
 

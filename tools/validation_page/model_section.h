@@ -20,8 +20,9 @@ struct DrivenSlot {
 /// The slots of all skins of a character, back to back, moved by the bones of the source. A bone
 /// without a bone of the source follows its nearest ancestor that has one, as both stood at bind.
 /// @param source_bone  one per bone of `character`.
-[[nodiscard]] std::vector<DrivenSlot> driven_slots(const Character& character,
-                                                   const std::vector<Index>& source_bone);
+/// @return the failures of bind_pose().
+[[nodiscard]] Result<std::vector<DrivenSlot>> driven_slots(const Character& character,
+                                                           const std::vector<Index>& source_bone);
 
 /// Describes the meshes and skins of a character, with morph targets applied as at rest.
 /// @return limit_exceeded beyond 65,536 slots or 255 influences of a vertex.

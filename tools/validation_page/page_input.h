@@ -45,7 +45,7 @@ struct PageInput {
   std::span<const Finding> findings;
   std::vector<PageArray> arrays;  ///< The first one is shown first.
   std::vector<PagePose> poses;
-  std::vector<PageSeries> series;
+  std::vector<PageSeries> series;  ///< The first one of a clip is drawn with its threshold.
 };
 
 }  // namespace sunder::tools

@@ -10,11 +10,15 @@
 
 namespace sunder::tools {
 
+Status has_page() {
+  if (!page_template().empty()) return {};
+  return Status::failure(StatusCode::unsupported_feature, kNone,
+                         "this build has no HTML page: run scripts/setup page, configure and "
+                         "build again");
+}
+
 Status write_validation_page(const std::filesystem::path& file, const PageInput& input) {
-  if (page_template().empty())
-    return Status::failure(StatusCode::unsupported_feature, kNone,
-                           "this build has no HTML page: run scripts/setup page, configure and "
-                           "build again");
+  if (const Status status = has_page(); !status) return status;
   const auto data = page_data(input);
   if (!data) return data.error();
   std::string text;

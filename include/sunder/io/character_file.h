@@ -65,6 +65,8 @@ struct SaveOptions {
   /// writes all, in as many JOINTS_n and WEIGHTS_n as needed.
   std::uint32_t maximum_influences = 0;
   WeightFormat weights = WeightFormat::float32;
+  /// One per mesh of the character, in place of `weights`; empty: `weights` for all.
+  std::vector<WeightFormat> weights_of_mesh = {};
 };
 
 /// Writes `character`, which is `loaded.character` changed by tearing or with other weights, as a
@@ -74,8 +76,8 @@ struct SaveOptions {
 /// nothing differs and the source was a GLB, the result is the source, byte for byte. Thread-safe.
 ///
 /// @param character  skeleton and skins begin with those of `loaded.character`; same clips.
-/// @return invalid_argument, size_mismatch (not the same character), file_unreadable (cannot
-/// write).
+/// @return invalid_argument, size_mismatch (not the same character, or formats of another number of
+///         meshes), file_unreadable (cannot write).
 ///         A failing call leaves no file behind and an existing file as it was.
 [[nodiscard]] SUNDER_API Status save_glb(const std::filesystem::path& file,
                                          const Character& character, const LoadedCharacter& loaded,

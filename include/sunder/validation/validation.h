@@ -62,6 +62,8 @@ struct ValidationOptions {
   LimitsFrom limits_from = LimitsFrom::none;
   double clip_margin = 0.0872664625997165;  ///< Radians, for LimitsFrom::clips.
   JointLimits limits;                       ///< Of the source's bones, for LimitsFrom::given.
+  /// Most times per clip of ValidationReport::over_time, 30 per second; 0 and 1: none are measured.
+  std::uint32_t times_per_clip = 0;
   /// Called before each stage with its name and the share of stages done.
   std::function<void(std::string_view, double)> progress;
 };
@@ -78,6 +80,14 @@ struct PosedFigures {
   /// 0 unless the poses are independent samples.
   double covered_share = 0.0;
   FindingPlace worst;
+};
+
+/// Deviation of the target from the source surface over the time of a clip.
+struct ClipDeviation {
+  std::uint32_t clip = 0;       ///< Of the source.
+  std::vector<double> times;    ///< Seconds, evenly spaced from 0 to the clip's duration.
+  std::vector<double> maximum;  ///< One per time, metres.
+  std::vector<double> rms;      ///< One per time, over the vertices compared, metres.
 };
 
 /// Figures by the definitions of papers, over the random poses; docs/validation.md has the
@@ -127,6 +137,8 @@ struct ValidationReport {
   std::vector<Finding> findings;      ///< By severity, then in the order of the table.
   std::vector<CodeVerdict> verdicts;  ///< One per row of the table. A note is no failure.
   std::vector<PosedFigures> posed;
+  /// One per clip of the source with a duration, with ValidationOptions::times_per_clip.
+  std::vector<ClipDeviation> over_time;
   DeviationBracket bracket;
   PaperFigures papers;
   MatchFigures matching;

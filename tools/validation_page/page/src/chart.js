@@ -1,4 +1,4 @@
-// A series over the time of a clip, above the slider of the time.
+// Series over the time of a clip, above the slider of the time.
 import { svg } from './elements.js';
 import { quantity } from './format.js';
 
@@ -12,19 +12,32 @@ function path(series, duration, top) {
   }).join('');
 }
 
-/** Draws the series of a clip, or nothing; returns what says the time: f(seconds). */
-export function drawChart(holder, title, series, clip) {
-  title.textContent = '';
+const mostOf = (series) => series.values.reduce((a, b) => Math.max(a, b), 0);
+
+function titleOf(list) {
+  const limits = list.filter((series) => series.threshold)
+    .map((series) => `, threshold ${quantity(series.threshold, series.unit)}`);
+  return list.map((series) => `${series.name} up to ${quantity(mostOf(series), series.unit)}`)
+    .join(', ') + limits.join('');
+}
+
+/**
+ * Draws the series of a clip, or nothing; the first one has an area and its threshold. Returns
+ * what says the time: f(seconds).
+ */
+export function drawChart(holder, title, list, clip) {
+  title.textContent = titleOf(list);
   holder.replaceChildren();
-  holder.hidden = !series || !clip || !(clip.duration > 0);
+  holder.hidden = !list.length || !clip || !(clip.duration > 0);
   if (holder.hidden) return () => {};
-  const most = series.values.reduce((a, b) => Math.max(a, b), 0);
-  const top = Math.max(most, series.threshold ?? 0) * 1.08 || 1;
+  const [series, ...others] = list;
+  const top = Math.max(...list.map(mostOf), series.threshold ?? 0) * 1.08 || 1;
   const line = path(series, clip.duration, top);
   const cursor = svg('line', { class: 'cursor', y1: 0, y2: HEIGHT });
   const children = [
     svg('path', { class: 'area', d: `${line}V${HEIGHT}H0Z` }),
     svg('path', { class: 'line', d: line }),
+    ...others.map((other) => svg('path', { class: 'line other', d: path(other, clip.duration, top) })),
   ];
   if (series.threshold) {
     const y = HEIGHT - (series.threshold / top) * (HEIGHT - 4);
@@ -32,8 +45,6 @@ export function drawChart(holder, title, series, clip) {
   }
   holder.append(svg('svg', { viewBox: `0 0 ${WIDTH} ${HEIGHT}`, preserveAspectRatio: 'none' },
     ...children, cursor));
-  const limit = series.threshold ? `, threshold ${quantity(series.threshold, series.unit)}` : '';
-  title.textContent = `${series.name}: at most ${quantity(most, series.unit)}${limit}`;
   return (time) => {
     const x = (time / clip.duration) * WIDTH;
     cursor.setAttribute('x1', x);

@@ -55,9 +55,9 @@ export class TimeBar {
 
   drawClip() {
     const { clip, duration } = this.player;
-    this.series = this.data.series.find((series) => series.clip === clip);
-    this.moveCursor = drawChart(byId('chart'), byId('chart-title'), this.series,
-      this.data.clips[clip]);
+    const list = this.data.series.filter((series) => series.clip === clip);
+    [this.series] = list;
+    this.moveCursor = drawChart(byId('chart'), byId('chart-title'), list, this.data.clips[clip]);
     this.seek.max = duration || 1;
     this.update();
   }

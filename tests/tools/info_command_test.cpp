@@ -1,0 +1,75 @@
+// `sunder info`, help, and command lines that are wrong.
+
+#include "tools/command_fixture.h"
+
+namespace sunder::command_test {
+namespace {
+
+class InfoCommand : public CactusSuite {};
+
+TEST_F(InfoCommand, help_has_an_example_for_each_verb) {
+  for (const char* const verb : {"info", "tear", "transfer", "demo"}) {
+    const CommandResult result = run_sunder({verb, "--help"});
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_THAT(result.out, HasSubstr(std::string("Example: sunder ") + verb));
+    EXPECT_THAT(result.err, IsEmpty());
+  }
+  EXPECT_EQ(run_sunder({"--help"}).exit_code, 0);
+  EXPECT_THAT(run_sunder({"--version"}).out, HasSubstr("sunder 0."));
+}
+
+TEST_F(InfoCommand, a_wrong_command_line_exits_with_2) {
+  for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
+           {}, {"sew"}, {"info"}, {"info", model(), "--xml"}, {"tear", model()}}) {
+    const CommandResult result = run_sunder(arguments);
+    EXPECT_EQ(result.exit_code, 2) << result.err;
+    EXPECT_THAT(result.out, IsEmpty());
+    EXPECT_THAT(result.err, testing::Not(IsEmpty()));
+  }
+  EXPECT_EQ(run_sunder({"tear", model(), "--ops", write("a.json", kOneTear), "-o", path("x.glb"),
+                        "--influences", "5"})
+                .exit_code,
+            2);
+  EXPECT_EQ(run_sunder({"tear", model(), "--ops", path("a.json"), "-o", path("x.glb"),
+                        "--weights-as", "u32"})
+                .exit_code,
+            2);
+  EXPECT_FALSE(exists("x.glb"));
+}
+
+TEST_F(InfoCommand, info_counts_the_parts_of_a_model) {
+  const CommandResult result = run_sunder({"info", model(), "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const json info = json::parse(result.out);
+  EXPECT_EQ(info["sunder_info"], 1);
+  EXPECT_EQ(info["meshes"].size(), 2u);
+  EXPECT_EQ(info["clips"][0]["name"], "Sway");
+  EXPECT_DOUBLE_EQ(info["clips"][0]["duration"].get<double>(), 2.0);
+  EXPECT_EQ(info["topology"]["components"], 2);
+  EXPECT_EQ(info["topology"]["boundary_loops"], 0);
+  EXPECT_EQ(info["topology"]["non_manifold_edges"], 0);
+  EXPECT_NEAR(info["bounds"]["min"][1].get<double>(), 0.0, 1e-6);
+  EXPECT_NEAR(info["weight_sum_max"].get<double>(), 1.0, 1e-6);
+  for (const json& mesh : info["meshes"]) EXPECT_GE(mesh["vertices"], mesh["points"]);
+}
+
+TEST_F(InfoCommand, info_speaks_to_people_too) {
+  const CommandResult result = run_sunder({"info", model()});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.out, HasSubstr("'Cactus'"));
+  EXPECT_THAT(result.out, HasSubstr("clip 0"));
+  EXPECT_THAT(result.err, IsEmpty());
+}
+
+TEST_F(InfoCommand, an_unreadable_model_exits_with_3) {
+  for (const std::string& file :
+       {path("no such.glb"), write("garbage.glb", "not a model"), write("text.txt", "hello")}) {
+    const CommandResult result = run_sunder({"info", file});
+    EXPECT_EQ(result.exit_code, 3) << file;
+    EXPECT_THAT(result.err, HasSubstr(file));
+    EXPECT_THAT(result.out, IsEmpty());
+  }
+}
+
+}  // namespace
+}  // namespace sunder::command_test

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+
+#include "tools/certified_weights.h"
+#include "tools/report.h"
+
+namespace sunder::tools {
+
+/// What `--max-error` chose: certified maximum, influences, formats, bytes; see docs/command.md.
+[[nodiscard]] Json certificate_json(const CertifiedWeights& weights, const Character& unpruned,
+                                    const MaximumError& wanted);
+
+/// The same for people, one line with its end.
+[[nodiscard]] std::string certificate_line(const CertifiedWeights& weights,
+                                           const MaximumError& wanted);
+
+}  // namespace sunder::tools
