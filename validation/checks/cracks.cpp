@@ -5,6 +5,7 @@
 #include <map>
 #include <tuple>
 
+#include "core/internal/ordered.h"
 #include "validation/checks/deviation.h"
 #include "validation/checks/inherited.h"
 #include "validation/match/position_table.h"
@@ -204,7 +205,7 @@ struct CrackKind {
   std::vector<Crack> (*find)(const Skinned&);
 };
 
-/// What cracks are posed by.
+/// The points and poses by which cracks are posed.
 struct Posing {
   const SkinPoints& points;
   std::span<const PoseBatch> batches;

@@ -118,6 +118,25 @@ double diagonal_at_rest(const Character& character) {
   return box.isEmpty() ? 0.0 : norm(box.diagonal());
 }
 
+/// Bones that are scaled to nothing, and bones that no skin has, do not count.
+double unit_at_rest(const Character& character) {
+  const ModelPose bind = or_throw(bind_pose(character)), rest = or_throw(rest_pose(character));
+  std::vector<bool> is_of_skin(character.skeleton.bones.size(), false);
+  for (const Skin& skin : character.skins)
+    for (const Index bone : skin.bones) is_of_skin[bone] = true;
+  std::vector<double> lengths;
+  for (Index bone = 0; bone < is_of_skin.size(); ++bone) {
+    if (!is_of_skin[bone]) continue;
+    const double volume = std::abs(determinant(rest.model_from_bone[bone].linear()) /
+                                   determinant(bind.model_from_bone[bone].linear()));
+    if (volume > 0.0 && std::isfinite(volume)) lengths.push_back(std::cbrt(volume));
+  }
+  if (lengths.empty()) return 1.0;
+  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+  std::nth_element(lengths.begin(), middle, lengths.end());
+  return *middle;
+}
+
 }  // namespace
 
 Skinned::Skinned(const Character& of, std::span<const StoredInfluences> stored_influences)
@@ -125,7 +144,8 @@ Skinned::Skinned(const Character& of, std::span<const StoredInfluences> stored_i
       stored(stored_influences),
       surface(make_bind_surface(of)),
       graph(make_point_graph(surface)),
-      rest_diagonal(diagonal_at_rest(of)) {
+      rest_diagonal(diagonal_at_rest(of)),
+      metres_per_bind_unit(unit_at_rest(of)) {
   if (!(rest_diagonal > 0.0) || !std::isfinite(rest_diagonal)) rest_diagonal = surface.diagonal;
 }
 
