@@ -264,7 +264,8 @@ ValidationReport Validation::run() {
   report_.diagonal = source_->rest_diagonal;
   report_.metres_per_bind_unit = source_->metres_per_bind_unit;
   report_.source_bone_of_target = bones_.source_of_target;
-  replayed_ = check_pops(source_character_, options_.operations, report_.diagonal, *findings_);
+  replayed_ = check_pops(source_character_, *target_character_, options_.operations,
+                         report_.diagonal, *findings_);
   begin("matching");
   match();
   const RowReader reader(*source_, *target_, matches_, bones_);
