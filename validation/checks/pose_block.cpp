@@ -7,12 +7,12 @@ namespace sunder::validation {
 PoseBlock::PoseBlock(const PoseBatch& batch, std::size_t first, std::size_t end)
     : first_(first), count_(std::min(kPosesPerBlock, end - first)) {
   const std::size_t bones = batch.poses[first].size();
-  entries_.assign(12 * bones, PoseArray::Zero());
+  entries_.assign(kPosesPerBlock * 12 * bones, 0.0);
   for (std::size_t lane = 0; lane < count_; ++lane)
     for (std::size_t bone = 0; bone < bones; ++bone) {
       const auto& matrix = batch.poses[first + lane][bone].matrix();
       for (std::size_t i = 0; i < 12; ++i)
-        entries_[12 * bone + i][static_cast<Eigen::Index>(lane)] =
+        entries_[kPosesPerBlock * (12 * bone + i) + lane] =
             matrix(static_cast<Eigen::Index>(i / 4), static_cast<Eigen::Index>(i % 4));
     }
 }
@@ -22,10 +22,10 @@ std::array<PosedPoint, 3> PoseBlock::blend(std::span<const SkinTerm> terms) cons
   std::array<PosedPoint, 3> rows = {zero, zero, zero};
   for (const SkinTerm& term : terms)
     for (std::size_t row = 0; row < 3; ++row) {
-      const PoseArray* const m = entries_.data() + 12 * std::size_t{term.bone} + 4 * row;
-      rows[row].x += term.m * m[0];
-      rows[row].y += term.m * m[1];
-      rows[row].z += term.m * m[2];
+      using Entry = Eigen::Map<const PoseArray>;
+      rows[row].x += term.m * Entry(entry(term.bone, 4 * row));
+      rows[row].y += term.m * Entry(entry(term.bone, 4 * row + 1));
+      rows[row].z += term.m * Entry(entry(term.bone, 4 * row + 2));
     }
   return rows;
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "validation/checks/pose_batches.h"
@@ -48,22 +49,33 @@ class PoseBlock {
 
   /// A skinned point in all poses.
   [[nodiscard]] PosedPoint pose(std::span<const SkinTerm> terms) const {
-    PosedPoint sum = {PoseArray::Zero(), PoseArray::Zero(), PoseArray::Zero()};
-    for (const SkinTerm& term : terms) {
-      const PoseArray* const m = entries_.data() + 12 * std::size_t{term.bone};
-      const double x = term.x[0], y = term.x[1], z = term.x[2];
-      sum.x += m[0] * x + m[1] * y + m[2] * z + m[3] * term.m;
-      sum.y += m[4] * x + m[5] * y + m[6] * z + m[7] * term.m;
-      sum.z += m[8] * x + m[9] * y + m[10] * z + m[11] * term.m;
+    // Plain loops, each over its own sums: compilers keep these in registers.
+    PosedPoint point;
+    for (const auto& [sum, row] : {std::pair(&point.x, 0u), {&point.y, 4u}, {&point.z, 8u}}) {
+      double sums[kPosesPerBlock] = {};
+      for (const SkinTerm& term : terms) {
+        const double* const m = entry(term.bone, row);
+        const double x = term.x[0], y = term.x[1], z = term.x[2], w = term.m;
+        for (std::size_t i = 0; i < kPosesPerBlock; ++i)
+          sums[i] += m[i] * x + m[i + kPosesPerBlock] * y + m[i + 2 * kPosesPerBlock] * z +
+                     m[i + 3 * kPosesPerBlock] * w;
+      }
+      for (std::size_t i = 0; i < kPosesPerBlock; ++i)
+        (*sum)[static_cast<Eigen::Index>(i)] = sums[i];
     }
-    return sum;
+    return point;
   }
   /// The blended linear part of a skinned point in all poses, by row.
   [[nodiscard]] std::array<PosedPoint, 3> blend(std::span<const SkinTerm> terms) const;
 
  private:
+  /// An entry of a bone's 3 x 4 matrix, counted row by row, in all poses.
+  [[nodiscard]] const double* entry(Index bone, std::size_t index) const {
+    return entries_.data() + kPosesPerBlock * (12 * std::size_t{bone} + index);
+  }
+
   std::size_t first_, count_;
-  std::vector<PoseArray> entries_;  // 12 per bone, by row
+  std::vector<double> entries_;
 };
 
 /// Calls visit(block) for all blocks of the first `most` poses of a batch, one after the other.

@@ -13,25 +13,37 @@
 namespace sunder::validation {
 namespace {
 
-std::vector<PointGraph::Edge> collect_edges(const BindSurface& surface) {
-  std::vector<std::uint64_t> keys;
-  keys.reserve(surface.triangles.size() * 3);
+/// Calls visit(a, b) with a < b for each edge of each face.
+template <class Visit>
+void for_each_edge(const BindSurface& surface, const Visit& visit) {
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
     if (!surface.has_area[t]) continue;
     for (std::size_t k = 0; k < 3; ++k) {
       const Index a = surface.weld.point_of_vertex[surface.triangles[t][k]],
                   b = surface.weld.point_of_vertex[surface.triangles[t][(k + 1) % 3]];
-      if (a != b) keys.push_back(std::uint64_t{std::min(a, b)} << 32 | std::max(a, b));
+      if (a != b) visit(std::min(a, b), std::max(a, b));
     }
   }
-  std::sort(keys.begin(), keys.end());
+}
+
+/// Sorted by their first points, and within the few edges of a point by the second.
+std::vector<PointGraph::Edge> collect_edges(const BindSurface& surface) {
+  std::vector<Index> first(std::size_t{surface.weld.point_count} + 1, 0);
+  for_each_edge(surface, [&](Index a, Index) { ++first[a + 1]; });
+  for (std::size_t p = 1; p < first.size(); ++p) first[p] += first[p - 1];
+  std::vector<Index> ends(first.back()), next(first.begin(), first.end() - 1);
+  for_each_edge(surface, [&](Index a, Index b) { ends[next[a]++] = b; });
   std::vector<PointGraph::Edge> edges;
-  edges.reserve(keys.size() / 2 + 1);
-  for (std::size_t i = 0; i < keys.size(); ++i) {
-    if (i > 0 && keys[i] == keys[i - 1])
-      ++edges.back().faces;
-    else
-      edges.push_back({static_cast<Index>(keys[i] >> 32), static_cast<Index>(keys[i]), 1});
+  edges.reserve(ends.size() / 2 + 1);
+  for (Index a = 0; a < surface.weld.point_count; ++a) {
+    const auto begin = ends.begin() + first[a], end = ends.begin() + first[a + 1];
+    std::sort(begin, end);
+    for (auto b = begin; b != end; ++b) {
+      if (b != begin && *b == *(b - 1))
+        ++edges.back().faces;
+      else
+        edges.push_back({a, *b, 1});
+    }
   }
   return edges;
 }

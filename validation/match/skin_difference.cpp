@@ -12,15 +12,17 @@ SkinDifferences difference_of(const Character& source, const Character& target,
     sum.add_point(mesh.positions[vertex].cast<double>(), mesh.weights.of(vertex), slots[mesh.skin],
                   part);
   };
+  const auto add_match = [&](const SurfaceMatch& match) {
+    const Mesh& of = source.meshes[match.mesh];
+    for (std::size_t k = 0; k < 3; ++k)
+      if (match.barycentric[k] > 0)
+        add(-match.barycentric[k], of, of.triangles[match.triangle][k], skins.of_source);
+  };
   for (Index m = 0; m < target.meshes.size(); ++m)
     for (Index v = 0; v < target.meshes[m].vertex_count(); ++v) {
-      const SurfaceMatch& match = matches.of(m, v);
-      if (match.is_accepted) {
-        const Mesh& of = source.meshes[match.mesh];
+      if (const SurfaceMatch& match = matches.of(m, v); match.is_accepted) {
         add(1.0, target.meshes[m], v, skins.of_target);
-        for (std::size_t k = 0; k < 3; ++k)
-          if (match.barycentric[k] > 0)
-            add(-match.barycentric[k], of, of.triangles[match.triangle][k], skins.of_source);
+        add_match(match);
       }
       sum.finish(differences);
     }
