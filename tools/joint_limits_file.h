@@ -1,6 +1,6 @@
 #pragma once
 
-#include <sunder/validation/certificate.h>
+#include <sunder/certificate/certificate.h>
 
 #include <filesystem>
 #include <string>

@@ -61,7 +61,8 @@ Places unaccepted(const Skinned& from, const SurfaceMatches& matches) {
   Places places;
   for (Index v = 0; v < matches.matches.size(); ++v)
     if (!matches.matches[v].is_accepted && from.surface.triangle_of_vertex[v] != kNone)
-      places.push_back(from.place(v, kNone, matches.matches[v].distance));
+      places.push_back(
+          from.place(v, kNone, from.metres_per_bind_unit * matches.matches[v].distance));
   return places;
 }
 
@@ -102,6 +103,7 @@ void keep_to_meshes(const Skinned& source, const Skinned& target, const MatchLim
   }
 }
 
+/// In bind space.
 double largest_distance(const SurfaceMatches& matches) {
   double largest = 0.0;
   for (const SurfaceMatch& match : matches.matches)
@@ -177,8 +179,8 @@ void Validation::match() {
   figures.source_samples = source_->surface.vertex_count();
   figures.target_unmatched = static_cast<Index>(unmatched.size());
   figures.source_unmatched = static_cast<Index>(missing.size());
-  figures.target_distance = largest_distance(matches_);
-  figures.source_distance = largest_distance(back);
+  figures.target_distance = source_->metres_per_bind_unit * largest_distance(matches_);
+  figures.source_distance = source_->metres_per_bind_unit * largest_distance(back);
   const std::string holes = std::to_string(missing.size()) + " of " +
                             std::to_string(figures.source_samples) +
                             " vertices of the source have no counterpart on the target.";
@@ -233,7 +235,7 @@ void Validation::check_poses(const RowReader& reader) {
   const std::vector<PoseBatch> batches =
       make_pose_batches(source_character_, points.bind(), options_);
   const SkinDifferences differences =
-      difference_of(*source_character_, *target_character_, matches_, bones_);
+      difference_of(*source_character_, *target_character_, matches_, points.skins());
   measure_deviation(reader, differences, batches, points.bind(), report_);
   if (options_.times_per_clip > 1)
     report_.over_time =
@@ -265,8 +267,10 @@ ValidationReport Validation::run() {
   target_.emplace(*target_character_, options_.stored_target);
   bring_to_scale();
   report_.diagonal = source_->rest_diagonal;
+  report_.metres_per_bind_unit = source_->metres_per_bind_unit;
   report_.source_bone_of_target = bones_.source_of_target;
-  replayed_ = check_pops(source_character_, options_.operations, report_.diagonal, *findings_);
+  replayed_ = check_pops(source_character_, *target_character_, options_.operations,
+                         report_.diagonal, *findings_);
   begin("matching");
   match();
   const RowReader reader(*source_, *target_, matches_, bones_);

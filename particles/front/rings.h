@@ -20,8 +20,9 @@ inline constexpr std::size_t kRingLanes = 8, kRingFaces = kRingLanes - 1;
 /// infinite distance, so that loops over lanes have a fixed length.
 struct alignas(32) RingBlock {
   std::array<Index, kRingLanes> points;
-  std::array<float, kRingLanes> lengths;  ///< Per lane: of the edge from the point in the middle.
-  /// Of the edge to the next lane's point; NaN if no face is between them.
+  /// Lengths of the edges from the point in the middle, one per lane.
+  std::array<float, kRingLanes> lengths;
+  /// Lengths of the edges to the next lane's point; NaN if no face is between them.
   std::array<float, kRingLanes> opposite;
 };
 

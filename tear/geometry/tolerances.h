@@ -141,7 +141,7 @@ static_assert(kFloatCoordinates < kFloatSumCoordinates);
 inline constexpr float kFloatTerms = 1e-7f;
 /// A component of a bone's matrix that cancelled, relative to the column's sum.
 inline constexpr float kCancelledTerms = 1e-8f;
-/// What is left where all coordinates are zero.
+/// The rounding that is assumed where all coordinates are zero.
 inline constexpr float kLeastRoundingMetres = 1e-30f;
 /// Positions of new vertices against their source triangle: each is rounded to float once, and a
 /// wall on a wall again.

@@ -152,6 +152,48 @@ PlantedMistake swap_t(const Character& model) {
   });
 }
 
+/// Calls spoil(birth, source mesh, target mesh, vertex) for every new vertex on an edge; it returns
+/// whether that must be found.
+template <class Spoil>
+PlantedMistake spoil_new_vertices(const char* code, const Character& model, const Spoil& spoil) {
+  const TornModel torn = cut_in_two(model);
+  PlantedMistake planted{code, model, torn.character(), {}, {}, {}, {}, {}};
+  for (Index m = 0; m < model.meshes.size(); ++m) {
+    Mesh& mesh = planted.target.meshes[m];
+    for (Index v = model.meshes[m].vertex_count(); v < mesh.vertex_count(); ++v) {
+      const Birth birth = torn.birth(m, v);
+      if (std::ranges::any_of(birth.barycentric, [](double b) { return b > 1 - 1e-3; })) continue;
+      planted.touched.insert({m, v});
+      if (spoil(birth, model.meshes[m], mesh, v)) planted.must.insert({m, v});
+    }
+  }
+  EXPECT_FALSE(planted.must.empty()) << code;
+  return planted;
+}
+
+PlantedMistake copy_uv_of_far_end(const Character& model) {
+  return spoil_new_vertices(
+      "SUNDER_W_UV", model, [](const Birth& birth, const Mesh& before, Mesh& mesh, Index v) {
+        std::size_t farthest = 0;
+        for (std::size_t k = 1; k < 3; ++k) {
+          const double part = birth.barycentric[k], least = birth.barycentric[farthest];
+          if (part > 1e-3 && (least <= 1e-3 || part < least)) farthest = k;
+        }
+        const Vec2f right = mesh.uv_sets[0][v],
+                    wrong = before.uv_sets[0][before.triangles[birth.triangle][farthest]];
+        mesh.uv_sets[0][v] = wrong;
+        return (right - wrong).cwiseAbs().maxCoeff() > 0.02f;
+      });
+}
+
+PlantedMistake flip_normals(const Character& model) {
+  return spoil_new_vertices("SUNDER_W_NORMALS", model,
+                            [](const Birth&, const Mesh&, Mesh& mesh, Index v) {
+                              mesh.normals[v] = -mesh.normals[v];
+                              return true;
+                            });
+}
+
 /// Five more bones that stand where the first one of each skin stands, with small weights that come
 /// first at every vertex.
 Character with_helpers(const Character& model) {
@@ -643,6 +685,8 @@ PlantedMistake plant(Mistake mistake, const Character& model) {
     case Mistake::far_bone_bleeds: return bleed(model);
     case Mistake::left_follows_right: return follow_other_side(model);
     case Mistake::scaled_by_100: return scale_by_100(model);
+    case Mistake::uv_of_one_end: return copy_uv_of_far_end(model);
+    case Mistake::normals_flipped: return flip_normals(model);
   }
   return {};
 }

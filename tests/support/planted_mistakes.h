@@ -30,8 +30,10 @@ enum class Mistake {
   far_bone_bleeds,
   left_follows_right,
   scaled_by_100,
+  uv_of_one_end,
+  normals_flipped,
 };
-inline constexpr int kMistakes = 17;
+inline constexpr int kMistakes = 19;
 
 /// A source and the target that a tool with one mistake would make of it.
 struct PlantedMistake {

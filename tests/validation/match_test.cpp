@@ -276,7 +276,8 @@ TEST(SkinDifference, equal_skins_have_no_term) {
     const auto bones = match_bones(character.skeleton, character.skeleton);
     ASSERT_TRUE(bones);
     const SkinDifferences differences =
-        difference_of(character, character, match(character, character), *bones);
+        difference_of(character, character, match(character, character),
+                      make_driven_skins(character, character, *bones));
     EXPECT_TRUE(differences.terms.empty());
     EXPECT_EQ(differences.first.back(), 0u);
   }
@@ -295,7 +296,8 @@ TEST(SkinDifference, posed_it_is_the_distance_from_the_source) {
     const auto bones = match_bones(source.skeleton, target.skeleton);
     ASSERT_TRUE(bones);
     const SurfaceMatches matches = match(target, source, 10);
-    const SkinDifferences differences = difference_of(source, target, matches, *bones);
+    const SkinDifferences differences =
+        difference_of(source, target, matches, make_driven_skins(source, target, *bones));
     ASSERT_EQ(differences.first.size(), matches.matches.size() + 1);
     ModelPose pose = test::random_pose(source, random, 0.6, 1.0);
     pose.morph_weights.assign(pose.morph_weights.size(), 0.0f);
@@ -322,7 +324,8 @@ TEST(SkinDifference, a_stale_bind_matrix_shows) {
   ASSERT_TRUE(bones);
   const SurfaceMatches matches = match(target, source);
   EXPECT_EQ(matches.counts.accepted, matches.matches.size());
-  const SkinDifferences differences = difference_of(source, target, matches, *bones);
+  const SkinDifferences differences =
+      difference_of(source, target, matches, make_driven_skins(source, target, *bones));
   for (Index v = 0; v < matches.matches.size(); ++v) {
     double weight = 0;
     for (const Influence& influence : target.meshes[0].weights.of(v))

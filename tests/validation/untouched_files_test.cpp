@@ -88,5 +88,49 @@ TEST(Untouched, our_own_torn_outputs_give_no_alarm) {
   }
 }
 
+/// Walls and caps stand on the surface with attributes of their own, and policies move the bind
+/// positions of new vertices: neither is a wrong attribute.
+TEST(Untouched, attributes_of_walls_caps_and_moved_vertices_give_no_alarm) {
+  Random random(11);
+  for (const OwnModel& model : make_own_models())
+    for (const WeightPolicy policy : {WeightPolicy::barycentric, WeightPolicy::pose_exact}) {
+      const auto source = std::make_shared<const Character>(model.character);
+      auto torn = TornModel::create(source);
+      ASSERT_TRUE(torn);
+      const ModelPose pose = random_pose(*source, random, 0.5, 1.0);
+      std::vector<Operation> operations;
+      TearOperation tear;
+      tear.pose = pose;
+      tear.stroke = random_stroke(*source, pose, random);
+      tear.options.width = 0.01 * posed_diagonal(*source, pose);
+      tear.options.wall_depth = 0.05 * posed_diagonal(*source, pose);
+      tear.options.weights = WeightOptions{policy, 0};
+      operations.emplace_back(tear);
+      CutOperation cut;
+      cut.pose = pose;
+      for (const Vec3d& place : posed_positions(*source, 0, pose))
+        cut.cut.point += place / source->meshes[0].vertex_count();
+      cut.cut.normal = random.direction();
+      cut.cut.caps = true;
+      cut.cut.weights = WeightOptions{policy, 0};
+      operations.emplace_back(cut);
+      for (const Operation& operation : operations)
+        ASSERT_TRUE(apply_operation(*torn, operation)) << model.file;
+      const auto target = std::make_shared<const Character>(torn->character());
+      for (const bool with_log : {false, true}) {
+        ValidationOptions options;
+        if (with_log) options.operations = operations;
+        const auto report = validate_skin(source, target, options);
+        ASSERT_TRUE(report) << report.error().text();
+        for (const Finding& finding : report->findings)
+          if (finding.code == "SUNDER_W_NORMALS" || finding.code == "SUNDER_W_TANGENTS" ||
+              finding.code == "SUNDER_W_UV" || finding.code == "SUNDER_W_MORPH_LOST") {
+            ADD_FAILURE() << model.file << (with_log ? " with its log: " : ": ") << finding.code
+                          << ": " << finding.text;
+          }
+      }
+    }
+}
+
 }  // namespace
 }  // namespace sunder::test

@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "core/internal/ordered.h"
+#include "validation/checks/face_attributes.h"
 #include "validation/checks/inherited.h"
-#include "validation/match/position_table.h"
 
 namespace sunder::validation {
 namespace {
@@ -26,91 +25,74 @@ Vec3d interpolated(const std::vector<Vec3f>& values, const Triangle& triangle,
   return sum;
 }
 
-/// How far morph targets move the matched place although they leave this vertex alone; metres.
-double lost_morph(const RowReader& reader, Index mesh, Index vertex) {
+/// A displacement that differs from that of the surface by more than this share of the largest one
+/// around is wrong. Half, because poses, quantisation and other places on the face explain less.
+constexpr double kWrongMorph = 0.5;
+
+/// The largest difference between how a morph target moves the matched place and this vertex, as
+/// far as that is wrong; bind space.
+double wrong_morph(const RowReader& reader, Index mesh, Index vertex) {
   const SurfaceMatch& match = reader.match(mesh, vertex);
   const Mesh &target = reader.target().character.meshes[mesh],
              &source = reader.source().character.meshes[match.mesh];
-  double lost = 0.0;
+  const bool is_on_surface = match.distance <= 1e-6 * reader.source().surface.diagonal;
+  const Triangle& corners = source.triangles[match.triangle];
+  double worst = 0.0;
   for (std::size_t i = 0; i < target.morph_targets.size(); ++i) {
     const MorphTarget* const morph = counterpart(source, target, i);
     if (morph == nullptr || morph->position_deltas.empty()) continue;
-    const double expected = norm(
-        interpolated(morph->position_deltas, source.triangles[match.triangle], match.barycentric));
+    const Vec3d expected = interpolated(morph->position_deltas, corners, match.barycentric);
     const auto& deltas = target.morph_targets[i].position_deltas;
-    const double actual = deltas.empty() ? 0.0 : norm(deltas[vertex].cast<double>());
-    if (actual <= 1e-3 * expected) lost = std::max(lost, expected);
+    const Vec3d actual =
+        deltas.empty() ? Vec3d(Vec3d::Zero()) : Vec3d(deltas[vertex].cast<double>());
+    const double difference = norm(actual - expected);
+    if (norm(actual) <= 1e-3 * norm(expected)) worst = std::max(worst, difference);
+    if (!is_on_surface || difference <= worst) continue;
+    double largest = 0.0;
+    for (const Index corner : corners)
+      largest = std::max(largest, norm(morph->position_deltas[corner].cast<double>()));
+    if (difference > kWrongMorph * largest) worst = difference;
   }
-  return lost;
+  return worst;
 }
 
 void check_morphs(const RowReader& reader, FindingList& findings) {
   const Skinned& target = reader.target();
-  const double least = kind_of(Code::morph_lost).threshold * reader.source().surface.diagonal;
+  const double unit = reader.source().metres_per_bind_unit;
+  const double least =
+      kind_of(Code::morph_lost).threshold * unit * reader.source().surface.diagonal;
   Places places;
   bool has_morphs = false;
   for (Index mesh = 0; mesh < target.character.meshes.size(); ++mesh) {
     has_morphs |= !target.character.meshes[mesh].morph_targets.empty();
     for (Index v = 0; v < target.character.meshes[mesh].vertex_count(); ++v) {
       if (!reader.match(mesh, v).is_accepted) continue;
-      const double lost = lost_morph(reader, mesh, v);
-      if (lost > least) places.push_back(target.place(mesh, v, kNone, lost));
+      const double wrong = unit * wrong_morph(reader, mesh, v);
+      if (wrong > least) places.push_back(target.place(mesh, v, kNone, wrong));
     }
   }
   if (!has_morphs) return findings.not_tested(Code::morph_lost, "no morph targets");
   findings.add(Code::morph_lost, std::move(places));
 }
 
-/// An attribute of a vertex, compared with that of the vertices of the source at the same place.
+/// An attribute of vertices and the code of its faults.
 struct Attribute {
   Code code;
-  /// The difference between two vertices; nothing if either mesh lacks the attribute.
-  std::optional<double> (*difference)(const Mesh&, Index, const Mesh&, Index);
+  FaceAttribute attribute;
   /// Whether the target's mesh lost it.
   bool (*is_missing)(const Mesh& source, const Mesh& target);
 };
 
-double angle_between(const Vec3f& a, const Vec3f& b) {
-  const Vec3d u = a.cast<double>(), v = b.cast<double>();
-  return std::atan2(norm(u.cross(v)), dot(u, v));
-}
-
-std::optional<double> normal_difference(const Mesh& a, Index i, const Mesh& b, Index j) {
-  if (a.normals.empty() || b.normals.empty()) return {};
-  return angle_between(a.normals[i], b.normals[j]);
-}
-
-std::optional<double> tangent_difference(const Mesh& a, Index i, const Mesh& b, Index j) {
-  if (a.tangents.empty() || b.tangents.empty()) return {};
-  return angle_between(a.tangents[i].head<3>(), b.tangents[j].head<3>());
-}
-
-std::optional<double> uv_difference(const Mesh& a, Index i, const Mesh& b, Index j) {
-  if (a.uv_sets.empty() || b.uv_sets.empty()) return {};
-  return static_cast<double>((a.uv_sets[0][i] - b.uv_sets[0][j]).cwiseAbs().maxCoeff());
-}
-
-/// Only vertices that stand where vertices of the source stand are compared: between them, seams
-/// and hard edges have several right answers.
-Places different_vertices(const RowReader& reader, const PositionTable& table,
-                          const Attribute& attribute) {
-  const Skinned &source = reader.source(), &target = reader.target();
+Places different_vertices(const RowReader& reader, const Attribute& of,
+                          FaceAttributes& attributes) {
+  const Skinned& target = reader.target();
+  const double threshold = kind_of(of.code).threshold;
   Places places;
-  for (Index v = 0; v < target.surface.vertex_count(); ++v) {
-    const Index mesh = target.surface.mesh_of_vertex(v),
-                own = v - target.surface.first_vertex[mesh];
-    std::optional<double> least;
-    table.find(target.surface.positions[v], [&](Index other) {
-      const Index of = source.surface.mesh_of_vertex(other);
-      const auto difference =
-          attribute.difference(target.character.meshes[mesh], own, source.character.meshes[of],
-                               other - source.surface.first_vertex[of]);
-      if (difference && (!least || *difference < *least)) least = difference;
-      return false;
-    });
-    if (least && *least > kind_of(attribute.code).threshold)
-      places.push_back(target.place(mesh, own, kNone, *least));
-  }
+  for (Index mesh = 0; mesh < target.character.meshes.size(); ++mesh)
+    for (Index v = 0; v < target.character.meshes[mesh].vertex_count(); ++v) {
+      const double difference = attributes.difference(of.attribute, mesh, v, threshold);
+      if (difference > threshold) places.push_back(target.place(mesh, v, kNone, difference));
+    }
   return places;
 }
 
@@ -133,12 +115,12 @@ Places incomplete_meshes(const RowReader& reader, const Attribute& attribute) {
 }
 
 constexpr std::array kAttributes = {
-    Attribute{Code::normals, normal_difference,
+    Attribute{Code::normals, FaceAttribute::normals,
               [](const Mesh& a, const Mesh& b) { return !a.normals.empty() && b.normals.empty(); }},
     Attribute{
-        Code::tangents, tangent_difference,
+        Code::tangents, FaceAttribute::tangents,
         [](const Mesh& a, const Mesh& b) { return !a.tangents.empty() && b.tangents.empty(); }},
-    Attribute{Code::uv, uv_difference,
+    Attribute{Code::uv, FaceAttribute::uv,
               [](const Mesh& a, const Mesh& b) { return a.uv_sets.size() > b.uv_sets.size(); }},
 };
 
@@ -160,11 +142,9 @@ Places unhealthy_places(const Skinned& skin) {
 
 void check_attributes(const RowReader& reader, FindingList& findings) {
   check_morphs(reader, findings);
-  const BindSurface& source = reader.source().surface;
-  PositionTable table(source.positions.size());
-  for (Index v = 0; v < source.vertex_count(); ++v) table.insert(source.positions[v], v);
+  FaceAttributes attributes(reader);
   for (const Attribute& attribute : kAttributes) {
-    Places places = different_vertices(reader, table, attribute);
+    Places places = different_vertices(reader, attribute, attributes);
     const Places incomplete = incomplete_meshes(reader, attribute);
     places.insert(places.end(), incomplete.begin(), incomplete.end());
     findings.add(attribute.code, std::move(places));

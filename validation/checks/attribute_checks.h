@@ -5,7 +5,8 @@
 
 namespace sunder::validation {
 
-/// Morph displacements, normals, tangents and texture coordinates beside those of the source.
+/// Compares morph displacements, normals, tangents and texture coordinates with those of the source
+/// at the place of each vertex.
 void check_attributes(const RowReader& reader, FindingList& findings);
 
 /// Faces without area and edges of more than two faces.

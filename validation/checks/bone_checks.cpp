@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <utility>
+#include <vector>
 
 #include "validation/checks/row_checks.h"
 
@@ -13,22 +14,25 @@ constexpr double kDiffers = 0.02;
 /// same vertices, for the bones of rows that differ.
 class BoneMasses {
  public:
-  explicit BoneMasses(const RowReader& reader) : reader_(reader) {
+  explicit BoneMasses(const RowReader& reader) {
     const std::size_t count =
         reader.source_bone_count() + reader.target().character.skeleton.bones.size();
     source_.resize(count);
     target_.resize(count);
+    overlap_.resize(count);
+    gained_.resize(count);
   }
 
   void add(const WeightRow& expected, const WeightRow& actual) {
     for (const auto& [bone, weight] : expected) source_[bone] += weight;
     for (const auto& [bone, weight] : actual) target_[bone] += weight;
     for (const auto& [a, of_source] : expected)
-      for (const auto& [b, of_target] : actual) overlap_[{a, b}] += std::min(of_source, of_target);
+      for (const auto& [b, of_target] : actual)
+        sum_of(overlap_[a], b) += std::min(of_source, of_target);
     for (const auto& [a, of_source] : expected) {
       if (weight_of(actual, a) > 0.0) continue;
       for (const auto& [b, of_target] : actual)
-        gained_[{a, b}] += std::max(0.0, of_target - weight_of(expected, b));
+        sum_of(gained_[a], b) += std::max(0.0, of_target - weight_of(expected, b));
     }
   }
 
@@ -36,23 +40,32 @@ class BoneMasses {
   [[nodiscard]] double target(Index bone) const { return target_[bone]; }
   /// The share of the weight of a in the source that is b's weight in the target, both ways.
   [[nodiscard]] double agreement(Index a, Index b) const {
-    const auto at = overlap_.find({a, b});
+    const auto at = std::ranges::find(overlap_[a], b, &Sum::first);
     const double most = std::max(source_[a], target_[b]);
-    return at == overlap_.end() || !(most > 0.0) ? 0.0 : at->second / most;
+    return at == overlap_[a].end() || !(most > 0.0) ? 0.0 : at->second / most;
   }
   /// The bone that gained most where `a` lost its weight, and the share of that weight.
   [[nodiscard]] std::pair<Index, double> heir_of(Index a) const {
-    std::pair<Index, double> heir = {kNone, 0.0};
-    for (auto at = gained_.lower_bound({a, 0}); at != gained_.end() && at->first.first == a; ++at)
-      if (at->second > heir.second * source_[a]) heir = {at->first.second, at->second / source_[a]};
-    return heir;
+    Sum heir = {kNone, 0.0};
+    for (const Sum& sum : gained_[a])
+      if (sum.second > heir.second || (sum.second == heir.second && sum.first < heir.first))
+        heir = sum;
+    return {heir.first, source_[a] > 0.0 ? heir.second / source_[a] : 0.0};
   }
   [[nodiscard]] Index count() const { return static_cast<Index>(source_.size()); }
 
  private:
-  const RowReader& reader_;
+  /// A bone and a sum of weights. Few bones share vertices with one, so that a list is searched
+  /// faster than a map.
+  using Sum = std::pair<Index, double>;
+
+  static double& sum_of(std::vector<Sum>& sums, Index bone) {
+    const auto at = std::ranges::find(sums, bone, &Sum::first);
+    return at != sums.end() ? at->second : sums.emplace_back(bone, 0.0).second;
+  }
+
   std::vector<double> source_, target_;
-  std::map<std::pair<Index, Index>, double> overlap_, gained_;
+  std::vector<std::vector<Sum>> overlap_, gained_;  // per bone
 };
 
 BoneMasses weigh_bones(const RowReader& reader) {

@@ -45,7 +45,8 @@ std::string text_of_gaps(const RowReader& reader, std::span<const CertificateGap
 std::string text_of_bracket(double found, double certified) {
   char text[160];
   std::snprintf(text, sizeof text,
-                "In no pose within the limits more than %.4g m; the worst pose found has %.4g m.",
+                "Where there is a certificate, no pose within the limits has more than %.4g m; the "
+                "worst pose found has %.4g m.",
                 certified, found);
   return text;
 }

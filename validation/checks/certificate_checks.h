@@ -4,7 +4,7 @@
 
 namespace sunder::validation {
 
-/// What is to be certified.
+/// The rows that are certified.
 struct CertifiedRows {
   const SkinPoints& points;
   const SkinDifferences& differences;  ///< Per vertex of the target.

@@ -126,7 +126,8 @@ constexpr std::array kTable = {
                 "faces without area and edges of more than two faces",
                 "Clean the mesh before it is weighted.", ""},
     FindingKind{"SUNDER_W_MORPH_LOST", kWarning, "m", 1e-5,
-                "vertices that a morph target leaves in place although the surface around moves",
+                "vertices that a morph target leaves in place, or moves otherwise than the surface "
+                "around",
                 "Interpolate morph displacements where a vertex is made.", ""},
     FindingKind{"SUNDER_W_NORMALS", kWarning, "rad", 0.5,
                 "normals that are missing or differ from those of the source",

@@ -5,6 +5,7 @@
 #include <map>
 #include <tuple>
 
+#include "core/internal/ordered.h"
 #include "validation/checks/deviation.h"
 #include "validation/checks/inherited.h"
 #include "validation/match/position_table.h"
@@ -204,7 +205,7 @@ struct CrackKind {
   std::vector<Crack> (*find)(const Skinned&);
 };
 
-/// What cracks are posed by.
+/// The points and poses by which cracks are posed.
 struct Posing {
   const SkinPoints& points;
   std::span<const PoseBatch> batches;
@@ -262,13 +263,14 @@ Places find_welded_lips(const Skinned& reference, const Skinned& target) {
     const Index a = number_of(reference, edge.a, true), b = number_of(reference, edge.b, true);
     ++lips[std::minmax(a, b)];
   }
+  std::erase_if(lips, [](const auto& lip) { return lip.second < 2; });
   Places places;
+  if (lips.empty()) return places;
   for (const auto& edge : target.graph.edges) {
     if (edge.faces < 2) continue;
     const Index a = number_of(target, edge.a, false), b = number_of(target, edge.b, false);
     if (a == kNone || b == kNone) continue;
-    const auto lip = lips.find(std::minmax(a, b));
-    if (lip == lips.end() || lip->second < 2) continue;
+    if (!lips.contains(std::minmax(a, b))) continue;
     for (const Index point : {edge.a, edge.b})
       places.push_back(target.place(target.graph.vertex_of_point[point], kNone, 1.0));
   }

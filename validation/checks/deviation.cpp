@@ -39,11 +39,13 @@ double Spread::percentile95() const {
 }
 
 void raise_largest(const SkinDifferences& rows, const PoseBatch& batch, std::span<double> largest) {
-  for (const auto& matrices : batch.poses)
+  for_each_block(batch, batch.poses.size(), [&](const PoseBlock& block) {
     for (std::size_t row = 0; row < largest.size(); ++row) {
       const auto terms = terms_of(rows, row);
-      if (!terms.empty()) largest[row] = std::max(largest[row], norm(posed(terms, matrices)));
+      if (!terms.empty())
+        largest[row] = std::max(largest[row], block.pose(terms).length().maxCoeff());
     }
+  });
 }
 
 namespace {
@@ -58,8 +60,7 @@ std::vector<MovedVertex> moved_vertices(const RowReader& reader,
                                         const SkinDifferences& differences) {
   std::vector<MovedVertex> moved;
   const Skinned& target = reader.target();
-  // Edges are measured at bind, which may be of another unit than the poses.
-  const double unit = target.rest_diagonal / std::max(target.surface.diagonal, 1e-300);
+  const double unit = target.metres_per_bind_unit;
   for (Index v = 0; v < target.surface.vertex_count(); ++v)
     if (!terms_of(differences, v).empty())
       moved.push_back({v, unit * target.graph.mean_length(target.surface.weld.point_of_vertex[v])});
@@ -81,15 +82,20 @@ PosedFigures figures_of(const PoseBatch& batch, const SkinDifferences& differenc
   figures.pose_count = static_cast<std::uint32_t>(batch.poses.size());
   if (batch.poses.empty()) return figures;
   Spread spread;
-  for (std::size_t pose = 0; pose < batch.poses.size(); ++pose)
+  for_each_block(batch, batch.poses.size(), [&](const PoseBlock& block) {
     for (const MovedVertex& of : moved) {
-      const double length = norm(posed(terms_of(differences, of.vertex), batch.poses[pose]));
-      spread.add(length);
+      const PoseArray lengths = block.pose(terms_of(differences, of.vertex)).length();
+      for (std::size_t i = 0; i < block.count(); ++i)
+        spread.add(lengths[static_cast<Eigen::Index>(i)]);
+      Eigen::Index at = 0;
+      const double longest = lengths.maxCoeff(&at);
       if (of.edge > 0.0)
-        figures.maximum_of_edge = std::max(figures.maximum_of_edge, length / of.edge);
-      largest[of.vertex] = std::max(largest[of.vertex], static_cast<float>(length));
-      if (length > worst.value) worst = {of.vertex, pose, length};
+        figures.maximum_of_edge = std::max(figures.maximum_of_edge, longest / of.edge);
+      largest[of.vertex] = std::max(largest[of.vertex], static_cast<float>(longest));
+      if (longest > worst.value)
+        worst = {of.vertex, block.first() + static_cast<std::size_t>(at), longest};
     }
+  });
   spread.add_zeros((figures.sample_count - moved.size()) * batch.poses.size());
   figures.mean = spread.mean();
   figures.rms = spread.rms();

@@ -3,7 +3,7 @@
 #include <array>
 
 #include "validation/checks/finding_list.h"
-#include "validation/checks/pose_batches.h"
+#include "validation/checks/pose_block.h"
 #include "validation/checks/skin_points.h"
 
 namespace sunder::validation {

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/internal/ordered.h"
+#include "validation/checks/pose_block.h"
+
 namespace sunder::validation {
 namespace {
 
@@ -62,40 +65,44 @@ void compare_influences(const RowReader& reader, PaperFigures& figures) {
   figures.points = static_cast<std::uint32_t>(vertices);
 }
 
-/// The places of all matched vertices of the target, as terms.
-SkinDifferences matched_points(const RowReader& reader, const SkinPoints& points,
-                               std::vector<Index>& vertices) {
+/// Adds one vertex of the target in the poses of a block.
+/// @param frames  of the block.
+void add_vertex(const PoseBlock& block, std::span<const SkinTerm> vertex,
+                std::span<const SkinTerm> difference, std::span<Frame> frames, Sums& sums) {
+  const PosedPoint error = block.pose(difference), source = block.pose(vertex) - error;
+  const PoseArray squares = error.squared_length();
+  for (std::size_t i = 0; i < block.count(); ++i) {
+    const auto lane = static_cast<Eigen::Index>(i);
+    frames[i].add({source.x[lane], source.y[lane], source.z[lane]});
+    const double distance = std::sqrt(squares[lane]);
+    sums.error += squares[lane];
+    sums.distance += distance;
+    sums.farthest = std::max(sums.farthest, distance);
+  }
+}
+
+/// Over all matched vertices of the target.
+Sums sum_over(const RowReader& reader, const SkinPoints& points, const SkinDifferences& differences,
+              const PoseBatch& random, std::size_t frame_count) {
   const Skinned& target = reader.target();
-  SkinDifferences rows;
+  std::vector<PoseBlock> blocks;
+  for_each_block(random, frame_count, [&](const PoseBlock& block) { blocks.push_back(block); });
+  std::vector<Frame> frames(frame_count);
+  Sums sums;
   TermSum sum = points.make_sum();
+  SkinDifferences row;
   for (Index mesh = 0; mesh < target.character.meshes.size(); ++mesh)
     for (Index v = 0; v < target.character.meshes[mesh].vertex_count(); ++v) {
       if (!reader.match(mesh, v).is_accepted) continue;
+      row.terms.clear();
+      row.first.resize(1);
       points.add_target(mesh, v, 1.0, sum);
-      sum.finish(rows);
-      vertices.push_back(target.surface.first_vertex[mesh] + v);
+      sum.finish(row);
+      for (const PoseBlock& block : blocks)
+        add_vertex(block, row.terms, terms_of(differences, target.surface.first_vertex[mesh] + v),
+                   std::span(frames).subspan(block.first(), block.count()), sums);
     }
-  return rows;
-}
-
-Sums sum_over(const RowReader& reader, const SkinPoints& points, const SkinDifferences& differences,
-              const PoseBatch& random, std::size_t frames) {
-  std::vector<Index> vertices;
-  const SkinDifferences rows = matched_points(reader, points, vertices);
-  Sums sums;
-  for (std::size_t frame = 0; frame < frames; ++frame) {
-    Frame of_source;
-    for (std::size_t i = 0; i < vertices.size(); ++i) {
-      const auto terms = terms_of(differences, vertices[i]);
-      const Vec3d error = terms.empty() ? Vec3d(Vec3d::Zero()) : posed(terms, random.poses[frame]);
-      of_source.add(posed(terms_of(rows, i), random.poses[frame]) - error);
-      const double square = squared_norm(error), distance = std::sqrt(square);
-      sums.error += square;
-      sums.distance += distance;
-      sums.farthest = std::max(sums.farthest, distance);
-    }
-    sums.from_center += of_source.about_center();
-  }
+  for (const Frame& frame : frames) sums.from_center += frame.about_center();
   return sums;
 }
 

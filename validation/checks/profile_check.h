@@ -6,7 +6,7 @@
 
 namespace sunder::validation {
 
-/// What a platform does with influences.
+/// The limits of a platform on influences.
 struct ProfileLimits {
   std::string_view name;
   std::size_t influences = 0;

@@ -5,138 +5,224 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "core/internal/ordered.h"
+#include "validation/checks/pose_block.h"
+
 namespace sunder::validation {
 namespace {
 
 constexpr std::size_t kPoses = 16;
-constexpr double kCollapsed = 0.25;  ///< Of the area at bind.
+constexpr std::size_t kFacesPerPatch = 4096;
+constexpr double kCollapsed = 0.25;      ///< Of the area at bind.
+constexpr double kSurelyRegular = 0.25;  ///< A bound above this is not made exact.
 
-/// A vertex near a difference: as the target has it and as the matched weights would have it.
-struct ActiveSet {
-  std::vector<Index> vertices;       ///< In the surface.
-  std::vector<Index> row_of_vertex;  ///< kNone: not active.
-  std::vector<bool> differs;         ///< Per active vertex.
+/// The faces that are judged together: few enough that their posed vertices stay in the cache.
+struct Patch {
+  std::vector<Triangle> faces;   ///< In `vertices`.
+  std::vector<Index> vertices;   ///< In the surface.
+  std::vector<bool> is_counted;  ///< Per vertex: it differs, and no earlier patch had it.
   SkinDifferences actual, expected;
-  std::vector<Index> faces;  ///< With a vertex that differs.
+  /// Per face and edge: the length at bind; per face: the doubled area at bind. Metres.
+  std::vector<std::array<double, 3>> edges;
+  std::vector<double> areas;
 };
 
-/// Vertices of faces that touch a difference. A vertex without an accepted match counts as it is.
-ActiveSet make_active_set(const RowReader& reader, const SkinPoints& points,
-                          const SkinDifferences& differences) {
-  const Skinned& target = reader.target();
-  const BindSurface& surface = target.surface;
-  ActiveSet set;
-  set.row_of_vertex.assign(surface.vertex_count(), kNone);
-  std::vector<bool> differs(surface.vertex_count(), false);
-  for (Index v = 0; v < surface.vertex_count(); ++v)
-    for (const SkinTerm& term : terms_of(differences, v))
-      if (std::abs(term.m) > 1e-4 || norm(term.x) > 1e-4 * surface.diagonal) differs[v] = true;
-  for (Index t = 0; t < surface.triangles.size(); ++t) {
-    const Triangle& face = surface.triangles[t];
-    if (!surface.has_area[t] || std::ranges::none_of(face, [&](Index v) { return differs[v]; }))
-      continue;
-    set.faces.push_back(t);
-    for (const Index v : face) set.row_of_vertex[v] = 0;
+/// Judges faces that touch a difference, in random poses: as the target has their vertices and as
+/// the matched weights would have them. A vertex without an accepted match counts as it is.
+class ShapeJudge {
+ public:
+  ShapeJudge(const RowReader& reader, const SkinPoints& points, const SkinDifferences& differences,
+             const PoseBatch& random)
+      : reader_(reader),
+        points_(points),
+        random_(random),
+        surface_(reader.target().surface),
+        sum_(points.make_sum()),
+        differs_(surface_.vertex_count(), false),
+        number_(surface_.vertex_count(), kNone) {
+    for (Index v = 0; v < surface_.vertex_count(); ++v)
+      for (const SkinTerm& term : terms_of(differences, v))
+        if (std::abs(term.m) > 1e-4 || norm(term.x) > 1e-4 * surface_.diagonal) differs_[v] = true;
+    is_open_ = differs_;
   }
-  TermSum sum = points.make_sum();
-  for (Index mesh = 0; mesh < target.character.meshes.size(); ++mesh)
-    for (Index v = 0; v < target.character.meshes[mesh].vertex_count(); ++v) {
-      const Index vertex = surface.first_vertex[mesh] + v;
-      if (set.row_of_vertex[vertex] == kNone) continue;
-      set.row_of_vertex[vertex] = static_cast<Index>(set.vertices.size());
-      set.vertices.push_back(vertex);
-      set.differs.push_back(differs[vertex]);
-      points.add_target(mesh, v, 1.0, sum);
-      sum.finish(set.actual);
-      if (reader.match(mesh, v).is_accepted)
-        points.add_expected(mesh, v, 1.0, sum);
-      else
-        points.add_target(mesh, v, 1.0, sum);
-      sum.finish(set.expected);
+
+  void run() {
+    std::vector<Index> faces;
+    for (Index t = 0; t < surface_.triangles.size(); ++t) {
+      if (!surface_.has_area[t] ||
+          std::ranges::none_of(surface_.triangles[t], [&](Index v) { return differs_[v]; }))
+        continue;
+      faces.push_back(t);
+      if (faces.size() < kFacesPerPatch) continue;
+      judge(faces);
+      faces.clear();
     }
-  return set;
+    judge(faces);
+  }
+
+  Places stretched, turned, inverted;
+
+ private:
+  void judge(std::span<const Index> faces);
+  [[nodiscard]] Patch make_patch(std::span<const Index> faces);
+  void add_vertex(Index vertex, Patch& patch);
+  void judge_blend(const PoseBlock& block, const Patch& patch, std::size_t i,
+                   std::vector<double>& inversion) const;
+
+  const RowReader& reader_;
+  const SkinPoints& points_;
+  const PoseBatch& random_;
+  const BindSurface& surface_;
+  TermSum sum_;
+  std::vector<bool> differs_;  // per vertex of the surface
+  std::vector<bool> is_open_;  // per vertex: differs and is not judged yet
+  std::vector<Index> number_;  // per vertex: in the patch
+};
+
+void ShapeJudge::add_vertex(Index vertex, Patch& patch) {
+  const Index mesh = surface_.mesh_of_vertex(vertex), own = vertex - surface_.first_vertex[mesh];
+  number_[vertex] = static_cast<Index>(patch.vertices.size());
+  patch.vertices.push_back(vertex);
+  patch.is_counted.push_back(is_open_[vertex]);
+  is_open_[vertex] = false;
+  points_.add_target(mesh, own, 1.0, sum_);
+  sum_.finish(patch.actual);
+  if (reader_.match(mesh, own).is_accepted)
+    points_.add_expected(mesh, own, 1.0, sum_);
+  else
+    points_.add_target(mesh, own, 1.0, sum_);
+  sum_.finish(patch.expected);
 }
 
-/// The blended linear part of a vertex.
-Mat3d blended(std::span<const SkinTerm> terms, const std::vector<Affine3d>& matrices) {
-  Mat3d sum = Mat3d::Zero();
-  for (const SkinTerm& term : terms) sum += term.m * matrices[term.bone].linear();
-  return sum;
+Patch ShapeJudge::make_patch(std::span<const Index> faces) {
+  const double unit = reader_.target().metres_per_bind_unit;
+  Patch patch;
+  for (const Index t : faces) {
+    const Triangle& face = surface_.triangles[t];
+    for (const Index v : face)
+      if (number_[v] == kNone) add_vertex(v, patch);
+    patch.faces.push_back({number_[face[0]], number_[face[1]], number_[face[2]]});
+    const Vec3d &a = surface_.positions[face[0]], &b = surface_.positions[face[1]],
+                &c = surface_.positions[face[2]];
+    patch.edges.push_back({unit * norm(b - a), unit * norm(c - b), unit * norm(a - c)});
+    patch.areas.push_back(unit * unit * norm((b - a).cross(c - a)));
+  }
+  for (const Index v : patch.vertices) number_[v] = kNone;
+  return patch;
 }
 
-/// The smallest singular value, negative for a mirror. Exact below 0.25; above, a lower bound.
+/// The smallest singular value, negative for a mirror. Exact below kSurelyRegular; above, a lower
+/// bound.
 double least_stretch(const Mat3d& m) {
   const double determinant = m.determinant(), square = squared_norm(m);
   const double bound = square > 0.0 ? 2.0 * std::abs(determinant) / square : 0.0;
-  if (bound > 0.25) return std::copysign(bound, determinant);
+  if (bound > kSurelyRegular) return std::copysign(bound, determinant);
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> squares;
   squares.computeDirect(multiply(m.transpose(), m), Eigen::EigenvaluesOnly);
   return std::copysign(std::sqrt(std::max(squares.eigenvalues()[0], 0.0)), determinant);
 }
 
-/// Worst values of the active set over the poses.
-struct Shapes {
-  std::vector<double> stretch, turn;  ///< Per active face.
-  std::vector<double> inversion;      ///< Per active vertex: how far below the limit.
-};
-
-void judge_faces(const Skinned& target, const ActiveSet& set, std::span<const Vec3d> actual,
-                 std::span<const Vec3d> expected, Shapes& shapes) {
-  for (std::size_t i = 0; i < set.faces.size(); ++i) {
-    const Triangle& face = target.surface.triangles[set.faces[i]];
-    std::array<Vec3d, 3> a, e;
-    for (std::size_t k = 0; k < 3; ++k) {
-      a[k] = actual[set.row_of_vertex[face[k]]];
-      e[k] = expected[set.row_of_vertex[face[k]]];
-    }
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double of_a = norm(a[(k + 1) % 3] - a[k]), of_e = norm(e[(k + 1) % 3] - e[k]),
-                   at_bind = norm(target.surface.positions[face[(k + 1) % 3]] -
-                                  target.surface.positions[face[k]]);
-      if (at_bind > 0.0)
-        shapes.stretch[i] = std::max(shapes.stretch[i], std::abs(of_a - of_e) / at_bind);
-    }
-    const Vec3d normal_a = (a[1] - a[0]).cross(a[2] - a[0]),
-                normal_e = (e[1] - e[0]).cross(e[2] - e[0]);
-    const Vec3d at_bind =
-        (target.surface.positions[face[1]] - target.surface.positions[face[0]])
-            .cross(target.surface.positions[face[2]] - target.surface.positions[face[0]]);
-    // The normal of a face that collapses in the source too says nothing.
-    if (squared_norm(normal_e) > kCollapsed * kCollapsed * squared_norm(at_bind))
-      shapes.turn[i] = std::max(
-          shapes.turn[i], std::atan2(norm(normal_a.cross(normal_e)), dot(normal_a, normal_e)));
-  }
+/// One lane of a blended matrix, divided by a unit.
+Mat3d matrix_of(const std::array<PosedPoint, 3>& rows, Eigen::Index lane, double unit) {
+  Mat3d matrix;
+  for (std::size_t row = 0; row < 3; ++row)
+    matrix.row(static_cast<Eigen::Index>(row)) << rows[row].x[lane] / unit,
+        rows[row].y[lane] / unit, rows[row].z[lane] / unit;
+  return matrix;
 }
 
-Shapes judge(const Skinned& target, const ActiveSet& set, const PoseBatch& random) {
-  Shapes shapes{std::vector<double>(set.faces.size(), 0.0),
-                std::vector<double>(set.faces.size(), 0.0),
-                std::vector<double>(set.vertices.size(), 0.0)};
-  std::vector<Vec3d> actual(set.vertices.size()), expected(set.vertices.size());
+/// How far the blended matrix of a vertex is below the limit where the source's is not.
+void ShapeJudge::judge_blend(const PoseBlock& block, const Patch& patch, std::size_t i,
+                             std::vector<double>& inversion) const {
   const double limit = kind_of(Code::inversion).threshold;
-  for (std::size_t pose = 0; pose < std::min(random.poses.size(), kPoses); ++pose) {
-    const auto& matrices = random.poses[pose];
-    for (std::size_t i = 0; i < set.vertices.size(); ++i) {
-      actual[i] = posed(terms_of(set.actual, i), matrices);
-      expected[i] = posed(terms_of(set.expected, i), matrices);
-      if (!set.differs[i]) continue;
-      const double of_actual = least_stretch(blended(terms_of(set.actual, i), matrices));
-      if (of_actual >= limit) continue;
-      if (least_stretch(blended(terms_of(set.expected, i), matrices)) >= 2 * limit)
-        shapes.inversion[i] = std::max(shapes.inversion[i], limit - of_actual);
-    }
-    judge_faces(target, set, actual, expected, shapes);
+  const double unit = reader_.source().metres_per_bind_unit;
+  const auto rows = block.blend(terms_of(patch.actual, i));
+  const PoseArray determinant = dot(rows[0], cross(rows[1], rows[2]));
+  const PoseArray square =
+      rows[0].squared_length() + rows[1].squared_length() + rows[2].squared_length();
+  const auto is_regular = (2.0 * determinant > kSurelyRegular * unit * square).eval();
+  if (is_regular.all()) return;
+  for (std::size_t pose = 0; pose < block.count(); ++pose) {
+    const auto lane = static_cast<Eigen::Index>(pose);
+    if (is_regular[lane]) continue;
+    const double of_actual = least_stretch(matrix_of(rows, lane, unit));
+    if (of_actual >= limit) continue;
+    const auto of_source = block.blend(terms_of(patch.expected, i));
+    if (least_stretch(matrix_of(of_source, lane, unit)) >= 2 * limit)
+      inversion[i] = std::max(inversion[i], limit - of_actual);
   }
-  return shapes;
 }
 
-Places places_of_faces(const Skinned& target, const ActiveSet& set, std::span<const double> values,
-                       double threshold) {
-  Places places;
-  for (std::size_t i = 0; i < values.size(); ++i)
-    if (values[i] > threshold)
-      places.push_back(target.place(target.surface.triangles[set.faces[i]][0], kNone, values[i]));
-  return places;
+/// The corners of a face in the poses of a block.
+using PosedFace = std::array<PosedPoint, 3>;
+
+/// The largest change of an edge's length, relative to bind.
+double stretch_of(const PosedFace& actual, const PosedFace& expected,
+                  const std::array<double, 3>& at_bind) {
+  double largest = 0.0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (!(at_bind[k] > 0.0)) continue;
+    const std::size_t next = (k + 1) % 3;
+    const double change =
+        ((actual[next] - actual[k]).length() - (expected[next] - expected[k]).length())
+            .abs()
+            .maxCoeff();
+    largest = std::max(largest, change / at_bind[k]);
+  }
+  return largest;
+}
+
+/// The largest angle between the normals, as far as it is above the threshold. The normal of a face
+/// that collapses in the source too says nothing.
+double turn_of(const PosedFace& actual, const PosedFace& expected, double area_at_bind) {
+  static const double threshold = kind_of(Code::normal).threshold,
+                      square_of_tangent = (1.0 - 1e-9) * std::pow(std::tan(threshold), 2);
+  const PosedPoint of_actual = cross(actual[1] - actual[0], actual[2] - actual[0]),
+                   of_expected = cross(expected[1] - expected[0], expected[2] - expected[0]);
+  const PoseArray cosines = dot(of_actual, of_expected),
+                  squared_sines = cross(of_actual, of_expected).squared_length();
+  const double least = kCollapsed * kCollapsed * area_at_bind * area_at_bind;
+  const auto turns = (of_expected.squared_length() > least &&
+                      (cosines < 0.0 || squared_sines > square_of_tangent * cosines.square()))
+                         .eval();
+  double largest = 0.0;
+  if (!turns.any()) return largest;
+  for (Eigen::Index lane = 0; lane < turns.size(); ++lane)
+    if (turns[lane])
+      largest = std::max(largest, std::atan2(std::sqrt(squared_sines[lane]), cosines[lane]));
+  return largest;
+}
+
+void ShapeJudge::judge(std::span<const Index> faces) {
+  const Patch patch = make_patch(faces);
+  std::vector<double> stretch(faces.size(), 0.0), turn(faces.size(), 0.0),
+      inversion(patch.vertices.size(), 0.0);
+  std::vector<PosedPoint> actual(patch.vertices.size()), expected(patch.vertices.size());
+  for_each_block(random_, kPoses, [&](const PoseBlock& block) {
+    for (std::size_t i = 0; i < patch.vertices.size(); ++i) {
+      actual[i] = block.pose(terms_of(patch.actual, i));
+      expected[i] = block.pose(terms_of(patch.expected, i));
+      if (patch.is_counted[i]) judge_blend(block, patch, i, inversion);
+    }
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+      const auto& [a, b, c] = patch.faces[i];
+      const PosedFace of_actual = {actual[a], actual[b], actual[c]},
+                      of_expected = {expected[a], expected[b], expected[c]};
+      stretch[i] = std::max(stretch[i], stretch_of(of_actual, of_expected, patch.edges[i]));
+      turn[i] = std::max(turn[i], turn_of(of_actual, of_expected, patch.areas[i]));
+    }
+  });
+  const Skinned& target = reader_.target();
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    const Index vertex = surface_.triangles[faces[i]][0];
+    if (stretch[i] > kind_of(Code::stretch).threshold)
+      stretched.push_back(target.place(vertex, kNone, stretch[i]));
+    if (turn[i] > kind_of(Code::normal).threshold)
+      turned.push_back(target.place(vertex, kNone, turn[i]));
+  }
+  for (std::size_t i = 0; i < inversion.size(); ++i)
+    if (inversion[i] > 0.0)
+      inverted.push_back(target.place(patch.vertices[i], kNone, inversion[i]));
 }
 
 }  // namespace
@@ -144,22 +230,13 @@ Places places_of_faces(const Skinned& target, const ActiveSet& set, std::span<co
 void check_shapes(const RowReader& reader, const SkinPoints& points,
                   const SkinDifferences& differences, const PoseBatch& random,
                   FindingList& findings) {
-  const Skinned& target = reader.target();
-  const ActiveSet set = make_active_set(reader, points, differences);
-  const Shapes shapes = judge(target, set, random);
+  ShapeJudge judge(reader, points, differences, random);
+  judge.run();
   const std::string over =
       "Over " + std::to_string(std::min(random.poses.size(), kPoses)) + " random poses.";
-  const auto add = [&](Code code, std::span<const double> values) {
-    findings.add(code, places_of_faces(target, set, values, kind_of(code).threshold), over,
-                 Evidence::sampled);
-  };
-  add(Code::stretch, shapes.stretch);
-  add(Code::normal, shapes.turn);
-  Places inverted;
-  for (std::size_t i = 0; i < set.vertices.size(); ++i)
-    if (shapes.inversion[i] > 0.0)
-      inverted.push_back(target.place(set.vertices[i], kNone, shapes.inversion[i]));
-  findings.add(Code::inversion, std::move(inverted), over, Evidence::sampled);
+  findings.add(Code::stretch, std::move(judge.stretched), over, Evidence::sampled);
+  findings.add(Code::normal, std::move(judge.turned), over, Evidence::sampled);
+  findings.add(Code::inversion, std::move(judge.inverted), over, Evidence::sampled);
 }
 
 }  // namespace sunder::validation

@@ -36,15 +36,15 @@ std::vector<Affine3d> binds_of(const Character& character, Index bone) {
   return binds;
 }
 
-FindingPlace place_of_bone(Index bone, const ModelPose& pose, double value) {
+FindingPlace place_of_bone(Index bone, const ModelPose& bind, double value) {
   FindingPlace place;
   place.bone = bone;
-  place.position = pose.model_from_bone[bone].translation();
+  place.position = bind.model_from_bone[bone].translation();
   place.value = value;
   return place;
 }
 
-/// Of each bone of the target: how far its bind matrices are from the nearest of the source's.
+/// The distance of each bone's bind matrices, in the target, from the nearest of the source's.
 std::vector<double> bind_differences(const RowReader& reader, double reach) {
   const Character &source = reader.source().character, &target = reader.target().character;
   std::vector<double> differences(target.skeleton.bones.size(), 0.0);
@@ -62,10 +62,9 @@ std::vector<double> bind_differences(const RowReader& reader, double reach) {
   return differences;
 }
 
-void check_binds(const RowReader& reader, const std::vector<double>& differences,
-                 FindingList& findings) {
+void check_binds(const RowReader& reader, const ModelPose& bind,
+                 const std::vector<double>& differences, FindingList& findings) {
   const double least = kind_of(Code::bind).threshold * reader.source().surface.diagonal;
-  const ModelPose bind = or_throw(bind_pose(reader.target().character));
   Places places;
   for (Index bone = 0; bone < differences.size(); ++bone)
     if (differences[bone] > least) places.push_back(place_of_bone(bone, bind, differences[bone]));
@@ -81,7 +80,8 @@ Affine3d affine_of(const BoneTransform& transform) {
 }
 
 /// Bones that stand otherwise beside their parents; where parents differ, in model space.
-void check_default_pose(const RowReader& reader, double reach, FindingList& findings) {
+void check_default_pose(const RowReader& reader, const ModelPose& bind, double reach,
+                        FindingList& findings) {
   const Character &source = reader.source().character, &target = reader.target().character;
   const double least = kind_of(Code::default_pose).threshold * reader.source().surface.diagonal;
   const ModelPose of_source = or_throw(rest_pose(source)), of_target = or_throw(rest_pose(target));
@@ -98,7 +98,7 @@ void check_default_pose(const RowReader& reader, double reach, FindingList& find
                                        affine_of(source.skeleton.bones[counterpart].rest), reach)
                     : distance_between(of_target.model_from_bone[bone],
                                        of_source.model_from_bone[counterpart], reach);
-    if (difference > least) places.push_back(place_of_bone(bone, of_target, difference));
+    if (difference > least) places.push_back(place_of_bone(bone, bind, difference));
   }
   findings.add(Code::default_pose, std::move(places));
 }
@@ -204,8 +204,9 @@ Character divided_by(const Character& character, double scale) {
 
 void check_skeletons(const RowReader& reader, FindingList& findings) {
   const double reach = 0.1 * reader.source().surface.diagonal;
-  check_binds(reader, bind_differences(reader, reach), findings);
-  check_default_pose(reader, reach, findings);
+  const ModelPose bind = or_throw(bind_pose(reader.target().character));
+  check_binds(reader, bind, bind_differences(reader, reach), findings);
+  check_default_pose(reader, bind, reach, findings);
   check_clips(reader, findings);
 }
 

@@ -13,25 +13,37 @@
 namespace sunder::validation {
 namespace {
 
-std::vector<PointGraph::Edge> collect_edges(const BindSurface& surface) {
-  std::vector<std::uint64_t> keys;
-  keys.reserve(surface.triangles.size() * 3);
+/// Calls visit(a, b) with a < b for each edge of each face.
+template <class Visit>
+void for_each_edge(const BindSurface& surface, const Visit& visit) {
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
     if (!surface.has_area[t]) continue;
     for (std::size_t k = 0; k < 3; ++k) {
       const Index a = surface.weld.point_of_vertex[surface.triangles[t][k]],
                   b = surface.weld.point_of_vertex[surface.triangles[t][(k + 1) % 3]];
-      if (a != b) keys.push_back(std::uint64_t{std::min(a, b)} << 32 | std::max(a, b));
+      if (a != b) visit(std::min(a, b), std::max(a, b));
     }
   }
-  std::sort(keys.begin(), keys.end());
+}
+
+/// Sorted by their first points, and within the few edges of a point by the second.
+std::vector<PointGraph::Edge> collect_edges(const BindSurface& surface) {
+  std::vector<Index> first(std::size_t{surface.weld.point_count} + 1, 0);
+  for_each_edge(surface, [&](Index a, Index) { ++first[a + 1]; });
+  for (std::size_t p = 1; p < first.size(); ++p) first[p] += first[p - 1];
+  std::vector<Index> ends(first.back()), next(first.begin(), first.end() - 1);
+  for_each_edge(surface, [&](Index a, Index b) { ends[next[a]++] = b; });
   std::vector<PointGraph::Edge> edges;
-  edges.reserve(keys.size() / 2 + 1);
-  for (std::size_t i = 0; i < keys.size(); ++i) {
-    if (i > 0 && keys[i] == keys[i - 1])
-      ++edges.back().faces;
-    else
-      edges.push_back({static_cast<Index>(keys[i] >> 32), static_cast<Index>(keys[i]), 1});
+  edges.reserve(ends.size() / 2 + 1);
+  for (Index a = 0; a < surface.weld.point_count; ++a) {
+    const auto begin = ends.begin() + first[a], end = ends.begin() + first[a + 1];
+    std::sort(begin, end);
+    for (auto b = begin; b != end; ++b) {
+      if (b != begin && *b == *(b - 1))
+        ++edges.back().faces;
+      else
+        edges.push_back({a, *b, 1});
+    }
   }
   return edges;
 }
@@ -118,6 +130,25 @@ double diagonal_at_rest(const Character& character) {
   return box.isEmpty() ? 0.0 : norm(box.diagonal());
 }
 
+/// Bones that are scaled to nothing, and bones that no skin has, do not count.
+double unit_at_rest(const Character& character) {
+  const ModelPose bind = or_throw(bind_pose(character)), rest = or_throw(rest_pose(character));
+  std::vector<bool> is_of_skin(character.skeleton.bones.size(), false);
+  for (const Skin& skin : character.skins)
+    for (const Index bone : skin.bones) is_of_skin[bone] = true;
+  std::vector<double> lengths;
+  for (Index bone = 0; bone < is_of_skin.size(); ++bone) {
+    if (!is_of_skin[bone]) continue;
+    const double volume = std::abs(determinant(rest.model_from_bone[bone].linear()) /
+                                   determinant(bind.model_from_bone[bone].linear()));
+    if (volume > 0.0 && std::isfinite(volume)) lengths.push_back(std::cbrt(volume));
+  }
+  if (lengths.empty()) return 1.0;
+  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+  std::nth_element(lengths.begin(), middle, lengths.end());
+  return *middle;
+}
+
 }  // namespace
 
 Skinned::Skinned(const Character& of, std::span<const StoredInfluences> stored_influences)
@@ -125,7 +156,8 @@ Skinned::Skinned(const Character& of, std::span<const StoredInfluences> stored_i
       stored(stored_influences),
       surface(make_bind_surface(of)),
       graph(make_point_graph(surface)),
-      rest_diagonal(diagonal_at_rest(of)) {
+      rest_diagonal(diagonal_at_rest(of)),
+      metres_per_bind_unit(unit_at_rest(of)) {
   if (!(rest_diagonal > 0.0) || !std::isfinite(rest_diagonal)) rest_diagonal = surface.diagonal;
 }
 

@@ -48,8 +48,12 @@ struct Skinned {
   std::span<const StoredInfluences> stored;  ///< One per mesh, or none.
   BindSurface surface;
   PointGraph graph;
-  /// Of the box in the rest pose, metres. It may be of another unit than bind space.
-  double rest_diagonal = 0.0;
+  double rest_diagonal = 0.0;  ///< Of the box in the rest pose, metres.
+  /// Lengths of the surface are of bind space, whose unit is that of the file's vertices. In the
+  /// rest pose they are this many times as long: the median over the bones of the skins of the
+  /// change of length (cube root of the volume) from bind to rest. 0.01 where an armature brings
+  /// centimetres to metres, 1 in most models.
+  double metres_per_bind_unit = 1.0;
 
   /// @param of  outlives this, as do the stored influences.
   Skinned(const Character& of, std::span<const StoredInfluences> stored_influences);

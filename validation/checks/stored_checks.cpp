@@ -16,7 +16,7 @@ struct Entries {
   std::span<const float> weights;
 };
 
-/// What a vertex's entries have, in one pass.
+/// The faults of a vertex's entries, found in one pass.
 struct VertexFaults {
   double sum = 0.0;
   double least = 0.0;

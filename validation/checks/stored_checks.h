@@ -5,7 +5,7 @@
 
 namespace sunder::validation {
 
-/// What is wrong with the influences that the files hold, one list of places per code.
+/// The faults of the influences that the files hold, one list of places per code.
 struct StoredFaults {
   Places sum, sum_integer, negative, not_finite, duplicate, out_of_range, unweighted, unsorted,
       zero_joint;

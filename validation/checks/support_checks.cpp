@@ -93,14 +93,15 @@ class Front {
  public:
   explicit Front(const PointGraph& graph) : graph_(graph), distance_(graph.point_count(), kFar) {}
 
-  void start(Index point) { push(point, 0.0); }
+  void start(Index point) {
+    if (distance_[point] == kFar) touched_.push_back(point);
+    distance_[point] = 0.0;
+    starts_.push_back(point);
+  }
   /// @param may_enter  of a point.
   template <class MayEnter>
   void run(double limit, const MayEnter& may_enter) {
-    while (!open_.empty()) {
-      const auto [distance, point] = open_.top();
-      open_.pop();
-      if (distance > distance_[point]) continue;
+    const auto pass = [&](Index point, double distance) {
       const auto around = graph_.around(point);
       const auto lengths = graph_.lengths_around(point);
       for (std::size_t i = 0; i < around.size(); ++i) {
@@ -108,6 +109,13 @@ class Front {
         if (next <= limit && next < distance_[around[i]] && may_enter(around[i]))
           push(around[i], next);
       }
+    };
+    for (const Index point : starts_) pass(point, 0.0);  // the nearest ones: no queue is needed
+    starts_.clear();
+    while (!open_.empty()) {
+      const auto [distance, point] = open_.top();
+      open_.pop();
+      if (distance <= distance_[point]) pass(point, distance);
     }
   }
   [[nodiscard]] bool has_reached(Index point) const { return distance_[point] < kFar; }
@@ -127,7 +135,7 @@ class Front {
 
   const PointGraph& graph_;
   std::vector<double> distance_;
-  std::vector<Index> touched_;
+  std::vector<Index> touched_, starts_;
   std::priority_queue<std::pair<double, Index>, std::vector<std::pair<double, Index>>,
                       std::greater<>>
       open_;

@@ -124,6 +124,15 @@ std::vector<std::vector<Affine3d>> bind_palettes(const Character& character,
 BindSurface make_bind_surface(const Character& character) {
   const auto palettes = bind_palettes(character, or_throw(bind_pose(character)));
   BindSurface surface;
+  std::size_t vertices = 0, triangles = 0;
+  for (const Mesh& mesh : character.meshes) {
+    vertices += mesh.vertex_count();
+    triangles += mesh.triangle_count();
+  }
+  surface.positions.reserve(vertices);
+  surface.tear_side.reserve(vertices);
+  surface.triangles.reserve(triangles);
+  surface.region.reserve(triangles);
   for (const Mesh& mesh : character.meshes) append_mesh(mesh, palettes[mesh.skin], surface);
   surface.weld = weld_vertices(character, surface.positions);
   surface.triangle_of_vertex.assign(surface.positions.size(), kNone);

@@ -2,7 +2,7 @@
 
 #include <sunder/certificate/certificate.h>
 
-#include "validation/match/bone_match.h"
+#include "validation/match/skin_terms.h"
 #include "validation/match/surface_match.h"
 
 namespace sunder::validation {
@@ -19,8 +19,10 @@ namespace sunder::validation {
 /// either: see SurfaceMatches. Weights are taken as they are, so m sums to zero only as far as the
 /// sums of weights agree. Morph targets are not included.
 /// @param matches  of the target's vertices on the source.
+/// @param skins    of both.
 /// O(vertices x influences), allocates.
 [[nodiscard]] SkinDifferences difference_of(const Character& source, const Character& target,
-                                            const SurfaceMatches& matches, const BoneMatch& bones);
+                                            const SurfaceMatches& matches,
+                                            const DrivenSkins& skins);
 
 }  // namespace sunder::validation

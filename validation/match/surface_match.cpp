@@ -89,6 +89,25 @@ struct ClosestTriangles {
   }
 };
 
+/// Collects all triangles near a place, for BVIntersect.
+struct NearTriangles {
+  const BindSurface& surface;
+  Eigen::Vector3d place;
+  double distance;
+  std::vector<SurfacePlace> found;
+
+  bool intersectVolume(const Eigen::AlignedBox3d& box) const {
+    return box.squaredExteriorDistance(place) <= distance * distance;
+  }
+  bool intersectObject(Index triangle) {
+    const auto& [a, b, c] = surface.triangles[triangle];
+    const PlaceOnTriangle closest = closest_on_triangle(place, surface.positions[a],
+                                                        surface.positions[b], surface.positions[c]);
+    if (closest.distance <= distance) found.push_back({triangle, closest.barycentric});
+    return false;  // go on
+  }
+};
+
 }  // namespace
 
 struct SurfaceSearch::Tree {
@@ -214,6 +233,13 @@ SurfaceMatch SurfaceSearch::closest(const BindSurface& of, Index vertex,
                              (is_vertex || best.cosine >= kRoughlyAgrees);
   match.is_accepted = is_near || is_on_surface;
   return match;
+}
+
+std::vector<SurfacePlace> SurfaceSearch::within(const Vec3d& point, double distance) const {
+  NearTriangles near{tree_->surface, Eigen::Vector3d(point), distance, {}};
+  Eigen::BVIntersect(tree_->boxes(), near);
+  std::ranges::sort(near.found, {}, &SurfacePlace::triangle);
+  return std::move(near.found);
 }
 
 MatchCounts count_matches(std::span<const SurfaceMatch> matches, const MatchLimits& limits) {

@@ -11,6 +11,12 @@
 
 namespace sunder::validation {
 
+/// A place on a face of a surface.
+struct SurfacePlace {
+  Index triangle = kNone;                           ///< Of all.
+  std::array<double, 3> barycentric = {1.0, 0, 0};  ///< >= 0, sum 1.
+};
+
 /// The place on one surface that belongs to a vertex of another.
 struct SurfaceMatch {
   Index mesh = kNone;      ///< Of the surface searched; kNone: it has no triangle with an area.
@@ -70,6 +76,8 @@ class SurfaceSearch {
   /// the search.
   [[nodiscard]] SurfaceMatch closest(const BindSurface& of, Index vertex,
                                      const MatchLimits& limits) const;
+  /// Per triangle that comes so near to a point: its closest place, ascending by triangle.
+  [[nodiscard]] std::vector<SurfacePlace> within(const Vec3d& point, double distance) const;
 
  private:
   struct Tree;

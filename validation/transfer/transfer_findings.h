@@ -9,7 +9,7 @@
 
 namespace sunder::validation {
 
-/// What the findings of a transfer are read from.
+/// The data from which the findings of a transfer are read.
 struct TransferFacts {
   const Character& source;
   const Character& target;

@@ -21,7 +21,7 @@ struct Blade {
 /// Successive blade positions; each pair of neighbours sweeps one segment.
 using Stroke = std::vector<Blade>;
 
-/// Which of the surfaces within reach of a blade are torn.
+/// Selects the surfaces within reach of a blade that are torn.
 enum class Layers : std::uint8_t {
   nearest,  ///< The first one that the blade meets.
   all,      ///< Every one that the blade passes through.

@@ -13,9 +13,10 @@ namespace sunder {
 /// kilogram.
 struct SoftMaterial {
   std::string name;
-  /// Of the spring to the rest, 1/s^2; its root is the frequency in radians per second. [0, 1e12].
+  /// Stiffness of the spring that returns a particle to its rest position, 1/s^2. Its square root
+  /// is the frequency in radians per second. [0, 1e12].
   double return_stiffness = 400.0;
-  /// Of that spring and of those to neighbours; 1: critical. [0, 1e6].
+  /// Damping ratio of that spring and of the springs to neighbours; 1 is critical. [0, 1e6].
   double damping_ratio = 0.7;
   double neighbour_stiffness = 400.0;  ///< 1/s^2, times ParticleSet::coupling(). [0, 1e12].
   double mass = 0.01;                  ///< Kilograms per particle. [1e-12, 1e12].
@@ -28,7 +29,7 @@ struct SoftMaterial {
   bool operator==(const SoftMaterial&) const = default;
 };
 
-///
+/// Checks that all values are finite and within their ranges.
 /// @return non_finite_value or invalid_argument; the text names the material and the field.
 ///         Thread-safe.
 [[nodiscard]] SUNDER_API Status validate_material(const SoftMaterial& material);

@@ -28,9 +28,12 @@ enum class Evidence : std::uint8_t {
 struct FindingPlace {
   std::uint32_t mesh = kNone;
   std::uint32_t vertex = kNone;
-  std::uint32_t bone = kNone;      ///< In the skeleton of the target.
-  Vec3d position = Vec3d::Zero();  ///< Model space of the bind pose, metres.
-  double value = 0.0;              ///< In the finding's unit.
+  std::uint32_t bone = kNone;  ///< In the skeleton of the target.
+  /// Where the vertex, or the bone's origin, stands in the bind pose of the target: model space, in
+  /// the unit of the target's vertices after the division by ValidationReport::scale. That is
+  /// metres unless an armature scales the model; see ValidationReport::metres_per_bind_unit.
+  Vec3d position = Vec3d::Zero();
+  double value = 0.0;  ///< In the finding's unit.
 };
 
 /// One kind of fault of a skin, aggregated over all vertices that have it.

@@ -39,7 +39,7 @@ enum class TargetProfile : std::uint8_t {
   webxr,    ///< 4 influences, 16 bits.
 };
 
-/// Where the limits of joints come from, for certificates.
+/// The origin of the joint limits that certificates use.
 enum class LimitsFrom : std::uint8_t {
   none,   ///< All joints are free: free_joint_limits().
   clips,  ///< What the source's clips reach: joint_limits_of_clips().
@@ -47,7 +47,8 @@ enum class LimitsFrom : std::uint8_t {
 };
 
 struct ValidationOptions {
-  /// What the files store, one per mesh; empty: checks of stored weights are not made.
+  /// The influences as the files store them, one entry per mesh. Empty: the checks of stored
+  /// weights are not made.
   std::span<const StoredInfluences> stored_source = {}, stored_target = {};
   /// Bones of the source and the target that belong together although their names differ.
   std::vector<BoneNames> bone_names;
@@ -57,14 +58,14 @@ struct ValidationOptions {
   std::uint32_t random_poses = 64;
   double random_angle = 1.0471975511965976;  ///< Largest turn of a bone from rest, radians.
   std::uint64_t seed = 1;
-  /// From here on a deviation is reported; share of the diagonal of the source's box.
+  /// Deviations above this are reported; share of the diagonal of the source's box.
   double maximum_deviation = 1e-3;
   LimitsFrom limits_from = LimitsFrom::none;
   double clip_margin = 0.0872664625997165;  ///< Radians, for LimitsFrom::clips.
   JointLimits limits;                       ///< Of the source's bones, for LimitsFrom::given.
   /// Most times per clip of ValidationReport::over_time, 30 per second; 0 and 1: none are measured.
   std::uint32_t times_per_clip = 0;
-  /// Called before each stage with its name and the share of stages done.
+  /// Is called before each stage with its name and the share of stages done.
   std::function<void(std::string_view, double)> progress;
 };
 
@@ -75,7 +76,8 @@ struct PosedFigures {
   std::uint32_t sample_count = 0;  ///< Vertices compared in each pose.
   double mean = 0.0, rms = 0.0, p95 = 0.0, maximum = 0.0;  ///< Metres.
   double maximum_of_diagonal = 0.0;                        ///< Share.
-  double maximum_of_edge = 0.0;  ///< Share of the mean edge at the vertex.
+  /// Share of the mean length of the vertex's edges at bind, converted to metres.
+  double maximum_of_edge = 0.0;
   /// Share of all poses of this distribution that `maximum` covers, with confidence 0.95 (Wilks).
   /// 0 unless the poses are independent samples.
   double covered_share = 0.0;
@@ -104,25 +106,31 @@ struct PaperFigures {
   std::uint32_t points = 0, frames = 0;
 };
 
-/// What holds in every pose within the limits: no vertex strays farther than `certified`, and in
-/// `pose` one strays by `found`.
+/// Bounds the deviation of the target from the source surface in all poses within the limits. In
+/// `pose` the vertex `worst` strays by `found`, and no vertex that has a certificate strays farther
+/// than `certified` in any of these poses. Nothing is said about the vertices whose
+/// ValidationReport::vertex_bound is NaN: `uncertified` of them have a match but no certificate,
+/// the others (MatchFigures::target_unmatched) have no match. `certified` holds for the whole
+/// target only if there are none of either kind.
 struct DeviationBracket {
   bool is_tested = false;
-  std::string why;  ///< Where it was not tested, and points without a certificate.
+  /// Says why it was not tested, or why some vertices have no certificate.
+  std::string why;
   double found = 0.0, certified = 0.0;  ///< Metres.
   FindingPlace worst;
   ModelPose pose;                 ///< Of the source's skeleton.
-  std::uint32_t uncertified = 0;  ///< Vertices without a certificate.
+  std::uint32_t uncertified = 0;  ///< Matched vertices without a certificate.
 };
 
-/// How the two surfaces were matched.
+/// How the two surfaces were matched, in bind space. Distances are converted to metres by
+/// ValidationReport::metres_per_bind_unit.
 struct MatchFigures {
   std::uint32_t target_samples = 0;  ///< Vertices of the target looked up on the source.
   std::uint32_t target_unmatched = 0;
-  double target_distance = 0.0;      ///< The largest, metres.
+  double target_distance = 0.0;      ///< The largest distance of an accepted match, metres.
   std::uint32_t source_samples = 0;  ///< Vertices of the source looked up on the target.
   std::uint32_t source_unmatched = 0;
-  double source_distance = 0.0;
+  double source_distance = 0.0;  ///< The same for vertices of the source.
 };
 
 enum class Verdict : std::uint8_t { pass, fail, not_tested };
@@ -144,6 +152,9 @@ struct ValidationReport {
   MatchFigures matching;
   double diagonal = 0.0;  ///< Of the source's box in the rest pose, metres.
   double scale = 1.0;     ///< The target was divided by this before it was compared.
+  /// The length in the rest pose, in metres, of a unit length of the source's bind space: 0.01
+  /// where an armature scales centimetres to metres. The median over the bones of its skins.
+  double metres_per_bind_unit = 1.0;
   std::vector<std::uint64_t> influence_histogram;  ///< Vertices of the target by influence count.
   /// The pose of the source's skeleton in which the largest deviation was found.
   ModelPose worst_pose;
@@ -155,8 +166,9 @@ struct ValidationReport {
   std::vector<std::uint32_t> source_bone_of_target;
 };
 
-/// Compares the skin of a target with that of its source: what is stored, how both deform, and how
-/// the weights lie on the surface. A fault that the source has at the same place is a note.
+/// Compares the skin of a target with that of its source: the stored weights, the deformation, and
+/// the place of the weights on the surface. A fault that the source has at the same place is a
+/// note.
 ///
 /// @param source, target  satisfy validate_character().
 /// @return the first fault of a character; size_mismatch for stored influences of other meshes;
@@ -166,7 +178,7 @@ struct ValidationReport {
     const std::shared_ptr<const Character>& source, const std::shared_ptr<const Character>& target,
     const ValidationOptions& options = {});
 
-/// What a code means by its consequence: "note", "warning", "error".
+/// Returns the name of a severity: "note", "warning" or "error".
 [[nodiscard]] SUNDER_API std::string_view severity_name(Severity severity);
 
 }  // namespace sunder

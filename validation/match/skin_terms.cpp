@@ -1,0 +1,58 @@
+#include "validation/match/skin_terms.h"
+
+#include <sunder/skinning/pose.h>
+
+#include <algorithm>
+
+#include "core/internal/or_throw.h"
+#include "core/internal/ordered.h"
+#include "validation/match/bind_surface.h"
+
+namespace sunder::validation {
+
+DrivenSkins make_driven_skins(const Character& source, const Character& target,
+                              const BoneMatch& bones) {
+  DrivenSkins skins;
+  skins.bind = or_throw(bind_pose(source));
+  const auto palettes = bind_palettes(source, skins.bind);
+  for (std::size_t skin = 0; skin < source.skins.size(); ++skin) {
+    auto& slots = skins.of_source.emplace_back();
+    for (std::size_t i = 0; i < palettes[skin].size(); ++i)
+      slots.push_back({source.skins[skin].bones[i], palettes[skin][i]});
+  }
+  const ModelPose own_bind = or_throw(bind_pose(target));
+  for (const Skin& skin : target.skins) {
+    auto& slots = skins.of_target.emplace_back();
+    for (std::size_t i = 0; i < skin.bones.size(); ++i) {
+      const Index bone = skin.bones[i], counterpart = bones.source_of_target[bone];
+      const Affine3d& model_from_bone = counterpart != kNone
+                                            ? skins.bind.model_from_bone[counterpart]
+                                            : own_bind.model_from_bone[bone];
+      slots.push_back({bones.driver_of_target[bone],
+                       multiply(model_from_bone, Affine3d(skin.bone_from_bind[i].cast<double>()))});
+    }
+  }
+  return skins;
+}
+
+void TermSum::add_point(const Vec3d& place, std::span<const Influence> influences,
+                        std::span<const DrivenSlot> slots, double part) {
+  for (const Influence& influence : influences) {
+    const DrivenSlot& slot = slots[influence.slot];
+    const double m = part * static_cast<double>(influence.weight);
+    add(slot.bone, m, m * transform(slot.model_from_bind, place));
+  }
+}
+
+void TermSum::finish(SkinDifferences& rows) {
+  std::sort(used_.begin(), used_.end());
+  for (const Index bone : used_) {
+    if (!sums_[bone].isZero(0)) rows.terms.push_back({bone, sums_[bone][3], sums_[bone].head<3>()});
+    sums_[bone].setZero();
+    is_used_[bone] = 0;
+  }
+  used_.clear();
+  rows.first.push_back(static_cast<Index>(rows.terms.size()));
+}
+
+}  // namespace sunder::validation
