@@ -140,16 +140,15 @@ RefitGains measure_refit_gains(std::string name, const std::shared_ptr<const Cha
   if (operations == 0) return result;
   const double diagonal = test::posed_diagonal(*character, *rest_pose(*character));
   const auto groups = held_out_poses(character, std::move(of_operations), random);
-  result.points = value_or_abort(model.reweigh(weights_of(WeightPolicy::barycentric, operations)))
-                      .points;
+  result.points =
+      value_or_abort(model.reweigh(weights_of(WeightPolicy::barycentric, operations))).points;
   const auto before = errors_over(model, groups, operations);
   if (!model.undo()) std::abort();
   const auto start = std::chrono::steady_clock::now();
   result.refitted =
       value_or_abort(model.reweigh(weights_of(WeightPolicy::refit, operations))).refitted;
   const std::chrono::duration<double, std::micro> time = std::chrono::steady_clock::now() - start;
-  result.microseconds =
-      time.count() / static_cast<double>(std::max<std::size_t>(result.points, 1));
+  result.microseconds = time.count() / static_cast<double>(std::max<std::size_t>(result.points, 1));
   const auto after = errors_over(model, groups, operations);
   const double nothing = kNothing * diagonal;
   for (std::size_t i = 0; i < groups.size(); ++i)

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "core/internal/ordered.h"
 #include "certificate/joint_tree.h"
+#include "core/internal/ordered.h"
 
 namespace sunder::certificate {
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <sunder/io/character_file.h>
 #include <sunder/certificate/certificate.h>
+#include <sunder/io/character_file.h>
 
 #include <cstdint>
 #include <string>

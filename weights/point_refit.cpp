@@ -5,8 +5,8 @@
 #include <numeric>
 
 #include "core/internal/ordered.h"
-#include "weights/point_forms.h"
 #include "weights/internal/refit_terms.h"
+#include "weights/point_forms.h"
 #include "weights/simplex_solver.h"
 #include "weights/symmetric_solve.h"
 

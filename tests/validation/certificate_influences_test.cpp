@@ -1,7 +1,7 @@
 // Rows of skinned meshes, cracks, and influences chosen under a certificate.
 
-#include <sunder/skinning/pose.h>
 #include <sunder/certificate/certificate.h>
+#include <sunder/skinning/pose.h>
 #include <sunder/weights/influences.h>
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // Joint limits taken from clips: every pose of a clip, between keys too, stays within them.
 
-#include <sunder/skinning/pose.h>
 #include <sunder/certificate/certificate.h>
+#include <sunder/skinning/pose.h>
 
 #include <algorithm>
 #include <cmath>

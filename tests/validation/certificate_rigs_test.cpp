@@ -1,9 +1,9 @@
 // Rigged files: weights cut to the top two against the original. How close poses come to what is
 // certified. The figures of docs/certificate.md are this program's output.
 
+#include <sunder/certificate/certificate.h>
 #include <sunder/io/character_file.h>
 #include <sunder/skinning/pose.h>
-#include <sunder/certificate/certificate.h>
 #include <sunder/weights/influences.h>
 
 #include <algorithm>

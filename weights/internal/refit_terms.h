@@ -25,27 +25,29 @@ struct Restraint {
 /// @param position  about the centre too.
 /// @param group     of the moments, that is minimised.
 [[nodiscard]] SUNDER_API Restraint restraint_of(std::span<const AnimationPoint::Term> terms,
-                                     const Eigen::Vector3d& position, const PoseMoments& moments,
-                                     std::size_t group);
+                                                const Eigen::Vector3d& position,
+                                                const PoseMoments& moments, std::size_t group);
 
 /// The terms of a point about the centre of the moments, scaled so that the weights add up to
 /// exactly one.
 SUNDER_API void centre_terms(const AnimationPoint& point, const PoseMoments& moments,
-                  std::vector<AnimationPoint::Term>& terms);
+                             std::vector<AnimationPoint::Term>& terms);
 
 /// The weight of each term's slot among the influences, scaled so that the weights add up to
 /// exactly one.
 SUNDER_API void weights_of_terms(std::span<const AnimationPoint::Term> terms,
-                      std::span<const Influence> influences, std::vector<double>& of_terms);
+                                 std::span<const Influence> influences,
+                                 std::vector<double>& of_terms);
 
 /// The weights in their stored form: negligible ones dropped, sum one, descending.
-SUNDER_API void store_weights(std::span<const AnimationPoint::Term> terms, std::span<const double> of_terms,
-                   std::vector<Influence>& influences);
+SUNDER_API void store_weights(std::span<const AnimationPoint::Term> terms,
+                              std::span<const double> of_terms, std::vector<Influence>& influences);
 
 /// The difference between a point with some weights and bind position and the exact one.
 /// @param difference  overwritten.
-SUNDER_API void differences(std::span<const AnimationPoint::Term> terms, std::span<const double> of_terms,
-                 const Eigen::Vector3d& position, std::vector<AnimationPoint::Term>& difference);
+SUNDER_API void differences(std::span<const AnimationPoint::Term> terms,
+                            std::span<const double> of_terms, const Eigen::Vector3d& position,
+                            std::vector<AnimationPoint::Term>& difference);
 
 /// Computes the mean squared errors over all groups with a bound, relative to what is allowed:
 /// those of the moments, then that of the point's own poses.
@@ -53,14 +55,15 @@ SUNDER_API void differences(std::span<const AnimationPoint::Term> terms, std::sp
 /// @param excess      overwritten.
 /// @return whether one is exceeded.
 [[nodiscard]] SUNDER_API bool exceeds_bounds(const PointToRefit& point, const PoseMoments& moments,
-                                  std::span<const AnimationPoint::Term> difference,
-                                  std::vector<double>& excess);
+                                             std::span<const AnimationPoint::Term> difference,
+                                             std::vector<double>& excess);
 
 /// The mean squared error of some weights and a bind position, which is about the centre too.
 /// @param difference  scratch memory.
 [[nodiscard]] SUNDER_API double mean_square(std::span<const AnimationPoint::Term> terms,
-                                 std::span<const double> of_terms, const Eigen::Vector3d& position,
-                                 const PoseMoments& moments, std::size_t group,
-                                 std::vector<AnimationPoint::Term>& difference);
+                                            std::span<const double> of_terms,
+                                            const Eigen::Vector3d& position,
+                                            const PoseMoments& moments, std::size_t group,
+                                            std::vector<AnimationPoint::Term>& difference);
 
 }  // namespace sunder::weights

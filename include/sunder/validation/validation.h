@@ -1,9 +1,9 @@
 #pragma once
 
+#include <sunder/certificate/certificate.h>
 #include <sunder/core/character.h>
 #include <sunder/core/skeleton.h>
 #include <sunder/operation/operation.h>
-#include <sunder/certificate/certificate.h>
 #include <sunder/validation/finding.h>
 #include <sunder/validation/transfer.h>
 #include <sunder/weights/influences.h>
