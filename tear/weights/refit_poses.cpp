@@ -12,6 +12,8 @@ namespace sunder::tear {
 namespace {
 
 constexpr int kRandomPoses = 48;
+/// Most poses of the range of motion; of a larger one every n-th.
+constexpr std::size_t kMostMotionPoses = 1024;
 /// Largest random turn of a bone without limits, radians.
 constexpr double kRandomTurn = 60.0 * std::numbers::pi / 180.0;
 
@@ -42,6 +44,15 @@ std::vector<double> importance_of_clips(const Character& character, const RefitO
   const double all = options.poses.clip_samples > 0 ? options.importance.clips : 0.0;
   for (double& of_clip : of_clips) of_clip = sum > 0 ? all * of_clip / sum : 0.0;
   return of_clips;
+}
+
+/// Keeps every n-th pose, so that at most `most` remain.
+void thin_out(std::size_t most, std::vector<std::size_t>& poses) {
+  const std::size_t step = (poses.size() + most - 1) / most;
+  if (step < 2) return;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < poses.size(); i += step) poses[kept++] = poses[i];
+  poses.resize(kept);
 }
 
 /// Uniform in [-1, 1], with the same bits on every machine.
@@ -157,6 +168,7 @@ void RefitPoses::add_groups(const RefitOptions& options, const std::vector<bool>
     const auto turned = set_.turned_bones(PoseSet::Role::fit, i);
     if (bends_points(turned[0]) || bends_points(turned[1])) motion.poses.push_back(i);
   }
+  thin_out(kMostMotionPoses, motion.poses);
   add_random_poses(options, bends);
   std::erase_if(groups_, [](const Group& group) { return group.poses.empty(); });
   double sum = 0;

@@ -1,9 +1,12 @@
 #include "validation/checks/deviation_over_time.h"
 
+#include <sunder/skinning/pose.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "core/internal/or_throw.h"
+#include "core/internal/ordered.h"
 
 namespace sunder::validation {
 namespace {
@@ -19,6 +22,16 @@ std::vector<double> times_of(const Clip& clip, std::uint32_t most_times) {
   std::vector<double> times;
   for (std::uint32_t i = 0; i < count; ++i) times.push_back(duration * i / (count - 1));
   return times;
+}
+
+/// The difference of a row in a pose.
+Vec3d posed(std::span<const SkinTerm> terms, const std::vector<Affine3d>& model_from_bind) {
+  Vec3d sum = Vec3d::Zero();
+  for (const SkinTerm& term : terms) {
+    const Affine3d& bone = model_from_bind[term.bone];
+    sum += multiply(bone.linear(), term.x) + term.m * Eigen::Vector3d(bone.translation());
+  }
+  return sum;
 }
 
 /// Adds the largest and the root mean square length of the rows in a pose.

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace sunder::bench {
+namespace sunder::test {
 
 /// What a refit gains over one group of poses that were not fitted: the root mean square error of
 /// barycentric weights divided by that of the refit. Errors below the rounding of stored positions
@@ -39,4 +39,4 @@ struct RefitGains {
                                              const std::shared_ptr<const Character>& character,
                                              std::uint64_t seed);
 
-}  // namespace sunder::bench
+}  // namespace sunder::test

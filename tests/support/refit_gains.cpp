@@ -1,4 +1,4 @@
-#include "bench/refit_gains.h"
+#include "support/refit_gains.h"
 
 #include <sunder/skinning/pose.h>
 #include <sunder/tear/torn_model.h>
@@ -10,7 +10,7 @@
 
 #include "support/rigs.h"
 
-namespace sunder::bench {
+namespace sunder::test {
 namespace {
 
 constexpr int kTears = 4;
@@ -34,8 +34,8 @@ ModelPose pose_of_clip(const Character& character, std::uint32_t clip, double sh
   return value_or_abort(make_pose(character, ClipPose{clip, share * duration}));
 }
 
-ModelPose pose_to_tear_in(const Character& character, test::Random& random) {
-  if (character.clips.empty()) return test::random_pose(character, random);
+ModelPose pose_to_tear_in(const Character& character, Random& random) {
+  if (character.clips.empty()) return random_pose(character, random);
   const auto clips = static_cast<std::uint32_t>(character.clips.size());
   return pose_of_clip(character, random.index(clips), random.uniform(0, 1));
 }
@@ -47,7 +47,7 @@ struct Poses {
 };
 
 std::vector<Poses> held_out_poses(const std::shared_ptr<const Character>& character,
-                                  std::vector<ModelPose> of_operations, test::Random& random) {
+                                  std::vector<ModelPose> of_operations, Random& random) {
   using Kind = GroupGain::Kind;
   std::vector<Poses> groups;
   for (std::uint32_t clip = 0; clip < character->clips.size(); ++clip) {
@@ -68,7 +68,7 @@ std::vector<Poses> held_out_poses(const std::shared_ptr<const Character>& charac
   }
   Poses& group = groups.emplace_back(Poses{Kind::random, {}});
   for (int i = 0; i < kRandomPoses; ++i)
-    group.poses.push_back(test::random_pose(*character, random, 0.7));
+    group.poses.push_back(random_pose(*character, random, 0.7));
   return groups;
 }
 
@@ -124,12 +124,12 @@ double RefitGains::median(GroupGain::Kind kind) const {
 RefitGains measure_refit_gains(std::string name, const std::shared_ptr<const Character>& character,
                                std::uint64_t seed) {
   RefitGains result{std::move(name), seed, 0, 0, 0, {}};
-  test::Random random(seed);
+  Random random(seed);
   TornModel model = value_or_abort(TornModel::create(character));
   std::vector<ModelPose> of_operations;
   for (int attempt = 0; attempt < 60 && of_operations.size() < kTears; ++attempt) {
     const ModelPose pose = pose_to_tear_in(*character, random);
-    const auto report = model.tear(pose, test::random_stroke(*character, pose, random));
+    const auto report = model.tear(pose, random_stroke(*character, pose, random));
     if (!report || report->runs == 0) {
       if (report) (void)model.undo();
       continue;
@@ -138,7 +138,7 @@ RefitGains measure_refit_gains(std::string name, const std::shared_ptr<const Cha
   }
   const auto operations = static_cast<std::uint32_t>(of_operations.size());
   if (operations == 0) return result;
-  const double diagonal = test::posed_diagonal(*character, *rest_pose(*character));
+  const double diagonal = posed_diagonal(*character, *rest_pose(*character));
   const auto groups = held_out_poses(character, std::move(of_operations), random);
   result.points =
       value_or_abort(model.reweigh(weights_of(WeightPolicy::barycentric, operations))).points;
@@ -158,4 +158,4 @@ RefitGains measure_refit_gains(std::string name, const std::shared_ptr<const Cha
   return result;
 }
 
-}  // namespace sunder::bench
+}  // namespace sunder::test
