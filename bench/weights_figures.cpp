@@ -5,9 +5,12 @@
 #include <cstdio>
 #include <cstdlib>
 #include <numeric>
+#include <set>
 
+#include "bench/bounded_refit_time.h"
 #include "bench/exhaustive_refit.h"
 #include "bench/measure.h"
+#include "bench/refit_rigs.h"
 #include "bench/weights_times.h"
 #include "support/random.h"
 
@@ -158,8 +161,29 @@ ModelFigures measure_model(WeightsModel& model) {
   return figures;
 }
 
-Summary summarise(const std::vector<ModelFigures>& models) {
+RigFigures measure_rigs(const std::vector<WeightsModel>& models) {
+  RigFigures figures;
+  std::vector<double> ratios;
+  for (const WeightsModel& model : models) {
+    const BoundedRefitTime time = measure_bounded_refit(model);
+    std::fprintf(stderr, "%s: fits within bounds over %zu groups %.2f us, without %.2f us\n",
+                 model.name.c_str(), time.groups, time.bounded, time.plain);
+    ratios.push_back(time.bounded / time.plain);
+  }
+  figures.vs_plain_time = middle_of(ratios);
+  figures.rigs = measure_refit_rigs();
+  return figures;
+}
+
+Summary summarise(const std::vector<ModelFigures>& models, const RigFigures& rigs) {
   Summary summary;
+  summary.refit_gain_least_group = 1e9;
+  for (const test::RefitGains& rig : rigs.rigs)
+    summary.refit_gain_least_group = std::min(summary.refit_gain_least_group, rig.least());
+  std::set<std::string> names;
+  for (const test::RefitGains& rig : rigs.rigs) names.insert(rig.name);
+  summary.refit_rigs = names.size();
+  summary.refit_vs_today_time = rigs.vs_plain_time;
   std::vector<double> of_clips, of_motion;
   double points = 0;
   for (const ModelFigures& model : models) {

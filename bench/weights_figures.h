@@ -5,6 +5,7 @@
 
 #include "bench/weight_solvers.h"
 #include "bench/weights_errors.h"
+#include "support/refit_gains.h"
 
 namespace sunder::bench {
 
@@ -45,13 +46,24 @@ struct ModelFigures {
 /// All measurements of a model.
 [[nodiscard]] ModelFigures measure_model(WeightsModel& model);
 
+/// What refits gain on rigs that they were not tuned on.
+struct RigFigures {
+  std::vector<test::RefitGains> rigs;  ///< One per rig and seed.
+  double vs_plain_time = 0;            ///< Time with bounds / without; median of the models.
+};
+
+/// @param models  for the time.
+[[nodiscard]] RigFigures measure_rigs(const std::vector<WeightsModel>& models);
+
 struct Summary {
   double exact_max_rel = 0, pose_exact_pop_rel = 0;
   std::optional<double> refit_gain_clips_median;
   double refit_gain_rom_median = 0, refit_gain_min = 0;
   double refit_vs_exhaustive = 0, refit_us = 0, barycentric_us = 0;
+  double refit_gain_least_group = 0, refit_vs_today_time = 0;
+  std::size_t refit_rigs = 0;
 };
 
-[[nodiscard]] Summary summarise(const std::vector<ModelFigures>& models);
+[[nodiscard]] Summary summarise(const std::vector<ModelFigures>& models, const RigFigures& rigs);
 
 }  // namespace sunder::bench

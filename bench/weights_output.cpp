@@ -94,6 +94,64 @@ void print_models(const std::vector<ModelFigures>& models) {
   }
 }
 
+/// Of some rigs and seeds: the median of a kind of group, and the least gain of any group of it.
+void print_kind(const std::vector<const test::RefitGains*>& rigs, test::GroupGain::Kind kind) {
+  std::vector<double> medians;
+  double least = 1e9;
+  for (const test::RefitGains* rig : rigs) {
+    if (const double gain = rig->median(kind); gain > 0) medians.push_back(gain);
+    for (const test::GroupGain& group : rig->groups)
+      if (group.kind == kind) least = std::min(least, group.gain);
+  }
+  if (medians.empty())
+    std::printf(" – |");
+  else
+    std::printf(" %.2f (%.3f) |", median(medians), least);
+}
+
+void print_rigs_row(const char* name, const std::vector<const test::RefitGains*>& rigs) {
+  using Kind = test::GroupGain::Kind;
+  if (rigs.empty()) return;
+  std::size_t points = 0, refitted = 0;
+  std::vector<double> microseconds;
+  for (const test::RefitGains* rig : rigs) {
+    points += rig->points;
+    refitted += rig->refitted;
+    microseconds.push_back(rig->microseconds);
+  }
+  std::printf("| %s | %zu | %zu |", name, points, refitted);
+  for (const Kind kind :
+       {Kind::clip, Kind::rest, Kind::operation, Kind::range_of_motion, Kind::random})
+    print_kind(rigs, kind);
+  std::printf(" %.0f |\n", median(microseconds));
+}
+
+void print_rigs(const RigFigures& figures) {
+  std::printf(
+      "\nRigs that refits were not tuned on, four tears each, three seeds, K = 4: the gain in "
+      "poses that were not fitted, median and in parentheses the least of all groups.\n\n"
+      "| rig | points | fitted | each clip | rest | pose of the tear | range of motion | random "
+      "poses | µs per point, poses included |\n|---|---|---|---|---|---|---|---|---|\n");
+  std::vector<const test::RefitGains*> random, all, of_file;
+  std::string name;
+  for (const test::RefitGains& rig : figures.rigs) {
+    all.push_back(&rig);
+    if (rig.name.starts_with("random rig")) {
+      random.push_back(&rig);
+      continue;
+    }
+    if (rig.name != name) {
+      print_rigs_row(name.c_str(), of_file);
+      of_file.clear();
+      name = rig.name;
+    }
+    of_file.push_back(&rig);
+  }
+  print_rigs_row(name.c_str(), of_file);
+  print_rigs_row("random rigs", random);
+  print_rigs_row("all", all);
+}
+
 void print_solvers(const std::vector<ModelFigures>& models,
                    const std::vector<SolverFigures>& solvers) {
   double microseconds = 0, problems = 0, sum = 0;
@@ -130,10 +188,11 @@ void add_statistics(JsonObject& object, const std::string& name, const ErrorStat
 
 }  // namespace
 
-void print_weights_tables(const std::vector<ModelFigures>& models,
+void print_weights_tables(const std::vector<ModelFigures>& models, const RigFigures& rigs,
                           const std::vector<SolverFigures>& solvers) {
   print_policies(models);
   print_models(models);
+  print_rigs(rigs);
   print_solvers(models, solvers);
 }
 
@@ -147,10 +206,14 @@ void print_weights_summary(const Summary& summary, std::FILE* file) {
   object.add("refit_vs_exhaustive", summary.refit_vs_exhaustive);
   object.add("refit_us", summary.refit_us);
   object.add("barycentric_us", summary.barycentric_us);
+  object.add("refit_gain_least_group", summary.refit_gain_least_group);
+  object.add("refit_rigs", static_cast<double>(summary.refit_rigs));
+  object.add("refit_vs_today_time", summary.refit_vs_today_time);
   object.end();
 }
 
-bool write_weights_json(const std::vector<ModelFigures>& models, const char* file) {
+bool write_weights_json(const std::vector<ModelFigures>& models, const RigFigures& rigs,
+                        const char* file) {
   std::FILE* out = std::fopen(file, "w");
   if (out == nullptr) return false;
   std::fprintf(out, "{\"rows\": [\n");
@@ -194,7 +257,7 @@ bool write_weights_json(const std::vector<ModelFigures>& models, const char* fil
     object.end();
   }
   std::fprintf(out, "], \"summary\": ");
-  print_weights_summary(summarise(models), out);
+  print_weights_summary(summarise(models, rigs), out);
   std::fprintf(out, "}\n");
   return std::fclose(out) == 0;
 }

@@ -165,6 +165,11 @@ RefitOptions any_refit(Random& random) {
     refit.poses.joint_limits.push_back(limit);
   }
   for (std::uint32_t i = random.index(3); i > 0; --i) refit.poses.poses.push_back(any_pose(random));
+  refit.importance = {any_at_least_zero(random), {}, any_at_least_zero(random),
+                      any_at_least_zero(random)};
+  for (std::uint32_t i = random.index(3); i > 0; --i)
+    refit.importance.of_clip.push_back({"clip \"" + std::to_string(i), any_at_least_zero(random)});
+  refit.bound = random.index(2) == 0 ? 0.0 : 1 + any_at_least_zero(random);
   refit.moves_bind = random.index(2) == 0;
   refit.is_coupled = random.index(2) == 0;
   refit.smoothness = any_at_least_zero(random);
@@ -248,7 +253,9 @@ class Bits {
     add(set.clip_samples), add(set.range_of_motion), add(set.joint_limits), add(set.poses);
   }
   void add(const RefitOptions& refit) {
-    add(refit.poses), add(refit.moves_bind), add(refit.is_coupled), add(refit.smoothness);
+    add(refit.importance.clips), add(refit.importance.range_of_motion), add(refit.importance.poses);
+    for (const RefitImportance::OfClip& of : refit.importance.of_clip) add(of.clip), add(of.factor);
+    add(refit.bound), add(refit.poses), add(refit.moves_bind), add(refit.is_coupled), add(refit.smoothness);
   }
   void add(const TearOperation& tear) {
     add(tear.pose), add(tear.stroke), add(tear.pose_changes), add(tear.options.width);
@@ -331,7 +338,7 @@ TEST(FormatOperations, OfWeightsOnlyWhatHasAMeaningIsWritten) {
       << text_of(operation);
   operation.weights.policy = WeightPolicy::refit;
   EXPECT_EQ(text_of(operation).find("bind\"}"), std::string::npos) << text_of(operation);
-  EXPECT_NE(text_of(operation).find(R"("refit":{"poses":{"clip_samples":8,)"), std::string::npos)
+  EXPECT_NE(text_of(operation).find(R"("refit":{"poses":{"clip_samples":32,)"), std::string::npos)
       << text_of(operation);
   EXPECT_EQ(format_operations(std::vector<Operation>{CutOperation{}})->find("weights"),
             std::string::npos);

@@ -142,7 +142,9 @@ TEST(OperationLog, ReadsWeightsOfEarlierOperations) {
   EXPECT_EQ(exact.operation_count, kNone);
   EXPECT_EQ(exact.weights, (WeightOptions{WeightPolicy::exact, 0}));
   const auto& refit = std::get<WeightsOperation>(operations->at(2)).refit;
-  EXPECT_EQ(refit.poses.clip_samples, 8u);
+  EXPECT_EQ(refit.poses.clip_samples, 32u);
+  EXPECT_EQ(refit.importance, RefitImportance{});
+  EXPECT_EQ(refit.bound, 1.25);
   EXPECT_FALSE(refit.poses.range_of_motion);
   EXPECT_TRUE(refit.poses.joint_limits.empty());
   EXPECT_TRUE(refit.poses.poses.empty());
@@ -155,9 +157,12 @@ TEST(OperationLog, ReadsWhatARefitIsOver) {
   const auto operations =
       parse_operations(refit_with(R"({"poses": {"clip_samples": 0, "range_of_motion": true,
       "joint_limits": [{"bone": 7, "axis": [0, -2, 0], "lower": -0.5, "upper": 1.5}, {"bone": 0, "axis": [1, 0, 0], "lower": 0, "upper": 0}],
-      "poses": ["bind", {"clip": 1, "time": 0.25}]}, "moves_bind": false, "coupled": true, "smoothness": 0})"));
+      "poses": ["bind", {"clip": 1, "time": 0.25}]}, "importance": {"clips": 2, "of_clip": [{"clip": "Walk", "factor": 3}], "range_of_motion": 0.5, "poses": 0},
+      "bound": 2, "moves_bind": false, "coupled": true, "smoothness": 0})"));
   ASSERT_TRUE(operations) << operations.error().text();
   const RefitOptions& refit = std::get<WeightsOperation>(operations->at(0)).refit;
+  EXPECT_EQ(refit.importance, (RefitImportance{2, {{"Walk", 3}}, 0.5, 0}));
+  EXPECT_EQ(refit.bound, 2);
   EXPECT_EQ(refit.poses.clip_samples, 0u);
   EXPECT_TRUE(refit.poses.range_of_motion);
   ASSERT_EQ(refit.poses.joint_limits.size(), 2u);
@@ -534,6 +539,13 @@ INSTANTIATE_TEST_SUITE_P(
                 "/operations/0/refit/poses: expected an object"},
         Refusal{"unknown field of the poses", refit_with(R"({"poses": {"clips": 8}})"), kMalformed,
                 "/operations/0/refit/poses: unknown field 'clips'"},
+        Refusal{"a bound below one", refit_with(R"({"bound": 0.5})"), kMalformed,
+                "/refit/bound: expected a factor of at least 1, or 0"},
+        Refusal{"a negative importance", refit_with(R"({"importance": {"clips": -1}})"), kMalformed,
+                "/refit/importance/clips"},
+        Refusal{"an importance without a clip",
+                refit_with(R"({"importance": {"of_clip": [{"factor": 2}]}})"), kMalformed,
+                "/refit/importance/of_clip/0"},
         Refusal{"negative samples", refit_with(R"({"poses": {"clip_samples": -8}})"), kMalformed,
                 "/refit/poses/clip_samples: expected samples a clip, an integer from 0"},
         Refusal{"too many samples", refit_with(R"({"poses": {"clip_samples": 65537}})"), kMalformed,

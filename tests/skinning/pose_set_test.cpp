@@ -194,7 +194,77 @@ Channel rotation_of(std::uint32_t bone, std::vector<float> times, float angle) {
   return channel;
 }
 
-TEST(PoseSet, clips_are_fitted_in_the_middles_of_intervals_and_held_out_between) {
+/// The times of the poses of a clip, found among many.
+std::vector<double> times_of(const Character& character, std::uint32_t clip, const PoseSet& set,
+                             Role role, double step) {
+  std::vector<double> times;
+  for (std::size_t i = 0; i < set.size(role); ++i) {
+    if (set.group_of(role, i) != PoseSet::Group{PoseSet::Source::clip, clip}) continue;
+    ModelPose found;
+    EXPECT_TRUE(set.compute(role, i, found));
+    double nearest = 0, least = 1e300;
+    for (double time = 0; time <= static_cast<double>(character.clips[clip].duration);
+         time += step) {
+      const double away = distance(found, posed(character, ClipPose{clip, time}));
+      if (away < least) least = away, nearest = time;
+    }
+    times.push_back(nearest);
+  }
+  return times;
+}
+
+TEST(PoseSet, clips_are_sampled_at_equal_steps_of_their_motion) {
+  // One bone turns by 2 radians in the first second, stands still for two, and turns by 1 radian in
+  // the last one: 172 degrees are 12 steps of 15.
+  Character character = test::make_tube(8, 4, 3);
+  const auto turn = [](float angle) {
+    return std::array<float, 4>{0, 0, std::sin(angle / 2), std::cos(angle / 2)};
+  };
+  Channel channel{ChannelTarget::rotation, 1, 4, Interpolation::linear, {0, 1, 3, 4}, {}};
+  for (const float angle : {0.0f, 2.0f, 2.0f, 3.0f})
+    for (const float value : turn(angle)) channel.values.push_back(value);
+  character.clips = {{"turn", 4.0f, {channel}}};
+  ASSERT_TRUE(validate_character(character));
+  const PoseSet set = make_set(share(character), {});
+  ASSERT_EQ(set.size(Role::fit), 12u);
+  ASSERT_EQ(set.size(Role::held_out), 12u);
+  const auto angle_at = [](double time) {
+    return time <= 1 ? 2 * time : time <= 3 ? 2.0 : 2 + (time - 3);
+  };
+  const auto fit = times_of(character, 0, set, Role::fit, 0.004),
+             held_out = times_of(character, 0, set, Role::held_out, 0.004);
+  for (std::size_t i = 0; i < 12; ++i) {
+    EXPECT_NEAR(angle_at(fit[i]), (static_cast<double>(i) + 0.5) * 0.25, 0.02);
+    EXPECT_NEAR(angle_at(held_out[i]), static_cast<double>(i) * 0.25, 0.02);
+  }
+  expect_disjoint(set);
+}
+
+TEST(PoseSet, a_clip_gives_at_most_as_many_poses_as_requested_and_all_clips_768) {
+  const Character tube = make_crooked_tube(4);
+  for (const std::uint32_t most : {1u, 2u, 3u}) {
+    PoseSetSpec spec;
+    spec.clip_samples = most;
+    const PoseSet set = make_set(share(tube), spec);
+    EXPECT_LE(set.size(Role::fit), most);
+    EXPECT_GE(set.size(Role::fit), std::min(most, 2u));
+    EXPECT_EQ(set.size(Role::held_out), set.size(Role::fit));
+    expect_disjoint(set);
+  }
+  Character many = tube;
+  Clip spin{"spin", 4.0f, {rotation_of(1, {0, 1, 2, 3, 4}, 1.4f)}};
+  many.clips.assign(200, spin);
+  const PoseSet set = make_set(share(many), {});
+  EXPECT_LE(set.size(Role::fit), 768u);
+  for (std::uint32_t clip = 0; clip < 200; ++clip) {
+    int count = 0;
+    for (std::size_t i = 0; i < set.size(Role::fit); ++i)
+      count += set.group_of(Role::fit, i).clip == clip ? 1 : 0;
+    EXPECT_GE(count, 2);
+  }
+}
+
+TEST(PoseSet, poses_of_clips_have_the_bits_of_a_sampled_clip) {
   Character character = make_crooked_tube(4);
   // Bones in random order, two channels with the same target, of which the later one applies, and
   // morph weights between them.
@@ -208,28 +278,21 @@ TEST(PoseSet, clips_are_fitted_in_the_middles_of_intervals_and_held_out_between)
   wild.channels.push_back(rotation_of(1, {0, 3}, -0.2f));
   wild.channels.push_back(
       {ChannelTarget::translation, 0, 3, Interpolation::linear, {0, 3}, {0, 0, 0, 1, 2, 3}});
-  character.clips.push_back(wild);
+  character.clips = {wild};
   ASSERT_TRUE(validate_character(character));
-  for (const std::uint32_t samples : {1u, 5u, 8u}) {
-    PoseSetSpec spec;
-    spec.clip_samples = samples;
-    const PoseSet set = make_set(share(character), spec);
-    ASSERT_EQ(set.size(Role::fit), 2 * samples);
-    ASSERT_EQ(set.size(Role::held_out), 2 * samples);
-    for (std::size_t clip = 0; clip < 2; ++clip)
-      for (std::uint32_t i = 0; i < samples; ++i)
-        for (const Role role : {Role::fit, Role::held_out}) {
-          const double interval = i + (role == Role::fit ? 0.5 : 0.0);
-          Pose local = *local_rest_pose(character);
-          ASSERT_TRUE(sample_clip(character.clips[clip],
-                                  interval / samples * character.clips[clip].duration, local));
-          ModelPose wanted, found;
-          ASSERT_TRUE(compute_model_pose(character.skeleton, local, wanted));
-          ASSERT_TRUE(set.compute(role, clip * samples + i, found));
-          EXPECT_TRUE(is_same(found, wanted)) << "clip " << clip << ", sample " << i;
-        }
-    expect_disjoint(set);
-  }
+  const PoseSet set = make_set(share(character), {});
+  ASSERT_GE(set.size(Role::held_out), 2u);
+  ModelPose first;
+  ASSERT_TRUE(set.compute(Role::held_out, 0, first));
+  EXPECT_TRUE(is_same(first, posed(character, ClipPose{0u, 0.0})));
+}
+
+TEST(PoseSet, a_clip_that_only_moves_roots_is_one_pose) {
+  Character character = make_crooked_tube(3);
+  character.clips = {{"walk", 2.0f, {rotation_of(0, {0, 1, 2}, 1)}}};
+  const PoseSet set = make_set(share(character), {});
+  EXPECT_EQ(set.size(Role::fit), 1u);
+  EXPECT_EQ(set.size(Role::held_out), 0u);
 }
 
 TEST(PoseSet, a_clip_that_does_not_last_is_one_pose) {
@@ -267,12 +330,17 @@ TEST(PoseSet, a_range_of_motion_comes_after_clips_and_before_given_poses) {
   spec.range_of_motion = true;
   spec.poses = {BindPose{}};
   const PoseSet set = make_set(character, spec);
-  ASSERT_EQ(set.size(Role::fit), 8u + 2 * 18 + 6 + 1);
-  ASSERT_EQ(set.size(Role::held_out), 8u + 2 * 12 + 3);
+  const std::size_t clips = make_set(character, {}).size(Role::fit);
+  ASSERT_EQ(set.size(Role::fit), clips + 2 * 18 + 6 + 1);
+  ASSERT_EQ(set.size(Role::held_out), clips + 2 * 12 + 3);
   const auto sweeps = poses_of(make_set(character, sweeps_only()), Role::fit);
   const auto all = poses_of(set, Role::fit);
-  for (std::size_t i = 0; i < sweeps.size(); ++i) EXPECT_TRUE(is_same(all[8 + i], sweeps[i]));
+  for (std::size_t i = 0; i < sweeps.size(); ++i) EXPECT_TRUE(is_same(all[clips + i], sweeps[i]));
   EXPECT_TRUE(is_same(all.back(), posed(*character, BindPose{})));
+  EXPECT_EQ(set.group_of(Role::fit, 0), (PoseSet::Group{PoseSet::Source::clip, 0}));
+  EXPECT_EQ(set.group_of(Role::fit, clips).source, PoseSet::Source::joints);
+  EXPECT_EQ(set.turned_bones(Role::fit, clips)[0], 1u);
+  EXPECT_EQ(set.group_of(Role::fit, all.size() - 1).source, PoseSet::Source::given);
 }
 
 TEST(PoseSet, joints_side_by_side_have_no_pairs) {

@@ -113,7 +113,7 @@ TEST_F(TearWeightsCommand, tear_weighs_new_points_by_the_requested_policy) {
   EXPECT_EQ(refit["status"], "weighed");
   EXPECT_GT(refit["weights"]["refitted"], 0);
   EXPECT_GE(refit["weights"]["points"], refit["weights"]["refitted"]);
-  EXPECT_EQ(reports["refit"]["weights"]["refit_over"], "both");
+  EXPECT_EQ(reports["refit"]["weights"]["refit_over"], "clips,range_of_motion");
   EXPECT_TRUE(reports["exact"]["weights"]["refit_over"].is_null());
 
   EXPECT_FALSE(reports["refit"]["weight_errors"].contains("as_written"));
@@ -140,7 +140,8 @@ TEST_F(TearWeightsCommand, influences_are_kept_in_weights_too) {
 
 TEST_F(TearWeightsCommand, a_refit_uses_the_requested_poses) {
   const std::string operations = write("a.json", kOneTear);
-  for (const char* const over : {"clips", "range_of_motion", "both"}) {
+  for (const char* const over :
+       {"clips", "range_of_motion", "clips=2,clips:Sway=3,range_of_motion=0.5"}) {
     const CommandResult result =
         run_sunder({"tear", model(), "--ops", operations, "-o", path("refit.glb"), "--weights",
                     "refit", "--refit-over", over, "--save-log", path("refit.json")});
@@ -150,13 +151,22 @@ TEST_F(TearWeightsCommand, a_refit_uses_the_requested_poses) {
     const json log = json::parse(stream);
     ASSERT_EQ(log["operations"].size(), 2u);
     const json& poses = log["operations"][1]["refit"]["poses"];
-    EXPECT_EQ(poses["clip_samples"] == 8, over != std::string("range_of_motion"));
+    EXPECT_EQ(poses["clip_samples"] == 32, over != std::string("range_of_motion"));
     EXPECT_EQ(poses["range_of_motion"] == true, over != std::string("clips"));
+    const json& importance = log["operations"][1]["refit"]["importance"];
+    const bool has_factors = std::string(over).find('=') != std::string::npos;
+    EXPECT_EQ(importance["clips"], has_factors ? 2 : 1);
+    EXPECT_EQ(importance["range_of_motion"], has_factors ? 0.5 : 1);
+    EXPECT_EQ(importance["of_clip"].size(), has_factors ? 1u : 0u);
   }
   for (const std::vector<std::string>& arguments :
        std::vector<std::vector<std::string>>{{"--refit-over", "clips"},
-                                             {"--weights", "exact", "--refit-over", "both"},
-                                             {"--weights", "refit", "--refit-over", "none"},
+                                             {"--weights", "exact", "--refit-over", "clips"},
+                                             {"--weights", "refit", "--refit-over", "both"},
+                                             {"--weights", "refit", "--refit-over", "clips=-1"},
+                                             {"--weights", "refit", "--refit-over", ""},
+                                             {"--weights", "exact", "--refit-bound", "2"},
+                                             {"--weights", "refit", "--refit-bound", "0.5"},
                                              {"--weights", "linear"}}) {
     std::vector<std::string> all = {"tear",     model(), "--ops",
                                     operations, "-o",    path("unfitted.glb")};
@@ -178,7 +188,7 @@ TEST_F(TearWeightsCommand, a_model_without_clips_is_refitted_over_its_range_of_m
                                            path("bored.glb"), "--weights", "refit"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const json report = json::parse(result.out);
-  EXPECT_EQ(report["weights"]["refit_over"], "both");
+  EXPECT_EQ(report["weights"]["refit_over"], "clips,range_of_motion");
   EXPECT_FALSE(report["weight_errors"].contains("clips"));
   EXPECT_TRUE(report["weight_errors"].contains("range_of_motion"));
 

@@ -18,7 +18,7 @@ struct PointToRefit {
   std::span<const Influence> barycentric;
   /// The largest mean squared distances that a fit may have, square metres: one for each of the
   /// first groups of the moments. The initial weights must not exceed them. Empty: no bounds.
-  std::span<const double> allowed;
+  std::span<const double> allowed = {};
   /// Further poses of this point alone, as the only group; nullptr: none.
   const PoseMoments* own_poses = nullptr;
   double own_allowed = 0;  ///< The bound over `own_poses`, square metres.

@@ -67,7 +67,7 @@ struct RefitOptions {
   /// free joints, may grow by this factor over that of barycentric weights; >= 1. 0: by any.
   double bound = 1.25;
   bool moves_bind = true;    ///< Whether bind positions are fitted too.
-  bool is_coupled = false;   ///< Whether neighbours are fitted together. Needs a build with Ceres.
+  bool is_coupled = false;   ///< Fits neighbours together. Needs sunder::coupled_refit.
   double smoothness = 0.01;  ///< Smoothness of coupled fits, >= 0; see docs/weights.md.
 };
 
