@@ -42,8 +42,10 @@ double size_of(const Skeleton& skeleton) {
 
 /// How far a bone moved, in radians.
 double distance(const BoneTransform& a, const BoneTransform& b, double size) {
-  const double cosine =
-      std::abs(dot(a.rotation.coeffs().cast<double>(), b.rotation.coeffs().cast<double>()));
+  // From the chord between the quaternions, because the cosine of a small angle has no digits left.
+  const Eigen::Vector4d from = a.rotation.coeffs().cast<double>(),
+                        to = b.rotation.coeffs().cast<double>();
+  const double chord = std::min(norm(from - to), norm(from + to));
   const double shift = norm((a.translation - b.translation).cast<double>());
   double scale = 0;
   for (int axis = 0; axis < 3; ++axis) {
@@ -51,8 +53,8 @@ double distance(const BoneTransform& a, const BoneTransform& b, double size) {
     scale = std::max(scale, ratio > 0 && std::isfinite(ratio) ? std::abs(std::log(ratio)) : 1.0);
   }
   if (a.scale == b.scale) scale = 0;  // zeros too
-  return 2 * std::acos(std::min(cosine, 1.0)) + (size > 0 ? kTurnPerSize * shift / size : 0.0) +
-         kTurnPerScale * scale;
+  return 4 * std::asin(std::min(0.5 * chord, 1.0)) +
+         (size > 0 ? kTurnPerSize * shift / size : 0.0) + kTurnPerScale * scale;
 }
 
 /// The lengths of a clip's path at equally spaced frames, from its beginning. Roots do not count:

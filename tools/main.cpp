@@ -90,6 +90,40 @@ CLI::App* add_info(CLI::App& app, InfoRequest& request) {
   return verb;
 }
 
+/// How new vertices are skinned.
+void add_weight_policy(CLI::App& verb, TearRequest& request) {
+  verb.add_option_function<std::string>(
+          "--weights",
+          [&request](const std::string& name) { request.weights = weight_policy(name); },
+          "How new vertices are skinned if their operation has no 'weights'; see docs/weights.md. "
+          "--influences applies to them too")
+      ->check(CLI::IsMember({"barycentric", "pose_exact", "refit", "exact"}))
+      ->default_str("barycentric");
+  verb.add_option_function<std::string>(
+          "--refit-over",
+          [&request](const std::string& text) {
+            const auto options = parse_refit_over(text);
+            if (!options)
+              throw CLI::ValidationError("--refit-over", std::string(options.error().text()));
+            request.refit_over = *options;
+          },
+          "Poses to fit over, with --weights refit: clips, clips:NAME=FACTOR, range_of_motion, "
+          "separated by commas; default: clips,range_of_motion, or what the model has")
+      ->type_name("POSES");
+  const CLI::Option* const bound =
+      verb.add_option("--refit-bound", request.refit_bound,
+                      "Largest growth of the certified worst deviation by a refit; 0: any")
+          ->check(CLI::Range(0.0, 1e9))
+          ->capture_default_str();
+  verb.callback([&request, bound] {
+    if (request.weights != WeightPolicy::refit && (request.refit_over || *bound))
+      throw CLI::ValidationError(request.refit_over ? "--refit-over" : "--refit-bound",
+                                 "needs --weights refit");
+    if (request.refit_bound > 0 && request.refit_bound < 1)
+      throw CLI::ValidationError("--refit-bound", "expected a factor of at least 1, or 0");
+  });
+}
+
 CLI::App* add_tear(CLI::App& app, TearRequest& request) {
   CLI::App* const verb = app.add_subcommand(
       "tear", "Apply a list of tears, cuts and bores to a model and save it as GLB");
@@ -109,36 +143,7 @@ CLI::App* add_tear(CLI::App& app, TearRequest& request) {
           "exactly one")
       ->check(CLI::IsMember({"float", "u16", "u8"}))
       ->default_str("float");
-  verb->add_option_function<std::string>(
-          "--weights",
-          [&request](const std::string& name) { request.weights = weight_policy(name); },
-          "How new vertices are skinned if their operation has no 'weights'; see docs/weights.md. "
-          "--influences applies to them too")
-      ->check(CLI::IsMember({"barycentric", "pose_exact", "refit", "exact"}))
-      ->default_str("barycentric");
-  verb->add_option_function<std::string>(
-          "--refit-over",
-          [&request](const std::string& text) {
-            const auto options = parse_refit_over(text);
-            if (!options)
-              throw CLI::ValidationError("--refit-over", std::string(options.error().text()));
-            request.refit_over = *options;
-          },
-          "Poses to fit over, with --weights refit: clips, clips:NAME=FACTOR, range_of_motion, "
-          "separated by commas; default: clips,range_of_motion, or what the model has")
-      ->type_name("POSES");
-  const CLI::Option* const bound =
-      verb->add_option("--refit-bound", request.refit_bound,
-                       "Largest growth of the certified worst deviation by a refit; 0: any")
-          ->check(CLI::Range(0.0, 1e9))
-          ->capture_default_str();
-  verb->callback([&request, bound] {
-    if (request.weights != WeightPolicy::refit && (request.refit_over || *bound))
-      throw CLI::ValidationError(request.refit_over ? "--refit-over" : "--refit-bound",
-                                 "needs --weights refit");
-    if (request.refit_bound > 0 && request.refit_bound < 1)
-      throw CLI::ValidationError("--refit-bound", "expected a factor of at least 1, or 0");
-  });
+  add_weight_policy(*verb, request);
   add_maximum_error(*verb, request.maximum_error);
   verb->add_option("--report", request.report, "File for the JSON report; default: stdout");
   verb->add_option("--picture", request.picture,

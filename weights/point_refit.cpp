@@ -448,7 +448,8 @@ PointRefit::Fit PointRefit::Problem::solve(const PointToRefit& point, Options op
   weights::store_weights(terms_, best_.weights, influences_);
   result.mean_square = best_.value;
   result.influences = influences_;
-  result.position = Eigen::Vector3d(best_.position + Eigen::Vector3d(moments_->centre()));
+  if (best_.position != start_position_)
+    result.position = Eigen::Vector3d(best_.position + Eigen::Vector3d(moments_->centre()));
   result.is_better = true;
   return result;
 }

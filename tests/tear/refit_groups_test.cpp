@@ -80,7 +80,8 @@ TEST(RefitGroups, points_that_gain_nothing_keep_their_bits) {
   const Mesh &fitted = torn.model->character().meshes[0],
              &start = barycentric.model->character().meshes[0];
   ASSERT_EQ(fitted.vertex_count(), start.vertex_count());
-  EXPECT_EQ(fitted.positions, start.positions);
+  for (std::uint32_t v = 0; v < fitted.vertex_count(); ++v)
+    ASSERT_EQ(fitted.positions[v], start.positions[v]) << "vertex " << v;
 }
 
 TEST(RefitGroups, moved_points_turn_no_face_over) {
@@ -98,7 +99,9 @@ TEST(RefitGroups, moved_points_turn_no_face_over) {
         return (b - a).cross(c - a);
       };
       const Eigen::Vector3d was = normal(before), is = normal(mesh.positions);
-      if (was.norm() > 1e-9) EXPECT_GT(was.dot(is), 0);
+      if (was.norm() > 1e-9) {
+        EXPECT_GT(was.dot(is), 0);
+      }
       for (const std::uint32_t vertex : triangle)
         moved += mesh.positions[vertex] != before[vertex] ? 1 : 0;
     }
@@ -107,18 +110,17 @@ TEST(RefitGroups, moved_points_turn_no_face_over) {
   EXPECT_GT(moved, 0) << "some points moved";
 }
 
-TEST(RefitGroups, a_clip_that_counts_more_gains_no_less) {
-  double all_equal = 0, favoured = 0;
-  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
-    for (const bool favours : {false, true}) {
+TEST(RefitGroups, the_clip_that_counts_gains_more_than_if_another_one_counted) {
+  double if_it_counts = 0, if_another_counts = 0;
+  for (std::uint64_t seed = 1; seed <= 6; ++seed)
+    for (const bool counts : {false, true}) {
       TornRig torn(seed, {10, 6, 3, 1.0, true});
       WeightsOperation wanted = refit_over({});
-      if (favours) wanted.refit.importance.of_clip = {{"clip1", 100}};
+      wanted.refit.importance.of_clip = {{counts ? "clip0" : "clip1", 0}, {"clip2", 0}};
       ASSERT_TRUE(torn.model->reweigh(wanted));
-      (favours ? favoured : all_equal) += rms_over_clip(torn, 1);
+      (counts ? if_it_counts : if_another_counts) += rms_over_clip(torn, 1);
     }
-  }
-  EXPECT_LT(favoured, all_equal);
+  EXPECT_LT(if_it_counts, 0.95 * if_another_counts);
 }
 
 TEST(RefitGroups, the_certified_deviation_grows_by_the_bound_at_most) {

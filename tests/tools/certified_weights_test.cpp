@@ -224,7 +224,7 @@ TEST_F(CertifiedWeightsCommand, a_larger_error_takes_fewer_influences_and_bytes)
   const auto size = [](const std::string& name) {
     return static_cast<double>(std::filesystem::file_size(path(name)));
   };
-  std::uint64_t before = UINT64_MAX, influences_before = UINT64_MAX;
+  std::uint64_t before = UINT64_MAX, influences_before = UINT64_MAX, vertex_count = 0;
   for (const char* const error : {"0.00001mm", "0.1mm", "1mm", "5cm"}) {
     const CommandResult result = run_sunder(
         {"tear", model(), "--ops", operations, "-o", path("less.glb"), "--max-error", error});
@@ -232,8 +232,11 @@ TEST_F(CertifiedWeightsCommand, a_larger_error_takes_fewer_influences_and_bytes)
     const json certificate = json::parse(result.out)["influences_written"]["certificate"];
     const auto bytes = certificate["bytes_written"].get<std::uint64_t>();
     std::uint64_t influences = 0;
-    for (const auto& [count, vertices] : certificate["influences"].items())
+    vertex_count = 0;
+    for (const auto& [count, vertices] : certificate["influences"].items()) {
       influences += std::stoull(count) * vertices.get<std::uint64_t>();
+      vertex_count += vertices.get<std::uint64_t>();
+    }
     EXPECT_LE(bytes, before) << error;
     EXPECT_LT(influences, influences_before) << error;
     EXPECT_NEAR(size("all.glb") - size("less.glb"), certificate["bytes_saved"].get<double>(), 1000)
@@ -244,7 +247,7 @@ TEST_F(CertifiedWeightsCommand, a_larger_error_takes_fewer_influences_and_bytes)
     const test::ValidatorReport report = test::validate_glb(path("less.glb"));
     EXPECT_EQ(report.errors, 0) << report.output;
   }
-  EXPECT_LT(before, 6000u * 4 * 2) << "bytes in one set";
+  EXPECT_LE(before, 8 * vertex_count) << "one set of four bytes for joints, and for weights";
 }
 
 TEST_F(CertifiedWeightsCommand, lengths_have_units) {
@@ -346,8 +349,9 @@ TEST_F(CertifiedWeightsCommand, vertices_without_certificate_keep_all_as_floats)
   std::uint64_t blended = 0;
   const SkinWeights& weights = plain->character->meshes[0].weights;
   for (Index v = 0; v < weights.vertex_count(); ++v) blended += weights.of(v).size() > 1;
-  EXPECT_GT(blended, 0u);
-  EXPECT_EQ(certificate["vertices_uncertified"], blended);
+  // Weights that are whole 255ths need no change to be written as bytes.
+  EXPECT_GT(certificate["vertices_uncertified"], 0u);
+  EXPECT_LE(certificate["vertices_uncertified"], blended);
   EXPECT_EQ(kept->character->meshes[0].weights, weights);
 
   const CommandResult no_clips =

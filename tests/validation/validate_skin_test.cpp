@@ -117,7 +117,9 @@ TEST(ValidateSkin, deviation_over_time_is_that_of_each_sampled_pose) {
       EXPECT_NEAR(deviation.maximum[i], maximum, 1e-6);
       EXPECT_NEAR(deviation.rms[i], std::sqrt(square / static_cast<double>(a.size())), 1e-6);
     }
-    EXPECT_GT(*std::ranges::max_element(deviation.maximum), 1e-3);
+    if (most > 2) {  // at both ends of the clip the tube stands straight
+      EXPECT_GT(*std::ranges::max_element(deviation.maximum), 1e-3);
+    }
   }
 }
 

@@ -112,7 +112,7 @@ TEST(BoundedRefit, weights_of_three_bones_are_within_two_percent_of_all_weights_
   PointRefit refit;
   double of_fits = 0, of_grid = 0;
   int checked = 0;
-  for (int scene = 0; scene < test::stressed(10, 10); ++scene) {
+  for (int scene = 0; scene < test::stressed(20, 10); ++scene) {
     const Groups groups(random, {.points = 20, .slots = 4, .maximum_influences = 0});
     for (std::size_t i = 0; i < groups.lip.points.size(); ++i) {
       if (groups.lip.exact[i].terms().size() != 3) continue;
