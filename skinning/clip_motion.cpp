@@ -23,9 +23,11 @@ constexpr double kNoMotion = 1e-4;
 /// The path is measured along chords between this many frames.
 constexpr double kFramesPerSecond = 30.0;
 constexpr int kFewestFrames = 32, kMostFrames = 256;
-/// All clips together give at most this many times, unless each gives only kFewest.
+/// Times of a clip that moves at all: gentle motion to and fro needs them too.
+constexpr double kFewest = 16;
+/// All clips together give at most this many times, unless each gives only kFewestOfMany.
 constexpr double kMostTimes = 768;
-constexpr double kFewest = 2;
+constexpr double kFewestOfMany = 2;
 
 /// The length of the bones of a skeleton along its longest chain at rest.
 double size_of(const Skeleton& skeleton) {
@@ -114,14 +116,18 @@ std::vector<ClipTimes> times_of_clips(const Character& character, std::uint32_t 
   for (std::size_t clip = 0; clip < paths.size(); ++clip) {
     if (!(paths[clip].length() > kNoMotion)) {
       times[clip].fit = {0.0};
+      times[clip].durations = {1.0};
       continue;
     }
     double count = counts[clip];
     if (sum > kMostTimes)
-      count = std::max(std::floor(count * kMostTimes / sum), std::min(count, kFewest));
+      count = std::max(std::floor(count * kMostTimes / sum), std::min(count, kFewestOfMany));
     for (double i = 0; i < count; ++i) {
       times[clip].fit.push_back(paths[clip].time_at((i + 0.5) / count));
       times[clip].held_out.push_back(paths[clip].time_at(i / count));
+      times[clip].durations.push_back(
+          count * (paths[clip].time_at((i + 1) / count) - paths[clip].time_at(i / count)) /
+          static_cast<double>(character.clips[clip].duration));
     }
   }
   return times;

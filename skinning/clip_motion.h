@@ -10,6 +10,8 @@ namespace sunder::skinning {
 /// The times of a clip at which poses are taken, ascending, in seconds.
 struct ClipTimes {
   std::vector<double> fit, held_out;
+  /// Per time to fit: the share of the clip that lasts around it, times their number.
+  std::vector<double> durations;
 };
 
 /// Chooses times of all clips by how far the bones move in between: at equal lengths of the path

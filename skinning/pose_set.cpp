@@ -63,6 +63,8 @@ struct PoseSet::State {
     for (Index clip = 0; clip < character->clips.size(); ++clip) {
       samplers.emplace_back(character->clips[clip]);
       for (const double time : times_of[clip].fit) fit_times.push_back({clip, time});
+      durations.insert(durations.end(), times_of[clip].durations.begin(),
+                       times_of[clip].durations.end());
       for (const double time : times_of[clip].held_out) held_out_times.push_back({clip, time});
     }
   }
@@ -97,6 +99,7 @@ struct PoseSet::State {
   std::shared_ptr<const Character> character;
   std::vector<skinning::ClipSampler> samplers;  // per clip, if clips are sampled
   std::vector<ClipTime> fit_times, held_out_times;
+  std::vector<double> durations;  // per fit time
   skinning::JointSweeps sweeps;
   std::vector<ModelPose> given;
 };
@@ -161,6 +164,11 @@ PoseSet::Group PoseSet::group_of(Role role, std::size_t index) const {
   return {
       index - clip_times.size() < state_->sweeps_of(role).size() ? Source::joints : Source::given,
       kNone};
+}
+
+double PoseSet::weight_of(std::size_t index) const {
+  SUNDER_ASSERT(index < size(Role::fit));
+  return index < state_->durations.size() ? state_->durations[index] : 1.0;
 }
 
 std::array<std::uint32_t, 2> PoseSet::turned_bones(Role role, std::size_t index) const {

@@ -34,7 +34,7 @@ void PoseMoments::want(const AnimationPoint& point) {
     }
 }
 
-void PoseMoments::add(std::span<const Affine3d> model_from_bind, std::size_t group) {
+void PoseMoments::add(std::span<const Affine3d> model_from_bind, std::size_t group, double weight) {
   if (moments_.empty()) moments_.resize(pairs_.size() * group_count(), Matrix::Zero());
   ++pose_counts_[group];
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
@@ -47,7 +47,7 @@ void PoseMoments::add(std::span<const Affine3d> model_from_bind, std::size_t gro
   for (const std::uint32_t slot : slots_) centred_[slot].col(3) -= mean;
   Matrix* const of_group = moments_.data() + group * pairs_.size();
   for (std::size_t i = 0; i < pairs_.size(); ++i)
-    of_group[i] += multiply(centred_[pairs_[i].low].transpose(), centred_[pairs_[i].high]);
+    of_group[i] += weight * multiply(centred_[pairs_[i].low].transpose(), centred_[pairs_[i].high]);
 }
 
 void PoseMoments::combine(std::span<const double> factors, std::size_t into) {

@@ -11,11 +11,11 @@
 namespace sunder::tear {
 namespace {
 
-constexpr int kRandomPoses = 48;
+constexpr int kRandomPoses = 96;
 /// Most poses of the range of motion; of a larger one every n-th.
 constexpr std::size_t kMostMotionPoses = 1024;
 /// Largest random turn of a bone without limits, radians.
-constexpr double kRandomTurn = 60.0 * std::numbers::pi / 180.0;
+constexpr double kRandomTurn = 45.0 * std::numbers::pi / 180.0;
 
 /// The poses over which a fit is judged: those of the options, all clips, and the range of motion.
 PoseSetSpec all_poses(const RefitOptions& options) {
@@ -203,6 +203,10 @@ void RefitPoses::add_random_poses(const RefitOptions& options, const std::vector
     group.poses.push_back(first + random_.size() - 1);
   }
   groups_.push_back(std::move(group));
+}
+
+double RefitPoses::weight_of(std::size_t pose) const {
+  return pose < set_.size(PoseSet::Role::fit) ? set_.weight_of(pose) : 1.0;
 }
 
 Status RefitPoses::compute(std::size_t pose, ModelPose& result) const {

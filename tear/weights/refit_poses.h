@@ -38,6 +38,8 @@ class RefitPoses {
 
   /// The rest pose is the first group.
   [[nodiscard]] const std::vector<Group>& groups() const { return groups_; }
+  /// How much a pose counts in its group; the mean is 1.
+  [[nodiscard]] double weight_of(std::size_t pose) const;
   /// Computes a pose. @return limit_exceeded: out of memory.
   Status compute(std::size_t pose, ModelPose& result) const;
 

@@ -24,7 +24,7 @@ constexpr double kWorthwhile = 100;
 /// of the mean of all points, until all points together have this much of the mean square of
 /// barycentric weights there.
 constexpr double kSlacks[] = {1e6, 8.0, 1.0, 0.0};
-constexpr double kSureGain = 0.99;
+constexpr double kSureGain = 0.97;
 
 Vec3d mean_position(const RefitTask& task, std::span<const std::size_t> points) {
   Vec3d sum = Vec3d::Zero();
@@ -106,7 +106,7 @@ Status SkinRefit::add_poses() {
       if (task_.is_cancelled) return {};
       if (Status status = poses_->compute(number, pose); !status) return status;
       if (Status status = compute_palette(skin, pose, palette); !status) return status;
-      moments_.add(palette, group);
+      moments_.add(palette, group, poses_->weight_of(number));
     }
   return {};
 }

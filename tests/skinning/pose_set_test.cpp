@@ -214,29 +214,33 @@ std::vector<double> times_of(const Character& character, std::uint32_t clip, con
 }
 
 TEST(PoseSet, clips_are_sampled_at_equal_steps_of_their_motion) {
-  // One bone turns by 2 radians in the first second, stands still for two, and turns by 1 radian in
-  // the last one: 172 degrees are 12 steps of 15.
+  // One bone turns by 3 radians in the first second, stands still for two, and turns by 1.5 radians
+  // in the last one: 258 degrees are 18 steps of 15.
   Character character = test::make_tube(8, 4, 3);
   const auto turn = [](float angle) {
     return std::array<float, 4>{0, 0, std::sin(angle / 2), std::cos(angle / 2)};
   };
   Channel channel{ChannelTarget::rotation, 1, 4, Interpolation::linear, {0, 1, 3, 4}, {}};
-  for (const float angle : {0.0f, 2.0f, 2.0f, 3.0f})
+  for (const float angle : {0.0f, 3.0f, 3.0f, 4.5f})
     for (const float value : turn(angle)) channel.values.push_back(value);
   character.clips = {{"turn", 4.0f, {channel}}};
   ASSERT_TRUE(validate_character(character));
   const PoseSet set = make_set(share(character), {});
-  ASSERT_EQ(set.size(Role::fit), 12u);
-  ASSERT_EQ(set.size(Role::held_out), 12u);
+  ASSERT_EQ(set.size(Role::fit), 18u);
+  ASSERT_EQ(set.size(Role::held_out), 18u);
   const auto angle_at = [](double time) {
-    return time <= 1 ? 2 * time : time <= 3 ? 2.0 : 2 + (time - 3);
+    return time <= 1 ? 3 * time : time <= 3 ? 3.0 : 3 + 1.5 * (time - 3);
   };
   const auto fit = times_of(character, 0, set, Role::fit, 0.004),
              held_out = times_of(character, 0, set, Role::held_out, 0.004);
-  for (std::size_t i = 0; i < 12; ++i) {
+  double weights = 0;
+  for (std::size_t i = 0; i < 18; ++i) {
     EXPECT_NEAR(angle_at(fit[i]), (static_cast<double>(i) + 0.5) * 0.25, 0.02);
     EXPECT_NEAR(angle_at(held_out[i]), static_cast<double>(i) * 0.25, 0.02);
+    weights += set.weight_of(i);
   }
+  EXPECT_NEAR(weights, 18, 1e-9);
+  EXPECT_NEAR(set.weight_of(0), 18 * (1.0 / 12) / 4, 0.02) << "a twelfth of the first second";
   expect_disjoint(set);
 }
 

@@ -68,7 +68,7 @@ std::vector<Poses> held_out_poses(const std::shared_ptr<const Character>& charac
   }
   Poses& group = groups.emplace_back(Poses{Kind::random, {}});
   for (int i = 0; i < kRandomPoses; ++i)
-    group.poses.push_back(random_pose(*character, random, 0.7));
+    group.poses.push_back(random_pose(*character, random, 0.7, 1.0));
   return groups;
 }
 

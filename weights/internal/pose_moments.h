@@ -29,8 +29,9 @@ class SUNDER_API PoseMoments {
   /// Requests the pairs of slots that move a point. All calls precede the first add(). O(terms
   /// squared).
   void want(const AnimationPoint& point);
-  /// Adds a pose to a group. O(pairs).
-  void add(std::span<const Affine3d> model_from_bind, std::size_t group = 0);
+  /// Adds a pose to a group. @param weight  how much it counts; their mean over a group is 1.
+  /// O(pairs).
+  void add(std::span<const Affine3d> model_from_bind, std::size_t group = 0, double weight = 1);
   /// Replaces a group by the weighted sum of the means of the other ones, as if it had one pose.
   /// @param factors  one per group; that of `into` is not read. O(pairs x groups).
   void combine(std::span<const double> factors, std::size_t into);

@@ -44,7 +44,7 @@ struct JointLimit {
 /// The poses over which weights are fitted, and the held-out poses that measure their error.
 struct PoseSetSpec {
   /// Largest number of poses taken from each clip: one for every 15 degrees that a bone turns, at
-  /// least two, at equal steps of motion, and one from a clip that does not move. Many clips share
+  /// least 16, at equal steps of motion, and one from a clip that does not move. Many clips share
   /// 768 poses. The same number, halfway between them, is held out. At most 65,536; 0: no clips.
   std::uint32_t clip_samples = 32;
   /// Adds poses that turn each bone that changes a mesh's shape, alone and with its parent.

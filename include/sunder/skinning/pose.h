@@ -90,6 +90,9 @@ class SUNDER_API PoseSet {
 
   /// What a pose is taken from. @param index  below size(role), unchecked.
   [[nodiscard]] Group group_of(Role role, std::size_t index) const;
+  /// How much a pose to fit over counts: one of a clip by how long the clip stays near it, with a
+  /// mean of 1 over the clip; others 1. @param index  below size(Role::fit), unchecked.
+  [[nodiscard]] double weight_of(std::size_t index) const;
   /// The one or two bones that a pose of Source::joints turns; kNone for no bone.
   /// @param index  that of such a pose, unchecked.
   [[nodiscard]] std::array<std::uint32_t, 2> turned_bones(Role role, std::size_t index) const;
