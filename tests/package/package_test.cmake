@@ -49,6 +49,6 @@ endforeach()
 run(${CMAKE_COMMAND} -S ${consumer} -B ${WORK}/add_subdirectory ${common}
   -D SUNDER_SOURCE=${SUNDER_SOURCE} -D SUNDER_IO=OFF -D SUNDER_HIGHWAY=OFF -D CONSUMER_IO=OFF
   -D BUILD_SHARED_LIBS=ON ${hidden})
-run(${CMAKE_COMMAND} --build ${WORK}/add_subdirectory --config ${CONFIG} --target consumer)
+run(${CMAKE_COMMAND} --build ${WORK}/add_subdirectory --config ${CONFIG} --target consumer tear_consumer)
 run(${CMAKE_CTEST_COMMAND} --test-dir ${WORK}/add_subdirectory -C ${CONFIG} --output-on-failure
   --no-tests=error)
