@@ -96,10 +96,9 @@ BoundedRefitTime measure_bounded_refit(const WeightsModel& model) {
   for (const TornOnce& torn : model.tears)
     for (const TornPoint& point : torn.points) {
       const std::uint32_t of = model.character->meshes[point.mesh].skin;
-      SkinPoints& skin = skins
-                             .try_emplace(of, model.character->skins[of].bones.size(),
-                                          point.position(), groups)
-                             .first->second;
+      SkinPoints& skin =
+          skins.try_emplace(of, model.character->skins[of].bones.size(), point.position(), groups)
+              .first->second;
       std::vector<Influence> mean(point.influences[0].size() + point.influences[1].size() +
                                   point.influences[2].size());
       const std::size_t count = mean_influences(point.influences, point.barycentric, mean.data());

@@ -46,7 +46,7 @@ struct ModelFigures {
 /// All measurements of a model.
 [[nodiscard]] ModelFigures measure_model(WeightsModel& model);
 
-/// What refits gain on rigs that they were not tuned on.
+/// Gains of refits on rigs that they were not tuned on.
 struct RigFigures {
   std::vector<test::RefitGains> rigs;  ///< One per rig and seed.
   double vs_plain_time = 0;            ///< Time with bounds / without; median of the models.

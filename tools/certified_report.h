@@ -7,7 +7,7 @@
 
 namespace sunder::tools {
 
-/// What `--max-error` chose: certified maximum, influences, formats, bytes; see docs/command.md.
+/// The choice of `--max-error`: certified maximum, influences, formats, bytes; see docs/command.md.
 [[nodiscard]] Json certificate_json(const CertifiedWeights& weights, const Character& unpruned,
                                     const MaximumError& wanted);
 

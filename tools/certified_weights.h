@@ -9,7 +9,7 @@
 
 namespace sunder::tools {
 
-/// What `--max-error` and `--limits` ask for.
+/// The request of `--max-error` and `--limits`.
 struct MaximumError {
   double metres = 0;
   std::string limits = "none";  ///< "none", "clips" or a file.

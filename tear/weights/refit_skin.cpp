@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "core/internal/ordered.h"
@@ -34,13 +33,14 @@ Vec3d mean_position(const RefitTask& task, std::span<const std::size_t> points) 
 
 /// The mean of the squared scales of the bones that move a point, over a group of poses.
 double squared_scale(const AnimationPoint& point, const PoseMoments& moments, std::size_t group) {
+  if (moments.pose_count(group) == 0) return 0;
   double sum = 0, weights = 0;
   for (const AnimationPoint::Term& term : point.terms()) {
     const double weight = std::abs(term.q.w());
     sum += weight * trace(moments.of(term.slot, term.slot, group).topLeftCorner<3, 3>()) / 3;
     weights += weight;
   }
-  const auto poses = static_cast<double>(std::max<std::size_t>(moments.pose_count(group), 1));
+  const auto poses = static_cast<double>(moments.pose_count(group));
   return weights > 0 ? sum / (weights * poses) : 0.0;
 }
 

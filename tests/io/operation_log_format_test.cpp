@@ -165,8 +165,8 @@ RefitOptions any_refit(Random& random) {
     refit.poses.joint_limits.push_back(limit);
   }
   for (std::uint32_t i = random.index(3); i > 0; --i) refit.poses.poses.push_back(any_pose(random));
-  refit.importance = {any_at_least_zero(random), {}, any_at_least_zero(random),
-                      any_at_least_zero(random)};
+  refit.importance = {
+      any_at_least_zero(random), {}, any_at_least_zero(random), any_at_least_zero(random)};
   for (std::uint32_t i = random.index(3); i > 0; --i)
     refit.importance.of_clip.push_back({"clip \"" + std::to_string(i), any_at_least_zero(random)});
   refit.bound = random.index(2) == 0 ? 0.0 : 1 + any_at_least_zero(random);
@@ -255,7 +255,8 @@ class Bits {
   void add(const RefitOptions& refit) {
     add(refit.importance.clips), add(refit.importance.range_of_motion), add(refit.importance.poses);
     for (const RefitImportance::OfClip& of : refit.importance.of_clip) add(of.clip), add(of.factor);
-    add(refit.bound), add(refit.poses), add(refit.moves_bind), add(refit.is_coupled), add(refit.smoothness);
+    add(refit.bound), add(refit.poses), add(refit.moves_bind), add(refit.is_coupled),
+        add(refit.smoothness);
   }
   void add(const TearOperation& tear) {
     add(tear.pose), add(tear.stroke), add(tear.pose_changes), add(tear.options.width);

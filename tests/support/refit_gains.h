@@ -9,7 +9,7 @@
 
 namespace sunder::test {
 
-/// What a refit gains over one group of poses that were not fitted: the root mean square error of
+/// The gain of a refit over one group of poses that were not fitted: the root mean square error of
 /// barycentric weights divided by that of the refit. Errors below the rounding of stored positions
 /// count as that.
 struct GroupGain {

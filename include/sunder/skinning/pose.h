@@ -60,7 +60,7 @@ class SUNDER_API PoseSet {
     fit,       ///< Weights are fitted over these poses.
     held_out,  ///< Errors are measured over these poses. There may be none.
   };
-  /// What a pose is taken from.
+  /// The origin of a pose.
   enum class Source : std::uint8_t {
     clip,
     joints,  ///< A range of motion or limited joints.
@@ -88,7 +88,7 @@ class SUNDER_API PoseSet {
 
   [[nodiscard]] std::size_t size(Role role) const;
 
-  /// What a pose is taken from. @param index  below size(role), unchecked.
+  /// Returns the origin of a pose. @param index  below size(role), unchecked.
   [[nodiscard]] Group group_of(Role role, std::size_t index) const;
   /// How much a pose to fit over counts: one of a clip by how long the clip stays near it, with a
   /// mean of 1 over the clip; others 1. @param index  below size(Role::fit), unchecked.
