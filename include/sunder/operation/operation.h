@@ -46,6 +46,9 @@ struct PlaneCut {
   /// whole plane cuts.
   std::vector<Vec3d> bounds;
   bool caps = false;  ///< Closes the opened sections, where their rims are closed loops.
+  /// Places in model space. If not empty, only the section nearest to each of them is cut; a
+  /// section is a connected run of faces that the plane meets within the bounds.
+  std::vector<Vec3d> sections = {};
   std::optional<WeightOptions> weights = {};  ///< For new points; if empty, the model's options.
 
   bool operator==(const PlaneCut&) const = default;
