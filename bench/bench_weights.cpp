@@ -68,7 +68,7 @@ int run(bool wants_summary, const char* json, const char* picture) {
   if (wants_summary)
     print_weights_summary(summarise(figures, rigs), stdout);
   else
-    print_weights_tables(figures, rigs, run_other_solvers(problems));
+    print_weights_tables(figures, rigs, measure_lip_quality(), run_other_solvers(problems));
   if (json != nullptr && !write_weights_json(figures, rigs, json)) {
     std::fprintf(stderr, "%s cannot be written\n", json);
     return 1;

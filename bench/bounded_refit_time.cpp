@@ -6,10 +6,13 @@
 #include <algorithm>
 #include <cstdlib>
 #include <map>
+#include <numeric>
 
 #include "bench/measure.h"
 #include "tear/surface/mesh_vertices.h"
+#include "tear/weights/refit_bounds.h"
 #include "weights/internal/point_refit.h"
+#include "weights/internal/refit_terms.h"
 
 namespace sunder::bench {
 namespace {
@@ -27,8 +30,18 @@ struct SkinPoints {
 
   PoseMoments by_group, together;
   std::vector<const TornPoint*> points;
+  std::vector<Index> tears;
   std::vector<std::vector<Influence>> barycentric;
-  std::vector<double> bounds;  ///< Points x groups.
+  std::vector<double> squares;  ///< Of barycentric weights, points x groups.
+  std::vector<AnimationPoint::Term> terms, difference;
+  std::vector<double> of_terms;
+
+  void measure(std::size_t i, std::span<const Influence> influences, std::span<double> of_groups) {
+    weights::centre_terms(points[i]->exact, by_group, terms);
+    weights::weights_of_terms(terms, influences, of_terms);
+    weights::differences(terms, of_terms, points[i]->position() - by_group.centre(), difference);
+    by_group.mean_squares(difference, of_groups);
+  }
 };
 
 std::vector<std::vector<ModelPose>> poses_by_group(const WeightsModel& model) {
@@ -52,32 +65,52 @@ std::vector<std::vector<ModelPose>> poses_by_group(const WeightsModel& model) {
   return groups;
 }
 
-void add_bounds(SkinPoints& skin, std::size_t groups) {
+void set_objective(SkinPoints& skin, std::size_t groups) {
   std::vector<double> factors(groups + 1, 0.0);
-  std::vector<AnimationPoint::Term> difference;
+  skin.squares.resize(skin.points.size() * groups);
   for (std::size_t i = 0; i < skin.points.size(); ++i) {
-    const TornPoint& point = *skin.points[i];
-    difference.clear();
-    for (const AnimationPoint::Term& term : point.exact.terms()) {
-      double weight = 0;
-      for (const Influence& influence : skin.barycentric[i])
-        if (influence.slot == term.slot) weight = static_cast<double>(influence.weight);
-      Vec4d q = -term.q;
-      q.head<3>() += term.q.w() * skin.by_group.centre() +
-                     weight * (point.position() - skin.by_group.centre());
-      q.w() += weight;
-      difference.push_back({term.slot, q});
-    }
-    skin.bounds.resize(skin.bounds.size() + groups);
-    const std::span<double> bounds = std::span(skin.bounds).last(groups);
-    skin.by_group.mean_squares(difference, bounds);
-    for (std::size_t group = 0; group < groups; ++group) {
-      factors[group] += bounds[group];
-      bounds[group] = 1.0001 * bounds[group] + 1e-14;
-    }
+    const std::span<double> squares = std::span(skin.squares).subspan(i * groups, groups);
+    skin.measure(i, skin.barycentric[i], squares);
+    for (std::size_t group = 0; group < groups; ++group) factors[group] += squares[group];
   }
   for (double& factor : factors) factor = factor > 1e-12 ? 1 / factor : 0.0;
   skin.by_group.combine(factors, groups);
+}
+
+PointToRefit to_refit(const SkinPoints& skin, std::size_t i) {
+  PointToRefit point;
+  point.exact = &skin.points[i]->exact;
+  point.position = skin.points[i]->position();
+  point.barycentric = skin.barycentric[i];
+  return point;
+}
+
+/// Fits the points of a skin as a refit does: within bounds, which are tightened.
+double fit_within_bounds(SkinPoints& skin, std::size_t groups, PointRefit& refit) {
+  tear::RefitBounds bounds(groups, skin.tears);
+  for (std::size_t i = 0; i < skin.points.size(); ++i)
+    for (std::size_t group = 0; group < groups; ++group)
+      bounds.set_barycentric(i, group, skin.squares[i * groups + group], 1e-14);
+  bounds.begin();
+  std::vector<std::size_t> open(skin.points.size());
+  std::iota(open.begin(), open.end(), 0u);
+  double sum = 0;
+  for (; !open.empty(); open = bounds.tighten())
+    for (const std::size_t i : open) {
+      PointToRefit point = to_refit(skin, i);
+      point.allowed = bounds.allowed(i);
+      const PointRefit::Fit fit = refit.fit(point, {kInfluences, false, groups}, skin.by_group);
+      skin.measure(i, fit.influences, bounds.of_fit(i));
+      sum += fit.mean_square;
+    }
+  return sum;
+}
+
+double fit_without_bounds(const SkinPoints& skin, PointRefit& refit) {
+  double sum = 0;
+  for (std::size_t i = 0; i < skin.points.size(); ++i)
+    sum += refit.fit(to_refit(skin, i), {kInfluences, false, 0}, skin.together).mean_square;
+  return sum;
 }
 
 template <class Work>
@@ -93,8 +126,8 @@ BoundedRefitTime measure_bounded_refit(const WeightsModel& model) {
   const std::size_t groups = poses.size();
   std::map<std::uint32_t, SkinPoints> skins;
   BoundedRefitTime time{0, groups, 0, 0};
-  for (const TornOnce& torn : model.tears)
-    for (const TornPoint& point : torn.points) {
+  for (std::size_t tear = 0; tear < model.tears.size(); ++tear)
+    for (const TornPoint& point : model.tears[tear].points) {
       const std::uint32_t of = model.character->meshes[point.mesh].skin;
       SkinPoints& skin =
           skins.try_emplace(of, model.character->skins[of].bones.size(), point.position(), groups)
@@ -104,6 +137,7 @@ BoundedRefitTime measure_bounded_refit(const WeightsModel& model) {
       const std::size_t count = mean_influences(point.influences, point.barycentric, mean.data());
       mean.resize(prune_influences(std::span(mean).first(count), kInfluences));
       skin.points.push_back(&point);
+      skin.tears.push_back(static_cast<Index>(tear));
       skin.barycentric.push_back(std::move(mean));
       skin.by_group.want(point.exact);
       skin.together.want(point.exact);
@@ -117,23 +151,14 @@ BoundedRefitTime measure_bounded_refit(const WeightsModel& model) {
         skin.together.add(palettes[of]);
       }
     }
-  for (auto& [of, skin] : skins) add_bounds(skin, groups);
+  for (auto& [of, skin] : skins) set_objective(skin, groups);
   PointRefit refit;
   for (const bool is_bounded : {true, false})
     (is_bounded ? time.bounded : time.plain) = microseconds_of(time.points, [&] {
       double sum = 0;
       for (auto& [of, skin] : skins)
-        for (std::size_t i = 0; i < skin.points.size(); ++i) {
-          PointToRefit point;
-          point.exact = &skin.points[i]->exact;
-          point.position = skin.points[i]->position();
-          point.barycentric = skin.barycentric[i];
-          if (is_bounded) point.allowed = std::span(skin.bounds).subspan(i * groups, groups);
-          sum += refit
-                     .fit(point, {kInfluences, false, is_bounded ? groups : 0},
-                          is_bounded ? skin.by_group : skin.together)
-                     .mean_square;
-        }
+        sum +=
+            is_bounded ? fit_within_bounds(skin, groups, refit) : fit_without_bounds(skin, refit);
       kept_alive = sum;
     });
   return time;

@@ -17,14 +17,6 @@ namespace {
 constexpr int kSeeds = 3;
 constexpr int kRandomRigs = 200;
 
-void measure(const std::string& name, const std::shared_ptr<const Character>& character,
-             std::vector<test::RefitGains>& all) {
-  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
-    test::RefitGains gains = test::measure_refit_gains(name, character, seed);
-    if (gains.points > 0) all.push_back(std::move(gains));
-  }
-}
-
 #if SUNDER_BENCH_IO
 /// In the order of their names.
 std::vector<std::filesystem::path> files_below(const std::filesystem::path& folder) {
@@ -43,29 +35,41 @@ bool bends(const Character& character) {
          });
 }
 
-void measure_files(std::vector<test::RefitGains>& all) {
+void add_files(std::vector<BendingRig>& rigs) {
   for (const char* folder : {SUNDER_SHARED_MODELS "/rigged", "/usr/share/assimp/models"})
     for (const std::filesystem::path& file : files_below(folder)) {
       const auto loaded = load_character(file);
       if (loaded && bends(*loaded->character))
-        measure(file.filename().string(), loaded->character, all);
+        rigs.push_back({file.filename().string(), loaded->character});
     }
 }
 #endif
 
 }  // namespace
 
-std::vector<test::RefitGains> measure_refit_rigs() {
-  std::vector<test::RefitGains> all;
+std::vector<BendingRig> bending_rigs(int random_rigs) {
+  std::vector<BendingRig> rigs;
 #if SUNDER_BENCH_IO
-  measure_files(all);
+  add_files(rigs);
 #endif
-  for (int i = 0; i < kRandomRigs; ++i) {
+  for (int i = 0; i < random_rigs; ++i) {
     test::Random random(static_cast<std::uint64_t>(i));
     const test::AnimatedRig rig = test::any_animated_rig(random);
-    measure("random rig " + std::to_string(i),
-            std::make_shared<const Character>(test::make_animated_rig(rig, random)), all);
-    if (i % 20 == 19) std::fprintf(stderr, "%d of %d random rigs\n", i + 1, kRandomRigs);
+    rigs.push_back({"random rig " + std::to_string(i),
+                    std::make_shared<const Character>(test::make_animated_rig(rig, random))});
+  }
+  return rigs;
+}
+
+std::vector<test::RefitGains> measure_refit_rigs() {
+  std::vector<test::RefitGains> all;
+  const std::vector<BendingRig> rigs = bending_rigs(kRandomRigs);
+  for (std::size_t i = 0; i < rigs.size(); ++i) {
+    for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+      test::RefitGains gains = test::measure_refit_gains(rigs[i].name, rigs[i].character, seed);
+      if (gains.points > 0) all.push_back(std::move(gains));
+    }
+    if (i % 20 == 19) std::fprintf(stderr, "%zu of %zu rigs\n", i + 1, rigs.size());
   }
   return all;
 }

@@ -94,14 +94,17 @@ void print_models(const std::vector<ModelFigures>& models) {
   }
 }
 
+using Gain = double test::GroupGain::*;
+
 /// Of some rigs and seeds: the median of a kind of group, and the least gain of any group of it.
-void print_kind(const std::vector<const test::RefitGains*>& rigs, test::GroupGain::Kind kind) {
+void print_kind(const std::vector<const test::RefitGains*>& rigs, test::GroupGain::Kind kind,
+                Gain gain = &test::GroupGain::gain) {
   std::vector<double> medians;
   double least = 1e9;
   for (const test::RefitGains* rig : rigs) {
-    if (const double gain = rig->median(kind); gain > 0) medians.push_back(gain);
+    if (const double middle = rig->median(kind, gain); middle > 0) medians.push_back(middle);
     for (const test::GroupGain& group : rig->groups)
-      if (group.kind == kind) least = std::min(least, group.gain);
+      if (group.kind == kind) least = std::min(least, group.*gain);
   }
   if (medians.empty())
     std::printf(" – |");
@@ -109,8 +112,11 @@ void print_kind(const std::vector<const test::RefitGains*>& rigs, test::GroupGai
     std::printf(" %.2f (%.3f) |", median(medians), least);
 }
 
+constexpr test::GroupGain::Kind kKinds[] = {
+    test::GroupGain::Kind::clip, test::GroupGain::Kind::rest, test::GroupGain::Kind::operation,
+    test::GroupGain::Kind::range_of_motion, test::GroupGain::Kind::random};
+
 void print_rigs_row(const char* name, const std::vector<const test::RefitGains*>& rigs) {
-  using Kind = test::GroupGain::Kind;
   if (rigs.empty()) return;
   std::size_t points = 0, refitted = 0;
   std::vector<double> microseconds;
@@ -120,10 +126,24 @@ void print_rigs_row(const char* name, const std::vector<const test::RefitGains*>
     microseconds.push_back(rig->microseconds);
   }
   std::printf("| %s | %zu | %zu |", name, points, refitted);
-  for (const Kind kind :
-       {Kind::clip, Kind::rest, Kind::operation, Kind::range_of_motion, Kind::random})
-    print_kind(rigs, kind);
+  for (const test::GroupGain::Kind kind : kKinds) print_kind(rigs, kind);
   std::printf(" %.0f |\n", median(microseconds));
+}
+
+/// The gains of all rigs by statistic.
+void print_statistics(const std::vector<const test::RefitGains*>& rigs) {
+  std::printf(
+      "\nThe same of all rigs by statistic of the error over points and poses of a group.\n\n"
+      "| statistic | each clip | rest | pose of the tear | range of motion | random poses |\n"
+      "|---|---|---|---|---|---|\n");
+  for (const auto& [name, gain] :
+       {std::pair("root mean square", &test::GroupGain::gain),
+        std::pair("95th percentile", &test::GroupGain::gain_of_percentile95),
+        std::pair("maximum", &test::GroupGain::gain_of_maximum)}) {
+    std::printf("| %s |", name);
+    for (const test::GroupGain::Kind kind : kKinds) print_kind(rigs, kind, gain);
+    std::printf("\n");
+  }
 }
 
 void print_rigs(const RigFigures& figures) {
@@ -150,6 +170,18 @@ void print_rigs(const RigFigures& figures) {
   print_rigs_row(name.c_str(), of_file);
   print_rigs_row("random rigs", random);
   print_rigs_row("all", all);
+  print_statistics(all);
+}
+
+void print_lips(const std::vector<LipQuality>& ways) {
+  std::printf(
+      "\nAlong the lips of four tears per rig, K = 4, in poses of the clips that were not fitted; "
+      "medians over the files and 40 random rigs.\n\n"
+      "| weights | gain | normal jump, degrees | crack, of the diagonal | µs per point, poses "
+      "included |\n|---|---|---|---|---|\n");
+  for (const LipQuality& way : ways)
+    std::printf("| %s | %.2f | %.2f | %.2g | %.0f |\n", way.name.c_str(), way.gain, way.normal_jump,
+                way.crack, way.microseconds);
 }
 
 void print_solvers(const std::vector<ModelFigures>& models,
@@ -189,10 +221,12 @@ void add_statistics(JsonObject& object, const std::string& name, const ErrorStat
 }  // namespace
 
 void print_weights_tables(const std::vector<ModelFigures>& models, const RigFigures& rigs,
+                          const std::vector<LipQuality>& lips,
                           const std::vector<SolverFigures>& solvers) {
   print_policies(models);
   print_models(models);
   print_rigs(rigs);
+  print_lips(lips);
   print_solvers(models, solvers);
 }
 

@@ -1,11 +1,13 @@
 #pragma once
 
+#include "bench/lip_quality.h"
 #include "bench/weights_figures.h"
 
 namespace sunder::bench {
 
 /// The results of run_other_solvers() for the problems of all models, concatenated.
 void print_weights_tables(const std::vector<ModelFigures>& models, const RigFigures& rigs,
+                          const std::vector<LipQuality>& lips,
                           const std::vector<SolverFigures>& solvers);
 void print_weights_summary(const Summary& summary, std::FILE* file);
 /// Every model, policy and K; in per cent of the diagonal and in metres. @return false if it cannot

@@ -189,7 +189,6 @@ void RefitPoses::add_random_poses(const RefitOptions& options, const std::vector
   groups_[0].poses = {first};
   if (std::find(bends.begin(), bends.end(), true) == bends.end()) return;
   Group group;
-  group.is_random = true;
   Random random;
   for (int i = 0; i < kRandomPoses; ++i) {
     Pose& pose = random_.emplace_back(rest);

@@ -19,9 +19,6 @@ class RefitPoses {
     /// How much its errors count; 0: the group is only a bound. All together are 1, unless no group
     /// that was asked for has a pose.
     double importance = 0;
-    /// The random poses, which nobody plays: no fit may be worse there over all points together,
-    /// but a point may be. Their wildest poses would forbid single points most gains elsewhere.
-    bool is_random = false;
     std::vector<std::size_t> poses;  ///< Numbers for compute().
   };
 

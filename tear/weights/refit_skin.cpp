@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "core/internal/ordered.h"
 #include "tear/geometry/tolerances.h"
 #include "weights/internal/coupled_refit.h"
+#include "weights/internal/refit_terms.h"
 
 namespace sunder::tear {
 namespace {
@@ -18,12 +20,6 @@ constexpr double kLeastGain = 2e-3;
 
 /// Mean squares below this multiple of that of rounding do not count.
 constexpr double kWorthwhile = 100;
-
-/// What the bounds over random poses are exceeded by in one attempt after the other, as multiples
-/// of the mean of all points, until all points together have this much of the mean square of
-/// barycentric weights there.
-constexpr double kSlacks[] = {1e6, 8.0, 1.0, 0.0};
-constexpr double kSureGain = 0.97;
 
 Vec3d mean_position(const RefitTask& task, std::span<const std::size_t> points) {
   Vec3d sum = Vec3d::Zero();
@@ -44,28 +40,6 @@ double squared_scale(const AnimationPoint& point, const PoseMoments& moments, st
   return weights > 0 ? sum / (weights * poses) : 0.0;
 }
 
-/// The difference between a point with some weights and its exact motion, about the centre of the
-/// moments.
-std::vector<AnimationPoint::Term> difference_of(const AnimationPoint& exact,
-                                                std::span<const Influence> influences,
-                                                const Vec3d& position, const Vec3d& centre) {
-  double sum = 0, exact_sum = 0;
-  for (const Influence& influence : influences) sum += static_cast<double>(influence.weight);
-  for (const AnimationPoint::Term& term : exact.terms()) exact_sum += term.q.w();
-  std::vector<AnimationPoint::Term> terms;
-  for (const AnimationPoint::Term& term : exact.terms()) {
-    double weight = 0;
-    for (const Influence& influence : influences)
-      if (influence.slot == term.slot) weight = static_cast<double>(influence.weight) / sum;
-    Vec4d q = -term.q / exact_sum;
-    q.head<3>() -= q.w() * centre;
-    q.head<3>() += weight * (position - centre);
-    q.w() += weight;
-    terms.push_back({term.slot, q});
-  }
-  return terms;
-}
-
 }  // namespace
 
 SkinRefit::SkinRefit(const RefitTask& task, Index skin, std::vector<std::size_t> points)
@@ -73,7 +47,8 @@ SkinRefit::SkinRefit(const RefitTask& task, Index skin, std::vector<std::size_t>
       skin_(skin),
       points_(std::move(points)),
       moments_(0, Vec3d::Zero()),
-      bounds_(points_.size()) {}
+      bounds_(0, {}),
+      rounding_(points_.size()) {}
 
 Status SkinRefit::run() {
   if (Status status = add_poses(); !status) return status;
@@ -129,12 +104,29 @@ Status SkinRefit::add_own_poses() {
 /// Measures the barycentric weights, which sets the bounds of all points.
 void SkinRefit::set_bounds() {
   const std::size_t groups = poses_->groups().size();
-  random_ = static_cast<std::size_t>(
-      std::find_if(poses_->groups().begin(), poses_->groups().end(),
-                   [](const RefitPoses::Group& group) { return group.is_random; }) -
-      poses_->groups().begin());
-  allowed_.assign(points_.size() * groups, 0.0);
-  for (std::size_t i = 0; i < points_.size(); ++i) set_bounds_of(i, to_refit(i));
+  std::vector<Index> operations;
+  for (const std::size_t i : points_) operations.push_back(task_.points[i].operation);
+  bounds_ = RefitBounds(groups + 1, operations);
+  std::vector<double> squares(groups + 1);
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const RefitTask::Point& point = task_.points[points_[i]];
+    measure(i, task_.barycentric(points_[i]), point.position, squares);
+    double reach = 0;  // matrices are stored in float too
+    for (const AnimationPoint::Term& term : point.exact.terms())
+      reach = std::max(
+          reach,
+          norm(task_.source->skins[skin_].bone_from_bind[term.slot].translation().cast<double>()));
+    const double stored = kStoredFitLengths * (norm(point.position) + reach);
+    const PoseMoments& own = own_.at(point.operation);
+    for (std::size_t group = 0; group <= groups; ++group) {
+      const double scale_square = group < groups ? squared_scale(point.exact, moments_, group)
+                                                 : squared_scale(point.exact, own, 0);
+      const double rounding = stored * stored * scale_square + 1e-280;
+      rounding_[i] = std::max(rounding_[i], rounding);
+      bounds_.set_barycentric(i, group, squares[group], rounding);
+    }
+  }
+  bounds_.begin();
 }
 
 /// Sets the sum to minimise.
@@ -144,41 +136,25 @@ void SkinRefit::set_objective() {
   for (std::size_t group = 0; group < groups; ++group) {
     double sum = 0;
     for (std::size_t i = 0; i < points_.size(); ++i) {
-      const double bound = allowed_[i * groups + group];
-      if (bound > kWorthwhile * bounds_[i].rounding) sum += bound;
+      const double bound = bounds_.barycentric(i)[group];
+      if (bound > kWorthwhile * rounding_[i]) sum += bound;
     }
     if (sum > 0) factors[group] = poses_->groups()[group].importance / sum;
   }
   moments_.combine(factors, groups);
 }
 
-void SkinRefit::set_bounds_of(std::size_t i, const PointToRefit& point) {
-  const std::size_t groups = poses_->groups().size();
-  const auto difference =
-      difference_of(*point.exact, point.barycentric, point.position, moments_.centre());
-  const std::span<double> allowed = std::span(allowed_).subspan(i * groups, groups);
-  moments_.mean_squares(difference, allowed);
-  Bounds& bounds = bounds_[i];
-  double reach = 0;  // matrices are stored in float too
-  for (const AnimationPoint::Term& term : point.exact->terms())
-    reach = std::max(
-        reach,
-        norm(task_.source->skins[skin_].bone_from_bind[term.slot].translation().cast<double>()));
-  const double stored = kStoredFitLengths * (norm(point.position) + reach);
-  const auto at_least_rounding = [&](double& bound, double scale_square) {
-    const double rounding = stored * stored * scale_square + 1e-280;
-    bounds.rounding = std::max(bounds.rounding, rounding);
-    bounds.is_exact = bounds.is_exact || bound <= rounding;
-    bound = std::max(bound, rounding);
-  };
-  for (std::size_t group = 0; group < groups; ++group) {
-    at_least_rounding(allowed[group], squared_scale(*point.exact, moments_, group));
-    if (poses_->groups()[group].importance > 0) bounds.most = std::max(bounds.most, allowed[group]);
-  }
-  if (random_ < groups) bounds.random = allowed[random_];
-  const PoseMoments& own = own_.at(task_.points[points_[i]].operation);
-  bounds.own = own.mean_square(difference);
-  at_least_rounding(bounds.own, squared_scale(*point.exact, own, 0));
+/// Computes the mean squared errors of a point with some weights: over each group of poses, and
+/// last over those of its operation.
+void SkinRefit::measure(std::size_t i, std::span<const Influence> influences, const Vec3d& position,
+                        std::span<double> squares) {
+  const RefitTask::Point& point = task_.points[points_[i]];
+  weights::centre_terms(point.exact, moments_, scratch_.terms);
+  weights::weights_of_terms(scratch_.terms, influences, scratch_.of_terms);
+  weights::differences(scratch_.terms, scratch_.of_terms, position - moments_.centre(),
+                       scratch_.difference);
+  moments_.mean_squares(scratch_.difference, squares.first(squares.size() - 1));
+  squares.back() = own_.at(point.operation).mean_square(scratch_.difference);
 }
 
 PointRefit::Options SkinRefit::options() const {
@@ -188,96 +164,84 @@ PointRefit::Options SkinRefit::options() const {
 
 PointToRefit SkinRefit::to_refit(std::size_t i) const {
   const RefitTask::Point& point = task_.points[points_[i]];
-  const std::size_t groups = poses_->groups().size();
   PointToRefit result;
   result.exact = &point.exact;
   result.position = point.position;
   result.barycentric = task_.barycentric(points_[i]);
-  result.allowed = std::span(allowed_).subspan(i * groups, groups);
+  const std::span<const double> allowed = bounds_.allowed(i);
+  result.allowed = allowed.first(allowed.size() - 1);
   result.own_poses = &own_.at(point.operation);
-  result.own_allowed = bounds_[i].own;
-  result.may_move = !bounds_[i].is_exact;
+  result.own_allowed = allowed.back();
+  result.may_move = !bounds_.is_exact(i);
   return result;
 }
 
 /// Whether a fit is worth more than it may lose when it is stored.
 bool SkinRefit::gains(std::size_t i, double mean_square, double barycentric) const {
   const double share = barycentric > 0 ? mean_square / barycentric : 1.0;
+  double most = 0;
+  for (std::size_t group = 0; group < poses_->groups().size(); ++group)
+    if (poses_->groups()[group].importance > 0)
+      most = std::max(most, bounds_.barycentric(i)[group]);
   return share < 1 - kLeastGain &&
-         std::sqrt(bounds_[i].most) * (1 - std::sqrt(share)) > std::sqrt(bounds_[i].rounding);
-}
-
-/// Whether all points together gain, or none is worse, over the random poses.
-bool SkinRefit::keeps_random_poses() const {
-  if (random_ == poses_->groups().size()) return true;
-  double before = 0, after = 0;
-  for (std::size_t i = 0; i < points_.size(); ++i) {
-    before += bounds_[i].random;
-    if (!fits_[i].is_taken) {
-      after += bounds_[i].random;
-      continue;
-    }
-    const auto difference = difference_of(task_.points[points_[i]].exact, fits_[i].influences,
-                                          fits_[i].position, moments_.centre());
-    after += moments_.mean_square(difference, random_);
-  }
-  return after <= kSureGain * before;
+         std::sqrt(most) * (1 - std::sqrt(share)) > std::sqrt(rounding_[i]);
 }
 
 void SkinRefit::fit_alone() {
-  const std::size_t groups = poses_->groups().size();
-  double sum = 0;
-  for (const Bounds& bounds : bounds_) sum += bounds.random;
-  for (const double slack : kSlacks) {
-    for (std::size_t i = 0; i < points_.size() && random_ < groups; ++i)
-      allowed_[i * groups + random_] =
-          bounds_[i].random + slack * sum / static_cast<double>(points_.size());
-    fit_each();
-    if (task_.is_cancelled || keeps_random_poses()) return;
-  }
+  PointRefit refit;
+  fits_.resize(points_.size());
+  std::vector<std::size_t> open(points_.size());
+  std::iota(open.begin(), open.end(), 0u);
+  for (; !open.empty() && !task_.is_cancelled; open = bounds_.tighten())
+    for (std::size_t n = 0; n < open.size() && !task_.is_cancelled; ++n) fit(open[n], refit);
 }
 
-void SkinRefit::fit_each() {
-  PointRefit refit;
-  fits_.clear();
-  for (std::size_t i = 0; i < points_.size() && !task_.is_cancelled; ++i) {
-    PointToRefit point = to_refit(i);
-    PointRefit::Fit fit = refit.fit(point, options(), moments_);
-    if (norm(fit.position - point.position) > task_.points[points_[i]].reach) {
-      point.may_move = false;
-      fit = refit.fit(point, options(), moments_);
-    }
-    fits_.push_back({points_[i],
-                     fit.is_better && gains(i, fit.mean_square, fit.barycentric_mean_square),
-                     {fit.influences.begin(), fit.influences.end()},
-                     fit.position});
+void SkinRefit::fit(std::size_t i, PointRefit& refit) {
+  PointToRefit point = to_refit(i);
+  PointRefit::Fit fit = refit.fit(point, options(), moments_);
+  if (norm(fit.position - point.position) > task_.points[points_[i]].reach) {
+    point.may_move = false;
+    fit = refit.fit(point, options(), moments_);
   }
+  take(i, {points_[i],
+           fit.is_better && gains(i, fit.mean_square, fit.barycentric_mean_square),
+           {fit.influences.begin(), fit.influences.end()},
+           fit.position});
+}
+
+/// Takes a fit, and measures what it has over each group.
+void SkinRefit::take(std::size_t i, PointFit fit) {
+  fits_[i] = std::move(fit);
+  if (fits_[i].is_taken)
+    measure(i, fits_[i].influences, fits_[i].position, bounds_.of_fit(i));
+  else
+    std::ranges::copy(bounds_.barycentric(i), bounds_.of_fit(i).begin());
 }
 
 /// Fits all points in one problem.
 Status SkinRefit::fit_together() {
-  std::vector<PointToRefit> together;
   std::vector<Index> number(task_.points.size(), kNone);
-  for (std::size_t i = 0; i < points_.size(); ++i) {
-    number[points_[i]] = static_cast<Index>(i);
-    together.push_back(to_refit(i));
-  }
+  for (std::size_t i = 0; i < points_.size(); ++i) number[points_[i]] = static_cast<Index>(i);
   std::vector<RefitNeighbours> of_these;
   for (const RefitNeighbours& pair : task_.neighbours) {
     const Index a = number[pair.a], b = pair.b == kNone ? kNone : number[pair.b];
     if (a != kNone && (b != kNone || pair.b == kNone)) of_these.push_back({a, b, pair.length});
   }
-  const auto fits =
-      refit_coupled(together, of_these, {options(), task_.operation.refit.smoothness}, moments_);
-  if (!fits) return fits.error();
-  for (std::size_t i = 0; i < points_.size(); ++i) {
-    const CoupledFit& fit = (*fits)[i];
-    const bool stays = norm(fit.position - together[i].position) > task_.points[points_[i]].reach;
-    fits_.push_back(
-        {points_[i],
-         fit.is_better && !stays && gains(i, fit.mean_square, fit.barycentric_mean_square),
-         fit.influences, fit.position});
-  }
+  fits_.resize(points_.size());
+  std::vector<PointToRefit> together(points_.size());
+  do {
+    for (std::size_t i = 0; i < points_.size(); ++i) together[i] = to_refit(i);
+    const auto fits =
+        refit_coupled(together, of_these, {options(), task_.operation.refit.smoothness}, moments_);
+    if (!fits) return fits.error();
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      const CoupledFit& fit = (*fits)[i];
+      const bool stays = norm(fit.position - together[i].position) > task_.points[points_[i]].reach;
+      take(i, {points_[i],
+               fit.is_better && !stays && gains(i, fit.mean_square, fit.barycentric_mean_square),
+               fit.influences, fit.position});
+    }
+  } while (!bounds_.tighten().empty() && !task_.is_cancelled);
   return {};
 }
 

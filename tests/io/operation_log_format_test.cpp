@@ -141,6 +141,7 @@ CutOperation any_cut(Random& random) {
                           any_direction(random),
                           {},
                           random.index(2) == 0,
+                          {},
                           any_weights_if_any(random)}};
   if (random.index(2) == 0)
     for (std::uint32_t i = 3 + random.index(3); i > 0; --i)

@@ -16,7 +16,7 @@ namespace {
 constexpr int kTears = 4;
 constexpr std::uint32_t kInfluences = 4;
 constexpr int kPosesOfClip = 12;
-constexpr int kRandomPoses = 40;
+constexpr int kRandomPoses = 200;
 /// Smaller errors, as shares of the diagonal, are rounding: positions are stored in float.
 constexpr double kNothing = 2e-7;
 
@@ -72,27 +72,35 @@ std::vector<Poses> held_out_poses(const std::shared_ptr<const Character>& charac
   return groups;
 }
 
-/// Root mean square errors over the groups, metres; over the pose of each operation the errors of
-/// its own points.
-std::vector<double> errors_over(const TornModel& model, const std::vector<Poses>& groups,
-                                std::uint32_t operations) {
-  std::vector<double> errors;
-  for (const Poses& group : groups) {
-    if (group.kind != GroupGain::Kind::operation) {
-      errors.push_back(
-          value_or_abort(measure_weight_errors(model, 0, operations, group.poses)).metres.rms);
-      continue;
-    }
-    double sum = 0, count = 0;
-    for (std::uint32_t i = 0; i < operations; ++i) {
-      const auto of = measure_weight_errors(model, i, 1, {&group.poses[i], 1});
-      if (!of) continue;  // it created no point
-      const auto points = static_cast<double>(of->points.size());
-      sum += points * of->metres.rms * of->metres.rms;
-      count += points;
-    }
-    errors.push_back(count > 0 ? std::sqrt(sum / count) : 0.0);
+/// Errors over a group of poses, metres.
+using Errors = WeightErrors::Statistics;
+
+/// The errors in the pose of each operation of its own points.
+Errors errors_of_operations(const TornModel& model, const std::vector<ModelPose>& poses) {
+  Errors errors;
+  double sum = 0, count = 0;
+  for (std::uint32_t i = 0; i < poses.size(); ++i) {
+    const auto of = measure_weight_errors(model, i, 1, {&poses[i], 1});
+    if (!of) continue;  // it created no point
+    const auto points = static_cast<double>(of->points.size());
+    sum += points * of->metres.rms * of->metres.rms;
+    count += points;
+    errors.percentile95 = std::max(errors.percentile95, of->metres.percentile95);
+    errors.maximum = std::max(errors.maximum, of->metres.maximum);
   }
+  errors.rms = count > 0 ? std::sqrt(sum / count) : 0.0;
+  return errors;
+}
+
+/// The errors over each group.
+std::vector<Errors> errors_over(const TornModel& model, const std::vector<Poses>& groups,
+                                std::uint32_t operations) {
+  std::vector<Errors> errors;
+  for (const Poses& group : groups)
+    errors.push_back(
+        group.kind == GroupGain::Kind::operation
+            ? errors_of_operations(model, group.poses)
+            : value_or_abort(measure_weight_errors(model, 0, operations, group.poses)).metres);
   return errors;
 }
 
@@ -112,10 +120,10 @@ double RefitGains::least() const {
   return least;
 }
 
-double RefitGains::median(GroupGain::Kind kind) const {
+double RefitGains::median(GroupGain::Kind kind, double GroupGain::*gain) const {
   std::vector<double> gains;
   for (const GroupGain& group : groups)
-    if (group.kind == kind && group.barycentric > kNothing) gains.push_back(group.gain);
+    if (group.kind == kind && group.barycentric > kNothing) gains.push_back(group.*gain);
   if (gains.empty()) return 0;
   std::sort(gains.begin(), gains.end());
   return 0.5 * (gains[(gains.size() - 1) / 2] + gains[gains.size() / 2]);
@@ -150,11 +158,14 @@ RefitGains measure_refit_gains(std::string name, const std::shared_ptr<const Cha
   const std::chrono::duration<double, std::micro> time = std::chrono::steady_clock::now() - start;
   result.microseconds = time.count() / static_cast<double>(std::max<std::size_t>(result.points, 1));
   const auto after = errors_over(model, groups, operations);
-  const double nothing = kNothing * diagonal;
+  const auto ratio = [&](double of_before, double of_after) {
+    const double nothing = kNothing * diagonal;
+    return std::max(of_before, nothing) / std::max(of_after, nothing);
+  };
   for (std::size_t i = 0; i < groups.size(); ++i)
-    result.groups.push_back({groups[i].kind,
-                             std::max(before[i], nothing) / std::max(after[i], nothing),
-                             before[i] / diagonal});
+    result.groups.push_back({groups[i].kind, ratio(before[i].rms, after[i].rms),
+                             ratio(before[i].percentile95, after[i].percentile95),
+                             ratio(before[i].maximum, after[i].maximum), before[i].rms / diagonal});
   return result;
 }
 

@@ -16,6 +16,7 @@ struct GroupGain {
   enum class Kind { clip, rest, operation, range_of_motion, random };
   Kind kind = Kind::clip;
   double gain = 1;
+  double gain_of_percentile95 = 1, gain_of_maximum = 1;  ///< The same of other statistics.
   double barycentric = 0;  ///< Root mean square error, share of the diagonal.
 };
 
@@ -29,7 +30,8 @@ struct RefitGains {
 
   [[nodiscard]] double least() const;
   /// The median over the groups of a kind that have an error; 0 without any.
-  [[nodiscard]] double median(GroupGain::Kind kind) const;
+  [[nodiscard]] double median(GroupGain::Kind kind,
+                              double GroupGain::*gain = &GroupGain::gain) const;
 };
 
 /// Tears a model four times in poses of its clips, with K = 4, and fits over clips and range of

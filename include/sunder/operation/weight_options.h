@@ -59,7 +59,7 @@ struct RefitImportance {
 };
 
 /// How the policy `refit` fits weights. Over no clip, nor the rest pose, the pose of the operation,
-/// the range of motion or the given poses is a point worse than with barycentric weights.
+/// the range of motion or the given poses are an operation's points worse than barycentric ones.
 struct RefitOptions {
   PoseSetSpec poses;  ///< The poses over which errors are reduced.
   RefitImportance importance;
