@@ -87,6 +87,23 @@ Positions posed(const Character& character, const ModelPose& pose) {
   return result;
 }
 
+/// New points where they are on the posed source.
+Positions exact_positions(const Character& source, const TornModel& model, const ModelPose& pose) {
+  Positions result = posed(source, pose);
+  for (std::uint32_t m = 0; m < result.size(); ++m) {
+    const Mesh& torn = model.character().meshes[m];
+    for (auto v = static_cast<std::uint32_t>(result[m].size()); v < torn.vertex_count(); ++v) {
+      const Birth birth = model.birth(m, v);
+      const Triangle& triangle = source.meshes[m].triangles[birth.triangle];
+      Eigen::Vector3d position = Eigen::Vector3d::Zero();
+      for (int k = 0; k < 3; ++k)
+        position += birth.barycentric[k] * Eigen::Vector3d(result[m][triangle[k]].cast<double>());
+      result[m].push_back(position.cast<float>());
+    }
+  }
+  return result;
+}
+
 /// The angle between the faces of an edge, radians; none if one is too thin.
 std::optional<double> angle_across(const LipEdge& edge, const Mesh& mesh,
                                    const std::vector<Vec3f>& positions) {
@@ -149,10 +166,8 @@ std::optional<Torn> tear_rig(const std::shared_ptr<const Character>& character) 
   for (std::uint32_t clip = 0; clip < std::min<std::size_t>(clips, kMostClips); ++clip)
     for (int i = 0; i < kPosesOfClip; ++i)
       torn.poses.push_back(pose_of(clip, (i + random.uniform(0, 1)) / kPosesOfClip));
-  if (!torn.model.reweigh(weights_of(WeightPolicy::exact, torn.operations))) std::abort();
   for (const ModelPose& pose : torn.poses)
-    torn.exact.push_back(posed(torn.model.character(), pose));
-  if (!torn.model.undo()) std::abort();
+    torn.exact.push_back(exact_positions(*character, torn.model, pose));
   return torn;
 }
 

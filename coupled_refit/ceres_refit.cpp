@@ -29,6 +29,8 @@ constexpr double kLeastGain = 1e-6;
 constexpr double kLeastSum = 1e-200;
 /// A pivot below this fraction of the largest is rounding.
 constexpr double kLeastPivot = 1e-15;
+/// Places between the fit of a point alone and the common one, as shares of the way.
+constexpr double kShares[] = {1.0, 0.75, 0.5, 0.25, 0.125};
 
 /// The unknowns of a point: the square roots u of its weights, w_i = u_i^2 with |u| = 1, and the
 /// offset of its bind position.
@@ -175,6 +177,7 @@ class CoupledProblem {
   void add_restraint(std::size_t point, Eigen::MatrixXd& gram);
   [[nodiscard]] bool find_root(std::size_t point, RowMajor& root);
   [[nodiscard]] double weight_before(std::size_t point, std::uint32_t slot) const;
+  [[nodiscard]] bool take_share(std::size_t point, double share, const Eigen::Vector3d& way);
   [[nodiscard]] ceres::Manifold* sphere(int size);
 
   std::span<const PointToRefit> points_;
@@ -185,8 +188,7 @@ class CoupledProblem {
   std::vector<Unknowns> unknowns_;
   std::vector<AnimationPoint::Term> terms_, difference_;
   std::vector<double> excess_;
-  bool moves_bind_ = true;  ///< Either all points move or none, because neighbours are compared.
-  std::vector<double> of_terms_;
+  std::vector<double> of_terms_, alone_, together_;
   /// Scale of the residuals. It makes the sum of squares one with barycentric weights, so that
   /// tolerances have a meaning.
   double scale_ = 1;
@@ -211,9 +213,6 @@ CoupledProblem::CoupledProblem(std::span<const PointToRefit> points,
       moments_(moments),
       unknowns_(points.size()),
       problem_(std::make_unique<ceres::Problem>(problem_options())) {
-  moves_bind_ = options.point.moves_bind &&
-                std::all_of(points.begin(), points.end(),
-                            [](const PointToRefit& point) { return point.may_move; });
   PointRefit refit;
   std::size_t value_count = 0;
   double sum = 0;
@@ -352,7 +351,7 @@ void CoupledProblem::add_point(std::size_t point) {
   for (const Influence& influence : fit.influences)
     values_.push_back(std::sqrt(static_cast<double>(influence.weight) / sum));
   unknowns.roots = values;
-  if (moves_bind_) {
+  if (options_.point.moves_bind) {
     const Eigen::Vector3d offset = fit.position - points_[point].position;
     values_.insert(values_.end(), offset.begin(), offset.end());
     unknowns.offset = values + unknowns.count;
@@ -368,10 +367,15 @@ void CoupledProblem::add_point(std::size_t point) {
   else
     problem_->SetParameterBlockConstant(unknowns.roots);
   std::vector<double*> blocks = {unknowns.roots};
-  if (unknowns.offset != nullptr) blocks.push_back(unknowns.offset);
+  if (unknowns.offset != nullptr) {
+    blocks.push_back(unknowns.offset);
+    problem_->AddParameterBlock(unknowns.offset, 3);
+    if (!points_[point].may_move) problem_->SetParameterBlockConstant(unknowns.offset);
+  }
   parts_.point_costs.emplace_back(std::move(root), unknowns);
   problem_->AddResidualBlock(&parts_.point_costs.back(), nullptr, blocks);
-  has_unknowns_ = has_unknowns_ || blocks.size() > 1 || unknowns.count > 1;
+  has_unknowns_ = has_unknowns_ || unknowns.count > 1 ||
+                  (unknowns.offset != nullptr && points_[point].may_move);
 }
 
 void CoupledProblem::add_neighbours(std::size_t a, std::uint32_t b, double of_offset,
@@ -449,31 +453,44 @@ bool CoupledProblem::solve() {
                      [](double value) { return std::isfinite(value); });
 }
 
+/// Replaces the fit of a point alone by the common one, or by the farthest of a few places on the
+/// way to it at which no bound is exceeded.
 void CoupledProblem::take_solution() {
   for (std::size_t point = 0; point < points_.size(); ++point) {
     const Unknowns& unknowns = unknowns_[point];
     if (unknowns.count == 0) continue;
-    CoupledFit& fit = fits_[point];
     weights::centre_terms(*points_[point].exact, moments_, terms_);
-    of_terms_.assign(terms_.size(), 0.0);
+    weights::weights_of_terms(terms_, fits_[point].influences, alone_);
+    together_.assign(terms_.size(), 0.0);
     for (std::size_t i = 0; i < terms_.size(); ++i)
       if (const int k = unknowns.find(terms_[i].slot); k >= 0)
-        of_terms_[i] = unknowns.roots[k] * unknowns.roots[k];
-    weights::store_weights(terms_, of_terms_, fit.influences);
-    fit.position = points_[point].position;
+        together_[i] = unknowns.roots[k] * unknowns.roots[k];
+    Eigen::Vector3d way = Eigen::Vector3d::Zero();
     if (unknowns.offset != nullptr)
-      fit.position += Eigen::Map<const Eigen::Vector3d>(unknowns.offset);
-    weights::weights_of_terms(terms_, fit.influences, of_terms_);
-    fit.mean_square = weights::mean_square(terms_, of_terms_, fit.position - moments_.centre(),
-                                           moments_, options_.point.group, difference_);
-    weights::differences(terms_, of_terms_, fit.position - moments_.centre(), difference_);
-    fit.is_better = fit.mean_square < fit.barycentric_mean_square &&
-                    !weights::exceeds_bounds(points_[point], moments_, difference_, excess_);
-    if (fit.is_better) continue;
-    fit.influences.assign(points_[point].barycentric.begin(), points_[point].barycentric.end());
-    fit.position = points_[point].position;
-    fit.mean_square = fit.barycentric_mean_square;
+      way = points_[point].position + Eigen::Map<const Eigen::Vector3d>(unknowns.offset) -
+            Eigen::Vector3d(fits_[point].position);
+    for (const double share : kShares)
+      if (take_share(point, share, way)) break;
   }
+}
+
+/// Takes a point between its fit alone and the common one.
+/// @return false if it exceeds a bound there.
+bool CoupledProblem::take_share(std::size_t point, double share, const Eigen::Vector3d& way) {
+  CoupledFit fit = fits_[point];
+  of_terms_.resize(terms_.size());
+  for (std::size_t i = 0; i < terms_.size(); ++i)
+    of_terms_[i] = alone_[i] + share * (together_[i] - alone_[i]);
+  weights::store_weights(terms_, of_terms_, fit.influences);
+  weights::weights_of_terms(terms_, fit.influences, of_terms_);
+  fit.position += share * way;
+  weights::differences(terms_, of_terms_, fit.position - moments_.centre(), difference_);
+  fit.mean_square = moments_.mean_square(difference_, options_.point.group);
+  fit.is_better = fit.mean_square < fit.barycentric_mean_square;
+  if (!fit.is_better || weights::exceeds_bounds(points_[point], moments_, difference_, excess_))
+    return false;
+  fits_[point] = std::move(fit);
+  return true;
 }
 
 Status check(std::span<const PointToRefit> points, std::span<const RefitNeighbours> neighbours,

@@ -140,6 +140,7 @@ void SkinRefit::set_objective() {
       if (bound > kWorthwhile * rounding_[i]) sum += bound;
     }
     if (sum > 0) factors[group] = poses_->groups()[group].importance / sum;
+    square_ += factors[group];
   }
   moments_.combine(factors, groups);
 }
@@ -228,20 +229,29 @@ Status SkinRefit::fit_together() {
     if (a != kNone && (b != kNone || pair.b == kNone)) of_these.push_back({a, b, pair.length});
   }
   fits_.resize(points_.size());
+  const double smoothness = task_.operation.refit.smoothness * square_;
   std::vector<PointToRefit> together(points_.size());
-  do {
-    for (std::size_t i = 0; i < points_.size(); ++i) together[i] = to_refit(i);
-    const auto fits =
-        refit_coupled(together, of_these, {options(), task_.operation.refit.smoothness}, moments_);
+  std::vector<bool> stays(points_.size(), false);
+  bool is_done = false;
+  while (!is_done && !task_.is_cancelled) {
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      together[i] = to_refit(i);
+      together[i].may_move = together[i].may_move && !stays[i];
+    }
+    const auto fits = refit_coupled(together, of_these, {options(), smoothness}, moments_);
     if (!fits) return fits.error();
+    is_done = true;
     for (std::size_t i = 0; i < points_.size(); ++i) {
       const CoupledFit& fit = (*fits)[i];
-      const bool stays = norm(fit.position - together[i].position) > task_.points[points_[i]].reach;
-      take(i, {points_[i],
-               fit.is_better && !stays && gains(i, fit.mean_square, fit.barycentric_mean_square),
+      if (norm(fit.position - together[i].position) > task_.points[points_[i]].reach) {
+        stays[i] = true;
+        is_done = false;
+      }
+      take(i, {points_[i], fit.is_better && gains(i, fit.mean_square, fit.barycentric_mean_square),
                fit.influences, fit.position});
     }
-  } while (!bounds_.tighten().empty() && !task_.is_cancelled);
+    is_done = is_done && bounds_.tighten().empty();
+  }
   return {};
 }
 

@@ -50,6 +50,7 @@ class SkinRefit {
   std::optional<RefitPoses> poses_;
   std::map<Index, PoseMoments> own_;  ///< Per operation: the poses in which it was made.
   RefitBounds bounds_;  ///< Over each group of poses, and last over those of the operation.
+  double square_ = 0;   ///< What a square metre over all groups adds to the sum that is minimised.
   std::vector<double> rounding_;  ///< Per point, posed, square metres; the most of all groups.
   /// Memory of measure().
   struct Scratch {

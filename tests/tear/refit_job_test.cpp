@@ -193,9 +193,15 @@ TEST(RefitJob, fits_neighbours_together) {
              of_coupled = measure_weight_errors(coupled.model, 0, 2, poses);
   ASSERT_TRUE(before && of_single && of_coupled);
   EXPECT_LT(of_coupled->metres.rms, before->metres.rms);
-  EXPECT_GT(of_coupled->metres.rms, of_single->metres.rms * 0.999);
-  for (std::size_t i = 0; i < before->points.size(); ++i)
-    EXPECT_LE(of_coupled->points[i].rms, before->points[i].rms + 1e-7);
+  EXPECT_NEAR(of_coupled->metres.rms, of_single->metres.rms, 0.05 * of_single->metres.rms);
+  Torn stiff(8);
+  wanted.refit.smoothness = 10;
+  ASSERT_TRUE(stiff.model.reweigh(wanted));
+  const auto of_stiff = measure_weight_errors(stiff.model, 0, 2, poses);
+  ASSERT_TRUE(of_stiff);
+  EXPECT_GT(of_stiff->metres.rms, 1.02 * of_coupled->metres.rms) << "little may change";
+  EXPECT_LE(of_stiff->metres.rms, before->metres.rms);
+  wanted.refit.smoothness = RefitOptions{}.smoothness;
   EXPECT_EQ(test::broken_laws(coupled.model), std::vector<std::string>());
   auto again = TornModel::create(coupled.source);
   for (const Operation& operation : *coupled.model.history())
