@@ -1,0 +1,30 @@
+#pragma once
+
+#include <sunder/operation/operation.h>
+
+#include <string>
+
+#include "tools/posed_model.h"
+#include "tools/report.h"
+
+namespace sunder::tools {
+
+/// How an operation passed the surface by.
+struct Miss {
+  /// Between the posed surface and the sweep of the blade, the plane within its bounds, or the axis
+  /// of the bore; metres.
+  double distance = 0.0;
+  Bounds bounds;      ///< Of the posed surface.
+  std::string cause;  ///< What would meet the surface; empty if there is no evidence.
+};
+
+/// Measures a miss and looks for its cause: another unit, another pose, blades that point away or
+/// end too early. O(faces) per attempt; at most about forty.
+/// @param operation  a tear, cut or bore that met no surface of the character.
+[[nodiscard]] Result<Miss> explain_miss(const Operation& operation, const Character& character);
+
+/// "the blade passes 8.3 m from the surface, which spans … in this pose; …".
+[[nodiscard]] std::string miss_text(const Operation& operation, const Miss& miss);
+[[nodiscard]] Json to_json(const Miss& miss);
+
+}  // namespace sunder::tools
