@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <optional>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -125,6 +124,14 @@ Result<std::string> pose_advice(const Operation& operation, const Character& cha
   return std::string();
 }
 
+bool has_retired(const TornModel& model) {
+  for (std::size_t m = 0; m < model.source().meshes.size(); ++m) {
+    const auto& triangles = model.character().meshes[m].triangles;
+    if (std::ranges::any_of(triangles, is_retired)) return true;
+  }
+  return false;
+}
+
 const char* what_passes(const Operation& operation) {
   if (std::holds_alternative<TearOperation>(operation)) return "the blade passes";
   if (const auto* const cut = std::get_if<CutOperation>(&operation))
@@ -134,36 +141,45 @@ const char* what_passes(const Operation& operation) {
 
 }  // namespace
 
-Result<Miss> explain_miss(const Operation& operation, const Character& character) {
+Result<Miss> measure_miss(const Operation& operation, const TornModel& model, PosedSource& source) {
   Miss miss;
   miss.distance = std::numeric_limits<double>::infinity();
-  std::optional<PosedSurface> first;
+  const bool is_whole = !has_retired(model);
   for (const Reach& reach : reaches_of(operation)) {
-    const Result<ModelPose> pose = make_pose(character, reach.pose);
+    const Result<ModelPose> pose = make_pose(model.source(), reach.pose);
     if (!pose) return pose.error();
-    Result<PosedSurface> surface = pose_surface(character, *pose);
-    if (!surface) return surface.error();
-    miss.distance = std::min(miss.distance, distance_between(*surface, reach));
-    if (!first) first = std::move(*surface);
+    PosedSurface torn;
+    if (!is_whole) {
+      Result<PosedSurface> surface = pose_surface(model.character(), *pose);
+      if (!surface) return surface.error();
+      torn = std::move(*surface);
+    }
+    const Result<const PosedSurface*> whole = is_whole ? source.in(*pose) : &torn;
+    if (!whole) return whole.error();
+    const double distance = distance_between(**whole, reach);
+    if (distance < miss.distance || miss.bounds.is_empty()) miss.bounds = (*whole)->bounds;
+    miss.distance = std::min(miss.distance, distance);
   }
-  if (!first || first->triangles.empty()) {
-    miss.cause = "the model has no surface left";
-    return miss;
-  }
-  miss.bounds = first->bounds;
-  if (miss.distance == 0) return miss;
-  miss.cause = unit_advice(operation, *first, miss.distance);
-  if (miss.cause.empty()) {
-    const Result<std::string> pose = pose_advice(operation, character, *first);
-    if (!pose) return pose.error();
-    miss.cause = *pose;
-  }
-  if (miss.cause.empty()) miss.cause = direction_advice(operation, *first, miss.distance);
   return miss;
 }
 
+Result<std::string> cause_of_miss(const Operation& operation, const Miss& miss,
+                                  const Character& character) {
+  if (miss.bounds.is_empty()) return std::string("the model has no surface left");
+  if (miss.distance == 0) return std::string();
+  const Result<ModelPose> pose = make_pose(character, reaches_of(operation).front().pose);
+  if (!pose) return pose.error();
+  const Result<PosedSurface> surface = pose_surface(character, *pose);
+  if (!surface) return surface.error();
+  std::string cause = unit_advice(operation, *surface, miss.distance);
+  if (!cause.empty()) return cause;
+  Result<std::string> other_pose = pose_advice(operation, character, *surface);
+  if (!other_pose || !other_pose->empty()) return other_pose;
+  return direction_advice(operation, *surface, miss.distance);
+}
+
 std::string miss_text(const Operation& operation, const Miss& miss) {
-  if (miss.bounds.least.x() > miss.bounds.greatest.x()) return miss.cause;
+  if (miss.bounds.is_empty()) return miss.cause;
   std::string text =
       miss.distance > 0
           ? printed("%s %.4g m from the surface", what_passes(operation), miss.distance)
@@ -174,10 +190,12 @@ std::string miss_text(const Operation& operation, const Miss& miss) {
 }
 
 Json to_json(const Miss& miss) {
-  Json json = {{"distance", miss.distance}};
+  Json json = Json::object();
+  json["cause"] = miss.cause.empty() ? Json() : Json(miss.cause);
+  if (miss.bounds.is_empty()) return json;
+  json["distance"] = miss.distance;
   json["bounds"] = {{"min", vector_json(miss.bounds.least)},
                     {"max", vector_json(miss.bounds.greatest)}};
-  json["cause"] = miss.cause.empty() ? Json() : Json(miss.cause);
   return json;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 namespace sunder::tools {
 namespace {
@@ -17,6 +18,11 @@ Bounds bounds_of(const Corners& corners) {
     bounds.greatest = bounds.greatest.cwiseMax(corner);
   }
   return bounds;
+}
+
+void extend(Bounds& bounds, const Bounds& other) {
+  bounds.least = bounds.least.cwiseMin(other.least);
+  bounds.greatest = bounds.greatest.cwiseMax(other.greatest);
 }
 
 /// A lower bound of the distance between what two boxes hold.
@@ -74,6 +80,20 @@ bool pierces(const Corners& edges_of, const Corners& triangle) {
   return false;
 }
 
+/// The distance between a shape and one run of a surface, if that is below `least`.
+double distance_within(const PosedSurface& surface, std::size_t run, const Corners& part,
+                       double least) {
+  const Bounds box = bounds_of(part);
+  const std::size_t begin = run * PosedSurface::kRun,
+                    end = std::min(begin + PosedSurface::kRun, surface.triangles.size());
+  for (std::size_t i = begin; i < end; ++i) {
+    const Corners& triangle = surface.triangles[i];
+    if (distance_between(box, bounds_of(triangle)) < least)
+      least = std::min(least, tools::distance_between(part, triangle));
+  }
+  return least;
+}
+
 /// The solid angle of a triangle, divided by 4 pi; van Oosterom and Strackee 1983.
 double winding_of(const Corners& triangle, const Vec3d& point) {
   const Vec3d a = triangle[0] - point, b = triangle[1] - point, c = triangle[2] - point;
@@ -98,12 +118,12 @@ Result<PosedSurface> pose_surface(const Character& character, const ModelPose& p
       if (is_retired(triangle)) continue;
       Corners corners;
       for (std::size_t i = 0; i < 3; ++i) corners[i] = posed.positions[triangle[i]].cast<double>();
+      if (surface.triangles.size() % PosedSurface::kRun == 0) surface.run_bounds.emplace_back();
       surface.triangles.push_back(corners);
-      const Bounds bounds = bounds_of(corners);
-      surface.bounds.least = surface.bounds.least.cwiseMin(bounds.least);
-      surface.bounds.greatest = surface.bounds.greatest.cwiseMax(bounds.greatest);
+      extend(surface.run_bounds.back(), bounds_of(corners));
     }
   }
+  for (const Bounds& bounds : surface.run_bounds) extend(surface.bounds, bounds);
   return surface;
 }
 
@@ -121,12 +141,18 @@ double distance_between(const Corners& a, const Corners& b) {
 double distance_between(const PosedSurface& surface, std::span<const Corners> shape,
                         double enough) {
   double least = kInfinite;
+  std::vector<std::pair<double, std::size_t>> runs;  // by lower bounds of their distances
   for (const Corners& part : shape) {
     const Bounds box = bounds_of(part);
-    if (distance_between(box, surface.bounds) >= least) continue;
-    for (const Corners& triangle : surface.triangles) {
-      if (distance_between(box, bounds_of(triangle)) >= least) continue;
-      least = std::min(least, distance_between(part, triangle));
+    runs.clear();
+    for (std::size_t i = 0; i < surface.run_bounds.size(); ++i) {
+      const double bound = distance_between(box, surface.run_bounds[i]);
+      if (bound < least) runs.emplace_back(bound, i);
+    }
+    std::ranges::sort(runs);
+    for (const auto& [bound, run] : runs) {
+      if (bound >= least) break;
+      least = std::min(least, distance_within(surface, run, part, least));
       if (least <= enough) return least;
     }
   }

@@ -16,7 +16,10 @@ using Corners = std::array<Vec3d, 3>;
 
 /// The triangles of all meshes of a character in a pose, model space; without retired ones.
 struct PosedSurface {
+  static constexpr std::size_t kRun = 64;  ///< Triangles per entry of `run_bounds`.
+
   std::vector<Corners> triangles;
+  std::vector<Bounds> run_bounds;  ///< Of successive triangles, which are mostly neighbours.
   Bounds bounds;
 };
 [[nodiscard]] Result<PosedSurface> pose_surface(const Character& character, const ModelPose& pose);
@@ -25,7 +28,7 @@ struct PosedSurface {
 [[nodiscard]] double distance_between(const Corners& a, const Corners& b);
 
 /// The least distance between a surface and some triangles; infinite if there are none. The search
-/// ends at a distance of at most `enough`. O(product of the numbers of triangles).
+/// ends at a distance of at most `enough`. At most O(product of the numbers of triangles).
 [[nodiscard]] double distance_between(const PosedSurface& surface, std::span<const Corners> shape,
                                       double enough = 0.0);
 

@@ -11,13 +11,6 @@
 namespace sunder::tools {
 namespace {
 
-bool is_same(const ModelPose& a, const ModelPose& b) {
-  return a.morph_weights == b.morph_weights &&
-         std::ranges::equal(
-             a.model_from_bone, b.model_from_bone,
-             [](const Affine3d& x, const Affine3d& y) { return x.matrix() == y.matrix(); });
-}
-
 const Clip* clip_of(const ClipPose& pose, const Character& character) {
   if (const auto* const index = std::get_if<std::uint32_t>(&pose.clip))
     return *index < character.clips.size() ? &character.clips[*index] : nullptr;
@@ -61,15 +54,6 @@ std::optional<double> width_at(const PosedSurface& surface, const Stroke& stroke
 }
 
 }  // namespace
-
-Result<const PosedSurface*> PosedSource::in(const ModelPose& pose) {
-  if (surface_ && is_same(pose_, pose)) return &*surface_;
-  Result<PosedSurface> surface = pose_surface(*source_, pose);
-  if (!surface) return surface.error();
-  surface_ = std::move(*surface);
-  pose_ = pose;
-  return &*surface_;
-}
 
 std::vector<std::string> time_warnings(const Operation& operation, const Character& character) {
   std::vector<std::string> warnings;

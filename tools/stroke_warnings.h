@@ -3,31 +3,15 @@
 #include <sunder/core/character.h>
 #include <sunder/operation/operation.h>
 
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "tools/posed_source.h"
 #include "tools/posed_surface.h"
 #include "tools/torn_place.h"
 
 namespace sunder::tools {
-
-/// The surface of an untorn source in the pose asked for last, kept because successive operations
-/// often share their pose.
-class PosedSource {
- public:
-  explicit PosedSource(std::shared_ptr<const Character> source) : source_(std::move(source)) {}
-
-  [[nodiscard]] const Character& character() const { return *source_; }
-  /// Valid until the next call. O(vertices) in a new pose, O(bones) in the same.
-  Result<const PosedSurface*> in(const ModelPose& pose);
-
- private:
-  std::shared_ptr<const Character> source_;
-  ModelPose pose_;
-  std::optional<PosedSurface> surface_;
-};
 
 /// Faults of an operation that is valid: a time beyond its clip.
 [[nodiscard]] std::vector<std::string> time_warnings(const Operation& operation,

@@ -46,6 +46,11 @@ Result<Weighing> choose_weighing(const TearRequest& request,
   if (*request.weights != WeightPolicy::exact)
     weighing.options.maximum_influences = request.save.maximum_influences;
   if (*request.weights != WeightPolicy::refit) return weighing;
+  if (request.refit_over)
+    for (const RefitImportance::OfClip& of : request.refit_over->importance.of_clip)
+      if (std::ranges::find(character->clips, of.clip, &Clip::name) == character->clips.end())
+        return Status::failure(StatusCode::not_found, kNone, "no clip is named '%.100s'",
+                               of.clip.c_str());
   auto refit = choose_refit(*character, request.refit_over);
   if (!refit) return refit.error();
   weighing.refit = std::move(*refit);

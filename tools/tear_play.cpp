@@ -11,6 +11,7 @@
 #include "tools/miss.h"
 #include "tools/named_poses.h"
 #include "tools/operation_line.h"
+#include "tools/stroke_warnings.h"
 #include "tools/value_of.h"
 
 namespace sunder::tools {
@@ -18,6 +19,9 @@ namespace {
 
 /// The operations whose weight errors are measured, at most; each takes O(vertices of the source).
 constexpr std::size_t kMostMeasured = 100;
+
+/// The misses for whose cause is looked, at most; each takes some forty attempts.
+constexpr std::size_t kMostExplained = 3;
 
 /// An operation that was applied, and where.
 struct Played {
@@ -49,8 +53,13 @@ Status describe(const Played& played, TearRun& run) {
 
 /// Says by how much an operation missed, and adds that to its report.
 Status describe_miss(const Played& played, TearRun& run, Json& report) {
-  const Result<Miss> miss = explain_miss(played.operation, run.model.character());
+  Result<Miss> miss = measure_miss(played.operation, run.model, run.posed_source);
   if (!miss) return miss.error();
+  if (run.totals.missed <= kMostExplained) {
+    const Result<std::string> cause = cause_of_miss(played.operation, *miss, run.model.character());
+    if (!cause) return cause.error();
+    miss->cause = *cause;
+  }
   run.messages.warn(played.place + ": " + played.outcome.op +
                     " missed: " + miss_text(played.operation, *miss));
   report["miss"] = to_json(*miss);

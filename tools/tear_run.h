@@ -8,8 +8,8 @@
 
 #include "tools/certified_weights.h"
 #include "tools/messages.h"
+#include "tools/posed_source.h"
 #include "tools/report.h"
-#include "tools/stroke_warnings.h"
 #include "tools/verbs.h"
 
 namespace sunder::tools {

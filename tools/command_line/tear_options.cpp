@@ -31,11 +31,13 @@ void add_weight_policy(CLI::App& verb, TearRequest& request) {
             request.refit_over = *options;
           },
           "Poses to fit over, with --weights refit: clips, clips:NAME=FACTOR, range_of_motion, "
-          "separated by commas; default: clips,range_of_motion, or what the model has")
-      ->type_name("POSES");
+          "separated by commas")
+      ->type_name("POSES")
+      ->default_str("clips,range_of_motion, or what the model has");
   verb.add_option("--refit-bound", request.refit_bound,
                   "Largest growth of the certified worst deviation by a refit; 0: any")
       ->check(CLI::Range(0.0, 1e9))
+      ->type_name("FACTOR")
       ->capture_default_str();
 }
 
@@ -53,7 +55,8 @@ void check_weight_policy(const CLI::App& verb, const TearRequest& request) {
 void add_report_options(CLI::App& verb, TearRequest& request) {
   CLI::Option* const report =
       verb.add_option("--report", request.report,
-                      "File for the JSON report; -: stdout. Default: none, a summary on stdout");
+                      "File for the JSON report; -: stdout. without it, a summary goes to stdout")
+          ->type_name("FILE");
   verb.add_flag("--weight-errors", request.weight_errors,
                 "Measure for the report how far new points are from the untorn surface, on a "
                 "sample of points and poses")
@@ -76,25 +79,32 @@ void add_report_options(CLI::App& verb, TearRequest& request) {
 CLI::App* add_tear(CLI::App& app, TearRequest& request) {
   CLI::App* const verb = app.add_subcommand(
       "tear", "Apply a list of tears, cuts and bores to a model and save it as GLB");
-  verb->add_option("MODEL", request.model, "Model file, as for `sunder info`")->required();
+  verb->add_option("MODEL", request.model, "Model file, as for `sunder info`")
+      ->type_name("FILE")
+      ->required();
   verb->add_option(
           "--ops", request.operations,
           "Operation log, JSON: the tears, cuts and bores to apply; see docs/operation_log.md")
+      ->type_name("FILE")
       ->required();
-  verb->add_option("-o,--output", request.output, "File for the torn model, GLB");
+  verb->add_option("-o,--output", request.output, "File for the torn model, GLB")
+      ->type_name("FILE");
   verb->add_option("--influences", request.save.maximum_influences,
-                   "Influences written per vertex: the 4 or 8 largest, renormalised; default: all")
-      ->check(CLI::IsMember({4, 8}));
+                   "Influences written per vertex: the 4 or 8 largest, renormalised")
+      ->check(CLI::IsMember({4, 8}))
+      ->default_str("all");
   add_weights_as(*verb, request.save);
   add_weight_policy(*verb, request);
   add_maximum_error(*verb, request.maximum_error);
   add_report_options(*verb, request);
   verb->add_option("--picture", request.picture,
                    "File for a picture (PNG) of the torn model, with lips and pieces pulled apart; "
-                   "needs f3d and Xvfb");
+                   "needs f3d and Xvfb")
+      ->type_name("FILE");
   verb->add_option(
-      "--save-log", request.log,
-      "File for the operation log of what was applied and not undone, with all bone matrices");
+          "--save-log", request.log,
+          "File for the operation log of what was applied and not undone, with all bone matrices")
+      ->type_name("FILE");
   verb->add_flag("--dry-run", request.dry_run,
                  "Apply and describe the operations, but write no files");
   verb->add_flag("--force", request.force, "Outputs may overwrite the model or the log");
