@@ -56,8 +56,17 @@ std::vector<Vec3d> read_bounds(const Place& place) {
   return corners;
 }
 
+std::vector<Vec3d> read_sections(const Place& place) {
+  const std::size_t count = read_array(place, "an array of points").size();
+  if (count == 0) place.malformed("sections need at least one place; without them all are cut");
+  std::vector<Vec3d> places;
+  places.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) places.push_back(read_vector<3>(place.at(i)));
+  return places;
+}
+
 CutOperation read_cut(const Place& place) {
-  place.check_fields({"op", "pose", "plane", "bounds", "caps", "weights"});
+  place.check_fields({"op", "pose", "plane", "bounds", "caps", "sections", "weights"});
   CutOperation operation;
   read_if_given(place, "pose", read_pose, operation.pose);
   const Place plane = place.at("plane");
@@ -66,6 +75,7 @@ CutOperation read_cut(const Place& place) {
   operation.cut.normal = read_direction(plane.at("normal"), "normal");
   read_if_given(place, "bounds", read_bounds, operation.cut.bounds);
   read_if_given(place, "caps", read_bool, operation.cut.caps);
+  read_if_given(place, "sections", read_sections, operation.cut.sections);
   read_if_given(place, "weights", read_weight_options, operation.cut.weights);
   return operation;
 }
