@@ -2,20 +2,12 @@
 
 #include <utility>
 
+#include "io/operation_log/read_aimed.h"
 #include "io/operation_log/read_pose.h"
 #include "io/operation_log/read_weights.h"
 
 namespace sunder::operation_log {
 namespace {
-
-Layers read_layers(const Place& place) {
-  const std::string name = read_name(place);
-  if (name == "all") return Layers::all;
-  if (name != "nearest")
-    place.fail(StatusCode::unsupported_feature,
-               "unknown layers '" + name + "'; expected 'nearest' or 'all'");
-  return Layers::nearest;
-}
 
 void read_stroke(const Place& place, TearOperation& tear) {
   const std::size_t count = read_array(place, "an array of blades").size();
@@ -106,23 +98,37 @@ UndoOrRedo read_steps(const Place& place) {
   return operation;
 }
 
-Operation read_operation(const Place& place) {
+std::string read_kind(const Place& place) {
   if (!place.value.is_object()) place.expected("an object");
-  const Place kind = place.at("op");
-  const std::string name = read_name(kind);
+  return read_name(place.at("op"));
+}
+
+Operation read_operation(const Place& place) {
+  const std::string name = read_kind(place);
   if (name == "tear") return read_tear(place);
   if (name == "cut") return read_cut(place);
   if (name == "drill") return read_drill(place);
   if (name == "weights") return read_weights(place);
   if (name == "undo") return read_steps<UndoOperation>(place);
   if (name == "redo") return read_steps<RedoOperation>(place);
-  kind.fail(StatusCode::unsupported_feature,
-            "unknown operation '" + name + "'; expected tear, cut, drill, weights, undo or redo");
+  if (is_aimed(name))
+    place.at("op").fail(
+        StatusCode::unsupported_feature,
+        "'" + name + "' needs a model to be resolved; only plain operations are read here");
+  place.at("op").fail(
+      StatusCode::unsupported_feature,
+      "unknown operation '" + name + "'; expected tear, cut, drill, weights, undo or redo");
 }
 
-}  // namespace
+LoggedOperation read_logged_operation(const Place& place) {
+  const std::string name = read_kind(place);
+  if (is_aimed(name)) return read_aimed(place, name);
+  return read_operation(place);
+}
 
-std::vector<Operation> read_log(const Json& log) {
+/// Reads all entries of a log. @param read  reads one.
+template <class Read>
+auto read_entries(const Json& log, Read read) {
   const Place root{log, ""};
   if (!log.is_object()) root.expected("an object");
   // The version is checked first, so that a log of another version is reported as such.
@@ -134,14 +140,31 @@ std::vector<Operation> read_log(const Json& log) {
   root.check_fields({"sunder_operations", "operations"});
 
   const Place list = root.at("operations");
-  std::vector<Operation> operations;
-  operations.reserve(read_array(list, "an array").size());
+  std::vector<decltype(read(list))> entries;
+  entries.reserve(read_array(list, "an array").size());
   for (std::size_t i = 0; i < list.value.size(); ++i) {
     Place one = list.at(i);
     one.operation = static_cast<std::uint32_t>(i);
-    operations.push_back(read_operation(one));
+    entries.push_back(read(one));
   }
-  return operations;
+  return entries;
+}
+
+}  // namespace
+
+Layers read_layers(const Place& place) {
+  const std::string name = read_name(place);
+  if (name == "all") return Layers::all;
+  if (name != "nearest")
+    place.fail(StatusCode::unsupported_feature,
+               "unknown layers '" + name + "'; expected 'nearest' or 'all'");
+  return Layers::nearest;
+}
+
+std::vector<Operation> read_log(const Json& log) { return read_entries(log, read_operation); }
+
+std::vector<LoggedOperation> read_aimed_log(const Json& log) {
+  return read_entries(log, read_logged_operation);
 }
 
 }  // namespace sunder::operation_log

@@ -42,7 +42,7 @@ using View = std::variant<ViewSide, ViewDirection>;
 struct LimbPlace {
   /// The bone's name. A name without its namespace or prefix ("LeftArm" for "mixamorig:LeftArm")
   /// counts if only one bone has it.
-  std::string bone;
+  std::string bone = {};
   /// Share of the bone's length: 0 at its joint, 1 at the joint it leads to.
   double at = 0.5;
 
@@ -51,19 +51,19 @@ struct LimbPlace {
 
 /// A straight stroke on the near side of a limb, `{"op": "slash"}` in a log.
 struct SlashOperation {
-  PoseSpec pose;
-  LimbPlace place;
+  PoseSpec pose = {};
+  LimbPlace place = {};
   View from = ViewSide::front;
   AimedLength length = {0.6, AimedLength::Unit::widths};
   double turn = 0.0;  ///< Radians about the view, counter-clockwise as seen; 0: across the limb.
   /// Reach of the blade below the near surface. If empty: the middle of the limb.
   std::optional<AimedLength> depth = {};
-  TearOptions options;
+  TearOptions options = {};
 };
 
 /// A cut through a limb and nothing else, `{"op": "sever"}` in a log.
 struct SeverOperation {
-  PoseSpec pose;
+  PoseSpec pose = {};
   LimbPlace place = {{}, 0.0};
   double tilt = 0.0;            ///< Radians, by which the plane's normal leans towards `from`.
   View from = ViewSide::front;  ///< Counts only with a tilt.
@@ -73,8 +73,8 @@ struct SeverOperation {
 
 /// A bore into or through a limb, `{"op": "puncture"}` in a log.
 struct PunctureOperation {
-  PoseSpec pose;
-  LimbPlace place;
+  PoseSpec pose = {};
+  LimbPlace place = {};
   View from = ViewSide::front;
   AimedLength radius = {0.1, AimedLength::Unit::widths};
   bool is_through = false;  ///< Out at the back of the limb.
@@ -96,10 +96,10 @@ struct SurfacePlace {
 
 /// A stroke along the surface through given places, `{"op": "incision"}` in a log.
 struct IncisionOperation {
-  PoseSpec pose;
-  std::vector<SurfacePlace> points;  ///< At least two.
-  double depth = 0.005;              ///< Reach of the blade below the surface, metres; > 0.
-  TearOptions options;
+  PoseSpec pose = {};
+  std::vector<SurfacePlace> points = {};  ///< At least two.
+  double depth = 0.005;                   ///< Reach of the blade below the surface, metres; > 0.
+  TearOptions options = {};
 };
 
 using AimedOperation =
