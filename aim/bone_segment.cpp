@@ -3,8 +3,8 @@
 #include <sunder/skinning/pose.h>
 
 #include <algorithm>
+#include <vector>
 
-#include "aim/limb_bones.h"
 #include "core/internal/ordered.h"
 
 namespace sunder::aim {
@@ -23,14 +23,14 @@ constexpr double kAroundJointExtents = 0.1;
 /// every pose.
 class Joints {
  public:
-  Joints(const Character& character, const ModelPose& pose, double size)
-      : bones_(character.skeleton.bones), pose_(pose), least_(kSameJointSizes * size) {}
+  Joints(const BoneTree& tree, const ModelPose& pose, double size)
+      : tree_(tree), pose_(pose), least_(kSameJointSizes * size) {}
 
   [[nodiscard]] Vec3d at(Index bone) const { return pose_.model_from_bone[bone].translation(); }
 
   /// The direction in which the chain above arrives at a bone; zero at the first joint.
   [[nodiscard]] Vec3d arrival(Index bone) const {
-    for (Index parent = bones_[bone].parent; parent != kNone; parent = bones_[parent].parent) {
+    for (Index parent = tree_.parent(bone); parent != kNone; parent = tree_.parent(parent)) {
       const Vec3d way = at(bone) - at(parent);
       if (norm(way) > least_) return way / norm(way);
     }
@@ -39,21 +39,18 @@ class Joints {
 
   /// The children of a bone, with those of children that lie at its own joint.
   [[nodiscard]] std::vector<Index> next_joints(Index bone) const {
-    std::vector<Index> next;
-    std::vector<bool> is_here(bones_.size(), false);
-    is_here[bone] = true;
-    for (Index i = bone + 1; i < bones_.size(); ++i) {
-      if (bones_[i].parent == kNone || !is_here[bones_[i].parent]) continue;
-      if (norm(at(i) - at(bone)) > least_)
-        next.push_back(i);
-      else
-        is_here[i] = true;
+    std::vector<Index> next, here = {bone};
+    while (!here.empty()) {
+      const Index top = here.back();
+      here.pop_back();
+      for (const Index child : tree_.children(top))
+        (norm(at(child) - at(bone)) > least_ ? next : here).push_back(child);
     }
     return next;
   }
 
  private:
-  const std::vector<Bone>& bones_;
+  const BoneTree& tree_;
   const ModelPose& pose_;
   double least_;
 };
@@ -65,13 +62,14 @@ struct Moved {
   std::vector<Index> points;
 };
 
-Moved points_of(const PosedSurface& surface, Index bone) {
+Moved points_of(const PosedSurface& surface, const std::vector<Index>& own) {
   Moved moved;
+  const Vec3d joint = surface.joint(own.front());
   std::vector<double> weights(surface.surface().point_count(), 0.0);
   double largest = 0;
   for (Index point = 0; point < weights.size(); ++point) {
     for_each_influence(surface, point, [&](Index of, double weight) {
-      if (of == bone) weights[point] += weight;
+      if (std::find(own.begin(), own.end(), of) != own.end()) weights[point] += weight;
     });
     largest = std::max(largest, weights[point]);
   }
@@ -79,22 +77,30 @@ Moved points_of(const PosedSurface& surface, Index bone) {
     if (!(weights[point] >= 0.5 * largest) || !(weights[point] > 0)) continue;
     moved.points.push_back(point);
     moved.middle += surface.position(point);
-    moved.extent = std::max(moved.extent, norm(surface.position(point) - surface.joint(bone)));
+    moved.extent = std::max(moved.extent, norm(surface.position(point) - joint));
   }
   if (!moved.points.empty()) moved.middle /= static_cast<double>(moved.points.size());
   return moved;
 }
 
+/// The weights of a bone and all below it.
+double weight_below(const BoneTree& tree, Index bone) {
+  double sum = tree.weight(bone);
+  for (const Index child : tree.children(bone)) sum += weight_below(tree, child);
+  return sum;
+}
+
 /// The child that continues the direction of the chain best; kNone if none continues it.
-Index next_bone(const Joints& joints, const std::vector<double>& below, Index bone,
+Index next_bone(const Joints& joints, const BoneTree& tree, Index bone,
                 const Vec3d& own_direction) {
   const std::vector<Index> children = joints.next_joints(bone);
   if (children.empty()) return kNone;
   Vec3d ahead = joints.arrival(bone);
   if (ahead == Vec3d::Zero()) ahead = own_direction;
   if (ahead == Vec3d::Zero())  // a root without a direction: towards most of the model
-    return *std::max_element(children.begin(), children.end(),
-                             [&](Index a, Index b) { return below[a] < below[b]; });
+    return *std::max_element(children.begin(), children.end(), [&](Index a, Index b) {
+      return weight_below(tree, a) < weight_below(tree, b);
+    });
   Index best = kNone;
   double best_cosine = children.size() == 1 ? kLeastCosineOfOne : kLeastCosineOfSeveral;
   for (const Index child : children) {
@@ -121,39 +127,28 @@ Vec3d end_of_moved(const PosedSurface& surface, const Moved& moved, const Vec3d&
   return start + length * direction;
 }
 
-/// Per bone, the weights of its subtree.
-std::vector<double> sums_below(const std::vector<Bone>& bones, std::vector<double> weights) {
-  for (std::size_t i = bones.size(); i-- > 0;)
-    if (bones[i].parent != kNone) weights[bones[i].parent] += weights[i];
-  return weights;
-}
-
 }  // namespace
 
 Vec3d BoneSegment::direction() const { return (end - start) / norm(end - start); }
 double BoneSegment::length() const { return norm(end - start); }
 
-Result<BoneSegment> bone_segment(const PosedSurface& surface, const std::vector<double>& weights,
-                                 Index bone) {
+Result<BoneSegment> bone_segment(const PosedSurface& surface, const BoneTree& tree, Index bone) {
   const Character& character = surface.character();
-  const auto& bones = character.skeleton.bones;
-  const char* const name = bones[bone].name.c_str();
-  if (!(weights[bone] > 0))
+  const char* const name = character.skeleton.bones[bone].name.c_str();
+  const Moved moved = points_of(surface, tree.same_bones(character.skeleton, bone));
+  if (moved.points.empty())
     return Status::failure(StatusCode::not_found, bone,
                            "the bone '%.60s' moves no vertex of the model", name);
   const Result<ModelPose> bind = bind_pose(character);
   if (!bind) return bind.error();
-  const Moved moved = points_of(surface, bone);
   const Vec3d start = surface.joint(bone);
-  const Joints at_bind(character, *bind, surface.size()),
-      in_pose(character, surface.pose(), surface.size());
+  const Joints at_bind(tree, *bind, surface.size()), in_pose(tree, surface.pose(), surface.size());
   // The root's own direction is that of what it moves, unless that lies around its joint.
   Vec3d own = moved.middle - start;
-  own = norm(own) < kAroundJointExtents * moved.extent ? Vec3d(Vec3d::Zero())
-                                                       : Vec3d(own / norm(own));
+  own = norm(own) < kAroundJointExtents * moved.extent ? Vec3d(Vec3d::Zero()) : normalized(own);
   BoneSegment segment;
   segment.start = start;
-  segment.next = next_bone(at_bind, sums_below(bones, weights), bone, own);
+  segment.next = next_bone(at_bind, tree, bone, own);
   segment.end = segment.next != kNone ? surface.joint(segment.next)
                                       : end_of_moved(surface, moved, start, in_pose.arrival(bone));
   if (!(segment.length() > kSameJointSizes * surface.size()))

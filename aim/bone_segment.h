@@ -1,7 +1,6 @@
 #pragma once
 
-#include <vector>
-
+#include "aim/bone_tree.h"
 #include "aim/posed_surface.h"
 
 namespace sunder::aim {
@@ -17,9 +16,8 @@ struct BoneSegment {
   [[nodiscard]] Vec3d place(double share) const { return start + share * (end - start); }
 };
 
-/// @param weights  of bone_weights().
 /// @return not_found if the bone moves nothing; invalid_argument if it has no length.
-[[nodiscard]] Result<BoneSegment> bone_segment(const PosedSurface& surface,
-                                               const std::vector<double>& weights, Index bone);
+[[nodiscard]] Result<BoneSegment> bone_segment(const PosedSurface& surface, const BoneTree& tree,
+                                               Index bone);
 
 }  // namespace sunder::aim

@@ -15,13 +15,13 @@ Result<Limb> find_limb(const PosedSurface& surface, const LimbPlace& place) {
     return Status::failure(StatusCode::invalid_argument, *bone,
                            "'%.60s' at %g: expected a share of the bone from 0 to 1",
                            place.bone.c_str(), place.at);
-  const std::vector<double> weights = bone_weights(surface);
-  const Result<BoneSegment> segment = bone_segment(surface, weights, *bone);
+  const BoneTree tree(surface);
+  const Result<BoneSegment> segment = bone_segment(surface, tree, *bone);
   if (!segment) return segment.error();
   char share[32];
   std::snprintf(share, sizeof share, " at %.3g", place.at);
   return Limb{surface,
-              LimbBones(surface, weights, *bone),
+              LimbBones(surface, tree, *bone),
               *segment,
               place.at,
               segment->place(place.at),

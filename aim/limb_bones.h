@@ -3,15 +3,16 @@
 #include <array>
 #include <vector>
 
+#include "aim/bone_tree.h"
 #include "aim/posed_surface.h"
 
 namespace sunder::aim {
 
 /// What a bone is to a limb.
 enum class BoneRole : std::uint8_t {
-  own,     ///< The bone that the limb is named after.
+  own,     ///< The bone that the limb is named after, see BoneTree::same_bones().
   below,   ///< In the subtree of that bone.
-  parent,  ///< The parent of that bone, if it moves a vertex; otherwise the next one that does.
+  parent,  ///< The nearest bone above that moves something.
   other,
 };
 
@@ -32,11 +33,9 @@ struct LimbShares {
 /// The roles of all bones for one limb.
 class LimbBones {
  public:
-  /// @param weights  of bone_weights().
-  LimbBones(const PosedSurface& surface, const std::vector<double>& weights, Index bone);
+  LimbBones(const PosedSurface& surface, const BoneTree& tree, Index bone);
 
   [[nodiscard]] Index bone() const { return bone_; }
-  [[nodiscard]] BoneRole role(Index bone) const { return roles_[bone]; }
   [[nodiscard]] LimbShares shares(Index point) const;
   /// Mean of the corners.
   [[nodiscard]] LimbShares shares_of_face(Index face) const;
@@ -46,19 +45,5 @@ class LimbBones {
   Index bone_;
   std::vector<BoneRole> roles_;  ///< Per bone of the skeleton.
 };
-
-/// Calls visit(bone, weight) for the influences of a point.
-template <class Visit>
-void for_each_influence(const PosedSurface& surface, Index point, Visit visit) {
-  const auto [mesh, vertex] = surface.vertex(point);
-  if (mesh == kNone) return;
-  const Mesh& of = surface.character().meshes[mesh];
-  const Skin& skin = surface.character().skins[of.skin];
-  for (const Influence& influence : of.weights.of(vertex))
-    visit(skin.bones[influence.slot], static_cast<double>(influence.weight));
-}
-
-/// Per bone, the sum of its weights over all points with faces.
-[[nodiscard]] std::vector<double> bone_weights(const PosedSurface& surface);
 
 }  // namespace sunder::aim

@@ -77,10 +77,8 @@ void LimbRays::look_around(double reach) {
   }
 }
 
-std::optional<RayHit> LimbRays::cast(const Vec3d& offset) const {
-  const double infinite = std::numeric_limits<double>::infinity();
-  RayHit hit{-infinite, infinite, infinite, infinite};
-  std::vector<double> others;
+HitHeights LimbRays::all_hits(const Vec3d& offset) const {
+  HitHeights hits;
   for (Index face = 0; face < limb_.surface.face_count(); ++face) {
     if (!limb_.surface.is_live(face)) continue;
     const std::array<Vec3d, 3> corners = limb_.surface.corners(face);
@@ -97,19 +95,43 @@ std::optional<RayHit> LimbRays::cast(const Vec3d& offset) const {
     const double whole = a + b + c;
     if (whole == 0 || std::min({a / whole, b / whole, c / whole}) < 0) continue;
     const double height = (a * heights[0] + b * heights[1] + c * heights[2]) / whole;
-    if (!is_of_limb_[face]) {
-      others.push_back(height);
-      continue;
-    }
-    hit.near = std::max(hit.near, height);
-    hit.far = std::min(hit.far, height);
+    // `across` and `along` are left-handed as seen by the viewer.
+    const bool is_facing = whole < 0;
+    (!is_of_limb_[face] ? hits.others : is_facing ? hits.facing : hits.averted).push_back(height);
   }
-  if (hit.near == -infinite) return {};
-  for (const double height : others) {
+  return hits;
+}
+
+std::optional<RayHit> LimbRays::cast(const Vec3d& offset) const {
+  constexpr double kInfinite = std::numeric_limits<double>::infinity();
+  const HitHeights hits = all_hits(offset);
+  const auto highest = [](const std::vector<double>& heights) {
+    return heights.empty() ? -kInfinite : *std::max_element(heights.begin(), heights.end());
+  };
+  const auto lowest = [](const std::vector<double>& heights) {
+    return heights.empty() ? kInfinite : *std::min_element(heights.begin(), heights.end());
+  };
+  // The inside of the limb is not its near surface, where that belongs to another limb. A single
+  // sheet may be seen from behind.
+  const double near_averted = highest(hits.averted);
+  const bool is_sheet = hits.facing.empty() && near_averted > highest(hits.others);
+  RayHit hit;
+  hit.near = is_sheet ? near_averted : highest(hits.facing);
+  if (hit.near == -kInfinite) return {};
+  hit.far = std::min({hit.near, lowest(hits.facing), lowest(hits.averted)});
+  hit.free_before = hit.free_below = hit.free_behind = kInfinite;
+  for (const double height : hits.others) {
     if (height > hit.near) hit.free_before = std::min(hit.free_before, height - hit.near);
+    if (height < hit.near) hit.free_below = std::min(hit.free_below, hit.near - height);
     if (height < hit.far) hit.free_behind = std::min(hit.free_behind, hit.far - height);
   }
   return hit;
+}
+
+bool LimbRays::meets_others(const Vec3d& offset, double low, double high) const {
+  const std::vector<double> others = all_hits(offset).others;
+  return std::any_of(others.begin(), others.end(),
+                     [&](double height) { return height > low && height < high; });
 }
 
 }  // namespace sunder::aim

@@ -13,8 +13,17 @@ namespace sunder::aim {
 /// through the place that the rays are measured from.
 struct RayHit {
   double near = 0, far = 0;  ///< First and last surface of the limb.
-  double free_before = 0;    ///< From `near` to the next other surface, or infinity.
-  double free_behind = 0;    ///< From `far` to the next other surface, or infinity.
+  // Distances to the next surface that is not of the limb, or infinity.
+  double free_before = 0;  ///< From `near` towards the viewer.
+  double free_below = 0;   ///< From `near` away from the viewer.
+  double free_behind = 0;  ///< From `far` away from the viewer.
+};
+
+/// Where rays hit one face after the other.
+struct HitHeights {
+  std::vector<double> facing;   ///< Of the limb, towards the viewer.
+  std::vector<double> averted;  ///< Of the limb, away from the viewer.
+  std::vector<double> others;   ///< Not of the limb.
 };
 
 /// Rays that look at a limb as the viewer does. Only the surface that is connected to the limb's
@@ -34,9 +43,12 @@ class LimbRays {
   void look_around(double reach);
   /// @param offset  in the plane of the view. @return empty where the ray misses the limb.
   [[nodiscard]] std::optional<RayHit> cast(const Vec3d& offset) const;
+  /// Whether a ray meets a surface that is not of the limb between two heights.
+  [[nodiscard]] bool meets_others(const Vec3d& offset, double low, double high) const;
 
  private:
   [[nodiscard]] bool may_belong(Index face, double reach) const;
+  [[nodiscard]] HitHeights all_hits(const Vec3d& offset) const;
 
   const Limb& limb_;
   ViewFrame frame_;

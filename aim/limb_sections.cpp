@@ -132,7 +132,8 @@ std::string movers_of(const Limb& limb, const Section& section) {
 Status no_section(const Limb& limb, const std::vector<Section>& sections) {
   const Section* there = nullptr;
   for (const Section& section : sections)
-    if (is_round_bone(section) && (there == nullptr || section.length < there->length))
+    if (is_round_bone(section) &&
+        (there == nullptr || distance(limb.place, section) < distance(limb.place, *there)))
       there = &section;
   if (there == nullptr)
     return Status::failure(StatusCode::not_found, limb.bones.bone(),
