@@ -213,6 +213,18 @@ std::vector<std::pair<Vec2d, std::size_t>> pull_taut(const UnfoldedStrip& strip)
   return corners;
 }
 
+/// Where the line between two corners of the path crosses a gate, or where it touches it: a corner
+/// lies on an end of its gate.
+double share_of_gate(const Gate& gate, const Vec2d& from, const Vec2d& to) {
+  if (to == gate.left) return 1;
+  if (to == gate.right) return 0;
+  const Vec2d across = gate.left - gate.right, way = to - from;
+  const double turn = cross(way, across);
+  if (turn != 0) return std::clamp(cross(way, from - gate.right) / turn, 0.0, 1.0);
+  const double squared = squared_norm(across);
+  return squared > 0 ? std::clamp(dot(from - gate.right, across) / squared, 0.0, 1.0) : 0.0;
+}
+
 /// Where the taut path crosses each gate: the share of the way from its right to its left end.
 std::vector<double> shares_of_gates(const UnfoldedStrip& strip) {
   std::vector<double> shares;
@@ -220,10 +232,7 @@ std::vector<double> shares_of_gates(const UnfoldedStrip& strip) {
   std::size_t gate = 0;
   for (const auto& [corner, last] : pull_taut(strip)) {
     for (; gate < strip.gates.size() && gate <= last; ++gate) {
-      const Vec2d across = strip.gates[gate].left - strip.gates[gate].right, way = corner - from;
-      const double turn = cross(way, across);
-      const double share = turn != 0 ? cross(way, from - strip.gates[gate].right) / turn : 0.5;
-      shares.push_back(std::clamp(share, 0.0, 1.0));
+      shares.push_back(share_of_gate(strip.gates[gate], from, corner));
     }
     from = corner;
   }
