@@ -78,6 +78,22 @@ Result<std::vector<Operation>> load_operations(const std::filesystem::path& file
   }
 }
 
+Result<std::vector<LoggedOperation>> parse_aimed_operations(std::string_view json) {
+  try {
+    return operation_log::read_aimed_log(operation_log::parse_json(json));
+  } catch (...) {
+    return status_of_current_exception();
+  }
+}
+
+Result<std::vector<LoggedOperation>> load_aimed_operations(const std::filesystem::path& file) {
+  try {
+    return parse_aimed_operations(read_text(file));
+  } catch (...) {
+    return status_of_current_exception();
+  }
+}
+
 Result<std::string> format_operations(std::span<const Operation> operations) {
   try {
     return write_text(operations);

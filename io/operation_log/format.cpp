@@ -122,6 +122,7 @@ Json header(const CutOperation& operation) {
                {"plane", {{"point", vector_json(cut.point)}, {"normal", vector_json(cut.normal)}}}};
   for (const Vec3d& corner : cut.bounds) json["bounds"].push_back(vector_json(corner));
   json["caps"] = cut.caps;
+  for (const Vec3d& place : cut.sections) json["sections"].push_back(vector_json(place));
   add_weights(json, cut.weights);
   return json;
 }

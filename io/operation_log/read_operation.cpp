@@ -2,20 +2,12 @@
 
 #include <utility>
 
+#include "io/operation_log/read_aimed.h"
 #include "io/operation_log/read_pose.h"
 #include "io/operation_log/read_weights.h"
 
 namespace sunder::operation_log {
 namespace {
-
-Layers read_layers(const Place& place) {
-  const std::string name = read_name(place);
-  if (name == "all") return Layers::all;
-  if (name != "nearest")
-    place.fail(StatusCode::unsupported_feature,
-               "unknown layers '" + name + "'; expected 'nearest' or 'all'");
-  return Layers::nearest;
-}
 
 void read_stroke(const Place& place, TearOperation& tear) {
   const std::size_t count = read_array(place, "an array of blades").size();
@@ -56,8 +48,17 @@ std::vector<Vec3d> read_bounds(const Place& place) {
   return corners;
 }
 
+std::vector<Vec3d> read_sections(const Place& place) {
+  const std::size_t count = read_array(place, "an array of points").size();
+  if (count == 0) place.malformed("sections need at least one place; without them all are cut");
+  std::vector<Vec3d> places;
+  places.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) places.push_back(read_vector<3>(place.at(i)));
+  return places;
+}
+
 CutOperation read_cut(const Place& place) {
-  place.check_fields({"op", "pose", "plane", "bounds", "caps", "weights"});
+  place.check_fields({"op", "pose", "plane", "bounds", "caps", "sections", "weights"});
   CutOperation operation;
   read_if_given(place, "pose", read_pose, operation.pose);
   const Place plane = place.at("plane");
@@ -66,6 +67,7 @@ CutOperation read_cut(const Place& place) {
   operation.cut.normal = read_direction(plane.at("normal"), "normal");
   read_if_given(place, "bounds", read_bounds, operation.cut.bounds);
   read_if_given(place, "caps", read_bool, operation.cut.caps);
+  read_if_given(place, "sections", read_sections, operation.cut.sections);
   read_if_given(place, "weights", read_weight_options, operation.cut.weights);
   return operation;
 }
@@ -96,23 +98,37 @@ UndoOrRedo read_steps(const Place& place) {
   return operation;
 }
 
-Operation read_operation(const Place& place) {
+std::string read_kind(const Place& place) {
   if (!place.value.is_object()) place.expected("an object");
-  const Place kind = place.at("op");
-  const std::string name = read_name(kind);
+  return read_name(place.at("op"));
+}
+
+Operation read_operation(const Place& place) {
+  const std::string name = read_kind(place);
   if (name == "tear") return read_tear(place);
   if (name == "cut") return read_cut(place);
   if (name == "drill") return read_drill(place);
   if (name == "weights") return read_weights(place);
   if (name == "undo") return read_steps<UndoOperation>(place);
   if (name == "redo") return read_steps<RedoOperation>(place);
-  kind.fail(StatusCode::unsupported_feature,
-            "unknown operation '" + name + "'; expected tear, cut, drill, weights, undo or redo");
+  if (is_aimed(name))
+    place.at("op").fail(
+        StatusCode::unsupported_feature,
+        "'" + name + "' needs a model to be resolved; only plain operations are read here");
+  place.at("op").fail(
+      StatusCode::unsupported_feature,
+      "unknown operation '" + name + "'; expected tear, cut, drill, weights, undo or redo");
 }
 
-}  // namespace
+LoggedOperation read_logged_operation(const Place& place) {
+  const std::string name = read_kind(place);
+  if (is_aimed(name)) return read_aimed(place, name);
+  return read_operation(place);
+}
 
-std::vector<Operation> read_log(const Json& log) {
+/// Reads all entries of a log. @param read  reads one.
+template <class Read>
+auto read_entries(const Json& log, Read read) {
   const Place root{log, ""};
   if (!log.is_object()) root.expected("an object");
   // The version is checked first, so that a log of another version is reported as such.
@@ -124,14 +140,31 @@ std::vector<Operation> read_log(const Json& log) {
   root.check_fields({"sunder_operations", "operations"});
 
   const Place list = root.at("operations");
-  std::vector<Operation> operations;
-  operations.reserve(read_array(list, "an array").size());
+  std::vector<decltype(read(list))> entries;
+  entries.reserve(read_array(list, "an array").size());
   for (std::size_t i = 0; i < list.value.size(); ++i) {
     Place one = list.at(i);
     one.operation = static_cast<std::uint32_t>(i);
-    operations.push_back(read_operation(one));
+    entries.push_back(read(one));
   }
-  return operations;
+  return entries;
+}
+
+}  // namespace
+
+Layers read_layers(const Place& place) {
+  const std::string name = read_name(place);
+  if (name == "all") return Layers::all;
+  if (name != "nearest")
+    place.fail(StatusCode::unsupported_feature,
+               "unknown layers '" + name + "'; expected 'nearest' or 'all'");
+  return Layers::nearest;
+}
+
+std::vector<Operation> read_log(const Json& log) { return read_entries(log, read_operation); }
+
+std::vector<LoggedOperation> read_aimed_log(const Json& log) {
+  return read_entries(log, read_logged_operation);
 }
 
 }  // namespace sunder::operation_log

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <sunder/operation/operation.h>
+#include <sunder/operation/aimed_operation.h>
 
 #include <vector>
 
@@ -8,7 +8,13 @@
 
 namespace sunder::operation_log {
 
-/// All operations of a log. Throws a Fault.
+/// All operations of a log, none of them aimed. Throws a Fault.
 std::vector<Operation> read_log(const Json& log);
+
+/// All operations of a log. Throws a Fault.
+std::vector<LoggedOperation> read_aimed_log(const Json& log);
+
+/// The field "layers" of a tear. Throws a Fault.
+Layers read_layers(const Place& place);
 
 }  // namespace sunder::operation_log

@@ -4,6 +4,7 @@
 #include "tear/filling/caps.h"
 #include "tear/geometry/tolerances.h"
 #include "tear/sheet/open_sheet.h"
+#include "tear/sheet/sections.h"
 #include "tear/surface/improve.h"
 
 namespace sunder::tear {
@@ -35,6 +36,18 @@ std::vector<PlaneSide> sides_of(const std::vector<Vec3d>& bounds, const Vec3d& n
              : std::vector<PlaneSide>{};
 }
 
+Status validate_sections(const std::vector<Vec3d>& sections) {
+  for (Index i = 0; i < sections.size(); ++i) {
+    if (!sections[i].allFinite())
+      return Status::failure(StatusCode::non_finite_value, i,
+                             "place %u of the sections is not finite", i);
+    if (!is_near(sections[i]))
+      return Status::failure(StatusCode::invalid_argument, i,
+                             "place %u of the sections lies beyond 1e60", i);
+  }
+  return {};
+}
+
 }  // namespace
 
 Status validate_cut(const PlaneCut& cut) {
@@ -47,6 +60,7 @@ Status validate_cut(const PlaneCut& cut) {
   if (!(norm(cut.normal) > kShortestDirection))
     return Status::failure(StatusCode::invalid_argument, kNone,
                            "the normal of the cut has no length");
+  if (Status status = validate_sections(cut.sections); !status) return status;
   if (cut.bounds.empty()) return {};
   if (cut.bounds.size() < 3)
     return Status::failure(StatusCode::invalid_argument, kNone,
@@ -72,7 +86,9 @@ void cut_surface(const PlaneCut& cut, const Workpiece& work, Outcome& outcome) {
   const Vec3d normal = cut.normal / norm(cut.normal);
   Sheet sheet{{normal, dot(normal, cut.point)}, {}};
   for (const PlaneSide& side : sides_of(cut.bounds, normal)) sheet.bounds.push_back({side, kNone});
-  const SheetOpening opening = open_sheet(sheet, work, outcome.borders.lips);
+  const std::vector<Index> faces = faces_of_sections(
+      sheet, cut.sections, faces_across(sheet, work.editor, work.posed), work.editor, work.posed);
+  const SheetOpening opening = open_sheet(sheet, faces, work, outcome.borders.lips);
   report.runs = opening.runs;
   report.faces_crossed = opening.faces_crossed;
   report.blocked = opening.blocked;

@@ -92,11 +92,11 @@ std::vector<Index> faces_across(const Sheet& sheet, const SurfaceEditor& editor,
   return faces;
 }
 
-SheetOpening open_sheet(const Sheet& sheet, const Workpiece& work, std::vector<LipPair>& lips) {
+SheetOpening open_sheet(const Sheet& sheet, std::span<const Index> faces, const Workpiece& work,
+                        std::vector<LipPair>& lips) {
   SurfaceEditor& editor = work.editor;
   PosedPoints& posed = work.posed;
-  SheetImprint imprint =
-      imprint_sheets({&sheet, 1}, faces_across(sheet, editor, posed), editor, posed);
+  SheetImprint imprint = imprint_sheets({&sheet, 1}, faces, editor, posed);
   SheetOpening opening;
   opening.faces_crossed = imprint.faces_crossed;
   opening.blocked = imprint.blocked;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "tear/geometry/plane_side.h"
@@ -25,8 +26,9 @@ struct SheetOpening {
 [[nodiscard]] std::vector<Index> faces_across(const Sheet& sheet, const SurfaceEditor& editor,
                                               PosedPoints& posed);
 
-/// Opens all layers of the posed surface where they meet a sheet.
-[[nodiscard]] SheetOpening open_sheet(const Sheet& sheet, const Workpiece& work,
-                                      std::vector<LipPair>& lips);
+/// Opens the posed surface where some faces meet a sheet.
+/// @param faces  of faces_across(): all of them, or those of some sections.
+[[nodiscard]] SheetOpening open_sheet(const Sheet& sheet, std::span<const Index> faces,
+                                      const Workpiece& work, std::vector<LipPair>& lips);
 
 }  // namespace sunder::tear

@@ -146,6 +146,9 @@ CutOperation any_cut(Random& random) {
   if (random.index(2) == 0)
     for (std::uint32_t i = 3 + random.index(3); i > 0; --i)
       operation.cut.bounds.push_back(any_point(random));
+  if (random.index(2) == 0)
+    for (std::uint32_t i = 1 + random.index(3); i > 0; --i)
+      operation.cut.sections.push_back(any_point(random));
   return operation;
 }
 
@@ -267,7 +270,7 @@ class Bits {
   void add(const CutOperation& operation) {
     add(operation.pose), add(operation.cut.point), add(operation.cut.normal),
         add(operation.cut.bounds), add(operation.cut.caps);
-    add(operation.cut.weights);
+    add(operation.cut.sections), add(operation.cut.weights);
   }
   void add(const DrillOperation& operation) {
     add(operation.pose), add(operation.bore.origin), add(operation.bore.direction),

@@ -87,12 +87,16 @@ TEST(OperationLog, ABladeMayBringItsPose) {
 
 TEST(OperationLog, ReadsACut) {
   const auto operations = parse_operations(log_of(R"({"op": "cut", "pose": "bind",
-      "plane": {"point": [1, 2, 3], "normal": [0, -2, 0]}, "bounds": [[0,0,0], [1,0,0], [0,0,1]], "caps": true},
+      "plane": {"point": [1, 2, 3], "normal": [0, -2, 0]}, "bounds": [[0,0,0], [1,0,0], [0,0,1]], "caps": true,
+      "sections": [[4, 5, 6], [7, 8, 9]]},
       {"op": "cut", "plane": {"point": [0,0,0], "normal": [0,0,1]}})"));
   ASSERT_TRUE(operations) << operations.error().text();
   const auto& cut = std::get<CutOperation>(operations->at(0));
   EXPECT_TRUE(std::holds_alternative<BindPose>(cut.pose));
-  EXPECT_EQ(cut.cut, (PlaneCut{{1, 2, 3}, {0, -2, 0}, {{0, 0, 0}, {1, 0, 0}, {0, 0, 1}}, true}));
+  EXPECT_EQ(
+      cut.cut,
+      (PlaneCut{
+          {1, 2, 3}, {0, -2, 0}, {{0, 0, 0}, {1, 0, 0}, {0, 0, 1}}, true, {{4, 5, 6}, {7, 8, 9}}}));
   EXPECT_EQ(std::get<CutOperation>(operations->at(1)).cut, PlaneCut{});
 }
 
@@ -418,6 +422,10 @@ INSTANTIATE_TEST_SUITE_P(
                 "/bounds: expected an array of points"},
         Refusal{"a corner of two numbers", cut_with(R"("bounds": [[0,0,0], [1,0], [0,0,1]])"),
                 kMalformed, "/bounds/1: expected an array of 3"},
+        Refusal{"no sections", cut_with(R"("sections": [])"), kMalformed,
+                "/sections: sections need at least one place"},
+        Refusal{"a section of two numbers", cut_with(R"("sections": [[0,0,0], [1,0]])"), kMalformed,
+                "/sections/1: expected an array of 3"},
         Refusal{"caps as number", cut_with(R"("caps": 1)"), kMalformed,
                 "/caps: expected true or false, found number"},
         Refusal{"pose of a cut", cut_with(R"("pose": "t-pose")"), kMalformed, "/operations/0/pose"},

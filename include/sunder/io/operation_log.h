@@ -1,6 +1,7 @@
 #pragma once
 
 #include <sunder/core/status.h>
+#include <sunder/operation/aimed_operation.h>
 #include <sunder/operation/operation.h>
 
 #include <filesystem>
@@ -19,6 +20,16 @@ namespace sunder {
 
 /// Parses the content of a file. @return as parse_operations(); file_not_found, file_unreadable.
 [[nodiscard]] SUNDER_API Result<std::vector<Operation>> load_operations(
+    const std::filesystem::path& file);
+
+/// Reads a log that may also hold operations that name bones or places of the surface: slash,
+/// sever, puncture and incision, which parse_operations() refuses. resolve() of <sunder/aim/aim.h>
+/// turns them into plain ones, for a model. @return as parse_operations().
+[[nodiscard]] SUNDER_API Result<std::vector<LoggedOperation>> parse_aimed_operations(
+    std::string_view json);
+
+/// Parses the content of a file. @return as load_operations().
+[[nodiscard]] SUNDER_API Result<std::vector<LoggedOperation>> load_aimed_operations(
     const std::filesystem::path& file);
 
 /// The log as text; parse_operations() gives back operations with the same bits.

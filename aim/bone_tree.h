@@ -1,0 +1,47 @@
+#pragma once
+
+#include <vector>
+
+#include "aim/posed_surface.h"
+
+namespace sunder::aim {
+
+/// The bones as a tree that follows the surface. It is that of the skeleton, except that a bone
+/// whose surface does not adjoin that of any bone above it hangs on the bone that it shares most
+/// surface with: the foot of a rig for inverse kinematics, which the skeleton hangs on the root, on
+/// the leg; the fingers of a flat list of bones on the hand.
+class BoneTree {
+ public:
+  /// O(faces x influences squared + bones squared).
+  explicit BoneTree(const PosedSurface& surface);
+
+  [[nodiscard]] Index parent(Index bone) const { return parents_[bone]; }
+  /// Sum of the bone's weights over all points.
+  [[nodiscard]] double weight(Index bone) const { return weights_[bone]; }
+  [[nodiscard]] bool moves(Index bone) const { return weights_[bone] > 0; }
+  [[nodiscard]] bool is_below(Index bone, Index top) const;
+  [[nodiscard]] const std::vector<Index>& children(Index bone) const { return children_[bone]; }
+  /// The nearest bone above that moves something; kNone if there is none.
+  [[nodiscard]] Index moving_parent(Index bone) const;
+  /// A bone and those that have its parent and its rest transform: parts of one limb that a file
+  /// splits by material. For a bone that moves nothing, also its children in the same place.
+  [[nodiscard]] std::vector<Index> same_bones(const Skeleton& skeleton, Index bone) const;
+
+ private:
+  std::vector<Index> parents_;
+  std::vector<std::vector<Index>> children_;
+  std::vector<double> weights_;
+};
+
+/// Calls visit(bone, weight) for the influences of a point.
+template <class Visit>
+void for_each_influence(const PosedSurface& surface, Index point, Visit visit) {
+  const auto [mesh, vertex] = surface.vertex(point);
+  if (mesh == kNone) return;
+  const Mesh& of = surface.character().meshes[mesh];
+  const Skin& skin = surface.character().skins[of.skin];
+  for (const Influence& influence : of.weights.of(vertex))
+    visit(skin.bones[influence.slot], static_cast<double>(influence.weight));
+}
+
+}  // namespace sunder::aim

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "aim/bone_tree.h"
+#include "aim/posed_surface.h"
+
+namespace sunder::aim {
+
+/// What a bone is to a limb.
+enum class BoneRole : std::uint8_t {
+  own,     ///< The bone that the limb is named after, see BoneTree::same_bones().
+  below,   ///< In the subtree of that bone.
+  parent,  ///< The nearest bone above that moves something.
+  other,
+};
+
+/// Weights of a place on the surface, summed by role.
+struct LimbShares {
+  std::array<double, 4> of_role = {};
+
+  [[nodiscard]] double own() const { return of_role[0]; }
+  [[nodiscard]] double below() const { return of_role[1]; }
+  [[nodiscard]] double limb() const { return of_role[0] + of_role[1]; }
+  [[nodiscard]] double parent() const { return of_role[2]; }
+  [[nodiscard]] double other() const { return of_role[3]; }
+  void add(const LimbShares& shares, double factor) {
+    for (std::size_t i = 0; i < of_role.size(); ++i) of_role[i] += factor * shares.of_role[i];
+  }
+};
+
+/// The roles of all bones for one limb.
+class LimbBones {
+ public:
+  LimbBones(const PosedSurface& surface, const BoneTree& tree, Index bone);
+
+  [[nodiscard]] Index bone() const { return bone_; }
+  [[nodiscard]] LimbShares shares(Index point) const;
+  /// Mean of the corners.
+  [[nodiscard]] LimbShares shares_of_face(Index face) const;
+
+ private:
+  const PosedSurface& surface_;
+  Index bone_;
+  std::vector<BoneRole> roles_;  ///< Per bone of the skeleton.
+};
+
+}  // namespace sunder::aim

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "aim/limb_sections.h"
+#include "aim/view.h"
+
+namespace sunder::aim {
+
+/// What a ray from the viewer meets. Heights are towards the viewer, from the plane of the view
+/// through the place that the rays are measured from.
+struct RayHit {
+  double near = 0, far = 0;  ///< First and last surface of the limb.
+  // Distances to the next surface that is not of the limb, or infinity.
+  double free_before = 0;  ///< From `near` towards the viewer.
+  double free_below = 0;   ///< From `near` away from the viewer.
+  double free_behind = 0;  ///< From `far` away from the viewer.
+};
+
+/// Where rays hit one face after the other.
+struct HitHeights {
+  std::vector<double> facing;   ///< Of the limb, towards the viewer.
+  std::vector<double> averted;  ///< Of the limb, away from the viewer.
+  std::vector<double> others;   ///< Not of the limb.
+};
+
+/// Rays that look at a limb as the viewer does. Only the surface that is connected to the limb's
+/// sections and moved by the limb counts as the limb, so that neither a hand before the chest nor
+/// the other leg behind the first one is met.
+class LimbRays {
+ public:
+  /// @param sections  of limb_sections(), across the limb.
+  LimbRays(const Limb& limb, const ViewFrame& frame, std::span<const Section> sections);
+
+  /// Seen width of the limb at the place, metres.
+  [[nodiscard]] double width() const { return width_; }
+  /// The middle of the limb at the place, as seen; the plane of the view goes through it.
+  [[nodiscard]] const Vec3d& middle() const { return middle_; }
+
+  /// Decides which faces are of the limb, up to a distance from the middle.
+  void look_around(double reach);
+  /// @param offset  in the plane of the view. @return empty where the ray misses the limb.
+  [[nodiscard]] std::optional<RayHit> cast(const Vec3d& offset) const;
+  /// Whether a ray meets a surface that is not of the limb between two heights.
+  [[nodiscard]] bool meets_others(const Vec3d& offset, double low, double high) const;
+
+ private:
+  [[nodiscard]] bool may_belong(Index face, double reach) const;
+  [[nodiscard]] HitHeights all_hits(const Vec3d& offset) const;
+
+  const Limb& limb_;
+  ViewFrame frame_;
+  std::vector<Index> section_faces_;
+  Vec3d middle_ = Vec3d::Zero();
+  double width_ = 0;
+  std::vector<bool> is_of_limb_;  ///< Per face.
+};
+
+}  // namespace sunder::aim

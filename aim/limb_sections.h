@@ -1,0 +1,39 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "aim/limb.h"
+
+namespace sunder::aim {
+
+/// A connected run of faces that a plane crosses.
+struct Section {
+  struct Line {
+    Index face = 0;
+    std::array<Vec3d, 2> ends = {Vec3d(Vec3d::Zero()), Vec3d(Vec3d::Zero())};
+  };
+  std::vector<Line> lines;
+  double length = 0;
+  LimbShares shares;             ///< Mean over the length.
+  double turns = 0;              ///< How often it winds round the place on the bone.
+  Vec3d middle = Vec3d::Zero();  ///< Mean over the length.
+};
+
+/// A plane through the limb: normal . p = offset.
+struct LimbPlane {
+  Vec3d normal = Vec3d::Zero();
+  double offset = 0;
+};
+
+/// All sections of the posed surface with a plane. O(faces + crossed faces x log).
+[[nodiscard]] std::vector<Section> sections_of(const Limb& limb, const LimbPlane& plane);
+
+/// The sections that belong to the limb: loops round the bone that are moved by the bone, its
+/// subtree and, near the joint, its parent; and others on or inside those, such as the linings and
+/// plates of a sleeve, that the bone itself moves. Neither a club held in the fist nor a skirt
+/// round both legs.
+/// @return never empty; not_found, which names the bones that move what is there instead.
+[[nodiscard]] Result<std::vector<Section>> limb_sections(const Limb& limb, const LimbPlane& plane);
+
+}  // namespace sunder::aim

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <sunder/operation/aimed_operation.h>
+
+#include "aim/posed_surface.h"
+
+namespace sunder::aim {
+
+// Each function resolves one operation on the surface in the operation's pose.
+[[nodiscard]] Result<Operation> resolve_slash(const PosedSurface& surface,
+                                              const SlashOperation& slash);
+[[nodiscard]] Result<Operation> resolve_sever(const PosedSurface& surface,
+                                              const SeverOperation& sever);
+[[nodiscard]] Result<Operation> resolve_puncture(const PosedSurface& surface,
+                                                 const PunctureOperation& puncture);
+[[nodiscard]] Result<Operation> resolve_incision(const PosedSurface& surface,
+                                                 const IncisionOperation& incision);
+
+/// The share of the limb's width by which blades and bores begin before its surface, and end behind
+/// it; where another surface is nearer than twice that, half of the way to it.
+inline constexpr double kClearanceWidths = 0.25;
+
+}  // namespace sunder::aim

@@ -1,0 +1,97 @@
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "aim/limb_rays.h"
+#include "aim/operations.h"
+#include "core/internal/ordered.h"
+
+namespace sunder::aim {
+namespace {
+
+/// Blades per width of the limb, and their least and greatest number.
+constexpr double kBladesPerWidth = 32;
+constexpr int kLeastBlades = 17, kMostBlades = 129;
+/// Near its outline the limb is thin; the blade still passes the near surface by this many widths.
+constexpr double kLeastDepthWidths = 0.02;
+
+Status check(const Limb& limb, const SlashOperation& slash) {
+  if (const Status status = check_length(slash.length, "length of the slash"); !status)
+    return status;
+  if (slash.depth)
+    if (const Status status = check_length(*slash.depth, "depth of the slash"); !status)
+      return status;
+  if (!std::isfinite(slash.turn))
+    return Status::failure(StatusCode::non_finite_value, kNone, "%s: the turn is not finite",
+                           limb.label.c_str());
+  return {};
+}
+
+/// The rays of the blades that hit the limb, from the middle of the stroke to both sides without a
+/// gap. Where the stroke reaches beyond the limb, it ends at the outline.
+struct SeenStroke {
+  std::vector<Vec3d> offsets;
+  std::vector<RayHit> hits;
+};
+
+SeenStroke look_along(const LimbRays& rays, const Vec3d& way, double length) {
+  const int wanted = static_cast<int>(std::min(std::ceil(length / rays.width() * kBladesPerWidth),
+                                               static_cast<double>(kMostBlades)));
+  const int half = std::max(wanted, kLeastBlades) / 2;
+  SeenStroke seen;
+  const auto look = [&](int i) {
+    const Vec3d offset = (0.5 * length * i / half) * way;
+    const std::optional<RayHit> hit = rays.cast(offset);
+    if (!hit) return false;
+    seen.offsets.push_back(offset);
+    seen.hits.push_back(*hit);
+    return true;
+  };
+  if (!look(0)) return {};
+  for (int i = -1; i >= -half && look(i); --i) {
+  }
+  std::reverse(seen.offsets.begin(), seen.offsets.end());
+  std::reverse(seen.hits.begin(), seen.hits.end());
+  for (int i = 1; i <= half && look(i); ++i) {
+  }
+  return seen;
+}
+
+}  // namespace
+
+Result<Operation> resolve_slash(const PosedSurface& surface, const SlashOperation& slash) {
+  const Result<Limb> limb = find_limb(surface, slash.place);
+  if (!limb) return limb.error();
+  if (const Status status = check(*limb, slash); !status) return status;
+  const Result<ViewFrame> frame = view_frame(*limb, slash.from);
+  if (!frame) return frame.error();
+  const auto sections = limb_sections(*limb, {frame->along, dot(frame->along, limb->place)});
+  if (!sections) return sections.error();
+
+  LimbRays rays(*limb, *frame, *sections);
+  const double width = rays.width(), length = metres(slash.length, width);
+  rays.look_around(0.5 * length + width);
+  const SeenStroke seen = look_along(rays, frame->turned(slash.turn), length);
+  if (seen.hits.size() < 2)
+    return Status::failure(StatusCode::not_found, limb->bones.bone(),
+                           "%s: the limb has no surface there that is seen from this side",
+                           limb->label.c_str());
+  TearOperation tear;
+  tear.pose = slash.pose;
+  tear.options = slash.options;
+  for (std::size_t i = 0; i < seen.hits.size(); ++i) {
+    const RayHit& hit = seen.hits[i];
+    const double depth = slash.depth
+                             ? metres(*slash.depth, width)
+                             : std::max(0.5 * (hit.near - hit.far), kLeastDepthWidths * width);
+    const double before = std::min(kClearanceWidths * width, 0.5 * hit.free_before);
+    const Vec3d place = rays.middle() + seen.offsets[i];
+    tear.stroke.push_back({place + (hit.near + before) * frame->towards_viewer,
+                           place + (hit.near - depth) * frame->towards_viewer});
+  }
+  return Operation(std::move(tear));
+}
+
+}  // namespace sunder::aim

@@ -1,0 +1,61 @@
+#include "aim/view.h"
+
+#include <cmath>
+
+#include "core/internal/ordered.h"
+
+namespace sunder::aim {
+namespace {
+
+/// Sine of the least angle between view and bone: 15 degrees.
+constexpr double kLeastSine = 0.25;
+
+Vec3d direction_of(ViewSide side) {
+  switch (side) {
+    case ViewSide::front: return {0, 0, 1};
+    case ViewSide::back: return {0, 0, -1};
+    case ViewSide::left: return {1, 0, 0};
+    case ViewSide::right: return {-1, 0, 0};
+    case ViewSide::top: return {0, 1, 0};
+    case ViewSide::bottom: return {0, -1, 0};
+  }
+  return {0, 0, 1};
+}
+
+}  // namespace
+
+Vec3d ViewFrame::turned(double radians) const {
+  // Counter-clockwise about the view: from `across` towards towards_viewer x across.
+  return std::cos(radians) * across - std::sin(radians) * along;
+}
+
+Result<ViewFrame> view_frame(const Limb& limb, const View& from) {
+  Vec3d direction;
+  if (const auto* const side = std::get_if<ViewSide>(&from)) {
+    direction = direction_of(*side);
+  } else {
+    const ViewDirection& given = std::get<ViewDirection>(from);
+    direction = given.direction;
+    if (given.space == ViewDirection::Space::bone)
+      direction =
+          multiply(limb.surface.pose().model_from_bone[limb.bones.bone()].linear(), direction);
+  }
+  if (!direction.allFinite() || !(norm(direction) > 1e-30) || !(norm(direction) < 1e30))
+    return Status::failure(StatusCode::invalid_argument, kNone,
+                           "%s: the direction of the view has no length or is not finite",
+                           limb.label.c_str());
+  direction /= norm(direction);
+  ViewFrame frame;
+  frame.along = limb.segment.direction();
+  const Vec3d beside = direction - dot(direction, frame.along) * frame.along;
+  if (norm(beside) < kLeastSine)
+    return Status::failure(StatusCode::invalid_argument, kNone,
+                           "%s: the view is along the bone; give a side from which the limb is "
+                           "seen across",
+                           limb.label.c_str());
+  frame.towards_viewer = beside / norm(beside);
+  frame.across = frame.towards_viewer.cross(frame.along);
+  return frame;
+}
+
+}  // namespace sunder::aim

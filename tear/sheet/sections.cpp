@@ -1,0 +1,144 @@
+#include "tear/sheet/sections.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <memory_resource>
+
+#include "core/internal/ordered.h"
+#include "tear/geometry/tolerances.h"
+#include "tear/internal/surface.h"
+#include "tear/surface/disjoint_sets.h"
+
+namespace sunder::tear {
+namespace {
+
+/// The line in which a sheet meets a face.
+struct Line {
+  std::array<Vec3d, 2> ends = {Vec3d(Vec3d::Zero()), Vec3d(Vec3d::Zero())};
+  bool is_empty = true;  ///< The bounds exclude all of it.
+};
+
+/// Where the plane crosses the edges of a face. The edge is read in the direction of its lower
+/// half-edge, so that both faces compute the same place.
+class CrossedEdges {
+ public:
+  CrossedEdges(const Sheet& sheet, const SurfaceEditor& editor, PosedPoints& posed)
+      : sheet_(sheet), surface_(editor.surface()), editor_(editor), posed_(posed) {}
+
+  /// @return whether the plane crosses the edge of a half-edge.
+  bool cross(Index half_edge, Vec3d& place) {
+    const Index twin = surface_.twin[half_edge];
+    const Index h = std::min(half_edge, twin);  // kNone is the highest
+    const Vec3d from = posed_.position(editor_, surface_.corner_point[h]),
+                to = posed_.position(editor_, surface_.corner_point[Surface::next(h)]);
+    if (sheet_.plane.contains(from) == sheet_.plane.contains(to)) return false;
+    const double at_from = sheet_.plane.value(from), at_to = sheet_.plane.value(to);
+    const double fraction =
+        at_from == at_to ? 0.0 : std::clamp(at_from / (at_from - at_to), 0.0, 1.0);
+    place = from + fraction * (to - from);
+    return true;
+  }
+
+  [[nodiscard]] bool is_within_bounds(const Vec3d& place) const {
+    return std::all_of(sheet_.bounds.begin(), sheet_.bounds.end(),
+                       [&](const Sheet::Bound& bound) { return bound.side.contains(place); });
+  }
+
+ private:
+  const Sheet& sheet_;
+  const Surface& surface_;
+  const SurfaceEditor& editor_;
+  PosedPoints& posed_;
+};
+
+/// Clips a line by the bounds of its sheet.
+void clip(const Sheet& sheet, Line& line) {
+  for (const Sheet::Bound& bound : sheet.bounds) {
+    const std::array<bool, 2> is_inside = {bound.side.contains(line.ends[0]),
+                                           bound.side.contains(line.ends[1])};
+    if (!is_inside[0] && !is_inside[1]) {
+      line.is_empty = true;
+      return;
+    }
+    if (is_inside[0] && is_inside[1]) continue;
+    const double first = bound.side.value(line.ends[0]), second = bound.side.value(line.ends[1]);
+    const double fraction = first == second ? 0.0 : std::clamp(first / (first - second), 0.0, 1.0);
+    line.ends[is_inside[0] ? 1 : 0] = line.ends[0] + fraction * (line.ends[1] - line.ends[0]);
+  }
+}
+
+double distance(const Vec3d& place, const Line& line) {
+  const Vec3d along = line.ends[1] - line.ends[0], way = place - line.ends[0];
+  const double squared_length = squared_norm(along);
+  const double part =
+      squared_length > 0 ? std::clamp(dot(way, along) / squared_length, 0.0, 1.0) : 0.0;
+  return norm(way - part * along);
+}
+
+/// The sections of a sheet.
+class Sections {
+ public:
+  Sections(const Sheet& sheet, const std::vector<Index>& faces, const SurfaceEditor& editor,
+           PosedPoints& posed)
+      : lines_(faces.size()),
+        sets_(static_cast<Index>(faces.size()), *std::pmr::get_default_resource()) {
+    CrossedEdges edges(sheet, editor, posed);
+    const Surface& surface = editor.surface();
+    for (Index i = 0; i < faces.size(); ++i) {
+      Line& line = lines_[i];
+      std::size_t end = 0;
+      for (Index h = 3 * faces[i]; h < 3 * faces[i] + 3; ++h) {
+        Vec3d place;
+        if (!edges.cross(h, place)) continue;
+        if (end < 2) line.ends[end++] = place;
+        if (!edges.is_within_bounds(place) || surface.twin[h] == kNone) continue;
+        const auto other = std::lower_bound(faces.begin(), faces.end(), surface.twin[h] / 3);
+        if (other != faces.end() && *other == surface.twin[h] / 3)
+          sets_.unite_with_lesser(i, static_cast<Index>(other - faces.begin()));
+      }
+      line.is_empty = end < 2;
+      if (!line.is_empty) clip(sheet, line);
+    }
+  }
+
+  /// Marks the sections nearest to a place.
+  void choose(const Vec3d& place, std::vector<bool>& is_chosen) {
+    double least = std::numeric_limits<double>::infinity(), farthest = 0;
+    for (const Line& line : lines_) {
+      if (line.is_empty) continue;
+      least = std::min(least, distance(place, line));
+    }
+    for (Index i = 0; i < lines_.size(); ++i) {
+      const Line& line = lines_[i];
+      if (line.is_empty) continue;
+      farthest = std::max(place.cwiseAbs().maxCoeff(), line.ends[0].cwiseAbs().maxCoeff());
+      if (distance(place, line) <= least + kPosedCoordinates * farthest)
+        is_chosen[sets_.find(i)] = true;
+    }
+  }
+  [[nodiscard]] Index section_of(Index i) { return sets_.find(i); }
+  [[nodiscard]] bool is_empty(Index i) const { return lines_[i].is_empty; }
+
+ private:
+  std::vector<Line> lines_;  ///< Per face.
+  DisjointSets sets_;
+};
+
+}  // namespace
+
+std::vector<Index> faces_of_sections(const Sheet& sheet, std::span<const Vec3d> places,
+                                     std::vector<Index> faces, const SurfaceEditor& editor,
+                                     PosedPoints& posed) {
+  if (places.empty()) return faces;
+  Sections sections(sheet, faces, editor, posed);
+  std::vector<bool> is_chosen(faces.size(), false);
+  for (const Vec3d& place : places) sections.choose(place, is_chosen);
+  std::vector<Index> staying;
+  for (Index i = 0; i < faces.size(); ++i)
+    if (!sections.is_empty(i) && is_chosen[sections.section_of(i)]) staying.push_back(faces[i]);
+  return staying;
+}
+
+}  // namespace sunder::tear

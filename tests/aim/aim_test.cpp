@@ -1,0 +1,427 @@
+// Operations aimed by bone, on procedural rigs.
+#include <sunder/aim/aim.h>
+#include <sunder/skinning/pose.h>
+#include <sunder/tear/topology.h>
+#include <sunder/tear/torn_model.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <set>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "support/make_model.h"
+#include "support/model_state.h"
+#include "support/rigs.h"
+#include "support/torn_invariants.h"
+
+namespace sunder {
+namespace {
+
+using test::make_model;
+using test::Random;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+constexpr double kPi = std::numbers::pi;
+enum : std::uint32_t { kSkin, kSleeve, kClub, kOtherArm };
+
+/// Adds a copy of a tube, scaled across its axis and moved.
+void add_tube(Character& character, const Mesh& tube, const std::string& name, float across,
+              const Vec3f& move) {
+  Mesh mesh = tube;
+  mesh.name = name;
+  mesh.first_morph_weight = static_cast<std::uint32_t>(character.rest_morph_weights.size());
+  character.rest_morph_weights.push_back(0.0f);
+  for (Vec3f& position : mesh.positions)
+    position = Vec3f(across * position.x(), position.y(), across * position.z()) + move;
+  character.meshes.push_back(std::move(mesh));
+}
+
+/// A rigid mesh: all of its vertices follow one slot.
+void attach_to(Mesh& mesh, std::uint32_t slot) {
+  const std::uint32_t count = mesh.vertex_count();
+  mesh.weights = SkinWeights();
+  const Influence whole{slot, 1.0f};
+  for (std::uint32_t vertex = 0; vertex < count; ++vertex) mesh.weights.append({&whole, 1});
+}
+
+/// An arm of three bones along y in a sleeve, a club beside it that the hand holds, and another
+/// arm. The forearm reaches from y = 1 to 2, the arm is a metre wide and the sleeve 1.2 m.
+Character make_armed_arm() {
+  Character character = test::make_tube(24, 16, 3);
+  const Mesh tube = character.meshes[0];
+  for (std::uint32_t i = 0; i < 3; ++i)
+    character.skeleton.bones[i].name = std::array{"rig:UpperArm", "rig:ForeArm", "rig:Hand"}[i];
+  Bone other;
+  other.name = "rig:OtherArm";
+  other.rest.translation = Vec3f(3, 0, 0);
+  character.skeleton.bones.push_back(other);
+  Bone still;
+  still.name = "rig:Still";
+  character.skeleton.bones.push_back(still);
+  Skin& skin = character.skins[0];
+  skin.bones.push_back(3);
+  Affine3f bone_from_bind = Affine3f::Identity();
+  bone_from_bind.translation() = Vec3f(-3, 0, 0);
+  skin.bone_from_bind.push_back(bone_from_bind);
+  character.meshes[0].name = "skin";
+  add_tube(character, tube, "sleeve", 1.2f, Vec3f::Zero());
+  add_tube(character, tube, "club", 0.2f, Vec3f(0.95f, 0, 0));
+  attach_to(character.meshes[kClub], 2);
+  add_tube(character, tube, "other", 1.0f, Vec3f(3, 0, 0));
+  attach_to(character.meshes[kOtherArm], 3);
+  return character;
+}
+
+std::set<std::uint32_t> torn_meshes(const TornModel& model) {
+  std::set<std::uint32_t> torn;
+  for (std::uint32_t m = 0; m < model.source().meshes.size(); ++m)
+    if (!(model.character().meshes[m] == model.source().meshes[m])) torn.insert(m);
+  return torn;
+}
+
+TearReport apply_aimed(TornModel& model, const AimedOperation& aimed) {
+  const auto plain = resolve(model, aimed);
+  EXPECT_TRUE(plain) << plain.error().text();
+  if (!plain) return {};
+  const auto report = apply_operation(model, *plain);
+  EXPECT_TRUE(report) << report.error().text();
+  return report ? *report : TearReport{};
+}
+
+Status failure_of(const TornModel& model, const AimedOperation& aimed) {
+  const auto plain = resolve(model, aimed);
+  EXPECT_FALSE(plain);
+  return plain.error();
+}
+
+SeverOperation sever_at(const std::string& bone, double at) {
+  SeverOperation sever;
+  sever.place = {bone, at};
+  return sever;
+}
+
+SlashOperation slash_at(const std::string& bone, double at) {
+  SlashOperation slash;
+  slash.place = {bone, at};
+  return slash;
+}
+
+TEST(Sever, cuts_skin_and_sleeve_but_neither_club_nor_the_other_arm) {
+  for (const double at : {0.0, 0.1, 0.37, 0.5, 0.81, 1.0}) {
+    SCOPED_TRACE(at);
+    TornModel model = make_model(make_armed_arm());
+    const TearReport report = apply_aimed(model, sever_at("ForeArm", at));
+    EXPECT_EQ(torn_meshes(model), (std::set<std::uint32_t>{kSkin, kSleeve}));
+    EXPECT_EQ(report.runs, 2u);
+    EXPECT_EQ(report.pieces.size(), 4u);
+    EXPECT_EQ(report.open_sections, 0u);
+    EXPECT_EQ(count_topology(model.character())->boundary_edges, 0u);
+  }
+}
+
+TEST(Sever, leans_by_its_tilt_towards_the_view) {
+  TornModel model = make_model(make_armed_arm());
+  SeverOperation sever = sever_at("rig:ForeArm", 0.5);
+  sever.tilt = 0.4;
+  sever.from = ViewSide::left;
+  const auto plain = resolve(model, sever);
+  ASSERT_TRUE(plain) << plain.error().text();
+  const PlaneCut& cut = std::get<CutOperation>(*plain).cut;
+  EXPECT_NEAR((cut.normal - Vec3d(std::sin(0.4), std::cos(0.4), 0)).norm(), 0, 1e-6);
+  EXPECT_NEAR((cut.point - Vec3d(0, 1.5, 0)).norm(), 0, 1e-6);
+  EXPECT_EQ(cut.sections.size(), 2u);
+  sever.tilt = 1.5;
+  EXPECT_EQ(failure_of(model, sever).code(), StatusCode::invalid_argument);
+}
+
+TEST(Sever, also_cuts_what_a_slash_has_opened) {
+  TornModel model = make_model(make_armed_arm());
+  SlashOperation slash = slash_at("ForeArm", 0.5);
+  slash.turn = kPi / 2;
+  slash.options.layers = Layers::all;
+  EXPECT_GT(apply_aimed(model, slash).runs, 0u);
+  const TearReport report = apply_aimed(model, sever_at("ForeArm", 0.5));
+  EXPECT_EQ(report.runs, 2u);
+  EXPECT_EQ(report.pieces.size(), 4u);
+  EXPECT_EQ(torn_meshes(model), (std::set<std::uint32_t>{kSkin, kSleeve}));
+}
+
+TEST(Sever, follows_the_pose) {
+  Random random(4);
+  for (int i = 0; i < 60; ++i) {
+    SCOPED_TRACE(i);
+    const std::uint32_t bones = 2 + random.index(4);
+    TornModel model = make_model(test::make_tube(8 * bones, 6 + random.index(14), bones));
+    SeverOperation sever =
+        sever_at("bone" + std::to_string(random.index(bones)), random.uniform(0.3, 0.7));
+    sever.pose = test::random_pose(model.source(), random, 0.3, 1.0);
+    const TearReport report = apply_aimed(model, sever);
+    EXPECT_EQ(report.runs, 1u);
+    EXPECT_EQ(report.pieces.size(), 2u);
+    EXPECT_EQ(report.caps, 2u);
+    EXPECT_EQ(count_topology(model.character())->boundary_edges, 0u);
+    EXPECT_THAT(test::broken_laws(model), IsEmpty());
+  }
+}
+
+TEST(Slash, opens_the_outer_surface_on_the_side_that_is_seen) {
+  const std::array<std::pair<ViewSide, Vec3d>, 3> sides = {
+      std::pair{ViewSide::front, Vec3d(0, 0, 1)}, std::pair{ViewSide::back, Vec3d(0, 0, -1)},
+      std::pair{ViewSide::right, Vec3d(-1, 0, 0)}};
+  for (const auto& [side, direction] : sides)
+    for (const Layers layers : {Layers::nearest, Layers::all}) {
+      TornModel model = make_model(make_armed_arm());
+      SlashOperation slash = slash_at("ForeArm", 0.45);
+      slash.from = side;
+      slash.options.layers = layers;
+      const TearReport report = apply_aimed(model, slash);
+      EXPECT_GT(report.runs, 0u);
+      EXPECT_EQ(torn_meshes(model), layers == Layers::all
+                                        ? (std::set<std::uint32_t>{kSkin, kSleeve})
+                                        : (std::set<std::uint32_t>{kSleeve}));
+      for (const std::uint32_t m : torn_meshes(model)) {
+        const Mesh& mesh = model.character().meshes[m];
+        for (std::uint32_t v = model.source().meshes[m].vertex_count(); v < mesh.vertex_count();
+             ++v)
+          EXPECT_GT(mesh.positions[v].cast<double>().dot(direction), 0);
+      }
+    }
+}
+
+TEST(Slash, from_the_left_comes_between_club_and_arm) {
+  TornModel model = make_model(make_armed_arm());
+  SlashOperation slash = slash_at("ForeArm", 0.5);
+  slash.from = ViewSide::left;
+  EXPECT_GT(apply_aimed(model, slash).runs, 0u);
+  EXPECT_EQ(torn_meshes(model), std::set<std::uint32_t>{kSleeve});
+}
+
+TEST(Slash, has_the_length_and_turn_that_are_asked_for) {
+  for (const double turn : {0.0, 0.5, kPi / 2, -0.7}) {
+    TornModel model = make_model(make_armed_arm());
+    SlashOperation slash = slash_at("ForeArm", 0.5);
+    slash.turn = turn;
+    slash.length = {0.3, AimedLength::Unit::metres};
+    const auto plain = resolve(model, slash);
+    ASSERT_TRUE(plain) << plain.error().text();
+    const Stroke& stroke = std::get<TearOperation>(*plain).stroke;
+    Vec3d way = stroke.back().base - stroke.front().base;
+    way.z() = 0;
+    EXPECT_NEAR(way.norm(), 0.3, 1e-6);
+    // Seen from the front, the bone points up and the model's left is on the right.
+    const Vec3d expected(std::cos(turn), std::sin(turn), 0);
+    EXPECT_NEAR(std::abs(way.dot(expected)), 0.3, 1e-6);
+    const auto report = apply_operation(model, *plain);
+    ASSERT_TRUE(report);
+    EXPECT_GE(report->length_posed, 0.299);
+    EXPECT_LE(report->length_posed, 0.33);
+  }
+}
+
+TEST(Slash, in_widths_ends_at_the_outline) {
+  TornModel model = make_model(make_armed_arm());
+  SlashOperation slash = slash_at("ForeArm", 0.5);
+  for (const double widths : {0.5, 5.0}) {
+    slash.length = {widths, AimedLength::Unit::widths};
+    const auto plain = resolve(model, slash);
+    ASSERT_TRUE(plain) << plain.error().text();
+    const Stroke& stroke = std::get<TearOperation>(*plain).stroke;
+    const double across = std::abs(stroke.back().base.x() - stroke.front().base.x());
+    EXPECT_NEAR(across, 1.2 * std::min(widths, 1.0), widths < 1 ? 1e-3 : 0.1);
+  }
+}
+
+TEST(Slash, of_a_given_depth_stays_that_deep) {
+  TornModel model = make_model(make_armed_arm());
+  SlashOperation slash = slash_at("ForeArm", 0.5);
+  slash.depth = AimedLength{0.05, AimedLength::Unit::metres};
+  slash.options.layers = Layers::all;
+  EXPECT_GT(apply_aimed(model, slash).runs, 0u);
+  EXPECT_EQ(torn_meshes(model), std::set<std::uint32_t>{kSleeve}) << "the skin is 0.1 m below";
+}
+
+TEST(Slash, follows_the_pose) {
+  Random random(5);
+  for (int i = 0; i < 60; ++i) {
+    SCOPED_TRACE(i);
+    const std::uint32_t bones = 2 + random.index(4);
+    TornModel model = make_model(test::make_tube(8 * bones, 8 + random.index(12), bones));
+    SlashOperation slash =
+        slash_at("bone" + std::to_string(random.index(bones)), random.uniform(0.2, 0.8));
+    slash.turn = random.uniform(-3, 3);
+    slash.from =
+        random.index(2) == 0
+            ? View(ViewSide::front)
+            : View(ViewDirection{{random.uniform(-1, 1), 0, 1.0}, ViewDirection::Space::bone});
+    if (random.index(2) == 0) slash.options.width = 0.02;
+    slash.pose = test::random_pose(model.source(), random, 0.3, 1.0);
+    const TearReport report = apply_aimed(model, slash);
+    EXPECT_EQ(report.runs, 1u);
+    EXPECT_EQ(report.segments_missed, 0u);
+    EXPECT_TRUE(report.pieces.empty());
+    EXPECT_THAT(test::broken_laws(model), IsEmpty());
+  }
+}
+
+TEST(Puncture, goes_in_or_through) {
+  for (const bool is_through : {false, true})
+    for (const bool wall : {false, true}) {
+      TornModel model = make_model(test::make_tube(24, 16, 3));
+      PunctureOperation puncture;
+      puncture.place = {"bone1", 0.5};
+      puncture.radius = {0.1, AimedLength::Unit::metres};
+      puncture.is_through = is_through;
+      puncture.wall = wall;
+      EXPECT_GT(apply_aimed(model, puncture).runs, 0u);
+      EXPECT_EQ(count_topology(model.character())->boundary_loops, wall         ? 0u
+                                                                   : is_through ? 2u
+                                                                                : 1u);
+      EXPECT_THAT(test::broken_laws(model), IsEmpty());
+    }
+}
+
+TEST(Puncture, keeps_clear_of_the_club) {
+  TornModel model = make_model(make_armed_arm());
+  PunctureOperation puncture;
+  puncture.place = {"ForeArm", 0.5};
+  puncture.from = ViewSide::right;
+  puncture.is_through = true;
+  apply_aimed(model, puncture);
+  EXPECT_EQ(torn_meshes(model), (std::set<std::uint32_t>{kSkin, kSleeve}));
+}
+
+TEST(Aim, finds_bones_without_their_namespace) {
+  const Character character = make_armed_arm();
+  EXPECT_EQ(*find_bone(character.skeleton, "Hand"), 2u);
+  EXPECT_EQ(*find_bone(character.skeleton, "rig:Hand"), 2u);
+  const auto unknown = find_bone(character.skeleton, "ForArm");
+  ASSERT_FALSE(unknown);
+  EXPECT_EQ(unknown.error().code(), StatusCode::not_found);
+  EXPECT_THAT(std::string(unknown.error().text()), HasSubstr("'rig:ForeArm'"));
+  EXPECT_THAT(std::string(find_bone(character.skeleton, "zzzzzz").error().text()),
+              Not(HasSubstr("there is")));
+  Character twice = character;
+  twice.skeleton.bones[4].name = "second:Hand";
+  EXPECT_EQ(find_bone(twice.skeleton, "Hand").error().code(), StatusCode::invalid_argument);
+  EXPECT_EQ(*find_bone(twice.skeleton, "rig:Hand"), 2u);
+}
+
+TEST(Aim, refuses_what_it_cannot_hit) {
+  TornModel model = make_model(make_armed_arm());
+  const auto before = test::state_of(model);
+  EXPECT_EQ(failure_of(model, sever_at("Still", 0.5)).code(), StatusCode::not_found);
+  EXPECT_THAT(std::string(failure_of(model, sever_at("Still", 0.5)).text()),
+              HasSubstr("moves no vertex"));
+  EXPECT_EQ(failure_of(model, sever_at("ForeArm", 1.2)).code(), StatusCode::invalid_argument);
+  EXPECT_EQ(failure_of(model, sever_at("ForeArm", std::numeric_limits<double>::quiet_NaN())).code(),
+            StatusCode::invalid_argument);
+  SlashOperation slash = slash_at("ForeArm", 0.5);
+  slash.from = ViewSide::top;
+  EXPECT_THAT(std::string(failure_of(model, slash).text()), HasSubstr("along the bone"));
+  slash.from = ViewDirection{Vec3d::Zero()};
+  EXPECT_EQ(failure_of(model, slash).code(), StatusCode::invalid_argument);
+  slash = slash_at("ForeArm", 0.5);
+  slash.length.value = 0;
+  EXPECT_EQ(failure_of(model, slash).code(), StatusCode::invalid_argument);
+  PunctureOperation puncture;
+  puncture.place = {"ForeArm", 0.5};
+  puncture.is_through = true;
+  puncture.depth = AimedLength{0.1, AimedLength::Unit::metres};
+  EXPECT_EQ(failure_of(model, puncture).code(), StatusCode::invalid_argument);
+  slash = slash_at("ForeArm", 0.5);
+  slash.pose = ClipPose{std::string("Swim"), 0.0};
+  EXPECT_EQ(failure_of(model, slash).code(), StatusCode::not_found);
+  EXPECT_EQ(test::difference(test::state_of(model), before), "");
+}
+
+TEST(Aim, keeps_the_pose_and_options_of_the_operation) {
+  const TornModel model = make_model(test::make_tube(24, 16, 3));
+  SlashOperation slash = slash_at("bone1", 0.5);
+  slash.pose = ClipPose{std::string("Bend"), 0.5};
+  slash.options.width = 0.03;
+  const auto plain = resolve(model, slash);
+  ASSERT_TRUE(plain);
+  const TearOperation& tear = std::get<TearOperation>(*plain);
+  EXPECT_EQ(std::get<ClipPose>(tear.pose).time, 0.5);
+  EXPECT_EQ(tear.options, slash.options);
+}
+
+/// The length of the path that blades stand on.
+double length_of(const Stroke& stroke) {
+  double length = 0;
+  for (std::size_t i = 1; i < stroke.size(); ++i)
+    length += (stroke[i].base + stroke[i].tip - stroke[i - 1].base - stroke[i - 1].tip).norm() / 2;
+  return length;
+}
+
+TEST(Incision, is_straight_on_an_unrolled_prism) {
+  constexpr std::uint32_t kSides = 12, kRings = 18;
+  const TornModel model = make_model(test::make_tube(kRings, kSides, 3));
+  // Triangle 2 (ring * sides + side) has its first corner at that ring and side.
+  const double side = 2 * 0.5 * std::sin(kPi / kSides), ring = 3.0 / kRings;
+  Random random(6);
+  for (int i = 0; i < 40; ++i) {
+    const std::uint32_t from_side = random.index(kSides), sides = random.index(5),
+                        from_ring = random.index(kRings), to_ring = random.index(kRings);
+    IncisionOperation incision;
+    incision.points = {{0u, 2 * (from_ring * kSides + from_side), {1, 0, 0}},
+                       {0u, 2 * (to_ring * kSides + (from_side + sides) % kSides), {1, 0, 0}}};
+    if (sides == 0 && from_ring == to_ring) continue;
+    const auto plain = resolve(model, incision);
+    ASSERT_TRUE(plain) << plain.error().text();
+    const double exact =
+        std::hypot(side * sides, ring * (static_cast<double>(to_ring) - from_ring));
+    const double length = length_of(std::get<TearOperation>(*plain).stroke);
+    EXPECT_GE(length, exact * (1 - 1e-5));
+    EXPECT_LE(length, exact * (1 + 0.02));
+  }
+}
+
+TEST(Incision, is_torn_where_it_runs) {
+  Random random(7);
+  for (int i = 0; i < 20; ++i) {
+    SCOPED_TRACE(i);
+    TornModel model = make_model(test::make_bumpy_ball(400));
+    const std::uint32_t count = model.source().meshes[0].triangle_count();
+    IncisionOperation incision;
+    const std::uint32_t start = random.index(count);
+    // Places near one another, so that the path does not meet itself.
+    incision.points = {{std::string(model.source().meshes[0].name), start, {1, 2, 1}},
+                       {0u, (start + 20) % count, {0.2, 0.3, 0.5}}};
+    incision.pose = test::random_pose(model.source(), random, 0.2, 1.0);
+    const auto plain = resolve(model, incision);
+    ASSERT_TRUE(plain) << plain.error().text();
+    const auto report = apply_operation(model, *plain);
+    ASSERT_TRUE(report) << report.error().text();
+    EXPECT_GE(report->runs, 1u);
+    EXPECT_EQ(report->segments_missed, 0u);
+    const double length = length_of(std::get<TearOperation>(*plain).stroke);
+    EXPECT_NEAR(report->length_posed, length, 0.02 * length);
+  }
+}
+
+TEST(Incision, refuses_places_that_do_not_exist) {
+  TornModel model = make_model(make_armed_arm());
+  IncisionOperation incision;
+  incision.points = {{0u, 0, {1, 0, 0}}};
+  EXPECT_EQ(failure_of(model, incision).code(), StatusCode::invalid_argument);
+  incision.points.push_back({0u, 1u << 30, {1, 0, 0}});
+  EXPECT_EQ(failure_of(model, incision).code(), StatusCode::index_out_of_range);
+  incision.points[1] = {std::string("skim"), 4, {1, 0, 0}};
+  EXPECT_THAT(std::string(failure_of(model, incision).text()), HasSubstr("there is 'skin'"));
+  incision.points[1] = {0u, 4, {1, -1, 0.5}};
+  EXPECT_EQ(failure_of(model, incision).code(), StatusCode::invalid_argument);
+  incision.points[1] = {std::string("club"), 4, {1, 1, 1}};
+  EXPECT_THAT(std::string(failure_of(model, incision).text()), HasSubstr("does not connect"));
+}
+
+}  // namespace
+}  // namespace sunder
