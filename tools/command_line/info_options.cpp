@@ -1,0 +1,17 @@
+#include "tools/command_line/options.h"
+
+namespace sunder::tools {
+
+CLI::App* add_info(CLI::App& app, InfoRequest& request) {
+  CLI::App* const verb = app.add_subcommand(
+      "info", "Describe a model: meshes, bones, clips, topology, and faults that loading repaired");
+  verb->add_option("MODEL", request.model,
+                   "Model file: glTF, GLB, FBX, COLLADA, X, B3D, OBJ, PLY, OFF ...")
+      ->required();
+  verb->add_flag("--json", request.as_json, "Print one JSON object instead of text");
+  verb->footer(
+      "Exit code 1 if loading repaired or dropped something.\n\nExample: sunder info fox.glb");
+  return verb;
+}
+
+}  // namespace sunder::tools

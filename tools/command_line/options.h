@@ -1,0 +1,23 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include "tools/verbs.h"
+
+namespace sunder::tools {
+
+// Each function adds a verb with its options to the command; parsing fills in the request.
+CLI::App* add_info(CLI::App& app, InfoRequest& request);
+CLI::App* add_tear(CLI::App& app, TearRequest& request);
+CLI::App* add_demo(CLI::App& app, DemoRequest& request);
+CLI::App* add_transfer(CLI::App& app, TransferRequest& request);
+CLI::App* add_validate(CLI::App& app, ValidateRequest& request);
+CLI::App* add_view(CLI::App& app, ViewRequest& request);
+
+/// `--weights-as`, the number format of written weights.
+void add_weights_as(CLI::App& verb, SaveOptions& save);
+/// `--max-error` and its limits, which exclude that the caller chooses influences and format.
+/// @param verb  with the options --influences and --weights-as.
+void add_maximum_error(CLI::App& verb, std::optional<MaximumError>& wanted);
+
+}  // namespace sunder::tools

@@ -1,0 +1,43 @@
+#include "tools/command_line/options.h"
+
+namespace sunder::tools {
+
+CLI::App* add_validate(CLI::App& app, ValidateRequest& request) {
+  CLI::App* const verb =
+      app.add_subcommand("validate", "Compare how the skins of a source and a target deform");
+  CLI::Option* const source = verb->add_option("SOURCE", request.source, "The model as it was");
+  CLI::Option* const target =
+      verb->add_option("TARGET", request.target, "The model that a tool made of it");
+  source->needs(target);
+  verb->add_option("--ops", request.operations, "The operation log that made the target");
+  verb->add_option("--bone-names", request.bone_names,
+                   "JSON file of bones whose names differ: {\"of the target\": \"of the source\"}");
+  verb->add_option("--profile", request.profile, "Simulate the limits of a platform")
+      ->check(CLI::IsMember({"unity4", "unreal8", "gltf4", "gltf8", "webxr"}));
+  verb->add_option("--limits", request.limits,
+                   "Limits of joints for the certificate: none, clips or a JSON file")
+      ->capture_default_str();
+  verb->add_option("--fail-on", request.fail_on, "Least severity for exit code 1")
+      ->check(CLI::IsMember({"error", "warning", "note"}))
+      ->capture_default_str();
+  verb->add_option("--report", request.report, "File for the JSON report");
+  verb->add_option("--html", request.html, "File for a page with both models, which opens offline");
+  CLI::Option* const manifest =
+      verb->add_option("--manifest", request.manifest, "Many pairs, JSON; see docs/validation.md");
+  verb->add_option("--jobs", request.jobs, "Pairs of a manifest at a time")
+      ->check(CLI::Range(1, 256))
+      ->capture_default_str();
+  verb->add_flag("--json-lines", request.as_json_lines,
+                 "Print progress and results as one JSON object per line");
+  manifest->excludes(source)->excludes(target);
+  verb->callback([source, target, manifest] {
+    if (!*manifest && (!*source || !*target))
+      throw CLI::RequiredError("SOURCE and TARGET, or --manifest");
+  });
+  verb->footer(
+      "Exit code 1 if there is a finding at or above --fail-on.\n\n"
+      "Example: sunder validate fox.glb torn.glb --ops ops.json --limits clips");
+  return verb;
+}
+
+}  // namespace sunder::tools

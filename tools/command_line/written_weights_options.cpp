@@ -1,0 +1,54 @@
+#include <string>
+
+#include "tools/command_line/options.h"
+#include "tools/length.h"
+#include "tools/written_influences.h"
+
+namespace sunder::tools {
+namespace {
+
+/// @param name  a result of weight_format_name().
+WeightFormat weight_format(const std::string& name) {
+  for (const WeightFormat format : {WeightFormat::unorm16, WeightFormat::unorm8})
+    if (name == weight_format_name(format)) return format;
+  return WeightFormat::float32;
+}
+
+}  // namespace
+
+void add_weights_as(CLI::App& verb, SaveOptions& save) {
+  verb.add_option_function<std::string>(
+          "--weights-as", [&save](const std::string& name) { save.weights = weight_format(name); },
+          "Number format of the written weights; u16 and u8 are normalised integers that sum to "
+          "exactly one")
+      ->check(CLI::IsMember({"float", "u16", "u8"}))
+      ->default_str("float");
+}
+
+void add_maximum_error(CLI::App& verb, std::optional<MaximumError>& wanted) {
+  CLI::Option* const length =
+      verb.add_option_function<std::string>(
+              "--max-error",
+              [&wanted](const std::string& text) { wanted = MaximumError{*parse_length(text)}; },
+              "Write as few influences and bits as keep every vertex within this distance of the "
+              "unpruned skin in every pose: 0.1mm, 1cm, or metres")
+          ->check(CLI::Validator(
+              [](const std::string& text) {
+                return parse_length(text)
+                           ? std::string()
+                           : "'" + text + "' is no length; expected 0.1mm, 1cm, 20um or metres";
+              },
+              "LENGTH"));
+  for (const char* const other : {"--influences", "--weights-as"})
+    length->excludes(verb.get_option(other));
+  verb.add_option_function<std::string>(
+          "--limits",
+          [&wanted](const std::string& limits) {
+            if (wanted) wanted->limits = limits;  // else refused: needs --max-error
+          },
+          "Joint limits for --max-error: none, clips or a JSON file")
+      ->needs(length)
+      ->default_str("none");
+}
+
+}  // namespace sunder::tools
