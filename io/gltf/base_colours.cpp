@@ -73,7 +73,8 @@ class Reader {
     const Json& webp = member(member(texture, "extensions"), "EXT_texture_webp");
     colour.image = image(member(webp.is_object() ? webp : texture, "source"));
     if (const Json& set = member(reference, "texCoord"); set.is_number_unsigned())
-      colour.uv_set = static_cast<std::uint32_t>(std::min<std::uint64_t>(set, kNone));
+      if (const auto number = set.get<std::uint64_t>(); number < kNone)
+        colour.uv_set = static_cast<std::uint32_t>(number);
     const Json& sampler = entry(source_.json, "samplers", member(texture, "sampler"));
     colour.wrap_u = wrap_of(sampler, "wrapS");
     colour.wrap_v = wrap_of(sampler, "wrapT");

@@ -130,7 +130,9 @@ class SourceSides {
   }
   [[nodiscard]] bool lies_on(const Place& place, const Ends& ends) const {
     if (place[0] != ends[0][0]) return false;  // another mesh
-    const auto position = [](const Place& of) { return Vec3f(of[1], of[2], of[3]).cast<double>(); };
+    const auto position = [](const Place& of) -> Vec3d {
+      return Vec3f(of[1], of[2], of[3]).cast<double>();
+    };
     const Vec3d from = position(ends[0]), along = position(ends[1]) - from,
                 offset = position(place) - from;
     const double squared = along.squaredNorm();
