@@ -42,7 +42,8 @@ Character hostile_cactus() {
   cactus.meshes[0].name = kHostileName;
   Clip other = cactus.clips.at(0);
   other.name = kHostileName;
-  for (Channel& channel : other.channels) channel.interpolation = Interpolation::step;
+  for (Channel& channel : other.channels)
+    if (channel.interpolation == Interpolation::linear) channel.interpolation = Interpolation::step;
   cactus.clips.push_back(other);
   return cactus;
 }
@@ -51,7 +52,9 @@ struct Ray {
   Vec3d eye, direction;
 };
 
-Vec3d vector_of(const json& numbers) { return {numbers[0], numbers[1], numbers[2]}; }
+Vec3d vector_of(const json& numbers) {
+  return {numbers[0].get<double>(), numbers[1].get<double>(), numbers[2].get<double>()};
+}
 
 /// Distance along a ray to a triangle; infinite beside it.
 double distance_to(const Ray& ray, const std::array<Vec3d, 3>& corners) {
@@ -138,7 +141,8 @@ class ViewPage : public CommandSuite {
   static void SetUpTestSuite() {
     CommandSuite::SetUpTestSuite();
     cactus_ = std::make_unique<Character>(hostile_cactus());
-    ASSERT_TRUE(save_glb(model(), *cactus_));
+    const Status saved = save_glb(model(), *cactus_);
+    ASSERT_TRUE(saved) << saved.text();
     const CommandResult result = run_sunder({"view", model(), "-o", path("view.html")});
     if (result.exit_code == 2) return;  // built without pages
     ASSERT_EQ(result.exit_code, 0) << result.err;

@@ -145,43 +145,62 @@ class SourceSides {
   std::map<Ends, char> whole_;
 };
 
-/// Number of the piece of each component of the torn model; absent: it is no piece.
-std::map<Index, std::uint16_t> number_pieces(const Surface& source, const Surface& torn) {
+/// Visits all corners of a surface: visit(component of its triangle, place).
+template <class Visit>
+void for_each_corner(const Surface& surface, const Visit& visit) {
+  const Character& character = surface.character();
+  for (Index mesh = 0; mesh < character.meshes.size(); ++mesh) {
+    const std::vector<Triangle>& triangles = character.meshes[mesh].triangles;
+    for (Index t = 0; t < triangles.size(); ++t) {
+      const Index component = surface.component(mesh, t);
+      for (Index corner = 0; corner < 3 && component != kNone; ++corner)
+        visit(component, place_of(character, mesh, triangles[t][corner]));
+    }
+  }
+}
+
+/// A component of the torn model.
+struct Part {
+  std::size_t corners = 0;
+  std::map<Index, std::size_t> corners_of_source;  ///< By component of the source.
+
+  /// The component of the source that it was a part of; kNone: it has no vertex of the source.
+  [[nodiscard]] Index origin() const {
+    const auto most = std::ranges::max_element(corners_of_source, {},
+                                               [](const auto& entry) { return entry.second; });
+    return most == corners_of_source.end() ? kNone : most->first;
+  }
+};
+
+std::map<Index, Part> find_parts(const Surface& source, const Surface& torn) {
   std::map<Place, Index> source_component;
-  const auto for_each_corner = [](const Surface& surface, const auto& visit) {
-    const auto& meshes = surface.character().meshes;
-    for (Index mesh = 0; mesh < meshes.size(); ++mesh)
-      for (Index t = 0; t < meshes[mesh].triangle_count(); ++t)
-        if (const Index component = surface.component(mesh, t); component != kNone)
-          for (const Index vertex : meshes[mesh].triangles[t])
-            visit(component, place_of(surface.character(), mesh, vertex));
-  };
   for_each_corner(source, [&](Index component, const Place& place) {
     source_component.try_emplace(place, component);
   });
-  std::map<Index, std::map<Index, std::size_t>> votes;  // of corners, per torn component
-  std::map<Index, std::size_t> sizes;
+  std::map<Index, Part> parts;
   for_each_corner(torn, [&](Index component, const Place& place) {
-    ++sizes[component];
-    auto& of_component = votes[component];
+    Part& part = parts[component];
+    ++part.corners;
     if (const auto known = source_component.find(place); known != source_component.end())
-      ++of_component[known->second];
+      ++part.corners_of_source[known->second];
   });
+  return parts;
+}
+
+/// Number of the piece of each component of the torn model; absent: it is no piece.
+std::map<Index, std::uint16_t> number_pieces(const Surface& source, const Surface& torn) {
+  const std::map<Index, Part> parts = find_parts(source, torn);
   std::map<Index, Index> body;  // the largest part of each component of the source
-  std::map<Index, Index> origin;
-  for (const auto& [component, of_component] : votes) {
-    if (of_component.empty()) continue;
-    const Index from = std::ranges::max_element(of_component, {}, [](const auto& vote) {
-                         return vote.second;
-                       })->first;
-    origin[component] = from;
-    const auto [largest, is_first] = body.try_emplace(from, component);
-    if (!is_first && sizes[component] > sizes[largest->second]) largest->second = component;
+  for (const auto& [component, part] : parts) {
+    const Index origin = part.origin();
+    if (origin == kNone) continue;
+    Index& largest = body.try_emplace(origin, component).first->second;
+    if (part.corners > parts.at(largest).corners) largest = component;
   }
   std::map<Index, std::uint16_t> numbers;
-  for (const auto& [component, unused] : votes) {
-    const auto from = origin.find(component);
-    if (from != origin.end() && body[from->second] == component) continue;
+  for (const auto& [component, part] : parts) {
+    const Index origin = part.origin();
+    if (origin != kNone && body[origin] == component) continue;
     if (numbers.size() < std::numeric_limits<std::uint16_t>::max())
       numbers.emplace(component, static_cast<std::uint16_t>(numbers.size() + 1));
   }

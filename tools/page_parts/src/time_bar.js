@@ -10,6 +10,7 @@ export class TimeBar {
     this.seek = byId('seek');
     const clips = byId('clip');
     clips.append(...data.clips.map((clip, i) => html('option', { value: i }, clip.name || `Clip ${i}`)));
+    if (!data.clips.length) clips.append(html('option', {}, 'No clip'));
     clips.disabled = data.clips.length < 2;
     clips.addEventListener('change', () => this.change(() => player.setClip(Number(clips.value))));
     this.poses = data.poses.map((pose, i) => html('button', { 'aria-pressed': 'false',
@@ -71,7 +72,7 @@ export class TimeBar {
     this.moveCursor(player.time);
     const value = this.series && player.pose === null
       ? `${quantity(valueAt(this.series, player.time), this.series.unit)} at ` : '';
-    byId('clock').textContent = player.pose === null
-      ? `${value}${player.time.toFixed(2)} s` : player.poses[player.pose].name;
+    const ofClip = player.clip === null ? 'Rest' : `${value}${player.time.toFixed(2)} s`;
+    byId('clock').textContent = player.pose === null ? ofClip : player.poses[player.pose].name;
   }
 }

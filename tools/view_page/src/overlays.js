@@ -3,7 +3,7 @@ import {
   BufferAttribute, BufferGeometry, CylinderGeometry, DoubleSide, Group, Mesh, MeshBasicMaterial,
   Points, PointsMaterial, Vector3,
 } from 'three';
-import { FatLines } from './fat_lines.js';
+import { displayed, FatLines } from './fat_lines.js';
 import { cutPolygon } from './operations.js';
 import { add, unit } from './vectors.js';
 
@@ -97,8 +97,9 @@ export class Overlays {
     if (!parts) return null;
     const colour = COLOURS[operation.op];
     const object = new Group();
-    object.add(new Mesh(parts.geometry, new MeshBasicMaterial({ color: colour, side: DoubleSide,
-      transparent: true, depthWrite: false })), lines(colour, parts.segments));
+    object.add(new Mesh(parts.geometry, new MeshBasicMaterial({ color: displayed(colour), side: DoubleSide,
+      transparent: true,
+      depthWrite: false })), lines(colour, parts.segments));
     object.children[1].material.transparent = true;
     return object;
   }

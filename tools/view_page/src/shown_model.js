@@ -61,7 +61,7 @@ vec3 encoded(vec3 c) {
 vec3 lit(vec3 surface, vec3 normal) {
   float key = max(dot(normal, normalize(vec3(-0.35, 0.6, 0.72))), 0.0);
   float rim = pow(1.0 - abs(normal.z), 3.0);
-  return surface * (0.66 + 0.38 * key) + 0.05 * rim;
+  return surface * (0.56 + 0.40 * key) + 0.05 * rim;
 }
 
 void main() {
