@@ -349,7 +349,7 @@ TEST_F(ViewPage, shows_lips_and_pieces_of_a_torn_model_and_continues_its_log) {
   EXPECT_LT(facts["torn"]["outline_distance"], 4.0) << "lips stand out by half of their width";
   EXPECT_THAT(facts["facts"].get<std::string>(), HasSubstr("piece 1"));
   EXPECT_EQ(facts["listed"].size(), 4u);
-  EXPECT_THAT(facts["listed"][0].get<std::string>(), HasSubstr("Sway 0.80 s"));
+  EXPECT_THAT(facts["listed"][0].get<std::string>(), HasSubstr("0.80 s of Sway"));
   EXPECT_EQ(facts["pose"], json({0, 0.8, nullptr})) << "a click goes to the pose of an operation";
   // The log that the page holds makes the same model.
   const std::string again = write("again.json", facts["text"].get<std::string>());

@@ -27,13 +27,13 @@ export function isSamePose(data, a, b) {
 
 export function poseText(spec = 'rest') {
   if (typeof spec === 'string') return spec;
-  if (spec.clip !== undefined) return `${spec.clip === '' ? '0' : spec.clip} ${spec.time.toFixed(2)} s`;
+  if (spec.clip !== undefined) return `${spec.time.toFixed(2)} s of ${spec.clip}`;
   return spec.bones ? 'given bones' : 'given matrices';
 }
 
 const NAMES = { tear: 'Tear', cut: 'Cut', drill: 'Bore', weights: 'Weights', undo: 'Undo', redo: 'Redo' };
 
-/** "Tear", "3 blades · Walk 0.40 s" */
+/** "Tear", "3 blades · 0.40 s of Walk" */
 export function describe(operation) {
   const facts = [];
   if (operation.op === 'tear') facts.push(`${operation.stroke.length} blades`);
@@ -59,3 +59,7 @@ export function formatLog(operations) {
 }
 
 export const parseLog = (text) => (text ? JSON.parse(text).operations : []);
+
+/** A word of a command line, as a shell takes it: names of files may say anything. */
+export const shellWord = (word) => (/^[\w.][\w.-]*$/.test(word) ? word
+  : `'${`${word.startsWith('-') ? './' : ''}${word}`.replaceAll("'", "'\\''")}'`);

@@ -12,7 +12,7 @@ import { boxOf } from '../../page_parts/src/bounds.js';
 import { followBones } from './bone_names.js';
 import { givePose } from './given_pose.js';
 import { History } from './history.js';
-import { isSamePose, parseLog, poseSpec } from './log.js';
+import { isSamePose, parseLog, poseSpec, shellWord } from './log.js';
 import { OperationList } from './operation_list.js';
 import { Overlays } from './overlays.js';
 import { PosedSurface } from './picking.js';
@@ -69,7 +69,7 @@ class Page {
     const say = (text, hasFailed) => this.say(text, hasFailed);
     const name = `${data.source.title.replace(/\.[^.]*$/, '') || 'model'}_ops.json`;
     byId('command').textContent =
-      `sunder tear ${data.source.title} --ops ${name} -o torn.glb`;
+      `sunder tear ${shellWord(data.source.title)} --ops ${shellWord(name)} -o torn.glb`;
     this.list = new OperationList(this.history, name,
       { onMessage: say, onChoose: (operation) => this.choose(operation) });
     this.settings = new Settings(byId('settings'), this.diagonal, () => this.placing?.update());

@@ -31,7 +31,7 @@ export class OperationList {
   row(operation, i) {
     const { name, facts } = describe(operation);
     return html('li', {},
-      html('button', { class: 'choose', title: 'Go to its pose',
+      html('button', { class: 'choose', title: `${facts}: go to its pose`,
         'aria-pressed': String(operation === this.chosen),
         onclick: () => this.choose(operation === this.chosen ? null : operation) },
       html('b', {}, `${i + 1} ${name}`), html('span', {}, facts)),

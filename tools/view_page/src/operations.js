@@ -1,8 +1,10 @@
 // Operations of a log, made from places that were clicked. No DOM.
 import { add, cross, distance, dot, frameAround, lerp, scaled, unit } from './vectors.js';
 
-/** A blade is added where the surface leaves the line between two others by this share of its depth. */
+/** Blades are added where the surface leaves the line between two others by this share of their
+ * depth, or where they turn by more than 40 degrees: a tear refuses 90. */
 const LARGEST_SAG = 0.2;
+const LEAST_COSINE = 0.76;
 const MOST_HALVINGS = 6;
 
 /** Corners of the bounds of a plane through three points. */
@@ -26,8 +28,10 @@ function placesBetween(surface, a, b, depth, halvings) {
   const direction = unit(add(a.direction, b.direction));
   const middle = lerp(a.position, b.position, 0.5);
   const reach = Math.max(depth, distance(a.position, b.position) / 2);
-  const position = surface.nearestOnLine(middle, direction, reach);
-  if (!position || halvings === 0 || distance(position, middle) < LARGEST_SAG * depth) return [];
+  const position = surface.nearestOnLine(middle, direction, reach) ?? middle;
+  const isStraight = distance(position, middle) < LARGEST_SAG * depth &&
+    dot(a.direction, b.direction) > LEAST_COSINE;
+  if (isStraight || halvings === 0) return [];
   const place = { position, direction };
   return [...placesBetween(surface, a, place, depth, halvings - 1), place,
     ...placesBetween(surface, place, b, depth, halvings - 1)];
@@ -37,12 +41,17 @@ function withWeights(operation, settings) {
   return settings.weights ? { ...operation, weights: { policy: settings.weights } } : operation;
 }
 
-/** A tear through all places. @param surface  PosedSurface; @param settings  of settings.js */
+/**
+ * A tear through all places. Throws a text if the blades turn too sharply.
+ * @param surface  PosedSurface; @param settings  of settings.js
+ */
 export function makeTear(clicks, settings, pose, surface) {
   const places = clicks.map((click) =>
     ({ position: click.position, direction: outward(click, settings.direction) }));
   const all = places.flatMap((place, i) => (i === 0 ? [place] : [
     ...placesBetween(surface, places[i - 1], place, settings.depth, MOST_HALVINGS), place]));
+  if (all.some((place, i) => i > 0 && dot(place.direction, all[i - 1].direction) < 0.1))
+    throw new Error('The surface turns too sharply between two points: click closer ones, or choose the line of sight.');
   return withWeights({ op: 'tear', pose, width: settings.width, layers: settings.layers,
     wall_depth: settings.wallDepth, stroke: all.map((place) => blade(surface, place, settings)) },
   settings);
