@@ -1,5 +1,6 @@
 // Uses a page of `sunder view` in headless Chromium and prints what happened as JSON.
 // Usage: node view_page.mjs place <page.html> <folder>   clips, tools, logs saved into the folder
+//        node view_page.mjs probe <page.html>            every tool at places that the model covers
 //        node view_page.mjs torn <page.html>             a page with a torn model and operations
 //        node view_page.mjs broken <page.html>           a page whose data cannot be read
 import { readdirSync, readFileSync, renameSync } from 'node:fs';
@@ -213,6 +214,39 @@ async function testPlacing() {
   facts.narrow_share = (await drawn(narrow))[0].share;
 }
 
+/** Uses every tool in the middle of a clip, where the picture of any model says that there is one. */
+async function testProbe() {
+  const page = await openPage(browser, file, facts);
+  const clip = await page.evaluate(() => Math.floor(sunder.data.clips.length / 2));
+  if (await page.evaluate(() => sunder.data.clips.length > 1)) await chooseClip(page, clip);
+  await seek(page, 0.37 * await page.evaluate(() => sunder.player.duration));
+  await page.evaluate(() => sunder.fit());
+  await settle(page);
+  facts.clip = clip;
+  facts.time = await pose(page);
+  facts.has_clips = await page.evaluate(() => sunder.data.clips.length > 0);
+  facts.outline_distance = boxDistance((await drawn(page))[0], await expected(page));
+  const places = await page.evaluate(() => {
+    const { clientWidth: width, clientHeight: height } = sunder.stage.canvas;
+    const found = [];
+    for (let y = 0.02; y < 1; y += 0.04)
+      for (let x = 0.02; x < 1; x += 0.04) if (sunder.pick(x * width, y * height)) found.push([x, y]);
+    return found;
+  });
+  const use = async (key, shares) => {
+    await page.keyboard.press(key);
+    const rays = [];
+    for (const share of shares)
+      rays.push(await clickAt(page, ...places[Math.floor(share * (places.length - 1))]));
+    return rays;
+  };
+  facts.drill = await use('4', [0.3]);
+  facts.cut = await use('3', [0.5, 0.8]);
+  facts.tear = await use('2', [0.6, 0.61]);
+  await page.keyboard.press('Enter');
+  facts.log = JSON.parse(await page.evaluate(() => sunder.list.text));
+}
+
 /** The share of pixels whose colour is like a given one. */
 const shareOf = (page, accept) => page.evaluate((source) => {
   const like = new Function('r', 'g', 'b', `return ${source}`);
@@ -251,6 +285,6 @@ async function testBroken() {
   facts.error = await page.$eval('#error', (error) => error.textContent);
 }
 
-await { place: testPlacing, torn: testTorn, broken: testBroken }[mode]();
+await { place: testPlacing, probe: testProbe, torn: testTorn, broken: testBroken }[mode]();
 await browser.close();
 console.log(JSON.stringify(facts));

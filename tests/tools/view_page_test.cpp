@@ -17,6 +17,7 @@
 
 #include "support/node_program.h"
 #include "support/rigs.h"
+#include "support/shared_models.h"
 #include "tools/command_fixture.h"
 
 namespace sunder::command_test {
@@ -24,8 +25,6 @@ namespace {
 
 using test::run_node_program;
 using test::run_sunder_without_page;
-using testing::Each;
-using testing::Not;
 
 constexpr double kTolerance = 1e-4;  // of the model's diagonal
 
@@ -143,13 +142,11 @@ class ViewPage : public CommandSuite {
     cactus_ = std::make_unique<Character>(hostile_cactus());
     const Status saved = save_glb(model(), *cactus_);
     ASSERT_TRUE(saved) << saved.text();
+    loaded_ = std::make_unique<LoadedCharacter>(*load_character(model()));
     const CommandResult result = run_sunder({"view", model(), "-o", path("view.html")});
     if (result.exit_code == 2) return;  // built without pages
     ASSERT_EQ(result.exit_code, 0) << result.err;
-    if (!test::has_node_packages({"puppeteer-core"}) || !has_chromium()) return;
-    std::filesystem::create_directory(path("saved"));
-    facts_ = used("place", path("view.html"), path("saved"));
-    loaded_ = std::make_unique<LoadedCharacter>(*load_character(model()));
+    can_run_ = test::has_node_packages({"puppeteer-core"}) && has_chromium();
   }
   static void TearDownTestSuite() {
     cactus_.reset();
@@ -157,7 +154,7 @@ class ViewPage : public CommandSuite {
     CommandSuite::TearDownTestSuite();
   }
   void SetUp() override {
-    if (facts_.is_null())
+    if (!can_run_)
       GTEST_SKIP() << "needs the pages (scripts/setup page), chromium and puppeteer-core "
                       "(scripts/setup test)";
   }
@@ -219,15 +216,41 @@ class ViewPage : public CommandSuite {
 
   inline static std::unique_ptr<Character> cactus_;
   inline static std::unique_ptr<LoadedCharacter> loaded_;
+  inline static bool can_run_ = false;
   inline static json facts_;
+
+  // What is asked of a page in which every tool was used: facts_.
+  static void names_stay_text();
+  static void draws_every_clip_where_the_processor_poses_the_model();
+  static void a_stroke_tears_through_the_places_that_were_clicked();
+  static void a_plane_cuts_through_two_places_in_the_line_of_sight();
+  static void a_bounded_plane_cuts_through_three_places();
+  static void a_bore_has_its_axis_through_the_place_that_was_clicked();
+  static void saved_logs_follow_the_schema();
+  static void undo_and_redo_change_the_list();
+  static void can_be_used_without_a_mouse_and_on_a_narrow_screen();
 };
 
-TEST_F(ViewPage, names_stay_text) {
+TEST_F(ViewPage, makes_operations_that_meet_the_places_that_were_clicked) {
+  std::filesystem::create_directory(path("saved"));
+  facts_ = used("place", path("view.html"), path("saved"));
+  names_stay_text();
+  draws_every_clip_where_the_processor_poses_the_model();
+  a_stroke_tears_through_the_places_that_were_clicked();
+  a_plane_cuts_through_two_places_in_the_line_of_sight();
+  a_bounded_plane_cuts_through_three_places();
+  a_bore_has_its_axis_through_the_place_that_was_clicked();
+  saved_logs_follow_the_schema();
+  undo_and_redo_change_the_list();
+  can_be_used_without_a_mouse_and_on_a_narrow_screen();
+}
+
+void ViewPage::names_stay_text() {
   EXPECT_EQ(facts_["title"], kHostileFile);
   EXPECT_EQ(facts_["injected"], json({nullptr, 0}));
 }
 
-TEST_F(ViewPage, draws_every_clip_where_the_processor_poses_the_model) {
+void ViewPage::draws_every_clip_where_the_processor_poses_the_model() {
   ASSERT_EQ(facts_["clips"].size(), cactus_->clips.size());
   for (std::size_t clip = 0; clip < cactus_->clips.size(); ++clip) {
     EXPECT_LT(facts_["clips"][clip]["outline_distance"], 2.5) << "pixels";
@@ -240,7 +263,7 @@ TEST_F(ViewPage, draws_every_clip_where_the_processor_poses_the_model) {
   EXPECT_EQ(facts_["is_playing"], false);
 }
 
-TEST_F(ViewPage, a_stroke_tears_through_the_places_that_were_clicked) {
+void ViewPage::a_stroke_tears_through_the_places_that_were_clicked() {
   EXPECT_EQ(facts_["pending"], 3);
   EXPECT_EQ(facts_["tear"]["saved"], true);
   const PosedModel posed(source(), pose_of(facts_["tear"]));
@@ -256,7 +279,7 @@ TEST_F(ViewPage, a_stroke_tears_through_the_places_that_were_clicked) {
       << "the pose is so near rest that a wrong pose would not be seen";
 }
 
-TEST_F(ViewPage, a_plane_cuts_through_two_places_in_the_line_of_sight) {
+void ViewPage::a_plane_cuts_through_two_places_in_the_line_of_sight() {
   const json& used_tool = facts_["cut"];
   EXPECT_EQ(used_tool["saved"], true);
   const PosedModel posed(source(), pose_of(used_tool));
@@ -272,7 +295,7 @@ TEST_F(ViewPage, a_plane_cuts_through_two_places_in_the_line_of_sight) {
     EXPECT_LT(made.distance_to_edge(place), kTolerance * posed.diagonal);
 }
 
-TEST_F(ViewPage, a_bounded_plane_cuts_through_three_places) {
+void ViewPage::a_bounded_plane_cuts_through_three_places() {
   const json& used_tool = facts_["disc"];
   EXPECT_EQ(used_tool["saved"], true);
   const PosedModel posed(source(), pose_of(used_tool));
@@ -287,13 +310,13 @@ TEST_F(ViewPage, a_bounded_plane_cuts_through_three_places) {
   for (const Vec3d& vertex : made.vertices) EXPECT_LT((vertex - centre).norm(), 1.1 * radius);
 }
 
-TEST_F(ViewPage, a_bore_has_its_axis_through_the_place_that_was_clicked) {
+void ViewPage::a_bore_has_its_axis_through_the_place_that_was_clicked() {
   expect_bore("drill", pose_of(facts_["drill"]));
   expect_bore("drill_rest", RestPose{});
   expect_bore("drill_bind", BindPose{});
 }
 
-TEST_F(ViewPage, saved_logs_follow_the_schema) {
+void ViewPage::saved_logs_follow_the_schema() {
   for (const char* const name : {"tear", "cut", "disc", "drill", "drill_rest", "drill_bind"}) {
     const auto run =
         run_node_program("schema.mjs", "'" SUNDER_SOURCE_DIR "/docs/operation_log.schema.json' '" +
@@ -309,14 +332,14 @@ TEST_F(ViewPage, saved_logs_follow_the_schema) {
   EXPECT_FALSE(json::parse(run->output).empty()) << "the check can fail";
 }
 
-TEST_F(ViewPage, undo_and_redo_change_the_list) {
+void ViewPage::undo_and_redo_change_the_list() {
   EXPECT_EQ(facts_["undo"], json({3, 2, 1, 2, 1, 2, 2, 0}));
   EXPECT_THAT(facts_["beside"].get<std::string>(), HasSubstr("no surface"));
   EXPECT_EQ(facts_["dropped"], 0) << "points of another pose";
   EXPECT_EQ(facts_["copied"], "The log is in the clipboard.");
 }
 
-TEST_F(ViewPage, can_be_used_without_a_mouse_and_on_a_narrow_screen) {
+void ViewPage::can_be_used_without_a_mouse_and_on_a_narrow_screen() {
   EXPECT_EQ(facts_["bone"]["shown"], facts_["bone"]["name"]);
   EXPECT_GT(facts_["changed_by_overlays"], 0);
   EXPECT_GT(facts_["changed_by_colours"], 0.02);
@@ -365,6 +388,56 @@ TEST_F(ViewPage, says_that_its_data_cannot_be_read) {
   page.replace(page.find(mark) + mark.size(), 4, "AAAA");
   const json facts = used("broken", write("broken.html", page), "");
   EXPECT_THAT(facts["error"].get<std::string>(), HasSubstr("This is not the data of a page"));
+}
+
+/// Distance of a place from the line through two points.
+double from_line(const Vec3d& place, const Vec3d& a, const Vec3d& b) {
+  return (place - a).cross((b - a).normalized()).norm();
+}
+
+/// The largest distance of what the tools of a page made from the places that were clicked, found
+/// again by the library's pose, as a share of the model's diagonal.
+double largest_miss(const Character& model, const json& facts) {
+  const bool has_clips = facts["has_clips"];
+  const PosedModel posed(
+      model, has_clips ? PoseSpec(ClipPose{facts["clip"].get<Index>(), facts["time"].get<double>()})
+                       : PoseSpec(RestPose{}));
+  const json &operations = facts["log"]["operations"], &axis = operations[0]["axis"],
+             &plane = operations[1]["plane"], &stroke = operations[2]["stroke"];
+  const auto place = [&](const char* tool, std::size_t click) {
+    const json& ray = facts[tool][click];
+    return posed.hit({vector_of(ray["eye"]), vector_of(ray["direction"])});
+  };
+  const Vec3d origin = vector_of(axis["origin"]);
+  double miss = from_line(place("drill", 0), origin, origin + vector_of(axis["direction"]));
+  for (const std::size_t click : {0, 1}) {
+    miss = std::max(
+        miss,
+        std::abs(vector_of(plane["normal"]).dot(place("cut", click) - vector_of(plane["point"]))));
+    const json& blade = click == 0 ? stroke.front() : stroke.back();
+    miss = std::max(
+        miss, from_line(place("tear", click), vector_of(blade["base"]), vector_of(blade["tip"])));
+  }
+  return miss / posed.diagonal;
+}
+
+TEST_F(ViewPage, clicks_meet_the_surface_of_real_models) {
+  SUNDER_SKIP_WITHOUT_SHARED_MODELS();
+  // Textures, base colours, morph targets, no clips; read from GLB, COLLADA and FBX.
+  for (const char* const name : {"cactoro.glb", "fox.glb", "robot_expressive.glb", "mannequiny.glb",
+                                 "cesium_man.dae", "vr_glove.fbx"}) {
+    const auto file = test::shared_models() / "rigged" / name;
+    ASSERT_EQ(run_sunder({"view", file.string(), "-o", path("real.html")}).exit_code, 0) << name;
+    const json facts = used("probe", path("real.html"), "");
+    const auto loaded = load_character(file);
+    ASSERT_TRUE(loaded) << name;
+    EXPECT_LT(largest_miss(*loaded->character, facts), 1e-6) << name;
+    EXPECT_LT(facts["outline_distance"], 2.5) << name;
+    const std::string log = write("real.json", facts["log"].dump());
+    EXPECT_LE(run_sunder({"tear", file.string(), "--ops", log, "-o", path("real.glb")}).exit_code,
+              1)
+        << name;
+  }
 }
 
 using View = CactusSuite;
