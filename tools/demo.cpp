@@ -11,6 +11,7 @@
 #include "tools/demo_pictures.h"
 #include "tools/demo_rig.h"
 #include "tools/demo_stroke.h"
+#include "tools/overwriting.h"
 #include "tools/picture.h"
 #include "tools/posed_model.h"
 #include "tools/progress_bar.h"
@@ -83,8 +84,12 @@ Result<TornDemo> tear_mid_clip(const std::shared_ptr<const Character>& character
   if (!model) return model.error();
   const Result<TopologyCounts> before = count_topology(*character);
   if (!before) return before.error();
-  const Result<OperationOutcome> outcome = play(tear, *before, *model);
+  Result<OperationOutcome> outcome = play(tear, *model);
   if (!outcome) return outcome.error();
+  if (const Status status = measure_weight_error(tear, *model, *outcome); !status) return status;
+  const Result<TopologyCounts> after = count_topology(model->character());
+  if (!after) return after.error();
+  outcome->topology = TopologyChange{*before, *after};
   return TornDemo{DemoTear{character, std::move(*model), tear, frame, bounds}, *outcome};
 }
 
@@ -110,7 +115,8 @@ ExitCode write_results(const DemoRequest& request, const std::string& place, con
       {"loading", to_json(model.loaded.report)},
       {"operations", Json::array({to_json(demo.outcome, demo.tear.model.character())})},
       {"weight_errors", *weight_errors},
-      {"result", result_json(demo.tear.model, demo.outcome.before, demo.outcome.after)}};
+      {"result",
+       result_json(demo.tear.model, demo.outcome.topology->before, demo.outcome.topology->after)}};
   const std::pair<const char*, Json> texts[] = {
       {"report.json", report},
       {"ops.json", operations_json(character, demo.tear.operation.stroke)}};
@@ -124,6 +130,14 @@ ExitCode write_results(const DemoRequest& request, const std::string& place, con
 
 ExitCode run_demo(const DemoRequest& request) {
   const std::string place = request.model ? request.model->string() : "embedded cactus";
+  if (request.model) {
+    const std::string fault =
+        overwriting({{"MODEL", *request.model}}, {{"--output", request.folder / "torn.glb"}});
+    if (!fault.empty()) {
+      print_error("sunder: " + fault);
+      return ExitCode::usage;
+    }
+  }
   ProgressBar progress(2 + kDemoPictures);
   progress.begin_step(0, "reading");
   const Result<DemoModel> model = get_model(request);

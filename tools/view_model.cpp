@@ -1,9 +1,12 @@
 #include <sunder/io/character_file.h>
 #include <sunder/io/operation_log.h>
 
-#include <cstdio>
+#include <string>
 #include <utility>
+#include <vector>
 
+#include "tools/messages.h"
+#include "tools/overwriting.h"
 #include "tools/page_parts/page_file.h"
 #include "tools/verbs.h"
 #include "tools/view_page/write_view_page.h"
@@ -23,16 +26,28 @@ Status view(const std::filesystem::path& file, bool has_images, LoadedCharacter&
   Result<BaseColours> colours = read_base_colours(*loaded.source, has_images ? kMostImageBytes : 0);
   if (!colours) return colours.error();
   if (has_images && colours->left_out > 0)
-    std::fprintf(stderr, "sunder: %s: %u images are not shown\n", file.string().c_str(),
-                 colours->left_out);
+    print_error("sunder: " + file.string() + ": " + std::to_string(colours->left_out) +
+                " images cannot be shown");
   viewed = {loaded.character.get(), file.filename().string(), std::move(*colours)};
   return {};
+}
+
+/// The fault of an output that would overwrite an input; empty if there is none.
+std::string overwriting_output(const ViewRequest& request) {
+  std::vector<NamedFile> inputs = {{"MODEL", request.model}};
+  if (request.torn) inputs.push_back({"TORN", *request.torn});
+  if (request.operations) inputs.push_back({"--ops", *request.operations});
+  return overwriting(inputs, {{"--output", request.output}});
 }
 
 }  // namespace
 
 ExitCode run_view(const ViewRequest& request) {
   if (const Status status = has_pages(); !status) return complain("view", status, ExitCode::usage);
+  if (const std::string fault = overwriting_output(request); !fault.empty()) {
+    print_error("sunder: " + fault);
+    return ExitCode::usage;
+  }
   ViewInput input;
   LoadedCharacter model, torn;
   if (const Status status = view(request.model, request.has_images, model, input.model); !status)

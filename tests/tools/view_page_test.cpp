@@ -456,6 +456,9 @@ TEST_F(View, refuses_what_it_cannot_show) {
   EXPECT_EQ(exit_code({"view", model(), "--ops", path("absent.json")}), 3);
   EXPECT_EQ(exit_code({"view", model(), "--ops", write("bad.json", "{}")}), 2);
   EXPECT_FALSE(exists("refused.html"));
+  const auto model_bytes = bytes("cactus.glb");
+  EXPECT_EQ(run_sunder({"view", model(), "-o", model()}).exit_code, 2) << "the model itself";
+  EXPECT_EQ(bytes("cactus.glb"), model_bytes);
   EXPECT_EQ(run_sunder({"view", model(), "-o", path("no/such/folder.html")}).exit_code, 3);
 }
 
