@@ -10,6 +10,7 @@
 
 #include "tools/json_file.h"
 #include "tools/overwriting.h"
+#include "tools/page_parts/page_file.h"
 #include "tools/text_file.h"
 #include "tools/validate_page.h"
 #include "tools/validation_page/write_page.h"
@@ -201,7 +202,7 @@ ExitCode run_validate(const ValidateRequest& request) {
     }
     if (!job.html) continue;
     job.pair.over_time = true;
-    if (const Status status = has_page(); !status)
+    if (const Status status = has_pages(); !status)
       return complain("--html", status, ExitCode::usage);
   }
   Output output(request);

@@ -44,6 +44,14 @@ struct TearRequest {
 };
 [[nodiscard]] ExitCode run_tear(const TearRequest& request);
 
+/// sunder view: writes a page that shows a model and makes operation logs.
+struct ViewRequest {
+  std::filesystem::path model, output;
+  std::optional<std::filesystem::path> torn, operations;
+  bool has_images = true;  ///< Whether the images of base colours are embedded.
+};
+[[nodiscard]] ExitCode run_view(const ViewRequest& request);
+
 /// sunder demo: tears a model in the middle of its animation and draws it.
 struct DemoRequest {
   std::optional<std::filesystem::path> model;  ///< Empty: the embedded model.

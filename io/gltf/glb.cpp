@@ -25,8 +25,9 @@ void append_u32(std::vector<std::byte>& bytes, std::size_t value) {
     bytes.push_back(static_cast<std::byte>(value >> shift & 0xFFu));
 }
 
-/// The media type of image bytes, if glTF or one of its extensions supports it; otherwise null.
-const char* media_type(std::span<const std::byte> bytes) {
+}  // namespace
+
+const char* image_type(std::span<const std::byte> bytes) {
   const std::string_view text{reinterpret_cast<const char*>(bytes.data()), bytes.size()};
   if (text.substr(0, 8) == "\x89PNG\r\n\x1A\n") return "image/png";
   if (text.substr(0, 3) == "\xFF\xD8\xFF") return "image/jpeg";
@@ -35,8 +36,6 @@ const char* media_type(std::span<const std::byte> bytes) {
   if (text.substr(0, 7) == "\xABKTX 20") return "image/ktx2";
   return nullptr;
 }
-
-}  // namespace
 
 GlbDraft::GlbDraft(const SourceDocument& source) : json(source.json), source_(source) {
   merge_buffers();
@@ -107,7 +106,7 @@ void GlbDraft::embed_image(Json& image, std::uint64_t& bytes_left) {
   } catch (const Refusal&) {
     return;  // The reference stays as in the source.
   }
-  const char* const type = media_type(bytes);
+  const char* const type = image_type(bytes);
   if (type == nullptr) return;
   bytes_left -= bytes.size();
   image.erase("uri");

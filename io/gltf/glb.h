@@ -11,6 +11,9 @@ namespace sunder::gltf {
 /// A list of a JSON object; added if it is absent.
 Json& list_of(Json& object, const char* name);
 
+/// The media type of image bytes, if glTF or one of its extensions supports it; otherwise null.
+[[nodiscard]] const char* image_type(std::span<const std::byte> bytes);
+
 /// A document that will be written as GLB: its JSON, and one BIN chunk that only grows, so existing
 /// indices stay valid.
 class GlbDraft {

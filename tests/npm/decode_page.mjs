@@ -1,16 +1,18 @@
 // Prints what the page makes of its data: arrays, influences, and posed positions. No browser.
 // Usage: node decode_page.mjs <data> <clip> <time>
 import { readFileSync } from 'node:fs';
-import { bytesOf, decode, influencesOf } from '../../tools/validation_page/page/src/decode.js';
-import { modelFromBone, sampleClip } from '../../tools/validation_page/page/src/pose.js';
-import { palette, posePositions } from '../../tools/validation_page/page/src/skin.js';
+import { bytesOf, decode, influencesOf } from '../../tools/page_parts/src/decode.js';
+import { modelFromBone, sampleClip } from '../../tools/page_parts/src/pose.js';
+import { poseOf, posePositions } from '../../tools/page_parts/src/skin.js';
 
 const [file, clip, time] = process.argv.slice(2);
 const data = decode(bytesOf(readFileSync(file, 'latin1')));
-const ofClip = modelFromBone(data, sampleClip(data, data.clips[clip], Number(time)));
+const sampled = sampleClip(data, data.clips[clip], Number(time));
+const ofClip = modelFromBone(data, sampled.parts);
 
 function describe(model) {
-  const posed = (bones) => Array.from(posePositions(model, palette(model, bones)));
+  const posed = (bones, morphWeights) =>
+    Array.from(posePositions(model, poseOf(model, bones, morphWeights)));
   return {
     title: model.title,
     meshes: model.meshes,
@@ -19,8 +21,8 @@ function describe(model) {
     normals: Array.from(model.smoothNormals),
     indices: Array.from(model.indices),
     influences: Array.from({ length: model.vertexCount }, (_, v) => influencesOf(model, v)),
-    posed_by_clip: posed(ofClip),
-    posed: data.poses.map((pose) => posed(Float64Array.from(pose.matrices))),
+    posed_by_clip: posed(ofClip, sampled.morphWeights),
+    posed: data.poses.map((pose) => posed(pose.matrices, data.skeleton.morph_weights)),
   };
 }
 

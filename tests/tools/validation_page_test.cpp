@@ -16,10 +16,10 @@
 #include "support/random.h"
 #include "support/rigs.h"
 #include "support/temporary_folder.h"
-#include "tools/validation_page/base64.h"
-#include "tools/validation_page/model_section.h"
+#include "tools/page_parts/base64.h"
+#include "tools/page_parts/model_section.h"
+#include "tools/page_parts/page_template.h"
 #include "tools/validation_page/page_data.h"
-#include "tools/validation_page/page_template.h"
 #include "tools/validation_page/write_page.h"
 
 namespace sunder::test {
@@ -70,7 +70,7 @@ struct Pair {
   }
 };
 
-/// What page/src/decode.js and skin.js make of the data.
+/// What decode.js and skin.js make of the data.
 json decoded(const tools::PageInput& input, double time) {
   const auto data = tools::page_data(input);
   EXPECT_TRUE(data) << data.error().text();
@@ -132,7 +132,7 @@ void expect_same_mesh(const json& found, const Character& expected) {
         for (const Influence& influence : influences)
           if (expected.skins[mesh.skin].bones[influence.slot] == bone)
             weight = static_cast<double>(influence.weight);
-        ASSERT_NEAR(share["weight"].get<double>(), weight, 1.0 / 65535 + 1e-9);
+        ASSERT_EQ(share["weight"].get<double>(), weight);
       }
     }
   }
@@ -168,17 +168,66 @@ TEST_F(PageData, is_read_by_the_page_as_it_was_written) {
 
 TEST_F(PageData, poses_both_models_as_the_library_does) {
   const Pair pair;
-  // At a sample of the clip, between two, and at its end.
+  // At keys of the clip, between them, and at its end.
   for (const double time : {0.0, 1.0 / 30, 0.35, 1.01, 2.0}) {
     const json page = decoded(pair.input, time);
     const ModelPose pose = at_time(pair.source, time);
-    expect_near(page["source"]["posed_by_clip"], all_posed_positions(pair.source, pose), 1e-4);
+    expect_near(page["source"]["posed_by_clip"], all_posed_positions(pair.source, pose), 1e-6);
     const ModelPose target = retargeted(pair.target, pose, pair.input.source_bone_from_target);
-    expect_near(page["target"]["posed_by_clip"], all_posed_positions(pair.target, target), 1e-4);
+    expect_near(page["target"]["posed_by_clip"], all_posed_positions(pair.target, target), 1e-6);
   }
   const ModelPose given{pair.input.poses[0].model_from_bone, pair.source.rest_morph_weights};
   expect_near(decoded(pair.input, 0)["source"]["posed"][0], all_posed_positions(pair.source, given),
-              1e-4);
+              1e-9);
+}
+
+/// A clip in which every kind of channel moves the first mesh, with keys at random times.
+Clip random_clip(const Character& character, Random& random) {
+  Clip clip{"All", 2.0f, {}};
+  const Interpolation interpolations[] = {Interpolation::linear, Interpolation::step,
+                                          Interpolation::cubic_spline};
+  std::size_t number = 0;
+  const auto add = [&](ChannelTarget target, Index index, Index width) {
+    Channel channel{target, index, width, interpolations[number++ % 3], {}, {}};
+    for (float time = 0; time < 2; time += static_cast<float>(random.uniform(0.1, 0.6)))
+      channel.times.push_back(time);
+    channel.times.push_back(2.0f);
+    const std::size_t parts = channel.interpolation == Interpolation::cubic_spline ? 3 : 1;
+    for (std::size_t i = 0; i < channel.times.size() * parts * width; ++i)
+      channel.values.push_back(static_cast<float>(random.uniform(-1, 1)));
+    clip.channels.push_back(channel);
+  };
+  for (Index bone = 0; bone < character.skeleton.bones.size(); ++bone) {
+    add(ChannelTarget::rotation, bone, 4);
+    add(ChannelTarget::translation, bone, 3);
+    add(ChannelTarget::scale, bone, 3);
+    ++number;  // so that each part has each interpolation
+  }
+  add(ChannelTarget::morph_weights, 0, static_cast<Index>(character.rest_morph_weights.size()));
+  return clip;
+}
+
+TEST_F(PageData, poses_every_kind_of_channel_and_morph_targets_as_the_library_does) {
+  for (std::uint32_t seed = 1; seed <= 4; ++seed) {
+    Random random(seed);
+    Pair pair;
+    pair.source = pair.target = make_tube(6, 8, 5);
+    pair.input.source_bone_from_target = bones_by_name(pair.source.skeleton, pair.target.skeleton);
+    pair.source.clips = {random_clip(pair.source, random)};
+    ASSERT_TRUE(validate_character(pair.source)) << validate_character(pair.source).text();
+    pair.input.poses.clear();
+    pair.input.arrays.clear();
+    const double time = random.uniform(0, 2.2);
+    const json page = decoded(pair.input, time);
+    Pose local = *local_rest_pose(pair.source);
+    ASSERT_TRUE(sample_clip(pair.source.clips[0], time, local));
+    ModelPose pose = at_time(pair.source, time);
+    pose.morph_weights = local.morph_weights;
+    EXPECT_NE(pose.morph_weights, pair.source.rest_morph_weights);
+    // The library interpolates in single precision, the page in double.
+    expect_near(page["source"]["posed_by_clip"], all_posed_positions(pair.source, pose), 1e-5);
+    expect_near(page["target"]["posed_by_clip"], all_posed_positions(pair.source, pose), 1e-5);
+  }
 }
 
 TEST_F(PageData, a_bone_without_a_source_follows_its_parent) {
@@ -197,7 +246,7 @@ TEST_F(PageData, a_bone_without_a_source_follows_its_parent) {
                                    bind.model_from_bone[parent].inverse() *
                                    bind.model_from_bone[last];
   expect_near(decoded(pair.input, 0)["target"]["posed"][0],
-              all_posed_positions(pair.target, expected), 1e-4);
+              all_posed_positions(pair.target, expected), 1e-9);
 }
 
 TEST(PageDataFaults, arrays_that_do_not_fit_are_refused) {
@@ -224,7 +273,8 @@ TEST(PageDataFaults, arrays_that_do_not_fit_are_refused) {
 bool has_chromium() { return std::system("command -v chromium > /dev/null 2>&1") == 0; }
 
 TEST(ValidationPage, works_in_a_browser) {
-  if (tools::page_template().empty()) GTEST_SKIP() << "built without the page (scripts/setup page)";
+  if (tools::validation_page_template().empty())
+    GTEST_SKIP() << "built without the page (scripts/setup page)";
   if (!has_node_packages({"puppeteer-core"}) || !has_chromium())
     GTEST_SKIP() << "needs chromium and puppeteer-core (scripts/setup test)";
   PageExample example;

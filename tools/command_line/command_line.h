@@ -16,6 +16,7 @@ struct Requests {
   DemoRequest demo;
   TransferRequest transfer;
   ValidateRequest validate;
+  ViewRequest view;
   std::string shell;  ///< For `sunder completions`.
 };
 

@@ -12,6 +12,7 @@ CLI::App* add_tear(CLI::App& app, TearRequest& request);
 CLI::App* add_demo(CLI::App& app, DemoRequest& request);
 CLI::App* add_transfer(CLI::App& app, TransferRequest& request);
 CLI::App* add_validate(CLI::App& app, ValidateRequest& request);
+CLI::App* add_view(CLI::App& app, ViewRequest& request);
 
 /// `--weights-as`, the number format of written weights.
 void add_weights_as(CLI::App& verb, SaveOptions& save);

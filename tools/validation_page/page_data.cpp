@@ -1,16 +1,12 @@
 #include "tools/validation_page/page_data.h"
 
-#include <cstring>
-#include <string_view>
-
-#include "tools/validation_page/clip_section.h"
-#include "tools/validation_page/data_arrays.h"
-#include "tools/validation_page/model_section.h"
+#include "tools/page_parts/clip_section.h"
+#include "tools/page_parts/data_arrays.h"
+#include "tools/page_parts/model_section.h"
+#include "tools/page_parts/page_file.h"
 
 namespace sunder::tools {
 namespace {
-
-constexpr std::uint32_t kVersion = 1;
 
 std::size_t vertex_count(const Character& character) {
   std::size_t count = 0;
@@ -116,11 +112,8 @@ Json arrays_json(const PageInput& input, DataArrays& arrays) {
 Json poses_json(const PageInput& input, DataArrays& arrays) {
   Json list = Json::array();
   for (const PagePose& pose : input.poses) {
-    std::vector<float> matrices;
-    for (const Affine3d& matrix : pose.model_from_bone)
-      for (Eigen::Index i = 0; i < 12; ++i)
-        matrices.push_back(static_cast<float>(matrix.matrix().data()[i]));
-    list.push_back({{"name", pose.name}, {"matrices", arrays.add(matrices)}});
+    list.push_back(
+        {{"name", pose.name}, {"matrices", matrices_json(pose.model_from_bone, arrays)}});
   }
   return list;
 }
@@ -138,47 +131,26 @@ Json series_json(const PageInput& input, DataArrays& arrays) {
   return list;
 }
 
-/// Every bone of the source moves itself.
-std::vector<Index> own_bones(const Character& source) {
-  std::vector<Index> bones(source.skeleton.bones.size());
-  for (Index bone = 0; bone < bones.size(); ++bone) bones[bone] = bone;
-  return bones;
-}
-
-std::vector<std::byte> joined(const Json& json, const DataArrays& arrays) {
-  std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
-  text.resize((text.size() + 3) / 4 * 4, ' ');
-  const std::uint32_t head[] = {kVersion, static_cast<std::uint32_t>(text.size())};
-  std::vector<std::byte> bytes(4 + sizeof head);
-  std::memcpy(bytes.data(), "SNDP", 4);
-  std::memcpy(bytes.data() + 4, head, sizeof head);
-  const auto text_bytes = std::as_bytes(std::span(text));
-  bytes.insert(bytes.end(), text_bytes.begin(), text_bytes.end());
-  bytes.insert(bytes.end(), arrays.bytes().begin(), arrays.bytes().end());
-  return bytes;
-}
-
 }  // namespace
 
 Result<std::vector<std::byte>> page_data(const PageInput& input) {
   if (Status status = check(input); !status) return status;
   DataArrays arrays;
-  auto source = model_section(*input.source, input.source_title, own_bones(*input.source), arrays);
+  auto source =
+      model_section(*input.source, input.source_title, own_bones(input.source->skeleton), arrays);
   if (!source) return source.error();
   auto target =
       model_section(*input.target, input.target_title, input.source_bone_from_target, arrays);
   if (!target) return target.error();
-  auto clips = clips_section(*input.source, arrays);
-  if (!clips) return clips.error();
   const Json json = {{"source", std::move(*source)},
                      {"target", std::move(*target)},
-                     {"skeleton", skeleton_section(input.source->skeleton, arrays)},
-                     {"clips", std::move(*clips)},
+                     {"skeleton", skeleton_section(*input.source, arrays)},
+                     {"clips", clips_section(*input.source, arrays)},
                      {"poses", poses_json(input, arrays)},
                      {"arrays", arrays_json(input, arrays)},
                      {"series", series_json(input, arrays)},
                      {"findings", findings_json(input.findings)}};
-  return joined(json, arrays);
+  return page_bytes(json, arrays);
 }
 
 }  // namespace sunder::tools

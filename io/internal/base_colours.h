@@ -1,0 +1,42 @@
+#pragma once
+
+#include <sunder/core/math.h>
+#include <sunder/io/character_file.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace sunder {
+
+/// How a material colours a surface without light, for viewers.
+struct BaseColour {
+  enum class Wrap : std::uint8_t { repeat, clamp, mirror };
+
+  Vec4f factor = Vec4f::Ones();  ///< Linear RGBA.
+  std::uint32_t image = kNone;   ///< In BaseColours::images; multiplied by `factor`.
+  std::uint32_t uv_set = 0;      ///< Texture coordinates of the image.
+  Wrap wrap_u = Wrap::repeat, wrap_v = Wrap::repeat;
+  float cutoff = 0;  ///< Nothing is drawn where the image's alpha is below.
+};
+
+/// The base colours of a file's materials, with their images as in the file.
+struct BaseColours {
+  struct Image {
+    std::string type;  ///< "image/png", "image/jpeg" or "image/webp".
+    std::vector<std::byte> bytes;
+  };
+  std::vector<BaseColour> materials;  ///< Submesh::material is an index into them.
+  std::vector<Image> images;          ///< Each once.
+  std::uint32_t left_out = 0;  ///< Images that are missing, of another kind, or beyond the limit.
+};
+
+/// Reads what a loaded file says of its materials; what is missing or malformed has its default.
+/// Images are read as saving reads them: from the file or its own folder.
+/// @param maximum_bytes  limit for all images together.
+/// @return limit_exceeded: out of memory.
+[[nodiscard]] SUNDER_API Result<BaseColours> read_base_colours(const SourceDocument& source,
+                                                               std::uint64_t maximum_bytes);
+
+}  // namespace sunder

@@ -1,0 +1,128 @@
+// Contract of read_base_colours(): io/internal/base_colours.h.
+
+#include "io/internal/base_colours.h"
+
+#include <fstream>
+#include <limits>
+#include <string>
+#include <string_view>
+
+#include <gtest/gtest.h>
+
+#include "support/gltf_builder.h"
+#include "support/temporary_folder.h"
+
+namespace sunder::test {
+namespace {
+
+constexpr std::uint64_t kNoLimit = std::numeric_limits<std::uint64_t>::max();
+/// The beginning of a file is all that is looked at.
+constexpr std::string_view kPng("\x89PNG\r\n\x1A\n and more", 17);
+constexpr std::string_view kJpeg("\xFF\xD8\xFF and more", 12);
+
+std::vector<std::uint8_t> bytes_of(std::string_view text) { return {text.begin(), text.end()}; }
+
+/// The strip with two images, one of which two textures use.
+GltfBuilder coloured_strip() {
+  GltfBuilder builder = skinned_strip();
+  const std::size_t png = builder.add_view(bytes_of(kPng));
+  builder.json["images"] = {{{"bufferView", png}, {"mimeType", "image/png"}},
+                            {{"uri", "beside.jpg"}},
+                            {{"uri", "../outside.jpg"}},
+                            {{"uri", "data:text/plain;base64,AAAA"}}};
+  builder.json["samplers"] = {{{"wrapS", 33071}, {"wrapT", 33648}}};
+  builder.json["textures"] = {{{"source", 0}, {"sampler", 0}},
+                              {{"source", 1}},
+                              {{"source", 0}},
+                              {{"source", 2}},
+                              {{"source", 3}}};
+  const auto material = [](std::size_t texture) {
+    return Json{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", texture}}}}}};
+  };
+  Json first = material(0);
+  first["pbrMetallicRoughness"]["baseColorFactor"] = {0.5, 0.25, 1.0, 0.75};
+  first["pbrMetallicRoughness"]["baseColorTexture"]["texCoord"] = 1;
+  first["alphaMode"] = "MASK";
+  first["alphaCutoff"] = 0.25;
+  builder.json["materials"] = {first,       material(1), material(2),
+                               material(3), material(4), Json::object()};
+  return builder;
+}
+
+class BaseColoursTest : public testing::Test {
+ protected:
+  BaseColoursTest() {
+    std::ofstream(folder_.path() / "beside.jpg", std::ios::binary) << kJpeg;
+    builder_ = coloured_strip();
+  }
+
+  [[nodiscard]] BaseColours read(std::uint64_t limit = kNoLimit) const {
+    const auto file = folder_.path() / "strip.gltf";
+    std::ofstream(file, std::ios::binary) << builder_.text();
+    const auto loaded = load_character(file);
+    EXPECT_TRUE(loaded) << loaded.error().text();
+    auto colours = read_base_colours(*loaded->source, limit);
+    EXPECT_TRUE(colours) << colours.error().text();
+    return *colours;
+  }
+
+  TemporaryFolder folder_;
+  GltfBuilder builder_;
+};
+
+TEST_F(BaseColoursTest, are_those_of_the_file) {
+  const BaseColours colours = read();
+  ASSERT_EQ(colours.materials.size(), 6u);
+  const BaseColour& first = colours.materials[0];
+  EXPECT_EQ(first.factor, Vec4f(0.5f, 0.25f, 1.0f, 0.75f));
+  EXPECT_EQ(first.uv_set, 1u);
+  EXPECT_EQ(first.wrap_u, BaseColour::Wrap::clamp);
+  EXPECT_EQ(first.wrap_v, BaseColour::Wrap::mirror);
+  EXPECT_EQ(first.cutoff, 0.25f);
+  EXPECT_EQ(colours.materials[5].factor, Vec4f(Vec4f::Ones()));
+  EXPECT_EQ(colours.materials[5].image, kNone);
+  EXPECT_EQ(colours.materials[1].wrap_u, BaseColour::Wrap::repeat);
+}
+
+TEST_F(BaseColoursTest, have_each_image_once_and_none_from_outside_the_folder) {
+  const BaseColours colours = read();
+  ASSERT_EQ(colours.images.size(), 2u);
+  EXPECT_EQ(colours.materials[0].image, 0u);
+  EXPECT_EQ(colours.materials[2].image, 0u);
+  EXPECT_EQ(colours.materials[1].image, 1u);
+  EXPECT_EQ(colours.materials[3].image, kNone) << "outside of the folder";
+  EXPECT_EQ(colours.materials[4].image, kNone) << "no image";
+  EXPECT_EQ(colours.left_out, 2u);
+  EXPECT_EQ(colours.images[0].type, "image/png");
+  EXPECT_EQ(colours.images[1].type, "image/jpeg");
+  const auto& bytes = colours.images[1].bytes;
+  EXPECT_EQ(std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()), kJpeg);
+}
+
+TEST_F(BaseColoursTest, leave_out_images_beyond_the_limit) {
+  EXPECT_EQ(read(kPng.size()).images.size(), 1u);
+  EXPECT_EQ(read(0).images.size(), 0u);
+  EXPECT_EQ(read(0).left_out, 4u);
+}
+
+TEST_F(BaseColoursTest, take_defaults_for_what_is_malformed) {
+  Json& materials = builder_.json["materials"];
+  materials[0]["pbrMetallicRoughness"]["baseColorFactor"] = {"red", 2, -1};
+  materials[0]["pbrMetallicRoughness"]["baseColorTexture"]["index"] = 99;
+  materials[1]["pbrMetallicRoughness"]["baseColorFactor"] = {7, -1, "x", 0.5};
+  materials[1]["pbrMetallicRoughness"]["baseColorTexture"]["texCoord"] = -1;
+  materials[2] = 5;
+  materials[3]["pbrMetallicRoughness"] = "none";
+  materials[4]["alphaMode"] = 7;
+  builder_.json["textures"][1]["sampler"] = "first";
+  const BaseColours colours = read();
+  ASSERT_EQ(colours.materials.size(), 6u);
+  EXPECT_EQ(colours.materials[0].factor, Vec4f(Vec4f::Ones()));
+  EXPECT_EQ(colours.materials[0].image, kNone);
+  EXPECT_EQ(colours.materials[1].factor, Vec4f(1.0f, 0.0f, 1.0f, 0.5f));
+  EXPECT_EQ(colours.materials[1].uv_set, 0u);
+  EXPECT_EQ(colours.materials[2].image, kNone);
+}
+
+}  // namespace
+}  // namespace sunder::test

@@ -1,0 +1,103 @@
+// Clicks that become operations: which tool is chosen, and the points that it has.
+import { byId } from '../../page_parts/src/elements.js';
+import { makeBore, makeCut, makeTear } from './operations.js';
+
+const CLICK = 5;  // pixels; further is a drag
+
+const HINTS = {
+  look: () => 'Choose a tool to place an operation in the pose that is shown.',
+  tear: (count) => (count < 2 ? `Click along the surface: ${count ? 'the next' : 'the first'} point.`
+    : `${count} points. Click on, or Finish.`),
+  cut: (count, { by }) => `Click point ${count + 1} of ${by === 'sight' ? 2 : 3} on the model.`,
+  drill: () => 'Click where the axis of the bore enters.',
+};
+
+export class Placing {
+  /**
+   * @param pick  (x, y) -> {position, normal, eye} or null; @param surface  () -> PosedSurface
+   * @param pose  () -> the pose that is shown, as a log says it
+   */
+  constructor(canvas, settings, { pick, surface, pose, onPending, onOperation, onMessage }) {
+    Object.assign(this, { settings, pick, surface, pose, onPending, onOperation, onMessage });
+    this.clicks = [];
+    for (const input of document.querySelectorAll('input[name=tool]'))
+      input.addEventListener('change', () => this.choose(input.value));
+    byId('finish').addEventListener('click', () => this.finish());
+    byId('back').addEventListener('click', () => this.back());
+    byId('cancel').addEventListener('click', () => this.drop());
+    this.listen(canvas);
+    this.choose('look');
+  }
+
+  listen(canvas) {
+    let down = null;
+    canvas.addEventListener('pointerdown', (event) => {
+      down = event.isPrimary && event.button === 0 ? [event.offsetX, event.offsetY] : null;
+    });
+    canvas.addEventListener('pointerup', (event) => {
+      const place = [event.offsetX, event.offsetY];
+      if (down && Math.hypot(place[0] - down[0], place[1] - down[1]) < CLICK) this.click(...place);
+      down = null;
+    });
+    canvas.addEventListener('pointercancel', () => { down = null; });
+  }
+
+  choose(tool) {
+    this.tool = tool;
+    document.querySelector(`input[name=tool][value=${tool}]`).checked = true;
+    byId('stage').dataset.tool = tool === 'look' ? 'look' : 'place';
+    this.settings.show(tool);
+    this.drop();
+  }
+
+  click(x, y) {
+    if (this.tool === 'look') return;
+    const place = this.pick(x, y);
+    if (!place) return this.onMessage('There is no surface at this place.', true);
+    this.onMessage('');
+    this.clicks.push(place);
+    this.update();
+    const { by } = this.settings.current;
+    const needed = { cut: by === 'sight' ? 2 : 3, drill: 1 }[this.tool];
+    if (this.clicks.length === needed) this.finish();
+  }
+
+  /** Makes the operation; points that say none are dropped. */
+  finish() {
+    if (this.clicks.length < { tear: 2, cut: 2, drill: 1 }[this.tool]) return;
+    const make = { tear: makeTear, cut: makeCut, drill: makeBore }[this.tool];
+    try {
+      this.onOperation(make(this.clicks, this.settings.current, this.pose(), this.surface()));
+    } catch (error) {
+      this.onMessage(error.message, true);
+    }
+    this.drop();
+  }
+
+  back() {
+    this.clicks.pop();
+    this.update();
+  }
+
+  drop() {
+    this.clicks = [];
+    this.update();
+  }
+
+  /** The points of one operation lie on the surface of one pose. */
+  poseChanged() {
+    if (!this.clicks.length) return;
+    this.drop();
+    this.onMessage('The pose has changed: the points were dropped.', true);
+  }
+
+  update() {
+    const count = this.clicks.length;
+    byId('hint').textContent = HINTS[this.tool](count, this.settings.current);
+    byId('pending').hidden = this.tool === 'look' || this.tool === 'drill';
+    byId('finish').hidden = this.tool !== 'tear';
+    byId('finish').disabled = count < 2;
+    byId('back').disabled = byId('cancel').disabled = count === 0;
+    this.onPending(this.clicks.map(({ position }) => position));
+  }
+}
