@@ -28,6 +28,7 @@ constexpr const char* kExitCodes =
 
 struct Requests {
   InfoRequest info;
+  PictureRequest picture;
   TearRequest tear;
   DemoRequest demo;
   TransferRequest transfer;
@@ -51,6 +52,7 @@ int run(int argc, char** argv) {
   app.footer(kExitCodes);
   const Verb verbs[] = {
       {add_info(app, requests.info), [&] { return run_info(requests.info); }},
+      {add_picture(app, requests.picture), [&] { return run_picture(requests.picture); }},
       {add_tear(app, requests.tear), [&] { return run_tear(requests.tear); }},
       {add_transfer(app, requests.transfer), [&] { return run_transfer(requests.transfer); }},
       {add_validate(app, requests.validate), [&] { return run_validate(requests.validate); }},

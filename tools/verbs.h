@@ -10,6 +10,7 @@
 #include "tools/certified_weights.h"
 #include "tools/exit_code.h"
 #include "tools/refit.h"
+#include "tools/render.h"
 
 namespace sunder::tools {
 
@@ -17,6 +18,8 @@ namespace sunder::tools {
 struct InfoRequest {
   std::filesystem::path model;
   bool as_json = false;
+  bool with_bones = false;    ///< The bones with their places and surfaces.
+  std::string pose = "rest";  ///< As parse_pose().
 };
 [[nodiscard]] ExitCode run_info(const InfoRequest& request);
 
@@ -36,6 +39,18 @@ struct TearRequest {
   std::optional<std::filesystem::path> picture;  ///< Output file for a picture.
 };
 [[nodiscard]] ExitCode run_tear(const TearRequest& request);
+
+/// sunder picture: draws a model in a pose.
+struct PictureRequest {
+  std::filesystem::path model, output;
+  std::optional<std::string> pose;  ///< As parse_pose(); empty: that of the operations, or rest.
+  Vec3d from = Vec3d::UnitZ();      ///< Direction from the model to the eye.
+  std::optional<std::string> bone;  ///< The bone whose limb fills the frame; empty: the model.
+  PictureSize size;
+  bool with_axes = false, with_grid = false, with_bones = false;
+  std::optional<std::filesystem::path> operations;  ///< Drawn on the model, not applied.
+};
+[[nodiscard]] ExitCode run_picture(const PictureRequest& request);
 
 /// sunder demo: tears a model in the middle of its animation and draws it.
 struct DemoRequest {
