@@ -1,6 +1,7 @@
 #include <sunder/io/character_file.h>
 
 #include "io/gltf/new_document.h"
+#include "io/gltf/source_document.h"
 #include "io/gltf/still_document.h"
 #include "io/gltf/write.h"
 

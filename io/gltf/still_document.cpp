@@ -40,6 +40,7 @@ class StillDocument {
     draft_.embed_images();
     embed_data_uris(draft_);
     Json kept = {{"asset", {{"version", "2.0"}, {"generator", "Sunder"}}},
+                 {"extensionsUsed", {"KHR_lights_punctual", "KHR_materials_unlit"}},
                  {"scene", 0},
                  {"scenes", Json::array({Json::object()})},
                  {"materials", Json::array()}};
@@ -91,15 +92,13 @@ class StillDocument {
     return plain_material_;
   }
 
-  /// Black, and emits its colour, so that no light changes it.
   std::uint32_t add_flat_material(const Vec4f& color) {
     const auto rgba = color.cast<double>();
-    Json material = {{"pbrMetallicRoughness",
-                      {{"baseColorFactor", {0.0, 0.0, 0.0, rgba[3]}},
-                       {"metallicFactor", 0.0},
-                       {"roughnessFactor", 1.0}}},
-                     {"emissiveFactor", {rgba[0], rgba[1], rgba[2]}},
-                     {"doubleSided", true}};
+    Json material = {
+        {"pbrMetallicRoughness",
+         {{"baseColorFactor", {rgba[0], rgba[1], rgba[2], rgba[3]}}, {"metallicFactor", 0.0}}},
+        {"extensions", {{"KHR_materials_unlit", Json::object()}}},
+        {"doubleSided", true}};
     if (color.w() < 1.0f) material["alphaMode"] = "BLEND";
     return append(draft_.json, "materials", std::move(material));
   }
@@ -123,7 +122,6 @@ class StillDocument {
 
   void add_light(const StillScene::Light& light) {
     Json& extension = draft_.json["extensions"]["KHR_lights_punctual"];
-    draft_.json["extensionsUsed"] = Json::array({"KHR_lights_punctual"});
     const std::uint32_t index =
         append(extension, "lights", {{"type", "directional"}, {"intensity", light.intensity}});
     // It shines along its node's -Z.

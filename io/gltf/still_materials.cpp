@@ -63,7 +63,8 @@ class Material {
         {"baseColorFactor", base_color_}, {"metallicFactor", 0.0}, {"roughnessFactor", 1.0}};
     Json emission = emission_;
     std::optional<Json> emission_texture = emission_texture_;
-    if (is_unlit && may_emit && base_color_.size() == 4) {
+    const bool emits = is_unlit && may_emit && base_texture_ && base_color_.size() == 4;
+    if (emits) {
       emission = Json::array({base_color_[0], base_color_[1], base_color_[2]});
       emission_texture = base_texture_;
       pbr["baseColorFactor"] = {0.0, 0.0, 0.0, base_color_[3]};
@@ -71,6 +72,8 @@ class Material {
     if (base_texture_) pbr["baseColorTexture"] = *base_texture_;
     Json material = {{"pbrMetallicRoughness", std::move(pbr)},
                      {"emissiveFactor", std::move(emission)}};
+    if (is_unlit && !emits && !base_texture_)
+      material["extensions"]["KHR_materials_unlit"] = Json::object();
     if (emission_texture) material["emissiveTexture"] = *emission_texture;
     for (const char* const key : {"name", "alphaMode", "alphaCutoff", "doubleSided"})
       if (const Json* const value = find(source_, key)) material[key] = *value;

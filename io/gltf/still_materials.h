@@ -8,8 +8,8 @@ namespace sunder::gltf {
 
 /// Changes the materials of a draft so that renderers without surroundings and with few extensions
 /// show them as intended: base colour, alpha and emission stay, metal and normal maps go, and unlit
-/// materials emit their base colour. Textures whose image is not embedded as PNG or JPEG are
-/// removed.
+/// materials with a texture emit their base colour. Textures whose image is not embedded as PNG or
+/// JPEG are removed.
 ///
 /// @param colored  materials of primitives with vertex colours, which emission would not show.
 /// @return the number of materials that lost a texture.
