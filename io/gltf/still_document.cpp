@@ -1,6 +1,6 @@
 #include "io/gltf/still_document.h"
 
-#include <algorithm>
+#include <cmath>
 #include <set>
 #include <string>
 #include <utility>
@@ -17,6 +17,11 @@ std::uint32_t append(Json& document, const char* list_name, Json entry) {
   Json& list = list_of(document, list_name);
   list.push_back(std::move(entry));
   return static_cast<std::uint32_t>(list.size() - 1);
+}
+
+/// The sRGB value of a linear one.
+float srgb(float linear) {
+  return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
 }
 
 class StillDocument {
@@ -63,17 +68,36 @@ class StillDocument {
     still.morph_targets.clear();
     still.custom_attributes.clear();
     still.tangents.clear();
-    const MeshWriter::Vertices vertices = meshes_.add_vertices(still, {}, WeightFormat::float32);
+    const Json attributes = meshes_.add_vertices(still, {}, WeightFormat::float32).attributes;
     Json primitives = Json::array();
     for (std::uint32_t submesh = 0; submesh < still.submeshes.size(); ++submesh) {
       const std::uint32_t indices = meshes_.add_indices(still, submesh);
       if (indices == kNone) continue;
-      primitives.push_back({{"attributes", vertices.attributes},
+      const std::uint32_t material = material_of(still.submeshes[submesh]);
+      const float alpha = blended_alpha(material);
+      primitives.push_back({{"attributes", alpha < 1.0f ? faded(still, alpha) : attributes},
                             {"indices", indices},
-                            {"material", material_of(still.submeshes[submesh])}});
+                            {"material", material}});
     }
     add_node({{"mesh", append(draft_.json, "meshes",
                               {{"name", still.name}, {"primitives", std::move(primitives)}})}});
+  }
+
+  [[nodiscard]] float blended_alpha(std::uint32_t index) const {
+    const Json& material = draft_.json["materials"][index];
+    const Json& factor = material["pbrMetallicRoughness"]["baseColorFactor"];
+    const bool is_blended = material.contains("alphaMode") && material["alphaMode"] == "BLEND";
+    return is_blended && factor.size() == 4 && factor[3].is_number() ? factor[3].get<float>()
+                                                                     : 1.0f;
+  }
+
+  /// The vertices with the alpha of their material in their colours, because VTK 9.1 ignores it in
+  /// the material.
+  Json faded(Mesh mesh, float alpha) {
+    mesh.color_sets.resize(1);
+    mesh.color_sets[0].resize(mesh.positions.size(), Vec4f::Ones());
+    for (Vec4f& color : mesh.color_sets[0]) color.w() *= alpha;
+    return meshes_.add_vertices(mesh, {}, WeightFormat::float32).attributes;
   }
 
   std::uint32_t material_of(const Submesh& submesh) {
@@ -92,13 +116,12 @@ class StillDocument {
     return plain_material_;
   }
 
+  /// Unlit and white: the colour is that of the vertices, for its alpha's sake, as in faded().
   std::uint32_t add_flat_material(const Vec4f& color) {
-    const auto rgba = color.cast<double>();
-    Json material = {
-        {"pbrMetallicRoughness",
-         {{"baseColorFactor", {rgba[0], rgba[1], rgba[2], rgba[3]}}, {"metallicFactor", 0.0}}},
-        {"extensions", {{"KHR_materials_unlit", Json::object()}}},
-        {"doubleSided", true}};
+    Json material = {{"pbrMetallicRoughness",
+                      {{"baseColorFactor", {1.0, 1.0, 1.0, 1.0}}, {"metallicFactor", 0.0}}},
+                     {"extensions", {{"KHR_materials_unlit", Json::object()}}},
+                     {"doubleSided", true}};
     if (color.w() < 1.0f) material["alphaMode"] = "BLEND";
     return append(draft_.json, "materials", std::move(material));
   }
@@ -107,6 +130,9 @@ class StillDocument {
     Mesh mesh;
     mesh.name = mark.name;
     mesh.positions = mark.positions;
+    // VTK 9.1 shows the vertex colours of unlit materials as they are.
+    const Vec4f shown(srgb(mark.color[0]), srgb(mark.color[1]), srgb(mark.color[2]), mark.color[3]);
+    mesh.color_sets.assign(1, std::vector<Vec4f>(mark.positions.size(), shown));
     mesh.triangles = mark.triangles;
     mesh.triangle_submesh.assign(mark.triangles.size(), 0);
     mesh.submeshes.resize(1);

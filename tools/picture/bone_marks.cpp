@@ -23,8 +23,9 @@ void draw_spindle(Marks& marks, const Vec2d& from, const Vec2d& to) {
     const Vec2d thick = from + 0.18 * along;
     return std::vector<Vec2d>{from, thick + width * across, to, thick - width * across};
   };
-  const double width = std::clamp(0.07 * length, 2.0, 7.0);
-  marks.polygon(kite(width + kOutlinePixels), kOutline);
+  const double scale = marks.viewport().line_scale();
+  const double width = std::clamp(0.07 * length, 2.0, 7.0 * scale);
+  marks.polygon(kite(width + scale * kOutlinePixels), kOutline);
   marks.polygon(kite(width), kBone);
 }
 
@@ -32,14 +33,19 @@ void draw_spindle(Marks& marks, const Vec2d& from, const Vec2d& to) {
 
 void draw_bones(const Skeleton& skeleton, const std::vector<BoneExtent>& extents, Marks& marks) {
   const Viewport& viewport = marks.viewport();
+  // Nodes above all that moves, such as the scene's root, are not shown.
+  std::vector<bool> is_of_body(extents.size());
+  for (std::size_t bone = 0; bone < extents.size(); ++bone) {
+    const std::uint32_t parent = skeleton.bones[bone].parent;
+    is_of_body[bone] = extents[bone].vertices > 0 || (parent != kNone && is_of_body[parent]);
+  }
   const auto is_shown = [&](std::size_t bone) {
-    return extents[bone].vertices_of_branch > 0 && is_before_the_eye(viewport, extents[bone].joint);
+    return is_of_body[bone] && extents[bone].vertices_of_branch > 0 &&
+           is_before_the_eye(viewport, extents[bone].joint);
   };
   for (std::size_t bone = 0; bone < extents.size(); ++bone) {
     const std::uint32_t parent = skeleton.bones[bone].parent;
     if (parent == kNone || !is_shown(bone) || !is_shown(parent)) continue;
-    // From nodes that move nothing themselves, such as the scene's root, no bone is drawn.
-    if (extents[parent].vertices == 0 && extents[parent].leads_to != bone) continue;
     draw_spindle(marks, viewport.pixel(extents[parent].joint), viewport.pixel(extents[bone].joint));
   }
   for (std::size_t bone = 0; bone < extents.size(); ++bone) {

@@ -89,9 +89,10 @@ StillScene make_scene(const Character& character, const Subject& subject, const 
     mesh.normals = subject.meshes[m].normals;
     scene.surfaces.push_back(std::move(mesh));
   }
-  // From the upper left, and weaker from the right, so that no side is black.
+  // From the upper left, and weaker from the right and from below, so that no side is black.
   scene.lights = {{frame.towards_eye - 0.5 * frame.right + 0.7 * frame.up, 2.2},
-                  {frame.towards_eye + 0.9 * frame.right - 0.1 * frame.up, 1.0}};
+                  {frame.towards_eye + 0.9 * frame.right - 0.1 * frame.up, 1.0},
+                  {0.3 * frame.towards_eye - frame.up, 0.6}};
   return scene;
 }
 
@@ -218,6 +219,8 @@ ExitCode run_picture(const PictureRequest& request) {
   const Result<PoseArgument> pose = choose_pose(request, *loaded->character, *operations);
   if (!pose) return complain(request.model.string() + ": --pose", pose.error(), ExitCode::usage);
   if (!pose->remark.empty()) say(pose->remark);
+  for (const LoadNote& note : loaded->report.notes)
+    if (note.place.starts_with("texture")) say(note.place + ": " + note.text);
   const Result<Subject> subject = pose_subject(*loaded->character, *pose);
   if (!subject)
     return complain(request.model.string() + ": pose " + pose->name, subject.error(),

@@ -33,7 +33,8 @@ void draw_lines(const Grid& grid, const Vec3d& least, const Vec3d& greatest, int
 
 void draw_axes(Marks& marks, Labels& labels) {
   const Viewport& viewport = marks.viewport();
-  const Vec2d corner(kCornerPixels, viewport.size().height - kCornerPixels);
+  const double scale = viewport.line_scale();
+  const Vec2d corner = Vec2d(0, viewport.size().height) + scale * kCornerPixels * Vec2d(1, -1);
   // The axis that points to the eye covers the others, so it is drawn last.
   int order[] = {0, 1, 2};
   std::sort(std::begin(order), std::end(order), [&](int a, int b) {
@@ -41,9 +42,10 @@ void draw_axes(Marks& marks, Labels& labels) {
   });
   for (const int axis : order) {
     const Vec2d direction(viewport.frame().right[axis], -viewport.frame().up[axis]);
-    const Vec2d tip = corner + kAxisPixels * direction;
+    const Vec2d tip = corner + scale * kAxisPixels * direction;
     marks.line(corner, tip, 4, kAxisColors[axis]);
-    labels.place_beside(tip + 6 * direction, std::string(1, "XYZ"[axis]), kAxisColors[axis]);
+    labels.place_beside(tip + scale * 6 * direction, std::string(1, "XYZ"[axis]),
+                        kAxisColors[axis]);
   }
 }
 

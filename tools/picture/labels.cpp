@@ -74,8 +74,9 @@ std::string_view lines_of(char sign) {
 /// @param corner  the lower left one.
 void draw_sign(Marks& marks, char sign, const Vec2d& corner, const Vec4f& color) {
   const std::string_view lines = lines_of(sign);
+  const double unit = kUnit * marks.viewport().line_scale();
   const auto at = [&](std::size_t i) {
-    return Vec2d(corner + kUnit * Vec2d(lines[i] - '0', '0' - lines[i + 1]));
+    return Vec2d(corner + unit * Vec2d(lines[i] - '0', '0' - lines[i + 1]));
   };
   for (std::size_t i = 0; i + 3 < lines.size();) {
     if (lines[i + 2] == ' ') {
@@ -93,10 +94,12 @@ bool Labels::place_beside(const Vec2d& pixel, const std::string& text, const Vec
   const auto signs = static_cast<double>(std::count_if(text.begin(), text.end(), [](char c) {
     return (static_cast<unsigned char>(c) >> 6) != 2;  // A letter of several bytes is one box.
   }));
-  const Vec2d size(kUnit * (signs * kAdvance - 2) + 2 * kPadding, kUnit * kHeight + 2 * kPadding);
+  const double scale = marks_.viewport().line_scale();
+  const double unit = scale * kUnit, padding = scale * kPadding, distance = scale * kDistance;
+  const Vec2d size(unit * (signs * kAdvance - 2) + 2 * padding, unit * kHeight + 2 * padding);
   const std::array<Vec2d, 4> corners = {
-      pixel + Vec2d(kDistance, -size.y() / 2), pixel + Vec2d(-kDistance - size.x(), -size.y() / 2),
-      pixel + Vec2d(-size.x() / 2, -kDistance - size.y()), pixel + Vec2d(-size.x() / 2, kDistance)};
+      pixel + Vec2d(distance, -size.y() / 2), pixel + Vec2d(-distance - size.x(), -size.y() / 2),
+      pixel + Vec2d(-size.x() / 2, -distance - size.y()), pixel + Vec2d(-size.x() / 2, distance)};
   for (const Vec2d& corner : corners) {
     const Box box{corner, corner + size};
     const bool is_free = marks_.viewport().is_inside(box.least) &&
@@ -112,11 +115,11 @@ bool Labels::place_beside(const Vec2d& pixel, const std::string& text, const Vec
                             box.greatest,
                             {box.least.x(), box.greatest.y()}};
     marks_.polygon(ground, kGround);
-    Vec2d pen(box.least.x() + kPadding, box.greatest.y() - kPadding);
+    Vec2d pen(box.least.x() + padding, box.greatest.y() - padding);
     for (const char sign : text) {
       if ((static_cast<unsigned char>(sign) >> 6) == 2) continue;
       draw_sign(marks_, sign, pen, color);
-      pen.x() += kUnit * kAdvance;
+      pen.x() += unit * kAdvance;
     }
     return true;
   }

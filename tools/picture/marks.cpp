@@ -45,7 +45,8 @@ void Marks::line(const Vec3d& from, const Vec3d& to, double width, const Vec4f& 
     const double near = viewport_.depth(a), far = viewport_.depth(b);
     depths = {near, near, far, far};
   }
-  add(ribbon(viewport_.pixel(a), viewport_.pixel(b), width), std::move(depths), color);
+  add(ribbon(viewport_.pixel(a), viewport_.pixel(b), viewport_.line_scale() * width),
+      std::move(depths), color);
 }
 
 void Marks::disc(const Vec3d& centre, double radius, int corners, const Vec4f& color, Layer layer) {
@@ -54,7 +55,8 @@ void Marks::disc(const Vec3d& centre, double radius, int corners, const Vec4f& c
   std::vector<Vec2d> rim;
   for (int i = 0; i < corners; ++i) {
     const double angle = std::numbers::pi * (0.25 + 2.0 * i / corners);
-    rim.emplace_back(middle + radius * Vec2d(std::cos(angle), std::sin(angle)));
+    rim.emplace_back(middle +
+                     viewport_.line_scale() * radius * Vec2d(std::cos(angle), std::sin(angle)));
   }
   std::vector<double> depths;
   if (layer == Layer::in_scene) depths.assign(rim.size(), viewport_.depth(centre));
@@ -75,7 +77,7 @@ void Marks::polygon(std::span<const Vec3d> corners, const Vec4f& color, Layer la
 }
 
 void Marks::line(const Vec2d& from, const Vec2d& to, double width, const Vec4f& color) {
-  add(ribbon(from, to, width), {}, color);
+  add(ribbon(from, to, viewport_.line_scale() * width), {}, color);
 }
 
 void Marks::polygon(std::span<const Vec2d> corners, const Vec4f& color) {

@@ -10,8 +10,8 @@
 
 namespace sunder::tools {
 
-/// Lines, discs and polygons of a picture, as flat pieces that face the eye. Widths are pixels,
-/// wherever a mark is.
+/// Lines, discs and polygons of a picture, as flat pieces that face the eye. Widths and radii are
+/// pixels of a picture of the default size, wherever a mark is; larger pictures have larger ones.
 class Marks {
  public:
   enum class Layer : std::uint8_t {

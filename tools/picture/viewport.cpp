@@ -52,6 +52,10 @@ Viewport::Viewport(const ViewFrame& frame, const PictureSize& size, std::span<co
   slope_ = 2 * tangent / size.height;
 }
 
+double Viewport::line_scale() const {
+  return std::max(1.0, std::min(size_.width, size_.height) / 960.0);
+}
+
 double Viewport::depth(const Vec3d& place) const {
   return (camera_.eye - place).dot(frame_.towards_eye);
 }

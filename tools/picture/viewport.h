@@ -17,6 +17,8 @@ class Viewport {
 
   [[nodiscard]] const Camera& camera() const { return camera_; }
   [[nodiscard]] const PictureSize& size() const { return size_; }
+  /// How much wider lines and larger letters are than in a picture of the default size; at least 1.
+  [[nodiscard]] double line_scale() const;
   [[nodiscard]] const ViewFrame& frame() const { return frame_; }
   /// Distance from the plane of the eye, along the line of sight; metres.
   [[nodiscard]] double depth(const Vec3d& place) const;
