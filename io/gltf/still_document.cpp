@@ -74,8 +74,9 @@ class StillDocument {
       const std::uint32_t indices = meshes_.add_indices(still, submesh);
       if (indices == kNone) continue;
       const std::uint32_t material = material_of(still.submeshes[submesh]);
-      const float alpha = blended_alpha(material);
-      primitives.push_back({{"attributes", alpha < 1.0f ? faded(still, alpha) : attributes},
+      const Tint tint = tint_of(material);
+      const bool is_tinted = !still.color_sets.empty() || tint.color.w() < 1.0f;
+      primitives.push_back({{"attributes", is_tinted ? tinted(still, tint) : attributes},
                             {"indices", indices},
                             {"material", material}});
     }
@@ -83,21 +84,31 @@ class StillDocument {
                               {{"name", still.name}, {"primitives", std::move(primitives)}})}});
   }
 
-  [[nodiscard]] float blended_alpha(std::uint32_t index) const {
+  struct Tint {
+    Vec4f color = Vec4f::Ones();  ///< The base colour; alpha 1 if it is not blended.
+    bool is_blended = false;
+  };
+  [[nodiscard]] Tint tint_of(std::uint32_t index) const {
     const Json& material = draft_.json["materials"][index];
     const Json& factor = material["pbrMetallicRoughness"]["baseColorFactor"];
-    const bool is_blended = material.contains("alphaMode") && material["alphaMode"] == "BLEND";
-    return is_blended && factor.size() == 4 && factor[3].is_number() ? factor[3].get<float>()
-                                                                     : 1.0f;
+    Tint tint;
+    tint.is_blended = material.contains("alphaMode") && material["alphaMode"] == "BLEND";
+    for (std::size_t i = 0; i < 4 && factor.size() == 4; ++i)
+      if (factor[i].is_number()) tint.color[static_cast<int>(i)] = factor[i].get<float>();
+    if (!tint.is_blended) tint.color.w() = 1.0f;
+    return tint;
   }
 
-  /// The vertices with the alpha of their material in their colours, because VTK 9.1 ignores it in
-  /// the material.
-  Json faded(Mesh mesh, float alpha) {
+  /// The vertices with the base colour of their material in their own colours. VTK 9.1 ignores the
+  /// alpha of a material, all of its base colour where there are vertex colours, and the alpha mode
+  /// where these have an alpha.
+  Json tinted(Mesh mesh, const Tint& tint) {
     mesh.color_sets.resize(1);
     mesh.color_sets[0].resize(mesh.positions.size(), Vec4f::Ones());
-    for (Vec4f& color : mesh.color_sets[0]) color.w() *= alpha;
-    return meshes_.add_vertices(mesh, {}, WeightFormat::float32).attributes;
+    for (Vec4f& color : mesh.color_sets[0]) color = color.cwiseProduct(tint.color);
+    SourceDocument::MeshOrigin form;
+    form.color_components = {tint.is_blended ? 4u : 3u};
+    return meshes_.add_vertices(mesh, form, WeightFormat::float32).attributes;
   }
 
   std::uint32_t material_of(const Submesh& submesh) {
@@ -116,7 +127,7 @@ class StillDocument {
     return plain_material_;
   }
 
-  /// Unlit and white: the colour is that of the vertices, for its alpha's sake, as in faded().
+  /// Unlit and white: the colour is that of the vertices, for its alpha's sake, as in tinted().
   std::uint32_t add_flat_material(const Vec4f& color) {
     Json material = {{"pbrMetallicRoughness",
                       {{"baseColorFactor", {1.0, 1.0, 1.0, 1.0}}, {"metallicFactor", 0.0}}},

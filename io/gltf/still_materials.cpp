@@ -72,7 +72,7 @@ class Material {
     if (base_texture_) pbr["baseColorTexture"] = *base_texture_;
     Json material = {{"pbrMetallicRoughness", std::move(pbr)},
                      {"emissiveFactor", std::move(emission)}};
-    if (is_unlit && !emits && !base_texture_)
+    if (is_unlit && may_emit && !base_texture_)
       material["extensions"]["KHR_materials_unlit"] = Json::object();
     if (emission_texture) material["emissiveTexture"] = *emission_texture;
     for (const char* const key : {"name", "alphaMode", "alphaCutoff", "doubleSided"})

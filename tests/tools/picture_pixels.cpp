@@ -19,6 +19,19 @@ std::uint32_t big_endian(std::span<const std::uint8_t> bytes) {
   return value;
 }
 
+void append_big_endian(Bytes& bytes, std::size_t value) {
+  for (int shift = 24; shift >= 0; shift -= 8)
+    bytes.push_back(static_cast<std::uint8_t>(value >> shift));
+}
+
+void append_chunk(Bytes& png, std::string_view kind, const Bytes& content) {
+  append_big_endian(png, content.size());
+  const std::size_t start = png.size();
+  png.insert(png.end(), kind.begin(), kind.end());
+  png.insert(png.end(), content.begin(), content.end());
+  append_big_endian(png, crc32(0, png.data() + start, static_cast<uInt>(png.size() - start)));
+}
+
 /// The prediction of a byte by filter 4.
 int paeth(int left, int up, int corner) {
   const int estimate = left + up - corner;
@@ -84,8 +97,7 @@ std::optional<Pixels> read_png(const std::filesystem::path& file) {
   const Bytes zeros(row_size, 0);
   std::span<const std::uint8_t> before = zeros;
   for (std::size_t y = 0; y < chunks->height; ++y) {
-    const std::span<std::uint8_t> row =
-        std::span(rows).subspan(y * (row_size + 1) + 1, row_size);
+    const std::span<std::uint8_t> row = std::span(rows).subspan(y * (row_size + 1) + 1, row_size);
     const int filter = rows[y * (row_size + 1)];
     if (filter > 4) return std::nullopt;
     unfilter(filter, before, row, chunks->channels);
@@ -94,6 +106,29 @@ std::optional<Pixels> read_png(const std::filesystem::path& file) {
     before = row;
   }
   return pixels;
+}
+
+std::vector<std::byte> make_png(int width, int height,
+                                const std::vector<std::array<std::uint8_t, 4>>& colors) {
+  Bytes rows;
+  for (std::size_t i = 0; i < colors.size(); ++i) {
+    if (i % static_cast<std::size_t>(width) == 0) rows.push_back(0);  // Filter: none.
+    rows.insert(rows.end(), colors[i].begin(), colors[i].end());
+  }
+  Bytes compressed(compressBound(rows.size()));
+  uLongf size = compressed.size();
+  compress(compressed.data(), &size, rows.data(), rows.size());
+  compressed.resize(size);
+
+  Bytes png = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'};
+  append_chunk(
+      png, "IHDR",
+      {0, 0, static_cast<std::uint8_t>(width >> 8), static_cast<std::uint8_t>(width), 0, 0,
+       static_cast<std::uint8_t>(height >> 8), static_cast<std::uint8_t>(height), 8, 6, 0, 0, 0});
+  append_chunk(png, "IDAT", compressed);
+  append_chunk(png, "IEND", {});
+  const auto* const first = reinterpret_cast<const std::byte*>(png.data());
+  return {first, first + png.size()};
 }
 
 std::optional<PixelBox> box_of(const Pixels& pixels,

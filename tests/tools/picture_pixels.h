@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -23,6 +24,10 @@ struct Pixels {
 
 /// Reads a PNG of 8 bits per channel, RGB or RGBA, not interlaced; nothing if it is another file.
 std::optional<Pixels> read_png(const std::filesystem::path& file);
+
+/// A PNG of RGBA pixels, row by row from the top.
+std::vector<std::byte> make_png(int width, int height,
+                                const std::vector<std::array<std::uint8_t, 4>>& colors);
 
 /// The box of all pixels for which `counts` is true; nothing if there is none.
 struct PixelBox {

@@ -90,9 +90,9 @@ StillScene make_scene(const Character& character, const Subject& subject, const 
     scene.surfaces.push_back(std::move(mesh));
   }
   // From the upper left, and weaker from the right and from below, so that no side is black.
-  scene.lights = {{frame.towards_eye - 0.5 * frame.right + 0.7 * frame.up, 2.2},
-                  {frame.towards_eye + 0.9 * frame.right - 0.1 * frame.up, 1.0},
-                  {0.3 * frame.towards_eye - frame.up, 0.6}};
+  scene.lights = {{frame.towards_eye - 0.5 * frame.right + 0.7 * frame.up, 2.5},
+                  {frame.towards_eye + 0.9 * frame.right - 0.1 * frame.up, 1.2},
+                  {0.3 * frame.towards_eye - frame.up, 0.7}};
   return scene;
 }
 

@@ -18,7 +18,7 @@ const Vec4f kBase(0.02f, 0.55f, 0.05f, 1), kTip(1.0f, 0.75f, 0.0f, 1), kEdge(0.0
 const Vec4f kPlane(0.02f, 0.12f, 0.85f, 1), kSection(0.05f, 0.20f, 0.95f, 0.30f);
 const Vec4f kBore(0.42f, 0.02f, 0.60f, 1), kWall(0.42f, 0.02f, 0.60f, 0.30f);
 constexpr double kLine = 2.5, kBladeLine = 1.8;  // Pixels.
-constexpr double kBaseRadius = 6, kTipRadius = 5, kPlaceRadius = 5;
+constexpr double kBaseRadius = 9, kTipRadius = 4, kPlaceRadius = 5;
 constexpr int kSides = 32;           // Of a circle.
 constexpr std::size_t kMarked = 40;  // Longer strokes have marks at their ends alone.
 

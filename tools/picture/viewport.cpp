@@ -24,6 +24,24 @@ struct Fit {
   [[nodiscard]] double towards_eye() const { return (rising + falling) / 2; }
 };
 
+/// Where along `axis` an eye at a given height sees as much on one side as on the other. In the
+/// dimension that does not fill the picture this differs a little from Fit::beside().
+double middle_of(std::span<const Vec3d> places, const Vec3d& axis, const Vec3d& towards_eye,
+                 double eye, double start) {
+  double middle = start;
+  for (int i = 0; i < 8; ++i) {
+    double least = 1e300, greatest = -1e300;
+    for (const Vec3d& place : places) {
+      const double seen = (place.dot(axis) - middle) / (eye - place.dot(towards_eye));
+      least = std::min(least, seen);
+      greatest = std::max(greatest, seen);
+    }
+    const double depth = eye - places.front().dot(towards_eye);
+    middle += depth * (least + greatest) / 2;
+  }
+  return middle;
+}
+
 }  // namespace
 
 Viewport::Viewport(const ViewFrame& frame, const PictureSize& size, std::span<const Vec3d> places)
@@ -43,8 +61,9 @@ Viewport::Viewport(const ViewFrame& frame, const PictureSize& size, std::span<co
   double eye = std::max(across.towards_eye(), upright.towards_eye());
   const double least = 0.6 * (nearest - farthest) + 1e-6;  // Of a set without extent, too.
   eye = std::max(eye, middle + least);
-  camera_.eye =
-      across.beside() * frame.right + upright.beside() * frame.up + eye * frame.towards_eye;
+  const double beside = middle_of(places, frame.right, frame.towards_eye, eye, across.beside());
+  const double above = middle_of(places, frame.up, frame.towards_eye, eye, upright.beside());
+  camera_.eye = beside * frame.right + above * frame.up + eye * frame.towards_eye;
   middle_depth_ = eye - middle;
   camera_.focal_point = camera_.eye - middle_depth_ * frame.towards_eye;
   camera_.up = frame.up;
