@@ -84,7 +84,7 @@ std::string certificate_line(const CertifiedWeights& weights, const MaximumError
   if (totals.uncertified > 0)
     line += " " + std::to_string(totals.uncertified) + " without certificate keep all as floats;";
   line += " joints and weights have " + std::to_string(totals.bytes) + " bytes, " +
-          std::to_string(totals.bytes_as_floats) + " with all influences as floats\n";
+          std::to_string(totals.bytes_as_floats) + " with all influences as floats";
   return line;
 }
 

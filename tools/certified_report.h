@@ -11,7 +11,7 @@ namespace sunder::tools {
 [[nodiscard]] Json certificate_json(const CertifiedWeights& weights, const Character& unpruned,
                                     const MaximumError& wanted);
 
-/// The same for people, one line with its end.
+/// The same for people, one line.
 [[nodiscard]] std::string certificate_line(const CertifiedWeights& weights,
                                            const MaximumError& wanted);
 

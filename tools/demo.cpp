@@ -83,8 +83,12 @@ Result<TornDemo> tear_mid_clip(const std::shared_ptr<const Character>& character
   if (!model) return model.error();
   const Result<TopologyCounts> before = count_topology(*character);
   if (!before) return before.error();
-  const Result<OperationOutcome> outcome = play(tear, *before, *model);
+  Result<OperationOutcome> outcome = play(tear, *model);
   if (!outcome) return outcome.error();
+  if (const Status status = measure_weight_error(tear, *model, *outcome); !status) return status;
+  const Result<TopologyCounts> after = count_topology(model->character());
+  if (!after) return after.error();
+  outcome->topology = TopologyChange{*before, *after};
   return TornDemo{DemoTear{character, std::move(*model), tear, frame, bounds}, *outcome};
 }
 
@@ -110,7 +114,8 @@ ExitCode write_results(const DemoRequest& request, const std::string& place, con
       {"loading", to_json(model.loaded.report)},
       {"operations", Json::array({to_json(demo.outcome, demo.tear.model.character())})},
       {"weight_errors", *weight_errors},
-      {"result", result_json(demo.tear.model, demo.outcome.before, demo.outcome.after)}};
+      {"result",
+       result_json(demo.tear.model, demo.outcome.topology->before, demo.outcome.topology->after)}};
   const std::pair<const char*, Json> texts[] = {
       {"report.json", report},
       {"ops.json", operations_json(character, demo.tear.operation.stroke)}};

@@ -1,6 +1,6 @@
 #include "tools/exit_code.h"
 
-#include <cstdio>
+#include "tools/messages.h"
 
 namespace sunder::tools {
 
@@ -16,11 +16,10 @@ ExitCode exit_code_of(StatusCode code, ExitCode otherwise) {
   }
 }
 
-ExitCode complain(const std::string& place, const Status& status, ExitCode otherwise) {
-  std::fprintf(stderr, "sunder: %s: %.*s (%.*s)\n", place.c_str(),
-               static_cast<int>(status.text().size()), status.text().data(),
-               static_cast<int>(status_name(status.code()).size()),
-               status_name(status.code()).data());
+ExitCode complain(const std::string& place, const Status& status, ExitCode otherwise,
+                  const std::string& advice) {
+  print_error("sunder: " + place + ": " + std::string(status.text()) + advice + " (" +
+              std::string(status_name(status.code())) + ")");
   return exit_code_of(status.code(), otherwise);
 }
 

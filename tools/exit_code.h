@@ -19,7 +19,10 @@ enum class ExitCode : int {
 /// The exit code for a failure; `otherwise` if the status code alone does not determine it.
 [[nodiscard]] ExitCode exit_code_of(StatusCode code, ExitCode otherwise);
 
-/// Reports on stderr what failed and where. @return exit_code_of() the failure.
-[[nodiscard]] ExitCode complain(const std::string& place, const Status& status, ExitCode otherwise);
+/// Reports on stderr what failed and where.
+/// @param advice  follows the text of the failure: "; did you mean 'Walk'?".
+/// @return exit_code_of() the failure.
+[[nodiscard]] ExitCode complain(const std::string& place, const Status& status, ExitCode otherwise,
+                                const std::string& advice = {});
 
 }  // namespace sunder::tools

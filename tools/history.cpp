@@ -10,7 +10,7 @@
 
 namespace sunder::tools {
 
-Result<std::vector<ModelPose>> poses_of(const Operation& operation, const Character& character) {
+std::vector<PoseSpec> pose_specs_of(const Operation& operation) {
   struct Visitor {
     std::vector<PoseSpec>& specs;
     void operator()(const TearOperation& tear) {
@@ -28,8 +28,12 @@ Result<std::vector<ModelPose>> poses_of(const Operation& operation, const Charac
   };
   std::vector<PoseSpec> specs;
   std::visit(Visitor{specs}, operation);
+  return specs;
+}
+
+Result<std::vector<ModelPose>> poses_of(const Operation& operation, const Character& character) {
   std::vector<ModelPose> poses;
-  for (const PoseSpec& spec : specs) {
+  for (const PoseSpec& spec : pose_specs_of(operation)) {
     Result<ModelPose> pose = make_pose(character, spec);
     if (!pose) return pose.error();
     poses.push_back(std::move(*pose));

@@ -8,6 +8,8 @@
 
 namespace sunder::tools {
 
+/// The specs of an operation's poses, as below.
+[[nodiscard]] std::vector<PoseSpec> pose_specs_of(const Operation& operation);
 /// The poses of an operation: one for a tear, cut or bore; several for a tear while the model
 /// moves; for weights, the pose that they meet.
 [[nodiscard]] Result<std::vector<ModelPose>> poses_of(const Operation& operation,

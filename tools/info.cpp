@@ -10,6 +10,7 @@
 
 #include "tools/bone_extents.h"
 #include "tools/bone_table.h"
+#include "tools/messages.h"
 #include "tools/model_check.h"
 #include "tools/pose_argument.h"
 #include "tools/posed_model.h"
@@ -189,9 +190,9 @@ ExitCode run_info(const InfoRequest& request) {
   const Character& character = *loaded->character;
   Result<PoseArgument> argument = parse_pose(request.pose, character);
   if (!argument)
-    return complain(request.model.string() + ": --pose", argument.error(), ExitCode::usage);
-  if (!argument->remark.empty())
-    std::fprintf(stderr, "sunder: --pose: %s\n", argument->remark.c_str());
+    return complain(request.model.string() + ": --pose", argument.error(), ExitCode::usage,
+                    advice_on_pose(request.pose, character));
+  if (!argument->remark.empty()) Messages(Verbosity::normal).warn("--pose: " + argument->remark);
   Result<ModelPose> pose = make_pose(character, argument->spec);
   if (!pose) return complain(request.model.string(), pose.error(), ExitCode::internal_error);
   Result<std::vector<DeformedMesh>> posed = pose_model(character, *pose);

@@ -1,7 +1,7 @@
 #include <cstdio>
 #include <exception>
-#include <functional>
 #include <new>
+#include <sstream>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -10,63 +10,39 @@
 #include <sunder/coupled_refit/use.h>
 #endif
 
-#include "tools/command_line/options.h"
+#include "tools/command_line/command_line.h"
+#include "tools/messages.h"
 
 namespace sunder::tools {
 namespace {
 
-constexpr const char* kExitCodes =
-    "`sunder VERB --help` describes one verb; docs/command.md has all details.\n\n"
-    "Exit codes:\n"
-    "  0  done\n"
-    "  1  done, with findings\n"
-    "  2  the command line or the operations are invalid\n"
-    "  3  a file cannot be read or written\n"
-    "  4  a limit was exceeded: size, memory, time\n"
-    "  5  internal error; please report it\n"
-    "Data goes to stdout, messages go to stderr.";
+/// Prints help to stdout and errors to stderr.
+ExitCode refuse(const CLI::App& app, const CLI::ParseError& error) {
+  std::ostringstream out, err;
+  const int code = app.exit(error, out, err);
+  std::fputs(out.str().c_str(), stdout);
+  std::string text = err.str();
+  if (text.ends_with('\n')) text.pop_back();
+  if (!text.empty()) print_error(text);
+  return code == 0 ? ExitCode::ok : ExitCode::usage;
+}
 
-struct Requests {
-  InfoRequest info;
-  PictureRequest picture;
-  TearRequest tear;
-  DemoRequest demo;
-  TransferRequest transfer;
-  ValidateRequest validate;
-};
-
-/// A verb and its run after parsing.
-struct Verb {
-  const CLI::App* app;
-  std::function<ExitCode()> run;
-};
-
-int run(int argc, char** argv) {
+ExitCode run(int argc, char** argv) {
 #if SUNDER_COUPLED_REFIT
   use_coupled_refit();
 #endif
   Requests requests;
-  CLI::App app("Tears rigged, animated models.", "sunder");
-  app.set_version_flag("--version", "sunder " SUNDER_VERSION);
-  app.require_subcommand(1);
-  app.footer(kExitCodes);
-  const Verb verbs[] = {
-      {add_info(app, requests.info), [&] { return run_info(requests.info); }},
-      {add_picture(app, requests.picture), [&] { return run_picture(requests.picture); }},
-      {add_tear(app, requests.tear), [&] { return run_tear(requests.tear); }},
-      {add_transfer(app, requests.transfer), [&] { return run_transfer(requests.transfer); }},
-      {add_validate(app, requests.validate), [&] { return run_validate(requests.validate); }},
-      {add_demo(app, requests.demo), [&] { return run_demo(requests.demo); }},
-  };
+  CLI::App app;
+  describe_command(app);
+  const std::vector<Verb> verbs = add_verbs(app, requests);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? static_cast<int>(ExitCode::ok)
-                                : static_cast<int>(ExitCode::usage);
+    return refuse(app, error);
   }
   for (const Verb& verb : verbs)
-    if (verb.app->parsed()) return static_cast<int>(verb.run());
-  return static_cast<int>(ExitCode::usage);  // Not reached: a verb is required.
+    if (verb.app->parsed()) return verb.run();
+  return ExitCode::usage;  // Not reached: a verb is required.
 }
 
 }  // namespace
@@ -74,13 +50,14 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   using sunder::tools::ExitCode;
+  using sunder::tools::print_error;
   try {
-    return sunder::tools::run(argc, argv);
+    return static_cast<int>(sunder::tools::run(argc, argv));
   } catch (const std::bad_alloc&) {
-    std::fputs("sunder: out of memory\n", stderr);
+    print_error("sunder: out of memory");
     return static_cast<int>(ExitCode::limit_exceeded);
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "sunder: internal error: %s\n", error.what());
+    print_error(std::string("sunder: internal error: ") + error.what());
     return static_cast<int>(ExitCode::internal_error);
   }
 }

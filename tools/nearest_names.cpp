@@ -2,64 +2,73 @@
 
 #include <algorithm>
 #include <cctype>
-#include <numeric>
 #include <utility>
-#include <vector>
 
 namespace sunder::tools {
 namespace {
 
-constexpr std::size_t kOffered = 3;
+constexpr std::size_t kMost = 3;         ///< Names that are proposed.
+constexpr std::size_t kMostListed = 10;  ///< Names that are listed if none is near.
 
-std::string lower(std::string_view text) {
-  std::string result(text);
-  for (char& c : result) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return result;
+std::string without_capitals(std::string text) {
+  std::ranges::transform(text, text.begin(), [](unsigned char letter) {
+    return static_cast<char>(std::tolower(letter));
+  });
+  return text;
 }
 
-/// Number of single characters to insert, remove or replace to get from one name to the other.
+/// Number of letters to insert, delete, replace or swap with their neighbour.
 std::size_t edit_distance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
+  std::vector<std::size_t> before_last(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) last[j] = j;
   for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = std::exchange(row[0], i);
+    row[0] = i;
     for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = row[j];
-      row[j] = std::min({replaced, row[j] + 1, row[j - 1] + 1});
+      const std::size_t replaced = last[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
+      row[j] = std::min({last[j] + 1, row[j - 1] + 1, replaced});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        row[j] = std::min(row[j], before_last[j - 2] + 1);
     }
+    before_last.swap(last);
+    last.swap(row);
   }
-  return row[b.size()];
+  return last[b.size()];
 }
 
 }  // namespace
 
-std::string offer_names(std::string_view name, std::span<const std::string> names) {
-  if (names.empty()) return "; there are none";
-  const std::string wanted = lower(name);
-  std::vector<std::pair<std::size_t, const std::string*>> ranked;
-  for (const std::string& candidate : names) {
-    const std::string known = lower(candidate);
-    const bool contains =
-        !wanted.empty() && !known.empty() &&
-        (known.find(wanted) != std::string::npos || wanted.find(known) != std::string::npos);
-    ranked.emplace_back(contains ? 0 : edit_distance(wanted, known), &candidate);
+std::vector<std::string> nearest_names(const std::string& wanted,
+                                       std::span<const std::string> names) {
+  const std::string key = without_capitals(wanted);
+  std::vector<std::pair<std::size_t, std::string>> near;
+  for (const std::string& name : names) {
+    const std::string other = without_capitals(name);
+    const std::size_t edits = edit_distance(key, other);
+    const bool is_part =
+        key.size() > 2 && (other.find(key) != std::string::npos ||
+                           (other.size() > 2 && key.find(other) != std::string::npos));
+    if (is_part || 3 * edits <= std::max(key.size(), other.size())) near.emplace_back(edits, name);
   }
-  std::stable_sort(ranked.begin(), ranked.end(),
-                   [](const auto& a, const auto& b) { return a.first < b.first; });
-  const bool resembles = ranked.front().first <= std::max<std::size_t>(2, wanted.size() / 2);
-  std::string text = resembles ? "; did you mean " : "; there are, for example, ";
-  std::size_t offered = std::min(kOffered, ranked.size());
-  if (resembles)  // Not those that resemble it much less than the best one.
-    while (offered > 1 && ranked[offered - 1].first > 2 * ranked.front().first + 2) --offered;
-  for (std::size_t i = 0; i < offered; ++i) {
-    const char* const separator = i == 0            ? ""
-                                  : i + 1 < offered ? ", "
-                                  : resembles       ? " or "
-                                                    : " and ";
-    text += separator + ("'" + *ranked[i].second + "'");
-  }
-  return resembles ? text + "?" : text;
+  std::ranges::stable_sort(near, {}, &std::pair<std::size_t, std::string>::first);
+  std::vector<std::string> result;
+  for (std::size_t i = 0; i < std::min(near.size(), kMost); ++i)
+    result.push_back(std::move(near[i].second));
+  return result;
+}
+
+std::string name_advice(const std::string& wanted, const char* kind,
+                        std::span<const std::string> names) {
+  const std::vector<std::string> near = nearest_names(wanted, names);
+  std::string text;
+  for (std::size_t i = 0; i < near.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == near.size() ? " or " : ", ") + ("'" + near[i] + "'");
+  if (!text.empty()) return "; did you mean " + text + "?";
+  if (names.empty()) return std::string("; the model has no ") + kind;
+  for (std::size_t i = 0; i < std::min(names.size(), kMostListed); ++i)
+    text += (i == 0 ? "'" : ", '") + names[i] + "'";
+  if (names.size() > kMostListed)
+    text += " and " + std::to_string(names.size() - kMostListed) + " more";
+  return std::string("; its ") + kind + ": " + text;
 }
 
 }  // namespace sunder::tools

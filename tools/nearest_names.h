@@ -2,13 +2,18 @@
 
 #include <span>
 #include <string>
-#include <string_view>
+#include <vector>
 
 namespace sunder::tools {
 
-/// Ends the message that `name` is unknown: "; did you mean 'Walk' or 'Run'?" with up to three of
-/// the names that resemble it most, or "; there are none" if the list is empty. If none resembles
-/// it, the first names of the list are given.
-[[nodiscard]] std::string offer_names(std::string_view name, std::span<const std::string> names);
+/// Names that a mistyped one may stand for, nearest first: at most three, by the number of letters
+/// to insert, delete, replace or swap, capitals aside, or because one contains the other.
+[[nodiscard]] std::vector<std::string> nearest_names(const std::string& wanted,
+                                                     std::span<const std::string> names);
+
+/// "; did you mean 'Walk' or 'WalkBack'?", or a list of what there is if nothing is near.
+/// @param kind  "clips".
+[[nodiscard]] std::string name_advice(const std::string& wanted, const char* kind,
+                                      std::span<const std::string> names);
 
 }  // namespace sunder::tools

@@ -1,5 +1,6 @@
 #include "tools/pose_argument.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
@@ -22,13 +23,6 @@ std::optional<double> parse_time(std::string_view text) {
   if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(seconds))
     return std::nullopt;
   return seconds;
-}
-
-Status unknown_clip(const std::string& name, const Character& character) {
-  std::vector<std::string> names;
-  for (const Clip& clip : character.clips) names.push_back(clip.name);
-  return Status::failure(StatusCode::not_found, kNone, "the model has no clip '%s'%s", name.c_str(),
-                         offer_names(name, names).c_str());
 }
 
 std::string number(double value) {
@@ -62,7 +56,17 @@ Result<PoseArgument> parse_pose(const std::string& text, const Character& charac
                     number(static_cast<double>(clip.duration)) + " s; its last pose is taken";
     return pose;
   }
-  return unknown_clip(name, character);
+  return Status::failure(StatusCode::not_found, kNone, "the model has no clip '%s'", name.c_str());
+}
+
+std::string advice_on_pose(const std::string& text, const Character& character) {
+  const std::size_t at = text.rfind('@');
+  if (at == std::string::npos) return {};
+  const std::string name = text.substr(0, at);
+  std::vector<std::string> names;
+  for (const Clip& clip : character.clips) names.push_back(clip.name);
+  const bool is_there = std::find(names.begin(), names.end(), name) != names.end();
+  return is_there ? std::string() : name_advice(name, "clips", names);
 }
 
 }  // namespace sunder::tools

@@ -16,7 +16,11 @@ struct PoseArgument {
 
 /// Reads "rest", "bind" or CLIP@TIME: the name of a clip and a time in seconds. A time beyond the
 /// end of the clip holds its last pose, and the remark says so.
-/// @return not_found for an unknown clip, with the names that resemble it; invalid_argument.
+/// @return not_found for an unknown clip; invalid_argument.
 [[nodiscard]] Result<PoseArgument> parse_pose(const std::string& text, const Character& character);
+
+/// "; did you mean 'Walk'?" if the text names a clip that the character does not have; otherwise
+/// empty.
+[[nodiscard]] std::string advice_on_pose(const std::string& text, const Character& character);
 
 }  // namespace sunder::tools

@@ -16,6 +16,7 @@ struct Bounds {
 
   [[nodiscard]] Vec3d centre() const { return (least + greatest) / 2; }
   [[nodiscard]] Vec3d size() const { return greatest - least; }
+  [[nodiscard]] bool is_empty() const { return least.x() > greatest.x(); }
 };
 
 /// The bounds of all vertices that triangles use.

@@ -23,8 +23,10 @@ class ProgressBar {
 
   std::size_t step_count_;
   bool is_shown_;
-  bool has_drawn_ = false;
   Clock::time_point next_draw_;
 };
+
+/// Erases a drawn bar, so that a message can take its line. The next step draws it again.
+void erase_progress_bar();
 
 }  // namespace sunder::tools

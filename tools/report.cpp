@@ -57,25 +57,16 @@ Json piece_json(const TornPiece& piece, const Character& character) {
           {"centroid_posed", vector_json(piece.centroid_posed)}};
 }
 
-Json weights_json(const WeightReport& weights, double error_max) {
-  return {{"points", weights.points},
-          {"pruned", weights.pruned},
-          {"ill_conditioned", weights.ill_conditioned},
-          {"refitted", weights.refitted},
-          {"certified_barycentric", weights.certified_barycentric},
-          {"certified", weights.certified},
-          {"uncertified", weights.uncertified},
-          {"error_max", error_max}};
-}
-
-/// The greatest error of the points that the newest operation created.
-Result<double> greatest_weight_error(const TornModel& model, const Operation& operation) {
-  const Result<std::vector<ModelPose>> poses = poses_of(operation, model.source());
-  if (!poses) return poses.error();
-  const Result<WeightErrors> errors =
-      measure_weight_errors(model, model.undo_count() - 1, 1, *poses);
-  if (!errors) return errors.error();
-  return errors->metres.maximum;
+Json weights_json(const WeightReport& weights, const std::optional<double>& error_max) {
+  Json json = {{"points", weights.points},
+               {"pruned", weights.pruned},
+               {"ill_conditioned", weights.ill_conditioned},
+               {"refitted", weights.refitted},
+               {"certified_barycentric", weights.certified_barycentric},
+               {"certified", weights.certified},
+               {"uncertified", weights.uncertified}};
+  if (error_max) json["error_max"] = *error_max;
+  return json;
 }
 
 /// Text, because JSON readers keep only 53 bits of a number.
@@ -109,53 +100,56 @@ Json to_json(const LoadReport& report) {
   return {{"format", report.format}, {"space", report.space}, {"notes", std::move(notes)}};
 }
 
-Result<OperationOutcome> play(const Operation& operation, const TopologyCounts& before,
-                              TornModel& model) {
+Result<OperationOutcome> play(const Operation& operation, TornModel& model) {
   const auto begin = std::chrono::steady_clock::now();
   Result<TearReport> report = apply_operation(model, operation);
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
   if (!report) return report.error();
   const Names names = names_of(operation);
   const bool has_missed = names.can_miss && report->runs == 0;
-  OperationOutcome outcome{names.op,        names.done, has_missed, *report,
-                           elapsed.count(), 0.0,        before,     before};
-  if (has_missed) return outcome;
-  outcome.after = *count_topology(model.character());
-  if (!names.can_miss) return outcome;  // It created no points.
-  const Result<double> error = greatest_weight_error(model, operation);
-  if (!error) return error.error();
-  outcome.weight_error_max = *error;
-  return outcome;
+  return OperationOutcome{names.op, names.done, has_missed, std::move(*report), elapsed.count()};
+}
+
+Status measure_weight_error(const Operation& operation, const TornModel& model,
+                            OperationOutcome& outcome) {
+  outcome.weight_error_max = 0.0;
+  if (outcome.has_missed || !names_of(operation).can_miss) return {};  // It created no points.
+  const Result<std::vector<ModelPose>> poses = poses_of(operation, model.source());
+  if (!poses) return poses.error();
+  const Result<WeightErrors> errors =
+      measure_weight_errors(model, model.undo_count() - 1, 1, *poses);
+  if (!errors) return errors.error();
+  outcome.weight_error_max = errors->metres.maximum;
+  return {};
 }
 
 Json to_json(const OperationOutcome& outcome, const Character& character) {
   const TearReport& tear = outcome.tear;
-  const auto before_and_after = [](std::uint32_t before, std::uint32_t after) {
-    return Json{{"before", before}, {"after", after}};
-  };
   Json pieces = Json::array();
   for (const TornPiece& piece : tear.pieces) pieces.push_back(piece_json(piece, character));
-  return {{"op", outcome.op},
-          {"status", outcome.has_missed ? "missed" : outcome.done},
-          {"seconds", outcome.seconds},
-          {"runs", tear.runs},
-          {"segments", tear.segments},
-          {"segments_missed", tear.segments_missed},
-          {"faces_crossed", tear.faces_crossed},
-          {"points_added", tear.points_added},
-          {"vertices_added", tear.vertices_added},
-          {"triangles_added", tear.triangles_added},
-          {"triangles_retired", tear.triangles_retired},
-          {"blocked", tear.blocked},
-          {"length_posed", tear.length_posed},
-          {"area_removed_posed", tear.area_removed_posed},
-          {"weights", weights_json(tear.weights, outcome.weight_error_max)},
-          {"caps", tear.caps},
-          {"open_sections", tear.open_sections},
-          {"pieces", std::move(pieces)},
-          {"components", before_and_after(outcome.before.components, outcome.after.components)},
-          {"boundary_loops",
-           before_and_after(outcome.before.boundary_loops, outcome.after.boundary_loops)}};
+  Json json = {{"op", outcome.op},
+               {"status", outcome.has_missed ? "missed" : outcome.done},
+               {"seconds", outcome.seconds},
+               {"runs", tear.runs},
+               {"segments", tear.segments},
+               {"segments_missed", tear.segments_missed},
+               {"faces_crossed", tear.faces_crossed},
+               {"points_added", tear.points_added},
+               {"vertices_added", tear.vertices_added},
+               {"triangles_added", tear.triangles_added},
+               {"triangles_retired", tear.triangles_retired},
+               {"blocked", tear.blocked},
+               {"length_posed", tear.length_posed},
+               {"area_removed_posed", tear.area_removed_posed},
+               {"weights", weights_json(tear.weights, outcome.weight_error_max)},
+               {"caps", tear.caps},
+               {"open_sections", tear.open_sections},
+               {"pieces", std::move(pieces)}};
+  if (!outcome.topology) return json;
+  const TopologyCounts &before = outcome.topology->before, &after = outcome.topology->after;
+  json["components"] = {{"before", before.components}, {"after", after.components}};
+  json["boundary_loops"] = {{"before", before.boundary_loops}, {"after", after.boundary_loops}};
+  return json;
 }
 
 Json result_json(const TornModel& torn, const TopologyCounts& source,

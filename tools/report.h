@@ -5,6 +5,7 @@
 #include <sunder/tear/topology.h>
 #include <sunder/tear/torn_model.h>
 
+#include <optional>
 #include <string>
 
 #include <nlohmann/json.hpp>
@@ -13,7 +14,12 @@ namespace sunder::tools {
 
 using Json = nlohmann::ordered_json;
 
-/// The results of one operation, and the topology of the surface before and after it.
+/// The topology before and after an operation.
+struct TopologyChange {
+  TopologyCounts before, after;
+};
+
+/// The results of one operation.
 struct OperationOutcome {
   const char* op = "";    ///< Its name in a log.
   const char* done = "";  ///< Its status in the report, if it did not miss.
@@ -21,15 +27,18 @@ struct OperationOutcome {
   TearReport tear;
   double seconds = 0;  ///< Duration of the operation alone.
   /// Greatest distance of a new point from the untorn surface, in the poses of the operation;
-  /// metres.
-  double weight_error_max = 0;
-  TopologyCounts before, after;
+  /// metres. Only if it was measured.
+  std::optional<double> weight_error_max = {};
+  std::optional<TopologyChange> topology = {};  ///< Only if it was counted.
 };
 
 /// Performs an operation and describes its results.
-/// @param before  the topology of the model.
-[[nodiscard]] Result<OperationOutcome> play(const Operation& operation,
-                                            const TopologyCounts& before, TornModel& model);
+[[nodiscard]] Result<OperationOutcome> play(const Operation& operation, TornModel& model);
+
+/// Measures OperationOutcome::weight_error_max. O(vertices of the source + new points).
+/// @param outcome  of the newest operation.
+[[nodiscard]] Status measure_weight_error(const Operation& operation, const TornModel& model,
+                                          OperationOutcome& outcome);
 
 [[nodiscard]] Json to_json(const TopologyCounts& counts);
 [[nodiscard]] Json to_json(const LoadReport& report);

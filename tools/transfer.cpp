@@ -156,7 +156,7 @@ ExitCode run_transfer(const TransferRequest& request) {
   if (const ExitCode code = write_files(request, *target, *result, certified); code != ExitCode::ok)
     return code;
   std::fputs(transfer_table(request, *result).c_str(), stdout);
-  if (certified) std::fputs(certificate_line(*certified, *request.maximum_error).c_str(), stdout);
+  if (certified) std::puts(certificate_line(*certified, *request.maximum_error).c_str());
   const bool has_findings = std::ranges::any_of(
       result->findings, [](const Finding& finding) { return finding.severity != Severity::note; });
   return has_findings ? ExitCode::findings : ExitCode::ok;

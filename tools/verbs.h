@@ -9,6 +9,7 @@
 
 #include "tools/certified_weights.h"
 #include "tools/exit_code.h"
+#include "tools/messages.h"
 #include "tools/refit.h"
 #include "tools/render.h"
 
@@ -25,8 +26,9 @@ struct InfoRequest {
 
 /// sunder tear: applies an operation log to a model.
 struct TearRequest {
-  std::filesystem::path model, operations, output;
-  SaveOptions save;  ///< How influences are written.
+  std::filesystem::path model, operations;
+  std::optional<std::filesystem::path> output;  ///< Only empty in a dry run.
+  SaveOptions save;                             ///< How influences are written.
   /// Chooses influences and formats in place of `save`.
   std::optional<MaximumError> maximum_error;
   /// For operations without weights of their own; empty: barycentric, with all influences.
@@ -34,7 +36,12 @@ struct TearRequest {
   /// Only for `refit`; empty: clips and range of motion, or what the model has.
   std::optional<RefitOptions> refit_over;
   double refit_bound = RefitOptions{}.bound;    ///< RefitOptions::bound.
-  std::optional<std::filesystem::path> report;  ///< Empty: stdout.
+  std::optional<std::filesystem::path> report;  ///< JSON; "-": stdout. Empty: a summary instead.
+  bool weight_errors = false;                   ///< Measured for the report.
+  bool count_topology = false;                  ///< Per operation, for the report.
+  bool dry_run = false;                         ///< Writes no files.
+  bool force = false;                           ///< Outputs may overwrite inputs.
+  Verbosity verbosity = Verbosity::normal;
   std::optional<std::filesystem::path> log;  ///< Output file for the log of the applied operations.
   std::optional<std::filesystem::path> picture;  ///< Output file for a picture.
 };

@@ -153,8 +153,9 @@ class CertifiedFiles : public CertifiedWeightsCommand,
     const std::string cut = cut_in_the_middle(*source->character);
     const CommandResult plain = run_sunder({"tear", file, "--ops", cut, "-o", path("plain.glb")});
     EXPECT_LE(plain.exit_code, 1) << plain.err;
-    const CommandResult pruned = run_sunder({"tear", file, "--ops", cut, "-o", path("pruned.glb"),
-                                             "--max-error", number(error), "--limits", limits});
+    const CommandResult pruned =
+        run_sunder({"tear", file, "--ops", cut, "-o", path("pruned.glb"), "--max-error",
+                    number(error), "--limits", limits, "--report", "-"});
     EXPECT_LE(pruned.exit_code, 1) << pruned.err;
     EXPECT_THAT(pruned.err, HasSubstr("no pose moves a vertex by more than"));
     const auto a = load_character(path("plain.glb")), b = load_character(path("pruned.glb"));
@@ -226,8 +227,9 @@ TEST_F(CertifiedWeightsCommand, a_larger_error_takes_fewer_influences_and_bytes)
   };
   std::uint64_t before = UINT64_MAX, influences_before = UINT64_MAX, vertex_count = 0;
   for (const char* const error : {"0.00001mm", "0.1mm", "1mm", "5cm"}) {
-    const CommandResult result = run_sunder(
-        {"tear", model(), "--ops", operations, "-o", path("less.glb"), "--max-error", error});
+    const CommandResult result =
+        run_sunder({"tear", model(), "--ops", operations, "-o", path("less.glb"), "--max-error",
+                    error, "--report", "-"});
     ASSERT_EQ(result.exit_code, 0) << result.err;
     const json certificate = json::parse(result.out)["influences_written"]["certificate"];
     const auto bytes = certificate["bytes_written"].get<std::uint64_t>();
@@ -337,8 +339,9 @@ TEST_F(CertifiedWeightsCommand, vertices_without_certificate_keep_all_as_floats)
   const std::string cut = cut_in_the_middle(tube);
   ASSERT_EQ(
       run_sunder({"tear", path("roots.glb"), "--ops", cut, "-o", path("plain.glb")}).exit_code, 0);
-  const CommandResult result = run_sunder(
-      {"tear", path("roots.glb"), "--ops", cut, "-o", path("kept.glb"), "--max-error", "5cm"});
+  const CommandResult result =
+      run_sunder({"tear", path("roots.glb"), "--ops", cut, "-o", path("kept.glb"), "--max-error",
+                  "5cm", "--report", "-"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.err, HasSubstr("without certificate"));
   const json certificate = json::parse(result.out)["influences_written"]["certificate"];

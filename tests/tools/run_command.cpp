@@ -23,7 +23,43 @@ void redirect(int descriptor, const std::filesystem::path& file) {
   if (target >= 0) dup2(target, descriptor);
 }
 
+/// Everything that is written to a terminal until its last writer closes it.
+std::string read_terminal(int terminal) {
+  std::string text;
+  char part[4096];
+  for (ssize_t size = 0; (size = read(terminal, part, sizeof part)) > 0;)
+    text.append(part, static_cast<std::size_t>(size));
+  return text;
+}
+
 }  // namespace
+
+CommandResult run_sunder_on_terminal(
+    const std::vector<std::string>& arguments,
+    const std::vector<std::pair<std::string, std::string>>& environment) {
+  std::vector<char*> argv = {const_cast<char*>(SUNDER_COMMAND)};
+  for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+  argv.push_back(nullptr);
+  CommandResult result;
+  const int terminal = posix_openpt(O_RDWR | O_NOCTTY);
+  if (terminal < 0 || grantpt(terminal) != 0 || unlockpt(terminal) != 0) return result;
+  const int slave = open(ptsname(terminal), O_RDWR | O_NOCTTY);
+  const pid_t child = fork();
+  if (child == 0) {
+    dup2(slave, STDERR_FILENO);
+    redirect(STDOUT_FILENO, "/dev/null");
+    for (const auto& [name, value] : environment) setenv(name.c_str(), value.c_str(), 1);
+    execv(SUNDER_COMMAND, argv.data());
+    _exit(127);
+  }
+  close(slave);
+  result.err = read_terminal(terminal);
+  int state = 0;
+  if (child > 0 && waitpid(child, &state, 0) == child && WIFEXITED(state))
+    result.exit_code = WEXITSTATUS(state);
+  close(terminal);
+  return result;
+}
 
 CommandResult run_sunder(const std::vector<std::string>& arguments,
                          const std::vector<std::pair<std::string, std::string>>& environment) {

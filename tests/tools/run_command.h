@@ -21,4 +21,9 @@ CommandResult run_sunder_without_page(const std::vector<std::string>& arguments)
 CommandResult run_sunder(const std::vector<std::string>& arguments,
                          const std::vector<std::pair<std::string, std::string>>& environment = {});
 
+/// The same with a terminal as stderr.
+CommandResult run_sunder_on_terminal(
+    const std::vector<std::string>& arguments,
+    const std::vector<std::pair<std::string, std::string>>& environment = {});
+
 }  // namespace sunder::test

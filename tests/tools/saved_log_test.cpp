@@ -11,11 +11,13 @@ class SavedLog : public CactusSuite {};
 /// Applies a log, then the log that it saved, and expects the same model.
 void expect_replay(const std::string& model, const std::string& operations, const std::string& stem,
                    const std::string& weights = "barycentric") {
-  const CommandResult played = run_sunder({"tear", model, "--ops", operations, "-o", stem + "1.glb",
-                                           "--save-log", stem + "1.json", "--weights", weights});
+  const CommandResult played =
+      run_sunder({"tear", model, "--ops", operations, "-o", stem + "1.glb", "--save-log",
+                  stem + "1.json", "--weights", weights, "--report", "-", "--weight-errors"});
   ASSERT_LE(played.exit_code, 1) << played.err;
-  const CommandResult replayed = run_sunder({"tear", model, "--ops", stem + "1.json", "-o",
-                                             stem + "2.glb", "--save-log", stem + "2.json"});
+  const CommandResult replayed =
+      run_sunder({"tear", model, "--ops", stem + "1.json", "-o", stem + "2.glb", "--save-log",
+                  stem + "2.json", "--report", "-", "--weight-errors"});
   ASSERT_EQ(replayed.exit_code, 0) << replayed.err;
   EXPECT_EQ(json::parse(played.out)["result"], json::parse(replayed.out)["result"]);
   EXPECT_EQ(json::parse(played.out)["weight_errors"], json::parse(replayed.out)["weight_errors"]);

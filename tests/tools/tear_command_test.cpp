@@ -16,7 +16,8 @@ const char* const kMiss = R"({"sunder_operations": 1, "operations": [
 
 TEST_F(TearCommand, tear_reports_its_results) {
   const CommandResult result =
-      run_sunder({"tear", model(), "--ops", write("a.json", kOneTear), "-o", path("torn.glb")});
+      run_sunder({"tear", model(), "--ops", write("a.json", kOneTear), "-o", path("torn.glb"),
+                  "--report", "-", "--count-topology"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const json report = json::parse(result.out);
   const json& operation = report["operations"].at(0);
@@ -42,8 +43,8 @@ TEST_F(TearCommand, tear_reports_its_results) {
 }
 
 TEST_F(TearCommand, tear_plays_every_operation) {
-  const CommandResult result =
-      run_sunder({"tear", model(), "--ops", write("all.json", kAll), "-o", path("all.glb")});
+  const CommandResult result = run_sunder({"tear", model(), "--ops", write("all.json", kAll), "-o",
+                                           path("all.glb"), "--report", "-", "--count-topology"});
   ASSERT_EQ(result.exit_code, 1) << result.err;  // for the misses
   const json report = json::parse(result.out);
   const json& operations = report["operations"];
@@ -145,7 +146,8 @@ TEST_F(TearCommand, no_operation_gives_the_source) {
   EXPECT_EQ(bytes("same.glb"), bytes("cactus.glb"));
   for (const char* const weights : {"refit", "exact"}) {
     const CommandResult result =
-        run_sunder({"tear", model(), "--ops", none, "-o", path("same.glb"), "--weights", weights});
+        run_sunder({"tear", model(), "--ops", none, "-o", path("same.glb"), "--weights", weights,
+                    "--report", "-", "--weight-errors"});
     ASSERT_EQ(result.exit_code, 0) << result.err;
     EXPECT_EQ(json::parse(result.out)["weight_errors"], json::object());
     EXPECT_EQ(bytes("same.glb"), bytes("cactus.glb"));
@@ -153,8 +155,8 @@ TEST_F(TearCommand, no_operation_gives_the_source) {
 }
 
 TEST_F(TearCommand, a_miss_is_a_finding_and_still_written) {
-  const CommandResult result =
-      run_sunder({"tear", model(), "--ops", write("miss.json", kMiss), "-o", path("missed.glb")});
+  const CommandResult result = run_sunder({"tear", model(), "--ops", write("miss.json", kMiss),
+                                           "-o", path("missed.glb"), "--report", "-"});
   EXPECT_EQ(result.exit_code, 1) << result.err;
   EXPECT_EQ(json::parse(result.out)["operations"][0]["status"], "missed");
   EXPECT_EQ(bytes("missed.glb"), bytes("cactus.glb"));
@@ -233,7 +235,7 @@ TEST_F(TearCommand, tear_draws_a_picture_of_the_result) {
   for (const char* const operations : {kOneTear, kAll}) {
     const CommandResult result =
         run_sunder({"tear", model(), "--ops", write("drawn.json", operations), "-o",
-                    path("drawn.glb"), "--picture", path("drawn.png")});
+                    path("drawn.glb"), "--picture", path("drawn.png"), "-q"});
     EXPECT_LE(result.exit_code, 1) << result.err;
     EXPECT_THAT(result.err, IsEmpty());
     EXPECT_GT(std::filesystem::file_size(path("drawn.png")), 10'000u);
@@ -244,7 +246,7 @@ TEST_F(TearCommand, tear_draws_a_picture_of_the_result) {
 TEST_F(TearCommand, a_picture_that_cannot_be_drawn_is_a_finding) {
   const CommandResult no_renderer =
       run_sunder({"tear", model(), "--ops", write("a.json", kOneTear), "-o", path("undrawn.glb"),
-                  "--picture", path("undrawn.png")},
+                  "--picture", path("undrawn.png"), "--report", "-"},
                  {{"PATH", "/nonexistent"}});
   EXPECT_EQ(no_renderer.exit_code, 1);
   EXPECT_THAT(no_renderer.err, HasSubstr("f3d"));

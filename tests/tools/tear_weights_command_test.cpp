@@ -36,8 +36,9 @@ double greatest_distance(const Character& a, const Character& b, const PoseSpec&
 
 TEST_F(TearWeightsCommand, tear_reports_the_written_influences) {
   const std::string operations = write("a.json", kOneTear);
-  const json all = json::parse(
-      run_sunder({"tear", model(), "--ops", operations, "-o", path("all_kept.glb")}).out);
+  const json all = json::parse(run_sunder({"tear", model(), "--ops", operations, "-o",
+                                           path("all_kept.glb"), "--report", "-"})
+                                   .out);
   EXPECT_EQ(
       all["influences_written"],
       json::parse(
@@ -45,7 +46,7 @@ TEST_F(TearWeightsCommand, tear_reports_the_written_influences) {
   for (const char* const format : {"float", "u16", "u8"}) {
     const CommandResult result =
         run_sunder({"tear", model(), "--ops", operations, "-o", path("pruned.glb"), "--influences",
-                    "4", "--weights-as", format});
+                    "4", "--weights-as", format, "--report", "-"});
     ASSERT_EQ(result.exit_code, 0) << result.err;
     const json report = json::parse(result.out);
     const json& written = report["influences_written"];
@@ -74,8 +75,9 @@ TEST_F(TearWeightsCommand, tear_weighs_new_points_by_the_requested_policy) {
   const std::string operations = write("a.json", kOneTear);
   std::map<std::string, json> reports;
   for (const char* const policy : {"barycentric", "pose_exact", "refit", "exact"}) {
-    const CommandResult result = run_sunder(
-        {"tear", model(), "--ops", operations, "-o", path("weighed.glb"), "--weights", policy});
+    const CommandResult result =
+        run_sunder({"tear", model(), "--ops", operations, "-o", path("weighed.glb"), "--weights",
+                    policy, "--report", "-", "--weight-errors"});
     ASSERT_EQ(result.exit_code, 0) << result.err;
     const json report = reports[policy] = json::parse(result.out);
     EXPECT_EQ(report["weights"]["policy"], policy);
@@ -86,7 +88,9 @@ TEST_F(TearWeightsCommand, tear_weighs_new_points_by_the_requested_policy) {
          {"operations", "clips", "clips_held_out", "range_of_motion", "range_of_motion_held_out"}) {
       ASSERT_TRUE(errors.contains(set)) << set;
       EXPECT_GT(errors[set]["points"], 5);
-      EXPECT_LE(errors[set]["poses"], 200);
+      EXPECT_EQ(errors[set]["points"], errors[set]["points_of"]);
+      EXPECT_LE(errors[set]["poses"], 24);
+      EXPECT_LE(errors[set]["poses"], errors[set]["poses_of"]);
       EXPECT_GE(errors[set]["maximum"], errors[set]["percentile95"]);
       for (const char* const unit : {"of_diagonal", "of_edge"})
         EXPECT_GE(errors[set][unit]["maximum"], errors[set][unit]["rms"]) << set << unit;
@@ -129,7 +133,7 @@ TEST_F(TearWeightsCommand, influences_are_kept_in_weights_too) {
   for (const char* const policy : {"barycentric", "pose_exact", "refit", "exact"}) {
     const CommandResult result =
         run_sunder({"tear", model(), "--ops", operations, "-o", path("four.glb"), "--weights",
-                    policy, "--influences", "4"});
+                    policy, "--influences", "4", "--report", "-"});
     ASSERT_EQ(result.exit_code, 0) << result.err;
     const json report = json::parse(result.out);
     const bool is_exact = policy == std::string("exact");
@@ -142,9 +146,9 @@ TEST_F(TearWeightsCommand, a_refit_uses_the_requested_poses) {
   const std::string operations = write("a.json", kOneTear);
   for (const char* const over :
        {"clips", "range_of_motion", "clips=2,clips:Sway=3,range_of_motion=0.5"}) {
-    const CommandResult result =
-        run_sunder({"tear", model(), "--ops", operations, "-o", path("refit.glb"), "--weights",
-                    "refit", "--refit-over", over, "--save-log", path("refit.json")});
+    const CommandResult result = run_sunder(
+        {"tear", model(), "--ops", operations, "-o", path("refit.glb"), "--weights", "refit",
+         "--refit-over", over, "--save-log", path("refit.json"), "--report", "-"});
     ASSERT_EQ(result.exit_code, 0) << result.err;
     EXPECT_EQ(json::parse(result.out)["weights"]["refit_over"], over);
     std::ifstream stream(path("refit.json"));
@@ -184,8 +188,9 @@ TEST_F(TearWeightsCommand, a_model_without_clips_is_refitted_over_its_range_of_m
   ASSERT_TRUE(save_glb(path("still.glb"), still));
   const std::string operations = write("still.json", R"({"sunder_operations": 1, "operations": [
     {"op": "drill", "axis": {"origin": [0, 0.4, 2], "direction": [0, 0, -1]}, "radius": 0.02, "depth": 4}]})");
-  const CommandResult result = run_sunder({"tear", path("still.glb"), "--ops", operations, "-o",
-                                           path("bored.glb"), "--weights", "refit"});
+  const CommandResult result =
+      run_sunder({"tear", path("still.glb"), "--ops", operations, "-o", path("bored.glb"),
+                  "--weights", "refit", "--report", "-", "--weight-errors"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const json report = json::parse(result.out);
   EXPECT_EQ(report["weights"]["refit_over"], "clips,range_of_motion");
@@ -210,8 +215,9 @@ TEST_F(TearWeightsCommand, a_model_that_does_not_bend_needs_no_refit) {
   ASSERT_TRUE(save_glb(path("stiff.glb"), stiff));
   const std::string operations = write("stiff.json", R"({"sunder_operations": 1, "operations": [
     {"op": "drill", "axis": {"origin": [0, 0.4, 2], "direction": [0, 0, -1]}, "radius": 0.02, "depth": 4}]})");
-  const CommandResult result = run_sunder({"tear", path("stiff.glb"), "--ops", operations, "-o",
-                                           path("bored.glb"), "--weights", "refit"});
+  const CommandResult result =
+      run_sunder({"tear", path("stiff.glb"), "--ops", operations, "-o", path("bored.glb"),
+                  "--weights", "refit", "--report", "-", "--weight-errors"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const json report = json::parse(result.out);
   EXPECT_TRUE(report["weights"]["refit_over"].is_null());

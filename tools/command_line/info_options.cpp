@@ -7,6 +7,7 @@ CLI::App* add_info(CLI::App& app, InfoRequest& request) {
       "info", "Describe a model: meshes, bones, clips, topology, and faults that loading repaired");
   verb->add_option("MODEL", request.model,
                    "Model file: glTF, GLB, FBX, COLLADA, X, B3D, OBJ, PLY, OFF ...")
+      ->type_name("FILE")
       ->required();
   verb->add_flag("--json", request.as_json, "Print one JSON object instead of text");
   CLI::Option* const bones = verb->add_flag(

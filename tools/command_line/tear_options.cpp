@@ -31,20 +31,47 @@ void add_weight_policy(CLI::App& verb, TearRequest& request) {
             request.refit_over = *options;
           },
           "Poses to fit over, with --weights refit: clips, clips:NAME=FACTOR, range_of_motion, "
-          "separated by commas; default: clips,range_of_motion, or what the model has")
-      ->type_name("POSES");
-  const CLI::Option* const bound =
-      verb.add_option("--refit-bound", request.refit_bound,
-                      "Largest growth of the certified worst deviation by a refit; 0: any")
-          ->check(CLI::Range(0.0, 1e9))
-          ->capture_default_str();
-  verb.callback([&request, bound] {
-    if (request.weights != WeightPolicy::refit && (request.refit_over || *bound))
-      throw CLI::ValidationError(request.refit_over ? "--refit-over" : "--refit-bound",
-                                 "needs --weights refit");
-    if (request.refit_bound > 0 && request.refit_bound < 1)
-      throw CLI::ValidationError("--refit-bound", "expected a factor of at least 1, or 0");
-  });
+          "separated by commas")
+      ->type_name("POSES")
+      ->default_str("clips,range_of_motion, or what the model has");
+  verb.add_option("--refit-bound", request.refit_bound,
+                  "Largest growth of the certified worst deviation by a refit; 0: any")
+      ->check(CLI::Range(0.0, 1e9))
+      ->type_name("FACTOR")
+      ->capture_default_str();
+}
+
+/// @throws CLI::ValidationError
+void check_weight_policy(const CLI::App& verb, const TearRequest& request) {
+  const bool has_bound = verb.count("--refit-bound") > 0;
+  if (request.weights != WeightPolicy::refit && (request.refit_over || has_bound))
+    throw CLI::ValidationError(request.refit_over ? "--refit-over" : "--refit-bound",
+                               "needs --weights refit");
+  if (request.refit_bound > 0 && request.refit_bound < 1)
+    throw CLI::ValidationError("--refit-bound", "expected a factor of at least 1, or 0");
+}
+
+/// What is reported, and where.
+void add_report_options(CLI::App& verb, TearRequest& request) {
+  CLI::Option* const report =
+      verb.add_option("--report", request.report,
+                      "File for the JSON report; -: stdout. without it, a summary goes to stdout")
+          ->type_name("FILE");
+  verb.add_flag("--weight-errors", request.weight_errors,
+                "Measure for the report how far new points are from the untorn surface, on a "
+                "sample of points and poses")
+      ->needs(report);
+  verb.add_flag("--count-topology", request.count_topology,
+                "Count for the report the components and boundary loops before and after each "
+                "operation")
+      ->needs(report);
+  CLI::Option* const quiet = verb.add_flag_callback(
+      "-q,--quiet", [&request] { request.verbosity = Verbosity::quiet; },
+      "Print errors only: no operations, warnings and summary");
+  verb.add_flag_callback(
+          "-v,--verbose", [&request] { request.verbosity = Verbosity::verbose; },
+          "Print details of operations, and durations")
+      ->excludes(quiet);
 }
 
 }  // namespace
@@ -52,25 +79,39 @@ void add_weight_policy(CLI::App& verb, TearRequest& request) {
 CLI::App* add_tear(CLI::App& app, TearRequest& request) {
   CLI::App* const verb = app.add_subcommand(
       "tear", "Apply a list of tears, cuts and bores to a model and save it as GLB");
-  verb->add_option("MODEL", request.model, "Model file, as for `sunder info`")->required();
+  verb->add_option("MODEL", request.model, "Model file, as for `sunder info`")
+      ->type_name("FILE")
+      ->required();
   verb->add_option(
           "--ops", request.operations,
           "Operation log, JSON: the tears, cuts and bores to apply; see docs/operation_log.md")
+      ->type_name("FILE")
       ->required();
-  verb->add_option("-o,--output", request.output, "File for the torn model, GLB")->required();
+  verb->add_option("-o,--output", request.output, "File for the torn model, GLB")
+      ->type_name("FILE");
   verb->add_option("--influences", request.save.maximum_influences,
-                   "Influences written per vertex: the 4 or 8 largest, renormalised; default: all")
-      ->check(CLI::IsMember({4, 8}));
+                   "Influences written per vertex: the 4 or 8 largest, renormalised")
+      ->check(CLI::IsMember({4, 8}))
+      ->default_str("all");
   add_weights_as(*verb, request.save);
   add_weight_policy(*verb, request);
   add_maximum_error(*verb, request.maximum_error);
-  verb->add_option("--report", request.report, "File for the JSON report; default: stdout");
+  add_report_options(*verb, request);
   verb->add_option("--picture", request.picture,
                    "File for a picture (PNG) of the torn model, with lips and pieces pulled apart; "
-                   "needs f3d and Xvfb");
+                   "needs f3d and Xvfb")
+      ->type_name("FILE");
   verb->add_option(
-      "--save-log", request.log,
-      "File for the operation log of what was applied and not undone, with all bone matrices");
+          "--save-log", request.log,
+          "File for the operation log of what was applied and not undone, with all bone matrices")
+      ->type_name("FILE");
+  verb->add_flag("--dry-run", request.dry_run,
+                 "Apply and describe the operations, but write no files");
+  verb->add_flag("--force", request.force, "Outputs may overwrite the model or the log");
+  verb->callback([&request, verb] {
+    check_weight_policy(*verb, request);
+    if (!request.dry_run && !request.output) throw CLI::RequiredError("--output (or --dry-run)");
+  });
   verb->footer(
       "If an operation fails, nothing is written. Exit code 1 if an operation met no surface or "
       "could not tear some places (see the report), or if the picture could not be drawn.\n\n"

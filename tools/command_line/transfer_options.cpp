@@ -45,17 +45,21 @@ void add_weight_rules(CLI::App& verb, TransferRequest& request) {
                   "Largest number of influences per vertex; 0: all")
       ->capture_default_str();
   verb.add_option("--bone-names", request.bone_names,
-                  "JSON file of bones whose names differ: {\"of the target\": \"of the source\"}");
+                  "JSON file of bones whose names differ: {\"of the target\": \"of the source\"}")
+      ->type_name("FILE");
   verb.add_option("--bones", options.bones, "Only these bones of the source, separated by commas")
+      ->type_name("NAMES")
       ->delimiter(',')
       ->allow_extra_args(false);
   verb.add_option("--mix", options.mix, "Share of the new weights; the rest are the target's own")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
   verb.add_option("--vertices", request.vertices,
-                  "JSON file of the vertices that change: {\"mesh\": [0, 1, 2]}");
+                  "JSON file of the vertices that change: {\"mesh\": [0, 1, 2]}")
+      ->type_name("FILE");
   verb.add_option("--lock", request.lock,
-                  "Attribute of the target; vertices with 0.5 or more keep their weights");
+                  "Attribute of the target; vertices with 0.5 or more keep their weights")
+      ->type_name("NAME");
 }
 
 }  // namespace
@@ -63,16 +67,21 @@ void add_weight_rules(CLI::App& verb, TransferRequest& request) {
 CLI::App* add_transfer(CLI::App& app, TransferRequest& request) {
   CLI::App* const verb = app.add_subcommand(
       "transfer", "Give a model the skin of another one that stands in the same place");
-  verb->add_option("SOURCE", request.source, "The model with the skin")->required();
-  verb->add_option("TARGET", request.target, "The model that gets it")->required();
+  verb->add_option("SOURCE", request.source, "The model with the skin")
+      ->type_name("FILE")
+      ->required();
+  verb->add_option("TARGET", request.target, "The model that gets it")
+      ->type_name("FILE")
+      ->required();
   const CLI::Option* const output =
-      verb->add_option("-o,--output", request.output, "The target with its new weights, GLB");
+      verb->add_option("-o,--output", request.output, "The target with its new weights, GLB")
+          ->type_name("FILE");
   verb->add_flag("--dry-run", request.options.dry_run, "Only match; write no model");
   add_match_rules(*verb, request.options);
   add_weight_rules(*verb, request);
   add_weights_as(*verb, request.save);
   add_maximum_error(*verb, request.maximum_error);
-  verb->add_option("--report", request.report, "File for a JSON report");
+  verb->add_option("--report", request.report, "File for a JSON report")->type_name("FILE");
   verb->callback([&request, output] {
     if (request.options.dry_run && request.maximum_error)
       throw CLI::ValidationError("--max-error", "needs a model to write: not with --dry-run");

@@ -5,25 +5,32 @@ namespace sunder::tools {
 CLI::App* add_validate(CLI::App& app, ValidateRequest& request) {
   CLI::App* const verb =
       app.add_subcommand("validate", "Compare how the skins of a source and a target deform");
-  CLI::Option* const source = verb->add_option("SOURCE", request.source, "The model as it was");
+  CLI::Option* const source =
+      verb->add_option("SOURCE", request.source, "The model as it was")->type_name("FILE");
   CLI::Option* const target =
-      verb->add_option("TARGET", request.target, "The model that a tool made of it");
+      verb->add_option("TARGET", request.target, "The model that a tool made of it")
+          ->type_name("FILE");
   source->needs(target);
-  verb->add_option("--ops", request.operations, "The operation log that made the target");
+  verb->add_option("--ops", request.operations, "The operation log that made the target")
+      ->type_name("FILE");
   verb->add_option("--bone-names", request.bone_names,
-                   "JSON file of bones whose names differ: {\"of the target\": \"of the source\"}");
+                   "JSON file of bones whose names differ: {\"of the target\": \"of the source\"}")
+      ->type_name("FILE");
   verb->add_option("--profile", request.profile, "Simulate the limits of a platform")
       ->check(CLI::IsMember({"unity4", "unreal8", "gltf4", "gltf8", "webxr"}));
   verb->add_option("--limits", request.limits,
                    "Limits of joints for the certificate: none, clips or a JSON file")
+      ->type_name("none|clips|FILE")
       ->capture_default_str();
   verb->add_option("--fail-on", request.fail_on, "Least severity for exit code 1")
       ->check(CLI::IsMember({"error", "warning", "note"}))
       ->capture_default_str();
-  verb->add_option("--report", request.report, "File for the JSON report");
-  verb->add_option("--html", request.html, "File for a page with both models, which opens offline");
+  verb->add_option("--report", request.report, "File for the JSON report")->type_name("FILE");
+  verb->add_option("--html", request.html, "File for a page with both models, which opens offline")
+      ->type_name("FILE");
   CLI::Option* const manifest =
-      verb->add_option("--manifest", request.manifest, "Many pairs, JSON; see docs/validation.md");
+      verb->add_option("--manifest", request.manifest, "Many pairs, JSON; see docs/validation.md")
+          ->type_name("FILE");
   verb->add_option("--jobs", request.jobs, "Pairs of a manifest at a time")
       ->check(CLI::Range(1, 256))
       ->capture_default_str();

@@ -38,7 +38,8 @@ void add_maximum_error(CLI::App& verb, std::optional<MaximumError>& wanted) {
                            ? std::string()
                            : "'" + text + "' is no length; expected 0.1mm, 1cm, 20um or metres";
               },
-              "LENGTH"));
+              ""))
+          ->type_name("LENGTH");
   for (const char* const other : {"--influences", "--weights-as"})
     length->excludes(verb.get_option(other));
   verb.add_option_function<std::string>(
@@ -47,6 +48,7 @@ void add_maximum_error(CLI::App& verb, std::optional<MaximumError>& wanted) {
             if (wanted) wanted->limits = limits;  // else refused: needs --max-error
           },
           "Joint limits for --max-error: none, clips or a JSON file")
+      ->type_name("none|clips|FILE")
       ->needs(length)
       ->default_str("none");
 }

@@ -10,6 +10,8 @@
 
 #include "tools/bone_extents.h"
 #include "tools/history.h"
+#include "tools/messages.h"
+#include "tools/named_poses.h"
 #include "tools/nearest_names.h"
 #include "tools/picture/bone_marks.h"
 #include "tools/picture/guide_marks.h"
@@ -21,7 +23,10 @@
 namespace sunder::tools {
 namespace {
 
-void say(const std::string& text) { std::fprintf(stderr, "sunder: %s\n", text.c_str()); }
+const Messages kMessages(Verbosity::normal);
+
+void say(const std::string& text) { kMessages.say(text); }
+void warn(const std::string& text) { kMessages.warn(text); }
 
 /// The model in the pose of the picture.
 struct Subject {
@@ -63,22 +68,26 @@ std::vector<Vec3d> places_of_limb(const Character& character, const Subject& sub
   return places;
 }
 
-/// @return the index of a bone, or not_found with the names that resemble it; empty_input if it
-/// moves no surface.
+/// @return the index of a bone; not_found; empty_input if it moves no surface.
 Result<std::uint32_t> find_limb(const Character& character, const Subject& subject,
                                 const std::string& name) {
-  std::vector<std::string> names;
   for (std::uint32_t i = 0; i < character.skeleton.bones.size(); ++i) {
-    const std::string& known = character.skeleton.bones[i].name;
-    if (known == name && subject.bones[i].vertices_of_branch == 0)
-      return Status::failure(StatusCode::empty_input, i,
-                             "bone '%s' and those below it move no surface predominantly",
-                             name.c_str());
-    if (known == name) return i;
-    if (subject.bones[i].vertices_of_branch > 0) names.push_back(known);
+    if (character.skeleton.bones[i].name != name) continue;
+    if (subject.bones[i].vertices_of_branch > 0) return i;
+    return Status::failure(StatusCode::empty_input, i,
+                           "bone '%s' and those below it move no surface predominantly",
+                           name.c_str());
   }
-  return Status::failure(StatusCode::not_found, kNone, "the model has no bone '%s'%s", name.c_str(),
-                         offer_names(name, names).c_str());
+  return Status::failure(StatusCode::not_found, kNone, "the model has no bone '%s'", name.c_str());
+}
+
+/// The bones with a surface whose names resemble one that is not there.
+std::string advice_on_limb(const Character& character, const Subject& subject,
+                           const std::string& name) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < subject.bones.size(); ++i)
+    if (subject.bones[i].vertices_of_branch > 0) names.push_back(character.skeleton.bones[i].name);
+  return name_advice(name, "bones", names);
 }
 
 StillScene make_scene(const Character& character, const Subject& subject, const ViewFrame& frame) {
@@ -132,7 +141,7 @@ bool draw_marks(const PictureRequest& request, const Character& character, const
   }
   for (const std::string& missing :
        missing_from_picture(operations, subject.bounds, marks.viewport())) {
-    say(missing);
+    warn(missing);
     is_complete = false;
   }
   return is_complete;
@@ -151,8 +160,8 @@ void say_other_poses(const Character& character, const Subject& subject,
       return false;
     });
     if (differs)
-      say("operation " + std::to_string(logged.index) +
-          " is made in another pose than that of the picture, where the surface is elsewhere");
+      warn("operation " + std::to_string(logged.index) +
+           " is made in another pose than that of the picture, where the surface is elsewhere");
   }
 }
 
@@ -175,7 +184,8 @@ ExitCode draw_scene(const PictureRequest& request, const LoadedCharacter& loaded
   if (request.bone) {
     const Result<std::uint32_t> found = find_limb(character, subject, *request.bone);
     if (!found)
-      return complain(request.model.string() + ": --bone", found.error(), ExitCode::usage);
+      return complain(request.model.string() + ": --bone", found.error(), ExitCode::usage,
+                      advice_on_limb(character, subject, *request.bone));
     limb = *found;
   }
   const ViewFrame frame = view_from(request.from);
@@ -195,8 +205,8 @@ ExitCode draw_scene(const PictureRequest& request, const LoadedCharacter& loaded
   if (!without_texture)
     return complain(request.output.string(), without_texture.error(), ExitCode::internal_error);
   if (*without_texture > 0)
-    say(request.model.string() + ": " + std::to_string(*without_texture) +
-        " materials are drawn without a texture: its image is missing, or neither PNG nor JPEG");
+    warn(request.model.string() + ": " + std::to_string(*without_texture) +
+         " materials are drawn without a texture: its image is missing, or neither PNG nor JPEG");
   if (const Status status = render(file, viewport.camera(), request.size, request.output); !status)
     return complain(request.output.string(), status, ExitCode::internal_error);
   return is_complete && *without_texture == 0 ? ExitCode::ok : ExitCode::findings;
@@ -216,18 +226,25 @@ ExitCode run_picture(const PictureRequest& request) {
     return complain(request.operations->string(), operations.error(), ExitCode::usage);
   const Result<LoadedCharacter> loaded = load_character(request.model);
   if (!loaded) return complain(request.model.string(), loaded.error(), ExitCode::unreadable_input);
+  for (const LoggedOperation& logged : *operations)
+    if (const auto poses = poses_of(*logged.operation, *loaded->character); !poses)
+      return complain(
+          request.operations->string() + ": /operations/" + std::to_string(logged.index),
+          poses.error(), ExitCode::usage, advice_on_names(*logged.operation, *loaded->character));
   const Result<PoseArgument> pose = choose_pose(request, *loaded->character, *operations);
-  if (!pose) return complain(request.model.string() + ": --pose", pose.error(), ExitCode::usage);
-  if (!pose->remark.empty()) say(pose->remark);
+  if (!pose)
+    return complain(request.model.string() + ": --pose", pose.error(), ExitCode::usage,
+                    advice_on_pose(*request.pose, *loaded->character));
+  if (!pose->remark.empty()) (request.pose ? warn : say)(pose->remark);
   for (const LoadNote& note : loaded->report.notes)
-    if (note.place.starts_with("texture")) say(note.place + ": " + note.text);
+    if (note.place.starts_with("texture")) warn(note.place + ": " + note.text);
   const Result<Subject> subject = pose_subject(*loaded->character, *pose);
   if (!subject)
     return complain(request.model.string() + ": pose " + pose->name, subject.error(),
                     ExitCode::usage);
   say_other_poses(*loaded->character, *subject, *operations);
   if (!can_draw()) {
-    say(std::string("no picture: ") + kNoRenderer);
+    print_error(std::string("sunder: no picture: ") + kNoRenderer);
     return ExitCode::unreadable_input;
   }
   return draw_scene(request, *loaded, *subject, *operations);

@@ -1,0 +1,315 @@
+// What `sunder tear` says: the lines of operations, misses and their causes, warnings, refusals.
+
+#include <filesystem>
+#include <sstream>
+
+#include "tools/command_fixture.h"
+
+namespace sunder::command_test {
+namespace {
+
+using testing::AllOf;
+using testing::ContainsRegex;
+using testing::Not;
+
+class TearMessages : public CactusSuite {
+ protected:
+  /// A log with one operation that shares the fields of kOneTear's, with changes.
+  static std::string changed(const std::string& name, const json& changes) {
+    json log = json::parse(kOneTear);
+    log["operations"][0].update(changes);
+    return write(name, log.dump());
+  }
+  /// The stroke of kOneTear with each blade changed.
+  template <class Change>
+  static json stroke(const Change& change) {
+    json blades = json::parse(kOneTear)["operations"][0]["stroke"];
+    for (json& blade : blades) change(blade);
+    return {{"stroke", blades}};
+  }
+  static CommandResult tear(const std::string& operations,
+                            const std::vector<std::string>& more = {}) {
+    std::vector<std::string> arguments = {"tear",     model(), "--ops",
+                                          operations, "-o",    path("m.glb")};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_sunder(arguments);
+  }
+};
+
+TEST_F(TearMessages, one_line_per_operation_says_what_and_where) {
+  const CommandResult result = tear(write("all.json", kAll));
+  EXPECT_EQ(result.exit_code, 1);
+  std::istringstream lines(result.err);
+  std::size_t index = 0;
+  for (std::string line; std::getline(lines, line); ++index)
+    EXPECT_THAT(line, HasSubstr("/operations/" + std::to_string(index) + ": "));
+  EXPECT_EQ(index, 11u);
+  EXPECT_THAT(
+      result.err,
+      ContainsRegex("/operations/0: tear at \\(.*\\) on 'Trunk[0-9]': [0-9]+ faces crossed, "
+                    "0\\.[0-9]+ m long, [0-9.]+ ms"));
+  EXPECT_THAT(result.err, ContainsRegex("/operations/3: cut at .*, 2 pieces, [0-9.]+ ms"));
+  EXPECT_THAT(result.err, ContainsRegex("/operations/7: undo: undone, "));
+}
+
+TEST_F(TearMessages, quiet_says_nothing_but_errors) {
+  const CommandResult result = tear(write("all.json", kAll), {"-q"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.out, IsEmpty());
+  EXPECT_THAT(result.err, IsEmpty());
+  const CommandResult failed =
+      tear(changed("q.json", {{"pose", {{"clip", "Fly"}, {"time", 0}}}}), {"-q"});
+  EXPECT_EQ(failed.exit_code, 2);
+  EXPECT_THAT(failed.err, HasSubstr("Fly"));
+}
+
+TEST_F(TearMessages, verbose_adds_details_and_durations) {
+  const CommandResult result = tear(write("one.json", kOneTear), {"-v"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.err, AllOf(HasSubstr("0 places blocked; weights: "), HasSubstr("loading "),
+                                HasSubstr("operations "), HasSubstr("saving "),
+                                ContainsRegex("[0-9]+ % in loading, operations and saving")));
+}
+
+TEST_F(TearMessages, without_a_report_a_summary_goes_to_stdout) {
+  const CommandResult result = tear(write("all.json", kAll));
+  EXPECT_THAT(result.out,
+              AllOf(HasSubstr("operations  9 done, 2 missed\n"), HasSubstr(" faces crossed, "),
+                    HasSubstr(" vertices added, "), HasSubstr("weights     barycentric"),
+                    HasSubstr("written     " + path("m.glb"))));
+  EXPECT_LT(result.out.size(), 1000u);
+}
+
+TEST_F(TearMessages, a_dry_run_says_all_and_writes_nothing) {
+  const std::string log = write("all.json", kAll);
+  std::filesystem::remove(path("m.glb"));
+  const CommandResult wet = tear(log, {"--report", "-"});
+  std::filesystem::remove(path("m.glb"));
+  const CommandResult dry = run_sunder({"tear", model(), "--ops", log, "--dry-run", "--save-log",
+                                        path("dry.json"), "--report", "-"});
+  EXPECT_EQ(dry.exit_code, 1);
+  EXPECT_EQ(json::parse(dry.out)["result"], json::parse(wet.out)["result"]);
+  EXPECT_FALSE(exists("dry.json"));
+  const CommandResult summed = tear(log, {"--dry-run"});
+  EXPECT_THAT(summed.out, HasSubstr("a dry run"));
+  EXPECT_FALSE(exists("m.glb"));
+  const CommandResult nowhere = run_sunder({"tear", model(), "--ops", log});
+  EXPECT_EQ(nowhere.exit_code, 2);
+  EXPECT_THAT(nowhere.err, HasSubstr("--output"));
+}
+
+/// The least height of the cactus above a plane is known from its bounds.
+TEST_F(TearMessages, a_miss_says_its_distance_and_the_bounds) {
+  const json bounds = json::parse(run_sunder({"info", model(), "--json"}).out)["bounds"];
+  const double top = bounds["max"][1];
+  const std::string log = write("above.json", R"({"sunder_operations": 1, "operations": [
+    {"op": "cut", "plane": {"point": [0, 2.5, 0], "normal": [0, -3, 0]}},
+    {"op": "cut", "plane": {"point": [0, 2.5, 0], "normal": [0, 1, 0]},
+     "bounds": [[-1, 2, -1], [1, 2, -1], [1, 2, 1], [-1, 2, 1]]},
+    {"op": "drill", "axis": {"origin": [-9, 2.5, 0], "direction": [1, 0, 0]}, "radius": 0.02, "depth": 18},
+    {"op": "tear", "stroke": [{"base": [-9, 2.5, 9], "tip": [-9, 2.5, -9]}, {"base": [9, 2.5, 9], "tip": [9, 2.5, -9]}]}]})");
+  const CommandResult result = tear(log, {"--report", "-"});
+  EXPECT_EQ(result.exit_code, 1);
+  const json operations = json::parse(result.out)["operations"];
+  ASSERT_EQ(operations.size(), 4u);
+  for (const std::size_t i : {0u, 1u, 3u})
+    EXPECT_NEAR(operations[i]["miss"]["distance"].get<double>(), 2.5 - top, 1e-4) << i;
+  EXPECT_GE(operations[2]["miss"]["distance"].get<double>(), 2.5 - top - 1e-6);
+  EXPECT_LT(operations[2]["miss"]["distance"].get<double>(), 2.5 - top + 0.3);
+  for (const char* const side : {"min", "max"})
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      EXPECT_NEAR(operations[0]["miss"]["bounds"][side][axis].get<double>(),
+                  bounds[side][axis].get<double>(), 1e-4);
+  EXPECT_THAT(result.err, HasSubstr("cut missed: the plane passes 0.7"));
+  EXPECT_THAT(result.err, HasSubstr("the plane, within its bounds, passes 0.7"));
+  EXPECT_THAT(result.err, HasSubstr("the axis of the bore passes 0.7"));
+  EXPECT_THAT(result.err, HasSubstr("the blade passes 0.7"));
+  EXPECT_THAT(result.err, HasSubstr("m from the surface, which spans ("));
+  EXPECT_THAT(result.err, Not(HasSubstr("it would meet")));
+}
+
+TEST_F(TearMessages, a_miss_in_centimetres_is_recognised) {
+  const auto scale = [](double factor) {
+    return stroke([factor](json& blade) {
+      for (auto& point : blade)
+        for (json& number : point) number = factor * number.get<double>();
+    });
+  };
+  const CommandResult centimetres = tear(changed("cm.json", scale(100)));
+  EXPECT_EQ(centimetres.exit_code, 1);
+  EXPECT_THAT(centimetres.err, AllOf(HasSubstr("scaled by 0.01"), HasSubstr("centimetres")));
+  EXPECT_THAT(tear(changed("mm.json", scale(1000))).err,
+              AllOf(HasSubstr("scaled by 0.001"), HasSubstr("millimetres")));
+  EXPECT_THAT(tear(changed("small.json", scale(0.01))).err, HasSubstr("scaled by 100 "));
+}
+
+/// The tip of the highest arm stands elsewhere in the clip than at rest.
+TEST_F(TearMessages, a_miss_in_the_wrong_pose_is_recognised) {
+  const auto bounds_at = [&](const json& pose) {
+    const std::string log =
+        write("probe.json", json{{"sunder_operations", 1},
+                                 {"operations",
+                                  {{{"op", "cut"},
+                                    {"pose", pose},
+                                    {"plane", {{"point", {90, 0, 0}}, {"normal", {1, 0, 0}}}}}}}}
+                                .dump());
+    return json::parse(
+               tear(log, {"--report", "-"}).out)["operations"][0]["miss"]["bounds"]["max"][0]
+        .get<double>();
+  };
+  const json still = "rest", swaying = {{"clip", "Sway"}, {"time", 0.4}};
+  const double at_rest = bounds_at(still), in_clip = bounds_at(swaying);
+  ASSERT_GT(std::abs(at_rest - in_clip), 0.004);
+  const double between = (at_rest + in_clip) / 2;
+  const json missing = at_rest < in_clip ? still : swaying;
+  const std::string log =
+      write("pose.json", json{{"sunder_operations", 1},
+                              {"operations",
+                               {{{"op", "cut"},
+                                 {"pose", missing},
+                                 {"plane", {{"point", {between, 0, 0}}, {"normal", {1, 0, 0}}}}}}}}
+                             .dump());
+  const CommandResult result = tear(log);
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, HasSubstr("it would meet: is its pose right?"));
+}
+
+TEST_F(TearMessages, blades_that_point_away_or_end_early_are_recognised) {
+  const CommandResult away =
+      tear(changed("away.json", stroke([](json& blade) { blade["tip"][2] = 4.0; })));
+  EXPECT_EQ(away.exit_code, 1);
+  EXPECT_THAT(away.err, HasSubstr("points away from it: are base and tip swapped?"));
+  const CommandResult early =
+      tear(changed("early.json", stroke([](json& blade) { blade["tip"][2] = 1.0; })));
+  EXPECT_EQ(early.exit_code, 1);
+  EXPECT_THAT(early.err, HasSubstr("the blade is too short to reach it"));
+}
+
+TEST_F(TearMessages, swapped_base_and_tip_are_warned_of) {
+  const CommandResult result = tear(
+      changed("swap.json", stroke([](json& blade) { std::swap(blade["base"], blade["tip"]); })));
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.err,
+              AllOf(HasSubstr("warning: /operations/0: "), HasSubstr("are base and tip swapped?")));
+  EXPECT_THAT(tear(write("one.json", kOneTear)).err, Not(HasSubstr("warning")));
+}
+
+TEST_F(TearMessages, a_time_beyond_the_end_of_the_clip_is_warned_of) {
+  const CommandResult result =
+      tear(changed("late.json", {{"pose", {{"clip", "Sway"}, {"time", 99}}}}));
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.err,
+              HasSubstr("the time 99 s is beyond the end of clip 'Sway', which lasts 2 s"));
+  EXPECT_THAT(tear(changed("end.json", {{"pose", {{"clip", "Sway"}, {"time", 2}}}})).err,
+              Not(HasSubstr("beyond")));
+}
+
+TEST_F(TearMessages, a_gap_wider_than_the_body_is_warned_of) {
+  const CommandResult result = tear(changed("wide.json", {{"width", 5}}));
+  EXPECT_THAT(result.err,
+              ContainsRegex("the gap is 5 m wide, but the body there is only 0\\.[0-9]+ m wide"));
+  EXPECT_THAT(tear(changed("narrow.json", {{"width", 0.05}})).err, Not(HasSubstr("wide")));
+}
+
+TEST_F(TearMessages, a_name_that_is_not_glb_is_warned_of) {
+  const std::string log = write("one.json", kOneTear);
+  const CommandResult result = run_sunder({"tear", model(), "--ops", log, "-o", path("x.fbx")});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.err,
+              AllOf(HasSubstr("warning: --output"), HasSubstr("x.fbx"), HasSubstr(".glb")));
+  EXPECT_THAT(run_sunder({"tear", model(), "--ops", log, "-o", path("x.GLB")}).err,
+              Not(HasSubstr("warning")));
+}
+
+TEST_F(TearMessages, more_influences_than_the_source_has_are_warned_of) {
+  const std::string log = write("one.json", kOneTear);
+  EXPECT_THAT(tear(log, {"--influences", "8"}).err,
+              AllOf(HasSubstr("warning: --influences 8"), HasSubstr("at most 7")));
+  EXPECT_THAT(tear(log, {"--influences", "4"}).err, Not(HasSubstr("warning")));
+}
+
+TEST_F(TearMessages, no_output_overwrites_an_input) {
+  namespace fs = std::filesystem;
+  const std::string log = write("one.json", kOneTear);
+  const std::vector<std::byte> before = bytes("cactus.glb");
+  fs::remove(path("symbolic.glb")), fs::remove(path("hard.glb"));
+  fs::create_symlink("cactus.glb", path("symbolic.glb"));
+  fs::create_hard_link(model(), path("hard.glb"));
+  fs::create_directory(path("folder"));
+  for (const std::string& file :
+       {model(), path("symbolic.glb"), path("hard.glb"), path("folder/../cactus.glb"), log})
+    for (const char* const option : {"-o", "--report", "--save-log", "--picture"}) {
+      std::vector<std::string> arguments = {"tear", model(), "--ops", log, option, file};
+      if (option != std::string("-o")) arguments.insert(arguments.end(), {"-o", path("m.glb")});
+      const CommandResult result = run_sunder(arguments);
+      EXPECT_EQ(result.exit_code, 2) << option << file;
+      EXPECT_THAT(result.err, AllOf(HasSubstr("would overwrite"), HasSubstr("--force")));
+      EXPECT_THAT(result.out, IsEmpty());
+    }
+  EXPECT_EQ(bytes("cactus.glb"), before);
+  EXPECT_THAT(tear(log, {"--report", path("m.glb"), "--force"}).err,
+              HasSubstr("would overwrite the file of --output"));
+
+  fs::copy_file(model(), path("own.glb"), fs::copy_options::overwrite_existing);
+  const CommandResult forced =
+      run_sunder({"tear", path("own.glb"), "--ops", log, "-o", path("own.glb"), "--force"});
+  EXPECT_EQ(forced.exit_code, 0) << forced.err;
+  EXPECT_NE(bytes("own.glb"), before);
+}
+
+TEST_F(TearMessages, unknown_names_come_with_the_nearest_ones) {
+  const CommandResult clip =
+      tear(changed("clip.json", {{"pose", {{"clip", "sawy"}, {"time", 0}}}}));
+  EXPECT_EQ(clip.exit_code, 2);
+  EXPECT_THAT(clip.err, AllOf(HasSubstr("sawy"), HasSubstr("did you mean 'Sway'?")));
+  const CommandResult bone =
+      tear(changed("bone.json", {{"pose", {{"bones", {{"Trnk2", json::object()}}}}}}));
+  EXPECT_EQ(bone.exit_code, 2);
+  EXPECT_THAT(bone.err, AllOf(HasSubstr("Trnk2"), HasSubstr("did you mean 'Trunk2'")));
+  const CommandResult far =
+      tear(changed("far.json", {{"pose", {{"clip", "Zzzzzzzz"}, {"time", 0}}}}));
+  EXPECT_THAT(far.err, AllOf(HasSubstr("its clips: 'Sway'"), Not(HasSubstr("did you mean"))));
+  const CommandResult refit =
+      tear(write("one.json", kOneTear), {"--weights", "refit", "--refit-over", "clips:Swya=2"});
+  EXPECT_EQ(refit.exit_code, 2);
+  EXPECT_THAT(refit.err, AllOf(HasSubstr("--refit-over"), HasSubstr("'Swya'"),
+                               HasSubstr("did you mean 'Sway'?")));
+}
+
+TEST_F(TearMessages, weight_errors_are_measured_on_request_on_a_sample) {
+  json log = json::parse(kOneTear);
+  const CommandResult plain = tear(write("one.json", kOneTear), {"--report", "-"});
+  EXPECT_FALSE(json::parse(plain.out).contains("weight_errors"));
+  EXPECT_FALSE(json::parse(plain.out)["operations"][0]["weights"].contains("error_max"));
+  for (int i = 0; i < 40; ++i) {
+    const double y = 0.1 + 0.015 * i;
+    log["operations"].push_back(
+        {{"op", "cut"}, {"plane", {{"point", {0, y, 0}}, {"normal", {0.1, 1, 0}}}}});
+  }
+  const std::string many = write("many.json", log.dump());
+  const json first =
+      json::parse(tear(many, {"--report", "-", "--weight-errors"}).out)["weight_errors"];
+  ASSERT_TRUE(first.contains("clips"));
+  EXPECT_LT(first["clips"]["points"], first["clips"]["points_of"]);
+  EXPECT_LE(first["clips"]["poses"], first["clips"]["poses_of"]);
+  EXPECT_EQ(json::parse(tear(many, {"--report", "-", "--weight-errors"}).out)["weight_errors"],
+            first);
+  EXPECT_EQ(tear(many, {"--weight-errors"}).exit_code, 2);
+}
+
+TEST_F(TearMessages, colours_are_for_terminals) {
+  const std::string swapped =
+      changed("swap.json", stroke([](json& blade) { std::swap(blade["base"], blade["tip"]); }));
+  const std::vector<std::string> warned = {"tear", model(), "--ops", swapped, "--dry-run"};
+  const std::vector<std::string> failing = {"tear", model(), "--ops", path("no such.json"),
+                                            "--dry-run"};
+  EXPECT_THAT(test::run_sunder_on_terminal(warned).err, HasSubstr("\x1b[33msunder: warning:"));
+  EXPECT_THAT(test::run_sunder_on_terminal(failing).err, HasSubstr("\x1b[31msunder: "));
+  EXPECT_THAT(test::run_sunder_on_terminal({"tear"}).err, HasSubstr("\x1b[31m"));
+  EXPECT_THAT(test::run_sunder_on_terminal(warned, {{"NO_COLOR", "1"}}).err,
+              AllOf(HasSubstr("warning"), Not(HasSubstr("\x1b[3"))));
+  EXPECT_THAT(run_sunder(warned).err, AllOf(HasSubstr("warning"), Not(HasSubstr("\x1b"))));
+}
+
+}  // namespace
+}  // namespace sunder::command_test

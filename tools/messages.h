@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+
+namespace sunder::tools {
+
+/// How much a verb says on stderr, apart from errors.
+enum class Verbosity {
+  quiet,    ///< Nothing.
+  normal,   ///< One line per operation, and warnings.
+  verbose,  ///< Also details and durations.
+};
+
+/// Whether stderr shows colours: a terminal, and NO_COLOR is not set (https://no-color.org).
+[[nodiscard]] bool errors_are_in_colour();
+
+/// Prints an error on stderr, in red where there are colours.
+void print_error(const std::string& text);
+
+/// Prints lines on stderr. Each begins with "sunder: " and ends a line.
+class Messages {
+ public:
+  explicit Messages(Verbosity verbosity) : verbosity_(verbosity) {}
+
+  void say(const std::string& line) const;     ///< Unless quiet.
+  void warn(const std::string& line) const;    ///< Unless quiet; yellow where there are colours.
+  void detail(const std::string& line) const;  ///< Only if verbose.
+  [[nodiscard]] bool is_quiet() const { return verbosity_ == Verbosity::quiet; }
+  [[nodiscard]] bool is_verbose() const { return verbosity_ == Verbosity::verbose; }
+
+ private:
+  Verbosity verbosity_;
+};
+
+}  // namespace sunder::tools
