@@ -14,18 +14,16 @@ bool is_one_file(const std::filesystem::path& a, const std::filesystem::path& b)
 }
 
 std::string overwriting(const std::vector<NamedFile>& inputs, const std::vector<NamedFile>& outputs,
-                        bool may_overwrite_inputs) {
+                        const std::string& advice) {
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     const NamedFile& output = outputs[i];
+    const std::string begin = output.option + " " + output.file.string() + ": would overwrite ";
     for (std::size_t j = 0; j < i; ++j)
       if (is_one_file(output.file, outputs[j].file))
-        return output.option + " " + output.file.string() + ": would overwrite the file of " +
-               outputs[j].option;
-    if (may_overwrite_inputs) continue;
+        return begin + "the file of " + outputs[j].option;
     for (const NamedFile& input : inputs)
       if (is_one_file(output.file, input.file))
-        return output.option + " " + output.file.string() + ": would overwrite " + input.option +
-               " " + input.file.string() + "; --force allows it";
+        return begin + input.option + " " + input.file.string() + advice;
   }
   return {};
 }

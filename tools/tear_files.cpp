@@ -41,7 +41,8 @@ ExitCode check_outputs(const TearRequest& request) {
     outputs.push_back({"--report", *request.report});
   if (request.log) outputs.push_back({"--save-log", *request.log});
   if (request.picture) outputs.push_back({"--picture", *request.picture});
-  const std::string fault = overwriting(inputs, outputs, request.force);
+  if (request.force) inputs.clear();
+  const std::string fault = overwriting(inputs, outputs, "; --force allows it");
   if (fault.empty()) return ExitCode::ok;
   print_error("sunder: " + fault);
   return ExitCode::usage;

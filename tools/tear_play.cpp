@@ -116,6 +116,11 @@ Status play_one(const Operation& operation, const std::string& place, bool is_me
   return status;
 }
 
+/// "ops.json: /operations/3"; without a log only the latter.
+std::string in_log(const TearRequest& request, const std::string& place) {
+  return request.operations.empty() ? place : request.operations.string() + ": " + place;
+}
+
 }  // namespace
 
 ExitCode play_operations(const std::vector<Operation>& operations, TearRun& run,
@@ -127,7 +132,7 @@ ExitCode play_operations(const std::vector<Operation>& operations, TearRun& run,
     const std::string place = "/operations/" + std::to_string(i);
     const bool is_measured = run.request.weight_errors && i % step == 0;
     if (const Status status = play_one(operations[i], place, is_measured, current, run); !status)
-      return complain(run.request.operations.string() + ": " + place, status, ExitCode::usage,
+      return complain(in_log(run.request, place), status, ExitCode::usage,
                       advice_on_names(operations[i], run.model.source()));
   }
   progress.begin_step(operations.size() + 1, "weighing");

@@ -13,6 +13,7 @@
 #include "tools/certified_report.h"
 #include "tools/certified_weights.h"
 #include "tools/json_file.h"
+#include "tools/overwriting.h"
 #include "tools/report.h"
 #include "tools/text_file.h"
 #include "tools/transfer_report.h"
@@ -23,19 +24,14 @@ namespace {
 
 constexpr float kLocked = 0.5f;
 
-/// The input that an output file would overwrite; empty if there is none.
-std::string overwritten_input(const TransferRequest& request) {
-  std::vector<std::filesystem::path> outputs, inputs = {request.source, request.target};
-  if (!request.options.dry_run) outputs.push_back(request.output);
-  if (request.report) outputs.push_back(*request.report);
-  for (const auto& file : {request.bone_names, request.vertices})
-    if (file) inputs.push_back(*file);
-  for (const auto& output : outputs)
-    for (const auto& input : inputs) {
-      std::error_code error;
-      if (std::filesystem::equivalent(output, input, error)) return input.string();
-    }
-  return {};
+/// The first output that would overwrite an input or another output; empty if there is none.
+std::string overwriting_output(const TransferRequest& request) {
+  std::vector<NamedFile> inputs = {{"SOURCE", request.source}, {"TARGET", request.target}}, outputs;
+  if (!request.options.dry_run) outputs.push_back({"--output", request.output});
+  if (request.report) outputs.push_back({"--report", *request.report});
+  if (request.bone_names) inputs.push_back({"--bone-names", *request.bone_names});
+  if (request.vertices) inputs.push_back({"--vertices", *request.vertices});
+  return overwriting(inputs, outputs);
 }
 
 std::vector<std::vector<bool>> mask(const Character& character, bool value) {
@@ -129,11 +125,10 @@ ExitCode write_files(const TransferRequest& request, const LoadedCharacter& targ
 }  // namespace
 
 ExitCode run_transfer(const TransferRequest& request) {
-  if (const std::string input = overwritten_input(request); !input.empty())
-    return complain(input,
-                    Status::failure(StatusCode::invalid_argument, kNone,
-                                    "the output would overwrite this input"),
-                    ExitCode::usage);
+  if (const std::string fault = overwriting_output(request); !fault.empty()) {
+    print_error("sunder: " + fault);
+    return ExitCode::usage;
+  }
   const Result<LoadedCharacter> source = load_character(request.source);
   if (!source) return complain(request.source.string(), source.error(), ExitCode::unreadable_input);
   LoadOptions load;

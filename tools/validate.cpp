@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "tools/json_file.h"
+#include "tools/overwriting.h"
 #include "tools/text_file.h"
 #include "tools/validate_page.h"
 #include "tools/validation_page/write_page.h"
@@ -165,6 +166,18 @@ ExitCode run_jobs(const std::vector<Job>& jobs, unsigned threads, Severity fail_
   return static_cast<ExitCode>(worst.load());
 }
 
+/// The first output of a pair that would overwrite an input or the other output; empty if none
+/// does.
+std::string overwriting_output(const Job& job) {
+  std::vector<NamedFile> inputs = {{"SOURCE", job.pair.source}, {"TARGET", job.pair.target}},
+                         outputs;
+  if (job.pair.operations) inputs.push_back({"--ops", *job.pair.operations});
+  if (job.pair.bone_names) inputs.push_back({"--bone-names", *job.pair.bone_names});
+  if (job.report) outputs.push_back({"--report", *job.report});
+  if (job.html) outputs.push_back({"--html", *job.html});
+  return overwriting(inputs, outputs);
+}
+
 }  // namespace
 
 ExitCode run_validate(const ValidateRequest& request) {
@@ -182,6 +195,10 @@ ExitCode run_validate(const ValidateRequest& request) {
                     request.html});
   }
   for (Job& job : jobs) {
+    if (const std::string fault = overwriting_output(job); !fault.empty()) {
+      print_error("sunder: " + fault);
+      return ExitCode::usage;
+    }
     if (!job.html) continue;
     job.pair.over_time = true;
     if (const Status status = has_page(); !status)

@@ -82,6 +82,17 @@ TEST_F(Validate, a_model_beside_itself_has_no_finding_above_a_note) {
   EXPECT_THAT(report["verdicts"]["SUNDER_W_POP"]["why"].get<std::string>(), Not(IsEmpty()));
 }
 
+TEST_F(Validate, no_model_is_overwritten) {
+  const auto before = test::read_bytes(path("model.glb"));
+  for (const char* const option : {"--report", "--html"}) {
+    const auto result =
+        run_sunder({"validate", path("spoiled.glb"), path("model.glb"), option, path("model.glb")});
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_THAT(result.err, HasSubstr("would overwrite TARGET"));
+  }
+  EXPECT_EQ(test::read_bytes(path("model.glb")), before);
+}
+
 TEST_F(Validate, sums_that_loading_would_repair_are_found_as_stored) {
   const auto result =
       run_sunder({"validate", path("model.glb"), path("spoiled.glb"), "--report", path("r.json")});

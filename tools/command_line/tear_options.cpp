@@ -55,7 +55,7 @@ void check_weight_policy(const CLI::App& verb, const TearRequest& request) {
 void add_report_options(CLI::App& verb, TearRequest& request) {
   CLI::Option* const report =
       verb.add_option("--report", request.report,
-                      "File for the JSON report; -: stdout. without it, a summary goes to stdout")
+                      "File for the JSON report; -: stdout. Without it, a summary goes to stdout")
           ->type_name("FILE");
   verb.add_flag("--weight-errors", request.weight_errors,
                 "Measure for the report how far new points are from the untorn surface, on a "

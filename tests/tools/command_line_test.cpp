@@ -1,0 +1,210 @@
+// The options of the command agree with docs/command.md, the manual page and the completions.
+
+#include "tools/command_line/command_line.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <sstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "support/temporary_folder.h"
+#include "tools/command_line/listed_options.h"
+#include "tools/run_command.h"
+
+namespace sunder::tools {
+namespace {
+
+using test::CommandResult;
+using test::run_sunder;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::UnorderedElementsAre;
+
+std::vector<ListedVerb> all_verbs() {
+  CLI::App app;
+  Requests requests;
+  describe_command(app);
+  const std::vector<Verb> verbs = add_verbs(app, requests);
+  EXPECT_GT(verbs.size(), 5u);
+  return list_verbs(app);
+}
+
+/// "-o, --output FILE".
+std::string signature(const ListedOption& option) {
+  std::string text;
+  for (const std::string& name : option.names) text += (text.empty() ? "" : ", ") + name;
+  return option.value.empty() ? text : text + ' ' + option.value;
+}
+
+std::string default_of(const ListedOption& option) {
+  return option.is_required ? "required" : option.default_text;
+}
+
+using OptionTable = std::map<std::string, std::string>;  // Defaults by signature.
+
+OptionTable options_in_app(const ListedVerb& verb) {
+  OptionTable table;
+  for (const ListedOption& option : verb.options)
+    if (verb.name.empty() || option.names.back() != "--help")
+      table[signature(option)] = default_of(option);
+  return table;
+}
+
+/// The rows "| `--option VALUE` | text | default |" of a part of a page.
+OptionTable options_in_page(const std::string& part) {
+  OptionTable table;
+  const std::regex row(R"(\| `(-[^`]*)` \|(.*)\| *([^|]*?) *\|)");
+  std::istringstream lines(part);
+  for (std::string line; std::getline(lines, line);) {
+    std::smatch match;
+    if (!std::regex_match(line, match, row)) continue;
+    const std::string name = std::regex_replace(match[1].str(), std::regex(R"(\\\|)"), "|");
+    table[name] = std::regex_replace(match[3].str(), std::regex("`"), "");
+  }
+  return table;
+}
+
+/// The parts of docs/command.md by verb; the part before the first verb has an empty name.
+std::map<std::string, std::string> parts_of_page() {
+  std::ifstream page(SUNDER_SOURCE_DIR "/docs/command.md");
+  std::map<std::string, std::string> parts;
+  std::string verb;
+  for (std::string line; std::getline(page, line);) {
+    std::smatch match;
+    if (std::regex_search(line, match, std::regex("^## `sunder ([a-z]+)"))) verb = match[1];
+    parts[verb] += line + '\n';
+  }
+  return parts;
+}
+
+TEST(CommandLine, the_page_lists_every_option_with_its_default) {
+  std::map<std::string, std::string> parts = parts_of_page();
+  std::set<std::string> verbs;
+  for (const ListedVerb& verb : all_verbs()) {
+    EXPECT_EQ(options_in_page(parts[verb.name]), options_in_app(verb)) << "sunder " << verb.name;
+    verbs.insert(verb.name);
+  }
+  for (const auto& [verb, part] : parts) EXPECT_TRUE(verbs.contains(verb)) << verb;
+}
+
+TEST(CommandLine, help_and_manual_and_completions_have_every_option) {
+  const std::string manual = run_sunder({"man"}).out;
+  const std::string fish = run_sunder({"completions", "fish"}).out;
+  const std::string zsh = run_sunder({"completions", "zsh"}).out;
+  const std::string bash = run_sunder({"completions", "bash"}).out;
+  for (const ListedVerb& verb : all_verbs()) {
+    std::vector<std::string> arguments = {"--help"};
+    if (!verb.name.empty()) arguments.insert(arguments.begin(), verb.name);
+    const std::string help = run_sunder(arguments).out;
+    const std::size_t section = verb.name.empty() ? 0 : manual.find(".SS \"sunder " + verb.name);
+    ASSERT_NE(section, std::string::npos) << verb.name;
+    const std::string of_verb = manual.substr(section, manual.find(".S", section + 3) - section);
+    for (const ListedOption& option : verb.options)
+      for (const std::string& name : option.names) {
+        EXPECT_THAT(help, HasSubstr(name));
+        if (!verb.name.empty()) {
+          EXPECT_THAT(of_verb,
+                      HasSubstr("\\fB" + std::regex_replace(name, std::regex("-"), "\\-")));
+        }
+        EXPECT_THAT(zsh, HasSubstr(name));
+        EXPECT_THAT(bash, HasSubstr(name));
+        const bool is_long = name.starts_with("--");
+        EXPECT_THAT(fish, HasSubstr((is_long ? " -l " : " -s ") + name.substr(is_long ? 2 : 1)));
+      }
+  }
+  EXPECT_THAT(run_sunder({"--help"}).out, testing::Not(HasSubstr("completions")));
+}
+
+/// Runs a shell script. @return its exit code and output.
+CommandResult run_script(const char* shell, const std::string& script) {
+  return test::run_program(shell, {"-c", script});
+}
+
+bool has(const char* program) {
+  return std::system((std::string("command -v ") + program + " >/dev/null 2>&1").c_str()) == 0;
+}
+
+std::string save(const test::TemporaryFolder& folder, const std::string& name,
+                 const std::string& text) {
+  const std::string file = (folder.path() / name).string();
+  std::ofstream(file) << text;
+  return file;
+}
+
+TEST(CommandLine, the_manual_is_valid) {
+  if (!has("man") && !has("mandoc")) GTEST_SKIP() << "needs man or mandoc";
+  const test::TemporaryFolder folder;
+  const std::string page = save(folder, "sunder.1", run_sunder({"man"}).out);
+  if (has("mandoc")) {
+    const CommandResult lint = run_script("/bin/sh", "mandoc -Tlint -W warning '" + page + "'");
+    EXPECT_EQ(lint.exit_code, 0) << lint.out;
+  }
+  if (!has("man")) return;
+  const CommandResult shown =
+      run_script("/bin/sh", "MANWIDTH=100 man --warnings=w -l '" + page + "'");
+  EXPECT_EQ(shown.exit_code, 0) << shown.err;
+  EXPECT_THAT(shown.err, testing::Not(HasSubstr("warning")));
+}
+
+class BashCompletion : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!has("bash")) GTEST_SKIP() << "needs bash";
+    script_ = save(folder_, "sunder", run_sunder({"completions", "bash"}).out);
+    save(folder_, "two words.glb", "");
+  }
+  /// What the script proposes for the last of these words.
+  std::vector<std::string> complete(const std::string& words) {
+    const CommandResult result = run_script(
+        "/bin/bash", "set -u; cd '" + folder_.path().string() + "'; source '" + script_ +
+                         "'; COMP_WORDS=(" + words +
+                         "); COMP_CWORD=$(( ${#COMP_WORDS[@]} - 1 )); _sunder; "
+                         "(( ${#COMPREPLY[@]} == 0 )) || printf '%s\\n' \"${COMPREPLY[@]}\"");
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    std::vector<std::string> proposals;
+    std::istringstream lines(result.out);
+    for (std::string line; std::getline(lines, line);) proposals.push_back(line);
+    return proposals;
+  }
+  test::TemporaryFolder folder_;
+  std::string script_;
+};
+
+TEST_F(BashCompletion, it_completes_verbs_options_choices_and_files) {
+  EXPECT_EQ(run_script("/bin/bash", "bash -n '" + script_ + "'").exit_code, 0);
+  EXPECT_THAT(complete("sunder t"), UnorderedElementsAre("tear", "transfer"));
+  EXPECT_THAT(complete("sunder --v"), ElementsAre("--version"));
+  EXPECT_THAT(complete("sunder tear --refit"),
+              UnorderedElementsAre("--refit-over", "--refit-bound"));
+  EXPECT_THAT(complete("sunder tear --weights-as u"), UnorderedElementsAre("u16", "u8"));
+  EXPECT_THAT(complete("sunder tear --weights-as = u1"), ElementsAre("u16"));
+  EXPECT_THAT(complete("sunder tear --weights-as ="), UnorderedElementsAre("float", "u16", "u8"));
+  EXPECT_THAT(complete("sunder tear two"), ElementsAre("two words.glb"));
+  EXPECT_THAT(complete("sunder tear --ops two"), ElementsAre("two words.glb"));
+  EXPECT_THAT(complete("sunder tear --refit-bound t"), IsEmpty());
+  EXPECT_THAT(complete("sunder transfer --m"),
+              UnorderedElementsAre("--method", "--mix", "--max-error"));
+}
+
+TEST(CommandLine, other_shells_can_read_their_completions) {
+  bool is_checked = false;
+  const test::TemporaryFolder folder;
+  for (const char* const shell : {"zsh", "fish"}) {
+    if (!has(shell)) continue;
+    is_checked = true;
+    const std::string script = save(folder, shell, run_sunder({"completions", shell}).out);
+    const CommandResult result = run_script("/bin/sh", std::string(shell) + " -n '" + script + "'");
+    EXPECT_EQ(result.exit_code, 0) << shell << result.err;
+  }
+  if (!is_checked) GTEST_SKIP() << "needs zsh or fish";
+}
+
+}  // namespace
+}  // namespace sunder::tools
