@@ -15,6 +15,7 @@ CLI::App* add_info(CLI::App& app, InfoRequest& request) {
       "List the bones as a tree: joint, length, and the surface that each one moves predominantly");
   verb->add_option("--pose", request.pose,
                    "Pose of bones and bounds: rest, bind, or CLIP@TIME with a time in seconds")
+      ->type_name("POSE")
       ->capture_default_str()
       ->needs(bones);
   verb->footer(

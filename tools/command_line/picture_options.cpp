@@ -74,11 +74,16 @@ CLI::Option* add_parsed(CLI::App& verb, const char* name, Value& value,
 CLI::App* add_picture(CLI::App& app, PictureRequest& request) {
   CLI::App* const verb =
       app.add_subcommand("picture", "Draw a model in a pose, and what operations would do to it");
-  verb->add_option("MODEL", request.model, "Model file, as for `sunder info`")->required();
-  verb->add_option("-o,--output", request.output, "File for the picture, PNG")->required();
+  verb->add_option("MODEL", request.model, "Model file, as for `sunder info`")
+      ->required()
+      ->type_name("FILE");
+  verb->add_option("-o,--output", request.output, "File for the picture, PNG")
+      ->required()
+      ->type_name("FILE");
   verb->add_option("--pose", request.pose,
                    "rest, bind, or CLIP@TIME with a time in seconds; default: the pose of the last "
-                   "operation, or rest");
+                   "operation, or rest")
+      ->type_name("POSE");
   add_parsed(*verb, "--from", request.from, parse_side,
              "front, back, left, right, top, bottom or a direction x,y,z of some length",
              "Side from which it is seen: front (+Z), back, left (+X), right, top, bottom, or the "
@@ -86,7 +91,8 @@ CLI::App* add_picture(CLI::App& app, PictureRequest& request) {
       ->type_name("SIDE")
       ->default_str("front");
   verb->add_option("--bone", request.bone,
-                   "Bone whose limb fills the frame: what it and the bones below it move");
+                   "Bone whose limb fills the frame: what it and the bones below it move")
+      ->type_name("NAME");
   add_parsed(*verb, "--size", request.size, parse_size, "WIDTHxHEIGHT, each from 16 to 8192 pixels",
              "Size in pixels")
       ->type_name("WIDTHxHEIGHT")
@@ -95,7 +101,8 @@ CLI::App* add_picture(CLI::App& app, PictureRequest& request) {
   verb->add_flag("--grid", request.with_grid, "Draw a grid on the ground; stderr has its spacing");
   verb->add_flag("--bones", request.with_bones, "Draw the bones, with names where there is room");
   verb->add_option("--ops", request.operations,
-                   "Operation log: draws its blades, planes and bores; nothing is torn");
+                   "Operation log: draws its blades, planes and bores; nothing is torn")
+      ->type_name("FILE");
   verb->footer(
       "Needs f3d and Xvfb. Exit code 1 if something asked for could not be drawn; stderr says "
       "what.\n\n"

@@ -13,6 +13,7 @@
 #include "tools/messages.h"
 #include "tools/named_poses.h"
 #include "tools/nearest_names.h"
+#include "tools/overwriting.h"
 #include "tools/picture/bone_marks.h"
 #include "tools/picture/guide_marks.h"
 #include "tools/picture/labels.h"
@@ -215,6 +216,13 @@ ExitCode draw_scene(const PictureRequest& request, const LoadedCharacter& loaded
 }  // namespace
 
 ExitCode run_picture(const PictureRequest& request) {
+  std::vector<NamedFile> inputs = {{"MODEL", request.model}};
+  if (request.operations) inputs.push_back({"--ops", *request.operations});
+  if (const std::string fault = overwriting(inputs, {{"--output", request.output}});
+      !fault.empty()) {
+    print_error("sunder: " + fault);
+    return ExitCode::usage;
+  }
   std::vector<Operation> log;
   if (request.operations) {
     Result<std::vector<Operation>> read = load_operations(*request.operations);
