@@ -1,6 +1,8 @@
 #include <sunder/io/character_file.h>
 
 #include "io/gltf/new_document.h"
+#include "io/gltf/source_document.h"
+#include "io/gltf/still_document.h"
 #include "io/gltf/write.h"
 
 namespace sunder {
@@ -13,6 +15,12 @@ Status save_glb(const std::filesystem::path& file, const Character& character,
 Status save_glb(const std::filesystem::path& file, const Character& character,
                 const SaveOptions& options) {
   return gltf::write_new_document(file, character, options);
+}
+
+Result<std::uint32_t> save_still(const std::filesystem::path& file, const StillScene& scene,
+                                 const SourceDocument* materials) {
+  const SourceDocument none;
+  return gltf::write_still(file, scene, materials == nullptr ? none : *materials);
 }
 
 }  // namespace sunder

@@ -162,10 +162,7 @@ ExitCode run_demo(const DemoRequest& request) {
   }
 
   if (!can_draw()) {
-    std::fputs(
-        "sunder: no pictures: f3d and xvfb-run are not both installed (Debian: apt install f3d "
-        "xvfb xauth)\n",
-        stderr);
+    std::fprintf(stderr, "sunder: no pictures: %s\n", kNoRenderer);
     return ExitCode::findings;
   }
   if (const Status status = draw_demo(demo->tear, request.folder, 2, progress); !status) {

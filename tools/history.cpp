@@ -41,6 +41,50 @@ Result<std::vector<ModelPose>> poses_of(const Operation& operation, const Charac
   return poses;
 }
 
+PoseSpec last_pose_of(const Operation& operation) {
+  struct Visitor {
+    PoseSpec operator()(const TearOperation& tear) const {
+      return tear.pose_changes.empty() ? tear.pose : tear.pose_changes.back().pose;
+    }
+    PoseSpec operator()(const CutOperation& cut) const { return cut.pose; }
+    PoseSpec operator()(const DrillOperation& drill) const { return drill.pose; }
+    PoseSpec operator()(const WeightsOperation& weights) const { return weights.pose; }
+    PoseSpec operator()(const UndoOperation&) const { return RestPose{}; }
+    PoseSpec operator()(const RedoOperation&) const { return RestPose{}; }
+  };
+  return std::visit(Visitor(), operation);
+}
+
+Result<std::vector<LoggedOperation>> remaining_operations(std::span<const Operation> log) {
+  std::vector<LoggedOperation> done, undone;
+  const auto move = [](std::vector<LoggedOperation>& from, std::vector<LoggedOperation>& to,
+                       std::size_t count) {
+    for (; count > 0; --count) {
+      to.push_back(from.back());
+      from.pop_back();
+    }
+  };
+  for (std::size_t i = 0; i < log.size(); ++i) {
+    const auto* const undo = std::get_if<UndoOperation>(&log[i]);
+    const auto* const redo = std::get_if<RedoOperation>(&log[i]);
+    const std::size_t count = undo != nullptr ? undo->count : redo != nullptr ? redo->count : 0;
+    const std::size_t possible = undo != nullptr ? done.size() : undone.size();
+    if ((undo != nullptr || redo != nullptr) && count > possible)
+      return Status::failure(StatusCode::invalid_argument, static_cast<std::uint32_t>(i),
+                             "/operations/%zu/count: %zu operations, but only %zu can be %s", i,
+                             count, possible, undo != nullptr ? "undone" : "redone");
+    if (undo != nullptr) {
+      move(done, undone, count);
+    } else if (redo != nullptr) {
+      move(undone, done, count);
+    } else {
+      done.push_back({i, &log[i]});
+      undone.clear();
+    }
+  }
+  return done;
+}
+
 Result<std::vector<ModelPose>> poses_of_history(const TornModel& model) {
   const Result<std::vector<Operation>> history = model.history();
   if (!history) return history.error();

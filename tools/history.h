@@ -2,6 +2,8 @@
 
 #include <sunder/tear/torn_model.h>
 
+#include <cstddef>
+#include <span>
 #include <vector>
 
 namespace sunder::tools {
@@ -12,6 +14,8 @@ namespace sunder::tools {
 /// moves; for weights, the pose that they meet.
 [[nodiscard]] Result<std::vector<ModelPose>> poses_of(const Operation& operation,
                                                       const Character& character);
+/// The pose in which an operation ends; rest for undo and redo.
+[[nodiscard]] PoseSpec last_pose_of(const Operation& operation);
 /// The poses of a model's whole history, in order.
 [[nodiscard]] Result<std::vector<ModelPose>> poses_of_history(const TornModel& model);
 
@@ -24,5 +28,15 @@ struct PointsOfOperation {
 /// One entry per operation.
 [[nodiscard]] std::vector<PointsOfOperation> points_of_history(
     const std::vector<Operation>& history);
+
+/// An operation of a log and its index there.
+struct LoggedOperation {
+  std::size_t index = 0;
+  const Operation* operation = nullptr;
+};
+/// The operations of a log that its undos leave, in order; no undo or redo among them.
+/// @return invalid_argument, with the index of an undo or redo of more operations than there are.
+[[nodiscard]] Result<std::vector<LoggedOperation>> remaining_operations(
+    std::span<const Operation> log);
 
 }  // namespace sunder::tools

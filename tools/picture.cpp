@@ -4,15 +4,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <map>
 #include <set>
 #include <span>
 #include <string>
-#include <system_error>
 #include <utility>
-
-#include "tools/spawn.h"
 
 namespace sunder::tools {
 namespace {
@@ -159,12 +155,6 @@ Mesh make_rims(const Character& character, const std::vector<DeformedMesh>& pose
   return mesh;
 }
 
-std::string numbers(const Vec3d& v) {
-  char text[128];
-  std::snprintf(text, sizeof text, "%.9g,%.9g,%.9g", v.x(), v.y(), v.z());
-  return text;
-}
-
 }  // namespace
 
 Character make_still(const Character& character, const std::vector<DeformedMesh>& posed,
@@ -211,38 +201,11 @@ void paint(Character& still, const Vec4f& color) {
       mesh.color_sets.assign(1, std::vector<Vec4f>(mesh.positions.size(), color));
 }
 
-bool can_draw() { return is_program_there("f3d") && is_program_there("xvfb-run"); }
-
 Status draw(const Character& still, const Camera& camera, int width, int height,
             const std::filesystem::path& png) {
-  std::filesystem::path scene = png;
-  scene.replace_extension(".scene.glb");
+  const std::filesystem::path scene = scene_file(png);
   if (const Status status = save_glb(scene, still); !status) return status;
-  const std::vector<std::string> arguments = {
-      "xvfb-run",
-      "-a",
-      "f3d",
-      scene.string(),
-      "--output=" + png.string(),
-      "--dry-run",
-      "--quiet",
-      "--resolution=" + std::to_string(width) + "," + std::to_string(height),
-      "--bg-color=0.93,0.94,0.95",
-      "--fxaa",
-      "--camera-position=" + numbers(camera.eye),
-      "--camera-focal-point=" + numbers(camera.focal_point),
-      "--camera-view-up=" + numbers(camera.up),
-      "--camera-view-angle=" + std::to_string(camera.view_angle_degrees)};
-  std::error_code ignored;
-  std::filesystem::remove(png, ignored);
-  // Two xvfb-run that start at the same time may choose the same display; the one that fails is
-  // started again.
-  for (int attempt = 0; attempt < 3 && !std::filesystem::exists(png, ignored); ++attempt)
-    (void)run_program(arguments, std::chrono::seconds(120));
-  const bool is_drawn = std::filesystem::exists(png, ignored);
-  std::filesystem::remove(scene, ignored);
-  return is_drawn ? Status()
-                  : Status::failure(StatusCode::internal_error, kNone, "f3d wrote no picture");
+  return render(scene, camera, {width, height}, png);
 }
 
 }  // namespace sunder::tools

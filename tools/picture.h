@@ -6,15 +6,11 @@
 #include <vector>
 
 #include "tools/posed_model.h"
+#include "tools/render.h"
 #include "tools/rims.h"
 #include "tools/view.h"
 
 namespace sunder::tools {
-
-struct Camera {
-  Vec3d eye, focal_point, up;
-  double view_angle_degrees = 30;
-};
 
 /// A posed model as a still scene.
 ///
@@ -40,9 +36,6 @@ struct Camera {
 
 /// Gives a colour, linear RGBA, to all parts of a still scene that have none.
 void paint(Character& still, const Vec4f& color);
-
-/// Whether f3d and xvfb-run, which draw the pictures, are installed.
-[[nodiscard]] bool can_draw();
 
 /// Draws a still scene into a PNG with f3d under Xvfb. Takes about a second.
 [[nodiscard]] Status draw(const Character& still, const Camera& camera, int width, int height,

@@ -67,9 +67,7 @@ bool draw_picture(const LoadedCharacter& loaded, const TornModel& model,
     status = Status::failure(StatusCode::empty_input, kNone,
                              "the log has no operation that could be drawn");
   else if (!can_draw())
-    status = Status::failure(
-        StatusCode::not_found, kNone,
-        "f3d and xvfb-run are not both installed (Debian: apt install f3d xvfb xauth)");
+    status = Status::failure(StatusCode::not_found, kNone, "%s", kNoRenderer);
   else
     status = draw_torn(loaded.character, history, png);
   if (!status) (void)complain(png.string(), status, ExitCode::findings);

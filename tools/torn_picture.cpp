@@ -9,6 +9,7 @@
 #include <numbers>
 #include <vector>
 
+#include "tools/history.h"
 #include "tools/open_lips.h"
 #include "tools/picture.h"
 #include "tools/posed_model.h"
@@ -21,20 +22,6 @@ const Vec4f kSurface(1.0f, 0.98f, 0.94f, 1.0f);  // Linear RGBA.
 // As a fraction of the diagonal of the model.
 constexpr double kThickness = 0.006;  ///< Of the flesh.
 constexpr double kApart = 0.05;       ///< Distance by which the pieces of a cut are moved.
-
-PoseSpec pose_of(const Operation& operation) {
-  struct Visitor {
-    PoseSpec operator()(const TearOperation& tear) const {
-      return tear.pose_changes.empty() ? tear.pose : tear.pose_changes.back().pose;
-    }
-    PoseSpec operator()(const CutOperation& cut) const { return cut.pose; }
-    PoseSpec operator()(const DrillOperation& drill) const { return drill.pose; }
-    PoseSpec operator()(const WeightsOperation& weights) const { return weights.pose; }
-    PoseSpec operator()(const UndoOperation&) const { return RestPose{}; }
-    PoseSpec operator()(const RedoOperation&) const { return RestPose{}; }
-  };
-  return std::visit(Visitor(), operation);
-}
 
 /// The most recent operation that is visible: not one that only changes weights.
 const Operation& newest_of(std::span<const Operation> history) {
@@ -140,7 +127,7 @@ Status draw_torn(std::shared_ptr<const Character> source, std::span<const Operat
   if (!instance) return instance.error();
   const TornModel& torn = instance->model();
   const Operation& newest = newest_of(history);
-  const Result<ModelPose> pose = make_pose(torn.source(), pose_of(newest));
+  const Result<ModelPose> pose = make_pose(torn.source(), last_pose_of(newest));
   if (!pose) return pose.error();
   const Result<std::vector<DeformedMesh>> untorn = pose_model(torn.source(), *pose);
   if (!untorn) return untorn.error();

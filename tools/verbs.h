@@ -11,6 +11,7 @@
 #include "tools/exit_code.h"
 #include "tools/messages.h"
 #include "tools/refit.h"
+#include "tools/render.h"
 
 namespace sunder::tools {
 
@@ -18,6 +19,8 @@ namespace sunder::tools {
 struct InfoRequest {
   std::filesystem::path model;
   bool as_json = false;
+  bool with_bones = false;    ///< The bones with their places and surfaces.
+  std::string pose = "rest";  ///< As parse_pose().
 };
 [[nodiscard]] ExitCode run_info(const InfoRequest& request);
 
@@ -51,6 +54,18 @@ struct ViewRequest {
   bool has_images = true;  ///< Whether the images of base colours are embedded.
 };
 [[nodiscard]] ExitCode run_view(const ViewRequest& request);
+
+/// sunder picture: draws a model in a pose.
+struct PictureRequest {
+  std::filesystem::path model, output;
+  std::optional<std::string> pose;  ///< As parse_pose(); empty: that of the operations, or rest.
+  Vec3d from = Vec3d::UnitZ();      ///< Direction from the model to the eye.
+  std::optional<std::string> bone;  ///< The bone whose limb fills the frame; empty: the model.
+  PictureSize size;
+  bool with_axes = false, with_grid = false, with_bones = false;
+  std::optional<std::filesystem::path> operations;  ///< Drawn on the model, not applied.
+};
+[[nodiscard]] ExitCode run_picture(const PictureRequest& request);
 
 /// sunder demo: tears a model in the middle of its animation and draws it.
 struct DemoRequest {

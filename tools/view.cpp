@@ -6,15 +6,22 @@
 
 namespace sunder::tools {
 
+ViewFrame view_from(const Vec3d& towards_eye) {
+  ViewFrame frame;
+  frame.towards_eye = towards_eye.normalized();
+  const double rise = frame.towards_eye.y();
+  // From above, the front (+z) is at the bottom of the picture; from below, at the top.
+  const Vec3d up = std::abs(rise) < 0.999 ? Vec3d(Vec3d::UnitY()) : Vec3d(0, 0, rise > 0 ? -1 : 1);
+  frame.right = Vec3d(up.cross(frame.towards_eye)).normalized();
+  frame.up = frame.towards_eye.cross(frame.right);
+  return frame;
+}
+
 ViewFrame choose_view(const Bounds& bounds) {
   const Vec3d size = bounds.size();
   const bool is_broad_from_the_front = size.x() >= 0.8 * size.z();
   const Vec3d side = is_broad_from_the_front ? Vec3d(0.30, 0.12, 1.0) : Vec3d(1.0, 0.12, 0.30);
-  ViewFrame frame;
-  frame.towards_eye = side.normalized();
-  frame.right = Vec3d(Vec3d::UnitY().cross(frame.towards_eye)).normalized();
-  frame.up = frame.towards_eye.cross(frame.right);
-  return frame;
+  return view_from(side);
 }
 
 DepthImage::DepthImage(const Character& character, const std::vector<DeformedMesh>& posed,

@@ -14,6 +14,10 @@ struct ViewFrame {
   Vec3d right, up, towards_eye;
 };
 
+/// A view from this side, upright: y is up, or -z if that is the line of sight.
+/// @param towards_eye  any length except zero.
+[[nodiscard]] ViewFrame view_from(const Vec3d& towards_eye);
+
 /// A view of the model's broader side, a little from above and from the side. y is up.
 [[nodiscard]] ViewFrame choose_view(const Bounds& bounds);
 

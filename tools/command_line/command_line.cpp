@@ -51,6 +51,7 @@ void describe_command(CLI::App& app) {
 std::vector<Verb> add_verbs(CLI::App& app, Requests& requests) {
   std::vector<Verb> verbs = {
       {add_info(app, requests.info), [&] { return run_info(requests.info); }},
+      {add_picture(app, requests.picture), [&] { return run_picture(requests.picture); }},
       {add_tear(app, requests.tear), [&] { return run_tear(requests.tear); }},
       {add_transfer(app, requests.transfer), [&] { return run_transfer(requests.transfer); }},
       {add_validate(app, requests.validate), [&] { return run_validate(requests.validate); }},

@@ -12,6 +12,7 @@ namespace sunder::tools {
 /// What parsing fills in, for all verbs.
 struct Requests {
   InfoRequest info;
+  PictureRequest picture;
   TearRequest tear;
   DemoRequest demo;
   TransferRequest transfer;

@@ -10,8 +10,17 @@ CLI::App* add_info(CLI::App& app, InfoRequest& request) {
       ->type_name("FILE")
       ->required();
   verb->add_flag("--json", request.as_json, "Print one JSON object instead of text");
+  CLI::Option* const bones = verb->add_flag(
+      "--bones", request.with_bones,
+      "List the bones as a tree: joint, length, and the surface that each one moves predominantly");
+  verb->add_option("--pose", request.pose,
+                   "Pose of bones and bounds: rest, bind, or CLIP@TIME with a time in seconds")
+      ->type_name("POSE")
+      ->capture_default_str()
+      ->needs(bones);
   verb->footer(
-      "Exit code 1 if loading repaired or dropped something.\n\nExample: sunder info fox.glb");
+      "Exit code 1 if loading repaired or dropped something.\n\nExample: sunder info fox.glb "
+      "--bones --pose Walk@0.4");
   return verb;
 }
 

@@ -8,6 +8,7 @@ namespace sunder::tools {
 
 // Each function adds a verb with its options to the command; parsing fills in the request.
 CLI::App* add_info(CLI::App& app, InfoRequest& request);
+CLI::App* add_picture(CLI::App& app, PictureRequest& request);
 CLI::App* add_tear(CLI::App& app, TearRequest& request);
 CLI::App* add_demo(CLI::App& app, DemoRequest& request);
 CLI::App* add_transfer(CLI::App& app, TransferRequest& request);

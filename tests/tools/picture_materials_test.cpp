@@ -1,0 +1,145 @@
+// Materials in pictures: a row of squares, each with a material of another kind.
+
+#include <cstdlib>
+
+#include "support/gltf_builder.h"
+#include "tools/command_fixture.h"
+#include "tools/picture_pixels.h"
+
+namespace sunder::command_test {
+namespace {
+
+using test::GltfBuilder;
+using test::Pixels;
+using OrderedJson = nlohmann::ordered_json;
+
+using Texel = std::array<std::uint8_t, 4>;
+constexpr Texel kGreen = {0, 200, 0, 255}, kClear = {0, 0, 200, 0};
+
+class PictureMaterials : public CommandSuite {
+ protected:
+  void SetUp() override {
+    if (std::system("command -v f3d xvfb-run >/dev/null 2>&1") != 0)
+      GTEST_SKIP() << "needs f3d and xvfb-run";
+  }
+};
+
+/// Adds a unit square with its lower left corner at (x, 0, z).
+void add_square(GltfBuilder& builder, float x, float z, const OrderedJson& material,
+                const std::vector<float>& color = {}) {
+  OrderedJson attributes;
+  attributes["POSITION"] = builder.add<float>({x, 0, z, x + 1, 0, z, x + 1, 1, z, x, 1, z}, "VEC3");
+  attributes["NORMAL"] = builder.add<float>({0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3");
+  attributes["TEXCOORD_0"] = builder.add<float>({0, 1, 1, 1, 1, 0, 0, 0}, "VEC2");
+  if (!color.empty()) {
+    std::vector<float> colors;
+    for (int i = 0; i < 4; ++i) colors.insert(colors.end(), color.begin(), color.end());
+    attributes["COLOR_0"] = builder.add<float>(colors, "VEC4");
+  }
+  const std::size_t indices = builder.add<std::uint16_t>({0, 1, 2, 0, 2, 3}, "SCALAR");
+  builder.json["materials"].push_back(material);
+  builder.json["meshes"].push_back(
+      {{"primitives", OrderedJson::array({{{"attributes", attributes},
+                                           {"indices", indices},
+                                           {"material", builder.json["materials"].size() - 1}}})}});
+  builder.json["nodes"].push_back({{"mesh", builder.json["meshes"].size() - 1}});
+  builder.json["scenes"][0]["nodes"].push_back(builder.json["nodes"].size() - 1);
+}
+
+/// A texture of 2 x 2 equal texels. @return its index.
+std::size_t add_texture(GltfBuilder& builder, const Texel& texel) {
+  const std::vector<std::byte> png = test::make_png(2, 2, {texel, texel, texel, texel});
+  std::vector<std::uint8_t> bytes;
+  for (const std::byte byte : png) bytes.push_back(std::to_integer<std::uint8_t>(byte));
+  builder.json["images"].push_back(
+      {{"bufferView", builder.add_view(bytes)}, {"mimeType", "image/png"}});
+  builder.json["textures"].push_back({{"source", builder.json["images"].size() - 1}});
+  return builder.json["textures"].size() - 1;
+}
+
+OrderedJson plain(const std::array<double, 4>& color) {
+  return {{"pbrMetallicRoughness", {{"baseColorFactor", color}, {"metallicFactor", 1.0}}}};
+}
+OrderedJson textured(std::size_t texture) {
+  return {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", texture}}}}}};
+}
+
+TEST_F(PictureMaterials, colors_textures_vertex_colors_and_alpha_are_drawn) {
+  GltfBuilder builder;
+  builder.json["scene"] = 0;
+  builder.json["extensionsUsed"] = OrderedJson::array({"KHR_materials_unlit"});
+  const std::size_t green = add_texture(builder, kGreen), clear = add_texture(builder, kClear);
+  add_square(builder, 0, 0, plain({1, 0, 0, 1}));
+  add_square(builder, 1, 0, textured(green));
+  add_square(builder, 2, 0, plain({1, 1, 1, 1}), {0, 0, 1, 1});
+  OrderedJson unlit = textured(green);
+  unlit["extensions"]["KHR_materials_unlit"] = OrderedJson::object();
+  add_square(builder, 3, 0, unlit);
+  add_square(builder, 4, 0, plain({1, 0, 0, 1}));
+  OrderedJson blended = plain({0, 0, 1, 0.5});
+  blended["alphaMode"] = "BLEND";
+  add_square(builder, 4, 0.1f, blended);
+  add_square(builder, 5, 0, plain({1, 0, 0, 1}));
+  OrderedJson masked = textured(clear);
+  masked["alphaMode"] = "MASK";
+  add_square(builder, 5, 0.1f, masked);
+  const std::vector<std::byte> glb = builder.glb();
+  write("squares.glb", {reinterpret_cast<const char*>(glb.data()), glb.size()});
+
+  const CommandResult result =
+      run_sunder({"picture", path("squares.glb"), "-o", path("squares.png"), "--size", "600x200"});
+  ASSERT_LE(result.exit_code, 1) << result.err;
+  EXPECT_THAT(result.err, IsEmpty());
+  const auto pixels = test::read_png(path("squares.png"));
+  ASSERT_TRUE(pixels);
+  const auto square = [&](double i) {
+    return pixels->at(static_cast<int>(30 + (i + 0.5) * 90), 100);
+  };
+  const auto expect = [&](int i, std::array<int, 3> least, std::array<int, 3> most) {
+    const Pixels::Color color = square(i);
+    for (std::size_t c = 0; c < 3; ++c) {
+      EXPECT_GE(color[c], least[c]) << "square " << i << ", channel " << c;
+      EXPECT_LE(color[c], most[c]) << "square " << i << ", channel " << c;
+    }
+  };
+  expect(0, {200, 0, 0}, {255, 90, 90});
+  expect(1, {0, 150, 0}, {90, 230, 90});
+  expect(2, {0, 0, 200}, {90, 90, 255});
+  expect(3, {0, 190, 0}, {45, 210, 45});  // Unlit: the colour of the texture.
+  expect(4, {80, 0, 80}, {230, 90, 230});
+  expect(5, {200, 0, 0}, {255, 90, 90});  // The clear square before it is cut away.
+}
+
+TEST_F(PictureMaterials, other_formats_keep_their_textures) {
+  const std::vector<std::byte> png = test::make_png(2, 2, {kGreen, kGreen, kGreen, kGreen});
+  write("green.png", {reinterpret_cast<const char*>(png.data()), png.size()});
+  write("square.mtl", "newmtl Paint\nKd 1 1 1\nmap_Kd green.png\n");
+  write("square.obj",
+        "mtllib square.mtl\nusemtl Paint\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
+        "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3\nf 1/1 3/3 4/4\n");
+  const CommandResult result =
+      run_sunder({"picture", path("square.obj"), "-o", path("square.png"), "--size", "100x100"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto pixels = test::read_png(path("square.png"));
+  ASSERT_TRUE(pixels);
+  EXPECT_GT(pixels->at(50, 50)[1], 150);
+  EXPECT_LT(pixels->at(50, 50)[0], 90);
+}
+
+TEST_F(PictureMaterials, a_missing_texture_is_said) {
+  GltfBuilder builder;
+  builder.json["scene"] = 0;
+  builder.json["images"] = OrderedJson::array({{{"uri", "no such file.png"}}});
+  builder.json["textures"] = OrderedJson::array({{{"source", 0}}});
+  add_square(builder, 0, 0, textured(0));
+  const std::vector<std::byte> glb = builder.glb();
+  write("missing.glb", {reinterpret_cast<const char*>(glb.data()), glb.size()});
+  const CommandResult result =
+      run_sunder({"picture", path("missing.glb"), "-o", path("missing.png"), "--size", "100x100"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, HasSubstr("1 materials are drawn without a texture"));
+  EXPECT_TRUE(exists("missing.png"));
+}
+
+}  // namespace
+}  // namespace sunder::command_test

@@ -1,0 +1,261 @@
+#include <sunder/io/character_file.h>
+#include <sunder/io/operation_log.h>
+#include <sunder/skinning/pose.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tools/bone_extents.h"
+#include "tools/history.h"
+#include "tools/messages.h"
+#include "tools/named_poses.h"
+#include "tools/nearest_names.h"
+#include "tools/overwriting.h"
+#include "tools/picture/bone_marks.h"
+#include "tools/picture/guide_marks.h"
+#include "tools/picture/labels.h"
+#include "tools/picture/operation_marks.h"
+#include "tools/pose_argument.h"
+#include "tools/verbs.h"
+
+namespace sunder::tools {
+namespace {
+
+const Messages kMessages(Verbosity::normal);
+
+void say(const std::string& text) { kMessages.say(text); }
+void warn(const std::string& text) { kMessages.warn(text); }
+
+/// The model in the pose of the picture.
+struct Subject {
+  PoseArgument pose;
+  ModelPose model_pose;
+  std::vector<DeformedMesh> meshes;
+  Bounds bounds;
+  std::vector<BoneExtent> bones;
+};
+
+Result<Subject> pose_subject(const Character& character, PoseArgument argument) {
+  Result<ModelPose> pose = make_pose(character, argument.spec);
+  if (!pose) return pose.error();
+  Result<std::vector<DeformedMesh>> meshes = pose_model(character, *pose);
+  if (!meshes) return meshes.error();
+  Subject subject{std::move(argument), std::move(*pose), std::move(*meshes), {}, {}};
+  subject.bounds = bounds_of(character, subject.meshes);
+  subject.bones = measure_bones(character, subject.model_pose, subject.meshes);
+  return subject;
+}
+
+/// Whether a bone is `ancestor` or below it.
+bool is_of_branch(const Skeleton& skeleton, std::uint32_t bone, std::uint32_t ancestor) {
+  while (bone != kNone && bone != ancestor) bone = skeleton.bones[bone].parent;
+  return bone == ancestor;
+}
+
+/// The vertices that a bone and those below it move predominantly; all vertices for kNone.
+std::vector<Vec3d> places_of_limb(const Character& character, const Subject& subject,
+                                  std::uint32_t bone) {
+  std::vector<Vec3d> places;
+  for (std::size_t m = 0; m < subject.meshes.size(); ++m) {
+    const Mesh& mesh = character.meshes[m];
+    const std::vector<std::uint32_t> bones = predominant_bones(character.skins[mesh.skin], mesh);
+    for (std::size_t v = 0; v < bones.size(); ++v)
+      if (bones[v] != kNone && (bone == kNone || is_of_branch(character.skeleton, bones[v], bone)))
+        places.emplace_back(subject.meshes[m].positions[v].cast<double>());
+  }
+  return places;
+}
+
+/// @return the index of a bone; not_found; empty_input if it moves no surface.
+Result<std::uint32_t> find_limb(const Character& character, const Subject& subject,
+                                const std::string& name) {
+  for (std::uint32_t i = 0; i < character.skeleton.bones.size(); ++i) {
+    if (character.skeleton.bones[i].name != name) continue;
+    if (subject.bones[i].vertices_of_branch > 0) return i;
+    return Status::failure(StatusCode::empty_input, i,
+                           "bone '%s' and those below it move no surface predominantly",
+                           name.c_str());
+  }
+  return Status::failure(StatusCode::not_found, kNone, "the model has no bone '%s'", name.c_str());
+}
+
+/// The bones with a surface whose names resemble one that is not there.
+std::string advice_on_limb(const Character& character, const Subject& subject,
+                           const std::string& name) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < subject.bones.size(); ++i)
+    if (subject.bones[i].vertices_of_branch > 0) names.push_back(character.skeleton.bones[i].name);
+  return name_advice(name, "bones", names);
+}
+
+StillScene make_scene(const Character& character, const Subject& subject, const ViewFrame& frame) {
+  StillScene scene;
+  for (std::size_t m = 0; m < subject.meshes.size(); ++m) {
+    Mesh mesh = character.meshes[m];
+    mesh.positions = subject.meshes[m].positions;
+    mesh.normals = subject.meshes[m].normals;
+    scene.surfaces.push_back(std::move(mesh));
+  }
+  // From the upper left, and weaker from the right and from below, so that no side is black.
+  scene.lights = {{frame.towards_eye - 0.5 * frame.right + 0.7 * frame.up, 2.5},
+                  {frame.towards_eye + 0.9 * frame.right - 0.1 * frame.up, 1.2},
+                  {0.3 * frame.towards_eye - frame.up, 0.7}};
+  return scene;
+}
+
+double nearest_depth(const Subject& subject, const Viewport& viewport) {
+  double nearest = 1e300;
+  for (const DeformedMesh& mesh : subject.meshes)
+    for (const Vec3f& position : mesh.positions)
+      nearest = std::min(nearest, viewport.depth(position.cast<double>()));
+  return nearest;
+}
+
+/// Draws everything that was asked for in addition to the model. @return whether all of it is seen.
+bool draw_marks(const PictureRequest& request, const Character& character, const Subject& subject,
+                const std::vector<LoggedOperation>& operations, Marks& marks) {
+  Labels labels(marks);
+  bool is_complete = true;
+  if (request.with_grid) {
+    const Grid grid = choose_grid(subject.bounds);
+    draw_grid(grid, subject.bounds, marks);
+    char text[96];
+    std::snprintf(text, sizeof text, "grid: one line per %g m, every tenth is heavier; at y = %.4g",
+                  grid.spacing, grid.height);
+    say(text);
+  }
+  const std::vector<OperationLabel> indices = draw_operations(operations, subject.bounds, marks);
+  if (request.with_bones) draw_bones(character.skeleton, subject.bones, marks);
+  for (const OperationLabel& index : indices)
+    if (marks.viewport().depth(index.place) > 0)
+      labels.place_beside(marks.viewport().pixel(index.place), index.text, Vec4f(0, 0, 0, 1));
+  if (request.with_axes) draw_axes(marks, labels);
+  if (request.with_bones) {
+    const std::size_t without_name =
+        name_bones(character.skeleton, subject.bones, marks.viewport(), labels);
+    if (without_name > 0)
+      say("bones: no room for " + std::to_string(without_name) +
+          " names; --bone or a larger --size makes room");
+  }
+  for (const std::string& missing :
+       missing_from_picture(operations, subject.bounds, marks.viewport())) {
+    warn(missing);
+    is_complete = false;
+  }
+  return is_complete;
+}
+
+/// Operations whose places belong to another pose than that of the picture.
+void say_other_poses(const Character& character, const Subject& subject,
+                     const std::vector<LoggedOperation>& operations) {
+  for (const LoggedOperation& logged : operations) {
+    const Result<std::vector<ModelPose>> poses = poses_of(*logged.operation, character);
+    if (!poses) continue;
+    const bool differs = std::any_of(poses->begin(), poses->end(), [&](const ModelPose& pose) {
+      for (std::size_t i = 0; i < pose.model_from_bone.size(); ++i)
+        if (!pose.model_from_bone[i].isApprox(subject.model_pose.model_from_bone[i], 1e-6))
+          return true;
+      return false;
+    });
+    if (differs)
+      warn("operation " + std::to_string(logged.index) +
+           " is made in another pose than that of the picture, where the surface is elsewhere");
+  }
+}
+
+/// The pose that was asked for; otherwise that of the last operation with a place, or rest.
+Result<PoseArgument> choose_pose(const PictureRequest& request, const Character& character,
+                                 const std::vector<LoggedOperation>& operations) {
+  if (request.pose) return parse_pose(*request.pose, character);
+  for (auto logged = operations.rbegin(); logged != operations.rend(); ++logged) {
+    if (std::holds_alternative<WeightsOperation>(*logged->operation)) continue;
+    const std::string name = "of operation " + std::to_string(logged->index);
+    return PoseArgument{last_pose_of(*logged->operation), name, "drawn in the pose " + name};
+  }
+  return PoseArgument{RestPose{}, "rest", ""};
+}
+
+ExitCode draw_scene(const PictureRequest& request, const LoadedCharacter& loaded,
+                    const Subject& subject, const std::vector<LoggedOperation>& operations) {
+  const Character& character = *loaded.character;
+  std::uint32_t limb = kNone;
+  if (request.bone) {
+    const Result<std::uint32_t> found = find_limb(character, subject, *request.bone);
+    if (!found)
+      return complain(request.model.string() + ": --bone", found.error(), ExitCode::usage,
+                      advice_on_limb(character, subject, *request.bone));
+    limb = *found;
+  }
+  const ViewFrame frame = view_from(request.from);
+  std::vector<Vec3d> framed = places_of_limb(character, subject, limb);
+  if (limb == kNone) {
+    const std::vector<Vec3d> of_operations = places_of(operations, subject.bounds);
+    framed.insert(framed.end(), of_operations.begin(), of_operations.end());
+  }
+  const Viewport viewport(frame, request.size, framed);
+  Marks marks(viewport);
+  const bool is_complete = draw_marks(request, character, subject, operations, marks);
+  StillScene scene = make_scene(character, subject, frame);
+  scene.marks = marks.finish(nearest_depth(subject, viewport));
+
+  const std::filesystem::path file = scene_file(request.output);
+  const Result<std::uint32_t> without_texture = save_still(file, scene, loaded.source.get());
+  if (!without_texture)
+    return complain(request.output.string(), without_texture.error(), ExitCode::internal_error);
+  if (*without_texture > 0)
+    warn(request.model.string() + ": " + std::to_string(*without_texture) +
+         " materials are drawn without a texture: its image is missing, or neither PNG nor JPEG");
+  if (const Status status = render(file, viewport.camera(), request.size, request.output); !status)
+    return complain(request.output.string(), status, ExitCode::internal_error);
+  return is_complete && *without_texture == 0 ? ExitCode::ok : ExitCode::findings;
+}
+
+}  // namespace
+
+ExitCode run_picture(const PictureRequest& request) {
+  std::vector<NamedFile> inputs = {{"MODEL", request.model}};
+  if (request.operations) inputs.push_back({"--ops", *request.operations});
+  if (const std::string fault = overwriting(inputs, {{"--output", request.output}});
+      !fault.empty()) {
+    print_error("sunder: " + fault);
+    return ExitCode::usage;
+  }
+  std::vector<Operation> log;
+  if (request.operations) {
+    Result<std::vector<Operation>> read = load_operations(*request.operations);
+    if (!read) return complain(request.operations->string(), read.error(), ExitCode::usage);
+    log = std::move(*read);
+  }
+  const Result<std::vector<LoggedOperation>> operations = remaining_operations(log);
+  if (!operations)
+    return complain(request.operations->string(), operations.error(), ExitCode::usage);
+  const Result<LoadedCharacter> loaded = load_character(request.model);
+  if (!loaded) return complain(request.model.string(), loaded.error(), ExitCode::unreadable_input);
+  for (const LoggedOperation& logged : *operations)
+    if (const auto poses = poses_of(*logged.operation, *loaded->character); !poses)
+      return complain(
+          request.operations->string() + ": /operations/" + std::to_string(logged.index),
+          poses.error(), ExitCode::usage, advice_on_names(*logged.operation, *loaded->character));
+  const Result<PoseArgument> pose = choose_pose(request, *loaded->character, *operations);
+  if (!pose)
+    return complain(request.model.string() + ": --pose", pose.error(), ExitCode::usage,
+                    advice_on_pose(*request.pose, *loaded->character));
+  if (!pose->remark.empty()) (request.pose ? warn : say)(pose->remark);
+  for (const LoadNote& note : loaded->report.notes)
+    if (note.place.starts_with("texture")) warn(note.place + ": " + note.text);
+  const Result<Subject> subject = pose_subject(*loaded->character, *pose);
+  if (!subject)
+    return complain(request.model.string() + ": pose " + pose->name, subject.error(),
+                    ExitCode::usage);
+  say_other_poses(*loaded->character, *subject, *operations);
+  if (!can_draw()) {
+    print_error(std::string("sunder: no picture: ") + kNoRenderer);
+    return ExitCode::unreadable_input;
+  }
+  return draw_scene(request, *loaded, *subject, *operations);
+}
+
+}  // namespace sunder::tools
