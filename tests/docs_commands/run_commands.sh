@@ -4,11 +4,16 @@
 #
 #   run_commands.sh PAGE.md FOLDER_OF_SUNDER [FILE...]
 #
-# FILEs are copied into the folder first: what the reader has downloaded.
+# FILEs are copied into the folder first: what the reader has downloaded. Exit code 77 if one of them, the renderer or
+# Python is absent.
 set -euo pipefail
 page=$(realpath "$1")
 PATH="$(realpath "$2"):$PATH"
 shift 2
+for program in f3d xvfb-run python3; do
+  command -v "$program" >/dev/null || { echo "$program is not installed" >&2; exit 77; }
+done
+for file in "$@"; do [ -e "$file" ] || { echo "$file is absent" >&2; exit 77; }; done
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 for file in "$@"; do cp "$file" "$folder"; done
@@ -17,8 +22,6 @@ commands="$folder/.commands"
 awk '/^```sh$/ { inside = 1; next } /^```$/ { inside = 0 } inside' "$page" > "$commands"
 [ -s "$commands" ] || { echo "$page has no commands" >&2; exit 1; }
 cd "$folder"
-# Files that a page writes between commands: ```json NAME
-awk '/^```json [a-z_]+\.json$/ { name = $2; next } /^```$/ { name = "" } name != "" { print > name }' "$page"
 bash -euxo pipefail "$commands"
 # Every output that a command names is there.
 grep -oE '(-o|--report|--picture|--save-log) +[a-z0-9_./]+\.(glb|png|json|html)' "$commands" | awk '{ print $2 }' |
