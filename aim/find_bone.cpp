@@ -10,15 +10,14 @@ namespace sunder {
 namespace {
 
 Status unknown(const Skeleton& skeleton, std::string_view name) {
-  std::vector<std::string_view> names;
-  names.reserve(skeleton.bones.size());
+  std::vector<std::string> names;
   for (const Bone& bone : skeleton.bones) names.push_back(bone.name);
-  const std::string near = nearest_names(name, names);
   const std::string wanted(name);
+  const std::string near = listed_names(nearest_names(wanted, names));
   if (near.empty())
     return Status::failure(StatusCode::not_found, kNone, "no bone is named '%.60s'",
                            wanted.c_str());
-  return Status::failure(StatusCode::not_found, kNone, "no bone is named '%.60s'; there is %s",
+  return Status::failure(StatusCode::not_found, kNone, "no bone is named '%.60s'; did you mean %s?",
                          wanted.c_str(), near.c_str());
 }
 

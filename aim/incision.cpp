@@ -25,14 +25,15 @@ Result<Index> find_mesh(const Character& character, const SurfacePlace& place, I
                            character.meshes.size());
   }
   const std::string& name = std::get<std::string>(place.mesh);
-  std::vector<std::string_view> names;
+  std::vector<std::string> names;
   for (Index i = 0; i < character.meshes.size(); ++i) {
     if (character.meshes[i].name == name) return i;
     names.push_back(character.meshes[i].name);
   }
-  const std::string near = nearest_names(name, names);
-  return Status::failure(StatusCode::not_found, number, "point %u: no mesh is named '%.60s'%s%s",
-                         number, name.c_str(), near.empty() ? "" : "; there is ", near.c_str());
+  const std::string near = listed_names(nearest_names(name, names));
+  return Status::failure(StatusCode::not_found, number, "point %u: no mesh is named '%.60s'%s%s%s",
+                         number, name.c_str(), near.empty() ? "" : "; did you mean ", near.c_str(),
+                         near.empty() ? "" : "?");
 }
 
 /// The face of the surface that is a triangle of a mesh.

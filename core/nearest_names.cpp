@@ -1,67 +1,70 @@
 #include "core/internal/nearest_names.h"
 
 #include <algorithm>
-#include <cstddef>
+#include <cctype>
 #include <utility>
-#include <vector>
 
 namespace sunder {
 namespace {
 
-constexpr std::size_t kMostNames = 3;
+constexpr std::size_t kMost = 3;  ///< Names that are proposed.
 
-char lower(char letter) {
-  return letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
+std::string without_capitals(std::string text) {
+  std::ranges::transform(text, text.begin(), [](unsigned char letter) {
+    return static_cast<char>(std::tolower(letter));
+  });
+  return text;
 }
 
-/// Levenshtein distance without regard to case.
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+/// Number of letters to insert, delete, replace or swap with their neighbour.
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> before_last(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) last[j] = j;
   for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
     row[0] = i;
     for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t replaced = diagonal + (lower(a[i - 1]) == lower(b[j - 1]) ? 0 : 1);
-      diagonal = row[j];
-      row[j] = std::min({row[j] + 1, row[j - 1] + 1, replaced});
+      const std::size_t replaced = last[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
+      row[j] = std::min({last[j] + 1, row[j - 1] + 1, replaced});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        row[j] = std::min(row[j], before_last[j - 2] + 1);
     }
+    before_last.swap(last);
+    last.swap(row);
   }
-  return row.back();
-}
-
-bool contains(std::string_view text, std::string_view part) {
-  return !part.empty() &&
-         std::search(text.begin(), text.end(), part.begin(), part.end(),
-                     [](char a, char b) { return lower(a) == lower(b); }) != text.end();
+  return last[b.size()];
 }
 
 }  // namespace
 
+std::vector<std::string> nearest_names(const std::string& wanted,
+                                       std::span<const std::string> names) {
+  const std::string key = without_capitals(wanted);
+  std::vector<std::pair<std::size_t, std::string>> near;
+  for (const std::string& name : names) {
+    const std::string other = without_capitals(name);
+    const std::size_t edits = edit_distance(key, other);
+    const bool is_part =
+        key.size() > 2 && (other.find(key) != std::string::npos ||
+                           (other.size() > 2 && key.find(other) != std::string::npos));
+    if (is_part || 3 * edits <= std::max(key.size(), other.size())) near.emplace_back(edits, name);
+  }
+  std::ranges::stable_sort(near, {}, &std::pair<std::size_t, std::string>::first);
+  std::vector<std::string> result;
+  for (std::size_t i = 0; i < std::min(near.size(), kMost); ++i)
+    result.push_back(std::move(near[i].second));
+  return result;
+}
+
+std::string listed_names(std::span<const std::string> names) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == names.size() ? " or " : ", ") + ("'" + names[i] + "'");
+  return text;
+}
+
 std::string_view without_namespace(std::string_view name) {
   const std::size_t end = name.find_last_of(":|");
   return end == std::string_view::npos || end + 1 == name.size() ? name : name.substr(end + 1);
-}
-
-std::string nearest_names(std::string_view wanted, std::span<const std::string_view> names) {
-  const std::string_view plain = without_namespace(wanted);
-  const std::size_t farthest = std::max<std::size_t>(2, plain.size() / 2);
-  std::vector<std::pair<std::size_t, std::string_view>> near;
-  for (const std::string_view name : names) {
-    const std::string_view candidate = without_namespace(name);
-    // A name that contains the wanted one is a good guess, however long it is.
-    const std::size_t distance = contains(candidate, plain) ? 1 : edit_distance(plain, candidate);
-    if (distance <= farthest) near.emplace_back(distance, name);
-  }
-  std::stable_sort(near.begin(), near.end(),
-                   [](const auto& a, const auto& b) { return a.first < b.first; });
-  if (near.size() > kMostNames) near.resize(kMostNames);
-  std::string text;
-  for (std::size_t i = 0; i < near.size(); ++i) {
-    if (i > 0) text += i + 1 == near.size() ? " or " : ", ";
-    text += "'" + std::string(near[i].second.substr(0, 40)) + "'";
-  }
-  return text;
 }
 
 }  // namespace sunder

@@ -1,69 +1,20 @@
 #include "tools/nearest_names.h"
 
 #include <algorithm>
-#include <cctype>
-#include <utility>
 
 namespace sunder::tools {
 namespace {
 
-constexpr std::size_t kMost = 3;         ///< Names that are proposed.
 constexpr std::size_t kMostListed = 10;  ///< Names that are listed if none is near.
 
-std::string without_capitals(std::string text) {
-  std::ranges::transform(text, text.begin(), [](unsigned char letter) {
-    return static_cast<char>(std::tolower(letter));
-  });
-  return text;
-}
-
-/// Number of letters to insert, delete, replace or swap with their neighbour.
-std::size_t edit_distance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> before_last(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) last[j] = j;
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t replaced = last[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
-      row[j] = std::min({last[j] + 1, row[j - 1] + 1, replaced});
-      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
-        row[j] = std::min(row[j], before_last[j - 2] + 1);
-    }
-    before_last.swap(last);
-    last.swap(row);
-  }
-  return last[b.size()];
-}
-
 }  // namespace
-
-std::vector<std::string> nearest_names(const std::string& wanted,
-                                       std::span<const std::string> names) {
-  const std::string key = without_capitals(wanted);
-  std::vector<std::pair<std::size_t, std::string>> near;
-  for (const std::string& name : names) {
-    const std::string other = without_capitals(name);
-    const std::size_t edits = edit_distance(key, other);
-    const bool is_part =
-        key.size() > 2 && (other.find(key) != std::string::npos ||
-                           (other.size() > 2 && key.find(other) != std::string::npos));
-    if (is_part || 3 * edits <= std::max(key.size(), other.size())) near.emplace_back(edits, name);
-  }
-  std::ranges::stable_sort(near, {}, &std::pair<std::size_t, std::string>::first);
-  std::vector<std::string> result;
-  for (std::size_t i = 0; i < std::min(near.size(), kMost); ++i)
-    result.push_back(std::move(near[i].second));
-  return result;
-}
 
 std::string name_advice(const std::string& wanted, const char* kind,
                         std::span<const std::string> names) {
   const std::vector<std::string> near = nearest_names(wanted, names);
-  std::string text;
-  for (std::size_t i = 0; i < near.size(); ++i)
-    text += (i == 0 ? "" : i + 1 == near.size() ? " or " : ", ") + ("'" + near[i] + "'");
-  if (!text.empty()) return "; did you mean " + text + "?";
+  if (!near.empty()) return "; did you mean " + listed_names(near) + "?";
   if (names.empty()) return std::string("; the model has no ") + kind;
+  std::string text;
   for (std::size_t i = 0; i < std::min(names.size(), kMostListed); ++i)
     text += (i == 0 ? "'" : ", '") + names[i] + "'";
   if (names.size() > kMostListed)

@@ -145,13 +145,28 @@ ExitCode finish(TearRun& run, Clock::time_point begin) {
   return run.has_findings ? ExitCode::findings : ExitCode::ok;
 }
 
+/// The operations of the log, then those of the command line.
+Result<std::vector<WantedOperation>> wanted_operations(const TearRequest& request) {
+  std::vector<WantedOperation> wanted;
+  if (!request.operations.empty()) {
+    auto logged = load_aimed_operations(request.operations);
+    if (!logged) return logged.error();
+    for (LoggedOperation& operation : *logged)
+      wanted.push_back({std::move(operation), "/operations/" + std::to_string(wanted.size()),
+                        request.operations.string()});
+  }
+  for (const TearRequest::Aimed& aimed : request.aimed)
+    wanted.push_back({aimed.operation, aimed.option, {}});
+  return wanted;
+}
+
 }  // namespace
 
 ExitCode run_tear(const TearRequest& request) {
   const auto begin = Clock::now();
   const Messages messages(request.verbosity);
   if (const ExitCode code = check_outputs(request); code != ExitCode::ok) return code;
-  const Result<std::vector<Operation>> operations = load_operations(request.operations);
+  const Result<std::vector<WantedOperation>> operations = wanted_operations(request);
   if (!operations)
     return complain(request.operations.string(), operations.error(), ExitCode::usage);
 

@@ -1,5 +1,6 @@
 #include "tools/tear_play.h"
 
+#include <sunder/aim/aim.h>
 #include <sunder/skinning/pose.h>
 
 #include <algorithm>
@@ -116,24 +117,38 @@ Status play_one(const Operation& operation, const std::string& place, bool is_me
   return status;
 }
 
-/// "ops.json: /operations/3"; without a log only the latter.
-std::string in_log(const TearRequest& request, const std::string& place) {
-  return request.operations.empty() ? place : request.operations.string() + ": " + place;
+/// The plain operation for the model as it is now.
+Result<Operation> plain_operation(const LoggedOperation& operation, const TornModel& model) {
+  if (const auto* const plain = std::get_if<Operation>(&operation)) return *plain;
+  return resolve(model, std::get<AimedOperation>(operation));
+}
+
+/// Names like one that an operation names in vain; see advice_on_names().
+std::string advice_on(const LoggedOperation& operation, const Character& source) {
+  if (const auto* const plain = std::get_if<Operation>(&operation))
+    return advice_on_names(*plain, source);
+  TearOperation posed;
+  posed.pose =
+      std::visit([](const auto& aimed) { return aimed.pose; }, std::get<AimedOperation>(operation));
+  return advice_on_names(posed, source);
 }
 
 }  // namespace
 
-ExitCode play_operations(const std::vector<Operation>& operations, TearRun& run,
+ExitCode play_operations(const std::vector<WantedOperation>& operations, TearRun& run,
                          ProgressBar& progress) {
   TopologyCounts current = run.source;
   const std::size_t step = 1 + operations.size() / kMostMeasured;
   for (std::size_t i = 0; i < operations.size(); ++i) {
     progress.begin_step(i + 1, "tearing");
-    const std::string place = "/operations/" + std::to_string(i);
+    const WantedOperation& wanted = operations[i];
     const bool is_measured = run.request.weight_errors && i % step == 0;
-    if (const Status status = play_one(operations[i], place, is_measured, current, run); !status)
-      return complain(in_log(run.request, place), status, ExitCode::usage,
-                      advice_on_names(operations[i], run.model.source()));
+    const Result<Operation> plain = plain_operation(wanted.operation, run.model);
+    const Status status =
+        plain ? play_one(*plain, wanted.place, is_measured, current, run) : plain.error();
+    if (!status)
+      return complain(wanted.file.empty() ? wanted.place : wanted.file + ": " + wanted.place,
+                      status, ExitCode::usage, advice_on(wanted.operation, run.model.source()));
   }
   progress.begin_step(operations.size() + 1, "weighing");
   if (!run.weighing.refit) return ExitCode::ok;

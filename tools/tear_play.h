@@ -1,5 +1,8 @@
 #pragma once
 
+#include <sunder/operation/aimed_operation.h>
+
+#include <string>
 #include <vector>
 
 #include "tools/progress_bar.h"
@@ -7,10 +10,18 @@
 
 namespace sunder::tools {
 
-/// Applies operations, then the fit of --weights refit. Says for each what it did and warns of what
-/// looks wrong; collects reports and totals.
+/// An operation to apply, and where it is wanted: "/operations/3", or an option.
+struct WantedOperation {
+  LoggedOperation operation;
+  std::string place;
+  std::string file;  ///< The log, for errors; empty for an option.
+};
+
+/// Applies operations, those that are aimed to the model as it is torn by then, and then the fit of
+/// --weights refit. Says for each what it did and warns of what looks wrong; collects reports and
+/// totals.
 /// @return ok, or the exit code of the failure, which was reported.
-[[nodiscard]] ExitCode play_operations(const std::vector<Operation>& operations, TearRun& run,
+[[nodiscard]] ExitCode play_operations(const std::vector<WantedOperation>& operations, TearRun& run,
                                        ProgressBar& progress);
 
 }  // namespace sunder::tools

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <sunder/io/character_file.h>
+#include <sunder/operation/aimed_operation.h>
 #include <sunder/validation/transfer.h>
 
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "tools/certified_weights.h"
 #include "tools/exit_code.h"
@@ -24,9 +26,15 @@ struct InfoRequest {
 };
 [[nodiscard]] ExitCode run_info(const InfoRequest& request);
 
-/// sunder tear: applies an operation log to a model.
+/// sunder tear: applies operations to a model: those of a log, then those of the command line.
 struct TearRequest {
-  std::filesystem::path model, operations;
+  /// An operation of the command line, and the option that gives it: "--slash LeftArm@0.4".
+  struct Aimed {
+    AimedOperation operation;
+    std::string option;
+  };
+  std::filesystem::path model, operations;      ///< No log: empty.
+  std::vector<Aimed> aimed;                     ///< In the order in which they were given.
   std::optional<std::filesystem::path> output;  ///< Only empty in a dry run.
   SaveOptions save;                             ///< How influences are written.
   /// Chooses influences and formats in place of `save`.

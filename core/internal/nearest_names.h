@@ -5,14 +5,18 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace sunder {
 
-/// The names most like one that was not found, for an error text: "'LeftArm' or 'LeftHand'", at
-/// most three. Compares by edit distance without regard to case; a namespace before ':' or '|' does
-/// not count. Empty if none is similar. O(names x lengths), allocates.
-[[nodiscard]] SUNDER_API std::string nearest_names(std::string_view wanted,
-                                                   std::span<const std::string_view> names);
+/// Names that a mistyped one may stand for, nearest first: at most three, by the number of letters
+/// to insert, delete, replace or swap, capitals aside, or because one contains the other.
+/// O(names x lengths), allocates.
+[[nodiscard]] SUNDER_API std::vector<std::string> nearest_names(const std::string& wanted,
+                                                                std::span<const std::string> names);
+
+/// "'Walk', 'Run' or 'Jump'".
+[[nodiscard]] SUNDER_API std::string listed_names(std::span<const std::string> names);
 
 /// A name without its namespace: what follows the last ':' or '|'.
 [[nodiscard]] SUNDER_API std::string_view without_namespace(std::string_view name);

@@ -307,7 +307,7 @@ TEST(Aim, finds_bones_without_their_namespace) {
   EXPECT_EQ(unknown.error().code(), StatusCode::not_found);
   EXPECT_THAT(std::string(unknown.error().text()), HasSubstr("'rig:ForeArm'"));
   EXPECT_THAT(std::string(find_bone(character.skeleton, "zzzzzz").error().text()),
-              Not(HasSubstr("there is")));
+              Not(HasSubstr("did you mean")));
   Character twice = character;
   twice.skeleton.bones[4].name = "second:Hand";
   EXPECT_EQ(find_bone(twice.skeleton, "Hand").error().code(), StatusCode::invalid_argument);
@@ -416,7 +416,7 @@ TEST(Incision, refuses_places_that_do_not_exist) {
   incision.points.push_back({0u, 1u << 30, {1, 0, 0}});
   EXPECT_EQ(failure_of(model, incision).code(), StatusCode::index_out_of_range);
   incision.points[1] = {std::string("skim"), 4, {1, 0, 0}};
-  EXPECT_THAT(std::string(failure_of(model, incision).text()), HasSubstr("there is 'skin'"));
+  EXPECT_THAT(std::string(failure_of(model, incision).text()), HasSubstr("did you mean 'skin'"));
   incision.points[1] = {0u, 4, {1, -1, 0.5}};
   EXPECT_EQ(failure_of(model, incision).code(), StatusCode::invalid_argument);
   incision.points[1] = {std::string("club"), 4, {1, 1, 1}};

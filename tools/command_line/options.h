@@ -15,6 +15,11 @@ CLI::App* add_transfer(CLI::App& app, TransferRequest& request);
 CLI::App* add_validate(CLI::App& app, ValidateRequest& request);
 CLI::App* add_view(CLI::App& app, ViewRequest& request);
 
+/// `--slash`, `--sever`, `--puncture`, and their `--pose`.
+void add_aimed_operations(CLI::App& verb);
+/// What was given of them, in order. @throws CLI::ValidationError
+void read_aimed_operations(const CLI::App& verb, TearRequest& request);
+
 /// `--weights-as`, the number format of written weights.
 void add_weights_as(CLI::App& verb, SaveOptions& save);
 /// `--max-error` and its limits, which exclude that the caller chooses influences and format.

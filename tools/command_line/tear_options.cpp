@@ -85,8 +85,8 @@ CLI::App* add_tear(CLI::App& app, TearRequest& request) {
   verb->add_option(
           "--ops", request.operations,
           "Operation log, JSON: the tears, cuts and bores to apply; see docs/operation_log.md")
-      ->type_name("FILE")
-      ->required();
+      ->type_name("FILE");
+  add_aimed_operations(*verb);
   verb->add_option("-o,--output", request.output, "File for the torn model, GLB")
       ->type_name("FILE");
   verb->add_option("--influences", request.save.maximum_influences,
@@ -110,12 +110,18 @@ CLI::App* add_tear(CLI::App& app, TearRequest& request) {
   verb->add_flag("--force", request.force, "Outputs may overwrite the model or the log");
   verb->callback([&request, verb] {
     check_weight_policy(*verb, request);
+    read_aimed_operations(*verb, request);
+    if (request.operations.empty() && request.aimed.empty())
+      throw CLI::RequiredError("--ops (or --slash, --sever, --puncture)");
     if (!request.dry_run && !request.output) throw CLI::RequiredError("--output (or --dry-run)");
   });
   verb->footer(
       "If an operation fails, nothing is written. Exit code 1 if an operation met no surface or "
       "could not tear some places (see the report), or if the picture could not be drawn.\n\n"
-      "Example: sunder tear fox.glb --ops ops.json -o torn.glb --influences 4");
+      "Examples:\n"
+      "  sunder tear fox.glb --ops ops.json -o torn.glb --influences 4\n"
+      "  sunder tear fox.glb --slash b_Neck_04@0.5,length=0.8w,turn=30 --sever b_Tail02_013 "
+      "--pose Walk@0.5 -o torn.glb");
   return verb;
 }
 

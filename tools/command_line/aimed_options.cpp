@@ -1,0 +1,58 @@
+#include <map>
+#include <string>
+#include <vector>
+
+#include "tools/aimed_option.h"
+#include "tools/command_line/options.h"
+
+namespace sunder::tools {
+namespace {
+
+constexpr const char* kSlash = "--slash";
+constexpr const char* kSever = "--sever";
+constexpr const char* kPuncture = "--puncture";
+
+/// An option that may be given several times, with one value each.
+void add(CLI::App& verb, const char* name, const char* type, const char* description) {
+  verb.add_option_function<std::vector<std::string>>(
+          name, [](const std::vector<std::string>&) {}, description)
+      ->allow_extra_args(false)
+      ->type_name(type)
+      ->group("Aimed operations");
+}
+
+}  // namespace
+
+void add_aimed_operations(CLI::App& verb) {
+  add(verb, kSlash, "BONE@SHARE[,FIELD=VALUE...]",
+      "Tear a stroke on the limb of a bone, at a share of its length from 0 to 1; fields: from, "
+      "length, turn, depth, width, layers, wall_depth; see docs/aim.md. Repeatable, as those "
+      "below; applied in order, after --ops");
+  add(verb, kSever, "BONE@SHARE[,FIELD=VALUE...]",
+      "Cut through the limb of a bone and nothing else; fields: tilt, from, caps");
+  add(verb, kPuncture, "BONE@SHARE[,FIELD=VALUE...]",
+      "Bore into the limb of a bone; fields: from, radius, through, depth, wall, chord_tolerance");
+  verb.add_option("--pose", "The pose for the options above: rest, bind, or a clip at a time")
+      ->type_name("POSE|CLIP@SECONDS")
+      ->default_str("rest")
+      ->group("Aimed operations");
+}
+
+void read_aimed_operations(const CLI::App& verb, TearRequest& request) {
+  const std::string pose =
+      verb.count("--pose") > 0 ? verb.get_option("--pose")->as<std::string>() : std::string();
+  std::map<std::string, std::size_t> read;
+  for (const CLI::Option* const option : verb.parse_order()) {
+    const std::string name = option->get_name();
+    if (name != kSlash && name != kSever && name != kPuncture) continue;
+    const std::string text = option->results().at(read[name]++);
+    const auto operation = parse_aimed_option(name.substr(2), text, pose);
+    if (!operation)
+      throw CLI::ValidationError(name + " " + text, std::string(operation.error().text()));
+    request.aimed.push_back({*operation, name + " " + text});
+  }
+  if (!pose.empty() && request.aimed.empty())
+    throw CLI::ValidationError("--pose", "needs --slash, --sever or --puncture");
+}
+
+}  // namespace sunder::tools
