@@ -174,6 +174,14 @@ async function testUndo(page) {
   await clickAt(page, 0.5, 0.5);
   await seek(page, 0.2);
   facts.dropped = await page.evaluate(() => sunder.placing.clicks.length);
+  // Numbers are typed, not taken as keys of the page; Enter on a button is that button's.
+  await page.click('#setting-depth', { count: 3 });
+  await page.keyboard.type('0.125');
+  await page.keyboard.press('Tab');
+  facts.typed = await page.evaluate(() => [sunder.placing.tool, sunder.settings.current.depth]);
+  await page.focus('#undo');
+  await page.keyboard.press('Enter');
+  facts.undo.push(await count(page));
   await page.click('#copy');
   await settle(page);
   facts.copied = await page.$eval('#said', (said) => said.textContent);
