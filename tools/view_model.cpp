@@ -26,8 +26,8 @@ Status view(const std::filesystem::path& file, bool has_images, LoadedCharacter&
   Result<BaseColours> colours = read_base_colours(*loaded.source, has_images ? kMostImageBytes : 0);
   if (!colours) return colours.error();
   if (has_images && colours->left_out > 0)
-    print_error("sunder: " + file.string() + ": " + std::to_string(colours->left_out) +
-                " images cannot be shown");
+    Messages(Verbosity::normal)
+        .warn(file.string() + ": " + std::to_string(colours->left_out) + " images cannot be shown");
   viewed = {loaded.character.get(), file.filename().string(), std::move(*colours)};
   return {};
 }

@@ -2,6 +2,7 @@
 // Usage: node view_page.mjs place <page.html> <folder>   clips, tools, logs saved into the folder
 //        node view_page.mjs probe <page.html>            every tool at places that the model covers
 //        node view_page.mjs torn <page.html>             a page with a torn model and operations
+//        node view_page.mjs picture <page.html> <p.png>  draws the demo's cactus with every tool
 //        node view_page.mjs broken <page.html>           a page whose data cannot be read
 import { readdirSync, readFileSync, renameSync } from 'node:fs';
 import { join } from 'node:path';
@@ -173,6 +174,14 @@ async function testUndo(page) {
   await clickAt(page, 0.5, 0.5);
   await seek(page, 0.2);
   facts.dropped = await page.evaluate(() => sunder.placing.clicks.length);
+  // Numbers are typed, not taken as keys of the page; Enter on a button is that button's.
+  await page.click('#setting-depth', { count: 3 });
+  await page.keyboard.type('0.125');
+  await page.keyboard.press('Tab');
+  facts.typed = await page.evaluate(() => [sunder.placing.tool, sunder.settings.current.depth]);
+  await page.focus('#undo');
+  await page.keyboard.press('Enter');
+  facts.undo.push(await count(page));
   await page.click('#copy');
   await settle(page);
   facts.copied = await page.$eval('#said', (said) => said.textContent);
@@ -285,6 +294,25 @@ async function testBroken() {
   facts.error = await page.$eval('#error', (error) => error.textContent);
 }
 
-await { place: testPlacing, probe: testProbe, torn: testTorn, broken: testBroken }[mode]();
+async function drawPicture() {
+  const page = await openPage(browser, file, facts, { width: 1200, height: 760 });
+  await seek(page, 0.8);
+  await page.keyboard.press('2');
+  for (const [x, y] of [[0.46, 0.36], [0.44, 0.43], [0.46, 0.5]]) await clickAt(page, x, y);
+  await page.keyboard.press('Enter');
+  await page.keyboard.press('4');
+  await clickAt(page, 0.5, 0.3);
+  await page.keyboard.press('3');
+  await page.select('#setting-bounds', 'points');
+  await clickAt(page, 0.44, 0.66);
+  await clickAt(page, 0.56, 0.62);
+  await page.keyboard.press('b');
+  await page.evaluate(() => sunder.stage.turn(-0.5, 0.25));
+  await page.mouse.move(5, 5);
+  await settle(page);
+  await page.screenshot({ path: folder });
+}
+
+await { place: testPlacing, picture: drawPicture, probe: testProbe, torn: testTorn, broken: testBroken }[mode]();
 await browser.close();
 console.log(JSON.stringify(facts));

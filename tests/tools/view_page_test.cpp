@@ -333,7 +333,8 @@ void ViewPage::saved_logs_follow_the_schema() {
 }
 
 void ViewPage::undo_and_redo_change_the_list() {
-  EXPECT_EQ(facts_["undo"], json({3, 2, 1, 2, 1, 2, 2, 0}));
+  EXPECT_EQ(facts_["undo"], json({3, 2, 1, 2, 1, 2, 2, 0, 1}));
+  EXPECT_EQ(facts_["typed"], json({"tear", 0.125}));
   EXPECT_THAT(facts_["beside"].get<std::string>(), HasSubstr("no surface"));
   EXPECT_EQ(facts_["dropped"], 0) << "points of another pose";
   EXPECT_EQ(facts_["copied"], "The log is in the clipboard.");

@@ -1,4 +1,4 @@
-// Keys of the page; lists keep their letters, and what space activates keeps that.
+// Keys of the page; lists and numbers keep what is typed, and what space or Enter activates keeps these.
 
 const ACTIVATED = 'button, summary, input[type=checkbox], input[type=radio]';
 
@@ -8,7 +8,8 @@ export function listenToKeys(canvas, actions, onCanvas) {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     const { target } = event;
     if (document.querySelector('dialog[open]')) return;
-    if (target.matches('select') || (event.key === ' ' && target.matches(ACTIVATED))) return;
+    if (target.matches('select, input[type=number]')) return;
+    if ((event.key === ' ' || event.key === 'Enter') && target.matches(ACTIVATED)) return;
     const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
     const action = (target === canvas && onCanvas[key]) || actions[key];
     if (!action) return;
