@@ -244,8 +244,12 @@ ExitCode run_picture(const PictureRequest& request) {
     return complain(request.model.string() + ": --pose", pose.error(), ExitCode::usage,
                     advice_on_pose(*request.pose, *loaded->character));
   if (!pose->remark.empty()) (request.pose ? warn : say)(pose->remark);
-  for (const LoadNote& note : loaded->report.notes)
-    if (note.place.starts_with("texture")) warn(note.place + ": " + note.text);
+  bool has_all_textures = true;
+  for (const LoadNote& note : loaded->report.notes) {
+    if (!note.place.starts_with("texture")) continue;
+    warn(note.place + ": " + note.text);
+    has_all_textures = false;
+  }
   const Result<Subject> subject = pose_subject(*loaded->character, *pose);
   if (!subject)
     return complain(request.model.string() + ": pose " + pose->name, subject.error(),
@@ -255,7 +259,8 @@ ExitCode run_picture(const PictureRequest& request) {
     print_error(std::string("sunder: no picture: ") + kNoRenderer);
     return ExitCode::unreadable_input;
   }
-  return draw_scene(request, *loaded, *subject, *operations);
+  const ExitCode code = draw_scene(request, *loaded, *subject, *operations);
+  return code == ExitCode::ok && !has_all_textures ? ExitCode::findings : code;
 }
 
 }  // namespace sunder::tools
