@@ -55,9 +55,9 @@ PoseSpec last_pose_of(const Operation& operation) {
   return std::visit(Visitor(), operation);
 }
 
-Result<std::vector<LoggedOperation>> remaining_operations(std::span<const Operation> log) {
-  std::vector<LoggedOperation> done, undone;
-  const auto move = [](std::vector<LoggedOperation>& from, std::vector<LoggedOperation>& to,
+Result<std::vector<NumberedOperation>> remaining_operations(std::span<const Operation> log) {
+  std::vector<NumberedOperation> done, undone;
+  const auto move = [](std::vector<NumberedOperation>& from, std::vector<NumberedOperation>& to,
                        std::size_t count) {
     for (; count > 0; --count) {
       to.push_back(from.back());

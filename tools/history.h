@@ -30,13 +30,13 @@ struct PointsOfOperation {
     const std::vector<Operation>& history);
 
 /// An operation of a log and its index there.
-struct LoggedOperation {
+struct NumberedOperation {
   std::size_t index = 0;
   const Operation* operation = nullptr;
 };
 /// The operations of a log that its undos leave, in order; no undo or redo among them.
 /// @return invalid_argument, with the index of an undo or redo of more operations than there are.
-[[nodiscard]] Result<std::vector<LoggedOperation>> remaining_operations(
+[[nodiscard]] Result<std::vector<NumberedOperation>> remaining_operations(
     std::span<const Operation> log);
 
 }  // namespace sunder::tools

@@ -1,10 +1,9 @@
-#include <sunder/io/operation_log.h>
-
 #include <algorithm>
 #include <utility>
 
 #include "tools/bone_names.h"
 #include "tools/joint_limits_file.h"
+#include "tools/plain_operations.h"
 #include "tools/validate.h"
 
 namespace sunder::tools {
@@ -68,11 +67,11 @@ std::optional<LoadedCharacter> load(const std::filesystem::path& file, ValidateF
 }
 
 /// Fills the options from the files that the command line names.
-bool read_options(const ValidatePair& pair, const Character& source,
+bool read_options(const ValidatePair& pair, const std::shared_ptr<const Character>& character,
                   std::vector<Operation>& operations, ValidationOptions& options,
                   ValidateFailure& failure) {
   if (pair.operations) {
-    Result<std::vector<Operation>> log = load_operations(*pair.operations);
+    Result<std::vector<Operation>> log = load_plain_operations(*pair.operations, character);
     if (!log) failure = {pair.operations->string(), log.error(), ExitCode::usage};
     if (!log) return false;
     operations = std::move(*log);
@@ -89,7 +88,7 @@ bool read_options(const ValidatePair& pair, const Character& source,
     options.limits_from = LimitsFrom::clips;
     return true;
   }
-  Result<JointLimits> limits = read_joint_limits(pair.limits, source);
+  Result<JointLimits> limits = read_joint_limits(pair.limits, *character);
   if (!limits) failure = {pair.limits, limits.error(), ExitCode::usage};
   if (!limits) return false;
   options.limits_from = LimitsFrom::given;
@@ -113,7 +112,7 @@ std::optional<ValidatedPair> validate_pair(
   if (pair.over_time) options.times_per_clip = kTimesPerClip;
   options.progress = progress;
   std::vector<Operation> operations;
-  if (!read_options(pair, *source->character, operations, options, failure)) return {};
+  if (!read_options(pair, source->character, operations, options, failure)) return {};
   Result<ValidationReport> report = validate_skin(source->character, target->character, options);
   if (!report) {
     failure = {pair.target.string(), report.error(), ExitCode::usage};

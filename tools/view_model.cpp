@@ -8,6 +8,7 @@
 #include "tools/messages.h"
 #include "tools/overwriting.h"
 #include "tools/page_parts/page_file.h"
+#include "tools/plain_operations.h"
 #include "tools/verbs.h"
 #include "tools/view_page/write_view_page.h"
 
@@ -56,7 +57,7 @@ ExitCode run_view(const ViewRequest& request) {
     if (const Status status = view(*request.torn, request.has_images, torn, input.torn); !status)
       return complain(request.torn->string(), status, ExitCode::unreadable_input);
   if (request.operations) {
-    const auto operations = load_operations(*request.operations);
+    const auto operations = load_plain_operations(*request.operations, model.character);
     if (!operations)
       return complain(request.operations->string(), operations.error(), ExitCode::usage);
     Result<std::string> text = format_operations(*operations);

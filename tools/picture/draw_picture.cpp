@@ -1,5 +1,4 @@
 #include <sunder/io/character_file.h>
-#include <sunder/io/operation_log.h>
 #include <sunder/skinning/pose.h>
 
 #include <algorithm>
@@ -18,6 +17,7 @@
 #include "tools/picture/guide_marks.h"
 #include "tools/picture/labels.h"
 #include "tools/picture/operation_marks.h"
+#include "tools/plain_operations.h"
 #include "tools/pose_argument.h"
 #include "tools/verbs.h"
 
@@ -116,7 +116,7 @@ double nearest_depth(const Subject& subject, const Viewport& viewport) {
 
 /// Draws everything that was asked for in addition to the model. @return whether all of it is seen.
 bool draw_marks(const PictureRequest& request, const Character& character, const Subject& subject,
-                const std::vector<LoggedOperation>& operations, Marks& marks) {
+                const std::vector<NumberedOperation>& operations, Marks& marks) {
   Labels labels(marks);
   bool is_complete = true;
   if (request.with_grid) {
@@ -150,8 +150,8 @@ bool draw_marks(const PictureRequest& request, const Character& character, const
 
 /// Operations whose places belong to another pose than that of the picture.
 void say_other_poses(const Character& character, const Subject& subject,
-                     const std::vector<LoggedOperation>& operations) {
-  for (const LoggedOperation& logged : operations) {
+                     const std::vector<NumberedOperation>& operations) {
+  for (const NumberedOperation& logged : operations) {
     const Result<std::vector<ModelPose>> poses = poses_of(*logged.operation, character);
     if (!poses) continue;
     const bool differs = std::any_of(poses->begin(), poses->end(), [&](const ModelPose& pose) {
@@ -168,7 +168,7 @@ void say_other_poses(const Character& character, const Subject& subject,
 
 /// The pose that was asked for; otherwise that of the last operation with a place, or rest.
 Result<PoseArgument> choose_pose(const PictureRequest& request, const Character& character,
-                                 const std::vector<LoggedOperation>& operations) {
+                                 const std::vector<NumberedOperation>& operations) {
   if (request.pose) return parse_pose(*request.pose, character);
   for (auto logged = operations.rbegin(); logged != operations.rend(); ++logged) {
     if (std::holds_alternative<WeightsOperation>(*logged->operation)) continue;
@@ -179,7 +179,7 @@ Result<PoseArgument> choose_pose(const PictureRequest& request, const Character&
 }
 
 ExitCode draw_scene(const PictureRequest& request, const LoadedCharacter& loaded,
-                    const Subject& subject, const std::vector<LoggedOperation>& operations) {
+                    const Subject& subject, const std::vector<NumberedOperation>& operations) {
   const Character& character = *loaded.character;
   std::uint32_t limb = kNone;
   if (request.bone) {
@@ -223,18 +223,18 @@ ExitCode run_picture(const PictureRequest& request) {
     print_error("sunder: " + fault);
     return ExitCode::usage;
   }
+  const Result<LoadedCharacter> loaded = load_character(request.model);
+  if (!loaded) return complain(request.model.string(), loaded.error(), ExitCode::unreadable_input);
   std::vector<Operation> log;
   if (request.operations) {
-    Result<std::vector<Operation>> read = load_operations(*request.operations);
+    auto read = load_plain_operations(*request.operations, loaded->character);
     if (!read) return complain(request.operations->string(), read.error(), ExitCode::usage);
     log = std::move(*read);
   }
-  const Result<std::vector<LoggedOperation>> operations = remaining_operations(log);
+  const Result<std::vector<NumberedOperation>> operations = remaining_operations(log);
   if (!operations)
     return complain(request.operations->string(), operations.error(), ExitCode::usage);
-  const Result<LoadedCharacter> loaded = load_character(request.model);
-  if (!loaded) return complain(request.model.string(), loaded.error(), ExitCode::unreadable_input);
-  for (const LoggedOperation& logged : *operations)
+  for (const NumberedOperation& logged : *operations)
     if (const auto poses = poses_of(*logged.operation, *loaded->character); !poses)
       return complain(
           request.operations->string() + ": /operations/" + std::to_string(logged.index),

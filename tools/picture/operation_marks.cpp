@@ -185,10 +185,11 @@ struct Extremes {
 
 }  // namespace
 
-std::vector<Vec3d> places_of(const std::vector<LoggedOperation>& operations, const Bounds& model) {
+std::vector<Vec3d> places_of(const std::vector<NumberedOperation>& operations,
+                             const Bounds& model) {
   const Bounds box = enlarged(model, 0.5);
   std::vector<Vec3d> places;
-  for (const LoggedOperation& logged : operations)
+  for (const NumberedOperation& logged : operations)
     for (const Vec3d& place : std::visit(Extremes{model}, *logged.operation))
       if ((place.array() >= box.least.array()).all() &&
           (place.array() <= box.greatest.array()).all())
@@ -196,20 +197,20 @@ std::vector<Vec3d> places_of(const std::vector<LoggedOperation>& operations, con
   return places;
 }
 
-std::vector<OperationLabel> draw_operations(const std::vector<LoggedOperation>& operations,
+std::vector<OperationLabel> draw_operations(const std::vector<NumberedOperation>& operations,
                                             const Bounds& model, Marks& marks) {
   std::vector<OperationLabel> labels;
-  for (const LoggedOperation& logged : operations)
+  for (const NumberedOperation& logged : operations)
     if (!std::holds_alternative<WeightsOperation>(*logged.operation))
       labels.push_back(
           {std::visit(Drawer{model, marks}, *logged.operation), std::to_string(logged.index)});
   return labels;
 }
 
-std::vector<std::string> missing_from_picture(const std::vector<LoggedOperation>& operations,
+std::vector<std::string> missing_from_picture(const std::vector<NumberedOperation>& operations,
                                               const Bounds& model, const Viewport& viewport) {
   std::vector<std::string> missing;
-  for (const LoggedOperation& logged : operations) {
+  for (const NumberedOperation& logged : operations) {
     const std::string name = "operation " + std::to_string(logged.index);
     if (std::holds_alternative<WeightsOperation>(*logged.operation)) {
       missing.push_back(name + " has no place: it assigns weights");

@@ -11,7 +11,7 @@ namespace sunder::tools {
 
 /// The extreme places of the blades, planes and bores, for the camera; those far outside of the
 /// model are left out.
-[[nodiscard]] std::vector<Vec3d> places_of(const std::vector<LoggedOperation>& operations,
+[[nodiscard]] std::vector<Vec3d> places_of(const std::vector<NumberedOperation>& operations,
                                            const Bounds& model);
 
 /// A text for a place of the picture.
@@ -25,10 +25,11 @@ struct OperationLabel {
 /// scene; their lines are on top, so they can be seen through the model.
 /// @return the index of each operation, to be written where it begins.
 [[nodiscard]] std::vector<OperationLabel> draw_operations(
-    const std::vector<LoggedOperation>& operations, const Bounds& model, Marks& marks);
+    const std::vector<NumberedOperation>& operations, const Bounds& model, Marks& marks);
 
 /// What of these operations is not in the picture, one line each.
 [[nodiscard]] std::vector<std::string> missing_from_picture(
-    const std::vector<LoggedOperation>& operations, const Bounds& model, const Viewport& viewport);
+    const std::vector<NumberedOperation>& operations, const Bounds& model,
+    const Viewport& viewport);
 
 }  // namespace sunder::tools
