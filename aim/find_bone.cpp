@@ -15,8 +15,9 @@ Status unknown(const Skeleton& skeleton, std::string_view name) {
   const std::string wanted(name);
   const std::string near = listed_names(nearest_names(wanted, names));
   if (near.empty())
-    return Status::failure(StatusCode::not_found, kNone, "no bone is named '%.60s'",
-                           wanted.c_str());
+    return Status::failure(StatusCode::not_found, kNone,
+                           "no bone is named '%.60s', and none of the %zu names is like it",
+                           wanted.c_str(), names.size());
   return Status::failure(StatusCode::not_found, kNone, "no bone is named '%.60s'; did you mean %s?",
                          wanted.c_str(), near.c_str());
 }

@@ -1,6 +1,5 @@
 #include "tools/pose_argument.h"
 
-#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
@@ -8,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "tools/find_clip.h"
 #include "tools/nearest_names.h"
 
 namespace sunder::tools {
@@ -47,26 +47,28 @@ Result<PoseArgument> parse_pose(const std::string& text, const Character& charac
     return Status::failure(StatusCode::invalid_argument, kNone,
                            "'%s': '%s' is no time; expected seconds, 0 or more", text.c_str(),
                            text.c_str() + at + 1);
-  for (std::uint32_t i = 0; i < character.clips.size(); ++i) {
-    const Clip& clip = character.clips[i];
-    if (clip.name != name) continue;
-    PoseArgument pose{ClipPose{i, *seconds}, "'" + name + "' at " + number(*seconds) + " s", ""};
-    if (*seconds > static_cast<double>(clip.duration) + kTimeTolerance)
-      pose.remark = number(*seconds) + " s is beyond the end of clip '" + name + "', which lasts " +
-                    number(static_cast<double>(clip.duration)) + " s; its last pose is taken";
-    return pose;
-  }
-  return Status::failure(StatusCode::not_found, kNone, "the model has no clip '%s'", name.c_str());
+  const std::optional<std::uint32_t> found = find_clip(character, name);
+  if (!found)
+    return Status::failure(StatusCode::not_found, kNone, "the model has no clip '%s'",
+                           name.c_str());
+  const Clip& clip = character.clips[*found];
+  PoseArgument pose{ClipPose{*found, *seconds}, "'" + clip.name + "' at " + number(*seconds) + " s",
+                    ""};
+  if (*seconds > static_cast<double>(clip.duration) + kTimeTolerance)
+    pose.remark = number(*seconds) + " s is beyond the end of clip '" + clip.name +
+                  "', which lasts " + number(static_cast<double>(clip.duration)) +
+                  " s; its last pose is taken";
+  return pose;
 }
 
 std::string advice_on_pose(const std::string& text, const Character& character) {
   const std::size_t at = text.rfind('@');
   if (at == std::string::npos) return {};
   const std::string name = text.substr(0, at);
+  if (find_clip(character, name)) return {};
   std::vector<std::string> names;
   for (const Clip& clip : character.clips) names.push_back(clip.name);
-  const bool is_there = std::find(names.begin(), names.end(), name) != names.end();
-  return is_there ? std::string() : name_advice(name, "clips", names);
+  return name_advice(name, "clips", names);
 }
 
 }  // namespace sunder::tools

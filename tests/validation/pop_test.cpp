@@ -174,7 +174,7 @@ TEST(Pop, of_a_second_tear_is_measured_against_the_surface_that_the_first_one_le
   CutOperation across;
   across.pose = pose;
   across.cut = {
-      Vec3d(0, 1.45, 0), Vec3d(0, 1, 0), {}, false, WeightOptions{WeightPolicy::pose_exact, 0}};
+      Vec3d(0, 1.45, 0), Vec3d(0, 1, 0), {}, false, {}, WeightOptions{WeightPolicy::pose_exact, 0}};
   const std::vector<Operation> operations = {
       tear_up(*bind_pose(*source), WeightPolicy::barycentric), across};
   const std::vector<Operation> alone = {across};
