@@ -28,10 +28,11 @@ class Joints {
 
   [[nodiscard]] Vec3d at(Index bone) const { return pose_.model_from_bone[bone].translation(); }
 
-  /// The direction in which the chain above arrives at a bone; zero at the first joint.
+  /// The direction in which the skeleton's chain arrives at a bone; zero at its first joint. An
+  /// adopted bone lies beside its parent as often as in line with it.
   [[nodiscard]] Vec3d arrival(Index bone) const {
-    for (Index parent = tree_.parent(bone); parent != kNone; parent = tree_.parent(parent)) {
-      const Vec3d way = at(bone) - at(parent);
+    for (Index i = bone; !tree_.is_adopted(i) && tree_.parent(i) != kNone; i = tree_.parent(i)) {
+      const Vec3d way = at(bone) - at(tree_.parent(i));
       if (norm(way) > least_) return way / norm(way);
     }
     return Vec3d::Zero();

@@ -119,6 +119,8 @@ BoneTree::BoneTree(const PosedSurface& surface) {
                        [&](Index bone, double weight) { weights_[bone] += weight; });
   for (const Bone& bone : bones) parents_.push_back(bone.parent);
   Adoption(bones, weights_, SharedSurface(surface), parents_).run();
+  for (Index bone = 0; bone < bones.size(); ++bone)
+    is_adopted_.push_back(parents_[bone] != bones[bone].parent);
   children_.resize(bones.size());
   for (Index bone = 0; bone < bones.size(); ++bone)
     if (parents_[bone] != kNone) children_[parents_[bone]].push_back(bone);

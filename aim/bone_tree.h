@@ -16,6 +16,8 @@ class BoneTree {
   explicit BoneTree(const PosedSurface& surface);
 
   [[nodiscard]] Index parent(Index bone) const { return parents_[bone]; }
+  /// Whether the bone hangs on another bone than in the skeleton.
+  [[nodiscard]] bool is_adopted(Index bone) const { return is_adopted_[bone]; }
   /// Sum of the bone's weights over all points.
   [[nodiscard]] double weight(Index bone) const { return weights_[bone]; }
   [[nodiscard]] bool moves(Index bone) const { return weights_[bone] > 0; }
@@ -29,6 +31,7 @@ class BoneTree {
 
  private:
   std::vector<Index> parents_;
+  std::vector<bool> is_adopted_;
   std::vector<std::vector<Index>> children_;
   std::vector<double> weights_;
 };

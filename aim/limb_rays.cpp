@@ -97,7 +97,10 @@ HitHeights LimbRays::all_hits(const Vec3d& offset) const {
     const double height = (a * heights[0] + b * heights[1] + c * heights[2]) / whole;
     // `across` and `along` are left-handed as seen by the viewer.
     const bool is_facing = whole < 0;
-    (!is_of_limb_[face] ? hits.others : is_facing ? hits.facing : hits.averted).push_back(height);
+    if (is_of_limb_[face])
+      (is_facing ? hits.facing : hits.averted).push_back(height);
+    else
+      (limb_.bones.shares_of_face(face).limb() >= 0.5 ? hits.kin : hits.others).push_back(height);
   }
   return hits;
 }
@@ -120,11 +123,13 @@ std::optional<RayHit> LimbRays::cast(const Vec3d& offset) const {
   if (hit.near == -kInfinite) return {};
   hit.far = std::min({hit.near, lowest(hits.facing), lowest(hits.averted)});
   hit.free_before = hit.free_below = hit.free_behind = kInfinite;
-  for (const double height : hits.others) {
-    if (height > hit.near) hit.free_before = std::min(hit.free_before, height - hit.near);
+  for (const double height : hits.others)
     if (height < hit.near) hit.free_below = std::min(hit.free_below, hit.near - height);
-    if (height < hit.far) hit.free_behind = std::min(hit.free_behind, hit.far - height);
-  }
+  for (const std::vector<double>* const heights : {&hits.kin, &hits.others})
+    for (const double height : *heights) {
+      if (height > hit.near) hit.free_before = std::min(hit.free_before, height - hit.near);
+      if (height < hit.far) hit.free_behind = std::min(hit.free_behind, hit.far - height);
+    }
   return hit;
 }
 

@@ -13,9 +13,9 @@ namespace sunder::aim {
 /// through the place that the rays are measured from.
 struct RayHit {
   double near = 0, far = 0;  ///< First and last surface of the limb.
-  // Distances to the next surface that is not of the limb, or infinity.
+  // Distances to the next surface that is not this part of the limb, or infinity.
   double free_before = 0;  ///< From `near` towards the viewer.
-  double free_below = 0;   ///< From `near` away from the viewer.
+  double free_below = 0;  ///< From `near` away from the viewer, to one that the limb does not move.
   double free_behind = 0;  ///< From `far` away from the viewer.
 };
 
@@ -23,7 +23,8 @@ struct RayHit {
 struct HitHeights {
   std::vector<double> facing;   ///< Of the limb, towards the viewer.
   std::vector<double> averted;  ///< Of the limb, away from the viewer.
-  std::vector<double> others;   ///< Not of the limb.
+  std::vector<double> kin;  ///< Of other surfaces that the limb moves: eyes, teeth, a bent forearm.
+  std::vector<double> others;  ///< Of the rest.
 };
 
 /// Rays that look at a limb as the viewer does. Only the surface that is connected to the limb's
@@ -43,7 +44,7 @@ class LimbRays {
   void look_around(double reach);
   /// @param offset  in the plane of the view. @return empty where the ray misses the limb.
   [[nodiscard]] std::optional<RayHit> cast(const Vec3d& offset) const;
-  /// Whether a ray meets a surface that is not of the limb between two heights.
+  /// Whether a ray meets a surface that the limb does not move between two heights.
   [[nodiscard]] bool meets_others(const Vec3d& offset, double low, double high) const;
 
  private:

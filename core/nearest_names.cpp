@@ -38,10 +38,10 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
 
 std::vector<std::string> nearest_names(const std::string& wanted,
                                        std::span<const std::string> names) {
-  const std::string key = without_capitals(wanted);
+  const std::string key = without_capitals(std::string(without_namespace(wanted)));
   std::vector<std::pair<std::size_t, std::string>> near;
   for (const std::string& name : names) {
-    const std::string other = without_capitals(name);
+    const std::string other = without_capitals(std::string(without_namespace(name)));
     const std::size_t edits = edit_distance(key, other);
     const bool is_part =
         key.size() > 2 && (other.find(key) != std::string::npos ||

@@ -8,6 +8,7 @@
 #include <utility>
 #include <variant>
 
+#include "tools/find_clip.h"
 #include "tools/history.h"
 #include "tools/miss.h"
 #include "tools/named_poses.h"
@@ -117,10 +118,21 @@ Status play_one(const Operation& operation, const std::string& place, bool is_me
   return status;
 }
 
+/// An operation of the command line, whose clip may be named without its namespace.
+AimedOperation with_clip(AimedOperation operation, const Character& source) {
+  PoseSpec& pose = std::visit([](auto& aimed) -> PoseSpec& { return aimed.pose; }, operation);
+  auto* const of_clip = std::get_if<ClipPose>(&pose);
+  const auto* const name = of_clip ? std::get_if<std::string>(&of_clip->clip) : nullptr;
+  const auto clip = name ? find_clip(source, *name) : std::nullopt;
+  if (clip) of_clip->clip = *clip;
+  return operation;
+}
+
 /// The plain operation for the model as it is now.
-Result<Operation> plain_operation(const LoggedOperation& operation, const TornModel& model) {
-  if (const auto* const plain = std::get_if<Operation>(&operation)) return *plain;
-  return resolve(model, std::get<AimedOperation>(operation));
+Result<Operation> plain_operation(const WantedOperation& wanted, const TornModel& model) {
+  if (const auto* const plain = std::get_if<Operation>(&wanted.operation)) return *plain;
+  const auto& aimed = std::get<AimedOperation>(wanted.operation);
+  return resolve(model, wanted.file.empty() ? with_clip(aimed, model.source()) : aimed);
 }
 
 /// Names like one that an operation names in vain; see advice_on_names().
@@ -143,7 +155,7 @@ ExitCode play_operations(const std::vector<WantedOperation>& operations, TearRun
     progress.begin_step(i + 1, "tearing");
     const WantedOperation& wanted = operations[i];
     const bool is_measured = run.request.weight_errors && i % step == 0;
-    const Result<Operation> plain = plain_operation(wanted.operation, run.model);
+    const Result<Operation> plain = plain_operation(wanted, run.model);
     const Status status =
         plain ? play_one(*plain, wanted.place, is_measured, current, run) : plain.error();
     if (!status)

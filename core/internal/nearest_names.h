@@ -10,7 +10,8 @@
 namespace sunder {
 
 /// Names that a mistyped one may stand for, nearest first: at most three, by the number of letters
-/// to insert, delete, replace or swap, capitals aside, or because one contains the other.
+/// to insert, delete, replace or swap, capitals and namespaces aside, or because one contains the
+/// other.
 /// O(names x lengths), allocates.
 [[nodiscard]] SUNDER_API std::vector<std::string> nearest_names(const std::string& wanted,
                                                                 std::span<const std::string> names);

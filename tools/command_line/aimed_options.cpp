@@ -32,8 +32,10 @@ void add_aimed_operations(CLI::App& verb) {
       "Cut through the limb of a bone and nothing else; fields: tilt, from, caps");
   add(verb, kPuncture, "BONE@SHARE[,FIELD=VALUE...]",
       "Bore into the limb of a bone; fields: from, radius, through, depth, wall, chord_tolerance");
-  verb.add_option("--pose", "The pose for the options above: rest, bind, or a clip at a time")
-      ->type_name("POSE|CLIP@SECONDS")
+  verb.add_option(
+          "--pose",
+          "The pose for the options above: rest, bind, or a clip at a time in seconds, Walk@0.5")
+      ->type_name("POSE")
       ->default_str("rest")
       ->group("Aimed operations");
 }

@@ -1,0 +1,79 @@
+// `sunder tear` with operations that name bones.
+#include "tools/command_fixture.h"
+
+namespace sunder::command_test {
+namespace {
+
+class AimedCommand : public CactusSuite {
+ protected:
+  static CommandResult tear(const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"tear", model(), "-o", path("aimed.glb")};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_sunder(arguments);
+  }
+};
+
+TEST_F(AimedCommand, options_are_applied_in_order_after_the_log) {
+  const std::string log = write("slash.json", R"({"sunder_operations": 1, "operations": [
+      {"op": "slash", "around": "Trunk3", "at": 0.5, "turn": 30, "layers": "all"}]})");
+  const CommandResult result =
+      tear({"--sever", "Trunk4@0.5", "--slash", "Trunk2@0.5,from=back,length=0.4w,width=0.01",
+            "--sever", "Trunk3@0.2,caps=false", "--ops", log, "--report", "-"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const json operations = json::parse(result.out)["operations"];
+  ASSERT_EQ(operations.size(), 4u);
+  EXPECT_EQ(operations[0]["op"], "tear");
+  EXPECT_EQ(operations[1]["op"], "cut");
+  EXPECT_EQ(operations[1]["caps"], 2);
+  EXPECT_EQ(operations[2]["op"], "tear");
+  EXPECT_GT(operations[2]["area_removed_posed"].get<double>(), 0.0);
+  EXPECT_EQ(operations[3]["op"], "cut");
+  EXPECT_EQ(operations[3]["caps"], 0);
+  EXPECT_THAT(result.err, HasSubstr("sunder: /operations/0: tear at"));
+  EXPECT_THAT(result.err, HasSubstr("sunder: --sever Trunk4@0.5: cut at"));
+}
+
+TEST_F(AimedCommand, the_saved_log_is_plain_and_gives_the_same_file) {
+  const CommandResult first =
+      tear({"--slash", "Trunk3@0.4,turn=40", "--puncture", "Trunk2@0.5,radius=0.02,through",
+            "--pose", "Sway@0.8", "--save-log", path("plain.json")});
+  ASSERT_EQ(first.exit_code, 0) << first.err;
+  const json log = read_json("plain.json");
+  ASSERT_EQ(log["operations"].size(), 2u);
+  EXPECT_EQ(log["operations"][0]["op"], "tear");
+  EXPECT_EQ(log["operations"][1]["op"], "drill");
+  EXPECT_TRUE(log["operations"][0]["pose"].contains("matrices"));
+  const CommandResult second =
+      run_sunder({"tear", model(), "--ops", path("plain.json"), "-o", path("again.glb")});
+  ASSERT_EQ(second.exit_code, 0) << second.err;
+  EXPECT_EQ(bytes("aimed.glb"), bytes("again.glb"));
+}
+
+TEST_F(AimedCommand, faults_name_the_option) {
+  const auto expect_refusal = [](const std::vector<std::string>& options, const char* text) {
+    const CommandResult result = tear(options);
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_THAT(result.err, HasSubstr(text));
+    EXPECT_FALSE(exists("aimed.glb.tmp"));
+  };
+  expect_refusal({}, "--ops (or --slash");
+  expect_refusal({"--pose", "rest"}, "--pose: needs --slash");
+  expect_refusal({"--slash", "Trunk3@0.5,lenght=1"}, "unknown field 'lenght'");
+  expect_refusal({"--slash", "Trunk3@1.5"}, "--slash Trunk3@1.5: at: expected a share");
+  expect_refusal({"--slash", "Trunk3@0.5,turn=1,turn=2"}, "'turn' is given twice");
+  expect_refusal({"--slash", "Trunk3@0.5,from=above"}, "unknown side 'above'");
+  expect_refusal({"--sever", "Trunc3@0.5"},
+                 "--sever Trunc3@0.5: no bone is named 'Trunc3'; did you mean 'Trunk3'");
+  expect_refusal({"--sever", "Trunk3@0.5", "--pose", "Swai@0.5"}, "did you mean 'Sway'?");
+}
+
+TEST_F(AimedCommand, logs_name_the_operation_that_misses) {
+  const std::string log = write("unknown.json", R"({"sunder_operations": 1, "operations": [
+      {"op": "sever", "bone": "Trunk3", "at": 0.5}, {"op": "sever", "bone": "Arm"}]})");
+  const CommandResult result = tear({"--ops", log});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, HasSubstr("unknown.json: /operations/1: no bone is named 'Arm'"));
+}
+
+}  // namespace
+}  // namespace sunder::command_test
