@@ -35,13 +35,20 @@ std::string number(const Json& value, int decimals) {
   return text.data();
 }
 
+/// Two spaces per level; levels beyond the last that is indented are counted: "+3 ".
+std::string indentation(std::size_t depth) {
+  constexpr std::size_t kMostLevels = 16;  // So that long chains leave room for the columns.
+  const std::string spaces(2 * std::min(depth, kMostLevels), ' ');
+  return depth <= kMostLevels ? spaces : spaces + "+" + std::to_string(depth - kMostLevels) + " ";
+}
+
 using Row = std::vector<std::string>;
 
 constexpr std::array<const char*, 10> kHeads = {
     "bone", "vertices", "x", "y", "z", "length", "leads to", "x of its surface", "y", "z"};
 
 Row row_of(const Json& bone, const Json& bones, std::size_t depth, int decimals) {
-  Row row = {std::string(2 * depth, ' ') + bone["name"].get<std::string>(),
+  Row row = {indentation(depth) + bone["name"].get<std::string>(),
              std::to_string(bone["vertices"].get<std::size_t>())};
   for (const Json& value : bone["joint"]) row.push_back(number(value, decimals));
   row.push_back(number(bone["length"], decimals));

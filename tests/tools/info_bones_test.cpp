@@ -153,6 +153,17 @@ TEST_F(InfoBones, the_table_has_a_line_per_bone_and_straight_columns) {
   EXPECT_THAT(result.out, HasSubstr("\n        Trunk4"));
 }
 
+TEST_F(InfoBones, a_long_chain_leaves_room_for_the_columns) {
+  const CommandResult result =
+      run_sunder({"info", (test::own_data() / "rigged/many_bones.glb").string(), "--bones"});
+  std::istringstream lines(result.out);
+  std::size_t widest = 0, rows = 0;
+  for (std::string line; std::getline(lines, line); ++rows) widest = std::max(widest, line.size());
+  EXPECT_GT(rows, 100u);
+  EXPECT_LT(widest, 200u);
+  EXPECT_THAT(result.out, HasSubstr(" +1 bone"));
+}
+
 TEST_F(InfoBones, info_without_bones_names_clips_materials_and_the_option) {
   const CommandResult result = run_sunder({"info", model()});
   EXPECT_EQ(result.exit_code, 0);

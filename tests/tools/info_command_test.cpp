@@ -8,7 +8,7 @@ namespace {
 class InfoCommand : public CactusSuite {};
 
 TEST_F(InfoCommand, help_has_an_example_for_each_verb) {
-  for (const char* const verb : {"info", "tear", "transfer", "demo"}) {
+  for (const char* const verb : {"info", "picture", "tear", "transfer", "demo"}) {
     const CommandResult result = run_sunder({verb, "--help"});
     EXPECT_EQ(result.exit_code, 0);
     EXPECT_THAT(result.out, HasSubstr(std::string("Example: sunder ") + verb));

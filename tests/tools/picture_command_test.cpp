@@ -201,6 +201,14 @@ TEST_F(PictureErrors, wrong_options_are_explained) {
   }
 }
 
+TEST_F(PictureErrors, an_input_is_not_overwritten) {
+  const std::vector<std::byte> before = bytes("cactus.glb");
+  const CommandResult result = run_sunder({"picture", model(), "-o", model()});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, HasSubstr("--output"));
+  EXPECT_EQ(bytes("cactus.glb"), before);
+}
+
 TEST_F(PictureErrors, without_a_renderer_the_packages_are_named) {
   const CommandResult result =
       run_sunder({"picture", model(), "-o", path("none.png")}, {{"PATH", "/nonexistent"}});

@@ -1,7 +1,9 @@
 #include "tools/picture/marks.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <utility>
 

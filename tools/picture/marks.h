@@ -1,7 +1,6 @@
 #pragma once
 
-#include <array>
-#include <map>
+#include <cstdint>
 #include <span>
 #include <vector>
 
