@@ -2,6 +2,7 @@
 // Usage: node view_page.mjs place <page.html> <folder>   clips, tools, logs saved into the folder
 //        node view_page.mjs probe <page.html>            every tool at places that the model covers
 //        node view_page.mjs torn <page.html>             a page with a torn model and operations
+//        node view_page.mjs given <page.html>            the poses of all operations that the page was given
 //        node view_page.mjs picture <page.html> <p.png>  draws the demo's cactus with every tool
 //        node view_page.mjs broken <page.html>           a page whose data cannot be read
 import { readdirSync, readFileSync, renameSync } from 'node:fs';
@@ -289,6 +290,17 @@ async function testTorn() {
   facts.pose = await page.evaluate(() => [sunder.player.clip, sunder.player.time, sunder.player.pose]);
 }
 
+async function testGiven() {
+  const page = await openPage(browser, file, facts);
+  facts.positions = [];
+  for (let i = 0; i < await count(page); ++i) {
+    await page.click(`#operations li:nth-child(${i + 1}) .choose`);
+    await settle(page);
+    facts.positions.push(await page.evaluate(() => [...sunder.positions('source')]));
+  }
+  facts.said = await page.$eval('#said', (said) => said.textContent);
+}
+
 async function testBroken() {
   const page = await openPage(browser, file, facts, { ready: '#error:not([hidden])' });
   facts.error = await page.$eval('#error', (error) => error.textContent);
@@ -313,6 +325,6 @@ async function drawPicture() {
   await page.screenshot({ path: folder });
 }
 
-await { place: testPlacing, picture: drawPicture, probe: testProbe, torn: testTorn, broken: testBroken }[mode]();
+await { place: testPlacing, picture: drawPicture, probe: testProbe, torn: testTorn, given: testGiven, broken: testBroken }[mode]();
 await browser.close();
 console.log(JSON.stringify(facts));

@@ -3,6 +3,7 @@
 // poses.
 
 #include <sunder/io/character_file.h>
+#include <sunder/io/operation_log.h>
 #include <sunder/skinning/pose.h>
 
 #include <algorithm>
@@ -379,6 +380,41 @@ TEST_F(ViewPage, shows_lips_and_pieces_of_a_torn_model_and_continues_its_log) {
   const std::string again = write("again.json", facts["text"].get<std::string>());
   ASSERT_EQ(run_sunder({"tear", model(), "--ops", again, "-o", path("again.glb")}).exit_code, 0);
   EXPECT_EQ(bytes("again.glb"), bytes("torn.glb"));
+}
+
+TEST_F(ViewPage, goes_to_every_kind_of_pose_of_a_log) {
+  BonesPose bent;
+  bent.bones.push_back({source().skeleton.bones[2].name, Vec3f(0.1f, 0.5f, 0.0f),
+                        Quatf(0.8f, 0.6f, 0.0f, 0.0f), Vec3f(1.0f, 1.2f, 0.9f)});
+  bent.bones.push_back({source().skeleton.bones[1].name, {}, Quatf(0.6f, 0.0f, 0.0f, 0.8f), {}});
+  const std::vector<PoseSpec> poses = {
+      RestPose{},         BindPose{}, ClipPose{"Sway", 0.7},
+      ClipPose{1u, 0.55}, bent,       *make_pose(source(), ClipPose{"Sway", 1.1})};
+  Bore bore;
+  bore.radius = 0.1;
+  bore.depth = 1.0;
+  std::vector<Operation> operations;
+  for (const PoseSpec& pose : poses) operations.push_back(DrillOperation{pose, bore});
+  operations.push_back(DrillOperation{ClipPose{"No such", 0.0}, bore});
+  ASSERT_TRUE(save_operations(path("given.json"), operations));
+  ASSERT_EQ(run_sunder({"view", model(), "--ops", path("given.json"), "-o", path("given.html")})
+                .exit_code,
+            0);
+  const json facts = used("given", path("given.html"), "");
+  ASSERT_EQ(facts["positions"].size(), operations.size());
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const PosedModel posed(source(), poses[i]);
+    std::size_t at = 0;
+    double worst = 0;
+    for (const auto& positions : posed.positions)
+      for (const Vec3d& position : positions)
+        for (int axis = 0; axis < 3; ++axis)
+          worst =
+              std::max(worst, std::abs(facts["positions"][i][at++].get<double>() - position[axis]));
+    EXPECT_EQ(at, facts["positions"][i].size());
+    EXPECT_LT(worst, 1e-6 * posed.diagonal) << "pose " << i;
+  }
+  EXPECT_THAT(facts["said"].get<std::string>(), HasSubstr("no clip 'No such'"));
 }
 
 TEST_F(ViewPage, says_that_its_data_cannot_be_read) {
