@@ -11,7 +11,7 @@
 #endif
 
 #include "tools/command_line/command_line.h"
-#include "tools/messages.h"
+#include "tools/messages/messages.h"
 
 namespace sunder::tools {
 namespace {

@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "tools/certified_weights.h"
-#include "tools/exit_code.h"
-#include "tools/messages.h"
-#include "tools/refit.h"
-#include "tools/render.h"
+#include "tools/messages/exit_code.h"
+#include "tools/messages/messages.h"
+#include "tools/picture/render.h"
+#include "tools/tear/refit.h"
+#include "tools/written_weights/certified_weights.h"
 
 namespace sunder::tools {
 

@@ -14,7 +14,7 @@
 
 #include "support/random.h"
 #include "support/rigs.h"
-#include "tools/demo_rig.h"
+#include "tools/demo/demo_rig.h"
 
 namespace sunder::test {
 namespace {

@@ -13,7 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "support/temporary_folder.h"
-#include "tools/demo_rig.h"
+#include "tools/demo/demo_rig.h"
 #include "tools/run_command.h"
 
 /// Tests of the built command from the outside.

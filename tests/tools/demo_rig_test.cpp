@@ -1,4 +1,4 @@
-#include "tools/demo_rig.h"
+#include "tools/demo/demo_rig.h"
 
 #include <sunder/tear/topology.h>
 

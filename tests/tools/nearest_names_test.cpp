@@ -1,4 +1,4 @@
-#include "tools/nearest_names.h"
+#include "tools/model/nearest_names.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

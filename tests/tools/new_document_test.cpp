@@ -11,7 +11,7 @@
 
 #include "support/gltf_validator.h"
 #include "support/temporary_folder.h"
-#include "tools/demo_rig.h"
+#include "tools/demo/demo_rig.h"
 
 namespace sunder {
 namespace {

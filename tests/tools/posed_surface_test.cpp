@@ -1,6 +1,6 @@
 // Distances between posed surfaces and strokes, planes and axes, against dense samples.
 
-#include "tools/posed_surface.h"
+#include "tools/model/posed_surface.h"
 
 #include <sunder/skinning/pose.h>
 
@@ -11,8 +11,8 @@
 
 #include <gtest/gtest.h>
 
-#include "tools/demo_rig.h"
-#include "tools/stroke_warnings.h"
+#include "tools/demo/demo_rig.h"
+#include "tools/tear/stroke_warnings.h"
 
 namespace sunder::tools {
 namespace {

@@ -15,7 +15,7 @@
 #include "support/random.h"
 #include "support/random_operations.h"
 #include "support/rigs.h"
-#include "tools/rims.h"
+#include "tools/picture/rims.h"
 #include "tools/view_page/torn_section.h"
 
 namespace sunder::test {

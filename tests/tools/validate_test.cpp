@@ -15,7 +15,7 @@
 
 #include "support/node_program.h"
 #include "support/temporary_folder.h"
-#include "tools/demo_rig.h"
+#include "tools/demo/demo_rig.h"
 #include "tools/run_command.h"
 
 namespace sunder {

@@ -2,7 +2,7 @@
 
 #include <cstdio>
 
-#include "tools/demo_rig.h"
+#include "tools/demo/demo_rig.h"
 
 int main(int argc, char** argv) {
   if (argc != 2) return 2;

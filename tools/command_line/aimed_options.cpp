@@ -2,8 +2,8 @@
 #include <string>
 #include <vector>
 
-#include "tools/aimed_option.h"
 #include "tools/command_line/options.h"
+#include "tools/tear/aimed_option.h"
 
 namespace sunder::tools {
 namespace {

@@ -1,8 +1,8 @@
 #include <string>
 
 #include "tools/command_line/options.h"
-#include "tools/length.h"
-#include "tools/written_influences.h"
+#include "tools/written_weights/length.h"
+#include "tools/written_weights/written_influences.h"
 
 namespace sunder::tools {
 namespace {

@@ -4,8 +4,8 @@
 #include <string>
 #include <string_view>
 
+#include "tools/messages/text_file.h"
 #include "tools/page_parts/base64.h"
-#include "tools/text_file.h"
 
 namespace sunder::tools {
 namespace {

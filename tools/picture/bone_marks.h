@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "tools/bone_extents.h"
+#include "tools/info/bone_extents.h"
 #include "tools/picture/labels.h"
 #include "tools/picture/marks.h"
 

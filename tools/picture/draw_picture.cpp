@@ -8,18 +8,18 @@
 #include <variant>
 #include <vector>
 
-#include "tools/bone_extents.h"
-#include "tools/history.h"
-#include "tools/messages.h"
-#include "tools/named_poses.h"
-#include "tools/nearest_names.h"
-#include "tools/overwriting.h"
+#include "tools/info/bone_extents.h"
+#include "tools/messages/messages.h"
+#include "tools/messages/overwriting.h"
+#include "tools/model/history.h"
+#include "tools/model/named_poses.h"
+#include "tools/model/nearest_names.h"
+#include "tools/model/plain_operations.h"
+#include "tools/model/pose_argument.h"
 #include "tools/picture/bone_marks.h"
 #include "tools/picture/guide_marks.h"
 #include "tools/picture/labels.h"
 #include "tools/picture/operation_marks.h"
-#include "tools/plain_operations.h"
-#include "tools/pose_argument.h"
 #include "tools/verbs.h"
 
 namespace sunder::tools {

@@ -1,8 +1,8 @@
 #pragma once
 
+#include "tools/model/posed_model.h"
 #include "tools/picture/labels.h"
 #include "tools/picture/marks.h"
-#include "tools/posed_model.h"
 
 namespace sunder::tools {
 

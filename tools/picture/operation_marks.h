@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "tools/history.h"
+#include "tools/model/history.h"
+#include "tools/model/posed_model.h"
 #include "tools/picture/marks.h"
-#include "tools/posed_model.h"
 
 namespace sunder::tools {
 

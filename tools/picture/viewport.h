@@ -2,8 +2,8 @@
 
 #include <span>
 
-#include "tools/render.h"
-#include "tools/view.h"
+#include "tools/picture/render.h"
+#include "tools/picture/view.h"
 
 namespace sunder::tools {
 

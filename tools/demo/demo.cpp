@@ -1,0 +1,175 @@
+#include <sunder/io/character_file.h>
+#include <sunder/skinning/pose.h>
+#include <sunder/tear/topology.h>
+
+#include <cstdio>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "tools/demo/demo_pictures.h"
+#include "tools/demo/demo_rig.h"
+#include "tools/demo/demo_stroke.h"
+#include "tools/messages/overwriting.h"
+#include "tools/messages/progress_bar.h"
+#include "tools/messages/text_file.h"
+#include "tools/model/posed_model.h"
+#include "tools/picture/picture.h"
+#include "tools/tear/report.h"
+#include "tools/tear/weight_report.h"
+#include "tools/verbs.h"
+
+namespace sunder::tools {
+namespace {
+
+/// The model and its source; an embedded model has no file to patch on saving.
+struct DemoModel {
+  LoadedCharacter loaded;
+  bool is_embedded = false;
+};
+
+Result<DemoModel> get_model(const DemoRequest& request) {
+  if (request.model) {
+    Result<LoadedCharacter> loaded = load_character(*request.model);
+    if (!loaded) return loaded.error();
+    return DemoModel{*loaded, false};
+  }
+  LoadedCharacter embedded;
+  embedded.character = std::make_shared<const Character>(make_cactus());
+  embedded.report.format = "embedded";
+  embedded.report.space = "metres, y up";
+  return DemoModel{embedded, true};
+}
+
+Status save(const std::filesystem::path& file, const Character& character, const DemoModel& model) {
+  return model.is_embedded ? save_glb(file, character) : save_glb(file, character, model.loaded);
+}
+
+/// The tear as an operation log, to repeat it with `sunder tear`.
+Json operations_json(const Character& character, const Stroke& stroke) {
+  Json blades = Json::array();
+  for (const Blade& blade : stroke)
+    blades.push_back({{"base", vector_json(blade.base)}, {"tip", vector_json(blade.tip)}});
+  Json pose = "rest";
+  if (!character.clips.empty())
+    pose = {{"clip", 0},
+            {"time", kTearFraction * static_cast<double>(character.clips[0].duration)}};
+  Json operation = {{"op", "tear"},
+                    {"pose", std::move(pose)},
+                    {"width", 0.0},
+                    {"layers", "nearest"},
+                    {"stroke", std::move(blades)}};
+  return {{"sunder_operations", 1}, {"operations", Json::array({std::move(operation)})}};
+}
+
+struct TornDemo {
+  DemoTear tear;
+  OperationOutcome outcome;
+};
+
+Result<TornDemo> tear_mid_clip(const std::shared_ptr<const Character>& character) {
+  const Result<ModelPose> pose = make_pose(*character, pose_at(*character, kTearFraction));
+  if (!pose) return pose.error();
+  const Result<std::vector<DeformedMesh>> posed = pose_model(*character, *pose);
+  if (!posed) return posed.error();
+  const Bounds bounds = bounds_of(*character, *posed);
+  const ViewFrame frame = choose_view(bounds);
+  const TearOperation tear{*pose, choose_stroke(*character, *posed, frame), {}, {}};
+  if (tear.stroke.empty())
+    return Status::failure(StatusCode::empty_input, kNone,
+                           "no visible surface is large enough for a stroke");
+
+  Result<TornModel> model = TornModel::create(character);
+  if (!model) return model.error();
+  const Result<TopologyCounts> before = count_topology(*character);
+  if (!before) return before.error();
+  Result<OperationOutcome> outcome = play(tear, *model);
+  if (!outcome) return outcome.error();
+  if (const Status status = measure_weight_error(tear, *model, *outcome); !status) return status;
+  const Result<TopologyCounts> after = count_topology(model->character());
+  if (!after) return after.error();
+  outcome->topology = TopologyChange{*before, *after};
+  return TornDemo{DemoTear{character, std::move(*model), tear, frame, bounds}, *outcome};
+}
+
+/// Writes the models, the report and the operation log.
+/// @return ok, or the exit code of the failure, which was reported.
+ExitCode write_results(const DemoRequest& request, const std::string& place, const DemoModel& model,
+                       TornDemo& demo) {
+  const Character& character = *model.loaded.character;
+  const std::filesystem::path output = request.folder / "torn.glb";
+  const std::filesystem::path cactus = request.folder / "cactus.glb";
+  if (model.is_embedded)
+    if (const Status status = save(cactus, character, model); !status)
+      return complain(cactus.string(), status, ExitCode::internal_error);
+  if (const Status status = save(output, demo.tear.model.character(), model); !status)
+    return complain(output.string(), status, ExitCode::internal_error);
+  const Result<Json> weight_errors = weight_errors_by_policy_json(
+      demo.tear.model, model.loaded.character, pose_at(character, kTearFraction));
+  if (!weight_errors) return complain(place, weight_errors.error(), ExitCode::internal_error);
+  const Json report = {
+      {"sunder_report", 1},
+      {"model", place},
+      {"output", output.string()},
+      {"loading", to_json(model.loaded.report)},
+      {"operations", Json::array({to_json(demo.outcome, demo.tear.model.character())})},
+      {"weight_errors", *weight_errors},
+      {"result",
+       result_json(demo.tear.model, demo.outcome.topology->before, demo.outcome.topology->after)}};
+  const std::pair<const char*, Json> texts[] = {
+      {"report.json", report},
+      {"ops.json", operations_json(character, demo.tear.operation.stroke)}};
+  for (const auto& [name, json] : texts)
+    if (const Status status = write_text(request.folder / name, dump(json)); !status)
+      return complain((request.folder / name).string(), status, ExitCode::unreadable_input);
+  return ExitCode::ok;
+}
+
+}  // namespace
+
+ExitCode run_demo(const DemoRequest& request) {
+  const std::string place = request.model ? request.model->string() : "embedded cactus";
+  if (request.model) {
+    const std::string fault =
+        overwriting({{"MODEL", *request.model}}, {{"--output", request.folder / "torn.glb"}});
+    if (!fault.empty()) {
+      print_error("sunder: " + fault);
+      return ExitCode::usage;
+    }
+  }
+  ProgressBar progress(2 + kDemoPictures);
+  progress.begin_step(0, "reading");
+  const Result<DemoModel> model = get_model(request);
+  if (!model) return complain(place, model.error(), ExitCode::unreadable_input);
+
+  std::error_code error;
+  std::filesystem::create_directories(request.folder, error);
+  if (error) {
+    std::fprintf(stderr, "sunder: %s: cannot create this folder: %s\n", request.folder.c_str(),
+                 error.message().c_str());
+    return ExitCode::unreadable_input;
+  }
+
+  progress.begin_step(1, "tearing");
+  Result<TornDemo> demo = tear_mid_clip(model->loaded.character);
+  if (!demo) return complain(place, demo.error(), ExitCode::unreadable_input);
+  if (const ExitCode code = write_results(request, place, *model, *demo); code != ExitCode::ok)
+    return code;
+  if (demo->outcome.has_missed) {
+    std::fprintf(stderr, "sunder: %s: the stroke met no surface\n", place.c_str());
+    return ExitCode::findings;
+  }
+
+  if (!can_draw()) {
+    std::fprintf(stderr, "sunder: no pictures: %s\n", kNoRenderer);
+    return ExitCode::findings;
+  }
+  if (const Status status = draw_demo(demo->tear, request.folder, 2, progress); !status) {
+    (void)complain(request.folder.string() + ": pictures", status, ExitCode::findings);
+    return ExitCode::findings;
+  }
+  return ExitCode::ok;
+}
+
+}  // namespace sunder::tools

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <sunder/operation/operation.h>
+#include <sunder/tear/torn_model.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "tools/messages/progress_bar.h"
+#include "tools/model/posed_model.h"
+#include "tools/picture/view.h"
+
+namespace sunder::tools {
+
+constexpr double kTearFraction = 0.40;    ///< Time of the tear, as a fraction of the first clip.
+constexpr std::size_t kDemoPictures = 4;  ///< Number of pictures.
+
+/// The pose of a character at a fraction of its first clip; the rest pose if it has none.
+[[nodiscard]] PoseSpec pose_at(const Character& character, double fraction);
+
+/// The model and the tear of the demo, and the view.
+struct DemoTear {
+  std::shared_ptr<const Character> source;
+  TornModel model;
+  TearOperation operation;
+  ViewFrame frame;
+  Bounds bounds;  ///< At the moment of the tear.
+};
+
+/// Draws the moment before the tear, the tear, and two later moments of the clip. Lips open like
+/// those of soft tissue.
+/// @param progress  begins one step per picture, from `first_step` on.
+[[nodiscard]] Status draw_demo(const DemoTear& tear, const std::filesystem::path& folder,
+                               std::size_t first_step, ProgressBar& progress);
+
+}  // namespace sunder::tools

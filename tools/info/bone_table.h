@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tools/info/bone_extents.h"
+#include "tools/tear/report.h"
+
+namespace sunder::tools {
+
+/// One object per bone of the skeleton, in its order.
+[[nodiscard]] Json bone_tree_json(const Skeleton& skeleton, const std::vector<BoneExtent>& extents);
+
+/// The member "bone_tree" of an info as a table: parents before children, which are indented.
+[[nodiscard]] std::string bone_tree_text(const Json& info);
+
+}  // namespace sunder::tools

@@ -1,0 +1,215 @@
+#include <sunder/io/character_file.h>
+#include <sunder/skinning/pose.h>
+#include <sunder/tear/topology.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <map>
+#include <string>
+#include <utility>
+
+#include "tools/info/bone_extents.h"
+#include "tools/info/bone_table.h"
+#include "tools/messages/messages.h"
+#include "tools/model/model_check.h"
+#include "tools/model/pose_argument.h"
+#include "tools/model/posed_model.h"
+#include "tools/tear/report.h"
+#include "tools/value_of.h"
+#include "tools/verbs.h"
+
+namespace sunder::tools {
+namespace {
+
+/// The number of surface points of one mesh.
+std::uint32_t point_count(const Character& character, const Mesh& mesh) {
+  Character alone;
+  alone.skeleton = character.skeleton;
+  alone.skins = character.skins;
+  alone.rest_morph_weights = character.rest_morph_weights;
+  alone.meshes = {mesh};
+  return value_of(count_topology(alone)).points;
+}
+
+Json mesh_json(const Character& character, const Mesh& mesh) {
+  const ModelCheck check = check_mesh(mesh);
+  std::vector<std::uint32_t> triangles_of(mesh.submeshes.size(), 0);
+  for (const std::uint32_t submesh : mesh.triangle_submesh) ++triangles_of[submesh];
+  Json submeshes = Json::array();
+  for (std::size_t i = 0; i < mesh.submeshes.size(); ++i)
+    submeshes.push_back({{"name", mesh.submeshes[i].name}, {"triangles", triangles_of[i]}});
+  Json targets = Json::array(), attributes = Json::array();
+  for (const MorphTarget& target : mesh.morph_targets) targets.push_back(target.name);
+  for (const CustomAttribute& attribute : mesh.custom_attributes)
+    attributes.push_back(attribute.name);
+  return {{"name", mesh.name},
+          {"vertices", mesh.vertex_count()},
+          {"points", point_count(character, mesh)},
+          {"triangles", mesh.triangle_count()},
+          {"submeshes", std::move(submeshes)},
+          {"skin", mesh.skin},
+          {"influences_max", check.most_influences},
+          {"weight_sum_min", check.least_weight_sum},
+          {"weight_sum_max", check.greatest_weight_sum},
+          {"normals", !mesh.normals.empty()},
+          {"tangents", !mesh.tangents.empty()},
+          {"uv_sets", mesh.uv_sets.size()},
+          {"color_sets", mesh.color_sets.size()},
+          {"morph_targets", std::move(targets)},
+          {"custom_attributes", std::move(attributes)}};
+}
+
+/// The materials that submeshes name, in the order of first use.
+Json materials_json(const Character& character) {
+  Json materials = Json::array();
+  std::map<std::pair<std::uint32_t, std::string>, std::size_t> known;
+  for (const Mesh& mesh : character.meshes)
+    for (const std::uint32_t submesh : mesh.triangle_submesh) {
+      const Submesh& of = mesh.submeshes[submesh];
+      // Submeshes of one material may have names of their own.
+      const auto [entry, is_new] = known.try_emplace(
+          {of.material, of.material == kNone ? of.name : std::string()}, materials.size());
+      if (is_new)
+        materials.push_back({{"name", of.name},
+                             {"index", of.material == kNone ? Json() : Json(of.material)},
+                             {"triangles", 0}});
+      Json& triangles = materials[entry->second]["triangles"];
+      triangles = triangles.get<std::size_t>() + 1;
+    }
+  return materials;
+}
+
+struct PosedInfo {
+  PoseArgument pose;
+  ModelPose model_pose;
+  std::vector<DeformedMesh> meshes;
+};
+
+Json info_json(const InfoRequest& request, const LoadedCharacter& loaded, const PosedInfo& posed) {
+  const Character& character = *loaded.character;
+  const Bounds bounds = bounds_of(character, posed.meshes);
+  Json info = {{"sunder_info", 1}, {"model", request.model.string()}};
+  info.update(to_json(loaded.report));
+  info["pose"] = posed.pose.name;
+  info["bounds"] = {{"min", vector_json(bounds.least)}, {"max", vector_json(bounds.greatest)}};
+  info["meshes"] = Json::array();
+  for (const Mesh& mesh : character.meshes) info["meshes"].push_back(mesh_json(character, mesh));
+  info["materials"] = materials_json(character);
+  info["bones"] = Json::array();
+  for (const Bone& bone : character.skeleton.bones) info["bones"].push_back(bone.name);
+  if (request.with_bones)
+    info["bone_tree"] = bone_tree_json(character.skeleton,
+                                       measure_bones(character, posed.model_pose, posed.meshes));
+  info["skins"] = Json::array();
+  for (const Skin& skin : character.skins)
+    info["skins"].push_back({{"name", skin.name}, {"bones", skin.bones.size()}});
+  info["clips"] = Json::array();
+  for (const Clip& clip : character.clips)
+    info["clips"].push_back({{"name", clip.name},
+                             {"duration", static_cast<double>(clip.duration)},
+                             {"channels", clip.channels.size()}});
+  const ModelCheck check = check_model(character);
+  info["weight_sum_min"] = check.least_weight_sum;
+  info["weight_sum_max"] = check.greatest_weight_sum;
+  info["topology"] = to_json(value_of(count_topology(character)));
+  return info;
+}
+
+std::string text(const Json& value) { return value.get<std::string>(); }
+double number(const Json& value) { return value.get<double>(); }
+std::size_t count(const Json& value) { return value.get<std::size_t>(); }
+
+void print_meshes(const Json& meshes) {
+  for (std::size_t i = 0; i < meshes.size(); ++i) {
+    const Json& mesh = meshes[i];
+    std::printf(
+        "mesh %zu     '%s': %zu vertices, %zu points, %zu triangles, %zu submeshes, skin %zu, up "
+        "to %zu influences\n",
+        i, text(mesh["name"]).c_str(), count(mesh["vertices"]), count(mesh["points"]),
+        count(mesh["triangles"]), mesh["submeshes"].size(), count(mesh["skin"]),
+        count(mesh["influences_max"]));
+    std::printf("           %s, %s, %zu UV sets, %zu colour sets, %zu morph targets\n",
+                mesh["normals"].get<bool>() ? "normals" : "no normals",
+                mesh["tangents"].get<bool>() ? "tangents" : "no tangents", count(mesh["uv_sets"]),
+                count(mesh["color_sets"]), mesh["morph_targets"].size());
+    std::string names;
+    for (const Json& target : mesh["morph_targets"])
+      names += (names.empty() ? "'" : ", '") + text(target) + "'";
+    if (!names.empty()) std::printf("  morphs   %s\n", names.c_str());
+  }
+}
+
+void print_materials_and_clips(const Json& info) {
+  for (std::size_t i = 0; i < info["materials"].size(); ++i)
+    std::printf("material %zu '%s': %zu triangles\n", i, text(info["materials"][i]["name"]).c_str(),
+                count(info["materials"][i]["triangles"]));
+  for (std::size_t i = 0; i < info["clips"].size(); ++i)
+    std::printf("clip %zu     '%s': %.4g s, %zu channels\n", i,
+                text(info["clips"][i]["name"]).c_str(), number(info["clips"][i]["duration"]),
+                count(info["clips"][i]["channels"]));
+}
+
+/// Prints the same as text.
+void print_info(const Json& info) {
+  std::printf("%s: %s\n", text(info["model"]).c_str(), text(info["format"]).c_str());
+  std::printf("space      %s\n", text(info["space"]).c_str());
+  const Json &least = info["bounds"]["min"], &greatest = info["bounds"]["max"];
+  std::printf("bounds     (%.5g, %.5g, %.5g) to (%.5g, %.5g, %.5g), in pose %s\n", number(least[0]),
+              number(least[1]), number(least[2]), number(greatest[0]), number(greatest[1]),
+              number(greatest[2]), text(info["pose"]).c_str());
+  std::printf(
+      "bones      %zu%s\n", info["bones"].size(),
+      info.contains("bone_tree") ? "" : "; --bones lists them with their places and surfaces");
+  for (std::size_t i = 0; i < info["skins"].size(); ++i)
+    std::printf("skin %zu     '%s': %zu bones\n", i, text(info["skins"][i]["name"]).c_str(),
+                count(info["skins"][i]["bones"]));
+  print_meshes(info["meshes"]);
+  print_materials_and_clips(info);
+  std::printf("weights    sums from %.9g to %.9g\n", number(info["weight_sum_min"]),
+              number(info["weight_sum_max"]));
+  const Json& topology = info["topology"];
+  std::printf("topology   %zu points, %zu edges, %zu triangles, %zu components\n",
+              count(topology["points"]), count(topology["edges"]), count(topology["triangles"]),
+              count(topology["components"]));
+  std::printf(
+      "           %zu boundary loops (%zu edges), %zu non-manifold edges, %zu degenerate "
+      "triangles\n",
+      count(topology["boundary_loops"]), count(topology["boundary_edges"]),
+      count(topology["non_manifold_edges"]), count(topology["degenerate_triangles"]));
+  for (const Json& note : info["notes"])
+    std::printf("%-10s %s: %s (%zu)\n", text(note["kind"]).c_str(), text(note["place"]).c_str(),
+                text(note["text"]).c_str(), count(note["count"]));
+  if (info.contains("bone_tree")) std::fputs(bone_tree_text(info).c_str(), stdout);
+}
+
+}  // namespace
+
+ExitCode run_info(const InfoRequest& request) {
+  const Result<LoadedCharacter> loaded = load_character(request.model);
+  if (!loaded) return complain(request.model.string(), loaded.error(), ExitCode::unreadable_input);
+  const Character& character = *loaded->character;
+  Result<PoseArgument> argument = parse_pose(request.pose, character);
+  if (!argument)
+    return complain(request.model.string() + ": --pose", argument.error(), ExitCode::usage,
+                    advice_on_pose(request.pose, character));
+  if (!argument->remark.empty()) Messages(Verbosity::normal).warn("--pose: " + argument->remark);
+  Result<ModelPose> pose = make_pose(character, argument->spec);
+  if (!pose) return complain(request.model.string(), pose.error(), ExitCode::internal_error);
+  Result<std::vector<DeformedMesh>> posed = pose_model(character, *pose);
+  if (!posed) return complain(request.model.string(), posed.error(), ExitCode::internal_error);
+
+  const Json info =
+      info_json(request, *loaded, {std::move(*argument), std::move(*pose), std::move(*posed)});
+  if (request.as_json)
+    std::fputs(dump(info).c_str(), stdout);
+  else
+    print_info(info);
+
+  const auto& notes = loaded->report.notes;
+  const bool was_changed = std::any_of(notes.begin(), notes.end(), [](const LoadNote& note) {
+    return note.kind != LoadNote::Kind::information;
+  });
+  return was_changed ? ExitCode::findings : ExitCode::ok;
+}
+
+}  // namespace sunder::tools

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <filesystem>
+
+#include "tools/tear/report.h"
+
+namespace sunder::tools {
+
+/// Reads a file that holds one JSON object.
+/// @return file_unreadable, or malformed_file for other content.
+[[nodiscard]] Result<Json> read_json_object(const std::filesystem::path& file);
+
+}  // namespace sunder::tools

@@ -1,0 +1,44 @@
+#include "tools/messages/messages.h"
+
+#include <cstdio>
+#include <cstdlib>
+#include <unistd.h>
+
+#include "tools/messages/progress_bar.h"
+
+namespace sunder::tools {
+namespace {
+
+constexpr const char kRed[] = "\x1b[31m";
+constexpr const char kYellow[] = "\x1b[33m";
+
+void print(const std::string& text, const char* colour) {
+  erase_progress_bar();
+  if (colour != nullptr && errors_are_in_colour())
+    std::fprintf(stderr, "%s%s\x1b[0m\n", colour, text.c_str());
+  else
+    std::fprintf(stderr, "%s\n", text.c_str());
+}
+
+}  // namespace
+
+bool errors_are_in_colour() {
+  const char* const no_color = std::getenv("NO_COLOR");
+  return (no_color == nullptr || *no_color == '\0') && isatty(STDERR_FILENO) == 1;
+}
+
+void print_error(const std::string& text) { print(text, kRed); }
+
+void Messages::say(const std::string& line) const {
+  if (!is_quiet()) print("sunder: " + line, nullptr);
+}
+
+void Messages::warn(const std::string& line) const {
+  if (!is_quiet()) print("sunder: warning: " + line, kYellow);
+}
+
+void Messages::detail(const std::string& line) const {
+  if (is_verbose()) print("sunder: " + line, nullptr);
+}
+
+}  // namespace sunder::tools

@@ -1,0 +1,52 @@
+#include "tools/model/plain_operations.h"
+
+#include <sunder/aim/aim.h>
+#include <sunder/io/operation_log.h>
+#include <sunder/tear/torn_model.h>
+
+#include <algorithm>
+#include <utility>
+#include <variant>
+
+namespace sunder::tools {
+namespace {
+
+Status at_operation(std::size_t number, const Status& status) {
+  return Status::failure(status.code(), static_cast<std::uint32_t>(number), "/operations/%zu: %s",
+                         number, std::string(status.text()).c_str());
+}
+
+}  // namespace
+
+Result<std::vector<Operation>> load_plain_operations(
+    const std::filesystem::path& file, const std::shared_ptr<const Character>& character) {
+  auto logged = load_aimed_operations(file);
+  if (!logged) return logged.error();
+  const auto last_aimed = std::find_if(
+      logged->rbegin(), logged->rend(),
+      [](const LoggedOperation& of) { return std::holds_alternative<AimedOperation>(of); });
+  const auto to_apply = static_cast<std::size_t>(logged->rend() - last_aimed);
+  std::vector<Operation> plain;
+  if (to_apply == 0) {
+    for (LoggedOperation& of : *logged) plain.push_back(std::move(std::get<Operation>(of)));
+    return plain;
+  }
+  auto model = TornModel::create(character);
+  if (!model) return model.error();
+  for (std::size_t i = 0; i < logged->size(); ++i) {
+    LoggedOperation& of = (*logged)[i];
+    if (const auto* const aimed = std::get_if<AimedOperation>(&of)) {
+      auto resolved = resolve(*model, *aimed);
+      if (!resolved) return at_operation(i, resolved.error());
+      plain.push_back(std::move(*resolved));
+    } else {
+      plain.push_back(std::move(std::get<Operation>(of)));
+    }
+    if (i + 1 >= to_apply) continue;  // nothing is aimed at what this one leaves
+    if (const auto applied = apply_operation(*model, plain.back()); !applied)
+      return at_operation(i, applied.error());
+  }
+  return plain;
+}
+
+}  // namespace sunder::tools

@@ -1,0 +1,65 @@
+#include "tools/model/posed_model.h"
+
+#include <sunder/skinning/deform.h>
+
+namespace sunder::tools {
+namespace {
+
+void make_normals(const Mesh& mesh, DeformedMesh& posed) {
+  posed.normals.assign(posed.positions.size(), Vec3f::Zero());
+  for (const Triangle& triangle : mesh.triangles) {
+    const Vec3f& a = posed.positions[triangle[0]];
+    const Vec3f doubled_area =
+        (posed.positions[triangle[1]] - a).cross(posed.positions[triangle[2]] - a);
+    for (const std::uint32_t vertex : triangle) posed.normals[vertex] += doubled_area;
+  }
+  for (Vec3f& normal : posed.normals)
+    normal = normal.norm() > 0.0f ? normal.normalized() : Vec3f::UnitY();
+}
+
+/// Whether more than a twentieth of the triangles have normals that contradict their winding.
+bool has_wrong_normals(const Mesh& mesh, const DeformedMesh& posed) {
+  std::size_t wrong = 0;
+  for (const Triangle& triangle : mesh.triangles) {
+    const Vec3f& a = posed.positions[triangle[0]];
+    const Vec3f by_winding =
+        (posed.positions[triangle[1]] - a).cross(posed.positions[triangle[2]] - a);
+    const Vec3f by_normals =
+        posed.normals[triangle[0]] + posed.normals[triangle[1]] + posed.normals[triangle[2]];
+    if (by_winding.dot(by_normals) < 0.0f) ++wrong;
+  }
+  return 20 * wrong > mesh.triangles.size();
+}
+
+}  // namespace
+
+Result<std::vector<DeformedMesh>> pose_model(const Character& character, const ModelPose& pose) {
+  std::vector<DeformedMesh> posed(character.meshes.size());
+  std::vector<Affine3f> palette;
+  for (std::size_t i = 0; i < posed.size(); ++i) {
+    const Skin& skin = character.skins[character.meshes[i].skin];
+    palette.resize(skin.bones.size());
+    if (const Status status = compute_palette(skin, pose, palette); !status) return status;
+    if (const Status status =
+            deform_mesh(character.meshes[i], palette, pose.morph_weights, posed[i]);
+        !status)
+      return status;
+    if (posed[i].normals.empty() || has_wrong_normals(character.meshes[i], posed[i]))
+      make_normals(character.meshes[i], posed[i]);
+  }
+  return posed;
+}
+
+Bounds bounds_of(const Character& character, const std::vector<DeformedMesh>& posed) {
+  Bounds bounds;
+  for (std::size_t i = 0; i < posed.size(); ++i)
+    for (const Triangle& triangle : character.meshes[i].triangles)
+      for (const std::uint32_t vertex : triangle) {
+        const Vec3d position = posed[i].positions[vertex].cast<double>();
+        bounds.least = bounds.least.cwiseMin(position);
+        bounds.greatest = bounds.greatest.cwiseMax(position);
+      }
+  return bounds;
+}
+
+}  // namespace sunder::tools

@@ -1,0 +1,179 @@
+#include "tools/model/posed_surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+namespace sunder::tools {
+namespace {
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+
+Bounds bounds_of(const Corners& corners) {
+  Bounds bounds;
+  for (const Vec3d& corner : corners) {
+    bounds.least = bounds.least.cwiseMin(corner);
+    bounds.greatest = bounds.greatest.cwiseMax(corner);
+  }
+  return bounds;
+}
+
+void extend(Bounds& bounds, const Bounds& other) {
+  bounds.least = bounds.least.cwiseMin(other.least);
+  bounds.greatest = bounds.greatest.cwiseMax(other.greatest);
+}
+
+/// A lower bound of the distance between what two boxes hold.
+double distance_between(const Bounds& a, const Bounds& b) {
+  const Vec3d gap = (a.least - b.greatest).cwiseMax(b.least - a.greatest).cwiseMax(Vec3d::Zero());
+  return gap.norm();
+}
+
+/// Ericson, Real-Time Collision Detection, section 5.1.9.
+double segment_distance(const Vec3d& p, const Vec3d& q, const Vec3d& r, const Vec3d& s) {
+  const Vec3d along = q - p, across = s - r, between = p - r;
+  const double a = along.dot(along), e = across.dot(across), f = across.dot(between);
+  const double b = along.dot(across), c = along.dot(between);
+  const double denominator = a * e - b * b;
+  double at = denominator > 1e-14 * a * e ? std::clamp((b * f - c * e) / denominator, 0.0, 1.0) : 0;
+  double other = e > 0 ? (b * at + f) / e : 0.0;
+  if (e == 0 || other < 0 || other > 1) {
+    other = std::clamp(other, 0.0, 1.0);
+    at = a > 0 ? std::clamp((b * other - c) / a, 0.0, 1.0) : 0.0;
+  }
+  return (p + at * along - r - other * across).norm();
+}
+
+/// The distance of a point from the inside of a triangle; infinite if it does not stand above it.
+double height_above(const Corners& triangle, const Vec3d& point) {
+  const Vec3d ab = triangle[1] - triangle[0], ac = triangle[2] - triangle[0];
+  const Vec3d normal = ab.cross(ac), from = point - triangle[0];
+  const double squared = normal.squaredNorm();
+  if (!(squared > 0)) return kInfinite;
+  const double v = from.cross(ac).dot(normal) / squared, w = ab.cross(from).dot(normal) / squared;
+  if (v < 0 || w < 0 || v + w > 1) return kInfinite;
+  return std::abs(from.dot(normal)) / std::sqrt(squared);
+}
+
+/// Where a line meets the inside of a triangle: the multiple of `direction`.
+std::optional<double> hit(const Corners& triangle, const Vec3d& origin, const Vec3d& direction) {
+  const Vec3d ab = triangle[1] - triangle[0], ac = triangle[2] - triangle[0];
+  const Vec3d p = direction.cross(ac);
+  const double determinant = ab.dot(p);
+  if (determinant == 0) return {};
+  const Vec3d from = origin - triangle[0];
+  const double u = from.dot(p) / determinant;
+  const Vec3d q = from.cross(ab);
+  const double v = direction.dot(q) / determinant;
+  if (u < 0 || v < 0 || u + v > 1) return {};
+  return ac.dot(q) / determinant;
+}
+
+bool pierces(const Corners& edges_of, const Corners& triangle) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec3d along = edges_of[(i + 1) % 3] - edges_of[i];
+    const std::optional<double> at = hit(triangle, edges_of[i], along);
+    if (at && *at >= 0 && *at <= 1) return true;
+  }
+  return false;
+}
+
+/// The distance between a shape and one run of a surface, if that is below `least`.
+double distance_within(const PosedSurface& surface, std::size_t run, const Corners& part,
+                       double least) {
+  const Bounds box = bounds_of(part);
+  const std::size_t begin = run * PosedSurface::kRun,
+                    end = std::min(begin + PosedSurface::kRun, surface.triangles.size());
+  for (std::size_t i = begin; i < end; ++i) {
+    const Corners& triangle = surface.triangles[i];
+    if (distance_between(box, bounds_of(triangle)) < least)
+      least = std::min(least, tools::distance_between(part, triangle));
+  }
+  return least;
+}
+
+/// The solid angle of a triangle, divided by 4 pi; van Oosterom and Strackee 1983.
+double winding_of(const Corners& triangle, const Vec3d& point) {
+  const Vec3d a = triangle[0] - point, b = triangle[1] - point, c = triangle[2] - point;
+  const double x = a.norm(), y = b.norm(), z = c.norm();
+  const double below = x * y * z + a.dot(b) * z + b.dot(c) * x + c.dot(a) * y;
+  return std::atan2(a.dot(b.cross(c)), below) / (2.0 * std::numbers::pi);
+}
+
+}  // namespace
+
+Result<PosedSurface> pose_surface(const Character& character, const ModelPose& pose) {
+  PosedSurface surface;
+  std::vector<Affine3f> palette;
+  DeformedMesh posed;
+  for (const Mesh& mesh : character.meshes) {
+    const Skin& skin = character.skins[mesh.skin];
+    palette.resize(skin.bones.size());
+    if (const Status status = compute_palette(skin, pose, palette); !status) return status;
+    if (const Status status = deform_mesh(mesh, palette, pose.morph_weights, posed); !status)
+      return status;
+    for (const Triangle& triangle : mesh.triangles) {
+      if (is_retired(triangle)) continue;
+      Corners corners;
+      for (std::size_t i = 0; i < 3; ++i) corners[i] = posed.positions[triangle[i]].cast<double>();
+      if (surface.triangles.size() % PosedSurface::kRun == 0) surface.run_bounds.emplace_back();
+      surface.triangles.push_back(corners);
+      extend(surface.run_bounds.back(), bounds_of(corners));
+    }
+  }
+  for (const Bounds& bounds : surface.run_bounds) extend(surface.bounds, bounds);
+  return surface;
+}
+
+double distance_between(const Corners& a, const Corners& b) {
+  if (pierces(a, b) || pierces(b, a)) return 0.0;
+  double least = kInfinite;
+  for (std::size_t i = 0; i < 3; ++i) {
+    least = std::min({least, height_above(a, b[i]), height_above(b, a[i])});
+    for (std::size_t j = 0; j < 3; ++j)
+      least = std::min(least, segment_distance(a[i], a[(i + 1) % 3], b[j], b[(j + 1) % 3]));
+  }
+  return least;
+}
+
+double distance_between(const PosedSurface& surface, std::span<const Corners> shape,
+                        double enough) {
+  double least = kInfinite;
+  std::vector<std::pair<double, std::size_t>> runs;  // by lower bounds of their distances
+  for (const Corners& part : shape) {
+    const Bounds box = bounds_of(part);
+    runs.clear();
+    for (std::size_t i = 0; i < surface.run_bounds.size(); ++i) {
+      const double bound = distance_between(box, surface.run_bounds[i]);
+      if (bound < least) runs.emplace_back(bound, i);
+    }
+    std::ranges::sort(runs);
+    for (const auto& [bound, run] : runs) {
+      if (bound >= least) break;
+      least = std::min(least, distance_within(surface, run, part, least));
+      if (least <= enough) return least;
+    }
+  }
+  return least;
+}
+
+std::optional<double> first_hit(const PosedSurface& surface, const Vec3d& origin,
+                                const Vec3d& direction, double after) {
+  std::optional<double> first;
+  for (const Corners& triangle : surface.triangles) {
+    const std::optional<double> at = hit(triangle, origin, direction);
+    if (at && *at > after && (!first || *at < *first)) first = at;
+  }
+  return first;
+}
+
+bool is_inside(const PosedSurface& surface, const Vec3d& point) {
+  if (!surface.bounds.contains(point)) return false;
+  double winding = 0;
+  for (const Corners& triangle : surface.triangles) winding += winding_of(triangle, point);
+  return winding > 0.5;
+}
+
+}  // namespace sunder::tools

@@ -1,0 +1,186 @@
+#include "tools/picture/soft_scene.h"
+
+#include <sunder/skinning/deform.h>
+#include <sunder/skinning/pose.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <numbers>
+#include <utility>
+
+#include "tools/demo/demo_rig.h"
+#include "tools/picture/rims.h"
+
+namespace sunder::tools {
+namespace {
+
+constexpr int kWidth = 480, kHeight = 360;
+constexpr double kStep = 1.0 / 60;
+constexpr int kMostSteps = 600;
+constexpr double kClipFraction = 0.40;
+constexpr double kThickness = 0.006;  ///< Thickness of the flesh, as a fraction of the diagonal.
+const Vec4f kSurface(1.0f, 0.98f, 0.94f,
+                     1.0f);  // Linear RGBA, as in the pictures of docs/tear.md.
+
+void check(const Status& status) {
+  if (status) return;
+  std::fprintf(stderr, "soft_pictures: %s\n", status.text().data());
+  std::exit(1);
+}
+
+template <class T>
+T check(Result<T> result) {
+  if (!result) check(result.error());
+  return std::move(*result);
+}
+
+CharacterInstanceOptions soft_options(const std::vector<SoftMaterial>& materials, double range) {
+  CharacterInstanceOptions options;
+  options.unit_length = true;
+  options.soft.emplace();
+  options.soft->materials = materials;
+  options.soft->decomposition.range = range;
+  return options;
+}
+
+/// Successive particles get colours that differ much.
+Vec4f color_of(std::uint32_t particle) {
+  const double hue = std::fmod(0.618033988749895 * particle, 1.0);
+  Vec4f color = Vec4f::Ones();
+  for (int i = 0; i < 3; ++i) {
+    const double wave = 0.5 + 0.5 * std::cos(2 * std::numbers::pi * (hue - i / 3.0));
+    color[i] = static_cast<float>(0.06 + 0.94 * wave);
+  }
+  return color;
+}
+
+}  // namespace
+
+SoftScene::SoftScene(const std::vector<SoftMaterial>& materials, double range)
+    : source(std::make_shared<const Character>(make_cactus())),
+      instance(check(CharacterInstance::create(source, soft_options(materials, range)))),
+      rest(check(bind_pose(*source))),
+      pose(check(make_pose(
+          *source, ClipPose{std::uint32_t{0},
+                            kClipFraction * static_cast<double>(source->clips[0].duration)}))),
+      diagonal_(bounds_of(*source, check(pose_model(*source, rest))).size().norm()) {
+  check(instance.advance(pose, 0));
+}
+
+void SoftScene::tear(const std::vector<Vec2d>& path) {
+  Stroke stroke;
+  for (const Vec2d& at : path) stroke.push_back({{at.x(), at.y(), 1.0}, {at.x(), at.y(), -0.05}});
+  ChangeRecord change;
+  (void)check(instance.tear(rest, stroke, {}, &change));
+  check(instance.advance(pose, 0));
+  changes.push_back(std::move(change));
+}
+
+Result<ForceTearingReport> SoftScene::tear_overstretched() {
+  Result<ForceTearingReport> report = instance.tear_overstretched();
+  check(instance.advance(pose, 0));
+  return report;
+}
+
+void SoftScene::step() { check(instance.advance(pose, kStep)); }
+
+int SoftScene::step_until_still() {
+  int steps = 0;
+  do step();
+  while (++steps < kMostSteps && body().awake_count() > 0);
+  return steps;
+}
+
+std::uint32_t SoftScene::point_at(const Vec3d& rest_place) const {
+  const std::span<const Vec3f> at = particles().positions();
+  const auto farther = [&](const Vec3f& a, const Vec3f& b) {
+    return (a.cast<double>() - rest_place).squaredNorm() <
+           (b.cast<double>() - rest_place).squaredNorm();
+  };
+  return static_cast<std::uint32_t>(std::min_element(at.begin(), at.end(), farther) - at.begin());
+}
+
+Vec3d SoftScene::place(std::uint32_t point) const {
+  const std::vector<DeformedMesh> bones = posed();
+  for (std::uint32_t m = 0; m < bones.size(); ++m) {
+    const auto points = particles().vertex_points(m);
+    const auto vertex = std::find(points.begin(), points.end(), point);
+    if (vertex != points.end())
+      return bones[m].positions[static_cast<std::size_t>(vertex - points.begin())].cast<double>() +
+             body().point_displacement(point);
+  }
+  return Vec3d::Zero();
+}
+
+double SoftScene::widest_gap() const {
+  double widest = 0;
+  for (const ChangeRecord& change : changes)
+    for (const LipPair& pair : change.lips)
+      widest = std::max(
+          widest,
+          (body().point_displacement(pair.left) - body().point_displacement(pair.right)).norm());
+  return widest;
+}
+
+std::vector<DeformedMesh> SoftScene::posed() const {
+  return check(pose_model(instance.model().character(), pose));
+}
+
+std::vector<DeformedMesh> SoftScene::displaced() const {
+  std::vector<DeformedMesh> result(instance.model().character().meshes.size());
+  for (std::uint32_t m = 0; m < result.size(); ++m) {
+    const PosedMesh mesh = instance.mesh(m);
+    result[m].positions.assign(mesh.positions.begin(), mesh.positions.end());
+    result[m].normals.assign(mesh.normals.begin(), mesh.normals.end());
+  }
+  return result;
+}
+
+void SoftScene::draw(const std::string& png, const ViewFrame& frame, const Vec3d& centre,
+                     double radius) const {
+  const std::vector<DeformedMesh> untorn = check(pose_model(*source, pose));
+  const std::vector<RimEdge> rims = find_rims(instance.model());
+  Character still = make_torn_still(instance.model(), displaced(), posed(), untorn, rims, frame,
+                                    kThickness * diagonal_);
+  paint(still, kSurface);
+  Camera camera;
+  camera.focal_point = centre;
+  camera.up = frame.up;
+  camera.eye = centre + radius / std::tan(camera.view_angle_degrees / 2 * std::numbers::pi / 180) *
+                            frame.towards_eye;
+  check(tools::draw(still, camera, kWidth, kHeight, png));
+}
+
+void SoftScene::draw_particles(const std::string& png) const {
+  const std::vector<DeformedMesh> bones = posed();
+  std::vector<std::vector<Vec4f>> colors(bones.size());
+  for (std::uint32_t m = 0; m < bones.size(); ++m)
+    for (const std::uint32_t point : particles().vertex_points(m)) {
+      Vec4f color = Vec4f::Zero();
+      if (point != kNone) {
+        const ParticleInfluences& of = particles().influences()[point];
+        for (std::size_t k = 0; k < 4; ++k) color += of.weights[k] * color_of(of.particles[k]);
+      }
+      color[3] = 1.0f;
+      colors[m].push_back(color);
+    }
+  const ViewFrame frame = look_from(17, 7);
+  Camera camera;
+  camera.up = frame.up;
+  camera.focal_point = bounds_of(*source, bones).centre();
+  camera.eye = camera.focal_point + 1.75 * diagonal_ * frame.towards_eye;
+  check(tools::draw(make_still(*source, bones, colors), camera, kWidth, kHeight, png));
+}
+
+ViewFrame look_from(double side, double above) {
+  const double a = side * std::numbers::pi / 180, b = above * std::numbers::pi / 180;
+  ViewFrame frame;
+  frame.towards_eye = {std::sin(a) * std::cos(b), std::sin(b), std::cos(a) * std::cos(b)};
+  frame.right = Vec3d::UnitY().cross(frame.towards_eye).normalized();
+  frame.up = frame.towards_eye.cross(frame.right);
+  return frame;
+}
+
+}  // namespace sunder::tools

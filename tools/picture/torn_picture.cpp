@@ -1,0 +1,164 @@
+#include "tools/picture/torn_picture.h"
+
+#include <sunder/skinning/pose.h>
+#include <sunder/tear/torn_model.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numbers>
+#include <vector>
+
+#include "tools/model/history.h"
+#include "tools/model/posed_model.h"
+#include "tools/picture/open_lips.h"
+#include "tools/picture/picture.h"
+
+namespace sunder::tools {
+namespace {
+
+constexpr int kWidth = 480, kHeight = 360;
+const Vec4f kSurface(1.0f, 0.98f, 0.94f, 1.0f);  // Linear RGBA.
+// As a fraction of the diagonal of the model.
+constexpr double kThickness = 0.006;  ///< Of the flesh.
+constexpr double kApart = 0.05;       ///< Distance by which the pieces of a cut are moved.
+
+/// The most recent operation that is visible: not one that only changes weights.
+const Operation& newest_of(std::span<const Operation> history) {
+  const auto newest =
+      std::find_if(history.rbegin(), history.rend(), [](const Operation& operation) {
+        return !std::holds_alternative<WeightsOperation>(operation);
+      });
+  return newest == history.rend() ? history.back() : *newest;
+}
+
+/// A view from the side of the operation, a little from above and from the right. A cut is seen
+/// along its plane.
+ViewFrame view_of(const Operation& operation, const Bounds& bounds) {
+  ViewFrame frame = choose_view(bounds);
+  Vec3d from = frame.towards_eye;
+  if (const auto* tear = std::get_if<TearOperation>(&operation)) {
+    from = Vec3d::Zero();
+    for (const Blade& blade : tear->stroke) from += (blade.base - blade.tip).normalized();
+  } else if (const auto* drill = std::get_if<DrillOperation>(&operation)) {
+    from = -drill->bore.direction;
+  } else if (const auto* cut = std::get_if<CutOperation>(&operation)) {
+    const Vec3d normal = cut->cut.normal.normalized();
+    from -= 0.8 * normal.dot(from) * normal;
+  }
+  if (!(from.norm() > 0)) return frame;
+  from.normalize();
+  const Vec3d upright = std::abs(from.y()) < 0.9 ? Vec3d(Vec3d::UnitY()) : Vec3d(Vec3d::UnitZ());
+  frame.towards_eye = (from + 0.35 * upright.cross(from).normalized() + 0.2 * upright).normalized();
+  frame.right = upright.cross(frame.towards_eye).normalized();
+  frame.up = frame.towards_eye.cross(frame.right);
+  return frame;
+}
+
+/// The places of rims, walls and caps.
+std::vector<Vec3d> wound_places(const TornModel& torn, const std::vector<RimEdge>& rims,
+                                const std::vector<DeformedMesh>& posed) {
+  std::vector<Vec3d> places;
+  for (const RimEdge& edge : rims)
+    places.emplace_back(posed[edge.mesh].positions[edge.a].cast<double>());
+  for (std::uint32_t m = 0; m < torn.character().meshes.size(); ++m) {
+    const Mesh& mesh = torn.character().meshes[m];
+    for (std::uint32_t t = torn.source().meshes[m].triangle_count(); t < mesh.triangle_count(); ++t)
+      if (!is_retired(mesh.triangles[t]) &&
+          torn.source_triangle(m, t) >= torn.source().meshes[m].triangle_count())
+        places.emplace_back(posed[m].positions[mesh.triangles[t][0]].cast<double>());
+  }
+  return places;
+}
+
+/// Shows the wound in the middle, with its surroundings; at most the whole model.
+Camera aim(const ViewFrame& frame, const std::vector<Vec3d>& wound, const Bounds& bounds,
+           double surroundings) {
+  Camera camera;
+  camera.up = frame.up;
+  camera.focal_point = bounds.centre();
+  double radius = 0.5 * bounds.size().norm();
+  if (!wound.empty()) {
+    Bounds of_wound;
+    for (const Vec3d& place : wound) {
+      of_wound.least = of_wound.least.cwiseMin(place);
+      of_wound.greatest = of_wound.greatest.cwiseMax(place);
+    }
+    double beside = 0;
+    for (const Vec3d& place : wound) {
+      const Vec3d offset = place - of_wound.centre();
+      beside =
+          std::max({beside, std::abs(offset.dot(frame.right)), std::abs(offset.dot(frame.up))});
+    }
+    camera.focal_point = of_wound.centre();
+    radius = std::min(radius, surroundings * beside);
+  }
+  camera.eye =
+      camera.focal_point +
+      radius / std::tan(camera.view_angle_degrees / 2 * std::numbers::pi / 180) * frame.towards_eye;
+  return camera;
+}
+
+/// Moves the pieces of a cut away from its plane, to both sides.
+void move_apart(const Character& character, const PlaneCut& cut,
+                const std::vector<TornPiece>& pieces, double distance,
+                std::vector<DeformedMesh>& posed) {
+  const Vec3d normal = cut.normal.normalized();
+  for (const TornPiece& piece : pieces) {
+    const double side = (piece.centroid_posed - cut.point).dot(normal) < 0 ? -1.0 : 1.0;
+    for (const TornPiece::Triangles& part : piece.meshes) {
+      std::vector<std::uint32_t> vertices;
+      for (const std::uint32_t t : part.triangles)
+        for (const std::uint32_t vertex : character.meshes[part.mesh].triangles[t])
+          vertices.push_back(vertex);
+      std::sort(vertices.begin(), vertices.end());
+      vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+      for (const std::uint32_t vertex : vertices)
+        posed[part.mesh].positions[vertex] += Vec3d(side * distance * normal).cast<float>();
+    }
+  }
+}
+
+}  // namespace
+
+Status draw_torn(std::shared_ptr<const Character> source, std::span<const Operation> history,
+                 const std::filesystem::path& png) {
+  Result<CharacterInstance> instance = make_gaping_instance(std::move(source));
+  if (!instance) return instance.error();
+  const TornModel& torn = instance->model();
+  const Operation& newest = newest_of(history);
+  const Result<ModelPose> pose = make_pose(torn.source(), last_pose_of(newest));
+  if (!pose) return pose.error();
+  const Result<std::vector<DeformedMesh>> untorn = pose_model(torn.source(), *pose);
+  if (!untorn) return untorn.error();
+  std::vector<TornPiece> pieces;
+  for (const Operation& operation : history) {
+    const Result<TearReport> report = instance->apply(operation);
+    if (!report) return report.error();
+    if (!std::holds_alternative<WeightsOperation>(operation)) pieces = report->pieces;
+  }
+  const Result<std::vector<DeformedMesh>> closed = pose_model(torn.character(), *pose);
+  if (!closed) return closed.error();
+
+  const Bounds bounds = bounds_of(torn.character(), *closed);
+  const double diagonal = bounds.size().norm();
+  std::vector<DeformedMesh> open = *closed;
+  if (const Status status = open_lips(*instance, *pose); !status) return status;
+  displace(*instance, open);
+  const auto* const cut = std::get_if<CutOperation>(&newest);
+  if (cut != nullptr) move_apart(torn.character(), cut->cut, pieces, kApart * diagonal, open);
+
+  const ViewFrame frame = view_of(newest, bounds);
+  const std::vector<RimEdge> rims = find_rims(torn);
+  Character still =
+      make_torn_still(torn, open, *closed, *untorn, rims, frame, kThickness * diagonal);
+  paint(still, kSurface);
+  // The picture of a cut shows its pieces, that of a bore its surroundings.
+  const double margin = cut != nullptr                                   ? 3.1
+                        : std::holds_alternative<DrillOperation>(newest) ? 2.4
+                                                                         : 1.45;
+  return draw(still, aim(frame, wound_places(torn, rims, open), bounds, margin), kWidth, kHeight,
+              png);
+}
+
+}  // namespace sunder::tools

@@ -1,0 +1,202 @@
+#include "tools/tear/miss.h"
+
+#include <sunder/skinning/pose.h>
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "tools/messages/printed.h"
+#include "tools/tear/reach.h"
+
+namespace sunder::tools {
+namespace {
+
+/// The posed faces that all attempts together may test: about three seconds.
+constexpr std::size_t kMostPosedFaces = 8'000'000;
+constexpr std::size_t kMostPoses = 32;
+constexpr std::size_t kTimesPerClip = 8;
+
+/// A unit other than metres: factors that turn a number into metres, or metres into the unit.
+struct Unit {
+  double factor;
+  const char* advice;
+};
+constexpr Unit kUnits[] = {
+    {0.01, "scaled by 0.01 it would meet: are its numbers centimetres? Operations are in metres"},
+    {0.001, "scaled by 0.001 it would meet: are its numbers millimetres? Operations are in metres"},
+    {100,
+     "scaled by 100 it would meet: is the model in centimetres? `sunder info` shows its bounds"},
+    {1000,
+     "scaled by 1000 it would meet: is the model in millimetres? `sunder info` shows its bounds"},
+};
+
+double diagonal(const Bounds& bounds) { return bounds.size().norm(); }
+
+bool one_meets(const PosedSurface& surface, const Operation& operation) {
+  return std::ranges::any_of(reaches_of(operation),
+                             [&](const Reach& reach) { return meets(surface, reach); });
+}
+
+/// Evidence of another unit: the scaled operation meets, and the unscaled one is farther away than
+/// the model is large, or much smaller than it.
+std::string unit_advice(const Operation& operation, const PosedSurface& surface, double distance) {
+  const std::vector<Reach> reaches = reaches_of(operation);
+  Bounds reached;
+  for (const Reach& reach : reaches) {
+    const Bounds bounds = bounds_of(reach);
+    reached.least = reached.least.cwiseMin(bounds.least);
+    reached.greatest = reached.greatest.cwiseMax(bounds.greatest);
+  }
+  const double size = diagonal(surface.bounds);
+  for (const Unit& unit : kUnits) {
+    const bool is_plausible = unit.factor < 1 ? distance > size : diagonal(reached) < 0.2 * size;
+    if (is_plausible && one_meets(surface, scaled(operation, unit.factor))) return unit.advice;
+  }
+  return {};
+}
+
+/// Evidence that the blades or the axis are too short or point away.
+std::string direction_advice(const Operation& operation, const PosedSurface& surface,
+                             double distance) {
+  const bool is_bore = std::holds_alternative<DrillOperation>(operation);
+  if (!is_bore && !std::holds_alternative<TearOperation>(operation)) return {};
+  Bounds reached = bounds_of(reaches_of(operation).front());
+  const double length = distance + diagonal(reached) + 2 * diagonal(surface.bounds);
+  if (one_meets(surface, lengthened(operation, length)))
+    return is_bore ? "the bore is not deep enough to reach it"
+                   : "the blade is too short to reach it";
+  if (one_meets(surface, lengthened(turned_round(operation), length)))
+    return is_bore ? "the bore points away from it: is its direction reversed?"
+                   : "the blade points away from it: are base and tip swapped?";
+  return {};
+}
+
+/// A pose in which an operation may have been meant.
+struct OtherPose {
+  PoseSpec pose;
+  std::string name;
+};
+
+void add_times(const Clip& clip, std::uint32_t index, std::vector<OtherPose>& poses) {
+  const double duration = static_cast<double>(clip.duration);
+  for (std::size_t i = 0; i < kTimesPerClip; ++i) {
+    const double time = duration * static_cast<double>(i) / (kTimesPerClip - 1);
+    poses.push_back(
+        {ClipPose{index, time}, printed("at %.3g s of clip '%s'", time, clip.name.c_str())});
+  }
+}
+
+/// The rest and the bind pose, the times of the operation's own clip, and those of the others.
+std::vector<OtherPose> other_poses(const PoseSpec& own, const Character& character) {
+  std::vector<OtherPose> poses;
+  if (!std::holds_alternative<RestPose>(own)) poses.push_back({RestPose{}, "in the rest pose"});
+  if (!std::holds_alternative<BindPose>(own)) poses.push_back({BindPose{}, "in the bind pose"});
+  const auto* const clip_pose = std::get_if<ClipPose>(&own);
+  const auto is_own = [&](std::uint32_t i) {
+    if (clip_pose == nullptr) return false;
+    const auto* const name = std::get_if<std::string>(&clip_pose->clip);
+    return name != nullptr ? *name == character.clips[i].name
+                           : std::get<std::uint32_t>(clip_pose->clip) == i;
+  };
+  for (const bool wanted : {true, false})
+    for (std::uint32_t i = 0; i < character.clips.size() && poses.size() < kMostPoses; ++i)
+      if (is_own(i) == wanted) add_times(character.clips[i], i, poses);
+  return poses;
+}
+
+/// Evidence of another pose.
+Result<std::string> pose_advice(const Operation& operation, const Character& character,
+                                const PosedSurface& surface) {
+  const std::vector<Reach> reaches = reaches_of(operation);
+  std::vector<OtherPose> poses = other_poses(reaches.front().pose, character);
+  const std::size_t faces = surface.triangles.size() * reaches.front().shape.size() + 1;
+  poses.resize(std::min(poses.size(), std::max<std::size_t>(4, kMostPosedFaces / faces)));
+  for (const OtherPose& other : poses) {
+    const Result<ModelPose> pose = make_pose(character, other.pose);
+    if (!pose) return pose.error();
+    const Result<PosedSurface> posed = pose_surface(character, *pose);
+    if (!posed) return posed.error();
+    if (one_meets(*posed, operation)) return other.name + " it would meet: is its pose right?";
+  }
+  return std::string();
+}
+
+bool has_retired(const TornModel& model) {
+  for (std::size_t m = 0; m < model.source().meshes.size(); ++m) {
+    const auto& triangles = model.character().meshes[m].triangles;
+    if (std::ranges::any_of(triangles, is_retired)) return true;
+  }
+  return false;
+}
+
+const char* what_passes(const Operation& operation) {
+  if (std::holds_alternative<TearOperation>(operation)) return "the blade passes";
+  if (const auto* const cut = std::get_if<CutOperation>(&operation))
+    return cut->cut.bounds.empty() ? "the plane passes" : "the plane, within its bounds, passes";
+  return "the axis of the bore passes";
+}
+
+}  // namespace
+
+Result<Miss> measure_miss(const Operation& operation, const TornModel& model, PosedSource& source) {
+  Miss miss;
+  miss.distance = std::numeric_limits<double>::infinity();
+  const bool is_whole = !has_retired(model);
+  for (const Reach& reach : reaches_of(operation)) {
+    const Result<ModelPose> pose = make_pose(model.source(), reach.pose);
+    if (!pose) return pose.error();
+    PosedSurface torn;
+    if (!is_whole) {
+      Result<PosedSurface> surface = pose_surface(model.character(), *pose);
+      if (!surface) return surface.error();
+      torn = std::move(*surface);
+    }
+    const Result<const PosedSurface*> whole = is_whole ? source.in(*pose) : &torn;
+    if (!whole) return whole.error();
+    const double distance = distance_between(**whole, reach);
+    if (distance < miss.distance || miss.bounds.is_empty()) miss.bounds = (*whole)->bounds;
+    miss.distance = std::min(miss.distance, distance);
+  }
+  return miss;
+}
+
+Result<std::string> cause_of_miss(const Operation& operation, const Miss& miss,
+                                  const Character& character) {
+  if (miss.bounds.is_empty()) return std::string("the model has no surface left");
+  if (miss.distance == 0) return std::string();
+  const Result<ModelPose> pose = make_pose(character, reaches_of(operation).front().pose);
+  if (!pose) return pose.error();
+  const Result<PosedSurface> surface = pose_surface(character, *pose);
+  if (!surface) return surface.error();
+  std::string cause = unit_advice(operation, *surface, miss.distance);
+  if (!cause.empty()) return cause;
+  Result<std::string> other_pose = pose_advice(operation, character, *surface);
+  if (!other_pose || !other_pose->empty()) return other_pose;
+  return direction_advice(operation, *surface, miss.distance);
+}
+
+std::string miss_text(const Operation& operation, const Miss& miss) {
+  if (miss.bounds.is_empty()) return miss.cause;
+  std::string text =
+      miss.distance > 0
+          ? printed("%s %.4g m from the surface", what_passes(operation), miss.distance)
+          : std::string(what_passes(operation)) + " along the surface without crossing a face";
+  text += ", which spans " + point_text(miss.bounds.least) + " to " +
+          point_text(miss.bounds.greatest) + " in this pose";
+  return miss.cause.empty() ? text : text + "; " + miss.cause;
+}
+
+Json to_json(const Miss& miss) {
+  Json json = Json::object();
+  json["cause"] = miss.cause.empty() ? Json() : Json(miss.cause);
+  if (miss.bounds.is_empty()) return json;
+  json["distance"] = miss.distance;
+  json["bounds"] = {{"min", vector_json(miss.bounds.least)},
+                    {"max", vector_json(miss.bounds.greatest)}};
+  return json;
+}
+
+}  // namespace sunder::tools

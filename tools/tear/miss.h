@@ -1,0 +1,38 @@
+#pragma once
+
+#include <sunder/operation/operation.h>
+#include <sunder/tear/torn_model.h>
+
+#include <string>
+
+#include "tools/model/posed_model.h"
+#include "tools/model/posed_source.h"
+#include "tools/tear/report.h"
+
+namespace sunder::tools {
+
+/// How an operation passed the surface by.
+struct Miss {
+  /// Between the posed surface and the sweep of the blade, the plane within its bounds, or the axis
+  /// of the bore; metres.
+  double distance = 0.0;
+  Bounds bounds;      ///< Of the posed surface.
+  std::string cause;  ///< What would meet the surface; empty if there is no evidence.
+};
+
+/// Measures a miss.
+/// @param operation  a tear, cut or bore that met no surface of the model.
+/// @param source     of the model; posed instead of the torn model while nothing was retired.
+[[nodiscard]] Result<Miss> measure_miss(const Operation& operation, const TornModel& model,
+                                        PosedSource& source);
+
+/// Looks for the cause of a miss: another unit, another pose, blades that point away or end too
+/// early. O(faces) per attempt; at most about forty.
+[[nodiscard]] Result<std::string> cause_of_miss(const Operation& operation, const Miss& miss,
+                                                const Character& character);
+
+/// "the blade passes 8.3 m from the surface, which spans … in this pose; …".
+[[nodiscard]] std::string miss_text(const Operation& operation, const Miss& miss);
+[[nodiscard]] Json to_json(const Miss& miss);
+
+}  // namespace sunder::tools

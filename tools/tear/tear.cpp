@@ -1,0 +1,204 @@
+#include <sunder/io/character_file.h>
+#include <sunder/io/operation_log.h>
+#include <sunder/tear/topology.h>
+#include <sunder/tear/torn_model.h>
+
+#include <algorithm>
+#include <cctype>
+#include <chrono>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tools/messages/printed.h"
+#include "tools/messages/progress_bar.h"
+#include "tools/model/model_check.h"
+#include "tools/model/named_poses.h"
+#include "tools/picture/picture.h"
+#include "tools/picture/torn_picture.h"
+#include "tools/tear/refit.h"
+#include "tools/tear/tear_files.h"
+#include "tools/tear/tear_play.h"
+#include "tools/tear/tear_report.h"
+#include "tools/tear/tear_run.h"
+#include "tools/tear/tear_summary.h"
+#include "tools/value_of.h"
+#include "tools/verbs.h"
+#include "tools/written_weights/certified_report.h"
+
+namespace sunder::tools {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+Result<Weighing> choose_weighing(const TearRequest& request,
+                                 const std::shared_ptr<const Character>& character) {
+  Weighing weighing;
+  if (!request.weights) return weighing;
+  weighing.options.policy = *request.weights;
+  if (*request.weights != WeightPolicy::exact)
+    weighing.options.maximum_influences = request.save.maximum_influences;
+  if (*request.weights != WeightPolicy::refit) return weighing;
+  if (request.refit_over)
+    for (const RefitImportance::OfClip& of : request.refit_over->importance.of_clip)
+      if (std::ranges::find(character->clips, of.clip, &Clip::name) == character->clips.end())
+        return Status::failure(StatusCode::not_found, kNone, "no clip is named '%.100s'",
+                               of.clip.c_str());
+  auto refit = choose_refit(*character, request.refit_over);
+  if (!refit) return refit.error();
+  weighing.refit = std::move(*refit);
+  if (weighing.refit) weighing.refit->bound = request.refit_bound;
+  return weighing;
+}
+
+/// @return false if there is no picture, which is reported.
+bool draw_picture(const LoadedCharacter& loaded, const TornModel& model,
+                  const std::filesystem::path& png) {
+  const std::vector<Operation> history = value_of(model.history());
+  Status status;
+  if (history.empty())
+    status = Status::failure(StatusCode::empty_input, kNone,
+                             "the log has no operation that could be drawn");
+  else if (!can_draw())
+    status = Status::failure(StatusCode::not_found, kNone, "%s", kNoRenderer);
+  else
+    status = draw_torn(loaded.character, history, png);
+  if (!status) (void)complain(png.string(), status, ExitCode::findings);
+  return static_cast<bool>(status);
+}
+
+/// With --max-error, chooses what is written of the torn model's weights.
+/// @return ok, or the exit code of the failure, which was reported.
+ExitCode choose_influences(TearRun& run) {
+  const std::optional<MaximumError>& wanted = run.request.maximum_error;
+  if (!wanted) return ExitCode::ok;
+  Result<CertifiedWeights> certified = certify_weights(run.model.character(), run.loaded, *wanted);
+  if (!certified)
+    return complain("--max-error, --limits " + wanted->limits, certified.error(), ExitCode::usage);
+  run.certified = std::move(*certified);
+  return ExitCode::ok;
+}
+
+/// Warns of options that do not fit together or the source.
+void warn_of_options(const TearRequest& request, const Character& source,
+                     const Messages& messages) {
+  if (request.output) {
+    std::string extension = request.output->extension().string();
+    std::ranges::transform(extension, extension.begin(), [](unsigned char letter) {
+      return static_cast<char>(std::tolower(letter));
+    });
+    if (extension != ".glb")
+      messages.warn("--output " + request.output->string() +
+                    ": the file is written as GLB, but its name does not end in .glb");
+  }
+  if (request.save.maximum_influences == 0) return;
+  const std::uint32_t most = check_model(source).most_influences;
+  if (request.save.maximum_influences > most)
+    messages.warn(
+        printed("--influences %u: the vertices of %s have at most %u; only new vertices "
+                "may get more",
+                request.save.maximum_influences, request.model.c_str(), most));
+}
+
+/// Counts the topology at the end, and compares the faults with those of the source.
+Status count_result(TearRun& run) {
+  const Result<TopologyCounts> counts = count_topology(run.model.character());
+  if (!counts) return counts.error();
+  run.result = *counts;
+  run.has_findings |= run.result.non_manifold_edges > run.source.non_manifold_edges ||
+                      run.result.degenerate_triangles > run.source.degenerate_triangles;
+  return {};
+}
+
+/// Writes the files and the picture, and prints the report or the summary.
+/// @return ok, or the exit code of the failure, which was reported.
+ExitCode finish(TearRun& run, Clock::time_point begin) {
+  const TearRequest& request = run.request;
+  if (const Status status = count_result(run); !status)
+    return complain(request.model.string(), status, ExitCode::internal_error);
+  if (const ExitCode code = choose_influences(run); code != ExitCode::ok) return code;
+  std::string report;
+  if (request.report) {
+    const Result<Json> json = report_json(run);
+    if (!json) return complain(request.model.string(), json.error(), ExitCode::internal_error);
+    report = dump(*json);
+  }
+  const auto saving = Clock::now();
+  if (const ExitCode code = write_files(run, report); code != ExitCode::ok) return code;
+  run.times.saving = seconds_since(saving);
+  if (request.picture && !request.dry_run)
+    run.has_findings |= !draw_picture(run.loaded, run.model, *request.picture);
+  if (run.certified) run.messages.say(certificate_line(*run.certified, *request.maximum_error));
+  run.messages.detail(times_line(run.times, seconds_since(begin)));
+  erase_progress_bar();
+  if (reports_to_stdout(request))
+    std::fputs(report.c_str(), stdout);
+  else if (!request.report && !run.messages.is_quiet())
+    std::fputs(tear_summary(run).c_str(), stdout);
+  return run.has_findings ? ExitCode::findings : ExitCode::ok;
+}
+
+/// The operations of the log, then those of the command line.
+Result<std::vector<WantedOperation>> wanted_operations(const TearRequest& request) {
+  std::vector<WantedOperation> wanted;
+  if (!request.operations.empty()) {
+    auto logged = load_aimed_operations(request.operations);
+    if (!logged) return logged.error();
+    for (LoggedOperation& operation : *logged)
+      wanted.push_back({std::move(operation), "/operations/" + std::to_string(wanted.size()),
+                        request.operations.string()});
+  }
+  for (const TearRequest::Aimed& aimed : request.aimed)
+    wanted.push_back({aimed.operation, aimed.option, {}});
+  return wanted;
+}
+
+}  // namespace
+
+ExitCode run_tear(const TearRequest& request) {
+  const auto begin = Clock::now();
+  const Messages messages(request.verbosity);
+  if (const ExitCode code = check_outputs(request); code != ExitCode::ok) return code;
+  const Result<std::vector<WantedOperation>> operations = wanted_operations(request);
+  if (!operations)
+    return complain(request.operations.string(), operations.error(), ExitCode::usage);
+
+  ProgressBar progress(operations->size() + 3);
+  progress.begin_step(0, "reading");
+  const std::string place = request.model.string();
+  LoadOptions load;
+  load.keep_stored_influences = request.maximum_error.has_value();
+  const Result<LoadedCharacter> loaded = load_character(request.model, load);
+  if (!loaded) return complain(place, loaded.error(), ExitCode::unreadable_input);
+  const double loading = seconds_since(begin);
+  warn_of_options(request, *loaded->character, messages);
+  Result<TornModel> model = TornModel::create(loaded->character);
+  if (!model) return complain(place, model.error(), ExitCode::internal_error);
+  const Result<Weighing> weighing = choose_weighing(request, loaded->character);
+  if (!weighing)
+    return complain(
+        place + ": --refit-over", weighing.error(), ExitCode::usage,
+        request.refit_over ? advice_on_names(*request.refit_over, *loaded->character) : "");
+  if (const Status status = model->set_weights(weighing->options); !status)
+    return complain("--weights", status, ExitCode::usage);
+
+  const Result<TopologyCounts> counts = count_topology(*loaded->character);
+  if (!counts) return complain(place, counts.error(), ExitCode::internal_error);
+  TearRun run{request,           messages,  *loaded,
+              std::move(*model), *weighing, PosedSource(loaded->character),
+              *counts,           *counts};
+  run.times.loading = loading;
+  if (const ExitCode code = play_operations(*operations, run, progress); code != ExitCode::ok)
+    return code;
+  progress.begin_step(operations->size() + 2, "writing");
+  return finish(run, begin);
+}
+
+}  // namespace sunder::tools

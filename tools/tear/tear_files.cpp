@@ -1,0 +1,75 @@
+#include "tools/tear/tear_files.h"
+
+#include <sunder/io/operation_log.h>
+
+#include <optional>
+#include <vector>
+
+#include "tools/messages/overwriting.h"
+#include "tools/messages/text_file.h"
+#include "tools/value_of.h"
+
+namespace sunder::tools {
+namespace {
+
+/// A text that is written before the model and renamed after it, so that a failure leaves neither.
+class TextBesideModel {
+ public:
+  /// Does nothing without a file.
+  TextBesideModel(const std::optional<std::filesystem::path>& file, const std::string& text) {
+    if (file) staged_.emplace(*file, text);
+  }
+
+  [[nodiscard]] Status status() const { return staged_ ? staged_->status() : Status(); }
+  [[nodiscard]] Status commit() { return staged_ ? staged_->commit() : Status(); }
+
+ private:
+  std::optional<StagedText> staged_;
+};
+
+}  // namespace
+
+bool reports_to_stdout(const TearRequest& request) {
+  return request.report && *request.report == "-";
+}
+
+ExitCode check_outputs(const TearRequest& request) {
+  std::vector<NamedFile> inputs = {{"MODEL", request.model}}, outputs;
+  if (!request.operations.empty()) inputs.push_back({"--ops", request.operations});
+  if (request.output) outputs.push_back({"--output", *request.output});
+  if (request.report && !reports_to_stdout(request))
+    outputs.push_back({"--report", *request.report});
+  if (request.log) outputs.push_back({"--save-log", *request.log});
+  if (request.picture) outputs.push_back({"--picture", *request.picture});
+  if (request.force) inputs.clear();
+  const std::string fault = overwriting(inputs, outputs, "; --force allows it");
+  if (fault.empty()) return ExitCode::ok;
+  print_error("sunder: " + fault);
+  return ExitCode::usage;
+}
+
+ExitCode write_files(const TearRun& run, const std::string& report) {
+  const TearRequest& request = run.request;
+  if (request.dry_run || !request.output) return ExitCode::ok;
+  const bool has_report_file = request.report && !reports_to_stdout(request);
+  TextBesideModel report_file(has_report_file ? request.report : std::nullopt, report);
+  if (const Status status = report_file.status(); !status)
+    return complain(request.report->string(), status, ExitCode::unreadable_input);
+  TextBesideModel log_file(
+      request.log,
+      request.log ? value_of(format_operations(value_of(run.model.history()))) : std::string());
+  if (const Status status = log_file.status(); !status)
+    return complain(request.log->string(), status, ExitCode::unreadable_input);
+  SaveOptions save = request.save;
+  if (run.certified) save.weights_of_mesh = run.certified->formats;
+  const Character& character = run.certified ? run.certified->character : run.model.character();
+  if (const Status status = save_glb(*request.output, character, run.loaded, save); !status)
+    return complain(request.output->string(), status, ExitCode::internal_error);
+  if (const Status status = log_file.commit(); !status)
+    return complain(request.log->string(), status, ExitCode::unreadable_input);
+  if (const Status status = report_file.commit(); !status)
+    return complain(request.report->string(), status, ExitCode::unreadable_input);
+  return ExitCode::ok;
+}
+
+}  // namespace sunder::tools

@@ -1,0 +1,174 @@
+#include "tools/tear/tear_play.h"
+
+#include <sunder/aim/aim.h>
+#include <sunder/skinning/pose.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <variant>
+
+#include "tools/model/find_clip.h"
+#include "tools/model/history.h"
+#include "tools/model/named_poses.h"
+#include "tools/tear/miss.h"
+#include "tools/tear/operation_line.h"
+#include "tools/tear/stroke_warnings.h"
+#include "tools/value_of.h"
+
+namespace sunder::tools {
+namespace {
+
+/// The operations whose weight errors are measured, at most; each takes O(vertices of the source).
+constexpr std::size_t kMostMeasured = 100;
+
+/// The misses for whose cause is looked, at most; each takes some forty attempts.
+constexpr std::size_t kMostExplained = 3;
+
+/// An operation that was applied, and where.
+struct Played {
+  const Operation& operation;
+  std::string place;  ///< "/operations/3".
+  OperationOutcome outcome;
+  TriangleCounts before;
+};
+
+/// Says what an operation did, and warns of faults of strokes.
+Status describe(const Played& played, TearRun& run) {
+  std::optional<TornPlace> place;
+  const std::vector<PoseSpec> specs = pose_specs_of(played.operation);
+  if (!specs.empty()) {
+    const Result<ModelPose> pose = make_pose(run.model.source(), specs.front());
+    if (!pose) return pose.error();
+    place = torn_place(run.model, played.before, *pose);
+    const auto* const tear = std::get_if<TearOperation>(&played.operation);
+    if (tear != nullptr && place) {
+      const auto warnings = stroke_warnings(*tear, *pose, *place, run.posed_source);
+      if (!warnings) return warnings.error();
+      for (const std::string& warning : *warnings) run.messages.warn(played.place + ": " + warning);
+    }
+  }
+  run.messages.say(played.place + ": " + operation_line(played.outcome, place));
+  run.messages.detail(played.place + ": " + operation_details(played.outcome));
+  return {};
+}
+
+/// Says by how much an operation missed, and adds that to its report.
+Status describe_miss(const Played& played, TearRun& run, Json& report) {
+  Result<Miss> miss = measure_miss(played.operation, run.model, run.posed_source);
+  if (!miss) return miss.error();
+  if (run.totals.missed <= kMostExplained) {
+    const Result<std::string> cause = cause_of_miss(played.operation, *miss, run.model.character());
+    if (!cause) return cause.error();
+    miss->cause = *cause;
+  }
+  run.messages.warn(played.place + ": " + played.outcome.op +
+                    " missed: " + miss_text(played.operation, *miss));
+  report["miss"] = to_json(*miss);
+  return {};
+}
+
+void add_to_totals(const OperationOutcome& outcome, TearRun& run) {
+  RunTotals& totals = run.totals;
+  ++(outcome.has_missed ? totals.missed : totals.done);
+  totals.pieces += outcome.tear.pieces.size();
+  totals.faces_crossed += outcome.tear.faces_crossed;
+  totals.blocked += outcome.tear.blocked;
+  run.times.operations += outcome.seconds;
+  run.has_findings |= outcome.has_missed || outcome.tear.blocked > 0;
+}
+
+/// With --count-topology, counts what an operation changed.
+Status count(TearRun& run, TopologyCounts& current, OperationOutcome& outcome) {
+  if (!run.request.count_topology) return {};
+  const TopologyCounts before = current;
+  if (!outcome.has_missed) {
+    const Result<TopologyCounts> counts = count_topology(run.model.character());
+    if (!counts) return counts.error();
+    current = *counts;
+  }
+  outcome.topology = TopologyChange{before, current};
+  return {};
+}
+
+/// Applies one operation, describes and reports it.
+/// @param current  the topology, with --count-topology.
+/// @param is_measured  whether its weight error is.
+Status play_one(const Operation& operation, const std::string& place, bool is_measured,
+                TopologyCounts& current, TearRun& run) {
+  for (const std::string& warning : time_warnings(operation, run.model.source()))
+    run.messages.warn(place + ": " + warning);
+  TriangleCounts before = triangle_counts(run.model.character());
+  Result<OperationOutcome> outcome = play(operation, run.model);
+  if (!outcome) return outcome.error();
+  Played played{operation, place, std::move(*outcome), std::move(before)};
+  if (const Status status = count(run, current, played.outcome); !status) return status;
+  if (is_measured)
+    if (const Status status = measure_weight_error(operation, run.model, played.outcome); !status)
+      return status;
+  add_to_totals(played.outcome, run);
+  const bool is_reported = run.request.report.has_value();
+  Json report = is_reported ? to_json(played.outcome, run.model.character()) : Json::object();
+  Status status;
+  if (played.outcome.has_missed)
+    status = describe_miss(played, run, report);
+  else if (!run.messages.is_quiet())
+    status = describe(played, run);
+  if (is_reported) run.reports.push_back(std::move(report));
+  return status;
+}
+
+/// An operation of the command line, whose clip may be named without its namespace.
+AimedOperation with_clip(AimedOperation operation, const Character& source) {
+  PoseSpec& pose = std::visit([](auto& aimed) -> PoseSpec& { return aimed.pose; }, operation);
+  auto* const of_clip = std::get_if<ClipPose>(&pose);
+  const auto* const name = of_clip ? std::get_if<std::string>(&of_clip->clip) : nullptr;
+  const auto clip = name ? find_clip(source, *name) : std::nullopt;
+  if (clip) of_clip->clip = *clip;
+  return operation;
+}
+
+/// The plain operation for the model as it is now.
+Result<Operation> plain_operation(const WantedOperation& wanted, const TornModel& model) {
+  if (const auto* const plain = std::get_if<Operation>(&wanted.operation)) return *plain;
+  const auto& aimed = std::get<AimedOperation>(wanted.operation);
+  return resolve(model, wanted.file.empty() ? with_clip(aimed, model.source()) : aimed);
+}
+
+/// Names like one that an operation names in vain; see advice_on_names().
+std::string advice_on(const LoggedOperation& operation, const Character& source) {
+  if (const auto* const plain = std::get_if<Operation>(&operation))
+    return advice_on_names(*plain, source);
+  TearOperation posed;
+  posed.pose =
+      std::visit([](const auto& aimed) { return aimed.pose; }, std::get<AimedOperation>(operation));
+  return advice_on_names(posed, source);
+}
+
+}  // namespace
+
+ExitCode play_operations(const std::vector<WantedOperation>& operations, TearRun& run,
+                         ProgressBar& progress) {
+  TopologyCounts current = run.source;
+  const std::size_t step = 1 + operations.size() / kMostMeasured;
+  for (std::size_t i = 0; i < operations.size(); ++i) {
+    progress.begin_step(i + 1, "tearing");
+    const WantedOperation& wanted = operations[i];
+    const bool is_measured = run.request.weight_errors && i % step == 0;
+    const Result<Operation> plain = plain_operation(wanted, run.model);
+    const Status status =
+        plain ? play_one(*plain, wanted.place, is_measured, current, run) : plain.error();
+    if (!status)
+      return complain(wanted.file.empty() ? wanted.place : wanted.file + ": " + wanted.place,
+                      status, ExitCode::usage, advice_on(wanted.operation, run.model.source()));
+  }
+  progress.begin_step(operations.size() + 1, "weighing");
+  if (!run.weighing.refit) return ExitCode::ok;
+  for (const WeightsOperation& refit :
+       refits_of(value_of(run.model.history()), *run.weighing.refit))
+    if (const Status status = play_one(refit, "--weights refit", false, current, run); !status)
+      return complain(run.request.model.string() + ": --weights refit", status, ExitCode::usage);
+  return ExitCode::ok;
+}
+
+}  // namespace sunder::tools

@@ -1,0 +1,73 @@
+#include "tools/tear/tear_report.h"
+
+#include <utility>
+
+#include "tools/tear/weight_report.h"
+#include "tools/written_weights/certified_report.h"
+#include "tools/written_weights/written_influences.h"
+
+namespace sunder::tools {
+namespace {
+
+Json weighing_json(const Weighing& weighing) {
+  Json json = {{"policy", weight_policy_name(weighing.options.policy)},
+               {"influences", weighing.options.maximum_influences},
+               {"refit_over", nullptr}};
+  if (weighing.refit) json["refit_over"] = refit_over_text(*weighing.refit);
+  return json;
+}
+
+/// Measures the weights of the model, and the weights in the file if they differ.
+Result<Json> weight_errors_of(TornModel& model, const std::shared_ptr<const Character>& source) {
+  const Result<WeightSample> sample = choose_sample(model);
+  if (!sample) return sample.error();
+  const auto poses = poses_to_measure(model, source, *sample);
+  if (!poses) return poses.error();
+  Result<Json> errors = weight_errors_json(model, *poses, *sample);
+  if (!errors) return errors;
+  Result<Json> as_written = written_weight_errors_json(model, *poses, *sample);
+  if (!as_written) return as_written;
+  if (as_written->is_null()) return errors;
+  (*errors)["as_written"] = std::move(*as_written);
+  (*errors)["note"] =
+      "a GLB cannot hold the positions per influence of the policy 'exact': there those points are "
+      "barycentric";
+  return errors;
+}
+
+/// How the influences are written, and what that changes.
+Result<Json> influences_written_json(const TearRun& run) {
+  if (run.certified)
+    return Json{{"maximum", 0},
+                {"format", "certified"},
+                {"certificate", certificate_json(*run.certified, run.model.character(),
+                                                 *run.request.maximum_error)}};
+  const Result<PruningLoss> loss = measure_pruning(run.model, run.request.save.maximum_influences);
+  if (!loss) return loss.error();
+  return to_json(*loss, run.request.save);
+}
+
+}  // namespace
+
+Result<Json> report_json(TearRun& run) {
+  const TearRequest& request = run.request;
+  const Json result = result_json(run.model, run.source, run.result);
+  const Result<Json> written = influences_written_json(run);
+  if (!written) return written;
+  Json json = {{"sunder_report", 1}, {"model", request.model.string()}};
+  json["output"] = request.output ? Json(request.output->string()) : Json();
+  json["loading"] = to_json(run.loaded.report);
+  json["operations"] = std::move(run.reports);
+  json["weights"] = weighing_json(run.weighing);
+  if (request.weight_errors) {
+    Result<Json> weight_errors = weight_errors_of(run.model, run.loaded.character);
+    if (!weight_errors) return weight_errors;
+    json["weight_errors"] = std::move(*weight_errors);
+  }
+  json["influences_written_max"] = request.save.maximum_influences;
+  json["influences_written"] = *written;
+  json["result"] = result;
+  return json;
+}
+
+}  // namespace sunder::tools

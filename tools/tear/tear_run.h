@@ -1,0 +1,50 @@
+#pragma once
+
+#include <sunder/io/character_file.h>
+#include <sunder/tear/topology.h>
+#include <sunder/tear/torn_model.h>
+
+#include <optional>
+
+#include "tools/messages/messages.h"
+#include "tools/model/posed_source.h"
+#include "tools/tear/report.h"
+#include "tools/verbs.h"
+#include "tools/written_weights/certified_weights.h"
+
+namespace sunder::tools {
+
+/// The options for weights of new points, from the command line.
+struct Weighing {
+  WeightOptions options;
+  std::optional<RefitOptions> refit;  ///< For `refit`, if the model bends.
+};
+
+/// What the operations of a run did, for its summary.
+struct RunTotals {
+  std::size_t done = 0, missed = 0, pieces = 0;
+  std::uint64_t faces_crossed = 0, blocked = 0;
+};
+
+/// Durations in seconds.
+struct RunTimes {
+  double loading = 0, operations = 0, saving = 0;
+};
+
+/// A model to which operations are applied, and their reports.
+struct TearRun {
+  const TearRequest& request;
+  const Messages& messages;
+  const LoadedCharacter& loaded;
+  TornModel model;
+  Weighing weighing;
+  PosedSource posed_source;
+  TopologyCounts source = {}, result = {};
+  Json reports = Json::array();
+  std::optional<CertifiedWeights> certified = {};  ///< With --max-error.
+  RunTotals totals = {};
+  RunTimes times = {};
+  bool has_findings = false;
+};
+
+}  // namespace sunder::tools

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <sunder/io/character_file.h>
+#include <sunder/validation/validation.h>
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "tools/messages/exit_code.h"
+#include "tools/tear/report.h"
+
+namespace sunder::tools {
+
+/// A source and a target, loaded and compared.
+struct ValidatedPair {
+  std::filesystem::path source_file, target_file;
+  LoadedCharacter source, target;
+  ValidationReport report;
+};
+
+/// Files of one comparison and how to make it.
+struct ValidatePair {
+  std::filesystem::path source, target;
+  std::optional<std::filesystem::path> operations;  ///< The log that made the target.
+  std::optional<std::filesystem::path> bone_names;  ///< Bones whose names differ.
+  TargetProfile profile = TargetProfile::none;
+  std::string limits = "none";  ///< "none", "clips" or a file.
+  bool over_time = false;       ///< Also measures the deviation over the time of each clip.
+};
+
+/// A failure and the file that it is about.
+struct ValidateFailure {
+  std::string place;
+  Status status;
+  ExitCode otherwise = ExitCode::usage;
+};
+
+/// Loads both models and compares them. Repairs that loading made are findings.
+/// @param failure  written where there is no result.
+/// @param progress  see ValidationOptions.
+[[nodiscard]] std::optional<ValidatedPair> validate_pair(
+    const ValidatePair& pair, const std::function<void(std::string_view, double)>& progress,
+    ValidateFailure& failure);
+
+/// The report for machines: version, files, verdicts, findings with places, figures.
+[[nodiscard]] Json validation_json(const ValidatedPair& pair);
+
+/// The report for people: one line per finding and a verdict.
+/// @param in_colour  with escape sequences.
+[[nodiscard]] std::string validation_text(const ValidatedPair& pair, bool in_colour);
+
+/// Whether some finding is at or above a severity.
+[[nodiscard]] bool has_findings(const ValidationReport& report, Severity severity);
+
+}  // namespace sunder::tools

@@ -1,0 +1,77 @@
+#include "tools/written_weights/joint_limits_file.h"
+
+#include <sunder/skinning/pose.h>
+#include <sunder/validation/validation.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "tools/messages/json_file.h"
+
+namespace sunder::tools {
+namespace {
+
+double radians(const Json& degrees) { return degrees.get<double>() * std::numbers::pi / 180.0; }
+
+/// A limit in degrees: {"angle": 60} for a ball, {"axis": [0, 0, 1], "lower": -10, "upper": 90}
+/// for a hinge.
+Status read_range(const Json& json, const std::string& bone, JointRange& range) {
+  const auto is_number = [&](const char* name) {
+    return json.contains(name) && json[name].is_number();
+  };
+  if (json.is_object() && is_number("angle")) {
+    range.turn = JointRange::Turn::ball;
+    range.angle = radians(json["angle"]);
+    return {};
+  }
+  if (!json.is_object() || !is_number("lower") || !is_number("upper") || !json.contains("axis") ||
+      !json["axis"].is_array() || json["axis"].size() != 3 ||
+      !std::all_of(json["axis"].begin(), json["axis"].end(),
+                   [](const Json& value) { return value.is_number(); }))
+    return Status::failure(StatusCode::malformed_file, kNone,
+                           "/limits/%.80s: expected angle, or axis, lower and upper", bone.c_str());
+  range.turn = JointRange::Turn::hinge;
+  for (int i = 0; i < 3; ++i)
+    range.axis[i] = json["axis"][static_cast<std::size_t>(i)].get<double>();
+  range.lower = radians(json["lower"]);
+  range.upper = radians(json["upper"]);
+  return {};
+}
+
+}  // namespace
+
+Result<JointLimits> read_joint_limits(const std::filesystem::path& file,
+                                      const Character& character) {
+  const Result<Json> json = read_json_object(file);
+  if (!json) return json.error();
+  const Result<ModelPose> bind = bind_pose(character);
+  if (!bind) return bind.error();
+  Result<JointLimits> limits = free_joint_limits(character, *bind);
+  if (!limits) return limits.error();
+  const auto of_bones = json->find("limits");
+  if (of_bones == json->end() || !of_bones->is_object())
+    return Status::failure(StatusCode::malformed_file, kNone, "/limits: expected an object");
+  const auto& bones = character.skeleton.bones;
+  for (const auto& [name, range] : of_bones->items()) {
+    const auto bone = std::ranges::find(bones, name, &Bone::name);
+    if (bone == bones.end())
+      return Status::failure(StatusCode::not_found, kNone, "/limits: no bone '%.80s'",
+                             name.c_str());
+    const auto index = static_cast<std::size_t>(bone - bones.begin());
+    if (const Status status = read_range(range, name, limits->of_bone[index]); !status)
+      return status;
+  }
+  return limits;
+}
+
+Result<JointLimits> joint_limits_named(const std::string& name, const Character& character,
+                                       const ModelPose& bind) {
+  if (name == "none") return free_joint_limits(character, bind);
+  if (name != "clips") return read_joint_limits(name, character);
+  if (character.clips.empty())
+    return Status::failure(StatusCode::empty_input, kNone,
+                           "the model has no clips that could limit its joints");
+  return joint_limits_of_clips(character, bind, ValidationOptions{}.clip_margin);
+}
+
+}  // namespace sunder::tools

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <sunder/io/character_file.h>
+#include <sunder/skinning/deform.h>
+#include <sunder/skinning/pose.h>
+#include <sunder/tear/torn_model.h>
+
+#include "tools/tear/report.h"
+
+namespace sunder::tools {
+
+/// The effect of pruning on the written meshes.
+struct PruningLoss {
+  std::uint64_t vertices_pruned = 0;
+  double dropped_mass_max = 0;
+  /// Greatest displacement of a vertex by pruning, at rest and in the poses of the history; metres,
+  /// in closed form.
+  double pruning_error_max = 0;
+};
+
+/// @param maximum  as in SaveOptions. O(influences of the torn meshes x poses).
+/// @return the failures of compute_model_pose(), make_pose() and compute_palette().
+[[nodiscard]] Result<PruningLoss> measure_pruning(const TornModel& model, std::uint32_t maximum);
+
+/// "float", "u16" or "u8", as --weights-as takes it.
+[[nodiscard]] const char* weight_format_name(WeightFormat format);
+
+/// How influences are written, and the resulting errors.
+[[nodiscard]] Json to_json(const PruningLoss& loss, const SaveOptions& options);
+
+}  // namespace sunder::tools
