@@ -11,6 +11,7 @@
 #include "tools/demo_pictures.h"
 #include "tools/demo_rig.h"
 #include "tools/demo_stroke.h"
+#include "tools/overwriting.h"
 #include "tools/picture.h"
 #include "tools/posed_model.h"
 #include "tools/progress_bar.h"
@@ -129,6 +130,14 @@ ExitCode write_results(const DemoRequest& request, const std::string& place, con
 
 ExitCode run_demo(const DemoRequest& request) {
   const std::string place = request.model ? request.model->string() : "embedded cactus";
+  if (request.model) {
+    const std::string fault =
+        overwriting({{"MODEL", *request.model}}, {{"--output", request.folder / "torn.glb"}});
+    if (!fault.empty()) {
+      print_error("sunder: " + fault);
+      return ExitCode::usage;
+    }
+  }
   ProgressBar progress(2 + kDemoPictures);
   progress.begin_step(0, "reading");
   const Result<DemoModel> model = get_model(request);

@@ -17,6 +17,9 @@ struct Bounds {
   [[nodiscard]] Vec3d centre() const { return (least + greatest) / 2; }
   [[nodiscard]] Vec3d size() const { return greatest - least; }
   [[nodiscard]] bool is_empty() const { return least.x() > greatest.x(); }
+  [[nodiscard]] bool contains(const Vec3d& point) const {
+    return (point.array() >= least.array()).all() && (point.array() <= greatest.array()).all();
+  }
 };
 
 /// The bounds of all vertices that triangles use.

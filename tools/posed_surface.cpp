@@ -170,6 +170,7 @@ std::optional<double> first_hit(const PosedSurface& surface, const Vec3d& origin
 }
 
 bool is_inside(const PosedSurface& surface, const Vec3d& point) {
+  if (!surface.bounds.contains(point)) return false;
   double winding = 0;
   for (const Corners& triangle : surface.triangles) winding += winding_of(triangle, point);
   return winding > 0.5;

@@ -1,6 +1,7 @@
 #include "tools/progress_bar.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cstdio>
 #include <unistd.h>
 
@@ -9,13 +10,12 @@ namespace {
 
 using namespace std::chrono_literals;
 constexpr std::size_t kWidth = 30;
-bool is_on_the_line = false;  ///< Whether a bar stands on the current line of stderr.
+std::atomic<bool> is_on_the_line = false;  ///< Whether a bar stands on the line of stderr.
 
 }  // namespace
 
 void erase_progress_bar() {
-  if (is_on_the_line) std::fputs("\r\x1b[K", stderr);
-  is_on_the_line = false;
+  if (is_on_the_line.exchange(false)) std::fputs("\r\x1b[K", stderr);
 }
 
 ProgressBar::ProgressBar(std::size_t step_count)

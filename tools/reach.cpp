@@ -109,6 +109,7 @@ Operation scaled(const Operation& operation, double factor) {
   } else if (auto* const cut = std::get_if<CutOperation>(&result)) {
     cut->cut.point *= factor;
     for (Vec3d& corner : cut->cut.bounds) corner *= factor;
+    for (Vec3d& place : cut->cut.sections) place *= factor;
   } else if (auto* const bore = std::get_if<DrillOperation>(&result)) {
     bore->bore.origin *= factor;
     bore->bore.radius *= factor;

@@ -143,7 +143,7 @@ TEST(CommandLine, the_manual_is_valid) {
   const test::TemporaryFolder folder;
   const std::string page = save(folder, "sunder.1", run_sunder({"man"}).out);
   if (has("mandoc")) {
-    const CommandResult lint = run_script("/bin/sh", "mandoc -Tlint -W warning '" + page + "'");
+    const CommandResult lint = run_script("/bin/sh", "mandoc -Tlint -W error '" + page + "'");
     EXPECT_EQ(lint.exit_code, 0) << lint.out;
   }
   if (!has("man")) return;

@@ -37,6 +37,15 @@ TEST_F(DemoCommand, demo_without_a_renderer_writes_everything_except_pictures) {
   EXPECT_EQ(of_demo, of_file);
 }
 
+TEST_F(DemoCommand, the_model_is_not_overwritten) {
+  std::filesystem::create_directory(path("own"));
+  std::filesystem::copy_file(model(), path("own/torn.glb"));
+  const CommandResult result = run_sunder({"demo", path("own/torn.glb"), "-o", path("own")});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, HasSubstr("would overwrite MODEL"));
+  EXPECT_EQ(bytes("own/torn.glb"), bytes("cactus.glb"));
+}
+
 TEST_F(DemoCommand, demo_draws_four_pictures) {
   if (std::system("command -v f3d xvfb-run >/dev/null 2>&1") != 0)
     GTEST_SKIP() << "needs f3d and xvfb-run";
