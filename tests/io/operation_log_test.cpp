@@ -619,22 +619,27 @@ TEST(OperationLog, DocumentedExamplesAreRead) {
   std::ifstream page(docs / "operation_log.md");
   ASSERT_TRUE(page);
   const std::string text{std::istreambuf_iterator<char>(page), {}};
-  std::set<std::size_t> kinds;
+  std::set<std::size_t> kinds, aimed_kinds;
   for (std::size_t start = text.find("```json\n"); start != std::string::npos;
        start = text.find("```json\n", start + 1)) {
     std::string example = text.substr(start + 8, text.find("```", start + 8) - start - 8);
     if (example.find("sunder_operations") == std::string::npos) example = log_of(example);
-    const auto operations = parse_operations(example);
+    const auto operations = parse_aimed_operations(example);
     ASSERT_TRUE(operations) << example << operations.error().text();
-    for (const Operation& operation : *operations) kinds.insert(operation.index());
+    for (const LoggedOperation& logged : *operations)
+      if (const auto* const operation = std::get_if<Operation>(&logged))
+        kinds.insert(operation->index());
+      else
+        aimed_kinds.insert(std::get<AimedOperation>(logged).index());
   }
   EXPECT_EQ(kinds.size(), std::variant_size_v<Operation>) << "an operation without example";
+  EXPECT_EQ(aimed_kinds.size(), std::variant_size_v<AimedOperation>);
 
   std::ifstream schema(docs / "operation_log.schema.json");
   const nlohmann::json parsed_schema = nlohmann::json::parse(schema);
   EXPECT_EQ(parsed_schema["properties"]["sunder_operations"]["const"], 1);
   EXPECT_EQ(parsed_schema["properties"]["operations"]["items"]["oneOf"].size(),
-            std::variant_size_v<Operation>);
+            std::variant_size_v<Operation> + std::variant_size_v<AimedOperation>);
 }
 
 }  // namespace

@@ -139,10 +139,18 @@ Result<Operation> plain_operation(const WantedOperation& wanted, const TornModel
 std::string advice_on(const LoggedOperation& operation, const Character& source) {
   if (const auto* const plain = std::get_if<Operation>(&operation))
     return advice_on_names(*plain, source);
+  const auto& aimed = std::get<AimedOperation>(operation);
   TearOperation posed;
-  posed.pose =
-      std::visit([](const auto& aimed) { return aimed.pose; }, std::get<AimedOperation>(operation));
-  return advice_on_names(posed, source);
+  posed.pose = std::visit([](const auto& of) { return of.pose; }, aimed);
+  const std::string advice = advice_on_names(posed, source);
+  const bool has_bone = std::visit(
+      [&](const auto& of) {
+        if constexpr (requires { of.place; })
+          return static_cast<bool>(find_bone(source.skeleton, of.place.bone));
+        return true;
+      },
+      aimed);
+  return advice.empty() && !has_bone ? "; `sunder info MODEL --bones` lists the bones" : advice;
 }
 
 }  // namespace
