@@ -17,7 +17,7 @@
 namespace sunder::tools {
 namespace {
 
-constexpr int kWidth = 480, kHeight = 360;
+constexpr int kWidth = 1280, kHeight = 960;
 const Vec4f kSurface(1.0f, 0.98f, 0.94f, 1.0f);  // Linear RGBA.
 // As a fraction of the diagonal of the model.
 constexpr double kThickness = 0.006;  ///< Of the flesh.
