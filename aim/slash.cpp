@@ -14,7 +14,8 @@ namespace {
 /// Blades per width of the limb, and their least and greatest number.
 constexpr double kBladesPerWidth = 32;
 constexpr int kLeastBlades = 17, kMostBlades = 129;
-/// Near its outline the limb is thin; the blade still passes the near surface by this many widths.
+/// Near its outline the limb is thin; the blade still passes the near surface by this many widths,
+/// and by the width of the gap, whose sides lie deeper there.
 constexpr double kLeastDepthWidths = 0.02;
 
 Status check(const Limb& limb, const SlashOperation& slash) {
@@ -59,6 +60,27 @@ SeenStroke look_along(const LimbRays& rays, const Vec3d& way, double length) {
   return seen;
 }
 
+/// Heights of a blade towards the viewer.
+struct BladeEnds {
+  double base = 0, tip = 0;
+};
+
+/// Blade `i` of a stroke. Where nothing is in the way, all blades begin at one height, and without
+/// a depth they all reach down to one: the gap that a straight row of blades leaves is even.
+BladeEnds ends_of(const SeenStroke& seen, std::size_t i, const SlashOperation& slash,
+                  double width) {
+  const double least_depth = std::max(kLeastDepthWidths * width, slash.options.width);
+  double highest = seen.hits[i].near, lowest = seen.hits[i].near;
+  for (const RayHit& hit : seen.hits) {
+    highest = std::max(highest, hit.near);
+    lowest = std::min(lowest, hit.near - std::max(0.5 * (hit.near - hit.far), least_depth));
+  }
+  const RayHit& hit = seen.hits[i];
+  const double before =
+      std::min(highest + kClearanceWidths * width - hit.near, 0.5 * hit.free_before);
+  return {hit.near + before, slash.depth ? hit.near - metres(*slash.depth, width) : lowest};
+}
+
 }  // namespace
 
 Result<Operation> resolve_slash(const PosedSurface& surface, const SlashOperation& slash) {
@@ -82,14 +104,10 @@ Result<Operation> resolve_slash(const PosedSurface& surface, const SlashOperatio
   tear.pose = slash.pose;
   tear.options = slash.options;
   for (std::size_t i = 0; i < seen.hits.size(); ++i) {
-    const RayHit& hit = seen.hits[i];
-    const double depth = slash.depth
-                             ? metres(*slash.depth, width)
-                             : std::max(0.5 * (hit.near - hit.far), kLeastDepthWidths * width);
-    const double before = std::min(kClearanceWidths * width, 0.5 * hit.free_before);
+    const BladeEnds ends = ends_of(seen, i, slash, width);
     const Vec3d place = rays.middle() + seen.offsets[i];
-    tear.stroke.push_back({place + (hit.near + before) * frame->towards_viewer,
-                           place + (hit.near - depth) * frame->towards_viewer});
+    tear.stroke.push_back(
+        {place + ends.base * frame->towards_viewer, place + ends.tip * frame->towards_viewer});
   }
   return Operation(std::move(tear));
 }
