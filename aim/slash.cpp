@@ -42,21 +42,25 @@ SeenStroke look_along(const LimbRays& rays, const Vec3d& way, double length) {
                                                static_cast<double>(kMostBlades)));
   const int half = std::max(wanted, kLeastBlades) / 2;
   SeenStroke seen;
-  const auto look = [&](int i) {
-    const Vec3d offset = (0.5 * length * i / half) * way;
-    const std::optional<RayHit> hit = rays.cast(offset);
-    if (!hit) return false;
-    seen.offsets.push_back(offset);
-    seen.hits.push_back(*hit);
-    return true;
+  const std::optional<RayHit> middle = rays.cast_at_middle();
+  if (!middle) return seen;
+  const auto look_to = [&](int direction) {
+    RayHit last = *middle;
+    for (int i = direction; std::abs(i) <= half; i += direction) {
+      const Vec3d offset = (0.5 * length * i / half) * way;
+      const std::optional<RayHit> hit = rays.cast(offset, last);
+      if (!hit) return;
+      seen.offsets.push_back(offset);
+      seen.hits.push_back(*hit);
+      last = *hit;
+    }
   };
-  if (!look(0)) return {};
-  for (int i = -1; i >= -half && look(i); --i) {
-  }
+  look_to(-1);
   std::reverse(seen.offsets.begin(), seen.offsets.end());
   std::reverse(seen.hits.begin(), seen.hits.end());
-  for (int i = 1; i <= half && look(i); ++i) {
-  }
+  seen.offsets.push_back(Vec3d::Zero());
+  seen.hits.push_back(*middle);
+  look_to(1);
   return seen;
 }
 
