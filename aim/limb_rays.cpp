@@ -15,6 +15,9 @@ constexpr double kLeastLimbAndParent = 0.5;
 /// … and the limb itself at least this.
 constexpr double kLeastLimb = 0.2;
 
+/// Surfaces nearer to one another than this share of the width are one, or its two sides.
+constexpr double kSameSurfaceWidths = 1e-6;
+
 /// Twice the signed area of a triangle in the plane of the view.
 double area(const Vec2d& a, const Vec2d& b, const Vec2d& c) {
   return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
@@ -57,6 +60,8 @@ bool LimbRays::may_belong(Index face, double reach) const {
 void LimbRays::look_around(double reach) {
   const tear::Surface& surface = limb_.surface.surface();
   is_of_limb_.assign(limb_.surface.face_count(), false);
+  is_of_section_ = is_of_limb_;
+  for (const Index face : section_faces_) is_of_section_[face] = true;
   std::vector<Index> open;
   for (const Index face : section_faces_) {
     if (is_of_limb_[face]) continue;
@@ -77,7 +82,7 @@ void LimbRays::look_around(double reach) {
   }
 }
 
-HitHeights LimbRays::all_hits(const Vec3d& offset) const {
+HitHeights LimbRays::all_hits(const Vec3d& offset, const std::vector<bool>& is_limb) const {
   HitHeights hits;
   for (Index face = 0; face < limb_.surface.face_count(); ++face) {
     if (!limb_.surface.is_live(face)) continue;
@@ -97,7 +102,7 @@ HitHeights LimbRays::all_hits(const Vec3d& offset) const {
     const double height = (a * heights[0] + b * heights[1] + c * heights[2]) / whole;
     // `across` and `along` are left-handed as seen by the viewer.
     const bool is_facing = whole < 0;
-    if (is_of_limb_[face])
+    if (is_limb[face])
       (is_facing ? hits.facing : hits.averted).push_back(height);
     else
       (limb_.bones.shares_of_face(face).limb() >= 0.5 ? hits.kin : hits.others).push_back(height);
@@ -105,36 +110,56 @@ HitHeights LimbRays::all_hits(const Vec3d& offset) const {
   return hits;
 }
 
-std::optional<RayHit> LimbRays::cast(const Vec3d& offset) const {
+RayHit LimbRays::hit_at(double near, double far, const HitHeights& hits) const {
   constexpr double kInfinite = std::numeric_limits<double>::infinity();
-  const HitHeights hits = all_hits(offset);
-  const auto highest = [](const std::vector<double>& heights) {
-    return heights.empty() ? -kInfinite : *std::max_element(heights.begin(), heights.end());
-  };
-  const auto lowest = [](const std::vector<double>& heights) {
-    return heights.empty() ? kInfinite : *std::min_element(heights.begin(), heights.end());
-  };
-  // The inside of the limb is not its near surface, where that belongs to another limb. A single
-  // sheet may be seen from behind.
-  const double near_averted = highest(hits.averted);
-  const bool is_sheet = hits.facing.empty() && near_averted > highest(hits.others);
-  RayHit hit;
-  hit.near = is_sheet ? near_averted : highest(hits.facing);
-  if (hit.near == -kInfinite) return {};
-  hit.far = std::min({hit.near, lowest(hits.facing), lowest(hits.averted)});
-  hit.free_before = hit.free_below = hit.free_behind = kInfinite;
-  for (const double height : hits.others)
-    if (height < hit.near) hit.free_below = std::min(hit.free_below, hit.near - height);
-  for (const std::vector<double>* const heights : {&hits.kin, &hits.others})
-    for (const double height : *heights) {
-      if (height > hit.near) hit.free_before = std::min(hit.free_before, height - hit.near);
-      if (height < hit.far) hit.free_behind = std::min(hit.free_behind, hit.far - height);
+  RayHit hit{near, far, kInfinite, kInfinite, kInfinite};
+  const auto limit = [&](const std::vector<double>& heights, double least) {
+    for (const double height : heights) {
+      if (height > near + least) hit.free_before = std::min(hit.free_before, height - near);
+      if (height < far - least) hit.free_behind = std::min(hit.free_behind, far - height);
     }
+  };
+  limit(hits.others, 0);
+  for (const std::vector<double>* const heights : {&hits.facing, &hits.averted, &hits.kin})
+    limit(*heights, kSameSurfaceWidths * width_);
+  for (const double height : hits.others)
+    if (height < near) hit.free_below = std::min(hit.free_below, near - height);
   return hit;
 }
 
+std::optional<RayHit> LimbRays::cast_at_middle() const {
+  const HitHeights hits = all_hits(Vec3d::Zero(), is_of_section_);
+  const auto highest = [](const std::vector<double>& heights) {
+    return heights.empty() ? -std::numeric_limits<double>::infinity()
+                           : *std::max_element(heights.begin(), heights.end());
+  };
+  // The inside of the limb is not its near surface. A single sheet may be seen from behind.
+  const std::vector<double>& near = hits.facing.empty() ? hits.averted : hits.facing;
+  if (near.empty() || (hits.facing.empty() && highest(hits.others) > highest(near))) return {};
+  double far = highest(near);
+  for (const double height : hits.averted) far = std::min(far, height);
+  return hit_at(highest(near), far, hits);
+}
+
+std::optional<RayHit> LimbRays::cast(const Vec3d& offset, const RayHit& neighbour) const {
+  const HitHeights hits = all_hits(offset, is_of_limb_);
+  const auto nearest = [](const std::vector<double>& heights, double expected) {
+    return *std::min_element(heights.begin(), heights.end(), [&](double a, double b) {
+      return std::abs(a - expected) < std::abs(b - expected);
+    });
+  };
+  const std::vector<double>& candidates = hits.facing.empty() ? hits.averted : hits.facing;
+  if (candidates.empty()) return {};
+  const double near = nearest(candidates, neighbour.near);
+  double far = near;
+  if (!hits.averted.empty()) far = std::min(near, nearest(hits.averted, neighbour.far));
+  const RayHit hit = hit_at(near, far, hits);
+  const bool is_hidden_sheet = hits.facing.empty() && hit.free_before < neighbour.free_before;
+  return is_hidden_sheet ? std::optional<RayHit>() : hit;
+}
+
 bool LimbRays::meets_others(const Vec3d& offset, double low, double high) const {
-  const std::vector<double> others = all_hits(offset).others;
+  const std::vector<double> others = all_hits(offset, is_of_limb_).others;
   return std::any_of(others.begin(), others.end(),
                      [&](double height) { return height > low && height < high; });
 }

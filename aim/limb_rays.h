@@ -42,18 +42,25 @@ class LimbRays {
 
   /// Decides which faces are of the limb, up to a distance from the middle.
   void look_around(double reach);
+  /// The ray through the middle, which meets the sections. @return empty where none is seen.
+  [[nodiscard]] std::optional<RayHit> cast_at_middle() const;
+  /// Another ray. Of several parts of the limb one behind the other, such as an arm before the
+  /// chest, it meets the one that continues its neighbour's.
   /// @param offset  in the plane of the view. @return empty where the ray misses the limb.
-  [[nodiscard]] std::optional<RayHit> cast(const Vec3d& offset) const;
+  [[nodiscard]] std::optional<RayHit> cast(const Vec3d& offset, const RayHit& neighbour) const;
   /// Whether a ray meets a surface that the limb does not move between two heights.
   [[nodiscard]] bool meets_others(const Vec3d& offset, double low, double high) const;
 
  private:
   [[nodiscard]] bool may_belong(Index face, double reach) const;
-  [[nodiscard]] HitHeights all_hits(const Vec3d& offset) const;
+  /// @param is_limb  per face; the others that the limb moves are kin.
+  [[nodiscard]] HitHeights all_hits(const Vec3d& offset, const std::vector<bool>& is_limb) const;
+  [[nodiscard]] RayHit hit_at(double near, double far, const HitHeights& hits) const;
 
   const Limb& limb_;
   ViewFrame frame_;
   std::vector<Index> section_faces_;
+  std::vector<bool> is_of_section_;  ///< Per face.
   Vec3d middle_ = Vec3d::Zero();
   double width_ = 0;
   std::vector<bool> is_of_limb_;  ///< Per face.

@@ -37,12 +37,13 @@ std::vector<Vec3d> places_inside(const ViewFrame& frame, double radius) {
 
 /// What all rays inside the bore meet together. @return empty if the one in the middle misses.
 std::optional<RayHit> look_into(const LimbRays& rays, const std::vector<Vec3d>& places) {
-  std::optional<RayHit> all = rays.cast(places.front());
-  if (!all) return all;
+  const std::optional<RayHit> middle = rays.cast_at_middle();
+  if (!middle) return {};
+  std::optional<RayHit> all = middle;
   double other_before = all->near + all->free_before, other_below = all->near - all->free_below,
          other_behind = all->far - all->free_behind;
   for (const Vec3d& place : places) {
-    const std::optional<RayHit> hit = rays.cast(place);
+    const std::optional<RayHit> hit = rays.cast(place, *middle);
     if (!hit) continue;
     all->near = std::max(all->near, hit->near);
     all->far = std::min(all->far, hit->far);
@@ -90,7 +91,7 @@ Result<Operation> resolve_puncture(const PosedSurface& surface, const PunctureOp
   const double width = rays.width(), radius = metres(puncture.radius, width);
   rays.look_around(radius + width);
   const std::vector<Vec3d> places = places_inside(*frame, radius);
-  const std::optional<RayHit> middle = rays.cast(Vec3d::Zero()), all = look_into(rays, places);
+  const std::optional<RayHit> middle = rays.cast_at_middle(), all = look_into(rays, places);
   if (!middle || !all)
     return Status::failure(StatusCode::not_found, limb->bones.bone(),
                            "%s: the limb has no surface there that is seen from this side",

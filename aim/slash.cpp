@@ -14,7 +14,8 @@ namespace {
 /// Blades per width of the limb, and their least and greatest number.
 constexpr double kBladesPerWidth = 32;
 constexpr int kLeastBlades = 17, kMostBlades = 129;
-/// Near its outline the limb is thin; the blade still passes the near surface by this many widths.
+/// Near its outline the limb is thin; the blade still passes the near surface by this many widths,
+/// and by the width of the gap, whose sides lie deeper there.
 constexpr double kLeastDepthWidths = 0.02;
 
 Status check(const Limb& limb, const SlashOperation& slash) {
@@ -41,22 +42,47 @@ SeenStroke look_along(const LimbRays& rays, const Vec3d& way, double length) {
                                                static_cast<double>(kMostBlades)));
   const int half = std::max(wanted, kLeastBlades) / 2;
   SeenStroke seen;
-  const auto look = [&](int i) {
-    const Vec3d offset = (0.5 * length * i / half) * way;
-    const std::optional<RayHit> hit = rays.cast(offset);
-    if (!hit) return false;
-    seen.offsets.push_back(offset);
-    seen.hits.push_back(*hit);
-    return true;
+  const std::optional<RayHit> middle = rays.cast_at_middle();
+  if (!middle) return seen;
+  const auto look_to = [&](int direction) {
+    RayHit last = *middle;
+    for (int i = direction; std::abs(i) <= half; i += direction) {
+      const Vec3d offset = (0.5 * length * i / half) * way;
+      const std::optional<RayHit> hit = rays.cast(offset, last);
+      if (!hit) return;
+      seen.offsets.push_back(offset);
+      seen.hits.push_back(*hit);
+      last = *hit;
+    }
   };
-  if (!look(0)) return {};
-  for (int i = -1; i >= -half && look(i); --i) {
-  }
+  look_to(-1);
   std::reverse(seen.offsets.begin(), seen.offsets.end());
   std::reverse(seen.hits.begin(), seen.hits.end());
-  for (int i = 1; i <= half && look(i); ++i) {
-  }
+  seen.offsets.push_back(Vec3d::Zero());
+  seen.hits.push_back(*middle);
+  look_to(1);
   return seen;
+}
+
+/// Heights of a blade towards the viewer.
+struct BladeEnds {
+  double base = 0, tip = 0;
+};
+
+/// Blade `i` of a stroke. Where nothing is in the way, all blades begin at one height, and without
+/// a depth they all reach down to one: the gap that a straight row of blades leaves is even.
+BladeEnds ends_of(const SeenStroke& seen, std::size_t i, const SlashOperation& slash,
+                  double width) {
+  const double least_depth = std::max(kLeastDepthWidths * width, slash.options.width);
+  double highest = seen.hits[i].near, lowest = seen.hits[i].near;
+  for (const RayHit& hit : seen.hits) {
+    highest = std::max(highest, hit.near);
+    lowest = std::min(lowest, hit.near - std::max(0.5 * (hit.near - hit.far), least_depth));
+  }
+  const RayHit& hit = seen.hits[i];
+  const double before =
+      std::min(highest + kClearanceWidths * width - hit.near, 0.5 * hit.free_before);
+  return {hit.near + before, slash.depth ? hit.near - metres(*slash.depth, width) : lowest};
 }
 
 }  // namespace
@@ -82,14 +108,10 @@ Result<Operation> resolve_slash(const PosedSurface& surface, const SlashOperatio
   tear.pose = slash.pose;
   tear.options = slash.options;
   for (std::size_t i = 0; i < seen.hits.size(); ++i) {
-    const RayHit& hit = seen.hits[i];
-    const double depth = slash.depth
-                             ? metres(*slash.depth, width)
-                             : std::max(0.5 * (hit.near - hit.far), kLeastDepthWidths * width);
-    const double before = std::min(kClearanceWidths * width, 0.5 * hit.free_before);
+    const BladeEnds ends = ends_of(seen, i, slash, width);
     const Vec3d place = rays.middle() + seen.offsets[i];
-    tear.stroke.push_back({place + (hit.near + before) * frame->towards_viewer,
-                           place + (hit.near - depth) * frame->towards_viewer});
+    tear.stroke.push_back(
+        {place + ends.base * frame->towards_viewer, place + ends.tip * frame->towards_viewer});
   }
   return Operation(std::move(tear));
 }
