@@ -19,6 +19,7 @@
 #include "tools/picture/bone_marks.h"
 #include "tools/picture/guide_marks.h"
 #include "tools/picture/labels.h"
+#include "tools/picture/lights.h"
 #include "tools/picture/operation_marks.h"
 #include "tools/verbs.h"
 
@@ -100,10 +101,7 @@ StillScene make_scene(const Character& character, const Subject& subject, const 
     mesh.normals = subject.meshes[m].normals;
     scene.surfaces.push_back(std::move(mesh));
   }
-  // From the upper left, and weaker from the right and from below, so that no side is black.
-  scene.lights = {{frame.towards_eye - 0.5 * frame.right + 0.7 * frame.up, 2.5},
-                  {frame.towards_eye + 0.9 * frame.right - 0.1 * frame.up, 1.2},
-                  {0.3 * frame.towards_eye - frame.up, 0.7}};
+  scene.lights = lights_of(frame);
   return scene;
 }
 

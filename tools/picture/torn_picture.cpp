@@ -11,14 +11,14 @@
 
 #include "tools/model/history.h"
 #include "tools/model/posed_model.h"
+#include "tools/picture/lights.h"
 #include "tools/picture/open_lips.h"
 #include "tools/picture/picture.h"
 
 namespace sunder::tools {
 namespace {
 
-constexpr int kWidth = 1280, kHeight = 960;
-const Vec4f kSurface(1.0f, 0.98f, 0.94f, 1.0f);  // Linear RGBA.
+constexpr PictureSize kSize = {1280, 960};
 // As a fraction of the diagonal of the model.
 constexpr double kThickness = 0.006;  ///< Of the flesh.
 constexpr double kApart = 0.05;       ///< Distance by which the pieces of a cut are moved.
@@ -99,6 +99,42 @@ Camera aim(const ViewFrame& frame, const std::vector<Vec3d>& wound, const Bounds
   return camera;
 }
 
+/// The vertices of a submesh, each once, in the order of its triangles.
+std::vector<Index> vertices_of(const Mesh& mesh, Index submesh) {
+  std::vector<Index> vertices;
+  std::vector<bool> is_taken(mesh.vertex_count(), false);
+  for (Index t = 0; t < mesh.triangles.size(); ++t) {
+    if (mesh.triangle_submesh[t] != submesh) continue;
+    for (const Index vertex : mesh.triangles[t]) {
+      if (!is_taken[vertex]) vertices.push_back(vertex);
+      is_taken[vertex] = true;
+    }
+  }
+  return vertices;
+}
+
+template <class Value>
+std::vector<Value> values_at(const std::vector<Value>& values, const std::vector<Index>& vertices) {
+  std::vector<Value> of_vertices;
+  for (const Index vertex : vertices) of_vertices.push_back(values[vertex]);
+  return of_vertices;
+}
+
+/// Gives the outside of a still scene the materials and vertex attributes of the torn model; its
+/// parts are in the order of meshes and submeshes.
+void add_materials(const TornModel& torn, Character& still) {
+  auto outside = still.meshes.begin();
+  for (const Mesh& mesh : torn.character().meshes)
+    for (Index submesh = 0; submesh < mesh.submeshes.size(); ++submesh, ++outside) {
+      if (!outside->color_sets.empty()) continue;  // a wall or cap
+      const std::vector<Index> vertices = vertices_of(mesh, submesh);
+      outside->submeshes[0].material = mesh.submeshes[submesh].material;
+      for (const auto& set : mesh.uv_sets) outside->uv_sets.push_back(values_at(set, vertices));
+      for (const auto& set : mesh.color_sets)
+        outside->color_sets.push_back(values_at(set, vertices));
+    }
+}
+
 /// Moves the pieces of a cut away from its plane, to both sides.
 void move_apart(const Character& character, const PlaneCut& cut,
                 const std::vector<TornPiece>& pieces, double distance,
@@ -121,9 +157,9 @@ void move_apart(const Character& character, const PlaneCut& cut,
 
 }  // namespace
 
-Status draw_torn(std::shared_ptr<const Character> source, std::span<const Operation> history,
+Status draw_torn(const LoadedCharacter& loaded, std::span<const Operation> history,
                  const std::filesystem::path& png) {
-  Result<CharacterInstance> instance = make_gaping_instance(std::move(source));
+  Result<CharacterInstance> instance = make_gaping_instance(loaded.character);
   if (!instance) return instance.error();
   const TornModel& torn = instance->model();
   const Operation& newest = newest_of(history);
@@ -152,13 +188,16 @@ Status draw_torn(std::shared_ptr<const Character> source, std::span<const Operat
   const std::vector<RimEdge> rims = find_rims(torn);
   Character still =
       make_torn_still(torn, open, *closed, *untorn, rims, frame, kThickness * diagonal);
-  paint(still, kSurface);
+  add_materials(torn, still);
   // The picture of a cut shows its pieces, that of a bore its surroundings.
   const double margin = cut != nullptr                                   ? 3.1
                         : std::holds_alternative<DrillOperation>(newest) ? 2.4
                                                                          : 1.45;
-  return draw(still, aim(frame, wound_places(torn, rims, open), bounds, margin), kWidth, kHeight,
-              png);
+  const std::filesystem::path file = scene_file(png);
+  const Result<std::uint32_t> saved =
+      save_still(file, {std::move(still.meshes), {}, lights_of(frame)}, loaded.source.get());
+  if (!saved) return saved.error();
+  return render(file, aim(frame, wound_places(torn, rims, open), bounds, margin), kSize, png);
 }
 
 }  // namespace sunder::tools

@@ -69,7 +69,7 @@ bool draw_picture(const LoadedCharacter& loaded, const TornModel& model,
   else if (!can_draw())
     status = Status::failure(StatusCode::not_found, kNone, "%s", kNoRenderer);
   else
-    status = draw_torn(loaded.character, history, png);
+    status = draw_torn(loaded, history, png);
   if (!status) (void)complain(png.string(), status, ExitCode::findings);
   return static_cast<bool>(status);
 }
