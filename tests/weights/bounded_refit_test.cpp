@@ -7,8 +7,10 @@
 #include <gtest/gtest.h>
 
 #include "support/allocation_count.h"
+#include "support/coupled.h"
 #include "support/refit_scene.h"
 #include "support/stress.h"
+#include "weights/internal/coupled_refit.h"
 #include "weights/internal/point_refit.h"
 
 namespace sunder {
@@ -139,6 +141,42 @@ TEST(BoundedRefit, weights_of_three_bones_are_within_two_percent_of_all_weights_
   }
   EXPECT_GT(checked, 30);
   EXPECT_LE(std::sqrt(of_fits / of_grid), 1.02);
+}
+
+TEST(BoundedRefit, coupled_fits_exceed_no_bound_either_and_keep_most_of_the_gain) {
+  if (!test::use_coupled_refit()) GTEST_SKIP() << "built without Ceres (SUNDER_CERES)";
+  test::Random random(7);
+  PointRefit refit;
+  double of_start = 0, of_single = 0, of_coupled = 0;
+  for (int scene = 0; scene < 10; ++scene) {
+    const Groups groups(random, {.points = 20, .slots = 10});
+    std::vector<PointToRefit> points;
+    std::vector<RefitNeighbours> neighbours;
+    for (std::uint32_t i = 0; i < groups.lip.points.size(); ++i) {
+      points.push_back(groups.point(i));
+      points.back().may_move = random.index(4) != 0;
+      if (i > 0) neighbours.push_back({i - 1, i, 0.01});
+    }
+    const PointRefit::Options options{4, true, Groups::kCount};
+    const auto fits = refit_coupled(points, neighbours, {options, 1e-6}, groups.moments);
+    ASSERT_TRUE(fits) << fits.error().text();
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const CoupledFit& fit = (*fits)[i];
+      for (std::size_t group = 0; group < Groups::kCount; ++group) {
+        const double bound = groups.bounds[i * Groups::kCount + group];
+        ASSERT_LE(std::sqrt(groups.mean_square(i, group, fit.influences, fit.position)),
+                  std::sqrt(bound) * (1 + 1e-6) + 1e-9);
+      }
+      if (!points[i].may_move) {
+        EXPECT_EQ(fit.position, points[i].position);
+      }
+      of_start += fit.barycentric_mean_square;
+      of_coupled += fit.mean_square;
+      of_single += refit.fit(points[i], options, groups.moments).mean_square;
+    }
+  }
+  EXPECT_LT(of_single, 0.9 * of_start);
+  EXPECT_LT(of_start - of_single, 1.3 * (of_start - of_coupled));
 }
 
 TEST(BoundedRefit, own_poses_bind_too) {
