@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <numbers>
 #include <numeric>
@@ -25,6 +26,8 @@ constexpr double kNearJoint = 0.25;  ///< Share of the bone.
 constexpr double kRoundBone = 0.5;
 /// Sections that do not go round the bone belong to the limb up to this multiple of its radius.
 constexpr double kReachRadii = 1.25;
+/// Shares of a bone at which another section is looked for, to be proposed.
+constexpr int kShareSteps = 20;
 
 /// Where a plane crosses the faces: the first and last half-edge of each line, and its ends.
 struct CrossedFace {
@@ -129,20 +132,6 @@ std::string movers_of(const Limb& limb, const Section& section) {
   return text;
 }
 
-Status no_section(const Limb& limb, const std::vector<Section>& sections) {
-  const Section* there = nullptr;
-  for (const Section& section : sections)
-    if (is_round_bone(section) &&
-        (there == nullptr || distance(limb.place, section) < distance(limb.place, *there)))
-      there = &section;
-  if (there == nullptr)
-    return Status::failure(StatusCode::not_found, limb.bones.bone(),
-                           "%s: the limb has no surface there", limb.label.c_str());
-  return Status::failure(StatusCode::not_found, limb.bones.bone(),
-                         "%s: the section there is not of the limb alone; it is moved by %s",
-                         limb.label.c_str(), movers_of(limb, *there).c_str());
-}
-
 }  // namespace
 
 std::vector<Section> sections_of(const Limb& limb, const LimbPlane& plane) {
@@ -185,8 +174,10 @@ std::vector<Section> sections_of(const Limb& limb, const LimbPlane& plane) {
   return sections;
 }
 
-Result<std::vector<Section>> limb_sections(const Limb& limb, const LimbPlane& plane) {
-  std::vector<Section> sections = sections_of(limb, plane);
+namespace {
+
+/// Those of the sections that belong to the limb.
+std::vector<Section> choose(const Limb& limb, std::vector<Section> sections) {
   // The loops of the limb round its bone say how far it reaches. Where none goes round the bone,
   // because the surface is open or the bone outside of it, the nearest section of the limb does.
   std::vector<bool> is_chosen(sections.size(), false);
@@ -204,7 +195,7 @@ Result<std::vector<Section>> limb_sections(const Limb& limb, const LimbPlane& pl
           (nearest == sections.size() ||
            distance(limb.place, sections[i]) < distance(limb.place, sections[nearest])))
         nearest = i;
-    if (nearest == sections.size()) return no_section(limb, sections);
+    if (nearest == sections.size()) return {};
     is_chosen[nearest] = true;
     centre = sections[nearest].middle;
     reach = radius(centre, sections[nearest]);
@@ -216,6 +207,49 @@ Result<std::vector<Section>> limb_sections(const Limb& limb, const LimbPlane& pl
   std::vector<Section> chosen;
   for (std::size_t i = 0; i < sections.size(); ++i)
     if (is_chosen[i]) chosen.push_back(std::move(sections[i]));
+  return chosen;
+}
+
+/// "; at 0.65 it has a section of its own": the nearest share at which a plane with this normal
+/// crosses the limb. Empty if there is none.
+std::string nearest_share(const Limb& limb, const Vec3d& normal) {
+  for (int step = 1; step <= kShareSteps; ++step)
+    for (const int direction : {1, -1}) {
+      const double at = limb.at + direction * step / static_cast<double>(kShareSteps);
+      if (at < 0 || at > 1) continue;
+      Limb other = limb;
+      other.at = at;
+      other.place = limb.segment.place(at);
+      if (choose(other, sections_of(other, {normal, dot(normal, other.place)})).empty()) continue;
+      char text[80];
+      std::snprintf(text, sizeof text, "; at %.3g it has a section of its own", at);
+      return text;
+    }
+  return {};
+}
+
+Status no_section(const Limb& limb, const std::vector<Section>& sections, const Vec3d& normal) {
+  const std::string nearest = nearest_share(limb, normal);
+  const Section* there = nullptr;
+  for (const Section& section : sections)
+    if (is_round_bone(section) &&
+        (there == nullptr || distance(limb.place, section) < distance(limb.place, *there)))
+      there = &section;
+  if (there == nullptr)
+    return Status::failure(StatusCode::not_found, limb.bones.bone(),
+                           "%s: the limb has no surface there%s", limb.label.c_str(),
+                           nearest.c_str());
+  return Status::failure(StatusCode::not_found, limb.bones.bone(),
+                         "%s: the section there is not of the limb alone; it is moved by %s%s",
+                         limb.label.c_str(), movers_of(limb, *there).c_str(), nearest.c_str());
+}
+
+}  // namespace
+
+Result<std::vector<Section>> limb_sections(const Limb& limb, const LimbPlane& plane) {
+  std::vector<Section> sections = sections_of(limb, plane);
+  std::vector<Section> chosen = choose(limb, sections);
+  if (chosen.empty()) return no_section(limb, sections, plane.normal);
   return chosen;
 }
 

@@ -33,7 +33,8 @@ struct LimbPlane {
 /// subtree and, near the joint, its parent; and others on or inside those, such as the linings and
 /// plates of a sleeve, that the bone itself moves. Neither a club held in the fist nor a skirt
 /// round both legs.
-/// @return never empty; not_found, which names the bones that move what is there instead.
+/// @return never empty; not_found, which names the bones that move what is there instead and the
+///         nearest share of the bone at which the limb has a section.
 [[nodiscard]] Result<std::vector<Section>> limb_sections(const Limb& limb, const LimbPlane& plane);
 
 }  // namespace sunder::aim

@@ -9,6 +9,9 @@ namespace {
 
 /// Sine of the least angle between view and bone: 15 degrees.
 constexpr double kLeastSine = 0.25;
+/// Cosine of the least angle between a bone and the front at which it is seen from there unless
+/// told otherwise: 30 degrees.
+constexpr double kMostCosine = 0.866;
 
 Vec3d direction_of(ViewSide side) {
   switch (side) {
@@ -22,6 +25,22 @@ Vec3d direction_of(ViewSide side) {
   return {0, 0, 1};
 }
 
+/// The direction towards the viewer, of any length.
+Vec3d direction_of(const Limb& limb, const std::optional<View>& from) {
+  if (!from) {
+    const Vec3d front = direction_of(ViewSide::front);
+    return std::abs(dot(front, limb.segment.direction())) < kMostCosine
+               ? front
+               : direction_of(ViewSide::left);
+  }
+  if (const auto* const side = std::get_if<ViewSide>(&*from)) return direction_of(*side);
+  const ViewDirection& given = std::get<ViewDirection>(*from);
+  return given.space == ViewDirection::Space::model
+             ? given.direction
+             : Vec3d(multiply(limb.surface.pose().model_from_bone[limb.bones.bone()].linear(),
+                              given.direction));
+}
+
 }  // namespace
 
 Vec3d ViewFrame::turned(double radians) const {
@@ -29,17 +48,8 @@ Vec3d ViewFrame::turned(double radians) const {
   return std::cos(radians) * across - std::sin(radians) * along;
 }
 
-Result<ViewFrame> view_frame(const Limb& limb, const View& from) {
-  Vec3d direction;
-  if (const auto* const side = std::get_if<ViewSide>(&from)) {
-    direction = direction_of(*side);
-  } else {
-    const ViewDirection& given = std::get<ViewDirection>(from);
-    direction = given.direction;
-    if (given.space == ViewDirection::Space::bone)
-      direction =
-          multiply(limb.surface.pose().model_from_bone[limb.bones.bone()].linear(), direction);
-  }
+Result<ViewFrame> view_frame(const Limb& limb, const std::optional<View>& from) {
+  Vec3d direction = direction_of(limb, from);
   if (!direction.allFinite() || !(norm(direction) > 1e-30) || !(norm(direction) < 1e30))
     return Status::failure(StatusCode::invalid_argument, kNone,
                            "%s: the direction of the view has no length or is not finite",

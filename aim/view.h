@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "aim/limb.h"
 
 namespace sunder::aim {
@@ -14,8 +16,10 @@ struct ViewFrame {
   [[nodiscard]] Vec3d turned(double radians) const;
 };
 
+/// @param from  empty: from the front, or from the left if the bone points to the front or the
+/// back.
 /// @return invalid_argument for a direction that is not finite, has no length, or is within 15
 ///         degrees of the bone.
-[[nodiscard]] Result<ViewFrame> view_frame(const Limb& limb, const View& from);
+[[nodiscard]] Result<ViewFrame> view_frame(const Limb& limb, const std::optional<View>& from);
 
 }  // namespace sunder::aim

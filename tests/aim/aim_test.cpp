@@ -204,6 +204,24 @@ TEST(Slash, from_the_left_comes_between_club_and_arm) {
   EXPECT_EQ(torn_meshes(model), std::set<std::uint32_t>{kSleeve});
 }
 
+TEST(Slash, without_a_side_is_seen_from_the_front_or_if_the_bone_points_there_from_the_left) {
+  const TornModel model = make_model(make_armed_arm());
+  SlashOperation any = slash_at("ForeArm", 0.5), sided = any;
+  sided.from = ViewSide::front;
+  const auto stroke_of = [&](const SlashOperation& slash) {
+    const auto plain = resolve(model, slash);
+    EXPECT_TRUE(plain) << plain.error().text();
+    return plain ? std::get<TearOperation>(*plain).stroke : Stroke();
+  };
+  EXPECT_EQ(stroke_of(any), stroke_of(sided));
+  BonesPose forwards;  // turns +y to +z
+  forwards.bones.push_back({"rig:UpperArm", {}, Quatf(std::sqrt(0.5f), std::sqrt(0.5f), 0, 0), {}});
+  any.pose = sided.pose = forwards;
+  EXPECT_THAT(std::string(failure_of(model, sided).text()), HasSubstr("along the bone"));
+  sided.from = ViewSide::left;
+  EXPECT_EQ(stroke_of(any), stroke_of(sided));
+}
+
 TEST(Slash, has_the_length_and_turn_that_are_asked_for) {
   for (const double turn : {0.0, 0.5, kPi / 2, -0.7}) {
     TornModel model = make_model(make_armed_arm());
@@ -325,6 +343,8 @@ TEST(Aim, refuses_what_it_cannot_hit) {
             StatusCode::invalid_argument);
   SlashOperation slash = slash_at("ForeArm", 0.5);
   slash.from = ViewSide::top;
+  EXPECT_THAT(std::string(failure_of(model, slash).text()), HasSubstr("along the bone"));
+  slash.from = ViewDirection{Vec3d(1e-9, 1.0, 0.0)};
   EXPECT_THAT(std::string(failure_of(model, slash).text()), HasSubstr("along the bone"));
   slash.from = ViewDirection{Vec3d::Zero()};
   EXPECT_EQ(failure_of(model, slash).code(), StatusCode::invalid_argument);

@@ -284,7 +284,7 @@ class AimedAt {
         is_flat_list_(is_flat_list(source)) {}
 
   /// @return whether the operation was resolved; then it hit the limb and nothing else.
-  bool slash(ViewSide from) { return hits(SlashOperation{{}, place(), from}); }
+  bool slash() { return hits(SlashOperation{{}, place()}); }
   bool puncture(ViewSide from) {
     PunctureOperation puncture;
     puncture.place = place();
@@ -300,6 +300,18 @@ class AimedAt {
  private:
   [[nodiscard]] LimbPlace place() const { return {source_.skeleton.bones[bone_].name, share_}; }
 
+  /// If a refusal proposes a share, the limb has a section there.
+  void expect_proposal_is_true(const TornModel& model, const AimedOperation& aimed,
+                               const std::string& refusal) const {
+    const std::string before = "; at ";
+    const std::size_t at = refusal.find(before);
+    if (!std::holds_alternative<SeverOperation>(aimed) || at == std::string::npos) return;
+    SeverOperation proposed = std::get<SeverOperation>(aimed);
+    proposed.place.at = std::stod(refusal.substr(at + before.size()));
+    const auto plain = resolve(model, proposed);
+    EXPECT_TRUE(plain) << refusal << "; then: " << plain.error().text();
+  }
+
   bool hits(const AimedOperation& aimed) {
     auto model = TornModel::create(character_);
     EXPECT_TRUE(model);
@@ -313,6 +325,7 @@ class AimedAt {
       EXPECT_TRUE(plain.error().code() == StatusCode::not_found ||
                   plain.error().code() == StatusCode::invalid_argument)
           << plain.error().text();
+      expect_proposal_is_true(*model, aimed, std::string(plain.error().text()));
       return false;
     }
     const auto report = apply_operation(*model, *plain);
@@ -365,8 +378,8 @@ void aim_at_all(const Character& source, const std::shared_ptr<const Character>&
         ++(is_resolved ? tally.hit : tally.refused);
       };
       count(aimed.sever());
+      count(aimed.slash());
       // Of two sides at a right angle, a bone points along one at most.
-      count(aimed.slash(ViewSide::front) || aimed.slash(ViewSide::left));
       count(aimed.puncture(ViewSide::back) || aimed.puncture(ViewSide::left));
     }
 }

@@ -30,7 +30,7 @@ TEST(AimedLog, reads_a_slash) {
       "layers": "all", "wall_depth": 0.002, "weights": {"influences": 4},
       "pose": {"clip": "Walk", "time": 0.5}})");
   EXPECT_EQ(slash.place, (LimbPlace{"LeftForeArm", 0.4}));
-  EXPECT_EQ(std::get<ViewSide>(slash.from), ViewSide::back);
+  EXPECT_EQ(std::get<ViewSide>(slash.from.value()), ViewSide::back);
   EXPECT_EQ(slash.length, (AimedLength{0.1, AimedLength::Unit::metres}));
   EXPECT_NEAR(slash.turn, std::numbers::pi / 6, 1e-15);
   EXPECT_EQ(slash.depth, (AimedLength{0.2, AimedLength::Unit::widths}));
@@ -42,7 +42,7 @@ TEST(AimedLog, reads_a_slash) {
 TEST(AimedLog, gives_a_slash_its_defaults) {
   const auto slash = parsed<SlashOperation>(R"({"op": "slash", "around": "Tail"})");
   EXPECT_EQ(slash.place, (LimbPlace{"Tail", 0.5}));
-  EXPECT_EQ(std::get<ViewSide>(slash.from), ViewSide::front);
+  EXPECT_FALSE(slash.from.has_value());
   EXPECT_EQ(slash.length, SlashOperation{}.length);
   EXPECT_EQ(slash.turn, 0.0);
   EXPECT_FALSE(slash.depth);
@@ -53,11 +53,11 @@ TEST(AimedLog, gives_a_slash_its_defaults) {
 TEST(AimedLog, reads_directions_of_model_and_bone) {
   const auto of_model =
       parsed<SlashOperation>(R"({"op": "slash", "around": "A", "from": [1, 2, 3]})");
-  EXPECT_EQ(std::get<ViewDirection>(of_model.from),
+  EXPECT_EQ(std::get<ViewDirection>(of_model.from.value()),
             (ViewDirection{{1, 2, 3}, ViewDirection::Space::model}));
   const auto of_bone =
       parsed<SlashOperation>(R"({"op": "slash", "around": "A", "from": {"bone": [0, 0, -1]}})");
-  EXPECT_EQ(std::get<ViewDirection>(of_bone.from),
+  EXPECT_EQ(std::get<ViewDirection>(of_bone.from.value()),
             (ViewDirection{{0, 0, -1}, ViewDirection::Space::bone}));
 }
 
@@ -66,7 +66,7 @@ TEST(AimedLog, reads_a_sever) {
       "tilt": -45, "from": "top", "caps": false, "pose": "bind"})");
   EXPECT_EQ(sever.place, (LimbPlace{"LeftHand", 0.25}));
   EXPECT_NEAR(sever.tilt, -std::numbers::pi / 4, 1e-15);
-  EXPECT_EQ(std::get<ViewSide>(sever.from), ViewSide::top);
+  EXPECT_EQ(std::get<ViewSide>(sever.from.value()), ViewSide::top);
   EXPECT_FALSE(sever.caps);
   EXPECT_TRUE(std::holds_alternative<BindPose>(sever.pose));
   const auto plain = parsed<SeverOperation>(R"({"op": "sever", "bone": "LeftHand"})");

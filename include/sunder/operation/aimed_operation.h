@@ -37,6 +37,8 @@ struct ViewDirection {
 };
 
 using View = std::variant<ViewSide, ViewDirection>;
+// Where no view is given, a limb is seen from the front, and from the left if its bone points
+// within 30 degrees to the front or the back.
 
 /// A place on a limb.
 struct LimbPlace {
@@ -53,7 +55,7 @@ struct LimbPlace {
 struct SlashOperation {
   PoseSpec pose = {};
   LimbPlace place = {};
-  View from = ViewSide::front;
+  std::optional<View> from = {};
   AimedLength length = {0.6, AimedLength::Unit::widths};
   double turn = 0.0;  ///< Radians about the view, counter-clockwise as seen; 0: across the limb.
   /// Reach of the blade below the near surface. If empty: the middle of the limb.
@@ -65,8 +67,8 @@ struct SlashOperation {
 struct SeverOperation {
   PoseSpec pose = {};
   LimbPlace place = {{}, 0.0};
-  double tilt = 0.0;            ///< Radians, by which the plane's normal leans towards `from`.
-  View from = ViewSide::front;  ///< Counts only with a tilt.
+  double tilt = 0.0;              ///< Radians, by which the plane's normal leans towards `from`.
+  std::optional<View> from = {};  ///< Counts only with a tilt.
   bool caps = true;
   std::optional<WeightOptions> weights = {};
 };
@@ -75,7 +77,7 @@ struct SeverOperation {
 struct PunctureOperation {
   PoseSpec pose = {};
   LimbPlace place = {};
-  View from = ViewSide::front;
+  std::optional<View> from = {};
   AimedLength radius = {0.1, AimedLength::Unit::widths};
   bool is_through = false;  ///< Out at the back of the limb.
   /// Below the near surface; not with `is_through`. If empty: the middle of the limb.
