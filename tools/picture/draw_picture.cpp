@@ -8,9 +8,9 @@
 #include <variant>
 #include <vector>
 
-#include "tools/info/bone_extents.h"
 #include "tools/messages/messages.h"
 #include "tools/messages/overwriting.h"
+#include "tools/model/bone_extents.h"
 #include "tools/model/history.h"
 #include "tools/model/named_poses.h"
 #include "tools/model/nearest_names.h"

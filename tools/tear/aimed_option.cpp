@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "tools/messages/json_file.h"
+#include "tools/messages/json.h"
 
 namespace sunder::tools {
 namespace {
@@ -83,7 +83,7 @@ Result<AimedOperation> parse_aimed_option(const std::string& kind, const std::st
         equals == std::string::npos ? Json(true) : value_json(fields[i].substr(equals + 1));
   }
   const Json log = {{"sunder_operations", 1}, {"operations", Json::array({operation})}};
-  auto parsed = parse_aimed_operations(log.dump(-1, ' ', false, Json::error_handler_t::replace));
+  auto parsed = parse_aimed_operations(dump_line(log));
   if (parsed) return std::get<AimedOperation>(std::move(parsed->front()));
   // The place in the log says nothing to whom has written none.
   std::string_view fault = parsed.error().text();
