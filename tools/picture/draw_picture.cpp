@@ -2,7 +2,6 @@
 #include <sunder/skinning/pose.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <string>
 #include <utility>
 #include <variant>
@@ -10,6 +9,7 @@
 
 #include "tools/messages/messages.h"
 #include "tools/messages/overwriting.h"
+#include "tools/messages/printed.h"
 #include "tools/model/bone_extents.h"
 #include "tools/model/history.h"
 #include "tools/model/name_advice.h"
@@ -123,10 +123,8 @@ bool draw_marks(const PictureRequest& request, const Character& character, const
   if (request.with_grid) {
     const Grid grid = choose_grid(subject.bounds);
     draw_grid(grid, subject.bounds, marks);
-    char text[96];
-    std::snprintf(text, sizeof text, "grid: one line per %g m, every tenth is heavier; at y = %.4g",
-                  grid.spacing, grid.height);
-    say(text);
+    say(printed("grid: one line per %g m, every tenth is heavier; at y = %.4g", grid.spacing,
+                grid.height));
   }
   const std::vector<OperationLabel> indices = draw_operations(operations, subject.bounds, marks);
   if (request.with_bones) draw_bones(character.skeleton, subject.bones, marks);
