@@ -28,8 +28,8 @@ const KEYWORDS = {
   required: (names, value, at) => (isObject(value)
     ? names.filter((name) => !(name in value)).map((name) => `${at}: no ${name}`) : []),
   dependentRequired: (of, value, at) => (isObject(value)
-    ? Object.keys(of).filter((name) => name in value).flatMap((name) =>
-      of[name].filter((needed) => !(needed in value)).map((needed) => `${at}: ${name} without ${needed}`)) : []),
+    ? Object.keys(of).filter((name) => name in value).flatMap((name) => of[name]
+      .filter((needed) => !(needed in value)).map((needed) => `${at}: ${name} without ${needed}`)) : []),
   properties: (of, value, at) => (isObject(value)
     ? Object.keys(of).filter((name) => name in value)
       .flatMap((name) => faults(of[name], value[name], `${at}/${name}`)) : []),

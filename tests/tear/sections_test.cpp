@@ -24,12 +24,11 @@ using test::Random;
 using test::state_of;
 using testing::IsEmpty;
 
-/// Tubes side by side, each with its own mesh and skin. Tube i stands at x = 2 i.
+/// Tubes side by side, each a mesh of its own with the same skin. Tube i stands at x = 2 i.
 Character make_tubes_side_by_side(std::uint32_t count, std::uint32_t sides) {
   Character character = test::make_tube(6, sides, 3);
   const Mesh tube = character.meshes[0];
   const auto weights = static_cast<std::uint32_t>(character.rest_morph_weights.size());
-  const Skin skin = character.skins[0];
   const std::vector<float> rest = character.rest_morph_weights;
   for (std::uint32_t i = 1; i < count; ++i) {
     Mesh mesh = tube;

@@ -1,7 +1,9 @@
-#include "tools/model/nearest_names.h"
+#include "core/internal/nearest_names.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "tools/model/name_advice.h"
 
 namespace sunder::tools {
 namespace {

@@ -24,13 +24,15 @@ void add(CLI::App& verb, const char* name, const char* type, const char* descrip
 }  // namespace
 
 void add_aimed_operations(CLI::App& verb) {
-  add(verb, kSlash, "BONE@SHARE[,FIELD=VALUE...]",
-      "Tear a stroke on the limb of a bone, at a share of its length from 0 to 1; fields: from, "
+  add(verb, kSlash, "BONE[@SHARE][,FIELD=VALUE...]",
+      "Tear a stroke on the limb of a bone, at a share of its length from 0 to 1 (0.5); fields: "
+      "from, "
       "length, turn, depth, width, layers, wall_depth; see docs/aim.md. Repeatable, as those "
       "below; applied in order, after --ops");
-  add(verb, kSever, "BONE@SHARE[,FIELD=VALUE...]",
-      "Cut through the limb of a bone and nothing else; fields: tilt, from, caps");
-  add(verb, kPuncture, "BONE@SHARE[,FIELD=VALUE...]",
+  add(verb, kSever, "BONE[@SHARE][,FIELD=VALUE...]",
+      "Cut through the limb of a bone and nothing else, without a share at its joint; fields: "
+      "tilt, from, caps");
+  add(verb, kPuncture, "BONE[@SHARE][,FIELD=VALUE...]",
       "Bore into the limb of a bone; fields: from, radius, through, depth, wall, chord_tolerance");
   verb.add_option(
           "--pose",

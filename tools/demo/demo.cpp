@@ -14,6 +14,7 @@
 #include "tools/messages/overwriting.h"
 #include "tools/messages/progress_bar.h"
 #include "tools/messages/text_file.h"
+#include "tools/model/model_json.h"
 #include "tools/model/posed_model.h"
 #include "tools/picture/picture.h"
 #include "tools/tear/report.h"

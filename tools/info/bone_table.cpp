@@ -87,17 +87,16 @@ Json bone_tree_json(const Skeleton& skeleton, const std::vector<BoneExtent>& ext
   Json bones = Json::array();
   for (std::size_t i = 0; i < extents.size(); ++i) {
     const BoneExtent& extent = extents[i];
-    const auto index = [](std::uint32_t bone) { return bone == kNone ? Json() : Json(bone); };
     Json bounds;
     if (extent.vertices > 0)
       bounds = {{"min", vector_json(extent.bounds.least)},
                 {"max", vector_json(extent.bounds.greatest)}};
     bones.push_back({{"name", skeleton.bones[i].name},
                      {"index", i},
-                     {"parent", index(skeleton.bones[i].parent)},
+                     {"parent", index_json(skeleton.bones[i].parent)},
                      {"joint", vector_json(extent.joint)},
                      {"length", extent.length},
-                     {"leads_to", index(extent.leads_to)},
+                     {"leads_to", index_json(extent.leads_to)},
                      {"vertices", extent.vertices},
                      {"vertices_of_branch", extent.vertices_of_branch},
                      {"bounds", std::move(bounds)}});

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "tools/info/bone_extents.h"
-#include "tools/tear/report.h"
+#include "tools/messages/json.h"
+#include "tools/model/bone_extents.h"
 
 namespace sunder::tools {
 

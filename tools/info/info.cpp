@@ -8,13 +8,13 @@
 #include <string>
 #include <utility>
 
-#include "tools/info/bone_extents.h"
 #include "tools/info/bone_table.h"
 #include "tools/messages/messages.h"
+#include "tools/model/bone_extents.h"
 #include "tools/model/model_check.h"
+#include "tools/model/model_json.h"
 #include "tools/model/pose_argument.h"
 #include "tools/model/posed_model.h"
-#include "tools/tear/report.h"
 #include "tools/value_of.h"
 #include "tools/verbs.h"
 
@@ -70,9 +70,8 @@ Json materials_json(const Character& character) {
       const auto [entry, is_new] = known.try_emplace(
           {of.material, of.material == kNone ? of.name : std::string()}, materials.size());
       if (is_new)
-        materials.push_back({{"name", of.name},
-                             {"index", of.material == kNone ? Json() : Json(of.material)},
-                             {"triangles", 0}});
+        materials.push_back(
+            {{"name", of.name}, {"index", index_json(of.material)}, {"triangles", 0}});
       Json& triangles = materials[entry->second]["triangles"];
       triangles = triangles.get<std::size_t>() + 1;
     }

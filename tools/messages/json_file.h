@@ -1,8 +1,10 @@
 #pragma once
 
+#include <sunder/core/status.h>
+
 #include <filesystem>
 
-#include "tools/tear/report.h"
+#include "tools/messages/json.h"
 
 namespace sunder::tools {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "tools/model/history.h"
-#include "tools/model/nearest_names.h"
+#include "tools/model/name_advice.h"
 
 namespace sunder::tools {
 namespace {
@@ -23,7 +23,9 @@ std::string advice(const std::string& name, const char* kind, const std::vector<
   return is_there ? std::string() : name_advice(name, kind, all);
 }
 
-std::string advice_on_pose(const PoseSpec& spec, const Character& character) {
+}  // namespace
+
+std::string advice_on_names(const PoseSpec& spec, const Character& character) {
   if (const auto* const pose = std::get_if<ClipPose>(&spec)) {
     const auto* const name = std::get_if<std::string>(&pose->clip);
     return name != nullptr ? advice(*name, "clips", names_of(character.clips)) : std::string();
@@ -37,11 +39,9 @@ std::string advice_on_pose(const PoseSpec& spec, const Character& character) {
   return {};
 }
 
-}  // namespace
-
 std::string advice_on_names(const Operation& operation, const Character& character) {
   for (const PoseSpec& spec : pose_specs_of(operation)) {
-    std::string text = advice_on_pose(spec, character);
+    std::string text = advice_on_names(spec, character);
     if (!text.empty()) return text;
   }
   return {};

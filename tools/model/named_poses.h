@@ -7,8 +7,10 @@
 
 namespace sunder::tools {
 
-/// "; did you mean 'Walk'?" for the first clip or bone that an operation names and the character
-/// does not have. Empty if it has all.
+/// "; did you mean 'Walk'?" for the first clip or bone that a pose names and the character does not
+/// have. Empty if it has all.
+[[nodiscard]] std::string advice_on_names(const PoseSpec& spec, const Character& character);
+/// The same for the poses of an operation.
 [[nodiscard]] std::string advice_on_names(const Operation& operation, const Character& character);
 /// The same for the clips of a refit.
 [[nodiscard]] std::string advice_on_names(const RefitOptions& refit, const Character& character);

@@ -8,11 +8,9 @@
 #include <type_traits>
 #include <vector>
 
-#include <nlohmann/json.hpp>
+#include "tools/messages/json.h"
 
 namespace sunder::tools {
-
-using Json = nlohmann::ordered_json;
 
 /// The arrays behind the JSON of a page's data, each at a multiple of four bytes, of eight for
 /// doubles.

@@ -22,7 +22,7 @@ Status has_pages() {
 }
 
 std::vector<std::byte> page_bytes(const Json& json, const DataArrays& arrays) {
-  std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  std::string text = dump_line(json);
   text.resize((text.size() + 3) / 4 * 4, ' ');
   const std::uint32_t head[] = {kVersion, static_cast<std::uint32_t>(text.size())};
   std::vector<std::byte> bytes(4 + sizeof head);

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "tools/info/bone_extents.h"
+#include "tools/model/bone_extents.h"
 #include "tools/picture/labels.h"
 #include "tools/picture/marks.h"
 

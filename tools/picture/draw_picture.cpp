@@ -2,18 +2,18 @@
 #include <sunder/skinning/pose.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <string>
 #include <utility>
 #include <variant>
 #include <vector>
 
-#include "tools/info/bone_extents.h"
 #include "tools/messages/messages.h"
 #include "tools/messages/overwriting.h"
+#include "tools/messages/printed.h"
+#include "tools/model/bone_extents.h"
 #include "tools/model/history.h"
+#include "tools/model/name_advice.h"
 #include "tools/model/named_poses.h"
-#include "tools/model/nearest_names.h"
 #include "tools/model/plain_operations.h"
 #include "tools/model/pose_argument.h"
 #include "tools/picture/bone_marks.h"
@@ -121,10 +121,8 @@ bool draw_marks(const PictureRequest& request, const Character& character, const
   if (request.with_grid) {
     const Grid grid = choose_grid(subject.bounds);
     draw_grid(grid, subject.bounds, marks);
-    char text[96];
-    std::snprintf(text, sizeof text, "grid: one line per %g m, every tenth is heavier; at y = %.4g",
-                  grid.spacing, grid.height);
-    say(text);
+    say(printed("grid: one line per %g m, every tenth is heavier; at y = %.4g", grid.spacing,
+                grid.height));
   }
   const std::vector<OperationLabel> indices = draw_operations(operations, subject.bounds, marks);
   if (request.with_bones) draw_bones(character.skeleton, subject.bones, marks);
@@ -147,9 +145,9 @@ bool draw_marks(const PictureRequest& request, const Character& character, const
   return is_complete;
 }
 
-/// Operations whose places belong to another pose than that of the picture.
-void say_other_poses(const Character& character, const Subject& subject,
-                     const std::vector<NumberedOperation>& operations) {
+/// Warns of operations whose places belong to another pose than that of the picture.
+void warn_of_other_poses(const Character& character, const Subject& subject,
+                         const std::vector<NumberedOperation>& operations) {
   for (const NumberedOperation& logged : operations) {
     const Result<std::vector<ModelPose>> poses = poses_of(*logged.operation, character);
     if (!poses) continue;
@@ -253,7 +251,7 @@ ExitCode run_picture(const PictureRequest& request) {
   if (!subject)
     return complain(request.model.string() + ": pose " + pose->name, subject.error(),
                     ExitCode::usage);
-  say_other_poses(*loaded->character, *subject, *operations);
+  warn_of_other_poses(*loaded->character, *subject, *operations);
   if (!can_draw()) {
     print_error(std::string("sunder: no picture: ") + kNoRenderer);
     return ExitCode::unreadable_input;

@@ -1,21 +1,17 @@
 #include "tools/picture/render.h"
 
 #include <chrono>
-#include <cstdio>
 #include <string>
 #include <system_error>
 #include <vector>
 
+#include "tools/messages/printed.h"
 #include "tools/picture/spawn.h"
 
 namespace sunder::tools {
 namespace {
 
-std::string numbers(const Vec3d& v) {
-  char text[128];
-  std::snprintf(text, sizeof text, "%.9g,%.9g,%.9g", v.x(), v.y(), v.z());
-  return text;
-}
+std::string numbers(const Vec3d& v) { return printed("%.9g,%.9g,%.9g", v.x(), v.y(), v.z()); }
 
 }  // namespace
 

@@ -2,13 +2,13 @@
 
 #include <sunder/io/operation_log.h>
 
-#include <charconv>
 #include <optional>
 #include <string_view>
 #include <utility>
 #include <vector>
 
-#include "tools/messages/json_file.h"
+#include "tools/messages/json.h"
+#include "tools/model/name_at.h"
 
 namespace sunder::tools {
 namespace {
@@ -20,14 +20,6 @@ std::vector<std::string> split(const std::string& text, char separator) {
     parts.push_back(text.substr(begin, end - begin));
   parts.push_back(text.substr(begin));
   return parts;
-}
-
-/// The number that a whole text is.
-std::optional<double> number_in(std::string_view text) {
-  double number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc() || end != text.data() + text.size()) return {};
-  return number;
 }
 
 /// A value as the log has it.
@@ -49,16 +41,14 @@ Json value_json(const std::string& text) {
 }
 
 /// A name and the number behind its last '@'; the whole text if there is none.
-std::pair<std::string, std::optional<double>> split_at(const std::string& text) {
-  const std::size_t at = text.rfind('@');
-  if (at == std::string::npos) return {text, {}};
-  const auto number = number_in(std::string_view(text).substr(at + 1));
-  if (!number) return {text, {}};
-  return {text.substr(0, at), number};
+std::pair<std::string, std::optional<double>> name_and_number(const std::string& text) {
+  const auto [name, at] = split_name_at(text);
+  const std::optional<double> number = at ? number_in(*at) : std::nullopt;
+  return number ? std::pair(name, number) : std::pair(text, number);
 }
 
 Json pose_json(const std::string& text) {
-  const auto [clip, time] = split_at(text);
+  const auto [clip, time] = name_and_number(text);
   if (!time) return text;  // "rest", "bind", or an error
   return {{"clip", clip}, {"time", *time}};
 }
@@ -68,7 +58,7 @@ Json pose_json(const std::string& text) {
 Result<AimedOperation> parse_aimed_option(const std::string& kind, const std::string& text,
                                           const std::string& pose) {
   const std::vector<std::string> fields = split(text, ',');
-  const auto [bone, share] = split_at(fields.front());
+  const auto [bone, share] = name_and_number(fields.front());
   Json operation = {{"op", kind}};
   operation[kind == "sever" ? "bone" : "around"] = bone;
   if (share) operation["at"] = *share;
@@ -83,7 +73,7 @@ Result<AimedOperation> parse_aimed_option(const std::string& kind, const std::st
         equals == std::string::npos ? Json(true) : value_json(fields[i].substr(equals + 1));
   }
   const Json log = {{"sunder_operations", 1}, {"operations", Json::array({operation})}};
-  auto parsed = parse_aimed_operations(log.dump(-1, ' ', false, Json::error_handler_t::replace));
+  auto parsed = parse_aimed_operations(dump_line(log));
   if (parsed) return std::get<AimedOperation>(std::move(parsed->front()));
   // The place in the log says nothing to whom has written none.
   std::string_view fault = parsed.error().text();

@@ -11,18 +11,10 @@
 
 #include "tools/model/history.h"
 #include "tools/model/model_check.h"
+#include "tools/model/model_json.h"
 
 namespace sunder::tools {
 namespace {
-
-const char* kind_name(LoadNote::Kind kind) {
-  switch (kind) {
-    case LoadNote::Kind::information: return "information";
-    case LoadNote::Kind::repaired: return "repaired";
-    case LoadNote::Kind::dropped: return "dropped";
-  }
-  return "information";
-}
 
 /// The names of an operation in the report.
 struct Names {
@@ -77,28 +69,6 @@ std::string digest_text(std::uint64_t digest) {
 }
 
 }  // namespace
-
-Json to_json(const TopologyCounts& counts) {
-  return {{"vertices", counts.vertices},
-          {"points", counts.points},
-          {"triangles", counts.triangles},
-          {"edges", counts.edges},
-          {"boundary_edges", counts.boundary_edges},
-          {"boundary_loops", counts.boundary_loops},
-          {"non_manifold_edges", counts.non_manifold_edges},
-          {"components", counts.components},
-          {"degenerate_triangles", counts.degenerate_triangles}};
-}
-
-Json to_json(const LoadReport& report) {
-  Json notes = Json::array();
-  for (const LoadNote& note : report.notes)
-    notes.push_back({{"kind", kind_name(note.kind)},
-                     {"place", note.place},
-                     {"text", note.text},
-                     {"count", note.count}});
-  return {{"format", report.format}, {"space", report.space}, {"notes", std::move(notes)}};
-}
 
 Result<OperationOutcome> play(const Operation& operation, TornModel& model) {
   const auto begin = std::chrono::steady_clock::now();
@@ -165,10 +135,6 @@ Json result_json(const TornModel& torn, const TopologyCounts& source,
           {"non_manifold_edges_of_source", source.non_manifold_edges},
           {"topology", to_json(result)},
           {"digest", digest_text(torn.digest())}};
-}
-
-std::string dump(const Json& json) {
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 
 }  // namespace sunder::tools

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <sunder/io/character_file.h>
 #include <sunder/operation/operation.h>
 #include <sunder/tear/topology.h>
 #include <sunder/tear/torn_model.h>
@@ -8,11 +7,9 @@
 #include <optional>
 #include <string>
 
-#include <nlohmann/json.hpp>
+#include "tools/messages/json.h"
 
 namespace sunder::tools {
-
-using Json = nlohmann::ordered_json;
 
 /// The topology before and after an operation.
 struct TopologyChange {
@@ -40,25 +37,11 @@ struct OperationOutcome {
 [[nodiscard]] Status measure_weight_error(const Operation& operation, const TornModel& model,
                                           OperationOutcome& outcome);
 
-[[nodiscard]] Json to_json(const TopologyCounts& counts);
-[[nodiscard]] Json to_json(const LoadReport& report);
 /// @param character  after the operation; pieces refer to its meshes and bones.
 [[nodiscard]] Json to_json(const OperationOutcome& outcome, const Character& character);
 
 /// The result of all operations, with the topology of the source for comparison.
 [[nodiscard]] Json result_json(const TornModel& torn, const TopologyCounts& source,
                                const TopologyCounts& result);
-
-/// The numbers of a vector of 2, 3 or 4.
-template <class Vector>
-[[nodiscard]] Json vector_json(const Vector& vector) {
-  Json array = Json::array();
-  for (int i = 0; i < Vector::RowsAtCompileTime; ++i)
-    array.push_back(static_cast<double>(vector[i]));
-  return array;
-}
-
-/// UTF-8 text, indented by two spaces. Bytes of names that are not UTF-8 are replaced.
-[[nodiscard]] std::string dump(const Json& json);
 
 }  // namespace sunder::tools

@@ -118,10 +118,15 @@ Status play_one(const Operation& operation, const std::string& place, bool is_me
   return status;
 }
 
+template <class Aimed>
+auto& pose_of(Aimed& operation) {
+  return std::visit(
+      [](auto& of) -> auto& { return of.pose; }, operation);
+}
+
 /// An operation of the command line, whose clip may be named without its namespace.
 AimedOperation with_clip(AimedOperation operation, const Character& source) {
-  PoseSpec& pose = std::visit([](auto& aimed) -> PoseSpec& { return aimed.pose; }, operation);
-  auto* const of_clip = std::get_if<ClipPose>(&pose);
+  auto* const of_clip = std::get_if<ClipPose>(&pose_of(operation));
   const auto* const name = of_clip ? std::get_if<std::string>(&of_clip->clip) : nullptr;
   const auto clip = name ? find_clip(source, *name) : std::nullopt;
   if (clip) of_clip->clip = *clip;
@@ -140,9 +145,7 @@ std::string advice_on(const LoggedOperation& operation, const Character& source)
   if (const auto* const plain = std::get_if<Operation>(&operation))
     return advice_on_names(*plain, source);
   const auto& aimed = std::get<AimedOperation>(operation);
-  TearOperation posed;
-  posed.pose = std::visit([](const auto& of) { return of.pose; }, aimed);
-  const std::string advice = advice_on_names(posed, source);
+  const std::string advice = advice_on_names(pose_of(aimed), source);
   const bool has_bone = std::visit(
       [&](const auto& of) {
         if constexpr (requires { of.place; })

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "tools/model/model_json.h"
 #include "tools/tear/weight_report.h"
 #include "tools/written_weights/certified_report.h"
 #include "tools/written_weights/written_influences.h"

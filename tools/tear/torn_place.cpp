@@ -5,24 +5,12 @@
 #include <algorithm>
 #include <array>
 
+#include "skinning/internal/reference.h"
+
 namespace sunder::tools {
 namespace {
 
 constexpr std::uint32_t kMostTriangles = 300;
-
-/// Linear blend skinning of one vertex.
-Vec3d posed_position(const Mesh& mesh, std::uint32_t vertex, const std::vector<Affine3d>& palette,
-                     const ModelPose& pose) {
-  Vec3d position = mesh.positions[vertex].cast<double>();
-  for (std::size_t j = 0; j < mesh.morph_targets.size(); ++j)
-    if (!mesh.morph_targets[j].position_deltas.empty())
-      position += static_cast<double>(pose.morph_weights[mesh.first_morph_weight + j]) *
-                  mesh.morph_targets[j].position_deltas[vertex].cast<double>();
-  Vec3d posed = Vec3d::Zero();
-  for (const Influence& influence : mesh.weights.of(vertex))
-    posed += static_cast<double>(influence.weight) * Vec3d(palette[influence.slot] * position);
-  return posed;
-}
 
 /// The sums from which a place is made.
 struct Sums {
@@ -35,7 +23,7 @@ void add_triangle(const Mesh& mesh, const Skin& skin, const Triangle& triangle,
                   const std::vector<Affine3d>& palette, const ModelPose& pose, Sums& sums) {
   std::array<Vec3d, 3> corners;
   for (std::size_t i = 0; i < 3; ++i) {
-    corners[i] = posed_position(mesh, triangle[i], palette, pose);
+    corners[i] = deform_position_reference(mesh, triangle[i], palette, pose.morph_weights);
     sums.centre += corners[i] / 3;
     for (const Influence& influence : mesh.weights.of(triangle[i]))
       sums.weight_of_bone[skin.bones[influence.slot]] += static_cast<double>(influence.weight);

@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "tools/tear/report.h"
+#include "tools/messages/json.h"
 
 namespace sunder::tools {
 

@@ -13,7 +13,6 @@
 #include "tools/messages/overwriting.h"
 #include "tools/messages/text_file.h"
 #include "tools/model/bone_names.h"
-#include "tools/tear/report.h"
 #include "tools/transfer/transfer_report.h"
 #include "tools/verbs.h"
 #include "tools/written_weights/certified_report.h"

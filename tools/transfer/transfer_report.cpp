@@ -1,40 +1,20 @@
 #include "tools/transfer/transfer_report.h"
 
-#include <cstdarg>
-#include <cstdio>
+#include <sunder/validation/validation.h>
+
+#include "tools/messages/printed.h"
 
 namespace sunder::tools {
 namespace {
-
-const char* severity_name(Severity severity) {
-  switch (severity) {
-    case Severity::note: return "note";
-    case Severity::warning: return "warning";
-    case Severity::error: break;
-  }
-  return "error";
-}
 
 const char* method_name(TransferMethod method) {
   return method == TransferMethod::inpainting ? "inpainting" : "closest";
 }
 
-Json index_json(std::uint32_t index) { return index == kNone ? Json(nullptr) : Json(index); }
-
-/// Appends a printf text.
-SUNDER_PRINTF(2, 3)
-void say(std::string& text, const char* format, ...) {
-  char line[512];
-  va_list arguments;
-  va_start(arguments, format);
-  std::vsnprintf(line, sizeof line, format, arguments);
-  va_end(arguments);
-  text += line;
-}
-
 void say_count(std::string& text, const char* what, std::uint32_t count, std::uint32_t of,
                const char* how) {
-  say(text, "  %-12s %9u  %5.1f %%  %s\n", what, count, of == 0 ? 0.0 : 100.0 * count / of, how);
+  text +=
+      printed("  %-12s %9u  %5.1f %%  %s\n", what, count, of == 0 ? 0.0 : 100.0 * count / of, how);
 }
 
 }  // namespace
@@ -96,25 +76,25 @@ Json transfer_json(const TransferRequest& request, const TransferResult& result)
 std::string transfer_table(const TransferRequest& request, const TransferResult& result) {
   const TransferOptions& options = request.options;
   std::string text;
-  say(text, "%s, matches within %g m (%g of the diagonal) and %.3g degrees\n",
-      method_name(options.method), result.largest_distance, options.distance,
-      options.angle * 57.295779513082323);
-  say(text, "  %-12s %9u\n", "vertices", result.vertices);
+  text += printed("%s, matches within %g m (%g of the diagonal) and %.3g degrees\n",
+                  method_name(options.method), result.largest_distance, options.distance,
+                  options.angle * 57.295779513082323);
+  text += printed("  %-12s %9u\n", "vertices", result.vertices);
   say_count(text, "coincident", result.coincident, result.vertices, "on a vertex of the source");
   say_count(text, "matched", result.matched, result.vertices, "interpolated on its surface");
   say_count(text, "inpainted", result.inpainted, result.vertices, "continued from the matched");
   say_count(text, "nearest", result.nearest, result.vertices, "closest place without limits");
   say_count(text, "locked", result.locked, result.vertices, "kept");
-  say(text, "  refused matches: %u too far, %u turned away; parts: %u, without match %u\n",
-      result.too_far, result.turned_away, result.parts, result.parts_without_match);
+  text += printed("  refused matches: %u too far, %u turned away; parts: %u, without match %u\n",
+                  result.too_far, result.turned_away, result.parts, result.parts_without_match);
   for (const TransferStep& step : result.steps)
     if (step.points > 0)
-      say(text, "  step '%.*s' changed %u points by %.3g on average, %.3g at most\n",
-          static_cast<int>(step.name.size()), step.name.data(), step.points, step.mean,
-          step.largest);
+      text += printed("  step '%.*s' changed %u points by %.3g on average, %.3g at most\n",
+                      static_cast<int>(step.name.size()), step.name.data(), step.points, step.mean,
+                      step.largest);
   for (const Finding& finding : result.findings) {
-    say(text, "%s %.*s: ", severity_name(finding.severity), static_cast<int>(finding.code.size()),
-        finding.code.data());
+    text += printed("%s %.*s: ", std::string(severity_name(finding.severity)).c_str(),
+                    static_cast<int>(finding.code.size()), finding.code.data());
     text += finding.text + "\n";
   }
   return text;

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "tools/tear/report.h"
+#include "tools/messages/json.h"
 #include "tools/verbs.h"
 
 namespace sunder::tools {

@@ -82,7 +82,7 @@ class Output {
  private:
   void line(const Json& json) {
     const std::scoped_lock lock(mutex_);
-    std::puts(json.dump(-1, ' ', false, Json::error_handler_t::replace).c_str());
+    std::puts(dump_line(json).c_str());
     std::fflush(stdout);
   }
 

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "tools/messages/exit_code.h"
-#include "tools/tear/report.h"
+#include "tools/messages/json.h"
 
 namespace sunder::tools {
 

@@ -1,5 +1,7 @@
 #include "tools/validation_page/page_data.h"
 
+#include <sunder/validation/validation.h>
+
 #include "tools/page_parts/clip_section.h"
 #include "tools/page_parts/data_arrays.h"
 #include "tools/page_parts/model_section.h"
@@ -47,18 +49,7 @@ Status check(const PageInput& input) {
   return {};
 }
 
-Json index_json(Index index) { return index == kNone ? Json() : Json(index); }
-
 Json optional_json(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
-
-const char* severity_name(Severity severity) {
-  switch (severity) {
-    case Severity::note: return "note";
-    case Severity::warning: return "warning";
-    case Severity::error: return "error";
-  }
-  return "error";
-}
 
 const char* evidence_name(Evidence evidence) {
   switch (evidence) {

@@ -1,8 +1,8 @@
 #include "tools/written_weights/certified_report.h"
 
-#include <cstdio>
 #include <map>
 
+#include "tools/messages/printed.h"
 #include "tools/written_weights/written_influences.h"
 
 namespace sunder::tools {
@@ -72,12 +72,10 @@ Json certificate_json(const CertifiedWeights& weights, const Character& unpruned
 
 std::string certificate_line(const CertifiedWeights& weights, const MaximumError& wanted) {
   const Totals totals(weights);
-  char text[256];
-  std::snprintf(text, sizeof text,
-                "max error %g m, limits %.80s: no pose moves a vertex by more than %.4g m;",
-                wanted.metres, wanted.limits.c_str(), weights.maximum);
-  std::string line = text;
-  line += " vertices by influences:";
+  std::string line = printed(
+      "max error %g m, limits %.80s: no pose moves a vertex by more than %.4g m; vertices by "
+      "influences:",
+      wanted.metres, wanted.limits.c_str(), weights.maximum);
   for (const auto& [influences, vertices] : histogram(weights, weights.character))
     line += " " + std::to_string(influences) + ": " + std::to_string(vertices) + ",";
   line.back() = ';';

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "tools/tear/report.h"
+#include "tools/messages/json.h"
 #include "tools/written_weights/certified_weights.h"
 
 namespace sunder::tools {

@@ -5,7 +5,7 @@
 #include <sunder/skinning/pose.h>
 #include <sunder/tear/torn_model.h>
 
-#include "tools/tear/report.h"
+#include "tools/messages/json.h"
 
 namespace sunder::tools {
 

@@ -1,4 +1,4 @@
-#include "tools/info/bone_extents.h"
+#include "tools/model/bone_extents.h"
 
 #include <algorithm>
 #include <span>

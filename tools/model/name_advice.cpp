@@ -1,6 +1,9 @@
-#include "tools/model/nearest_names.h"
+#include "tools/model/name_advice.h"
 
 #include <algorithm>
+#include <vector>
+
+#include "core/internal/nearest_names.h"
 
 namespace sunder::tools {
 namespace {
