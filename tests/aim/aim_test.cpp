@@ -239,6 +239,20 @@ TEST(Slash, in_widths_ends_at_the_outline) {
   }
 }
 
+/// The outline is found at any length: a number meant in other units must not end inside it.
+TEST(Slash, of_any_length_ends_at_the_outline) {
+  TornModel model = make_model(make_armed_arm());
+  SlashOperation slash = slash_at("ForeArm", 0.5);
+  for (const double metres : {2.0, 5.0, 7.0, 30.0, 160.0, 1e4, 1e9}) {
+    slash.length = {metres, AimedLength::Unit::metres};
+    const auto plain = resolve(model, slash);
+    ASSERT_TRUE(plain) << metres << ": " << plain.error().text();
+    const Stroke& stroke = std::get<TearOperation>(*plain).stroke;
+    EXPECT_LE(stroke.size(), 129u);
+    EXPECT_NEAR(std::abs(stroke.back().base.x() - stroke.front().base.x()), 1.2, 0.08) << metres;
+  }
+}
+
 TEST(Slash, of_a_given_depth_stays_that_deep) {
   TornModel model = make_model(make_armed_arm());
   SlashOperation slash = slash_at("ForeArm", 0.5);
