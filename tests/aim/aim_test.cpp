@@ -350,6 +350,10 @@ TEST(Aim, refuses_what_it_cannot_hit) {
   puncture.is_through = true;
   puncture.depth = AimedLength{0.1, AimedLength::Unit::metres};
   EXPECT_EQ(failure_of(model, puncture).code(), StatusCode::invalid_argument);
+  puncture.depth.reset();
+  puncture.radius = {1.3, AimedLength::Unit::metres};
+  EXPECT_THAT(std::string(failure_of(model, puncture).text()),
+              HasSubstr("the radius is 1.3 m, but the limb is only 1.2 m wide"));
   slash = slash_at("ForeArm", 0.5);
   slash.pose = ClipPose{std::string("Swim"), 0.0};
   EXPECT_EQ(failure_of(model, slash).code(), StatusCode::not_found);
