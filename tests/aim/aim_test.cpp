@@ -154,6 +154,26 @@ TEST(Sever, also_cuts_what_a_slash_has_opened) {
   EXPECT_EQ(torn_meshes(model), (std::set<std::uint32_t>{kSkin, kSleeve}));
 }
 
+/// Caps lie in the plane up to the error of their weights in the pose, lips at rest up to rounding.
+TEST(Sever, refuses_to_cut_where_the_limb_was_severed) {
+  Random random(11);
+  for (int i = 0; i < 40; ++i) {
+    SCOPED_TRACE(i);
+    const std::uint32_t bones = 2 + random.index(3);
+    TornModel model = make_model(test::make_tube(8 * bones, 8 + random.index(12), bones));
+    SeverOperation sever =
+        sever_at("bone" + std::to_string(random.index(bones)), random.uniform(0.3, 0.9));
+    sever.caps = i % 2 == 0;
+    if (sever.caps) sever.pose = test::random_pose(model.source(), random, 0.3, 1.0);
+    EXPECT_EQ(apply_aimed(model, sever).pieces.size(), 2u);
+    const auto before = test::state_of(model);
+    EXPECT_THAT(std::string(failure_of(model, sever).text()), HasSubstr("severed before"));
+    EXPECT_EQ(test::difference(test::state_of(model), before), "");
+    sever.place.at -= 0.1;
+    EXPECT_FALSE(apply_aimed(model, sever).pieces.empty());
+  }
+}
+
 TEST(Sever, follows_the_pose) {
   Random random(4);
   for (int i = 0; i < 60; ++i) {
