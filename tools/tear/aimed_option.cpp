@@ -3,6 +3,7 @@
 #include <sunder/io/operation_log.h>
 
 #include <charconv>
+#include <cmath>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -22,11 +23,11 @@ std::vector<std::string> split(const std::string& text, char separator) {
   return parts;
 }
 
-/// The number that a whole text is.
+/// The finite number that a whole text is.
 std::optional<double> number_in(std::string_view text) {
   double number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc() || end != text.data() + text.size()) return {};
+  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(number)) return {};
   return number;
 }
 
@@ -57,30 +58,53 @@ std::pair<std::string, std::optional<double>> split_at(const std::string& text) 
   return {text.substr(0, at), number};
 }
 
-Json pose_json(const std::string& text) {
-  const auto [clip, time] = split_at(text);
-  if (!time) return text;  // "rest", "bind", or an error
-  return {{"clip", clip}, {"time", *time}};
+Result<Json> pose_json(const std::string& text) {
+  if (text == "rest" || text == "bind") return Json(text);
+  const auto [clip, time] = split_at(text.ends_with('s') ? text.substr(0, text.size() - 1) : text);
+  if (!time || *time < 0)
+    return Status::failure(StatusCode::invalid_argument, kNone,
+                           "--pose: '%.100s' is no pose; expected rest, bind or CLIP@TIME with "
+                           "seconds, 0 or more",
+                           text.c_str());
+  return Json{{"clip", clip}, {"time", *time}};
+}
+
+/// Adds a field and its value, "turn=30", to an operation of a log.
+Status add_field(const std::string& field, Json& operation) {
+  const std::size_t equals = field.find('=');
+  const std::string key = field.substr(0, equals);
+  if (key == "pose")
+    return Status::failure(StatusCode::malformed_file, kNone,
+                           "'pose' is no field; give it as --pose");
+  if (operation.contains(key))
+    return Status::failure(StatusCode::malformed_file, kNone, "'%.60s' is given twice",
+                           key.c_str());
+  const Json value =
+      equals == std::string::npos ? Json(true) : value_json(field.substr(equals + 1));
+  if (value.is_object() && (key == "width" || key == "wall_depth" || key == "chord_tolerance"))
+    return Status::failure(StatusCode::malformed_file, kNone,
+                           "%s: '%.60s': expected metres; only length, depth and radius may be in "
+                           "widths",
+                           key.c_str(), field.c_str() + equals + 1);
+  operation[key] = value;
+  return {};
 }
 
 }  // namespace
 
 Result<AimedOperation> parse_aimed_option(const std::string& kind, const std::string& text,
-                                          const std::string& pose) {
+                                          const std::optional<std::string>& pose) {
   const std::vector<std::string> fields = split(text, ',');
   const auto [bone, share] = split_at(fields.front());
   Json operation = {{"op", kind}};
   operation[kind == "sever" ? "bone" : "around"] = bone;
   if (share) operation["at"] = *share;
-  if (!pose.empty()) operation["pose"] = pose_json(pose);
-  for (std::size_t i = 1; i < fields.size(); ++i) {
-    const std::size_t equals = fields[i].find('=');
-    const std::string key = fields[i].substr(0, equals);
-    if (operation.contains(key))
-      return Status::failure(StatusCode::malformed_file, kNone, "'%.60s' is given twice",
-                             key.c_str());
-    operation[key] =
-        equals == std::string::npos ? Json(true) : value_json(fields[i].substr(equals + 1));
+  for (std::size_t i = 1; i < fields.size(); ++i)
+    if (const Status status = add_field(fields[i], operation); !status) return status;
+  if (pose) {
+    Result<Json> posed = pose_json(*pose);
+    if (!posed) return posed.error();
+    operation["pose"] = std::move(*posed);
   }
   const Json log = {{"sunder_operations", 1}, {"operations", Json::array({operation})}};
   auto parsed = parse_aimed_operations(log.dump(-1, ' ', false, Json::error_handler_t::replace));
