@@ -221,6 +221,34 @@ TEST_F(TearMessages, a_name_that_is_not_glb_is_warned_of) {
               Not(HasSubstr("warning")));
 }
 
+TEST_F(TearMessages, outputs_that_cannot_be_files_are_refused_before_anything_is_torn) {
+  const std::string log = write("one.json", kOneTear);
+  const auto expect_refusal = [&](const char* option, const std::string& file, const char* text) {
+    std::vector<std::string> arguments = {"tear", model(), "--ops", log, option, file};
+    if (option != std::string("-o")) arguments.insert(arguments.end(), {"-o", path("none.glb")});
+    const CommandResult result = run_sunder(arguments);
+    EXPECT_EQ(result.exit_code, 3);
+    EXPECT_THAT(result.err, AllOf(HasSubstr(text), Not(HasSubstr("/operations/0"))));
+    EXPECT_FALSE(exists("none.glb"));
+  };
+  std::filesystem::create_directory(path("folder"));
+  for (const char* const option : {"-o", "--report", "--save-log", "--picture"}) {
+    expect_refusal(option, path("absent/x.glb"), "absent'");
+    expect_refusal(option, path("folder"), "is a folder; expected a file");
+  }
+  expect_refusal("-o", "", "--output: expected the name of a file");
+}
+
+TEST_F(TearMessages, a_picture_that_failed_does_not_count_as_written) {
+  const std::string log = write("one.json", kOneTear);
+  const CommandResult result =
+      run_sunder({"tear", model(), "--ops", log, "-o", path("m.glb"), "--picture", path("m.jpg")},
+                 {{"PATH", "/nonexistent"}});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.out, AllOf(HasSubstr("m.glb"), Not(HasSubstr("m.jpg"))));
+  EXPECT_THAT(result.err, HasSubstr("the file is written as PNG, but its name does not end in"));
+}
+
 TEST_F(TearMessages, more_influences_than_the_source_has_are_warned_of) {
   const std::string log = write("one.json", kOneTear);
   EXPECT_THAT(tear(log, {"--influences", "8"}).err,
