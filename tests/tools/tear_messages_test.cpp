@@ -1,8 +1,11 @@
 // What `sunder tear` says: the lines of operations, misses and their causes, warnings, refusals.
 
+#include <array>
 #include <filesystem>
+#include <regex>
 #include <sstream>
 
+#include "support/random.h"
 #include "tools/command_fixture.h"
 
 namespace sunder::command_test {
@@ -183,6 +186,66 @@ TEST_F(TearMessages, blades_that_point_away_or_end_early_are_recognised) {
       tear(changed("early.json", stroke([](json& blade) { blade["tip"][2] = 1.0; })));
   EXPECT_EQ(early.exit_code, 1);
   EXPECT_THAT(early.err, HasSubstr("the blade is too short to reach it"));
+}
+
+TEST_F(TearMessages, a_stroke_that_is_too_small_for_its_face_is_recognised) {
+  const CommandResult result = run_sunder(
+      {"tear", model(), "--dry-run", "--slash", "Trunk3@0.5,length=0.00001", "--report", "-"});
+  EXPECT_EQ(result.exit_code, 1);
+  const json miss = json::parse(result.out)["operations"][0]["miss"];
+  EXPECT_EQ(miss["distance"], 0.0);
+  EXPECT_THAT(result.err, HasSubstr("the blade passes, without opening a face, along the surface"));
+  EXPECT_THAT(result.err, HasSubstr("it is too small for the faces there"));
+}
+
+/// The operation with the correction that a cause proposes; null if it proposes none of these.
+json corrected(json operation, const std::string& cause) {
+  std::smatch match;
+  if (std::regex_search(cause, match, std::regex("scaled by ([0-9.]+) it"))) {
+    const double factor = std::stod(match[1]);
+    for (json& number : operation["axis"]["origin"]) number = factor * number.get<double>();
+    for (const char* const field : {"radius", "depth"})
+      operation[field] = factor * operation[field].get<double>();
+  } else if (std::regex_search(cause, match, std::regex("in the (rest|bind) pose it"))) {
+    operation["pose"] = match[1].str();
+  } else if (std::regex_search(cause, match, std::regex("at (.*) s of clip '(.*)' it"))) {
+    operation["pose"] = {{"clip", match[2].str()}, {"time", std::stod(match[1])}};
+  } else {
+    const double way = cause.find("points away") == std::string::npos ? 1.0 : -1.0;
+    for (json& number : operation["axis"]["direction"]) number = way * number.get<double>();
+    operation["depth"] = 50.0;
+  }
+  return operation;
+}
+
+/// Bores that pass near the surface, in wrong units and poses: whoever follows the advice hits.
+TEST_F(TearMessages, every_cause_of_a_miss_is_true) {
+  test::Random random(3);
+  int causes = 0;
+  const auto miss_of = [](const json& operation) {
+    const json log = {{"sunder_operations", 1}, {"operations", {operation}}};
+    const CommandResult result = run_sunder(
+        {"tear", model(), "--ops", write("random.json", log.dump()), "--dry-run", "--report", "-"});
+    const json outcome = json::parse(result.out)["operations"][0];
+    return outcome.contains("miss") ? outcome["miss"] : json();
+  };
+  for (int i = 0; i < 60; ++i) {
+    SCOPED_TRACE(i);
+    const double unit = std::array{1.0, 1.0, 1.0, 100.0, 0.01, 1000.0}[random.index(6)];
+    json operation = {{"op", "drill"}, {"radius", 0.04 * unit}};
+    operation["axis"]["origin"] = {unit * random.uniform(-0.6, 0.6), unit * random.uniform(0, 2),
+                                   unit * random.uniform(-0.5, 0.5)};
+    operation["axis"]["direction"] = {random.uniform(-1, 1), random.uniform(-1, 1), 0.3};
+    operation["depth"] = unit * random.uniform(0.05, 0.6);
+    if (random.index(2) == 0)
+      operation["pose"] = {{"clip", "Sway"}, {"time", random.uniform(0, 2)}};
+    const json miss = miss_of(operation);
+    if (miss.is_null() || miss["cause"].is_null()) continue;
+    ++causes;
+    const std::string cause = miss["cause"];
+    EXPECT_TRUE(miss_of(corrected(operation, cause)).is_null()) << cause << operation;
+  }
+  EXPECT_GT(causes, 10);
 }
 
 TEST_F(TearMessages, swapped_base_and_tip_are_warned_of) {

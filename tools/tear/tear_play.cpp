@@ -58,7 +58,8 @@ Status describe_miss(const Played& played, TearRun& run, Json& report) {
   Result<Miss> miss = measure_miss(played.operation, run.model, run.posed_source);
   if (!miss) return miss.error();
   if (run.totals.missed <= kMostExplained) {
-    const Result<std::string> cause = cause_of_miss(played.operation, *miss, run.model.character());
+    const Result<std::string> cause =
+        cause_of_miss(played.operation, *miss, run.model, run.loaded.character);
     if (!cause) return cause.error();
     miss->cause = *cause;
   }
