@@ -89,6 +89,11 @@ Result<Operation> resolve_puncture(const PosedSurface& surface, const PunctureOp
 
   LimbRays rays(*limb, *frame, *sections);
   const double width = rays.width(), radius = metres(puncture.radius, width);
+  if (radius > width)
+    return Status::failure(StatusCode::invalid_argument, limb->bones.bone(),
+                           "%s: the radius is %.4g m, but the limb is only %.4g m wide there; "
+                           "lengths are in metres, or in widths of the limb",
+                           limb->label.c_str(), radius, width);
   rays.look_around(radius + width);
   const std::vector<Vec3d> places = places_inside(*frame, radius);
   const std::optional<RayHit> middle = rays.cast_at_middle(), all = look_into(rays, places);

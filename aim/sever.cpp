@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -13,6 +14,41 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 /// A plane that leans more is nearly along the bone: 80 degrees.
 constexpr double kMostTilt = 80 * kPi / 180;
+
+/// A face lies in the plane if its corners are no farther from it than this share of the sections'
+/// length, and its normal leans by no more than 18 degrees: caps are flat only up to the error of
+/// their weights in the pose.
+constexpr double kCapShare = 0.02, kLeastCapCosine = 0.95;
+/// An edge without a neighbour lies in the plane if its ends are nearer than this share …
+constexpr double kLipShare = 1e-5;
+/// … and where more of the sections' length runs in such faces, another cut was made there.
+constexpr double kMostFlat = 0.2;
+
+/// Whether a face lies in the plane or ends there, without a neighbour.
+bool is_flat(const Limb& limb, Index face, const LimbPlane& plane, double whole_length) {
+  std::array<double, 3> heights;
+  for (Index k = 0; k < 3; ++k)
+    heights[k] = std::abs(
+        dot(plane.normal, limb.surface.position(limb.surface.point(3 * face + k))) - plane.offset);
+  for (Index k = 0; k < 3; ++k)
+    if (limb.surface.surface().twin[3 * face + k] == kNone &&
+        std::max(heights[k], heights[(k + 1) % 3]) <= kLipShare * whole_length)
+      return true;
+  const auto [a, b, c] = limb.surface.corners(face);
+  const Vec3d across = (b - a).cross(c - a);
+  return std::max({heights[0], heights[1], heights[2]}) <= kCapShare * whole_length &&
+         std::abs(dot(across, plane.normal)) >= kLeastCapCosine * norm(across);
+}
+
+/// Whether the plane runs in the surface instead of across it.
+bool was_cut(const Limb& limb, const std::vector<Section>& sections, const LimbPlane& plane) {
+  double whole = 0, flat = 0;
+  for (const Section& section : sections) whole += section.length;
+  for (const Section& section : sections)
+    for (const Section::Line& line : section.lines)
+      if (is_flat(limb, line.face, plane, whole)) flat += norm(line.ends[1] - line.ends[0]);
+  return flat > kMostFlat * whole;
+}
 
 /// The middle of the section's longest line: it lies on this section and, unless surfaces coincide,
 /// on no other.
@@ -44,8 +80,14 @@ Result<Operation> resolve_sever(const PosedSurface& surface, const SeverOperatio
   if (!limb) return limb.error();
   const Result<Vec3d> normal = normal_of(*limb, sever);
   if (!normal) return normal.error();
-  const auto sections = limb_sections(*limb, {*normal, dot(*normal, limb->place)});
+  const LimbPlane plane = {*normal, dot(*normal, limb->place)};
+  const auto sections = limb_sections(*limb, plane);
   if (!sections) return sections.error();
+  if (was_cut(*limb, *sections, plane))
+    return Status::failure(StatusCode::invalid_argument, limb->bones.bone(),
+                           "%s: the surface lies in the plane of the cut, as where the limb was "
+                           "severed before; choose another share or a tilt",
+                           limb->label.c_str());
   PlaneCut cut;
   cut.point = limb->place;
   cut.normal = *normal;

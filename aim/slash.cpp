@@ -13,7 +13,10 @@ namespace {
 
 /// Blades per width of the limb, and their least and greatest number.
 constexpr double kBladesPerWidth = 32;
-constexpr int kLeastBlades = 17, kMostBlades = 129;
+constexpr double kLeastBlades = 17;
+constexpr std::size_t kMostBlades = 129;
+/// Steps in which the outline is looked for, at most: so many blades, 128 widths.
+constexpr double kMostSteps = 128 * kBladesPerWidth;
 /// Near its outline the limb is thin; the blade still passes the near surface by this many widths,
 /// and by the width of the gap, whose sides lie deeper there.
 constexpr double kLeastDepthWidths = 0.02;
@@ -37,17 +40,13 @@ struct SeenStroke {
   std::vector<RayHit> hits;
 };
 
-SeenStroke look_along(const LimbRays& rays, const Vec3d& way, double length) {
-  const int wanted = static_cast<int>(std::min(std::ceil(length / rays.width() * kBladesPerWidth),
-                                               static_cast<double>(kMostBlades)));
-  const int half = std::max(wanted, kLeastBlades) / 2;
+/// The rays at even steps from the middle that hit the limb, up to a number on each side.
+SeenStroke march(const LimbRays& rays, const RayHit& middle, const Vec3d& step, int most) {
   SeenStroke seen;
-  const std::optional<RayHit> middle = rays.cast_at_middle();
-  if (!middle) return seen;
   const auto look_to = [&](int direction) {
-    RayHit last = *middle;
-    for (int i = direction; std::abs(i) <= half; i += direction) {
-      const Vec3d offset = (0.5 * length * i / half) * way;
+    RayHit last = middle;
+    for (int i = direction; std::abs(i) <= most; i += direction) {
+      const Vec3d offset = static_cast<double>(i) * step;
       const std::optional<RayHit> hit = rays.cast(offset, last);
       if (!hit) return;
       seen.offsets.push_back(offset);
@@ -59,9 +58,32 @@ SeenStroke look_along(const LimbRays& rays, const Vec3d& way, double length) {
   std::reverse(seen.offsets.begin(), seen.offsets.end());
   std::reverse(seen.hits.begin(), seen.hits.end());
   seen.offsets.push_back(Vec3d::Zero());
-  seen.hits.push_back(*middle);
+  seen.hits.push_back(middle);
   look_to(1);
   return seen;
+}
+
+/// As many rays as there may be blades, evenly chosen; the first and the last one stay.
+SeenStroke thinned(const SeenStroke& all) {
+  if (all.hits.size() <= kMostBlades) return all;
+  SeenStroke some;
+  for (std::size_t i = 0; i < kMostBlades; ++i) {
+    const std::size_t from = i * (all.hits.size() - 1) / (kMostBlades - 1);
+    some.offsets.push_back(all.offsets[from]);
+    some.hits.push_back(all.hits[from]);
+  }
+  return some;
+}
+
+SeenStroke look_along(const LimbRays& rays, const Vec3d& way, double length) {
+  const std::optional<RayHit> middle = rays.cast_at_middle();
+  if (!middle) return {};
+  // A stroke may be longer than the limb is wide by any factor: the steps must not grow with it,
+  // or it would end far inside the outline.
+  const double wanted = std::min(std::ceil(length / rays.width() * kBladesPerWidth), kMostSteps);
+  const int half = static_cast<int>(std::max(wanted, kLeastBlades)) / 2;
+  const double step = wanted < kMostSteps ? 0.5 * length / half : rays.width() / kBladesPerWidth;
+  return thinned(march(rays, *middle, step * way, half));
 }
 
 /// Heights of a blade towards the viewer.

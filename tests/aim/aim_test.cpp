@@ -154,6 +154,26 @@ TEST(Sever, also_cuts_what_a_slash_has_opened) {
   EXPECT_EQ(torn_meshes(model), (std::set<std::uint32_t>{kSkin, kSleeve}));
 }
 
+/// Caps lie in the plane up to the error of their weights in the pose, lips at rest up to rounding.
+TEST(Sever, refuses_to_cut_where_the_limb_was_severed) {
+  Random random(11);
+  for (int i = 0; i < 40; ++i) {
+    SCOPED_TRACE(i);
+    const std::uint32_t bones = 2 + random.index(3);
+    TornModel model = make_model(test::make_tube(8 * bones, 8 + random.index(12), bones));
+    SeverOperation sever =
+        sever_at("bone" + std::to_string(random.index(bones)), random.uniform(0.3, 0.9));
+    sever.caps = i % 2 == 0;
+    if (sever.caps) sever.pose = test::random_pose(model.source(), random, 0.3, 1.0);
+    EXPECT_EQ(apply_aimed(model, sever).pieces.size(), 2u);
+    const auto before = test::state_of(model);
+    EXPECT_THAT(std::string(failure_of(model, sever).text()), HasSubstr("severed before"));
+    EXPECT_EQ(test::difference(test::state_of(model), before), "");
+    sever.place.at -= 0.1;
+    EXPECT_FALSE(apply_aimed(model, sever).pieces.empty());
+  }
+}
+
 TEST(Sever, follows_the_pose) {
   Random random(4);
   for (int i = 0; i < 60; ++i) {
@@ -257,6 +277,20 @@ TEST(Slash, in_widths_ends_at_the_outline) {
   }
 }
 
+/// The outline is found at any length: a number meant in other units must not end inside it.
+TEST(Slash, of_any_length_ends_at_the_outline) {
+  TornModel model = make_model(make_armed_arm());
+  SlashOperation slash = slash_at("ForeArm", 0.5);
+  for (const double metres : {2.0, 5.0, 7.0, 30.0, 160.0, 1e4, 1e9}) {
+    slash.length = {metres, AimedLength::Unit::metres};
+    const auto plain = resolve(model, slash);
+    ASSERT_TRUE(plain) << metres << ": " << plain.error().text();
+    const Stroke& stroke = std::get<TearOperation>(*plain).stroke;
+    EXPECT_LE(stroke.size(), 129u);
+    EXPECT_NEAR(std::abs(stroke.back().base.x() - stroke.front().base.x()), 1.2, 0.08) << metres;
+  }
+}
+
 TEST(Slash, of_a_given_depth_stays_that_deep) {
   TornModel model = make_model(make_armed_arm());
   SlashOperation slash = slash_at("ForeArm", 0.5);
@@ -356,6 +390,10 @@ TEST(Aim, refuses_what_it_cannot_hit) {
   puncture.is_through = true;
   puncture.depth = AimedLength{0.1, AimedLength::Unit::metres};
   EXPECT_EQ(failure_of(model, puncture).code(), StatusCode::invalid_argument);
+  puncture.depth.reset();
+  puncture.radius = {1.3, AimedLength::Unit::metres};
+  EXPECT_THAT(std::string(failure_of(model, puncture).text()),
+              HasSubstr("the radius is 1.3 m, but the limb is only 1.2 m wide"));
   slash = slash_at("ForeArm", 0.5);
   slash.pose = ClipPose{std::string("Swim"), 0.0};
   EXPECT_EQ(failure_of(model, slash).code(), StatusCode::not_found);

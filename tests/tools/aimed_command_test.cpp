@@ -65,6 +65,26 @@ TEST_F(AimedCommand, faults_name_the_option) {
   expect_refusal({"--sever", "Trunc3@0.5"},
                  "--sever Trunc3@0.5: no bone is named 'Trunc3'; did you mean 'Trunk3'");
   expect_refusal({"--sever", "Trunk3@0.5", "--pose", "Swai@0.5"}, "did you mean 'Sway'?");
+  for (const char* const pose : {"Sway", "Sway@", "Sway@-1", "Sway@nan", "Sway@inf", "", "Rest"})
+    expect_refusal({"--sever", "Trunk3@0.5", "--pose", pose},
+                   "is no pose; expected rest, bind or CLIP@TIME");
+  expect_refusal({"--sever", "Trunk3@0.5,pose=bind"}, "'pose' is no field; give it as --pose");
+  expect_refusal({"--slash", "Trunk3@0.5,turn=nan"}, "turn: expected a number, found string");
+  expect_refusal({"--slash", "Trunk3@0.5,width=0.2w"},
+                 "width: '0.2w': expected metres; only length, depth and radius may be in widths");
+}
+
+/// Clips are found without their namespace: such a clip is no reason for another failure.
+TEST_F(AimedCommand, a_fault_of_the_bone_does_not_blame_the_clip) {
+  Character cactus = tools::make_cactus();
+  cactus.clips[0].name = "Rig|Sway";
+  ASSERT_TRUE(save_glb(path("namespace.glb"), cactus));
+  const CommandResult result = run_sunder(
+      {"tear", path("namespace.glb"), "--dry-run", "--sever", "Qqqq@0.5", "--pose", "Sway@0.2"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, HasSubstr("no bone is named 'Qqqq'"));
+  EXPECT_THAT(result.err, HasSubstr("`sunder info MODEL --bones` lists the bones"));
+  EXPECT_THAT(result.err, testing::Not(HasSubstr("did you mean")));
 }
 
 TEST_F(AimedCommand, logs_name_the_operation_that_misses) {

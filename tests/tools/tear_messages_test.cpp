@@ -1,8 +1,11 @@
 // What `sunder tear` says: the lines of operations, misses and their causes, warnings, refusals.
 
+#include <array>
 #include <filesystem>
+#include <regex>
 #include <sstream>
 
+#include "support/random.h"
 #include "tools/command_fixture.h"
 
 namespace sunder::command_test {
@@ -185,6 +188,66 @@ TEST_F(TearMessages, blades_that_point_away_or_end_early_are_recognised) {
   EXPECT_THAT(early.err, HasSubstr("the blade is too short to reach it"));
 }
 
+TEST_F(TearMessages, a_stroke_that_is_too_small_for_its_face_is_recognised) {
+  const CommandResult result = run_sunder(
+      {"tear", model(), "--dry-run", "--slash", "Trunk3@0.5,length=0.00001", "--report", "-"});
+  EXPECT_EQ(result.exit_code, 1);
+  const json miss = json::parse(result.out)["operations"][0]["miss"];
+  EXPECT_EQ(miss["distance"], 0.0);
+  EXPECT_THAT(result.err, HasSubstr("the blade passes, without opening a face, along the surface"));
+  EXPECT_THAT(result.err, HasSubstr("it is too small for the faces there"));
+}
+
+/// The operation with the correction that a cause proposes; null if it proposes none of these.
+json corrected(json operation, const std::string& cause) {
+  std::smatch match;
+  if (std::regex_search(cause, match, std::regex("scaled by ([0-9.]+) it"))) {
+    const double factor = std::stod(match[1]);
+    for (json& number : operation["axis"]["origin"]) number = factor * number.get<double>();
+    for (const char* const field : {"radius", "depth"})
+      operation[field] = factor * operation[field].get<double>();
+  } else if (std::regex_search(cause, match, std::regex("in the (rest|bind) pose it"))) {
+    operation["pose"] = match[1].str();
+  } else if (std::regex_search(cause, match, std::regex("at (.*) s of clip '(.*)' it"))) {
+    operation["pose"] = {{"clip", match[2].str()}, {"time", std::stod(match[1])}};
+  } else {
+    const double way = cause.find("points away") == std::string::npos ? 1.0 : -1.0;
+    for (json& number : operation["axis"]["direction"]) number = way * number.get<double>();
+    operation["depth"] = 50.0;
+  }
+  return operation;
+}
+
+/// Bores that pass near the surface, in wrong units and poses: whoever follows the advice hits.
+TEST_F(TearMessages, every_cause_of_a_miss_is_true) {
+  test::Random random(3);
+  int causes = 0;
+  const auto miss_of = [](const json& operation) {
+    const json log = {{"sunder_operations", 1}, {"operations", {operation}}};
+    const CommandResult result = run_sunder(
+        {"tear", model(), "--ops", write("random.json", log.dump()), "--dry-run", "--report", "-"});
+    const json outcome = json::parse(result.out)["operations"][0];
+    return outcome.contains("miss") ? outcome["miss"] : json();
+  };
+  for (int i = 0; i < 60; ++i) {
+    SCOPED_TRACE(i);
+    const double unit = std::array{1.0, 1.0, 1.0, 100.0, 0.01, 1000.0}[random.index(6)];
+    json operation = {{"op", "drill"}, {"radius", 0.04 * unit}};
+    operation["axis"]["origin"] = {unit * random.uniform(-0.6, 0.6), unit * random.uniform(0, 2),
+                                   unit * random.uniform(-0.5, 0.5)};
+    operation["axis"]["direction"] = {random.uniform(-1, 1), random.uniform(-1, 1), 0.3};
+    operation["depth"] = unit * random.uniform(0.05, 0.6);
+    if (random.index(2) == 0)
+      operation["pose"] = {{"clip", "Sway"}, {"time", random.uniform(0, 2)}};
+    const json miss = miss_of(operation);
+    if (miss.is_null() || miss["cause"].is_null()) continue;
+    ++causes;
+    const std::string cause = miss["cause"];
+    EXPECT_TRUE(miss_of(corrected(operation, cause)).is_null()) << cause << operation;
+  }
+  EXPECT_GT(causes, 10);
+}
+
 TEST_F(TearMessages, swapped_base_and_tip_are_warned_of) {
   const CommandResult result = tear(
       changed("swap.json", stroke([](json& blade) { std::swap(blade["base"], blade["tip"]); })));
@@ -219,6 +282,34 @@ TEST_F(TearMessages, a_name_that_is_not_glb_is_warned_of) {
               AllOf(HasSubstr("warning: --output"), HasSubstr("x.fbx"), HasSubstr(".glb")));
   EXPECT_THAT(run_sunder({"tear", model(), "--ops", log, "-o", path("x.GLB")}).err,
               Not(HasSubstr("warning")));
+}
+
+TEST_F(TearMessages, outputs_that_cannot_be_files_are_refused_before_anything_is_torn) {
+  const std::string log = write("one.json", kOneTear);
+  const auto expect_refusal = [&](const char* option, const std::string& file, const char* text) {
+    std::vector<std::string> arguments = {"tear", model(), "--ops", log, option, file};
+    if (option != std::string("-o")) arguments.insert(arguments.end(), {"-o", path("none.glb")});
+    const CommandResult result = run_sunder(arguments);
+    EXPECT_EQ(result.exit_code, 3);
+    EXPECT_THAT(result.err, AllOf(HasSubstr(text), Not(HasSubstr("/operations/0"))));
+    EXPECT_FALSE(exists("none.glb"));
+  };
+  std::filesystem::create_directory(path("folder"));
+  for (const char* const option : {"-o", "--report", "--save-log", "--picture"}) {
+    expect_refusal(option, path("absent/x.glb"), "absent'");
+    expect_refusal(option, path("folder"), "is a folder; expected a file");
+  }
+  expect_refusal("-o", "", "--output: expected the name of a file");
+}
+
+TEST_F(TearMessages, a_picture_that_failed_does_not_count_as_written) {
+  const std::string log = write("one.json", kOneTear);
+  const CommandResult result =
+      run_sunder({"tear", model(), "--ops", log, "-o", path("m.glb"), "--picture", path("m.jpg")},
+                 {{"PATH", "/nonexistent"}});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.out, AllOf(HasSubstr("m.glb"), Not(HasSubstr("m.jpg"))));
+  EXPECT_THAT(result.err, HasSubstr("the file is written as PNG, but its name does not end in"));
 }
 
 TEST_F(TearMessages, more_influences_than_the_source_has_are_warned_of) {

@@ -1,4 +1,5 @@
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -43,8 +44,8 @@ void add_aimed_operations(CLI::App& verb) {
 }
 
 void read_aimed_operations(const CLI::App& verb, TearRequest& request) {
-  const std::string pose =
-      verb.count("--pose") > 0 ? verb.get_option("--pose")->as<std::string>() : std::string();
+  std::optional<std::string> pose;
+  if (verb.count("--pose") > 0) pose = verb.get_option("--pose")->results().back();
   std::map<std::string, std::size_t> read;
   for (const CLI::Option* const option : verb.parse_order()) {
     const std::string name = option->get_name();
@@ -55,7 +56,7 @@ void read_aimed_operations(const CLI::App& verb, TearRequest& request) {
       throw CLI::ValidationError(name + " " + text, std::string(operation.error().text()));
     request.aimed.push_back({*operation, name + " " + text});
   }
-  if (!pose.empty() && request.aimed.empty())
+  if (pose && request.aimed.empty())
     throw CLI::ValidationError("--pose", "needs --slash, --sever or --puncture");
 }
 

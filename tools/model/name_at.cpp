@@ -1,6 +1,7 @@
 #include "tools/model/name_at.h"
 
 #include <charconv>
+#include <cmath>
 
 namespace sunder::tools {
 
@@ -13,7 +14,7 @@ NameAt split_name_at(const std::string& text) {
 std::optional<double> number_in(std::string_view text) {
   double number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc() || end != text.data() + text.size()) return {};
+  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(number)) return {};
   return number;
 }
 

@@ -13,7 +13,7 @@ struct NameAt {
 };
 [[nodiscard]] NameAt split_name_at(const std::string& text);
 
-/// The number that a whole text is, which may be infinite or NaN; empty for other texts.
+/// The finite number that a whole text is; empty for other texts.
 [[nodiscard]] std::optional<double> number_in(std::string_view text);
 
 }  // namespace sunder::tools

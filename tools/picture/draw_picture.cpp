@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tools/messages/messages.h"
+#include "tools/messages/output_file.h"
 #include "tools/messages/overwriting.h"
 #include "tools/messages/printed.h"
 #include "tools/model/bone_extents.h"
@@ -220,6 +221,12 @@ ExitCode run_picture(const PictureRequest& request) {
     print_error("sunder: " + fault);
     return ExitCode::usage;
   }
+  if (const std::string fault = impossible_output({{"--output", request.output}}); !fault.empty()) {
+    print_error("sunder: " + fault);
+    return ExitCode::unreadable_input;
+  }
+  if (const std::string fault = other_ending({"--output", request.output}, "png"); !fault.empty())
+    warn(fault);
   const Result<LoadedCharacter> loaded = load_character(request.model);
   if (!loaded) return complain(request.model.string(), loaded.error(), ExitCode::unreadable_input);
   std::vector<Operation> log;

@@ -47,30 +47,54 @@ std::pair<std::string, std::optional<double>> name_and_number(const std::string&
   return number ? std::pair(name, number) : std::pair(text, number);
 }
 
-Json pose_json(const std::string& text) {
-  const auto [clip, time] = name_and_number(text);
-  if (!time) return text;  // "rest", "bind", or an error
-  return {{"clip", clip}, {"time", *time}};
+Result<Json> pose_json(const std::string& text) {
+  if (text == "rest" || text == "bind") return Json(text);
+  const auto [clip, time] =
+      name_and_number(text.ends_with('s') ? text.substr(0, text.size() - 1) : text);
+  if (!time || *time < 0)
+    return Status::failure(StatusCode::invalid_argument, kNone,
+                           "--pose: '%.100s' is no pose; expected rest, bind or CLIP@TIME with "
+                           "seconds, 0 or more",
+                           text.c_str());
+  return Json{{"clip", clip}, {"time", *time}};
+}
+
+/// Adds a field and its value, "turn=30", to an operation of a log.
+Status add_field(const std::string& field, Json& operation) {
+  const std::size_t equals = field.find('=');
+  const std::string key = field.substr(0, equals);
+  if (key == "pose")
+    return Status::failure(StatusCode::malformed_file, kNone,
+                           "'pose' is no field; give it as --pose");
+  if (operation.contains(key))
+    return Status::failure(StatusCode::malformed_file, kNone, "'%.60s' is given twice",
+                           key.c_str());
+  const Json value =
+      equals == std::string::npos ? Json(true) : value_json(field.substr(equals + 1));
+  if (value.is_object() && (key == "width" || key == "wall_depth" || key == "chord_tolerance"))
+    return Status::failure(StatusCode::malformed_file, kNone,
+                           "%s: '%.60s': expected metres; only length, depth and radius may be in "
+                           "widths",
+                           key.c_str(), field.c_str() + equals + 1);
+  operation[key] = value;
+  return {};
 }
 
 }  // namespace
 
 Result<AimedOperation> parse_aimed_option(const std::string& kind, const std::string& text,
-                                          const std::string& pose) {
+                                          const std::optional<std::string>& pose) {
   const std::vector<std::string> fields = split(text, ',');
   const auto [bone, share] = name_and_number(fields.front());
   Json operation = {{"op", kind}};
   operation[kind == "sever" ? "bone" : "around"] = bone;
   if (share) operation["at"] = *share;
-  if (!pose.empty()) operation["pose"] = pose_json(pose);
-  for (std::size_t i = 1; i < fields.size(); ++i) {
-    const std::size_t equals = fields[i].find('=');
-    const std::string key = fields[i].substr(0, equals);
-    if (operation.contains(key))
-      return Status::failure(StatusCode::malformed_file, kNone, "'%.60s' is given twice",
-                             key.c_str());
-    operation[key] =
-        equals == std::string::npos ? Json(true) : value_json(fields[i].substr(equals + 1));
+  for (std::size_t i = 1; i < fields.size(); ++i)
+    if (const Status status = add_field(fields[i], operation); !status) return status;
+  if (pose) {
+    Result<Json> posed = pose_json(*pose);
+    if (!posed) return posed.error();
+    operation["pose"] = std::move(*posed);
   }
   const Json log = {{"sunder_operations", 1}, {"operations", Json::array({operation})}};
   auto parsed = parse_aimed_operations(dump_line(log));

@@ -3,6 +3,7 @@
 #include <sunder/core/status.h>
 #include <sunder/operation/aimed_operation.h>
 
+#include <optional>
 #include <string>
 
 namespace sunder::tools {
@@ -15,6 +16,6 @@ namespace sunder::tools {
 /// @return malformed_file: what is wrong.
 [[nodiscard]] Result<AimedOperation> parse_aimed_option(const std::string& kind,
                                                         const std::string& text,
-                                                        const std::string& pose);
+                                                        const std::optional<std::string>& pose);
 
 }  // namespace sunder::tools

@@ -3,7 +3,9 @@
 #include <sunder/skinning/pose.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <limits>
+#include <memory>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -35,14 +37,29 @@ constexpr Unit kUnits[] = {
 
 double diagonal(const Bounds& bounds) { return bounds.size().norm(); }
 
+/// The factors by which a stroke that is too small is enlarged.
+constexpr double kEnlargements[] = {4, 16, 64};
+
+using Source = std::shared_ptr<const Character>;
+
 bool one_meets(const PosedSurface& surface, const Operation& operation) {
   return std::ranges::any_of(reaches_of(operation),
                              [&](const Reach& reach) { return meets(surface, reach); });
 }
 
+/// Whether an operation opens the surface of the source. What passes near it, or ends on it, does
+/// not always.
+bool is_hit(const Operation& operation, const Source& source) {
+  Result<TornModel> model = TornModel::create(source);
+  if (!model) return false;
+  const Result<TearReport> report = apply_operation(*model, operation);
+  return report && report->runs > 0;
+}
+
 /// Evidence of another unit: the scaled operation meets, and the unscaled one is farther away than
 /// the model is large, or much smaller than it.
-std::string unit_advice(const Operation& operation, const PosedSurface& surface, double distance) {
+std::string unit_advice(const Operation& operation, const PosedSurface& surface, double distance,
+                        const Source& source) {
   const std::vector<Reach> reaches = reaches_of(operation);
   Bounds reached;
   for (const Reach& reach : reaches) {
@@ -53,24 +70,38 @@ std::string unit_advice(const Operation& operation, const PosedSurface& surface,
   const double size = diagonal(surface.bounds);
   for (const Unit& unit : kUnits) {
     const bool is_plausible = unit.factor < 1 ? distance > size : diagonal(reached) < 0.2 * size;
-    if (is_plausible && one_meets(surface, scaled(operation, unit.factor))) return unit.advice;
+    const Operation corrected = scaled(operation, unit.factor);
+    if (is_plausible && one_meets(surface, corrected) && is_hit(corrected, source))
+      return unit.advice;
   }
   return {};
 }
 
 /// Evidence that the blades or the axis are too short or point away.
 std::string direction_advice(const Operation& operation, const PosedSurface& surface,
-                             double distance) {
+                             double distance, const Source& source) {
   const bool is_bore = std::holds_alternative<DrillOperation>(operation);
   if (!is_bore && !std::holds_alternative<TearOperation>(operation)) return {};
   Bounds reached = bounds_of(reaches_of(operation).front());
   const double length = distance + diagonal(reached) + 2 * diagonal(surface.bounds);
-  if (one_meets(surface, lengthened(operation, length)))
+  const auto would_meet = [&](const Operation& corrected) {
+    return one_meets(surface, corrected) && is_hit(corrected, source);
+  };
+  if (would_meet(lengthened(operation, length)))
     return is_bore ? "the bore is not deep enough to reach it"
                    : "the blade is too short to reach it";
-  if (one_meets(surface, lengthened(turned_round(operation), length)))
+  if (would_meet(lengthened(turned_round(operation), length)))
     return is_bore ? "the bore points away from it: is its direction reversed?"
                    : "the blade points away from it: are base and tip swapped?";
+  return {};
+}
+
+/// Evidence that a stroke on the surface is too small to be torn into the faces there.
+std::string size_advice(const Operation& operation, const Source& source) {
+  if (!std::holds_alternative<TearOperation>(operation)) return {};
+  for (const double factor : kEnlargements)
+    if (is_hit(enlarged(operation, factor), source))
+      return printed("it is too small for the faces there: %g times as long it would meet", factor);
   return {};
 }
 
@@ -83,9 +114,11 @@ struct OtherPose {
 void add_times(const Clip& clip, std::uint32_t index, std::vector<OtherPose>& poses) {
   const double duration = static_cast<double>(clip.duration);
   for (std::size_t i = 0; i < kTimesPerClip; ++i) {
-    const double time = duration * static_cast<double>(i) / (kTimesPerClip - 1);
-    poses.push_back(
-        {ClipPose{index, time}, printed("at %.3g s of clip '%s'", time, clip.name.c_str())});
+    // The time that is tried is the one that is printed.
+    const std::string text =
+        printed("%.4g", duration * static_cast<double>(i) / (kTimesPerClip - 1));
+    poses.push_back({ClipPose{index, std::strtod(text.c_str(), nullptr)},
+                     "at " + text + " s of clip '" + clip.name + "'"});
   }
 }
 
@@ -109,7 +142,7 @@ std::vector<OtherPose> other_poses(const PoseSpec& own, const Character& charact
 
 /// Evidence of another pose.
 Result<std::string> pose_advice(const Operation& operation, const Character& character,
-                                const PosedSurface& surface) {
+                                const PosedSurface& surface, const Source& source) {
   const std::vector<Reach> reaches = reaches_of(operation);
   std::vector<OtherPose> poses = other_poses(reaches.front().pose, character);
   const std::size_t faces = surface.triangles.size() * reaches.front().shape.size() + 1;
@@ -119,7 +152,8 @@ Result<std::string> pose_advice(const Operation& operation, const Character& cha
     if (!pose) return pose.error();
     const Result<PosedSurface> posed = pose_surface(character, *pose);
     if (!posed) return posed.error();
-    if (one_meets(*posed, operation)) return other.name + " it would meet: is its pose right?";
+    if (one_meets(*posed, operation) && is_hit(in_pose(operation, other.pose), source))
+      return other.name + " it would meet: is its pose right?";
   }
   return std::string();
 }
@@ -164,26 +198,26 @@ Result<Miss> measure_miss(const Operation& operation, const TornModel& model, Po
 }
 
 Result<std::string> cause_of_miss(const Operation& operation, const Miss& miss,
-                                  const Character& character) {
+                                  const TornModel& model, const Source& source) {
   if (miss.bounds.is_empty()) return std::string("the model has no surface left");
-  if (miss.distance == 0) return std::string();
+  if (miss.distance == 0) return size_advice(operation, source);
+  const Character& character = model.character();
   const Result<ModelPose> pose = make_pose(character, reaches_of(operation).front().pose);
   if (!pose) return pose.error();
   const Result<PosedSurface> surface = pose_surface(character, *pose);
   if (!surface) return surface.error();
-  std::string cause = unit_advice(operation, *surface, miss.distance);
+  std::string cause = unit_advice(operation, *surface, miss.distance, source);
   if (!cause.empty()) return cause;
-  Result<std::string> other_pose = pose_advice(operation, character, *surface);
+  Result<std::string> other_pose = pose_advice(operation, character, *surface, source);
   if (!other_pose || !other_pose->empty()) return other_pose;
-  return direction_advice(operation, *surface, miss.distance);
+  return direction_advice(operation, *surface, miss.distance, source);
 }
 
 std::string miss_text(const Operation& operation, const Miss& miss) {
   if (miss.bounds.is_empty()) return miss.cause;
-  std::string text =
-      miss.distance > 0
-          ? printed("%s %.4g m from the surface", what_passes(operation), miss.distance)
-          : std::string(what_passes(operation)) + " along the surface without crossing a face";
+  std::string text = std::string(what_passes(operation));
+  text += miss.distance > 0 ? printed(" %.4g m from the surface", miss.distance)
+                            : std::string(", without opening a face, along the surface");
   text += ", which spans " + point_text(miss.bounds.least) + " to " +
           point_text(miss.bounds.greatest) + " in this pose";
   return miss.cause.empty() ? text : text + "; " + miss.cause;

@@ -3,6 +3,7 @@
 #include <sunder/operation/operation.h>
 #include <sunder/tear/torn_model.h>
 
+#include <memory>
 #include <string>
 
 #include "tools/model/posed_model.h"
@@ -27,9 +28,11 @@ struct Miss {
                                         PosedSource& source);
 
 /// Looks for the cause of a miss: another unit, another pose, blades that point away or end too
-/// early. O(faces) per attempt; at most about forty.
+/// early, or a stroke that is too small for its face. A cause is stated only if the operation,
+/// corrected, meets the source. O(faces) per attempt; at most about forty.
 [[nodiscard]] Result<std::string> cause_of_miss(const Operation& operation, const Miss& miss,
-                                                const Character& character);
+                                                const TornModel& model,
+                                                const std::shared_ptr<const Character>& source);
 
 /// "the blade passes 8.3 m from the surface, which spans … in this pose; …".
 [[nodiscard]] std::string miss_text(const Operation& operation, const Miss& miss);

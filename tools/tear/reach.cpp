@@ -118,6 +118,21 @@ Operation scaled(const Operation& operation, double factor) {
   return result;
 }
 
+Operation enlarged(const Operation& operation, double factor) {
+  Operation result = operation;
+  auto* const tear = std::get_if<TearOperation>(&result);
+  if (tear == nullptr || tear->stroke.empty()) return result;
+  Vec3d middle = Vec3d::Zero();
+  for (const Blade& blade : tear->stroke) middle += blade.base;
+  middle /= static_cast<double>(tear->stroke.size());
+  for (Blade& blade : tear->stroke) {
+    const Vec3d move = (factor - 1) * (blade.base - middle);
+    blade.base += move;
+    blade.tip += move;
+  }
+  return result;
+}
+
 Operation in_pose(const Operation& operation, const PoseSpec& pose) {
   Operation result = operation;
   if (auto* const tear = std::get_if<TearOperation>(&result)) {

@@ -33,6 +33,10 @@ struct Reach {
 /// The operation with all lengths and places multiplied.
 [[nodiscard]] Operation scaled(const Operation& operation, double factor);
 
+/// A stroke that is longer by a factor, about the middle of its blades, which stay as deep. Other
+/// operations stay as they are.
+[[nodiscard]] Operation enlarged(const Operation& operation, double factor);
+
 /// The operation in another pose throughout.
 [[nodiscard]] Operation in_pose(const Operation& operation, const PoseSpec& pose);
 

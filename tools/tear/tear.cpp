@@ -4,7 +4,6 @@
 #include <sunder/tear/torn_model.h>
 
 #include <algorithm>
-#include <cctype>
 #include <chrono>
 #include <cstdio>
 #include <memory>
@@ -13,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "tools/messages/output_file.h"
 #include "tools/messages/printed.h"
 #include "tools/messages/progress_bar.h"
 #include "tools/model/model_check.h"
@@ -89,15 +89,12 @@ ExitCode choose_influences(TearRun& run) {
 /// Warns of options that do not fit together or the source.
 void warn_of_options(const TearRequest& request, const Character& source,
                      const Messages& messages) {
-  if (request.output) {
-    std::string extension = request.output->extension().string();
-    std::ranges::transform(extension, extension.begin(), [](unsigned char letter) {
-      return static_cast<char>(std::tolower(letter));
-    });
-    if (extension != ".glb")
-      messages.warn("--output " + request.output->string() +
-                    ": the file is written as GLB, but its name does not end in .glb");
-  }
+  const auto warn_of_name = [&](const char* option, const auto& file, const char* ending) {
+    const std::string fault = file ? other_ending({option, *file}, ending) : std::string();
+    if (!fault.empty()) messages.warn(fault);
+  };
+  warn_of_name("--output", request.output, "glb");
+  warn_of_name("--picture", request.picture, "png");
   if (request.save.maximum_influences == 0) return;
   const std::uint32_t most = check_model(source).most_influences;
   if (request.save.maximum_influences > most)
@@ -133,8 +130,10 @@ ExitCode finish(TearRun& run, Clock::time_point begin) {
   const auto saving = Clock::now();
   if (const ExitCode code = write_files(run, report); code != ExitCode::ok) return code;
   run.times.saving = seconds_since(saving);
-  if (request.picture && !request.dry_run)
-    run.has_findings |= !draw_picture(run.loaded, run.model, *request.picture);
+  if (request.picture && !request.dry_run) {
+    run.has_picture = draw_picture(run.loaded, run.model, *request.picture);
+    run.has_findings |= !run.has_picture;
+  }
   if (run.certified) run.messages.say(certificate_line(*run.certified, *request.maximum_error));
   run.messages.detail(times_line(run.times, seconds_since(begin)));
   erase_progress_bar();

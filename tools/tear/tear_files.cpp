@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "tools/messages/output_file.h"
 #include "tools/messages/overwriting.h"
 #include "tools/messages/text_file.h"
 #include "tools/value_of.h"
@@ -42,10 +43,15 @@ ExitCode check_outputs(const TearRequest& request) {
   if (request.log) outputs.push_back({"--save-log", *request.log});
   if (request.picture) outputs.push_back({"--picture", *request.picture});
   if (request.force) inputs.clear();
-  const std::string fault = overwriting(inputs, outputs, "; --force allows it");
+  if (const std::string fault = overwriting(inputs, outputs, "; --force allows it");
+      !fault.empty()) {
+    print_error("sunder: " + fault);
+    return ExitCode::usage;
+  }
+  const std::string fault = request.dry_run ? std::string() : impossible_output(outputs);
   if (fault.empty()) return ExitCode::ok;
   print_error("sunder: " + fault);
-  return ExitCode::usage;
+  return ExitCode::unreadable_input;
 }
 
 ExitCode write_files(const TearRun& run, const std::string& report) {

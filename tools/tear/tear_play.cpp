@@ -58,7 +58,8 @@ Status describe_miss(const Played& played, TearRun& run, Json& report) {
   Result<Miss> miss = measure_miss(played.operation, run.model, run.posed_source);
   if (!miss) return miss.error();
   if (run.totals.missed <= kMostExplained) {
-    const Result<std::string> cause = cause_of_miss(played.operation, *miss, run.model.character());
+    const Result<std::string> cause =
+        cause_of_miss(played.operation, *miss, run.model, run.loaded.character);
     if (!cause) return cause.error();
     miss->cause = *cause;
   }
@@ -133,11 +134,16 @@ AimedOperation with_clip(AimedOperation operation, const Character& source) {
   return operation;
 }
 
+/// As it is meant: of an aimed operation of the command line, with its clip.
+LoggedOperation meant(const WantedOperation& wanted, const Character& source) {
+  const auto* const aimed = std::get_if<AimedOperation>(&wanted.operation);
+  return aimed != nullptr && wanted.file.empty() ? with_clip(*aimed, source) : wanted.operation;
+}
+
 /// The plain operation for the model as it is now.
-Result<Operation> plain_operation(const WantedOperation& wanted, const TornModel& model) {
-  if (const auto* const plain = std::get_if<Operation>(&wanted.operation)) return *plain;
-  const auto& aimed = std::get<AimedOperation>(wanted.operation);
-  return resolve(model, wanted.file.empty() ? with_clip(aimed, model.source()) : aimed);
+Result<Operation> plain_operation(const LoggedOperation& operation, const TornModel& model) {
+  if (const auto* const plain = std::get_if<Operation>(&operation)) return *plain;
+  return resolve(model, std::get<AimedOperation>(operation));
 }
 
 /// Names like one that an operation names in vain; see advice_on_names().
@@ -166,12 +172,13 @@ ExitCode play_operations(const std::vector<WantedOperation>& operations, TearRun
     progress.begin_step(i + 1, "tearing");
     const WantedOperation& wanted = operations[i];
     const bool is_measured = run.request.weight_errors && i % step == 0;
-    const Result<Operation> plain = plain_operation(wanted, run.model);
+    const LoggedOperation operation = meant(wanted, run.model.source());
+    const Result<Operation> plain = plain_operation(operation, run.model);
     const Status status =
         plain ? play_one(*plain, wanted.place, is_measured, current, run) : plain.error();
     if (!status)
       return complain(wanted.file.empty() ? wanted.place : wanted.file + ": " + wanted.place,
-                      status, ExitCode::usage, advice_on(wanted.operation, run.model.source()));
+                      status, ExitCode::usage, advice_on(operation, run.model.source()));
   }
   progress.begin_step(operations.size() + 1, "weighing");
   if (!run.weighing.refit) return ExitCode::ok;

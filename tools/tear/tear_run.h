@@ -44,7 +44,7 @@ struct TearRun {
   std::optional<CertifiedWeights> certified = {};  ///< With --max-error.
   RunTotals totals = {};
   RunTimes times = {};
-  bool has_findings = false;
+  bool has_findings = false, has_picture = false;
 };
 
 }  // namespace sunder::tools

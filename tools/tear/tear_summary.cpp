@@ -57,19 +57,20 @@ std::string file_text(const std::filesystem::path& file) {
              : printed("%s (%.1f MB)", file.c_str(), 1e-6 * static_cast<double>(bytes));
 }
 
-std::string files_line(const TearRequest& request) {
+std::string files_line(const TearRun& run) {
+  const TearRequest& request = run.request;
   if (request.dry_run || !request.output) return "written     nothing: a dry run\n";
   std::string line = "written     " + file_text(*request.output);
   if (request.report && !reports_to_stdout(request)) line += ", " + request.report->string();
-  for (const auto& file : {request.log, request.picture})
-    if (file) line += ", " + file->string();
+  if (request.log) line += ", " + request.log->string();
+  if (run.has_picture) line += ", " + request.picture->string();
   return line + '\n';
 }
 
 }  // namespace
 
 std::string tear_summary(const TearRun& run) {
-  return operations_line(run) + surface_line(run) + weights_line(run) + files_line(run.request);
+  return operations_line(run) + surface_line(run) + weights_line(run) + files_line(run);
 }
 
 std::string times_line(const RunTimes& times, double seconds_in_all) {
