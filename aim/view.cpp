@@ -3,24 +3,13 @@
 #include <cmath>
 
 #include "core/internal/ordered.h"
+#include "operation/internal/view_sides.h"
 
 namespace sunder::aim {
 namespace {
 
 /// Sine of the least angle between view and bone: 15 degrees.
 constexpr double kLeastSine = 0.25;
-
-Vec3d direction_of(ViewSide side) {
-  switch (side) {
-    case ViewSide::front: return {0, 0, 1};
-    case ViewSide::back: return {0, 0, -1};
-    case ViewSide::left: return {1, 0, 0};
-    case ViewSide::right: return {-1, 0, 0};
-    case ViewSide::top: return {0, 1, 0};
-    case ViewSide::bottom: return {0, -1, 0};
-  }
-  return {0, 0, 1};
-}
 
 }  // namespace
 
@@ -32,7 +21,7 @@ Vec3d ViewFrame::turned(double radians) const {
 Result<ViewFrame> view_frame(const Limb& limb, const View& from) {
   Vec3d direction;
   if (const auto* const side = std::get_if<ViewSide>(&from)) {
-    direction = direction_of(*side);
+    direction = kViewSides[static_cast<std::size_t>(*side)].towards_viewer();
   } else {
     const ViewDirection& given = std::get<ViewDirection>(from);
     direction = given.direction;
