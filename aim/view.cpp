@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/internal/ordered.h"
+#include "operation/internal/view_sides.h"
 
 namespace sunder::aim {
 namespace {
@@ -14,15 +15,7 @@ constexpr double kLeastSine = 0.25;
 constexpr double kMostCosine = 0.866;
 
 Vec3d direction_of(ViewSide side) {
-  switch (side) {
-    case ViewSide::front: return {0, 0, 1};
-    case ViewSide::back: return {0, 0, -1};
-    case ViewSide::left: return {1, 0, 0};
-    case ViewSide::right: return {-1, 0, 0};
-    case ViewSide::top: return {0, 1, 0};
-    case ViewSide::bottom: return {0, -1, 0};
-  }
-  return {0, 0, 1};
+  return kViewSides[static_cast<std::size_t>(side)].towards_viewer();
 }
 
 /// The direction towards the viewer, of any length.

@@ -7,6 +7,7 @@
 #include "io/operation_log/read_operation.h"
 #include "io/operation_log/read_pose.h"
 #include "io/operation_log/read_weights.h"
+#include "operation/internal/view_sides.h"
 
 namespace sunder::operation_log {
 namespace {
@@ -35,12 +36,8 @@ AimedLength read_length(const Place& place) {
 
 ViewSide read_side(const Place& place) {
   const std::string name = read_name(place);
-  if (name == "front") return ViewSide::front;
-  if (name == "back") return ViewSide::back;
-  if (name == "left") return ViewSide::left;
-  if (name == "right") return ViewSide::right;
-  if (name == "top") return ViewSide::top;
-  if (name == "bottom") return ViewSide::bottom;
+  for (const NamedSide& known : kViewSides)
+    if (name == known.name) return known.side;
   place.malformed("unknown side '" + name +
                   "'; expected front, back, left, right, top, bottom or a direction");
 }

@@ -3,22 +3,14 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 
+#include "operation/internal/view_sides.h"
 #include "tools/command_line/options.h"
 
 namespace sunder::tools {
 namespace {
 
 constexpr int kLeastPixels = 16, kMostPixels = 8192;
-
-/// The sides as seen with the model's front at +Z: its left is at +X.
-const std::array<std::pair<const char*, Vec3d>, 6> kSides = {{{"front", Vec3d(0, 0, 1)},
-                                                              {"back", Vec3d(0, 0, -1)},
-                                                              {"left", Vec3d(1, 0, 0)},
-                                                              {"right", Vec3d(-1, 0, 0)},
-                                                              {"top", Vec3d(0, 1, 0)},
-                                                              {"bottom", Vec3d(0, -1, 0)}}};
 
 /// Numbers with one separator between two of them.
 template <class Number, std::size_t N>
@@ -36,8 +28,8 @@ std::optional<std::array<Number, N>> parse_numbers(std::string_view text, char s
 }
 
 std::optional<Vec3d> parse_side(const std::string& text) {
-  for (const auto& [name, direction] : kSides)
-    if (text == name) return direction;
+  for (const NamedSide& known : kViewSides)
+    if (text == known.name) return known.towards_viewer();
   const auto numbers = parse_numbers<double, 3>(text, ',');
   if (!numbers) return std::nullopt;
   const Vec3d direction((*numbers)[0], (*numbers)[1], (*numbers)[2]);

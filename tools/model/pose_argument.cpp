@@ -1,6 +1,5 @@
 #include "tools/model/pose_argument.h"
 
-#include <cmath>
 #include <optional>
 #include <string_view>
 
@@ -19,7 +18,7 @@ constexpr double kTimeTolerance = 1e-3;
 std::optional<double> parse_time(std::string_view text) {
   if (text.ends_with('s')) text.remove_suffix(1);
   const std::optional<double> seconds = number_in(text);
-  return seconds && std::isfinite(*seconds) && *seconds >= 0 ? seconds : std::nullopt;
+  return seconds && *seconds >= 0 ? seconds : std::nullopt;
 }
 
 }  // namespace

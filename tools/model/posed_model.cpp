@@ -33,20 +33,26 @@ bool has_wrong_normals(const Mesh& mesh, const DeformedMesh& posed) {
 
 }  // namespace
 
-Result<std::vector<DeformedMesh>> pose_model(const Character& character, const ModelPose& pose) {
+Result<std::vector<DeformedMesh>> deform_model(const Character& character, const ModelPose& pose) {
   std::vector<DeformedMesh> posed(character.meshes.size());
   std::vector<Affine3f> palette;
   for (std::size_t i = 0; i < posed.size(); ++i) {
-    const Skin& skin = character.skins[character.meshes[i].skin];
+    const Mesh& mesh = character.meshes[i];
+    const Skin& skin = character.skins[mesh.skin];
     palette.resize(skin.bones.size());
     if (const Status status = compute_palette(skin, pose, palette); !status) return status;
-    if (const Status status =
-            deform_mesh(character.meshes[i], palette, pose.morph_weights, posed[i]);
-        !status)
+    if (const Status status = deform_mesh(mesh, palette, pose.morph_weights, posed[i]); !status)
       return status;
-    if (posed[i].normals.empty() || has_wrong_normals(character.meshes[i], posed[i]))
-      make_normals(character.meshes[i], posed[i]);
   }
+  return posed;
+}
+
+Result<std::vector<DeformedMesh>> pose_model(const Character& character, const ModelPose& pose) {
+  Result<std::vector<DeformedMesh>> posed = deform_model(character, pose);
+  if (!posed) return posed;
+  for (std::size_t i = 0; i < posed->size(); ++i)
+    if ((*posed)[i].normals.empty() || has_wrong_normals(character.meshes[i], (*posed)[i]))
+      make_normals(character.meshes[i], (*posed)[i]);
   return posed;
 }
 

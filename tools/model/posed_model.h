@@ -6,9 +6,15 @@
 
 namespace sunder::tools {
 
-/// All meshes of a character in a pose, model space, for drawing. A mesh without normals, or with
-/// many that contradict its winding, gets smooth ones.
-Result<std::vector<DeformedMesh>> pose_model(const Character& character, const ModelPose& pose);
+/// All meshes of a character in a pose, model space. O(vertices).
+/// @return the failures of compute_palette() and deform_mesh().
+[[nodiscard]] Result<std::vector<DeformedMesh>> deform_model(const Character& character,
+                                                             const ModelPose& pose);
+
+/// The same for drawing: a mesh without normals, or with many that contradict its winding, gets
+/// smooth ones.
+[[nodiscard]] Result<std::vector<DeformedMesh>> pose_model(const Character& character,
+                                                           const ModelPose& pose);
 
 struct Bounds {
   Vec3d least = Vec3d::Constant(1e300);

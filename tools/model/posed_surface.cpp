@@ -105,19 +105,15 @@ double winding_of(const Corners& triangle, const Vec3d& point) {
 }  // namespace
 
 Result<PosedSurface> pose_surface(const Character& character, const ModelPose& pose) {
+  const Result<std::vector<DeformedMesh>> posed = deform_model(character, pose);
+  if (!posed) return posed.error();
   PosedSurface surface;
-  std::vector<Affine3f> palette;
-  DeformedMesh posed;
-  for (const Mesh& mesh : character.meshes) {
-    const Skin& skin = character.skins[mesh.skin];
-    palette.resize(skin.bones.size());
-    if (const Status status = compute_palette(skin, pose, palette); !status) return status;
-    if (const Status status = deform_mesh(mesh, palette, pose.morph_weights, posed); !status)
-      return status;
-    for (const Triangle& triangle : mesh.triangles) {
+  for (std::size_t m = 0; m < posed->size(); ++m) {
+    const std::vector<Vec3f>& positions = (*posed)[m].positions;
+    for (const Triangle& triangle : character.meshes[m].triangles) {
       if (is_retired(triangle)) continue;
       Corners corners;
-      for (std::size_t i = 0; i < 3; ++i) corners[i] = posed.positions[triangle[i]].cast<double>();
+      for (std::size_t i = 0; i < 3; ++i) corners[i] = positions[triangle[i]].cast<double>();
       if (surface.triangles.size() % PosedSurface::kRun == 0) surface.run_bounds.emplace_back();
       surface.triangles.push_back(corners);
       extend(surface.run_bounds.back(), bounds_of(corners));

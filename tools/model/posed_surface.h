@@ -22,6 +22,7 @@ struct PosedSurface {
   std::vector<Bounds> run_bounds;  ///< Of successive triangles, which are mostly neighbours.
   Bounds bounds;
 };
+/// @return the failures of deform_model(). O(vertices + triangles).
 [[nodiscard]] Result<PosedSurface> pose_surface(const Character& character, const ModelPose& pose);
 
 /// The distance between two triangles; 0 if they meet.
