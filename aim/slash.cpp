@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -104,7 +105,12 @@ BladeEnds ends_of(const SeenStroke& seen, std::size_t i, const SlashOperation& s
   const RayHit& hit = seen.hits[i];
   const double before =
       std::min(highest + kClearanceWidths * width - hit.near, 0.5 * hit.free_before);
-  return {hit.near + before, slash.depth ? hit.near - metres(*slash.depth, width) : lowest};
+  if (!slash.depth) return {hit.near + before, lowest};
+  // However deep, what is behind the limb stays whole: also what begins before the next blade.
+  double deepest = -std::numeric_limits<double>::infinity();
+  for (std::size_t k = std::max<std::size_t>(i, 1) - 1; k < std::min(i + 2, seen.hits.size()); ++k)
+    deepest = std::max(deepest, seen.hits[k].far - 0.5 * seen.hits[k].free_behind);
+  return {hit.near + before, std::max(hit.near - metres(*slash.depth, width), deepest)};
 }
 
 }  // namespace

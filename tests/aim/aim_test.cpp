@@ -300,6 +300,16 @@ TEST(Slash, of_a_given_depth_stays_that_deep) {
   EXPECT_EQ(torn_meshes(model), std::set<std::uint32_t>{kSleeve}) << "the skin is 0.1 m below";
 }
 
+TEST(Slash, of_any_depth_spares_what_is_behind_the_limb) {
+  TornModel model = make_model(make_armed_arm());
+  SlashOperation slash = slash_at("ForeArm", 0.5);
+  slash.from = ViewSide::right;
+  slash.depth = AimedLength{10, AimedLength::Unit::widths};
+  slash.options.layers = Layers::all;
+  EXPECT_GT(apply_aimed(model, slash).runs, 0u);
+  EXPECT_EQ(torn_meshes(model), (std::set<std::uint32_t>{kSkin, kSleeve}));
+}
+
 TEST(Slash, follows_the_pose) {
   Random random(5);
   for (int i = 0; i < 60; ++i) {

@@ -201,6 +201,21 @@ TEST_F(PictureErrors, wrong_options_are_explained) {
   }
 }
 
+/// `picture`, `view` and `validate` read aimed operations as `tear` does.
+TEST_F(PictureErrors, names_of_aimed_operations_come_with_the_nearest_ones) {
+  const auto message = [](const char* bone, const char* clip) {
+    const json operation = {
+        {"op", "sever"}, {"bone", bone}, {"pose", {{"clip", clip}, {"time", 0}}}};
+    const json log = {{"sunder_operations", 1}, {"operations", {operation}}};
+    const CommandResult result = run_sunder(
+        {"picture", model(), "-o", path("aimed.png"), "--ops", write("names.json", log.dump())});
+    EXPECT_EQ(result.exit_code, 2);
+    return result.err;
+  };
+  EXPECT_THAT(message("Trunk3", "Swai"), HasSubstr("did you mean 'Sway'?"));
+  EXPECT_THAT(message("Qqqq", "Sway"), HasSubstr("`sunder info MODEL --bones` lists the bones"));
+}
+
 TEST_F(PictureErrors, an_input_is_not_overwritten) {
   const std::vector<std::byte> before = bytes("cactus.glb");
   const CommandResult result = run_sunder({"picture", model(), "-o", model()});

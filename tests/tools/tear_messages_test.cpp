@@ -232,11 +232,11 @@ TEST_F(TearMessages, every_cause_of_a_miss_is_true) {
   for (int i = 0; i < 60; ++i) {
     SCOPED_TRACE(i);
     const double unit = std::array{1.0, 1.0, 1.0, 100.0, 0.01, 1000.0}[random.index(6)];
-    json operation = {{"op", "drill"}, {"radius", 0.04 * unit}};
+    json operation = {{"op", "drill"}, {"radius", random.uniform(0.02, 0.25) * unit}};
     operation["axis"]["origin"] = {unit * random.uniform(-0.6, 0.6), unit * random.uniform(0, 2),
                                    unit * random.uniform(-0.5, 0.5)};
     operation["axis"]["direction"] = {random.uniform(-1, 1), random.uniform(-1, 1), 0.3};
-    operation["depth"] = unit * random.uniform(0.05, 0.6);
+    operation["depth"] = unit * random.uniform(0.02, 0.3);
     if (random.index(2) == 0)
       operation["pose"] = {{"clip", "Sway"}, {"time", random.uniform(0, 2)}};
     const json miss = miss_of(operation);

@@ -1,5 +1,7 @@
 #include "tools/model/named_poses.h"
 
+#include <sunder/aim/aim.h>
+
 #include <algorithm>
 #include <variant>
 #include <vector>
@@ -45,6 +47,19 @@ std::string advice_on_names(const Operation& operation, const Character& charact
     if (!text.empty()) return text;
   }
   return {};
+}
+
+std::string advice_on_names(const AimedOperation& operation, const Character& character) {
+  const PoseSpec pose = std::visit([](const auto& of) { return of.pose; }, operation);
+  const std::string advice = advice_on_pose(pose, character);
+  const bool has_bone = std::visit(
+      [&](const auto& of) {
+        if constexpr (requires { of.place; })
+          return static_cast<bool>(find_bone(character.skeleton, of.place.bone));
+        return true;
+      },
+      operation);
+  return advice.empty() && !has_bone ? "; `sunder info MODEL --bones` lists the bones" : advice;
 }
 
 std::string advice_on_names(const RefitOptions& refit, const Character& character) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <sunder/core/character.h>
+#include <sunder/operation/aimed_operation.h>
 #include <sunder/operation/operation.h>
 
 #include <string>
@@ -12,6 +13,9 @@ namespace sunder::tools {
 [[nodiscard]] std::string advice_on_names(const PoseSpec& spec, const Character& character);
 /// The same for the poses of an operation.
 [[nodiscard]] std::string advice_on_names(const Operation& operation, const Character& character);
+/// The same for the clip of an operation that names a bone; without that bone, how to list them.
+[[nodiscard]] std::string advice_on_names(const AimedOperation& operation,
+                                          const Character& character);
 /// The same for the clips of a refit.
 [[nodiscard]] std::string advice_on_names(const RefitOptions& refit, const Character& character);
 

@@ -8,12 +8,14 @@
 #include <utility>
 #include <variant>
 
+#include "tools/model/named_poses.h"
+
 namespace sunder::tools {
 namespace {
 
-Status at_operation(std::size_t number, const Status& status) {
-  return Status::failure(status.code(), static_cast<std::uint32_t>(number), "/operations/%zu: %s",
-                         number, std::string(status.text()).c_str());
+Status at_operation(std::size_t number, const Status& status, const std::string& advice) {
+  return Status::failure(status.code(), static_cast<std::uint32_t>(number), "/operations/%zu: %s%s",
+                         number, std::string(status.text()).c_str(), advice.c_str());
 }
 
 }  // namespace
@@ -37,14 +39,14 @@ Result<std::vector<Operation>> load_plain_operations(
     LoggedOperation& of = (*logged)[i];
     if (const auto* const aimed = std::get_if<AimedOperation>(&of)) {
       auto resolved = resolve(*model, *aimed);
-      if (!resolved) return at_operation(i, resolved.error());
+      if (!resolved) return at_operation(i, resolved.error(), advice_on_names(*aimed, *character));
       plain.push_back(std::move(*resolved));
     } else {
       plain.push_back(std::move(std::get<Operation>(of)));
     }
     if (i + 1 >= to_apply) continue;  // nothing is aimed at what this one leaves
     if (const auto applied = apply_operation(*model, plain.back()); !applied)
-      return at_operation(i, applied.error());
+      return at_operation(i, applied.error(), advice_on_names(plain.back(), *character));
   }
   return plain;
 }

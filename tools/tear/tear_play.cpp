@@ -146,19 +146,19 @@ Result<Operation> plain_operation(const LoggedOperation& operation, const TornMo
   return resolve(model, std::get<AimedOperation>(operation));
 }
 
-/// Names like one that an operation names in vain; see advice_on_names().
+/// Names like one that an operation names in vain.
 std::string advice_on(const LoggedOperation& operation, const Character& source) {
-  if (const auto* const plain = std::get_if<Operation>(&operation))
-    return advice_on_names(*plain, source);
-  const auto& aimed = std::get<AimedOperation>(operation);
-  const std::string advice = advice_on_names(pose_of(aimed), source);
-  const bool has_bone = std::visit(
-      [&](const auto& of) {
-        if constexpr (requires { of.place; })
-          return static_cast<bool>(find_bone(source.skeleton, of.place.bone));
-        return true;
-      },
-      aimed);
+  const std::string advice =
+      std::visit([&](const auto& of) { return advice_on_names(of, source); }, operation);
+  const auto* const aimed = std::get_if<AimedOperation>(&operation);
+  const bool has_bone = aimed == nullptr ||
+                        std::visit(
+                            [&](const auto& of) {
+                              if constexpr (requires { of.place; })
+                                return static_cast<bool>(find_bone(source.skeleton, of.place.bone));
+                              return true;
+                            },
+                            *aimed);
   return advice.empty() && !has_bone ? "; `sunder info MODEL --bones` lists the bones" : advice;
 }
 
