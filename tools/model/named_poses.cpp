@@ -51,7 +51,7 @@ std::string advice_on_names(const Operation& operation, const Character& charact
 
 std::string advice_on_names(const AimedOperation& operation, const Character& character) {
   const PoseSpec pose = std::visit([](const auto& of) { return of.pose; }, operation);
-  const std::string advice = advice_on_pose(pose, character);
+  const std::string advice = advice_on_names(pose, character);
   const bool has_bone = std::visit(
       [&](const auto& of) {
         if constexpr (requires { of.place; })

@@ -148,18 +148,7 @@ Result<Operation> plain_operation(const LoggedOperation& operation, const TornMo
 
 /// Names like one that an operation names in vain.
 std::string advice_on(const LoggedOperation& operation, const Character& source) {
-  const std::string advice =
-      std::visit([&](const auto& of) { return advice_on_names(of, source); }, operation);
-  const auto* const aimed = std::get_if<AimedOperation>(&operation);
-  const bool has_bone = aimed == nullptr ||
-                        std::visit(
-                            [&](const auto& of) {
-                              if constexpr (requires { of.place; })
-                                return static_cast<bool>(find_bone(source.skeleton, of.place.bone));
-                              return true;
-                            },
-                            *aimed);
-  return advice.empty() && !has_bone ? "; `sunder info MODEL --bones` lists the bones" : advice;
+  return std::visit([&](const auto& of) { return advice_on_names(of, source); }, operation);
 }
 
 }  // namespace
