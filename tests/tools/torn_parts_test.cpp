@@ -54,8 +54,39 @@ Edges filling_edges(const TornModel& model) {
 
 Index components_of(const Character& character) { return count_topology(character)->components; }
 
+/// A tube and triangles at some of its places that are no part of it, because they have other
+/// weights.
+Character make_tube_with_loose_triangles() {
+  Character character = make_tube(6, 8, 3);
+  Mesh& mesh = character.meshes[0];
+  for (const std::uint32_t t : {0u, 11u, 30u}) {
+    const Triangle copied = mesh.triangles[t];
+    Triangle loose;
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      loose[corner] = mesh.vertex_count();
+      const std::uint32_t vertex = copied[corner];
+      mesh.positions.push_back(mesh.positions[vertex]);
+      if (!mesh.normals.empty()) mesh.normals.push_back(mesh.normals[vertex]);
+      if (!mesh.tangents.empty()) mesh.tangents.push_back(mesh.tangents[vertex]);
+      for (auto& set : mesh.uv_sets) set.push_back(set[vertex]);
+      for (auto& set : mesh.color_sets) set.push_back(set[vertex]);
+      for (MorphTarget& target : mesh.morph_targets)
+        for (auto* const deltas :
+             {&target.position_deltas, &target.normal_deltas, &target.tangent_deltas})
+          if (!deltas->empty()) deltas->push_back((*deltas)[vertex]);
+      const Influence whole{2, 1.0f};
+      mesh.weights.append({&whole, 1});
+    }
+    mesh.triangles.push_back(loose);
+    mesh.triangle_submesh.push_back(0);
+  }
+  return character;
+}
+
 TEST(TornParts, a_model_beside_itself_has_none) {
-  for (const Character& character : {make_sheet(6), make_tube(6, 8, 3), make_two_tubes(5, 7)}) {
+  EXPECT_EQ(components_of(make_tube_with_loose_triangles()), 4u);
+  for (const Character& character : {make_sheet(6), make_tube(6, 8, 3), make_two_tubes(5, 7),
+                                     make_tube_with_loose_triangles()}) {
     const auto parts = tools::find_torn_parts(character, character);
     ASSERT_TRUE(parts) << parts.error().text();
     EXPECT_TRUE(parts->lips.empty());

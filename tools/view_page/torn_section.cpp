@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <numeric>
+#include <set>
 
 namespace sunder::tools {
 namespace {
@@ -162,28 +163,41 @@ void for_each_corner(const Surface& surface, const Visit& visit) {
 /// A component of the torn model.
 struct Part {
   std::size_t corners = 0;
-  std::map<Index, std::size_t> corners_of_source;  ///< By component of the source.
+  Index origin = kNone;  ///< The component of the source that it was a part of; kNone: a new one.
+};
 
-  /// The component of the source that it was a part of; kNone: it has no vertex of the source.
-  [[nodiscard]] Index origin() const {
-    const auto most = std::ranges::max_element(corners_of_source, {},
-                                               [](const auto& entry) { return entry.second; });
-    return most == corners_of_source.end() ? kNone : most->first;
+/// The components of the source at each place, and how many corners each has.
+struct SourceComponents {
+  std::map<Place, std::set<Index>> at;
+  std::map<Index, std::size_t> corners;
+
+  explicit SourceComponents(const Surface& source) {
+    for_each_corner(source, [&](Index component, const Place& place) {
+      at[place].insert(component);
+      ++corners[component];
+    });
   }
 };
 
+/// Components of the source may touch in places. A part was of the one with which it shares most
+/// corners and, if it shares as many with several, of the smallest of these.
 std::map<Index, Part> find_parts(const Surface& source, const Surface& torn) {
-  std::map<Place, Index> source_component;
-  for_each_corner(source, [&](Index component, const Place& place) {
-    source_component.try_emplace(place, component);
-  });
+  const SourceComponents components(source);
   std::map<Index, Part> parts;
+  std::map<Index, std::map<Index, std::size_t>> shared;  // by part and component of the source
   for_each_corner(torn, [&](Index component, const Place& place) {
-    Part& part = parts[component];
-    ++part.corners;
-    if (const auto known = source_component.find(place); known != source_component.end())
-      ++part.corners_of_source[known->second];
+    ++parts[component].corners;
+    const auto known = components.at.find(place);
+    if (known == components.at.end()) return;
+    for (const Index of_source : known->second) ++shared[component][of_source];
   });
+  for (const auto& [part, of_sources] : shared) {
+    const auto is_likelier = [&](const auto& a, const auto& b) {
+      return a.second != b.second ? a.second > b.second
+                                  : components.corners.at(a.first) < components.corners.at(b.first);
+    };
+    parts[part].origin = std::ranges::min_element(of_sources, is_likelier)->first;
+  }
   return parts;
 }
 
@@ -192,14 +206,14 @@ std::map<Index, std::uint16_t> number_pieces(const Surface& source, const Surfac
   const std::map<Index, Part> parts = find_parts(source, torn);
   std::map<Index, Index> body;  // the largest part of each component of the source
   for (const auto& [component, part] : parts) {
-    const Index origin = part.origin();
+    const Index origin = part.origin;
     if (origin == kNone) continue;
     Index& largest = body.try_emplace(origin, component).first->second;
     if (part.corners > parts.at(largest).corners) largest = component;
   }
   std::map<Index, std::uint16_t> numbers;
   for (const auto& [component, part] : parts) {
-    const Index origin = part.origin();
+    const Index origin = part.origin;
     if (origin != kNone && body[origin] == component) continue;
     if (numbers.size() < std::numeric_limits<std::uint16_t>::max())
       numbers.emplace(component, static_cast<std::uint16_t>(numbers.size() + 1));

@@ -37,7 +37,11 @@ const NAMES = { tear: 'Tear', cut: 'Cut', drill: 'Bore', weights: 'Weights', und
 export function describe(operation) {
   const facts = [];
   if (operation.op === 'tear') facts.push(`${operation.stroke.length} blades`);
-  if (operation.op === 'cut') facts.push(operation.bounds ? 'bounded' : 'whole plane');
+  if (operation.op === 'cut') {
+    const sections = operation.sections?.length ?? 0;
+    if (sections > 0) facts.push(sections === 1 ? '1 section' : `${sections} sections`);
+    else facts.push(operation.bounds?.length > 0 ? 'bounded' : 'whole plane');
+  }
   if (operation.op === 'drill') facts.push(`radius ${Number(operation.radius.toPrecision(3))} m`);
   if (operation.op === 'weights') facts.push(operation.weights.policy ?? 'barycentric');
   if (operation.count > 1) facts.push(`${operation.count}`);
