@@ -16,7 +16,8 @@ constexpr double kSameJointSizes = 1e-5;
 constexpr double kLeastCosineOfSeveral = 0.5;
 /// A single child behind the joint is not what the bone leads to.
 constexpr double kLeastCosineOfOne = 0.0;
-/// What a bone moves lies around its joint if its middle is nearer than this share of its extent.
+/// The surface that a bone moves lies around its joint if its middle is nearer than this share of
+/// its extent.
 constexpr double kAroundJointExtents = 0.1;
 
 /// The joints of a pose that does not depend on the operation's: a bone leads to the same child in

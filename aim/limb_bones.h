@@ -8,7 +8,7 @@
 
 namespace sunder::aim {
 
-/// What a bone is to a limb.
+/// The role of a bone for a limb.
 enum class BoneRole : std::uint8_t {
   own,     ///< The bone that the limb is named after, see BoneTree::same_bones().
   below,   ///< In the subtree of that bone.

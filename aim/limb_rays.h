@@ -9,8 +9,8 @@
 
 namespace sunder::aim {
 
-/// What a ray from the viewer meets. Heights are towards the viewer, from the plane of the view
-/// through the place that the rays are measured from.
+/// The surfaces that a ray from the viewer meets. Heights are towards the viewer, from the plane
+/// of the view through the place that the rays are measured from.
 struct RayHit {
   double near = 0, far = 0;  ///< First and last surface of the limb.
   // Distances to the next surface that is not this part of the limb, or infinity.

@@ -35,7 +35,8 @@ std::vector<Vec3d> places_inside(const ViewFrame& frame, double radius) {
   return places;
 }
 
-/// What all rays inside the bore meet together. @return empty if the one in the middle misses.
+/// The surfaces that the rays inside the bore meet, all together.
+/// @return empty if the ray in the middle misses.
 std::optional<RayHit> look_into(const LimbRays& rays, const std::vector<Vec3d>& places) {
   const std::optional<RayHit> middle = rays.cast_at_middle();
   if (!middle) return {};

@@ -82,11 +82,4 @@ bool exceeds_bounds(const PointToRefit& point, const PoseMoments& moments,
   return std::any_of(excess.begin(), excess.end(), [](double share) { return !(share <= 1); });
 }
 
-double mean_square(std::span<const AnimationPoint::Term> terms, std::span<const double> of_terms,
-                   const Eigen::Vector3d& position, const PoseMoments& moments, std::size_t group,
-                   std::vector<AnimationPoint::Term>& difference) {
-  differences(terms, of_terms, position, difference);
-  return moments.mean_square(difference, group);
-}
-
 }  // namespace sunder::weights

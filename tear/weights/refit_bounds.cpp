@@ -9,8 +9,8 @@
 namespace sunder::tear {
 namespace {
 
-/// What a point may exceed its barycentric mean square by, as multiples of the mean of its
-/// operation, in one attempt after the other.
+/// A point may exceed its barycentric mean square by these multiples of the mean of its operation,
+/// in one attempt after the other.
 constexpr double kSlacks[] = {0.4, 0.1, 0.0};
 constexpr std::size_t kNoSlack = std::size(kSlacks) - 1;
 /// The largest part of what some points gain that others may lose. Less than 1, because the gain is

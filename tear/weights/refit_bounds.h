@@ -9,25 +9,24 @@ namespace sunder::tear {
 
 /// The largest mean squared errors that the fits of points may have over groups of poses.
 ///
-/// What counts is the sum over all points of an operation: over no group may it exceed that of
-/// barycentric weights. A bound per point that is as strict as that costs much where a point is
-/// better than others anyway. So a point may first exceed its own barycentric error by a multiple
-/// of the mean of its operation; over groups where the sum is too large the multiple is reduced,
-/// and the points that exceed the new bounds are fitted again. Where barycentric weights are exact,
-/// there is no slack.
+/// Over no group may the sum over all points of an operation exceed that of barycentric weights. A
+/// bound per point that is as strict as that costs much where a point is better than others anyway.
+/// So a point may first exceed its own barycentric error by a multiple of the mean of its
+/// operation; over groups where the sum is too large the multiple is reduced, and the points that
+/// exceed the new bounds are fitted again. Where barycentric weights are exact, there is no slack.
 class RefitBounds {
  public:
   /// @param groups      number of groups of poses.
   /// @param operations  the operation of each point; the numbers need not be consecutive.
   RefitBounds(std::size_t groups, std::span<const Index> operations);
 
-  /// Sets what a point has over a group with barycentric weights.
-  /// @param rounding  square of what a stored position can be off, posed; less does not count.
+  /// Sets the mean squared error of a point over a group with barycentric weights, square metres.
+  /// @param rounding  the squared error of a stored position, posed; smaller errors do not count.
   void set_barycentric(std::size_t point, std::size_t group, double mean_square, double rounding);
   /// To be called when all are set.
   void begin();
 
-  /// The bounds of a point, one per group.
+  /// The bounds of a point, one per group; square metres.
   [[nodiscard]] std::span<const double> allowed(std::size_t point) const {
     return row(allowed_, point);
   }
@@ -36,8 +35,8 @@ class RefitBounds {
   }
   /// Whether barycentric weights are exact over some group.
   [[nodiscard]] bool is_exact(std::size_t point) const;
-  /// What the fit of a point has over each group, to be filled in; at first that of barycentric
-  /// weights.
+  /// The mean squared errors of a point's fit, one per group, which the caller fills in. At first
+  /// those of barycentric weights.
   [[nodiscard]] std::span<double> of_fit(std::size_t point) {
     return std::span(of_fit_).subspan(point * groups_, groups_);
   }

@@ -15,8 +15,9 @@ namespace sunder::tear {
 /// Fits the points of a task that one skin moves.
 ///
 /// The sum that is minimised is, over the groups of poses, the mean square of each group divided by
-/// what all points of the skin have there with barycentric weights, times its importance. Bounds
-/// over each group, over random poses and over the poses of the operation see RefitBounds.
+/// what all points of the skin have there with barycentric weights, times its importance.
+/// RefitBounds holds the bounds over each group, over random poses and over the poses of the
+/// operation.
 class SkinRefit {
  public:
   /// @param points  of the task, that the skin moves; at least one.

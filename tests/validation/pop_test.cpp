@@ -130,8 +130,12 @@ TEST(Pop, does_not_count_surface_that_an_operation_makes_or_removes) {
   gap.options.wall_depth = 0.2;
   CutOperation cut;
   cut.pose = pose;
-  cut.cut = {
-      Vec3d(0, 1.7, 0), Vec3d(0.2, 1.0, 0.1), {}, true, {}, WeightOptions{WeightPolicy::pose_exact, 0}};
+  cut.cut = {Vec3d(0, 1.7, 0),
+             Vec3d(0.2, 1.0, 0.1),
+             {},
+             true,
+             {},
+             WeightOptions{WeightPolicy::pose_exact, 0}};
   DrillOperation drill;
   drill.pose = pose;
   drill.bore.origin = Vec3d(0.1, 0.8, -2.0);

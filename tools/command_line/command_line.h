@@ -9,7 +9,7 @@
 
 namespace sunder::tools {
 
-/// What parsing fills in, for all verbs.
+/// The requests of all verbs; parsing fills in one of them.
 struct Requests {
   InfoRequest info;
   PictureRequest picture;

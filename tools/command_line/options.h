@@ -17,7 +17,7 @@ CLI::App* add_view(CLI::App& app, ViewRequest& request);
 
 /// `--slash`, `--sever`, `--puncture`, and their `--pose`.
 void add_aimed_operations(CLI::App& verb);
-/// What was given of them, in order. @throws CLI::ValidationError
+/// Reads the aimed operations that were given, in order. @throws CLI::ValidationError
 void read_aimed_operations(const CLI::App& verb, TearRequest& request);
 
 /// `--weights-as`, the number format of written weights.

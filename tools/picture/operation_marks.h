@@ -27,7 +27,7 @@ struct OperationLabel {
 [[nodiscard]] std::vector<OperationLabel> draw_operations(
     const std::vector<NumberedOperation>& operations, const Bounds& model, Marks& marks);
 
-/// What of these operations is not in the picture, one line each.
+/// Lists the operations that are not in the picture, or only partly, one line each.
 [[nodiscard]] std::vector<std::string> missing_from_picture(
     const std::vector<NumberedOperation>& operations, const Bounds& model,
     const Viewport& viewport);

@@ -13,7 +13,7 @@ namespace sunder::tools {
 [[nodiscard]] std::string operation_line(const OperationOutcome& outcome,
                                          const std::optional<TornPlace>& place);
 
-/// What -v adds: runs, segments, vertices, weights.
+/// The details that -v adds: runs, segments, vertices, weights.
 [[nodiscard]] std::string operation_details(const OperationOutcome& outcome);
 
 }  // namespace sunder::tools

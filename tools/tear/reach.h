@@ -9,8 +9,8 @@
 
 namespace sunder::tools {
 
-/// What one operation passes through in one pose: the sweep of a blade, the bounds of a plane, or
-/// the axis of a bore. Model space.
+/// The space that one operation passes through in one pose: the sweep of a blade, the bounds of a
+/// plane, or the axis of a bore. Model space.
 struct Reach {
   PoseSpec pose;
   std::vector<Corners> shape;     ///< Triangles; empty for a whole plane.

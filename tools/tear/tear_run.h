@@ -20,7 +20,7 @@ struct Weighing {
   std::optional<RefitOptions> refit;  ///< For `refit`, if the model bends.
 };
 
-/// What the operations of a run did, for its summary.
+/// Sums over the operations of a run, for its summary.
 struct RunTotals {
   std::size_t done = 0, missed = 0, pieces = 0;
   std::uint64_t faces_crossed = 0, blocked = 0;

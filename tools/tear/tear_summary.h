@@ -6,7 +6,8 @@
 
 namespace sunder::tools {
 
-/// What `sunder tear` did, for people: operations, faces, pieces, weights, files. Lines with ends.
+/// Describes for people what `sunder tear` did: operations, faces, pieces, weights, files. Lines
+/// with ends.
 [[nodiscard]] std::string tear_summary(const TearRun& run);
 
 /// "loading 0.1 s, operations 0.3 s, saving 0.1 s, other 0.02 s (96 % …)".

@@ -11,7 +11,7 @@
 
 namespace sunder::tools {
 
-/// What tearing did to a model, found by comparing both files.
+/// The traces of tearing in a model, found by comparing it with its source.
 struct TornParts {
   /// Open edges that the source does not have; vertices of all meshes, back to back.
   std::vector<std::array<std::uint32_t, 2>> lips;

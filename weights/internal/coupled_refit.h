@@ -36,8 +36,8 @@ struct CoupledFit {
 
 /// Fits each point alone, then all of them together: least squares over their weights and bind
 /// positions plus the costs of neighbours that differ (a Laplacian along the lips and towards the
-/// untorn surface). Deterministic. A point that ends up worse than with its barycentric weights, or
-/// beyond its bounds, keeps those.
+/// untorn surface). Deterministic. A point whose common fit is worse than its barycentric weights,
+/// or exceeds a bound, goes only a part of the way to it from its fit alone.
 ///
 /// @return one fit per point; unsupported_feature if has_coupled_refit() is false;
 /// index_out_of_range for a neighbour that is no point; invalid_argument for a smoothness or length

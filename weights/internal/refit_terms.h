@@ -58,12 +58,4 @@ SUNDER_API void differences(std::span<const AnimationPoint::Term> terms,
                                              std::span<const AnimationPoint::Term> difference,
                                              std::vector<double>& excess);
 
-/// The mean squared error of some weights and a bind position, which is about the centre too.
-/// @param difference  scratch memory.
-[[nodiscard]] SUNDER_API double mean_square(std::span<const AnimationPoint::Term> terms,
-                                            std::span<const double> of_terms,
-                                            const Eigen::Vector3d& position,
-                                            const PoseMoments& moments, std::size_t group,
-                                            std::vector<AnimationPoint::Term>& difference);
-
 }  // namespace sunder::weights
