@@ -28,13 +28,30 @@ struct LoadReport {
   std::vector<LoadNote> notes;
 };
 
+/// Where the importer of a format other than glTF runs.
+enum class ImportPlace : std::uint8_t {
+  /// In a helper executable with limits on memory, time, files and system calls, so that a file
+  /// that crashes its importer, or takes it over, harms nothing else.
+  helper_process,
+  /// In the caller's process, without limits. For trusted files only.
+  in_process,
+};
+
 struct LoadOptions {
   /// Refuses what would otherwise be repaired or dropped.
   bool strict = false;
   /// Limit for the file together with all files that it refers to.
   std::uint64_t maximum_bytes = std::uint64_t{2} << 30;
-  /// Time limit for formats that are read in a child process. > 0.
-  double import_seconds = 120.0;
+  ImportPlace import_place = ImportPlace::helper_process;
+  /// Path of the helper executable `sunder-import`; if empty, it is searched for beside the library
+  /// and the program.
+  std::filesystem::path import_helper = {};
+  /// Time limit of the helper process. > 0.
+  double import_seconds = 10.0;
+  /// Limit for the memory of the helper process in addition to what it needs to start.
+  std::uint64_t import_memory = std::uint64_t{4} << 30;
+  /// Folders from which the model may read other files, in addition to its own.
+  std::vector<std::filesystem::path> roots = {};
   /// Fills LoadedCharacter::stored, for validation. glTF and GLB only.
   bool keep_stored_influences = false;
 };
@@ -58,11 +75,16 @@ struct LoadedCharacter {
 [[nodiscard]] SUNDER_API Result<LoadedCharacter> load_character(const std::filesystem::path& file,
                                                                 const LoadOptions& options = {});
 
+/// SaveOptions::maximum_influences that writes all.
+inline constexpr std::uint32_t kAllInfluences = kNone;
+
 /// How the influences of the meshes that are written are stored. Meshes that stay as they are in
 /// the source document keep theirs.
 struct SaveOptions {
-  /// Largest number of influences per vertex, 4 or 8; the largest are kept and renormalised. 0
-  /// writes all, in as many JOINTS_n and WEIGHTS_n as needed.
+  /// Largest number of influences per vertex, 4 or 8; the largest are kept and renormalised.
+  /// kAllInfluences writes all, in as many JOINTS_n and WEIGHTS_n as needed. 0 writes four for a
+  /// mesh that has at most four per vertex in the source, because many engines read no more, and
+  /// all for other meshes.
   std::uint32_t maximum_influences = 0;
   WeightFormat weights = WeightFormat::float32;
   /// One per mesh of the character, in place of `weights`; empty: `weights` for all.
