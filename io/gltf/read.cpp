@@ -33,6 +33,7 @@ LoadedCharacter read(std::span<const std::byte> content, const std::filesystem::
   document->content.assign(content.begin(), content.end());
   document->maximum_bytes = options.maximum_bytes;
   if (!folder.empty()) document->folder = std::filesystem::absolute(folder);
+  for (const auto& root : options.roots) document->roots.push_back(std::filesystem::absolute(root));
   const Container container = split_container(document->content);
   document->is_glb = container.is_glb;
   document->json = parse_document(container.json);

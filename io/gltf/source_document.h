@@ -38,8 +38,9 @@ class SourceDocument {
   std::vector<std::span<const std::byte>> buffers;
   /// Absolute: the folder to which relative URIs may point. Or empty.
   std::filesystem::path folder;
+  std::vector<std::filesystem::path> roots;  ///< LoadOptions::roots.
   std::uint64_t maximum_bytes = 0;  ///< LoadOptions::maximum_bytes, for images embedded on saving.
-  std::vector<MeshOrigin> mesh_origins;  ///< One per mesh of the character.
+  std::vector<MeshOrigin> mesh_origins;     ///< One per mesh of the character.
   std::vector<std::uint32_t> node_of_bone;  ///< kNone for bones that loading added.
 };
 

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 #include <tiny_gltf.h>
 
@@ -74,7 +75,8 @@ std::vector<std::byte> decode_data_uri(const std::string& uri, const std::string
 }
 
 std::filesystem::path resolve_uri(const std::string& uri, const std::filesystem::path& folder,
-                                  const std::string& place) {
+                                  const std::string& place,
+                                  const std::vector<std::filesystem::path>& roots) {
   const auto refuse_path = [&](const char* why) {
     refuse(StatusCode::path_not_allowed, kNone, "%.80s: '%.80s' %s", place.c_str(), uri.c_str(),
            why);
@@ -88,16 +90,24 @@ std::filesystem::path resolve_uri(const std::string& uri, const std::filesystem:
     refuse_path("is not a relative path");
 
   std::error_code error;
-  const auto allowed = std::filesystem::canonical(folder, error);
+  std::vector<std::filesystem::path> allowed = {std::filesystem::canonical(folder, error)};
   if (error)
     refuse(StatusCode::file_not_found, kNone, "%.80s: the model's folder cannot be opened",
            place.c_str());
-  const auto file = std::filesystem::weakly_canonical(allowed / relative, error);
-  if (error)
-    refuse(StatusCode::file_unreadable, kNone, "%.80s: '%.80s' cannot be resolved", place.c_str(),
-           uri.c_str());
-  if (!is_inside(file, allowed)) refuse_path("is outside the model's folder");
-  return file;
+  for (const auto& root : roots)
+    if (auto whole = std::filesystem::canonical(root, error); !error)
+      allowed.push_back(std::move(whole));
+  std::filesystem::path first;
+  for (const auto& root : allowed) {
+    auto file = std::filesystem::weakly_canonical(root / relative, error);
+    if (error || std::none_of(allowed.begin(), allowed.end(),
+                              [&](const auto& one) { return is_inside(file, one); }))
+      continue;
+    if (std::filesystem::exists(file, error)) return file;
+    if (first.empty()) first = std::move(file);
+  }
+  if (first.empty()) refuse_path("is outside the model's folder (LoadOptions::roots)");
+  return first;
 }
 
 std::vector<std::byte> read_file(const std::filesystem::path& file, std::uint64_t maximum_bytes,

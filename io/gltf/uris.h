@@ -14,11 +14,12 @@ namespace sunder::gltf {
 [[nodiscard]] std::vector<std::byte> decode_data_uri(const std::string& uri,
                                                      const std::string& place);
 
-/// The file that a relative URI names. Refuses (path_not_allowed) absolute paths, other schemes,
-/// and files that, after links are resolved, are not in `folder` or below.
-[[nodiscard]] std::filesystem::path resolve_uri(const std::string& uri,
-                                                const std::filesystem::path& folder,
-                                                const std::string& place);
+/// The file that a relative URI names: in `folder`, else in the first of `roots` that has it.
+/// Refuses (path_not_allowed) absolute paths, other schemes, and files that, after links are
+/// resolved, are neither in `folder` nor in one of the roots or below.
+[[nodiscard]] std::filesystem::path resolve_uri(
+    const std::string& uri, const std::filesystem::path& folder, const std::string& place,
+    const std::vector<std::filesystem::path>& roots = {});
 
 /// The bytes of a regular file. Refuses a file that is missing, unreadable or larger than
 /// `maximum_bytes`.
