@@ -1,5 +1,7 @@
 #include "io/assimp/notes.h"
 
+#include <utility>
+
 #include <nlohmann/json.hpp>
 
 namespace sunder::assimp_import {
@@ -21,11 +23,12 @@ void Notes::dropped(StatusCode fault, std::string_view place, std::string_view t
 void Notes::add(LoadNote::Kind kind, StatusCode fault, std::string_view place,
                 std::string_view text, std::uint32_t count) {
   if (count == 0) return;
-  for (LoadNote& note : notes_) {
-    if (note.kind == kind && note.place == place && note.text == text) {
-      note.count += count;
-      return;
-    }
+  std::string key(1, static_cast<char>(kind));
+  key.append(place).append(1, '\0').append(text);
+  const auto [known, is_new] = note_of_text_.try_emplace(std::move(key), notes_.size());
+  if (!is_new) {
+    notes_[known->second].count += count;
+    return;
   }
   notes_.push_back({kind, std::string(place), std::string(text), count});
   faults_.push_back(fault);

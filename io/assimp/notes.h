@@ -4,6 +4,7 @@
 
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 namespace sunder::assimp_import {
@@ -29,7 +30,8 @@ class Notes {
            std::uint32_t count);
 
   std::vector<LoadNote> notes_;
-  std::vector<StatusCode> faults_;  ///< One a note.
+  std::vector<StatusCode> faults_;                             ///< One a note.
+  std::unordered_map<std::string, std::size_t> note_of_text_;  ///< By kind, place and text.
 };
 
 /// `text` with all bytes that are not UTF-8 replaced by U+FFFD.

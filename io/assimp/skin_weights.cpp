@@ -26,10 +26,28 @@ bool is_normalized(std::span<const Influence> influences) {
   return std::abs(sum_of(influences) - 1.0) <= 2e-7 * static_cast<double>(influences.size());
 }
 
+/// A stable sort of a few elements; std::stable_sort() allocates.
+template <class Before>
+void insertion_sort(std::vector<Influence>& influences, Before before) {
+  for (std::size_t i = 1; i < influences.size(); ++i) {
+    const Influence moved = influences[i];
+    std::size_t at = i;
+    for (; at > 0 && before(moved, influences[at - 1]); --at) influences[at] = influences[at - 1];
+    influences[at] = moved;
+  }
+}
+
+template <class Before>
+void sort_stably(std::vector<Influence>& influences, Before before) {
+  if (influences.size() <= 32)
+    insertion_sort(influences, before);
+  else
+    std::stable_sort(influences.begin(), influences.end(), before);
+}
+
 /// Merges influences of the same slot, sorts, and scales to a sum of one.
 void normalize(std::vector<Influence>& influences, Counts& counts) {
-  std::stable_sort(influences.begin(), influences.end(),
-                   [](const Influence& a, const Influence& b) { return a.slot < b.slot; });
+  sort_stably(influences, [](const Influence& a, const Influence& b) { return a.slot < b.slot; });
   std::size_t kept = 0;
   for (std::size_t i = 0; i < influences.size(); ++i) {
     if (kept > 0 && influences[kept - 1].slot == influences[i].slot)
@@ -38,8 +56,8 @@ void normalize(std::vector<Influence>& influences, Counts& counts) {
       influences[kept++] = influences[i];
   }
   influences.resize(kept);
-  std::stable_sort(influences.begin(), influences.end(),
-                   [](const Influence& a, const Influence& b) { return a.weight > b.weight; });
+  sort_stably(influences,
+              [](const Influence& a, const Influence& b) { return a.weight > b.weight; });
 
   const double sum = sum_of(influences);
   const double deviation = std::abs(sum - 1.0);

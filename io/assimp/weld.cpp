@@ -1,7 +1,7 @@
 #include "io/assimp/weld.h"
 
+#include <bit>
 #include <cstring>
-#include <unordered_set>
 
 namespace sunder::assimp_import {
 namespace {
@@ -10,26 +10,23 @@ class Vertices {
  public:
   explicit Vertices(const MeshPart& part) : part_(part) {}
 
-  [[nodiscard]] std::size_t hash(std::uint32_t vertex) const {
-    std::uint64_t state = 0xCBF2'9CE4'8422'2325u;
-    const auto mix = [&](std::uint32_t word) {
-      state = (state ^ word) * 0x9E37'79B9'7F4A'7C15u;
-      state ^= state >> 32;
-    };
+  /// One per vertex. Each stream is visited once, in order.
+  [[nodiscard]] std::vector<std::uint64_t> hashes() const {
+    std::vector<std::uint64_t> states(part_.vertex_count(), 0xCBF2'9CE4'8422'2325u);
     for (const Stream& stream : part_.streams) {
-      for (int i = 0; i < stream.components; ++i) {
-        std::uint32_t word = 0;
-        std::memcpy(&word, values(stream, vertex) + i, sizeof word);
-        mix(word);
+      const float* value = stream.values.data();
+      for (std::uint64_t& state : states)
+        for (int i = 0; i < stream.components; ++i)
+          mix(state, std::bit_cast<std::uint32_t>(*value++));
+    }
+    for (std::uint32_t vertex = 0; part_.weights.vertex_count() != 0 && vertex < states.size();
+         ++vertex) {
+      for (const Influence& influence : part_.weights.of(vertex)) {
+        mix(states[vertex], influence.slot);
+        mix(states[vertex], std::bit_cast<std::uint32_t>(influence.weight));
       }
     }
-    for (const Influence& influence : influences(vertex)) {
-      std::uint32_t word = 0;
-      std::memcpy(&word, &influence.weight, sizeof word);
-      mix(influence.slot);
-      mix(word);
-    }
-    return static_cast<std::size_t>(state);
+    return states;
   }
 
   [[nodiscard]] bool equal(std::uint32_t a, std::uint32_t b) const {
@@ -43,6 +40,10 @@ class Vertices {
   }
 
  private:
+  static void mix(std::uint64_t& state, std::uint32_t word) {
+    state = (state ^ word) * 0x9E37'79B9'7F4A'7C15u;
+    state ^= state >> 32;
+  }
   static const float* values(const Stream& stream, std::uint32_t vertex) {
     return stream.values.data() + std::size_t{vertex} * static_cast<std::size_t>(stream.components);
   }
@@ -52,6 +53,40 @@ class Vertices {
   }
 
   const MeshPart& part_;
+};
+
+/// Finds the first of equal vertices. Open addressing: no allocation per vertex, and most
+/// comparisons end at the hash.
+class FirstVertices {
+ public:
+  FirstVertices(const Vertices& vertices, std::uint32_t count)
+      : vertices_(vertices),
+        hashes_(vertices.hashes()),
+        places_(std::bit_ceil(std::size_t{count} * 2 + 1)) {}
+
+  /// @return the vertex inserted before that equals this one, or `vertex`, which is inserted.
+  std::uint32_t insert(std::uint32_t vertex) {
+    const std::uint64_t hash = hashes_[vertex];
+    const auto tag = static_cast<std::uint32_t>(hash >> 32);
+    const std::size_t mask = places_.size() - 1;
+    for (std::size_t at = static_cast<std::size_t>(hash) & mask;; at = (at + 1) & mask) {
+      Place& place = places_[at];
+      if (place.vertex == kNone) {
+        place = {vertex, tag};
+        return vertex;
+      }
+      if (place.tag == tag && vertices_.equal(place.vertex, vertex)) return place.vertex;
+    }
+  }
+
+ private:
+  struct Place {
+    std::uint32_t vertex = kNone;
+    std::uint32_t tag = 0;
+  };
+  const Vertices& vertices_;
+  std::vector<std::uint64_t> hashes_;
+  std::vector<Place> places_;
 };
 
 void keep(Stream& stream, const std::vector<std::uint32_t>& old_from_new) {
@@ -67,18 +102,15 @@ void keep(Stream& stream, const std::vector<std::uint32_t>& old_from_new) {
 std::uint32_t weld_identical(MeshPart& part) {
   const std::uint32_t count = part.vertex_count();
   const Vertices vertices(part);
-  const auto hash = [&](std::uint32_t vertex) { return vertices.hash(vertex); };
-  const auto equal = [&](std::uint32_t a, std::uint32_t b) { return vertices.equal(a, b); };
-  std::unordered_set<std::uint32_t, decltype(hash), decltype(equal)> kept(count, hash, equal);
-
+  FirstVertices kept(vertices, count);
   std::vector<std::uint32_t> new_from_old(count), old_from_new;
   for (std::uint32_t vertex = 0; vertex < count; ++vertex) {
-    const auto [first, is_new] = kept.insert(vertex);
-    if (is_new) {
+    const std::uint32_t first = kept.insert(vertex);
+    if (first == vertex) {
       new_from_old[vertex] = static_cast<std::uint32_t>(old_from_new.size());
       old_from_new.push_back(vertex);
     } else {
-      new_from_old[vertex] = new_from_old[*first];
+      new_from_old[vertex] = new_from_old[first];
     }
   }
   if (old_from_new.size() == count) return 0;
