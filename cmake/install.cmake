@@ -8,6 +8,9 @@ install(TARGETS ${modules} EXPORT SunderTargets
 if(TARGET sunder)
   install(TARGETS sunder RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()
+if(TARGET sunder-import)  # also for users of the package: $<TARGET_FILE:sunder::sunder-import>
+  install(TARGETS sunder-import EXPORT SunderTargets RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR})
+endif()
 
 # Relative run paths: shared libraries find one another, and the command finds them, under any
 # prefix.
@@ -16,6 +19,10 @@ if(BUILD_SHARED_LIBS AND UNIX AND NOT APPLE)
   if(TARGET sunder)
     file(RELATIVE_PATH lib_from_bin ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})
     set_target_properties(sunder PROPERTIES INSTALL_RPATH "$ORIGIN/${lib_from_bin}")
+  endif()
+  if(TARGET sunder-import)
+    file(RELATIVE_PATH lib_from_libexec ${CMAKE_INSTALL_FULL_LIBEXECDIR} ${CMAKE_INSTALL_FULL_LIBDIR})
+    set_target_properties(sunder-import PROPERTIES INSTALL_RPATH "$ORIGIN/${lib_from_libexec}")
   endif()
 endif()
 

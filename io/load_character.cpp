@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "io/assimp/import_as_glb.h"
+#include "io/contained_import/import_as_glb.h"
 #include "io/gltf/container.h"
 #include "io/gltf/read.h"
 #include "io/gltf/refusal.h"
@@ -35,13 +35,22 @@ Result<LoadedCharacter> load_gltf(const std::filesystem::path& file, bool is_glb
   return gltf::read_character(content, folder.empty() ? "." : folder, options);
 }
 
+/// What is wrong with the GLB of an import, in the words of the model's own name.
+Status refusal_of_import(const Status& fault, const std::string& name) {
+  const StatusCode code = fault.code() == StatusCode::unsupported_format
+                              ? StatusCode::malformed_file  // not that of the model
+                              : fault.code();
+  return Status::failure(code, fault.index(), "%.80s: as imported: %s", name.c_str(),
+                         std::string(fault.text()).c_str());
+}
+
 /// Other formats arrive as a GLB in memory, which refers to no file.
 Result<LoadedCharacter> load_by_assimp(const std::filesystem::path& file,
                                        const LoadOptions& options) {
-  auto imported = assimp_import::import_as_glb(file, options);
+  auto imported = contained_import::import_as_glb(file, options);
   if (!imported) return imported.error();
   auto loaded = gltf::read_character(imported->glb, {}, options);
-  if (!loaded) return loaded;
+  if (!loaded) return refusal_of_import(loaded.error(), file.filename().string());
   LoadReport& report = loaded->report;
   report.format = std::move(imported->report.format);
   report.space = std::move(imported->report.space);

@@ -1,7 +1,5 @@
 #include "io/assimp/convert_scene.h"
 
-#include <algorithm>
-#include <cctype>
 #include <string>
 
 #include <assimp/Importer.hpp>
@@ -16,42 +14,38 @@
 namespace sunder::assimp_import {
 namespace {
 
-std::string format_name(const std::string& extension) {
-  std::string format = extension;
-  if (extension == "dae" || extension == "zae")
-    format = "COLLADA";
-  else
-    std::transform(format.begin(), format.end(), format.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-  return format + " by assimp " + std::to_string(aiGetVersionMajor()) + "." +
+std::string format_name(const Format& format) {
+  return std::string(format.name) + " by assimp " + std::to_string(aiGetVersionMajor()) + "." +
          std::to_string(aiGetVersionMinor()) + "." + std::to_string(aiGetVersionPatch());
 }
 
 }  // namespace
 
-ImportedGlb read_and_convert(const std::filesystem::path& file, const LoadOptions& options) {
-  const std::string extension = lower_extension(file);
-  AssetFolder folder(file.parent_path(), options.maximum_bytes);
+ImportedGlb read_and_convert(const ModelFile& model, AssetFiles& assets,
+                             const LoadOptions& options) {
+  const Result<Format> format = format_of(model.name);
+  if (!format) throw ImportFailure{format.error()};
+  const std::string extension(format->extension);
   Assimp::Importer importer;
-  const ReadScene read = read_scene(importer, file, folder);
+  const ReadScene read = read_scene(importer, model, *format, assets);
   const aiScene& scene = *read.scene;
 
   Notes notes;
   const ModelSpace space = model_space_of(scene, extension, notes);
   ImportedGlb result;
-  result.report.format = format_name(extension);
+  result.report.format = format_name(*format);
   result.report.space = space.description;
 
   GlbBuilder glb(options.maximum_bytes);
   glb.document["asset"] = {{"version", "2.0"},
                            {"generator", "Sunder, from " + result.report.format}};
   SceneTree tree(scene, space, notes);
-  MaterialWriter materials(scene, folder, glb, notes);
+  MaterialWriter materials(scene, assets, glb, notes);
   const std::vector<MorphedNode> morphed =
       convert_meshes(scene, read.is_de_indexed, extension, tree, materials, glb, notes);
   if (!glb.document.contains("meshes"))
-    throw ImportFailure{Status::failure(StatusCode::empty_input, kNone, "%s: no triangles",
-                                        file.filename().c_str())};
+    throw ImportFailure{
+        Status::failure(StatusCode::empty_input, kNone, "%s: no triangles", model.name.c_str())};
   convert_animations(scene, tree, morphed, glb, notes);
   if (scene.mNumCameras + scene.mNumLights > 0)
     notes.inform("scene", "cameras and lights are not imported",

@@ -2,15 +2,14 @@
 
 #include <sunder/io/character_file.h>
 
-#include <filesystem>
-
-#include "io/assimp/import_as_glb.h"
+#include "io/assimp/asset_io_system.h"
+#include "io/assimp/imported_glb.h"
 
 namespace sunder::assimp_import {
 
-/// The work of the child process: reads the file by assimp and converts the whole scene. Throws
-/// ImportFailure, and any exception of assimp.
-[[nodiscard]] ImportedGlb read_and_convert(const std::filesystem::path& file,
+/// Reads the model by assimp and converts the whole scene. Throws ImportFailure, and any exception
+/// of assimp.
+[[nodiscard]] ImportedGlb read_and_convert(const ModelFile& model, AssetFiles& assets,
                                            const LoadOptions& options);
 
 }  // namespace sunder::assimp_import

@@ -9,7 +9,7 @@
 
 #include <assimp/scene.h>
 
-#include "io/assimp/asset_folder.h"
+#include "io/assimp/asset_files.h"
 #include "io/assimp/glb_builder.h"
 #include "io/assimp/notes.h"
 
@@ -18,7 +18,7 @@ namespace sunder::assimp_import {
 /// Writes materials when primitives first request them. Images are copied without decoding.
 class MaterialWriter {
  public:
-  MaterialWriter(const aiScene& scene, AssetFolder& folder, GlbBuilder& glb, Notes& notes)
+  MaterialWriter(const aiScene& scene, AssetFiles& folder, GlbBuilder& glb, Notes& notes)
       : scene_(scene), folder_(folder), glb_(glb), notes_(notes) {}
 
   /// glTF's index of an assimp material for a primitive with these texture coordinates. If the
@@ -38,7 +38,7 @@ class MaterialWriter {
   Json describe(std::uint32_t material);
 
   const aiScene& scene_;
-  AssetFolder& folder_;
+  AssetFiles& folder_;
   GlbBuilder& glb_;
   Notes& notes_;
   std::map<std::uint32_t, Texture> texture_of_material_;

@@ -1,126 +1,75 @@
 #include "io/assimp/read_scene.h"
 
 #include <algorithm>
-#include <array>
-#include <cctype>
-#include <cstdio>
-#include <cstdlib>
-#include <cstring>
 #include <exception>
-#include <fstream>
 #include <new>
 #include <sstream>
-#include <stdexcept>
 #include <string_view>
 
 #include <assimp/BaseImporter.h>
-#include <assimp/DefaultIOSystem.h>
-#include <assimp/ai_assert.h>
 #include <assimp/config.h>
 #include <assimp/importerdesc.h>
 #include <assimp/postprocess.h>
 
-#include "io/assimp/child_process.h"
+#include "io/assimp/check_text.h"
 #include "io/assimp/failure.h"
 
-// Debian builds assimp with assertions, and some valid files violate them. In the child a failed
-// assertion becomes an import error; in the rest of the program, which may use assimp itself, it
-// works as before. If the linker keeps assimp's own version of this function, the child aborts and
-// the parent reports that.
-namespace Assimp {
-__attribute__((visibility("default"))) void aiAssertViolation(const char* expression,
-                                                              const char* file, int line) {
-  if (sunder::assimp_import::is_import_child())
-    throw std::runtime_error(std::string("assertion failed: ") + expression);
-  std::fprintf(stderr, "ai_assert failure in %s(%d): %s\n", file, line, expression);
-  std::abort();
-}
-}  // namespace Assimp
-
 namespace sunder::assimp_import {
-
-namespace fs = std::filesystem;
-
 namespace {
 
-/// Lets assimp open only files that AssetFolder allows, and stores the first refusal.
-class FolderIOSystem : public Assimp::DefaultIOSystem {
- public:
-  explicit FolderIOSystem(AssetFolder& folder) : folder_(folder) {}
+/// Sum over all polygons of the square of their corners, to which the time of their triangulation
+/// is proportional: about 3 seconds.
+constexpr std::uint64_t kMostPolygonWork = 300'000'000;
 
-  bool Exists(const char* path) const override { return folder_.resolve(path).has_value(); }
-
-  Assimp::IOStream* Open(const char* path, const char* mode) override {
-    if (std::strpbrk(mode, "wa+") != nullptr) return nullptr;
-    const Result<fs::path> file = folder_.resolve(path);
-    Status status = file.error();
-    if (file) status = folder_.charge(*file);
-    if (status) return DefaultIOSystem::Open(file->c_str(), mode);
-    if (status.code() != StatusCode::file_not_found && refusal_.is_ok()) refusal_ = status;
-    return nullptr;
-  }
-
-  bool CreateDirectory(const std::string&) override { return false; }
-  bool ChangeDirectory(const std::string&) override { return false; }
-  bool DeleteFile(const std::string&) override { return false; }
-
-  [[nodiscard]] const Status& refusal() const { return refusal_; }
-
- private:
-  AssetFolder& folder_;
-  Status refusal_;
-};
-
-/// Whether the importer supports the file's extension; some have two parts, such as ".mesh.xml".
-bool claims(const aiImporterDesc* description, const std::string& lower_name) {
-  if (description == nullptr || description->mFileExtensions == nullptr) return false;
-  std::istringstream extensions(description->mFileExtensions);
+bool reads(const aiImporterDesc* importer, std::string_view extension) {
+  if (importer == nullptr || importer->mFileExtensions == nullptr) return false;
+  std::istringstream extensions(importer->mFileExtensions);
   for (std::string one; extensions >> one;)
-    if (lower_name.ends_with("." + one)) return true;
+    if (one == extension) return true;
   return false;
 }
 
-/// Removes all importers except those of the file's extension; assimp would otherwise try them on
-/// the content. They are not freed, because the child exits.
-/// @return whether any importer is left.
-bool keep_loaders_of(Assimp::Importer& importer, const std::string& lower_name) {
-  for (std::size_t i = importer.GetImporterCount(); i-- > 0;)
-    if (!claims(importer.GetImporterInfo(i), lower_name))
-      importer.UnregisterLoader(importer.GetImporter(i));
+/// Removes all importers except that of the format; assimp would otherwise try them on the content.
+/// @return whether one is left.
+bool keep_importer_of(const Format& format, Assimp::Importer& importer) {
+  for (std::size_t i = importer.GetImporterCount(); i-- > 0;) {
+    if (reads(importer.GetImporterInfo(i), format.extension)) continue;
+    Assimp::BaseImporter* const other = importer.GetImporter(i);
+    importer.UnregisterLoader(other);
+    delete other;
+  }
   return importer.GetImporterCount() > 0;
 }
 
-/// The first bytes of a format, or a text within its first kilobyte, if the format prescribes one.
-void check_magic(const fs::path& file, const std::string& extension) {
-  struct Magic {
-    std::string_view extension, begins, contains;
-  };
-  static constexpr std::array kMagic = {
-      Magic{"x", "xof ", ""},
-      Magic{"b3d", "BB3D", ""},
-      Magic{"ply", "ply", ""},
-      Magic{"fbx", "Kaydara FBX Binary", "FBX"},
-      Magic{"md5mesh", "", "MD5Version"},
-      Magic{"md5anim", "", "MD5Version"},
-  };
-  const auto magic = std::find_if(kMagic.begin(), kMagic.end(),
-                                  [&](const Magic& one) { return one.extension == extension; });
-  if (magic == kMagic.end()) return;
-  std::string start(1024, '\0');
-  std::ifstream stream(file, std::ios::binary);
-  stream.read(start.data(), static_cast<std::streamsize>(start.size()));
-  start.resize(static_cast<std::size_t>(stream.gcount()));
-  if (!magic->begins.empty() && start.starts_with(magic->begins)) return;
-  if (!magic->contains.empty() && start.find(magic->contains) != std::string::npos) return;
-  throw ImportFailure{Status::failure(StatusCode::malformed_file, kNone,
-                                      "%s: the content is not that of a .%s file",
-                                      file.filename().c_str(), extension.c_str())};
+/// Refuses what assimp cannot read in reasonable time.
+void check_content(const ModelFile& model, const Format& format) {
+  std::string content(1024, '\0');
+  content.resize(read_at(model.file.descriptor, content.data(), content.size(), 0));
+  if (const Status status = check_start(format, content, model.name); !status)
+    throw ImportFailure{status};
+  if (!has_text_check(format, content)) return;
+  content.resize(model.file.bytes);
+  content.resize(read_at(model.file.descriptor, content.data(), content.size(), 0));
+  if (const Status status = check_text(format, content, model.name); !status)
+    throw ImportFailure{status};
 }
 
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
+void check_polygons(const aiScene& scene, const ModelFile& model) {
+  std::uint64_t work = 0, most = 0;
+  for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
+    for (unsigned f = 0; f < scene.mMeshes[m]->mNumFaces; ++f) {
+      const std::uint64_t corners = scene.mMeshes[m]->mFaces[f].mNumIndices;
+      if (corners <= 4) continue;
+      work +=
+          std::min<std::uint64_t>(corners, 1u << 20) * std::min<std::uint64_t>(corners, 1u << 20);
+      most = std::max(most, corners);
+    }
+  }
+  if (work > kMostPolygonWork)
+    throw ImportFailure{Status::failure(
+        StatusCode::limit_exceeded, kNone,
+        "%.100s: polygons of up to %llu corners, too large to be divided into triangles",
+        model.name.c_str(), static_cast<unsigned long long>(most))};
 }
 
 bool is_de_indexed(const aiMesh& mesh) {
@@ -135,8 +84,7 @@ bool is_de_indexed(const aiMesh& mesh) {
   return true;
 }
 
-[[noreturn]] void fail(const Assimp::Importer& importer, const fs::path& file) {
-  const std::string name = file.filename().string();
+[[noreturn]] void fail(const Assimp::Importer& importer, const ModelFile& model) {
   if (const std::exception_ptr thrown = importer.GetException()) {
     try {
       std::rethrow_exception(thrown);
@@ -147,30 +95,20 @@ bool is_de_indexed(const aiMesh& mesh) {
   }
   std::string text = importer.GetErrorString();
   if (text.empty()) text = "the importer gives no reason";
-  // assimp's texts often contain whole paths, which must not be shown.
-  const std::string folder = file.parent_path().string() + "/";
-  for (std::size_t at = text.find(folder); at != std::string::npos; at = text.find(folder, at))
-    text.erase(at, folder.size());
-  throw ImportFailure{
-      Status::failure(StatusCode::malformed_file, kNone, "%s: %s", name.c_str(), text.c_str())};
+  throw ImportFailure{Status::failure(StatusCode::malformed_file, kNone, "%.100s: %s",
+                                      model.name.c_str(), text.c_str())};
 }
 
 }  // namespace
 
-std::string lower_extension(const fs::path& file) {
-  const std::string extension = lower(file.extension().string());
-  return extension.empty() ? extension : extension.substr(1);
-}
-
-ReadScene read_scene(Assimp::Importer& importer, const fs::path& file, AssetFolder& folder) {
-  const std::string extension = lower_extension(file);
-  if (!keep_loaders_of(importer, lower(file.filename().string())))
+ReadScene read_scene(Assimp::Importer& importer, const ModelFile& model, const Format& format,
+                     AssetFiles& assets) {
+  check_content(model, format);
+  if (!keep_importer_of(format, importer))
     throw ImportFailure{Status::failure(StatusCode::unsupported_format, kNone,
-                                        "%s: no reader for .%s files", file.filename().c_str(),
-                                        extension.c_str())};
-  check_magic(file, extension);
-
-  auto* const system = new FolderIOSystem(folder);  // The importer takes ownership.
+                                        "%.100s: this assimp has no importer for it",
+                                        model.name.c_str())};
+  auto* const system = new AssetIOSystem(model, assets);  // The importer takes ownership.
   importer.SetIOHandler(system);
   // Pivots stay separate nodes, which is exact; collapsing them loses animation (assimp issues
   // 1068, 4005).
@@ -178,9 +116,10 @@ ReadScene read_scene(Assimp::Importer& importer, const fs::path& file, AssetFold
   // Do not create a mesh around the bones of a file without meshes.
   importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
 
-  const aiScene* scene = importer.ReadFile(file.string(), 0);
+  const aiScene* scene = importer.ReadFile(name_for_assimp(model), 0);
   if (!system->refusal()) throw ImportFailure{system->refusal()};
-  if (scene == nullptr || scene->mRootNode == nullptr) fail(importer, file);
+  if (scene == nullptr || scene->mRootNode == nullptr) fail(importer, model);
+  check_polygons(*scene, model);
   ReadScene result;
   for (unsigned i = 0; i < scene->mNumMeshes; ++i)
     result.is_de_indexed.push_back(is_de_indexed(*scene->mMeshes[i]));
@@ -189,7 +128,7 @@ ReadScene read_scene(Assimp::Importer& importer, const fs::path& file, AssetFold
   // on the result.
   result.scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
   if (result.scene == nullptr || result.scene->mNumMeshes != result.is_de_indexed.size())
-    fail(importer, file);
+    fail(importer, model);
   return result;
 }
 

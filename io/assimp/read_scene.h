@@ -1,18 +1,14 @@
 #pragma once
 
-#include <filesystem>
-#include <string>
 #include <vector>
 
 #include <assimp/Importer.hpp>
 #include <assimp/scene.h>
 
-#include "io/assimp/asset_folder.h"
+#include "io/assimp/asset_io_system.h"
+#include "io/assimp/formats.h"
 
 namespace sunder::assimp_import {
-
-/// The file's extension in lower case, without the dot.
-[[nodiscard]] std::string lower_extension(const std::filesystem::path& file);
 
 struct ReadScene {
   const aiScene* scene = nullptr;  ///< The importer's.
@@ -22,10 +18,10 @@ struct ReadScene {
   std::vector<bool> is_de_indexed;
 };
 
-/// Reads `file` with the importer for its extension; the content is not inspected, and the only
-/// post-processing step is triangulation. Throws ImportFailure: unsupported_format, malformed_file
-/// with assimp's text, path_not_allowed, limit_exceeded.
-[[nodiscard]] ReadScene read_scene(Assimp::Importer& importer, const std::filesystem::path& file,
-                                   AssetFolder& folder);
+/// Reads `model` with the importer of its format; the content does not choose it, and the only
+/// post-processing step is triangulation. Throws ImportFailure: malformed_file, also with assimp's
+/// text, path_not_allowed, limit_exceeded.
+[[nodiscard]] ReadScene read_scene(Assimp::Importer& importer, const ModelFile& model,
+                                   const Format& format, AssetFiles& assets);
 
 }  // namespace sunder::assimp_import

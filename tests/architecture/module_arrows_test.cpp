@@ -63,6 +63,7 @@ const std::map<std::string, std::set<std::string>> kThirdParties = {
 
 /// Third parties that a single room may include.
 const std::map<std::string, std::set<std::string>> kThirdPartyOfRoom = {
+    {"io/import_helper", {"seccomp.h"}},
     {"particles/bullet", {"BulletCollision", "BulletDynamics"}},
     {"validation/match", {"unsupported"}},  // the tree of boxes in Eigen's package
 };
@@ -86,8 +87,8 @@ const std::set<std::string> kStandardHeaders = words_of(R"(
     typeinfo unordered_map unordered_set utility valarray variant vector version assert.h ctype.h
     errno.h float.h limits.h math.h stdarg.h stddef.h stdint.h stdio.h stdlib.h string.h time.h)");
 
-const std::set<std::string> kOperatingSystemHeaders = {"fcntl.h", "poll.h", "signal.h", "spawn.h",
-                                                       "unistd.h"};
+const std::set<std::string> kOperatingSystemHeaders = {"dlfcn.h",  "fcntl.h", "poll.h",
+                                                       "signal.h", "spawn.h", "unistd.h"};
 
 /// The reason why `file`, of `module`, may not have this include; empty if it may.
 std::string fault(const std::string& module, const std::string& file, bool is_public,

@@ -28,6 +28,13 @@ if(NOT written STREQUAL installed)
     "written:   ${written}\ninstalled: ${installed}")
 endif()
 
+# The installed command finds the installed helper executable.
+find_program(command sunder PATHS ${prefix}/bin NO_DEFAULT_PATH)
+if(WITH_IO AND command)
+  file(WRITE ${WORK}/triangle.off "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")
+  run(${command} info ${WORK}/triangle.off)
+endif()
+
 set(consumer ${SUNDER_SOURCE}/tests/package/consumer)
 set(common -G ${GENERATOR} -D CMAKE_CXX_COMPILER=${CXX_COMPILER} "-DCMAKE_CXX_FLAGS=${CXX_FLAGS}"
   -D CMAKE_CXX_COMPILER_LAUNCHER=${CXX_COMPILER_LAUNCHER} -D CMAKE_BUILD_TYPE=${CONFIG})

@@ -48,7 +48,8 @@ struct LoadOptions {
   std::filesystem::path import_helper = {};
   /// Time limit of the helper process. > 0.
   double import_seconds = 10.0;
-  /// Limit for the memory of the helper process in addition to what it needs to start.
+  /// Limit for the memory of the helper process in addition to what it needs to start. It gets less
+  /// for small files: 64 bytes per byte of the files that it reads, but at least 256 MiB.
   std::uint64_t import_memory = std::uint64_t{4} << 30;
   /// Folders from which the model may read other files, in addition to its own.
   std::vector<std::filesystem::path> roots = {};
@@ -65,10 +66,11 @@ struct LoadedCharacter {
 };
 
 /// Reads all meshes of a model's scene, skinned or rigid, on one skeleton: glTF and GLB directly,
-/// other formats (FBX, COLLADA, X, B3D, OBJ, PLY, OFF …) by assimp in a child process with limits.
+/// other formats (FBX, COLLADA, X, B3D, OBJ, PLY, OFF …) by assimp in a helper process with limits.
 /// Model space is the scene's space, in metres. Thread-safe; details in docs/io.md.
 ///
-/// @param file  its extension chooses the reader. Other files are read only from its own folder.
+/// @param file  its extension chooses the reader. Other files are read only from its own folder and
+///              LoadOptions::roots.
 /// @return file_not_found, file_unreadable, unsupported_format, unsupported_feature,
 ///         malformed_file, path_not_allowed, limit_exceeded; empty_input if there is no triangle;
 ///         with options.strict also the first fault that would have been repaired.

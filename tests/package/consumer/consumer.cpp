@@ -1,9 +1,22 @@
 #include <sunder/sunder.h>
 
 #include <cstdio>
+#include <fstream>
 #include <memory>
 
-int main() {
+#ifdef CONSUMER_IO
+/// Reads a file of another format than glTF by the installed helper executable.
+static bool imports(const char* helper) {
+  std::ofstream("triangle.off") << "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+  sunder::LoadOptions options;
+  options.import_helper = helper;
+  const auto loaded = sunder::load_character("triangle.off", options);
+  if (!loaded) std::printf("%s\n", loaded.error().text().data());
+  return loaded.has_value();
+}
+#endif
+
+int main([[maybe_unused]] int count, [[maybe_unused]] char** arguments) {
   sunder::Character sheet;
   sheet.skeleton.bones.push_back({"root", sunder::kNone, {}});
   sheet.skins.push_back({"skin", {0}, {sunder::Affine3f::Identity()}});
@@ -31,6 +44,7 @@ int main() {
   if (sunder::load_character("no such file.glb").error().code() !=
       sunder::StatusCode::file_not_found)
     return 1;
+  if (count != 2 || !imports(arguments[1])) return 1;
 #endif
   return 0;
 }

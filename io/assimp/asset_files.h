@@ -1,0 +1,35 @@
+#pragma once
+
+#include <sunder/core/status.h>
+
+#include <cstddef>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "io/files/allowed_files.h"
+
+namespace sunder::assimp_import {
+
+/// The files besides the model itself that an import may read. In the helper process they are
+/// requested from the caller, who opens them.
+class AssetFiles {
+ public:
+  virtual ~AssetFiles() = default;
+
+  /// Whether a reference of the model leads to a file that may be read.
+  /// @return file_not_found, path_not_allowed.
+  [[nodiscard]] virtual Status look_up(std::string_view reference) = 0;
+  /// @return also limit_exceeded, file_unreadable.
+  [[nodiscard]] virtual Result<files::OpenFile> open(std::string_view reference) = 0;
+
+  /// The content of a file; empty if open() refuses it.
+  [[nodiscard]] std::optional<std::vector<std::byte>> read(std::string_view reference);
+};
+
+/// Reads up to `bytes` bytes at `offset`.
+/// @return the number read, less at the end of the file or after an error.
+std::size_t read_at(const files::Descriptor& descriptor, void* target, std::size_t bytes,
+                    std::size_t offset);
+
+}  // namespace sunder::assimp_import

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <sunder/io/character_file.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "io/files/allowed_files.h"
+#include "io/import_messages/messages.h"
+#include "io/import_messages/socket.h"
+
+namespace sunder::contained_import {
+
+enum class Outcome {
+  replied,
+  ended,  ///< The socket was closed, or a message was not valid.
+  timed_out,
+  too_large,     ///< The reply is above the limit.
+  failed,        ///< The helper told the cause.
+  wrong_helper,  ///< The first message was not that of a helper of this version.
+};
+
+struct Conversation {
+  Outcome outcome = Outcome::ended;
+  import_messages::Ready ready;
+  std::uint64_t cause = 0;  ///< Of `failed`.
+  std::string head;
+  std::vector<std::byte> body;
+};
+
+/// Answers the helper's requests until it replies, ends, or the socket's deadline passes. Nothing
+/// that the helper sends is trusted after `ready`. Throws std::bad_alloc.
+///
+/// @param maximum_reply  bytes of the GLB.
+/// @param file_opened    is called with the size of each opened file, before it is sent.
+[[nodiscard]] Conversation serve(import_messages::Socket& socket, files::AllowedFiles& allowed,
+                                 std::uint64_t maximum_reply,
+                                 const std::function<void(std::uint64_t)>& file_opened);
+
+}  // namespace sunder::contained_import

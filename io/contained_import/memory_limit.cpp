@@ -1,0 +1,29 @@
+#include "io/contained_import/memory_limit.h"
+
+#include <algorithm>
+#include <sys/resource.h>
+
+namespace sunder::contained_import {
+
+std::uint64_t import_memory_of(std::uint64_t bytes, const LoadOptions& options) {
+  constexpr std::uint64_t kLeast = std::uint64_t{256} << 20, kPerByte = 64;
+  const std::uint64_t wanted = bytes > options.import_memory / kPerByte
+                                   ? options.import_memory
+                                   : std::max(kLeast, bytes * kPerByte);
+  return std::min(wanted, options.import_memory);
+}
+
+void raise_memory_limit([[maybe_unused]] pid_t process, [[maybe_unused]] std::uint64_t by) {
+#if defined(__linux__)
+  for (const auto resource : {RLIMIT_AS, RLIMIT_DATA}) {
+    rlimit limit{};
+    if (by == 0 || prlimit(process, resource, nullptr, &limit) != 0 ||
+        limit.rlim_cur == RLIM_INFINITY)
+      continue;
+    limit.rlim_cur = std::min(limit.rlim_cur + static_cast<rlim_t>(by), limit.rlim_max);
+    prlimit(process, resource, &limit, nullptr);
+  }
+#endif
+}
+
+}  // namespace sunder::contained_import

@@ -1,0 +1,93 @@
+// A helper executable that misbehaves in the way that its name says, for contained_import_test.cpp.
+// A model that has taken over the real helper could do the same.
+
+#include <csignal>
+#include <cstring>
+#include <string>
+#include <sys/socket.h>
+#include <unistd.h>
+#include <vector>
+
+#include "io/import_messages/messages.h"
+
+namespace {
+
+using namespace sunder::import_messages;
+
+template <class T>
+void put(const T& value) {
+  (void)!send(kSocket, &value, sizeof value, MSG_NOSIGNAL);
+}
+
+void put(const std::string& text) {
+  for (std::size_t at = 0; at < text.size();) {
+    const ssize_t sent = send(kSocket, text.data() + at, text.size() - at, MSG_NOSIGNAL);
+    if (sent <= 0) _exit(1);
+    at += static_cast<std::size_t>(sent);
+  }
+}
+
+void reply(const std::string& head, const std::string& body) {
+  put(Request{.kind = RequestKind::reply, .first = head.size(), .second = body.size()});
+  put(head);
+  put(body);
+}
+
+void ask(const std::string& reference) {
+  put(Request{.kind = RequestKind::open, .first = reference.size()});
+  put(reference);
+}
+
+const std::string kGoodHead =
+    R"({"code":0,"index":0,"text":"","format":"F","space":"S","notes":[]})";
+
+void misbehave(const std::string& how) {
+  if (how == "exit") return;
+  if (how == "segv") std::raise(SIGSEGV);
+  if (how == "abort") std::raise(SIGABRT);
+  if (how == "kill") std::raise(SIGKILL);
+  if (how == "hang") pause();
+  if (how == "close_and_hang") {
+    close(kSocket);
+    pause();
+  }
+  if (how == "tell_segv") put(Request{.kind = RequestKind::failed, .first = SIGSEGV});
+  if (how == "tell_memory") put(Request{.kind = RequestKind::failed, .first = kOutOfMemory});
+  if (how == "tell_nonsense") put(Request{.kind = RequestKind::failed, .first = ~0ull});
+  if (how == "garbage") put(std::string(100'000, 'x'));
+  if (how == "short") {
+    put(Request{.kind = RequestKind::reply, .first = kGoodHead.size(), .second = 1000});
+    put(kGoodHead + "glTF");
+  }
+  if (how == "oversized") put(Request{.kind = RequestKind::reply, .first = 2, .second = ~0ull / 2});
+  if (how == "oversized_head")
+    put(Request{.kind = RequestKind::reply, .first = ~0ull, .second = 1});
+  if (how == "no_json") reply("not JSON", "");
+  if (how == "no_glb") reply(kGoodHead, "not a GLB");
+  if (how == "good_without_filter") reply(kGoodHead, "not read by import_as_glb()");
+  if (how == "empty_glb") reply(kGoodHead, "");
+  if (how == "unknown_request") put(Request{.kind = RequestKind{77}, .first = 10});
+  if (how == "long_reference") ask(std::string(100'000, 'a'));
+  if (how == "requests_without_end")
+    for (;;) ask("absent");
+}
+
+}  // namespace
+
+int main(int, char** arguments) {
+  const std::string path = arguments[0];
+  const std::string how = path.substr(path.rfind('/') + 1);
+  std::vector<char> job(4096);
+  if (recv(kSocket, job.data(), job.size(), 0) <= 0) return 1;
+  if (how == "not_ready") {
+    put(std::string(1000, 'x'));
+    return 0;
+  }
+  if (how == "never_ready") pause();
+  Ready ready;
+  ready.has_filter = 0;
+  std::strcpy(ready.why_not.data(), "a test");
+  put(ready);
+  misbehave(how);
+  return 0;
+}
