@@ -1,6 +1,7 @@
 #include "io/gltf/cursor.h"
 
 #include <cmath>
+#include <string_view>
 
 #include "io/gltf/refusal.h"
 
@@ -14,16 +15,40 @@ namespace {
 
 }  // namespace
 
-std::optional<Cursor> Cursor::find(const char* key) const {
+std::string Cursor::pointer() const {
+  std::string pointer = base_;
+  for (std::size_t i = 0; i < step_count_; ++i) {
+    const Step& step = steps_[i];
+    pointer.append("/").append(step.key != nullptr ? *step.key : std::to_string(step.index));
+  }
+  return pointer;
+}
+
+Cursor Cursor::child(const Json& value, const Step& step) const {
+  if (step_count_ == steps_.size()) return Cursor(value, pointer()).child(value, step);
+  Cursor child(*this);
+  child.value_ = &value;
+  child.steps_[child.step_count_++] = step;
+  return child;
+}
+
+const Json::object_t::value_type* Cursor::find_member(const char* key) const {
   if (!value_->is_object()) refuse_type(*this, "an object");
-  const auto found = value_->find(key);
-  if (found == value_->end()) return std::nullopt;
-  return Cursor(*found, pointer_ + "/" + key);
+  const std::string_view wanted = key;
+  for (const auto& member : value_->get_ref<const Json::object_t&>())
+    if (member.first == wanted) return &member;
+  return nullptr;
+}
+
+std::optional<Cursor> Cursor::find(const char* key) const {
+  const auto* const found = find_member(key);
+  if (found == nullptr) return std::nullopt;
+  return child(found->second, {&found->first, 0});
 }
 
 Cursor Cursor::member(const char* key) const {
-  if (auto found = find(key)) return *std::move(found);
-  refuse(StatusCode::malformed_file, kNone, "%.120s: '%s' is missing", pointer_.c_str(), key);
+  if (const auto* const found = find_member(key)) return child(found->second, {&found->first, 0});
+  refuse(StatusCode::malformed_file, kNone, "%.120s: '%s' is missing", pointer().c_str(), key);
 }
 
 std::size_t Cursor::size() const {
@@ -34,8 +59,8 @@ std::size_t Cursor::size() const {
 Cursor Cursor::element(std::size_t index) const {
   if (index >= size())
     refuse(StatusCode::index_out_of_range, static_cast<std::uint32_t>(index),
-           "%.120s: element %zu does not exist; there are %zu", pointer_.c_str(), index, size());
-  return Cursor((*value_)[index], pointer_ + "/" + std::to_string(index));
+           "%.120s: element %zu does not exist; there are %zu", pointer().c_str(), index, size());
+  return child((*value_)[index], {nullptr, index});
 }
 
 std::uint64_t Cursor::to_unsigned() const {
@@ -44,7 +69,7 @@ std::uint64_t Cursor::to_unsigned() const {
   const double number = value_->get<double>();
   if (!(number >= 0.0 && number <= kLargest) || number != std::floor(number))
     refuse(StatusCode::malformed_file, kNone, "%.120s: expected a whole number >= 0, found %g",
-           pointer_.c_str(), number);
+           pointer().c_str(), number);
   return static_cast<std::uint64_t>(number);
 }
 
@@ -52,7 +77,7 @@ std::uint32_t Cursor::to_index(std::size_t count, const char* what) const {
   const std::uint64_t index = to_unsigned();
   if (index >= count)
     refuse(StatusCode::index_out_of_range, static_cast<std::uint32_t>(index),
-           "%.120s: %s %llu does not exist; the file has %zu", pointer_.c_str(), what,
+           "%.120s: %s %llu does not exist; the file has %zu", pointer().c_str(), what,
            static_cast<unsigned long long>(index), count);
   return static_cast<std::uint32_t>(index);
 }
@@ -62,7 +87,7 @@ float Cursor::to_float() const {
   const auto number = static_cast<float>(value_->get<double>());
   if (!std::isfinite(number))
     refuse(StatusCode::non_finite_value, kNone, "%.120s: number too large for a float",
-           pointer_.c_str());
+           pointer().c_str());
   return number;
 }
 
@@ -77,18 +102,17 @@ const std::string& Cursor::to_string() const {
 }
 
 std::uint64_t Cursor::unsigned_or(const char* key, std::uint64_t otherwise) const {
-  const auto found = find(key);
-  return found ? found->to_unsigned() : otherwise;
+  return find_member(key) != nullptr ? member(key).to_unsigned() : otherwise;
 }
 
 bool Cursor::bool_or(const char* key, bool otherwise) const {
-  const auto found = find(key);
-  return found ? found->to_bool() : otherwise;
+  return find_member(key) != nullptr ? member(key).to_bool() : otherwise;
 }
 
 std::string Cursor::name() const {
-  const auto found = find("name");
-  return found && found->json().is_string() ? found->to_string() : std::string();
+  const auto* const found = find_member("name");
+  return found != nullptr && found->second.is_string() ? found->second.get_ref<const std::string&>()
+                                                       : std::string();
 }
 
 std::size_t count_of(const Json& document, const char* list) {

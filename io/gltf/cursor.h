@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -16,10 +17,10 @@ using Json = nlohmann::ordered_json;
 /// range; the error text names the place ("/accessors/4/bufferView: …").
 class Cursor {
  public:
-  Cursor(const Json& value, std::string pointer) : value_(&value), pointer_(std::move(pointer)) {}
+  Cursor(const Json& value, std::string pointer) : value_(&value), base_(std::move(pointer)) {}
 
   [[nodiscard]] const Json& json() const { return *value_; }
-  [[nodiscard]] const std::string& pointer() const { return pointer_; }
+  [[nodiscard]] std::string pointer() const;
 
   /// A member of an object, or nothing.
   [[nodiscard]] std::optional<Cursor> find(const char* key) const;
@@ -44,8 +45,21 @@ class Cursor {
       const;  ///< Member "name"; empty if it is absent or not a string.
 
  private:
+  /// A step of the pointer: a member, by its name in the document, or an element.
+  struct Step {
+    const std::string* key = nullptr;
+    std::size_t index = 0;
+  };
+
+  [[nodiscard]] const Json::object_t::value_type* find_member(const char* key) const;
+  [[nodiscard]] Cursor child(const Json& value, const Step& step) const;
+
   const Json* value_;
-  std::string pointer_;
+  /// The pointer is put together only if it is asked for, which is for faults: its start, and the
+  /// steps from there.
+  std::string base_;
+  std::array<Step, 6> steps_;
+  std::size_t step_count_ = 0;
 };
 
 /// Length of a top-level list ("nodes"); 0 if it is absent.

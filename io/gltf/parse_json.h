@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string_view>
+
+#include "io/gltf/cursor.h"
+
+namespace sunder::gltf {
+
+struct JsonLimits {
+  std::size_t levels = 0;   ///< Of nested arrays and objects.
+  std::size_t members = 0;  ///< Of one object.
+};
+
+/// Parses well-formed JSON several times faster than nlohmann's parser, with the same result.
+/// @return nothing for all that exceeds a limit, is malformed, or is rare enough to be left to
+/// nlohmann's parser, such as an object that names a member twice.
+[[nodiscard]] std::optional<Json> parse_json_fast(std::string_view text, const JsonLimits& limits);
+
+}  // namespace sunder::gltf
