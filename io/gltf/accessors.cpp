@@ -171,8 +171,15 @@ AccessorReader::AccessorReader(const SourceDocument& document)
   for (const auto& file : document.other_files) file_bytes_ += file.size();
 }
 
-Accessor AccessorReader::open(const Cursor& reference) const {
-  const std::uint32_t index = reference.to_index(count_of(document_.json, "accessors"), "accessor");
+Accessor AccessorReader::open(const Cursor& reference) {
+  const std::size_t count = count_of(document_.json, "accessors");
+  const std::uint32_t index = reference.to_index(count, "accessor");
+  if (opened_.size() < count) opened_.resize(count);
+  if (!opened_[index]) opened_[index] = open_new(index);
+  return *opened_[index];
+}
+
+Accessor AccessorReader::open_new(std::uint32_t index) const {
   const Cursor at = entry(document_.json, "accessors", index);
   Accessor accessor;
   accessor.index = index;
@@ -181,7 +188,7 @@ Accessor AccessorReader::open(const Cursor& reference) const {
   accessor.components = type.components;
   accessor.is_matrix = type.is_matrix;
   accessor.normalized = at.bool_or("normalized", false);
-  const std::uint64_t count = at.member("count").to_unsigned();
+  const std::uint64_t count = at.unsigned_of("count");
   if (count == 0 || count >= kNone)
     refuse(count == 0 ? StatusCode::malformed_file : StatusCode::limit_exceeded, index,
            "%s/count: %llu; expected 1 to 4294967294", at.pointer().c_str(),

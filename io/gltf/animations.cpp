@@ -162,9 +162,13 @@ class AnimationReader {
   static void check_rotations(const Channel& channel) {
     if (channel.target != ChannelTarget::rotation) return;
     const std::size_t key_floats = floats_per_key(channel);
-    for (std::size_t i = is_cubic(channel) ? 4 : 0; i < channel.values.size(); i += key_floats)
-      if (Eigen::Map<const Eigen::Vector4f>(channel.values.data() + i).cast<double>().norm() < 1e-6)
+    for (std::size_t i = is_cubic(channel) ? 4 : 0; i < channel.values.size(); i += key_floats) {
+      const Eigen::Vector4d key =
+          Eigen::Map<const Eigen::Vector4f>(channel.values.data() + i).cast<double>();
+      const double squared_length = key.squaredNorm();
+      if (squared_length < 0.5 && std::sqrt(squared_length) < 1e-6)
         throw Unusable{"a rotation of length zero"};
+    }
   }
 
   Reading& reading_;

@@ -35,7 +35,7 @@ bool is_special(char c) {
 class FastParser {
  public:
   FastParser(std::string_view text, const JsonLimits& limits)
-      : at_(text.data()), end_(text.data() + text.size()), limits_(limits) {}
+      : at_(text.data()), end_(text.data() + text.size()), limits_(limits), memory_(text.size()) {}
 
   std::optional<Json> parse() {
     if (!read_value(0)) return std::nullopt;
@@ -81,6 +81,7 @@ class FastParser {
       } while (skip(','));
       if (!skip(']')) return false;
     }
+    if (!charge(values_.size() - first)) return false;
     Json::array_t array;
     array.reserve(values_.size() - first);
     std::move(values_.begin() + static_cast<std::ptrdiff_t>(first), values_.end(),
@@ -103,7 +104,8 @@ class FastParser {
       } while (skip(','));
       if (!skip('}')) return false;
     }
-    if (values_.size() - first > limits_.members || repeats_key(first_key)) return false;
+    const std::size_t members = values_.size() - first;
+    if (members > limits_.members || !charge(members) || repeats_key(first_key)) return false;
     Json::object_t object;
     object.reserve(values_.size() - first);
     for (std::size_t i = first; i < values_.size(); ++i)
@@ -112,6 +114,13 @@ class FastParser {
     values_.resize(first);
     values_.emplace_back(std::move(object));
     return true;
+  }
+
+  /// Adds what an array or object of this size takes. @return whether the limit allows it.
+  bool charge(std::size_t size) {
+    constexpr std::uint64_t kOfContainer = 80, kOfComma = 32;
+    memory_ += kOfContainer + kOfComma * (size > 0 ? size - 1 : 0);
+    return memory_ <= limits_.memory;
   }
 
   [[nodiscard]] bool repeats_key(std::size_t first_key) const {
@@ -235,6 +244,7 @@ class FastParser {
   const char* at_;
   const char* end_;
   JsonLimits limits_;
+  std::uint64_t memory_ = 0;
   std::vector<Json> values_;
   std::vector<std::string> keys_;
 };
