@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <optional>
 #include <string_view>
 
@@ -11,6 +13,8 @@ namespace sunder::gltf {
 struct JsonLimits {
   std::size_t levels = 0;   ///< Of nested arrays and objects.
   std::size_t members = 0;  ///< Of one object.
+  /// Bytes of the parsed document, about: its text, 32 per comma, 80 per array and object.
+  std::uint64_t memory = std::numeric_limits<std::uint64_t>::max();
 };
 
 /// Parses well-formed JSON by simdjson, several times faster than nlohmann's parser, with the same
