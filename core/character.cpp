@@ -5,6 +5,7 @@
 #include <string_view>
 #include <unordered_set>
 
+#include "core/internal/all_finite.h"
 #include "core/internal/ordered.h"
 #include "core/internal/out_of_memory.h"
 
@@ -74,6 +75,7 @@ Status validate_stream(const MeshPlace& mesh, const char* what, const std::vecto
     return Status::failure(StatusCode::size_mismatch, mesh.index,
                            "mesh %u '%.60s': %zu %s for %zu vertices", mesh.index, mesh.name,
                            stream.size(), what, vertex_count);
+  if (all_finite(stream)) return {};
   for (Index v = 0; v < stream.size(); ++v)
     if (!stream[v].allFinite())
       return Status::failure(StatusCode::non_finite_value, v,
@@ -156,6 +158,7 @@ Status validate_attributes(const MeshPlace& place, const Mesh& mesh) {
       return Status::failure(StatusCode::size_mismatch, place.index,
                              "mesh %u '%.60s': attribute '%.60s' does not fit %zu vertices",
                              place.index, place.name, attribute.name.c_str(), count);
+    if (all_finite(attribute.values)) continue;
     for (std::size_t i = 0; i < attribute.values.size(); ++i)
       if (!std::isfinite(attribute.values[i])) {
         const auto vertex = static_cast<Index>(i / attribute.components);
@@ -233,9 +236,8 @@ Status validate_channel(const Character& character, const Channel& channel, Inde
       return fail(StatusCode::invalid_argument, "key times must be finite, >= 0 and increase");
     previous = time;
   }
-  for (const float value : channel.values)
-    if (!std::isfinite(value))
-      return fail(StatusCode::non_finite_value, "a key value is not finite");
+  if (!all_finite(channel.values))
+    return fail(StatusCode::non_finite_value, "a key value is not finite");
   return {};
 }
 

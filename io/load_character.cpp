@@ -24,7 +24,7 @@ std::string extension_of(const std::filesystem::path& file) {
 
 Result<LoadedCharacter> load_gltf(const std::filesystem::path& file, bool is_glb,
                                   const LoadOptions& options) {
-  const auto content = gltf::read_file(file, options.maximum_bytes, "file");
+  auto content = gltf::read_file(file, options.maximum_bytes, "file");
   if (content.empty())
     return Status::failure(StatusCode::malformed_file, kNone, "the file is empty");
   if (gltf::has_glb_magic(content) != is_glb)
@@ -32,7 +32,7 @@ Result<LoadedCharacter> load_gltf(const std::filesystem::path& file, bool is_glb
                            "the file extension says %s, but the content is not",
                            is_glb ? "GLB" : "glTF text");
   std::filesystem::path folder = file.parent_path();
-  return gltf::read_character(content, folder.empty() ? "." : folder, options);
+  return gltf::read_character(std::move(content), folder.empty() ? "." : folder, options);
 }
 
 /// What is wrong with the GLB of an import, in the words of the model's own name.
@@ -49,7 +49,7 @@ Result<LoadedCharacter> load_by_assimp(const std::filesystem::path& file,
                                        const LoadOptions& options) {
   auto imported = contained_import::import_as_glb(file, options);
   if (!imported) return imported.error();
-  auto loaded = gltf::read_character(imported->glb, {}, options);
+  auto loaded = gltf::read_character(std::move(imported->glb), {}, options);
   if (!loaded) return refusal_of_import(loaded.error(), file.filename().string());
   LoadReport& report = loaded->report;
   report.format = std::move(imported->report.format);

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <limits>
 #include <string_view>
+#include <type_traits>
 
 #include "io/gltf/buffers.h"
 #include "io/gltf/refusal.h"
@@ -85,7 +86,27 @@ T load(const std::byte* from) {  // Files need not be aligned.
   return value;
 }
 
-/// Visits all elements' numbers, sparse ones last; `convert` converts a T of the file to an Out.
+/// Decodes the elements that are not sparse. Numbers without gaps are one array.
+template <class T, class Out, class Convert>
+void decode_dense(const Accessor& accessor, std::span<Out> out, const Convert& convert) {
+  const std::size_t components = accessor.components, element_size = components * sizeof(T);
+  if (accessor.data == nullptr) {
+    std::fill(out.begin(), out.end(), Out{0});
+  } else if (accessor.stride == element_size && std::is_same_v<T, Out>) {
+    std::memcpy(out.data(), accessor.data, out.size_bytes());
+  } else if (accessor.stride == element_size) {
+    for (std::size_t i = 0; i < out.size(); ++i)
+      out[i] = convert(load<T>(accessor.data + i * sizeof(T)));
+  } else {
+    const std::byte* from = accessor.data;
+    for (std::size_t to = 0; to < out.size(); to += components, from += accessor.stride)
+      for (std::size_t c = 0; c < components; ++c)
+        out[to + c] = convert(load<T>(from + c * sizeof(T)));
+  }
+}
+
+/// Visits all elements' numbers, sparse ones last; `convert` converts a T of the file to an Out,
+/// and leaves a T that is an Out as it is.
 template <class T, class Out, class Convert>
 void decode_elements(const Accessor& accessor, std::span<Out> out, const Convert& convert) {
   const std::size_t components = accessor.components;
@@ -93,11 +114,7 @@ void decode_elements(const Accessor& accessor, std::span<Out> out, const Convert
     for (std::size_t c = 0; c < components; ++c)
       out[to * components + c] = convert(load<T>(from + c * sizeof(T)));
   };
-  if (accessor.data == nullptr)
-    std::fill(out.begin(), out.end(), Out{0});
-  else
-    for (std::size_t i = 0; i < accessor.count; ++i)
-      element(accessor.data + i * accessor.stride, i);
+  decode_dense<T>(accessor, out, convert);
   const std::size_t index_size = size_of(accessor.sparse_index_type);
   for (std::size_t i = 0; i < accessor.sparse_count; ++i) {
     const std::byte* at = accessor.sparse_indices + i * index_size;
@@ -154,8 +171,15 @@ AccessorReader::AccessorReader(const SourceDocument& document)
   for (const auto& file : document.other_files) file_bytes_ += file.size();
 }
 
-Accessor AccessorReader::open(const Cursor& reference) const {
-  const std::uint32_t index = reference.to_index(count_of(document_.json, "accessors"), "accessor");
+Accessor AccessorReader::open(const Cursor& reference) {
+  const std::size_t count = count_of(document_.json, "accessors");
+  const std::uint32_t index = reference.to_index(count, "accessor");
+  if (opened_.size() < count) opened_.resize(count);
+  if (!opened_[index]) opened_[index] = open_new(index);
+  return *opened_[index];
+}
+
+Accessor AccessorReader::open_new(std::uint32_t index) const {
   const Cursor at = entry(document_.json, "accessors", index);
   Accessor accessor;
   accessor.index = index;
@@ -164,7 +188,7 @@ Accessor AccessorReader::open(const Cursor& reference) const {
   accessor.components = type.components;
   accessor.is_matrix = type.is_matrix;
   accessor.normalized = at.bool_or("normalized", false);
-  const std::uint64_t count = at.member("count").to_unsigned();
+  const std::uint64_t count = at.unsigned_of("count");
   if (count == 0 || count >= kNone)
     refuse(count == 0 ? StatusCode::malformed_file : StatusCode::limit_exceeded, index,
            "%s/count: %llu; expected 1 to 4294967294", at.pointer().c_str(),

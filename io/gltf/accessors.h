@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -41,7 +42,7 @@ class AccessorReader {
  public:
   explicit AccessorReader(const SourceDocument& document);
 
-  [[nodiscard]] Accessor open(const Cursor& reference) const;
+  [[nodiscard]] Accessor open(const Cursor& reference);
 
   /// Decodes to floats: normalised integers to [-1, 1] or [0, 1], others by value. `out` has count
   /// x components entries.
@@ -64,9 +65,11 @@ class AccessorReader {
   }
 
  private:
+  [[nodiscard]] Accessor open_new(std::uint32_t index) const;
   void charge(const Accessor& accessor);
 
   const SourceDocument& document_;
+  std::vector<std::optional<Accessor>> opened_;  ///< By index: many channels share key times.
   std::uint64_t file_bytes_ = 0;
   std::uint64_t bytes_left_ = 0;
 };

@@ -5,6 +5,7 @@
 #include <set>
 #include <string_view>
 
+#include "core/internal/all_finite.h"
 #include "io/gltf/names.h"
 
 namespace sunder::gltf {
@@ -126,8 +127,7 @@ class AnimationReader {
     if (accessor.is_integer() && !accessor.normalized)
       throw Unusable{"its values are integers that are not normalised"};
     channel.values = reading_.accessors.read_floats(accessor);
-    for (const float value : channel.values)
-      if (!std::isfinite(value)) throw Unusable{"a key value is not finite"};
+    if (!all_finite(channel.values)) throw Unusable{"a key value is not finite"};
   }
 
   static bool is_cubic(const Channel& channel) {
@@ -139,6 +139,8 @@ class AnimationReader {
 
   /// Of several keys at one time, keeps the last: a player shows that one from then on.
   void merge_equal_times(Channel& channel, const std::string& place) {
+    if (std::adjacent_find(channel.times.begin(), channel.times.end()) == channel.times.end())
+      return;
     const std::size_t key_floats = floats_per_key(channel);
     std::size_t kept = 0;
     for (std::size_t key = 0; key < channel.times.size(); ++key) {
@@ -160,9 +162,13 @@ class AnimationReader {
   static void check_rotations(const Channel& channel) {
     if (channel.target != ChannelTarget::rotation) return;
     const std::size_t key_floats = floats_per_key(channel);
-    for (std::size_t i = is_cubic(channel) ? 4 : 0; i < channel.values.size(); i += key_floats)
-      if (Eigen::Map<const Eigen::Vector4f>(channel.values.data() + i).cast<double>().norm() < 1e-6)
+    for (std::size_t i = is_cubic(channel) ? 4 : 0; i < channel.values.size(); i += key_floats) {
+      const Eigen::Vector4d key =
+          Eigen::Map<const Eigen::Vector4f>(channel.values.data() + i).cast<double>();
+      const double squared_length = key.squaredNorm();
+      if (squared_length < 0.5 && std::sqrt(squared_length) < 1e-6)
         throw Unusable{"a rotation of length zero"};
+    }
   }
 
   Reading& reading_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/internal/all_finite.h"
 #include "io/gltf/refusal.h"
 
 namespace sunder::gltf {
@@ -18,6 +19,7 @@ std::string set_name(const char* prefix, std::size_t index) {
 
 template <class Vector>
 std::uint32_t first_non_finite(const std::vector<Vector>& values) {
+  if (all_finite(values)) return kNone;
   const auto found = std::find_if(values.begin(), values.end(),
                                   [](const Vector& value) { return !value.allFinite(); });
   return found == values.end() ? kNone : static_cast<std::uint32_t>(found - values.begin());
@@ -26,9 +28,11 @@ std::uint32_t first_non_finite(const std::vector<Vector>& values) {
 /// Scales a direction to unit length, if necessary. @return whether it changed.
 template <class Direction>
 bool make_unit(Direction&& direction, const Vec3f& if_zero) {
-  const float norm = direction.template cast<double>().norm() > 0
-                         ? static_cast<float>(direction.template cast<double>().norm())
-                         : 0.0f;
+  // Nearly all directions are of unit length; most are seen to be without a square root.
+  const double squared_length = direction.template cast<double>().squaredNorm();
+  constexpr double kSurely = 1.9 * static_cast<double>(kUnitTolerance);
+  if (std::abs(squared_length - 1.0) <= kSurely) return false;
+  const float norm = squared_length > 0 ? static_cast<float>(std::sqrt(squared_length)) : 0.0f;
   if (std::abs(norm - 1.0f) <= kUnitTolerance) return false;
   if (norm > 0.0f)
     direction = direction.template cast<double>().normalized().template cast<float>();
@@ -210,12 +214,12 @@ void AttributeReader::read_custom(Mesh& mesh, const std::string& name, const Cur
       (accessor.is_integer() && !accessor.normalized) || name == kTearSideAttribute;
   CustomAttribute attribute{name, accessor.components, !is_label, {}};
   attribute.values = reading_.accessors.read_floats(open(at, mesh, accessor.components));
-  const auto bad = std::find_if(attribute.values.begin(), attribute.values.end(),
-                                [](float value) { return !std::isfinite(value); });
-  if (bad == attribute.values.end()) {
+  if (all_finite(attribute.values)) {
     mesh.custom_attributes.push_back(std::move(attribute));
     return;
   }
+  const auto bad = std::find_if(attribute.values.begin(), attribute.values.end(),
+                                [](float value) { return !std::isfinite(value); });
   const auto vertex =
       static_cast<std::uint32_t>((bad - attribute.values.begin()) / accessor.components);
   repaired_ = true;

@@ -60,8 +60,8 @@ void resolve_buffers(SourceDocument& document, const Container& container) {
 
 std::span<const std::byte> bytes_of_view(const SourceDocument& document, std::uint32_t view) {
   const Cursor at = entry(document.json, "bufferViews", view);
-  const auto& buffer = document.buffers[at.member("buffer").to_unsigned()];
-  return buffer.subspan(at.unsigned_or("byteOffset", 0), at.member("byteLength").to_unsigned());
+  const auto& buffer = document.buffers[at.unsigned_of("buffer")];
+  return buffer.subspan(at.unsigned_or("byteOffset", 0), at.unsigned_of("byteLength"));
 }
 
 }  // namespace sunder::gltf

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "io/gltf/parse_json.h"
 #include "io/gltf/refusal.h"
 
 namespace sunder::gltf {
@@ -131,6 +132,17 @@ void check_required_extensions(const Cursor& document) {
   }
 }
 
+Json parse_json(std::string_view text) {
+  if (auto document = parse_json_fast(text, {kMaximumNesting, kMaximumMembers}))
+    return *std::move(document);
+  check_nesting(text);
+  try {
+    return Json::parse(text.begin(), text.end());
+  } catch (const nlohmann::json::exception& error) {
+    refuse(StatusCode::malformed_file, kNone, "JSON: %.200s", error.what());
+  }
+}
+
 }  // namespace
 
 bool has_glb_magic(std::span<const std::byte> content) {
@@ -150,13 +162,7 @@ Container split_container(std::span<const std::byte> content) {
 }
 
 Json parse_document(std::string_view text) {
-  check_nesting(text);
-  Json document;
-  try {
-    document = Json::parse(text.begin(), text.end());
-  } catch (const nlohmann::json::exception& error) {
-    refuse(StatusCode::malformed_file, kNone, "JSON: %.200s", error.what());
-  }
+  Json document = parse_json(text);
   const Cursor root(document, "");
   check_version(root);
   check_required_extensions(root);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -16,10 +17,10 @@ using Json = nlohmann::ordered_json;
 /// range; the error text names the place ("/accessors/4/bufferView: …").
 class Cursor {
  public:
-  Cursor(const Json& value, std::string pointer) : value_(&value), pointer_(std::move(pointer)) {}
+  Cursor(const Json& value, std::string pointer) : base_(std::move(pointer)), path_{&value} {}
 
-  [[nodiscard]] const Json& json() const { return *value_; }
-  [[nodiscard]] const std::string& pointer() const { return pointer_; }
+  [[nodiscard]] const Json& json() const { return *path_[depth_]; }
+  [[nodiscard]] std::string pointer() const;
 
   /// A member of an object, or nothing.
   [[nodiscard]] std::optional<Cursor> find(const char* key) const;
@@ -27,6 +28,8 @@ class Cursor {
   /// Number of elements of an array.
   [[nodiscard]] std::size_t size() const;
   [[nodiscard]] Cursor element(std::size_t index) const;
+  /// The same as member(key).to_unsigned().
+  [[nodiscard]] std::uint64_t unsigned_of(const char* key) const;
 
   /// A whole number in [0, 2^53]; 4.0 is accepted.
   [[nodiscard]] std::uint64_t to_unsigned() const;
@@ -44,8 +47,14 @@ class Cursor {
       const;  ///< Member "name"; empty if it is absent or not a string.
 
  private:
-  const Json* value_;
-  std::string pointer_;
+  [[nodiscard]] const Json* find_member(const char* key) const;
+  [[nodiscard]] Cursor child(const Json& value) const;
+
+  // The pointer is put together only if it is asked for, which is for faults: from its start, and
+  // the values on the way from there to this one.
+  std::string base_;
+  std::array<const Json*, 8> path_;
+  std::size_t depth_ = 0;  ///< Of this value in `path_`.
 };
 
 /// Length of a top-level list ("nodes"); 0 if it is absent.

@@ -127,7 +127,10 @@ class MeshBuilder {
       if (mesh.triangles.size() + read.triangles.size() >= kNone / 3)
         refuse(StatusCode::limit_exceeded, index, "%s: too many triangles for 32-bit indices",
                primitive.pointer().c_str());
-      mesh.triangles.insert(mesh.triangles.end(), read.triangles.begin(), read.triangles.end());
+      if (mesh.triangles.empty())
+        mesh.triangles = std::move(read.triangles);
+      else
+        mesh.triangles.insert(mesh.triangles.end(), read.triangles.begin(), read.triangles.end());
       mesh.triangle_submesh.resize(mesh.triangles.size(),
                                    static_cast<std::uint32_t>(mesh.submeshes.size()));
       const auto material = primitive.find("material");

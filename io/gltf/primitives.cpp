@@ -1,6 +1,7 @@
 #include "io/gltf/primitives.h"
 
 #include <algorithm>
+#include <cstring>
 #include <map>
 #include <numeric>
 #include <utility>
@@ -47,9 +48,9 @@ std::vector<std::uint32_t> read_indices(Reading& reading, const Cursor& primitiv
 std::vector<Triangle> assemble(const std::vector<std::uint32_t>& indices, std::uint64_t mode) {
   std::vector<Triangle> triangles;
   if (mode == kTriangles) {
-    triangles.reserve(indices.size() / 3);
-    for (std::size_t i = 0; i + 3 <= indices.size(); i += 3)
-      triangles.push_back({indices[i], indices[i + 1], indices[i + 2]});
+    triangles.resize(indices.size() / 3);
+    if (!triangles.empty())
+      std::memcpy(triangles.data(), indices.data(), triangles.size() * sizeof(Triangle));
     return triangles;
   }
   for (std::size_t i = 0; i + 3 <= indices.size(); ++i) {

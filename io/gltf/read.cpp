@@ -23,14 +23,14 @@ std::string scene_name(const Json& document) {
   return entry(document, "scenes", chosen ? chosen->to_index(count, "scene") : 0).name();
 }
 
-LoadedCharacter read(std::span<const std::byte> content, const std::filesystem::path& folder,
+LoadedCharacter read(std::vector<std::byte> content, const std::filesystem::path& folder,
                      const LoadOptions& options) {
   if (content.size() > options.maximum_bytes)
     refuse(StatusCode::limit_exceeded, kNone,
            "the file has %zu bytes; the limit is %llu (LoadOptions::maximum_bytes)", content.size(),
            static_cast<unsigned long long>(options.maximum_bytes));
   const auto document = std::make_shared<SourceDocument>();
-  document->content.assign(content.begin(), content.end());
+  document->content = std::move(content);
   document->maximum_bytes = options.maximum_bytes;
   if (!folder.empty()) document->folder = std::filesystem::absolute(folder);
   for (const auto& root : options.roots) document->roots.push_back(std::filesystem::absolute(root));
@@ -71,10 +71,11 @@ LoadedCharacter read(std::span<const std::byte> content, const std::filesystem::
 
 }  // namespace
 
-Result<LoadedCharacter> read_character(std::span<const std::byte> content,
+Result<LoadedCharacter> read_character(std::vector<std::byte> content,
                                        const std::filesystem::path& folder,
                                        const LoadOptions& options) {
-  return without_exceptions<LoadedCharacter>([&] { return read(content, folder, options); });
+  return without_exceptions<LoadedCharacter>(
+      [&] { return read(std::move(content), folder, options); });
 }
 
 }  // namespace sunder::gltf

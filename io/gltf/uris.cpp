@@ -130,11 +130,18 @@ std::vector<std::byte> read_file(const std::filesystem::path& file, std::uint64_
            "%.80s: '%.80s' has %llu bytes; %llu are left of LoadOptions::maximum_bytes",
            place.c_str(), file.filename().c_str(), static_cast<unsigned long long>(size),
            static_cast<unsigned long long>(maximum_bytes));
-  std::vector<std::byte> bytes(size);
-  stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
-  if (static_cast<std::uintmax_t>(stream.gcount()) != size)
-    refuse(StatusCode::file_unreadable, kNone, "%.120s: '%.100s' ended early", place.c_str(),
-           file.filename().c_str());
+  constexpr std::uintmax_t kBlock = std::uintmax_t{1} << 18;  // is in the cache when it is read to
+  std::vector<std::byte> bytes;
+  bytes.reserve(size);
+  while (bytes.size() < size) {
+    const std::size_t begin = bytes.size();
+    const auto block = static_cast<std::size_t>(std::min(kBlock, size - begin));
+    bytes.resize(begin + block);
+    stream.read(reinterpret_cast<char*>(bytes.data() + begin), static_cast<std::streamsize>(block));
+    if (static_cast<std::size_t>(stream.gcount()) != block)
+      refuse(StatusCode::file_unreadable, kNone, "%.120s: '%.100s' ended early", place.c_str(),
+             file.filename().c_str());
+  }
   return bytes;
 }
 

@@ -1,6 +1,7 @@
 #include "io/gltf/weights.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -52,6 +53,33 @@ void collect(const InfluenceSet& set, std::uint32_t vertex, std::uint32_t slot_c
   }
 }
 
+/// Whether rounding explains the deviation of a sum of weights from one.
+bool is_rounding(double deviation, std::size_t influence_count) {
+  return deviation <= 2e-7 * static_cast<double>(influence_count);
+}
+
+/// Appends the influences of a vertex if nothing is to be repaired: a short way for nearly all
+/// vertices. @return whether it did.
+bool append_valid(const InfluenceSet& set, std::uint32_t vertex, std::uint32_t slot_count,
+                  SkinWeights& weights) {
+  std::array<Influence, 4> used;
+  std::size_t count = 0;
+  double sum = 0.0;
+  for (std::size_t i = std::size_t{vertex} * 4; i < std::size_t{vertex} * 4 + 4; ++i) {
+    const Influence influence = {set.slots[i], set.weights[i]};
+    if (influence.slot >= slot_count || !(influence.weight >= 0.0f && influence.weight <= 1.0f))
+      return false;
+    if (influence.weight == 0.0f) continue;
+    for (std::size_t k = 0; k < count; ++k)
+      if (used[k].slot == influence.slot) return false;
+    used[count++] = influence;
+    sum += static_cast<double>(influence.weight);
+  }
+  if (count == 0 || !is_rounding(std::abs(sum - 1.0), count)) return false;
+  weights.append({used.data(), count});
+  return true;
+}
+
 /// Normalises the sum if its deviation is larger than rounding.
 void normalize(std::uint32_t vertex, bool is_already_noted, std::vector<Influence>& influences,
                Faults& faults) {
@@ -62,7 +90,7 @@ void normalize(std::uint32_t vertex, bool is_already_noted, std::vector<Influenc
     too_large |= influence.weight > 1.0f;
   }
   const double deviation = std::abs(sum - 1.0);
-  if (deviation <= 2e-7 * static_cast<double>(influences.size()) && !too_large) return;
+  if (is_rounding(deviation, influences.size()) && !too_large) return;
   faults.changed = true;
   if (deviation > kWorthNoting && !is_already_noted) {
     faults.not_normalized.add(vertex);
@@ -128,12 +156,19 @@ ReadWeights make_weights(const std::vector<InfluenceSet>& sets, std::uint32_t ve
                          const std::string& place, Notes& notes) {
   ReadWeights result;
   result.weights.first.reserve(std::size_t{vertex_count} + 1);
+  std::size_t nonzero = 0;
+  for (const InfluenceSet& set : sets)
+    nonzero += set.weights.size() -
+               static_cast<std::size_t>(std::count(set.weights.begin(), set.weights.end(), 0.0f));
+  result.weights.influences.reserve(std::max<std::size_t>(nonzero, vertex_count));
   Faults faults;
   const auto noted = [&] {
     return faults.not_finite.count + faults.negative.count + faults.out_of_range.count;
   };
   std::vector<Influence> influences;
   for (std::uint32_t vertex = 0; vertex < vertex_count; ++vertex) {
+    if (sets.size() == 1 && append_valid(sets.front(), vertex, slot_count, result.weights))
+      continue;
     influences.clear();
     const std::uint32_t noted_before = noted();
     for (const InfluenceSet& set : sets) collect(set, vertex, slot_count, influences, faults);

@@ -3,7 +3,9 @@
 #include <bit>
 #include <string_view>
 
+#include "core/internal/prefetch.h"
 #include "tear/internal/surface.h"
+#include "tear/surface/joined_meshes.h"
 
 namespace sunder::tear {
 namespace {
@@ -80,6 +82,36 @@ class PointIdentity {
 struct Weld {
   std::vector<std::vector<Index>> point_of_vertex;
   std::vector<Index> point_side;
+  bool joins_meshes = false;  ///< A point has vertices of two meshes.
+};
+
+/// A hash table of points by open addressing. An entry holds a point, and above it 32 bits of its
+/// hash, so that nearly all other points are told apart without a look at their vertices.
+class PointTable {
+ public:
+  explicit PointTable(std::size_t vertex_count)
+      : mask_(std::bit_ceil(2 * vertex_count + 1) - 1), entries_(mask_ + 1, kEmpty) {}
+
+  void prefetch(std::uint64_t hash) const { sunder::prefetch(&entries_[hash & mask_]); }
+
+  /// The point of this hash for which is_same(point) holds; otherwise `new_point`, which is added.
+  template <class IsSame>
+  Index find_or_add(std::uint64_t hash, Index new_point, const IsSame& is_same) {
+    const std::uint64_t high = hash & ~std::uint64_t{kNone};
+    std::size_t slot = hash & mask_;
+    for (; entries_[slot] != kEmpty; slot = (slot + 1) & mask_) {
+      const auto point = static_cast<Index>(entries_[slot]);
+      if ((entries_[slot] & ~std::uint64_t{kNone}) == high && is_same(point)) return point;
+    }
+    entries_[slot] = high | new_point;
+    return new_point;
+  }
+
+ private:
+  static constexpr std::uint64_t kEmpty = ~std::uint64_t{0};  // No point is kNone.
+
+  std::size_t mask_;
+  std::vector<std::uint64_t> entries_;
 };
 
 Weld weld_vertices(const Character& character) {
@@ -89,26 +121,31 @@ Weld weld_vertices(const Character& character) {
   };
   std::size_t vertex_count = 0;
   for (const Mesh& mesh : character.meshes) vertex_count += mesh.vertex_count();
-  const std::size_t table_size = std::bit_ceil(2 * vertex_count + 1);
-  std::vector<Index> table(table_size, kNone);  // open addressing; holds points
+  PointTable table(vertex_count);
   std::vector<VertexRef> first_of_point;
 
   const PointIdentity identity(character);
   Weld weld;
+  std::vector<std::uint64_t> hashes;
   for (Index m = 0; m < character.meshes.size(); ++m) {
+    constexpr Index kAhead = 16;
+    const Index count = character.meshes[m].vertex_count();
+    hashes.resize(count);
+    for (Index v = 0; v < count; ++v) hashes[v] = identity.hash(m, v);
     auto& points = weld.point_of_vertex.emplace_back();
-    points.reserve(character.meshes[m].vertex_count());
-    for (Index v = 0; v < character.meshes[m].vertex_count(); ++v) {
-      std::size_t slot = identity.hash(m, v) & (table_size - 1);
-      while (table[slot] != kNone && !identity.same(first_of_point[table[slot]].mesh,
-                                                    first_of_point[table[slot]].vertex, m, v))
-        slot = (slot + 1) & (table_size - 1);
-      if (table[slot] == kNone) {
-        table[slot] = static_cast<Index>(first_of_point.size());
+    points.reserve(count);
+    for (Index v = 0; v < count; ++v) {
+      if (v + kAhead < count) table.prefetch(hashes[v + kAhead]);
+      const auto new_point = static_cast<Index>(first_of_point.size());
+      const Index point = table.find_or_add(hashes[v], new_point, [&](Index known) {
+        return identity.same(first_of_point[known].mesh, first_of_point[known].vertex, m, v);
+      });
+      if (point == new_point) {
         first_of_point.push_back({m, v});
         weld.point_side.push_back(identity.tear_side(m, v));
       }
-      points.push_back(table[slot]);
+      weld.joins_meshes |= first_of_point[point].mesh != m;
+      points.push_back(point);
     }
   }
   return weld;
@@ -119,40 +156,63 @@ Weld weld_vertices(const Character& character) {
 class HalfEdgeGroups {
  public:
   explicit HalfEdgeGroups(const Surface& surface) : first_(surface.point_corner.size() + 1, 0) {
-    const auto& points = surface.corner_point;
-    const auto smaller = [&](Index h) { return std::min(points[h], points[Surface::next(h)]); };
-    const Index count = 3 * surface.triangle_count();
-    for (Index h = 0; h < count; ++h)
-      if (!surface.has_repeated_point(h / 3)) ++first_[smaller(h) + 1];
+    for_each_half_edge(surface, [&](Index, Index a, Index b) { ++first_[std::min(a, b) + 1]; });
     for (std::size_t p = 1; p < first_.size(); ++p) first_[p] += first_[p - 1];
     half_edges_.resize(first_.back());
     std::vector<Index> end(first_.begin(), first_.end() - 1);
-    for (Index h = 0; h < count; ++h)
-      if (!surface.has_repeated_point(h / 3)) half_edges_[end[smaller(h)]++] = h;
-    for (std::size_t p = 0; p + 1 < first_.size(); ++p)
-      std::sort(half_edges_.begin() + first_[p], half_edges_.begin() + first_[p + 1],
-                [&](Index a, Index b) {
-                  const Index larger_a = std::max(points[a], points[Surface::next(a)]),
-                              larger_b = std::max(points[b], points[Surface::next(b)]);
-                  return larger_a != larger_b ? larger_a < larger_b : a < b;
-                });
+    for_each_half_edge(surface, [&](Index h, Index a, Index b) {
+      half_edges_[end[std::min(a, b)]++] = std::uint64_t{std::max(a, b)} << 32 | h;
+    });
+    for (std::size_t p = 0; p + 1 < first_.size(); ++p) sort(first_[p], first_[p + 1]);
   }
 
   /// Calls visit(half-edges of one edge) for every edge.
   template <class Visit>
-  void for_each_edge(const Surface& surface, Visit visit) const {
-    const auto& points = surface.corner_point;
-    const auto larger = [&](Index h) { return std::max(points[h], points[Surface::next(h)]); };
+  void for_each_edge(Visit visit) const {
+    std::vector<Index> edge;
     for (std::size_t p = 0; p + 1 < first_.size(); ++p)
-      for (Index begin = first_[p], end = begin; begin < first_[p + 1]; begin = end) {
-        while (end < first_[p + 1] && larger(half_edges_[end]) == larger(half_edges_[begin])) ++end;
-        visit(std::span<const Index>(half_edges_.data() + begin, end - begin));
+      for (Index i = first_[p]; i < first_[p + 1];) {
+        const std::uint64_t larger = half_edges_[i] >> 32;
+        edge.clear();
+        for (; i < first_[p + 1] && half_edges_[i] >> 32 == larger; ++i)
+          edge.push_back(static_cast<Index>(half_edges_[i]));
+        visit(std::span<const Index>(edge));
       }
   }
 
  private:
+  /// Calls visit(half-edge, its point, the next point), except for triangles with a repeated point.
+  template <class Visit>
+  static void for_each_half_edge(const Surface& surface, Visit visit) {
+    const Index count = 3 * surface.triangle_count();
+    for (Index h = 0; h < count; h += 3) {
+      if (surface.has_repeated_point(h / 3)) continue;
+      const Index a = surface.corner_point[h], b = surface.corner_point[h + 1],
+                  c = surface.corner_point[h + 2];
+      visit(h, a, b);
+      visit(h + 1, b, c);
+      visit(h + 2, c, a);
+    }
+  }
+
+  void sort(Index begin, Index end) {
+    constexpr Index kFew = 24;
+    if (end - begin > kFew) {
+      std::sort(half_edges_.begin() + begin, half_edges_.begin() + end);
+      return;
+    }
+    for (Index i = begin + 1; i < end; ++i) {
+      const std::uint64_t inserted = half_edges_[i];
+      Index at = i;
+      for (; at > begin && half_edges_[at - 1] > inserted; --at)
+        half_edges_[at] = half_edges_[at - 1];
+      half_edges_[at] = inserted;
+    }
+  }
+
   std::vector<Index> first_;  ///< Per point: index of its first entry in half_edges_.
-  std::vector<Index> half_edges_;
+  /// The larger point, and the half-edge in the lower 32 bits.
+  std::vector<std::uint64_t> half_edges_;
 };
 
 /// The mesh and the vertices at both ends of a half-edge. They tell which of several faces at one
@@ -170,7 +230,7 @@ void join_across_edges(const Character& character, Surface& surface) {
     surface.twin[a] = b;
     surface.twin[b] = a;
   };
-  HalfEdgeGroups(surface).for_each_edge(surface, [&](std::span<const Index> edge) {
+  HalfEdgeGroups(surface).for_each_edge([&](std::span<const Index> edge) {
     if (edge.size() < 2) return;
     if (edge.size() == 2 && surface.corner_point[edge[0]] != surface.corner_point[edge[1]]) {
       join(edge[0], edge[1]);
@@ -226,16 +286,19 @@ void mark_shared_vertices(const Character& character, Surface& surface) {
   std::vector<std::vector<Index>> point_of_vertex;
   for (const Mesh& mesh : character.meshes)
     point_of_vertex.emplace_back(mesh.vertex_count(), kNone);
-  for (Index corner = 0; corner < surface.corner_point.size(); ++corner) {
-    const TriangleRef ref = surface.triangle(corner / 3);
-    const Index vertex = character.meshes[ref.mesh].triangles[ref.triangle][corner % 3];
-    Index& point = point_of_vertex[ref.mesh][vertex];
-    if (point == kNone) point = surface.corner_point[corner];
-    // A degenerate triangle belongs to no fan: its vertices stay where they are when a fan moves
-    // on.
-    if (point != surface.corner_point[corner] || surface.has_repeated_point(corner / 3))
-      surface.is_shared_vertex[ref.mesh][vertex] = true;
-  }
+  Index corner = 0;
+  for (std::size_t m = 0; m < character.meshes.size(); ++m)
+    for (const Triangle& triangle : character.meshes[m].triangles) {
+      const bool is_degenerate = surface.has_repeated_point(corner / 3);
+      for (const Index vertex : triangle) {
+        const Index of_corner = surface.corner_point[corner++];
+        Index& point = point_of_vertex[m][vertex];
+        if (point == kNone) point = of_corner;
+        // A degenerate triangle belongs to no fan: its vertices stay where they are when a fan
+        // moves on.
+        if (point != of_corner || is_degenerate) surface.is_shared_vertex[m][vertex] = true;
+      }
+    }
 }
 
 }  // namespace
@@ -248,9 +311,13 @@ Index Surface::find_half_edge(Index from, Index to) const {
   return found;
 }
 
-Surface build_surface(const Character& character) {
+Surface build_surface(const Character& character) { return join_meshes(character).surface; }
+
+JoinedMeshes join_meshes(const Character& character) {
   Weld weld = weld_vertices(character);
-  Surface surface;
+  JoinedMeshes joined;
+  Surface& surface = joined.surface;
+  joined.share_points = weld.joins_meshes;
   surface.source_side = std::move(weld.point_side);
   surface.point_corner.assign(surface.source_side.size(), kNone);
   surface.first_triangle = {0};
@@ -269,7 +336,7 @@ Surface build_surface(const Character& character) {
                   [](Index side) { return side == 0; }))
     surface.source_side = {};
   surface.point_corner.shrink_to_fit();
-  return surface;
+  return joined;
 }
 
 }  // namespace sunder::tear

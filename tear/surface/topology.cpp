@@ -1,11 +1,13 @@
 #include <sunder/tear/topology.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "core/internal/ordered.h"
 #include "core/internal/out_of_memory.h"
 #include "tear/geometry/tolerances.h"
 #include "tear/internal/surface.h"
+#include "tear/surface/joined_meshes.h"
 
 namespace sunder {
 namespace {
@@ -43,7 +45,7 @@ Index count_boundary_loops(const Surface& surface) {
   std::vector<bool> is_seen(surface.twin.size(), false);
   Index loops = 0;
   for (Index seed = 0; seed < surface.twin.size(); ++seed) {
-    if (is_seen[seed] || !is_border(surface, seed)) continue;
+    if (!is_border(surface, seed) || is_seen[seed]) continue;
     ++loops;
     for (Index h = seed; !is_seen[h];) {
       is_seen[h] = true;
@@ -63,37 +65,73 @@ bool has_no_area(const Mesh& mesh, const Triangle& triangle) {
                         ac = mesh.positions[triangle[2]].cast<double>() - a;
   const double longest_squared =
       std::max({squared_norm(ab), squared_norm(ac), squared_norm(ac - ab)});
-  return norm(ab.cross(ac)) <= tear::kFlatSquaredSizes * longest_squared;
+  const Eigen::Vector3d doubled_area = ab.cross(ac);
+  // Nearly all triangles have an area; most are seen to have one without a square root.
+  const double surely_flat = 2 * tear::kFlatSquaredSizes * longest_squared;
+  if (squared_norm(doubled_area) > surely_flat * surely_flat) return false;
+  return norm(doubled_area) <= tear::kFlatSquaredSizes * longest_squared;
 }
 
-void count_triangles_and_points(const Character& character, const Surface& surface,
-                                TopologyCounts& counts) {
+/// @return per mesh, the number of points that it is the first to use.
+std::vector<Index> count_triangles_and_points(const Character& character, const Surface& surface,
+                                              TopologyCounts& counts) {
   std::vector<bool> is_used(surface.point_count(), false);
-  for (Index t = 0; t < surface.triangle_count(); ++t) {
-    const Mesh& mesh = character.meshes[surface.triangle(t).mesh];
-    const Triangle& triangle = mesh.triangles[surface.triangle(t).triangle];
-    if (is_retired(triangle)) continue;
-    ++counts.triangles;
-    if (surface.has_repeated_point(t) || has_no_area(mesh, triangle)) ++counts.degenerate_triangles;
-    for (Index corner = 3 * t; corner < 3 * t + 3; ++corner)
-      is_used[surface.corner_point[corner]] = true;
+  std::vector<Index> points_of_mesh(character.meshes.size(), 0);
+  for (std::size_t m = 0; m < character.meshes.size(); ++m) {
+    const Mesh& mesh = character.meshes[m];
+    Index t = surface.first_triangle[m];
+    for (const Triangle& triangle : mesh.triangles) {
+      const Index first = 3 * t++;
+      if (is_retired(triangle)) continue;
+      ++counts.triangles;
+      if (surface.has_repeated_point(first / 3) || has_no_area(mesh, triangle))
+        ++counts.degenerate_triangles;
+      for (Index corner = first; corner < first + 3; ++corner) {
+        const Index point = surface.corner_point[corner];
+        points_of_mesh[m] += is_used[point] ? 0 : 1;
+        is_used[point] = true;
+      }
+    }
+    counts.points += points_of_mesh[m];
   }
-  counts.points = static_cast<Index>(std::count(is_used.begin(), is_used.end(), true));
+  return points_of_mesh;
 }
 
-TopologyCounts count(const Character& character) {
-  const Surface surface = tear::build_surface(character);
-  TopologyCounts counts;
-  for (const Mesh& mesh : character.meshes) counts.vertices += mesh.vertex_count();
-  count_triangles_and_points(character, surface, counts);
+void count_edges(const Surface& surface, TopologyCounts& counts) {
   Index half_edges = 0, border = 0;
-  for (Index h = 0; h < surface.twin.size(); ++h) {
-    half_edges += surface.has_repeated_point(h / 3) ? 0 : 1;
-    border += is_border(surface, h) ? 1 : 0;
+  for (Index t = 0; t < surface.triangle_count(); ++t) {
+    if (surface.has_repeated_point(t)) continue;
+    half_edges += 3;
+    for (Index h = 3 * t; h < 3 * t + 3; ++h) border += surface.twin[h] == kNone ? 1 : 0;
   }
   counts.edges = (half_edges + border) / 2;
   counts.boundary_edges = border - surface.non_manifold_half_edges;
   counts.non_manifold_edges = surface.non_manifold_edges;
+}
+
+Index count_points_alone(const Character& character, const Mesh& mesh) {
+  Character alone;
+  alone.skeleton = character.skeleton;
+  alone.skins = character.skins;
+  alone.rest_morph_weights = character.rest_morph_weights;
+  alone.meshes = {mesh};
+  TopologyCounts counts;
+  (void)count_triangles_and_points(alone, tear::build_surface(alone), counts);
+  return counts.points;
+}
+
+TopologyCounts count(const Character& character, std::vector<Index>* points_of_mesh) {
+  const auto [surface, share_points] = tear::join_meshes(character);
+  TopologyCounts counts;
+  for (const Mesh& mesh : character.meshes) counts.vertices += mesh.vertex_count();
+  std::vector<Index> points = count_triangles_and_points(character, surface, counts);
+  if (points_of_mesh != nullptr) {
+    *points_of_mesh = std::move(points);
+    if (share_points)
+      for (std::size_t m = 0; m < character.meshes.size(); ++m)
+        (*points_of_mesh)[m] = count_points_alone(character, character.meshes[m]);
+  }
+  count_edges(surface, counts);
   counts.boundary_loops = count_boundary_loops(surface);
   counts.components = count_components(surface);
   return counts;
@@ -101,8 +139,10 @@ TopologyCounts count(const Character& character) {
 
 }  // namespace
 
-Result<TopologyCounts> count_topology(const Character& character) {
-  return or_out_of_memory([&]() -> Result<TopologyCounts> { return count(character); });
+Result<TopologyCounts> count_topology(const Character& character,
+                                      std::vector<std::uint32_t>* points_of_mesh) {
+  return or_out_of_memory(
+      [&]() -> Result<TopologyCounts> { return count(character, points_of_mesh); });
 }
 
 }  // namespace sunder

@@ -55,7 +55,7 @@ const std::set<std::string> kMayUseUmbrella = {"samples", "tools"};
 /// Folders that may include third parties; all others include only the standard library and Eigen.
 /// Samples are programs of users, without access to private headers, and may use threads.
 const std::map<std::string, std::set<std::string>> kThirdParties = {
-    {"io", {"tiny_gltf.h", "assimp", "nlohmann"}},
+    {"io", {"tiny_gltf.h", "assimp", "nlohmann", "simdjson.h"}},
     {"skinning", {"hwy"}},
     {"tools", {"CLI", "nlohmann"}},
     {"samples", {"btBulletDynamicsCommon.h", "tbb"}},

@@ -149,5 +149,46 @@ TEST(Topology, vertices_that_no_triangle_uses_are_no_points) {
   EXPECT_EQ(count_topology(character)->vertices, 6u);
 }
 
+/// The character with the triangles of its first mesh dealt out to meshes that share vertices, or
+/// to those of several skins, which share none.
+Character dealt_out(const Character& character, std::uint32_t mesh_count, bool have_own_skins,
+                    test::Random& random) {
+  Character result = character;
+  const Mesh all = character.meshes[0];
+  result.meshes.clear();
+  for (std::uint32_t m = 0; m < mesh_count; ++m) {
+    Mesh& mesh = result.meshes.emplace_back(all);
+    mesh.triangles.clear();
+    mesh.triangle_submesh.clear();
+    if (!have_own_skins) continue;
+    mesh.skin = static_cast<std::uint32_t>(result.skins.size());
+    result.skins.push_back(character.skins[all.skin]);
+  }
+  for (std::uint32_t t = 0; t < all.triangle_count(); ++t) {
+    Mesh& mesh = result.meshes[random.index(mesh_count)];
+    mesh.triangles.push_back(all.triangles[t]);
+    mesh.triangle_submesh.push_back(all.triangle_submesh[t]);
+  }
+  return result;
+}
+
+TEST(Topology, points_of_each_mesh_are_those_of_the_mesh_alone) {
+  test::Random random(5);
+  for (int i = 0; i < 60; ++i) {
+    const Character source = i % 3 == 0 ? test::make_soup(random) : test::make_tube(8, 6, 3);
+    const Character character = dealt_out(source, 1 + random.index(4), i % 2 == 0, random);
+    std::vector<std::uint32_t> points;
+    const auto counts = count_topology(character, &points);
+    ASSERT_TRUE(counts);
+    EXPECT_EQ(counts->points, count_topology(character)->points);
+    ASSERT_EQ(points.size(), character.meshes.size());
+    for (std::size_t m = 0; m < points.size(); ++m) {
+      Character alone = character;
+      alone.meshes = {character.meshes[m]};
+      EXPECT_EQ(points[m], count_topology(alone)->points) << "case " << i << ", mesh " << m;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace sunder

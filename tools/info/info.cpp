@@ -21,20 +21,14 @@
 namespace sunder::tools {
 namespace {
 
-/// The number of surface points of one mesh.
-std::uint32_t point_count(const Character& character, const Mesh& mesh) {
-  Character alone;
-  alone.skeleton = character.skeleton;
-  alone.skins = character.skins;
-  alone.rest_morph_weights = character.rest_morph_weights;
-  alone.meshes = {mesh};
-  return value_of(count_topology(alone)).points;
+std::vector<std::uint32_t> triangles_of_submeshes(const Mesh& mesh) {
+  std::vector<std::uint32_t> counts(mesh.submeshes.size(), 0);
+  for (const std::uint32_t submesh : mesh.triangle_submesh) ++counts[submesh];
+  return counts;
 }
 
-Json mesh_json(const Character& character, const Mesh& mesh) {
-  const ModelCheck check = check_mesh(mesh);
-  std::vector<std::uint32_t> triangles_of(mesh.submeshes.size(), 0);
-  for (const std::uint32_t submesh : mesh.triangle_submesh) ++triangles_of[submesh];
+Json mesh_json(const Mesh& mesh, const ModelCheck& check, std::uint32_t points) {
+  const std::vector<std::uint32_t> triangles_of = triangles_of_submeshes(mesh);
   Json submeshes = Json::array();
   for (std::size_t i = 0; i < mesh.submeshes.size(); ++i)
     submeshes.push_back({{"name", mesh.submeshes[i].name}, {"triangles", triangles_of[i]}});
@@ -44,7 +38,7 @@ Json mesh_json(const Character& character, const Mesh& mesh) {
     attributes.push_back(attribute.name);
   return {{"name", mesh.name},
           {"vertices", mesh.vertex_count()},
-          {"points", point_count(character, mesh)},
+          {"points", points},
           {"triangles", mesh.triangle_count()},
           {"submeshes", std::move(submeshes)},
           {"skin", mesh.skin},
@@ -63,8 +57,12 @@ Json mesh_json(const Character& character, const Mesh& mesh) {
 Json materials_json(const Character& character) {
   Json materials = Json::array();
   std::map<std::pair<std::uint32_t, std::string>, std::size_t> known;
-  for (const Mesh& mesh : character.meshes)
+  for (const Mesh& mesh : character.meshes) {
+    const std::vector<std::uint32_t> triangles_of = triangles_of_submeshes(mesh);
+    std::vector<bool> is_counted(mesh.submeshes.size(), false);
     for (const std::uint32_t submesh : mesh.triangle_submesh) {
+      if (is_counted[submesh]) continue;
+      is_counted[submesh] = true;
       const Submesh& of = mesh.submeshes[submesh];
       // Submeshes of one material may have names of their own.
       const auto [entry, is_new] = known.try_emplace(
@@ -73,8 +71,9 @@ Json materials_json(const Character& character) {
         materials.push_back(
             {{"name", of.name}, {"index", index_json(of.material)}, {"triangles", 0}});
       Json& triangles = materials[entry->second]["triangles"];
-      triangles = triangles.get<std::size_t>() + 1;
+      triangles = triangles.get<std::size_t>() + triangles_of[submesh];
     }
+  }
   return materials;
 }
 
@@ -92,7 +91,15 @@ Json info_json(const InfoRequest& request, const LoadedCharacter& loaded, const 
   info["pose"] = posed.pose.name;
   info["bounds"] = {{"min", vector_json(bounds.least)}, {"max", vector_json(bounds.greatest)}};
   info["meshes"] = Json::array();
-  for (const Mesh& mesh : character.meshes) info["meshes"].push_back(mesh_json(character, mesh));
+  std::vector<std::uint32_t> points_of_mesh;
+  const TopologyCounts topology = value_of(count_topology(character, &points_of_mesh));
+  ModelCheck check;
+  for (std::size_t m = 0; m < character.meshes.size(); ++m) {
+    const ModelCheck of_mesh = check_mesh(character.meshes[m]);
+    check.least_weight_sum = std::min(check.least_weight_sum, of_mesh.least_weight_sum);
+    check.greatest_weight_sum = std::max(check.greatest_weight_sum, of_mesh.greatest_weight_sum);
+    info["meshes"].push_back(mesh_json(character.meshes[m], of_mesh, points_of_mesh[m]));
+  }
   info["materials"] = materials_json(character);
   info["bones"] = Json::array();
   for (const Bone& bone : character.skeleton.bones) info["bones"].push_back(bone.name);
@@ -107,10 +114,9 @@ Json info_json(const InfoRequest& request, const LoadedCharacter& loaded, const 
     info["clips"].push_back({{"name", clip.name},
                              {"duration", static_cast<double>(clip.duration)},
                              {"channels", clip.channels.size()}});
-  const ModelCheck check = check_model(character);
   info["weight_sum_min"] = check.least_weight_sum;
   info["weight_sum_max"] = check.greatest_weight_sum;
-  info["topology"] = to_json(value_of(count_topology(character)));
+  info["topology"] = to_json(topology);
   return info;
 }
 
@@ -194,7 +200,7 @@ ExitCode run_info(const InfoRequest& request) {
   if (!argument->remark.empty()) Messages(Verbosity::normal).warn("--pose: " + argument->remark);
   Result<ModelPose> pose = make_pose(character, argument->spec);
   if (!pose) return complain(request.model.string(), pose.error(), ExitCode::internal_error);
-  Result<std::vector<DeformedMesh>> posed = pose_model(character, *pose);
+  Result<std::vector<DeformedMesh>> posed = deform_model(character, *pose);
   if (!posed) return complain(request.model.string(), posed.error(), ExitCode::internal_error);
 
   const Json info =

@@ -2,6 +2,9 @@
 
 #include <sunder/core/character.h>
 
+#include <cstdint>
+#include <vector>
+
 namespace sunder {
 
 /// Shape of a character's surface, all meshes together. Counts refer to surface points: vertices
@@ -24,7 +27,10 @@ struct TopologyCounts {
 };
 
 /// Counts from the arrays alone. O(vertices + triangles), allocates. Reentrant.
+/// @param points_of_mesh  if given, it becomes the number of points of each mesh, counted as if the
+///        character had no other mesh. This is a by-product unless meshes share points.
 /// @return limit_exceeded: out of memory.
-[[nodiscard]] SUNDER_API Result<TopologyCounts> count_topology(const Character& character);
+[[nodiscard]] SUNDER_API Result<TopologyCounts> count_topology(
+    const Character& character, std::vector<std::uint32_t>* points_of_mesh = nullptr);
 
 }  // namespace sunder

@@ -1,0 +1,137 @@
+// Measures how long models take to load and to describe, beside assimp and tinygltf on the same
+// files in the same run.
+
+#include <sunder/io/character_file.h>
+
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/import_times.h"
+#include "bench/io_files.h"
+#include "bench/json_object.h"
+#include "bench/measure.h"
+#include "bench/process_times.h"
+#include "support/temporary_folder.h"
+
+namespace sunder::bench {
+namespace {
+
+constexpr const char* kHelp =
+    "bench_io [--summary | --load FILE]\n"
+    "\n"
+    "Loads GLB files by load_character(), by assimp without post-processing and by tinygltf\n"
+    "without decoding accessors or images, in turns, all from the disk cache. Without an option "
+    "it\n"
+    "prints tables: small animated characters, one character subdivided to a million vertices, "
+    "and\n"
+    "`sunder info` against a process that only loads. --load loads FILE and ends.\n"
+    "--summary prints one JSON object:\n"
+    "  glb_vs_assimp        ours / assimp on a GLB of about 170 thousand vertices\n"
+    "  small_glb_vs_assimp  the same by name of small animated characters\n"
+    "  info_vs_load         `sunder info` by a process that only loads, on the large file\n"
+    "  growth               seconds per vertex at about a million vertices by those at 10 "
+    "thousand\n"
+    "  fbx_vs_assimp        FBX with the helper process / assimp's ReadFile() in the process\n"
+    "  child_overhead_ms    what the helper process adds to an import\n"
+    "  fk_ns_per_joint      forward kinematics of a robot, warm\n";
+
+constexpr std::size_t kLarge = 170000, kLargest = 1000000;
+
+void print_imports(const IoFile& file, const ImportTimes& times) {
+  std::printf("%-20s %9zu %6zu %9.2f %9.2f %9.2f %10.0f %9.2f\n", file.name.c_str(), file.vertices,
+              file.clips, 1e3 * times.ours, 1e3 * times.assimp, 1e3 * times.tinygltf,
+              1e9 * times.ours / static_cast<double>(file.vertices), times.ours / times.assimp);
+}
+
+void print_import_heads(const char* title) {
+  std::printf("%s\n%-20s %9s %6s %9s %9s %9s %10s %9s\n", title, "file", "vertices", "clips",
+              "ours, ms", "assimp", "tinygltf", "ns/vertex", "/ assimp");
+}
+
+/// `sunder info`, and a process that only loads.
+struct InfoTimes {
+  double info = 0;
+  double load = 0;
+};
+
+InfoTimes time_info(const IoFile& file, const std::string& program, int rounds) {
+  const auto seconds = time_processes(
+      {{SUNDER_COMMAND, "info", file.path.string()}, {program, "--load", file.path.string()}},
+      rounds);
+  return {seconds[0], seconds[1]};
+}
+
+void print_tables(const std::string& program) {
+  const test::TemporaryFolder folder;
+  const auto small = small_characters(folder.path());
+  print_import_heads("small animated characters");
+  for (const IoFile& file : small) print_imports(file, time_imports(file.path, 30));
+
+  const auto growing = growing_files(folder.path(), kLargest);
+  print_import_heads("\none character, subdivided");
+  for (const IoFile& file : growing) print_imports(file, time_imports(file.path, 10));
+
+  std::printf("\nwhole processes\n%-20s %9s %9s %9s %9s\n", "file", "vertices", "info, ms", "load",
+              "/ load");
+  std::vector<IoFile> all = small;
+  all.insert(all.end(), growing.begin(), growing.end());
+  for (const IoFile& file : all) {
+    const InfoTimes times = time_info(file, program, 15);
+    std::printf("%-20s %9zu %9.2f %9.2f %9.2f\n", file.name.c_str(), file.vertices,
+                1e3 * times.info, 1e3 * times.load, times.info / times.load);
+  }
+}
+
+void print_summary(const std::string& program) {
+  const test::TemporaryFolder folder;
+  const IoFile large = large_file(folder.path(), kLarge);
+  const ImportTimes times = time_imports(large.path, 15);
+  std::vector<std::pair<std::string, double>> small_ratios;
+  for (const IoFile& file : small_characters(folder.path())) {
+    const ImportTimes of_small = time_imports(file.path, 30);
+    small_ratios.emplace_back(file.name, of_small.ours / of_small.assimp);
+  }
+  const InfoTimes info = time_info(large, program, 15);
+  const auto growing = growing_files(folder.path(), kLargest);
+  const auto per_vertex = [](const IoFile& file) {
+    return time_imports(file.path, 7).ours / static_cast<double>(file.vertices);
+  };
+
+  JsonObject object;
+  object.add("vertices", static_cast<double>(large.vertices));
+  object.add("glb_ms", 1e3 * times.ours);
+  object.add("glb_vs_assimp", times.ours / times.assimp);
+  object.add("glb_vs_tinygltf", times.ours / times.tinygltf);
+  object.add("small_glb_vs_assimp", small_ratios);
+  object.add("info_vs_load", info.info / info.load);
+  object.add("growth", per_vertex(growing.back()) / per_vertex(growing.front()));
+  object.add("fbx_vs_assimp", std::nullopt);
+  object.add("child_overhead_ms", std::nullopt);
+  object.add("fk_ns_per_joint", std::nullopt);
+  object.end();
+}
+
+}  // namespace
+}  // namespace sunder::bench
+
+int main(int argc, char** argv) {
+  using namespace sunder::bench;
+  const std::string program = std::filesystem::read_symlink("/proc/self/exe").string();
+  if (argc == 3 && std::strcmp(argv[1], "--load") == 0)
+    return sunder::load_character(argv[2]) ? 0 : 1;
+  if (argc == 1) {
+    print_tables(program);
+    return 0;
+  }
+  if (argc == 2 && std::strcmp(argv[1], "--summary") == 0) {
+    print_summary(program);
+    return 0;
+  }
+  const bool asked = argc == 2 && std::strcmp(argv[1], "--help") == 0;
+  std::fputs(kHelp, asked ? stdout : stderr);
+  return asked ? 0 : 2;
+}
