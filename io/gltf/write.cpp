@@ -104,10 +104,17 @@ class Patch {
     for (const std::uint32_t mesh : meshes)
       meshes_of_node[source_.mesh_origins[mesh].node].push_back(mesh);
     for (const auto& [node, on_node] : meshes_of_node) patch_node(node, on_node);
+    correct_skins();
     remove_unusable_channels();
   }
 
  private:
+  void correct_skins() {
+    for (const SourceDocument::RepairedSkin& repaired : source_.repaired_skins)
+      draft_.json["skins"][repaired.gltf_skin]["inverseBindMatrices"] =
+          add_bind_matrices(draft_, before_.skins[repaired.skin]);
+  }
+
   void patch_node(std::uint32_t node_index, const std::vector<std::uint32_t>& meshes) {
     if (has_new_skin(meshes.front())) {
       const std::uint32_t skin = rig_.skin(character_.meshes[meshes.front()].skin);

@@ -51,7 +51,8 @@ const std::map<std::string, Rooms> kRooms = {
     {"io",
      {{".", {"assimp", "gltf", "operation_log", "files"}},
       {"assimp", {}},
-      {"gltf", {"files"}},
+      {"gltf", {"compression", "files"}},
+      {"compression", {}},
       {"operation_log", {}},
       {"files", {}}}},
 };
