@@ -42,7 +42,8 @@ if(SUNDER_BULLET AND NOT BUILD_SHARED_LIBS)
   string(APPEND SUNDER_STATIC_DEPENDENCIES "include(\${CMAKE_CURRENT_LIST_DIR}/SunderBullet.cmake)\n")
 endif()
 if(SUNDER_IO AND NOT BUILD_SHARED_LIBS)
-  string(APPEND SUNDER_STATIC_DEPENDENCIES "find_dependency(TinyGLTF)\nfind_dependency(assimp)\nfind_dependency(nlohmann_json)\nfind_dependency(simdjson)")
+  string(APPEND SUNDER_STATIC_DEPENDENCIES "find_dependency(TinyGLTF)\nfind_dependency(assimp)\nfind_dependency(nlohmann_json)\n"
+    "find_dependency(simdjson)\nfind_dependency(draco)\nfind_dependency(meshoptimizer)")
 endif()
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/Sunder)

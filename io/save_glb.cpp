@@ -12,6 +12,12 @@ Status save_glb(const std::filesystem::path& file, const Character& character,
   return gltf::write_character(file, character, loaded, options);
 }
 
+Result<std::vector<WrittenInfluences>> written_influences(const Character& character,
+                                                          const LoadedCharacter& loaded,
+                                                          const SaveOptions& options) {
+  return gltf::influences_of_written(character, loaded, options);
+}
+
 Status save_glb(const std::filesystem::path& file, const Character& character,
                 const SaveOptions& options) {
   return gltf::write_new_document(file, character, options);

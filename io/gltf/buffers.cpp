@@ -1,5 +1,6 @@
 #include "io/gltf/buffers.h"
 
+#include "io/gltf/meshopt_views.h"
 #include "io/gltf/refusal.h"
 #include "io/gltf/uris.h"
 
@@ -12,6 +13,10 @@ void resolve_buffer(SourceDocument& document, const Container& container, std::s
                     std::uint64_t& bytes_left) {
   const Cursor buffer = entry(document.json, "buffers", index);
   const std::uint64_t claimed = buffer.member("byteLength").to_unsigned();
+  if (is_fallback_buffer(buffer)) {
+    document.buffers.emplace_back();  // Its file, if it has one, is not needed.
+    return;
+  }
   std::span<const std::byte> bytes;
   if (const auto uri = buffer.find("uri")) {
     if (is_data_uri(uri->to_string()))
@@ -43,10 +48,12 @@ void resolve_buffers(SourceDocument& document, const Container& container) {
       std::min<std::uint64_t>(document.maximum_bytes, document.content.size());
   const std::size_t buffer_count = count_of(document.json, "buffers");
   for (std::size_t i = 0; i < buffer_count; ++i) resolve_buffer(document, container, i, bytes_left);
+}
 
+void check_buffer_views(const SourceDocument& document) {
   for (std::size_t i = 0; i < count_of(document.json, "bufferViews"); ++i) {
     const Cursor view = entry(document.json, "bufferViews", i);
-    const std::uint32_t buffer = view.member("buffer").to_index(buffer_count, "buffer");
+    const std::uint32_t buffer = view.member("buffer").to_index(document.buffers.size(), "buffer");
     const std::uint64_t offset = view.unsigned_or("byteOffset", 0),
                         length = view.member("byteLength").to_unsigned();
     const std::uint64_t available = document.buffers[buffer].size();

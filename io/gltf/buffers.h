@@ -5,11 +5,13 @@
 
 namespace sunder::gltf {
 
-/// Fills document.buffers from the BIN chunk, data: URIs, and files of document.folder. Then checks
-/// that every entry of /bufferViews lies in its buffer.
+/// Fills document.buffers from the BIN chunk, data: URIs, and files of document.folder.
 void resolve_buffers(SourceDocument& document, const Container& container);
 
-/// The bytes of a buffer view that resolve_buffers() has checked.
+/// Checks that every entry of /bufferViews lies in its buffer.
+void check_buffer_views(const SourceDocument& document);
+
+/// The bytes of a buffer view that check_buffer_views() has checked.
 [[nodiscard]] std::span<const std::byte> bytes_of_view(const SourceDocument& document,
                                                        std::uint32_t view);
 

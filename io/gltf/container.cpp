@@ -96,17 +96,22 @@ void check_nesting(std::string_view text) {
   }
 }
 
-/// Extensions that a reader of geometry, skins and animation may ignore, and KHR_mesh_quantization,
-/// which it supports.
-bool is_harmless(std::string_view extension) {
-  if (extension == "KHR_mesh_quantization") return true;
-  constexpr std::array<std::string_view, 11> kAboutLooks = {
-      "KHR_materials_", "KHR_texture_",  "EXT_texture_",    "MSFT_texture_",
-      "KHR_lights_",    "EXT_lights_",   "KHR_xmp",         "KHR_technique",
-      "EXT_materials_", "MSFT_packing_", "FB_ngon_encoding"};
-  for (const std::string_view prefix : kAboutLooks)
-    if (extension.substr(0, prefix.size()) == prefix) return true;
-  return false;
+/// Whether a file that requires this extension can be read: those that io/gltf supports, and those
+/// that do not change geometry, skins or animation.
+bool can_read(std::string_view extension) {
+  constexpr std::array<std::string_view, 4> kSupported = {
+      "KHR_mesh_quantization", "KHR_draco_mesh_compression", "EXT_meshopt_compression",
+      "KHR_meshopt_compression"};
+  constexpr std::array<std::string_view, 17> kHarmless = {
+      "KHR_materials_",        "EXT_materials_",    "ADOBE_materials_",
+      "KHR_texture_",          "EXT_texture_",      "MSFT_texture_",
+      "GOOGLE_texture_",       "MSFT_packing_",     "KHR_technique",
+      "KHR_lights_",           "EXT_lights_",       "KHR_xmp",
+      "FB_ngon_encoding",      "EXT_mesh_features", "EXT_structural_metadata",
+      "EXT_instance_features", "MSFT_lod"};
+  const auto has_prefix = [&](std::string_view prefix) { return extension.starts_with(prefix); };
+  return std::find(kSupported.begin(), kSupported.end(), extension) != kSupported.end() ||
+         std::any_of(kHarmless.begin(), kHarmless.end(), has_prefix);
 }
 
 void check_version(const Cursor& document) {
@@ -125,7 +130,7 @@ void check_required_extensions(const Cursor& document) {
   if (!required) return;
   for (std::size_t i = 0; i < required->size(); ++i) {
     const Cursor extension = required->element(i);
-    if (!is_harmless(extension.to_string()))
+    if (!can_read(extension.to_string()))
       refuse(StatusCode::unsupported_feature, static_cast<std::uint32_t>(i),
              "%s: the required extension %.100s is not supported", extension.pointer().c_str(),
              extension.to_string().c_str());

@@ -60,22 +60,14 @@ void GlbDraft::merge_buffers() {
   buffers = Json::array({std::move(merged)});
   if (offset_of_buffer.size() == 1 || !json.contains("bufferViews")) return;
 
-  const auto move = [&](Json& view) {
+  for (Json& view : json["bufferViews"]) {
     if (!view.contains("buffer") || !view["buffer"].is_number_unsigned() ||
         view["buffer"] >= offset_of_buffer.size())
-      return;
+      continue;
     const std::uint64_t offset =
         view.contains("byteOffset") ? view["byteOffset"].get<std::uint64_t>() : 0;
     view["byteOffset"] = offset + offset_of_buffer[view["buffer"].get<std::size_t>()];
     view["buffer"] = 0;
-  };
-  for (Json& view : json["bufferViews"]) {
-    move(view);
-    const auto packed = view.find(
-        "extensions");  // An optional compressed form of the same bytes, in another buffer.
-    if (packed != view.end() && packed->is_object() && packed->contains("EXT_meshopt_compression"))
-      if (Json& compressed = (*packed)["EXT_meshopt_compression"]; compressed.is_object())
-        move(compressed);
   }
 }
 

@@ -10,13 +10,6 @@
 namespace sunder::gltf {
 namespace {
 
-std::uint32_t most_influences(const SkinWeights& weights) {
-  std::uint32_t most = 1;
-  for (std::uint32_t v = 0; v < weights.vertex_count(); ++v)
-    most = std::max(most, static_cast<std::uint32_t>(weights.of(v).size()));
-  return most;
-}
-
 bool write_weights(std::span<const Influence> kept, std::span<float> written) {
   std::transform(kept.begin(), kept.end(), written.begin(),
                  [](const Influence& influence) { return influence.weight; });
@@ -29,6 +22,13 @@ bool write_weights(std::span<const Influence> kept, std::span<Integer> written) 
 }
 
 }  // namespace
+
+std::uint32_t most_influences(const SkinWeights& weights) {
+  std::uint32_t most = 1;
+  for (std::uint32_t v = 0; v < weights.vertex_count(); ++v)
+    most = std::max(most, static_cast<std::uint32_t>(weights.of(v).size()));
+  return most;
+}
 
 template <class Weight>
 InfluenceSets<Weight> make_influence_sets(const SkinWeights& weights, std::uint32_t maximum) {
@@ -43,7 +43,8 @@ InfluenceSets<Weight> make_influence_sets(const SkinWeights& weights, std::uint3
   for (std::uint32_t v = 0; v < vertex_count; ++v) {
     const auto all = weights.of(v);
     influences.assign(all.begin(), all.end());
-    const std::size_t kept = prune_influences(influences, maximum);
+    const std::size_t kept =
+        prune_influences(influences, influences.size() > maximum ? maximum : 0);
     if (kept == 0 || !write_weights(std::span<const Influence>(influences).first(kept),
                                     std::span<Weight>(written).first(kept)))
       refuse(StatusCode::weights_not_normalized, v,

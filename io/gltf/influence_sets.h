@@ -15,8 +15,14 @@ struct InfluenceSets {
   std::vector<std::vector<Weight>> weights;       ///< Likewise.
 };
 
-/// Prunes every vertex to `maximum` influences (0: all are kept) and, if Weight is an integer,
-/// quantises the weights.
+/// Influences per vertex of one JOINTS_n with its WEIGHTS_n.
+inline constexpr std::uint32_t kInfluencesOfASet = 4;
+
+/// The number of influences of the vertex that has the most.
+[[nodiscard]] std::uint32_t most_influences(const SkinWeights& weights);
+
+/// Prunes the vertices that have more than `maximum` influences (0: none) and, if Weight is an
+/// integer, quantises the weights. Other vertices keep the order of their influences.
 /// @param weights  of a valid character.
 template <class Weight>
 [[nodiscard]] InfluenceSets<Weight> make_influence_sets(const SkinWeights& weights,

@@ -29,9 +29,9 @@ std::string numbered(const char* name, std::size_t index) { return name + std::t
 
 void check_options(const SaveOptions& options, std::size_t mesh_count) {
   const std::uint32_t maximum = options.maximum_influences;
-  if (maximum != 0 && maximum != 4 && maximum != 8)
+  if (maximum != 0 && maximum != 4 && maximum != 8 && maximum != kAllInfluences)
     refuse(StatusCode::invalid_argument, kNone,
-           "save_glb: maximum_influences must be 0, 4 or 8, not %u", maximum);
+           "save_glb: maximum_influences must be 0, 4, 8 or kAllInfluences, not %u", maximum);
   const auto check_format = [](WeightFormat format) {
     if (format > WeightFormat::unorm8)
       refuse(StatusCode::invalid_argument, kNone, "save_glb: unknown weight format %u",
@@ -45,8 +45,15 @@ void check_options(const SaveOptions& options, std::size_t mesh_count) {
   for (const WeightFormat format : options.weights_of_mesh) check_format(format);
 }
 
-WeightFormat weight_format_of(const SaveOptions& options, std::uint32_t mesh) {
-  return options.weights_of_mesh.empty() ? options.weights : options.weights_of_mesh[mesh];
+InfluenceForm influence_form(const SaveOptions& options, std::uint32_t mesh, const Mesh* source) {
+  InfluenceForm form;
+  form.format = options.weights_of_mesh.empty() ? options.weights : options.weights_of_mesh[mesh];
+  form.maximum = options.maximum_influences;
+  if (form.maximum == kAllInfluences) form.maximum = 0;
+  if (options.maximum_influences == 0 && source != nullptr &&
+      most_influences(source->weights) <= kInfluencesOfASet)
+    form.maximum = kInfluencesOfASet;
+  return form;
 }
 
 std::uint32_t MeshWriter::add_accessor(Json accessor) {
@@ -131,7 +138,7 @@ bool MeshWriter::has_triangles(const Mesh& mesh) {
 
 MeshWriter::Vertices MeshWriter::add_vertices(const Mesh& mesh,
                                               const SourceDocument::MeshOrigin& origin,
-                                              WeightFormat format) {
+                                              InfluenceForm form) {
   Vertices vertices{Json::object(), nullptr};
   Json& attributes = vertices.attributes;
   attributes["POSITION"] = add_vectors(mesh.positions, Bounds::yes);
@@ -158,20 +165,19 @@ MeshWriter::Vertices MeshWriter::add_vertices(const Mesh& mesh,
     const Json accessor = *sides;  // The insertion moves it.
     attributes[kTearSideFeatureAttribute] = accessor;
   }
-  if (origin.skinned) add_influences(mesh.weights, format, attributes);
+  if (origin.skinned) add_influences(mesh.weights, form, attributes);
   if (!mesh.morph_targets.empty()) vertices.targets = add_targets(mesh);
   return vertices;
 }
 
-void MeshWriter::add_influences(const SkinWeights& weights, WeightFormat format, Json& attributes) {
-  const std::uint32_t maximum = options_.maximum_influences;
-  switch (format) {
+void MeshWriter::add_influences(const SkinWeights& weights, InfluenceForm form, Json& attributes) {
+  switch (form.format) {
     case WeightFormat::float32:
-      return add_sets(make_influence_sets<float>(weights, maximum), attributes);
+      return add_sets(make_influence_sets<float>(weights, form.maximum), attributes);
     case WeightFormat::unorm16:
-      return add_sets(make_influence_sets<std::uint16_t>(weights, maximum), attributes);
+      return add_sets(make_influence_sets<std::uint16_t>(weights, form.maximum), attributes);
     case WeightFormat::unorm8:
-      return add_sets(make_influence_sets<std::uint8_t>(weights, maximum), attributes);
+      return add_sets(make_influence_sets<std::uint8_t>(weights, form.maximum), attributes);
   }
 }
 

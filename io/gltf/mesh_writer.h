@@ -12,13 +12,22 @@ namespace sunder::gltf {
 /// @param mesh_count  of the character that is written.
 void check_options(const SaveOptions& options, std::size_t mesh_count);
 
-/// The number format of the weights of a mesh.
-[[nodiscard]] WeightFormat weight_format_of(const SaveOptions& options, std::uint32_t mesh);
+/// How the influences of one mesh are stored.
+struct InfluenceForm {
+  WeightFormat format = WeightFormat::float32;
+  std::uint32_t maximum = 0;  ///< Per vertex; 0: all.
+};
+
+/// The form that the options ask for.
+/// @param mesh    index of the mesh that is written.
+/// @param source  the mesh as it was loaded; null without a source.
+[[nodiscard]] InfluenceForm influence_form(const SaveOptions& options, std::uint32_t mesh,
+                                           const Mesh* source);
 
 /// Appends meshes to a draft as accessors.
 class MeshWriter {
  public:
-  MeshWriter(GlbDraft& draft, const SaveOptions& options) : draft_(draft), options_(options) {}
+  explicit MeshWriter(GlbDraft& draft) : draft_(draft) {}
 
   /// The parts of a glTF primitive that describe its vertices; all submeshes of the mesh share
   /// them.
@@ -27,7 +36,7 @@ class MeshWriter {
     Json targets;  ///< Null if the mesh has none.
   };
   [[nodiscard]] Vertices add_vertices(const Mesh& mesh, const SourceDocument::MeshOrigin& origin,
-                                      WeightFormat format);
+                                      InfluenceForm form);
 
   /// Whether the mesh is written at all; retired triangles are not.
   [[nodiscard]] static bool has_triangles(const Mesh& mesh);
@@ -46,7 +55,7 @@ class MeshWriter {
                              GlbDraft::ViewTarget target);
   std::uint32_t add_labels(const CustomAttribute& attribute);
   std::uint32_t add_accessor(Json accessor);
-  void add_influences(const SkinWeights& weights, WeightFormat format, Json& attributes);
+  void add_influences(const SkinWeights& weights, InfluenceForm form, Json& attributes);
   template <class Weight>
   void add_sets(const InfluenceSets<Weight>& sets, Json& attributes);
   template <class Weight>
@@ -54,7 +63,6 @@ class MeshWriter {
   Json add_targets(const Mesh& mesh);
 
   GlbDraft& draft_;
-  SaveOptions options_;
 };
 
 }  // namespace sunder::gltf

@@ -63,6 +63,7 @@ class MeshBuilder {
     if (!mesh_at) return;
     const std::uint32_t mesh_index = mesh_at->to_index(count_of(reading_.json(), "meshes"), "mesh");
     const Cursor mesh = entry(reading_.json(), "meshes", mesh_index);
+    note_instances(at);
     const MorphRange morphs = add_morph_weights(at, mesh);
     result_.morphs_of_node[node] = morphs;
     const auto groups = group_primitives(reading_, mesh);
@@ -75,9 +76,20 @@ class MeshBuilder {
     }
   }
 
-  ReadMeshes finish() { return std::move(result_); }
+  ReadMeshes finish() {
+    result_.repaired_skins = skins_.repaired();
+    return std::move(result_);
+  }
 
  private:
+  void note_instances(const Cursor& node) {
+    const auto extensions = node.find("extensions");
+    if (extensions && extensions->find("EXT_mesh_gpu_instancing"))
+      reading_.notes.dropped(StatusCode::unsupported_feature, kNone, node.pointer(),
+                             "copies of the mesh by EXT_mesh_gpu_instancing are not loaded; the "
+                             "mesh is loaded once, where the node is, and torn in all of them");
+  }
+
   MorphRange add_morph_weights(const Cursor& node, const Cursor& mesh) {
     auto& all = character_.rest_morph_weights;
     const MorphRange range{static_cast<std::uint32_t>(all.size()), target_count(mesh)};

@@ -19,6 +19,7 @@ struct ReadMeshes {
   std::vector<SourceDocument::MeshOrigin> origins;  ///< One a mesh.
   std::vector<MorphRange> morphs_of_node;           ///< One per node of the file.
   std::vector<StoredInfluences> stored;             ///< One per mesh, if they are kept.
+  std::vector<SourceDocument::RepairedSkin> repaired_skins;
 };
 
 /// Appends the scene's meshes, their skins and rest morph weights to the character.

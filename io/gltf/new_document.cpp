@@ -42,7 +42,7 @@ Index append(Json& document, const char* list_name, Json entry) {
 class NewDocument {
  public:
   NewDocument(const Character& character, const SaveOptions& options)
-      : character_(character), options_(options), draft_(nothing_), meshes_(draft_, options) {}
+      : character_(character), options_(options), draft_(nothing_), meshes_(draft_) {}
 
   std::vector<std::byte> write() {
     draft_.json = {{"asset", {{"version", "2.0"}, {"generator", "Sunder"}}},
@@ -93,7 +93,7 @@ class NewDocument {
     SourceDocument::MeshOrigin form;
     form.skinned = !rigid;
     const MeshWriter::Vertices vertices =
-        meshes_.add_vertices(mesh, form, weight_format_of(options_, index));
+        meshes_.add_vertices(mesh, form, influence_form(options_, index, nullptr));
 
     Json gltf_mesh = {{"name", mesh.name}, {"primitives", Json::array()}};
     for (Index submesh = 0; submesh < mesh.submeshes.size(); ++submesh) {

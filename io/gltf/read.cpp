@@ -5,11 +5,16 @@
 #include <memory>
 #include <system_error>
 #include <utility>
+#include <vector>
 
+#include "io/gltf/accessor_bounds.h"
 #include "io/gltf/animations.h"
 #include "io/gltf/buffers.h"
 #include "io/gltf/container.h"
+#include "io/gltf/decoded_data.h"
+#include "io/gltf/draco_primitives.h"
 #include "io/gltf/meshes.h"
+#include "io/gltf/meshopt_views.h"
 #include "io/gltf/refusal.h"
 #include "io/gltf/skeleton.h"
 
@@ -21,6 +26,23 @@ std::string scene_name(const Json& document) {
   if (count == 0) return {};
   const auto chosen = Cursor(document, "").find("scene");
   return entry(document, "scenes", chosen ? chosen->to_index(count, "scene") : 0).name();
+}
+
+void note_other_scenes(Reading& reading) {
+  if (const std::size_t count = count_of(reading.json(), "scenes"); count > 1)
+    reading.notes.inform(
+        "scenes", "only the default scene is loaded; the others stay in the file as they are",
+        static_cast<std::uint32_t>(count - 1));
+}
+
+/// Buffers and buffer views, with compressed data decoded.
+void resolve_data(SourceDocument& document, const Container& container, Notes& notes) {
+  resolve_buffers(document, container);
+  DecodedData decoded(document);
+  const std::vector<std::uint32_t> rounded = decode_meshopt_views(document, decoded, notes);
+  check_buffer_views(document);
+  if (!rounded.empty()) correct_bounds(document, rounded);
+  decode_draco_primitives(document, decoded, notes);
 }
 
 LoadedCharacter read(std::vector<std::byte> content, const std::filesystem::path& folder,
@@ -37,15 +59,16 @@ LoadedCharacter read(std::vector<std::byte> content, const std::filesystem::path
   const Container container = split_container(document->content);
   document->is_glb = container.is_glb;
   document->json = parse_document(container.json);
-  resolve_buffers(*document, container);
 
   LoadedCharacter loaded;
   loaded.report.format = container.is_glb ? "glTF 2.0 binary" : "glTF 2.0 text";
   loaded.report.space = "metres, y up; the file's scene space";
-  Reading reading{*document, AccessorReader(*document), Notes(loaded.report, options.strict),
-                  options.keep_stored_influences};
+  Notes notes(loaded.report, options.strict);
+  resolve_data(*document, container, notes);
+  Reading reading{*document, AccessorReader(*document), notes, options.keep_stored_influences};
   const auto character = std::make_shared<Character>();
   character->name = scene_name(document->json);
+  note_other_scenes(reading);
   NodeSkeleton nodes = read_skeleton(reading);
   ReadMeshes meshes = read_meshes(reading, nodes, *character);
   if (character->meshes.empty())
@@ -57,6 +80,7 @@ LoadedCharacter read(std::vector<std::byte> content, const std::filesystem::path
       document->node_of_bone[nodes.bone_from_node[node]] = node;
   character->skeleton = std::move(nodes.skeleton);
   document->mesh_origins = std::move(meshes.origins);
+  document->repaired_skins = std::move(meshes.repaired_skins);
   loaded.stored = std::move(meshes.stored);
   if (!document->is_glb)
     document->content = {};  // The text is no longer needed; buffers are stored in other_files.

@@ -11,6 +11,9 @@
 namespace sunder::gltf {
 namespace {
 
+// Of the last row of a matrix, as in skins.cpp.
+constexpr float kRounding = 1e-6f, kLargestRounding = 1e-3f;
+
 template <std::size_t N>
 bool read_numbers(const Cursor& node, const char* key, std::array<float, N>& out) {
   const auto at = node.find(key);
@@ -43,9 +46,13 @@ Decomposition read_transform(Reading& reading, const Cursor& node) {
   std::array<float, 16> matrix{};
   if (read_numbers(node, "matrix", matrix)) {
     Eigen::Matrix4f columns = Eigen::Map<const Eigen::Matrix4f>(matrix.data());
-    if ((columns.row(3) - Eigen::RowVector4f(0, 0, 0, 1)).cwiseAbs().maxCoeff() > 1e-5f)
+    const float error = (columns.row(3) - Eigen::RowVector4f(0, 0, 0, 1)).cwiseAbs().maxCoeff();
+    if (error > kLargestRounding)
       refuse(StatusCode::malformed_file, kNone, "%s/matrix: its last row is not 0 0 0 1",
              node.pointer().c_str());
+    if (error > kRounding)
+      reading.notes.repaired(StatusCode::malformed_file, kNone, node.pointer(),
+                             "a matrix whose last row was not 0 0 0 1 was corrected");
     Affine3d affine;
     affine.matrix() = columns.topRows<3>().cast<double>();
     return decompose(affine);

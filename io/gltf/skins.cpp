@@ -7,18 +7,28 @@
 namespace sunder::gltf {
 namespace {
 
-Affine3f read_bind(const Accessor& accessor, std::uint32_t slot, const float* numbers) {
+// Of the last row of a matrix. Files of double products and inverses that were stored as floats
+// are off by this at most.
+constexpr float kRounding = 1e-6f, kLargestRounding = 1e-3f;
+
+struct BindMatrix {
+  Affine3f bone_from_bind;
+  float last_row_error = 0;
+};
+
+BindMatrix read_bind(const Accessor& accessor, std::uint32_t slot, const float* numbers) {
   const Eigen::Matrix4f matrix = Eigen::Map<const Eigen::Matrix4f>(numbers);
   if (!matrix.allFinite())
     refuse(StatusCode::non_finite_value, slot,
            "/accessors/%u: inverse bind matrix %u is not finite", accessor.index, slot);
-  if ((matrix.row(3) - Eigen::RowVector4f(0, 0, 0, 1)).cwiseAbs().maxCoeff() > 1e-5f)
+  const float error = (matrix.row(3) - Eigen::RowVector4f(0, 0, 0, 1)).cwiseAbs().maxCoeff();
+  if (error > kLargestRounding)
     refuse(StatusCode::malformed_file, slot,
            "/accessors/%u: inverse bind matrix %u: its last row is not 0 0 0 1", accessor.index,
            slot);
   Affine3f bind;
   bind.matrix() = matrix.topRows<3>();
-  return bind;
+  return {bind, error};
 }
 
 bool is_singular(const Affine3f& bind) {
@@ -40,7 +50,7 @@ std::uint32_t SkinReader::of_skin(std::uint32_t gltf_skin) {
   std::uint32_t& skin = from_gltf_skin_[gltf_skin];
   if (skin == kNone) {
     skin = static_cast<std::uint32_t>(skins_.size());
-    skins_.push_back(read_skin(entry(reading_.json(), "skins", gltf_skin)));
+    skins_.push_back(read_skin(entry(reading_.json(), "skins", gltf_skin), gltf_skin));
   }
   return skin;
 }
@@ -66,7 +76,7 @@ std::uint32_t SkinReader::root_slot(std::uint32_t gltf_skin) const {
   return 0;
 }
 
-Skin SkinReader::read_skin(const Cursor& at) {
+Skin SkinReader::read_skin(const Cursor& at, std::uint32_t gltf_skin) {
   Skin skin;
   skin.name = at.name();
   const Cursor joints = at.member("joints");
@@ -88,13 +98,22 @@ Skin SkinReader::read_skin(const Cursor& at) {
     refuse(StatusCode::size_mismatch, accessor.index, "%s: %u matrices for %zu joints",
            binds->pointer().c_str(), accessor.count, skin.bones.size());
   const std::vector<float> numbers = reading_.accessors.read_floats(accessor);
-  std::uint32_t singular = 0;
+  std::uint32_t singular = 0, rounded = 0;
+  bool differs = false;
   for (std::uint32_t slot = 0; slot < skin.bones.size(); ++slot) {
-    skin.bone_from_bind[slot] = read_bind(accessor, slot, numbers.data() + std::size_t{slot} * 16);
+    const BindMatrix read = read_bind(accessor, slot, numbers.data() + std::size_t{slot} * 16);
+    skin.bone_from_bind[slot] = read.bone_from_bind;
+    differs |= read.last_row_error != 0.0f;
+    if (read.last_row_error > kRounding) ++rounded;
     if (is_singular(skin.bone_from_bind[slot])) ++singular;
   }
   if (singular > 0)
     reading_.notes.inform(at.pointer(), "inverse bind matrices that are not invertible", singular);
+  if (rounded > 0)
+    reading_.notes.repaired(StatusCode::malformed_file, kNone, at.pointer(),
+                            "inverse bind matrices whose last row was not 0 0 0 1 were corrected",
+                            rounded);
+  if (differs) repaired_.push_back({gltf_skin, static_cast<std::uint32_t>(skins_.size())});
   return skin;
 }
 

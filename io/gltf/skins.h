@@ -17,19 +17,24 @@ class SkinReader {
   ///
   /// @return index in the character's skins.
   std::uint32_t of_skin(std::uint32_t gltf_skin);
+  /// Skins of the file whose inverse bind matrices were corrected.
+  [[nodiscard]] const std::vector<SourceDocument::RepairedSkin>& repaired() const {
+    return repaired_;
+  }
   std::uint32_t of_node(std::uint32_t node);
   /// The slot for vertices without influences: the skin's `skeleton` node if that is a joint,
   /// otherwise its first joint.
   [[nodiscard]] std::uint32_t root_slot(std::uint32_t gltf_skin) const;
 
  private:
-  Skin read_skin(const Cursor& at);
+  Skin read_skin(const Cursor& at, std::uint32_t gltf_skin);
 
   Reading& reading_;
   const NodeSkeleton& nodes_;
   std::vector<Skin>& skins_;
   std::vector<std::uint32_t> from_gltf_skin_;
   std::vector<std::uint32_t> from_node_;
+  std::vector<SourceDocument::RepairedSkin> repaired_;
 };
 
 }  // namespace sunder::gltf

@@ -30,17 +30,26 @@ class SourceDocument {
   SourceDocument(const SourceDocument&) = delete;
   SourceDocument& operator=(const SourceDocument&) = delete;
 
+  /// A skin whose inverse bind matrices differ from the file's, so saving must write them.
+  struct RepairedSkin {
+    std::uint32_t gltf_skin = 0;  ///< In /skins.
+    std::uint32_t skin = 0;       ///< In Character::skins.
+  };
+
+  /// As in the file; where the file compresses data, as it would be without compression.
   gltf::Json json;
-  std::vector<std::byte> content;                   ///< The bytes of the file.
-  bool is_glb = false;                              ///< `content` is a GLB, not text.
-  std::vector<std::vector<std::byte>> other_files;  ///< Content of data: URIs and external buffers.
-  /// One per entry of /buffers, in `content` or `other_files`.
+  std::vector<std::byte> content;  ///< The bytes of the file.
+  bool is_glb = false;             ///< `content` is a GLB, not text.
+  std::vector<std::vector<std::byte>>
+      other_files;  ///< Content of data: URIs and external buffers; decoded data.
+  /// One per entry of /buffers, in `content` or `other_files`; empty where nothing refers to it.
   std::vector<std::span<const std::byte>> buffers;
   /// Absolute: the folder to which relative URIs may point. Or empty.
   std::filesystem::path folder;
   std::vector<std::filesystem::path> roots;  ///< LoadOptions::roots.
   std::uint64_t maximum_bytes = 0;  ///< LoadOptions::maximum_bytes, for images embedded on saving.
-  std::vector<MeshOrigin> mesh_origins;     ///< One per mesh of the character.
+  std::vector<MeshOrigin> mesh_origins;  ///< One per mesh of the character.
+  std::vector<RepairedSkin> repaired_skins;
   std::vector<std::uint32_t> node_of_bone;  ///< kNone for bones that loading added.
 };
 

@@ -27,7 +27,7 @@ float srgb(float linear) {
 class StillDocument {
  public:
   StillDocument(const StillScene& scene, const SourceDocument& materials)
-      : scene_(scene), draft_(materials), meshes_(draft_, {}) {}
+      : scene_(scene), draft_(materials), meshes_(draft_) {}
 
   std::vector<std::byte> write() {
     keep_materials();
@@ -68,7 +68,7 @@ class StillDocument {
     still.morph_targets.clear();
     still.custom_attributes.clear();
     still.tangents.clear();
-    const Json attributes = meshes_.add_vertices(still, {}, WeightFormat::float32).attributes;
+    const Json attributes = meshes_.add_vertices(still, {}, {}).attributes;
     Json primitives = Json::array();
     for (std::uint32_t submesh = 0; submesh < still.submeshes.size(); ++submesh) {
       const std::uint32_t indices = meshes_.add_indices(still, submesh);
@@ -108,7 +108,7 @@ class StillDocument {
     for (Vec4f& color : mesh.color_sets[0]) color = color.cwiseProduct(tint.color);
     SourceDocument::MeshOrigin form;
     form.color_components = {tint.is_blended ? 4u : 3u};
-    return meshes_.add_vertices(mesh, form, WeightFormat::float32).attributes;
+    return meshes_.add_vertices(mesh, form, {}).attributes;
   }
 
   std::uint32_t material_of(const Submesh& submesh) {
@@ -148,7 +148,7 @@ class StillDocument {
     mesh.triangle_submesh.assign(mark.triangles.size(), 0);
     mesh.submeshes.resize(1);
     if (!MeshWriter::has_triangles(mesh)) return;
-    const MeshWriter::Vertices vertices = meshes_.add_vertices(mesh, {}, WeightFormat::float32);
+    const MeshWriter::Vertices vertices = meshes_.add_vertices(mesh, {}, {});
     const std::uint32_t indices = meshes_.add_indices(mesh, 0);
     const Json primitive = {{"attributes", vertices.attributes},
                             {"indices", indices},

@@ -1,5 +1,7 @@
 #include "io/gltf/write.h"
 
+#include <sunder/weights/influences.h>
+
 #include <algorithm>
 #include <map>
 #include <set>
@@ -95,7 +97,7 @@ class Patch {
         before_(*loaded.character),
         source_(*loaded.source),
         options_(options),
-        writer_(draft, options),
+        writer_(draft),
         rig_(draft, character, source_, static_cast<std::uint32_t>(before_.skeleton.bones.size())) {
   }
 
@@ -104,10 +106,17 @@ class Patch {
     for (const std::uint32_t mesh : meshes)
       meshes_of_node[source_.mesh_origins[mesh].node].push_back(mesh);
     for (const auto& [node, on_node] : meshes_of_node) patch_node(node, on_node);
+    correct_skins();
     remove_unusable_channels();
   }
 
  private:
+  void correct_skins() {
+    for (const SourceDocument::RepairedSkin& repaired : source_.repaired_skins)
+      draft_.json["skins"][repaired.gltf_skin]["inverseBindMatrices"] =
+          add_bind_matrices(draft_, before_.skins[repaired.skin]);
+  }
+
   void patch_node(std::uint32_t node_index, const std::vector<std::uint32_t>& meshes) {
     if (has_new_skin(meshes.front())) {
       const std::uint32_t skin = rig_.skin(character_.meshes[meshes.front()].skin);
@@ -155,8 +164,8 @@ class Patch {
     origin.skinned |= has_new_skin(mesh_index);
     for (const std::uint32_t primitive : origin.primitives) rewritten[primitive] = nullptr;
     if (!MeshWriter::has_triangles(mesh)) return;
-    const MeshWriter::Vertices vertices =
-        writer_.add_vertices(mesh, origin, weight_format_of(options_, mesh_index));
+    const MeshWriter::Vertices vertices = writer_.add_vertices(
+        mesh, origin, influence_form(options_, mesh_index, &before_.meshes[mesh_index]));
     for (std::uint32_t submesh = 0; submesh < mesh.submeshes.size(); ++submesh) {
       const std::uint32_t indices = writer_.add_indices(mesh, submesh);
       if (indices == kNone) continue;
@@ -257,7 +266,44 @@ Status write(const std::filesystem::path& file, const Character& character,
   return write_atomically(file, draft.finish());
 }
 
+WrittenInfluences written_of(const Mesh& mesh, const Mesh& source, std::uint32_t index,
+                             const SaveOptions& options) {
+  WrittenInfluences written;
+  written.mesh = index;
+  written.maximum = influence_form(options, index, &source).maximum;
+  std::vector<Influence> influences;
+  for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
+    const auto all = mesh.weights.of(v);
+    const auto count = static_cast<std::uint32_t>(all.size());
+    const bool is_pruned = written.maximum != 0 && count > written.maximum;
+    written.most = std::max(written.most, is_pruned ? written.maximum : count);
+    if (!is_pruned) continue;
+    influences.assign(all.begin(), all.end());
+    (void)sort_influences(influences);  // The weights of a valid character are valid.
+    ++written.vertices_pruned;
+    written.dropped_mass_max =
+        std::max(written.dropped_mass_max, dropped_mass(influences, written.maximum));
+  }
+  return written;
+}
+
 }  // namespace
+
+Result<std::vector<WrittenInfluences>> influences_of_written(const Character& character,
+                                                             const LoadedCharacter& loaded,
+                                                             const SaveOptions& options) {
+  return without_exceptions<std::vector<WrittenInfluences>>([&] {
+    check_options(options, character.meshes.size());
+    check_same_character(character, loaded);
+    std::vector<WrittenInfluences> written;
+    for (const std::uint32_t mesh : meshes_to_write(character, loaded)) {
+      const Mesh &after = character.meshes[mesh], &before = loaded.character->meshes[mesh];
+      if (loaded.source->mesh_origins[mesh].skinned || after.skin != before.skin)
+        written.push_back(written_of(after, before, mesh, options));
+    }
+    return written;
+  });
+}
 
 Status write_character(const std::filesystem::path& file, const Character& character,
                        const LoadedCharacter& loaded, const SaveOptions& options) {

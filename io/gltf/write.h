@@ -8,4 +8,8 @@ namespace sunder::gltf {
 [[nodiscard]] Status write_character(const std::filesystem::path& file, const Character& character,
                                      const LoadedCharacter& loaded, const SaveOptions& options);
 
+/// See sunder::written_influences().
+[[nodiscard]] Result<std::vector<WrittenInfluences>> influences_of_written(
+    const Character& character, const LoadedCharacter& loaded, const SaveOptions& options);
+
 }  // namespace sunder::gltf

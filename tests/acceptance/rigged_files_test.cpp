@@ -120,7 +120,7 @@ void tear_and_save(const std::filesystem::path& file, std::uint64_t seed) {
 
     const test::TemporaryFolder folder;
     const auto saved = folder.path() / "torn.glb";
-    const Status status = save_glb(saved, model->character(), *loaded);
+    const Status status = save_glb(saved, model->character(), *loaded, {kAllInfluences});
     ASSERT_TRUE(status) << status.text();
     expect_valid_file(saved, file);
     const auto again = load_character(saved);

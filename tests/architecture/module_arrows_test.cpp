@@ -63,6 +63,7 @@ const std::map<std::string, std::set<std::string>> kThirdParties = {
 
 /// Third parties that a single room may include.
 const std::map<std::string, std::set<std::string>> kThirdPartyOfRoom = {
+    {"io/compression", {"draco", "meshoptimizer.h"}},
     {"io/import_helper", {"seccomp.h"}},
     {"particles/bullet", {"BulletCollision", "BulletDynamics"}},
     {"validation/match", {"unsupported"}},  // the tree of boxes in Eigen's package

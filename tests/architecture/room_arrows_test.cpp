@@ -54,7 +54,8 @@ const std::map<std::string, Rooms> kRooms = {
       {"import_helper", {"assimp", "import_messages", "files"}},
       {"import_messages", {"files"}},
       {"assimp", {"files"}},
-      {"gltf", {"files"}},
+      {"gltf", {"compression", "files"}},
+      {"compression", {}},
       {"operation_log", {}},
       {"files", {}}}},
 };

@@ -18,9 +18,8 @@ namespace {
 
 constexpr std::uint32_t kBones = 20;
 
-/// A strip whose vertices have up to the given number of influences, of twenty bones, some too
-/// small for any integer format.
-Character strip_with_influences(std::uint32_t most) {
+/// The strip with its two influences per vertex, on a skin of twenty bones.
+LoadedCharacter strip_of_many_bones() {
   GltfBuilder builder = skinned_strip();
   Json joints = Json::array();
   for (std::uint32_t i = 0; i < kBones; ++i) {
@@ -31,7 +30,13 @@ Character strip_with_influences(std::uint32_t most) {
   builder.json["skins"][0] = {{"joints", joints}};
   const auto loaded = builder.load();
   EXPECT_TRUE(loaded.has_value()) << loaded.error().text();
-  Character character = *loaded->character;
+  return *loaded;
+}
+
+/// A strip whose vertices have up to the given number of influences, of twenty bones, some too
+/// small for any integer format.
+Character strip_with_influences(std::uint32_t most) {
+  Character character = *strip_of_many_bones().character;
   Random random(most);
   SkinWeights& weights = character.meshes[0].weights;
   weights = {};
@@ -224,6 +229,77 @@ TEST(SaveInfluences, each_mesh_may_have_a_format_of_its_own) {
     const Json& accessor = saved.json["accessors"][attributes["WEIGHTS_0"].get<std::size_t>()];
     EXPECT_EQ(accessor["componentType"], types[mesh]) << mesh;
   }
+}
+
+/// A model that was loaded, and its mesh as it is to be written.
+struct ChangedStrip {
+  LoadedCharacter loaded;
+  Character changed;
+
+  /// With two influences per vertex in the file, and this many now.
+  static ChangedStrip with_more(std::uint32_t most) {
+    return {strip_of_many_bones(), strip_with_influences(most)};
+  }
+  /// With this many in the file, and a triangle less.
+  static ChangedStrip with_many_in_the_file(std::uint32_t most) {
+    const TemporaryFolder folder;
+    EXPECT_TRUE(save_glb(folder.path() / "many.glb", strip_with_influences(most)));
+    ChangedStrip strip{*load_character(folder.path() / "many.glb"), {}};
+    strip.changed = *strip.loaded.character;
+    strip.changed.meshes[0].triangles[0].fill(0);  // retired
+    return strip;
+  }
+
+  [[nodiscard]] std::size_t sets_written(const SaveOptions& options) const {
+    const TemporaryFolder folder;
+    const Status status = save_glb(folder.path() / "a.glb", changed, loaded, options);
+    EXPECT_TRUE(status) << status.text();
+    const Saved saved = read_back(folder.path() / "a.glb");
+    std::size_t sets = 0;
+    while (saved.has("WEIGHTS_" + std::to_string(sets))) ++sets;
+    return sets;
+  }
+};
+
+TEST(SaveInfluences, are_four_where_the_source_has_no_more_unless_asked_otherwise) {
+  const ChangedStrip two_became_eleven = ChangedStrip::with_more(11),
+                     eleven = ChangedStrip::with_many_in_the_file(11);
+  for (const auto& [maximum, of_two, of_eleven] :
+       {std::array<std::uint32_t, 3>{0, 1, 3}, {4, 1, 1}, {8, 2, 2}, {kAllInfluences, 3, 3}}) {
+    EXPECT_EQ(two_became_eleven.sets_written({maximum}), of_two) << maximum;
+    EXPECT_EQ(eleven.sets_written({maximum}), of_eleven) << maximum;
+  }
+}
+
+TEST(SaveInfluences, what_they_lose_is_told_without_writing) {
+  const ChangedStrip file = ChangedStrip::with_more(11);
+  for (const std::uint32_t maximum : {0u, 4u, 8u, kAllInfluences}) {
+    SCOPED_TRACE(maximum);
+    const auto written = written_influences(file.changed, file.loaded, {maximum});
+    ASSERT_TRUE(written.has_value()) << written.error().text();
+    ASSERT_EQ(written->size(), 1u);
+    const std::uint32_t kept = maximum == kAllInfluences ? 11 : maximum == 8 ? 8 : 4;
+    EXPECT_EQ(written->at(0).mesh, 0u);
+    EXPECT_EQ(written->at(0).maximum, maximum == kAllInfluences ? 0 : kept);
+    EXPECT_EQ(written->at(0).most, kept);
+    EXPECT_EQ(written->at(0).vertices_pruned, kept == 11 ? 0 : kStripVertices);
+    double dropped = 0;  // by sorting, for each vertex
+    for (std::uint32_t v = 0; v < kStripVertices; ++v) {
+      const auto all = file.changed.meshes[0].weights.of(v);
+      std::vector<double> weights;
+      for (const Influence& influence : all)
+        weights.push_back(static_cast<double>(influence.weight));
+      std::sort(weights.begin(), weights.end());
+      double sum = 0;
+      for (std::size_t i = 0; i + kept < weights.size(); ++i) sum += weights[i];
+      dropped = std::max(dropped, sum);
+    }
+    EXPECT_NEAR(written->at(0).dropped_mass_max, dropped, 1e-6);
+  }
+  EXPECT_TRUE(written_influences(*file.loaded.character, file.loaded)->empty())
+      << "nothing is written of a model that did not change";
+  EXPECT_EQ(written_influences(file.changed, file.loaded, {5}).error().code(),
+            StatusCode::invalid_argument);
 }
 
 TEST(SaveInfluences, refuses_a_format_that_does_not_exist) {

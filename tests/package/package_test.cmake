@@ -50,7 +50,7 @@ run(${CMAKE_CTEST_COMMAND} --test-dir ${WORK}/find_package -C ${CONFIG} --output
 # dependency on one fails. The whole runtime is configured; the parts that the consumer needs are
 # built.
 set(hidden "")
-foreach(package hwy TBB TinyGLTF assimp nlohmann_json CLI11 GTest benchmark Ceres Bullet)
+foreach(package hwy TBB TinyGLTF assimp draco meshoptimizer nlohmann_json CLI11 GTest benchmark Ceres Bullet)
   list(APPEND hidden -D CMAKE_DISABLE_FIND_PACKAGE_${package}=ON)
 endforeach()
 run(${CMAKE_COMMAND} -S ${consumer} -B ${WORK}/add_subdirectory ${common}

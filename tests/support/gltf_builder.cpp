@@ -38,6 +38,17 @@ GltfBuilder::GltfBuilder() : json({{"asset", {{"version", "2.0"}}}}) {
   json["accessors"] = Json::array();
 }
 
+GltfBuilder GltfBuilder::from_glb(const std::vector<std::byte>& glb) {
+  std::uint32_t length = 0;
+  std::memcpy(&length, glb.data() + 12, sizeof length);
+  GltfBuilder builder;
+  const auto* const text = reinterpret_cast<const char*>(glb.data()) + 20;
+  builder.json = Json::parse(text, text + length);
+  builder.binary_.assign(glb.begin() + 28 + length, glb.end());
+  builder.json.erase("buffers");
+  return builder;
+}
+
 std::size_t GltfBuilder::add_view(const void* data, std::size_t size) {
   binary_.resize((binary_.size() + 3) / 4 * 4);
   json["bufferViews"].push_back(

@@ -19,6 +19,8 @@ using Json = nlohmann::ordered_json;
 class GltfBuilder {
  public:
   GltfBuilder();
+  /// The parts of a GLB with a BIN chunk, and without its buffer's length.
+  static GltfBuilder from_glb(const std::vector<std::byte>& glb);
 
   Json json;
 

@@ -1,6 +1,7 @@
 #include <string>
 
 #include "tools/command_line/options.h"
+#include "tools/written_weights/written_influences.h"
 
 namespace sunder::tools {
 namespace {
@@ -74,6 +75,13 @@ void add_report_options(CLI::App& verb, TearRequest& request) {
       ->excludes(quiet);
 }
 
+/// @param name  a result of influences_name().
+std::uint32_t maximum_influences(const std::string& name) {
+  for (const std::uint32_t maximum : {4u, 8u, kAllInfluences})
+    if (name == influences_name(maximum)) return maximum;
+  return 0;
+}
+
 }  // namespace
 
 CLI::App* add_tear(CLI::App& app, TearRequest& request) {
@@ -89,10 +97,15 @@ CLI::App* add_tear(CLI::App& app, TearRequest& request) {
   add_aimed_operations(*verb);
   verb->add_option("-o,--output", request.output, "File for the torn model, GLB")
       ->type_name("FILE");
-  verb->add_option("--influences", request.save.maximum_influences,
-                   "Influences written per vertex: the 4 or 8 largest, renormalised")
-      ->check(CLI::IsMember({4, 8}))
-      ->default_str("all");
+  verb->add_option_function<std::string>(
+          "--influences",
+          [&request](const std::string& name) {
+            request.save.maximum_influences = maximum_influences(name);
+          },
+          "Influences written per vertex: source (4 where the source has no more, else all), the 4 "
+          "or 8 largest, renormalised, or all")
+      ->check(CLI::IsMember({"source", "4", "8", "all"}))
+      ->default_str("source");
   add_weights_as(*verb, request.save);
   add_weight_policy(*verb, request);
   add_maximum_error(*verb, request.maximum_error);

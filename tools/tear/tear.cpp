@@ -38,12 +38,17 @@ double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
+/// Whether --influences gives a number.
+bool limits_influences(const SaveOptions& save) {
+  return save.maximum_influences != 0 && save.maximum_influences != kAllInfluences;
+}
+
 Result<Weighing> choose_weighing(const TearRequest& request,
                                  const std::shared_ptr<const Character>& character) {
   Weighing weighing;
   if (!request.weights) return weighing;
   weighing.options.policy = *request.weights;
-  if (*request.weights != WeightPolicy::exact)
+  if (*request.weights != WeightPolicy::exact && limits_influences(request.save))
     weighing.options.maximum_influences = request.save.maximum_influences;
   if (*request.weights != WeightPolicy::refit) return weighing;
   if (request.refit_over)
@@ -74,11 +79,17 @@ bool draw_picture(const LoadedCharacter& loaded, const TornModel& model,
   return static_cast<bool>(status);
 }
 
-/// With --max-error, chooses what is written of the torn model's weights.
+/// With --max-error, chooses what is written of the torn model's weights; without it, measures what
+/// writing them drops.
 /// @return ok, or the exit code of the failure, which was reported.
 ExitCode choose_influences(TearRun& run) {
   const std::optional<MaximumError>& wanted = run.request.maximum_error;
-  if (!wanted) return ExitCode::ok;
+  if (!wanted) {
+    const Result<PruningLoss> loss = measure_pruning(run.model, run.loaded, run.request.save);
+    if (!loss) return complain(run.request.model.string(), loss.error(), ExitCode::internal_error);
+    run.pruning = *loss;
+    return ExitCode::ok;
+  }
   Result<CertifiedWeights> certified = certify_weights(run.model.character(), run.loaded, *wanted);
   if (!certified)
     return complain("--max-error, --limits " + wanted->limits, certified.error(), ExitCode::usage);
@@ -95,7 +106,7 @@ void warn_of_options(const TearRequest& request, const Character& source,
   };
   warn_of_name("--output", request.output, "glb");
   warn_of_name("--picture", request.picture, "png");
-  if (request.save.maximum_influences == 0) return;
+  if (!limits_influences(request.save)) return;
   const std::uint32_t most = check_model(source).most_influences;
   if (request.save.maximum_influences > most)
     messages.warn(

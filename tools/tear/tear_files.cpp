@@ -67,7 +67,10 @@ ExitCode write_files(const TearRun& run, const std::string& report) {
   if (const Status status = log_file.status(); !status)
     return complain(request.log->string(), status, ExitCode::unreadable_input);
   SaveOptions save = request.save;
-  if (run.certified) save.weights_of_mesh = run.certified->formats;
+  if (run.certified) {
+    save.maximum_influences = kAllInfluences;
+    save.weights_of_mesh = run.certified->formats;
+  }
   const Character& character = run.certified ? run.certified->character : run.model.character();
   if (const Status status = save_glb(*request.output, character, run.loaded, save); !status)
     return complain(request.output->string(), status, ExitCode::internal_error);

@@ -1,5 +1,6 @@
 #include "tools/tear/tear_report.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "tools/model/model_json.h"
@@ -37,15 +38,25 @@ Result<Json> weight_errors_of(TornModel& model, const std::shared_ptr<const Char
 }
 
 /// How the influences are written, and what that changes.
-Result<Json> influences_written_json(const TearRun& run) {
+Json influences_written_json(const TearRun& run) {
   if (run.certified)
-    return Json{{"maximum", 0},
-                {"format", "certified"},
-                {"certificate", certificate_json(*run.certified, run.model.character(),
-                                                 *run.request.maximum_error)}};
-  const Result<PruningLoss> loss = measure_pruning(run.model, run.request.save.maximum_influences);
-  if (!loss) return loss.error();
-  return to_json(*loss, run.request.save);
+    return {{"maximum", "all"},
+            {"format", "certified"},
+            {"certificate",
+             certificate_json(*run.certified, run.model.character(), *run.request.maximum_error)}};
+  return to_json(run.pruning, run.request.save);
+}
+
+/// Influences of the vertex with the most, of the meshes that are written.
+std::uint32_t most_written(const TearRun& run) {
+  if (!run.certified) return run.pruning.most;
+  std::uint32_t most = 0;
+  for (const CertifiedMesh& chosen : run.certified->meshes) {
+    const SkinWeights& weights = run.certified->character.meshes[chosen.mesh].weights;
+    for (std::uint32_t v = 0; v < weights.vertex_count(); ++v)
+      most = std::max(most, static_cast<std::uint32_t>(weights.of(v).size()));
+  }
+  return most;
 }
 
 }  // namespace
@@ -53,8 +64,6 @@ Result<Json> influences_written_json(const TearRun& run) {
 Result<Json> report_json(TearRun& run) {
   const TearRequest& request = run.request;
   const Json result = result_json(run.model, run.source, run.result);
-  const Result<Json> written = influences_written_json(run);
-  if (!written) return written;
   Json json = {{"sunder_report", 1}, {"model", request.model.string()}};
   json["output"] = request.output ? Json(request.output->string()) : Json();
   json["loading"] = to_json(run.loaded.report);
@@ -65,8 +74,8 @@ Result<Json> report_json(TearRun& run) {
     if (!weight_errors) return weight_errors;
     json["weight_errors"] = std::move(*weight_errors);
   }
-  json["influences_written_max"] = request.save.maximum_influences;
-  json["influences_written"] = *written;
+  json["influences_written_max"] = most_written(run);
+  json["influences_written"] = influences_written_json(run);
   json["result"] = result;
   return json;
 }

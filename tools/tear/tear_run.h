@@ -11,6 +11,7 @@
 #include "tools/tear/report.h"
 #include "tools/verbs.h"
 #include "tools/written_weights/certified_weights.h"
+#include "tools/written_weights/written_influences.h"
 
 namespace sunder::tools {
 
@@ -42,6 +43,7 @@ struct TearRun {
   TopologyCounts source = {}, result = {};
   Json reports = Json::array();
   std::optional<CertifiedWeights> certified = {};  ///< With --max-error.
+  PruningLoss pruning = {};                        ///< Without it.
   RunTotals totals = {};
   RunTimes times = {};
   bool has_findings = false, has_picture = false;

@@ -42,10 +42,15 @@ std::string weights_line(const TearRun& run) {
   if (run.certified)
     return line + printed("; written within %g m of the unpruned skin\n",
                           run.request.maximum_error->metres);
-  line += save.maximum_influences == 0
-              ? std::string("; written with all influences")
-              : printed("; written with %u influences", save.maximum_influences);
-  return line + " as " + weight_format_name(save.weights) + '\n';
+  const PruningLoss& loss = run.pruning;
+  line += printed("; written with at most %u influences as %s", loss.most,
+                  weight_format_name(save.weights));
+  if (loss.vertices_pruned > 0)
+    line += printed(
+        ": %llu vertices lost some, at most %.2g %% of their weight, and move by at most %.2g m",
+        static_cast<unsigned long long>(loss.vertices_pruned), 100 * loss.dropped_mass_max,
+        loss.pruning_error_max);
+  return line + '\n';
 }
 
 std::string file_text(const std::filesystem::path& file) {

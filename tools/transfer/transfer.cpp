@@ -110,6 +110,7 @@ ExitCode write_files(const TransferRequest& request, const LoadedCharacter& targ
       return complain(request.report->string(), report->status(), ExitCode::unreadable_input);
   }
   SaveOptions save = request.save;
+  save.maximum_influences = kAllInfluences;  // The transfer has limited them already.
   if (certified) save.weights_of_mesh = certified->formats;
   const Character& character = certified ? certified->character : result.character;
   if (!request.options.dry_run)

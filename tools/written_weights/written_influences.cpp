@@ -21,8 +21,9 @@ Vec3d morphed_position(const Mesh& mesh, std::uint32_t vertex, const ModelPose& 
   return position;
 }
 
+/// Greatest displacement of the vertices of a mesh that lose influences.
 Status measure_mesh(const Mesh& mesh, const Skin& skin, const std::vector<ModelPose>& poses,
-                    std::uint32_t maximum, PruningLoss& loss) {
+                    std::uint32_t maximum, double& error) {
   std::vector<std::vector<Affine3d>> palettes(poses.size(),
                                               std::vector<Affine3d>(skin.bones.size()));
   for (std::size_t i = 0; i < poses.size(); ++i)
@@ -33,36 +34,64 @@ Status measure_mesh(const Mesh& mesh, const Skin& skin, const std::vector<ModelP
     if (all.size() <= maximum) continue;
     influences.assign(all.begin(), all.end());
     if (!sort_influences(influences)) continue;  // Cannot fail: the model is valid.
-    ++loss.vertices_pruned;
-    loss.dropped_mass_max = std::max(loss.dropped_mass_max, dropped_mass(influences, maximum));
     for (std::size_t i = 0; i < poses.size(); ++i) {
       const Vec3d moved = pruning_displacement(morphed_position(mesh, v, poses[i]), influences,
                                                maximum, palettes[i]);
-      loss.pruning_error_max = std::max(loss.pruning_error_max, moved.norm());
+      error = std::max(error, moved.norm());
     }
   }
   return {};
 }
 
-}  // namespace
-
-Result<PruningLoss> measure_pruning(const TornModel& model, std::uint32_t maximum) {
-  PruningLoss loss;
-  if (maximum == 0) return loss;
+/// The rest pose, those of the operations, and those of the clips that a refit would use.
+Result<std::vector<ModelPose>> poses_to_compare(const TornModel& model,
+                                                const LoadedCharacter& loaded) {
   Result<std::vector<ModelPose>> poses = poses_of_history(model);
-  if (!poses) return poses.error();
+  if (!poses) return poses;
   const Result<ModelPose> rest = make_pose(model.source(), RestPose());
   if (!rest) return rest.error();
   poses->push_back(*rest);
+  if (loaded.character->clips.empty()) return poses;
+  const Result<PoseSet> clips = PoseSet::create(loaded.character, {});
+  if (!clips) return clips.error();
+  for (std::size_t i = 0; i < clips->size(PoseSet::Role::fit); ++i) {
+    poses->emplace_back();
+    if (const Status status = clips->compute(PoseSet::Role::fit, i, poses->back()); !status)
+      return status;
+  }
+  return poses;
+}
+
+}  // namespace
+
+Result<PruningLoss> measure_pruning(const TornModel& model, const LoadedCharacter& loaded,
+                                    const SaveOptions& options) {
   const Character& character = model.character();
-  for (std::size_t i = 0; i < character.meshes.size(); ++i) {
-    const Mesh& mesh = character.meshes[i];
-    if (mesh == model.source().meshes[i]) continue;
-    if (const Status status = measure_mesh(mesh, character.skins[mesh.skin], *poses, maximum, loss);
+  const auto written = written_influences(character, loaded, options);
+  if (!written) return written.error();
+  PruningLoss loss;
+  for (const WrittenInfluences& mesh : *written) {
+    loss.most = std::max(loss.most, mesh.most);
+    loss.vertices_pruned += mesh.vertices_pruned;
+    loss.dropped_mass_max = std::max(loss.dropped_mass_max, mesh.dropped_mass_max);
+  }
+  if (loss.vertices_pruned == 0) return loss;
+  const Result<std::vector<ModelPose>> poses = poses_to_compare(model, loaded);
+  if (!poses) return poses.error();
+  for (const WrittenInfluences& of : *written) {
+    if (of.vertices_pruned == 0) continue;
+    const Mesh& mesh = character.meshes[of.mesh];
+    if (const Status status = measure_mesh(mesh, character.skins[mesh.skin], *poses, of.maximum,
+                                           loss.pruning_error_max);
         !status)
       return status;
   }
   return loss;
+}
+
+std::string influences_name(std::uint32_t maximum) {
+  if (maximum == 0) return "source";
+  return maximum == kAllInfluences ? "all" : std::to_string(maximum);
 }
 
 const char* weight_format_name(WeightFormat format) {
@@ -75,7 +104,7 @@ const char* weight_format_name(WeightFormat format) {
 }
 
 Json to_json(const PruningLoss& loss, const SaveOptions& options) {
-  return {{"maximum", options.maximum_influences},
+  return {{"maximum", influences_name(options.maximum_influences)},
           {"format", weight_format_name(options.weights)},
           {"vertices_pruned", loss.vertices_pruned},
           {"dropped_mass_max", loss.dropped_mass_max},

@@ -5,22 +5,31 @@
 #include <sunder/skinning/pose.h>
 #include <sunder/tear/torn_model.h>
 
+#include <string>
+
 #include "tools/messages/json.h"
 
 namespace sunder::tools {
 
 /// The effect of pruning on the written meshes.
 struct PruningLoss {
+  std::uint32_t most = 0;  ///< Influences of the vertex with the most, as written.
   std::uint64_t vertices_pruned = 0;
   double dropped_mass_max = 0;
-  /// Greatest displacement of a vertex by pruning, at rest and in the poses of the history; metres,
-  /// in closed form.
+  /// Greatest displacement of a vertex by pruning, at rest, in the poses of the history and in
+  /// those of the clips that a refit would use; metres, in closed form.
   double pruning_error_max = 0;
 };
 
-/// @param maximum  as in SaveOptions. O(influences of the torn meshes x poses).
-/// @return the failures of compute_model_pose(), make_pose() and compute_palette().
-[[nodiscard]] Result<PruningLoss> measure_pruning(const TornModel& model, std::uint32_t maximum);
+/// Measures what saving a torn model with these options drops. O(pruned influences x poses).
+/// @return the failures of written_influences(), compute_model_pose(), make_pose() and
+/// compute_palette().
+[[nodiscard]] Result<PruningLoss> measure_pruning(const TornModel& model,
+                                                  const LoadedCharacter& loaded,
+                                                  const SaveOptions& options);
+
+/// SaveOptions::maximum_influences as --influences takes it: "source", "4", "8" or "all".
+[[nodiscard]] std::string influences_name(std::uint32_t maximum);
 
 /// "float", "u16" or "u8", as --weights-as takes it.
 [[nodiscard]] const char* weight_format_name(WeightFormat format);

@@ -107,6 +107,23 @@ struct SaveOptions {
                                          const Character& character, const LoadedCharacter& loaded,
                                          const SaveOptions& options = {});
 
+/// What save_glb() writes of the influences of a mesh.
+struct WrittenInfluences {
+  std::uint32_t mesh = 0;             ///< In Character::meshes.
+  std::uint32_t maximum = 0;          ///< Per vertex, by SaveOptions; 0: all.
+  std::uint32_t most = 0;             ///< Of the vertex with the most, as written.
+  std::uint64_t vertices_pruned = 0;  ///< Vertices that have more than the maximum.
+  /// Largest share of a vertex's weight that is left out, in [0, 1).
+  double dropped_mass_max = 0.0;
+};
+
+/// What save_glb() with the same arguments does to influences: one entry per mesh that it would
+/// write and that has any, ascending. Nothing is written. How far a vertex moves by it in a pose:
+/// pruning_displacement().
+/// @return as save_glb(). O(influences), allocates.
+[[nodiscard]] SUNDER_API Result<std::vector<WrittenInfluences>> written_influences(
+    const Character& character, const LoadedCharacter& loaded, const SaveOptions& options = {});
+
 /// Writes a character that was not loaded from a file: nodes, skins, meshes, clips, and a plain
 /// material per submesh.
 /// @return as above; the first fault if `character` is not valid.
