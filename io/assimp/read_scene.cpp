@@ -21,7 +21,9 @@
 #include <assimp/postprocess.h>
 
 #include "io/assimp/child_process.h"
+#include "io/assimp/face_check.h"
 #include "io/assimp/failure.h"
+#include "io/assimp/importer_log.h"
 
 // Debian builds assimp with assertions, and some valid files violate them. In the child a failed
 // assertion becomes an import error; in the rest of the program, which may use assimp itself, it
@@ -178,10 +180,19 @@ ReadScene read_scene(Assimp::Importer& importer, const fs::path& file, AssetFold
   // Do not create a mesh around the bones of a file without meshes.
   importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
 
-  const aiScene* scene = importer.ReadFile(file.string(), 0);
+  ReadScene result;
+  const aiScene* scene = nullptr;
+  {
+    const ImporterLog log;
+    scene = importer.ReadFile(file.string(), 0);
+    result.messages = log.messages();
+  }
   if (!system->refusal()) throw ImportFailure{system->refusal()};
   if (scene == nullptr || scene->mRootNode == nullptr) fail(importer, file);
-  ReadScene result;
+  // Triangulation would read the vertices. The scene is the importer's, which is not const.
+  result.in_text = read_text_indices(file);
+  result.faces_out_of_range =
+      remove_faces_out_of_range(const_cast<aiScene&>(*scene), result.in_text);
   for (unsigned i = 0; i < scene->mNumMeshes; ++i)
     result.is_de_indexed.push_back(is_de_indexed(*scene->mMeshes[i]));
 

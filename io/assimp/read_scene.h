@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -8,6 +9,7 @@
 #include <assimp/scene.h>
 
 #include "io/assimp/asset_folder.h"
+#include "io/assimp/text_indices.h"
 
 namespace sunder::assimp_import {
 
@@ -20,6 +22,10 @@ struct ReadScene {
   /// vertices in the file, so welding may restore it. In other meshes vertices coincide because the
   /// file says so, like the two lips of a tear, and stay separate.
   std::vector<bool> is_de_indexed;
+  /// One number per mesh: faces that named vertices that do not exist, and were removed.
+  std::vector<std::uint32_t> faces_out_of_range;
+  TextIndices in_text;
+  std::vector<std::string> messages;  ///< As ImporterLog::messages().
 };
 
 /// Reads `file` with the importer for its extension; the content is not inspected, and the only

@@ -147,6 +147,8 @@ class MeshBuilder {
                  const std::string& place, Mesh& mesh, SourceDocument::MeshOrigin& origin) {
     const auto skin_at = node_at.find("skin");
     const auto sets = skin_at ? attributes.read_influences(mesh) : std::vector<InfluenceSet>();
+    const std::uint64_t influences = sets.empty() ? 1 : 4 * sets.size();
+    reading_.accessors.charge(mesh.vertex_count() * (influences * sizeof(Influence) + 4), place);
     if (reading_.keep_stored_influences)
       result_.stored.push_back(stored_influences(sets, mesh.vertex_count(),
                                                  "/meshes/" + std::to_string(origin.mesh) +

@@ -11,6 +11,8 @@ namespace sunder::gltf {
 namespace {
 
 constexpr std::uint64_t kTriangles = 4, kStrip = 5, kFan = 6;
+/// Bytes for a primitive's names and lists, apart from its data.
+constexpr std::uint64_t kPrimitiveMemory = 500;
 
 /// The accessors of a primitive's vertices; equal keys mean equal vertices.
 using VertexKey = std::vector<std::map<std::string, std::uint64_t>>;
@@ -39,6 +41,8 @@ std::vector<std::uint32_t> read_indices(Reading& reading, const Cursor& primitiv
              at->pointer().c_str());
     return reading.accessors.read_unsigned(accessor);
   }
+  reading.accessors.charge(std::uint64_t{vertex_count} * sizeof(std::uint32_t),
+                           primitive.pointer());
   std::vector<std::uint32_t> indices(vertex_count);
   std::iota(indices.begin(), indices.end(), 0u);
   return indices;
@@ -79,6 +83,7 @@ std::vector<PrimitiveGroup> group_primitives(Reading& reading, const Cursor& mes
                             "points and lines are not loaded; they stay in the file");
       continue;
     }
+    reading.accessors.charge(kPrimitiveMemory, primitive.pointer());
     const VertexKey key = vertex_key(primitive);
     if (key.front().count("POSITION") == 0) {
       reading.notes.dropped(StatusCode::malformed_file, i, primitive.pointer(),
@@ -97,9 +102,14 @@ ReadTriangles read_triangles(Reading& reading, const Cursor& primitive,
   const std::uint64_t mode = primitive.unsigned_or("mode", kTriangles);
   const std::vector<std::uint32_t> indices = read_indices(reading, primitive, vertex_count);
   ReadTriangles result;
-  if (mode == kTriangles && indices.size() % 3 != 0)
-    reading.notes.repaired(StatusCode::malformed_file, kNone, primitive.pointer(),
-                           "the last triangle is incomplete and was dropped");
+  if (mode == kTriangles && indices.size() % 3 != 0) {
+    reading.notes.dropped(StatusCode::malformed_file, kNone, primitive.pointer(),
+                          "the last triangle is incomplete");
+    result.repaired = true;
+  }
+  const std::uint64_t most = mode == kTriangles ? indices.size() / 3 : indices.size();
+  reading.accessors.charge(most * (2 * sizeof(Triangle) + sizeof(std::uint32_t)),
+                           primitive.pointer());
   result.triangles = assemble(indices, mode);
   const auto out_of_range = [&](const Triangle& triangle) {
     return std::any_of(triangle.begin(), triangle.end(),

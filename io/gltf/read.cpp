@@ -2,6 +2,7 @@
 
 #include <sunder/core/character.h>
 
+#include <algorithm>
 #include <memory>
 #include <system_error>
 #include <utility>
@@ -9,6 +10,7 @@
 #include "io/gltf/animations.h"
 #include "io/gltf/buffers.h"
 #include "io/gltf/container.h"
+#include "io/gltf/image_notes.h"
 #include "io/gltf/meshes.h"
 #include "io/gltf/refusal.h"
 #include "io/gltf/skeleton.h"
@@ -23,6 +25,21 @@ std::string scene_name(const Json& document) {
   return entry(document, "scenes", chosen ? chosen->to_index(count, "scene") : 0).name();
 }
 
+/// For the decoded data of files of this size; the rest is for the files and what is needed for a
+/// moment.
+std::uint64_t memory_limit(const LoadOptions& options, std::uint64_t file_bytes) {
+  constexpr std::uint64_t kLeast = std::uint64_t{64} << 20, kTimes = 20;
+  if (options.maximum_memory != 0) return options.maximum_memory;
+  const std::uint64_t files = std::min(file_bytes, options.maximum_bytes);
+  return std::max(kLeast, files * kTimes) * 3 / 4;
+}
+
+std::uint64_t bytes_of_files(const SourceDocument& document) {
+  std::uint64_t bytes = document.content.size();
+  for (const auto& file : document.other_files) bytes += file.size();
+  return bytes;
+}
+
 LoadedCharacter read(std::span<const std::byte> content, const std::filesystem::path& folder,
                      const LoadOptions& options) {
   if (content.size() > options.maximum_bytes)
@@ -35,8 +52,9 @@ LoadedCharacter read(std::span<const std::byte> content, const std::filesystem::
   if (!folder.empty()) document->folder = std::filesystem::absolute(folder);
   const Container container = split_container(document->content);
   document->is_glb = container.is_glb;
-  document->json = parse_document(container.json);
+  document->json = parse_document(container.json, memory_limit(options, content.size()));
   resolve_buffers(*document, container);
+  document->maximum_memory = memory_limit(options, bytes_of_files(*document));
 
   LoadedCharacter loaded;
   loaded.report.format = container.is_glb ? "glTF 2.0 binary" : "glTF 2.0 text";
@@ -49,6 +67,7 @@ LoadedCharacter read(std::span<const std::byte> content, const std::filesystem::
   ReadMeshes meshes = read_meshes(reading, nodes, *character);
   if (character->meshes.empty())
     refuse(StatusCode::empty_input, kNone, "the scene has no triangles");
+  note_images(reading);
   character->clips = read_animations(reading, nodes, meshes.morphs_of_node);
   document->node_of_bone.assign(nodes.skeleton.bones.size(), kNone);
   for (std::uint32_t node = 0; node < nodes.bone_from_node.size(); ++node)

@@ -33,25 +33,26 @@ Json bone_node(const Bone& bone) {
   return node;
 }
 
-std::uint32_t add_skin(GlbDraft& draft, const Skin& skin,
-                       std::span<const std::uint32_t> node_of_bone) {
+std::uint32_t add_binds(GlbDraft& draft, const Skin& skin) {
   std::vector<float> matrices;
-  Json joints = Json::array();
-  for (std::size_t slot = 0; slot < skin.bones.size(); ++slot) {
-    const Eigen::Matrix4f full =
-        Eigen::Transform<float, 3, Eigen::Affine>(skin.bone_from_bind[slot]).matrix();
+  for (const Affine3f& bind : skin.bone_from_bind) {
+    const Eigen::Matrix4f full = Eigen::Transform<float, 3, Eigen::Affine>(bind).matrix();
     matrices.insert(matrices.end(), full.data(), full.data() + 16);
-    joints.push_back(node_of_bone[skin.bones[slot]]);
   }
   const std::uint32_t view =
       draft.add_view(std::as_bytes(std::span<const float>(matrices)), GlbDraft::ViewTarget::none);
-  const std::uint32_t accessor =
-      append(draft.json, "accessors",
-             {{"bufferView", view},
-              {"componentType", static_cast<std::uint32_t>(ComponentType::f32)},
-              {"count", skin.bones.size()},
-              {"type", "MAT4"}});
-  Json gltf_skin = {{"inverseBindMatrices", accessor}, {"joints", std::move(joints)}};
+  return append(draft.json, "accessors",
+                {{"bufferView", view},
+                 {"componentType", static_cast<std::uint32_t>(ComponentType::f32)},
+                 {"count", skin.bones.size()},
+                 {"type", "MAT4"}});
+}
+
+std::uint32_t add_skin(GlbDraft& draft, const Skin& skin,
+                       std::span<const std::uint32_t> node_of_bone) {
+  Json joints = Json::array();
+  for (const std::uint32_t bone : skin.bones) joints.push_back(node_of_bone[bone]);
+  Json gltf_skin = {{"inverseBindMatrices", add_binds(draft, skin)}, {"joints", std::move(joints)}};
   if (!skin.name.empty()) gltf_skin["name"] = skin.name;
   return append(draft.json, "skins", std::move(gltf_skin));
 }

@@ -12,6 +12,9 @@ namespace sunder::gltf {
 /// A bone as a node: name and rest transform, no children.
 [[nodiscard]] Json bone_node(const Bone& bone);
 
+/// Appends the inverse bind matrices of a skin. @return their accessor.
+[[nodiscard]] std::uint32_t add_binds(GlbDraft& draft, const Skin& skin);
+
 /// Appends a skin with its inverse bind matrices. @return its index in /skins.
 /// @param node_of_bone  per bone of the skeleton.
 std::uint32_t add_skin(GlbDraft& draft, const Skin& skin,

@@ -1,0 +1,145 @@
+#include "io/assimp/text_indices.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <utility>
+
+namespace sunder::assimp_import {
+namespace {
+
+class Lines {
+ public:
+  explicit Lines(const std::filesystem::path& file) : stream_(file, std::ios::binary) {}
+
+  /// The next line that is not blank.
+  bool next(std::string& line) {
+    while (std::getline(stream_, line)) {
+      std::replace(line.begin(), line.end(), '\r', ' ');
+      if (line.find_first_not_of(" \t") != std::string::npos) return true;
+    }
+    return false;
+  }
+
+ private:
+  std::ifstream stream_;
+};
+
+/// The whole numbers at the beginning of a text, at most 16.
+std::vector<long long> numbers_of(const std::string& text) {
+  std::vector<long long> numbers;
+  for (const char* at = text.c_str(); numbers.size() < 16;) {
+    char* end = nullptr;
+    const long long number = std::strtoll(at, &end, 10);
+    if (end == at) break;
+    numbers.push_back(number);
+    at = end;
+  }
+  return numbers;
+}
+
+/// Numbers of vertices and faces; fewer if the header has none.
+std::vector<long long> off_counts(Lines& lines) {
+  std::vector<long long> counts;
+  for (std::string line; counts.size() < 2 && lines.next(line);) {
+    line.resize(std::min(line.size(), line.find('#')));
+    if (const std::size_t name = line.find("OFF"); name != std::string::npos)
+      line.erase(0, name + 3);
+    for (const long long number : numbers_of(line)) counts.push_back(number);
+  }
+  return counts;
+}
+
+TextIndices read_off(Lines lines) {
+  TextIndices found{{{}}, 0, 0};
+  const std::vector<long long> counts = off_counts(lines);
+  if (counts.size() < 2) return found;
+  std::string line;
+  for (long long vertex = 0; vertex < counts[0]; ++vertex)
+    if (!lines.next(line)) return found;
+  std::uint32_t ordinal = 0;
+  for (long long face = 0; face < counts[1] && lines.next(line); ++face) {
+    const std::vector<long long> numbers = numbers_of(line);
+    const long long corners = numbers.empty() ? 0 : numbers[0];
+    if (corners < 1 || corners > 9) continue;  // assimp leaves it out.
+    for (std::size_t i = 1; i < numbers.size() && i <= static_cast<std::size_t>(corners); ++i)
+      if (numbers[i] < 0 || numbers[i] >= counts[0]) found.faces[0].insert(ordinal);
+    ++ordinal;
+  }
+  return found;
+}
+
+/// Whether an index of an OBJ file, from 1 on or from -1 backwards, names one of the entries so
+/// far.
+bool exists(long long index, long long count) {
+  return index > 0 ? index <= count : index < 0 && -index <= count;
+}
+
+TextIndices read_obj(Lines lines) {
+  TextIndices found;
+  long long normals = 0, coordinates = 0;
+  for (std::string line; lines.next(line);) {
+    std::istringstream words(line);
+    std::string word;
+    words >> word;
+    normals += word == "vn";
+    coordinates += word == "vt";
+    if (word != "f") continue;
+    while (words >> word) {
+      const std::size_t first = word.find('/');
+      if (first == std::string::npos) continue;
+      const std::size_t second = word.find('/', first + 1);
+      const std::string middle = word.substr(first + 1, second - first - 1);
+      if (!middle.empty() && !exists(std::atoll(middle.c_str()), coordinates)) ++found.coordinates;
+      if (second != std::string::npos && second + 1 < word.size() &&
+          !exists(std::atoll(word.c_str() + second + 1), normals))
+        ++found.normals;
+    }
+  }
+  return found;
+}
+
+TextIndices read_md5(Lines lines) {
+  struct Mesh {
+    long long vertices = 0;
+    bool has_triangles = false;
+    std::set<std::uint32_t> faces;
+  };
+  std::vector<Mesh> meshes;
+  for (std::string line; lines.next(line);) {
+    std::istringstream words(line);
+    std::string word;
+    words >> word;
+    if (word == "mesh") meshes.emplace_back();
+    if (meshes.empty()) continue;
+    Mesh& mesh = meshes.back();
+    if (word == "numverts") words >> mesh.vertices;
+    if (word != "tri") continue;
+    mesh.has_triangles = true;
+    std::uint32_t face = 0;
+    words >> face;
+    for (long long index = 0; words >> index;)
+      if (index < 0 || index >= mesh.vertices) mesh.faces.insert(face);
+  }
+  TextIndices found;
+  for (Mesh& mesh : meshes)  // assimp makes no mesh of the others.
+    if (mesh.vertices > 0 && mesh.has_triangles) found.faces.push_back(std::move(mesh.faces));
+  return found;
+}
+
+}  // namespace
+
+TextIndices read_text_indices(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (extension == ".off") return read_off(Lines(file));
+  if (extension == ".obj") return read_obj(Lines(file));
+  if (extension == ".md5mesh") return read_md5(Lines(file));
+  return {};
+}
+
+}  // namespace sunder::assimp_import
