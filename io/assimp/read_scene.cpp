@@ -181,6 +181,11 @@ ReadScene read_scene(Assimp::Importer& importer, const fs::path& file, AssetFold
   importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
 
   ReadScene result;
+  result.in_text = read_text_indices(file);
+  if (result.in_text.is_dangerous)
+    throw ImportFailure{Status::failure(StatusCode::index_out_of_range, kNone,
+                                        "%s: %u corners refer to normals that do not exist",
+                                        file.filename().c_str(), result.in_text.normals)};
   const aiScene* scene = nullptr;
   {
     const ImporterLog log;
@@ -190,7 +195,6 @@ ReadScene read_scene(Assimp::Importer& importer, const fs::path& file, AssetFold
   if (!system->refusal()) throw ImportFailure{system->refusal()};
   if (scene == nullptr || scene->mRootNode == nullptr) fail(importer, file);
   // Triangulation would read the vertices. The scene is the importer's, which is not const.
-  result.in_text = read_text_indices(file);
   result.faces_out_of_range =
       remove_faces_out_of_range(const_cast<aiScene&>(*scene), result.in_text);
   for (unsigned i = 0; i < scene->mNumMeshes; ++i)

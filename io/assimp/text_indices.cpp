@@ -4,8 +4,10 @@
 #include <cctype>
 #include <cstdlib>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace sunder::assimp_import {
@@ -54,7 +56,8 @@ std::vector<long long> off_counts(Lines& lines) {
 }
 
 TextIndices read_off(Lines lines) {
-  TextIndices found{{{}}, 0, 0};
+  TextIndices found;
+  found.faces.resize(1);
   const std::vector<long long> counts = off_counts(lines);
   if (counts.size() < 2) return found;
   std::string line;
@@ -130,6 +133,51 @@ TextIndices read_md5(Lines lines) {
   return found;
 }
 
+/// The numbers of a text from a place on, whatever separates them.
+class Numbers {
+ public:
+  Numbers(const std::string& text, std::size_t at) : at_(text.c_str() + at) {}
+
+  /// Zero at the end of the text, or of its numbers.
+  double next() {
+    while (*at_ == ';' || *at_ == ',' || std::isspace(static_cast<unsigned char>(*at_)) != 0) ++at_;
+    char* end = nullptr;
+    const double number = std::strtod(at_, &end);
+    has_ended_ |= end == at_;
+    at_ = end;
+    return has_ended_ ? 0.0 : number;
+  }
+  [[nodiscard]] bool has_ended() const { return has_ended_; }
+
+ private:
+  const char* at_;
+  bool has_ended_ = false;
+};
+
+/// MeshNormals { number of normals; normals; number of faces; corners; indices … }
+TextIndices read_x(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  TextIndices found;
+  if (text.compare(0, 4, "xof ") != 0 || text.compare(8, 3, "txt") != 0) return found;
+  constexpr std::string_view kName = "MeshNormals";
+  for (std::size_t at = text.find(kName); at != std::string::npos; at = text.find(kName, at + 1)) {
+    const std::size_t begin = text.find('{', at);
+    if (begin == std::string::npos) break;
+    Numbers numbers(text, begin + 1);
+    const double normals = numbers.next();
+    for (double i = 0; i < 3 * normals && !numbers.has_ended(); ++i) numbers.next();
+    const double faces = numbers.next();
+    for (double face = 0; face < faces && !numbers.has_ended(); ++face)
+      for (double corners = numbers.next(); corners > 0 && !numbers.has_ended(); --corners)
+        if (const double index = numbers.next();
+            !numbers.has_ended() && (index < 0 || index >= normals))
+          ++found.normals;
+  }
+  found.is_dangerous = found.normals > 0;
+  return found;
+}
+
 }  // namespace
 
 TextIndices read_text_indices(const std::filesystem::path& file) {
@@ -139,6 +187,7 @@ TextIndices read_text_indices(const std::filesystem::path& file) {
   if (extension == ".off") return read_off(Lines(file));
   if (extension == ".obj") return read_obj(Lines(file));
   if (extension == ".md5mesh") return read_md5(Lines(file));
+  if (extension == ".x") return read_x(file);
   return {};
 }
 

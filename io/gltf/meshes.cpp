@@ -109,7 +109,8 @@ class MeshBuilder {
         node, mesh_index, group.primitives, attributes.color_components(), false, false};
     origin.repaired = read_faces(primitives, group, mesh);
     origin.repaired |= attributes.repaired();
-    if (mesh.triangles.empty()) {
+    // Triangles of one vertex cannot be told from removed ones, which are not written.
+    if (std::all_of(mesh.triangles.begin(), mesh.triangles.end(), is_retired)) {
       reading_.notes.dropped(StatusCode::empty_input, kNone, place, "the mesh has no triangle");
       return;
     }

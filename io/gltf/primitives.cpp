@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
+#include <string_view>
 #include <utility>
 
 #include "io/gltf/refusal.h"
@@ -17,12 +18,21 @@ constexpr std::uint64_t kPrimitiveMemory = 500;
 /// The accessors of a primitive's vertices; equal keys mean equal vertices.
 using VertexKey = std::vector<std::map<std::string, std::uint64_t>>;
 
+/// Other attributes are not allowed, and ignored.
+bool is_attribute(std::string_view name) {
+  if (name.starts_with('_') || name == "POSITION" || name == "NORMAL" || name == "TANGENT")
+    return true;
+  return name.starts_with("TEXCOORD_") || name.starts_with("COLOR_") ||
+         name.starts_with("JOINTS_") || name.starts_with("WEIGHTS_");
+}
+
 VertexKey vertex_key(const Cursor& primitive) {
   const auto accessors_of = [](const Cursor& attributes) {
     std::map<std::string, std::uint64_t> accessors;
     for (const auto& item : attributes.json().items())
-      accessors[item.key()] =
-          Cursor(item.value(), attributes.pointer() + "/" + item.key()).to_unsigned();
+      if (is_attribute(item.key()))
+        accessors[item.key()] =
+            Cursor(item.value(), attributes.pointer() + "/" + item.key()).to_unsigned();
     return accessors;
   };
   VertexKey key = {accessors_of(primitive.member("attributes"))};

@@ -1,6 +1,9 @@
 #include "io/gltf/repair_meshes.h"
 
+#include <sunder/core/index.h>
+
 #include <algorithm>
+#include <map>
 #include <string>
 #include <utility>
 
@@ -8,6 +11,11 @@
 
 namespace sunder::gltf {
 namespace {
+
+/// A pixel whose normal is that of the surface.
+constexpr const char* kFlatNormals =
+    "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR42mNo"
+    "aPgPAAODAgA+WCglAAAAAElFTkSuQmCC";
 
 class MeshRepair {
  public:
@@ -18,26 +26,30 @@ class MeshRepair {
     for (std::size_t i = 0; i < count; ++i) {
       remove_null_primitives(i);
       unify_targets(i);
-      for (Json& primitive : document_["meshes"][i]["primitives"])
-        add_texture_coordinates(primitive);
+      for (const Json& primitive : mesh_at(i)["primitives"]) add_normal_map(primitive);
+      add_texture_coordinates(mesh_at(i)["primitives"]);
     }
   }
 
  private:
   Json& mesh_at(std::size_t index) { return document_["meshes"][index]; }
 
-  /// Zeros, which take no space in the file.
+  /// Zeros, which take no space in the file; primitives of the same vertices share them.
   std::size_t add_zeros(const Json& primitive, const char* type, std::size_t components) {
     const Json& attributes = primitive["attributes"];
-    const Json count =
+    const std::size_t count =
         attributes.contains("POSITION")
             ? document_["accessors"][attributes["POSITION"].get<std::size_t>()]["count"]
-            : Json(1);
+                  .get<std::size_t>()
+            : 1;
+    const auto [known, is_new] = zeros_.try_emplace({count, components}, 0);
+    if (!is_new) return known->second;
     Json accessor = {{"componentType", 5126}, {"count", count}, {"type", type}};
-    if (components == 3) accessor["min"] = accessor["max"] = {0.0, 0.0, 0.0};
+    for (const char* const bound : {"min", "max"})
+      if (components == 3) accessor[bound] = {0.0, 0.0, 0.0};
     Json& accessors = list_of(document_, "accessors");
     accessors.push_back(std::move(accessor));
-    return accessors.size() - 1;
+    return known->second = accessors.size() - 1;
   }
 
   void remove_null_primitives(std::size_t index) {
@@ -108,20 +120,53 @@ class MeshRepair {
     return std::max(needed, set + 1);
   }
 
-  /// A set that the file lacks is zero in every viewer.
-  void add_texture_coordinates(Json& primitive) {
-    if (!primitive.contains("material")) return;
-    const Json& material = document_["materials"][primitive["material"].get<std::size_t>()];
-    const std::size_t needed = needed_sets(material);
-    for (std::size_t set = 0; set < needed; ++set) {
-      const std::string semantic = "TEXCOORD_" + std::to_string(set);
-      if (primitive["attributes"].contains(semantic)) continue;
-      const std::size_t zeros = add_zeros(primitive, "VEC2", 2);
-      primitive["attributes"][semantic] = zeros;
+  /// A set that the file lacks is zero in every viewer. Primitives of the same vertices get the
+  /// same sets, so that they keep sharing them.
+  void add_texture_coordinates(Json& primitives) {
+    std::map<std::string, std::size_t> needed_by_attributes;
+    for (const Json& primitive : primitives) {
+      if (!primitive.contains("material")) continue;
+      const Json& material = document_["materials"][primitive["material"].get<std::size_t>()];
+      std::size_t& needed = needed_by_attributes[primitive["attributes"].dump()];
+      needed = std::max(needed, needed_sets(material));
+    }
+    for (Json& primitive : primitives) {
+      const std::size_t needed = needed_by_attributes[primitive["attributes"].dump()];
+      for (std::size_t set = 0; set < needed; ++set) {
+        const std::string semantic = "TEXCOORD_" + std::to_string(set);
+        if (primitive["attributes"].contains(semantic)) continue;
+        const std::size_t zeros = add_zeros(primitive, "VEC2", 2);
+        primitive["attributes"][semantic] = zeros;
+      }
     }
   }
 
+  /// A material whose coat or anisotropy has a direction needs tangents, which viewers derive from
+  /// the coordinates of a normal map; a flat one changes nothing else.
+  void add_normal_map(const Json& primitive) {
+    if (!primitive.contains("material") || primitive["attributes"].contains("TANGENT")) return;
+    Json& material = document_["materials"][primitive["material"].get<std::size_t>()];
+    if (material.contains("normalTexture") || !material.contains("extensions")) return;
+    const Json& extensions = material["extensions"];
+    const auto has = [&](const char* extension, const char* texture) {
+      return extensions.contains(extension) && extensions[extension].contains(texture);
+    };
+    const bool needs_tangents = has("KHR_materials_clearcoat", "clearcoatNormalTexture") ||
+                                extensions.contains("KHR_materials_anisotropy");
+    if (!needs_tangents) return;
+    if (flat_normals_ == kNone) {
+      Json& images = list_of(document_, "images");
+      images.push_back({{"uri", kFlatNormals}});
+      Json& textures = list_of(document_, "textures");
+      textures.push_back({{"source", images.size() - 1}});
+      flat_normals_ = static_cast<std::uint32_t>(textures.size() - 1);
+    }
+    material["normalTexture"] = {{"index", flat_normals_}};
+  }
+
   Json& document_;
+  std::map<std::pair<std::size_t, std::size_t>, std::size_t> zeros_;  ///< By count, components.
+  std::uint32_t flat_normals_ = kNone;                                ///< In /textures.
 };
 
 }  // namespace

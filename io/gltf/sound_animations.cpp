@@ -59,8 +59,9 @@ bool is_channel_sound(const Json& channel, const Json& animation, const Json& do
   if (sampler_index >= samplers.size()) return false;
   const Json& target = channel["target"];
   const auto node_at = target.find("node");
-  if (node_at == target.end()) return true;
-  const Json& node = document["nodes"][node_at->get<std::size_t>()];
+  const bool has_node = node_at != target.end();  // Without one, the channel is ignored.
+  const Json node =
+      has_node ? document["nodes"][node_at->get<std::size_t>()] : Json(Json::object());
   const auto& path = target["path"].get_ref<const std::string&>();
   const Json& sampler = samplers[sampler_index];
   const auto input = accessors.open(sampler["input"]), output = accessors.open(sampler["output"]);
@@ -70,8 +71,8 @@ bool is_channel_sound(const Json& channel, const Json& animation, const Json& do
   std::size_t expected = std::size_t{input->count} * (is_spline ? 3 : 1);
   if (path == "weights") {
     const std::size_t targets = target_count(node, document);
-    if (targets == 0 || type != "SCALAR" || !is_share) return false;
-    return output->count == expected * targets;
+    if (type != "SCALAR" || !is_share) return false;
+    return !has_node || (targets > 0 && output->count == expected * targets);
   }
   if (node.contains("matrix") || output->count != expected) return false;
   if (path != "rotation") return type == "VEC3" && !output->is_integer();

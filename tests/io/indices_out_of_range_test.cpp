@@ -42,7 +42,7 @@ void expect_face_dropped(const char* name, const std::string& content) {
 void expect_told_or_refused(const char* name, const std::string& content) {
   SCOPED_TRACE(name);
   const auto loaded = load(name, content);
-  EXPECT_TRUE(!loaded || has_loss(loaded->report)) << "accepted silently";
+  EXPECT_TRUE(!loaded || has_loss(loaded->report)) << "accepted silently:\n" << content;
   EXPECT_FALSE(load(name, content, strict()));
 }
 
