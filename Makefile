@@ -1,6 +1,6 @@
 # Shortcuts: each target installs missing packages, configures, builds and runs, using the CMake presets.
 .DEFAULT_GOAL := help
-.PHONY: help demo unit test bench stress format
+.PHONY: help demo unit test bench stress fuzz format
 jobs := $(shell nproc)
 
 help:
@@ -9,6 +9,7 @@ help:
 	@echo 'make test     builds everything and runs all tests'
 	@echo 'make bench    runs the benchmarks'
 	@echo 'make stress   all tests with many more random cases, then again under the sanitizers'
+	@echo 'make fuzz     runs each fuzz target by libFuzzer for FUZZ_SECONDS (300); needs clang'
 	@echo 'make format   clang-format over all our C++'
 
 demo:
@@ -43,6 +44,17 @@ stress:
 	cmake --preset asan
 	cmake --build --preset asan
 	ctest --preset asan -j $(jobs)
+
+fuzz_seconds := $(or $(FUZZ_SECONDS),300)
+fuzzers = $(patsubst tests/fuzz/%_fuzzer.cpp,%,$(wildcard tests/fuzz/*_fuzzer.cpp))
+fuzz:
+	scripts/setup fuzz
+	cmake --preset fuzz
+	cmake --build --preset fuzz --target $(addsuffix _fuzzer,$(fuzzers))
+	mkdir -p build/fuzz/found
+	set -e; for name in $(fuzzers); do mkdir -p build/fuzz/corpus/$$name; \
+	  build/fuzz/tests/fuzz/$${name}_fuzzer -max_total_time=$(fuzz_seconds) -timeout=5 -rss_limit_mb=2048 \
+	    -artifact_prefix=build/fuzz/found/$${name}_ build/fuzz/corpus/$$name tests/fuzz/corpus/$$name; done
 
 sources := core operation skinning weights tear particles scene io tools samples tests bench include
 format:

@@ -23,6 +23,7 @@ struct InfoRequest {
   bool as_json = false;
   bool with_bones = false;    ///< The bones with their places and surfaces.
   std::string pose = "rest";  ///< As parse_pose().
+  bool strict = false;  ///< Refuses models that loading would repair.
 };
 [[nodiscard]] ExitCode run_info(const InfoRequest& request);
 
@@ -52,6 +53,7 @@ struct TearRequest {
   Verbosity verbosity = Verbosity::normal;
   std::optional<std::filesystem::path> log;  ///< Output file for the log of the applied operations.
   std::optional<std::filesystem::path> picture;  ///< Output file for a picture.
+  bool strict = false;  ///< Refuses models that loading would repair.
 };
 [[nodiscard]] ExitCode run_tear(const TearRequest& request);
 
@@ -60,6 +62,7 @@ struct ViewRequest {
   std::filesystem::path model, output;
   std::optional<std::filesystem::path> torn, operations;
   bool has_images = true;  ///< Whether the images of base colours are embedded.
+  bool strict = false;  ///< Refuses models that loading would repair.
 };
 [[nodiscard]] ExitCode run_view(const ViewRequest& request);
 
@@ -72,6 +75,7 @@ struct PictureRequest {
   PictureSize size;
   bool with_axes = false, with_grid = false, with_bones = false;
   std::optional<std::filesystem::path> operations;  ///< Drawn on the model, not applied.
+  bool strict = false;  ///< Refuses models that loading would repair.
 };
 [[nodiscard]] ExitCode run_picture(const PictureRequest& request);
 
@@ -94,6 +98,7 @@ struct TransferRequest {
       vertices;                     ///< JSON: {"mesh": [vertex, …]}; others are locked.
   std::optional<std::string> lock;  ///< Attribute of the target's vertices.
   std::optional<std::filesystem::path> report;
+  bool strict = false;  ///< Refuses models that loading would repair.
 };
 [[nodiscard]] ExitCode run_transfer(const TransferRequest& request);
 
@@ -107,6 +112,7 @@ struct ValidateRequest {
   std::optional<std::filesystem::path> manifest;  ///< Many pairs instead of source and target.
   unsigned jobs = 1;                              ///< Pairs of a manifest at a time.
   bool as_json_lines = false;                     ///< Progress and results on stdout.
+  bool strict = false;  ///< Refuses models that loading would repair.
 };
 [[nodiscard]] ExitCode run_validate(const ValidateRequest& request);
 

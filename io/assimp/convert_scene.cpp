@@ -8,6 +8,7 @@
 #include "io/assimp/convert_animations.h"
 #include "io/assimp/convert_meshes.h"
 #include "io/assimp/failure.h"
+#include "io/assimp/importer_log.h"
 #include "io/assimp/model_space.h"
 #include "io/assimp/read_scene.h"
 
@@ -17,6 +18,20 @@ namespace {
 std::string format_name(const Format& format) {
   return std::string(format.name) + " by assimp " + std::to_string(aiGetVersionMajor()) + "." +
          std::to_string(aiGetVersionMinor()) + "." + std::to_string(aiGetVersionPatch());
+}
+
+void note_losses_of_importer(const ReadScene& read, Notes& notes) {
+  for (unsigned mesh = 0; mesh < read.scene->mNumMeshes; ++mesh)
+    notes.dropped(StatusCode::index_out_of_range,
+                  "mesh " + std::to_string(mesh) + " '" +
+                      valid_utf8(to_string(read.scene->mMeshes[mesh]->mName)) + "'",
+                  "faces that refer to vertices that do not exist", read.faces_out_of_range[mesh]);
+  notes.dropped(StatusCode::index_out_of_range, "file",
+                "corners that refer to normals that do not exist", read.in_text.normals);
+  notes.dropped(StatusCode::index_out_of_range, "file",
+                "corners that refer to texture coordinates that do not exist",
+                read.in_text.coordinates);
+  add_notes(read.messages, notes);
 }
 
 }  // namespace
@@ -31,6 +46,7 @@ ImportedGlb read_and_convert(const ModelFile& model, AssetFiles& assets,
   const aiScene& scene = *read.scene;
 
   Notes notes;
+  note_losses_of_importer(read, notes);
   const ModelSpace space = model_space_of(scene, extension, notes);
   ImportedGlb result;
   result.report.format = format_name(*format);

@@ -32,7 +32,7 @@ Vec3d direction_of(const aiVector3D& v) {
 }
 
 void read_triangles(const aiMesh& mesh, MeshPart& part, Notes& notes) {
-  std::uint32_t skipped = 0;
+  std::uint32_t skipped = 0, out_of_range = 0;
   part.triangles.reserve(mesh.mNumFaces);
   for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
     const aiFace& face = mesh.mFaces[f];
@@ -40,17 +40,17 @@ void read_triangles(const aiMesh& mesh, MeshPart& part, Notes& notes) {
       ++skipped;
       continue;
     }
-    for (unsigned k = 0; k < 3; ++k) {
-      if (face.mIndices[k] >= mesh.mNumVertices)
-        throw ImportFailure{Status::failure(StatusCode::index_out_of_range, f,
-                                            "%s: face %u: vertex %u does not exist; there are %u",
-                                            part.place.c_str(), f, face.mIndices[k],
-                                            mesh.mNumVertices)};
+    if (std::any_of(face.mIndices, face.mIndices + 3,
+                    [&](unsigned index) { return index >= mesh.mNumVertices; })) {
+      ++out_of_range;
+      continue;
     }
     part.triangles.push_back({face.mIndices[0], face.mIndices[1], face.mIndices[2]});
   }
   notes.dropped(StatusCode::unsupported_feature, part.place, "points, lines and collapsed polygons",
                 skipped);
+  notes.dropped(StatusCode::index_out_of_range, part.place,
+                "faces that refer to vertices that do not exist", out_of_range);
 }
 
 void read_positions(const aiMesh& mesh, MeshPart& part) {

@@ -41,8 +41,8 @@ struct MeshPart {
 };
 
 /// Triangles and attributes of a mesh, without weights. If there are no triangles, there is nothing
-/// to convert. Throws ImportFailure if a position is not finite or a face names a vertex that does
-/// not exist.
+/// to convert. Faces that name a vertex that does not exist are dropped. Throws ImportFailure if a
+/// position is not finite.
 [[nodiscard]] MeshPart read_part(const aiMesh& mesh, const std::string& place, Notes& notes);
 
 }  // namespace sunder::assimp_import

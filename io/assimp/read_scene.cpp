@@ -12,7 +12,9 @@
 #include <assimp/postprocess.h>
 
 #include "io/assimp/check_text.h"
+#include "io/assimp/face_check.h"
 #include "io/assimp/failure.h"
+#include "io/assimp/importer_log.h"
 
 namespace sunder::assimp_import {
 namespace {
@@ -41,17 +43,30 @@ bool keep_importer_of(const Format& format, Assimp::Importer& importer) {
   return importer.GetImporterCount() > 0;
 }
 
-/// Refuses what assimp cannot read in reasonable time.
-void check_content(const ModelFile& model, const Format& format) {
-  std::string content(1024, '\0');
-  content.resize(read_at(model.file.descriptor, content.data(), content.size(), 0));
-  if (const Status status = check_start(format, content, model.name); !status)
+std::string beginning_of(const ModelFile& model, std::size_t bytes) {
+  std::string text(bytes, '\0');
+  text.resize(read_at(model.file.descriptor, text.data(), text.size(), 0));
+  return text;
+}
+
+/// Refuses what assimp cannot read in reasonable time, or would read beyond its arrays.
+/// @return what the file refers to without having it.
+TextIndices check_content(const ModelFile& model, const Format& format) {
+  const std::string start = beginning_of(model, 1024);
+  if (const Status status = check_start(format, start, model.name); !status)
     throw ImportFailure{status};
-  if (!has_text_check(format, content)) return;
-  content.resize(model.file.bytes);
-  content.resize(read_at(model.file.descriptor, content.data(), content.size(), 0));
-  if (const Status status = check_text(format, content, model.name); !status)
-    throw ImportFailure{status};
+  const bool has_check = has_text_check(format, start);
+  if (!has_check && !has_text_indices(format)) return {};
+  const std::string content = beginning_of(model, model.file.bytes);
+  if (has_check)
+    if (const Status status = check_text(format, content, model.name); !status)
+      throw ImportFailure{status};
+  TextIndices indices = read_text_indices(format, content);
+  if (indices.is_dangerous)
+    throw ImportFailure{Status::failure(StatusCode::index_out_of_range, kNone,
+                                        "%.100s: %u corners refer to normals that do not exist",
+                                        model.name.c_str(), indices.normals)};
+  return indices;
 }
 
 void check_polygons(const aiScene& scene, const ModelFile& model) {
@@ -103,7 +118,8 @@ bool is_de_indexed(const aiMesh& mesh) {
 
 ReadScene read_scene(Assimp::Importer& importer, const ModelFile& model, const Format& format,
                      AssetFiles& assets) {
-  check_content(model, format);
+  ReadScene result;
+  result.in_text = check_content(model, format);
   if (!keep_importer_of(format, importer))
     throw ImportFailure{Status::failure(StatusCode::unsupported_format, kNone,
                                         "%.100s: this assimp has no importer for it",
@@ -116,11 +132,18 @@ ReadScene read_scene(Assimp::Importer& importer, const ModelFile& model, const F
   // Do not create a mesh around the bones of a file without meshes.
   importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
 
-  const aiScene* scene = importer.ReadFile(name_for_assimp(model), 0);
+  const aiScene* scene = nullptr;
+  {
+    const ImporterLog log;
+    scene = importer.ReadFile(name_for_assimp(model), 0);
+    result.messages = log.messages();
+  }
   if (!system->refusal()) throw ImportFailure{system->refusal()};
   if (scene == nullptr || scene->mRootNode == nullptr) fail(importer, model);
+  // Triangulation would read the vertices. The scene is the importer's, which is not const.
+  result.faces_out_of_range =
+      remove_faces_out_of_range(const_cast<aiScene&>(*scene), result.in_text);
   check_polygons(*scene, model);
-  ReadScene result;
   for (unsigned i = 0; i < scene->mNumMeshes; ++i)
     result.is_de_indexed.push_back(is_de_indexed(*scene->mMeshes[i]));
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <string>
 #include <vector>
 
 #include <assimp/Importer.hpp>
@@ -7,6 +9,7 @@
 
 #include "io/assimp/asset_io_system.h"
 #include "io/assimp/formats.h"
+#include "io/assimp/text_indices.h"
 
 namespace sunder::assimp_import {
 
@@ -16,6 +19,10 @@ struct ReadScene {
   /// vertices in the file, so welding may restore it. In other meshes vertices coincide because the
   /// file says so, like the two lips of a tear, and stay separate.
   std::vector<bool> is_de_indexed;
+  /// One number per mesh: faces that named vertices that do not exist, and were removed.
+  std::vector<std::uint32_t> faces_out_of_range;
+  TextIndices in_text;
+  std::vector<std::string> messages;  ///< As ImporterLog::messages().
 };
 
 /// Reads `model` with the importer of its format; the content does not choose it, and the only

@@ -86,6 +86,13 @@ T load(const std::byte* from) {  // Files need not be aligned.
   return value;
 }
 
+std::uint32_t sparse_index_at(const Accessor& accessor, std::size_t i) {
+  const std::size_t size = size_of(accessor.sparse_index_type);
+  const std::byte* const at = accessor.sparse_indices + i * size;
+  if (size == 1) return load<std::uint8_t>(at);
+  return size == 2 ? load<std::uint16_t>(at) : load<std::uint32_t>(at);
+}
+
 /// Decodes the elements that are not sparse. Numbers without gaps are one array.
 template <class T, class Out, class Convert>
 void decode_dense(const Accessor& accessor, std::span<Out> out, const Convert& convert) {
@@ -115,12 +122,8 @@ void decode_elements(const Accessor& accessor, std::span<Out> out, const Convert
       out[to * components + c] = convert(load<T>(from + c * sizeof(T)));
   };
   decode_dense<T>(accessor, out, convert);
-  const std::size_t index_size = size_of(accessor.sparse_index_type);
   for (std::size_t i = 0; i < accessor.sparse_count; ++i) {
-    const std::byte* at = accessor.sparse_indices + i * index_size;
-    const std::uint32_t index = index_size == 1   ? load<std::uint8_t>(at)
-                                : index_size == 2 ? load<std::uint16_t>(at)
-                                                  : load<std::uint32_t>(at);
+    const std::uint32_t index = sparse_index_at(accessor, i);
     if (index >= accessor.count)
       refuse(StatusCode::index_out_of_range, index,
              "/accessors/%u/sparse: index %u; the accessor has %u elements", accessor.index, index,
@@ -166,9 +169,12 @@ void open_sparse(const SourceDocument& document, const Cursor& sparse, Accessor&
 }  // namespace
 
 AccessorReader::AccessorReader(const SourceDocument& document)
-    : document_(document), bytes_left_(document.maximum_bytes) {
+    : document_(document), bytes_left_(std::min(document.maximum_bytes, document.maximum_memory)) {
   file_bytes_ = document.content.size();
   for (const auto& file : document.other_files) file_bytes_ += file.size();
+  // A draft has its bytes in its buffers alone.
+  if (!document.buffers.empty())
+    file_bytes_ = std::max<std::uint64_t>(file_bytes_, document.buffers[0].size());
 }
 
 Accessor AccessorReader::open(const Cursor& reference) {
@@ -222,11 +228,16 @@ Accessor AccessorReader::open_new(std::uint32_t index) const {
 }
 
 void AccessorReader::charge(const Accessor& accessor) {
-  const std::uint64_t bytes = std::uint64_t{accessor.count} * accessor.components * sizeof(float);
+  charge(std::uint64_t{accessor.count} * accessor.components * sizeof(float), place(accessor));
+}
+
+void AccessorReader::charge(std::uint64_t bytes, const std::string& place) {
   if (bytes > bytes_left_)
-    refuse(StatusCode::limit_exceeded, accessor.index,
-           "%s: decoded, the file's arrays exceed %llu bytes (LoadOptions::maximum_bytes)",
-           place(accessor).c_str(), static_cast<Place>(document_.maximum_bytes));
+    refuse(StatusCode::limit_exceeded, kNone,
+           "%.80s: in memory, the model exceeds %llu bytes (LoadOptions::maximum_memory and "
+           "maximum_bytes)",
+           place.c_str(),
+           static_cast<Place>(std::min(document_.maximum_bytes, document_.maximum_memory)));
   bytes_left_ -= bytes;
 }
 
@@ -239,6 +250,10 @@ void AccessorReader::read_floats(const Accessor& accessor, std::span<float> out)
     case ComponentType::u32: return decode_floats<std::uint32_t>(accessor, out);
     case ComponentType::f32: return decode_floats<float>(accessor, out);
   }
+}
+
+std::uint32_t AccessorReader::sparse_index(const Accessor& accessor, std::uint32_t i) {
+  return sparse_index_at(accessor, i);
 }
 
 std::vector<float> AccessorReader::read_floats(const Accessor& accessor) {

@@ -36,8 +36,9 @@ struct Accessor {
   [[nodiscard]] bool is_integer() const { return component_type != ComponentType::f32; }
 };
 
-/// Opens and decodes accessors. The bytes of all decoded arrays share one limit, so that a small
-/// file with a million instances ends with limit_exceeded instead of exhausting the memory.
+/// Opens and decodes accessors. The bytes of all decoded arrays, and of what is made of them, share
+/// one limit, so that a small file with a million instances ends with limit_exceeded instead of
+/// exhausting the memory.
 class AccessorReader {
  public:
   explicit AccessorReader(const SourceDocument& document);
@@ -51,6 +52,10 @@ class AccessorReader {
   /// Unsigned integers without conversion; refuses other component types.
   [[nodiscard]] std::vector<std::uint32_t> read_unsigned(const Accessor& accessor);
 
+  /// Subtracts from the limit what reading another part of the file will take.
+  /// @param place  names that part in the refusal.
+  void charge(std::uint64_t bytes, const std::string& place);
+
   /// Elements that are vectors of two to four floats.
   template <class Vector>
   [[nodiscard]] std::vector<Vector> read_vectors(const Accessor& accessor) {
@@ -59,6 +64,9 @@ class AccessorReader {
     read_floats(accessor, {vectors.data()->data(), vectors.size() * Vector::RowsAtCompileTime});
     return vectors;
   }
+
+  /// Position `i` of those that a sparse accessor replaces; not checked. `i` < sparse_count.
+  [[nodiscard]] static std::uint32_t sparse_index(const Accessor& accessor, std::uint32_t i);
 
   [[nodiscard]] std::string place(const Accessor& accessor) const {
     return "/accessors/" + std::to_string(accessor.index);

@@ -15,6 +15,7 @@ namespace {
 /// a channel, not the model.
 struct Unusable {
   std::string reason;
+  bool is_fault = true;  ///< false: glTF allows it and says that it is to be ignored.
 };
 
 class AnimationReader {
@@ -37,8 +38,11 @@ class AnimationReader {
         clip.duration = std::max(clip.duration, channel.times.back());
         clip.channels.push_back(std::move(channel));
       } catch (const Unusable& unusable) {
-        reading_.notes.dropped(StatusCode::malformed_file, i, place,
-                               "channel " + std::to_string(i) + ": " + unusable.reason);
+        const std::string text = "channel " + std::to_string(i) + ": " + unusable.reason;
+        if (unusable.is_fault)
+          reading_.notes.dropped(StatusCode::malformed_file, i, place, text);
+        else
+          reading_.notes.inform(place, text);
       }
     }
     return clip;
@@ -62,7 +66,7 @@ class AnimationReader {
   void read_target(const Cursor& target, Channel& channel) const {
     const std::string& path = target.member("path").to_string();
     const auto node_at = target.find("node");
-    if (!node_at) throw Unusable{"its target has no node"};
+    if (!node_at) throw Unusable{"its target has no node", false};
     if (!node_at->json().is_number() || node_at->to_unsigned() >= nodes_.bone_from_node.size())
       throw Unusable{"its node does not exist"};
     const auto node = static_cast<std::uint32_t>(node_at->to_unsigned());

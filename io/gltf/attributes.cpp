@@ -186,8 +186,22 @@ void AttributeReader::read_color_sets(Mesh& mesh) {
         colors.emplace_back(rgb.x(), rgb.y(), rgb.z(), 1.0f);
     }
     zero_non_finite(mesh.color_sets.back(), "colours");
+    clamp_colors(mesh.color_sets.back());
   }
   note_sets_beyond("COLOR_", mesh.color_sets.size());
+}
+
+void AttributeReader::clamp_colors(std::vector<Vec4f>& colors) {
+  std::uint32_t clamped = 0;
+  for (Vec4f& color : colors) {
+    const Vec4f inside = color.cwiseMax(0.0f).cwiseMin(1.0f);
+    clamped += inside != color;
+    color = inside;
+  }
+  if (clamped == 0) return;
+  repaired_ = true;
+  reading_.notes.repaired(StatusCode::malformed_file, kNone, place_,
+                          "colours were outside 0 to 1 and were clamped", clamped);
 }
 
 void AttributeReader::note_sets_beyond(const char* prefix, std::size_t used) {

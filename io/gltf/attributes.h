@@ -37,6 +37,7 @@ class AttributeReader {
   void read_tear_side_feature(Mesh& mesh, const Cursor& at);
   void read_custom(Mesh& mesh, const std::string& name, const Cursor& at);
   std::vector<Vec3f> read_deltas(const Cursor& target, const char* name, const Mesh& mesh);
+  void clamp_colors(std::vector<Vec4f>& colors);
   void note_sets_beyond(const char* prefix, std::size_t used);
   template <class Vector>
   void zero_non_finite(std::vector<Vector>& values, const char* what);

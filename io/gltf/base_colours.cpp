@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "io/gltf/buffers.h"
-#include "io/gltf/glb.h"
+#include "io/gltf/image_header.h"
 #include "io/gltf/refusal.h"
 #include "io/gltf/source_document.h"
 #include "io/gltf/uris.h"

@@ -62,7 +62,11 @@ Container split_glb(std::span<const std::byte> content) {
   return container;
 }
 
-void check_nesting(std::string_view text) {
+// Bytes that a value and an object or array take when they are parsed, lists growing by doubling.
+constexpr std::uint64_t kValueMemory = 32, kContainerMemory = 80;
+
+void check_nesting(std::string_view text, std::uint64_t maximum_memory) {
+  std::uint64_t memory = text.size();
   std::vector<std::size_t>
       members;  // One entry per open array or object. Arrays are counted too, but not limited.
   std::vector<bool> is_object;
@@ -76,6 +80,11 @@ void check_nesting(std::string_view text) {
         in_string = false;
       continue;
     }
+    memory += c == ',' ? kValueMemory : c == '{' || c == '[' ? kContainerMemory : 0;
+    if (memory > maximum_memory)
+      refuse(StatusCode::limit_exceeded, kNone,
+             "JSON: parsed, it exceeds %llu bytes (LoadOptions::maximum_memory)",
+             static_cast<unsigned long long>(maximum_memory));
     if (c == '"') {
       in_string = true;
     } else if (c == '{' || c == '[') {
@@ -137,10 +146,10 @@ void check_required_extensions(const Cursor& document) {
   }
 }
 
-Json parse_json(std::string_view text) {
-  if (auto document = parse_json_fast(text, {kMaximumNesting, kMaximumMembers}))
+Json parse_json(std::string_view text, std::uint64_t maximum_memory) {
+  if (auto document = parse_json_fast(text, {kMaximumNesting, kMaximumMembers, maximum_memory}))
     return *std::move(document);
-  check_nesting(text);
+  check_nesting(text, maximum_memory);
   try {
     return Json::parse(text.begin(), text.end());
   } catch (const nlohmann::json::exception& error) {
@@ -166,8 +175,26 @@ Container split_container(std::span<const std::byte> content) {
   return {false, text, {}};
 }
 
-Json parse_document(std::string_view text) {
-  Json document = parse_json(text);
+bool is_container_sound(std::span<const std::byte> glb) {
+  if (read_u32(glb, 8) != glb.size() || glb.size() % 4 != 0) return false;
+  std::size_t offset = kHeaderBytes, chunk = 0;
+  for (; offset < glb.size(); ++chunk) {
+    if (glb.size() - offset < kChunkHeaderBytes) return false;
+    const std::size_t length = read_u32(glb, offset);
+    const std::uint32_t type = read_u32(glb, offset + 4);
+    const bool is_expected = chunk == 0   ? type == kJsonChunk
+                             : chunk == 1 ? type == kBinaryChunk || type != kJsonChunk
+                                          : type != kJsonChunk && type != kBinaryChunk;
+    offset += kChunkHeaderBytes;
+    if (!is_expected || length == 0 || length % 4 != 0 || length > glb.size() - offset)
+      return false;
+    offset += length;
+  }
+  return chunk > 0 && std::to_integer<char>(glb[kHeaderBytes + kChunkHeaderBytes]) == '{';
+}
+
+Json parse_document(std::string_view text, std::uint64_t maximum_memory) {
+  Json document = parse_json(text, maximum_memory);
   const Cursor root(document, "");
   check_version(root);
   check_required_extensions(root);

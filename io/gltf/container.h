@@ -22,7 +22,13 @@ struct Container {
 /// Finds the JSON and the BIN chunk. Every declared length is checked against the content.
 [[nodiscard]] Container split_container(std::span<const std::byte> content);
 
-/// Parses the JSON after checking its nesting; then checks its version and required extensions.
-[[nodiscard]] Json parse_document(std::string_view text);
+/// Whether a GLB that split_container() accepted follows every rule of its format: exact and
+/// aligned lengths, one chunk of JSON and at most one of binary data.
+[[nodiscard]] bool is_container_sound(std::span<const std::byte> glb);
+
+/// Parses the JSON after checking its nesting and its size in memory; then checks its version and
+/// required extensions.
+/// @param maximum_memory  for the parsed document, bytes.
+[[nodiscard]] Json parse_document(std::string_view text, std::uint64_t maximum_memory);
 
 }  // namespace sunder::gltf

@@ -5,6 +5,7 @@
 #include <limits>
 #include <string_view>
 
+#include "io/gltf/image_header.h"
 #include "io/gltf/refusal.h"
 #include "io/gltf/uris.h"
 
@@ -26,16 +27,6 @@ void append_u32(std::vector<std::byte>& bytes, std::size_t value) {
 }
 
 }  // namespace
-
-const char* image_type(std::span<const std::byte> bytes) {
-  const std::string_view text{reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-  if (text.substr(0, 8) == "\x89PNG\r\n\x1A\n") return "image/png";
-  if (text.substr(0, 3) == "\xFF\xD8\xFF") return "image/jpeg";
-  if (text.substr(0, 4) == "RIFF" && text.size() >= 12 && text.substr(8, 4) == "WEBP")
-    return "image/webp";
-  if (text.substr(0, 7) == "\xABKTX 20") return "image/ktx2";
-  return nullptr;
-}
 
 GlbDraft::GlbDraft(const SourceDocument& source) : json(source.json), source_(source) {
   merge_buffers();
@@ -100,7 +91,7 @@ void GlbDraft::embed_image(Json& image, std::uint64_t& bytes_left) {
     return;  // The reference stays as in the source.
   }
   const char* const type = image_type(bytes);
-  if (type == nullptr) return;
+  if (type == nullptr || !is_image_header_sound(bytes)) return;
   bytes_left -= bytes.size();
   image.erase("uri");
   image["mimeType"] = type;

@@ -11,9 +11,6 @@ namespace sunder::gltf {
 /// A list of a JSON object; added if it is absent.
 Json& list_of(Json& object, const char* name);
 
-/// The media type of image bytes, if glTF or one of its extensions supports it; otherwise null.
-[[nodiscard]] const char* image_type(std::span<const std::byte> bytes);
-
 /// A document that will be written as GLB: its JSON, and one BIN chunk that only grows, so existing
 /// indices stay valid.
 class GlbDraft {
@@ -33,6 +30,9 @@ class GlbDraft {
   /// Embeds the images of the source's folder. Images that cannot be read, or whose kind glTF does
   /// not support, keep their URI.
   void embed_images();
+
+  /// The bytes of the BIN chunk so far.
+  [[nodiscard]] std::span<const std::byte> bytes() const { return binary_; }
 
   /// The finished file.
   [[nodiscard]] std::vector<std::byte> finish();

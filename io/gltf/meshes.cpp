@@ -121,7 +121,8 @@ class MeshBuilder {
         node, mesh_index, group.primitives, attributes.color_components(), false, false};
     origin.repaired = read_faces(primitives, group, mesh);
     origin.repaired |= attributes.repaired();
-    if (mesh.triangles.empty()) {
+    // Triangles of one vertex cannot be told from removed ones, which are not written.
+    if (std::all_of(mesh.triangles.begin(), mesh.triangles.end(), is_retired)) {
       reading_.notes.dropped(StatusCode::empty_input, kNone, place, "the mesh has no triangle");
       return;
     }
@@ -162,6 +163,8 @@ class MeshBuilder {
                  const std::string& place, Mesh& mesh, SourceDocument::MeshOrigin& origin) {
     const auto skin_at = node_at.find("skin");
     const auto sets = skin_at ? attributes.read_influences(mesh) : std::vector<InfluenceSet>();
+    const std::uint64_t influences = sets.empty() ? 1 : 4 * sets.size();
+    reading_.accessors.charge(mesh.vertex_count() * (influences * sizeof(Influence) + 4), place);
     if (reading_.keep_stored_influences)
       result_.stored.push_back(stored_influences(sets, mesh.vertex_count(),
                                                  "/meshes/" + std::to_string(origin.mesh) +

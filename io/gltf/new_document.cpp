@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <map>
 #include <string>
 #include <utility>
 
 #include "io/files/write_atomically.h"
-#include "io/gltf/accessors.h"
+#include "io/gltf/clip_writer.h"
 #include "io/gltf/glb.h"
 #include "io/gltf/mesh_writer.h"
 #include "io/gltf/refusal.h"
@@ -156,21 +155,6 @@ class NewDocument {
          {"doubleSided", true}});
   }
 
-  Index add_floats(std::span<const float> values, const char* type, std::size_t components,
-                   bool with_bounds = false) {
-    Json accessor = {
-        {"bufferView", draft_.add_view(std::as_bytes(values), GlbDraft::ViewTarget::none)},
-        {"componentType", static_cast<Index>(ComponentType::f32)},
-        {"count", values.size() / components},
-        {"type", type}};
-    if (with_bounds) {
-      const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
-      accessor["min"] = numbers({&*least, 1});
-      accessor["max"] = numbers({&*greatest, 1});
-    }
-    return append(draft_.json, "accessors", std::move(accessor));
-  }
-
   // ---- Clips
 
   struct GltfTarget {
@@ -188,15 +172,14 @@ class NewDocument {
         for (const auto& [mesh, node] : node_of_mesh_) {
           const std::vector<float> values = weights_of_mesh(channel, character_.meshes[mesh]);
           if (!values.empty())
-            add_channel(animation, channel_of, {node, "weights"}, channel, values, "SCALAR", 1);
+            add_channel(animation, channel_of, {node, "weights"}, channel, values, 1);
         }
       } else if (channel.target == ChannelTarget::rotation) {
         add_channel(animation, channel_of, {channel.index, "rotation"}, channel,
-                    unit_rotations(channel), "VEC4", 4);
+                    unit_rotations(channel), 4);
       } else {
         const char* const path = channel.target == ChannelTarget::scale ? "scale" : "translation";
-        add_channel(animation, channel_of, {channel.index, path}, channel, channel.values, "VEC3",
-                    3);
+        add_channel(animation, channel_of, {channel.index, path}, channel, channel.values, 3);
       }
     }
     if (!animation["channels"].empty()) append(draft_.json, "animations", std::move(animation));
@@ -204,13 +187,8 @@ class NewDocument {
 
   void add_channel(Json& animation, std::map<std::pair<Index, std::string>, Index>& channel_of,
                    const GltfTarget& target, const Channel& channel, std::span<const float> values,
-                   const char* type, std::size_t components) {
-    constexpr std::array<const char*, 3> kInterpolations = {"LINEAR", "STEP", "CUBICSPLINE"};
-    Json sampler = {
-        {"input", add_floats(channel.times, "SCALAR", 1, true)},
-        {"interpolation", kInterpolations[static_cast<std::size_t>(channel.interpolation)]},
-        {"output", add_floats(values, type, components)}};
-    animation["samplers"].push_back(std::move(sampler));
+                   std::uint32_t components) {
+    animation["samplers"].push_back(add_sampler(draft_, channel, values, components));
     Json entry = {{"sampler", animation["samplers"].size() - 1},
                   {"target", {{"node", target.node}, {"path", target.path}}}};
     // Of several channels with the same target the last one applies, as in a pose; glTF allows only
@@ -241,18 +219,6 @@ class NewDocument {
         values.push_back(driven ? channel.values[row * channel.width + i - channel.index]
                                 : otherwise);
       }
-    }
-    return values;
-  }
-
-  /// glTF requires keys of unit length; a pose would normalise them anyway. Tangents stay.
-  static std::vector<float> unit_rotations(const Channel& channel) {
-    std::vector<float> values = channel.values;
-    const bool is_spline = channel.interpolation == Interpolation::cubic_spline;
-    for (std::size_t row = 0; 4 * row < values.size(); ++row) {
-      if (is_spline && row % 3 != 1) continue;
-      Eigen::Map<Eigen::Vector4f> key(values.data() + 4 * row);
-      if (std::abs(key.squaredNorm() - 1.0f) > 1e-6f && key.squaredNorm() > 0.0f) key.normalize();
     }
     return values;
   }

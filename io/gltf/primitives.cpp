@@ -4,6 +4,7 @@
 #include <cstring>
 #include <map>
 #include <numeric>
+#include <string_view>
 #include <utility>
 
 #include "io/gltf/refusal.h"
@@ -12,16 +13,27 @@ namespace sunder::gltf {
 namespace {
 
 constexpr std::uint64_t kTriangles = 4, kStrip = 5, kFan = 6;
+/// Bytes for a primitive's names and lists, apart from its data.
+constexpr std::uint64_t kPrimitiveMemory = 500;
 
 /// The accessors of a primitive's vertices; equal keys mean equal vertices.
 using VertexKey = std::vector<std::map<std::string, std::uint64_t>>;
+
+/// Other attributes are not allowed, and ignored.
+bool is_attribute(std::string_view name) {
+  if (name.starts_with('_') || name == "POSITION" || name == "NORMAL" || name == "TANGENT")
+    return true;
+  return name.starts_with("TEXCOORD_") || name.starts_with("COLOR_") ||
+         name.starts_with("JOINTS_") || name.starts_with("WEIGHTS_");
+}
 
 VertexKey vertex_key(const Cursor& primitive) {
   const auto accessors_of = [](const Cursor& attributes) {
     std::map<std::string, std::uint64_t> accessors;
     for (const auto& item : attributes.json().items())
-      accessors[item.key()] =
-          Cursor(item.value(), attributes.pointer() + "/" + item.key()).to_unsigned();
+      if (is_attribute(item.key()))
+        accessors[item.key()] =
+            Cursor(item.value(), attributes.pointer() + "/" + item.key()).to_unsigned();
     return accessors;
   };
   VertexKey key = {accessors_of(primitive.member("attributes"))};
@@ -40,6 +52,8 @@ std::vector<std::uint32_t> read_indices(Reading& reading, const Cursor& primitiv
              at->pointer().c_str());
     return reading.accessors.read_unsigned(accessor);
   }
+  reading.accessors.charge(std::uint64_t{vertex_count} * sizeof(std::uint32_t),
+                           primitive.pointer());
   std::vector<std::uint32_t> indices(vertex_count);
   std::iota(indices.begin(), indices.end(), 0u);
   return indices;
@@ -80,6 +94,7 @@ std::vector<PrimitiveGroup> group_primitives(Reading& reading, const Cursor& mes
                             "points and lines are not loaded; they stay in the file");
       continue;
     }
+    reading.accessors.charge(kPrimitiveMemory, primitive.pointer());
     const VertexKey key = vertex_key(primitive);
     if (key.front().count("POSITION") == 0) {
       reading.notes.dropped(StatusCode::malformed_file, i, primitive.pointer(),
@@ -98,9 +113,14 @@ ReadTriangles read_triangles(Reading& reading, const Cursor& primitive,
   const std::uint64_t mode = primitive.unsigned_or("mode", kTriangles);
   const std::vector<std::uint32_t> indices = read_indices(reading, primitive, vertex_count);
   ReadTriangles result;
-  if (mode == kTriangles && indices.size() % 3 != 0)
-    reading.notes.repaired(StatusCode::malformed_file, kNone, primitive.pointer(),
-                           "the last triangle is incomplete and was dropped");
+  if (mode == kTriangles && indices.size() % 3 != 0) {
+    reading.notes.dropped(StatusCode::malformed_file, kNone, primitive.pointer(),
+                          "the last triangle is incomplete");
+    result.repaired = true;
+  }
+  const std::uint64_t most = mode == kTriangles ? indices.size() / 3 : indices.size();
+  reading.accessors.charge(most * (2 * sizeof(Triangle) + sizeof(std::uint32_t)),
+                           primitive.pointer());
   result.triangles = assemble(indices, mode);
   const auto out_of_range = [&](const Triangle& triangle) {
     return std::any_of(triangle.begin(), triangle.end(),

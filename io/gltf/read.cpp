@@ -2,6 +2,7 @@
 
 #include <sunder/core/character.h>
 
+#include <algorithm>
 #include <memory>
 #include <system_error>
 #include <utility>
@@ -13,6 +14,7 @@
 #include "io/gltf/container.h"
 #include "io/gltf/decoded_data.h"
 #include "io/gltf/draco_primitives.h"
+#include "io/gltf/image_notes.h"
 #include "io/gltf/meshes.h"
 #include "io/gltf/meshopt_views.h"
 #include "io/gltf/refusal.h"
@@ -45,6 +47,21 @@ void resolve_data(SourceDocument& document, const Container& container, Notes& n
   decode_draco_primitives(document, decoded, notes);
 }
 
+/// For the decoded data of files of this size; the rest is for the files and what is needed for a
+/// moment.
+std::uint64_t memory_limit(const LoadOptions& options, std::uint64_t file_bytes) {
+  constexpr std::uint64_t kLeast = std::uint64_t{64} << 20, kTimes = 20;
+  if (options.maximum_memory != 0) return options.maximum_memory;
+  const std::uint64_t files = std::min(file_bytes, options.maximum_bytes);
+  return std::max(kLeast, files * kTimes) * 3 / 4;
+}
+
+std::uint64_t bytes_of_files(const SourceDocument& document) {
+  std::uint64_t bytes = document.content.size();
+  for (const auto& file : document.other_files) bytes += file.size();
+  return bytes;
+}
+
 LoadedCharacter read(std::vector<std::byte> content, const std::filesystem::path& folder,
                      const LoadOptions& options) {
   if (content.size() > options.maximum_bytes)
@@ -58,13 +75,14 @@ LoadedCharacter read(std::vector<std::byte> content, const std::filesystem::path
   for (const auto& root : options.roots) document->roots.push_back(std::filesystem::absolute(root));
   const Container container = split_container(document->content);
   document->is_glb = container.is_glb;
-  document->json = parse_document(container.json);
+  document->json = parse_document(container.json, memory_limit(options, content.size()));
 
   LoadedCharacter loaded;
   loaded.report.format = container.is_glb ? "glTF 2.0 binary" : "glTF 2.0 text";
   loaded.report.space = "metres, y up; the file's scene space";
   Notes notes(loaded.report, options.strict);
   resolve_data(*document, container, notes);
+  document->maximum_memory = memory_limit(options, bytes_of_files(*document));
   Reading reading{*document, AccessorReader(*document), notes, options.keep_stored_influences};
   const auto character = std::make_shared<Character>();
   character->name = scene_name(document->json);
@@ -73,6 +91,7 @@ LoadedCharacter read(std::vector<std::byte> content, const std::filesystem::path
   ReadMeshes meshes = read_meshes(reading, nodes, *character);
   if (character->meshes.empty())
     refuse(StatusCode::empty_input, kNone, "the scene has no triangles");
+  note_images(reading);
   character->clips = read_animations(reading, nodes, meshes.morphs_of_node);
   document->node_of_bone.assign(nodes.skeleton.bones.size(), kNone);
   for (std::uint32_t node = 0; node < nodes.bone_from_node.size(); ++node)

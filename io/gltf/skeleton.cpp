@@ -134,6 +134,9 @@ std::vector<std::uint32_t> outside_joints(Reading& reading,
 }  // namespace
 
 NodeSkeleton read_skeleton(Reading& reading) {
+  // A node as JSON takes at least three bytes, as a bone with its name and place some hundreds.
+  constexpr std::uint64_t kNodeMemory = 400;
+  reading.accessors.charge(count_of(reading.json(), "nodes") * kNodeMemory, "/nodes");
   const NodeTree tree = read_node_tree(reading.json());
   NodeSkeleton result;
   std::vector<bool> visited(tree.parent.size());

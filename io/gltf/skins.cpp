@@ -83,6 +83,8 @@ Skin SkinReader::read_skin(const Cursor& at, std::uint32_t gltf_skin) {
   if (joints.size() == 0)
     refuse(StatusCode::malformed_file, kNone, "%s: the skin has no joints",
            joints.pointer().c_str());
+  reading_.accessors.charge(joints.size() * (sizeof(std::uint32_t) + sizeof(Affine3f)),
+                            joints.pointer());
   for (std::size_t i = 0; i < joints.size(); ++i)
     skin.bones.push_back(
         nodes_.bone_from_node[joints.element(i).to_index(nodes_.bone_from_node.size(), "node")]);

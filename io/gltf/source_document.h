@@ -47,7 +47,8 @@ class SourceDocument {
   /// Absolute: the folder to which relative URIs may point. Or empty.
   std::filesystem::path folder;
   std::vector<std::filesystem::path> roots;  ///< LoadOptions::roots.
-  std::uint64_t maximum_bytes = 0;  ///< LoadOptions::maximum_bytes, for images embedded on saving.
+  std::uint64_t maximum_bytes = 0;   ///< LoadOptions::maximum_bytes, for images embedded on saving.
+  std::uint64_t maximum_memory = 0;  ///< For decoded data, as LoadOptions::maximum_memory; not 0.
   std::vector<MeshOrigin> mesh_origins;  ///< One per mesh of the character.
   std::vector<RepairedSkin> repaired_skins;
   std::vector<std::uint32_t> node_of_bone;  ///< kNone for bones that loading added.

@@ -7,9 +7,11 @@
 #include <set>
 
 #include "io/files/write_atomically.h"
+#include "io/gltf/container.h"
 #include "io/gltf/glb.h"
 #include "io/gltf/mesh_writer.h"
 #include "io/gltf/refusal.h"
+#include "io/gltf/repair_document.h"
 #include "io/gltf/rig_writer.h"
 
 namespace sunder::gltf {
@@ -75,17 +77,17 @@ void check_same_character(const Character& character, const LoadedCharacter& loa
   check_skins_of_nodes(character, source, *loaded.source);
 }
 
-/// Meshes that must be written: torn meshes, and meshes whose source is not valid.
+/// Meshes that must be written: torn meshes, and meshes whose source has faults.
 std::vector<std::uint32_t> meshes_to_write(const Character& character,
-                                           const LoadedCharacter& loaded) {
-  std::vector<std::uint32_t> torn, torn_or_repaired;
+                                           const LoadedCharacter& loaded,
+                                           const std::vector<bool>& unsound) {
+  std::vector<std::uint32_t> meshes;
   for (std::uint32_t i = 0; i < character.meshes.size(); ++i) {
     const bool differs = &character != loaded.character.get() &&
                          !(character.meshes[i] == loaded.character->meshes[i]);
-    if (differs) torn.push_back(i);
-    if (differs || loaded.source->mesh_origins[i].repaired) torn_or_repaired.push_back(i);
+    if (differs || loaded.source->mesh_origins[i].repaired || unsound[i]) meshes.push_back(i);
   }
-  return torn.empty() ? torn : torn_or_repaired;
+  return meshes;
 }
 
 class Patch {
@@ -227,20 +229,18 @@ class Patch {
       return target.contains("node") && target["node"].is_number() && target["path"] == "weights" &&
              without_mesh_.count(target["node"].get<std::uint32_t>()) != 0;
     };
-    Json kept_animations = Json::array();
     for (Json& animation : animations) {
+      const auto channels = animation.find("channels");
+      if (channels == animation.end()) continue;
       Json kept = Json::array();
-      const std::size_t before = animation["channels"].size();
-      for (const Json& channel : animation["channels"])
+      for (const Json& channel : *channels)
         if (!is_unusable(channel)) kept.push_back(channel);
-      const bool lost_all = kept.empty() && before > 0;
-      if (kept.size() != before) animation["channels"] = std::move(kept);
-      if (!lost_all) kept_animations.push_back(std::move(animation));
+      if (kept.size() == channels->size()) continue;
+      if (kept.empty())
+        animation = nullptr;  // DocumentRepair removes it; until then clips keep their indices.
+      else
+        *channels = std::move(kept);
     }
-    if (kept_animations.empty())
-      draft_.json.erase("animations");
-    else
-      animations = std::move(kept_animations);
   }
 
   GlbDraft& draft_;
@@ -252,19 +252,6 @@ class Patch {
   AppendedRig rig_;
   std::set<std::uint32_t> without_mesh_;
 };
-
-Status write(const std::filesystem::path& file, const Character& character,
-             const LoadedCharacter& loaded, const SaveOptions& options) {
-  check_options(options, character.meshes.size());
-  check_same_character(character, loaded);
-  const SourceDocument& source = *loaded.source;
-  const std::vector<std::uint32_t> meshes = meshes_to_write(character, loaded);
-  if (meshes.empty() && source.is_glb) return write_atomically(file, source.content);
-  GlbDraft draft(source);
-  Patch(draft, character, loaded, options).apply(meshes);
-  draft.embed_images();
-  return write_atomically(file, draft.finish());
-}
 
 WrittenInfluences written_of(const Mesh& mesh, const Mesh& source, std::uint32_t index,
                              const SaveOptions& options) {
@@ -289,14 +276,33 @@ WrittenInfluences written_of(const Mesh& mesh, const Mesh& source, std::uint32_t
 
 }  // namespace
 
+std::vector<std::byte> glb_of(const Character& character, const LoadedCharacter& loaded,
+                              const SaveOptions& options) {
+  check_options(options, character.meshes.size());
+  check_same_character(character, loaded);
+  const SourceDocument& source = *loaded.source;
+  GlbDraft draft(source);
+  const Json before = source.is_glb ? draft.json : Json();
+  DocumentRepair repair(draft, character, source);
+  const std::vector<std::uint32_t> meshes = meshes_to_write(character, loaded, repair.prepare());
+  Patch(draft, character, loaded, options).apply(meshes);
+  repair.finish();
+  if (source.is_glb && meshes.empty() && draft.json == before && is_container_sound(source.content))
+    return source.content;
+  draft.embed_images();
+  return draft.finish();
+}
+
 Result<std::vector<WrittenInfluences>> influences_of_written(const Character& character,
                                                              const LoadedCharacter& loaded,
                                                              const SaveOptions& options) {
   return without_exceptions<std::vector<WrittenInfluences>>([&] {
     check_options(options, character.meshes.size());
     check_same_character(character, loaded);
+    GlbDraft draft(*loaded.source);
+    DocumentRepair repair(draft, character, *loaded.source);
     std::vector<WrittenInfluences> written;
-    for (const std::uint32_t mesh : meshes_to_write(character, loaded)) {
+    for (const std::uint32_t mesh : meshes_to_write(character, loaded, repair.prepare())) {
       const Mesh &after = character.meshes[mesh], &before = loaded.character->meshes[mesh];
       if (loaded.source->mesh_origins[mesh].skinned || after.skin != before.skin)
         written.push_back(written_of(after, before, mesh, options));
@@ -308,7 +314,7 @@ Result<std::vector<WrittenInfluences>> influences_of_written(const Character& ch
 Status write_character(const std::filesystem::path& file, const Character& character,
                        const LoadedCharacter& loaded, const SaveOptions& options) {
   try {
-    return write(file, character, loaded, options);
+    return write_atomically(file, glb_of(character, loaded, options));
   } catch (...) {
     return status_of_current_exception();
   }

@@ -2,7 +2,15 @@
 
 #include <sunder/io/character_file.h>
 
+#include <cstddef>
+#include <vector>
+
 namespace sunder::gltf {
+
+/// The file that write_character() writes. Throws Refusal.
+[[nodiscard]] std::vector<std::byte> glb_of(const Character& character,
+                                            const LoadedCharacter& loaded,
+                                            const SaveOptions& options);
 
 /// See save_glb().
 [[nodiscard]] Status write_character(const std::filesystem::path& file, const Character& character,

@@ -523,6 +523,17 @@ TEST(SaveGlb, morph_targets_come_back) {
   EXPECT_EQ(saved.again->character->rest_morph_weights, torn.rest_morph_weights);
 }
 
+/// A white pixel.
+std::string one_pixel_png() {
+  constexpr unsigned char kBytes[] = {
+      0x89, 'P',  'N',  'G',  '\r', '\n', 0x1A, '\n', 0,    0,    0,    13,   'I',  'H',
+      'D',  'R',  0,    0,    0,    1,    0,    0,    0,    1,    8,    0,    0,    0,
+      0,    0x3A, 0x7E, 0x9B, 0x55, 0,    0,    0,    10,   'I',  'D',  'A',  'T',  0x78,
+      0x9C, 0x63, 0xF8, 0x0F, 0x00, 0x01, 0x01, 0x01, 0x00, 0x1B, 0xB6, 0xEE, 0x56, 0,
+      0,    0,    0,    'I',  'E',  'N',  'D',  0xAE, 0x42, 0x60, 0x82};
+  return {reinterpret_cast<const char*>(kBytes), sizeof kBytes};
+}
+
 TEST(SaveGlb, several_external_buffers_and_images_end_in_one_file) {
   GltfBuilder builder = skinned_strip();
   const TemporaryFolder folder;
@@ -531,7 +542,7 @@ TEST(SaveGlb, several_external_buffers_and_images_end_in_one_file) {
   std::vector<std::byte> shifted(binary.size() + 6, std::byte{7});
   std::copy(binary.begin(), binary.end(), shifted.begin() + 6);
   folder.write("sub/b c.bin", shifted);
-  const std::string png("\x89PNG\r\n\x1A\n not really", 19);
+  const std::string png = one_pixel_png();
   folder.write("sub/skin.png", png);
   builder.json["buffers"] = {{{"byteLength", binary.size()}, {"uri", "a.bin"}},
                              {{"byteLength", shifted.size()}, {"uri", "sub/b%20c.bin"}}};

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace sunder::test {
 
@@ -15,6 +16,9 @@ struct ValidatorReport {
 
 /// The result of the Khronos validator for a GLB.
 ValidatorReport validate_glb(const std::filesystem::path& file);
+
+/// The results for all GLBs of a folder, in the order of their names, by one run of the validator.
+std::vector<ValidatorReport> validate_glbs_of(const std::filesystem::path& folder);
 
 }  // namespace sunder::test
 

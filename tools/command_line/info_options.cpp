@@ -18,6 +18,7 @@ CLI::App* add_info(CLI::App& app, InfoRequest& request) {
       ->type_name("POSE")
       ->capture_default_str()
       ->needs(bones);
+  add_strict(*verb, request.strict);
   verb->footer(
       "Exit code 1 if loading repaired or dropped something.\n\nExample: sunder info fox.glb "
       "--bones --pose Walk@0.4");

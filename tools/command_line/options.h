@@ -20,6 +20,9 @@ void add_aimed_operations(CLI::App& verb);
 /// Reads the aimed operations that were given, in order. @throws CLI::ValidationError
 void read_aimed_operations(const CLI::App& verb, TearRequest& request);
 
+/// `--strict`, which refuses models with faults.
+void add_strict(CLI::App& verb, bool& strict);
+
 /// `--weights-as`, the number format of written weights.
 void add_weights_as(CLI::App& verb, SaveOptions& save);
 /// `--max-error` and its limits, which exclude that the caller chooses influences and format.

@@ -41,6 +41,7 @@ CLI::App* add_validate(CLI::App& app, ValidateRequest& request) {
     if (!*manifest && (!*source || !*target))
       throw CLI::RequiredError("SOURCE and TARGET, or --manifest");
   });
+  add_strict(*verb, request.strict);
   verb->footer(
       "Exit code 1 if there is a finding at or above --fail-on.\n\n"
       "Example: sunder validate fox.glb torn.glb --ops ops.json --limits clips");

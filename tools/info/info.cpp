@@ -11,6 +11,7 @@
 #include "tools/info/bone_table.h"
 #include "tools/messages/messages.h"
 #include "tools/model/bone_extents.h"
+#include "tools/model/load_notes.h"
 #include "tools/model/model_check.h"
 #include "tools/model/model_json.h"
 #include "tools/model/pose_argument.h"
@@ -190,7 +191,7 @@ void print_info(const Json& info) {
 }  // namespace
 
 ExitCode run_info(const InfoRequest& request) {
-  const Result<LoadedCharacter> loaded = load_character(request.model);
+  const Result<LoadedCharacter> loaded = load_character(request.model, reading(request.strict));
   if (!loaded) return complain(request.model.string(), loaded.error(), ExitCode::unreadable_input);
   const Character& character = *loaded->character;
   Result<PoseArgument> argument = parse_pose(request.pose, character);

@@ -13,6 +13,7 @@
 #include "tools/messages/printed.h"
 #include "tools/model/bone_extents.h"
 #include "tools/model/history.h"
+#include "tools/model/load_notes.h"
 #include "tools/model/name_advice.h"
 #include "tools/model/named_poses.h"
 #include "tools/model/plain_operations.h"
@@ -227,8 +228,9 @@ ExitCode run_picture(const PictureRequest& request) {
   }
   if (const std::string fault = other_ending({"--output", request.output}, "png"); !fault.empty())
     warn(fault);
-  const Result<LoadedCharacter> loaded = load_character(request.model);
+  const Result<LoadedCharacter> loaded = load_character(request.model, reading(request.strict));
   if (!loaded) return complain(request.model.string(), loaded.error(), ExitCode::unreadable_input);
+  warn_of_repairs(request.model.string(), loaded->report, Messages(Verbosity::normal));
   std::vector<Operation> log;
   if (request.operations) {
     auto read = load_plain_operations(*request.operations, loaded->character);

@@ -15,6 +15,7 @@
 #include "tools/messages/output_file.h"
 #include "tools/messages/printed.h"
 #include "tools/messages/progress_bar.h"
+#include "tools/model/load_notes.h"
 #include "tools/model/model_check.h"
 #include "tools/model/named_poses.h"
 #include "tools/picture/picture.h"
@@ -183,11 +184,12 @@ ExitCode run_tear(const TearRequest& request) {
   ProgressBar progress(operations->size() + 3);
   progress.begin_step(0, "reading");
   const std::string place = request.model.string();
-  LoadOptions load;
+  LoadOptions load = reading(request.strict);
   load.keep_stored_influences = request.maximum_error.has_value();
   const Result<LoadedCharacter> loaded = load_character(request.model, load);
   if (!loaded) return complain(place, loaded.error(), ExitCode::unreadable_input);
   const double loading = seconds_since(begin);
+  warn_of_repairs(place, loaded->report, messages);
   warn_of_options(request, *loaded->character, messages);
   Result<TornModel> model = TornModel::create(loaded->character);
   if (!model) return complain(place, model.error(), ExitCode::internal_error);
@@ -205,6 +207,7 @@ ExitCode run_tear(const TearRequest& request) {
               std::move(*model), *weighing, PosedSource(loaded->character),
               *counts,           *counts};
   run.times.loading = loading;
+  run.has_findings = has_losses(loaded->report);
   if (const ExitCode code = play_operations(*operations, run, progress); code != ExitCode::ok)
     return code;
   progress.begin_step(operations->size() + 2, "writing");

@@ -10,9 +10,11 @@
 #include <utility>
 
 #include "tools/messages/json_file.h"
+#include "tools/messages/messages.h"
 #include "tools/messages/overwriting.h"
 #include "tools/messages/text_file.h"
 #include "tools/model/bone_names.h"
+#include "tools/model/load_notes.h"
 #include "tools/transfer/transfer_report.h"
 #include "tools/verbs.h"
 #include "tools/written_weights/certified_report.h"
@@ -129,12 +131,15 @@ ExitCode run_transfer(const TransferRequest& request) {
     print_error("sunder: " + fault);
     return ExitCode::usage;
   }
-  const Result<LoadedCharacter> source = load_character(request.source);
+  const Result<LoadedCharacter> source = load_character(request.source, reading(request.strict));
   if (!source) return complain(request.source.string(), source.error(), ExitCode::unreadable_input);
-  LoadOptions load;
+  LoadOptions load = reading(request.strict);
   load.keep_stored_influences = request.maximum_error.has_value();
   const Result<LoadedCharacter> target = load_character(request.target, load);
   if (!target) return complain(request.target.string(), target.error(), ExitCode::unreadable_input);
+  const Messages messages(Verbosity::normal);
+  warn_of_repairs(request.source.string(), source->report, messages);
+  warn_of_repairs(request.target.string(), target->report, messages);
   TransferOptions options = request.options;
   if (const ExitCode code = read_rules(request, *target->character, options); code != ExitCode::ok)
     return code;
@@ -152,8 +157,10 @@ ExitCode run_transfer(const TransferRequest& request) {
     return code;
   std::fputs(transfer_table(request, *result).c_str(), stdout);
   if (certified) std::puts(certificate_line(*certified, *request.maximum_error).c_str());
-  const bool has_findings = std::ranges::any_of(
-      result->findings, [](const Finding& finding) { return finding.severity != Severity::note; });
+  const bool has_findings = has_losses(source->report) || has_losses(target->report) ||
+                            std::ranges::any_of(result->findings, [](const Finding& finding) {
+                              return finding.severity != Severity::note;
+                            });
   return has_findings ? ExitCode::findings : ExitCode::ok;
 }
 

@@ -196,6 +196,7 @@ ExitCode run_validate(const ValidateRequest& request) {
                     request.html});
   }
   for (Job& job : jobs) {
+    job.pair.strict = request.strict;
     if (const std::string fault = overwriting_output(job); !fault.empty()) {
       print_error("sunder: " + fault);
       return ExitCode::usage;

@@ -27,6 +27,7 @@ struct ValidatePair {
   std::optional<std::filesystem::path> bone_names;  ///< Bones whose names differ.
   TargetProfile profile = TargetProfile::none;
   std::string limits = "none";  ///< "none", "clips" or a file.
+  bool strict = false;          ///< Refuses models that loading would repair.
   bool over_time = false;       ///< Also measures the deviation over the time of each clip.
 };
 

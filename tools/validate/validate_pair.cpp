@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "tools/model/bone_names.h"
+#include "tools/model/load_notes.h"
 #include "tools/model/plain_operations.h"
 #include "tools/validate/validate.h"
 #include "tools/written_weights/joint_limits_file.h"
@@ -57,8 +58,9 @@ void add_load_notes(ValidatedPair& pair) {
     }
 }
 
-std::optional<LoadedCharacter> load(const std::filesystem::path& file, ValidateFailure& failure) {
-  LoadOptions options;
+std::optional<LoadedCharacter> load(const std::filesystem::path& file, bool strict,
+                                    ValidateFailure& failure) {
+  LoadOptions options = reading(strict);
   options.keep_stored_influences = true;
   Result<LoadedCharacter> loaded = load_character(file, options);
   if (loaded) return std::move(*loaded);
@@ -101,9 +103,9 @@ bool read_options(const ValidatePair& pair, const std::shared_ptr<const Characte
 std::optional<ValidatedPair> validate_pair(
     const ValidatePair& pair, const std::function<void(std::string_view, double)>& progress,
     ValidateFailure& failure) {
-  auto source = load(pair.source, failure);
+  auto source = load(pair.source, pair.strict, failure);
   if (!source) return {};
-  auto target = load(pair.target, failure);
+  auto target = load(pair.target, pair.strict, failure);
   if (!target) return {};
   ValidationOptions options;
   options.stored_source = source->stored;

@@ -42,6 +42,9 @@ struct LoadOptions {
   bool strict = false;
   /// Limit for the file together with all files that it refers to.
   std::uint64_t maximum_bytes = std::uint64_t{2} << 30;
+  /// Limit for the memory that reading takes, because a small file can describe a large model. 0:
+  /// 20 times the size of the file and all files that it refers to, but at least 64 MiB.
+  std::uint64_t maximum_memory = 0;
   ImportPlace import_place = ImportPlace::helper_process;
   /// Path of the helper executable `sunder-import`; if empty, it is searched for beside the library
   /// and the program.
@@ -94,10 +97,12 @@ struct SaveOptions {
 };
 
 /// Writes `character`, which is `loaded.character` changed by tearing or with other weights, as a
-/// GLB: the source document with new accessors for the meshes that differ and, if any does, for
-/// those that loading repaired. Appended bones become nodes, and a mesh may take an appended skin.
-/// Everything else (materials, textures, extras, animations, other meshes) stays as it was. If
-/// nothing differs and the source was a GLB, the result is the source, byte for byte. Thread-safe.
+/// GLB: the source document with new accessors for the meshes that differ and for those that
+/// loading repaired. Appended bones become nodes, and a mesh may take an appended skin. Everything
+/// else (materials, textures, extras, animations, other meshes) stays as it was, but for faults,
+/// which are repaired or removed, so that the file is valid whatever the source was (docs/io.md).
+/// If nothing differs and the source is a GLB without faults, the result is the source, byte for
+/// byte. Thread-safe.
 ///
 /// @param character  skeleton and skins begin with those of `loaded.character`; same clips.
 /// @return invalid_argument, size_mismatch (not the same character, or formats of another number of

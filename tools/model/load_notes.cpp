@@ -1,0 +1,38 @@
+#include "tools/model/load_notes.h"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace sunder::tools {
+namespace {
+
+constexpr std::size_t kMostLines = 20;
+
+}  // namespace
+
+LoadOptions reading(bool strict) {
+  LoadOptions options;
+  options.strict = strict;
+  return options;
+}
+
+void warn_of_repairs(const std::string& model, const LoadReport& report, const Messages& messages) {
+  std::size_t lines = 0;
+  for (const LoadNote& note : report.notes) {
+    if (note.kind == LoadNote::Kind::information) continue;
+    if (++lines > kMostLines) continue;
+    const bool is_loss = note.kind == LoadNote::Kind::dropped;
+    messages.warn(model + ": " + (is_loss ? "dropped: " : "repaired: ") + note.place + ": " +
+                  note.text + " (" + std::to_string(note.count) + ")");
+  }
+  if (lines > kMostLines)
+    messages.warn(model + ": " + std::to_string(lines - kMostLines) +
+                  " more repairs; `sunder info` lists all");
+}
+
+bool has_losses(const LoadReport& report) {
+  return std::ranges::any_of(
+      report.notes, [](const LoadNote& note) { return note.kind == LoadNote::Kind::dropped; });
+}
+
+}  // namespace sunder::tools

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <sunder/io/character_file.h>
+
+#include <string>
+
+#include "tools/messages/messages.h"
+
+namespace sunder::tools {
+
+/// How a verb reads a model.
+[[nodiscard]] LoadOptions reading(bool strict);
+
+/// Warns of everything that loading repaired or dropped, one line per kind; beyond 20 lines, of
+/// their number.
+/// @param model  its path, which begins each line.
+void warn_of_repairs(const std::string& model, const LoadReport& report, const Messages& messages);
+
+/// Whether loading dropped something, so that the character lacks a part of its file.
+[[nodiscard]] bool has_losses(const LoadReport& report);
+
+}  // namespace sunder::tools
