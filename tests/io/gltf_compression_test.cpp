@@ -582,6 +582,21 @@ TEST(LoadCompressed, files_of_gltfpack_are_read_as_three_reads_them) {
     }
 }
 
+TEST(SaveCompressed, a_torn_model_is_read_by_gltf_transform) {
+  SKIP_WITHOUT_DECOMPRESSOR();
+  const GltfBuilder plain = built_from(make_sheet(8));
+  for (const GltfBuilder& builder : {packed_by_meshopt(plain), packed_by_draco(plain)}) {
+    const auto loaded = builder.load();
+    ASSERT_TRUE(loaded.has_value()) << loaded.error().text();
+    Character torn = *loaded->character;
+    torn.meshes[0].triangles[0].fill(0);  // retired
+    const TemporaryFolder folder;
+    const auto file = folder.path() / "torn.glb";
+    ASSERT_TRUE(save_glb(file, torn, *loaded));
+    expect_same_content(decompressed_by_three(file), *load_character(file)->character);
+  }
+}
+
 TEST(LoadCompressed, a_draco_file_of_others_is_read_as_three_reads_it) {
   SKIP_WITHOUT_DECOMPRESSOR();
   const auto file = assimp_models() / "glTF2/draco/2CylinderEngine.gltf";

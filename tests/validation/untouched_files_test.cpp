@@ -68,7 +68,7 @@ TEST(Untouched, our_own_torn_outputs_give_no_alarm) {
     const std::vector<Operation> operations = some_operations(*source->character, random);
     for (const Operation& operation : operations)
       ASSERT_TRUE(apply_operation(*torn, operation)) << model.file;
-    ASSERT_TRUE(save_glb(folder.path() / "torn.glb", torn->character(), *source));
+    ASSERT_TRUE(save_glb(folder.path() / "torn.glb", torn->character(), *source, {kAllInfluences}));
     const auto target = load_character(folder.path() / "torn.glb", keep_stored());
     ASSERT_TRUE(target) << target.error().text();
     for (const bool with_log : {false, true}) {
