@@ -365,8 +365,9 @@ void mark_shared_vertices(const Character& character, Surface& surface) {
   });
 }
 
+/// Corners, twins and points; not which vertices are shared.
 /// @param point_side  of `weld`.
-Surface surface_of(const Character& character, const Weld& weld, std::vector<Index> point_side) {
+Surface connect(const Character& character, const Weld& weld, std::vector<Index> point_side) {
   Surface surface;
   surface.source_side = std::move(point_side);
   surface.point_corner.assign(surface.source_side.size(), kNone);
@@ -381,11 +382,6 @@ Surface surface_of(const Character& character, const Weld& weld, std::vector<Ind
   surface.twin.assign(surface.corner_point.size(), kNone);
   join_across_edges(character, surface);
   split_points_into_fans(surface);
-  mark_shared_vertices(character, surface);
-  if (std::all_of(surface.source_side.begin(), surface.source_side.end(),
-                  [](Index side) { return side == 0; }))
-    surface.source_side = {};
-  surface.point_corner.shrink_to_fit();
   return surface;
 }
 
@@ -401,12 +397,18 @@ Index Surface::find_half_edge(Index from, Index to) const {
 
 Surface build_surface(const Character& character) {
   Weld weld = weld_vertices(character);
-  return surface_of(character, weld, std::move(weld.point_side));
+  Surface surface = connect(character, weld, std::move(weld.point_side));
+  mark_shared_vertices(character, surface);
+  if (std::all_of(surface.source_side.begin(), surface.source_side.end(),
+                  [](Index side) { return side == 0; }))
+    surface.source_side = {};
+  surface.point_corner.shrink_to_fit();
+  return surface;
 }
 
 JoinedMeshes join_meshes(const Character& character) {
   const Weld weld = weld_vertices(character);
-  JoinedMeshes joined{surface_of(character, weld, weld.point_side), {}};
+  JoinedMeshes joined{connect(character, weld, weld.point_side), {}};
   joined.points_of_mesh = count_points_of_meshes(character, weld, joined.surface);
   return joined;
 }

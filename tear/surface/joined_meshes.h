@@ -7,7 +7,7 @@
 namespace sunder::tear {
 
 struct JoinedMeshes {
-  Surface surface;                    ///< As build_surface() makes it.
+  Surface surface;                    ///< As build_surface() makes it; is_shared_vertex is empty.
   std::vector<Index> points_of_mesh;  ///< The points that each mesh would have alone, if used by a
                                       ///< triangle that is not retired.
 };
