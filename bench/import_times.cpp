@@ -10,6 +10,7 @@
 #include <assimp/scene.h>
 #include <tiny_gltf.h>
 
+#include "bench/cpu_seconds.h"
 #include "bench/in_turns.h"
 
 namespace sunder::bench {
@@ -21,13 +22,13 @@ namespace {
 }
 
 double load_ours(const std::filesystem::path& file) {
-  return seconds_of([&] {
+  return cpu_seconds_of([&] {
     if (!load_character(file)) give_up("load_character", file);
   });
 }
 
 double load_by_assimp(const std::filesystem::path& file) {
-  return seconds_of([&] {
+  return cpu_seconds_of([&] {
     Assimp::Importer importer;
     if (importer.ReadFile(file.string(), 0) == nullptr) give_up("assimp", file);
   });
@@ -40,7 +41,7 @@ bool keep_encoded(tinygltf::Image*, int, std::string*, std::string*, int, int, c
 }
 
 double load_by_tinygltf(const std::filesystem::path& file) {
-  return seconds_of([&] {
+  return cpu_seconds_of([&] {
     tinygltf::TinyGLTF loader;
     loader.SetImageLoader(keep_encoded, nullptr);
     tinygltf::Model model;

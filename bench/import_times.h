@@ -4,7 +4,7 @@
 
 namespace sunder::bench {
 
-/// Median seconds to read one GLB from the disk cache, measured in turns in one run.
+/// Median processor seconds to read one GLB from the disk cache, measured in turns in one run.
 struct ImportTimes {
   double ours = 0;      ///< load_character(), with all its checks.
   double assimp = 0;    ///< Importer::ReadFile() without post-processing.

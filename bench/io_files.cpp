@@ -53,10 +53,14 @@ Base load_base() {
   return {"cactus", tools::make_cactus()};
 }
 
-/// The divisions per edge for about `vertices` vertices.
+/// The divisions per edge for about `vertices` vertices: a face gets the square of the divisions
+/// as faces, and somewhat more than half a vertex for each.
 int divisions_for(const Base& base, std::size_t vertices) {
-  const auto has = static_cast<double>(vertices_of(base.character));
-  return std::max(1, static_cast<int>(std::lround(std::sqrt(static_cast<double>(vertices) / has))));
+  std::size_t faces = 0;
+  for (const Mesh& mesh : base.character.meshes) faces += mesh.triangles.size();
+  const double per_division = 0.55 * static_cast<double>(faces);
+  return std::max(
+      1, static_cast<int>(std::lround(std::sqrt(static_cast<double>(vertices) / per_division))));
 }
 
 IoFile write_subdivided(const Base& base, std::size_t vertices, const fs::path& folder) {

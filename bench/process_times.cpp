@@ -4,10 +4,11 @@
 #include <cstdlib>
 #include <fcntl.h>
 #include <spawn.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "bench/in_turns.h"
+#include "bench/measure.h"
 
 extern char** environ;
 
@@ -19,7 +20,12 @@ namespace {
   std::exit(1);
 }
 
-void run(const Command& command) {
+double seconds(const timeval& time) {
+  return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+}
+
+/// Its processor seconds.
+double run(const Command& command) {
   std::vector<char*> arguments;
   for (const std::string& argument : command)
     arguments.push_back(const_cast<char*>(argument.c_str()));
@@ -32,23 +38,25 @@ void run(const Command& command) {
   const int failure = posix_spawn(&child, arguments[0], &files, nullptr, arguments.data(), environ);
   posix_spawn_file_actions_destroy(&files);
   int state = 0;
-  if (failure != 0 || waitpid(child, &state, 0) != child || !WIFEXITED(state) ||
+  rusage usage{};
+  if (failure != 0 || wait4(child, &state, 0, &usage) != child || !WIFEXITED(state) ||
       WEXITSTATUS(state) == 127)
     give_up(command);
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
 }  // namespace
 
-std::vector<double> time_processes(const std::vector<Command>& commands, int rounds) {
-  std::vector<Candidate> candidates;
-  for (const Command& command : commands)
-    candidates.push_back(
-        {[&command] { return seconds_of([&command] { run(command); }); }, {1, 0, 1}, rounds, 0});
+std::vector<ProcessTimes> time_processes(const std::vector<Command>& commands, int rounds) {
   for (const Command& command : commands) run(command);
-  measure_in_turns(candidates);
-  std::vector<double> seconds;
-  for (const Candidate& candidate : candidates) seconds.push_back(median(candidate.seconds));
-  return seconds;
+  std::vector<std::vector<double>> wall(commands.size()), cpu(commands.size());
+  for (int round = 0; round < rounds; ++round)
+    for (std::size_t i = 0; i < commands.size(); ++i)
+      wall[i].push_back(seconds_of([&] { cpu[i].push_back(run(commands[i])); }));
+  std::vector<ProcessTimes> times;
+  for (std::size_t i = 0; i < commands.size(); ++i)
+    times.push_back({median(wall[i]), median(cpu[i])});
+  return times;
 }
 
 }  // namespace sunder::bench

@@ -82,7 +82,7 @@ class PointIdentity {
 struct Weld {
   std::vector<std::vector<Index>> point_of_vertex;
   std::vector<Index> point_side;
-  bool joins_meshes = false;  ///< A point has vertices of two meshes.
+  std::vector<bool> is_shared;  ///< Per point: it has vertices of two meshes.
 };
 
 /// A hash table of points by open addressing. An entry holds a point, and above it 32 bits of its
@@ -143,8 +143,9 @@ Weld weld_vertices(const Character& character) {
       if (point == new_point) {
         first_of_point.push_back({m, v});
         weld.point_side.push_back(identity.tear_side(m, v));
+        weld.is_shared.push_back(false);
       }
-      weld.joins_meshes |= first_of_point[point].mesh != m;
+      if (first_of_point[point].mesh != m) weld.is_shared[point] = true;
       points.push_back(point);
     }
   }
@@ -280,45 +281,95 @@ void split_points_into_fans(Surface& surface) {
   }
 }
 
+/// Calls visit(mesh, corner, vertex, whether its triangle is retired) for each corner.
+template <class Visit>
+void for_each_corner(const Character& character, Visit visit) {
+  Index corner = 0;
+  for (Index m = 0; m < character.meshes.size(); ++m)
+    for (const Triangle& triangle : character.meshes[m].triangles)
+      for (const Index vertex : triangle) visit(m, corner++, vertex, is_retired(triangle));
+}
+
+/// The surface of each mesh as if it were alone, around the points that meshes share. Triangles
+/// elsewhere have a repeated point here, so that they join nothing.
+Surface surface_at_shared_points(const Character& character, const Weld& weld) {
+  Surface surface;
+  surface.source_side = weld.point_side;
+  surface.first_triangle = {0};
+  for (const Mesh& mesh : character.meshes)
+    surface.first_triangle.push_back(surface.first_triangle.back() + mesh.triangle_count());
+  // Each mesh gets points of its own in place of those that it shares.
+  std::vector<Index> own_of_shared(weld.point_side.size(), kNone), replaced;
+  for (Index m = 0; m < character.meshes.size(); ++m) {
+    for (const Triangle& triangle : character.meshes[m].triangles) {
+      std::array<Index, 3> points{};
+      bool is_near = false;
+      for (std::size_t i = 0; i < 3; ++i) {
+        points[i] = weld.point_of_vertex[m][triangle[i]];
+        if (!weld.is_shared[points[i]]) continue;
+        is_near = true;
+        Index& own = own_of_shared[points[i]];
+        if (own == kNone) {
+          replaced.push_back(points[i]);
+          own = static_cast<Index>(surface.source_side.size());
+          surface.source_side.push_back(0);
+        }
+        points[i] = own;
+      }
+      if (!is_near) points = {0, 0, 0};
+      surface.corner_point.insert(surface.corner_point.end(), points.begin(), points.end());
+    }
+    for (const Index point : replaced) own_of_shared[point] = kNone;
+    replaced.clear();
+  }
+  surface.point_corner.assign(surface.source_side.size(), kNone);
+  surface.twin.assign(surface.corner_point.size(), kNone);
+  join_across_edges(character, surface);
+  split_points_into_fans(surface);
+  return surface;
+}
+
+/// @param surface  of all meshes together.
+std::vector<Index> count_points_of_meshes(const Character& character, const Weld& weld,
+                                          const Surface& surface) {
+  std::vector<Index> counts(character.meshes.size(), 0);
+  const bool do_share =
+      std::find(weld.is_shared.begin(), weld.is_shared.end(), true) != weld.is_shared.end();
+  const Surface alone = do_share ? surface_at_shared_points(character, weld) : Surface();
+  std::vector<bool> is_counted(surface.point_corner.size(), false),
+      is_counted_alone(alone.point_corner.size(), false);
+  for_each_corner(character, [&](Index m, Index corner, Index vertex, bool is_in_retired) {
+    if (is_in_retired) return;
+    const bool is_shared = weld.is_shared[weld.point_of_vertex[m][vertex]];
+    std::vector<bool>& counted = is_shared ? is_counted_alone : is_counted;
+    const Index point = (is_shared ? alone : surface).corner_point[corner];
+    counts[m] += counted[point] ? 0 : 1;
+    counted[point] = true;
+  });
+  return counts;
+}
+
 void mark_shared_vertices(const Character& character, Surface& surface) {
   for (const Mesh& mesh : character.meshes)
     surface.is_shared_vertex.emplace_back(mesh.vertex_count(), false);
   std::vector<std::vector<Index>> point_of_vertex;
   for (const Mesh& mesh : character.meshes)
     point_of_vertex.emplace_back(mesh.vertex_count(), kNone);
-  Index corner = 0;
-  for (std::size_t m = 0; m < character.meshes.size(); ++m)
-    for (const Triangle& triangle : character.meshes[m].triangles) {
-      const bool is_degenerate = surface.has_repeated_point(corner / 3);
-      for (const Index vertex : triangle) {
-        const Index of_corner = surface.corner_point[corner++];
-        Index& point = point_of_vertex[m][vertex];
-        if (point == kNone) point = of_corner;
-        // A degenerate triangle belongs to no fan: its vertices stay where they are when a fan
-        // moves on.
-        if (point != of_corner || is_degenerate) surface.is_shared_vertex[m][vertex] = true;
-      }
-    }
-}
-
-}  // namespace
-
-Index Surface::find_half_edge(Index from, Index to) const {
-  Index found = kNone;
-  for_each_in_fan(point_corner[from], [&](Index corner) {
-    if (corner_point[next(corner)] == to) found = corner;
+  for_each_corner(character, [&](Index m, Index corner, Index vertex, bool) {
+    Index& point = point_of_vertex[m][vertex];
+    if (point == kNone) point = surface.corner_point[corner];
+    // A degenerate triangle belongs to no fan: its vertices stay where they are when a fan moves
+    // on.
+    if (point != surface.corner_point[corner] || surface.has_repeated_point(corner / 3))
+      surface.is_shared_vertex[m][vertex] = true;
   });
-  return found;
 }
 
-Surface build_surface(const Character& character) { return join_meshes(character).surface; }
-
-JoinedMeshes join_meshes(const Character& character) {
-  Weld weld = weld_vertices(character);
-  JoinedMeshes joined;
-  Surface& surface = joined.surface;
-  joined.share_points = weld.joins_meshes;
-  surface.source_side = std::move(weld.point_side);
+/// Corners, twins and points; not which vertices are shared.
+/// @param point_side  of `weld`.
+Surface connect(const Character& character, const Weld& weld, std::vector<Index> point_side) {
+  Surface surface;
+  surface.source_side = std::move(point_side);
   surface.point_corner.assign(surface.source_side.size(), kNone);
   surface.first_triangle = {0};
   for (const Mesh& mesh : character.meshes)
@@ -331,11 +382,34 @@ JoinedMeshes join_meshes(const Character& character) {
   surface.twin.assign(surface.corner_point.size(), kNone);
   join_across_edges(character, surface);
   split_points_into_fans(surface);
+  return surface;
+}
+
+}  // namespace
+
+Index Surface::find_half_edge(Index from, Index to) const {
+  Index found = kNone;
+  for_each_in_fan(point_corner[from], [&](Index corner) {
+    if (corner_point[next(corner)] == to) found = corner;
+  });
+  return found;
+}
+
+Surface build_surface(const Character& character) {
+  Weld weld = weld_vertices(character);
+  Surface surface = connect(character, weld, std::move(weld.point_side));
   mark_shared_vertices(character, surface);
   if (std::all_of(surface.source_side.begin(), surface.source_side.end(),
                   [](Index side) { return side == 0; }))
     surface.source_side = {};
   surface.point_corner.shrink_to_fit();
+  return surface;
+}
+
+JoinedMeshes join_meshes(const Character& character) {
+  const Weld weld = weld_vertices(character);
+  JoinedMeshes joined{connect(character, weld, weld.point_side), {}};
+  joined.points_of_mesh = count_points_of_meshes(character, weld, joined.surface);
   return joined;
 }
 

@@ -1,17 +1,18 @@
 #pragma once
 
+#include <vector>
+
 #include "tear/internal/surface.h"
 
 namespace sunder::tear {
 
-/// A surface, and whether any of its points had vertices of two meshes before each fan got a point
-/// of its own. If none had, the surface of each mesh alone is a part of it.
 struct JoinedMeshes {
-  Surface surface;
-  bool share_points = false;
+  Surface surface;                    ///< As build_surface() makes it; is_shared_vertex is empty.
+  std::vector<Index> points_of_mesh;  ///< The points that each mesh would have alone, if used by a
+                                      ///< triangle that is not retired.
 };
 
-/// The same surface as build_surface(). O(vertices + triangles), deterministic.
+/// O(vertices + triangles), deterministic.
 [[nodiscard]] JoinedMeshes join_meshes(const Character& character);
 
 }  // namespace sunder::tear

@@ -72,11 +72,9 @@ bool has_no_area(const Mesh& mesh, const Triangle& triangle) {
   return norm(doubled_area) <= tear::kFlatSquaredSizes * longest_squared;
 }
 
-/// @return per mesh, the number of points that it is the first to use.
-std::vector<Index> count_triangles_and_points(const Character& character, const Surface& surface,
-                                              TopologyCounts& counts) {
+void count_triangles_and_points(const Character& character, const Surface& surface,
+                                TopologyCounts& counts) {
   std::vector<bool> is_used(surface.point_count(), false);
-  std::vector<Index> points_of_mesh(character.meshes.size(), 0);
   for (std::size_t m = 0; m < character.meshes.size(); ++m) {
     const Mesh& mesh = character.meshes[m];
     Index t = surface.first_triangle[m];
@@ -88,13 +86,11 @@ std::vector<Index> count_triangles_and_points(const Character& character, const 
         ++counts.degenerate_triangles;
       for (Index corner = first; corner < first + 3; ++corner) {
         const Index point = surface.corner_point[corner];
-        points_of_mesh[m] += is_used[point] ? 0 : 1;
+        counts.points += is_used[point] ? 0 : 1;
         is_used[point] = true;
       }
     }
-    counts.points += points_of_mesh[m];
   }
-  return points_of_mesh;
 }
 
 void count_edges(const Surface& surface, TopologyCounts& counts) {
@@ -109,28 +105,10 @@ void count_edges(const Surface& surface, TopologyCounts& counts) {
   counts.non_manifold_edges = surface.non_manifold_edges;
 }
 
-Index count_points_alone(const Character& character, const Mesh& mesh) {
-  Character alone;
-  alone.skeleton = character.skeleton;
-  alone.skins = character.skins;
-  alone.rest_morph_weights = character.rest_morph_weights;
-  alone.meshes = {mesh};
-  TopologyCounts counts;
-  (void)count_triangles_and_points(alone, tear::build_surface(alone), counts);
-  return counts.points;
-}
-
-TopologyCounts count(const Character& character, std::vector<Index>* points_of_mesh) {
-  const auto [surface, share_points] = tear::join_meshes(character);
+TopologyCounts count(const Character& character, const Surface& surface) {
   TopologyCounts counts;
   for (const Mesh& mesh : character.meshes) counts.vertices += mesh.vertex_count();
-  std::vector<Index> points = count_triangles_and_points(character, surface, counts);
-  if (points_of_mesh != nullptr) {
-    *points_of_mesh = std::move(points);
-    if (share_points)
-      for (std::size_t m = 0; m < character.meshes.size(); ++m)
-        (*points_of_mesh)[m] = count_points_alone(character, character.meshes[m]);
-  }
+  count_triangles_and_points(character, surface, counts);
   count_edges(surface, counts);
   counts.boundary_loops = count_boundary_loops(surface);
   counts.components = count_components(surface);
@@ -141,8 +119,12 @@ TopologyCounts count(const Character& character, std::vector<Index>* points_of_m
 
 Result<TopologyCounts> count_topology(const Character& character,
                                       std::vector<std::uint32_t>* points_of_mesh) {
-  return or_out_of_memory(
-      [&]() -> Result<TopologyCounts> { return count(character, points_of_mesh); });
+  return or_out_of_memory([&]() -> Result<TopologyCounts> {
+    if (points_of_mesh == nullptr) return count(character, tear::build_surface(character));
+    tear::JoinedMeshes joined = tear::join_meshes(character);
+    *points_of_mesh = std::move(joined.points_of_mesh);
+    return count(character, joined.surface);
+  });
 }
 
 }  // namespace sunder

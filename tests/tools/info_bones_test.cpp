@@ -59,6 +59,9 @@ std::map<std::uint32_t, std::vector<Vec3d>> surfaces(const Character& character,
   return of_bone;
 }
 
+/// Of the positions that deform_mesh() makes, in floats, on a model of about two metres.
+constexpr double kRounding = 1e-6;
+
 void expect_agrees(const json& info, const Character& character, const ModelPose& pose) {
   const json& bones = info["bone_tree"];
   ASSERT_EQ(bones.size(), character.skeleton.bones.size());
@@ -84,8 +87,8 @@ void expect_agrees(const json& info, const Character& character, const ModelPose
         greatest = greatest.cwiseMax(position);
       }
     if (count > 0) {
-      EXPECT_LT((vector(bone["bounds"]["min"]) - least).norm(), 1e-9) << expected.name;
-      EXPECT_LT((vector(bone["bounds"]["max"]) - greatest).norm(), 1e-9) << expected.name;
+      EXPECT_LT((vector(bone["bounds"]["min"]) - least).norm(), kRounding) << expected.name;
+      EXPECT_LT((vector(bone["bounds"]["max"]) - greatest).norm(), kRounding) << expected.name;
     }
     double length = farthest;
     if (!bone["leads_to"].is_null()) {
@@ -93,7 +96,7 @@ void expect_agrees(const json& info, const Character& character, const ModelPose
       EXPECT_EQ(character.skeleton.bones[child].parent, i);
       length = (pose.model_from_bone[child].translation() - joint).norm();
     }
-    EXPECT_NEAR(bone["length"].get<double>(), length, 1e-9) << expected.name;
+    EXPECT_NEAR(bone["length"].get<double>(), length, kRounding) << expected.name;
   }
 }
 

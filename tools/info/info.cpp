@@ -201,7 +201,7 @@ ExitCode run_info(const InfoRequest& request) {
   if (!argument->remark.empty()) Messages(Verbosity::normal).warn("--pose: " + argument->remark);
   Result<ModelPose> pose = make_pose(character, argument->spec);
   if (!pose) return complain(request.model.string(), pose.error(), ExitCode::internal_error);
-  Result<std::vector<DeformedMesh>> posed = deform_model(character, *pose);
+  Result<std::vector<DeformedMesh>> posed = pose_positions(character, *pose);
   if (!posed) return complain(request.model.string(), posed.error(), ExitCode::internal_error);
 
   const Json info =

@@ -2,6 +2,8 @@
 
 #include <sunder/skinning/deform.h>
 
+#include "skinning/internal/reference.h"
+
 namespace sunder::tools {
 namespace {
 
@@ -43,6 +45,23 @@ Result<std::vector<DeformedMesh>> deform_model(const Character& character, const
     if (const Status status = compute_palette(skin, pose, palette); !status) return status;
     if (const Status status = deform_mesh(mesh, palette, pose.morph_weights, posed[i]); !status)
       return status;
+  }
+  return posed;
+}
+
+Result<std::vector<DeformedMesh>> pose_positions(const Character& character,
+                                                 const ModelPose& pose) {
+  std::vector<DeformedMesh> posed(character.meshes.size());
+  std::vector<Affine3d> palette;
+  for (std::size_t i = 0; i < posed.size(); ++i) {
+    const Mesh& mesh = character.meshes[i];
+    const Skin& skin = character.skins[mesh.skin];
+    palette.resize(skin.bones.size());
+    if (const Status status = compute_palette(skin, pose, palette); !status) return status;
+    posed[i].positions.reserve(mesh.positions.size());
+    for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v)
+      posed[i].positions.emplace_back(
+          deform_position_reference(mesh, v, palette, pose.morph_weights).cast<float>());
   }
   return posed;
 }

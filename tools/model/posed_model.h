@@ -11,8 +11,14 @@ namespace sunder::tools {
 [[nodiscard]] Result<std::vector<DeformedMesh>> deform_model(const Character& character,
                                                              const ModelPose& pose);
 
-/// The same for drawing: a mesh without normals, or with many that contradict its winding, gets
-/// smooth ones.
+/// Their positions alone, in double until they are stored: less work than deform_model(), which
+/// prepares meshes for many poses. O(vertices).
+/// @return the failures of compute_palette().
+[[nodiscard]] Result<std::vector<DeformedMesh>> pose_positions(const Character& character,
+                                                               const ModelPose& pose);
+
+/// As deform_model(), for drawing: a mesh without normals, or with many that contradict its
+/// winding, gets smooth ones.
 [[nodiscard]] Result<std::vector<DeformedMesh>> pose_model(const Character& character,
                                                            const ModelPose& pose);
 

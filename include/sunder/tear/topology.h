@@ -28,7 +28,7 @@ struct TopologyCounts {
 
 /// Counts from the arrays alone. O(vertices + triangles), allocates. Reentrant.
 /// @param points_of_mesh  if given, it becomes the number of points of each mesh, counted as if the
-///        character had no other mesh. This is a by-product unless meshes share points.
+///        character had no other mesh.
 /// @return limit_exceeded: out of memory.
 [[nodiscard]] SUNDER_API Result<TopologyCounts> count_topology(
     const Character& character, std::vector<std::uint32_t>* points_of_mesh = nullptr);
