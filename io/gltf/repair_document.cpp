@@ -101,12 +101,13 @@ void DocumentRepair::check_primitives(bool is_prepared, std::vector<bool>& unsou
 }
 
 void DocumentRepair::finish() {
-  if (!is_compressed()) {
-    std::vector<bool> ignored;
-    if (has_unsound_primitives_) check_primitives(true, ignored);
-    repair_meshes(draft_.json);
-    repair_binds();
-    repair_nodes(draft_.json);
+  const bool has_data = !is_compressed();
+  std::vector<bool> ignored;
+  if (has_unsound_primitives_) check_primitives(true, ignored);
+  repair_meshes(draft_.json);
+  if (has_data) repair_binds();
+  repair_nodes(draft_.json);
+  if (has_data) {
     repair_animations();
     empty_unsound_accessors();
   }
