@@ -1,8 +1,8 @@
 #include "io/gltf/separate_views.h"
 
 #include <map>
+#include <span>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -11,31 +11,33 @@ namespace {
 
 enum class Use { vertices, indices, binds, key_times, key_values, sparse, image };
 
+/// The entries of a list of an object; none if it has no such list.
+std::span<Json> list_in(Json& object, const char* name) {
+  const auto found = object.find(name);
+  if (found == object.end() || !found->is_array()) return {};
+  return found->get_ref<Json::array_t&>();
+}
+
+template <class Visit>
+void visit_primitive(Json& primitive, const Visit& visit) {
+  if (!primitive.is_object()) return;
+  for (auto& item : primitive["attributes"].items()) visit(item.value(), Use::vertices);
+  if (primitive.contains("indices")) visit(primitive["indices"], Use::indices);
+  for (Json& target : list_in(primitive, "targets"))
+    for (auto& item : target.items()) visit(item.value(), Use::vertices);
+}
+
 /// Calls visit(reference, use) for every reference to an accessor.
 template <class Visit>
 void visit_accessors(Json& document, const Visit& visit) {
-  if (document.contains("meshes"))
-    for (Json& mesh : document["meshes"]) {
-      if (!mesh.contains("primitives")) continue;
-      for (Json& primitive : mesh["primitives"]) {
-        if (!primitive.is_object()) continue;
-        for (auto& item : primitive["attributes"].items()) visit(item.value(), Use::vertices);
-        if (primitive.contains("indices")) visit(primitive["indices"], Use::indices);
-        if (primitive.contains("targets"))
-          for (Json& target : primitive["targets"])
-            for (auto& item : target.items()) visit(item.value(), Use::vertices);
-      }
-    }
-  if (document.contains("skins"))
-    for (Json& skin : document["skins"])
-      if (skin.contains("inverseBindMatrices")) visit(skin["inverseBindMatrices"], Use::binds);
-  if (document.contains("animations"))
-    for (Json& animation : document["animations"]) {
-      if (!animation.contains("samplers")) continue;
-      for (Json& sampler : animation["samplers"]) {
-        visit(sampler["input"], Use::key_times);
-        visit(sampler["output"], Use::key_values);
-      }
+  for (Json& mesh : list_in(document, "meshes"))
+    for (Json& primitive : list_in(mesh, "primitives")) visit_primitive(primitive, visit);
+  for (Json& skin : list_in(document, "skins"))
+    if (skin.contains("inverseBindMatrices")) visit(skin["inverseBindMatrices"], Use::binds);
+  for (Json& animation : list_in(document, "animations"))
+    for (Json& sampler : list_in(animation, "samplers")) {
+      visit(sampler["input"], Use::key_times);
+      visit(sampler["output"], Use::key_values);
     }
 }
 

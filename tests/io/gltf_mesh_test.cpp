@@ -50,7 +50,7 @@ TEST(LoadGltfMesh, without_indices_every_three_vertices_are_a_triangle) {
   const auto loaded = builder.load();
   ASSERT_TRUE(loaded.has_value()) << loaded.error().text();
   EXPECT_EQ(first_mesh(loaded).triangles, (std::vector<Triangle>{{0, 1, 2}, {3, 4, 5}, {6, 7, 8}}));
-  EXPECT_TRUE(has_note(loaded->report, LoadNote::Kind::repaired, "incomplete"));
+  EXPECT_TRUE(has_note(loaded->report, LoadNote::Kind::dropped, "incomplete"));
 }
 
 TEST(LoadGltfMesh, primitives_on_the_same_vertices_are_one_mesh) {
