@@ -49,9 +49,10 @@ const std::map<std::string, Rooms> kRooms = {
     {"validation",
      {{".", {"checks", "match"}}, {"checks", {"match"}}, {"transfer", {"match"}}, {"match", {}}}},
     {"io",
-     {{".", {"assimp", "gltf", "operation_log", "files"}},
+     {{".", {"assimp", "gltf", "operation_log", "files", "urdf"}},
       {"assimp", {}},
       {"gltf", {"files"}},
+      {"urdf", {"gltf", "files"}},
       {"operation_log", {}},
       {"files", {}}}},
 };
