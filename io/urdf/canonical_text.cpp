@@ -46,10 +46,11 @@ void append_joint(std::string& text, const JointTag& joint, std::uint32_t index,
   text +=
       "<parent link=\"" + link(joint.parent) + "\"/><child link=\"" + link(joint.child) + "\"/>";
   if (joint.axis) text += "<axis xyz=\"" + numbers(*joint.axis) + "\"/>";
-  if (joint.limit)
-    text += "<limit lower=\"" + number(joint.limit->lower.value_or(0)) + "\" upper=\"" +
-            number(joint.limit->upper.value_or(0)) + "\" effort=\"" + number(joint.limit->effort) +
-            "\" velocity=\"" + number(joint.limit->velocity) + "\"/>";
+  // urdfdom requires limits where Sunder does not; they are not used then.
+  const LimitTag limit = joint.limit.value_or(LimitTag{});
+  text += "<limit lower=\"" + number(limit.lower.value_or(0)) + "\" upper=\"" +
+          number(limit.upper.value_or(0)) + "\" effort=\"" + number(limit.effort) +
+          "\" velocity=\"" + number(limit.velocity) + "\"/>";
   text += "</joint>\n";
 }
 

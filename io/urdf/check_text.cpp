@@ -111,6 +111,9 @@ class TagScan {
     if (count_ > kMaximumTags)
       return fail("xml_too_large", "the file has more than " + std::to_string(kMaximumTags) +
                                        " tags and attributes");
+    if (attributes > kMaximumAttributes)
+      return fail("xml_too_large",
+                  "a tag has more than " + std::to_string(kMaximumAttributes) + " attributes");
     if (is_end)
       depth_ -= depth_ > 0 ? 1 : 0;
     else if (!is_empty && ++depth_ > kMaximumDepth)
