@@ -64,6 +64,9 @@ class KdlRobot {
         open.push_back(joint->child_link_name);
       }
     }
+    // A copy numbers the joints anew, depth first, and a solver works on a copy.
+    const KDL::Tree renumbered(tree_);
+    tree_ = renumbered;
   }
 
   /// Frames of the links, from the values of joints by name ("joint" or "joint.part").
