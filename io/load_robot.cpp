@@ -12,10 +12,18 @@
 namespace sunder {
 namespace {
 
+/// Whether a warning is about a shape that was left out.
+bool is_loss(std::string_view code) {
+  return code != "mesh_huge" && (code.starts_with("mesh_") || code.starts_with("geometry_") ||
+                                 code.starts_with("package_"));
+}
+
 LoadNote note_of(const RobotFinding& finding) {
   LoadNote note;
-  note.kind = finding.severity == RobotSeverity::information ? LoadNote::Kind::information
-                                                             : LoadNote::Kind::repaired;
+  if (finding.severity == RobotSeverity::information)
+    note.kind = LoadNote::Kind::information;
+  else
+    note.kind = is_loss(finding.code) ? LoadNote::Kind::dropped : LoadNote::Kind::repaired;
   note.place = finding.place.empty() ? "robot" : finding.place;
   note.text = std::string(finding.code) + ": " + finding.text;
   return note;

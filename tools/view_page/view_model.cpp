@@ -7,6 +7,7 @@
 
 #include "tools/messages/messages.h"
 #include "tools/messages/overwriting.h"
+#include "tools/model/load_model.h"
 #include "tools/model/plain_operations.h"
 #include "tools/page_parts/page_file.h"
 #include "tools/verbs.h"
@@ -19,11 +20,12 @@ namespace {
 constexpr std::uint64_t kMostImageBytes = std::uint64_t{256} << 20;
 
 /// Adds a model with its colours; `loaded` keeps what the page refers to.
-Status view(const std::filesystem::path& file, bool has_images, LoadedCharacter& loaded,
+Status view(const std::filesystem::path& file, const ViewRequest& request, LoadedCharacter& loaded,
             ViewedModel& viewed) {
-  Result<LoadedCharacter> result = load_character(file);
+  Result<LoadedCharacter> result = load_character(file, with_roots({}, request.package_roots));
   if (!result) return result.error();
   loaded = std::move(*result);
+  const bool has_images = request.has_images;
   Result<BaseColours> colours = read_base_colours(*loaded.source, has_images ? kMostImageBytes : 0);
   if (!colours) return colours.error();
   if (has_images && colours->left_out > 0)
@@ -51,10 +53,10 @@ ExitCode run_view(const ViewRequest& request) {
   }
   ViewInput input;
   LoadedCharacter model, torn;
-  if (const Status status = view(request.model, request.has_images, model, input.model); !status)
+  if (const Status status = view(request.model, request, model, input.model); !status)
     return complain(request.model.string(), status, ExitCode::unreadable_input);
   if (request.torn)
-    if (const Status status = view(*request.torn, request.has_images, torn, input.torn); !status)
+    if (const Status status = view(*request.torn, request, torn, input.torn); !status)
       return complain(request.torn->string(), status, ExitCode::unreadable_input);
   if (request.operations) {
     const auto operations = load_plain_operations(*request.operations, model.character);
