@@ -43,7 +43,8 @@ if(SUNDER_BULLET AND NOT BUILD_SHARED_LIBS)
 endif()
 if(SUNDER_IO AND NOT BUILD_SHARED_LIBS)
   string(APPEND SUNDER_STATIC_DEPENDENCIES "find_dependency(TinyGLTF)\nfind_dependency(assimp)\nfind_dependency(nlohmann_json)\n"
-    "find_dependency(simdjson)\nfind_dependency(draco)\nfind_dependency(meshoptimizer)")
+    "find_dependency(simdjson)\nfind_dependency(draco)\nfind_dependency(meshoptimizer)\n"
+    "find_dependency(tinyxml2)\nfind_dependency(urdfdom)")
 endif()
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/Sunder)

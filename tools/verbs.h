@@ -21,9 +21,11 @@ namespace sunder::tools {
 struct InfoRequest {
   std::filesystem::path model;
   bool as_json = false;
-  bool with_bones = false;    ///< The bones with their places and surfaces.
-  std::string pose = "rest";  ///< As parse_pose().
-  bool strict = false;  ///< Refuses models that loading would repair.
+  bool with_bones = false;                           ///< The bones with their places and surfaces.
+  std::string pose = "rest";                         ///< As parse_pose().
+  std::vector<std::filesystem::path> package_roots;  ///< Of a robot.
+  std::optional<std::filesystem::path> report;       ///< File for the JSON object.
+  bool strict = false;                               ///< Refuses models that loading would repair.
 };
 [[nodiscard]] ExitCode run_info(const InfoRequest& request);
 
@@ -52,8 +54,10 @@ struct TearRequest {
   bool force = false;                           ///< Outputs may overwrite inputs.
   Verbosity verbosity = Verbosity::normal;
   std::optional<std::filesystem::path> log;  ///< Output file for the log of the applied operations.
-  std::optional<std::filesystem::path> picture;  ///< Output file for a picture.
-  bool strict = false;  ///< Refuses models that loading would repair.
+  std::optional<std::filesystem::path> picture;       ///< Output file for a picture.
+  std::vector<std::filesystem::path> package_roots;   ///< Of a robot.
+  std::optional<std::filesystem::path> robot_limits;  ///< URDF: joint limits for `refit`.
+  bool strict = false;                                ///< Refuses models that loading would repair.
 };
 [[nodiscard]] ExitCode run_tear(const TearRequest& request);
 
@@ -62,7 +66,8 @@ struct ViewRequest {
   std::filesystem::path model, output;
   std::optional<std::filesystem::path> torn, operations;
   bool has_images = true;  ///< Whether the images of base colours are embedded.
-  bool strict = false;  ///< Refuses models that loading would repair.
+  std::vector<std::filesystem::path> package_roots;  ///< Of a robot.
+  bool strict = false;                               ///< Refuses models that loading would repair.
 };
 [[nodiscard]] ExitCode run_view(const ViewRequest& request);
 
@@ -75,7 +80,9 @@ struct PictureRequest {
   PictureSize size;
   bool with_axes = false, with_grid = false, with_bones = false;
   std::optional<std::filesystem::path> operations;  ///< Drawn on the model, not applied.
-  bool strict = false;  ///< Refuses models that loading would repair.
+  std::vector<std::string> joints;  ///< Of a robot, in place of `pose`; as pose_of_joints().
+  std::vector<std::filesystem::path> package_roots;  ///< Of a robot.
+  bool strict = false;                               ///< Refuses models that loading would repair.
 };
 [[nodiscard]] ExitCode run_picture(const PictureRequest& request);
 
@@ -107,12 +114,13 @@ struct ValidateRequest {
   std::filesystem::path source, target;
   std::optional<std::filesystem::path> operations, bone_names;
   std::string profile, limits = "none", fail_on = "error";
-  std::optional<std::filesystem::path> report;    ///< Output file of the JSON report.
-  std::optional<std::filesystem::path> html;      ///< Output file of the page.
-  std::optional<std::filesystem::path> manifest;  ///< Many pairs instead of source and target.
-  unsigned jobs = 1;                              ///< Pairs of a manifest at a time.
-  bool as_json_lines = false;                     ///< Progress and results on stdout.
-  bool strict = false;  ///< Refuses models that loading would repair.
+  std::optional<std::filesystem::path> report;       ///< Output file of the JSON report.
+  std::optional<std::filesystem::path> html;         ///< Output file of the page.
+  std::optional<std::filesystem::path> manifest;     ///< Many pairs instead of source and target.
+  unsigned jobs = 1;                                 ///< Pairs of a manifest at a time.
+  bool as_json_lines = false;                        ///< Progress and results on stdout.
+  std::vector<std::filesystem::path> package_roots;  ///< Of a robot.
+  bool strict = false;                               ///< Refuses models that loading would repair.
 };
 [[nodiscard]] ExitCode run_validate(const ValidateRequest& request);
 

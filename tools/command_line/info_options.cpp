@@ -5,8 +5,9 @@ namespace sunder::tools {
 CLI::App* add_info(CLI::App& app, InfoRequest& request) {
   CLI::App* const verb = app.add_subcommand(
       "info", "Describe a model: meshes, bones, clips, topology, and faults that loading repaired");
-  verb->add_option("MODEL", request.model,
-                   "Model file: glTF, GLB, FBX, COLLADA, X, B3D, OBJ, PLY, OFF ...")
+  verb->add_option(
+          "MODEL", request.model,
+          "Model file: glTF, GLB, FBX, COLLADA, X, B3D, OBJ, PLY, OFF ..., or a robot: URDF")
       ->type_name("FILE")
       ->required();
   verb->add_flag("--json", request.as_json, "Print one JSON object instead of text");
@@ -19,8 +20,12 @@ CLI::App* add_info(CLI::App& app, InfoRequest& request) {
       ->capture_default_str()
       ->needs(bones);
   add_strict(*verb, request.strict);
+  verb->add_option("--report", request.report, "File for the JSON object, beside the text")
+      ->type_name("FILE");
+  add_package_roots(*verb, request.package_roots);
   verb->footer(
-      "Exit code 1 if loading repaired or dropped something.\n\nExample: sunder info fox.glb "
+      "Exit code 1 if loading repaired or dropped something, or found faults of a "
+      "robot.\n\nExample: sunder info fox.glb "
       "--bones --pose Walk@0.4");
   return verb;
 }

@@ -23,10 +23,15 @@ void read_aimed_operations(const CLI::App& verb, TearRequest& request);
 /// `--strict`, which refuses models with faults.
 void add_strict(CLI::App& verb, bool& strict);
 
+/// `--package-root`, unless the verb has it already.
+void add_package_roots(CLI::App& verb, std::vector<std::filesystem::path>& package_roots);
+
 /// `--weights-as`, the number format of written weights.
 void add_weights_as(CLI::App& verb, SaveOptions& save);
 /// `--max-error` and its limits, which exclude that the caller chooses influences and format.
 /// @param verb  with the options --influences and --weights-as.
-void add_maximum_error(CLI::App& verb, std::optional<MaximumError>& wanted);
+/// @param robot_limits  if not null, `--limits` may be a URDF file for fits, without `--max-error`.
+void add_maximum_error(CLI::App& verb, std::optional<MaximumError>& wanted,
+                       std::optional<std::filesystem::path>* robot_limits = nullptr);
 
 }  // namespace sunder::tools

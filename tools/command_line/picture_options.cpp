@@ -76,6 +76,13 @@ CLI::App* add_picture(CLI::App& app, PictureRequest& request) {
                    "rest, bind, or CLIP@TIME with a time in seconds; default: the pose of the last "
                    "operation, or rest")
       ->type_name("POSE");
+  verb->add_option("--joints", request.joints,
+                   "Pose of a robot: NAME=VALUE, radians or metres, separated by commas; other "
+                   "joints are at rest")
+      ->type_name("VALUES")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->excludes("--pose");
   add_parsed(*verb, "--from", request.from, parse_side,
              "front, back, left, right, top, bottom or a direction x,y,z of some length",
              "Side from which it is seen: front (+Z), back, left (+X), right, top, bottom, or the "
@@ -96,6 +103,7 @@ CLI::App* add_picture(CLI::App& app, PictureRequest& request) {
                    "Operation log: draws its blades, planes and bores; nothing is torn")
       ->type_name("FILE");
   add_strict(*verb, request.strict);
+  add_package_roots(*verb, request.package_roots);
   verb->footer(
       "Needs f3d and Xvfb. Exit code 1 if something asked for could not be drawn; stderr says "
       "what.\n\n"

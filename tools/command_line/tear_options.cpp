@@ -108,7 +108,7 @@ CLI::App* add_tear(CLI::App& app, TearRequest& request) {
       ->default_str("source");
   add_weights_as(*verb, request.save);
   add_weight_policy(*verb, request);
-  add_maximum_error(*verb, request.maximum_error);
+  add_maximum_error(*verb, request.maximum_error, &request.robot_limits);
   add_report_options(*verb, request);
   verb->add_option("--picture", request.picture,
                    "File for a picture (PNG) of the torn model, with lips and pieces pulled apart; "
@@ -129,6 +129,7 @@ CLI::App* add_tear(CLI::App& app, TearRequest& request) {
     if (!request.dry_run && !request.output) throw CLI::RequiredError("--output (or --dry-run)");
   });
   add_strict(*verb, request.strict);
+  add_package_roots(*verb, request.package_roots);
   verb->footer(
       "If an operation fails, nothing is written. Exit code 1 if an operation met no surface or "
       "could not tear some places (see the report), or if the picture could not be drawn.\n\n"

@@ -19,7 +19,7 @@ CLI::App* add_validate(CLI::App& app, ValidateRequest& request) {
   verb->add_option("--profile", request.profile, "Simulate the limits of a platform")
       ->check(CLI::IsMember({"unity4", "unreal8", "gltf4", "gltf8", "webxr"}));
   verb->add_option("--limits", request.limits,
-                   "Limits of joints for the certificate: none, clips or a JSON file")
+                   "Limits of joints for the certificate: none, clips, or a JSON or URDF file")
       ->type_name("none|clips|FILE")
       ->capture_default_str();
   verb->add_option("--fail-on", request.fail_on, "Least severity for exit code 1")
@@ -42,6 +42,7 @@ CLI::App* add_validate(CLI::App& app, ValidateRequest& request) {
       throw CLI::RequiredError("SOURCE and TARGET, or --manifest");
   });
   add_strict(*verb, request.strict);
+  add_package_roots(*verb, request.package_roots);
   verb->footer(
       "Exit code 1 if there is a finding at or above --fail-on.\n\n"
       "Example: sunder validate fox.glb torn.glb --ops ops.json --limits clips");

@@ -1,6 +1,7 @@
 #include <string>
 
 #include "tools/command_line/options.h"
+#include "tools/model/load_model.h"
 #include "tools/written_weights/length.h"
 #include "tools/written_weights/written_influences.h"
 
@@ -25,7 +26,8 @@ void add_weights_as(CLI::App& verb, SaveOptions& save) {
       ->default_str("float");
 }
 
-void add_maximum_error(CLI::App& verb, std::optional<MaximumError>& wanted) {
+void add_maximum_error(CLI::App& verb, std::optional<MaximumError>& wanted,
+                       std::optional<std::filesystem::path>* robot_limits) {
   CLI::Option* const length =
       verb.add_option_function<std::string>(
               "--max-error",
@@ -44,12 +46,14 @@ void add_maximum_error(CLI::App& verb, std::optional<MaximumError>& wanted) {
     length->excludes(verb.get_option(other));
   verb.add_option_function<std::string>(
           "--limits",
-          [&wanted](const std::string& limits) {
-            if (wanted) wanted->limits = limits;  // else refused: needs --max-error
+          [&wanted, robot_limits](const std::string& limits) {
+            if (wanted) wanted->limits = limits;
+            const bool is_for_fits = robot_limits != nullptr && is_urdf(limits);
+            if (is_for_fits) *robot_limits = limits;
+            if (!wanted && !is_for_fits) throw CLI::RequiresError("--limits", "--max-error");
           },
-          "Joint limits for --max-error: none, clips or a JSON file")
+          "Joint limits for --max-error: none, clips, or a JSON or URDF file")
       ->type_name("none|clips|FILE")
-      ->needs(length)
       ->default_str("none");
 }
 

@@ -1,4 +1,5 @@
 #include <sunder/io/character_file.h>
+#include <sunder/io/robot_file.h>
 #include <sunder/skinning/pose.h>
 #include <sunder/tear/topology.h>
 
@@ -7,10 +8,15 @@
 #include <map>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "tools/info/bone_table.h"
+#include "tools/info/robot_info.h"
 #include "tools/messages/messages.h"
+#include "tools/messages/overwriting.h"
+#include "tools/messages/text_file.h"
 #include "tools/model/bone_extents.h"
+#include "tools/model/load_model.h"
 #include "tools/model/load_notes.h"
 #include "tools/model/model_check.h"
 #include "tools/model/model_json.h"
@@ -188,12 +194,22 @@ void print_info(const Json& info) {
   if (info.contains("bone_tree")) std::fputs(bone_tree_text(info).c_str(), stdout);
 }
 
-}  // namespace
+/// Prints or writes what was asked for.
+ExitCode put_out(const InfoRequest& request, const Json& info, const std::string& robot) {
+  if (request.report)
+    if (const Status status = write_text(*request.report, dump(info)); !status)
+      return complain(request.report->string(), status, ExitCode::unreadable_input);
+  if (request.as_json) {
+    std::fputs(dump(info).c_str(), stdout);
+    return ExitCode::ok;
+  }
+  if (info.contains("bounds")) print_info(info);
+  std::fputs(robot.c_str(), stdout);
+  return ExitCode::ok;
+}
 
-ExitCode run_info(const InfoRequest& request) {
-  const Result<LoadedCharacter> loaded = load_character(request.model, reading(request.strict));
-  if (!loaded) return complain(request.model.string(), loaded.error(), ExitCode::unreadable_input);
-  const Character& character = *loaded->character;
+ExitCode describe(const InfoRequest& request, const LoadedCharacter& loaded, Json& info) {
+  const Character& character = *loaded.character;
   Result<PoseArgument> argument = parse_pose(request.pose, character);
   if (!argument)
     return complain(request.model.string() + ": --pose", argument.error(), ExitCode::usage,
@@ -203,13 +219,55 @@ ExitCode run_info(const InfoRequest& request) {
   if (!pose) return complain(request.model.string(), pose.error(), ExitCode::internal_error);
   Result<std::vector<DeformedMesh>> posed = pose_positions(character, *pose);
   if (!posed) return complain(request.model.string(), posed.error(), ExitCode::internal_error);
+  info = info_json(request, loaded, {std::move(*argument), std::move(*pose), std::move(*posed)});
+  return ExitCode::ok;
+}
 
-  const Json info =
-      info_json(request, *loaded, {std::move(*argument), std::move(*pose), std::move(*posed)});
-  if (request.as_json)
-    std::fputs(dump(info).c_str(), stdout);
-  else
-    print_info(info);
+/// A robot is described also where it has no meshes, and what is wrong where it is refused.
+ExitCode describe_robot(const InfoRequest& request) {
+  RobotLoadOptions options;
+  options.strict = request.strict;
+  options.package_roots = request.package_roots;
+  std::vector<RobotFinding> findings;
+  Result<LoadedRobot> loaded = load_robot(request.model, options, &findings);
+  Json info = {{"sunder_info", 1}, {"model", request.model.string()}};
+  if (!loaded) {
+    info["robot"] = nullptr;
+    info["findings"] = findings_json(findings);
+    if (const ExitCode code = put_out(request, info, findings_text(findings)); code != ExitCode::ok)
+      return code;
+    return complain(request.model.string(), loaded.error(), ExitCode::unreadable_input);
+  }
+  loaded->model.report.notes.clear();  // they repeat the findings
+  if (!loaded->model.character->meshes.empty())
+    if (const ExitCode code = describe(request, loaded->model, info); code != ExitCode::ok)
+      return code;
+  info["robot"] = robot_json(loaded->robot);
+  info["findings"] = findings_json(findings);
+  const std::string text = robot_text(loaded->robot) + findings_text(findings);
+  if (const ExitCode code = put_out(request, info, text); code != ExitCode::ok) return code;
+  const bool has_warnings = std::any_of(
+      findings.begin(), findings.end(),
+      [](const RobotFinding& finding) { return finding.severity == RobotSeverity::warning; });
+  return has_warnings ? ExitCode::findings : ExitCode::ok;
+}
+
+}  // namespace
+
+ExitCode run_info(const InfoRequest& request) {
+  if (request.report)
+    if (const std::string fault =
+            overwriting({{"MODEL", request.model}}, {{"--report", *request.report}});
+        !fault.empty()) {
+      print_error("sunder: " + fault);
+      return ExitCode::usage;
+    }
+  if (is_urdf(request.model)) return describe_robot(request);
+  const Result<LoadedCharacter> loaded = load_character(request.model, reading(request.strict));
+  if (!loaded) return complain(request.model.string(), loaded.error(), ExitCode::unreadable_input);
+  Json info;
+  if (const ExitCode code = describe(request, *loaded, info); code != ExitCode::ok) return code;
+  if (const ExitCode code = put_out(request, info, {}); code != ExitCode::ok) return code;
 
   const auto& notes = loaded->report.notes;
   const bool was_changed = std::any_of(notes.begin(), notes.end(), [](const LoadNote& note) {

@@ -13,6 +13,8 @@
 #include "tools/messages/printed.h"
 #include "tools/model/bone_extents.h"
 #include "tools/model/history.h"
+#include "tools/model/joint_values.h"
+#include "tools/model/load_model.h"
 #include "tools/model/load_notes.h"
 #include "tools/model/name_advice.h"
 #include "tools/model/named_poses.h"
@@ -168,6 +170,15 @@ void warn_of_other_poses(const Character& character, const Subject& subject,
 /// The pose that was asked for; otherwise that of the last operation with a place, or rest.
 Result<PoseArgument> choose_pose(const PictureRequest& request, const Character& character,
                                  const std::vector<NumberedOperation>& operations) {
+  if (!request.joints.empty()) {
+    if (!is_urdf(request.model))
+      return Status::failure(StatusCode::invalid_argument, kNone, "the model is no robot (URDF)");
+    const Result<LoadedRobot> robot = load_robot(request.model, {.shapes = RobotShapes::none});
+    if (!robot) return robot.error();
+    Result<ModelPose> pose = pose_of_joints(request.joints, robot->robot, robot->model_from_root);
+    if (!pose) return pose.error();
+    return PoseArgument{std::move(*pose), "of --joints", ""};
+  }
   if (request.pose) return parse_pose(*request.pose, character);
   for (auto logged = operations.rbegin(); logged != operations.rend(); ++logged) {
     if (std::holds_alternative<WeightsOperation>(*logged->operation)) continue;
@@ -228,7 +239,8 @@ ExitCode run_picture(const PictureRequest& request) {
   }
   if (const std::string fault = other_ending({"--output", request.output}, "png"); !fault.empty())
     warn(fault);
-  const Result<LoadedCharacter> loaded = load_character(request.model, reading(request.strict));
+  const Result<LoadedCharacter> loaded =
+      load_character(request.model, with_roots(reading(request.strict), request.package_roots));
   if (!loaded) return complain(request.model.string(), loaded.error(), ExitCode::unreadable_input);
   warn_of_repairs(request.model.string(), loaded->report, Messages(Verbosity::normal));
   std::vector<Operation> log;
@@ -247,8 +259,9 @@ ExitCode run_picture(const PictureRequest& request) {
           poses.error(), ExitCode::usage, advice_on_names(*logged.operation, *loaded->character));
   const Result<PoseArgument> pose = choose_pose(request, *loaded->character, *operations);
   if (!pose)
-    return complain(request.model.string() + ": --pose", pose.error(), ExitCode::usage,
-                    advice_on_pose(*request.pose, *loaded->character));
+    return complain(request.model.string() + (request.pose ? ": --pose" : ": --joints"),
+                    pose.error(), ExitCode::usage,
+                    request.pose ? advice_on_pose(*request.pose, *loaded->character) : "");
   if (!pose->remark.empty()) (request.pose ? warn : say)(pose->remark);
   bool has_all_textures = true;
   for (const LoadNote& note : loaded->report.notes) {

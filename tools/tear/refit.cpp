@@ -1,13 +1,16 @@
 #include "tools/tear/refit.h"
 
+#include <sunder/certificate/robot_limits.h>
 #include <sunder/skinning/pose.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <sstream>
 #include <utility>
 
 #include "tools/model/history.h"
+#include "tools/model/load_model.h"
 
 namespace sunder::tools {
 namespace {
@@ -74,7 +77,7 @@ std::string refit_over_text(const RefitOptions& options) {
   if (options.poses.clip_samples > 0) append_part(text, kClips, options.importance.clips);
   for (const RefitImportance::OfClip& of : options.importance.of_clip)
     append_part(text, "clips:" + of.clip, of.factor);
-  if (options.poses.range_of_motion)
+  if (options.poses.range_of_motion || !options.poses.joint_limits.empty())
     append_part(text, kRangeOfMotion, options.importance.range_of_motion);
   return text;
 }
@@ -88,6 +91,27 @@ Result<std::optional<RefitOptions>> choose_refit(const Character& character,
   if (status) return std::optional(std::move(options));
   if (!asked && status.code() == StatusCode::empty_input) return std::optional<RefitOptions>();
   return status;
+}
+
+Status limit_range_of_motion(const std::filesystem::path& urdf, const Character& character,
+                             RefitOptions& options) {
+  const Result<Robot> robot = load_joints(urdf);
+  if (!robot) return robot.error();
+  const Result<std::vector<JointLimit>> limits = pose_limits_of(*robot);
+  if (!limits) return limits.error();
+  options.poses.joint_limits.clear();
+  const std::vector<Bone>& bones = character.skeleton.bones;
+  for (JointLimit limit : *limits) {
+    const auto bone = std::ranges::find(bones, robot->links[limit.bone].name, &Bone::name);
+    if (bone == bones.end()) continue;
+    limit.bone = static_cast<std::uint32_t>(bone - bones.begin());
+    options.poses.joint_limits.push_back(limit);
+  }
+  if (options.poses.joint_limits.empty())
+    return Status::failure(StatusCode::not_found, kNone,
+                           "no bone of the model has the name of a link that the robot turns");
+  options.poses.range_of_motion = false;
+  return {};
 }
 
 std::vector<WeightsOperation> refits_of(const std::vector<Operation>& history,

@@ -3,6 +3,7 @@
 #include <sunder/operation/operation.h>
 #include <sunder/tear/torn_model.h>
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -24,6 +25,11 @@ namespace sunder::tools {
 ///         is nothing to fit.
 [[nodiscard]] Result<std::optional<RefitOptions>> choose_refit(
     const Character& character, const std::optional<RefitOptions>& asked);
+
+/// Replaces the range of motion by the joint limits of a robot, for the bones that have the names
+/// of its links. @return the failures of load_robot(); not_found if there is no such bone.
+[[nodiscard]] Status limit_range_of_motion(const std::filesystem::path& urdf,
+                                           const Character& character, RefitOptions& options);
 
 /// The operations that fit all points of a history that are not fitted yet: points of the policy
 /// `refit` that no later operation reweighed. Successive operations with the same weights are

@@ -15,6 +15,7 @@
 #include "tools/messages/output_file.h"
 #include "tools/messages/printed.h"
 #include "tools/messages/progress_bar.h"
+#include "tools/model/load_model.h"
 #include "tools/model/load_notes.h"
 #include "tools/model/model_check.h"
 #include "tools/model/named_poses.h"
@@ -60,7 +61,13 @@ Result<Weighing> choose_weighing(const TearRequest& request,
   auto refit = choose_refit(*character, request.refit_over);
   if (!refit) return refit.error();
   weighing.refit = std::move(*refit);
-  if (weighing.refit) weighing.refit->bound = request.refit_bound;
+  if (!weighing.refit) return weighing;
+  weighing.refit->bound = request.refit_bound;
+  const std::optional<std::filesystem::path> robot =
+      is_urdf(request.model) ? std::optional(request.model) : request.robot_limits;
+  if (robot && weighing.refit->poses.range_of_motion)
+    if (const Status status = limit_range_of_motion(*robot, *character, *weighing.refit); !status)
+      return status;
   return weighing;
 }
 
@@ -184,7 +191,7 @@ ExitCode run_tear(const TearRequest& request) {
   ProgressBar progress(operations->size() + 3);
   progress.begin_step(0, "reading");
   const std::string place = request.model.string();
-  LoadOptions load = reading(request.strict);
+  LoadOptions load = with_roots(reading(request.strict), request.package_roots);
   load.keep_stored_influences = request.maximum_error.has_value();
   const Result<LoadedCharacter> loaded = load_character(request.model, load);
   if (!loaded) return complain(place, loaded.error(), ExitCode::unreadable_input);

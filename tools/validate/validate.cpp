@@ -131,7 +131,7 @@ Status read_manifest(const std::filesystem::path& file, const ValidateRequest& r
       return Status::failure(StatusCode::malformed_file, index,
                              "/pairs/%u: expected source and target", index);
     Job job{{*source, *target, file_of(pair, "ops", folder), file_of(pair, "bone_names", folder),
-             profile_named(request.profile), request.limits},
+             profile_named(request.profile), request.limits, false, request.package_roots},
             file_of(pair, "report", folder),
             file_of(pair, "html", folder)};
     if (const auto profile = pair.find("profile"); profile != pair.end() && profile->is_string())
@@ -191,7 +191,7 @@ ExitCode run_validate(const ValidateRequest& request) {
       return complain(request.manifest->string(), status, ExitCode::usage);
   } else {
     jobs.push_back({{request.source, request.target, request.operations, request.bone_names,
-                     profile_named(request.profile), request.limits},
+                     profile_named(request.profile), request.limits, false, request.package_roots},
                     request.report,
                     request.html});
   }

@@ -7,6 +7,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "tools/messages/exit_code.h"
 #include "tools/messages/json.h"
@@ -26,9 +27,10 @@ struct ValidatePair {
   std::optional<std::filesystem::path> operations;  ///< The log that made the target.
   std::optional<std::filesystem::path> bone_names;  ///< Bones whose names differ.
   TargetProfile profile = TargetProfile::none;
-  std::string limits = "none";  ///< "none", "clips" or a file.
-  bool strict = false;          ///< Refuses models that loading would repair.
+  std::string limits = "none";  ///< "none" (of a robot: its own), "clips" or a file.
   bool over_time = false;       ///< Also measures the deviation over the time of each clip.
+  std::vector<std::filesystem::path> package_roots = {};  ///< Of robots.
+  bool strict = false;  ///< Refuses models that loading would repair.
 };
 
 /// A failure and the file that it is about.

@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "tools/model/bone_names.h"
+#include "tools/model/load_model.h"
 #include "tools/model/load_notes.h"
 #include "tools/model/plain_operations.h"
 #include "tools/validate/validate.h"
@@ -58,9 +59,9 @@ void add_load_notes(ValidatedPair& pair) {
     }
 }
 
-std::optional<LoadedCharacter> load(const std::filesystem::path& file, bool strict,
+std::optional<LoadedCharacter> load(const std::filesystem::path& file, const ValidatePair& pair,
                                     ValidateFailure& failure) {
-  LoadOptions options = reading(strict);
+  LoadOptions options = with_roots(reading(pair.strict), pair.package_roots);
   options.keep_stored_influences = true;
   Result<LoadedCharacter> loaded = load_character(file, options);
   if (loaded) return std::move(*loaded);
@@ -85,13 +86,15 @@ bool read_options(const ValidatePair& pair, const std::shared_ptr<const Characte
     if (!names) return false;
     options.bone_names = std::move(*names);
   }
-  if (pair.limits == "none") return true;
+  const bool has_own_limits = pair.limits == "none" && is_urdf(pair.source);
+  if (pair.limits == "none" && !has_own_limits) return true;
   if (pair.limits == "clips") {
     options.limits_from = LimitsFrom::clips;
     return true;
   }
-  Result<JointLimits> limits = read_joint_limits(pair.limits, *character);
-  if (!limits) failure = {pair.limits, limits.error(), ExitCode::usage};
+  const std::string file = has_own_limits ? pair.source.string() : pair.limits;
+  Result<JointLimits> limits = read_joint_limits(file, *character);
+  if (!limits) failure = {file, limits.error(), ExitCode::usage};
   if (!limits) return false;
   options.limits_from = LimitsFrom::given;
   options.limits = std::move(*limits);
@@ -103,9 +106,9 @@ bool read_options(const ValidatePair& pair, const std::shared_ptr<const Characte
 std::optional<ValidatedPair> validate_pair(
     const ValidatePair& pair, const std::function<void(std::string_view, double)>& progress,
     ValidateFailure& failure) {
-  auto source = load(pair.source, pair.strict, failure);
+  auto source = load(pair.source, pair, failure);
   if (!source) return {};
-  auto target = load(pair.target, pair.strict, failure);
+  auto target = load(pair.target, pair, failure);
   if (!target) return {};
   ValidationOptions options;
   options.stored_source = source->stored;

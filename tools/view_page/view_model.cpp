@@ -7,6 +7,7 @@
 
 #include "tools/messages/messages.h"
 #include "tools/messages/overwriting.h"
+#include "tools/model/load_model.h"
 #include "tools/model/load_notes.h"
 #include "tools/model/plain_operations.h"
 #include "tools/page_parts/page_file.h"
@@ -22,11 +23,12 @@ constexpr std::uint64_t kMostImageBytes = std::uint64_t{256} << 20;
 /// Adds a model with its colours; `loaded` keeps what the page refers to.
 Status view(const std::filesystem::path& file, const ViewRequest& request, LoadedCharacter& loaded,
             ViewedModel& viewed) {
-  Result<LoadedCharacter> result = load_character(file, reading(request.strict));
+  Result<LoadedCharacter> result =
+      load_character(file, with_roots(reading(request.strict), request.package_roots));
   if (!result) return result.error();
-  const bool has_images = request.has_images;
   warn_of_repairs(file.string(), result->report, Messages(Verbosity::normal));
   loaded = std::move(*result);
+  const bool has_images = request.has_images;
   Result<BaseColours> colours = read_base_colours(*loaded.source, has_images ? kMostImageBytes : 0);
   if (!colours) return colours.error();
   if (has_images && colours->left_out > 0)

@@ -1,5 +1,7 @@
 #include "tools/written_weights/joint_limits_file.h"
 
+#include <sunder/certificate/robot_limits.h>
+#include <sunder/robot/robot.h>
 #include <sunder/skinning/pose.h>
 #include <sunder/validation/validation.h>
 
@@ -7,6 +9,7 @@
 #include <numbers>
 
 #include "tools/messages/json_file.h"
+#include "tools/model/load_model.h"
 
 namespace sunder::tools {
 namespace {
@@ -38,10 +41,33 @@ Status read_range(const Json& json, const std::string& bone, JointRange& range) 
   return {};
 }
 
+/// Those of a robot, for the bones that have the names of its links.
+Result<JointLimits> limits_of_urdf(const std::filesystem::path& file, const Character& character) {
+  const Result<Robot> robot = load_joints(file);
+  if (!robot) return robot.error();
+  const Result<JointLimits> of_links = joint_limits_of(*robot);
+  if (!of_links) return of_links.error();
+  const Result<ModelPose> bind = bind_pose(character);
+  if (!bind) return bind.error();
+  Result<JointLimits> limits = free_joint_limits(character, *bind);
+  if (!limits) return limits.error();
+  std::size_t found = 0;
+  for (std::size_t bone = 0; bone < limits->of_bone.size(); ++bone) {
+    const std::uint32_t link = find_link(*robot, character.skeleton.bones[bone].name);
+    if (link == kNone) continue;
+    limits->of_bone[bone] = of_links->of_bone[link];
+    ++found;
+  }
+  if (found > 0) return limits;
+  return Status::failure(StatusCode::not_found, kNone,
+                         "no bone of the model has the name of a link of the robot");
+}
+
 }  // namespace
 
 Result<JointLimits> read_joint_limits(const std::filesystem::path& file,
                                       const Character& character) {
+  if (is_urdf(file)) return limits_of_urdf(file, character);
   const Result<Json> json = read_json_object(file);
   if (!json) return json.error();
   const Result<ModelPose> bind = bind_pose(character);
