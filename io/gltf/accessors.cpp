@@ -178,9 +178,9 @@ AccessorReader::AccessorReader(const SourceDocument& document)
 }
 
 Accessor AccessorReader::open(const Cursor& reference) {
-  const std::size_t count = count_of(document_.json, "accessors");
-  const std::uint32_t index = reference.to_index(count, "accessor");
-  if (opened_.size() < count) opened_.resize(count);
+  const std::uint64_t known = reference.to_unsigned();
+  if (known >= opened_.size()) opened_.resize(count_of(document_.json, "accessors"));
+  const std::uint32_t index = reference.to_index(opened_.size(), "accessor");
   if (!opened_[index]) opened_[index] = open_new(index);
   return *opened_[index];
 }
@@ -202,9 +202,9 @@ Accessor AccessorReader::open_new(std::uint32_t index) const {
   accessor.count = static_cast<std::uint32_t>(count);
 
   const std::size_t element_size = accessor.components * size_of(accessor.component_type);
-  if (at.find("bufferView")) {
+  if (const auto view_at = at.find("bufferView")) {
     const std::uint32_t view =
-        at.member("bufferView").to_index(count_of(document_.json, "bufferViews"), "buffer view");
+        view_at->to_index(count_of(document_.json, "bufferViews"), "buffer view");
     const auto bytes = bytes_of_view(document_, view);
     const std::uint64_t stride =
         entry(document_.json, "bufferViews", view).unsigned_or("byteStride", element_size);

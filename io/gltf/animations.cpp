@@ -1,9 +1,11 @@
 #include "io/gltf/animations.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <set>
+#include <optional>
 #include <string_view>
+#include <utility>
 
 #include "core/internal/all_finite.h"
 #include "io/gltf/names.h"
@@ -22,18 +24,28 @@ class AnimationReader {
  public:
   AnimationReader(Reading& reading, const NodeSkeleton& nodes,
                   const std::vector<MorphRange>& morphs_of_node)
-      : reading_(reading), nodes_(nodes), morphs_of_node_(morphs_of_node) {}
+      : reading_(reading), nodes_(nodes), morphs_of_node_(morphs_of_node) {
+    std::size_t targets = nodes.skeleton.bones.size();
+    for (std::uint32_t node = 0; node < nodes.bone_from_node.size(); ++node) {
+      has_matrix_.push_back(entry(reading.json(), "nodes", node).find("matrix").has_value());
+      targets = std::max<std::size_t>(targets, morphs_of_node[node].first + std::size_t{1});
+    }
+    for (auto& clips : last_clip_) clips.assign(targets, 0);
+  }
 
   Clip read(const Cursor& animation, const std::string& name) {
     Clip clip;
     clip.name = name;
     const std::string place = "clip '" + name + "'";
     const Cursor channels = animation.member("channels");
-    std::set<std::pair<ChannelTarget, std::uint32_t>> driven;
+    std::optional<Cursor> samplers;
+    ++clip_count_;
     for (std::uint32_t i = 0; i < channels.size(); ++i) {
       try {
-        Channel channel = read_channel(animation, channels.element(i), place);
-        if (!driven.insert({channel.target, channel.index}).second)
+        Channel channel = read_channel(animation, samplers, channels.element(i), place);
+        std::uint32_t& last_clip =
+            last_clip_[static_cast<std::size_t>(channel.target)][channel.index];
+        if (std::exchange(last_clip, clip_count_) == clip_count_)
           throw Unusable{"an earlier channel has the same target"};
         clip.duration = std::max(clip.duration, channel.times.back());
         clip.channels.push_back(std::move(channel));
@@ -49,12 +61,14 @@ class AnimationReader {
   }
 
  private:
-  Channel read_channel(const Cursor& animation, const Cursor& at, const std::string& place) {
+  /// @param samplers  of the animation, once a channel asked for them.
+  Channel read_channel(const Cursor& animation, std::optional<Cursor>& samplers, const Cursor& at,
+                       const std::string& place) {
     Channel channel;
     read_target(at.member("target"), channel);
-    const Cursor samplers = animation.member("samplers");
+    if (!samplers) samplers = animation.member("samplers");
     const Cursor sampler =
-        samplers.element(at.member("sampler").to_index(samplers.size(), "sampler"));
+        samplers->element(at.member("sampler").to_index(samplers->size(), "sampler"));
     read_interpolation(sampler, channel);
     channel.times = read_times(sampler.member("input"));
     read_values(sampler.member("output"), channel);
@@ -87,8 +101,7 @@ class AnimationReader {
     } else {
       throw Unusable{"unknown target path '" + path.substr(0, 40) + "'"};
     }
-    if (channel.target != ChannelTarget::morph_weights &&
-        entry(reading_.json(), "nodes", node).find("matrix"))
+    if (channel.target != ChannelTarget::morph_weights && has_matrix_[node])
       throw Unusable{"its node has a matrix, which cannot be animated"};
   }
 
@@ -178,6 +191,10 @@ class AnimationReader {
   Reading& reading_;
   const NodeSkeleton& nodes_;
   const std::vector<MorphRange>& morphs_of_node_;
+  std::vector<bool> has_matrix_;  ///< Per node.
+  /// By target and its index, the number of the last clip with a channel for it, counted from one.
+  std::array<std::vector<std::uint32_t>, 4> last_clip_;
+  std::uint32_t clip_count_ = 0;
 };
 
 }  // namespace

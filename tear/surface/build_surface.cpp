@@ -126,27 +126,31 @@ Weld weld_vertices(const Character& character) {
 
   const PointIdentity identity(character);
   Weld weld;
-  std::vector<std::uint64_t> hashes;
+  const auto add = [&](Index m, Index v, std::uint64_t hash) {
+    const auto new_point = static_cast<Index>(first_of_point.size());
+    const Index point = table.find_or_add(hash, new_point, [&](Index known) {
+      return identity.same(first_of_point[known].mesh, first_of_point[known].vertex, m, v);
+    });
+    if (point == new_point) {
+      first_of_point.push_back({m, v});
+      weld.point_side.push_back(identity.tear_side(m, v));
+      weld.is_shared.push_back(false);
+    }
+    if (first_of_point[point].mesh != m) weld.is_shared[point] = true;
+    weld.point_of_vertex[m].push_back(point);
+  };
+  constexpr Index kBlock = 32;  // of vertices whose entries are fetched side by side
+  std::array<std::uint64_t, kBlock> hashes{};
   for (Index m = 0; m < character.meshes.size(); ++m) {
-    constexpr Index kAhead = 16;
     const Index count = character.meshes[m].vertex_count();
-    hashes.resize(count);
-    for (Index v = 0; v < count; ++v) hashes[v] = identity.hash(m, v);
-    auto& points = weld.point_of_vertex.emplace_back();
-    points.reserve(count);
-    for (Index v = 0; v < count; ++v) {
-      if (v + kAhead < count) table.prefetch(hashes[v + kAhead]);
-      const auto new_point = static_cast<Index>(first_of_point.size());
-      const Index point = table.find_or_add(hashes[v], new_point, [&](Index known) {
-        return identity.same(first_of_point[known].mesh, first_of_point[known].vertex, m, v);
-      });
-      if (point == new_point) {
-        first_of_point.push_back({m, v});
-        weld.point_side.push_back(identity.tear_side(m, v));
-        weld.is_shared.push_back(false);
+    weld.point_of_vertex.emplace_back().reserve(count);
+    for (Index begin = 0; begin < count; begin += kBlock) {
+      const Index size = std::min(kBlock, count - begin);
+      for (Index i = 0; i < size; ++i) {
+        hashes[i] = identity.hash(m, begin + i);
+        table.prefetch(hashes[i]);
       }
-      if (first_of_point[point].mesh != m) weld.is_shared[point] = true;
-      points.push_back(point);
+      for (Index i = 0; i < size; ++i) add(m, begin + i, hashes[i]);
     }
   }
   return weld;
