@@ -9,6 +9,7 @@
 
 #include "io/files/write_atomically.h"
 #include "io/gltf/accessors.h"
+#include "io/gltf/copied_materials.h"
 #include "io/gltf/glb.h"
 #include "io/gltf/mesh_writer.h"
 #include "io/gltf/refusal.h"
@@ -41,14 +42,21 @@ Index append(Json& document, const char* list_name, Json entry) {
 
 class NewDocument {
  public:
-  NewDocument(const Character& character, const SaveOptions& options)
-      : character_(character), options_(options), draft_(nothing_), meshes_(draft_, options) {}
+  /// @param materials  null: plain ones.
+  NewDocument(const Character& character, const SaveOptions& options,
+              const SourceDocument* materials)
+      : character_(character),
+        options_(options),
+        materials_(materials),
+        draft_(nothing_),
+        meshes_(draft_, options) {}
 
   std::vector<std::byte> write() {
     draft_.json = {{"asset", {{"version", "2.0"}, {"generator", "Sunder"}}},
                    {"scene", 0},
                    {"scenes", Json::array({Json::object()})}};
     if (!character_.name.empty()) draft_.json["scenes"][0]["name"] = character_.name;
+    if (materials_ != nullptr) material_count_ = copy_materials(*materials_, draft_);
     add_bones();
     for (Index mesh = 0; mesh < character_.meshes.size(); ++mesh) add_mesh(mesh);
     draft_.json["scenes"][0]["nodes"] = roots_;
@@ -143,6 +151,13 @@ class NewDocument {
   }
 
   Index add_material(const Mesh& mesh, Index submesh) {
+    const Index own = mesh.submeshes[submesh].material;
+    if (materials_ != nullptr && own != kNone) {
+      if (own < material_count_) return own;
+      refuse(StatusCode::index_out_of_range, own,
+             "mesh '%.60s': material %u does not exist; the document has %u", mesh.name.c_str(),
+             own, material_count_);
+    }
     const auto& color = kColors[list_of(draft_.json, "materials").size() % kColors.size()];
     // Vertex colours are multiplied by the material's colour, so that is white.
     const Json base_color = mesh.color_sets.empty() ? Json{color[0], color[1], color[2], 1.0}
@@ -259,26 +274,38 @@ class NewDocument {
 
   const Character& character_;
   const SaveOptions& options_;
+  const SourceDocument* materials_;
   const SourceDocument nothing_;
   GlbDraft draft_;
   MeshWriter meshes_;
+  Index material_count_ = 0;
   Json roots_;
   std::vector<Index> node_of_bone_;
   std::map<Index, Index> gltf_skin_of_;
   std::map<Index, Index> node_of_mesh_;
 };
 
+Status write(const std::filesystem::path& file, const Character& character,
+             const SaveOptions& options, const SourceDocument* materials) {
+  try {
+    check_options(options, character.meshes.size());
+    if (const Status status = validate_character(character); !status) return status;
+    return write_atomically(file, NewDocument(character, options, materials).write());
+  } catch (...) {
+    return status_of_current_exception();
+  }
+}
+
 }  // namespace
 
 Status write_new_document(const std::filesystem::path& file, const Character& character,
                           const SaveOptions& options) {
-  try {
-    check_options(options, character.meshes.size());
-    if (const Status status = validate_character(character); !status) return status;
-    return write_atomically(file, NewDocument(character, options).write());
-  } catch (...) {
-    return status_of_current_exception();
-  }
+  return write(file, character, options, nullptr);
+}
+
+Status write_with_materials(const std::filesystem::path& file, const Character& character,
+                            const SourceDocument& materials, const SaveOptions& options) {
+  return write(file, character, options, &materials);
 }
 
 }  // namespace sunder::gltf
