@@ -1,5 +1,6 @@
 #pragma once
 
+#include <sunder/binding/binding.h>
 #include <sunder/io/character_file.h>
 #include <sunder/operation/aimed_operation.h>
 #include <sunder/validation/transfer.h>
@@ -96,6 +97,20 @@ struct TransferRequest {
   std::optional<std::filesystem::path> report;
 };
 [[nodiscard]] ExitCode run_transfer(const TransferRequest& request);
+
+/// sunder bind: attaches a model to the skeleton of another one.
+struct BindRequest {
+  std::filesystem::path model, skeleton, output;
+  std::optional<std::filesystem::path> map;  ///< JSON: {"bone of the model": "of the skeleton"}.
+  bool refuse_unmapped = false;              ///< MappingOptions::refuse_unmapped.
+  HeatOptions options;                       ///< Without a map; but for the place.
+  std::string pose = "rest";                 ///< Of the skeleton, as parse_pose().
+  std::optional<Affine3d> place;             ///< BindingPlace::rig_from_model.
+  bool fit = false;                          ///< Whether fit_place() finds it.
+  SaveOptions save;
+  std::optional<std::filesystem::path> report;
+};
+[[nodiscard]] ExitCode run_bind(const BindRequest& request);
 
 /// sunder validate: compares how the skins of two models deform.
 struct ValidateRequest {

@@ -7,6 +7,7 @@
 namespace sunder::tools {
 
 // Each function adds a verb with its options to the command; parsing fills in the request.
+CLI::App* add_bind(CLI::App& app, BindRequest& request);
 CLI::App* add_info(CLI::App& app, InfoRequest& request);
 CLI::App* add_picture(CLI::App& app, PictureRequest& request);
 CLI::App* add_tear(CLI::App& app, TearRequest& request);
