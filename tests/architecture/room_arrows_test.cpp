@@ -49,10 +49,12 @@ const std::map<std::string, Rooms> kRooms = {
     {"validation",
      {{".", {"checks", "match"}}, {"checks", {"match"}}, {"transfer", {"match"}}, {"match", {}}}},
     {"io",
-     {{".", {"assimp", "gltf", "operation_log", "files"}},
+     {{".", {"assimp", "gltf", "operation_log", "files", "trajectory", "urdf"}},
       {"assimp", {}},
       {"gltf", {"files"}},
+      {"urdf", {"gltf", "files"}},
       {"operation_log", {}},
+      {"trajectory", {"operation_log"}},
       {"files", {}}}},
 };
 
