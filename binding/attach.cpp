@@ -29,31 +29,32 @@ std::vector<Clip> bone_clips(const std::vector<Clip>& clips) {
   return kept;
 }
 
-/// Per mesh, a skin in common with the meshes that are carried by the same matrix.
+/// The new skins: per mesh, and the skin of the model that each stands for.
 struct SharedSkins {
   std::vector<Index> of_mesh;
-  std::vector<Affine3d> rig_from_bind;  ///< Per skin.
+  std::vector<Index> model_skin;
 };
 
-SharedSkins share_skins(const Joined& joined) {
+SharedSkins share_skins(const Joined& joined, bool joins) {
   SharedSkins shared;
   for (const Mesh& mesh : joined.model.meshes) {
-    const Affine3d& matrix = joined.rig_from_bind[mesh.skin];
-    const auto known = std::ranges::find_if(shared.rig_from_bind, [&](const Affine3d& other) {
-      return other.matrix() == matrix.matrix();
+    const auto known = std::ranges::find_if(shared.model_skin, [&](Index other) {
+      return other == mesh.skin || (joins && joined.rig_from_bind[other].matrix() ==
+                                                 joined.rig_from_bind[mesh.skin].matrix());
     });
-    shared.of_mesh.push_back(static_cast<Index>(known - shared.rig_from_bind.begin()));
-    if (known == shared.rig_from_bind.end()) shared.rig_from_bind.push_back(matrix);
+    shared.of_mesh.push_back(static_cast<Index>(known - shared.model_skin.begin()));
+    if (known == shared.model_skin.end()) shared.model_skin.push_back(mesh.skin);
   }
   return shared;
 }
 
 Result<Skin> make_skin(const Joined& joined, const std::map<Index, Index>& slot_of_bone,
-                       const Affine3d& rig_from_bind) {
+                       Index model_skin) {
   Skin skin;
-  skin.name = joined.model.name;
+  skin.name = joined.model.skins[model_skin].name;
   for (const auto& [bone, slot] : slot_of_bone) {
-    const Affine3d bone_from_bind = multiply(inverse(joined.rig_from_bone[bone]), rig_from_bind);
+    const Affine3d bone_from_bind =
+        multiply(inverse(joined.rig_from_bone[bone]), joined.rig_from_bind[model_skin]);
     skin.bones.push_back(bone);
     skin.bone_from_bind.push_back(Affine3f(bone_from_bind.cast<float>()));
     if (!skin.bone_from_bind.back().matrix().allFinite())
@@ -79,7 +80,8 @@ std::vector<Influence> influences_of(const WeightRow& row,
 
 }  // namespace
 
-Result<Binding> attach(const Joined& joined, const std::vector<std::vector<WeightRow>>& rows) {
+Result<Binding> attach(const Joined& joined, const std::vector<std::vector<WeightRow>>& rows,
+                       bool joins) {
   Binding binding;
   Character& character = binding.character;
   character.name = joined.model.name;
@@ -90,8 +92,8 @@ Result<Binding> attach(const Joined& joined, const std::vector<std::vector<Weigh
   binding.clips_left_out = static_cast<std::uint32_t>(joined.model.clips.size());
   binding.largest_shape_error = joined.largest_shape_error;
 
-  const SharedSkins shared = share_skins(joined);
-  std::vector<std::map<Index, Index>> slot_of_bone(shared.rig_from_bind.size());
+  const SharedSkins shared = share_skins(joined, joins);
+  std::vector<std::map<Index, Index>> slot_of_bone(shared.model_skin.size());
   for (Index m = 0; m < rows.size(); ++m)
     for (const WeightRow& row : rows[m])
       for (const BoneWeight& entry : row)
@@ -100,7 +102,7 @@ Result<Binding> attach(const Joined& joined, const std::vector<std::vector<Weigh
     if (slot_of_bone[s].empty()) slot_of_bone[s].try_emplace(0, 0);  // of meshes without vertices
     Index slot = 0;
     for (auto& [bone, number] : slot_of_bone[s]) number = slot++;
-    Result<Skin> skin = make_skin(joined, slot_of_bone[s], shared.rig_from_bind[s]);
+    Result<Skin> skin = make_skin(joined, slot_of_bone[s], shared.model_skin[s]);
     if (!skin) return skin.error();
     character.skins.push_back(std::move(*skin));
   }

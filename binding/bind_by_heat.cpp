@@ -56,7 +56,8 @@ Result<HeatBinding> heat_up(const Character& model, const Character& rig,
     report.largest_dropped_weight = std::max(
         report.largest_dropped_weight, binding::limit_weights(options.maximum_influences, row));
   list_bones_without_weight(rig.skeleton, *chosen, weights->rows, report);
-  Result<Binding> attached = binding::attach(*joined, rows_of_vertices(surface, weights->rows));
+  Result<Binding> attached =
+      binding::attach(*joined, rows_of_vertices(surface, weights->rows), true);
   if (!attached) return attached.error();
   static_cast<Binding&>(report) = std::move(*attached);
   report.points = surface.point_count();

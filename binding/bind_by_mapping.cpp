@@ -96,7 +96,7 @@ Result<MappedBinding> map(const Character& model, const Character& rig,
     for (Index v = 0; v < mesh.vertex_count(); ++v)
       of_mesh.push_back(mapped_row(mesh.weights.of(v), model.skins[mesh.skin], *paired));
   }
-  Result<Binding> attached = binding::attach(*joined, rows);
+  Result<Binding> attached = binding::attach(*joined, rows, false);
   if (!attached) return attached.error();
   static_cast<Binding&>(report) = std::move(*attached);
   return report;
