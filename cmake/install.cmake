@@ -35,7 +35,8 @@ if(SUNDER_BULLET AND NOT BUILD_SHARED_LIBS)
   string(APPEND SUNDER_STATIC_DEPENDENCIES "include(\${CMAKE_CURRENT_LIST_DIR}/SunderBullet.cmake)\n")
 endif()
 if(SUNDER_IO AND NOT BUILD_SHARED_LIBS)
-  string(APPEND SUNDER_STATIC_DEPENDENCIES "find_dependency(TinyGLTF)\nfind_dependency(assimp)\nfind_dependency(nlohmann_json)")
+  string(APPEND SUNDER_STATIC_DEPENDENCIES "find_dependency(TinyGLTF)\nfind_dependency(assimp)\nfind_dependency(nlohmann_json)\n"
+    "find_dependency(tinyxml2)\nfind_dependency(urdfdom)")
 endif()
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/Sunder)

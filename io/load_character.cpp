@@ -1,4 +1,5 @@
 #include <sunder/io/character_file.h>
+#include <sunder/io/robot_file.h>
 
 #include <algorithm>
 #include <cctype>
@@ -51,6 +52,18 @@ Result<LoadedCharacter> load_by_assimp(const std::filesystem::path& file,
   return loaded;
 }
 
+Result<LoadedCharacter> load_urdf(const std::filesystem::path& file, const LoadOptions& options) {
+  RobotLoadOptions of_robot;
+  of_robot.strict = options.strict;
+  of_robot.meshes = options;
+  Result<LoadedRobot> loaded = load_robot(file, of_robot);
+  if (!loaded) return loaded.error();
+  if (loaded->model.character->meshes.empty())
+    return Status::failure(StatusCode::empty_input, kNone,
+                           "the robot has no mesh that could be read");
+  return std::move(loaded->model);
+}
+
 }  // namespace
 
 Result<LoadedCharacter> load_character(const std::filesystem::path& file,
@@ -59,6 +72,7 @@ Result<LoadedCharacter> load_character(const std::filesystem::path& file,
     const std::string extension = extension_of(file);
     if (extension == ".glb" || extension == ".gltf")
       return load_gltf(file, extension == ".glb", options);
+    if (extension == ".urdf") return load_urdf(file, options);
     return load_by_assimp(file, options);
   });
 }

@@ -42,11 +42,13 @@ Index append(Json& document, const char* list_name, Json entry) {
 
 class NewDocument {
  public:
+  /// @param copied     a document whose materials are taken; null: none.
   /// @param materials  null: plain ones.
-  NewDocument(const Character& character, const SaveOptions& options,
-              const SourceDocument* materials)
+  NewDocument(const Character& character, const SaveOptions& options, const SourceDocument* copied,
+              const NewMaterials* materials)
       : character_(character),
         options_(options),
+        copied_(copied),
         materials_(materials),
         draft_(nothing_),
         meshes_(draft_, options) {}
@@ -56,7 +58,8 @@ class NewDocument {
                    {"scene", 0},
                    {"scenes", Json::array({Json::object()})}};
     if (!character_.name.empty()) draft_.json["scenes"][0]["name"] = character_.name;
-    if (materials_ != nullptr) material_count_ = copy_materials(*materials_, draft_);
+    if (copied_ != nullptr) material_count_ = copy_materials(*copied_, draft_);
+    if (materials_ != nullptr) add_materials();
     add_bones();
     for (Index mesh = 0; mesh < character_.meshes.size(); ++mesh) add_mesh(mesh);
     draft_.json["scenes"][0]["nodes"] = roots_;
@@ -150,14 +153,60 @@ class NewDocument {
     return entry->second;
   }
 
+  // ---- Materials
+
+  void add_materials() {
+    const BaseColours& colours = materials_->colours;
+    std::vector<Index> image_of;
+    for (const BaseColours::Image& image : colours.images) {
+      // Core glTF knows no other kinds.
+      const bool is_known = image.type == "image/png" || image.type == "image/jpeg";
+      image_of.push_back(
+          is_known
+              ? append(draft_.json, "images",
+                       {{"bufferView", draft_.add_view(image.bytes, GlbDraft::ViewTarget::none)},
+                        {"mimeType", image.type}})
+              : kNone);
+    }
+    for (std::size_t i = 0; i < colours.materials.size(); ++i)
+      add_material(colours.materials[i], materials_->names[i], image_of);
+  }
+
+  void add_material(const BaseColour& colour, const std::string& name,
+                    const std::vector<Index>& image_of) {
+    Json pbr = {{"baseColorFactor", numbers({colour.factor.data(), 4})},
+                {"metallicFactor", 0.0},
+                {"roughnessFactor", 0.8}};
+    const bool has_image = colour.image < image_of.size() && image_of[colour.image] != kNone;
+    if (has_image) {
+      constexpr std::array<Index, 3> kWraps = {10497, 33071, 33648};
+      const Index sampler = append(draft_.json, "samplers",
+                                   {{"wrapS", kWraps[static_cast<std::size_t>(colour.wrap_u)]},
+                                    {"wrapT", kWraps[static_cast<std::size_t>(colour.wrap_v)]}});
+      const Index texture = append(draft_.json, "textures",
+                                   {{"source", image_of[colour.image]}, {"sampler", sampler}});
+      pbr["baseColorTexture"] = {{"index", texture}, {"texCoord", colour.uv_set}};
+    }
+    Json material = {{"pbrMetallicRoughness", std::move(pbr)}, {"doubleSided", true}};
+    if (!name.empty()) material["name"] = name;
+    if (colour.cutoff > 0) {
+      material["alphaMode"] = "MASK";
+      material["alphaCutoff"] = static_cast<double>(colour.cutoff);
+    } else if (colour.factor.w() < 1) {
+      material["alphaMode"] = "BLEND";
+    }
+    append(draft_.json, "materials", std::move(material));
+  }
+
   Index add_material(const Mesh& mesh, Index submesh) {
     const Index own = mesh.submeshes[submesh].material;
-    if (materials_ != nullptr && own != kNone) {
+    if (copied_ != nullptr && own != kNone) {
       if (own < material_count_) return own;
       refuse(StatusCode::index_out_of_range, own,
              "mesh '%.60s': material %u does not exist; the document has %u", mesh.name.c_str(),
              own, material_count_);
     }
+    if (materials_ != nullptr && own < materials_->names.size()) return own;
     const auto& color = kColors[list_of(draft_.json, "materials").size() % kColors.size()];
     // Vertex colours are multiplied by the material's colour, so that is white.
     const Json base_color = mesh.color_sets.empty() ? Json{color[0], color[1], color[2], 1.0}
@@ -274,7 +323,8 @@ class NewDocument {
 
   const Character& character_;
   const SaveOptions& options_;
-  const SourceDocument* materials_;
+  const SourceDocument* copied_;
+  const NewMaterials* materials_;  ///< Null: plain ones.
   const SourceDocument nothing_;
   GlbDraft draft_;
   MeshWriter meshes_;
@@ -286,11 +336,11 @@ class NewDocument {
 };
 
 Status write(const std::filesystem::path& file, const Character& character,
-             const SaveOptions& options, const SourceDocument* materials) {
+             const SaveOptions& options, const SourceDocument* copied) {
   try {
     check_options(options, character.meshes.size());
     if (const Status status = validate_character(character); !status) return status;
-    return write_atomically(file, NewDocument(character, options, materials).write());
+    return write_atomically(file, NewDocument(character, options, copied, nullptr).write());
   } catch (...) {
     return status_of_current_exception();
   }
@@ -306,6 +356,14 @@ Status write_new_document(const std::filesystem::path& file, const Character& ch
 Status write_with_materials(const std::filesystem::path& file, const Character& character,
                             const SourceDocument& materials, const SaveOptions& options) {
   return write(file, character, options, &materials);
+}
+
+std::vector<std::byte> new_document(const Character& character, const NewMaterials& materials) {
+  if (const Status status = validate_character(character); !status)
+    refuse(status.code(), status.index(), "%.*s", static_cast<int>(status.text().size()),
+           status.text().data());
+  const SaveOptions all_defaults;
+  return NewDocument(character, all_defaults, nullptr, &materials).write();
 }
 
 }  // namespace sunder::gltf

@@ -59,8 +59,8 @@ struct RobotLoadOptions {
 struct LoadedRobot {
   Robot robot;  ///< Satisfies validate_robot().
   /// Bone i is link i, with the link's name. In the rest pose the joints have rest_values(). A
-  /// link's shapes are one mesh, which only its bone moves. Satisfies validate_character(), also
-  /// without meshes. save_glb() takes it.
+  /// link's shapes are one mesh, which only its bone moves. Satisfies validate_character() if it
+  /// has a mesh, and save_glb() takes it then.
   LoadedCharacter model;
   /// The root link in model space, whose y axis is up as in glTF. Robots have z up.
   Affine3d model_from_root = Affine3d::Identity();

@@ -6,6 +6,7 @@
 #include <sunder/core/status.h>
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -54,9 +55,11 @@ struct RobotJoint {
   /// Position of the joint = multiplier * values[first_value] + offset, all steps of a chain of
   /// mimic joints taken together. 1 and 0 if it mimics none. Without a value: its offset.
   double multiplier = 1.0, offset = 0.0;
-  double lower = 0.0, upper = 0.0;  ///< As the file says, of revolute and prismatic joints.
-  double velocity = 0.0;            ///< Largest, rad/s or m/s; 0: the file has none.
-  double effort = 0.0;              ///< Largest, N m or N; 0: the file has none.
+  /// As the file says, of revolute and prismatic joints; without limits -infinity and infinity.
+  double lower = -std::numeric_limits<double>::infinity();
+  double upper = std::numeric_limits<double>::infinity();
+  double velocity = 0.0;  ///< Largest, rad/s or m/s; 0: the file has none.
+  double effort = 0.0;    ///< Largest, N m or N; 0: the file has none.
 };
 
 struct RobotLink {
@@ -68,7 +71,9 @@ struct RobotLink {
 struct RobotValue {
   std::string name;         ///< The joint's; "base.x", "base.qw" if the joint has several values.
   std::uint32_t joint = 0;  ///< In Robot::joints.
-  double lower = 0.0, upper = 0.0;  ///< -infinity and infinity if there are no limits.
+  /// -infinity and infinity if there are no limits.
+  double lower = -std::numeric_limits<double>::infinity();
+  double upper = std::numeric_limits<double>::infinity();
   double rest = 0.0;  ///< 0, or the limit nearest to it; 1 for the w of a floating joint.
 };
 

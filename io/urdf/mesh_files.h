@@ -1,0 +1,43 @@
+#pragma once
+
+#include <sunder/core/mesh.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <vector>
+
+#include "io/urdf/findings.h"
+#include "io/urdf/materials.h"
+#include "io/urdf/mesh_paths.h"
+
+namespace sunder::urdf {
+
+/// A mesh file as it stands in its own space, all parts together.
+struct MeshFile {
+  Mesh mesh;                       ///< Without triangles if the file cannot be read.
+  bool has_own_materials = false;  ///< Otherwise Submesh::material is kNone.
+};
+
+/// Reads each mesh file once.
+class MeshFiles {
+ public:
+  MeshFiles(const MeshPaths& paths, const RobotLoadOptions& options, Materials& materials)
+      : paths_(paths), options_(options), materials_(materials) {}
+
+  /// The content of a file. What is wrong with it is found when it is first read.
+  [[nodiscard]] const MeshFile& read(const std::filesystem::path& file, const Place& place,
+                                     Findings& findings);
+
+ private:
+  [[nodiscard]] MeshFile load(const std::filesystem::path& file, const Place& place,
+                              Findings& findings);
+
+  const MeshPaths& paths_;
+  const RobotLoadOptions& options_;
+  Materials& materials_;
+  std::map<std::filesystem::path, MeshFile> files_;
+  bool has_told_up_axis_ = false;
+};
+
+}  // namespace sunder::urdf
