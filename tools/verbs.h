@@ -3,6 +3,7 @@
 #include <sunder/binding/binding.h>
 #include <sunder/io/character_file.h>
 #include <sunder/operation/aimed_operation.h>
+#include <sunder/robot/trajectory.h>
 #include <sunder/validation/transfer.h>
 
 #include <filesystem>
@@ -27,6 +28,20 @@ struct InfoRequest {
 };
 [[nodiscard]] ExitCode run_info(const InfoRequest& request);
 
+/// A robot whose blade tears a model: part of sunder tear.
+struct RobotTearRequest {
+  std::filesystem::path robot, trajectory;
+  std::vector<std::filesystem::path> package_roots;
+  std::string link;                                     ///< That carries the blade.
+  Vec3d base = Vec3d::Zero(), tip = Vec3d(0, 0, 0.05);  ///< In the link's frame, metres.
+  Affine3d place = Affine3d::Identity();                ///< In the model's space, y up.
+  std::string pose = "rest";                            ///< Of the model, as parse_pose().
+  double clip_speed = 0.0;                              ///< Seconds per second.
+  double spacing = SweepOptions{}.spacing;
+  bool clamps_to_limits = false;
+  TearOptions options;
+};
+
 /// sunder tear: applies operations to a model: those of a log, then those of the command line.
 struct TearRequest {
   /// An operation of the command line, and the option that gives it: "--slash LeftArm@0.4".
@@ -36,6 +51,7 @@ struct TearRequest {
   };
   std::filesystem::path model, operations;      ///< No log: empty.
   std::vector<Aimed> aimed;                     ///< In the order in which they were given.
+  std::optional<RobotTearRequest> robot;        ///< Tears after all others.
   std::optional<std::filesystem::path> output;  ///< Only empty in a dry run.
   SaveOptions save;                             ///< How influences are written.
   /// Chooses influences and formats in place of `save`.
@@ -105,8 +121,10 @@ struct BindRequest {
   bool refuse_unmapped = false;              ///< MappingOptions::refuse_unmapped.
   HeatOptions options;                       ///< Without a map; but for the place.
   std::string pose = "rest";                 ///< Of the skeleton, as parse_pose().
-  std::optional<Affine3d> place;             ///< BindingPlace::rig_from_model.
-  bool fit = false;                          ///< Whether fit_place() finds it.
+  std::vector<std::string> joints;           ///< "elbow=0.3": values of a robot, its pose.
+  std::vector<std::filesystem::path> package_roots;  ///< Of a robot.
+  std::optional<Affine3d> place;                     ///< BindingPlace::rig_from_model.
+  bool fit = false;                                  ///< Whether fit_place() finds it.
   SaveOptions save;
   std::optional<std::filesystem::path> report;
 };

@@ -9,6 +9,7 @@
 
 #include "io/internal/copied_materials.h"
 #include "tools/bind/bind_report.h"
+#include "tools/bind/joint_pose.h"
 #include "tools/messages/json_file.h"
 #include "tools/messages/overwriting.h"
 #include "tools/messages/text_file.h"
@@ -49,7 +50,13 @@ struct Inputs {
 };
 
 /// @return ok, or the exit code of the failure, which was reported.
-ExitCode find_place(const BindRequest& request, Inputs& inputs) {
+ExitCode find_pose(const BindRequest& request, Inputs& inputs) {
+  if (!request.joints.empty()) {
+    Result<std::vector<Affine3d>> pose = pose_of_joints(request);
+    if (!pose) return complain("--joints", pose.error(), ExitCode::usage);
+    inputs.place.rig_from_bone = std::move(*pose);
+    return ExitCode::ok;
+  }
   const Character& rig = *inputs.rig.character;
   const Result<PoseArgument> argument = parse_pose(request.pose, rig);
   if (!argument)
@@ -58,10 +65,16 @@ ExitCode find_place(const BindRequest& request, Inputs& inputs) {
   Result<ModelPose> pose = make_pose(rig, argument->spec);
   if (!pose) return complain("--pose", pose.error(), ExitCode::usage);
   inputs.place.rig_from_bone = std::move(pose->model_from_bone);
+  return ExitCode::ok;
+}
+
+/// @return as find_pose().
+ExitCode find_place(const BindRequest& request, Inputs& inputs) {
+  if (const ExitCode code = find_pose(request, inputs); code != ExitCode::ok) return code;
   if (request.place) inputs.place.rig_from_model = *request.place;
   if (!request.fit) return ExitCode::ok;
   const Result<Affine3d> fitted =
-      fit_place(*inputs.model.character, rig, inputs.pairs, inputs.place);
+      fit_place(*inputs.model.character, *inputs.rig.character, inputs.pairs, inputs.place);
   if (!fitted) return complain("--fit", fitted.error(), ExitCode::usage);
   inputs.place.rig_from_model = *fitted;
   return ExitCode::ok;
@@ -71,7 +84,9 @@ ExitCode read_inputs(const BindRequest& request, Inputs& inputs) {
   Result<LoadedCharacter> model = load_character(request.model);
   if (!model) return complain(request.model.string(), model.error(), ExitCode::unreadable_input);
   inputs.model = std::move(*model);
-  Result<LoadedCharacter> rig = load_character(request.skeleton);
+  LoadOptions load;
+  load.roots = request.package_roots;
+  Result<LoadedCharacter> rig = load_character(request.skeleton, load);
   if (!rig) return complain(request.skeleton.string(), rig.error(), ExitCode::unreadable_input);
   inputs.rig = std::move(*rig);
   if (request.map) {

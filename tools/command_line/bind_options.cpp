@@ -11,6 +11,13 @@ void add_place(CLI::App& verb, BindRequest& request) {
   verb.add_option("--pose", request.pose,
                   "Pose of the skeleton in which the model is attached: rest, bind or CLIP@TIME")
       ->capture_default_str();
+  verb.add_option("--joints", request.joints,
+                  "Joint values of a robot in which the model is attached: NAME=VALUE, radians or "
+                  "metres, separated by commas")
+      ->type_name("VALUES")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->excludes("--pose");
   CLI::Option* const place =
       verb.add_option_function<std::string>(
               "--place",
@@ -66,6 +73,10 @@ CLI::App* add_bind(CLI::App& app, BindRequest& request) {
   verb->add_option("-o,--output", request.output, "The model on that skeleton, GLB")
       ->type_name("FILE")
       ->required();
+  verb->add_option("--package-root", request.package_roots,
+                   "Folder of packages that the robot's file names. Repeatable")
+      ->type_name("FOLDER")
+      ->allow_extra_args(false);
   add_weight_rules(*verb, request);
   add_place(*verb, request);
   add_weights_as(*verb, request.save);

@@ -21,6 +21,11 @@ void add_aimed_operations(CLI::App& verb);
 /// Reads the aimed operations that were given, in order. @throws CLI::ValidationError
 void read_aimed_operations(const CLI::App& verb, TearRequest& request);
 
+/// `--robot`, its motion, its blade and its place.
+void add_robot(CLI::App& verb, RobotTearRequest& robot);
+/// Whether a robot is asked for, with all that it needs. @throws CLI::ValidationError
+[[nodiscard]] bool has_robot(const CLI::App& verb, const RobotTearRequest& robot);
+
 /// `--weights-as`, the number format of written weights.
 void add_weights_as(CLI::App& verb, SaveOptions& save);
 /// `--max-error` and its limits, which exclude that the caller chooses influences and format.
