@@ -137,6 +137,41 @@ TEST_P(BindingFiles, a_mapping_onto_the_own_skeleton_changes_nothing) {
   EXPECT_LE(rms_distance(*character_, bound->character), 1e-6);
 }
 
+TEST(BindingGlove, hangs_on_a_robot_hand) {
+  SUNDER_SKIP_WITHOUT_SHARED_MODELS();
+  const auto glove = load_character(test::shared_models() / "rigged/vr_glove.fbx");
+  ASSERT_TRUE(glove) << glove.error().text();
+  const auto hand =
+      load_character(test::shared_models() / "urdf/allegro_hand_right/allegro_hand_right.urdf");
+  ASSERT_TRUE(hand) << hand.error().text();
+  std::vector<BonePair> pairs = {{"wrist_r", "base_link"}};
+  const std::vector<std::pair<std::string, int>> fingers = {
+      {"index", 1}, {"middle", 5}, {"ring", 9}, {"pinky", 9}, {"thumb", 13}};
+  for (const auto& [finger, first] : fingers)
+    for (int i = 0; i < 3; ++i)
+      pairs.push_back({"finger_" + finger + "_" + std::to_string(i) + "_r",
+                       "link_" + std::to_string(first + i) + ".0"});
+  const auto place = fit_place(*glove->character, *hand->character, pairs);
+  ASSERT_TRUE(place) << place.error().text();
+  MappingOptions options;
+  options.place.rig_from_model = *place;
+  const auto bound = bind_by_mapping(*glove->character, *hand->character, pairs, options);
+  ASSERT_TRUE(bound) << bound.error().text();
+  EXPECT_EQ(bound->mapped_bones, pairs.size());
+  EXPECT_LE(bound->largest_shape_error, 1e-6);
+  EXPECT_EQ(bound->character.skeleton, hand->character->skeleton);
+  const auto judged = std::make_shared<const Character>(bound->character);
+  const auto report = validate_skin(judged, judged);
+  ASSERT_TRUE(report);
+  for (const Finding& finding : report->findings) EXPECT_NE(finding.severity, Severity::error);
+  // Automatic weights on the same robot, where the glove stands.
+  HeatOptions heat;
+  heat.place = options.place;
+  const auto heated = bind_by_heat(*glove->character, *hand->character, heat);
+  ASSERT_TRUE(heated) << heated.error().text();
+  EXPECT_TRUE(validate_character(heated->character));
+}
+
 std::string name_of(const testing::TestParamInfo<std::filesystem::path>& info) {
   std::string name = std::to_string(info.index) + "_" + info.param.stem().string();
   for (char& letter : name)

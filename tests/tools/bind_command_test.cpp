@@ -134,6 +134,23 @@ TEST_F(BindCommand, a_place_moves_the_model) {
   EXPECT_FALSE(exists("never.glb"));
 }
 
+TEST_F(BindCommand, a_robot_is_a_skeleton_in_a_pose_of_its_joints) {
+  const std::string arm = std::string(SUNDER_SOURCE_DIR) + "/docs/pictures/robot/arm.urdf";
+  const auto bind = [&](const std::string& joints) {
+    return run_sunder({"bind", stiff(), "--skeleton", arm, "--joints", joints, "--place", "0.4,0,0",
+                       "-o", path("on_arm.glb"), "--report", path("r.json")});
+  };
+  const CommandResult result = bind("shoulder=0.5,elbow=-0.7");
+  ASSERT_LE(result.exit_code, 1) << result.err;
+  const Character bound = load("on_arm.glb");
+  EXPECT_EQ(bone_names(bound), (std::set<std::string>{"column", "upper", "fore", "scalpel"}));
+  EXPECT_LE(read_json("r.json")["largest_shape_error"], 1e-6);
+  expect_valid("on_arm.glb");
+  EXPECT_THAT(bind("elbow=9").err, HasSubstr("'elbow': 9 is outside of its limits, -2.6 to 2.6"));
+  EXPECT_THAT(bind("elbwo=1").err, HasSubstr("did you mean 'elbow'"));
+  EXPECT_THAT(bind("elbow").err, HasSubstr("expected NAME=VALUE"));
+}
+
 TEST_F(BindCommand, wrong_maps_are_refused_with_their_cause) {
   const auto bind = [&](const std::string& map, const std::vector<std::string>& more = {}) {
     std::vector<std::string> arguments = {"bind",  source(),         "--skeleton",
