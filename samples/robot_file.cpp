@@ -11,6 +11,7 @@
 #include <sunder/io/trajectory_file.h>
 #include <sunder/particles/fitted_colliders.h>
 #include <sunder/scene/character_instance.h>
+#include <sunder/skinning/pose.h>
 
 #include <algorithm>
 #include <cstdio>

