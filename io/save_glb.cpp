@@ -4,6 +4,7 @@
 #include "io/gltf/source_document.h"
 #include "io/gltf/still_document.h"
 #include "io/gltf/write.h"
+#include "io/internal/copied_materials.h"
 
 namespace sunder {
 
@@ -21,6 +22,11 @@ Result<std::vector<WrittenInfluences>> written_influences(const Character& chara
 Status save_glb(const std::filesystem::path& file, const Character& character,
                 const SaveOptions& options) {
   return gltf::write_new_document(file, character, options);
+}
+
+Status save_with_materials(const std::filesystem::path& file, const Character& character,
+                           const SourceDocument& materials, const SaveOptions& options) {
+  return gltf::write_with_materials(file, character, materials, options);
 }
 
 Result<std::uint32_t> save_still(const std::filesystem::path& file, const StillScene& scene,

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <sunder/binding/binding.h>
 #include <sunder/io/character_file.h>
 #include <sunder/operation/aimed_operation.h>
+#include <sunder/robot/trajectory.h>
 #include <sunder/validation/transfer.h>
 
 #include <filesystem>
@@ -29,6 +31,20 @@ struct InfoRequest {
 };
 [[nodiscard]] ExitCode run_info(const InfoRequest& request);
 
+/// A robot whose blade tears a model: part of sunder tear.
+struct RobotTearRequest {
+  std::filesystem::path robot, trajectory;
+  std::vector<std::filesystem::path> package_roots;
+  std::string link;                                     ///< That carries the blade.
+  Vec3d base = Vec3d::Zero(), tip = Vec3d(0, 0, 0.05);  ///< In the link's frame, metres.
+  Affine3d place = Affine3d::Identity();                ///< In the model's space, y up.
+  std::string pose = "rest";                            ///< Of the model, as parse_pose().
+  double clip_speed = 0.0;                              ///< Seconds per second.
+  double spacing = SweepOptions{}.spacing;
+  bool clamps_to_limits = false;
+  TearOptions options;
+};
+
 /// sunder tear: applies operations to a model: those of a log, then those of the command line.
 struct TearRequest {
   /// An operation of the command line, and the option that gives it: "--slash LeftArm@0.4".
@@ -38,6 +54,7 @@ struct TearRequest {
   };
   std::filesystem::path model, operations;      ///< No log: empty.
   std::vector<Aimed> aimed;                     ///< In the order in which they were given.
+  std::optional<RobotTearRequest> robot;        ///< Tears after all others.
   std::optional<std::filesystem::path> output;  ///< Only empty in a dry run.
   SaveOptions save;                             ///< How influences are written.
   /// Chooses influences and formats in place of `save`.
@@ -108,6 +125,22 @@ struct TransferRequest {
   bool strict = false;  ///< Refuses models that loading would repair.
 };
 [[nodiscard]] ExitCode run_transfer(const TransferRequest& request);
+
+/// sunder bind: attaches a model to the skeleton of another one.
+struct BindRequest {
+  std::filesystem::path model, skeleton, output;
+  std::optional<std::filesystem::path> map;  ///< JSON: {"bone of the model": "of the skeleton"}.
+  bool refuse_unmapped = false;              ///< MappingOptions::refuse_unmapped.
+  HeatOptions options;                       ///< Without a map; but for the place.
+  std::string pose = "rest";                 ///< Of the skeleton, as parse_pose().
+  std::vector<std::string> joints;           ///< "elbow=0.3": values of a robot, its pose.
+  std::vector<std::filesystem::path> package_roots;  ///< Of a robot.
+  std::optional<Affine3d> place;                     ///< BindingPlace::rig_from_model.
+  bool fit = false;                                  ///< Whether fit_place() finds it.
+  SaveOptions save;
+  std::optional<std::filesystem::path> report;
+};
+[[nodiscard]] ExitCode run_bind(const BindRequest& request);
 
 /// sunder validate: compares how the skins of two models deform.
 struct ValidateRequest {

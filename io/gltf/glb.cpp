@@ -72,6 +72,22 @@ std::uint32_t GlbDraft::add_view(std::span<const std::byte> bytes, ViewTarget ta
   return static_cast<std::uint32_t>(views.size() - 1);
 }
 
+std::span<const std::byte> GlbDraft::bytes_of_view(const Json& index) const {
+  const auto views = json.find("bufferViews");
+  if (views == json.end() || !views->is_array() || !index.is_number_unsigned() ||
+      index.get<std::uint64_t>() >= views->size())
+    return {};
+  const Json& view = (*views)[index.get<std::size_t>()];
+  const auto number = [&](const char* key) -> std::uint64_t {
+    const auto found = view.find(key);
+    return found != view.end() && found->is_number_unsigned() ? found->get<std::uint64_t>() : 0;
+  };
+  const std::uint64_t offset = number("byteOffset"), length = number("byteLength");
+  if (number("buffer") != 0 || offset > binary_.size() || length > binary_.size() - offset)
+    return {};
+  return std::span(binary_).subspan(offset, length);
+}
+
 void GlbDraft::embed_images() {
   std::uint64_t bytes_left = source_.maximum_bytes;
   if (!json.contains("images") || !json["images"].is_array()) return;

@@ -27,6 +27,10 @@ class GlbDraft {
   std::uint32_t add_view(std::span<const std::byte> bytes, ViewTarget target,
                          std::uint32_t stride = 0);
 
+  /// The bytes of a buffer view, until the next one is added; none for an index, buffer or range
+  /// that does not exist.
+  [[nodiscard]] std::span<const std::byte> bytes_of_view(const Json& index) const;
+
   /// Embeds the images of the source's folder. Images that cannot be read, or whose kind glTF does
   /// not support, keep their URI.
   void embed_images();

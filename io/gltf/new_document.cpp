@@ -8,6 +8,7 @@
 
 #include "io/files/write_atomically.h"
 #include "io/gltf/clip_writer.h"
+#include "io/gltf/copied_materials.h"
 #include "io/gltf/glb.h"
 #include "io/gltf/mesh_writer.h"
 #include "io/gltf/refusal.h"
@@ -40,10 +41,13 @@ Index append(Json& document, const char* list_name, Json entry) {
 
 class NewDocument {
  public:
-  NewDocument(const Character& character, const SaveOptions& options,
-              const NewMaterials* materials = nullptr)
+  /// @param copied     a document whose materials are taken; null: none.
+  /// @param materials  null: plain ones.
+  NewDocument(const Character& character, const SaveOptions& options, const SourceDocument* copied,
+              const NewMaterials* materials)
       : character_(character),
         options_(options),
+        copied_(copied),
         materials_(materials),
         draft_(nothing_),
         meshes_(draft_) {}
@@ -53,6 +57,7 @@ class NewDocument {
                    {"scene", 0},
                    {"scenes", Json::array({Json::object()})}};
     if (!character_.name.empty()) draft_.json["scenes"][0]["name"] = character_.name;
+    if (copied_ != nullptr) material_count_ = copy_materials(*copied_, draft_);
     if (materials_ != nullptr) add_materials();
     add_bones();
     for (Index mesh = 0; mesh < character_.meshes.size(); ++mesh) add_mesh(mesh);
@@ -193,8 +198,14 @@ class NewDocument {
   }
 
   Index add_material(const Mesh& mesh, Index submesh) {
-    if (materials_ != nullptr && mesh.submeshes[submesh].material < materials_->names.size())
-      return mesh.submeshes[submesh].material;
+    const Index own = mesh.submeshes[submesh].material;
+    if (copied_ != nullptr && own != kNone) {
+      if (own < material_count_) return own;
+      refuse(StatusCode::index_out_of_range, own,
+             "mesh '%.60s': material %u does not exist; the document has %u", mesh.name.c_str(),
+             own, material_count_);
+    }
+    if (materials_ != nullptr && own < materials_->names.size()) return own;
     const auto& color = kColors[list_of(draft_.json, "materials").size() % kColors.size()];
     // Vertex colours are multiplied by the material's colour, so that is white.
     const Json base_color = mesh.color_sets.empty() ? Json{color[0], color[1], color[2], 1.0}
@@ -278,27 +289,39 @@ class NewDocument {
 
   const Character& character_;
   const SaveOptions& options_;
+  const SourceDocument* copied_;
   const NewMaterials* materials_;  ///< Null: plain ones.
   const SourceDocument nothing_;
   GlbDraft draft_;
   MeshWriter meshes_;
+  Index material_count_ = 0;
   Json roots_;
   std::vector<Index> node_of_bone_;
   std::map<Index, Index> gltf_skin_of_;
   std::map<Index, Index> node_of_mesh_;
 };
 
+Status write(const std::filesystem::path& file, const Character& character,
+             const SaveOptions& options, const SourceDocument* copied) {
+  try {
+    check_options(options, character.meshes.size());
+    if (const Status status = validate_character(character); !status) return status;
+    return write_atomically(file, NewDocument(character, options, copied, nullptr).write());
+  } catch (...) {
+    return status_of_current_exception();
+  }
+}
+
 }  // namespace
 
 Status write_new_document(const std::filesystem::path& file, const Character& character,
                           const SaveOptions& options) {
-  try {
-    check_options(options, character.meshes.size());
-    if (const Status status = validate_character(character); !status) return status;
-    return write_atomically(file, NewDocument(character, options).write());
-  } catch (...) {
-    return status_of_current_exception();
-  }
+  return write(file, character, options, nullptr);
+}
+
+Status write_with_materials(const std::filesystem::path& file, const Character& character,
+                            const SourceDocument& materials, const SaveOptions& options) {
+  return write(file, character, options, &materials);
 }
 
 std::vector<std::byte> new_document(const Character& character, const NewMaterials& materials) {
@@ -306,7 +329,7 @@ std::vector<std::byte> new_document(const Character& character, const NewMateria
     refuse(status.code(), status.index(), "%.*s", static_cast<int>(status.text().size()),
            status.text().data());
   const SaveOptions all_defaults;
-  return NewDocument(character, all_defaults, &materials).write();
+  return NewDocument(character, all_defaults, nullptr, &materials).write();
 }
 
 }  // namespace sunder::gltf

@@ -16,6 +16,12 @@ namespace sunder::gltf {
 [[nodiscard]] Status write_new_document(const std::filesystem::path& file,
                                         const Character& character, const SaveOptions& options);
 
+/// Implements save_with_materials().
+[[nodiscard]] Status write_with_materials(const std::filesystem::path& file,
+                                          const Character& character,
+                                          const SourceDocument& materials,
+                                          const SaveOptions& options);
+
 /// The materials of a new document.
 struct NewMaterials {
   BaseColours colours;

@@ -49,7 +49,7 @@ const std::map<std::string, Rooms> kRooms = {
     {"validation",
      {{".", {"checks", "match"}}, {"checks", {"match"}}, {"transfer", {"match"}}, {"match", {}}}},
     {"io",
-     {{".", {"contained_import", "gltf", "operation_log", "files", "urdf"}},
+     {{".", {"contained_import", "gltf", "operation_log", "files", "trajectory", "urdf"}},
       {"contained_import", {"assimp", "import_messages", "files"}},
       {"import_helper", {"assimp", "import_messages", "files"}},
       {"import_messages", {"files"}},
@@ -58,6 +58,7 @@ const std::map<std::string, Rooms> kRooms = {
       {"compression", {}},
       {"urdf", {"gltf", "files"}},
       {"operation_log", {}},
+      {"trajectory", {"operation_log"}},
       {"files", {}}}},
 };
 

@@ -9,7 +9,7 @@ class InfoCommand : public CactusSuite {};
 
 TEST_F(InfoCommand, help_has_an_example_for_each_verb) {
   for (const char* const verb :
-       {"info", "picture", "tear", "transfer", "validate", "view", "demo"}) {
+       {"info", "picture", "tear", "transfer", "bind", "validate", "view", "demo"}) {
     const CommandResult result = run_sunder({verb, "--help"});
     EXPECT_EQ(result.exit_code, 0);
     EXPECT_THAT(result.out, testing::ContainsRegex(std::string("Examples?:\\s+sunder ") + verb));

@@ -37,7 +37,8 @@ void add_aimed_operations(CLI::App& verb) {
       "Bore into the limb of a bone; fields: from, radius, through, depth, wall, chord_tolerance");
   verb.add_option(
           "--pose",
-          "The pose for the options above: rest, bind, or a clip at a time in seconds, Walk@0.5")
+          "The pose for the options above and for --robot: rest, bind, or a clip at a time in "
+          "seconds, Walk@0.5")
       ->type_name("POSE")
       ->default_str("rest")
       ->group("Aimed operations");
@@ -56,8 +57,8 @@ void read_aimed_operations(const CLI::App& verb, TearRequest& request) {
       throw CLI::ValidationError(name + " " + text, std::string(operation.error().text()));
     request.aimed.push_back({*operation, name + " " + text});
   }
-  if (pose && request.aimed.empty())
-    throw CLI::ValidationError("--pose", "needs --slash, --sever or --puncture");
+  if (pose && request.aimed.empty() && verb.count("--robot") == 0)
+    throw CLI::ValidationError("--pose", "needs --slash, --sever, --puncture or --robot");
 }
 
 }  // namespace sunder::tools

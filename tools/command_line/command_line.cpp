@@ -54,6 +54,7 @@ std::vector<Verb> add_verbs(CLI::App& app, Requests& requests) {
       {add_picture(app, requests.picture), [&] { return run_picture(requests.picture); }},
       {add_tear(app, requests.tear), [&] { return run_tear(requests.tear); }},
       {add_transfer(app, requests.transfer), [&] { return run_transfer(requests.transfer); }},
+      {add_bind(app, requests.bind), [&] { return run_bind(requests.bind); }},
       {add_validate(app, requests.validate), [&] { return run_validate(requests.validate); }},
       {add_view(app, requests.view), [&] { return run_view(requests.view); }},
       {add_demo(app, requests.demo), [&] { return run_demo(requests.demo); }},

@@ -11,6 +11,7 @@ namespace sunder::tools {
 
 /// The requests of all verbs; parsing fills in one of them.
 struct Requests {
+  BindRequest bind;
   InfoRequest info;
   PictureRequest picture;
   TearRequest tear;

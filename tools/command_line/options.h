@@ -7,6 +7,7 @@
 namespace sunder::tools {
 
 // Each function adds a verb with its options to the command; parsing fills in the request.
+CLI::App* add_bind(CLI::App& app, BindRequest& request);
 CLI::App* add_info(CLI::App& app, InfoRequest& request);
 CLI::App* add_picture(CLI::App& app, PictureRequest& request);
 CLI::App* add_tear(CLI::App& app, TearRequest& request);
@@ -19,6 +20,11 @@ CLI::App* add_view(CLI::App& app, ViewRequest& request);
 void add_aimed_operations(CLI::App& verb);
 /// Reads the aimed operations that were given, in order. @throws CLI::ValidationError
 void read_aimed_operations(const CLI::App& verb, TearRequest& request);
+
+/// `--robot`, its motion, its blade and its place.
+void add_robot(CLI::App& verb, RobotTearRequest& robot);
+/// Whether a robot is asked for, with all that it needs. @throws CLI::ValidationError
+[[nodiscard]] bool has_robot(const CLI::App& verb, const RobotTearRequest& robot);
 
 /// `--strict`, which refuses models with faults.
 void add_strict(CLI::App& verb, bool& strict);

@@ -1,3 +1,4 @@
+#include <memory>
 #include <string>
 
 #include "tools/command_line/options.h"
@@ -85,6 +86,7 @@ std::uint32_t maximum_influences(const std::string& name) {
 }  // namespace
 
 CLI::App* add_tear(CLI::App& app, TearRequest& request) {
+  const auto robot = std::make_shared<RobotTearRequest>();  // lives as long as the options
   CLI::App* const verb = app.add_subcommand(
       "tear", "Apply a list of tears, cuts and bores to a model and save it as GLB");
   verb->add_option("MODEL", request.model, "Model file, as for `sunder info`")
@@ -95,6 +97,7 @@ CLI::App* add_tear(CLI::App& app, TearRequest& request) {
           "Operation log, JSON: the tears, cuts and bores to apply; see docs/operation_log.md")
       ->type_name("FILE");
   add_aimed_operations(*verb);
+  add_robot(*verb, *robot);
   verb->add_option("-o,--output", request.output, "File for the torn model, GLB")
       ->type_name("FILE");
   verb->add_option_function<std::string>(
@@ -121,11 +124,13 @@ CLI::App* add_tear(CLI::App& app, TearRequest& request) {
   verb->add_flag("--dry-run", request.dry_run,
                  "Apply and describe the operations, but write no files");
   verb->add_flag("--force", request.force, "Outputs may overwrite the model or the log");
-  verb->callback([&request, verb] {
+  verb->callback([&request, verb, robot] {
     check_weight_policy(*verb, request);
     read_aimed_operations(*verb, request);
-    if (request.operations.empty() && request.aimed.empty())
-      throw CLI::RequiredError("--ops (or --slash, --sever, --puncture)");
+    if (verb->count("--pose") > 0) robot->pose = verb->get_option("--pose")->results().back();
+    if (has_robot(*verb, *robot)) request.robot = *robot;
+    if (request.operations.empty() && request.aimed.empty() && !request.robot)
+      throw CLI::RequiredError("--ops (or --slash, --sever, --puncture, --robot)");
     if (!request.dry_run && !request.output) throw CLI::RequiredError("--output (or --dry-run)");
   });
   add_strict(*verb, request.strict);
@@ -136,7 +141,8 @@ CLI::App* add_tear(CLI::App& app, TearRequest& request) {
       "Examples:\n"
       "  sunder tear fox.glb --ops ops.json -o torn.glb --influences 4\n"
       "  sunder tear fox.glb --slash b_Neck_04@0.5,length=0.8w,turn=30 --sever b_Tail02_013 "
-      "--pose Walk@0.5 -o torn.glb");
+      "--pose Walk@0.5 -o torn.glb\n"
+      "  sunder tear fox.glb --robot arm.urdf --trajectory arm.csv --blade tool -o torn.glb");
   return verb;
 }
 

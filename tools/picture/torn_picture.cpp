@@ -22,6 +22,7 @@ constexpr PictureSize kSize = {1280, 960};
 // As a fraction of the diagonal of the model.
 constexpr double kThickness = 0.006;  ///< Of the flesh.
 constexpr double kApart = 0.05;       ///< Distance by which the pieces of a cut are moved.
+constexpr double kNearWound = 0.4;    ///< Of parts of a robot that the picture shows.
 
 /// The most recent operation that is visible: not one that only changes weights.
 const Operation& newest_of(std::span<const Operation> history) {
@@ -53,6 +54,21 @@ ViewFrame view_of(const Operation& operation, const Bounds& bounds) {
   frame.right = upright.cross(frame.towards_eye).normalized();
   frame.up = frame.towards_eye.cross(frame.right);
   return frame;
+}
+
+/// A robot that holds the blade stands between the eye and the wound: the view goes to its side.
+ViewFrame view_beside(const ViewFrame& frame) {
+  return view_from(0.45 * frame.towards_eye + 0.85 * frame.right + 0.35 * frame.up);
+}
+
+/// Adds the places of a robot that are near the wound.
+void add_places_of_robot(const std::vector<Mesh>& surfaces, double diagonal,
+                         std::vector<Vec3d>& places) {
+  if (places.empty()) return;
+  Vec3d centre = Vec3d::Zero();
+  for (const Vec3d& place : places) centre += place / static_cast<double>(places.size());
+  for (const Vec3d& place : places_near(surfaces, centre, kNearWound * diagonal))
+    places.push_back(place);
 }
 
 /// The places of rims, walls and caps.
@@ -158,7 +174,7 @@ void move_apart(const Character& character, const PlaneCut& cut,
 }  // namespace
 
 Status draw_torn(const LoadedCharacter& loaded, std::span<const Operation> history,
-                 const std::filesystem::path& png) {
+                 const std::filesystem::path& png, const PosedRobot* robot) {
   Result<CharacterInstance> instance = make_gaping_instance(loaded.character);
   if (!instance) return instance.error();
   const TornModel& torn = instance->model();
@@ -184,7 +200,11 @@ Status draw_torn(const LoadedCharacter& loaded, std::span<const Operation> histo
   const auto* const cut = std::get_if<CutOperation>(&newest);
   if (cut != nullptr) move_apart(torn.character(), cut->cut, pieces, kApart * diagonal, open);
 
-  const ViewFrame frame = view_of(newest, bounds);
+  ViewFrame frame = view_of(newest, bounds);
+  Result<std::vector<Mesh>> beside =
+      robot == nullptr ? std::vector<Mesh>() : robot_surfaces(*robot);
+  if (!beside) return beside.error();
+  if (robot != nullptr) frame = view_beside(frame);
   const std::vector<RimEdge> rims = find_rims(torn);
   Character still =
       make_torn_still(torn, open, *closed, *untorn, rims, frame, kThickness * diagonal);
@@ -193,11 +213,14 @@ Status draw_torn(const LoadedCharacter& loaded, std::span<const Operation> histo
   const double margin = cut != nullptr                                   ? 3.1
                         : std::holds_alternative<DrillOperation>(newest) ? 2.4
                                                                          : 1.45;
+  std::vector<Vec3d> shown = wound_places(torn, rims, open);
+  if (robot != nullptr) add_places_of_robot(*beside, diagonal, shown);
+  still.meshes.insert(still.meshes.end(), beside->begin(), beside->end());
   const std::filesystem::path file = scene_file(png);
   const Result<std::uint32_t> saved =
       save_still(file, {std::move(still.meshes), {}, lights_of(frame)}, loaded.source.get());
   if (!saved) return saved.error();
-  return render(file, aim(frame, wound_places(torn, rims, open), bounds, margin), kSize, png);
+  return render(file, aim(frame, shown, bounds, robot == nullptr ? margin : 1.1), kSize, png);
 }
 
 }  // namespace sunder::tools

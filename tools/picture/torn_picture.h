@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <span>
 
+#include "tools/picture/posed_robot.h"
+
 namespace sunder::tools {
 
 /// Draws a torn model in the pose of its last operation, seen from the side from which that came;
@@ -13,7 +15,9 @@ namespace sunder::tools {
 /// the materials of its file, its inside is red.
 ///
 /// @param history  at least one operation; all are valid for the source.
+/// @param robot    stands beside the model, or null. The picture then shows the wound and what of
+///                 the robot is near, from the side.
 [[nodiscard]] Status draw_torn(const LoadedCharacter& loaded, std::span<const Operation> history,
-                               const std::filesystem::path& png);
+                               const std::filesystem::path& png, const PosedRobot* robot = nullptr);
 
 }  // namespace sunder::tools

@@ -72,8 +72,10 @@ Result<Weighing> choose_weighing(const TearRequest& request,
 }
 
 /// @return false if there is no picture, which is reported.
-bool draw_picture(const LoadedCharacter& loaded, const TornModel& model,
-                  const std::filesystem::path& png) {
+bool draw_picture(const TearRun& run, const std::filesystem::path& png) {
+  const TornModel& model = run.model;
+  const std::optional<PosedRobot> robot =
+      run.robot ? std::optional(posed_robot(*run.robot)) : std::nullopt;
   const std::vector<Operation> history = value_of(model.history());
   Status status;
   if (history.empty())
@@ -82,7 +84,7 @@ bool draw_picture(const LoadedCharacter& loaded, const TornModel& model,
   else if (!can_draw())
     status = Status::failure(StatusCode::not_found, kNone, "%s", kNoRenderer);
   else
-    status = draw_torn(loaded, history, png);
+    status = draw_torn(run.loaded, history, png, robot ? &*robot : nullptr);
   if (!status) (void)complain(png.string(), status, ExitCode::findings);
   return static_cast<bool>(status);
 }
@@ -150,7 +152,7 @@ ExitCode finish(TearRun& run, Clock::time_point begin) {
   if (const ExitCode code = write_files(run, report); code != ExitCode::ok) return code;
   run.times.saving = seconds_since(saving);
   if (request.picture && !request.dry_run) {
-    run.has_picture = draw_picture(run.loaded, run.model, *request.picture);
+    run.has_picture = draw_picture(run, *request.picture);
     run.has_findings |= !run.has_picture;
   }
   if (run.certified) run.messages.say(certificate_line(*run.certified, *request.maximum_error));
@@ -178,13 +180,26 @@ Result<std::vector<WantedOperation>> wanted_operations(const TearRequest& reques
   return wanted;
 }
 
+/// With --robot, adds the tear of its blade.
+/// @return ok, or the exit code of the failure, which was reported.
+ExitCode add_robot_tear(TearRun& run, std::vector<WantedOperation>& operations) {
+  if (!run.request.robot) return ExitCode::ok;
+  run.robot.emplace();
+  const ExitCode code =
+      make_robot_tear(*run.request.robot, *run.loaded.character, run.messages, *run.robot);
+  if (code != ExitCode::ok) return code;
+  run.has_findings |= !run.robot->warnings.empty();
+  operations.push_back({Operation(run.robot->tear), "--robot", {}});
+  return code;
+}
+
 }  // namespace
 
 ExitCode run_tear(const TearRequest& request) {
   const auto begin = Clock::now();
   const Messages messages(request.verbosity);
   if (const ExitCode code = check_outputs(request); code != ExitCode::ok) return code;
-  const Result<std::vector<WantedOperation>> operations = wanted_operations(request);
+  Result<std::vector<WantedOperation>> operations = wanted_operations(request);
   if (!operations)
     return complain(request.operations.string(), operations.error(), ExitCode::usage);
 
@@ -215,6 +230,7 @@ ExitCode run_tear(const TearRequest& request) {
               *counts,           *counts};
   run.times.loading = loading;
   run.has_findings = has_losses(loaded->report);
+  if (const ExitCode code = add_robot_tear(run, *operations); code != ExitCode::ok) return code;
   if (const ExitCode code = play_operations(*operations, run, progress); code != ExitCode::ok)
     return code;
   progress.begin_step(operations->size() + 2, "writing");

@@ -42,6 +42,10 @@ ExitCode check_outputs(const TearRequest& request) {
     outputs.push_back({"--report", *request.report});
   if (request.log) outputs.push_back({"--save-log", *request.log});
   if (request.picture) outputs.push_back({"--picture", *request.picture});
+  if (request.robot) {
+    inputs.push_back({"--robot", request.robot->robot});
+    inputs.push_back({"--trajectory", request.robot->trajectory});
+  }
   if (request.force) inputs.clear();
   if (const std::string fault = overwriting(inputs, outputs, "; --force allows it");
       !fault.empty()) {

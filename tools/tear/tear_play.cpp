@@ -25,6 +25,9 @@ constexpr std::size_t kMostMeasured = 100;
 /// The misses for whose cause is looked, at most; each takes some forty attempts.
 constexpr std::size_t kMostExplained = 3;
 
+/// The times beyond the end of a clip that are named, at most; a stroke may have thousands.
+constexpr std::size_t kMostTimeWarnings = 3;
+
 /// An operation that was applied, and where.
 struct Played {
   const Operation& operation;
@@ -97,8 +100,12 @@ Status count(TearRun& run, TopologyCounts& current, OperationOutcome& outcome) {
 /// @param is_measured  whether its weight error is.
 Status play_one(const Operation& operation, const std::string& place, bool is_measured,
                 TopologyCounts& current, TearRun& run) {
-  for (const std::string& warning : time_warnings(operation, run.model.source()))
-    run.messages.warn(place + ": " + warning);
+  const std::vector<std::string> warnings = time_warnings(operation, run.model.source());
+  for (std::size_t i = 0; i < std::min(warnings.size(), kMostTimeWarnings); ++i)
+    run.messages.warn(place + ": " + warnings[i]);
+  if (warnings.size() > kMostTimeWarnings)
+    run.messages.warn(place + ": and so are " +
+                      std::to_string(warnings.size() - kMostTimeWarnings) + " later times");
   TriangleCounts before = triangle_counts(run.model.character());
   Result<OperationOutcome> outcome = play(operation, run.model);
   if (!outcome) return outcome.error();

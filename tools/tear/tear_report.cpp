@@ -68,6 +68,7 @@ Result<Json> report_json(TearRun& run) {
   json["output"] = request.output ? Json(request.output->string()) : Json();
   json["loading"] = to_json(run.loaded.report);
   json["operations"] = std::move(run.reports);
+  if (run.robot) json["robot"] = robot_tear_json(*request.robot, *run.robot);
   json["weights"] = weighing_json(run.weighing);
   if (request.weight_errors) {
     Result<Json> weight_errors = weight_errors_of(run.model, run.loaded.character);

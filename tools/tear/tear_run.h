@@ -9,6 +9,7 @@
 #include "tools/messages/messages.h"
 #include "tools/model/posed_source.h"
 #include "tools/tear/report.h"
+#include "tools/tear/robot_tear.h"
 #include "tools/verbs.h"
 #include "tools/written_weights/certified_weights.h"
 #include "tools/written_weights/written_influences.h"
@@ -47,6 +48,7 @@ struct TearRun {
   RunTotals totals = {};
   RunTimes times = {};
   bool has_findings = false, has_picture = false;
+  std::optional<RobotTear> robot = {};  ///< With --robot.
 };
 
 }  // namespace sunder::tools

@@ -1,0 +1,35 @@
+#include "tools/picture/posed_robot.h"
+
+#include <utility>
+
+#include "tools/picture/picture.h"
+
+namespace sunder::tools {
+namespace {
+
+const Vec4f kSteel(0.42f, 0.47f, 0.55f, 1.0f);
+
+}  // namespace
+
+Result<std::vector<Mesh>> robot_surfaces(const PosedRobot& robot) {
+  if (robot.character.meshes.empty()) return std::vector<Mesh>();
+  const Result<std::vector<DeformedMesh>> posed = pose_model(robot.character, robot.pose);
+  if (!posed) return posed.error();
+  Character still = make_still(robot.character, *posed);
+  paint(still, kSteel);
+  for (Mesh& surface : still.meshes)
+    for (Submesh& submesh : surface.submeshes) submesh.material = kNone;
+  return std::move(still.meshes);
+}
+
+std::vector<Vec3d> places_near(const std::vector<Mesh>& surfaces, const Vec3d& place,
+                               double distance) {
+  std::vector<Vec3d> near;
+  for (const Mesh& surface : surfaces)
+    for (const Vec3f& position : surface.positions)
+      if ((position.cast<double>() - place).norm() <= distance)
+        near.emplace_back(position.cast<double>());
+  return near;
+}
+
+}  // namespace sunder::tools
