@@ -43,7 +43,8 @@ class Server {
       return std::move(result_);
     }
     for (std::uint64_t requests = 0; requests < kMostRequests; ++requests)
-      if (!serve_one()) break;
+      if (!serve_one()) return std::move(result_);
+    result_.outcome = Outcome::insatiable;
     return std::move(result_);
   }
 

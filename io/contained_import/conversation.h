@@ -19,6 +19,7 @@ enum class Outcome {
   ended,  ///< The socket was closed, or a message was not valid.
   timed_out,
   too_large,     ///< The reply is above the limit.
+  insatiable,    ///< It asked for files too often.
   failed,        ///< The helper told the cause.
   wrong_helper,  ///< The first message was not that of a helper of this version.
 };

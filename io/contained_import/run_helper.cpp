@@ -84,6 +84,10 @@ Status failure_of(const Conversation& conversation, int status, std::uint64_t me
                              "(LoadOptions::maximum_bytes)",
                              model.name.c_str(),
                              static_cast<unsigned long long>(options.maximum_bytes));
+    case Outcome::insatiable:
+      return Status::failure(StatusCode::limit_exceeded, kNone,
+                             "%.100s: the importer asked for other files more than %llu times",
+                             model.name.c_str(), static_cast<unsigned long long>(kMostRequests));
     case Outcome::failed:
       if (conversation.cause == kOutOfMemory) return out_of_memory(model, memory);
       if (conversation.cause < kOutOfMemory)
@@ -146,8 +150,9 @@ Result<ImportedGlb> run_helper(const ModelFile& model, files::AllowedFiles& allo
   if (socket.send_value(job, model.file.descriptor.value()) == Transfer::complete &&
       socket.send(std::as_bytes(std::span(model.name))) == Transfer::complete)
     conversation = serve(socket, allowed, options.maximum_bytes, file_opened);
-  const bool must_stop =
-      conversation.outcome == Outcome::timed_out || conversation.outcome == Outcome::too_large;
+  const bool must_stop = conversation.outcome == Outcome::timed_out ||
+                         conversation.outcome == Outcome::too_large ||
+                         conversation.outcome == Outcome::insatiable;
   // A process that closed the socket in order to run on is killed soon.
   const auto patience = std::chrono::milliseconds(must_stop ? 0 : 500);
   const int status = process->finish(Clock::now() + patience);

@@ -98,15 +98,22 @@ std::filesystem::path resolve_uri(const std::string& uri, const std::filesystem:
     if (auto whole = std::filesystem::canonical(root, error); !error)
       allowed.push_back(std::move(whole));
   std::filesystem::path first;
+  bool is_outside = false;
   for (const auto& root : allowed) {
     auto file = std::filesystem::weakly_canonical(root / relative, error);
-    if (error || std::none_of(allowed.begin(), allowed.end(),
-                              [&](const auto& one) { return is_inside(file, one); }))
-      continue;
-    if (std::filesystem::exists(file, error)) return file;
-    if (first.empty()) first = std::move(file);
+    if (error) continue;
+    if (std::none_of(allowed.begin(), allowed.end(),
+                     [&](const auto& one) { return is_inside(file, one); }))
+      is_outside = true;
+    else if (std::filesystem::exists(file, error))
+      return file;
+    else if (first.empty())
+      first = std::move(file);
   }
-  if (first.empty()) refuse_path("is outside the model's folder (LoadOptions::roots)");
+  if (is_outside) refuse_path("is outside the model's folder (LoadOptions::roots)");
+  if (first.empty())
+    refuse(StatusCode::file_unreadable, kNone, "%.80s: '%.80s' cannot be resolved", place.c_str(),
+           uri.c_str());
   return first;
 }
 

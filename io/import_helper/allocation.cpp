@@ -64,20 +64,29 @@ void* from_region(std::size_t size) {
 
 bool is_in_region(const void* object) { return object >= region.begin && object < region.writable; }
 
-void* or_throw(void* object) {
-  if (object == nullptr) throw std::bad_alloc();
-  return object;
+/// Memory from `allocate`, or the end that main.cpp has set for this case.
+template <class Allocate>
+void* or_end(Allocate allocate) {
+  for (;;) {
+    if (void* const object = allocate()) return object;
+    const std::new_handler no_memory = std::get_new_handler();
+    if (no_memory == nullptr) throw std::bad_alloc();
+    no_memory();
+  }
+}
+
+void* by_malloc(std::size_t size) {
+  return or_end([size] { return std::malloc(size == 0 ? 1 : size); });
 }
 
 }  // namespace
 
 void* operator new(std::size_t size) {
-  if (size > kLargestSmall) return or_throw(std::malloc(size));
-  if (region.begin == nullptr && (region.is_tried || !reserve()))
-    return or_throw(std::malloc(size == 0 ? 1 : size));
+  if (size > kLargestSmall) return by_malloc(size);
+  if (region.begin == nullptr && (region.is_tried || !reserve())) return by_malloc(size);
   const std::size_t steps = size == 0 ? 1 : (size + kStep - 1) / kStep;
   FreeObject*& free = region.free_of_size[steps];
-  if (free == nullptr) return or_throw(from_region(steps * kStep));
+  if (free == nullptr) return or_end([steps] { return from_region(steps * kStep); });
   void* const object = free;
   free = free->next;
   return object;
@@ -96,7 +105,7 @@ void operator delete(void* object) noexcept {
 }
 
 // Arrays are deleted without their size.
-void* operator new[](std::size_t size) { return or_throw(std::malloc(size == 0 ? 1 : size)); }
+void* operator new[](std::size_t size) { return by_malloc(size); }
 void operator delete[](void* array) noexcept { operator delete(array); }
 void operator delete[](void* array, std::size_t) noexcept { operator delete(array); }
 

@@ -36,11 +36,18 @@ Result<files::OpenFile> ask(Socket& socket, RequestKind kind, std::string_view r
 }  // namespace
 
 Status CallerFiles::look_up(std::string_view reference) {
-  return ask(socket_, RequestKind::look_up, reference).error();
+  return request(RequestKind::look_up, reference).error();
 }
 
 Result<files::OpenFile> CallerFiles::open(std::string_view reference) {
-  return ask(socket_, RequestKind::open, reference);
+  return request(RequestKind::open, reference);
+}
+
+Result<files::OpenFile> CallerFiles::request(RequestKind kind, std::string_view reference) {
+  if (const auto known = refused_.find(reference); known != refused_.end()) return known->second;
+  Result<files::OpenFile> file = ask(socket_, kind, reference);
+  if (!file) refused_.emplace(reference, file.error());
+  return file;
 }
 
 }  // namespace sunder::import_helper

@@ -94,6 +94,8 @@ void reply(Socket& socket, const Result<assimp_import::ImportedGlb>& imported) {
   end_with_caller(job);
   report_crashes();
   std::set_terminate(std::abort);
+  // An exception would end in abort() where a destructor allocates.
+  std::set_new_handler([] { report_failure(import_messages::kOutOfMemory); });
   if (!contain(socket, job)) _exit(1);
   try {
     CallerFiles assets(socket);

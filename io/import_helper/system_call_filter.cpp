@@ -66,14 +66,15 @@ int add_rules(scmp_filter_ctx filter) {
   Rules rules(filter);
   for (const int call : kAllowed) rules.add(SCMP_ACT_ALLOW, call);
   for (const int call : kFatal) rules.add(SCMP_ACT_KILL_PROCESS, call);
-  const auto on_socket = SCMP_CMP(0, SCMP_CMP_EQ, import_messages::kSocket);
+  // Not by SCMP_CMP(), which is C.
+  const scmp_arg_cmp on_socket{0, SCMP_CMP_EQ, import_messages::kSocket, 0};
   for (const int call : kOnSocket) rules.add(SCMP_ACT_ALLOW, call, on_socket);
   // Memory that is not executable.
-  const auto not_executable = SCMP_CMP(2, SCMP_CMP_MASKED_EQ, PROT_EXEC, 0);
+  const scmp_arg_cmp not_executable{2, SCMP_CMP_MASKED_EQ, PROT_EXEC, 0};
   for (const int call : {SCMP_SYS(mmap), SCMP_SYS(mmap2), SCMP_SYS(mprotect)})
     rules.add(SCMP_ACT_ALLOW, call, not_executable);
   // abort() sends a signal to its own thread.
-  const auto own = SCMP_CMP(0, SCMP_CMP_EQ, static_cast<scmp_datum_t>(getpid()));
+  const scmp_arg_cmp own{0, SCMP_CMP_EQ, static_cast<scmp_datum_t>(getpid()), 0};
   rules.add(SCMP_ACT_ALLOW, SCMP_SYS(tgkill), own);
   return rules.error();
 }

@@ -19,7 +19,7 @@ inline constexpr std::uint32_t kProtocol = 0x534E4401;
 inline constexpr int kSocket = 3;
 
 inline constexpr std::uint64_t kMostReferenceBytes = 4096;
-inline constexpr std::uint64_t kMostRequests = 65'536;
+inline constexpr std::uint64_t kMostRequests = 4'096;
 
 struct Job {
   std::uint32_t protocol = kProtocol;

@@ -265,5 +265,24 @@ TEST(LoadGltfFiles, external_buffers_are_read_from_the_files_folder_alone) {
   EXPECT_EQ(load_with("sub").error().code(), StatusCode::file_unreadable);
 }
 
+TEST(LoadGltfFiles, external_buffers_may_be_in_further_roots) {
+  const TemporaryFolder outer;
+  const GltfBuilder builder = skinned_strip();
+  outer.write("library/part.bin", builder.binary());
+  outer.write("outside.bin", builder.binary());
+  std::filesystem::create_symlink(outer.path() / "outside.bin",
+                                  outer.path() / "library" / "link.bin");
+  LoadOptions options;
+  options.roots = {outer.path() / "absent", outer.path() / "library"};
+  const auto load_with = [&](const std::string& uri) {
+    return load_character(outer.write("asset/model.gltf", builder.text_with_uri(uri)), options);
+  };
+  EXPECT_TRUE(load_with("part.bin").has_value());
+  EXPECT_TRUE(load_with("../library/part.bin").has_value());
+  for (const char* const uri : {"../outside.bin", "link.bin"})
+    EXPECT_EQ(load_with(uri).error().code(), StatusCode::path_not_allowed) << uri;
+  EXPECT_EQ(load_with("missing.bin").error().code(), StatusCode::file_not_found);
+}
+
 }  // namespace
 }  // namespace sunder::test

@@ -68,8 +68,11 @@ void misbehave(const std::string& how) {
   if (how == "empty_glb") reply(kGoodHead, "");
   if (how == "unknown_request") put(Request{.kind = RequestKind{77}, .first = 10});
   if (how == "long_reference") ask(std::string(100'000, 'a'));
-  if (how == "requests_without_end")
+  if (how == "unread_answers")
     for (;;) ask("absent");
+  if (how == "requests_without_end")
+    for (std::vector<char> answer(65'536);; recv(kSocket, answer.data(), answer.size(), 0))
+      ask("absent");
 }
 
 }  // namespace
