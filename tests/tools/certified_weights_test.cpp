@@ -151,7 +151,8 @@ class CertifiedFiles : public CertifiedWeightsCommand,
     const auto source = load_character(file);
     if (!source) return pair;
     const std::string cut = cut_in_the_middle(*source->character);
-    const CommandResult plain = run_sunder({"tear", file, "--ops", cut, "-o", path("plain.glb")});
+    const CommandResult plain =
+        run_sunder({"tear", file, "--ops", cut, "-o", path("plain.glb"), "--influences", "all"});
     EXPECT_LE(plain.exit_code, 1) << plain.err;
     const CommandResult pruned =
         run_sunder({"tear", file, "--ops", cut, "-o", path("pruned.glb"), "--max-error",

@@ -105,7 +105,8 @@ TEST_F(TearWeightsCommand, a_source_of_four_influences_is_written_with_four_and_
     moved = std::max(moved,
                      greatest_distance(*all->character, *four->character, ClipPose{"Bend", time}));
   EXPECT_GT(moved, 0.0);
-  EXPECT_LE(moved, 1.05 * written["pruning_error_max"].get<double>() + 1e-5);
+  // Between the poses that were measured it may be a little more.
+  EXPECT_LE(moved, 1.15 * written["pruning_error_max"].get<double>() + 1e-5);
 }
 
 TEST_F(TearWeightsCommand, tear_weighs_new_points_by_the_requested_policy) {
