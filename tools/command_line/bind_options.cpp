@@ -10,6 +10,7 @@ namespace {
 void add_place(CLI::App& verb, BindRequest& request) {
   verb.add_option("--pose", request.pose,
                   "Pose of the skeleton in which the model is attached: rest, bind or CLIP@TIME")
+      ->type_name("POSE")
       ->capture_default_str();
   verb.add_option("--joints", request.joints,
                   "Joint values of a robot in which the model is attached: NAME=VALUE, radians or "
