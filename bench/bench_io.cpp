@@ -10,11 +10,13 @@
 #include <string>
 #include <vector>
 
+#include "bench/import_helper_times.h"
 #include "bench/import_times.h"
 #include "bench/io_files.h"
 #include "bench/json_object.h"
 #include "bench/measure.h"
 #include "bench/process_times.h"
+#include "bench/robot_kinematics.h"
 #include "support/temporary_folder.h"
 
 namespace sunder::bench {
@@ -35,7 +37,9 @@ constexpr const char* kHelp =
     "  growth               time per further vertex from 100 thousand vertices to a million, by "
     "that\n"
     "                       from 10 to 100 thousand\n"
-    "  fbx_vs_assimp        FBX with the helper process / assimp's ReadFile() in the process\n"
+    "  fbx_vs_assimp        a large FBX with the helper process / assimp's ReadFile() in the "
+    "process\n"
+    "  small_fbx_vs_assimp  the same for a real file of 15 thousand vertices\n"
     "  child_overhead_ms    what the helper process adds to an import\n"
     "  fk_ns_per_joint      forward kinematics of a robot, warm\n";
 
@@ -101,6 +105,29 @@ double growth(const std::vector<IoFile>& files) {
   return per_vertex(middle, last) / per_vertex(0, middle);
 }
 
+/// A large FBX text made of the large model, and the largest real file, which is small.
+void add_fbx(JsonObject& object, const std::filesystem::path& large,
+             const std::filesystem::path& folder) {
+  const std::filesystem::path written = write_fbx(large, folder), real = fbx_file();
+  const FbxTimes of_large = written.empty() ? FbxTimes{} : time_fbx(written, 5);
+  const FbxTimes of_real = real.empty() ? FbxTimes{} : time_fbx(real, 15);
+  const auto ratio = [](const FbxTimes& times) {
+    return times.assimp > 0 ? std::optional(times.ours / times.assimp) : std::nullopt;
+  };
+  object.add("fbx_vs_assimp", ratio(of_large));
+  object.add("small_fbx_vs_assimp", ratio(of_real));
+  object.add("child_overhead_ms",
+             real.empty() ? std::nullopt : std::optional(1e3 * of_real.child_overhead));
+}
+
+/// The humanoid of the shared models, or a chain without them.
+void add_kinematics(JsonObject& object) {
+  const std::filesystem::path humanoid =
+      std::filesystem::path(SUNDER_SHARED_MODELS) / "urdf/simple_humanoid/simple_humanoid.urdf";
+  const auto time = std::filesystem::exists(humanoid) ? time_robot(humanoid) : time_chain();
+  object.add("fk_ns_per_joint", time ? std::optional(time->ns_per_joint) : std::nullopt);
+}
+
 void print_summary(const std::string& program) {
   const test::TemporaryFolder folder;
   const IoFile large = large_file(folder.path(), kLarge);
@@ -120,9 +147,8 @@ void print_summary(const std::string& program) {
   object.add("small_glb_vs_assimp", small_ratios);
   object.add("info_vs_load", info.ratio());
   object.add("growth", growth(growing_files(folder.path(), kLargest)));
-  object.add("fbx_vs_assimp", std::nullopt);
-  object.add("child_overhead_ms", std::nullopt);
-  object.add("fk_ns_per_joint", std::nullopt);
+  add_fbx(object, large.path, folder.path());
+  add_kinematics(object);
   object.end();
 }
 

@@ -25,10 +25,10 @@ void require(bool holds, const char* law, const sunder::Status& status) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace sunder;
-  const std::span bytes(reinterpret_cast<const std::byte*>(data), size);
+  const auto* const begin = reinterpret_cast<const std::byte*>(data);
   LoadOptions options;
   options.maximum_bytes = 1 << 20;
-  const auto loaded = gltf::read_character(bytes, {}, options);
+  const auto loaded = gltf::read_character({begin, begin + size}, {}, options);
   if (!loaded) {
     require(loaded.error().code() != StatusCode::internal_error, "reading fails inside",
             loaded.error());

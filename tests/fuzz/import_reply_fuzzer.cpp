@@ -19,6 +19,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::size_t length = std::min<std::size_t>(head_bytes, rest.size());
   const std::string_view head(reinterpret_cast<const char*>(rest.data()), length);
   if (!sunder::import_messages::decode_head(head, "fuzz.fbx")) return 0;
-  (void)sunder::gltf::read_character(std::as_bytes(rest.subspan(length)), {}, {});
+  const auto glb = std::as_bytes(rest.subspan(length));
+  (void)sunder::gltf::read_character({glb.begin(), glb.end()}, {}, {});
   return 0;
 }
