@@ -14,9 +14,10 @@ struct BoneCollider {
   Collider collider;
 };
 
-/// The ball, capsule or box of least volume, along the principal axes, around the vertices that each
-/// bone moves predominantly: colliders for the links of a robot, or the limbs of a character, that
-/// push the tissue of another one. One convex shape per bone; bones without vertices have none.
+/// The ball, capsule or box of least volume, along the principal axes, around the vertices that
+/// each bone moves predominantly: colliders for the links of a robot, or the limbs of a character,
+/// that push the tissue of another one. One convex shape per bone; bones without vertices have
+/// none.
 ///
 /// @param character  satisfies validate_character(), or has no mesh.
 /// @param friction   of all colliders.
