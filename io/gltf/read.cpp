@@ -37,16 +37,6 @@ void note_other_scenes(Reading& reading) {
         static_cast<std::uint32_t>(count - 1));
 }
 
-/// Buffers and buffer views, with compressed data decoded.
-void resolve_data(SourceDocument& document, const Container& container, Notes& notes) {
-  resolve_buffers(document, container);
-  DecodedData decoded(document);
-  const std::vector<std::uint32_t> rounded = decode_meshopt_views(document, decoded, notes);
-  check_buffer_views(document);
-  if (!rounded.empty()) correct_bounds(document, rounded);
-  decode_draco_primitives(document, decoded, notes);
-}
-
 /// For the decoded data of files of this size; the rest is for the files and what is needed for a
 /// moment.
 std::uint64_t memory_limit(const LoadOptions& options, std::uint64_t file_bytes) {
@@ -60,6 +50,19 @@ std::uint64_t bytes_of_files(const SourceDocument& document) {
   std::uint64_t bytes = document.content.size();
   for (const auto& file : document.other_files) bytes += file.size();
   return bytes;
+}
+
+/// Buffers and buffer views, with compressed data decoded.
+void resolve_data(SourceDocument& document, const Container& container, const LoadOptions& options,
+                  Notes& notes) {
+  resolve_buffers(document, container);
+  DecodedData decoded(document);
+  const std::vector<std::uint32_t> rounded = decode_meshopt_views(document, decoded, notes);
+  document.maximum_memory = memory_limit(options, bytes_of_files(document));
+  check_buffer_views(document);
+  if (!rounded.empty()) correct_bounds(document, rounded);
+  decode_draco_primitives(document, decoded, notes);
+  document.maximum_memory = memory_limit(options, bytes_of_files(document));
 }
 
 LoadedCharacter read(std::vector<std::byte> content, const std::filesystem::path& folder,
@@ -81,8 +84,7 @@ LoadedCharacter read(std::vector<std::byte> content, const std::filesystem::path
   loaded.report.format = container.is_glb ? "glTF 2.0 binary" : "glTF 2.0 text";
   loaded.report.space = "metres, y up; the file's scene space";
   Notes notes(loaded.report, options.strict);
-  resolve_data(*document, container, notes);
-  document->maximum_memory = memory_limit(options, bytes_of_files(*document));
+  resolve_data(*document, container, options, notes);
   Reading reading{*document, AccessorReader(*document), notes, options.keep_stored_influences};
   const auto character = std::make_shared<Character>();
   character->name = scene_name(document->json);
