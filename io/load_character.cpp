@@ -9,9 +9,9 @@
 
 #include "io/contained_import/import_as_glb.h"
 #include "io/gltf/container.h"
-#include "io/gltf/read.h"
 #include "io/gltf/refusal.h"
 #include "io/gltf/uris.h"
+#include "io/gltf_read/read.h"
 
 namespace sunder {
 namespace {

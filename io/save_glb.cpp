@@ -1,9 +1,9 @@
 #include <sunder/io/character_file.h>
 
-#include "io/gltf/new_document.h"
 #include "io/gltf/source_document.h"
-#include "io/gltf/still_document.h"
-#include "io/gltf/write.h"
+#include "io/gltf_patch/write.h"
+#include "io/gltf_still/still_document.h"
+#include "io/gltf_write/new_document.h"
 #include "io/internal/copied_materials.h"
 
 namespace sunder {

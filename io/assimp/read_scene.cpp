@@ -11,10 +11,10 @@
 #include <assimp/importerdesc.h>
 #include <assimp/postprocess.h>
 
-#include "io/assimp/check_text.h"
-#include "io/assimp/face_check.h"
 #include "io/assimp/failure.h"
 #include "io/assimp/importer_log.h"
+#include "io/import_checks/check_text.h"
+#include "io/import_checks/face_check.h"
 
 namespace sunder::assimp_import {
 namespace {

@@ -8,8 +8,8 @@
 #include <assimp/scene.h>
 
 #include "io/assimp/asset_io_system.h"
-#include "io/assimp/formats.h"
-#include "io/assimp/text_indices.h"
+#include "io/import_checks/formats.h"
+#include "io/import_checks/text_indices.h"
 
 namespace sunder::assimp_import {
 

@@ -5,9 +5,9 @@
 #include <system_error>
 #include <utility>
 
-#include "io/assimp/formats.h"
 #include "io/assimp/import_scene.h"
 #include "io/contained_import/run_helper.h"
+#include "io/import_checks/formats.h"
 
 namespace sunder::contained_import {
 

@@ -1,6 +1,6 @@
 #include "io/gltf/buffers.h"
 
-#include "io/gltf/meshopt_views.h"
+#include "io/gltf/meshopt_extension.h"
 #include "io/gltf/refusal.h"
 #include "io/gltf/uris.h"
 

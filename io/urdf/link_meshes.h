@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "io/gltf/new_document.h"
+#include "io/gltf_write/new_document.h"
 #include "io/urdf/findings.h"
 #include "io/urdf/link_tree.h"
 #include "io/urdf/parse_by_urdfdom.h"

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "io/gltf/new_document.h"
+#include "io/gltf_write/new_document.h"
 #include "io/urdf/findings.h"
 #include "io/urdf/tags.h"
 

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "io/gltf/new_document.h"
-#include "io/gltf/read.h"
+#include "io/gltf_read/read.h"
+#include "io/gltf_write/new_document.h"
 
 namespace sunder::urdf {
 namespace {

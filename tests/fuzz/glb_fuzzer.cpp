@@ -9,8 +9,8 @@
 #include <span>
 #include <vector>
 
-#include "io/gltf/read.h"
-#include "io/gltf/write.h"
+#include "io/gltf_patch/write.h"
+#include "io/gltf_read/read.h"
 
 namespace {
 

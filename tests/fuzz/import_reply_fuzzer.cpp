@@ -8,7 +8,7 @@
 #include <span>
 #include <string_view>
 
-#include "io/gltf/read.h"
+#include "io/gltf_read/read.h"
 #include "io/import_messages/reply.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

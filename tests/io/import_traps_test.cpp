@@ -8,9 +8,9 @@
 
 #include <gtest/gtest.h>
 
-#include "io/assimp/check_text.h"
 #include "io/assimp_text_models.h"
 #include "io/contained_import/import_as_glb.h"
+#include "io/import_checks/check_text.h"
 #include "support/shared_models.h"
 #include "support/temporary_folder.h"
 

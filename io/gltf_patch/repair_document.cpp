@@ -1,0 +1,210 @@
+#include "io/gltf_patch/repair_document.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "io/gltf_patch/document_rules.h"
+#include "io/gltf_patch/draft_source.h"
+#include "io/gltf_patch/repair_images.h"
+#include "io/gltf_patch/repair_meshes.h"
+#include "io/gltf_patch/repair_nodes.h"
+#include "io/gltf_patch/separate_views.h"
+#include "io/gltf_patch/sound_animations.h"
+#include "io/gltf_patch/sound_primitives.h"
+#include "io/gltf_write/clip_writer.h"
+#include "io/gltf_write/rig_writer.h"
+
+namespace sunder::gltf {
+namespace {
+
+/// The last row of inverse bind matrices must be exact.
+bool are_binds_sound(const Json& skin, SoundAccessors& accessors) {
+  const auto accessor = accessors.open(skin["inverseBindMatrices"]);
+  if (!accessor || accessors.type(*accessor) != "MAT4" || accessor->is_integer() ||
+      accessors.has_stride(*accessor) || accessor->count < skin["joints"].size())
+    return false;
+  const auto numbers = accessors.floats(*accessor);
+  if (!numbers) return false;
+  for (std::size_t first = 0; first < numbers->size(); first += 16)
+    if ((*numbers)[first + 3] != 0.0f || (*numbers)[first + 7] != 0.0f ||
+        (*numbers)[first + 11] != 0.0f || (*numbers)[first + 15] != 1.0f)
+      return false;
+  accessors.correct_bounds(accessor->index, false);
+  return true;
+}
+
+}  // namespace
+
+DocumentRepair::DocumentRepair(GlbDraft& draft, const Character& character,
+                               const SourceDocument& source)
+    : draft_(draft), character_(character), source_(source) {}
+
+std::vector<bool> DocumentRepair::prepare() {
+  std::vector<bool> unsound(character_.meshes.size(), false);
+  enforce_schema(draft_.json);
+  separate_views(draft_.json);
+  check_primitives(false, unsound);
+  return unsound;
+}
+
+/// Per mesh of the document, the number of joints of the smallest skin with which a node uses it.
+std::vector<std::uint32_t> DocumentRepair::least_joints() {
+  std::vector<std::uint32_t> least(count_of(draft_.json, "meshes"), kNone);
+  if (!draft_.json.contains("nodes")) return least;
+  for (const Json& node : draft_.json["nodes"]) {
+    if (!node.contains("mesh") || !node.contains("skin")) continue;
+    std::uint32_t& count = least[node["mesh"].get<std::size_t>()];
+    const Json& skin = draft_.json["skins"][node["skin"].get<std::size_t>()];
+    count = std::min(count, static_cast<std::uint32_t>(skin["joints"].size()));
+  }
+  return least;
+}
+
+/// Flags meshes of the character whose primitives have faults, and removes other primitives that
+/// do.
+/// @param is_prepared  the character's meshes are written already.
+void DocumentRepair::check_primitives(bool is_prepared, std::vector<bool>& unsound_meshes) {
+  std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>> owners;
+  for (std::size_t mesh = 0; !is_prepared && mesh < source_.mesh_origins.size(); ++mesh)
+    for (const std::uint32_t primitive : source_.mesh_origins[mesh].primitives)
+      owners[{source_.mesh_origins[mesh].mesh, primitive}].push_back(mesh);
+  const std::vector<std::uint32_t> least = least_joints();
+  DraftSource draft(draft_);
+  SoundAccessors accessors(draft.document());
+  SoundPrimitives primitives(draft.json(), accessors);
+  for (std::size_t mesh = 0; mesh < least.size(); ++mesh) {
+    Json& at = draft.json()["meshes"][mesh];
+    if (!at.contains("primitives")) continue;
+    for (std::size_t i = 0; i < at["primitives"].size(); ++i) {
+      Json& primitive = at["primitives"][i];
+      if (primitives.is_sound(primitive, least[mesh])) continue;
+      has_unsound_primitives_ = true;
+      const auto of_character = owners.find({mesh, i});
+      if (of_character == owners.end())
+        primitive = nullptr;
+      else
+        for (const std::size_t owner : of_character->second) unsound_meshes[owner] = true;
+    }
+  }
+}
+
+void DocumentRepair::finish() {
+  std::vector<bool> ignored;
+  if (has_unsound_primitives_) check_primitives(true, ignored);
+  repair_meshes(draft_.json);
+  repair_binds();
+  repair_nodes(draft_.json);
+  repair_animations();
+  empty_unsound_accessors();
+  remove_empty_animations();
+  repair_images(draft_);
+}
+
+void DocumentRepair::repair_binds() {
+  if (!draft_.json.contains("skins")) return;
+  std::set<std::size_t> unsound;
+  {
+    DraftSource draft(draft_);
+    SoundAccessors accessors(draft.document());
+    const Json& skins = draft.json()["skins"];
+    for (std::size_t i = 0; i < skins.size(); ++i)
+      if (skins[i].contains("inverseBindMatrices") && !are_binds_sound(skins[i], accessors))
+        unsound.insert(i);
+  }
+  if (unsound.empty()) return;
+  for (const std::size_t skin : unsound) draft_.json["skins"][skin].erase("inverseBindMatrices");
+  for (std::size_t mesh = 0; mesh < character_.meshes.size(); ++mesh) {
+    const Json& node = draft_.json["nodes"][source_.mesh_origins[mesh].node];
+    if (!source_.mesh_origins[mesh].skinned || !node.contains("skin")) continue;
+    const auto skin = node["skin"].get<std::size_t>();
+    if (unsound.erase(skin) != 0)
+      draft_.json["skins"][skin]["inverseBindMatrices"] =
+          add_bind_matrices(draft_, character_.skins[character_.meshes[mesh].skin]);
+  }
+}
+
+void DocumentRepair::repair_animations() {
+  if (!draft_.json.contains("animations")) return;
+  std::vector<std::size_t> unsound;
+  {
+    DraftSource draft(draft_);
+    SoundAccessors accessors(draft.document());
+    const Json& animations = draft.json()["animations"];
+    for (std::size_t i = 0; i < animations.size(); ++i)
+      if (!animations[i].is_null() && !is_animation_sound(animations[i], draft.json(), accessors))
+        unsound.push_back(i);
+  }
+  for (const std::size_t i : unsound) {
+    Json rebuilt = animation_of(character_.clips[i], draft_.json["animations"][i]);
+    draft_.json["animations"][i] = std::move(rebuilt);
+  }
+}
+
+void DocumentRepair::remove_empty_animations() {
+  if (!draft_.json.contains("animations")) return;
+  Json kept = Json::array();
+  for (Json& animation : draft_.json["animations"])
+    if (!animation.is_null()) kept.push_back(std::move(animation));
+  if (kept.empty())
+    draft_.json.erase("animations");
+  else
+    draft_.json["animations"] = std::move(kept);
+}
+
+/// The node that a channel moves; kNone if it has none any more.
+std::uint32_t DocumentRepair::node_of(const Channel& channel) const {
+  const Json& nodes = draft_.json["nodes"];
+  if (channel.target != ChannelTarget::morph_weights) {
+    const std::uint32_t node = source_.node_of_bone[channel.index];
+    return node == kNone || nodes[node].contains("matrix") ? kNone : node;
+  }
+  for (std::size_t mesh = 0; mesh < character_.meshes.size(); ++mesh) {
+    const Mesh& morphed = character_.meshes[mesh];
+    const std::uint32_t node = source_.mesh_origins[mesh].node;
+    if (!morphed.morph_targets.empty() && morphed.first_morph_weight == channel.index &&
+        nodes[node].contains("mesh"))
+      return node;
+  }
+  return kNone;
+}
+
+/// Null if it would have no channel.
+Json DocumentRepair::animation_of(const Clip& clip, const Json& old) {
+  constexpr const char* kPaths[] = {"translation", "rotation", "scale", "weights"};
+  Json animation = old.is_object() ? old : Json::object();
+  animation["channels"] = Json::array();
+  animation["samplers"] = Json::array();
+  for (const Channel& channel : clip.channels) {
+    const std::uint32_t node = node_of(channel);
+    if (node == kNone) continue;
+    const bool is_rotation = channel.target == ChannelTarget::rotation;
+    const bool is_morph = channel.target == ChannelTarget::morph_weights;
+    const std::uint32_t components = is_rotation ? 4 : is_morph ? 1 : 3;
+    animation["samplers"].push_back(
+        is_rotation ? add_sampler(draft_, channel, unit_rotations(channel), components)
+                    : add_sampler(draft_, channel, channel.values, components));
+    animation["channels"].push_back(
+        {{"sampler", animation["samplers"].size() - 1},
+         {"target", {{"node", node}, {"path", kPaths[static_cast<std::size_t>(channel.target)]}}}});
+  }
+  return animation["channels"].empty() ? Json() : animation;
+}
+
+/// Accessors that nothing uses any more must be valid all the same.
+void DocumentRepair::empty_unsound_accessors() {
+  const std::vector<bool> used = used_accessors(draft_.json);
+  DraftSource draft(draft_);
+  SoundAccessors accessors(draft.document());
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    if (used[i]) continue;
+    const auto accessor = accessors.open(Json(i));
+    if (accessor && (accessor->is_integer() || accessors.floats(*accessor)))
+      accessors.correct_bounds(static_cast<std::uint32_t>(i), false);
+    else
+      draft.json()["accessors"][i] = {{"componentType", 5126}, {"count", 1}, {"type", "SCALAR"}};
+  }
+}
+
+}  // namespace sunder::gltf

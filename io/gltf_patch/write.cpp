@@ -1,0 +1,323 @@
+#include "io/gltf_patch/write.h"
+
+#include <sunder/weights/influences.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "io/files/write_atomically.h"
+#include "io/gltf/container.h"
+#include "io/gltf/glb.h"
+#include "io/gltf/refusal.h"
+#include "io/gltf_patch/repair_document.h"
+#include "io/gltf_write/mesh_writer.h"
+#include "io/gltf_write/rig_writer.h"
+
+namespace sunder::gltf {
+namespace {
+
+using Origin = SourceDocument::MeshOrigin;
+
+template <class T>
+bool begins_with(const std::vector<T>& list, const std::vector<T>& beginning) {
+  return list.size() >= beginning.size() &&
+         std::equal(beginning.begin(), beginning.end(), list.begin());
+}
+
+/// A node has one skin, also where its primitives became several meshes.
+void check_skins_of_nodes(const Character& character, const Character& before,
+                          const SourceDocument& source) {
+  std::map<std::uint32_t, std::uint32_t> first_on_node;
+  for (std::uint32_t i = 0; i < character.meshes.size(); ++i) {
+    const auto [first, is_new] = first_on_node.try_emplace(source.mesh_origins[i].node, i);
+    const bool has_changed =
+        character.meshes[i].skin != before.meshes[i].skin ||
+        character.meshes[first->second].skin != before.meshes[first->second].skin;
+    if (has_changed && character.meshes[i].skin != character.meshes[first->second].skin)
+      refuse(StatusCode::invalid_argument, i,
+             "save_glb: meshes %u and %u are of one node, but have different skins", first->second,
+             i);
+  }
+}
+
+void check_same_character(const Character& character, const LoadedCharacter& loaded) {
+  if (loaded.character == nullptr || loaded.source == nullptr)
+    refuse(StatusCode::invalid_argument, kNone,
+           "save_glb: `loaded` has no character or no source document");
+  const Character& source = *loaded.character;
+  if (character.meshes.size() != source.meshes.size())
+    refuse(StatusCode::size_mismatch, kNone,
+           "save_glb: the character has %zu meshes, the source has %zu", character.meshes.size(),
+           source.meshes.size());
+  if (&character == &source) return;
+  if (!begins_with(character.skeleton.bones, source.skeleton.bones))
+    refuse(StatusCode::invalid_argument, kNone,
+           "save_glb: the skeleton does not begin with the source's");
+  if (!begins_with(character.skins, source.skins))
+    refuse(StatusCode::invalid_argument, kNone,
+           "save_glb: the skins do not begin with the source's");
+  if (character.clips != source.clips)
+    refuse(StatusCode::invalid_argument, kNone, "save_glb: the clips differ from the source's");
+  const std::size_t material_count = count_of(loaded.source->json, "materials");
+  for (std::uint32_t i = 0; i < character.meshes.size(); ++i) {
+    const Mesh &mesh = character.meshes[i], &before = source.meshes[i];
+    if ((mesh.skin != before.skin && mesh.skin < source.skins.size()) ||
+        mesh.first_morph_weight != before.first_morph_weight ||
+        mesh.morph_targets.size() != before.morph_targets.size())
+      refuse(StatusCode::invalid_argument, i,
+             "save_glb: mesh %u: its skin or its morph targets differ from the source's", i);
+    for (const Submesh& submesh : mesh.submeshes)
+      if (submesh.material != kNone && submesh.material >= material_count)
+        refuse(StatusCode::index_out_of_range, i,
+               "save_glb: mesh %u: material %u does not exist; the source has %zu", i,
+               submesh.material, material_count);
+  }
+  if (const Status status = validate_character(character); !status) throw Refusal{status};
+  check_skins_of_nodes(character, source, *loaded.source);
+}
+
+/// Meshes that must be written: torn meshes, and meshes whose source has faults.
+std::vector<std::uint32_t> meshes_to_write(const Character& character,
+                                           const LoadedCharacter& loaded,
+                                           const std::vector<bool>& unsound) {
+  std::vector<std::uint32_t> meshes;
+  for (std::uint32_t i = 0; i < character.meshes.size(); ++i) {
+    const bool differs = &character != loaded.character.get() &&
+                         !(character.meshes[i] == loaded.character->meshes[i]);
+    if (differs || loaded.source->mesh_origins[i].repaired || unsound[i]) meshes.push_back(i);
+  }
+  return meshes;
+}
+
+class Patch {
+ public:
+  Patch(GlbDraft& draft, const Character& character, const LoadedCharacter& loaded,
+        const SaveOptions& options)
+      : draft_(draft),
+        character_(character),
+        before_(*loaded.character),
+        source_(*loaded.source),
+        options_(options),
+        writer_(draft),
+        rig_(draft, character, source_, static_cast<std::uint32_t>(before_.skeleton.bones.size())) {
+  }
+
+  void apply(const std::vector<std::uint32_t>& meshes) {
+    std::map<std::uint32_t, std::vector<std::uint32_t>> meshes_of_node;
+    for (const std::uint32_t mesh : meshes)
+      meshes_of_node[source_.mesh_origins[mesh].node].push_back(mesh);
+    for (const auto& [node, on_node] : meshes_of_node) patch_node(node, on_node);
+    correct_skins();
+    remove_unusable_channels();
+  }
+
+ private:
+  void correct_skins() {
+    for (const SourceDocument::RepairedSkin& repaired : source_.repaired_skins)
+      draft_.json["skins"][repaired.gltf_skin]["inverseBindMatrices"] =
+          add_bind_matrices(draft_, before_.skins[repaired.skin]);
+  }
+
+  void patch_node(std::uint32_t node_index, const std::vector<std::uint32_t>& meshes) {
+    if (has_new_skin(meshes.front())) {
+      const std::uint32_t skin = rig_.skin(character_.meshes[meshes.front()].skin);
+      draft_.json["nodes"][node_index]["skin"] = skin;
+    }
+    Json& node = draft_.json["nodes"][node_index];
+    const auto mesh_index = node["mesh"].get<std::size_t>();
+    const Json& old_mesh = draft_.json["meshes"][mesh_index];
+    const Json& old_primitives = old_mesh["primitives"];
+
+    // A new primitive per old primitive of a written mesh; null if it has no triangle left.
+    std::map<std::uint32_t, Json> rewritten;
+    Json additional = Json::array();
+    for (const std::uint32_t mesh : meshes)
+      rewrite_primitives(mesh, old_primitives, rewritten, additional);
+    Json primitives = Json::array();
+    for (std::uint32_t i = 0; i < old_primitives.size(); ++i) {
+      const auto found = rewritten.find(i);
+      const Json& primitive = found == rewritten.end() ? old_primitives[i] : found->second;
+      if (!primitive.is_null()) primitives.push_back(primitive);
+    }
+    for (Json& primitive : additional) primitives.push_back(std::move(primitive));
+
+    if (primitives.empty()) {
+      // The mesh has no triangle left. The node must not refer to a mesh any more.
+      for (const char* const key : {"mesh", "skin", "weights"}) node.erase(key);
+      without_mesh_.insert(node_index);
+      return;
+    }
+    if (use_count(mesh_index) == 1) {
+      draft_.json["meshes"][mesh_index]["primitives"] = std::move(primitives);
+      return;
+    }
+    Json copy = old_mesh;  // Other nodes use this mesh too, and are not torn.
+    copy["primitives"] = std::move(primitives);
+    Json& all = draft_.json["meshes"];
+    all.push_back(std::move(copy));
+    node["mesh"] = all.size() - 1;
+  }
+
+  void rewrite_primitives(std::uint32_t mesh_index, const Json& old_primitives,
+                          std::map<std::uint32_t, Json>& rewritten, Json& additional) {
+    const Mesh& mesh = character_.meshes[mesh_index];
+    Origin origin = source_.mesh_origins[mesh_index];
+    origin.skinned |= has_new_skin(mesh_index);
+    for (const std::uint32_t primitive : origin.primitives) rewritten[primitive] = nullptr;
+    if (!MeshWriter::has_triangles(mesh)) return;
+    const MeshWriter::Vertices vertices = writer_.add_vertices(
+        mesh, origin, influence_form(options_, mesh_index, &before_.meshes[mesh_index]));
+    for (std::uint32_t submesh = 0; submesh < mesh.submeshes.size(); ++submesh) {
+      const std::uint32_t indices = writer_.add_indices(mesh, submesh);
+      if (indices == kNone) continue;
+      const bool is_new = submesh >= origin.primitives.size();
+      Json primitive = is_new ? Json::object() : old_primitives[origin.primitives[submesh]];
+      primitive["attributes"] = vertices.attributes;
+      primitive["indices"] = indices;
+      primitive.erase("targets");
+      if (!vertices.targets.is_null()) primitive["targets"] = vertices.targets;
+      primitive.erase("mode");
+      primitive.erase("material");
+      if (mesh.submeshes[submesh].material != kNone)
+        primitive["material"] = mesh.submeshes[submesh].material;
+      remove_stale_extensions(primitive);
+      if (is_new) write_name(mesh.submeshes[submesh], primitive);
+      if (is_new)
+        additional.push_back(std::move(primitive));
+      else
+        rewritten[origin.primitives[submesh]] = std::move(primitive);
+    }
+  }
+
+  /// A primitive has no name in glTF: it is the material's name, or is stored in its extras.
+  void write_name(const Submesh& submesh, Json& primitive) const {
+    const bool has_material = submesh.material != kNone;
+    const std::string of_material =
+        has_material ? entry(draft_.json, "materials", submesh.material).name() : std::string();
+    if (!submesh.name.empty() && submesh.name != of_material)
+      primitive["extras"]["name"] = submesh.name;
+  }
+
+  /// Extensions that contain a second form of the replaced data.
+  static void remove_stale_extensions(Json& primitive) {
+    const auto extensions = primitive.find("extensions");
+    if (extensions == primitive.end() || !extensions->is_object()) return;
+    extensions->erase("KHR_draco_mesh_compression");
+    if (extensions->empty()) primitive.erase("extensions");
+  }
+
+  [[nodiscard]] bool has_new_skin(std::uint32_t mesh) const {
+    return character_.meshes[mesh].skin != before_.meshes[mesh].skin;
+  }
+
+  std::size_t use_count(std::size_t mesh) const {
+    const Json& nodes = draft_.json["nodes"];
+    return static_cast<std::size_t>(
+        std::count_if(nodes.begin(), nodes.end(), [&](const Json& node) {
+          const auto used = node.find("mesh");
+          return used != node.end() && used->is_number() && used->get<std::size_t>() == mesh;
+        }));
+  }
+
+  /// The morph weights of a node without a mesh can no longer be animated.
+  void remove_unusable_channels() {
+    if (without_mesh_.empty() || !draft_.json.contains("animations")) return;
+    Json& animations = draft_.json["animations"];
+    const auto is_unusable = [&](const Json& channel) {
+      const Json& target = channel["target"];
+      return target.contains("node") && target["node"].is_number() && target["path"] == "weights" &&
+             without_mesh_.count(target["node"].get<std::uint32_t>()) != 0;
+    };
+    for (Json& animation : animations) {
+      const auto channels = animation.find("channels");
+      if (channels == animation.end()) continue;
+      Json kept = Json::array();
+      for (const Json& channel : *channels)
+        if (!is_unusable(channel)) kept.push_back(channel);
+      if (kept.size() == channels->size()) continue;
+      if (kept.empty())
+        animation = nullptr;  // DocumentRepair removes it; until then clips keep their indices.
+      else
+        *channels = std::move(kept);
+    }
+  }
+
+  GlbDraft& draft_;
+  const Character& character_;
+  const Character& before_;
+  const SourceDocument& source_;
+  const SaveOptions& options_;
+  MeshWriter writer_;
+  AppendedRig rig_;
+  std::set<std::uint32_t> without_mesh_;
+};
+
+WrittenInfluences written_of(const Mesh& mesh, const Mesh& source, std::uint32_t index,
+                             const SaveOptions& options) {
+  WrittenInfluences written;
+  written.mesh = index;
+  written.maximum = influence_form(options, index, &source).maximum;
+  std::vector<Influence> influences;
+  for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
+    const auto all = mesh.weights.of(v);
+    const auto count = static_cast<std::uint32_t>(all.size());
+    const bool is_pruned = written.maximum != 0 && count > written.maximum;
+    written.most = std::max(written.most, is_pruned ? written.maximum : count);
+    if (!is_pruned) continue;
+    influences.assign(all.begin(), all.end());
+    (void)sort_influences(influences);  // The weights of a valid character are valid.
+    ++written.vertices_pruned;
+    written.dropped_mass_max =
+        std::max(written.dropped_mass_max, dropped_mass(influences, written.maximum));
+  }
+  return written;
+}
+
+}  // namespace
+
+std::vector<std::byte> glb_of(const Character& character, const LoadedCharacter& loaded,
+                              const SaveOptions& options) {
+  check_options(options, character.meshes.size());
+  check_same_character(character, loaded);
+  const SourceDocument& source = *loaded.source;
+  GlbDraft draft(source);
+  const Json before = source.is_glb ? draft.json : Json();
+  DocumentRepair repair(draft, character, source);
+  const std::vector<std::uint32_t> meshes = meshes_to_write(character, loaded, repair.prepare());
+  Patch(draft, character, loaded, options).apply(meshes);
+  repair.finish();
+  if (source.is_glb && meshes.empty() && draft.json == before && is_container_sound(source.content))
+    return source.content;
+  draft.embed_images();
+  return draft.finish();
+}
+
+Result<std::vector<WrittenInfluences>> influences_of_written(const Character& character,
+                                                             const LoadedCharacter& loaded,
+                                                             const SaveOptions& options) {
+  return without_exceptions<std::vector<WrittenInfluences>>([&] {
+    check_options(options, character.meshes.size());
+    check_same_character(character, loaded);
+    GlbDraft draft(*loaded.source);
+    DocumentRepair repair(draft, character, *loaded.source);
+    std::vector<WrittenInfluences> written;
+    for (const std::uint32_t mesh : meshes_to_write(character, loaded, repair.prepare())) {
+      const Mesh &after = character.meshes[mesh], &before = loaded.character->meshes[mesh];
+      if (loaded.source->mesh_origins[mesh].skinned || after.skin != before.skin)
+        written.push_back(written_of(after, before, mesh, options));
+    }
+    return written;
+  });
+}
+
+Status write_character(const std::filesystem::path& file, const Character& character,
+                       const LoadedCharacter& loaded, const SaveOptions& options) {
+  try {
+    return write_atomically(file, glb_of(character, loaded, options));
+  } catch (...) {
+    return status_of_current_exception();
+  }
+}
+
+}  // namespace sunder::gltf
