@@ -23,13 +23,13 @@ namespace sunder::bench {
 namespace {
 
 constexpr const char* kHelp =
-    "bench_io [--summary | --load FILE]\n"
+    "bench_io [--summary | --load FILE | --assimp FILE]\n"
     "\n"
     "Loads GLB files by load_character(), by assimp without post-processing and by tinygltf\n"
     "without decoding accessors or images, in turns, all from the disk cache; processor time.\n"
     "Without an option it prints tables: small animated characters, one character subdivided to a\n"
     "million vertices, `sunder info` beside a process that only loads. --load loads FILE and "
-    "ends.\n"
+    "ends, --assimp reads it by assimp.\n"
     "--summary prints one JSON object:\n"
     "  glb_vs_assimp        ours / assimp on a GLB of about 170 thousand vertices\n"
     "  small_glb_vs_assimp  the same by name of small animated characters\n"
@@ -37,13 +37,14 @@ constexpr const char* kHelp =
     "  growth               time per further vertex from 100 thousand vertices to a million, by "
     "that\n"
     "                       from 10 to 100 thousand\n"
-    "  fbx_vs_assimp        a large FBX with the helper process / assimp's ReadFile() in the "
-    "process\n"
-    "  small_fbx_vs_assimp  the same for a real file of 15 thousand vertices\n"
+    "  fbx_vs_assimp        a process that loads an FBX, with its helper process, by one that "
+    "reads it\n"
+    "                       by assimp alone; wall clock, by name\n"
+    "  fbx_vs_warm_assimp   the same calls in a process that has read the file before\n"
     "  child_overhead_ms    what the helper process adds to an import\n"
     "  fk_ns_per_joint      forward kinematics of a robot, warm\n";
 
-constexpr std::size_t kLarge = 170000, kLargest = 1000000;
+constexpr std::size_t kSmall = 10000, kLarge = 170000, kLargest = 1000000;
 
 void print_imports(const IoFile& file, const ImportTimes& times) {
   std::printf("%-20s %9zu %6zu %9.2f %9.2f %9.2f %10.0f %9.2f\n", file.name.c_str(), file.vertices,
@@ -92,6 +93,34 @@ void print_tables(const std::string& program) {
   }
 }
 
+/// A real FBX file, and two written by assimp: a character, and the same with many vertices.
+std::vector<std::filesystem::path> fbx_files(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files = {fbx_file()};
+  for (const std::size_t vertices : {kSmall, kLarge})
+    files.push_back(write_fbx(large_file(folder, vertices).path, folder));
+  std::erase(files, std::filesystem::path());
+  return files;
+}
+
+/// Wall clock of a process that loads the file, by one that reads it by assimp alone.
+double fbx_ratio(const std::filesystem::path& file, const std::string& program) {
+  const auto times =
+      time_processes({{program, "--load", file.string()}, {program, "--assimp", file.string()}}, 9);
+  return times[0].wall / times[1].wall;
+}
+
+void print_fbx(const std::string& program) {
+  const test::TemporaryFolder folder;
+  std::printf("\nFBX, wall clock\n%-20s %9s %9s %13s %9s %9s %16s\n", "file", "corners", "ours, ms",
+              "in process", "assimp", "/ assimp", "whole processes");
+  for (const std::filesystem::path& file : fbx_files(folder.path())) {
+    const FbxTimes times = time_fbx(file, 7);
+    std::printf("%-20s %9zu %9.2f %13.2f %9.2f %9.2f %16.2f\n", times.file.c_str(), times.vertices,
+                1e3 * times.ours, 1e3 * times.in_process, 1e3 * times.assimp,
+                times.ours / times.assimp, fbx_ratio(file, program));
+  }
+}
+
 /// How much more a vertex costs in the larger half of the sizes than in the smaller half: what does
 /// not depend on the size, such as clips, counts in neither.
 double growth(const std::vector<IoFile>& files) {
@@ -105,19 +134,18 @@ double growth(const std::vector<IoFile>& files) {
   return per_vertex(middle, last) / per_vertex(0, middle);
 }
 
-/// A large FBX text made of the large model, and the largest real file, which is small.
-void add_fbx(JsonObject& object, const std::filesystem::path& large,
-             const std::filesystem::path& folder) {
-  const std::filesystem::path written = write_fbx(large, folder), real = fbx_file();
-  const FbxTimes of_large = written.empty() ? FbxTimes{} : time_fbx(written, 5);
-  const FbxTimes of_real = real.empty() ? FbxTimes{} : time_fbx(real, 15);
-  const auto ratio = [](const FbxTimes& times) {
-    return times.assimp > 0 ? std::optional(times.ours / times.assimp) : std::nullopt;
-  };
-  object.add("fbx_vs_assimp", ratio(of_large));
-  object.add("small_fbx_vs_assimp", ratio(of_real));
-  object.add("child_overhead_ms",
-             real.empty() ? std::nullopt : std::optional(1e3 * of_real.child_overhead));
+void add_fbx(JsonObject& object, const std::string& program, const std::filesystem::path& folder) {
+  std::vector<std::pair<std::string, double>> ratios, warm;
+  double overhead = 0;
+  for (const std::filesystem::path& file : fbx_files(folder)) {
+    const FbxTimes times = time_fbx(file, 7);
+    warm.emplace_back(file.stem().string(), times.ours / times.assimp);
+    ratios.emplace_back(file.stem().string(), fbx_ratio(file, program));
+    if (ratios.size() == 1) overhead = 1e3 * times.child_overhead;
+  }
+  object.add("fbx_vs_assimp", ratios);
+  object.add("fbx_vs_warm_assimp", warm);
+  object.add("child_overhead_ms", overhead);
 }
 
 /// The humanoid of the shared models, or a chain without them.
@@ -147,7 +175,7 @@ void print_summary(const std::string& program) {
   object.add("small_glb_vs_assimp", small_ratios);
   object.add("info_vs_load", info.ratio());
   object.add("growth", growth(growing_files(folder.path(), kLargest)));
-  add_fbx(object, large.path, folder.path());
+  add_fbx(object, program, folder.path());
   add_kinematics(object);
   object.end();
 }
@@ -160,8 +188,10 @@ int main(int argc, char** argv) {
   const std::string program = std::filesystem::read_symlink("/proc/self/exe").string();
   if (argc == 3 && std::strcmp(argv[1], "--load") == 0)
     return sunder::load_character(argv[2]) ? 0 : 1;
+  if (argc == 3 && std::strcmp(argv[1], "--assimp") == 0) return read_by_assimp(argv[2]) ? 0 : 1;
   if (argc == 1) {
     print_tables(program);
+    print_fbx(program);
     return 0;
   }
   if (argc == 2 && std::strcmp(argv[1], "--summary") == 0) {

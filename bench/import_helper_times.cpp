@@ -15,7 +15,6 @@
 #include "bench/measure.h"
 
 namespace sunder::bench {
-namespace {
 
 namespace fs = std::filesystem;
 
@@ -30,8 +29,6 @@ std::size_t read_by_assimp(const fs::path& file) {
     vertices += scene->mMeshes[i]->mNumVertices;
   return vertices;
 }
-
-}  // namespace
 
 fs::path fbx_file() {
   fs::path largest;

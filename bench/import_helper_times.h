@@ -26,4 +26,7 @@ struct FbxTimes {
 
 [[nodiscard]] FbxTimes time_fbx(const std::filesystem::path& file, int rounds);
 
+/// Reads a file as time_fbx() lets assimp read it. @return the number of vertices; 0: it cannot.
+[[nodiscard]] std::size_t read_by_assimp(const std::filesystem::path& file);
+
 }  // namespace sunder::bench

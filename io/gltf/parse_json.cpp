@@ -13,6 +13,13 @@ namespace {
 namespace dom = simdjson::dom;
 
 bool repeats_name(const Json::object_t& members) {
+  constexpr std::size_t kFew = 12;  // fewer are compared with each other, without an allocation
+  if (members.size() < kFew) {
+    for (auto one = members.begin(); one != members.end(); ++one)
+      for (auto other = members.begin(); other != one; ++other)
+        if (one->first == other->first) return true;
+    return false;
+  }
   std::vector<std::string_view> names;
   names.reserve(members.size());
   for (const auto& member : members) names.push_back(member.first);
