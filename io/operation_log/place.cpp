@@ -26,7 +26,8 @@ void Place::fail(StatusCode code, const std::string& text) const {
 }
 
 void Place::expected(const char* what) const {
-  malformed(std::string("expected ") + what + ", found " + value.type_name());
+  malformed(std::string("expected ") + what + ", found " + value.type_name() +
+            (value.is_array() ? " of " + std::to_string(value.size()) : ""));
 }
 
 Place Place::at(std::size_t index) const {

@@ -20,10 +20,12 @@ constexpr auto kKinds = std::to_array<FindingKind>({
     {"not_urdf", kError, StatusCode::unsupported_format},
     {"xacro_not_expanded", kError, StatusCode::unsupported_feature},
     {"tag_ignored", kInformation, StatusCode::unsupported_feature},
+    {"tag_repeated", kWarning, StatusCode::malformed_file},
     {"name_missing", kError, StatusCode::malformed_file},
     {"duplicate_name", kError, StatusCode::malformed_file},
     {"number_malformed", kError, StatusCode::malformed_file},
     {"number_not_finite", kError, StatusCode::non_finite_value},
+    {"quaternion_ignored", kWarning, StatusCode::unsupported_feature},
     {"urdfdom_refused", kError, StatusCode::malformed_file},
     // The tree.
     {"no_link", kError, StatusCode::empty_input},

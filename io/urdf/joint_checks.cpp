@@ -1,8 +1,10 @@
 #include "io/urdf/joint_checks.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <utility>
 
 namespace sunder::urdf {
@@ -71,6 +73,18 @@ void repair_limits(JointTag& joint, bool is_revolute, Findings& findings) {
                  "its lower and upper limit are 0, so it cannot move");
 }
 
+/// Bones are in single precision: where a link rests has to be within its range.
+void check_range(const JointTag& joint, Findings& findings) {
+  double farthest = 0;
+  for (const double part : joint.origin.xyz) farthest = std::max(farthest, std::abs(part));
+  if (joint.type == "prismatic" && joint.limit)
+    farthest += std::abs(std::clamp(0.0, *joint.limit->lower, *joint.limit->upper));
+  if (farthest > std::numeric_limits<float>::max())
+    findings.add("number_not_finite", place_of(joint),
+                 "its link rests " + number(farthest) +
+                     " m away, which is beyond the range of single precision");
+}
+
 void repair_joint(JointTag& joint, Findings& findings) {
   const std::optional<RobotJointType> type = joint_type_named(joint.type);
   if (!type) {
@@ -89,6 +103,7 @@ void repair_joint(JointTag& joint, Findings& findings) {
            (joint.limit->lower.value_or(0) != 0 || joint.limit->upper.value_or(0) != 0))
     findings.add("limits_ignored", place_of(joint),
                  "a " + joint.type + " joint has no lower and upper limit; they are ignored");
+  check_range(joint, findings);
 }
 
 }  // namespace

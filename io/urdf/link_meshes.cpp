@@ -108,7 +108,9 @@ class ShapeReader {
     if (shape.box) least = *std::min_element(shape.box->size.begin(), shape.box->size.end());
     if (shape.cylinder) least = std::min(shape.cylinder->radius, shape.cylinder->length);
     if (shape.sphere) least = shape.sphere->radius;
-    if (least == 0) {
+    // Below the range of single precision, in which vertices are, all of them would be at one
+    // place.
+    if (std::abs(least) < static_cast<double>(std::numeric_limits<float>::min())) {
       findings_.add("geometry_empty", place, "a size of its geometry is 0; it is left out");
       return std::nullopt;
     }

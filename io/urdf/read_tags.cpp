@@ -24,6 +24,28 @@ std::string attribute_of(const XMLElement& tag, const char* name) {
   return value == nullptr ? std::string() : std::string(value);
 }
 
+/// Parts of a joint that Sunder uses.
+bool is_single_part(std::string_view name) {
+  return name == "origin" || name == "parent" || name == "child" || name == "axis" ||
+         name == "limit" || name == "mimic";
+}
+
+/// A person's words for what tinyxml2 says by a constant.
+std::string words_of(const tinyxml2::XMLDocument& document) {
+  switch (document.ErrorID()) {
+    case tinyxml2::XML_ERROR_MISMATCHED_ELEMENT:
+      return "a tag is closed by one of another name, or not at all";
+    case tinyxml2::XML_ERROR_PARSING_ELEMENT: return "a tag is malformed";
+    case tinyxml2::XML_ERROR_PARSING_ATTRIBUTE:
+      return "an attribute is malformed, or is twice in one tag";
+    case tinyxml2::XML_ERROR_PARSING_TEXT: return "a text is not followed by a tag";
+    case tinyxml2::XML_ERROR_PARSING_DECLARATION:
+      return "<?...?> is not at the beginning of the file";
+    case tinyxml2::XML_ERROR_PARSING: return "a tag is never closed; is the file cut off?";
+    default: return tinyxml2::XMLDocument::ErrorIDToName(document.ErrorID());
+  }
+}
+
 class TagReader {
  public:
   explicit TagReader(Findings& findings) : findings_(findings), ignored_(findings) {}
@@ -67,6 +89,15 @@ class TagReader {
       numbers(tag, attribute, place, into);
   }
 
+  /// A second tag of this name beside an earlier one, where one is enough. As for urdfdom, the
+  /// first one counts. Linear in all: the search ends at the nearest tag of the name.
+  bool is_repeated(const XMLElement& tag, const Place& place) {
+    if (tag.PreviousSiblingElement(tag.Name()) == nullptr) return false;
+    findings_.add("tag_repeated", {place.name, line_of(tag)},
+                  "it has another <" + std::string(tag.Name()) + ">; the first one counts");
+    return true;
+  }
+
   // ---- Links
 
   LinkTag read_link(const XMLElement& tag) {
@@ -95,6 +126,8 @@ class TagReader {
     for (const XMLElement* child = tag.FirstChildElement(); child;
          child = child->NextSiblingElement()) {
       const std::string_view name = child->Name();
+      if (name == "origin" || name == "geometry" || name == "material")
+        if (is_repeated(*child, place)) continue;
       if (name == "origin") {
         shape.origin = read_origin(*child, place);
       } else if (name == "geometry") {
@@ -115,6 +148,9 @@ class TagReader {
   bool read_geometry(const XMLElement& tag, const Place& place, ShapeTag& shape) {
     const XMLElement* const form = tag.FirstChildElement();
     if (form == nullptr) return false;
+    if (const XMLElement* const other = form->NextSiblingElement())
+      findings_.add("tag_repeated", {place.name, line_of(*other)},
+                    "its <geometry> has more than one shape; the first one counts");
     const std::string_view name = form->Name();
     if (name == "mesh") {
       MeshTag& mesh = shape.mesh.emplace();
@@ -141,6 +177,10 @@ class TagReader {
     OriginTag origin;
     numbers(tag, "xyz", place, origin.xyz);
     numbers(tag, "rpy", place, origin.rpy);
+    if (tag.Attribute("quat_xyzw") != nullptr)
+      findings_.add("quaternion_ignored", {place.name, line_of(tag)},
+                    std::string("quat_xyzw is not read; the rotation is ") +
+                        (tag.Attribute("rpy") != nullptr ? "that of rpy" : "none"));
     return origin;
   }
 
@@ -178,6 +218,7 @@ class TagReader {
 
   void read_part(const XMLElement& tag, const Place& place, JointTag& joint) {
     const std::string_view name = tag.Name();
+    if (is_single_part(name) && is_repeated(tag, place)) return;
     if (name == "origin") {
       joint.origin = read_origin(tag, place);
     } else if (name == "parent") {
@@ -256,8 +297,7 @@ RobotTags read_tags(const std::string& text, Findings& findings) {
     const bool is_deep = document.ErrorID() == tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED;
     findings.add(is_deep ? "xml_too_deep" : "xml_malformed",
                  {"", static_cast<std::uint32_t>(std::max(document.ErrorLineNum(), 0))},
-                 std::string("not well-formed XML: ") +
-                     tinyxml2::XMLDocument::ErrorIDToName(document.ErrorID()));
+                 "not well-formed XML: " + words_of(document));
     return {};
   }
   const XMLElement* const root = document.RootElement();
@@ -267,6 +307,10 @@ RobotTags read_tags(const std::string& text, Findings& findings) {
                  "the file begins with " + name.substr(0, 60) + "; URDF begins with <robot>");
     return {};
   }
+  if (const XMLElement* const other = root->NextSiblingElement())
+    findings.add("tag_repeated", {"", line_of(*other)},
+                 "<" + std::string(other->Name()).substr(0, 60) +
+                     "> begins after the end of the robot; it and what follows are ignored");
   return TagReader(findings).read(*root);
 }
 

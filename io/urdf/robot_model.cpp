@@ -49,6 +49,23 @@ void add_meshes(std::vector<Mesh> of_link, Character& character) {
   }
 }
 
+/// glTF nodes may be nested this deep.
+constexpr std::uint32_t kMaximumDepth = 1024;
+
+/// @return limit_exceeded with the first link that is too deep.
+Status check_depth(const Robot& robot) {
+  std::vector<std::uint32_t> depth;
+  for (const RobotLink& link : robot.links) {
+    depth.push_back(link.parent == kNone ? 1 : depth[link.parent] + 1);
+    if (depth.back() > kMaximumDepth)
+      return Status::failure(StatusCode::limit_exceeded,
+                             static_cast<std::uint32_t>(depth.size() - 1),
+                             "link '%.80s': a robot with meshes can have at most %u links in a row",
+                             link.name.c_str(), kMaximumDepth);
+  }
+  return {};
+}
+
 }  // namespace
 
 Affine3d y_up_from_z_up() {
@@ -70,6 +87,7 @@ Result<LoadedCharacter> make_model(const Robot& robot, LinkMeshes meshes,
   if (character.meshes.empty()) {
     loaded.character = std::make_shared<const Character>(std::move(character));
   } else {
+    if (const Status status = check_depth(robot); !status) return status;
     // Read back, so that the character is what its document says, to the bit.
     LoadOptions reading = options;
     reading.strict = false;

@@ -75,7 +75,8 @@ TEST(TrajectoryFile, faults_of_json_have_their_pointer_or_line) {
   const auto samples = [](const std::string& text) {
     return json_error(R"({"names": ["a"], "samples": [{"time": 0, "values": [0]}, )" + text + "]}");
   };
-  EXPECT_THAT(samples(R"({"time": 1, "values": [0, 1]})"), HasSubstr("/samples/1/values"));
+  EXPECT_THAT(samples(R"({"time": 1, "values": [0, 1]})"),
+              HasSubstr("/samples/1/values: expected an array of 1 numbers, found array of 2"));
   EXPECT_THAT(samples(R"({"time": 1, "values": ["0"]})"), HasSubstr("/samples/1/values/0"));
   EXPECT_THAT(samples(R"({"time": 0, "values": [0]})"), HasSubstr("/samples/1/time"));
   EXPECT_THAT(samples(R"({"time": 1})"), HasSubstr("values"));

@@ -193,6 +193,10 @@ INSTANTIATE_TEST_SUITE_P(
                             arm(kLimit + "<origin xyz=\"inf 0 1\"/>", kLimit)},
                     Refused{"number_not_finite", StatusCode::non_finite_value, 5,
                             arm(kLimit + "<origin rpy=\"1e999 0 1\"/>", kLimit)},
+                    Refused{"number_not_finite", StatusCode::non_finite_value, 5,
+                            arm(kLimit + "<origin xyz=\"0 1e39 0\"/>", kLimit)},
+                    Refused{"number_not_finite", StatusCode::non_finite_value, 5,
+                            arm("<limit lower=\"1e39\" upper=\"1e40\"/>", kLimit, "prismatic")},
                     Refused{"number_malformed", StatusCode::malformed_file, 5,
                             arm(kLimit + "<origin xyz=\"0,5 0 1\"/>", kLimit)},
                     Refused{"number_malformed", StatusCode::malformed_file, 5,
@@ -248,7 +252,13 @@ INSTANTIATE_TEST_SUITE_P(
         Warned{"mimic_self", "joint 'k'", arm(kLimit, kLimit + "<mimic joint=\"k\"/>")},
         Warned{"mimic_chain", "joint 'j'",
                arm(kLimit + "<mimic joint=\"k\"/>", kLimit + "<mimic joint=\"j\"/>")},
-        Warned{"mimic_unsupported", "joint 'k'", arm("", "<mimic joint=\"j\"/>", "planar")}));
+        Warned{"mimic_unsupported", "joint 'k'", arm("", "<mimic joint=\"j\"/>", "planar")},
+        Warned{"tag_repeated", "joint 'j'", arm(kLimit + limit("-3", "3"), kLimit)},
+        Warned{"tag_repeated", "joint 'k'",
+               arm(kLimit, kLimit + "<axis xyz=\"0 0 1\"/><axis xyz=\"0 1 0\"/>")},
+        Warned{"tag_repeated", "", robot("<link name=\"a\"/>") + robot("<link name=\"b\"/>")},
+        Warned{"quaternion_ignored", "joint 'j'",
+               arm(kLimit + "<origin xyz=\"1 0 0\" quat_xyzw=\"1 0 0 0\"/>", kLimit)}));
 
 INSTANTIATE_TEST_SUITE_P(
     shapes, WarnedUrdf,
@@ -256,6 +266,11 @@ INSTANTIATE_TEST_SUITE_P(
         Warned{"geometry_missing", "link 'a'", link_with("<origin xyz=\"0 0 1\"/>")},
         Warned{"geometry_unknown", "link 'a'",
                link_with("<geometry><capsule radius=\"1\" length=\"2\"/></geometry>")},
+        Warned{"tag_repeated", "link 'a'",
+               link_with("<geometry><box size=\"1 1 1\"/><sphere radius=\"1\"/></geometry>")},
+        Warned{"tag_repeated", "link 'a'",
+               link_with("<geometry><box size=\"1 1 1\"/></geometry><origin xyz=\"0 0 1\"/>"
+                         "<origin xyz=\"0 0 2\"/>")},
         Warned{"geometry_size", "link 'a'",
                link_with("<geometry><box size=\"1 1 -1\"/></geometry>")},
         Warned{"geometry_size", "link 'a'",
@@ -316,6 +331,53 @@ TEST(UrdfFindings, repaired_limits_are_those_that_the_text_says) {
   EXPECT_EQ(rest_values(loaded.robot->robot), (std::vector<double>{0.5, -0.5}));
 }
 
+TEST(UrdfFindings, of_repeated_tags_the_first_counts) {
+  const Loaded loaded = load(
+      arm(kLimit + "<limit lower=\"-9\" upper=\"9\"/><axis xyz=\"0 0 1\"/><axis xyz=\"0 1 0\"/>"
+                   "<origin xyz=\"1 0 0\"/><origin xyz=\"2 0 0\"/>",
+          kLimit + "<mimic joint=\"j\" multiplier=\"2\"/><mimic joint=\"k\" multiplier=\"3\"/>"));
+  ASSERT_TRUE(loaded.robot) << loaded.robot.error().text();
+  const std::vector<RobotJoint>& joints = loaded.robot->robot.joints;
+  EXPECT_EQ(joints[0].axis, Vec3d(0, 0, 1));
+  EXPECT_EQ(joints[0].upper, 2.0);
+  EXPECT_EQ(joints[0].parent_from_joint.translation(), Vec3d(1, 0, 0));
+  EXPECT_EQ(joints[1].multiplier, 2.0);
+  EXPECT_EQ(std::count_if(loaded.findings.begin(), loaded.findings.end(),
+                          [](const RobotFinding& f) { return f.code == "tag_repeated"; }),
+            4);
+}
+
+TEST(UrdfFindings, faults_of_xml_are_told_in_words) {
+  for (const char* text : {"<robot name=\"r\"><link name=\"a\"></robot></link>",
+                           "<robot name=\"r\"><link name=\"a\" name=\"b\"/></robot>",
+                           "<robot name=\"r\"><link name=\"a\"/>", "<robot>text",
+                           "<!-- a --><?xml version=\"1.0\"?><robot name=\"r\"/>"}) {
+    const Loaded loaded = load(text);
+    EXPECT_FALSE(loaded.robot);
+    EXPECT_THAT(finding(loaded, "xml_malformed").text, Not(HasSubstr("XML_"))) << text;
+  }
+}
+
+TEST(UrdfFindings, too_many_links_in_a_row_name_the_link) {
+  const auto chain = [](int links, const std::string& of_first) {
+    std::string text = "<link name=\"l0\">" + of_first + "</link>\n";
+    for (int i = 1; i < links; ++i) {
+      const std::string self = std::to_string(i), parent = std::to_string(i - 1);
+      text += "<link name=\"l" + self + "\"/><joint name=\"j" + self +
+              "\" type=\"fixed\"><parent link=\"l" + parent + "\"/><child link=\"l" + self +
+              "\"/></joint>\n";
+    }
+    return robot(text);
+  };
+  const std::string box = "<visual><geometry><box size=\"1 1 1\"/></geometry></visual>";
+  EXPECT_TRUE(load(chain(1024, box)).robot);
+  EXPECT_TRUE(load(chain(1025, "")).robot);
+  const Loaded refused = load(chain(1025, box));
+  ASSERT_FALSE(refused.robot);
+  EXPECT_EQ(refused.robot.error().code(), StatusCode::limit_exceeded);
+  EXPECT_THAT(refused.robot.error().text(), HasSubstr("link 'l1024'"));
+}
+
 TEST(UrdfFindings, ignored_tags_are_told_once_each) {
   const Loaded loaded = load(robot(
       kLinks + kJoint + kOther +
@@ -338,6 +400,7 @@ TEST(UrdfFindings, other_information_refuses_nothing_even_if_strict) {
   expect("xml_encoding", "<!-- J\xFCrgen -->" + robot("<link name=\"a\"/>"));
   expect("limits_ignored", arm(kLimit, "", "continuous"));
   expect("geometry_empty", link_with("<geometry><sphere radius=\"0\"/></geometry>"));
+  expect("geometry_empty", link_with("<geometry><sphere radius=\"1e-50\"/></geometry>"));
   expect("material_unknown", link_with("<geometry><sphere radius=\"1\"/></geometry>"
                                        "<material name=\"red\"/>"));
 }

@@ -152,6 +152,40 @@ TEST_F(BindCommand, a_robot_is_a_skeleton_in_a_pose_of_its_joints) {
   EXPECT_THAT(bind("elbow").err, HasSubstr("expected NAME=VALUE"));
 }
 
+TEST_F(BindCommand, shapes_that_a_robot_lacks_are_told_and_its_links_stay) {
+  const std::string link = "<visual><geometry><mesh filename=\"none.stl\"/></geometry></visual>";
+  const std::string tree =
+      "<joint name=\"j\" type=\"continuous\"><parent link=\"a\"/><child link=\"b\"/>"
+      "<origin xyz=\"0 0 1\"/></joint></robot>";
+  const auto bind = [&](const std::string& of_a) {
+    const std::string robot =
+        write("robot.urdf", "<robot name=\"r\"><link name=\"a\">" + of_a +
+                                "</link><link name=\"b\">" + link + "</link>" + tree);
+    return run_sunder({"bind", stiff(), "--skeleton", robot, "-o", path("on_robot.glb")});
+  };
+  const std::string box = "<visual><geometry><box size=\"1 1 1\"/></geometry></visual>";
+  for (const std::string& of_a : {box, link}) {  // some meshes, none
+    const CommandResult result = bind(of_a);
+    EXPECT_EQ(result.exit_code, 1) << result.err;
+    EXPECT_THAT(result.err, HasSubstr("link 'b': mesh_not_found"));
+    EXPECT_THAT(bone_names(load("on_robot.glb")), testing::IsSupersetOf({"a", "b"}));
+    expect_valid("on_robot.glb");
+  }
+}
+
+TEST_F(BindCommand, names_are_blamed_on_what_has_them) {
+  const std::string bone = tools::make_cactus().skeleton.bones[0].name;
+  const std::string map = write("bad.json", "{\"" + bone + "\": \"nowhere\"}");
+  EXPECT_THAT(
+      run_sunder({"bind", source(), "--skeleton", robot(), "--map", map, "-o", path("never.glb")})
+          .err,
+      HasSubstr("bad.json: "));
+  EXPECT_THAT(run_sunder({"bind", stiff(), "--skeleton", robot(), "--bones", "nowhere", "-o",
+                          path("never.glb")})
+                  .err,
+              HasSubstr("--bones: "));
+}
+
 TEST_F(BindCommand, wrong_maps_are_refused_with_their_cause) {
   const auto bind = [&](const std::string& map, const std::vector<std::string>& more = {}) {
     std::vector<std::string> arguments = {"bind",  source(),         "--skeleton",

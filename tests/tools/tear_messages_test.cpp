@@ -131,6 +131,15 @@ TEST_F(TearMessages, a_miss_says_its_distance_and_the_bounds) {
   EXPECT_THAT(result.err, Not(HasSubstr("it would meet")));
 }
 
+TEST_F(TearMessages, a_miss_writes_no_weights_and_says_so) {
+  const std::string log = write("above.json", R"({"sunder_operations": 1, "operations": [
+    {"op": "cut", "plane": {"point": [0, 99, 0], "normal": [0, 1, 0]}}]})");
+  const CommandResult result = tear(log, {"--weights-as", "u8"});
+  EXPECT_EQ(result.exit_code, 1) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("those of the model; no mesh changed"));
+  EXPECT_THAT(result.out, Not(HasSubstr("u8")));
+}
+
 TEST_F(TearMessages, a_miss_in_centimetres_is_recognised) {
   const auto scale = [](double factor) {
     return stroke([factor](json& blade) {

@@ -1,5 +1,6 @@
 #include <sunder/binding/binding.h>
 #include <sunder/io/character_file.h>
+#include <sunder/io/robot_file.h>
 #include <sunder/skinning/pose.h>
 
 #include <cstdio>
@@ -13,6 +14,8 @@
 #include "tools/messages/json_file.h"
 #include "tools/messages/overwriting.h"
 #include "tools/messages/text_file.h"
+#include "tools/model/load_model.h"
+#include "tools/model/load_notes.h"
 #include "tools/model/pose_argument.h"
 #include "tools/verbs.h"
 
@@ -80,21 +83,42 @@ ExitCode find_place(const BindRequest& request, Inputs& inputs) {
   return ExitCode::ok;
 }
 
+/// A robot is a skeleton without any of its meshes too.
+Result<LoadedCharacter> read_skeleton(const BindRequest& request) {
+  LoadOptions load;
+  load.roots = request.package_roots;
+  Result<LoadedCharacter> rig = load_character(request.skeleton, load);
+  if (rig || rig.error().code() != StatusCode::empty_input || !is_urdf(request.skeleton))
+    return rig;
+  RobotLoadOptions of_robot;
+  of_robot.meshes = load;
+  Result<LoadedRobot> robot = load_robot(request.skeleton, of_robot);
+  if (!robot) return robot.error();
+  return std::move(robot->model);
+}
+
 ExitCode read_inputs(const BindRequest& request, Inputs& inputs) {
   Result<LoadedCharacter> model = load_character(request.model);
   if (!model) return complain(request.model.string(), model.error(), ExitCode::unreadable_input);
   inputs.model = std::move(*model);
-  LoadOptions load;
-  load.roots = request.package_roots;
-  Result<LoadedCharacter> rig = load_character(request.skeleton, load);
+  Result<LoadedCharacter> rig = read_skeleton(request);
   if (!rig) return complain(request.skeleton.string(), rig.error(), ExitCode::unreadable_input);
   inputs.rig = std::move(*rig);
+  const Messages messages(Verbosity::normal);
+  warn_of_repairs(request.model.string(), inputs.model.report, messages);
+  warn_of_repairs(request.skeleton.string(), inputs.rig.report, messages);
   if (request.map) {
     Result<std::vector<BonePair>> pairs = read_map(*request.map);
     if (!pairs) return complain(request.map->string(), pairs.error(), ExitCode::usage);
     inputs.pairs = std::move(*pairs);
   }
   return find_place(request, inputs);
+}
+
+/// The argument that a failed binding is to be blamed on: names come from the map or --bones.
+std::string blamed(const BindRequest& request, const Status& failure) {
+  if (failure.code() != StatusCode::not_found) return request.model.string();
+  return request.map ? request.map->string() : "--bones";
 }
 
 Result<AnyBinding> bind_models(const BindRequest& request, const Inputs& inputs) {
@@ -142,13 +166,15 @@ ExitCode run_bind(const BindRequest& request) {
   Inputs inputs;
   if (const ExitCode code = read_inputs(request, inputs); code != ExitCode::ok) return code;
   const Result<AnyBinding> binding = bind_models(request, inputs);
-  if (!binding) return complain(request.model.string(), binding.error(), ExitCode::usage);
+  if (!binding) return complain(blamed(request, binding.error()), binding.error(), ExitCode::usage);
   if (const ExitCode code = write_files(request, inputs, *binding); code != ExitCode::ok)
     return code;
   std::fputs(bind_table(*binding).c_str(), stdout);
   const std::vector<std::string> warnings = bind_warnings(*binding);
   for (const std::string& warning : warnings) Messages(Verbosity::normal).warn(warning);
-  return warnings.empty() ? ExitCode::ok : ExitCode::findings;
+  const bool has_findings =
+      !warnings.empty() || has_losses(inputs.model.report) || has_losses(inputs.rig.report);
+  return has_findings ? ExitCode::findings : ExitCode::ok;
 }
 
 }  // namespace sunder::tools

@@ -43,6 +43,8 @@ std::string weights_line(const TearRun& run) {
     return line + printed("; written within %g m of the unpruned skin\n",
                           run.request.maximum_error->metres);
   const PruningLoss& loss = run.pruning;
+  // Meshes that nothing tore are copied, with the weights and formats of their file.
+  if (loss.most == 0) return "weights     those of the model; no mesh changed\n";
   line += printed("; written with at most %u influences as %s", loss.most,
                   weight_format_name(save.weights));
   if (loss.vertices_pruned > 0)
