@@ -72,7 +72,9 @@ TEST_F(RepairsCommand, strict_refuses_in_every_command) {
                                              {"transfer", clean, bad, "-o", out},
                                              {"transfer", bad, clean, "-o", out},
                                              {"picture", bad, "-o", path("out.png")},
-                                             {"view", bad, "-o", path("out.html")}}) {
+                                             {"view", bad, "-o", path("out.html")},
+                                             {"bind", bad, "--skeleton", clean, "-o", out},
+                                             {"bind", clean, "--skeleton", bad, "-o", out}}) {
     std::vector<std::string> strict = arguments;
     strict.push_back("--strict");
     const CommandResult result = run_sunder(strict);

@@ -9,10 +9,10 @@
 
 #include "io/internal/copied_materials.h"
 #include "tools/bind/bind_report.h"
-#include "tools/bind/joint_pose.h"
 #include "tools/messages/json_file.h"
 #include "tools/messages/overwriting.h"
 #include "tools/messages/text_file.h"
+#include "tools/model/joint_values.h"
 #include "tools/model/pose_argument.h"
 #include "tools/verbs.h"
 
@@ -52,9 +52,9 @@ struct Inputs {
 /// @return ok, or the exit code of the failure, which was reported.
 ExitCode find_pose(const BindRequest& request, Inputs& inputs) {
   if (!request.joints.empty()) {
-    Result<std::vector<Affine3d>> pose = pose_of_joints(request);
+    Result<ModelPose> pose = pose_of_joints(request.joints, request.skeleton);
     if (!pose) return complain("--joints", pose.error(), ExitCode::usage);
-    inputs.place.rig_from_bone = std::move(*pose);
+    inputs.place.rig_from_bone = std::move(pose->model_from_bone);
     return ExitCode::ok;
   }
   const Character& rig = *inputs.rig.character;
@@ -81,11 +81,10 @@ ExitCode find_place(const BindRequest& request, Inputs& inputs) {
 }
 
 ExitCode read_inputs(const BindRequest& request, Inputs& inputs) {
-  Result<LoadedCharacter> model = load_character(request.model);
+  const LoadOptions load = load_options(request.reading);
+  Result<LoadedCharacter> model = load_character(request.model, load);
   if (!model) return complain(request.model.string(), model.error(), ExitCode::unreadable_input);
   inputs.model = std::move(*model);
-  LoadOptions load;
-  load.roots = request.package_roots;
   Result<LoadedCharacter> rig = load_character(request.skeleton, load);
   if (!rig) return complain(request.skeleton.string(), rig.error(), ExitCode::unreadable_input);
   inputs.rig = std::move(*rig);

@@ -133,8 +133,7 @@ CLI::App* add_tear(CLI::App& app, TearRequest& request) {
       throw CLI::RequiredError("--ops (or --slash, --sever, --puncture, --robot)");
     if (!request.dry_run && !request.output) throw CLI::RequiredError("--output (or --dry-run)");
   });
-  add_strict(*verb, request.strict);
-  add_package_roots(*verb, request.package_roots);
+  add_model_reading(*verb, request.reading);
   verb->footer(
       "If an operation fails, nothing is written. Exit code 1 if an operation met no surface or "
       "could not tear some places (see the report), or if the picture could not be drawn.\n\n"

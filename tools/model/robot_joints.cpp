@@ -1,4 +1,6 @@
-#include "tools/model/load_model.h"
+#include "tools/model/robot_joints.h"
+
+#include <sunder/io/robot_file.h>
 
 #include <algorithm>
 #include <cctype>
@@ -6,12 +8,6 @@
 #include <utility>
 
 namespace sunder::tools {
-
-LoadOptions with_roots(LoadOptions options,
-                       const std::vector<std::filesystem::path>& package_roots) {
-  options.roots.insert(options.roots.end(), package_roots.begin(), package_roots.end());
-  return options;
-}
 
 bool is_urdf(const std::filesystem::path& file) {
   std::string extension = file.extension().string();
