@@ -36,7 +36,7 @@ Result<LoadedCharacter> load_gltf(const std::filesystem::path& file, bool is_glb
   return gltf::read_character(std::move(content), folder.empty() ? "." : folder, options);
 }
 
-/// What is wrong with the GLB of an import, in the words of the model's own name.
+/// The fault of the GLB of an import, in the words of the model's own name.
 Status refusal_of_import(const Status& fault, const std::string& name) {
   const StatusCode code = fault.code() == StatusCode::unsupported_format
                               ? StatusCode::malformed_file  // not that of the model

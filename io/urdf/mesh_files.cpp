@@ -106,7 +106,7 @@ Mesh joined(const Character& character, const Affine3d& file_from_model) {
   return all;
 }
 
-/// What the importer repaired or dropped.
+/// The first repair or loss that the importer reports, and the number of the others.
 std::string repairs(const LoadReport& report) {
   std::string first;
   std::size_t count = 0;

@@ -58,7 +58,7 @@ class Range {
                         largest_ = {-1e300, -1e300, -1e300, -1e300};
 };
 
-/// What a file holds of the model.
+/// The parts of a model that a file holds.
 struct Facts {
   std::uint64_t triangles = 0;
   Range positions, texture_coordinates, colours;

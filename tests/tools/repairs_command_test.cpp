@@ -1,4 +1,4 @@
-// What the commands say about models with faults: they warn of what loading repaired or dropped,
+// The commands' messages about models with faults: they warn of what loading repaired or dropped,
 // and refuse such models with --strict.
 
 #include "support/gltf_builder.h"

@@ -53,7 +53,7 @@ void check_weight_policy(const CLI::App& verb, const TearRequest& request) {
     throw CLI::ValidationError("--refit-bound", "expected a factor of at least 1, or 0");
 }
 
-/// What is reported, and where.
+/// Options that say what is reported, and where.
 void add_report_options(CLI::App& verb, TearRequest& request) {
   CLI::Option* const report =
       verb.add_option("--report", request.report,

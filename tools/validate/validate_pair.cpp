@@ -25,7 +25,8 @@ const FindingKind& kind_named(std::string_view code) {
   return *std::ranges::find(finding_kinds(), code, &FindingKind::code);
 }
 
-/// What loading the target repaired or dropped; a note where loading the source did the same.
+/// Findings for what loading the target repaired or dropped; a note where loading the source did
+/// the same.
 void add_load_notes(ValidatedPair& pair) {
   const bool stored = !pair.target.stored.empty();
   for (const LoadNote& note : pair.target.report.notes) {
