@@ -2,19 +2,13 @@
 
 #include <sunder/io/robot_file.h>
 
-#include <algorithm>
-#include <cctype>
-#include <string>
 #include <utility>
+
+#include "io/internal/lower_extension.h"
 
 namespace sunder::tools {
 
-bool is_urdf(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension == ".urdf";
-}
+bool is_urdf(const std::filesystem::path& file) { return lower_extension(file) == ".urdf"; }
 
 Result<Robot> load_joints(const std::filesystem::path& urdf) {
   RobotLoadOptions options;
