@@ -8,7 +8,7 @@
 
 namespace sunder::bench {
 
-/// What forward kinematics of a robot costs, warm.
+/// The time of forward kinematics of a robot, warm.
 struct KinematicsTime {
   std::string robot;
   std::uint32_t joints = 0;

@@ -1,8 +1,6 @@
 #include <sunder/io/character_file.h>
 #include <sunder/io/robot_file.h>
 
-#include <algorithm>
-#include <cctype>
 #include <span>
 #include <string>
 #include <utility>
@@ -12,16 +10,10 @@
 #include "io/gltf/refusal.h"
 #include "io/gltf/uris.h"
 #include "io/gltf_read/read.h"
+#include "io/internal/lower_extension.h"
 
 namespace sunder {
 namespace {
-
-std::string extension_of(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
-}
 
 Result<LoadedCharacter> load_gltf(const std::filesystem::path& file, bool is_glb,
                                   const LoadOptions& options) {
@@ -36,7 +28,7 @@ Result<LoadedCharacter> load_gltf(const std::filesystem::path& file, bool is_glb
   return gltf::read_character(std::move(content), folder.empty() ? "." : folder, options);
 }
 
-/// What is wrong with the GLB of an import, in the words of the model's own name.
+/// The fault of the GLB of an import, in the words of the model's own name.
 Status refusal_of_import(const Status& fault, const std::string& name) {
   const StatusCode code = fault.code() == StatusCode::unsupported_format
                               ? StatusCode::malformed_file  // not that of the model
@@ -78,7 +70,7 @@ Result<LoadedCharacter> load_urdf(const std::filesystem::path& file, const LoadO
 Result<LoadedCharacter> load_character(const std::filesystem::path& file,
                                        const LoadOptions& options) {
   return gltf::without_exceptions<LoadedCharacter>([&]() -> Result<LoadedCharacter> {
-    const std::string extension = extension_of(file);
+    const std::string extension = lower_extension(file);
     if (extension == ".glb" || extension == ".gltf")
       return load_gltf(file, extension == ".glb", options);
     if (extension == ".urdf") return load_urdf(file, options);

@@ -13,6 +13,7 @@
 
 #include "tools/messages/exit_code.h"
 #include "tools/messages/messages.h"
+#include "tools/model/model_reading.h"
 #include "tools/picture/render.h"
 #include "tools/tear/refit.h"
 #include "tools/written_weights/certified_weights.h"
@@ -23,18 +24,16 @@ namespace sunder::tools {
 struct InfoRequest {
   std::filesystem::path model;
   bool as_json = false;
-  bool with_bones = false;                           ///< The bones with their places and surfaces.
-  std::string pose = "rest";                         ///< As parse_pose().
-  std::vector<std::filesystem::path> package_roots;  ///< Of a robot.
-  std::optional<std::filesystem::path> report;       ///< File for the JSON object.
-  bool strict = false;                               ///< Refuses models that loading would repair.
+  bool with_bones = false;                      ///< The bones with their places and surfaces.
+  std::string pose = "rest";                    ///< As parse_pose().
+  std::optional<std::filesystem::path> report;  ///< File for the JSON object.
+  ModelReading reading;
 };
 [[nodiscard]] ExitCode run_info(const InfoRequest& request);
 
 /// A robot whose blade tears a model: part of sunder tear.
 struct RobotTearRequest {
   std::filesystem::path robot, trajectory;
-  std::vector<std::filesystem::path> package_roots;
   std::string link;                                     ///< That carries the blade.
   Vec3d base = Vec3d::Zero(), tip = Vec3d(0, 0, 0.05);  ///< In the link's frame, metres.
   Affine3d place = Affine3d::Identity();                ///< In the model's space, y up.
@@ -72,9 +71,8 @@ struct TearRequest {
   Verbosity verbosity = Verbosity::normal;
   std::optional<std::filesystem::path> log;  ///< Output file for the log of the applied operations.
   std::optional<std::filesystem::path> picture;       ///< Output file for a picture.
-  std::vector<std::filesystem::path> package_roots;   ///< Of a robot.
   std::optional<std::filesystem::path> robot_limits;  ///< URDF: joint limits for `refit`.
-  bool strict = false;                                ///< Refuses models that loading would repair.
+  ModelReading reading;
 };
 [[nodiscard]] ExitCode run_tear(const TearRequest& request);
 
@@ -83,8 +81,7 @@ struct ViewRequest {
   std::filesystem::path model, output;
   std::optional<std::filesystem::path> torn, operations;
   bool has_images = true;  ///< Whether the images of base colours are embedded.
-  std::vector<std::filesystem::path> package_roots;  ///< Of a robot.
-  bool strict = false;                               ///< Refuses models that loading would repair.
+  ModelReading reading;
 };
 [[nodiscard]] ExitCode run_view(const ViewRequest& request);
 
@@ -98,8 +95,7 @@ struct PictureRequest {
   bool with_axes = false, with_grid = false, with_bones = false;
   std::optional<std::filesystem::path> operations;  ///< Drawn on the model, not applied.
   std::vector<std::string> joints;  ///< Of a robot, in place of `pose`; as pose_of_joints().
-  std::vector<std::filesystem::path> package_roots;  ///< Of a robot.
-  bool strict = false;                               ///< Refuses models that loading would repair.
+  ModelReading reading;
 };
 [[nodiscard]] ExitCode run_picture(const PictureRequest& request);
 
@@ -122,7 +118,7 @@ struct TransferRequest {
       vertices;                     ///< JSON: {"mesh": [vertex, …]}; others are locked.
   std::optional<std::string> lock;  ///< Attribute of the target's vertices.
   std::optional<std::filesystem::path> report;
-  bool strict = false;  ///< Refuses models that loading would repair.
+  ModelReading reading;
 };
 [[nodiscard]] ExitCode run_transfer(const TransferRequest& request);
 
@@ -134,11 +130,11 @@ struct BindRequest {
   HeatOptions options;                       ///< Without a map; but for the place.
   std::string pose = "rest";                 ///< Of the skeleton, as parse_pose().
   std::vector<std::string> joints;           ///< "elbow=0.3": values of a robot, its pose.
-  std::vector<std::filesystem::path> package_roots;  ///< Of a robot.
-  std::optional<Affine3d> place;                     ///< BindingPlace::rig_from_model.
-  bool fit = false;                                  ///< Whether fit_place() finds it.
+  std::optional<Affine3d> place;             ///< BindingPlace::rig_from_model.
+  bool fit = false;                          ///< Whether fit_place() finds it.
   SaveOptions save;
   std::optional<std::filesystem::path> report;
+  ModelReading reading;
 };
 [[nodiscard]] ExitCode run_bind(const BindRequest& request);
 
@@ -147,13 +143,12 @@ struct ValidateRequest {
   std::filesystem::path source, target;
   std::optional<std::filesystem::path> operations, bone_names;
   std::string profile, limits = "none", fail_on = "error";
-  std::optional<std::filesystem::path> report;       ///< Output file of the JSON report.
-  std::optional<std::filesystem::path> html;         ///< Output file of the page.
-  std::optional<std::filesystem::path> manifest;     ///< Many pairs instead of source and target.
-  unsigned jobs = 1;                                 ///< Pairs of a manifest at a time.
-  bool as_json_lines = false;                        ///< Progress and results on stdout.
-  std::vector<std::filesystem::path> package_roots;  ///< Of a robot.
-  bool strict = false;                               ///< Refuses models that loading would repair.
+  std::optional<std::filesystem::path> report;    ///< Output file of the JSON report.
+  std::optional<std::filesystem::path> html;      ///< Output file of the page.
+  std::optional<std::filesystem::path> manifest;  ///< Many pairs instead of source and target.
+  unsigned jobs = 1;                              ///< Pairs of a manifest at a time.
+  bool as_json_lines = false;                     ///< Progress and results on stdout.
+  ModelReading reading;
 };
 [[nodiscard]] ExitCode run_validate(const ValidateRequest& request);
 

@@ -15,8 +15,8 @@ class Mesh;
 
 namespace sunder::compression {
 
-/// What a Draco stream may claim. Its decoder allocates from these numbers before it reads the data
-/// that they describe.
+/// The largest sizes that a Draco stream may claim. Its decoder allocates from these numbers before
+/// it reads the data that they describe.
 struct DracoLimits {
   std::uint64_t triangles = 0;
   std::uint64_t points = 0;

@@ -24,7 +24,7 @@ using import_messages::Socket;
 
 namespace {
 
-/// What posix_spawn() does in the new process before it executes the helper.
+/// The actions of posix_spawn() in the new process before it executes the helper.
 class SpawnPlan {
  public:
   explicit SpawnPlan(int socket) {

@@ -11,7 +11,7 @@
 namespace sunder::gltf {
 namespace {
 
-// Of the last row of a matrix, as in skins.cpp.
+// The tolerance for the last row of a matrix, as in skins.cpp.
 constexpr float kRounding = 1e-6f, kLargestRounding = 1e-3f;
 
 template <std::size_t N>

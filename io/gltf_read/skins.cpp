@@ -7,8 +7,8 @@
 namespace sunder::gltf {
 namespace {
 
-// Of the last row of a matrix. Files of double products and inverses that were stored as floats
-// are off by this at most.
+// The tolerance for the last row of a matrix. Files of double products and inverses that were
+// stored as floats are off by this at most.
 constexpr float kRounding = 1e-6f, kLargestRounding = 1e-3f;
 
 struct BindMatrix {

@@ -9,10 +9,14 @@ namespace {
 
 constexpr std::array kFormats = {
     Format{"3ds", "3DS", "MM", ""},
+    Format{"ase", "ASE", "*3DSMAX_ASCIIEXPORT", ""},
     Format{"b3d", "B3D", "BB3D", ""},
+    Format{"cob", "COB", "Caligari ", ""},
     Format{"dae", "COLLADA", "", ""},
     Format{"fbx", "FBX", "Kaydara FBX Binary", "FBX"},
+    Format{"iqm", "IQM", "INTERQUAKEMODEL", ""},
     Format{"md5mesh", "MD5MESH", "", "MD5Version"},
+    Format{"mdl", "MDL", "IDST", ""},  // Half-Life 1
     Format{"ms3d", "MS3D", "MS3D000000", ""},
     Format{"obj", "OBJ", "", ""},
     Format{"off", "OFF", "", ""},

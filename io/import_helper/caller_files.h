@@ -22,7 +22,8 @@ class CallerFiles : public assimp_import::AssetFiles {
   Result<files::OpenFile> request(import_messages::RequestKind kind, std::string_view reference);
 
   import_messages::Socket& socket_;
-  /// What cannot be read. Importers ask for a missing file again and again, under many names.
+  /// The names of files that cannot be read. Importers ask for a missing file again and again,
+  /// under many names.
   std::map<std::string, Status, std::less<>> refused_;
 };
 

@@ -10,7 +10,7 @@ namespace sunder::urdf {
 /// 16 tags and attributes per joint.
 inline constexpr std::size_t kMaximumDepth = 64;
 inline constexpr std::size_t kMaximumTags = 500'000;  ///< Tags and attributes.
-/// Of one tag: the parser compares each of them with all earlier ones.
+/// The most attributes of one tag: the parser compares each of them with all earlier ones.
 inline constexpr std::size_t kMaximumAttributes = 100;
 
 /// Scans the tags of the text without recursion: their depth and number, and declarations of

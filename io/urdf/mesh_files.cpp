@@ -1,12 +1,12 @@
 #include "io/urdf/mesh_files.h"
 
 #include <algorithm>
-#include <cctype>
 #include <fstream>
 #include <string>
 #include <utility>
 
 #include "io/internal/base_colours.h"
+#include "io/internal/lower_extension.h"
 #include "io/urdf/merge_mesh.h"
 
 namespace sunder::urdf {
@@ -18,13 +18,6 @@ namespace {
 /// assimp's name for the material of a file that has none.
 constexpr std::string_view kNoMaterial = "DefaultMaterial";
 constexpr std::uint64_t kMaximumImageBytes = std::uint64_t{256} << 20;
-
-std::string lower_extension(const fs::path& file) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
-}
 
 /// The up axis of a COLLADA file, 'X', 'Y' or 'Z'; y is COLLADA's default.
 char collada_up_axis(const fs::path& file) {
@@ -106,7 +99,7 @@ Mesh joined(const Character& character, const Affine3d& file_from_model) {
   return all;
 }
 
-/// What the importer repaired or dropped.
+/// The first repair or loss that the importer reports, and the number of the others.
 std::string repairs(const LoadReport& report) {
   std::string first;
   std::size_t count = 0;

@@ -11,7 +11,7 @@ namespace sunder::urdf {
 [[nodiscard]] Mesh box_mesh(const BoxTag& box);
 /// Along z, closed, of 32 sides.
 [[nodiscard]] Mesh cylinder_mesh(const CylinderTag& cylinder);
-/// Of 24 by 12 faces, with the poles at z.
+/// A sphere of 24 by 12 faces, with the poles at z.
 [[nodiscard]] Mesh sphere_mesh(const SphereTag& sphere);
 
 }  // namespace sunder::urdf

@@ -58,7 +58,7 @@ class Range {
                         largest_ = {-1e300, -1e300, -1e300, -1e300};
 };
 
-/// What a file holds of the model.
+/// The parts of a model that a file holds.
 struct Facts {
   std::uint64_t triangles = 0;
   Range positions, texture_coordinates, colours;
@@ -362,7 +362,11 @@ std::vector<Sample> samples() {
       {"3DS", "assimp-testmodels: 3DS/cube_with_diffuse_texture.3DS"},
       {"Milkshape 3D", "assimp-testmodels: MS3D/jeep1.ms3d"},
       {"Doom 3 MD5", "assimp-testmodels: MD5/SimpleCube.md5mesh"},
-      {"Valve SMD", "assimp-testmodels: SMD/WusonSMD.smd"}};
+      {"Valve SMD", "assimp-testmodels: SMD/WusonSMD.smd"},
+      {"Inter-Quake IQM", "assimp-testmodels: IQM/mrfixit.iqm"},
+      {"Half-Life 1 MDL", "assimp-testmodels: MDL/MDL (HL1)/man.mdl"},
+      {"3ds Max ASE", "assimp-testmodels: ASE/ThreeCubesGreen.ASE"},
+      {"Caligari COB", "assimp-testmodels: COB/spider_6_6_ascii.cob"}};
   std::vector<Sample> found;
   for (const auto& [format, name] : listed) found.push_back({format, name, file_named(name)});
   return found;

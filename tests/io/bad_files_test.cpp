@@ -1,4 +1,4 @@
-// What becomes of each file of ../shared/models/bad, read leniently and strictly.
+// Each file of ../shared/models/bad, read leniently and strictly.
 
 #include <gtest/gtest.h>
 

@@ -90,7 +90,7 @@ class Damage {
     return std::move(*loaded);
   }
 
-  /// What is written has no fault that reading would report.
+  /// The written file has no fault that reading would report.
   void write(const LoadedCharacter& loaded, const fs::path& file) {
     const Status status = save_glb(file, *loaded.character, loaded);
     ASSERT_TRUE(status) << status.text();

@@ -1,5 +1,5 @@
-// What loading repairs is repaired in the written file too, and so are faults in parts that loading
-// does not look at: the Khronos validator finds no error, whatever the source was.
+// Faults that loading repairs are repaired in the written file too, and so are faults in parts that
+// loading does not look at: the Khronos validator finds no error, whatever the source was.
 
 #include <gtest/gtest.h>
 

@@ -141,8 +141,8 @@ class KdlRobot {
     add_segment(child + "#p", child, KDL::Joint(name + ".roll", KDL::Joint::RotX), {});
   }
 
-  /// Of a joint of KDL: mimic joints follow their chain, angles of a floating joint come from its
-  /// quaternion.
+  /// The value of a joint of KDL: mimic joints follow their chain, angles of a floating joint come
+  /// from its quaternion.
   double position_of(const std::string& name, const std::map<std::string, double>& values) const {
     if (const auto joint = model_.joints_.find(name);
         joint != model_.joints_.end() && joint->second->mimic) {

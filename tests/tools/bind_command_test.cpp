@@ -147,7 +147,7 @@ TEST_F(BindCommand, a_robot_is_a_skeleton_in_a_pose_of_its_joints) {
   EXPECT_THAT(bone_names(bound), testing::IsSupersetOf({"column", "upper", "fore", "scalpel"}));
   EXPECT_LE(read_json("r.json")["largest_shape_error"], 1e-6);
   expect_valid("on_arm.glb");
-  EXPECT_THAT(bind("elbow=9").err, HasSubstr("'elbow': 9 is outside of its limits, -2.6 to 2.6"));
+  EXPECT_THAT(bind("elbow=9").err, HasSubstr("'elbow' is 9; its limits are -2.6 and 2.6"));
   EXPECT_THAT(bind("elbwo=1").err, HasSubstr("did you mean 'elbow'"));
   EXPECT_THAT(bind("elbow").err, HasSubstr("expected NAME=VALUE"));
 }

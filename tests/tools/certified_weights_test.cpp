@@ -21,7 +21,7 @@
 namespace sunder::command_test {
 namespace {
 
-/// What skinning and weights in float32 round, and the order of sums; share of the diagonal.
+/// The rounding of skinning and weights in float32, and the order of sums; share of the diagonal.
 constexpr double kRounding = 1e-6;
 
 class CertifiedWeightsCommand : public CactusSuite {

@@ -59,7 +59,8 @@ std::map<std::uint32_t, std::vector<Vec3d>> surfaces(const Character& character,
   return of_bone;
 }
 
-/// Of the positions that deform_mesh() makes, in floats, on a model of about two metres.
+/// The rounding of the positions that deform_mesh() makes, in floats, on a model of about two
+/// metres.
 constexpr double kRounding = 1e-6;
 
 void expect_agrees(const json& info, const Character& character, const ModelPose& pose) {

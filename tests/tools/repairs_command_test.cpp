@@ -1,4 +1,4 @@
-// What the commands say about models with faults: they warn of what loading repaired or dropped,
+// The commands' messages about models with faults: they warn of what loading repaired or dropped,
 // and refuse such models with --strict.
 
 #include "support/gltf_builder.h"
@@ -72,7 +72,9 @@ TEST_F(RepairsCommand, strict_refuses_in_every_command) {
                                              {"transfer", clean, bad, "-o", out},
                                              {"transfer", bad, clean, "-o", out},
                                              {"picture", bad, "-o", path("out.png")},
-                                             {"view", bad, "-o", path("out.html")}}) {
+                                             {"view", bad, "-o", path("out.html")},
+                                             {"bind", bad, "--skeleton", clean, "-o", out},
+                                             {"bind", clean, "--skeleton", bad, "-o", out}}) {
     std::vector<std::string> strict = arguments;
     strict.push_back("--strict");
     const CommandResult result = run_sunder(strict);

@@ -141,9 +141,11 @@ TEST_F(RobotCommand, joints_of_a_picture_are_checked) {
     EXPECT_EQ(result.exit_code, 2);
     return result.err;
   };
-  EXPECT_THAT(refusal("knee=1"), HasSubstr("no joint 'knee'"));
+  EXPECT_THAT(refusal("knee=1"), HasSubstr("'knee': the robot has no joint of that name"));
   EXPECT_THAT(refusal("elbow=3"), HasSubstr("its limits are -1 and 2"));
+  EXPECT_THAT(refusal("elbwo=1"), HasSubstr("did you mean 'elbow'"));
   EXPECT_THAT(refusal("elbow"), HasSubstr("expected NAME=VALUE"));
+  EXPECT_THAT(refusal("elbow=1,elbow=1"), HasSubstr("'elbow' occurs twice"));
 }
 
 }  // namespace

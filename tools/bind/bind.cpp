@@ -10,13 +10,13 @@
 
 #include "io/internal/copied_materials.h"
 #include "tools/bind/bind_report.h"
-#include "tools/bind/joint_pose.h"
 #include "tools/messages/json_file.h"
 #include "tools/messages/overwriting.h"
 #include "tools/messages/text_file.h"
-#include "tools/model/load_model.h"
+#include "tools/model/joint_values.h"
 #include "tools/model/load_notes.h"
 #include "tools/model/pose_argument.h"
+#include "tools/model/robot_joints.h"
 #include "tools/verbs.h"
 
 namespace sunder::tools {
@@ -55,9 +55,9 @@ struct Inputs {
 /// @return ok, or the exit code of the failure, which was reported.
 ExitCode find_pose(const BindRequest& request, Inputs& inputs) {
   if (!request.joints.empty()) {
-    Result<std::vector<Affine3d>> pose = pose_of_joints(request);
+    Result<ModelPose> pose = pose_of_joints(request.joints, request.skeleton);
     if (!pose) return complain("--joints", pose.error(), ExitCode::usage);
-    inputs.place.rig_from_bone = std::move(*pose);
+    inputs.place.rig_from_bone = std::move(pose->model_from_bone);
     return ExitCode::ok;
   }
   const Character& rig = *inputs.rig.character;
@@ -85,20 +85,18 @@ ExitCode find_place(const BindRequest& request, Inputs& inputs) {
 
 /// A robot is a skeleton without any of its meshes too.
 Result<LoadedCharacter> read_skeleton(const BindRequest& request) {
-  LoadOptions load;
-  load.roots = request.package_roots;
+  const LoadOptions load = load_options(request.reading);
   Result<LoadedCharacter> rig = load_character(request.skeleton, load);
   if (rig || rig.error().code() != StatusCode::empty_input || !is_urdf(request.skeleton))
     return rig;
-  RobotLoadOptions of_robot;
-  of_robot.meshes = load;
-  Result<LoadedRobot> robot = load_robot(request.skeleton, of_robot);
+  Result<LoadedRobot> robot = load_robot(request.skeleton, robot_load_options(request.reading));
   if (!robot) return robot.error();
   return std::move(robot->model);
 }
 
 ExitCode read_inputs(const BindRequest& request, Inputs& inputs) {
-  Result<LoadedCharacter> model = load_character(request.model);
+  const LoadOptions load = load_options(request.reading);
+  Result<LoadedCharacter> model = load_character(request.model, load);
   if (!model) return complain(request.model.string(), model.error(), ExitCode::unreadable_input);
   inputs.model = std::move(*model);
   Result<LoadedCharacter> rig = read_skeleton(request);

@@ -22,7 +22,7 @@ using AnyBinding = std::variant<MappedBinding, HeatBinding>;
 /// Lines for people: counts and distances.
 [[nodiscard]] std::string bind_table(const AnyBinding& binding);
 
-/// What needs a look, one line each; empty if there is nothing.
+/// The warnings of a binding, one line each; empty if there is nothing.
 [[nodiscard]] std::vector<std::string> bind_warnings(const AnyBinding& binding);
 
 }  // namespace sunder::tools

@@ -74,14 +74,11 @@ CLI::App* add_bind(CLI::App& app, BindRequest& request) {
   verb->add_option("-o,--output", request.output, "The model on that skeleton, GLB")
       ->type_name("FILE")
       ->required();
-  verb->add_option("--package-root", request.package_roots,
-                   "Folder of packages that the robot's file names. Repeatable")
-      ->type_name("FOLDER")
-      ->allow_extra_args(false);
   add_weight_rules(*verb, request);
   add_place(*verb, request);
   add_weights_as(*verb, request.save);
   verb->add_option("--report", request.report, "File for a JSON report")->type_name("FILE");
+  add_model_reading(*verb, request.reading);
   verb->footer(
       "Exit code 1 with warnings.\n\n"
       "Example: sunder bind glove.glb --skeleton hand.urdf --map bones.json --fit -o bound.glb");

@@ -19,10 +19,9 @@ CLI::App* add_info(CLI::App& app, InfoRequest& request) {
       ->type_name("POSE")
       ->capture_default_str()
       ->needs(bones);
-  add_strict(*verb, request.strict);
   verb->add_option("--report", request.report, "File for the JSON object, beside the text")
       ->type_name("FILE");
-  add_package_roots(*verb, request.package_roots);
+  add_model_reading(*verb, request.reading);
   verb->footer(
       "Exit code 1 if loading repaired or dropped something, or found faults of a "
       "robot.\n\nExample: sunder info fox.glb "

@@ -26,11 +26,8 @@ void add_robot(CLI::App& verb, RobotTearRequest& robot);
 /// Whether a robot is asked for, with all that it needs. @throws CLI::ValidationError
 [[nodiscard]] bool has_robot(const CLI::App& verb, const RobotTearRequest& robot);
 
-/// `--strict`, which refuses models with faults.
-void add_strict(CLI::App& verb, bool& strict);
-
-/// `--package-root`, unless the verb has it already.
-void add_package_roots(CLI::App& verb, std::vector<std::filesystem::path>& package_roots);
+/// `--strict`, `--package-root` and `--import-seconds`: how the verb reads its models.
+void add_model_reading(CLI::App& verb, ModelReading& reading);
 
 /// `--weights-as`, the number format of written weights.
 void add_weights_as(CLI::App& verb, SaveOptions& save);

@@ -102,8 +102,7 @@ CLI::App* add_picture(CLI::App& app, PictureRequest& request) {
   verb->add_option("--ops", request.operations,
                    "Operation log: draws its blades, planes and bores; nothing is torn")
       ->type_name("FILE");
-  add_strict(*verb, request.strict);
-  add_package_roots(*verb, request.package_roots);
+  add_model_reading(*verb, request.reading);
   verb->footer(
       "Needs f3d and Xvfb. Exit code 1 if something asked for could not be drawn; stderr says "
       "what.\n\n"

@@ -82,12 +82,6 @@ void add_robot(CLI::App& verb, RobotTearRequest& robot) {
       ->type_name("NUMBERS")
       ->group(kGroup)
       ->needs(file);
-  verb.add_option("--package-root", robot.package_roots,
-                  "Folder of packages that the robot's file names. Repeatable")
-      ->type_name("FOLDER")
-      ->allow_extra_args(false)
-      ->group(kGroup)
-      ->needs(file);
   verb.add_option("--clip-speed", robot.clip_speed,
                   "Seconds by which the clip of --pose runs on per second of the motion")
       ->check(CLI::NonNegativeNumber)

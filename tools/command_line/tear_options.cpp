@@ -53,7 +53,7 @@ void check_weight_policy(const CLI::App& verb, const TearRequest& request) {
     throw CLI::ValidationError("--refit-bound", "expected a factor of at least 1, or 0");
 }
 
-/// What is reported, and where.
+/// Options that say what is reported, and where.
 void add_report_options(CLI::App& verb, TearRequest& request) {
   CLI::Option* const report =
       verb.add_option("--report", request.report,
@@ -133,8 +133,7 @@ CLI::App* add_tear(CLI::App& app, TearRequest& request) {
       throw CLI::RequiredError("--ops (or --slash, --sever, --puncture, --robot)");
     if (!request.dry_run && !request.output) throw CLI::RequiredError("--output (or --dry-run)");
   });
-  add_strict(*verb, request.strict);
-  add_package_roots(*verb, request.package_roots);
+  add_model_reading(*verb, request.reading);
   verb->footer(
       "If an operation fails, nothing is written. Exit code 1 if an operation met no surface or "
       "could not tear some places (see the report), or if the picture could not be drawn.\n\n"

@@ -88,7 +88,7 @@ CLI::App* add_transfer(CLI::App& app, TransferRequest& request) {
     if (request.options.dry_run == (output->count() > 0))
       throw CLI::ValidationError("--output", "is needed without --dry-run, and only then");
   });
-  add_strict(*verb, request.strict);
+  add_model_reading(*verb, request.reading);
   verb->footer(
       "Exit code 1 with warnings, 2 if nothing matched; then nothing is written.\n\n"
       "Example: sunder transfer body.glb jacket.glb -o skinned.glb --influences 4");

@@ -41,8 +41,7 @@ CLI::App* add_validate(CLI::App& app, ValidateRequest& request) {
     if (!*manifest && (!*source || !*target))
       throw CLI::RequiredError("SOURCE and TARGET, or --manifest");
   });
-  add_strict(*verb, request.strict);
-  add_package_roots(*verb, request.package_roots);
+  add_model_reading(*verb, request.reading);
   verb->footer(
       "Exit code 1 if there is a finding at or above --fail-on.\n\n"
       "Example: sunder validate fox.glb torn.glb --ops ops.json --limits clips");

@@ -19,8 +19,7 @@ CLI::App* add_view(CLI::App& app, ViewRequest& request) {
   verb->add_flag_callback(
       "--without-images", [&request] { request.has_images = false; },
       "Leave out the images of base colours, for a smaller page");
-  add_strict(*verb, request.strict);
-  add_package_roots(*verb, request.package_roots);
+  add_model_reading(*verb, request.reading);
   verb->footer(
       "The page saves an operation log that `sunder tear` takes; see docs/view_page.md.\n\n"
       "Example: sunder view fox.glb -o fox.html");

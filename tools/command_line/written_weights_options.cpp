@@ -1,7 +1,7 @@
 #include <string>
 
 #include "tools/command_line/options.h"
-#include "tools/model/load_model.h"
+#include "tools/model/robot_joints.h"
 #include "tools/written_weights/length.h"
 #include "tools/written_weights/written_influences.h"
 

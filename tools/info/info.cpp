@@ -16,12 +16,11 @@
 #include "tools/messages/overwriting.h"
 #include "tools/messages/text_file.h"
 #include "tools/model/bone_extents.h"
-#include "tools/model/load_model.h"
-#include "tools/model/load_notes.h"
 #include "tools/model/model_check.h"
 #include "tools/model/model_json.h"
 #include "tools/model/pose_argument.h"
 #include "tools/model/posed_model.h"
+#include "tools/model/robot_joints.h"
 #include "tools/value_of.h"
 #include "tools/verbs.h"
 
@@ -225,11 +224,9 @@ ExitCode describe(const InfoRequest& request, const LoadedCharacter& loaded, Jso
 
 /// A robot is described also where it has no meshes, and what is wrong where it is refused.
 ExitCode describe_robot(const InfoRequest& request) {
-  RobotLoadOptions options;
-  options.strict = request.strict;
-  options.package_roots = request.package_roots;
   std::vector<RobotFinding> findings;
-  Result<LoadedRobot> loaded = load_robot(request.model, options, &findings);
+  Result<LoadedRobot> loaded =
+      load_robot(request.model, robot_load_options(request.reading), &findings);
   Json info = {{"sunder_info", 1}, {"model", request.model.string()}};
   if (!loaded) {
     info["robot"] = nullptr;
@@ -263,7 +260,8 @@ ExitCode run_info(const InfoRequest& request) {
       return ExitCode::usage;
     }
   if (is_urdf(request.model)) return describe_robot(request);
-  const Result<LoadedCharacter> loaded = load_character(request.model, reading(request.strict));
+  const Result<LoadedCharacter> loaded =
+      load_character(request.model, load_options(request.reading));
   if (!loaded) return complain(request.model.string(), loaded.error(), ExitCode::unreadable_input);
   Json info;
   if (const ExitCode code = describe(request, *loaded, info); code != ExitCode::ok) return code;

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "tools/messages/exit_code.h"
 #include "tools/messages/printed.h"
 
 namespace sunder::tools {
@@ -128,7 +129,7 @@ std::string findings_text(std::span<const RobotFinding> findings) {
                     std::string(finding.code).c_str());
     if (finding.line > 0) text += printed(", line %u", finding.line);
     if (!finding.place.empty()) text += ", " + finding.place;
-    text += ": " + finding.text + '\n';
+    text += ": " + with_option_names(finding.text) + "\n";
   }
   return text;
 }

@@ -1,8 +1,41 @@
 #include "tools/messages/exit_code.h"
 
+#include <string_view>
+#include <utility>
+
 #include "tools/messages/messages.h"
 
 namespace sunder::tools {
+namespace {
+
+/// The lengths at which io cuts the name of a file.
+constexpr std::size_t kNameLengths[] = {std::string_view::npos, 100, 80};
+
+/// The length of the name of a file, with its colon, with which a text begins; 0 without it.
+std::size_t length_of_name(std::string_view text, std::string_view place) {
+  const std::string_view file = place.substr(place.rfind('/') + 1);
+  for (const std::size_t length : kNameLengths) {
+    const std::string_view name = file.substr(0, length);
+    if (!name.empty() && text.starts_with(name) && text.substr(name.size()).starts_with(": "))
+      return name.size() + 2;
+  }
+  return 0;
+}
+
+}  // namespace
+
+std::string with_option_names(std::string text) {
+  constexpr std::string_view kMember = "LoadOptions::import_seconds";
+  if (const std::size_t found = text.find(kMember); found != std::string::npos)
+    text.replace(found, kMember.size(), "--import-seconds");
+  return text;
+}
+
+std::string failure_text(const std::string& place, const Status& status) {
+  std::string text(status.text());
+  text.erase(0, length_of_name(text, place));
+  return with_option_names(std::move(text));
+}
 
 ExitCode exit_code_of(StatusCode code, ExitCode otherwise) {
   switch (code) {
@@ -18,7 +51,7 @@ ExitCode exit_code_of(StatusCode code, ExitCode otherwise) {
 
 ExitCode complain(const std::string& place, const Status& status, ExitCode otherwise,
                   const std::string& advice) {
-  print_error("sunder: " + place + ": " + std::string(status.text()) + advice + " (" +
+  print_error("sunder: " + place + ": " + failure_text(place, status) + advice + " (" +
               std::string(status_name(status.code())) + ")");
   return exit_code_of(status.code(), otherwise);
 }

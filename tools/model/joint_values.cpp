@@ -1,50 +1,50 @@
 #include "tools/model/joint_values.h"
 
-#include <charconv>
-#include <cmath>
+#include <sunder/io/robot_file.h>
+#include <sunder/robot/trajectory.h>
+
+#include <optional>
+
+#include "tools/model/name_at.h"
+#include "tools/model/robot_joints.h"
 
 namespace sunder::tools {
 namespace {
 
-Status set_value(const std::string& text, const Robot& robot, std::vector<double>& values) {
-  const std::size_t sign = text.rfind('=');
-  double value = 0;
-  const char* const end = text.data() + text.size();
-  const bool is_read = sign != std::string::npos && [&] {
-    const auto read = std::from_chars(text.data() + sign + 1, end, value);
-    return read.ec == std::errc() && read.ptr == end && std::isfinite(value);
-  }();
-  if (!is_read)
-    return Status::failure(StatusCode::invalid_argument, kNone,
-                           "'%.80s': expected NAME=VALUE, in radians or metres", text.c_str());
-  const std::string name = text.substr(0, sign);
-  const std::uint32_t index = find_value(robot, name);
-  if (index != kNone) {
-    values[index] = value;
-    return {};
+/// The values at one time, so that the rules for names are those of trajectories.
+Result<RobotTrajectory> values_in(const std::vector<std::string>& texts) {
+  RobotTrajectory values{{}, {0.0}, {}};
+  for (const std::string& text : texts) {
+    const std::size_t equals = text.rfind('=');
+    const std::optional<double> value =
+        equals == std::string::npos ? std::nullopt : number_in(text.substr(equals + 1));
+    if (!value)
+      return Status::failure(StatusCode::invalid_argument, kNone,
+                             "'%.80s': expected NAME=VALUE, in radians or metres", text.c_str());
+    values.names.push_back(text.substr(0, equals));
+    values.values.push_back(*value);
   }
-  const std::uint32_t joint = find_joint(robot, name);
-  if (joint == kNone)
-    return Status::failure(StatusCode::not_found, kNone, "the robot has no joint '%.80s'",
-                           name.c_str());
-  return Status::failure(StatusCode::invalid_argument, kNone,
-                         "joint '%.80s' has no value of its own, or several (%.80s.x …)",
-                         name.c_str(), name.c_str());
+  return values;
 }
 
 }  // namespace
 
-Result<ModelPose> pose_of_joints(const std::vector<std::string>& texts, const Robot& robot,
-                                 const Affine3d& model_from_root) {
-  std::vector<double> values = rest_values(robot);
-  for (const std::string& text : texts)
-    if (const Status status = set_value(text, robot, values); !status) return status;
-  if (const Status status = check_limits(robot, values); !status) return status;
-  const Result<RobotKinematics> kinematics = RobotKinematics::create(robot);
-  if (!kinematics) return kinematics.error();
+Result<ModelPose> pose_of_joints(const std::vector<std::string>& texts,
+                                 const std::filesystem::path& model) {
+  if (!is_urdf(model))
+    return Status::failure(StatusCode::invalid_argument, kNone, "the model is no robot (URDF)");
+  const Result<RobotTrajectory> given = values_in(texts);
+  if (!given) return given.error();
+  const Result<LoadedRobot> loaded = load_robot(model, {.shapes = RobotShapes::none});
+  if (!loaded) return loaded.error();
+  const Result<RobotMotion> motion = RobotMotion::create(loaded->robot, *given);
+  if (!motion) return motion.error();
+  std::vector<double> values(motion->value_count());
+  if (const Status status = motion->values_at(0.0, values); !status) return status;
+  if (const Status status = check_limits(loaded->robot, values); !status) return status;
   ModelPose pose;
-  pose.model_from_bone.resize(robot.links.size());
-  if (const Status status = kinematics->evaluate(values, pose.model_from_bone, model_from_root);
+  pose.model_from_bone.resize(motion->link_count());
+  if (const Status status = motion->pose_at(0.0, pose.model_from_bone, loaded->model_from_root);
       !status)
     return status;
   return pose;

@@ -3,18 +3,14 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "tools/messages/exit_code.h"
+
 namespace sunder::tools {
 namespace {
 
 constexpr std::size_t kMostLines = 20;
 
 }  // namespace
-
-LoadOptions reading(bool strict) {
-  LoadOptions options;
-  options.strict = strict;
-  return options;
-}
 
 void warn_of_repairs(const std::string& model, const LoadReport& report, const Messages& messages) {
   std::size_t lines = 0;
@@ -23,7 +19,7 @@ void warn_of_repairs(const std::string& model, const LoadReport& report, const M
     if (++lines > kMostLines) continue;
     const bool is_loss = note.kind == LoadNote::Kind::dropped;
     messages.warn(model + ": " + (is_loss ? "dropped: " : "repaired: ") + note.place + ": " +
-                  note.text + " (" + std::to_string(note.count) + ")");
+                  with_option_names(note.text) + " (" + std::to_string(note.count) + ")");
   }
   if (lines > kMostLines)
     messages.warn(model + ": " + std::to_string(lines - kMostLines) +

@@ -8,9 +8,6 @@
 
 namespace sunder::tools {
 
-/// How a verb reads a model.
-[[nodiscard]] LoadOptions reading(bool strict);
-
 /// Warns of everything that loading repaired or dropped, one line per kind; beyond 20 lines, of
 /// their number.
 /// @param model  its path, which begins each line.

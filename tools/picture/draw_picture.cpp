@@ -14,12 +14,12 @@
 #include "tools/model/bone_extents.h"
 #include "tools/model/history.h"
 #include "tools/model/joint_values.h"
-#include "tools/model/load_model.h"
 #include "tools/model/load_notes.h"
 #include "tools/model/name_advice.h"
 #include "tools/model/named_poses.h"
 #include "tools/model/plain_operations.h"
 #include "tools/model/pose_argument.h"
+#include "tools/model/robot_joints.h"
 #include "tools/picture/bone_marks.h"
 #include "tools/picture/guide_marks.h"
 #include "tools/picture/labels.h"
@@ -171,11 +171,7 @@ void warn_of_other_poses(const Character& character, const Subject& subject,
 Result<PoseArgument> choose_pose(const PictureRequest& request, const Character& character,
                                  const std::vector<NumberedOperation>& operations) {
   if (!request.joints.empty()) {
-    if (!is_urdf(request.model))
-      return Status::failure(StatusCode::invalid_argument, kNone, "the model is no robot (URDF)");
-    const Result<LoadedRobot> robot = load_robot(request.model, {.shapes = RobotShapes::none});
-    if (!robot) return robot.error();
-    Result<ModelPose> pose = pose_of_joints(request.joints, robot->robot, robot->model_from_root);
+    Result<ModelPose> pose = pose_of_joints(request.joints, request.model);
     if (!pose) return pose.error();
     return PoseArgument{std::move(*pose), "of --joints", ""};
   }
@@ -240,7 +236,7 @@ ExitCode run_picture(const PictureRequest& request) {
   if (const std::string fault = other_ending({"--output", request.output}, "png"); !fault.empty())
     warn(fault);
   const Result<LoadedCharacter> loaded =
-      load_character(request.model, with_roots(reading(request.strict), request.package_roots));
+      load_character(request.model, load_options(request.reading));
   if (!loaded) return complain(request.model.string(), loaded.error(), ExitCode::unreadable_input);
   warn_of_repairs(request.model.string(), loaded->report, Messages(Verbosity::normal));
   std::vector<Operation> log;

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "tools/model/history.h"
-#include "tools/model/load_model.h"
+#include "tools/model/robot_joints.h"
 
 namespace sunder::tools {
 namespace {

@@ -44,11 +44,9 @@ void add_warnings(const RobotTearRequest& request, const RobotMotion& motion, Ro
 }
 
 /// The robot along its trajectory.
-std::optional<RobotMotion> read_motion(const RobotTearRequest& request, RobotTear& made,
-                                       ExitCode& code) {
-  RobotLoadOptions load;
-  load.package_roots = request.package_roots;
-  Result<LoadedRobot> robot = load_robot(request.robot, load);
+std::optional<RobotMotion> read_motion(const RobotTearRequest& request, const ModelReading& reading,
+                                       RobotTear& made, ExitCode& code) {
+  Result<LoadedRobot> robot = load_robot(request.robot, robot_load_options(reading));
   if (!robot) {
     code = complain(request.robot.string(), robot.error(), ExitCode::unreadable_input);
     return {};
@@ -94,10 +92,10 @@ Result<BladeSweep> sweep(const RobotTearRequest& request, const RobotMotion& mot
 
 }  // namespace
 
-ExitCode make_robot_tear(const RobotTearRequest& request, const Character& character,
-                         const Messages& messages, RobotTear& made) {
+ExitCode make_robot_tear(const RobotTearRequest& request, const ModelReading& reading,
+                         const Character& character, const Messages& messages, RobotTear& made) {
   ExitCode code = ExitCode::ok;
-  const std::optional<RobotMotion> motion = read_motion(request, made, code);
+  const std::optional<RobotMotion> motion = read_motion(request, reading, made, code);
   if (!motion) return code;
   for (const std::string& warning : made.warnings) messages.warn(warning);
   const std::uint32_t link = find_link(made.robot.robot, request.link);

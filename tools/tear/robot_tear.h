@@ -26,9 +26,11 @@ struct RobotTear {
 };
 
 /// Loads the robot and its trajectory and sweeps the blade.
+/// @param reading  of the robot.
 /// @return ok, or the exit code of the failure, which was reported.
-[[nodiscard]] ExitCode make_robot_tear(const RobotTearRequest& request, const Character& character,
-                                       const Messages& messages, RobotTear& made);
+[[nodiscard]] ExitCode make_robot_tear(const RobotTearRequest& request, const ModelReading& reading,
+                                       const Character& character, const Messages& messages,
+                                       RobotTear& made);
 
 /// For the report.
 [[nodiscard]] Json robot_tear_json(const RobotTearRequest& request, const RobotTear& made);

@@ -15,10 +15,10 @@
 #include "tools/messages/output_file.h"
 #include "tools/messages/printed.h"
 #include "tools/messages/progress_bar.h"
-#include "tools/model/load_model.h"
 #include "tools/model/load_notes.h"
 #include "tools/model/model_check.h"
 #include "tools/model/named_poses.h"
+#include "tools/model/robot_joints.h"
 #include "tools/picture/picture.h"
 #include "tools/picture/torn_picture.h"
 #include "tools/tear/refit.h"
@@ -185,8 +185,8 @@ Result<std::vector<WantedOperation>> wanted_operations(const TearRequest& reques
 ExitCode add_robot_tear(TearRun& run, std::vector<WantedOperation>& operations) {
   if (!run.request.robot) return ExitCode::ok;
   run.robot.emplace();
-  const ExitCode code =
-      make_robot_tear(*run.request.robot, *run.loaded.character, run.messages, *run.robot);
+  const ExitCode code = make_robot_tear(*run.request.robot, run.request.reading,
+                                        *run.loaded.character, run.messages, *run.robot);
   if (code != ExitCode::ok) return code;
   run.has_findings |= !run.robot->warnings.empty();
   operations.push_back({Operation(run.robot->tear), "--robot", {}});
@@ -206,7 +206,7 @@ ExitCode run_tear(const TearRequest& request) {
   ProgressBar progress(operations->size() + 3);
   progress.begin_step(0, "reading");
   const std::string place = request.model.string();
-  LoadOptions load = with_roots(reading(request.strict), request.package_roots);
+  LoadOptions load = load_options(request.reading);
   load.keep_stored_influences = request.maximum_error.has_value();
   const Result<LoadedCharacter> loaded = load_character(request.model, load);
   if (!loaded) return complain(place, loaded.error(), ExitCode::unreadable_input);

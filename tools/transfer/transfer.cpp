@@ -131,9 +131,10 @@ ExitCode run_transfer(const TransferRequest& request) {
     print_error("sunder: " + fault);
     return ExitCode::usage;
   }
-  const Result<LoadedCharacter> source = load_character(request.source, reading(request.strict));
+  const Result<LoadedCharacter> source =
+      load_character(request.source, load_options(request.reading));
   if (!source) return complain(request.source.string(), source.error(), ExitCode::unreadable_input);
-  LoadOptions load = reading(request.strict);
+  LoadOptions load = load_options(request.reading);
   load.keep_stored_influences = request.maximum_error.has_value();
   const Result<LoadedCharacter> target = load_character(request.target, load);
   if (!target) return complain(request.target.string(), target.error(), ExitCode::unreadable_input);

@@ -74,7 +74,7 @@ class Output {
       line({{"event", "failure"},
             {"target", job.pair.target.string()},
             {"place", failure.place},
-            {"text", failure.status.text()}});
+            {"text", failure_text(failure.place, failure.status)}});
     const std::scoped_lock lock(mutex_);
     return complain(failure.place, failure.status, failure.otherwise);
   }
@@ -131,7 +131,7 @@ Status read_manifest(const std::filesystem::path& file, const ValidateRequest& r
       return Status::failure(StatusCode::malformed_file, index,
                              "/pairs/%u: expected source and target", index);
     Job job{{*source, *target, file_of(pair, "ops", folder), file_of(pair, "bone_names", folder),
-             profile_named(request.profile), request.limits, false, request.package_roots},
+             profile_named(request.profile), request.limits, false, request.reading},
             file_of(pair, "report", folder),
             file_of(pair, "html", folder)};
     if (const auto profile = pair.find("profile"); profile != pair.end() && profile->is_string())
@@ -191,12 +191,11 @@ ExitCode run_validate(const ValidateRequest& request) {
       return complain(request.manifest->string(), status, ExitCode::usage);
   } else {
     jobs.push_back({{request.source, request.target, request.operations, request.bone_names,
-                     profile_named(request.profile), request.limits, false, request.package_roots},
+                     profile_named(request.profile), request.limits, false, request.reading},
                     request.report,
                     request.html});
   }
   for (Job& job : jobs) {
-    job.pair.strict = request.strict;
     if (const std::string fault = overwriting_output(job); !fault.empty()) {
       print_error("sunder: " + fault);
       return ExitCode::usage;

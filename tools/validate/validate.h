@@ -11,6 +11,7 @@
 
 #include "tools/messages/exit_code.h"
 #include "tools/messages/json.h"
+#include "tools/model/model_reading.h"
 
 namespace sunder::tools {
 
@@ -29,8 +30,7 @@ struct ValidatePair {
   TargetProfile profile = TargetProfile::none;
   std::string limits = "none";  ///< "none" (of a robot: its own), "clips" or a file.
   bool over_time = false;       ///< Also measures the deviation over the time of each clip.
-  std::vector<std::filesystem::path> package_roots = {};  ///< Of robots.
-  bool strict = false;  ///< Refuses models that loading would repair.
+  ModelReading reading = {};
 };
 
 /// A failure and the file that it is about.

@@ -2,9 +2,9 @@
 #include <utility>
 
 #include "tools/model/bone_names.h"
-#include "tools/model/load_model.h"
 #include "tools/model/load_notes.h"
 #include "tools/model/plain_operations.h"
+#include "tools/model/robot_joints.h"
 #include "tools/validate/validate.h"
 #include "tools/written_weights/joint_limits_file.h"
 
@@ -25,7 +25,8 @@ const FindingKind& kind_named(std::string_view code) {
   return *std::ranges::find(finding_kinds(), code, &FindingKind::code);
 }
 
-/// What loading the target repaired or dropped; a note where loading the source did the same.
+/// Findings for what loading the target repaired or dropped; a note where loading the source did
+/// the same.
 void add_load_notes(ValidatedPair& pair) {
   const bool stored = !pair.target.stored.empty();
   for (const LoadNote& note : pair.target.report.notes) {
@@ -61,7 +62,7 @@ void add_load_notes(ValidatedPair& pair) {
 
 std::optional<LoadedCharacter> load(const std::filesystem::path& file, const ValidatePair& pair,
                                     ValidateFailure& failure) {
-  LoadOptions options = with_roots(reading(pair.strict), pair.package_roots);
+  LoadOptions options = load_options(pair.reading);
   options.keep_stored_influences = true;
   Result<LoadedCharacter> loaded = load_character(file, options);
   if (loaded) return std::move(*loaded);

@@ -7,9 +7,9 @@
 
 #include "tools/messages/messages.h"
 #include "tools/messages/overwriting.h"
-#include "tools/model/load_model.h"
 #include "tools/model/load_notes.h"
 #include "tools/model/plain_operations.h"
+#include "tools/model/robot_joints.h"
 #include "tools/page_parts/page_file.h"
 #include "tools/verbs.h"
 #include "tools/view_page/write_view_page.h"
@@ -23,8 +23,7 @@ constexpr std::uint64_t kMostImageBytes = std::uint64_t{256} << 20;
 /// Adds a model with its colours; `loaded` keeps what the page refers to.
 Status view(const std::filesystem::path& file, const ViewRequest& request, LoadedCharacter& loaded,
             ViewedModel& viewed) {
-  Result<LoadedCharacter> result =
-      load_character(file, with_roots(reading(request.strict), request.package_roots));
+  Result<LoadedCharacter> result = load_character(file, load_options(request.reading));
   if (!result) return result.error();
   warn_of_repairs(file.string(), result->report, Messages(Verbosity::normal));
   loaded = std::move(*result);

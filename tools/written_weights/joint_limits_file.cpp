@@ -9,7 +9,7 @@
 #include <numbers>
 
 #include "tools/messages/json_file.h"
-#include "tools/model/load_model.h"
+#include "tools/model/robot_joints.h"
 
 namespace sunder::tools {
 namespace {

@@ -112,7 +112,7 @@ struct SaveOptions {
                                          const Character& character, const LoadedCharacter& loaded,
                                          const SaveOptions& options = {});
 
-/// What save_glb() writes of the influences of a mesh.
+/// The influences of a mesh that save_glb() writes.
 struct WrittenInfluences {
   std::uint32_t mesh = 0;             ///< In Character::meshes.
   std::uint32_t maximum = 0;          ///< Per vertex, by SaveOptions; 0: all.
@@ -122,9 +122,9 @@ struct WrittenInfluences {
   double dropped_mass_max = 0.0;
 };
 
-/// What save_glb() with the same arguments does to influences: one entry per mesh that it would
-/// write and that has any, ascending. Nothing is written. How far a vertex moves by it in a pose:
-/// pruning_displacement().
+/// Predicts how save_glb() with the same arguments changes influences: one entry per mesh that it
+/// would write and that has any, ascending. Nothing is written. How far a vertex moves by it in a
+/// pose: pruning_displacement().
 /// @return as save_glb(). O(influences), allocates.
 [[nodiscard]] SUNDER_API Result<std::vector<WrittenInfluences>> written_influences(
     const Character& character, const LoadedCharacter& loaded, const SaveOptions& options = {});

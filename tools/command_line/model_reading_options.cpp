@@ -1,0 +1,19 @@
+#include "tools/command_line/options.h"
+
+namespace sunder::tools {
+
+void add_model_reading(CLI::App& verb, ModelReading& reading) {
+  verb.add_flag("--strict", reading.strict,
+                "Refuse models with faults that loading would repair, or drop with a part");
+  verb.add_option("--package-root", reading.package_roots,
+                  "Folder of packages that the robot's file names. Repeatable")
+      ->type_name("FOLDER")
+      ->allow_extra_args(false);
+  verb.add_option("--import-seconds", reading.import_seconds,
+                  "Time limit for formats that are read in the helper process")
+      ->check(CLI::PositiveNumber)
+      ->type_name("SECONDS")
+      ->capture_default_str();
+}
+
+}  // namespace sunder::tools
