@@ -578,10 +578,10 @@ class Enforcer {
     const auto found = document_.find(list);
     if (found == document_.end()) return;
     Json kept = Json::array();
+    std::set<std::string> seen;
     if (found->is_array())
       for (const Json& name : *found)
-        if (name.is_string() && std::find(kept.begin(), kept.end(), name) == kept.end())
-          kept.push_back(name);
+        if (name.is_string() && seen.insert(name.get<std::string>()).second) kept.push_back(name);
     if (!kept.empty() && kept.size() == found->size()) return;
     faults_.add(std::string("/") + list);
     if (kept.empty())

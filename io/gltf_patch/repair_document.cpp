@@ -37,15 +37,24 @@ bool are_binds_sound(const Json& skin, SoundAccessors& accessors) {
 
 }  // namespace
 
+std::vector<std::uint32_t> uses_of_meshes(const Json& document) {
+  std::vector<std::uint32_t> uses(count_of(document, "meshes"), 0);
+  const auto nodes = document.find("nodes");
+  if (nodes == document.end()) return uses;
+  for (const Json& node : *nodes)
+    if (const auto mesh = node.find("mesh"); mesh != node.end()) ++uses[mesh->get<std::size_t>()];
+  return uses;
+}
+
 DocumentRepair::DocumentRepair(GlbDraft& draft, const Character& character,
                                const SourceDocument& source)
     : draft_(draft), character_(character), source_(source) {}
 
-std::vector<bool> DocumentRepair::prepare() {
+std::vector<bool> DocumentRepair::prepare(const std::vector<bool>& are_new) {
   std::vector<bool> unsound(character_.meshes.size(), false);
   enforce_schema(draft_.json);
   separate_views(draft_.json);
-  check_primitives(false, unsound);
+  check_primitives(&are_new, unsound);
   return unsound;
 }
 
@@ -64,13 +73,19 @@ std::vector<std::uint32_t> DocumentRepair::least_joints() {
 
 /// Flags meshes of the character whose primitives have faults, and removes other primitives that
 /// do.
-/// @param is_prepared  the character's meshes are written already.
-void DocumentRepair::check_primitives(bool is_prepared, std::vector<bool>& unsound_meshes) {
+/// @param are_new  as for prepare(); null: the character's meshes are written already.
+void DocumentRepair::check_primitives(const std::vector<bool>* are_new,
+                                      std::vector<bool>& unsound_meshes) {
   std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>> owners;
-  for (std::size_t mesh = 0; !is_prepared && mesh < source_.mesh_origins.size(); ++mesh)
+  for (std::size_t mesh = 0; are_new != nullptr && mesh < source_.mesh_origins.size(); ++mesh)
     for (const std::uint32_t primitive : source_.mesh_origins[mesh].primitives)
       owners[{source_.mesh_origins[mesh].mesh, primitive}].push_back(mesh);
-  const std::vector<std::uint32_t> least = least_joints();
+  const std::vector<std::uint32_t> least = least_joints(), uses = uses_of_meshes(draft_.json);
+  // Each owner is the mesh of another node.
+  const auto is_replaced = [&](const std::vector<std::size_t>& meshes, std::size_t mesh) {
+    return meshes.size() == uses[mesh] &&
+           std::all_of(meshes.begin(), meshes.end(), [&](auto one) { return (*are_new)[one]; });
+  };
   DraftSource draft(draft_);
   SoundAccessors accessors(draft.document());
   SoundPrimitives primitives(draft.json(), accessors);
@@ -79,9 +94,10 @@ void DocumentRepair::check_primitives(bool is_prepared, std::vector<bool>& unsou
     if (!at.contains("primitives")) continue;
     for (std::size_t i = 0; i < at["primitives"].size(); ++i) {
       Json& primitive = at["primitives"][i];
+      const auto of_character = owners.find({mesh, i});
+      if (of_character != owners.end() && is_replaced(of_character->second, mesh)) continue;
       if (primitives.is_sound(primitive, least[mesh])) continue;
       has_unsound_primitives_ = true;
-      const auto of_character = owners.find({mesh, i});
       if (of_character == owners.end())
         primitive = nullptr;
       else
@@ -92,7 +108,7 @@ void DocumentRepair::check_primitives(bool is_prepared, std::vector<bool>& unsou
 
 void DocumentRepair::finish() {
   std::vector<bool> ignored;
-  if (has_unsound_primitives_) check_primitives(true, ignored);
+  if (has_unsound_primitives_) check_primitives(nullptr, ignored);
   repair_meshes(draft_.json);
   repair_binds();
   repair_nodes(draft_.json);
@@ -200,7 +216,7 @@ void DocumentRepair::empty_unsound_accessors() {
   for (std::size_t i = 0; i < used.size(); ++i) {
     if (used[i]) continue;
     const auto accessor = accessors.open(Json(i));
-    if (accessor && (accessor->is_integer() || accessors.floats(*accessor)))
+    if (accessor && (accessor->is_integer() || accessors.is_finite(*accessor)))
       accessors.correct_bounds(static_cast<std::uint32_t>(i), false);
     else
       draft.json()["accessors"][i] = {{"componentType", 5126}, {"count", 1}, {"type", "SCALAR"}};

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -29,6 +30,7 @@ class MeshRepair {
       for (const Json& primitive : mesh_at(i)["primitives"]) add_normal_map(primitive);
       add_texture_coordinates(mesh_at(i)["primitives"]);
     }
+    remove_from_nodes();
   }
 
  private:
@@ -60,16 +62,16 @@ class MeshRepair {
     if (kept.empty()) {
       const Json nothing = {{"attributes", Json::object()}};
       kept.push_back({{"attributes", {{"POSITION", add_zeros(nothing, "VEC3", 3)}}}, {"mode", 0}});
-      remove_from_nodes(index);
+      without_triangles_.insert(index);
       for (const char* const key : {"weights", "extensions"}) mesh_at(index).erase(key);
     }
     mesh_at(index)["primitives"] = std::move(kept);
   }
 
-  void remove_from_nodes(std::size_t index) {
-    if (!document_.contains("nodes")) return;
+  void remove_from_nodes() {
+    if (without_triangles_.empty() || !document_.contains("nodes")) return;
     for (Json& node : document_["nodes"])
-      if (node.contains("mesh") && node["mesh"] == index)
+      if (node.contains("mesh") && without_triangles_.contains(node["mesh"].get<std::size_t>()))
         for (const char* const key : {"mesh", "skin", "weights"}) node.erase(key);
   }
 
@@ -165,6 +167,7 @@ class MeshRepair {
   }
 
   Json& document_;
+  std::set<std::size_t> without_triangles_;                           ///< In /meshes.
   std::map<std::pair<std::size_t, std::size_t>, std::size_t> zeros_;  ///< By count, components.
   std::uint32_t flat_normals_ = kNone;                                ///< In /textures.
 };

@@ -15,8 +15,11 @@
 namespace sunder::gltf {
 namespace {
 
-// Those of the Khronos validator.
-constexpr double kUnitTolerance = 0.00769, kMatrixTolerance = 0.00005;
+// A little less than the reader's, so that the written file needs no repair; the Khronos validator
+// allows more.
+constexpr double kUnitTolerance = 0.00009;
+// That of the Khronos validator.
+constexpr double kMatrixTolerance = 0.00005;
 
 Json numbers(const float* values, std::size_t count) {
   Json list = Json::array();
@@ -201,9 +204,10 @@ class NodeRepair {
     for (Json& scene : document_["scenes"]) {
       if (!scene.contains("nodes")) continue;
       Json roots = Json::array();
+      std::set<std::uint32_t> seen;
       for (const Json& node : scene["nodes"]) {
-        const Json root = tree_.root_of(node.get<std::uint32_t>());
-        if (std::find(roots.begin(), roots.end(), root) == roots.end()) roots.push_back(root);
+        const std::uint32_t root = tree_.root_of(node.get<std::uint32_t>());
+        if (seen.insert(root).second) roots.push_back(root);
       }
       if (roots != scene["nodes"]) scene["nodes"] = std::move(roots);
     }
@@ -234,16 +238,37 @@ class NodeRepair {
     return roots;
   }
 
-  /// Trees in which one skin has joints become one tree.
+  /// Trees in which one skin has joints become one tree. It stays flat however many skins join
+  /// trees, because readers limit the depth.
   void gather_roots() {
+    std::set<std::uint32_t> added;
     const std::size_t skin_count = document_["skins"].size();
     for (std::size_t i = 0; i < skin_count; ++i) {
       const std::set<std::uint32_t> roots = roots_of(document_["skins"][i]);
       if (roots.size() < 2) continue;
-      const std::uint32_t above = append({{"name", "Skeleton"}, {"children", Json(roots)}}, kNone);
-      for (const std::uint32_t root : roots) tree_.parent[root] = above;
-      if (document_.contains("scenes")) repair_scenes();
+      const auto known = std::find_if(roots.begin(), roots.end(),
+                                      [&](std::uint32_t root) { return added.contains(root); });
+      const std::uint32_t above =
+          known != roots.end() ? *known : append({{"name", "Skeleton"}, {"children", {}}}, kNone);
+      added.insert(above);
+      for (const std::uint32_t root : roots) {
+        if (root == above) continue;
+        if (added.contains(root)) take_children(root, above);
+        take(root, above);
+      }
     }
+    repair_scenes();
+  }
+
+  void take(std::uint32_t child, std::uint32_t above) {
+    list_of(node_at(above), "children").push_back(child);
+    tree_.parent[child] = above;
+  }
+
+  void take_children(std::uint32_t from, std::uint32_t to) {
+    const Json children = node_at(from)["children"];
+    node_at(from).erase("children");
+    for (const Json& child : children) take(child.get<std::uint32_t>(), to);
   }
 
   [[nodiscard]] bool is_above(std::uint32_t ancestor, std::uint32_t node) const {

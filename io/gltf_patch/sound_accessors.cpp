@@ -18,11 +18,19 @@ std::uint64_t component_bytes(std::uint64_t type) {
   return type <= 5121 ? 1 : type <= 5123 ? 2 : 4;
 }
 
-/// The numbers of a bound as JSON; null if a bound is not finite.
+/// A limit must not look like a fault of the accessor, which would be repaired without a word.
+void check_limit(const Refusal& refusal, const Accessor& accessor) {
+  if (refusal.status.code() == StatusCode::limit_exceeded)
+    refuse(StatusCode::limit_exceeded, accessor.index,
+           "/accessors/%u: the document cannot be checked for saving, because its accessors lie on "
+           "the same bytes too often",
+           accessor.index);
+}
+
+/// The numbers of a bound as JSON.
 Json bound(const std::vector<double>& values, bool is_integer) {
   Json list = Json::array();
   for (const double value : values) {
-    if (!std::isfinite(value)) return nullptr;
     if (is_integer)
       list.push_back(static_cast<std::int64_t>(value));
     else
@@ -50,6 +58,12 @@ bool is_same_bound(const Json& object, const char* name, const Json& right) {
 SoundAccessors::SoundAccessors(SourceDocument& document) : document_(document), reader_(document) {}
 
 std::optional<Accessor> SoundAccessors::open(const Json& index) {
+  const auto [known, is_new] = opened_.try_emplace(index.get<std::uint64_t>());
+  if (is_new) known->second = open_new(index);
+  return known->second;
+}
+
+std::optional<Accessor> SoundAccessors::open_new(const Json& index) {
   try {
     const Accessor accessor = reader_.open(Cursor(index, ""));
     const Json& json = document_.json["accessors"][accessor.index];
@@ -104,7 +118,8 @@ std::optional<std::vector<float>> SoundAccessors::floats(const Accessor& accesso
     if (!std::all_of(values.begin(), values.end(), [](float one) { return std::isfinite(one); }))
       return {};
     return values;
-  } catch (const Refusal&) {
+  } catch (const Refusal& refusal) {
+    check_limit(refusal, accessor);
     return {};
   }
 }
@@ -112,9 +127,47 @@ std::optional<std::vector<float>> SoundAccessors::floats(const Accessor& accesso
 std::optional<std::vector<std::uint32_t>> SoundAccessors::integers(const Accessor& accessor) {
   try {
     return reader_.read_unsigned(accessor);
-  } catch (const Refusal&) {
+  } catch (const Refusal& refusal) {
+    check_limit(refusal, accessor);
     return {};
   }
+}
+
+const SoundAccessors::Survey& SoundAccessors::survey(const Accessor& accessor) {
+  const auto [known, is_new] = surveys_.try_emplace(accessor.index);
+  Survey& found = known->second;
+  if (!is_new) return found;
+  Accessor stored = accessor;
+  stored.normalized = false;
+  const std::size_t components = stored.components;
+  const auto visit = [&](const auto& values) {
+    found.is_finite = true;
+    for (std::size_t c = 0; c < components; ++c) {
+      auto least = values[c], greatest = values[c];
+      for (std::size_t i = c; i < values.size(); i += components) {
+        least = std::min(least, values[i]);
+        greatest = std::max(greatest, values[i]);
+      }
+      found.least.push_back(static_cast<double>(least));
+      found.greatest.push_back(static_cast<double>(greatest));
+    }
+  };
+  if (stored.data == nullptr && stored.sparse_count == 0) {
+    visit(std::vector<float>(components, 0.0f));
+  } else if (stored.component_type == ComponentType::u32) {
+    if (const auto values = integers(stored)) visit(*values);
+  } else {
+    if (const auto values = floats(stored)) visit(*values);
+  }
+  return found;
+}
+
+bool SoundAccessors::is_finite(const Accessor& accessor) { return survey(accessor).is_finite; }
+
+std::optional<double> SoundAccessors::greatest(const Accessor& accessor) {
+  const Survey& found = survey(accessor);
+  if (!found.is_finite) return {};
+  return *std::max_element(found.greatest.begin(), found.greatest.end());
 }
 
 bool SoundAccessors::has_stride(const Accessor& accessor) const {
@@ -143,31 +196,16 @@ void SoundAccessors::correct_bounds(std::uint32_t index, bool required) {
   if (!required && !json.contains("min") && !json.contains("max")) return;
   const auto accessor = open(Json(index));
   if (!accessor) return;
-  std::vector<double> least(accessor->components, HUGE_VAL), greatest(least.size(), -HUGE_VAL);
-  const auto visit = [&](const auto& values) {
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      const double value = static_cast<double>(values[i]);
-      double &low = least[i % least.size()], &high = greatest[i % least.size()];
-      low = std::min(low, value);
-      high = std::max(high, value);
-    }
-  };
-  // Bounds are those of the stored numbers, not of the normalised ones.
-  Accessor stored = *accessor;
-  stored.normalized = false;
-  if (stored.component_type == ComponentType::u32) {
-    if (const auto values = integers(stored)) visit(*values);
-  } else {
-    if (const auto values = floats(stored)) visit(*values);
-  }
-  const bool is_integer = stored.is_integer();
-  for (const auto& [name, values] : {std::pair{"min", &least}, std::pair{"max", &greatest}}) {
+  const Survey& found = survey(*accessor);
+  for (const auto& [name, values] :
+       {std::pair{"min", &found.least}, std::pair{"max", &found.greatest}}) {
     if (!required && !json.contains(name)) continue;
-    Json right = bound(*values, is_integer);
-    if (right.is_null())
+    if (!found.is_finite) {
       json.erase(name);
-    else if (!is_same_bound(json, name, right))
-      json[name] = std::move(right);
+      continue;
+    }
+    Json right = bound(*values, accessor->is_integer());
+    if (!is_same_bound(json, name, right)) json[name] = std::move(right);
   }
 }
 

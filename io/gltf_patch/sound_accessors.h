@@ -1,7 +1,9 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "io/gltf/accessors.h"
@@ -9,7 +11,8 @@
 namespace sunder::gltf {
 
 /// Checks whether accessors of a document follow the rules of glTF for what they are used as. It
-/// keeps no data; every question about values decodes the accessor.
+/// keeps no data but answers, so that an accessor is decoded once however often it is used. Decoded
+/// data is limited all the same, because any number of accessors may lie on the same bytes.
 class SoundAccessors {
  public:
   /// @param document  follows enforce_schema().
@@ -20,6 +23,21 @@ class SoundAccessors {
   /// Its numbers; nothing if one is not finite.
   [[nodiscard]] std::optional<std::vector<float>> floats(const Accessor& accessor);
   [[nodiscard]] std::optional<std::vector<std::uint32_t>> integers(const Accessor& accessor);
+  [[nodiscard]] bool is_finite(const Accessor& accessor);
+  /// The greatest number of one component; nothing if the numbers cannot be read.
+  [[nodiscard]] std::optional<double> greatest(const Accessor& accessor);
+
+  enum class Rule : std::uint8_t { times, rotations, spline_rotations, normals, tangents, shares };
+  /// Whether all numbers are finite and pass `check`, which is asked once per accessor and rule.
+  template <class Check>
+  [[nodiscard]] bool follows(Rule rule, const Accessor& accessor, const Check& check) {
+    const auto [known, is_new] = answers_.try_emplace({accessor.index, rule}, false);
+    if (is_new) {
+      const auto numbers = floats(accessor);
+      known->second = numbers && check(*numbers);
+    }
+    return known->second;
+  }
 
   /// Vertex attributes must begin, and follow each other, at multiples of four bytes.
   [[nodiscard]] bool is_aligned_for_vertices(const Accessor& accessor) const;
@@ -31,11 +49,22 @@ class SoundAccessors {
   void correct_bounds(std::uint32_t index, bool required);
 
  private:
+  /// Of the stored numbers, not of the normalised ones.
+  struct Survey {
+    bool is_finite = false;  ///< Also: they could be read.
+    std::vector<double> least, greatest;
+  };
+
+  [[nodiscard]] std::optional<Accessor> open_new(const Json& index);
+  [[nodiscard]] const Survey& survey(const Accessor& accessor);
   [[nodiscard]] bool is_aligned(const Json& accessor) const;
   [[nodiscard]] bool is_sparse_sound(const Json& accessor, const Accessor& opened);
 
   SourceDocument& document_;
   AccessorReader reader_;
+  std::map<std::uint64_t, std::optional<Accessor>> opened_;
+  std::map<std::uint32_t, Survey> surveys_;
+  std::map<std::pair<std::uint32_t, Rule>, bool> answers_;
 };
 
 }  // namespace sunder::gltf

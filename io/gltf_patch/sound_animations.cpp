@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <set>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace sunder::gltf {
 namespace {
@@ -17,18 +19,22 @@ std::string interpolation_of(const Json& sampler) {
   return found == sampler.end() ? "LINEAR" : found->get<std::string>();
 }
 
+bool are_times(const std::vector<float>& values) {
+  return values.front() >= 0.0f &&
+         std::adjacent_find(values.begin(), values.end(), std::greater_equal<>()) == values.end();
+}
+
 bool is_sampler_sound(const Json& sampler, SoundAccessors& accessors) {
   const auto input = accessors.open(sampler["input"]), output = accessors.open(sampler["output"]);
   if (!input || !output || input->is_integer() || accessors.type(*input) != "SCALAR" ||
       accessors.has_stride(*input) || accessors.has_stride(*output))
     return false;
-  const auto times = accessors.floats(*input);
-  if (!times || !accessors.floats(*output) || times->front() < 0.0f) return false;
-  for (std::size_t i = 1; i < times->size(); ++i)
-    if ((*times)[i] <= (*times)[i - 1]) return false;
+  if (!accessors.follows(SoundAccessors::Rule::times, *input, are_times) ||
+      !accessors.is_finite(*output))
+    return false;
   accessors.correct_bounds(input->index, true);
   accessors.correct_bounds(output->index, false);
-  return interpolation_of(sampler) != "CUBICSPLINE" || times->size() > 1;
+  return interpolation_of(sampler) != "CUBICSPLINE" || input->count > 1;
 }
 
 /// The number of morph targets that a node's mesh has.
@@ -60,8 +66,8 @@ bool is_channel_sound(const Json& channel, const Json& animation, const Json& do
   const Json& target = channel["target"];
   const auto node_at = target.find("node");
   const bool has_node = node_at != target.end();  // Without one, the channel is ignored.
-  const Json node =
-      has_node ? document["nodes"][node_at->get<std::size_t>()] : Json(Json::object());
+  static const Json kNoNode = Json::object();
+  const Json& node = has_node ? document["nodes"][node_at->get<std::size_t>()] : kNoNode;
   const auto& path = target["path"].get_ref<const std::string&>();
   const Json& sampler = samplers[sampler_index];
   const auto input = accessors.open(sampler["input"]), output = accessors.open(sampler["output"]);
@@ -77,8 +83,10 @@ bool is_channel_sound(const Json& channel, const Json& animation, const Json& do
   if (node.contains("matrix") || output->count != expected) return false;
   if (path != "rotation") return type == "VEC3" && !output->is_integer();
   if (type != "VEC4" || !is_share) return false;
-  const auto values = accessors.floats(*output);
-  return values && are_rotations_unit(*values, is_spline);
+  using Rule = SoundAccessors::Rule;
+  return accessors.follows(
+      is_spline ? Rule::spline_rotations : Rule::rotations, *output,
+      [&](const std::vector<float>& values) { return are_rotations_unit(values, is_spline); });
 }
 
 }  // namespace

@@ -61,6 +61,11 @@ bool are_unit(const std::vector<float>& values, std::size_t components) {
   return true;
 }
 
+bool are_shares(const std::vector<float>& values) {
+  return std::all_of(values.begin(), values.end(),
+                     [](float one) { return one >= 0.0f && one <= 1.0f; });
+}
+
 }  // namespace
 
 SoundPrimitives::SoundPrimitives(Json& json, SoundAccessors& accessors)
@@ -114,43 +119,65 @@ bool SoundPrimitives::is_format_allowed(const std::string& semantic,
 bool SoundPrimitives::is_attribute_sound(const std::string& semantic, const Accessor& accessor) {
   if (!is_format_allowed(semantic, accessor) || !accessors_.is_aligned_for_vertices(accessor))
     return false;
-  if (!accessor.is_integer() || semantic == "NORMAL" || semantic == "TANGENT") {
-    const auto values = accessors_.floats(accessor);
-    if (!values) return false;
-    if (semantic == "NORMAL" && !are_unit(*values, 3)) return false;
-    if (semantic == "TANGENT" && !are_unit(*values, 4)) return false;
-    if (semantic.starts_with("COLOR_") &&
-        !std::all_of(values->begin(), values->end(),
-                     [](float one) { return one >= 0.0f && one <= 1.0f; }))
-      return false;
-  }
+  using Rule = SoundAccessors::Rule;
+  using Numbers = std::vector<float>;
+  bool is_sound = true;
+  if (semantic == "NORMAL")
+    is_sound = accessors_.follows(Rule::normals, accessor,
+                                  [](const Numbers& values) { return are_unit(values, 3); });
+  else if (semantic == "TANGENT")
+    is_sound = accessors_.follows(Rule::tangents, accessor,
+                                  [](const Numbers& values) { return are_unit(values, 4); });
+  else if (!accessor.is_integer() && semantic.starts_with("COLOR_"))
+    is_sound = accessors_.follows(Rule::shares, accessor, are_shares);
+  else if (!accessor.is_integer())
+    is_sound = accessors_.is_finite(accessor);
+  if (!is_sound) return false;
   accessors_.correct_bounds(accessor.index, semantic == "POSITION");
   return true;
 }
 
 bool SoundPrimitives::are_influences_sound(const Json& attributes, std::uint32_t joint_count) {
+  std::vector<Accessor> sets;  // Joints and weights in turns.
+  std::vector<std::uint32_t> key;
+  for (std::size_t set = 0; attributes.contains("JOINTS_" + std::to_string(set)); ++set)
+    for (const char* const name : {"JOINTS_", "WEIGHTS_"}) {
+      sets.push_back(*accessors_.open(attributes[name + std::to_string(set)]));
+      key.push_back(sets.back().index);
+    }
+  for (std::size_t i = 0; i < sets.size(); i += 2) {
+    const auto greatest = accessors_.greatest(sets[i]);
+    if (!greatest || *greatest >= joint_count) return false;
+  }
+  const auto [known, is_new] = influences_.try_emplace(std::move(key), true);
+  if (is_new) known->second = are_weights_sound(sets);
+  return known->second;
+}
+
+bool SoundPrimitives::are_weights_sound(const std::vector<Accessor>& sets) {
   std::vector<std::vector<std::uint32_t>> joints;
   std::vector<std::vector<float>> weights;
-  for (std::size_t set = 0; attributes.contains("JOINTS_" + std::to_string(set)); ++set) {
-    const auto slots = accessors_.open(attributes["JOINTS_" + std::to_string(set)]),
-               values = accessors_.open(attributes["WEIGHTS_" + std::to_string(set)]);
-    auto numbers = accessors_.integers(*slots);
-    auto shares = accessors_.floats(*values);
+  for (std::size_t i = 0; i < sets.size(); i += 2) {
+    auto numbers = accessors_.integers(sets[i]);
+    auto shares = accessors_.floats(sets[i + 1]);
     if (!numbers || !shares) return false;
     joints.push_back(std::move(*numbers));
     weights.push_back(std::move(*shares));
   }
   if (joints.empty()) return true;
+  std::vector<std::uint32_t> used;
   for (std::size_t first = 0; first < joints[0].size(); first += 4) {
-    std::set<std::uint32_t> used;
+    used.clear();
     double sum = 0;
     for (std::size_t set = 0; set < joints.size(); ++set)
       for (std::size_t i = first; i < first + 4; ++i) {
-        if (joints[set][i] >= joint_count || weights[set][i] < 0.0f) return false;
+        if (weights[set][i] < 0.0f) return false;
         if (weights[set][i] == 0.0f) continue;
-        if (!used.insert(joints[set][i]).second) return false;
+        used.push_back(joints[set][i]);
         sum += static_cast<double>(weights[set][i]);
       }
+    std::sort(used.begin(), used.end());
+    if (std::adjacent_find(used.begin(), used.end()) != used.end()) return false;
     // Integer weights sum to one exactly but for the conversion to floats.
     if (std::abs(sum - 1.0) > kSumTolerance * static_cast<double>(used.size()) + 1e-8) return false;
   }
@@ -164,13 +191,13 @@ bool SoundPrimitives::are_indices_sound(const Json& primitive, std::uint32_t ver
   if (!accessor || accessors_.type(*accessor) != "SCALAR" || accessor->normalized ||
       accessors_.has_stride(*accessor))
     return false;
-  const auto indices = accessors_.integers(*accessor);
-  if (!indices) return false;
+  if (!is_unsigned(*accessor) && accessor->component_type != ComponentType::u32) return false;
+  const auto greatest = accessors_.greatest(*accessor);
+  // The largest number of a type restarts the primitive.
   std::uint32_t restart = 0xFF;
   if (accessor->component_type == ComponentType::u16) restart = 0xFFFF;
   if (accessor->component_type == ComponentType::u32) restart = kNone;
-  for (const std::uint32_t index : *indices)
-    if (index >= vertex_count || index == restart) return false;
+  if (!greatest || *greatest >= vertex_count || *greatest == restart) return false;
   accessors_.correct_bounds(accessor->index, false);
   return true;
 }
@@ -201,7 +228,7 @@ bool SoundPrimitives::are_targets_sound(const Json& primitive, std::uint32_t ver
           !is_delta_allowed(item.key(), *accessor) ||
           !accessors_.is_aligned_for_vertices(*accessor))
         return false;
-      if (!accessor->is_integer() && !accessors_.floats(*accessor)) return false;
+      if (!accessor->is_integer() && !accessors_.is_finite(*accessor)) return false;
       accessors_.correct_bounds(accessor->index, item.key() == "POSITION");
     }
   }

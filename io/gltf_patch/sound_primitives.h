@@ -1,6 +1,8 @@
 #pragma once
 
+#include <map>
 #include <string>
+#include <vector>
 
 #include "io/gltf_patch/sound_accessors.h"
 
@@ -23,6 +25,7 @@ class SoundPrimitives {
  private:
   [[nodiscard]] bool is_attribute_sound(const std::string& semantic, const Accessor& accessor);
   [[nodiscard]] bool are_influences_sound(const Json& attributes, std::uint32_t joint_count);
+  [[nodiscard]] bool are_weights_sound(const std::vector<Accessor>& sets);
   [[nodiscard]] bool are_indices_sound(const Json& primitive, std::uint32_t vertex_count);
   [[nodiscard]] bool are_targets_sound(const Json& primitive, std::uint32_t vertex_count);
   [[nodiscard]] bool is_format_allowed(const std::string& semantic, const Accessor& accessor) const;
@@ -30,6 +33,7 @@ class SoundPrimitives {
 
   Json& json_;
   SoundAccessors& accessors_;
+  std::map<std::vector<std::uint32_t>, bool> influences_;  ///< By the accessors of all sets.
   bool is_quantized_ = false;
 };
 

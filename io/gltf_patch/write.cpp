@@ -77,17 +77,32 @@ void check_same_character(const Character& character, const LoadedCharacter& loa
   check_skins_of_nodes(character, source, *loaded.source);
 }
 
-/// Meshes that must be written: torn meshes, and meshes whose source has faults.
-std::vector<std::uint32_t> meshes_to_write(const Character& character,
-                                           const LoadedCharacter& loaded,
+/// Flags torn meshes, and meshes that loading repaired.
+std::vector<bool> changed_meshes(const Character& character, const LoadedCharacter& loaded) {
+  std::vector<bool> are_new(character.meshes.size());
+  for (std::uint32_t i = 0; i < character.meshes.size(); ++i)
+    are_new[i] = loaded.source->mesh_origins[i].repaired ||
+                 (&character != loaded.character.get() &&
+                  !(character.meshes[i] == loaded.character->meshes[i]));
+  return are_new;
+}
+
+/// Meshes that must be written: changed ones, and those whose source has faults.
+std::vector<std::uint32_t> meshes_to_write(const std::vector<bool>& changed,
                                            const std::vector<bool>& unsound) {
   std::vector<std::uint32_t> meshes;
-  for (std::uint32_t i = 0; i < character.meshes.size(); ++i) {
-    const bool differs = &character != loaded.character.get() &&
-                         !(character.meshes[i] == loaded.character->meshes[i]);
-    if (differs || loaded.source->mesh_origins[i].repaired || unsound[i]) meshes.push_back(i);
-  }
+  for (std::uint32_t i = 0; i < changed.size(); ++i)
+    if (changed[i] || unsound[i]) meshes.push_back(i);
   return meshes;
+}
+
+/// One flag per mesh: the source has faults in it, so it must be written. Changed meshes need no
+/// flag.
+std::vector<bool> find_unsound(const Character& character, const LoadedCharacter& loaded,
+                               const std::vector<bool>& changed) {
+  if (std::find(changed.begin(), changed.end(), false) == changed.end()) return changed;
+  GlbDraft draft(*loaded.source);
+  return DocumentRepair(draft, character, *loaded.source).prepare(changed);
 }
 
 class Patch {
@@ -104,6 +119,7 @@ class Patch {
   }
 
   void apply(const std::vector<std::uint32_t>& meshes) {
+    nodes_of_mesh_ = uses_of_meshes(draft_.json);
     std::map<std::uint32_t, std::vector<std::uint32_t>> meshes_of_node;
     for (const std::uint32_t mesh : meshes)
       meshes_of_node[source_.mesh_origins[mesh].node].push_back(mesh);
@@ -145,13 +161,16 @@ class Patch {
     if (primitives.empty()) {
       // The mesh has no triangle left. The node must not refer to a mesh any more.
       for (const char* const key : {"mesh", "skin", "weights"}) node.erase(key);
+      --nodes_of_mesh_[mesh_index];
       without_mesh_.insert(node_index);
       return;
     }
-    if (use_count(mesh_index) == 1) {
+    if (nodes_of_mesh_[mesh_index] == 1) {
       draft_.json["meshes"][mesh_index]["primitives"] = std::move(primitives);
       return;
     }
+    --nodes_of_mesh_[mesh_index];
+    nodes_of_mesh_.push_back(1);
     Json copy = old_mesh;  // Other nodes use this mesh too, and are not torn.
     copy["primitives"] = std::move(primitives);
     Json& all = draft_.json["meshes"];
@@ -211,15 +230,6 @@ class Patch {
     return character_.meshes[mesh].skin != before_.meshes[mesh].skin;
   }
 
-  std::size_t use_count(std::size_t mesh) const {
-    const Json& nodes = draft_.json["nodes"];
-    return static_cast<std::size_t>(
-        std::count_if(nodes.begin(), nodes.end(), [&](const Json& node) {
-          const auto used = node.find("mesh");
-          return used != node.end() && used->is_number() && used->get<std::size_t>() == mesh;
-        }));
-  }
-
   /// The morph weights of a node without a mesh can no longer be animated.
   void remove_unusable_channels() {
     if (without_mesh_.empty() || !draft_.json.contains("animations")) return;
@@ -250,6 +260,7 @@ class Patch {
   const SaveOptions& options_;
   MeshWriter writer_;
   AppendedRig rig_;
+  std::vector<std::uint32_t> nodes_of_mesh_;  ///< How many nodes use each mesh of the draft.
   std::set<std::uint32_t> without_mesh_;
 };
 
@@ -284,7 +295,8 @@ std::vector<std::byte> glb_of(const Character& character, const LoadedCharacter&
   GlbDraft draft(source);
   const Json before = source.is_glb ? draft.json : Json();
   DocumentRepair repair(draft, character, source);
-  const std::vector<std::uint32_t> meshes = meshes_to_write(character, loaded, repair.prepare());
+  const std::vector<bool> changed = changed_meshes(character, loaded);
+  const std::vector<std::uint32_t> meshes = meshes_to_write(changed, repair.prepare(changed));
   Patch(draft, character, loaded, options).apply(meshes);
   repair.finish();
   if (source.is_glb && meshes.empty() && draft.json == before && is_container_sound(source.content))
@@ -299,10 +311,10 @@ Result<std::vector<WrittenInfluences>> influences_of_written(const Character& ch
   return without_exceptions<std::vector<WrittenInfluences>>([&] {
     check_options(options, character.meshes.size());
     check_same_character(character, loaded);
-    GlbDraft draft(*loaded.source);
-    DocumentRepair repair(draft, character, *loaded.source);
+    const std::vector<bool> changed = changed_meshes(character, loaded);
     std::vector<WrittenInfluences> written;
-    for (const std::uint32_t mesh : meshes_to_write(character, loaded, repair.prepare())) {
+    for (const std::uint32_t mesh :
+         meshes_to_write(changed, find_unsound(character, loaded, changed))) {
       const Mesh &after = character.meshes[mesh], &before = loaded.character->meshes[mesh];
       if (loaded.source->mesh_origins[mesh].skinned || after.skin != before.skin)
         written.push_back(written_of(after, before, mesh, options));

@@ -20,7 +20,25 @@ class Faults {
   std::vector<FaultyDocument> all;
 };
 
+/// Each skin has joints in two trees, so all become one, which must not be too deep to be read.
+GltfBuilder skins_across_trees() {
+  GltfBuilder builder = skinned_strip();
+  const std::size_t first = builder.json["nodes"].size();
+  for (std::size_t i = 0; i <= 1100; ++i) {
+    builder.json["nodes"].push_back(Json::object());
+    if (i > 0) builder.json["skins"].push_back({{"joints", {first + i - 1, first + i}}});
+  }
+  // Two trees that were put together meet.
+  builder.json["nodes"].insert(builder.json["nodes"].end(), 4, Json::object());
+  const std::size_t apart = builder.json["nodes"].size() - 4;
+  for (const auto& joints :
+       {std::pair{apart, apart + 1}, {apart + 2, apart + 3}, {apart, apart + 3}})
+    builder.json["skins"].push_back({{"joints", {joints.first, joints.second}}});
+  return builder;
+}
+
 void add_faults_of_properties(Faults& faults) {
+  faults.add("skins_across_trees", skins_across_trees());
   faults.add("name_is_a_number", "/nodes/0/name", 7);
   faults.add("empty_children", "/nodes/2/children", Json::array());
   faults.add("empty_cameras", "/cameras", Json::array());
@@ -47,6 +65,7 @@ void add_faults_of_properties(Faults& faults) {
 
 void add_faults_of_nodes(Faults& faults) {
   faults.add("rotation_too_long", "/nodes/2/rotation", {0, 0, 0, 2});
+  faults.add("rotation_slightly_too_long", "/nodes/2/rotation", {0, 0, 0, 1.001});
   faults.add("rotation_zero", "/nodes/2/rotation", {0, 0, 0, 0});
   faults.add("matrix_and_translation", "/nodes/2/matrix",
              {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 1, 0, 1});
