@@ -233,11 +233,11 @@ void AccessorReader::charge(const Accessor& accessor) {
 
 void AccessorReader::charge(std::uint64_t bytes, const std::string& place) {
   if (bytes > bytes_left_)
-    refuse(StatusCode::limit_exceeded, kNone,
-           "%.80s: in memory, the model exceeds %llu bytes (LoadOptions::maximum_memory and "
-           "maximum_bytes)",
-           place.c_str(),
-           static_cast<Place>(std::min(document_.maximum_bytes, document_.maximum_memory)));
+    refuse(
+        StatusCode::limit_exceeded, kNone,
+        "%.80s: in memory, the model exceeds %llu bytes (LoadOptions::%s)", place.c_str(),
+        static_cast<Place>(std::min(document_.maximum_bytes, document_.maximum_memory)),
+        document_.maximum_memory <= document_.maximum_bytes ? "maximum_memory" : "maximum_bytes");
   bytes_left_ -= bytes;
 }
 

@@ -1,10 +1,14 @@
-// Writes the seeds of tests/fuzz/corpus/glb: write_fuzz_corpus <folder>
+// Writes the seeds of the targets `glb` and `import_reply`: write_fuzz_corpus tests/fuzz/corpus
 
+#include <cstdint>
 #include <cstdio>
+#include <cstring>
 #include <fstream>
 #include <string>
+#include <vector>
 
 #include "io/faulty_documents.h"
+#include "io/import_messages/reply.h"
 #include "support/gltf_builder.h"
 
 namespace {
@@ -15,6 +19,27 @@ void write(const std::string& file, const std::vector<std::byte>& bytes) {
              static_cast<std::streamsize>(bytes.size()));
 }
 
+/// As import_reply_fuzzer.cpp divides its input: the length of the head, the head, the GLB.
+std::vector<std::byte> reply(const std::string& head, const std::vector<std::byte>& glb) {
+  const auto length = static_cast<std::uint32_t>(head.size());
+  std::vector<std::byte> bytes(sizeof length);
+  std::memcpy(bytes.data(), &length, sizeof length);
+  for (const char c : head) bytes.push_back(static_cast<std::byte>(c));
+  bytes.insert(bytes.end(), glb.begin(), glb.end());
+  return bytes;
+}
+
+void write_replies(const std::string& folder) {
+  using namespace sunder;
+  LoadReport report{.format = "FBX by assimp", .space = "metres, y up", .notes = {}};
+  report.notes.push_back(
+      {LoadNote::Kind::repaired, "mesh 0 'Body'", "weights did not sum to one", 7});
+  write(folder + "strip.reply",
+        reply(import_messages::encode_head({}, report), test::skinned_strip().glb()));
+  const Status failure = Status::failure(StatusCode::malformed_file, 3, "no mesh");
+  write(folder + "failure.reply", reply(import_messages::encode_head(failure, {}), {}));
+}
+
 }  // namespace
 
 int main(int count, char** arguments) {
@@ -22,7 +47,8 @@ int main(int count, char** arguments) {
     std::fprintf(stderr, "usage: %s <folder>\n", arguments[0]);
     return 2;
   }
-  const std::string folder = std::string(arguments[1]) + "/";
+  const std::string corpus = std::string(arguments[1]) + "/", folder = corpus + "glb/";
+  write_replies(corpus + "import_reply/");
   write(folder + "strip.glb", sunder::test::skinned_strip().glb());
   // One of each kind of part: lines, an animation, a material with a texture, a matrix.
   for (const sunder::test::FaultyDocument& document : sunder::test::faulty_documents())

@@ -49,6 +49,14 @@ TEST_F(ModelReading, every_verb_has_a_time_limit_and_names_its_option) {
   EXPECT_EQ(run_sunder({"info", slow, "--import-seconds", "60"}).exit_code, 0);
 }
 
+TEST_F(ModelReading, the_limit_of_memory_is_an_option) {
+  const CommandResult refused = run_sunder({"info", model(), "--memory", "0.001"});
+  EXPECT_EQ(refused.exit_code, 4) << refused.err;
+  EXPECT_THAT(refused.err, HasSubstr("(--memory)"));
+  EXPECT_EQ(run_sunder({"info", model(), "--memory", "100"}).exit_code, 0);
+  EXPECT_EQ(run_sunder({"info", model(), "--memory", "0"}).exit_code, 2);
+}
+
 TEST_F(ModelReading, the_time_limit_holds_for_the_meshes_of_a_robot) {
   const CommandResult result = run_sunder(
       {"info", robot_of_package(), "--package-root", path("roots"), "--import-seconds", "1e-6"});

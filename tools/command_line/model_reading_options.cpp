@@ -14,6 +14,11 @@ void add_model_reading(CLI::App& verb, ModelReading& reading) {
       ->check(CLI::PositiveNumber)
       ->type_name("SECONDS")
       ->capture_default_str();
+  verb.add_option("--memory", reading.memory,
+                  "Limit for the memory that reading glTF takes; without it 20 times the files, at "
+                  "least 64")
+      ->check(CLI::Range(0.001, 1e6))
+      ->type_name("MEGABYTES");
 }
 
 }  // namespace sunder::tools

@@ -26,7 +26,7 @@ void add_robot(CLI::App& verb, RobotTearRequest& robot);
 /// Whether a robot is asked for, with all that it needs. @throws CLI::ValidationError
 [[nodiscard]] bool has_robot(const CLI::App& verb, const RobotTearRequest& robot);
 
-/// `--strict`, `--package-root` and `--import-seconds`: how the verb reads its models.
+/// `--strict`, `--package-root`, `--import-seconds` and `--memory`: how the verb reads its models.
 void add_model_reading(CLI::App& verb, ModelReading& reading);
 
 /// `--weights-as`, the number format of written weights.

@@ -1,5 +1,6 @@
 #include "tools/messages/exit_code.h"
 
+#include <array>
 #include <string_view>
 #include <utility>
 
@@ -25,9 +26,12 @@ std::size_t length_of_name(std::string_view text, std::string_view place) {
 }  // namespace
 
 std::string with_option_names(std::string text) {
-  constexpr std::string_view kMember = "LoadOptions::import_seconds";
-  if (const std::size_t found = text.find(kMember); found != std::string::npos)
-    text.replace(found, kMember.size(), "--import-seconds");
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 2> kOptions = {
+      {{"LoadOptions::import_seconds", "--import-seconds"},
+       {"LoadOptions::maximum_memory", "--memory"}}};
+  for (const auto& [member, option] : kOptions)
+    if (const std::size_t found = text.find(member); found != std::string::npos)
+      text.replace(found, member.size(), option);
   return text;
 }
 

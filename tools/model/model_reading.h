@@ -13,6 +13,7 @@ struct ModelReading {
   bool strict = false;                               ///< Refuses what loading would repair.
   std::vector<std::filesystem::path> package_roots;  ///< Folders of the packages of robots.
   double import_seconds = LoadOptions{}.import_seconds;
+  double memory = 0;  ///< Megabytes, 2^20 bytes; 0: LoadOptions::maximum_memory's own rule.
 };
 
 [[nodiscard]] LoadOptions load_options(const ModelReading& reading);
