@@ -87,13 +87,14 @@ Status CharacterInstance::State::make_parts() {
 }
 
 Status CharacterInstance::State::make_soft(const SoftTissue& soft) {
-  const Result<ModelPose> bind = bind_pose(model.character());
-  if (!bind) return bind.error();
-  Result<ParticleSet> divided = ParticleSet::create(model, *bind, soft.decomposition);
+  // At rest lengths are metres; bind space may have any unit, such as that of quantised positions.
+  const Result<ModelPose> rest = rest_pose(model.character());
+  if (!rest) return rest.error();
+  Result<ParticleSet> divided = ParticleSet::create(model, *rest, soft.decomposition);
   if (!divided) return divided.error();
   body.reset();
   particles.emplace(std::move(*divided));
-  Result<SoftBody> made = SoftBody::create(*particles, *bind, soft.materials, soft.body);
+  Result<SoftBody> made = SoftBody::create(*particles, *rest, soft.materials, soft.body);
   if (!made) return made.error();
   body.emplace(std::move(*made));
   return {};

@@ -53,9 +53,9 @@ class Parts {
     if (is_soft) {
       const SoftTissue soft = coarse_tissue();
       set = std::make_unique<ParticleSet>(
-          value_of(ParticleSet::create(model, *bind_pose(*character), soft.decomposition)));
+          value_of(ParticleSet::create(model, *rest_pose(*character), soft.decomposition)));
       body = std::make_unique<SoftBody>(
-          value_of(SoftBody::create(*set, *bind_pose(*character), soft.materials)));
+          value_of(SoftBody::create(*set, *rest_pose(*character), soft.materials)));
     }
     for (const Mesh& mesh : character->meshes) {
       const std::size_t slots = character->skins[mesh.skin].bones.size();
@@ -491,6 +491,40 @@ TEST(character_instance, a_cancelled_stroke_leaves_nothing) {
       EXPECT_EQ(tube.instance.model().digest(), digest);
       EXPECT_TRUE(same_bits<Vec3f>(tube.instance.mesh(0).positions, positions));
     }
+}
+
+/// The same character, whose bind space has another unit.
+Character in_bind_units(Character character, float units_per_metre) {
+  for (Mesh& mesh : character.meshes)
+    for (Vec3f& position : mesh.positions) position *= units_per_metre;
+  for (Skin& skin : character.skins)
+    for (Affine3f& bone_from_bind : skin.bone_from_bind) bone_from_bind.linear() /= units_per_metre;
+  return character;
+}
+
+TEST(character_instance, wounds_do_not_depend_on_the_unit_of_bind_space) {
+  const Character tube = test::make_tube(30, 16, 5);
+  const ModelPose rest = *rest_pose(tube);
+  test::Random random{7};
+  const Stroke stroke = test::random_stroke(tube, rest, random);
+  const auto torn_by = [&](float units_per_metre) {
+    auto instance = make_instance(
+        std::make_shared<const Character>(in_bind_units(tube, units_per_metre)), true);
+    EXPECT_TRUE(instance.body()->set_tension({20.0, {}}));
+    EXPECT_TRUE(instance.tear(rest, stroke));
+    for (int frame = 0; frame < 90; ++frame) EXPECT_TRUE(instance.advance(rest, kFrame));
+    return instance;
+  };
+  const CharacterInstance metres = torn_by(1.0f), units = torn_by(4096.0f);
+  const auto wanted = metres.mesh(0).positions, found = units.mesh(0).positions;
+  ASSERT_EQ(found.size(), wanted.size());
+  const std::vector<Vec3d> still = test::posed_positions(metres.model().character(), 0, rest);
+  double opening = 0;
+  for (std::size_t v = 0; v < found.size(); ++v) {
+    EXPECT_LT((found[v] - wanted[v]).norm(), 1e-4) << v;
+    opening = std::max(opening, (wanted[v].cast<double>() - still[v]).norm());
+  }
+  EXPECT_GT(opening, 1e-3);
 }
 
 TEST(character_instance, tears_where_tissue_is_stretched) {

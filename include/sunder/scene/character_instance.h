@@ -14,7 +14,7 @@
 
 namespace sunder {
 
-/// Options of a soft surface. It is decomposed in the bind pose.
+/// Options of a soft surface. It is decomposed in the rest pose.
 struct SoftTissue {
   DecompositionOptions decomposition;
   /// At least one; all particles start with the first.
