@@ -56,9 +56,11 @@ int milliseconds_until(Clock::time_point deadline) {
 Socket::Socket(files::Descriptor descriptor, std::optional<Clock::time_point> deadline)
     : descriptor_(std::move(descriptor)), deadline_(deadline) {}
 
+bool Socket::is_late() const { return deadline_ && Clock::now() >= *deadline_; }
+
 Transfer Socket::wait(short events) const {
   for (;;) {
-    if (deadline_ && Clock::now() >= *deadline_) return Transfer::timed_out;
+    if (is_late()) return Transfer::timed_out;
     pollfd waiting{descriptor_.value(), events, 0};
     const int ready = poll(&waiting, 1, deadline_ ? milliseconds_until(*deadline_) + 1 : -1);
     if (ready > 0) return Transfer::complete;
@@ -88,6 +90,7 @@ Transfer Socket::send(std::span<const std::byte> bytes, int descriptor) {
 
 Transfer Socket::receive(std::span<std::byte> bytes, files::Descriptor* descriptor) {
   while (!bytes.empty()) {
+    if (is_late()) return Transfer::timed_out;  // also if the bytes are there
     iovec part{bytes.data(), bytes.size()};
     msghdr message = message_of(part);
     ControlBuffer control;

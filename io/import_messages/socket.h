@@ -37,6 +37,7 @@ class Socket {
   [[nodiscard]] int value() const { return descriptor_.value(); }
 
  private:
+  [[nodiscard]] bool is_late() const;
   /// Waits for `events`. @return complete if a call may make progress.
   [[nodiscard]] Transfer wait(short events) const;
 
