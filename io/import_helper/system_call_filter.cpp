@@ -4,16 +4,22 @@
 #include <unistd.h>
 
 #include "io/import_helper/sandbox.h"
+#include "io/import_helper/under_sanitizer.h"
 #include "io/import_messages/messages.h"
 
-#if SUNDER_HAS_SECCOMP
+// Sanitizers make system calls of their own.
+#if SUNDER_HAS_SECCOMP && !defined(SUNDER_UNDER_SANITIZER)
+#define SUNDER_FILTERS 1
+#endif
+
+#if SUNDER_FILTERS
 #include <seccomp.h>
 #include <sys/mman.h>
 #endif
 
 namespace sunder::import_helper {
 
-#if SUNDER_HAS_SECCOMP
+#if SUNDER_FILTERS
 
 namespace {
 
@@ -97,7 +103,8 @@ NoFilterReason filter_system_calls() {
 
 NoFilterReason filter_system_calls() {
   NoFilterReason reason{};
-  std::snprintf(reason.data(), reason.size(), "Sunder was built without libseccomp");
+  std::snprintf(reason.data(), reason.size(),
+                "Sunder was built without libseccomp, or with a sanitizer");
   return reason;
 }
 
