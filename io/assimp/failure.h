@@ -4,8 +4,8 @@
 
 namespace sunder::assimp_import {
 
-/// Ends the conversion with a status. Thrown and caught only in the child process, where assimp
-/// throws too.
+/// Ends the conversion with a status. Thrown and caught only during an import, where assimp throws
+/// too.
 struct ImportFailure {
   Status status;
 };

@@ -18,7 +18,7 @@ namespace {
 // A little less than the reader's, so that the written file needs no repair; the Khronos validator
 // allows more.
 constexpr double kUnitTolerance = 0.00009;
-// That of the Khronos validator.
+// The tolerance of the Khronos validator.
 constexpr double kMatrixTolerance = 0.00005;
 
 Json numbers(const float* values, std::size_t count) {

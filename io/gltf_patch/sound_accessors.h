@@ -49,7 +49,7 @@ class SoundAccessors {
   void correct_bounds(std::uint32_t index, bool required);
 
  private:
-  /// Of the stored numbers, not of the normalised ones.
+  /// The range of the numbers as they are stored, before normalised integers become floats.
   struct Survey {
     bool is_finite = false;  ///< Also: they could be read.
     std::vector<double> least, greatest;

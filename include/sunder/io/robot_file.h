@@ -31,7 +31,7 @@ struct RobotFinding {
   std::string text;        ///< One sentence: what is wrong, and what loading made of it.
 };
 
-/// Which shapes of the links become meshes.
+/// The shapes of a link that become its mesh.
 enum class RobotShapes : std::uint8_t {
   visual,               ///< `<visual>`.
   collision,            ///< `<collision>`.
