@@ -60,6 +60,9 @@ struct BodyState {
 
   /// Whether nothing moves and no setting needs attention, so that a step has nothing to do.
   [[nodiscard]] bool is_idle() const;
+  /// Whether nothing moves while the pose stays: as is_idle(), but displaced particles may be at
+  /// rest.
+  [[nodiscard]] bool is_still() const;
   /// Follows the set, if it changed. If memory runs out, the next call completes it. @throws
   /// std::bad_alloc
   void follow_particles();

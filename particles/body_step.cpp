@@ -14,8 +14,12 @@ bool BodyState::has_stretch_limit() const {
 }
 
 bool BodyState::is_idle() const {
-  return motion.awake_count == 0 && shown.displaced_count == 0 && set->revision() == revision &&
-         set->is_settled() && options.follow == Follow::ride && !options.tracks_rest &&
+  return shown.displaced_count == 0 && options.follow == Follow::ride && !options.tracks_rest &&
+         is_still();
+}
+
+bool BodyState::is_still() const {
+  return motion.awake_count == 0 && set->revision() == revision && set->is_settled() &&
          !graph.is_stale && !outer.is_tension_stale && holds.empty() &&
          contact.colliders().empty() && !outer.wind;
 }

@@ -368,6 +368,7 @@ bool SoftBody::is_awake(std::uint32_t particle) const {
   SUNDER_ASSERT(particle < particle_count());
   return state_->motion.awake[particle] != 0;
 }
+bool SoftBody::needs_step() const { return !state_->is_still(); }
 std::uint32_t SoftBody::awake_count() const { return state_->motion.awake_count; }
 const ContactReport& SoftBody::contacts() const { return state_->contact.report(); }
 

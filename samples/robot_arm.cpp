@@ -81,7 +81,7 @@ sunder::Collider capsule_of(const Affine3d& world_from_link) {
 }
 
 sunder::Result<sunder::CharacterInstance> make_soft_tube() {
-  sunder::CharacterInstanceOptions options;
+  sunder::CharacterAssetOptions options;
   options.soft.emplace();
   options.soft->materials = {sunder::find_material("fat").value()};
   options.soft->decomposition.range = options.soft->materials[0].range / 2;
@@ -97,6 +97,7 @@ class Scene {
       : motion_(motion), sweep_(sweep), tube_(tube), frames_(motion.link_count()) {}
 
   sunder::Status start() {
+    if (auto status = tube_.prepare_to_tear(); !status) return status;
     if (auto status = motion_.pose_at(0, frames_, arm_place()); !status) return status;
     const std::array<sunder::Collider, 2> links = {capsule_of(frames_[1]), capsule_of(frames_[2])};
     return tube_.body()->set_colliders(links);
@@ -110,7 +111,7 @@ class Scene {
       if (auto status = tube_.body()->move_collider(link - 1, posed.place, posed.turn); !status)
         return status;
     }
-    const sunder::ModelPose pose = samples::bent(tube_.model().source(), 0.05 * time);
+    const sunder::ModelPose pose = samples::bent(tube_.character(), 0.05 * time);
     if (auto status = tube_.advance(pose, kFrame); !status) return status;
     for (; next_ < sweep_.times.size() && sweep_.times[next_] <= time; ++next_)
       if (auto status = draw(pose, sweep_.blades[next_]); !status) return status;

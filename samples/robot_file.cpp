@@ -47,6 +47,7 @@ sunder::Result<sunder::TearReport> play(sunder::CharacterInstance& model,
                                         const sunder::RobotMotion& motion,
                                         const sunder::BladeSweep& sweep,
                                         const sunder::Affine3d& world_from_root) {
+  if (auto status = model.prepare_to_tear(); !status) return status;
   std::vector<sunder::Affine3d> frames(motion.link_count());
   std::size_t next = 0;
   for (double time = motion.first_time(); next < sweep.times.size(); time += kFrame) {
@@ -57,7 +58,7 @@ sunder::Result<sunder::TearReport> play(sunder::CharacterInstance& model,
     }
     for (std::uint32_t i = 0; i < posed.size(); ++i)
       (void)model.body()->move_collider(i, posed[i].place, posed[i].turn);
-    const auto pose = pose_at(model.model().source(), time);
+    const auto pose = pose_at(model.character(), time);
     if (!pose) return pose.error();
     if (auto status = model.advance(*pose, kFrame); !status) return status;
     for (; next < sweep.times.size() && sweep.times[next] <= time; ++next) {
@@ -99,7 +100,7 @@ int main(int argc, char** argv) {
   const auto links = sunder::fit_colliders(*robot->model.character, 0.2);
   if (!links) return fail("colliders", links.error());
 
-  sunder::CharacterInstanceOptions options;
+  sunder::CharacterAssetOptions options;
   options.soft.emplace();
   auto instance = sunder::CharacterInstance::create(model->character, options);
   if (!instance) return fail(argv[1], instance.error());
@@ -107,7 +108,7 @@ int main(int argc, char** argv) {
   if (!report) return fail("tear", report.error());
   std::printf("%zu links push; %zu blades made %.3f m of tear\n", links->size(),
               sweep->blades.size(), report->length_posed);
-  const auto status = save_glb(argv[5], instance->model().character(), *model);
+  const auto status = save_glb(argv[5], instance->character(), *model);
   if (!status) return fail(argv[5], status);
   return report->runs > 0 ? 0 : 1;
 }

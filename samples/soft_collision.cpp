@@ -29,12 +29,13 @@ int fail(const char* what, const sunder::Status& status) {
 
 int main() {
   const auto character = std::make_shared<const sunder::Character>(samples::make_tube({32, 60}));
-  sunder::CharacterInstanceOptions options;
+  sunder::CharacterAssetOptions options;
   options.soft.emplace();
   options.soft->materials = {sunder::find_material("fat").value()};
   options.soft->decomposition.range = options.soft->materials[0].range / 2;
   auto instance = sunder::CharacterInstance::create(character, options);
   if (!instance) return fail("create", instance.error());
+  if (const auto status = instance->prepare_to_tear(); !status) return fail("create", status);
   sunder::SoftBody& body = *instance->body();
 
   const sunder::Collider ball = {

@@ -1,134 +1,214 @@
 #include "scene/instance_mesh.h"
 
 #include <algorithm>
-#include <new>
 
 namespace sunder::scene {
 namespace {
 
-constexpr Index kInfluencesPerVertex =
-    8;  ///< For which memory is reserved where the capacity is fixed.
-
-/// The first vertex whose bind position or weights changed. Operations append vertices and undo
-/// removes them from the end; vertices before `first_vertex` are dirty because of their tear side,
-/// which is not skinned. Only a change of weights affects existing vertices, and it changes no
-/// triangle.
-Index first_changed_vertex(const MeshChange& change) {
-  const bool is_of_weights =
-      change.vertex_count == 0 && change.triangle_count == 0 && change.rewritten.empty();
-  if (!is_of_weights || change.dirty_vertices.empty()) return change.first_vertex;
-  return std::min(change.first_vertex, change.dirty_vertices.begin()->first);
+template <class Vector>
+StridedFloats<float> floats_of(std::vector<Vector>& values) {
+  return {values.empty() ? nullptr : values[0].data(), 0};
 }
 
 template <class Vector>
-StridedFloats<float> floats_of(std::vector<Vector>& values) {
-  return {values.empty() ? nullptr : values[0].data()};
+void resize_within(std::size_t room, Index count, std::vector<Vector>& values) {
+  values.reserve(room);
+  values.resize(count);
+}
+
+/// The attribute from a vertex on. @param width  floats per vertex of a packed one.
+StridedFloats<float> from_vertex(const StridedFloats<float>& of, Index vertex, std::size_t width) {
+  if (of.data == nullptr) return of;
+  const std::size_t stride = of.stride == 0 ? width * sizeof(float) : of.stride;
+  return {of.data + vertex * (stride / sizeof(float)), of.stride};
+}
+
+bool is_same_memory(const VertexTarget& a, const VertexTarget& b) {
+  return a.positions.data == b.positions.data && a.normals.data == b.normals.data &&
+         a.tangents.data == b.tangents.data;
+}
+
+/// The first vertex whose skinning data a change may have changed.
+Index first_changed_vertex(const MeshChange& change) {
+  Index first = change.first_vertex;
+  if (change.rewritten.empty() && !change.dirty_vertices.empty())
+    first = std::min(first, change.dirty_vertices.begin()->first);
+  return first;
 }
 
 }  // namespace
 
-void PendingRanges::add(const IndexRange& range) noexcept {
-  try {
-    pending_.push_back(range);
-  } catch (const std::bad_alloc&) {
-    Index first = range.first, end = range.first + range.count;
-    for (const IndexRange& pending : pending_) {
-      first = std::min(first, pending.first);
-      end = std::max(end, pending.first + pending.count);
-    }
-    pending_.assign(1, {first, end - first});
-  }
-}
-
-void PendingRanges::publish(Index count) noexcept {
-  published_.clear();
-  std::sort(pending_.begin(), pending_.end(),
-            [](const IndexRange& a, const IndexRange& b) { return a.first < b.first; });
-  for (const IndexRange& range : pending_) {
-    const Index end = std::min(range.first + range.count, count);
-    if (range.first >= end) continue;
-    if (published_.empty() || range.first > published_.back().first + published_.back().count)
-      published_.push_back({range.first, end - range.first});
-    else
-      published_.back().count = std::max(published_.back().count, end - published_.back().first);
-  }
-  pending_.clear();
-}
-
-Result<InstanceMesh> InstanceMesh::create(const Mesh& mesh, std::size_t slots,
-                                          const CharacterInstanceOptions& options) {
-  Result<SkinnedMesh> skinned = SkinnedMesh::create(source_of(mesh), slots);
-  if (!skinned) return skinned.error();
-  InstanceMesh made(std::move(*skinned));
-  made.has_normals_ = options.has_normals && !mesh.normals.empty();
-  made.has_tangents_ = options.has_tangents && !mesh.tangents.empty();
-  made.unit_length_ = options.unit_length;
-  const std::size_t most = std::size_t{mesh.vertex_count()} + options.capacity.vertices;
-  made.positions_.reserve(most);
-  if (made.has_normals_) made.normals_.reserve(most);
-  if (made.has_tangents_) made.tangents_.reserve(most);
-  if (options.capacity.vertices > 0)
-    if (Status status = made.skinned_.reserve(options.capacity.vertices, kInfluencesPerVertex);
-        !status)
-      return status;
-  made.resize(mesh.vertex_count());
-  // The first frame draws everything.
-  made.triangles_.add(IndexRange{0, mesh.triangle_count()});
-  made.attributes_.add(IndexRange{0, mesh.vertex_count()});
-  return made;
-}
-
-void InstanceMesh::note(const MeshChange& change) noexcept {
-  triangles_.add(change.dirty_triangles);
-  attributes_.add(change.dirty_vertices);
+void InstanceMesh::note(const MeshChange& change, std::uint64_t epoch) noexcept {
+  triangles_.note(change);
+  attributes_.add(epoch, change.dirty_vertices);
   first_changed_ = std::min(first_changed_, first_changed_vertex(change));
+  needs_update_ = true;
 }
 
-void InstanceMesh::resize(Index vertex_count) {
-  positions_.resize(vertex_count);
-  if (has_normals_) normals_.resize(vertex_count);
-  if (has_tangents_) tangents_.resize(vertex_count);
-  const VertexTarget target = {vertex_count, floats_of(positions_), floats_of(normals_),
-                               floats_of(tangents_), unit_length_};
-  const VertexTarget& now = buffer_.target();
-  if (target.positions.data != now.positions.data || target.normals.data != now.normals.data ||
-      target.tangents.data != now.tangents.data)
-    buffer_.set_target(target);  // it grew into other memory, which is written as a whole
-  else
-    buffer_.set_vertex_count(vertex_count);
+void InstanceMesh::note_all(const Mesh& source, const Mesh& mesh, std::uint64_t epoch) {
+  MeshChange change;
+  change.first_triangle = source.triangle_count();
+  for (Index t = 0; t < source.triangle_count(); ++t)
+    if (!is_same(source.triangles[t], mesh.triangles[t]))
+      change.rewritten.push_back({t, source.triangles[t]});
+  if (change.rewritten.empty() && mesh.vertex_count() == source.vertex_count()) return;
+  triangles_.note(change);
+  attributes_.add(epoch, IndexRange{source_count_, mesh.vertex_count() - source_count_});
+  first_changed_ = source_count_;
+  needs_update_ = true;
 }
 
-Status InstanceMesh::update(const Mesh& mesh, const InfluencePositions& exact) {
-  triangles_.prepare();
-  attributes_.prepare();
-  if (first_changed_ == kNone) return {};
-  VertexSource source = source_of(mesh);
-  if (!exact.vertices.empty()) source.per_influence = &exact;
-  if (Status status = skinned_.update(source, first_changed_); !status) return status;
-  resize(mesh.vertex_count());
-  first_changed_ = kNone;
+void InstanceMesh::set_target(const VertexTarget& target) {
+  has_target_ = target.positions.data != nullptr || target.normals.data != nullptr ||
+                target.tangents.data != nullptr;
+  target_ = has_target_ ? target : VertexTarget();
+  if (has_target_) {
+    positions_ = {};
+    normals_ = {};
+    tangents_ = {};
+  }
+  needs_update_ = true;
+  writes_all_ = true;
+}
+
+Status InstanceMesh::resize(Index vertex_count) {
+  const VertexTarget before = target_;
+  if (has_target_) {
+    if (vertex_count > target_.vertex_count)
+      return Status::failure(StatusCode::capacity_exceeded, target_.vertex_count,
+                             "the mesh has %u vertices; the target has room for %u", vertex_count,
+                             target_.vertex_count);
+  } else {
+    const std::size_t room = std::size_t{source_count_} + room_;
+    resize_within(room, vertex_count, positions_);
+    if (asset_->has_normals) resize_within(room, vertex_count, normals_);
+    if (asset_->has_tangents) resize_within(room, vertex_count, tangents_);
+    target_ = {vertex_count, floats_of(positions_), floats_of(normals_), floats_of(tangents_),
+               unit_length_};
+  }
+  VertexTarget of_source = target_, of_tail = target_;
+  of_source.vertex_count = source_count_;
+  of_tail.vertex_count = vertex_count - source_count_;
+  of_tail.positions = from_vertex(target_.positions, source_count_, 3);
+  of_tail.normals = from_vertex(target_.normals, source_count_, 3);
+  of_tail.tangents = from_vertex(target_.tangents, source_count_, 4);
+  if (writes_all_ || !is_same_memory(before, target_)) {
+    writes_all_ = true;  // it grew into other memory, which is written as a whole
+    buffer_.set_target(of_source);
+    tail_buffer_.set_target(of_tail);
+  } else {
+    tail_buffer_.set_vertex_count(of_tail.vertex_count);
+  }
   return {};
 }
 
-Status InstanceMesh::deform(const BonePalette& palette, const ParallelFor& parallel_for,
-                            const VertexDisplacements* displacements) {
-  return skinned_.deform(palette, buffer_, parallel_for, displacements);
+Status InstanceMesh::update(const Mesh& mesh, const InfluencePositions* exact) {
+  if (!needs_update_) return {};
+  if (first_changed_ != kNone) {
+    const Index count = mesh.vertex_count();
+    const Index before = tail_ ? source_count_ + tail_->vertex_count() : source_count_;
+    const Index from = std::max(source_count_, std::min({first_changed_, before, count}));
+    tail_source_.update(mesh, *exact, from);
+    if (count == source_count_) {
+      tail_.reset();
+    } else if (tail_) {
+      if (Status status = tail_->update(tail_source_.source(mesh), from - source_count_); !status)
+        return status;
+    } else {
+      Result<SkinnedMesh> made = SkinnedMesh::create(tail_source_.source(mesh), asset_->slots);
+      if (!made) return made.error();
+      tail_.emplace(std::move(*made));
+      tail_buffer_ = PosedBuffer(VertexTarget());
+      writes_all_ = true;
+    }
+  }
+  if (Status status = resize(mesh.vertex_count()); !status) return status;
+  first_changed_ = kNone;
+  needs_update_ = false;
+  return {};
 }
 
-void InstanceMesh::publish(const Mesh& mesh) noexcept {
-  triangles_.publish(mesh.triangle_count());
-  attributes_.publish(mesh.vertex_count());
+Status InstanceMesh::deform_part(const Input& input, const SkinnedMesh& skinned,
+                                 PosedBuffer& buffer, Index first, Index count) {
+  if (input.displaced == nullptr)
+    return skinned.deform(input.palette, buffer, input.parallel_for, nullptr);
+  VertexDisplacements part = *input.displaced;
+  part.vertex_rows = part.vertex_rows.subspan(first, count);
+  moved_.clear();
+  for (const IndexRange& range : input.displaced->moved) {
+    const Index from = std::max(range.first, first);
+    const Index end = std::min(range.first + range.count, first + count);
+    if (from < end) moved_.push_back({from - first, end - from});
+  }
+  part.moved = moved_;
+  return skinned.deform(input.palette, buffer, input.parallel_for,
+                        moved_.empty() ? nullptr : &part);
 }
 
-PosedMesh InstanceMesh::posed(const Mesh& mesh) const {
-  if (triangles_.has_pending()) return {};
-  return {positions_,
-          normals_,
-          tangents_,
-          mesh.triangles,
-          buffer_.dirty_vertices(),
-          triangles_.published(),
-          attributes_.published()};
+Status InstanceMesh::deform(const Input& input) {
+  if (Status status = deform_part(input, asset_->skinned, buffer_, 0, source_count_); !status)
+    return status;
+  return tail_ ? deform_part(input, *tail_, tail_buffer_, source_count_, tail_->vertex_count())
+               : Status();
+}
+
+void InstanceMesh::list_written(std::uint64_t epoch) {
+  const auto tail = tail_ ? tail_buffer_.dirty_vertices() : std::span<const IndexRange>();
+  const auto source = buffer_.dirty_vertices();
+  drawn_vertices_ = 0;
+  if (source.empty() && tail.empty()) return;
+  before_drawn_ = writes_all_ ? epoch : drawn_epoch_;
+  drawn_epoch_ = epoch;
+  writes_all_ = false;
+  written_.assign(source.begin(), source.end());
+  for (const IndexRange& range : tail)
+    written_.push_back({range.first + source_count_, range.count});
+  for (const IndexRange& range : written_) drawn_vertices_ += range.count;
+}
+
+Status InstanceMesh::draw(const Input& input) {
+  if (Status status = update(input.mesh, input.exact); !status) return status;
+  if (Status status = deform(input); !status) return status;
+  triangles_.update(input.mesh, input.epoch);
+  list_written(input.epoch);
+  return {};
+}
+
+void InstanceMesh::forget() noexcept {
+  writes_all_ = true;
+  needs_update_ = true;
+}
+
+PosedMesh InstanceMesh::posed(const Mesh& mesh, std::uint64_t seen) {
+  if (needs_update_ || drawn_epoch_ == 0) return {};
+  const Index count = mesh.vertex_count();
+  dirty_vertices_.clear();
+  if (seen < before_drawn_ || seen == 0)
+    dirty_vertices_.push_back({0, count});
+  else if (seen < drawn_epoch_)
+    for (const IndexRange& range : written_)  // undo may have removed some of them since
+      if (range.first < count)
+        dirty_vertices_.push_back({range.first, std::min(range.count, count - range.first)});
+  attributes_.collect(seen, count, dirty_attributes_);
+  triangles_.collect(mesh, seen, writes_);
+  PosedMesh posed;
+  posed.positions = {reinterpret_cast<const Vec3f*>(target_.positions.data),
+                     target_.positions.stride == 0 && target_.positions.data ? count : 0};
+  posed.normals = {reinterpret_cast<const Vec3f*>(target_.normals.data),
+                   target_.normals.stride == 0 && target_.normals.data ? count : 0};
+  posed.tangents = {reinterpret_cast<const Vec4f*>(target_.tangents.data),
+                    target_.tangents.stride == 0 && target_.tangents.data ? count : 0};
+  posed.ranges = triangles_.ranges();
+  posed.triangle_capacity = triangles_.capacity();
+  posed.dirty_vertices = dirty_vertices_;
+  posed.dirty_attributes = dirty_attributes_;
+  posed.triangle_writes = writes_;
+  return posed;
+}
+
+std::size_t InstanceMesh::memory_bytes() const {
+  return (tail_ ? tail_->stream_bytes() : 0) + positions_.capacity() * sizeof(Vec3f) +
+         normals_.capacity() * sizeof(Vec3f) + tangents_.capacity() * sizeof(Vec4f);
 }
 
 }  // namespace sunder::scene

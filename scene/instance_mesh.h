@@ -3,71 +3,95 @@
 #include <sunder/scene/character_instance.h>
 #include <sunder/skinning/skinned_mesh.h>
 
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "scene/asset_data.h"
+#include "scene/draw_triangles.h"
+#include "scene/range_journal.h"
+#include "scene/torn_tail.h"
+
 namespace sunder::scene {
 
-/// Collects the ranges that several operations changed, for the frame that draws them.
-class PendingRanges {
- public:
-  PendingRanges() { pending_.reserve(1); }
-
-  /// Where memory runs out, one range takes in all of them.
-  void add(const IndexRange& range) noexcept;
-  void add(const DirtyRanges& ranges) noexcept {
-    for (const IndexRange& range : ranges) add(range);
-  }
-  /// Makes room for publish(). @throws std::bad_alloc
-  void prepare() { published_.reserve(pending_.size()); }
-  /// Lists the ranges added since the last call, ascending and disjoint, up to `count`. Call
-  /// prepare() first.
-  void publish(Index count) noexcept;
-  [[nodiscard]] std::span<const IndexRange> published() const { return published_; }
-  [[nodiscard]] bool has_pending() const { return !pending_.empty(); }
-
- private:
-  std::vector<IndexRange> pending_, published_;
-};
-
-/// One mesh of a CharacterInstance: its skinning data, and the posed vertices that are drawn.
+/// One mesh of a CharacterInstance: the posed vertices that are drawn. Vertices of the source are
+/// skinned by the data of the asset, appended ones by data of the instance.
 class InstanceMesh {
  public:
-  static Result<InstanceMesh> create(const Mesh& mesh, std::size_t slots,
-                                     const CharacterInstanceOptions& options);
+  /// @param room  number of vertices for which memory is kept, beyond those of the source.
+  InstanceMesh(const AssetMesh& asset, Index vertex_count, Index room, bool unit_length)
+      : asset_(&asset),
+        source_count_(vertex_count),
+        room_(room),
+        unit_length_(unit_length),
+        buffer_(VertexTarget()),
+        tail_buffer_(VertexTarget()),
+        tail_source_(vertex_count),
+        triangles_(asset.order) {}
 
-  /// Notes the changes of a call; update() applies them.
-  void note(const MeshChange& change) noexcept;
-  /// Applies the noted changes to the skinning data and the buffers. O(changes). @throws
-  /// std::bad_alloc; the changes stay noted then.
-  Status update(const Mesh& mesh, const InfluencePositions& exact);
-  /// Poses the vertices that changed. @param displacements  null: none.
-  Status deform(const BonePalette& palette, const ParallelFor& parallel_for,
-                const VertexDisplacements* displacements);
-  /// Ends a frame in which all meshes were posed: lists what it changed.
-  void publish(const Mesh& mesh) noexcept;
+  /// Notes the changes of a call; draw() applies them.
+  void note(const MeshChange& change, std::uint64_t epoch) noexcept;
+  /// Notes all differences of a torn mesh from its source. @throws std::bad_alloc
+  void note_all(const Mesh& source, const Mesh& mesh, std::uint64_t epoch);
+  void set_target(const VertexTarget& target);
+
+  /// The inputs of a draw().
+  struct Input {
+    const Mesh& mesh;
+    const InfluencePositions* exact = nullptr;  ///< Null for a mesh that was never torn.
+    const BonePalette& palette;
+    const VertexDisplacements* displaced = nullptr;
+    const ParallelFor& parallel_for;
+    std::uint64_t epoch;
+  };
+  /// Poses the vertices that changed. @throws std::bad_alloc
+  Status draw(const Input& input);
   /// Ends a frame that failed: the next one poses every vertex.
-  void forget() noexcept { buffer_.set_target(buffer_.target()); }
+  void forget() noexcept;
 
   /// Whether normals or tangents are posed.
-  [[nodiscard]] bool has_directions() const { return has_normals_ || has_tangents_; }
-  /// Empty before the first update(), and where triangles changed since the last one.
-  [[nodiscard]] PosedMesh posed(const Mesh& mesh) const;
+  [[nodiscard]] bool has_directions() const {
+    return target_.normals.data != nullptr || target_.tangents.data != nullptr ||
+           (!has_target_ && (asset_->has_normals || asset_->has_tangents));
+  }
+  /// Empty before the first draw(), and after a change since the last one. @throws std::bad_alloc
+  [[nodiscard]] PosedMesh posed(const Mesh& mesh, std::uint64_t seen);
+  [[nodiscard]] Index drawn_vertices() const { return drawn_vertices_; }
+  [[nodiscard]] std::size_t memory_bytes() const;
 
  private:
-  explicit InstanceMesh(SkinnedMesh skinned)
-      : skinned_(std::move(skinned)), buffer_(VertexTarget()) {}
-  void resize(Index vertex_count);
+  Status update(const Mesh& mesh, const InfluencePositions* exact);
+  Status resize(Index vertex_count);
+  Status deform(const Input& input);
+  Status deform_part(const Input& input, const SkinnedMesh& skinned, PosedBuffer& buffer,
+                     Index first, Index count);
+  void list_written(std::uint64_t epoch);
 
-  SkinnedMesh skinned_;
-  PosedBuffer buffer_;
+  const AssetMesh* asset_;
+  Index source_count_, room_;
+  bool unit_length_;
+  PosedBuffer buffer_, tail_buffer_;
+  TornTail tail_source_;
+  std::optional<SkinnedMesh> tail_;  ///< Of the appended vertices.
   std::vector<Vec3f> positions_, normals_;
   std::vector<Vec4f> tangents_;
-  bool has_normals_ = false, has_tangents_ = false, unit_length_ = false;
-  Index first_changed_ = kNone;  ///< First vertex whose skinning data changed since the last
-                                 ///< update(); kNone: none did.
-  PendingRanges triangles_, attributes_;
+  VertexTarget target_;  ///< Memory of the caller, or that of this object.
+  bool has_target_ = false;
+  Index first_changed_ =
+      kNone;                  ///< First vertex whose skinning data changed since the last draw().
+  bool needs_update_ = true;  ///< Whether anything was noted since the last draw().
+
+  DrawTriangles triangles_;
+  RangeJournal attributes_;
+  std::uint64_t drawn_epoch_ = 0;    ///< Epoch of the last draw() that wrote vertices.
+  std::uint64_t before_drawn_ = 0;   ///< Epoch of the one before.
+  bool writes_all_ = true;           ///< Whether the next draw() writes every vertex.
+  Index drawn_vertices_ = 0;         ///< Written by the last draw().
+  std::vector<IndexRange> written_;  ///< By the draw() of drawn_epoch_.
+  std::vector<IndexRange> moved_;
+  std::vector<IndexRange> dirty_vertices_, dirty_attributes_;  // of the last posed()
+  std::vector<TriangleWrite> writes_;
 };
 
 }  // namespace sunder::scene

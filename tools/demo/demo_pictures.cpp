@@ -90,7 +90,7 @@ Camera aim(const ViewFrame& frame, const Wound& wound, const Bounds& bounds) {
 
 /// Plays the clip from one moment to another while the lips open.
 Status play_on(CharacterInstance& instance, double from, double to, int least_steps) {
-  const Character& torn = instance.model().character();
+  const Character& torn = instance.character();
   const double seconds =
       torn.clips.empty() ? 0.0 : (to - from) * static_cast<double>(torn.clips[0].duration);
   const int steps = static_cast<int>(
@@ -100,14 +100,14 @@ Status play_on(CharacterInstance& instance, double from, double to, int least_st
     if (!pose) return pose.error();
     if (const Status status = instance.advance(*pose, kPictureStep); !status) return status;
   }
-  return {};
+  return instance.draw();
 }
 
 /// The torn model at a moment of the clip: its surface, displaced by the tissue, and walls of
 /// flesh.
 Result<Character> still_at(double clip_fraction, const DemoTear& tear,
                            const std::vector<RimEdge>& rims, const ViewFrame& frame,
-                           const CharacterInstance& instance) {
+                           CharacterInstance& instance) {
   const Result<std::vector<DeformedMesh>> closed = posed_at(tear.model.character(), clip_fraction);
   if (!closed) return closed.error();
   const Result<std::vector<DeformedMesh>> untorn = posed_at(*tear.source, clip_fraction);

@@ -13,13 +13,14 @@ constexpr int kMostSteps = 180;
 }  // namespace
 
 Result<CharacterInstance> make_gaping_instance(std::shared_ptr<const Character> character) {
-  CharacterInstanceOptions options;
+  CharacterAssetOptions options;
   options.has_normals = options.has_tangents = false;
   options.soft.emplace();
   options.soft->decomposition.range = kRange;
+  options.soft->tension = {kTension, {}};
   Result<CharacterInstance> instance = CharacterInstance::create(std::move(character), options);
   if (!instance) return instance;
-  if (const Status status = instance->body()->set_tension({kTension, {}}); !status) return status;
+  if (const Status status = instance->prepare_to_tear(); !status) return status;
   return instance;
 }
 
@@ -28,10 +29,10 @@ Status open_lips(CharacterInstance& instance, const ModelPose& pose) {
     if (const Status status = instance.advance(pose, kPictureStep); !status) return status;
     if (instance.body()->awake_count() == 0) break;
   }
-  return {};
+  return instance.draw();
 }
 
-void displace(const CharacterInstance& instance, std::vector<DeformedMesh>& posed) {
+void displace(CharacterInstance& instance, std::vector<DeformedMesh>& posed) {
   for (std::uint32_t m = 0; m < posed.size(); ++m) {
     const std::span<const Vec3f> positions = instance.mesh(m).positions;
     posed[m].positions.assign(positions.begin(), positions.end());

@@ -19,6 +19,6 @@ constexpr double kPictureStep = 1.0 / 60;  ///< Seconds per step of the tissue i
 [[nodiscard]] Status open_lips(CharacterInstance& instance, const ModelPose& pose);
 
 /// Moves posed vertices by the displacements of the last advance().
-void displace(const CharacterInstance& instance, std::vector<DeformedMesh>& posed);
+void displace(CharacterInstance& instance, std::vector<DeformedMesh>& posed);
 
 }  // namespace sunder::tools

@@ -36,8 +36,8 @@ T check(Result<T> result) {
   return std::move(*result);
 }
 
-CharacterInstanceOptions soft_options(const std::vector<SoftMaterial>& materials, double range) {
-  CharacterInstanceOptions options;
+CharacterAssetOptions soft_options(const std::vector<SoftMaterial>& materials, double range) {
+  CharacterAssetOptions options;
   options.unit_length = true;
   options.soft.emplace();
   options.soft->materials = materials;
@@ -66,7 +66,13 @@ SoftScene::SoftScene(const std::vector<SoftMaterial>& materials, double range)
           *source, ClipPose{std::uint32_t{0},
                             kClipFraction * static_cast<double>(source->clips[0].duration)}))),
       diagonal_(bounds_of(*source, check(pose_model(*source, rest))).size().norm()) {
-  check(instance.advance(pose, 0));
+  check(instance.prepare_to_tear());
+  draw_frame(0);
+}
+
+void SoftScene::draw_frame(double seconds) {
+  check(instance.advance(pose, seconds));
+  check(instance.draw());
 }
 
 void SoftScene::tear(const std::vector<Vec2d>& path) {
@@ -74,17 +80,17 @@ void SoftScene::tear(const std::vector<Vec2d>& path) {
   for (const Vec2d& at : path) stroke.push_back({{at.x(), at.y(), 1.0}, {at.x(), at.y(), -0.05}});
   ChangeRecord change;
   (void)check(instance.tear(rest, stroke, {}, &change));
-  check(instance.advance(pose, 0));
+  draw_frame(0);
   changes.push_back(std::move(change));
 }
 
 Result<ForceTearingReport> SoftScene::tear_overstretched() {
   Result<ForceTearingReport> report = instance.tear_overstretched();
-  check(instance.advance(pose, 0));
+  draw_frame(0);
   return report;
 }
 
-void SoftScene::step() { check(instance.advance(pose, kStep)); }
+void SoftScene::step() { draw_frame(kStep); }
 
 int SoftScene::step_until_still() {
   int steps = 0;
@@ -125,11 +131,11 @@ double SoftScene::widest_gap() const {
 }
 
 std::vector<DeformedMesh> SoftScene::posed() const {
-  return check(pose_model(instance.model().character(), pose));
+  return check(pose_model(instance.character(), pose));
 }
 
-std::vector<DeformedMesh> SoftScene::displaced() const {
-  std::vector<DeformedMesh> result(instance.model().character().meshes.size());
+std::vector<DeformedMesh> SoftScene::displaced() {
+  std::vector<DeformedMesh> result(instance.character().meshes.size());
   for (std::uint32_t m = 0; m < result.size(); ++m) {
     const PosedMesh mesh = instance.mesh(m);
     result[m].positions.assign(mesh.positions.begin(), mesh.positions.end());
@@ -139,10 +145,10 @@ std::vector<DeformedMesh> SoftScene::displaced() const {
 }
 
 void SoftScene::draw(const std::string& png, const ViewFrame& frame, const Vec3d& centre,
-                     double radius) const {
+                     double radius) {
   const std::vector<DeformedMesh> untorn = check(pose_model(*source, pose));
-  const std::vector<RimEdge> rims = find_rims(instance.model());
-  Character still = make_torn_still(instance.model(), displaced(), posed(), untorn, rims, frame,
+  const std::vector<RimEdge> rims = find_rims(*instance.model());
+  Character still = make_torn_still(*instance.model(), displaced(), posed(), untorn, rims, frame,
                                     kThickness * diagonal_);
   paint(still, kSurface);
   Camera camera;

@@ -38,14 +38,13 @@ class SoftScene {
   [[nodiscard]] const SoftBody& body() const { return *instance.body(); }
   [[nodiscard]] const ParticleSet& particles() const { return *instance.particles(); }
 
-  [[nodiscard]] std::vector<DeformedMesh> posed() const;      ///< By the bones alone.
-  [[nodiscard]] std::vector<DeformedMesh> displaced() const;  ///< By bones and particles.
+  [[nodiscard]] std::vector<DeformedMesh> posed() const;  ///< By the bones alone.
+  [[nodiscard]] std::vector<DeformedMesh> displaced();    ///< By bones and particles.
 
   ///
   /// @param centre  of the picture, model space.
   /// @param radius  of the visible part, metres.
-  void draw(const std::string& png, const ViewFrame& frame, const Vec3d& centre,
-            double radius) const;
+  void draw(const std::string& png, const ViewFrame& frame, const Vec3d& centre, double radius);
   void draw_particles(const std::string& png) const;
 
   std::shared_ptr<const Character> source;
@@ -54,6 +53,8 @@ class SoftScene {
   std::vector<ChangeRecord> changes;
 
  private:
+  void draw_frame(double seconds);
+
   double diagonal_ = 0;
 };
 

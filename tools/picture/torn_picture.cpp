@@ -177,7 +177,7 @@ Status draw_torn(const LoadedCharacter& loaded, std::span<const Operation> histo
                  const std::filesystem::path& png, const PosedRobot* robot) {
   Result<CharacterInstance> instance = make_gaping_instance(loaded.character);
   if (!instance) return instance.error();
-  const TornModel& torn = instance->model();
+  const TornModel& torn = *instance->model();
   const Operation& newest = newest_of(history);
   const Result<ModelPose> pose = make_pose(torn.source(), last_pose_of(newest));
   if (!pose) return pose.error();

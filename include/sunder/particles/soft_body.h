@@ -166,6 +166,9 @@ class SUNDER_API SoftBody {
   [[nodiscard]] std::uint32_t particle_count() const;
   [[nodiscard]] bool is_awake(std::uint32_t particle) const;
   [[nodiscard]] std::uint32_t awake_count() const;
+  /// Whether step() may move anything in an unchanged pose: particles are awake, or forces, tears
+  /// or settings changed since the last step. O(1).
+  [[nodiscard]] bool needs_step() const;
   [[nodiscard]] const ContactReport& contacts() const;
 
  private:

@@ -2,74 +2,68 @@
 
 #include <sunder/core/parallel_for.h>
 #include <sunder/particles/force_tearing.h>
-#include <sunder/particles/soft_body.h>
-#include <sunder/skinning/bone_palette.h>
+#include <sunder/scene/character_asset.h>
 #include <sunder/tear/refit_job.h>
 #include <sunder/tear/tear_stroke.h>
 
+#include <cstdint>
 #include <memory>
-#include <optional>
 #include <span>
 #include <vector>
 
 namespace sunder {
 
-/// Options of a soft surface. It is decomposed in the rest pose.
-struct SoftTissue {
-  DecompositionOptions decomposition;
-  /// At least one; all particles start with the first.
-  std::vector<SoftMaterial> materials = {SoftMaterial()};
-  SoftBodyOptions body;
+/// A triangle to be written into an index buffer.
+struct TriangleWrite {
+  std::uint32_t place = 0;  ///< Index of the triangle in the index buffer.
+  Triangle triangle = {};
 };
 
-struct CharacterInstanceOptions {
-  TornCapacity capacity;  ///< Room for operations. Default: the instance grows as needed.
-  /// How new vertices are skinned, if an operation has no options of its own.
-  WeightOptions weights;
-  std::optional<SoftTissue> soft;  ///< Empty: the surface follows its bones only.
-  SkinningMethod method = SkinningMethod::linear;
-  bool has_normals = true;   ///< Whether normals are posed, if a mesh has them.
-  bool has_tangents = true;  ///< Likewise for tangents.
-  bool unit_length = false;  ///< Whether they are normalised; see VertexTarget::unit_length.
-  ParallelFor parallel_for;  ///< Used by advance().
-};
-
-/// One mesh for drawing, after CharacterInstance::advance(). All spans are valid until the next
-/// call that is not const.
+/// One mesh for drawing, after CharacterInstance::draw(), with what changed since an epoch. All
+/// spans are valid until the next call on the instance that is not const.
 struct PosedMesh {
-  std::span<const Vec3f> positions;  ///< One per vertex; model space, metres.
-  std::span<const Vec3f> normals;    ///< One per vertex, or empty.
-  std::span<const Vec4f> tangents;   ///< One per vertex, or empty; w is the bitangent's sign.
-  std::span<const Triangle> triangles;
-  /// Ranges that the last advance() changed, to be uploaded; ascending and disjoint. A buffer that
-  /// grew is listed as a whole.
+  std::uint64_t epoch = 0;              ///< To be passed to the next call of mesh().
+  std::span<const Vec3f> positions;     ///< One per vertex; model space, metres.
+  std::span<const Vec3f> normals;       ///< One per vertex, or empty.
+  std::span<const Vec4f> tangents;      ///< One per vertex, or empty; w is the bitangent's sign.
+  std::span<const DrawRange> ranges;    ///< At most two per submesh: one draw call each.
+  std::uint32_t triangle_capacity = 0;  ///< Size that the index buffer needs, in triangles.
+  /// Vertices to be uploaded; ascending and disjoint. A buffer that grew is listed as a whole.
   std::span<const IndexRange> dirty_vertices;
-  std::span<const IndexRange> dirty_triangles;
   /// Vertices whose other attributes (texture coordinates, colours, weights) are new; read them
-  /// from the model's mesh.
+  /// from the model's mesh. Ascending and disjoint.
   std::span<const IndexRange> dirty_attributes;
+  /// Triangles to be written into the index buffer, in order.
+  std::span<const TriangleWrite> triangle_writes;
 };
 
-/// One animated, soft, tearable copy of a character, with the posed vertices that an engine draws.
-/// It owns the parts (TornModel, ParticleSet, SoftBody, SkinnedMesh, BonePalette, PosedBuffer) and
-/// calls them in the right order: a call that tears updates the particles at once, and advance()
-/// updates the meshes. Several instances may share one Character.
+/// One animated, soft, tearable instance of a CharacterAsset, with the posed vertices that an
+/// engine draws. It owns the parts (TornModel, ParticleSet, SoftBody, BonePalette, PosedBuffer),
+/// creates them when they are needed first, and calls them in the right order: a call that tears
+/// updates the particles at once; draw() updates the meshes.
 ///
 /// Results have the same bits as the same calls on the parts. One thread at a time per instance;
-/// different instances are independent. A failing call changes nothing. See docs/frame.md.
+/// different instances are independent, also those of one asset. A failing call changes nothing.
+/// See docs/frame.md.
 class SUNDER_API CharacterInstance {
  public:
-  /// @param character  satisfies validate_character(); kept.
-  /// @return as the create() of TornModel, SkinnedMesh, ParticleSet and SoftBody.
-  /// O(size of the character).
+  /// @return empty_input without an asset; limit_exceeded: out of memory. O(meshes + bones).
+  static Result<CharacterInstance> create(std::shared_ptr<const CharacterAsset> asset,
+                                          const TornCapacity& capacity = {});
+  /// An instance that shares its asset with no other one. @return also as CharacterAsset::create().
   static Result<CharacterInstance> create(std::shared_ptr<const Character> character,
-                                          const CharacterInstanceOptions& options = {});
+                                          const CharacterAssetOptions& options = {},
+                                          const TornCapacity& capacity = {});
   ~CharacterInstance();
   CharacterInstance(CharacterInstance&&) noexcept;
   CharacterInstance& operator=(CharacterInstance&&) noexcept;
 
+  /// Creates the torn model and the soft body now, which the first operation would do otherwise.
+  /// @return limit_exceeded: out of memory.
+  Status prepare_to_tear();
+
   // ---- Operations: each is the call of TornModel of its name, documented there. The particles
-  // follow at once; the next advance() draws the effect. All return what TornModel returns; also
+  // follow at once; the next draw() shows the effect. All return what TornModel returns; also
   // limit_exceeded if the particles cannot follow without enough memory, after which only a new
   // instance helps.
 
@@ -84,8 +78,9 @@ class SUNDER_API CharacterInstance {
   Result<TearReport> apply(const Operation& operation,
                            std::vector<ChangeRecord>* changes = nullptr);
 
-  /// As TornModel::compact(). All other parts are made anew: the next advance() draws everything,
-  /// and tissue is at rest, without the forces, holds, colliders and materials that were set.
+  /// As TornModel::compact(). The instance has an asset of its own afterwards, and all parts are
+  /// made anew: tissue is at rest, without the forces, holds, colliders and materials that were
+  /// set. Start from the index buffers of the new asset.
   Result<CompactMaps> compact();
 
   // ---- A stroke over several frames: each is the call of TearStroke of its name. At most one
@@ -99,7 +94,8 @@ class SUNDER_API CharacterInstance {
   Status cancel_stroke(ChangeRecord* change = nullptr);
 
   /// As sunder::tear_overstretched(), in the pose of the last advance().
-  /// @return also invalid_argument for an instance that is not soft, or before the first advance().
+  /// @return also invalid_argument for an instance without a soft body, or before the first
+  ///         advance().
   Result<ForceTearingReport> tear_overstretched(const ForceTearingOptions& options = {},
                                                 std::vector<ChangeRecord>* changes = nullptr);
 
@@ -109,31 +105,60 @@ class SUNDER_API CharacterInstance {
   /// @return as RefitJob::swap_in().
   Result<WeightReport> swap_in(const RefitJob& job, ChangeRecord* change = nullptr);
 
-  /// Advances to a pose: steps the soft body, updates the meshes that were torn since the last
-  /// call, and poses every vertex that changed. O(bones + vertices that moved + changes by tears),
-  /// and the step of the soft body. Without a tear, no allocation once warm.
+  /// Advances to a pose and steps the soft body. O(bones), and the step. No allocation once warm.
   ///
   /// @param pose     one matrix per bone, one weight per morph weight.
   /// @param seconds  since the last call, >= 0; the time step of the soft body.
   /// @return size_mismatch, index_out_of_range, non_finite_value, invalid_argument (nothing is
-  ///         changed); limit_exceeded without enough memory: do not draw mesh() until a later call
-  ///         succeeds; the time may have passed for the soft body.
+  ///         changed); limit_exceeded without enough memory: the time may have passed for the soft
+  ///         body.
   Status advance(const ModelPose& pose, double seconds);
 
-  /// One mesh of model().character(), unchecked. Empty before the first advance(), and between an
-  /// operation that changed it and the next advance().
-  [[nodiscard]] PosedMesh mesh(std::uint32_t mesh) const;
+  /// Poses every vertex that changed since the last call. Leave it out for an instance that nobody
+  /// sees. O(vertices that moved + changes by tears); O(meshes) if nothing moved. Without a tear,
+  /// no allocation once warm.
+  ///
+  /// @return invalid_argument before the first advance(); limit_exceeded without enough memory, and
+  ///         capacity_exceeded if a target of set_target() is too small: do not use mesh() until a
+  ///         later call succeeds.
+  Status draw(const ParallelFor& parallel_for = {});
 
-  /// The torn model, read-only; it changes through the calls above.
-  [[nodiscard]] const TornModel& model() const;
+  /// Lets draw() write a mesh into memory of the caller, such as a mapped vertex buffer, with room
+  /// for `target.vertex_count` vertices. Attributes without data are not computed. Without data at
+  /// all the instance has memory of its own again. The mesh index is unchecked.
+  /// @return limit_exceeded: out of memory.
+  Status set_target(std::uint32_t mesh, const VertexTarget& target);
+
+  /// One mesh after draw(), unchecked.
+  /// @param seen  the epoch up to which the caller's buffers are up to date; 0: they are those of
+  ///              the asset, without posed vertices.
+  /// Empty before the first draw(), and between an operation that changed the mesh and the next
+  /// draw(). O(changes since then).
+  [[nodiscard]] PosedMesh mesh(std::uint32_t mesh, std::uint64_t seen = 0);
+
+  [[nodiscard]] const std::shared_ptr<const CharacterAsset>& asset() const;
+  /// The character in its current state: that of the asset, or of model().
+  [[nodiscard]] const Character& character() const;
+  /// The torn model, read-only; it changes through the calls above. Null before the first operation
+  /// or prepare_to_tear().
+  [[nodiscard]] const TornModel* model() const;
   /// The pose of the last advance(); empty before it.
   [[nodiscard]] const ModelPose& pose() const;
-  /// The soft body, for forces, holds, colliders and materials; advance() steps it. Null for an
-  /// instance that is not soft.
+  /// The soft body, for forces, holds, colliders and materials; advance() steps it. Null like
+  /// model(), and if the asset is not soft.
   [[nodiscard]] SoftBody* body();
   [[nodiscard]] const SoftBody* body() const;
-  /// Null for an instance that is not soft.
+  /// Null like body().
   [[nodiscard]] const ParticleSet* particles() const;
+  [[nodiscard]] bool is_in_stroke() const;
+  /// The number of vertices that the last draw() posed.
+  [[nodiscard]] std::uint32_t drawn_vertices() const;
+  /// Memory of this instance, without its asset. O(meshes).
+  [[nodiscard]] std::size_t memory_bytes() const;
+  /// Whether draw() has something to do: an operation, another pose, or tissue that moved.
+  [[nodiscard]] bool needs_draw() const;
+  /// Whether advance() has something to do in an unchanged pose: tissue is awake, or was changed.
+  [[nodiscard]] bool needs_step() const;
 
  private:
   struct State;

@@ -1,0 +1,116 @@
+#pragma once
+
+#include <sunder/core/parallel_for.h>
+#include <sunder/scene/character_instance.h>
+#include <sunder/scene/frame_stats.h>
+#include <sunder/scene/scene_command.h>
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+
+namespace sunder {
+
+struct SceneOptions {
+  /// The caller's job system. Its tasks may allocate, unlike those of other calls. Without it the
+  /// scene has a pool of `threads` threads.
+  ParallelFor parallel_for;
+  std::uint32_t threads = 0;  ///< 0: one per core. 1: the calling thread does all the work.
+  /// Heights on the screen, in pixels, below which an instance is updated in every second frame,
+  /// and in every fourth; see Scene::set_screen_height(). One that is being torn never is.
+  std::array<double, 2> slower_below = {0, 0};
+};
+
+struct SpawnOptions {
+  TornCapacity capacity;  ///< Room for operations. Default: the instance grows as needed.
+  bool is_visible = true;
+};
+
+struct PlayOptions {
+  double start = 0.0;     ///< Seconds in the clip.
+  double speed = 1.0;     ///< Seconds of the clip per second; may be negative.
+  bool is_looped = true;  ///< Otherwise the pose at the end is held.
+};
+
+/// Many characters, updated once per frame: what changed is animated, torn, stepped and posed; what
+/// did not is not even looked at. Cost is in proportion to the instances that are active.
+///
+/// One thread at a time, except for submit(), which any thread may call at any time. Results have
+/// the same bits for any number of threads. A failing call changes nothing. See docs/scene.md.
+class SUNDER_API Scene {
+ public:
+  /// @return limit_exceeded: out of memory or threads.
+  static Result<Scene> create(const SceneOptions& options = {});
+  ~Scene();
+  Scene(Scene&&) noexcept;
+  Scene& operator=(Scene&&) noexcept;
+
+  // ---- Instances. Calls with the name of an instance that does not exist return not_found.
+
+  /// An instance in the rest pose. @return as CharacterInstance::create(). O(bones).
+  Result<InstanceId> spawn(std::shared_ptr<const CharacterAsset> asset,
+                           const SpawnOptions& options = {});
+  /// Its commands that are not applied yet fail.
+  Status destroy(InstanceId instance);
+  [[nodiscard]] bool contains(InstanceId instance) const;
+  [[nodiscard]] std::uint32_t instance_count() const;
+  /// An instance, for calls between updates: queries, holds and forces on its tissue, operations
+  /// whose result is needed at once. Null if it does not exist. Valid until it is destroyed.
+  [[nodiscard]] CharacterInstance* find(InstanceId instance);
+  [[nodiscard]] const CharacterInstance* find(InstanceId instance) const;
+
+  // ---- Motion and visibility.
+
+  /// Plays a clip of the asset. @return index_out_of_range for the clip; non_finite_value.
+  Status play(InstanceId instance, std::uint32_t clip, const PlayOptions& options = {});
+  /// Holds the present pose.
+  Status stop(InstanceId instance);
+  /// Sets the pose of the next update, and stops what plays. @return as
+  /// CharacterInstance::advance().
+  Status set_pose(InstanceId instance, const ModelPose& pose);
+  /// An instance that is not visible is neither sampled, stepped nor posed. Time goes on for its
+  /// clip.
+  Status set_visible(InstanceId instance, bool is_visible);
+  /// @param pixels  the height of the instance on the screen, > 0; initially infinite.
+  Status set_screen_height(InstanceId instance, double pixels);
+
+  // ---- Frames.
+
+  /// Queues a command, to be applied in the next update in the order of the numbers. Thread-safe.
+  /// @return limit_exceeded: out of memory.
+  Result<CommandId> submit(InstanceId instance, SceneCommand command,
+                           const CommandOptions& options = {});
+
+  /// Advances by a frame. For each active instance, as tasks: samples its clip, applies its
+  /// commands in the new pose, steps its tissue, and poses the vertices that changed.
+  /// @param seconds  since the last update, >= 0.
+  /// @return non_finite_value, invalid_argument (nothing is changed). An instance that fails, for
+  ///         want of memory, keeps its last drawing and is tried again in the next update; the
+  ///         failure of the first one is returned, with its slot.
+  /// O(active instances, and what changed in them). No allocation once warm without commands.
+  Status update(double seconds);
+
+  /// What the last update did.
+  [[nodiscard]] const FrameStats& stats() const;
+  /// The outcomes of the commands of the last update, ascending. Valid until the next update.
+  [[nodiscard]] std::span<const CommandResult> results() const;
+  /// The instances that the last update posed anew, in the order of their slots.
+  [[nodiscard]] std::span<const InstanceId> drawn() const;
+  /// One mesh of an instance for drawing; see CharacterInstance::mesh().
+  [[nodiscard]] PosedMesh mesh(InstanceId instance, std::uint32_t mesh, std::uint64_t seen = 0);
+
+  struct Memory {
+    std::size_t assets = 0;     ///< Shared structures, each counted once.
+    std::size_t instances = 0;  ///< All instances, without their assets.
+  };
+  /// O(instances).
+  [[nodiscard]] Memory memory_bytes() const;
+
+ private:
+  struct State;
+  explicit Scene(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace sunder

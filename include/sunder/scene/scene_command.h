@@ -1,0 +1,67 @@
+#pragma once
+
+#include <sunder/operation/operation.h>
+#include <sunder/tear/change_record.h>
+#include <sunder/tear/report.h>
+#include <sunder/tear/tear_stroke.h>
+
+#include <cstdint>
+#include <variant>
+#include <vector>
+
+namespace sunder {
+
+/// Names an instance of a Scene. The name of a destroyed instance never becomes that of another
+/// one.
+struct InstanceId {
+  std::uint32_t slot = kNone;
+  std::uint32_t generation = 0;
+
+  bool operator==(const InstanceId&) const = default;
+};
+
+// Commands act in the pose that the instance has in the frame in which they are applied.
+
+struct TearCommand {
+  Stroke stroke;
+  TearOptions options;
+};
+/// Starts a stroke that later commands extend, frame by frame.
+struct BeginStrokeCommand {
+  Blade blade;
+  TearOptions options;
+  StrokeSampling sampling;
+};
+struct ExtendStrokeCommand {
+  Blade blade;
+  double seconds = 0.0;  ///< As TearStroke::extend().
+};
+struct EndStrokeCommand {};
+struct CancelStrokeCommand {};
+struct UndoCommand {};
+struct RedoCommand {};
+
+/// An operation on an instance. A PlaneCut cuts, a Bore drills, a WeightsOperation assigns new
+/// weights to torn vertices.
+using SceneCommand =
+    std::variant<TearCommand, PlaneCut, Bore, BeginStrokeCommand, ExtendStrokeCommand,
+                 EndStrokeCommand, CancelStrokeCommand, UndoCommand, RedoCommand, WeightsOperation>;
+
+/// The number of a command, ascending in the order of Scene::submit().
+using CommandId = std::uint64_t;
+
+/// The outcome of a command.
+struct CommandResult {
+  CommandId command = 0;
+  InstanceId instance;
+  Status status;                      ///< A command that failed changed nothing.
+  TearReport report;                  ///< Empty for a command that failed, and for undo and redo.
+  std::vector<ChangeRecord> changes;  ///< If CommandOptions::wants_changes.
+};
+
+struct CommandOptions {
+  bool wants_changes = false;  ///< Whether the result lists the changes, for engines that mirror
+                               ///< births and lips.
+};
+
+}  // namespace sunder

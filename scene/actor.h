@@ -1,0 +1,85 @@
+#pragma once
+
+#include <sunder/scene/scene.h>
+
+#include <limits>
+#include <vector>
+
+#include "scene/command_queue.h"
+#include "scene/playback.h"
+
+namespace sunder::scene {
+
+/// The part of an update that one instance took.
+struct ActorFrame {
+  Status status;
+  bool was_sampled = false, was_advanced = false, was_drawn = false;
+  bool was_waiting = false;
+  Index vertices = 0;
+  double animation = 0, operations = 0, tissue = 0, drawing = 0;  ///< Microseconds.
+};
+
+/// An instance in a scene: its character, what moves it, and what it still has to do.
+class Actor {
+ public:
+  /// @param now  time of the scene, seconds.
+  Actor(CharacterInstance made, bool is_visible, double now)
+      : instance(std::move(made)),
+        is_visible_(is_visible),
+        now_(now),
+        last_operation_(now - kCalm) {}
+
+  /// The inputs of a frame.
+  struct Frame {
+    double now;                ///< Time of the scene, seconds.
+    bool is_its_turn = true;   ///< Otherwise it is updated only while it is being torn.
+    ParallelFor parallel_for;  ///< For the vertices of this instance alone.
+  };
+  /// Runs as a task: touches nothing but this object.
+  void update(const Frame& frame);
+
+  Status play(Index clip, const PlayOptions& options, double now);
+  void stop() { playback_.stop(); }
+  Status set_pose(const ModelPose& pose);
+  void set_visible(bool is_visible) { is_visible_ = is_visible; }
+  /// Whether it would have something to do in the next update if it were visible.
+  [[nodiscard]] bool is_busy() const;
+  /// Whether it has to be looked at in the next update.
+  [[nodiscard]] bool is_active() const { return !commands.empty() || (is_visible_ && is_busy()); }
+  /// Whether it is being torn: then it is updated at the full rate.
+  [[nodiscard]] bool is_being_torn() const {
+    return instance.is_in_stroke() || !commands.empty() || now_ < last_operation_ + kCalm;
+  }
+
+  [[nodiscard]] std::size_t memory_bytes() const {
+    return sizeof(*this) + instance.memory_bytes() +
+           pose_.model_from_bone.capacity() * sizeof(Affine3d);
+  }
+
+  CharacterInstance instance;
+  double screen_height = std::numeric_limits<double>::infinity();
+  std::vector<QueuedCommand> commands;  ///< For the next update.
+  std::vector<CommandResult> results;   ///< Of the last update.
+  ActorFrame frame;                     ///< The last update.
+  bool is_listed = false;               ///< Whether it is in the list of active instances.
+  bool is_hidden = false;               ///< Whether it would be, if it were visible.
+
+ private:
+  /// After an operation, the wound moves; for so many seconds it is seen at the full rate.
+  static constexpr double kCalm = 1.0;
+
+  Status animate();
+  Status move(double seconds);
+  void draw(const ParallelFor& parallel_for);
+  void apply_commands();
+  void apply(const QueuedCommand& queued);
+
+  Playback playback_;
+  ModelPose pose_;  ///< Of the next advance(); empty: rest.
+  bool has_new_pose_ = true;
+  bool is_visible_;
+  double now_;             ///< Time of the scene at the last update that was not left out.
+  double last_operation_;  ///< Time of the scene.
+};
+
+}  // namespace sunder::scene

@@ -1,0 +1,79 @@
+#include <sunder/scene/character_asset.h>
+
+#include <new>
+
+#include "scene/asset_data.h"
+#include "scene/torn_parts.h"
+
+namespace sunder {
+namespace {
+
+Status out_of_memory() {
+  return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
+}
+
+Result<scene::AssetMesh> make_mesh(const Mesh& mesh, std::size_t slots,
+                                   const CharacterAssetOptions& options) {
+  Result<SkinnedMesh> skinned = SkinnedMesh::create(source_of(mesh), slots);
+  if (!skinned) return skinned.error();
+  return scene::AssetMesh{std::move(*skinned), slots, scene::DrawOrder(mesh),
+                          options.has_normals && !mesh.normals.empty(),
+                          options.has_tangents && !mesh.tangents.empty()};
+}
+
+/// Whether instances can be made soft.
+Status check_tissue(const SoftTissue& soft, std::shared_ptr<const Character> character) {
+  Result<TornModel> model = TornModel::create(std::move(character));
+  return model ? scene::TornParts(std::move(*model)).make_soft(soft) : model.error();
+}
+
+}  // namespace
+
+CharacterAsset::CharacterAsset(std::unique_ptr<const scene::AssetData> data)
+    : data_(std::move(data)) {}
+CharacterAsset::~CharacterAsset() = default;
+
+Result<std::shared_ptr<const CharacterAsset>> CharacterAsset::create(
+    std::shared_ptr<const Character> character, const CharacterAssetOptions& options) {
+  if (!character) return Status::failure(StatusCode::empty_input, kNone, "there is no character");
+  try {
+    if (Status status = validate_character(*character); !status) return status;
+    auto data = std::make_unique<scene::AssetData>();
+    data->options = options;
+    for (const Mesh& mesh : character->meshes) {
+      auto made = make_mesh(mesh, character->skins[mesh.skin].bones.size(), options);
+      if (!made) return made.error();
+      data->meshes.push_back(std::move(*made));
+    }
+    if (options.soft)
+      if (Status status = check_tissue(*options.soft, character); !status) return status;
+    data->character = std::move(character);
+    return std::shared_ptr<const CharacterAsset>(new CharacterAsset(std::move(data)));
+  } catch (const std::bad_alloc&) {
+    return out_of_memory();
+  }
+}
+
+const std::shared_ptr<const Character>& CharacterAsset::character() const {
+  return data_->character;
+}
+const CharacterAssetOptions& CharacterAsset::options() const { return data_->options; }
+
+std::span<const Triangle> CharacterAsset::triangles(std::uint32_t mesh) const {
+  SUNDER_ASSERT(mesh < data_->meshes.size());
+  return data_->meshes[mesh].order.triangles(data_->character->meshes[mesh]);
+}
+
+std::span<const DrawRange> CharacterAsset::draw_ranges(std::uint32_t mesh) const {
+  SUNDER_ASSERT(mesh < data_->meshes.size());
+  return data_->meshes[mesh].order.ranges();
+}
+
+std::size_t CharacterAsset::memory_bytes() const {
+  std::size_t bytes = sizeof(*this) + sizeof(*data_);
+  for (const scene::AssetMesh& mesh : data_->meshes)
+    bytes += sizeof(mesh) + mesh.skinned.stream_bytes() + mesh.order.memory_bytes();
+  return bytes;
+}
+
+}  // namespace sunder

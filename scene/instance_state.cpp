@@ -1,0 +1,134 @@
+#include "scene/instance_state.h"
+
+#include <new>
+
+namespace sunder {
+namespace {
+
+Status out_of_memory() {
+  return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory; make a new instance");
+}
+
+}  // namespace
+
+Status CharacterInstance::State::require_torn() {
+  if (is_broken) return out_of_memory();
+  if (torn) return {};
+  const CharacterAssetOptions& options = shared().options;
+  try {
+    Result<TornModel> model = TornModel::create(shared().character, capacity);
+    if (!model) return model.error();
+    if (Status status = model->set_weights(options.weights); !status) return status;
+    auto parts = std::make_unique<scene::TornParts>(std::move(*model));
+    if (options.soft)
+      if (Status status = parts->make_soft(*options.soft); !status) return status;
+    torn = std::move(parts);
+    return {};
+  } catch (const std::bad_alloc&) {
+    return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
+  }
+}
+
+Status CharacterInstance::State::require_drawn() {
+  if (drawn) return {};
+  const Character& source = *shared().character;
+  auto parts = std::make_unique<DrawnParts>();
+  for (const Skin& skin : source.skins) {
+    Result<BonePalette> made = BonePalette::create(
+        skin.bones.size(), source.rest_morph_weights.size(), shared().options.method);
+    if (!made) return made.error();
+    parts->palettes.push_back(std::move(*made));
+  }
+  parts->meshes.reserve(source.meshes.size());
+  for (Index m = 0; m < source.meshes.size(); ++m)
+    parts->meshes.emplace_back(shared().meshes[m], source.meshes[m].vertex_count(),
+                               capacity.vertices, shared().options.unit_length);
+  if (torn)
+    for (Index m = 0; m < parts->meshes.size(); ++m)
+      parts->meshes[m].note_all(source.meshes[m], torn->model.character().meshes[m], epoch + 1);
+  drawn = std::move(parts);
+  return {};
+}
+
+void CharacterInstance::State::note(std::span<const ChangeRecord> changes) noexcept {
+  for (const ChangeRecord& change : changes)
+    for (const MeshChange& of_mesh : change.meshes) {
+      needs_draw = true;
+      if (drawn) drawn->meshes[of_mesh.mesh].note(of_mesh, epoch + 1);
+    }
+}
+
+Status CharacterInstance::State::follow(std::span<const ChangeRecord> changes) {
+  note(changes);
+  if (!torn->particles) return {};
+  Status status = torn->particles->follow(torn->model, changes);
+  is_broken = !status;
+  return status;
+}
+
+Status CharacterInstance::State::set_palettes() {
+  const std::vector<Skin>& skins = shared().character->skins;
+  for (std::size_t i = 0; i < skins.size(); ++i)
+    if (Status status = drawn->palettes[i].set(skins[i], pose); !status) return status;
+  return {};
+}
+
+Status CharacterInstance::State::draw_mesh(Index mesh, const ParallelFor& parallel_for) {
+  scene::InstanceMesh& posed = drawn->meshes[mesh];
+  const Mesh& source = shared().character->meshes[mesh];
+  if (!torn)
+    return posed.draw(
+        {source, nullptr, drawn->palettes[source.skin], nullptr, parallel_for, epoch + 1});
+  const TornModel& model = torn->model;
+  scene::InstanceMesh::Input input = {model.character().meshes[mesh],
+                                      &model.influence_positions(mesh),
+                                      drawn->palettes[source.skin],
+                                      nullptr,
+                                      parallel_for,
+                                      epoch + 1};
+  const std::span<const IndexRange> moved =
+      torn->body ? torn->body->moved_vertices(model, mesh) : std::span<const IndexRange>();
+  if (moved.empty()) return posed.draw(input);
+  VertexDisplacements displaced{torn->particles->vertex_points(mesh),
+                                torn->particles->influences(),
+                                torn->body->displacements(),
+                                moved,
+                                {},
+                                torn->body->rotations()};
+  if (posed.has_directions()) displaced.gradients = torn->particles->gradients(model);
+  input.displaced = &displaced;
+  return posed.draw(input);
+}
+
+Status CharacterInstance::State::draw(const ParallelFor& parallel_for) {
+  if (is_broken) return out_of_memory();
+  if (pose.model_from_bone.empty())
+    return Status::failure(StatusCode::invalid_argument, kNone,
+                           "the instance has no pose yet; call advance() first");
+  if (!needs_draw) return {};
+  try {
+    if (Status status = require_drawn(); !status) return status;
+    if (Status status = set_palettes(); !status) return status;
+    for (Index mesh = 0; mesh < drawn->meshes.size(); ++mesh)
+      if (Status status = draw_mesh(mesh, parallel_for); !status) return status;
+    ++epoch;
+    needs_draw = false;
+    return {};
+  } catch (const std::bad_alloc&) {
+    return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
+  }
+}
+
+std::size_t CharacterInstance::State::memory_bytes() const {
+  std::size_t bytes = sizeof(*this) + pose.model_from_bone.capacity() * sizeof(Affine3d) +
+                      pose.morph_weights.capacity() * sizeof(float);
+  if (torn) bytes += sizeof(*torn);
+  if (!drawn) return bytes;
+  bytes += sizeof(*drawn);
+  for (const Skin& skin : shared().character->skins)
+    bytes += sizeof(BonePalette) + skin.bones.size() * sizeof(Affine3f);
+  for (const scene::InstanceMesh& mesh : drawn->meshes) bytes += sizeof(mesh) + mesh.memory_bytes();
+  return bytes;
+}
+
+}  // namespace sunder

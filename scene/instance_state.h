@@ -1,0 +1,83 @@
+#pragma once
+
+#include <sunder/scene/character_instance.h>
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "scene/asset_data.h"
+#include "scene/instance_mesh.h"
+#include "scene/torn_parts.h"
+
+namespace sunder {
+
+/// What an instance has once it is drawn.
+struct DrawnParts {
+  std::vector<BonePalette> palettes;  ///< One per skin.
+  std::vector<scene::InstanceMesh> meshes;
+};
+
+struct CharacterInstance::State {
+  State(std::shared_ptr<const CharacterAsset> of, const TornCapacity& room)
+      : asset(std::move(of)), capacity(room) {}
+
+  std::shared_ptr<const CharacterAsset> asset;
+  TornCapacity capacity;
+  std::unique_ptr<scene::TornParts> torn;  ///< Null before the first operation.
+  std::unique_ptr<DrawnParts> drawn;       ///< Null before the first draw().
+  ModelPose pose;
+  std::uint64_t epoch = 0;  ///< Of the last draw() that had something to do.
+  bool needs_draw = false;
+  bool is_broken = false;  ///< Memory ran out between two parts, which no longer agree.
+
+  [[nodiscard]] const scene::AssetData& shared() const { return *asset->data_; }
+  [[nodiscard]] const Character& character() const {
+    return torn ? torn->model.character() : *shared().character;
+  }
+
+  /// Makes what the first operation needs, if it is not there.
+  Status require_torn();
+  /// Makes what draw() needs, if it is not there. @throws std::bad_alloc
+  Status require_drawn();
+  /// Lets the meshes know.
+  void note(std::span<const ChangeRecord> changes) noexcept;
+  /// Lets the meshes and the particles know.
+  Status follow(std::span<const ChangeRecord> changes);
+  Status set_palettes();
+  Status draw_mesh(Index mesh, const ParallelFor& parallel_for);
+  Status draw(const ParallelFor& parallel_for);
+  [[nodiscard]] std::size_t memory_bytes() const;
+
+  /// Makes one call that tears, and passes its record on to the particles and the meshes.
+  template <class Call>
+  auto change(ChangeRecord* wanted, Call call) -> decltype(call(wanted)) {
+    if (Status status = require_torn(); !status) return status;
+    ChangeRecord& record = wanted != nullptr ? *wanted : scratch_;
+    auto outcome = call(&record);
+    if (outcome)
+      if (Status status = follow({&record, 1}); !status) return status;
+    return outcome;
+  }
+
+  /// Makes a call that appends its records to a list. Records made before a failure are passed on
+  /// too.
+  template <class Call, class PassOn>
+  auto change_all(std::vector<ChangeRecord>* wanted, Call call, PassOn pass_on)
+      -> decltype(call(wanted)) {
+    if (Status status = require_torn(); !status) return status;
+    std::vector<ChangeRecord> unwanted;
+    std::vector<ChangeRecord>& records = wanted != nullptr ? *wanted : unwanted;
+    const std::size_t before = records.size();
+    auto outcome = call(&records);
+    const auto made = std::span<const ChangeRecord>(records).subspan(before);
+    if (outcome || !made.empty())
+      if (Status status = pass_on(made); !status) return status;
+    return outcome;
+  }
+
+ private:
+  ChangeRecord scratch_;  ///< For callers that want no record.
+};
+
+}  // namespace sunder

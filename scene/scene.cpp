@@ -1,0 +1,336 @@
+#include <sunder/scene/scene.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <new>
+#include <set>
+#include <system_error>
+#include <utility>
+
+#include "scene/actor.h"
+#include "scene/thread_pool.h"
+
+namespace sunder {
+namespace {
+
+Status out_of_memory() {
+  return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
+}
+
+Status no_instance(InstanceId id) {
+  return Status::failure(StatusCode::not_found, id.slot, "there is no instance %u of generation %u",
+                         id.slot, id.generation);
+}
+
+struct Slot {
+  std::uint32_t generation = 0;
+  std::unique_ptr<scene::Actor> actor;  ///< Null: free.
+};
+
+}  // namespace
+
+struct Scene::State {
+  SceneOptions options;
+  std::unique_ptr<scene::ThreadPool> pool;
+  ParallelFor parallel_for;
+  std::vector<Slot> slots;
+  std::vector<Index> free_slots;
+  std::vector<Index> active;  ///< Slots that the next update looks at.
+  Index hidden = 0;           ///< Instances that are busy but not visible.
+  scene::CommandQueue queue;
+  std::vector<scene::QueuedCommand> taken;
+  std::vector<CommandResult> results;
+  std::vector<InstanceId> drawn;
+  FrameStats stats;
+  double now = 0;
+
+  [[nodiscard]] scene::Actor* find(InstanceId id) const {
+    if (id.slot >= slots.size() || slots[id.slot].generation != id.generation) return nullptr;
+    return slots[id.slot].actor.get();
+  }
+  /// Lets the next update look at an instance. There is room in the list for all slots.
+  void wake(Index slot) noexcept {
+    scene::Actor& actor = *slots[slot].actor;
+    hidden -= std::exchange(actor.is_hidden, false);
+    if (std::exchange(actor.is_listed, true)) return;
+    active.push_back(slot);
+  }
+  template <class Call>
+  Status call(InstanceId id, Call make_call) {
+    scene::Actor* const actor = find(id);
+    if (actor == nullptr) return no_instance(id);
+    Status status = make_call(*actor);
+    if (status) wake(id.slot);
+    return status;
+  }
+
+  void take_commands();
+  void run_actors();
+  void collect();
+  [[nodiscard]] bool is_turn_of(Index slot) const;
+};
+
+/// Hands each command to its instance. Commands without an instance fail at once.
+void Scene::State::take_commands() {
+  taken.clear();
+  queue.take(taken);
+  for (scene::QueuedCommand& queued : taken) {
+    if (scene::Actor* const actor = find(queued.instance)) {
+      actor->commands.push_back(std::move(queued));
+      wake(actor->commands.back().instance.slot);
+      continue;
+    }
+    CommandResult& result = results.emplace_back();
+    result.command = queued.id;
+    result.instance = queued.instance;
+    result.status = no_instance(queued.instance);
+  }
+}
+
+bool Scene::State::is_turn_of(Index slot) const {
+  const double height = slots[slot].actor->screen_height;
+  std::uint64_t interval = 1;
+  for (const double limit : options.slower_below)
+    if (height < limit) interval *= 2;
+  return (stats.frame + slot) % interval == 0;  // instances take turns
+}
+
+void Scene::State::run_actors() {
+  // Few instances share the threads for their vertices; many are a task each.
+  const bool is_each_a_task = active.size() >= parallel_for.threads;
+  struct Work {
+    State* scene;
+    ParallelFor inner;
+  };
+  const Work work = {this, is_each_a_task ? ParallelFor() : parallel_for};
+  const auto task = [](const void* of, std::uint32_t index) {
+    const auto& [scene, inner] = *static_cast<const Work*>(of);
+    const Index slot = scene->active[index];
+    scene->slots[slot].actor->update({scene->now, scene->is_turn_of(slot), inner});
+  };
+  const auto count = static_cast<std::uint32_t>(active.size());
+  if (is_each_a_task && parallel_for.run != nullptr && count > 1)
+    parallel_for.run(parallel_for.context, count, task, &work);
+  else
+    for (std::uint32_t i = 0; i < count; ++i) task(&work, i);
+}
+
+/// Sums up what the instances did, and lists those that stay active.
+void Scene::State::collect() {
+  std::sort(active.begin(), active.end());
+  std::size_t kept = 0;
+  for (const Index slot : active) {
+    scene::Actor& actor = *slots[slot].actor;
+    const scene::ActorFrame& of = actor.frame;
+    stats.sampled += of.was_sampled;
+    stats.advanced += of.was_advanced;
+    stats.drawn += of.was_drawn;
+    stats.waiting += of.was_waiting;
+    stats.unchanged += !of.was_waiting && !of.was_advanced && !of.was_drawn;
+    stats.vertices += of.vertices;
+    stats.animation += of.animation;
+    stats.operations += of.operations;
+    stats.tissue += of.tissue;
+    stats.drawing += of.drawing;
+    if (of.was_drawn) drawn.push_back({slot, slots[slot].generation});
+    for (CommandResult& result : actor.results) results.push_back(std::move(result));
+    actor.results.clear();
+    actor.is_listed = actor.is_active();
+    if (actor.is_listed) active[kept++] = slot;
+    actor.is_hidden = !actor.is_listed && actor.is_busy();
+    hidden += actor.is_hidden;
+  }
+  active.resize(kept);
+  std::sort(results.begin(), results.end(),
+            [](const CommandResult& a, const CommandResult& b) { return a.command < b.command; });
+  stats.commands = static_cast<std::uint32_t>(results.size());
+  for (const CommandResult& result : results) stats.failed += !result.status;
+}
+
+Scene::Scene(std::unique_ptr<State> state) : state_(std::move(state)) {}
+Scene::~Scene() = default;
+Scene::Scene(Scene&&) noexcept = default;
+Scene& Scene::operator=(Scene&&) noexcept = default;
+
+Result<Scene> Scene::create(const SceneOptions& options) {
+  try {
+    auto state = std::make_unique<State>();
+    state->options = options;
+    state->parallel_for = options.parallel_for;
+    const std::uint32_t cores = std::max(1u, std::thread::hardware_concurrency());
+    if (options.parallel_for.run == nullptr && options.threads != 1) {
+      state->pool =
+          std::make_unique<scene::ThreadPool>(options.threads == 0 ? cores : options.threads);
+      state->parallel_for = state->pool->parallel_for();
+    }
+    return Scene(std::move(state));
+  } catch (const std::system_error& error) {
+    return Status::failure(StatusCode::limit_exceeded, kNone, "cannot start a thread: %s",
+                           error.what());
+  } catch (const std::bad_alloc&) {
+    return out_of_memory();
+  }
+}
+
+// ---- Instances.
+
+Result<InstanceId> Scene::spawn(std::shared_ptr<const CharacterAsset> asset,
+                                const SpawnOptions& options) {
+  Result<CharacterInstance> made = CharacterInstance::create(std::move(asset), options.capacity);
+  if (!made) return made.error();
+  State& state = *state_;
+  try {
+    auto actor = std::make_unique<scene::Actor>(std::move(*made), options.is_visible, state.now);
+    if (state.free_slots.empty()) {
+      if (state.slots.size() == state.slots.capacity())
+        state.slots.reserve(2 * state.slots.size() + 16);
+      state.active.reserve(2 * state.slots.capacity());
+      state.free_slots.reserve(2 * state.slots.capacity());
+      state.free_slots.push_back(static_cast<Index>(state.slots.size()));
+      state.slots.emplace_back();
+    }
+    const Index slot = state.free_slots.back();
+    state.free_slots.pop_back();
+    state.slots[slot].actor = std::move(actor);
+    ++state.stats.instances;
+    state.wake(slot);
+    return InstanceId{slot, state.slots[slot].generation};
+  } catch (const std::bad_alloc&) {
+    return out_of_memory();
+  }
+}
+
+Status Scene::destroy(InstanceId id) {
+  State& state = *state_;
+  scene::Actor* const actor = state.find(id);
+  if (actor == nullptr) return no_instance(id);
+  if (actor->is_listed) std::erase(state.active, id.slot);
+  state.hidden -= actor->is_hidden;
+  state.slots[id.slot].actor.reset();
+  ++state.slots[id.slot].generation;
+  state.free_slots.push_back(id.slot);
+  --state.stats.instances;
+  return {};
+}
+
+bool Scene::contains(InstanceId id) const { return state_->find(id) != nullptr; }
+std::uint32_t Scene::instance_count() const { return state_->stats.instances; }
+
+CharacterInstance* Scene::find(InstanceId id) {
+  scene::Actor* const actor = state_->find(id);
+  if (actor == nullptr) return nullptr;
+  state_->wake(id.slot);
+  return &actor->instance;
+}
+
+const CharacterInstance* Scene::find(InstanceId id) const {
+  const scene::Actor* const actor = state_->find(id);
+  return actor == nullptr ? nullptr : &actor->instance;
+}
+
+// ---- Motion and visibility.
+
+Status Scene::play(InstanceId id, std::uint32_t clip, const PlayOptions& options) {
+  return state_->call(id,
+                      [&](scene::Actor& actor) { return actor.play(clip, options, state_->now); });
+}
+
+Status Scene::stop(InstanceId id) {
+  return state_->call(id, [](scene::Actor& actor) -> Status {
+    actor.stop();
+    return {};
+  });
+}
+
+Status Scene::set_pose(InstanceId id, const ModelPose& pose) {
+  return state_->call(id, [&](scene::Actor& actor) { return actor.set_pose(pose); });
+}
+
+Status Scene::set_visible(InstanceId id, bool is_visible) {
+  return state_->call(id, [&](scene::Actor& actor) -> Status {
+    actor.set_visible(is_visible);
+    return {};
+  });
+}
+
+Status Scene::set_screen_height(InstanceId id, double pixels) {
+  if (!(pixels > 0))
+    return Status::failure(StatusCode::invalid_argument, kNone,
+                           "the height on the screen is %g pixels; it must be above 0", pixels);
+  return state_->call(id, [&](scene::Actor& actor) -> Status {
+    actor.screen_height = pixels;
+    return {};
+  });
+}
+
+// ---- Frames.
+
+Result<CommandId> Scene::submit(InstanceId id, SceneCommand command,
+                                const CommandOptions& options) {
+  try {
+    return state_->queue.push(id, std::move(command), options);
+  } catch (const std::bad_alloc&) {
+    return out_of_memory();
+  }
+}
+
+Status Scene::update(double seconds) {
+  if (!std::isfinite(seconds))
+    return Status::failure(StatusCode::non_finite_value, kNone,
+                           "the time since the last update is not finite");
+  if (seconds < 0)
+    return Status::failure(StatusCode::invalid_argument, kNone,
+                           "the time since the last update is %g s; it must not be negative",
+                           seconds);
+  State& state = *state_;
+  const auto begin = std::chrono::steady_clock::now();
+  const std::uint64_t frame = state.stats.frame + 1;
+  state.stats = {.frame = frame, .instances = state.stats.instances};
+  state.now += seconds;
+  Status status;
+  try {
+    state.results.clear();
+    state.drawn.clear();
+    state.drawn.reserve(state.slots.size());
+    state.take_commands();
+    state.stats.idle =
+        state.stats.instances - static_cast<Index>(state.active.size()) - state.hidden;
+    state.stats.unseen = state.hidden;
+    state.run_actors();
+    for (const Index slot : state.active)
+      if (const Status& of = state.slots[slot].actor->frame.status; !of && status) {
+        status = Status::failure(of.code(), slot, "instance %u: %s", slot, of.text().data());
+      }
+    state.collect();
+  } catch (const std::bad_alloc&) {
+    status = out_of_memory();
+  }
+  state.stats.total =
+      std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - begin).count();
+  return status;
+}
+
+const FrameStats& Scene::stats() const { return state_->stats; }
+std::span<const CommandResult> Scene::results() const { return state_->results; }
+std::span<const InstanceId> Scene::drawn() const { return state_->drawn; }
+
+PosedMesh Scene::mesh(InstanceId id, std::uint32_t mesh, std::uint64_t seen) {
+  scene::Actor* const actor = state_->find(id);
+  return actor == nullptr ? PosedMesh() : actor->instance.mesh(mesh, seen);
+}
+
+Scene::Memory Scene::memory_bytes() const {
+  Memory memory;
+  memory.instances = sizeof(State) + state_->slots.capacity() * (sizeof(Slot) + 2 * sizeof(Index));
+  std::set<const CharacterAsset*> assets;
+  for (const Slot& slot : state_->slots) {
+    if (!slot.actor) continue;
+    memory.instances += slot.actor->memory_bytes();
+    const CharacterAsset* const asset = slot.actor->instance.asset().get();
+    if (assets.insert(asset).second) memory.assets += asset->memory_bytes();
+  }
+  return memory;
+}
+
+}  // namespace sunder
