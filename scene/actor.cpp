@@ -98,6 +98,13 @@ Status Actor::set_pose(const ModelPose& pose) {
   return {};
 }
 
+void Actor::fall_idle() noexcept {
+  if (!has_new_pose_) pose_ = {};
+  if (!playback_.is_playing()) playback_ = {};
+  commands = {};
+  results = {};
+}
+
 bool Actor::is_busy() const {
   return playback_.is_playing() || has_new_pose_ || instance.needs_step() ||
          instance.needs_draw() || is_being_torn();
@@ -107,7 +114,7 @@ Status Actor::animate() {
   const Character& character = *instance.asset()->character();
   playback_.advance(character, now_);
   if (!playback_.needs_sample()) {
-    if (!pose_.model_from_bone.empty()) return {};
+    if (!pose().model_from_bone.empty()) return {};
     Result<ModelPose> rest = rest_pose(character);
     if (!rest) return rest.error();
     pose_ = std::move(*rest);
@@ -124,7 +131,7 @@ void Actor::apply(const QueuedCommand& queued) {
   result.instance = queued.instance;
   std::vector<ChangeRecord>* const changes =
       queued.options.wants_changes ? &result.changes : nullptr;
-  Result<TearReport> report = std::visit(CommandCalls(instance, pose_, changes), queued.command);
+  Result<TearReport> report = std::visit(CommandCalls(instance, pose(), changes), queued.command);
   if (report)
     result.report = std::move(*report);
   else
@@ -163,7 +170,7 @@ Status Actor::move(double seconds) {
   apply_commands();
   if (!has_new_pose_ && !instance.needs_step()) return {};
   const Stopwatch watch(frame.tissue);
-  Status status = instance.advance(pose_, seconds);
+  Status status = instance.advance(pose(), seconds);
   frame.was_advanced = static_cast<bool>(status);
   if (status) has_new_pose_ = false;
   return status;

@@ -51,6 +51,8 @@ class Actor {
     return instance.is_in_stroke() || !commands.empty() || now_ < last_operation_ + kCalm;
   }
 
+  /// Frees what only an active instance needs.
+  void fall_idle() noexcept;
   [[nodiscard]] std::size_t memory_bytes() const {
     return sizeof(*this) + instance.memory_bytes() +
            pose_.model_from_bone.capacity() * sizeof(Affine3d);
@@ -68,6 +70,8 @@ class Actor {
   /// After an operation, the wound moves; for so many seconds it is seen at the full rate.
   static constexpr double kCalm = 1.0;
 
+  /// The pose of this frame.
+  [[nodiscard]] const ModelPose& pose() const { return has_new_pose_ ? pose_ : instance.pose(); }
   Status animate();
   Status move(double seconds);
   void draw(const ParallelFor& parallel_for);
@@ -75,7 +79,7 @@ class Actor {
   void apply(const QueuedCommand& queued);
 
   Playback playback_;
-  ModelPose pose_;  ///< Of the next advance(); empty: rest.
+  ModelPose pose_;  ///< Of the next advance(), if it is new.
   bool has_new_pose_ = true;
   bool is_visible_;
   double now_;             ///< Time of the scene at the last update that was not left out.

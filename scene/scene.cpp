@@ -137,7 +137,10 @@ void Scene::State::collect() {
     for (CommandResult& result : actor.results) results.push_back(std::move(result));
     actor.results.clear();
     actor.is_listed = actor.is_active();
-    if (actor.is_listed) active[kept++] = slot;
+    if (actor.is_listed)
+      active[kept++] = slot;
+    else
+      actor.fall_idle();
     actor.is_hidden = !actor.is_listed && actor.is_busy();
     hidden += actor.is_hidden;
   }

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <sunder/scene/scene.h>
+
+#include <memory>
+#include <vector>
+
+namespace sunder::bench {
+
+/// A ball with bumps, of about so many vertices, on a chain of bones, with a clip in which all bones
+/// move.
+[[nodiscard]] std::shared_ptr<const Character> make_crowd_model(std::uint32_t vertices,
+                                                                std::uint32_t bones);
+
+/// Instances of one model in a scene.
+class Crowd {
+ public:
+  struct Options {
+    bool is_soft = false;
+    std::uint32_t threads = 1;
+  };
+  Crowd(std::shared_ptr<const Character> character, std::uint32_t count, const Options& options);
+
+  /// Lets the first `count` instances play; the others stand still.
+  void play(std::uint32_t count);
+  /// Submits a tear across the front of an instance, at a share of its height.
+  void tear(std::uint32_t instance, double height, const TearOptions& options = {});
+  /// Submits a cut across an instance, with caps.
+  void cut(std::uint32_t instance, double height);
+  /// Submits a bore with a wall into the front of an instance.
+  void drill(std::uint32_t instance, double height);
+  void undo(std::uint32_t instance);
+  /// The same, as a stroke over frames: the blade of a share of its way. 0 begins it, 1 ends it.
+  void stroke_on(std::uint32_t instance, double way);
+  /// One frame at 90 Hz. @return seconds.
+  double frame();
+  [[nodiscard]] Scene& scene() { return scene_; }
+  [[nodiscard]] InstanceId id(std::uint32_t instance) const { return ids_[instance]; }
+  [[nodiscard]] const std::shared_ptr<const Character>& character() const { return character_; }
+
+ private:
+  [[nodiscard]] Blade blade_at(double across, double height) const;
+  void submit(std::uint32_t instance, SceneCommand command);
+
+  std::shared_ptr<const Character> character_;
+  std::shared_ptr<const CharacterAsset> asset_;
+  Scene scene_;
+  std::vector<InstanceId> ids_;
+  Eigen::AlignedBox3d bounds_;  ///< At rest.
+};
+
+/// Ends the program with the text of a failure.
+void require(const Status& status, const char* what);
+
+}  // namespace sunder::bench
