@@ -11,41 +11,45 @@
 struct DrawBuffers {
   std::vector<sunder::Vec3f> positions;
   std::vector<sunder::Triangle> triangles;
+  std::uint64_t seen = 0;  // The state of the scene that they hold.
 
-  void draw(const sunder::PosedMesh& mesh) {
+  void upload(const sunder::PosedMesh& mesh) {
     positions.resize(mesh.positions.size());
-    triangles.resize(mesh.triangles.size());
     for (const auto& [first, count] : mesh.dirty_vertices)
       std::copy_n(&mesh.positions[first], count, &positions[first]);
-    for (const auto& [first, count] : mesh.dirty_triangles)
-      std::copy_n(&mesh.triangles[first], count, &triangles[first]);
+    triangles.resize(mesh.triangle_capacity);
+    for (const auto& [place, triangle] : mesh.triangle_writes) triangles[place] = triangle;
+    seen = mesh.epoch;
   }
 };
 
 sunder::Status play(const char* model_file, const sunder::Stroke& stroke) {
   const auto loaded = sunder::load_character(model_file);
   if (!loaded) return loaded.error();
-  const sunder::Character& model = *loaded->character;
-  sunder::CharacterInstanceOptions options;
+  sunder::CharacterAssetOptions options;
   options.soft.emplace();  // Soft tissue of the default material.
-  auto instance = sunder::CharacterInstance::create(loaded->character, options);
-  if (!instance) return instance.error();
-  std::vector<DrawBuffers> buffers(model.meshes.size());
-  auto pose = sunder::local_rest_pose(model);
-  if (!pose) return pose.error();
-  sunder::ModelPose model_pose;
+  const auto asset = sunder::CharacterAsset::create(loaded->character, options);
+  if (!asset) return asset.error();
+  auto scene = sunder::Scene::create();
+  if (!scene) return scene.error();
+  const auto id = scene->spawn(*asset);
+  if (!id) return id.error();
+  if (!loaded->character->clips.empty())
+    if (const auto status = scene->play(*id, 0); !status) return status;
+
+  std::vector<DrawBuffers> buffers(loaded->character->meshes.size());
+  for (std::uint32_t m = 0; m < buffers.size(); ++m)
+    buffers[m].triangles.assign((*asset)->triangles(m).begin(), (*asset)->triangles(m).end());
   for (int frame = 0; frame < 120; ++frame) {
-    sunder::Status status;
-    if (!model.clips.empty()) status = sunder::sample_clip(model.clips[0], frame / 60.0, *pose);
-    if (status) status = sunder::compute_model_pose(model.skeleton, *pose, model_pose);
-    if (!status) return status;
-    if (frame == 30) {
-      const auto report = instance->tear(model_pose, stroke);
-      if (!report) return report.error();
-      std::printf("%u faces crossed, %.3f m torn\n", report->faces_crossed, report->length_posed);
-    }
-    if (status = instance->advance(model_pose, 1.0 / 60); !status) return status;
-    for (std::uint32_t m = 0; m < buffers.size(); ++m) buffers[m].draw(instance->mesh(m));
+    if (frame == 30)
+      if (const auto sent = scene->submit(*id, sunder::TearCommand{stroke, {}}); !sent)
+        return sent.error();
+    if (const auto status = scene->update(1.0 / 60); !status) return status;
+    for (const auto& result : scene->results())
+      std::printf("%u faces crossed, %.3f m torn\n", result.report.faces_crossed,
+                  result.report.length_posed);
+    for (std::uint32_t m = 0; m < buffers.size(); ++m)
+      buffers[m].upload(scene->mesh(*id, m, buffers[m].seen));
   }
   return {};
 }

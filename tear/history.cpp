@@ -67,6 +67,43 @@ void History::push(const OpenedBorders& borders) {
   while (!undone_.empty()) move_last(undone_, spare_);
 }
 
+void History::adopt(History& from) {
+  Entry& entry = *from.undone_.back();
+  const auto lips = from.lips_of(entry);
+  const auto rim_points = from.rim_points_of(entry);
+  borders_.lips.reserve(borders_.lips.size() + lips.size());
+  borders_.rim_points.reserve(borders_.rim_points.size() + rim_points.size());
+  undone_.reserve(undone_.size() + 1);
+  spare_.reserve(spare_.size() + undone_.size() + 1);
+  if (done_.size() == done_.capacity()) done_.reserve(2 * done_.size() + 8);
+  entry.lips.first = next_lips().first;
+  entry.rim_points.first = next_rim_points().first;
+  borders_.lips.insert(borders_.lips.begin() + entry.lips.first, lips.begin(), lips.end());
+  borders_.rim_points.insert(borders_.rim_points.begin() + entry.rim_points.first,
+                             rim_points.begin(), rim_points.end());
+  for (const auto& older : undone_) {
+    older->lips.first += entry.lips.count;
+    older->rim_points.first += entry.rim_points.count;
+  }
+  move_last(from.undone_, undone_);
+}
+
+void History::give_back(History& to) noexcept {
+  move_last(undone_, to.undone_);
+  Entry& entry = *to.undone_.back();
+  const auto erase = [](auto& all, const IndexRange& range) {
+    all.erase(all.begin() + range.first, all.begin() + range.first + range.count);
+  };
+  erase(borders_.lips, entry.lips);
+  erase(borders_.rim_points, entry.rim_points);
+  for (const auto& older : undone_) {
+    older->lips.first -= entry.lips.count;
+    older->rim_points.first -= entry.rim_points.count;
+  }
+  entry.lips.first = to.next_lips().first;
+  entry.rim_points.first = to.next_rim_points().first;
+}
+
 void History::move_last(Entries& from, Entries& to) {
   to.push_back(std::move(from.back()));
   from.pop_back();

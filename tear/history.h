@@ -59,6 +59,15 @@ class History {
   [[nodiscard]] std::span<const RimPoint> rim_points_of(const Entry& entry) const {
     return std::span(borders_.rim_points).subspan(entry.rim_points.first, entry.rim_points.count);
   }
+  /// Moves the entry that an equal model has undone last to the top of the redo stack. @throws
+  /// std::bad_alloc, with nothing changed
+  void adopt(History& from);
+  /// Reverts adopt().
+  void give_back(History& to) noexcept;
+  /// Clears the redo stack. There must be room, as after adopt() and next().
+  void forget_undone() noexcept {
+    while (!undone_.empty()) move_last(undone_, spare_);
+  }
   void make_room_to_undo() {
     if (undone_.size() == undone_.capacity()) undone_.reserve(2 * undone_.size() + 8);
   }

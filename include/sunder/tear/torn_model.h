@@ -175,6 +175,7 @@ class SUNDER_API TornModel {
 
  private:
   friend class TearStroke;
+  friend class OperationJob;
   friend class RefitJob;
   friend Result<WeightErrors> measure_weight_errors(const TornModel&, std::uint32_t, std::uint32_t,
                                                     std::span<const ModelPose>);

@@ -1,0 +1,147 @@
+// An operation in the background leaves the model as the call of the operation would.
+
+#include <sunder/skinning/pose.h>
+#include <sunder/tear/operation_job.h>
+
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include "support/make_model.h"
+#include "support/model_state.h"
+#include "support/random_operations.h"
+#include "support/rigs.h"
+#include "support/stress.h"
+
+namespace sunder {
+namespace {
+
+using test::difference;
+using test::make_model;
+using test::Random;
+using test::state_of;
+
+Operation some_operation(const TornModel& model, Random& random) {
+  if (random.index(4) > 0 || model.undo_count() == 0) return test::random_operation(model, random);
+  WeightsOperation other;
+  other.weights.policy = WeightPolicy::exact;
+  return other;
+}
+
+PlaneCut cut_at(const Vec3d& point, const Vec3d& normal) {
+  PlaneCut cut;
+  cut.point = point;
+  cut.normal = normal;
+  return cut;
+}
+
+/// Two equal models, of which the second one has undone operations.
+struct Pair {
+  explicit Pair(std::uint64_t seed)
+      : random(seed),
+        character(test::random_character(random)),
+        called(make_model(character)),
+        swapped(make_model(character)) {
+    for (std::uint32_t n = random.index(4); n > 0; --n) {
+      const Operation operation = some_operation(called, random);
+      EXPECT_TRUE(apply_operation(called, operation));
+      EXPECT_TRUE(apply_operation(swapped, operation));
+    }
+    for (std::uint32_t n = random.index(3); n > 0; --n) {
+      EXPECT_TRUE(test::play(swapped, test::random_operation(swapped, random)));
+      if (swapped.undo_count() > called.undo_count()) {
+        EXPECT_TRUE(swapped.undo());
+      }
+    }
+  }
+  Random random;
+  Character character;
+  TornModel called, swapped;
+};
+
+TEST(OperationJob, gives_the_bits_and_the_record_of_the_call) {
+  for (int seed = 1; seed <= test::stressed(40, 400); ++seed) {
+    SCOPED_TRACE(seed);
+    Pair pair(static_cast<std::uint64_t>(seed));
+    const Operation operation = some_operation(pair.called, pair.random);
+    std::vector<ChangeRecord> wanted;
+    const auto expected = apply_operation(pair.called, operation, &wanted);
+    const auto job = OperationJob::create(pair.swapped, operation);
+    ASSERT_TRUE(job) << job.error().text();
+    std::thread worker([job] { job->run(); });
+    worker.join();
+    ASSERT_EQ(job->poll(), expected ? OperationJob::State::done : OperationJob::State::failed);
+    if (!expected) continue;
+    ChangeRecord change;
+    const auto report = job->swap_in(pair.swapped, &change);
+    ASSERT_TRUE(report) << report.error().text();
+    EXPECT_EQ(report->faces_crossed, expected->faces_crossed);
+    EXPECT_EQ(report->pieces.size(), expected->pieces.size());
+    EXPECT_EQ(difference(state_of(pair.swapped), state_of(pair.called)), "");
+    EXPECT_EQ(pair.swapped.undo_count(), pair.called.undo_count());
+    EXPECT_EQ(pair.swapped.redo_count(), pair.called.redo_count());
+    ASSERT_EQ(wanted.size(), 1u);
+    EXPECT_EQ(change.lips, wanted[0].lips);
+    EXPECT_EQ(change.meshes.size(), wanted[0].meshes.size());
+    // Both go on in the same way.
+    while (pair.called.undo_count() > 0) {
+      ASSERT_TRUE(pair.called.undo());
+      ASSERT_TRUE(pair.swapped.undo());
+      ASSERT_EQ(pair.swapped.digest(), pair.called.digest());
+    }
+    while (pair.called.redo_count() > 0) {
+      ASSERT_TRUE(pair.called.redo(&wanted[0]));
+      ASSERT_TRUE(pair.swapped.redo(&change));
+      ASSERT_EQ(pair.swapped.digest(), pair.called.digest());
+      ASSERT_EQ(change.lips, wanted[0].lips);
+    }
+  }
+}
+
+TEST(OperationJob, is_refused_where_it_does_not_fit) {
+  TornModel model = make_model(test::make_sheet(8));
+  const ModelPose rest = *rest_pose(model.source());
+  const CutOperation cut = {rest, cut_at(Vec3d(0.5, 0.5, 0), Vec3d::UnitX())};
+  EXPECT_EQ(OperationJob::create(model, UndoOperation{}).error().code(),
+            StatusCode::invalid_argument);
+  const auto job = OperationJob::create(model, cut);
+  ASSERT_TRUE(job);
+  EXPECT_EQ(job->swap_in(model).error().code(), StatusCode::invalid_argument);  // not run yet
+  job->run();
+  TornModel other = make_model(test::make_sheet(8));
+  EXPECT_EQ(job->swap_in(other).error().code(), StatusCode::invalid_argument);
+  ASSERT_TRUE(model.cut(rest, cut_at(Vec3d(0.25, 0.5, 0), Vec3d::UnitX())));
+  const auto torn = state_of(model);
+  EXPECT_EQ(job->swap_in(model).error().code(), StatusCode::invalid_argument);
+  EXPECT_EQ(difference(state_of(model), torn), "");
+  ASSERT_TRUE(model.undo());
+  ASSERT_TRUE(job->swap_in(model));
+  EXPECT_EQ(job->poll(), OperationJob::State::swapped_in);
+  EXPECT_EQ(job->swap_in(model).error().code(), StatusCode::invalid_argument);
+
+  const auto bad =
+      OperationJob::create(model, CutOperation{rest, cut_at(Vec3d::Zero(), Vec3d::Zero())});
+  ASSERT_TRUE(bad);
+  bad->run();
+  EXPECT_EQ(bad->poll(), OperationJob::State::failed);
+  EXPECT_FALSE(bad->failure());
+}
+
+TEST(OperationJob, without_room_nothing_changes_and_it_can_wait) {
+  const auto sheet = std::make_shared<const Character>(test::make_sheet(8));
+  TornModel model = *TornModel::create(sheet, {20, 20, 4});
+  const ModelPose rest = *rest_pose(*sheet);
+  const auto before = state_of(model);
+  const auto job =
+      OperationJob::create(model, CutOperation{rest, cut_at(Vec3d(0.5, 0.5, 0), Vec3d(1, 0.1, 0))});
+  ASSERT_TRUE(job);
+  job->run();
+  ASSERT_EQ(job->poll(), OperationJob::State::done);
+  EXPECT_EQ(job->swap_in(model).error().code(), StatusCode::capacity_exceeded);
+  EXPECT_EQ(difference(state_of(model), before), "");
+  EXPECT_EQ(job->poll(), OperationJob::State::done);
+  EXPECT_EQ(job->swap_in(model).error().code(), StatusCode::capacity_exceeded);
+}
+
+}  // namespace
+}  // namespace sunder
