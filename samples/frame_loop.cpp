@@ -17,6 +17,8 @@ struct DrawBuffers {
     positions.resize(mesh.positions.size());
     for (const auto& [first, count] : mesh.dirty_vertices)
       std::copy_n(&mesh.positions[first], count, &positions[first]);
+    if (!mesh.initial_triangles.empty())
+      triangles.assign(mesh.initial_triangles.begin(), mesh.initial_triangles.end());
     triangles.resize(mesh.triangle_capacity);
     for (const auto& [place, triangle] : mesh.triangle_writes) triangles[place] = triangle;
     seen = mesh.epoch;
@@ -38,8 +40,6 @@ sunder::Status play(const char* model_file, const sunder::Stroke& stroke) {
     if (const auto status = scene->play(*id, 0); !status) return status;
 
   std::vector<DrawBuffers> buffers(loaded->character->meshes.size());
-  for (std::uint32_t m = 0; m < buffers.size(); ++m)
-    buffers[m].triangles.assign((*asset)->triangles(m).begin(), (*asset)->triangles(m).end());
   for (int frame = 0; frame < 120; ++frame) {
     if (frame == 30)
       if (const auto sent = scene->submit(*id, sunder::TearCommand{stroke, {}}); !sent)

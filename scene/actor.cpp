@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <new>
+#include <system_error>
 #include <utility>
 
 #include "scene/check_pose.h"
@@ -26,45 +27,6 @@ class Stopwatch {
  private:
   double& sum_;
   std::chrono::steady_clock::time_point begin_;
-};
-
-/// Makes the calls of commands on an instance in a pose.
-class CommandCalls {
- public:
-  CommandCalls(CharacterInstance& instance, const ModelPose& pose,
-               std::vector<ChangeRecord>* changes)
-      : instance_(instance), pose_(pose), changes_(changes) {}
-
-  Result<TearReport> operator()(const TearCommand& of) {
-    return instance_.tear(pose_, of.stroke, of.options, record());
-  }
-  Result<TearReport> operator()(const PlaneCut& of) { return instance_.cut(pose_, of, record()); }
-  Result<TearReport> operator()(const Bore& of) { return instance_.drill(pose_, of, record()); }
-  Result<TearReport> operator()(const BeginStrokeCommand& of) {
-    return report_of(instance_.begin_stroke(pose_, of.blade, of.options, of.sampling));
-  }
-  Result<TearReport> operator()(const ExtendStrokeCommand& of) {
-    return instance_.extend_stroke(pose_, of.blade, of.seconds, record());
-  }
-  Result<TearReport> operator()(const EndStrokeCommand&) { return instance_.end_stroke(record()); }
-  Result<TearReport> operator()(const CancelStrokeCommand&) {
-    return report_of(instance_.cancel_stroke(record()));
-  }
-  Result<TearReport> operator()(const UndoCommand&) { return report_of(instance_.undo(record())); }
-  Result<TearReport> operator()(const RedoCommand&) { return report_of(instance_.redo(record())); }
-  Result<TearReport> operator()(const WeightsOperation& of) {
-    return instance_.apply(of, changes_);
-  }
-
- private:
-  static Result<TearReport> report_of(const Status& status) {
-    return status ? Result<TearReport>(TearReport()) : Result<TearReport>(status);
-  }
-  ChangeRecord* record() { return changes_ == nullptr ? nullptr : &changes_->emplace_back(); }
-
-  CharacterInstance& instance_;
-  const ModelPose& pose_;
-  std::vector<ChangeRecord>* changes_;
 };
 
 Status out_of_memory() {
@@ -101,13 +63,12 @@ Status Actor::set_pose(const ModelPose& pose) {
 void Actor::fall_idle() noexcept {
   if (!has_new_pose_) pose_ = {};
   if (!playback_.is_playing()) playback_ = {};
-  commands = {};
-  results = {};
+  commands.clear();
 }
 
 bool Actor::is_busy() const {
-  return playback_.is_playing() || has_new_pose_ || instance.needs_step() ||
-         instance.needs_draw() || is_being_torn();
+  return playback_.is_playing() || has_new_pose_ || shown().needs_step() || shown().needs_draw() ||
+         levels_.is_changing() || is_being_torn();
 }
 
 Status Actor::animate() {
@@ -125,52 +86,53 @@ Status Actor::animate() {
   return playback_.sample(character, pose_);
 }
 
-void Actor::apply(const QueuedCommand& queued) {
-  CommandResult& result = results.emplace_back();
-  result.command = queued.id;
-  result.instance = queued.instance;
-  std::vector<ChangeRecord>* const changes =
-      queued.options.wants_changes ? &result.changes : nullptr;
-  Result<TearReport> report = std::visit(CommandCalls(instance, pose(), changes), queued.command);
-  if (report)
-    result.report = std::move(*report);
-  else
-    result.status = report.error();
-  last_operation_ = now_;
+void Actor::work_on_commands(Background& background) {
+  if (!commands.has_waiting() && commands.background_count() == 0) return;
+  const Stopwatch watch(frame.operations);
+  const std::size_t before = commands.results().size();
+  commands.finish_background(instance);
+  commands.apply(pose(), instance, background);
+  if (commands.results().size() > before) last_operation_ = now_;
 }
 
-void Actor::apply_commands() {
-  if (commands.empty()) return;
-  const Stopwatch watch(frame.operations);
-  results.reserve(commands.size());
-  for (const QueuedCommand& queued : commands) apply(queued);
-  commands.clear();
+/// Chooses the level of detail, and lets it follow the pose of this frame.
+void Actor::show_level(Background& background) {
+  const Index wanted = is_being_torn() ? 0 : DetailLevels::wanted(*instance.asset(), screen_height);
+  const Index shown = levels_.prepare(wanted, instance, background);
+  frame.was_switched = shown != levels_.shown();
+  if (!frame.was_switched) return;
+  if (pose_.model_from_bone.empty()) pose_ = this->shown().pose();
+  levels_.show(shown);
 }
 
 void Actor::update(const Frame& of) {
   frame = {};
-  results.clear();
   frame.was_waiting = !of.is_its_turn && !is_being_torn();
   if (frame.was_waiting) return;
   const double seconds = of.now - now_;
   now_ = of.now;
   try {
-    frame.status = move(seconds);
-    if (frame.status && is_visible_ && instance.needs_draw()) draw(of.parallel_for);
+    frame.status = move(seconds, of.background);
+    if (frame.status && is_visible_ && (shown().needs_draw() || frame.was_switched))
+      draw(of.parallel_for);
+  } catch (const std::system_error& error) {
+    frame.status = Status::failure(StatusCode::limit_exceeded, kNone, "cannot start a thread: %s",
+                                   error.what());
   } catch (const std::bad_alloc&) {
     frame.status = out_of_memory();
   }
 }
 
-Status Actor::move(double seconds) {
+Status Actor::move(double seconds, Background& background) {
   {
     const Stopwatch watch(frame.animation);
     if (Status status = animate(); !status) return status;
   }
-  apply_commands();
-  if (!has_new_pose_ && !instance.needs_step()) return {};
+  work_on_commands(background);
+  show_level(background);
+  if (!has_new_pose_ && !frame.was_switched && !shown().needs_step()) return {};
   const Stopwatch watch(frame.tissue);
-  Status status = instance.advance(pose(), seconds);
+  Status status = shown().advance(pose(), frame.was_switched ? 0 : seconds);
   frame.was_advanced = static_cast<bool>(status);
   if (status) has_new_pose_ = false;
   return status;
@@ -178,9 +140,9 @@ Status Actor::move(double seconds) {
 
 void Actor::draw(const ParallelFor& parallel_for) {
   const Stopwatch watch(frame.drawing);
-  frame.status = instance.draw(parallel_for);
+  frame.status = shown().draw(parallel_for);
   frame.was_drawn = static_cast<bool>(frame.status);
-  if (frame.was_drawn) frame.vertices = instance.drawn_vertices();
+  if (frame.was_drawn) frame.vertices = shown().drawn_vertices();
 }
 
 }  // namespace sunder::scene

@@ -5,7 +5,8 @@
 #include <limits>
 #include <vector>
 
-#include "scene/command_queue.h"
+#include "scene/actor_commands.h"
+#include "scene/detail_levels.h"
 #include "scene/playback.h"
 
 namespace sunder::scene {
@@ -14,7 +15,7 @@ namespace sunder::scene {
 struct ActorFrame {
   Status status;
   bool was_sampled = false, was_advanced = false, was_drawn = false;
-  bool was_waiting = false;
+  bool was_waiting = false, was_switched = false;
   Index vertices = 0;
   double animation = 0, operations = 0, tissue = 0, drawing = 0;  ///< Microseconds.
 };
@@ -34,6 +35,7 @@ class Actor {
     double now;                ///< Time of the scene, seconds.
     bool is_its_turn = true;   ///< Otherwise it is updated only while it is being torn.
     ParallelFor parallel_for;  ///< For the vertices of this instance alone.
+    Background& background;
   };
   /// Runs as a task: touches nothing but this object.
   void update(const Frame& frame);
@@ -45,41 +47,54 @@ class Actor {
   /// Whether it would have something to do in the next update if it were visible.
   [[nodiscard]] bool is_busy() const;
   /// Whether it has to be looked at in the next update.
-  [[nodiscard]] bool is_active() const { return !commands.empty() || (is_visible_ && is_busy()); }
+  [[nodiscard]] bool is_active() const {
+    return commands.has_waiting() || commands.background_count() > 0 || (is_visible_ && is_busy());
+  }
   /// Whether it is being torn: then it is updated at the full rate.
   [[nodiscard]] bool is_being_torn() const {
-    return instance.is_in_stroke() || !commands.empty() || now_ < last_operation_ + kCalm;
+    return instance.is_in_stroke() || commands.has_waiting() || now_ < last_operation_ + kCalm;
   }
 
   /// Frees what only an active instance needs.
   void fall_idle() noexcept;
   [[nodiscard]] std::size_t memory_bytes() const {
-    return sizeof(*this) + instance.memory_bytes() +
+    return sizeof(*this) + instance.memory_bytes() + levels_.memory_bytes() +
            pose_.model_from_bone.capacity() * sizeof(Affine3d);
   }
 
-  CharacterInstance instance;
+  /// The level of detail that is shown.
+  [[nodiscard]] Index shown_level() const { return levels_.shown(); }
+  [[nodiscard]] CharacterInstance& shown() {
+    return levels_.shown() == 0 ? instance : levels_.at(levels_.shown());
+  }
+  [[nodiscard]] const CharacterInstance& shown() const {
+    return levels_.shown() == 0 ? instance : levels_.at(levels_.shown());
+  }
+
+  CharacterInstance instance;  ///< The finest level, which operations tear.
   double screen_height = std::numeric_limits<double>::infinity();
-  std::vector<QueuedCommand> commands;  ///< For the next update.
-  std::vector<CommandResult> results;   ///< Of the last update.
-  ActorFrame frame;                     ///< The last update.
-  bool is_listed = false;               ///< Whether it is in the list of active instances.
-  bool is_hidden = false;               ///< Whether it would be, if it were visible.
+  ActorCommands commands;
+  ActorFrame frame;        ///< The last update.
+  bool is_listed = false;  ///< Whether it is in the list of active instances.
+  bool is_hidden = false;  ///< Whether it would be, if it were visible.
 
  private:
   /// After an operation, the wound moves; for so many seconds it is seen at the full rate.
   static constexpr double kCalm = 1.0;
 
   /// The pose of this frame.
-  [[nodiscard]] const ModelPose& pose() const { return has_new_pose_ ? pose_ : instance.pose(); }
+  [[nodiscard]] const ModelPose& pose() const {
+    return pose_.model_from_bone.empty() ? shown().pose() : pose_;
+  }
   Status animate();
-  Status move(double seconds);
+  Status move(double seconds, Background& background);
+  void work_on_commands(Background& background);
+  void show_level(Background& background);
   void draw(const ParallelFor& parallel_for);
-  void apply_commands();
-  void apply(const QueuedCommand& queued);
 
   Playback playback_;
-  ModelPose pose_;  ///< Of the next advance(), if it is new.
+  DetailLevels levels_;
+  ModelPose pose_;  ///< Empty: that of the level that is shown.
   bool has_new_pose_ = true;
   bool is_visible_;
   double now_;             ///< Time of the scene at the last update that was not left out.

@@ -21,6 +21,27 @@ Result<scene::AssetMesh> make_mesh(const Mesh& mesh, std::size_t slots,
                           options.has_tangents && !mesh.tangents.empty()};
 }
 
+/// Whether a coarser level of detail follows the same poses.
+Status check_coarser(const Character& character, const Character& coarser) {
+  const std::vector<Bone>& bones = character.skeleton.bones;
+  const std::vector<Bone>& of_coarser = coarser.skeleton.bones;
+  if (of_coarser.size() != bones.size())
+    return Status::failure(StatusCode::size_mismatch, kNone,
+                           "the coarser level has %zu bones; the character has %zu",
+                           of_coarser.size(), bones.size());
+  if (coarser.rest_morph_weights.size() != character.rest_morph_weights.size())
+    return Status::failure(StatusCode::size_mismatch, kNone,
+                           "the coarser level has %zu morph weights; the character has %zu",
+                           coarser.rest_morph_weights.size(), character.rest_morph_weights.size());
+  for (Index bone = 0; bone < bones.size(); ++bone)
+    if (of_coarser[bone].name != bones[bone].name || of_coarser[bone].parent != bones[bone].parent)
+      return Status::failure(
+          StatusCode::not_found, bone,
+          "bone %u is '%.60s' in the coarser level, and '%.60s' in the character", bone,
+          of_coarser[bone].name.c_str(), bones[bone].name.c_str());
+  return {};
+}
+
 /// Whether instances can be made soft.
 Status check_tissue(const SoftTissue& soft, std::shared_ptr<const Character> character) {
   Result<TornModel> model = TornModel::create(std::move(character));
@@ -38,6 +59,9 @@ Result<std::shared_ptr<const CharacterAsset>> CharacterAsset::create(
   if (!character) return Status::failure(StatusCode::empty_input, kNone, "there is no character");
   try {
     if (Status status = validate_character(*character); !status) return status;
+    if (options.coarser)
+      if (Status status = check_coarser(*character, *options.coarser->character()); !status)
+        return status;
     auto data = std::make_unique<scene::AssetData>();
     data->options = options;
     for (const Mesh& mesh : character->meshes) {

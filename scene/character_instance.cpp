@@ -161,6 +161,16 @@ Result<RefitJob> CharacterInstance::begin_refit(const WeightsOperation& wanted) 
   return RefitJob::create(state_->torn->model, wanted);
 }
 
+Result<OperationJob> CharacterInstance::begin_operation(const Operation& operation) {
+  if (Status status = state_->require_torn(); !status) return status;
+  return OperationJob::create(state_->torn->model, operation);
+}
+
+Result<TearReport> CharacterInstance::swap_in(const OperationJob& job, ChangeRecord* change) {
+  return state_->change(
+      change, [&](ChangeRecord* record) { return job.swap_in(state_->torn->model, record); });
+}
+
 Result<WeightReport> CharacterInstance::swap_in(const RefitJob& job, ChangeRecord* change) {
   return state_->change(
       change, [&](ChangeRecord* record) { return job.swap_in(state_->torn->model, record); });
@@ -179,7 +189,6 @@ Result<CompactMaps> CharacterInstance::compact() {
     if (!asset) return asset.error();
     auto fresh = std::make_unique<State>(std::move(*asset), state.capacity);
     fresh->pose = state.pose;
-    fresh->epoch = state.epoch;
     fresh->needs_draw = true;
     if (Status status = fresh->require_torn(); !status) return status;
     state_ = std::move(fresh);
@@ -236,8 +245,11 @@ PosedMesh CharacterInstance::mesh(std::uint32_t mesh, std::uint64_t seen) {
   SUNDER_ASSERT(mesh < state_->shared().meshes.size());
   if (!state_->drawn) return {};
   try {
-    PosedMesh posed = state_->drawn->meshes[mesh].posed(state_->character().meshes[mesh], seen);
+    const bool is_own = state_->is_own(seen);
+    PosedMesh posed =
+        state_->drawn->meshes[mesh].posed(state_->character().meshes[mesh], is_own ? seen : 0);
     posed.epoch = posed.ranges.empty() ? seen : state_->epoch;
+    if (!is_own && !posed.ranges.empty()) posed.initial_triangles = state_->asset->triangles(mesh);
     return posed;
   } catch (const std::bad_alloc&) {
     return {};

@@ -1,5 +1,6 @@
 #include "scene/instance_state.h"
 
+#include <atomic>
 #include <new>
 
 namespace sunder {
@@ -10,6 +11,12 @@ Status out_of_memory() {
 }
 
 }  // namespace
+
+CharacterInstance::State::State(std::shared_ptr<const CharacterAsset> of, const TornCapacity& room)
+    : asset(std::move(of)), capacity(room) {
+  static std::atomic<std::uint64_t> newest = 0;
+  epoch = ++newest << 32;
+}
 
 Status CharacterInstance::State::require_torn() {
   if (is_broken) return out_of_memory();

@@ -19,15 +19,17 @@ struct DrawnParts {
 };
 
 struct CharacterInstance::State {
-  State(std::shared_ptr<const CharacterAsset> of, const TornCapacity& room)
-      : asset(std::move(of)), capacity(room) {}
+  State(std::shared_ptr<const CharacterAsset> of, const TornCapacity& room);
+  /// Whether an epoch is one of this object.
+  [[nodiscard]] bool is_own(std::uint64_t other) const { return (other ^ epoch) >> 32 == 0; }
 
   std::shared_ptr<const CharacterAsset> asset;
   TornCapacity capacity;
   std::unique_ptr<scene::TornParts> torn;  ///< Null before the first operation.
   std::unique_ptr<DrawnParts> drawn;       ///< Null before the first draw().
   ModelPose pose;
-  std::uint64_t epoch = 0;  ///< Of the last draw() that had something to do.
+  /// Upper half: a number of this object; lower half: of the last draw() that had something to do.
+  std::uint64_t epoch;
   bool needs_draw = false;
   bool is_broken = false;  ///< Memory ran out between two parts, which no longer agree.
 

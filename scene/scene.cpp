@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <iterator>
 #include <new>
 #include <set>
 #include <system_error>
@@ -41,9 +42,14 @@ struct Scene::State {
   scene::CommandQueue queue;
   std::vector<scene::QueuedCommand> taken;
   std::vector<CommandResult> results;
+  std::vector<CommandResult>
+      abandoned;  ///< Of instances that were destroyed since the last update.
   std::vector<InstanceId> drawn;
   FrameStats stats;
   double now = 0;
+  scene::Background background;  // ends before anything that its jobs use
+
+  explicit State(const SceneOptions& of) : options(of), background(of.background) {}
 
   [[nodiscard]] scene::Actor* find(InstanceId id) const {
     if (id.slot >= slots.size() || slots[id.slot].generation != id.generation) return nullptr;
@@ -77,8 +83,9 @@ void Scene::State::take_commands() {
   queue.take(taken);
   for (scene::QueuedCommand& queued : taken) {
     if (scene::Actor* const actor = find(queued.instance)) {
-      actor->commands.push_back(std::move(queued));
-      wake(actor->commands.back().instance.slot);
+      const Index slot = queued.instance.slot;
+      actor->commands.push(std::move(queued));
+      wake(slot);
       continue;
     }
     CommandResult& result = results.emplace_back();
@@ -107,7 +114,8 @@ void Scene::State::run_actors() {
   const auto task = [](const void* of, std::uint32_t index) {
     const auto& [scene, inner] = *static_cast<const Work*>(of);
     const Index slot = scene->active[index];
-    scene->slots[slot].actor->update({scene->now, scene->is_turn_of(slot), inner});
+    scene->slots[slot].actor->update(
+        {scene->now, scene->is_turn_of(slot), inner, scene->background});
   };
   const auto count = static_cast<std::uint32_t>(active.size());
   if (is_each_a_task && parallel_for.run != nullptr && count > 1)
@@ -134,8 +142,10 @@ void Scene::State::collect() {
     stats.tissue += of.tissue;
     stats.drawing += of.drawing;
     if (of.was_drawn) drawn.push_back({slot, slots[slot].generation});
-    for (CommandResult& result : actor.results) results.push_back(std::move(result));
-    actor.results.clear();
+    std::vector<CommandResult>& of_actor = actor.commands.results();
+    std::move(of_actor.begin(), of_actor.end(), std::back_inserter(results));
+    of_actor.clear();
+    stats.in_background += actor.commands.background_count();
     actor.is_listed = actor.is_active();
     if (actor.is_listed)
       active[kept++] = slot;
@@ -158,8 +168,7 @@ Scene& Scene::operator=(Scene&&) noexcept = default;
 
 Result<Scene> Scene::create(const SceneOptions& options) {
   try {
-    auto state = std::make_unique<State>();
-    state->options = options;
+    auto state = std::make_unique<State>(options);
     state->parallel_for = options.parallel_for;
     const std::uint32_t cores = std::max(1u, std::thread::hardware_concurrency());
     if (options.parallel_for.run == nullptr && options.threads != 1) {
@@ -208,6 +217,13 @@ Status Scene::destroy(InstanceId id) {
   State& state = *state_;
   scene::Actor* const actor = state.find(id);
   if (actor == nullptr) return no_instance(id);
+  try {
+    actor->commands.abandon(no_instance(id));
+    std::vector<CommandResult>& abandoned = actor->commands.results();
+    std::move(abandoned.begin(), abandoned.end(), std::back_inserter(state.abandoned));
+  } catch (const std::bad_alloc&) {
+    return out_of_memory();
+  }
   if (actor->is_listed) std::erase(state.active, id.slot);
   state.hidden -= actor->is_hidden;
   state.slots[id.slot].actor.reset();
@@ -293,7 +309,8 @@ Status Scene::update(double seconds) {
   state.now += seconds;
   Status status;
   try {
-    state.results.clear();
+    state.results.swap(state.abandoned);
+    state.abandoned.clear();
     state.drawn.clear();
     state.drawn.reserve(state.slots.size());
     state.take_commands();
@@ -320,18 +337,26 @@ std::span<const InstanceId> Scene::drawn() const { return state_->drawn; }
 
 PosedMesh Scene::mesh(InstanceId id, std::uint32_t mesh, std::uint64_t seen) {
   scene::Actor* const actor = state_->find(id);
-  return actor == nullptr ? PosedMesh() : actor->instance.mesh(mesh, seen);
+  return actor == nullptr ? PosedMesh() : actor->shown().mesh(mesh, seen);
+}
+
+std::uint32_t Scene::shown_level(InstanceId id) const {
+  const scene::Actor* const actor = state_->find(id);
+  return actor == nullptr ? 0 : actor->shown_level();
 }
 
 Scene::Memory Scene::memory_bytes() const {
   Memory memory;
   memory.instances = sizeof(State) + state_->slots.capacity() * (sizeof(Slot) + 2 * sizeof(Index));
   std::set<const CharacterAsset*> assets;
+  const auto add = [&](const CharacterAsset* asset) {
+    for (; asset != nullptr; asset = asset->options().coarser.get())
+      if (assets.insert(asset).second) memory.assets += asset->memory_bytes();
+  };
   for (const Slot& slot : state_->slots) {
     if (!slot.actor) continue;
     memory.instances += slot.actor->memory_bytes();
-    const CharacterAsset* const asset = slot.actor->instance.asset().get();
-    if (assets.insert(asset).second) memory.assets += asset->memory_bytes();
+    add(slot.actor->instance.asset().get());
   }
   return memory;
 }

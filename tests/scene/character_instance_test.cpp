@@ -170,9 +170,7 @@ std::vector<std::array<Index, 4>> drawn_triangles(const Mesh& mesh) {
 /// Buffers of an engine that starts from those of the asset and uploads only what changed.
 class Mirror {
  public:
-  explicit Mirror(const CharacterAsset& asset, Index mesh)
-      : triangles_(asset.triangles(mesh).begin(), asset.triangles(mesh).end()) {
-    const Mesh& source = asset.character()->meshes[mesh];
+  explicit Mirror(const Mesh& source) {
     if (!source.uv_sets.empty()) uvs_ = source.uv_sets[0];
   }
 
@@ -183,6 +181,8 @@ class Mirror {
     copy(mesh.normals, mesh.dirty_vertices, normals_);
     if (!attributes.uv_sets.empty())
       copy(std::span<const Vec2f>(attributes.uv_sets[0]), mesh.dirty_attributes, uvs_);
+    if (!mesh.initial_triangles.empty())
+      triangles_.assign(mesh.initial_triangles.begin(), mesh.initial_triangles.end());
     triangles_.resize(mesh.triangle_capacity);
     for (const TriangleWrite& write : mesh.triangle_writes) {
       ASSERT_LT(write.place, mesh.triangle_capacity);
@@ -242,7 +242,7 @@ class Duel {
       : random_(seed), instance_(make_instance(character, is_soft)), parts_(character, is_soft) {
     for (int i = 0; i < 2; ++i)
       for (Index m = 0; m < character->meshes.size(); ++m)
-        mirrors_[i].emplace_back(*instance_.asset(), m);
+        mirrors_[i].emplace_back(character->meshes[m]);
   }
 
   void run(int steps) {

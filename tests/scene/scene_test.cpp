@@ -4,6 +4,7 @@
 #include <sunder/skinning/pose.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstring>
 #include <limits>
 #include <thread>
@@ -97,9 +98,9 @@ class Twin {
     ASSERT_TRUE(alone_.draw());
     const PosedMesh found = scene_.mesh(id_, 0), wanted = alone_.mesh(0);
     ASSERT_EQ(found.positions.size(), wanted.positions.size());
-    EXPECT_EQ(std::memcmp(found.positions.data(), wanted.positions.data(),
-                          wanted.positions.size_bytes()),
-              0);
+    EXPECT_EQ(
+        std::memcmp(found.positions.data(), wanted.positions.data(), wanted.positions.size_bytes()),
+        0);
     EXPECT_TRUE(std::equal(found.ranges.begin(), found.ranges.end(), wanted.ranges.begin(),
                            wanted.ranges.end()));
   }
@@ -295,8 +296,8 @@ TEST(scene, a_stroke_goes_over_frames_in_the_poses_of_the_clip) {
   ASSERT_TRUE(scene.submit(id, BeginStrokeCommand{stroke[0], {}, {}}));
   std::uint32_t crossed = 0;
   for (std::size_t i = 1; i < stroke.size(); ++i) {
-    ASSERT_TRUE(scene.submit(
-        id, ExtendStrokeCommand{stroke[i], static_cast<double>(i) * kFrame}, {true}));
+    ASSERT_TRUE(
+        scene.submit(id, ExtendStrokeCommand{stroke[i], static_cast<double>(i) * kFrame}, {true}));
     ASSERT_TRUE(scene.update(kFrame));
     for (const CommandResult& result : scene.results()) {
       ASSERT_TRUE(result.status) << result.status.text();
@@ -312,6 +313,134 @@ TEST(scene, a_stroke_goes_over_frames_in_the_poses_of_the_clip) {
   EXPECT_EQ(scene.results()[0].report.faces_crossed, crossed);
   EXPECT_GT(crossed, 0u);
   EXPECT_EQ(scene.find(id)->model()->undo_count(), 1u);
+}
+
+TEST(scene, a_large_operation_runs_in_the_background) {
+  const auto asset = tube(true);
+  Scene scene = make_scene();
+  const InstanceId swapped = value_of(scene.spawn(asset)), called = value_of(scene.spawn(asset));
+  ASSERT_TRUE(scene.update(kFrame));
+  PlaneCut cut;
+  cut.point = Vec3d(0, 2.2, 0);
+  cut.normal = Vec3d(0.1, 1, 0.2);
+  cut.caps = true;
+  for (const InstanceId id : {swapped, called})
+    ASSERT_TRUE(scene.submit(id, cut, {.wants_changes = true, .in_background = id == swapped}));
+  ASSERT_TRUE(scene.submit(swapped, UndoCommand{}));  // waits for the cut
+  ASSERT_TRUE(scene.submit(swapped, RedoCommand{}));
+  std::vector<CommandResult> results;
+  for (int i = 0; i < 2000 && results.size() < 4; ++i) {
+    ASSERT_TRUE(scene.update(0));
+    EXPECT_FALSE(scene.mesh(swapped, 0).positions.empty());
+    results.insert(results.end(), scene.results().begin(), scene.results().end());
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  ASSERT_EQ(results.size(), 4u);
+  for (const CommandResult& result : results) EXPECT_TRUE(result.status) << result.status.text();
+  std::sort(results.begin(), results.end(),
+            [](const auto& a, const auto& b) { return a.command < b.command; });
+  EXPECT_EQ(results[0].report.faces_crossed, results[1].report.faces_crossed);
+  EXPECT_EQ(results[0].changes.size(), 1u);
+  EXPECT_EQ(scene.find(swapped)->model()->digest(), scene.find(called)->model()->digest());
+}
+
+TEST(scene, a_refit_does_not_keep_others_waiting) {
+  const auto asset = tube(false);
+  Scene scene = make_scene();
+  const InstanceId id = value_of(scene.spawn(asset));
+  const ModelPose rest = *rest_pose(*asset->character());
+  test::Random random(5);
+  const auto stroke = [&] {
+    return test::random_stroke(*asset->character(), rest, random, 0.3, 3);
+  };
+  ASSERT_TRUE(scene.submit(id, TearCommand{stroke(), {}}));
+  ASSERT_TRUE(scene.update(kFrame));
+  ASSERT_TRUE(scene.results()[0].status);
+  WeightsOperation refit;
+  refit.weights.policy = WeightPolicy::refit;
+  ASSERT_TRUE(scene.submit(id, refit, {.in_background = true}));
+  ASSERT_TRUE(scene.submit(id, TearCommand{stroke(), {}}));
+  ASSERT_TRUE(scene.update(kFrame));
+  ASSERT_EQ(scene.results().size(), 1u);
+  EXPECT_EQ(scene.results()[0].command, 3u);
+  std::uint32_t refitted = 0;
+  for (int i = 0; i < 4000 && refitted == 0; ++i) {
+    ASSERT_TRUE(scene.update(kFrame));
+    for (const CommandResult& result : scene.results()) {
+      ASSERT_TRUE(result.status) << result.status.text();
+      refitted = result.report.weights.points;
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  EXPECT_GT(refitted, 0u);
+}
+
+TEST(scene, what_is_destroyed_leaves_no_command_without_a_result) {
+  const auto asset = tube(false);
+  Scene scene = make_scene();
+  const InstanceId id = value_of(scene.spawn(asset));
+  ASSERT_TRUE(scene.submit(id, Bore{}, {.in_background = true}));
+  ASSERT_TRUE(scene.submit(id, UndoCommand{}));
+  ASSERT_TRUE(scene.submit(id, BeginStrokeCommand{}, {.in_background = true}));
+  ASSERT_TRUE(scene.update(kFrame));  // starts the bore; the others wait
+  ASSERT_TRUE(scene.submit(id, RedoCommand{}));
+  const std::size_t done = scene.results().size();
+  ASSERT_TRUE(scene.destroy(id));
+  ASSERT_TRUE(scene.update(kFrame));
+  ASSERT_EQ(done + scene.results().size(), 4u);
+  for (const CommandResult& result : scene.results())
+    EXPECT_EQ(result.status.code(), StatusCode::not_found);
+}
+
+TEST(scene, those_far_away_show_a_coarser_level_with_the_same_tears) {
+  auto coarse_options = [] {
+    CharacterAssetOptions options;
+    options.soft.emplace();
+    options.soft->decomposition.range = 0.2;
+    return options;
+  };
+  const auto coarse = value_of(CharacterAsset::create(
+      std::make_shared<const Character>(test::make_tube(15, 8, 5)), coarse_options()));
+  CharacterAssetOptions options = coarse_options();
+  options.coarser = coarse;
+  options.coarser_below = 100;
+  const auto asset = value_of(CharacterAsset::create(
+      std::make_shared<const Character>(test::make_tube(30, 16, 5)), options));
+  Scene scene = make_scene();
+  const InstanceId id = value_of(scene.spawn(asset));
+  PlaneCut cut;
+  cut.point = Vec3d(0, 2.2, 0);
+  cut.normal = Vec3d(0.1, 1, 0.2);
+  cut.caps = true;
+  ASSERT_TRUE(scene.submit(id, cut));
+  ASSERT_TRUE(scene.update(kFrame));
+  const std::size_t pieces = scene.results()[0].report.pieces.size();
+  ASSERT_GT(pieces, 1u);
+  std::uint64_t seen = scene.mesh(id, 0).epoch;
+  ASSERT_TRUE(scene.set_screen_height(id, 50));
+  for (int i = 0; i < 4000 && scene.shown_level(id) == 0; ++i) {
+    ASSERT_TRUE(scene.update(kFrame));
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  ASSERT_EQ(scene.shown_level(id), 1u);
+  const PosedMesh mesh = scene.mesh(id, 0, seen);
+  EXPECT_EQ(mesh.initial_triangles.size(), coarse->triangles(0).size());  // other buffers
+  EXPECT_GT(mesh.positions.size(), coarse->character()->meshes[0].positions.size());
+  EXPECT_FALSE(mesh.triangle_writes.empty());
+  seen = mesh.epoch;
+  for (int i = 0; i < 200; ++i) ASSERT_TRUE(scene.update(kFrame));
+  EXPECT_TRUE(scene.mesh(id, 0, seen).initial_triangles.empty());
+  // Nearby, or torn again, it is the finest level at once.
+  ASSERT_TRUE(scene.submit(id, UndoCommand{}));
+  ASSERT_TRUE(scene.update(kFrame));
+  EXPECT_EQ(scene.shown_level(id), 0u);
+  EXPECT_EQ(scene.mesh(id, 0).positions.size(), asset->character()->meshes[0].positions.size());
+
+  CharacterAssetOptions other;
+  other.coarser = value_of(
+      CharacterAsset::create(std::make_shared<const Character>(test::make_tube(15, 8, 4))));
+  EXPECT_EQ(CharacterAsset::create(asset->character(), other).error().code(),
+            StatusCode::size_mismatch);
 }
 
 TEST(scene, refuses_what_cannot_be) {

@@ -15,6 +15,8 @@ namespace scene {
 struct AssetData;
 }
 
+class CharacterAsset;
+
 /// Options of a soft surface. It is decomposed in the rest pose.
 struct SoftTissue {
   DecompositionOptions decomposition;
@@ -33,6 +35,10 @@ struct CharacterAssetOptions {
   bool has_normals = true;   ///< Whether normals are posed, if a mesh has them.
   bool has_tangents = true;  ///< Likewise for tangents.
   bool unit_length = false;  ///< Whether they are normalised; see VertexTarget::unit_length.
+  /// Optional: a coarser level of detail, with the same bones and morph weights, which a Scene
+  /// shows instead where an instance is less than `coarser_below` pixels high.
+  std::shared_ptr<const CharacterAsset> coarser;
+  double coarser_below = 0.0;
 };
 
 /// Triangles of an index buffer that one draw call draws.
@@ -49,7 +55,8 @@ struct DrawRange {
 class SUNDER_API CharacterAsset {
  public:
   /// @param character  satisfies validate_character(); kept.
-  /// @return as the create() of TornModel, SkinnedMesh, ParticleSet and SoftBody.
+  /// @return as the create() of TornModel, SkinnedMesh, ParticleSet and SoftBody; size_mismatch or
+  ///         not_found if the coarser level has other bones or morph weights.
   /// O(size of the character), allocates. Thread-safe.
   [[nodiscard]] static Result<std::shared_ptr<const CharacterAsset>> create(
       std::shared_ptr<const Character> character, const CharacterAssetOptions& options = {});

@@ -3,6 +3,7 @@
 #include <sunder/core/parallel_for.h>
 #include <sunder/particles/force_tearing.h>
 #include <sunder/scene/character_asset.h>
+#include <sunder/tear/operation_job.h>
 #include <sunder/tear/refit_job.h>
 #include <sunder/tear/tear_stroke.h>
 
@@ -22,7 +23,9 @@ struct TriangleWrite {
 /// One mesh for drawing, after CharacterInstance::draw(), with what changed since an epoch. All
 /// spans are valid until the next call on the instance that is not const.
 struct PosedMesh {
-  std::uint64_t epoch = 0;              ///< To be passed to the next call of mesh().
+  std::uint64_t epoch = 0;  ///< To be passed to the next call of mesh().
+  /// Not empty: the index buffer starts anew as a copy of these, the triangles of the asset.
+  std::span<const Triangle> initial_triangles;
   std::span<const Vec3f> positions;     ///< One per vertex; model space, metres.
   std::span<const Vec3f> normals;       ///< One per vertex, or empty.
   std::span<const Vec4f> tangents;      ///< One per vertex, or empty; w is the bitangent's sign.
@@ -102,7 +105,10 @@ class SUNDER_API CharacterInstance {
   /// A refit of the weights of torn vertices, to be run on any thread.
   /// @return as RefitJob::create().
   Result<RefitJob> begin_refit(const WeightsOperation& wanted);
-  /// @return as RefitJob::swap_in().
+  /// A large operation, to be run on any thread. @return as OperationJob::create().
+  Result<OperationJob> begin_operation(const Operation& operation);
+  /// @return as the swap_in() of the job.
+  Result<TearReport> swap_in(const OperationJob& job, ChangeRecord* change = nullptr);
   Result<WeightReport> swap_in(const RefitJob& job, ChangeRecord* change = nullptr);
 
   /// Advances to a pose and steps the soft body. O(bones), and the step. No allocation once warm.
@@ -130,8 +136,8 @@ class SUNDER_API CharacterInstance {
   Status set_target(std::uint32_t mesh, const VertexTarget& target);
 
   /// One mesh after draw(), unchecked.
-  /// @param seen  the epoch up to which the caller's buffers are up to date; 0: they are those of
-  ///              the asset, without posed vertices.
+  /// @param seen  the epoch up to which the caller's buffers are up to date; 0: there are none yet.
+  ///              Any number of callers may keep buffers, and skip frames.
   /// Empty before the first draw(), and between an operation that changed the mesh and the next
   /// draw(). O(changes since then).
   [[nodiscard]] PosedMesh mesh(std::uint32_t mesh, std::uint64_t seen = 0);

@@ -12,11 +12,19 @@
 
 namespace sunder {
 
+/// A hook by which a scene runs work that takes longer than a frame.
+struct BackgroundHook {
+  /// Calls task(data) once, on any thread, now or later. Null: the scene has a thread of its own.
+  void (*run)(void* context, void (*task)(void* data), void* data) = nullptr;
+  void* context = nullptr;  ///< Handed to `run`.
+};
+
 struct SceneOptions {
   /// The caller's job system. Its tasks may allocate, unlike those of other calls. Without it the
   /// scene has a pool of `threads` threads.
   ParallelFor parallel_for;
   std::uint32_t threads = 0;  ///< 0: one per core. 1: the calling thread does all the work.
+  BackgroundHook background;
   /// Heights on the screen, in pixels, below which an instance is updated in every second frame,
   /// and in every fourth; see Scene::set_screen_height(). One that is being torn never is.
   std::array<double, 2> slower_below = {0, 0};
@@ -72,6 +80,9 @@ class SUNDER_API Scene {
   /// An instance that is not visible is neither sampled, stepped nor posed. Time goes on for its
   /// clip.
   Status set_visible(InstanceId instance, bool is_visible);
+  /// Far instances are updated less often and drawn by coarser levels of detail, on which tears are
+  /// replayed in the background; see SceneOptions::slower_below and CharacterAssetOptions::coarser.
+  /// One that is being torn never is.
   /// @param pixels  the height of the instance on the screen, > 0; initially infinite.
   Status set_screen_height(InstanceId instance, double pixels);
 
@@ -97,8 +108,12 @@ class SUNDER_API Scene {
   [[nodiscard]] std::span<const CommandResult> results() const;
   /// The instances that the last update posed anew, in the order of their slots.
   [[nodiscard]] std::span<const InstanceId> drawn() const;
-  /// One mesh of an instance for drawing; see CharacterInstance::mesh().
+  /// One mesh of an instance for drawing; see CharacterInstance::mesh(). Mesh and epoch are those
+  /// of the level that is shown.
   [[nodiscard]] PosedMesh mesh(InstanceId instance, std::uint32_t mesh, std::uint64_t seen = 0);
+  /// The level of detail that is shown: 0 is the asset of the instance, 1 its coarser level, and so
+  /// on. An engine has buffers per level.
+  [[nodiscard]] std::uint32_t shown_level(InstanceId instance) const;
 
   struct Memory {
     std::size_t assets = 0;     ///< Shared structures, each counted once.

@@ -62,6 +62,10 @@ struct CommandResult {
 struct CommandOptions {
   bool wants_changes = false;  ///< Whether the result lists the changes, for engines that mirror
                                ///< births and lips.
+  /// For tears, cuts, bores and weights that take longer than a frame: runs on another thread while
+  /// the instance is drawn as it was, and is swapped in by a later update. It acts in the pose of
+  /// the update that takes it. Later commands of the instance wait for it, but not for a refit.
+  bool in_background = false;
 };
 
 }  // namespace sunder
