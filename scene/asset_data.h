@@ -14,7 +14,7 @@ struct AssetMesh {
   SkinnedMesh skinned;
   std::size_t slots = 0;  ///< Of its skin.
   DrawOrder order;
-  bool has_normals = false, has_tangents = false;
+  bool poses_vertices = true, has_normals = false, has_tangents = false;
 };
 
 /// The data of a CharacterAsset.

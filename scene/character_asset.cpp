@@ -16,7 +16,10 @@ Result<scene::AssetMesh> make_mesh(const Mesh& mesh, std::size_t slots,
                                    const CharacterAssetOptions& options) {
   Result<SkinnedMesh> skinned = SkinnedMesh::create(source_of(mesh), slots);
   if (!skinned) return skinned.error();
-  return scene::AssetMesh{std::move(*skinned), slots, scene::DrawOrder(mesh),
+  return scene::AssetMesh{std::move(*skinned),
+                          slots,
+                          scene::DrawOrder(mesh),
+                          options.poses_vertices,
                           options.has_normals && !mesh.normals.empty(),
                           options.has_tangents && !mesh.tangents.empty()};
 }

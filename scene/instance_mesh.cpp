@@ -167,8 +167,12 @@ void InstanceMesh::list_written(std::uint64_t epoch) {
 }
 
 Status InstanceMesh::draw(const Input& input) {
-  if (Status status = update(input.mesh, input.exact); !status) return status;
-  if (Status status = deform(input); !status) return status;
+  if (asset_->poses_vertices) {
+    if (Status status = update(input.mesh, input.exact); !status) return status;
+    if (Status status = deform(input); !status) return status;
+  }
+  needs_update_ = false;
+  is_drawn_ = true;
   triangles_.update(input.mesh, input.epoch);
   list_written(input.epoch);
   return {};
@@ -179,16 +183,22 @@ void InstanceMesh::forget() noexcept {
   needs_update_ = true;
 }
 
-PosedMesh InstanceMesh::posed(const Mesh& mesh, std::uint64_t seen) {
-  if (needs_update_ || drawn_epoch_ == 0) return {};
-  const Index count = mesh.vertex_count();
+void InstanceMesh::list_dirty_vertices(std::uint64_t seen, Index count) {
   dirty_vertices_.clear();
-  if (seen < before_drawn_ || seen == 0)
+  if (!asset_->poses_vertices || (seen >= drawn_epoch_ && seen != 0)) return;
+  if (seen < before_drawn_ || seen == 0) {
     dirty_vertices_.push_back({0, count});
-  else if (seen < drawn_epoch_)
-    for (const IndexRange& range : written_)  // undo may have removed some of them since
-      if (range.first < count)
-        dirty_vertices_.push_back({range.first, std::min(range.count, count - range.first)});
+    return;
+  }
+  for (const IndexRange& range : written_)  // undo may have removed some of them since
+    if (range.first < count)
+      dirty_vertices_.push_back({range.first, std::min(range.count, count - range.first)});
+}
+
+PosedMesh InstanceMesh::posed(const Mesh& mesh, std::uint64_t seen) {
+  if (needs_update_ || !is_drawn_) return {};
+  const Index count = mesh.vertex_count();
+  list_dirty_vertices(seen, count);
   attributes_.collect(seen, count, dirty_attributes_);
   triangles_.collect(mesh, seen, writes_);
   PosedMesh posed;

@@ -67,6 +67,7 @@ class InstanceMesh {
   Status deform_part(const Input& input, const SkinnedMesh& skinned, PosedBuffer& buffer,
                      Index first, Index count);
   void list_written(std::uint64_t epoch);
+  void list_dirty_vertices(std::uint64_t seen, Index count);
 
   const AssetMesh* asset_;
   Index source_count_, room_;
@@ -80,6 +81,7 @@ class InstanceMesh {
   bool has_target_ = false;
   Index first_changed_ =
       kNone;                  ///< First vertex whose skinning data changed since the last draw().
+  bool is_drawn_ = false;     ///< Whether draw() was ever called.
   bool needs_update_ = true;  ///< Whether anything was noted since the last draw().
 
   DrawTriangles triangles_;

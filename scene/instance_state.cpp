@@ -93,8 +93,9 @@ Status CharacterInstance::State::draw_mesh(Index mesh, const ParallelFor& parall
                                       nullptr,
                                       parallel_for,
                                       epoch + 1};
-  const std::span<const IndexRange> moved =
-      torn->body ? torn->body->moved_vertices(model, mesh) : std::span<const IndexRange>();
+  const std::span<const IndexRange> moved = torn->body && shared().options.poses_vertices
+                                                ? torn->body->moved_vertices(model, mesh)
+                                                : std::span<const IndexRange>();
   if (moved.empty()) return posed.draw(input);
   VertexDisplacements displaced{torn->particles->vertex_points(mesh),
                                 torn->particles->influences(),
@@ -115,7 +116,8 @@ Status CharacterInstance::State::draw(const ParallelFor& parallel_for) {
   if (!needs_draw) return {};
   try {
     if (Status status = require_drawn(); !status) return status;
-    if (Status status = set_palettes(); !status) return status;
+    if (shared().options.poses_vertices)
+      if (Status status = set_palettes(); !status) return status;
     for (Index mesh = 0; mesh < drawn->meshes.size(); ++mesh)
       if (Status status = draw_mesh(mesh, parallel_for); !status) return status;
     ++epoch;

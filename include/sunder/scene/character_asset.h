@@ -31,6 +31,10 @@ struct CharacterAssetOptions {
   std::optional<SoftTissue> soft;  ///< Empty: the surface follows its bones only.
   /// How new vertices are skinned, if an operation has no options of its own.
   WeightOptions weights;
+  /// Whether draw() poses vertices. Without it, a shader does, from the palette of the pose, the
+  /// weights and births of appended vertices, and the displacements of particles; PosedMesh has no
+  /// positions then.
+  bool poses_vertices = true;
   SkinningMethod method = SkinningMethod::linear;
   bool has_normals = true;   ///< Whether normals are posed, if a mesh has them.
   bool has_tangents = true;  ///< Likewise for tangents.
