@@ -28,6 +28,9 @@ endif()
 
 # Programs that link a static archive also link its private libraries.
 set(SUNDER_STATIC_DEPENDENCIES "")
+if(NOT BUILD_SHARED_LIBS)
+  string(APPEND SUNDER_STATIC_DEPENDENCIES "find_dependency(Threads)\n")
+endif()
 if(SUNDER_HIGHWAY AND NOT BUILD_SHARED_LIBS)
   string(APPEND SUNDER_STATIC_DEPENDENCIES "find_dependency(hwy 1.0.3)\n")
 endif()

@@ -4,7 +4,7 @@
 #include <new>
 #include <utility>
 
-#include "scene/check_pose.h"
+#include "scene/actor/check_pose.h"
 #include "scene/instance_state.h"
 
 namespace sunder {

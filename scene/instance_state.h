@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "scene/asset_data.h"
-#include "scene/instance_mesh.h"
+#include "scene/drawing/instance_mesh.h"
 #include "scene/torn_parts.h"
 
 namespace sunder {

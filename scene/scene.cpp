@@ -9,8 +9,8 @@
 #include <system_error>
 #include <utility>
 
-#include "scene/actor.h"
-#include "scene/thread_pool.h"
+#include "scene/actor/actor.h"
+#include "scene/threads/thread_pool.h"
 
 namespace sunder {
 namespace {

@@ -1,4 +1,4 @@
-#include "scene/draw_order.h"
+#include "scene/drawing/draw_order.h"
 
 #include <algorithm>
 

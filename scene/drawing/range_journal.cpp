@@ -1,4 +1,4 @@
-#include "scene/range_journal.h"
+#include "scene/drawing/range_journal.h"
 
 #include <algorithm>
 

@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "scene/background.h"
+#include "scene/threads/background.h"
 
 namespace sunder::scene {
 

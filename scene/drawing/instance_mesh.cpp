@@ -1,4 +1,4 @@
-#include "scene/instance_mesh.h"
+#include "scene/drawing/instance_mesh.h"
 
 #include <algorithm>
 

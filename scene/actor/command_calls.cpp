@@ -1,4 +1,4 @@
-#include "scene/command_calls.h"
+#include "scene/actor/command_calls.h"
 
 namespace sunder::scene {
 namespace {

@@ -1,4 +1,4 @@
-#include "scene/torn_tail.h"
+#include "scene/drawing/torn_tail.h"
 
 #include <algorithm>
 

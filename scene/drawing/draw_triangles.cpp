@@ -1,4 +1,4 @@
-#include "scene/draw_triangles.h"
+#include "scene/drawing/draw_triangles.h"
 
 #include <algorithm>
 #include <new>

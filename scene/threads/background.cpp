@@ -1,4 +1,4 @@
-#include "scene/background.h"
+#include "scene/threads/background.h"
 
 #include <utility>
 

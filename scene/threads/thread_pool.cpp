@@ -1,4 +1,4 @@
-#include "scene/thread_pool.h"
+#include "scene/threads/thread_pool.h"
 
 namespace sunder::scene {
 

@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include "scene/asset_data.h"
-#include "scene/draw_triangles.h"
-#include "scene/range_journal.h"
-#include "scene/torn_tail.h"
+#include "scene/drawing/asset_mesh.h"
+#include "scene/drawing/draw_triangles.h"
+#include "scene/drawing/range_journal.h"
+#include "scene/drawing/torn_tail.h"
 
 namespace sunder::scene {
 

@@ -1,9 +1,9 @@
-#include "scene/actor_commands.h"
+#include "scene/actor/actor_commands.h"
 
 #include <system_error>
 #include <utility>
 
-#include "scene/command_calls.h"
+#include "scene/actor/command_calls.h"
 
 namespace sunder::scene {
 namespace {

@@ -1,4 +1,4 @@
-#include "scene/check_pose.h"
+#include "scene/actor/check_pose.h"
 
 #include <cmath>
 

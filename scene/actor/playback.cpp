@@ -1,4 +1,4 @@
-#include "scene/playback.h"
+#include "scene/actor/playback.h"
 
 #include <sunder/skinning/pose.h>
 

@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "scene/background.h"
-#include "scene/command_queue.h"
+#include "scene/actor/command_queue.h"
+#include "scene/threads/background.h"
 
 namespace sunder::scene {
 

@@ -5,9 +5,9 @@
 #include <limits>
 #include <vector>
 
-#include "scene/actor_commands.h"
-#include "scene/detail_levels.h"
-#include "scene/playback.h"
+#include "scene/actor/actor_commands.h"
+#include "scene/actor/detail_levels.h"
+#include "scene/actor/playback.h"
 
 namespace sunder::scene {
 

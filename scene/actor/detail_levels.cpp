@@ -1,4 +1,4 @@
-#include "scene/detail_levels.h"
+#include "scene/actor/detail_levels.h"
 
 namespace sunder::scene {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "scene/draw_order.h"
+#include "scene/drawing/draw_order.h"
 
 namespace sunder::scene {
 

@@ -1,4 +1,4 @@
-#include "scene/actor.h"
+#include "scene/actor/actor.h"
 
 #include <sunder/skinning/pose.h>
 
@@ -8,7 +8,7 @@
 #include <system_error>
 #include <utility>
 
-#include "scene/check_pose.h"
+#include "scene/actor/check_pose.h"
 
 namespace sunder::scene {
 namespace {
