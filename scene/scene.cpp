@@ -9,8 +9,7 @@
 #include <system_error>
 #include <utility>
 
-#include "scene/actor/actor.h"
-#include "scene/threads/thread_pool.h"
+#include "scene/scene_state.h"
 
 namespace sunder {
 namespace {
@@ -19,63 +18,7 @@ Status out_of_memory() {
   return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
 }
 
-Status no_instance(InstanceId id) {
-  return Status::failure(StatusCode::not_found, id.slot, "there is no instance %u of generation %u",
-                         id.slot, id.generation);
-}
-
-struct Slot {
-  std::uint32_t generation = 0;
-  std::unique_ptr<scene::Actor> actor;  ///< Null: free.
-};
-
 }  // namespace
-
-struct Scene::State {
-  SceneOptions options;
-  std::unique_ptr<scene::ThreadPool> pool;
-  ParallelFor parallel_for;
-  std::vector<Slot> slots;
-  std::vector<Index> free_slots;
-  std::vector<Index> active;  ///< Slots that the next update looks at.
-  Index hidden = 0;           ///< Instances that are busy but not visible.
-  scene::CommandQueue queue;
-  std::vector<scene::QueuedCommand> taken;
-  std::vector<CommandResult> results;
-  std::vector<CommandResult>
-      abandoned;  ///< Of instances that were destroyed since the last update.
-  std::vector<InstanceId> drawn;
-  FrameStats stats;
-  double now = 0;
-  scene::Background background;  // ends before anything that its jobs use
-
-  explicit State(const SceneOptions& of) : options(of), background(of.background) {}
-
-  [[nodiscard]] scene::Actor* find(InstanceId id) const {
-    if (id.slot >= slots.size() || slots[id.slot].generation != id.generation) return nullptr;
-    return slots[id.slot].actor.get();
-  }
-  /// Lets the next update look at an instance. There is room in the list for all slots.
-  void wake(Index slot) noexcept {
-    scene::Actor& actor = *slots[slot].actor;
-    hidden -= std::exchange(actor.is_hidden, false);
-    if (std::exchange(actor.is_listed, true)) return;
-    active.push_back(slot);
-  }
-  template <class Call>
-  Status call(InstanceId id, Call make_call) {
-    scene::Actor* const actor = find(id);
-    if (actor == nullptr) return no_instance(id);
-    Status status = make_call(*actor);
-    if (status) wake(id.slot);
-    return status;
-  }
-
-  void take_commands();
-  void run_actors();
-  void collect();
-  [[nodiscard]] bool is_turn_of(Index slot) const;
-};
 
 /// Hands each command to its instance. Commands without an instance fail at once.
 void Scene::State::take_commands() {
@@ -91,7 +34,7 @@ void Scene::State::take_commands() {
     CommandResult& result = results.emplace_back();
     result.command = queued.id;
     result.instance = queued.instance;
-    result.status = no_instance(queued.instance);
+    result.status = scene::no_instance(queued.instance);
   }
 }
 
@@ -135,7 +78,7 @@ void Scene::State::collect() {
     stats.advanced += of.was_advanced;
     stats.drawn += of.was_drawn;
     stats.waiting += of.was_waiting;
-    stats.unchanged += !of.was_waiting && !of.was_advanced && !of.was_drawn;
+    stats.unchanged += !of.was_waiting && !of.was_idle && !of.was_advanced && !of.was_drawn;
     stats.vertices += of.vertices;
     stats.animation += of.animation;
     stats.operations += of.operations;
@@ -216,9 +159,9 @@ Result<InstanceId> Scene::spawn(std::shared_ptr<const CharacterAsset> asset,
 Status Scene::destroy(InstanceId id) {
   State& state = *state_;
   scene::Actor* const actor = state.find(id);
-  if (actor == nullptr) return no_instance(id);
+  if (actor == nullptr) return scene::no_instance(id);
   try {
-    actor->commands.abandon(no_instance(id));
+    actor->commands.abandon(scene::no_instance(id));
     std::vector<CommandResult>& abandoned = actor->commands.results();
     std::move(abandoned.begin(), abandoned.end(), std::back_inserter(state.abandoned));
   } catch (const std::bad_alloc&) {
@@ -347,13 +290,14 @@ std::uint32_t Scene::shown_level(InstanceId id) const {
 
 Scene::Memory Scene::memory_bytes() const {
   Memory memory;
-  memory.instances = sizeof(State) + state_->slots.capacity() * (sizeof(Slot) + 2 * sizeof(Index));
+  memory.instances =
+      sizeof(State) + state_->slots.capacity() * (sizeof(scene::Slot) + 2 * sizeof(Index));
   std::set<const CharacterAsset*> assets;
   const auto add = [&](const CharacterAsset* asset) {
     for (; asset != nullptr; asset = asset->options().coarser.get())
       if (assets.insert(asset).second) memory.assets += asset->memory_bytes();
   };
-  for (const Slot& slot : state_->slots) {
+  for (const scene::Slot& slot : state_->slots) {
     if (!slot.actor) continue;
     memory.instances += slot.actor->memory_bytes();
     add(slot.actor->instance.asset().get());

@@ -201,6 +201,18 @@ std::uint64_t TornModel::newest_operation() const {
 
 bool TornModel::is_in_stroke() const { return state_->has_stroke; }
 
+Result<std::vector<Operation>> TornModel::undone_operations() const {
+  try {
+    std::vector<Operation> operations;
+    const auto& undone = state_->history.undone();
+    for (auto entry = undone.rbegin(); entry != undone.rend(); ++entry)
+      operations.push_back((*entry)->operation);
+    return operations;
+  } catch (const std::bad_alloc&) {
+    return out_of_memory();
+  }
+}
+
 Result<std::vector<Operation>> TornModel::history() const {
   try {
     std::vector<Operation> operations;

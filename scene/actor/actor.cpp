@@ -92,7 +92,49 @@ void Actor::work_on_commands(Background& background) {
   const std::size_t before = commands.results().size();
   commands.finish_background(instance);
   commands.apply(pose(), instance, background);
-  if (commands.results().size() > before) last_operation_ = now_;
+  if (commands.results().size() == before) return;
+  last_operation_ = now_;
+  note_origin();
+}
+
+/// A snapshot then keeps the moment of the clip instead of all matrices.
+void Actor::note_origin() {
+  if (!playback_.is_playing() || playback_.needs_sample()) return;
+  const std::uint64_t hash = hash_of(pose());
+  if (!origins_.empty() && origins_.back().hash == hash) return;
+  origins_.push_back({hash, playback_.state().clip, playback_.state().time});
+}
+
+Actor::State Actor::state() const {
+  return {is_visible_,     has_new_pose_,     screen_height,  now_,
+          last_operation_, playback_.state(), shown().pose(), pose_};
+}
+
+Status Actor::restore(const State& state) {
+  const Character& character = *instance.asset()->character();
+  if (!(state.screen_height > 0) || !std::isfinite(state.now) ||
+      !std::isfinite(state.last_operation))
+    return Status::failure(StatusCode::malformed_file, kNone,
+                           "the time or the height of an instance is not a number");
+  const Playback::State& of = state.playback;
+  if (of.clip != kNone &&
+      (of.clip >= character.clips.size() || !std::isfinite(of.time) || !std::isfinite(of.now) ||
+       !std::isfinite(of.options.start) || !std::isfinite(of.options.speed)))
+    return Status::failure(StatusCode::malformed_file, of.clip,
+                           "an instance plays a clip that its character does not have");
+  for (const ModelPose* pose : {&state.pose, &state.next_pose})
+    if (!pose->model_from_bone.empty())
+      if (Status status = check_pose(character, *pose); !status) return status;
+  if (!state.pose.model_from_bone.empty())
+    if (Status status = instance.advance(state.pose, 0); !status) return status;
+  pose_ = state.next_pose;
+  is_visible_ = state.is_visible;
+  has_new_pose_ = state.has_new_pose;
+  screen_height = state.screen_height;
+  now_ = state.now;
+  last_operation_ = state.last_operation;
+  playback_.restore(of);
+  return {};
 }
 
 /// Chooses the level of detail, and lets it follow the pose of this frame.
@@ -108,7 +150,8 @@ void Actor::show_level(Background& background) {
 void Actor::update(const Frame& of) {
   frame = {};
   frame.was_waiting = !of.is_its_turn && !is_being_torn();
-  if (frame.was_waiting) return;
+  frame.was_idle = !is_active();
+  if (frame.was_waiting || frame.was_idle) return;
   const double seconds = of.now - now_;
   now_ = of.now;
   try {

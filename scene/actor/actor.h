@@ -3,11 +3,13 @@
 #include <sunder/scene/scene.h>
 
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "scene/actor/actor_commands.h"
 #include "scene/actor/detail_levels.h"
 #include "scene/actor/playback.h"
+#include "scene/snapshot/pose_memory.h"
 
 namespace sunder::scene {
 
@@ -15,7 +17,7 @@ namespace sunder::scene {
 struct ActorFrame {
   Status status;
   bool was_sampled = false, was_advanced = false, was_drawn = false;
-  bool was_waiting = false, was_switched = false;
+  bool was_waiting = false, was_idle = false, was_switched = false;
   Index vertices = 0;
   double animation = 0, operations = 0, tissue = 0, drawing = 0;  ///< Microseconds.
 };
@@ -57,6 +59,21 @@ class Actor {
 
   /// Frees what only an active instance needs.
   void fall_idle() noexcept;
+  /// What a snapshot keeps of an actor, in addition to its instance.
+  struct State {
+    bool is_visible = true, has_new_pose = true;
+    double screen_height = 0, now = 0, last_operation = 0;
+    Playback::State playback;
+    ModelPose pose, next_pose;  ///< Of the instance, and of its next advance(); empty: none.
+  };
+  /// @throws std::bad_alloc
+  [[nodiscard]] State state() const;
+  /// @return the fault of a state that does not fit the instance. @throws std::bad_alloc
+  Status restore(const State& state);
+  /// Moments of clips in whose poses commands were applied.
+  [[nodiscard]] std::span<const PoseOrigin> origins() const { return origins_; }
+  void set_origins(std::vector<PoseOrigin> origins) { origins_ = std::move(origins); }
+
   [[nodiscard]] std::size_t memory_bytes() const {
     return sizeof(*this) + instance.memory_bytes() + levels_.memory_bytes() +
            pose_.model_from_bone.capacity() * sizeof(Affine3d);
@@ -89,10 +106,12 @@ class Actor {
   Status animate();
   Status move(double seconds, Background& background);
   void work_on_commands(Background& background);
+  void note_origin();
   void show_level(Background& background);
   void draw(const ParallelFor& parallel_for);
 
   Playback playback_;
+  std::vector<PoseOrigin> origins_;
   DetailLevels levels_;
   ModelPose pose_;  ///< Empty: that of the level that is shown.
   bool has_new_pose_ = true;

@@ -9,15 +9,15 @@ namespace sunder::scene {
 
 void Playback::advance(const Character& character, double now) {
   if (!is_playing()) return;
-  const double duration = static_cast<double>(character.clips[clip_].duration);
-  const double before = time_;
-  time_ += options_.speed * (now - now_);
-  now_ = now;
-  if (!options_.is_looped || duration <= 0)
-    time_ = std::clamp(time_, 0.0, std::max(duration, 0.0));
+  const double duration = static_cast<double>(character.clips[state_.clip].duration);
+  const double before = state_.time;
+  state_.time += state_.options.speed * (now - state_.now);
+  state_.now = now;
+  if (!state_.options.is_looped || duration <= 0)
+    state_.time = std::clamp(state_.time, 0.0, std::max(duration, 0.0));
   else
-    time_ -= duration * std::floor(time_ / duration);
-  is_new_ |= time_ != before;
+    state_.time -= duration * std::floor(state_.time / duration);
+  state_.is_new |= state_.time != before;
 }
 
 Status Playback::sample(const Character& character, ModelPose& pose) {
@@ -30,9 +30,10 @@ Status Playback::sample(const Character& character, ModelPose& pose) {
   for (std::size_t bone = 0; bone < local_.parent_from_bone.size(); ++bone)
     local_.parent_from_bone[bone] = character.skeleton.bones[bone].rest;
   local_.morph_weights = character.rest_morph_weights;
-  if (Status status = sample_clip(character.clips[clip_], time_, local_); !status) return status;
+  if (Status status = sample_clip(character.clips[state_.clip], state_.time, local_); !status)
+    return status;
   if (Status status = compute_model_pose(character.skeleton, local_, pose); !status) return status;
-  is_new_ = false;
+  state_.is_new = false;
   return {};
 }
 

@@ -6,9 +6,11 @@
 #include <sunder/scene/scene_command.h>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <vector>
 
 namespace sunder {
 
@@ -114,6 +116,24 @@ class SUNDER_API Scene {
   /// The level of detail that is shown: 0 is the asset of the instance, 1 its coarser level, and so
   /// on. An engine has buffers per level.
   [[nodiscard]] std::uint32_t shown_level(InstanceId instance) const;
+
+  // ---- Snapshots.
+
+  /// The state of all instances, as bytes: operations, poses, what plays, the motion of tissue.
+  /// Assets are not part of it; moments of clips take the place of poses where they can.
+  /// @return invalid_argument while a stroke or a command in the background is in progress;
+  ///         limit_exceeded: out of memory. O(operations x bones + particles), allocates.
+  [[nodiscard]] Result<std::vector<std::byte>> save() const;
+  /// Makes the scene one that was saved. It goes on with the same bits, and the same names; engines
+  /// start their buffers anew. What waits in submit() stays. The bytes are not trusted.
+  /// @param assets    those of the instances, in any order; found by digests of their characters.
+  /// @param capacity  of each instance; that of the saved one is not kept.
+  /// @return unsupported_format, malformed_file (index: the byte, or the slot), not_found without
+  ///         the asset of an instance, the failure of an operation. The scene is unchanged then.
+  /// O(operations of all instances), allocates.
+  Status restore(std::span<const std::byte> snapshot,
+                 std::span<const std::shared_ptr<const CharacterAsset>> assets,
+                 const TornCapacity& capacity = {});
 
   struct Memory {
     std::size_t assets = 0;     ///< Shared structures, each counted once.

@@ -139,6 +139,8 @@ class SUNDER_API TornModel {
   /// poses. Applied to the source they reproduce this model, bit for bit.
   /// @return limit_exceeded: out of memory. O(size of the operations), allocates.
   [[nodiscard]] Result<std::vector<Operation>> history() const;
+  /// The operations that redo() would reapply, the next one first. @return as history().
+  [[nodiscard]] Result<std::vector<Operation>> undone_operations() const;
 
   /// Removes retired triangles and unused vertices. The result becomes the model's source: births
   /// start over and there is nothing to undo. O(size of the model).

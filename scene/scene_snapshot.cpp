@@ -1,0 +1,227 @@
+#include <algorithm>
+#include <cmath>
+#include <new>
+
+#include "scene/saved_instance.h"
+#include "scene/scene_state.h"
+#include "scene/snapshot/character_digest.h"
+
+namespace sunder {
+namespace scene {
+namespace {
+
+constexpr std::uint32_t kMagic = 0x444E5553;  // "SUND"
+constexpr std::uint32_t kVersion = 1;
+
+/// All but the digest of the character, which says how poses are read.
+template <class Archive>
+void transfer_instance(Archive& archive, SavedInstance& of) {
+  auto& [character, is_prepared, done, undone, actor] = of;
+  archive(is_prepared, done, undone, actor);
+}
+
+Status broken(const SnapshotReader& reader) {
+  return Status::failure(StatusCode::malformed_file, static_cast<Index>(reader.offset()),
+                         "the snapshot is damaged at byte %zu: %s", reader.offset(),
+                         reader.fault());
+}
+
+using Assets = std::span<const std::shared_ptr<const CharacterAsset>>;
+
+/// Finds assets by the digests of their characters.
+class AssetTable {
+ public:
+  AssetTable(Assets assets, const TornCapacity& capacity) : capacity_(capacity) {
+    for (const auto& asset : assets)
+      if (asset) entries_.push_back({digest_of(*asset->character()), asset});
+  }
+  [[nodiscard]] const TornCapacity& capacity() const { return capacity_; }
+  [[nodiscard]] std::shared_ptr<const CharacterAsset> find(std::uint64_t digest) const {
+    for (const auto& [of_character, asset] : entries_)
+      if (of_character == digest) return asset;
+    return nullptr;
+  }
+
+ private:
+  struct Entry {
+    std::uint64_t digest;
+    std::shared_ptr<const CharacterAsset> asset;
+  };
+  std::vector<Entry> entries_;
+  TornCapacity capacity_;  ///< Of all instances.
+};
+
+Result<SavedInstance> describe(const Actor& actor) {
+  const CharacterInstance& of = actor.instance;
+  if (of.is_in_stroke())
+    return Status::failure(StatusCode::invalid_argument, kNone,
+                           "a stroke is in progress; end or cancel it first");
+  if (actor.commands.background_count() > 0 || actor.commands.has_waiting())
+    return Status::failure(StatusCode::invalid_argument, kNone,
+                           "commands run in the background; update until they are done");
+  SavedInstance saved;
+  saved.character = digest_of(*of.asset()->character());
+  saved.actor = actor.state();
+  saved.is_prepared = of.model() != nullptr;
+  if (!saved.is_prepared) return saved;
+  Result<std::vector<Operation>> done = of.model()->history();
+  if (!done) return done.error();
+  Result<std::vector<Operation>> undone = of.model()->undone_operations();
+  if (!undone) return undone.error();
+  saved.done = std::move(*done);
+  saved.undone = std::move(*undone);
+  return saved;
+}
+
+Status replay(const SavedInstance& saved, CharacterInstance& instance) {
+  if (!saved.is_prepared) return {};
+  if (Status status = instance.prepare_to_tear(); !status) return status;
+  for (const std::vector<Operation>* operations : {&saved.done, &saved.undone})
+    for (const Operation& operation : *operations)
+      if (const auto report = instance.apply(operation); !report) return report.error();
+  for (std::size_t i = 0; i < saved.undone.size(); ++i)
+    if (Status status = instance.undo(); !status) return status;
+  return {};
+}
+
+/// Makes an instance as it was saved.
+Result<std::unique_ptr<Actor>> revive(const SavedInstance& saved,
+                                      const std::shared_ptr<const CharacterAsset>& asset,
+                                      const TornCapacity& capacity) {
+  Result<CharacterInstance> instance = CharacterInstance::create(asset, capacity);
+  if (!instance) return instance.error();
+  if (Status status = replay(saved, *instance); !status) return status;
+  auto actor = std::make_unique<Actor>(std::move(*instance), saved.actor.is_visible, 0.0);
+  if (Status status = actor->restore(saved.actor); !status) return status;
+  return actor;
+}
+
+Status in_slot(std::size_t slot, const Status& status) {
+  return Status::failure(status.code(), static_cast<Index>(slot), "instance %zu: %s", slot,
+                         status.text().data());
+}
+
+/// Reads one slot. @param actor  null for a free one.
+Status read_slot(SnapshotReader& reader, const AssetTable& assets, Slot& slot) {
+  bool has_instance = false;
+  reader(slot.generation, has_instance);
+  if (reader.has_failed()) return broken(reader);
+  if (!has_instance) return {};
+  SavedInstance saved;
+  reader(saved.character);
+  const std::shared_ptr<const CharacterAsset> asset = assets.find(saved.character);
+  if (!asset)
+    return reader.has_failed()
+               ? broken(reader)
+               : Status::failure(StatusCode::not_found, kNone,
+                                 "none of the assets is its character (digest %016llx)",
+                                 static_cast<unsigned long long>(saved.character));
+  PoseMemory poses(*asset->character(), {});
+  reader.poses = &poses;
+  transfer_instance(reader, saved);
+  if (reader.has_failed()) return broken(reader);
+  Result<std::unique_ptr<Actor>> actor = revive(saved, asset, assets.capacity());
+  if (!actor) return actor.error();
+  slot.actor = std::move(*actor);
+  slot.actor->set_origins(std::move(poses.read_origins()));
+  return {};
+}
+
+}  // namespace
+}  // namespace scene
+
+Result<std::vector<std::byte>> Scene::save() const {
+  try {
+    scene::SnapshotWriter writer;
+    auto magic = scene::kMagic, version = scene::kVersion;
+    auto slots = static_cast<Index>(state_->slots.size());
+    std::uint64_t frame = state_->stats.frame;
+    double now = state_->now;
+    writer(magic, version, now, frame, state_->free_slots, slots);
+    for (std::size_t i = 0; i < state_->slots.size(); ++i) {
+      scene::Slot& slot = state_->slots[i];
+      bool has_instance = slot.actor != nullptr;
+      writer(slot.generation, has_instance);
+      if (!has_instance) continue;
+      Result<scene::SavedInstance> saved = scene::describe(*slot.actor);
+      if (!saved) return scene::in_slot(i, saved.error());
+      scene::PoseMemory poses(*slot.actor->instance.asset()->character(), slot.actor->origins());
+      writer.poses = &poses;
+      writer(saved->character);
+      scene::transfer_instance(writer, *saved);
+    }
+    return std::move(writer.bytes());
+  } catch (const std::bad_alloc&) {
+    return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
+  }
+}
+
+Status Scene::restore(std::span<const std::byte> snapshot, scene::Assets assets,
+                      const TornCapacity& capacity) {
+  try {
+    scene::SnapshotReader reader(snapshot);
+    std::uint32_t magic = 0, version = 0, slots = 0;
+    double now = 0;
+    std::uint64_t frame = 0;
+    std::vector<Index> free_slots;
+    reader(magic, version);
+    if (magic != scene::kMagic)
+      return Status::failure(StatusCode::unsupported_format, 0,
+                             "this is not a snapshot of a scene");
+    if (version != scene::kVersion)
+      return Status::failure(StatusCode::unsupported_format, 4,
+                             "the snapshot has version %u; this build reads %u", version,
+                             scene::kVersion);
+    reader(now, frame, free_slots, slots);
+    if (!reader.has_failed() && (!std::isfinite(now) || slots > reader.remaining()))
+      reader.fail("the time or the number of instances cannot be");
+    if (reader.has_failed()) return scene::broken(reader);
+    const scene::AssetTable table(assets, capacity);
+    std::vector<scene::Slot> made(slots);
+    for (std::size_t i = 0; i < made.size(); ++i)
+      if (Status status = scene::read_slot(reader, table, made[i]); !status)
+        return scene::in_slot(i, status);
+    if (reader.remaining() > 0) reader.fail("there are more bytes than instances");
+    return reader.has_failed()
+               ? scene::broken(reader)
+               : state_->replace(std::move(made), std::move(free_slots), now, frame);
+  } catch (const std::bad_alloc&) {
+    return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
+  }
+}
+
+/// Takes over slots that were read. @throws std::bad_alloc, with nothing changed
+Status Scene::State::replace(std::vector<scene::Slot> made, std::vector<Index> free, double time,
+                             std::uint64_t frame) {
+  Index instances = 0;
+  std::vector<bool> is_free(made.size(), false);
+  for (const Index slot : free) {
+    if (slot >= made.size() || made[slot].actor || is_free[slot])
+      return Status::failure(StatusCode::malformed_file, slot,
+                             "the snapshot is damaged: slot %u is not free", slot);
+    is_free[slot] = true;
+  }
+  for (std::size_t i = 0; i < made.size(); ++i) {
+    if (!made[i].actor && !is_free[i])
+      return Status::failure(StatusCode::malformed_file, static_cast<Index>(i),
+                             "the snapshot is damaged: slot %zu is neither free nor used", i);
+    instances += made[i].actor != nullptr;
+  }
+  std::vector<Index> all;
+  all.reserve(2 * made.capacity() + 16);
+  free.reserve(2 * made.capacity() + 16);
+  slots = std::move(made);
+  free_slots = std::move(free);
+  active = std::move(all);
+  hidden = 0;
+  results.clear();
+  abandoned.clear();
+  drawn.clear();
+  stats = {.frame = frame, .instances = instances};
+  now = time;
+  for (Index slot = 0; slot < slots.size(); ++slot)
+    if (slots[slot].actor) wake(slot);
+  return {};
+}
+
+}  // namespace sunder

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <sunder/scene/scene.h>
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "scene/actor/actor.h"
+#include "scene/threads/thread_pool.h"
+
+namespace sunder {
+namespace scene {
+
+struct Slot {
+  std::uint32_t generation = 0;
+  std::unique_ptr<scene::Actor> actor;  ///< Null: free.
+};
+
+[[nodiscard]] inline Status no_instance(InstanceId id) {
+  return Status::failure(StatusCode::not_found, id.slot, "there is no instance %u of generation %u",
+                         id.slot, id.generation);
+}
+
+}  // namespace scene
+
+struct Scene::State {
+  SceneOptions options;
+  std::unique_ptr<scene::ThreadPool> pool;
+  ParallelFor parallel_for;
+  std::vector<scene::Slot> slots;
+  std::vector<Index> free_slots;
+  std::vector<Index> active;  ///< Slots that the next update looks at.
+  Index hidden = 0;           ///< Instances that are busy but not visible.
+  scene::CommandQueue queue;
+  std::vector<scene::QueuedCommand> taken;
+  std::vector<CommandResult> results;
+  std::vector<CommandResult>
+      abandoned;  ///< Of instances that were destroyed since the last update.
+  std::vector<InstanceId> drawn;
+  FrameStats stats;
+  double now = 0;
+  scene::Background background;  // ends before anything that its jobs use
+
+  explicit State(const SceneOptions& of) : options(of), background(of.background) {}
+
+  [[nodiscard]] scene::Actor* find(InstanceId id) const {
+    if (id.slot >= slots.size() || slots[id.slot].generation != id.generation) return nullptr;
+    return slots[id.slot].actor.get();
+  }
+  /// Lets the next update look at an instance. There is room in the list for all slots.
+  void wake(Index slot) noexcept {
+    scene::Actor& actor = *slots[slot].actor;
+    hidden -= std::exchange(actor.is_hidden, false);
+    if (std::exchange(actor.is_listed, true)) return;
+    active.push_back(slot);
+  }
+  template <class Call>
+  Status call(InstanceId id, Call make_call) {
+    scene::Actor* const actor = find(id);
+    if (actor == nullptr) return scene::no_instance(id);
+    Status status = make_call(*actor);
+    if (status) wake(id.slot);
+    return status;
+  }
+
+  Status replace(std::vector<scene::Slot> made, std::vector<Index> free, double time,
+                 std::uint64_t frame);
+  void take_commands();
+  void run_actors();
+  void collect();
+  [[nodiscard]] bool is_turn_of(Index slot) const;
+};
+
+}  // namespace sunder
