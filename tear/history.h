@@ -44,12 +44,15 @@ class History {
 
   /// The entry that push() will add, to be filled in.
   [[nodiscard]] Entry& next();
+  /// The same entry, once it is filled in.
+  [[nodiscard]] Entry& filled() { return *spare_.back(); }
   /// Reserves memory so that a push() with this many lips and rim points does not fail.
   void make_room_for(std::size_t lips, std::size_t rim_points);
   /// Adds next() as the most recent entry and clears the redo stack.
   /// @param borders  the borders that the operation opened; redo() reports them again.
   void push(const OpenedBorders& borders);
 
+  [[nodiscard]] bool is_empty() const { return done_.empty() && undone_.empty(); }
   [[nodiscard]] const std::vector<std::unique_ptr<Entry>>& done() const { return done_; }
   [[nodiscard]] const std::vector<std::unique_ptr<Entry>>& undone() const { return undone_; }
   /// The lips and rim points with which an entry was pushed. Valid on the redo stack too.
@@ -59,6 +62,12 @@ class History {
   [[nodiscard]] std::span<const RimPoint> rim_points_of(const Entry& entry) const {
     return std::span(borders_.rim_points).subspan(entry.rim_points.first, entry.rim_points.count);
   }
+  /// Drops memory that is kept for later entries.
+  void shrink() noexcept;
+  /// Moves the entries of another history into this empty one, which make_room_for() prepared.
+  void adopt(History& from) noexcept;
+  void make_room_for(const History& to_adopt);
+  void add_to(MemoryUse& use) const;
   void make_room_to_undo() {
     if (undone_.size() == undone_.capacity()) undone_.reserve(2 * undone_.size() + 8);
   }
@@ -69,6 +78,8 @@ class History {
  private:
   using Entries = std::vector<std::unique_ptr<Entry>>;
   static void move_last(Entries& from, Entries& to);
+  void give_long_stroke(Entry& entry);
+  void take_long_stroke(Entry& entry);
   /// The place of the next entry's borders: after those of all entries that are done.
   [[nodiscard]] IndexRange next_lips() const;
   [[nodiscard]] IndexRange next_rim_points() const;
@@ -77,6 +88,9 @@ class History {
   /// Borders of all entries: first those that are done, oldest first, then those of the redo stack,
   /// from its top down.
   OpenedBorders borders_;
+  /// Memory for a long stroke while no entry is being filled in; otherwise for a short one. Only
+  /// in a history of limited length.
+  Stroke blades_;
   static constexpr std::size_t kUnlimited = ~std::size_t{0};
   std::size_t limit_ = kUnlimited;
 };
