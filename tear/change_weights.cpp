@@ -82,6 +82,7 @@ Result<WeightReport> TornModel::reweigh(const WeightsOperation& wanted, ChangeRe
     if (job->poll() == RefitJob::State::failed) return job->failure();
     return job->swap_in(*this, change);
   }
+  if (Status status = unpack(); !status) return status;
   State& state = *state_;
   if (Status status = state.may_begin(); !status) return status;
   try {

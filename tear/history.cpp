@@ -1,12 +1,14 @@
 #include "tear/history.h"
 
+#include <algorithm>
 #include <atomic>
+#include <iterator>
 
 namespace sunder::tear {
 namespace {
 
-/// Number of blades per stroke for which a new entry has memory.
-constexpr std::size_t kBlades = 64;
+/// Number of blades for which the next entry has memory, and for which each entry has.
+constexpr std::size_t kBlades = 64, kFewBlades = 16;
 
 }  // namespace
 
@@ -20,8 +22,26 @@ void History::limit_to(std::size_t operations, std::size_t lips, const ModelPose
     spare_.push_back(std::make_unique<Entry>());
     auto& tear = spare_.back()->as<TearOperation>();
     assign_pose(pose, tear.pose);
-    tear.stroke.reserve(kBlades);
+    tear.stroke.reserve(kFewBlades);
   }
+  blades_.reserve(kBlades);
+}
+
+void History::give_long_stroke(Entry& entry) {
+  auto* const tear = std::get_if<TearOperation>(&entry.operation);
+  if (limit_ == kUnlimited || tear == nullptr || tear->stroke.capacity() >= kBlades) return;
+  blades_.reserve(kBlades);
+  tear->stroke.swap(blades_);
+}
+
+/// Leaves a short stroke in memory of its size, and keeps the other for the next entry.
+void History::take_long_stroke(Entry& entry) {
+  auto* const tear = std::get_if<TearOperation>(&entry.operation);
+  if (limit_ == kUnlimited || tear == nullptr || tear->stroke.size() > blades_.capacity() ||
+      blades_.capacity() >= kBlades)
+    return;
+  blades_ = tear->stroke;
+  tear->stroke.swap(blades_);
 }
 
 History::Entry& History::next() {
@@ -30,6 +50,7 @@ History::Entry& History::next() {
   if (done_.size() == done_.capacity()) done_.reserve(2 * done_.size() + 8);
   if (spare_.size() + undone_.size() > spare_.capacity())
     spare_.reserve(2 * (spare_.size() + undone_.size()));
+  give_long_stroke(*spare_.back());
   return *spare_.back();
 }
 
@@ -58,6 +79,7 @@ void History::push(const OpenedBorders& borders) {
     return range;
   };
   Entry& entry = *spare_.back();
+  take_long_stroke(entry);
   entry.serial = ++newest_serial;
   entry.redo.end.reset();  // that of an operation that was here before
   entry.lips = append(borders.lips, next_lips(), borders_.lips);
@@ -67,7 +89,7 @@ void History::push(const OpenedBorders& borders) {
   while (!undone_.empty()) move_last(undone_, spare_);
 }
 
-void History::adopt(History& from) {
+void History::adopt_undone(History& from) {
   Entry& entry = *from.undone_.back();
   const auto lips = from.lips_of(entry);
   const auto rim_points = from.rim_points_of(entry);
@@ -102,6 +124,31 @@ void History::give_back(History& to) noexcept {
   }
   entry.lips.first = to.next_lips().first;
   entry.rim_points.first = to.next_rim_points().first;
+}
+
+void History::shrink() noexcept {
+  spare_ = Entries();
+  // Memory that cannot be returned is kept: shrink_to_fit() does not fail.
+  done_.shrink_to_fit();
+  undone_.shrink_to_fit();
+  borders_.lips.shrink_to_fit();
+  borders_.rim_points.shrink_to_fit();
+}
+
+void History::make_room_for(const History& to_adopt) {
+  done_.reserve(to_adopt.done_.size());
+  undone_.reserve(to_adopt.undone_.size());
+  make_room_to_hold(to_adopt.borders_.lips.size(), borders_.lips);
+  make_room_to_hold(to_adopt.borders_.rim_points.size(), borders_.rim_points);
+}
+
+void History::adopt(History& from) noexcept {
+  const std::size_t count = from.done_.size() + from.undone_.size();
+  spare_.resize(spare_.size() - std::min(count, spare_.size()));
+  std::move(from.done_.begin(), from.done_.end(), std::back_inserter(done_));
+  std::move(from.undone_.begin(), from.undone_.end(), std::back_inserter(undone_));
+  borders_.lips.assign(from.borders_.lips.begin(), from.borders_.lips.end());
+  borders_.rim_points.assign(from.borders_.rim_points.begin(), from.borders_.rim_points.end());
 }
 
 void History::move_last(Entries& from, Entries& to) {

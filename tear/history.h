@@ -44,12 +44,15 @@ class History {
 
   /// The entry that push() will add, to be filled in.
   [[nodiscard]] Entry& next();
+  /// The same entry, once it is filled in.
+  [[nodiscard]] Entry& filled() { return *spare_.back(); }
   /// Reserves memory so that a push() with this many lips and rim points does not fail.
   void make_room_for(std::size_t lips, std::size_t rim_points);
   /// Adds next() as the most recent entry and clears the redo stack.
   /// @param borders  the borders that the operation opened; redo() reports them again.
   void push(const OpenedBorders& borders);
 
+  [[nodiscard]] bool is_empty() const { return done_.empty() && undone_.empty(); }
   [[nodiscard]] const std::vector<std::unique_ptr<Entry>>& done() const { return done_; }
   [[nodiscard]] const std::vector<std::unique_ptr<Entry>>& undone() const { return undone_; }
   /// The lips and rim points with which an entry was pushed. Valid on the redo stack too.
@@ -61,13 +64,19 @@ class History {
   }
   /// Moves the entry that an equal model has undone last to the top of the redo stack. @throws
   /// std::bad_alloc, with nothing changed
-  void adopt(History& from);
-  /// Reverts adopt().
+  void adopt_undone(History& from);
+  /// Reverts adopt_undone().
   void give_back(History& to) noexcept;
-  /// Clears the redo stack. There must be room, as after adopt() and next().
+  /// Clears the redo stack. There must be room, as after adopt_undone() and next().
   void forget_undone() noexcept {
     while (!undone_.empty()) move_last(undone_, spare_);
   }
+  /// Drops memory that is kept for later entries.
+  void shrink() noexcept;
+  /// Moves the entries of another history into this empty one, which make_room_for() prepared.
+  void adopt(History& from) noexcept;
+  void make_room_for(const History& to_adopt);
+  void add_to(MemoryUse& use) const;
   void make_room_to_undo() {
     if (undone_.size() == undone_.capacity()) undone_.reserve(2 * undone_.size() + 8);
   }
@@ -78,6 +87,8 @@ class History {
  private:
   using Entries = std::vector<std::unique_ptr<Entry>>;
   static void move_last(Entries& from, Entries& to);
+  void give_long_stroke(Entry& entry);
+  void take_long_stroke(Entry& entry);
   /// The place of the next entry's borders: after those of all entries that are done.
   [[nodiscard]] IndexRange next_lips() const;
   [[nodiscard]] IndexRange next_rim_points() const;
@@ -86,6 +97,9 @@ class History {
   /// Borders of all entries: first those that are done, oldest first, then those of the redo stack,
   /// from its top down.
   OpenedBorders borders_;
+  /// Memory for a long stroke while no entry is being filled in; otherwise for a short one. Only
+  /// in a history of limited length.
+  Stroke blades_;
   static constexpr std::size_t kUnlimited = ~std::size_t{0};
   std::size_t limit_ = kUnlimited;
 };

@@ -92,6 +92,7 @@ double diagonal_of(const Character& source, const CharacterPose& rest) {
 Result<WeightErrors> measure_weight_errors(const TornModel& model, std::uint32_t first_operation,
                                            std::uint32_t operation_count,
                                            std::span<const ModelPose> poses) {
+  if (Status status = model.unpack(); !status) return status;
   const TornModel::State& state = *model.state_;
   const tear::SurfaceEditor& editor = state.editor;
   WeightsOperation operations;

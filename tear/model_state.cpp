@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/internal/ordered.h"
 #include "tear/geometry/tolerances.h"
@@ -11,15 +12,62 @@
 
 namespace sunder {
 
-TornModel::State::State(std::shared_ptr<const Character> from, const TornCapacity& of)
-    : source(std::move(from)), capacity(of), character(*source), editor(*source, character) {
+TornModel::State::State(std::shared_ptr<const Character> from, tear::Surface surface,
+                        const tear::SourceTrees& trees, const TornCapacity& of)
+    : source(std::move(from)),
+      capacity(of),
+      character(*source),
+      editor(*source, character, std::move(surface)) {
+  posed.forest().share(trees);
   editor.reserve(capacity);
+  untorn_ = editor.mark();
   if (!capacity.is_fixed()) return;
   pose.model_from_bone.resize(character.skeleton.bones.size());
   pose.morph_weights.resize(character.rest_morph_weights.size());
   posed.cover(editor.surface().point_count() + capacity.vertices);
   for (auto* lips : {&borders_of_call_.lips, &borders_.lips}) lips->reserve(capacity.vertices);
-  history.limit_to(capacity.operations, capacity.vertices, pose);
+  history = new_history();
+}
+
+tear::History TornModel::State::new_history() const {
+  tear::History empty;
+  if (!capacity.is_fixed()) return empty;
+  ModelPose of_any;
+  of_any.model_from_bone.resize(character.skeleton.bones.size());
+  of_any.morph_weights.resize(character.rest_morph_weights.size());
+  empty.limit_to(capacity.operations, capacity.vertices, of_any);
+  return empty;
+}
+
+std::unique_ptr<tear::PackedOperations> TornModel::State::pack() {
+  auto packed = std::make_unique<tear::PackedOperations>();
+  tear::History empty = new_history();
+  editor.undo(untorn_, packed->change, nullptr);  // nothing fails from here on
+  packed->change.shrink();
+  packed->history = std::exchange(history, std::move(empty));
+  packed->history.shrink();
+  packed->refits = std::exchange(refits, {});
+  return packed;
+}
+
+void TornModel::State::unpack(tear::PackedOperations& packed) {
+  history.make_room_for(packed.history);
+  editor.scratch().reset();
+  editor.redo(packed.change, nullptr);  // nothing fails from here on
+  history.adopt(packed.history);
+  refits = std::move(packed.refits);
+}
+
+bool TornModel::State::reset() noexcept {
+  try {
+    if (!history.is_empty()) history = new_history();
+  } catch (const std::bad_alloc&) {
+    return false;
+  }
+  editor.roll_back(untorn_);
+  refits.clear();
+  has_stroke = false;
+  return true;
 }
 
 Status TornModel::State::may_begin() const {
@@ -114,7 +162,7 @@ std::vector<TornPiece> TornModel::State::find_pieces_since(const tear::EditLog::
 
 void TornModel::State::record(const tear::EditLog::Mark& begin) {
   if (editor.log.numbers_since(begin) == 0) return;  // nothing changed
-  history.next().begin = begin;
+  history.filled().begin = begin;
   history.push(borders_);
 }
 

@@ -2,12 +2,14 @@
 
 #include <sunder/tear/torn_model.h>
 
+#include <memory>
 #include <new>
 
 #include "core/internal/out_of_memory.h"
 #include "tear/history.h"
 #include "tear/operation/ongoing_stroke.h"
 #include "tear/operation/outcome.h"
+#include "tear/packed_operations.h"
 #include "tear/posed/workpiece.h"
 #include "tear/surface/capacity_exceeded.h"
 #include "tear/surface/surface_editor.h"
@@ -18,7 +20,20 @@ namespace sunder {
 
 /// The state of a TornModel, and the transaction around each of its operations.
 struct TornModel::State {
-  State(std::shared_ptr<const Character> from, const TornCapacity& of);
+  /// @param surface  of the character, as build_surface() makes it.
+  /// @param trees    of the character, kept by reference.
+  State(std::shared_ptr<const Character> from, tear::Surface surface,
+        const tear::SourceTrees& trees, const TornCapacity& of);
+
+  /// Moves all that the operations made into a compact form. Afterwards nothing is torn and no
+  /// operation is recorded. @throws std::bad_alloc: nothing changes
+  [[nodiscard]] std::unique_ptr<tear::PackedOperations> pack();
+  /// Restores what pack() returned, in a state in which nothing is torn.
+  /// @throws std::bad_alloc: nothing changes
+  void unpack(tear::PackedOperations& packed);
+  /// Drops all operations. @return false: out of memory; the state is not to be used any more.
+  [[nodiscard]] bool reset() noexcept;
+  [[nodiscard]] tear::MemoryUse memory_use() const;
 
   /// How one call of an operation is made and reported.
   struct CallOptions {
@@ -112,8 +127,8 @@ struct TornModel::State {
   /// Sets the pose in which points are evaluated. On failure the old pose stays. Fails only for a
   /// pose that does not fit, once the model stood in one.
   [[nodiscard]] Status stand_in(const ModelPose& pose);
-  /// Records the operation that began at `begin` and is described by history.next(), so that it can
-  /// be undone. An operation that changed nothing is not recorded.
+  /// Records the operation that began at `begin` and is described by history.filled(), so that it
+  /// can be undone. An operation that changed nothing is not recorded.
   void record(const tear::EditLog::Mark& begin);
 
   /// Validates a WeightsOperation and makes its range of operations explicit.
@@ -142,12 +157,14 @@ struct TornModel::State {
   std::vector<std::weak_ptr<tear::RefitTask>> refits;  ///< All refits that were submitted.
 
  private:
+  [[nodiscard]] tear::History new_history() const;
   void begin_call();
   void make_room_for_borders();
   void keep_borders();
   void describe_call(ChangeRecord& change);
   void take_back();
 
+  tear::EditLog::Mark untorn_;  ///< Before all operations.
   tear::EditLog::Mark begin_of_call_;
   /// Borders of the call under way, and of the earlier calls of the same operation.
   tear::OpenedBorders borders_of_call_, borders_;

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/internal/out_of_memory.h"
+#include "tear/instance.h"
 #include "tear/model_state.h"
 
 namespace sunder {
@@ -13,7 +14,7 @@ namespace tear {
 
 /// The input and the result of an OperationJob.
 struct OperationTask {
-  std::shared_ptr<const Character> source;
+  std::shared_ptr<const TornAsset> asset;
   WeightOptions weights;
   std::vector<Operation> history;
   std::vector<std::uint64_t> serials;  ///< Of the operations that the model has done.
@@ -33,7 +34,7 @@ Status refuse(const char* why) {
 }
 
 Status run_task(tear::OperationTask& task) {
-  Result<TornModel> made = TornModel::create(task.source);
+  Result<TornModel> made = TornModel::create(task.asset);
   if (!made) return made.error();
   if (Status status = made->set_weights(task.weights); !status) return status;
   for (const Operation& operation : task.history)
@@ -52,7 +53,8 @@ Status run_task(tear::OperationTask& task) {
 
 OperationJob::OperationJob(std::shared_ptr<tear::OperationTask> task) : task_(std::move(task)) {}
 
-Result<OperationJob> OperationJob::create(const TornModel& model, const Operation& operation) {
+Result<OperationJob> OperationJob::create(TornModel& model, const Operation& operation) {
+  if (Status status = model.unpack(); !status) return status;
   const TornModel::State& state = *model.state_;
   if (std::holds_alternative<UndoOperation>(operation) ||
       std::holds_alternative<RedoOperation>(operation))
@@ -62,7 +64,7 @@ Result<OperationJob> OperationJob::create(const TornModel& model, const Operatio
     Result<std::vector<Operation>> history = model.history();
     if (!history) return history.error();
     auto task = std::make_shared<tear::OperationTask>();
-    task->source = state.source;
+    task->asset = model.state_.instance->asset;
     task->weights = state.weights;
     task->history = std::move(*history);
     for (const auto& entry : state.history.done()) task->serials.push_back(entry->serial);
@@ -87,18 +89,19 @@ OperationJob::State OperationJob::poll() const { return task_->state; }
 const Status& OperationJob::failure() const { return task_->failure; }
 
 Result<TearReport> OperationJob::swap_in(TornModel& model, ChangeRecord* change) const {
+  if (Status status = model.unpack(); !status) return status;
   TornModel::State& state = *model.state_;
   if (Status status = state.may_begin(); !status) return status;
   if (task_->state != State::done) return refuse("the operation has not finished");
   const auto& done = state.history.done();
-  if (state.source != task_->source ||
+  if (model.state_.instance->asset != task_->asset ||
       !std::ranges::equal(done, task_->serials, {},
                           [](const auto& entry) { return entry->serial; }))
     return refuse("the operation belongs to another model, or the model has changed since");
   try {
     tear::History& from = task_->replica->state_->history;
     if (!from.undone().empty()) {
-      state.history.adopt(from);
+      state.history.adopt_undone(from);
       if (Status status = model.redo(change); !status) {
         state.history.give_back(from);
         return status;

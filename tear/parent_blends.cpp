@@ -60,6 +60,7 @@ ParentBlend blend_of(const tear::SurfaceEditor& editor, std::uint32_t mesh, std:
 }  // namespace
 
 Result<ParentBlends> parent_blends(const TornModel& model, std::uint32_t mesh) {
+  if (Status status = model.unpack(); !status) return status;
   const tear::SurfaceEditor& editor = model.state_->editor;
   try {
     ParentBlends result;

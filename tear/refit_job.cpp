@@ -12,6 +12,7 @@ namespace sunder {
 RefitJob::RefitJob(std::shared_ptr<tear::RefitTask> task) : task_(std::move(task)) {}
 
 Result<RefitJob> RefitJob::create(TornModel& model, const WeightsOperation& wanted) {
+  if (Status status = model.unpack(); !status) return status;
   TornModel::State& state = *model.state_;
   if (Status status = state.may_begin(); !status) return status;
   if (wanted.weights.policy != WeightPolicy::refit)
@@ -56,6 +57,7 @@ void RefitJob::cancel() const { task_->cancel(); }
 const Status& RefitJob::failure() const { return task_->failure; }
 
 Result<WeightReport> RefitJob::swap_in(TornModel& model, ChangeRecord* change) const {
+  if (Status status = model.unpack(); !status) return status;
   TornModel::State& of_model = *model.state_;
   if (Status status = of_model.may_begin(); !status) return status;
   const WeightsOperation& operation = task_->operation;

@@ -146,6 +146,7 @@ TearStroke::~TearStroke() {
 
 Result<TearStroke> TearStroke::create(TornModel& model, const ModelPose& pose, const Blade& blade,
                                       const TearOptions& options, const StrokeSampling& sampling) {
+  if (Status status = model.unpack(); !status) return status;
   TornModel::State& of_model = *model.state_;
   if (Status status = of_model.may_begin(); !status) return status;
   if (Status status = validate_options(options); !status) return status;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/internal/out_of_memory.h"
+#include "tear/instance.h"
 #include "tear/internal/surface.h"
 #include "tear/model_state.h"
 #include "tear/operation/cut.h"
@@ -14,39 +15,40 @@
 #include "tear/surface/weight_change.h"
 
 namespace sunder {
-namespace {
-
-/// Corners have 32-bit indices; this leaves half of them for triangles that tears append.
-constexpr std::size_t kMaximumTriangles = kNone / 6;
-
-}  // namespace
-
 Result<TornModel> TornModel::create(std::shared_ptr<const Character> source,
                                     const TornCapacity& capacity) {
   if (!source) return Status::failure(StatusCode::empty_input, kNone, "the character is null");
   if (Status status = validate_character(*source); !status) return status;
-  std::size_t triangles = capacity.triangles;
-  for (const Mesh& mesh : source->meshes) triangles += mesh.triangles.size();
-  if (triangles > kMaximumTriangles || capacity.vertices > kMaximumTriangles ||
-      capacity.operations > kMaximumTriangles)
-    return Status::failure(
-        StatusCode::limit_exceeded, kNone,
-        "the model has %zu triangles, including the capacity; at most %zu are supported", triangles,
-        kMaximumTriangles);
+  if (Status status = check_size(*source, capacity); !status) return status;
   try {
-    return TornModel(std::make_unique<State>(std::move(source), capacity));
+    TornModel model(
+        std::make_unique<Instance>(TornAsset::Parts::make_private(std::move(source)), capacity));
+    if (Status status = model.unpack(); !status) return status;
+    return model;
   } catch (const std::bad_alloc&) {
     return out_of_memory();
   }
 }
 
-TornModel::TornModel(std::unique_ptr<State> state) : state_(std::move(state)) {}
+Result<TornModel> TornModel::create(std::shared_ptr<const TornAsset> asset,
+                                    const TornCapacity& capacity) {
+  if (!asset) return Status::failure(StatusCode::empty_input, kNone, "the asset is null");
+  if (Status status = check_size(*asset->character(), capacity); !status) return status;
+  try {
+    return TornModel(std::make_unique<Instance>(std::move(asset), capacity));
+  } catch (const std::bad_alloc&) {
+    return out_of_memory();
+  }
+}
+
+TornModel::TornModel(std::unique_ptr<Instance> instance) : state_{std::move(instance)} {}
 TornModel::TornModel(TornModel&&) noexcept = default;
 TornModel& TornModel::operator=(TornModel&&) noexcept = default;
 TornModel::~TornModel() = default;
 
 Result<TearReport> TornModel::tear(const ModelPose& pose, std::span<const Blade> stroke,
                                    const TearOptions& options, ChangeRecord* change) {
+  if (Status status = unpack(); !status) return status;
   State& state = *state_;
   if (Status status = state.may_begin(); !status) return status;
   if (Status status = validate_tear(stroke, options); !status) return status;
@@ -69,6 +71,7 @@ Result<TearReport> TornModel::tear(const ModelPose& pose, std::span<const Blade>
 
 Result<TearReport> TornModel::cut(const ModelPose& pose, const PlaneCut& cut,
                                   ChangeRecord* change) {
+  if (Status status = unpack(); !status) return status;
   State& state = *state_;
   if (Status status = state.may_begin(); !status) return status;
   if (Status status = tear::validate_cut(cut); !status) return status;
@@ -85,6 +88,7 @@ Result<TearReport> TornModel::cut(const ModelPose& pose, const PlaneCut& cut,
 }
 
 Result<TearReport> TornModel::drill(const ModelPose& pose, const Bore& bore, ChangeRecord* change) {
+  if (Status status = unpack(); !status) return status;
   State& state = *state_;
   if (Status status = state.may_begin(); !status) return status;
   if (Status status = tear::validate_bore(bore); !status) return status;
@@ -101,6 +105,7 @@ Result<TearReport> TornModel::drill(const ModelPose& pose, const Bore& bore, Cha
 }
 
 Status TornModel::undo(ChangeRecord* change) {
+  if (Status status = unpack(); !status) return status;
   State& state = *state_;
   if (state.has_stroke) return state.may_begin();
   if (state.history.done().empty())
@@ -126,6 +131,7 @@ Status TornModel::undo(ChangeRecord* change) {
 }
 
 Status TornModel::redo(ChangeRecord* change) {
+  if (Status status = unpack(); !status) return status;
   State& state = *state_;
   if (Status status = state.may_begin(); !status) return status;
   if (state.history.undone().empty())
@@ -162,52 +168,80 @@ Status TornModel::redo(ChangeRecord* change) {
 
 Status TornModel::set_weights(const WeightOptions& options) {
   if (Status status = validate_weights(options); !status) return status;
-  state_->weights = options;
+  (is_packed() ? state_.instance->weights : state_->weights) = options;
   return {};
 }
 
-const WeightOptions& TornModel::weights() const { return state_->weights; }
+const WeightOptions& TornModel::weights() const {
+  return is_packed() ? state_.instance->weights : state_->weights;
+}
+
+namespace {
+
+using Entries = std::vector<std::unique_ptr<tear::History::Entry>>;
+
+/// The operations that are done, or were undone, in a history that may be null.
+std::span<const Entries::value_type> entries_of(const tear::History* history,
+                                                const Entries& (tear::History::*which)() const) {
+  if (history == nullptr) return {};
+  return (history->*which)();
+}
+
+}  // namespace
+
+const TornModel::State* TornModel::torn_state() const noexcept { return state_.instance->torn(); }
 
 WeightPolicy TornModel::weight_policy(std::uint32_t mesh, std::uint32_t vertex) const {
   SUNDER_ASSERT(mesh < character().meshes.size() &&
                 vertex < character().meshes[mesh].vertex_count());
-  return state_->editor.births.policy(mesh, vertex);
+  const State* const torn = torn_state();
+  return torn == nullptr ? WeightPolicy::barycentric : torn->editor.births.policy(mesh, vertex);
 }
 
 const InfluencePositions& TornModel::influence_positions(std::uint32_t mesh) const {
+  static const InfluencePositions none;
   SUNDER_ASSERT(mesh < character().meshes.size());
-  return state_->editor.exact.of(mesh);
+  const State* const torn = torn_state();
+  return torn == nullptr ? none : torn->editor.exact.of(mesh);
 }
 
 std::uint32_t TornModel::influence_place(std::uint32_t mesh, std::uint32_t vertex) const {
   SUNDER_ASSERT(mesh < character().meshes.size() &&
                 vertex < character().meshes[mesh].vertex_count());
-  if (state_->editor.births.policy(mesh, vertex) != WeightPolicy::exact) return kNone;
+  if (weight_policy(mesh, vertex) != WeightPolicy::exact) return kNone;
   const auto& vertices = state_->editor.exact.of(mesh).vertices;
   if (!std::binary_search(vertices.begin(), vertices.end(), vertex)) return kNone;
   return static_cast<std::uint32_t>(state_->editor.exact.place(mesh, vertex));
 }
 
 std::uint32_t TornModel::undo_count() const {
-  return static_cast<std::uint32_t>(state_->history.done().size());
+  return state_.instance->read_history([](const tear::History* history) {
+    return static_cast<std::uint32_t>(entries_of(history, &tear::History::done).size());
+  });
 }
 std::uint32_t TornModel::redo_count() const {
-  return static_cast<std::uint32_t>(state_->history.undone().size());
+  return state_.instance->read_history([](const tear::History* history) {
+    return static_cast<std::uint32_t>(entries_of(history, &tear::History::undone).size());
+  });
 }
 
 std::uint64_t TornModel::newest_operation() const {
-  return state_->history.done().empty() ? 0 : state_->history.done().back()->serial;
+  return state_.instance->read_history([](const tear::History* history) -> std::uint64_t {
+    const auto done = entries_of(history, &tear::History::done);
+    return done.empty() ? 0 : done.back()->serial;
+  });
 }
 
-bool TornModel::is_in_stroke() const { return state_->has_stroke; }
+bool TornModel::is_in_stroke() const { return !is_packed() && state_->has_stroke; }
 
 Result<std::vector<Operation>> TornModel::undone_operations() const {
   try {
-    std::vector<Operation> operations;
-    const auto& undone = state_->history.undone();
-    for (auto entry = undone.rbegin(); entry != undone.rend(); ++entry)
-      operations.push_back((*entry)->operation);
-    return operations;
+    return state_.instance->read_history([](const tear::History* history) {
+      std::vector<Operation> operations;
+      for (const auto& entry : entries_of(history, &tear::History::undone))
+        operations.insert(operations.begin(), entry->operation);
+      return operations;
+    });
   } catch (const std::bad_alloc&) {
     return out_of_memory();
   }
@@ -215,42 +249,57 @@ Result<std::vector<Operation>> TornModel::undone_operations() const {
 
 Result<std::vector<Operation>> TornModel::history() const {
   try {
-    std::vector<Operation> operations;
-    for (const auto& entry : state_->history.done()) operations.push_back(entry->operation);
-    return operations;
+    return state_.instance->read_history([](const tear::History* history) {
+      std::vector<Operation> operations;
+      for (const auto& entry : entries_of(history, &tear::History::done))
+        operations.push_back(entry->operation);
+      return operations;
+    });
   } catch (const std::bad_alloc&) {
     return out_of_memory();
   }
 }
 
 Result<CompactMaps> TornModel::compact() {
+  if (Status status = unpack(); !status) return status;
   if (Status status = state_->may_begin(); !status) return status;
   try {
     auto source = std::make_shared<Character>(state_->character);
     CompactMaps maps = sunder::compact(*source);
-    auto compacted = std::make_unique<State>(std::move(source), state_->capacity);
+    auto compacted = std::make_unique<Instance>(TornAsset::Parts::make_private(std::move(source)),
+                                                state_->capacity);
     compacted->weights = state_->weights;
+    (void)compacted->unpacked();
     for (const auto& refit : state_->refits)
       if (const auto work = refit.lock()) work->cancel();
-    state_ = std::move(compacted);
+    state_.instance = std::move(compacted);
     return maps;
   } catch (const std::bad_alloc&) {
     return out_of_memory();
   }
 }
 
-const Character& TornModel::character() const { return state_->character; }
-const Character& TornModel::source() const { return *state_->source; }
-const tear::Surface& TornModel::surface() const { return state_->editor.surface(); }
-std::uint32_t TornModel::point_count() const { return state_->editor.surface().point_count(); }
+const Character& TornModel::character() const {
+  const State* const torn = torn_state();
+  return torn == nullptr ? source() : torn->character;
+}
+const Character& TornModel::source() const { return *state_.instance->parts().character; }
+const tear::Surface& TornModel::surface() const {
+  const State* const torn = torn_state();
+  return torn == nullptr ? state_.instance->parts().surface : torn->editor.surface();
+}
+std::uint32_t TornModel::point_count() const { return surface().point_count(); }
 
 std::uint32_t TornModel::point_at(std::uint32_t mesh, std::uint32_t triangle,
                                   std::uint32_t corner) const {
   SUNDER_ASSERT(mesh < character().meshes.size() &&
                 triangle < character().meshes[mesh].triangle_count());
   SUNDER_ASSERT(corner < 3);
-  return state_->editor.surface()
-      .corner_point[3 * state_->editor.origins.surface_triangle(mesh, triangle) + corner];
+  const State* const torn = torn_state();
+  const std::uint32_t of_surface = torn == nullptr
+                                       ? surface().first_triangle[mesh] + triangle
+                                       : torn->editor.origins.surface_triangle(mesh, triangle);
+  return surface().corner_point[3 * of_surface + corner];
 }
 
 Birth TornModel::birth(std::uint32_t mesh, std::uint32_t vertex) const {
@@ -262,14 +311,17 @@ Birth TornModel::birth(std::uint32_t mesh, std::uint32_t vertex) const {
 std::uint32_t TornModel::source_triangle(std::uint32_t mesh, std::uint32_t triangle) const {
   SUNDER_ASSERT(mesh < character().meshes.size() &&
                 triangle < character().meshes[mesh].triangle_count());
-  return state_->editor.surface()
-      .triangle(state_->editor.origins.surface_triangle(mesh, triangle))
+  const State* const torn = torn_state();
+  if (torn == nullptr) return triangle;
+  return torn->editor.surface()
+      .triangle(torn->editor.origins.surface_triangle(mesh, triangle))
       .source_triangle;
 }
 
 std::span<const Triangle> TornModel::fillings(std::uint32_t mesh) const {
   SUNDER_ASSERT(mesh < character().meshes.size());
-  return state_->editor.fillings.of(mesh);
+  const State* const torn = torn_state();
+  return torn == nullptr ? std::span<const Triangle>() : torn->editor.fillings.of(mesh);
 }
 
 }  // namespace sunder

@@ -36,6 +36,7 @@
 #include <sunder/tear/report.h>
 #include <sunder/tear/tear_stroke.h>
 #include <sunder/tear/topology.h>
+#include <sunder/tear/torn_asset.h>
 #include <sunder/tear/torn_model.h>
 #include <sunder/tear/torn_weights.h>
 #include <sunder/weights/influences.h>

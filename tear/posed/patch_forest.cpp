@@ -6,9 +6,9 @@ namespace sunder::tear {
 
 void PatchForest::forget_pose() {
   if (++epoch_ != 0) return;
-  for (Covered& covered : sources_) covered.tree.forget_epochs();  // once in 2^32 poses
+  for (Covered& covered : sources_) covered.boxes.forget_epochs();  // once in 2^32 poses
   for (auto& of_mesh : fillings_)
-    for (Covered& covered : of_mesh) covered.tree.forget_epochs();
+    for (Covered& covered : of_mesh) covered.boxes.forget_epochs();
   for (PosedBones& bones : bones_) bones.forget_epochs();
   epoch_ = 1;
 }
@@ -31,12 +31,15 @@ std::size_t PatchForest::tree_count() const {
 void PatchForest::cover(const SurfaceEditor& editor) {
   const auto& meshes = editor.source().meshes;
   if (!is_built_) {
+    if (shared_ == nullptr && own_ == nullptr)
+      own_ = std::make_unique<SourceTrees>(editor.source());
+    const auto& trees = (shared_ != nullptr ? *shared_ : *own_).of_meshes();
     sources_.clear();
     sources_.reserve(meshes.size());
     for (Index m = 0; m < meshes.size(); ++m)
-      if (!meshes[m].triangles.empty())
+      if (trees[m] != nullptr)
         sources_.push_back(
-            {PatchTree(meshes[m], meshes[m].triangles, 0), m, 0, meshes[m].triangle_count(), 0});
+            {trees[m], PatchTree::PosedBoxes(*trees[m]), m, 0, meshes[m].triangle_count(), 0});
     fillings_.resize(meshes.size());
     bones_.resize(editor.source().skins.size());
     for (std::size_t skin = 0; skin < bones_.size(); ++skin)
@@ -49,11 +52,11 @@ void PatchForest::cover(const SurfaceEditor& editor) {
   // of each node on the way down the current tree.
   std::size_t roots = sources_.size(), levels = 0;
   for (const Covered& covered : sources_)
-    levels = std::max<std::size_t>(levels, covered.tree.level_count());
+    levels = std::max<std::size_t>(levels, covered.tree->level_count());
   for (const auto& of_mesh : fillings_) {
     roots += of_mesh.size();
     for (const Covered& covered : of_mesh)
-      levels = std::max<std::size_t>(levels, covered.tree.level_count());
+      levels = std::max<std::size_t>(levels, covered.tree->level_count());
   }
   stack_.reserve(roots + std::max(PatchTree::kFanOut, PatchTree::kPatchesPerGroup) * (levels + 1));
 }
@@ -70,7 +73,7 @@ void PatchForest::cover_fillings(const SurfaceEditor& editor, Index mesh) {
     while (last.end > last.first &&
            (last.end > end || editor.fillings.serial(mesh, last.end - 1) >= last.serials_from))
       --last.end;
-    if (2 * (last.end - last.first) > last.tree.triangle_count()) break;
+    if (2 * (last.end - last.first) > last.tree->triangle_count()) break;
     trees.pop_back();
   }
   Index first = trees.empty() ? source_count : trees.back().end;
@@ -80,8 +83,10 @@ void PatchForest::cover_fillings(const SurfaceEditor& editor, Index mesh) {
     trees.pop_back();
   }
   const auto triangles = std::span(fillings).subspan(first - source_count);
-  trees.push_back({PatchTree(editor.character().meshes[mesh], triangles, first), mesh, first, end,
-                   editor.fillings.next_serial()});
+  auto tree = std::make_shared<const PatchTree>(editor.character().meshes[mesh], triangles, first);
+  PatchTree::PosedBoxes boxes(*tree);
+  trees.push_back(
+      {std::move(tree), std::move(boxes), mesh, first, end, editor.fillings.next_serial()});
 }
 
 void PatchForest::push(const Waiting& node, std::size_t first) {
@@ -99,10 +104,10 @@ std::vector<PatchForest::Covered*> PatchForest::trees(const SurfaceEditor& edito
 
 std::size_t PatchForest::bytes() const {
   std::size_t bytes = 0;
-  for (const Covered& covered : sources_) bytes += covered.tree.bytes();
+  for (const Covered& covered : sources_) bytes += covered.boxes.bytes();
   for (const auto& of_mesh : fillings_)
-    for (const Covered& covered : of_mesh) bytes += covered.tree.bytes();
-  return bytes;
+    for (const Covered& covered : of_mesh) bytes += covered.tree->bytes() + covered.boxes.bytes();
+  return bytes + (own_ != nullptr ? own_->bytes() : 0);
 }
 
 }  // namespace sunder::tear

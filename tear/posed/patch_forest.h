@@ -1,21 +1,27 @@
 #pragma once
 
 #include <limits>
+#include <memory>
 #include <type_traits>
 
 #include "skinning/internal/character_pose.h"
 #include "tear/posed/patch_tree.h"
+#include "tear/posed/source_trees.h"
 #include "tear/surface/surface_editor.h"
 
 namespace sunder::tear {
 
 /// Finds faces of the posed surface without posing all of it, by trees of patches over the source
 /// triangles of all meshes. A tear changes no tree, because the parts of a source triangle lie
-/// within it. The trees are built at the first query. Walls and caps get trees of their own at the
-/// first query after them; adjacent trees of similar size are merged, so that a mesh has few
+/// within it, so that models share the trees of their source. Walls and caps get trees of their own
+/// at the first query after them; adjacent trees of similar size are merged, so that a mesh has few
 /// (Bentley and Saxe 1980).
 class PatchForest {
  public:
+  /// Uses these trees, which it does not keep, instead of trees of its own. To be called before
+  /// the first query.
+  void share(const SourceTrees& trees) { shared_ = &trees; }
+
   /// Call it when the pose changes. O(1).
   void forget_pose();
 
@@ -40,7 +46,8 @@ class PatchForest {
 
   /// A tree and the triangles that it covers.
   struct Covered {
-    PatchTree tree;
+    std::shared_ptr<const PatchTree> tree;
+    PatchTree::PosedBoxes boxes;
     Index mesh;
     Index first, end;  ///< Source triangles. Those of the tree from `end` on were undone since.
     std::uint64_t serials_from;  ///< Fillings made after the tree have serials from here on.
@@ -83,11 +90,12 @@ class PatchForest {
                             Visit visit);
   /// Calls visit(bound, patch) for the patches of a group.
   template <class Bound, class Visit>
-  void for_each_patch(PatchTree& tree, Index group, const MeshPose& pose, Bound& bound,
+  void for_each_patch(Covered& covered, Index group, const MeshPose& pose, Bound& bound,
                       GroupBounds& patches, Visit visit) const {
+    const PatchTree& tree = *covered.tree;
     const Index first = PatchTree::kPatchesPerGroup * group;
     if constexpr (std::is_invocable_v<Bound&, const FrameBox&, const Shadow&>) {
-      const FrameBox box = tree.posed_box(0, group, pose, epoch_);
+      const FrameBox box = tree.posed_box(0, group, pose, epoch_, covered.boxes);
       const Index count = tree.compute_posed_patches(group, pose, patches.shadows);
       for (Index i = 0; i < count; ++i) visit(bound(box, patches.shadows[i]), first + i);
     } else {
@@ -105,6 +113,8 @@ class PatchForest {
   std::vector<PosedBones> bones_;               ///< One per skin.
   std::vector<Waiting> stack_;                  ///< The nearest node last.
   Frame frame_;
+  const SourceTrees* shared_ = nullptr;
+  std::unique_ptr<SourceTrees> own_;  ///< Used if none are shared.
   std::uint32_t epoch_ = 1;
   bool is_built_ = false;
 };
@@ -112,7 +122,7 @@ class PatchForest {
 template <class Visit>
 void PatchForest::for_each_face(const SurfaceEditor& editor, const Covered& covered, Index patch,
                                 Visit visit) {
-  for (const Index origin : covered.tree.origins(patch))
+  for (const Index origin : covered.tree->origins(patch))
     if (origin < covered.end) editor.origins.for_each_part(covered.mesh, origin, visit);
 }
 
@@ -130,11 +140,12 @@ void PatchForest::visit_faces(const SurfaceEditor& editor, const CharacterPose& 
   stack_.clear();
   const bool is_one_tree = tree_count() == 1;  // its box would exclude nothing
   for_each_tree([&](Covered& covered) {
-    const Index level = covered.tree.level_count() - 1;
+    const Index level = covered.tree->level_count() - 1;
     if (is_one_tree)
       push({std::numeric_limits<double>::lowest(), &covered, level + 1, 0}, 0);
     else
-      add(bound(covered.tree.posed_box(level, 0, pose_of(meshes[covered.mesh], pose), epoch_)),
+      add(bound(covered.tree->posed_box(level, 0, pose_of(meshes[covered.mesh], pose), epoch_,
+                                        covered.boxes)),
           {0, &covered, level + 1, 0}, 0);
   });
   GroupBounds patches;
@@ -144,14 +155,14 @@ void PatchForest::visit_faces(const SurfaceEditor& editor, const CharacterPose& 
     if (node.bound > limit) continue;
     Covered& covered = *node.covered;
     if (node.height == 0) {
-      expect(covered.mesh, covered.tree.origins(node.number));
+      expect(covered.mesh, covered.tree->origins(node.number));
       for_each_face(editor, covered, node.number, [&](Index face) { limit = visit(face); });
       continue;
     }
     const MeshPose mesh_pose = pose_of(meshes[covered.mesh], pose);
     const std::size_t first = stack_.size();
     if (node.height == 1) {
-      for_each_patch(covered.tree, node.number, mesh_pose, bound, patches,
+      for_each_patch(covered, node.number, mesh_pose, bound, patches,
                      [&](double least, Index patch) {
                        add(least, {0, &covered, 0, patch}, first);
                      });
@@ -159,9 +170,9 @@ void PatchForest::visit_faces(const SurfaceEditor& editor, const CharacterPose& 
     }
     const Index level = node.height - 2;  // of the children
     const Index end =
-        std::min(PatchTree::kFanOut * (node.number + 1), covered.tree.node_count(level));
+        std::min(PatchTree::kFanOut * (node.number + 1), covered.tree->node_count(level));
     for (Index child = PatchTree::kFanOut * node.number; child < end; ++child)
-      add(bound(covered.tree.posed_box(level, child, mesh_pose, epoch_)),
+      add(bound(covered.tree->posed_box(level, child, mesh_pose, epoch_, covered.boxes)),
           {0, &covered, node.height - 1, child}, first);
   }
 }

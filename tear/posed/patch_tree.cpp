@@ -309,15 +309,13 @@ PatchTree::PatchTree(const Mesh& mesh, std::span<const Triangle> triangles, Inde
   bones_.shrink_to_fit();
   morphs_.shrink_to_fit();
   first_morph_.shrink_to_fit();
-  posed_.resize(nodes_.size() - 1);
-  posed_since_.resize(nodes_.size() - 1, 0);
   for (Index& origin : origins_) origin += first_origin;
 }
 
 std::size_t PatchTree::bytes() const {
   const auto bytes_of = [](const auto& values) { return values.capacity() * sizeof(values[0]); };
   return bytes_of(origins_) + bytes_of(patches_) + bytes_of(nodes_) + bytes_of(bones_) +
-         bytes_of(morphs_) + bytes_of(first_morph_) + bytes_of(posed_) + bytes_of(posed_since_);
+         bytes_of(morphs_) + bytes_of(first_morph_);
 }
 
 /// Bounds of the posed boxes of a node.

@@ -53,26 +53,15 @@ class PatchTree {
     return part_of(origins_, patch, kPatchSize);
   }
 
+  class PosedBoxes;
   /// The bound of a posed node, in the frame of the pose's bones. Cached per epoch.
-  [[nodiscard]] FrameBox posed_box(Index level, Index number, const MeshPose& pose,
-                                   std::uint32_t epoch) {
-    const Index node = first_of_level_[level] + number;
-    if (posed_since_[node] != epoch) {
-      posed_[node] = compute_posed_box(node, pose);
-      posed_since_[node] = epoch;
-    }
-    const auto corner = [](const std::array<float, 4>& of) -> Vec3d {
-      return {static_cast<double>(of[0]), static_cast<double>(of[1]), static_cast<double>(of[2])};
-    };
-    return {corner(posed_[node].low), corner(posed_[node].high)};
-  }
+  [[nodiscard]] inline FrameBox posed_box(Index level, Index number, const MeshPose& pose,
+                                          std::uint32_t epoch, PosedBoxes& cache) const;
   /// The same for the patches of a group. @return their number.
   Index compute_posed_patches(Index group, const MeshPose& pose,
                               std::array<FrameBox, kPatchesPerGroup>& boxes) const;
   Index compute_posed_patches(Index group, const MeshPose& pose,
                               std::array<Shadow, kPatchesPerGroup>& shadows) const;
-  /// Invalidates all cached boxes, so that epoch numbers can be reused; 0 is never used.
-  void forget_epochs() { posed_since_.assign(posed_since_.size(), 0); }
 
   [[nodiscard]] std::size_t bytes() const;
 
@@ -126,8 +115,39 @@ class PatchTree {
   std::vector<Index> first_morph_;  ///< Per node in morphs_, and the end; empty if there are none.
   float weight_slack_ = 0;          ///< Maximum deviation from 1 of the sum of a vertex's weights.
   bool is_bounded_ = true;
-  std::vector<FloatBox> posed_;
-  std::vector<std::uint32_t> posed_since_;
 };
+
+/// The bounds of the nodes of a tree in one pose. The tree itself is immutable, so that models
+/// share it; each has its own boxes.
+class PatchTree::PosedBoxes {
+ public:
+  explicit PosedBoxes(const PatchTree& tree)
+      : boxes_(tree.nodes_.size() - 1), since_(tree.nodes_.size() - 1, 0) {}
+
+  /// Invalidates all boxes, so that epoch numbers can be reused; 0 is never used.
+  void forget_epochs() { since_.assign(since_.size(), 0); }
+  [[nodiscard]] std::size_t bytes() const {
+    return boxes_.capacity() * sizeof(FloatBox) + since_.capacity() * sizeof(std::uint32_t);
+  }
+
+ private:
+  friend class PatchTree;
+
+  std::vector<FloatBox> boxes_;
+  std::vector<std::uint32_t> since_;
+};
+
+inline FrameBox PatchTree::posed_box(Index level, Index number, const MeshPose& pose,
+                                     std::uint32_t epoch, PosedBoxes& cache) const {
+  const Index node = first_of_level_[level] + number;
+  if (cache.since_[node] != epoch) {
+    cache.boxes_[node] = compute_posed_box(node, pose);
+    cache.since_[node] = epoch;
+  }
+  const auto corner = [](const std::array<float, 4>& of) -> Vec3d {
+    return {static_cast<double>(of[0]), static_cast<double>(of[1]), static_cast<double>(of[2])};
+  };
+  return {corner(cache.boxes_[node].low), corner(cache.boxes_[node].high)};
+}
 
 }  // namespace sunder::tear

@@ -11,13 +11,23 @@ namespace {
 /// tear wastes memory.
 std::size_t growth(std::size_t size, std::size_t more) { return std::max(more, size / 8 + 1024); }
 
-/// Upper bound of the old triangles that change per appended one: a tear has two or three, and the
-/// fans of its points.
-constexpr std::size_t kChangesPerAppended = 6;
+/// Changes of old triangles per appended one for which a model of fixed capacity reserves memory:
+/// most operations log fewer. One that removes large areas logs more, and allocates.
+constexpr std::size_t kChangesPerAppended = 2;
+/// A model of fixed capacity reserves memory for walls and caps of a part of its triangles.
+constexpr std::size_t kTrianglesPerFilling = 4;
+/// Values of _TEARSIDE are logged for old vertices alone, which are fewer than new ones.
+constexpr std::size_t kVerticesPerSideChange = 2;
 
 bool comes_with_vertices(Rows rows) {
   return rows == Rows::vertices || rows == Rows::mesh_vertices || rows == Rows::points ||
          rows == Rows::side_changes;
+}
+
+/// Whether the capacity limits the number of rows, rather than what they depend on.
+bool is_limited(Rows rows) {
+  return rows != Rows::side_changes && rows != Rows::mesh_fillings && rows != Rows::additions &&
+         rows != Rows::triangle_changes;
 }
 
 bool comes_with_triangles(Rows rows) {
@@ -33,9 +43,11 @@ std::size_t room_for_influences(const Mesh& mesh) {
 
 /// Number of rows of a column for which a model of fixed capacity reserves memory.
 std::size_t fixed_rows(Rows rows, const TornCapacity& capacity, std::size_t mesh_count) {
+  if (rows == Rows::side_changes) return capacity.vertices / kVerticesPerSideChange;
   if (comes_with_vertices(rows)) return capacity.vertices;
-  if (comes_with_triangles(rows) || rows == Rows::mesh_fillings) return capacity.triangles;
-  if (rows == Rows::additions) return capacity.triangles + 8 * mesh_count;
+  if (comes_with_triangles(rows)) return capacity.triangles;
+  if (rows == Rows::mesh_fillings) return capacity.triangles / kTrianglesPerFilling;
+  if (rows == Rows::additions) return capacity.triangles / kTrianglesPerFilling + 8 * mesh_count;
   if (rows == Rows::triangle_changes) return kChangesPerAppended * capacity.triangles;
   return 0;
 }
@@ -48,9 +60,10 @@ void Room::reserve(const TornCapacity& capacity) {
     if constexpr (kIsMeshVertices<decltype(values)>) {
       Mesh& mesh = values.mesh;
       const std::size_t count = is_fixed_ ? capacity.vertices : growth(mesh.vertex_count(), 0);
-      const std::size_t influences =
-          mesh.weights.influences.size() / std::max(1u, mesh.vertex_count()) + 1;
-      reserve_vertices(count, 3 * influences * count, mesh);
+      // A new vertex has the influences of two or three others, most of them the same.
+      const std::size_t of_source = mesh.weights.influences.size(),
+                        vertices = std::max(1u, mesh.vertex_count());
+      reserve_vertices(count, 3 * (of_source + vertices) * count / (2 * vertices), mesh);
     } else if (is_fixed_) {
       values.reserve(values.size() +
                      column.per_row * fixed_rows(column.rows, capacity, columns_.meshes.size()));
@@ -77,10 +90,11 @@ void Room::make_for_tear_sides(Index mesh, std::size_t count) {
 
 template <class Value>
 void Room::grow(std::vector<Value>& values, std::size_t more, const char* what) {
-  if (is_fixed_) throw CapacityExceeded{what};
+  constexpr bool kIsLimited = !std::is_same_v<Value, TriangleChange>;
+  if (kIsLimited && is_fixed_ && what != nullptr) throw CapacityExceeded{what};
   values.reserve(values.size() + growth(values.size(), more));
 }
-// Used by the inline make_room_in_log().
+// Used by the inline make_for_changes().
 template void Room::grow(std::vector<TriangleChange>& values, std::size_t more, const char* what);
 
 /// @return the rows for which all those columns have room.
@@ -92,7 +106,8 @@ std::size_t Room::make_in_columns(Index mesh, std::size_t count, const char* wha
     if constexpr (!kIsMeshVertices<decltype(values)>) {
       if (!is_meant(column.rows)) return;
       const std::size_t more = column.per_row * count;
-      if (values.capacity() - values.size() < more) grow(values, more, what);
+      if (values.capacity() - values.size() < more)
+        grow(values, more, is_limited(column.rows) ? what : nullptr);
       room = std::min(room, (values.capacity() - values.size()) / column.per_row);
     }
   };
@@ -117,10 +132,12 @@ void Room::find_for_vertices(Index mesh, Index count, Index influences) {
 /// Makes room in the arrays of a mesh.
 void Room::make_in_mesh(Index mesh, std::size_t count, std::size_t influences) {
   Mesh& of = columns_.meshes[mesh];
-  if (room_for_vertices(of) < count || room_for_influences(of) < influences) {
+  if (room_for_vertices(of) < count) {
     if (is_fixed_) throw CapacityExceeded{"vertices"};
     reserve_vertices(growth(of.vertex_count(), count),
                      growth(of.weights.influences.size(), influences), of);
+  } else if (room_for_influences(of) < influences) {  // which the capacity does not limit
+    reserve_vertices(0, growth(of.weights.influences.size(), influences), of);
   }
 }
 
@@ -144,7 +161,7 @@ void Room::make_for_kept_birth(std::size_t influences) {
 
 void Room::make_for_influences(Index mesh, std::size_t more) {
   auto& influences = columns_.meshes[mesh].weights.influences;
-  if (influences.capacity() - influences.size() < more) grow(influences, more, "influences");
+  if (influences.capacity() - influences.size() < more) grow(influences, more, nullptr);
 }
 
 void Room::make_for_point() {

@@ -11,12 +11,13 @@ namespace sunder::tear {
 /// released all at once, and kept: an operation like one before it allocates nothing.
 class ScratchMemory final : public std::pmr::memory_resource {
  public:
-  /// Limits the memory to `bytes`; beyond them CapacityExceeded is thrown. Without a limit the
-  /// memory grows.
-  void fix(std::size_t bytes);
+  /// Reserves a block of this size. To be called while nothing is handed out.
+  void reserve(std::size_t bytes);
 
   /// Releases all that was handed out.
   void reset();
+  /// Of all blocks.
+  [[nodiscard]] std::size_t bytes() const;
 
  private:
   struct Block {
@@ -33,7 +34,6 @@ class ScratchMemory final : public std::pmr::memory_resource {
 
   std::vector<Block> blocks_;  ///< Memory is taken from the last block.
   std::size_t used_ = 0;       ///< Bytes of the last block.
-  bool is_fixed_ = false;
 };
 
 template <class T>

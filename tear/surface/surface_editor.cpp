@@ -5,13 +5,14 @@
 namespace sunder::tear {
 namespace {
 
-/// Memory that an operation needs for each triangle that it appends or changes, bytes.
-constexpr std::size_t kScratchPerTriangle = 512;
-constexpr std::size_t kLeastScratch = std::size_t{1} << 18;
+/// Memory for the work of one operation for which a model of fixed capacity reserves memory, bytes:
+/// at least, and for each triangle of its capacity. An operation that needs more allocates.
+constexpr std::size_t kLeastScratch = std::size_t{1} << 19;
+constexpr std::size_t kScratchPerTriangle = 16;
 
-EditColumns columns_of(const Character& character) {
+EditColumns columns_of(const Character& character, Surface surface) {
   EditColumns columns;
-  columns.surface = build_surface(character);
+  columns.surface = std::move(surface);
   columns.meshes.resize(character.meshes.size());
   columns.newest_change.assign(columns.surface.triangle_count(), kNone);
   for (std::size_t m = 0; m < columns.meshes.size(); ++m)
@@ -21,10 +22,10 @@ EditColumns columns_of(const Character& character) {
 
 }  // namespace
 
-SurfaceEditor::SurfaceEditor(const Character& source, Character& character)
+SurfaceEditor::SurfaceEditor(const Character& source, Character& character, Surface surface)
     : source_(source),
       character_(character),
-      columns_(columns_of(character)),
+      columns_(columns_of(character, std::move(surface))),
       room(all_columns()),
       fillings(source, character, columns_),
       births(source, character, columns_, fillings, room, scratch_),
@@ -51,7 +52,7 @@ void SurfaceEditor::fetch(Index triangle) const {
 void SurfaceEditor::reserve(const TornCapacity& capacity) {
   sides.reserve();
   room.reserve(capacity);
-  if (room.is_fixed()) scratch_.fix(kScratchPerTriangle * capacity.triangles + kLeastScratch);
+  if (room.is_fixed()) scratch_.reserve(kScratchPerTriangle * capacity.triangles + kLeastScratch);
 }
 
 void SurfaceEditor::roll_back(const EditLog::Mark& to) noexcept {

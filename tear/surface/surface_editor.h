@@ -12,6 +12,7 @@
 #include "tear/surface/edit_log.h"
 #include "tear/surface/exact_positions.h"
 #include "tear/surface/fillings.h"
+#include "tear/surface/memory_use.h"
 #include "tear/surface/opened_edges.h"
 #include "tear/surface/room.h"
 #include "tear/surface/scratch_memory.h"
@@ -26,7 +27,10 @@ namespace sunder::tear {
 /// rolled back to any earlier mark, bit for bit.
 class SurfaceEditor {
  public:
-  SurfaceEditor(const Character& source, Character& character);
+  SurfaceEditor(const Character& source, Character& character)
+      : SurfaceEditor(source, character, build_surface(source)) {}
+  /// @param surface  of the source, as build_surface() makes it.
+  SurfaceEditor(const Character& source, Character& character, Surface surface);
   SurfaceEditor(const SurfaceEditor&) = delete;
   SurfaceEditor& operator=(const SurfaceEditor&) = delete;
 
@@ -69,6 +73,7 @@ class SurfaceEditor {
   /// @param change  optional; written, except lips and rims.
   /// @throws std::bad_alloc before anything is changed
   void redo(Redo& redo, ChangeRecord* change);
+  void add_to(MemoryUse& use) const;
 
  private:
   [[nodiscard]] ModelColumns all_columns() { return {columns_, character_.meshes}; }
@@ -106,6 +111,10 @@ struct SurfaceEditor::Redo {
   std::vector<SideChange> sides;  ///< Values of _TEARSIDE as the operation left them.
   /// The state that redo() restored. While nothing was appended to it, the rest is up to date.
   std::optional<EditLog::Mark> end;
+
+  /// Removes duplicates and unused memory.
+  void shrink() noexcept;
+  void add_to(MemoryUse& use) const;
 };
 
 }  // namespace sunder::tear

@@ -42,6 +42,16 @@ void SurfaceEditor::keep_changes(const EditLog::Mark& begin, Redo& redo) {
         redo.known_corners.push_back({point, surface().point_corner[point]});
 }
 
+void SurfaceEditor::Redo::shrink() noexcept {
+  std::sort(known_corners.begin(), known_corners.end());
+  known_corners.erase(std::unique(known_corners.begin(), known_corners.end()), known_corners.end());
+  // Memory that cannot be returned is kept: shrink_to_fit() does not fail.
+  changed.shrink_to_fit();
+  known_corners.shrink_to_fit();
+  sides.shrink_to_fit();
+  for (Mesh& mesh : tails.meshes) mesh.weights.first.shrink_to_fit();
+}
+
 void SurfaceEditor::undo(const EditLog::Mark& begin, Redo& redo, ChangeRecord* change) {
   if (redo.end != log.mark(sides.next(), 0)) {
     redo = {};

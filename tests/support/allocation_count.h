@@ -8,6 +8,10 @@ namespace sunder::test {
 /// new.
 [[nodiscard]] std::uint64_t allocation_count();
 
+/// Bytes that operator new handed out and that were not freed, as the allocator rounds them up. 0
+/// where the C library does not tell.
+[[nodiscard]] std::uint64_t live_bytes();
+
 /// During the lifetime of an object, operator new throws std::bad_alloc after `count` further
 /// calls.
 class FailingAllocations {

@@ -158,5 +158,47 @@ TEST(Capacity, undoing_an_operation_makes_room) {
   }
 }
 
+TEST(Capacity, takes_memory_for_what_tears_need) {
+  const auto tube = std::make_shared<const Character>(test::make_tube(20, 24, 163));
+  const auto bytes_with = [&](const TornCapacity& capacity) {
+    const std::uint64_t before = test::live_bytes();
+    const auto model = TornModel::create(tube, capacity);
+    EXPECT_TRUE(model);
+    return static_cast<double>(test::live_bytes() - before);
+  };
+  const TornCapacity few{1000, 2000, 4};
+  const double least = bytes_with(few);
+  const double pose = sizeof(Affine3d) * 163.0;
+  EXPECT_LT(bytes_with({21000, 42000, 4}) - least, 620.0 * 20000);
+  EXPECT_LT(bytes_with({1000, 2000, 68}) - least, 64.0 * (2048 + pose));
+}
+
+TEST(Capacity, strokes_of_few_blades_allocate_nothing_after_long_ones) {
+  const Character sheet = test::make_sheet(40);
+  TornModel model = make_model(sheet, kRoom);
+  const ModelPose pose = *bind_pose(sheet);
+  const auto stroke_at = [](double y, int blades) {
+    Stroke stroke;
+    for (int i = 0; i < blades; ++i) stroke.push_back(test::down_at(0.1 + 0.7 * i / blades, y));
+    return stroke;
+  };
+  ASSERT_TRUE(model.tear(pose, stroke_at(0.1, 40)));
+  ASSERT_TRUE(model.tear(pose, stroke_at(0.2, 3)));
+  for (int i = 0; i < 6; ++i) {
+    const std::uint64_t before = test::allocation_count();
+    const auto report = model.tear(pose, stroke_at(0.3 + 0.1 * i, 3 + 2 * i));
+    EXPECT_EQ(test::allocation_count(), before) << i;
+    ASSERT_TRUE(report);
+    EXPECT_GT(report->runs, 0u);
+  }
+  // What is recorded is what was torn.
+  const auto history = model.history();
+  ASSERT_TRUE(history);
+  ASSERT_EQ(history->size(), 8u);
+  EXPECT_EQ(std::get<TearOperation>((*history)[0]).stroke.size(), 40u);
+  for (std::size_t i = 2; i < 8; ++i)
+    EXPECT_EQ(std::get<TearOperation>((*history)[i]).stroke.size(), 3 + 2 * (i - 2));
+}
+
 }  // namespace
 }  // namespace sunder

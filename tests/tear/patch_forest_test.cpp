@@ -202,7 +202,7 @@ std::vector<std::string> broken_bounds(Torn& torn, Random& random) {
   std::vector<Mesh> meshes = torn.character.meshes;
   forest.stand_in(torn.editor, pose, frame);
   for (PatchForest::Covered* covered : forest.trees(torn.editor)) {
-    PatchTree& tree = covered->tree;
+    const PatchTree& tree = *covered->tree;
     Mesh& mesh = meshes[covered->mesh];
     const MeshPose mesh_pose = forest.pose_of(mesh, pose);
     std::array<FrameBox, PatchTree::kPatchesPerGroup> patches;
@@ -214,7 +214,7 @@ std::vector<std::string> broken_bounds(Torn& torn, Random& random) {
         std::vector<FrameBox> boxes = {patches[i]};
         for (Index level = 0, number = group; level < tree.level_count();
              ++level, number /= PatchTree::kFanOut)
-          boxes.push_back(tree.posed_box(level, number, mesh_pose, forest.epoch()));
+          boxes.push_back(tree.posed_box(level, number, mesh_pose, forest.epoch(), covered->boxes));
         const auto check = [&](Index vertex, Index face) {
           const Vec3d at = frame.place_of(pose.position(mesh, vertex));
           for (std::size_t box = 0; box < boxes.size(); ++box)
@@ -476,7 +476,7 @@ TEST(PatchForest, bounds_a_bent_tube_closely) {
     const CharacterPose& pose = torn.posed.pose();
     PatchForest& forest = torn.posed.forest();
     forest.stand_in(torn.editor, pose, torn.posed.frame_along(Mat3d::Identity(), torn.editor));
-    PatchTree& tree = forest.trees(torn.editor)[0]->tree;
+    const PatchTree& tree = *forest.trees(torn.editor)[0]->tree;
     std::vector<double> ratios;
     std::array<FrameBox, PatchTree::kPatchesPerGroup> patches;
     for (Index group = 0; group < tree.node_count(0); ++group) {

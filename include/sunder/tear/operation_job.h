@@ -26,7 +26,7 @@ class SUNDER_API OperationJob {
   /// Copies the history of the model. @param operation  not an undo or redo.
   /// @return invalid_argument for those and while a stroke is in progress; as
   ///         TornModel::history(). O(size of the operations), allocates.
-  static Result<OperationJob> create(const TornModel& model, const Operation& operation);
+  static Result<OperationJob> create(TornModel& model, const Operation& operation);
   /// Replays the history and runs the operation. Call it once, on any thread; it does not access the
   /// model. O(size of the model + its operations). The result has the same bits as the call of the
   /// operation.

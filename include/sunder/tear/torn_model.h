@@ -5,6 +5,7 @@
 #include <sunder/skinning/vertex_arrays.h>
 #include <sunder/tear/change_record.h>
 #include <sunder/tear/report.h>
+#include <sunder/tear/torn_asset.h>
 
 #include <cstdint>
 #include <memory>
@@ -12,23 +13,6 @@
 #include <vector>
 
 namespace sunder {
-
-/// The number of elements that the operations on a model may append, summed over all that are done
-/// and not undone. With a fixed capacity all memory is allocated at the start, and an operation
-/// that finds no room changes nothing and returns capacity_exceeded. A cut across n faces appends
-/// about 2 n vertices and triangles.
-struct TornCapacity {
-  std::uint32_t vertices = 0;   ///< Per mesh.
-  std::uint32_t triangles = 0;  ///< Per mesh.
-  std::uint32_t operations = 0;
-
-  /// All zero: the model grows as needed, and an operation allocates where it has to grow.
-  [[nodiscard]] constexpr bool is_fixed() const {
-    return vertices > 0 || triangles > 0 || operations > 0;
-  }
-
-  bool operator==(const TornCapacity&) const = default;
-};
 
 /// The previous index of each element, per mesh: old_from_new[new] = old, ascending.
 struct CompactMaps {
@@ -63,6 +47,12 @@ class SUNDER_API TornModel {
   /// @return the first fault of the source; empty_input if it is null; limit_exceeded above 700
   ///         million triangles or out of memory. O(size of the source and of the capacity).
   static Result<TornModel> create(std::shared_ptr<const Character> source,
+                                  const TornCapacity& capacity = {});
+  /// A model that shares an asset, which makes it cheap to have thousands. Until its first
+  /// operation, character() is the asset's own.
+  /// @return empty_input if the asset is null; limit_exceeded as above. O(1); a model of fixed
+  ///         capacity allocates nothing later if the asset has an idle workspace of its capacity.
+  static Result<TornModel> create(std::shared_ptr<const TornAsset> asset,
                                   const TornCapacity& capacity = {});
 
   TornModel(TornModel&&) noexcept;
@@ -147,6 +137,23 @@ class SUNDER_API TornModel {
   /// @return where each element came from; limit_exceeded (out of memory): the model is unchanged.
   Result<CompactMaps> compact();
 
+  /// Stores the state in a compact form, in proportion to what was torn, and gives the workspace
+  /// back to the asset. For a model that will not be torn for a while. The next operation unpacks
+  /// the state, and so do accessors of the torn character, surface and births; references that
+  /// they returned before are invalid. A model made from a character keeps its workspace.
+  /// @return invalid_argument during a stroke; limit_exceeded: out of memory, nothing changes.
+  ///         O(appended and changed elements), allocates.
+  Status pack();
+  /// Takes a workspace, so that nothing else need do it. An accessor ends the program if there is
+  /// no memory for one. Reentrant.
+  /// @return limit_exceeded: out of memory. O(appended and changed elements), and O(size of the
+  ///         source) if the asset has no idle workspace.
+  Status unpack() const;
+  /// Whether the model has no workspace.
+  [[nodiscard]] bool is_packed() const;
+  /// O(arrays and operations). Reentrant while the model is not changed.
+  [[nodiscard]] TornMemory memory_bytes() const;
+
   /// A hash of all bits of the model: equal models have equal digests on every machine. O(size of
   /// the model).
   [[nodiscard]] std::uint64_t digest() const;
@@ -179,12 +186,26 @@ class SUNDER_API TornModel {
   friend class TearStroke;
   friend class OperationJob;
   friend class RefitJob;
+  friend class TornAsset;
   friend Result<WeightErrors> measure_weight_errors(const TornModel&, std::uint32_t, std::uint32_t,
                                                     std::span<const ModelPose>);
   friend Result<ParentBlends> parent_blends(const TornModel&, std::uint32_t);
   struct State;
-  explicit TornModel(std::unique_ptr<State> state);
-  std::unique_ptr<State> state_;
+  struct Instance;
+  /// Points to the state in the workspace. A packed model is unpacked first.
+  class StatePointer {
+   public:
+    State& operator*() const noexcept { return *get(); }
+    State* operator->() const noexcept { return get(); }
+    [[nodiscard]] State* get() const noexcept;
+
+    std::unique_ptr<Instance> instance;
+  };
+  explicit TornModel(std::unique_ptr<Instance> instance);
+  /// The state; null if nothing was torn yet.
+  [[nodiscard]] const State* torn_state() const noexcept;
+
+  StatePointer state_;
 };
 
 /// Applies one operation to a model; poses are looked up in the model's skeleton and clips.
