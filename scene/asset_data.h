@@ -1,6 +1,7 @@
 #pragma once
 
 #include <sunder/scene/character_asset.h>
+#include <sunder/tear/torn_asset.h>
 
 #include <vector>
 
@@ -11,6 +12,7 @@ namespace sunder::scene {
 /// The data of a CharacterAsset.
 struct AssetData {
   std::shared_ptr<const Character> character;
+  std::shared_ptr<const TornAsset> torn;
   CharacterAssetOptions options;
   std::vector<AssetMesh> meshes;
 };

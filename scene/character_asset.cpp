@@ -46,8 +46,8 @@ Status check_coarser(const Character& character, const Character& coarser) {
 }
 
 /// Whether instances can be made soft.
-Status check_tissue(const SoftTissue& soft, std::shared_ptr<const Character> character) {
-  Result<TornModel> model = TornModel::create(std::move(character));
+Status check_tissue(const SoftTissue& soft, const std::shared_ptr<const TornAsset>& asset) {
+  Result<TornModel> model = TornModel::create(asset);
   return model ? scene::TornParts(std::move(*model)).make_soft(soft) : model.error();
 }
 
@@ -61,7 +61,8 @@ Result<std::shared_ptr<const CharacterAsset>> CharacterAsset::create(
     std::shared_ptr<const Character> character, const CharacterAssetOptions& options) {
   if (!character) return Status::failure(StatusCode::empty_input, kNone, "there is no character");
   try {
-    if (Status status = validate_character(*character); !status) return status;
+    auto torn = TornAsset::create(character);
+    if (!torn) return torn.error();
     if (options.coarser)
       if (Status status = check_coarser(*character, *options.coarser->character()); !status)
         return status;
@@ -73,8 +74,9 @@ Result<std::shared_ptr<const CharacterAsset>> CharacterAsset::create(
       data->meshes.push_back(std::move(*made));
     }
     if (options.soft)
-      if (Status status = check_tissue(*options.soft, character); !status) return status;
+      if (Status status = check_tissue(*options.soft, *torn); !status) return status;
     data->character = std::move(character);
+    data->torn = std::move(*torn);
     return std::shared_ptr<const CharacterAsset>(new CharacterAsset(std::move(data)));
   } catch (const std::bad_alloc&) {
     return out_of_memory();
@@ -97,7 +99,8 @@ std::span<const DrawRange> CharacterAsset::draw_ranges(std::uint32_t mesh) const
 }
 
 std::size_t CharacterAsset::memory_bytes() const {
-  std::size_t bytes = sizeof(*this) + sizeof(*data_);
+  const TornMemory torn = data_->torn->memory_bytes();
+  std::size_t bytes = sizeof(*this) + sizeof(*data_) + torn.shared + torn.reserved;
   for (const scene::AssetMesh& mesh : data_->meshes)
     bytes += sizeof(mesh) + mesh.skinned.stream_bytes() + mesh.order.memory_bytes();
   return bytes;

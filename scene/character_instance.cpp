@@ -64,6 +64,8 @@ Result<CharacterInstance> CharacterInstance::create(std::shared_ptr<const Charac
 
 Status CharacterInstance::prepare_to_tear() { return state_->require_torn(); }
 
+Status CharacterInstance::pack() { return state_->torn ? state_->torn->model.pack() : Status(); }
+
 // ---- Operations.
 
 Result<TearReport> CharacterInstance::tear(const ModelPose& pose, std::span<const Blade> stroke,
@@ -246,8 +248,7 @@ PosedMesh CharacterInstance::mesh(std::uint32_t mesh, std::uint64_t seen) {
   if (!state_->drawn) return {};
   try {
     const bool is_own = state_->is_own(seen);
-    PosedMesh posed =
-        state_->drawn->meshes[mesh].posed(state_->character().meshes[mesh], is_own ? seen : 0);
+    PosedMesh posed = state_->drawn->meshes[mesh].posed(is_own ? seen : 0);
     posed.epoch = posed.ranges.empty() ? seen : state_->epoch;
     if (!is_own && !posed.ranges.empty()) posed.initial_triangles = state_->asset->triangles(mesh);
     return posed;

@@ -23,7 +23,7 @@ Status CharacterInstance::State::require_torn() {
   if (torn) return {};
   const CharacterAssetOptions& options = shared().options;
   try {
-    Result<TornModel> model = TornModel::create(shared().character, capacity);
+    Result<TornModel> model = TornModel::create(shared().torn, capacity);
     if (!model) return model.error();
     if (Status status = model->set_weights(options.weights); !status) return status;
     auto parts = std::make_unique<scene::TornParts>(std::move(*model));
@@ -80,21 +80,22 @@ Status CharacterInstance::State::set_palettes() {
   return {};
 }
 
-Status CharacterInstance::State::draw_mesh(Index mesh, const ParallelFor& parallel_for) {
+/// Applies tears to a mesh. A packed model is not looked at if there were none.
+Status CharacterInstance::State::update_mesh(Index mesh) {
   scene::InstanceMesh& posed = drawn->meshes[mesh];
-  const Mesh& source = shared().character->meshes[mesh];
-  if (!torn)
-    return posed.draw(
-        {source, nullptr, drawn->palettes[source.skin], nullptr, parallel_for, epoch + 1});
+  if (!posed.needs_update()) return {};
+  if (!torn) return posed.update(shared().character->meshes[mesh], nullptr, epoch + 1);
   const TornModel& model = torn->model;
-  scene::InstanceMesh::Input input = {model.character().meshes[mesh],
-                                      &model.influence_positions(mesh),
-                                      drawn->palettes[source.skin],
-                                      nullptr,
-                                      parallel_for,
-                                      epoch + 1};
-  const std::span<const IndexRange> moved = torn->body && shared().options.poses_vertices
-                                                ? torn->body->moved_vertices(model, mesh)
+  return posed.update(model.character().meshes[mesh], &model.influence_positions(mesh), epoch + 1);
+}
+
+Status CharacterInstance::State::draw_mesh(Index mesh, const ParallelFor& parallel_for) {
+  if (Status status = update_mesh(mesh); !status) return status;
+  scene::InstanceMesh& posed = drawn->meshes[mesh];
+  scene::InstanceMesh::Input input = {drawn->palettes[shared().character->meshes[mesh].skin],
+                                      nullptr, parallel_for, epoch + 1};
+  const std::span<const IndexRange> moved = torn && torn->body && shared().options.poses_vertices
+                                                ? torn->body->moved_vertices(torn->model, mesh)
                                                 : std::span<const IndexRange>();
   if (moved.empty()) return posed.draw(input);
   VertexDisplacements displaced{torn->particles->vertex_points(mesh),
@@ -103,7 +104,7 @@ Status CharacterInstance::State::draw_mesh(Index mesh, const ParallelFor& parall
                                 moved,
                                 {},
                                 torn->body->rotations()};
-  if (posed.has_directions()) displaced.gradients = torn->particles->gradients(model);
+  if (posed.has_directions()) displaced.gradients = torn->particles->gradients(torn->model);
   input.displaced = &displaced;
   return posed.draw(input);
 }
@@ -131,7 +132,10 @@ Status CharacterInstance::State::draw(const ParallelFor& parallel_for) {
 std::size_t CharacterInstance::State::memory_bytes() const {
   std::size_t bytes = sizeof(*this) + pose.model_from_bone.capacity() * sizeof(Affine3d) +
                       pose.morph_weights.capacity() * sizeof(float);
-  if (torn) bytes += sizeof(*torn);
+  if (torn) {
+    const TornMemory of_model = torn->model.memory_bytes();
+    bytes += sizeof(*torn) + of_model.own + of_model.reserved;
+  }
   if (!drawn) return bytes;
   bytes += sizeof(*drawn);
   for (const Skin& skin : shared().character->skins)

@@ -47,6 +47,7 @@ struct CharacterInstance::State {
   /// Lets the meshes and the particles know.
   Status follow(std::span<const ChangeRecord> changes);
   Status set_palettes();
+  Status update_mesh(Index mesh);
   Status draw_mesh(Index mesh, const ParallelFor& parallel_for);
   Status draw(const ParallelFor& parallel_for);
   [[nodiscard]] std::size_t memory_bytes() const;

@@ -183,6 +183,7 @@ CharacterInstance* Scene::find(InstanceId id) {
   scene::Actor* const actor = state_->find(id);
   if (actor == nullptr) return nullptr;
   state_->wake(id.slot);
+  actor->touch();
   return &actor->instance;
 }
 

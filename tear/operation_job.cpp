@@ -34,7 +34,7 @@ Status refuse(const char* why) {
 }
 
 Status run_task(tear::OperationTask& task) {
-  Result<TornModel> made = TornModel::create(task.asset);
+  Result<TornModel> made = TornModel::create(task.asset->character());
   if (!made) return made.error();
   if (Status status = made->set_weights(task.weights); !status) return status;
   for (const Operation& operation : task.history)

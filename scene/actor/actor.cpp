@@ -60,7 +60,16 @@ Status Actor::set_pose(const ModelPose& pose) {
   return {};
 }
 
+/// Gives back the workspace of a model that nobody tears any more. Soft tissue that is awake reads
+/// it in each step. It is optional: if it fails, the model stays as it is.
+void Actor::pack() {
+  if (is_packed_ || is_being_torn() || instance.needs_step()) return;
+  if (instance.body() != nullptr && is_busy()) return;
+  is_packed_ = static_cast<bool>(instance.pack());
+}
+
 void Actor::fall_idle() noexcept {
+  pack();
   if (!has_new_pose_) pose_ = {};
   if (!playback_.is_playing()) playback_ = {};
   commands.clear();
@@ -94,6 +103,7 @@ void Actor::work_on_commands(Background& background) {
   commands.apply(pose(), instance, background);
   if (commands.results().size() == before) return;
   last_operation_ = now_;
+  is_packed_ = false;
   note_origin();
 }
 
@@ -158,6 +168,7 @@ void Actor::update(const Frame& of) {
     frame.status = move(seconds, of.background);
     if (frame.status && is_visible_ && (shown().needs_draw() || frame.was_switched))
       draw(of.parallel_for);
+    pack();
   } catch (const std::system_error& error) {
     frame.status = Status::failure(StatusCode::limit_exceeded, kNone, "cannot start a thread: %s",
                                    error.what());

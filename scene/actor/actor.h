@@ -57,6 +57,8 @@ class Actor {
     return instance.is_in_stroke() || commands.has_waiting() || now_ < last_operation_ + kCalm;
   }
 
+  /// Somebody may make calls on the instance.
+  void touch() { is_packed_ = false; }
   /// Frees what only an active instance needs.
   void fall_idle() noexcept;
   /// What a snapshot keeps of an actor, in addition to its instance.
@@ -107,6 +109,7 @@ class Actor {
   Status move(double seconds, Background& background);
   void work_on_commands(Background& background);
   void note_origin();
+  void pack();
   void show_level(Background& background);
   void draw(const ParallelFor& parallel_for);
 
@@ -116,8 +119,9 @@ class Actor {
   ModelPose pose_;  ///< Empty: that of the level that is shown.
   bool has_new_pose_ = true;
   bool is_visible_;
-  double now_;             ///< Time of the scene at the last update that was not left out.
-  double last_operation_;  ///< Time of the scene.
+  bool is_packed_ = false;  ///< Whether the model was packed since the last command.
+  double now_;              ///< Time of the scene at the last update that was not left out.
+  double last_operation_;   ///< Time of the scene.
 };
 
 }  // namespace sunder::scene

@@ -33,15 +33,15 @@ void DrawTriangles::shrink(const Mesh& mesh) {
   }
 }
 
-void DrawTriangles::grow(Chunk& chunk) {
-  changed_.reserve(changed_.size() + chunk.triangles.size());  // nothing fails below
+void DrawTriangles::grow(Chunk& chunk, const Mesh& mesh) {
+  log_.reserve(log_.size() + chunk.triangles.size());  // nothing fails below
   chunk.capacity = std::max<Index>(32, 2 * chunk.capacity);
   chunk.first = end_;
   end_ += chunk.capacity;
   Index at = chunk.first;
   for (const Index triangle : chunk.triangles) {
     places_[triangle - order_->triangle_count()] = at++;
-    log(triangle);
+    log(triangle, mesh);
   }
 }
 
@@ -51,13 +51,13 @@ void DrawTriangles::append(const Mesh& mesh) {
   for (Index t = source_count + static_cast<Index>(places_.size()); t < mesh.triangle_count();
        ++t) {
     Chunk& chunk = chunks_[mesh.triangle_submesh[t]];
-    if (chunk.triangles.size() == chunk.capacity) grow(chunk);
+    if (chunk.triangles.size() == chunk.capacity) grow(chunk, mesh);
     make_room_for_one(places_);  // so that the three lists stay equally long
     make_room_for_one(submesh_);
     chunk.triangles.push_back(t);
     places_.push_back(chunk.first + static_cast<Index>(chunk.triangles.size()) - 1);
     submesh_.push_back(mesh.triangle_submesh[t]);
-    log(t);
+    log(t, mesh);
   }
 }
 
@@ -66,7 +66,7 @@ void DrawTriangles::update(const Mesh& mesh, std::uint64_t epoch) {
   is_torn_ = true;
   shorten_log();
   epochs_.reserve(epochs_.size() + 1);
-  const std::size_t first = changed_.size();
+  const std::size_t first = log_.size();
   if (epochs_.empty() || epochs_.back().epoch != epoch) epochs_.push_back({epoch, first});
   shrink(mesh);
   append(mesh);
@@ -74,7 +74,9 @@ void DrawTriangles::update(const Mesh& mesh, std::uint64_t epoch) {
     noted_.resize(mesh.triangle_count());
     std::iota(noted_.begin(), noted_.end(), 0u);
   }
-  changed_.insert(changed_.end(), noted_.begin(), noted_.end());
+  log_.reserve(log_.size() + noted_.size());
+  for (const Index triangle : noted_)
+    if (triangle < mesh.triangle_count()) log(triangle, mesh);
   list_ranges(mesh);
   noted_.clear();
   lost_count_ = false;
@@ -89,27 +91,38 @@ void DrawTriangles::list_ranges(const Mesh& mesh) {
 }
 
 void DrawTriangles::shorten_log() {
-  if (changed_.size() < next_shortening_) return;
-  // A reader who saw only a part of these changes is told of all of them again.
-  std::sort(changed_.begin(), changed_.end());
-  changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
+  if (log_.size() < next_shortening_) return;
+  // Of several writes to a place, the last one counts. A reader who saw only a part of them is told
+  // of all places again.
+  std::stable_sort(log_.begin(), log_.end(), [](const TriangleWrite& a, const TriangleWrite& b) {
+    return a.place < b.place;
+  });
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < log_.size(); ++i)
+    if (i + 1 == log_.size() || log_[i + 1].place != log_[i].place) log_[kept++] = log_[i];
+  log_.resize(kept);
   if (!epochs_.empty()) {
     epochs_.front() = {epochs_.back().epoch, 0};
     epochs_.resize(1);
   }
-  next_shortening_ = 2 * changed_.size() + 4096;
+  next_shortening_ = 2 * log_.size() + 4096;
 }
 
-void DrawTriangles::collect(const Mesh& mesh, std::uint64_t seen,
-                            std::vector<TriangleWrite>& writes) const {
+void DrawTriangles::collect(std::uint64_t seen, std::vector<TriangleWrite>& writes) const {
   writes.clear();
   const auto unseen =
       std::find_if(epochs_.begin(), epochs_.end(), [&](const Epoch& e) { return e.epoch > seen; });
   if (unseen == epochs_.end()) return;
-  writes.reserve(changed_.size() - unseen->first);
-  for (std::size_t i = unseen->first; i < changed_.size(); ++i)
-    if (changed_[i] < mesh.triangle_count())
-      writes.push_back({place(changed_[i]), mesh.triangles[changed_[i]]});
+  writes.assign(log_.begin() + static_cast<std::ptrdiff_t>(unseen->first), log_.end());
+}
+
+std::size_t DrawTriangles::memory_bytes() const {
+  std::size_t bytes = log_.capacity() * sizeof(TriangleWrite) + noted_.capacity() * sizeof(Index) +
+                      (places_.capacity() + submesh_.capacity()) * sizeof(Index) +
+                      epochs_.capacity() * sizeof(Epoch) + ranges_.capacity() * sizeof(DrawRange);
+  for (const Chunk& chunk : chunks_)
+    bytes += sizeof(chunk) + chunk.triangles.capacity() * sizeof(Index);
+  return bytes;
 }
 
 }  // namespace sunder::scene

@@ -26,7 +26,8 @@ class DrawTriangles {
   }
   [[nodiscard]] Index capacity() const { return end_; }
   /// Writes what changed after an epoch. @throws std::bad_alloc
-  void collect(const Mesh& mesh, std::uint64_t seen, std::vector<TriangleWrite>& writes) const;
+  void collect(std::uint64_t seen, std::vector<TriangleWrite>& writes) const;
+  [[nodiscard]] std::size_t memory_bytes() const;
 
  private:
   struct Chunk {
@@ -35,12 +36,14 @@ class DrawTriangles {
   };
   struct Epoch {
     std::uint64_t epoch;
-    std::size_t first;  ///< Its first entry in changed_.
+    std::size_t first;  ///< Its first entry in log_.
   };
   void shrink(const Mesh& mesh);
   void append(const Mesh& mesh);
-  void grow(Chunk& chunk);
-  void log(Index triangle) { changed_.push_back(triangle); }
+  void grow(Chunk& chunk, const Mesh& mesh);
+  void log(Index triangle, const Mesh& mesh) {
+    log_.push_back({place(triangle), mesh.triangles[triangle]});
+  }
   void shorten_log();
   void list_ranges(const Mesh& mesh);
   [[nodiscard]] Index place(Index triangle) const {
@@ -59,9 +62,10 @@ class DrawTriangles {
   std::vector<Chunk> chunks_;   ///< Per submesh.
   Index end_;
   std::vector<DrawRange> ranges_;
-  std::vector<Index> changed_;  ///< Triangles, in the order in which they changed.
+  /// In the order in which they were made. The model may be packed, so triangles are kept here.
+  std::vector<TriangleWrite> log_;
   std::vector<Epoch> epochs_;
-  std::size_t next_shortening_ = 4096;  ///< Size of changed_ at which repetitions are removed.
+  std::size_t next_shortening_ = 4096;  ///< Size of log_ at which repetitions are removed.
 };
 
 }  // namespace sunder::scene

@@ -102,8 +102,7 @@ Status InstanceMesh::resize(Index vertex_count) {
   return {};
 }
 
-Status InstanceMesh::update(const Mesh& mesh, const InfluencePositions* exact) {
-  if (!needs_update_) return {};
+Status InstanceMesh::update_vertices(const Mesh& mesh, const InfluencePositions* exact) {
   if (first_changed_ != kNone) {
     const Index count = mesh.vertex_count();
     const Index before = tail_ ? source_count_ + tail_->vertex_count() : source_count_;
@@ -124,7 +123,6 @@ Status InstanceMesh::update(const Mesh& mesh, const InfluencePositions* exact) {
   }
   if (Status status = resize(mesh.vertex_count()); !status) return status;
   first_changed_ = kNone;
-  needs_update_ = false;
   return {};
 }
 
@@ -166,14 +164,21 @@ void InstanceMesh::list_written(std::uint64_t epoch) {
   for (const IndexRange& range : written_) drawn_vertices_ += range.count;
 }
 
-Status InstanceMesh::draw(const Input& input) {
-  if (asset_->poses_vertices) {
-    if (Status status = update(input.mesh, input.exact); !status) return status;
-    if (Status status = deform(input); !status) return status;
-  }
+Status InstanceMesh::update(const Mesh& mesh, const InfluencePositions* exact,
+                            std::uint64_t epoch) {
+  if (asset_->poses_vertices)
+    if (Status status = update_vertices(mesh, exact); !status) return status;
+  triangles_.update(mesh, epoch);
+  vertex_count_ = mesh.vertex_count();
   needs_update_ = false;
+  return {};
+}
+
+Status InstanceMesh::draw(const Input& input) {
+  SUNDER_ASSERT(!needs_update_);
+  if (asset_->poses_vertices)
+    if (Status status = deform(input); !status) return status;
   is_drawn_ = true;
-  triangles_.update(input.mesh, input.epoch);
   list_written(input.epoch);
   return {};
 }
@@ -195,12 +200,12 @@ void InstanceMesh::list_dirty_vertices(std::uint64_t seen, Index count) {
       dirty_vertices_.push_back({range.first, std::min(range.count, count - range.first)});
 }
 
-PosedMesh InstanceMesh::posed(const Mesh& mesh, std::uint64_t seen) {
+PosedMesh InstanceMesh::posed(std::uint64_t seen) {
   if (needs_update_ || !is_drawn_) return {};
-  const Index count = mesh.vertex_count();
+  const Index count = vertex_count_;
   list_dirty_vertices(seen, count);
   attributes_.collect(seen, count, dirty_attributes_);
-  triangles_.collect(mesh, seen, writes_);
+  triangles_.collect(seen, writes_);
   PosedMesh posed;
   posed.positions = {reinterpret_cast<const Vec3f*>(target_.positions.data),
                      target_.positions.stride == 0 && target_.positions.data ? count : 0};
@@ -218,7 +223,8 @@ PosedMesh InstanceMesh::posed(const Mesh& mesh, std::uint64_t seen) {
 
 std::size_t InstanceMesh::memory_bytes() const {
   return (tail_ ? tail_->stream_bytes() : 0) + positions_.capacity() * sizeof(Vec3f) +
-         normals_.capacity() * sizeof(Vec3f) + tangents_.capacity() * sizeof(Vec4f);
+         normals_.capacity() * sizeof(Vec3f) + tangents_.capacity() * sizeof(Vec4f) +
+         triangles_.memory_bytes();
 }
 
 }  // namespace sunder::scene

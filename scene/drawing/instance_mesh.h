@@ -30,16 +30,20 @@ class InstanceMesh {
         tail_source_(vertex_count),
         triangles_(asset.order) {}
 
-  /// Notes the changes of a call; draw() applies them.
+  /// Notes the changes of a call; update() applies them.
   void note(const MeshChange& change, std::uint64_t epoch) noexcept;
   /// Notes all differences of a torn mesh from its source. @throws std::bad_alloc
   void note_all(const Mesh& source, const Mesh& mesh, std::uint64_t epoch);
   void set_target(const VertexTarget& target);
 
+  /// Whether update() has to be called before draw().
+  [[nodiscard]] bool needs_update() const { return needs_update_; }
+  /// Applies what was noted. @param exact  null for a mesh that was never torn. @throws
+  /// std::bad_alloc
+  Status update(const Mesh& mesh, const InfluencePositions* exact, std::uint64_t epoch);
+
   /// The inputs of a draw().
   struct Input {
-    const Mesh& mesh;
-    const InfluencePositions* exact = nullptr;  ///< Null for a mesh that was never torn.
     const BonePalette& palette;
     const VertexDisplacements* displaced = nullptr;
     const ParallelFor& parallel_for;
@@ -56,12 +60,12 @@ class InstanceMesh {
            (!has_target_ && (asset_->has_normals || asset_->has_tangents));
   }
   /// Empty before the first draw(), and after a change since the last one. @throws std::bad_alloc
-  [[nodiscard]] PosedMesh posed(const Mesh& mesh, std::uint64_t seen);
+  [[nodiscard]] PosedMesh posed(std::uint64_t seen);
   [[nodiscard]] Index drawn_vertices() const { return drawn_vertices_; }
   [[nodiscard]] std::size_t memory_bytes() const;
 
  private:
-  Status update(const Mesh& mesh, const InfluencePositions* exact);
+  Status update_vertices(const Mesh& mesh, const InfluencePositions* exact);
   Status resize(Index vertex_count);
   Status deform(const Input& input);
   Status deform_part(const Input& input, const SkinnedMesh& skinned, PosedBuffer& buffer,
@@ -79,6 +83,7 @@ class InstanceMesh {
   std::vector<Vec4f> tangents_;
   VertexTarget target_;  ///< Memory of the caller, or that of this object.
   bool has_target_ = false;
+  Index vertex_count_ = 0;  ///< As of the last update().
   Index first_changed_ =
       kNone;                  ///< First vertex whose skinning data changed since the last draw().
   bool is_drawn_ = false;     ///< Whether draw() was ever called.
