@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <new>
 
-#include "tear/surface/capacity_exceeded.h"
-
 namespace sunder::tear {
 namespace {
 
@@ -25,10 +23,9 @@ void ScratchMemory::reset() {
   }
 }
 
-void ScratchMemory::fix(std::size_t bytes) {
+void ScratchMemory::reserve(std::size_t bytes) {
   blocks_.clear();
   add_block(bytes);
-  is_fixed_ = true;
 }
 
 void ScratchMemory::add_block(std::size_t size) {
@@ -39,7 +36,6 @@ void ScratchMemory::add_block(std::size_t size) {
 void* ScratchMemory::do_allocate(std::size_t bytes, std::size_t alignment) {
   const auto begin_of_next = [&] { return (used_ + alignment - 1) / alignment * alignment; };
   if (blocks_.empty() || begin_of_next() + bytes > blocks_.back().size) {
-    if (is_fixed_) throw CapacityExceeded{"work of one operation"};
     add_block(std::max({kLeastBlock, bytes, blocks_.empty() ? 0 : 2 * blocks_.back().size}));
   }
   const std::size_t begin = begin_of_next();

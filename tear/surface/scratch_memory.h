@@ -11,9 +11,23 @@ namespace sunder::tear {
 /// released all at once, and kept: an operation like one before it allocates nothing.
 class ScratchMemory final : public std::pmr::memory_resource {
  public:
-  /// Limits the memory to `bytes`; beyond them CapacityExceeded is thrown. Without a limit the
-  /// memory grows.
-  void fix(std::size_t bytes);
+  /// Releases at its end what was handed out since its begin, so that steps of an operation use the
+  /// same memory one after the other.
+  class Scope {
+   public:
+    explicit Scope(ScratchMemory& memory)
+        : memory_(memory), blocks_(memory.blocks_.size()), used_(memory.used_) {}
+    ~Scope() { memory_.used_ = memory_.blocks_.size() == blocks_ ? used_ : 0; }
+    Scope(const Scope&) = delete;
+    Scope& operator=(const Scope&) = delete;
+
+   private:
+    ScratchMemory& memory_;
+    std::size_t blocks_, used_;
+  };
+
+  /// Allocates memory in advance. Operations that need more allocate it.
+  void reserve(std::size_t bytes);
 
   /// Releases all that was handed out.
   void reset();
@@ -33,7 +47,6 @@ class ScratchMemory final : public std::pmr::memory_resource {
 
   std::vector<Block> blocks_;  ///< Memory is taken from the last block.
   std::size_t used_ = 0;       ///< Bytes of the last block.
-  bool is_fixed_ = false;
 };
 
 template <class T>
