@@ -47,7 +47,10 @@ void operate(benchmark::State& state, Caches caches, const Effort& effort) {
   RepeatedOperation operation(scene_in(state), work);
   report_median(state, effort, [&] { return operation.run(caches); });
   state.counters["faces_crossed"] = operation.report.faces_crossed;
+  state.counters["triangles_added"] = operation.report.triangles_added;
+  state.counters["triangles_retired"] = operation.report.triangles_retired;
   state.counters["allocations"] = static_cast<double>(operation.allocations);
+  state.counters["undo_allocations"] = static_cast<double>(operation.undo_allocations);
 }
 
 void tear_warm(benchmark::State& state) { operate<tear_along_stroke>(state, Caches::warm, kUsual); }

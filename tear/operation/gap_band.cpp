@@ -17,6 +17,8 @@ namespace {
 
 /// A sweep that gets nowhere this many times in a segment gives up.
 constexpr int kMostFutileTurns = 64;
+/// Number of faces around the seeds of a gap for which there is room at first.
+constexpr std::size_t kFacesOfSeeds = 32;
 
 /// Depth in the plane's y at which the middle of a gap lies at x.
 double depth_at(const std::vector<Vec2d>& section, double x) {
@@ -33,12 +35,34 @@ PlaneSide from_place(const Vec3d& at, const Vec3d& direction, double distance) {
   return {direction, dot(direction, at) + distance};
 }
 
+/// A stable sort that allocates scratch memory only. The parts of a path are sorted already.
+void sort_by_x(std::vector<Vec2d>& section, ScratchMemory& memory) {
+  const auto is_before = [](const Vec2d& a, const Vec2d& b) { return a.x() < b.x(); };
+  if (std::is_sorted(section.begin(), section.end(), is_before)) return;
+  const ScratchMemory::Scope scope(memory);
+  const ScratchVector<Vec2d> unsorted(section.begin(), section.end(), &memory);
+  ScratchVector<std::pair<double, std::size_t>> order(&memory);
+  order.reserve(section.size());
+  for (std::size_t i = 0; i < section.size(); ++i) order.emplace_back(section[i].x(), i);
+  std::sort(order.begin(), order.end());
+  for (std::size_t i = 0; i < section.size(); ++i) section[i] = unsorted[order[i].second];
+}
+
 }  // namespace
+
+void GapBand::Pending::begin(const BladePlane& of) {
+  plane = of;
+  start = of.standing_on(of.from_progress(0));
+  seeds.clear();
+  faces.clear();
+  section.clear();
+  length = 0;
+}
 
 void GapBand::begin(double width, Layers layers) {
   width_ = width;
   layers_ = layers;
-  pending_.reset();
+  pending_.plane.reset();
   has_removed_ = is_in_new_pose_ = false;
 }
 
@@ -47,45 +71,45 @@ void GapBand::sweep(const Segment& segment, const Workpiece& work, StrokeTip& ti
   const auto& [plane, from, to] = segment;
   const bool takes_all = layers_ == Layers::all;
   const Index begins_at = tip.point;
-  Pending next{
-      plane, plane.standing_on(plane.from_progress(0)), {}, {}, {}, norm(to.tip - from.tip)};
-  bool continues = pending_.has_value();
-  if (!takes_all) {
-    next = find_gap(segment, work, tip, outcome);
-    continues = begins_at != kNone && !next.seeds.empty() && next.seeds.front() == begins_at;
-    if (next.seeds.empty()) {
+  next_.begin(plane);
+  bool continues = pending_.plane.has_value();
+  if (takes_all) {
+    next_.length = norm(to.tip - from.tip);
+  } else {
+    find_gap(segment, work, tip, next_, outcome);
+    continues = begins_at != kNone && !next_.seeds.empty() && next_.seeds.front() == begins_at;
+    if (next_.seeds.empty()) {
       ++outcome.report.segments_missed;
       return;
     }
-    outcome.report.length_posed += next.length;
+    outcome.report.length_posed += next_.length;
   }
-  if (pending_ && continues) {
+  if (pending_.plane && continues) {
     const Vec3d at = takes_all ? Vec3d(0.5 * (from.base + from.tip))
                                : Vec3d(work.posed.position(work.editor, begins_at));
-    join(at, work, next, outcome);
-  } else if (pending_) {
+    join(at, work, next_, outcome);
+  } else if (pending_.plane) {
     catch_up(work, outcome);
   } else if (continues && is_in_new_pose_) {
-    next.start = start_from_rim(plane, begins_at, work);
+    next_.start = start_from_rim(plane, begins_at, work);
   }
   is_in_new_pose_ = false;
-  pending_ = std::move(next);
+  std::swap(pending_, next_);
 }
 
 void GapBand::catch_up(const Workpiece& work, Outcome& outcome) {
-  if (!pending_) return;
+  if (!pending_.plane) return;
   const EditLog::Mark before = work.editor.mark();
-  remove_pending(pending_->plane.standing_on(pending_->plane.reach()[2]), work, outcome);
-  pending_.reset();
+  remove_pending(pending_.plane->standing_on(pending_.plane->reach()[2]), work, outcome);
+  pending_.plane.reset();
   improve_faces(before, work.editor);
 }
 
 /// Follows the nearest layer along a segment. Changes only the points where the path enters and
 /// ends. Moves the tip.
-GapBand::Pending GapBand::find_gap(const Segment& segment, const Workpiece& work, StrokeTip& tip,
-                                   Outcome& outcome) const {
+void GapBand::find_gap(const Segment& segment, const Workpiece& work, StrokeTip& tip, Pending& gap,
+                       Outcome& outcome) const {
   const BladePlane& plane = segment.plane;
-  Pending gap{plane, plane.standing_on(plane.from_progress(0)), {}, {}, {}, 0};
   double progress = 0;
   if (tip.point != kNone) progress = std::max(0.0, trace_gap(tip.point, work, tip, gap, outcome));
   for (int futile = 0; progress < 1 && futile < kMostFutileTurns;) {
@@ -105,9 +129,7 @@ GapBand::Pending GapBand::find_gap(const Segment& segment, const Workpiece& work
     progress = std::max(progress, contact->progress_beyond);
     ++futile;
   }
-  std::stable_sort(gap.section.begin(), gap.section.end(),
-                   [](const Vec2d& a, const Vec2d& b) { return a.x() < b.x(); });
-  return gap;
+  sort_by_x(gap.section, work.editor.scratch());
 }
 
 /// Adds one run of the path to a gap. @return how far along the segment it reaches, in [0, 1].
@@ -115,7 +137,8 @@ double GapBand::trace_gap(Index start, const Workpiece& work, StrokeTip& tip, Pe
                           Outcome& outcome) const {
   const bool continues = start == tip.point;
   tip.point = kNone;
-  const Trace trace = trace_path(gap.plane, start, work.editor, work.posed);
+  const ScratchMemory::Scope scope(work.editor.scratch());
+  const Trace trace = trace_path(*gap.plane, start, work.editor, work.posed);
   if (trace.faces.empty()) return trace.progress;
   if (!continues) ++outcome.report.runs;
   gap.seeds.push_back(start);
@@ -131,11 +154,11 @@ double GapBand::trace_gap(Index start, const Workpiece& work, StrokeTip& tip, Pe
 /// plane; where it turns sharply, or by more than the segments are long, both end square and a
 /// wedge closes the outer side.
 void GapBand::join(const Vec3d& at, const Workpiece& work, Pending& next, Outcome& outcome) {
-  const Vec3d before = pending_->plane.across(), after = next.start.normal;
+  const Vec3d before = pending_.plane->across(), after = next.start.normal;
   const double cosine = dot(before, after), half = 0.5 * width_;
   const double overlap =
       cosine > -1 ? half * std::sqrt(std::max(0.0, (1 - cosine) / (1 + cosine))) : 0;
-  if (cosine >= 0 && overlap <= 0.5 * std::min(pending_->length, next.length)) {
+  if (cosine >= 0 && overlap <= 0.5 * std::min(pending_.length, next.length)) {
     const Vec3d mitre = (before + after) / norm(before + after);
     remove_pending(from_place(at, -mitre, 0), work, outcome);
     next.start = from_place(at, mitre, 0);
@@ -150,36 +173,42 @@ void GapBand::join(const Vec3d& at, const Workpiece& work, Pending& next, Outcom
 /// beyond.
 void GapBand::close_corner(const Vec3d& at, const Workpiece& work, const Pending& next,
                            Outcome& outcome) {
-  const Vec3d before = pending_->plane.across(), after = next.start.normal;
-  const Vec3d normal_before = pending_->plane.normal(), normal_after = next.plane.normal();
+  const Vec3d before = pending_.plane->across(), after = next.start.normal;
+  const Vec3d normal_before = pending_.plane->normal(), normal_after = next.plane->normal();
   const double half = 0.5 * width_;
   const double outer = dot(normal_before, after) > 0 ? -1.0 : 1.0;
-  Cell wedge = {from_place(at, before, 0), from_place(at, -after, 0),
-                next.plane.standing_on(next.plane.reach()[0]),
-                next.plane.standing_on(next.plane.reach()[1])};
-  std::vector<Side> sides(wedge.size(), Side::none);
+  std::array<PlaneSide, 6> wedge = {from_place(at, before, 0), from_place(at, -after, 0),
+                                    next.plane->standing_on(next.plane->reach()[0]),
+                                    next.plane->standing_on(next.plane->reach()[1])};
+  std::size_t count = 4;
   if (dot(before, after) >= 0) {
-    wedge.push_back(from_place(at, -outer * normal_before, -half));
-    wedge.push_back(from_place(at, -outer * normal_after, -half));
+    wedge[count++] = from_place(at, -outer * normal_before, -half);
+    wedge[count++] = from_place(at, -outer * normal_after, -half);
   } else {
     const Vec3d bevel = outer * (normal_before + normal_after);
     if (!(norm(bevel) > kStraightBackRadians)) return;  // straight back
-    wedge.push_back(from_place(at, -bevel / norm(bevel),
-                               -half * outer * dot(normal_before, bevel) / norm(bevel)));
+    wedge[count++] = from_place(at, -bevel / norm(bevel),
+                                -half * outer * dot(normal_before, bevel) / norm(bevel));
   }
-  sides.resize(wedge.size(), outer > 0 ? Side::left : Side::right);
-  remove(wedge, sides, next, work, outcome);
+  std::array<Side, 6> sides;
+  sides.fill(outer > 0 ? Side::left : Side::right);
+  std::fill_n(sides.begin(), 4, Side::none);
+  remove(std::span(wedge).first(count), sides, next, work, outcome);
 }
 
 void GapBand::remove_pending(const PlaneSide& end, const Workpiece& work, Outcome& outcome) {
-  const BladePlane& plane = pending_->plane;
+  const BladePlane& plane = *pending_.plane;
   const double half = 0.5 * width_;
   // The cell lies left of the right side, and right of the left one.
   constexpr std::array kSides = {Side::right, Side::left, Side::none,
                                  Side::none,  Side::none, Side::none};
-  remove({plane.left_of(-half), plane.right_of(half), plane.standing_on(plane.reach()[0]),
-          plane.standing_on(plane.reach()[1]), pending_->start, end},
-         kSides, *pending_, work, outcome);
+  const std::array<PlaneSide, 6> cell = {plane.left_of(-half),
+                                         plane.right_of(half),
+                                         plane.standing_on(plane.reach()[0]),
+                                         plane.standing_on(plane.reach()[1]),
+                                         pending_.start,
+                                         end};
+  remove(cell, kSides, pending_, work, outcome);
 }
 
 /// The start of a gap that continues one which was closed square in another pose: the edge left on
@@ -206,40 +235,45 @@ PlaneSide GapBand::start_from_rim(const BladePlane& plane, Index tip, const Work
 }
 
 /// The faces of the torn layers that a cell holds a part of.
-std::vector<Index> GapBand::faces_to_remove(const Cell& cell, const Pending& gap,
-                                            const Workpiece& work) const {
-  if (layers_ == Layers::all) return faces_in_cell(cell, work.editor, work.posed);
-  const Surface& surface = work.editor.surface();
-  std::vector<Index> seeds;
+ScratchVector<Index> GapBand::faces_to_remove(CellSides& sides, const Pending& gap) const {
+  if (layers_ == Layers::all) return faces_in_cell(sides);
+  const SurfaceEditor& editor = sides.editor();
+  const Surface& surface = editor.surface();
+  ScratchVector<Index> seeds(&sides.memory());
+  seeds.reserve(gap.faces.size() + kFacesOfSeeds);
+  IndexMap is_seed(gap.faces.size() + kFacesOfSeeds, sides.memory());
+  const auto add = [&](Index face) {
+    if (is_seed.insert(face, 0) == kNone) seeds.push_back(face);
+  };
   for (const Index point : gap.seeds)
     if (surface.point_corner[point] != kNone)
-      surface.for_each_in_fan(surface.point_corner[point],
-                              [&](Index corner) { seeds.push_back(corner / 3); });
+      surface.for_each_in_fan(surface.point_corner[point], [&](Index corner) { add(corner / 3); });
   for (const Index face : gap.faces)
-    if (!surface.has_repeated_point(face)) seeds.push_back(face);
-  std::sort(seeds.begin(), seeds.end());
+    if (!surface.has_repeated_point(face)) add(face);
   // The blade is as wide as the gap, and where the surface wrinkles it takes the wrinkle away. But
   // a face that turns its back on the blade far below the tear belongs to another layer, which the
   // nearest one hides; unless the tear itself goes across it.
   const auto is_same_layer = [&](Index face) {
-    if (std::binary_search(seeds.begin(), seeds.end(), face)) return true;
+    if (is_seed.find(face) != kNone) return true;
     std::array<Vec3d, 3> corners;
     for (Index k = 0; k < 3; ++k)
-      corners[k] = work.posed.position(work.editor, surface.corner_point[3 * face + k]);
+      corners[k] = sides.posed().position(editor, surface.corner_point[3 * face + k]);
     const Vec3d normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
-    if (dot(normal, gap.plane.along()) <= 0) return true;
-    const Vec2d middle = gap.plane.project((corners[0] + corners[1] + corners[2]) / 3);
+    if (dot(normal, gap.plane->along()) <= 0) return true;
+    const Vec2d middle = gap.plane->project((corners[0] + corners[1] + corners[2]) / 3);
     return middle.y() - depth_at(gap.section, middle.x()) < kOtherLayerWidths * width_;
   };
-  return faces_in_cell(cell, seeds, is_same_layer, work.editor, work.posed);
+  return faces_in_cell(sides, seeds, is_same_layer);
 }
 
-void GapBand::remove(const Cell& cell, std::span<const Side> sides, const Pending& gap,
-                     const Workpiece& work, Outcome& outcome) {
-  CellRim rim;
+void GapBand::remove(std::span<const PlaneSide> cell, std::span<const Side> sides,
+                     const Pending& gap, const Workpiece& work, Outcome& outcome) {
+  const ScratchMemory::Scope scope(work.editor.scratch());
+  CellRim rim(work.editor.scratch());
+  CellSides of_points(cell, work.editor, work.posed);
   const GapRemoval removal =
-      remove_cell(cell, faces_to_remove(cell, gap, work), work.editor, work.posed, &rim);
-  add_rim_points(rim, sides, gap.plane, outcome);
+      remove_cell(of_points, faces_to_remove(of_points, gap), work.editor, &rim);
+  add_rim_points(rim, sides, *gap.plane, outcome);
   outcome.report.faces_crossed += removal.faces_crossed;
   outcome.report.blocked += removal.blocked;
   outcome.report.area_removed_posed += removal.area_posed;

@@ -39,20 +39,22 @@ class GapBand {
   void enter_pose() { is_in_new_pose_ = true; }
 
  private:
-  /// A segment whose gap is still to be removed.
+  /// A segment whose gap is still to be removed. It keeps its memory for later segments.
   struct Pending {
-    BladePlane plane;
+    std::optional<BladePlane> plane;  ///< Of a segment that waits; otherwise none.
     PlaneSide start;
     std::vector<Index> seeds;    ///< Points at which the tear entered the surface.
     std::vector<Index> faces;    ///< Faces that the middle of the gap crosses.
     std::vector<Vec2d> section;  ///< The middle of the gap in the plane, by ascending x.
     double length = 0;
+
+    void begin(const BladePlane& of);
   };
   /// Which side of the gap lies on the plane of a cell's half-space.
   enum class Side : std::uint8_t { none, left, right };
 
-  [[nodiscard]] Pending find_gap(const Segment& segment, const Workpiece& work, StrokeTip& tip,
-                                 Outcome& outcome) const;
+  void find_gap(const Segment& segment, const Workpiece& work, StrokeTip& tip, Pending& gap,
+                Outcome& outcome) const;
   [[nodiscard]] double trace_gap(Index start, const Workpiece& work, StrokeTip& tip, Pending& gap,
                                  Outcome& outcome) const;
   void join(const Vec3d& at, const Workpiece& work, Pending& next, Outcome& outcome);
@@ -60,16 +62,15 @@ class GapBand {
   void remove_pending(const PlaneSide& end, const Workpiece& work, Outcome& outcome);
   [[nodiscard]] PlaneSide start_from_rim(const BladePlane& plane, Index tip,
                                          const Workpiece& work) const;
-  [[nodiscard]] std::vector<Index> faces_to_remove(const Cell& cell, const Pending& gap,
-                                                   const Workpiece& work) const;
-  void remove(const Cell& cell, std::span<const Side> sides, const Pending& gap,
+  [[nodiscard]] ScratchVector<Index> faces_to_remove(CellSides& sides, const Pending& gap) const;
+  void remove(std::span<const PlaneSide> cell, std::span<const Side> sides, const Pending& gap,
               const Workpiece& work, Outcome& outcome);
   void add_rim_points(const CellRim& rim, std::span<const Side> sides, const BladePlane& plane,
                       Outcome& outcome) const;
 
   double width_ = 0;
   Layers layers_ = Layers::nearest;
-  std::optional<Pending> pending_;
+  Pending pending_, next_;
   bool has_removed_ = false;
   bool is_in_new_pose_ = false;
 };

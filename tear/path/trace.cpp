@@ -11,7 +11,7 @@ namespace sunder::tear {
 
 Trace trace_path(const BladePlane& plane, Index start, const SurfaceEditor& editor,
                  PosedPoints& posed) {
-  Trace trace;
+  Trace trace(editor.scratch());
   const Surface& surface = editor.surface();
   const auto progress_at = [&](const Vec3d& at) { return plane.progress(at); };
   Vec3d here = posed.position(editor, start);

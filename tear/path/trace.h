@@ -1,7 +1,5 @@
 #pragma once
 
-#include <vector>
-
 #include "tear/path/surface_hit.h"
 #include "tear/path/sweep.h"
 
@@ -9,8 +7,10 @@ namespace sunder::tear {
 
 /// The curve in which a blade's plane meets the surface.
 struct Trace {
-  std::vector<Index> faces;    ///< Faces crossed, in order.
-  std::vector<Vec2d> section;  ///< Corners of the curve in the plane, ascending by progress.
+  explicit Trace(ScratchMemory& memory) : faces(&memory), section(&memory) {}
+
+  ScratchVector<Index> faces;    ///< Faces crossed, in order.
+  ScratchVector<Vec2d> section;  ///< Corners of the curve in the plane, ascending by progress.
   double length_posed = 0;
   double progress = 0;  ///< Progress in the sweep at its end.
   PathEnd end = PathEnd::surface;

@@ -14,7 +14,13 @@ namespace sunder::tear {
 FaceLines::FaceLines(Index face, const std::array<Index, 3>& points,
                      std::span<const std::array<Index, 2>> children, SurfaceEditor& editor,
                      PosedPoints& posed)
-    : editor_(editor), posed_(posed), face_(face), first_new_(editor.surface().triangle_count()) {
+    : editor_(editor),
+      posed_(posed),
+      face_(face),
+      children_(&editor.scratch()),
+      first_new_(editor.surface().triangle_count()),
+      drawn_(&editor.scratch()) {
+  children_.reserve(children.size() + 8);
   children_.push_back(face);
   for (const auto& [parent, child] : children) children_.push_back(child);
   origin_ = posed.position(editor, points[0]);
@@ -79,11 +85,15 @@ bool FaceLines::turn(Index half_edge) {
 }
 
 bool FaceLines::draw(Index from, Index to, std::vector<PointEdge>& edges) {
+  const auto first = static_cast<std::ptrdiff_t>(drawn_.size());
+  const bool is_drawn = draw(from, to);
+  edges.insert(edges.end(), drawn_.begin() + first, drawn_.end());
+  return is_drawn;
+}
+
+bool FaceLines::draw(Index from, Index to) {
   const Surface& surface = editor_.surface();
-  const auto add = [&](Index a, Index b) {
-    edges.push_back({a, b});
-    drawn_.push_back({a, b});
-  };
+  const auto add = [&](Index a, Index b) { drawn_.push_back({a, b}); };
   // Each flip removes one edge that crosses the line; each other step advances along it.
   for (int guard = 0; from != to && guard < 1000; ++guard) {
     if (surface.find_half_edge(from, to) != kNone || surface.find_half_edge(to, from) != kNone) {

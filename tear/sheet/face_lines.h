@@ -29,6 +29,8 @@ class FaceLines {
   /// @return false if the faces are too small or degenerate; the edges made until then are
   ///         appended.
   bool draw(Index from, Index to, std::vector<PointEdge>& edges);
+  /// The same without the list of edges. Does not allocate.
+  bool draw(Index from, Index to);
 
  private:
   [[nodiscard]] Vec2d place(Index point);
@@ -43,11 +45,11 @@ class FaceLines {
   SurfaceEditor& editor_;
   PosedPoints& posed_;
   Index face_;
-  std::vector<Index> children_;
+  ScratchVector<Index> children_;
   Index first_new_;  ///< Later triangles with this ancestor are children too.
   Vec3d origin_, x_, y_;
   double size_ = 0;  ///< Length of the longest edge; 0 if the face has no area.
-  std::vector<PointEdge> drawn_;
+  ScratchVector<PointEdge> drawn_;
 };
 
 }  // namespace sunder::tear

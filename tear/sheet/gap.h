@@ -1,22 +1,33 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
-#include <functional>
-#include <vector>
+#include <span>
 
-#include "tear/sheet/imprint_sheets.h"
+#include "tear/sheet/cell_sides.h"
 
 namespace sunder::tear {
 
 /// The live faces of which a part lies inside a cell, ascending.
-[[nodiscard]] std::vector<Index> faces_in_cell(const Cell& cell, const SurfaceEditor& editor,
-                                               PosedPoints& posed);
+[[nodiscard]] ScratchVector<Index> faces_in_cell(CellSides& sides);
+/// The same. `may_hold_any(box)` excludes more boxes of the frame, or is cheaper, than the half-spaces
+/// of the cell.
+template <class MayHoldAny>
+[[nodiscard]] ScratchVector<Index> faces_in_cell(CellSides& sides, const Frame& frame,
+                                                 MayHoldAny may_hold_any);
 
-/// The same, restricted to faces that are connected to the seeds inside the cell.
-/// @param is_wanted  whether the search may enter a face.
-[[nodiscard]] std::vector<Index> faces_in_cell(const Cell& cell, const std::vector<Index>& seeds,
-                                               const std::function<bool(Index face)>& is_wanted,
-                                               const SurfaceEditor& editor, PosedPoints& posed);
+/// Whether more than a border of a face lies in the cell.
+[[nodiscard]] bool is_face_in_cell(Index face, CellSides& sides);
+/// Whether a part of edge k of a face lies in the cell.
+[[nodiscard]] bool is_edge_in_cell(Index face, Index k, const CellSides::OfFace& of,
+                                   CellSides& sides);
+
+/// The faces of which a part lies inside a cell and that are connected to the seeds inside it,
+/// ascending.
+/// @param is_wanted  is_wanted(face): whether the search may enter a face.
+template <class IsWanted>
+[[nodiscard]] ScratchVector<Index> faces_in_cell(CellSides& sides, std::span<const Index> seeds,
+                                                 IsWanted is_wanted);
 
 /// Figures of the removal of a cell.
 struct GapRemoval {
@@ -28,21 +39,59 @@ struct GapRemoval {
 
 /// The border that the removal of a cell left.
 struct CellRim {
+  explicit CellRim(ScratchMemory& memory) : edges(&memory), areas(&memory) {}
+
   struct Edge {
     std::array<Index, 2> points = {};
     /// The half-space of the cell on whose plane the edge lies; kNone for an edge inside the cell.
     Index side = kNone;
     Index part = 0;
   };
-  std::vector<Edge> edges;
+  ScratchVector<Edge> edges;
   /// Per removed part (faces connected by edges): the sum of the posed area vectors of its faces.
-  std::vector<Vec3d> areas;
+  ScratchVector<Vec3d> areas;
 };
 
 /// Removes the part of some faces that lies inside a convex cell. Faces inside are removed; faces
-/// that reach out of the cell are clipped.
+/// that reach out of the cell are clipped. Allocates scratch memory only.
+/// @param faces  ascending.
 /// @param rim  optional; written.
-GapRemoval remove_cell(const Cell& cell, const std::vector<Index>& faces, SurfaceEditor& editor,
-                       PosedPoints& posed, CellRim* rim = nullptr);
+GapRemoval remove_cell(CellSides& sides, std::span<const Index> faces, SurfaceEditor& editor,
+                       CellRim* rim = nullptr);
+
+template <class MayHoldAny>
+ScratchVector<Index> faces_in_cell(CellSides& sides, const Frame& frame, MayHoldAny may_hold_any) {
+  ScratchVector<Index> faces(&sides.memory());
+  sides.posed().for_each_face(sides.editor(), frame, may_hold_any, [&](Index face) {
+    if (is_face_in_cell(face, sides)) faces.push_back(face);
+  });
+  std::sort(faces.begin(), faces.end());
+  return faces;
+}
+
+template <class IsWanted>
+ScratchVector<Index> faces_in_cell(CellSides& sides, std::span<const Index> seeds,
+                                   IsWanted is_wanted) {
+  const Surface& surface = sides.editor().surface();
+  ScratchVector<Index> faces(&sides.memory()), open(&sides.memory());
+  IndexMap seen(4 * seeds.size(), sides.memory());
+  const auto visit = [&](Index face) {
+    if (seen.insert(face, 0) == kNone && is_wanted(face)) open.push_back(face);
+  };
+  for (const Index seed : seeds)
+    if (!surface.has_repeated_point(seed) && is_face_in_cell(seed, sides)) visit(seed);
+  while (!open.empty()) {
+    const Index face = open.back();
+    open.pop_back();
+    faces.push_back(face);
+    const CellSides::OfFace of = sides.of_face(face);
+    for (Index k = 0; k < 3; ++k) {
+      const Index twin = surface.twin[3 * face + k];
+      if (twin != kNone && is_edge_in_cell(face, k, of, sides)) visit(twin / 3);
+    }
+  }
+  std::sort(faces.begin(), faces.end());
+  return faces;
+}
 
 }  // namespace sunder::tear

@@ -372,7 +372,9 @@ TEST(PatchForest, finds_the_same_as_testing_every_face) {
             cell.push_back(
                 {normal, normal.dot(blade.tip) - normal.norm() * size * random.uniform(0, 0.3)});
           }
-        const std::vector<Index> in_cell = faces_in_cell(cell, torn.editor, torn.posed);
+        CellSides sides(cell, torn.editor, torn.posed);
+        const auto found_in_cell = faces_in_cell(sides);
+        const std::vector<Index> in_cell(found_in_cell.begin(), found_in_cell.end());
         EXPECT_EQ(in_cell, test::scan_for_faces_in(cell, torn.editor, torn.posed));
         faces_in_cells += in_cell.empty() ? 0 : 1;
         if (cell.empty()) continue;

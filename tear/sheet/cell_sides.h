@@ -1,0 +1,86 @@
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <span>
+
+#include "tear/geometry/plane_side.h"
+#include "tear/internal/surface.h"
+#include "tear/posed/posed_points.h"
+#include "tear/surface/index_map.h"
+
+namespace sunder::tear {
+
+/// The half-spaces of a convex cell in which posed points lie, as one bit per half-space. Each point
+/// is compared with the cell once; its memory is the scratch memory of the operation.
+class CellSides {
+ public:
+  using Word = std::uint64_t;
+  static constexpr Index kBits = 64;  ///< Per word.
+
+  CellSides(std::span<const PlaneSide> cell, const SurfaceEditor& editor, PosedPoints& posed);
+
+  /// The bits of a face's corners. Valid until a point is seen for the first time.
+  struct OfFace {
+    /// Per corner, per word: half-spaces that do not contain it (PlaneSide::contains()), and those
+    /// in which it certainly lies, whatever rounding does.
+    std::array<const Word*, 3> outside, inside;
+
+    /// Half-spaces on whose plane, or beyond, a corner may lie.
+    [[nodiscard]] Word doubtful(Index word) const {
+      return ~(inside[0][word] & inside[1][word] & inside[2][word]);
+    }
+    /// Half-spaces whose planes pass between the corners.
+    [[nodiscard]] Word crossed(Index word) const {
+      const Word a = outside[0][word], b = outside[1][word], c = outside[2][word];
+      return (a | b | c) & ~(a & b & c);
+    }
+  };
+  [[nodiscard]] OfFace of_points(const std::array<Index, 3>& points);
+  [[nodiscard]] OfFace of_face(Index face) {
+    const Index* points = &editor_.surface().corner_point[3 * face];
+    return of_points({points[0], points[1], points[2]});
+  }
+
+  [[nodiscard]] Index word_count() const { return words_; }
+  /// Calls visit(half-space) for the bits of a word, ascending.
+  template <class Visit>
+  static void for_each_bit(Word bits, Index word, Visit visit) {
+    for (; bits != 0; bits &= bits - 1)
+      visit(kBits * word + static_cast<Index>(std::countr_zero(bits)));
+  }
+  /// Whether one half-space contains no corner of a face: then no part of it is in the cell.
+  [[nodiscard]] bool is_beyond(const OfFace& of) const {
+    Word beyond = 0;
+    for (Index w = 0; w < words_; ++w)
+      beyond |= of.outside[0][w] & of.outside[1][w] & of.outside[2][w];
+    return beyond != 0;
+  }
+  /// The half-spaces of a word that exist.
+  [[nodiscard]] Word all(Index word) const {
+    const Index count = static_cast<Index>(cell_.size()) - kBits * word;
+    return count >= kBits ? ~Word{0} : (Word{1} << count) - 1;
+  }
+
+  [[nodiscard]] std::span<const PlaneSide> cell() const { return cell_; }
+  [[nodiscard]] const SurfaceEditor& editor() const { return editor_; }
+  [[nodiscard]] PosedPoints& posed() { return posed_; }
+  [[nodiscard]] ScratchMemory& memory() const { return editor_.scratch(); }
+
+ private:
+  /// @return index of the point's first word.
+  Index place_of(Index point);
+  void compare(const Vec3d& position);
+
+  std::span<const PlaneSide> cell_;
+  const SurfaceEditor& editor_;
+  PosedPoints& posed_;
+  Index words_;
+  /// Per half-space: the sum of the components of its normal.
+  ScratchVector<double> steepness_;
+  IndexMap places_;
+  ScratchVector<Word> bits_;  ///< Per point: outside, then inside.
+};
+
+}  // namespace sunder::tear

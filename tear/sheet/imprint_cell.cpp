@@ -1,0 +1,391 @@
+#include "tear/sheet/imprint_cell.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "core/internal/ordered.h"
+#include "tear/geometry/tolerances.h"
+#include "tear/internal/surface.h"
+#include "tear/path/snapping.h"
+#include "tear/sheet/face_lines.h"
+#include "tear/surface/split.h"
+
+namespace sunder::tear {
+namespace {
+
+using Word = CellSides::Word;
+
+/// Number of crossed edges for which there is room at first.
+constexpr std::size_t kEdges = 64;
+
+/// The place where the plane of a side crosses an edge. The edge has the direction of its lower
+/// half-edge, so that both faces compute the same numbers.
+struct Crossing {
+  Index side = kNone;
+  double fraction = 0;
+  Vec3d position = Vec3d::Zero();
+  /// Distance along the edge per distance from the plane. The greater it is, the less precise is
+  /// the crossing.
+  double slant = 1;
+  Index point = kNone;  ///< Set when the crossing is imprinted.
+};
+
+/// An edge with crossings in the cell.
+struct CrossedEdge {
+  Index half_edge = kNone;
+  Index begin = 0, end = 0;  ///< Its crossings, ascending by side.
+  /// Its ends and stored_part() before any edge was split, because splitting one edge changes
+  /// half-edges.
+  Index from = kNone, to = kNone;
+  double stored = 0;
+};
+
+/// A face as it was before any edge was split.
+struct Face {
+  Index triangle = kNone;
+  std::array<Index, 3> points = {};
+  std::array<Index, 3> edges = {};       ///< The half-edges, or their twins if those are lower.
+  std::array<bool, 3> is_reversed = {};  ///< Whether the edge runs against the face's half-edge.
+};
+
+/// One end of a line in a face: at a crossing of one of its edges, or at a corner where the plane
+/// meets another side.
+struct LineEnd {
+  Vec3d position = Vec3d::Zero();
+  Index crossed_edge = kNone;
+  Index other_side = kNone;
+};
+
+/// The part of a side's plane in a face, directed so that the inside is on the left.
+struct Line {
+  Index side = kNone;
+  LineEnd from, to;
+};
+
+/// The children of faces since a stage began, in lists that are completed when they are asked for.
+class Children {
+ public:
+  explicit Children(const SurfaceEditor& editor)
+      : editor_(editor),
+        first_(editor.stage.first_triangle()),
+        newest_(0, editor.scratch()),
+        older_(&editor.scratch()) {}
+
+  /// Pairs (face, child), ascending, without the face itself. Valid until the next call.
+  [[nodiscard]] std::span<const std::array<Index, 2>> of(Index face,
+                                                         ScratchVector<std::array<Index, 2>>& list);
+
+ private:
+  const SurfaceEditor& editor_;
+  Index first_;
+  IndexMap newest_;             ///< Per face: index in lists_.
+  ScratchVector<Index> older_;  ///< Per new triangle: the child of the same face before it.
+  ScratchVector<Index> lists_{&editor_.scratch()};  ///< Per list: its newest child.
+};
+
+std::span<const std::array<Index, 2>> Children::of(Index face,
+                                                   ScratchVector<std::array<Index, 2>>& list) {
+  const Index end = editor_.surface().triangle_count();
+  for (Index t = first_ + static_cast<Index>(older_.size()); t < end; ++t) {
+    const auto fresh = static_cast<Index>(lists_.size());
+    const Index known = newest_.insert(editor_.stage.ancestor(t), fresh);
+    older_.push_back(known == kNone ? kNone : lists_[known]);
+    if (known == kNone)
+      lists_.push_back(t);
+    else
+      lists_[known] = t;
+  }
+  list.clear();
+  const Index known = newest_.find(face);
+  for (Index t = known == kNone ? kNone : lists_[known]; t != kNone; t = older_[t - first_])
+    list.push_back({face, t});
+  std::reverse(list.begin(), list.end());
+  return list;
+}
+
+class Imprint {
+ public:
+  Imprint(CellSides& sides, SurfaceEditor& editor)
+      : sides_(sides),
+        editor_(editor),
+        posed_(sides.posed()),
+        faces_(&editor.scratch()),
+        crossings_(&editor.scratch()),
+        edges_(&editor.scratch()),
+        edge_at_(kEdges, editor.scratch()) {}
+
+  CellImprint run(std::span<const Index> faces) {
+    editor_.stage.begin();
+    faces_.reserve(faces.size());
+    crossings_.reserve(2 * faces.size());
+    edges_.reserve(2 * faces.size());
+    for (const Index face : faces) add_face(face);
+    split_edges();
+    Children children(editor_);
+    for (const Face& face : faces_) draw_lines(face, children);
+    return result_;
+  }
+
+ private:
+  [[nodiscard]] const PlaneSide& side(Index number) const { return sides_.cell()[number]; }
+
+  void add_face(Index triangle) {
+    const CellSides::OfFace of = sides_.of_face(triangle);
+    if (sides_.is_beyond(of)) return;
+    Word crossed = 0;
+    for (Index w = 0; w < sides_.word_count(); ++w) crossed |= of.crossed(w);
+    if (crossed == 0) return;
+    const Surface& surface = editor_.surface();
+    Face face{triangle, {}, {}, {}};
+    for (Index k = 0; k < 3; ++k) {
+      const Index h = 3 * triangle + k, twin = surface.twin[h];
+      face.points[k] = surface.corner_point[h];
+      face.edges[k] = std::min(h, twin);  // kNone is the highest
+      face.is_reversed[k] = twin < h;
+    }
+    faces_.push_back(face);
+    for (Index k = 0; k < 3; ++k) add_edge(face, of, k);
+  }
+
+  /// Adds the crossings of edge k of a face, unless the face across it has added them.
+  void add_edge(const Face& face, const CellSides::OfFace& of, Index k) {
+    CrossedEdge edge{face.edges[k], static_cast<Index>(crossings_.size()), 0, 0, 0, 0};
+    for (Index w = 0; w < sides_.word_count(); ++w)
+      CellSides::for_each_bit(of.outside[k][w] ^ of.outside[(k + 1) % 3][w], w, [&](Index side) {
+        const Crossing crossing = cross(face, k, side);
+        if (is_in_cell(of, k, crossing)) crossings_.push_back(crossing);
+      });
+    edge.end = static_cast<Index>(crossings_.size());
+    if (edge.begin == edge.end) return;
+    if (edge_at_.insert(edge.half_edge, static_cast<Index>(edges_.size())) != kNone) {
+      crossings_.resize(edge.begin);
+      return;
+    }
+    edge.from = editor_.surface().corner_point[edge.half_edge];
+    edge.to = editor_.surface().corner_point[Surface::next(edge.half_edge)];
+    edge.stored = stored_part(edge.half_edge, editor_);
+    edges_.push_back(edge);
+  }
+
+  /// The crossing of edge k of a face with the plane of a side that has its ends on both sides.
+  Crossing cross(const Face& face, Index k, Index number) {
+    const Index from = face.points[face.is_reversed[k] ? (k + 1) % 3 : k],
+                to = face.points[face.is_reversed[k] ? k : (k + 1) % 3];
+    const Vec3d at_from = posed_.position(editor_, from), at_to = posed_.position(editor_, to);
+    const PlaneSide& plane = side(number);
+    const double value_from = plane.value(at_from), value_to = plane.value(at_to);
+    const double fraction =
+        value_from == value_to ? 0.0 : std::clamp(value_from / (value_from - value_to), 0.0, 1.0);
+    const double slant = norm(at_to - at_from) / std::max(std::abs(value_from - value_to),
+                                                          std::numeric_limits<double>::min());
+    return {number, fraction, at_from + fraction * (at_to - at_from), slant, kNone};
+  }
+
+  /// Whether the other sides contain a crossing of edge k of a face. Those that contain both ends
+  /// of the edge do.
+  [[nodiscard]] bool is_in_cell(const CellSides::OfFace& of, Index k,
+                                const Crossing& crossing) const {
+    const Index l = (k + 1) % 3;
+    for (Index w = 0; w < sides_.word_count(); ++w) {
+      bool is_inside = (of.outside[k][w] & of.outside[l][w]) == 0;
+      const Word doubtful = ~(of.inside[k][w] & of.inside[l][w]) & sides_.all(w);
+      if (is_inside)
+        CellSides::for_each_bit(doubtful, w, [&](Index other) {
+          is_inside =
+              is_inside && (other == crossing.side || side(other).contains(crossing.position));
+        });
+      if (!is_inside) return false;
+    }
+    return true;
+  }
+
+  /// Splits the edges in the order of their half-edges.
+  void split_edges() {
+    ScratchVector<std::array<Index, 2>> order(&editor_.scratch());  // half-edge, edge
+    order.reserve(edges_.size());
+    for (Index i = 0; i < edges_.size(); ++i) order.push_back({edges_[i].half_edge, i});
+    std::sort(order.begin(), order.end());
+    ScratchVector<Crossing*> along(&editor_.scratch());
+    for (const auto& [half_edge, number] : order) {
+      const CrossedEdge& edge = edges_[number];
+      along.clear();
+      for (Index i = edge.begin; i < edge.end; ++i) along.push_back(&crossings_[i]);
+      if (along.size() > 1)
+        std::sort(along.begin(), along.end(), [](const Crossing* a, const Crossing* b) {
+          return a->fraction != b->fraction ? a->fraction < b->fraction : a->side < b->side;
+        });
+      split_edge(edge, along);
+    }
+  }
+
+  void split_edge(const CrossedEdge& edge, std::span<Crossing* const> along) {
+    const Index to = edge.to;
+    Index last = edge.from;
+    double last_fraction = 0;
+    for (Crossing* crossing : along) {
+      const double snap =
+          std::min(kFarthestSnapEdges,
+                   edge.stored * crossing->slant);  // ends nearer than this are stored on the plane
+      if (crossing->fraction - last_fraction <= snap) {
+        crossing->point = last;
+      } else if (crossing->fraction >= 1 - snap) {
+        crossing->point = to;
+      } else {
+        const double fraction = (crossing->fraction - last_fraction) / (1 - last_fraction);
+        const Index point = split_between(last, to, fraction, edge.half_edge);
+        if (point == kNone) {
+          // The faces are too small for another point. An end nearby is used instead; one that is
+          // far off is not on the line, and the crossing is blocked.
+          const double near = std::max(kSnapEdges, 4 * snap);
+          if (fraction <= near || fraction >= 1 - near)
+            crossing->point = fraction < 0.5 ? last : to;
+          continue;
+        }
+        posed_.pin(point, crossing->position);
+        crossing->point = last = point;
+        last_fraction = crossing->fraction;
+      }
+    }
+  }
+
+  /// @param likely  a half-edge that may be the one from `from` to `to`.
+  Index split_between(Index from, Index to, double fraction, Index likely) {
+    const Surface& surface = editor_.surface();
+    if (surface.corner_point[likely] == from && surface.corner_point[Surface::next(likely)] == to)
+      return tear::split_edge(likely, fraction, editor_);
+    if (const Index h = surface.find_half_edge(from, to); h != kNone)
+      return tear::split_edge(h, fraction, editor_);
+    if (const Index h = surface.find_half_edge(to, from); h != kNone)
+      return tear::split_edge(h, 1 - fraction, editor_);
+    return kNone;
+  }
+
+  [[nodiscard]] const Crossing* crossing_at(Index half_edge, Index side) const {
+    const Index known = edge_at_.find(half_edge);
+    if (known == kNone) return nullptr;
+    for (Index i = edges_[known].begin; i < edges_[known].end; ++i)
+      if (crossings_[i].side == side) return &crossings_[i];
+    return nullptr;
+  }
+
+  /// The part of a side's plane in a face that lies in the cell.
+  bool find_line(const Face& face, Index number, Line& line) {
+    line.side = number;
+    const PlaneSide& plane = side(number);
+    const auto contains = [&](Index k) {
+      return plane.contains(posed_.position(editor_, face.points[k]));
+    };
+    const std::array<bool, 3> is_inside = {contains(0), contains(1), contains(2)};
+    Index leaving = 0, entering = 0;
+    for (Index k = 0; k < 3; ++k) {
+      if (is_inside[k] && !is_inside[(k + 1) % 3]) leaving = k;
+      if (!is_inside[k] && is_inside[(k + 1) % 3]) entering = k;
+    }
+    const Crossing* const from = crossing_at(face.edges[leaving], number);
+    const Crossing* const to = crossing_at(face.edges[entering], number);
+    if (from != nullptr && to != nullptr) {  // both in the cell, and so is what is between them
+      line.from = {from->position, face.edges[leaving], kNone};
+      line.to = {to->position, face.edges[entering], kNone};
+      return true;
+    }
+    line.from = {cross(face, leaving, number).position, face.edges[leaving], kNone};
+    line.to = {cross(face, entering, number).position, face.edges[entering], kNone};
+    return clip(line);
+  }
+
+  /// Clips a line by the other sides. @return whether anything is left.
+  bool clip(Line& line) const {
+    const Vec3d begin = line.from.position, way = line.to.position - line.from.position;
+    double first = 0, last = 1;
+    for (Index i = 0; i < sides_.cell().size(); ++i) {
+      if (i == line.side) continue;
+      const PlaneSide& other = side(i);
+      const bool has_begin = other.contains(begin), has_end = other.contains(begin + way);
+      if (has_begin && has_end) continue;
+      if (!has_begin && !has_end) return false;
+      const double at_begin = other.value(begin), at_end = other.value(begin + way);
+      const double at =
+          at_begin == at_end ? 0.0 : std::clamp(at_begin / (at_begin - at_end), 0.0, 1.0);
+      if (!has_begin && at >= first) {
+        first = at;
+        line.from = {begin + at * way, kNone, i};
+      } else if (!has_end && at <= last) {
+        last = at;
+        line.to = {begin + at * way, kNone, i};
+      }
+    }
+    return first < last;
+  }
+
+  /// A corner in a face where two sides meet; the lines of both end in it.
+  struct MetCorner {
+    std::array<Index, 2> sides;
+    Index point;
+  };
+
+  Index point_of(const LineEnd& end, Index side, FaceLines& lines,
+                 ScratchVector<MetCorner>& corners) {
+    if (end.other_side == kNone) {
+      const Crossing* const crossing = crossing_at(end.crossed_edge, side);
+      return crossing == nullptr ? kNone : crossing->point;
+    }
+    const std::array<Index, 2> met = {std::min(side, end.other_side),
+                                      std::max(side, end.other_side)};
+    for (const MetCorner& corner : corners)
+      if (corner.sides == met) return corner.point;
+    return corners.emplace_back(MetCorner{met, lines.imprint(end.position)}).point;
+  }
+
+  /// Whether the only line in a face is an edge already: usually that between its two crossings.
+  bool is_edge(const Line& line) const {
+    if (line.from.other_side != kNone || line.to.other_side != kNone) return false;
+    const Crossing* const from = crossing_at(line.from.crossed_edge, line.side);
+    const Crossing* const to = crossing_at(line.to.crossed_edge, line.side);
+    if (from == nullptr || to == nullptr || from->point == kNone || to->point == kNone)
+      return false;
+    const Surface& surface = editor_.surface();
+    return from->point == to->point || surface.find_half_edge(from->point, to->point) != kNone ||
+           surface.find_half_edge(to->point, from->point) != kNone;
+  }
+
+  void draw_lines(const Face& face, Children& children) {
+    const CellSides::OfFace of = sides_.of_points(face.points);
+    ScratchVector<Line> lines(&editor_.scratch());
+    for (Index w = 0; w < sides_.word_count(); ++w)
+      CellSides::for_each_bit(of.crossed(w), w, [&](Index side) {
+        if (!find_line(face, side, lines.emplace_back())) lines.pop_back();
+      });
+    if (lines.empty()) return;
+    ++result_.faces_crossed;
+    if (lines.size() == 1 && is_edge(lines[0])) return;
+    ScratchVector<std::array<Index, 2>> list(&editor_.scratch());
+    FaceLines drawn(face.triangle, face.points, children.of(face.triangle, list), editor_, posed_);
+    ScratchVector<MetCorner> corners(&editor_.scratch());
+    bool is_blocked = false;
+    for (const Line& line : lines) {
+      const Index first = point_of(line.from, line.side, drawn, corners),
+                  last = point_of(line.to, line.side, drawn, corners);
+      if (first == kNone || last == kNone || !drawn.draw(first, last)) is_blocked = true;
+    }
+    result_.blocked += is_blocked ? 1 : 0;
+  }
+
+  CellSides& sides_;
+  SurfaceEditor& editor_;
+  PosedPoints& posed_;
+  ScratchVector<Face> faces_;
+  ScratchVector<Crossing> crossings_;  ///< Edge by edge.
+  ScratchVector<CrossedEdge> edges_;
+  IndexMap edge_at_;  ///< Per half-edge of a crossed edge: index in edges_.
+  CellImprint result_;
+};
+
+}  // namespace
+
+CellImprint imprint_cell(CellSides& sides, std::span<const Index> faces, SurfaceEditor& editor) {
+  return Imprint(sides, editor).run(faces);
+}
+
+}  // namespace sunder::tear
