@@ -40,8 +40,9 @@ struct CompactMaps {
 };
 
 namespace tear {
+struct ModelAccess;
 struct Surface;
-}
+}  // namespace tear
 
 class TornModel;
 struct ParentBlends;
@@ -176,6 +177,7 @@ class SUNDER_API TornModel {
  private:
   friend class TearStroke;
   friend class RefitJob;
+  friend struct tear::ModelAccess;
   friend Result<WeightErrors> measure_weight_errors(const TornModel&, std::uint32_t, std::uint32_t,
                                                     std::span<const ModelPose>);
   friend Result<ParentBlends> parent_blends(const TornModel&, std::uint32_t);
