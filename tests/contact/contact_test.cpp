@@ -552,7 +552,8 @@ TEST_F(ContactUse, a_changed_model_asks_for_the_pose_again) {
 
 TEST_F(ContactUse, an_empty_model_is_met_nowhere) {
   Character empty = test::make_sheet(1);
-  empty.meshes.clear();
+  empty.meshes[0].triangles.clear();
+  empty.meshes[0].triangle_submesh.clear();
   const TornModel nothing = test::make_model(empty);
   auto of_nothing = *SurfaceQuery::create(nothing);
   ASSERT_TRUE(of_nothing.set_pose(*bind_pose(empty)));

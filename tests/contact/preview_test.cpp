@@ -229,7 +229,7 @@ TEST(Preview, it_uses_up_no_capacity) {
   const Character sheet = test::make_sheet(10);
   TornModel model = test::make_model(sheet, {200, 200, 2});
   const ModelPose pose = *bind_pose(sheet);
-  const Stroke stroke = {test::down_at(0.2, 0.5), test::down_at(0.8, 0.5)};
+  const Stroke stroke = {test::down_at(0.2, 0.53), test::down_at(0.8, 0.56)};
   for (int i = 0; i < 50; ++i) {
     const auto preview = preview_tear(model, pose, stroke);
     ASSERT_TRUE(preview) << preview.error().text();

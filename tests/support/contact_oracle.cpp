@@ -67,7 +67,10 @@ ContactOracle::ContactOracle(const Character& character,
     for (std::uint32_t t = 0; t < character.meshes[m].triangle_count(); ++t) {
       const Triangle& of = character.meshes[m].triangles[t];
       if (is_retired(of)) continue;
-      faces_.push_back({m, t, {positions[m][of[0]], positions[m][of[1]], positions[m][of[2]]}});
+      const Face face{m, t, {positions[m][of[0]], positions[m][of[1]], positions[m][of[2]]}};
+      const auto& [a, b, c] = face.corners;
+      if (a == b || b == c || c == a) continue;  // a line is no part of the surface
+      faces_.push_back(face);
     }
 }
 
