@@ -16,7 +16,7 @@ struct EmbreePeer::State {
 EmbreePeer::EmbreePeer(const Mesh& mesh) : state_(std::make_unique<State>()) {
   State& state = *state_;
   rtcSetSceneFlags(state.scene, RTC_SCENE_FLAG_DYNAMIC);
-  rtcSetSceneBuildQuality(state.scene, RTC_BUILD_QUALITY_REFIT);
+  rtcSetSceneBuildQuality(state.scene, RTC_BUILD_QUALITY_LOW);
   rtcSetGeometryBuildQuality(state.geometry, RTC_BUILD_QUALITY_REFIT);
   auto* vertices = static_cast<Vec3f*>(
       rtcSetNewGeometryBuffer(state.geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,

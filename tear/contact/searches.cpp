@@ -11,20 +11,21 @@ namespace {
 
 constexpr double kNowhere = std::numeric_limits<double>::infinity();
 
-/// A half-line, clipped to boxes.
+/// A half-line in a frame whose first axis is its direction, clipped to boxes of that frame.
 class Line {
  public:
-  Line(const Vec3d& base, const Vec3d& way) : base_(base), way_(way) {
-    for (int k = 0; k < 3; ++k) per_step_[k] = 1 / way[k];
-    reach_ = kPosedCoordinates * base.cwiseAbs().maxCoeff();
-  }
+  Line(const Vec3d& base, const Vec3d& way, const Frame& frame)
+      : base_(frame.place_of(base)),
+        way_(multiply(frame.axes, way)),
+        per_step_(way_.cwiseInverse()),
+        rounding_(kPosedCoordinates * std::max(frame.reach(), base.cwiseAbs().maxCoeff())) {}
 
   /// Where the line enters a box, at least 0; infinity if it misses it or enters beyond `most`.
-  [[nodiscard]] double entry(const ModelBox& box, double most) const {
+  [[nodiscard]] double entry(double most, const FrameBox& box) const {
     double begin = 0, end = most;
     for (int k = 0; k < 3; ++k) {
-      const double to_low = box.low[k] - base_[k] - reach_,
-                   to_high = box.high[k] - base_[k] + reach_;
+      const double to_low = box.low[k] - base_[k] - rounding_,
+                   to_high = box.high[k] - base_[k] + rounding_;
       if (way_[k] == 0) {
         if (to_low > 0 || to_high < 0) return kNowhere;
         continue;
@@ -35,14 +36,24 @@ class Line {
     }
     return begin <= end ? begin : kNowhere;
   }
+  /// The same for a shadow, whose box was tested before.
+  [[nodiscard]] double entry(double most, const FrameBox&, const Shadow& shadow) const {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double at = shadow.normal[k].x() * base_.y() + shadow.normal[k].y() * base_.z();
+      if (at < shadow.from[k] - rounding_ || at > shadow.to[k] + rounding_) return kNowhere;
+    }
+    const double begin = std::max(0.0, (shadow.low - rounding_ - base_.x()) * per_step_.x()),
+                 end = std::min(most, (shadow.high + rounding_ - base_.x()) * per_step_.x());
+    return begin <= end ? begin : kNowhere;
+  }
 
  private:
   Vec3d base_, way_, per_step_;
-  double reach_;
+  double rounding_;
 };
 
 /// A lower bound of the squared distance of a box and another one.
-double squared_gap(const ModelBox& a, const ModelBox& b) {
+double squared_gap(const FrameBox& a, const FrameBox& b) {
   double sum = 0;
   for (int k = 0; k < 3; ++k) {
     const double gap = std::max({0.0, a.low[k] - b.high[k], b.low[k] - a.high[k]});
@@ -51,15 +62,18 @@ double squared_gap(const ModelBox& a, const ModelBox& b) {
   return sum;
 }
 
-ModelBox box_of(const Vec3d& a, const Vec3d& b) { return {a.cwiseMin(b), a.cwiseMax(b)}; }
+FrameBox box_of(const Vec3d& a, const Vec3d& b) { return {a.cwiseMin(b), a.cwiseMax(b)}; }
 
 /// A lower bound of the squared distance of a box and a segment.
 class SegmentDistance {
  public:
-  SegmentDistance(const Vec3d& base, const Vec3d& tip)
-      : base_(base), way_(tip - base), box_(box_of(base, tip)), square_(squared_norm(way_)) {}
+  SegmentDistance(const Vec3d& base, const Vec3d& tip, const Frame& frame)
+      : base_(frame.place_of(base)),
+        way_(multiply(frame.axes, Vec3d(tip - base))),
+        box_(box_of(base_, frame.place_of(tip))),
+        square_(squared_norm(way_)) {}
 
-  [[nodiscard]] double least(const ModelBox& box) const {
+  [[nodiscard]] double least(const FrameBox& box) const {
     const double of_boxes = squared_gap(box, box_);
     if (!(square_ > 0)) return of_boxes;
     const Vec3d middle = 0.5 * (box.low + box.high), half = 0.5 * (box.high - box.low);
@@ -72,7 +86,7 @@ class SegmentDistance {
 
  private:
   Vec3d base_, way_;
-  ModelBox box_;
+  FrameBox box_;
   double square_;
 };
 
@@ -100,11 +114,14 @@ void remove_repeated(const Vec3d& way, const Vec3d& base, std::vector<FoundPlace
 
 std::optional<FoundPlace> first_on_line(const Vec3d& base, const Vec3d& way, double most,
                                         PosedSurface& surface) {
-  const Line line(base, way);
+  const Frame frame = surface.frame_along(axes_along(way));
+  const Line line(base, way, frame);
   std::optional<FoundPlace> first;
   double limit = most;
-  const auto bound = [&](const ModelBox& box) { return line.entry(box, limit); };
-  surface.visit_faces(bound, [&](Index face) {
+  const auto bound = [&](const FrameBox& box, const auto&... shadow) {
+    return line.entry(limit, box, shadow...);
+  };
+  surface.visit_faces(frame, bound, [&](Index face) {
     const auto hit = hit_of_segment(base, way, surface.corners(face));
     const bool is_first =
         hit && hit->along <= limit && (!first || hit->along < limit || face < first->face);
@@ -118,10 +135,13 @@ std::optional<FoundPlace> first_on_line(const Vec3d& base, const Vec3d& way, dou
 
 void all_on_segment(const Vec3d& base, const Vec3d& way, PosedSurface& surface,
                     std::vector<FoundPlace>& found) {
-  const Line line(base, way);
+  const Frame frame = surface.frame_along(axes_along(way));
+  const Line line(base, way, frame);
   found.clear();
-  const auto bound = [&](const ModelBox& box) { return line.entry(box, 1); };
-  surface.visit_faces(bound, [&](Index face) {
+  const auto bound = [&](const FrameBox& box, const auto&... shadow) {
+    return line.entry(1, box, shadow...);
+  };
+  surface.visit_faces(frame, bound, [&](Index face) {
     const auto hit = hit_of_segment(base, way, surface.corners(face));
     if (hit && hit->along <= 1)
       found.push_back({face, hit->barycentric, hit->along, 0, hit->enters});
@@ -135,14 +155,15 @@ void all_on_segment(const Vec3d& base, const Vec3d& way, PosedSurface& surface,
 
 std::optional<FoundPlace> nearest_to_segment(const Vec3d& base, const Vec3d& tip,
                                              double most_squared, PosedSurface& surface) {
-  const SegmentDistance distance(base, tip);
+  const Frame frame = surface.frame_along(Mat3d::Identity());
+  const SegmentDistance distance(base, tip, frame);
   std::optional<FoundPlace> nearest;
   double limit = most_squared;
-  const auto bound = [&](const ModelBox& box) {
+  const auto bound = [&](const FrameBox& box) {
     const double least = distance.least(box);
     return least <= limit ? least : kNowhere;
   };
-  surface.visit_faces(bound, [&](Index face) {
+  surface.visit_faces(frame, bound, [&](Index face) {
     const NearestPlaces places = nearest_of_segment(base, tip, surface.corners(face));
     const bool is_nearest = places.squared_distance <= limit &&
                             (!nearest || places.squared_distance < limit || face < nearest->face);
@@ -155,14 +176,16 @@ std::optional<FoundPlace> nearest_to_segment(const Vec3d& base, const Vec3d& tip
 }
 
 double squared_distance_to(const Corners& triangle, double most, PosedSurface& surface) {
-  ModelBox around = box_of(triangle[0], triangle[1]);
-  around = {around.low.cwiseMin(triangle[2]), around.high.cwiseMax(triangle[2])};
+  const Frame frame = surface.frame_along(Mat3d::Identity());
+  const Vec3d third = frame.place_of(triangle[2]);
+  FrameBox around = box_of(frame.place_of(triangle[0]), frame.place_of(triangle[1]));
+  around = {around.low.cwiseMin(third), around.high.cwiseMax(third)};
   double least = most;
-  const auto bound = [&](const ModelBox& box) {
+  const auto bound = [&](const FrameBox& box) {
     const double gap = squared_gap(box, around);
     return gap <= least ? gap : kNowhere;
   };
-  surface.visit_faces(bound, [&](Index face) {
+  surface.visit_faces(frame, bound, [&](Index face) {
     least = std::min(least, squared_distance(triangle, surface.corners(face)));
     return least;
   });
