@@ -70,6 +70,7 @@ std::string size_name(int divisions) {
     case 1: return "3k";
     case 2: return "14k";
     case 3: return "31k";
+    case 5: return "87k";
     case 7: return "171k";
     default: return "900k";
   }

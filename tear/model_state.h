@@ -143,6 +143,8 @@ struct TornModel::State {
   void cancel_refits_of(std::uint64_t serial) const;
 
   [[nodiscard]] tear::Workpiece workpiece() { return {editor, posed}; }
+  /// Takes back all changes since the last call() began. Does not allocate.
+  void take_back();
 
   std::shared_ptr<const Character> source;
   TornCapacity capacity;
@@ -162,7 +164,6 @@ struct TornModel::State {
   void make_room_for_borders();
   void keep_borders();
   void describe_call(ChangeRecord& change);
-  void take_back();
 
   tear::EditLog::Mark untorn_;  ///< Before all operations.
   tear::EditLog::Mark begin_of_call_;

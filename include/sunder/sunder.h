@@ -30,8 +30,11 @@
 #include <sunder/skinning/pose.h>
 #include <sunder/skinning/skinned_mesh.h>
 #include <sunder/skinning/vertex_arrays.h>
+#include <sunder/tear/blade_force.h>
 #include <sunder/tear/change_record.h>
 #include <sunder/tear/operation_job.h>
+#include <sunder/tear/contact.h>
+#include <sunder/tear/preview.h>
 #include <sunder/tear/refit_job.h>
 #include <sunder/tear/report.h>
 #include <sunder/tear/tear_stroke.h>

@@ -95,6 +95,8 @@ inline constexpr double kOnPlaneTerms = 2e-15;
 inline constexpr double kOnLineSizes = 1e-10;
 /// A place that misses its face by less is in it.
 inline constexpr double kInFaceBarycentric = 1e-6;
+/// A crossing that is nearer to an edge of its face is on it: the face beyond crosses there too.
+inline constexpr double kSamePlaceBarycentric = 1e-9;
 /// Cells are searched across edges of which more than this is inside.
 inline constexpr double kInCellEdges = 1e-9;
 /// An edge of a rim may miss its plane by the sum of both: an end snaps where a face is too small.

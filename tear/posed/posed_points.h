@@ -73,6 +73,10 @@ class PosedPoints {
   }
   [[nodiscard]] PatchForest& forest() { return forest_; }
 
+  /// Memory of the points and the trees.
+  [[nodiscard]] std::size_t bytes() const {
+    return known_.capacity() * sizeof(Known) + forest_.bytes();
+  }
   /// Number of points posed or pinned since begin(). O(all points).
   [[nodiscard]] std::size_t known_count() const {
     return static_cast<std::size_t>(std::count_if(

@@ -5,12 +5,17 @@
 
 namespace sunder::tear {
 
-std::vector<Index> OpenedEdges::borders() const {
-  std::vector<Index> borders;
+std::vector<Index> OpenedEdges::tracked() const {
+  std::vector<Index> tracked;
   for (const Index h : half_edges_)
-    if (h < surface_.twin.size() && surface_.twin[h] == kNone && surface_.corner_point[h] != kNone)
-      borders.push_back(h);
-  std::sort(borders.begin(), borders.end());
+    if (h < surface_.twin.size() && surface_.corner_point[h] != kNone) tracked.push_back(h);
+  std::sort(tracked.begin(), tracked.end());
+  return tracked;
+}
+
+std::vector<Index> OpenedEdges::borders() const {
+  std::vector<Index> borders = tracked();
+  std::erase_if(borders, [&](Index h) { return surface_.twin[h] != kNone; });
   return borders;
 }
 

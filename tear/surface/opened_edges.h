@@ -21,6 +21,8 @@ class OpenedEdges {
   }
   /// The tracked half-edges that are still borders, ascending.
   [[nodiscard]] std::vector<Index> borders() const;
+  /// Those of faces that are left, ascending.
+  [[nodiscard]] std::vector<Index> tracked() const;
 
   /// Number of changes since begin(), for roll_back().
   [[nodiscard]] Index change_count() const { return static_cast<Index>(changes_.size()); }

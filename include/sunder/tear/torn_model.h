@@ -24,8 +24,9 @@ struct CompactMaps {
 };
 
 namespace tear {
+struct ModelAccess;
 struct Surface;
-}
+}  // namespace tear
 
 class TornModel;
 struct ParentBlends;
@@ -187,6 +188,7 @@ class SUNDER_API TornModel {
   friend class OperationJob;
   friend class RefitJob;
   friend class TornAsset;
+  friend struct tear::ModelAccess;
   friend Result<WeightErrors> measure_weight_errors(const TornModel&, std::uint32_t, std::uint32_t,
                                                     std::span<const ModelPose>);
   friend Result<ParentBlends> parent_blends(const TornModel&, std::uint32_t);

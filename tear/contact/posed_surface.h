@@ -1,0 +1,71 @@
+#pragma once
+
+#include <sunder/tear/contact.h>
+
+#include <type_traits>
+
+#include "tear/contact/nearest_point.h"
+#include "tear/posed/posed_points.h"
+
+namespace sunder::tear {
+
+/// The surface of a model in one pose, displaced, as queries see it: the only place of this room
+/// that knows how points are posed and how faces are found. The boxes of PosedPoints hold the
+/// surface on which operations find their way; they are widened by the farthest that any point is
+/// moved away from it.
+class PosedSurface {
+ public:
+  /// @param posed  in a pose; the editor is that of its model.
+  PosedSurface(const SurfaceEditor& editor, PosedPoints& posed) : editor_(editor), posed_(posed) {}
+
+  /// Moves the surface. @return size_mismatch or non_finite_value with the mesh or the particle.
+  [[nodiscard]] Status set_options(const ContactOptions& options);
+
+  [[nodiscard]] const SurfaceEditor& editor() const { return editor_; }
+  [[nodiscard]] const CharacterPose& pose() const { return posed_.pose(); }
+  [[nodiscard]] Vec3d position(Index point);
+  [[nodiscard]] Corners corners(Index face);
+
+  /// A frame for visit_faces(). Queries that share the axes share the posed boxes too.
+  [[nodiscard]] Frame frame_along(const Mat3d& axes) const {
+    return posed_.frame_along(axes, editor_);
+  }
+
+  /// Visits the faces in whose boxes something may be found, roughly the nearest first.
+  /// @param bound  bound(const FrameBox&): a lower bound of the figure that is minimised; infinity
+  ///        where nothing can be found. A query along the first axis may also accept (const
+  ///        FrameBox&, const Shadow&).
+  /// @param visit  visit(face): returns the greatest figure that is still of interest.
+  template <class Bound, class Visit>
+  void visit_faces(const Frame& frame, Bound bound, Visit visit) {
+    const auto bound_of_moved = [&](
+        const FrameBox& box,
+        const auto&... shadow) requires std::is_invocable_v<Bound&, const FrameBox&,
+                                                            decltype(shadow)...> {
+      const Vec3d more = Vec3d::Constant(box.margin(frame.reach()) + reach_);
+      return bound(FrameBox{box.low - more, box.high + more}, widened(shadow)...);
+    };
+    posed_.visit_faces(editor_, frame, bound_of_moved, visit);
+  }
+
+ private:
+  [[nodiscard]] Shadow widened(Shadow shadow) const {
+    shadow.low -= reach_;
+    shadow.high += reach_;
+    for (double& from : shadow.from) from -= reach_;
+    for (double& to : shadow.to) to += reach_;
+    return shadow;
+  }
+  [[nodiscard]] bool is_drawn_elsewhere(Index mesh, Index vertex) const;
+  [[nodiscard]] Vec3d drawn_position(Index mesh, Index vertex) const;
+  [[nodiscard]] Vec3d displacement(Index mesh, Index vertex) const;
+  [[nodiscard]] double farthest_drawn();
+
+  const SurfaceEditor& editor_;
+  PosedPoints& posed_;
+  std::span<const VertexDisplacements> displacements_;
+  bool are_drawn_ = false;  ///< Whether a point may be drawn elsewhere than it is torn.
+  double reach_ = 0;        ///< Metres.
+};
+
+}  // namespace sunder::tear
