@@ -29,9 +29,9 @@ constexpr Column kColumns[] = {
 };
 
 void print(const LoopFigures& figures) {
-  std::printf("%s: %zu vertices, %zu points, %zu bones, %zu particles; microseconds, median and most\n",
-              figures.name.c_str(), figures.vertices, figures.points, figures.bones,
-              figures.particles);
+  std::printf(
+      "%s: %zu vertices, %zu points, %zu bones, %zu particles; microseconds, median and most\n",
+      figures.name.c_str(), figures.vertices, figures.points, figures.bones, figures.particles);
   std::printf("%-7s %6s", "frame", "count");
   for (const Column& column : kColumns) std::printf(" %15s", column.name);
   std::printf("\n");
@@ -57,6 +57,5 @@ void print(const LoopFigures& figures) {
 int main(int argc, char** argv) {
   const int only = argc > 1 ? std::atoi(argv[1]) : 0;
   for (const int divisions : {2, 8})
-    if (only == 0 || only == divisions)
-      sunder::bench::print(sunder::bench::play_loop(divisions));
+    if (only == 0 || only == divisions) sunder::bench::print(sunder::bench::play_loop(divisions));
 }

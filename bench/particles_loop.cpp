@@ -127,10 +127,10 @@ Loop::Loop(std::shared_ptr<const Character> character)
     palettes_.push_back(
         take(BonePalette::create(skin.bones.size(), character_->rest_morph_weights.size())));
   for (const Mesh& mesh : character_->meshes) {
-    meshes_.push_back({take(SkinnedMesh::create(source_of(mesh),
-                                                character_->skins[mesh.skin].bones.size())),
-                       std::vector<Vec3f>(2 * mesh.vertex_count() + 100000),
-                       std::vector<Vec3f>(2 * mesh.vertex_count() + 100000)});
+    meshes_.push_back(
+        {take(SkinnedMesh::create(source_of(mesh), character_->skins[mesh.skin].bones.size())),
+         std::vector<Vec3f>(2 * mesh.vertex_count() + 100000),
+         std::vector<Vec3f>(2 * mesh.vertex_count() + 100000)});
     OfMesh& made = meshes_.back();
     made.buffer.set_target(
         {mesh.vertex_count(), {made.positions[0].data()}, {made.normals[0].data()}, {}});
@@ -143,7 +143,8 @@ Loop::Loop(std::shared_ptr<const Character> character)
 
 void Loop::pose_at(int i) {
   if (character_->clips.empty()) {
-    for (Affine3d& bone : pose_.model_from_bone) bone.translation().x() += i % 2 == 0 ? 1e-4 : -1e-4;
+    for (Affine3d& bone : pose_.model_from_bone)
+      bone.translation().x() += i % 2 == 0 ? 1e-4 : -1e-4;
     return;
   }
   require(sample_clip(character_->clips[clip_], i / double{kFramesPerSecond}, local_));
@@ -159,8 +160,8 @@ void Loop::push() {
 
 void Loop::update(const MeshChange& change) {
   OfMesh& mesh = meshes_[change.mesh];
-  require(mesh.skinned.update(source_of(model_->character().meshes[change.mesh]),
-                              change.first_vertex));
+  require(
+      mesh.skinned.update(source_of(model_->character().meshes[change.mesh]), change.first_vertex));
   mesh.buffer.set_vertex_count(mesh.skinned.vertex_count());
 }
 
@@ -209,7 +210,8 @@ LoopFrame Loop::operate_in_round(int round, int at, LoopTimes& times) {
       change(times, [&](ChangeRecord* record) { return model_->cut(pose_, cut, record).error(); });
       return LoopFrame::cut;
     case 30:
-      change(times, [&](ChangeRecord* record) { return model_->drill(pose_, bore, record).error(); });
+      change(times,
+             [&](ChangeRecord* record) { return model_->drill(pose_, bore, record).error(); });
       return LoopFrame::drill;
     case 50:
     case 60:
@@ -244,8 +246,7 @@ LoopTimes Loop::frame(int i) {
   if (i % kFramesAPush == 0) push();
   times.kind = operate(i, times);
   times.settle = seconds_of([&] { (void)set_->settle(*model_); });
-  times.step =
-      seconds_of([&] { require(body_->step(*model_, pose_, 1.0 / kFramesPerSecond)); });
+  times.step = seconds_of([&] { require(body_->step(*model_, pose_, 1.0 / kFramesPerSecond)); });
   deform(times);
   return times;
 }
