@@ -13,7 +13,7 @@
 #include <memory>
 #include <optional>
 
-#include "bench/measure.h"
+#include "bench/cpu_seconds.h"
 #include "bench/skinned_subdivision.h"
 #include "bench/subdivided_model.h"
 #include "support/random.h"
@@ -61,8 +61,8 @@ struct Places {
 
   /// The blade of the stroke at a part of its way, in [0, 1], across the front.
   [[nodiscard]] Blade blade(int round, double part) const {
-    const double x = middle.x() + (part - 0.5) * 1.1 * size.x();
-    const double y = middle.y() + 0.1 * (round % 5 - 2) * size.y() + 0.05 * part * size.y();
+    const double x = middle.x() + (part - 0.5) * 0.35 * size.x();
+    const double y = middle.y() + 0.07 * (round % 5 - 4) * size.y() + 0.05 * part * size.y();
     return {{x, y, middle.z() + size.z()}, {x, y, middle.z() - 0.2 * size.z()}};
   }
 };
@@ -97,7 +97,7 @@ class Loop {
   void deform(LoopTimes& times);
   template <class Call>
   void change(LoopTimes& times, Call call) {
-    times.operate += seconds_of([&] { require(call(&record_)); });
+    times.operate += cpu_seconds_of([&] { require(call(&record_)); });
     follow(times);
   }
 
@@ -166,8 +166,8 @@ void Loop::update(const MeshChange& change) {
 }
 
 void Loop::follow(LoopTimes& times) {
-  times.follow += seconds_of([&] { require(set_->follow(*model_, {&record_, 1})); });
-  times.update += seconds_of([&] {
+  times.follow += cpu_seconds_of([&] { require(set_->follow(*model_, {&record_, 1})); });
+  times.update += cpu_seconds_of([&] {
     for (const MeshChange& change : record_.meshes) update(change);
   });
 }
@@ -228,14 +228,14 @@ void Loop::deform(LoopTimes& times) {
   for (std::size_t s = 0; s < skins.size(); ++s) require(palettes_[s].set(skins[s], pose_));
   for (std::uint32_t m = 0; m < meshes_.size(); ++m) {
     VertexDisplacements displaced;
-    times.moved += seconds_of([&] { displaced.moved = body_->moved_vertices(*model_, m); });
-    times.gradients += seconds_of([&] { displaced.gradients = set_->gradients(*model_); });
+    times.moved += cpu_seconds_of([&] { displaced.moved = body_->moved_vertices(*model_, m); });
+    times.gradients += cpu_seconds_of([&] { displaced.gradients = set_->gradients(*model_); });
     displaced.vertex_rows = set_->vertex_points(m);
     displaced.influences = set_->influences();
     displaced.displacements = body_->displacements();
     displaced.model_from_gradient = body_->rotations();
     const BonePalette& palette = palettes_[character_->meshes[m].skin];
-    times.deform += seconds_of(
+    times.deform += cpu_seconds_of(
         [&] { require(meshes_[m].skinned.deform(palette, meshes_[m].buffer, {}, &displaced)); });
   }
 }
@@ -245,8 +245,9 @@ LoopTimes Loop::frame(int i) {
   pose_at(i);
   if (i % kFramesAPush == 0) push();
   times.kind = operate(i, times);
-  times.settle = seconds_of([&] { (void)set_->settle(*model_); });
-  times.step = seconds_of([&] { require(body_->step(*model_, pose_, 1.0 / kFramesPerSecond)); });
+  times.settle = cpu_seconds_of([&] { (void)set_->settle(*model_); });
+  times.step =
+      cpu_seconds_of([&] { require(body_->step(*model_, pose_, 1.0 / kFramesPerSecond)); });
   deform(times);
   return times;
 }

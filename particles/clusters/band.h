@@ -32,8 +32,12 @@ struct LipChain {
 struct Band {
   Index tear = 0;
   std::vector<LipChain> chains;
+  std::vector<Index> lips;     ///< The points from which the chains were found.
+  std::vector<Index> pending;  ///< Lips of the same tear whose band was begun and left, to begin
+                               ///< the stroke's next one; repeated.
   /// Particles to be regrown from their seeds when the band is complete; ascending.
   std::vector<Index> to_grow;
+  Index growing = kNone;  ///< The particle that RepairScratch::band_front grows, after the band.
 };
 
 }  // namespace sunder::particles

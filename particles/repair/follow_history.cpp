@@ -40,7 +40,8 @@ void follow_history(const TornModel& model, Structure& structure,
   const bool is_undo = !model.is_in_stroke() && (newest == 0 || has_operation(tears.done, newest));
   // A tear that is undone, with the points that it created, need not be completed.
   if (is_undo && !ends_with(tears.done, newest)) tears.band.reset();
-  if (tears.band) complete_band(model, structure);
+  const bool is_in_stroke = !tears.done.empty() && tears.done.back().operation == 0;
+  if (tears.band && !is_in_stroke) complete_band(model, structure);
   if (is_undo) {
     exchange_until(structure, newest, tears.done, tears.undone);
   } else if (!model.is_in_stroke() && has_operation(tears.undone, newest)) {

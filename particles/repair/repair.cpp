@@ -49,7 +49,8 @@ void follow_operation(const TornModel& model, Structure& structure,
     begin_band(edit, lips);
   } else {
     cover_taken_up(edit);
-    if (!lost.empty()) begin_hole(edit);
+    const bool is_band_outdated = tears.band && edit.taken_up_count() > 0;
+    if (!lost.empty() || is_band_outdated) begin_hole(edit);
   }
   renew_lip_edges(edit, lips, lost);
   edit.finish();
