@@ -34,13 +34,14 @@ void exchange_in_turn(std::vector<T>& changes, bool is_done, Exchange exchange_o
 
 void exchange_changed(Structure& structure, Change& change, bool is_done) {
   PointTable& points = structure.points;
-  for (Change::OfPoint& of : change.changed_points) {
+  exchange_in_turn(change.changed_points, is_done, [&](Change::OfPoint& of) {
     std::swap(points.slabs[of.point], of.slab);
     std::swap(points.influences[of.point], of.influences);
     std::swap(points.lip_points[of.point], of.lip);
-  }
-  for (auto& [particle, before] : change.changed_particles)
-    std::swap(structure.particles[particle], before);
+  });
+  exchange_in_turn(change.changed_particles, is_done, [&](std::pair<Index, Particle>& of) {
+    std::swap(structure.particles[of.first], of.second);
+  });
   exchange_in_turn(change.changed_vertices, is_done, [&](Change::OfVertex& of) {
     std::swap(structure.vertex_points.of_mesh[of.mesh][of.vertex], of.point);
     structure.journal.vertices.add({of.mesh, of.vertex});

@@ -35,9 +35,12 @@ struct MemberLists {
 /// The followed operations. Each is a tear, whose number is the index of its change in `done`.
 struct TearLog {
   std::vector<Change> done, undone;
-  std::unique_ptr<Band> band;  ///< Remaining work of the last tear, for settle().
-  Index triangle_count = 0;    ///< Of the surface when it was last followed.
-  bool is_broken = false;      ///< Memory ran out in the middle of an update.
+  std::unique_ptr<Band> band;  ///< Remaining work of the last tears, for settle().
+  /// The work that is left while operations could be redone. It waits for the next operation,
+  /// because the redone values are those of the work as it was.
+  std::shared_ptr<const PendingWork> waiting;
+  Index triangle_count = 0;  ///< Of the surface when it was last followed.
+  bool is_broken = false;    ///< Memory ran out in the middle of an update.
 };
 
 /// The data of a ParticleSet.

@@ -62,8 +62,8 @@ void grow(StructureEdit& edit, Index& points) {
   Band& band = *structure.tears.band;
   SurfaceFront& front = structure.scratch.band_front;
   if (band.growing == kNone) {
-    band.growing = band.to_grow.back();
-    band.to_grow.pop_back();
+    band.growing = band.pending.to_grow.back();
+    band.pending.to_grow.pop_back();
     begin_growing(edit, band.growing);
   }
   front.run(edit.ring(), [&](Index, float, Index) { return --points > 0; });
@@ -83,15 +83,31 @@ float set_depths(const Structure& structure, std::span<LipChain> chains) {
   return deepest;
 }
 
-/// Begins the front from some lips. @return the number of points on their chains.
-Index begin_front(StructureEdit& edit, std::span<const Index> lips) {
+/// Adds particles to be regrown.
+void add_to_grow(PendingWork& pending, std::span<const Index> particles) {
+  pending.to_grow.insert(pending.to_grow.end(), particles.begin(), particles.end());
+  sort_once(pending.to_grow);
+}
+
+void add_lips(PendingWork& pending, Index tear, std::span<const Index> points) {
+  if (points.empty()) return;
+  if (pending.lips.empty() || pending.lips.back().tear != tear) pending.lips.push_back({tear, {}});
+  std::vector<Index>& known = pending.lips.back().points;
+  known.insert(known.end(), points.begin(), points.end());
+}
+
+/// Finds the chains of the band and begins the front from them.
+/// @return the number of points on the chains.
+Index begin_front(StructureEdit& edit) {
   Structure& structure = edit.structure();
   RepairScratch& scratch = structure.scratch;
   Band& band = *structure.tears.band;
-  band.lips.assign(lips.begin(), lips.end());
-  band.chains = find_lip_chains(edit.border(), structure, edit.tear(), lips);
-  scratch.band_front.begin(structure.points.count(), set_depths(structure, band.chains),
-                           structure.edge_length);
+  band.is_begun = true;
+  std::erase_if(band.lips,
+                [&](Index point) { return edit.surface().point_corner[point] == kNone; });
+  band.chains = find_lip_chains(edit.border(), structure, edit.tear(), band.lips);
+  const float depth = std::max(set_depths(structure, band.chains), structure.edge_length);
+  scratch.band_front.begin(structure.points.count(), depth, structure.edge_length);
   Index lip_count = 0;
   for (Index c = 0; c < band.chains.size(); ++c) {
     LipChain& chain = band.chains[c];
@@ -107,61 +123,79 @@ Index begin_front(StructureEdit& edit, std::span<const Index> lips) {
   // A particle that a tear without tips divides may be in two pieces at any distance from the lips.
   const bool may_part = std::ranges::any_of(
       band.chains, [](const LipChain& chain) { return !std::isfinite(chain.length); });
-  if (may_part) {
-    const std::vector<Index> beside = particles_beside(edit, lips);
-    band.to_grow.insert(band.to_grow.end(), beside.begin(), beside.end());
-    sort_once(band.to_grow);
-  }
-  return lip_count;
-}
-
-/// Begins the front from the lips that earlier calls of the stroke left.
-/// @return as begin_front().
-Index begin_pending(StructureEdit& edit) {
-  const Structure& structure = edit.structure();
-  std::vector<Index> lips = std::move(structure.tears.band->pending);
-  structure.tears.band->pending.clear();
-  sort_once(lips);
-  std::erase_if(lips, [&](Index point) {
-    return edit.surface().point_corner[point] == kNone ||
-           structure.points.lip_points[point].tear != edit.tear();
-  });
-  const Index lip_count = begin_front(edit, lips);
+  if (may_part) add_to_grow(band.pending, particles_beside(edit, band.lips));
   cover_taken_up(edit);
   return lip_count;
 }
 
-/// A new band of a tear. Where the stroke goes on before the last one is complete, that one is left
-/// for later: the new one covers its end, and would visit the same points again.
+/// The work that a band and what follows it leave.
+PendingWork work_of(const Band& band, const Structure& structure) {
+  PendingWork work = band.pending;
+  if (band.growing != kNone)
+    add_to_grow(work, {&band.growing, 1});
+  else if (!band.is_begun || !structure.scratch.band_front.is_done())
+    add_lips(work, band.tear, band.lips);
+  return work;
+}
+
+/// Continues with the lips that an earlier call left, if there are any. Their band is begun by an
+/// edit of their tear.
+void take_pending_lips(const Structure& structure, Band& band) {
+  band.is_begun = false;
+  band.lips.clear();
+  if (band.pending.lips.empty()) return;
+  PendingLips next = std::move(band.pending.lips.back());
+  band.pending.lips.pop_back();
+  band.tear = next.tear;
+  band.lips = std::move(next.points);
+  sort_once(band.lips);
+  std::erase_if(band.lips, [&](Index point) {
+    return point >= structure.points.count() ||
+           structure.points.lip_points[point].tear != band.tear;
+  });
+}
+
+/// A new band, after which the work that is left goes on. A stroke that goes on begins its next
+/// band before the last one is complete, because the new one would visit the same points again.
 Band& renew_band(Structure& structure, Index tear) {
   auto band = std::make_unique<Band>();
   band->tear = tear;
-  if (std::unique_ptr<Band>& last = structure.tears.band; last && last->tear == tear) {
-    band->pending = std::move(last->pending);
-    if (last->growing != kNone)
-      last->to_grow.push_back(last->growing);
-    else if (!structure.scratch.band_front.is_done())
-      band->pending.insert(band->pending.end(), last->lips.begin(), last->lips.end());
-    band->to_grow = std::move(last->to_grow);
-    sort_once(band->to_grow);
-  }
+  if (structure.tears.band) band->pending = work_of(*structure.tears.band, structure);
   structure.tears.band = std::move(band);
   return *structure.tears.band;
 }
 
 [[nodiscard]] bool is_complete(const Structure& structure) {
   const Band& band = *structure.tears.band;
-  return structure.scratch.band_front.is_done() && band.pending.empty() && band.to_grow.empty() &&
-         band.growing == kNone;
+  return band.is_begun && structure.scratch.band_front.is_done() && band.growing == kNone &&
+         band.pending.empty();
 }
 
 }  // namespace
 
+std::shared_ptr<const PendingWork> pending_work(const Structure& structure) {
+  if (!structure.tears.band) return structure.tears.waiting;
+  return std::make_shared<PendingWork>(work_of(*structure.tears.band, structure));
+}
+
+void resume_work(Structure& structure, const std::shared_ptr<const PendingWork>& work, bool waits) {
+  TearLog& tears = structure.tears;
+  tears.band.reset();
+  tears.waiting.reset();
+  if (!work || work->empty()) return;
+  if (waits) {
+    tears.waiting = work;
+    return;
+  }
+  tears.band = std::make_unique<Band>();
+  tears.band->pending = *work;
+  take_pending_lips(structure, *tears.band);
+}
+
 void begin_band(StructureEdit& edit, std::span<const Index> lips) {
   Structure& structure = edit.structure();
-  (void)renew_band(structure, edit.tear());
-  Index points = begin_front(edit, lips) + kPointsAtOnce;
-  cover_taken_up(edit);
+  renew_band(structure, edit.tear()).lips.assign(lips.begin(), lips.end());
+  Index points = begin_front(edit) + kPointsAtOnce;
   widen_front(edit, points);
   if (is_complete(structure)) structure.tears.band.reset();
 }
@@ -169,33 +203,34 @@ void begin_band(StructureEdit& edit, std::span<const Index> lips) {
 void begin_hole(StructureEdit& edit) {
   Structure& structure = edit.structure();
   Band& band = renew_band(structure, edit.tear());
+  std::vector<Index> particles;
   for (Index point = edit.first_new_point(); point < structure.points.count(); ++point)
     if (edit.border().leaving(point) != kNone)
       for (const ParticleMembership& membership : edit.memberships(point))
-        band.to_grow.push_back(membership.particle);
-  sort_once(band.to_grow);
-  // A front without a source is complete at once.
-  structure.scratch.band_front.begin(structure.points.count(), structure.edge_length,
-                                     structure.edge_length);
-  Index points = 1;
-  widen_front(edit, points);
-  if (is_complete(structure)) structure.tears.band.reset();
+        particles.push_back(membership.particle);
+  add_to_grow(band.pending, particles);
+  if (band.pending.empty()) structure.tears.band.reset();
 }
 
-void widen_band(StructureEdit& edit, Index points) {
+Index widen_band(StructureEdit& edit, Index points) {
   Structure& structure = edit.structure();
   std::unique_ptr<Band>& band = structure.tears.band;
-  while (band && points > 0) {
-    if (band->growing != kNone)
+  while (points > 0 && band->tear == edit.tear()) {
+    if (!band->is_begun)
+      points -= std::min(points, begin_front(edit));
+    else if (band->growing != kNone)
       grow(edit, points);
     else if (!structure.scratch.band_front.is_done())
       widen_front(edit, points);
-    else if (!band->pending.empty())
-      points -= std::min(points, begin_pending(edit));
-    else if (!band->to_grow.empty())
+    else if (!band->pending.lips.empty())
+      take_pending_lips(structure, *band);
+    else if (!band->pending.to_grow.empty())
       grow(edit, points);
-    if (is_complete(structure)) band.reset();
+    if (!is_complete(structure)) continue;
+    band.reset();
+    break;
   }
+  return points;
 }
 
 }  // namespace sunder::particles
