@@ -210,6 +210,7 @@ Status ParticleSet::follow(const TornModel& model, std::span<const ChangeRecord>
   structure.dirty.clear();
   try {
     particles::follow_history(model, structure, changes);
+    structure.note_dirty_points();
   } catch (const std::bad_alloc&) {
     structure.tears.is_broken = true;
     return Status::failure(StatusCode::limit_exceeded, kNone,
@@ -225,6 +226,7 @@ bool ParticleSet::settle(const TornModel& model, std::uint32_t points) {
   structure.dirty.clear();
   try {
     particles::settle_band(model, structure, std::max(1u, points));
+    structure.note_dirty_points();
   } catch (const std::bad_alloc&) {
     tears.is_broken = true;
     return false;

@@ -6,6 +6,7 @@
 
 #include "particles/body_state.h"
 #include "particles/clusters/influences.h"
+#include "particles/clusters/structure_of.h"
 #include "particles/internal/tolerances.h"
 
 namespace sunder {
@@ -323,12 +324,12 @@ std::span<const Mat3f> SoftBody::rotations() {
 }
 
 std::span<const IndexRange> SoftBody::moved_vertices(const TornModel& model, std::uint32_t mesh) {
-  SUNDER_ASSERT(mesh < model.character().meshes.size());
+  const particles::Structure& structure = particles::StructureOf::in(*state_->set);
+  SUNDER_ASSERT(mesh < structure.vertex_points.of_mesh.size());
   try {
     state_->follow_particles();
     particles::ShownMotion& shown = state_->shown;
-    return shown.moved_vertices.of(*state_->set, model, mesh, shown.displaced_key,
-                                   shown.is_displaced);
+    return shown.moved_vertices.of(structure, model, mesh, shown.displaced_key, shown.is_displaced);
   } catch (const std::bad_alloc&) {
     return {};
   }

@@ -27,13 +27,30 @@ struct LipChain {
   std::vector<OfLip> particles;
 };
 
+/// Lips of a tear next to which particles still have to fade out.
+struct PendingLips {
+  Index tear = 0;
+  std::vector<Index> points;  ///< Repeated, in no order; some may be gone.
+};
+
+/// The work that follow() leaves to settle(), without what is known about its progress.
+struct PendingWork {
+  std::vector<PendingLips> lips;  ///< The last is handled first.
+  /// Particles to be regrown from their seeds when all bands are complete; ascending.
+  std::vector<Index> to_grow;
+
+  [[nodiscard]] bool empty() const { return lips.empty() && to_grow.empty(); }
+};
+
 /// The surface next to the lips of a tear, from the lips outwards, where particles of one side fade
-/// out towards the other.
+/// out towards the other. RepairScratch::band_front has its front.
 struct Band {
   Index tear = 0;
+  std::vector<Index> lips;  ///< The points from which the chains are found.
+  bool is_begun = false;    ///< Whether the chains were found.
   std::vector<LipChain> chains;
-  /// Particles to be regrown from their seeds when the band is complete; ascending.
-  std::vector<Index> to_grow;
+  Index growing = kNone;  ///< After the band: the particle that the front grows.
+  PendingWork pending;    ///< Other work, which follows.
 };
 
 }  // namespace sunder::particles

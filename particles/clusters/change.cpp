@@ -34,15 +34,17 @@ void exchange_in_turn(std::vector<T>& changes, bool is_done, Exchange exchange_o
 
 void exchange_changed(Structure& structure, Change& change, bool is_done) {
   PointTable& points = structure.points;
-  for (Change::OfPoint& of : change.changed_points) {
+  exchange_in_turn(change.changed_points, is_done, [&](Change::OfPoint& of) {
     std::swap(points.slabs[of.point], of.slab);
     std::swap(points.influences[of.point], of.influences);
     std::swap(points.lip_points[of.point], of.lip);
-  }
-  for (auto& [particle, before] : change.changed_particles)
-    std::swap(structure.particles[particle], before);
+  });
+  exchange_in_turn(change.changed_particles, is_done, [&](std::pair<Index, Particle>& of) {
+    std::swap(structure.particles[of.first], of.second);
+  });
   exchange_in_turn(change.changed_vertices, is_done, [&](Change::OfVertex& of) {
     std::swap(structure.vertex_points.of_mesh[of.mesh][of.vertex], of.point);
+    structure.journal.vertices.add({of.mesh, of.vertex});
   });
   exchange_in_turn(change.changed_lips, is_done, [&](std::pair<Index, LipEdge>& of) {
     std::swap(structure.lips[of.first], of.second);
@@ -67,6 +69,9 @@ void exchange(Structure& structure, Change& change) {
   for (std::size_t m = 0; m < vertex_points.size(); ++m)
     move_tail(vertex_points[m], change.vertices[m], is_done, appended.vertex_points[m]);
   if (!is_done) change.appended.reset();
+  for (Index m = 0; m < vertex_points.size(); ++m)
+    for (Index vertex = change.vertices[m]; vertex < vertex_points[m].size(); ++vertex)
+      structure.journal.vertices.add({m, vertex});
   structure.points.memberships_end = is_done ? change.memberships_before : change.memberships_after;
   ++structure.revision;
   for (const Change::OfPoint& of : change.changed_points) structure.dirty.push_back(of.point);

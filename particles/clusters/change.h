@@ -7,6 +7,7 @@
 
 namespace sunder::particles {
 
+struct PendingWork;
 struct Structure;
 
 /// The changes of an operation to the structure, as previous values. exchange() swaps them with the
@@ -16,6 +17,8 @@ struct Change {
   Index points = 0, particles = 0, lips = 0;  ///< Counts before.
   std::size_t memberships_before = 0, memberships_after = 0;
   std::vector<Index> vertices;  ///< Per mesh: the count before.
+  /// Work that was left before, and when the operation was undone; null: none.
+  std::shared_ptr<const PendingWork> pending_before, pending_after;
 
   struct OfPoint {
     Index point = 0;

@@ -27,15 +27,18 @@ void Structure::prepare_for_tears(Index triangles) {
     reserve_eighth(of_mesh, of_mesh.size() + 1);
 }
 
+void Structure::note_dirty_points() {
+  journal.points.add(dirty);
+  const std::size_t most = points.count() / 2 + 4096;
+  journal.points.trim(most);
+  journal.vertices.trim(most);
+}
+
 std::vector<Index> Structure::members_of(Index particle) const {
   std::vector<Index> found;
-  const auto add = [&](Index point) {
-    if (point < points.count() && points.find(point, particle) != nullptr) found.push_back(point);
-  };
-  if (particle + 1 < members.first.size())
-    for (Index m = members.first[particle]; m < members.first[particle + 1]; ++m)
-      add(members.points[m]);
-  for (const Index point : members.joined[particle]) add(point);
+  for_each_candidate(particle, [&](Index point) {
+    if (points.find(point, particle) != nullptr) found.push_back(point);
+  });
   std::sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;

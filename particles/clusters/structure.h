@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "particles/clusters/change.h"
+#include "particles/clusters/change_journal.h"
 #include "particles/clusters/decomposition_pose.h"
 #include "particles/clusters/repair_scratch.h"
 #include "particles/clusters/surface_pose.h"
@@ -34,9 +35,12 @@ struct MemberLists {
 /// The followed operations. Each is a tear, whose number is the index of its change in `done`.
 struct TearLog {
   std::vector<Change> done, undone;
-  std::unique_ptr<Band> band;  ///< Remaining work of the last tear, for settle().
-  Index triangle_count = 0;    ///< Of the surface when it was last followed.
-  bool is_broken = false;      ///< Memory ran out in the middle of an update.
+  std::unique_ptr<Band> band;  ///< Remaining work of the last tears, for settle().
+  /// The work that is left while operations could be redone. It waits for the next operation,
+  /// because the redone values are those of the work as it was.
+  std::shared_ptr<const PendingWork> waiting;
+  Index triangle_count = 0;  ///< Of the surface when it was last followed.
+  bool is_broken = false;    ///< Memory ran out in the middle of an update.
 };
 
 /// The data of a ParticleSet.
@@ -48,6 +52,7 @@ struct Structure {
   std::uint64_t revision = 0;
   std::uint64_t next_serial = 1;
   std::vector<Index> dirty;  ///< Points whose influences the last call changed, in no order.
+  ChangeJournal journal;     ///< The same of all calls, for readers that are some calls behind.
   float edge_length = 0;     ///< Mean length of the edges of the decomposition's surface, metres.
 
   CharacterLink character;
@@ -68,6 +73,18 @@ struct Structure {
   void make_room(std::size_t point_count);
   /// Points of a particle, ascending. O(members log members), allocates.
   [[nodiscard]] std::vector<Index> members_of(Index particle) const;
+  /// Calls visit(point) for all members of a particle, and for points that were members once.
+  /// Points may be repeated.
+  template <class Visit>
+  void for_each_candidate(Index particle, Visit visit) const {
+    if (particle + 1 < members.first.size())
+      for (Index m = members.first[particle]; m < members.first[particle + 1]; ++m)
+        if (members.points[m] < points.count()) visit(members.points[m]);
+    for (const Index point : members.joined[particle])
+      if (point < points.count()) visit(point);
+  }
+  /// Adds the dirty points to the journal, at the end of a call.
+  void note_dirty_points();
 };
 
 }  // namespace sunder::particles

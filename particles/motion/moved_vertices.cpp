@@ -1,62 +1,126 @@
 #include "particles/motion/moved_vertices.h"
 
 #include <algorithm>
-#include <new>
 
+#include "particles/clusters/torn_meshes.h"
 #include "tear/internal/surface.h"
 
 namespace sunder::particles {
-
 namespace {
 
-/// Whether a particle is the first displaced one among those that move a point, so that each point
-/// is visited once.
-bool is_first_displaced(const ParticleInfluences& of, Index particle,
-                        std::span<const std::uint8_t> is_displaced) {
-  for (std::size_t k = 0; k < 4 && of.weights[k] > 0; ++k)
-    if (is_displaced[of.particles[k]] != 0) return of.particles[k] == particle;
-  return false;
-}
-
-/// Joins ascending vertices, some of them repeated, into ranges.
-void join_ranges(std::span<const Index> vertices, std::vector<IndexRange>& ranges) {
-  ranges.clear();
-  for (const Index vertex : vertices) {
-    if (!ranges.empty() && vertex <= ranges.back().first + ranges.back().count)
-      ranges.back().count = vertex + 1 - ranges.back().first;
-    else
-      ranges.push_back({vertex, 1});
-  }
-}
+/// If more members than this part of all points are to be looked at, reading all points in order is
+/// faster.
+constexpr std::size_t kPartOfPoints = 8;
 
 }  // namespace
 
-std::span<const IndexRange> MovedVertices::of(const ParticleSet& set, const TornModel& model,
+bool MovedVertices::is_point_displaced(const ParticleInfluences& of) const {
+  bool is = false;
+  for (std::size_t k = 0; k < 4; ++k)
+    is |= (of.weights[k] > 0) & (is_displaced_[of.particles[k]] != 0);
+  return is;
+}
+
+/// Lists the particles that became displaced or stopped. @return the number of their members.
+std::size_t MovedVertices::list_changed_particles(const Structure& structure,
+                                                  std::span<const std::uint8_t> is_displaced) {
+  changed_.clear();
+  changed_.reserve(is_displaced.size());
+  std::size_t members = 0;
+  for (Index p = 0; p < is_displaced.size(); ++p) {
+    const bool was = p < is_displaced_.size() && is_displaced_[p] != 0;
+    if (was == (is_displaced[p] != 0)) continue;
+    changed_.push_back(p);
+    members += structure.particles[p].member_count;
+  }
+  is_displaced_.assign(is_displaced.begin(), is_displaced.end());
+  return members;
+}
+
+void MovedVertices::resize(const Structure& structure) {
+  points_.resize(structure.points.count());
+  const auto& of_mesh = structure.vertex_points.of_mesh;
+  meshes_.resize(of_mesh.size());
+  for (std::size_t m = 0; m < of_mesh.size(); ++m) {
+    const auto count = static_cast<Index>(of_mesh[m].size());
+    if (meshes_[m].is_moved.size() == count) continue;
+    meshes_[m].is_moved.resize(count);
+    meshes_[m].is_listed = false;
+  }
+}
+
+void MovedVertices::renew_vertex(const Structure& structure, const TornModel& model, Index mesh,
+                                 Index vertex) {
+  const VertexPoints& of = structure.vertex_points;
+  const Index point = of.of_mesh[mesh][vertex];
+  bool is_moved = point != kNone && points_[point];
+  if (!is_moved && !of.shared.empty())
+    if (const auto shared = of.shared.find({mesh, vertex}); shared != of.shared.end())
+      is_moved = std::ranges::any_of(shared->second, [&](Index other) {
+        return other < points_.size() && points_[other] && has_vertex(model, other, mesh, vertex);
+      });
+  if (meshes_[mesh].is_moved.set(vertex, is_moved)) meshes_[mesh].is_listed = false;
+}
+
+void MovedVertices::renew_point(const Structure& structure, const TornModel& model, Index point) {
+  if (point >= points_.size() ||
+      !points_.set(point, is_point_displaced(structure.points.influences[point])))
+    return;
+  for_each_vertex(model, point,
+                  [&](Index mesh, Index vertex) { renew_vertex(structure, model, mesh, vertex); });
+}
+
+void MovedVertices::renew_all(const Structure& structure, const TornModel& model) {
+  for (Index point = 0; point < points_.size(); ++point)
+    points_.set(point, is_point_displaced(structure.points.influences[point]));
+  for (Index m = 0; m < meshes_.size(); ++m) {
+    const std::vector<Index>& points = structure.vertex_points.of_mesh[m];
+    meshes_[m].is_listed = false;
+    for (Index v = 0; v < points.size(); ++v)
+      meshes_[m].is_moved.set(v, points[v] != kNone && points_[points[v]]);
+  }
+  for (const auto& [vertex, points] : structure.vertex_points.shared)
+    if (vertex.second < meshes_[vertex.first].is_moved.size())
+      renew_vertex(structure, model, vertex.first, vertex.second);
+}
+
+void MovedVertices::renew_changed(const Structure& structure, const TornModel& model) {
+  const auto renew = [&](Index point) { renew_point(structure, model, point); };
+  for (const Index point : structure.journal.points.since(points_read_)) renew(point);
+  for (const Index particle : changed_) structure.for_each_candidate(particle, renew);
+  for (const ChangedVertex& of : structure.journal.vertices.since(vertices_read_))
+    if (of.vertex < meshes_[of.mesh].is_moved.size())
+      renew_vertex(structure, model, of.mesh, of.vertex);
+}
+
+std::span<const IndexRange> MovedVertices::of(const Structure& structure, const TornModel& model,
                                               Index mesh, std::uint64_t key,
                                               std::span<const std::uint8_t> is_displaced) {
-  if (meshes_.size() <= mesh) meshes_.resize(mesh + 1);
-  OfMesh& found = meshes_[mesh];
-  if (found.key == key) return found.ranges;
-  const tear::Surface& surface = model.surface();
-  vertices_.clear();
-  const auto add = [&](Index corner) {
-    const tear::TriangleRef ref = surface.triangle(corner / 3);
-    if (ref.mesh == mesh)
-      vertices_.push_back(model.character().meshes[mesh].triangles[ref.triangle][corner % 3]);
-  };
-  for (Index p = 0; p < is_displaced.size(); ++p) {
-    if (is_displaced[p] == 0) continue;
-    const auto members = set.members(p);
-    if (!members) throw std::bad_alloc();
-    for (const Index point : *members)
-      if (surface.point_corner[point] != kNone &&
-          is_first_displaced(set.influences()[point], p, is_displaced))
-        surface.for_each_in_fan(surface.point_corner[point], add);
+  const ChangeJournal& journal = structure.journal;
+  if (key_ != key) {
+    bool is_known = key_ != 0 && journal.points.has_since(points_read_) &&
+                    journal.vertices.has_since(vertices_read_);
+    key_ = 0;  // invalid until the update is complete
+    const std::size_t members = list_changed_particles(structure, is_displaced);
+    resize(structure);
+    if (is_known)
+      is_known = members + journal.points.since(points_read_).size() <
+                 structure.points.count() / kPartOfPoints;
+    if (is_known)
+      renew_changed(structure, model);
+    else
+      renew_all(structure, model);
+    points_read_ = journal.points.end();
+    vertices_read_ = journal.vertices.end();
+    key_ = key;
   }
-  std::sort(vertices_.begin(), vertices_.end());
-  found.key = 0;  // invalid until the update is complete
-  join_ranges(vertices_, found.ranges);
-  found.key = key;
+  OfMesh& found = meshes_[mesh];
+  if (found.is_listed) return found.ranges;
+  found.ranges.clear();
+  found.is_moved.for_each_run([&](Index first, Index end) {
+    found.ranges.push_back({first, end - first});
+  });
+  found.is_listed = true;
   return found.ranges;
 }
 

@@ -4,6 +4,7 @@
 
 #include "particles/clusters/band.h"
 #include "particles/clusters/gradients.h"
+#include "particles/repair/lip_band.h"
 #include "particles/repair/repair.h"
 
 namespace sunder::particles {
@@ -20,14 +21,25 @@ bool ends_with(std::span<const Change> done, std::uint64_t operation) {
   return done.back().operation == operation;
 }
 
-/// Exchanges changes of one stack and moves them to the other, until the changes that are done end
-/// with an operation.
-void exchange_until(Structure& structure, std::uint64_t operation, std::vector<Change>& from,
-                    std::vector<Change>& to) {
-  while (!from.empty() && !ends_with(structure.tears.done, operation)) {
-    exchange(structure, from.back());
-    to.push_back(std::move(from.back()));
-    from.pop_back();
+void undo_until(Structure& structure, std::uint64_t operation) {
+  TearLog& tears = structure.tears;
+  while (!tears.done.empty() && !ends_with(tears.done, operation)) {
+    tears.undone.push_back(std::move(tears.done.back()));
+    tears.done.pop_back();
+    Change& change = tears.undone.back();
+    change.pending_after = pending_work(structure);
+    exchange(structure, change);
+    resume_work(structure, change.pending_before, true);
+  }
+}
+
+void redo_until(Structure& structure, std::uint64_t operation) {
+  TearLog& tears = structure.tears;
+  while (!tears.undone.empty() && !ends_with(tears.done, operation)) {
+    tears.done.push_back(std::move(tears.undone.back()));
+    tears.undone.pop_back();
+    exchange(structure, tears.done.back());
+    resume_work(structure, tears.done.back().pending_after, !tears.undone.empty());
   }
 }
 
@@ -38,13 +50,10 @@ void follow_history(const TornModel& model, Structure& structure,
   TearLog& tears = structure.tears;
   const std::uint64_t newest = model.newest_operation();
   const bool is_undo = !model.is_in_stroke() && (newest == 0 || has_operation(tears.done, newest));
-  // A tear that is undone, with the points that it created, need not be completed.
-  if (is_undo && !ends_with(tears.done, newest)) tears.band.reset();
-  if (tears.band) complete_band(model, structure);
   if (is_undo) {
-    exchange_until(structure, newest, tears.done, tears.undone);
+    undo_until(structure, newest);
   } else if (!model.is_in_stroke() && has_operation(tears.undone, newest)) {
-    exchange_until(structure, newest, tears.undone, tears.done);
+    redo_until(structure, newest);
   } else {
     follow_operation(model, structure, changes);
     if (!model.is_in_stroke()) tears.done.back().operation = newest;

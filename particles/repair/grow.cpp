@@ -1,5 +1,6 @@
 #include "particles/repair/grow.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "particles/repair/cover.h"
@@ -24,30 +25,38 @@ Index nearest_member(const StructureEdit& edit, Index particle, std::span<const 
 
 }  // namespace
 
-Index grow_anew(StructureEdit& edit, Index particle) {
+void begin_growing(StructureEdit& edit, Index particle) {
   Structure& structure = edit.structure();
-  const float range = structure.particles[particle].range;
-  const std::vector<Index> members = structure.members_of(particle);
   Index seed = structure.particles[particle].seed;
-  if (edit.surface().point_corner[seed] == kNone)
+  if (edit.surface().point_corner[seed] == kNone) {
+    const std::vector<Index> members = structure.members_of(particle);
     edit.change_particle(particle).seed = seed = nearest_member(edit, particle, members);
-  SurfaceFront& front = structure.scratch.front;
-  front.begin(structure.points.count(), range, structure.edge_length);
+  }
+  SurfaceFront& front = structure.scratch.band_front;
+  front.begin(structure.points.count(), structure.particles[particle].range, structure.edge_length);
   front.add(seed, 0.0f);
-  front.run(edit.ring(), [](Index, float, Index) { return true; });
+}
+
+Index finish_growing(StructureEdit& edit, Index particle) {
+  const Structure& structure = edit.structure();
+  const float range = structure.particles[particle].range;
   std::vector<Index> left;
-  for (const Index point : members) {
-    if (front.distance(point) < range) continue;  // still a member, at the same distance
-    // A point without a face, which a later operation removed, may return when that operation is
-    // followed. It stays a member until then.
-    if (edit.surface().point_corner[point] == kNone) continue;
-    left.push_back(point);
+  structure.for_each_candidate(particle, [&](Index point) {
+    // A member that the front reached is still one, at the same distance. A point without a face,
+    // which a later operation removed, may return when that operation is followed: it stays too.
+    if (structure.scratch.band_front.distance(point) < range ||
+        edit.surface().point_corner[point] == kNone)
+      return;
+    if (structure.points.find(point, particle) != nullptr) left.push_back(point);
+  });
+  std::sort(left.begin(), left.end());
+  left.erase(std::unique(left.begin(), left.end()), left.end());
+  for (const Index point : left)
     edit.keep_if(point, [&](const ParticleMembership& membership) {
       return membership.particle != particle;
     });
-  }
   for (const Index point : left) cover(edit, point);
-  return static_cast<Index>(members.size());
+  return static_cast<Index>(left.size());
 }
 
 }  // namespace sunder::particles

@@ -4,8 +4,12 @@
 
 namespace sunder::particles {
 
-/// Regrows a particle from its seed: points that it no longer reaches leave it. @return its former
-/// number of points.
-Index grow_anew(StructureEdit& edit, Index particle);
+// A particle that a tear may have divided is grown anew from its seed, so that it is in one piece.
+
+/// Begins to grow a particle: RepairScratch::band_front then has to be run until it is done, in any
+/// number of calls.
+void begin_growing(StructureEdit& edit, Index particle);
+/// Takes from the particle the points that the front did not reach. @return their number.
+Index finish_growing(StructureEdit& edit, Index particle);
 
 }  // namespace sunder::particles

@@ -38,16 +38,15 @@ void visit(StructureEdit& edit, const LipChain& chain, const BandPoint& at) {
   join_lip_particles(edit, chain, at);
 }
 
-/// Continues the front from the lips.
-void widen_front(StructureEdit& edit, Index points) {
+/// Continues the front from the lips. @param points  at most; reduced by those visited.
+void widen_front(StructureEdit& edit, Index& points) {
   Structure& structure = edit.structure();
-  std::unique_ptr<Band>& band = structure.tears.band;
-  if (!band) return;
+  const Band& band = *structure.tears.band;
   RepairScratch& scratch = structure.scratch;
   scratch.band_front.run(edit.ring(), [&](Index point, float distance, Index from) {
     if (from != kNone) {
       const BesideLip beside = scratch.beside[point] = scratch.beside[from];
-      const LipChain& chain = band->chains[beside.chain];
+      const LipChain& chain = band.chains[beside.chain];
       if (distance < chain.depth) {
         visit(edit, chain, {point, chain.places[beside.place], distance});
         cover(edit, point);
@@ -55,7 +54,22 @@ void widen_front(StructureEdit& edit, Index points) {
     }
     return --points > 0;
   });
-  if (scratch.band_front.is_done() && band->to_grow.empty()) band.reset();
+}
+
+/// Continues to grow particles. @param points  as in widen_front().
+void grow(StructureEdit& edit, Index& points) {
+  Structure& structure = edit.structure();
+  Band& band = *structure.tears.band;
+  SurfaceFront& front = structure.scratch.band_front;
+  if (band.growing == kNone) {
+    band.growing = band.pending.to_grow.back();
+    band.pending.to_grow.pop_back();
+    begin_growing(edit, band.growing);
+  }
+  front.run(edit.ring(), [&](Index, float, Index) { return --points > 0; });
+  if (!front.is_done()) return;
+  points -= std::min(points, finish_growing(edit, band.growing));
+  band.growing = kNone;
 }
 
 /// Sets the depth of the band of each chain. @return the greatest depth.
@@ -69,17 +83,31 @@ float set_depths(const Structure& structure, std::span<LipChain> chains) {
   return deepest;
 }
 
-}  // namespace
+/// Adds particles to be regrown.
+void add_to_grow(PendingWork& pending, std::span<const Index> particles) {
+  pending.to_grow.insert(pending.to_grow.end(), particles.begin(), particles.end());
+  sort_once(pending.to_grow);
+}
 
-void begin_band(StructureEdit& edit, std::span<const Index> lips) {
+void add_lips(PendingWork& pending, Index tear, std::span<const Index> points) {
+  if (points.empty()) return;
+  if (pending.lips.empty() || pending.lips.back().tear != tear) pending.lips.push_back({tear, {}});
+  std::vector<Index>& known = pending.lips.back().points;
+  known.insert(known.end(), points.begin(), points.end());
+}
+
+/// Finds the chains of the band and begins the front from them.
+/// @return the number of points on the chains.
+Index begin_front(StructureEdit& edit) {
   Structure& structure = edit.structure();
   RepairScratch& scratch = structure.scratch;
-  structure.tears.band = std::make_unique<Band>();
   Band& band = *structure.tears.band;
-  band.tear = edit.tear();
-  band.chains = find_lip_chains(edit.border(), structure, edit.tear(), lips);
-  scratch.band_front.begin(structure.points.count(), set_depths(structure, band.chains),
-                           structure.edge_length);
+  band.is_begun = true;
+  std::erase_if(band.lips,
+                [&](Index point) { return edit.surface().point_corner[point] == kNone; });
+  band.chains = find_lip_chains(edit.border(), structure, edit.tear(), band.lips);
+  const float depth = std::max(set_depths(structure, band.chains), structure.edge_length);
+  scratch.band_front.begin(structure.points.count(), depth, structure.edge_length);
   Index lip_count = 0;
   for (Index c = 0; c < band.chains.size(); ++c) {
     LipChain& chain = band.chains[c];
@@ -95,37 +123,114 @@ void begin_band(StructureEdit& edit, std::span<const Index> lips) {
   // A particle that a tear without tips divides may be in two pieces at any distance from the lips.
   const bool may_part = std::ranges::any_of(
       band.chains, [](const LipChain& chain) { return !std::isfinite(chain.length); });
-  if (may_part) band.to_grow = particles_beside(edit, lips);
+  if (may_part) add_to_grow(band.pending, particles_beside(edit, band.lips));
   cover_taken_up(edit);
-  widen_front(edit, lip_count + kPointsAtOnce);
+  return lip_count;
+}
+
+/// The work that a band and what follows it leave.
+PendingWork work_of(const Band& band, const Structure& structure) {
+  PendingWork work = band.pending;
+  if (band.growing != kNone)
+    add_to_grow(work, {&band.growing, 1});
+  else if (!band.is_begun || !structure.scratch.band_front.is_done())
+    add_lips(work, band.tear, band.lips);
+  return work;
+}
+
+/// Continues with the lips that an earlier call left, if there are any. Their band is begun by an
+/// edit of their tear.
+void take_pending_lips(const Structure& structure, Band& band) {
+  band.is_begun = false;
+  band.lips.clear();
+  if (band.pending.lips.empty()) return;
+  PendingLips next = std::move(band.pending.lips.back());
+  band.pending.lips.pop_back();
+  band.tear = next.tear;
+  band.lips = std::move(next.points);
+  sort_once(band.lips);
+  std::erase_if(band.lips, [&](Index point) {
+    return point >= structure.points.count() ||
+           structure.points.lip_points[point].tear != band.tear;
+  });
+}
+
+/// A new band, after which the work that is left goes on. A stroke that goes on begins its next
+/// band before the last one is complete, because the new one would visit the same points again.
+Band& renew_band(Structure& structure, Index tear) {
+  auto band = std::make_unique<Band>();
+  band->tear = tear;
+  if (structure.tears.band) band->pending = work_of(*structure.tears.band, structure);
+  structure.tears.band = std::move(band);
+  return *structure.tears.band;
+}
+
+[[nodiscard]] bool is_complete(const Structure& structure) {
+  const Band& band = *structure.tears.band;
+  return band.is_begun && structure.scratch.band_front.is_done() && band.growing == kNone &&
+         band.pending.empty();
+}
+
+}  // namespace
+
+std::shared_ptr<const PendingWork> pending_work(const Structure& structure) {
+  if (!structure.tears.band) return structure.tears.waiting;
+  return std::make_shared<PendingWork>(work_of(*structure.tears.band, structure));
+}
+
+void resume_work(Structure& structure, const std::shared_ptr<const PendingWork>& work, bool waits) {
+  TearLog& tears = structure.tears;
+  tears.band.reset();
+  tears.waiting.reset();
+  if (!work || work->empty()) return;
+  if (waits) {
+    tears.waiting = work;
+    return;
+  }
+  tears.band = std::make_unique<Band>();
+  tears.band->pending = *work;
+  take_pending_lips(structure, *tears.band);
+}
+
+void begin_band(StructureEdit& edit, std::span<const Index> lips) {
+  Structure& structure = edit.structure();
+  renew_band(structure, edit.tear()).lips.assign(lips.begin(), lips.end());
+  Index points = begin_front(edit) + kPointsAtOnce;
+  widen_front(edit, points);
+  if (is_complete(structure)) structure.tears.band.reset();
 }
 
 void begin_hole(StructureEdit& edit) {
   Structure& structure = edit.structure();
-  auto band = std::make_unique<Band>();
-  band->tear = edit.tear();
+  Band& band = renew_band(structure, edit.tear());
+  std::vector<Index> particles;
   for (Index point = edit.first_new_point(); point < structure.points.count(); ++point)
     if (edit.border().leaving(point) != kNone)
       for (const ParticleMembership& membership : edit.memberships(point))
-        band->to_grow.push_back(membership.particle);
-  if (band->to_grow.empty()) return;
-  sort_once(band->to_grow);
-  // A front without a source is complete at once.
-  structure.scratch.band_front.begin(structure.points.count(), structure.edge_length,
-                                     structure.edge_length);
-  structure.tears.band = std::move(band);
+        particles.push_back(membership.particle);
+  add_to_grow(band.pending, particles);
+  if (band.pending.empty()) structure.tears.band.reset();
 }
 
-void widen_band(StructureEdit& edit, Index points) {
-  std::unique_ptr<Band>& band = edit.structure().tears.band;
-  widen_front(edit, points);
-  while (band && edit.structure().scratch.band_front.is_done() && !band->to_grow.empty() &&
-         points > 0) {
-    const Index particle = band->to_grow.back();
-    band->to_grow.pop_back();
-    points -= std::min(points, grow_anew(edit, particle));
-    if (band->to_grow.empty()) band.reset();
+Index widen_band(StructureEdit& edit, Index points) {
+  Structure& structure = edit.structure();
+  std::unique_ptr<Band>& band = structure.tears.band;
+  while (points > 0 && band->tear == edit.tear()) {
+    if (!band->is_begun)
+      points -= std::min(points, begin_front(edit));
+    else if (band->growing != kNone)
+      grow(edit, points);
+    else if (!structure.scratch.band_front.is_done())
+      widen_front(edit, points);
+    else if (!band->pending.lips.empty())
+      take_pending_lips(structure, *band);
+    else if (!band->pending.to_grow.empty())
+      grow(edit, points);
+    if (!is_complete(structure)) continue;
+    band.reset();
+    break;
   }
+  return points;
 }
 
 }  // namespace sunder::particles

@@ -23,13 +23,15 @@ float smoothstep(float x) {
 ///         for it.
 bool is_covered(const StructureEdit& edit, const LipChain& chain, const LipChain::Place& place,
                 bool is_short) {
+  // The band of a tear may be continued by a later operation.
+  const Index first_of_tear = edit.structure().tears.done[edit.tear()].particles;
   for (const LipChain::OfLip& of : chain.particles)
     if (std::abs(place.along - of.along) < kLipCoveredReach * of.half_width) return true;
   for (const ParticleMembership& membership : edit.memberships(place.point)) {
     if (!(membership.reach < kLipCoveredReach)) continue;
     const Side* side = edit.structure().particles[membership.particle].side_of(edit.tear());
     if (side != nullptr && *side != chain.side) continue;
-    if (!is_short || membership.particle >= edit.change().particles) return true;
+    if (!is_short || membership.particle >= first_of_tear) return true;
   }
   return false;
 }

@@ -70,14 +70,19 @@ void append_points(StructureEdit& edit) {
     Vec3f position = Vec3f::Zero();
     if (of.vertex != kNone)
       position = structure.character.decomposition_pose.place(character.meshes[of.mesh], of.vertex);
+    structure.journal.points.add(point);
     points.vertices.push_back(of);
     points.positions.push_back(position);
     points.slabs.emplace_back();
     points.influences.emplace_back();
     points.lip_points.emplace_back();
   }
-  for (Index m = 0; m < character.meshes.size(); ++m)
-    structure.vertex_points.of_mesh[m].resize(character.meshes[m].vertex_count(), kNone);
+  for (Index m = 0; m < character.meshes.size(); ++m) {
+    std::vector<Index>& of_mesh = structure.vertex_points.of_mesh[m];
+    for (auto v = static_cast<Index>(of_mesh.size()); v < character.meshes[m].vertex_count(); ++v)
+      structure.journal.vertices.add({m, v});
+    of_mesh.resize(character.meshes[m].vertex_count(), kNone);
+  }
 }
 
 void spread_to_new_points(StructureEdit& edit, Index undecided_tear) {

@@ -18,6 +18,8 @@ void begin_change(Structure& structure) {
   TearLog& tears = structure.tears;
   if (!tears.done.empty() && tears.done.back().operation == 0) return;
   tears.undone.clear();
+  const std::shared_ptr<const PendingWork> pending = pending_work(structure);
+  if (tears.waiting) resume_work(structure, pending, false);
   structure.points.memberships.resize(structure.points.memberships_end);
   Change& change = tears.done.emplace_back();
   change.points = structure.points.count();
@@ -26,6 +28,7 @@ void begin_change(Structure& structure) {
   change.memberships_before = structure.points.memberships_end;
   for (const auto& points : structure.vertex_points.of_mesh)
     change.vertices.push_back(static_cast<Index>(points.size()));
+  change.pending_before = pending;
   structure.scratch.logged_points.begin(change.points);
   structure.scratch.logged_particles.begin(change.particles);
 }
@@ -49,20 +52,20 @@ void follow_operation(const TornModel& model, Structure& structure,
     begin_band(edit, lips);
   } else {
     cover_taken_up(edit);
-    if (!lost.empty()) begin_hole(edit);
+    const bool is_band_outdated = tears.band && edit.taken_up_count() > 0;
+    if (!lost.empty() || is_band_outdated) begin_hole(edit);
   }
   renew_lip_edges(edit, lips, lost);
   edit.finish();
 }
 
 void settle_band(const TornModel& model, Structure& structure, Index points) {
-  StructureEdit edit(model, structure, structure.tears.done.back(), structure.tears.band->tear);
-  widen_band(edit, points);
-  edit.finish();
-}
-
-void complete_band(const TornModel& model, Structure& structure) {
-  while (structure.tears.band) settle_band(model, structure, kNone);
+  TearLog& tears = structure.tears;
+  while (tears.band && points > 0) {
+    StructureEdit edit(model, structure, tears.done.back(), tears.band->tear);
+    points = widen_band(edit, points);
+    edit.finish();
+  }
 }
 
 }  // namespace sunder::particles

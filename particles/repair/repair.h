@@ -8,9 +8,7 @@ namespace sunder::particles {
 void follow_operation(const TornModel& model, Structure& structure,
                       std::span<const ChangeRecord> changes);
 
-/// Continues the band that the last operation left, for at most the given number of points, or to
-/// its end.
+/// Continues the work that operations left, for at most the given number of points.
 void settle_band(const TornModel& model, Structure& structure, Index points);
-void complete_band(const TornModel& model, Structure& structure);
 
 }  // namespace sunder::particles

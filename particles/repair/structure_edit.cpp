@@ -153,6 +153,7 @@ void StructureEdit::put_back(const Work& work) {
         return a.particle == b.particle && a.reach == b.reach;
       }))
     return;
+  structure_.dirty.push_back(work.point);
   log_point(work.point);
   count_members(work.point, before, now);
   renew_influences(work.point, now);
@@ -168,7 +169,6 @@ void StructureEdit::finish() {
   for (const Work& work : works_) put_back(work);
   structure_.pairs->apply([&](Index particle) -> Particle& { return change_particle(particle); });
   change_.memberships_after = structure_.points.memberships_end = memberships.size();
-  for (const Work& work : works_) structure_.dirty.push_back(work.point);
   ++structure_.revision;
 }
 

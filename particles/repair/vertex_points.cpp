@@ -1,6 +1,6 @@
 #include "particles/repair/vertex_points.h"
 
-#include "tear/internal/surface.h"
+#include "particles/clusters/torn_meshes.h"
 
 namespace sunder::particles {
 namespace {
@@ -25,28 +25,19 @@ void set_vertex_point(StructureEdit& edit, Index mesh, Index vertex, Index point
   Index& known = edit.structure().vertex_points.of_mesh[mesh][vertex];
   if (vertex < edit.change().vertices[mesh])
     edit.change().changed_vertices.push_back({mesh, vertex, known});
+  edit.structure().journal.vertices.add({mesh, vertex});
   known = point;
 }
 
-/// Whether one of the faces around a point uses a vertex for it.
 bool has_vertex(const StructureEdit& edit, Index point, Index mesh, Index vertex) {
-  const Surface& surface = edit.surface();
-  if (point >= surface.point_count() || surface.point_corner[point] == kNone) return false;
-  bool has = false;
-  surface.for_each_in_fan(surface.point_corner[point], [&](Index corner) {
-    const tear::TriangleRef ref = surface.triangle(corner / 3);
-    has |= ref.mesh == mesh &&
-           edit.model().character().meshes[mesh].triangles[ref.triangle][corner % 3] == vertex;
-  });
-  return has;
+  return particles::has_vertex(edit.model(), point, mesh, vertex);
 }
 
 /// Writes the point of a corner's vertex.
 void renew_corner(StructureEdit& edit, Index corner) {
   VertexPoints& points = edit.structure().vertex_points;
   const tear::TriangleRef ref = edit.surface().triangle(corner / 3);
-  const Index vertex =
-      edit.model().character().meshes[ref.mesh].triangles[ref.triangle][corner % 3];
+  const Index vertex = vertex_at(edit.model(), ref, corner);
   const Index known = points.of_mesh[ref.mesh][vertex], now = edit.surface().corner_point[corner];
   if (known == now) return;
   if (known != kNone && has_vertex(edit, known, ref.mesh, vertex))
@@ -67,6 +58,13 @@ void renew_shared_vertex(StructureEdit& edit, Index mesh, Index vertex, std::vec
     set_vertex_point(edit, mesh, vertex, point);
     return;
   }
+}
+
+/// A vertex that no face uses any more has no point.
+void forget_if_unused(StructureEdit& edit, Index mesh, Index vertex) {
+  const Index point = edit.structure().vertex_points.of_mesh[mesh][vertex];
+  if (point != kNone && !has_vertex(edit, point, mesh, vertex))
+    set_vertex_point(edit, mesh, vertex, kNone);
 }
 
 }  // namespace
@@ -97,13 +95,15 @@ void renew_vertex_points(StructureEdit& edit, std::span<const ChangeRecord> chan
   for (Index corner = 3 * structure.tears.triangle_count; corner < surface.corner_point.size();
        ++corner)
     if (!surface.has_repeated_point(corner / 3)) renew(corner);
-  if (structure.vertex_points.shared.empty()) return;
-  const auto renew_shared = [&](const MeshChange& of_mesh) {
-    for_each_corner_before(
-        of_mesh, [&](Index vertex) { renew_shared_vertex(edit, of_mesh.mesh, vertex, lost); });
+  const bool has_shared = !structure.vertex_points.shared.empty();
+  const auto renew_before = [&](const MeshChange& of_mesh) {
+    for_each_corner_before(of_mesh, [&](Index vertex) {
+      if (has_shared) renew_shared_vertex(edit, of_mesh.mesh, vertex, lost);
+      if (!of_mesh.retired.empty()) forget_if_unused(edit, of_mesh.mesh, vertex);
+    });
   };
   for (const ChangeRecord& change : changes)
-    for (const MeshChange& of_mesh : change.meshes) renew_shared(of_mesh);
+    for (const MeshChange& of_mesh : change.meshes) renew_before(of_mesh);
 }
 
 }  // namespace sunder::particles

@@ -13,6 +13,7 @@ namespace sunder {
 
 namespace particles {
 struct Structure;
+struct StructureOf;
 }
 
 /// How a surface is divided into particles.
@@ -176,6 +177,7 @@ class SUNDER_API ParticleSet {
   [[nodiscard]] DirtyRanges dirty_points() const;
 
  private:
+  friend struct particles::StructureOf;
   explicit ParticleSet(std::unique_ptr<particles::Structure> structure);
   std::unique_ptr<particles::Structure> structure_;
 };

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <sunder/core/index.h>
+
+#include <bit>
+#include <vector>
+
+namespace sunder::particles {
+
+/// One bit per element.
+class Bits {
+ public:
+  /// Keeps the bits of elements that stay; new ones are 0.
+  void resize(Index count) {
+    words_.resize((std::size_t{count} + 63) / 64, 0);
+    if (count % 64 != 0) words_.back() &= (std::uint64_t{1} << (count % 64)) - 1;
+    count_ = count;
+  }
+  void clear() { std::fill(words_.begin(), words_.end(), 0); }
+  [[nodiscard]] Index size() const { return count_; }
+  [[nodiscard]] bool operator[](Index i) const { return ((words_[i / 64] >> (i % 64)) & 1) != 0; }
+  /// @return whether the bit changed.
+  bool set(Index i, bool value) {
+    std::uint64_t& word = words_[i / 64];
+    const std::uint64_t before = word, bit = std::uint64_t{1} << (i % 64);
+    word = value ? before | bit : before & ~bit;
+    return word != before;
+  }
+  /// Calls visit(first, end) for each run of ones, ascending. O(elements / 64 + runs).
+  template <class Visit>
+  void for_each_run(Visit visit) const {
+    for (Index at = next(0, false); at < count_;) {
+      const Index end = next(at, true);
+      visit(at, end);
+      at = next(end, false);
+    }
+  }
+
+ private:
+  /// The first element from `at` on whose bit is 1 or, if `inverted`, 0; size() if there is none.
+  [[nodiscard]] Index next(Index at, bool inverted) const {
+    const std::uint64_t flip = inverted ? ~std::uint64_t{0} : 0;
+    for (std::size_t w = at / 64; w < words_.size(); ++w) {
+      std::uint64_t word = words_[w] ^ flip;
+      if (w == at / 64) word &= ~std::uint64_t{0} << (at % 64);
+      if (word != 0)
+        return std::min(count_,
+                        static_cast<Index>(64 * w) + static_cast<Index>(std::countr_zero(word)));
+    }
+    return count_;
+  }
+
+  std::vector<std::uint64_t> words_;
+  Index count_ = 0;
+};
+
+}  // namespace sunder::particles
