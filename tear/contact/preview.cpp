@@ -119,6 +119,7 @@ double distance_of_sweep(std::span<const Blade> stroke, tear::PosedSurface& surf
 
 Result<OperationPreview> preview_tear(const TornModel& model, const ModelPose& pose,
                                       std::span<const Blade> stroke, const TearOptions& options) {
+  if (Status status = model.unpack(); !status) return status;
   auto& state = tear::ModelAccess::state_of(model);
   if (Status status = state.may_begin(); !status) return status;
   if (Status status = validate_tear(stroke, options); !status) return status;
@@ -141,6 +142,7 @@ Result<OperationPreview> preview_tear(const TornModel& model, const ModelPose& p
 
 Result<OperationPreview> preview_cut(const TornModel& model, const ModelPose& pose,
                                      const PlaneCut& cut) {
+  if (Status status = model.unpack(); !status) return status;
   auto& state = tear::ModelAccess::state_of(model);
   if (Status status = state.may_begin(); !status) return status;
   if (Status status = tear::validate_cut(cut); !status) return status;
@@ -155,6 +157,7 @@ Result<OperationPreview> preview_cut(const TornModel& model, const ModelPose& po
 
 Result<OperationPreview> preview_drill(const TornModel& model, const ModelPose& pose,
                                        const Bore& bore) {
+  if (Status status = model.unpack(); !status) return status;
   auto& state = tear::ModelAccess::state_of(model);
   if (Status status = state.may_begin(); !status) return status;
   if (Status status = tear::validate_bore(bore); !status) return status;

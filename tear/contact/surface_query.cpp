@@ -86,6 +86,7 @@ struct SurfaceQuery::State {
 
   Status set_pose(const ModelPose& pose, const ContactOptions& options) {
     surface.reset();
+    if (Status status = model->unpack(); !status) return status;
     auto& of_model = tear::ModelAccess::state_of(*model);
     if (source != of_model.source || revision.editor != &of_model.editor) {
       posed = tear::PosedPoints();
@@ -138,6 +139,7 @@ Result<SurfaceQuery> SurfaceQuery::create(const TornModel& model) {
   try {
     auto state = std::make_unique<State>();
     state->model = &model;
+    if (Status status = model.unpack(); !status) return status;
     auto& of_model = tear::ModelAccess::state_of(model);
     state->source = of_model.source;
     state->revision.editor = &of_model.editor;

@@ -83,10 +83,6 @@ class PosedPoints {
         known_.begin(), known_.end(), [&](const Known& known) { return known.since == epoch_; }));
   }
 
-  [[nodiscard]] std::size_t bytes() const {
-    return known_.capacity() * sizeof(Known) + forest_.bytes();
-  }
-
   /// Forgets the points from `first_point` on, which were undone.
   void forget_from(Index first_point);
 
