@@ -82,6 +82,31 @@ void InstanceMesh::note(const MeshChange& change) noexcept {
   triangles_.add(change.dirty_triangles);
   attributes_.add(change.dirty_vertices);
   first_changed_ = std::min(first_changed_, first_changed_vertex(change));
+  try {
+    if (!change.released.empty()) releases_.push_back({true, change.released});
+    if (!change.returned.empty()) releases_.push_back({false, change.returned});
+  } catch (const std::bad_alloc&) {
+    has_lost_releases_ = true;
+  }
+}
+
+/// Follows detachments. @throws std::bad_alloc; the next call tries again.
+void InstanceMesh::apply_releases() {
+  if (has_lost_releases_) {
+    std::vector<Index> all(buffer_.target().vertex_count);
+    for (Index v = 0; v < all.size(); ++v) all[v] = v;
+    releases_.assign(1, {false, std::move(all)});  // posing what nobody draws does no harm
+    has_lost_releases_ = false;
+  }
+  for (Release& release : releases_) {
+    // Vertices that an undo removed in the same frame.
+    std::erase_if(release.vertices,
+                  [&](Index vertex) { return vertex >= skinned_.vertex_count(); });
+    const Status status = release.is_released ? skinned_.release(release.vertices)
+                                              : skinned_.take_back(release.vertices);
+    if (!status) throw std::bad_alloc();
+  }
+  releases_.clear();
 }
 
 void InstanceMesh::resize(Index vertex_count) {
@@ -106,6 +131,7 @@ Status InstanceMesh::update(const Mesh& mesh, const InfluencePositions& exact) {
   if (!exact.vertices.empty()) source.per_influence = &exact;
   if (Status status = skinned_.update(source, first_changed_); !status) return status;
   resize(mesh.vertex_count());
+  apply_releases();
   first_changed_ = kNone;
   return {};
 }

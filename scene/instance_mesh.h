@@ -67,6 +67,15 @@ class InstanceMesh {
   bool has_normals_ = false, has_tangents_ = false, unit_length_ = false;
   Index first_changed_ = kNone;  ///< First vertex whose skinning data changed since the last
                                  ///< update(); kNone: none did.
+  /// Vertices that a detachment released, or that its undo returned.
+  struct Release {
+    bool is_released;
+    std::vector<std::uint32_t> vertices;
+  };
+  void apply_releases();
+
+  std::vector<Release> releases_;   ///< Since the last update(), in order.
+  bool has_lost_releases_ = false;  ///< Memory ran out while they were noted.
   PendingRanges triangles_, attributes_;
 };
 

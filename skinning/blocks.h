@@ -100,6 +100,12 @@ struct Blocks {
     std::vector<float> stream;
   };
 
+  struct Released {
+    std::vector<std::uint64_t> vertices;  ///< One bit per vertex; empty if none ever was.
+    std::vector<std::uint64_t> blocks;    ///< One bit per block: all its vertices are released.
+    std::uint64_t restored = 0;           ///< Revision at which a block was last taken back.
+  };
+
   std::uint64_t id = 0;
   std::uint64_t revision = 1;
   std::uint32_t vertex_count = 0;
@@ -116,6 +122,7 @@ struct Blocks {
   Scattered scattered;
   Morphs morphs;
   Exact exact;
+  Released released;
   std::vector<std::uint16_t> scratch;  ///< Slots of the block under construction.
   MoverRuns movers;                    ///< The blocks of each slot, then of each morph target.
 

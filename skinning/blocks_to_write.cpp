@@ -59,7 +59,12 @@ void mark_in_window(const Blocks& blocks, std::uint32_t first, std::uint32_t end
   }
 }
 
-/// Marks the blocks that hold vertices of some ascending ranges.
+}  // namespace
+
+void mark(const IndexRange& blocks, std::vector<std::uint64_t>& marks) {
+  set_bits(blocks.first, blocks.first + blocks.count, marks.data());
+}
+
 void mark_blocks_of(const Blocks& blocks, std::span<const IndexRange> vertices,
                     std::vector<std::uint64_t>& marks) {
   // Blocks before `b`, which hold the vertices before `done`, have been processed.
@@ -87,12 +92,6 @@ void mark_blocks_of(const Blocks& blocks, std::span<const IndexRange> vertices,
   }
 }
 
-}  // namespace
-
-void mark(const IndexRange& blocks, std::vector<std::uint64_t>& marks) {
-  set_bits(blocks.first, blocks.first + blocks.count, marks.data());
-}
-
 void mark_changed(const Blocks& blocks, const PaletteData& palette, std::uint64_t palette_revision,
                   std::uint64_t mesh_revision, std::vector<std::uint64_t>& marks) {
   const auto mark_moved_by = [&](std::size_t mover) {
@@ -105,7 +104,10 @@ void mark_changed(const Blocks& blocks, const PaletteData& palette, std::uint64_
     if (palette.revisions[palette.slots + blocks.layout.first_morph_weight + j] > palette_revision)
       mark_moved_by(blocks.layout.slot_count + j);
 
-  // Blocks are only replaced from some block to the end, so the new ones are there.
+  if (blocks.released.restored > mesh_revision)
+    for (std::uint32_t b = 0; b < blocks.block_count(); ++b)
+      if (blocks.revisions[b] > mesh_revision) mark({b, 1}, marks);
+  // Other blocks are only replaced from some block to the end, so the new ones are there.
   std::uint32_t first_new = blocks.block_count();
   while (first_new > 0 && blocks.revisions[first_new - 1] > mesh_revision) --first_new;
   mark({first_new, blocks.block_count() - first_new}, marks);

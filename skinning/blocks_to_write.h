@@ -13,6 +13,10 @@ namespace sunder::skinning {
 /// Marks a range of blocks.
 void mark(const IndexRange& blocks, std::vector<std::uint64_t>& marks);
 
+/// Marks the blocks that hold vertices of some ranges: ascending, disjoint, below the vertex count.
+void mark_blocks_of(const Blocks& blocks, std::span<const IndexRange> vertices,
+                    std::vector<std::uint64_t>& marks);
+
 /// Marks the blocks moved by a bone or morph target that changed after `palette_revision`, and the
 /// blocks made after `mesh_revision`.
 void mark_changed(const Blocks& blocks, const PaletteData& palette, std::uint64_t palette_revision,

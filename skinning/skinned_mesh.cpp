@@ -8,6 +8,7 @@
 #include "skinning/blocks_to_write.h"
 #include "skinning/displace.h"
 #include "skinning/identity.h"
+#include "skinning/released.h"
 #include "skinning/skin_work.h"
 
 namespace sunder {
@@ -283,11 +284,34 @@ Status SkinnedMesh::update(const VertexSource& source, std::uint32_t first_chang
                                          : blocks.vertex_count;
   return or_out_of_memory([&]() -> Status {
     skinning::make_room(source, first_vertex, source.vertex_count, blocks);
+    if (!blocks.released.vertices.empty())
+      skinning::make_room_for_released(source.vertex_count, blocks);
     skinning::BlockBuilder builder(source, blocks);
     ++blocks.revision;  // from here on nothing allocates
     skinning::truncate(blocks, first_block);
     builder.append_in_order(first_vertex, source.vertex_count);
     blocks.vertex_count = source.vertex_count;
+    skinning::update_released(first_block, first_vertex, blocks);
+    return {};
+  });
+}
+
+Status SkinnedMesh::release(std::span<const std::uint32_t> vertices) {
+  return set_released(vertices, true);
+}
+
+Status SkinnedMesh::take_back(std::span<const std::uint32_t> vertices) {
+  return set_released(vertices, false);
+}
+
+Status SkinnedMesh::set_released(std::span<const std::uint32_t> vertices, bool is_released) {
+  for (std::size_t i = 0; i < vertices.size(); ++i)
+    if (vertices[i] >= blocks_->vertex_count)
+      return Status::failure(StatusCode::index_out_of_range, static_cast<std::uint32_t>(i),
+                             "vertex %u does not exist; the mesh has %u", vertices[i],
+                             blocks_->vertex_count);
+  return or_out_of_memory([&]() -> Status {
+    skinning::set_released(vertices, is_released, *blocks_);
     return {};
   });
 }
@@ -337,10 +361,10 @@ Status SkinnedMesh::deform(const BonePalette& palette, PosedBuffer& buffer,
 
   try {
     buffer.marks_.assign((blocks.block_count() + 63) / 64, 0);
-    if (is_known)
-      mark_changed(blocks, data, buffer.palette_revision_, buffer.mesh_revision_, buffer.marks_);
-    else
-      mark({0, blocks.block_count()}, buffer.marks_);
+    is_known
+        ? mark_changed(blocks, data, buffer.palette_revision_, buffer.mesh_revision_, buffer.marks_)
+        : mark({0, blocks.block_count()}, buffer.marks_);
+    unmark_released(blocks, buffer.marks_);
     mark_displaced(blocks, moved, buffer.displaced_, buffer.marks_);
     list_runs(blocks, buffer.marks_, buffer.blocks_to_write_);
     if (!buffer.blocks_to_write_.empty())

@@ -82,6 +82,14 @@ class SUNDER_API SkinnedMesh {
   /// @return limit_exceeded: out of memory.
   Status reserve(std::uint32_t more_vertices, std::uint32_t influences);
 
+  /// Stops posing vertices, such as MeshChange::released: deform() leaves out blocks of vertices
+  /// that are all released. Their memory keeps what was written last, which is nothing in a new
+  /// buffer. take_back() poses them again, as after MeshChange::returned.
+  /// @return index_out_of_range with the place in `vertices`, limit_exceeded (out of memory):
+  /// nothing is changed. O(vertices log vertices + blocks / 64), allocates.
+  [[nodiscard]] Status release(std::span<const std::uint32_t> vertices);
+  [[nodiscard]] Status take_back(std::span<const std::uint32_t> vertices);
+
   /// Writes the vertices of `buffer` that changed since it was last written: those moved by a
   /// changed bone or morph target, those changed by update(), and those that are or were displaced.
   /// The result has the same bits as writing everything.
@@ -100,6 +108,7 @@ class SUNDER_API SkinnedMesh {
 
  private:
   explicit SkinnedMesh(std::unique_ptr<skinning::Blocks> blocks);
+  Status set_released(std::span<const std::uint32_t> vertices, bool is_released);
   std::unique_ptr<skinning::Blocks> blocks_;
 };
 
