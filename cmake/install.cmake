@@ -44,6 +44,9 @@ endif()
 if(SUNDER_BULLET AND NOT BUILD_SHARED_LIBS)
   string(APPEND SUNDER_STATIC_DEPENDENCIES "include(\${CMAKE_CURRENT_LIST_DIR}/SunderBullet.cmake)\n")
 endif()
+if(SUNDER_QHULL AND NOT BUILD_SHARED_LIBS)
+  string(APPEND SUNDER_STATIC_DEPENDENCIES "find_dependency(Qhull CONFIG)\n")
+endif()
 if(SUNDER_IO AND NOT BUILD_SHARED_LIBS)
   string(APPEND SUNDER_STATIC_DEPENDENCIES "find_dependency(TinyGLTF)\nfind_dependency(assimp)\nfind_dependency(nlohmann_json)\n"
     "find_dependency(simdjson)\nfind_dependency(draco)\nfind_dependency(meshoptimizer)\n"

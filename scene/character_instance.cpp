@@ -87,6 +87,14 @@ Result<TearReport> CharacterInstance::drill(const ModelPose& pose, const Bore& b
       change, [&](ChangeRecord* record) { return state_->torn->model.drill(pose, bore, record); });
 }
 
+Result<DetachedPiece> CharacterInstance::detach(const ModelPose& pose, const PiecePlace& place,
+                                                const DetachOptions& options,
+                                                ChangeRecord* change) {
+  return state_->change(change, [&](ChangeRecord* record) {
+    return sunder::detach(state_->torn->model, pose, place, options, record);
+  });
+}
+
 Status CharacterInstance::undo(ChangeRecord* change) {
   return state_->change(change,
                         [&](ChangeRecord* record) { return state_->torn->model.undo(record); });

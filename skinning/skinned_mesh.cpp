@@ -8,6 +8,7 @@
 #include "skinning/blocks_to_write.h"
 #include "skinning/displace.h"
 #include "skinning/identity.h"
+#include "skinning/released.h"
 #include "skinning/skin_work.h"
 
 namespace sunder {
@@ -317,6 +318,28 @@ Status SkinnedMesh::reserve(std::uint32_t more_vertices, std::uint32_t influence
   });
 }
 
+Status SkinnedMesh::release(std::span<const std::uint32_t> vertices, PosedBuffer& buffer) const {
+  return set_released(vertices, true, buffer);
+}
+
+Status SkinnedMesh::take_back(std::span<const std::uint32_t> vertices,
+                              PosedBuffer& buffer) const {
+  return set_released(vertices, false, buffer);
+}
+
+Status SkinnedMesh::set_released(std::span<const std::uint32_t> vertices, bool is_released,
+                                 PosedBuffer& buffer) const {
+  for (std::size_t i = 0; i < vertices.size(); ++i)
+    if (vertices[i] >= blocks_->vertex_count)
+      return Status::failure(StatusCode::index_out_of_range, static_cast<std::uint32_t>(i),
+                             "vertex %u does not exist; the mesh has %u", vertices[i],
+                             blocks_->vertex_count);
+  return or_out_of_memory([&]() -> Status {
+    skinning::set_released(vertices, is_released, *blocks_, buffer.released_);
+    return {};
+  });
+}
+
 Status SkinnedMesh::deform(const BonePalette& palette, PosedBuffer& buffer,
                            const ParallelFor& parallel_for,
                            const VertexDisplacements* displacements) const {
@@ -341,6 +364,7 @@ Status SkinnedMesh::deform(const BonePalette& palette, PosedBuffer& buffer,
       mark_changed(blocks, data, buffer.palette_revision_, buffer.mesh_revision_, buffer.marks_);
     else
       mark({0, blocks.block_count()}, buffer.marks_);
+    mark_released(blocks, buffer.released_, buffer.marks_);
     mark_displaced(blocks, moved, buffer.displaced_, buffer.marks_);
     list_runs(blocks, buffer.marks_, buffer.blocks_to_write_);
     if (!buffer.blocks_to_write_.empty())
@@ -375,6 +399,7 @@ Status SkinnedMesh::deform(const BonePalette& palette, PosedBuffer& buffer,
   buffer.mesh_ = blocks.id;
   buffer.palette_revision_ = data.revision;
   buffer.mesh_revision_ = blocks.revision;
+  buffer.released_.returned.clear();
   return {};
 }
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/internal/ordered.h"
+#include "tear/detached/released_vertices.h"
 #include "tear/geometry/tolerances.h"
 #include "tear/pieces/pieces.h"
 #include "tear/surface/describe_change.h"
@@ -117,8 +118,12 @@ WeightReport TornModel::State::weigh_points_since(const tear::EditLog::Mark& beg
   return report;
 }
 
-void TornModel::State::describe_call(ChangeRecord& change) {
+void TornModel::State::describe_call(ChangeRecord& change, bool is_detachment) {
   tear::describe_change(begin_of_call_, editor, change);
+  if (is_detachment) {
+    tear::VerticesOfMeshes released = tear::released_vertices(begin_of_call_, editor);
+    tear::put_released(released, change);
+  }
   change.lips = borders_of_call_.lips;
   tear::settle_rims(borders_of_call_.rim_points, editor.surface(), change.rims);
 }

@@ -41,6 +41,7 @@ struct TornModel::State {
     ChangeRecord* change = nullptr;  ///< Written where given.
     /// Whether every piece is reported, as by a cut, or only those that came free.
     bool names_all_pieces = false;
+    bool is_detachment = false;  ///< Retires a whole component: its vertices are released.
   };
 
   /// One call of an operation. `work(Outcome&) -> Status` changes the surface (places, imprints,
@@ -61,7 +62,7 @@ struct TornModel::State {
       report.weights = weigh_points_since(begin_of_call_, options.weights);
       count_changes_since(begin_of_call_, report);
       report.pieces = find_pieces_since(begin_of_call_, options.names_all_pieces);
-      if (options.change != nullptr) describe_call(*options.change);
+      if (options.change != nullptr) describe_call(*options.change, options.is_detachment);
       make_room_for_borders();
       conclude(report);
       keep_borders();
@@ -82,6 +83,7 @@ struct TornModel::State {
     ChangeRecord* change = nullptr;
     bool keeps_opened = false;  ///< Whether it asks which borders it opened.
     bool names_all_pieces = false;
+    bool is_detachment = false;
   };
 
   /// An operation that is one call, as a transaction: enters the pose, writes the history's next
@@ -99,8 +101,9 @@ struct TornModel::State {
       work(outcome);
       return {};
     };
-    auto report = call({options.weights, options.change, options.names_all_pieces}, write_and_work,
-                       [](const TearReport&) {});
+    auto report =
+        call({options.weights, options.change, options.names_all_pieces, options.is_detachment},
+             write_and_work, [](const TearReport&) {});
     if (report) record(begin);
     return report;
   }
@@ -163,7 +166,7 @@ struct TornModel::State {
   void begin_call();
   void make_room_for_borders();
   void keep_borders();
-  void describe_call(ChangeRecord& change);
+  void describe_call(ChangeRecord& change, bool is_detachment);
 
   tear::EditLog::Mark untorn_;  ///< Before all operations.
   tear::EditLog::Mark begin_of_call_;

@@ -1,4 +1,5 @@
 #include <sunder/skinning/pose.h>
+#include <sunder/tear/detached_piece.h>
 #include <sunder/tear/tear_stroke.h>
 #include <sunder/tear/torn_model.h>
 
@@ -39,6 +40,17 @@ class Replay {
     const Result<ModelPose> pose = make_pose(model_.character(), operation.pose);
     if (!pose) return pose.error();
     return step([&](ChangeRecord* change) { return model_.drill(*pose, operation.bore, change); });
+  }
+  Result<TearReport> operator()(const DetachOperation& operation) const {
+    const Result<ModelPose> pose = make_pose(model_.character(), operation.pose);
+    if (!pose) return pose.error();
+    DetachOptions nothing;
+    nothing.motion = PieceMotion::none;
+    auto piece = step([&](ChangeRecord* change) {
+      return detach(model_, *pose, operation.piece, nothing, change);
+    });
+    if (!piece) return piece.error();
+    return std::move(piece->report);
   }
   Result<TearReport> operator()(const WeightsOperation& operation) const {
     const auto weighed =

@@ -6,6 +6,7 @@
 
 #include "core/internal/out_of_memory.h"
 #include "tear/instance.h"
+#include "tear/detached/released_vertices.h"
 #include "tear/internal/surface.h"
 #include "tear/model_state.h"
 #include "tear/operation/cut.h"
@@ -118,7 +119,12 @@ Status TornModel::undo(ChangeRecord* change) {
       if (change != nullptr) tear::describe_weights(last.weights, state.editor, *change);
       tear::exchange_weights(last.weights, state.editor);
     } else {
+      tear::VerticesOfMeshes returned;
+      const bool tells =
+          change != nullptr && std::holds_alternative<DetachOperation>(last.operation);
+      if (tells) returned = tear::released_vertices(last.begin, state.editor);
       state.editor.undo(last.begin, last.redo, change);
+      if (tells) tear::put_returned(returned, *change);
     }
   } catch (const tear::CapacityExceeded& exceeded) {
     return state.no_room(exceeded);
@@ -154,7 +160,12 @@ Status TornModel::redo(ChangeRecord* change) {
       if (change != nullptr) tear::describe_weights(last.weights, state.editor, *change);
       tear::exchange_weights(last.weights, state.editor);
     } else {
+      tear::VerticesOfMeshes released;
+      const bool tells =
+          change != nullptr && std::holds_alternative<DetachOperation>(last.operation);
+      if (tells) released = tear::released_vertices(last.redo, state.editor);
       state.editor.redo(last.redo, change);
+      if (tells) tear::put_released(released, *change);
       if (change != nullptr) tear::settle_rims(rim_points, state.editor.surface(), change->rims);
     }
   } catch (const tear::CapacityExceeded& exceeded) {

@@ -69,6 +69,8 @@ struct TearRequest {
   bool dry_run = false;                         ///< Writes no files.
   bool force = false;                           ///< Outputs may overwrite inputs.
   Verbosity verbosity = Verbosity::normal;
+  std::optional<std::string> pieces;  ///< Beginning of the names of files for detached pieces.
+  bool pieces_are_animated = false;
   std::optional<std::filesystem::path> log;  ///< Output file for the log of the applied operations.
   std::optional<std::filesystem::path> picture;       ///< Output file for a picture.
   std::optional<std::filesystem::path> robot_limits;  ///< URDF: joint limits for `refit`.

@@ -2,6 +2,8 @@
 
 // All public headers. A build that counts its compile time includes what it uses instead.
 
+#include <sunder/bodies/convex_hulls.h>
+#include <sunder/bodies/mass_properties.h>
 #include <sunder/core/api.h>
 #include <sunder/core/character.h>
 #include <sunder/core/clip.h>
@@ -35,6 +37,7 @@
 #include <sunder/tear/operation_job.h>
 #include <sunder/tear/contact.h>
 #include <sunder/tear/preview.h>
+#include <sunder/tear/detached_piece.h>
 #include <sunder/tear/refit_job.h>
 #include <sunder/tear/report.h>
 #include <sunder/tear/tear_stroke.h>

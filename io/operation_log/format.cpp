@@ -141,6 +141,23 @@ Json header(const DrillOperation& operation) {
   return json;
 }
 
+Json piece_json(const PieceOfTriangle& piece) {
+  return {{"mesh", piece.mesh}, {"triangle", piece.triangle}};
+}
+
+Json piece_json(const PieceNear& piece) {
+  Json json = {{"near", vector_json(piece.point)}};
+  if (!piece.bone.empty()) json["bone"] = piece.bone;
+  return json;
+}
+
+Json header(const DetachOperation& operation) {
+  return {
+      {"op", "detach"},
+      {"pose", pose_json(operation.pose)},
+      {"piece", std::visit([](const auto& piece) { return piece_json(piece); }, operation.piece)}};
+}
+
 Json header(const WeightsOperation& operation) {
   Json json = {{"op", "weights"}, {"first", operation.first_operation}};
   if (operation.operation_count != kNone) json["count"] = operation.operation_count;

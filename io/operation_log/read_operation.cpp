@@ -90,6 +90,29 @@ DrillOperation read_drill(const Place& place) {
   return operation;
 }
 
+PiecePlace read_piece(const Place& place) {
+  if (!place.value.is_object()) place.expected("an object");
+  if (place.has("near")) {
+    place.check_fields({"near", "bone"});
+    PieceNear piece{read_vector<3>(place.at("near"))};
+    read_if_given(place, "bone", read_name, piece.bone);
+    return piece;
+  }
+  place.check_fields({"mesh", "triangle"});
+  PieceOfTriangle piece;
+  if (place.has("mesh")) piece.mesh = read_integer(place.at("mesh"), "a mesh");
+  piece.triangle = read_integer(place.at("triangle"), "a triangle");
+  return piece;
+}
+
+DetachOperation read_detach(const Place& place) {
+  place.check_fields({"op", "pose", "piece"});
+  DetachOperation operation;
+  read_if_given(place, "pose", read_pose, operation.pose);
+  operation.piece = read_piece(place.at("piece"));
+  return operation;
+}
+
 template <class UndoOrRedo>
 UndoOrRedo read_steps(const Place& place) {
   place.check_fields({"op", "count"});
@@ -109,6 +132,7 @@ Operation read_operation(const Place& place) {
   if (name == "cut") return read_cut(place);
   if (name == "drill") return read_drill(place);
   if (name == "weights") return read_weights(place);
+  if (name == "detach") return read_detach(place);
   if (name == "undo") return read_steps<UndoOperation>(place);
   if (name == "redo") return read_steps<RedoOperation>(place);
   if (is_aimed(name))
@@ -117,7 +141,7 @@ Operation read_operation(const Place& place) {
         "'" + name + "' needs a model to be resolved; only plain operations are read here");
   place.at("op").fail(
       StatusCode::unsupported_feature,
-      "unknown operation '" + name + "'; expected tear, cut, drill, weights, undo or redo");
+      "unknown operation '" + name + "'; expected tear, cut, drill, detach, weights, undo or redo");
 }
 
 LoggedOperation read_logged_operation(const Place& place) {

@@ -75,9 +75,11 @@ void ActorCommands::apply(const ModelPose& pose, CharacterInstance& instance,
       continue;
     }
     std::vector<ChangeRecord> changes;
+    std::shared_ptr<const DetachedPiece> piece;
     conclude(queued, apply_command(queued.command, pose, instance,
-                                   queued.options.wants_changes ? &changes : nullptr));
+                                   queued.options.wants_changes ? &changes : nullptr, piece));
     results_.back().changes = std::move(changes);
+    results_.back().piece = std::move(piece);
   }
   waiting_.erase(waiting_.begin(), waiting_.begin() + static_cast<std::ptrdiff_t>(next));
 }

@@ -7,8 +7,8 @@ namespace {
 class CommandCalls {
  public:
   CommandCalls(CharacterInstance& instance, const ModelPose& pose,
-               std::vector<ChangeRecord>* changes)
-      : instance_(instance), pose_(pose), changes_(changes) {}
+               std::vector<ChangeRecord>* changes, std::shared_ptr<const DetachedPiece>& piece)
+      : instance_(instance), pose_(pose), changes_(changes), piece_(piece) {}
 
   Result<TearReport> operator()(const TearCommand& of) {
     return instance_.tear(pose_, of.stroke, of.options, record());
@@ -25,6 +25,12 @@ class CommandCalls {
   Result<TearReport> operator()(const CancelStrokeCommand&) {
     return report_of(instance_.cancel_stroke(record()));
   }
+  Result<TearReport> operator()(const DetachCommand& of) {
+    Result<DetachedPiece> piece = instance_.detach(pose_, of.piece, of.options, record());
+    if (!piece) return piece.error();
+    piece_ = std::make_shared<const DetachedPiece>(std::move(*piece));
+    return piece_->report;
+  }
   Result<TearReport> operator()(const UndoCommand&) { return report_of(instance_.undo(record())); }
   Result<TearReport> operator()(const RedoCommand&) { return report_of(instance_.redo(record())); }
   Result<TearReport> operator()(const WeightsOperation& of) {
@@ -40,13 +46,15 @@ class CommandCalls {
   CharacterInstance& instance_;
   const ModelPose& pose_;
   std::vector<ChangeRecord>* changes_;
+  std::shared_ptr<const DetachedPiece>& piece_;
 };
 
 }  // namespace
 
 Result<TearReport> apply_command(const SceneCommand& command, const ModelPose& pose,
-                                 CharacterInstance& instance, std::vector<ChangeRecord>* changes) {
-  return std::visit(CommandCalls(instance, pose, changes), command);
+                                 CharacterInstance& instance, std::vector<ChangeRecord>* changes,
+                                 std::shared_ptr<const DetachedPiece>& piece) {
+  return std::visit(CommandCalls(instance, pose, changes, piece), command);
 }
 
 std::optional<Operation> operation_of(const SceneCommand& command, const ModelPose& pose) {

@@ -1,6 +1,8 @@
 #include "scene/drawing/instance_mesh.h"
 
 #include <algorithm>
+#include <new>
+#include <numeric>
 
 namespace sunder::scene {
 namespace {
@@ -43,6 +45,40 @@ void InstanceMesh::note(const MeshChange& change, std::uint64_t epoch) noexcept 
   attributes_.add(epoch, change.dirty_vertices);
   first_changed_ = std::min(first_changed_, first_changed_vertex(change));
   needs_update_ = true;
+  try {
+    if (!change.released.empty()) releases_.push_back({true, change.released});
+    if (!change.returned.empty()) releases_.push_back({false, change.returned});
+  } catch (const std::bad_alloc&) {
+    has_lost_releases_ = true;
+  }
+}
+
+Status InstanceMesh::set_released(const Release& release, bool is_tail) {
+  const Index first = is_tail ? source_count_ : 0;
+  const Index end = is_tail ? (tail_ ? source_count_ + tail_->vertex_count() : 0) : source_count_;
+  std::vector<Index> vertices;
+  for (const Index vertex : release.vertices)  // undo may have removed some of them since
+    if (vertex >= first && vertex < end) vertices.push_back(vertex - first);
+  if (vertices.empty()) return {};
+  const SkinnedMesh& skinned = is_tail ? *tail_ : asset_->skinned;
+  PosedBuffer& buffer = is_tail ? tail_buffer_ : buffer_;
+  return release.is_released ? skinned.release(vertices, buffer)
+                             : skinned.take_back(vertices, buffer);
+}
+
+/// Follows detachments. If it fails, the next call tries again.
+Status InstanceMesh::apply_releases() {
+  if (has_lost_releases_) {
+    Release all{false, std::vector<Index>(source_count_ + (tail_ ? tail_->vertex_count() : 0))};
+    std::iota(all.vertices.begin(), all.vertices.end(), 0u);
+    releases_.assign(1, std::move(all));  // to pose what nobody draws does no harm
+    has_lost_releases_ = false;
+  }
+  for (const Release& release : releases_)
+    for (const bool is_tail : {false, true})
+      if (Status status = set_released(release, is_tail); !status) return status;
+  releases_.clear();
+  return {};
 }
 
 void InstanceMesh::note_all(const Mesh& source, const Mesh& mesh, std::uint64_t epoch) {
@@ -123,7 +159,7 @@ Status InstanceMesh::update_vertices(const Mesh& mesh, const InfluencePositions*
   }
   if (Status status = resize(mesh.vertex_count()); !status) return status;
   first_changed_ = kNone;
-  return {};
+  return apply_releases();
 }
 
 Status InstanceMesh::deform_part(const Input& input, const SkinnedMesh& skinned,

@@ -65,6 +65,13 @@ class InstanceMesh {
   [[nodiscard]] std::size_t memory_bytes() const;
 
  private:
+  /// Vertices that a detachment released, or that its undo returned.
+  struct Release {
+    bool is_released;
+    std::vector<Index> vertices;
+  };
+  Status apply_releases();
+  Status set_released(const Release& release, bool is_tail);
   Status update_vertices(const Mesh& mesh, const InfluencePositions* exact);
   Status resize(Index vertex_count);
   Status deform(const Input& input);
@@ -89,6 +96,8 @@ class InstanceMesh {
   bool is_drawn_ = false;     ///< Whether draw() was ever called.
   bool needs_update_ = true;  ///< Whether anything was noted since the last draw().
 
+  std::vector<Release> releases_;   ///< Since the last update(), in order.
+  bool has_lost_releases_ = false;  ///< Memory ran out while they were noted.
   DrawTriangles triangles_;
   RangeJournal attributes_;
   std::uint64_t drawn_epoch_ = 0;    ///< Epoch of the last draw() that wrote vertices.

@@ -107,6 +107,21 @@ void transfer(Archive& archive, DrillOperation& of) {
   archive(pose, bore);
 }
 template <class Archive>
+void transfer(Archive& archive, PieceOfTriangle& of) {
+  auto& [mesh, triangle] = of;
+  archive(mesh, triangle);
+}
+template <class Archive>
+void transfer(Archive& archive, PieceNear& of) {
+  auto& [point, bone] = of;
+  archive(point, bone);
+}
+template <class Archive>
+void transfer(Archive& archive, DetachOperation& of) {
+  auto& [pose, piece] = of;
+  archive(pose, piece);
+}
+template <class Archive>
 void transfer(Archive& archive, WeightsOperation& of) {
   auto& [first_operation, operation_count, weights, pose, refit] = of;
   archive(first_operation, operation_count, weights, pose, refit);

@@ -37,6 +37,8 @@ class RecordWriter {
     opened.births.clear();
     opened.rewritten.clear();
     opened.retired.clear();
+    opened.released.clear();
+    opened.returned.clear();
     return opened;
   }
   /// @param sides  the values of _TEARSIDE that were written.

@@ -33,21 +33,22 @@ const std::map<std::string, std::set<std::string>> kMayUse = {
     {"operation", {"core", "operation"}},
     {"skinning", {"core", "operation", "skinning"}},
     {"weights", {"core", "weights"}},
+    {"bodies", {"core", "operation", "skinning", "bodies"}},
     {"coupled_refit", {"core", "weights", "coupled_refit"}},
     {"certificate", {"core", "robot", "operation", "skinning", "weights", "certificate"}},
-    {"tear", {"core", "operation", "skinning", "weights", "certificate", "tear"}},
-    {"aim", {"core", "operation", "skinning", "weights", "certificate", "tear", "aim"}},
-    {"particles", {"core", "operation", "skinning", "weights", "tear", "particles"}},
-    {"scene", {"core", "operation", "skinning", "weights", "tear", "particles", "scene"}},
+    {"tear", {"bodies", "core", "operation", "skinning", "weights", "certificate", "tear"}},
+    {"aim", {"bodies", "core", "operation", "skinning", "weights", "certificate", "tear", "aim"}},
+    {"particles", {"bodies", "core", "operation", "skinning", "weights", "tear", "particles"}},
+    {"scene", {"bodies", "core", "operation", "skinning", "weights", "tear", "particles", "scene"}},
     {"validation",
-     {"core", "operation", "skinning", "weights", "certificate", "tear", "validation"}},
+     {"bodies", "core", "operation", "skinning", "weights", "certificate", "tear", "validation"}},
     {"binding", {"core", "operation", "skinning", "weights", "binding"}},
     {"io", {"core", "robot", "operation", "weights", "io"}},
     {"tools",
-     {"core", "robot", "operation", "skinning", "weights", "certificate", "coupled_refit", "tear",
-      "aim", "particles", "scene", "validation", "binding", "io", "tools"}},
+     {"bodies", "core", "robot", "operation", "skinning", "weights", "certificate", "coupled_refit",
+      "tear", "aim", "particles", "scene", "validation", "binding", "io", "tools"}},
     {"samples",
-     {"core", "robot", "operation", "skinning", "weights", "certificate", "tear", "aim",
+     {"bodies", "core", "robot", "operation", "skinning", "weights", "certificate", "tear", "aim",
       "particles", "scene", "validation", "binding", "io"}},
 };
 
@@ -75,6 +76,7 @@ const std::map<std::string, std::set<std::string>> kThirdPartyOfRoom = {
 
 /// Third parties that a single file may include.
 const std::map<std::string, std::set<std::string>> kThirdPartyOfFile = {
+    {"bodies/qhull.cpp", {"libqhull_r"}},
     {"coupled_refit/ceres_refit.cpp", {"ceres"}},
 };
 

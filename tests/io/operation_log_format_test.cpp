@@ -158,6 +158,12 @@ DrillOperation any_drill(Random& random) {
            any_at_least_zero(random), random.index(2) == 0, any_weights_if_any(random)}};
 }
 
+DetachOperation any_detach(Random& random) {
+  if (random.index(2) == 0)
+    return {any_pose(random), PieceOfTriangle{random.index(kNone), random.index(kNone)}};
+  return {any_pose(random), PieceNear{any_point(random), random.index(2) == 0 ? "" : "b\"one"}};
+}
+
 RefitOptions any_refit(Random& random) {
   RefitOptions refit;
   refit.poses.clip_samples = random.index(65'537);
@@ -200,6 +206,7 @@ Operation any_operation(Random& random) {
     case 5: return any_drill(random);
     case 6:
     case 7: return any_weights_operation(random);
+    case 8: return any_detach(random);
     default: return any_tear(random);
   }
 }
@@ -282,6 +289,9 @@ class Bits {
     add(operation.first_operation), add(operation.operation_count), add(operation.weights),
         add(operation.pose), add(operation.refit);
   }
+  void add(const PieceOfTriangle& piece) { add(piece.mesh), add(piece.triangle); }
+  void add(const PieceNear& piece) { add(piece.point), add(piece.bone); }
+  void add(const DetachOperation& operation) { add(operation.pose), add(operation.piece); }
   void add(const UndoOperation& operation) { add(operation.count); }
   void add(const RedoOperation& operation) { add(operation.count); }
 };

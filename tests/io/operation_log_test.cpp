@@ -112,6 +112,23 @@ TEST(OperationLog, ReadsABore) {
             (Bore{{0, 0, 0}, {0, 0, -1}, 1, 1, 0, false}));
 }
 
+TEST(OperationLog, ReadsADetachment) {
+  const auto operations = parse_operations(log_of(
+      R"({"op": "detach", "pose": "bind", "piece": {"near": [1, 2, 3], "bone": "hand"}},
+      {"op": "detach", "piece": {"near": [0, 0, 1]}},
+      {"op": "detach", "piece": {"mesh": 2, "triangle": 7}},
+      {"op": "detach", "piece": {"triangle": 7}})"));
+  ASSERT_TRUE(operations) << operations.error().text();
+  const auto piece = [&](std::size_t i) {
+    return std::get<DetachOperation>(operations->at(i)).piece;
+  };
+  EXPECT_TRUE(std::holds_alternative<BindPose>(std::get<DetachOperation>(operations->at(0)).pose));
+  EXPECT_EQ(piece(0), PiecePlace(PieceNear{{1, 2, 3}, "hand"}));
+  EXPECT_EQ(piece(1), PiecePlace(PieceNear{{0, 0, 1}}));
+  EXPECT_EQ(piece(2), PiecePlace(PieceOfTriangle{2, 7}));
+  EXPECT_EQ(piece(3), PiecePlace(PieceOfTriangle{0, 7}));
+}
+
 TEST(OperationLog, ATearACutAndABoreMayBringWeights) {
   EXPECT_EQ(
       parsed(tear_with(R"("weights": {"policy": "pose_exact", "influences": 4})")).options.weights,
@@ -295,6 +312,14 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"operation without op", log_of("{}"), kMalformed,
                 "/operations/0: field 'op' is missing"},
         Refusal{"unknown operation", log_of(R"({"op": "sew"})"), kUnsupported, "/operations/0/op"},
+        Refusal{"no piece", log_of(R"({"op": "detach"})"), kMalformed, "'piece' is missing"},
+        Refusal{"piece without a place", log_of(R"({"op": "detach", "piece": {"mesh": 1}})"),
+                kMalformed, "'triangle' is missing"},
+        Refusal{"piece at two places",
+                log_of(R"({"op": "detach", "piece": {"near": [0, 0, 0], "triangle": 1}})"),
+                kMalformed, "unknown field 'triangle'"},
+        Refusal{"triangle below 0", log_of(R"({"op": "detach", "piece": {"triangle": -1}})"),
+                kMalformed, "/operations/0/piece/triangle"},
         Refusal{"unknown field", tear_with(R"("depth": 1)"), kMalformed, "unknown field 'depth'"},
         Refusal{"no stroke", log_of(R"({"op": "tear"})"), kMalformed, "'stroke' is missing"},
         Refusal{"one blade",

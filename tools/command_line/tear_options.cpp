@@ -76,6 +76,21 @@ void add_report_options(CLI::App& verb, TearRequest& request) {
       ->excludes(quiet);
 }
 
+/// Options that name further outputs.
+void add_further_files(CLI::App& verb, TearRequest& request) {
+  CLI::Option* const pieces =
+      verb.add_option("--pieces", request.pieces,
+                      "Write each detached piece too: to PREFIX1.glb, PREFIX2.glb ...")
+          ->type_name("PREFIX");
+  verb.add_flag("--animated-pieces", request.pieces_are_animated,
+                "Pieces keep their bones and clips; otherwise each is one rigid body, as it stood")
+      ->needs(pieces);
+  verb.add_option(
+          "--save-log", request.log,
+          "File for the operation log of what was applied and not undone, with all bone matrices")
+      ->type_name("FILE");
+}
+
 /// @param name  a result of influences_name().
 std::uint32_t maximum_influences(const std::string& name) {
   for (const std::uint32_t maximum : {4u, 8u, kAllInfluences})
@@ -117,10 +132,7 @@ CLI::App* add_tear(CLI::App& app, TearRequest& request) {
                    "File for a picture (PNG) of the torn model, with lips and pieces pulled apart; "
                    "needs f3d and Xvfb")
       ->type_name("FILE");
-  verb->add_option(
-          "--save-log", request.log,
-          "File for the operation log of what was applied and not undone, with all bone matrices")
-      ->type_name("FILE");
+  add_further_files(*verb, request);
   verb->add_flag("--dry-run", request.dry_run,
                  "Apply and describe the operations, but write no files");
   verb->add_flag("--force", request.force, "Outputs may overwrite the model or the log");

@@ -152,11 +152,25 @@ struct Drawer {
     marks.disc(bore.origin, kBaseRadius, 4, kBase, Layer::on_top);
     return bore.origin;
   }
+  Vec3d operator()(const DetachOperation& operation) const {
+    const auto* const near = std::get_if<PieceNear>(&operation.piece);
+    if (near == nullptr) return model.centre();
+    marks.disc(near->point, kPlaceRadius + 1.5, 20, kEdge, Layer::on_top);
+    marks.disc(near->point, kPlaceRadius, 20, kTip, Layer::on_top);
+    return near->point;
+  }
   // Nothing of these is at a place.
   Vec3d operator()(const WeightsOperation&) const { return model.centre(); }
   Vec3d operator()(const UndoOperation&) const { return model.centre(); }
   Vec3d operator()(const RedoOperation&) const { return model.centre(); }
 };
+
+/// Whether an operation has a place that a picture can mark.
+bool has_place(const Operation& operation) {
+  const auto* const detached = std::get_if<DetachOperation>(&operation);
+  if (detached != nullptr) return std::holds_alternative<PieceNear>(detached->piece);
+  return !std::holds_alternative<WeightsOperation>(operation);
+}
 
 struct Extremes {
   const Bounds& model;
@@ -177,6 +191,10 @@ struct Extremes {
     const std::vector<Vec3d> end = rim_of(drill.bore, drill.bore.depth);
     places.insert(places.end(), end.begin(), end.end());
     return places;
+  }
+  std::vector<Vec3d> operator()(const DetachOperation& operation) const {
+    const auto* const near = std::get_if<PieceNear>(&operation.piece);
+    return near == nullptr ? std::vector<Vec3d>() : std::vector<Vec3d>{near->point};
   }
   std::vector<Vec3d> operator()(const WeightsOperation&) const { return {}; }
   std::vector<Vec3d> operator()(const UndoOperation&) const { return {}; }
@@ -201,7 +219,7 @@ std::vector<OperationLabel> draw_operations(const std::vector<NumberedOperation>
                                             const Bounds& model, Marks& marks) {
   std::vector<OperationLabel> labels;
   for (const NumberedOperation& logged : operations)
-    if (!std::holds_alternative<WeightsOperation>(*logged.operation))
+    if (has_place(*logged.operation))
       labels.push_back(
           {std::visit(Drawer{model, marks}, *logged.operation), std::to_string(logged.index)});
   return labels;
@@ -214,6 +232,10 @@ std::vector<std::string> missing_from_picture(const std::vector<NumberedOperatio
     const std::string name = "operation " + std::to_string(logged.index);
     if (std::holds_alternative<WeightsOperation>(*logged.operation)) {
       missing.push_back(name + " has no place: it assigns weights");
+      continue;
+    }
+    if (!has_place(*logged.operation)) {
+      missing.push_back(name + " has no place: it names a piece by a triangle");
       continue;
     }
     const std::vector<Vec3d> places = std::visit(Extremes{model}, *logged.operation);

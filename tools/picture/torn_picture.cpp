@@ -24,12 +24,15 @@ constexpr double kThickness = 0.006;  ///< Of the flesh.
 constexpr double kApart = 0.05;       ///< Distance by which the pieces of a cut are moved.
 constexpr double kNearWound = 0.4;    ///< Of parts of a robot that the picture shows.
 
-/// The most recent operation that is visible: not one that only changes weights.
+/// Whether an operation leaves a wound: it does not only change weights or take off a piece.
+bool is_visible(const Operation& operation) {
+  return !std::holds_alternative<WeightsOperation>(operation) &&
+         !std::holds_alternative<DetachOperation>(operation);
+}
+
+/// The most recent operation that is visible.
 const Operation& newest_of(std::span<const Operation> history) {
-  const auto newest =
-      std::find_if(history.rbegin(), history.rend(), [](const Operation& operation) {
-        return !std::holds_alternative<WeightsOperation>(operation);
-      });
+  const auto newest = std::find_if(history.rbegin(), history.rend(), is_visible);
   return newest == history.rend() ? history.back() : *newest;
 }
 
@@ -187,7 +190,7 @@ Status draw_torn(const LoadedCharacter& loaded, std::span<const Operation> histo
   for (const Operation& operation : history) {
     const Result<TearReport> report = instance->apply(operation);
     if (!report) return report.error();
-    if (!std::holds_alternative<WeightsOperation>(operation)) pieces = report->pieces;
+    if (is_visible(operation)) pieces = report->pieces;
   }
   const Result<std::vector<DeformedMesh>> closed = pose_model(torn.character(), *pose);
   if (!closed) return closed.error();

@@ -34,6 +34,8 @@ std::string operation_line(const OperationOutcome& outcome, const std::optional<
     if (tear.blocked > 0) line += ", " + counted(tear.blocked, "place", "places") + " blocked";
   } else {
     line += std::string(": ") + outcome.done;
+    if (!tear.pieces.empty())
+      line += ", " + counted(tear.pieces.front().triangle_count, "triangle", "triangles");
     if (tear.weights.points > 0) line += ", " + counted(tear.weights.points, "point", "points");
   }
   return line + printed(", %.3g ms", 1000 * outcome.seconds);

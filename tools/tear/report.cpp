@@ -28,6 +28,7 @@ Names names_of(const Operation& operation) {
     Names operator()(const TearOperation&) const { return {"tear", "torn", true}; }
     Names operator()(const CutOperation&) const { return {"cut", "cut", true}; }
     Names operator()(const DrillOperation&) const { return {"drill", "drilled", true}; }
+    Names operator()(const DetachOperation&) const { return {"detach", "detached", false}; }
     Names operator()(const WeightsOperation&) const { return {"weights", "weighed", false}; }
     Names operator()(const UndoOperation&) const { return {"undo", "undone", false}; }
     Names operator()(const RedoOperation&) const { return {"redo", "redone", false}; }
@@ -70,9 +71,11 @@ std::string digest_text(std::uint64_t digest) {
 
 }  // namespace
 
-Result<OperationOutcome> play(const Operation& operation, TornModel& model) {
+Result<OperationOutcome> play(const Operation& operation, TornModel& model,
+                              DetachedPieces* pieces) {
   const auto begin = std::chrono::steady_clock::now();
-  Result<TearReport> report = apply_operation(model, operation);
+  Result<TearReport> report =
+      pieces != nullptr ? pieces->apply(operation, model) : apply_operation(model, operation);
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
   if (!report) return report.error();
   const Names names = names_of(operation);

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "tools/messages/json.h"
+#include "tools/tear/detached_pieces.h"
 
 namespace sunder::tools {
 
@@ -30,7 +31,9 @@ struct OperationOutcome {
 };
 
 /// Performs an operation and describes its results.
-[[nodiscard]] Result<OperationOutcome> play(const Operation& operation, TornModel& model);
+/// @param pieces  optional; keeps what a detachment takes off.
+[[nodiscard]] Result<OperationOutcome> play(const Operation& operation, TornModel& model,
+                                            DetachedPieces* pieces = nullptr);
 
 /// Measures OperationOutcome::weight_error_max. O(vertices of the source + new points).
 /// @param outcome  of the newest operation.

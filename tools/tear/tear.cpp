@@ -150,6 +150,7 @@ ExitCode finish(TearRun& run, Clock::time_point begin) {
   }
   const auto saving = Clock::now();
   if (const ExitCode code = write_files(run, report); code != ExitCode::ok) return code;
+  if (const ExitCode code = write_pieces(run); code != ExitCode::ok) return code;
   run.times.saving = seconds_since(saving);
   if (request.picture && !request.dry_run) {
     run.has_picture = draw_picture(run, *request.picture);
@@ -229,6 +230,8 @@ ExitCode run_tear(const TearRequest& request) {
               std::move(*model), *weighing, PosedSource(loaded->character),
               *counts,           *counts};
   run.times.loading = loading;
+  if (request.pieces)
+    run.pieces.emplace(request.pieces_are_animated ? PieceMotion::animated : PieceMotion::frozen);
   run.has_findings = has_losses(loaded->report);
   if (const ExitCode code = add_robot_tear(run, *operations); code != ExitCode::ok) return code;
   if (const ExitCode code = play_operations(*operations, run, progress); code != ExitCode::ok)

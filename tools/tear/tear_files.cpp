@@ -28,6 +28,18 @@ class TextBesideModel {
   std::optional<StagedText> staged_;
 };
 
+/// The files that outputs must not overwrite; none with --force.
+std::vector<NamedFile> inputs_of(const TearRequest& request) {
+  std::vector<NamedFile> inputs = {{"MODEL", request.model}};
+  if (!request.operations.empty()) inputs.push_back({"--ops", request.operations});
+  if (request.robot) {
+    inputs.push_back({"--robot", request.robot->robot});
+    inputs.push_back({"--trajectory", request.robot->trajectory});
+  }
+  if (request.force) inputs.clear();
+  return inputs;
+}
+
 }  // namespace
 
 bool reports_to_stdout(const TearRequest& request) {
@@ -35,18 +47,12 @@ bool reports_to_stdout(const TearRequest& request) {
 }
 
 ExitCode check_outputs(const TearRequest& request) {
-  std::vector<NamedFile> inputs = {{"MODEL", request.model}}, outputs;
-  if (!request.operations.empty()) inputs.push_back({"--ops", request.operations});
+  std::vector<NamedFile> inputs = inputs_of(request), outputs;
   if (request.output) outputs.push_back({"--output", *request.output});
   if (request.report && !reports_to_stdout(request))
     outputs.push_back({"--report", *request.report});
   if (request.log) outputs.push_back({"--save-log", *request.log});
   if (request.picture) outputs.push_back({"--picture", *request.picture});
-  if (request.robot) {
-    inputs.push_back({"--robot", request.robot->robot});
-    inputs.push_back({"--trajectory", request.robot->trajectory});
-  }
-  if (request.force) inputs.clear();
   if (const std::string fault = overwriting(inputs, outputs, "; --force allows it");
       !fault.empty()) {
     print_error("sunder: " + fault);
@@ -56,6 +62,14 @@ ExitCode check_outputs(const TearRequest& request) {
   if (fault.empty()) return ExitCode::ok;
   print_error("sunder: " + fault);
   return ExitCode::unreadable_input;
+}
+
+ExitCode write_pieces(TearRun& run) {
+  const TearRequest& request = run.request;
+  if (request.dry_run || !run.pieces) return ExitCode::ok;
+  std::vector<NamedFile> kept = inputs_of(request);
+  if (request.output) kept.push_back({"--output", *request.output});
+  return run.pieces->write(*request.pieces, run.loaded, request.save, kept, run.piece_files);
 }
 
 ExitCode write_files(const TearRun& run, const std::string& report) {

@@ -15,6 +15,10 @@ namespace sunder::tools {
 /// @return ok, or the exit code of the failure, which was reported.
 [[nodiscard]] ExitCode write_files(const TearRun& run, const std::string& report);
 
+/// Writes the detached pieces, with --pieces. If one cannot be written, those before it stay.
+/// @return ok, or the exit code of the failure, which was reported.
+[[nodiscard]] ExitCode write_pieces(TearRun& run);
+
 /// Whether the report goes to stdout.
 [[nodiscard]] bool reports_to_stdout(const TearRequest& request);
 

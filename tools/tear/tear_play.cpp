@@ -107,7 +107,8 @@ Status play_one(const Operation& operation, const std::string& place, bool is_me
     run.messages.warn(place + ": and so are " +
                       std::to_string(warnings.size() - kMostTimeWarnings) + " later times");
   TriangleCounts before = triangle_counts(run.model.character());
-  Result<OperationOutcome> outcome = play(operation, run.model);
+  Result<OperationOutcome> outcome =
+      play(operation, run.model, run.pieces ? &*run.pieces : nullptr);
   if (!outcome) return outcome.error();
   Played played{operation, place, std::move(*outcome), std::move(before)};
   if (const Status status = count(run, current, played.outcome); !status) return status;

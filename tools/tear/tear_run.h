@@ -8,6 +8,7 @@
 
 #include "tools/messages/messages.h"
 #include "tools/model/posed_source.h"
+#include "tools/tear/detached_pieces.h"
 #include "tools/tear/report.h"
 #include "tools/tear/robot_tear.h"
 #include "tools/verbs.h"
@@ -48,7 +49,9 @@ struct TearRun {
   RunTotals totals = {};
   RunTimes times = {};
   bool has_findings = false, has_picture = false;
-  std::optional<RobotTear> robot = {};  ///< With --robot.
+  std::optional<RobotTear> robot = {};        ///< With --robot.
+  std::optional<DetachedPieces> pieces = {};  ///< With --pieces.
+  std::vector<std::string> piece_files = {};  ///< Those that were written.
 };
 
 }  // namespace sunder::tools

@@ -70,6 +70,7 @@ std::string files_line(const TearRun& run) {
   std::string line = "written     " + file_text(*request.output);
   if (request.report && !reports_to_stdout(request)) line += ", " + request.report->string();
   if (request.log) line += ", " + request.log->string();
+  for (const std::string& piece : run.piece_files) line += ", " + file_text(piece);
   if (run.has_picture) line += ", " + request.picture->string();
   return line + '\n';
 }

@@ -5,6 +5,7 @@
 #include <sunder/operation/weight_options.h>
 
 #include <cstdint>
+#include <string>
 #include <variant>
 #include <vector>
 
@@ -94,6 +95,31 @@ struct DrillOperation {
   Bore bore;
 };
 
+/// A piece named by one of its triangles.
+struct PieceOfTriangle {
+  std::uint32_t mesh = 0;
+  std::uint32_t triangle = 0;  ///< In the model as it is torn so far.
+
+  bool operator==(const PieceOfTriangle&) const = default;
+};
+
+/// The piece whose surface is nearest to a place in model space, in the pose of the operation.
+struct PieceNear {
+  Vec3d point = Vec3d::Zero();
+  std::string bone = {};  ///< If not empty, only triangles that this bone moves most count.
+
+  bool operator==(const PieceNear&) const = default;
+};
+
+/// A place on a piece: a connected component of the surface.
+using PiecePlace = std::variant<PieceOfTriangle, PieceNear>;
+
+/// Takes a piece off the model, `{"op": "detach"}` in a log.
+struct DetachOperation {
+  PoseSpec pose;
+  PiecePlace piece;
+};
+
 /// Assigns new weights to points that earlier operations created, `{"op": "weights"}` in a log.
 struct WeightsOperation {
   std::uint32_t first_operation = 0;      ///< Counted from the oldest one that is not undone.
@@ -114,6 +140,6 @@ struct RedoOperation {
 };
 
 using Operation = std::variant<TearOperation, CutOperation, DrillOperation, WeightsOperation,
-                               UndoOperation, RedoOperation>;
+                               UndoOperation, RedoOperation, DetachOperation>;
 
 }  // namespace sunder

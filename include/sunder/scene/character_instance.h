@@ -3,6 +3,7 @@
 #include <sunder/core/parallel_for.h>
 #include <sunder/particles/force_tearing.h>
 #include <sunder/scene/character_asset.h>
+#include <sunder/tear/detached_piece.h>
 #include <sunder/tear/operation_job.h>
 #include <sunder/tear/refit_job.h>
 #include <sunder/tear/tear_stroke.h>
@@ -78,6 +79,8 @@ class SUNDER_API CharacterInstance {
   Result<TearReport> cut(const ModelPose& pose, const PlaneCut& cut,
                          ChangeRecord* change = nullptr);
   Result<TearReport> drill(const ModelPose& pose, const Bore& bore, ChangeRecord* change = nullptr);
+  Result<DetachedPiece> detach(const ModelPose& pose, const PiecePlace& place,
+                               const DetachOptions& options = {}, ChangeRecord* change = nullptr);
   Status undo(ChangeRecord* change = nullptr);
   Status redo(ChangeRecord* change = nullptr);
   /// As apply_operation(): any operation of a log. @param changes  optional; records are appended.

@@ -2,10 +2,12 @@
 
 #include <sunder/operation/operation.h>
 #include <sunder/tear/change_record.h>
+#include <sunder/tear/detached_piece.h>
 #include <sunder/tear/report.h>
 #include <sunder/tear/tear_stroke.h>
 
 #include <cstdint>
+#include <memory>
 #include <variant>
 #include <vector>
 
@@ -38,14 +40,19 @@ struct ExtendStrokeCommand {
 };
 struct EndStrokeCommand {};
 struct CancelStrokeCommand {};
+/// Takes a piece off the instance; the result has it as a character of its own.
+struct DetachCommand {
+  PiecePlace piece;
+  DetachOptions options;
+};
 struct UndoCommand {};
 struct RedoCommand {};
 
 /// An operation on an instance. A PlaneCut cuts, a Bore drills, a WeightsOperation assigns new
 /// weights to torn vertices.
-using SceneCommand =
-    std::variant<TearCommand, PlaneCut, Bore, BeginStrokeCommand, ExtendStrokeCommand,
-                 EndStrokeCommand, CancelStrokeCommand, UndoCommand, RedoCommand, WeightsOperation>;
+using SceneCommand = std::variant<TearCommand, PlaneCut, Bore, BeginStrokeCommand,
+                                  ExtendStrokeCommand, EndStrokeCommand, CancelStrokeCommand,
+                                  DetachCommand, UndoCommand, RedoCommand, WeightsOperation>;
 
 /// The number of a command, ascending in the order of Scene::submit().
 using CommandId = std::uint64_t;
@@ -54,9 +61,10 @@ using CommandId = std::uint64_t;
 struct CommandResult {
   CommandId command = 0;
   InstanceId instance;
-  Status status;                      ///< A command that failed changed nothing.
-  TearReport report;                  ///< Empty for a command that failed, and for undo and redo.
-  std::vector<ChangeRecord> changes;  ///< If CommandOptions::wants_changes.
+  Status status;      ///< A command that failed changed nothing.
+  TearReport report;  ///< Empty for a command that failed, and for undo and redo.
+  std::shared_ptr<const DetachedPiece> piece;  ///< Of a DetachCommand that succeeded.
+  std::vector<ChangeRecord> changes;           ///< If CommandOptions::wants_changes.
 };
 
 struct CommandOptions {

@@ -17,7 +17,15 @@ namespace sunder {
 
 namespace skinning {
 struct Blocks;
-}
+
+/// The vertices of a buffer that are not posed.
+struct ReleasedVertices {
+  std::vector<std::uint64_t> vertices;  ///< One bit per vertex; empty if none ever was.
+  std::vector<std::uint64_t> blocks;    ///< One bit per block: all its vertices are released.
+  std::vector<std::uint64_t> returned;  ///< One bit per block: taken back since it was written.
+  std::uint64_t mesh_revision = 0;      ///< Of the mesh when `blocks` were listed.
+};
+}  // namespace skinning
 
 /// A buffer of posed vertices, and the state that was last written to it.
 ///
@@ -48,6 +56,7 @@ class SUNDER_API PosedBuffer {
   std::vector<std::uint64_t>
       displaced_;  // one bit per block: some of its vertices are displaced; or empty
   std::vector<IndexRange> blocks_to_write_;
+  skinning::ReleasedVertices released_;
 };
 
 /// A mesh prepared for skinning: blocks of 16 vertices, each with the bones that move any of them.
@@ -98,8 +107,19 @@ class SUNDER_API SkinnedMesh {
                               const ParallelFor& parallel_for = {},
                               const VertexDisplacements* displacements = nullptr) const;
 
+  /// Stops posing vertices of a buffer, such as MeshChange::released: deform() leaves out blocks of
+  /// vertices that are all released. Their memory keeps what was written last, which is nothing in
+  /// a new buffer. take_back() poses them again, as after MeshChange::returned.
+  /// @return index_out_of_range with the place in `vertices`, limit_exceeded (out of memory):
+  /// nothing is changed. O(vertices of the mesh), allocates.
+  [[nodiscard]] Status release(std::span<const std::uint32_t> vertices, PosedBuffer& buffer) const;
+  [[nodiscard]] Status take_back(std::span<const std::uint32_t> vertices,
+                                 PosedBuffer& buffer) const;
+
  private:
   explicit SkinnedMesh(std::unique_ptr<skinning::Blocks> blocks);
+  Status set_released(std::span<const std::uint32_t> vertices, bool is_released,
+                      PosedBuffer& buffer) const;
   std::unique_ptr<skinning::Blocks> blocks_;
 };
 

@@ -65,6 +65,9 @@ struct MeshChange {
   /// Appended vertices, and those whose tear side changed.
   DirtyRanges dirty_vertices;
   DirtyRanges dirty_triangles;  ///< Appended and rewritten triangles.
+  /// Vertices that only a detached piece used, ascending: they need no skinning any more. Undo
+  /// lists them as `returned`, redo as `released` again. See SkinnedMesh::release().
+  std::vector<std::uint32_t> released, returned;
 };
 
 /// Two surface points that were one before the tear, left and right of the stroke's direction as

@@ -37,6 +37,12 @@ SUNDER_API Result<WeightErrors> measure_weight_errors(const TornModel& model,
                                                       std::uint32_t first_operation,
                                                       std::uint32_t operation_count,
                                                       std::span<const ModelPose> poses);
+// A friend of TornModel, documented in <sunder/tear/detached_piece.h>.
+struct DetachedPiece;
+struct DetachOptions;
+SUNDER_API Result<DetachedPiece> detach(TornModel& model, const ModelPose& pose,
+                                        const PiecePlace& place, const DetachOptions& options,
+                                        ChangeRecord* change);
 
 /// A character that can be torn: the source, the torn meshes, and the topology of their surface.
 /// Use a model on one thread at a time; different models are independent. Accessors return
@@ -192,6 +198,8 @@ class SUNDER_API TornModel {
   friend Result<WeightErrors> measure_weight_errors(const TornModel&, std::uint32_t, std::uint32_t,
                                                     std::span<const ModelPose>);
   friend Result<ParentBlends> parent_blends(const TornModel&, std::uint32_t);
+  friend Result<DetachedPiece> detach(TornModel&, const ModelPose&, const PiecePlace&,
+                                      const DetachOptions&, ChangeRecord*);
   struct State;
   struct Instance;
   /// Points to the state in the workspace. A packed model is unpacked first.

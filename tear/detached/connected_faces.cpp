@@ -1,0 +1,48 @@
+#include "tear/detached/connected_faces.h"
+
+#include <algorithm>
+
+#include "tear/surface/disconnect.h"
+
+namespace sunder::tear {
+
+std::vector<Index> connected_faces(Index face, const Surface& surface) {
+  std::vector<Index> faces = {face};
+  std::vector<bool> is_seen(surface.triangle_count(), false);
+  is_seen[face] = true;
+  for (std::size_t i = 0; i < faces.size(); ++i)
+    for (Index h = 3 * faces[i]; h < 3 * faces[i] + 3; ++h) {
+      if (surface.twin[h] == kNone || is_seen[surface.twin[h] / 3]) continue;
+      is_seen[surface.twin[h] / 3] = true;
+      faces.push_back(surface.twin[h] / 3);
+    }
+  std::sort(faces.begin(), faces.end());
+  return faces;
+}
+
+bool has_others(const std::vector<Index>& faces, const Surface& surface) {
+  auto next = faces.begin();
+  for (Index face = 0; face < surface.triangle_count(); ++face) {
+    if (next != faces.end() && *next == face)
+      ++next;
+    else if (!surface.has_repeated_point(face))
+      return true;
+  }
+  return false;
+}
+
+void retire_component(const std::vector<Index>& faces, SurfaceEditor& editor) {
+  const Surface& surface = editor.surface();
+  editor.room.make_for_changes(faces.size());
+  // The points are logged with the faces, so all faces are logged before any point changes.
+  for (const Index face : faces) editor.log.keep(face);
+  for (const Index face : faces) {
+    const std::array<Index, 3> points = {surface.corner_point[3 * face],
+                                         surface.corner_point[3 * face + 1],
+                                         surface.corner_point[3 * face + 2]};
+    retire_triangle(face, editor);
+    for (const Index point : points) editor.connectivity.set_point_corner(point, kNone);
+  }
+}
+
+}  // namespace sunder::tear

@@ -1,0 +1,152 @@
+#include "tear/detached/piece_meshes.h"
+
+#include <sunder/bodies/convex_hulls.h>
+
+#include <algorithm>
+
+namespace sunder::tear {
+namespace {
+
+void sort_and_unite(std::vector<Index>& values) {
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+
+/// The place of a value in an ascending array that holds it.
+Index place_in(const std::vector<Index>& values, Index value) {
+  return static_cast<Index>(std::lower_bound(values.begin(), values.end(), value) - values.begin());
+}
+
+template <class Value>
+std::vector<Value> gather(const std::vector<Value>& values, const std::vector<Index>& old_from_new,
+                          std::size_t per_element = 1) {
+  std::vector<Value> gathered;
+  if (values.empty()) return gathered;
+  gathered.reserve(per_element * old_from_new.size());
+  for (const Index old : old_from_new) {
+    const auto from = values.begin() + static_cast<std::ptrdiff_t>(per_element * old);
+    gathered.insert(gathered.end(), from, from + static_cast<std::ptrdiff_t>(per_element));
+  }
+  return gathered;
+}
+
+void copy_vertices(const Mesh& from, const std::vector<Index>& vertices, Mesh& to) {
+  to.positions = gather(from.positions, vertices);
+  to.normals = gather(from.normals, vertices);
+  to.tangents = gather(from.tangents, vertices);
+  for (const auto& uvs : from.uv_sets) to.uv_sets.push_back(gather(uvs, vertices));
+  for (const auto& colors : from.color_sets) to.color_sets.push_back(gather(colors, vertices));
+  for (const CustomAttribute& attribute : from.custom_attributes)
+    to.custom_attributes.push_back({attribute.name, attribute.components, attribute.interpolates,
+                                    gather(attribute.values, vertices, attribute.components)});
+  for (const MorphTarget& target : from.morph_targets)
+    to.morph_targets.push_back({target.name, gather(target.position_deltas, vertices),
+                                gather(target.normal_deltas, vertices),
+                                gather(target.tangent_deltas, vertices)});
+  for (const Index vertex : vertices) to.weights.append(from.weights.of(vertex));
+}
+
+/// Triangles with the new vertices, and the submeshes that they use.
+void copy_triangles(const Mesh& from, const DetachedPiece::OfMesh& map, Mesh& to) {
+  std::vector<Index> submeshes;
+  for (const Index old : map.triangle_old_from_new) {
+    Triangle triangle = from.triangles[old];
+    for (Index& vertex : triangle) vertex = place_in(map.vertex_old_from_new, vertex);
+    to.triangles.push_back(triangle);
+    submeshes.push_back(from.triangle_submesh[old]);
+  }
+  to.triangle_submesh = submeshes;
+  sort_and_unite(submeshes);
+  for (Index& submesh : to.triangle_submesh) submesh = place_in(submeshes, submesh);
+  to.submeshes = gather(from.submeshes, submeshes);
+}
+
+/// The triangles and vertices of a piece, per mesh of the model.
+std::vector<DetachedPiece::OfMesh> make_maps(const std::vector<Index>& faces,
+                                             const SurfaceEditor& editor) {
+  const auto& meshes = editor.character().meshes;
+  std::vector<DetachedPiece::OfMesh> maps(meshes.size());
+  for (const Index face : faces) {
+    const TriangleRef ref = editor.surface().triangle(face);
+    const Mesh& mesh = meshes[ref.mesh];
+    DetachedPiece::OfMesh& map = maps[ref.mesh];
+    map.mesh = ref.mesh;
+    map.triangle_old_from_new.push_back(ref.triangle);
+    const Triangle& triangle = mesh.triangles[ref.triangle];
+    map.vertex_old_from_new.insert(map.vertex_old_from_new.end(), triangle.begin(), triangle.end());
+    const Index* points = &editor.surface().corner_point[3 * face];
+    map.old_points.push_back({points[0], points[1], points[2]});
+    const Skin& skin = editor.character().skins[mesh.skin];
+    map.bones.push_back(main_bone(triangle, mesh.weights, skin));
+  }
+  std::erase_if(maps, [](const auto& map) { return map.triangle_old_from_new.empty(); });
+  for (DetachedPiece::OfMesh& map : maps) sort_and_unite(map.vertex_old_from_new);
+  return maps;
+}
+
+}  // namespace
+
+PieceMeshes copy_meshes(const std::vector<Index>& faces, const SurfaceEditor& editor) {
+  PieceMeshes piece;
+  piece.maps = make_maps(faces, editor);
+  for (const DetachedPiece::OfMesh& map : piece.maps)
+    piece.skins.push_back(editor.character().meshes[map.mesh].skin);
+  sort_and_unite(piece.skins);
+  for (const DetachedPiece::OfMesh& map : piece.maps) {
+    const Mesh& from = editor.character().meshes[map.mesh];
+    Mesh& mesh = piece.meshes.emplace_back();
+    mesh.name = from.name;
+    mesh.skin = place_in(piece.skins, from.skin);
+    mesh.first_morph_weight = from.first_morph_weight;
+    copy_vertices(from, map.vertex_old_from_new, mesh);
+    copy_triangles(from, map, mesh);
+  }
+  return piece;
+}
+
+InfluencePositions copy_exact(const InfluencePositions& of, const SkinWeights& weights,
+                              const std::vector<Index>& vertex_old_from_new) {
+  InfluencePositions copy;
+  std::vector<Index> influences;  // entries of the exact vertices that are copied
+  Index first = 0;
+  auto next = vertex_old_from_new.begin();
+  for (const Index vertex : of.vertices) {
+    const auto count = static_cast<Index>(weights.of(vertex).size());
+    next = std::lower_bound(next, vertex_old_from_new.end(), vertex);
+    if (next != vertex_old_from_new.end() && *next == vertex) {
+      copy.vertices.push_back(static_cast<Index>(next - vertex_old_from_new.begin()));
+      for (Index i = 0; i < count; ++i) influences.push_back(first + i);
+    }
+    first += count;
+  }
+  copy.positions = gather(of.positions, influences);
+  copy.normals = gather(of.normals, influences);
+  copy.tangents = gather(of.tangents, influences);
+  for (const InfluencePositions::Deltas& target : of.morph_targets)
+    copy.morph_targets.push_back({gather(target.positions, influences),
+                                  gather(target.normals, influences),
+                                  gather(target.tangents, influences)});
+  return copy;
+}
+
+Skin reduce_skin(const Skin& skin, Index index, std::vector<Mesh>& meshes) {
+  std::vector<Index> new_slot(skin.bones.size(), kNone);
+  for (const Mesh& mesh : meshes)
+    if (mesh.skin == index)
+      for (const Influence& influence : mesh.weights.influences) new_slot[influence.slot] = 0;
+  Skin reduced;
+  reduced.name = skin.name;
+  for (Index slot = 0; slot < new_slot.size(); ++slot) {
+    if (new_slot[slot] == kNone) continue;
+    new_slot[slot] = static_cast<Index>(reduced.bones.size());
+    reduced.bones.push_back(skin.bones[slot]);
+    reduced.bone_from_bind.push_back(skin.bone_from_bind[slot]);
+  }
+  for (Mesh& mesh : meshes)
+    if (mesh.skin == index)
+      for (Influence& influence : mesh.weights.influences)
+        influence.slot = new_slot[influence.slot];
+  return reduced;
+}
+
+}  // namespace sunder::tear

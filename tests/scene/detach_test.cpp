@@ -1,0 +1,135 @@
+// A soft instance loses a piece: its particles and vertices go, and come back by undo.
+#include <sunder/scene/character_instance.h>
+#include <sunder/skinning/pose.h>
+
+#include <algorithm>
+#include <memory>
+#include <set>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "support/random.h"
+#include "support/rigs.h"
+
+namespace sunder {
+namespace {
+
+using test::Random;
+
+std::uint32_t count_used(const ParticleSet& set) {
+  std::set<std::uint32_t> used;
+  for (const ParticleInfluences& row : set.influences())
+    for (std::size_t i = 0; i < 4; ++i)
+      if (row.weights[i] > 0) used.insert(row.particles[i]);
+  return static_cast<std::uint32_t>(used.size());
+}
+
+struct Scene {
+  std::shared_ptr<const Character> tube =
+      std::make_shared<const Character>(test::make_tube(40, 24, 3));
+  ModelPose pose = *rest_pose(*tube);
+  CharacterInstance instance;
+
+  explicit Scene(bool is_soft) : instance(make(tube, is_soft)) {}
+  static CharacterInstance make(const std::shared_ptr<const Character>& tube, bool is_soft) {
+    CharacterInstanceOptions options;
+    if (is_soft) options.soft.emplace();
+    auto made = CharacterInstance::create(tube, options);
+    EXPECT_TRUE(made) << made.error().text();
+    return std::move(*made);
+  }
+  /// The top of the tube. @return its place.
+  PieceNear cut_off() {
+    const auto positions = test::posed_positions(*tube, 0, pose);
+    double least = 1e9, most = -1e9;
+    for (const Vec3d& p : positions) {
+      least = std::min(least, p.y());
+      most = std::max(most, p.y());
+    }
+    PlaneCut cut;
+    cut.point = Vec3d(0, 0.4 * least + 0.6 * most + 0.0013, 0);
+    cut.normal = Vec3d(0, 1, 0);
+    cut.caps = true;
+    EXPECT_TRUE(instance.cut(pose, cut));
+    return PieceNear{Vec3d(0, most + 1, 0)};
+  }
+};
+
+TEST(DetachFromInstance, released_vertices_are_not_skinned) {
+  Scene scene(false);
+  Random random(1);
+  const auto advance = [&] {
+    EXPECT_TRUE(scene.instance.advance(test::random_pose(*scene.tube, random), 0.01));
+    std::uint32_t dirty = 0;
+    for (const IndexRange& range : scene.instance.mesh(0).dirty_vertices) dirty += range.count;
+    return dirty;
+  };
+  (void)advance();
+  const PieceNear place = scene.cut_off();
+  (void)advance();
+  const std::uint32_t all = advance();
+  const auto piece = scene.instance.detach(scene.pose, place);
+  ASSERT_TRUE(piece) << piece.error().text();
+  (void)advance();
+  EXPECT_LT(advance(), all);
+  ASSERT_TRUE(scene.instance.undo());
+  (void)advance();
+  EXPECT_EQ(advance(), all);
+  // In one frame: detached, put back, and the cut undone.
+  ASSERT_TRUE(scene.instance.redo());
+  ASSERT_TRUE(scene.instance.undo());
+  ASSERT_TRUE(scene.instance.undo());
+  (void)advance();
+  const ModelPose pose = test::random_pose(*scene.tube, random);
+  ASSERT_TRUE(scene.instance.advance(pose, 0.01));
+  auto fresh = Scene::make(scene.tube, false);
+  ASSERT_TRUE(fresh.advance(pose, 0.01));
+  const auto now = scene.instance.mesh(0).positions, expected = fresh.mesh(0).positions;
+  EXPECT_TRUE(std::equal(now.begin(), now.end(), expected.begin(), expected.end()));
+}
+
+TEST(DetachFromInstance, particles_of_the_piece_vanish) {
+  Scene scene(true);
+  for (int i = 0; i < 5; ++i) ASSERT_TRUE(scene.instance.advance(scene.pose, 0.01));
+  const PieceNear place = scene.cut_off();
+  const std::uint32_t before = count_used(*scene.instance.particles());
+  const auto piece = scene.instance.detach(scene.pose, place);
+  ASSERT_TRUE(piece) << piece.error().text();
+  // No particle of the piece is left to move anything.
+  const auto points = scene.instance.particles()->vertex_points(0);
+  std::set<std::uint32_t> old_points;
+  for (const auto& corners : piece->meshes[0].old_points)
+    old_points.insert(corners.begin(), corners.end());
+  std::set<std::uint32_t> of_body, of_piece;
+  const auto rows = scene.instance.particles()->influences();
+  const Mesh& mesh = scene.instance.model().character().meshes[0];
+  for (const Triangle& triangle : mesh.triangles) {
+    if (is_retired(triangle)) continue;
+    for (const std::uint32_t v : triangle)
+      for (std::size_t i = 0; i < 4; ++i)
+        if (points[v] < rows.size() && rows[points[v]].weights[i] > 0)
+          of_body.insert(rows[points[v]].particles[i]);
+  }
+  for (const std::uint32_t point : old_points)
+    if (point < rows.size())
+      for (std::size_t i = 0; i < 4; ++i)
+        if (rows[point].weights[i] > 0) of_piece.insert(rows[point].particles[i]);
+  EXPECT_TRUE(of_piece.empty()) << of_piece.size() << " of " << before;
+  EXPECT_LT(of_body.size(), before);
+  for (int i = 0; i < 5; ++i) ASSERT_TRUE(scene.instance.advance(scene.pose, 0.01));
+  ASSERT_TRUE(scene.instance.undo());
+  EXPECT_EQ(count_used(*scene.instance.particles()), before);
+  for (int i = 0; i < 5; ++i) ASSERT_TRUE(scene.instance.advance(scene.pose, 0.01));
+  ASSERT_TRUE(scene.instance.redo());
+  EXPECT_EQ(count_used(*scene.instance.particles()), of_body.size());
+
+  // The piece is soft tissue of its own.
+  auto soft = Scene::make(piece->character, true);
+  const auto rest = rest_pose(*piece->character);
+  for (int i = 0; i < 5; ++i) ASSERT_TRUE(soft.advance(*rest, 0.01));
+  EXPECT_GT(count_used(*soft.particles()), 0u);
+}
+
+}  // namespace
+}  // namespace sunder
