@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <optional>
 
+#include "bench/cut_summary.h"
 #include "bench/in_turns.h"
 #include "bench/json_object.h"
 #include "bench/measure.h"
@@ -12,9 +13,6 @@
 
 #if SUNDER_BENCH_CGAL
 #include "bench/cgal_peer.h"
-#endif
-#if SUNDER_BENCH_VTK
-#include "bench/vtk_peer.h"
 #endif
 
 namespace sunder::bench {
@@ -84,20 +82,6 @@ double measure_first_tear() {
   }));
 }
 
-std::optional<double> cut_by_vtk() {
-#if SUNDER_BENCH_VTK
-  RepeatedOperation cut(scene_of(kLargest), cut_in_two);
-  VtkPeer peer(scene_of(kLargest));
-  std::vector<Candidate> candidates;
-  candidates.push_back({[&] { return cut.run(); }, {1, 0, 1}, 5, 0});
-  candidates.push_back({[&] { return peer.clip(); }, {3, 1, 1}, 5, 1});
-  measure_in_turns(candidates);
-  return median(candidates[0].seconds) / median(candidates[1].seconds);
-#else
-  return std::nullopt;
-#endif
-}
-
 }  // namespace
 
 void print_summary() {
@@ -105,7 +89,7 @@ void print_summary() {
   const Tears tears = measure_tears();
   const double faces = scene_of(kLargest).mesh().triangle_count(), query = measure_query(),
                first = measure_first_tear();
-  const std::optional<double> vtk = cut_by_vtk();
+  const CutFigures cuts = measure_cuts();
   double nanoseconds_per_face = 0;
   Figures warm_us = {}, cold_us = {}, points = {};
   for (std::size_t i = 0; i < kDivisions.size(); ++i) {
@@ -133,7 +117,12 @@ void print_summary() {
   object.add("warm_us", by_size(warm_us));
   object.add("cold_us", by_size(cold_us));
   object.add("query_us_900k", query * kMicroseconds);
-  object.add("cut_vs_vtk", vtk);
+  if (const auto ratios = cuts.ratios_to_vtk()) {
+    object.add("cut_vs_vtk", ratios->back());
+    object.add("cut_vs_vtk_by_size", by_size(*ratios));
+  } else {
+    object.add("cut_vs_vtk", std::nullopt);
+  }
   object.add("faces_crossed", by_size(tears.faces_crossed));
   object.add("points", by_size(points));
   object.end();

@@ -8,7 +8,7 @@ void print_summary();
 
 /// Explains the figures of the summary.
 inline constexpr const char* kSummaryHelp =
-    "bench_tear [--summary] [options of Google Benchmark: --help]\n"
+    "bench_tear [--summary | --cuts] [options of Google Benchmark: --help]\n"
     "\n"
     "Without --summary: all benchmarks. Each time is a median of up to 300 runs; the last word of "
     "a name says how often each face "
@@ -34,6 +34,10 @@ inline constexpr const char* kSummaryHelp =
     "of vtkPolyDataPlaneClipper, "
     "which\n"
     "                        keeps one side; at 892 thousand points; null without VTK\n"
-    "  faces_crossed, points by size\n";
+    "  cut_vs_vtk_by_size    the same at each size; absent without VTK\n"
+    "  faces_crossed, points by size\n"
+    "\n"
+    "--cuts prints one JSON object about plane cuts alone, by size: cut_vs_vtk, vtk_us, cut_us and "
+    "cut_and_undo_allocations.\n";
 
 }  // namespace sunder::bench

@@ -159,10 +159,13 @@ void TornModel::State::count_changes_since(const tear::EditLog::Mark& begin,
   });
 }
 
-std::vector<TornPiece> TornModel::State::find_pieces_since(const tear::EditLog::Mark& begin,
-                                                           bool names_all) {
-  return names_all ? tear::find_all_pieces(begin, editor, posed)
-                   : tear::find_pieces(begin, editor, posed);
+TornPieces TornModel::State::find_pieces_since(const tear::EditLog::Mark& begin) {
+  return tear::find_pieces(begin, editor);
+}
+
+TornPieces TornModel::State::find_pieces_of_call(bool names_all) {
+  return names_all ? tear::find_pieces_at(borders_of_call_.lips, editor)
+                   : find_pieces_since(begin_of_call_);
 }
 
 void TornModel::State::record(const tear::EditLog::Mark& begin) {

@@ -61,7 +61,7 @@ struct TornModel::State {
       }
       report.weights = weigh_points_since(begin_of_call_, options.weights);
       count_changes_since(begin_of_call_, report);
-      report.pieces = find_pieces_since(begin_of_call_, options.names_all_pieces);
+      report.pieces = find_pieces_of_call(options.names_all_pieces);
       if (options.change != nullptr) describe_call(*options.change, options.is_detachment);
       make_room_for_borders();
       conclude(report);
@@ -113,8 +113,7 @@ struct TornModel::State {
                                                 const WeightOptions& options);
   /// Fills in what was added and retired since `begin`.
   void count_changes_since(const tear::EditLog::Mark& begin, TearReport& report) const;
-  [[nodiscard]] std::vector<TornPiece> find_pieces_since(const tear::EditLog::Mark& begin,
-                                                         bool names_all);
+  [[nodiscard]] TornPieces find_pieces_since(const tear::EditLog::Mark& begin);
 
   /// Begins an operation. @return the mark to roll back to.
   /// @param keeps_opened  keep a list of the borders that the operation opens.
@@ -164,6 +163,7 @@ struct TornModel::State {
  private:
   [[nodiscard]] tear::History new_history() const;
   void begin_call();
+  [[nodiscard]] TornPieces find_pieces_of_call(bool names_all);
   void make_room_for_borders();
   void keep_borders();
   void describe_call(ChangeRecord& change, bool is_detachment);

@@ -222,7 +222,7 @@ Result<TearReport> TearStroke::end(ChangeRecord* change) {
       [&](const TearReport& last) {
         add_to(total, last);
         state.model->count_changes_since(state.begin, total);
-        total.pieces = state.model->find_pieces_since(state.begin, false);
+        total.pieces = state.model->find_pieces_since(state.begin);
       });
   if (!report) return report;
   state.close();

@@ -12,6 +12,7 @@
 #include "tear/operation/cut.h"
 #include "tear/operation/drill.h"
 #include "tear/operation/ongoing_stroke.h"
+#include "tear/pieces/describe_piece.h"
 #include "tear/surface/compact.h"
 #include "tear/surface/weight_change.h"
 
@@ -75,7 +76,7 @@ Result<TearReport> TornModel::cut(const ModelPose& pose, const PlaneCut& cut,
   if (Status status = unpack(); !status) return status;
   State& state = *state_;
   if (Status status = state.may_begin(); !status) return status;
-  if (Status status = tear::validate_cut(cut); !status) return status;
+  if (Status status = tear::validate_cut(cut, state.character.skeleton); !status) return status;
   const WeightOptions weights = cut.weights.value_or(state.weights);
   if (Status status = validate_weights(weights); !status) return status;
   const auto write_entry = [&](CutOperation& entry) {
@@ -103,6 +104,23 @@ Result<TearReport> TornModel::drill(const ModelPose& pose, const Bore& bore, Cha
     tear::drill_surface(bore, state.workpiece(), outcome);
   };
   return state.perform<DrillOperation>({pose, weights, change, bore.wall}, write_entry, work);
+}
+
+Result<PieceDescription> TornModel::describe_piece(const TornPiece& piece) const {
+  const auto& meshes = character().meshes;
+  if (piece.mesh >= meshes.size() || piece.triangle >= meshes[piece.mesh].triangle_count())
+    return Status::failure(StatusCode::index_out_of_range, piece.triangle,
+                           "the model has no triangle %u in a mesh %u", piece.triangle, piece.mesh);
+  State& state = *state_;
+  const std::uint32_t face = state.editor.origins.surface_triangle(piece.mesh, piece.triangle);
+  if (!state.posed.has_pose() || state.editor.surface().has_repeated_point(face))
+    return Status::failure(StatusCode::not_found, piece.triangle,
+                           "triangle %u of mesh %u is in no piece", piece.triangle, piece.mesh);
+  try {
+    return tear::describe_piece(face, state.editor, state.posed);
+  } catch (const std::bad_alloc&) {
+    return out_of_memory();
+  }
 }
 
 Status TornModel::undo(ChangeRecord* change) {

@@ -123,6 +123,10 @@ Json header(const CutOperation& operation) {
   for (const Vec3d& corner : cut.bounds) json["bounds"].push_back(vector_json(corner));
   json["caps"] = cut.caps;
   for (const Vec3d& place : cut.sections) json["sections"].push_back(vector_json(place));
+  if (cut.first_hit)
+    json["first_hit"] = {{"origin", vector_json(cut.first_hit->origin)},
+                         {"direction", vector_json(cut.first_hit->direction)}};
+  if (!cut.bone.empty()) json["bone"] = cut.bone;
   add_weights(json, cut.weights);
   return json;
 }

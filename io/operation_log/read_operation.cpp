@@ -1,5 +1,6 @@
 #include "io/operation_log/read_operation.h"
 
+#include <string>
 #include <utility>
 
 #include "io/operation_log/read_aimed.h"
@@ -57,8 +58,21 @@ std::vector<Vec3d> read_sections(const Place& place) {
   return places;
 }
 
+std::optional<SectionRay> read_ray(const Place& place) {
+  place.check_fields({"origin", "direction"});
+  return SectionRay{read_vector<3>(place.at("origin")),
+                    read_direction(place.at("direction"), "direction")};
+}
+
+std::string read_limb(const Place& place) {
+  std::string name = read_name(place);
+  if (name.empty()) place.malformed("a bone's name must not be empty");
+  return name;
+}
+
 CutOperation read_cut(const Place& place) {
-  place.check_fields({"op", "pose", "plane", "bounds", "caps", "sections", "weights"});
+  place.check_fields(
+      {"op", "pose", "plane", "bounds", "caps", "sections", "first_hit", "bone", "weights"});
   CutOperation operation;
   read_if_given(place, "pose", read_pose, operation.pose);
   const Place plane = place.at("plane");
@@ -68,6 +82,8 @@ CutOperation read_cut(const Place& place) {
   read_if_given(place, "bounds", read_bounds, operation.cut.bounds);
   read_if_given(place, "caps", read_bool, operation.cut.caps);
   read_if_given(place, "sections", read_sections, operation.cut.sections);
+  read_if_given(place, "first_hit", read_ray, operation.cut.first_hit);
+  read_if_given(place, "bone", read_limb, operation.cut.bone);
   read_if_given(place, "weights", read_weight_options, operation.cut.weights);
   return operation;
 }

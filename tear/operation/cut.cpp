@@ -1,5 +1,7 @@
 #include "tear/operation/cut.h"
 
+#include <algorithm>
+
 #include "core/internal/ordered.h"
 #include "tear/filling/caps.h"
 #include "tear/geometry/tolerances.h"
@@ -48,9 +50,42 @@ Status validate_sections(const std::vector<Vec3d>& sections) {
   return {};
 }
 
+Status validate_ray(const SectionRay& ray, const Vec3d& normal) {
+  if (!ray.origin.allFinite() || !ray.direction.allFinite())
+    return Status::failure(StatusCode::non_finite_value, kNone, "the ray of the cut is not finite");
+  if (!is_near(ray.origin) || !is_near(ray.direction))
+    return Status::failure(StatusCode::invalid_argument, kNone,
+                           "the ray of the cut lies beyond 1e60");
+  const double length = norm(ray.direction);
+  if (!(length > kShortestDirection) ||
+      !(norm(Vec3d(normal / norm(normal)).cross(Vec3d(ray.direction / length))) > kSteepSine))
+    return Status::failure(StatusCode::invalid_argument, kNone,
+                           "the ray of the cut has no length along the plane");
+  return {};
+}
+
+Index find_bone(const Skeleton& skeleton, const std::string& name) {
+  const auto found = std::find_if(skeleton.bones.begin(), skeleton.bones.end(),
+                                  [&](const Bone& bone) { return bone.name == name; });
+  return found == skeleton.bones.end() ? kNone : static_cast<Index>(found - skeleton.bones.begin());
+}
+
+/// Per bone: whether it is the given one or below it. Empty without a bone.
+std::vector<bool> subtree_of(const std::string& bone, const Skeleton& skeleton) {
+  if (bone.empty()) return {};
+  std::vector<bool> is_below(skeleton.bones.size(), false);
+  const Index root = find_bone(skeleton, bone);
+  is_below[root] = true;
+  for (Index i = root + 1; i < skeleton.bones.size(); ++i) {  // parents come first
+    const auto parent = skeleton.bones[i].parent;
+    is_below[i] = parent != kNone && is_below[parent];
+  }
+  return is_below;
+}
+
 }  // namespace
 
-Status validate_cut(const PlaneCut& cut) {
+Status validate_cut(const PlaneCut& cut, const Skeleton& skeleton) {
   if (!cut.point.allFinite() || !cut.normal.allFinite())
     return Status::failure(StatusCode::non_finite_value, kNone,
                            "the plane of the cut is not finite");
@@ -61,6 +96,11 @@ Status validate_cut(const PlaneCut& cut) {
     return Status::failure(StatusCode::invalid_argument, kNone,
                            "the normal of the cut has no length");
   if (Status status = validate_sections(cut.sections); !status) return status;
+  if (cut.first_hit)
+    if (Status status = validate_ray(*cut.first_hit, cut.normal); !status) return status;
+  if (!cut.bone.empty() && find_bone(skeleton, cut.bone) == kNone)
+    return Status::failure(StatusCode::not_found, kNone, "no bone is named '%.60s'",
+                           cut.bone.c_str());
   if (cut.bounds.empty()) return {};
   if (cut.bounds.size() < 3)
     return Status::failure(StatusCode::invalid_argument, kNone,
@@ -86,9 +126,11 @@ void cut_surface(const PlaneCut& cut, const Workpiece& work, Outcome& outcome) {
   const Vec3d normal = cut.normal / norm(cut.normal);
   Sheet sheet{{normal, dot(normal, cut.point)}, {}};
   for (const PlaneSide& side : sides_of(cut.bounds, normal)) sheet.bounds.push_back({side, kNone});
-  const std::vector<Index> faces = faces_of_sections(
-      sheet, cut.sections, faces_across(sheet, work.editor, work.posed), work.editor, work.posed);
-  const SheetOpening opening = open_sheet(sheet, faces, work, outcome.borders.lips);
+  const SectionLimits limits{cut.sections, cut.first_hit,
+                             subtree_of(cut.bone, work.editor.character().skeleton)};
+  const ScratchVector<Index> faces = faces_of_sections(
+      sheet, limits, faces_across(sheet, work.editor, work.posed), work.editor, work.posed);
+  const SheetOpening opening = open_sheet(sheet, faces, cut.caps, work, outcome.borders.lips);
   report.runs = opening.runs;
   report.faces_crossed = opening.faces_crossed;
   report.blocked = opening.blocked;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <sunder/core/skeleton.h>
 #include <sunder/core/status.h>
 #include <sunder/operation/operation.h>
 
@@ -9,8 +10,8 @@
 namespace sunder::tear {
 
 /// @return non_finite_value; invalid_argument if the normal is zero or the bounds are not a convex
-///         polygon.
-[[nodiscard]] Status validate_cut(const PlaneCut& cut);
+///         polygon, or the ray has no length along the plane; not_found for an unknown bone.
+[[nodiscard]] Status validate_cut(const PlaneCut& cut, const Skeleton& skeleton);
 
 /// Opens the posed surface along a plane and, if requested, closes the sections with caps. Fills in
 /// the report, except the figures that come from the change record.

@@ -1,160 +1,106 @@
 #include "tear/pieces/pieces.h"
 
-#include <algorithm>
-#include <array>
-#include <memory_resource>
-#include <span>
-#include <unordered_map>
-
 #include "tear/internal/surface.h"
 #include "tear/pieces/changed_faces.h"
-#include "tear/pieces/piece_description.h"
+#include "tear/pieces/piece_search.h"
 
 namespace sunder::tear {
 namespace {
 
-/// Fronts that grow over the surface, one from each set of changed faces, and are merged where they
-/// meet.
-class Fronts {
+TornPiece name(const PieceSearch::Part& part, Index face, const Surface& surface) {
+  const TriangleRef ref = surface.triangle(face);
+  return {ref.mesh, ref.triangle, part.triangle_count, part.component, part.is_body};
+}
+
+/// Groups neighbouring points of lips, each with its point before if an edge joins them.
+class LipFronts {
  public:
-  Fronts(ChangedFaces& changed, const SurfaceEditor& editor)
-      : surface_(editor.surface()),
-        scratch_(editor.scratch()),
-        groups_(changed.groups()),
-        sets_(changed.sets()),
-        front_of_face_(&scratch_),
-        faces_(changed.count(), ScratchVector<Index>(&scratch_), &scratch_),
-        open_(faces_, &scratch_),
-        roots_(&scratch_) {
-    for (Index i = 0; i < changed.count(); ++i) {
-      if (!changed.is_live(i)) continue;
-      const Index front = sets_.find(i);
-      if (faces_[front].empty()) roots_.push_back(front);
-      front_of_face_.emplace(changed.face(i), front);
-      open_[front].push_back(static_cast<Index>(faces_[front].size()));
-      faces_[front].push_back(changed.face(i));
-    }
+  LipFronts(std::size_t point_count, const Surface& surface, ScratchMemory& scratch)
+      : surface_(surface), faces_(&scratch) {
+    faces_.reserve(point_count);
   }
 
-  /// Grows until in each group all but at most one set of merged fronts are exhausted.
-  void grow() {
-    ScratchVector<Index> active(roots_, &scratch_), growing(&scratch_);
-    std::pmr::unordered_map<Index, Index> sets_in_group(&scratch_);
-    for (;;) {
-      // Merging fronts merges groups, so it is decided who grows before any front does.
-      sets_in_group.clear();
-      for (const Index front : active) ++sets_in_group[groups_.find(front)];
-      growing.clear();
-      for (const Index front : active)
-        if (sets_in_group[groups_.find(front)] > 1) growing.push_back(front);
-      if (growing.empty()) return;
-      for (const Index front : growing)
-        for (std::size_t turn = 0; turn < kFacesATurn && !open_[front].empty(); ++turn)
-          grow_once(front);
-      for (Index& front : active) front = sets_.find(front);
-      std::sort(active.begin(), active.end());
-      active.erase(std::unique(active.begin(), active.end()), active.end());
-      active.erase(std::remove_if(active.begin(), active.end(),
-                                  [&](Index front) { return open_[front].empty(); }),
-                   active.end());
-    }
+  /// @param before  the previous point on the same side, and its front.
+  Index front_of(Index point, Index before, Index front_before) {
+    if (before != kNone && has_edge(point, before)) return front_before;
+    faces_.push_back(surface_.point_corner[point] / 3);
+    return static_cast<Index>(faces_.size()) - 1;
   }
-
-  /// Merged fronts.
-  struct Set {
-    ScratchVector<Index> faces;  ///< Ascending.
-    bool is_exhausted = false;
-  };
-  /// The sets of each group that has several.
-  [[nodiscard]] ScratchVector<ScratchVector<Set>> separated() {
-    ScratchVector<std::array<Index, 2>> by_group(&scratch_);  // group, front
-    for (const Index front : roots_)
-      if (sets_.find(front) == front) by_group.push_back({groups_.find(front), front});
-    std::sort(by_group.begin(), by_group.end());
-    ScratchVector<ScratchVector<Set>> separated(&scratch_);
-    for (std::size_t begin = 0, end = 0; begin < by_group.size(); begin = end) {
-      while (end < by_group.size() && by_group[end][0] == by_group[begin][0]) ++end;
-      if (end - begin < 2) continue;
-      auto& sets = separated.emplace_back();
-      for (std::size_t i = begin; i < end; ++i) {
-        ScratchVector<Index>& faces = faces_[by_group[i][1]];
-        std::sort(faces.begin(), faces.end());
-        sets.push_back({std::move(faces), open_[by_group[i][1]].empty()});
-      }
-    }
-    return separated;
-  }
+  /// A face of each front.
+  [[nodiscard]] const ScratchVector<Index>& faces() const { return faces_; }
 
  private:
-  static constexpr std::size_t kFacesATurn = 8;
-
-  /// Appends the smaller set to the larger one, so that a face is moved rarely.
-  void join(Index a, Index b) {
-    a = sets_.find(a);
-    b = sets_.find(b);
-    if (a == b) return;
-    if (faces_[a].size() < faces_[b].size()) std::swap(a, b);
-    sets_.unite(a, b);
-    groups_.unite(a, b);
-    const auto offset = static_cast<Index>(faces_[a].size());
-    faces_[a].insert(faces_[a].end(), faces_[b].begin(), faces_[b].end());
-    for (const Index at : open_[b]) open_[a].push_back(offset + at);
-    faces_[b].clear();
-    open_[b].clear();
-  }
-
-  void grow_once(Index front) {
-    const Index face = faces_[front][open_[front].back()];
-    open_[front].pop_back();
-    for (Index h = 3 * face; h < 3 * face + 3; ++h) {
-      const Index twin = surface_.twin[h];
-      if (twin == kNone) continue;
-      const Index owner = sets_.find(front);
-      const auto [held, is_new] = front_of_face_.emplace(twin / 3, owner);
-      if (is_new) {
-        open_[owner].push_back(static_cast<Index>(faces_[owner].size()));
-        faces_[owner].push_back(twin / 3);
-      } else {
-        join(owner, held->second);
-      }
+  [[nodiscard]] bool has_edge(Index point, Index other) const {
+    const Index first = surface_.first_of_fan(surface_.point_corner[point]);
+    for (Index c = first; c != kNone;) {
+      if (surface_.corner_point[Surface::next(c)] == other ||
+          surface_.corner_point[Surface::previous(c)] == other)
+        return true;
+      c = surface_.rotate_ccw(c);
+      if (c == first) break;
     }
+    return false;
   }
 
   const Surface& surface_;
-  ScratchMemory& scratch_;
-  DisjointSets &groups_, &sets_;
-  std::pmr::unordered_map<Index, Index> front_of_face_;  // lookups only, never iterated
-  /// Per front: its faces, and the indices in them of those that can still grow.
-  ScratchVector<ScratchVector<Index>> faces_, open_;
-  ScratchVector<Index> roots_;  ///< The initial fronts.
+  ScratchVector<Index> faces_;
 };
 
 }  // namespace
 
-std::vector<TornPiece> find_pieces(const EditLog::Mark& begin, const SurfaceEditor& editor,
-                                   PosedPoints& posed) {
+TornPieces find_pieces(const EditLog::Mark& begin, const SurfaceEditor& editor) {
   ChangedFaces changed(begin, editor);
   if (changed.set_count() < 2) return {};
-  Fronts fronts(changed, editor);
-  fronts.grow();
-  ScratchVector<ScratchVector<Index>> sets(&editor.scratch());
-  for (auto& of_group : fronts.separated()) {
-    // The remaining part is the one that is not exhausted or, if all are, the largest.
-    const auto left = std::max_element(
-        of_group.begin(), of_group.end(), [](const Fronts::Set& a, const Fronts::Set& b) {
-          return a.is_exhausted != b.is_exhausted ? a.is_exhausted
-                                                  : a.faces.size() < b.faces.size();
-        });
-    for (auto set = of_group.begin(); set != of_group.end(); ++set)
-      if (set != left) sets.push_back(std::move(set->faces));
+  // A front per connected set of changed faces.
+  ScratchVector<Index> front_of(changed.count(), kNone, &editor.scratch()),
+      of_group(changed.count(), kNone, &editor.scratch()), faces(&editor.scratch());
+  faces.reserve(changed.set_count());
+  for (Index i = 0; i < changed.count(); ++i) {
+    if (!changed.is_live(i)) continue;
+    Index& front = front_of[changed.sets().find(i)];
+    if (front == kNone) {
+      front = static_cast<Index>(faces.size());
+      faces.push_back(changed.face(i));
+    }
+    front_of[i] = front;
   }
-  std::sort(sets.begin(), sets.end());
-  std::vector<TornPiece> pieces;
-  for (const auto& faces : sets) {
-    PieceDescription description(editor, posed);
-    for (const Index face : faces) description.add(face);
-    pieces.push_back(description.piece());
+  PieceSearch search(static_cast<Index>(faces.size()), editor);
+  for (Index i = 0; i < changed.count(); ++i) {
+    if (!changed.is_live(i)) continue;
+    search.begin_at(front_of[i], changed.face(i));
+    Index& first = of_group[changed.groups().find(i)];
+    if (first == kNone) first = front_of[i];
+    search.were_connected(first, front_of[i]);
   }
+  search.grow();
+  TornPieces pieces;
+  for (const PieceSearch::Part& part : search.separated())
+    if (!part.is_body) pieces.push_back(name(part, faces[part.front], editor.surface()));
+  return pieces;
+}
+
+TornPieces find_pieces_at(std::span<const LipPair> lips, const SurfaceEditor& editor) {
+  const Surface& surface = editor.surface();
+  LipFronts fronts(2 * lips.size(), surface, editor.scratch());
+  ScratchVector<std::array<Index, 2>> of_lips(&editor.scratch());  // left and right front
+  of_lips.reserve(lips.size());
+  LipPair before{kNone, kNone};
+  std::array<Index, 2> front_before = {kNone, kNone};
+  for (const LipPair& lip : lips) {
+    front_before = {fronts.front_of(lip.left, before.left, front_before[0]),
+                    fronts.front_of(lip.right, before.right, front_before[1])};
+    before = lip;
+    of_lips.push_back(front_before);
+  }
+  if (fronts.faces().size() < 2) return {};
+  PieceSearch search(static_cast<Index>(fronts.faces().size()), editor);
+  for (Index front = 0; front < fronts.faces().size(); ++front)
+    search.begin_at(front, fronts.faces()[front]);
+  for (const auto& [left, right] : of_lips) search.were_connected(left, right);
+  search.grow();
+  TornPieces pieces;
+  for (const PieceSearch::Part& part : search.separated())
+    pieces.push_back(name(part, fronts.faces()[part.front], surface));
   return pieces;
 }
 

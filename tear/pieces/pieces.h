@@ -1,26 +1,25 @@
 #pragma once
 
+#include <sunder/tear/change_record.h>
 #include <sunder/tear/report.h>
 
-#include <vector>
+#include <span>
 
-#include "tear/posed/posed_points.h"
+#include "tear/surface/surface_editor.h"
 
 namespace sunder::tear {
 
-/// Finds the connected components that the changes since `begin` separated, except one remaining
-/// part of each former component.
+/// Names the connected components that the changes since `begin` separated, except the body of
+/// each former component.
 ///
 /// Fronts start from every changed face and grow in turn; fronts that meet are merged. The search
-/// ends when at most one front per former component can still grow, so it costs only what the small
-/// pieces cost.
+/// ends when at most one part is not known completely, and it crosses unchanged regions as a whole
+/// (PieceSearch), so it costs what the changes cost. The first search of a model builds its cells.
 /// @return nothing if everything is still connected.
-[[nodiscard]] std::vector<TornPiece> find_pieces(const EditLog::Mark& begin,
-                                                 const SurfaceEditor& editor, PosedPoints& posed);
+[[nodiscard]] TornPieces find_pieces(const EditLog::Mark& begin, const SurfaceEditor& editor);
 
-/// The same including the remaining part. O(all faces).
-[[nodiscard]] std::vector<TornPiece> find_all_pieces(const EditLog::Mark& begin,
-                                                     const SurfaceEditor& editor,
-                                                     PosedPoints& posed);
+/// Names the components on both sides of lips, bodies included, where the lips separated any.
+/// Fronts start along the lips.
+[[nodiscard]] TornPieces find_pieces_at(std::span<const LipPair> lips, const SurfaceEditor& editor);
 
 }  // namespace sunder::tear

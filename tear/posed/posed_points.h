@@ -20,6 +20,9 @@ class PosedPoints {
   /// Sets the pose and forgets all points. @return as CharacterPose::set().
   [[nodiscard]] Status begin(const Character& character, const ModelPose& pose);
 
+  /// Whether begin() has succeeded.
+  [[nodiscard]] bool has_pose() const { return epoch_ != 0; }
+
   /// The reference stays valid until the surface has more points than were covered.
   [[nodiscard]] const Vec3d& position(const SurfaceEditor& editor, Index point) {
     if (point < known_.size() && known_[point].since == epoch_) return known_[point].position;

@@ -7,6 +7,7 @@
 #include "tear/internal/surface.h"
 #include "tear/path/imprint_point.h"
 #include "tear/sheet/imprint_sheets.h"
+#include "tear/sheet/walk_sheet.h"
 
 namespace sunder::tear {
 namespace {
@@ -56,21 +57,24 @@ std::vector<std::vector<PointEdge>> runs_of(const std::vector<PointEdge>& edges)
 
 }  // namespace
 
-std::vector<Index> faces_across(const Sheet& sheet, const SurfaceEditor& editor,
-                                PosedPoints& posed) {
+ScratchVector<Index> faces_across(const Sheet& sheet, const SurfaceEditor& editor,
+                                  PosedPoints& posed) {
   const Surface& surface = editor.surface();
   const Frame frame = posed.frame_along(
       axes_along(sheet.plane.normal,
                  sheet.bounds.empty() ? Vec3d(Vec3d::Zero()) : sheet.bounds[0].side.normal),
       editor);
-  std::vector<FramedPlaneSide> sides = {{frame, sheet.plane},
-                                        {frame, {-sheet.plane.normal, -sheet.plane.offset}}};
+  ScratchVector<FramedPlaneSide> sides(&editor.scratch());
+  sides.reserve(sheet.bounds.size() + 2);
+  sides.emplace_back(frame, sheet.plane);
+  sides.emplace_back(frame, PlaneSide{-sheet.plane.normal, -sheet.plane.offset});
   for (const Sheet::Bound& bound : sheet.bounds) sides.emplace_back(frame, bound.side);
   const auto may_meet = [&](const FrameBox& box) {
     return std::none_of(sides.begin(), sides.end(),
                         [&](const FramedPlaneSide& side) { return side.is_beside(box); });
   };
-  std::vector<Index> faces;
+  ScratchVector<Index> faces(&editor.scratch());
+  faces.reserve(256);
   posed.for_each_face(editor, frame, may_meet, [&](Index face) {
     std::array<Vec3d, 3> corners;
     for (Index k = 0; k < 3; ++k)
@@ -92,44 +96,96 @@ std::vector<Index> faces_across(const Sheet& sheet, const SurfaceEditor& editor,
   return faces;
 }
 
-SheetOpening open_sheet(const Sheet& sheet, std::span<const Index> faces, const Workpiece& work,
-                        std::vector<LipPair>& lips) {
+namespace {
+
+/// The faces of the stage that were split from some faces, which are ascending, and those
+/// themselves.
+ScratchVector<Index> with_parts(const ScratchVector<Index>& faces, const SurfaceEditor& editor) {
+  ScratchVector<Index> all(faces, &editor.scratch());
+  const Index end = editor.surface().triangle_count();
+  for (Index t = editor.stage.first_triangle(); t < end; ++t)
+    if (std::binary_search(faces.begin(), faces.end(), editor.stage.ancestor(t))) all.push_back(t);
+  return all;
+}
+
+/// A single edge between two tips stays closed at both ends, so it gets another point that can
+/// open. @return false if that fails.
+bool make_openable(std::vector<PointEdge>& run, const Workpiece& work) {
   SurfaceEditor& editor = work.editor;
-  PosedPoints& posed = work.posed;
-  SheetImprint imprint = imprint_sheets({&sheet, 1}, faces, editor, posed);
-  SheetOpening opening;
-  opening.faces_crossed = imprint.faces_crossed;
-  opening.blocked = imprint.blocked;
-  drop_touching(imprint.edges[0]);
-  for (std::vector<PointEdge>& run : runs_of(imprint.edges[0])) {
-    // A single edge between two tips stays closed at both ends, so it needs another point that can
-    // open.
-    if (run.size() == 1 && !editor.surface().is_on_border(run[0][0]) &&
-        !editor.surface().is_on_border(run[0][1])) {
-      const Index h = editor.surface().find_half_edge(run[0][0], run[0][1]);
-      const Index middle = h == kNone ? kNone : split_posed_edge(h, 0.5, editor, posed);
-      if (middle == kNone) {
-        ++opening.blocked;
-        continue;
-      }
-      run = {{run[0][0], middle}, {middle, run[0][1]}};
+  if (run.size() != 1 || editor.surface().is_on_border(run[0][0]) ||
+      editor.surface().is_on_border(run[0][1]))
+    return true;
+  const Index h = editor.surface().find_half_edge(run[0][0], run[0][1]);
+  const Index middle = h == kNone ? kNone : split_posed_edge(h, 0.5, editor, work.posed);
+  if (middle == kNone) return false;
+  run = {{run[0][0], middle}, {middle, run[0][1]}};
+  return true;
+}
+
+/// Imprints what the walk left over, and orders all edges in runs.
+/// @param walked  the edges that it made.
+void imprint_rest(const Sheet& sheet, std::span<const Index> faces,
+                  std::span<const PointEdge> walked, const Workpiece& work, SheetOpening& opening) {
+  SheetImprint imprint = imprint_sheets({&sheet, 1}, faces, work.editor, work.posed);
+  opening.faces_crossed += imprint.faces_crossed;
+  opening.blocked += imprint.blocked;
+  std::vector<PointEdge>& edges = imprint.edges[0];
+  edges.insert(edges.end(), walked.begin(), walked.end());
+  drop_touching(edges);
+  for (std::vector<PointEdge>& run : runs_of(edges)) {
+    if (!make_openable(run, work)) {
+      ++opening.blocked;
+      continue;
     }
     ++opening.runs;
-    for (const PointEdge& edge : run) {
-      opening.length_posed +=
-          norm(posed.position(editor, edge[1]) - posed.position(editor, edge[0]));
-      opening.edges.push_back(edge);
-    }
+    opening.edges.insert(opening.edges.end(), run.begin(), run.end());
   }
-  for (const auto& [from, to] : opening.edges) {
-    const Index left = editor.surface().find_half_edge(from, to);
-    const Index right = left == kNone ? kNone : editor.surface().twin[left];
+}
+
+void note_borders(std::span<const Index> half_edges, const Surface& surface,
+                  SheetOpening& opening) {
+  for (std::size_t i = 0; i < opening.edges.size(); ++i) {
+    const auto& [from, to] = opening.edges[i];
+    const Index known = i < half_edges.size() ? half_edges[i] : kNone;
+    const bool is_right = known != kNone && surface.corner_point[known] == from &&
+                          surface.corner_point[Surface::next(known)] == to;
+    const Index left = is_right ? known : surface.find_half_edge(from, to);
+    const Index right = left == kNone ? kNone : surface.twin[left];
     if (right == kNone) continue;
     opening.left.push_back(left);
     opening.right.push_back(right);
   }
+}
+
+}  // namespace
+
+SheetOpening open_sheet(const Sheet& sheet, std::span<const Index> faces, bool keeps_borders,
+                        const Workpiece& work, std::vector<LipPair>& lips) {
+  SurfaceEditor& editor = work.editor;
+  PosedPoints& posed = work.posed;
+  SheetOpening opening{ScratchVector<PointEdge>(&editor.scratch()), {}, {}};
+  std::span<const Index> half_edges;
+  SheetWalk walk(sheet.plane, editor, posed);
+  if (sheet.bounds.empty()) {
+    editor.stage.begin();
+    walk.cross(faces);
+    opening.faces_crossed = walk.faces_crossed();
+  }
+  if (!sheet.bounds.empty()) {
+    imprint_rest(sheet, faces, {}, work, opening);
+  } else if (!walk.are_runs_whole()) {
+    const ScratchVector<Index> rest = with_parts(walk.left_over(), editor);
+    imprint_rest(sheet, rest, walk.edges(), work, opening);
+  } else {
+    opening.runs = walk.run_count();
+    opening.edges = walk.edges();
+    half_edges = walk.half_edges();
+  }
+  for (const auto& [from, to] : opening.edges)
+    opening.length_posed += norm(posed.position(editor, to) - posed.position(editor, from));
+  if (keeps_borders) note_borders(half_edges, editor.surface(), opening);
   const std::size_t first_lip = lips.size();
-  open_edges(opening.edges, {}, editor, lips);
+  open_edges(opening.edges, half_edges, editor, lips);
   for (std::size_t i = first_lip; i < lips.size(); ++i)
     posed.pin(lips[i].left, Vec3d(posed.position(editor, lips[i].right)));
   return opening;

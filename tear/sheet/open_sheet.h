@@ -12,8 +12,8 @@ namespace sunder::tear {
 /// Result of opening the surface along a sheet.
 struct SheetOpening {
   /// The edges before they opened; the left lip is on the left of each edge.
-  std::vector<PointEdge> edges;
-  /// Half-edges of the faces on both sides of the edges: the borders of the lips.
+  ScratchVector<PointEdge> edges;
+  /// If asked for, half-edges of the faces on both sides of the edges: the borders of the lips.
   std::vector<Index> left, right;
   Index runs = 0;  ///< Number of connected runs of edges.
   Index faces_crossed = 0;
@@ -23,12 +23,14 @@ struct SheetOpening {
 
 /// The live faces, ascending, that have corners on both sides of the sheet's plane and that no
 /// bound excludes.
-[[nodiscard]] std::vector<Index> faces_across(const Sheet& sheet, const SurfaceEditor& editor,
-                                              PosedPoints& posed);
+[[nodiscard]] ScratchVector<Index> faces_across(const Sheet& sheet, const SurfaceEditor& editor,
+                                                PosedPoints& posed);
 
 /// Opens the posed surface where some faces meet a sheet.
 /// @param faces  of faces_across(): all of them, or those of some sections.
+/// @param keeps_borders  whether SheetOpening::left and right are wanted.
 [[nodiscard]] SheetOpening open_sheet(const Sheet& sheet, std::span<const Index> faces,
-                                      const Workpiece& work, std::vector<LipPair>& lips);
+                                      bool keeps_borders, const Workpiece& work,
+                                      std::vector<LipPair>& lips);
 
 }  // namespace sunder::tear

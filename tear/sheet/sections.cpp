@@ -16,6 +16,7 @@ namespace {
 
 /// The line in which a sheet meets a face.
 struct Line {
+  double weight = 0;  ///< Of the wanted bones, the mean of both ends.
   std::array<Vec3d, 2> ends = {Vec3d(Vec3d::Zero()), Vec3d(Vec3d::Zero())};
   bool is_empty = true;  ///< The bounds exclude all of it.
 };
@@ -28,7 +29,9 @@ class CrossedEdges {
       : sheet_(sheet), surface_(editor.surface()), editor_(editor), posed_(posed) {}
 
   /// @return whether the plane crosses the edge of a half-edge.
-  bool cross(Index half_edge, Vec3d& place) {
+  /// @param weight  the weight of the bones there; 0 if none are wanted.
+  bool cross(Index half_edge, const std::vector<bool>& is_wanted_bone, Vec3d& place,
+             double& weight) {
     const Index twin = surface_.twin[half_edge];
     const Index h = std::min(half_edge, twin);  // kNone is the highest
     const Vec3d from = posed_.position(editor_, surface_.corner_point[h]),
@@ -38,6 +41,9 @@ class CrossedEdges {
     const double fraction =
         at_from == at_to ? 0.0 : std::clamp(at_from / (at_from - at_to), 0.0, 1.0);
     place = from + fraction * (to - from);
+    weight = is_wanted_bone.empty() ? 0.0
+                                    : (1 - fraction) * weight_at(h, is_wanted_bone) +
+                                          fraction * weight_at(Surface::next(h), is_wanted_bone);
     return true;
   }
 
@@ -47,6 +53,17 @@ class CrossedEdges {
   }
 
  private:
+  /// The weight of some bones at a corner.
+  [[nodiscard]] double weight_at(Index corner, const std::vector<bool>& is_wanted_bone) const {
+    const Index mesh = surface_.triangle(corner / 3).mesh;
+    const Skin& skin = editor_.character().skins[editor_.character().meshes[mesh].skin];
+    double weight = 0;
+    for (const Influence& influence : editor_.births.influences(mesh, editor_.vertex_at(corner)))
+      if (is_wanted_bone[skin.bones[influence.slot]])
+        weight += static_cast<double>(influence.weight);
+    return weight;
+  }
+
   const Sheet& sheet_;
   const Surface& surface_;
   const SurfaceEditor& editor_;
@@ -80,8 +97,8 @@ double distance(const Vec3d& place, const Line& line) {
 /// The sections of a sheet.
 class Sections {
  public:
-  Sections(const Sheet& sheet, const std::vector<Index>& faces, const SurfaceEditor& editor,
-           PosedPoints& posed)
+  Sections(const Sheet& sheet, const SectionLimits& limits, const ScratchVector<Index>& faces,
+           const SurfaceEditor& editor, PosedPoints& posed)
       : lines_(faces.size()),
         sets_(static_cast<Index>(faces.size()), *std::pmr::get_default_resource()) {
     CrossedEdges edges(sheet, editor, posed);
@@ -91,7 +108,9 @@ class Sections {
       std::size_t end = 0;
       for (Index h = 3 * faces[i]; h < 3 * faces[i] + 3; ++h) {
         Vec3d place;
-        if (!edges.cross(h, place)) continue;
+        double weight = 0;
+        if (!edges.cross(h, limits.is_wanted_bone, place, weight)) continue;
+        line.weight += 0.5 * weight;
         if (end < 2) line.ends[end++] = place;
         if (!edges.is_within_bounds(place) || surface.twin[h] == kNone) continue;
         const auto other = std::lower_bound(faces.begin(), faces.end(), surface.twin[h] / 3);
@@ -100,6 +119,21 @@ class Sections {
       }
       line.is_empty = end < 2;
       if (!line.is_empty) clip(sheet, line);
+    }
+  }
+
+  /// Drops the sections that the wanted bones move by half or less.
+  void drop_unmoved() {
+    std::vector<std::array<double, 2>> sums(lines_.size(), {0, 0});  // weight, length
+    for (Index i = 0; i < lines_.size(); ++i) {
+      if (lines_[i].is_empty) continue;
+      const double length = norm(lines_[i].ends[1] - lines_[i].ends[0]);
+      sums[sets_.find(i)][0] += length * lines_[i].weight;
+      sums[sets_.find(i)][1] += length;
+    }
+    for (Index i = 0; i < lines_.size(); ++i) {
+      const auto& [weight, length] = sums[sets_.find(i)];
+      if (!(weight > 0.5 * length)) lines_[i].is_empty = true;
     }
   }
 
@@ -118,6 +152,29 @@ class Sections {
         is_chosen[sets_.find(i)] = true;
     }
   }
+
+  /// Marks the sections that a ray in the plane meets first.
+  void choose_first(const Vec3d& normal, const SectionRay& ray, std::vector<bool>& is_chosen) {
+    const Vec3d in_plane = ray.direction - dot(ray.direction, normal) * normal;
+    const Vec3d along = in_plane / norm(in_plane), across = normal.cross(along);
+    const auto distance_to = [&](const Line& line) {
+      constexpr double kNowhere = std::numeric_limits<double>::infinity();
+      if (line.is_empty) return kNowhere;
+      const Vec3d from = line.ends[0] - ray.origin, to = line.ends[1] - ray.origin;
+      const double left_of_from = dot(across, from), left_of_to = dot(across, to);
+      // An end on the ray counts as left of it, so that neighbouring lines leave no gap.
+      if ((left_of_from < 0) == (left_of_to < 0)) return kNowhere;
+      const double part = std::clamp(left_of_from / (left_of_from - left_of_to), 0.0, 1.0);
+      const double at = dot(along, Vec3d(from + part * (to - from)));
+      return at < 0 ? kNowhere : at;
+    };
+    double least = std::numeric_limits<double>::max();
+    for (const Line& line : lines_) least = std::min(least, distance_to(line));
+    if (least == std::numeric_limits<double>::max()) return;
+    const double rounding = kPosedCoordinates * (ray.origin.cwiseAbs().maxCoeff() + least);
+    for (Index i = 0; i < lines_.size(); ++i)
+      if (distance_to(lines_[i]) <= least + rounding) is_chosen[sets_.find(i)] = true;
+  }
   [[nodiscard]] Index section_of(Index i) { return sets_.find(i); }
   [[nodiscard]] bool is_empty(Index i) const { return lines_[i].is_empty; }
 
@@ -128,14 +185,18 @@ class Sections {
 
 }  // namespace
 
-std::vector<Index> faces_of_sections(const Sheet& sheet, std::span<const Vec3d> places,
-                                     std::vector<Index> faces, const SurfaceEditor& editor,
-                                     PosedPoints& posed) {
-  if (places.empty()) return faces;
-  Sections sections(sheet, faces, editor, posed);
-  std::vector<bool> is_chosen(faces.size(), false);
-  for (const Vec3d& place : places) sections.choose(place, is_chosen);
-  std::vector<Index> staying;
+ScratchVector<Index> faces_of_sections(const Sheet& sheet, const SectionLimits& limits,
+                                       ScratchVector<Index> faces, const SurfaceEditor& editor,
+                                       PosedPoints& posed) {
+  if (!limits.has_any()) return faces;
+  Sections sections(sheet, limits, faces, editor, posed);
+  if (!limits.is_wanted_bone.empty()) sections.drop_unmoved();
+  const bool chooses = !limits.places.empty() || limits.first_hit;
+  std::vector<bool> is_chosen(faces.size(), !chooses);
+  for (const Vec3d& place : limits.places) sections.choose(place, is_chosen);
+  if (limits.first_hit) sections.choose_first(sheet.plane.normal, *limits.first_hit, is_chosen);
+  ScratchVector<Index> staying(&editor.scratch());
+  staying.reserve(faces.size());
   for (Index i = 0; i < faces.size(); ++i)
     if (!sections.is_empty(i) && is_chosen[sections.section_of(i)]) staying.push_back(faces[i]);
   return staying;

@@ -35,6 +35,7 @@ SurfaceEditor::SurfaceEditor(const Character& source, Character& character, Surf
       stage(columns_),
       opened_edges(columns_.surface),
       log(character, columns_),
+      changed_cells(source, columns_),
       connectivity(character, columns_, origins, sides, stage) {}
 
 void SurfaceEditor::fetch(Index triangle) const {
@@ -53,9 +54,11 @@ void SurfaceEditor::reserve(const TornCapacity& capacity) {
   sides.reserve();
   room.reserve(capacity);
   if (room.is_fixed()) scratch_.reserve(kScratchPerTriangle * capacity.triangles + kLeastScratch);
+  if (room.is_fixed()) changed_cells.update();
 }
 
 void SurfaceEditor::roll_back(const EditLog::Mark& to) noexcept {
+  changed_cells.forget_from(to.triangle_changes);
   log.restore_since(to);
   auto& side_changes = columns_.side_changes;
   for (; side_changes.size() > to.side_changes; side_changes.pop_back())

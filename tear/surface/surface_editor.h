@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "tear/surface/births.h"
+#include "tear/surface/changed_cells.h"
 #include "tear/surface/connectivity.h"
 #include "tear/surface/edit_columns.h"
 #include "tear/surface/edit_log.h"
@@ -98,6 +99,7 @@ class SurfaceEditor {
   Stage stage;
   OpenedEdges opened_edges;
   EditLog log;
+  mutable ChangedCells changed_cells;  ///< Known when a search asks.
   Connectivity connectivity;
 };
 

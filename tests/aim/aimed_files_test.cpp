@@ -253,7 +253,9 @@ struct Judge {
 /// The share of a piece's vertices of the source that are moved mostly by the limb.
 double limb_share(const TornModel& model, const TornPiece& piece, const std::vector<bool>& limb) {
   double inside = 0, all = 0;
-  for (const TornPiece::Triangles& of_mesh : piece.meshes) {
+  const auto described = model.describe_piece(piece);
+  if (!described) return 0.0;
+  for (const PieceDescription::Triangles& of_mesh : described->meshes) {
     const Mesh& mesh = model.source().meshes[of_mesh.mesh];
     std::set<std::uint32_t> vertices;
     for (const std::uint32_t t : of_mesh.triangles)

@@ -149,6 +149,8 @@ CutOperation any_cut(Random& random) {
   if (random.index(2) == 0)
     for (std::uint32_t i = 1 + random.index(3); i > 0; --i)
       operation.cut.sections.push_back(any_point(random));
+  if (random.index(2) == 0) operation.cut.first_hit = {any_point(random), any_direction(random)};
+  if (random.index(2) == 0) operation.cut.bone = "fore\"arm_l";
   return operation;
 }
 
@@ -274,10 +276,13 @@ class Bits {
     add(tear.options.layers == Layers::all), add(tear.options.wall_depth),
         add(tear.options.weights);
   }
+  void add(const SectionRay& ray) { add(ray.origin), add(ray.direction); }
   void add(const CutOperation& operation) {
     add(operation.pose), add(operation.cut.point), add(operation.cut.normal),
         add(operation.cut.bounds), add(operation.cut.caps);
     add(operation.cut.sections), add(operation.cut.weights);
+    add(operation.cut.bone);
+    add(operation.cut.first_hit);
   }
   void add(const DrillOperation& operation) {
     add(operation.pose), add(operation.bore.origin), add(operation.bore.direction),

@@ -88,15 +88,17 @@ TEST(OperationLog, ABladeMayBringItsPose) {
 TEST(OperationLog, ReadsACut) {
   const auto operations = parse_operations(log_of(R"({"op": "cut", "pose": "bind",
       "plane": {"point": [1, 2, 3], "normal": [0, -2, 0]}, "bounds": [[0,0,0], [1,0,0], [0,0,1]], "caps": true,
-      "sections": [[4, 5, 6], [7, 8, 9]]},
+      "sections": [[4, 5, 6], [7, 8, 9]], "first_hit": {"origin": [1, 2, 3], "direction": [0, 0, -4]},
+      "bone": "forearm"},
       {"op": "cut", "plane": {"point": [0,0,0], "normal": [0,0,1]}})"));
   ASSERT_TRUE(operations) << operations.error().text();
   const auto& cut = std::get<CutOperation>(operations->at(0));
   EXPECT_TRUE(std::holds_alternative<BindPose>(cut.pose));
-  EXPECT_EQ(
-      cut.cut,
-      (PlaneCut{
-          {1, 2, 3}, {0, -2, 0}, {{0, 0, 0}, {1, 0, 0}, {0, 0, 1}}, true, {{4, 5, 6}, {7, 8, 9}}}));
+  PlaneCut expected = {
+      {1, 2, 3}, {0, -2, 0}, {{0, 0, 0}, {1, 0, 0}, {0, 0, 1}}, true, {{4, 5, 6}, {7, 8, 9}}};
+  expected.first_hit = {{1, 2, 3}, {0, 0, -4}};
+  expected.bone = "forearm";
+  EXPECT_EQ(cut.cut, expected);
   EXPECT_EQ(std::get<CutOperation>(operations->at(1)).cut, PlaneCut{});
 }
 
@@ -451,6 +453,12 @@ INSTANTIATE_TEST_SUITE_P(
                 "/sections: sections need at least one place"},
         Refusal{"a section of two numbers", cut_with(R"("sections": [[0,0,0], [1,0]])"), kMalformed,
                 "/sections/1: expected an array of 3"},
+        Refusal{"a ray without direction", cut_with(R"("first_hit": {"origin": [0,0,0]})"), kMalformed,
+                "/first_hit: field 'direction' is missing"},
+        Refusal{"a ray of no length",
+                cut_with(R"("first_hit": {"origin": [0,0,0], "direction": [0,0,0]})"), kMalformed,
+                "/first_hit/direction"},
+        Refusal{"a bone by number", cut_with(R"("bone": 3)"), kMalformed, "/bone: expected"},
         Refusal{"caps as number", cut_with(R"("caps": 1)"), kMalformed,
                 "/caps: expected true or false, found number"},
         Refusal{"pose of a cut", cut_with(R"("pose": "t-pose")"), kMalformed, "/operations/0/pose"},

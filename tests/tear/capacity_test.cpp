@@ -84,6 +84,32 @@ TEST(Capacity, extending_a_stroke_allocates_nothing) {
   }
 }
 
+TEST(Capacity, a_warm_cut_allocates_nothing) {
+  const Character tube = test::make_tube(20, 24, 8);
+  int divided = 0;
+  for (std::uint64_t seed = 0; seed < 30; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    TornModel model = make_model(tube, kRoom);
+    PlaneCut cut;
+    cut.point = {0, random.uniform(1, 2), 0};
+    cut.normal = random.direction();
+    const ModelPose pose = test::random_pose(tube, random, 0.2, 1.0),
+                    other = test::random_pose(tube, random, 0.2, 1.0);
+    ChangeRecord change;
+    for (int i = 0; i < 3; ++i) {  // builds what is built on first use, with enough memory
+      ASSERT_TRUE(model.cut(i % 2 == 0 ? pose : other, cut, &change));
+      ASSERT_TRUE(model.undo(&change));
+    }
+    const std::uint64_t before = test::allocation_count();
+    const auto report = model.cut(pose, cut, &change);
+    EXPECT_EQ(test::allocation_count(), before);
+    ASSERT_TRUE(report) << report.error().text();
+    divided += report->pieces.size() > 1 ? 1 : 0;
+  }
+  EXPECT_GT(divided, 20);
+}
+
 TEST(Capacity, where_room_runs_out_nothing_changes) {
   int refused = 0, done = 0;
   for (std::uint64_t seed = 0; seed < 200; ++seed) {

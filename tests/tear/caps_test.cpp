@@ -31,7 +31,7 @@ double volume_of(const TornModel& model, const ModelPose& pose, const TornPiece*
       for (std::uint32_t t = 0; t < model.character().meshes[m].triangle_count(); ++t)
         triangles.push_back(t);
     else
-      for (const TornPiece::Triangles& of_mesh : piece->meshes)
+      for (const PieceDescription::Triangles& of_mesh : model.describe_piece(*piece)->meshes)
         if (of_mesh.mesh == m) triangles = of_mesh.triangles;
     for (const std::uint32_t t : triangles) {
       const Triangle& triangle = model.character().meshes[m].triangles[t];

@@ -253,7 +253,8 @@ void compare_cut(const Subject& subject, const PlaneCut& cut, double snap = 0) {
               (snap + kRounding * diagonal) * static_cast<double>(1 + change.lips.size()));
   EXPECT_EQ(report->runs > 0, parts.border_length > 0);
   std::vector<double> areas;
-  for (const TornPiece& piece : report->pieces) areas.push_back(piece.area_posed);
+  for (const TornPiece& piece : report->pieces)
+    areas.push_back(model.describe_piece(piece)->area_posed);
   if (parts.areas.size() > 1 && components == parts.areas.size()) {
     EXPECT_THAT(sorted(areas),
                 testing::Pointwise(testing::DoubleNear((snap + kRounding * diagonal) * diagonal),

@@ -292,11 +292,18 @@ class Subject {
       for (std::uint32_t t = 0; t < model.character().meshes[m].triangle_count(); ++t)
         if (!has_repeated_point({m, t}))
           for_each_edge({m, t}, [&](const auto& edge) { faces_of_edge[edge].push_back({m, t}); });
-    for (const TornPiece& piece : report.pieces) {
+    for (const TornPiece& name : report.pieces) {
+      const auto described = model.describe_piece(name);
+      ASSERT_TRUE(described) << described.error().text();
+      const PieceDescription& piece = *described;
       std::set<Face> named, found;
-      for (const TornPiece::Triangles& of_mesh : piece.meshes)
+      for (const PieceDescription::Triangles& of_mesh : piece.meshes)
         for (const std::uint32_t t : of_mesh.triangles) named.insert({of_mesh.mesh, t});
       EXPECT_EQ(named.size(), piece.triangle_count);
+      EXPECT_EQ(named.count({name.mesh, name.triangle}), 1u);
+      if (name.triangle_count != kNone) {
+        EXPECT_EQ(named.size(), name.triangle_count);
+      }
       if (named.empty()) continue;
       std::vector<Face> open = {*named.begin()};
       found.insert(open.front());
@@ -502,8 +509,10 @@ void tear_ring_in_sheet(std::uint64_t seed) {
   const double area = 0.5 * corners * radius * radius * std::sin(2 * std::numbers::pi / corners);
   EXPECT_EQ(count_topology(subject.model.character())->components, 2u);
   ASSERT_EQ(report.pieces.size(), 1u) << describe(stroke, options);
-  // The part with more faces is the rest, even if it is the flap.
-  const double free = report.pieces[0].area_posed, rest = 1 - report.area_removed_posed - free;
+  // The larger part is the rest, even if it is the flap.
+  const auto piece = subject.model.describe_piece(report.pieces[0]);
+  ASSERT_TRUE(piece) << piece.error().text();
+  const double free = piece->area_posed, rest = 1 - report.area_removed_posed - free;
   const double perimeter = 2 * corners * radius * std::sin(std::numbers::pi / corners);
   const double rim = 0.5 * options.width * perimeter;
   // On edges created by tears, points snap by up to 3 % of the faces' longest side, so some of them

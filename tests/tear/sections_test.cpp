@@ -183,5 +183,131 @@ TEST(Sections, at_random_are_replayed_and_undone_bit_for_bit) {
   }
 }
 
+TEST(Sections, only_the_first_on_a_ray_is_cut) {
+  const Character tubes = make_tubes_side_by_side(3, 12);
+  const auto torn_by = [&](const Vec3d& origin, const Vec3d& direction) {
+    TornModel model = make_model(tubes);
+    PlaneCut cut = across_all();
+    cut.first_hit = {origin, direction};
+    const auto report = model.cut(*bind_pose(tubes), cut);
+    EXPECT_TRUE(report) << report.error().text();
+    EXPECT_THAT(test::broken_laws(model), IsEmpty());
+    return torn_meshes(model);
+  };
+  using Meshes = std::set<std::uint32_t>;
+  EXPECT_EQ(torn_by({-5, 1, 0}, {1, 0, 0}), Meshes{0});
+  EXPECT_EQ(torn_by({-5, 7, 0}, {2, -1, 0}), Meshes{0}) << "projected onto the plane";
+  EXPECT_EQ(torn_by({1, 1, 0}, {1, 0, 0}), Meshes{1});
+  EXPECT_EQ(torn_by({3, 1, 0}, {-1, 0, 0}), Meshes{1});
+  EXPECT_EQ(torn_by({4, 1, 0}, {0, 0, 1}), Meshes{2}) << "from within";
+  EXPECT_EQ(torn_by({6, 1, 0}, {1, 0, 0}), Meshes{}) << "a ray that meets none";
+}
+
+TEST(Sections, the_first_on_a_ray_is_the_nearest_crossing_of_all_triangles) {
+  Random random(5);
+  int hits = 0;
+  for (int i = 0; i < 100; ++i) {
+    SCOPED_TRACE(i);
+    const Character tubes = make_tubes_side_by_side(3, 5 + random.index(12));
+    const ModelPose pose = test::random_pose(tubes, random, 0.3, 1.0);
+    PlaneCut cut;
+    cut.point = Vec3d(random.uniform(0, 2), random.uniform(0.3, 1.7), 0);
+    cut.normal = Vec3d(random.direction() + Vec3d(0, 1.2, 0)).normalized();
+    cut.first_hit = {Vec3d(random.uniform(-2, 6), 1, random.uniform(-2, 2)), random.direction()};
+    // Per mesh, the nearest crossing of the ray's projection with a triangle's line in the plane.
+    const Vec3d along =
+        Vec3d(cut.first_hit->direction - cut.normal.dot(cut.first_hit->direction) * cut.normal)
+            .normalized();
+    const Vec3d across = cut.normal.cross(along);
+    double least = std::numeric_limits<double>::infinity();
+    std::uint32_t nearest = kNone;
+    for (std::uint32_t m = 0; m < 3; ++m) {
+      const auto places = test::posed_positions(tubes, m, pose);
+      for (const Triangle& triangle : tubes.meshes[m].triangles) {
+        std::vector<Vec3d> ends;
+        for (std::size_t k = 0; k < 3; ++k) {
+          const Vec3d &a = places[triangle[k]], &b = places[triangle[(k + 1) % 3]];
+          const double at_a = cut.normal.dot(a - cut.point), at_b = cut.normal.dot(b - cut.point);
+          if ((at_a < 0) != (at_b < 0)) ends.emplace_back(a + at_a / (at_a - at_b) * (b - a));
+        }
+        if (ends.size() != 2) continue;
+        const double left = across.dot(ends[0] - cut.first_hit->origin),
+                     right = across.dot(ends[1] - cut.first_hit->origin);
+        if ((left < 0) == (right < 0)) continue;
+        const Vec3d place = ends[0] + left / (left - right) * (ends[1] - ends[0]);
+        const double distance = along.dot(place - cut.first_hit->origin);
+        if (distance < 0 || distance >= least) continue;
+        least = distance;
+        nearest = m;
+      }
+    }
+    TornModel model = make_model(tubes);
+    const auto report = model.cut(pose, cut);
+    ASSERT_TRUE(report) << report.error().text();
+    if (nearest == kNone) {
+      EXPECT_EQ(report->runs, 0u);
+      continue;
+    }
+    ++hits;
+    EXPECT_EQ(torn_meshes(model), std::set<std::uint32_t>{nearest});
+  }
+  EXPECT_GT(hits, 30);
+}
+
+/// Tubes of which one is moved by the last bone of the chain, the others by the first.
+Character make_tubes_with_limb(std::uint32_t limb) {
+  Character tubes = make_tubes_side_by_side(3, 12);
+  for (Mesh& mesh : tubes.meshes) {
+    SkinWeights rigid;
+    rigid.first = {0};
+    for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
+      rigid.influences.push_back({&mesh == &tubes.meshes[limb] ? 2u : 0u, 1.0f});
+      rigid.first.push_back(v + 1);
+    }
+    mesh.weights = rigid;
+  }
+  return tubes;
+}
+
+TEST(Sections, only_those_that_a_bones_subtree_moves_are_cut) {
+  for (std::uint32_t limb = 0; limb < 3; ++limb) {
+    const Character tubes = make_tubes_with_limb(limb);
+    PlaneCut cut = across_all();
+    const auto torn_under = [&](std::uint32_t bone) {
+      TornModel model = make_model(tubes);
+      cut.bone = tubes.skeleton.bones[tubes.skins[0].bones[bone]].name;
+      const auto report = model.cut(*bind_pose(tubes), cut);
+      EXPECT_TRUE(report) << report.error().text();
+      return torn_meshes(model);
+    };
+    EXPECT_EQ(torn_under(2), std::set<std::uint32_t>{limb});
+    EXPECT_EQ(torn_under(1), std::set<std::uint32_t>{limb});
+    EXPECT_EQ(torn_under(0), (std::set<std::uint32_t>{0, 1, 2}));
+    // The ray and the places choose among the sections of the subtree.
+    cut.first_hit = {Vec3d(-5, 1, 0), Vec3d(1, 0, 0)};
+    EXPECT_EQ(torn_under(2), std::set<std::uint32_t>{limb});
+  }
+}
+
+TEST(Sections, limits_that_say_nothing_are_refused) {
+  TornModel model = make_model(make_tubes_side_by_side(2, 6));
+  const auto before = state_of(model);
+  const auto code_of = [&](const PlaneCut& cut) {
+    const auto report = model.cut(*bind_pose(model.source()), cut);
+    return report ? StatusCode::ok : report.error().code();
+  };
+  PlaneCut cut = across_all();
+  cut.bone = "no bone";
+  EXPECT_EQ(code_of(cut), StatusCode::not_found);
+  cut.bone.clear();
+  cut.first_hit = {Vec3d::Zero(), cut.normal};
+  EXPECT_EQ(code_of(cut), StatusCode::invalid_argument) << "a ray across the plane";
+  cut.first_hit = {Vec3d::Zero(), Vec3d::Zero()};
+  EXPECT_EQ(code_of(cut), StatusCode::invalid_argument);
+  cut.first_hit = {Vec3d(0, std::numeric_limits<double>::infinity(), 0), Vec3d(1, 0, 0)};
+  EXPECT_EQ(code_of(cut), StatusCode::non_finite_value);
+  EXPECT_EQ(difference(state_of(model), before), "");
+}
+
 }  // namespace
 }  // namespace sunder

@@ -156,12 +156,12 @@ void add_materials(const TornModel& torn, Character& still) {
 
 /// Moves the pieces of a cut away from its plane, to both sides.
 void move_apart(const Character& character, const PlaneCut& cut,
-                const std::vector<TornPiece>& pieces, double distance,
+                const std::vector<PieceDescription>& pieces, double distance,
                 std::vector<DeformedMesh>& posed) {
   const Vec3d normal = cut.normal.normalized();
-  for (const TornPiece& piece : pieces) {
+  for (const PieceDescription& piece : pieces) {
     const double side = (piece.centroid_posed - cut.point).dot(normal) < 0 ? -1.0 : 1.0;
-    for (const TornPiece::Triangles& part : piece.meshes) {
+    for (const PieceDescription::Triangles& part : piece.meshes) {
       std::vector<std::uint32_t> vertices;
       for (const std::uint32_t t : part.triangles)
         for (const std::uint32_t vertex : character.meshes[part.mesh].triangles[t])
@@ -186,11 +186,17 @@ Status draw_torn(const LoadedCharacter& loaded, std::span<const Operation> histo
   if (!pose) return pose.error();
   const Result<std::vector<DeformedMesh>> untorn = pose_model(torn.source(), *pose);
   if (!untorn) return untorn.error();
-  std::vector<TornPiece> pieces;
+  std::vector<PieceDescription> pieces;
   for (const Operation& operation : history) {
     const Result<TearReport> report = instance->apply(operation);
     if (!report) return report.error();
-    if (is_visible(operation)) pieces = report->pieces;
+    if (!is_visible(operation)) continue;
+    pieces.clear();
+    for (const TornPiece& piece : report->pieces) {
+      Result<PieceDescription> description = torn.describe_piece(piece);
+      if (!description) return description.error();
+      pieces.push_back(std::move(*description));
+    }
   }
   const Result<std::vector<DeformedMesh>> closed = pose_model(torn.character(), *pose);
   if (!closed) return closed.error();

@@ -110,6 +110,7 @@ Operation scaled(const Operation& operation, double factor) {
     cut->cut.point *= factor;
     for (Vec3d& corner : cut->cut.bounds) corner *= factor;
     for (Vec3d& place : cut->cut.sections) place *= factor;
+    if (cut->cut.first_hit) cut->cut.first_hit->origin *= factor;
   } else if (auto* const bore = std::get_if<DrillOperation>(&result)) {
     bore->bore.origin *= factor;
     bore->bore.radius *= factor;

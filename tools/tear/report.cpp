@@ -36,15 +36,16 @@ Names names_of(const Operation& operation) {
   return std::visit(Visitor(), operation);
 }
 
-Json piece_json(const TornPiece& piece, const Character& character) {
+Json piece_json(const PieceDescription& piece, bool is_body, const Character& character) {
   Json meshes = Json::array(), bones = Json::array();
-  for (const TornPiece::Triangles& part : piece.meshes)
+  for (const PieceDescription::Triangles& part : piece.meshes)
     meshes.push_back({{"mesh", character.meshes[part.mesh].name},
                       {"index", part.mesh},
                       {"triangle_count", part.triangles.size()}});
   for (const std::uint32_t bone : piece.bones) bones.push_back(character.skeleton.bones[bone].name);
   return {{"meshes", std::move(meshes)},
           {"triangle_count", piece.triangle_count},
+          {"is_body", is_body},
           {"bones", std::move(bones)},
           {"area_posed", piece.area_posed},
           {"centroid_posed", vector_json(piece.centroid_posed)}};
@@ -80,7 +81,14 @@ Result<OperationOutcome> play(const Operation& operation, TornModel& model,
   if (!report) return report.error();
   const Names names = names_of(operation);
   const bool has_missed = names.can_miss && report->runs == 0;
-  return OperationOutcome{names.op, names.done, has_missed, std::move(*report), elapsed.count()};
+  std::vector<PieceDescription> pieces;
+  for (const TornPiece& piece : report->pieces) {
+    Result<PieceDescription> description = model.describe_piece(piece);
+    if (!description) return description.error();
+    pieces.push_back(std::move(*description));
+  }
+  return OperationOutcome{names.op,           names.done,      has_missed,
+                          std::move(*report), elapsed.count(), std::move(pieces)};
 }
 
 Status measure_weight_error(const Operation& operation, const TornModel& model,
@@ -99,7 +107,8 @@ Status measure_weight_error(const Operation& operation, const TornModel& model,
 Json to_json(const OperationOutcome& outcome, const Character& character) {
   const TearReport& tear = outcome.tear;
   Json pieces = Json::array();
-  for (const TornPiece& piece : tear.pieces) pieces.push_back(piece_json(piece, character));
+  for (std::size_t i = 0; i < outcome.pieces.size(); ++i)
+    pieces.push_back(piece_json(outcome.pieces[i], tear.pieces[i].is_body, character));
   Json json = {{"op", outcome.op},
                {"status", outcome.has_missed ? "missed" : outcome.done},
                {"seconds", outcome.seconds},

@@ -23,7 +23,8 @@ struct OperationOutcome {
   const char* done = "";  ///< Its status in the report, if it did not miss.
   bool has_missed = false;
   TearReport tear;
-  double seconds = 0;  ///< Duration of the operation alone.
+  double seconds = 0;                         ///< Duration of the operation alone.
+  std::vector<PieceDescription> pieces = {};  ///< Of TearReport::pieces.
   /// Greatest distance of a new point from the untorn surface, in the poses of the operation;
   /// metres. Only if it was measured.
   std::optional<double> weight_error_max = {};

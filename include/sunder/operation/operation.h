@@ -39,7 +39,16 @@ struct TearOptions {
   bool operator==(const TearOptions&) const = default;
 };
 
-/// A cut by a plane, in model space.
+/// A half-line in model space.
+struct SectionRay {
+  Vec3d origin = Vec3d::Zero();
+  Vec3d direction = Vec3d(1.0, 0.0, 0.0);  ///< Any length except zero.
+
+  bool operator==(const SectionRay&) const = default;
+};
+
+/// A cut by a plane, in model space. A section is a connected run of faces that the plane meets
+/// within the bounds.
 struct PlaneCut {
   Vec3d point = Vec3d::Zero();          ///< On the plane.
   Vec3d normal = Vec3d(0.0, 0.0, 1.0);  ///< Towards the left lip; any length except zero.
@@ -47,10 +56,14 @@ struct PlaneCut {
   /// whole plane cuts.
   std::vector<Vec3d> bounds;
   bool caps = false;  ///< Closes the opened sections, where their rims are closed loops.
-  /// Places in model space. If not empty, only the section nearest to each of them is cut; a
-  /// section is a connected run of faces that the plane meets within the bounds.
+  /// Places in model space. If not empty, only the section nearest to each of them is cut.
   std::vector<Vec3d> sections = {};
   std::optional<WeightOptions> weights = {};  ///< For new points; if empty, the model's options.
+  /// If given, only the section is cut that this ray, projected onto the plane, meets first.
+  std::optional<SectionRay> first_hit = {};
+  /// Name of a bone. If not empty, only sections are cut that this bone and those below it move by
+  /// more than half, on average along the section.
+  std::string bone = {};
 
   bool operator==(const PlaneCut&) const = default;
 };

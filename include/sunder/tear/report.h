@@ -1,14 +1,53 @@
 #pragma once
 
+#include <sunder/core/index.h>
 #include <sunder/core/math.h>
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
 namespace sunder {
 
-/// A connected component of the surface that an operation separated from the rest.
+/// The name of a connected component of the surface that an operation separated from others.
+/// TornModel::describe_piece() lists and measures it.
 struct TornPiece {
+  std::uint32_t mesh = 0, triangle = 0;  ///< One of its triangles, at the edge that was cut.
+  /// Number of triangles; kNone if the search that named the pieces did not come to all of them.
+  std::uint32_t triangle_count = kNone;
+  /// Pieces with the same number were one component before the operation.
+  std::uint32_t component = 0;
+  /// The piece that remains of its component: the one with the largest area in bind space.
+  bool is_body = false;
+};
+
+/// The pieces of one operation. Up to sixteen are stored without allocation.
+class TornPieces {
+ public:
+  [[nodiscard]] std::size_t size() const { return count_; }
+  [[nodiscard]] bool empty() const { return count_ == 0; }
+  [[nodiscard]] const TornPiece* begin() const {
+    return many_.empty() ? few_.data() : many_.data();
+  }
+  [[nodiscard]] const TornPiece* end() const { return begin() + count_; }
+  [[nodiscard]] const TornPiece& operator[](std::size_t i) const { return begin()[i]; }
+  void push_back(const TornPiece& piece) {
+    if (count_ == few_.size()) many_.assign(few_.begin(), few_.end());
+    if (count_ < few_.size())
+      few_[count_] = piece;
+    else
+      many_.push_back(piece);
+    ++count_;
+  }
+
+ private:
+  std::array<TornPiece, 16> few_ = {};
+  std::vector<TornPiece> many_;  ///< All of them, if they are more.
+  std::size_t count_ = 0;
+};
+
+/// A piece as it is now.
+struct PieceDescription {
   struct Triangles {
     std::uint32_t mesh = 0;
     std::vector<std::uint32_t> triangles;  ///< Ascending.
@@ -63,9 +102,9 @@ struct TearReport {
   /// Rims of a cut or bore that got no cap or wall, for example because they do not close.
   std::uint32_t open_sections = 0;
   /// The separated pieces. For a tear or bore: the connected components that were part of a larger
-  /// one before, except the one with the most faces. For a cut: every component with an edge on the
-  /// cut, if the cut separated any.
-  std::vector<TornPiece> pieces;
+  /// one before, without the bodies. For a cut: every component with an edge on the cut, if the cut
+  /// separated any of what it was part of.
+  TornPieces pieces;
 };
 
 }  // namespace sunder

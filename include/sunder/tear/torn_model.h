@@ -84,13 +84,21 @@ class SUNDER_API TornModel {
                           const TearOptions& options = {}, ChangeRecord* change = nullptr);
 
   /// Cuts all layers of the posed surface by a plane. The lips coincide, like those of a tear.
-  /// @return as tear(). O(faces crossed), and O(all faces) if pieces are separated.
+  /// @return as tear(). O(faces crossed + log faces); the first call also builds the cells by which
+  ///         pieces are named, in O(faces).
   Result<TearReport> cut(const ModelPose& pose, const PlaneCut& cut,
                          ChangeRecord* change = nullptr);
 
   /// Removes all layers of the posed surface inside a bore.
   /// @return as tear(). O(faces crossed and removed).
   Result<TearReport> drill(const ModelPose& pose, const Bore& bore, ChangeRecord* change = nullptr);
+
+  /// Lists and measures the connected component that now contains the triangle that names a piece,
+  /// in the pose of the most recent operation or call of a stroke.
+  /// @return not_found if that triangle was removed since, or if the model is as it was made;
+  ///         index_out_of_range if there is no such triangle; limit_exceeded (out of memory).
+  ///         O(triangles of the piece), and a bit per triangle of the model. Allocates.
+  [[nodiscard]] Result<PieceDescription> describe_piece(const TornPiece& piece) const;
 
   /// `undo` reverts the most recent operation; `redo` reapplies the operation most recently
   /// undone. Both restore every array bit for bit. A new operation clears the redo stack. O(what

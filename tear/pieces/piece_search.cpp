@@ -1,0 +1,254 @@
+#include "tear/pieces/piece_search.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "core/internal/ordered.h"
+#include "tear/internal/surface.h"
+
+namespace sunder::tear {
+namespace {
+
+ChangedCells& up_to_date(ChangedCells& cells) {
+  cells.update();
+  return cells;
+}
+
+}  // namespace
+
+PieceSearch::PieceSearch(Index front_count, const SurfaceEditor& editor)
+    : editor_(editor),
+      surface_(editor.surface()),
+      changed_cells_(up_to_date(editor.changed_cells)),
+      cells_(changed_cells_.cells()),
+      scratch_(editor.scratch()),
+      sets_(front_count, scratch_),
+      groups_(front_count, scratch_),
+      fronts_(&scratch_),
+      marked_nodes_(&scratch_),
+      cell_marks_(&scratch_),
+      appended_marks_(surface_.appended.size(), kNone, &scratch_),
+      active_(&scratch_) {
+  fronts_.reserve(front_count);
+  for (Index i = 0; i < front_count; ++i) fronts_.emplace_back(scratch_).least = i;
+  active_.reserve(front_count);
+}
+
+PieceSearch::~PieceSearch() {
+  for (const Index node : marked_nodes_) changed_cells_.marks()[node] = kNone;
+}
+
+Index PieceSearch::first_mark_of(Index cell) {
+  Index& first = changed_cells_.marks()[cell];
+  if (first != kNone) return first;
+  marked_nodes_.push_back(cell);
+  const auto count = static_cast<Index>(cell_marks_.size());
+  cell_marks_.resize(count + cells_.faces(cell).size(), kNone);
+  area_of_faces_ += cells_.area(cell);
+  return first = count;
+}
+
+Index& PieceSearch::mark_of(Index face) {
+  const Index source_count = surface_.first_triangle.back();
+  if (face < source_count)
+    return cell_marks_[first_mark_of(cells_.cell_of(face)) + cells_.place_of(face)];
+  const TriangleRef& ref = surface_.appended[face - source_count];
+  const Index origin = surface_.first_triangle[ref.mesh] + ref.source_triangle;
+  if (origin < surface_.first_triangle[ref.mesh + 1])
+    static_cast<void>(first_mark_of(cells_.cell_of(origin)));  // its area bounds the face's
+  else
+    area_of_faces_ = std::numeric_limits<double>::infinity();
+  return appended_marks_[face - source_count];
+}
+
+void PieceSearch::reach_face(Index front, Index face) {
+  if (face < surface_.first_triangle.back())
+    if (const Index cell = cells_.cell_of(face); changed_cells_.is_clean(cell)) {
+      reach_node(front, changed_cells_.top_clean(cell));
+      return;
+    }
+  Index& mark = mark_of(face);
+  const Index owner = sets_.find(front);
+  if (mark != kNone) {
+    join(owner, mark);
+    return;
+  }
+  Front& of_owner = fronts_[owner];
+  of_owner.open.push_back(face);
+  of_owner.faces.push_back(face);
+  ++of_owner.triangles;
+  mark = owner;
+}
+
+void PieceSearch::reach_node(Index front, Index node) {
+  Index& mark = changed_cells_.marks()[node];
+  const Index owner = sets_.find(front);
+  if (mark != kNone) {
+    join(owner, mark);
+    return;
+  }
+  marked_nodes_.push_back(node);
+  mark = owner;
+  Front& of_owner = fronts_[owner];
+  of_owner.open.push_back(kNode | node);
+  of_owner.triangles += cells_.face_count(node);
+  of_owner.area += cells_.area(node);
+}
+
+/// Appends the smaller set to the larger one, so that a face is moved rarely.
+void PieceSearch::join(Index a, Index b) {
+  a = sets_.find(a);
+  b = sets_.find(b);
+  if (a == b) return;
+  if (fronts_[a].faces.size() + fronts_[a].open.size() <
+      fronts_[b].faces.size() + fronts_[b].open.size())
+    std::swap(a, b);
+  sets_.unite(a, b);
+  groups_.unite(groups_.find(a), groups_.find(b));
+  Front &into = fronts_[a], &from = fronts_[b];
+  if (from.measured > 0) {
+    measure(from);
+    measure(into);
+  }
+  into.faces.insert(into.faces.end(), from.faces.begin(), from.faces.end());
+  into.open.insert(into.open.end(), from.open.begin(), from.open.end());
+  if (from.measured > 0) into.measured = into.faces.size();
+  into.triangles += from.triangles;
+  into.area += from.area;
+  into.least = std::min(into.least, from.least);
+  from.faces.clear();
+  from.open.clear();
+}
+
+void PieceSearch::step(Index front) {
+  const Index newest = fronts_[front].open.back();
+  fronts_[front].open.pop_back();
+  if ((newest & kNode) != 0) {
+    leave_node(front, newest & ~kNode);
+    return;
+  }
+  for (Index h = 3 * newest; h < 3 * newest + 3; ++h)
+    if (surface_.twin[h] != kNone) reach_face(front, surface_.twin[h] / 3);
+}
+
+void PieceSearch::leave_node(Index front, Index node) {
+  bool is_at_change = false;
+  for (const Index other : cells_.neighbours(node)) {
+    if (changed_cells_.is_clean(other))
+      reach_node(front, changed_cells_.top_clean(other));
+    else
+      is_at_change = true;
+  }
+  if (is_at_change) enter_changed_cells(front, node);
+}
+
+/// Crosses from a clean node to its neighbours that hold changes.
+void PieceSearch::enter_changed_cells(Index front, Index node) {
+  if (!cells_.is_of_faces(node)) {
+    for (const Index child : cells_.children(node)) {
+      bool is_at_change = false;
+      for (const Index other : cells_.neighbours(child)) {
+        if (cells_.parent(other) == node) continue;
+        if (changed_cells_.is_clean(other))
+          reach_node(front, changed_cells_.top_clean(other));
+        else
+          is_at_change = true;
+      }
+      if (is_at_change) enter_changed_cells(front, child);
+    }
+    return;
+  }
+  for (const Index face : cells_.faces(node))
+    for (Index h = 3 * face; h < 3 * face + 3; ++h) {
+      const Index twin = surface_.twin[h];
+      if (twin != kNone && !changed_cells_.is_clean(cells_.cell_of(twin / 3)))
+        reach_face(front, twin / 3);
+    }
+}
+
+void PieceSearch::find_active() {
+  for (Index& front : active_) front = sets_.find(front);
+  std::sort(active_.begin(), active_.end());
+  active_.erase(std::unique(active_.begin(), active_.end()), active_.end());
+  active_.erase(std::remove_if(active_.begin(), active_.end(),
+                               [&](Index front) { return !is_active(front); }),
+                active_.end());
+}
+
+void PieceSearch::grow() {
+  for (Index front = 0; front < fronts_.size(); ++front) active_.push_back(front);
+  for (find_active(); active_.size() > 1; find_active())
+    for (const Index front : active_)
+      for (std::size_t turn = 0; turn < kStepsATurn && is_active(front); ++turn) step(front);
+}
+
+double PieceSearch::area_of(Index face) const {
+  const TriangleRef ref = surface_.triangle(face);
+  const auto& [a, b, c] = editor_.connectivity.vertices_of(face);
+  const auto place = [&](Index vertex) -> Vec3d {
+    return editor_.births.position(ref.mesh, vertex).cast<double>();
+  };
+  const Vec3d at = place(a), ab = place(b) - at, ac = place(c) - at;
+  return 0.5 * norm(Vec3d(ab.cross(ac)));
+}
+
+void PieceSearch::measure(Front& front) {
+  for (; front.measured < front.faces.size(); ++front.measured)
+    front.area += area_of(front.faces[front.measured]);
+}
+
+/// @param parts  of one former component, ascending by their least fronts.
+Index PieceSearch::find_body(std::span<const Index> parts) {
+  const auto largest = [&] {
+    Index best = parts[0];
+    for (const Index part : parts.subspan(1))
+      if (fronts_[part].area > fronts_[best].area) best = part;
+    return best;
+  };
+  Index best = largest();
+  const bool is_clear = std::all_of(parts.begin(), parts.end(), [&](Index part) {
+    return part == best || fronts_[part].area + area_of_faces_ < fronts_[best].area;
+  });
+  // A part that is not known completely is larger than what is known of it.
+  const auto incomplete =
+      std::find_if(parts.begin(), parts.end(), [&](Index part) { return is_active(part); });
+  if (is_clear && (incomplete == parts.end() || *incomplete == best)) return best;
+  for (;;) {
+    for (const Index part : parts) measure(fronts_[part]);
+    best = largest();
+    if (incomplete == parts.end() || *incomplete == best || !is_active(*incomplete)) return best;
+    for (std::size_t turn = 0; turn < kStepsATurn && is_active(*incomplete); ++turn)
+      step(*incomplete);
+  }
+}
+
+ScratchVector<PieceSearch::Part> PieceSearch::separated() {
+  ScratchVector<std::array<Index, 3>> by_group(&scratch_);  // group, least front, front
+  by_group.reserve(fronts_.size());
+  for (Index front = 0; front < fronts_.size(); ++front)
+    if (sets_.find(front) == front)
+      by_group.push_back({groups_.find(front), fronts_[front].least, front});
+  std::sort(by_group.begin(), by_group.end());
+  ScratchVector<Part> parts(&scratch_);
+  parts.reserve(by_group.size());
+  ScratchVector<Index> of_group(&scratch_);
+  of_group.reserve(by_group.size());
+  Index component = 0;
+  for (std::size_t begin = 0, end = 0; begin < by_group.size(); begin = end) {
+    of_group.clear();
+    for (; end < by_group.size() && by_group[end][0] == by_group[begin][0]; ++end)
+      of_group.push_back(by_group[end][2]);
+    if (of_group.size() < 2) continue;
+    const Index body = find_body(of_group);
+    for (const Index part : of_group)
+      parts.push_back({fronts_[part].least, component,
+                       is_active(part) ? kNone : fronts_[part].triangles, part == body});
+    ++component;
+  }
+  std::sort(parts.begin(), parts.end(),
+            [](const Part& a, const Part& b) { return a.front < b.front; });
+  return parts;
+}
+
+}  // namespace sunder::tear

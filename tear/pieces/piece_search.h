@@ -1,0 +1,83 @@
+#pragma once
+
+#include "tear/surface/changed_cells.h"
+#include "tear/surface/disjoint_sets.h"
+#include "tear/surface/surface_editor.h"
+
+namespace sunder::tear {
+
+/// Fronts that grow over the surface and are merged where they meet. They cross clean cells of the
+/// source as a whole, so the cost depends on the faces near changes and hardly on the size of the
+/// surface.
+class PieceSearch {
+ public:
+  PieceSearch(Index front_count, const SurfaceEditor& editor);
+  ~PieceSearch();
+  PieceSearch(const PieceSearch&) = delete;
+  PieceSearch& operator=(const PieceSearch&) = delete;
+
+  /// Lets a front start at a live face.
+  void begin_at(Index front, Index face) { reach_face(front, face); }
+  /// Notes that two fronts were connected before the operation.
+  void were_connected(Index a, Index b) { groups_.unite(groups_.find(a), groups_.find(b)); }
+
+  /// Grows the fronts in turn until at most one part is not known completely.
+  void grow();
+
+  /// A part of a former component that now has several.
+  struct Part {
+    Index front;           ///< The least of its fronts.
+    Index component;       ///< Numbered from 0.
+    Index triangle_count;  ///< kNone if it is not known.
+    /// The largest part, in bind space, of the former component; of equal ones the first.
+    bool is_body;
+  };
+  /// Ascending by front.
+  [[nodiscard]] ScratchVector<Part> separated();
+
+ private:
+  /// Faces that are visited one by one, and clean nodes (with kNode).
+  struct Front {
+    explicit Front(ScratchMemory& scratch) : open(&scratch), faces(&scratch) {}
+    ScratchVector<Index> open;   ///< Visited, but their neighbours are not.
+    ScratchVector<Index> faces;  ///< All visited.
+    std::size_t measured = 0;    ///< Number of faces whose areas were added.
+    Index triangles = 0;
+    double area = 0;  ///< Of clean nodes and measured faces, in bind space.
+    Index least = kNone;
+  };
+  static constexpr Index kNode = Index{1} << 31;
+  static constexpr std::size_t kStepsATurn = 8;
+
+  [[nodiscard]] bool is_active(Index front) const { return !fronts_[front].open.empty(); }
+  /// The value that marks a face: the front that visited it.
+  [[nodiscard]] Index& mark_of(Index face);
+  [[nodiscard]] Index first_mark_of(Index cell);
+  void reach_face(Index front, Index face);
+  void reach_node(Index front, Index node);
+  void step(Index front);
+  void leave_node(Index front, Index node);
+  void enter_changed_cells(Index front, Index node);
+  void join(Index a, Index b);
+  void find_active();
+  void measure(Front& front);
+  [[nodiscard]] double area_of(Index face) const;
+  [[nodiscard]] Index find_body(std::span<const Index> parts);
+
+  const SurfaceEditor& editor_;
+  const Surface& surface_;
+  ChangedCells& changed_cells_;
+  const SurfaceCells& cells_;
+  ScratchMemory& scratch_;
+  DisjointSets sets_, groups_;
+  ScratchVector<Front> fronts_;
+  /// Clean nodes that were visited, and changed cells that have marks of faces.
+  ScratchVector<Index> marked_nodes_;
+  ScratchVector<Index> cell_marks_;      ///< Per face of those cells.
+  ScratchVector<Index> appended_marks_;  ///< Per appended triangle.
+  ScratchVector<Index> active_;          ///< The fronts that can still grow.
+  /// Upper bound of the areas of visited faces; unknown once a front is in a wall or cap.
+  double area_of_faces_ = 0;
+};
+
+}  // namespace sunder::tear
