@@ -34,6 +34,12 @@ inline constexpr const char* kSummaryHelp =
     "of vtkPolyDataPlaneClipper, "
     "which\n"
     "                        keeps one side; at 892 thousand points; null without VTK\n"
+    "  capped_cut_vs_vtk     the same with caps, by size\n"
+    "  filling_vs_vtk, filling_ms\n"
+    "                        the share of the caps: time with them minus that without them\n"
+    "  twenty_cuts_faces, twenty_cuts_slowest_ms\n"
+    "                        after twenty cuts with caps across a tube of 7,344 faces, and the "
+    "slowest of them\n"
     "  faces_crossed, points by size\n";
 
 }  // namespace sunder::bench
