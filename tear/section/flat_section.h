@@ -49,7 +49,8 @@ struct FlatMesh {
 
 enum class InnerPoints : std::uint8_t {
   none,
-  graded,  ///< As close as the points of the rim near it, and sparser inwards.
+  graded,  ///< About as close as the points of the rim near them, and sparser inwards.
+  close,   ///< Twice as close, and less sparse inwards.
 };
 
 /// Constrained Delaunay triangulation of a region, with inner points where it is wide, so that it
