@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "bench/cut_summary.h"
+#include "bench/capped_cuts.h"
 #include "bench/in_turns.h"
 #include "bench/json_object.h"
 #include "bench/measure.h"
@@ -22,10 +23,10 @@ constexpr double kMicroseconds = 1e6, kNanoseconds = 1e9;
 
 using Figures = std::array<double, kDivisions.size()>;  ///< By size.
 
-std::vector<std::pair<std::string, double>> by_size(const Figures& values) {
+std::vector<std::pair<std::string, double>> by_size(const Figures& values, double unit = 1) {
   std::vector<std::pair<std::string, double>> named;
   for (std::size_t i = 0; i < values.size(); ++i)
-    named.emplace_back(size_name(kDivisions[i]), values[i]);
+    named.emplace_back(size_name(kDivisions[i]), values[i] * unit);
   return named;
 }
 
@@ -82,6 +83,24 @@ double measure_first_tear() {
   }));
 }
 
+/// Adds the figures of cuts with caps.
+void add_capped_cuts(JsonObject& object) {
+  constexpr double kMilliseconds = 1e3;
+  const CappedCuts cuts = measure_capped_cuts();
+  const auto add = [&](const char* name, const std::optional<Figures>& figures) {
+    if (figures)
+      object.add(name, by_size(*figures));
+    else
+      object.add(name, std::nullopt);
+  };
+  add("capped_cut_vs_vtk", cuts.vs_vtk);
+  add("filling_vs_vtk", cuts.filling_vs_vtk);
+  object.add("filling_ms", by_size(cuts.filling_seconds, kMilliseconds));
+  const TwentyCuts twenty = cut_twenty_times();
+  object.add("twenty_cuts_faces", static_cast<double>(twenty.faces));
+  object.add("twenty_cuts_slowest_ms", twenty.slowest_seconds * kMilliseconds);
+}
+
 }  // namespace
 
 void print_summary() {
@@ -123,6 +142,7 @@ void print_summary() {
   } else {
     object.add("cut_vs_vtk", std::nullopt);
   }
+  add_capped_cuts(object);
   object.add("faces_crossed", by_size(tears.faces_crossed));
   object.add("points", by_size(points));
   object.end();

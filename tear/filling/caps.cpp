@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <map>
+#include <memory_resource>
 
 #include "core/internal/ordered.h"
+#include "tear/filling/cap_shapes.h"
 #include "tear/filling/filling.h"
 #include "tear/geometry/tolerances.h"
 #include "tear/internal/surface.h"
@@ -14,8 +16,8 @@
 namespace sunder::tear {
 namespace {
 
-/// A frame in the plane of the section, oriented such that the caps of one side are
-/// counter-clockwise.
+/// A frame in the plane of the section. Both sides of a cut use the same one, so that their rims
+/// have the same places.
 struct SectionFrame {
   Vec3d origin, x, y, normal;
 
@@ -27,6 +29,9 @@ struct SectionFrame {
   }
 };
 
+/// The side of a cut whose caps are made, by the direction in which they face.
+enum class Facing : std::uint8_t { along_normal, against_normal };
+
 double doubled_area(const FlatLoop& loop) {
   double area = 0;
   for (std::size_t i = 0; i < loop.size(); ++i) {
@@ -36,56 +41,98 @@ double doubled_area(const FlatLoop& loop) {
   return area;
 }
 
-double mean_edge(const std::vector<const FlatLoop*>& loops) {
-  double length = 0;
-  std::size_t count = 0;
-  for (const FlatLoop* loop : loops)
-    for (std::size_t i = 0; i < loop->size(); ++i, ++count)
-      length += norm((*loop)[(i + 1) % loop->size()] - (*loop)[i]);
-  return length / static_cast<double>(count);
+using FlatTriangle = std::array<Index, 3>;
+
+bool is_before(const Vec2d& a, const Vec2d& b) {
+  return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y();
 }
+
+/// A region of the section, with the half-edges around it.
+struct CapRim {
+  explicit CapRim(ScratchMemory& scratch) : half_edges(&scratch) {}
+
+  ScratchVector<Index> half_edges;  ///< Of all its loops, as triangulate() numbers their points.
+  std::span<const Vec2d> places;    ///< Of those points.
+};
 
 /// The caps of one side.
 class Caps {
  public:
-  Caps(SectionFrame frame, const Workpiece& work, TearReport& report)
-      : frame_(std::move(frame)), work_(work), report_(report), filling_("cap", work) {}
+  Caps(const SectionFrame& frame, Facing facing, CapShapes& shapes, const Workpiece& work,
+       TearReport& report)
+      : frame_(frame),
+        facing_(facing),
+        shapes_(shapes),
+        work_(work),
+        report_(report),
+        filling_("cap", work) {}
 
-  void add(const std::vector<Index>& half_edges) {
+  void add(std::span<const Index> half_edges) {
     const Surface& surface = work_.editor.surface();
-    std::map<Index, std::vector<Rim>> closed_of_skin;
-    for (Rim& rim : chain_rims(half_edges, surface)) {
-      if (!rim.is_closed) {
+    ScratchVector<Rim> rims = chain_rims(half_edges, surface, scratch());
+    ScratchVector<std::array<Index, 2>> closed_by_skin(&scratch());
+    closed_by_skin.reserve(rims.size());
+    for (Index i = 0; i < rims.size(); ++i) {
+      if (!rims[i].is_closed) {
         ++report_.open_sections;
         continue;
       }
-      const Index mesh = surface.triangle(rim.half_edges.front() / 3).mesh;
-      // A cap runs in the opposite direction of the border that it closes.
-      std::reverse(rim.half_edges.begin(), rim.half_edges.end());
-      closed_of_skin[work_.editor.character().meshes[mesh].skin].push_back(std::move(rim));
+      const Index mesh = surface.triangle(rims[i].half_edges.front() / 3).mesh;
+      // A cap runs in the opposite direction of the border that it closes. Those of the side that
+      // faces against the normal are made as if seen from behind.
+      if (facing_ == Facing::along_normal)
+        std::reverse(rims[i].half_edges.begin(), rims[i].half_edges.end());
+      closed_by_skin.push_back({work_.editor.character().meshes[mesh].skin, i});
     }
-    for (const auto& [skin, rims] : closed_of_skin) close(rims);
+    std::sort(closed_by_skin.begin(), closed_by_skin.end());
+    for (auto first = closed_by_skin.begin(); first != closed_by_skin.end();) {
+      const auto end = std::find_if(first, closed_by_skin.end(),
+                                    [&](const auto& of) { return of[0] != (*first)[0]; });
+      ScratchVector<Rim*> of_skin(&scratch());
+      for (; first != end; ++first) of_skin.push_back(&rims[(*first)[1]]);
+      close(of_skin);
+    }
   }
 
  private:
-  void close(const std::vector<Rim>& rims) {
-    std::vector<FlatLoop> loops;
-    std::size_t left_over = rims.size();
-    for (const Rim& rim : rims) {
+  [[nodiscard]] ScratchMemory& scratch() const { return work_.editor.scratch(); }
+
+  void close(std::span<Rim* const> rims) {
+    ScratchVector<FlatLoop> loops(&scratch());
+    loops.reserve(rims.size());
+    for (Rim* rim : rims) {
       FlatLoop& loop = loops.emplace_back();
-      for (const Index h : rim.half_edges)
+      loop.reserve(rim->half_edges.size());
+      for (const Index h : rim->half_edges)
         loop.push_back(frame_.project(position(point_before(h))));
+      // The same start on both sides.
+      const auto first = std::min_element(loop.begin(), loop.end(), is_before) - loop.begin();
+      std::rotate(loop.begin(), loop.begin() + first, loop.end());
+      std::rotate(rim->half_edges.begin(), rim->half_edges.begin() + first, rim->half_edges.end());
     }
-    for (const FlatRegion& region : find_regions(loops)) {
-      const EditLog::Mark before = work_.editor.mark();
-      if (close(rims, loops, region)) {
-        ++report_.caps;
-        left_over -= 1 + region.holes.size();
-      } else {
-        filling_.take_back(before);
-      }
+    std::size_t left_over = rims.size();
+    for (FlatRegion& region : find_regions(loops, scratch())) {
+      std::sort(region.holes.begin(), region.holes.end(), [&](Index a, Index b) {
+        return loops[a][0] != loops[b][0] ? is_before(loops[a][0], loops[b][0]) : a < b;
+      });
+      // Near more inner points, fewer triangles are too flat for stored positions.
+      if (!close(rims, loops, region, InnerPoints::graded) &&
+          !close(rims, loops, region, InnerPoints::close))
+        continue;
+      ++report_.caps;
+      left_over -= 1 + region.holes.size();
     }
     report_.open_sections += static_cast<Index>(left_over);
+  }
+
+  /// Makes the cap of a region. If that fails, nothing is added.
+  bool close(std::span<Rim* const> rims, std::span<const FlatLoop> loops, const FlatRegion& region,
+             InnerPoints inner) {
+    const EditLog::Mark before = work_.editor.mark();
+    CapShape* const shape = shapes_.of(loops, region, inner);
+    if (shape != nullptr && close(rims, loops, region, *shape, before)) return true;
+    filling_.take_back(before);
+    return false;
   }
 
   /// The point at which the cap's edge along a border half-edge begins, which is where the
@@ -97,48 +144,60 @@ class Caps {
     return work_.posed.position(work_.editor, point);
   }
 
-  bool close(const std::vector<Rim>& rims, const std::vector<FlatLoop>& loops,
-             const FlatRegion& region) {
-    std::vector<Index> half_edges, members = {region.outline};
-    members.insert(members.end(), region.holes.begin(), region.holes.end());
-    std::vector<Vec2d> places;
-    std::vector<const FlatLoop*> outlines;
-    for (const Index member : members) {
-      half_edges.insert(half_edges.end(), rims[member].half_edges.begin(),
-                        rims[member].half_edges.end());
-      places.insert(places.end(), loops[member].begin(), loops[member].end());
-      outlines.push_back(&loops[member]);
-    }
-    auto flat = triangulate(loops, region, 1.5 * mean_edge(outlines));
-    if (!flat) return false;
-    const auto rim_count = static_cast<Index>(places.size());
-    split_second_face(half_edges, places, *flat);
-    split_joined_edges(half_edges, places, *flat);
-    places.insert(places.end(), flat->inner.begin(), flat->inner.end());
-    // A body whose faces point inwards has reversed rims.
-    const bool is_inside_out = doubled_area(loops[region.outline]) < 0;
+  bool close(std::span<Rim* const> rims, std::span<const FlatLoop> loops, const FlatRegion& region,
+             CapShape& shape, const EditLog::Mark& before) {
+    CapRim rim(scratch());
+    rim.half_edges.reserve(shape.rim_count);
+    rim.places = std::span(shape.places).first(shape.rim_count);
+    const auto append = [&](Index loop) {
+      rim.half_edges.insert(rim.half_edges.end(), rims[loop]->half_edges.begin(),
+                            rims[loop]->half_edges.end());
+    };
+    append(region.outline);
+    for (const Index hole : region.holes) append(hole);
+    CapShape own(scratch());  // if this side needs other points
+    CapShape& of = is_divided(rim, shape, own) ? own : shape;
 
-    const Index mesh = mesh_with_most(half_edges);
-    std::vector<Index> points, vertices;
-    for (const Index h : half_edges) {
+    const Index mesh = mesh_with_most(rim.half_edges);
+    ScratchVector<Index> points(&scratch()), vertices(&scratch());
+    points.reserve(of.places.size());
+    vertices.reserve(of.places.size());
+    for (const Index h : rim.half_edges) {
       points.push_back(point_before(h));
       vertices.push_back(filling_.add_rim_vertex(mesh, Surface::next(h)));
     }
-    add_inner_points(mesh, places, rim_count, flat->triangles, points, vertices);
-    shade(mesh, places, is_inside_out, vertices);
-
-    turn_flat_triangles(half_edges, mesh, vertices, flat->triangles);
-    for (std::array<Index, 3> corners : flat->triangles) {
-      if (is_inside_out) std::swap(corners[1], corners[2]);
+    add_inner_points(mesh, of, points, vertices);
+    // A body whose faces point inwards has reversed rims.
+    const bool is_inside_out = doubled_area(loops[region.outline]) < 0;
+    shade(mesh, of.places, is_inside_out, vertices);
+    ScratchVector<FlatTriangle> triangles(of.flat.triangles, &scratch());
+    turn_flat_triangles(rim.half_edges, mesh, vertices, triangles);
+    for (FlatTriangle corners : triangles) {
+      if (is_inside_out != (facing_ == Facing::against_normal)) std::swap(corners[1], corners[2]);
       const Triangle triangle = {vertices[corners[0]], vertices[corners[1]], vertices[corners[2]]};
       const Eigen::Vector3d a = place(mesh, triangle[0]), ab = place(mesh, triangle[1]) - a,
                             ac = place(mesh, triangle[2]) - a;
       if (!(squared_norm(ab.cross(ac)) > 0))
         return false;  // stored positions are too coarse for it
-      filling_.add_triangle(mesh, half_edges.front(),
+      filling_.add_triangle(mesh, rim.half_edges.front(),
                             {points[corners[0]], points[corners[1]], points[corners[2]]}, triangle);
     }
-    return filling_.connect(half_edges);
+    return filling_.connect(rim.half_edges, before);
+  }
+
+  /// Whether the cap needs points that the shape does not have, because of the faces around it.
+  /// @param own  written: the shape with these points.
+  bool is_divided(const CapRim& rim, const CapShape& shape, CapShape& own) const {
+    const bool is_second = is_second_face(rim, shape.flat);
+    const ScratchVector<std::array<Index, 2>> joined = joined_edges(rim, shape.flat);
+    if (!is_second && joined.empty()) return false;
+    own.rim_count = shape.rim_count;
+    own.flat = shape.flat;
+    if (is_second) split_second_face(rim, own.flat);
+    split_edges(joined, rim, own.flat);
+    own.places.assign(rim.places.begin(), rim.places.end());
+    own.places.insert(own.places.end(), own.flat.inner.begin(), own.flat.inner.end());
+    return true;
   }
 
   /// Whether two points of the rim are joined by an edge other than the rim's: a fold or a face in
@@ -151,47 +210,57 @@ class Caps {
     return (ab != kNone && ab != half_edge_b) || (ba != kNone && ba != half_edge_a);
   }
 
-  /// Adds a point in the middle of the cap of an isolated face: two faces on the same three points
-  /// could not be split separately.
-  void split_second_face(const std::vector<Index>& half_edges, const std::vector<Vec2d>& rim,
-                         FlatMesh& flat) const {
-    const bool is_one_face = std::all_of(half_edges.begin(), half_edges.end(),
-                                         [&](Index h) { return h / 3 == half_edges.front() / 3; });
-    if (!is_one_face || flat.triangles.size() != 1) return;
-    const auto [a, b, c] = flat.triangles[0];
-    const auto middle = static_cast<Index>(rim.size());
-    flat.inner.push_back((rim[a] + rim[b] + rim[c]) / 3);
-    flat.triangles = {{a, b, middle}, {b, c, middle}, {c, a, middle}};
+  /// Whether the cap is that of an isolated face: two faces on the same three points could not be
+  /// split separately.
+  static bool is_second_face(const CapRim& rim, const FlatMesh& flat) {
+    return flat.triangles.size() == 1 &&
+           std::all_of(rim.half_edges.begin(), rim.half_edges.end(),
+                       [&](Index h) { return h / 3 == rim.half_edges.front() / 3; });
   }
 
-  /// Adds a point in the middle of each edge between points that are joined.
-  void split_joined_edges(const std::vector<Index>& half_edges, const std::vector<Vec2d>& rim,
-                          FlatMesh& flat) const {
-    const auto key = [](Index a, Index b) {
-      return std::array<Index, 2>{std::min(a, b), std::max(a, b)};
-    };
-    std::map<std::array<Index, 2>, Index> middles;  // kNone: not joined
-    for (const auto& corners : flat.triangles)
+  /// Adds a point in the middle of the only triangle.
+  static void split_second_face(const CapRim& rim, FlatMesh& flat) {
+    const auto [a, b, c] = flat.triangles[0];
+    const auto middle = static_cast<Index>(rim.places.size());
+    flat.inner.push_back((rim.places[a] + rim.places[b] + rim.places[c]) / 3);
+    flat.triangles.assign({{a, b, middle}, {b, c, middle}, {c, a, middle}});
+  }
+
+  /// The edges between points of the rim that are joined, ascending.
+  [[nodiscard]] ScratchVector<std::array<Index, 2>> joined_edges(const CapRim& rim,
+                                                                 const FlatMesh& flat) const {
+    const auto rim_count = static_cast<Index>(rim.places.size());
+    ScratchVector<std::array<Index, 2>> joined(&scratch());
+    for (const FlatTriangle& corners : flat.triangles)
       for (std::size_t k = 0; k < 3; ++k) {
         const Index a = corners[k], b = corners[(k + 1) % 3];
-        if (a >= rim.size() || b >= rim.size() || !middles.emplace(key(a, b), kNone).second)
-          continue;
-        if (!is_joined(half_edges[a], half_edges[b])) continue;
-        middles[key(a, b)] = static_cast<Index>(rim.size() + flat.inner.size());
-        flat.inner.push_back(0.5 * (rim[a] + rim[b]));
+        if (a < rim_count && b < rim_count && is_joined(rim.half_edges[a], rim.half_edges[b]))
+          joined.push_back({std::min(a, b), std::max(a, b)});
       }
+    std::sort(joined.begin(), joined.end());
+    joined.erase(std::unique(joined.begin(), joined.end()), joined.end());
+    return joined;
+  }
+
+  /// Adds a point in the middle of each of some edges.
+  static void split_edges(std::span<const std::array<Index, 2>> joined, const CapRim& rim,
+                          FlatMesh& flat) {
+    const auto first = static_cast<Index>(rim.places.size() + flat.inner.size());
+    for (const auto [a, b] : joined) flat.inner.push_back(0.5 * (rim.places[a] + rim.places[b]));
     for (std::size_t t = 0; t < flat.triangles.size();
          ++t)  // parts are appended, and looked at in their turn
       for (std::size_t k = 0; k < 3;) {
         const Index a = flat.triangles[t][k], b = flat.triangles[t][(k + 1) % 3],
                     c = flat.triangles[t][(k + 2) % 3];
-        const auto middle = middles.find(key(a, b));
-        if (middle == middles.end() || middle->second == kNone) {
+        const std::array<Index, 2> edge{std::min(a, b), std::max(a, b)};
+        const auto found = std::lower_bound(joined.begin(), joined.end(), edge);
+        if (found == joined.end() || *found != edge) {
           ++k;
           continue;
         }
-        flat.triangles[t] = {a, middle->second, c};
-        flat.triangles.push_back({middle->second, b, c});
+        const Index middle = first + static_cast<Index>(found - joined.begin());
+        flat.triangles[t] = {a, middle, c};
+        flat.triangles.push_back({middle, b, c});
         k = 0;
       }
   }
@@ -199,24 +268,28 @@ class Caps {
   /// Rim points that should be collinear, as where a cut meets an older cap, are so only
   /// approximately in the pose. After rounding to float, a triangle of three of them has no area.
   /// Its longest edge is flipped.
-  void turn_flat_triangles(const std::vector<Index>& half_edges, Index mesh,
-                           const std::vector<Index>& vertices,
-                           std::vector<std::array<Index, 3>>& triangles) const {
+  void turn_flat_triangles(std::span<const Index> half_edges, Index mesh,
+                           std::span<const Index> vertices,
+                           std::span<FlatTriangle> triangles) const {
     const auto at = [&](Index i) { return place(mesh, vertices[i]); };
-    const auto height_of = [&](const std::array<Index, 3>& t) {
+    const auto height_of = [&](const FlatTriangle& t) {
       const double longest = std::max(
           {norm(at(t[1]) - at(t[0])), norm(at(t[2]) - at(t[1])), norm(at(t[0]) - at(t[2]))});
       return longest > 0 ? norm((at(t[1]) - at(t[0])).cross(at(t[2]) - at(t[0]))) / longest : 0.0;
     };
-    std::map<std::array<Index, 2>, std::size_t> triangle_at;  // by directed edge
+    const auto is_flat = [&](const FlatTriangle& t) {
+      return height_of(t) <= kStoredCoordinates * at(t[0]).cwiseAbs().maxCoeff();
+    };
+    if (std::none_of(triangles.begin(), triangles.end(), is_flat)) return;
+    std::pmr::map<std::array<Index, 2>, std::size_t> triangle_at(&scratch());  // by directed edge
     const auto enter = [&](std::size_t t) {
       for (std::size_t k = 0; k < 3; ++k)
         triangle_at[{triangles[t][k], triangles[t][(k + 1) % 3]}] = t;
     };
     for (std::size_t t = 0; t < triangles.size(); ++t) enter(t);
     for (std::size_t t = 0; t < triangles.size(); ++t) {
-      const std::array<Index, 3> flat = triangles[t];
-      if (height_of(flat) > kStoredCoordinates * at(flat[0]).cwiseAbs().maxCoeff()) continue;
+      const FlatTriangle flat = triangles[t];
+      if (!is_flat(flat)) continue;
       std::size_t k = 0;
       for (std::size_t i = 1; i < 3; ++i)
         if (norm(at(flat[(i + 1) % 3]) - at(flat[i])) > norm(at(flat[(k + 1) % 3]) - at(flat[k])))
@@ -225,7 +298,7 @@ class Caps {
       const auto across = triangle_at.find({b, a});
       if (across == triangle_at.end()) continue;
       const std::size_t other = across->second;
-      const std::array<Index, 3> of_other = triangles[other];
+      const FlatTriangle of_other = triangles[other];
       const Index d = of_other[0] != a && of_other[0] != b   ? of_other[0]
                       : of_other[1] != a && of_other[1] != b ? of_other[1]
                                                              : of_other[2];
@@ -246,85 +319,113 @@ class Caps {
     return work_.editor.births.position(mesh, vertex).cast<double>();
   }
 
-  [[nodiscard]] Index mesh_with_most(const std::vector<Index>& half_edges) const {
-    std::map<Index, Index> count;
+  [[nodiscard]] Index mesh_with_most(std::span<const Index> half_edges) const {
+    ScratchVector<Index> count(work_.editor.character().meshes.size(), 0, &scratch());
     for (const Index h : half_edges) ++count[work_.editor.surface().triangle(h / 3).mesh];
-    return std::max_element(count.begin(), count.end(),
-                            [](const auto& a, const auto& b) { return a.second < b.second; })
-        ->first;
+    return static_cast<Index>(std::max_element(count.begin(), count.end()) - count.begin());
+  }
+
+  /// The slots of the bones that move some vertices, ascending.
+  [[nodiscard]] ScratchVector<Index> slots_of(Index mesh, std::span<const Index> vertices) const {
+    ScratchVector<Index> slots(&scratch());
+    for (const Index vertex : vertices)
+      for (const Influence& influence : work_.editor.births.influences(mesh, vertex)) {
+        const auto at = std::lower_bound(slots.begin(), slots.end(), influence.slot);
+        if (at == slots.end() || *at != influence.slot) slots.insert(at, influence.slot);
+      }
+    return slots;
+  }
+
+  /// The values of the rim that are extended to the inner points, a row per point: bind position,
+  /// weights of the slots, morph displacements.
+  [[nodiscard]] ScratchVector<double> values_of(Index mesh, std::span<const Index> vertices,
+                                                std::span<const Index> slots,
+                                                std::size_t point_count) const {
+    const Mesh& of = work_.editor.character().meshes[mesh];
+    const std::size_t first_morph = 3 + slots.size();
+    const std::size_t channels = first_morph + 3 * of.morph_targets.size();
+    ScratchVector<double> values(point_count * channels, 0.0, &scratch());
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+      double* const row = &values[i * channels];
+      const Eigen::Vector3d at = place(mesh, vertices[i]);
+      std::copy_n(at.data(), 3, row);
+      for (const Influence& influence : work_.editor.births.influences(mesh, vertices[i]))
+        row[3 + (std::lower_bound(slots.begin(), slots.end(), influence.slot) - slots.begin())] =
+            static_cast<double>(influence.weight);
+      for (std::size_t t = 0; t < of.morph_targets.size(); ++t) {
+        const auto& deltas = of.morph_targets[t].position_deltas;
+        for (Eigen::Index k = 0; k < 3 && !deltas.empty(); ++k)
+          row[first_morph + 3 * t + static_cast<std::size_t>(k)] =
+              static_cast<double>(deltas[vertices[i]][k]);
+      }
+    }
+    return values;
   }
 
   /// Adds the inner points. Bind positions, weights and morph displacements are harmonic between
   /// those of the rim.
-  void add_inner_points(Index mesh, const std::vector<Vec2d>& places, Index rim_count,
-                        const std::vector<std::array<Index, 3>>& triangles,
-                        std::vector<Index>& points, std::vector<Index>& vertices) {
-    if (places.size() == rim_count) return;
-    const Mesh& of = work_.editor.character().meshes[mesh];
-    std::vector<Index> slots;
-    for (const Index vertex : vertices)
-      for (const Influence& influence : work_.editor.births.influences(mesh, vertex))
-        slots.push_back(influence.slot);
-    std::sort(slots.begin(), slots.end());
-    slots.erase(std::unique(slots.begin(), slots.end()), slots.end());
+  void add_inner_points(Index mesh, CapShape& shape, ScratchVector<Index>& points,
+                        ScratchVector<Index>& vertices) {
+    if (shape.flat.inner.empty()) return;
+    const std::size_t targets = work_.editor.character().meshes[mesh].morph_targets.size();
+    const ScratchVector<Index> slots = slots_of(mesh, vertices);
+    const std::size_t channels = 3 + slots.size() + 3 * targets;
+    ScratchVector<double> values = values_of(mesh, vertices, slots, shape.places.size());
+    shapes_.extend(shape, values);
 
-    const auto first_morph = static_cast<Eigen::Index>(3 + slots.size());
-    const auto target_count = static_cast<Eigen::Index>(of.morph_targets.size());
-    Eigen::MatrixXd rim = Eigen::MatrixXd::Zero(rim_count, first_morph + 3 * target_count);
-    for (Index i = 0; i < rim_count; ++i) {
-      rim.block<1, 3>(i, 0) = place(mesh, vertices[i]).transpose();
-      for (const Influence& influence : work_.editor.births.influences(mesh, vertices[i])) {
-        const auto slot =
-            std::lower_bound(slots.begin(), slots.end(), influence.slot) - slots.begin();
-        rim(i, 3 + slot) = static_cast<double>(influence.weight);
-      }
-      for (Eigen::Index t = 0; t < target_count; ++t) {
-        const auto& deltas = of.morph_targets[static_cast<std::size_t>(t)].position_deltas;
-        if (!deltas.empty())
-          rim.block<1, 3>(i, first_morph + 3 * t) = deltas[vertices[i]].cast<double>().transpose();
-      }
-    }
-    const Eigen::MatrixXd inner = extend_harmonically(places, rim_count, triangles, rim);
-
-    for (Eigen::Index i = 0; i < inner.rows(); ++i) {
-      Filling::Inner made;
-      made.bind_position = inner.block<1, 3>(i, 0).transpose();
-      double sum = 0;
-      for (std::size_t s = 0; s < slots.size(); ++s) {
-        const double weight = inner(i, 3 + static_cast<Eigen::Index>(s));
-        if (weight < kLeastCapWeight) continue;
-        made.influences.push_back({slots[s], static_cast<float>(weight)});
-        sum += static_cast<double>(made.influences.back().weight);
-      }
-      for (Influence& influence : made.influences)
-        influence.weight = static_cast<float>(static_cast<double>(influence.weight) / sum);
-      std::sort(made.influences.begin(), made.influences.end(),
-                [](const Influence& a, const Influence& b) {
-                  return a.weight != b.weight ? a.weight > b.weight : a.slot < b.slot;
-                });
-      for (Eigen::Index t = 0; t < target_count; ++t)
-        made.morph_displacements.emplace_back(
-            inner.block<1, 3>(i, first_morph + 3 * t).transpose());
-      vertices.push_back(filling_.add_inner_vertex(mesh, vertices.front(), made));
+    ScratchVector<Influence> influences(&scratch());
+    influences.reserve(slots.size());
+    ScratchVector<Vec3d> displacements(targets, Vec3d::Zero(), &scratch());
+    for (std::size_t i = shape.rim_count; i < shape.places.size(); ++i) {
+      const double* const row = &values[i * channels];
+      weigh(slots, row + 3, influences);
+      for (std::size_t t = 0; t < targets; ++t)
+        displacements[t] = Eigen::Map<const Eigen::Vector3d>(row + 3 + slots.size() + 3 * t);
+      const Vec3d bind_position = Eigen::Map<const Eigen::Vector3d>(row);
+      vertices.push_back(filling_.add_inner_vertex(mesh, vertices.front(),
+                                                   {bind_position, influences, displacements}));
       points.push_back(append_filling_point(work_.editor));
-      work_.posed.pin(points.back(), frame_.lift(places[rim_count + static_cast<std::size_t>(i)]));
+      work_.posed.pin(points.back(), frame_.lift(shape.places[i]));
     }
   }
 
-  void shade(Index mesh, const std::vector<Vec2d>& places, bool is_inside_out,
-             const std::vector<Index>& vertices) {
+  /// Normalised influences, the largest first.
+  static void weigh(std::span<const Index> slots, const double* weights,
+                    ScratchVector<Influence>& influences) {
+    influences.clear();
+    double sum = 0;
+    for (std::size_t s = 0; s < slots.size(); ++s) {
+      if (weights[s] < kLeastCapWeight) continue;
+      influences.push_back({slots[s], static_cast<float>(weights[s])});
+      sum += static_cast<double>(influences.back().weight);
+    }
+    for (Influence& influence : influences)
+      influence.weight = static_cast<float>(static_cast<double>(influence.weight) / sum);
+    std::sort(influences.begin(), influences.end(), [](const Influence& a, const Influence& b) {
+      return a.weight != b.weight ? a.weight > b.weight : a.slot < b.slot;
+    });
+  }
+
+  void shade(Index mesh, std::span<const Vec2d> places, bool is_inside_out,
+             std::span<const Index> vertices) {
     Vec2d low = places[0], high = places[0];
     for (const Vec2d& place : places) {
       low = low.cwiseMin(place);
       high = high.cwiseMax(place);
     }
     const double extent = (high - low).maxCoeff();
-    for (std::size_t i = 0; i < places.size(); ++i)
-      filling_.shade(mesh, vertices[i], is_inside_out ? Vec3d(-frame_.normal) : frame_.normal,
-                     frame_.x, (places[i] - low) / extent);
+    const bool is_from_behind = facing_ == Facing::against_normal;
+    const Vec3d normal = is_inside_out != is_from_behind ? Vec3d(-frame_.normal) : frame_.normal;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const Vec2d at(places[i].x() - low.x(),
+                     is_from_behind ? high.y() - places[i].y() : places[i].y() - low.y());
+      filling_.shade(mesh, vertices[i], normal, frame_.x, at / extent);
+    }
   }
 
   SectionFrame frame_;
+  Facing facing_;
+  CapShapes& shapes_;
   Workpiece work_;
   TearReport& report_;
   Filling filling_;
@@ -339,9 +440,10 @@ void add_caps(const SheetOpening& opening, const Vec3d& normal, const Workpiece&
   const Vec3d away = std::abs(normal.x()) < 0.5 ? Vec3d(Vec3d::UnitX()) : Vec3d(Vec3d::UnitY());
   Vec3d x = normal.cross(away);
   x /= norm(x);
-  const Vec3d y = normal.cross(x);
-  Caps({origin, x, -y, -normal}, work, report).add(opening.left);
-  Caps({origin, x, y, normal}, work, report).add(opening.right);
+  const SectionFrame frame{origin, x, normal.cross(x), normal};
+  CapShapes shapes(work.editor.scratch());
+  Caps(frame, Facing::against_normal, shapes, work, report).add(opening.left);
+  Caps(frame, Facing::along_normal, shapes, work, report).add(opening.right);
 }
 
 }  // namespace sunder::tear

@@ -3,7 +3,7 @@
 #include <sunder/skinning/deform.h>
 
 #include <algorithm>
-#include <unordered_set>
+#include <bit>
 
 #include "core/internal/ordered.h"
 #include "tear/geometry/tolerances.h"
@@ -12,6 +12,48 @@
 #include "tear/surface/mesh_vertices.h"
 
 namespace sunder::tear {
+namespace {
+
+/// Half-edges by the points that they join.
+class DirectedEdges {
+ public:
+  DirectedEdges(std::size_t most, const Surface& surface, ScratchMemory& scratch)
+      : surface_(surface), slots_(std::bit_ceil(2 * most + 1), kNone, &scratch) {}
+
+  /// @return false if there is already one from the same point to the same other one.
+  bool add(Index half_edge) {
+    Index& slot = find(surface_.corner_point[half_edge], end_of(half_edge));
+    if (slot != kNone) return false;
+    slot = half_edge;
+    return true;
+  }
+  /// kNone if there is none. The reference is where to put it.
+  [[nodiscard]] Index& find(Index from, Index to) {
+    const std::uint64_t mixed = (std::uint64_t{from} << 32 | to) * 0x9E3779B97F4A7C15u;
+    for (std::size_t i = (mixed >> 32) & (slots_.size() - 1);; i = (i + 1) & (slots_.size() - 1))
+      if (slots_[i] == kNone ||
+          (surface_.corner_point[slots_[i]] == from && end_of(slots_[i]) == to))
+        return slots_[i];
+  }
+
+ private:
+  [[nodiscard]] Index end_of(Index half_edge) const {
+    return surface_.corner_point[Surface::next(half_edge)];
+  }
+
+  const Surface& surface_;
+  ScratchVector<Index> slots_;
+};
+
+}  // namespace
+
+Filling::Filling(const char* name, const Workpiece& work)
+    : name_(name),
+      work_(work),
+      submeshes_(&work.editor.scratch()),
+      normal_matrices_(&work.editor.scratch()) {
+  submeshes_.reserve(work.editor.character().meshes.size());
+}
 
 Vec3d to_bind(const Mat3d& posed_from_bind, const Vec3d& posed, const Vec3d& fallback) {
   const double size = norm(posed_from_bind);
@@ -46,6 +88,17 @@ Mat3d Filling::blended(Index mesh, Index vertex) const {
   return linear;
 }
 
+const Mat3d& Filling::normal_matrix(Index skin, Index slot) {
+  const auto& palette = work_.posed.pose().palette(skin);
+  if (skin != skin_) {
+    skin_ = skin;
+    normal_matrices_.assign(palette.size(), {});
+  }
+  NormalMatrix& matrix = normal_matrices_[slot];
+  if (!matrix.is_known) matrix = {compute_normal_matrix(palette[slot].linear()), true};
+  return matrix.linear;
+}
+
 void Filling::shade(Index mesh, Index vertex, const Vec3d& normal, const Vec3d& tangent,
                     const Vec2d& uv) {
   Mesh& of = work_.editor.mutable_mesh(mesh);
@@ -53,8 +106,7 @@ void Filling::shade(Index mesh, Index vertex, const Vec3d& normal, const Vec3d& 
   Mat3d posed_from_bind_of_normals = Mat3d::Zero();
   for (const Influence& influence : work_.editor.births.influences(mesh, vertex))
     posed_from_bind_of_normals +=
-        static_cast<double>(influence.weight) *
-        compute_normal_matrix(work_.posed.pose().palette(of.skin)[influence.slot].linear());
+        static_cast<double>(influence.weight) * normal_matrix(of.skin, influence.slot);
   Vec3d bind_normal = to_bind(posed_from_bind_of_normals, normal, normal);
   bind_normal =
       norm(bind_normal) > kShortestDirection ? Vec3d(bind_normal / norm(bind_normal)) : normal;
@@ -79,60 +131,51 @@ void Filling::shade(Index mesh, Index vertex, const Vec3d& normal, const Vec3d& 
 void Filling::add_triangle(Index mesh, Index like_corner, const std::array<Index, 3>& points,
                            const Triangle& vertices) {
   SurfaceEditor& editor = work_.editor;
-  auto known = submesh_of_mesh_.find(mesh);
-  if (known == submesh_of_mesh_.end()) {
+  auto known = std::find_if(submeshes_.begin(), submeshes_.end(),
+                            [&](const Submesh& submesh) { return submesh.mesh == mesh; });
+  if (known == submeshes_.end()) {
     const TriangleRef ref = editor.surface().triangle(like_corner / 3);
     const Mesh& of = editor.character().meshes[ref.mesh];
     const Index material = of.submeshes[of.triangle_submesh[ref.triangle]].material;
-    known = submesh_of_mesh_.emplace(mesh, append_submesh(mesh, name_, material, editor)).first;
+    submeshes_.push_back({mesh, append_submesh(mesh, name_, material, editor)});
+    known = submeshes_.end() - 1;
   }
-  triangles_.push_back(append_filling(mesh, known->second, points, vertices, editor));
+  append_filling(mesh, known->submesh, points, vertices, editor);
 }
 
 void Filling::take_back(const EditLog::Mark& before) {
   work_.editor.roll_back(before);
   work_.posed.forget_from(before.points);
-  triangles_.clear();
-  for (auto at = submesh_of_mesh_.begin(); at != submesh_of_mesh_.end();)
-    at = at->second >= work_.editor.character().meshes[at->first].submeshes.size()
-             ? submesh_of_mesh_.erase(at)
-             : std::next(at);
+  std::erase_if(submeshes_, [&](const Submesh& of) {
+    return of.submesh >= work_.editor.character().meshes[of.mesh].submeshes.size();
+  });
 }
 
-bool Filling::connect(const std::vector<Index>& rim_half_edges) {
+bool Filling::connect(std::span<const Index> rim_half_edges, const EditLog::Mark& before) {
   const Surface& surface = work_.editor.surface();
-  std::map<std::array<Index, 2>, Index> half_edges;
-  std::unordered_set<Index> rim_points;  // lookups only, never iterated
-  const auto ends_of = [&](Index h) {
-    return std::array{surface.corner_point[h], surface.corner_point[Surface::next(h)]};
-  };
+  const Index first = 3 * before.triangles, end = 3 * surface.triangle_count();
+  const ScratchMemory::Frame frame(work_.editor.scratch());
+  DirectedEdges edges(rim_half_edges.size() + end - first, surface, work_.editor.scratch());
   bool is_sound = true;
-  const auto add = [&](Index h) { is_sound &= half_edges.emplace(ends_of(h), h).second; };
-  for (const Index h : rim_half_edges) {
-    add(h);
-    rim_points.insert(surface.corner_point[h]);
-    rim_points.insert(surface.corner_point[Surface::next(h)]);
-  }
+  for (const Index h : rim_half_edges) is_sound &= edges.add(h);
   const auto is_joined_elsewhere = [&](Index from, Index to) {
     const Index h = surface.find_half_edge(from, to);  // Finds older half-edges only.
-    if (h == kNone) return false;
-    const auto known = half_edges.find({from, to});
-    return known == half_edges.end() || known->second != h;
+    return h != kNone && edges.find(from, to) != h;
   };
-  for (const Index triangle : triangles_)
-    for (Index h = 3 * triangle; h < 3 * triangle + 3; ++h) {
-      const auto [from, to] = ends_of(h);
-      if (rim_points.count(from) != 0 && rim_points.count(to) != 0)
-        is_sound &= !is_joined_elsewhere(from, to) && !is_joined_elsewhere(to, from);
-      add(h);
-    }
-  triangles_.clear();
-  if (!is_sound) return false;
-  for (const auto& [points, h] : half_edges) {
-    const auto twin = half_edges.find({points[1], points[0]});
-    if (twin != half_edges.end() && points[0] < points[1])
-      tear::connect(h, twin->second, work_.editor);
+  for (Index h = first; h < end; ++h) {
+    const Index from = surface.corner_point[h], to = surface.corner_point[Surface::next(h)];
+    if (from < before.points && to < before.points)
+      is_sound &= !is_joined_elsewhere(from, to) && !is_joined_elsewhere(to, from);
+    is_sound &= edges.add(h);
   }
+  if (!is_sound) return false;
+  const auto connect_from = [&](Index h) {
+    const Index from = surface.corner_point[h], to = surface.corner_point[Surface::next(h)];
+    const Index twin = from < to ? edges.find(to, from) : kNone;
+    if (twin != kNone) tear::connect(h, twin, work_.editor);
+  };
+  for (const Index h : rim_half_edges) connect_from(h);
+  for (Index h = first; h < end; ++h) connect_from(h);
   return true;
 }
 

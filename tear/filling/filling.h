@@ -1,20 +1,20 @@
 #pragma once
 
 #include <array>
-#include <map>
+#include <span>
 #include <string>
-#include <vector>
 
 #include "tear/posed/workpiece.h"
 
 namespace sunder::tear {
 
 /// Adds triangles that close an opening. Their vertices take position and weights from the rim and
-/// have their own normals, tangents and texture coordinates.
+/// have their own normals, tangents and texture coordinates. Temporary data lie in the scratch
+/// memory of the operation.
 class Filling {
  public:
   /// @param name  of the submesh that each mesh gets for the filling.
-  Filling(std::string name, const Workpiece& work) : name_(std::move(name)), work_(work) {}
+  Filling(const char* name, const Workpiece& work);
 
   /// Adds a vertex at a corner of the rim, for a filling in `mesh`. The mesh of the rim may be
   /// another one with the same skin.
@@ -22,8 +22,8 @@ class Filling {
   /// The attributes of a vertex that is not on the rim.
   struct Inner {
     Vec3d bind_position = Vec3d::Zero();
-    std::vector<Influence> influences;       ///< Normalised.
-    std::vector<Vec3d> morph_displacements;  ///< One per morph target.
+    std::span<const Influence> influences;       ///< Normalised.
+    std::span<const Vec3d> morph_displacements;  ///< One per morph target.
   };
   [[nodiscard]] Index add_inner_vertex(Index mesh, Index like, const Inner& inner);
   /// Sets the posed normal, the posed direction of u, and the texture coordinates of a vertex.
@@ -34,18 +34,31 @@ class Filling {
   /// @param like_corner  a corner of the rim; the filling uses the material of its submesh.
   void add_triangle(Index mesh, Index like_corner, const std::array<Index, 3>& points,
                     const Triangle& vertices);
-  /// Connects the added triangles to each other and to the half-edges of the rim.
+  /// Connects the triangles added since a mark to each other and to the half-edges of the rim,
+  /// whose points are older than the mark; no other points of the triangles are.
   /// @return false if an edge would have too many faces, for example because points of the rim are
   /// already joined by another edge.
-  [[nodiscard]] bool connect(const std::vector<Index>& rim_half_edges);
+  [[nodiscard]] bool connect(std::span<const Index> rim_half_edges, const EditLog::Mark& before);
   /// Removes everything added since the mark.
   void take_back(const EditLog::Mark& before);
 
  private:
-  std::string name_;
+  struct Submesh {
+    Index mesh, submesh;
+  };
+  /// What moves the normals of a bone.
+  struct NormalMatrix {
+    Mat3d linear;
+    bool is_known = false;
+  };
+
+  [[nodiscard]] const Mat3d& normal_matrix(Index skin, Index slot);
+
+  const char* name_;
   Workpiece work_;
-  std::map<Index, Index> submesh_of_mesh_;
-  std::vector<Index> triangles_;  ///< Added since the last connect().
+  ScratchVector<Submesh> submeshes_;
+  ScratchVector<NormalMatrix> normal_matrices_;  ///< By slot of the skin used last.
+  Index skin_ = kNone;
 };
 
 /// Transforms a posed direction or displacement to bind space by the linear part of the blended

@@ -30,15 +30,16 @@ class Walls {
   /// Runs `build`, which adds triangles for some borders, and connects them. @return false if that
   /// fails; then nothing is added.
   template <class Build>
-  bool add(const std::vector<Index>& half_edges, Build build) {
+  bool add(std::span<const Index> half_edges, Build build) {
     const EditLog::Mark before = work_.editor.mark();
     is_sound_ = true;
     build();
-    if (is_sound_ && filling_.connect(half_edges)) return true;
+    if (is_sound_ && filling_.connect(half_edges, before)) return true;
     filling_.take_back(before);
     return false;
   }
 
+  [[nodiscard]] ScratchMemory& scratch() const { return work_.editor.scratch(); }
   [[nodiscard]] const Surface& surface() const { return work_.editor.surface(); }
   [[nodiscard]] Vec3d position(Index point) const {
     return work_.posed.position(work_.editor, point);
@@ -126,7 +127,7 @@ struct RimPlace {
 };
 
 /// Adds a strip that extends downwards from a rim.
-void hang_strip(const Rim& rim, const std::vector<RimPlace>& places, double unit, Walls& walls) {
+void hang_strip(const Rim& rim, std::span<const RimPlace> places, double unit, Walls& walls) {
   const std::size_t count = rim.half_edges.size();
   const auto wall_normal = [&](std::size_t i) {
     return places[i].down.cross(Vec3d(places[i + 1].at - places[i].at));
@@ -163,8 +164,9 @@ void hang_strip(const Rim& rim, const std::vector<RimPlace>& places, double unit
 
 /// The places of a rim, one more than its half-edges; a closed rim ends with its first place.
 template <class Down>
-std::vector<RimPlace> places_of(const Rim& rim, Walls& walls, Down down) {
-  std::vector<RimPlace> places;
+ScratchVector<RimPlace> places_of(const Rim& rim, Walls& walls, Down down) {
+  ScratchVector<RimPlace> places(&walls.scratch());
+  places.reserve(rim.half_edges.size() + 1);
   double along = 0;
   for (std::size_t i = 0; i <= rim.half_edges.size(); ++i) {
     const bool is_last = i == rim.half_edges.size();
@@ -220,7 +222,7 @@ void join_rings(const Ring& upper, const Ring& lower, const Axis& axis, double u
     double angle;
   };
   const auto add_ring = [&](const Rim& rim, double first_angle, bool backwards) {
-    std::vector<Index> corners = rim.half_edges;
+    ScratchVector<Index> corners(rim.half_edges, &walls.scratch());
     if (backwards) std::reverse(corners.begin(), corners.end());
     // The start is the corner nearest to the start of the other ring.
     const auto angle_of = [&](Index corner) {
@@ -230,7 +232,8 @@ void join_rings(const Ring& upper, const Ring& lower, const Axis& axis, double u
       return std::abs(turn(first_angle, angle_of(a))) < std::abs(turn(first_angle, angle_of(b)));
     });
     std::rotate(corners.begin(), nearest, corners.end());
-    std::vector<Place> places;
+    ScratchVector<Place> places(&walls.scratch());
+    places.reserve(corners.size() + 1);
     double along = 0;
     Vec3d before = Vec3d::Zero();
     for (std::size_t i = 0; i <= corners.size(); ++i) {
@@ -273,8 +276,10 @@ void add_blind_wall(const Ring& ring, const Axis& axis, double depth, double uni
   hang_strip(ring.rim, places, unit, walls);
   // The floor faces upwards: its outline runs against the lower edge of the wall.
   const Index mesh = walls.mesh_of(ring.rim.half_edges.front());
-  FlatLoop loop;
-  std::vector<Corner> corners;
+  FlatLoop loop(&walls.scratch());
+  ScratchVector<Corner> corners(&walls.scratch());
+  loop.reserve(ring.rim.half_edges.size());
+  corners.reserve(ring.rim.half_edges.size());
   for (std::size_t i = ring.rim.half_edges.size(); i-- > 0;) {
     const Index h = ring.rim.half_edges[i];
     const Vec3d at = places[i].at + places[i].down;
@@ -284,7 +289,8 @@ void add_blind_wall(const Ring& ring, const Axis& axis, double depth, double uni
     walls.shade(mesh, corner, -axis.z, -axis.x, loop.back() / unit);
     corners.push_back(corner);
   }
-  const auto flat = triangulate(std::span<const FlatLoop>(&loop, 1), {0, {}}, 0);
+  const auto flat =
+      triangulate(std::span<const FlatLoop>(&loop, 1), {0, {}}, InnerPoints::none, walls.scratch());
   if (!flat) {
     walls.fail();
     return;
@@ -296,11 +302,11 @@ void add_blind_wall(const Ring& ring, const Axis& axis, double depth, double uni
 
 }  // namespace
 
-Index add_walls(const std::vector<Index>& half_edges, const Stroke& stroke, double depth,
+Index add_walls(std::span<const Index> half_edges, const Stroke& stroke, double depth,
                 const Workpiece& work) {
   Walls walls(work);
   Index count = 0;
-  for (const Rim& rim : chain_rims(half_edges, work.editor.surface())) {
+  for (const Rim& rim : chain_rims(half_edges, work.editor.surface(), work.editor.scratch())) {
     const bool is_built = walls.add(rim.half_edges, [&] {
       hang_strip(rim,
                  places_of(rim, walls,
@@ -314,15 +320,15 @@ Index add_walls(const std::vector<Index>& half_edges, const Stroke& stroke, doub
   return count;
 }
 
-Index add_bore_wall(const std::vector<Index>& half_edges, const Vec3d& origin, const Vec3d& z,
+Index add_bore_wall(std::span<const Index> half_edges, const Vec3d& origin, const Vec3d& z,
                     double depth, const Workpiece& work) {
   Walls walls(work);
   Vec3d x = z.cross(std::abs(z.x()) < 0.5 ? Vec3d(Vec3d::UnitX()) : Vec3d(Vec3d::UnitY()));
   x /= norm(x);
   const Axis axis{origin, x, z.cross(x), z};
   Index left = 0;
-  std::vector<Ring> rings;
-  for (Rim& rim : chain_rims(half_edges, work.editor.surface())) {
+  ScratchVector<Ring> rings(&walls.scratch());
+  for (Rim& rim : chain_rims(half_edges, work.editor.surface(), work.editor.scratch())) {
     double around = 0, height = 0;
     for (const Index h : rim.half_edges) {
       const Vec3d a = walls.position(walls.surface().corner_point[h]);
@@ -336,8 +342,9 @@ Index add_bore_wall(const std::vector<Index>& half_edges, const Vec3d& origin, c
     else
       ++left;
   }
-  std::stable_sort(rings.begin(), rings.end(),
-                   [](const Ring& a, const Ring& b) { return a.height < b.height; });
+  std::sort(rings.begin(), rings.end(), [](const Ring& a, const Ring& b) {
+    return a.height != b.height ? a.height < b.height : a.rim.half_edges < b.rim.half_edges;
+  });
   for (std::size_t i = 0; i < rings.size(); ++i) {
     const Ring& ring = rings[i];
     bool is_built = false;
@@ -346,7 +353,7 @@ Index add_bore_wall(const std::vector<Index>& half_edges, const Vec3d& origin, c
     } else if (i + 1 < rings.size() && !rings[i + 1].looks_to_drill &&
                walls.have_one_skin(ring.rim, rings[i + 1].rim)) {
       const Ring& lower = rings[++i];
-      std::vector<Index> both = ring.rim.half_edges;
+      ScratchVector<Index> both(ring.rim.half_edges, &walls.scratch());
       both.insert(both.end(), lower.rim.half_edges.begin(), lower.rim.half_edges.end());
       is_built = walls.add(both, [&] { join_rings(ring, lower, axis, depth, walls); });
     } else {

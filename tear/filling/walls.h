@@ -2,7 +2,7 @@
 
 #include <sunder/operation/operation.h>
 
-#include <vector>
+#include <span>
 
 #include "tear/posed/workpiece.h"
 
@@ -16,14 +16,14 @@ namespace sunder::tear {
 /// @param stroke      the blades that opened them; each point uses the direction of the nearest
 ///         ones.
 /// @return the number of rims that got walls.
-Index add_walls(const std::vector<Index>& half_edges, const Stroke& stroke, double depth,
+Index add_walls(std::span<const Index> half_edges, const Stroke& stroke, double depth,
                 const Workpiece& work);
 
 /// Lines a bore. Each rim around the axis that faces the drill is joined to the next one below it
 /// that faces away; a rim without such a partner gets a wall down to the end of the bore, and a
 /// floor. Open rims stay as they are.
 /// @return the number of rims that stay as they are.
-Index add_bore_wall(const std::vector<Index>& half_edges, const Vec3d& origin, const Vec3d& axis,
+Index add_bore_wall(std::span<const Index> half_edges, const Vec3d& origin, const Vec3d& axis,
                     double depth, const Workpiece& work);
 
 }  // namespace sunder::tear

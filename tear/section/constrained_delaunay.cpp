@@ -1,8 +1,10 @@
 #include "tear/section/constrained_delaunay.h"
 
 #include <algorithm>
+#include <limits>
 #include <tuple>
 
+#include "core/internal/ordered.h"
 #include "tear/internal/surface.h"
 #include "tear/section/exact_predicates.h"
 #include "tear/section/insertion_order.h"
@@ -16,12 +18,20 @@ bool is_ahead(const Vec2d& a, const Vec2d& b, const Vec2d& p) {
                         : (b.y() > a.y()) == (p.y() > a.y()) && p.y() != a.y();
 }
 
+/// Twice the area of a triangle by the square of its longest side.
+double shape(const Vec2d& a, const Vec2d& b, const Vec2d& c) {
+  const Vec2d ab = b - a, ac = c - a;
+  const double longest = std::max({squared_norm(ab), squared_norm(ac), squared_norm(ac - ab)});
+  return longest > 0 ? (ab.x() * ac.y() - ab.y() * ac.x()) / longest : 0.0;
+}
+
 /// Triangulates a counter-clockwise polygon that is visible from the edge between its last and
 /// first point, by clipping ears in order (Toussaint and Avis 1982). Points may occur twice where
 /// the boundary runs to and fro along an edge.
-void fill_from_edge(std::span<const Vec2d> points, const std::vector<Index>& polygon,
-                    std::vector<std::array<Index, 3>>& triangles) {
-  std::vector<Index> stack;
+void fill_from_edge(std::span<const Vec2d> points, std::span<const Index> polygon,
+                    std::pmr::vector<Index>& stack,
+                    std::pmr::vector<std::array<Index, 3>>& triangles) {
+  stack.clear();
   for (const Index point : polygon) {
     while (stack.size() >= 2) {
       const Index a = stack[stack.size() - 2], b = stack.back();
@@ -35,9 +45,50 @@ void fill_from_edge(std::span<const Vec2d> points, const std::vector<Index>& pol
 
 }  // namespace
 
-std::optional<ConstrainedDelaunay> ConstrainedDelaunay::of(std::span<const Vec2d> points) {
+ConstrainedDelaunay::Crossing::Crossing(std::pmr::memory_resource& memory)
+    : crossed(&memory),
+      rights(&memory),
+      lefts(&memory),
+      stack(&memory),
+      filling(&memory),
+      links(&memory) {}
+
+ConstrainedDelaunay::ConstrainedDelaunay(std::span<const Vec2d> points, std::size_t spare,
+                                         std::pmr::memory_resource& memory)
+    : points_(&memory),
+      origin_(&memory),
+      twin_(&memory),
+      fixed_(&memory),
+      inside_(&memory),
+      visit_(&memory),
+      leaving_(&memory),
+      spoke_(&memory),
+      cavity_(&memory),
+      rim_(&memory),
+      crossing_(memory) {
+  const std::size_t most = points.size() + spare;
+  points_.reserve(most);
+  points_.assign(points.begin(), points.end());
+  leaving_.reserve(most);
+  leaving_.assign(points.size(), kNone);
+  spoke_.reserve(most + 1);
+  spoke_.assign(points.size() + 1, kNone);
+  // n points and the ghost have 2 n - 2 triangles.
+  origin_.reserve(6 * most);
+  twin_.reserve(6 * most);
+  fixed_.reserve(6 * most);
+  inside_.reserve(2 * most);
+  visit_.reserve(2 * most);
+  cavity_.reserve(2 * points.size());
+  rim_.reserve(64);
+}
+
+std::optional<ConstrainedDelaunay> ConstrainedDelaunay::of(std::span<const Vec2d> points,
+                                                           std::size_t spare,
+                                                           std::pmr::memory_resource& memory) {
   if (points.size() < 3) return std::nullopt;
-  std::vector<Index> order = insertion_order(points);
+  std::optional<ConstrainedDelaunay> result(ConstrainedDelaunay(points, spare, memory));
+  std::pmr::vector<Index> order = insertion_order(points, memory);
   if (points[order[0]] == points[order[1]]) return std::nullopt;
   std::size_t third = 2;
   int turn = 0;
@@ -49,22 +100,27 @@ std::optional<ConstrainedDelaunay> ConstrainedDelaunay::of(std::span<const Vec2d
   std::rotate(order.begin() + 2, order.begin() + static_cast<std::ptrdiff_t>(third),
               order.begin() + static_cast<std::ptrdiff_t>(third) + 1);
   if (turn < 0) std::swap(order[0], order[1]);
-
-  ConstrainedDelaunay result(points);
-  result.leaving_.assign(points.size(), kNone);
-  result.spoke_.assign(points.size() + 1, kNone);
-  result.origin_.reserve(6 * points.size());
-  result.start(order[0], order[1], order[2]);
-  for (std::size_t i = 3; i < order.size(); ++i)
-    if (!result.insert(order[i])) return std::nullopt;
+  if (!result->insert_all(order)) return std::nullopt;
   return result;
 }
 
-void ConstrainedDelaunay::set_triangle(Index triangle, const std::array<Index, 3>& corners) {
+bool ConstrainedDelaunay::insert_all(std::span<const Index> order) {
+  start(order[0], order[1], order[2]);
+  for (const Index point : order.subspan(3)) {
+    const Index found = locate(point);
+    if (found == kNone) return false;
+    grow_cavity(found, points_[point]);
+    fill_cavity(point);
+  }
+  return true;
+}
+
+void ConstrainedDelaunay::set_triangle(Index triangle, const Corners& corners) {
   if (3 * triangle == origin_.size()) {
     origin_.resize(origin_.size() + 3);
     twin_.resize(origin_.size(), kNone);
     fixed_.resize(origin_.size(), 0);
+    inside_.push_back(kUnknown);
     visit_.push_back(0);
   }
   for (Index i = 0; i < 3; ++i) {
@@ -75,7 +131,7 @@ void ConstrainedDelaunay::set_triangle(Index triangle, const std::array<Index, 3
 }
 
 void ConstrainedDelaunay::start(Index a, Index b, Index c) {
-  const std::array<Index, 3> corners{a, b, c};
+  const Corners corners{a, b, c};
   set_triangle(0, corners);
   for (Index i = 0; i < 3; ++i) set_triangle(i + 1, {kGhost, corners[(i + 1) % 3], corners[i]});
   for (Index i = 0; i < 3; ++i) {
@@ -113,8 +169,25 @@ Index ConstrainedDelaunay::locate(Index point) const {
   return triangle;
 }
 
-bool ConstrainedDelaunay::in_conflict(Index triangle, Index point) const {
-  const Vec2d& p = points_[point];
+Index ConstrainedDelaunay::locate_inside(const Vec2d& p, Index from) const {
+  // Unfixed edges are locally Delaunay, so this walk has no cycles either.
+  Index triangle = from, entered = kNone;
+  for (;;) {
+    Index left = kNone;
+    bool is_behind_fixed = false;
+    for (Index h = 3 * triangle; h < 3 * triangle + 3 && left == kNone; ++h) {
+      if (h == entered) continue;
+      const int side = orientation(points_[origin_[h]], points_[end(h)], p);
+      if (side < 0 && fixed_[h] == 0) left = h;
+      is_behind_fixed |= side <= 0 && fixed_[h] != 0;
+    }
+    if (left == kNone) return is_behind_fixed ? kNone : triangle;
+    entered = twin_[left];
+    triangle = entered / 3;
+  }
+}
+
+bool ConstrainedDelaunay::in_conflict(Index triangle, const Vec2d& p) const {
   const Index edge = hull_edge(triangle);
   if (edge == kNone)
     return in_circle(points_[origin_[3 * triangle]], points_[origin_[3 * triangle + 1]],
@@ -125,37 +198,95 @@ bool ConstrainedDelaunay::in_conflict(Index triangle, Index point) const {
   return side > 0 || (side == 0 && is_ahead(a, b, p) && is_ahead(b, a, p));
 }
 
-bool ConstrainedDelaunay::insert(Index point) {
-  const Index found = locate(point);
-  if (found == kNone) return false;
-  struct RimEdge {
-    Index from, to, outer;
-  };
-  std::vector<Index> cavity{found};
-  std::vector<RimEdge> rim;
-  visit_[found] = ++cavity_;
-  for (std::size_t i = 0; i < cavity.size(); ++i)
-    for (Index h = 3 * cavity[i]; h < 3 * cavity[i] + 3; ++h) {
+/// Finds the triangles around `found` whose circles contain a point, and the edges around them.
+void ConstrainedDelaunay::grow_cavity(Index found, const Vec2d& point) {
+  cavity_.assign(1, found);
+  rim_.clear();
+  visit_[found] = ++cavity_number_;
+  for (std::size_t i = 0; i < cavity_.size(); ++i)
+    for (Index h = 3 * cavity_[i]; h < 3 * cavity_[i] + 3; ++h) {
       const Index across = twin_[h] / 3;
-      if (visit_[across] == cavity_) continue;
-      if (in_conflict(across, point)) {
-        visit_[across] = cavity_;
-        cavity.push_back(across);
+      if (visit_[across] == cavity_number_) continue;
+      if (fixed_[h] == 0 && in_conflict(across, point)) {
+        visit_[across] = cavity_number_;
+        cavity_.push_back(across);
       } else {
-        rim.push_back({origin_[h], end(h), twin_[h]});
+        rim_.push_back({origin_[h], end(h), twin_[h], fixed_[h] != 0});
       }
     }
-  while (cavity.size() < rim.size())
-    cavity.push_back(static_cast<Index>(origin_.size() / 3 + (cavity.size() + 2 - rim.size())));
-  const auto spoke = [&](Index p) -> Index& { return spoke_[p == kGhost ? points_.size() : p]; };
-  for (std::size_t i = 0; i < rim.size(); ++i) {
-    set_triangle(cavity[i], {point, rim[i].from, rim[i].to});
-    join(3 * cavity[i] + 1, rim[i].outer);
-    spoke(rim[i].from) = 3 * cavity[i];
+}
+
+/// Replaces the triangles of the cavity by a fan around a point.
+void ConstrainedDelaunay::fill_cavity(Index point) {
+  const char inside = inside_[cavity_[0]];
+  while (cavity_.size() < rim_.size())
+    cavity_.push_back(static_cast<Index>(origin_.size() / 3 + (cavity_.size() + 2 - rim_.size())));
+  for (std::size_t i = 0; i < rim_.size(); ++i) {
+    const Index first = 3 * cavity_[i];
+    set_triangle(cavity_[i], {point, rim_[i].from, rim_[i].to});
+    inside_[cavity_[i]] = inside;
+    join(first + 1, rim_[i].outer);
+    fixed_[first + 1] = rim_[i].is_fixed ? 1 : 0;
+    spoke(rim_[i].from) = first;
   }
-  for (std::size_t i = 0; i < rim.size(); ++i) join(3 * cavity[i] + 2, spoke(rim[i].to));
-  last_ = cavity[0];
+  for (std::size_t i = 0; i < rim_.size(); ++i) join(3 * cavity_[i] + 2, spoke(rim_[i].to));
+  last_ = cavity_[0];
+}
+
+/// Whether the cavity is a polygon of which every edge is seen from the point. It is, except where
+/// it reaches around the end of a fixed edge.
+bool ConstrainedDelaunay::is_star_around(const Vec2d& point) {
+  if (rim_.size() != cavity_.size() + 2) return false;
+  for (const CavityEdge& edge : rim_) spoke(edge.from) = kNone;
+  for (const CavityEdge& edge : rim_) {
+    if (spoke(edge.from) != kNone) return false;
+    spoke(edge.from) = edge.to;
+    if (orientation(points_[edge.from], points_[edge.to], point) <= 0) return false;
+  }
   return true;
+}
+
+bool ConstrainedDelaunay::find_cavity(const Vec2d& point, Index from) {
+  const Index found = locate_inside(point, from);
+  if (found == kNone) return false;
+  grow_cavity(found, point);
+  return is_star_around(point);
+}
+
+std::span<const Index> ConstrainedDelaunay::insert(const Vec2d& point) {
+  points_.push_back(point);
+  leaving_.push_back(kNone);
+  spoke_.push_back(kNone);
+  fill_cavity(static_cast<Index>(points_.size() - 1));
+  return cavity_;
+}
+
+void ConstrainedDelaunay::smooth(Index first) {
+  for (Index p = first; p < points_.size(); ++p) {
+    const auto for_each_ring_edge = [&](auto visit) {
+      Index h = leaving_[p];
+      do {
+        visit(points_[end(h)], points_[apex(h)]);
+        h = twin_[Surface::previous(h)];
+      } while (h != leaving_[p]);
+    };
+    Vec2d mean = Vec2d::Zero();
+    double count = 0, before = std::numeric_limits<double>::infinity(), after = before;
+    for_each_ring_edge([&](const Vec2d& a, const Vec2d& b) {
+      mean += a;
+      ++count;
+      before = std::min(before, shape(points_[p], a, b));
+    });
+    mean /= count;
+    bool is_inside = true;
+    for_each_ring_edge([&](const Vec2d& a, const Vec2d& b) {
+      after = std::min(after, shape(mean, a, b));
+      is_inside = is_inside && orientation(mean, a, b) > 0;
+    });
+    if (is_inside && after > before) points_[p] = mean;
+  }
+  crossing_.is_used = true;
+  make_delaunay();
 }
 
 bool ConstrainedDelaunay::fix_edge(Index a, Index b) {
@@ -178,8 +309,10 @@ bool ConstrainedDelaunay::fix_edge(Index a, Index b) {
   } while (h != leaving_[a] && crossing == kNone);
   if (crossing == kNone) return false;
 
-  std::vector<Index> crossed{crossing / 3};
-  std::vector<Index> rights{a, origin_[crossing]}, lefts{a, end(crossing)};
+  auto& [crossed, rights, lefts, stack, filling, links, is_used] = crossing_;
+  crossed.assign(1, crossing / 3);
+  rights.assign({a, origin_[crossing]});
+  lefts.assign({a, end(crossing)});
   for (;;) {
     if (fixed_[crossing] != 0) return false;
     const Index beyond = twin_[crossing];
@@ -194,39 +327,38 @@ bool ConstrainedDelaunay::fix_edge(Index a, Index b) {
   rights.push_back(b);
   lefts.push_back(b);
   std::reverse(lefts.begin(), lefts.end());
-  std::vector<std::array<Index, 3>> filling;
-  fill_from_edge(points_, rights, filling);
-  fill_from_edge(points_, lefts, filling);
-  refill(crossed, filling, a, b);
+  filling.clear();
+  fill_from_edge(points_, rights, stack, filling);
+  fill_from_edge(points_, lefts, stack, filling);
+  is_used = true;
+  refill(a, b);
   return true;
 }
 
-void ConstrainedDelaunay::refill(const std::vector<Index>& crossed,
-                                 const std::vector<std::array<Index, 3>>& filling, Index a,
-                                 Index b) {
-  struct Link {
-    Index low, high, half_edge;  ///< No half-edge: the edge is fixed.
-    bool operator<(const Link& o) const {
-      return std::tie(low, high, half_edge) < std::tie(o.low, o.high, o.half_edge);
-    }
-  };
-  std::vector<Link> links;
+/// Replaces the crossed triangles.
+void ConstrainedDelaunay::refill(Index a, Index b) {
+  const auto& [crossed, rights, lefts, stack, filling, _, is_used] = crossing_;
+  auto& links = crossing_.links;
+  links.clear();
   const auto add = [&](Index from, Index to, Index half_edge) {
     links.push_back({std::min(from, to), std::max(from, to), half_edge});
   };
   add(a, b, kNone);
-  ++cavity_;
-  for (const Index triangle : crossed) visit_[triangle] = cavity_;
+  ++cavity_number_;
+  for (const Index triangle : crossed) visit_[triangle] = cavity_number_;
   for (const Index triangle : crossed)
     for (Index h = 3 * triangle; h < 3 * triangle + 3; ++h) {
-      if (visit_[twin_[h] / 3] != cavity_) add(origin_[h], end(h), twin_[h]);
+      if (visit_[twin_[h] / 3] != cavity_number_) add(origin_[h], end(h), twin_[h]);
       if (fixed_[h] != 0) add(origin_[h], end(h), kNone);
     }
   for (std::size_t i = 0; i < filling.size(); ++i) {
     set_triangle(crossed[i], filling[i]);
     for (Index h = 3 * crossed[i]; h < 3 * crossed[i] + 3; ++h) add(origin_[h], end(h), h);
   }
-  std::sort(links.begin(), links.end());
+  using Link = Crossing::Link;
+  std::sort(links.begin(), links.end(), [](const Link& x, const Link& y) {
+    return std::tie(x.low, x.high, x.half_edge) < std::tie(y.low, y.high, y.half_edge);
+  });
   for (std::size_t i = 0; i + 1 < links.size();) {
     const Index h = links[i].half_edge, other = links[i + 1].half_edge;
     join(h, other);
@@ -248,15 +380,20 @@ void ConstrainedDelaunay::flip(Index h) {
   fixed_[h_next] = fixed_[g_next] = 0;
   origin_[h_next] = other_tip;
   origin_[g_next] = tip;
+  leaving_[origin_[h]] = h;
+  leaving_[origin_[g]] = g;
   join(h, beyond_g);
   join(g, beyond_h);
   join(h_next, g_next);
 }
 
-void ConstrainedDelaunay::make_delaunay(const std::vector<char>& is_inside) {
-  std::vector<Index> suspects;
+/// Flips the inner edges that are not Delaunay; there are none unless triangles were replaced.
+void ConstrainedDelaunay::make_delaunay() {
+  if (!crossing_.is_used) return;
+  std::pmr::vector<Index>& suspects = crossing_.stack;
+  suspects.clear();
   for (Index h = 0; h < origin_.size(); ++h)
-    if (is_inside[h / 3] != 0 && h < twin_[h]) suspects.push_back(h);
+    if (inside_[h / 3] == 1 && h < twin_[h]) suspects.push_back(h);
   while (!suspects.empty()) {
     const Index h = suspects.back();
     suspects.pop_back();
@@ -270,48 +407,42 @@ void ConstrainedDelaunay::make_delaunay(const std::vector<char>& is_inside) {
   }
 }
 
-std::vector<std::array<Index, 3>> ConstrainedDelaunay::inside() && {
-  const auto triangle_count = static_cast<Index>(origin_.size() / 3);
-  constexpr char kUnknown = 2;
-  std::vector<char> is_inside(triangle_count, kUnknown);
-  std::vector<Index> queue;
-  for (Index t = 0; t < triangle_count; ++t)
-    if (hull_edge(t) != kNone) {
-      is_inside[t] = 0;
-      queue.push_back(t);
-    }
-  for (std::size_t i = 0; i < queue.size(); ++i)
-    for (Index h = 3 * queue[i]; h < 3 * queue[i] + 3; ++h) {
-      const Index across = twin_[h] / 3;
-      if (is_inside[across] != kUnknown) continue;
-      is_inside[across] = static_cast<char>(is_inside[queue[i]] ^ fixed_[h]);
-      queue.push_back(across);
-    }
-
-  std::vector<char> is_reached(triangle_count, 0);
-  std::vector<Index> piece;
-  const auto first = std::find(is_inside.begin(), is_inside.end(), char{1});
-  if (first == is_inside.end()) return {};
-  piece.push_back(static_cast<Index>(first - is_inside.begin()));
-  is_reached[piece[0]] = 1;
+/// Whether the inside triangles are connected across unfixed edges, and there are any.
+bool ConstrainedDelaunay::is_one_piece() {
+  std::pmr::vector<Index>& piece = cavity_;
+  const auto first = std::find(inside_.begin(), inside_.end(), char{1});
+  if (first == inside_.end()) return false;
+  piece.assign(1, static_cast<Index>(first - inside_.begin()));
+  visit_[piece[0]] = ++cavity_number_;
   for (std::size_t i = 0; i < piece.size(); ++i)
     for (Index h = 3 * piece[i]; h < 3 * piece[i] + 3; ++h) {
       const Index across = twin_[h] / 3;
-      if (fixed_[h] != 0 || is_reached[across] != 0) continue;
-      is_reached[across] = 1;
+      if (fixed_[h] != 0 || visit_[across] == cavity_number_) continue;
+      visit_[across] = cavity_number_;
       piece.push_back(across);
     }
-  if (static_cast<std::ptrdiff_t>(piece.size()) !=
-      std::count(is_inside.begin(), is_inside.end(), char{1}))
-    return {};
+  return static_cast<std::ptrdiff_t>(piece.size()) ==
+         std::count(inside_.begin(), inside_.end(), char{1});
+}
 
-  make_delaunay(is_inside);
-  std::sort(piece.begin(), piece.end());
-  std::vector<std::array<Index, 3>> triangles;
-  triangles.reserve(piece.size());
-  for (const Index t : piece)
-    triangles.push_back({origin_[3 * t], origin_[3 * t + 1], origin_[3 * t + 2]});
-  return triangles;
+bool ConstrainedDelaunay::find_inside() {
+  std::pmr::vector<Index>& queue = cavity_;
+  queue.clear();
+  for (Index t = 0; t < triangle_count(); ++t) {
+    const bool is_ghost = hull_edge(t) != kNone;
+    inside_[t] = is_ghost ? char{0} : kUnknown;
+    if (is_ghost) queue.push_back(t);
+  }
+  for (std::size_t i = 0; i < queue.size(); ++i)
+    for (Index h = 3 * queue[i]; h < 3 * queue[i] + 3; ++h) {
+      const Index across = twin_[h] / 3;
+      if (inside_[across] != kUnknown) continue;
+      inside_[across] = static_cast<char>(inside_[queue[i]] ^ fixed_[h]);
+      queue.push_back(across);
+    }
+  if (!is_one_piece()) return false;
+  make_delaunay();
+  return true;
 }
 
 }  // namespace sunder::tear

@@ -8,6 +8,8 @@ namespace sunder::tear {
 namespace {
 
 struct Loop {
+  explicit Loop(std::pmr::memory_resource& memory) : points(&memory) {}
+
   Index index = 0;  ///< In the caller's list.
   FlatLoop points;
   Vec2d low, high;
@@ -17,17 +19,21 @@ struct Loop {
 
 enum class Side { outside, on, inside };
 
-std::vector<Loop> loops_with_area(std::span<const FlatLoop> loops) {
-  std::vector<Loop> result;
+std::pmr::vector<Loop> loops_with_area(std::span<const FlatLoop> loops,
+                                       std::pmr::memory_resource& memory) {
+  std::pmr::vector<Loop> result(&memory);
+  result.reserve(loops.size());
   for (Index i = 0; i < loops.size(); ++i) {
-    Loop loop;
+    Loop loop(memory);
+    loop.points.reserve(loops[i].size());
     loop.index = i;
     for (const Vec2d& p : loops[i]) {
       const auto point = exact_range(p);
       if (!point) break;
       loop.points.push_back(*point);
     }
-    if (loop.points.size() != loops[i].size() || area_sign(loop.points) == 0) continue;
+    const int sign = loop.points.size() == loops[i].size() ? area_sign(loop.points) : 0;
+    if (sign == 0) continue;
     loop.low = loop.high = loop.points[0];
     for (std::size_t k = 0; k < loop.points.size(); ++k) {
       const Vec2d a = loop.points[k] - loop.points[0],
@@ -37,7 +43,7 @@ std::vector<Loop> loops_with_area(std::span<const FlatLoop> loops) {
       loop.high = loop.high.cwiseMax(loop.points[k]);
     }
     loop.area = std::abs(loop.area);
-    loop.is_clockwise = area_sign(loop.points) < 0;
+    loop.is_clockwise = sign < 0;
     result.push_back(std::move(loop));
   }
   return result;
@@ -79,29 +85,30 @@ bool holds(const Loop& outer, const Loop& inner) {
 
 }  // namespace
 
-std::vector<FlatRegion> find_regions(std::span<const FlatLoop> all_loops) {
-  const std::vector<Loop> loops = loops_with_area(all_loops);
-  std::vector<std::vector<std::size_t>> holders(loops.size());
+std::pmr::vector<FlatRegion> find_regions(std::span<const FlatLoop> all_loops,
+                                          std::pmr::memory_resource& memory) {
+  std::pmr::vector<FlatRegion> regions(&memory);
+  const std::pmr::vector<Loop> loops = loops_with_area(all_loops, memory);
+  std::pmr::vector<std::pmr::vector<std::size_t>> holders(loops.size(), &memory);
   for (std::size_t i = 0; i < loops.size(); ++i)
     for (std::size_t k = 0; k < loops.size(); ++k)
       if (k != i && holds(loops[k], loops[i])) holders[i].push_back(k);
 
   // A loop is a hole if its direction is opposite to the outermost loop around it.
-  std::vector<bool> is_hole(loops.size(), false);
+  std::pmr::vector<char> is_hole(loops.size(), 0, &memory);
   for (std::size_t i = 0; i < loops.size(); ++i)
     for (const std::size_t k : holders[i])
-      if (holders[k].empty()) is_hole[i] = loops[i].is_clockwise != loops[k].is_clockwise;
+      if (holders[k].empty()) is_hole[i] = loops[i].is_clockwise != loops[k].is_clockwise ? 1 : 0;
 
-  std::vector<FlatRegion> regions;
-  std::vector<std::size_t> region_of(loops.size(), loops.size());
+  std::pmr::vector<std::size_t> region_of(loops.size(), loops.size(), &memory);
   // It belongs to the innermost outline that contains it. Among crossing loops there may be none;
   // then it is its own outline.
-  std::vector<std::size_t> outline_of(loops.size());
+  std::pmr::vector<std::size_t> outline_of(loops.size(), 0, &memory);
   for (std::size_t i = 0; i < loops.size(); ++i) {
     std::size_t best = i;
-    if (is_hole[i])
+    if (is_hole[i] != 0)
       for (const std::size_t k : holders[i]) {
-        if (is_hole[k]) continue;
+        if (is_hole[k] != 0) continue;
         if (best == i || holders[k].size() > holders[best].size() ||
             (holders[k].size() == holders[best].size() && loops[k].area < loops[best].area))
           best = k;
@@ -109,7 +116,7 @@ std::vector<FlatRegion> find_regions(std::span<const FlatLoop> all_loops) {
     outline_of[i] = best;
     if (best != i) continue;
     region_of[i] = regions.size();
-    regions.push_back({loops[i].index, {}});
+    regions.push_back({loops[i].index, std::pmr::vector<Index>(&memory)});
   }
   for (std::size_t i = 0; i < loops.size(); ++i)
     if (outline_of[i] != i) regions[region_of[outline_of[i]]].holes.push_back(loops[i].index);

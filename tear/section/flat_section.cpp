@@ -1,92 +1,75 @@
 #include "tear/section/flat_section.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "tear/section/constrained_delaunay.h"
 #include "tear/section/exact_predicates.h"
-#include "tear/section/inner_points.h"
+#include "tear/section/graded_points.h"
 
 namespace sunder::tear {
 namespace {
 
-/// The points of the loops of a region, consecutive, and the edges between them.
+/// The points of the loops of a region, consecutive, and the ends of its loops.
 struct Rim {
-  std::vector<Vec2d> points;
-  std::vector<std::array<Index, 2>> edges;
-  double area = 0;  ///< Approximate area of the outline minus the holes.
+  explicit Rim(std::pmr::memory_resource& memory) : points(&memory), ends(&memory) {}
+
+  /// @return false if a loop is not a polygon or not in range.
+  [[nodiscard]] bool append(const FlatLoop& loop) {
+    if (loop.size() < 3) return false;
+    for (const Vec2d& p : loop) {
+      const auto point = exact_range(p);
+      if (!point) return false;
+      points.push_back(*point);
+    }
+    ends.push_back(static_cast<Index>(points.size()));
+    return true;
+  }
+
+  /// Calls visit(a, b) for each edge, until it returns false. @return whether it never did.
+  template <class Visit>
+  bool for_each_edge(Visit visit) const {
+    Index first = 0;
+    for (const Index end : ends) {
+      for (Index i = first; i < end; ++i)
+        if (!visit(i, i + 1 == end ? first : i + 1)) return false;
+      first = end;
+    }
+    return true;
+  }
+
+  std::pmr::vector<Vec2d> points;
+  std::pmr::vector<Index> ends;
 };
-
-double signed_area(const FlatLoop& loop) {
-  double twice = 0;
-  for (std::size_t i = 0; i < loop.size(); ++i) {
-    const Vec2d a = loop[i] - loop[0], b = loop[(i + 1) % loop.size()] - loop[0];
-    twice += a.x() * b.y() - a.y() * b.x();
-  }
-  return 0.5 * twice;
-}
-
-/// @return false if a loop is not a polygon or not in range.
-bool append_loop(const FlatLoop& loop, Rim& rim) {
-  if (loop.size() < 3) return false;
-  const auto first = static_cast<Index>(rim.points.size());
-  const auto count = static_cast<Index>(loop.size());
-  for (Index i = 0; i < count; ++i) {
-    const auto point = exact_range(loop[i]);
-    if (!point) return false;
-    rim.points.push_back(*point);
-    rim.edges.push_back({first + i, first + (i + 1) % count});
-  }
-  return true;
-}
-
-std::optional<FlatMesh> triangulate_with(const Rim& rim, const std::vector<Vec2d>& inner) {
-  std::vector<Vec2d> points = rim.points;
-  points.insert(points.end(), inner.begin(), inner.end());
-  auto triangulation = ConstrainedDelaunay::of(points);
-  if (!triangulation) return std::nullopt;
-  for (const auto& edge : rim.edges)
-    if (!triangulation->fix_edge(edge[0], edge[1])) return std::nullopt;
-  FlatMesh mesh;
-  mesh.triangles = std::move(*triangulation).inside();
-  if (mesh.triangles.empty()) return std::nullopt;
-
-  // Inner points that are outside because of rounding are in no triangle.
-  std::vector<Index> number(points.size(), kNone);
-  const auto rim_count = static_cast<Index>(rim.points.size());
-  for (const auto& triangle : mesh.triangles)
-    for (const Index p : triangle) number[p] = p;
-  for (Index p = rim_count; p < points.size(); ++p) {
-    if (number[p] == kNone) continue;
-    number[p] = rim_count + static_cast<Index>(mesh.inner.size());
-    mesh.inner.push_back(points[p]);
-  }
-  for (auto& triangle : mesh.triangles)
-    for (Index& p : triangle) p = number[p];
-  return mesh;
-}
 
 }  // namespace
 
 std::optional<FlatMesh> triangulate(std::span<const FlatLoop> loops, const FlatRegion& region,
-                                    double spacing) {
-  Rim rim;
-  if (region.outline >= loops.size() || !append_loop(loops[region.outline], rim))
-    return std::nullopt;
-  rim.area = std::abs(signed_area(loops[region.outline]));
+                                    InnerPoints inner, std::pmr::memory_resource& memory) {
+  Rim rim(memory);
+  std::size_t count = 0;
+  if (region.outline >= loops.size()) return std::nullopt;
   for (const Index hole : region.holes) {
-    if (hole >= loops.size() || !append_loop(loops[hole], rim)) return std::nullopt;
-    rim.area -= std::abs(signed_area(loops[hole]));
+    if (hole >= loops.size()) return std::nullopt;
+    count += loops[hole].size();
   }
-  std::vector<Vec2d> inner;
-  if (spacing > 0 && std::isfinite(spacing))
-    inner =
-        place_inner_points(rim.points, rim.edges, rim.area, spacing, 4 * rim.points.size() + 64);
-  auto mesh = triangulate_with(rim, inner);
-  if (mesh || inner.empty()) return mesh;
-  return triangulate_with(
-      rim,
-      {});  // inner points so close that rounding made some coincide with others or with the rim
+  rim.points.reserve(loops[region.outline].size() + count);
+  if (!rim.append(loops[region.outline])) return std::nullopt;
+  for (const Index hole : region.holes)
+    if (!rim.append(loops[hole])) return std::nullopt;
+
+  const std::size_t spare = inner == InnerPoints::none ? 0 : most_graded_points(rim.points.size());
+  std::optional<FlatMesh> mesh(memory);
+  auto triangulation = ConstrainedDelaunay::of(rim.points, spare, memory);
+  if (!triangulation) return std::nullopt;
+  if (!rim.for_each_edge([&](Index a, Index b) { return triangulation->fix_edge(a, b); }))
+    return std::nullopt;
+  if (!triangulation->find_inside()) return std::nullopt;
+  if (inner == InnerPoints::graded) add_graded_points(rim.ends, 1.0, *triangulation, memory);
+  if (inner == InnerPoints::close) add_graded_points(rim.ends, 0.5, *triangulation, memory);
+  const auto inner_points = triangulation->points().subspan(rim.points.size());
+  mesh->inner.assign(inner_points.begin(), inner_points.end());
+  mesh->triangles.reserve(rim.points.size() + 2 * region.holes.size() + 2 * inner_points.size());
+  for (Index t = 0; t < triangulation->triangle_count(); ++t)
+    if (triangulation->is_inside(t)) mesh->triangles.push_back(triangulation->corners(t));
+  return mesh;
 }
 
 }  // namespace sunder::tear

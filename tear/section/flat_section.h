@@ -3,6 +3,7 @@
 #include <sunder/core/math.h>
 
 #include <array>
+#include <memory_resource>
 #include <optional>
 #include <span>
 #include <vector>
@@ -13,15 +14,15 @@ namespace sunder::tear {
 
 // Flat regions between closed polygons: the caps of a body cut by a plane. Independent of meshes.
 // All decisions are exact for any input (exact_predicates.h), and the bits of the result do not
-// depend on the compiler.
+// depend on the compiler. Results and temporary data lie in the given memory.
 
 /// A closed polygon in the plane; the last point connects to the first.
-using FlatLoop = std::vector<Vec2d>;
+using FlatLoop = std::pmr::vector<Vec2d>;
 
 /// The loops that bound one connected flat region, by index.
 struct FlatRegion {
   Index outline = 0;
-  std::vector<Index> holes;  ///< Ascending.
+  std::pmr::vector<Index> holes;  ///< Ascending.
 };
 
 /// Nests loops into outlines, holes, islands in holes, and so on. A loop is a hole if its direction
@@ -32,41 +33,49 @@ struct FlatRegion {
 /// are in no region. If loops cross, touch or coincide, every other loop is still in exactly one
 /// region, but triangulate() may refuse it. O(loops^2 + loops x points); only loops inside the
 /// bounding box of another one cost the second term.
-[[nodiscard]] std::vector<FlatRegion> find_regions(std::span<const FlatLoop> loops);
+[[nodiscard]] std::pmr::vector<FlatRegion> find_regions(
+    std::span<const FlatLoop> loops,
+    std::pmr::memory_resource& memory = *std::pmr::get_default_resource());
 
 /// The triangles of a region. Points are numbered: those of its loops, the outline first, then the
 /// holes in the given order, then `inner`.
 struct FlatMesh {
-  std::vector<Vec2d> inner;
+  explicit FlatMesh(std::pmr::memory_resource& memory) : inner(&memory), triangles(&memory) {}
+
+  std::pmr::vector<Vec2d> inner;
   /// Counter-clockwise, with an area that is exactly positive.
-  std::vector<std::array<Index, 3>> triangles;
+  std::pmr::vector<std::array<Index, 3>> triangles;
+};
+
+enum class InnerPoints : std::uint8_t {
+  none,
+  graded,  ///< About as close as the points of the rim near them, and sparser inwards.
+  close,   ///< Twice as close, and less sparse inwards.
 };
 
 /// Constrained Delaunay triangulation of a region, with inner points where it is wide, so that it
 /// bends well. Every loop edge is an edge of exactly one triangle, every other edge of two; no
 /// point is added on a loop. The areas add up to that of the outline minus those of the holes,
-/// within rounding. n points on h holes give n + 2 h - 2 triangles, and two more per inner point.
-///
-/// @param spacing  distance of inner points, in a grid of equilateral triangles, at least half of
-///         it from the rim. It is enlarged until there are at most 4 n + 64. No inner points unless
-///         finite and > 0.
+/// within rounding. n points on h holes give n + 2 h - 2 triangles, and two more per inner point,
+/// of which there are at most 4 n + 64; see add_graded_points().
 /// @return nullopt if there is no such triangulation: loops that touch or cross; repeated points;
 /// all points collinear; holes outside the outline; coordinates not finite or beyond 2^200 (below
-/// 2^-200 they count as zero). Expected O(n log n); 10,000 rim points take some tens of ms.
-[[nodiscard]] std::optional<FlatMesh> triangulate(std::span<const FlatLoop> loops,
-                                                  const FlatRegion& region, double spacing);
+/// 2^-200 they count as zero). Expected O(n log n).
+[[nodiscard]] std::optional<FlatMesh> triangulate(
+    std::span<const FlatLoop> loops, const FlatRegion& region, InnerPoints inner,
+    std::pmr::memory_resource& memory = *std::pmr::get_default_resource());
 
 /// Extends values on the rim harmonically (Dirichlet) to the inner points, by the cotangent
 /// Laplacian. On a Delaunay triangulation its weights are not negative, so every result is a convex
 /// combination of the rim's values, and linear functions are reproduced. Source: Pinkall and
 /// Polthier 1993.
 ///
-/// @param points      those of the rim, then the inner ones, as numbered by triangulate().
-/// @param rim_values  one row per rim point, one column per channel.
-/// @return one row per inner point. Each channel stays exactly within the range of its rim values,
-/// and is accurate to about 1e-10 of that range; so channels that add up to one still do.
-[[nodiscard]] Eigen::MatrixXd extend_harmonically(std::span<const Vec2d> points, Index rim_count,
-                                                  std::span<const std::array<Index, 3>> triangles,
-                                                  const Eigen::MatrixXd& rim_values);
+/// @param points  those of the rim, then the inner ones, as numbered by triangulate().
+/// @param values  one row of `channels` per point: those of the rim are read, the others written.
+/// Each channel stays exactly within the range of its rim values, and is accurate to about 1e-10 of
+/// that range; so channels that add up to one still do.
+void extend_harmonically(std::span<const Vec2d> points, const FlatMesh& mesh, std::size_t channels,
+                         std::span<double> values,
+                         std::pmr::memory_resource& memory = *std::pmr::get_default_resource());
 
 }  // namespace sunder::tear

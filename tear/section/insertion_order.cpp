@@ -37,7 +37,10 @@ int rounds_before_last(std::uint64_t seed) {
 
 }  // namespace
 
-std::vector<Index> insertion_order(std::span<const Vec2d> points) {
+std::pmr::vector<Index> insertion_order(std::span<const Vec2d> points,
+                                        std::pmr::memory_resource& memory) {
+  std::pmr::vector<Index> order(&memory);
+  order.reserve(points.size());
   Vec2d low = points[0], high = points[0];
   for (const Vec2d& p : points) {
     low = low.cwiseMin(p);
@@ -45,7 +48,7 @@ std::vector<Index> insertion_order(std::span<const Vec2d> points) {
   }
   const double extent = std::max(high.x() - low.x(), high.y() - low.y());
   const double cells_per_length = extent > 0 ? 65535 / extent : 0;
-  std::vector<std::tuple<int, std::uint32_t, Index>> keys;
+  std::pmr::vector<std::tuple<int, std::uint32_t, Index>> keys(&memory);
   keys.reserve(points.size());
   for (Index i = 0; i < points.size(); ++i) {
     const auto x = static_cast<std::uint32_t>((points[i].x() - low.x()) * cells_per_length);
@@ -54,8 +57,6 @@ std::vector<Index> insertion_order(std::span<const Vec2d> points) {
                       hilbert_place(std::min(x, 65535u), std::min(y, 65535u)), i);
   }
   std::sort(keys.begin(), keys.end());
-  std::vector<Index> order;
-  order.reserve(keys.size());
   for (const auto& key : keys) order.push_back(std::get<2>(key));
   return order;
 }

@@ -1,35 +1,72 @@
 #include "tear/surface/rim.h"
 
 #include <algorithm>
-#include <map>
-
-#include "tear/internal/surface.h"
 
 namespace sunder::tear {
+namespace {
 
-std::vector<Rim> chain_rims(const std::vector<Index>& half_edges, const Surface& surface) {
-  std::map<Index, Index> leaving;  // by point
-  std::map<Index, bool> is_entered;
-  for (const Index h : half_edges) {
-    leaving[surface.corner_point[h]] = h;
-    is_entered[surface.corner_point[Surface::next(h)]] = true;
-  }
-  std::vector<Rim> rims;
-  const auto follow = [&](Index point) {
-    Rim rim;
-    for (auto at = leaving.find(point); at != leaving.end(); at = leaving.find(point)) {
-      rim.half_edges.push_back(at->second);
-      point = surface.corner_point[Surface::next(at->second)];
-      leaving.erase(at);
+/// Half-edges by the points that they leave.
+class Leaving {
+ public:
+  Leaving(std::span<const Index> half_edges, const Surface& surface, ScratchMemory& scratch)
+      : entries_(&scratch), ends_(&scratch) {
+    entries_.reserve(half_edges.size());
+    ends_.reserve(half_edges.size());
+    for (const Index h : half_edges) {
+      entries_.push_back({surface.corner_point[h], h, false});
+      ends_.push_back(surface.corner_point[Surface::next(h)]);
     }
-    rim.is_closed = point == surface.corner_point[rim.half_edges.front()];
-    rims.push_back(std::move(rim));
+    std::sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) {
+      return a.point != b.point ? a.point < b.point : a.half_edge < b.half_edge;
+    });
+    std::sort(ends_.begin(), ends_.end());
+  }
+
+  /// @return the half-edge that leaves a point, once; then kNone.
+  Index take(Index point) {
+    const auto entry = std::lower_bound(entries_.begin(), entries_.end(), point,
+                                        [](const Entry& e, Index p) { return e.point < p; });
+    if (entry == entries_.end() || entry->point != point || entry->is_taken) return kNone;
+    entry->is_taken = true;
+    return entry->half_edge;
+  }
+  [[nodiscard]] bool is_entered(Index point) const {
+    return std::binary_search(ends_.begin(), ends_.end(), point);
+  }
+
+ private:
+  struct Entry {
+    Index point, half_edge;
+    bool is_taken;
+  };
+  ScratchVector<Entry> entries_;
+  ScratchVector<Index> ends_;
+};
+
+}  // namespace
+
+ScratchVector<Rim> chain_rims(std::span<const Index> half_edges, const Surface& surface,
+                              ScratchMemory& scratch) {
+  ScratchVector<Rim> rims(&scratch);
+  Leaving leaving(half_edges, surface, scratch);
+  // All chains together are as long as the input, so they are written in one array first.
+  ScratchVector<Index> chain(&scratch);
+  chain.reserve(half_edges.size());
+  const auto follow = [&](Index start) {
+    chain.clear();
+    Index point = start;
+    for (Index h = leaving.take(point); h != kNone; h = leaving.take(point)) {
+      chain.push_back(h);
+      point = surface.corner_point[Surface::next(h)];
+    }
+    if (chain.empty()) return;
+    Rim& rim = rims.emplace_back(scratch);
+    rim.half_edges.assign(chain.begin(), chain.end());
+    rim.is_closed = point == start;
   };
   for (const Index h : half_edges)  // open chains first, then closed ones
-    if (!is_entered[surface.corner_point[h]] && leaving.count(surface.corner_point[h]) != 0)
-      follow(surface.corner_point[h]);
-  for (const Index h : half_edges)
-    if (leaving.count(surface.corner_point[h]) != 0) follow(surface.corner_point[h]);
+    if (!leaving.is_entered(surface.corner_point[h])) follow(surface.corner_point[h]);
+  for (const Index h : half_edges) follow(surface.corner_point[h]);
   return rims;
 }
 

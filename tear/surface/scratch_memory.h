@@ -34,6 +34,22 @@ class ScratchMemory final : public std::pmr::memory_resource {
   /// Of all blocks.
   [[nodiscard]] std::size_t bytes() const;
 
+  /// Releases at its end what was handed out during its life: it must outlive what lies there.
+  class Frame {
+   public:
+    explicit Frame(ScratchMemory& memory)
+        : memory_(memory), blocks_(memory.blocks_.size()), used_(memory.used_) {}
+    Frame(const Frame&) = delete;
+    Frame& operator=(const Frame&) = delete;
+    ~Frame() {
+      if (memory_.blocks_.size() == blocks_) memory_.used_ = used_;
+    }
+
+   private:
+    ScratchMemory& memory_;
+    std::size_t blocks_, used_;
+  };
+
  private:
   struct Block {
     std::unique_ptr<std::byte[]> bytes;

@@ -140,7 +140,7 @@ std::vector<std::vector<FlatLoop>> letters() {
 
 std::vector<Vec2d> all_points(std::span<const FlatLoop> loops, const FlatRegion& region,
                               const FlatMesh& mesh) {
-  std::vector<Vec2d> points = loops[region.outline];
+  std::vector<Vec2d> points(loops[region.outline].begin(), loops[region.outline].end());
   for (const Index hole : region.holes)
     points.insert(points.end(), loops[hole].begin(), loops[hole].end());
   points.insert(points.end(), mesh.inner.begin(), mesh.inner.end());
@@ -151,11 +151,6 @@ Index rim_count(std::span<const FlatLoop> loops, const FlatRegion& region) {
   std::size_t count = loops[region.outline].size();
   for (const Index hole : region.holes) count += loops[hole].size();
   return static_cast<Index>(count);
-}
-
-double distance_to_segment(const Vec2d& p, const Vec2d& a, const Vec2d& b) {
-  const double t = std::clamp((p - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
-  return (a + t * (b - a) - p).norm();
 }
 
 /// Checks the guarantees in the header of triangulate().
@@ -210,33 +205,39 @@ void expect_constrained_delaunay(std::span<const FlatLoop> loops, const FlatRegi
             rim + 2 * region.holes.size() + 2 * mesh.inner.size() - 2);  // Euler's formula
 }
 
+/// Checks that inner points are not closer to any point than the closest neighbours on the rim.
 void expect_inner_points_in_place(std::span<const FlatLoop> loops, const FlatRegion& region,
-                                  const FlatMesh& mesh, double spacing) {
+                                  const FlatMesh& mesh) {
+  const std::vector<Vec2d> points = all_points(loops, region, mesh);
   const Index rim = rim_count(loops, region);
-  ASSERT_LE(mesh.inner.size(), 4 * rim + 64);
+  ASSERT_LE(mesh.inner.size(), 2 * rim + 64);
+  double least = std::numeric_limits<double>::infinity();
   std::vector<Index> members{region.outline};
   members.insert(members.end(), region.holes.begin(), region.holes.end());
-  for (const Vec2d& p : mesh.inner)
-    for (const Index l : members)
-      for (std::size_t i = 0; i < loops[l].size(); ++i)
-        ASSERT_GT(distance_to_segment(p, loops[l][i], loops[l][(i + 1) % loops[l].size()]),
-                  0.499 * spacing);
+  for (const Index l : members)
+    for (std::size_t i = 0; i < loops[l].size(); ++i)
+      least = std::min(least, (loops[l][i] - loops[l][(i + 1) % loops[l].size()]).norm());
+  for (const auto& t : mesh.triangles)
+    for (std::size_t k = 0; k < 3; ++k)
+      if (std::max(t[k], t[(k + 1) % 3]) >= rim) {
+        ASSERT_GT((points[t[k]] - points[t[(k + 1) % 3]]).norm(), 0.4 * least);
+      }
 }
 
 /// Triangulates every region, which must succeed, with and without inner points. @return inner
 /// points.
-std::size_t expect_regions_triangulate(const std::vector<FlatLoop>& loops, double spacing) {
+std::size_t expect_regions_triangulate(const std::vector<FlatLoop>& loops) {
   std::size_t inner = 0;
   const auto regions = find_regions(loops);
   EXPECT_FALSE(regions.empty());
   for (const FlatRegion& region : regions)
-    for (const double s : {0.0, spacing}) {
-      const auto mesh = triangulate(loops, region, s);
+    for (const InnerPoints wanted : {InnerPoints::none, InnerPoints::graded}) {
+      const auto mesh = triangulate(loops, region, wanted);
       EXPECT_TRUE(mesh.has_value());
       if (!mesh) continue;
       expect_constrained_delaunay(loops, region, *mesh);
-      expect_inner_points_in_place(loops, region, *mesh, s);
-      if (s == 0) {
+      expect_inner_points_in_place(loops, region, *mesh);
+      if (wanted == InnerPoints::none) {
         EXPECT_THAT(mesh->inner, IsEmpty());
       }
       inner += mesh->inner.size();
@@ -366,7 +367,8 @@ TEST(FindRegions, nests_loops_that_touch) {
   EXPECT_EQ(regions[1].outline, 2u);
   const auto twice = find_regions(std::vector<FlatLoop>{square, square});
   EXPECT_EQ(twice.size(), 2u);
-  EXPECT_FALSE(triangulate(std::vector<FlatLoop>{square, square}, FlatRegion{0, {1}}, 1));
+  EXPECT_FALSE(
+      triangulate(std::vector<FlatLoop>{square, square}, FlatRegion{0, {1}}, InnerPoints::graded));
 }
 
 TEST(Triangulate, random_nested_regions) {
@@ -375,8 +377,7 @@ TEST(Triangulate, random_nested_regions) {
     SCOPED_TRACE(seed);
     Random random(static_cast<std::uint64_t>(seed));
     const auto loops = random_nested(random);
-    inner += expect_regions_triangulate(loops,
-                                        0.1 * (loops[0][0] - loops[0][loops[0].size() / 2]).norm());
+    inner += expect_regions_triangulate(loops);
   }
   EXPECT_GT(inner, 1000u);
 }
@@ -387,36 +388,36 @@ TEST(Triangulate, spirals_combs_grids_and_letters) {
     for (const auto& letter : letters()) {
       std::vector<FlatLoop> loops;
       for (const FlatLoop& loop : letter) loops.push_back(refined(loop, parts));
-      expect_regions_triangulate(loops, 0.3);
+      expect_regions_triangulate(loops);
       for (FlatLoop& loop : loops)
         for (Vec2d& p : loop)
           p = {0.8 * p.x() - 0.6 * p.y() + 1e6,
                0.6 * p.x() + 0.8 * p.y()};  // lines that rounding bends
-      expect_regions_triangulate(loops, 0.3);
+      expect_regions_triangulate(loops);
     }
-    expect_regions_triangulate({refined(spiral(5, 24, 0.5), parts)}, 0.1);
-    expect_regions_triangulate({refined(spiral(3, 11, 1e-6), parts)}, 0.1);
-    expect_regions_triangulate({refined(comb(20, 30), parts)}, 0.4);
-    expect_regions_triangulate({refined(comb(50, 1e4), parts)}, 0.4);
-    expect_regions_triangulate(grid_of_holes(6, parts), 0.5);
+    expect_regions_triangulate({refined(spiral(5, 24, 0.5), parts)});
+    expect_regions_triangulate({refined(spiral(3, 11, 1e-6), parts)});
+    expect_regions_triangulate({refined(comb(20, 30), parts)});
+    expect_regions_triangulate({refined(comb(50, 1e4), parts)});
+    expect_regions_triangulate(grid_of_holes(6, parts));
   }
 }
 
 TEST(Triangulate, slivers_and_points_almost_on_one_line) {
   for (const double height : {1e-3, 1e-9, 1e-12, 1e-15, 1e-30}) {
     SCOPED_TRACE(height);
-    expect_regions_triangulate({{{0, 0}, {1, 0}, {0.5, height}}}, 0.1);
-    expect_regions_triangulate({{{0, 0}, {0.3, 0}, {1, 0}, {0.7, height}, {0.2, height}}}, 0.1);
+    expect_regions_triangulate({{{0, 0}, {1, 0}, {0.5, height}}});
+    expect_regions_triangulate({{{0, 0}, {0.3, 0}, {1, 0}, {0.7, height}, {0.2, height}}});
     Random random(7);
     FlatLoop wave;  // above the x axis by no more than the height
     for (int i = 0; i <= 100; ++i) wave.emplace_back(0.01 * i, -height * random.uniform(0, 1));
     for (int i = 100; i >= 0; --i) wave.emplace_back(0.01 * i, height * random.uniform(0.1, 1));
-    expect_regions_triangulate({wave}, 0.1);
+    expect_regions_triangulate({wave});
   }
   FlatLoop fan;  // long edges whose ends are close together
   for (int i = 0; i < 40; ++i)
     fan.insert(fan.end(), {{1e-9 * i, 0}, {0.5 * i - 10, 10}, {1e-9 * i + 5e-10, 1e-6}});
-  const auto mesh = triangulate(std::vector<FlatLoop>{fan}, {0, {}}, 0.5);
+  const auto mesh = triangulate(std::vector<FlatLoop>{fan}, {0, {}}, InnerPoints::graded);
   if (mesh) expect_constrained_delaunay(std::vector<FlatLoop>{fan}, {0, {}}, *mesh);
 }
 
@@ -432,7 +433,7 @@ TEST(Triangulate, long_edges_across_many_points) {
       loops.push_back({{x, -0.01}, {x + 0.1, -0.3}, {x - 0.1, -0.4}});
       loops.push_back({{x, 0.01}, {x + 0.1, 0.3}, {x - 0.1, 0.4}});
     }
-    expect_regions_triangulate(loops, 0.2);
+    expect_regions_triangulate(loops);
   }
 }
 
@@ -449,12 +450,12 @@ TEST(Triangulate, self_crossing_loops_give_nothing_or_a_triangulation) {
         loop.push_back(on_grid ? Vec2d{1.0 * random.index(5), 1.0 * random.index(5)}
                                : Vec2d{random.uniform(0, 1), random.uniform(0, 1)});
     }
-    std::vector<FlatRegion> regions = find_regions(loops);
+    auto regions = find_regions(loops);
     for (Index i = 0; i < loops.size(); ++i) regions.push_back({i, {}});
     if (loops.size() == 3) regions.push_back({2, {0, 1}});
     for (const FlatRegion& region : regions) {
-      const double spacing = random.index(2) == 0 ? 0.0 : random.uniform(0.01, 1);
-      const auto mesh = triangulate(loops, region, spacing);
+      const auto mesh = triangulate(loops, region,
+                                    random.index(2) == 0 ? InnerPoints::none : InnerPoints::graded);
       (mesh ? made : refused) += 1;
       if (mesh && std::abs(area_of(loops[region.outline])) > 0) {
         const double outline = std::abs(area_of(loops[region.outline]));
@@ -495,39 +496,75 @@ TEST(Triangulate, refuses_loops_that_cannot_be_triangulated) {
     SCOPED_TRACE(i);
     FlatRegion region;
     for (Index hole = 1; hole < bad[i].size(); ++hole) region.holes.push_back(hole);
-    for (const double spacing : {0.0, 0.1, 1e-300, infinity, nan, -1.0})
-      EXPECT_FALSE(triangulate(bad[i], region, spacing));
+    for (const InnerPoints inner : {InnerPoints::none, InnerPoints::graded})
+      EXPECT_FALSE(triangulate(bad[i], region, inner));
   }
-  EXPECT_FALSE(triangulate({}, {}, 1));
-  EXPECT_FALSE(triangulate(std::vector<FlatLoop>{square}, {0, {1}}, 1));
+  EXPECT_FALSE(triangulate({}, {}, InnerPoints::graded));
+  EXPECT_FALSE(triangulate(std::vector<FlatLoop>{square}, {0, {1}}, InnerPoints::graded));
 }
 
-TEST(Triangulate, spacing_is_kept_or_enlarged) {
-  const std::vector<FlatLoop> square{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
-  const double infinity = std::numeric_limits<double>::infinity();
-  for (const double spacing : {10.0, 0.5, 0.2, 1e-3, 1e-9, 1e-300, infinity}) {
-    SCOPED_TRACE(spacing);
-    const auto mesh = triangulate(square, {0, {}}, spacing);
-    ASSERT_TRUE(mesh);
-    expect_constrained_delaunay(square, {0, {}}, *mesh);
-    EXPECT_LE(mesh->inner.size(), 80u);
-    if (spacing < 0.1) {
-      EXPECT_GT(mesh->inner.size(), 40u);
+/// The smallest angles of the triangles with an inner point, degrees, ascending.
+std::vector<double> inner_angles(std::span<const Vec2d> points, Index rim, const FlatMesh& mesh) {
+  std::vector<double> angles;
+  for (const auto& t : mesh.triangles) {
+    if (std::ranges::all_of(t, [&](Index p) { return p < rim; })) continue;
+    double least = 180;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec2d ab = points[t[(k + 1) % 3]] - points[t[k]],
+                  ac = points[t[(k + 2) % 3]] - points[t[k]];
+      least = std::min(least, std::atan2(std::abs(ab.x() * ac.y() - ab.y() * ac.x()), ab.dot(ac)));
     }
-    if (spacing == 0.2) {
-      EXPECT_NEAR(static_cast<double>(mesh->inner.size()), 0.8 * 0.8 / (0.2 * 0.2 * 0.866), 8);
-    }
+    angles.push_back(least * 180 / std::numbers::pi);
   }
-  const std::vector<FlatLoop> strip{{{0, 0}, {1e6, 1e6}, {1e6, 1e6 + 1}, {0, 1}}};
-  for (const double spacing : {0.3, 1e-6}) {
-    const auto mesh = triangulate(strip, {0, {}}, spacing);
+  std::sort(angles.begin(), angles.end());
+  return angles;
+}
+
+TEST(Triangulate, inner_points_are_sparser_inwards) {
+  for (const Index count : {40u, 100u, 1000u, 4000u}) {
+    SCOPED_TRACE(count);
+    std::vector<FlatLoop> disc(1);
+    for (Index i = 0; i < count; ++i) disc[0].push_back(polar(2 * std::numbers::pi * i / count, 1));
+    const auto mesh = triangulate(disc, {0, {}}, InnerPoints::graded);
     ASSERT_TRUE(mesh);
-    expect_constrained_delaunay(strip, {0, {}}, *mesh);
+    expect_constrained_delaunay(disc, {0, {}}, *mesh);
+    // A uniform spacing would take count^2 / 4 pi / 0.87 points.
+    EXPECT_LT(mesh->inner.size(), 1.5 * count);
+    EXPECT_GT(mesh->inner.size(), 0.25 * count);
+    const auto points = all_points(disc, {0, {}}, *mesh);
+    EXPECT_GT(inner_angles(points, count, *mesh).front(), 14);
+    const double rim_spacing = 2 * std::numbers::pi / count;
+    for (const auto& t : mesh->triangles)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const double depth = std::max(0.0, 1 - points[t[k]].norm());
+        EXPECT_LT((points[t[k]] - points[t[(k + 1) % 3]]).norm(), 4 * rim_spacing + 2 * depth);
+      }
   }
-  std::vector<FlatLoop> far = square;  // the spacing is below the resolution of double
-  for (Vec2d& p : far[0]) p = 1e-13 * p + Vec2d(1, 1);
-  const auto mesh = triangulate(far, {0, {}}, 1e-15);
-  if (mesh) expect_constrained_delaunay(far, {0, {}}, *mesh);
+}
+
+TEST(Triangulate, thin_and_tiny_regions_get_no_inner_points) {
+  const std::vector<FlatLoop> strip{refined({{0, 0}, {30, 0}, {30, 0.5}, {0, 0.5}}, 30)};
+  const auto mesh = triangulate(strip, {0, {}}, InnerPoints::graded);
+  ASSERT_TRUE(mesh);
+  EXPECT_THAT(mesh->inner, IsEmpty());
+  std::vector<FlatLoop> far{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
+  for (Vec2d& p : far[0]) p = 1e-15 * p + Vec2d(1, 1);
+  const auto tiny = triangulate(far, {0, {}}, InnerPoints::graded);
+  if (tiny) expect_constrained_delaunay(far, {0, {}}, *tiny);
+}
+
+TEST(Triangulate, uses_the_given_memory_alone) {
+  std::pmr::monotonic_buffer_resource memory;
+  Random random(3);
+  std::vector<FlatLoop> loops{star(random, 200, {0, 0}, 1)};
+  const auto expected = triangulate(loops, {0, {}}, InnerPoints::graded);
+  std::pmr::memory_resource* const usual =
+      std::pmr::set_default_resource(std::pmr::null_memory_resource());
+  const auto mesh = triangulate(loops, {0, {}}, InnerPoints::graded, memory);
+  std::pmr::set_default_resource(usual);
+  ASSERT_TRUE(mesh && expected);
+  EXPECT_EQ(mesh->inner, expected->inner);
+  EXPECT_EQ(mesh->triangles, expected->triangles);
 }
 
 TEST(Triangulate, thousands_of_points_take_no_time) {
@@ -546,14 +583,17 @@ TEST(Triangulate, thousands_of_points_take_no_time) {
       const auto regions = find_regions(loops);
       const auto found = std::chrono::steady_clock::now();
       ASSERT_EQ(regions.size(), 1u);
-      const auto mesh = triangulate(loops, regions[0], 0.02);
+      const auto mesh = triangulate(loops, regions[0], InnerPoints::graded);
       const auto triangulated = std::chrono::steady_clock::now();
       ASSERT_TRUE(mesh);
       const auto points = all_points(loops, regions[0], *mesh);
       const Index rim = rim_count(loops, regions[0]);
-      Eigen::MatrixXd values(rim, 4);
-      for (Index i = 0; i < rim; ++i) values.row(i) << points[i].x(), points[i].y(), 1, 0;
-      const auto extended = extend_harmonically(points, rim, mesh->triangles, values);
+      std::vector<double> values(4 * points.size());
+      for (Index i = 0; i < rim; ++i) {
+        values[4 * i] = points[i].x();
+        values[4 * i + 1] = points[i].y();
+      }
+      extend_harmonically(points, *mesh, 4, values);
       const auto end = std::chrono::steady_clock::now();
       const auto milliseconds = [](auto duration) {
         return std::chrono::duration<double, std::milli>(duration).count();
@@ -578,28 +618,39 @@ TEST(ExtendHarmonically, reproduces_linear_functions_within_the_values_of_the_ri
     for (const FlatRegion& region : find_regions(loops)) {
       const FlatLoop& outline = loops[region.outline];
       const double size = (outline[0] - outline[outline.size() / 2]).norm();
-      const auto mesh = triangulate(loops, region, random.uniform(0.02, 0.2) * size);
+      const auto mesh = triangulate(loops, region, InnerPoints::graded);
       ASSERT_TRUE(mesh);
       const auto points = all_points(loops, region, *mesh);
       const Index rim = rim_count(loops, region);
-      Eigen::MatrixXd values(rim, 5);
+      const auto linear = [&](const Vec2d& p) {
+        const Vec2d at = (p - outline[0]) / size;
+        return at.x() - 2 * at.y() + 3;
+      };
+      std::vector<double> values(5 * points.size());
       for (Index i = 0; i < rim; ++i) {
-        const Vec2d at = (points[i] - outline[0]) / size;
         const double weight = random.uniform(0, 1);
-        values.row(i) << at.x() - 2 * at.y() + 3, 1, weight, 1 - weight, random.index(2) * 1e3;
+        const std::array<double, 5> row{linear(points[i]), 1, weight, 1 - weight,
+                                        random.index(2) * 1e3};
+        std::ranges::copy(row, &values[5 * i]);
       }
-      const auto result = extend_harmonically(points, rim, mesh->triangles, values);
-      ASSERT_EQ(result.rows(), static_cast<Eigen::Index>(mesh->inner.size()));
-      ASSERT_EQ(result.cols(), 5);
+      std::array<double, 5> least, greatest;
+      for (std::size_t c = 0; c < 5; ++c) {
+        least[c] = greatest[c] = values[c];
+        for (Index i = 0; i < rim; ++i) {
+          least[c] = std::min(least[c], values[5 * i + c]);
+          greatest[c] = std::max(greatest[c], values[5 * i + c]);
+        }
+      }
+      extend_harmonically(points, *mesh, 5, values);
       inner += mesh->inner.size();
-      for (Eigen::Index i = 0; i < result.rows(); ++i) {
-        const Vec2d at = (mesh->inner[static_cast<std::size_t>(i)] - outline[0]) / size;
-        ASSERT_NEAR(result(i, 0), at.x() - 2 * at.y() + 3, 1e-9);
-        ASSERT_EQ(result(i, 1), 1);
-        ASSERT_NEAR(result(i, 2) + result(i, 3), 1, 1e-10);
-        for (Eigen::Index c = 0; c < 5; ++c) {
-          ASSERT_GE(result(i, c), values.col(c).minCoeff());
-          ASSERT_LE(result(i, c), values.col(c).maxCoeff());
+      for (std::size_t i = rim; i < points.size(); ++i) {
+        const double* const row = &values[5 * i];
+        ASSERT_NEAR(row[0], linear(points[i]), 1e-9);
+        ASSERT_EQ(row[1], 1);
+        ASSERT_NEAR(row[2] + row[3], 1, 1e-10);
+        for (std::size_t c = 0; c < 5; ++c) {
+          ASSERT_GE(row[c], least[c]);
+          ASSERT_LE(row[c], greatest[c]);
         }
       }
     }
@@ -607,14 +658,43 @@ TEST(ExtendHarmonically, reproduces_linear_functions_within_the_values_of_the_ri
   EXPECT_GT(inner, 1000u);
 }
 
+TEST(ExtendHarmonically, is_harmonic) {
+  for (int seed = 0; seed < case_count(20); ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(static_cast<std::uint64_t>(seed));
+    const auto loops = random_nested(random);
+    for (const FlatRegion& region : find_regions(loops)) {
+      const auto mesh = triangulate(loops, region, InnerPoints::graded);
+      ASSERT_TRUE(mesh);
+      const auto points = all_points(loops, region, *mesh);
+      const Index rim = rim_count(loops, region);
+      std::vector<double> values(points.size()), sums(points.size(), 0), weights(points.size(), 0);
+      for (Index i = 0; i < rim; ++i) values[i] = random.uniform(0, 1);
+      extend_harmonically(points, *mesh, 1, values);
+      for (const auto& t : mesh->triangles)
+        for (std::size_t k = 0; k < 3; ++k) {
+          const Index a = t[k], b = t[(k + 1) % 3];
+          const Vec2d to_a = points[a] - points[t[(k + 2) % 3]],
+                      to_b = points[b] - points[t[(k + 2) % 3]];
+          const double cotangent = to_a.dot(to_b) / (to_a.x() * to_b.y() - to_a.y() * to_b.x());
+          for (const auto& [at, from] : {std::pair{a, b}, std::pair{b, a}}) {
+            weights[at] += cotangent;
+            sums[at] += cotangent * values[from];
+          }
+        }
+      for (std::size_t i = rim; i < points.size(); ++i)
+        ASSERT_NEAR(values[i], sums[i] / weights[i], 1e-9);
+    }
+  }
+}
+
 TEST(ExtendHarmonically, gives_no_rows_without_inner_points) {
   const std::vector<FlatLoop> loops{{{0, 0}, {1, 0}, {0, 1}}};
-  const auto mesh = triangulate(loops, {0, {}}, 0);
+  const auto mesh = triangulate(loops, {0, {}}, InnerPoints::none);
   ASSERT_TRUE(mesh);
-  const auto result =
-      extend_harmonically(loops[0], 3, mesh->triangles, Eigen::MatrixXd::Ones(3, 2));
-  EXPECT_EQ(result.rows(), 0);
-  EXPECT_EQ(result.cols(), 2);
+  std::vector<double> values(6, 1.0);
+  extend_harmonically(loops[0], *mesh, 2, values);
+  EXPECT_THAT(values, testing::Each(1.0));
 }
 
 }  // namespace
