@@ -30,6 +30,8 @@ History::Entry& History::next() {
   if (done_.size() == done_.capacity()) done_.reserve(2 * done_.size() + 8);
   if (spare_.size() + undone_.size() > spare_.capacity())
     spare_.reserve(2 * (spare_.size() + undone_.size()));
+  if (spare_redos_.capacity() - spare_redos_.size() < undone_.size())
+    spare_redos_.reserve(2 * (spare_redos_.size() + undone_.size()));
   return *spare_.back();
 }
 
@@ -64,7 +66,13 @@ void History::push(const OpenedBorders& borders) {
   entry.rim_points = append(borders.rim_points, next_rim_points(), borders_.rim_points);
   done_.push_back(std::move(spare_.back()));
   spare_.pop_back();
-  while (!undone_.empty()) move_last(undone_, spare_);
+  while (!undone_.empty()) {
+    SurfaceEditor::Redo& redo = undone_.back()->redo;
+    redo.clear();
+    if (!redo.tails.meshes.empty())
+      spare_redos_.push_back(std::exchange(redo, SurfaceEditor::Redo{}));
+    move_last(undone_, spare_);
+  }
 }
 
 void History::move_last(Entries& from, Entries& to) {

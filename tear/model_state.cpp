@@ -72,7 +72,8 @@ WeightReport TornModel::State::weigh_points_since(const tear::EditLog::Mark& beg
 void TornModel::State::describe_call(ChangeRecord& change) {
   tear::describe_change(begin_of_call_, editor, change);
   change.lips = borders_of_call_.lips;
-  tear::settle_rims(borders_of_call_.rim_points, editor.surface(), change.rims);
+  tear::settle_rims(tear::sort_rim_points(borders_of_call_.rim_points, editor.scratch()),
+                    editor.surface(), change.rims);
 }
 
 /// Reserves memory, so that keep_borders() and record() do not fail.

@@ -11,26 +11,26 @@ namespace sunder::tear {
 /// released all at once, and kept: an operation like one before it allocates nothing.
 class ScratchMemory final : public std::pmr::memory_resource {
  public:
-  /// Releases at its end what was handed out since its begin, so that steps of an operation use the
-  /// same memory one after the other.
-  class Scope {
-   public:
-    explicit Scope(ScratchMemory& memory)
-        : memory_(memory), blocks_(memory.blocks_.size()), used_(memory.used_) {}
-    ~Scope() { memory_.used_ = memory_.blocks_.size() == blocks_ ? used_ : 0; }
-    Scope(const Scope&) = delete;
-    Scope& operator=(const Scope&) = delete;
-
-   private:
-    ScratchMemory& memory_;
-    std::size_t blocks_, used_;
-  };
-
   /// Allocates memory in advance. Operations that need more allocate it.
   void reserve(std::size_t bytes);
 
   /// Releases all that was handed out.
   void reset();
+
+  /// Releases at its end what was handed out during its life: it must outlive what lies there. So
+  /// the steps of an operation use the same memory one after the other.
+  class Frame {
+   public:
+    explicit Frame(ScratchMemory& memory)
+        : memory_(memory), blocks_(memory.blocks_.size()), used_(memory.used_) {}
+    Frame(const Frame&) = delete;
+    Frame& operator=(const Frame&) = delete;
+    ~Frame() { memory_.used_ = memory_.blocks_.size() == blocks_ ? used_ : 0; }
+
+   private:
+    ScratchMemory& memory_;
+    std::size_t blocks_, used_;
+  };
 
  private:
   struct Block {

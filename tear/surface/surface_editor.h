@@ -59,7 +59,7 @@ class SurfaceEditor {
   void roll_back(const EditLog::Mark& to) noexcept;
   struct Redo;
   /// Reverts the most recent operation, which began at `begin`. Does not allocate without `change`
-  /// if the operation is as redo() left it.
+  /// if the operation is as redo() left it, or `redo` has held as much before.
   /// @param redo    written: the input of redo().
   /// @param change  optional; written, except lips and rims.
   /// @throws std::bad_alloc before anything is changed
@@ -106,6 +106,9 @@ struct SurfaceEditor::Redo {
   std::vector<SideChange> sides;  ///< Values of _TEARSIDE as the operation left them.
   /// The state that redo() restored. While nothing was appended to it, the rest is up to date.
   std::optional<EditLog::Mark> end;
+
+  /// Forgets the state; undo() then keeps another one in the same memory.
+  void clear();
 };
 
 }  // namespace sunder::tear
