@@ -60,6 +60,7 @@ void tear_cold(benchmark::State& state) {
 }
 void width_warm(benchmark::State& state) { operate<tear_with_width>(state, Caches::warm, kUsual); }
 void drill_warm(benchmark::State& state) { operate<drill_through>(state, Caches::warm, kHeavy); }
+void drill_open_warm(benchmark::State& state) { operate<drill_open>(state, Caches::warm, kUsual); }
 void cut_whole(benchmark::State& state) { operate<cut_in_two>(state, Caches::warm, kHeavy); }
 void cut_whole_with_caps(benchmark::State& state) {
   operate<cut_with_caps>(state, Caches::warm, kHeavy);
@@ -187,6 +188,7 @@ BENCHMARK(undo)->Apply(at_four_sizes);
 BENCHMARK(redo)->Apply(at_four_sizes);
 BENCHMARK(width_warm)->Apply(at_four_sizes);
 BENCHMARK(drill_warm)->Apply(at_four_sizes);
+BENCHMARK(drill_open_warm)->Apply(at_four_sizes);
 BENCHMARK(long_stroke)->Apply(at_four_sizes);
 BENCHMARK(create_and_first_tear)->Apply(at_four_sizes);
 BENCHMARK(memory)->Apply(at_four_sizes);

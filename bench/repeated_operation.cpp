@@ -16,6 +16,14 @@ void require(const Outcome& outcome) {
   std::exit(1);
 }
 
+/// A bore through the middle of the stroke. @param radius  by the length of the stroke.
+Bore bore_across(const Scene& scene, double radius, bool wall) {
+  const Vec3d along = scene.stroke.back().tip - scene.stroke.front().tip;
+  const Vec3d depth = scene.stroke[0].tip - scene.stroke[0].base;
+  return {
+      scene.stroke[0].base + 0.5 * along, depth, radius * along.norm(), depth.norm(), 0.0, wall};
+}
+
 }  // namespace
 
 double RepeatedOperation::run(Caches caches) {
@@ -68,12 +76,11 @@ Result<TearReport> cut_with_caps(const Scene& scene, const ModelPose& pose, Chan
 }
 
 Result<TearReport> drill_through(const Scene& scene, const ModelPose& pose, ChangeRecord& change) {
-  const Vec3d along = scene.stroke.back().tip - scene.stroke.front().tip;
-  const Vec3d depth = scene.stroke[0].tip - scene.stroke[0].base;
-  return scene.model().drill(
-      pose,
-      {scene.stroke[0].base + 0.5 * along, depth, 0.1 * along.norm(), depth.norm(), 0.0, true},
-      &change);
+  return scene.model().drill(pose, bore_across(scene, 0.1, true), &change);
+}
+
+Result<TearReport> drill_open(const Scene& scene, const ModelPose& pose, ChangeRecord& change) {
+  return scene.model().drill(pose, bore_across(scene, 0.2, false), &change);
 }
 
 FirstTear time_first_tear(const Scene& scene) {

@@ -47,7 +47,10 @@ Result<TearReport> tear_along_stroke(const Scene& scene, const ModelPose& pose,
 Result<TearReport> tear_with_width(const Scene& scene, const ModelPose& pose, ChangeRecord& change);
 Result<TearReport> cut_in_two(const Scene& scene, const ModelPose& pose, ChangeRecord& change);
 Result<TearReport> cut_with_caps(const Scene& scene, const ModelPose& pose, ChangeRecord& change);
+/// A bore with a wall.
 Result<TearReport> drill_through(const Scene& scene, const ModelPose& pose, ChangeRecord& change);
+/// A bore without a wall, whose rim crosses about as many faces as the stroke.
+Result<TearReport> drill_open(const Scene& scene, const ModelPose& pose, ChangeRecord& change);
 
 /// Seconds until a new model tears at full speed.
 struct FirstTear {

@@ -69,6 +69,41 @@ Tears measure_tears() {
   return result;
 }
 
+/// Removals of surface, by size.
+struct Removals {
+  /// Time by that of the plain tear of the same stroke.
+  Figures width = {}, bore = {}, walled_bore = {};
+  double allocations = 0, undo_allocations = 0;  ///< Of the width and the bore, the most.
+};
+
+Removals measure_removals() {
+  Removals result;
+  for (std::size_t i = 0; i < kDivisions.size(); ++i) {
+    const Scene& scene = scene_of(kDivisions[i]);
+    std::vector<RepeatedOperation> operations = {{scene, tear_along_stroke},
+                                                 {scene, tear_with_width},
+                                                 {scene, drill_open},
+                                                 {scene, drill_through}};
+    std::vector<Candidate> candidates;
+    for (RepeatedOperation& operation : operations)
+      candidates.push_back({[&operation] { return operation.run(); }, {30, 0.5, 2}});
+    measure_in_turns(candidates);
+    const auto by_tear = [&](std::size_t candidate) {
+      return median(candidates[candidate].seconds) / median(candidates[0].seconds);
+    };
+    result.width[i] = by_tear(1);
+    result.bore[i] = by_tear(2);
+    result.walled_bore[i] = by_tear(3);
+    for (const std::size_t of : {1, 2}) {
+      result.allocations =
+          std::max(result.allocations, static_cast<double>(operations[of].allocations));
+      result.undo_allocations =
+          std::max(result.undo_allocations, static_cast<double>(operations[of].undo_allocations));
+    }
+  }
+  return result;
+}
+
 /// Seconds of the entry query at the largest size.
 double measure_query() {
   StagedTear staged(scene_of(kLargest));
@@ -106,6 +141,10 @@ void add_capped_cuts(JsonObject& object) {
 void print_summary() {
   const BytesPerPoint bytes = bytes_per_point(scene_of(kLargest));
   const Tears tears = measure_tears();
+  const Removals removals = measure_removals();
+  const auto worst = [](const Figures& figures) {
+    return *std::max_element(figures.begin(), figures.end());
+  };
   const double faces = scene_of(kLargest).mesh().triangle_count(), query = measure_query(),
                first = measure_first_tear();
   const CutFigures cuts = measure_cuts();
@@ -129,10 +168,14 @@ void print_summary() {
   object.add("build_ns_per_face", (first - tears.warm.back()) * kNanoseconds / faces);
   object.add("bytes_per_point", bytes.model);
   object.add("posed_bytes_per_point", bytes.posed_points);
-  object.add("warm_allocations",
-             *std::max_element(tears.allocations.begin(), tears.allocations.end()));
-  object.add("warm_undo_allocations",
-             *std::max_element(tears.undo_allocations.begin(), tears.undo_allocations.end()));
+  object.add("warm_allocations", worst(tears.allocations));
+  object.add("warm_undo_allocations", worst(tears.undo_allocations));
+  object.add("width_vs_tear", std::max(worst(removals.width), worst(removals.bore)));
+  object.add("width_vs_tear_by_size", by_size(removals.width));
+  object.add("bore_vs_tear_by_size", by_size(removals.bore));
+  object.add("walled_bore_vs_tear_by_size", by_size(removals.walled_bore));
+  object.add("width_allocations", removals.allocations);
+  object.add("width_undo_allocations", removals.undo_allocations);
   object.add("warm_us", by_size(warm_us));
   object.add("cold_us", by_size(cold_us));
   object.add("query_us_900k", query * kMicroseconds);

@@ -51,6 +51,8 @@ History::Entry& History::next() {
   if (spare_.size() + undone_.size() > spare_.capacity())
     spare_.reserve(2 * (spare_.size() + undone_.size()));
   give_long_stroke(*spare_.back());
+  if (spare_redos_.capacity() - spare_redos_.size() < undone_.size())
+    spare_redos_.reserve(2 * (spare_redos_.size() + undone_.size()));
   return *spare_.back();
 }
 
@@ -86,7 +88,17 @@ void History::push(const OpenedBorders& borders) {
   entry.rim_points = append(borders.rim_points, next_rim_points(), borders_.rim_points);
   done_.push_back(std::move(spare_.back()));
   spare_.pop_back();
-  while (!undone_.empty()) move_last(undone_, spare_);
+  forget_undone();
+}
+
+void History::forget_undone() noexcept {
+  while (!undone_.empty()) {
+    SurfaceEditor::Redo& redo = undone_.back()->redo;
+    redo.clear();
+    if (!redo.tails.meshes.empty())
+      spare_redos_.push_back(std::exchange(redo, SurfaceEditor::Redo{}));
+    move_last(undone_, spare_);
+  }
 }
 
 void History::adopt_undone(History& from) {
@@ -97,6 +109,7 @@ void History::adopt_undone(History& from) {
   borders_.rim_points.reserve(borders_.rim_points.size() + rim_points.size());
   undone_.reserve(undone_.size() + 1);
   spare_.reserve(spare_.size() + undone_.size() + 1);
+  spare_redos_.reserve(spare_redos_.size() + undone_.size() + 1);
   if (done_.size() == done_.capacity()) done_.reserve(2 * done_.size() + 8);
   entry.lips.first = next_lips().first;
   entry.rim_points.first = next_rim_points().first;
@@ -128,6 +141,7 @@ void History::give_back(History& to) noexcept {
 
 void History::shrink() noexcept {
   spare_ = Entries();
+  spare_redos_ = {};
   // Memory that cannot be returned is kept: shrink_to_fit() does not fail.
   done_.shrink_to_fit();
   undone_.shrink_to_fit();

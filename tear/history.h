@@ -5,6 +5,8 @@
 
 #include <memory>
 #include <span>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "tear/surface/opened_borders.h"
@@ -28,12 +30,26 @@ class History {
     /// Ranges in the borders of all entries; assigned by push().
     IndexRange lips, rim_points;
 
-    /// The operation as a `Kind`. An operation of another kind is replaced by an empty one.
+    /// The operation as a `Kind`, to be written. One of another kind is replaced; the memory of
+    /// its pose is kept, and that of a stroke until the entry holds a stroke again.
     template <class Kind>
     Kind& as() {
-      if (!std::holds_alternative<Kind>(operation)) operation = Kind{};
+      if (!std::holds_alternative<Kind>(operation)) {
+        Kind replacement;
+        std::visit(
+            [&](auto& replaced) {
+              if constexpr (requires { replaced.pose; })
+                replacement.pose = std::exchange(replaced.pose, PoseSpec{});
+            },
+            operation);
+        if constexpr (std::is_same_v<Kind, TearOperation>) replacement.stroke.swap(spare_stroke);
+        if (auto* tear = std::get_if<TearOperation>(&operation)) tear->stroke.swap(spare_stroke);
+        operation = std::move(replacement);
+      }
       return std::get<Kind>(operation);
     }
+
+    Stroke spare_stroke;
   };
 
   /// Reserves memory for this many operations, and for the lips that all of them may open.
@@ -68,9 +84,7 @@ class History {
   /// Reverts adopt_undone().
   void give_back(History& to) noexcept;
   /// Clears the redo stack. There must be room, as after adopt_undone() and next().
-  void forget_undone() noexcept {
-    while (!undone_.empty()) move_last(undone_, spare_);
-  }
+  void forget_undone() noexcept;
   /// Drops memory that is kept for later entries.
   void shrink() noexcept;
   /// Moves the entries of another history into this empty one, which make_room_for() prepared.
@@ -79,6 +93,13 @@ class History {
   void add_to(MemoryUse& use) const;
   void make_room_to_undo() {
     if (undone_.size() == undone_.capacity()) undone_.reserve(2 * undone_.size() + 8);
+  }
+  /// Exchanges what undo() is about to write for memory that an operation dropped from the redo
+  /// stack had, unless it has memory itself.
+  void give_memory_to(SurfaceEditor::Redo& redo) noexcept {
+    if (!redo.tails.meshes.empty() || spare_redos_.empty()) return;
+    redo = std::move(spare_redos_.back());
+    spare_redos_.pop_back();
   }
   /// Move the most recent entry to the redo stack and back.
   void move_to_undone() { move_last(done_, undone_); }
@@ -94,6 +115,7 @@ class History {
   [[nodiscard]] IndexRange next_rim_points() const;
 
   Entries done_, undone_, spare_;
+  std::vector<SurfaceEditor::Redo> spare_redos_;  ///< Of operations dropped from the redo stack.
   /// Borders of all entries: first those that are done, oldest first, then those of the redo stack,
   /// from its top down.
   OpenedBorders borders_;

@@ -125,7 +125,8 @@ void TornModel::State::describe_call(ChangeRecord& change, bool is_detachment) {
     tear::put_released(released, change);
   }
   change.lips = borders_of_call_.lips;
-  tear::settle_rims(borders_of_call_.rim_points, editor.surface(), change.rims);
+  tear::settle_rims(tear::sort_rim_points(borders_of_call_.rim_points, editor.scratch()),
+                    editor.surface(), change.rims);
 }
 
 /// Reserves memory, so that keep_borders() and record() do not fail.

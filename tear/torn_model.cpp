@@ -137,6 +137,7 @@ Status TornModel::undo(ChangeRecord* change) {
       if (change != nullptr) tear::describe_weights(last.weights, state.editor, *change);
       tear::exchange_weights(last.weights, state.editor);
     } else {
+      state.history.give_memory_to(last.redo);
       tear::VerticesOfMeshes returned;
       const bool tells =
           change != nullptr && std::holds_alternative<DetachOperation>(last.operation);
@@ -163,16 +164,16 @@ Status TornModel::redo(ChangeRecord* change) {
   tear::History::Entry& last = *state.history.undone().back();
   try {
     // The memory for lips and rims is reserved before anything changes.
-    std::vector<tear::RimPoint> rim_points;
+    state.editor.scratch().reset();
+    tear::ScratchVector<std::uint64_t> rim_points(&state.editor.scratch());
     if (change != nullptr) {
       const auto lips = state.history.lips_of(last);
       const auto told = state.history.rim_points_of(last);
-      rim_points.assign(told.begin(), told.end());
+      rim_points = tear::sort_rim_points(told, state.editor.scratch());
       change->lips.assign(lips.begin(), lips.end());
       change->rims.left.reserve(told.size());
       change->rims.right.reserve(told.size());
     }
-    state.editor.scratch().reset();
     last.begin = state.editor.mark();
     if (std::holds_alternative<WeightsOperation>(last.operation)) {
       if (change != nullptr) tear::describe_weights(last.weights, state.editor, *change);

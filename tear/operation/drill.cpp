@@ -117,12 +117,12 @@ class BoreReach {
 };
 
 GapRemoval remove_bore(const Bore& bore, const Workpiece& work) {
-  const ScratchMemory::Scope scope(work.editor.scratch());
+  const ScratchMemory::Frame memory_of_step(work.editor.scratch());
   const auto cell = cell_of(bore, work.editor.scratch());
   CellSides sides(cell, work.editor, work.posed);
   const BoreReach reach(bore, work.posed, work.editor);
-  const auto faces = faces_in_cell(sides, reach.frame(),
-                                   [&](const FrameBox& box) { return reach.may_meet(box); });
+  const auto faces =
+      faces_in_cell(sides, reach.frame(), [&](const FrameBox& box) { return reach.may_meet(box); });
   return remove_cell(sides, faces, work.editor);
 }
 

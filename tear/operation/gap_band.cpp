@@ -39,7 +39,7 @@ PlaneSide from_place(const Vec3d& at, const Vec3d& direction, double distance) {
 void sort_by_x(std::vector<Vec2d>& section, ScratchMemory& memory) {
   const auto is_before = [](const Vec2d& a, const Vec2d& b) { return a.x() < b.x(); };
   if (std::is_sorted(section.begin(), section.end(), is_before)) return;
-  const ScratchMemory::Scope scope(memory);
+  const ScratchMemory::Frame memory_of_step(memory);
   const ScratchVector<Vec2d> unsorted(section.begin(), section.end(), &memory);
   ScratchVector<std::pair<double, std::size_t>> order(&memory);
   order.reserve(section.size());
@@ -137,7 +137,7 @@ double GapBand::trace_gap(Index start, const Workpiece& work, StrokeTip& tip, Pe
                           Outcome& outcome) const {
   const bool continues = start == tip.point;
   tip.point = kNone;
-  const ScratchMemory::Scope scope(work.editor.scratch());
+  const ScratchMemory::Frame memory_of_step(work.editor.scratch());
   const Trace trace = trace_path(*gap.plane, start, work.editor, work.posed);
   if (trace.faces.empty()) return trace.progress;
   if (!continues) ++outcome.report.runs;
@@ -235,7 +235,7 @@ PlaneSide GapBand::start_from_rim(const BladePlane& plane, Index tip, const Work
 }
 
 /// The faces of the torn layers that a cell holds a part of.
-ScratchVector<Index> GapBand::faces_to_remove(CellSides& sides, const Pending& gap) const {
+ScratchVector<CellFace> GapBand::faces_to_remove(CellSides& sides, const Pending& gap) const {
   if (layers_ == Layers::all) return faces_in_cell(sides);
   const SurfaceEditor& editor = sides.editor();
   const Surface& surface = editor.surface();
@@ -268,7 +268,7 @@ ScratchVector<Index> GapBand::faces_to_remove(CellSides& sides, const Pending& g
 
 void GapBand::remove(std::span<const PlaneSide> cell, std::span<const Side> sides,
                      const Pending& gap, const Workpiece& work, Outcome& outcome) {
-  const ScratchMemory::Scope scope(work.editor.scratch());
+  const ScratchMemory::Frame memory_of_step(work.editor.scratch());
   CellRim rim(work.editor.scratch());
   CellSides of_points(cell, work.editor, work.posed);
   const GapRemoval removal =

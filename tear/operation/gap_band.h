@@ -62,7 +62,7 @@ class GapBand {
   void remove_pending(const PlaneSide& end, const Workpiece& work, Outcome& outcome);
   [[nodiscard]] PlaneSide start_from_rim(const BladePlane& plane, Index tip,
                                          const Workpiece& work) const;
-  [[nodiscard]] ScratchVector<Index> faces_to_remove(CellSides& sides, const Pending& gap) const;
+  [[nodiscard]] ScratchVector<CellFace> faces_to_remove(CellSides& sides, const Pending& gap) const;
   void remove(std::span<const PlaneSide> cell, std::span<const Side> sides, const Pending& gap,
               const Workpiece& work, Outcome& outcome);
   void add_rim_points(const CellRim& rim, std::span<const Side> sides, const BladePlane& plane,

@@ -19,25 +19,16 @@ CellSides::CellSides(std::span<const PlaneSide> cell, const SurfaceEditor& edito
       editor_(editor),
       posed_(posed),
       words_(std::max(Index{1}, (static_cast<Index>(cell.size()) + kBits - 1) / kBits)),
-      steepness_(&editor.scratch()),
+      planes_(&editor.scratch()),
       places_(kPoints, editor.scratch()),
       bits_(&editor.scratch()) {
-  steepness_.reserve(cell.size());
-  for (const PlaneSide& side : cell)
-    steepness_.push_back(std::abs(side.normal.x()) + std::abs(side.normal.y()) +
-                         std::abs(side.normal.z()));
+  planes_.reserve(cell.size());
+  for (const auto& [normal, offset] : cell)
+    planes_.push_back(
+        {normal.x(), normal.y(), normal.z(), offset,
+         2 * kOnPlaneTerms * (std::abs(normal.x()) + std::abs(normal.y()) + std::abs(normal.z())),
+         2 * kOnPlaneTerms * std::abs(offset)});
   bits_.reserve(2 * words_ * kPoints);
-}
-
-CellSides::OfFace CellSides::of_points(const std::array<Index, 3>& points) {
-  const std::array<Index, 3> places = {place_of(points[0]), place_of(points[1]),
-                                       place_of(points[2])};
-  OfFace of{};
-  for (std::size_t k = 0; k < 3; ++k) {
-    of.outside[k] = &bits_[places[k]];
-    of.inside[k] = of.outside[k] + words_;
-  }
-  return of;
 }
 
 Index CellSides::place_of(Index point) {
@@ -49,25 +40,28 @@ Index CellSides::place_of(Index point) {
 }
 
 void CellSides::compare(const Vec3d& position) {
+  const double x = position.x(), y = position.y(), z = position.z();
   const double reach = position.cwiseAbs().maxCoeff();
-  const std::size_t begin = bits_.size();
+  const std::size_t begin = bits_.size(), count = cell_.size();
   bits_.resize(begin + 2 * words_);
   Word* const outside = &bits_[begin];
   Word* const inside = outside + words_;
-  for (std::size_t first = 0, word = 0; first < cell_.size(); first += kBits, ++word) {
-    const std::size_t end = std::min<std::size_t>(cell_.size(), first + kBits);
-    Word bit = 1;
-    for (std::size_t i = first; i < end; ++i, bit <<= 1) {
-      const PlaneSide& side = cell_[i];
-      const double value = side.value(position);
+  for (std::size_t first = 0, word = 0; first < count; first += kBits, ++word) {
+    const std::size_t end = std::min<std::size_t>(count, first + kBits);
+    Word is_inside = 0, is_doubtful = 0;
+    for (std::size_t i = first; i < end; ++i) {
+      const Plane& plane = planes_[i];
+      const double value = plane.x * x + plane.y * y + plane.z * z - plane.offset;
       // At least what contains() allows for rounding.
-      const double rounding =
-          2 * kOnPlaneTerms * (steepness_[i] * reach + std::abs(side.offset));
-      if (value > rounding)
-        inside[word] |= bit;
-      else if (value < -rounding || !side.contains(position))
-        outside[word] |= bit;
+      const double rounding = plane.steepness * reach + plane.least_rounding;
+      is_inside |= Word{value > rounding} << (i - first);
+      is_doubtful |= Word{!(std::abs(value) > rounding)} << (i - first);
     }
+    inside[word] = is_inside;
+    outside[word] = ~(is_inside | is_doubtful) & all(static_cast<Index>(word));
+    for_each_bit(is_doubtful, static_cast<Index>(word), [&](Index side) {
+      if (!cell_[side].contains(position)) outside[word] |= Word{1} << (side % kBits);
+    });
   }
 }
 

@@ -12,8 +12,8 @@
 
 namespace sunder::tear {
 
-/// The half-spaces of a convex cell in which posed points lie, as one bit per half-space. Each point
-/// is compared with the cell once; its memory is the scratch memory of the operation.
+/// The half-spaces of a convex cell in which posed points lie, as one bit per half-space. Each
+/// point is compared with the cell once; its memory is the scratch memory of the operation.
 class CellSides {
  public:
   using Word = std::uint64_t;
@@ -37,10 +37,19 @@ class CellSides {
       return (a | b | c) & ~(a & b & c);
     }
   };
-  [[nodiscard]] OfFace of_points(const std::array<Index, 3>& points);
-  [[nodiscard]] OfFace of_face(Index face) {
+  /// The places of a face's corners in the memory of this object.
+  using Places = std::array<Index, 3>;
+  [[nodiscard]] Places places_of(Index face) {
     const Index* points = &editor_.surface().corner_point[3 * face];
-    return of_points({points[0], points[1], points[2]});
+    return {place_of(points[0]), place_of(points[1]), place_of(points[2])};
+  }
+  [[nodiscard]] OfFace at(const Places& places) const {
+    OfFace of{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      of.outside[k] = &bits_[places[k]];
+      of.inside[k] = of.outside[k] + words_;
+    }
+    return of;
   }
 
   [[nodiscard]] Index word_count() const { return words_; }
@@ -69,6 +78,12 @@ class CellSides {
   [[nodiscard]] ScratchMemory& memory() const { return editor_.scratch(); }
 
  private:
+  /// A half-space, with what bounds the rounding of a value: a coordinate's largest share in it,
+  /// and the rest.
+  struct Plane {
+    double x, y, z, offset, steepness, least_rounding;
+  };
+
   /// @return index of the point's first word.
   Index place_of(Index point);
   void compare(const Vec3d& position);
@@ -77,10 +92,15 @@ class CellSides {
   const SurfaceEditor& editor_;
   PosedPoints& posed_;
   Index words_;
-  /// Per half-space: the sum of the components of its normal.
-  ScratchVector<double> steepness_;
+  ScratchVector<Plane> planes_;  ///< Per half-space.
   IndexMap places_;
   ScratchVector<Word> bits_;  ///< Per point: outside, then inside.
+};
+
+/// A face that may reach into a cell.
+struct CellFace {
+  Index face;
+  CellSides::Places places;
 };
 
 }  // namespace sunder::tear

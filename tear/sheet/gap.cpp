@@ -104,96 +104,86 @@ void describe_rim(const RemovedFaces& removed, const RemovedParts& parts, CellSi
   }
 }
 
-/// The faces inside a cell after its imprint, among the faces that were imprinted and their
+/// Finds the faces inside a cell after its imprint, among the faces that were imprinted and their
 /// children. A child need not be compared with half-spaces that contain all of its ancestor.
 class FacesInside {
  public:
-  FacesInside(CellSides& sides, std::span<const Index> faces)
-      : sides_(sides),
-        faces_(faces),
-        number_(faces.size(), sides.memory()),
-        doubtful_(&sides.memory()),
-        is_beyond_(&sides.memory()) {
-    doubtful_.reserve(faces.size() * sides.word_count());
-    is_beyond_.reserve(faces.size());
-    for (Index i = 0; i < faces.size(); ++i) {
-      number_.insert(faces[i], i);
-      const CellSides::OfFace of = sides.of_face(faces[i]);
-      is_beyond_.push_back(sides.is_beyond(of));
-      for (Index w = 0; w < sides.word_count(); ++w)
-        doubtful_.push_back(of.doubtful(w) & sides.all(w));
-    }
+  /// @param faces  as they were imprinted.
+  FacesInside(CellSides& sides, std::span<const CellFace> faces)
+      : sides_(sides), faces_(faces), number_(faces.size(), sides.memory()) {
+    for (Index i = 0; i < faces.size(); ++i) number_.insert(faces[i].face, i);
   }
 
-  /// To be called after the imprint. @param area_posed  of the faces, added to.
+  /// @param area_posed  of the faces, added to.
   [[nodiscard]] ScratchVector<Index> find(double& area_posed) {
     const SurfaceEditor& editor = sides_.editor();
     const Index first = editor.stage.first_triangle(), end = editor.surface().triangle_count();
     ScratchVector<Index> inside(&sides_.memory());
     inside.reserve(faces_.size() + (end - first));
     const auto add = [&](Index face, Index ancestor) {
-      if (ancestor == kNone || is_beyond_[ancestor]) return;
+      if (ancestor == kNone) return;
+      const CellSides::OfFace of = sides_.at(faces_[ancestor].places);
+      if (sides_.is_beyond(of)) return;
       const Corners corners = posed_corners(face, sides_);
-      if (!has_middle_inside(corners, ancestor)) return;
+      if (!has_middle_inside(corners, of)) return;
       inside.push_back(face);
       area_posed += 0.5 * norm((corners[1] - corners[0]).cross(corners[2] - corners[0]));
     };
-    for (Index i = 0; i < faces_.size(); ++i) add(faces_[i], i);
+    for (Index i = 0; i < faces_.size(); ++i) add(faces_[i].face, i);
     for (Index t = first; t < end; ++t) add(t, number_.find(editor.stage.ancestor(t)));
     return inside;
   }
 
  private:
-  [[nodiscard]] bool has_middle_inside(const Corners& corners, Index ancestor) const {
+  [[nodiscard]] bool has_middle_inside(const Corners& corners,
+                                       const CellSides::OfFace& ancestor) const {
     const Vec3d middle = (corners[0] + corners[1] + corners[2]) / 3;
     bool is_inside = true;
     for (Index w = 0; w < sides_.word_count() && is_inside; ++w)
-      CellSides::for_each_bit(
-          doubtful_[ancestor * sides_.word_count() + w], w, [&](Index side) {
-            is_inside = is_inside && sides_.cell()[side].value(middle) > 0;
-          });
+      CellSides::for_each_bit(ancestor.doubtful(w) & sides_.all(w), w, [&](Index side) {
+        is_inside = is_inside && sides_.cell()[side].value(middle) > 0;
+      });
     return is_inside;
   }
 
   CellSides& sides_;
-  std::span<const Index> faces_;
+  std::span<const CellFace> faces_;
   IndexMap number_;
-  ScratchVector<Word> doubtful_;  ///< Per face, per word.
-  ScratchVector<bool> is_beyond_;
 };
 
 }  // namespace
 
-bool is_edge_in_cell(Index face, Index k, const CellSides::OfFace& of, CellSides& sides) {
+bool is_edge_in_cell(const CellFace& face, Index k, CellSides& sides) {
   const Index l = (k + 1) % 3;
+  const CellSides::OfFace of = sides.at(face.places);
   Word beyond = 0;
   for (Index w = 0; w < sides.word_count(); ++w) beyond |= of.outside[k][w] & of.outside[l][w];
   if (beyond != 0) return false;
-  const Index* points = &sides.editor().surface().corner_point[3 * face];
+  const Index* points = &sides.editor().surface().corner_point[3 * face.face];
   const auto at = [&](Index corner) {
     return sides.posed().position(sides.editor(), points[corner]);
   };
   double begin = 0, end = 1;
   bool is_beside = false;
   for (Index w = 0; w < sides.word_count(); ++w)
-    CellSides::for_each_bit(
-        ~(of.inside[k][w] & of.inside[l][w]) & sides.all(w), w, [&](Index number) {
-          const PlaneSide& side = sides.cell()[number];
-          const double at_a = side.value(at(k)), at_b = side.value(at(l));
-          is_beside |= at_a < 0 && at_b < 0;
-          if (is_beside) return;
-          if (at_a < 0) begin = std::max(begin, at_a / (at_a - at_b));
-          if (at_b < 0) end = std::min(end, at_a / (at_a - at_b));
-        });
+    CellSides::for_each_bit(~(of.inside[k][w] & of.inside[l][w]) & sides.all(w), w,
+                            [&](Index number) {
+                              const PlaneSide& side = sides.cell()[number];
+                              const double at_a = side.value(at(k)), at_b = side.value(at(l));
+                              is_beside |= at_a < 0 && at_b < 0;
+                              if (is_beside) return;
+                              if (at_a < 0) begin = std::max(begin, at_a / (at_a - at_b));
+                              if (at_b < 0) end = std::min(end, at_a / (at_a - at_b));
+                            });
   return !is_beside && end - begin > kInCellEdges;
 }
 
-bool is_face_in_cell(Index face, CellSides& sides) {
-  const CellSides::OfFace of = sides.of_face(face);
+bool is_face_in_cell(const CellFace& face, CellSides& sides) {
+  const CellSides::OfFace of = sides.at(face.places);
   if (sides.is_beyond(of)) return false;
   bool is_in = true;
-  const Corners corners = posed_corners(face, sides);
-  const ScratchMemory::Scope scope(sides.memory());
+  const Corners corners = posed_corners(face.face, sides);
+  const ScratchMemory::Frame memory_of_step(sides.memory());
   Polygon polygon(sides.memory());
   for (Index w = 0; w < sides.word_count(); ++w)
     CellSides::for_each_bit(of.doubtful(w) & sides.all(w), w, [&](Index number) {
@@ -205,7 +195,7 @@ bool is_face_in_cell(Index face, CellSides& sides) {
   return is_in;
 }
 
-ScratchVector<Index> faces_in_cell(CellSides& sides) {
+ScratchVector<CellFace> faces_in_cell(CellSides& sides) {
   const std::span<const PlaneSide> cell = sides.cell();
   const Frame frame = sides.posed().frame_along(
       cell.size() < 2 ? axes_along(Vec3d::Zero()) : axes_along(cell[0].normal, cell[1].normal),
@@ -219,15 +209,14 @@ ScratchVector<Index> faces_in_cell(CellSides& sides) {
   });
 }
 
-GapRemoval remove_cell(CellSides& sides, std::span<const Index> faces, SurfaceEditor& editor,
+GapRemoval remove_cell(CellSides& sides, std::span<const CellFace> faces, SurfaceEditor& editor,
                        CellRim* rim) {
   GapRemoval removal;
   if (faces.empty()) return removal;
-  FacesInside faces_inside(sides, faces);
   const CellImprint imprint = imprint_cell(sides, faces, editor);
   removal.faces_crossed = imprint.faces_crossed;
   removal.blocked = imprint.blocked;
-  const ScratchVector<Index> inside = faces_inside.find(removal.area_posed);
+  const ScratchVector<Index> inside = FacesInside(sides, faces).find(removal.area_posed);
   if (inside.empty()) return removal;
   removal.faces_removed = static_cast<Index>(inside.size());
   const RemovedFaces removed(inside, editor);

@@ -9,25 +9,24 @@
 namespace sunder::tear {
 
 /// The live faces of which a part lies inside a cell, ascending.
-[[nodiscard]] ScratchVector<Index> faces_in_cell(CellSides& sides);
-/// The same. `may_hold_any(box)` excludes more boxes of the frame, or is cheaper, than the half-spaces
-/// of the cell.
+[[nodiscard]] ScratchVector<CellFace> faces_in_cell(CellSides& sides);
+/// The same. `may_hold_any(box)` excludes more boxes of the frame, or is cheaper, than the
+/// half-spaces of the cell.
 template <class MayHoldAny>
-[[nodiscard]] ScratchVector<Index> faces_in_cell(CellSides& sides, const Frame& frame,
-                                                 MayHoldAny may_hold_any);
+[[nodiscard]] ScratchVector<CellFace> faces_in_cell(CellSides& sides, const Frame& frame,
+                                                    MayHoldAny may_hold_any);
 
 /// Whether more than a border of a face lies in the cell.
-[[nodiscard]] bool is_face_in_cell(Index face, CellSides& sides);
+[[nodiscard]] bool is_face_in_cell(const CellFace& face, CellSides& sides);
 /// Whether a part of edge k of a face lies in the cell.
-[[nodiscard]] bool is_edge_in_cell(Index face, Index k, const CellSides::OfFace& of,
-                                   CellSides& sides);
+[[nodiscard]] bool is_edge_in_cell(const CellFace& face, Index k, CellSides& sides);
 
 /// The faces of which a part lies inside a cell and that are connected to the seeds inside it,
 /// ascending.
 /// @param is_wanted  is_wanted(face): whether the search may enter a face.
 template <class IsWanted>
-[[nodiscard]] ScratchVector<Index> faces_in_cell(CellSides& sides, std::span<const Index> seeds,
-                                                 IsWanted is_wanted);
+[[nodiscard]] ScratchVector<CellFace> faces_in_cell(CellSides& sides, std::span<const Index> seeds,
+                                                    IsWanted is_wanted);
 
 /// Figures of the removal of a cell.
 struct GapRemoval {
@@ -56,41 +55,50 @@ struct CellRim {
 /// that reach out of the cell are clipped. Allocates scratch memory only.
 /// @param faces  ascending.
 /// @param rim  optional; written.
-GapRemoval remove_cell(CellSides& sides, std::span<const Index> faces, SurfaceEditor& editor,
+GapRemoval remove_cell(CellSides& sides, std::span<const CellFace> faces, SurfaceEditor& editor,
                        CellRim* rim = nullptr);
 
+/// Sorts by faces.
+inline void sort_faces(ScratchVector<CellFace>& faces) {
+  std::sort(faces.begin(), faces.end(),
+            [](const CellFace& a, const CellFace& b) { return a.face < b.face; });
+}
+
 template <class MayHoldAny>
-ScratchVector<Index> faces_in_cell(CellSides& sides, const Frame& frame, MayHoldAny may_hold_any) {
-  ScratchVector<Index> faces(&sides.memory());
+ScratchVector<CellFace> faces_in_cell(CellSides& sides, const Frame& frame,
+                                      MayHoldAny may_hold_any) {
+  ScratchVector<CellFace> faces(&sides.memory());
   sides.posed().for_each_face(sides.editor(), frame, may_hold_any, [&](Index face) {
-    if (is_face_in_cell(face, sides)) faces.push_back(face);
+    const CellFace found{face, sides.places_of(face)};
+    if (is_face_in_cell(found, sides)) faces.push_back(found);
   });
-  std::sort(faces.begin(), faces.end());
+  sort_faces(faces);
   return faces;
 }
 
 template <class IsWanted>
-ScratchVector<Index> faces_in_cell(CellSides& sides, std::span<const Index> seeds,
-                                   IsWanted is_wanted) {
+ScratchVector<CellFace> faces_in_cell(CellSides& sides, std::span<const Index> seeds,
+                                      IsWanted is_wanted) {
   const Surface& surface = sides.editor().surface();
-  ScratchVector<Index> faces(&sides.memory()), open(&sides.memory());
+  ScratchVector<CellFace> faces(&sides.memory());
   IndexMap seen(4 * seeds.size(), sides.memory());
-  const auto visit = [&](Index face) {
-    if (seen.insert(face, 0) == kNone && is_wanted(face)) open.push_back(face);
+  const auto visit = [&](const CellFace& face) {
+    if (is_wanted(face.face)) faces.push_back(face);
   };
-  for (const Index seed : seeds)
-    if (!surface.has_repeated_point(seed) && is_face_in_cell(seed, sides)) visit(seed);
-  while (!open.empty()) {
-    const Index face = open.back();
-    open.pop_back();
-    faces.push_back(face);
-    const CellSides::OfFace of = sides.of_face(face);
+  for (const Index seed : seeds) {
+    if (surface.has_repeated_point(seed)) continue;
+    const CellFace face{seed, sides.places_of(seed)};
+    if (is_face_in_cell(face, sides) && seen.insert(seed, 0) == kNone) visit(face);
+  }
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    const CellFace face = faces[i];
     for (Index k = 0; k < 3; ++k) {
-      const Index twin = surface.twin[3 * face + k];
-      if (twin != kNone && is_edge_in_cell(face, k, of, sides)) visit(twin / 3);
+      const Index twin = surface.twin[3 * face.face + k];
+      if (twin != kNone && is_edge_in_cell(face, k, sides) && seen.insert(twin / 3, 0) == kNone)
+        visit({twin / 3, sides.places_of(twin / 3)});
     }
   }
-  std::sort(faces.begin(), faces.end());
+  sort_faces(faces);
   return faces;
 }
 

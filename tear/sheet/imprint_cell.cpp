@@ -10,6 +10,7 @@
 #include "tear/internal/surface.h"
 #include "tear/path/snapping.h"
 #include "tear/sheet/face_lines.h"
+#include "tear/surface/line_splitter.h"
 #include "tear/surface/split.h"
 
 namespace sunder::tear {
@@ -30,6 +31,7 @@ struct Crossing {
   /// the crossing.
   double slant = 1;
   Index point = kNone;  ///< Set when the crossing is imprinted.
+  bool is_new = false;  ///< Whether the point was made for this crossing.
 };
 
 /// An edge with crossings in the cell.
@@ -40,6 +42,8 @@ struct CrossedEdge {
   /// half-edges.
   Index from = kNone, to = kNone;
   double stored = 0;
+  std::array<Index, 2> faces = {kNone, kNone};  ///< The crossed faces on its sides, by number.
+  bool is_split = false;
 };
 
 /// A face as it was before any edge was split.
@@ -48,13 +52,16 @@ struct Face {
   std::array<Index, 3> points = {};
   std::array<Index, 3> edges = {};       ///< The half-edges, or their twins if those are lower.
   std::array<bool, 3> is_reversed = {};  ///< Whether the edge runs against the face's half-edge.
+  /// Index in the crossed edges; kNone for an edge without a crossing in the cell.
+  std::array<Index, 3> crossed = {kNone, kNone, kNone};
+  CellSides::Places places = {};
 };
 
 /// One end of a line in a face: at a crossing of one of its edges, or at a corner where the plane
 /// meets another side.
 struct LineEnd {
   Vec3d position = Vec3d::Zero();
-  Index crossed_edge = kNone;
+  Index crossed_edge = kNone;  ///< Edge of the face: 0, 1, 2.
   Index other_side = kNone;
 };
 
@@ -114,14 +121,15 @@ class Imprint {
         faces_(&editor.scratch()),
         crossings_(&editor.scratch()),
         edges_(&editor.scratch()),
-        edge_at_(kEdges, editor.scratch()) {}
+        edge_at_(kEdges, editor.scratch()),
+        lines_(&editor.scratch()) {}
 
-  CellImprint run(std::span<const Index> faces) {
+  CellImprint run(std::span<const CellFace> faces) {
     editor_.stage.begin();
     faces_.reserve(faces.size());
     crossings_.reserve(2 * faces.size());
     edges_.reserve(2 * faces.size());
-    for (const Index face : faces) add_face(face);
+    for (const CellFace& face : faces) add_face(face);
     split_edges();
     Children children(editor_);
     for (const Face& face : faces_) draw_lines(face, children);
@@ -131,42 +139,54 @@ class Imprint {
  private:
   [[nodiscard]] const PlaneSide& side(Index number) const { return sides_.cell()[number]; }
 
-  void add_face(Index triangle) {
-    const CellSides::OfFace of = sides_.of_face(triangle);
+  void add_face(const CellFace& added) {
+    const Index triangle = added.face;
+    const CellSides::OfFace of = sides_.at(added.places);
     if (sides_.is_beyond(of)) return;
     Word crossed = 0;
     for (Index w = 0; w < sides_.word_count(); ++w) crossed |= of.crossed(w);
     if (crossed == 0) return;
     const Surface& surface = editor_.surface();
-    Face face{triangle, {}, {}, {}};
+    Face& face = faces_.emplace_back();
+    face.triangle = triangle;
+    face.places = added.places;
     for (Index k = 0; k < 3; ++k) {
       const Index h = 3 * triangle + k, twin = surface.twin[h];
       face.points[k] = surface.corner_point[h];
       face.edges[k] = std::min(h, twin);  // kNone is the highest
       face.is_reversed[k] = twin < h;
     }
-    faces_.push_back(face);
-    for (Index k = 0; k < 3; ++k) add_edge(face, of, k);
+    for (Index k = 0; k < 3; ++k) {
+      face.crossed[k] = add_edge(face, of, k);
+      if (face.crossed[k] == kNone) continue;
+      auto& faces = edges_[face.crossed[k]].faces;
+      faces[faces[0] == kNone ? 0 : 1] = static_cast<Index>(faces_.size() - 1);
+    }
   }
 
   /// Adds the crossings of edge k of a face, unless the face across it has added them.
-  void add_edge(const Face& face, const CellSides::OfFace& of, Index k) {
-    CrossedEdge edge{face.edges[k], static_cast<Index>(crossings_.size()), 0, 0, 0, 0};
+  /// @return the index of the edge; kNone if it has no crossings.
+  Index add_edge(const Face& face, const CellSides::OfFace& of, Index k) {
+    CrossedEdge edge;
+    edge.half_edge = face.edges[k];
+    edge.begin = static_cast<Index>(crossings_.size());
     for (Index w = 0; w < sides_.word_count(); ++w)
       CellSides::for_each_bit(of.outside[k][w] ^ of.outside[(k + 1) % 3][w], w, [&](Index side) {
         const Crossing crossing = cross(face, k, side);
         if (is_in_cell(of, k, crossing)) crossings_.push_back(crossing);
       });
     edge.end = static_cast<Index>(crossings_.size());
-    if (edge.begin == edge.end) return;
-    if (edge_at_.insert(edge.half_edge, static_cast<Index>(edges_.size())) != kNone) {
+    if (edge.begin == edge.end) return kNone;
+    const auto number = static_cast<Index>(edges_.size());
+    if (const Index known = edge_at_.insert(edge.half_edge, number); known != kNone) {
       crossings_.resize(edge.begin);
-      return;
+      return known;
     }
     edge.from = editor_.surface().corner_point[edge.half_edge];
     edge.to = editor_.surface().corner_point[Surface::next(edge.half_edge)];
     edge.stored = stored_part(edge.half_edge, editor_);
     edges_.push_back(edge);
+    return number;
   }
 
   /// The crossing of edge k of a face with the plane of a side that has its ends on both sides.
@@ -180,7 +200,7 @@ class Imprint {
         value_from == value_to ? 0.0 : std::clamp(value_from / (value_from - value_to), 0.0, 1.0);
     const double slant = norm(at_to - at_from) / std::max(std::abs(value_from - value_to),
                                                           std::numeric_limits<double>::min());
-    return {number, fraction, at_from + fraction * (at_to - at_from), slant, kNone};
+    return {number, fraction, at_from + fraction * (at_to - at_from), slant, kNone, false};
   }
 
   /// Whether the other sides contain a crossing of edge k of a face. Those that contain both ends
@@ -209,7 +229,12 @@ class Imprint {
     std::sort(order.begin(), order.end());
     ScratchVector<Crossing*> along(&editor_.scratch());
     for (const auto& [half_edge, number] : order) {
-      const CrossedEdge& edge = edges_[number];
+      CrossedEdge& edge = edges_[number];
+      if (edge.is_split) continue;
+      if (is_plain(edge)) {
+        split_from(edge);
+        continue;
+      }
       along.clear();
       for (Index i = edge.begin; i < edge.end; ++i) along.push_back(&crossings_[i]);
       if (along.size() > 1)
@@ -218,6 +243,71 @@ class Imprint {
         });
       split_edge(edge, along);
     }
+  }
+
+  /// Whether an edge is crossed once, away from its ends.
+  [[nodiscard]] bool is_plain(const CrossedEdge& edge) const {
+    if (edge.end - edge.begin != 1) return false;
+    const Crossing& crossing = crossings_[edge.begin];
+    const double snap = std::max(kSnapEdges, edge.stored * crossing.slant);
+    return crossing.fraction > snap && crossing.fraction < 1 - snap;
+  }
+
+  /// Splits a plain edge and, one after the other, the faces beyond that need no closer look: whole
+  /// triangles of the source with one line, from one plain edge to another.
+  void split_from(CrossedEdge& edge) {
+    const Surface& surface = editor_.surface();
+    Crossing& first = crossings_[edge.begin];
+    Index h = edge.half_edge;
+    if (surface.corner_point[h] != edge.from || surface.corner_point[Surface::next(h)] != edge.to)
+      h = surface.find_half_edge(edge.from, edge.to);
+    LineSplitter splitter(editor_);
+    const Index made = h == kNone ? kNone : splitter.begin(h, first.fraction);
+    if (made == kNone) {
+      split_edge(edge, std::array{&first});
+      return;
+    }
+    set_point(edge, made);
+    const CrossedEdge* last = &edge;
+    while (CrossedEdge* const next = edge_after(*last, splitter)) last = next;
+    splitter.end();
+  }
+
+  void set_point(CrossedEdge& edge, Index point) {
+    Crossing& crossing = crossings_[edge.begin];
+    posed_.pin(point, crossing.position);
+    crossing.point = point;
+    crossing.is_new = true;
+    edge.is_split = true;
+  }
+
+  /// Crosses the face ahead of an edge that was just split. @return the edge that is split now;
+  /// null if the face needs a closer look.
+  CrossedEdge* edge_after(const CrossedEdge& last, LineSplitter& splitter) {
+    if (splitter.ahead() == kNone || !editor_.origins.is_whole(splitter.ahead() / 3))
+      return nullptr;
+    const auto is_ahead = [&](Index number) {
+      return number != kNone && faces_[number].triangle == splitter.ahead() / 3;
+    };
+    if (!is_ahead(last.faces[0]) && !is_ahead(last.faces[1])) return nullptr;
+    const Face& face = faces_[last.faces[is_ahead(last.faces[0]) ? 0 : 1]];
+    Index exit = kNone;
+    for (Index k = 0; k < 3; ++k) {
+      if (face.crossed[k] == kNone || &edges_[face.crossed[k]] == &last) continue;
+      if (exit != kNone) return nullptr;
+      exit = k;
+    }
+    if (exit == kNone) return nullptr;
+    CrossedEdge& next = edges_[face.crossed[exit]];
+    const Crossing& crossing = crossings_[next.begin];
+    if (next.is_split || !is_plain(next) || crossing.side != crossings_[last.begin].side)
+      return nullptr;
+    const Index made =
+        splitter.go_on(3 * face.triangle + exit,
+                       face.is_reversed[exit] ? 1 - crossing.fraction : crossing.fraction);
+    if (made == kNone) return nullptr;
+    set_point(next, made);
+    return &next;
   }
 
   void split_edge(const CrossedEdge& edge, std::span<Crossing* const> along) {
@@ -245,6 +335,7 @@ class Imprint {
         }
         posed_.pin(point, crossing->position);
         crossing->point = last = point;
+        crossing->is_new = true;
         last_fraction = crossing->fraction;
       }
     }
@@ -262,36 +353,36 @@ class Imprint {
     return kNone;
   }
 
-  [[nodiscard]] const Crossing* crossing_at(Index half_edge, Index side) const {
-    const Index known = edge_at_.find(half_edge);
-    if (known == kNone) return nullptr;
-    for (Index i = edges_[known].begin; i < edges_[known].end; ++i)
+  /// The crossing of edge k of a face with the plane of a side; null if it is not in the cell.
+  [[nodiscard]] const Crossing* crossing_at(const Face& face, Index k, Index side) const {
+    if (face.crossed[k] == kNone) return nullptr;
+    const CrossedEdge& edge = edges_[face.crossed[k]];
+    for (Index i = edge.begin; i < edge.end; ++i)
       if (crossings_[i].side == side) return &crossings_[i];
     return nullptr;
   }
 
   /// The part of a side's plane in a face that lies in the cell.
-  bool find_line(const Face& face, Index number, Line& line) {
+  bool find_line(const Face& face, const CellSides::OfFace& of, Index number, Line& line) {
     line.side = number;
-    const PlaneSide& plane = side(number);
     const auto contains = [&](Index k) {
-      return plane.contains(posed_.position(editor_, face.points[k]));
+      return ((of.outside[k % 3][number / CellSides::kBits] >> (number % CellSides::kBits)) & 1) ==
+             0;
     };
-    const std::array<bool, 3> is_inside = {contains(0), contains(1), contains(2)};
     Index leaving = 0, entering = 0;
     for (Index k = 0; k < 3; ++k) {
-      if (is_inside[k] && !is_inside[(k + 1) % 3]) leaving = k;
-      if (!is_inside[k] && is_inside[(k + 1) % 3]) entering = k;
+      if (contains(k) && !contains(k + 1)) leaving = k;
+      if (!contains(k) && contains(k + 1)) entering = k;
     }
-    const Crossing* const from = crossing_at(face.edges[leaving], number);
-    const Crossing* const to = crossing_at(face.edges[entering], number);
+    const Crossing* const from = crossing_at(face, leaving, number);
+    const Crossing* const to = crossing_at(face, entering, number);
     if (from != nullptr && to != nullptr) {  // both in the cell, and so is what is between them
-      line.from = {from->position, face.edges[leaving], kNone};
-      line.to = {to->position, face.edges[entering], kNone};
+      line.from = {from->position, leaving, kNone};
+      line.to = {to->position, entering, kNone};
       return true;
     }
-    line.from = {cross(face, leaving, number).position, face.edges[leaving], kNone};
-    line.to = {cross(face, entering, number).position, face.edges[entering], kNone};
+    line.from = {cross(face, leaving, number).position, leaving, kNone};
+    line.to = {cross(face, entering, number).position, entering, kNone};
     return clip(line);
   }
 
@@ -325,10 +416,10 @@ class Imprint {
     Index point;
   };
 
-  Index point_of(const LineEnd& end, Index side, FaceLines& lines,
+  Index point_of(const LineEnd& end, const Face& face, Index side, FaceLines& lines,
                  ScratchVector<MetCorner>& corners) {
     if (end.other_side == kNone) {
-      const Crossing* const crossing = crossing_at(end.crossed_edge, side);
+      const Crossing* const crossing = crossing_at(face, end.crossed_edge, side);
       return crossing == nullptr ? kNone : crossing->point;
     }
     const std::array<Index, 2> met = {std::min(side, end.other_side),
@@ -338,35 +429,44 @@ class Imprint {
     return corners.emplace_back(MetCorner{met, lines.imprint(end.position)}).point;
   }
 
-  /// Whether the only line in a face is an edge already: usually that between its two crossings.
-  bool is_edge(const Line& line) const {
+  /// Whether the only line in a face is an edge already. One between two edges that were each split
+  /// once is: the second split ends in the point of the first.
+  bool is_edge(const Face& face, const Line& line) const {
     if (line.from.other_side != kNone || line.to.other_side != kNone) return false;
-    const Crossing* const from = crossing_at(line.from.crossed_edge, line.side);
-    const Crossing* const to = crossing_at(line.to.crossed_edge, line.side);
+    const Crossing* const from = crossing_at(face, line.from.crossed_edge, line.side);
+    const Crossing* const to = crossing_at(face, line.to.crossed_edge, line.side);
     if (from == nullptr || to == nullptr || from->point == kNone || to->point == kNone)
       return false;
+    const auto is_split_once = [&](Index k) {
+      const CrossedEdge& edge = edges_[face.crossed[k]];
+      return edge.end - edge.begin == 1 && crossings_[edge.begin].is_new;
+    };
+    const Index other = 3 - line.from.crossed_edge - line.to.crossed_edge;
+    if (is_split_once(line.from.crossed_edge) && is_split_once(line.to.crossed_edge) &&
+        face.crossed[other] == kNone)
+      return true;
     const Surface& surface = editor_.surface();
     return from->point == to->point || surface.find_half_edge(from->point, to->point) != kNone ||
            surface.find_half_edge(to->point, from->point) != kNone;
   }
 
   void draw_lines(const Face& face, Children& children) {
-    const CellSides::OfFace of = sides_.of_points(face.points);
-    ScratchVector<Line> lines(&editor_.scratch());
+    const CellSides::OfFace of = sides_.at(face.places);
+    lines_.clear();
     for (Index w = 0; w < sides_.word_count(); ++w)
       CellSides::for_each_bit(of.crossed(w), w, [&](Index side) {
-        if (!find_line(face, side, lines.emplace_back())) lines.pop_back();
+        if (!find_line(face, of, side, lines_.emplace_back())) lines_.pop_back();
       });
-    if (lines.empty()) return;
+    if (lines_.empty()) return;
     ++result_.faces_crossed;
-    if (lines.size() == 1 && is_edge(lines[0])) return;
+    if (lines_.size() == 1 && is_edge(face, lines_[0])) return;
     ScratchVector<std::array<Index, 2>> list(&editor_.scratch());
     FaceLines drawn(face.triangle, face.points, children.of(face.triangle, list), editor_, posed_);
     ScratchVector<MetCorner> corners(&editor_.scratch());
     bool is_blocked = false;
-    for (const Line& line : lines) {
-      const Index first = point_of(line.from, line.side, drawn, corners),
-                  last = point_of(line.to, line.side, drawn, corners);
+    for (const Line& line : lines_) {
+      const Index first = point_of(line.from, face, line.side, drawn, corners),
+                  last = point_of(line.to, face, line.side, drawn, corners);
       if (first == kNone || last == kNone || !drawn.draw(first, last)) is_blocked = true;
     }
     result_.blocked += is_blocked ? 1 : 0;
@@ -378,13 +478,14 @@ class Imprint {
   ScratchVector<Face> faces_;
   ScratchVector<Crossing> crossings_;  ///< Edge by edge.
   ScratchVector<CrossedEdge> edges_;
-  IndexMap edge_at_;  ///< Per half-edge of a crossed edge: index in edges_.
+  IndexMap edge_at_;           ///< Per half-edge of a crossed edge: index in edges_.
+  ScratchVector<Line> lines_;  ///< Of the face that is drawn.
   CellImprint result_;
 };
 
 }  // namespace
 
-CellImprint imprint_cell(CellSides& sides, std::span<const Index> faces, SurfaceEditor& editor) {
+CellImprint imprint_cell(CellSides& sides, std::span<const CellFace> faces, SurfaceEditor& editor) {
   return Imprint(sides, editor).run(faces);
 }
 

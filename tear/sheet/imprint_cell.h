@@ -22,7 +22,7 @@ struct CellImprint {
 /// @param faces  live faces, each once, ascending. O(faces + new points), and per face the
 ///         half-spaces that do not contain all of it. A crossing snaps to an end of its edge only
 ///         if it would be stored as that end or is nearer to it than 1e-9 of the edge's length.
-[[nodiscard]] CellImprint imprint_cell(CellSides& sides, std::span<const Index> faces,
+[[nodiscard]] CellImprint imprint_cell(CellSides& sides, std::span<const CellFace> faces,
                                        SurfaceEditor& editor);
 
 }  // namespace sunder::tear

@@ -167,7 +167,7 @@ void for_each_common_column(Visit visit, Tables&... of) {
 template <class Visit, class... Tables>
 void for_each_mesh_column(Index mesh, Visit visit, Tables&... of) {
   visit(Column{Rows::mesh_vertices},
-        MeshVertices{of.meshes[mesh]}...);  // first: copy_last() renews the whole mesh
+        MeshVertices{of.meshes[mesh]}...);
   visit(Column{Rows::mesh_vertices}, of.edit.meshes[mesh].births...);
   visit(Column{Rows::mesh_vertices}, of.edit.meshes[mesh].records...);
   visit(Column{Rows::mesh_triangles}, of.meshes[mesh].triangles...);
@@ -194,7 +194,7 @@ void copy_last(std::size_t count, const std::vector<Value>& values, std::vector<
   tail.assign(values.end() - static_cast<std::ptrdiff_t>(count), values.end());
 }
 inline void copy_last(std::size_t count, MeshVertices<Mesh> of, MeshVertices<Mesh> tail) {
-  tail.mesh = copy_vertices_from(of.mesh.vertex_count() - static_cast<Index>(count), of.mesh);
+  copy_vertices_from(of.mesh.vertex_count() - static_cast<Index>(count), of.mesh, tail.mesh);
 }
 
 /// Moves the rows, because copies of names may need memory. There must be room.

@@ -6,17 +6,24 @@
 
 namespace sunder::tear {
 
-void settle_rims(std::vector<RimPoint>& points, const Surface& surface, Rims& rims) {
+ScratchVector<std::uint64_t> sort_rim_points(std::span<const RimPoint> points,
+                                             ScratchMemory& memory) {
+  ScratchVector<std::uint64_t> sorted(&memory);
+  sorted.reserve(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i)
+    sorted.push_back(std::uint64_t{points[i].point} << 32 | i << 1 | (points[i].is_left ? 1u : 0u));
+  std::sort(sorted.begin(), sorted.end());
+  return sorted;
+}
+
+void settle_rims(std::span<const std::uint64_t> sorted, const Surface& surface, Rims& rims) {
   rims.left.clear();
   rims.right.clear();
-  if (points.empty()) return;
-  std::stable_sort(points.begin(), points.end(),
-                   [](const RimPoint& a, const RimPoint& b) { return a.point < b.point; });
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const RimPoint& last = points[i];
-    if (i + 1 < points.size() && points[i + 1].point == last.point) continue;
-    if (surface.point_corner[last.point] != kNone)
-      (last.is_left ? rims.left : rims.right).push_back(last.point);
+  for (std::size_t i = 0; i < sorted.size(); ++i) {
+    const auto point = static_cast<Index>(sorted[i] >> 32);
+    if (i + 1 < sorted.size() && sorted[i + 1] >> 32 == point) continue;
+    if (surface.point_corner[point] != kNone)
+      ((sorted[i] & 1) != 0 ? rims.left : rims.right).push_back(point);
   }
 }
 

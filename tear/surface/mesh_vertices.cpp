@@ -248,16 +248,20 @@ void remove_vertices_from(std::uint32_t vertex_count, Mesh& mesh) {
   mesh.weights.influences.resize(mesh.weights.first.back());
 }
 
-Mesh copy_vertices_from(std::uint32_t first_vertex, const Mesh& mesh) {
-  Mesh tail;
+void copy_vertices_from(std::uint32_t first_vertex, const Mesh& mesh, Mesh& tail) {
   tail.uv_sets.resize(mesh.uv_sets.size());
   tail.color_sets.resize(mesh.color_sets.size());
-  for (const CustomAttribute& attribute : mesh.custom_attributes)
-    tail.custom_attributes.push_back(
-        {attribute.name, attribute.components, attribute.interpolates, {}});
+  tail.custom_attributes.resize(mesh.custom_attributes.size());
+  for (std::size_t i = 0; i < mesh.custom_attributes.size(); ++i) {
+    tail.custom_attributes[i].name = mesh.custom_attributes[i].name;
+    tail.custom_attributes[i].components = mesh.custom_attributes[i].components;
+    tail.custom_attributes[i].interpolates = mesh.custom_attributes[i].interpolates;
+  }
   tail.morph_targets.resize(mesh.morph_targets.size());
   for_each_array_pair(mesh, tail, [&](const auto& from, auto& to, std::size_t per_vertex) {
-    if (!from.empty())
+    if (from.empty())
+      to.clear();
+    else
       to.assign(from.begin() + static_cast<std::ptrdiff_t>(first_vertex * per_vertex), from.end());
   });
   const std::uint32_t begin = mesh.weights.first[first_vertex];
@@ -266,7 +270,6 @@ Mesh copy_vertices_from(std::uint32_t first_vertex, const Mesh& mesh) {
     tail.weights.first.push_back(mesh.weights.first[v] - begin);
   tail.weights.influences.assign(mesh.weights.influences.begin() + begin,
                                  mesh.weights.influences.end());
-  return tail;
 }
 
 void append_vertices(const Mesh& tail, Mesh& mesh) {

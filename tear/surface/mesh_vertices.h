@@ -45,8 +45,9 @@ SUNDER_API void reserve_vertices(std::size_t vertex_count, std::size_t influence
 /// Removes the newest vertices, down to `vertex_count`.
 SUNDER_API void remove_vertices_from(std::uint32_t vertex_count, Mesh& mesh);
 
-/// A mesh of copies of the vertices from `first_vertex` on, without triangles.
-[[nodiscard]] SUNDER_API Mesh copy_vertices_from(std::uint32_t first_vertex, const Mesh& mesh);
+/// Makes the vertices of `tail` copies of those from `first_vertex` on. The memory of `tail` is
+/// reused; its triangles and submeshes stay as they are.
+SUNDER_API void copy_vertices_from(std::uint32_t first_vertex, const Mesh& mesh, Mesh& tail);
 
 /// Gives `vertex`, the newest of `mesh`, another bind position and other influences.
 SUNDER_API void set_position_and_influences(const Vec3f& position,

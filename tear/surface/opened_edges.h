@@ -1,6 +1,5 @@
 #pragma once
 
-#include <unordered_set>
 #include <vector>
 
 #include "tear/internal/surface.h"
@@ -8,19 +7,15 @@
 namespace sunder::tear {
 
 /// Tracks the border half-edges that cuts make through later splits and flips. Changes are logged,
-/// so that they can be rolled back.
+/// so that they can be rolled back. The memory is kept from operation to operation.
 class OpenedEdges {
  public:
   explicit OpenedEdges(const Surface& surface) : surface_(surface) {}
 
   /// Clears the set and the log. @param is_wanted  track half-edges from now on.
-  void begin(bool is_wanted) {
-    is_wanted_ = is_wanted;
-    half_edges_.clear();
-    changes_.clear();
-  }
-  /// The tracked half-edges that are still borders, ascending.
-  [[nodiscard]] std::vector<Index> borders() const;
+  void begin(bool is_wanted);
+  /// The tracked half-edges that are still borders, ascending. Valid until the next call.
+  [[nodiscard]] const std::vector<Index>& borders();
   /// Those of faces that are left, ascending.
   [[nodiscard]] std::vector<Index> tracked() const;
 
@@ -40,24 +35,33 @@ class OpenedEdges {
   }
   /// Tracks `part`, which was split from `half_edge`, if `half_edge` is tracked.
   void split(Index half_edge, Index part) {
-    if (is_wanted_ && half_edges_.count(half_edge) != 0) insert(part);
+    if (is_wanted_ && contains(half_edge)) insert(part);
   }
   /// @return whether it was tracked.
-  bool remove(Index half_edge) { return is_wanted_ && extract(half_edge); }
+  bool remove(Index half_edge);
 
  private:
-  using HalfEdges = std::unordered_set<Index>;
   struct Change {
-    Index inserted = kNone;
-    HalfEdges::node_type extracted;  ///< Kept, so that it can be put back without memory.
+    Index half_edge;
+    bool is_insertion;
   };
 
+  [[nodiscard]] std::size_t place_of(Index half_edge) const;
+  /// The slot of a half-edge, or the free one where it would be.
+  [[nodiscard]] std::size_t slot_of(Index half_edge) const;
+  [[nodiscard]] bool contains(Index half_edge) const {
+    return count_ > 0 && slots_[slot_of(half_edge)] == half_edge;
+  }
   void insert(Index half_edge);
-  bool extract(Index half_edge);
+  void grow();
+  void free_slot(std::size_t slot) noexcept;
 
   const Surface& surface_;
-  HalfEdges half_edges_;  // no result depends on its order
+  /// A table with open addressing, at least half of it free; no result depends on its order.
+  std::vector<Index> slots_;
+  std::size_t count_ = 0;
   std::vector<Change> changes_;
+  std::vector<Index> borders_;
   bool is_wanted_ = false;
 };
 

@@ -11,21 +11,6 @@ namespace sunder::tear {
 /// released all at once, and kept: an operation like one before it allocates nothing.
 class ScratchMemory final : public std::pmr::memory_resource {
  public:
-  /// Releases at its end what was handed out since its begin, so that steps of an operation use the
-  /// same memory one after the other.
-  class Scope {
-   public:
-    explicit Scope(ScratchMemory& memory)
-        : memory_(memory), blocks_(memory.blocks_.size()), used_(memory.used_) {}
-    ~Scope() { memory_.used_ = memory_.blocks_.size() == blocks_ ? used_ : 0; }
-    Scope(const Scope&) = delete;
-    Scope& operator=(const Scope&) = delete;
-
-   private:
-    ScratchMemory& memory_;
-    std::size_t blocks_, used_;
-  };
-
   /// Reserves a block of this size. To be called while nothing is handed out.
   void reserve(std::size_t bytes);
 
@@ -34,16 +19,15 @@ class ScratchMemory final : public std::pmr::memory_resource {
   /// Of all blocks.
   [[nodiscard]] std::size_t bytes() const;
 
-  /// Releases at its end what was handed out during its life: it must outlive what lies there.
+  /// Releases at its end what was handed out during its life: it must outlive what lies there. So
+  /// the steps of an operation use the same memory one after the other.
   class Frame {
    public:
     explicit Frame(ScratchMemory& memory)
         : memory_(memory), blocks_(memory.blocks_.size()), used_(memory.used_) {}
     Frame(const Frame&) = delete;
     Frame& operator=(const Frame&) = delete;
-    ~Frame() {
-      if (memory_.blocks_.size() == blocks_) memory_.used_ = used_;
-    }
+    ~Frame() { memory_.used_ = memory_.blocks_.size() == blocks_ ? used_ : 0; }
 
    private:
     ScratchMemory& memory_;

@@ -64,7 +64,7 @@ class SurfaceEditor {
   void roll_back(const EditLog::Mark& to) noexcept;
   struct Redo;
   /// Reverts the most recent operation, which began at `begin`. Does not allocate without `change`
-  /// if the operation is as redo() left it.
+  /// if the operation is as redo() left it, or `redo` has held as much before.
   /// @param redo    written: the input of redo().
   /// @param change  optional; written, except lips and rims.
   /// @throws std::bad_alloc before anything is changed
@@ -114,6 +114,8 @@ struct SurfaceEditor::Redo {
   /// The state that redo() restored. While nothing was appended to it, the rest is up to date.
   std::optional<EditLog::Mark> end;
 
+  /// Forgets the state; undo() then keeps another one in the same memory.
+  void clear();
   /// Removes duplicates and unused memory.
   void shrink() noexcept;
   void add_to(MemoryUse& use) const;

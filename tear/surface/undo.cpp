@@ -6,6 +6,13 @@
 
 namespace sunder::tear {
 
+void SurfaceEditor::Redo::clear() {
+  changed.clear();
+  known_corners.clear();
+  sides.clear();
+  end.reset();
+}
+
 void SurfaceEditor::keep_rows(const EditLog::Mark& begin, Redo& redo) {
   const RowCounts rows = log.rows_since(begin);
   const std::span<const RowCounts> mesh_rows = log.mesh_rows_since(begin);
@@ -54,7 +61,7 @@ void SurfaceEditor::Redo::shrink() noexcept {
 
 void SurfaceEditor::undo(const EditLog::Mark& begin, Redo& redo, ChangeRecord* change) {
   if (redo.end != log.mark(sides.next(), 0)) {
-    redo = {};
+    redo.clear();
     keep_rows(begin, redo);
     keep_changes(begin, redo);
   }

@@ -6,6 +6,8 @@
 #include <sunder/tear/torn_model.h>
 
 #include <cmath>
+#include <functional>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -64,6 +66,79 @@ TEST(Capacity, tears_of_a_warm_model_allocate_nothing) {
   EXPECT_GT(torn, 20);
 }
 
+/// Calls of operator new by a call that must succeed.
+std::uint64_t allocations_of(const std::function<bool()>& call) {
+  const std::uint64_t before = test::allocation_count();
+  EXPECT_TRUE(call());
+  return test::allocation_count() - before;
+}
+
+using Work = std::function<Result<TearReport>(TornModel&, ChangeRecord*)>;
+
+/// Does an operation, undoes, redoes and undoes it until the memory is warm, and counts what the
+/// same calls allocate then.
+/// @return whether the operation tore anything without setting a piece free.
+bool expect_no_allocation(TornModel& model, const Work& work, bool has_record) {
+  ChangeRecord change, undone, redone;
+  const auto to = [&](ChangeRecord& record) { return has_record ? &record : nullptr; };
+  TearReport report;
+  const auto operate = [&] {
+    auto result = work(model, to(change));
+    if (result) report = std::move(*result);
+    return bool(result);
+  };
+  const auto undo = [&] { return bool(model.undo(to(undone))); };
+  const auto redo = [&] { return bool(model.redo(to(redone))); };
+  for (int i = 0; i < 2; ++i) {
+    if (!operate()) return false;
+    if (report.runs == 0) return false;
+    EXPECT_TRUE(undo() && redo() && undo());
+  }
+  const std::uint64_t of_operation = allocations_of(operate);
+  if (report.pieces.empty()) {  // whose lists are allocated
+    EXPECT_EQ(of_operation, 0u);
+  }
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_EQ(allocations_of(undo), 0u);
+    EXPECT_EQ(allocations_of(redo), 0u);
+  }
+  EXPECT_EQ(allocations_of(undo), 0u);
+  return report.pieces.empty();
+}
+
+TEST(Capacity, gaps_bores_undo_and_redo_of_a_warm_model_allocate_nothing) {
+  const Character tube = test::make_tube(20, 24, 8);
+  std::vector<int> done(4);
+  for (std::uint64_t seed = 0; seed < 30; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    TornModel model = make_model(tube, kRoom);
+    const ModelPose pose = test::random_pose(tube, random, 0.4, 1.0);
+    const Stroke stroke = test::random_stroke(tube, pose, random, 1.5, 2 + random.index(4));
+    const double width = random.uniform(0.02, 0.1);
+    Bore bore;
+    bore.origin = stroke[0].base;
+    bore.direction = stroke[0].tip - stroke[0].base;
+    bore.radius = random.uniform(0.05, 0.2);
+    bore.depth = 1.5 * bore.direction.norm();
+    const std::vector<Work> works = {
+        [&](TornModel& of, ChangeRecord* change) { return of.tear(pose, stroke, {}, change); },
+        [&](TornModel& of, ChangeRecord* change) {
+          return of.tear(pose, stroke, {width, Layers::nearest, 0}, change);
+        },
+        [&](TornModel& of, ChangeRecord* change) {
+          return of.tear(pose, stroke, {width, Layers::all, 0}, change);
+        },
+        [&](TornModel& of, ChangeRecord* change) { return of.drill(pose, bore, change); }};
+    for (std::size_t i = 0; i < works.size(); ++i) {
+      SCOPED_TRACE(i);
+      for (const bool has_record : {false, true})
+        done[i] += expect_no_allocation(model, works[i], has_record) ? 1 : 0;
+    }
+  }
+  EXPECT_THAT(done, testing::Each(testing::Gt(10)));
+}
+
 TEST(Capacity, extending_a_stroke_allocates_nothing) {
   const Character sheet = test::make_sheet(40);
   TornModel model = make_model(sheet, kRoom);
@@ -108,6 +183,34 @@ TEST(Capacity, a_warm_cut_allocates_nothing) {
     divided += report->pieces.size() > 1 ? 1 : 0;
   }
   EXPECT_GT(divided, 20);
+}
+
+TEST(Capacity, extending_a_stroke_with_a_width_allocates_nothing) {
+  const Character sheet = test::make_sheet(40);
+  TornModel model = make_model(sheet, kRoom);
+  const ModelPose pose = *bind_pose(sheet);
+  const auto blade = [](int i) {
+    const double x = 0.1 + 0.01 * i, y = 0.5 + 0.1 * std::sin(0.1 * i);
+    return Blade{{x, y, 0.5}, {x, y, -0.5}};
+  };
+  for (int turn = 0; turn < 3; ++turn) {  // the memory is warm in the last one
+    auto stroke = TearStroke::create(model, pose, blade(0), {0.03, Layers::nearest, 0});
+    ASSERT_TRUE(stroke);
+    ChangeRecord change;
+    for (int i = 1; i < 60; ++i) {
+      const std::uint64_t before = test::allocation_count();
+      const auto report = stroke->extend(pose, blade(i), 0, &change);
+      // The first ones make the copy to which a failed call would return.
+      if (turn == 2 && i > 10) {
+        EXPECT_EQ(test::allocation_count(), before) << i;
+      }
+      ASSERT_TRUE(report);
+    }
+    const auto whole = stroke->end();
+    ASSERT_TRUE(whole);
+    EXPECT_GT(whole->area_removed_posed, 0);
+    ASSERT_TRUE(model.undo());
+  }
 }
 
 TEST(Capacity, where_room_runs_out_nothing_changes) {
