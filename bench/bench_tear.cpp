@@ -153,6 +153,20 @@ void memory(benchmark::State& state) {
   }
 }
 
+void instances(benchmark::State& state) {
+  for (auto _ : state) {
+    InstanceCosts costs;
+    state.SetIterationTime(seconds_of([&] { costs = instance_costs(scene_in(state)); }));
+    state.counters["untouched_bytes"] = costs.untouched_bytes;
+    state.counters["packed_bytes_per_vertex"] = costs.packed_bytes_per_vertex;
+    state.counters["capacity_bytes_per_vertex"] = costs.capacity_bytes_per_vertex;
+    state.counters["capacity_bytes_per_operation"] = costs.capacity_bytes_per_operation;
+    state.counters["us_create"] = costs.us_create;
+    state.counters["us_pack"] = costs.us_pack;
+    state.counters["us_unpack"] = costs.us_unpack;
+  }
+}
+
 /// Baseline: the memory accesses of a tear alone.
 template <Caches caches>
 void touch_memory(benchmark::State& state) {
@@ -192,6 +206,7 @@ BENCHMARK(drill_open_warm)->Apply(at_four_sizes);
 BENCHMARK(long_stroke)->Apply(at_four_sizes);
 BENCHMARK(create_and_first_tear)->Apply(at_four_sizes);
 BENCHMARK(memory)->Apply(at_four_sizes);
+BENCHMARK(instances)->Apply(at_four_sizes);
 BENCHMARK(cut_whole)->Apply(at_four_sizes);
 BENCHMARK(cut_whole_with_caps)->Apply(at_four_sizes);
 

@@ -1,6 +1,7 @@
 #include "bench/model_memory.h"
 
 #include <cstdlib>
+#include <utility>
 
 #include "bench/measure.h"
 #include "tear/posed/posed_points.h"
@@ -27,6 +28,22 @@ std::uint64_t bytes_of(const Mesh& mesh) {
   return bytes + bytes_of(mesh.triangles) + bytes_of(mesh.triangle_submesh);
 }
 
+constexpr int kInstances = 100;
+
+TornModel model_of(const std::shared_ptr<const TornAsset>& asset) {
+  auto model = TornModel::create(asset);
+  if (!model) std::abort();
+  return std::move(*model);
+}
+
+/// Bytes of a model that has a workspace of this capacity.
+double bytes_with(const Scene& scene, const TornCapacity& capacity) {
+  const std::uint64_t before = bytes_in_use();
+  const auto model = TornModel::create(scene.character, capacity);
+  if (!model) std::abort();
+  return static_cast<double>(bytes_in_use() - before);
+}
+
 }  // namespace
 
 BytesPerPoint bytes_per_point(const Scene& scene) {
@@ -43,6 +60,34 @@ BytesPerPoint bytes_per_point(const Scene& scene) {
   const double points = model->point_count();
   return {static_cast<double>(all - of_posed_points) / points,
           static_cast<double>(of_posed_points) / points};
+}
+
+InstanceCosts instance_costs(const Scene& scene) {
+  InstanceCosts costs;
+  const auto asset = TornAsset::create(scene.character);
+  if (!asset || !(*asset)->prepare()) std::abort();
+  std::vector<TornModel> models;
+  models.reserve(kInstances);
+  const std::uint64_t before = bytes_in_use();
+  costs.us_create = 1e6 / kInstances * seconds_of([&] {
+                      while (models.size() < kInstances) models.push_back(model_of(*asset));
+                    });
+  costs.untouched_bytes = static_cast<double>(bytes_in_use() - before) / kInstances;
+
+  for (int turn = 0; turn < 2; ++turn) {  // the first one warms up
+    TornModel model = model_of(*asset);
+    if (!model.tear(scene.poses[0], scene.stroke)) std::abort();
+    const double vertices =
+        model.character().meshes[0].vertex_count() - scene.mesh().vertex_count();
+    costs.us_pack = 1e6 * seconds_of([&] { (void)model.pack(); });
+    const TornMemory memory = model.memory_bytes();
+    costs.packed_bytes_per_vertex = static_cast<double>(memory.own + memory.reserved) / vertices;
+    costs.us_unpack = 1e6 * seconds_of([&] { (void)model.unpack(); });
+  }
+  const double least = bytes_with(scene, {1000, 2000, 4});
+  costs.capacity_bytes_per_vertex = (bytes_with(scene, {21000, 42000, 4}) - least) / 20000;
+  costs.capacity_bytes_per_operation = (bytes_with(scene, {1000, 2000, 68}) - least) / 64;
+  return costs;
 }
 
 }  // namespace sunder::bench

@@ -12,4 +12,13 @@ struct BytesPerPoint {
 };
 [[nodiscard]] BytesPerPoint bytes_per_point(const Scene& scene);
 
+/// What models of one asset cost, as counted by malloc.
+struct InstanceCosts {
+  double untouched_bytes = 0;
+  double packed_bytes_per_vertex = 0;  ///< Per new vertex, after one tear; with its pose.
+  double capacity_bytes_per_vertex = 0, capacity_bytes_per_operation = 0;
+  double us_create = 0, us_pack = 0, us_unpack = 0;
+};
+[[nodiscard]] InstanceCosts instance_costs(const Scene& scene);
+
 }  // namespace sunder::bench

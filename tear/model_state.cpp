@@ -26,7 +26,7 @@ TornModel::State::State(std::shared_ptr<const Character> from, tear::Surface sur
   pose.model_from_bone.resize(character.skeleton.bones.size());
   pose.morph_weights.resize(character.rest_morph_weights.size());
   posed.cover(editor.surface().point_count() + capacity.vertices);
-  for (auto* lips : {&borders_of_call_.lips, &borders_.lips}) lips->reserve(capacity.vertices);
+  for (auto* lips : {&borders_of_call_.lips, &borders_.lips}) lips->reserve(most_lips());
   history = new_history();
 }
 
@@ -36,7 +36,7 @@ tear::History TornModel::State::new_history() const {
   ModelPose of_any;
   of_any.model_from_bone.resize(character.skeleton.bones.size());
   of_any.morph_weights.resize(character.rest_morph_weights.size());
-  empty.limit_to(capacity.operations, capacity.vertices, of_any);
+  empty.limit_to(capacity.operations, most_lips(), of_any);
   return empty;
 }
 

@@ -162,6 +162,10 @@ struct TornModel::State {
 
  private:
   [[nodiscard]] tear::History new_history() const;
+  /// Each pair has two new vertices at least, except at the ends of a tear.
+  [[nodiscard]] std::size_t most_lips() const {
+    return capacity.vertices / 2 + 2 * std::size_t{capacity.operations};
+  }
   void begin_call();
   [[nodiscard]] TornPieces find_pieces_of_call(bool names_all);
   void make_room_for_borders();

@@ -219,7 +219,7 @@ std::span<const Entries::value_type> entries_of(const tear::History* history,
 
 }  // namespace
 
-const TornModel::State* TornModel::torn_state() const noexcept { return state_.instance->torn(); }
+const TornModel::State* TornModel::torn_state() const { return state_.instance->torn(); }
 
 WeightPolicy TornModel::weight_policy(std::uint32_t mesh, std::uint32_t vertex) const {
   SUNDER_ASSERT(mesh < character().meshes.size() &&

@@ -15,7 +15,7 @@ std::size_t growth(std::size_t size, std::size_t more) { return std::max(more, s
 /// most operations log fewer. One that removes large areas logs more, and allocates.
 constexpr std::size_t kChangesPerAppended = 2;
 /// A model of fixed capacity reserves memory for walls and caps of a part of its triangles.
-constexpr std::size_t kTrianglesPerFilling = 4;
+constexpr std::size_t kTrianglesPerFilling = 8;
 /// Values of _TEARSIDE are logged for old vertices alone, which are fewer than new ones.
 constexpr std::size_t kVerticesPerSideChange = 2;
 

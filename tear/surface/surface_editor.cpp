@@ -8,7 +8,7 @@ namespace {
 /// Memory for the work of one operation for which a model of fixed capacity reserves memory, bytes:
 /// at least, and for each triangle of its capacity. An operation that needs more allocates.
 constexpr std::size_t kLeastScratch = std::size_t{1} << 19;
-constexpr std::size_t kScratchPerTriangle = 16;
+constexpr std::size_t kScratchPerTriangle = 8;
 
 EditColumns columns_of(const Character& character, Surface surface) {
   EditColumns columns;

@@ -314,8 +314,9 @@ TEST(Capacity, strokes_of_few_blades_allocate_nothing_after_long_ones) {
   ASSERT_TRUE(model.tear(pose, stroke_at(0.1, 40)));
   ASSERT_TRUE(model.tear(pose, stroke_at(0.2, 3)));
   for (int i = 0; i < 6; ++i) {
+    const Stroke stroke = stroke_at(0.3 + 0.1 * i, 3 + 2 * i);
     const std::uint64_t before = test::allocation_count();
-    const auto report = model.tear(pose, stroke_at(0.3 + 0.1 * i, 3 + 2 * i));
+    const auto report = model.tear(pose, stroke);
     EXPECT_EQ(test::allocation_count(), before) << i;
     ASSERT_TRUE(report);
     EXPECT_GT(report->runs, 0u);

@@ -10,11 +10,9 @@
 namespace sunder {
 
 /// The number of elements that the operations on a model may append, summed over all that are done
-/// and not undone. With a fixed capacity the memory for tears is allocated at the start, about 600
-/// bytes per vertex and 2 kB and a pose per operation, and an operation that finds no room changes
-/// nothing and returns capacity_exceeded. A cut across n faces appends about 2 n vertices and
-/// triangles. Operations that remove large areas, or whose stroke has more than 64 blades, may
-/// allocate in addition.
+/// and not undone. With a fixed capacity the memory for tears is allocated at the start, and an
+/// operation without room changes nothing and returns capacity_exceeded. A cut across n faces
+/// appends about 2 n vertices and triangles; where it removes large areas it may allocate.
 struct TornCapacity {
   std::uint32_t vertices = 0;   ///< Per mesh.
   std::uint32_t triangles = 0;  ///< Per mesh.

@@ -221,7 +221,7 @@ class SUNDER_API TornModel {
   };
   explicit TornModel(std::unique_ptr<Instance> instance);
   /// The state; null if nothing was torn yet.
-  [[nodiscard]] const State* torn_state() const noexcept;
+  [[nodiscard]] const State* torn_state() const;
 
   StatePointer state_;
 };

@@ -7,7 +7,7 @@
 
 int main() {
   sunder::use_coupled_refit();
-  const auto model = sunder::TornModel::create(nullptr);
+  const auto model = sunder::TornModel::create(std::shared_ptr<const sunder::Character>());
   std::puts(model ? "unexpected" : model.error().text().data());
   return model ? 1 : 0;
 }

@@ -5,7 +5,7 @@
 #include <cstdio>
 
 int main() {
-  const auto model = sunder::TornModel::create(nullptr);
+  const auto model = sunder::TornModel::create(std::shared_ptr<const sunder::Character>());
   std::puts(model ? "unexpected" : model.error().text().data());
   return model ? 1 : 0;
 }
