@@ -105,9 +105,10 @@ using Samples = std::map<std::string, std::vector<double>>;
 /// Nanoseconds of this process per call; others do not count.
 template <class Work>
 void add_time(Samples& samples, const char* name, int calls, Work work) {
-  const double begin = cpu_seconds();
-  for (int i = 0; i < calls; ++i) work(i);
-  samples[name].push_back(1e9 * (cpu_seconds() - begin) / calls);
+  const double seconds = cpu_seconds_of([&] {
+    for (int i = 0; i < calls; ++i) work(i);
+  });
+  samples[name].push_back(1e9 * seconds / calls);
 }
 
 void measure_queries(const Scene& scene, const Queries& queries, SurfaceQuery& query,
