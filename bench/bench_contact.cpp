@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/cpu_seconds.h"
 #include "bench/measure.h"
 #include "bench/tear_scene.h"
 #include "support/random.h"
@@ -101,10 +102,10 @@ float first_by_scan(const Mesh& mesh, std::span<const Vec3f> positions, const Ve
 
 using Samples = std::map<std::string, std::vector<double>>;
 
-/// Nanoseconds per call.
+/// Nanoseconds of this process per call; others do not count.
 template <class Work>
 void add_time(Samples& samples, const char* name, int calls, Work work) {
-  const double seconds = seconds_of([&] {
+  const double seconds = cpu_seconds_of([&] {
     for (int i = 0; i < calls; ++i) work(i);
   });
   samples[name].push_back(1e9 * seconds / calls);

@@ -105,14 +105,15 @@ int main() {
     sunder::ContactOptions contact;
     contact.displacements = displacements;
     if (const auto status = query->set_pose(pose, contact); !status) return fail("pose", status);
-    const auto cursor = query->cast_ray({blade.base, blade.tip - blade.base});
+    const auto cursor =
+        query->cast_ray({blade.base, blade.tip - blade.base, (blade.tip - blade.base).norm()});
     if (!cursor) return fail("cursor", cursor.error());
     if (*cursor) ++above;
     if (const auto status = feel(seconds, *query, feedback); !status) return fail("feel", status);
   }
   const auto end = instance->end_stroke();
   if (!end) return fail("end", end.error());
-  std::printf("torn: %.3f m; the cursor was on the surface in %d of 60 frames\n", torn, above);
+  std::printf("torn: %.3f m; the blade reached the surface in %d of 60 frames\n", torn, above);
   std::printf("the blade touched in %d of 960 steps and felt at most %.2f N\n", feedback.touches,
               feedback.greatest);
 
@@ -120,7 +121,7 @@ int main() {
                                  {{0.05, 0.6, 0.3}, {0.05, 0.6, 0.1}}};
   const auto preview = sunder::preview_tear(instance->model(), pose, across);
   if (!preview) return fail("preview", preview.error());
-  std::printf("a stroke across would cross %u faces over %.3f m and move %zu bones' skin\n",
+  std::printf("a stroke across would cross %u faces over %.3f m in the skin of %zu bones\n",
               preview->report.faces_crossed, preview->report.length_posed, preview->bones.size());
   const auto report = instance->tear(pose, across);
   if (!report) return fail("tear", report.error());

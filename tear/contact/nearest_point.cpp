@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/internal/ordered.h"
 #include "tear/contact/segment_hit.h"
@@ -73,9 +74,18 @@ void take_foot(const Vec3d& point, double along, const Corners& corners, Nearest
 NearestPlaces nearest_of_point(const Vec3d& point, const Corners& corners) {
   NearestPlaces nearest;
   nearest.squared_distance = std::numeric_limits<double>::infinity();
-  for (std::size_t edge = 0; edge < 3; ++edge)
-    take_edge(point, Vec3d::Zero(), corners, edge, nearest);
   take_foot(point, 0, corners, nearest);
+  if (nearest.squared_distance < std::numeric_limits<double>::infinity()) return nearest;
+  for (std::size_t edge = 0; edge < 3; ++edge) {
+    const std::size_t next = (edge + 1) % 3;
+    const Vec3d way = corners[next] - corners[edge];
+    const double part = part_along(corners[edge], way, point);
+    const double square = squared_norm(Vec3d(corners[edge] + part * way - point));
+    if (!(square < nearest.squared_distance)) continue;
+    nearest = {square, {0, 0, 0}, 0};
+    nearest.barycentric[edge] = 1 - part;
+    nearest.barycentric[next] = part;
+  }
   return nearest;
 }
 

@@ -2,8 +2,6 @@
 
 #include <sunder/tear/contact.h>
 
-#include <type_traits>
-
 #include "tear/contact/nearest_point.h"
 #include "tear/posed/posed_points.h"
 
@@ -26,36 +24,25 @@ class PosedSurface {
   [[nodiscard]] Vec3d position(Index point);
   [[nodiscard]] Corners corners(Index face);
 
-  /// A frame for visit_faces(). Queries that share the axes share the posed boxes too.
-  [[nodiscard]] Frame frame_along(const Mat3d& axes) const {
-    return posed_.frame_along(axes, editor_);
-  }
+  /// The frame of boxes. All queries of a pose share it, so that a box is posed once: with axes
+  /// along each ray they are fewer by a tenth, but each ray poses its own.
+  [[nodiscard]] Frame frame() const { return posed_.frame_along(Mat3d::Identity(), editor_); }
 
   /// Visits the faces in whose boxes something may be found, roughly the nearest first.
+  /// @param frame  frame().
   /// @param bound  bound(const FrameBox&): a lower bound of the figure that is minimised; infinity
-  ///        where nothing can be found. A query along the first axis may also accept (const
-  ///        FrameBox&, const Shadow&).
+  ///        where nothing can be found.
   /// @param visit  visit(face): returns the greatest figure that is still of interest.
   template <class Bound, class Visit>
   void visit_faces(const Frame& frame, Bound bound, Visit visit) {
-    const auto bound_of_moved = [&](
-        const FrameBox& box,
-        const auto&... shadow) requires std::is_invocable_v<Bound&, const FrameBox&,
-                                                            decltype(shadow)...> {
+    const auto bound_of_moved = [&](const FrameBox& box) {
       const Vec3d more = Vec3d::Constant(box.margin(frame.reach()) + reach_);
-      return bound(FrameBox{box.low - more, box.high + more}, widened(shadow)...);
+      return bound(FrameBox{box.low - more, box.high + more});
     };
     posed_.visit_faces(editor_, frame, bound_of_moved, visit);
   }
 
  private:
-  [[nodiscard]] Shadow widened(Shadow shadow) const {
-    shadow.low -= reach_;
-    shadow.high += reach_;
-    for (double& from : shadow.from) from -= reach_;
-    for (double& to : shadow.to) to += reach_;
-    return shadow;
-  }
   [[nodiscard]] bool is_drawn_elsewhere(Index mesh, Index vertex) const;
   [[nodiscard]] Vec3d drawn_position(Index mesh, Index vertex) const;
   [[nodiscard]] Vec3d displacement(Index mesh, Index vertex) const;

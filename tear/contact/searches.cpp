@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kNowhere = std::numeric_limits<double>::infinity();
 
-/// A half-line in a frame whose first axis is its direction, clipped to boxes of that frame.
+/// A half-line, clipped to boxes of a frame.
 class Line {
  public:
   Line(const Vec3d& base, const Vec3d& way, const Frame& frame)
@@ -21,7 +21,7 @@ class Line {
         rounding_(kPosedCoordinates * std::max(frame.reach(), base.cwiseAbs().maxCoeff())) {}
 
   /// Where the line enters a box, at least 0; infinity if it misses it or enters beyond `most`.
-  [[nodiscard]] double entry(double most, const FrameBox& box) const {
+  [[nodiscard]] double entry(const FrameBox& box, double most) const {
     double begin = 0, end = most;
     for (int k = 0; k < 3; ++k) {
       const double to_low = box.low[k] - base_[k] - rounding_,
@@ -34,16 +34,6 @@ class Line {
       begin = std::max(begin, (ascends ? to_low : to_high) * per_step_[k]);
       end = std::min(end, (ascends ? to_high : to_low) * per_step_[k]);
     }
-    return begin <= end ? begin : kNowhere;
-  }
-  /// The same for a shadow, whose box was tested before.
-  [[nodiscard]] double entry(double most, const FrameBox&, const Shadow& shadow) const {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double at = shadow.normal[k].x() * base_.y() + shadow.normal[k].y() * base_.z();
-      if (at < shadow.from[k] - rounding_ || at > shadow.to[k] + rounding_) return kNowhere;
-    }
-    const double begin = std::max(0.0, (shadow.low - rounding_ - base_.x()) * per_step_.x()),
-                 end = std::min(most, (shadow.high + rounding_ - base_.x()) * per_step_.x());
     return begin <= end ? begin : kNowhere;
   }
 
@@ -63,6 +53,10 @@ double squared_gap(const FrameBox& a, const FrameBox& b) {
 }
 
 FrameBox box_of(const Vec3d& a, const Vec3d& b) { return {a.cwiseMin(b), a.cwiseMax(b)}; }
+FrameBox box_of(const Corners& corners) {
+  const FrameBox box = box_of(corners[0], corners[1]);
+  return {box.low.cwiseMin(corners[2]), box.high.cwiseMax(corners[2])};
+}
 
 /// A lower bound of the squared distance of a box and a segment.
 class SegmentDistance {
@@ -114,13 +108,11 @@ void remove_repeated(const Vec3d& way, const Vec3d& base, std::vector<FoundPlace
 
 std::optional<FoundPlace> first_on_line(const Vec3d& base, const Vec3d& way, double most,
                                         PosedSurface& surface) {
-  const Frame frame = surface.frame_along(axes_along(way));
+  const Frame frame = surface.frame();
   const Line line(base, way, frame);
   std::optional<FoundPlace> first;
   double limit = most;
-  const auto bound = [&](const FrameBox& box, const auto&... shadow) {
-    return line.entry(limit, box, shadow...);
-  };
+  const auto bound = [&](const FrameBox& box) { return line.entry(box, limit); };
   surface.visit_faces(frame, bound, [&](Index face) {
     const auto hit = hit_of_segment(base, way, surface.corners(face));
     const bool is_first =
@@ -135,12 +127,10 @@ std::optional<FoundPlace> first_on_line(const Vec3d& base, const Vec3d& way, dou
 
 void all_on_segment(const Vec3d& base, const Vec3d& way, PosedSurface& surface,
                     std::vector<FoundPlace>& found) {
-  const Frame frame = surface.frame_along(axes_along(way));
+  const Frame frame = surface.frame();
   const Line line(base, way, frame);
   found.clear();
-  const auto bound = [&](const FrameBox& box, const auto&... shadow) {
-    return line.entry(1, box, shadow...);
-  };
+  const auto bound = [&](const FrameBox& box) { return line.entry(box, 1); };
   surface.visit_faces(frame, bound, [&](Index face) {
     const auto hit = hit_of_segment(base, way, surface.corners(face));
     if (hit && hit->along <= 1)
@@ -155,7 +145,7 @@ void all_on_segment(const Vec3d& base, const Vec3d& way, PosedSurface& surface,
 
 std::optional<FoundPlace> nearest_to_segment(const Vec3d& base, const Vec3d& tip,
                                              double most_squared, PosedSurface& surface) {
-  const Frame frame = surface.frame_along(Mat3d::Identity());
+  const Frame frame = surface.frame();
   const SegmentDistance distance(base, tip, frame);
   std::optional<FoundPlace> nearest;
   double limit = most_squared;
@@ -163,8 +153,11 @@ std::optional<FoundPlace> nearest_to_segment(const Vec3d& base, const Vec3d& tip
     const double least = distance.least(box);
     return least <= limit ? least : kNowhere;
   };
+  const FrameBox of_segment = box_of(base, tip);
   surface.visit_faces(frame, bound, [&](Index face) {
-    const NearestPlaces places = nearest_of_segment(base, tip, surface.corners(face));
+    const Corners corners = surface.corners(face);
+    if ((1 - kBoxSizes) * squared_gap(box_of(corners), of_segment) > limit) return limit;
+    const NearestPlaces places = nearest_of_segment(base, tip, corners);
     const bool is_nearest = places.squared_distance <= limit &&
                             (!nearest || places.squared_distance < limit || face < nearest->face);
     if (!is_nearest) return limit;
@@ -176,10 +169,9 @@ std::optional<FoundPlace> nearest_to_segment(const Vec3d& base, const Vec3d& tip
 }
 
 double squared_distance_to(const Corners& triangle, double most, PosedSurface& surface) {
-  const Frame frame = surface.frame_along(Mat3d::Identity());
-  const Vec3d third = frame.place_of(triangle[2]);
-  FrameBox around = box_of(frame.place_of(triangle[0]), frame.place_of(triangle[1]));
-  around = {around.low.cwiseMin(third), around.high.cwiseMax(third)};
+  const Frame frame = surface.frame();
+  const FrameBox around = box_of(
+      {frame.place_of(triangle[0]), frame.place_of(triangle[1]), frame.place_of(triangle[2])});
   double least = most;
   const auto bound = [&](const FrameBox& box) {
     const double gap = squared_gap(box, around);

@@ -202,7 +202,9 @@ Result<std::optional<CapsuleContact>> SurfaceQuery::find_capsule_contact(const C
     contact.nearest =
         state.describe_nearest(capsule.base + found->along * way, capsule.radius, *found);
     contact.deepest = contact.nearest;
-    if (way.isZero(0)) return contact;
+    // An axis that does not cross the surface is on one side of it.
+    const bool is_above = contact.nearest.distance > 0 && contact.nearest.depth <= capsule.radius;
+    if (way.isZero(0) || is_above) return contact;
     // From the end of the axis no place is farther than the axis is long and the contact away.
     const double reach = norm(way) + contact.nearest.distance;
     const double most = reach * reach * (1 + tear::kBoxSizes);

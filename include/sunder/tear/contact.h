@@ -62,7 +62,7 @@ struct SurfaceContact {
 struct CapsuleContact {
   SurfaceContact nearest;  ///< The place nearest to the axis; one of them if the axis crosses.
   /// The place nearest to the end of the axis that is farthest below the surface; equal to
-  /// `nearest` if no end is below it.
+  /// `nearest` if the axis is above the surface.
   SurfaceContact deepest;
 };
 
