@@ -2,6 +2,11 @@
 
 // All public headers. A build that counts its compile time includes what it uses instead.
 
+#include <sunder/animation/blend.h>
+#include <sunder/animation/clip_editor.h>
+#include <sunder/animation/clip_player.h>
+#include <sunder/animation/edit_pose.h>
+#include <sunder/animation/pull.h>
 #include <sunder/core/api.h>
 #include <sunder/core/character.h>
 #include <sunder/core/clip.h>
