@@ -30,7 +30,10 @@ struct ClipEditor::State {
   Pose rest;
   std::vector<MorphRange> morphs;  ///< Of each mesh with targets, once.
   std::vector<KeyTrack> tracks;
+  /// Times at which poses were kept: at rest, they need no track, but later tracks must know them.
+  std::set<float> kept_times;
 
+  [[nodiscard]] std::set<float> key_times() const;
   [[nodiscard]] std::optional<float> nearest_key(double time) const;
   [[nodiscard]] Pose pose_at(float time) const;
   [[nodiscard]] std::vector<KeyTrack> new_tracks(float time, const Pose& pose,
@@ -76,29 +79,25 @@ Status check_pose(const Pose& pose, const Pose& rest) {
   return {};
 }
 
+}  // namespace
+
 /// Times of all keys, ascending.
-std::set<float> times_of(const std::vector<KeyTrack>& tracks) {
-  std::set<float> times;
+std::set<float> ClipEditor::State::key_times() const {
+  std::set<float> times = kept_times;
   for (const KeyTrack& track : tracks)
     times.insert(track.channel.times.begin(), track.channel.times.end());
   return times;
 }
 
-}  // namespace
-
-/// The time of a key that snaps a time; of the nearest one.
+/// The nearest key that snaps a time.
 std::optional<float> ClipEditor::State::nearest_key(double time) const {
   std::optional<float> nearest;
   double least = options.snap;
-  for (const KeyTrack& track : tracks) {
-    const auto& times = track.channel.times;
-    const std::size_t after = track.lower_bound(static_cast<float>(time));
-    for (std::size_t key = after == 0 ? 0 : after - 1; key < times.size() && key <= after; ++key) {
-      const double distance = std::abs(static_cast<double>(times[key]) - time);
-      if (!(distance <= least) || (nearest && distance == least)) continue;
-      least = distance;
-      nearest = times[key];
-    }
+  for (const float key : key_times()) {
+    const double distance = std::abs(static_cast<double>(key) - time);
+    if (!(distance <= least) || (nearest && distance == least)) continue;
+    least = distance;
+    nearest = key;
   }
   return nearest;
 }
@@ -154,7 +153,7 @@ std::vector<KeyTrack> ClipEditor::State::new_tracks(float time, const Pose& pose
 /// What a new track is at the other keys: at all of them, so that their poses stay when the track
 /// gets further keys, or at those around its first one.
 void ClipEditor::State::add_rest_keys(float time, KeyedTracks wanted, KeyTrack& track) const {
-  const std::set<float> times = times_of(tracks);
+  const std::set<float> times = key_times();
   if (wanted != KeyedTracks::changed) {
     track.make_room(times.size() + 1);
     for (const float other : times) track.put(other, rest);
@@ -216,6 +215,7 @@ Status ClipEditor::insert(double time, const Pose& pose, KeyedTracks wanted) {
     const Pose before = wanted == KeyedTracks::changed ? state.pose_at(at) : Pose();
     for (KeyTrack& track : state.tracks) track.make_room(1);
     state.tracks.reserve(state.tracks.size() + added.size());
+    state.kept_times.insert(at);  // After everything else that can fail.
     for (KeyTrack& track : state.tracks)
       if (wanted != KeyedTracks::changed || !animation::is_same_value(track.channel, pose, before))
         track.put(at, pose);
@@ -232,16 +232,19 @@ Status ClipEditor::move(double from, double to) {
     if (!source) return no_key(from);
     float target = static_cast<float>(to);
     double least = state.options.snap;
-    for (const float time : times_of(state.tracks)) {
+    for (const float time : state.key_times()) {
       const double distance = std::abs(static_cast<double>(time) - to);
       if (time == *source || distance > least) continue;  // Its own time does not hold it back.
       least = distance;
       target = time;
     }
+    std::set<float> kept_times = state.kept_times;
+    if (kept_times.erase(*source) != 0) kept_times.insert(target);
     std::vector<KeyTrack> moved = state.tracks;
     for (KeyTrack& track : moved)
       if (track.has_key(*source)) track.move(track.lower_bound(*source), target);
     state.tracks.swap(moved);
+    state.kept_times.swap(kept_times);
     return {};
   });
 }
@@ -253,6 +256,7 @@ Status ClipEditor::remove(double time) {
     if (!at) return no_key(time);
     for (KeyTrack& track : state.tracks)
       if (track.has_key(*at)) track.remove(track.lower_bound(*at));
+    state.kept_times.erase(*at);
     std::erase_if(state.tracks, [](const KeyTrack& track) { return track.channel.times.empty(); });
     return {};
   });
@@ -267,20 +271,21 @@ Status ClipEditor::reduce(const ReduceOptions& options) {
     std::vector<KeyTrack> reduced = state_->tracks;
     for (KeyTrack& track : reduced) animation::reduce_keys(track.channel, options);
     state_->tracks.swap(reduced);
+    state_->kept_times.clear();  // Where no key is left, nothing is kept.
     return {};
   });
 }
 
 std::vector<float> ClipEditor::key_times() const {
-  const std::set<float> times = times_of(state_->tracks);
+  const std::set<float> times = state_->key_times();
   return {times.begin(), times.end()};
 }
 
 Result<std::shared_ptr<const Clip>> ClipEditor::snapshot() const {
   const State& state = *state_;
   if (state.tracks.empty())
-    return Status::failure(StatusCode::empty_input, kNone, "clip '%.60s' has no key",
-                           state.name.c_str());
+    return Status::failure(StatusCode::empty_input, kNone,
+                           "clip '%.60s' has no key that is not at rest", state.name.c_str());
   return or_out_of_memory([&]() -> Result<std::shared_ptr<const Clip>> {
     auto clip = std::make_shared<Clip>();
     clip->name = state.name;

@@ -175,6 +175,19 @@ TEST(ClipEditor, snaps_moves_and_removes) {
   ASSERT_TRUE(editor->insert(0.0, a));
 }
 
+TEST(ClipEditor, a_first_key_at_rest_is_kept) {
+  const auto character = tube();
+  Random random(4);
+  auto editor = ClipEditor::create(character, "edit");
+  const Pose rest = *local_rest_pose(*character), edited = random_edit(*character, random);
+  ASSERT_TRUE(editor->insert(0.0, rest));
+  ASSERT_TRUE(editor->insert(1.0, edited));
+  ASSERT_TRUE(editor->insert(2.0, rest));
+  expect_same(pose_of(*character, *editor, 0.0), rest, "first");
+  expect_same(pose_of(*character, *editor, 1.0), edited, "second");
+  expect_same(pose_of(*character, *editor, 2.0), rest, "third");
+}
+
 TEST(ClipEditor, a_snapshot_plays_while_editing_goes_on) {
   const auto character = tube();
   Random random(2);
