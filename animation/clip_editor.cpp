@@ -38,7 +38,8 @@ struct ClipEditor::State {
   [[nodiscard]] Pose pose_at(float time) const;
   [[nodiscard]] std::vector<KeyTrack> new_tracks(float time, const Pose& pose,
                                                  KeyedTracks wanted) const;
-  void add_rest_keys(float time, KeyedTracks wanted, KeyTrack& track) const;
+  void add_rest_keys(const std::set<float>& times, float time, KeyedTracks wanted,
+                     KeyTrack& track) const;
 };
 
 namespace {
@@ -93,12 +94,22 @@ std::set<float> ClipEditor::State::key_times() const {
 std::optional<float> ClipEditor::State::nearest_key(double time) const {
   std::optional<float> nearest;
   double least = options.snap;
-  for (const float key : key_times()) {
+  const auto consider = [&](float key) {
     const double distance = std::abs(static_cast<double>(key) - time);
-    if (!(distance <= least) || (nearest && distance == least)) continue;
+    if (!(distance <= least) || (nearest && distance == least)) return;
     least = distance;
     nearest = key;
+  };
+  const auto near = static_cast<float>(std::clamp(time, -1e30, 1e30));
+  for (const KeyTrack& track : tracks) {
+    const auto& times = track.channel.times;
+    const std::size_t after = track.lower_bound(near);
+    if (after < times.size()) consider(times[after]);
+    if (after > 0) consider(times[after - 1]);
   }
+  const auto after = kept_times.lower_bound(near);
+  if (after != kept_times.end()) consider(*after);
+  if (after != kept_times.begin()) consider(*std::prev(after));
   return nearest;
 }
 
@@ -129,11 +140,13 @@ std::vector<KeyTrack> ClipEditor::State::new_tracks(float time, const Pose& pose
       std::fill_n(morph_weights.begin() + channel.index, channel.width, true);
   }
   std::vector<KeyTrack> added;
+  std::optional<std::set<float>> times;  // Asked for once, if at all.
   const auto consider = [&](ChannelTarget target, std::uint32_t index, std::uint32_t width) {
     KeyTrack track = animation::make_track(target, index, width, options.interpolation);
     if (wanted != KeyedTracks::all && animation::is_same_value(track.channel, pose, rest)) return;
+    if (!times) times = key_times();
     track.make_room(3);
-    add_rest_keys(time, wanted, track);
+    add_rest_keys(*times, time, wanted, track);
     track.put(time, pose);
     added.push_back(std::move(track));
   };
@@ -152,8 +165,8 @@ std::vector<KeyTrack> ClipEditor::State::new_tracks(float time, const Pose& pose
 
 /// What a new track is at the other keys: at all of them, so that their poses stay when the track
 /// gets further keys, or at those around its first one.
-void ClipEditor::State::add_rest_keys(float time, KeyedTracks wanted, KeyTrack& track) const {
-  const std::set<float> times = key_times();
+void ClipEditor::State::add_rest_keys(const std::set<float>& times, float time, KeyedTracks wanted,
+                                      KeyTrack& track) const {
   if (wanted != KeyedTracks::changed) {
     track.make_room(times.size() + 1);
     for (const float other : times) track.put(other, rest);

@@ -73,8 +73,9 @@ class SUNDER_API ClipEditor {
 
   /// Times of all keys of any track, ascending. Allocates.
   [[nodiscard]] std::vector<float> key_times() const;
-  /// The clip as it is now; it satisfies the rules of validate_character(). @return empty_input
-  /// without a key; limit_exceeded: out of memory. O(keys), allocates.
+  /// The clip as it is now; it satisfies the rules of validate_character().
+  /// @return empty_input without a track: all keys are at rest, or there is none; limit_exceeded:
+  /// out of memory. O(keys), allocates.
   [[nodiscard]] Result<std::shared_ptr<const Clip>> snapshot() const;
 
  private:
