@@ -14,6 +14,7 @@
 
 #include <gtest/gtest.h>
 
+#include "support/gltf_builder.h"
 #include "support/gltf_validator.h"
 #include "support/random.h"
 #include "support/rigs.h"
@@ -172,6 +173,100 @@ TEST(SavedClips, a_character_without_a_file_is_written_with_its_new_clip) {
   ASSERT_EQ(again->character->clips.size(), 2u);
   EXPECT_EQ(again->character->clips[0], torn->clips[0]);
   expect_same_poses(*torn, *clip, *again->character, again->character->clips[1], "tube");
+}
+
+/// A clip that turns a bone.
+Clip turning(std::uint32_t bone) {
+  const float h = std::sqrt(0.5f);
+  return {"turn",
+          1.0f,
+          {{ChannelTarget::rotation,
+            bone,
+            4,
+            Interpolation::linear,
+            {0, 1},
+            {0, 0, 0, 1, h, 0, 0, h}}}};
+}
+
+std::uint32_t bone_named(const Character& character, const std::string& name) {
+  for (std::uint32_t bone = 0; bone < character.skeleton.bones.size(); ++bone)
+    if (character.skeleton.bones[bone].name == name) return bone;
+  ADD_FAILURE() << name;
+  return 0;
+}
+
+TEST(SavedClips, a_node_with_a_matrix_gets_parts_that_can_be_animated) {
+  GltfBuilder builder = skinned_strip();
+  builder.json["nodes"][1]["matrix"] = {0, -2, 0, 0, -3, 0, 0, 0, 0, 0, 4, 0, 5, 6, 7, 1};
+  const auto loaded = builder.load();
+  ASSERT_TRUE(loaded) << loaded.error().text();
+  Character with = *loaded->character;
+  const Clip clip = turning(bone_named(with, "root"));
+  with.clips.push_back(clip);
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "matrix.glb";
+  const Status saved = save_glb(file, with, *loaded);
+  ASSERT_TRUE(saved) << saved.text();
+  expect_valid(file);
+  const auto again = load_character(file);
+  ASSERT_TRUE(again);
+  EXPECT_EQ(again->character->skeleton, with.skeleton);
+  ASSERT_EQ(again->character->clips.size(), with.clips.size());
+  expect_same_poses(with, clip, *again->character, again->character->clips.back(), "matrix");
+}
+
+TEST(SavedClips, a_sheared_node_is_refused) {
+  GltfBuilder builder = skinned_strip();
+  builder.json["nodes"][1]["matrix"] = {1, 0, 0, 0, 0.5, 1, 0, 0, 0, 0.25, -2, 0, 5, 6, 7, 1};
+  const auto loaded = builder.load();
+  ASSERT_TRUE(loaded) << loaded.error().text();
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "sheared.glb";
+  for (const char* const name : {"root", "root#shear"}) {
+    Character with = *loaded->character;
+    with.clips.push_back(turning(bone_named(with, name)));
+    const Status saved = save_glb(file, with, *loaded);
+    EXPECT_EQ(saved.code(), StatusCode::invalid_argument) << name;
+    EXPECT_FALSE(std::filesystem::exists(file));
+  }
+}
+
+TEST(SavedClips, channels_of_extensions_stay_in_an_edited_animation) {
+  GltfBuilder builder = skinned_strip();
+  const auto times = builder.add(std::vector<float>{0, 1}, "SCALAR");
+  builder.json["accessors"][times]["min"] = {0.0};
+  builder.json["accessors"][times]["max"] = {1.0};
+  const auto values = builder.add(std::vector<float>{0, 0, 0, 1, 1, 1}, "VEC3");
+  builder.json["extensionsUsed"] = {"KHR_animation_pointer"};
+  builder.json["animations"] = Json::array(
+      {{{"name", "both"},
+        {"extras", {{"kept", true}}},
+        {"channels",
+         {{{"sampler", 0},
+           {"target",
+            {{"path", "pointer"},
+             {"extensions", {{"KHR_animation_pointer", {{"pointer", "/nodes/0/translation"}}}}}}}},
+          {{"sampler", 1}, {"target", {{"node", 1}, {"path", "translation"}}}}}},
+        {"samplers",
+         {{{"input", times}, {"output", values}}, {{"input", times}, {"output", values}}}}}});
+  const auto loaded = builder.load();
+  ASSERT_TRUE(loaded) << loaded.error().text();
+  Character edited = *loaded->character;
+  ASSERT_EQ(edited.clips.size(), 1u);
+  edited.clips[0].channels.push_back(turning(bone_named(edited, "root")).channels[0]);
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "pointer.glb";
+  const Status saved = save_glb(file, edited, *loaded);
+  ASSERT_TRUE(saved) << saved.text();
+  const auto again = load_character(file);
+  ASSERT_TRUE(again);
+  EXPECT_EQ(again->character->clips, edited.clips);
+  const Json written = GltfBuilder::from_glb(read_bytes(file)).json["animations"][0];
+  EXPECT_EQ(written["extras"]["kept"], true);
+  ASSERT_EQ(written["channels"].size(), 3u);
+  EXPECT_EQ(written["channels"][2]["target"]["path"], "pointer");
+  const auto sampler = written["channels"][2]["sampler"].get<std::size_t>();
+  EXPECT_EQ(written["samplers"][sampler]["input"], times);
 }
 
 TEST(SavedClips, refuses_what_gltf_cannot_express) {
