@@ -1,6 +1,7 @@
 #include <sunder/core/character.h>
 
 #include <cmath>
+#include <cstdio>
 #include <string>
 #include <string_view>
 #include <unordered_set>
@@ -8,6 +9,7 @@
 #include "core/internal/all_finite.h"
 #include "core/internal/ordered.h"
 #include "core/internal/out_of_memory.h"
+#include "core/internal/validate_clip.h"
 
 namespace sunder {
 namespace {
@@ -211,11 +213,11 @@ Status validate_mesh(const Character& character, Index index) {
   return {};
 }
 
-Status validate_channel(const Character& character, const Channel& channel, Index clip,
+/// @param place  the clip, for texts: "clip 2 'Walk'".
+Status validate_channel(const Character& character, const Channel& channel, const char* place,
                         Index index) {
   const auto fail = [&](StatusCode code, const char* what) {
-    return Status::failure(code, index, "clip %u '%.60s': channel %u: %s", clip,
-                           character.clips[clip].name.c_str(), index, what);
+    return Status::failure(code, index, "%s: channel %u: %s", place, index, what);
   };
   const bool morphs = channel.target == ChannelTarget::morph_weights;
   const std::size_t target_count =
@@ -241,6 +243,13 @@ Status validate_channel(const Character& character, const Channel& channel, Inde
   return {};
 }
 
+Status validate_channels(const Character& character, const Clip& clip, const char* place) {
+  for (Index i = 0; i < clip.channels.size(); ++i)
+    if (Status status = validate_channel(character, clip.channels[i], place, i); !status)
+      return status;
+  return {};
+}
+
 Status validate(const Character& character) {
   if (character.meshes.empty())
     return Status::failure(StatusCode::empty_input, kNone, "the character has no mesh");
@@ -255,11 +264,12 @@ Status validate(const Character& character) {
                              i);
   for (Index i = 0; i < character.meshes.size(); ++i)
     if (Status status = validate_mesh(character, i); !status) return status;
-  for (Index clip = 0; clip < character.clips.size(); ++clip)
-    for (Index i = 0; i < character.clips[clip].channels.size(); ++i)
-      if (Status status = validate_channel(character, character.clips[clip].channels[i], clip, i);
-          !status)
-        return status;
+  for (Index clip = 0; clip < character.clips.size(); ++clip) {
+    char place[96];
+    std::snprintf(place, sizeof place, "clip %u '%.60s'", clip, character.clips[clip].name.c_str());
+    if (Status status = validate_channels(character, character.clips[clip], place); !status)
+      return status;
+  }
   return {};
 }
 
@@ -267,6 +277,12 @@ Status validate(const Character& character) {
 
 Status validate_character(const Character& character) {
   return or_out_of_memory([&] { return validate(character); });
+}
+
+Status validate_clip(const Character& character, const Clip& clip) {
+  char place[80];
+  std::snprintf(place, sizeof place, "clip '%.60s'", clip.name.c_str());
+  return validate_channels(character, clip, place);
 }
 
 }  // namespace sunder

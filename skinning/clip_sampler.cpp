@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "skinning/bone_tree.h"
-#include "skinning/sample_channel.h"
+#include "skinning/internal/bone_tree.h"
+#include "skinning/internal/sample_channel.h"
 
 namespace sunder::skinning {
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "core/internal/ordered.h"
-#include "skinning/bone_tree.h"
+#include "skinning/internal/bone_tree.h"
 
 namespace sunder::skinning {
 namespace {

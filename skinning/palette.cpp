@@ -5,7 +5,7 @@
 
 #include "core/internal/ordered.h"
 #include "core/internal/out_of_memory.h"
-#include "skinning/bone_tree.h"
+#include "skinning/internal/bone_tree.h"
 #include "skinning/normal_matrix.h"
 
 namespace sunder {

@@ -1,4 +1,4 @@
-#include "skinning/sample_channel.h"
+#include "skinning/internal/sample_channel.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,13 +16,29 @@ struct KeySpan {
   float seconds = 0;    ///< Between the two keys.
 };
 
-KeySpan find_keys(std::span<const float> times, double time) {
-  if (time <= static_cast<double>(times.front())) return {};
-  if (time >= static_cast<double>(times.back())) return {times.size() - 1, 0, 0};
+/// Whether a key is the last one at or before a time between the first and the last key.
+bool is_before(std::span<const float> times, std::size_t key, double time) {
+  return key < times.size() - 1 && static_cast<double>(times[key]) <= time &&
+         time < static_cast<double>(times[key + 1]);
+}
+
+std::size_t search_key(std::span<const float> times, double time) {
   const auto after = std::upper_bound(
       times.begin(), times.end(), time,
       [](double value, float key_time) { return value < static_cast<double>(key_time); });
-  const auto key = static_cast<std::size_t>(after - times.begin()) - 1;
+  return static_cast<std::size_t>(after - times.begin()) - 1;
+}
+
+/// @param cursor  a guess of the key, which saves the search; updated.
+KeySpan find_keys(std::span<const float> times, double time, std::uint32_t& cursor) {
+  if (time <= static_cast<double>(times.front())) return {};
+  if (time >= static_cast<double>(times.back())) return {times.size() - 1, 0, 0};
+  std::size_t key = cursor;
+  if (!is_before(times, key, time)) {
+    ++key;
+    if (!is_before(times, key, time)) key = search_key(times, time);
+    cursor = static_cast<std::uint32_t>(key);
+  }
   const float seconds = times[key + 1] - times[key];
   return {
       key,
@@ -85,8 +101,9 @@ Vec3f sample_vector(const Channel& channel, const KeySpan& at) {
 
 }  // namespace
 
-void sample_channel(const Channel& channel, double time, BoneTransform& bone) {
-  const KeySpan at = find_keys(channel.times, time);
+void sample_channel(const Channel& channel, double time, std::uint32_t& cursor,
+                    BoneTransform& bone) {
+  const KeySpan at = find_keys(channel.times, time, cursor);
   switch (channel.target) {
     case ChannelTarget::translation: bone.translation = sample_vector(channel, at); break;
     case ChannelTarget::rotation: bone.rotation = sample_rotation(channel, at); break;
@@ -95,10 +112,21 @@ void sample_channel(const Channel& channel, double time, BoneTransform& bone) {
   }
 }
 
-void sample_channel(const Channel& channel, double time, std::span<float> morph_weights) {
-  const KeySpan at = find_keys(channel.times, time);
+void sample_channel(const Channel& channel, double time, std::uint32_t& cursor,
+                    std::span<float> morph_weights) {
+  const KeySpan at = find_keys(channel.times, time, cursor);
   for (std::uint32_t k = 0; k < channel.width; ++k)
     morph_weights[channel.index + k] = interpolate(channel, at, k);
+}
+
+void sample_channel(const Channel& channel, double time, BoneTransform& bone) {
+  std::uint32_t no_guess = kNone;
+  sample_channel(channel, time, no_guess, bone);
+}
+
+void sample_channel(const Channel& channel, double time, std::span<float> morph_weights) {
+  std::uint32_t no_guess = kNone;
+  sample_channel(channel, time, no_guess, morph_weights);
 }
 
 }  // namespace sunder::skinning

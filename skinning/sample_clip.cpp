@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "core/internal/out_of_memory.h"
-#include "skinning/sample_channel.h"
+#include "skinning/internal/sample_channel.h"
 
 namespace sunder {
 

@@ -4,6 +4,11 @@
 
 #include <sunder/bodies/convex_hulls.h>
 #include <sunder/bodies/mass_properties.h>
+#include <sunder/animation/blend.h>
+#include <sunder/animation/clip_editor.h>
+#include <sunder/animation/clip_player.h>
+#include <sunder/animation/edit_pose.h>
+#include <sunder/animation/pull.h>
 #include <sunder/core/api.h>
 #include <sunder/core/character.h>
 #include <sunder/core/clip.h>

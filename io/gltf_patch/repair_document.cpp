@@ -5,6 +5,7 @@
 #include <set>
 #include <utility>
 
+#include "io/gltf_patch/clip_patch.h"
 #include "io/gltf_patch/document_rules.h"
 #include "io/gltf_patch/draft_source.h"
 #include "io/gltf_patch/repair_images.h"
@@ -13,7 +14,6 @@
 #include "io/gltf_patch/separate_views.h"
 #include "io/gltf_patch/sound_animations.h"
 #include "io/gltf_patch/sound_primitives.h"
-#include "io/gltf_write/clip_writer.h"
 #include "io/gltf_write/rig_writer.h"
 
 namespace sunder::gltf {
@@ -153,7 +153,8 @@ void DocumentRepair::repair_animations() {
         unsound.push_back(i);
   }
   for (const std::size_t i : unsound) {
-    Json rebuilt = animation_of(character_.clips[i], draft_.json["animations"][i]);
+    Json rebuilt = ClipPatch(draft_, character_, source_, source_.node_of_bone)
+                       .animation_of(character_.clips[i], draft_.json["animations"][i]);
     draft_.json["animations"][i] = std::move(rebuilt);
   }
 }
@@ -167,45 +168,6 @@ void DocumentRepair::remove_empty_animations() {
     draft_.json.erase("animations");
   else
     draft_.json["animations"] = std::move(kept);
-}
-
-/// The node that a channel moves; kNone if it has none any more.
-std::uint32_t DocumentRepair::node_of(const Channel& channel) const {
-  const Json& nodes = draft_.json["nodes"];
-  if (channel.target != ChannelTarget::morph_weights) {
-    const std::uint32_t node = source_.node_of_bone[channel.index];
-    return node == kNone || nodes[node].contains("matrix") ? kNone : node;
-  }
-  for (std::size_t mesh = 0; mesh < character_.meshes.size(); ++mesh) {
-    const Mesh& morphed = character_.meshes[mesh];
-    const std::uint32_t node = source_.mesh_origins[mesh].node;
-    if (!morphed.morph_targets.empty() && morphed.first_morph_weight == channel.index &&
-        nodes[node].contains("mesh"))
-      return node;
-  }
-  return kNone;
-}
-
-/// Null if it would have no channel.
-Json DocumentRepair::animation_of(const Clip& clip, const Json& old) {
-  constexpr const char* kPaths[] = {"translation", "rotation", "scale", "weights"};
-  Json animation = old.is_object() ? old : Json::object();
-  animation["channels"] = Json::array();
-  animation["samplers"] = Json::array();
-  for (const Channel& channel : clip.channels) {
-    const std::uint32_t node = node_of(channel);
-    if (node == kNone) continue;
-    const bool is_rotation = channel.target == ChannelTarget::rotation;
-    const bool is_morph = channel.target == ChannelTarget::morph_weights;
-    const std::uint32_t components = is_rotation ? 4 : is_morph ? 1 : 3;
-    animation["samplers"].push_back(
-        is_rotation ? add_sampler(draft_, channel, unit_rotations(channel), components)
-                    : add_sampler(draft_, channel, channel.values, components));
-    animation["channels"].push_back(
-        {{"sampler", animation["samplers"].size() - 1},
-         {"target", {{"node", node}, {"path", kPaths[static_cast<std::size_t>(channel.target)]}}}});
-  }
-  return animation["channels"].empty() ? Json() : animation;
 }
 
 /// Accessors that nothing uses any more must be valid all the same.

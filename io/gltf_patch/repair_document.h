@@ -18,7 +18,8 @@ namespace sunder::gltf {
 /// others are corrected or removed. A draft without faults stays as it is.
 class DocumentRepair {
  public:
-  /// @param character  what will be written; its clips are those of the source.
+  /// @param character  what will be written; its clips begin with those of the source, in which
+  /// single ones may have been changed.
   DocumentRepair(GlbDraft& draft, const Character& character, const SourceDocument& source);
 
   /// To be called before meshes are written. Afterwards the document follows the schema, but for
@@ -37,8 +38,6 @@ class DocumentRepair {
   void repair_binds();
   void repair_animations();
   void remove_empty_animations();
-  [[nodiscard]] Json animation_of(const Clip& clip, const Json& old);
-  [[nodiscard]] std::uint32_t node_of(const Channel& channel) const;
   void empty_unsound_accessors();
 
   GlbDraft& draft_;

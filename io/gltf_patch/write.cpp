@@ -10,6 +10,7 @@
 #include "io/gltf/container.h"
 #include "io/gltf/glb.h"
 #include "io/gltf/refusal.h"
+#include "io/gltf_patch/clip_patch.h"
 #include "io/gltf_patch/repair_document.h"
 #include "io/gltf_write/mesh_writer.h"
 #include "io/gltf_write/rig_writer.h"
@@ -57,8 +58,10 @@ void check_same_character(const Character& character, const LoadedCharacter& loa
   if (!begins_with(character.skins, source.skins))
     refuse(StatusCode::invalid_argument, kNone,
            "save_glb: the skins do not begin with the source's");
-  if (character.clips != source.clips)
-    refuse(StatusCode::invalid_argument, kNone, "save_glb: the clips differ from the source's");
+  if (character.clips.size() < source.clips.size())
+    refuse(StatusCode::invalid_argument, kNone,
+           "save_glb: the character has %zu clips, the source has %zu", character.clips.size(),
+           source.clips.size());
   const std::size_t material_count = count_of(loaded.source->json, "materials");
   for (std::uint32_t i = 0; i < character.meshes.size(); ++i) {
     const Mesh &mesh = character.meshes[i], &before = source.meshes[i];
@@ -125,6 +128,7 @@ class Patch {
       meshes_of_node[source_.mesh_origins[mesh].node].push_back(mesh);
     for (const auto& [node, on_node] : meshes_of_node) patch_node(node, on_node);
     correct_skins();
+    ClipPatch(draft_, character_, source_, rig_.node_of_bone()).write_changed(before_);
     remove_unusable_channels();
   }
 

@@ -31,6 +31,9 @@ class AppendedRig {
   /// The glTF skin of a skin of the character, appended when it is first asked for.
   std::uint32_t skin(std::uint32_t index);
 
+  /// Per bone of the character, appended ones too; kNone for bones without a node.
+  [[nodiscard]] std::span<const std::uint32_t> node_of_bone() const { return node_of_bone_; }
+
  private:
   void add_to_scene(const std::vector<std::uint32_t>& roots);
 

@@ -98,15 +98,15 @@ struct SaveOptions {
 
 /// Writes `character`, which is `loaded.character` changed by tearing or with other weights, as a
 /// GLB: the source document with new accessors for the meshes that differ and for those that
-/// loading repaired. Appended bones become nodes, and a mesh may take an appended skin. Everything
-/// else (materials, textures, extras, animations, other meshes) stays as it was, but for faults,
+/// loading repaired. Appended bones become nodes, and a mesh may take an appended skin; clips that
+/// differ, or are appended, become animations. Everything else stays as it was, but for faults,
 /// which are repaired or removed, so that the file is valid whatever the source was (docs/io.md).
 /// If nothing differs and the source is a GLB without faults, the result is the source, byte for
 /// byte. Thread-safe.
 ///
-/// @param character  skeleton and skins begin with those of `loaded.character`; same clips.
-/// @return invalid_argument, size_mismatch (not the same character, or formats of another number of
-///         meshes), file_unreadable (cannot write).
+/// @param character  begins with the skeleton, skins and (perhaps edited) clips of `loaded`.
+/// @return invalid_argument, size_mismatch (not the same character, a clip that glTF cannot
+///         express, too few formats), file_unreadable (cannot write).
 ///         A failing call leaves no file behind and an existing file as it was.
 [[nodiscard]] SUNDER_API Status save_glb(const std::filesystem::path& file,
                                          const Character& character, const LoadedCharacter& loaded,

@@ -3,6 +3,7 @@
 #include <sunder/core/clip.h>
 #include <sunder/core/skeleton.h>
 
+#include <cstdint>
 #include <span>
 
 namespace sunder::skinning {
@@ -13,5 +14,12 @@ void sample_channel(const Channel& channel, double time, BoneTransform& bone);
 /// Writes the values of a channel of morph weights. @param morph_weights  all weights of the
 /// character.
 void sample_channel(const Channel& channel, double time, std::span<float> morph_weights);
+
+/// The same bits, without a search where time goes on in small steps. @param cursor  the key at or
+/// before the time of the last call; updated. Any number is a valid start.
+void sample_channel(const Channel& channel, double time, std::uint32_t& cursor,
+                    BoneTransform& bone);
+void sample_channel(const Channel& channel, double time, std::uint32_t& cursor,
+                    std::span<float> morph_weights);
 
 }  // namespace sunder::skinning
