@@ -10,7 +10,6 @@
 #include "tear/detached/find_piece.h"
 #include "tear/detached/make_piece.h"
 #include "tear/model_state.h"
-#include "tear/pieces/piece_description.h"
 
 namespace sunder {
 namespace {
@@ -52,19 +51,16 @@ Result<DetachedPiece> detach(TornModel& model, const ModelPose& pose, const Piec
     // Everything that may fail is made before the surface changes.
     Result<DetachedPiece> piece = tear::make_piece(faces, pose, options, state.editor);
     if (!piece) return piece;
-    tear::PieceDescription description(state.editor, state.posed);
-    for (const std::uint32_t of_piece : faces) description.add(of_piece);
-    std::vector<TornPiece> pieces;
-    pieces.push_back(description.piece());
-    const auto write_entry = [&](DetachOperation& entry) {
-      entry.piece = triangle_of(*face, surface);
-    };
+    const PieceOfTriangle named = triangle_of(*face, surface);
+    const auto write_entry = [&](DetachOperation& entry) { entry.piece = named; };
     const auto work = [&](tear::Outcome&) { tear::retire_component(faces, state.editor); };
     Result<TearReport> report = state.perform<DetachOperation>(
         {pose, state.weights, change, false, false, true}, write_entry, work);
     if (!report) return report.error();
     piece->report = std::move(*report);
-    piece->report.pieces = std::move(pieces);
+    piece->report.pieces = {};
+    piece->report.pieces.push_back(
+        {named.mesh, named.triangle, static_cast<std::uint32_t>(faces.size())});
     return piece;
   });
 }

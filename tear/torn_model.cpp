@@ -107,6 +107,7 @@ Result<TearReport> TornModel::drill(const ModelPose& pose, const Bore& bore, Cha
 }
 
 Result<PieceDescription> TornModel::describe_piece(const TornPiece& piece) const {
+  if (Status status = unpack(); !status) return status;
   const auto& meshes = character().meshes;
   if (piece.mesh >= meshes.size() || piece.triangle >= meshes[piece.mesh].triangle_count())
     return Status::failure(StatusCode::index_out_of_range, piece.triangle,

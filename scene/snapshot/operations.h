@@ -77,9 +77,14 @@ void transfer(Archive& archive, TearOptions& of) {
   archive(width, layers, wall_depth, weights);
 }
 template <class Archive>
+void transfer(Archive& archive, SectionRay& of) {
+  auto& [origin, direction] = of;
+  archive(origin, direction);
+}
+template <class Archive>
 void transfer(Archive& archive, PlaneCut& of) {
-  auto& [point, normal, bounds, caps, sections, weights] = of;
-  archive(point, normal, bounds, caps, sections, weights);
+  auto& [point, normal, bounds, caps, sections, weights, first_hit, bone] = of;
+  archive(point, normal, bounds, caps, sections, weights, first_hit, bone);
 }
 template <class Archive>
 void transfer(Archive& archive, Bore& of) {

@@ -145,7 +145,7 @@ Result<OperationPreview> preview_cut(const TornModel& model, const ModelPose& po
   if (Status status = model.unpack(); !status) return status;
   auto& state = tear::ModelAccess::state_of(model);
   if (Status status = state.may_begin(); !status) return status;
-  if (Status status = tear::validate_cut(cut); !status) return status;
+  if (Status status = tear::validate_cut(cut, state.character.skeleton); !status) return status;
   const WeightOptions weights = cut.weights.value_or(state.weights);
   if (Status status = validate_weights(weights); !status) return status;
   return Rehearsal(state, weights, true)
