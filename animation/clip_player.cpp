@@ -79,6 +79,32 @@ Status check_mask(const BoneMask& mask, std::size_t bones) {
   return {};
 }
 
+/// Whether each slot either plays one layer or is unused, and all numbers are in range.
+Status check_slots(const ClipPlayerState& kept) {
+  std::vector<std::uint8_t> is_seen(kept.generations.size(), 0);
+  const auto see = [&](std::uint32_t slot) {
+    return slot < is_seen.size() && std::exchange(is_seen[slot], 1) == 0;
+  };
+  for (const std::uint32_t slot : kept.unused)
+    if (!see(slot))
+      return Status::failure(StatusCode::index_out_of_range, slot, "slot %u cannot be unused",
+                             slot);
+  LayerKind kind = LayerKind::whole;
+  for (const ClipPlayerState::Layer& layer : kept.layers) {
+    const auto& [from, to, elapsed, seconds, easing] = layer.fade;
+    const bool is_sound = is_share(from) && is_share(to) && is_duration(elapsed) &&
+                          is_duration(seconds) && is_duration(layer.phase) &&
+                          layer.options.kind >= kind;
+    if (!is_sound || !see(layer.slot))
+      return Status::failure(StatusCode::invalid_argument, layer.slot,
+                             "the layer in slot %u does not fit the others", layer.slot);
+    kind = layer.options.kind;
+  }
+  if (std::find(is_seen.begin(), is_seen.end(), 0) == is_seen.end()) return {};
+  return Status::failure(StatusCode::invalid_argument, kNone,
+                         "a slot neither plays a layer nor is unused");
+}
+
 }  // namespace
 
 Status ClipPlayer::State::check(const Clip* clip, const LayerOptions& options) const {
@@ -279,6 +305,57 @@ Result<LayerState> ClipPlayer::layer(LayerId id) const {
   const Layer* const layer = state_->find(id);
   if (layer == nullptr) return no_layer(id);
   return LayerState{layer->time(), layer->fade.weight(), layer->is_over()};
+}
+
+Result<ClipPlayerState> ClipPlayer::state() const {
+  return or_out_of_memory([&]() -> Result<ClipPlayerState> {
+    ClipPlayerState kept;
+    kept.unused = state_->unused;
+    for (const State::Slot& slot : state_->slots) kept.generations.push_back(slot.generation);
+    for (const std::uint32_t slot : state_->playing) {
+      const Layer& layer = state_->slots[slot].layer;
+      const animation::Fade& fade = layer.fade;
+      kept.layers.push_back({slot,
+                             layer.clip,
+                             layer.options,
+                             {fade.from, fade.to, fade.elapsed, fade.seconds, fade.easing},
+                             layer.phase,
+                             layer.ends_after_fade,
+                             layer.ends_others_after_fade});
+    }
+    return kept;
+  });
+}
+
+Status ClipPlayer::restore(const ClipPlayerState& kept) {
+  return or_out_of_memory([&]() -> Status {
+    if (Status status = check_slots(kept); !status) return status;
+    std::vector<State::Slot> slots(kept.generations.size());
+    std::vector<std::uint32_t> playing;
+    playing.reserve(slots.size());
+    for (std::size_t i = 0; i < slots.size(); ++i) slots[i].generation = kept.generations[i];
+    for (const ClipPlayerState::Layer& from : kept.layers) {
+      if (Status status = state_->check(from.clip.get(), from.options); !status) return status;
+      Layer& layer = slots[from.slot].layer;
+      layer.parts = animation::animated_parts(*from.clip);
+      layer.cursors.assign(from.clip->channels.size(), 0);
+      layer.clip = from.clip;
+      layer.options = from.options;
+      layer.fade = {from.fade.from, from.fade.to, from.fade.elapsed, from.fade.seconds,
+                    from.fade.easing};
+      layer.phase = from.phase;
+      layer.ends_after_fade = from.ends_after_fade;
+      layer.ends_others_after_fade = from.ends_others_after_fade;
+      playing.push_back(from.slot);
+    }
+    std::vector<std::uint32_t> unused = kept.unused;
+    unused.reserve(slots.size());
+    state_->slots = std::move(slots);
+    state_->playing = std::move(playing);
+    state_->unused = std::move(unused);
+    ++state_->revision;
+    return {};
+  });
 }
 
 Status ClipPlayer::advance(double seconds) {

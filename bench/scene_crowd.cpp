@@ -33,6 +33,13 @@ std::shared_ptr<const CharacterAsset> make_asset(const std::shared_ptr<const Cha
   return *asset;
 }
 
+LayerOptions layer(double start, PlayMode mode = PlayMode::loop) {
+  LayerOptions options;
+  options.time = start;
+  options.mode = mode;
+  return options;
+}
+
 /// All bones swing to and fro within two seconds.
 Clip swing(std::uint32_t bones) {
   constexpr int kKeys = 9;
@@ -84,7 +91,7 @@ Crowd::Crowd(std::shared_ptr<const Character> character, std::uint32_t count,
 
 void Crowd::play(std::uint32_t count) {
   for (std::uint32_t i = 0; i < count; ++i)
-    require(scene_.play(ids_[i], 0, {.start = 0.01 * i}), "play");
+    require(scene_.play(ids_[i], 0, layer(0.01 * i)).error(), "play");
 }
 
 Blade Crowd::blade_at(double across, double height) const {

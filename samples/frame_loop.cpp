@@ -37,7 +37,7 @@ sunder::Status play(const char* model_file, const sunder::Stroke& stroke) {
   const auto id = scene->spawn(*asset);
   if (!id) return id.error();
   if (!loaded->character->clips.empty())
-    if (const auto status = scene->play(*id, 0); !status) return status;
+    if (const auto layer = scene->play(*id, 0); !layer) return layer.error();
 
   std::vector<DrawBuffers> buffers(loaded->character->meshes.size());
   for (int frame = 0; frame < 120; ++frame) {

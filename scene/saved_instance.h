@@ -3,25 +3,17 @@
 #include <vector>
 
 #include "scene/actor/actor.h"
+#include "scene/snapshot/layers.h"
 #include "scene/snapshot/operations.h"
 
 namespace sunder::scene {
 
 template <class Archive>
-void transfer(Archive& archive, PlayOptions& of) {
-  auto& [start, speed, is_looped] = of;
-  archive(start, speed, is_looped);
-}
-template <class Archive>
-void transfer(Archive& archive, Playback::State& of) {
-  auto& [clip, options, time, now, is_new] = of;
-  archive(clip, options, time, now, is_new);
-}
-template <class Archive>
 void transfer(Archive& archive, Actor::State& of) {
-  auto& [is_visible, has_new_pose, screen_height, now, last_operation, playback, pose, next_pose] =
-      of;
-  archive(is_visible, has_new_pose, screen_height, now, last_operation, playback);
+  auto& [is_visible, has_new_pose, screen_height, now, last_operation, player, player_now,
+         needs_sample, pose, next_pose] = of;
+  archive(is_visible, has_new_pose, screen_height, now, last_operation, player, player_now,
+          needs_sample);
   for (ModelPose* one : {&pose, &next_pose}) {
     bool has_pose = !one->model_from_bone.empty();
     archive(has_pose);

@@ -1,4 +1,5 @@
 #include <sunder/scene/scene.h>
+#include <sunder/skinning/pose.h>
 
 #include <algorithm>
 #include <chrono>
@@ -194,9 +195,27 @@ const CharacterInstance* Scene::find(InstanceId id) const {
 
 // ---- Motion and visibility.
 
-Status Scene::play(InstanceId id, std::uint32_t clip, const PlayOptions& options) {
-  return state_->call(id,
-                      [&](scene::Actor& actor) { return actor.play(clip, options, state_->now); });
+Result<LayerId> Scene::play(InstanceId id, std::uint32_t clip, const LayerOptions& options) {
+  ClipPlayer* const of = player(id);
+  if (of == nullptr) return contains(id) ? out_of_memory() : scene::no_instance(id);
+  const std::shared_ptr<const Character>& character = find(id)->asset()->character();
+  if (clip >= character->clips.size())
+    return Status::failure(StatusCode::index_out_of_range, clip,
+                           "there is no clip %u; the character has %zu", clip,
+                           character->clips.size());
+  return of->play(clip_of(character, clip), options);
+}
+
+ClipPlayer* Scene::player(InstanceId id) {
+  scene::Actor* const actor = state_->find(id);
+  if (actor == nullptr) return nullptr;
+  try {
+    ClipPlayer& of = actor->player(state_->now);
+    state_->wake(id.slot);
+    return &of;
+  } catch (const std::bad_alloc&) {
+    return nullptr;
+  }
 }
 
 Status Scene::stop(InstanceId id) {
@@ -208,6 +227,15 @@ Status Scene::stop(InstanceId id) {
 
 Status Scene::set_pose(InstanceId id, const ModelPose& pose) {
   return state_->call(id, [&](scene::Actor& actor) { return actor.set_pose(pose); });
+}
+
+Status Scene::set_pose(InstanceId id, const Pose& pose) {
+  return state_->call(id, [&](scene::Actor& actor) {
+    ModelPose model;
+    const Status status =
+        compute_model_pose(actor.instance.asset()->character()->skeleton, pose, model);
+    return status ? actor.set_pose(model) : status;
+  });
 }
 
 Status Scene::set_visible(InstanceId id, bool is_visible) {

@@ -116,7 +116,7 @@ Status read_slot(SnapshotReader& reader, const AssetTable& assets, Slot& slot) {
                : Status::failure(StatusCode::not_found, kNone,
                                  "none of the assets is its character (digest %016llx)",
                                  static_cast<unsigned long long>(saved.character));
-  PoseMemory poses(*asset->character(), {});
+  PoseMemory poses(asset->character(), {});
   reader.poses = &poses;
   transfer_instance(reader, saved);
   if (reader.has_failed()) return broken(reader);
@@ -145,7 +145,7 @@ Result<std::vector<std::byte>> Scene::save() const {
       if (!has_instance) continue;
       Result<scene::SavedInstance> saved = scene::describe(*slot.actor);
       if (!saved) return scene::in_slot(i, saved.error());
-      scene::PoseMemory poses(*slot.actor->instance.asset()->character(), slot.actor->origins());
+      scene::PoseMemory poses(slot.actor->instance.asset()->character(), slot.actor->origins());
       writer.poses = &poses;
       writer(saved->character);
       scene::transfer_instance(writer, *saved);

@@ -35,18 +35,6 @@ Status out_of_memory() {
 
 }  // namespace
 
-Status Actor::play(Index clip, const PlayOptions& options, double now) {
-  const std::size_t count = instance.character().clips.size();
-  if (clip >= count)
-    return Status::failure(StatusCode::index_out_of_range, clip,
-                           "there is no clip %u; the character has %zu", clip, count);
-  if (!std::isfinite(options.start) || !std::isfinite(options.speed))
-    return Status::failure(StatusCode::non_finite_value, kNone,
-                           "start and speed of a clip must be finite");
-  playback_.start(clip, options, now);
-  return {};
-}
-
 Status Actor::set_pose(const ModelPose& pose) {
   if (Status status = check_pose(instance.character(), pose); !status) return status;
   try {
@@ -71,7 +59,6 @@ void Actor::pack() {
 void Actor::fall_idle() noexcept {
   pack();
   if (!has_new_pose_) pose_ = {};
-  if (!playback_.is_playing()) playback_ = {};
   commands.clear();
 }
 
@@ -82,7 +69,7 @@ bool Actor::is_busy() const {
 
 Status Actor::animate() {
   const Character& character = *instance.asset()->character();
-  playback_.advance(character, now_);
+  playback_.advance(now_);
   if (!playback_.needs_sample()) {
     if (!pose().model_from_bone.empty()) return {};
     Result<ModelPose> rest = rest_pose(character);
@@ -112,26 +99,40 @@ void Actor::note_origin() {
   if (!playback_.is_playing() || playback_.needs_sample()) return;
   const std::uint64_t hash = hash_of(pose());
   if (!origins_.empty() && origins_.back().hash == hash) return;
-  origins_.push_back({hash, playback_.state().clip, playback_.state().time});
+  const Result<ClipPlayerState> state = playback_.known_player()->state();
+  if (!state || state->layers.size() != 1) return;
+  const std::vector<Clip>& clips = instance.asset()->character()->clips;
+  const ClipPlayerState::Layer& layer = state->layers[0];
+  const Result<LayerState> at =
+      playback_.known_player()->layer({layer.slot, state->generations[layer.slot]});
+  for (Index clip = 0; at && clip < clips.size(); ++clip)
+    if (&clips[clip] == layer.clip.get()) origins_.push_back({hash, clip, at->time});
 }
 
 Actor::State Actor::state() const {
-  return {is_visible_,     has_new_pose_,     screen_height,  now_,
-          last_operation_, playback_.state(), shown().pose(), pose_};
+  State state;
+  state.is_visible = is_visible_;
+  state.has_new_pose = has_new_pose_;
+  state.screen_height = screen_height;
+  state.now = now_;
+  state.last_operation = last_operation_;
+  state.pose = shown().pose();
+  state.next_pose = pose_;
+  if (!playback_.known_player()) return state;
+  Result<ClipPlayerState> player = playback_.known_player()->state();
+  if (!player) throw std::bad_alloc();
+  state.player = std::move(*player);
+  state.player_now = playback_.now();
+  state.needs_sample = playback_.needs_sample();
+  return state;
 }
 
 Status Actor::restore(const State& state) {
   const Character& character = *instance.asset()->character();
   if (!(state.screen_height > 0) || !std::isfinite(state.now) ||
-      !std::isfinite(state.last_operation))
+      !std::isfinite(state.last_operation) || !std::isfinite(state.player_now))
     return Status::failure(StatusCode::malformed_file, kNone,
                            "the time or the height of an instance is not a number");
-  const Playback::State& of = state.playback;
-  if (of.clip != kNone &&
-      (of.clip >= character.clips.size() || !std::isfinite(of.time) || !std::isfinite(of.now) ||
-       !std::isfinite(of.options.start) || !std::isfinite(of.options.speed)))
-    return Status::failure(StatusCode::malformed_file, of.clip,
-                           "an instance plays a clip that its character does not have");
   for (const ModelPose* pose : {&state.pose, &state.next_pose})
     if (!pose->model_from_bone.empty())
       if (Status status = check_pose(character, *pose); !status) return status;
@@ -143,7 +144,9 @@ Status Actor::restore(const State& state) {
   screen_height = state.screen_height;
   now_ = state.now;
   last_operation_ = state.last_operation;
-  playback_.restore(of);
+  if (!state.player) return {};
+  if (Status status = player(state.player_now).restore(*state.player); !status) return status;
+  if (!state.needs_sample) playback_.note_sampled();
   return {};
 }
 

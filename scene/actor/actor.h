@@ -3,6 +3,7 @@
 #include <sunder/scene/scene.h>
 
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -42,7 +43,10 @@ class Actor {
   /// Runs as a task: touches nothing but this object.
   void update(const Frame& frame);
 
-  Status play(Index clip, const PlayOptions& options, double now);
+  /// What plays. @throws std::bad_alloc
+  [[nodiscard]] ClipPlayer& player(double now) {
+    return playback_.player(instance.asset()->character(), now);
+  }
   void stop() { playback_.stop(); }
   Status set_pose(const ModelPose& pose);
   void set_visible(bool is_visible) { is_visible_ = is_visible; }
@@ -65,7 +69,9 @@ class Actor {
   struct State {
     bool is_visible = true, has_new_pose = true;
     double screen_height = 0, now = 0, last_operation = 0;
-    Playback::State playback;
+    std::optional<ClipPlayerState> player;
+    double player_now = 0;  ///< Time of the scene up to which the player advanced.
+    bool needs_sample = false;
     ModelPose pose, next_pose;  ///< Of the instance, and of its next advance(); empty: none.
   };
   /// @throws std::bad_alloc

@@ -1,39 +1,42 @@
 #pragma once
 
-#include <sunder/core/skeleton.h>
-#include <sunder/scene/scene.h>
+#include <sunder/animation/clip_player.h>
+
+#include <memory>
+#include <optional>
 
 namespace sunder::scene {
 
-/// The clip that an instance plays.
+/// The clips that an instance plays.
 class Playback {
  public:
-  struct State {
-    Index clip = kNone;
-    PlayOptions options;
-    double time = 0;      ///< In the clip.
-    double now = 0;       ///< The time of the scene at that moment.
-    bool is_new = false;  ///< Whether the time changed since the last sample.
-  };
-  [[nodiscard]] const State& state() const { return state_; }
-  void restore(const State& state) { state_ = state; }
-
-  /// @param clip  of the character. @param now  time of the scene, seconds.
-  void start(Index clip, const PlayOptions& options, double now) {
-    state_ = {clip, options, options.start, now, true};
+  /// The player, which is made at the first call. @param now  time of the scene, seconds. @throws
+  /// std::bad_alloc
+  ClipPlayer& player(const std::shared_ptr<const Character>& character, double now);
+  void stop() {
+    if (player_) player_->stop_all();
   }
-  void stop() { state_.clip = kNone; }
-  [[nodiscard]] bool is_playing() const { return state_.clip != kNone; }
+  [[nodiscard]] bool is_playing() const { return player_ && player_->layer_count() > 0; }
   /// Time goes on; nothing is sampled.
-  void advance(const Character& character, double now);
+  void advance(double now);
   /// Whether the pose differs from that of the last sample().
-  [[nodiscard]] bool needs_sample() const { return is_playing() && state_.is_new; }
-  /// Samples the clip. Allocates in the first call. @throws std::bad_alloc
+  [[nodiscard]] bool needs_sample() const {
+    return is_playing() && player_->revision() != sampled_revision_;
+  }
+  /// Computes the pose of the moment. Allocates in the first call.
   Status sample(const Character& character, ModelPose& pose);
+  void note_sampled() { sampled_revision_ = player_->revision(); }
+
+  /// Empty if nothing was ever played.
+  [[nodiscard]] const std::optional<ClipPlayer>& known_player() const { return player_; }
+  /// The time of the scene up to which the player advanced.
+  [[nodiscard]] double now() const { return now_; }
 
  private:
-  State state_;
+  std::optional<ClipPlayer> player_;
   Pose local_;
+  double now_ = 0;
+  std::uint64_t sampled_revision_ = 0;
 };
 
 }  // namespace sunder::scene

@@ -32,6 +32,7 @@ concept Listed = requires(Archive& archive, T& value) {
 /// writing and reading.
 class SnapshotWriter {
  public:
+  static constexpr bool kReads = false;
   /// For poses of operations; not owned.
   PoseMemory* poses = nullptr;
 
@@ -99,6 +100,7 @@ class SnapshotWriter {
 /// values stay as they are, and has_failed() says so.
 class SnapshotReader {
  public:
+  static constexpr bool kReads = true;
   PoseMemory* poses = nullptr;  ///< As that of the writer.
 
   explicit SnapshotReader(std::span<const std::byte> bytes) : bytes_(bytes) {}

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <new>
+#include <utility>
 
 namespace sunder::scene {
 namespace {
@@ -35,15 +36,22 @@ std::uint64_t hash_of(const ModelPose& pose) {
   return hash;
 }
 
-PoseMemory::PoseMemory(const Character& character, std::span<const PoseOrigin> origins)
-    : character_(character), origins_(origins) {
-  Result<ModelPose> rest = rest_pose(character);
+PoseMemory::PoseMemory(std::shared_ptr<const Character> character,
+                       std::span<const PoseOrigin> origins)
+    : character_(std::move(character)), origins_(origins) {
+  Result<ModelPose> rest = rest_pose(*character_);
   if (!rest) throw std::bad_alloc();
   previous_ = std::move(*rest);
-  for (const Skin& skin : character.skins)
+  for (const Skin& skin : character_->skins)
     bones_.insert(bones_.end(), skin.bones.begin(), skin.bones.end());
   std::sort(bones_.begin(), bones_.end());
   bones_.erase(std::unique(bones_.begin(), bones_.end()), bones_.end());
+}
+
+Index PoseMemory::index_of(const Clip& clip) const {
+  for (Index i = 0; i < character_->clips.size(); ++i)
+    if (&character_->clips[i] == &clip) return i;
+  return kNone;
 }
 
 const PoseOrigin* PoseMemory::find_origin(const ModelPose& pose) const {
@@ -51,7 +59,7 @@ const PoseOrigin* PoseMemory::find_origin(const ModelPose& pose) const {
   const auto found = std::find_if(origins_.begin(), origins_.end(),
                                   [&](const PoseOrigin& origin) { return origin.hash == hash; });
   if (found == origins_.end()) return nullptr;
-  const Result<ModelPose> again = make_pose(character_, ClipPose{found->clip, found->time});
+  const Result<ModelPose> again = make_pose(*character_, ClipPose{found->clip, found->time});
   return again && has_same_bits(*again, pose, bones_) ? &*found : nullptr;
 }
 
@@ -92,7 +100,7 @@ void PoseMemory::read_moment(SnapshotReader& reader, ModelPose& pose) {
   double time = 0;
   reader(clip, time);
   if (reader.has_failed()) return;
-  Result<ModelPose> found = make_pose(character_, ClipPose{clip, time});
+  Result<ModelPose> found = make_pose(*character_, ClipPose{clip, time});
   if (!found) return reader.fail("a pose is of a clip that the character does not have");
   pose = std::move(*found);
   read_origins_.push_back({hash_of(pose), clip, time});

@@ -3,6 +3,7 @@
 #include <sunder/core/character.h>
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -31,7 +32,16 @@ inline constexpr PoseForm kLastEnumerator<PoseForm> = PoseForm::moment;
 class PoseMemory {
  public:
   /// @param origins  moments of clips to try. @throws std::bad_alloc
-  PoseMemory(const Character& character, std::span<const PoseOrigin> origins);
+  PoseMemory(std::shared_ptr<const Character> character, std::span<const PoseOrigin> origins);
+
+  /// The index of a clip of the character; kNone for another one.
+  [[nodiscard]] Index index_of(const Clip& clip) const;
+  /// Null if there is none.
+  [[nodiscard]] std::shared_ptr<const Clip> clip(Index index) const {
+    return index < character_->clips.size()
+               ? std::shared_ptr<const Clip>(character_, &character_->clips[index])
+               : nullptr;
+  }
 
   void transfer_pose(SnapshotWriter& writer, const ModelPose& pose);
   void transfer_pose(SnapshotReader& reader, ModelPose& pose);
@@ -46,7 +56,7 @@ class PoseMemory {
   template <class Pose, class Visit>
   void for_each_number(Pose& pose, Visit visit) const;
 
-  const Character& character_;
+  std::shared_ptr<const Character> character_;
   std::span<const PoseOrigin> origins_;
   std::vector<Index> bones_;  ///< Of all skins, ascending.
   ModelPose previous_;

@@ -27,6 +27,13 @@ T value_of(Result<T> result) {
   return std::move(*result);
 }
 
+LayerOptions layer(double start, PlayMode mode = PlayMode::loop) {
+  LayerOptions options;
+  options.time = start;
+  options.mode = mode;
+  return options;
+}
+
 std::shared_ptr<const CharacterAsset> make_asset(Character character, bool is_soft) {
   CharacterAssetOptions options;
   if (is_soft) {
@@ -70,7 +77,7 @@ class Twin {
         id_(value_of(scene.spawn(asset))),
         alone_(value_of(CharacterInstance::create(asset))),
         start_(random_.index(64) * kFrame) {
-    EXPECT_TRUE(scene.play(id_, 0, {.start = start_, .is_looped = false}));
+    EXPECT_TRUE(scene_.play(id_, 0, layer(start_, PlayMode::once)));
   }
 
   /// Submits random commands, to be applied in the frame at `time`.
@@ -172,7 +179,7 @@ TEST(scene, names_are_never_used_again) {
   ASSERT_TRUE(scene.destroy(first));
   EXPECT_FALSE(scene.contains(first));
   EXPECT_EQ(scene.destroy(first).code(), StatusCode::not_found);
-  EXPECT_EQ(scene.play(first, 0).code(), StatusCode::not_found);
+  EXPECT_EQ(scene.play(first, 0).error().code(), StatusCode::not_found);
   EXPECT_EQ(scene.set_visible(first, true).code(), StatusCode::not_found);
   EXPECT_EQ(scene.find(first), nullptr);
   EXPECT_TRUE(scene.mesh(first, 0).positions.empty());
@@ -451,8 +458,8 @@ TEST(scene, refuses_what_cannot_be) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(scene.update(kNan).code(), StatusCode::non_finite_value);
   EXPECT_EQ(scene.update(-1).code(), StatusCode::invalid_argument);
-  EXPECT_EQ(scene.play(id, 9).code(), StatusCode::index_out_of_range);
-  EXPECT_EQ(scene.play(id, 0, {.start = kNan}).code(), StatusCode::non_finite_value);
+  EXPECT_EQ(scene.play(id, 9).error().code(), StatusCode::index_out_of_range);
+  EXPECT_EQ(scene.play(id, 0, layer(kNan)).error().code(), StatusCode::non_finite_value);
   EXPECT_EQ(scene.set_screen_height(id, 0).code(), StatusCode::invalid_argument);
   EXPECT_EQ(scene.set_screen_height(id, kNan).code(), StatusCode::invalid_argument);
   ModelPose pose = *rest_pose(*asset->character());

@@ -22,6 +22,13 @@ T value_of(Result<T> result) {
   return std::move(*result);
 }
 
+LayerOptions layer(double start, PlayMode mode = PlayMode::loop) {
+  LayerOptions options;
+  options.time = start;
+  options.mode = mode;
+  return options;
+}
+
 using Assets = std::vector<std::shared_ptr<const CharacterAsset>>;
 
 Assets make_assets(bool is_soft) {
@@ -63,7 +70,7 @@ class Play {
   void spawn() {
     ids_.push_back(value_of(scene_.spawn(assets_[random_.index(2)])));
     if (!scene_.find(ids_.back())->character().clips.empty()) {
-      ASSERT_TRUE(scene_.play(ids_.back(), 0, {.start = random_.index(64) * kFrame}));
+      ASSERT_TRUE(scene_.play(ids_.back(), 0, layer(random_.index(64) * kFrame)));
     }
   }
   void act(InstanceId id) {

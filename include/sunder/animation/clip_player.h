@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 namespace sunder {
 
@@ -59,6 +60,26 @@ struct LayerState {
   double time = 0.0;     ///< In the clip, seconds.
   float weight = 0.0f;   ///< With its fade.
   bool is_over = false;  ///< A clip played once is at its end.
+};
+
+/// A ClipPlayer as plain data, to be kept and restored.
+struct ClipPlayerState {
+  struct Fade {
+    float from = 1.0f, to = 1.0f;
+    double elapsed = 0.0, seconds = 0.0;
+    Easing easing = Easing::linear;
+  };
+  struct Layer {
+    std::uint32_t slot = 0;  ///< As in its LayerId.
+    std::shared_ptr<const Clip> clip;
+    LayerOptions options;
+    Fade fade;
+    double phase = 0.0;  ///< Seconds into the period of the clip.
+    bool ends_after_fade = false, ends_others_after_fade = false;
+  };
+  std::vector<Layer> layers;               ///< The lowest one first.
+  std::vector<std::uint32_t> generations;  ///< Per slot.
+  std::vector<std::uint32_t> unused;       ///< Slots, the next one last.
 };
 
 /// One of a character's clips, for ClipPlayer::play(); keeps the character. Null if it has none of
@@ -120,6 +141,13 @@ class SUNDER_API ClipPlayer {
   [[nodiscard]] std::uint64_t revision() const;
   /// Whether revision() increased since the last evaluate(); true before the first one.
   [[nodiscard]] bool has_changed() const;
+
+  /// What plays, as plain data. @return limit_exceeded: out of memory.
+  [[nodiscard]] Result<ClipPlayerState> state() const;
+  /// Makes the player one whose state was kept: it goes on with the same bits and the same ids.
+  /// @return as play() for the clips and options; invalid_argument, index_out_of_range for slots
+  /// that do not fit together; nothing is changed then.
+  Status restore(const ClipPlayerState& state);
 
   /// Writes the pose of the moment. @param pose  resized to fit.
   /// @return limit_exceeded: out of memory (nothing is written). O(bones x visible layers +

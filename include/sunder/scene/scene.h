@@ -1,5 +1,6 @@
 #pragma once
 
+#include <sunder/animation/clip_player.h>
 #include <sunder/core/parallel_for.h>
 #include <sunder/scene/character_instance.h>
 #include <sunder/scene/frame_stats.h>
@@ -37,12 +38,6 @@ struct SpawnOptions {
   bool is_visible = true;
 };
 
-struct PlayOptions {
-  double start = 0.0;     ///< Seconds in the clip.
-  double speed = 1.0;     ///< Seconds of the clip per second; may be negative.
-  bool is_looped = true;  ///< Otherwise the pose at the end is held.
-};
-
 /// Many characters, updated once per frame: what changed is animated, torn, stepped and posed; what
 /// did not is not even looked at. Cost is in proportion to the instances that are active.
 ///
@@ -72,13 +67,18 @@ class SUNDER_API Scene {
 
   // ---- Motion and visibility.
 
-  /// Plays a clip of the asset. @return index_out_of_range for the clip; non_finite_value.
-  Status play(InstanceId instance, std::uint32_t clip, const PlayOptions& options = {});
-  /// Holds the present pose.
+  /// Plays a clip of the asset. @return as ClipPlayer::play(); index_out_of_range for the clip.
+  Result<LayerId> play(InstanceId instance, std::uint32_t clip, const LayerOptions& options = {});
+  /// What plays on an instance, for layers, cross-fades, and clips that are edited while they play.
+  /// The scene advances it. Null if the instance does not exist, or without memory. Valid until the
+  /// instance is destroyed, or the next update().
+  [[nodiscard]] ClipPlayer* player(InstanceId instance);
+  /// Ends what plays, and holds the present pose.
   Status stop(InstanceId instance);
   /// Sets the pose of the next update, and stops what plays. @return as
-  /// CharacterInstance::advance().
+  /// CharacterInstance::advance(); size_mismatch for a local pose.
   Status set_pose(InstanceId instance, const ModelPose& pose);
+  Status set_pose(InstanceId instance, const Pose& pose);
   /// An instance that is not visible is neither sampled, stepped nor posed. Time goes on for its
   /// clip.
   Status set_visible(InstanceId instance, bool is_visible);
