@@ -115,24 +115,16 @@ class Caps {
       std::sort(region.holes.begin(), region.holes.end(), [&](Index a, Index b) {
         return loops[a][0] != loops[b][0] ? is_before(loops[a][0], loops[b][0]) : a < b;
       });
-      // Near more inner points, fewer triangles are too flat for stored positions.
-      if (!close(rims, loops, region, InnerPoints::graded) &&
-          !close(rims, loops, region, InnerPoints::close))
-        continue;
-      ++report_.caps;
-      left_over -= 1 + region.holes.size();
+      const EditLog::Mark before = work_.editor.mark();
+      CapShape* const shape = shapes_.of(loops, region);
+      if (shape != nullptr && close(rims, loops, region, *shape, before)) {
+        ++report_.caps;
+        left_over -= 1 + region.holes.size();
+      } else {
+        filling_.take_back(before);
+      }
     }
     report_.open_sections += static_cast<Index>(left_over);
-  }
-
-  /// Makes the cap of a region. If that fails, nothing is added.
-  bool close(std::span<Rim* const> rims, std::span<const FlatLoop> loops, const FlatRegion& region,
-             InnerPoints inner) {
-    const EditLog::Mark before = work_.editor.mark();
-    CapShape* const shape = shapes_.of(loops, region, inner);
-    if (shape != nullptr && close(rims, loops, region, *shape, before)) return true;
-    filling_.take_back(before);
-    return false;
   }
 
   /// The point at which the cap's edge along a border half-edge begins, which is where the
