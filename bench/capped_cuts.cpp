@@ -66,8 +66,8 @@ TwentyCuts cut_twenty_times() {
   TwentyCuts result;
   for (int i = 0; i < 20; ++i) {
     PlaneCut cut;
-    const Eigen::Vector3d at(random.uniform(0.25, 0.75), random.uniform(0.25, 0.75),
-                             random.uniform(0.25, 0.75));
+    Eigen::Vector3d at;
+    for (double& coordinate : at) coordinate = random.uniform(0.25, 0.75);
     cut.point = box.min() + at.cwiseProduct(box.sizes());
     cut.normal = random.direction();
     cut.caps = true;

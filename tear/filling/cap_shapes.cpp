@@ -4,10 +4,8 @@
 
 namespace sunder::tear {
 
-CapShape* CapShapes::of(std::span<const FlatLoop> loops, const FlatRegion& region,
-                        InnerPoints inner) {
+CapShape* CapShapes::of(std::span<const FlatLoop> loops, const FlatRegion& region) {
   CapShape& wanted = shapes_.emplace_back(scratch_);
-  wanted.inner = inner;
   const auto append = [&](Index loop) {
     wanted.loop_sizes.push_back(loops[loop].size());
     wanted.rim_count += loops[loop].size();
@@ -22,14 +20,14 @@ CapShape* CapShapes::of(std::span<const FlatLoop> loops, const FlatRegion& regio
   for (const Index hole : region.holes) place(hole);
 
   const auto known = std::find_if(shapes_.begin(), std::prev(shapes_.end()), [&](CapShape& shape) {
-    return shape.inner == inner && shape.loop_sizes == wanted.loop_sizes &&
+    return shape.loop_sizes == wanted.loop_sizes &&
            std::equal(wanted.places.begin(), wanted.places.end(), shape.places.begin());
   });
   if (known != std::prev(shapes_.end())) {
     shapes_.pop_back();
     return &*known;
   }
-  auto flat = triangulate(loops, region, inner, scratch_);
+  auto flat = triangulate(loops, region, InnerPoints::graded, scratch_);
   if (!flat) {
     shapes_.pop_back();
     return nullptr;

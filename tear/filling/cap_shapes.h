@@ -13,7 +13,6 @@ struct CapShape {
   explicit CapShape(ScratchMemory& scratch)
       : loop_sizes(&scratch), places(&scratch), flat(scratch), values(&scratch) {}
 
-  InnerPoints inner = InnerPoints::graded;
   ScratchVector<std::size_t> loop_sizes;
   ScratchVector<Vec2d> places;  ///< Of the rim, then of the inner points.
   std::size_t rim_count = 0;
@@ -29,8 +28,7 @@ class CapShapes {
 
   /// The shape of a region, whose loops begin with the same points whatever side they come from.
   /// @return null if the region cannot be triangulated.
-  [[nodiscard]] CapShape* of(std::span<const FlatLoop> loops, const FlatRegion& region,
-                             InnerPoints inner);
+  [[nodiscard]] CapShape* of(std::span<const FlatLoop> loops, const FlatRegion& region);
 
   /// Extends the values of the rim to the inner points, or copies those of the other side if it had
   /// the same.

@@ -115,24 +115,16 @@ class Caps {
       std::sort(region.holes.begin(), region.holes.end(), [&](Index a, Index b) {
         return loops[a][0] != loops[b][0] ? is_before(loops[a][0], loops[b][0]) : a < b;
       });
-      // Near more inner points, fewer triangles are too flat for stored positions.
-      if (!close(rims, loops, region, InnerPoints::graded) &&
-          !close(rims, loops, region, InnerPoints::close))
-        continue;
-      ++report_.caps;
-      left_over -= 1 + region.holes.size();
+      const EditLog::Mark before = work_.editor.mark();
+      CapShape* const shape = shapes_.of(loops, region);
+      if (shape != nullptr && close(rims, loops, region, *shape, before)) {
+        ++report_.caps;
+        left_over -= 1 + region.holes.size();
+      } else {
+        filling_.take_back(before);
+      }
     }
     report_.open_sections += static_cast<Index>(left_over);
-  }
-
-  /// Makes the cap of a region. If that fails, nothing is added.
-  bool close(std::span<Rim* const> rims, std::span<const FlatLoop> loops, const FlatRegion& region,
-             InnerPoints inner) {
-    const EditLog::Mark before = work_.editor.mark();
-    CapShape* const shape = shapes_.of(loops, region, inner);
-    if (shape != nullptr && close(rims, loops, region, *shape, before)) return true;
-    filling_.take_back(before);
-    return false;
   }
 
   /// The point at which the cap's edge along a border half-edge begins, which is where the
@@ -200,6 +192,11 @@ class Caps {
     return true;
   }
 
+  /// Whether a half-edge of the border begins where another ends.
+  [[nodiscard]] bool follows(Index half_edge, Index other) const {
+    return work_.editor.surface().corner_point[half_edge] == point_before(other);
+  }
+
   /// Whether two points of the rim are joined by an edge other than the rim's: a fold or a face in
   /// the plane, or a border elsewhere. With an edge of the cap between them, that edge would have
   /// too many faces.
@@ -234,8 +231,11 @@ class Caps {
     for (const FlatTriangle& corners : flat.triangles)
       for (std::size_t k = 0; k < 3; ++k) {
         const Index a = corners[k], b = corners[(k + 1) % 3];
-        if (a < rim_count && b < rim_count && is_joined(rim.half_edges[a], rim.half_edges[b]))
-          joined.push_back({std::min(a, b), std::max(a, b)});
+        if (a >= rim_count || b >= rim_count) continue;
+        // An edge between two triangles is looked up once.
+        const Index from = rim.half_edges[a], to = rim.half_edges[b];
+        if (a > b && !follows(from, to) && !follows(to, from)) continue;
+        if (is_joined(from, to)) joined.push_back({std::min(a, b), std::max(a, b)});
       }
     std::sort(joined.begin(), joined.end());
     joined.erase(std::unique(joined.begin(), joined.end()), joined.end());

@@ -164,8 +164,12 @@ bool Filling::connect(std::span<const Index> rim_half_edges, const EditLog::Mark
   };
   for (Index h = first; h < end; ++h) {
     const Index from = surface.corner_point[h], to = surface.corner_point[Surface::next(h)];
-    if (from < before.points && to < before.points)
-      is_sound &= !is_joined_elsewhere(from, to) && !is_joined_elsewhere(to, from);
+    // An edge between two added triangles is looked up for the first of them.
+    if (from < before.points && to < before.points) {
+      const Index twin = edges.find(to, from);
+      if (twin == kNone || twin < first)
+        is_sound &= !is_joined_elsewhere(from, to) && !is_joined_elsewhere(to, from);
+    }
     is_sound &= edges.add(h);
   }
   if (!is_sound) return false;

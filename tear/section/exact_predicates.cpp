@@ -99,6 +99,10 @@ Expansion<16> squared_norm(const Expansion<2>& x, const Expansion<2>& y) {
   return result;
 }
 
+}  // namespace
+
+namespace predicates {
+
 int exact_orientation(const Vec2d& a, const Vec2d& b, const Vec2d& c) {
   return cross(difference(a.x(), c.x()), difference(a.y(), c.y()), difference(b.x(), c.x()),
                difference(b.y(), c.y()))
@@ -116,11 +120,7 @@ int exact_in_circle(const Vec2d& a, const Vec2d& b, const Vec2d& c, const Vec2d&
   return result.sign();
 }
 
-constexpr double kUnitRoundoff = 0x1p-53;
-
-int sign_of(double value) { return value > 0 ? 1 : value < 0 ? -1 : 0; }
-
-}  // namespace
+}  // namespace predicates
 
 std::optional<Vec2d> exact_range(const Vec2d& point) {
   Vec2d result = point;
@@ -131,33 +131,6 @@ std::optional<Vec2d> exact_range(const Vec2d& point) {
   return result;
 }
 
-int orientation(const Vec2d& a, const Vec2d& b, const Vec2d& c) {
-  const double left = (a.x() - c.x()) * (b.y() - c.y());
-  const double right = (a.y() - c.y()) * (b.x() - c.x());
-  const double value = left - right;
-  if (std::abs(value) >
-      (3 + 16 * kUnitRoundoff) * kUnitRoundoff * (std::abs(left) + std::abs(right)))
-    return sign_of(value);
-  if (left == 0 && right == 0)
-    return 0;  // exact: a difference is zero only where it is, and no product underflows
-  return exact_orientation(a, b, c);
-}
-
-int in_circle(const Vec2d& a, const Vec2d& b, const Vec2d& c, const Vec2d& d) {
-  const double ax = a.x() - d.x(), ay = a.y() - d.y();
-  const double bx = b.x() - d.x(), by = b.y() - d.y();
-  const double cx = c.x() - d.x(), cy = c.y() - d.y();
-  const double a2 = ax * ax + ay * ay, b2 = bx * bx + by * by, c2 = cx * cx + cy * cy;
-  const double value =
-      a2 * (bx * cy - by * cx) + b2 * (cx * ay - cy * ax) + c2 * (ax * by - ay * bx);
-  const double magnitude = a2 * (std::abs(bx * cy) + std::abs(by * cx)) +
-                           b2 * (std::abs(cx * ay) + std::abs(cy * ax)) +
-                           c2 * (std::abs(ax * by) + std::abs(ay * bx));
-  if (std::abs(value) > (10 + 96 * kUnitRoundoff) * kUnitRoundoff * magnitude)
-    return sign_of(value);
-  return exact_in_circle(a, b, c, d);
-}
-
 int area_sign(std::span<const Vec2d> loop) {
   if (loop.size() < 3) return 0;
   double area = 0, magnitude = 0;
@@ -166,8 +139,9 @@ int area_sign(std::span<const Vec2d> loop) {
     area += a.x() * b.y() - a.y() * b.x();
     magnitude += std::abs(a.x() * b.y()) + std::abs(a.y() * b.x());
   }
-  if (std::abs(area) > 2 * static_cast<double>(loop.size() + 8) * kUnitRoundoff * magnitude)
-    return sign_of(area);
+  if (std::abs(area) >
+      2 * static_cast<double>(loop.size() + 8) * predicates::kUnitRoundoff * magnitude)
+    return predicates::sign_of(area);
   Expansion<1024>
       exact;  // more bits than lie between the smallest and the largest product in range
   for (std::size_t i = 0; i < loop.size(); ++i) {

@@ -55,15 +55,15 @@ std::optional<FlatMesh> triangulate(std::span<const FlatLoop> loops, const FlatR
   for (const Index hole : region.holes)
     if (!rim.append(loops[hole])) return std::nullopt;
 
-  const std::size_t spare = inner == InnerPoints::none ? 0 : most_graded_points(rim.points.size());
+  const std::size_t spare =
+      inner == InnerPoints::graded ? most_graded_points(rim.points.size()) : 0;
   std::optional<FlatMesh> mesh(memory);
   auto triangulation = ConstrainedDelaunay::of(rim.points, spare, memory);
   if (!triangulation) return std::nullopt;
   if (!rim.for_each_edge([&](Index a, Index b) { return triangulation->fix_edge(a, b); }))
     return std::nullopt;
   if (!triangulation->find_inside()) return std::nullopt;
-  if (inner == InnerPoints::graded) add_graded_points(rim.ends, 1.0, *triangulation, memory);
-  if (inner == InnerPoints::close) add_graded_points(rim.ends, 0.5, *triangulation, memory);
+  if (inner == InnerPoints::graded) add_graded_points(rim.ends, *triangulation, memory);
   const auto inner_points = triangulation->points().subspan(rim.points.size());
   mesh->inner.assign(inner_points.begin(), inner_points.end());
   mesh->triangles.reserve(rim.points.size() + 2 * region.holes.size() + 2 * inner_points.size());

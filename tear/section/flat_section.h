@@ -49,8 +49,7 @@ struct FlatMesh {
 
 enum class InnerPoints : std::uint8_t {
   none,
-  graded,  ///< About as close as the points of the rim near them, and sparser inwards.
-  close,   ///< Twice as close, and less sparse inwards.
+  graded,  ///< As close as the points of the rim near it, and sparser inwards.
 };
 
 /// Constrained Delaunay triangulation of a region, with inner points where it is wide, so that it

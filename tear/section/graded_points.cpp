@@ -47,19 +47,19 @@ bool is_close(const Vec2d& p, const Vec2d& a, const Vec2d& b) {
   return dot(to_a, to_b) < kLeastSightCosine * norm(to_a) * norm(to_b);
 }
 
-/// Sets the sizes at the points of the rim.
+/// The sizes at the points of the rim.
 void find_sizes(std::span<const Vec2d> points, std::span<const Index> loop_ends,
-                double size_per_edge, std::span<double> sizes) {
+                std::span<double> sizes) {
   Index first = 0;
   for (const Index end : loop_ends) {
     const auto after = [&](Index p) { return p + 1 == end ? first : p + 1; };
     const auto length = [&](Index p) { return norm(points[after(p)] - points[p]); };
     for (Index p = first; p < end; ++p) {
-      sizes[p] = std::max(sizes[p], size_per_edge * length(p));
-      sizes[after(p)] = std::max(sizes[after(p)], size_per_edge * length(p));
+      sizes[p] = std::max(sizes[p], kSizePerEdge * length(p));
+      sizes[after(p)] = std::max(sizes[after(p)], kSizePerEdge * length(p));
     }
     const auto decline = [&](Index from, Index to, double distance) {
-      sizes[to] = std::max(sizes[to], sizes[from] - size_per_edge * kDecline * distance);
+      sizes[to] = std::max(sizes[to], sizes[from] - kSizePerEdge * kDecline * distance);
     };
     for (int turn = 0; turn < 2; ++turn) {  // the second starts with what the first ended with
       for (Index p = first; p < end; ++p) decline(p, after(p), length(p));
@@ -71,34 +71,33 @@ void find_sizes(std::span<const Vec2d> points, std::span<const Index> loop_ends,
 
 /// The size at the centre of a circle around a triangle, which is equally far from its corners.
 double size_at_centre(const ConstrainedDelaunay::Corners& corners, double radius,
-                      std::span<const double> sizes, double growth) {
-  return std::min({sizes[corners[0]], sizes[corners[1]], sizes[corners[2]]}) + growth * radius;
+                      std::span<const double> sizes) {
+  return std::min({sizes[corners[0]], sizes[corners[1]], sizes[corners[2]]}) + kGrowth * radius;
 }
 
 /// The size at a point whose cavity was found. @return nullopt if the point is too close to the
 /// rim.
 std::optional<double> size_in_cavity(const Vec2d& p, const ConstrainedDelaunay& triangulation,
-                                     std::span<const double> sizes, double growth) {
+                                     std::span<const double> sizes) {
   double size = std::numeric_limits<double>::infinity();
   const auto points = triangulation.points();
   for (const auto& edge : triangulation.cavity_edges()) {
     if (edge.is_fixed && is_close(p, points[edge.from], points[edge.to])) return std::nullopt;
-    size = std::min(size, sizes[edge.from] + growth * norm(points[edge.from] - p));
+    size = std::min(size, sizes[edge.from] + kGrowth * norm(points[edge.from] - p));
   }
   return size;
 }
 
 }  // namespace
 
-void add_graded_points(std::span<const Index> loop_ends, double scale,
-                       ConstrainedDelaunay& triangulation, std::pmr::memory_resource& memory) {
-  const double growth = scale * kGrowth;
+void add_graded_points(std::span<const Index> loop_ends, ConstrainedDelaunay& triangulation,
+                       std::pmr::memory_resource& memory) {
   const auto rim_count = static_cast<Index>(triangulation.points().size());
   const std::size_t most = rim_count + most_graded_points(rim_count);
   std::pmr::vector<double> sizes(&memory);
   sizes.reserve(most);
   sizes.assign(rim_count, 0.0);
-  find_sizes(triangulation.points(), loop_ends, scale * kSizePerEdge, sizes);
+  find_sizes(triangulation.points(), loop_ends, sizes);
 
   std::pmr::vector<Index> queue(&memory);
   for (Index t = 0; t < triangulation.triangle_count(); ++t)
@@ -108,10 +107,9 @@ void add_graded_points(std::span<const Index> loop_ends, double scale,
     const auto points = triangulation.points();
     const auto corners = triangulation.corners(queue[i]);
     const auto circle = circle_of(points[corners[0]], points[corners[1]], points[corners[2]]);
-    if (!circle || !(circle->radius > size_at_centre(corners, circle->radius, sizes, growth)))
-      continue;
+    if (!circle || !(circle->radius > size_at_centre(corners, circle->radius, sizes))) continue;
     if (!triangulation.find_cavity(circle->centre, queue[i])) continue;
-    const auto size = size_in_cavity(circle->centre, triangulation, sizes, growth);
+    const auto size = size_in_cavity(circle->centre, triangulation, sizes);
     if (!size) continue;
     sizes.push_back(*size);
     const auto made = triangulation.insert(circle->centre);

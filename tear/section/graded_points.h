@@ -20,8 +20,7 @@ namespace sunder::tear {
 /// asks for nothing. The size grows with the distance from the rim.
 /// @param loop_ends  the points of the triangulation are those of closed loops, one after the
 ///                   other, each up to one of these.
-/// @param scale      of the size at the rim and of its growth.
-void add_graded_points(std::span<const Index> loop_ends, double scale,
-                       ConstrainedDelaunay& triangulation, std::pmr::memory_resource& memory);
+void add_graded_points(std::span<const Index> loop_ends, ConstrainedDelaunay& triangulation,
+                       std::pmr::memory_resource& memory);
 
 }  // namespace sunder::tear
