@@ -429,28 +429,26 @@ class Imprint {
     return corners.emplace_back(MetCorner{met, lines.imprint(end.position)}).point;
   }
 
-  /// Whether the only line in a face is an edge already. One between two edges that were each split
-  /// once is: the second split ends in the point of the first.
-  bool is_edge(const Face& face, const Line& line) const {
-    if (line.from.other_side != kNone || line.to.other_side != kNone) return false;
-    const Crossing* const from = crossing_at(face, line.from.crossed_edge, line.side);
-    const Crossing* const to = crossing_at(face, line.to.crossed_edge, line.side);
-    if (from == nullptr || to == nullptr || from->point == kNone || to->point == kNone)
-      return false;
-    const auto is_split_once = [&](Index k) {
-      const CrossedEdge& edge = edges_[face.crossed[k]];
-      return edge.end - edge.begin == 1 && crossings_[edge.begin].is_new;
-    };
-    const Index other = 3 - line.from.crossed_edge - line.to.crossed_edge;
-    if (is_split_once(line.from.crossed_edge) && is_split_once(line.to.crossed_edge) &&
-        face.crossed[other] == kNone)
-      return true;
-    const Surface& surface = editor_.surface();
-    return from->point == to->point || surface.find_half_edge(from->point, to->point) != kNone ||
-           surface.find_half_edge(to->point, from->point) != kNone;
+  /// Whether the lines in a face are edges already: where one side splits two of its edges once
+  /// each, the second split ends in the point of the first.
+  [[nodiscard]] bool is_drawn(const Face& face) const {
+    Index edges = 0, side = kNone;
+    for (const Index number : face.crossed) {
+      if (number == kNone) continue;
+      const CrossedEdge& edge = edges_[number];
+      const Crossing& crossing = crossings_[edge.begin];
+      if (edge.end - edge.begin != 1 || !crossing.is_new) return false;
+      if (edges++ > 0 && crossing.side != side) return false;
+      side = crossing.side;
+    }
+    return edges == 2;
   }
 
   void draw_lines(const Face& face, Children& children) {
+    if (is_drawn(face)) {
+      ++result_.faces_crossed;
+      return;
+    }
     const CellSides::OfFace of = sides_.at(face.places);
     lines_.clear();
     for (Index w = 0; w < sides_.word_count(); ++w)
@@ -459,7 +457,6 @@ class Imprint {
       });
     if (lines_.empty()) return;
     ++result_.faces_crossed;
-    if (lines_.size() == 1 && is_edge(face, lines_[0])) return;
     ScratchVector<std::array<Index, 2>> list(&editor_.scratch());
     FaceLines drawn(face.triangle, face.points, children.of(face.triangle, list), editor_, posed_);
     ScratchVector<MetCorner> corners(&editor_.scratch());
