@@ -45,16 +45,16 @@ Status check_sizes(const Character& character, std::span<const VertexDisplacemen
 
 }  // namespace
 
-Status PosedSurface::set_options(const ContactOptions& options) {
-  if (Status status = check_sizes(editor_.character(), options.displacements); !status)
-    return status;
-  const Result<double> farthest = farthest_displacement(options.displacements);
-  if (!farthest) return farthest.error();
+Result<double> PosedSurface::reach_of(const ContactOptions& options, const Character& character) {
+  if (Status status = check_sizes(character, options.displacements); !status) return status;
+  return farthest_displacement(options.displacements);
+}
+
+void PosedSurface::set_options(const ContactOptions& options, double reach) {
   displacements_ = options.displacements;
   are_drawn_ = false;
-  reach_ = *farthest;
+  reach_ = reach;
   if (options.surface == ContactSurface::drawn) reach_ += farthest_drawn();
-  return {};
 }
 
 Corners PosedSurface::corners(Index face) {

@@ -16,8 +16,12 @@ class PosedSurface {
   /// @param posed  in a pose; the editor is that of its model.
   PosedSurface(const SurfaceEditor& editor, PosedPoints& posed) : editor_(editor), posed_(posed) {}
 
-  /// Moves the surface. @return size_mismatch or non_finite_value with the mesh or the particle.
-  [[nodiscard]] Status set_options(const ContactOptions& options);
+  /// The farthest that displacements move a point, metres.
+  /// @return size_mismatch or non_finite_value with the mesh or the particle.
+  [[nodiscard]] static Result<double> reach_of(const ContactOptions& options,
+                                               const Character& character);
+  /// Moves the surface. @param reach  by reach_of().
+  void set_options(const ContactOptions& options, double reach);
 
   [[nodiscard]] const SurfaceEditor& editor() const { return editor_; }
   [[nodiscard]] const CharacterPose& pose() const { return posed_.pose(); }

@@ -85,19 +85,20 @@ struct SurfaceQuery::State {
   }
 
   Status set_pose(const ModelPose& pose, const ContactOptions& options) {
-    surface.reset();
     if (Status status = model->unpack(); !status) return status;
     auto& of_model = tear::ModelAccess::state_of(*model);
+    if (Status status = CharacterPose::check(of_model.character, pose); !status) return status;
+    const Result<double> reach = tear::PosedSurface::reach_of(options, of_model.character);
+    if (!reach) return reach.error();
+    surface.reset();  // nothing fails from here on, unless memory runs out
     if (source != of_model.source || revision.editor != &of_model.editor) {
       posed = tear::PosedPoints();
       source = of_model.source;
       revision = {};
     }
     if (Status status = posed.begin(of_model.character, pose); !status) return status;
-    tear::PosedSurface made(of_model.editor, posed);
-    if (Status status = made.set_options(options); !status) return status;
     interpolates_normals = options.interpolates_normals;
-    surface.emplace(made);
+    surface.emplace(of_model.editor, posed).set_options(options, *reach);
     revision = revision_of(*model);
     return {};
   }

@@ -501,6 +501,7 @@ TEST_F(ContactUse, bad_input_is_refused) {
 }
 
 TEST_F(ContactUse, bad_poses_and_displacements_are_refused) {
+  Random random(1);
   EXPECT_EQ(query.find_nearest({0, 0, 0}).error().code(), StatusCode::invalid_argument);
   ModelPose other = pose;
   other.model_from_bone.pop_back();
@@ -524,8 +525,12 @@ TEST_F(ContactUse, bad_poses_and_displacements_are_refused) {
   displacements[0].vertex_rows = rows;
   displacements[0].displacements = {&away, 1};
   EXPECT_EQ(query.set_pose(pose, options).code(), StatusCode::non_finite_value);
-  EXPECT_TRUE(query.set_pose(pose));
-  EXPECT_TRUE(query.find_nearest({0, 0, 0}));
+  ASSERT_TRUE(query.set_pose(pose));
+  const double distance = (*query.find_nearest({0.3, 0.4, 1}))->distance;
+  EXPECT_EQ(distance, 1);
+  EXPECT_FALSE(query.set_pose(other));
+  EXPECT_FALSE(query.set_pose(test::random_pose(sheet, random), options));
+  EXPECT_EQ((*query.find_nearest({0.3, 0.4, 1}))->distance, distance);
 }
 
 TEST_F(ContactUse, a_changed_model_asks_for_the_pose_again) {

@@ -4,6 +4,10 @@
 #include <sunder/tear/preview.h>
 #include <sunder/tear/tear_stroke.h>
 
+#if defined(__GLIBC__)
+#include <malloc.h>
+#endif
+
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -223,6 +227,24 @@ TEST(Preview, it_returns_the_errors_of_the_operation) {
   EXPECT_EQ(preview_tear(full, pose, stroke).error().code(), StatusCode::capacity_exceeded);
   EXPECT_EQ(full.digest(), digest);
 }
+
+#if defined(__GLIBC__)
+/// What it needed serves the next one.
+TEST(Preview, memory_does_not_grow_with_the_number_of_previews) {
+  Random random(1);
+  const Character tube = test::make_tube(20, 40, 5);
+  const TornModel model = test::make_model(tube);
+  const ModelPose pose = test::random_pose(tube, random);
+  const Stroke stroke = test::random_stroke(tube, pose, random);
+  const auto bytes_after = [&](int previews) {
+    for (int i = 0; i < previews; ++i) EXPECT_TRUE(preview_tear(model, pose, stroke));
+    const struct mallinfo2 info = mallinfo2();
+    return info.uordblks + info.hblkhd;
+  };
+  const std::size_t warm = bytes_after(4);
+  EXPECT_EQ(bytes_after(20), warm);
+}
+#endif
 
 /// With a fixed capacity a preview takes none of it.
 TEST(Preview, it_uses_up_no_capacity) {

@@ -98,7 +98,8 @@ class SUNDER_API SurfaceQuery {
   /// Sets the pose of the next queries. Call it again when the pose, the displacements or the model
   /// changed. O(bones + particles), and O(vertices appended) if they have weights other than
   /// `barycentric`.
-  /// @return size_mismatch or non_finite_value; then queries fail until a later call succeeds.
+  /// @return size_mismatch or non_finite_value (nothing is changed); limit_exceeded, out of memory:
+  ///         queries fail until a later call succeeds.
   Status set_pose(const ModelPose& pose, const ContactOptions& options = {});
 
   /// The first place where a ray meets the surface, from either side.

@@ -29,8 +29,9 @@ struct OperationPreview {
 /// Performs an operation and takes it back: afterwards the model is as before, bit for bit, with
 /// its history, redo stack and change numbers. No other call may use the model meanwhile.
 /// @return as the operation's own call, with the same errors; capacity_exceeded where it would find
-/// no room. Costs what the operation costs. Without a fixed capacity, memory that it needed stays
-/// as room for the operation itself; another preview of it then allocates as the operation would.
+///         no room. Costs what the operation costs. With a fixed capacity it uses none of it up; a
+///         model that grows as needed keeps the memory as room for the operation, and further
+///         previews of it need no more.
 [[nodiscard]] SUNDER_API Result<OperationPreview> preview_tear(const TornModel& model,
                                                                const ModelPose& pose,
                                                                std::span<const Blade> stroke,
