@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/cpu_seconds.h"
 #include "bench/measure.h"
 #include "support/animated_rig.h"
 #include "support/random.h"
@@ -21,11 +22,11 @@ namespace {
 
 using test::Random;
 
-/// The median over runs of the time of one call, microseconds.
+/// The median over runs of the processor time of one call, microseconds.
 double microseconds(int calls, const std::function<void()>& call) {
   std::vector<double> runs;
   for (int run = 0; run < 15; ++run)
-    runs.push_back(1e6 * seconds_of([&] {
+    runs.push_back(1e6 * cpu_seconds_of([&] {
                      for (int i = 0; i < calls; ++i) call();
                    }) /
                    calls);
@@ -141,7 +142,7 @@ void measure_keys() {
   std::vector<double> runs;
   for (; frame < 600; ++frame) {
     (void)sample_clip(character->clips[0], std::fmod(frame / 60.0, 1.0), pose);
-    runs.push_back(1e6 * seconds_of([&] { (void)editor.insert(frame / 60.0, pose); }));
+    runs.push_back(1e6 * cpu_seconds_of([&] { (void)editor.insert(frame / 60.0, pose); }));
   }
   std::printf("key frames of 163 bones, 600 of them\n");
   std::printf("  insert()                     %8.2f us\n", median(runs));

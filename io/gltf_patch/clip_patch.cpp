@@ -7,27 +7,8 @@
 #include "io/gltf/decompose.h"
 #include "io/gltf/refusal.h"
 #include "io/gltf_write/clip_writer.h"
-#include "io/gltf_write/rig_writer.h"
 
 namespace sunder::gltf {
-namespace {
-
-/// Channels whose targets are not nodes: extensions animate other properties by them.
-struct OtherChannels {
-  Json channels = Json::array();
-  Json samplers = Json::array();
-};
-
-OtherChannels other_channels(const Json& animation) {
-  OtherChannels others;
-  if (!animation.is_object() || !animation.contains("channels")) return others;
-  for (const Json& channel : animation["channels"])
-    if (!channel["target"].contains("node")) others.channels.push_back(channel);
-  if (!others.channels.empty()) others.samplers = animation["samplers"];
-  return others;
-}
-
-}  // namespace
 
 ClipPatch::ClipPatch(GlbDraft& draft, const Character& character, const SourceDocument& source,
                      std::span<const std::uint32_t> node_of_bone)
@@ -40,22 +21,7 @@ void ClipPatch::write_changed(const Character& before) {
     if (!is_new && clip == before.clips[i]) continue;
     for (std::uint32_t channel = 0; channel < clip.channels.size(); ++channel)
       prepare_target(clip, channel);
-    const Json old = is_new ? Json() : draft_.json["animations"][i];
-    const OtherChannels others = other_channels(old);
-    Json animation = animation_of(clip, old);
-    if (!others.channels.empty()) {
-      // Samplers of the new channels come first, so the others' move up.
-      if (animation.is_null()) {
-        animation = old;
-        animation["channels"] = animation["samplers"] = Json::array();
-      }
-      const std::size_t shift = animation["samplers"].size();
-      for (const Json& sampler : others.samplers) animation["samplers"].push_back(sampler);
-      for (Json channel : others.channels) {
-        channel["sampler"] = channel["sampler"].get<std::size_t>() + shift;
-        animation["channels"].push_back(std::move(channel));
-      }
-    }
+    Json animation = animation_of(clip, is_new ? Json() : draft_.json["animations"][i]);
     if (!animation.is_null() && (is_new || clip.name != before.clips[i].name)) {
       animation.erase("name");
       if (!clip.name.empty()) animation["name"] = clip.name;
@@ -101,9 +67,14 @@ void ClipPatch::replace_matrix(const Clip& clip, std::uint32_t index) {
         "animate it",
         clip.name.c_str(), index, character_.skeleton.bones[bone].name.c_str());
   node.erase("matrix");
-  const Json rest = bone_node(character_.skeleton.bones[bone]);
-  for (const char* const key : {"translation", "rotation", "scale"})
-    if (const auto part = rest.find(key); part != rest.end()) node[key] = *part;
+  // As loading took it from the matrix, so that the bone keeps its bits.
+  const BoneTransform& rest = character_.skeleton.bones[bone].rest;
+  const auto write = [&](const char* key, std::span<const float> values) {
+    for (const float value : values) node[key].push_back(static_cast<double>(value));
+  };
+  write("translation", {rest.translation.data(), 3});
+  write("rotation", {rest.rotation.coeffs().data(), 4});
+  write("scale", {rest.scale.data(), 3});
 }
 
 /// The node that a channel moves; kNone if it has none any more.

@@ -65,15 +65,22 @@ std::optional<Character> torn_with(std::shared_ptr<const Character> source, cons
   return with;
 }
 
+std::uint32_t bone_named(const Character& character, const std::string& name) {
+  for (std::uint32_t bone = 0; bone < character.skeleton.bones.size(); ++bone)
+    if (character.skeleton.bones[bone].name == name) return bone;
+  ADD_FAILURE() << name;
+  return 0;
+}
+
 void expect_same_poses(const Character& a, const Clip& first, const Character& b,
                        const Clip& second, const std::string& what) {
-  ASSERT_EQ(a.skeleton.bones.size(), b.skeleton.bones.size()) << what;
   for (double time = -0.1; time < static_cast<double>(first.duration) + 0.2; time += 0.0371) {
     Pose one = *local_rest_pose(a), other = *local_rest_pose(b);
     ASSERT_TRUE(sample_clip(first, time, one));
     ASSERT_TRUE(sample_clip(second, time, other));
     for (std::size_t bone = 0; bone < one.parent_from_bone.size(); ++bone) {
-      const BoneTransform &x = one.parent_from_bone[bone], &y = other.parent_from_bone[bone];
+      const BoneTransform& x = one.parent_from_bone[bone];
+      const BoneTransform& y = other.parent_from_bone[bone_named(b, a.skeleton.bones[bone].name)];
       EXPECT_LT((x.translation - y.translation).norm(), 1e-6f) << what;
       EXPECT_LT((x.rotation.coeffs() - y.rotation.coeffs()).norm(), 1e-6f) << what;
       EXPECT_LT((x.scale - y.scale).norm(), 1e-6f) << what;
@@ -81,6 +88,13 @@ void expect_same_poses(const Character& a, const Clip& first, const Character& b
     for (std::size_t i = 0; i < one.morph_weights.size(); ++i)
       EXPECT_NEAR(one.morph_weights[i], other.morph_weights[i], 1e-6f) << what;
   }
+}
+
+/// All files of a folder, by one run of the validator.
+void expect_all_valid(const std::filesystem::path& folder) {
+  if (!has_gltf_validator()) return;
+  for (const ValidatorReport& report : validate_glbs_of(folder))
+    EXPECT_EQ(report.errors, 0) << report.output;
 }
 
 void expect_valid(const std::filesystem::path& file) {
@@ -91,6 +105,7 @@ void expect_valid(const std::filesystem::path& file) {
 
 TEST(SavedClips, a_new_clip_is_written_with_the_torn_model) {
   std::uint64_t seed = 0;
+  const TemporaryFolder folder;
   for (const auto& model : rigged_gltf_models()) {
     Random random(++seed);
     const std::string what = model.filename().string();
@@ -100,11 +115,9 @@ TEST(SavedClips, a_new_clip_is_written_with_the_torn_model) {
     ASSERT_NE(clip, nullptr) << what;
     const auto torn = torn_with(loaded->character, *clip, random);
     if (!torn) continue;  // a model that cannot be torn
-    const TemporaryFolder folder;
-    const auto file = folder.path() / "torn.glb";
+    const auto file = folder.path() / (model.stem().string() + ".glb");
     const Status saved = save_glb(file, *torn, *loaded);
     ASSERT_TRUE(saved) << what << ": " << saved.text();
-    expect_valid(file);
     const auto again = load_character(file);
     ASSERT_TRUE(again) << what;
     const Character& read = *again->character;
@@ -116,10 +129,12 @@ TEST(SavedClips, a_new_clip_is_written_with_the_torn_model) {
     EXPECT_EQ(read.skeleton, torn->skeleton) << what;
     expect_same_poses(*torn, *clip, read, read.clips.back(), what);
   }
+  expect_all_valid(folder.path());
 }
 
 TEST(SavedClips, an_edited_clip_takes_the_place_of_the_one_of_the_file) {
   std::uint32_t edited_files = 0;
+  const TemporaryFolder folder;
   for (const auto& model : rigged_gltf_models()) {
     const auto loaded = load_character(model);
     ASSERT_TRUE(loaded);
@@ -139,11 +154,9 @@ TEST(SavedClips, an_edited_clip_takes_the_place_of_the_one_of_the_file) {
     ASSERT_TRUE(editor->insert(time, pose, KeyedTracks::changed));
     Character edited = source;
     edited.clips[0] = **editor->snapshot();
-    const TemporaryFolder folder;
-    const auto file = folder.path() / "edited.glb";
+    const auto file = folder.path() / (model.stem().string() + ".glb");
     const Status saved = save_glb(file, edited, *loaded);
     ASSERT_TRUE(saved) << what << ": " << saved.text();
-    expect_valid(file);
     const auto again = load_character(file);
     ASSERT_TRUE(again) << what;
     ASSERT_EQ(again->character->clips.size(), edited.clips.size());
@@ -155,6 +168,7 @@ TEST(SavedClips, an_edited_clip_takes_the_place_of_the_one_of_the_file) {
     ++edited_files;
   }
   EXPECT_GT(edited_files, 0u);
+  expect_all_valid(folder.path());
 }
 
 TEST(SavedClips, a_character_without_a_file_is_written_with_its_new_clip) {
@@ -186,13 +200,6 @@ Clip turning(std::uint32_t bone) {
             Interpolation::linear,
             {0, 1},
             {0, 0, 0, 1, h, 0, 0, h}}}};
-}
-
-std::uint32_t bone_named(const Character& character, const std::string& name) {
-  for (std::uint32_t bone = 0; bone < character.skeleton.bones.size(); ++bone)
-    if (character.skeleton.bones[bone].name == name) return bone;
-  ADD_FAILURE() << name;
-  return 0;
 }
 
 TEST(SavedClips, a_node_with_a_matrix_gets_parts_that_can_be_animated) {
@@ -229,44 +236,6 @@ TEST(SavedClips, a_sheared_node_is_refused) {
     EXPECT_EQ(saved.code(), StatusCode::invalid_argument) << name;
     EXPECT_FALSE(std::filesystem::exists(file));
   }
-}
-
-TEST(SavedClips, channels_of_extensions_stay_in_an_edited_animation) {
-  GltfBuilder builder = skinned_strip();
-  const auto times = builder.add(std::vector<float>{0, 1}, "SCALAR");
-  builder.json["accessors"][times]["min"] = {0.0};
-  builder.json["accessors"][times]["max"] = {1.0};
-  const auto values = builder.add(std::vector<float>{0, 0, 0, 1, 1, 1}, "VEC3");
-  builder.json["extensionsUsed"] = {"KHR_animation_pointer"};
-  builder.json["animations"] = Json::array(
-      {{{"name", "both"},
-        {"extras", {{"kept", true}}},
-        {"channels",
-         {{{"sampler", 0},
-           {"target",
-            {{"path", "pointer"},
-             {"extensions", {{"KHR_animation_pointer", {{"pointer", "/nodes/0/translation"}}}}}}}},
-          {{"sampler", 1}, {"target", {{"node", 1}, {"path", "translation"}}}}}},
-        {"samplers",
-         {{{"input", times}, {"output", values}}, {{"input", times}, {"output", values}}}}}});
-  const auto loaded = builder.load();
-  ASSERT_TRUE(loaded) << loaded.error().text();
-  Character edited = *loaded->character;
-  ASSERT_EQ(edited.clips.size(), 1u);
-  edited.clips[0].channels.push_back(turning(bone_named(edited, "root")).channels[0]);
-  const TemporaryFolder folder;
-  const auto file = folder.path() / "pointer.glb";
-  const Status saved = save_glb(file, edited, *loaded);
-  ASSERT_TRUE(saved) << saved.text();
-  const auto again = load_character(file);
-  ASSERT_TRUE(again);
-  EXPECT_EQ(again->character->clips, edited.clips);
-  const Json written = GltfBuilder::from_glb(read_bytes(file)).json["animations"][0];
-  EXPECT_EQ(written["extras"]["kept"], true);
-  ASSERT_EQ(written["channels"].size(), 3u);
-  EXPECT_EQ(written["channels"][2]["target"]["path"], "pointer");
-  const auto sampler = written["channels"][2]["sampler"].get<std::size_t>();
-  EXPECT_EQ(written["samplers"][sampler]["input"], times);
 }
 
 TEST(SavedClips, refuses_what_gltf_cannot_express) {
