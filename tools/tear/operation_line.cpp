@@ -35,7 +35,7 @@ std::string operation_line(const OperationOutcome& outcome, const std::optional<
   } else {
     line += std::string(": ") + outcome.done;
     if (!tear.pieces.empty())
-      line += ", " + counted(tear.pieces.front().triangle_count, "triangle", "triangles");
+      line += ", " + counted(tear.pieces[0].triangle_count, "triangle", "triangles");
     if (tear.weights.points > 0) line += ", " + counted(tear.weights.points, "point", "points");
   }
   return line + printed(", %.3g ms", 1000 * outcome.seconds);

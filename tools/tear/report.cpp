@@ -73,16 +73,18 @@ std::string digest_text(std::uint64_t digest) {
 }  // namespace
 
 Result<OperationOutcome> play(const Operation& operation, TornModel& model,
-                              DetachedPieces* pieces) {
+                              DetachedPieces* detached) {
   const auto begin = std::chrono::steady_clock::now();
   Result<TearReport> report =
-      pieces != nullptr ? pieces->apply(operation, model) : apply_operation(model, operation);
+      detached != nullptr ? detached->apply(operation, model) : apply_operation(model, operation);
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
   if (!report) return report.error();
   const Names names = names_of(operation);
   const bool has_missed = names.can_miss && report->runs == 0;
   std::vector<PieceDescription> pieces;
+  const bool has_left = std::holds_alternative<DetachOperation>(operation);
   for (const TornPiece& piece : report->pieces) {
+    if (has_left) break;  // the model does not have it any more
     Result<PieceDescription> description = model.describe_piece(piece);
     if (!description) return description.error();
     pieces.push_back(std::move(*description));

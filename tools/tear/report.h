@@ -34,7 +34,7 @@ struct OperationOutcome {
 /// Performs an operation and describes its results.
 /// @param pieces  optional; keeps what a detachment takes off.
 [[nodiscard]] Result<OperationOutcome> play(const Operation& operation, TornModel& model,
-                                            DetachedPieces* pieces = nullptr);
+                                            DetachedPieces* detached = nullptr);
 
 /// Measures OperationOutcome::weight_error_max. O(vertices of the source + new points).
 /// @param outcome  of the newest operation.

@@ -229,7 +229,7 @@ class PopMeter {
 };
 
 const char* name_of(const Operation& operation) {
-  constexpr std::array kNames = {"tear", "cut", "drill", "weights", "undo", "redo"};
+  constexpr std::array kNames = {"tear", "cut", "drill", "weights", "undo", "redo", "detach"};
   static_assert(std::variant_size_v<Operation> == kNames.size());
   return kNames[operation.index()];
 }
