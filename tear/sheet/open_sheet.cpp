@@ -1,7 +1,6 @@
 #include "tear/sheet/open_sheet.h"
 
 #include <algorithm>
-#include <map>
 
 #include "core/internal/ordered.h"
 #include "tear/internal/surface.h"
@@ -13,46 +12,46 @@ namespace sunder::tear {
 namespace {
 
 /// Removes duplicate edges, and edges along which the surface only touches the sheet: those have
-/// its inside on both sides or on neither.
-void drop_touching(std::vector<PointEdge>& edges) {
-  std::vector<PointEdge> sorted = edges;
-  std::sort(sorted.begin(), sorted.end());
-  std::vector<PointEdge> kept;
+/// its inside on both sides or on neither. The rest is sorted.
+void drop_touching(ScratchVector<PointEdge>& edges) {
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  ScratchVector<PointEdge> kept(edges.get_allocator());
+  kept.reserve(edges.size());
   for (const PointEdge& edge : edges)
-    if (!std::binary_search(sorted.begin(), sorted.end(), PointEdge{edge[1], edge[0]}))
+    if (!std::binary_search(edges.begin(), edges.end(), PointEdge{edge[1], edge[0]}))
       kept.push_back(edge);
-  std::sort(kept.begin(), kept.end());
-  kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
   edges = std::move(kept);
 }
 
-/// Chains edges into runs.
-std::vector<std::vector<PointEdge>> runs_of(const std::vector<PointEdge>& edges) {
-  std::map<Index, std::vector<std::size_t>> leaving;
-  std::map<Index, Index> arriving;
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    leaving[edges[i][0]].push_back(i);
-    ++arriving[edges[i][1]];
-  }
-  std::vector<bool> is_taken(edges.size(), false);
-  std::vector<std::vector<PointEdge>> runs;
+/// Calls visit(run) with each run of edges: open ones first, then closed ones.
+/// @param edges  sorted, each once.
+template <class Visit>
+void for_each_run(const ScratchVector<PointEdge>& edges, Visit visit) {
+  ScratchVector<Index> arrivals(edges.get_allocator());
+  for (const PointEdge& edge : edges) arrivals.push_back(edge[1]);
+  std::sort(arrivals.begin(), arrivals.end());
+  ScratchVector<bool> is_taken(edges.size(), false, edges.get_allocator());
+  ScratchVector<PointEdge> run(edges.get_allocator());
+  run.reserve(edges.size() + 1);
   const auto follow = [&](std::size_t first) {
-    std::vector<PointEdge>& run = runs.emplace_back();
+    run.clear();
     for (std::size_t i = first; i != edges.size();) {
       is_taken[i] = true;
       run.push_back(edges[i]);
-      const auto next = leaving.find(edges[i][1]);
-      i = edges.size();
-      if (next == leaving.end()) break;
-      for (const std::size_t candidate : next->second)
-        if (!is_taken[candidate]) i = std::min(i, candidate);
+      const Index end = edges[i][1];
+      auto next = static_cast<std::size_t>(
+          std::lower_bound(edges.begin(), edges.end(), PointEdge{end, 0}) - edges.begin());
+      while (next < edges.size() && edges[next][0] == end && is_taken[next]) ++next;
+      i = next < edges.size() && edges[next][0] == end ? next : edges.size();
     }
+    visit(run);
   };
-  for (std::size_t i = 0; i < edges.size(); ++i)  // open runs first, then closed ones
-    if (!is_taken[i] && arriving.find(edges[i][0]) == arriving.end()) follow(i);
+  for (std::size_t i = 0; i < edges.size(); ++i)
+    if (!is_taken[i] && !std::binary_search(arrivals.begin(), arrivals.end(), edges[i][0]))
+      follow(i);
   for (std::size_t i = 0; i < edges.size(); ++i)
     if (!is_taken[i]) follow(i);
-  return runs;
 }
 
 }  // namespace
@@ -110,7 +109,7 @@ ScratchVector<Index> with_parts(const ScratchVector<Index>& faces, const Surface
 
 /// A single edge between two tips stays closed at both ends, so it gets another point that can
 /// open. @return false if that fails.
-bool make_openable(std::vector<PointEdge>& run, const Workpiece& work) {
+bool make_openable(ScratchVector<PointEdge>& run, const Workpiece& work) {
   SurfaceEditor& editor = work.editor;
   if (run.size() != 1 || editor.surface().is_on_border(run[0][0]) ||
       editor.surface().is_on_border(run[0][1]))
@@ -118,7 +117,8 @@ bool make_openable(std::vector<PointEdge>& run, const Workpiece& work) {
   const Index h = editor.surface().find_half_edge(run[0][0], run[0][1]);
   const Index middle = h == kNone ? kNone : split_posed_edge(h, 0.5, editor, work.posed);
   if (middle == kNone) return false;
-  run = {{run[0][0], middle}, {middle, run[0][1]}};
+  run.push_back({middle, run[0][1]});
+  run[0][1] = middle;
   return true;
 }
 
@@ -126,20 +126,23 @@ bool make_openable(std::vector<PointEdge>& run, const Workpiece& work) {
 /// @param walked  the edges that it made.
 void imprint_rest(const Sheet& sheet, std::span<const Index> faces,
                   std::span<const PointEdge> walked, const Workpiece& work, SheetOpening& opening) {
-  SheetImprint imprint = imprint_sheets({&sheet, 1}, faces, work.editor, work.posed);
+  const SheetImprint imprint = imprint_sheets({&sheet, 1}, faces, work.editor, work.posed);
   opening.faces_crossed += imprint.faces_crossed;
   opening.blocked += imprint.blocked;
-  std::vector<PointEdge>& edges = imprint.edges[0];
+  ScratchVector<PointEdge> edges(&work.editor.scratch());
+  edges.reserve(imprint.edges[0].size() + walked.size());
+  edges.assign(imprint.edges[0].begin(), imprint.edges[0].end());
   edges.insert(edges.end(), walked.begin(), walked.end());
   drop_touching(edges);
-  for (std::vector<PointEdge>& run : runs_of(edges)) {
+  opening.edges.reserve(edges.size());
+  for_each_run(edges, [&](ScratchVector<PointEdge>& run) {
     if (!make_openable(run, work)) {
       ++opening.blocked;
-      continue;
+      return;
     }
     ++opening.runs;
     opening.edges.insert(opening.edges.end(), run.begin(), run.end());
-  }
+  });
 }
 
 void note_borders(std::span<const Index> half_edges, const Surface& surface,
