@@ -56,6 +56,28 @@ History::Entry& History::next() {
   return *spare_.back();
 }
 
+void History::Entry::add_pose_change(std::uint32_t blade, const ModelPose& pose) {
+  auto& changes = std::get<TearOperation>(operation).pose_changes;
+  // Memory is reserved here, so that dropping the changes does not fail.
+  make_room_to_hold(spare_pose_changes.size() + changes.size() + 1, spare_pose_changes);
+  TearOperation::PoseChange change;
+  if (!spare_pose_changes.empty()) {
+    change = std::move(spare_pose_changes.back());
+    spare_pose_changes.pop_back();
+  }
+  change.blade = blade;
+  assign_pose(pose, change.pose);
+  changes.push_back(std::move(change));
+}
+
+void History::Entry::drop_pose_changes(std::size_t count) noexcept {
+  auto* const tear = std::get_if<TearOperation>(&operation);
+  if (tear == nullptr) return;
+  for (; tear->pose_changes.size() > count; tear->pose_changes.pop_back())
+    if (spare_pose_changes.size() < spare_pose_changes.capacity())
+      spare_pose_changes.push_back(std::move(tear->pose_changes.back()));
+}
+
 IndexRange History::next_lips() const {
   return done_.empty() ? IndexRange{}
                        : IndexRange{done_.back()->lips.first + done_.back()->lips.count, 0};

@@ -31,9 +31,11 @@ class History {
     IndexRange lips, rim_points;
 
     /// The operation as a `Kind`, to be written. One of another kind is replaced; the memory of
-    /// its pose is kept, and that of a stroke until the entry holds a stroke again.
+    /// its pose is kept, and that of a stroke until the entry holds a stroke again. A stroke keeps
+    /// no pose changes.
     template <class Kind>
     Kind& as() {
+      drop_pose_changes(0);
       if (!std::holds_alternative<Kind>(operation)) {
         Kind replacement;
         std::visit(
@@ -49,7 +51,13 @@ class History {
       return std::get<Kind>(operation);
     }
 
+    /// Adds a pose change to the entry's stroke, in the memory of one that was dropped.
+    void add_pose_change(std::uint32_t blade, const ModelPose& pose);
+    /// Drops the pose changes of a stroke after the first `count`; their memory is kept.
+    void drop_pose_changes(std::size_t count) noexcept;
+
     Stroke spare_stroke;
+    std::vector<TearOperation::PoseChange> spare_pose_changes;
   };
 
   /// Reserves memory for this many operations, and for the lips that all of them may open.

@@ -156,7 +156,8 @@ struct TornModel::State {
   tear::PosedPoints posed;
   ModelPose pose;  ///< The pose of `posed`.
   bool has_stroke = false;
-  tear::OngoingStroke stroke;  ///< The stroke under way, or the last one.
+  tear::OngoingStroke stroke;         ///< The stroke under way, or the last one.
+  tear::OngoingStroke stroke_before;  ///< As it was before a call, in case that fails.
   tear::History history;
   std::vector<std::weak_ptr<tear::RefitTask>> refits;  ///< All refits that were submitted.
 

@@ -61,15 +61,15 @@ struct TearStroke::State {
 
   TornModel::State* model;
   StrokeSampling sampling;
-  TearOperation& operation;  ///< The stroke so far, in the next entry of the history.
+  tear::History::Entry& entry;  ///< The next entry of the history.
+  TearOperation& operation;     ///< The stroke so far, in that entry.
   double last_seconds = 0;
   std::optional<Held> held = {};
   tear::EditLog::Mark begin = {};
   TearReport total = {};
   /// Points from this index on were made in the current pose of the model.
   Index first_in_pose = 0;
-  // The state to which a failed call returns.
-  tear::OngoingStroke stroke_before = {};
+  // The state to which a failed call returns, with TornModel::State::stroke_before.
   ModelPose pose_before = {};
   /// Points with their posed positions in that pose, if the pose was left.
   std::vector<std::pair<Index, Vec3d>> found_before = {};
@@ -102,7 +102,7 @@ struct TearStroke::State {
       if (Status status = model->stand_in(pose); !status) return status;
       first_in_pose = points;
       model->stroke.enter_pose(model->workpiece());
-      operation.pose_changes.push_back({index, pose});
+      entry.add_pose_change(index, pose);
     }
     operation.stroke.push_back(blade);
     model->stroke.extend(blade, model->workpiece(), outcome);
@@ -114,7 +114,7 @@ struct TearStroke::State {
   template <class Work, class Conclude>
   Result<TearReport> call(Work work, ChangeRecord* change, Conclude conclude) {
     try {
-      stroke_before = model->stroke;
+      model->stroke_before = model->stroke;
       pose_before = model->pose;
     } catch (const std::bad_alloc&) {
       return out_of_memory();
@@ -125,9 +125,9 @@ struct TearStroke::State {
     const WeightOptions weights = operation.options.weights.value_or(WeightOptions{});
     auto report = model->call({weights, change}, work, conclude);
     if (report) return report;
-    std::swap(model->stroke, stroke_before);
+    std::swap(model->stroke, model->stroke_before);
     operation.stroke.resize(blades);
-    operation.pose_changes.resize(poses);
+    entry.drop_pose_changes(poses);
     first_in_pose = first_before;
     if (!same_bits(pose_before, model->pose)) {
       (void)model->stand_in(pose_before);
@@ -154,14 +154,14 @@ Result<TearStroke> TearStroke::create(TornModel& model, const ModelPose& pose, c
   if (Status status = validate_blade(blade, 0); !status) return status;
   if (Status status = of_model.stand_in(pose); !status) return status;
   try {
-    auto& operation = of_model.history.next().as<TearOperation>();
+    tear::History::Entry& entry = of_model.history.next();
+    auto& operation = entry.as<TearOperation>();
     tear::assign_pose(pose, operation.pose);
     operation.stroke.assign(1, blade);
-    operation.pose_changes.clear();
     operation.options = options;
     operation.options.weights = recorded(options.weights.value_or(of_model.weights));
     of_model.stroke.begin(blade, options);
-    auto state = std::unique_ptr<State>(new State{&of_model, sampling, operation});
+    auto state = std::unique_ptr<State>(new State{&of_model, sampling, entry, operation});
     state->begin = of_model.begin_operation(options.wall_depth > 0);
     state->first_in_pose = state->begin.points;
     of_model.has_stroke = true;

@@ -57,7 +57,6 @@ Result<TearReport> TornModel::tear(const ModelPose& pose, std::span<const Blade>
   const WeightOptions weights = options.weights.value_or(state.weights);
   const auto write_entry = [&](TearOperation& entry) {
     entry.stroke.assign(stroke.begin(), stroke.end());
-    entry.pose_changes.clear();
     entry.options = options;
     entry.options.weights = recorded(weights);
   };

@@ -185,32 +185,45 @@ TEST(Capacity, a_warm_cut_allocates_nothing) {
   EXPECT_GT(divided, 20);
 }
 
-TEST(Capacity, extending_a_stroke_with_a_width_allocates_nothing) {
+/// A stroke of a model that was torn in the same way before. @param moves  whether each blade is in
+/// another pose than the one before.
+void expect_warm_stroke(const TearOptions& options, bool moves) {
   const Character sheet = test::make_sheet(40);
   TornModel model = make_model(sheet, kRoom);
-  const ModelPose pose = *bind_pose(sheet);
+  Random random(1);
+  const std::vector<ModelPose> poses = {
+      *bind_pose(sheet), moves ? test::random_pose(sheet, random, 0.02, 1.0) : *bind_pose(sheet)};
   const auto blade = [](int i) {
     const double x = 0.1 + 0.01 * i, y = 0.5 + 0.1 * std::sin(0.1 * i);
     return Blade{{x, y, 0.5}, {x, y, -0.5}};
   };
-  for (int turn = 0; turn < 3; ++turn) {  // the memory is warm in the last one
-    auto stroke = TearStroke::create(model, pose, blade(0), {0.03, Layers::nearest, 0});
+  ChangeRecord change, undone;
+  for (int turn = 0; turn < 4; ++turn) {  // the memory is warm in the last one
+    auto stroke = TearStroke::create(model, poses[0], blade(0), options);
     ASSERT_TRUE(stroke);
-    ChangeRecord change;
     for (int i = 1; i < 60; ++i) {
       const std::uint64_t before = test::allocation_count();
-      const auto report = stroke->extend(pose, blade(i), 0, &change);
-      // The first ones make the copy to which a failed call would return.
-      if (turn == 2 && i > 10) {
+      const auto report =
+          stroke->extend(poses[static_cast<std::size_t>(i % 2)], blade(i), 0, &change);
+      // The first calls make the copies to which a failed call would return.
+      if (turn == 3 && i > 10) {
         EXPECT_EQ(test::allocation_count(), before) << i;
       }
       ASSERT_TRUE(report);
     }
     const auto whole = stroke->end();
     ASSERT_TRUE(whole);
-    EXPECT_GT(whole->area_removed_posed, 0);
-    ASSERT_TRUE(model.undo());
+    EXPECT_GT(options.width > 0 ? whole->area_removed_posed : whole->length_posed, 0);
+    ASSERT_TRUE(model.undo(&undone));
   }
+}
+
+TEST(Capacity, extending_a_warm_stroke_allocates_nothing_whatever_its_width_and_pose) {
+  for (const double width : {0.0, 0.03})
+    for (const bool moves : {false, true}) {
+      SCOPED_TRACE(testing::Message() << width << (moves ? " moving" : ""));
+      expect_warm_stroke({width, Layers::nearest, 0}, moves);
+    }
 }
 
 TEST(Capacity, where_room_runs_out_nothing_changes) {
