@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <functional>
 
 #include "particles/clusters/describe.h"
 #include "tear/internal/surface.h"
@@ -29,14 +30,25 @@ class Check {
   void slab(const MembershipSlab& of, const Counts& in);
   void particle(const Particle& of, const Counts& in);
   void pending(const PendingWork& of, const Counts& in);
-  void change(const Change& of, const Counts& in);
-  void now(const Counts& in);
+  void point(Index point, const MembershipSlab& slab, const ParticleInfluences& influences,
+             const LipPoint& lip);
+  void history(std::vector<Counts> levels);
+  void change(const Change& of, Index level);
+  void now();
   void band(const Counts& in);
   [[nodiscard]] const Status& status() const { return status_; }
 
  private:
   const Structure& structure_;
   const TornModel& model_;
+  /// The counts before each operation, and now at the end.
+  std::vector<Counts> levels_;
+  /// Per element the level since which it has the value that is looked at: undo returns to all
+  /// levels down to that one before it exchanges the value.
+  struct Since {
+    std::vector<Index> points, particles, lips;
+    std::vector<std::vector<Index>> vertices;  ///< Per mesh.
+  } since_;
   Status status_;
 };
 
@@ -97,48 +109,94 @@ void Check::pending(const PendingWork& of, const Counts& in) {
   for (const Index particle : of.to_grow) require(particle < in.particles, "a particle to grow");
 }
 
-void Check::change(const Change& of, const Counts& in) {
-  require(of.points == in.points && of.particles == in.particles && of.lips == in.lips &&
-              of.memberships_before == in.memberships && of.vertices.size() == in.vertices.size(),
-          "the counts before an operation");
+void Check::point(Index point, const MembershipSlab& of, const ParticleInfluences& by,
+                  const LipPoint& lip) {
+  const Counts& in = levels_[since_.points[point]];
+  slab(of, in);
+  influences(by, in);
+  lip_point(lip, in);
+}
+
+/// Per element, the first level that has it.
+template <class CountOf>
+std::vector<Index> births(std::span<const Counts> levels, CountOf count_of) {
+  std::vector<Index> births;
+  for (Index level = 0; level < levels.size(); ++level)
+    births.resize(std::max(births.size(), std::size_t{count_of(levels[level])}), level);
+  return births;
+}
+
+void Check::history(std::vector<Counts> levels) {
+  levels_ = std::move(levels);
+  since_.points = births(levels_, [](const Counts& of) { return of.points; });
+  since_.particles = births(levels_, [](const Counts& of) { return of.particles; });
+  since_.lips = births(levels_, [](const Counts& of) { return of.lips; });
+  for (std::size_t m = 0; m < structure_.vertex_points.of_mesh.size(); ++m)
+    since_.vertices.push_back(births(levels_, [m](const Counts& of) { return of.vertices[m]; }));
+  for (Index level = 0; level + 1 < levels_.size(); ++level)
+    change(structure_.tears.done[level], level);
+  now();
+}
+
+void Check::change(const Change& of, Index level) {
+  const Counts& in = levels_[level];
   for (const Change::OfPoint& changed : of.changed_points) {
     require(changed.point < in.points, "a changed point", changed.point);
-    slab(changed.slab, in);
-    influences(changed.influences, in);
-    lip_point(changed.lip, in);
+    if (!status_) return;
+    point(changed.point, changed.slab, changed.influences, changed.lip);
+    since_.points[changed.point] = level + 1;
   }
   for (const auto& [index, before] : of.changed_particles) {
     require(index < in.particles, "a changed particle", index);
-    particle(before, in);
+    if (!status_) return;
+    particle(before, levels_[since_.particles[index]]);
+    since_.particles[index] = level + 1;
   }
-  for (const Change::OfVertex& changed : of.changed_vertices)
-    require(changed.mesh < in.vertices.size() && changed.vertex < in.vertices[changed.mesh] &&
-                (changed.point == kNone || changed.point < in.points),
+  for (const Change::OfVertex& changed : of.changed_vertices) {
+    require(changed.mesh < in.vertices.size() && changed.vertex < in.vertices[changed.mesh],
             "a changed vertex");
-  for (const auto& [index, lip] : of.changed_lips)
-    require(index < in.lips && lip.points[0] < in.points && lip.points[1] < in.points,
-            "a changed lip");
+    if (!status_) return;
+    Index& since = since_.vertices[changed.mesh][changed.vertex];
+    // Undo ends with the first of several values.
+    if (since == level + 1) continue;
+    require(changed.point == kNone || changed.point < levels_[since].points,
+            "the point of a changed vertex");
+    since = level + 1;
+  }
+  for (const auto& [index, lip] : of.changed_lips) {
+    require(index < in.lips, "a changed lip");
+    if (!status_) return;
+    const std::size_t points = levels_[since_.lips[index]].points;
+    require(lip.points[0] < points && lip.points[1] < points, "the points of a changed lip");
+    since_.lips[index] = level + 1;
+  }
   if (of.pending_before) pending(*of.pending_before, in);
 }
 
-void Check::now(const Counts& in) {
+void Check::now() {
+  if (!status_) return;
   const PointTable& points = structure_.points;
-  for (Index p = 0; p < in.points; ++p) {
-    slab(points.slabs[p], in);
-    influences(points.influences[p], in);
-    lip_point(points.lip_points[p], in);
-  }
+  for (Index p = 0; p < points.count(); ++p)
+    point(p, points.slabs[p], points.influences[p], points.lip_points[p]);
   for (Index i = 0; i < points.older_lips.size(); ++i)
-    require(points.older_lips[i].older == kNone || points.older_lips[i].older < i,
+    require((points.older_lips[i].older == kNone || points.older_lips[i].older < i) &&
+                (points.older_lips[i].tear == kNone ||
+                 points.older_lips[i].tear < structure_.tears.done.size()),
             "an older lip of a lip");
-  for (const Particle& of : structure_.particles) particle(of, in);
-  for (const LipEdge& lip : structure_.lips)
-    require(lip.points[0] < in.points && lip.points[1] < in.points, "a lip");
-  for (const std::vector<Index>& of_mesh : structure_.vertex_points.of_mesh)
-    for (const Index point : of_mesh)
-      require(point == kNone || point < in.points, "the point of a vertex");
+  for (Index p = 0; p < structure_.particles.size(); ++p)
+    particle(structure_.particles[p], levels_[since_.particles[p]]);
+  for (Index i = 0; i < structure_.lips.size(); ++i) {
+    const std::size_t count = levels_[since_.lips[i]].points;
+    require(structure_.lips[i].points[0] < count && structure_.lips[i].points[1] < count, "a lip");
+  }
+  for (std::size_t m = 0; m < since_.vertices.size(); ++m)
+    for (Index v = 0; v < since_.vertices[m].size(); ++v) {
+      const Index of = structure_.vertex_points.of_mesh[m][v];
+      require(of == kNone || of < levels_[since_.vertices[m][v]].points, "the point of a vertex");
+    }
   for (const auto& [vertex, shared] : structure_.vertex_points.shared)
-    require(vertex.first < in.vertices.size(), "a vertex of several points");
+    require(vertex.first < since_.vertices.size(), "a vertex of several points");
+  const Counts& in = levels_.back();
   if (structure_.tears.waiting) pending(*structure_.tears.waiting, in);
   if (structure_.tears.band) band(in);
 }
@@ -173,22 +231,24 @@ Status validate(const Structure& structure, const TornModel& model) {
   std::vector<Index> vertices;
   for (const auto& of_mesh : structure.vertex_points.of_mesh)
     vertices.push_back(static_cast<Index>(of_mesh.size()));
-  const Counts counts{structure.points.count(), structure.particles.size(), structure.lips.size(),
-                      structure.points.memberships_end, vertices};
-  check.now(counts);
-  // The values before each operation must fit the structure to which undo returns.
-  Counts later = counts;
-  for (auto change = structure.tears.done.rbegin(); change != structure.tears.done.rend();
-       ++change) {
-    const Counts before{change->points, change->particles, change->lips, change->memberships_before,
-                        change->vertices};
-    check.require(before.points <= later.points && before.particles <= later.particles &&
-                      before.lips <= later.lips && before.memberships <= later.memberships &&
-                      std::ranges::equal(before.vertices, later.vertices, std::less_equal<>()),
+  std::vector<Counts> levels;
+  for (const Change& of : structure.tears.done)
+    levels.push_back({of.points, of.particles, of.lips, of.memberships_before, of.vertices});
+  levels.push_back({structure.points.count(), structure.particles.size(), structure.lips.size(),
+                    structure.points.memberships_end, vertices});
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    const Counts& of = levels[i];
+    check.require(of.vertices.size() == vertices.size(), "the meshes before an operation");
+    if (!check.status()) return check.status();
+    if (i == 0) continue;
+    const Counts& before = levels[i - 1];
+    check.require(before.points <= of.points && before.particles <= of.particles &&
+                      before.lips <= of.lips && before.memberships <= of.memberships &&
+                      std::ranges::equal(before.vertices, of.vertices, std::less_equal<>()),
                   "the counts before an operation");
-    check.change(*change, before);
-    later = before;
   }
+  if (!check.status()) return check.status();
+  check.history(std::move(levels));
   return check.status();
 }
 
