@@ -54,7 +54,8 @@ class HoldList {
       for (int i = 0; i < 3; ++i) tape.any(hold.last[i]);
       tape(hold.rest);
       tape(hold.epoch);
-      bool fits = (hold.particle < particles) != (hold.point < points);
+      bool fits = hold.point == kNone ? hold.particle < particles
+                                      : hold.particle == kNone && hold.point < points;
       for (const Index particle : hold.whom.particles) fits &= particle < particles;
       tape.require(fits && hold.stiffness > 0, "a hold");
     });
