@@ -67,6 +67,11 @@ struct BodyState {
   /// std::bad_alloc
   void follow_particles();
   void wake_around(Index particle);
+  /// Shows displacements that were set outside of a step.
+  void show() { publish(false); }
+  [[nodiscard]] std::size_t memory_bytes() const;
+  /// Makes room for follow_particles().
+  void reserve_for(Index count) { reserve(count); }
   void wake_all();
   /// @param pose, seconds  were checked, and the set was followed. @throws std::bad_alloc
   void step(const TornModel& model, const ModelPose& pose, bool is_posed, double seconds);

@@ -8,10 +8,11 @@
 #include <stdexcept>
 
 #include "core/internal/ordered.h"
-#include "particles/clusters/decompose.h"
+#include "particles/clusters/check_pose.h"
 #include "particles/clusters/gradients.h"
-#include "particles/clusters/read_model.h"
+#include "particles/clusters/set_data.h"
 #include "particles/clusters/tips.h"
+#include "particles/particle_asset.h"
 #include "particles/repair/follow_history.h"
 #include "particles/repair/repair.h"
 #include "tear/internal/surface.h"
@@ -20,108 +21,82 @@ namespace sunder {
 namespace {
 using particles::Structure;
 
-Status check_pose(const particles::CharacterLink& character, const ModelPose& pose) {
-  if (pose.model_from_bone.size() != character.bone_count)
-    return Status::failure(StatusCode::size_mismatch, kNone,
-                           "the pose has %zu bones, the character has %zu",
-                           pose.model_from_bone.size(), character.bone_count);
-  if (pose.morph_weights.size() != character.morph_weight_count)
-    return Status::failure(StatusCode::size_mismatch, kNone,
-                           "the pose has %zu morph weights, the character has %zu",
-                           pose.morph_weights.size(), character.morph_weight_count);
-  for (std::uint32_t bone = 0; bone < pose.model_from_bone.size(); ++bone)
-    if (!pose.model_from_bone[bone].matrix().allFinite())
-      return Status::failure(StatusCode::non_finite_value, bone,
-                             "the pose of bone %u is not finite", bone);
-  for (std::uint32_t i = 0; i < pose.morph_weights.size(); ++i)
-    if (!std::isfinite(pose.morph_weights[i]))
-      return Status::failure(StatusCode::non_finite_value, i,
-                             "morph weight %u of the pose is not finite", i);
-  return {};
+/// Whether no call has changed a model that its particles do not have followed yet.
+bool is_untouched(const TornModel& model, std::span<const ChangeRecord> changes) {
+  if (!model.is_in_stroke()) return model.newest_operation() == 0;
+  return std::ranges::all_of(changes, [](const ChangeRecord& change) {
+    return change.meshes.empty() && change.point_count == 0;
+  });
 }
 
 Status out_of_memory() {
   return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
 }
 
-/// @param report  its range in metres is written.
-Status find_range(const DecompositionOptions& options, double diagonal,
-                  DecompositionReport& report) {
-  if (!(diagonal > 0))
-    return Status::failure(StatusCode::empty_input, kNone,
-                           "the model has no face that can be divided into particles");
-  report.range = options.is_fraction ? options.range * diagonal : options.range;
-  if (report.range >= double{std::numeric_limits<float>::min()} &&
-      report.range <= double{std::numeric_limits<float>::max()})
-    return {};
-  return Status::failure(StatusCode::invalid_argument, kNone,
-                         "the range of particles is %g m; it must be a finite float above 0",
-                         report.range);
-}
-
 }  // namespace
 
-ParticleSet::ParticleSet(std::unique_ptr<Structure> structure) : structure_(std::move(structure)) {}
+ParticleSet::ParticleSet(std::unique_ptr<particles::SetData> data) : data_(std::move(data)) {}
 ParticleSet::~ParticleSet() = default;
 ParticleSet::ParticleSet(ParticleSet&&) noexcept = default;
 ParticleSet& ParticleSet::operator=(ParticleSet&&) noexcept = default;
 
 Result<ParticleSet> ParticleSet::create(const TornModel& model, const ModelPose& pose,
                                         const DecompositionOptions& options) {
-  if (!(options.range > 0) || !std::isfinite(options.range))
-    return Status::failure(StatusCode::invalid_argument, kNone,
-                           "the range of particles is %g; it must be finite and above 0",
-                           options.range);
+  Result<std::unique_ptr<Structure>> made = particles::decompose_model(model, pose, options);
+  if (!made) return made.error();
   try {
-    const auto begin = std::chrono::steady_clock::now();
-    auto structure = std::make_unique<Structure>();
-    structure->character.bone_count = model.character().skeleton.bones.size();
-    structure->character.morph_weight_count = model.character().rest_morph_weights.size();
-    if (Status status = check_pose(structure->character, pose); !status) return status;
-    particles::read_model(model, pose, *structure);
-    if (Status status =
-            find_range(options, particles::diagonal_of(*structure, model), structure->report);
-        !status)
-      return status;
-    particles::decompose(model, options, *structure);
-    structure->prepare_for_tears(model.surface().triangle_count());
-    structure->report.seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    return ParticleSet(std::move(structure));
-  } catch (const std::length_error&) {
-    return Status::failure(StatusCode::limit_exceeded, kNone,
-                           "a range of %g makes more than %zu particles", options.range,
-                           particles::kMaximumParticles);
+    auto data = std::make_unique<particles::SetData>();
+    data->own = std::move(*made);
+    data->own->prepare_for_tears(model.surface().triangle_count());
+    return ParticleSet(std::move(data));
   } catch (const std::bad_alloc&) {
     return out_of_memory();
   }
 }
 
-const DecompositionReport& ParticleSet::report() const { return structure_->report; }
+Result<ParticleSet> ParticleSet::create(std::shared_ptr<const ParticleAsset> asset,
+                                        const TornModel& model) {
+  if (!asset)
+    return Status::failure(StatusCode::empty_input, kNone, "there is no asset of particles");
+  const Structure& shared = *asset->structure_;
+  if (&model.source() != shared.character.source || model.newest_operation() != 0 ||
+      model.point_count() != shared.points.count())
+    return Status::failure(StatusCode::invalid_argument, kNone,
+                           "the asset of particles is of another model, or the model is torn");
+  try {
+    auto data = std::make_unique<particles::SetData>();
+    data->shared = asset->structure_;
+    return ParticleSet(std::move(data));
+  } catch (const std::bad_alloc&) {
+    return out_of_memory();
+  }
+}
+
+const DecompositionReport& ParticleSet::report() const { return data_->now().report; }
 std::uint32_t ParticleSet::particle_count() const {
-  return static_cast<Index>(structure_->particles.size());
+  return static_cast<Index>(data_->now().particles.size());
 }
 std::uint64_t ParticleSet::serial(std::uint32_t particle) const {
   SUNDER_ASSERT(particle < particle_count());
-  return structure_->particles[particle].serial;
+  return data_->now().particles[particle].serial;
 }
 std::uint32_t ParticleSet::seed(std::uint32_t particle) const {
   SUNDER_ASSERT(particle < particle_count());
-  return structure_->particles[particle].seed;
+  return data_->now().particles[particle].seed;
 }
 double ParticleSet::range(std::uint32_t particle) const {
   SUNDER_ASSERT(particle < particle_count());
-  return double{structure_->particles[particle].range};
+  return double{data_->now().particles[particle].range};
 }
 std::uint32_t ParticleSet::member_count(std::uint32_t particle) const {
   SUNDER_ASSERT(particle < particle_count());
-  return structure_->particles[particle].member_count;
+  return data_->now().particles[particle].member_count;
 }
 
 Result<std::vector<std::uint32_t>> ParticleSet::members(std::uint32_t particle) const {
   SUNDER_ASSERT(particle < particle_count());
   try {
-    return structure_->members_of(particle);
+    return data_->now().members_of(particle);
   } catch (const std::bad_alloc&) {
     return out_of_memory();
   }
@@ -129,54 +104,57 @@ Result<std::vector<std::uint32_t>> ParticleSet::members(std::uint32_t particle) 
 
 std::span<const ParticleNeighbour> ParticleSet::neighbours(std::uint32_t particle) const {
   SUNDER_ASSERT(particle < particle_count());
-  return structure_->particles[particle].neighbours;
+  return data_->now().particles[particle].neighbours;
 }
 
 double ParticleSet::coupling(std::uint32_t particle, const ParticleNeighbour& neighbour) const {
   SUNDER_ASSERT(particle < particle_count() && neighbour.particle < particle_count());
-  const double least = std::min(structure_->particles[particle].weight,
-                                structure_->particles[neighbour.particle].weight);
+  const double least = std::min(data_->now().particles[particle].weight,
+                                data_->now().particles[neighbour.particle].weight);
   return least > 0 ? std::min(1.0, neighbour.shared / least) : 0.0;
 }
 
 const ParticleInfluences& ParticleSet::parents(std::uint32_t particle) const {
   SUNDER_ASSERT(particle < particle_count());
-  return structure_->particles[particle].parents;
+  return data_->now().particles[particle].parents;
 }
-std::uint32_t ParticleSet::point_count() const { return structure_->points.count(); }
+std::uint32_t ParticleSet::point_count() const { return data_->now().points.count(); }
 std::span<const ParticleMembership> ParticleSet::memberships(std::uint32_t point) const {
   SUNDER_ASSERT(point < point_count());
-  return structure_->points.memberships_of(point);
+  return data_->now().points.memberships_of(point);
 }
 std::span<const ParticleInfluences> ParticleSet::influences() const {
-  return structure_->points.influences;
+  return data_->now().points.influences;
 }
 std::span<const ParticleGradients> ParticleSet::gradients(const TornModel& model) {
+  if (!data_->own) return data_->shared->gradients->known();
   try {
-    return structure_->gradients->of(model.surface(), *structure_);
+    return data_->own->gradients->of(model.surface(), *data_->own);
   } catch (const std::bad_alloc&) {
     return {};
   }
 }
-bool ParticleSet::is_broken() const { return structure_->tears.is_broken; }
-bool ParticleSet::is_settled() const { return structure_->tears.band == nullptr; }
+bool ParticleSet::is_broken() const { return data_->is_broken || data_->now().tears.is_broken; }
+std::size_t ParticleSet::memory_bytes() const { return data_->memory_bytes(); }
+bool ParticleSet::is_settled() const { return data_->now().tears.band == nullptr; }
 std::span<const std::uint32_t> ParticleSet::vertex_points(std::uint32_t mesh) const {
-  SUNDER_ASSERT(mesh < structure_->vertex_points.of_mesh.size());
-  return structure_->vertex_points.of_mesh[mesh];
+  SUNDER_ASSERT(mesh < data_->now().vertex_points.of_mesh.size());
+  return data_->now().vertex_points.of_mesh[mesh];
 }
-std::span<const Vec3f> ParticleSet::positions() const { return structure_->points.positions; }
-std::span<const LipEdge> ParticleSet::lips() const { return structure_->lips; }
-std::uint64_t ParticleSet::revision() const { return structure_->revision; }
+std::span<const Vec3f> ParticleSet::positions() const { return data_->now().points.positions; }
+std::span<const LipEdge> ParticleSet::lips() const { return data_->now().lips; }
+std::uint64_t ParticleSet::revision() const { return data_->now().revision; }
 
 DirtyRanges ParticleSet::dirty_points() const {
-  std::vector<Index>& dirty = structure_->dirty;  // their order has no meaning
+  if (!data_->own) return {};
+  std::vector<Index>& dirty = data_->own->dirty;  // their order has no meaning
   std::sort(dirty.begin(), dirty.end());
   return DirtyRanges::covering(dirty);
 }
 
 Result<std::vector<std::uint32_t>> ParticleSet::tips(const TornModel& model) const {
   try {
-    return particles::find_tips(model, *structure_);
+    return particles::find_tips(model, data_->now());
   } catch (const std::bad_alloc&) {
     return out_of_memory();
   }
@@ -184,35 +162,43 @@ Result<std::vector<std::uint32_t>> ParticleSet::tips(const TornModel& model) con
 
 Status ParticleSet::rest(const ModelPose& pose, std::span<const std::uint32_t> particles,
                          std::span<ParticleRest> rest) const {
-  particles::CharacterLink& character = structure_->character;
-  if (Status status = check_pose(character, pose); !status) return status;
+  const particles::CharacterLink& character = data_->now().character;
+  if (Status status = particles::check_pose(character, pose); !status) return status;
   if (rest.size() != particles.size())
     return Status::failure(StatusCode::size_mismatch, kNone,
                            "%zu particles are requested, but the output has %zu entries",
                            particles.size(), rest.size());
-  if (Status status = character.pose.set(character.skins, pose); !status) return status;
+  particles::SurfacePose& posed = data_->pose;
+  try {
+    if (!data_->has_pose) posed.begin(character.skins, character.morph_weight_count);
+    data_->has_pose = true;
+  } catch (const std::bad_alloc&) {
+    return out_of_memory();
+  }
+  if (Status status = posed.set(character.skins, pose); !status) return status;
   for (std::size_t i = 0; i < particles.size(); ++i) {
     SUNDER_ASSERT(particles[i] < particle_count());
-    rest[i] = character.pose.rest(structure_->particles[particles[i]]);
+    rest[i] = posed.rest(data_->now().particles[particles[i]]);
   }
   return {};
 }
 
 Status ParticleSet::follow(const TornModel& model, std::span<const ChangeRecord> changes) {
-  Structure& structure = *structure_;
-  if (&model.source() != structure.character.source)
+  if (&model.source() != data_->now().character.source)
     return Status::failure(StatusCode::invalid_argument, kNone,
                            "the particles belong to another model, or it was compacted since; "
                            "create a new ParticleSet");
-  if (structure.tears.is_broken)
+  if (is_broken())
     return Status::failure(StatusCode::invalid_argument, kNone,
                            "memory ran out in an earlier call; create a new ParticleSet");
-  structure.dirty.clear();
+  if (!data_->own && is_untouched(model, changes)) return {};
   try {
+    Structure& structure = data_->to_change();
+    structure.dirty.clear();
     particles::follow_history(model, structure, changes);
     structure.note_dirty_points();
   } catch (const std::bad_alloc&) {
-    structure.tears.is_broken = true;
+    data_->is_broken = true;
     return Status::failure(StatusCode::limit_exceeded, kNone,
                            "out of memory; create a new ParticleSet");
   }
@@ -220,18 +206,19 @@ Status ParticleSet::follow(const TornModel& model, std::span<const ChangeRecord>
 }
 
 bool ParticleSet::settle(const TornModel& model, std::uint32_t points) {
-  Structure& structure = *structure_;
+  if (!data_->own) return false;
+  Structure& structure = *data_->own;
   particles::TearLog& tears = structure.tears;
-  if (!tears.band || tears.is_broken || &model.source() != structure.character.source) return false;
+  if (!tears.band || is_broken() || &model.source() != structure.character.source) return false;
   structure.dirty.clear();
   try {
     particles::settle_band(model, structure, std::max(1u, points));
     structure.note_dirty_points();
   } catch (const std::bad_alloc&) {
-    tears.is_broken = true;
+    data_->is_broken = true;
     return false;
   }
-  structure.gradients->forget(model.surface(), structure.dirty);
+  structure.gradients->forget(model.surface(), structure.dirty, &tears.done.back());
   return tears.band != nullptr;
 }
 

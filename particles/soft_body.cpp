@@ -371,6 +371,7 @@ bool SoftBody::is_awake(std::uint32_t particle) const {
 }
 bool SoftBody::needs_step() const { return !state_->is_still(); }
 std::uint32_t SoftBody::awake_count() const { return state_->motion.awake_count; }
+std::size_t SoftBody::memory_bytes() const { return state_->memory_bytes(); }
 const ContactReport& SoftBody::contacts() const { return state_->contact.report(); }
 
 }  // namespace sunder

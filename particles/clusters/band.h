@@ -50,6 +50,9 @@ struct Band {
   bool is_begun = false;    ///< Whether the chains were found.
   std::vector<LipChain> chains;
   Index growing = kNone;  ///< After the band: the particle that the front grows.
+  /// Members that the front did not reach, which the particle loses; the last first.
+  std::vector<Index> unreached;
+  bool is_grown = false;  ///< Whether `unreached` was found.
   PendingWork pending;    ///< Other work, which follows.
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "core/internal/prefetch.h"
 #include "particles/clusters/structure.h"
 
 namespace sunder::particles {
@@ -32,9 +33,22 @@ void exchange_in_turn(std::vector<T>& changes, bool is_done, Exchange exchange_o
     std::for_each(changes.begin(), changes.end(), exchange_one);
 }
 
+/// Prefetches what an entry of a change exchanges.
+void expect(const PointTable& points, Index point) {
+  prefetch(&points.slabs[point]);
+  prefetch(&points.influences[point]);
+  prefetch(&points.lip_points[point]);
+}
+
 void exchange_changed(Structure& structure, Change& change, bool is_done) {
   PointTable& points = structure.points;
+  const std::vector<Change::OfPoint>& changed = change.changed_points;
   exchange_in_turn(change.changed_points, is_done, [&](Change::OfPoint& of) {
+    // The entries that come next are read ahead, because their points are anywhere in memory.
+    constexpr std::ptrdiff_t kAhead = 12;
+    const std::ptrdiff_t next = &of - changed.data() + (is_done ? -kAhead : kAhead);
+    if (next >= 0 && next < std::ssize(changed))
+      expect(points, changed[static_cast<std::size_t>(next)].point);
     std::swap(points.slabs[of.point], of.slab);
     std::swap(points.influences[of.point], of.influences);
     std::swap(points.lip_points[of.point], of.lip);

@@ -13,7 +13,9 @@ struct Structure;
 /// The changes of an operation to the structure, as previous values. exchange() swaps them with the
 /// current values, which undoes or redoes the operation.
 struct Change {
-  std::uint64_t operation = 0;  ///< TornModel::newest_operation() at its end; 0: in progress.
+  static constexpr std::uint64_t kUnnamed = ~std::uint64_t{0};
+  std::uint64_t operation =
+      0;  ///< TornModel::newest_operation() at its end; 0: in progress; kUnnamed: restored.
   Index points = 0, particles = 0, lips = 0;  ///< Counts before.
   std::size_t memberships_before = 0, memberships_after = 0;
   std::vector<Index> vertices;  ///< Per mesh: the count before.
@@ -29,6 +31,16 @@ struct Change {
   struct OfVertex {
     Index mesh = 0, vertex = 0, point = kNone;
   };
+  /// Gradients before, if they were wanted then: each point once. The others need not be computed
+  /// again after undo.
+  struct OfGradients {
+    Index point = 0;
+    bool is_known = false;
+    ParticleGradients gradients;
+  };
+  std::vector<OfGradients> changed_gradients;
+  bool has_gradients = false;
+
   std::vector<OfPoint> changed_points;
   std::vector<std::pair<Index, Particle>> changed_particles;
   std::vector<OfVertex> changed_vertices;

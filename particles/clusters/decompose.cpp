@@ -55,7 +55,7 @@ void grow_particle(Index seed, Rings& rings, Structure& structure, std::vector<V
   SurfaceFront& front = structure.scratch.front;
   front.begin(structure.points.count(), range, structure.edge_length);
   front.add(seed, 0.0f);
-  structure.members.first.push_back(static_cast<Index>(visits.size()));
+  structure.members.decomposed->first.push_back(static_cast<Index>(visits.size()));
   front.run(rings, [&](Index point, float distance, Index) {
     visits.push_back({point, distance});
     Found& of = found[point];
@@ -67,7 +67,8 @@ void grow_particle(Index seed, Rings& rings, Structure& structure, std::vector<V
   particle.serial = structure.next_serial++;
   particle.seed = seed;
   particle.range = range;
-  particle.member_count = static_cast<Index>(visits.size()) - structure.members.first.back();
+  particle.member_count =
+      static_cast<Index>(visits.size()) - structure.members.decomposed->first.back();
 }
 
 /// Chooses seeds until every point is near one. @return the members of all particles, particle by
@@ -89,7 +90,7 @@ std::vector<Visit> take_seeds(const Surface& surface, std::uint64_t seed_of_orde
       grow_particle(seed, rings, structure, visits, found);
     }
   }
-  structure.members.first.push_back(static_cast<Index>(visits.size()));
+  structure.members.decomposed->first.push_back(static_cast<Index>(visits.size()));
   structure.members.joined.resize(structure.particles.size());
   return visits;
 }
@@ -99,7 +100,7 @@ void sort_memberships(std::span<const Visit> visits, std::span<const Found> foun
                       Structure& structure) {
   const auto range = static_cast<float>(structure.report.range);
   PointTable& points = structure.points;
-  MemberLists& members = structure.members;
+  MemberLists::OfDecomposition& members = *structure.members.decomposed;
   members.points.resize(visits.size());
   points.memberships.resize(visits.size());
   points.slabs.resize(found.size());
@@ -118,11 +119,11 @@ void sort_memberships(std::span<const Visit> visits, std::span<const Found> foun
 
 /// Computes the rest terms of all particles from their members.
 void sum_rest_terms(const TornModel& model, Structure& structure) {
-  RestSums sums(model, structure.character.pose.first_slots(), structure.points.vertices);
+  RestSums sums(model, structure.character.first_slots, structure.points.vertices);
   for (Index p = 0; p < structure.particles.size(); ++p) {
     Particle& particle = structure.particles[p];
-    sums.sum(std::span(structure.members.points)
-                 .subspan(structure.members.first[p], particle.member_count),
+    sums.sum(std::span(structure.members.decomposed->points)
+                 .subspan(structure.members.decomposed->first[p], particle.member_count),
              particle);
   }
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/internal/ordered.h"
+#include "core/internal/prefetch.h"
 #include "tear/internal/surface.h"
 
 namespace sunder::particles {
@@ -51,47 +52,81 @@ ParticleGradients gradients_at(const Surface& surface, const Structure& structur
 
 }  // namespace
 
-void Gradients::forget(Index point) {
-  if (point >= is_known_.size() || !is_known_[point]) return;
+void Gradients::begin_change(Change& change) {
+  change.has_gradients = is_wanted_;
+  if (!is_wanted_) return;
+  logged_.begin(change.points);
+  // Points of earlier operations may not have been asked for yet.
+  for (auto point = static_cast<Index>(is_known_.size()); point < change.points; ++point)
+    unknown_.push_back(point);
+  is_known_.resize(std::max<std::size_t>(is_known_.size(), change.points), false);
+  gradients_.resize(is_known_.size());
+}
+
+void Gradients::forget(Index point, Change* change) {
+  if (point >= is_known_.size()) return;
+  if (change != nullptr && change->has_gradients && point < change->points && logged_.mark(point))
+    change->changed_gradients.push_back({point, is_known_[point], gradients_[point]});
+  if (!is_known_[point]) return;
   is_known_[point] = false;
   unknown_.push_back(point);
 }
 
-void Gradients::forget(const Surface& surface, std::span<const Index> points) {
+void Gradients::forget(const Surface& surface, std::span<const Index> points, Change* change) {
   if (!is_wanted_) return;
   for (const Index point : points) {
     if (point >= surface.point_count()) continue;
-    forget(point);
+    forget(point, change);
     if (surface.point_corner[point] == kNone) continue;
     surface.for_each_in_fan(surface.point_corner[point], [&](Index corner) {
-      forget(surface.corner_point[Surface::next(corner)]);
-      forget(surface.corner_point[Surface::previous(corner)]);
+      forget(surface.corner_point[Surface::next(corner)], change);
+      forget(surface.corner_point[Surface::previous(corner)], change);
     });
   }
 }
 
+bool Gradients::exchange(Change& change) {
+  if (!change.has_gradients) return false;
+  // The points of an undone operation are gone, and new when they return.
+  const std::size_t stay = std::min<std::size_t>(change.points, is_known_.size());
+  is_known_.resize(stay);
+  gradients_.resize(stay);
+  for (std::size_t i = 0; i < change.changed_gradients.size(); ++i) {
+    constexpr std::size_t kAhead = 12;
+    if (i + kAhead < change.changed_gradients.size())
+      prefetch(&gradients_[change.changed_gradients[i + kAhead].point]);
+    Change::OfGradients& of = change.changed_gradients[i];
+    const bool was_known = is_known_[of.point];
+    is_known_[of.point] = of.is_known;
+    std::swap(gradients_[of.point], of.gradients);
+    if (!of.is_known) unknown_.push_back(of.point);
+    of.is_known = was_known;
+  }
+  return true;
+}
+
 void Gradients::forget(const TornModel& model, const Structure& structure,
-                       const MeshChange& change) {
-  const std::vector<Index>& points = structure.vertex_points.of_mesh[change.mesh];
-  const Mesh& mesh = model.character().meshes[change.mesh];
+                       const MeshChange& of_mesh, Change* change) {
+  const std::vector<Index>& points = structure.vertex_points.of_mesh[of_mesh.mesh];
+  const Mesh& mesh = model.character().meshes[of_mesh.mesh];
   const auto forget_corners = [&](const Triangle& triangle) {
     for (const Index vertex : triangle)
-      if (vertex < points.size() && points[vertex] != kNone) forget(points[vertex]);
+      if (vertex < points.size() && points[vertex] != kNone) forget(points[vertex], change);
   };
-  for (const RewrittenTriangle& rewritten : change.rewritten) {
+  for (const RewrittenTriangle& rewritten : of_mesh.rewritten) {
     forget_corners(rewritten.before);
     if (rewritten.triangle < mesh.triangle_count())
       forget_corners(mesh.triangles[rewritten.triangle]);
   }
-  for (Index t = change.first_triangle; t < mesh.triangle_count(); ++t)
+  for (Index t = of_mesh.first_triangle; t < mesh.triangle_count(); ++t)
     forget_corners(mesh.triangles[t]);
 }
 
 void Gradients::forget(const TornModel& model, const Structure& structure,
-                       std::span<const ChangeRecord> changes) {
+                       std::span<const ChangeRecord> changes, Change* change) {
   if (!is_wanted_) return;
-  for (const ChangeRecord& change : changes)
-    for (const MeshChange& of_mesh : change.meshes) forget(model, structure, of_mesh);
+  for (const ChangeRecord& record : changes)
+    for (const MeshChange& of_mesh : record.meshes) forget(model, structure, of_mesh, change);
 }
 
 std::span<const ParticleGradients> Gradients::of(const Surface& surface,
@@ -107,7 +142,7 @@ std::span<const ParticleGradients> Gradients::of(const Surface& surface,
   is_wanted_ = true;
   gradients_.resize(count);
   for (const Index point : unknown_) {
-    if (point >= count) continue;
+    if (point >= count || is_known_[point]) continue;
     gradients_[point] = gradients_at(surface, structure, point);
     is_known_[point] = true;
   }

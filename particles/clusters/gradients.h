@@ -1,6 +1,7 @@
 #pragma once
 
 #include "particles/clusters/structure.h"
+#include "particles/front/marks.h"
 #include "tear/internal/surface.h"
 
 namespace sunder::particles {
@@ -9,21 +10,32 @@ namespace sunder::particles {
 /// are recomputed there.
 class Gradients {
  public:
-  /// Invalidates points whose weights changed, and their neighbours. No allocation.
-  void forget(const Surface& surface, std::span<const Index> points);
-  /// Invalidates the points of faces that changed. No allocation.
+  /// Begins an operation: forget() logs gradients in its change.
+  void begin_change(Change& change);
+  /// Invalidates points whose weights changed, and their neighbours.
+  /// @param change  of the operation; null: not logged.
+  void forget(const Surface& surface, std::span<const Index> points, Change* change);
+  /// Invalidates the points of faces that changed.
   void forget(const TornModel& model, const Structure& structure,
-              std::span<const ChangeRecord> changes);
+              std::span<const ChangeRecord> changes, Change* change);
+  /// Exchanges the gradients with those that a change logged, while it is undone or redone.
+  /// @return false if it logged none.
+  bool exchange(Change& change);
+  /// The result of the last of().
+  [[nodiscard]] std::span<const ParticleGradients> known() const { return gradients_; }
+  [[nodiscard]] std::size_t memory_bytes() const;
   /// One entry per point.
   std::span<const ParticleGradients> of(const Surface& surface, const Structure& structure);
 
  private:
-  void forget(Index point);
-  void forget(const TornModel& model, const Structure& structure, const MeshChange& change);
+  void forget(Index point, Change* change);
+  void forget(const TornModel& model, const Structure& structure, const MeshChange& of_mesh,
+              Change* change);
 
   std::vector<ParticleGradients> gradients_;
   std::vector<bool> is_known_;
   std::vector<Index> unknown_;  ///< Has room for all points of `is_known_`.
+  Marks logged_;                ///< Points that the current change has logged.
   bool is_wanted_ = false;      ///< Nothing is computed before the first of().
 };
 

@@ -9,7 +9,12 @@ namespace sunder::particles {
 /// summed in a small matrix, because the points around a tear have few pairs of particles, each
 /// many times.
 class PairChanges {
+  static constexpr std::size_t kMost = 96;
+
  public:
+  /// Memory of the matrix.
+  static constexpr std::size_t kBytes = kMost * kMost * (sizeof(std::int32_t) + sizeof(double));
+
   ///
   /// @param sign    1 for added influences, -1 for removed ones.
   /// @param change  called with the index of a particle before it changes; returns the particle.
@@ -53,8 +58,6 @@ class PairChanges {
   }
 
  private:
-  static constexpr std::size_t kMost = 96;
-
   std::size_t row_of(Index particle) {
     if (row_of_.size() <= particle) row_of_.resize(particle + 64);
     rows_.grow(particle + 1);

@@ -34,8 +34,8 @@ struct PointColumns {
   std::vector<LipPoint> lip_points;
 
   /// Calls visit(column, column of `other`) for each column; the only place that lists them.
-  template <class Visit>
-  void for_each_column(PointColumns& other, Visit visit) {
+  template <class Other, class Visit>
+  void for_each_column(Other& other, Visit visit) {
     visit(positions, other.positions);
     visit(vertices, other.vertices);
     visit(slabs, other.slabs);

@@ -54,7 +54,9 @@ void read_model(const TornModel& model, const ModelPose& pose, Structure& struct
   link.source = &model.source();
   link.skins = character.skins;
   link.decomposition_pose = DecompositionPose(character, pose);
-  link.pose.begin(link.skins, link.morph_weight_count);
+  link.first_slots.assign(1, 0);
+  for (const Skin& skin : link.skins)
+    link.first_slots.push_back(link.first_slots.back() + static_cast<Index>(skin.bones.size()));
   PointTable& points = structure.points;
   points.positions.resize(surface.point_count(), Vec3f::Zero());
   read_vertices(character, surface, structure);

@@ -12,16 +12,44 @@ Structure::Structure()
     : pairs(std::make_unique<PairChanges>()), gradients(std::make_unique<Gradients>()) {}
 Structure::~Structure() = default;
 
+std::unique_ptr<Structure> Structure::copy() const {
+  auto made = std::make_unique<Structure>();
+  made->report = report;
+  made->revision = revision;
+  made->next_serial = next_serial;
+  made->edge_length = edge_length;
+  made->character = character;
+  made->vertex_points = vertex_points;
+  // The columns are copied into room for some more, so that the next tears need no other copy.
+  made->points.make_room(points.count() + 1);
+  made->points.for_each_column(
+      points, [](auto& column, auto& of) { column.insert(column.end(), of.begin(), of.end()); });
+  reserve_eighth(made->points.memberships, points.memberships.size() + 1);
+  made->points.memberships.insert(made->points.memberships.end(), points.memberships.begin(),
+                                  points.memberships.end());
+  made->points.older_lips = points.older_lips;
+  made->particles = particles;
+  made->members = members;
+  made->lips = lips;
+  *made->gradients = *gradients;
+  made->prepare_for_tears(tears.triangle_count);
+  return made;
+}
+
 void Structure::make_room(std::size_t point_count) {
   points.make_room(point_count);
   scratch.make_room(point_count);
 }
 
-void Structure::prepare_for_tears(Index triangles) {
+void Structure::finish(Index triangles) {
   tears.triangle_count = triangles;
-  make_room(points.count() + 1);
   points.lip_points.resize(points.count());
   points.memberships_end = points.memberships.size();
+}
+
+void Structure::prepare_for_tears(Index triangles) {
+  finish(triangles);
+  make_room(points.count() + 1);
   reserve_eighth(points.memberships, points.memberships_end + 1);
   for (std::vector<Index>& of_mesh : vertex_points.of_mesh)
     reserve_eighth(of_mesh, of_mesh.size() + 1);

@@ -21,15 +21,18 @@ struct CharacterLink {
   std::vector<Skin> skins;
   std::size_t bone_count = 0, morph_weight_count = 0;
   DecompositionPose decomposition_pose;
-  SurfacePose pose;  ///< Memory of ParticleSet::rest(): the pose of its last call.
+  std::vector<Index> first_slots;  ///< SurfacePose::first_slots() of the skins.
 };
 
 /// The members of all particles.
 struct MemberLists {
-  std::vector<Index> first, points;  ///< From the decomposition, particle by particle.
-  std::vector<std::vector<Index>>
-      /// Per particle: members that joined later. Members of both lists may have left since.
-      joined;
+  struct OfDecomposition {
+    std::vector<Index> first, points;  ///< Particle by particle.
+  };
+  /// Copies of a structure share it.
+  std::shared_ptr<OfDecomposition> decomposed = std::make_shared<OfDecomposition>();
+  /// Per particle: members that joined later. Members of both lists may have left since.
+  std::vector<std::vector<Index>> joined;
 };
 
 /// The followed operations. Each is a tear, whose number is the index of its change in `done`.
@@ -68,7 +71,14 @@ struct Structure {
   std::unique_ptr<PairChanges> pairs;
   std::unique_ptr<Gradients> gradients;
 
-  /// Scratch memory for the first tears, so that none of them has to allocate for all points.
+  /// A copy of a structure that no tear has changed, with scratch memory of its own.
+  /// @throws std::bad_alloc
+  [[nodiscard]] std::unique_ptr<Structure> copy() const;
+  [[nodiscard]] std::size_t memory_bytes() const;
+  /// Ends the decomposition.
+  void finish(Index triangles);
+  /// The same, with scratch memory for the first tears, so that none of them has to allocate for
+  /// all points.
   void prepare_for_tears(Index triangles);
   void make_room(std::size_t point_count);
   /// Points of a particle, ascending. O(members log members), allocates.
@@ -77,9 +87,10 @@ struct Structure {
   /// Points may be repeated.
   template <class Visit>
   void for_each_candidate(Index particle, Visit visit) const {
-    if (particle + 1 < members.first.size())
-      for (Index m = members.first[particle]; m < members.first[particle + 1]; ++m)
-        if (members.points[m] < points.count()) visit(members.points[m]);
+    const auto& [first, of_all] = *members.decomposed;
+    if (particle + 1 < first.size())
+      for (Index m = first[particle]; m < first[particle + 1]; ++m)
+        if (of_all[m] < points.count()) visit(of_all[m]);
     for (const Index point : members.joined[particle])
       if (point < points.count()) visit(point);
   }

@@ -35,6 +35,7 @@ Vec3d rest_velocity(const ParticleInfluences& whom, const RestMotion& rests) {
 
 void Contact::set(std::span<const Collider> colliders) {
   std::vector<Collider> now(colliders.begin(), colliders.end()), before = now;
+  if (!now.empty()) points_.follow(particle_count_);
   colliders_ = std::move(now);
   before_ = std::move(before);
   is_changed_ = true;

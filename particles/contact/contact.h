@@ -18,7 +18,26 @@ class Contact {
   [[nodiscard]] std::span<const Collider> colliders() const { return colliders_; }
   /// Whether any collider moved, was added or was removed since the last step.
   [[nodiscard]] bool is_changed() const { return is_changed_; }
-  void follow(Index particles) { points_.follow(particles); }
+  void follow(Index particles) {
+    particle_count_ = particles;
+    if (!colliders_.empty()) points_.follow(particles);
+  }
+
+  /// Sets a recorded state. @param before  the colliders after the last step. @throws
+  /// std::bad_alloc
+  void restore(std::span<const Collider> colliders, std::span<const Collider> before,
+               bool is_changed, const ContactReport& report) {
+    set(colliders);
+    before_.assign(before.begin(), before.end());
+    is_changed_ = is_changed;
+    report_ = report;
+  }
+  /// The colliders after the last step.
+  [[nodiscard]] std::span<const Collider> before() const { return before_; }
+  [[nodiscard]] std::size_t memory_bytes() const {
+    return (colliders_.capacity() + before_.capacity()) * sizeof(Collider) +
+           points_.memory_bytes() + touches_.capacity() * sizeof(Touch);
+  }
 
   struct World {
     const ParticleSet& set;
@@ -67,6 +86,7 @@ class Contact {
   void slow_down(const World& world, Motion& motion);
   [[nodiscard]] Vec3d velocity_of(const Touch& touch, const Vec3d& place, double seconds) const;
 
+  Index particle_count_ = 0;
   std::vector<Collider> colliders_, before_;
   bool is_changed_ = false;
   ContactPoints points_;

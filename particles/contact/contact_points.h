@@ -18,6 +18,7 @@ class ContactPoints {
     std::uint64_t revision = 0, epoch = 0;
   };
 
+  [[nodiscard]] std::size_t memory_bytes() const { return points_.capacity() * sizeof(Points); }
   void follow(Index particles) { points_.resize(particles); }
   ///
   /// @param pose  that of `epoch`. Allocates if the set's revision changed.

@@ -23,6 +23,7 @@ class Marks {
     if (stamps_.size() < count) stamps_.resize(count + count / 8 + 16, 0);
   }
   [[nodiscard]] bool has(Index i) const { return stamps_[i] == epoch_; }
+  [[nodiscard]] std::size_t memory_bytes() const { return stamps_.capacity() * sizeof(stamps_[0]); }
   /// @return whether the index was not marked yet.
   bool mark(Index i) { return std::exchange(stamps_[i], epoch_) != epoch_; }
 

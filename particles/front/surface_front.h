@@ -45,6 +45,42 @@ class SurfaceFront {
     if (distance < path_limit_ && distance < -known_[point]) put(point, distance, kNone);
   }
 
+  [[nodiscard]] std::size_t memory_bytes() const {
+    return known_.capacity() * sizeof(Known) + buckets_.capacity() * sizeof(Index) +
+           entries_.capacity() * sizeof(Entry) + around_.capacity() * sizeof(KnownBlock);
+  }
+  /// Passes its state to a tape. @param points  below which all of its points are.
+  template <class Tape>
+  void describe(Tape& tape, Index points) {
+    tape(limit_);
+    tape(path_limit_);
+    tape(per_bucket_);
+    tape.each(entries_, [&](Entry& entry) {
+      tape(entry.point);
+      tape(entry.path);
+      tape(entry.from);
+      tape(entry.next);
+      if (entry.point >= points) entry.point = 0;
+      if (entry.from != kNone && entry.from >= points) entry.from = 0;
+    });
+    if (tape.is_reading()) {
+      std::fill(known_.begin(), known_.end(), kUnknown);
+      grow(points);
+    }
+    for (const Entry& entry : entries_) tape.any(known_[entry.point]);
+    tape.all(buckets_);
+    auto bucket = std::uint64_t{bucket_};
+    tape(bucket);
+    bucket_ = static_cast<std::size_t>(bucket);
+    tape(next_);
+    check_entries(tape);
+  }
+  /// Calls visit(point) for each point that it has met; some are repeated.
+  template <class Visit>
+  void for_each_met(Visit visit) const {
+    for (const Entry& entry : entries_) visit(entry.point);
+  }
+  [[nodiscard]] bool is_reached_at(Index point) const { return is_reached(known_[point]); }
   /// Whether no point is left to reach.
   [[nodiscard]] bool is_done() const { return bucket_ >= buckets_.size(); }
   /// The distance of a point; infinite if the front has not reached it.
@@ -90,6 +126,22 @@ class SurfaceFront {
     Index from;  ///< The point that it was reached from; kNone where the front starts.
     Index next;  ///< In its bucket.
   };
+
+  /// Lists of buckets only lead to older entries, so that they end.
+  template <class Tape>
+  void check_entries(Tape& tape) const {
+    const auto leads_to_entry = [&](Index entry) {
+      return entry == kNone || entry < entries_.size();
+    };
+    bool fits = limit_ > 0 && path_limit_ > 0 && per_bucket_ > 0 && !buckets_.empty() &&
+                per_bucket_ * path_limit_ < static_cast<float>(buckets_.size()) &&
+                leads_to_entry(next_);
+    for (const Index first : buckets_) fits &= leads_to_entry(first);
+    for (Index e = 0; e < entries_.size(); ++e)
+      fits &= entries_[e].next == kNone || entries_[e].next < e;
+    for (const Entry& entry : entries_) fits &= entry.path >= 0 && entry.path <= path_limit_;
+    tape.require(fits, "the state of a front is none");
+  }
 
   void put(Index point, float path, Index from) {
     known_[point] = -path;

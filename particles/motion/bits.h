@@ -2,6 +2,7 @@
 
 #include <sunder/core/index.h>
 
+#include <algorithm>
 #include <bit>
 #include <vector>
 
@@ -16,7 +17,7 @@ class Bits {
     if (count % 64 != 0) words_.back() &= (std::uint64_t{1} << (count % 64)) - 1;
     count_ = count;
   }
-  void clear() { std::fill(words_.begin(), words_.end(), 0); }
+  [[nodiscard]] std::size_t memory_bytes() const { return words_.capacity() * sizeof(words_[0]); }
   [[nodiscard]] Index size() const { return count_; }
   [[nodiscard]] bool operator[](Index i) const { return ((words_[i / 64] >> (i % 64)) & 1) != 0; }
   /// @return whether the bit changed.

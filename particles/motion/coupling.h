@@ -50,6 +50,13 @@ class CouplingSolver {
   ///         warm.
   int solve(const Inputs& inputs, std::span<Vec3d> corrections);
 
+  [[nodiscard]] std::size_t memory_bytes() const {
+    return (row_of_.capacity() + first_.capacity()) * sizeof(Index) +
+           entries_.capacity() * sizeof(Entry) + pulls_.capacity() * sizeof(ActivePull) +
+           (diagonal_.capacity() + inverse_.capacity() + ratios_.capacity()) * sizeof(double) +
+           5 * x_.capacity() * sizeof(Vec4);
+  }
+
  private:
   using Vec4 = Eigen::Vector4d;  // three coordinates; the fourth fills two registers of two
   struct Entry {

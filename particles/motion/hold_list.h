@@ -39,6 +39,28 @@ class HoldList {
   /// step.
   void begin_step(const TornModel& model, const ModelPose& pose, const RestMotion& rests,
                   std::span<const SoftMaterial> materials, EpochPose& poses, Motion& motion);
+  /// Passes its state to a tape.
+  template <class Tape>
+  void describe(Tape& tape, Index particles, Index points) {
+    tape.each(holds_, [&](Hold& hold) {
+      tape(hold.id);
+      tape(hold.particle);
+      tape(hold.point);
+      tape(hold.serial);
+      for (Index& particle : hold.whom.particles) tape(particle);
+      for (float& weight : hold.whom.weights) tape(weight);
+      tape(hold.target);
+      tape(hold.stiffness);
+      for (int i = 0; i < 3; ++i) tape.any(hold.last[i]);
+      tape(hold.rest);
+      tape(hold.epoch);
+      bool fits = hold.point == kNone ? hold.particle < particles
+                                      : hold.particle == kNone && hold.point < points;
+      for (const Index particle : hold.whom.particles) fits &= particle < particles;
+      tape.require(fits && hold.stiffness > 0, "a hold");
+    });
+    tape(next_);
+  }
   [[nodiscard]] std::span<const PointPull> pulls() const { return pulls_; }
 
  private:

@@ -15,6 +15,13 @@ class MovedVertices {
   /// @throws std::bad_alloc
   std::span<const IndexRange> of(const Structure& structure, const TornModel& model, Index mesh,
                                  std::uint64_t key, std::span<const std::uint8_t> is_displaced);
+  [[nodiscard]] std::size_t memory_bytes() const {
+    std::size_t bytes = is_displaced_.capacity() + changed_.capacity() * sizeof(Index) +
+                        points_.memory_bytes() + meshes_.capacity() * sizeof(OfMesh);
+    for (const OfMesh& mesh : meshes_)
+      bytes += mesh.is_moved.memory_bytes() + mesh.ranges.capacity() * sizeof(IndexRange);
+    return bytes;
+  }
 
  private:
   struct OfMesh {

@@ -47,6 +47,38 @@ class RestMotion {
   [[nodiscard]] double size(Index p) const { return particles_[p].size; }
   /// Particles with a velocity.
   [[nodiscard]] std::span<const Index> carried() const { return carried_; }
+  [[nodiscard]] std::size_t memory_bytes() const {
+    return particles_.capacity() * sizeof(Particle) + rests_.capacity() * sizeof(ParticleRest) +
+           (stale_.capacity() + moved_.capacity() + carried_.capacity()) * sizeof(Index) +
+           (decomposition_pose_.model_from_bone.capacity() + pose_.model_from_bone.capacity()) *
+               sizeof(Affine3d);
+  }
+  /// Passes its state to a tape.
+  template <class Tape>
+  void describe(Tape& tape) {
+    tape.each(particles_, [&](Particle& of) {
+      for (Vec3d* vector : {&of.place, &of.velocity, &of.shift}) tape(*vector);
+      for (Mat3d* matrix : {&of.turn, &of.turn_of_step, &of.decomposition_from_bind}) tape(*matrix);
+      tape(of.size);
+      tape(of.epoch);
+    });
+    for (ModelPose* pose : {&decomposition_pose_, &pose_}) {
+      std::uint64_t bones = pose->model_from_bone.size();
+      tape(bones);
+      tape.require(bones == pose->model_from_bone.size(), "a pose has another number of bones");
+      for (Affine3d& bone : pose->model_from_bone)
+        for (int i = 0; i < 12; ++i) tape(bone.matrix()(i % 3, i / 3));
+      std::uint64_t weights = pose->morph_weights.size();
+      tape(weights);
+      tape.require(weights == pose->morph_weights.size(), "a pose has other morph weights");
+      for (float& weight : pose->morph_weights) tape(weight);
+    }
+    tape(epoch_);
+    tape(is_gap_);
+    tape.all(carried_);
+    for (const Index p : carried_) tape.require(p < particles_.size(), "a carried particle");
+  }
+  [[nodiscard]] std::size_t count() const { return particles_.size(); }
   /// Index of the pose; increasing.
   [[nodiscard]] std::uint64_t epoch() const { return epoch_; }
 

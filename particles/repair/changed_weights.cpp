@@ -34,7 +34,7 @@ void follow_changed_weights(StructureEdit& edit, std::span<const ChangeRecord> c
   if (particles.empty()) return;
   std::sort(particles.begin(), particles.end());
   particles.erase(std::unique(particles.begin(), particles.end()), particles.end());
-  RestSums sums(edit.model(), structure.character.pose.first_slots(), structure.points.vertices);
+  RestSums sums(edit.model(), structure.character.first_slots, structure.points.vertices);
   for (const Index particle : particles)
     sums.sum(structure.members_of(particle), edit.change_particle(particle));
 }

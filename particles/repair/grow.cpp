@@ -1,6 +1,7 @@
 #include "particles/repair/grow.h"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 
 #include "particles/repair/cover.h"
@@ -37,26 +38,27 @@ void begin_growing(StructureEdit& edit, Index particle) {
   front.add(seed, 0.0f);
 }
 
-Index finish_growing(StructureEdit& edit, Index particle) {
+std::vector<Index> unreached_members(const StructureEdit& edit, Index particle) {
   const Structure& structure = edit.structure();
   const float range = structure.particles[particle].range;
-  std::vector<Index> left;
+  std::vector<Index> unreached;
   structure.for_each_candidate(particle, [&](Index point) {
     // A member that the front reached is still one, at the same distance. A point without a face,
     // which a later operation removed, may return when that operation is followed: it stays too.
     if (structure.scratch.band_front.distance(point) < range ||
         edit.surface().point_corner[point] == kNone)
       return;
-    if (structure.points.find(point, particle) != nullptr) left.push_back(point);
+    if (structure.points.find(point, particle) != nullptr) unreached.push_back(point);
   });
-  std::sort(left.begin(), left.end());
-  left.erase(std::unique(left.begin(), left.end()), left.end());
-  for (const Index point : left)
-    edit.keep_if(point, [&](const ParticleMembership& membership) {
-      return membership.particle != particle;
-    });
-  for (const Index point : left) cover(edit, point);
-  return static_cast<Index>(left.size());
+  std::sort(unreached.begin(), unreached.end(), std::greater<>());
+  unreached.erase(std::unique(unreached.begin(), unreached.end()), unreached.end());
+  return unreached;
+}
+
+void leave_unreached(StructureEdit& edit, Index particle, Index point) {
+  edit.keep_if(
+      point, [&](const ParticleMembership& membership) { return membership.particle != particle; });
+  cover(edit, point);
 }
 
 }  // namespace sunder::particles

@@ -9,7 +9,9 @@ namespace sunder::particles {
 /// Begins to grow a particle: RepairScratch::band_front then has to be run until it is done, in any
 /// number of calls.
 void begin_growing(StructureEdit& edit, Index particle);
-/// Takes from the particle the points that the front did not reach. @return their number.
-Index finish_growing(StructureEdit& edit, Index particle);
+/// Members of a particle that the front did not reach, descending.
+[[nodiscard]] std::vector<Index> unreached_members(const StructureEdit& edit, Index particle);
+/// Takes a point from the particle. It gets another one if it needs one.
+void leave_unreached(StructureEdit& edit, Index particle, Index point);
 
 }  // namespace sunder::particles

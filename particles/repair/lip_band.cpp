@@ -66,10 +66,19 @@ void grow(StructureEdit& edit, Index& points) {
     band.pending.to_grow.pop_back();
     begin_growing(edit, band.growing);
   }
-  front.run(edit.ring(), [&](Index, float, Index) { return --points > 0; });
-  if (!front.is_done()) return;
-  points -= std::min(points, finish_growing(edit, band.growing));
+  if (!front.is_done()) {
+    front.run(edit.ring(), [&](Index, float, Index) { return --points > 0; });
+    return;
+  }
+  if (!band.is_grown) band.unreached = unreached_members(edit, band.growing);
+  band.is_grown = true;
+  for (; points > 0 && !band.unreached.empty(); --points) {
+    leave_unreached(edit, band.growing, band.unreached.back());
+    band.unreached.pop_back();
+  }
+  if (!band.unreached.empty()) return;
   band.growing = kNone;
+  band.is_grown = false;
 }
 
 /// Sets the depth of the band of each chain. @return the greatest depth.

@@ -1,6 +1,7 @@
 #include "particles/repair/repair.h"
 
 #include "particles/clusters/band.h"
+#include "particles/clusters/gradients.h"
 #include "particles/repair/changed_weights.h"
 #include "particles/repair/cover.h"
 #include "particles/repair/lip_band.h"
@@ -29,6 +30,7 @@ void begin_change(Structure& structure) {
   for (const auto& points : structure.vertex_points.of_mesh)
     change.vertices.push_back(static_cast<Index>(points.size()));
   change.pending_before = pending;
+  structure.gradients->begin_change(change);
   structure.scratch.logged_points.begin(change.points);
   structure.scratch.logged_particles.begin(change.particles);
 }

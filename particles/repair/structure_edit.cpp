@@ -114,7 +114,7 @@ void StructureEdit::count_members(Index point, std::span<const ParticleMembershi
     Particle& of = change_particle(particle);
     of.member_count = static_cast<Index>(static_cast<std::int64_t>(of.member_count) + sign);
     if (!has_rest)
-      rest_.set(model_, structure_.character.pose.first_slots(), structure_.points.vertices[point]);
+      rest_.set(model_, structure_.character.first_slots, structure_.points.vertices[point]);
     has_rest = true;
     rest_.add_to(of, sign);
     if (sign > 0) structure_.members.joined[particle].push_back(point);

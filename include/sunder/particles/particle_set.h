@@ -1,6 +1,7 @@
 #pragma once
 
 #include <sunder/particles/material.h>
+#include <sunder/particles/state_arrays.h>
 #include <sunder/skinning/vertex_arrays.h>
 #include <sunder/tear/torn_model.h>
 
@@ -12,9 +13,10 @@
 namespace sunder {
 
 namespace particles {
+struct SetData;
 struct Structure;
 struct StructureOf;
-}
+}  // namespace particles
 
 /// How a surface is divided into particles.
 struct DecompositionOptions {
@@ -64,6 +66,26 @@ struct LipEdge {
   Vec3f inward = Vec3f::Zero();
 };
 
+/// The decomposition of a character: made once, on any thread, and shared by the sets of all its
+/// instances. Immutable; const calls are thread-safe.
+class SUNDER_API ParticleAsset {
+ public:
+  ///
+  /// @param model  of the character, not torn. Its instances have models of the same source.
+  /// @return as ParticleSet::create(); invalid_argument for a torn model. O(points + memberships).
+  static Result<std::shared_ptr<const ParticleAsset>> create(
+      const TornModel& model, const ModelPose& pose, const DecompositionOptions& options = {});
+  ~ParticleAsset();
+
+  [[nodiscard]] const DecompositionReport& report() const;
+  [[nodiscard]] std::size_t memory_bytes() const;
+
+ private:
+  friend class ParticleSet;
+  explicit ParticleAsset(std::shared_ptr<const particles::Structure> structure);
+  std::shared_ptr<const particles::Structure> structure_;
+};
+
 /// The surface of a torn model, divided into overlapping clusters of points that follow its pose
 /// and its tears. This is their structure; SoftBody or a physics engine moves them. A particle
 /// consists of the points within its range of its seed, along the surface; its rest is their posed
@@ -81,6 +103,13 @@ class SUNDER_API ParticleSet {
   ///         or if out of memory. O(points + memberships).
   static Result<ParticleSet> create(const TornModel& model, const ModelPose& pose,
                                     const DecompositionOptions& options = {});
+  /// The set of an instance that is not torn yet. It shares the asset, which it keeps, and copies
+  /// it when it first follows a tear. The results have the same bits as those of a set of its own.
+  /// @return empty_input for a null asset; invalid_argument for a model of another source, or a
+  /// torn
+  ///         one; limit_exceeded if out of memory. O(1).
+  static Result<ParticleSet> create(std::shared_ptr<const ParticleAsset> asset,
+                                    const TornModel& model);
 
   ~ParticleSet();
   ParticleSet(ParticleSet&&) noexcept;
@@ -158,11 +187,11 @@ class SUNDER_API ParticleSet {
   Status follow(const TornModel& model, std::span<const ChangeRecord> changes);
 
   /// Continues the work of follow(), for at most `points` points: particles that a long tear passes
-  /// are separated completely. Call it once per frame; SoftBody::step() does. follow() completes it
-  /// first.
+  /// are separated completely. Call it once per frame; SoftBody::step() does. Other operations may
+  /// come in between. While operations are undone and may be redone, it waits.
   ///
   /// @return whether work remains.
-  bool settle(const TornModel& model, std::uint32_t points = 2000);
+  bool settle(const TornModel& model, std::uint32_t points = 500);
 
   /// Whether memory ran out in follow() or settle(). The data of particles and points is then
   /// incomplete, and a SoftBody of the set returns limit_exceeded: create a new set.
@@ -176,10 +205,27 @@ class SUNDER_API ParticleSet {
   /// ranges. Not for concurrent use. O(changed points x log).
   [[nodiscard]] DirtyRanges dirty_points() const;
 
+  /// Bytes of the set itself, without a shared asset.
+  [[nodiscard]] std::size_t memory_bytes() const;
+
+  /// The whole state, with the work that is left and all that undo needs. A set restored from it
+  /// goes on with the same bits. O(size of the set), allocates.
+  /// @return invalid_argument for a set that is_broken(), or that was not made from an asset;
+  ///         limit_exceeded: out of memory.
+  [[nodiscard]] Result<StateArrays> save() const;
+  /// The set as it was saved.
+  /// @param asset  with the bits of that of the saved set.
+  /// @param model  in the state in which it was then.
+  /// @return as create(); invalid_argument, index_out_of_range, size_mismatch or non_finite_value
+  /// if
+  ///         the arrays are not a state of this asset and model.
+  static Result<ParticleSet> restore(std::shared_ptr<const ParticleAsset> asset,
+                                     const TornModel& model, const StateArrays& state);
+
  private:
   friend struct particles::StructureOf;
-  explicit ParticleSet(std::unique_ptr<particles::Structure> structure);
-  std::unique_ptr<particles::Structure> structure_;
+  explicit ParticleSet(std::unique_ptr<particles::SetData> data);
+  std::unique_ptr<particles::SetData> data_;
 };
 
 /// The result of a search for a range.

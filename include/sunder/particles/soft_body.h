@@ -125,6 +125,13 @@ class SUNDER_API SoftBody {
   Status move_collider(std::uint32_t collider, const Vec3d& place, const Quatd& turn);
   [[nodiscard]] std::span<const Collider> colliders() const;
 
+  /// Gives each particle the displacement and velocity of the other body at its points, and the
+  /// material there if this body has one of that index: for a piece that a tear separated and that
+  /// becomes a body of its own. Nothing else acts on it yet.
+  /// @param point_of_other  per point of this body's set: the point of the other's; kNone: none.
+  /// @return size_mismatch, index_out_of_range, limit_exceeded. O(points), allocates.
+  Status inherit_motion_from(const SoftBody& other, std::span<const std::uint32_t> point_of_other);
+
   // ---- Motion.
 
   /// Advances by a time step. O(awake particles x neighbours x iterations); with colliders, wind or
@@ -148,8 +155,9 @@ class SUNDER_API SoftBody {
   /// last rotation.
   [[nodiscard]] std::span<const Mat3f> rotations();
   /// Vertices of a mesh that displaced particles move, as ascending, separate ranges. Valid until
-  /// the next call that is not const. O(points of displaced particles) if other particles are
-  /// displaced than in the last call, otherwise O(1).
+  /// the next call that is not const. O(1) if nothing changed since the last call; otherwise
+  /// O(members of particles that became displaced or stopped, points that operations changed, and
+  /// vertices / 64), at most O(vertices).
   [[nodiscard]] std::span<const IndexRange> moved_vertices(const TornModel& model,
                                                            std::uint32_t mesh);
 
@@ -170,6 +178,18 @@ class SUNDER_API SoftBody {
   /// or settings changed since the last step. O(1).
   [[nodiscard]] bool needs_step() const;
   [[nodiscard]] const ContactReport& contacts() const;
+
+  /// Bytes of the body, without those of its set.
+  [[nodiscard]] std::size_t memory_bytes() const;
+  /// The whole state, except the set, names of materials, the wind, and the direction of the
+  /// tension. O(particles), allocates. @return limit_exceeded: out of memory.
+  [[nodiscard]] Result<StateArrays> save() const;
+  /// Sets the state: the body goes on with the same bits as the saved one.
+  /// @param state  of a body with the same number of materials, whose set had the state that this
+  ///         body's set has.
+  /// @return invalid_argument, index_out_of_range, size_mismatch or non_finite_value if the arrays
+  ///         are no such state (nothing is changed); limit_exceeded.
+  Status restore(const StateArrays& state);
 
  private:
   explicit SoftBody(std::unique_ptr<particles::BodyState> state);

@@ -1,0 +1,40 @@
+#include "particles/body_state.h"
+
+namespace sunder::particles {
+namespace {
+
+template <class T>
+std::size_t bytes_of(const std::vector<T>& values) {
+  return values.capacity() * sizeof(T);
+}
+
+std::size_t bytes_of(const Motion& motion) {
+  std::size_t bytes = bytes_of(motion.serials) + bytes_of(motion.material_of) +
+                      bytes_of(motion.awake) + bytes_of(motion.touched) + bytes_of(motion.bound) +
+                      bytes_of(motion.quiet.seconds);
+  for (const auto* column :
+       {&motion.displacements, &motion.velocities, &motion.starts, &motion.corrections,
+        &motion.forces, &motion.lip_forces, &motion.winds, &motion.quiet.from, &motion.quiet.pulls})
+    bytes += bytes_of(*column);
+  return bytes;
+}
+
+std::size_t bytes_of(const ShownMotion& shown) {
+  return bytes_of(shown.displacements) + bytes_of(shown.turns) + bytes_of(shown.is_displaced) +
+         shown.moved_vertices.memory_bytes();
+}
+
+std::size_t bytes_of(const StepScratch& scratch) {
+  return bytes_of(scratch.active) + bytes_of(scratch.needed) + bytes_of(scratch.changed) +
+         bytes_of(scratch.is_needed) + bytes_of(scratch.sums) + bytes_of(scratch.steps);
+}
+
+}  // namespace
+
+std::size_t BodyState::memory_bytes() const {
+  return sizeof(BodyState) + bytes_of(materials) + bytes_of(motion) + bytes_of(graph.first) +
+         bytes_of(graph.springs) + rests.memory_bytes() + solver.memory_bytes() +
+         contact.memory_bytes() + bytes_of(shown) + bytes_of(scratch);
+}
+
+}  // namespace sunder::particles

@@ -1,0 +1,117 @@
+#include <sunder/particles/soft_body.h>
+
+#include <new>
+
+#include "particles/body_state.h"
+#include "particles/clusters/influences.h"
+
+namespace sunder {
+namespace {
+
+using particles::BodyState;
+using particles::for_each_influence;
+
+/// Sweeps that fit particles to points. Each reduces the difference by a factor of about two.
+constexpr int kSweeps = 12;
+
+/// The motion of points, as three coordinates of the displacement and three of the velocity.
+using Moved = Eigen::Matrix<double, 6, 1>;
+
+Moved moved_by(const ParticleInfluences& of, const std::vector<Moved>& particles) {
+  Moved sum = Moved::Zero();
+  for_each_influence(of, [&](Index p, double weight) { sum += weight * particles[p]; });
+  return sum;
+}
+
+/// Finds a motion of particles that moves points as wanted, in the sense of least squares: the
+/// simultaneous iterative reconstruction, whose rows and columns are divided by their sums.
+/// @param wanted  of the points that are known, and their influences.
+std::vector<Moved> fit(std::span<const std::pair<ParticleInfluences, Moved>> wanted,
+                       std::size_t particle_count) {
+  std::vector<Moved> found(particle_count, Moved::Zero()), step(particle_count);
+  std::vector<double> weights(particle_count, 0.0);
+  for (const auto& [of, moved] : wanted)
+    for_each_influence(of, [&](Index p, double weight) { weights[p] += weight; });
+  for (int sweep = 0; sweep < kSweeps; ++sweep) {
+    step.assign(particle_count, Moved::Zero());
+    for (const auto& [of, moved] : wanted) {
+      const Moved missing = moved - moved_by(of, found);
+      for_each_influence(of, [&](Index p, double weight) { step[p] += weight * missing; });
+    }
+    for (std::size_t p = 0; p < particle_count; ++p)
+      if (weights[p] > 0) found[p] += step[p] / weights[p];
+  }
+  return found;
+}
+
+/// The points of the map with their motion by the other body.
+std::vector<std::pair<ParticleInfluences, Moved>> motion_of_points(
+    const BodyState& to, const BodyState& other, std::span<const std::uint32_t> point_of_other) {
+  std::vector<Moved> of_particles(other.motion.count());
+  for (Index p = 0; p < other.motion.count(); ++p)
+    of_particles[p] << other.motion.displacements[p], other.motion.velocities[p];
+  std::vector<std::pair<ParticleInfluences, Moved>> wanted;
+  wanted.reserve(point_of_other.size());
+  for (Index point = 0; point < point_of_other.size(); ++point)
+    if (const Index of = point_of_other[point]; of != kNone)
+      wanted.emplace_back(to.set->influences()[point],
+                          moved_by(other.set->influences()[of], of_particles));
+  return wanted;
+}
+
+/// Each particle gets the material of its seed there.
+void inherit_materials(BodyState& to, const BodyState& other,
+                       std::span<const std::uint32_t> point_of_other) {
+  for (Index p = 0; p < to.motion.count(); ++p) {
+    const Index of = point_of_other[to.set->seed(p)];
+    if (of == kNone || !(other.set->influences()[of].weights[0] > 0)) continue;
+    const Index material = other.motion.material_of[other.set->influences()[of].particles[0]];
+    if (material >= to.materials.size() || to.motion.material_of[p] == material) continue;
+    to.motion.material_of[p] = material;
+    to.graph.is_stale = true;
+  }
+}
+
+Status check_map(const BodyState& to, const BodyState& other,
+                 std::span<const std::uint32_t> point_of_other) {
+  if (point_of_other.size() != to.set->point_count())
+    return Status::failure(StatusCode::size_mismatch, kNone,
+                           "the map has %zu entries, the particles have %u points",
+                           point_of_other.size(), to.set->point_count());
+  for (Index point = 0; point < point_of_other.size(); ++point)
+    if (point_of_other[point] != kNone && point_of_other[point] >= other.set->point_count())
+      return Status::failure(StatusCode::index_out_of_range, point,
+                             "point %u is mapped to point %u of the other body, which has %u",
+                             point, point_of_other[point], other.set->point_count());
+  return {};
+}
+
+}  // namespace
+
+Status SoftBody::inherit_motion_from(const SoftBody& other,
+                                     std::span<const std::uint32_t> point_of_other) {
+  BodyState& to = *state_;
+  const BodyState& from = *other.state_;
+  if (Status status = check_map(to, from, point_of_other); !status) return status;
+  if (from.set->revision() != from.revision)
+    return Status::failure(StatusCode::invalid_argument, kNone,
+                           "the other body has not followed its particles yet; step it first");
+  try {
+    to.follow_particles();
+    const auto wanted = motion_of_points(to, from, point_of_other);
+    const std::vector<Moved> found = fit(wanted, to.motion.count());
+    inherit_materials(to, from, point_of_other);
+    for (Index p = 0; p < to.motion.count(); ++p) {
+      if (found[p] == Moved::Zero()) continue;
+      to.motion.displacements[p] = to.motion.starts[p] = found[p].head<3>();
+      to.motion.velocities[p] = found[p].tail<3>();
+      to.wake_around(p);
+    }
+    to.show();
+    return {};
+  } catch (const std::bad_alloc&) {
+    return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
+  }
+}
+
+}  // namespace sunder

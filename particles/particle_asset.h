@@ -1,0 +1,12 @@
+#pragma once
+
+#include "particles/clusters/structure.h"
+
+namespace sunder::particles {
+
+/// Divides a model into particles. Structure::finish() is still to be called.
+/// @return as ParticleSet::create().
+[[nodiscard]] Result<std::unique_ptr<Structure>> decompose_model(
+    const TornModel& model, const ModelPose& pose, const DecompositionOptions& options);
+
+}  // namespace sunder::particles

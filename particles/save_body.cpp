@@ -1,0 +1,238 @@
+#include <sunder/particles/soft_body.h>
+
+#include <new>
+
+#include "particles/body_state.h"
+#include "particles/clusters/tape.h"
+
+namespace sunder {
+namespace {
+
+using particles::BodyState;
+using particles::Motion;
+using particles::Tape;
+
+constexpr std::uint32_t kVersion = 1;
+
+Status out_of_memory() {
+  return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
+}
+
+void describe(Tape& tape, SoftMaterial& of) {
+  for (double* value : {&of.return_stiffness, &of.damping_ratio, &of.neighbour_stiffness, &of.mass,
+                        &of.range, &of.stretch_limit, &of.strength})
+    tape(*value);
+  if (!tape.is_reading()) return;
+  if (const Status status = validate_material(of); !status)
+    tape.fail(status.code(), "a material is invalid");
+}
+
+void describe(Tape& tape, Collider& of) {
+  auto kind = static_cast<std::uint32_t>(of.shape.index());
+  tape.small(kind, 4);
+  if (tape.is_reading()) {
+    if (kind == 0) of.shape = Collider::Sphere();
+    if (kind == 1) of.shape = Collider::Capsule();
+    if (kind == 2) of.shape = Collider::Box();
+    if (kind == 3) of.shape = Collider::HalfSpace();
+  }
+  if (auto* sphere = std::get_if<Collider::Sphere>(&of.shape)) tape(sphere->radius);
+  if (auto* capsule = std::get_if<Collider::Capsule>(&of.shape)) {
+    tape(capsule->radius);
+    tape(capsule->half_length);
+  }
+  if (auto* box = std::get_if<Collider::Box>(&of.shape)) tape(box->half_size);
+  tape(of.place);
+  for (int i = 0; i < 4; ++i) tape(of.turn.coeffs()[i]);
+  tape(of.friction);
+  if (!tape.is_reading()) return;
+  if (const Status status = validate_collider(of); !status)
+    tape.fail(status.code(), "a collider is invalid");
+}
+
+void describe(Tape& tape, std::vector<Collider>& of) {
+  of.resize(tape.size(of.size()), Collider{Collider::HalfSpace()});
+  for (Collider& collider : of) describe(tape, collider);
+}
+
+/// The parts of a body that a recorded state contains, and that are restored together.
+struct Recorded {
+  std::uint64_t revision = 0;
+  std::vector<SoftMaterial> materials;
+  Motion motion;
+  bool is_graph_stale = false;
+  particles::RestMotion rests;
+  Vec3d gravity = Vec3d::Zero();
+  double tension = 0, time = 0;
+  bool is_tension_stale = false;
+  particles::HoldList holds;
+  std::vector<Collider> colliders, before;
+  bool are_colliders_changed = false;
+  ContactReport report;
+  std::vector<Vec4f> displacements;
+  std::vector<Mat3f> turns;
+  std::vector<std::uint8_t> is_displaced;
+  Index displaced_count = 0;
+};
+
+Recorded recorded(const BodyState& state) {
+  const auto colliders = state.contact.colliders(), before = state.contact.before();
+  return {state.revision,
+          state.materials,
+          state.motion,
+          state.graph.is_stale,
+          state.rests,
+          state.outer.gravity,
+          state.outer.tension.newtons_per_metre,
+          state.outer.time,
+          state.outer.is_tension_stale,
+          state.holds,
+          {colliders.begin(), colliders.end()},
+          {before.begin(), before.end()},
+          state.contact.is_changed(),
+          state.contact.report(),
+          state.shown.displacements,
+          state.shown.turns,
+          state.shown.is_displaced,
+          state.shown.displaced_count};
+}
+
+void describe(Tape& tape, Motion& of) {
+  tape.all(of.serials);
+  tape.all(of.material_of);
+  for (auto* column : {&of.displacements, &of.velocities, &of.starts, &of.corrections, &of.forces,
+                       &of.lip_forces, &of.winds, &of.quiet.from, &of.quiet.pulls})
+    tape.all(*column);
+  for (auto* flags : {&of.awake, &of.touched, &of.bound})
+    tape.each(*flags, [&](std::uint8_t& flag) { tape.small(flag, 2); });
+  tape.all(of.quiet.seconds);
+  of.awake_count = 0;
+  for (const std::uint8_t awake : of.awake) of.awake_count += awake;
+}
+
+void describe(Tape& tape, Recorded& of, const ParticleSet& set) {
+  tape(of.revision);
+  const std::size_t materials = of.materials.size();
+  tape.size(of.materials);
+  tape.require(of.materials.size() == materials, "the body has another number of materials");
+  for (SoftMaterial& material : of.materials) describe(tape, material);
+  describe(tape, of.motion);
+  tape(of.is_graph_stale);
+  of.rests.describe(tape);
+  tape(of.gravity);
+  for (double* value : {&of.tension, &of.time}) tape(*value);
+  tape(of.is_tension_stale);
+  of.holds.describe(tape, of.motion.count(), set.point_count());
+  describe(tape, of.colliders);
+  describe(tape, of.before);
+  tape(of.are_colliders_changed);
+  tape(of.report.points);
+  tape(of.report.deepest);
+  tape.all(of.displacements);
+  tape.all(of.turns);
+  tape.each(of.is_displaced, [&](std::uint8_t& flag) { tape.small(flag, 2); });
+  of.displaced_count = 0;
+  for (const std::uint8_t displaced : of.is_displaced) of.displaced_count += displaced;
+}
+
+/// Whether all arrays have an entry per particle.
+bool has_count(const Recorded& of, std::size_t count) {
+  const Motion& motion = of.motion;
+  bool has = motion.serials.size() == count && motion.material_of.size() == count &&
+             motion.quiet.seconds.size() == count && of.rests.count() == count &&
+             of.displacements.size() == count && of.turns.size() == count &&
+             of.is_displaced.size() == count;
+  for (const auto* column :
+       {&motion.displacements, &motion.velocities, &motion.starts, &motion.corrections,
+        &motion.forces, &motion.lip_forces, &motion.winds, &motion.quiet.from, &motion.quiet.pulls})
+    has &= column->size() == count;
+  for (const auto* flags : {&motion.awake, &motion.touched, &motion.bound})
+    has &= flags->size() == count;
+  return has;
+}
+
+Status check(const Recorded& of, const BodyState& state) {
+  const std::size_t count = of.motion.displacements.size();
+  if (!has_count(of, count))
+    return Status::failure(StatusCode::size_mismatch, kNone,
+                           "a recorded state of a soft body has arrays of different sizes");
+  const bool is_of_set =
+      of.revision != state.set->revision() || count == state.set->particle_count();
+  if (!is_of_set || of.revision > state.set->revision())
+    return Status::failure(StatusCode::size_mismatch, kNone,
+                           "a recorded state of a soft body has %zu particles, the set has %u",
+                           count, state.set->particle_count());
+  if (of.colliders.size() != of.before.size() || of.tension < 0 || of.time < 0)
+    return Status::failure(StatusCode::invalid_argument, kNone,
+                           "a recorded state of a soft body has invalid settings");
+  for (const Index material : of.motion.material_of)
+    if (material >= of.materials.size())
+      return Status::failure(StatusCode::index_out_of_range, material,
+                             "a recorded state of a soft body names material %u", material);
+  return {};
+}
+
+void set_state(Recorded&& of, BodyState& state) {
+  state.contact.follow(static_cast<Index>(of.motion.displacements.size()));
+  state.contact.restore(of.colliders, of.before, of.are_colliders_changed, of.report);
+  particles::ShownMotion shown;
+  shown.displacements = std::move(of.displacements);
+  shown.turns = std::move(of.turns);
+  shown.is_displaced = std::move(of.is_displaced);
+  shown.displaced_count = of.displaced_count;
+  shown.displaced_key = state.shown.displaced_key + 1;
+  state.shown = std::move(shown);
+  state.revision = of.revision;
+  state.materials = std::move(of.materials);
+  state.motion = std::move(of.motion);
+  state.rests = std::move(of.rests);
+  state.poses = {};
+  state.outer.gravity = of.gravity;
+  state.outer.tension.newtons_per_metre = of.tension;
+  state.outer.time = of.time;
+  state.outer.is_tension_stale = of.is_tension_stale;
+  state.holds = std::move(of.holds);
+  state.graph.is_stale = true;
+}
+
+}  // namespace
+
+Result<StateArrays> SoftBody::save() const {
+  try {
+    StateArrays arrays;
+    arrays.version = kVersion;
+    Tape tape = Tape::writer(arrays);
+    Recorded of = recorded(*state_);
+    describe(tape, of, *state_->set);
+    return arrays;
+  } catch (const std::bad_alloc&) {
+    return out_of_memory();
+  }
+}
+
+Status SoftBody::restore(const StateArrays& arrays) {
+  if (arrays.version != kVersion)
+    return Status::failure(StatusCode::invalid_argument, kNone,
+                           "a recorded state of a soft body has version %u; this library reads %u",
+                           arrays.version, kVersion);
+  try {
+    Tape tape = Tape::reader(arrays);
+    Recorded of = recorded(*state_);
+    describe(tape, of, *state_->set);
+    tape.end();
+    if (!tape.status()) return tape.status();
+    if (Status status = check(of, *state_); !status) return status;
+    const bool is_graph_stale = of.is_graph_stale || of.revision != state_->set->revision();
+    state_->reserve_for(static_cast<Index>(of.motion.displacements.size()));
+    set_state(std::move(of), *state_);
+    // The springs follow from the set and the materials.
+    if (!is_graph_stale)
+      particles::connect(*state_->set, state_->materials, state_->motion.material_of,
+                         state_->graph);
+    return {};
+  } catch (const std::bad_alloc&) {
+    return out_of_memory();
+  }
+}
+
+}  // namespace sunder

@@ -1,0 +1,101 @@
+#include <sunder/particles/particle_set.h>
+
+#include <new>
+
+#include "particles/clusters/describe.h"
+#include "particles/clusters/gradients.h"
+#include "particles/clusters/set_data.h"
+
+namespace sunder {
+namespace {
+
+using particles::Change;
+using particles::Structure;
+using particles::Tape;
+
+constexpr std::uint32_t kVersion = 1;
+
+Status out_of_memory() {
+  return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
+}
+
+Status check_version(const StateArrays& state) {
+  if (state.version == kVersion) return {};
+  return Status::failure(StatusCode::invalid_argument, kNone,
+                         "a recorded state of particles has version %u; this library reads %u",
+                         state.version, kVersion);
+}
+
+/// Sets what a recorded state does not contain.
+void complete(const TornModel& model, Structure& structure) {
+  *structure.gradients = particles::Gradients();
+  if (structure.tears.done.empty()) return;
+  for (Change& change : structure.tears.done) change.operation = Change::kUnnamed;
+  Change& last = structure.tears.done.back();
+  last.operation = model.newest_operation();
+  // The last operation goes on to log each point and particle once.
+  structure.scratch.logged_points.begin(last.points);
+  structure.scratch.logged_particles.begin(structure.particles.size());
+  for (const Change::OfPoint& of : last.changed_points)
+    (void)structure.scratch.logged_points.mark(of.point);
+  for (const auto& [particle, before] : last.changed_particles)
+    (void)structure.scratch.logged_particles.mark(particle);
+}
+
+}  // namespace
+
+Result<StateArrays> ParticleSet::save() const {
+  if (is_broken() || !data_->shared)
+    return Status::failure(StatusCode::invalid_argument, kNone,
+                           "the particles cannot be recorded: memory ran out, or they were not "
+                           "made from a ParticleAsset");
+  if (data_->own && !data_->own->tears.done.empty() && data_->own->tears.done.back().operation == 0)
+    return Status::failure(StatusCode::invalid_argument, kNone,
+                           "the particles cannot be recorded while a stroke is in progress");
+  try {
+    StateArrays state;
+    state.version = kVersion;
+    Tape tape = Tape::writer(state);
+    bool is_torn = data_->own != nullptr;
+    tape(is_torn);
+    if (is_torn) particles::describe(tape, *data_->own, *data_->shared);
+    return state;
+  } catch (const std::bad_alloc&) {
+    return out_of_memory();
+  }
+}
+
+Result<ParticleSet> ParticleSet::restore(std::shared_ptr<const ParticleAsset> asset,
+                                         const TornModel& model, const StateArrays& state) {
+  if (!asset)
+    return Status::failure(StatusCode::empty_input, kNone, "there is no asset of particles");
+  if (Status status = check_version(state); !status) return status;
+  const Structure& shared = *asset->structure_;
+  if (&model.source() != shared.character.source || model.is_in_stroke())
+    return Status::failure(
+        StatusCode::invalid_argument, kNone,
+        "the asset of particles is of another model, or a stroke is in progress");
+  try {
+    Tape tape = Tape::reader(state);
+    bool is_torn = false;
+    tape(is_torn);
+    if (!is_torn) {
+      tape.end();
+      if (!tape.status()) return tape.status();
+      return create(std::move(asset), model);
+    }
+    auto data = std::make_unique<particles::SetData>();
+    data->shared = asset->structure_;
+    data->own = shared.copy();
+    particles::describe(tape, *data->own, shared);
+    tape.end();
+    if (!tape.status()) return tape.status();
+    if (Status status = particles::validate(*data->own, model); !status) return status;
+    complete(model, *data->own);
+    return ParticleSet(std::move(data));
+  } catch (const std::bad_alloc&) {
+    return out_of_memory();
+  }
+}
+
+}  // namespace sunder

@@ -1,0 +1,261 @@
+// Sets that share the decomposition of their character, and states that are saved and restored.
+
+#include <sunder/particles/soft_body.h>
+#include <sunder/tear/tear_stroke.h>
+
+#include <limits>
+#include <vector>
+
+#include "particles/soft_scene.h"
+#include "support/particle_laws.h"
+#include "support/random_operations.h"
+
+namespace sunder {
+namespace {
+
+using test::difference;
+using test::Random;
+using test::state_of;
+
+/// A soft character whose particles share an asset, or have a decomposition of their own.
+struct Instance {
+  std::unique_ptr<TornModel> model;
+  std::unique_ptr<ParticleSet> set;
+  std::unique_ptr<SoftBody> body;
+
+  Instance(const std::shared_ptr<const Character>& character,
+           const std::shared_ptr<const ParticleAsset>& asset, const ModelPose& pose)
+      : model(std::make_unique<TornModel>(std::move(*TornModel::create(character)))) {
+    auto made = asset ? ParticleSet::create(asset, *model) : ParticleSet::create(*model, pose);
+    EXPECT_TRUE(made) << made.error().text();
+    set = std::make_unique<ParticleSet>(std::move(*made));
+    make_body(pose);
+  }
+  void make_body(const ModelPose& pose) {
+    const SoftMaterial materials[2] = {*find_material("skin"), *find_material("fat")};
+    auto soft = SoftBody::create(*set, pose, materials);
+    EXPECT_TRUE(soft) << soft.error().text();
+    body = std::make_unique<SoftBody>(std::move(*soft));
+  }
+};
+
+/// One random call, the same for equal instances and generators. @return whether the model changed.
+bool act(Instance& of, Random& random, const ModelPose& pose) {
+  ChangeRecord change;
+  bool is_changed = false;
+  const std::uint32_t kind = random.index(8), particle = random.index(of.set->particle_count());
+  const Vec3d direction = random.direction();
+  const Operation operation = test::random_operation(*of.model, random);
+  switch (kind) {
+    case 0:
+    case 1: is_changed = bool(test::play(*of.model, operation, &change)); break;
+    case 2: is_changed = bool(of.model->undo(&change)); break;
+    case 3: is_changed = bool(of.model->redo(&change)); break;
+    case 4: EXPECT_TRUE(of.body->add_impulse(particle, 0.01 * direction)); break;
+    case 5: EXPECT_TRUE(of.body->hold(particle, direction)); break;
+    case 6: EXPECT_TRUE(of.body->set_material(particle, particle % 2)); break;
+    default: (void)of.set->settle(*of.model, 30); break;
+  }
+  if (is_changed) {
+    EXPECT_TRUE(of.set->follow(*of.model, {&change, 1}));
+  }
+  if (kind % 2 == 0) (void)of.set->gradients(*of.model);
+  EXPECT_TRUE(of.body->step(
+      *of.model, test::moved(pose, test::turn_by(0.1 * direction.x(), direction)), 1.0 / 60));
+  return is_changed;
+}
+
+void expect_same(Instance& a, Instance& b, const ModelPose& pose) {
+  ASSERT_EQ(difference(state_of(*a.model, *a.set, pose), state_of(*b.model, *b.set, pose)), "");
+  ASSERT_EQ(a.body->particle_count(), b.body->particle_count());
+  for (std::uint32_t p = 0; p < a.body->particle_count(); ++p) {
+    ASSERT_EQ(a.body->displacement(p), b.body->displacement(p)) << p;
+    ASSERT_EQ(a.body->velocity(p), b.body->velocity(p)) << p;
+    ASSERT_EQ(a.body->place(p), b.body->place(p)) << p;
+    ASSERT_EQ(a.body->is_awake(p), b.body->is_awake(p)) << p;
+    ASSERT_EQ(a.body->material_of(p), b.body->material_of(p)) << p;
+  }
+  for (std::uint32_t mesh = 0; mesh < a.model->character().meshes.size(); ++mesh) {
+    const auto ranges = a.body->moved_vertices(*a.model, mesh),
+               others = b.body->moved_vertices(*b.model, mesh);
+    ASSERT_TRUE(std::ranges::equal(ranges, others)) << mesh;
+  }
+  const auto gradients = a.set->gradients(*a.model), others = b.set->gradients(*b.model);
+  ASSERT_EQ(gradients.size(), others.size());
+  for (std::uint32_t point = 0; point < gradients.size(); ++point)
+    if (a.set->influences()[point].weights[0] > 0) {
+      ASSERT_EQ(gradients[point].of_weights, others[point].of_weights) << point;
+    }
+}
+
+struct Shared {
+  std::shared_ptr<const Character> character;
+  ModelPose pose;
+  std::shared_ptr<const ParticleAsset> asset;
+
+  explicit Shared(Character from)
+      : character(std::make_shared<const Character>(std::move(from))),
+        pose(*bind_pose(*character)) {
+    auto made = ParticleAsset::create(*TornModel::create(character), pose);
+    EXPECT_TRUE(made) << made.error().text();
+    asset = *made;
+  }
+};
+
+TEST(shared_particles, have_the_bits_of_particles_of_their_own) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    SCOPED_TRACE(seed);
+    Random of_character(seed);
+    const Shared shared(test::random_character(of_character));
+    Instance own(shared.character, nullptr, shared.pose),
+        first(shared.character, shared.asset, shared.pose),
+        untouched(shared.character, shared.asset, shared.pose);
+    const auto before = state_of(*untouched.model, *untouched.set, shared.pose);
+    Random one(seed), other(seed);
+    for (int i = 0; i < 25; ++i) {
+      (void)act(own, one, shared.pose);
+      (void)act(first, other, shared.pose);
+      ASSERT_NO_FATAL_FAILURE(expect_same(own, first, shared.pose));
+    }
+    ASSERT_EQ(difference(before, state_of(*untouched.model, *untouched.set, shared.pose)), "");
+  }
+}
+
+TEST(shared_particles, cost_nothing_until_they_are_torn) {
+  const Shared shared(test::make_bumpy_ball(4000));
+  Instance instance(shared.character, shared.asset, shared.pose);
+  EXPECT_LT(instance.set->memory_bytes(), 2048u);
+  EXPECT_GT(shared.asset->memory_bytes(), 50u * instance.set->memory_bytes());
+  const std::size_t before = instance.body->memory_bytes();
+  EXPECT_LT(before, 1500u * instance.set->particle_count() + 4096);
+  Random random(3);
+  ChangeRecord change;
+  while (!test::play(*instance.model, test::random_operation(*instance.model, random), &change) ||
+         change.meshes.empty()) {
+  }
+  ASSERT_TRUE(instance.set->follow(*instance.model, {&change, 1}));
+  EXPECT_GT(instance.set->memory_bytes(), 100u * instance.set->point_count());
+}
+
+TEST(shared_particles, refuse_other_models) {
+  const Shared shared(test::make_sheet(6)), other(test::make_sheet(7));
+  const TornModel model = std::move(*TornModel::create(other.character));
+  EXPECT_EQ(ParticleSet::create(shared.asset, model).error().code(), StatusCode::invalid_argument);
+  EXPECT_EQ(ParticleSet::create(nullptr, model).error().code(), StatusCode::empty_input);
+}
+
+/// Restores a copy of an instance beside it, with the operations replayed on the model.
+void restore(const Shared& shared, const Instance& from, const ModelPose& pose, Instance& to) {
+  for (const Operation& operation : *from.model->history())
+    ASSERT_TRUE(apply_operation(*to.model, operation));
+  const auto saved = from.set->save();
+  ASSERT_TRUE(saved) << saved.error().text();
+  auto restored = ParticleSet::restore(shared.asset, *to.model, *saved);
+  ASSERT_TRUE(restored) << restored.error().text();
+  EXPECT_EQ(*restored->save(), *saved);
+  to.body.reset();
+  to.set = std::make_unique<ParticleSet>(std::move(*restored));
+  to.make_body(pose);
+  const auto motion = from.body->save();
+  ASSERT_TRUE(motion) << motion.error().text();
+  const Status status = to.body->restore(*motion);
+  ASSERT_TRUE(status) << status.text();
+  EXPECT_EQ(*to.body->save(), *motion);
+}
+
+TEST(saved_particles, go_on_with_the_same_bits) {
+  for (std::uint64_t seed = 0; seed < 30; ++seed) {
+    SCOPED_TRACE(seed);
+    Random of_character(seed);
+    const Shared shared(test::random_character(of_character));
+    Instance first(shared.character, shared.asset, shared.pose),
+        second(shared.character, shared.asset, shared.pose);
+    Random random(seed);
+    for (int i = 0; i < 15; ++i) (void)act(first, random, shared.pose);
+    ASSERT_NO_FATAL_FAILURE(restore(shared, first, shared.pose, second));
+    ASSERT_NO_FATAL_FAILURE(expect_same(first, second, shared.pose));
+    Random one(seed + 100), other(seed + 100);
+    for (int i = 0; i < 25; ++i) {
+      // What was undone before is not saved: its redo would be another operation.
+      if (first.model->redo_count() > second.model->redo_count()) {
+        ASSERT_TRUE(test::play(*first.model, test::random_operation(*first.model, one)));
+        break;
+      }
+      (void)act(first, one, shared.pose);
+      (void)act(second, other, shared.pose);
+      ASSERT_NO_FATAL_FAILURE(expect_same(first, second, shared.pose));
+    }
+  }
+}
+
+/// Every number of a state is replaced by odd ones: the call fails, or what it makes can be used.
+TEST(saved_particles, survive_damaged_states) {
+  Random random(5);
+  const Shared shared(test::make_tube(8, 9, 3));
+  Instance from(shared.character, shared.asset, shared.pose);
+  for (int i = 0; i < 30; ++i) (void)act(from, random, shared.pose);
+  const StateArrays set = *from.set->save(), body = *from.body->save();
+  const auto damaged = [&](StateArrays state) {
+    constexpr std::uint32_t kOdd[] = {0, 1, 7, 1000, 0x7fffffff, kNone - 1, kNone};
+    if (random.index(4) == 0 && !state.floats.empty())
+      state.floats[random.index(static_cast<std::uint32_t>(state.floats.size()))] =
+          random.index(2) == 0 ? -1.0f : std::numeric_limits<float>::quiet_NaN();
+    else if (random.index(4) == 0 && !state.numbers.empty())
+      state.numbers[random.index(static_cast<std::uint32_t>(state.numbers.size()))] =
+          kOdd[random.index(7)];
+    else if (random.index(10) == 0)
+      state.indices.pop_back();
+    else
+      state.indices[random.index(static_cast<std::uint32_t>(state.indices.size()))] =
+          kOdd[random.index(7)];
+    return state;
+  };
+  for (int i = 0; i < 300; ++i) {
+    TornModel model = std::move(*TornModel::create(shared.character));
+    for (const Operation& operation : *from.model->history())
+      ASSERT_TRUE(apply_operation(model, operation));
+    auto restored = ParticleSet::restore(shared.asset, model, damaged(set));
+    if (!restored) {
+      EXPECT_FALSE(restored.error().text().empty());
+      continue;
+    }
+    const SoftMaterial materials[2] = {};
+    auto soft = SoftBody::create(*restored, shared.pose, materials);
+    if (!soft) continue;
+    (void)soft->restore(damaged(body));
+    for (int k = 0; k < 3; ++k) (void)soft->step(model, shared.pose, 1.0 / 60);
+    while (restored->settle(model)) {
+    }
+    ChangeRecord change;
+    while (model.undo(&change)) (void)restored->follow(model, {&change, 1});
+    (void)soft->step(model, shared.pose, 1.0 / 60);
+    (void)soft->moved_vertices(model, 0);
+  }
+}
+
+/// A body on a decomposition of its own, with the motion of another at the same points.
+TEST(soft_body, inherits_the_motion_of_another_body) {
+  test::SoftScene from(test::make_tube(30, 16, 6), {}, 0.1),
+      to(test::make_tube(30, 16, 6), {}, 0.08);
+  for (std::uint32_t p = 0; p < from.count(); ++p)
+    ASSERT_TRUE(from.body->add_impulse(p, Vec3d(1e-3, 0, 1e-3 * from.body->place(p).y())));
+  from.run(0.1);
+  std::vector<std::uint32_t> same(to.set->point_count());
+  for (std::uint32_t point = 0; point < same.size(); ++point) same[point] = point;
+  const Status status = to.body->inherit_motion_from(*from.body, same);
+  ASSERT_TRUE(status) << status.text();
+  double most = 0, error = 0;
+  for (std::uint32_t point = 0; point < same.size(); ++point) {
+    most = std::max(most, from.body->point_displacement(point).norm());
+    error = std::max(
+        error, (from.body->point_displacement(point) - to.body->point_displacement(point)).norm());
+  }
+  EXPECT_GT(most, 1e-4);
+  EXPECT_LT(error, 0.2 * most);
+  EXPECT_GT(to.body->awake_count(), 0u);
+  same.pop_back();
+  EXPECT_EQ(to.body->inherit_motion_from(*from.body, same).code(), StatusCode::size_mismatch);
+}
+
+}  // namespace
+}  // namespace sunder
