@@ -124,7 +124,7 @@ TEST(Preview, it_says_what_the_operation_then_does) {
       EXPECT_EQ(preview->miss_distance, 0);
     }
     // A model that never saw the preview becomes the same.
-    if (model.undo_count() == 1) {
+    if (undos == 0 && report->runs > 0) {
       TornModel other = test::make_model(character);
       ASSERT_TRUE(test::play(other, operation));
       EXPECT_EQ(other.digest(), model.digest());

@@ -54,7 +54,8 @@ double point_distance(const Vec3d& point, const std::array<Vec3d, 3>& corners) {
   basis.col(1) = corners[2] - corners[0];
   basis.col(2) = basis.col(0).cross(basis.col(1));
   const double area = basis.col(2).norm();
-  if (!(area > 1e-14 * basis.col(0).norm() * basis.col(1).norm())) return least;
+  const double longest = std::max(basis.col(0).norm(), basis.col(1).norm());
+  if (!(area > 1e-12 * longest * longest)) return least;  // a line
   basis.col(2) /= area;
   const Eigen::Vector3d at = basis.fullPivLu().solve(Eigen::Vector3d(point - corners[0]));
   if (at.x() >= 0 && at.y() >= 0 && at.x() + at.y() <= 1) least = std::min(least, std::abs(at.z()));
