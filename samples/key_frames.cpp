@@ -36,12 +36,14 @@ std::vector<std::uint32_t> bones_above(const sunder::Skeleton& skeleton, std::ui
   return bones;
 }
 
-/// The bone of the first mesh that has most bones above it.
+/// The bone that has most bones above it, of those that move a mesh: a hand, a foot, or a head.
 std::uint32_t deepest_bone(const sunder::Character& model) {
-  const auto& bones = model.skins[model.meshes[0].skin].bones;
-  return *std::max_element(bones.begin(), bones.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return bones_above(model.skeleton, a).size() < bones_above(model.skeleton, b).size();
-  });
+  std::uint32_t deepest = 0;
+  for (const sunder::Skin& skin : model.skins)
+    for (const std::uint32_t bone : skin.bones)
+      if (bones_above(model.skeleton, bone).size() > bones_above(model.skeleton, deepest).size())
+        deepest = bone;
+  return deepest;
 }
 
 void play_frames(sunder::ClipPlayer& player, int frames, sunder::Pose& pose) {
