@@ -13,6 +13,7 @@ namespace sunder::scene {
 struct AssetData {
   std::shared_ptr<const Character> character;
   std::shared_ptr<const TornAsset> torn;
+  std::shared_ptr<const ParticleAsset> particles;  ///< Null if it is not soft.
   CharacterAssetOptions options;
   std::vector<AssetMesh> meshes;
 };

@@ -1,4 +1,5 @@
 #include <sunder/scene/character_asset.h>
+#include <sunder/skinning/pose.h>
 
 #include <new>
 
@@ -45,10 +46,17 @@ Status check_coarser(const Character& character, const Character& coarser) {
   return {};
 }
 
-/// Whether instances can be made soft.
-Status check_tissue(const SoftTissue& soft, const std::shared_ptr<const TornAsset>& asset) {
-  Result<TornModel> model = TornModel::create(asset);
-  return model ? scene::TornParts(std::move(*model)).make_soft(soft) : model.error();
+/// Divides the surface into particles, and checks that bodies can be made of them.
+Status divide(const SoftTissue& soft, scene::AssetData& data) {
+  Result<TornModel> model = TornModel::create(data.torn);
+  if (!model) return model.error();
+  // At rest lengths are metres; bind space may have any unit, such as that of quantised positions.
+  const Result<ModelPose> rest = rest_pose(*data.character);
+  if (!rest) return rest.error();
+  auto particles = ParticleAsset::create(*model, *rest, soft.decomposition);
+  if (!particles) return particles.error();
+  data.particles = std::move(*particles);
+  return scene::TornParts(std::move(*model)).make_soft(soft, data.particles);
 }
 
 }  // namespace
@@ -73,10 +81,10 @@ Result<std::shared_ptr<const CharacterAsset>> CharacterAsset::create(
       if (!made) return made.error();
       data->meshes.push_back(std::move(*made));
     }
-    if (options.soft)
-      if (Status status = check_tissue(*options.soft, *torn); !status) return status;
     data->character = std::move(character);
     data->torn = std::move(*torn);
+    if (options.soft)
+      if (Status status = divide(*options.soft, *data); !status) return status;
     return std::shared_ptr<const CharacterAsset>(new CharacterAsset(std::move(data)));
   } catch (const std::bad_alloc&) {
     return out_of_memory();
@@ -101,6 +109,7 @@ std::span<const DrawRange> CharacterAsset::draw_ranges(std::uint32_t mesh) const
 std::size_t CharacterAsset::memory_bytes() const {
   const TornMemory torn = data_->torn->memory_bytes();
   std::size_t bytes = sizeof(*this) + sizeof(*data_) + torn.shared + torn.reserved;
+  if (data_->particles) bytes += data_->particles->memory_bytes();
   for (const scene::AssetMesh& mesh : data_->meshes)
     bytes += sizeof(mesh) + mesh.skinned.stream_bytes() + mesh.order.memory_bytes();
   return bytes;

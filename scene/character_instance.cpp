@@ -282,6 +282,27 @@ const SoftBody* CharacterInstance::body() const {
 const ParticleSet* CharacterInstance::particles() const {
   return state_->torn && state_->torn->particles ? &*state_->torn->particles : nullptr;
 }
+Result<CharacterInstance::TissueState> CharacterInstance::tissue() const {
+  if (body() == nullptr)
+    return Status::failure(StatusCode::invalid_argument, kNone, "the instance has no soft body");
+  Result<StateArrays> particles = state_->torn->particles->save();
+  if (!particles) return particles.error();
+  Result<StateArrays> of_body = body()->save();
+  if (!of_body) return of_body.error();
+  return TissueState{std::move(*particles), std::move(*of_body)};
+}
+
+Status CharacterInstance::restore_tissue(const TissueState& wanted) {
+  State& state = *state_;
+  if (Status status = state.require_torn(); !status) return status;
+  const std::optional<SoftTissue>& soft = state.shared().options.soft;
+  if (!soft) return Status::failure(StatusCode::invalid_argument, kNone, "the asset is not soft");
+  Result<ParticleSet> set =
+      ParticleSet::restore(state.shared().particles, state.torn->model, wanted.particles);
+  if (!set) return set.error();
+  return state.restore_tissue(*soft, std::move(*set), wanted.body);
+}
+
 bool CharacterInstance::is_in_stroke() const {
   return state_->torn && state_->torn->stroke.has_value();
 }

@@ -28,12 +28,29 @@ Status CharacterInstance::State::require_torn() {
     if (Status status = model->set_weights(options.weights); !status) return status;
     auto parts = std::make_unique<scene::TornParts>(std::move(*model));
     if (options.soft)
-      if (Status status = parts->make_soft(*options.soft); !status) return status;
+      if (Status status = parts->make_soft(*options.soft, shared().particles); !status)
+        return status;
     torn = std::move(parts);
     return {};
   } catch (const std::bad_alloc&) {
     return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
   }
+}
+
+Status CharacterInstance::State::restore_tissue(const SoftTissue& soft, ParticleSet set,
+                                                const StateArrays& of_body) {
+  std::optional<SoftBody> body_before = std::move(torn->body);
+  std::unique_ptr<ParticleSet> set_before = std::move(torn->particles);
+  Status status = torn->make_body(soft, std::move(set));
+  if (status) status = torn->body->restore(of_body);
+  if (status) {
+    needs_draw = true;
+    return status;
+  }
+  torn->body.reset();
+  torn->particles = std::move(set_before);
+  torn->body = std::move(body_before);
+  return status;
 }
 
 Status CharacterInstance::State::require_drawn() {
@@ -135,6 +152,7 @@ std::size_t CharacterInstance::State::memory_bytes() const {
   if (torn) {
     const TornMemory of_model = torn->model.memory_bytes();
     bytes += sizeof(*torn) + of_model.own + of_model.reserved;
+    if (torn->body) bytes += torn->particles->memory_bytes() + torn->body->memory_bytes();
   }
   if (!drawn) return bytes;
   bytes += sizeof(*drawn);

@@ -40,6 +40,8 @@ struct CharacterInstance::State {
 
   /// Makes what the first operation needs, if it is not there.
   Status require_torn();
+  /// Replaces the soft body. @throws nothing; a failure changes nothing.
+  Status restore_tissue(const SoftTissue& soft, ParticleSet set, const StateArrays& body);
   /// Makes what draw() needs, if it is not there. @throws std::bad_alloc
   Status require_drawn();
   /// Lets the meshes know.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "scene/actor/actor.h"
@@ -8,6 +9,16 @@
 
 namespace sunder::scene {
 
+template <class Archive>
+void transfer(Archive& archive, StateArrays& of) {
+  auto& [version, indices, numbers, floats, doubles] = of;
+  archive(version, indices, numbers, floats, doubles);
+}
+template <class Archive>
+void transfer(Archive& archive, CharacterInstance::TissueState& of) {
+  auto& [particles, body] = of;
+  archive(particles, body);
+}
 template <class Archive>
 void transfer(Archive& archive, Actor::State& of) {
   auto& [is_visible, has_new_pose, screen_height, now, last_operation, player, player_now,
@@ -26,6 +37,7 @@ struct SavedInstance {
   std::uint64_t character = 0;  ///< digest_of() its character.
   bool is_prepared = false;     ///< Whether it has a torn model.
   std::vector<Operation> done, undone;
+  std::optional<CharacterInstance::TissueState> tissue;
   Actor::State actor;
 };
 

@@ -16,8 +16,8 @@ constexpr std::uint32_t kVersion = 1;
 /// All but the digest of the character, which says how poses are read.
 template <class Archive>
 void transfer_instance(Archive& archive, SavedInstance& of) {
-  auto& [character, is_prepared, done, undone, actor] = of;
-  archive(is_prepared, done, undone, actor);
+  auto& [character, is_prepared, done, undone, tissue, actor] = of;
+  archive(is_prepared, done, undone, tissue, actor);
 }
 
 Status broken(const SnapshotReader& reader) {
@@ -70,6 +70,10 @@ Result<SavedInstance> describe(const Actor& actor) {
   if (!undone) return undone.error();
   saved.done = std::move(*done);
   saved.undone = std::move(*undone);
+  if (of.body() == nullptr) return saved;
+  Result<CharacterInstance::TissueState> tissue = of.tissue();
+  if (!tissue) return tissue.error();
+  saved.tissue = std::move(*tissue);
   return saved;
 }
 
@@ -93,6 +97,8 @@ Result<std::unique_ptr<Actor>> revive(const SavedInstance& saved,
   if (Status status = replay(saved, *instance); !status) return status;
   auto actor = std::make_unique<Actor>(std::move(*instance), saved.actor.is_visible, 0.0);
   if (Status status = actor->restore(saved.actor); !status) return status;
+  if (saved.tissue)
+    if (Status status = actor->instance.restore_tissue(*saved.tissue); !status) return status;
   return actor;
 }
 

@@ -4,13 +4,17 @@
 
 namespace sunder::scene {
 
-Status TornParts::make_soft(const SoftTissue& soft) {
-  // At rest lengths are metres; bind space may have any unit, such as that of quantised positions.
+Status TornParts::make_soft(const SoftTissue& soft,
+                            const std::shared_ptr<const ParticleAsset>& asset) {
+  Result<ParticleSet> set = ParticleSet::create(asset, model);
+  return set ? make_body(soft, std::move(*set)) : set.error();
+}
+
+Status TornParts::make_body(const SoftTissue& soft, ParticleSet set) {
   const Result<ModelPose> rest = rest_pose(model.source());
   if (!rest) return rest.error();
-  Result<ParticleSet> divided = ParticleSet::create(model, *rest, soft.decomposition);
-  if (!divided) return divided.error();
-  particles.emplace(std::move(*divided));
+  body.reset();
+  particles = std::make_unique<ParticleSet>(std::move(set));
   Result<SoftBody> made = SoftBody::create(*particles, *rest, soft.materials, soft.body);
   if (!made) return made.error();
   if (Status status = made->set_gravity(soft.gravity); !status) return status;

@@ -3,6 +3,7 @@
 #include <sunder/scene/character_asset.h>
 #include <sunder/tear/tear_stroke.h>
 
+#include <memory>
 #include <optional>
 
 namespace sunder::scene {
@@ -11,13 +12,14 @@ namespace sunder::scene {
 struct TornParts {
   explicit TornParts(TornModel made) : model(std::move(made)) {}
 
-  /// Divides the surface into particles, and makes a body at rest of them.
-  /// @return as the create() of ParticleSet and SoftBody. @throws std::bad_alloc
-  Status make_soft(const SoftTissue& soft);
+  /// Makes a body at rest. @return as the create() of ParticleSet and SoftBody.
+  Status make_soft(const SoftTissue& soft, const std::shared_ptr<const ParticleAsset>& asset);
+  /// Makes a body of a set.
+  Status make_body(const SoftTissue& soft, ParticleSet set);
 
   TornModel model;
   std::optional<TearStroke> stroke;  // refers to the model
-  std::optional<ParticleSet> particles;
+  std::unique_ptr<ParticleSet> particles;
   std::optional<SoftBody> body;  // refers to the particles
 };
 

@@ -27,6 +27,7 @@
 #include <sunder/particles/material.h>
 #include <sunder/particles/particle_set.h>
 #include <sunder/particles/soft_body.h>
+#include <sunder/particles/state_arrays.h>
 #include <sunder/scene/character_asset.h>
 #include <sunder/scene/character_instance.h>
 #include <sunder/scene/frame_stats.h>

@@ -164,7 +164,8 @@ void save_and_go_on(bool is_soft, std::uint64_t seed) {
 TEST(snapshot, a_restored_scene_goes_on_with_the_same_bits) {
   for (int seed = 1; seed <= test::stressed(12, 200); ++seed) {
     SCOPED_TRACE(seed);
-    save_and_go_on(false, static_cast<std::uint64_t>(seed));
+    for (const bool is_soft : {false, true})
+      save_and_go_on(is_soft, static_cast<std::uint64_t>(seed));
     if (HasFatalFailure()) return;
   }
 }

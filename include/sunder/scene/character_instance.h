@@ -162,6 +162,17 @@ class SUNDER_API CharacterInstance {
   [[nodiscard]] const SoftBody* body() const;
   /// Null like body().
   [[nodiscard]] const ParticleSet* particles() const;
+  /// The state of soft tissue, as plain data; see ParticleSet::save() and SoftBody::save().
+  struct TissueState {
+    StateArrays particles, body;
+  };
+  /// @return invalid_argument without a soft body; as those calls. O(particles + points),
+  /// allocates.
+  [[nodiscard]] Result<TissueState> tissue() const;
+  /// Sets the state of soft tissue to one that was kept when the model was as it is now.
+  /// @return as ParticleSet::restore() and SoftBody::restore(); nothing is changed then.
+  Status restore_tissue(const TissueState& state);
+
   [[nodiscard]] bool is_in_stroke() const;
   /// The number of vertices that the last draw() posed.
   [[nodiscard]] std::uint32_t drawn_vertices() const;
