@@ -62,7 +62,7 @@ TwentyCuts cut_twenty_times() {
   Eigen::AlignedBox3d box;
   for (const Vec3f& position : source->meshes[0].positions)
     box.extend(Eigen::Vector3d(position.cast<double>()));
-  test::Random random(1);
+  test::Random random(3);
   TwentyCuts result;
   for (int i = 0; i < 20; ++i) {
     PlaneCut cut;

@@ -105,7 +105,7 @@ TEST(Caps, that_are_cut_again_do_not_multiply) {
   Eigen::AlignedBox3d box;
   for (const Vec3f& position : tube.meshes[0].positions)
     box.extend(Eigen::Vector3d(position.cast<double>()));
-  Random random(1);
+  Random random(3);
   std::uint32_t caps = 0;
   for (int i = 0; i < 20; ++i) {
     Eigen::Vector3d at;
