@@ -92,10 +92,10 @@ TEST_P(DetachedFiles, come_free_and_are_characters) {
   if (report->pieces.size() < 2) GTEST_SKIP() << "the cut divides nothing";
   const auto state = test::state_of(model);
   const Character before = model.character();
-  std::vector<TornPiece> pieces = report->pieces;
-  std::sort(pieces.begin(), pieces.end(), [](const TornPiece& a, const TornPiece& b) {
-    return a.triangle_count > b.triangle_count;
-  });
+  std::vector<PieceDescription> pieces;
+  for (const TornPiece& piece : report->pieces) pieces.push_back(*model.describe_piece(piece));
+  std::sort(pieces.begin(), pieces.end(),
+            [](const auto& a, const auto& b) { return a.triangle_count > b.triangle_count; });
   pieces.erase(pieces.begin());
   pieces.resize(std::min(pieces.size(), kMostPieces));
 
@@ -103,7 +103,7 @@ TEST_P(DetachedFiles, come_free_and_are_characters) {
   std::size_t faces = 0;
   const double size = test::posed_diagonal(before, pose);
   for (std::size_t i = 0; i < pieces.size(); ++i) {
-    const TornPiece::Triangles& of = pieces[i].meshes[0];
+    const PieceDescription::Triangles& of = pieces[i].meshes[0];
     DetachOptions options;
     options.motion = i % 2 == 0 ? PieceMotion::frozen : PieceMotion::animated;
     const auto piece = detach(model, pose, PieceOfTriangle{of.mesh, of.triangles[0]}, options);

@@ -27,12 +27,14 @@ double volume_of(const TornModel& model, const ModelPose& pose, const TornPiece*
   for (std::uint32_t m = 0; m < model.character().meshes.size(); ++m) {
     const auto positions = test::posed_positions(model.character(), m, pose);
     std::vector<std::uint32_t> triangles;
-    if (piece == nullptr)
+    if (piece == nullptr) {
       for (std::uint32_t t = 0; t < model.character().meshes[m].triangle_count(); ++t)
         triangles.push_back(t);
-    else
-      for (const PieceDescription::Triangles& of_mesh : model.describe_piece(*piece)->meshes)
+    } else {
+      const Result<PieceDescription> description = model.describe_piece(*piece);
+      for (const PieceDescription::Triangles& of_mesh : description->meshes)
         if (of_mesh.mesh == m) triangles = of_mesh.triangles;
+    }
     for (const std::uint32_t t : triangles) {
       const Triangle& triangle = model.character().meshes[m].triangles[t];
       volume +=

@@ -66,22 +66,28 @@ Vec3d middle_of(const Character& character, const ModelPose& pose) {
   return 0.5 * (least + most);
 }
 
+std::vector<PieceDescription> describe(const TornModel& model, const TornPieces& pieces) {
+  std::vector<PieceDescription> described;
+  for (const TornPiece& piece : pieces) described.push_back(*model.describe_piece(piece));
+  return described;
+}
+
 /// A tube cut in two in its rest pose.
 struct CutTube {
   TornModel model;
   ModelPose pose;
-  std::vector<TornPiece> pieces;
+  std::vector<PieceDescription> pieces;
 
   explicit CutTube(const TornCapacity& capacity = {})
       : model(make_model(make_tube(12, 10, 3), capacity)), pose(rest_of(model.source())) {
     const auto report =
         model.cut(pose, across(middle_of(model.source(), pose).y() + 0.013), nullptr);
     EXPECT_TRUE(report) << report.error().text();
-    if (report) pieces = report->pieces;
+    if (report) pieces = describe(model, report->pieces);
     EXPECT_EQ(pieces.size(), 2u);
   }
   [[nodiscard]] PiecePlace on(std::size_t piece) const {
-    const TornPiece::Triangles& of = pieces[piece].meshes[0];
+    const PieceDescription::Triangles& of = pieces[piece].meshes[0];
     return PieceOfTriangle{of.mesh, of.triangles[of.triangles.size() / 2]};
   }
 };
@@ -200,7 +206,7 @@ TEST_P(RandomDetachments, divide_the_model_and_are_reversible) {
     }
     EXPECT_EQ(retired, rewritten);
     EXPECT_EQ(piece->report.triangles_retired, retired);
-    EXPECT_EQ(piece->report.pieces.at(0).triangle_count, retired);
+    EXPECT_EQ(piece->report.pieces[0].triangle_count, retired);
     const double size = test::posed_diagonal(before, pose);
     if (options.motion == PieceMotion::animated) {
       expect_same_positions(*piece, before, pose, pose, 0);
@@ -435,7 +441,8 @@ TEST(Detach, fewer_vertices_are_skinned) {
   EXPECT_EQ(counting.count_written(character, random), all);
 
   ChangeRecord change;
-  const TornPiece::Triangles& of = cut->pieces[0].meshes[0];
+  const std::vector<PieceDescription> pieces = describe(model, cut->pieces);
+  const PieceDescription::Triangles& of = pieces[0].meshes[0];
   ASSERT_TRUE(detach(model, pose, PieceOfTriangle{of.mesh, of.triangles[0]}, {}, &change));
   const std::vector<std::uint32_t> released = change.meshes[0].released;
   ASSERT_TRUE(skinned->release(released, counting.buffer()));
@@ -444,7 +451,7 @@ TEST(Detach, fewer_vertices_are_skinned) {
   EXPECT_GE(less, all - released.size());
 
   // A tear of the rest: the blocks at the end are made anew.
-  const auto again = model.cut(pose, across(cut->pieces[1].centroid_posed.y()));
+  const auto again = model.cut(pose, across(pieces[1].centroid_posed.y()));
   ASSERT_TRUE(again);
   ASSERT_GT(again->runs, 0u);
   const std::uint32_t grown = character.meshes[0].vertex_count();
@@ -506,8 +513,8 @@ TEST(Detach, pieces_are_characters_like_any_other) {
     const auto report = model->cut(pose, cut);
     ASSERT_TRUE(report);
     ASSERT_EQ(report->pieces.size(), 2u);
-    const TornPiece::Triangles& of = report->pieces[1].meshes[0];
-    const auto smaller = detach(*model, pose, PieceOfTriangle{of.mesh, of.triangles[0]}, options);
+    const PieceOfTriangle of = {report->pieces[1].mesh, report->pieces[1].triangle};
+    const auto smaller = detach(*model, pose, of, options);
     ASSERT_TRUE(smaller) << smaller.error().text();
     EXPECT_TRUE(TornModel::create(smaller->character));
     const auto topology = count_topology(*smaller->character);
@@ -557,8 +564,8 @@ TEST(Detach, exact_vertices_are_frozen_where_they_are) {
   ASSERT_TRUE(palette->set(before.skins[0], bent));
   ASSERT_TRUE(skinned->deform(*palette, buffer));
 
-  const TornPiece::Triangles& of = report->pieces[0].meshes[0];
-  const auto piece = detach(model, bent, PieceOfTriangle{of.mesh, of.triangles[0]});
+  const PieceOfTriangle of = {report->pieces[0].mesh, report->pieces[0].triangle};
+  const auto piece = detach(model, bent, of);
   ASSERT_TRUE(piece);
   const auto now = test::posed_positions(*piece->character, 0, rest_of(*piece->character));
   for (std::uint32_t v = 0; v < now.size(); ++v)

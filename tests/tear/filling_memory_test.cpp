@@ -32,7 +32,7 @@ class OpenTube {
     const Sheet sheet{plane, {}};
     std::vector<LipPair> lips;
     const SheetOpening opening =
-        open_sheet(sheet, faces_across(sheet, editor_, posed_), {editor_, posed_}, lips);
+        open_sheet(sheet, faces_across(sheet, editor_, posed_), true, {editor_, posed_}, lips);
     const Index triangles = editor_.surface().triangle_count();
     const std::uint64_t count = test::allocation_count();
     fill(opening, Workpiece{editor_, posed_});

@@ -45,11 +45,11 @@ TEST_P(FaceQuality, stays_above_the_limit_set_by_snapping) {
   EXPECT_THAT(test::broken_laws(*model), IsEmpty());
   EXPECT_THAT(test::broken_surface(*model), IsEmpty());
 
-  // A path keeps away from the ends of edges created by tears by kSliverSizes of the longest side. A
-  // face that it leaves there has such a short side between two long ones. If these meet at the
-  // source's smallest angle, its own angle is the sine of that times kSliverSizes. Tips, edges of the
-  // source that are crossed for the first time, and lips that meet may be closer: half of the floor
-  // allows for them.
+  // A path keeps away from the ends of edges created by tears by kSliverSizes of the longest side.
+  // A face that it leaves there has such a short side between two long ones. If these meet at the
+  // source's smallest angle, its own angle is the sine of that times kSliverSizes. Tips, edges of
+  // the source that are crossed for the first time, and lips that meet may be closer: half of the
+  // floor allows for them.
   const test::FaceQuality quality = test::face_quality(*model);
   EXPECT_EQ(quality.faces_without_area, 0u);
   EXPECT_GT(quality.angle_at(0.01), 0.5 * tear::kSliverSizes *
