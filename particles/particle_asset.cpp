@@ -1,5 +1,3 @@
-#include "particles/particle_asset.h"
-
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -8,6 +6,7 @@
 
 #include "particles/clusters/check_pose.h"
 #include "particles/clusters/decompose.h"
+#include "particles/clusters/decompose_model.h"
 #include "particles/clusters/gradients.h"
 #include "particles/clusters/pair_changes.h"
 #include "particles/clusters/read_model.h"

@@ -9,10 +9,10 @@
 
 #include "core/internal/ordered.h"
 #include "particles/clusters/check_pose.h"
+#include "particles/clusters/decompose_model.h"
 #include "particles/clusters/gradients.h"
 #include "particles/clusters/set_data.h"
 #include "particles/clusters/tips.h"
-#include "particles/particle_asset.h"
 #include "particles/repair/follow_history.h"
 #include "particles/repair/repair.h"
 #include "tear/internal/surface.h"

@@ -66,13 +66,17 @@ struct Recorded {
   double tension = 0, time = 0;
   bool is_tension_stale = false;
   particles::HoldList holds;
-  std::vector<Collider> colliders, before;
-  bool are_colliders_changed = false;
-  ContactReport report;
-  std::vector<Vec4f> displacements;
-  std::vector<Mat3f> turns;
-  std::vector<std::uint8_t> is_displaced;
-  Index displaced_count = 0;
+  struct OfContact {
+    std::vector<Collider> colliders, before;
+    bool is_changed = false;
+    ContactReport report;
+  } contact;
+  struct Shown {
+    std::vector<Vec4f> displacements;
+    std::vector<Mat3f> turns;
+    std::vector<std::uint8_t> is_displaced;
+    Index displaced_count = 0;
+  } shown;
 };
 
 Recorded recorded(const BodyState& state) {
@@ -87,14 +91,12 @@ Recorded recorded(const BodyState& state) {
           state.outer.time,
           state.outer.is_tension_stale,
           state.holds,
-          {colliders.begin(), colliders.end()},
-          {before.begin(), before.end()},
-          state.contact.is_changed(),
-          state.contact.report(),
-          state.shown.displacements,
-          state.shown.turns,
-          state.shown.is_displaced,
-          state.shown.displaced_count};
+          {{colliders.begin(), colliders.end()},
+           {before.begin(), before.end()},
+           state.contact.is_changed(),
+           state.contact.report()},
+          {state.shown.displacements, state.shown.turns, state.shown.is_displaced,
+           state.shown.displaced_count}};
 }
 
 void describe(Tape& tape, Motion& of) {
@@ -123,16 +125,16 @@ void describe(Tape& tape, Recorded& of, const ParticleSet& set) {
   for (double* value : {&of.tension, &of.time}) tape(*value);
   tape(of.is_tension_stale);
   of.holds.describe(tape, of.motion.count(), set.point_count());
-  describe(tape, of.colliders);
-  describe(tape, of.before);
-  tape(of.are_colliders_changed);
-  tape(of.report.points);
-  tape(of.report.deepest);
-  tape.all(of.displacements);
-  tape.all(of.turns);
-  tape.each(of.is_displaced, [&](std::uint8_t& flag) { tape.small(flag, 2); });
-  of.displaced_count = 0;
-  for (const std::uint8_t displaced : of.is_displaced) of.displaced_count += displaced;
+  describe(tape, of.contact.colliders);
+  describe(tape, of.contact.before);
+  tape(of.contact.is_changed);
+  tape(of.contact.report.points);
+  tape(of.contact.report.deepest);
+  tape.all(of.shown.displacements);
+  tape.all(of.shown.turns);
+  tape.each(of.shown.is_displaced, [&](std::uint8_t& flag) { tape.small(flag, 2); });
+  of.shown.displaced_count = 0;
+  for (const std::uint8_t displaced : of.shown.is_displaced) of.shown.displaced_count += displaced;
 }
 
 /// Whether all arrays have an entry per particle.
@@ -140,8 +142,8 @@ bool has_count(const Recorded& of, std::size_t count) {
   const Motion& motion = of.motion;
   bool has = motion.serials.size() == count && motion.material_of.size() == count &&
              motion.quiet.seconds.size() == count && of.rests.count() == count &&
-             of.displacements.size() == count && of.turns.size() == count &&
-             of.is_displaced.size() == count;
+             of.shown.displacements.size() == count && of.shown.turns.size() == count &&
+             of.shown.is_displaced.size() == count;
   for (const auto* column :
        {&motion.displacements, &motion.velocities, &motion.starts, &motion.corrections,
         &motion.forces, &motion.lip_forces, &motion.winds, &motion.quiet.from, &motion.quiet.pulls})
@@ -162,7 +164,7 @@ Status check(const Recorded& of, const BodyState& state) {
     return Status::failure(StatusCode::size_mismatch, kNone,
                            "a recorded state of a soft body has %zu particles, the set has %u",
                            count, state.set->particle_count());
-  if (of.colliders.size() != of.before.size() || of.tension < 0 || of.time < 0)
+  if (of.contact.colliders.size() != of.contact.before.size() || of.tension < 0 || of.time < 0)
     return Status::failure(StatusCode::invalid_argument, kNone,
                            "a recorded state of a soft body has invalid settings");
   for (const Index material : of.motion.material_of)
@@ -174,12 +176,13 @@ Status check(const Recorded& of, const BodyState& state) {
 
 void set_state(Recorded&& of, BodyState& state) {
   state.contact.follow(static_cast<Index>(of.motion.displacements.size()));
-  state.contact.restore(of.colliders, of.before, of.are_colliders_changed, of.report);
+  state.contact.restore(of.contact.colliders, of.contact.before, of.contact.is_changed,
+                        of.contact.report);
   particles::ShownMotion shown;
-  shown.displacements = std::move(of.displacements);
-  shown.turns = std::move(of.turns);
-  shown.is_displaced = std::move(of.is_displaced);
-  shown.displaced_count = of.displaced_count;
+  shown.displacements = std::move(of.shown.displacements);
+  shown.turns = std::move(of.shown.turns);
+  shown.is_displaced = std::move(of.shown.is_displaced);
+  shown.displaced_count = of.shown.displaced_count;
   shown.displaced_key = state.shown.displaced_key + 1;
   state.shown = std::move(shown);
   state.revision = of.revision;
