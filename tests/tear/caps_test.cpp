@@ -30,9 +30,10 @@ double volume_of(const TornModel& model, const ModelPose& pose, const TornPiece*
     if (piece == nullptr)
       for (std::uint32_t t = 0; t < model.character().meshes[m].triangle_count(); ++t)
         triangles.push_back(t);
-    else
-      for (const PieceDescription::Triangles& of_mesh : model.describe_piece(*piece)->meshes)
-        if (of_mesh.mesh == m) triangles = of_mesh.triangles;
+    const auto described = piece == nullptr ? Result<PieceDescription>(PieceDescription())
+                                            : model.describe_piece(*piece);
+    for (const PieceDescription::Triangles& of_mesh : described->meshes)
+      if (of_mesh.mesh == m) triangles = of_mesh.triangles;
     for (const std::uint32_t t : triangles) {
       const Triangle& triangle = model.character().meshes[m].triangles[t];
       volume +=
