@@ -6,7 +6,8 @@
 #include <sunder/tear/contact.h>
 
 #include <cmath>
-#include <cstdlib>
+#include <functional>
+#include <thread>
 
 #include <gtest/gtest.h>
 
@@ -198,6 +199,31 @@ TEST(Contact, blades_find_every_layer_in_order) {
     }
   }
   EXPECT_GE(most, 4u);
+}
+
+TEST(Contact, several_threads_query_one_model) {
+  Random random(12);
+  const Character tube = test::make_tube(20, 20, 5);
+  TornModel model = test::make_model(tube);
+  tear_at_random(model, random, 3);
+  const ModelPose pose = test::random_pose(tube, random);
+  std::vector<Ray> rays;
+  for (int i = 0; i < 200; ++i) rays.push_back({3 * random.direction(), random.direction()});
+  const auto distances = [&](std::vector<double>& found) {
+    SurfaceQuery query = *SurfaceQuery::create(model);
+    if (!query.set_pose(pose)) return;
+    for (const Ray& ray : rays) {
+      const auto hit = query.cast_ray({ray.origin, ray.direction - ray.origin});
+      found.push_back(hit && *hit ? (*hit)->distance : -1);
+    }
+  };
+  std::vector<std::vector<double>> found(4);
+  std::vector<std::thread> threads;
+  for (auto& of_thread : found) threads.emplace_back(distances, std::ref(of_thread));
+  for (std::thread& thread : threads) thread.join();
+  for (const auto& of_thread : found) EXPECT_EQ(of_thread, found[0]);
+  EXPECT_EQ(found[0].size(), rays.size());
+  EXPECT_GT(*std::ranges::max_element(found[0]), 0);
 }
 
 /// Through the middle of edges and through points, of one body: the numbers of entries and exits

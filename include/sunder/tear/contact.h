@@ -81,14 +81,11 @@ struct ContactOptions {
 };
 
 /// Answers where rays, blades, capsules and points meet the posed, torn and displaced surface of a
-/// model, without tearing it. Skinning is linear. Make one, keep it, and call set_pose() in each
-/// frame; then any number of queries. See docs/contact.md.
+/// model, without tearing it. Skinning is linear. Make one, keep it, call set_pose() in each frame,
+/// then any number of queries: each O(log faces + faces near it), in any pose. No allocation once
+/// warm, unless the model grows. See docs/contact.md.
 ///
-/// A query visits the patches that it may meet, of a tree that is bounded in every pose:
-/// O(log faces + faces near it) in any pose, without posing the rest. No allocation once warm,
-/// unless the model grows.
-///
-/// One thread at a time per object. Several objects may query one model at the same time, while
+/// One thread at a time per object; several objects may query one model at the same time, while
 /// nothing changes it. The model must outlive the object, in the same place.
 class SUNDER_API SurfaceQuery {
  public:
