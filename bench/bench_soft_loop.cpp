@@ -48,10 +48,6 @@ void print(const LoopFigures& figures) {
     }
     std::printf("\n");
   }
-  if (std::getenv("SAY"))
-    for (std::size_t i = 0; i < figures.frames.size(); ++i)
-      if (figures.frames[i].after_tear() > 2.5e-3 || figures.frames[i].step > 2.5e-3)
-        std::printf("%zu %s follow %.0f settle %.0f grad %.0f step %.0f update %.0f moved %.0f op %.0f\n", i, name_of(figures.frames[i].kind), 1e6*figures.frames[i].follow, 1e6*figures.frames[i].settle, 1e6*figures.frames[i].gradients, 1e6*figures.frames[i].step, 1e6*figures.frames[i].update, 1e6*figures.frames[i].moved, 1e6*figures.frames[i].operate);
   std::fflush(stdout);
 }
 
