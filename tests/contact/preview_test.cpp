@@ -53,11 +53,10 @@ void expect_equal(const TearReport& a, const TearReport& b) {
   ASSERT_EQ(a.pieces.size(), b.pieces.size());
   for (std::size_t i = 0; i < a.pieces.size(); ++i) {
     EXPECT_EQ(a.pieces[i].triangle_count, b.pieces[i].triangle_count);
-    EXPECT_EQ(a.pieces[i].bones, b.pieces[i].bones);
-    EXPECT_EQ(a.pieces[i].area_posed, b.pieces[i].area_posed);
-    ASSERT_EQ(a.pieces[i].meshes.size(), b.pieces[i].meshes.size());
-    for (std::size_t m = 0; m < a.pieces[i].meshes.size(); ++m)
-      EXPECT_EQ(a.pieces[i].meshes[m].triangles, b.pieces[i].meshes[m].triangles);
+    EXPECT_EQ(a.pieces[i].mesh, b.pieces[i].mesh);
+    EXPECT_EQ(a.pieces[i].triangle, b.pieces[i].triangle);
+    EXPECT_EQ(a.pieces[i].component, b.pieces[i].component);
+    EXPECT_EQ(a.pieces[i].is_body, b.pieces[i].is_body);
   }
 }
 

@@ -380,8 +380,8 @@ TEST(PatchForest, finds_the_same_as_testing_every_face) {
         if (cell.empty()) continue;
         Sheet sheet{cell[0], {}};
         for (std::size_t k = 1; k < cell.size(); ++k) sheet.bounds.push_back({cell[k], kNone});
-        const ScratchVector<Index> found = faces_across(sheet, torn.editor, torn.posed);
-        const std::vector<Index> across(found.begin(), found.end());
+        const ScratchVector<Index> crossed = faces_across(sheet, torn.editor, torn.posed);
+        const std::vector<Index> across(crossed.begin(), crossed.end());
         EXPECT_EQ(across, test::scan_for_faces_across(sheet, torn.editor, torn.posed));
         faces_across_sheets += across.empty() ? 0 : 1;
       }
