@@ -28,18 +28,6 @@ sunder::Blade blade_at(double seconds) {
   return {{0.01, along, tip + 0.1}, {0.01, along, tip}};
 }
 
-/// The displacements of particles, per mesh, as the instance draws them.
-std::vector<sunder::VertexDisplacements> displacements_of(sunder::CharacterInstance& instance) {
-  std::vector<sunder::VertexDisplacements> of_meshes(instance.model().character().meshes.size());
-  for (std::uint32_t m = 0; m < of_meshes.size(); ++m) {
-    of_meshes[m].vertex_rows = instance.particles()->vertex_points(m);
-    of_meshes[m].influences = instance.particles()->influences();
-    of_meshes[m].displacements = instance.body()->displacements();
-    of_meshes[m].moved = instance.body()->moved_vertices(instance.model(), m);
-  }
-  return of_meshes;
-}
-
 struct Feedback {
   double length_torn = 0;  ///< Per frame, metres.
   double frame_motion = 0;
@@ -78,11 +66,12 @@ int fail(const char* what, const sunder::Status& status) {
 
 int main() {
   const auto character = std::make_shared<const sunder::Character>(samples::make_tube({32, 60}));
-  sunder::CharacterInstanceOptions options;
+  sunder::CharacterAssetOptions options;
   options.soft.emplace();
   auto instance = sunder::CharacterInstance::create(character, options);
   if (!instance) return fail("create", instance.error());
-  auto query = sunder::SurfaceQuery::create(instance->model());
+  if (const auto status = instance->prepare_to_tear(); !status) return fail("prepare", status);
+  auto query = sunder::SurfaceQuery::create(*instance->model());
   if (!query) return fail("query", query.error());
 
   const sunder::ModelPose pose = samples::bent(*character, 0.2);
@@ -101,7 +90,7 @@ int main() {
     feedback.frame_motion = (blade.tip - blade_at(seconds - 1 / 60.0).tip).norm();
     if (const auto status = instance->advance(pose, 1.0 / 60); !status)
       return fail("advance", status);
-    const auto displacements = displacements_of(*instance);
+    const sunder::VertexDisplacements displacements[] = {instance->displacements(0)};
     sunder::ContactOptions contact;
     contact.displacements = displacements;
     if (const auto status = query->set_pose(pose, contact); !status) return fail("pose", status);
@@ -119,7 +108,7 @@ int main() {
 
   const sunder::Stroke across = {{{-0.05, 0.6, 0.3}, {-0.05, 0.6, 0.1}},
                                  {{0.05, 0.6, 0.3}, {0.05, 0.6, 0.1}}};
-  const auto preview = sunder::preview_tear(instance->model(), pose, across);
+  const auto preview = sunder::preview_tear(*instance->model(), pose, across);
   if (!preview) return fail("preview", preview.error());
   std::printf("a stroke across would cross %u faces over %.3f m in the skin of %zu bones\n",
               preview->report.faces_crossed, preview->report.length_posed, preview->bones.size());

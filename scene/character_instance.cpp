@@ -279,6 +279,10 @@ SoftBody* CharacterInstance::body() {
 const SoftBody* CharacterInstance::body() const {
   return state_->torn && state_->torn->body ? &*state_->torn->body : nullptr;
 }
+VertexDisplacements CharacterInstance::displacements(std::uint32_t mesh) {
+  SUNDER_ASSERT(mesh < state_->shared().meshes.size());
+  return state_->displacements(mesh);
+}
 const ParticleSet* CharacterInstance::particles() const {
   return state_->torn && state_->torn->particles ? &*state_->torn->particles : nullptr;
 }

@@ -111,19 +111,25 @@ Status CharacterInstance::State::draw_mesh(Index mesh, const ParallelFor& parall
   scene::InstanceMesh& posed = drawn->meshes[mesh];
   scene::InstanceMesh::Input input = {drawn->palettes[shared().character->meshes[mesh].skin],
                                       nullptr, parallel_for, epoch + 1};
-  const std::span<const IndexRange> moved = torn && torn->body && shared().options.poses_vertices
-                                                ? torn->body->moved_vertices(torn->model, mesh)
-                                                : std::span<const IndexRange>();
-  if (moved.empty()) return posed.draw(input);
-  VertexDisplacements displaced{torn->particles->vertex_points(mesh),
-                                torn->particles->influences(),
-                                torn->body->displacements(),
-                                moved,
-                                {},
-                                torn->body->rotations()};
-  if (posed.has_directions()) displaced.gradients = torn->particles->gradients(torn->model);
+  VertexDisplacements displaced;
+  if (shared().options.poses_vertices) displaced = displacements(mesh);
+  if (displaced.moved.empty()) return posed.draw(input);
+  if (posed.has_directions()) {
+    displaced.gradients = torn->particles->gradients(torn->model);
+    displaced.model_from_gradient = torn->body->rotations();
+  }
   input.displaced = &displaced;
   return posed.draw(input);
+}
+
+VertexDisplacements CharacterInstance::State::displacements(Index mesh) {
+  VertexDisplacements displaced;
+  if (!torn || !torn->body) return displaced;
+  displaced.moved = torn->body->moved_vertices(torn->model, mesh);
+  displaced.vertex_rows = torn->particles->vertex_points(mesh);
+  displaced.influences = torn->particles->influences();
+  displaced.displacements = torn->body->displacements();
+  return displaced;
 }
 
 Status CharacterInstance::State::draw(const ParallelFor& parallel_for) {

@@ -50,6 +50,8 @@ struct CharacterInstance::State {
   Status follow(std::span<const ChangeRecord> changes);
   Status set_palettes();
   Status update_mesh(Index mesh);
+  /// How particles displace a mesh, without gradients.
+  [[nodiscard]] VertexDisplacements displacements(Index mesh);
   Status draw_mesh(Index mesh, const ParallelFor& parallel_for);
   Status draw(const ParallelFor& parallel_for);
   [[nodiscard]] std::size_t memory_bytes() const;

@@ -17,23 +17,16 @@ namespace {
 using test::ContactOracle;
 using test::Random;
 
-/// The displacements of an instance, per mesh, as its meshes are drawn.
 std::vector<VertexDisplacements> displacements_of(CharacterInstance& instance) {
   std::vector<VertexDisplacements> displacements;
-  const auto& meshes = instance.model().character().meshes;
-  for (std::uint32_t m = 0; m < meshes.size(); ++m)
-    displacements.push_back({instance.particles()->vertex_points(m),
-                             instance.particles()->influences(),
-                             instance.body()->displacements(),
-                             instance.body()->moved_vertices(instance.model(), m),
-                             {},
-                             {}});
+  for (std::uint32_t m = 0; m < instance.character().meshes.size(); ++m)
+    displacements.push_back(instance.displacements(m));
   return displacements;
 }
 
-ContactOracle oracle_of(const CharacterInstance& instance) {
+ContactOracle oracle_of(CharacterInstance& instance) {
   std::vector<std::vector<Vec3d>> positions;
-  const Character& character = instance.model().character();
+  const Character& character = instance.character();
   for (std::uint32_t m = 0; m < character.meshes.size(); ++m) {
     positions.emplace_back();
     for (const Vec3f& position : instance.mesh(m).positions)
@@ -50,7 +43,7 @@ TEST_P(DisplacedContact, hits_are_those_of_what_is_drawn) {
     Random random(100 * GetParam() + seed);
     const auto character = std::make_shared<const Character>(
         GetParam() == 0 ? test::make_tube(10, 12, 4) : test::make_two_tubes(5, 8));
-    CharacterInstanceOptions options;
+    CharacterAssetOptions options;
     options.soft.emplace();
     options.soft->decomposition.range = 0.2;
     auto instance = CharacterInstance::create(character, options);
@@ -60,9 +53,10 @@ TEST_P(DisplacedContact, hits_are_those_of_what_is_drawn) {
     ASSERT_TRUE(instance->tear(pose, test::random_stroke(*character, pose, random)));
     for (std::uint32_t p = 0; p < instance->body()->particle_count(); p += 3)
       ASSERT_TRUE(instance->body()->set_force(p, 2 * random.direction()));
-    SurfaceQuery query = *SurfaceQuery::create(instance->model());
+    SurfaceQuery query = *SurfaceQuery::create(*instance->model());
     for (int frame = 0; frame < 4; ++frame) {
       for (int step = 0; step < 5; ++step) ASSERT_TRUE(instance->advance(pose, 1.0 / 60));
+      ASSERT_TRUE(instance->draw());
       const auto displacements = displacements_of(*instance);
       ContactOptions contact;
       contact.displacements = displacements;

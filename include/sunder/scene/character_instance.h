@@ -162,6 +162,9 @@ class SUNDER_API CharacterInstance {
   [[nodiscard]] const SoftBody* body() const;
   /// Null like body().
   [[nodiscard]] const ParticleSet* particles() const;
+  /// How tissue displaces the vertices of a mesh, for queries (ContactOptions) and shaders; nothing
+  /// is moved without a soft body. Valid until the next call that is not const. Unchecked.
+  [[nodiscard]] VertexDisplacements displacements(std::uint32_t mesh);
   /// The state of soft tissue, as plain data; see ParticleSet::save() and SoftBody::save().
   struct TissueState {
     StateArrays particles, body;
