@@ -322,8 +322,7 @@ Status SkinnedMesh::release(std::span<const std::uint32_t> vertices, PosedBuffer
   return set_released(vertices, true, buffer);
 }
 
-Status SkinnedMesh::take_back(std::span<const std::uint32_t> vertices,
-                              PosedBuffer& buffer) const {
+Status SkinnedMesh::take_back(std::span<const std::uint32_t> vertices, PosedBuffer& buffer) const {
   return set_released(vertices, false, buffer);
 }
 
@@ -340,6 +339,16 @@ Status SkinnedMesh::set_released(std::span<const std::uint32_t> vertices, bool i
   });
 }
 
+namespace {
+
+/// Bytes that posing all vertices reads and writes.
+std::size_t bytes_of_all(const skinning::Blocks& blocks) {
+  const std::size_t written = blocks.layout.has_tangents ? 40 : 24;
+  return blocks.stream.size() * sizeof(float) + written * blocks.vertex_count;
+}
+
+}  // namespace
+
 Status SkinnedMesh::deform(const BonePalette& palette, PosedBuffer& buffer,
                            const ParallelFor& parallel_for,
                            const VertexDisplacements* displacements) const {
@@ -355,15 +364,15 @@ Status SkinnedMesh::deform(const BonePalette& palette, PosedBuffer& buffer,
   const bool is_known = buffer.palette_ == data.id && buffer.mesh_ == blocks.id;
   buffer.dirty_.clear();
   if (is_known && buffer.palette_revision_ == data.revision &&
-      buffer.mesh_revision_ == blocks.revision && moved.empty() && buffer.displaced_.empty())
+      buffer.mesh_revision_ == blocks.revision && moved.empty() && buffer.displaced_.empty() &&
+      buffer.released_.returned.empty())
     return {};
 
   try {
     buffer.marks_.assign((blocks.block_count() + 63) / 64, 0);
-    if (is_known)
-      mark_changed(blocks, data, buffer.palette_revision_, buffer.mesh_revision_, buffer.marks_);
-    else
-      mark({0, blocks.block_count()}, buffer.marks_);
+    is_known
+        ? mark_changed(blocks, data, buffer.palette_revision_, buffer.mesh_revision_, buffer.marks_)
+        : mark({0, blocks.block_count()}, buffer.marks_);
     mark_released(blocks, buffer.released_, buffer.marks_);
     mark_displaced(blocks, moved, buffer.displaced_, buffer.marks_);
     list_runs(blocks, buffer.marks_, buffer.blocks_to_write_);
@@ -377,8 +386,7 @@ Status SkinnedMesh::deform(const BonePalette& palette, PosedBuffer& buffer,
   if (!buffer.blocks_to_write_.empty()) {
     std::uint32_t block_count = 0;
     for (const IndexRange& range : buffer.blocks_to_write_) block_count += range.count;
-    const std::size_t written = blocks.layout.has_tangents ? 40 : 24;
-    const std::size_t bytes = blocks.stream.size() * sizeof(float) + written * blocks.vertex_count;
+    const std::size_t bytes = bytes_of_all(blocks);
     Tasks tasks;
     tasks.work.mesh = &blocks;
     tasks.work.palette = &data;

@@ -9,7 +9,7 @@
 #include "tear/detached/connected_faces.h"
 #include "tear/detached/find_piece.h"
 #include "tear/detached/make_piece.h"
-#include "tear/model_state.h"
+#include "tear/model/model_state.h"
 
 namespace sunder {
 namespace {

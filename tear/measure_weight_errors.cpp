@@ -9,7 +9,7 @@
 #include "core/internal/ordered.h"
 #include "core/internal/out_of_memory.h"
 #include "skinning/internal/character_pose.h"
-#include "tear/model_state.h"
+#include "tear/model/model_state.h"
 
 namespace sunder {
 namespace {

@@ -1,6 +1,6 @@
 // The memory of models, TornModel::memory_bytes().
 
-#include "tear/instance.h"
+#include "tear/model/instance.h"
 #include "tear/surface/memory_use.h"
 
 namespace sunder {
@@ -55,8 +55,8 @@ void History::add_to(MemoryUse& use) const {
   for (const auto& entry : spare_) add_entry(*entry);
   std::swap(spare, use);
   use.add(0, spare.held() + spare_.capacity() * sizeof(spare_[0]));
-  use.add(borders_.lips);
-  use.add(borders_.rim_points);
+  use.add(borders_.of_operation.lips);
+  use.add(borders_.of_operation.rim_points);
 }
 
 void SurfaceEditor::add_to(MemoryUse& use) const {
@@ -73,7 +73,7 @@ tear::MemoryUse TornModel::State::memory_use() const {
   editor.add_to(use);
   use.add(0, posed.bytes());
   history.add_to(use);
-  for (const auto* borders : {&borders_of_call_, &borders_}) {
+  for (const auto* borders : {&borders_.of_call, &borders_.of_operation}) {
     use.add(borders->lips);
     use.add(borders->rim_points);
   }

@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "core/internal/out_of_memory.h"
-#include "tear/instance.h"
-#include "tear/model_state.h"
+#include "tear/model/instance.h"
+#include "tear/model/model_state.h"
 
 namespace sunder {
 namespace tear {

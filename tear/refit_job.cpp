@@ -4,7 +4,7 @@
 #include <new>
 
 #include "core/internal/out_of_memory.h"
-#include "tear/model_state.h"
+#include "tear/model/model_state.h"
 #include "tear/weights/refit_poses.h"
 
 namespace sunder {

@@ -8,7 +8,7 @@
 #include "core/internal/out_of_memory.h"
 #include "skinning/internal/same_bits.h"
 #include "tear/geometry/tolerances.h"
-#include "tear/model_state.h"
+#include "tear/model/model_state.h"
 #include "tear/operation/ongoing_stroke.h"
 #include "tear/surface/describe_change.h"
 

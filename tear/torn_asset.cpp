@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "core/internal/out_of_memory.h"
-#include "tear/asset_parts.h"
+#include "tear/model/asset_parts.h"
 #include "tear/surface/memory_use.h"
 
 namespace sunder {

@@ -5,10 +5,10 @@
 #include <utility>
 
 #include "core/internal/out_of_memory.h"
-#include "tear/instance.h"
 #include "tear/detached/released_vertices.h"
 #include "tear/internal/surface.h"
-#include "tear/model_state.h"
+#include "tear/model/instance.h"
+#include "tear/model/model_state.h"
 #include "tear/operation/cut.h"
 #include "tear/operation/drill.h"
 #include "tear/operation/ongoing_stroke.h"

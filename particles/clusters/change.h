@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "particles/clusters/particle.h"
 #include "particles/clusters/point_table.h"
@@ -38,8 +39,7 @@ struct Change {
     bool is_known = false;
     ParticleGradients gradients;
   };
-  std::vector<OfGradients> changed_gradients;
-  bool has_gradients = false;
+  std::optional<std::vector<OfGradients>> changed_gradients;  ///< Empty: they were not wanted.
 
   std::vector<OfPoint> changed_points;
   std::vector<std::pair<Index, Particle>> changed_particles;

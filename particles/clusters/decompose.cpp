@@ -53,7 +53,7 @@ void grow_particle(Index seed, Rings& rings, Structure& structure, std::vector<V
   if (structure.particles.size() == kMaximumParticles) throw std::length_error("particles");
   const auto range = static_cast<float>(structure.report.range);
   SurfaceFront& front = structure.scratch.front;
-  front.begin(structure.points.count(), range, structure.edge_length);
+  front.begin(structure.points.count(), range, structure.character.edge_length);
   front.add(seed, 0.0f);
   structure.members.decomposed->first.push_back(static_cast<Index>(visits.size()));
   front.run(rings, [&](Index point, float distance, Index) {

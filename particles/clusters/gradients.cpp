@@ -53,8 +53,9 @@ ParticleGradients gradients_at(const Surface& surface, const Structure& structur
 }  // namespace
 
 void Gradients::begin_change(Change& change) {
-  change.has_gradients = is_wanted_;
+  change.changed_gradients.reset();
   if (!is_wanted_) return;
+  change.changed_gradients.emplace();
   logged_.begin(change.points);
   // Points of earlier operations may not have been asked for yet.
   for (auto point = static_cast<Index>(is_known_.size()); point < change.points; ++point)
@@ -65,8 +66,9 @@ void Gradients::begin_change(Change& change) {
 
 void Gradients::forget(Index point, Change* change) {
   if (point >= is_known_.size()) return;
-  if (change != nullptr && change->has_gradients && point < change->points && logged_.mark(point))
-    change->changed_gradients.push_back({point, is_known_[point], gradients_[point]});
+  if (change != nullptr && change->changed_gradients && point < change->points &&
+      logged_.mark(point))
+    change->changed_gradients->push_back({point, is_known_[point], gradients_[point]});
   if (!is_known_[point]) return;
   is_known_[point] = false;
   unknown_.push_back(point);
@@ -86,16 +88,16 @@ void Gradients::forget(const Surface& surface, std::span<const Index> points, Ch
 }
 
 bool Gradients::exchange(Change& change) {
-  if (!change.has_gradients) return false;
+  if (!change.changed_gradients) return false;
+  std::vector<Change::OfGradients>& changed = *change.changed_gradients;
   // The points of an undone operation are gone, and new when they return.
   const std::size_t stay = std::min<std::size_t>(change.points, is_known_.size());
   is_known_.resize(stay);
   gradients_.resize(stay);
-  for (std::size_t i = 0; i < change.changed_gradients.size(); ++i) {
+  for (std::size_t i = 0; i < changed.size(); ++i) {
     constexpr std::size_t kAhead = 12;
-    if (i + kAhead < change.changed_gradients.size())
-      prefetch(&gradients_[change.changed_gradients[i + kAhead].point]);
-    Change::OfGradients& of = change.changed_gradients[i];
+    if (i + kAhead < changed.size()) prefetch(&gradients_[changed[i + kAhead].point]);
+    Change::OfGradients& of = changed[i];
     const bool was_known = is_known_[of.point];
     is_known_[of.point] = of.is_known;
     std::swap(gradients_[of.point], of.gradients);

@@ -63,7 +63,7 @@ void read_model(const TornModel& model, const ModelPose& pose, Structure& struct
   for (Index p = 0; p < surface.point_count(); ++p)
     if (const VertexRef& of = points.vertices[p]; of.vertex != kNone)
       points.positions[p] = link.decomposition_pose.place(character.meshes[of.mesh], of.vertex);
-  structure.edge_length = mean_edge_length(points.positions, surface);
+  structure.character.edge_length = mean_edge_length(points.positions, surface);
 }
 
 double diagonal_of(const Structure& structure, const TornModel& model) {

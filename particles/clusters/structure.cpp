@@ -17,7 +17,7 @@ std::unique_ptr<Structure> Structure::copy() const {
   made->report = report;
   made->revision = revision;
   made->next_serial = next_serial;
-  made->edge_length = edge_length;
+  made->character.edge_length = character.edge_length;
   made->character = character;
   made->vertex_points = vertex_points;
   // The columns are copied into room for some more, so that the next tears need no other copy.

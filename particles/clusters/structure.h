@@ -20,6 +20,7 @@ struct CharacterLink {
   const Character* source = nullptr;  ///< Only for comparison.
   std::vector<Skin> skins;
   std::size_t bone_count = 0, morph_weight_count = 0;
+  float edge_length = 0;  ///< Mean length of the edges of the decomposition's surface, metres.
   DecompositionPose decomposition_pose;
   std::vector<Index> first_slots;  ///< SurfacePose::first_slots() of the skins.
 };
@@ -56,7 +57,6 @@ struct Structure {
   std::uint64_t next_serial = 1;
   std::vector<Index> dirty;  ///< Points whose influences the last call changed, in no order.
   ChangeJournal journal;     ///< The same of all calls, for readers that are some calls behind.
-  float edge_length = 0;     ///< Mean length of the edges of the decomposition's surface, metres.
 
   CharacterLink character;
   VertexPoints vertex_points;

@@ -33,7 +33,7 @@ void cover(StructureEdit& edit, Index point) {
   const auto range = static_cast<float>(structure.report.range);
   const Index particle = edit.make_particle(point, range, influences_before(edit, point));
   SurfaceFront& front = structure.scratch.front;
-  front.begin(structure.points.count(), range, structure.edge_length);
+  front.begin(structure.points.count(), range, structure.character.edge_length);
   front.add(point, 0.0f);
   front.run(edit.other_ring(), [&](Index member, float distance, Index) {
     if (edit.may_join(member, particle)) edit.join(member, {particle, distance / range});

@@ -34,7 +34,8 @@ void begin_growing(StructureEdit& edit, Index particle) {
     edit.change_particle(particle).seed = seed = nearest_member(edit, particle, members);
   }
   SurfaceFront& front = structure.scratch.band_front;
-  front.begin(structure.points.count(), structure.particles[particle].range, structure.edge_length);
+  front.begin(structure.points.count(), structure.particles[particle].range,
+              structure.character.edge_length);
   front.add(seed, 0.0f);
 }
 

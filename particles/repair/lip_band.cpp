@@ -86,7 +86,7 @@ float set_depths(const Structure& structure, std::span<LipChain> chains) {
   const auto range = static_cast<float>(structure.report.range);
   float deepest = 0;
   for (LipChain& chain : chains) {
-    chain.depth = std::min(range, std::max(0.5f * chain.length, structure.edge_length));
+    chain.depth = std::min(range, std::max(0.5f * chain.length, structure.character.edge_length));
     deepest = std::max(deepest, chain.depth);
   }
   return deepest;
@@ -115,8 +115,8 @@ Index begin_front(StructureEdit& edit) {
   std::erase_if(band.lips,
                 [&](Index point) { return edit.surface().point_corner[point] == kNone; });
   band.chains = find_lip_chains(edit.border(), structure, edit.tear(), band.lips);
-  const float depth = std::max(set_depths(structure, band.chains), structure.edge_length);
-  scratch.band_front.begin(structure.points.count(), depth, structure.edge_length);
+  const float depth = std::max(set_depths(structure, band.chains), structure.character.edge_length);
+  scratch.band_front.begin(structure.points.count(), depth, structure.character.edge_length);
   Index lip_count = 0;
   for (Index c = 0; c < band.chains.size(); ++c) {
     LipChain& chain = band.chains[c];

@@ -60,7 +60,7 @@ void make_lip_particles(StructureEdit& edit, LipChain& chain) {
   const bool is_short = chain.depth < 0.5f * range;
   const float half_width =
       std::isfinite(chain.length)
-          ? std::min(range, std::max(0.55f * chain.length, structure.edge_length))
+          ? std::min(range, std::max(0.55f * chain.length, structure.character.edge_length))
           : range;
   const float end = chain.places.back().along;
   for (std::size_t i = 0; i < chain.places.size(); ++i) {

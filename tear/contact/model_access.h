@@ -1,6 +1,6 @@
 #pragma once
 
-#include "tear/model_state.h"
+#include "tear/model/model_state.h"
 
 namespace sunder::tear {
 

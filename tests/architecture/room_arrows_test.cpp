@@ -27,8 +27,10 @@ using Rooms = std::map<std::string, std::set<std::string>>;
 
 const std::map<std::string, Rooms> kRooms = {
     {"tear",
-     {{".", {"detached", "operation", "pieces", "posed", "surface", "weights", "geometry"}},
-      {"contact", {".", "operation", "posed", "surface", "geometry"}},
+     {{".",
+       {"model", "detached", "operation", "pieces", "posed", "surface", "weights", "geometry"}},
+      {"model", {"detached", "operation", "pieces", "posed", "surface", "weights", "geometry"}},
+      {"contact", {"model", "operation", "posed", "surface", "geometry"}},
       {"detached", {"posed", "surface", "geometry"}},
       {"operation", {"filling", "path", "sheet", "posed", "surface", "geometry"}},
       {"filling", {"section", "sheet", "posed", "surface", "geometry"}},

@@ -27,7 +27,7 @@ using testing::IsEmpty;
 /// Headers of the runtime, all in <sunder/sunder.h>, and those for pipelines.
 constexpr std::size_t kMostInstalledHeaders = 58;
 constexpr std::size_t kMostPipelineHeaders = 14;
-constexpr std::size_t kMostFilesAtRoot = 18;
+constexpr std::size_t kMostFilesAtRoot = 13;
 
 constexpr std::size_t kMostLines = 60;
 constexpr std::size_t kMostParameters = 8;

@@ -65,9 +65,7 @@ struct DetachedPiece {
 /// @param place   on the piece; the history records it as a triangle.
 /// @param change  optional; written, with the vertices that are released.
 /// @return as TornModel::tear(); index_out_of_range or not_found if nothing is at the place;
-///         invalid_argument if nothing else is left of the model. A model of fixed capacity
-///         detaches pieces of at most 6 x `triangles` triangles, less those that other operations
-///         changed. O(piece log piece), allocates.
+///         invalid_argument if nothing else is left of the model. O(piece log piece), allocates.
 SUNDER_API Result<DetachedPiece> detach(TornModel& model, const ModelPose& pose,
                                         const PiecePlace& place, const DetachOptions& options = {},
                                         ChangeRecord* change = nullptr);

@@ -6,10 +6,10 @@
 #include <new>
 
 #include "core/internal/out_of_memory.h"
-#include "tear/history.h"
+#include "tear/model/history.h"
+#include "tear/model/packed_operations.h"
 #include "tear/operation/ongoing_stroke.h"
 #include "tear/operation/outcome.h"
-#include "tear/packed_operations.h"
 #include "tear/posed/workpiece.h"
 #include "tear/surface/capacity_exceeded.h"
 #include "tear/surface/surface_editor.h"
@@ -52,7 +52,7 @@ struct TornModel::State {
   template <class Work, class Conclude>
   Result<TearReport> call(const CallOptions& options, Work work, Conclude conclude) {
     begin_call();
-    tear::Outcome outcome{{}, borders_of_call_};
+    tear::Outcome outcome{{}, borders_.of_call};
     TearReport& report = outcome.report;
     try {
       if (Status status = work(outcome); !status) {
@@ -119,7 +119,7 @@ struct TornModel::State {
   /// @param keeps_opened  keep a list of the borders that the operation opens.
   [[nodiscard]] tear::EditLog::Mark begin_operation(bool keeps_opened) {
     editor.opened_edges.begin(keeps_opened);
-    borders_.clear();
+    borders_.of_operation.clear();
     return editor.mark();
   }
 
@@ -176,7 +176,9 @@ struct TornModel::State {
   tear::EditLog::Mark untorn_;  ///< Before all operations.
   tear::EditLog::Mark begin_of_call_;
   /// Borders of the call under way, and of the earlier calls of the same operation.
-  tear::OpenedBorders borders_of_call_, borders_;
+  struct {
+    tear::OpenedBorders of_call, of_operation;
+  } borders_;
 };
 
 /// The checks of a stroke that do not need the surface.

@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "tear/history.h"
+#include "tear/model/history.h"
 #include "tear/weights/refit_task.h"
 
 namespace sunder::tear {

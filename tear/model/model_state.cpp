@@ -1,4 +1,4 @@
-#include "tear/model_state.h"
+#include "tear/model/model_state.h"
 
 #include <algorithm>
 #include <cmath>
@@ -26,7 +26,8 @@ TornModel::State::State(std::shared_ptr<const Character> from, tear::Surface sur
   pose.model_from_bone.resize(character.skeleton.bones.size());
   pose.morph_weights.resize(character.rest_morph_weights.size());
   posed.cover(editor.surface().point_count() + capacity.vertices);
-  for (auto* lips : {&borders_of_call_.lips, &borders_.lips}) lips->reserve(most_lips());
+  for (auto* lips : {&borders_.of_call.lips, &borders_.of_operation.lips})
+    lips->reserve(most_lips());
   history = new_history();
 }
 
@@ -107,7 +108,7 @@ void TornModel::State::cancel_refits_of(std::uint64_t serial) const {
 
 void TornModel::State::begin_call() {
   editor.scratch().reset();
-  borders_of_call_.clear();
+  borders_.of_call.clear();
   begin_of_call_ = editor.mark();
 }
 
@@ -124,24 +125,27 @@ void TornModel::State::describe_call(ChangeRecord& change, bool is_detachment) {
     tear::VerticesOfMeshes released = tear::released_vertices(begin_of_call_, editor);
     tear::put_released(released, change);
   }
-  change.lips = borders_of_call_.lips;
-  tear::settle_rims(tear::sort_rim_points(borders_of_call_.rim_points, editor.scratch()),
+  change.lips = borders_.of_call.lips;
+  tear::settle_rims(tear::sort_rim_points(borders_.of_call.rim_points, editor.scratch()),
                     editor.surface(), change.rims);
 }
 
 /// Reserves memory, so that keep_borders() and record() do not fail.
 void TornModel::State::make_room_for_borders() {
-  const auto& [lips, rim_points] = borders_of_call_;
-  tear::make_room_to_hold(borders_.lips.size() + lips.size(), borders_.lips);
-  tear::make_room_to_hold(borders_.rim_points.size() + rim_points.size(), borders_.rim_points);
-  history.make_room_for(borders_.lips.size() + lips.size(),
-                        borders_.rim_points.size() + rim_points.size());
+  const auto& [lips, rim_points] = borders_.of_call;
+  tear::make_room_to_hold(borders_.of_operation.lips.size() + lips.size(),
+                          borders_.of_operation.lips);
+  tear::make_room_to_hold(borders_.of_operation.rim_points.size() + rim_points.size(),
+                          borders_.of_operation.rim_points);
+  history.make_room_for(borders_.of_operation.lips.size() + lips.size(),
+                        borders_.of_operation.rim_points.size() + rim_points.size());
 }
 
 void TornModel::State::keep_borders() {
-  const auto& [lips, rim_points] = borders_of_call_;
-  borders_.lips.insert(borders_.lips.end(), lips.begin(), lips.end());
-  borders_.rim_points.insert(borders_.rim_points.end(), rim_points.begin(), rim_points.end());
+  const auto& [lips, rim_points] = borders_.of_call;
+  borders_.of_operation.lips.insert(borders_.of_operation.lips.end(), lips.begin(), lips.end());
+  borders_.of_operation.rim_points.insert(borders_.of_operation.rim_points.end(),
+                                          rim_points.begin(), rim_points.end());
 }
 
 void TornModel::State::take_back() {
@@ -165,14 +169,14 @@ TornPieces TornModel::State::find_pieces_since(const tear::EditLog::Mark& begin)
 }
 
 TornPieces TornModel::State::find_pieces_of_call(bool names_all) {
-  return names_all ? tear::find_pieces_at(borders_of_call_.lips, editor)
+  return names_all ? tear::find_pieces_at(borders_.of_call.lips, editor)
                    : find_pieces_since(begin_of_call_);
 }
 
 void TornModel::State::record(const tear::EditLog::Mark& begin) {
   if (editor.log.numbers_since(begin) == 0) return;  // nothing changed
   history.filled().begin = begin;
-  history.push(borders_);
+  history.push(borders_.of_operation);
 }
 
 Status validate_blade(const Blade& blade, std::uint32_t index) {

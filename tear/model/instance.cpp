@@ -1,4 +1,4 @@
-#include "tear/instance.h"
+#include "tear/model/instance.h"
 
 namespace sunder {
 

@@ -6,7 +6,7 @@
 #include <memory>
 #include <mutex>
 
-#include "tear/asset_parts.h"
+#include "tear/model/asset_parts.h"
 
 namespace sunder {
 

@@ -1,4 +1,4 @@
-#include "tear/history.h"
+#include "tear/model/history.h"
 
 #include <algorithm>
 #include <atomic>

@@ -7,7 +7,7 @@
 #include <mutex>
 #include <vector>
 
-#include "tear/model_state.h"
+#include "tear/model/model_state.h"
 #include "tear/posed/source_trees.h"
 
 namespace sunder {
